@@ -1,0 +1,35 @@
+#ifndef FINRAY_FINGER_GEOMETRY_H_
+#define FINRAY_FINGER_GEOMETRY_H_
+
+#include <Eigen/Core>
+
+#include "finray/finger/finger.h"
+
+namespace finray {
+
+// Undeformed geometry in frame S: origin at the base of the front beam, +y
+// along it, +x towards the back beam. All lengths in mm, angles in rad from +x.
+
+/// Arc length of a beam from base to tip: l_0 in front, l_0 / sin(phi_0) behind.
+double BeamLength(const Finger& finger, Side side);
+
+/// Position of a beam's base: (0, 0) in front, (-l_0 / tan(phi_0), 0) behind.
+Eigen::Vector2d BeamBase(const Finger& finger, Side side);
+
+/// Tangent angle of the undeformed beam: pi/2 in front, phi_0 behind.
+double BeamAngle(const Finger& finger, Side side);
+
+/// Point of the undeformed beam at the given arc length from its base.
+Eigen::Vector2d UndeformedPoint(const Finger& finger, Side side, double arc_mm);
+
+/// Arc length at which a rib that leaves the undeformed front beam at front_mm
+/// in direction (cos, sin)(angle) meets the straight line of the back beam;
+/// NaN if it never does. The result may lie outside the beam.
+double RibBackArc(const Finger& finger, double front_mm, double angle_rad);
+
+/// Distance of a rib's hinges in the undeformed finger (d_{k,0} of (7)).
+double NominalRibLength(const Finger& finger, const Rib& rib);
+
+}  // namespace finray
+
+#endif  // FINRAY_FINGER_GEOMETRY_H_

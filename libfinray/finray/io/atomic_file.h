@@ -1,0 +1,22 @@
+#ifndef FINRAY_IO_ATOMIC_FILE_H_
+#define FINRAY_IO_ATOMIC_FILE_H_
+
+#include <string>
+
+namespace finray {
+
+/// Writes the whole content under a temporary name in the same folder and
+/// renames it, so that `path` never holds a partial file. The temporary file is
+/// removed on failure. Throws InputError if the folder cannot be written.
+void WriteFileAtomically(const std::string& path, const std::string& content);
+
+/// Creates a folder and its parents; InputError naming it if that fails.
+void MakeFolder(const std::string& path);
+
+/// The shortest text that reads back as the same double; "nan", "inf" or
+/// "-inf" for what is not finite. Independent of the locale.
+std::string NumberText(double value);
+
+}  // namespace finray
+
+#endif  // FINRAY_IO_ATOMIC_FILE_H_

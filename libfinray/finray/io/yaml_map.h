@@ -1,0 +1,63 @@
+#ifndef FINRAY_IO_YAML_MAP_H_
+#define FINRAY_IO_YAML_MAP_H_
+
+#include <yaml-cpp/yaml.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace finray {
+
+/// A YAML mapping read strictly: every getter throws InputError with
+/// "path:line:column: ..." when a value is missing or not what it should be.
+/// Numbers must be finite. Duplicate keys are refused.
+class YamlMap {
+ public:
+  /// Reads a file whose top level is a mapping.
+  static YamlMap FromFile(const std::string& path);
+
+  /// Refuses keys not listed, suggesting the nearest one.
+  void AllowOnly(const std::vector<std::string>& keys) const;
+
+  bool Has(const std::string& key) const;
+  std::vector<std::string> Keys() const;
+
+  double Number(const std::string& key) const;
+  double Number(const std::string& key, double fallback) const;
+  double PositiveNumber(const std::string& key) const;
+  double PositiveNumber(const std::string& key, double fallback) const;
+  double NonNegativeNumber(const std::string& key, double fallback) const;
+  int Integer(const std::string& key) const;
+  bool Boolean(const std::string& key, bool fallback) const;
+  std::string Text(const std::string& key) const;
+  std::string Text(const std::string& key, const std::string& fallback) const;
+  /// One of the listed words, else an error that names them and the nearest.
+  std::string Choice(const std::string& key,
+                     const std::vector<std::string>& words) const;
+  std::string Choice(const std::string& key,
+                     const std::vector<std::string>& words,
+                     const std::string& fallback) const;
+
+  /// Whether the value of `key` is a mapping (as against a scalar).
+  bool IsMap(const std::string& key) const;
+  YamlMap Map(const std::string& key) const;
+  /// A sequence of mappings; empty when the key is absent.
+  std::vector<YamlMap> Maps(const std::string& key) const;
+
+  /// Throws InputError at the position of `key` (of the mapping if absent).
+  [[noreturn]] void Fail(const std::string& key,
+                         const std::string& message) const;
+  const std::string& path() const { return path_; }
+
+ private:
+  YamlMap(YAML::Node node, std::string path, std::string name);
+
+  YAML::Node node_;
+  std::string path_;
+  std::string name_;  // what the mapping is called in messages, e.g. "ribs[2]"
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_IO_YAML_MAP_H_
