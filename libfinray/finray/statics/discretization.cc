@@ -1,0 +1,34 @@
+#include "finray/statics/discretization.h"
+
+#include "finray/io/error.h"
+#include "finray/io/nearest_name.h"
+
+namespace finray {
+
+const std::vector<std::string>& SchemeNames() {
+  static const std::vector<std::string> names = {"rigid_chain", "taylor"};
+  return names;
+}
+
+std::string SchemeName(Scheme scheme) {
+  return SchemeNames()[static_cast<int>(scheme)];
+}
+
+Discretization ParseDiscretization(const std::string& scheme, int resolution) {
+  if (resolution < 0 || resolution > 1000000) {
+    throw InputError("--resolution: " + std::to_string(resolution) +
+                     " is not a number of elements from 1 to 1000000 "
+                     "(0: the scheme's default)");
+  }
+  for (std::size_t i = 0; i < SchemeNames().size(); ++i) {
+    if (SchemeNames()[i] == scheme) {
+      return {static_cast<Scheme>(i), resolution};
+    }
+  }
+  std::string known;
+  for (const std::string& name : SchemeNames()) known += " " + name;
+  throw InputError("--scheme: unknown scheme '" + scheme + "'" +
+                   DidYouMean(scheme, SchemeNames()) + "; known:" + known);
+}
+
+}  // namespace finray

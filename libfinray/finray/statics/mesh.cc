@@ -1,0 +1,54 @@
+#include "finray/statics/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "finray/finger/geometry.h"
+
+namespace finray {
+namespace {
+
+int DefaultResolution(Scheme scheme) {
+  return scheme == Scheme::kRigidChain ? 200 : 24;
+}
+
+}  // namespace
+
+MeshPoint BeamMesh::Locate(double arc_mm) const {
+  const auto after =
+      std::upper_bound(nodes_mm.begin(), nodes_mm.end(), arc_mm);
+  const int element = std::clamp(
+      static_cast<int>(after - nodes_mm.begin()) - 1, 0, elements() - 1);
+  return {element, arc_mm - nodes_mm[element]};
+}
+
+BeamMesh MakeBeamMesh(const Finger& finger, Side side,
+                      const Discretization& discretization) {
+  const int resolution = discretization.resolution > 0
+                             ? discretization.resolution
+                             : DefaultResolution(discretization.scheme);
+  const double longest =
+      (BeamLength(finger, Side::kFront) + BeamLength(finger, Side::kBack)) /
+      resolution;
+
+  BeamMesh mesh;
+  mesh.nodes_mm.push_back(0);
+  const auto add_bay = [&](double end) {
+    const double start = mesh.nodes_mm.back();
+    // A hair of slack keeps a bay that is a whole number of elements so.
+    const int count = std::max(
+        1, static_cast<int>(std::ceil((end - start) / longest - 1e-9)));
+    for (int k = 1; k < count; ++k) {
+      mesh.nodes_mm.push_back(start + (end - start) * k / count);
+    }
+    mesh.nodes_mm.push_back(end);
+  };
+  for (const Rib& rib : finger.ribs) {
+    add_bay(side == Side::kFront ? rib.front_mm : rib.back_mm);
+    mesh.rib_node.push_back(mesh.elements());
+  }
+  add_bay(BeamLength(finger, side));
+  return mesh;
+}
+
+}  // namespace finray
