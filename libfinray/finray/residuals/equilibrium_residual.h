@@ -1,0 +1,34 @@
+#ifndef FINRAY_RESIDUALS_EQUILIBRIUM_RESIDUAL_H_
+#define FINRAY_RESIDUALS_EQUILIBRIUM_RESIDUAL_H_
+
+#include "finray/residuals/frame_residual.h"
+
+namespace finray {
+
+/// Equilibrium and closure of the tip as soft residuals, for the weighted form:
+///
+///   r = w S (x_F - x_B, y_F - y_B, theta_F - theta_B - cap angle,
+///            M_F + M_B, N_F + N_B),   six residuals,
+///
+/// with S bringing lengths to units of l_0, moments to EI / l_0 and forces to
+/// EI / l_0^2. A weight of about 1e6 holds equilibrium to below gauge noise and
+/// still converges (docs/calibration.md). Parameter blocks: those of
+/// FrameResidual.
+class EquilibriumResidual : public FrameResidual {
+ public:
+  static ceres::CostFunction* Create(const FrameEvaluation* frame,
+                                     const Finger& finger, double weight);
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  EquilibriumResidual(const FrameEvaluation* frame, const Finger& finger,
+                      double weight);
+
+  Eigen::Matrix<double, 6, 1> weight_;
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_RESIDUALS_EQUILIBRIUM_RESIDUAL_H_

@@ -1,0 +1,85 @@
+#include "finray/residuals/frame_evaluation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace finray {
+
+FrameEvaluation::FrameEvaluation(const LadderModel& model, EquilibriumForm form,
+                                 int contacts, double friction)
+    : form_(form),
+      ribs_(model.ribs()),
+      gauges_(model.gauges()),
+      contacts_(contacts),
+      length_mm_(model.finger().front_length_mm),
+      state_(LadderState::Undeformed(model)) {
+  for (PointContact& contact : contacts_) contact.friction = friction;
+}
+
+void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
+                             double ln_back_stiffness,
+                             const double* rib_lengths_mm,
+                             EquilibriumSolver* solver) {
+  valid_ = false;
+  const double front = std::exp(ln_front_stiffness);
+  const double back = std::exp(ln_back_stiffness);
+  if (!std::isnormal(front) || !std::isnormal(back)) return;
+  solver->model().set_stiffness(front, back);
+  for (int i = 0; i < ribs_; ++i) {
+    if (!(rib_lengths_mm[i] > 0)) return;
+    solver->model().set_rib_length(i, rib_lengths_mm[i]);
+  }
+  for (int i = 0; i < contacts(); ++i) {
+    const double* contact = frame + contact_offset(i);
+    if (!std::isfinite(contact[0]) || !std::isfinite(contact[1])) return;
+    // Bounds keep l_c on the beam up to rounding.
+    contacts_[i].arc_mm = std::clamp(contact[0], 0.0, length_mm_);
+    contacts_[i].normal_N = contact[1];
+  }
+  if (form_ == EquilibriumForm::kReduced) {
+    UpdateReduced(solver);
+  } else {
+    UpdateWeighted(frame, solver);
+  }
+  if (!valid_) return;
+  // dy/d ln EI = EI dy/dEI
+  for (Matrix* d : {&d_outputs_, &d_closure_}) {
+    if (d->size() == 0) continue;
+    d->col(frame_size()) *= front;
+    d->col(frame_size() + 1) *= back;
+  }
+}
+
+void FrameEvaluation::UpdateReduced(EquilibriumSolver* solver) {
+  solver->set_state(state_);
+  valid_ = solver->SolveWithSensitivities(contacts_);
+  state_ = solver->state();
+  if (!valid_) return;
+  outputs_ = solver->outputs();
+  d_outputs_ = solver->d_outputs();
+}
+
+void FrameEvaluation::UpdateWeighted(const double* frame,
+                                     EquilibriumSolver* solver) {
+  const int unknowns = 6 + ribs_;
+  const int marched = unknowns + 2 * contacts() + 2;
+  state_.q = Eigen::Map<const Eigen::VectorXd>(frame, unknowns);
+  LadderLinearization at;
+  March(solver->model(), contacts_, solver->scheme(), MarchMode::kPropagate,
+        true, &state_, &at);
+  valid_ = at.closure.allFinite() && at.d_closure.allFinite();
+  if (!valid_) return;
+  outputs_ = at.outputs;
+  closure_ = at.closure;
+  d_outputs_.setZero(at.outputs.size(), columns());
+  d_outputs_.leftCols(marched) = at.d_outputs.leftCols(marched);
+  d_closure_.setZero(unknowns, columns());
+  d_closure_.leftCols(marched) = at.d_closure.leftCols(marched);
+  for (int i = 0; i < ribs_; ++i) {
+    // closure = |r| - L (1 + T / EA)
+    d_closure_(i, marched + i) =
+        -1 - state_.q[6 + i] / solver->model().finger().ribs[i].axial_stiffness_N;
+  }
+}
+
+}  // namespace finray

@@ -1,0 +1,49 @@
+#ifndef FINRAY_RESIDUALS_FRAME_RESIDUAL_H_
+#define FINRAY_RESIDUALS_FRAME_RESIDUAL_H_
+
+#include <ceres/cost_function.h>
+
+#include <vector>
+
+#include "finray/residuals/frame_evaluation.h"
+
+namespace finray {
+
+/// Base of the residual blocks that depend on a frame's whole model. Parameter
+/// blocks, in this order (blocks of size 0 are left out):
+///
+///   [frame unknowns | ln EI front (1) | ln EI back (1) | rib lengths (r) |
+///    extra blocks of the derived class].
+///
+/// Evaluate() returns false where the frame has no equilibrium, so that Ceres
+/// takes a smaller step.
+class FrameResidual : public ceres::CostFunction {
+ protected:
+  FrameResidual(const FrameEvaluation* frame, int residuals,
+                const std::vector<int>& extra_blocks = {});
+
+  /// Number of the first extra block.
+  int extra_block() const { return extra_block_; }
+
+  /// Writes one residual's derivatives by the columns of FrameEvaluation into
+  /// the Jacobian blocks that Ceres asked for.
+  void SpreadRow(int residual, const Eigen::RowVectorXd& by_column,
+                 double** jacobians) const;
+
+  const FrameEvaluation& frame() const { return *frame_; }
+
+ private:
+  const FrameEvaluation* frame_;
+  int extra_block_;
+};
+
+/// The parameter pointers in the order of FrameResidual, for AddResidualBlock.
+std::vector<double*> FrameParameterBlocks(const FrameEvaluation& frame,
+                                          double* unknowns,
+                                          double* ln_front_stiffness,
+                                          double* ln_back_stiffness,
+                                          double* rib_lengths_mm);
+
+}  // namespace finray
+
+#endif  // FINRAY_RESIDUALS_FRAME_RESIDUAL_H_

@@ -1,0 +1,64 @@
+#include "finray/residuals/frame_set.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <cmath>
+
+namespace finray {
+
+SharedParameters SharedParameters::Of(const Finger& finger) {
+  SharedParameters shared;
+  shared.ln_front_stiffness = std::log(finger.front_stiffness_N_mm2);
+  shared.ln_back_stiffness = std::log(finger.back_stiffness_N_mm2);
+  for (const Rib& rib : finger.ribs) {
+    shared.rib_lengths_mm.push_back(rib.length_mm);
+  }
+  return shared;
+}
+
+FrameSet::FrameSet(const Finger& finger, const Discretization& discretization,
+                   EquilibriumForm form, const SharedParameters* shared,
+                   int threads)
+    : solver_(finger, discretization),
+      form_(form),
+      shared_(shared),
+      threads_(threads) {}
+
+FrameEvaluation& FrameSet::Add(int contacts, double friction,
+                               const double* frame) {
+  frames_.push_back(
+      {FrameEvaluation(solver_.model(), form_, contacts, friction), frame});
+  return frames_.back().evaluation;
+}
+
+void FrameSet::PrepareForEvaluation(bool /*evaluate_jacobians*/,
+                                    bool new_evaluation_point) {
+  // Derivatives are always computed with the values: they cost little beside
+  // the solve, and a point that Ceres accepts needs them next.
+  if (!new_evaluation_point) return;
+  const auto update = [this](Frame& frame, EquilibriumSolver* solver) {
+    frame.evaluation.Update(frame.unknowns, shared_->ln_front_stiffness,
+                            shared_->ln_back_stiffness,
+                            shared_->rib_lengths_mm.data(), solver);
+  };
+  if (threads_ <= 1 || frames_.size() < 2) {
+    for (Frame& frame : frames_) update(frame, &solver_);
+    return;
+  }
+  tbb::enumerable_thread_specific<EquilibriumSolver> solvers(solver_);
+  tbb::task_arena(threads_).execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, frames_.size(), 16),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          EquilibriumSolver& solver = solvers.local();
+          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            update(frames_[i], &solver);
+          }
+        });
+  });
+}
+
+}  // namespace finray

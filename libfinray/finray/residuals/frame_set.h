@@ -1,0 +1,57 @@
+#ifndef FINRAY_RESIDUALS_FRAME_SET_H_
+#define FINRAY_RESIDUALS_FRAME_SET_H_
+
+#include <ceres/evaluation_callback.h>
+
+#include <deque>
+#include <vector>
+
+#include "finray/residuals/frame_evaluation.h"
+
+namespace finray {
+
+/// Parameters that all frames of a problem share. Stiffness is carried as its
+/// logarithm: it is positive, and its errors are relative.
+struct SharedParameters {
+  double ln_front_stiffness = 0;  ///< ln(EI / N mm^2)
+  double ln_back_stiffness = 0;
+  std::vector<double> rib_lengths_mm;
+
+  static SharedParameters Of(const Finger& finger);
+};
+
+/// The frames of a ceres::Problem. As its evaluation callback it evaluates all
+/// of them, in parallel, before Ceres asks their residual blocks; results do not
+/// depend on the number of threads, as each frame starts from its own state.
+class FrameSet : public ceres::EvaluationCallback {
+ public:
+  /// `shared` must stay in place; Ceres varies it.
+  FrameSet(const Finger& finger, const Discretization& discretization,
+           EquilibriumForm form, const SharedParameters* shared, int threads);
+
+  /// Adds a frame with its unknowns at `frame` (null if it has none), which must
+  /// stay in place. The reference returned stays valid.
+  FrameEvaluation& Add(int contacts, double friction, const double* frame);
+
+  void PrepareForEvaluation(bool evaluate_jacobians,
+                            bool new_evaluation_point) override;
+
+  std::size_t size() const { return frames_.size(); }
+  FrameEvaluation& operator[](std::size_t i) { return frames_[i].evaluation; }
+  const LadderModel& model() const { return solver_.model(); }
+
+ private:
+  struct Frame {
+    FrameEvaluation evaluation;
+    const double* unknowns;
+  };
+  EquilibriumSolver solver_;  // copied for each thread
+  EquilibriumForm form_;
+  const SharedParameters* shared_;
+  int threads_;
+  std::deque<Frame> frames_;
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_RESIDUALS_FRAME_SET_H_

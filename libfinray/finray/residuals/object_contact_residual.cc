@@ -1,0 +1,74 @@
+#include "finray/residuals/object_contact_residual.h"
+
+#include <cmath>
+
+namespace finray {
+
+ceres::CostFunction* ObjectContactResidual::Create(
+    const FrameEvaluation* frame, int contact, const Eigen::Vector2d& center_mm,
+    double radius_mm, double std_mm) {
+  return new ObjectContactResidual(frame, contact, center_mm, radius_mm,
+                                   std_mm);
+}
+
+ObjectContactResidual::ObjectContactResidual(const FrameEvaluation* frame,
+                                             int contact,
+                                             const Eigen::Vector2d& center_mm,
+                                             double radius_mm, double std_mm)
+    : FrameResidual(frame, 2, {2}),
+      contact_(contact),
+      center_mm_(center_mm),
+      radius_mm_(radius_mm),
+      std_mm_(std_mm) {}
+
+bool ObjectContactResidual::Evaluate(double const* const* parameters,
+                                     double* residuals,
+                                     double** jacobians) const {
+  if (!frame().valid()) return false;
+  const Eigen::Map<const Eigen::Vector2d> origin(parameters[extra_block()]);
+  const int row = frame().contact_row(contact_);
+  const Eigen::Vector3d pose = frame().outputs().segment<3>(row);
+  const Eigen::Vector2d t(std::cos(pose.z()), std::sin(pose.z()));
+  const Eigen::Vector2d n(t.y(), -t.x());
+  Eigen::Map<Eigen::Vector2d>(residuals, 2) =
+      (pose.head<2>() - radius_mm_ * n - center_mm_ - origin) / std_mm_;
+  if (jacobians == nullptr) return true;
+  const auto d_pose = frame().d_outputs().middleRows<3>(row);
+  for (int i = 0; i < 2; ++i) {  // dn = t dtheta
+    SpreadRow(i, (d_pose.row(i) - radius_mm_ * t[i] * d_pose.row(2)) / std_mm_,
+              jacobians);
+  }
+  if (double* by_origin = jacobians[extra_block()]) {
+    Eigen::Map<Eigen::Matrix2d> block(by_origin);
+    block = -Eigen::Matrix2d::Identity() / std_mm_;
+  }
+  return true;
+}
+
+ceres::CostFunction* ContactLocationResidual::Create(
+    const FrameEvaluation* frame, int contact, double arc_mm, double std_mm) {
+  return new ContactLocationResidual(
+      frame->frame_size(), frame->contact_offset(contact), arc_mm, std_mm);
+}
+
+ContactLocationResidual::ContactLocationResidual(int frame_size, int position,
+                                                 double arc_mm, double std_mm)
+    : position_(position), arc_mm_(arc_mm), std_mm_(std_mm) {
+  set_num_residuals(1);
+  mutable_parameter_block_sizes()->push_back(frame_size);
+}
+
+bool ContactLocationResidual::Evaluate(double const* const* parameters,
+                                       double* residuals,
+                                       double** jacobians) const {
+  residuals[0] = (parameters[0][position_] - arc_mm_) / std_mm_;
+  if (jacobians != nullptr && jacobians[0] != nullptr) {
+    Eigen::Map<Eigen::VectorXd> by_frame(jacobians[0],
+                                         parameter_block_sizes()[0]);
+    by_frame.setZero();
+    by_frame[position_] = 1 / std_mm_;
+  }
+  return true;
+}
+
+}  // namespace finray

@@ -1,0 +1,58 @@
+#ifndef FINRAY_RESIDUALS_OBJECT_CONTACT_RESIDUAL_H_
+#define FINRAY_RESIDUALS_OBJECT_CONTACT_RESIDUAL_H_
+
+#include "finray/residuals/frame_residual.h"
+
+namespace finray {
+
+/// Tangency of the front beam to a circular object whose centre was measured:
+///
+///   r = (r_c - R n_c - (p + o)) / sigma,   two residuals,
+///
+/// with r_c the contact point and n_c the local normal into the finger, p the
+/// measured centre and o the origin of its coordinates in frame S. Its component
+/// along the tangent decides l_c, the one along the normal the indentation.
+/// Parameter blocks: those of FrameResidual, object origin (2, mm).
+class ObjectContactResidual : public FrameResidual {
+ public:
+  static ceres::CostFunction* Create(const FrameEvaluation* frame, int contact,
+                                     const Eigen::Vector2d& center_mm,
+                                     double radius_mm, double std_mm);
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  ObjectContactResidual(const FrameEvaluation* frame, int contact,
+                        const Eigen::Vector2d& center_mm, double radius_mm,
+                        double std_mm);
+
+  int contact_;
+  Eigen::Vector2d center_mm_;
+  double radius_mm_, std_mm_;
+};
+
+/// A contact location that was measured itself:
+///
+///   r = (l_c - l) / sigma.
+///
+/// Parameter block: frame unknowns.
+class ContactLocationResidual : public ceres::CostFunction {
+ public:
+  static ceres::CostFunction* Create(const FrameEvaluation* frame, int contact,
+                                     double arc_mm, double std_mm);
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  ContactLocationResidual(int frame_size, int position, double arc_mm,
+                          double std_mm);
+
+  int position_;  // of l_c among the frame unknowns
+  double arc_mm_, std_mm_;
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_RESIDUALS_OBJECT_CONTACT_RESIDUAL_H_

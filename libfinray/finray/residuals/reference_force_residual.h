@@ -1,0 +1,57 @@
+#ifndef FINRAY_RESIDUALS_REFERENCE_FORCE_RESIDUAL_H_
+#define FINRAY_RESIDUALS_REFERENCE_FORCE_RESIDUAL_H_
+
+#include <ceres/cost_function.h>
+
+#include "finray/residuals/frame_residual.h"
+
+namespace finray {
+
+/// The magnitude that a reference force sensor read, for a frame with one
+/// contact:
+///
+///   r = (f_c sqrt(1 + mu^2) - F) / sigma_F.
+///
+/// Linear in f_c, so smooth through zero. Parameter block: frame unknowns.
+class ReferenceForceResidual : public ceres::CostFunction {
+ public:
+  static ceres::CostFunction* Create(const FrameEvaluation* frame,
+                                     double force_N, double std_N);
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  ReferenceForceResidual(const FrameEvaluation* frame, double force_N,
+                         double std_N);
+
+  int frame_size_, normal_;  // position of f_c among the frame unknowns
+  double per_normal_, force_N_, std_N_;
+};
+
+/// Both components, in frame S, of the force that the object exerts on the
+/// finger, summed over the contacts:
+///
+///   r = (sum_c f_c (n_c + mu t_c) - F) / sigma_F,   two residuals.
+///
+/// Parameter blocks: those of FrameResidual.
+class ReferenceForceVectorResidual : public FrameResidual {
+ public:
+  static ceres::CostFunction* Create(const FrameEvaluation* frame,
+                                     const Eigen::Vector2d& force_N,
+                                     double std_N);
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  ReferenceForceVectorResidual(const FrameEvaluation* frame,
+                               const Eigen::Vector2d& force_N, double std_N);
+
+  Eigen::Vector2d force_N_;
+  double std_N_;
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_RESIDUALS_REFERENCE_FORCE_RESIDUAL_H_

@@ -1,0 +1,29 @@
+#ifndef FINRAY_RESIDUALS_RIB_LENGTH_RESIDUAL_H_
+#define FINRAY_RESIDUALS_RIB_LENGTH_RESIDUAL_H_
+
+#include "finray/residuals/frame_residual.h"
+
+namespace finray {
+
+/// The rib lengths (7) as soft residuals, for the weighted form:
+///
+///   r_k = w (|r_Rk - r_Lk| - L_k (1 + T_k / EA_k)) / l_0,   k = 1 .. r.
+///
+/// Parameter blocks: those of FrameResidual.
+class RibLengthResidual : public FrameResidual {
+ public:
+  static ceres::CostFunction* Create(const FrameEvaluation* frame,
+                                     const Finger& finger, double weight);
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  RibLengthResidual(const FrameEvaluation* frame, double weight_per_mm);
+
+  double weight_per_mm_;
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_RESIDUALS_RIB_LENGTH_RESIDUAL_H_
