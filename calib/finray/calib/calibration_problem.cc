@@ -1,0 +1,299 @@
+#include "finray/calib/calibration_problem.h"
+
+#include <ceres/loss_function.h>
+#include <ceres/ordered_groups.h>
+#include <ceres/solver.h>
+
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+#include "finray/io/error.h"
+#include "finray/residuals/gauge_reading_residual.h"
+#include "finray/residuals/object_contact_residual.h"
+#include "finray/residuals/parameter_prior_residual.h"
+#include "finray/residuals/reference_force_residual.h"
+#include "finray/statics/circle_contact.h"
+
+namespace finray {
+namespace {
+
+std::unique_ptr<ceres::LossFunction> MakeLoss(const Plan& plan) {
+  switch (plan.loss) {
+    case RobustLoss::kNone:
+      return nullptr;
+    case RobustLoss::kHuber:
+      return std::make_unique<ceres::HuberLoss>(plan.loss_scale);
+    case RobustLoss::kCauchy:
+      return std::make_unique<ceres::CauchyLoss>(plan.loss_scale);
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+const char* ResidualFamilyName(ResidualFamily family) {
+  constexpr const char* kNames[] = {"gauge", "force", "object", "contact"};
+  return kNames[static_cast<int>(family)];
+}
+
+CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
+                                       const CalibrationLogs& logs,
+                                       const Discretization& discretization,
+                                       int threads)
+    : finger_(finger),
+      plan_(plan),
+      logs_(logs),
+      parameters_(finger, plan),
+      guess_solver_(finger, discretization),
+      frames_(finger, discretization, EquilibriumForm::kReduced,
+              &parameters_.shared, threads),
+      loss_(MakeLoss(plan)) {
+  if (parameters_.free().empty()) {
+    throw InputError("plan: no parameter is free, so there is nothing to do");
+  }
+  ceres::Problem::Options options;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.evaluation_callback = &frames_;
+  problem_ = std::make_unique<ceres::Problem>(options);
+  contact_of_frame_.assign(logs_.frames.size(), -1);
+  for (std::size_t i = 0; i < logs_.frames.size(); ++i) {
+    if (!logs_.frames[i].held_out) AddFrame(static_cast<int>(i));
+  }
+  if (blocks_.empty()) {
+    throw InputError("logs: no frame has a gauge reading to fit");
+  }
+  AddPriors();
+  FixWhatIsNotFree();
+}
+
+void CalibrationProblem::AddFrame(int index) {
+  const CalibrationFrame& frame = logs_.frames[index];
+  bool any_gauge = false;
+  for (const double volts : frame.gauges_V) any_gauge |= std::isfinite(volts);
+  if (!any_gauge) return;
+
+  double* contact = nullptr;
+  if (frame.contact) {
+    contact_of_frame_[index] = static_cast<int>(contacts_.size());
+    contacts_.emplace_back();
+    contact = contacts_.back().data();
+    GuessContact(index, contact);
+  }
+  FrameEvaluation& evaluation = frames_.Add(
+      frame.contact ? 1 : 0, plan_.scene.friction_coefficient, contact);
+  SharedParameters& shared = parameters_.shared;
+  const std::vector<double*> model = FrameParameterBlocks(
+      evaluation, contact, &shared.ln_front_stiffness,
+      &shared.ln_back_stiffness, shared.rib_lengths_mm.data());
+
+  for (int j = 0; j < evaluation.gauges(); ++j) {
+    if (!std::isfinite(frame.gauges_V[j])) continue;
+    std::vector<double*> blocks = model;
+    blocks.push_back(&parameters_.gains_V_per_rad[j]);
+    blocks.push_back(&parameters_.offsets_V[j]);
+    AddMeasurement(
+        GaugeReadingResidual::Create(&evaluation, j, &frame.gauges_V[j],
+                                     gauge_std_V(j)),
+        ResidualFamily::kGauge, index, j, blocks);
+  }
+  if (contact == nullptr) return;
+  problem_->SetParameterLowerBound(contact, 0, 0);
+  problem_->SetParameterUpperBound(contact, 0, finger_.front_length_mm);
+  problem_->SetParameterLowerBound(contact, 1, 0);
+
+  if (frame.force_xy_N.allFinite()) {
+    AddMeasurement(ReferenceForceVectorResidual::Create(
+                       &evaluation, frame.force_xy_N, plan_.force_std_N),
+                   ResidualFamily::kForce, index, -1, model);
+  } else if (std::isfinite(frame.force_N)) {
+    AddMeasurement(ReferenceForceResidual::Create(&evaluation, frame.force_N,
+                                                  plan_.force_std_N),
+                   ResidualFamily::kForce, index, -1, {contact});
+  }
+  if (frame.object_mm.allFinite() && plan_.scene.circle_radius_mm) {
+    std::vector<double*> blocks = model;
+    blocks.push_back(parameters_.object_origin_mm);
+    AddMeasurement(ObjectContactResidual::Create(
+                       &evaluation, 0, frame.object_mm,
+                       *plan_.scene.circle_radius_mm, plan_.object_std_mm),
+                   ResidualFamily::kObject, index, -1, blocks);
+  }
+  if (std::isfinite(frame.contact_mm)) {
+    AddMeasurement(
+        ContactLocationResidual::Create(&evaluation, 0, frame.contact_mm,
+                                        plan_.contact_std_mm),
+        ResidualFamily::kContact, index, -1, {contact});
+  }
+}
+
+void CalibrationProblem::AddMeasurement(ceres::CostFunction* cost,
+                                        ResidualFamily family, int frame,
+                                        int gauge,
+                                        const std::vector<double*>& blocks) {
+  blocks_.push_back(problem_->AddResidualBlock(cost, loss_.get(), blocks));
+  block_info_.push_back({family, frame, gauge});
+}
+
+// Where the measurements put the contact, before the model has been fitted.
+void CalibrationProblem::GuessContact(int index, double* contact) {
+  const CalibrationFrame& frame = logs_.frames[index];
+  const double length = finger_.front_length_mm;
+  const double force_unit = finger_.front_stiffness_N_mm2 / (length * length);
+  contact[0] = length / 2;
+  contact[1] = force_unit;
+  if (frame.object_mm.allFinite() && plan_.scene.circle_radius_mm) {
+    const Circle circle{frame.object_mm, *plan_.scene.circle_radius_mm};
+    PointContact found;
+    guess_solver_.Reset();
+    const CircleContactStatus status =
+        SolveCircleContact(circle, plan_.scene.friction_coefficient,
+                           &guess_solver_, &found);
+    contact[0] = std::clamp(frame.object_mm.y(), 0.0, length);
+    if (status == CircleContactStatus::kContact) {
+      contact[0] = found.arc_mm;
+      contact[1] = found.normal_N;
+    }
+  }
+  if (std::isfinite(frame.contact_mm)) {
+    contact[0] = std::clamp(frame.contact_mm, 0.0, length);
+  }
+  const double force = frame.force_xy_N.allFinite() ? frame.force_xy_N.norm()
+                                                    : frame.force_N;
+  if (std::isfinite(force)) contact[1] = std::max(force, 0.0);
+}
+
+void CalibrationProblem::AddPriors() {
+  // One block at a time; several parameters may share a block (rib lengths).
+  std::unordered_map<ParameterFamily, std::vector<const CalibrationParameter*>>
+      vectors;
+  for (const CalibrationParameter& parameter : parameters_.all()) {
+    if (!parameter.free || !parameter.prior_std) continue;
+    const bool in_vector = parameter.family == ParameterFamily::kRibLength ||
+                           parameter.family == ParameterFamily::kObjectOrigin;
+    if (in_vector) {
+      vectors[parameter.family].push_back(&parameter);
+      continue;
+    }
+    // A gauge or beam that no frame involves has no block.
+    if (!problem_->HasParameterBlock(parameter.variable)) continue;
+    problem_->AddResidualBlock(
+        ParameterPriorResidual::Create(
+            Eigen::VectorXd::Constant(1, parameter.initial),
+            Eigen::VectorXd::Constant(1, *parameter.prior_std)),
+        nullptr, parameter.variable);
+  }
+  for (const auto& [family, members] : vectors) {
+    if (!problem_->HasParameterBlock(members[0]->variable)) continue;
+    Eigen::VectorXd mean(members.size()), std(members.size());
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      mean[i] = members[i]->initial;
+      std[i] = *members[i]->prior_std;
+    }
+    problem_->AddResidualBlock(ParameterPriorResidual::Create(mean, std),
+                               nullptr, members[0]->variable);
+  }
+}
+
+void CalibrationProblem::FixWhatIsNotFree() {
+  for (const CalibrationParameter& parameter : parameters_.all()) {
+    if (!parameter.free && problem_->HasParameterBlock(parameter.variable)) {
+      problem_->SetParameterBlockConstant(parameter.variable);
+    }
+  }
+}
+
+CalibrationProblem::SolveReport CalibrationProblem::Solve() {
+  ceres::Solver::Options options;
+  options.logging_type = ceres::SILENT;
+  options.max_num_iterations = 200;
+  // The residuals are whitened, and the weak directions of a calibration are
+  // what it is about: a small radius would creep along them.
+  options.initial_trust_region_radius = 1e10;
+  options.max_trust_region_radius = 1e16;
+  options.function_tolerance = 1e-12;
+  options.parameter_tolerance = 1e-11;
+  options.gradient_tolerance = 1e-12;
+  if (contacts_.empty()) {
+    options.linear_solver_type = ceres::DENSE_QR;
+  } else {
+    options.linear_solver_type = ceres::DENSE_SCHUR;
+    auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+    std::vector<double*> all;
+    problem_->GetParameterBlocks(&all);
+    for (double* block : all) ordering->AddElementToGroup(block, 1);
+    for (auto& contact : contacts_) {
+      ordering->AddElementToGroup(contact.data(), 0);
+    }
+    options.linear_solver_ordering = ordering;
+  }
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, problem_.get(), &summary);
+  SolveReport report;
+  report.converged = summary.termination_type == ceres::CONVERGENCE;
+  report.iterations = static_cast<int>(summary.iterations.size()) - 1;
+  report.initial_cost = summary.initial_cost;
+  report.final_cost = summary.final_cost;
+  report.message = summary.message;
+  return report;
+}
+
+CalibrationProblem::Linearization CalibrationProblem::Linearize(bool robust) {
+  // Free parameter blocks first, then the contacts, in order of their frames.
+  ceres::Problem::EvaluateOptions options;
+  options.residual_blocks = blocks_;
+  options.apply_loss_function = robust;
+  std::vector<int> parameter_of_column;
+  for (std::size_t k = 0; k < parameters_.free().size();) {
+    double* block = parameters_.all()[parameters_.free()[k]].variable;
+    if (!problem_->HasParameterBlock(block)) {
+      ++k;  // an element of a block, or not part of any residual
+      continue;
+    }
+    const int size = problem_->ParameterBlockSize(block);
+    options.parameter_blocks.push_back(block);
+    for (int i = 0; i < size; ++i) {
+      parameter_of_column.push_back(static_cast<int>(k++));
+    }
+  }
+  const int shared_columns = static_cast<int>(parameter_of_column.size());
+  for (auto& contact : contacts_) {
+    options.parameter_blocks.push_back(contact.data());
+  }
+  Linearization out;
+  std::vector<double> residuals;
+  ceres::CRSMatrix jacobian;
+  if (!problem_->Evaluate(options, nullptr, &residuals, nullptr, &jacobian)) {
+    throw std::runtime_error("the model cannot be evaluated at the solution");
+  }
+  const auto rows = static_cast<Eigen::Index>(residuals.size());
+  out.residuals = Eigen::Map<Eigen::VectorXd>(residuals.data(), rows);
+  out.by_parameter.setZero(rows, parameters_.free().size());
+  out.by_contact.setZero(rows, 2);
+  for (std::size_t block = 0; block < blocks_.size(); ++block) {
+    const int size =
+        problem_->GetCostFunctionForResidualBlock(blocks_[block])
+            ->num_residuals();
+    for (int i = 0; i < size; ++i) out.rows.push_back(block_info_[block]);
+  }
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    for (int k = jacobian.rows[row]; k < jacobian.rows[row + 1]; ++k) {
+      const int column = jacobian.cols[k];
+      if (column < shared_columns) {
+        out.by_parameter(row, parameter_of_column[column]) = jacobian.values[k];
+      } else {
+        out.by_contact(row, (column - shared_columns) % 2) = jacobian.values[k];
+      }
+    }
+  }
+  return out;
+}
+
+std::array<double, 2> CalibrationProblem::contact(int frame) const {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const int index = contact_of_frame_[frame];
+  if (index < 0) return {kNaN, kNaN};
+  return contacts_[index];
+}
+
+}  // namespace finray

@@ -1,0 +1,63 @@
+#ifndef FINRAY_CALIB_IDENTIFIABILITY_H_
+#define FINRAY_CALIB_IDENTIFIABILITY_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "finray/calib/calibration_problem.h"
+
+namespace finray {
+
+enum class ParameterStatus {
+  kEstimated,       ///< the data say more than the prior
+  kPriorDominated,  ///< the prior says more than the data
+  kUnidentifiable,  ///< the data say nothing of it, alone or in a combination
+  kFixed,
+};
+const char* ParameterStatusName(ParameterStatus status);
+
+/// A combination of parameters that the data determine badly.
+struct WeakDirection {
+  /// Std that the data alone leave along it, in units of the priors (of the
+  /// scales where there is none).
+  double std_over_prior;
+  struct Component {
+    int parameter;  ///< index into CalibrationParameters::all()
+    double share;   ///< of the unit vector
+  };
+  std::vector<Component> components;  ///< largest first
+  std::string words;
+  std::string remedy;
+};
+
+/// What the data determine, from the reduced information matrix
+///
+///   S = sum over frames of C'C - C'E (E'E)^-1 E'C,
+///
+/// in which the contacts have been eliminated, scaled by the prior std.
+/// Its eigenvectors with eigenvalues below 1 are weaker than the priors; those
+/// below kNull are not determined at all. The covariance is (S + P)^-1 with P
+/// the priors' information, a pseudo-inverse where even that is singular.
+struct Identifiability {
+  static constexpr double kNull = 1e-4;
+
+  std::vector<double> std;  ///< of the variable of each free parameter
+  std::vector<ParameterStatus> status;  ///< one per free parameter
+  Eigen::MatrixXd correlation;          ///< free x free
+  std::vector<WeakDirection> weak;
+
+  struct Noise {
+    int residuals = 0;
+    double dof = 0;   ///< residuals less what was fitted to them
+    double chi2 = 0;
+  };
+  std::array<Noise, kResidualFamilies> noise;
+};
+
+Identifiability AnalyzeIdentifiability(CalibrationProblem* problem);
+
+}  // namespace finray
+
+#endif  // FINRAY_CALIB_IDENTIFIABILITY_H_

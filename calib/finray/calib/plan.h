@@ -1,0 +1,60 @@
+#ifndef FINRAY_CALIB_PLAN_H_
+#define FINRAY_CALIB_PLAN_H_
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "finray/sensing/scene.h"
+
+namespace finray {
+
+/// Kinds of parameters a calibration may vary.
+enum class ParameterFamily {
+  kFrontStiffness,
+  kBackStiffness,
+  kGaugeGain,
+  kGaugeOffset,
+  kRibLength,
+  kObjectOrigin,
+};
+constexpr int kParameterFamilies = 6;
+
+/// Whether a family is varied, and what is known of it before.
+struct FamilyPlan {
+  bool free = false;
+  /// In percent of the initial value for stiffness and gains, V for offsets, mm
+  /// for lengths and positions; empty: no prior.
+  std::optional<double> prior_std;
+};
+
+enum class RobustLoss { kNone, kHuber, kCauchy };
+enum class HoldoutBy { kNothing, kLog, kBlock };
+
+/// What to calibrate from which measurements (the plan YAML).
+struct Plan {
+  Scene scene;
+  std::array<FamilyPlan, kParameterFamilies> families;
+  double force_std_N = 0.02;
+  std::optional<double> gauge_std_V;  ///< else each gauge's noise_V.
+  double object_std_mm = 0.05;
+  double contact_std_mm = 0.3;
+  RobustLoss loss = RobustLoss::kNone;
+  double loss_scale = 2;  ///< in standard deviations.
+  HoldoutBy holdout_by = HoldoutBy::kNothing;
+  double holdout_fraction = 0.2;
+  std::map<std::string, std::string> columns;
+
+  const FamilyPlan& family(ParameterFamily which) const {
+    return families[static_cast<int>(which)];
+  }
+};
+
+/// Reads a plan. Throws InputError for unknown keys, wrong units in a key, and
+/// for a parameter that this version cannot vary.
+Plan ReadPlan(const std::string& path);
+
+}  // namespace finray
+
+#endif  // FINRAY_CALIB_PLAN_H_
