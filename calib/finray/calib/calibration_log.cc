@@ -10,7 +10,8 @@ namespace finray {
 namespace {
 
 constexpr double kSignificant = 3;  // standard deviations
-// A block of neighbouring frames is held out as one, as neighbours share errors.
+// A block of neighbouring frames is held out as one, as neighbours share
+// errors.
 constexpr int kHoldoutBlock = 10;
 
 bool Touches(const CalibrationFrame& frame, const Finger& finger,

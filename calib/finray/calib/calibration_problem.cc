@@ -92,10 +92,9 @@ void CalibrationProblem::AddFrame(int index) {
     std::vector<double*> blocks = model;
     blocks.push_back(&parameters_.gains_V_per_rad[j]);
     blocks.push_back(&parameters_.offsets_V[j]);
-    AddMeasurement(
-        GaugeReadingResidual::Create(&evaluation, j, &frame.gauges_V[j],
-                                     gauge_std_V(j)),
-        ResidualFamily::kGauge, index, j, blocks);
+    AddMeasurement(GaugeReadingResidual::Create(
+                       &evaluation, j, &frame.gauges_V[j], gauge_std_V(j)),
+                   ResidualFamily::kGauge, index, j, blocks);
   }
   if (contact == nullptr) return;
   problem_->SetParameterLowerBound(contact, 0, 0);
@@ -120,10 +119,9 @@ void CalibrationProblem::AddFrame(int index) {
                    ResidualFamily::kObject, index, -1, blocks);
   }
   if (std::isfinite(frame.contact_mm)) {
-    AddMeasurement(
-        ContactLocationResidual::Create(&evaluation, 0, frame.contact_mm,
-                                        plan_.contact_std_mm),
-        ResidualFamily::kContact, index, -1, {contact});
+    AddMeasurement(ContactLocationResidual::Create(
+                       &evaluation, 0, frame.contact_mm, plan_.contact_std_mm),
+                   ResidualFamily::kContact, index, -1, {contact});
   }
 }
 
@@ -146,9 +144,8 @@ void CalibrationProblem::GuessContact(int index, double* contact) {
     const Circle circle{frame.object_mm, *plan_.scene.circle_radius_mm};
     PointContact found;
     guess_solver_.Reset();
-    const CircleContactStatus status =
-        SolveCircleContact(circle, plan_.scene.friction_coefficient,
-                           &guess_solver_, &found);
+    const CircleContactStatus status = SolveCircleContact(
+        circle, plan_.scene.friction_coefficient, &guess_solver_, &found);
     contact[0] = std::clamp(frame.object_mm.y(), 0.0, length);
     if (status == CircleContactStatus::kContact) {
       contact[0] = found.arc_mm;
@@ -158,8 +155,8 @@ void CalibrationProblem::GuessContact(int index, double* contact) {
   if (std::isfinite(frame.contact_mm)) {
     contact[0] = std::clamp(frame.contact_mm, 0.0, length);
   }
-  const double force = frame.force_xy_N.allFinite() ? frame.force_xy_N.norm()
-                                                    : frame.force_N;
+  const double force =
+      frame.force_xy_N.allFinite() ? frame.force_xy_N.norm() : frame.force_N;
   if (std::isfinite(force)) contact[1] = std::max(force, 0.0);
 }
 
@@ -271,9 +268,8 @@ CalibrationProblem::Linearization CalibrationProblem::Linearize(bool robust) {
   out.by_parameter.setZero(rows, parameters_.free().size());
   out.by_contact.setZero(rows, 2);
   for (std::size_t block = 0; block < blocks_.size(); ++block) {
-    const int size =
-        problem_->GetCostFunctionForResidualBlock(blocks_[block])
-            ->num_residuals();
+    const int size = problem_->GetCostFunctionForResidualBlock(blocks_[block])
+                         ->num_residuals();
     for (int i = 0; i < size; ++i) out.rows.push_back(block_info_[block]);
   }
   for (Eigen::Index row = 0; row < rows; ++row) {

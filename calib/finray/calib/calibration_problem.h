@@ -23,7 +23,8 @@ const char* ResidualFamilyName(ResidualFamily family);
 /// The least-squares problem of a calibration, in the reduced form: over all
 /// frames that are not held out, gauge readings, reference force, object centre
 /// and contact location, whichever a row has, in units of their std, plus the
-/// priors. Unknowns: the free parameters, and l_c and f_c of each contact frame.
+/// priors. Unknowns: the free parameters, and l_c and f_c of each contact
+/// frame.
 class CalibrationProblem {
  public:
   CalibrationProblem(const Finger& finger, const Plan& plan,
@@ -51,7 +52,7 @@ class CalibrationProblem {
   struct Linearization {
     std::vector<ResidualInfo> rows;
     Eigen::VectorXd residuals;
-    Eigen::MatrixXd by_parameter;           // rows x free parameters
+    Eigen::MatrixXd by_parameter;  // rows x free parameters
     Eigen::Matrix<double, Eigen::Dynamic, 2> by_contact;  // rows x (l_c, f_c)
   };
   /// `robust`: weighted by the robust loss as the solver weights them.

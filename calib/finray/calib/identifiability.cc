@@ -39,8 +39,8 @@ void ForEachFrame(const CalibrationProblem::Linearization& at,
 }
 
 // Rows of a frame with its contact eliminated: C - E (E'E)^-1 E'C.
-Eigen::MatrixXd EliminateContact(
-    const CalibrationProblem::Linearization& at, int first, int count) {
+Eigen::MatrixXd EliminateContact(const CalibrationProblem::Linearization& at,
+                                 int first, int count) {
   const auto c = at.by_parameter.middleRows(first, count);
   const auto e = at.by_contact.middleRows(first, count);
   return c - e * (PseudoInverse(e.transpose() * e) * (e.transpose() * c));
@@ -83,9 +83,9 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem) {
                                                                  prior);
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
   for (int k = 0; k < n; ++k) {
-    const double bounded = std::max(posterior.eigenvalues()[k],
-                                    Identifiability::kNull *
-                                        Identifiability::kNull);
+    const double bounded =
+        std::max(posterior.eigenvalues()[k],
+                 Identifiability::kNull * Identifiability::kNull);
     covariance += posterior.eigenvectors().col(k) *
                   posterior.eigenvectors().col(k).transpose() / bounded;
   }
@@ -108,10 +108,10 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem) {
         variance += share / value[k];
       }
     }
-    const ParameterStatus status =
-        null ? ParameterStatus::kUnidentifiable
-        : held_by_prior && variance > 1 ? ParameterStatus::kPriorDominated
-                                        : ParameterStatus::kEstimated;
+    const ParameterStatus status = null ? ParameterStatus::kUnidentifiable
+                                   : held_by_prior && variance > 1
+                                       ? ParameterStatus::kPriorDominated
+                                       : ParameterStatus::kEstimated;
     result.status.push_back(status);
     result.std.push_back(null && !held_by_prior
                              ? std::numeric_limits<double>::infinity()
@@ -140,9 +140,8 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem) {
     const auto e = at.by_contact.middleRows(first, count);
     const Eigen::Matrix2d inverse = PseudoInverse(e.transpose() * e);
     for (int i = 0; i < count; ++i) {
-      const double leverage =
-          c.row(i).dot(covariance * c.row(i).transpose()) +
-          e.row(i).dot(inverse * e.row(i).transpose());
+      const double leverage = c.row(i).dot(covariance * c.row(i).transpose()) +
+                              e.row(i).dot(inverse * e.row(i).transpose());
       Identifiability::Noise& noise =
           result.noise[static_cast<int>(at.rows[first + i].family)];
       ++noise.residuals;

@@ -50,7 +50,7 @@ struct Identifiability {
 
   struct Noise {
     int residuals = 0;
-    double dof = 0;   ///< residuals less what was fitted to them
+    double dof = 0;  ///< residuals less what was fitted to them
     double chi2 = 0;
   };
   std::array<Noise, kResidualFamilies> noise;

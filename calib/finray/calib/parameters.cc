@@ -19,8 +19,8 @@ CalibrationParameters::CalibrationParameters(const Finger& finger,
     gains_V_per_rad.push_back(gauge.gain_V_per_rad);
     offsets_V.push_back(gauge.offset_V);
   }
-  Add(plan, ParameterFamily::kFrontStiffness, "front_stiffness_N_mm2",
-      "N mm^2", &shared.ln_front_stiffness, true, 1);
+  Add(plan, ParameterFamily::kFrontStiffness, "front_stiffness_N_mm2", "N mm^2",
+      &shared.ln_front_stiffness, true, 1);
   Add(plan, ParameterFamily::kBackStiffness, "back_stiffness_N_mm2", "N mm^2",
       &shared.ln_back_stiffness, true, 1);
   for (std::size_t j = 0; j < gains_V_per_rad.size(); ++j) {
@@ -58,8 +58,7 @@ void CalibrationParameters::Add(const Plan& plan, ParameterFamily family,
   parameter.scale = scale;
   if (plan.family(family).prior_std) {
     const double prior_std = *plan.family(family).prior_std;
-    const bool percent =
-        is_log || family == ParameterFamily::kGaugeGain;
+    const bool percent = is_log || family == ParameterFamily::kGaugeGain;
     parameter.prior_std = percent ? prior_std / 100 * scale : prior_std;
   }
   if (parameter.free) free_.push_back(static_cast<int>(all_.size()));

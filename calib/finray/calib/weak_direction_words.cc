@@ -51,7 +51,8 @@ std::string Remedy(const CalibrationProblem& problem, const Contents& has) {
   if (has.highest_mm - has.lowest_mm < 0.3 * length) {
     return "record contacts at more heights along the finger";
   }
-  return "record more frames with larger loads, spread over the finger, or give "
+  return "record more frames with larger loads, spread over the finger, or "
+         "give "
          "a tighter prior";
 }
 
@@ -96,8 +97,8 @@ void DescribeWeakDirection(CalibrationProblem& problem,
                     all[component.parameter].name.c_str(), component.share);
       words += text;
     }
-    words = (direction->components.size() == 1 ? "alone: " : "together: ") +
-            words;
+    words =
+        (direction->components.size() == 1 ? "alone: " : "together: ") + words;
   }
   direction->words = words;
   direction->remedy = Remedy(problem, Survey(problem));

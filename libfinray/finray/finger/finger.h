@@ -12,9 +12,11 @@ enum class Side { kFront, kBack };
 
 /// A rigid (or axially elastic) rib hinged to both beams.
 struct Rib {
-  double front_mm = 0;   ///< Hinge on the front beam, arc length from its base (l_i).
-  double back_mm = 0;    ///< Hinge on the back beam, arc length from its base.
-  double length_mm = 0;  ///< Unloaded length; other than nominal means prestress.
+  double front_mm =
+      0;  ///< Hinge on the front beam, arc length from its base (l_i).
+  double back_mm = 0;  ///< Hinge on the back beam, arc length from its base.
+  double length_mm =
+      0;  ///< Unloaded length; other than nominal means prestress.
   double axial_stiffness_N = std::numeric_limits<double>::infinity();  ///< EA.
 };
 

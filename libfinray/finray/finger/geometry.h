@@ -10,7 +10,8 @@ namespace finray {
 // Undeformed geometry in frame S: origin at the base of the front beam, +y
 // along it, +x towards the back beam. All lengths in mm, angles in rad from +x.
 
-/// Arc length of a beam from base to tip: l_0 in front, l_0 / sin(phi_0) behind.
+/// Arc length of a beam from base to tip: l_0 in front, l_0 / sin(phi_0)
+/// behind.
 double BeamLength(const Finger& finger, Side side);
 
 /// Position of a beam's base: (0, 0) in front, (-l_0 / tan(phi_0), 0) behind.

@@ -22,8 +22,9 @@ class FrameTable {
   /// names (or the other way round where only that makes sense). Throws
   /// InputError (file:line:column) for an unreadable or empty file, a duplicate
   /// header, a row with the wrong number of cells or a cell that is no number.
-  static FrameTable Read(const std::string& path,
-                         const std::map<std::string, std::string>& renames = {});
+  static FrameTable Read(
+      const std::string& path,
+      const std::map<std::string, std::string>& renames = {});
 
   /// Whether a name belongs to the numeric vocabulary.
   static bool IsVocabulary(const std::string& name);

@@ -78,7 +78,8 @@ void FrameEvaluation::UpdateWeighted(const double* frame,
   for (int i = 0; i < ribs_; ++i) {
     // closure = |r| - L (1 + T / EA)
     d_closure_(i, marched + i) =
-        -1 - state_.q[6 + i] / solver->model().finger().ribs[i].axial_stiffness_N;
+        -1 -
+        state_.q[6 + i] / solver->model().finger().ribs[i].axial_stiffness_N;
   }
 }
 

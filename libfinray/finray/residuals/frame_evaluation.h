@@ -12,17 +12,17 @@ namespace finray {
 enum class EquilibriumForm {
   kReduced,   ///< Solved exactly inside; derivatives by the implicit function
               ///< theorem. Frame unknowns: l_c, f_c of each contact.
-  kWeighted,  ///< Base wrenches and rib tensions are frame unknowns too, held by
-              ///< EquilibriumResidual and RibLengthResidual.
+  kWeighted,  ///< Base wrenches and rib tensions are frame unknowns too, held
+              ///< by EquilibriumResidual and RibLengthResidual.
 };
 
 /// The model of one frame at the present parameter values, shared by all
 /// residual blocks of the frame so that it is computed once per evaluation.
 ///
 /// Columns of the derivatives, in the order of the parameter blocks of
-/// FrameResidual: [frame unknowns | ln EI front | ln EI back | rib lengths (r)],
-/// where the frame unknowns are [l_c, f_c of each contact], preceded by q of
-/// ladder.h (6 + r) in the weighted form.
+/// FrameResidual: [frame unknowns | ln EI front | ln EI back | rib lengths
+/// (r)], where the frame unknowns are [l_c, f_c of each contact], preceded by q
+/// of ladder.h (6 + r) in the weighted form.
 class FrameEvaluation {
  public:
   using Matrix = LadderLinearization::Matrix;

@@ -50,14 +50,14 @@ void FrameSet::PrepareForEvaluation(bool /*evaluate_jacobians*/,
   }
   tbb::enumerable_thread_specific<EquilibriumSolver> solvers(solver_);
   tbb::task_arena(threads_).execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, frames_.size(), 16),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-          EquilibriumSolver& solver = solvers.local();
-          for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            update(frames_[i], &solver);
-          }
-        });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, frames_.size(), 16),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        EquilibriumSolver& solver = solvers.local();
+                        for (std::size_t i = range.begin(); i < range.end();
+                             ++i) {
+                          update(frames_[i], &solver);
+                        }
+                      });
   });
 }
 

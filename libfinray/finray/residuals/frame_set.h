@@ -21,16 +21,17 @@ struct SharedParameters {
 };
 
 /// The frames of a ceres::Problem. As its evaluation callback it evaluates all
-/// of them, in parallel, before Ceres asks their residual blocks; results do not
-/// depend on the number of threads, as each frame starts from its own state.
+/// of them, in parallel, before Ceres asks their residual blocks; results do
+/// not depend on the number of threads, as each frame starts from its own
+/// state.
 class FrameSet : public ceres::EvaluationCallback {
  public:
   /// `shared` must stay in place; Ceres varies it.
   FrameSet(const Finger& finger, const Discretization& discretization,
            EquilibriumForm form, const SharedParameters* shared, int threads);
 
-  /// Adds a frame with its unknowns at `frame` (null if it has none), which must
-  /// stay in place. The reference returned stays valid.
+  /// Adds a frame with its unknowns at `frame` (null if it has none), which
+  /// must stay in place. The reference returned stays valid.
   FrameEvaluation& Add(int contacts, double friction, const double* frame);
 
   void PrepareForEvaluation(bool evaluate_jacobians,

@@ -10,9 +10,10 @@ namespace finray {
 ///   r = (r_c - R n_c - (p + o)) / sigma,   two residuals,
 ///
 /// with r_c the contact point and n_c the local normal into the finger, p the
-/// measured centre and o the origin of its coordinates in frame S. Its component
-/// along the tangent decides l_c, the one along the normal the indentation.
-/// Parameter blocks: those of FrameResidual, object origin (2, mm).
+/// measured centre and o the origin of its coordinates in frame S. Its
+/// component along the tangent decides l_c, the one along the normal the
+/// indentation. Parameter blocks: those of FrameResidual, object origin (2,
+/// mm).
 class ObjectContactResidual : public FrameResidual {
  public:
   static ceres::CostFunction* Create(const FrameEvaluation* frame, int contact,

@@ -42,9 +42,9 @@ ReferenceForceVectorResidual::ReferenceForceVectorResidual(
     const FrameEvaluation* frame, const Eigen::Vector2d& force_N, double std_N)
     : FrameResidual(frame, 2), force_N_(force_N), std_N_(std_N) {}
 
-bool ReferenceForceVectorResidual::Evaluate(
-    double const* const* /*parameters*/, double* residuals,
-    double** jacobians) const {
+bool ReferenceForceVectorResidual::Evaluate(double const* const* /*parameters*/,
+                                            double* residuals,
+                                            double** jacobians) const {
   if (!frame().valid()) return false;
   Eigen::Vector2d sum = -force_N_;
   FrameEvaluation::Matrix d_sum =

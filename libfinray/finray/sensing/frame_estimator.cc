@@ -80,8 +80,8 @@ FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
     gains_.push_back(gauge.gain_V_per_rad);
     offsets_.push_back(gauge.offset_V);
   }
-  frames_ = std::make_unique<FrameSet>(
-      finger, discretization, EquilibriumForm::kReduced, &shared_, 1);
+  frames_ = std::make_unique<FrameSet>(finger, discretization,
+                                       EquilibriumForm::kReduced, &shared_, 1);
   FrameEvaluation& frame =
       frames_->Add(1, scene.friction_coefficient, contact_);
   ceres::Problem::Options options;
@@ -95,8 +95,7 @@ FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
     blocks.push_back(&offsets_[j]);
     problem_->AddResidualBlock(
         GaugeReadingResidual::Create(&frame, static_cast<int>(j),
-                                     &readings_V_[j],
-                                     finger.gauges[j].noise_V),
+                                     &readings_V_[j], finger.gauges[j].noise_V),
         nullptr, blocks);
   }
   std::vector<double*> blocks;
@@ -149,9 +148,8 @@ FrameEstimate FrameEstimator::Estimate(const std::vector<double>& readings_V) {
   }
   best.iterations = iterations;
   const bool free =
-      scene_.contacts
-          ? best.normal_N < kLeastForce_N
-          : free_chi2 - best.chi2 < kSignificance;  // false for NaN
+      scene_.contacts ? best.normal_N < kLeastForce_N
+                      : free_chi2 - best.chi2 < kSignificance;  // false for NaN
   return free ? FreeEstimate(free_chi2) : best;
 }
 
@@ -190,8 +188,8 @@ FrameEstimate FrameEstimator::ContactEstimate(const GaugeTable::Start& start) {
   for (int j = 0; j < frame.gauges(); ++j) {
     if (!std::isfinite(readings_V_[j])) continue;
     const double weight = 1 / finger_.gauges[j].noise_V;
-    const double residual =
-        weight * (gains_[j] * frame.outputs()[j] + offsets_[j] - readings_V_[j]);
+    const double residual = weight * (gains_[j] * frame.outputs()[j] +
+                                      offsets_[j] - readings_V_[j]);
     const Eigen::RowVector2d slope =
         weight * gains_[j] * frame.d_outputs().row(j).head<2>();
     information += slope.transpose() * slope;
@@ -200,8 +198,7 @@ FrameEstimate FrameEstimator::ContactEstimate(const GaugeTable::Start& start) {
   const double length = finger_.front_length_mm;
   // In units of l_0 and f_c, so that "singular" has a meaning.
   const Eigen::Vector2d unit(length, std::max(contact_[1], kLeastForce_N));
-  information =
-      (unit.asDiagonal() * information * unit.asDiagonal()).eval();
+  information = (unit.asDiagonal() * information * unit.asDiagonal()).eval();
   const double determinant = information.determinant();
   const bool singular =
       !(determinant > 1e-14 * information(0, 0) * information(1, 1));
@@ -209,13 +206,13 @@ FrameEstimate FrameEstimator::ContactEstimate(const GaugeTable::Start& start) {
   estimate.contact_std_mm =
       singular ? infinity : length * std::sqrt(information(1, 1) / determinant);
   estimate.normal_std_N =
-      singular ? infinity : unit[1] * std::sqrt(information(0, 0) / determinant);
+      singular ? infinity
+               : unit[1] * std::sqrt(information(0, 0) / determinant);
   const bool at_end = contact_[0] <= 0 || contact_[0] >= length;
   const bool determined =
       estimate.contact_std_mm <= kLargestArcStd * length &&
       estimate.normal_std_N <= kLargestForceStd * contact_[1] && !at_end;
-  estimate.status =
-      determined ? FrameStatus::kOk : FrameStatus::kUnobservable;
+  estimate.status = determined ? FrameStatus::kOk : FrameStatus::kUnobservable;
   return estimate;
 }
 

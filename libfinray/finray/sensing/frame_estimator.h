@@ -45,7 +45,8 @@ struct FrameEstimate {
 ///  - no_contact: the free finger explains the frame; with contacts "auto" that
 ///    is when one contact lowers chi2 by less than kSignificance, with one
 ///    contact given when f_c is below kLeastForce_N.
-///  - unobservable: solved, but std of l_c above kLargestArcStd of l_0 or std of
+///  - unobservable: solved, but std of l_c above kLargestArcStd of l_0 or std
+///  of
 ///    f_c above kLargestForceStd of f_c, or l_c at an end of the beam.
 ///  - bad_input: fewer gauges measured than unknowns.
 class FrameEstimator {

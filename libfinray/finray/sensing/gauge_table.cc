@@ -18,9 +18,9 @@ constexpr double kForces[] = {0.5, 1, 2, 4, 7, 11, 16, 22, 30, 40};
 GaugeTable::GaugeTable(EquilibriumSolver* solver) {
   const Finger& finger = solver->model().finger();
   const double length = finger.front_length_mm;
-  const double unit = std::sqrt(finger.front_stiffness_N_mm2 *
-                                finger.back_stiffness_N_mm2) /
-                      (length * length);
+  const double unit =
+      std::sqrt(finger.front_stiffness_N_mm2 * finger.back_stiffness_N_mm2) /
+      (length * length);
   const int gauges = solver->model().gauges();
   solver->Reset();
   if (!solver->Solve({})) {
@@ -37,8 +37,8 @@ GaugeTable::GaugeTable(EquilibriumSolver* solver) {
       const PointContact contact{row.arc_mm, force * unit, 0};
       // Soft fingers fold over at the heavy end; the table ends there.
       if (!solver->Solve({contact})) break;
-      row.nodes.push_back({contact.normal_N, solver->outputs().head(gauges),
-                           solver->state()});
+      row.nodes.push_back(
+          {contact.normal_N, solver->outputs().head(gauges), solver->state()});
     }
     rows_.push_back(std::move(row));
   }
@@ -78,13 +78,13 @@ void GaugeTable::FindStarts(const Eigen::VectorXd& angles_rad,
         const double w = weight_per_rad[j];
         if (w == 0) continue;
         const double misfit =
-            w * (from[j] + share * (to.angles_rad[j] - from[j]) -
-                 angles_rad[j]);
+            w *
+            (from[j] + share * (to.angles_rad[j] - from[j]) - angles_rad[j]);
         cost += 0.5 * misfit * misfit;
       }
       if (cost < best[i].cost) {
-        best[i] = {row.arc_mm,
-                   from_force + share * (to.normal_N - from_force), cost,
+        best[i] = {row.arc_mm, from_force + share * (to.normal_N - from_force),
+                   cost,
                    share > 0.5 || first ? &to.state : &row.nodes[k - 1].state};
       }
     }

@@ -40,7 +40,8 @@ Scene ReadScene(const YamlMap& yaml) {
   Scene scene;
   scene.contacts = ReadContacts(yaml);
   scene.friction_coefficient = yaml.Number("friction_coefficient", 0);
-  if (yaml.Has("object")) scene.circle_radius_mm = ReadCircle(yaml.Map("object"));
+  if (yaml.Has("object"))
+    scene.circle_radius_mm = ReadCircle(yaml.Map("object"));
   scene.columns = ReadColumns(yaml);
   return scene;
 }

@@ -54,7 +54,8 @@ CircleTouch FindTouch(const Circle& circle, const EquilibriumSolver& free) {
   constexpr int kSamples = 200;
   const auto offset = [&](double arc) {
     const Section at = shape.At(Side::kFront, arc);
-    return Eigen::Vector2d(circle.center_mm - Eigen::Vector2d(at.x_mm, at.y_mm));
+    return Eigen::Vector2d(circle.center_mm -
+                           Eigen::Vector2d(at.x_mm, at.y_mm));
   };
   int nearest = 0;
   for (int i = 1; i <= kSamples; ++i) {
@@ -75,8 +76,7 @@ CircleTouch FindTouch(const Circle& circle, const EquilibriumSolver& free) {
     (ahead(middle) >= 0 ? low : high) = middle;
   }
   CircleTouch touch;
-  touch.arc_mm =
-      tangent ? 0.5 * (low + high) : length * nearest / kSamples;
+  touch.arc_mm = tangent ? 0.5 * (low + high) : length * nearest / kSamples;
   const double theta = shape.At(Side::kFront, touch.arc_mm).theta_rad;
   touch.normal = {std::sin(theta), -std::cos(theta)};
   touch.depth_mm = circle.radius_mm + offset(touch.arc_mm).dot(touch.normal);

@@ -21,14 +21,15 @@ enum class CircleContactStatus {
 };
 
 /// Finds the equilibrium of the finger against a circle of known centre. Its
-/// two unknowns l_c and f_c follow from tangency: with r the contact point and n
-/// the local normal into the finger,
+/// two unknowns l_c and f_c follow from tangency: with r the contact point and
+/// n the local normal into the finger,
 ///
 ///   r(l_c, f_c) - R n(l_c, f_c) = centre.
 ///
-/// Tries the solver's present state with `*contact` as the guess if its force is
-/// positive, else moves the circle in from first touch. On kContact, `*contact`
-/// holds l_c and f_c and the solver the equilibrium, with sensitivities.
+/// Tries the solver's present state with `*contact` as the guess if its force
+/// is positive, else moves the circle in from first touch. On kContact,
+/// `*contact` holds l_c and f_c and the solver the equilibrium, with
+/// sensitivities.
 CircleContactStatus SolveCircleContact(const Circle& circle, double friction,
                                        EquilibriumSolver* solver,
                                        PointContact* contact);
@@ -37,8 +38,8 @@ CircleContactStatus SolveCircleContact(const Circle& circle, double friction,
 struct CircleTouch {
   double arc_mm;    ///< The point of the free front beam nearest to the centre.
   double depth_mm;  ///< > 0: overlap; < 0: gap.
-  double distance_mm;  ///< of that point from the centre.
-  bool tangent;     ///< false if that point is an end of the beam.
+  double distance_mm;      ///< of that point from the centre.
+  bool tangent;            ///< false if that point is an end of the beam.
   Eigen::Vector2d normal;  ///< Into the finger.
 };
 CircleTouch FindTouch(const Circle& circle, const EquilibriumSolver& free);

@@ -69,10 +69,10 @@ class Marcher {
     return sensitivities_ ? out_->unknowns + 2 * contact : -1;
   }
   int StiffnessColumn(Side side) const {
-    return sensitivities_ ? out_->unknowns +
-                                2 * static_cast<int>(contacts_.size()) +
-                                LadderModel::Index(side)
-                          : -1;
+    return sensitivities_
+               ? out_->unknowns + 2 * static_cast<int>(contacts_.size()) +
+                     LadderModel::Index(side)
+               : -1;
   }
   int DefectColumn() const { return columns_ - 1; }
 
@@ -309,8 +309,7 @@ class Marcher {
       const double sign = i < kMoment ? -1 : 1;
       out_->closure[first + i] =
           front_.value[i] + sign * back_.value[i] - (i == kTheta) * cap_angle;
-      out_->d_closure.row(first + i) =
-          front_.d.row(i) + sign * back_.d.row(i);
+      out_->d_closure.row(first + i) = front_.d.row(i) + sign * back_.d.row(i);
     }
     const int tip = model_.gauges() + 3 * static_cast<int>(contacts_.size());
     for (int i = 0; i < 3; ++i) {

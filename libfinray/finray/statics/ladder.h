@@ -11,9 +11,9 @@
 
 namespace finray {
 
-// The finger as a ladder: both beams are marched from base to tip, rung by rung.
-// At a rib both hinges are known, so its direction u = (r_R - r_L) / |r_R - r_L|
-// is explicit and its tension T makes the internal forces jump,
+// The finger as a ladder: both beams are marched from base to tip, rung by
+// rung. At a rib both hinges are known, so its direction u = (r_R - r_L) / |r_R
+// - r_L| is explicit and its tension T makes the internal forces jump,
 //
 //   N_front+ = N_front- - T u,    N_back+ = N_back- + T u,
 //
@@ -23,12 +23,13 @@ namespace finray {
 //   q = (M, N_x, N_y at the front base; the same at the back base; T_1 .. T_r)
 //
 // from as many closure equations: r rib lengths, |r_R - r_L| = L (1 + T / EA),
-// which is (7) of the paper, and at the tip position, angle, moment and force of
-// one beam against the other.
+// which is (7) of the paper, and at the tip position, angle, moment and force
+// of one beam against the other.
 //
 // The state at every mesh node is kept as an unknown too ("lifted", multiple
-// shooting): a Newton step then starts each element from a state near the truth,
-// where shooting from the base would be a cantilever under the full load.
+// shooting): a Newton step then starts each element from a state near the
+// truth, where shooting from the base would be a cantilever under the full
+// load.
 
 /// A point force on the front beam: normal_N along the local normal
 /// (sin(theta), -cos(theta)), into the finger, plus friction * normal_N along
@@ -93,9 +94,9 @@ struct LadderState {
 };
 
 /// Everything the march yields, with derivatives by columns
-/// [q (6 + r) | l_c, f_c of each contact | EI front, EI back | defects], of which
-/// the last is the change that closing all node defects would make. Without
-/// sensitivities the middle two groups are absent.
+/// [q (6 + r) | l_c, f_c of each contact | EI front, EI back | defects], of
+/// which the last is the change that closing all node defects would make.
+/// Without sensitivities the middle two groups are absent.
 struct LadderLinearization {
   using Matrix =
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -137,12 +138,13 @@ struct BeamSpan {
 /// What happens to the stored node states during the march.
 enum class MarchMode {
   kLifted,     ///< Elements start from them; the gaps are reported as defects.
-  kPropagate,  ///< They are overwritten by what reaches them; there are no gaps.
+  kPropagate,  ///< They are overwritten by what reaches them; there are no
+               ///< gaps.
 };
 
 /// Marches both beams at `state` under `contacts` and fills `out`, whose memory
-/// is reused. Contacts are taken in any order; arc lengths must lie on the beam.
-/// `spans`, if given, receives the pieces of both beams.
+/// is reused. Contacts are taken in any order; arc lengths must lie on the
+/// beam. `spans`, if given, receives the pieces of both beams.
 void March(const LadderModel& model, const std::vector<PointContact>& contacts,
            Scheme scheme, MarchMode mode, bool sensitivities,
            LadderState* state, LadderLinearization* out,

@@ -15,10 +15,9 @@ int DefaultResolution(Scheme scheme) {
 }  // namespace
 
 MeshPoint BeamMesh::Locate(double arc_mm) const {
-  const auto after =
-      std::upper_bound(nodes_mm.begin(), nodes_mm.end(), arc_mm);
-  const int element = std::clamp(
-      static_cast<int>(after - nodes_mm.begin()) - 1, 0, elements() - 1);
+  const auto after = std::upper_bound(nodes_mm.begin(), nodes_mm.end(), arc_mm);
+  const int element = std::clamp(static_cast<int>(after - nodes_mm.begin()) - 1,
+                                 0, elements() - 1);
   return {element, arc_mm - nodes_mm[element]};
 }
 

@@ -39,18 +39,21 @@ class RigidLinkElement {
     map_.end[3] = joint_moment_ - half * cross1;
 
     // by (theta, M, N_x, N_y), then by EI, then by h
-    const double d_moment[6] = {half * (s0_ * ny + c0_ * nx), 1,
-                                half * s0_,                   -half * c0_,
-                                0,                            -0.5 * cross0};
+    const double d_moment[6] = {half * (s0_ * ny + c0_ * nx),
+                                1,
+                                half * s0_,
+                                -half * c0_,
+                                0,
+                                -0.5 * cross0};
     double d_theta[6];
     for (int p = 0; p < 6; ++p) d_theta[p] = flexibility * d_moment[p];
     d_theta[0] += 1;
     d_theta[4] -= flexibility * joint_moment_ / stiffness;
     d_theta[5] += joint_moment_ / stiffness;
     for (int p = 0; p < 6; ++p) {
-      double column[4] = {-half * s1 * d_theta[p], half * c1 * d_theta[p],
-                          d_theta[p],
-                          d_moment[p] + half * (s1 * ny + c1 * nx) * d_theta[p]};
+      double column[4] = {
+          -half * s1 * d_theta[p], half * c1 * d_theta[p], d_theta[p],
+          d_moment[p] + half * (s1 * ny + c1 * nx) * d_theta[p]};
       if (p == 0) {
         column[0] -= half * s0_;
         column[1] += half * c0_;
@@ -64,8 +67,9 @@ class RigidLinkElement {
         column[3] -= 0.5 * cross1;
       }
       for (int i = 0; i < 4; ++i) {
-        (p < 4 ? map_.d_start[i][p]
-               : p == 4 ? map_.d_stiffness[i] : map_.d_length[i]) = column[i];
+        (p < 4    ? map_.d_start[i][p]
+         : p == 4 ? map_.d_stiffness[i]
+                  : map_.d_length[i]) = column[i];
       }
     }
   }
@@ -84,15 +88,14 @@ class RigidLinkElement {
     readout.d_stiffness = share * map_.d_stiffness[2];
     readout.d_offset =
         length_ > 0 ? (map_.end[2] - start_.theta_rad) / length_ : 0;
-    readout.d_length =
-        share * (map_.d_length[2] - readout.d_offset);
+    readout.d_length = share * (map_.d_length[2] - readout.d_offset);
     return readout;
   }
 
   BeamPoint PointAt(double offset) const {
     const double share = length_ > 0 ? offset / length_ : 0;
-    return {share * map_.end[0], share * map_.end[1],
-            AngleAt(offset).theta_rad, joint_moment_};
+    return {share * map_.end[0], share * map_.end[1], AngleAt(offset).theta_rad,
+            joint_moment_};
   }
 
  private:

@@ -13,8 +13,8 @@ namespace finray {
 /// With m = M / EI and n = N / EI the coefficients follow by recurrence:
 ///
 ///   theta_{k+1} = m_k / (k+1),        m_{k+1} = (n_x s_k - n_y c_k) / (k+1),
-///   c_{k+1} = -sum_j m_j s_{k-j} / (k+1),   s_{k+1} = sum_j m_j c_{k-j} / (k+1),
-///   x_{k+1} = c_k / (k+1),            y_{k+1} = s_k / (k+1),
+///   c_{k+1} = -sum_j m_j s_{k-j} / (k+1),   s_{k+1} = sum_j m_j c_{k-j} /
+///   (k+1), x_{k+1} = c_k / (k+1),            y_{k+1} = s_k / (k+1),
 ///
 /// and so do their derivatives by p in (m_0, n_x, n_y), because
 /// dc/dp = -s dtheta/dp and ds/dp = c dtheta/dp hold between the series. The
