@@ -14,6 +14,8 @@
 #include <string_view>
 
 #define CSV_IO_NO_THREAD
+// The library cuts long file names short on purpose.
+#pragma GCC diagnostic ignored "-Wstringop-truncation"
 #include <libfccp/csv.h>
 
 #include "finray/io/atomic_file.h"
@@ -329,12 +331,11 @@ std::vector<std::string>& FrameTable::MutableText(const std::string& name) {
   return std::get<std::vector<std::string>>(columns_.back().cells);
 }
 
-void FrameTable::Remove(const std::string& name) {
-  columns_.erase(std::remove_if(columns_.begin(), columns_.end(),
-                                [&name](const Column& column) {
-                                  return column.name == name;
-                                }),
-                 columns_.end());
+void FrameTable::Truncate(std::size_t rows) {
+  rows_ = std::min(rows_, rows);
+  for (Column& column : columns_) {
+    std::visit([this](auto& cells) { cells.resize(rows_); }, column.cells);
+  }
 }
 
 std::string FrameTable::ToCsv() const {

@@ -44,7 +44,8 @@ class FrameTable {
   std::vector<double>& MutableNumbers(const std::string& name);
   /// A text column to write to: existing cells, or empty when new.
   std::vector<std::string>& MutableText(const std::string& name);
-  void Remove(const std::string& name);
+  /// Keeps the first rows only.
+  void Truncate(std::size_t rows);
 
   /// CSV text; doubles read back identical; NaN is an empty cell.
   std::string ToCsv() const;

@@ -1,0 +1,77 @@
+#ifndef FINRAY_APPS_APP_H_
+#define FINRAY_APPS_APP_H_
+
+#include <gflags/gflags.h>
+#include <glog/logging.h>
+
+#include <exception>
+#include <functional>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "finray/io/error.h"
+
+namespace finray {
+
+/// Exit codes of all executables.
+enum ExitCode {
+  kGood = 0,
+  kUsage = 1,
+  kBadInput = 2,
+  kSolveFailed = 3,
+  kGateFailed = 4,
+};
+
+/// A flag that the user must give, for exit code 1.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+inline const std::string& Required(const char* flag, const std::string& value) {
+  if (value.empty()) throw UsageError(std::string("--") + flag + " is missing");
+  return value;
+}
+
+/// Comma-separated names.
+inline std::vector<std::string> SplitList(const std::string& list) {
+  std::vector<std::string> items;
+  std::istringstream stream(list);
+  for (std::string item; std::getline(stream, item, ',');) {
+    if (!item.empty()) items.push_back(item);
+  }
+  return items;
+}
+
+/// Parses flags, runs, and turns what is thrown into one line and an exit code.
+inline int RunApp(int argc, char** argv, const std::string& usage,
+                  const std::function<int()>& run) {
+  gflags::SetUsageMessage(usage);
+  gflags::SetVersionString(FINRAY_VERSION);
+  FLAGS_logtostderr = true;
+  google::InitGoogleLogging(argv[0]);
+  gflags::ParseCommandLineFlags(&argc, &argv, true);
+  const std::string name = gflags::ProgramInvocationShortName();
+  try {
+    if (argc > 1) {
+      throw UsageError(std::string("'") + argv[1] +
+                       "' is not a flag; flags start with --");
+    }
+    return run();
+  } catch (const UsageError& error) {
+    std::cerr << name << ": " << error.what() << "; see --help\n";
+    return kUsage;
+  } catch (const InputError& error) {
+    std::cerr << name << ": " << error.what() << "\n";
+    return kBadInput;
+  } catch (const std::exception& error) {
+    std::cerr << name << ": " << error.what() << "\n";
+    return kSolveFailed;
+  }
+}
+
+}  // namespace finray
+
+#endif  // FINRAY_APPS_APP_H_
