@@ -104,7 +104,8 @@ int Run() {
     all.force_max_N = std::max(all.force_max_N, summary.force_max_N);
   }
   if (all.force_compared > 0) {
-    all.force_rms_N = std::sqrt(squares / static_cast<double>(all.force_compared));
+    all.force_rms_N =
+        std::sqrt(squares / static_cast<double>(all.force_compared));
   }
   yaml << YAML::EndSeq << YAML::Key << "all" << YAML::Value << YAML::BeginMap;
   EmitSummary(all, &yaml);
@@ -130,8 +131,8 @@ int Run() {
   } else {
     std::cout << "force error    not known: no force_N in the logs\n";
   }
-  const std::size_t unsolved = all.count(FrameStatus::kNotConverged) +
-                               all.count(FrameStatus::kBadInput);
+  const std::size_t unsolved =
+      all.count(FrameStatus::kNotConverged) + all.count(FrameStatus::kBadInput);
   return unsolved == all.frames || (FLAGS_strict && unsolved > 0) ? kSolveFailed
                                                                   : kGood;
 }

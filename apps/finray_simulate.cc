@@ -53,8 +53,7 @@ int Run() {
             << "not converged  " << summary.not_converged << "\n";
   if (summary.not_converged > 0) {
     LOG(WARNING) << summary.not_converged << " of " << frames.rows()
-                 << " rows have no solution, first "
-                 << summary.first_failure;
+                 << " rows have no solution, first " << summary.first_failure;
   }
   const bool none = summary.contact + summary.free == 0;
   return none || (FLAGS_strict && summary.not_converged > 0) ? kSolveFailed

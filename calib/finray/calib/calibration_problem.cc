@@ -1,6 +1,5 @@
 #include "finray/calib/calibration_problem.h"
 
-#include <ceres/loss_function.h>
 #include <ceres/ordered_groups.h>
 #include <ceres/solver.h>
 

@@ -1,6 +1,7 @@
 #ifndef FINRAY_CALIB_CALIBRATION_PROBLEM_H_
 #define FINRAY_CALIB_CALIBRATION_PROBLEM_H_
 
+#include <ceres/loss_function.h>
 #include <ceres/problem.h>
 
 #include <array>

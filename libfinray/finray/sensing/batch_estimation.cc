@@ -60,8 +60,8 @@ std::vector<FrameEstimate> EstimateFrames(
         [&](const tbb::blocked_range<std::size_t>& range) {
           auto& estimator = estimators.local();
           if (!estimator) {
-            estimator = std::make_unique<FrameEstimator>(finger, scene,
-                                                         discretization);
+            estimator =
+                std::make_unique<FrameEstimator>(finger, scene, discretization);
           }
           for (std::size_t i = range.begin(); i < range.end(); ++i) {
             estimates[i] = estimator->Estimate(readings_V[i]);
@@ -72,8 +72,8 @@ std::vector<FrameEstimate> EstimateFrames(
 }
 
 EstimationSummary EstimateLog(const Finger& finger, const Scene& scene,
-                              const Discretization& discretization,
-                              int threads, FrameTable* log) {
+                              const Discretization& discretization, int threads,
+                              FrameTable* log) {
   const auto volts = ReadVolts(finger, *log);
   const std::vector<FrameEstimate> estimates =
       EstimateFrames(finger, scene, discretization, volts, threads);

@@ -36,8 +36,8 @@ std::vector<FrameEstimate> EstimateFrames(
 /// columns, if any, are overwritten, not used. Throws InputError if a gauge of
 /// the finger has no column.
 EstimationSummary EstimateLog(const Finger& finger, const Scene& scene,
-                              const Discretization& discretization,
-                              int threads, FrameTable* log);
+                              const Discretization& discretization, int threads,
+                              FrameTable* log);
 
 }  // namespace finray
 

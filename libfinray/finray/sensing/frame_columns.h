@@ -10,7 +10,9 @@ inline std::string IndexedColumn(const char* before, int index,
                                  const char* after) {
   return before + std::to_string(index + 1) + after;
 }
-inline std::string GaugeVolts(int j) { return IndexedColumn("gauge_", j, "_V"); }
+inline std::string GaugeVolts(int j) {
+  return IndexedColumn("gauge_", j, "_V");
+}
 inline std::string GaugeAngle(int j) {
   return IndexedColumn("gauge_", j, "_rad");
 }

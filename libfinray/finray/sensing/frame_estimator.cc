@@ -14,12 +14,13 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // A second start is only worth its time while the best leaves more than this
 // many standard deviations per gauge unexplained.
 constexpr double kWellExplained = 4;
+constexpr int kMostStarts = 3;
 
 ceres::Solver::Options SolverOptions() {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
-  options.max_num_iterations = 60;
+  options.max_num_iterations = 30;
   // Whitened gauges leave the trust region nothing to guess: begin with
   // Gauss-Newton. The tolerances are those of noise-free data.
   options.initial_trust_region_radius = 1e12;
@@ -106,6 +107,8 @@ FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
   problem_->SetParameterLowerBound(contact_, 0, 0);
   problem_->SetParameterUpperBound(contact_, 0, finger.front_length_mm);
   problem_->SetParameterLowerBound(contact_, 1, 0);
+  problem_->SetParameterUpperBound(contact_, 1,
+                                   kMostForce * table_.heaviest_N());
 }
 
 FrameEstimate FrameEstimator::Estimate(const std::vector<double>& readings_V) {
@@ -139,6 +142,7 @@ FrameEstimate FrameEstimator::Estimate(const std::vector<double>& readings_V) {
   best.status = FrameStatus::kNotConverged;
   best.normal_N = kNaN;
   int iterations = 0;
+  if (starts_.size() > kMostStarts) starts_.resize(kMostStarts);
   for (const GaugeTable::Start& start : starts_) {
     const FrameEstimate estimate = ContactEstimate(start);
     iterations += estimate.iterations;
@@ -208,10 +212,11 @@ FrameEstimate FrameEstimator::ContactEstimate(const GaugeTable::Start& start) {
   estimate.normal_std_N =
       singular ? infinity
                : unit[1] * std::sqrt(information(0, 0) / determinant);
-  const bool at_end = contact_[0] <= 0 || contact_[0] >= length;
+  const bool on_bound = contact_[0] <= 0 || contact_[0] >= length ||
+                        contact_[1] >= kMostForce * table_.heaviest_N();
   const bool determined =
       estimate.contact_std_mm <= kLargestArcStd * length &&
-      estimate.normal_std_N <= kLargestForceStd * contact_[1] && !at_end;
+      estimate.normal_std_N <= kLargestForceStd * contact_[1] && !on_bound;
   estimate.status = determined ? FrameStatus::kOk : FrameStatus::kUnobservable;
   return estimate;
 }

@@ -55,6 +55,7 @@ class FrameEstimator {
   static constexpr double kLeastForce_N = 0.03;
   static constexpr double kLargestArcStd = 0.05;
   static constexpr double kLargestForceStd = 0.25;
+  static constexpr double kMostForce = 4;
 
   /// Throws InputError for a scene of more than one contact or a finger without
   /// an unloaded equilibrium.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "finray/io/error.h"
 
@@ -22,6 +23,7 @@ GaugeTable::GaugeTable(EquilibriumSolver* solver) {
       std::sqrt(finger.front_stiffness_N_mm2 * finger.back_stiffness_N_mm2) /
       (length * length);
   const int gauges = solver->model().gauges();
+  heaviest_N_ = unit * *std::rbegin(kForces);
   solver->Reset();
   if (!solver->Solve({})) {
     throw InputError("finger '" + finger.name +

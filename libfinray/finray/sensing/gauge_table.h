@@ -29,6 +29,9 @@ class GaugeTable {
                   const Eigen::VectorXd& weight_per_rad,
                   std::vector<Start>* starts) const;
 
+  /// The heaviest force of the grid, 40 EI / l_0^2.
+  double heaviest_N() const { return heaviest_N_; }
+
   /// Angles of the finger under no load.
   const Eigen::VectorXd& free_angles() const { return free_angles_; }
 
@@ -43,6 +46,7 @@ class GaugeTable {
     std::vector<Node> nodes;  // rising force
   };
 
+  double heaviest_N_;
   Eigen::VectorXd free_angles_;
   LadderState free_state_;
   std::vector<Row> rows_;

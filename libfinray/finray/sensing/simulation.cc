@@ -44,8 +44,9 @@ class LoadReader {
       const double arc = arc_[c][row], normal = normal_[c][row];
       if (std::isnan(arc) && (std::isnan(normal) || normal == 0)) continue;
       if (!(arc >= 0 && arc <= finger_.front_length_mm)) {
-        Fail(row, ContactArc(c) + ": expected an arc length on the front beam, "
-                                  "0 to " +
+        Fail(row, ContactArc(c) +
+                      ": expected an arc length on the front beam, "
+                      "0 to " +
                       std::to_string(finger_.front_length_mm) + " mm");
       }
       if (!(normal >= 0)) {

@@ -25,8 +25,8 @@ struct SimulationSummary {
 ///    filled in too;
 ///  - nothing.
 /// If `shapes` is given it receives both beams of every row: columns row, beam,
-/// arc_mm, x_mm, y_mm, angle_rad, moment_N_mm. Throws InputError naming the line
-/// of a load that is incomplete, negative or off the beam.
+/// arc_mm, x_mm, y_mm, angle_rad, moment_N_mm. Throws InputError naming the
+/// line of a load that is incomplete, negative or off the beam.
 SimulationSummary Simulate(const Finger& finger, const Scene& scene,
                            const Discretization& discretization,
                            FrameTable* frames, FrameTable* shapes = nullptr);

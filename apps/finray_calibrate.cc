@@ -1,0 +1,123 @@
+// Calibrates a finger from logs with a reference: force, object place, or both.
+
+#include <cstdio>
+#include <filesystem>
+
+#include "app.h"
+#include "finray/calib/calibration_result.h"
+#include "finray/calib/report.h"
+#include "finray/finger/finger_yaml.h"
+#include "finray/io/atomic_file.h"
+
+DEFINE_string(finger, "", "finger YAML to start from");
+DEFINE_string(plan, "", "plan YAML: what is free, priors, noise");
+DEFINE_string(logs, "", "CSV logs, separated by commas");
+DEFINE_string(out_dir, "", "folder for finger.yaml, calibration.yaml, report");
+DEFINE_int32(threads, 2, "threads over frames");
+DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
+DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
+DEFINE_bool(report, true, "render report.html");
+
+namespace {
+
+std::string InFolder(const char* name) {
+  return (std::filesystem::path(FLAGS_out_dir) / name).string();
+}
+
+void PrintSummary(finray::CalibrationProblem& problem,
+                  const finray::CalibrationResult& result) {
+  using namespace finray;
+  int counts[4] = {};
+  for (const ParameterStatus status : result.identifiability.status) {
+    ++counts[static_cast<int>(status)];
+  }
+  int contact = 0, free = 0, held_out = 0;
+  for (const CalibrationFrame& frame : problem.logs().frames) {
+    ++(frame.held_out ? held_out : frame.contact ? contact : free);
+  }
+  std::printf("%s\n", InFolder("finger.yaml").c_str());
+  std::printf("solver         %s after %d iterations\n",
+              result.solve.converged ? "converged" : "did not converge",
+              result.solve.iterations);
+  std::printf("frames         %d contact, %d free, %d held out\n", contact,
+              free, held_out);
+  std::printf(
+      "parameters     %d estimated, %d prior_dominated, %d unidentifiable\n",
+      counts[0], counts[1], counts[2]);
+  std::printf("noise          chi2/dof");
+  for (int i = 0; i < kResidualFamilies; ++i) {
+    const Identifiability::Noise& noise = result.identifiability.noise[i];
+    if (noise.residuals == 0 || noise.dof < 0.5) continue;
+    std::printf(" %s %.2f", ResidualFamilyName(static_cast<ResidualFamily>(i)),
+                noise.chi2 / noise.dof);
+  }
+  const ForceCheck::Error& fitted = result.forces.fitted;
+  const ForceCheck::Error& kept = result.forces.held_out;
+  std::printf("\nforce error    ");
+  if (fitted.frames > 0) {
+    std::printf("%.3g N rms before, %.3g N after", fitted.before_rms_N,
+                fitted.after_rms_N);
+    if (kept.frames > 0) std::printf(", %.3g N held out", kept.after_rms_N);
+    std::printf("\n");
+  } else {
+    std::printf("not known: no reference force in the logs\n");
+  }
+  for (const CalibrationWarning& warning : result.warnings) {
+    LOG(WARNING) << warning.text << "; " << warning.remedy;
+  }
+}
+
+int Run() {
+  using namespace finray;
+  const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
+  const Plan plan = ReadPlan(Required("plan", FLAGS_plan));
+  const auto paths = SplitList(Required("logs", FLAGS_logs));
+  Required("out_dir", FLAGS_out_dir);
+  const Discretization discretization =
+      ParseDiscretization(FLAGS_scheme, FLAGS_resolution);
+  const CalibrationLogs logs = ReadCalibrationLogs(paths, finger, plan);
+  CalibrationProblem problem(finger, plan, logs, discretization, FLAGS_threads);
+  const CalibrationResult result =
+      Calibrate(&problem, discretization, FLAGS_threads);
+
+  std::string command =
+      "finray_calibrate --finger " + FLAGS_finger + " --plan " + FLAGS_plan +
+      " --logs " + FLAGS_logs + " --out_dir " + FLAGS_out_dir + " --scheme " +
+      FLAGS_scheme + " --resolution " + std::to_string(FLAGS_resolution);
+  MakeFolder(FLAGS_out_dir);
+  WriteFileAtomically(
+      InFolder("calibration.yaml"),
+      CalibrationYaml(problem, result,
+                      {FLAGS_finger, FLAGS_plan, paths, FLAGS_scheme,
+                       FLAGS_resolution, command}));
+  CalibrationFrames(problem, result).Write(InFolder("calibration.frames.csv"));
+  CalibrationShape(problem, result, discretization)
+      .Write(InFolder("calibration.shape.csv"));
+  std::string origin = "Calibrated from";
+  for (const std::string& path : paths) origin += " " + path;
+  WriteFileAtomically(
+      InFolder("finger.yaml"),
+      FingerToYaml(result.finger, origin +
+                                      "\nStandard deviations and checks: "
+                                      "calibration.yaml beside this file."));
+  if (FLAGS_report) {
+    const std::string problem_with_it = RenderReport(FLAGS_out_dir);
+    if (!problem_with_it.empty()) {
+      LOG(WARNING) << "no report.html: " << problem_with_it;
+    }
+  }
+  PrintSummary(problem, result);
+  if (!result.solve.converged) return kSolveFailed;
+  return result.AllIdentified() ? kGood : kGateFailed;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return finray::RunApp(
+      argc, argv,
+      "Calibrates stiffness, gauges and rib lengths of a finger from logs.\n"
+      "finray_calibrate --finger F.yaml --plan P.yaml --logs a.csv,b.csv "
+      "--out_dir D",
+      Run);
+}

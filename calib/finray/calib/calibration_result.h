@@ -1,0 +1,66 @@
+#ifndef FINRAY_CALIB_CALIBRATION_RESULT_H_
+#define FINRAY_CALIB_CALIBRATION_RESULT_H_
+
+#include <string>
+#include <vector>
+
+#include "finray/calib/calibration_problem.h"
+#include "finray/calib/force_check.h"
+#include "finray/calib/identifiability.h"
+#include "finray/io/frame_table.h"
+
+namespace finray {
+
+/// Something the user should know, and what to do about it.
+struct CalibrationWarning {
+  std::string code;
+  std::string text;
+  std::string remedy;
+};
+
+/// All that a calibration yields.
+struct CalibrationResult {
+  CalibrationProblem::SolveReport solve;
+  Identifiability identifiability;
+  ForceCheck forces;
+  Finger finger;  ///< calibrated
+  std::vector<CalibrationWarning> warnings;
+
+  bool AllIdentified() const;
+};
+
+/// Solves the problem, analyses it and checks it against the force sensor.
+CalibrationResult Calibrate(CalibrationProblem* problem,
+                            const Discretization& discretization, int threads);
+
+/// What went in, for the record.
+struct CalibrationInputs {
+  std::string finger_path, plan_path;
+  std::vector<std::string> log_paths;
+  std::string scheme;
+  int resolution = 0;
+  std::string command;
+};
+
+/// The text of calibration.yaml (docs/formats.md).
+std::string CalibrationYaml(CalibrationProblem& problem,
+                            const CalibrationResult& result,
+                            const CalibrationInputs& inputs);
+
+/// One row a frame: log, time, kind (contact, free), held_out, reference force,
+/// force and place from the gauges before and after, l_c and f_c of the fit,
+/// and gauge residuals in std (empty where held out).
+FrameTable CalibrationFrames(CalibrationProblem& problem,
+                             const CalibrationResult& result);
+
+/// Both beams, undeformed and in the heaviest fitted frame, for drawing:
+/// columns state (undeformed, deformed), part (front, back, rib_<i>, contact),
+/// x_mm, y_mm. Of the contact: its point, then the tip of an arrow against the
+/// normal.
+FrameTable CalibrationShape(CalibrationProblem& problem,
+                            const CalibrationResult& result,
+                            const Discretization& discretization);
+
+}  // namespace finray
+
+#endif  // FINRAY_CALIB_CALIBRATION_RESULT_H_

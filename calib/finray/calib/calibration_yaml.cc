@@ -1,0 +1,207 @@
+#include <ceres/version.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+
+#include "finray/calib/calibration_result.h"
+#include "finray/calib/sha256.h"
+#include "finray/io/atomic_file.h"
+
+namespace finray {
+namespace {
+
+// A number as YAML has it: .nan, .inf.
+std::string YamlNumber(double value) {
+  if (std::isnan(value)) return ".nan";
+  if (std::isinf(value)) return value > 0 ? ".inf" : "-.inf";
+  return NumberText(value);
+}
+
+template <class T>
+void Pair(YAML::Emitter* yaml, const char* key, const T& value) {
+  *yaml << YAML::Key << key << YAML::Value << value;
+}
+void Number(YAML::Emitter* yaml, const char* key, double value) {
+  Pair(yaml, key, YamlNumber(value));
+}
+
+void EmitParameters(CalibrationProblem& problem, const Identifiability& found,
+                    YAML::Emitter* yaml) {
+  *yaml << YAML::Key << "parameters" << YAML::Value << YAML::BeginSeq;
+  const CalibrationParameters& parameters = problem.parameters();
+  std::size_t free = 0;
+  for (std::size_t i = 0; i < parameters.all().size(); ++i) {
+    const CalibrationParameter& p = parameters.all()[i];
+    const bool is_free = free < parameters.free().size() &&
+                         parameters.free()[free] == static_cast<int>(i);
+    *yaml << YAML::Flow << YAML::BeginMap;
+    Pair(yaml, "name", p.name);
+    Pair(yaml, "unit", p.unit);
+    Number(yaml, "initial", p.Value(p.initial));
+    Number(yaml, "value", p.Value(*p.variable));
+    Number(yaml, "std",
+           is_free ? p.ValueStd(*p.variable, found.std[free]) : 0.0);
+    Number(yaml, "prior_std",
+           p.prior_std ? p.ValueStd(p.initial, *p.prior_std) : std::nan(""));
+    Pair(yaml, "status",
+         ParameterStatusName(is_free ? found.status[free]
+                                     : ParameterStatus::kFixed));
+    *yaml << YAML::EndMap;
+    free += is_free;
+  }
+  *yaml << YAML::EndSeq;
+}
+
+void EmitWeakDirections(CalibrationProblem& problem,
+                        const Identifiability& found, YAML::Emitter* yaml) {
+  *yaml << YAML::Key << "weak_directions" << YAML::Value << YAML::BeginSeq;
+  for (const WeakDirection& weak : found.weak) {
+    *yaml << YAML::BeginMap;
+    Pair(yaml, "words", weak.words);
+    Pair(yaml, "remedy", weak.remedy);
+    Number(yaml, "std_over_prior", weak.std_over_prior);
+    *yaml << YAML::Key << "components" << YAML::Value << YAML::Flow
+          << YAML::BeginMap;
+    for (const auto& component : weak.components) {
+      Number(yaml, problem.parameters().all()[component.parameter].name.c_str(),
+             component.share);
+    }
+    *yaml << YAML::EndMap << YAML::EndMap;
+  }
+  *yaml << YAML::EndSeq;
+}
+
+void EmitCorrelations(CalibrationProblem& problem, const Identifiability& found,
+                      YAML::Emitter* yaml) {
+  const CalibrationParameters& parameters = problem.parameters();
+  *yaml << YAML::Key << "correlations" << YAML::Value << YAML::BeginMap;
+  *yaml << YAML::Key << "names" << YAML::Value << YAML::Flow << YAML::BeginSeq;
+  for (const int i : parameters.free()) *yaml << parameters.all()[i].name;
+  *yaml << YAML::EndSeq << YAML::Key << "matrix" << YAML::Value
+        << YAML::BeginSeq;
+  for (int i = 0; i < found.correlation.rows(); ++i) {
+    *yaml << YAML::Flow << YAML::BeginSeq;
+    for (int j = 0; j < found.correlation.cols(); ++j) {
+      *yaml << YamlNumber(std::round(found.correlation(i, j) * 1e6) / 1e6);
+    }
+    *yaml << YAML::EndSeq;
+  }
+  *yaml << YAML::EndSeq << YAML::EndMap;
+}
+
+void EmitNoise(const Identifiability& found, YAML::Emitter* yaml) {
+  *yaml << YAML::Key << "noise" << YAML::Value << YAML::BeginMap;
+  for (int i = 0; i < kResidualFamilies; ++i) {
+    const Identifiability::Noise& noise = found.noise[i];
+    if (noise.residuals == 0) continue;
+    *yaml << YAML::Key << ResidualFamilyName(static_cast<ResidualFamily>(i))
+          << YAML::Value << YAML::Flow << YAML::BeginMap;
+    Pair(yaml, "residuals", noise.residuals);
+    Number(yaml, "dof", noise.dof);
+    Number(yaml, "chi2", noise.chi2);
+    // Without spare measurements the ratio would be noise over nothing.
+    Number(yaml, "chi2_per_dof",
+           noise.dof > 0.5 ? noise.chi2 / noise.dof : std::nan(""));
+    *yaml << YAML::EndMap;
+  }
+  *yaml << YAML::EndMap;
+}
+
+void EmitForceError(const ForceCheck::Error& error, YAML::Emitter* yaml) {
+  *yaml << YAML::Flow << YAML::BeginMap;
+  Pair(yaml, "frames", error.frames);
+  if (error.frames > 0) {
+    Number(yaml, "force_rms_error_before_N", error.before_rms_N);
+    Number(yaml, "force_rms_error_after_N", error.after_rms_N);
+    Number(yaml, "force_max_error_after_N", error.after_max_N);
+    Number(yaml, "force_mean_N", error.reference_mean_N);
+  }
+  *yaml << YAML::EndMap;
+}
+
+void EmitInputs(const CalibrationInputs& inputs, YAML::Emitter* yaml) {
+  const auto file = [yaml](const std::string& path) {
+    *yaml << YAML::Flow << YAML::BeginMap;
+    Pair(yaml, "path", path);
+    Pair(yaml, "sha256", Sha256OfFile(path));
+    *yaml << YAML::EndMap;
+  };
+  *yaml << YAML::Key << "inputs" << YAML::Value << YAML::BeginMap;
+  *yaml << YAML::Key << "finger" << YAML::Value;
+  file(inputs.finger_path);
+  *yaml << YAML::Key << "plan" << YAML::Value;
+  file(inputs.plan_path);
+  *yaml << YAML::Key << "logs" << YAML::Value << YAML::BeginSeq;
+  for (const std::string& path : inputs.log_paths) file(path);
+  *yaml << YAML::EndSeq << YAML::EndMap;
+}
+
+void EmitConfig(const Plan& plan, const CalibrationInputs& inputs,
+                YAML::Emitter* yaml) {
+  constexpr const char* kLosses[] = {"none", "huber", "cauchy"};
+  *yaml << YAML::Key << "config" << YAML::Value << YAML::BeginMap;
+  Pair(yaml, "command", inputs.command);
+  Pair(yaml, "scheme", inputs.scheme);
+  Pair(yaml, "resolution", inputs.resolution);
+  Pair(yaml, "contacts",
+       plan.scene.contacts ? std::to_string(*plan.scene.contacts) : "auto");
+  Number(yaml, "friction_coefficient", plan.scene.friction_coefficient);
+  if (plan.scene.circle_radius_mm) {
+    Number(yaml, "circle_radius_mm", *plan.scene.circle_radius_mm);
+  }
+  Number(yaml, "force_std_N", plan.force_std_N);
+  if (plan.gauge_std_V) Number(yaml, "gauge_std_V", *plan.gauge_std_V);
+  Number(yaml, "object_std_mm", plan.object_std_mm);
+  Number(yaml, "contact_std_mm", plan.contact_std_mm);
+  Pair(yaml, "robust_loss", kLosses[static_cast<int>(plan.loss)]);
+  Number(yaml, "robust_scale", plan.loss_scale);
+  *yaml << YAML::EndMap;
+}
+
+}  // namespace
+
+std::string CalibrationYaml(CalibrationProblem& problem,
+                            const CalibrationResult& result,
+                            const CalibrationInputs& inputs) {
+  YAML::Emitter yaml;
+  yaml << YAML::BeginMap;
+  Pair(&yaml, "schema_version", 1);
+  Pair(&yaml, "finger", problem.finger().name);
+  Pair(&yaml, "verdict",
+       !result.solve.converged   ? "not_converged"
+       : !result.AllIdentified() ? "unidentifiable"
+                                 : "good");
+  EmitParameters(problem, result.identifiability, &yaml);
+  EmitWeakDirections(problem, result.identifiability, &yaml);
+  EmitCorrelations(problem, result.identifiability, &yaml);
+  EmitNoise(result.identifiability, &yaml);
+  yaml << YAML::Key << "fit" << YAML::Value;
+  EmitForceError(result.forces.fitted, &yaml);
+  yaml << YAML::Key << "holdout" << YAML::Value;
+  EmitForceError(result.forces.held_out, &yaml);
+  yaml << YAML::Key << "warnings" << YAML::Value << YAML::BeginSeq;
+  for (const CalibrationWarning& warning : result.warnings) {
+    yaml << YAML::BeginMap;
+    Pair(&yaml, "code", warning.code);
+    Pair(&yaml, "text", warning.text);
+    Pair(&yaml, "remedy", warning.remedy);
+    yaml << YAML::EndMap;
+  }
+  yaml << YAML::EndSeq;
+  yaml << YAML::Key << "solver" << YAML::Value << YAML::Flow << YAML::BeginMap;
+  Pair(&yaml, "converged", result.solve.converged);
+  Pair(&yaml, "iterations", result.solve.iterations);
+  Number(&yaml, "initial_cost", result.solve.initial_cost);
+  Number(&yaml, "final_cost", result.solve.final_cost);
+  yaml << YAML::EndMap;
+  EmitInputs(inputs, &yaml);
+  EmitConfig(problem.plan(), inputs, &yaml);
+  yaml << YAML::Key << "versions" << YAML::Value << YAML::Flow
+       << YAML::BeginMap;
+  Pair(&yaml, "finray", FINRAY_VERSION);
+  Pair(&yaml, "ceres", CERES_VERSION_STRING);
+  yaml << YAML::EndMap << YAML::EndMap;
+  return std::string(yaml.c_str()) + "\n";
+}
+
+}  // namespace finray

@@ -1,0 +1,50 @@
+#include "finray/calib/force_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "finray/sensing/batch_estimation.h"
+
+namespace finray {
+
+double ReferenceForce(const CalibrationFrame& frame) {
+  return frame.force_xy_N.allFinite() ? frame.force_xy_N.norm() : frame.force_N;
+}
+
+ForceCheck CheckForces(const Finger& before, const Finger& after,
+                       const Plan& plan, const CalibrationLogs& logs,
+                       const Discretization& discretization, int threads) {
+  std::vector<std::vector<double>> volts;
+  for (const CalibrationFrame& frame : logs.frames) {
+    volts.push_back(frame.gauges_V);
+  }
+  ForceCheck check;
+  check.before =
+      EstimateFrames(before, plan.scene, discretization, volts, threads);
+  check.after =
+      EstimateFrames(after, plan.scene, discretization, volts, threads);
+  const double per_normal = std::hypot(1, plan.scene.friction_coefficient);
+  for (std::size_t i = 0; i < logs.frames.size(); ++i) {
+    const double force = ReferenceForce(logs.frames[i]);
+    const double was = per_normal * check.before[i].normal_N - force;
+    const double is = per_normal * check.after[i].normal_N - force;
+    if (std::isnan(was) || std::isnan(is)) continue;
+    ForceCheck::Error& error =
+        logs.frames[i].held_out ? check.held_out : check.fitted;
+    ++error.frames;
+    error.before_rms_N += was * was;
+    error.after_rms_N += is * is;
+    error.after_max_N = std::max(error.after_max_N, std::abs(is));
+    error.reference_mean_N += force;
+  }
+  for (ForceCheck::Error* error : {&check.fitted, &check.held_out}) {
+    if (error->frames == 0) continue;
+    const auto n = static_cast<double>(error->frames);
+    error->before_rms_N = std::sqrt(error->before_rms_N / n);
+    error->after_rms_N = std::sqrt(error->after_rms_N / n);
+    error->reference_mean_N /= n;
+  }
+  return check;
+}
+
+}  // namespace finray
