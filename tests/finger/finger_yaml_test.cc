@@ -1,0 +1,127 @@
+#include "finray/finger/finger_yaml.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "finray/io/error.h"
+#include "temp_file.h"
+#include "test_finger.h"
+
+namespace finray {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+std::string Text(const std::string& beams, const std::string& ribs,
+                 const std::string& gauges) {
+  return "schema_version: 1\nname: test\n"
+         "geometry: {front_length_mm: 140, back_angle_deg: 112}\n"
+         "beams:\n" +
+         beams + "ribs:\n" + ribs + "gauges:\n" + gauges;
+}
+const char kBeams[] =
+    "  front: {bending_stiffness_N_mm2: 12500}\n"
+    "  back: {width_mm: 20, thickness_mm: 0.5, youngs_modulus_GPa: 60}\n";
+const char kRib[] = "  - {front_mm: 17, angle_deg: 10}\n";
+const char kGauge[] = "  - {beam: back, start_mm: 30, length_mm: 18}\n";
+
+void ExpectError(const std::string& text, const std::string& message) {
+  const TempFolder folder;
+  const std::string path = folder.Write("f.yaml", text);
+  EXPECT_THAT([&] { ReadFinger(path); },
+              ThrowsMessage<InputError>(HasSubstr(message)));
+}
+
+TEST(FingerYamlTest, ReadsStiffnessOrPlate) {
+  const TempFolder folder;
+  const Finger finger =
+      ReadFinger(folder.Write("f.yaml", Text(kBeams, kRib, kGauge)));
+  EXPECT_EQ(finger.front_stiffness_N_mm2, 12500);
+  EXPECT_NEAR(finger.back_stiffness_N_mm2, 60e3 * 20 * 0.125 / 12, 1e-9);
+  EXPECT_EQ(finger.gauges[0].noise_V, 3e-4);
+}
+
+TEST(FingerYamlTest, RoundTripIsExact) {
+  Finger finger = PaperFinger();
+  finger.name = "odd: name # here";
+  finger.back_angle_rad = 1.9547687622336491 + 1e-15;
+  finger.ribs[1].length_mm = 38.1 + 1e-13;
+  finger.ribs[2].axial_stiffness_N = 1e4 / 3;
+  finger.gauges[2].gain_V_per_rad = -2.0 / 3;
+  const TempFolder folder;
+  const Finger back = ReadFinger(
+      folder.Write("f.yaml", FingerToYaml(finger, "two\nlines of comment")));
+  EXPECT_EQ(back.name, finger.name);
+  EXPECT_EQ(back.back_angle_rad, finger.back_angle_rad);
+  EXPECT_EQ(back.front_stiffness_N_mm2, finger.front_stiffness_N_mm2);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(back.ribs[i].front_mm, finger.ribs[i].front_mm);
+    EXPECT_EQ(back.ribs[i].back_mm, finger.ribs[i].back_mm);
+    EXPECT_EQ(back.ribs[i].length_mm, finger.ribs[i].length_mm);
+    EXPECT_EQ(back.ribs[i].axial_stiffness_N, finger.ribs[i].axial_stiffness_N);
+  }
+  EXPECT_EQ(back.gauges[2].gain_V_per_rad, finger.gauges[2].gain_V_per_rad);
+}
+
+TEST(FingerYamlTest, EveryBundledFingerReads) {
+  EXPECT_EQ(PaperFinger().ribs.size(), 5u);
+  const Finger printed =
+      ReadFinger(FINRAY_SOURCE_DIR "/configs/fingers/printed_100mm.yaml");
+  EXPECT_EQ(printed.gauges.size(), 3u);
+  EXPECT_NEAR(printed.front_stiffness_N_mm2, 9604, 1e-6);
+}
+
+TEST(FingerYamlTest, RefusesWhatCannotBeBuilt) {
+  ExpectError(
+      Text(kBeams, "  - {front_mm: 17, angle_deg: 10, lenght_mm: 3}\n", kGauge),
+      "f.yaml:8:35: unknown key 'lenght_mm' in ribs[1] (did you mean "
+      "'length_mm'?)");
+  ExpectError(
+      Text("  front: {bending_stiffness_N_mm2: -3}\n"
+           "  back: {bending_stiffness_N_mm2: 3}\n",
+           kRib, kGauge),
+      "f.yaml:5:36: bending_stiffness_N_mm2: expected a number above 0, "
+      "found '-3'");
+  ExpectError(
+      Text(kBeams, "  - {front_mm: 17, angle_deg: -40}\n", kGauge),
+      "f.yaml:8:31: the rib misses the back beam: it would meet it at ");
+  ExpectError(Text(kBeams, "  - {front_mm: 150, angle_deg: 10}\n", kGauge),
+              "the rib leaves the front beam, which is 140 mm long");
+  ExpectError(
+      Text(kBeams, kRib, "  - {beam: back, start_mm: 140, length_mm: 18}\n"),
+      "f.yaml:10:28: the gauge ends at 158 mm, off its beam, which is "
+      "150.995 mm long");
+  ExpectError(
+      Text(kBeams, kRib, "  - {beam: side, start_mm: 1, length_mm: 2}\n"),
+      "beam: expected one of front, back, found 'side'");
+  ExpectError(
+      Text(kBeams, std::string("  - {front_mm: 39, angle_deg: 13}\n") + kRib,
+           kGauge),
+      "ribs must be listed from base to tip");
+  ExpectError(Text(kBeams,
+                   "  - {front_mm: 17, back_mm: 60}\n"
+                   "  - {front_mm: 39, back_mm: 50}\n",
+                   kGauge),
+              "ribs 1 and 2 cross");
+  ExpectError(
+      Text(kBeams, "  - {front_mm: 17, back_mm: 60, angle_deg: 3}\n", kGauge),
+      "either angle_deg or back_mm");
+  ExpectError(Text("  front: {bending_stiffness_N_mm2: 3, width_mm: 1}\n"
+                   "  back: {bending_stiffness_N_mm2: 3}\n",
+                   kRib, kGauge),
+              "either bending_stiffness_N_mm2 or the plate");
+  ExpectError(
+      Text("  front: {bending_stiffness_N_mm2: 3, axial_stiffness_N: 1}\n"
+           "  back: {bending_stiffness_N_mm2: 3}\n",
+           kRib, kGauge),
+      "beams are taken as inextensible");
+  ExpectError("schema_version: 2\n", "f.yaml:1:17: schema_version: expected 1");
+  ExpectError(
+      "schema_version: 1\nname: x\n"
+      "geometry: {front_length_mm: 140, back_angle_deg: 80}\n",
+      "back_angle_deg: expected an angle between 90 and 180");
+}
+
+}  // namespace
+}  // namespace finray

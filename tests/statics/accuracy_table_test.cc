@@ -1,0 +1,188 @@
+// Prints the tables of docs/statics.md: accuracy and time by mesh and order.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "finray/statics/equilibrium.h"
+#include "finray/statics/taylor_element.h"
+#include "statics/beam_ode.h"
+#include "statics/special_cases.h"
+
+namespace finray {
+namespace {
+
+constexpr double kFrontLength = 140;
+constexpr double kStiffness = 12500;
+
+// One contact over the whole beam and range of forces.
+std::vector<Case> GridCases() {
+  std::vector<Case> cases;
+  for (double arc = 5; arc <= 135; arc += 5) {
+    for (const double force : {0.05, 0.2, 1.0, 3.0, 8.0, 20.0}) {
+      cases.push_back(
+          {"l_c " + std::to_string(arc) + ", f_c " + std::to_string(force),
+           PaperFinger(),
+           {{arc, force, 0}}});
+    }
+  }
+  return cases;
+}
+
+// Largest differences of tip (of l_0), gauges and rib forces (of the largest).
+struct Difference {
+  double tip, gauges, ribs;
+};
+
+Difference Compare(const EquilibriumSolver& a, const EquilibriumSolver& b) {
+  Difference d;
+  d.tip = (a.tip_pose() - b.tip_pose()).head<2>().norm() / kFrontLength;
+  const int m = b.model().gauges(), r = b.model().ribs();
+  const Eigen::VectorXd gauges = b.outputs().head(m);
+  d.gauges = (a.outputs().head(m) - gauges).cwiseAbs().maxCoeff() /
+             gauges.cwiseAbs().maxCoeff();
+  const Eigen::VectorXd ribs = b.state().q.tail(r);
+  d.ribs = (a.state().q.tail(r) - ribs).cwiseAbs().maxCoeff() /
+           ribs.cwiseAbs().maxCoeff();
+  return d;
+}
+
+Difference WorstOverGrid(const Discretization& first,
+                         const Discretization& second) {
+  Difference worst{0, 0, 0};
+  EquilibriumSolver a(PaperFinger(), first), b(PaperFinger(), second);
+  for (const Case& at : GridCases()) {
+    EXPECT_TRUE(a.Solve(at.contacts)) << at.name;
+    EXPECT_TRUE(b.Solve(at.contacts)) << at.name;
+    const Difference d = Compare(a, b);
+    worst.tip = std::max(worst.tip, d.tip);
+    worst.gauges = std::max(worst.gauges, d.gauges);
+    worst.ribs = std::max(worst.ribs, d.ribs);
+  }
+  return worst;
+}
+
+TEST(AccuracyTableTest, MeshDoubling) {
+  std::printf(
+      "| elements | tip / l_0 | gauges | rib forces |\n"
+      "|---|---|---|---|\n");
+  for (const int elements : {14, 24, 48}) {
+    const Difference d = WorstOverGrid({Scheme::kTaylor, elements},
+                                       {Scheme::kTaylor, 2 * elements});
+    std::printf("| %d, %d | %.1e | %.1e | %.1e |\n", elements, 2 * elements,
+                d.tip, d.gauges, d.ribs);
+    if (elements < 24) continue;
+    EXPECT_LT(d.tip, 1e-9);
+    EXPECT_LT(d.gauges, 1e-9);
+    EXPECT_LT(d.ribs, 1e-9);
+  }
+}
+
+TEST(AccuracyTableTest, ErrorAndTime) {
+  const Discretization choices[] = {
+      {Scheme::kRigidChain, 100}, {Scheme::kRigidChain, 200},
+      {Scheme::kRigidChain, 400}, {Scheme::kTaylor, 12},
+      {Scheme::kTaylor, 24},      {Scheme::kTaylor, 48}};
+  std::printf(
+      "| scheme | resolution | tip / l_0 | gauges | rib forces | us a "
+      "warm solve |\n|---|---|---|---|---|---|\n");
+  for (const Discretization& choice : choices) {
+    const Difference d = WorstOverGrid(choice, {Scheme::kTaylor, 96});
+    EquilibriumSolver solver(PaperFinger(), choice);
+    constexpr int kFrames = 1000;
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < kFrames; ++i) {
+      const double u = static_cast<double>(i) / kFrames;
+      ASSERT_TRUE(solver.Solve(
+          {{70 + 30 * std::sin(2 * u), 3 + 2 * std::sin(9 * u), 0}}));
+    }
+    const double us = std::chrono::duration<double, std::micro>(
+                          std::chrono::steady_clock::now() - start)
+                          .count() /
+                      kFrames;
+    std::printf("| %s | %d | %.1e | %.1e | %.1e | %.1f |\n",
+                SchemeName(choice.scheme).c_str(), choice.resolution, d.tip,
+                d.gauges, d.ribs, us);
+    if (choice.scheme == Scheme::kTaylor) {
+      EXPECT_LT(d.gauges, 1e-4);
+    }
+  }
+}
+
+// Error and time of one element by order, over the elements that the default
+// mesh of the paper's finger makes at 20 N.
+class OrderTable {
+ public:
+  OrderTable() {
+    EquilibriumSolver solver(PaperFinger(), {});
+    for (double arc = 5; arc <= 135; arc += 5) {
+      const std::vector<PointContact> contacts = {{arc, 20, 0}};
+      EXPECT_TRUE(solver.Solve(contacts));
+      for (const auto& side : solver.Spans(contacts)) {
+        spans_.insert(spans_.end(), side.begin(), side.end());
+      }
+    }
+    for (const BeamSpan& span : spans_) {
+      exact_.push_back(
+          IntegrateBeam({0, 0, span.start.theta_rad, span.start.moment_N_mm},
+                        span.start.force_x_N, span.start.force_y_N, kStiffness,
+                        span.length_mm, 300));
+    }
+  }
+
+  /// Prints a line and returns the worst error of the angle.
+  template <int K>
+  double Print() const {
+    TaylorElement<K> element;
+    double angle = 0, moment = 0;
+    for (std::size_t i = 0; i < spans_.size(); ++i) {
+      element.Compute(spans_[i].start, kStiffness, spans_[i].length_mm);
+      const double* end = element.map().end;
+      angle =
+          std::max(angle, std::abs(end[2] - static_cast<double>(exact_[i][2])));
+      moment = std::max(moment,
+                        std::abs(end[3] - static_cast<double>(exact_[i][3])));
+    }
+    volatile double keep = 0;
+    double fastest = 1e300;
+    for (int repeat = 0; repeat < 20; ++repeat) {
+      const auto start = std::chrono::steady_clock::now();
+      for (const BeamSpan& span : spans_) {
+        element.Compute(span.start, kStiffness, span.length_mm);
+        keep = element.map().end[2];
+      }
+      fastest = std::min(fastest, std::chrono::duration<double, std::nano>(
+                                      std::chrono::steady_clock::now() - start)
+                                      .count());
+    }
+    static_cast<void>(keep);
+    std::printf("| %d | %.1e | %.1e | %.0f |\n", K, angle, moment,
+                fastest / static_cast<double>(spans_.size()));
+    return angle;
+  }
+
+ private:
+  std::vector<BeamSpan> spans_;
+  std::vector<BeamOdeState> exact_;
+};
+
+TEST(AccuracyTableTest, OrderOfTheSeries) {
+  const OrderTable table;
+  std::printf(
+      "| order | angle, rad | moment, N mm | ns an element |\n"
+      "|---|---|---|---|\n");
+  const double order8 = table.Print<8>();
+  table.Print<10>();
+  const double order12 = table.Print<12>();
+  table.Print<14>();
+  const double order16 = table.Print<16>();
+  table.Print<20>();
+  EXPECT_LT(order12, 0.1 * order8);
+  EXPECT_LT(order16, 1e-11);
+}
+
+}  // namespace
+}  // namespace finray
