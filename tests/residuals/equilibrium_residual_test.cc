@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "finray/residuals/gauge_reading_residual.h"
-#include "finray/residuals/parameter_prior_residual.h"
 #include "finray/residuals/rib_length_residual.h"
 #include "residuals_fixture.h"
 
@@ -89,18 +88,6 @@ TEST_P(EquilibriumResidualTest, WeightedAgreesWithReduced) {
   EXPECT_NEAR(found[0][0], found[1][0], 1e-4);
   EXPECT_NEAR(found[0][1], found[1][1], 1e-5);
   EXPECT_NEAR(found[0][0], 82, 3);
-}
-
-TEST(ParameterPriorResidualTest, IsTheDistanceInStd) {
-  const std::unique_ptr<ceres::CostFunction> cost(
-      ParameterPriorResidual::Create(Eigen::Vector2d(1, 10),
-                                     Eigen::Vector2d(0.5, 4)));
-  const double x[2] = {2, 8};
-  const double* blocks[] = {x};
-  double residuals[2];
-  ASSERT_TRUE(cost->Evaluate(blocks, residuals, nullptr));
-  EXPECT_DOUBLE_EQ(residuals[0], 2);
-  EXPECT_DOUBLE_EQ(residuals[1], -0.5);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <deque>
 
@@ -18,14 +19,17 @@ TEST(FrameSetTest, ThreadsDoNotChangeAnything) {
   std::vector<Eigen::VectorXd> first;
   for (const int threads : {1, 2}) {
     FrameSet frames(finger, {}, EquilibriumForm::kReduced, &shared, threads);
-    for (auto& contact : contacts) frames.Add(1, 0, contact.data());
+    for (auto& contact : contacts) {
+      frames.Add(1, 0, contact.data());
+      frames.Add(0, 0, nullptr);
+    }
     frames.PrepareForEvaluation(true, true);
     for (std::size_t i = 0; i < frames.size(); ++i) {
       ASSERT_TRUE(frames[i].valid());
       if (threads == 1) {
         first.push_back(frames[i].outputs());
       } else {
-        EXPECT_EQ(frames[i].outputs(), first[i]);
+        EXPECT_EQ(frames[i].outputs(), first[i]) << i;
       }
     }
   }

@@ -184,5 +184,41 @@ TEST(AccuracyTableTest, OrderOfTheSeries) {
   EXPECT_LT(order16, 1e-11);
 }
 
+// How hard a finger can be loaded: cold solves, and what doubling the mesh
+// moves the tip by.
+TEST(AccuracyTableTest, RangeOfLoads) {
+  std::printf(
+      "| f_c, N | f_c l_0^2 / EI | solved | 24, 48: tip, mm | "
+      "48, 96: tip, mm |\n|---|---|---|---|---|\n");
+  for (const double force : {10.0, 20.0, 50.0, 100.0, 200.0, 500.0}) {
+    int solved = 0, cases = 0;
+    double worst[2] = {0, 0};
+    for (double arc = 5; arc <= 135; arc += 5) {
+      const std::vector<PointContact> contacts = {{arc, force, 0}};
+      Eigen::Vector3d tip[3];
+      bool all = true;
+      for (int i = 0; i < 3; ++i) {
+        EquilibriumSolver solver(PaperFinger(), {Scheme::kTaylor, 24 << i});
+        const bool found = solver.Solve(contacts);
+        if (i == 0) solved += found;
+        all = all && found;
+        if (found) tip[i] = solver.tip_pose();
+      }
+      ++cases;
+      if (!all) continue;
+      for (int i = 0; i < 2; ++i) {
+        worst[i] = std::max(worst[i], (tip[i + 1] - tip[i]).head<2>().norm());
+      }
+    }
+    std::printf("| %g | %.0f | %d of %d | %.1e | %.1e |\n", force,
+                force * kFrontLength * kFrontLength / kStiffness, solved, cases,
+                worst[0], worst[1]);
+    if (force <= 50) {
+      EXPECT_EQ(solved, cases) << force;
+      EXPECT_LT(worst[0], 1e-6) << force;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace finray

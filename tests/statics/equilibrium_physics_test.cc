@@ -295,6 +295,8 @@ TEST_P(EquilibriumPhysicsTest, SensitivitiesMatchCentralDifferences) {
       {{52.3, 3, 0.2}, {90, 1, -0.1}},
       {{12, 2, 0}, {38.3, 5, 0.3}},
       {{64.1, 2, 0}, {66.2, 3, 0.1}},
+      {{47.6, 3, 0.1}, {29.6, 2, 0}},  // beside the ends of a gauge, in the
+      {{48.3, 3, 0.1}, {30.4, 2, 0}},  // same link
       {{128, 4, 0}, {100, 0.5, 0}},
       {{45, 15, 0}},
   };

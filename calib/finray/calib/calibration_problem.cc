@@ -56,6 +56,8 @@ CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
   options.evaluation_callback = &frames_;
   problem_ = std::make_unique<ceres::Problem>(options);
   contact_of_frame_.assign(logs_.frames.size(), -1);
+  contacts_.reserve(logs_.frames.size());
+  GuessOffsets();
   for (std::size_t i = 0; i < logs_.frames.size(); ++i) {
     if (!logs_.frames[i].held_out) AddFrame(static_cast<int>(i));
   }
@@ -154,9 +156,50 @@ void CalibrationProblem::GuessContact(int index, double* contact) {
   if (std::isfinite(frame.contact_mm)) {
     contact[0] = std::clamp(frame.contact_mm, 0.0, length);
   }
+  const bool placed =
+      std::isfinite(frame.contact_mm) ||
+      (frame.object_mm.allFinite() && plan_.scene.circle_radius_mm);
+  if (!placed) GuessContactFromGauges(frame, contact);
   const double force =
       frame.force_xy_N.allFinite() ? frame.force_xy_N.norm() : frame.force_N;
   if (std::isfinite(force)) contact[1] = std::max(force, 0.0);
+}
+
+// The nominal finger and gains know the place to a few bays, which is enough.
+void CalibrationProblem::GuessContactFromGauges(const CalibrationFrame& frame,
+                                                double* contact) {
+  if (!guess_table_) {
+    guess_table_ = std::make_unique<GaugeTable>(&guess_solver_);
+  }
+  const auto gauges = static_cast<Eigen::Index>(frame.gauges_V.size());
+  Eigen::VectorXd angles = Eigen::VectorXd::Zero(gauges);
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(gauges);
+  for (Eigen::Index j = 0; j < gauges; ++j) {
+    if (!std::isfinite(frame.gauges_V[j])) continue;
+    const double gain = parameters_.gains_V_per_rad[j];
+    angles[j] = (frame.gauges_V[j] - parameters_.offsets_V[j]) / gain;
+    weights[j] = std::abs(gain) / gauge_std_V(static_cast<int>(j));
+  }
+  std::vector<GaugeTable::Start> starts;
+  guess_table_->FindStarts(angles, weights, &starts);
+  contact[0] = starts[0].arc_mm;
+  contact[1] = starts[0].normal_N;
+}
+
+// Offsets are what the gauges read in free frames, to begin with.
+void CalibrationProblem::GuessOffsets() {
+  if (!plan_.family(ParameterFamily::kGaugeOffset).free) return;
+  for (std::size_t j = 0; j < parameters_.offsets_V.size(); ++j) {
+    double sum = 0;
+    int count = 0;
+    for (const CalibrationFrame& frame : logs_.frames) {
+      if (frame.contact || frame.held_out) continue;
+      if (!std::isfinite(frame.gauges_V[j])) continue;
+      sum += frame.gauges_V[j];
+      ++count;
+    }
+    if (count > 0) parameters_.offsets_V[j] = sum / count;
+  }
 }
 
 void CalibrationProblem::AddPriors() {
@@ -217,7 +260,10 @@ CalibrationProblem::SolveReport CalibrationProblem::Solve() {
     auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
     std::vector<double*> all;
     problem_->GetParameterBlocks(&all);
-    for (double* block : all) ordering->AddElementToGroup(block, 1);
+    // A group of its own for each shared block: within a group Ceres orders by
+    // address, and results would depend on where the heap put things.
+    int group = 1;
+    for (double* block : all) ordering->AddElementToGroup(block, group++);
     for (auto& contact : contacts_) {
       ordering->AddElementToGroup(contact.data(), 0);
     }

@@ -5,7 +5,6 @@
 #include <ceres/problem.h>
 
 #include <array>
-#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "finray/calib/calibration_log.h"
 #include "finray/calib/parameters.h"
 #include "finray/calib/plan.h"
+#include "finray/sensing/gauge_table.h"
 
 namespace finray {
 
@@ -75,7 +75,9 @@ class CalibrationProblem {
   void AddMeasurement(ceres::CostFunction* cost, ResidualFamily family,
                       int frame, int gauge, const std::vector<double*>& blocks);
   void AddPriors();
+  void GuessOffsets();
   void GuessContact(int index, double* contact);
+  void GuessContactFromGauges(const CalibrationFrame& frame, double* contact);
   void FixWhatIsNotFree();
 
   Finger finger_;
@@ -83,10 +85,13 @@ class CalibrationProblem {
   CalibrationLogs logs_;
   CalibrationParameters parameters_;
   EquilibriumSolver guess_solver_;
+  std::unique_ptr<GaugeTable> guess_table_;  // made when needed
   FrameSet frames_;
   std::unique_ptr<ceres::LossFunction> loss_;
   std::unique_ptr<ceres::Problem> problem_;
-  std::deque<std::array<double, 2>> contacts_;  // fixed addresses
+  // In one piece and never moved: Ceres knows blocks by their addresses, and
+  // eliminates them in that order.
+  std::vector<std::array<double, 2>> contacts_;
   std::vector<int> contact_of_frame_;           // index into contacts_, or -1
   std::vector<ceres::ResidualBlockId> blocks_;
   std::vector<ResidualInfo> block_info_;

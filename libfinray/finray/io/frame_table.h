@@ -2,6 +2,7 @@
 #define FINRAY_IO_FRAME_TABLE_H_
 
 #include <cstddef>
+#include <deque>
 #include <map>
 #include <string>
 #include <variant>
@@ -61,7 +62,7 @@ class FrameTable {
   std::size_t rows_ = 0;
   std::string path_;
   std::vector<int> lines_;
-  std::vector<Column> columns_;
+  std::deque<Column> columns_;  // references survive new columns
 };
 
 }  // namespace finray

@@ -14,6 +14,16 @@ std::string Lower(std::string text) {
   return text;
 }
 
+// Letters and digits only: gauge4_V is gauge_4_V, not the equally near
+// gauge_1_V.
+std::string Bare(const std::string& text) {
+  std::string bare;
+  for (const char c : Lower(text)) {
+    if (std::isalnum(static_cast<unsigned char>(c))) bare += c;
+  }
+  return bare;
+}
+
 // Levenshtein distance.
 std::size_t EditDistance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -37,6 +47,9 @@ std::string NearestName(const std::string& name,
   // Hostile names may be megabytes long; no key is.
   constexpr std::size_t kLongestName = 80;
   if (name.size() > kLongestName) return "";
+  for (const std::string& candidate : candidates) {
+    if (Bare(candidate) == Bare(name)) return candidate;
+  }
   std::string nearest;
   std::size_t best = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const std::string& candidate : candidates) {

@@ -121,7 +121,7 @@ SimulationSummary Simulate(const Finger& finger, const Scene& scene,
     objects |= all.back().object;
   }
   const int contacts = std::max(loads.contacts(), objects ? 1 : 0);
-  // Columns first: MutableNumbers may move those already handed out.
+  // In the order in which they shall stand.
   std::vector<std::string> names;
   for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
     names.insert(names.end(), {GaugeVolts(j), GaugeAngle(j)});

@@ -1,0 +1,246 @@
+// The executables as a user meets them: files in, files out, messages, codes.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <yaml-cpp/yaml.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "finray/io/frame_table.h"
+#include "temp_file.h"
+#include "test_finger.h"
+
+namespace finray {
+namespace {
+
+using testing::HasSubstr;
+
+struct Outcome {
+  int code;
+  std::string output;  // both streams
+};
+
+class CommandLineTest : public testing::Test {
+ protected:
+  // `%` in the arguments stands for the test's folder.
+  Outcome Run(const std::string& app, std::string arguments) {
+    for (std::size_t at; (at = arguments.find('%')) != std::string::npos;) {
+      arguments.replace(at, 1, folder_.Path(""));
+    }
+    const std::string command =
+        FINRAY_BINARY_DIR "/" + app + " " + arguments + " 2>&1";
+    FILE* pipe = popen(command.c_str(), "r");
+    Outcome outcome;
+    std::array<char, 4096> buffer;
+    while (std::fgets(buffer.data(), buffer.size(), pipe) != nullptr) {
+      outcome.output += buffer.data();
+    }
+    const int status = pclose(pipe);
+    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return outcome;
+  }
+
+  // Exit code 2, one line that says `message`, and no output file.
+  void ExpectBadInput(const std::string& app, const std::string& arguments,
+                      const std::string& message) {
+    const Outcome outcome = Run(app, arguments);
+    EXPECT_EQ(outcome.code, 2) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(message));
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1)
+        << outcome.output;
+    EXPECT_FALSE(std::filesystem::exists(folder_.Path("out")));
+  }
+
+  const std::string paper_ =
+      FINRAY_SOURCE_DIR "/configs/fingers/paper_140mm.yaml";
+  const std::string plan_ =
+      FINRAY_SOURCE_DIR "/configs/plans/force_and_circle.yaml";
+  const std::string data_ = FINRAY_SOURCE_DIR "/datasets/simulated_r15/";
+  TempFolder folder_;
+};
+
+TEST_F(CommandLineTest, SimulateThenEstimate) {
+  folder_.Write("in.csv",
+                "contact_1_mm,normal_1_N,note\n50,2,a\n90.5,0.7,b\n,,c\n");
+  Outcome outcome =
+      Run("finray_simulate",
+          "--finger " + paper_ +
+              " --frames %in.csv --out %out.csv --shape_out %shape.csv");
+  ASSERT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_EQ(outcome.output.substr(0, outcome.output.find('\n')),
+            folder_.Path("") + "out.csv");
+  EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 6);
+  EXPECT_EQ(FrameTable::Read(folder_.Path("shape.csv")).rows(), 3u * 202u);
+  folder_.Write("scene.yaml", "contacts: auto\n");
+  outcome = Run("finray_estimate",
+                "--finger " + paper_ +
+                    " --scene %scene.yaml --logs %out.csv --out_dir %est");
+  ASSERT_EQ(outcome.code, 0) << outcome.output;
+  FrameTable frames = FrameTable::Read(folder_.Path("est/out.frames.csv"));
+  EXPECT_NEAR(frames.Numbers("contact_1_mm")[0], 50, 1e-5);
+  EXPECT_NEAR(frames.Numbers("normal_1_N")[1], 0.7, 1e-6);
+  EXPECT_EQ(frames.MutableText("status")[0], "ok");
+  EXPECT_EQ(frames.MutableText("status")[2], "no_contact");
+  EXPECT_EQ(frames.MutableText("note")[2], "c");
+  const YAML::Node summary = YAML::LoadFile(folder_.Path("est/summary.yaml"));
+  EXPECT_EQ(summary["all"]["frames"].as<int>(), 3);
+  EXPECT_LT(summary["all"]["force_rms_error_N"].as<double>(), 1e-6);
+}
+
+TEST_F(CommandLineTest, CalibrateTheBundledLog) {
+  const Outcome outcome = Run(
+      "finray_calibrate", "--finger " + paper_ + " --plan " + plan_ +
+                              " --logs " + data_ + "train.csv --out_dir %cal");
+  ASSERT_EQ(outcome.code, 0) << outcome.output;
+  const Finger truth = ReadFinger(data_ + "hidden_finger.yaml");
+  const YAML::Node result =
+      YAML::LoadFile(folder_.Path("cal/calibration.yaml"));
+  EXPECT_EQ(result["verdict"].as<std::string>(), "good");
+  int checked = 0;
+  for (const YAML::Node& p : result["parameters"]) {
+    const std::string name = p["name"].as<std::string>();
+    double expected = std::nan("");
+    if (name == "front_stiffness_N_mm2") expected = truth.front_stiffness_N_mm2;
+    if (name == "back_stiffness_N_mm2") expected = truth.back_stiffness_N_mm2;
+    for (int j = 0; j < 4; ++j) {
+      const std::string gauge = "gauge_" + std::to_string(j + 1);
+      if (name == gauge + "_gain_V_per_rad") {
+        expected = truth.gauges[j].gain_V_per_rad;
+      }
+      if (name == gauge + "_offset_V") expected = truth.gauges[j].offset_V;
+    }
+    for (int i = 0; i < 5; ++i) {
+      if (name == "rib_" + std::to_string(i + 1) + "_length_mm") {
+        expected = truth.ribs[i].length_mm;
+      }
+    }
+    if (std::isnan(expected)) {
+      EXPECT_EQ(p["status"].as<std::string>(), "fixed");
+      continue;
+    }
+    ++checked;
+    EXPECT_EQ(p["status"].as<std::string>(), "estimated");
+    EXPECT_LT(std::abs(p["value"].as<double>() - expected),
+              4 * p["std"].as<double>())
+        << name;
+  }
+  EXPECT_EQ(checked, 15);
+  const std::string report = folder_.Read("cal/report.html");
+  EXPECT_THAT(report, HasSubstr("Every free parameter is determined"));
+  EXPECT_THAT(report, testing::Not(HasSubstr("src=\"http")));
+
+  // The result is a finger that every other tool reads.
+  const Outcome estimate =
+      Run("finray_estimate", "--finger %cal/finger.yaml --logs " + data_ +
+                                 "holdout.csv --out_dir %est");
+  ASSERT_EQ(estimate.code, 0) << estimate.output;
+  const YAML::Node summary = YAML::LoadFile(folder_.Path("est/summary.yaml"));
+  EXPECT_LT(summary["all"]["force_rms_error_N"].as<double>(), 0.2);
+}
+
+TEST_F(CommandLineTest, AnUndeterminedParameterFailsTheGate) {
+  FrameTable log = FrameTable::Read(data_ + "train.csv");
+  log.MutableNumbers("force_N").assign(log.rows(), std::nan(""));
+  log.Write(folder_.Path("blind.csv"));
+  const Outcome outcome =
+      Run("finray_calibrate", "--finger " + paper_ + " --plan " + plan_ +
+                                  " --logs %blind.csv --out_dir %cal");
+  EXPECT_EQ(outcome.code, 4) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              HasSubstr("front and back stiffness and all forces scale "
+                        "together"));
+  EXPECT_THAT(folder_.Read("cal/calibration.yaml"),
+              HasSubstr("status: unidentifiable"));
+}
+
+TEST_F(CommandLineTest, UsageErrorsAreOne) {
+  const Outcome missing = Run("finray_simulate", "--out %out");
+  EXPECT_EQ(missing.code, 1);
+  EXPECT_THAT(missing.output, HasSubstr("--finger is missing; see --help"));
+  EXPECT_EQ(Run("finray_estimate", "--fingre x").code, 1);
+  EXPECT_EQ(Run("finray_estimate", "stray").code, 1);
+}
+
+TEST_F(CommandLineTest, BadInputIsTwoAndOneLine) {
+  const std::string simulate =
+      "--finger " + paper_ + " --frames %in.csv --out %out";
+  const std::string estimate =
+      "--finger " + paper_ + " --logs %in.csv --out_dir %out";
+  const auto finger = [&](const std::string& from, const std::string& to) {
+    std::ostringstream text;
+    text << std::ifstream(paper_).rdbuf();
+    std::string changed = text.str();
+    changed.replace(changed.find(from), from.size(), to);
+    folder_.Write("bad.yaml", changed);
+    folder_.Write("in.csv", "contact_1_mm,normal_1_N\n50,2\n");
+    return std::string("--finger %bad.yaml --frames %in.csv --out %out");
+  };
+  // unknown key
+  ExpectBadInput("finray_simulate", finger("angle_deg: 13", "angel_deg: 13"),
+                 "bad.yaml:11:20: unknown key 'angel_deg' in ribs[2] (did you "
+                 "mean 'angle_deg'?)");
+  // negative stiffness
+  ExpectBadInput("finray_simulate", finger("12500", "-12500"),
+                 "bad.yaml:7:36: bending_stiffness_N_mm2: expected a number "
+                 "above 0, found '-12500'");
+  // rib that misses the back beam
+  ExpectBadInput("finray_simulate", finger("angle_deg: 22", "angle_deg: -75"),
+                 "the rib misses the back beam");
+  // gauge off the beam
+  ExpectBadInput("finray_simulate", finger("start_mm: 98", "start_mm: 140"),
+                 "the gauge ends at 158 mm, off its beam");
+  // missing column
+  folder_.Write("in.csv", "gauge_1_V,gauge_2_V,gauge_3_V,gauge4_V\n1,1,1,1\n");
+  ExpectBadInput("finray_estimate", estimate,
+                 "in.csv: no column 'gauge_4_V' (did you mean 'gauge4_V'?)");
+  // non-numeric cell
+  folder_.Write("in.csv", "contact_1_mm,normal_1_N\n50,2N\n");
+  ExpectBadInput("finray_simulate", simulate,
+                 "in.csv:2:2: normal_1_N: expected a number, found '2N'");
+  // empty log, log without rows, no log
+  folder_.Write("in.csv", "");
+  ExpectBadInput("finray_estimate", estimate, "in.csv: is empty");
+  folder_.Write("in.csv", "gauge_1_V\n");
+  ExpectBadInput("finray_estimate", estimate, "has a header but no rows");
+  ExpectBadInput("finray_estimate",
+                 "--finger " + paper_ + " --logs %none.csv --out_dir %out",
+                 "none.csv: cannot be read: No such file or directory");
+  ExpectBadInput("finray_estimate",
+                 "--finger %none.yaml --logs %in.csv --out_dir %out",
+                 "none.yaml: cannot be read");
+  // load off the finger, unknown scheme, unwritable output
+  folder_.Write("in.csv", "contact_1_mm,normal_1_N\n150,2\n");
+  ExpectBadInput("finray_simulate", simulate, "in.csv:2: contact_1_mm");
+  ExpectBadInput("finray_simulate", simulate + " --scheme tailor",
+                 "did you mean 'taylor'?");
+  folder_.Write("in.csv", "contact_1_mm,normal_1_N\n50,2\n");
+  ExpectBadInput("finray_simulate",
+                 "--finger " + paper_ + " --frames %in.csv --out %no/out",
+                 "no/out: cannot be written");
+  // plan
+  folder_.Write("plan.yaml",
+                "schema_version: 1\nparameters: {rib_lenght: {}}\n");
+  ExpectBadInput("finray_calibrate",
+                 "--finger " + paper_ + " --plan %plan.yaml --logs " + data_ +
+                     "train.csv --out_dir %out",
+                 "plan.yaml:2:14: unknown key 'rib_lenght' in parameters");
+}
+
+TEST_F(CommandLineTest, ARowWithoutSolutionIsMarkedAndStrictFails) {
+  folder_.Write("in.csv", "contact_1_mm,normal_1_N\n50,2\n70,1e9\n");
+  const std::string arguments =
+      "--finger " + paper_ + " --frames %in.csv --out %out.csv";
+  const Outcome outcome = Run("finray_simulate", arguments);
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("in.csv:3: no equilibrium found"));
+  FrameTable frames = FrameTable::Read(folder_.Path("out.csv"));
+  EXPECT_EQ(frames.MutableText("status")[1], "not_converged");
+  EXPECT_TRUE(std::isnan(frames.Numbers("tip_x_mm")[1]));
+  EXPECT_EQ(Run("finray_simulate", arguments + " --strict").code, 3);
+}
+
+}  // namespace
+}  // namespace finray

@@ -1,0 +1,242 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <random>
+
+#include "finray/calib/calibration_result.h"
+#include "finray/sensing/simulation.h"
+#include "temp_file.h"
+#include "test_finger.h"
+
+namespace finray {
+namespace {
+
+// A finger as it might come out of assembly when the paper's was meant.
+Finger HiddenFinger() {
+  Finger finger = PaperFinger();
+  finger.front_stiffness_N_mm2 *= 0.88;
+  finger.back_stiffness_N_mm2 *= 1.13;
+  const double gains[] = {1.8, 2.2, 1.6, 2.5};
+  const double offsets[] = {0.05, -0.03, 0.01, -0.06};
+  const double ribs[] = {0.3, -0.25, 0.15, -0.1, 0.2};
+  for (int j = 0; j < 4; ++j) {
+    finger.gauges[j].gain_V_per_rad = gains[j];
+    finger.gauges[j].offset_V = offsets[j];
+    // The standard log's noise is 3e-4 rad.
+    finger.gauges[j].noise_V = 3e-4 * gains[j];
+  }
+  for (int i = 0; i < 5; ++i) finger.ribs[i].length_mm += ribs[i];
+  return finger;
+}
+
+// 200 frames with a circle of R = 15 mm pressed in, 10 free ones.
+std::string StandardLog(const TempFolder& folder, const Finger& finger,
+                        unsigned seed) {
+  std::mt19937_64 generator(seed);
+  std::uniform_real_distribution<double> uniform;
+  FrameTable frames(210);
+  std::vector<double>& x = frames.MutableNumbers("object_x_mm");
+  std::vector<double>& y = frames.MutableNumbers("object_y_mm");
+  for (int i = 0; i < 210; ++i) {
+    y[i] = 22 + 90 * uniform(generator);
+    // Stiff near the base, soft in the middle: forces of 0.5 to 7 N or so.
+    const double stiffness = 0.85 + 6.5 * std::exp(-(y[i] - 22) / 10) +
+                             1.2 * std::exp((y[i] - 118) / 8);
+    x[i] =
+        i % 21 == 0 ? -25 : -15 + (0.5 + 6.5 * uniform(generator)) / stiffness;
+  }
+  frames.Write(folder.Path("frames.csv"));
+  frames = FrameTable::Read(folder.Path("frames.csv"));
+  Scene scene;
+  scene.circle_radius_mm = 15;
+  EXPECT_EQ(Simulate(finger, scene, {}, &frames).not_converged, 0);
+  MakeLog(finger, frames, {0.02, 0.05, seed}).Write(folder.Path("log.csv"));
+  return folder.Path("log.csv");
+}
+
+Plan StandardPlan() {
+  Plan plan;
+  plan.scene.circle_radius_mm = 15;
+  const double priors[] = {50, 50, 200, 1.0, 0.5};
+  for (int i = 0; i < 5; ++i) {
+    plan.families[i].free = true;
+    plan.families[i].prior_std = priors[i];
+  }
+  return plan;
+}
+
+// The nominal finger with unit gains and the true noise.
+Finger Nominal() {
+  Finger finger = PaperFinger();
+  for (int j = 0; j < 4; ++j) {
+    finger.gauges[j].noise_V = HiddenFinger().gauges[j].noise_V;
+  }
+  return finger;
+}
+
+std::vector<double> Truth(const Finger& finger) {
+  std::vector<double> truth = {std::log(finger.front_stiffness_N_mm2),
+                               std::log(finger.back_stiffness_N_mm2)};
+  for (const Gauge& gauge : finger.gauges) {
+    truth.push_back(gauge.gain_V_per_rad);
+  }
+  for (const Gauge& gauge : finger.gauges) truth.push_back(gauge.offset_V);
+  for (const Rib& rib : finger.ribs) truth.push_back(rib.length_mm);
+  return truth;
+}
+
+TEST(CalibrationTest, StandardLogIsWithinItsStd) {
+  const std::vector<double> truth = Truth(HiddenFinger());
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    const TempFolder folder;
+    const std::string log = StandardLog(folder, HiddenFinger(), seed);
+    const Plan plan = StandardPlan();
+    CalibrationProblem problem(
+        Nominal(), plan, ReadCalibrationLogs({log}, Nominal(), plan), {}, 2);
+    const CalibrationResult result = Calibrate(&problem, {}, 2);
+    EXPECT_TRUE(result.solve.converged);
+    EXPECT_TRUE(result.AllIdentified());
+    const CalibrationParameters& parameters = problem.parameters();
+    ASSERT_EQ(parameters.free().size(), 15u);
+    for (int i = 0; i < 15; ++i) {
+      const CalibrationParameter& p = parameters.all()[parameters.free()[i]];
+      const double std = result.identifiability.std[i];
+      EXPECT_LT(std::abs(*p.variable - truth[i]), 4 * std) << p.name;
+      EXPECT_EQ(result.identifiability.status[i], ParameterStatus::kEstimated);
+      if (i < 2) {
+        EXPECT_GT(std, 0.004);
+        EXPECT_LT(std, 0.013);
+      } else if (i < 6) {
+        EXPECT_LT(std / truth[i], 0.005) << p.name;
+        EXPECT_GT(std / truth[i], 0.0015) << p.name;
+      } else if (i >= 10) {
+        EXPECT_GT(std, 0.015) << p.name;
+        EXPECT_LT(std, 0.045) << p.name;
+      }
+    }
+    const auto& std = result.identifiability.std;
+    std::printf(
+        "seed %u: std of stiffness %.2f and %.2f %%, gain 1 %.2f %%, rib 3 "
+        "%.3f mm; force %.3f N rms
+        ",
+        seed,
+        100 * std[0], 100 * std[1], 100 * std[2] / truth[2], std[12],
+        result.forces.fitted.after_rms_N);
+    double chi2 = 0, dof = 0;
+    for (const auto& noise : result.identifiability.noise) {
+      chi2 += noise.chi2;
+      dof += noise.dof;
+    }
+    EXPECT_NEAR(chi2 / dof, 1, 0.15);
+    EXPECT_LT(result.forces.fitted.after_rms_N, 0.15);
+  }
+}
+
+TEST(CalibrationTest, StartsFarAwayAndArrives) {
+  const TempFolder folder;
+  const std::string log = StandardLog(folder, HiddenFinger(), 4);
+  const Plan plan = StandardPlan();
+  std::vector<double> found[2];
+  for (const bool far : {false, true}) {
+    Finger start = Nominal();
+    Plan free = plan;
+    for (int i = 0; i < 5; ++i) free.families[i].prior_std.reset();
+    if (far) {
+      start.front_stiffness_N_mm2 *= 2;
+      start.back_stiffness_N_mm2 *= 2;
+      for (Gauge& gauge : start.gauges) gauge.gain_V_per_rad *= 3;
+    }
+    CalibrationProblem problem(start, free,
+                               ReadCalibrationLogs({log}, start, free), {}, 2);
+    EXPECT_TRUE(problem.Solve().converged);
+    for (const int i : problem.parameters().free()) {
+      found[far].push_back(*problem.parameters().all()[i].variable);
+    }
+  }
+  for (int i = 0; i < 15; ++i) EXPECT_NEAR(found[0][i], found[1][i], 1e-5);
+}
+
+// What the tool must find out by itself.
+TEST(CalibrationTest, WithoutAForceSensorStiffnessIsFree) {
+  const TempFolder folder;
+  FrameTable log = FrameTable::Read(StandardLog(folder, HiddenFinger(), 5));
+  log.MutableNumbers("force_N").assign(210, std::nan(""));
+  log.Write(folder.Path("blind.csv"));
+  const Plan plan = StandardPlan();
+  CalibrationProblem problem(
+      Nominal(), plan,
+      ReadCalibrationLogs({folder.Path("blind.csv")}, Nominal(), plan), {}, 2);
+  const CalibrationResult result = Calibrate(&problem, {}, 2);
+  EXPECT_FALSE(result.AllIdentified());
+  EXPECT_EQ(result.identifiability.status[0], ParameterStatus::kUnidentifiable);
+  EXPECT_EQ(result.identifiability.status[1], ParameterStatus::kUnidentifiable);
+  EXPECT_EQ(result.identifiability.status[4], ParameterStatus::kEstimated);
+  ASSERT_FALSE(result.identifiability.weak.empty());
+  EXPECT_EQ(result.identifiability.weak[0].words,
+            "front and back stiffness and all forces scale together");
+  EXPECT_NE(result.identifiability.weak[0].remedy.find("force_N"),
+            std::string::npos);
+}
+
+TEST(CalibrationTest, WithForceButNoPlaceGainsRideOnStiffness) {
+  const TempFolder folder;
+  FrameTable log = FrameTable::Read(StandardLog(folder, HiddenFinger(), 6));
+  log.MutableNumbers("object_x_mm").assign(210, std::nan(""));
+  log.Write(folder.Path("placeless.csv"));
+  Plan plan = StandardPlan();
+  CalibrationProblem problem(
+      Nominal(), plan,
+      ReadCalibrationLogs({folder.Path("placeless.csv")}, Nominal(), plan), {},
+      2);
+  const auto solved = problem.Solve();
+  EXPECT_TRUE(solved.converged);
+  const Identifiability found = AnalyzeIdentifiability(&problem);
+  // gains of gauges 2 and 3
+  EXPECT_GT(found.correlation(3, 4), 0.9);
+}
+
+TEST(CalibrationTest, ThreadsDoNotChangeAnything) {
+  const TempFolder folder;
+  const std::string log = StandardLog(folder, HiddenFinger(), 7);
+  const Plan plan = StandardPlan();
+  std::string text[2];
+  for (const int threads : {1, 2}) {
+    CalibrationProblem problem(Nominal(), plan,
+                               ReadCalibrationLogs({log}, Nominal(), plan), {},
+                               threads);
+    const CalibrationResult result = Calibrate(&problem, {}, threads);
+    text[threads - 1] = CalibrationYaml(
+        problem, result, {log, log, {log}, "taylor", 0, "command"});
+  }
+  EXPECT_EQ(text[0], text[1]);
+}
+
+// Real measurements, where they are at hand. Nothing of this finger was fitted
+// by its authors to these rows.
+TEST(CalibrationTest, SteelFingerAgainstItsForceSensor) {
+  const std::string data = FINRAY_SOURCE_DIR "/../shared/data/";
+  if (!std::filesystem::exists(data + "steel_finger.yaml")) {
+    GTEST_SKIP() << "the measurements are not here";
+  }
+  const Finger finger = ReadFinger(data + "steel_finger.yaml");
+  const Plan plan =
+      ReadPlan(FINRAY_SOURCE_DIR "/configs/plans/two_gauges_circle_r20.yaml");
+  CalibrationProblem problem(
+      finger, plan,
+      ReadCalibrationLogs({data + "steel_finger_contact_circle_r20.csv"},
+                          finger, plan),
+      {}, 2);
+  const CalibrationResult result = Calibrate(&problem, {}, 2);
+  EXPECT_TRUE(result.solve.converged);
+  EXPECT_TRUE(result.AllIdentified());
+  std::printf("steel finger: force %.2f N rms before, %.2f N after\n",
+              result.forces.fitted.before_rms_N,
+              result.forces.fitted.after_rms_N);
+  EXPECT_GT(result.forces.fitted.before_rms_N, 2);
+  EXPECT_LT(result.forces.fitted.after_rms_N, 0.7);
+}
+
+}  // namespace
+}  // namespace finray

@@ -1,0 +1,74 @@
+#include "finray/calib/plan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "finray/io/error.h"
+#include "temp_file.h"
+
+namespace finray {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+Plan Load(const std::string& text) {
+  const TempFolder folder;
+  return ReadPlan(folder.Write("plan.yaml", text));
+}
+
+TEST(PlanTest, ReadsEverything) {
+  const Plan plan = Load(
+      "schema_version: 1\n"
+      "scene: {contacts: auto, object: {shape: circle, radius_mm: 15}}\n"
+      "parameters:\n"
+      "  front_stiffness: {prior_std_percent: 50}\n"
+      "  gauge_gain:      {}\n"
+      "  rib_length:      {prior_std_mm: 0.5}\n"
+      "  gauge_offset:    {fixed: true}\n"
+      "  gauge_drift:     {fixed: true}\n"
+      "measurements: {force_std_N: 0.03, gauge_std_V: 0.001, object_std_mm: "
+      "0.1, contact_std_mm: 0.2}\n"
+      "robust_loss: {type: cauchy, scale: 3}\n"
+      "holdout: {by: block, fraction: 0.25}\n");
+  EXPECT_EQ(plan.scene.circle_radius_mm, 15);
+  EXPECT_EQ(plan.family(ParameterFamily::kFrontStiffness).prior_std, 50);
+  EXPECT_TRUE(plan.family(ParameterFamily::kGaugeGain).free);
+  EXPECT_FALSE(plan.family(ParameterFamily::kGaugeGain).prior_std.has_value());
+  EXPECT_FALSE(plan.family(ParameterFamily::kGaugeOffset).free);
+  EXPECT_FALSE(plan.family(ParameterFamily::kBackStiffness).free);
+  EXPECT_EQ(plan.force_std_N, 0.03);
+  EXPECT_EQ(plan.gauge_std_V, 0.001);
+  EXPECT_EQ(plan.loss, RobustLoss::kCauchy);
+  EXPECT_EQ(plan.holdout_by, HoldoutBy::kBlock);
+}
+
+TEST(PlanTest, SceneMayBeAFileBesideThePlan) {
+  const TempFolder folder;
+  folder.Write("scene.yaml", "object: {shape: circle, radius_mm: 7}\n");
+  const Plan plan = ReadPlan(folder.Write(
+      "plan.yaml",
+      "schema_version: 1\nscene: scene.yaml\nparameters: {rib_length: {}}\n"));
+  EXPECT_EQ(plan.scene.circle_radius_mm, 7);
+}
+
+TEST(PlanTest, RefusesUnknownKeysAndUnits) {
+  const auto error = [](const std::string& text, const std::string& message) {
+    EXPECT_THAT([&] { Load("schema_version: 1\n" + text); },
+                ThrowsMessage<InputError>(HasSubstr(message)));
+  };
+  error("parameters: {rib_lenght: {}}\n",
+        "plan.yaml:2:14: unknown key 'rib_lenght' in parameters (did you mean "
+        "'rib_length'?)");
+  error("parameters: {rib_length: {prior_std_V: 1}}\n",
+        "unknown key 'prior_std_V' in rib_length (did you mean "
+        "'prior_std_mm'?)");
+  error("parameters: {gauge_drift: {prior_std_V_per_h: 1}}\n",
+        "gauge_drift cannot be estimated");
+  error("parameters: {rib_length: {prior_std_mm: -1}}\n", "a number above 0");
+  error("parameters: {}\nholdout: {by: day}\n", "expected one of log, block");
+  error("scene: {contacts: 2}\nparameters: {}\n", "one contact or none");
+}
+
+}  // namespace
+}  // namespace finray

@@ -1,0 +1,155 @@
+#include "finray/sensing/frame_estimator.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "finray/io/error.h"
+#include "test_finger.h"
+
+namespace finray {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+Scene OneContact() {
+  Scene scene;
+  scene.contacts = 1;
+  return scene;
+}
+
+std::vector<double> Volts(const EquilibriumSolver& solver) {
+  std::vector<double> volts;
+  const Finger& finger = solver.model().finger();
+  for (int j = 0; j < solver.model().gauges(); ++j) {
+    volts.push_back(finger.gauges[j].gain_V_per_rad * solver.gauge_angle(j) +
+                    finger.gauges[j].offset_V);
+  }
+  return volts;
+}
+
+TEST(FrameEstimatorTest, NoiseFreeGridFromACold) {
+  Finger finger = PaperFinger();
+  finger.gauges[1].gain_V_per_rad = -2.1;
+  finger.gauges[3].offset_V = 0.4;
+  FrameEstimator estimator(finger, OneContact(), {});
+  EquilibriumSolver solver(finger, {});
+  double worst_arc = 0, worst_force = 0;
+  int right = 0;
+  for (int i = 0; i < 30; ++i) {
+    for (int j = 0; j < 20; ++j) {
+      const double arc = 15 + (112 - 15) * i / 29.0;
+      const double force = 0.1 * std::pow(100, j / 19.0);
+      ASSERT_TRUE(solver.Solve({{arc, force, 0}}));
+      const FrameEstimate estimate = estimator.Estimate(Volts(solver));
+      const double arc_error = std::abs(estimate.contact_mm - arc);
+      const double force_error = std::abs(estimate.normal_N / force - 1);
+      right += arc_error < 1e-5 && force_error < 1e-6;
+      worst_arc = std::max(worst_arc, arc_error);
+      worst_force = std::max(worst_force, force_error);
+    }
+  }
+  std::printf("30 x 20 grid: %d of 600 right; worst %.1e mm, %.1e\n", right,
+              worst_arc, worst_force);
+  EXPECT_EQ(right, 600);
+}
+
+TEST(FrameEstimatorTest, StdIsWhatNoiseDoes) {
+  // Spread over noisy repeats against the reported std, at a good place.
+  const Finger finger = PaperFinger();
+  FrameEstimator estimator(finger, OneContact(), {});
+  EquilibriumSolver solver(finger, {});
+  ASSERT_TRUE(solver.Solve({{75, 3, 0}}));
+  const std::vector<double> clean = Volts(solver);
+  std::mt19937_64 generator(5);
+  std::normal_distribution<double> noise(0, 3e-4);
+  double arc2 = 0, force2 = 0, arc_std = 0, force_std = 0, chi2 = 0;
+  constexpr int kRepeats = 1000;
+  for (int i = 0; i < kRepeats; ++i) {
+    std::vector<double> volts = clean;
+    for (double& v : volts) v += noise(generator);
+    const FrameEstimate estimate = estimator.Estimate(volts);
+    ASSERT_EQ(estimate.status, FrameStatus::kOk);
+    arc2 += std::pow(estimate.contact_mm - 75, 2);
+    force2 += std::pow(estimate.normal_N - 3, 2);
+    arc_std += estimate.contact_std_mm;
+    force_std += estimate.normal_std_N;
+    chi2 += estimate.chi2;
+  }
+  // The spread of 1000 repeats is known to 2.2 %.
+  EXPECT_NEAR(std::sqrt(arc2 / kRepeats) / (arc_std / kRepeats), 1, 0.08);
+  EXPECT_NEAR(std::sqrt(force2 / kRepeats) / (force_std / kRepeats), 1, 0.08);
+  EXPECT_NEAR(chi2 / kRepeats, 2, 0.2);  // 4 gauges less 2 unknowns
+}
+
+TEST(FrameEstimatorTest, SaysWhatItCannotSee) {
+  const Finger finger = PaperFinger();
+  EquilibriumSolver solver(finger, {});
+  FrameEstimator automatic(finger, Scene(), {});
+  ASSERT_TRUE(solver.Solve({}));
+  EXPECT_EQ(automatic.Estimate(Volts(solver)).status, FrameStatus::kNoContact);
+  // Near the tip and light: no gauge tells place from force.
+  ASSERT_TRUE(solver.Solve({{128, 0.5, 0}}));
+  FrameEstimator one(finger, OneContact(), {});
+  const FrameEstimate tip = one.Estimate(Volts(solver));
+  EXPECT_EQ(tip.status, FrameStatus::kUnobservable);
+  ASSERT_TRUE(solver.Solve({{70, 3, 0}}));
+  std::vector<double> volts = Volts(solver);
+  const FrameEstimate whole = one.Estimate(volts);
+  EXPECT_EQ(whole.status, FrameStatus::kOk);
+  // One gauge less still does, with less certainty; three less do not.
+  volts[0] = std::nan("");
+  const FrameEstimate less = one.Estimate(volts);
+  EXPECT_NEAR(less.contact_mm, 70, 1e-6);
+  EXPECT_GT(less.contact_std_mm, whole.contact_std_mm);
+  volts[1] = volts[2] = std::nan("");
+  EXPECT_EQ(one.Estimate(volts).status, FrameStatus::kBadInput);
+  EXPECT_TRUE(std::isnan(one.Estimate(volts).normal_N));
+}
+
+TEST(FrameEstimatorTest, FreeFramesWithNoiseAreNoContact) {
+  const Finger finger = PaperFinger();
+  FrameEstimator automatic(finger, Scene(), {});
+  std::mt19937_64 generator(6);
+  std::normal_distribution<double> noise(0, 3e-4);
+  int free = 0;
+  for (int i = 0; i < 300; ++i) {
+    std::vector<double> volts(4);
+    for (double& v : volts) v = noise(generator);
+    const FrameEstimate estimate = automatic.Estimate(volts);
+    free += estimate.status == FrameStatus::kNoContact;
+  }
+  EXPECT_GE(free, 297);  // p = 0.001 a frame
+}
+
+TEST(FrameEstimatorTest, KnownFrictionIsPartOfTheModel) {
+  const Finger finger = PaperFinger();
+  EquilibriumSolver solver(finger, {});
+  ASSERT_TRUE(solver.Solve({{64, 5, 0.3}}));
+  Scene scene = OneContact();
+  scene.friction_coefficient = 0.3;
+  FrameEstimator estimator(finger, scene, {});
+  const FrameEstimate estimate = estimator.Estimate(Volts(solver));
+  EXPECT_NEAR(estimate.contact_mm, 64, 1e-6);
+  EXPECT_NEAR(estimate.normal_N, 5, 1e-6);
+  EXPECT_NEAR(estimate.rib_tension_N[2], solver.rib_tension(2), 1e-6);
+  EXPECT_NEAR((estimate.tip_pose - solver.tip_pose()).norm(), 0, 1e-6);
+}
+
+TEST(FrameEstimatorTest, RefusesWhatItCannotModel) {
+  Scene two;
+  two.contacts = 2;
+  EXPECT_THAT([&] { FrameEstimator(PaperFinger(), two, {}); },
+              ThrowsMessage<InputError>(HasSubstr("2 contacts cannot")));
+  Finger bare = PaperFinger();
+  bare.gauges.clear();
+  EXPECT_THAT([&] { FrameEstimator(bare, Scene(), {}); },
+              ThrowsMessage<InputError>(HasSubstr("has no gauges")));
+}
+
+}  // namespace
+}  // namespace finray

@@ -1,0 +1,119 @@
+#include "finray/sensing/simulation.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "finray/io/error.h"
+#include "finray/sensing/batch_estimation.h"
+#include "temp_file.h"
+#include "test_finger.h"
+
+namespace finray {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+class SimulationTest : public testing::Test {
+ protected:
+  FrameTable Load(const std::string& text) {
+    return FrameTable::Read(folder_.Write("in.csv", text));
+  }
+  TempFolder folder_;
+  Finger finger_ = PaperFinger();
+};
+
+TEST_F(SimulationTest, PointsObjectsAndFreeRows) {
+  FrameTable frames = Load(
+      "contact_1_mm,normal_1_N,contact_2_mm,normal_2_N,object_x_mm,object_y_mm,"
+      "note\n50,2,,,,,one\n50,2,90,1,,,two\n,,,,-12,70,object\n,,,,,,none\n");
+  Scene scene;
+  scene.circle_radius_mm = 15;
+  FrameTable shapes;
+  const SimulationSummary summary =
+      Simulate(finger_, scene, {}, &frames, &shapes);
+  EXPECT_EQ(summary.contact, 3);
+  EXPECT_EQ(summary.free, 1);
+  EXPECT_EQ(shapes.rows(), 4u * 202u);
+  EquilibriumSolver solver(finger_, {});
+  ASSERT_TRUE(solver.Solve({{50, 2, 0}, {90, 1, 0}}));
+  EXPECT_NEAR(frames.Numbers("gauge_3_rad")[1], solver.gauge_angle(2), 1e-12);
+  EXPECT_NEAR(frames.Numbers("rib_4_N")[1], solver.rib_tension(3), 1e-9);
+  EXPECT_NEAR(frames.Numbers("contact_2_angle_rad")[1],
+              solver.contact_pose(1).z(), 1e-12);
+  // The object touches where its centre says, R away along the normal.
+  const double x = frames.Numbers("contact_1_x_mm")[2];
+  const double y = frames.Numbers("contact_1_y_mm")[2];
+  EXPECT_NEAR(std::hypot(x + 12, y - 70), 15, 1e-9);
+  EXPECT_GT(frames.Numbers("normal_1_N")[2], 1);
+  EXPECT_EQ(frames.Numbers("force_N")[2], frames.Numbers("force_N")[2]);
+  EXPECT_EQ(frames.Numbers("force_N")[3], 0);
+  EXPECT_EQ(frames.MutableText("note")[2], "object");
+}
+
+TEST_F(SimulationTest, BadLoadsNameTheirLine) {
+  const auto error = [&](const std::string& text, const std::string& message) {
+    FrameTable frames = Load(text);
+    EXPECT_THAT([&] { Simulate(finger_, Scene(), {}, &frames); },
+                ThrowsMessage<InputError>(HasSubstr(message)));
+  };
+  error("contact_1_mm,normal_1_N\n50,1\n150,2\n",
+        "in.csv:3: contact_1_mm: expected an arc length on the front beam");
+  error("contact_1_mm,normal_1_N\n50,-1\n",
+        "in.csv:2: normal_1_N: expected a force of at least 0 N");
+  error("contact_1_mm,normal_1_N\n50,\n", "in.csv:2: normal_1_N");
+  error("contact_1_mm\n50\n", "no column 'normal_1_N'");
+  error("object_x_mm,object_y_mm\n-10,50\n", "the scene has no object");
+}
+
+TEST_F(SimulationTest, SimulateThenEstimateReturnsTheContact) {
+  std::string text = "contact_1_mm,normal_1_N\n";
+  for (int i = 0; i < 40; ++i) {
+    text +=
+        std::to_string(20 + 2 * i) + "," + std::to_string(0.5 + 0.2 * i) + "\n";
+  }
+  FrameTable frames = Load(text);
+  const auto arc = frames.Numbers("contact_1_mm");
+  const auto force = frames.Numbers("normal_1_N");
+  Simulate(finger_, Scene(), {}, &frames);
+  FrameTable two = frames;
+  const EstimationSummary summary =
+      EstimateLog(finger_, Scene(), {}, 1, &frames);
+  EXPECT_EQ(summary.force_compared, 40u);
+  EXPECT_LT(summary.force_rms_N, 1e-9);
+  for (int i = 0; i < 40; ++i) {
+    EXPECT_NEAR(frames.Numbers("contact_1_mm")[i], arc[i], 1e-5);
+    EXPECT_NEAR(frames.Numbers("normal_1_N")[i], force[i], 1e-6 * force[i]);
+  }
+  EstimateLog(finger_, Scene(), {}, 2, &two);
+  EXPECT_EQ(two.ToCsv(), frames.ToCsv());
+}
+
+TEST_F(SimulationTest, ALogHasNoiseAndNoTruth) {
+  std::string text = "object_x_mm,object_y_mm\n";
+  for (int i = 0; i < 400; ++i) text += "-13,70\n";
+  FrameTable frames = Load(text);
+  Scene scene;
+  scene.circle_radius_mm = 15;
+  Simulate(finger_, scene, {}, &frames);
+  const FrameTable log = MakeLog(finger_, frames, {0.02, 0.05, 4});
+  EXPECT_FALSE(log.Has("contact_1_mm"));
+  EXPECT_FALSE(log.Has("gauge_1_rad"));
+  const auto std = [&](const char* name) {
+    double squares = 0;
+    for (int i = 0; i < 400; ++i) {
+      squares += std::pow(log.Numbers(name)[i] - frames.Numbers(name)[i], 2);
+    }
+    return std::sqrt(squares / 400);
+  };
+  EXPECT_NEAR(std("gauge_2_V"), 3e-4, 5e-5);
+  EXPECT_NEAR(std("force_N"), 0.02, 3e-3);
+  EXPECT_NEAR(std("object_y_mm"), 0.05, 8e-3);
+  EXPECT_EQ(MakeLog(finger_, frames, {0.02, 0.05, 4}).ToCsv(), log.ToCsv());
+  EXPECT_NE(MakeLog(finger_, frames, {0.02, 0.05, 5}).ToCsv(), log.ToCsv());
+}
+
+}  // namespace
+}  // namespace finray
