@@ -73,7 +73,11 @@ int Run() {
                        "', so their results would have one name");
     }
   }
-  MakeFolder(out_dir);
+  // All logs are read before anything is written.
+  std::vector<FrameTable> tables;
+  for (const std::string& log : logs) {
+    tables.push_back(FrameTable::Read(log, scene.columns));
+  }
 
   YAML::Emitter yaml;
   yaml << YAML::BeginMap << YAML::Key << "finger" << YAML::Value << finger.name
@@ -82,10 +86,11 @@ int Run() {
        << YAML::Value << YAML::BeginSeq;
   EstimationSummary all;
   double squares = 0;
-  for (const std::string& path : logs) {
-    FrameTable log = FrameTable::Read(path, scene.columns);
+  for (FrameTable& log : tables) {
+    const std::string& path = log.path();
     const EstimationSummary summary =
         EstimateLog(finger, scene, discretization, FLAGS_threads, &log);
+    MakeFolder(out_dir);
     const std::string out =
         (std::filesystem::path(out_dir) / (LogName(path) + ".frames.csv"))
             .string();

@@ -180,7 +180,7 @@ TEST_F(CommandLineTest, BadInputIsTwoAndOneLine) {
   };
   // unknown key
   ExpectBadInput("finray_simulate", finger("angle_deg: 13", "angel_deg: 13"),
-                 "bad.yaml:11:20: unknown key 'angel_deg' in ribs[2] (did you "
+                 "bad.yaml:11:21: unknown key 'angel_deg' in ribs[2] (did you "
                  "mean 'angle_deg'?)");
   // negative stiffness
   ExpectBadInput("finray_simulate", finger("12500", "-12500"),

@@ -116,13 +116,11 @@ TEST(CalibrationTest, StandardLogIsWithinItsStd) {
         EXPECT_LT(std, 0.045) << p.name;
       }
     }
-    const auto& std = result.identifiability.std;
+    const auto& stds = result.identifiability.std;
     std::printf(
         "seed %u: std of stiffness %.2f and %.2f %%, gain 1 %.2f %%, rib 3 "
-        "%.3f mm; force %.3f N rms
-        ",
-        seed,
-        100 * std[0], 100 * std[1], 100 * std[2] / truth[2], std[12],
+        "%.3f mm; force %.3f N rms\n",
+        seed, 100 * stds[0], 100 * stds[1], 100 * stds[2] / truth[2], stds[12],
         result.forces.fitted.after_rms_N);
     double chi2 = 0, dof = 0;
     for (const auto& noise : result.identifiability.noise) {

@@ -362,6 +362,9 @@ TEST(EquilibriumTest, ContactMovesSmoothlyAcrossARibAndAnElement) {
 TEST(EquilibriumTest, AnImpossibleLoadIsRefusedAndForgotten) {
   EquilibriumSolver solver(PaperFinger(), {});
   EXPECT_FALSE(solver.Solve({{70, 1e9, 0}}));
+  EXPECT_FALSE(solver.Solve({{140.5, 2, 0}}));
+  EXPECT_FALSE(solver.Solve({{-1, 2, 0}}));
+  EXPECT_FALSE(solver.Solve({{std::nan(""), 2, 0}}));
   ASSERT_TRUE(solver.Solve({{70, 2, 0}}));
   EquilibriumSolver fresh(PaperFinger(), {});
   ASSERT_TRUE(fresh.Solve({{70, 2, 0}}));

@@ -97,6 +97,7 @@ CircleContactStatus SolveCircleContact(const Circle& circle, double friction,
     }
   }
 
+  contact->normal_N = 0;
   if (!solver->Solve({})) return CircleContactStatus::kNotConverged;
   const CircleTouch touch = FindTouch(circle, *solver);
   if (!touch.tangent) {

@@ -49,6 +49,14 @@ bool EquilibriumSolver::SolveWithSensitivities(
 bool EquilibriumSolver::SolveFrom(const std::vector<PointContact>& contacts,
                                   bool sensitivities) {
   iterations_ = 0;
+  for (const PointContact& contact : contacts) {
+    // Written so that a NaN fails.
+    if (!(contact.arc_mm >= 0 &&
+          contact.arc_mm <= model_.finger().front_length_mm)) {
+      Reset();
+      return false;
+    }
+  }
   if (SolveFromHere(contacts, sensitivities)) return true;
   Reset();
   if (SolveFromHere(contacts, sensitivities)) return true;

@@ -28,7 +28,8 @@ class EquilibriumSolver {
   /// Back to the undeformed finger: the next solve is a cold one.
   void Reset() { state_ = LadderState::Undeformed(model_); }
 
-  /// Finds the equilibrium under `contacts`. False if none was found; the
+  /// Finds the equilibrium under `contacts`. False if none was found, or if a
+  /// contact lies off the beam; the
   /// state is then the undeformed finger's and the results are not to be used.
   bool Solve(const std::vector<PointContact>& contacts);
   /// As Solve, and fills the derivatives below.
