@@ -11,7 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "finray/finger/finger_yaml.h"
 #include "finray/io/error.h"
+#include "finray/sensing/scene.h"
+#include "finray/statics/discretization.h"
 
 namespace finray {
 
@@ -43,6 +46,24 @@ inline std::vector<std::string> SplitList(const std::string& list) {
     if (!item.empty()) items.push_back(item);
   }
   return items;
+}
+
+/// What is in force after all files and defaults, as YAML, for --dump_config.
+inline void DumpConfig(const Finger& finger, const Scene& scene,
+                       const Discretization& discretization) {
+  std::cout << "scheme: " << SchemeName(discretization.scheme) << "\n"
+            << "resolution: " << EffectiveResolution(discretization) << "\n"
+            << "contacts: "
+            << (scene.contacts ? std::to_string(*scene.contacts) : "auto")
+            << "\nfriction_coefficient: " << scene.friction_coefficient << "\n";
+  if (scene.circle_radius_mm) {
+    std::cout << "circle_radius_mm: " << *scene.circle_radius_mm << "\n";
+  }
+  std::istringstream lines(FingerToYaml(finger));
+  std::cout << "finger:\n";
+  for (std::string line; std::getline(lines, line);) {
+    std::cout << "  " << line << "\n";
+  }
 }
 
 /// Parses flags, runs, and turns what is thrown into one line and an exit code.

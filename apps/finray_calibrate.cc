@@ -6,7 +6,6 @@
 #include "app.h"
 #include "finray/calib/calibration_result.h"
 #include "finray/calib/report.h"
-#include "finray/finger/finger_yaml.h"
 #include "finray/io/atomic_file.h"
 
 DEFINE_string(finger, "", "finger YAML to start from");
@@ -16,6 +15,7 @@ DEFINE_string(out_dir, "", "folder for finger.yaml, calibration.yaml, report");
 DEFINE_int32(threads, 2, "threads over frames");
 DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
 DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
+DEFINE_bool(dump_config, false, "print what is in force, and stop");
 DEFINE_bool(report, true, "render report.html");
 
 namespace {
@@ -75,6 +75,10 @@ int Run() {
   Required("out_dir", FLAGS_out_dir);
   const Discretization discretization =
       ParseDiscretization(FLAGS_scheme, FLAGS_resolution);
+  if (FLAGS_dump_config) {
+    DumpConfig(finger, plan.scene, discretization);
+    return kGood;
+  }
   const CalibrationLogs logs = ReadCalibrationLogs(paths, finger, plan);
   CalibrationProblem problem(finger, plan, logs, discretization, FLAGS_threads);
   const CalibrationResult result =

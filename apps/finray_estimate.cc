@@ -5,7 +5,6 @@
 #include <set>
 
 #include "app.h"
-#include "finray/finger/finger_yaml.h"
 #include "finray/io/atomic_file.h"
 #include "finray/sensing/batch_estimation.h"
 
@@ -16,6 +15,7 @@ DEFINE_string(out_dir, "", "folder for <log>.frames.csv and summary.yaml");
 DEFINE_int32(threads, 1, "threads over frames");
 DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
 DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
+DEFINE_bool(dump_config, false, "print what is in force, and stop");
 DEFINE_bool(strict, false, "fail if any frame is not_converged or bad_input");
 
 namespace {
@@ -66,6 +66,10 @@ int Run() {
   const std::string& out_dir = Required("out_dir", FLAGS_out_dir);
   const Discretization discretization =
       ParseDiscretization(FLAGS_scheme, FLAGS_resolution);
+  if (FLAGS_dump_config) {
+    DumpConfig(finger, scene, discretization);
+    return kGood;
+  }
   std::set<std::string> names;
   for (const std::string& log : logs) {
     if (!names.insert(LogName(log)).second) {

@@ -1,7 +1,6 @@
 // Solves the finger for given contacts or object places, row by row.
 
 #include "app.h"
-#include "finray/finger/finger_yaml.h"
 #include "finray/io/atomic_file.h"
 #include "finray/sensing/simulation.h"
 
@@ -17,6 +16,7 @@ DEFINE_double(object_std_mm, 0.05, "noise of object_* in --log_out");
 DEFINE_uint64(seed, 1, "of the noise in --log_out");
 DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
 DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
+DEFINE_bool(dump_config, false, "print what is in force, and stop");
 DEFINE_bool(strict, false, "fail if any row has no solution");
 
 namespace {
@@ -29,6 +29,10 @@ int Run() {
   const std::string& out = Required("out", FLAGS_out);
   const Discretization discretization =
       ParseDiscretization(FLAGS_scheme, FLAGS_resolution);
+  if (FLAGS_dump_config) {
+    DumpConfig(finger, scene, discretization);
+    return kGood;
+  }
   if (!(FLAGS_force_std_N >= 0 && FLAGS_object_std_mm >= 0)) {
     throw InputError("--force_std_N, --object_std_mm: expected at least 0");
   }

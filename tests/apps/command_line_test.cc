@@ -156,6 +156,19 @@ TEST_F(CommandLineTest, AnUndeterminedParameterFailsTheGate) {
               HasSubstr("status: unidentifiable"));
 }
 
+TEST_F(CommandLineTest, DumpsWhatIsInForce) {
+  folder_.Write("in.csv", "contact_1_mm,normal_1_N\n50,2\n");
+  const Outcome outcome =
+      Run("finray_simulate",
+          "--finger " + paper_ + " --frames %in.csv --out %out --dump_config");
+  EXPECT_EQ(outcome.code, 0);
+  const YAML::Node config = YAML::Load(outcome.output);
+  EXPECT_EQ(config["resolution"].as<int>(), 24);
+  EXPECT_NEAR(config["finger"]["ribs"][0]["back_mm"].as<double>(), 27.1574,
+              1e-4);
+  EXPECT_FALSE(std::filesystem::exists(folder_.Path("out")));
+}
+
 TEST_F(CommandLineTest, UsageErrorsAreOne) {
   const Outcome missing = Run("finray_simulate", "--out %out");
   EXPECT_EQ(missing.code, 1);

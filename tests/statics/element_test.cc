@@ -1,9 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <functional>
-#include <vector>
 
 #include "finray/statics/rigid_link_element.h"
 #include "finray/statics/taylor_element.h"
@@ -117,43 +115,6 @@ TYPED_TEST(ElementTest, ZeroLengthIsTheIdentity) {
   EXPECT_NEAR(map.d_length[0], std::cos(kStart.theta_rad), 1e-15);
   EXPECT_NEAR(map.d_length[2], kStart.moment_N_mm / kStiffness, 1e-15);
   EXPECT_EQ(element.AngleAt(0).theta_rad, kStart.theta_rad);
-}
-
-// Classical Runge-Kutta with many steps: another integrator altogether.
-std::vector<double> RungeKutta(const ElementStart& start, double stiffness,
-                               double length, int steps) {
-  using State = std::vector<double>;
-  const auto rate = [&](const State& s) {
-    return State{
-        std::cos(s[2]), std::sin(s[2]), s[3] / stiffness,
-        start.force_x_N * std::sin(s[2]) - start.force_y_N * std::cos(s[2])};
-  };
-  const auto plus = [](const State& a, double h, const State& b) {
-    State sum = a;
-    for (int i = 0; i < 4; ++i) sum[i] += h * b[i];
-    return sum;
-  };
-  State s = {0, 0, start.theta_rad, start.moment_N_mm};
-  const double h = length / steps;
-  for (int n = 0; n < steps; ++n) {
-    const State k1 = rate(s), k2 = rate(plus(s, h / 2, k1)),
-                k3 = rate(plus(s, h / 2, k2)), k4 = rate(plus(s, h, k3));
-    for (int i = 0; i < 4; ++i) {
-      s[i] += h / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
-    }
-  }
-  return s;
-}
-
-TEST(TaylorElementTest, AgreesWithRungeKutta) {
-  Taylor element;
-  element.Compute(kStart, kStiffness, kLength);
-  const std::vector<double> expected =
-      RungeKutta(kStart, kStiffness, kLength, 400);
-  for (int i = 0; i < 4; ++i) {
-    EXPECT_NEAR(element.map().end[i], expected[i],
-                1e-12 * (1 + std::abs(expected[i])));
-  }
 }
 
 TEST(TaylorElementTest, DenseOutputKeepsThePendulumIntegral) {

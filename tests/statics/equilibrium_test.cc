@@ -1,441 +1,501 @@
+// Checks of the equilibrium beyond equilibrium_test.cc: both schemes over more
+// cases, every beam cut by itself, reciprocity, size, bad loads.
+
 #include "finray/statics/equilibrium.h"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <functional>
+#include <limits>
+#include <string>
 
-#include "finray/finger/geometry.h"
 #include "finray/statics/shape.h"
-#include "test_finger.h"
+#include "statics/gauss_legendre.h"
+#include "statics/special_cases.h"
 
 namespace finray {
 namespace {
 
-using Contacts = std::vector<PointContact>;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
 
-double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+constexpr double kFrontLength = 140;
+const double kBackLength = 140 / std::sin(112 * M_PI / 180);
+const double kBackBase = 140 / std::tan(68 * M_PI / 180);
+
+double Cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-Eigen::Vector2d Force(const PointContact& contact, double theta) {
-  const Eigen::Vector2d t(std::cos(theta), std::sin(theta));
+Vector2d Tangent(double theta) { return {std::cos(theta), std::sin(theta)}; }
+Vector2d NormalInward(double theta) {
+  return {std::sin(theta), -std::cos(theta)};
+}
+
+Vector2d Point(const Section& section) { return {section.x_mm, section.y_mm}; }
+Vector2d Force(const Section& section) {
+  return {section.force_x_N, section.force_y_N};
+}
+
+// One contact over the whole beam and range of forces.
+std::vector<Case> GridCases() {
+  std::vector<Case> cases;
+  for (double arc = 5; arc <= 135; arc += 5) {
+    for (const double force : {0.05, 0.2, 1.0, 3.0, 8.0, 20.0}) {
+      cases.push_back(
+          {"l_c " + std::to_string(arc) + ", f_c " + std::to_string(force),
+           PaperFinger(),
+           {{arc, force, 0}}});
+    }
+  }
+  return cases;
+}
+
+std::vector<Case> AllCases() {
+  std::vector<Case> cases = GridCases();
+  for (const Case& special : SpecialCases()) cases.push_back(special);
+  return cases;
+}
+
+// The largest load, with a floor for prestress alone.
+double LoadScale(const Case& at) {
+  double scale = at.contacts.empty() ? 1 : 0;
+  for (const PointContact& contact : at.contacts) {
+    scale = std::max(scale, contact.normal_N);
+  }
+  return scale;
+}
+
+Vector2d ContactForce(const EquilibriumSolver& solver, const Case& at, int i) {
+  const double theta = solver.contact_pose(i).z();
+  const PointContact& contact = at.contacts[i];
   return contact.normal_N *
-         (Eigen::Vector2d(t.y(), -t.x()) + contact.friction * t);
+         (NormalInward(theta) + contact.friction * Tangent(theta));
 }
 
-// The loads that every check is made for.
-std::vector<Contacts> Loads() {
-  std::vector<Contacts> loads;
-  for (double arc = 5; arc <= 135; arc += 13) {
-    for (const double force : {0.05, 0.5, 2.0, 8.0, 20.0}) {
-      loads.push_back({{arc, force, 0}});
+class EquilibriumTest : public testing::TestWithParam<Scheme> {
+ protected:
+  Discretization discretization() const { return {GetParam(), 0}; }
+};
+
+INSTANTIATE_TEST_SUITE_P(Schemes, EquilibriumTest,
+                         testing::Values(Scheme::kTaylor, Scheme::kRigidChain),
+                         [](const auto& info) {
+                           return info.param == Scheme::kTaylor
+                                      ? std::string("Taylor")
+                                      : std::string("RigidChain");
+                         });
+
+// Clamps and contacts are all that acts on the finger from outside.
+TEST_P(EquilibriumTest, ReactionsBalanceTheContacts) {
+  for (const Case& at : AllCases()) {
+    SCOPED_TRACE(at.name);
+    EquilibriumSolver solver(at.finger, discretization());
+    ASSERT_TRUE(solver.Solve(at.contacts));
+    Vector2d force(0, 0);
+    double moment = 0;
+    for (const Side side : {Side::kFront, Side::kBack}) {
+      const Vector3d reaction = solver.base_reaction(side);
+      const Vector2d base(side == Side::kFront ? 0 : kBackBase, 0);
+      force += reaction.tail<2>();
+      moment += reaction[0] + Cross(base, reaction.tail<2>());
     }
+    for (std::size_t i = 0; i < at.contacts.size(); ++i) {
+      const Vector2d pushed = ContactForce(solver, at, static_cast<int>(i));
+      force += pushed;
+      moment +=
+          Cross(solver.contact_pose(static_cast<int>(i)).head<2>(), pushed);
+    }
+    EXPECT_LT(force.norm(), 1e-9 * LoadScale(at));
+    EXPECT_LT(std::abs(moment), 1e-9 * LoadScale(at) * kFrontLength);
   }
-  loads.push_back({{61, 4, 0}});     // on a rib
-  loads.push_back({{0, 4, 0}});      // at the base
-  loads.push_back({{140, 4, 0.1}});  // at the tip
-  loads.push_back({{70, 5, 0.4}});
-  loads.push_back({{70, 5, -0.4}});
-  loads.push_back({{95, 3, 0.2}, {30, 6, 0}});
-  loads.push_back({{60, 1, 0}, {62, 2, 0.1}, {63, 1, 0}, {120, 2, 0}});
-  return loads;
 }
 
-Finger Prestressed() {
-  Finger finger = PaperFinger();
-  finger.ribs[1].length_mm += 0.4;
-  finger.ribs[3].length_mm -= 0.3;
-  finger.back_stiffness_N_mm2 = 15500;
-  return finger;
-}
-
-TEST(EquilibriumTest, ForcesAndMomentsBalance) {
-  for (const Finger& finger : {PaperFinger(), Prestressed()}) {
-    for (const Scheme scheme : {Scheme::kTaylor, Scheme::kRigidChain}) {
-      EquilibriumSolver solver(finger, {scheme, 0});
-      for (const Contacts& contacts : Loads()) {
-        solver.Reset();
-        ASSERT_TRUE(solver.Solve(contacts));
-        Eigen::Vector2d force(0, 0);
-        double moment = 0, largest = 0, largest_moment = 0;
-        const auto add = [&](const Eigen::Vector2d& at,
-                             const Eigen::Vector2d& f, double m) {
-          force += f;
-          moment += Cross(at, f) + m;
-          largest = std::max(largest, f.norm());
-          largest_moment = std::max(largest_moment, std::abs(m));
-        };
-        for (const Side side : {Side::kFront, Side::kBack}) {
-          const Eigen::Vector3d reaction = solver.base_reaction(side);
-          add(BeamBase(finger, side), reaction.tail<2>(), reaction[0]);
+// A cut through one beam: what it transmits is the sum of all that acts beyond.
+TEST_P(EquilibriumTest, EveryCutCarriesWhatLiesBeyond) {
+  for (const Case& at : AllCases()) {
+    SCOPED_TRACE(at.name);
+    EquilibriumSolver solver(at.finger, discretization());
+    ASSERT_TRUE(solver.Solve(at.contacts));
+    const Shape shape(solver, at.contacts);
+    for (const Side side : {Side::kFront, Side::kBack}) {
+      const bool front = side == Side::kFront;
+      const Side other = front ? Side::kBack : Side::kFront;
+      for (const double cut_mm : {3.1, 24.7, 50.0, 69.0, 93.3, 118.0, 133.0}) {
+        // The chain's moment is given at joints only; at a station it is exact.
+        const std::vector<double> stations = shape.Stations(side);
+        const double arc =
+            GetParam() == Scheme::kTaylor
+                ? cut_mm
+                : *std::upper_bound(stations.begin(), stations.end(), cut_mm);
+        const Section cut = shape.At(side, arc);
+        // The other beam holds this one's tip with the opposite of its own.
+        const Section end = shape.At(other, front ? kBackLength : kFrontLength);
+        Vector2d force = -Force(end);
+        double moment = Cross(Point(end) - Point(cut), -Force(end));
+        if (GetParam() == Scheme::kTaylor) moment -= end.moment_N_mm;
+        for (std::size_t i = 0; i < at.finger.ribs.size(); ++i) {
+          const Rib& rib = at.finger.ribs[i];
+          if ((front ? rib.front_mm : rib.back_mm) <= arc) continue;
+          const Vector2d here =
+              Point(shape.At(side, front ? rib.front_mm : rib.back_mm));
+          const Vector2d there =
+              Point(shape.At(other, front ? rib.back_mm : rib.front_mm));
+          const Vector2d pull = solver.rib_tension(static_cast<int>(i)) *
+                                (there - here).normalized();
+          force += pull;
+          moment += Cross(here - Point(cut), pull);
         }
-        for (std::size_t c = 0; c < contacts.size(); ++c) {
-          const Eigen::Vector3d pose = solver.contact_pose(static_cast<int>(c));
-          add(pose.head<2>(), Force(contacts[c], pose.z()), 0);
+        for (std::size_t i = 0; front && i < at.contacts.size(); ++i) {
+          if (at.contacts[i].arc_mm <= arc) continue;
+          const int contact = static_cast<int>(i);
+          const Vector2d pushed = ContactForce(solver, at, contact);
+          force += pushed;
+          moment += Cross(solver.contact_pose(contact).head<2>() - Point(cut),
+                          pushed);
         }
-        EXPECT_LT(force.norm(), 1e-9 * largest);
-        EXPECT_LT(std::abs(moment),
-                  1e-9 * std::max(largest_moment, 140 * largest));
+        EXPECT_LT((Force(cut) - force).norm(), 1e-9 * LoadScale(at))
+            << (front ? "front " : "back ") << arc;
+        if (GetParam() == Scheme::kTaylor) {
+          EXPECT_LT(std::abs(cut.moment_N_mm - moment),
+                    1e-9 * LoadScale(at) * kFrontLength)
+              << (front ? "front " : "back ") << arc;
+        }
       }
     }
   }
 }
 
-TEST(EquilibriumTest, CutsThroughTheFingerBalance) {
-  // A cut through both beams between ribs: what the beams carry across it is
-  // what the contacts beyond it apply.
-  const Finger finger = Prestressed();
-  EquilibriumSolver solver(finger, {});
-  for (const Contacts& contacts : Loads()) {
-    solver.Reset();
-    ASSERT_TRUE(solver.Solve(contacts));
-    const Shape shape(solver, contacts);
-    for (int bay = 0; bay <= 5; ++bay) {
-      const auto middle = [&](Side side) {
-        const bool front = side == Side::kFront;
-        const auto hinge = [&](int i) {
-          return front ? finger.ribs[i].front_mm : finger.ribs[i].back_mm;
-        };
-        const double low = bay == 0 ? 0 : hinge(bay - 1);
-        const double high = bay == 5 ? BeamLength(finger, side) : hinge(bay);
-        return 0.5 * (low + high);
-      };
-      const double front_arc = middle(Side::kFront);
-      Eigen::Vector2d force(0, 0);
-      double moment = 0;
-      for (const Side side : {Side::kFront, Side::kBack}) {
-        // What the near part exerts on the far part.
-        const Section at = shape.At(side, middle(side));
-        const Eigen::Vector2d n(-at.force_x_N, -at.force_y_N);
-        force += n;
-        moment += Cross({at.x_mm, at.y_mm}, n) - at.moment_N_mm;
-      }
-      double load = 0;
-      for (std::size_t c = 0; c < contacts.size(); ++c) {
-        load += contacts[c].normal_N;
-        // At the cut itself Shape gives the far side.
-        if (contacts[c].arc_mm <= front_arc) continue;
-        const Eigen::Vector3d pose = solver.contact_pose(static_cast<int>(c));
-        const Eigen::Vector2d f = Force(contacts[c], pose.z());
-        force += f;
-        moment += Cross(pose.head<2>(), f);
-      }
-      EXPECT_LT(force.norm(), 1e-8 * (load + 10));
-      EXPECT_LT(std::abs(moment), 1e-8 * 140 * (load + 10));
+TEST_P(EquilibriumTest, RibsKeepTheirLengthAndTheTipIsClosed) {
+  for (const Case& at : AllCases()) {
+    SCOPED_TRACE(at.name);
+    EquilibriumSolver solver(at.finger, discretization());
+    ASSERT_TRUE(solver.Solve(at.contacts));
+    const Shape shape(solver, at.contacts);
+    for (std::size_t i = 0; i < at.finger.ribs.size(); ++i) {
+      const Rib& rib = at.finger.ribs[i];
+      const double length = (Point(shape.At(Side::kBack, rib.back_mm)) -
+                             Point(shape.At(Side::kFront, rib.front_mm)))
+                                .norm();
+      const double stretch = solver.rib_tension(static_cast<int>(i)) *
+                             rib.length_mm / rib.axial_stiffness_N;
+      EXPECT_NEAR(length, rib.length_mm + stretch, 1e-10);
+    }
+    const Section front = shape.At(Side::kFront, kFrontLength);
+    const Section back = shape.At(Side::kBack, kBackLength);
+    EXPECT_NEAR(front.x_mm, back.x_mm, 1e-10);
+    EXPECT_NEAR(front.y_mm, back.y_mm, 1e-10);
+    EXPECT_NEAR(front.theta_rad - back.theta_rad, -22 * M_PI / 180, 1e-11);
+    const Vector3d tip = solver.tip_pose();
+    EXPECT_NEAR(tip.x(), front.x_mm, 1e-10);
+    EXPECT_NEAR(tip.y(), front.y_mm, 1e-10);
+    EXPECT_NEAR(tip.z(), front.theta_rad, 1e-11);
+    for (std::size_t i = 0; i < at.contacts.size(); ++i) {
+      const Vector3d pose = solver.contact_pose(static_cast<int>(i));
+      const Section section = shape.At(Side::kFront, at.contacts[i].arc_mm);
+      EXPECT_NEAR(pose.x(), section.x_mm, 1e-10);
+      EXPECT_NEAR(pose.y(), section.y_mm, 1e-10);
+      EXPECT_NEAR(pose.z(), section.theta_rad, 1e-11);
+    }
+    for (std::size_t j = 0; j < at.finger.gauges.size(); ++j) {
+      const Gauge& gauge = at.finger.gauges[j];
+      EXPECT_NEAR(
+          solver.gauge_angle(static_cast<int>(j)),
+          shape.At(gauge.beam, gauge.start_mm + gauge.length_mm).theta_rad -
+              shape.At(gauge.beam, gauge.start_mm).theta_rad,
+          1e-11);
     }
   }
 }
 
-TEST(EquilibriumTest, RibsKeepTheirLengthAndTheTipIsClosed) {
-  Finger finger = Prestressed();
-  finger.ribs[2].axial_stiffness_N = 5000;
-  EquilibriumSolver solver(finger, {});
-  for (const Contacts& contacts : Loads()) {
-    solver.Reset();
-    ASSERT_TRUE(solver.Solve(contacts));
-    const Shape shape(solver, contacts);
-    for (int i = 0; i < 5; ++i) {
-      const Rib& rib = finger.ribs[i];
-      const Section a = shape.At(Side::kFront, rib.front_mm);
-      const Section b = shape.At(Side::kBack, rib.back_mm);
-      const double stretched =
-          rib.length_mm * (1 + solver.rib_tension(i) / rib.axial_stiffness_N);
-      EXPECT_NEAR(std::hypot(b.x_mm - a.x_mm, b.y_mm - a.y_mm), stretched,
-                  1e-9);
-    }
-    const Section front = shape.At(Side::kFront, 140);
-    const Section back = shape.At(Side::kBack, BeamLength(finger, Side::kBack));
-    EXPECT_NEAR(front.x_mm, back.x_mm, 1e-9);
-    EXPECT_NEAR(front.y_mm, back.y_mm, 1e-9);
-    EXPECT_NEAR(front.theta_rad - back.theta_rad,
-                M_PI / 2 - finger.back_angle_rad, 1e-11);
-  }
-}
-
-// Nodes and weights of 8-point Gauss-Legendre on [0, 1].
-const double kGauss[8][2] = {{0.019855071751231884, 0.050614268145188130},
-                             {0.101666761293186630, 0.111190517226687240},
-                             {0.237233795041835507, 0.156853322938943640},
-                             {0.408282678752175097, 0.181341891689180990},
-                             {0.591717321247824903, 0.181341891689180990},
-                             {0.762766204958164493, 0.156853322938943640},
-                             {0.898333238706813370, 0.111190517226687240},
-                             {0.980144928248768116, 0.050614268145188130}};
-
-double StrainEnergy(const EquilibriumSolver& solver, const Contacts& contacts) {
+double StrainEnergy(const EquilibriumSolver& solver,
+                    const std::vector<PointContact>& contacts) {
+  const Finger& finger = solver.model().finger();
   const Shape shape(solver, contacts);
   double energy = 0;
   for (const Side side : {Side::kFront, Side::kBack}) {
     const std::vector<double> stations = shape.Stations(side);
-    for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
-      const double h = stations[i + 1] - stations[i];
-      for (const auto& [at, weight] : kGauss) {
-        const double moment = shape.At(side, stations[i] + at * h).moment_N_mm;
+    for (std::size_t k = 0; k + 1 < stations.size(); ++k) {
+      for (const QuadraturePoint& q :
+           GaussLegendre(8, stations[k], stations[k + 1])) {
+        const double moment = shape.At(side, q.at).moment_N_mm;
         energy +=
-            weight * h * moment * moment / (2 * solver.model().stiffness(side));
+            q.weight * moment * moment / (2 * solver.model().stiffness(side));
       }
     }
   }
-  for (int i = 0; i < solver.model().ribs(); ++i) {
-    const Rib& rib = solver.model().finger().ribs[i];
-    const double tension = solver.rib_tension(i);
-    energy += tension * tension * rib.length_mm / (2 * rib.axial_stiffness_N);
+  for (std::size_t i = 0; i < finger.ribs.size(); ++i) {
+    const double tension = solver.rib_tension(static_cast<int>(i));
+    energy += tension * tension * finger.ribs[i].length_mm /
+              (2 * finger.ribs[i].axial_stiffness_N);
   }
   return energy;
 }
 
-TEST(EquilibriumTest, WorkAlongTheLoadPathIsStrainEnergy) {
-  Finger elastic = PaperFinger();
-  elastic.ribs[2].axial_stiffness_N = 300;
-  struct Case {
-    Finger finger;
-    PointContact contact;
-  };
-  for (const Case& c :
-       {Case{PaperFinger(), {55, 6, 0}}, Case{PaperFinger(), {98, 8, 0}},
-        Case{PaperFinger(), {75, 15, 0.3}}, Case{elastic, {61, 8, 0}},
-        Case{PaperFinger(), {125, 4, -0.2}}}) {
-    EquilibriumSolver solver(c.finger, {});
-    const int row = solver.model().gauges();
+// Integral of F . dr over a load path, against the energy it stores.
+TEST_P(EquilibriumTest, WorkOfTheContactsIsStoredAsStrainEnergy) {
+  std::vector<Case> cases = SpecialCases();
+  const std::vector<Case> grid = GridCases();
+  for (std::size_t i = 5; i < grid.size(); i += 6) cases.push_back(grid[i]);
+  for (const Case& at : cases) {
+    SCOPED_TRACE(at.name);
+    if (at.contacts.empty()) continue;
+    EquilibriumSolver solver(at.finger, discretization());
+    // With its contacts at no force: they split the chain's links.
+    std::vector<PointContact> resting = at.contacts;
+    for (PointContact& contact : resting) contact.normal_N = 0;
+    ASSERT_TRUE(solver.Solve(resting));
+    const double before = StrainEnergy(solver, resting);
     double work = 0;
-    constexpr int kIntervals = 8;
-    for (int i = 0; i < kIntervals; ++i) {
-      for (const auto& [at, weight] : kGauss) {
-        PointContact contact = c.contact;
-        contact.normal_N *= (i + at) / kIntervals;
-        ASSERT_TRUE(solver.SolveWithSensitivities({contact}));
-        // dW = F . dr, the material point being fixed.
-        const Eigen::Vector2d motion = solver.d_outputs().block<2, 1>(row, 1);
-        work += weight * c.contact.normal_N / kIntervals *
-                Force(contact, solver.contact_pose(0).z()).dot(motion);
-      }
-    }
-    ASSERT_TRUE(solver.Solve({c.contact}));
-    const double energy = StrainEnergy(solver, {c.contact});
-    EXPECT_NEAR(work / energy, 1, 1e-6);
-  }
-}
-
-TEST(EquilibriumTest, SensitivitiesMatchFiniteDifferences) {
-  const Finger finger = Prestressed();
-  for (const Scheme scheme : {Scheme::kTaylor, Scheme::kRigidChain}) {
-    for (const Contacts& contacts :
-         {Contacts{{52.3, 3, 0.2}, {90, 1, -0.1}}, Contacts{{118, 6, 0}},
-          Contacts{{25, 9, 0}}}) {
-      EquilibriumSolver solver(finger, {scheme, 0});
-      ASSERT_TRUE(solver.SolveWithSensitivities(contacts));
-      const auto d_outputs = solver.d_outputs();
-      const auto d_q = solver.d_q();
-      const int by_contact = 2 * static_cast<int>(contacts.size());
-      for (int p = 0; p < d_outputs.cols(); ++p) {
-        const bool by_stiffness = p == by_contact || p == by_contact + 1;
-        const double h = by_stiffness ? 1.0 : 1e-3;
-        Eigen::VectorXd outputs[2], q[2];
-        for (const int k : {0, 1}) {
-          const double d = k == 0 ? -h : h;
-          EquilibriumSolver moved(finger, {scheme, 0});
-          Contacts there = contacts;
-          if (p < by_contact) {
-            (p % 2 == 0 ? there[p / 2].arc_mm : there[p / 2].normal_N) += d;
-          } else if (by_stiffness) {
-            moved.model().set_stiffness(
-                finger.front_stiffness_N_mm2 + (p == by_contact) * d,
-                finger.back_stiffness_N_mm2 + (p != by_contact) * d);
-          } else {
-            const int rib = p - by_contact - 2;
-            moved.model().set_rib_length(rib, finger.ribs[rib].length_mm + d);
-          }
-          ASSERT_TRUE(moved.Solve(there));
-          outputs[k] = moved.outputs();
-          q[k] = moved.state().q;
+    for (const QuadraturePoint& q : GaussLegendre(16, 0, 1)) {
+      Case part = at;
+      for (PointContact& contact : part.contacts) contact.normal_N *= q.at;
+      ASSERT_TRUE(solver.SolveWithSensitivities(part.contacts));
+      for (std::size_t i = 0; i < at.contacts.size(); ++i) {
+        Vector2d velocity(0, 0);  // by the common load factor
+        const int row = solver.model().gauges() + 3 * static_cast<int>(i);
+        for (std::size_t j = 0; j < at.contacts.size(); ++j) {
+          velocity += at.contacts[j].normal_N *
+                      solver.d_outputs().block<2, 1>(row, 2 * j + 1);
         }
-        const Eigen::VectorXd expected = (outputs[1] - outputs[0]) / (2 * h);
-        EXPECT_LT((d_outputs.col(p) - expected).cwiseAbs().maxCoeff(),
-                  1e-6 * expected.cwiseAbs().maxCoeff())
-            << "column " << p;
-        const Eigen::VectorXd expected_q = (q[1] - q[0]) / (2 * h);
-        EXPECT_LT((d_q.col(p) - expected_q).cwiseAbs().maxCoeff(),
-                  1e-6 * expected_q.cwiseAbs().maxCoeff())
-            << "column " << p;
+        work += q.weight *
+                ContactForce(solver, part, static_cast<int>(i)).dot(velocity);
+      }
+    }
+    ASSERT_TRUE(solver.Solve(at.contacts));
+    const double stored = StrainEnergy(solver, at.contacts) - before;
+    // Base and tip do not yield, so that work is nothing but rounding there.
+    EXPECT_NEAR(work, stored, 1e-6 * std::abs(stored) + 1e-11);
+  }
+}
+
+// Rows of the outputs share a unit with their kind only.
+double ColumnError(const Eigen::VectorXd& analytic,
+                   const Eigen::VectorXd& numeric,
+                   const std::vector<int>& kind) {
+  double worst = 0;
+  for (int k = 0; k < 2; ++k) {
+    double largest = 0, error = 0;
+    for (int i = 0; i < analytic.size(); ++i) {
+      if (kind[i] != k) continue;
+      largest = std::max(largest, std::abs(numeric[i]));
+      error = std::max(error, std::abs(analytic[i] - numeric[i]));
+    }
+    if (largest > 0) worst = std::max(worst, error / largest);
+  }
+  return worst;
+}
+
+TEST_P(EquilibriumTest, SensitivitiesMatchCentralDifferences) {
+  Finger finger = PrestressedPaperFinger();
+  finger.ribs[1].axial_stiffness_N = 300;
+  finger.gauges[0].beam = Side::kFront;  // 30 to 48: holds the second contact
+  const std::vector<std::vector<PointContact>> loads = {
+      {{52.3, 3, 0.2}, {90, 1, -0.1}},
+      {{12, 2, 0}, {38.3, 5, 0.3}},
+      {{64.1, 2, 0}, {66.2, 3, 0.1}},
+      {{47.6, 3, 0.1}, {29.6, 2, 0}},  // beside the ends of a gauge, in the
+      {{48.3, 3, 0.1}, {30.4, 2, 0}},  // same link
+      {{128, 4, 0}, {100, 0.5, 0}},
+      {{45, 15, 0}},
+  };
+  double worst = 0;
+  for (const std::vector<PointContact>& contacts : loads) {
+    EquilibriumSolver solver(finger, discretization());
+    ASSERT_TRUE(solver.SolveWithSensitivities(contacts));
+    const int n = static_cast<int>(contacts.size());
+    const int ribs = static_cast<int>(finger.ribs.size());
+    const int columns = 2 * n + 2 + ribs;
+    ASSERT_EQ(solver.d_outputs().cols(), columns);
+    ASSERT_EQ(solver.d_q().cols(), columns);
+    std::vector<int> output_kind(solver.outputs().size(), 0);
+    for (int i = 0; i < 3 * (n + 1); ++i) {
+      output_kind[solver.model().gauges() + i] = i % 3 == 2 ? 0 : 1;
+    }
+    std::vector<int> q_kind(6 + ribs, 0);
+    q_kind[0] = q_kind[3] = 1;
+    for (int p = 0; p < columns; ++p) {
+      const bool arc = p < 2 * n && p % 2 == 0;
+      const bool stiffness = p >= 2 * n && p < 2 * n + 2;
+      const double step = arc ? 2e-3 : stiffness ? 5.0 : 1e-3;
+      Eigen::VectorXd outputs[4], q[4];
+      for (int k = 0; k < 4; ++k) {
+        const double move = step * (k == 0 ? -2 : k == 1 ? -1 : k == 2 ? 1 : 2);
+        EquilibriumSolver moved(finger, discretization());
+        std::vector<PointContact> loaded = contacts;
+        if (p < 2 * n) {
+          (arc ? loaded[p / 2].arc_mm : loaded[p / 2].normal_N) += move;
+        } else if (stiffness) {
+          moved.model().set_stiffness(
+              finger.front_stiffness_N_mm2 + (p == 2 * n ? move : 0),
+              finger.back_stiffness_N_mm2 + (p == 2 * n ? 0 : move));
+        } else {
+          const int rib = p - 2 * n - 2;
+          moved.model().set_rib_length(rib, finger.ribs[rib].length_mm + move);
+        }
+        ASSERT_TRUE(moved.Solve(loaded));
+        outputs[k] = moved.outputs();
+        q[k] = moved.state().q;
+      }
+      const auto slope = [step](const Eigen::VectorXd* y) {
+        return Eigen::VectorXd((8 * (y[2] - y[1]) - (y[3] - y[0])) /
+                               (12 * step));
+      };
+      const double error = std::max(
+          ColumnError(solver.d_outputs().col(p), slope(outputs), output_kind),
+          ColumnError(solver.d_q().col(p), slope(q), q_kind));
+      EXPECT_LT(error, 1e-6) << "column " << p << " of " << n << " contacts";
+      worst = std::max(worst, error);
+    }
+  }
+  std::printf("worst relative difference of a sensitivity: %.1e\n", worst);
+}
+
+// EI and forces together: the same shape. Lengths by 1000 and forces by 1e-6,
+// at one EI: the same angles.
+TEST_P(EquilibriumTest, ScalesWithStiffnessAndSize) {
+  for (const Case& at : SpecialCases()) {
+    SCOPED_TRACE(at.name);
+    EquilibriumSolver solver(at.finger, discretization());
+    ASSERT_TRUE(solver.Solve(at.contacts));
+    const int gauges = solver.model().gauges();
+
+    Case stiffer = at, larger = at;
+    stiffer.finger.front_stiffness_N_mm2 *= 7.5;
+    stiffer.finger.back_stiffness_N_mm2 *= 7.5;
+    for (Rib& rib : stiffer.finger.ribs) rib.axial_stiffness_N *= 7.5;
+    for (PointContact& contact : stiffer.contacts) contact.normal_N *= 7.5;
+    larger.finger.front_length_mm *= 1e3;
+    for (Rib& rib : larger.finger.ribs) {
+      rib.front_mm *= 1e3;
+      rib.back_mm *= 1e3;
+      rib.length_mm *= 1e3;
+      rib.axial_stiffness_N *= 1e-6;
+    }
+    for (Gauge& gauge : larger.finger.gauges) {
+      gauge.start_mm *= 1e3;
+      gauge.length_mm *= 1e3;
+    }
+    for (PointContact& contact : larger.contacts) {
+      contact.arc_mm *= 1e3;
+      contact.normal_N *= 1e-6;
+    }
+    const auto expect_same = [&](const Case& other, double force,
+                                 double length) {
+      EquilibriumSolver scaled(other.finger, discretization());
+      ASSERT_TRUE(scaled.Solve(other.contacts));
+      for (int j = 0; j < gauges; ++j) {
+        EXPECT_NEAR(scaled.gauge_angle(j), solver.gauge_angle(j), 1e-10);
+      }
+      for (int i = 0; i < 2; ++i) {
+        EXPECT_NEAR(scaled.tip_pose()[i] / length, solver.tip_pose()[i], 1e-8);
+      }
+      EXPECT_NEAR(scaled.tip_pose()[2], solver.tip_pose()[2], 1e-10);
+      for (int i = 0; i < solver.model().ribs(); ++i) {
+        EXPECT_NEAR(scaled.rib_tension(i) / force, solver.rib_tension(i), 1e-7);
+      }
+    };
+    expect_same(stiffer, 7.5, 1);
+    expect_same(larger, 1e-6, 1e3);
+  }
+}
+
+// Scaled loads on a tiny scale: the response is a multiple of its slope, and
+// that slope obeys Betti: a force at A moves B as one at B moves A.
+TEST_P(EquilibriumTest, TinyForcesActLinearlyAndReciprocally) {
+  EquilibriumSolver solver(PaperFinger(), discretization());
+  for (const double a : {8.0, 50.0, 61.0, 122.0}) {
+    for (const double b : {30.0, 95.0, 135.0}) {
+      ASSERT_TRUE(solver.SolveWithSensitivities({{a, 0, 0}, {b, 0, 0}}));
+      const Eigen::VectorXd rest = solver.outputs();
+      const LadderLinearization::Matrix slope = solver.d_outputs();
+      const int row = solver.model().gauges();
+      // Normals are +x in the undeformed finger.
+      const double b_by_a = slope(row + 3, 1), a_by_b = slope(row, 3);
+      EXPECT_NEAR(b_by_a / a_by_b, 1, 1e-9) << a << ", " << b;
+      EXPECT_GT(slope(row, 1), 0);
+      for (const double force : {1e-6, 1e-4}) {
+        ASSERT_TRUE(solver.Solve({{a, force, 0}, {b, 0, 0}}));
+        const Eigen::VectorXd change = (solver.outputs() - rest) / force;
+        EXPECT_LT((change - slope.col(1)).norm(), 2e-3 * slope.col(1).norm());
       }
     }
   }
 }
 
-TEST(EquilibriumTest, MeshDoublingChangesNothing) {
+TEST_P(EquilibriumTest, WarmStartEqualsColdStart) {
+  EquilibriumSolver warm(PrestressedPaperFinger(), discretization());
+  int warm_iterations = 0, cold_iterations = 0;
+  for (int i = 0; i < 200; ++i) {
+    const double u = 0.05 * i;
+    const std::vector<PointContact> contacts = {
+        {70 + 55 * std::sin(u), 4 + 3.9 * std::sin(3 * u), 0.1}};
+    EquilibriumSolver cold(PrestressedPaperFinger(), discretization());
+    ASSERT_TRUE(warm.Solve(contacts));
+    ASSERT_TRUE(cold.Solve(contacts));
+    EXPECT_LT((warm.outputs() - cold.outputs()).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_LT((warm.state().q - cold.state().q).cwiseAbs().maxCoeff(), 1e-7);
+    warm_iterations += warm.iterations();
+    cold_iterations += cold.iterations();
+  }
+  EXPECT_LT(warm_iterations, cold_iterations);
+}
+
+TEST_P(EquilibriumTest, AbsurdLoadsAreRefusedAndDoNoHarm) {
+  const std::vector<PointContact> sane = {{70, 2, 0}};
+  EquilibriumSolver solver(PaperFinger(), discretization());
+  ASSERT_TRUE(solver.Solve(sane));
+  const Eigen::VectorXd expected = solver.outputs();
+  for (const double force :
+       {1e6, -1e6, 1e12, 1e300, std::numeric_limits<double>::infinity(),
+        std::numeric_limits<double>::quiet_NaN()}) {
+    for (const double arc : {20.0, 70.0, 130.0}) {
+      EXPECT_FALSE(solver.Solve({{arc, force, 0}})) << force << " at " << arc;
+      EXPECT_TRUE(solver.state().q.allFinite());
+      ASSERT_TRUE(solver.Solve(sane));
+      EXPECT_LT((solver.outputs() - expected).cwiseAbs().maxCoeff(), 1e-10);
+    }
+  }
+}
+
+TEST_P(EquilibriumTest, ContactsOffTheBeamAreRefused) {
+  EquilibriumSolver solver(PaperFinger(), discretization());
+  for (const double arc : {-1e-9, 140.0000001, 500.0, std::nan("")}) {
+    EXPECT_FALSE(solver.Solve({{arc, 2, 0}})) << arc;
+  }
+  EXPECT_TRUE(solver.Solve({{140, 2, 0}}));
+}
+
+TEST_P(EquilibriumTest, ContactPassesOverARibContinuously) {
+  constexpr double kHair = 1e-6;
   const Finger finger = PaperFinger();
-  EquilibriumSolver coarse(finger, {}), fine(finger, {Scheme::kTaylor, 48});
-  double tip = 0, gauges = 0, ribs = 0;
-  for (double arc = 5; arc <= 135; arc += 2.5) {
-    for (const double force : {0.05, 0.2, 1.0, 5.0, 10.0, 20.0}) {
-      coarse.Reset();
-      fine.Reset();
-      ASSERT_TRUE(coarse.Solve({{arc, force, 0}}));
-      ASSERT_TRUE(fine.Solve({{arc, force, 0}}));
-      const auto relative = [](const Eigen::VectorXd& a,
-                               const Eigen::VectorXd& b) {
-        return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
-      };
-      gauges = std::max(
-          gauges, relative(coarse.outputs().head(4), fine.outputs().head(4)));
-      ribs = std::max(
-          ribs, relative(coarse.state().q.tail(5), fine.state().q.tail(5)));
-      tip = std::max(
-          tip, (coarse.tip_pose() - fine.tip_pose()).head<2>().norm() / 140);
+  for (const Rib& rib : finger.ribs) {
+    for (const double force : {0.5, 5.0, 15.0}) {
+      EquilibriumSolver solver(finger, discretization());
+      Eigen::VectorXd outputs[3], q[3];
+      Eigen::MatrixXd slope;
+      for (int k = 0; k < 3; ++k) {
+        ASSERT_TRUE(solver.SolveWithSensitivities(
+            {{rib.front_mm + (k - 1) * kHair, force, 0.2}}));
+        EXPECT_LE(solver.iterations(), 8);
+        outputs[k] = solver.outputs();
+        q[k] = solver.state().q;
+        if (k != 1) {
+          // On either side of the rib a different piece grows.
+          const Eigen::VectorXd column = solver.d_outputs().col(0);
+          slope.conservativeResize(column.size(), k == 0 ? 1 : 2);
+          slope.rightCols<1>() = column;
+        }
+      }
+      const double steepest = slope.cwiseAbs().maxCoeff();
+      EXPECT_LT((outputs[1] - outputs[0]).cwiseAbs().maxCoeff(),
+                1.1 * kHair * steepest);
+      EXPECT_LT((outputs[2] - outputs[1]).cwiseAbs().maxCoeff(),
+                1.1 * kHair * steepest);
+      EXPECT_LT((q[2] - q[0]).cwiseAbs().maxCoeff(), 1e-3 * force);
     }
-  }
-  std::printf(
-      "mesh doubling, relative: tip %.1e, gauges %.1e, ribs "
-      "%.1e\n",
-      tip, gauges, ribs);
-  EXPECT_LT(tip, 1e-8);
-  EXPECT_LT(gauges, 1e-8);
-  EXPECT_LT(ribs, 1e-8);
-}
-
-TEST(EquilibriumTest, RigidChainConvergesToTaylorWithOrderTwo) {
-  const Finger finger = PaperFinger();
-  const Contacts contacts = {{72.4, 4, 0.1}};
-  EquilibriumSolver exact(finger, {Scheme::kTaylor, 60});
-  ASSERT_TRUE(exact.Solve(contacts));
-  std::printf(
-      "rigid_chain:     n   rib error (N)   order   gauge error (rad)\n");
-  double before = 0;
-  for (int n = 100; n <= 3200; n *= 2) {
-    EquilibriumSolver chain(finger, {Scheme::kRigidChain, n});
-    ASSERT_TRUE(chain.Solve(contacts));
-    const double rib =
-        (chain.state().q - exact.state().q).tail(5).cwiseAbs().maxCoeff();
-    const double gauge =
-        (chain.outputs() - exact.outputs()).head(4).cwiseAbs().maxCoeff();
-    const double order = before > 0 ? std::log2(before / rib) : 0;
-    std::printf("%18d   %.3e       %.2f    %.2e\n", n, rib, order, gauge);
-    if (before > 0) {
-      EXPECT_NEAR(order, 2, 0.15);
-    }
-    // Of order 2 too, times how far from a joint the gauge happens to end.
-    EXPECT_LT(gauge, 2.5 / n / n);
-    before = rib;
-  }
-}
-
-TEST(EquilibriumTest, OnlyRatiosOfForceToStiffnessBend) {
-  Finger stiff = PaperFinger();
-  stiff.front_stiffness_N_mm2 *= 7;
-  stiff.back_stiffness_N_mm2 *= 7;
-  EquilibriumSolver a(PaperFinger(), {}), b(stiff, {});
-  ASSERT_TRUE(a.Solve({{80, 3, 0}}));
-  ASSERT_TRUE(b.Solve({{80, 21, 0}}));
-  EXPECT_LT((a.outputs() - b.outputs()).cwiseAbs().maxCoeff(), 1e-11);
-  EXPECT_NEAR(b.rib_tension(0) / a.rib_tension(0), 7, 1e-9);
-}
-
-TEST(EquilibriumTest, SmallForcesAreLinear) {
-  EquilibriumSolver solver(PaperFinger(), {});
-  ASSERT_TRUE(solver.Solve({{80, 1e-3, 0}}));
-  const Eigen::VectorXd small = solver.outputs().head(4) / 1e-3;
-  ASSERT_TRUE(solver.Solve({{80, 1e-9, 0}}));
-  const Eigen::VectorXd tiny = solver.outputs().head(4) / 1e-9;
-  EXPECT_LT((small - tiny).cwiseAbs().maxCoeff(),
-            1e-3 * tiny.cwiseAbs().maxCoeff());
-}
-
-TEST(EquilibriumTest, ContactMovesSmoothlyAcrossARibAndAnElement) {
-  const Finger finger = PaperFinger();
-  EquilibriumSolver solver(finger, {});
-  const auto at = [&](double arc) {
-    solver.Reset();
-    EXPECT_TRUE(solver.Solve({{arc, 5, 0.2}}));
-    return solver.outputs();
-  };
-  for (const double arc : {finger.ribs[2].front_mm, 50.0}) {
-    const double d = 1e-7;
-    const Eigen::VectorXd slope_before = (at(arc) - at(arc - d)) / d;
-    const Eigen::VectorXd slope_after = (at(arc + d) - at(arc)) / d;
-    EXPECT_LT((slope_after - slope_before).cwiseAbs().maxCoeff(), 1e-4);
-  }
-}
-
-TEST(EquilibriumTest, AnImpossibleLoadIsRefusedAndForgotten) {
-  EquilibriumSolver solver(PaperFinger(), {});
-  EXPECT_FALSE(solver.Solve({{70, 1e9, 0}}));
-  EXPECT_FALSE(solver.Solve({{140.5, 2, 0}}));
-  EXPECT_FALSE(solver.Solve({{-1, 2, 0}}));
-  EXPECT_FALSE(solver.Solve({{std::nan(""), 2, 0}}));
-  ASSERT_TRUE(solver.Solve({{70, 2, 0}}));
-  EquilibriumSolver fresh(PaperFinger(), {});
-  ASSERT_TRUE(fresh.Solve({{70, 2, 0}}));
-  EXPECT_LT((solver.outputs() - fresh.outputs()).cwiseAbs().maxCoeff(), 1e-13);
-}
-
-// Another route to the same: two beams joined at the tip, no rib, by
-// Runge-Kutta from both bases and Newton with finite differences.
-TEST(EquilibriumTest, WithoutRibsAgreesWithRungeKuttaShooting) {
-  Finger finger = PaperFinger();
-  finger.ribs.clear();
-  finger.back_stiffness_N_mm2 = 9000;
-  const PointContact contact = {80, 0.7, 0.2};
-
-  using State = Eigen::Matrix<double, 4, 1>;
-  const auto integrate = [](State s, const Eigen::Vector2d& n, double stiffness,
-                            double length) {
-    constexpr int kSteps = 400;
-    const auto rate = [&](const State& at) {
-      return State(std::cos(at[2]), std::sin(at[2]), at[3] / stiffness,
-                   n.x() * std::sin(at[2]) - n.y() * std::cos(at[2]));
-    };
-    const double h = length / kSteps;
-    for (int i = 0; i < kSteps; ++i) {
-      const State k1 = rate(s), k2 = rate(s + h / 2 * k1),
-                  k3 = rate(s + h / 2 * k2), k4 = rate(s + h * k3);
-      s += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-    }
-    return s;
-  };
-  using Vector6 = Eigen::Matrix<double, 6, 1>;
-  State contact_state, tip_state;
-  const auto closure = [&](const Vector6& q) {
-    State front(0, 0, M_PI / 2, q[0]);
-    Eigen::Vector2d n = q.segment<2>(1);
-    front = integrate(front, n, finger.front_stiffness_N_mm2, contact.arc_mm);
-    contact_state = front;
-    n -= Force(contact, front[2]);
-    front =
-        integrate(front, n, finger.front_stiffness_N_mm2, 140 - contact.arc_mm);
-    tip_state = front;
-    const Eigen::Vector2d base = BeamBase(finger, Side::kBack);
-    const State back = integrate(
-        State(base.x(), base.y(), finger.back_angle_rad, q[3]), q.tail<2>(),
-        finger.back_stiffness_N_mm2, BeamLength(finger, Side::kBack));
-    Vector6 c;
-    c << front.head<2>() - back.head<2>(),
-        front[2] - back[2] - M_PI / 2 + finger.back_angle_rad,
-        front[3] + back[3], n + q.tail<2>();
-    return c;
-  };
-  Vector6 q = Vector6::Zero();
-  for (int i = 0; i < 12; ++i) {
-    const Vector6 c = closure(q);
-    Eigen::Matrix<double, 6, 6> jacobian;
-    for (int p = 0; p < 6; ++p) {
-      const double h = 1e-5;
-      Vector6 up = q, down = q;
-      up[p] += h;
-      down[p] -= h;
-      jacobian.col(p) = (closure(up) - closure(down)) / (2 * h);
-    }
-    q -= jacobian.partialPivLu().solve(c);
-  }
-  ASSERT_LT(closure(q).cwiseAbs().maxCoeff(), 1e-9);
-
-  EquilibriumSolver solver(finger, {});
-  ASSERT_TRUE(solver.Solve({contact}));
-  for (int i = 0; i < 3; ++i) {
-    EXPECT_NEAR(solver.contact_pose(0)[i], contact_state[i], 1e-8);
-    EXPECT_NEAR(solver.tip_pose()[i], tip_state[i], 1e-8);
   }
 }
 

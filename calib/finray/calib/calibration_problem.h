@@ -92,7 +92,7 @@ class CalibrationProblem {
   // In one piece and never moved: Ceres knows blocks by their addresses, and
   // eliminates them in that order.
   std::vector<std::array<double, 2>> contacts_;
-  std::vector<int> contact_of_frame_;           // index into contacts_, or -1
+  std::vector<int> contact_of_frame_;  // index into contacts_, or -1
   std::vector<ceres::ResidualBlockId> blocks_;
   std::vector<ResidualInfo> block_info_;
 };

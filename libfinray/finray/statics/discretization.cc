@@ -5,6 +5,11 @@
 
 namespace finray {
 
+int EffectiveResolution(const Discretization& discretization) {
+  if (discretization.resolution > 0) return discretization.resolution;
+  return discretization.scheme == Scheme::kRigidChain ? 200 : 24;
+}
+
 const std::vector<std::string>& SchemeNames() {
   static const std::vector<std::string> names = {"rigid_chain", "taylor"};
   return names;

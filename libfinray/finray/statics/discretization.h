@@ -20,6 +20,10 @@ struct Discretization {
   int resolution = 0;
 };
 
+/// The number of elements that a discretization asks for: its resolution, or
+/// the scheme's default (24 for taylor, 200 for rigid_chain).
+int EffectiveResolution(const Discretization& discretization);
+
 /// "rigid_chain", "taylor": the values of --scheme.
 const std::vector<std::string>& SchemeNames();
 std::string SchemeName(Scheme scheme);

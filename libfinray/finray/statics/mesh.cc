@@ -6,14 +6,6 @@
 #include "finray/finger/geometry.h"
 
 namespace finray {
-namespace {
-
-int DefaultResolution(Scheme scheme) {
-  return scheme == Scheme::kRigidChain ? 200 : 24;
-}
-
-}  // namespace
-
 MeshPoint BeamMesh::Locate(double arc_mm) const {
   const auto after = std::upper_bound(nodes_mm.begin(), nodes_mm.end(), arc_mm);
   const int element = std::clamp(static_cast<int>(after - nodes_mm.begin()) - 1,
@@ -23,12 +15,9 @@ MeshPoint BeamMesh::Locate(double arc_mm) const {
 
 BeamMesh MakeBeamMesh(const Finger& finger, Side side,
                       const Discretization& discretization) {
-  const int resolution = discretization.resolution > 0
-                             ? discretization.resolution
-                             : DefaultResolution(discretization.scheme);
   const double longest =
       (BeamLength(finger, Side::kFront) + BeamLength(finger, Side::kBack)) /
-      resolution;
+      EffectiveResolution(discretization);
 
   BeamMesh mesh;
   mesh.nodes_mm.push_back(0);
