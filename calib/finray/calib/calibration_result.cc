@@ -63,13 +63,15 @@ void WarnOfWeakness(CalibrationProblem& problem, const Identifiability& found,
   for (const WeakDirection& weak : found.weak) {
     warnings->push_back(
         {"weak_direction",
-         weak.words + Text(": the data leave a std of %.3g times the prior",
-                           weak.std_over_prior),
+         weak.words + (weak.null ? std::string(": the data do not say how far")
+                                 : Text(": the data leave a std of %.3g times "
+                                        "the prior's",
+                                        weak.std_over_prior)),
          weak.remedy});
   }
 }
 
-void WarnOfForces(const ForceCheck& forces,
+void WarnOfForces(const ForceCheck& forces, double force_std_N,
                   std::vector<CalibrationWarning>* warnings) {
   const ForceCheck::Error& held_out = forces.held_out;
   if (held_out.frames >= 10 &&
@@ -82,7 +84,7 @@ void WarnOfForces(const ForceCheck& forces,
          "loads"});
   }
   if (forces.fitted.frames > 0 &&
-      forces.fitted.after_rms_N > forces.fitted.before_rms_N) {
+      forces.fitted.after_rms_N > forces.fitted.before_rms_N + force_std_N) {
     warnings->push_back(
         {"no_better",
          Text("force from the gauges is off by %.3g N rms after and %.3g N "
@@ -115,7 +117,7 @@ CalibrationResult Calibrate(CalibrationProblem* problem,
   }
   WarnOfWeakness(*problem, result.identifiability, &result.warnings);
   WarnOfNoise(result.identifiability, &result.warnings);
-  WarnOfForces(result.forces, &result.warnings);
+  WarnOfForces(result.forces, problem->plan().force_std_N, &result.warnings);
   return result;
 }
 

@@ -119,7 +119,11 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem) {
   }
   for (int k = 0; k < n && value[k] < 1; ++k) {
     WeakDirection direction;
-    direction.std_over_prior = 1 / std::sqrt(std::max(value[k], 1e-300));
+    direction.null = value[k] < Identifiability::kNull;
+    // Below that the eigenvalue is rounding.
+    direction.std_over_prior = direction.null
+                                   ? std::numeric_limits<double>::infinity()
+                                   : 1 / std::sqrt(value[k]);
     for (int i = 0; i < n; ++i) {
       if (std::abs(vector(i, k)) > 0.15) {
         direction.components.push_back({parameters.free()[i], vector(i, k)});

@@ -23,6 +23,7 @@ struct WeakDirection {
   /// Std that the data alone leave along it, in units of the priors (of the
   /// scales where there is none).
   double std_over_prior;
+  bool null;  ///< the data say nothing along it: below Identifiability::kNull
   struct Component {
     int parameter;  ///< index into CalibrationParameters::all()
     double share;   ///< of the unit vector

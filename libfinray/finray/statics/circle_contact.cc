@@ -58,9 +58,11 @@ CircleTouch FindTouch(const Circle& circle, const EquilibriumSolver& free) {
                            Eigen::Vector2d(at.x_mm, at.y_mm));
   };
   int nearest = 0;
+  double least = offset(0).norm();
   for (int i = 1; i <= kSamples; ++i) {
-    if (offset(length * i / kSamples).norm() <
-        offset(length * nearest / kSamples).norm()) {
+    const double distance = offset(length * i / kSamples).norm();
+    if (distance < least) {
+      least = distance;
       nearest = i;
     }
   }

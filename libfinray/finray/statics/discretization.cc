@@ -20,9 +20,9 @@ std::string SchemeName(Scheme scheme) {
 }
 
 Discretization ParseDiscretization(const std::string& scheme, int resolution) {
-  if (resolution < 0 || resolution > 1000000) {
+  if (resolution < 0 || resolution > 100000) {
     throw InputError("--resolution: " + std::to_string(resolution) +
-                     " is not a number of elements from 1 to 1000000 "
+                     " is not a number of elements from 1 to 100000 "
                      "(0: the scheme's default)");
   }
   for (std::size_t i = 0; i < SchemeNames().size(); ++i) {

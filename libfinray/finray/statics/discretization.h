@@ -29,7 +29,7 @@ const std::vector<std::string>& SchemeNames();
 std::string SchemeName(Scheme scheme);
 
 /// From the values of --scheme and --resolution. Throws InputError naming the
-/// nearest scheme, or for a resolution below 0 or above 1 000 000.
+/// nearest scheme, or for a resolution below 0 or above 100 000.
 Discretization ParseDiscretization(const std::string& scheme, int resolution);
 
 }  // namespace finray
