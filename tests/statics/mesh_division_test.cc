@@ -77,7 +77,7 @@ TEST(MeshDivisionTest, GaugeEndsAreSortedWithTheirSigns) {
 TEST(MeshDivisionTest, ResolutionsOutOfRangeAreRefused) {
   EXPECT_THROW(ParseDiscretization("taylor", -1), InputError);
   EXPECT_THROW(ParseDiscretization("taylor", 1000001), InputError);
-  EXPECT_EQ(ParseDiscretization("rigid_chain", 1000000).resolution, 1000000);
+  EXPECT_EQ(ParseDiscretization("rigid_chain", 100000).resolution, 100000);
 }
 
 }  // namespace
