@@ -43,6 +43,13 @@ TEST(GeometryTest, RibsMeetTheBackBeamInTheirDirection) {
   }
 }
 
+TEST(GeometryTest, ForceUnit) {
+  Finger finger = PaperFinger();
+  finger.front_stiffness_N_mm2 = 4 * 19600;
+  finger.back_stiffness_N_mm2 = 9 * 19600;
+  EXPECT_NEAR(ForceUnit(finger), 6, 1e-12);
+}
+
 TEST(GeometryTest, ARibAlongTheBackBeamNeverMeetsIt) {
   const Finger finger = PaperFinger();
   EXPECT_TRUE(std::isnan(RibBackArc(finger, 50, finger.back_angle_rad)));

@@ -7,6 +7,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 #include "finray/residuals/gauge_reading_residual.h"
 #include "finray/residuals/object_contact_residual.h"
@@ -138,9 +139,8 @@ void CalibrationProblem::AddMeasurement(ceres::CostFunction* cost,
 void CalibrationProblem::GuessContact(int index, double* contact) {
   const CalibrationFrame& frame = logs_.frames[index];
   const double length = finger_.front_length_mm;
-  const double force_unit = finger_.front_stiffness_N_mm2 / (length * length);
   contact[0] = length / 2;
-  contact[1] = force_unit;
+  contact[1] = ForceUnit(finger_);
   if (frame.object_mm.allFinite() && plan_.scene.circle_radius_mm) {
     const Circle circle{frame.object_mm, *plan_.scene.circle_radius_mm};
     PointContact found;

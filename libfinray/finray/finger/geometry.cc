@@ -46,4 +46,9 @@ double NominalRibLength(const Finger& finger, const Rib& rib) {
       .norm();
 }
 
+double ForceUnit(const Finger& finger) {
+  return std::sqrt(finger.front_stiffness_N_mm2 * finger.back_stiffness_N_mm2) /
+         (finger.front_length_mm * finger.front_length_mm);
+}
+
 }  // namespace finray

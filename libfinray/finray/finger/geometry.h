@@ -31,6 +31,11 @@ double RibBackArc(const Finger& finger, double front_mm, double angle_rad);
 /// Distance of a rib's hinges in the undeformed finger (d_{k,0} of (7)).
 double NominalRibLength(const Finger& finger, const Rib& rib);
 
+/// The force that bends a finger by about its own length, sqrt(EI_front
+/// EI_back) / l_0^2 in N: the natural unit of its loads (0.64 N for the
+/// paper's).
+double ForceUnit(const Finger& finger);
+
 }  // namespace finray
 
 #endif  // FINRAY_FINGER_GEOMETRY_H_

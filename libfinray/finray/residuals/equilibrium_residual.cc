@@ -1,6 +1,6 @@
 #include "finray/residuals/equilibrium_residual.h"
 
-#include <cmath>
+#include "finray/finger/geometry.h"
 
 namespace finray {
 
@@ -14,9 +14,7 @@ EquilibriumResidual::EquilibriumResidual(const FrameEvaluation* frame,
                                          const Finger& finger, double weight)
     : FrameResidual(frame, 6) {
   const double length = finger.front_length_mm;
-  const double force =
-      std::sqrt(finger.front_stiffness_N_mm2 * finger.back_stiffness_N_mm2) /
-      (length * length);
+  const double force = ForceUnit(finger);
   weight_ << 1 / length, 1 / length, 1, 1 / (force * length), 1 / force,
       1 / force;
   weight_ *= weight;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 
+#include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 
 namespace finray {
@@ -19,9 +19,7 @@ constexpr double kForces[] = {0.5, 1, 2, 4, 7, 11, 16, 22, 30, 40};
 GaugeTable::GaugeTable(EquilibriumSolver* solver) {
   const Finger& finger = solver->model().finger();
   const double length = finger.front_length_mm;
-  const double unit =
-      std::sqrt(finger.front_stiffness_N_mm2 * finger.back_stiffness_N_mm2) /
-      (length * length);
+  const double unit = ForceUnit(finger);
   const int gauges = solver->model().gauges();
   heaviest_N_ = unit * *std::rbegin(kForces);
   solver->Reset();

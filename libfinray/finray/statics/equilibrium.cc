@@ -25,9 +25,7 @@ EquilibriumSolver::EquilibriumSolver(const Finger& finger,
     : model_(finger, discretization), scheme_(discretization.scheme) {
   const int n = model_.unknowns(), r = model_.ribs();
   const double length = finger.front_length_mm;
-  const double force =
-      std::sqrt(finger.front_stiffness_N_mm2 * finger.back_stiffness_N_mm2) /
-      (length * length);
+  const double force = ForceUnit(finger);
   row_unit_.setConstant(n, 1 / length);  // rib lengths, tip x and y
   row_unit_[r + 2] = 1;                  // tip angle
   row_unit_[r + 3] = 1 / (force * length);
