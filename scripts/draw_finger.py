@@ -105,6 +105,7 @@ def draw():
             line((0, front), (24, front), QUIET, 1, 'stroke-dasharray="4 3"')
             arc((0, front), 21, 0, a)
             text((24.5, front), "φ_i", QUIET, dx=3, dy=-2)
+            text((4, front + 4.5), "rib i", QUIET, "start", 14, italic=False)
         hinges.append(back(s))
 
     # Beams, tip cap, clamps.
@@ -114,6 +115,8 @@ def draw():
         line(back(p, 1.6), back(p + GAUGE_LENGTH, 1.6), GAUGE, 6)
     (x1, y1), (x2, y2), (x3, y3) = page((0, L0 - 9)), page((0, L0)), page(back(L0 / math.sin(PHI0) - 9))
     out.append(f'<path d="M{x1:.1f} {y1:.1f} L{x2:.1f} {y2 - 5:.1f} L{x3:.1f} {y3:.1f} Z" fill="{INK}" stroke="{INK}" stroke-width="4" stroke-linejoin="round"/>')
+    text((0, 120), "front beam", BEAM, "end", 14, dx=-10, dy=5, italic=False)
+    text(back(130), "back beam", BEAM, "start", 14, dx=10, dy=5, italic=False)
     text((0, L0), "tip cap, keeps its angle", QUIET, "start", 14, dx=16, dy=2, italic=False)
     clamp((0, 0))
     clamp(base_back)
@@ -126,8 +129,8 @@ def draw():
     text((15, CONTACT), "f_c", FORCE, dx=8, dy=5, size=19)
 
     # Lengths along the front beam.
-    for height in (RIBS[1][0], CONTACT, L0):
-        line((-3 if height != CONTACT else -1, height), (-57, height), QUIET, 0.8, 'stroke-dasharray="2 3"')
+    for height, start, end in ((RIBS[1][0], -3, -39), (CONTACT, -2 * RADIUS - 1, -48), (L0, -3, -57)):
+        line((start, height), (end, height), QUIET, 0.8, 'stroke-dasharray="2 3"')
     line((-8, 0), (-57, 0), QUIET, 0.8, 'stroke-dasharray="2 3"')
     dimension((-37, 0), (-37, RIBS[1][0]), "l_i")
     dimension((-46, 0), (-46, CONTACT), "l_c")
@@ -136,13 +139,13 @@ def draw():
     # A gauge's place.
     p = GAUGES[1]
     for s in (0, p, p + GAUGE_LENGTH):
-        line(back(s, 4), back(s, 17), QUIET, 0.8, 'stroke-dasharray="2 3"')
+        line(back(s, 4 if s else 11.5), back(s, 17), QUIET, 0.8, 'stroke-dasharray="2 3"')
     line(back(0, 14), back(p, 14), QUIET, 1, 'marker-start="url(#quiet)" marker-end="url(#quiet)"')
     line(back(p, 14), back(p + GAUGE_LENGTH, 14), QUIET, 1,
          'marker-start="url(#quiet)" marker-end="url(#quiet)"')
     text(back(p / 2, 17), "p_j", QUIET, dx=2)
     text(back(p + GAUGE_LENGTH / 2, 17), "w_j", QUIET, dx=2)
-    text(back(GAUGES[3] + 8, 5), "gauge j", GAUGE, "start", 14, dx=4, italic=False)
+    text(back(p + GAUGE_LENGTH / 2, -3), "gauge j", GAUGE, "end", 14, dy=2, italic=False)
 
     # Angle of the back beam, frame S, arc length.
     line(base_back, (base_back[0] + 17, 0), QUIET, 1, 'stroke-dasharray="4 3"')
@@ -155,6 +158,8 @@ def draw():
     text((0, 0), "S", dx=-20, dy=-8, anchor="end", italic=False)
     arrow((3.5, 110), (3.5, 122), QUIET, 1.2)
     text((3.5, 116), "s", QUIET, dx=6, dy=4)
+    arrow(back(9, -4), back(21, -4), QUIET, 1.2)
+    text(back(15, -4), "s", QUIET, "end", dx=-9, dy=5)
 
 
 def main():
