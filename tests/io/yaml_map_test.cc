@@ -64,7 +64,9 @@ TEST_F(YamlMapTest, UnknownAndDoubleKeys) {
 }
 
 TEST_F(YamlMapTest, FilesThatAreNoMapping) {
-  EXPECT_INPUT_ERROR(Load(""), "expected a YAML mapping, found nothing");
+  EXPECT_INPUT_ERROR(Load(""), "is empty, expected a YAML mapping");
+  EXPECT_INPUT_ERROR(Load("a: 1\n---\nb: 2\n"), "a second YAML document");
+  EXPECT_INPUT_ERROR(Load(std::string("a: 1\n\0", 6)), ":2:1: found a NUL");
   EXPECT_INPUT_ERROR(Load("- 1\n"), "found a sequence");
   EXPECT_INPUT_ERROR(Load("a: [1\n"), "not valid YAML");
   EXPECT_INPUT_ERROR(YamlMap::FromFile(folder_.Path("none")),

@@ -1,7 +1,11 @@
 #include "finray/finger/finger_yaml.h"
 
+#include <charconv>
 #include <cmath>
+#include <initializer_list>
+#include <locale>
 #include <sstream>
+#include <string_view>
 
 #include "finray/finger/geometry.h"
 #include "finray/io/atomic_file.h"
@@ -11,6 +15,8 @@ namespace finray {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
+constexpr long double kLongDegree =
+    3.14159265358979323846264338327950288L / 180;
 
 std::string Short(double value) {
   std::ostringstream text;
@@ -28,20 +34,51 @@ double ReadStiffness(const YamlMap& beam) {
   }
   beam.AllowOnly({"bending_stiffness_N_mm2", "width_mm", "thickness_mm",
                   "youngs_modulus_GPa"});
-  if (beam.Has("bending_stiffness_N_mm2")) {
-    for (const char* key : {"width_mm", "thickness_mm", "youngs_modulus_GPa"}) {
-      if (beam.Has(key)) {
-        beam.Fail(key, std::string(key) +
-                           ": give either bending_stiffness_N_mm2 or the "
-                           "plate's dimensions");
-      }
+  bool plate = false;
+  for (const char* key : {"width_mm", "thickness_mm", "youngs_modulus_GPa"}) {
+    if (!beam.Has(key)) continue;
+    plate = true;
+    if (beam.Has("bending_stiffness_N_mm2")) {
+      beam.Fail(key, std::string(key) +
+                         ": give either bending_stiffness_N_mm2 or the "
+                         "plate's dimensions");
     }
-    return beam.PositiveNumber("bending_stiffness_N_mm2");
   }
+  if (!plate) return beam.PositiveNumber("bending_stiffness_N_mm2");
   constexpr double kGPa = 1e3;  // N / mm^2
   const double thickness = beam.PositiveNumber("thickness_mm");
-  return beam.PositiveNumber("youngs_modulus_GPa") * kGPa *
-         beam.PositiveNumber("width_mm") * std::pow(thickness, 3) / 12;
+  const double stiffness = beam.PositiveNumber("youngs_modulus_GPa") * kGPa *
+                           beam.PositiveNumber("width_mm") *
+                           std::pow(thickness, 3) / 12;
+  if (!(stiffness > 0 && std::isfinite(stiffness))) {
+    beam.Fail("thickness_mm", "the plate has a bending stiffness of " +
+                                  Short(stiffness) +
+                                  " N mm^2, expected a number above 0");
+  }
+  return stiffness;
+}
+
+// Where the rib meets the back beam, known to be strictly inside it.
+double ReadBackHinge(const YamlMap& yaml, const Finger& finger,
+                     double front_mm) {
+  const bool by_angle = yaml.Has("angle_deg");
+  const char* key = by_angle ? "angle_deg" : "back_mm";
+  if (by_angle == yaml.Has("back_mm")) {
+    yaml.Fail(key, "a rib needs either angle_deg or back_mm");
+  }
+  const double number = yaml.Number(key);
+  const double back_mm =
+      by_angle ? RibBackArc(finger, front_mm, number * kDegree) : number;
+  if (std::isnan(back_mm)) {
+    yaml.Fail(key, "the rib misses the back beam: it points away from it");
+  }
+  const double back_length = BeamLength(finger, Side::kBack);
+  if (!(back_mm > 0 && back_mm < back_length)) {
+    yaml.Fail(key, "the rib misses the back beam: it would meet it at " +
+                       Short(back_mm) + " mm, expected between 0 and " +
+                       Short(back_length) + " mm");
+  }
+  return back_mm;
 }
 
 Rib ReadRib(const YamlMap& yaml, const Finger& finger) {
@@ -53,20 +90,7 @@ Rib ReadRib(const YamlMap& yaml, const Finger& finger) {
     yaml.Fail("front_mm", "front_mm: the rib leaves the front beam, which is " +
                               Short(finger.front_length_mm) + " mm long");
   }
-  const bool by_angle = yaml.Has("angle_deg");
-  if (by_angle == yaml.Has("back_mm")) {
-    yaml.Fail("angle_deg", "a rib needs either angle_deg or back_mm");
-  }
-  rib.back_mm = by_angle ? RibBackArc(finger, rib.front_mm,
-                                      yaml.Number("angle_deg") * kDegree)
-                         : yaml.Number("back_mm");
-  const double back_length = BeamLength(finger, Side::kBack);
-  if (!(rib.back_mm > 0 && rib.back_mm < back_length)) {
-    yaml.Fail(by_angle ? "angle_deg" : "back_mm",
-              "the rib misses the back beam: it would meet it at " +
-                  Short(rib.back_mm) + " mm, expected between 0 and " +
-                  Short(back_length) + " mm");
-  }
+  rib.back_mm = ReadBackHinge(yaml, finger, rib.front_mm);
   rib.length_mm =
       yaml.PositiveNumber("length_mm", NominalRibLength(finger, rib));
   rib.axial_stiffness_N =
@@ -102,8 +126,7 @@ Gauge ReadGauge(const YamlMap& yaml, const Finger& finger) {
   Gauge gauge;
   gauge.beam = yaml.Choice("beam", {"front", "back"}) == "front" ? Side::kFront
                                                                  : Side::kBack;
-  gauge.start_mm = yaml.NonNegativeNumber("start_mm", 0);
-  if (!yaml.Has("start_mm")) yaml.Number("start_mm");  // required
+  gauge.start_mm = yaml.NonNegativeNumber("start_mm");
   gauge.length_mm = yaml.PositiveNumber("length_mm");
   const double beam_length = BeamLength(finger, gauge.beam);
   if (gauge.start_mm + gauge.length_mm > beam_length) {
@@ -122,25 +145,47 @@ Gauge ReadGauge(const YamlMap& yaml, const Finger& finger) {
   return gauge;
 }
 
-// Degrees that read back as the same radians.
+// Radians of an angle in degrees, rounded once. In long double, as a double in
+// degrees may be coarser than one in radians: one angle in ten could not be
+// written so that it reads back.
+double RadFromDegrees(std::string_view text) {
+  if (!text.empty() && text[0] == '+') text.remove_prefix(1);
+  long double degrees = 0;
+  std::from_chars(text.data(), text.data() + text.size(), degrees);
+  return static_cast<double>(degrees * kLongDegree);
+}
+
+// Degrees that read back as the same radians, in as few digits as that takes.
 std::string DegreesText(double rad) {
-  double degrees = rad / kDegree;
-  for (int step = 1; degrees * kDegree != rad && step < 20; ++step) {
-    const double toward = step % 2 ? 1e9 : -1e9;
-    for (int i = 0; i < step; ++i) degrees = std::nextafter(degrees, toward);
+  const double degrees = rad / kDegree;
+  std::string shortest;
+  for (const double near : {degrees, std::nextafter(degrees, 0.0),
+                            std::nextafter(degrees, 360.0)}) {
+    const std::string text = NumberText(near);
+    if (RadFromDegrees(text) == rad &&
+        (shortest.empty() || text.size() < shortest.size())) {
+      shortest = text;
+    }
   }
-  return NumberText(degrees);
+  if (!shortest.empty()) return shortest;
+  char text[64];
+  const auto end =
+      std::to_chars(text, text + sizeof text, rad / kLongDegree).ptr;
+  return std::string(text, end);
 }
 
 }  // namespace
 
 Finger ReadFinger(const std::string& path) {
   const YamlMap yaml = YamlMap::FromFile(path);
+  // First, as another version has other keys.
+  const int version = yaml.Integer("schema_version");
+  if (version != 1) {
+    yaml.Fail("schema_version",
+              "schema_version: expected 1, found " + std::to_string(version));
+  }
   yaml.AllowOnly(
       {"schema_version", "name", "geometry", "beams", "ribs", "gauges"});
-  if (yaml.Integer("schema_version") != 1) {
-    yaml.Fail("schema_version", "schema_version: expected 1");
-  }
   Finger finger;
   finger.name = yaml.Text("name");
   const YamlMap geometry = yaml.Map("geometry");
@@ -153,7 +198,7 @@ Finger ReadFinger(const std::string& path) {
                   "degrees, found " +
                       Short(angle));
   }
-  finger.back_angle_rad = angle * kDegree;
+  finger.back_angle_rad = RadFromDegrees(geometry.Text("back_angle_deg"));
   const YamlMap beams = yaml.Map("beams");
   beams.AllowOnly({"front", "back"});
   finger.front_stiffness_N_mm2 = ReadStiffness(beams.Map("front"));

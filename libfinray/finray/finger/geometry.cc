@@ -31,13 +31,20 @@ Eigen::Vector2d UndeformedPoint(const Finger& finger, Side side,
 
 double RibBackArc(const Finger& finger, double front_mm, double angle_rad) {
   // (0, front) + d (cos, sin)(angle) = base + s (cos, sin)(phi): crossing both
-  // sides with (cos, sin)(angle) leaves s.
-  const Eigen::Vector2d base = BeamBase(finger, Side::kBack);
-  const double c = std::cos(angle_rad), s = std::sin(angle_rad);
-  const double cross =
-      c * std::sin(finger.back_angle_rad) - s * std::cos(finger.back_angle_rad);
-  if (std::abs(cross) < 1e-12) return std::numeric_limits<double>::quiet_NaN();
-  return (c * (front_mm - base.y()) + s * base.x()) / cross;
+  // sides with one direction leaves the other's distance.
+  const Eigen::Vector2d to_base =
+      BeamBase(finger, Side::kBack) - Eigen::Vector2d(0, front_mm);
+  const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return a.x() * b.y() - a.y() * b.x();
+  };
+  const Eigen::Vector2d rib(std::cos(angle_rad), std::sin(angle_rad));
+  const Eigen::Vector2d back(std::cos(finger.back_angle_rad),
+                             std::sin(finger.back_angle_rad));
+  const double divisor = cross(rib, back);
+  if (std::abs(divisor) < 1e-12 || cross(to_base, back) / divisor < 0) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  return cross(to_base, rib) / divisor;
 }
 
 double NominalRibLength(const Finger& finger, const Rib& rib) {

@@ -25,7 +25,8 @@ Eigen::Vector2d UndeformedPoint(const Finger& finger, Side side, double arc_mm);
 
 /// Arc length at which a rib that leaves the undeformed front beam at front_mm
 /// in direction (cos, sin)(angle) meets the straight line of the back beam;
-/// NaN if it never does. The result may lie outside the beam.
+/// NaN if it never does, as it runs along that line or away from it. The result
+/// may lie outside the beam.
 double RibBackArc(const Finger& finger, double front_mm, double angle_rad);
 
 /// Distance of a rib's hinges in the undeformed finger (d_{k,0} of (7)).

@@ -7,7 +7,8 @@ namespace finray {
 
 /// Writes the whole content under a temporary name in the same folder and
 /// renames it, so that `path` never holds a partial file. The temporary file is
-/// removed on failure. Throws InputError if the folder cannot be written.
+/// removed on failure. Links are followed; a device or pipe, which cannot be
+/// replaced, is written to as it is. Throws InputError saying what failed.
 void WriteFileAtomically(const std::string& path, const std::string& content);
 
 /// Creates a folder and its parents; InputError naming it if that fails.

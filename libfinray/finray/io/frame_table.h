@@ -21,8 +21,9 @@ class FrameTable {
 
   /// Reads .csv or .csv.gz. `renames` maps a lab's own headers to vocabulary
   /// names (or the other way round where only that makes sense). Throws
-  /// InputError (file:line:column) for an unreadable or empty file, a duplicate
-  /// header, a row with the wrong number of cells or a cell that is no number.
+  /// InputError (file:line:column, column being the cell's number) for an
+  /// unreadable or empty file, a duplicate header, a row with the wrong number
+  /// of cells or a cell that is no number.
   static FrameTable Read(
       const std::string& path,
       const std::map<std::string, std::string>& renames = {});
@@ -32,23 +33,30 @@ class FrameTable {
 
   std::size_t rows() const { return rows_; }
   const std::string& path() const { return path_; }
-  /// Line of the file a row came from (1-based), for messages.
-  int line(std::size_t row) const { return lines_[row]; }
+  /// Line of the file a row came from (1-based), for messages; 0 in a table
+  /// that was not read.
+  int line(std::size_t row) const {
+    return row < lines_.size() ? lines_[row] : 0;
+  }
 
   std::vector<std::string> headers() const;
   bool Has(const std::string& name) const;
-  /// A numeric column; InputError naming the nearest header if it is missing.
+  /// A numeric column; InputError naming the nearest header if it is missing,
+  /// or saying so if it holds text.
   const std::vector<double>& Numbers(const std::string& name) const;
   /// As above, all NaN when the column is missing.
   std::vector<double> NumbersOrNan(const std::string& name) const;
-  /// A numeric column to write to: existing values, or NaN when new.
+  /// A numeric column to write to: existing values, or NaN when new. InputError
+  /// if it exists and holds text.
   std::vector<double>& MutableNumbers(const std::string& name);
-  /// A text column to write to: existing cells, or empty when new.
+  /// A text column to write to: existing cells, or empty when new. InputError
+  /// if it exists and holds numbers.
   std::vector<std::string>& MutableText(const std::string& name);
   /// Keeps the first rows only.
   void Truncate(std::size_t rows);
 
-  /// CSV text; doubles read back identical; NaN is an empty cell.
+  /// CSV text; doubles read back identical; what is not finite is an empty cell
+  /// ("nan" where the line would be blank).
   std::string ToCsv() const;
   /// Writes ToCsv() (gzipped if the name ends in .gz) under a temporary name,
   /// then renames.
@@ -59,6 +67,18 @@ class FrameTable {
     std::string name;
     std::variant<std::vector<double>, std::vector<std::string>> cells;
   };
+
+  const Column* Find(const std::string& name) const;
+  // The cells of a column as the given type, or an InputError.
+  template <typename Cells>
+  const Cells& CellsAs(const Column& column) const;
+  // The cells of a column to write to; a new one is filled with `missing`.
+  template <typename Cells>
+  Cells& MutableCells(const std::string& name,
+                      const typename Cells::value_type& missing);
+  // What messages call this table.
+  std::string Name() const { return path_.empty() ? "the table" : path_; }
+
   std::size_t rows_ = 0;
   std::string path_;
   std::vector<int> lines_;

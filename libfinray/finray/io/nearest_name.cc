@@ -47,14 +47,17 @@ std::string NearestName(const std::string& name,
   // Hostile names may be megabytes long; no key is.
   constexpr std::size_t kLongestName = 80;
   if (name.size() > kLongestName) return "";
+  const std::string bare = Bare(name);
   for (const std::string& candidate : candidates) {
-    if (Bare(candidate) == Bare(name)) return candidate;
+    if (!bare.empty() && Bare(candidate) == bare) return candidate;
   }
   std::string nearest;
   std::size_t best = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
     const std::size_t distance = EditDistance(Lower(name), Lower(candidate));
-    if (distance < best) {
+    // A slip leaves something of the name.
+    const std::size_t shorter = std::min(name.size(), candidate.size());
+    if (distance < best && distance < shorter) {
       best = distance;
       nearest = candidate;
     }

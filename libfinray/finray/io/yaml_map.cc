@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -12,14 +11,19 @@
 
 #include "finray/io/error.h"
 #include "finray/io/nearest_name.h"
+#include "finray/io/parse_number.h"
+#include "finray/io/shown_text.h"
 
 namespace finray {
 namespace {
 
+std::string Place(const std::string& path, int line, int column) {
+  return path + ":" + std::to_string(line + 1) + ":" +
+         std::to_string(column + 1) + ": ";
+}
+
 std::string Place(const std::string& path, const YAML::Mark& mark) {
-  if (mark.is_null()) return path + ": ";
-  return path + ":" + std::to_string(mark.line + 1) + ":" +
-         std::to_string(mark.column + 1) + ": ";
+  return mark.is_null() ? path + ": " : Place(path, mark.line, mark.column);
 }
 
 // A value as it goes into a message: one short line.
@@ -27,37 +31,55 @@ std::string Shown(const YAML::Node& node) {
   if (node.IsMap()) return "a mapping";
   if (node.IsSequence()) return "a sequence";
   if (node.IsNull()) return "nothing";
-  std::string text = node.Scalar();
-  if (text.size() > 40) text = text.substr(0, 40) + "...";
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  }
-  return "'" + text + "'";
+  return ShownText(node.Scalar());
 }
 
 std::string ReadText(const std::string& path) {
-  if (std::filesystem::is_directory(path)) {
+  std::error_code unknown;  // opening says better what is wrong
+  if (std::filesystem::is_directory(path, unknown)) {
     throw InputError(path + ": is a folder, expected a YAML file");
   }
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
-  if (!file) {
+  std::ostringstream text;
+  // An empty file leaves the stream failed, yet is read well.
+  if (file) text << file.rdbuf();
+  if (!file.is_open() || file.bad()) {
     throw InputError(path + ": cannot be read: " + std::strerror(errno));
   }
-  std::ostringstream text;
-  text << file.rdbuf();
   return text.str();
 }
 
-std::optional<double> ParseNumber(const std::string& text) {
-  const char* begin = text.data();
-  const char* end = begin + text.size();
-  if (begin != end && *begin == '+') ++begin;
-  double value;
-  const auto result = std::from_chars(begin, end, value);
-  if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value)) {
-    return std::nullopt;
+// The parser reads NUL as the end or as an escape.
+void RefuseNul(const std::string& path, const std::string& text) {
+  const auto nul = text.find('\0');
+  if (nul == std::string::npos) return;
+  const auto at = text.begin() + static_cast<std::ptrdiff_t>(nul);
+  const auto start =
+      nul == 0 ? std::string::npos : text.find_last_of('\n', nul - 1);
+  const std::size_t column = start == std::string::npos ? nul : nul - start - 1;
+  throw InputError(Place(path,
+                         static_cast<int>(std::count(text.begin(), at, '\n')),
+                         static_cast<int>(column)) +
+                   "found a NUL byte, expected UTF-8 text");
+}
+
+YAML::Node ParseOneDocument(const std::string& path, const std::string& text) {
+  std::vector<YAML::Node> documents;
+  try {
+    documents = YAML::LoadAll(text);
+  } catch (const YAML::Exception& error) {
+    throw InputError(Place(path, error.mark) + "not valid YAML: " + error.msg);
   }
-  return value;
+  if (documents.empty() || documents[0].IsNull()) {
+    throw InputError(path + ": is empty, expected a YAML mapping");
+  }
+  for (std::size_t i = 1; i < documents.size(); ++i) {
+    if (documents[i].IsNull()) continue;  // behind a closing "---"
+    throw InputError(Place(path, documents[i].Mark()) +
+                     "found a second YAML document, expected one");
+  }
+  return documents[0];
 }
 
 }  // namespace
@@ -80,14 +102,11 @@ YamlMap::YamlMap(YAML::Node node, std::string path, std::string name)
 
 YamlMap YamlMap::FromFile(const std::string& path) {
   const std::string text = ReadText(path);
-  YAML::Node node;
-  try {
-    node = YAML::Load(text);
-  } catch (const YAML::Exception& error) {
-    throw InputError(Place(path, error.mark) + "not valid YAML: " + error.msg);
-  }
+  RefuseNul(path, text);
+  const YAML::Node node = ParseOneDocument(path, text);
   if (!node.IsMap()) {
-    throw InputError(path + ": expected a YAML mapping, found " + Shown(node));
+    throw InputError(Place(path, node.Mark()) +
+                     "expected a YAML mapping, found " + Shown(node));
   }
   return YamlMap(node, path, "the file");
 }
@@ -146,14 +165,18 @@ double YamlMap::PositiveNumber(const std::string& key, double fallback) const {
   return Has(key) ? PositiveNumber(key) : fallback;
 }
 
-double YamlMap::NonNegativeNumber(const std::string& key,
-                                  double fallback) const {
-  const double number = Number(key, fallback);
+double YamlMap::NonNegativeNumber(const std::string& key) const {
+  const double number = Number(key);
   if (!(number >= 0)) {
     Fail(key,
          key + ": expected a number of at least 0, found " + Shown(node_[key]));
   }
   return number;
+}
+
+double YamlMap::NonNegativeNumber(const std::string& key,
+                                  double fallback) const {
+  return Has(key) ? NonNegativeNumber(key) : fallback;
 }
 
 int YamlMap::Integer(const std::string& key) const {
@@ -220,6 +243,7 @@ std::vector<YamlMap> YamlMap::Maps(const std::string& key) const {
   std::vector<YamlMap> maps;
   if (!Has(key)) return maps;
   const YAML::Node value = node_[key];
+  if (value.IsNull()) return maps;
   if (!value.IsSequence()) {
     Fail(key, key + ": expected a list, found " + Shown(value));
   }

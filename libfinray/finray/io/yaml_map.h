@@ -27,6 +27,7 @@ class YamlMap {
   double Number(const std::string& key, double fallback) const;
   double PositiveNumber(const std::string& key) const;
   double PositiveNumber(const std::string& key, double fallback) const;
+  double NonNegativeNumber(const std::string& key) const;
   double NonNegativeNumber(const std::string& key, double fallback) const;
   int Integer(const std::string& key) const;
   bool Boolean(const std::string& key, bool fallback) const;
@@ -42,7 +43,7 @@ class YamlMap {
   /// Whether the value of `key` is a mapping (as against a scalar).
   bool IsMap(const std::string& key) const;
   YamlMap Map(const std::string& key) const;
-  /// A sequence of mappings; empty when the key is absent.
+  /// A sequence of mappings; empty when the key is absent or has no value.
   std::vector<YamlMap> Maps(const std::string& key) const;
 
   /// Throws InputError at the position of `key` (of the mapping if absent).

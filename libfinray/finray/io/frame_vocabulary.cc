@@ -1,0 +1,78 @@
+#include "finray/io/frame_vocabulary.h"
+
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
+#include "finray/io/nearest_name.h"
+
+namespace finray {
+namespace {
+
+// '#' stands for an index that starts from 1.
+constexpr std::string_view kPatterns[] = {"time_s",
+                                          "gauge_#_V",
+                                          "gauge_#_rad",
+                                          "contact_#_mm",
+                                          "contact_#_std_mm",
+                                          "normal_#_N",
+                                          "normal_#_std_N",
+                                          "friction_#",
+                                          "contact_#_x_mm",
+                                          "contact_#_y_mm",
+                                          "contact_#_angle_rad",
+                                          "object_x_mm",
+                                          "object_y_mm",
+                                          "object_angle_deg",
+                                          "force_N",
+                                          "force_x_N",
+                                          "force_y_N",
+                                          "rib_#_N",
+                                          "tip_x_mm",
+                                          "tip_y_mm",
+                                          "tip_angle_rad",
+                                          "chi2",
+                                          "iterations",
+                                          "temperature_C"};
+
+bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+
+bool Matches(std::string_view name, std::string_view pattern) {
+  const auto hash = pattern.find('#');
+  if (hash == std::string_view::npos) return name == pattern;
+  const std::string_view before = pattern.substr(0, hash);
+  const std::string_view after = pattern.substr(hash + 1);
+  if (name.size() <= before.size() + after.size() ||
+      name.substr(0, before.size()) != before ||
+      name.substr(name.size() - after.size()) != after) {
+    return false;
+  }
+  const std::string_view index =
+      name.substr(before.size(), name.size() - before.size() - after.size());
+  return index.front() != '0' && index.size() <= 4 &&
+         std::all_of(index.begin(), index.end(), IsDigit);
+}
+
+}  // namespace
+
+bool IsFrameColumn(std::string_view name) {
+  return std::any_of(
+      std::begin(kPatterns), std::end(kPatterns),
+      [name](std::string_view pattern) { return Matches(name, pattern); });
+}
+
+std::string DidYouMeanFrameColumn(const std::string& name) {
+  // Compared with the index that the name has, if any.
+  const auto digit = std::find_if(name.begin(), name.end(), IsDigit);
+  std::string index(digit, std::find_if_not(digit, name.end(), IsDigit));
+  if (index.empty() || index.front() == '0') index = "1";
+  std::vector<std::string> columns = {"status"};
+  for (const std::string_view pattern : kPatterns) {
+    std::string& column = columns.emplace_back(pattern);
+    const auto hash = column.find('#');
+    if (hash != std::string::npos) column.replace(hash, 1, index);
+  }
+  return DidYouMean(name, columns);
+}
+
+}  // namespace finray
