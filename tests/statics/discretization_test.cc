@@ -22,6 +22,8 @@ TEST(DiscretizationTest, ErrorsNameTheNearestScheme) {
               ThrowsMessage<InputError>(HasSubstr("did you mean 'taylor'?")));
   EXPECT_THAT([] { ParseDiscretization("taylor", -1); },
               ThrowsMessage<InputError>(HasSubstr("--resolution: -1")));
+  EXPECT_THROW(ParseDiscretization("taylor", 1000001), InputError);
+  EXPECT_EQ(ParseDiscretization("rigid_chain", 100000).resolution, 100000);
 }
 
 }  // namespace

@@ -31,6 +31,12 @@ struct Gauge {
   double noise_V = 3e-4;  ///< Standard deviation of one reading.
 };
 
+/// A piece of a beam whose bending stiffness is not the beam's.
+struct StiffnessPiece {
+  double end_mm;           ///< It reaches from the last piece's end to here.
+  double stiffness_ratio;  ///< Its EI over the beam's.
+};
+
 /// A Fin-Ray finger (the paper's Fig. 3 and Table I): two straight beams that
 /// start clamped at their bases and meet in a rigid tip cap, and the ribs
 /// between them, in the order they are met from base to tip on both beams.
@@ -40,6 +46,11 @@ struct Finger {
   double back_angle_rad = 0;   ///< phi_0, direction of the back beam from +x.
   double front_stiffness_N_mm2 = 0;  ///< Bending stiffness EI.
   double back_stiffness_N_mm2 = 0;
+  /// Axial stiffness EA; infinite: the beam does not stretch.
+  double front_axial_stiffness_N = std::numeric_limits<double>::infinity();
+  double back_axial_stiffness_N = std::numeric_limits<double>::infinity();
+  /// Base to tip, the last one ending at the tip; empty: uniform stiffness.
+  std::vector<StiffnessPiece> front_pieces, back_pieces;
   std::vector<Rib> ribs;
   std::vector<Gauge> gauges;
 };

@@ -29,6 +29,20 @@ Eigen::Vector2d UndeformedPoint(const Finger& finger, Side side,
          arc_mm * Eigen::Vector2d(std::cos(angle), std::sin(angle));
 }
 
+double BendingStiffness(const Finger& finger, Side side) {
+  return side == Side::kFront ? finger.front_stiffness_N_mm2
+                              : finger.back_stiffness_N_mm2;
+}
+
+double AxialStiffness(const Finger& finger, Side side) {
+  return side == Side::kFront ? finger.front_axial_stiffness_N
+                              : finger.back_axial_stiffness_N;
+}
+
+const std::vector<StiffnessPiece>& Pieces(const Finger& finger, Side side) {
+  return side == Side::kFront ? finger.front_pieces : finger.back_pieces;
+}
+
 double RibBackArc(const Finger& finger, double front_mm, double angle_rad) {
   // (0, front) + d (cos, sin)(angle) = base + s (cos, sin)(phi): crossing both
   // sides with one direction leaves the other's distance.

@@ -23,6 +23,11 @@ double BeamAngle(const Finger& finger, Side side);
 /// Point of the undeformed beam at the given arc length from its base.
 Eigen::Vector2d UndeformedPoint(const Finger& finger, Side side, double arc_mm);
 
+/// What a beam is made of; see Finger.
+double BendingStiffness(const Finger& finger, Side side);
+double AxialStiffness(const Finger& finger, Side side);
+const std::vector<StiffnessPiece>& Pieces(const Finger& finger, Side side);
+
 /// Arc length at which a rib that leaves the undeformed front beam at front_mm
 /// in direction (cos, sin)(angle) meets the straight line of the back beam;
 /// NaN if it never does, as it runs along that line or away from it. The result

@@ -341,7 +341,8 @@ LadderModel::LadderModel(const Finger& finger,
                          const Discretization& discretization)
     : finger_(finger) {
   for (const Side side : {Side::kFront, Side::kBack}) {
-    mesh_[Index(side)] = MakeBeamMesh(finger, side, discretization);
+    mesh_[Index(side)] =
+        MakeBeamMesh(finger, side, EffectiveResolution(discretization));
     auto& ends = gauge_ends_[Index(side)];
     for (int j = 0; j < gauges(); ++j) {
       const Gauge& gauge = finger.gauges[j];

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "finray/finger/finger.h"
+#include "finray/finger/mesh.h"
+#include "finray/statics/discretization.h"
 #include "finray/statics/element.h"
-#include "finray/statics/mesh.h"
 
 namespace finray {
 
