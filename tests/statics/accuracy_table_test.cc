@@ -139,7 +139,8 @@ class OrderTable {
     TaylorElement<K> element;
     double angle = 0, moment = 0;
     for (std::size_t i = 0; i < spans_.size(); ++i) {
-      element.Compute(spans_[i].start, kStiffness, spans_[i].length_mm);
+      element = ComputedElement<TaylorElement<K>>(spans_[i].start, kStiffness,
+                                                  spans_[i].length_mm);
       const double* end = element.map().end;
       angle =
           std::max(angle, std::abs(end[2] - static_cast<double>(exact_[i][2])));
@@ -151,7 +152,8 @@ class OrderTable {
     for (int repeat = 0; repeat < 20; ++repeat) {
       const auto start = std::chrono::steady_clock::now();
       for (const BeamSpan& span : spans_) {
-        element.Compute(span.start, kStiffness, span.length_mm);
+        element = ComputedElement<TaylorElement<K>>(span.start, kStiffness,
+                                                    span.length_mm);
         keep = element.map().end[2];
       }
       fastest = std::min(fastest, std::chrono::duration<double, std::nano>(

@@ -43,8 +43,7 @@ Elastica March(double load, int elements, double moment_guess) {
     double d_theta = 0, d_moment = 1;
     x = y = 0;
     for (int i = 0; i < elements; ++i) {
-      Element element;
-      element.Compute(at, 1, 1.0 / elements);
+      const auto element = ComputedElement<Element>(at, 1, 1.0 / elements);
       const ElementMap& map = element.map();
       x += map.end[0];
       y += map.end[1];
@@ -90,7 +89,7 @@ TEST(CantileverTest, RigidChainIsOfOrderTwo) {
   double before = 0;
   for (int n = 10; n <= 1280; n *= 2) {
     const double error =
-        Error(March<RigidLinkElement>(5, n, 5 * exact.tip_x), exact);
+        Error(March<RigidLinkElement<>>(5, n, 5 * exact.tip_x), exact);
     const double order = before > 0 ? std::log2(before / error) : 0;
     std::printf("%33d   %.3e       %.3f\n", n, error, order);
     if (n >= 40) {

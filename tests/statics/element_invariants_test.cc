@@ -28,12 +28,10 @@ template <class Element>
 class ElementInvariantTest : public testing::Test {
  public:
   static Element At(const ElementStart& start, double length) {
-    Element element;
-    element.Compute(start, kStiffness, length);
-    return element;
+    return ComputedElement<Element>(start, kStiffness, length);
   }
 };
-using Elements = testing::Types<TaylorElement<16>, RigidLinkElement>;
+using Elements = testing::Types<TaylorElement<16>, RigidLinkElement<>>;
 TYPED_TEST_SUITE(ElementInvariantTest, Elements);
 
 // M_1 = M_0 - (r_1 - r_0) x N, whatever the shape.
@@ -86,8 +84,8 @@ TYPED_TEST(ElementInvariantTest, WithoutForceTheMomentBendsAnArc) {
 TEST(TaylorElementInvariantTest, MatchesRungeKuttaEverywhere) {
   for (const ElementStart& start : Starts()) {
     for (const double length : {2.0, 6.0, 8.0}) {
-      TaylorElement<16> element;
-      element.Compute(start, kStiffness, length);
+      const auto element =
+          ComputedElement<TaylorElement<16>>(start, kStiffness, length);
       for (const double share : {0.37, 1.0}) {
         const BeamOdeState exact = IntegrateBeam(
             {0, 0, start.theta_rad, start.moment_N_mm}, start.force_x_N,
@@ -107,8 +105,8 @@ TEST(TaylorElementInvariantTest, MatchesRungeKuttaEverywhere) {
 TEST(RigidLinkElementInvariantTest, IsTwoHalfLinksAndAnElasticJoint) {
   const double length = 8;
   for (const ElementStart& start : Starts()) {
-    RigidLinkElement element;
-    element.Compute(start, kStiffness, length);
+    const auto element =
+        ComputedElement<RigidLinkElement<>>(start, kStiffness, length);
     const double* end = element.map().end;
     const double x = length / 2 * std::cos(start.theta_rad);
     const double y = length / 2 * std::sin(start.theta_rad);
@@ -123,8 +121,8 @@ TEST(RigidLinkElementInvariantTest, IsTwoHalfLinksAndAnElasticJoint) {
 TEST(RigidLinkElementInvariantTest, LocalErrorIsOfOrderThree) {
   const ElementStart start{3.9, -400, -20, 9};
   const auto error = [&](double length, int row) {
-    RigidLinkElement element;
-    element.Compute(start, kStiffness, length);
+    const auto element =
+        ComputedElement<RigidLinkElement<>>(start, kStiffness, length);
     const BeamOdeState exact = IntegrateBeam(
         {0, 0, start.theta_rad, start.moment_N_mm}, start.force_x_N,
         start.force_y_N, kStiffness, length, 400);

@@ -13,6 +13,8 @@ using Taylor = TaylorElement<16>;
 
 const ElementStart kStart = {1.3, 42.0, -3.1, 1.7};
 constexpr double kStiffness = 9000, kLength = 11.5;
+// Used by the stretching element only.
+constexpr double kFlexibility = 2e-3;
 
 // Central difference of f at 0 with step h.
 double Slope(const std::function<double(double)>& f, double h) {
@@ -21,19 +23,21 @@ double Slope(const std::function<double(double)>& f, double h) {
 
 template <class Element>
 class ElementTest : public testing::Test {};
-using Elements = testing::Types<Taylor, RigidLinkElement>;
+using Elements =
+    testing::Types<Taylor, TaylorElement<8>, TaylorElement<16, double, true>,
+                   RigidLinkElement<>>;
 TYPED_TEST_SUITE(ElementTest, Elements);
 
 TYPED_TEST(ElementTest, DerivativesMatchFiniteDifferences) {
-  TypeParam element;
-  element.Compute(kStart, kStiffness, kLength);
+  const TypeParam element =
+      ComputedElement<TypeParam>(kStart, kStiffness, kLength, kFlexibility);
   const ElementMap map = element.map();
   const double step[4] = {1e-5, 1e-2, 1e-4, 1e-4};
   for (int i = 0; i < 4; ++i) {
     const auto end = [&](ElementStart start, double stiffness, double length) {
-      TypeParam moved;
-      moved.Compute(start, stiffness, length);
-      return moved.map().end[i];
+      return ComputedElement<TypeParam>(start, stiffness, length, kFlexibility)
+          .map()
+          .end[i];
     };
     for (int p = 0; p < 4; ++p) {
       const auto at = [&](double d) {
@@ -60,14 +64,14 @@ TYPED_TEST(ElementTest, DerivativesMatchFiniteDifferences) {
 
 TYPED_TEST(ElementTest, ReadoutDerivativesMatchFiniteDifferences) {
   constexpr double kOffset = 4.3;
-  TypeParam element;
-  element.Compute(kStart, kStiffness, kLength);
+  const TypeParam element =
+      ComputedElement<TypeParam>(kStart, kStiffness, kLength, kFlexibility);
   const AngleReadout at = element.AngleAt(kOffset);
   const auto angle = [&](ElementStart start, double stiffness, double length,
                          double offset) {
-    TypeParam moved;
-    moved.Compute(start, stiffness, length);
-    return moved.AngleAt(offset).theta_rad;
+    return ComputedElement<TypeParam>(start, stiffness, length, kFlexibility)
+        .AngleAt(offset)
+        .theta_rad;
   };
   const auto start_moved = [&](int p, double d) {
     ElementStart s = kStart;
@@ -105,8 +109,7 @@ TYPED_TEST(ElementTest, ReadoutDerivativesMatchFiniteDifferences) {
 }
 
 TYPED_TEST(ElementTest, ZeroLengthIsTheIdentity) {
-  TypeParam element;
-  element.Compute(kStart, kStiffness, 0);
+  const TypeParam element = ComputedElement<TypeParam>(kStart, kStiffness, 0);
   const ElementMap& map = element.map();
   EXPECT_EQ(map.end[0], 0);
   EXPECT_EQ(map.end[1], 0);
@@ -119,8 +122,7 @@ TYPED_TEST(ElementTest, ZeroLengthIsTheIdentity) {
 
 TEST(TaylorElementTest, DenseOutputKeepsThePendulumIntegral) {
   // M^2 / 2 EI + N . t is constant along a bay.
-  Taylor element;
-  element.Compute(kStart, kStiffness, kLength);
+  const auto element = ComputedElement<Taylor>(kStart, kStiffness, kLength);
   const auto integral = [](double theta, double moment) {
     return moment * moment / (2 * kStiffness) +
            kStart.force_x_N * std::cos(theta) +

@@ -410,7 +410,7 @@ TEST_P(EquilibriumTest, TinyForcesActLinearlyAndReciprocally) {
     for (const double b : {30.0, 95.0, 135.0}) {
       ASSERT_TRUE(solver.SolveWithSensitivities({{a, 0, 0}, {b, 0, 0}}));
       const Eigen::VectorXd rest = solver.outputs();
-      const LadderLinearization::Matrix slope = solver.d_outputs();
+      const EquilibriumSolver::Matrix slope = solver.d_outputs();
       const int row = solver.model().gauges();
       // Normals are +x in the undeformed finger.
       const double b_by_a = slope(row + 3, 1), a_by_b = slope(row, 3);

@@ -61,26 +61,15 @@ void FrameEvaluation::UpdateReduced(EquilibriumSolver* solver) {
 
 void FrameEvaluation::UpdateWeighted(const double* frame,
                                      EquilibriumSolver* solver) {
-  const int unknowns = 6 + ribs_;
-  const int marched = unknowns + 2 * contacts() + 2;
-  state_.q = Eigen::Map<const Eigen::VectorXd>(frame, unknowns);
-  LadderLinearization at;
-  March(solver->model(), contacts_, solver->scheme(), MarchMode::kPropagate,
-        true, &state_, &at);
-  valid_ = at.closure.allFinite() && at.d_closure.allFinite();
+  const Eigen::VectorXd q = Eigen::Map<const Eigen::VectorXd>(frame, 6 + ribs_);
+  LadderShot shot;
+  valid_ = solver->Shoot(q, contacts_, &shot);
   if (!valid_) return;
-  outputs_ = at.outputs;
-  closure_ = at.closure;
-  d_outputs_.setZero(at.outputs.size(), columns());
-  d_outputs_.leftCols(marched) = at.d_outputs.leftCols(marched);
-  d_closure_.setZero(unknowns, columns());
-  d_closure_.leftCols(marched) = at.d_closure.leftCols(marched);
-  for (int i = 0; i < ribs_; ++i) {
-    // closure = |r| - L (1 + T / EA)
-    d_closure_(i, marched + i) =
-        -1 -
-        state_.q[6 + i] / solver->model().finger().ribs[i].axial_stiffness_N;
-  }
+  outputs_ = shot.outputs;
+  closure_ = shot.closure;
+  d_outputs_ = shot.d_outputs;
+  d_closure_ = shot.d_closure;
+  state_ = solver->state();
 }
 
 }  // namespace finray

@@ -25,7 +25,7 @@ enum class EquilibriumForm {
 /// of ladder.h (6 + r) in the weighted form.
 class FrameEvaluation {
  public:
-  using Matrix = LadderLinearization::Matrix;
+  using Matrix = EquilibriumSolver::Matrix;
 
   FrameEvaluation(const LadderModel& model, EquilibriumForm form, int contacts,
                   double friction);

@@ -7,11 +7,21 @@ namespace finray {
 
 int EffectiveResolution(const Discretization& discretization) {
   if (discretization.resolution > 0) return discretization.resolution;
-  return discretization.scheme == Scheme::kRigidChain ? 200 : 24;
+  switch (discretization.scheme) {
+    case Scheme::kRigidChain:
+      return 200;
+    case Scheme::kTaylor4:
+      return 100;
+    case Scheme::kTaylor8:
+      return 48;
+    default:
+      return 24;
+  }
 }
 
 const std::vector<std::string>& SchemeNames() {
-  static const std::vector<std::string> names = {"rigid_chain", "taylor"};
+  static const std::vector<std::string> names = {
+      "rigid_chain", "taylor4", "taylor8", "taylor12", "taylor"};
   return names;
 }
 

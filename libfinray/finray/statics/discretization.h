@@ -10,21 +10,32 @@ namespace finray {
 /// trade).
 enum class Scheme {
   kRigidChain,  ///< The paper's rigid links, order 2 (RigidLinkElement).
-  kTaylor,      ///< Taylor series of order 16 (TaylorElement).
+  kTaylor4,     ///< Taylor series of order 4 (TaylorElement).
+  kTaylor8,     ///< ... of order 8.
+  kTaylor12,    ///< ... of order 12.
+  kTaylor,      ///< ... of order 16, the default.
 };
 
 /// Scheme and number of elements over both beams together; no bay has less than
-/// one element. A resolution of 0 stands for the scheme's default.
+/// one element. A resolution of 0 stands for the scheme's default, which in
+/// Taylor schemes is refined where the load asks for it, until the terms that
+/// an element's series leaves out are below kRefinedTruncation_rad.
 struct Discretization {
   Scheme scheme = Scheme::kTaylor;
   int resolution = 0;
+
+  bool adaptive() const {
+    return resolution == 0 && scheme != Scheme::kRigidChain;
+  }
 };
 
-/// The number of elements that a discretization asks for: its resolution, or
-/// the scheme's default (24 for taylor, 200 for rigid_chain).
+constexpr double kRefinedTruncation_rad = 1e-10;
+
+/// The number of elements that a discretization asks for (to begin with): its
+/// resolution, or the scheme's default.
 int EffectiveResolution(const Discretization& discretization);
 
-/// "rigid_chain", "taylor": the values of --scheme.
+/// The values of --scheme: "rigid_chain", "taylor" and so on.
 const std::vector<std::string>& SchemeNames();
 std::string SchemeName(Scheme scheme);
 

@@ -6,51 +6,77 @@ namespace finray {
 // The beam equation of a bay. Between ribs, contacts and the ends of a beam the
 // internal force N is constant, so the state (x, y, theta, M) obeys
 //
-//   x' = cos(theta),  y' = sin(theta),  theta' = M / EI,
-//   M' = -(t x N) = N_x sin(theta) - N_y cos(theta),
+//   x' = (1 + e) cos(theta),  y' = (1 + e) sin(theta),  theta' = M / EI,
+//   M' = -(1 + e) (t x N) = (1 + e) (N_x sin(theta) - N_y cos(theta)),
+//   e  = (t . N) / EA,
 //
 // with M and N the moment and force that the part towards the tip exerts on the
-// part towards the base. An element carries the state over a length h. Each
-// scheme is a class with the members of TaylorElement and RigidLinkElement:
+// part towards the base, t the tangent and s the arc length of the unstretched
+// beam. A beam that does not stretch has 1 / EA = 0. An element carries the
+// state over a length h. Each scheme is a class with the members of
+// TaylorElement and RigidLinkElement, for a value V (lanes.h) of any width:
 //
-//   void Compute(const ElementStart&, double stiffness, double length);
-//   const ElementMap& map() const;
-//   AngleReadout AngleAt(double offset) const;     // inside the element
-//   BeamPoint PointAt(double offset) const;
+//   void Solve(start, stiffness, axial_flexibility, length);
+//   void Differentiate();                      // by the start of the element
+//   void DifferentiateByParameters();          // by EI and h, after that
+//   const BasicElementMap<V>& map() const;
+//   BasicAngleReadout<V> AngleAt(V offset) const;   // inside the element
+//   BasicBeamPoint<V> PointAt(V offset) const;
+//   V Truncation() const;                      // of the angle at the end, rad
 
 /// What an element starts from; position does not matter.
-struct ElementStart {
-  double theta_rad;
-  double moment_N_mm;
-  double force_x_N;
-  double force_y_N;
+template <class V>
+struct BasicElementStart {
+  V theta_rad;
+  V moment_N_mm;
+  V force_x_N;
+  V force_y_N;
 };
 
 /// The state at the end of an element: (x - x_start, y - y_start, theta, M),
 /// and its derivatives. These are exact derivatives of the discrete scheme.
-struct ElementMap {
-  double end[4];
-  double d_start[4][4];   ///< by (theta, M, N_x, N_y) at the start.
-  double d_stiffness[4];  ///< by EI.
-  double d_length[4];     ///< by h.
+template <class V>
+struct BasicElementMap {
+  V end[4];
+  V d_start[4][4];   ///< by (theta, M, N_x, N_y) at the start.
+  V d_stiffness[4];  ///< by EI.
+  V d_length[4];     ///< by h.
 };
 
 /// Tangent angle inside an element with its derivatives.
-struct AngleReadout {
-  double theta_rad;
-  double d_start[4];  ///< by (theta, M, N_x, N_y) at the start.
-  double d_stiffness;
-  double d_offset;
-  double d_length;  ///< by h at a fixed offset.
+template <class V>
+struct BasicAngleReadout {
+  V theta_rad;
+  V d_start[4];  ///< by (theta, M, N_x, N_y) at the start.
+  V d_stiffness;
+  V d_offset;
+  V d_length;  ///< by h at a fixed offset.
 };
 
 /// A point of a deformed beam.
-struct BeamPoint {
-  double x_mm;
-  double y_mm;
-  double theta_rad;
-  double moment_N_mm;
+template <class V>
+struct BasicBeamPoint {
+  V x_mm;
+  V y_mm;
+  V theta_rad;
+  V moment_N_mm;
 };
+
+using ElementStart = BasicElementStart<double>;
+using ElementMap = BasicElementMap<double>;
+using AngleReadout = BasicAngleReadout<double>;
+using BeamPoint = BasicBeamPoint<double>;
+
+/// Everything an element can tell, in one call.
+template <class Element>
+Element ComputedElement(const ElementStart& start, double stiffness,
+                        double length, double axial_flexibility = 0) {
+  Element element;
+  element.Solve(start, stiffness, axial_flexibility, length);
+  element.Differentiate();
+  element.DifferentiateByParameters();
+  return element;
+}
 
 }  // namespace finray
 

@@ -2,214 +2,328 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "finray/finger/geometry.h"
+#include "finray/statics/load_path.h"
 
 namespace finray {
 namespace {
 
-// In units of l_0, EI / l_0 and EI / l_0^2. Newton's last step squares what is
-// below this, so the equilibrium left behind is good to rounding.
-constexpr double kTolerance = 1e-9;
-constexpr int kMaxIterations = 25;
-// A node that turns further than this in one step has left the linear range.
-constexpr double kMaxTurn_rad = 0.7;
-// A residual this large (a turn or a length many times the finger) is lost.
-constexpr double kHopeless = 1e6;
-constexpr double kSmallestRampStep = 1e-3;
+// sum of |f_c| l_0^2 / EI beyond which Newton's method may arrive at another
+// equilibrium than the one that grows out of the unloaded finger
+// (docs/statics.md): only the path, or a start this near, is trusted then.
+constexpr double kHeavyLoad = 40;
+constexpr double kNear_rad = 0.3;
 
 }  // namespace
 
 EquilibriumSolver::EquilibriumSolver(const Finger& finger,
                                      const Discretization& discretization)
-    : model_(finger, discretization), scheme_(discretization.scheme) {
-  const int n = model_.unknowns(), r = model_.ribs();
-  const double length = finger.front_length_mm;
-  const double force = ForceUnit(finger);
-  row_unit_.setConstant(n, 1 / length);  // rib lengths, tip x and y
-  row_unit_[r + 2] = 1;                  // tip angle
-  row_unit_[r + 3] = 1 / (force * length);
-  row_unit_.tail<2>().setConstant(1 / force);
-  column_unit_.setConstant(n, force);
-  column_unit_[0] = column_unit_[3] = force * length;
-  Reset();
+    : scheme_(discretization.scheme), newton_(finger, discretization) {}
+
+LadderState EquilibriumSolver::state() const {
+  LadderState state;
+  newton_.Save(&state);
+  return state;
+}
+
+void EquilibriumSolver::set_state(const LadderState& state) {
+  newton_.Load(state);
+  undeformed_ = false;
+}
+
+void EquilibriumSolver::Reset() {
+  newton_.Reset();
+  undeformed_ = true;
 }
 
 bool EquilibriumSolver::Solve(const std::vector<PointContact>& contacts) {
-  return SolveFrom(contacts, false);
+  return SolveFor(contacts, SweepColumns::kNone);
 }
 
 bool EquilibriumSolver::SolveWithSensitivities(
     const std::vector<PointContact>& contacts) {
-  return SolveFrom(contacts, true);
+  return SolveFor(contacts, SweepColumns::kParameters);
 }
 
-bool EquilibriumSolver::SolveFrom(const std::vector<PointContact>& contacts,
-                                  bool sensitivities) {
-  iterations_ = 0;
-  for (const PointContact& contact : contacts) {
-    // Written so that a NaN fails.
-    if (!(contact.arc_mm >= 0 &&
-          contact.arc_mm <= model_.finger().front_length_mm)) {
-      Reset();
-      return false;
-    }
+bool EquilibriumSolver::SolveFor(const std::vector<PointContact>& contacts,
+                                 SweepColumns columns) {
+  newton_.TakeIterations();
+  path_fraction_ = 0;
+  status_ = SolveStatus::kBadLoad;
+  if (!IsBadLoad(contacts)) {
+    status_ = SolveStatus::kNotConverged;
+    if (Attempt(contacts, columns)) status_ = SolveStatus::kSolved;
   }
-  if (SolveFromHere(contacts, sensitivities)) return true;
-  Reset();
-  if (SolveFromHere(contacts, sensitivities)) return true;
-  if (SolveAlongRamp(contacts) && SolveFromHere(contacts, sensitivities)) {
-    return true;
+  iterations_ = newton_.TakeIterations();
+  if (status_ != SolveStatus::kSolved) {
+    Reset();
+    return false;
   }
-  Reset();
-  return false;
-}
-
-bool EquilibriumSolver::SolveAlongRamp(
-    const std::vector<PointContact>& contacts) {
-  std::vector<PointContact> ramped = contacts;
-  const Finger target = model_.finger();
-  const auto solve_at = [&](double fraction) {
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-      ramped[i].normal_N = fraction * contacts[i].normal_N;
-    }
-    for (int i = 0; i < model_.ribs(); ++i) {
-      const double nominal = NominalRibLength(target, target.ribs[i]);
-      model_.set_rib_length(
-          i, nominal + fraction * (target.ribs[i].length_mm - nominal));
-    }
-    const bool solved = SolveFromHere(ramped, false);
-    for (int i = 0; i < model_.ribs(); ++i) {
-      model_.set_rib_length(i, target.ribs[i].length_mm);
-    }
-    return solved;
-  };
-
-  Reset();
-  LadderState reached = state_;
-  double fraction = 0, step = 0.25;
-  while (fraction < 1) {
-    const double next = std::min(1.0, fraction + step);
-    if (solve_at(next)) {
-      fraction = next;
-      reached = state_;
-      step *= 1.5;
-    } else {
-      state_ = reached;
-      step *= 0.5;
-      if (step < kSmallestRampStep) return false;
-    }
-  }
+  undeformed_ = false;
+  CollectValues();
+  if (columns == SweepColumns::kParameters) CollectDerivatives();
   return true;
 }
 
-bool EquilibriumSolver::SolveFromHere(const std::vector<PointContact>& contacts,
-                                      bool sensitivities) {
-  double best = kHopeless;
-  for (int i = 0; i < kMaxIterations; ++i) {
-    ++iterations_;
-    March(model_, contacts, scheme_, MarchMode::kLifted, sensitivities, &state_,
-          &linearization_);
-    const double residual = ResidualNorm();
-    // Written so that a NaN fails.
-    if (!(residual <= kHopeless)) return false;
-    if (!ComputeStep()) return false;
-    if (residual < kTolerance) {
-      ReduceOutputs(sensitivities);
-      ApplyStep(1);
-      return true;
+bool EquilibriumSolver::Attempt(const std::vector<PointContact>& contacts,
+                                SweepColumns columns) {
+  const LadderFrame<double>& f = newton_.frame();
+  const bool heavy = IsHeavy(contacts);
+  if (!undeformed_) {
+    const int mesh_before = f.elements;
+    if (heavy) {
+      angles_before_.assign(f.state.theta, f.state.theta + f.elements);
     }
-    // Newton may climb for a while; it does not come back from far above.
-    best = std::min(best, residual);
-    if (i > 8 && residual > 1e3 * best) return false;
-    const double turn = LargestTurn();
-    if (!std::isfinite(turn)) return false;
-    ApplyStep(turn > kMaxTurn_rad ? kMaxTurn_rad / turn : 1.0);
+    if (newton_.Converge(contacts, 1, columns)) {
+      if (!heavy) return true;
+      double turn = 0;
+      if (f.elements == mesh_before) {
+        for (int e = 0; e < f.elements; ++e) {
+          turn = std::max(turn, std::abs(f.state.theta[e] - angles_before_[e]));
+        }
+      }
+      if (turn < kNear_rad) return true;
+    }
+  }
+  if (!heavy) {
+    newton_.Reset();
+    if (newton_.Converge(contacts, 1, columns)) return true;
+  }
+  switch (WalkLoadPath(contacts, &newton_, &path_fraction_)) {
+    case LoadPathEnd::kReached:
+      return newton_.Converge(contacts, 1, columns);
+    case LoadPathEnd::kLimitPoint:
+      status_ = SolveStatus::kLimitPoint;
+      return false;
+    case LoadPathEnd::kStuck:
+      break;
   }
   return false;
 }
 
-double EquilibriumSolver::ResidualNorm() const {
-  double norm = linearization_.defect;
-  for (int i = 0; i < model_.unknowns(); ++i) {
-    const double scaled = std::abs(linearization_.closure[i]) * row_unit_[i];
-    if (!(scaled <= norm)) norm = scaled;
-  }
-  return norm;
-}
-
-// Solves the closure equations, with the defects closed as well, for the step
-// in q; with sensitivities also for the response of q to each parameter.
-bool EquilibriumSolver::ComputeStep() {
-  const int n = model_.unknowns();
-  const LadderLinearization& at = linearization_;
-  scaled_ = row_unit_.asDiagonal() * at.d_closure.leftCols(n) *
-            column_unit_.asDiagonal();
-  lu_.compute(scaled_);
-  step_ = -(at.closure + at.d_closure.rightCols<1>());
-  step_.array() *= row_unit_.array();
-  step_ = lu_.solve(step_);
-  step_.array() *= column_unit_.array();
-  return step_.allFinite();
-}
-
-double EquilibriumSolver::LargestTurn() const {
-  double largest = 0;
-  const int n = model_.unknowns();
-  for (const auto& d : linearization_.d_nodes) {
-    for (int row = 2; row < d.rows(); row += 4) {
-      const double turn =
-          std::abs(d.row(row).head(n).dot(step_) + d(row, d.cols() - 1));
-      if (!(turn <= largest)) largest = turn;
+bool EquilibriumSolver::IsBadLoad(
+    const std::vector<PointContact>& contacts) const {
+  for (const PointContact& contact : contacts) {
+    // Written so that a NaN is bad.
+    if (!(contact.arc_mm >= 0 &&
+          contact.arc_mm <= BeamLength(model().finger(), contact.side) &&
+          std::isfinite(contact.normal_N) && std::isfinite(contact.friction))) {
+      return true;
     }
   }
-  return largest;
+  return false;
 }
 
-void EquilibriumSolver::ApplyStep(double fraction) {
-  const int n = model_.unknowns();
-  for (int side = 0; side < 2; ++side) {
-    const auto& d = linearization_.d_nodes[side];
-    node_step_.noalias() = d.leftCols(n) * step_;
-    node_step_ += d.col(d.cols() - 1);
-    Eigen::Map<Eigen::VectorXd>(state_.nodes[side].data(), d.rows()) +=
-        fraction * node_step_;
+bool EquilibriumSolver::IsHeavy(
+    const std::vector<PointContact>& contacts) const {
+  double force = 0;
+  for (const PointContact& contact : contacts) {
+    force += std::abs(contact.normal_N) * std::hypot(1, contact.friction);
   }
-  state_.q += fraction * step_;
+  const double length = model().finger().front_length_mm;
+  const double softest =
+      std::min(model().stiffness(Side::kFront), model().stiffness(Side::kBack));
+  return force * length * length > kHeavyLoad * softest;
 }
 
-void EquilibriumSolver::ReduceOutputs(bool sensitivities) {
-  const LadderLinearization& at = linearization_;
-  const int n = model_.unknowns();
-  const int p = at.parameters;
-  const int r = model_.ribs();
-  outputs_ = at.outputs + at.d_outputs.col(at.columns() - 1);
-  outputs_.noalias() += at.d_outputs.leftCols(n) * step_;
-  if (!sensitivities) return;
-
-  parameter_response_.resize(n, p + r);
-  parameter_response_.leftCols(p) = -at.d_closure.middleCols(n, p);
-  parameter_response_.rightCols(r).setZero();
-  for (int i = 0; i < r; ++i) {
-    // closure = |r| - L (1 + T / EA)
-    parameter_response_(i, p + i) =
-        1 + state_.q[6 + i] / model_.finger().ribs[i].axial_stiffness_N;
+std::string EquilibriumSolver::Why() const {
+  std::ostringstream text;
+  const double percent = 0.1 * std::round(1000 * path_fraction_);
+  switch (status_) {
+    case SolveStatus::kSolved:
+      break;
+    case SolveStatus::kBadLoad:
+      text << "a contact lies off its beam or a number is not finite";
+      break;
+    case SolveStatus::kLimitPoint:
+      text << "the equilibrium ends at a limit point at " << percent
+           << " % of this load: the finger would snap through";
+      break;
+    case SolveStatus::kNotConverged:
+      text << "no equilibrium found under this load (reached " << percent
+           << " % of it)";
+      break;
   }
-  parameter_response_.array().colwise() *= row_unit_.array();
-  d_q_ = lu_.solve(parameter_response_);
-  d_q_.array().colwise() *= column_unit_.array();
-  d_outputs_.resize(at.outputs.size(), p + r);
-  d_outputs_.noalias() = at.d_outputs.leftCols(n) * d_q_;
-  d_outputs_.leftCols(p) += at.d_outputs.middleCols(n, p);
+  return text.str();
+}
+
+double EquilibriumSolver::rib_tension(int rib) const {
+  return newton_.frame().state.q[6 + rib] * newton_.workspace().force_unit();
+}
+
+Eigen::Vector3d EquilibriumSolver::base_reaction(Side side) const {
+  const double* q = newton_.frame().state.q + 3 * LadderModel::Index(side);
+  const double force = newton_.workspace().force_unit();
+  return -Eigen::Vector3d(q[0] * newton_.workspace().moment_unit(),
+                          q[1] * force, q[2] * force);
+}
+
+int EquilibriumSolver::unknowns() const {
+  const LadderFrame<double>& f = newton_.frame();
+  return 6 + f.ribs + 4 * (f.elements - 2);
+}
+
+// Units of outputs, of the parameters they are derived by, and of q.
+void EquilibriumSolver::OutputUnits() {
+  const LadderWorkspace<double>& w = newton_.workspace();
+  const int contacts = newton_.frame().contact_count;
+  const int m = model().gauges(), r = model().ribs();
+  output_unit_.setConstant(m + 3 * contacts + 3, w.length_unit());
+  output_unit_.head(m).setOnes();
+  for (int c = 0; c <= contacts; ++c) output_unit_[m + 3 * c + 2] = 1;
+  parameter_unit_.resize(2 * contacts + 2 + r);
+  for (int c = 0; c < contacts; ++c) {
+    parameter_unit_[2 * c] = w.length_unit();
+    parameter_unit_[2 * c + 1] = w.force_unit();
+  }
+  parameter_unit_.segment<2>(2 * contacts).setConstant(w.stiffness_unit());
+  parameter_unit_.tail(r).setConstant(w.length_unit());
+  q_unit_.setConstant(6 + r, w.force_unit());
+  q_unit_[0] = q_unit_[3] = w.moment_unit();
+}
+
+void EquilibriumSolver::CollectValues() {
+  const LadderFrame<double>& f = newton_.frame();
+  OutputUnits();
+  const int m = model().gauges();
+  outputs_.setZero(output_unit_.size());
+  const auto change = [&f](int tap) {
+    return f.taps[tap * f.stride + f.affine];
+  };
+  // Values are of the state before Newton's last step, taps change them.
+  for (int i = 0; i < f.readout_count; ++i) {
+    outputs_[f.readouts[i].gauge] +=
+        f.readouts[i].sign *
+        (f.readout_map[kReadoutValues * i] + change(f.readout_tap(i)));
+  }
+  for (int c = 0; c < f.contact_count; ++c) {
+    const int index = f.contacts[c].index, slot = f.elements + c;
+    const double value[3] = {f.slot_x[slot], f.slot_y[slot],
+                             f.slot_theta[slot]};
+    for (int i = 0; i < 3; ++i) {
+      outputs_[m + 3 * index + i] = value[i] + change(f.contact_tap(index) + i);
+    }
+  }
+  for (int i = 0; i < 3; ++i) {
+    outputs_[outputs_.size() - 3 + i] = f.tip[i] + change(f.tip_tap() + i);
+  }
+  outputs_.array() *= output_unit_.array();
+}
+
+void EquilibriumSolver::CollectDerivatives() {
+  const LadderFrame<double>& f = newton_.frame();
+  const int p = static_cast<int>(parameter_unit_.size());
+  d_outputs_.setZero(outputs_.size(), p);
+  d_q_.resize(q_unit_.size(), p);
+  AddTaps(f.affine + 1, p, &d_outputs_);
+  for (int i = 0; i < q_unit_.size(); ++i) {
+    for (int j = 0; j < p; ++j) {
+      d_q_(i, j) = f.q_step[i * f.stride + f.affine + 1 + j] * q_unit_[i] /
+                   parameter_unit_[j];
+    }
+  }
+  d_outputs_.array().colwise() *= output_unit_.array();
+  d_outputs_.array().rowwise() /= parameter_unit_.transpose().array();
+}
+
+// Columns of the taps: gauges by their ends, then contacts and tip.
+void EquilibriumSolver::AddTaps(int first, int count, Matrix* target) const {
+  const LadderFrame<double>& f = newton_.frame();
+  const auto row = [&](int tap) {
+    return Eigen::Map<const Eigen::RowVectorXd>(f.taps + tap * f.stride + first,
+                                                count);
+  };
+  for (int i = 0; i < f.readout_count; ++i) {
+    target->row(f.readouts[i].gauge) +=
+        f.readouts[i].sign * row(f.readout_tap(i));
+  }
+  for (int i = 0; i < 3 * f.contact_count + 3; ++i) {
+    target->row(model().gauges() + i) = row(f.contact_tap(0) + i);
+  }
+}
+
+bool EquilibriumSolver::Shoot(const Eigen::VectorXd& q,
+                              const std::vector<PointContact>& contacts,
+                              LadderShot* shot) {
+  undeformed_ = false;
+  if (!newton_.Shoot(q, contacts)) return false;
+  const LadderFrame<double>& f = newton_.frame();
+  OutputUnits();
+  const int m = model().gauges(), r = model().ribs(), n = 6 + r;
+  const int p = static_cast<int>(parameter_unit_.size());
+  shot->outputs.setZero(output_unit_.size());
+  for (int i = 0; i < f.readout_count; ++i) {
+    shot->outputs[f.readouts[i].gauge] +=
+        f.readouts[i].sign * f.readout_map[kReadoutValues * i];
+  }
+  for (int c = 0; c < f.contact_count; ++c) {
+    const int slot = f.elements + c;
+    shot->outputs.segment<3>(m + 3 * f.contacts[c].index) << f.slot_x[slot],
+        f.slot_y[slot], f.slot_theta[slot];
+  }
+  shot->outputs.tail<3>() << f.tip[0], f.tip[1], f.tip[2];
+  shot->outputs.array() *= output_unit_.array();
+
+  Eigen::VectorXd closure_unit(n);
+  closure_unit.head(r + 2).setConstant(newton_.workspace().length_unit());
+  closure_unit[r + 2] = 1;
+  closure_unit[r + 3] = newton_.workspace().moment_unit();
+  closure_unit.tail<2>().setConstant(newton_.workspace().force_unit());
+  shot->closure = Eigen::Map<const Eigen::VectorXd>(f.closure, n)
+                      .cwiseProduct(closure_unit);
+  // Column n, the gaps, is empty here.
+  Matrix outputs = Matrix::Zero(shot->outputs.size(), n + 1 + p);
+  AddTaps(0, n + 1 + p, &outputs);
+  shot->d_outputs.resize(outputs.rows(), n + p);
+  shot->d_outputs << outputs.leftCols(n), outputs.rightCols(p);
+  shot->d_closure.resize(n, n + p);
+  for (int i = 0; i < n; ++i) {
+    const Eigen::Map<const Eigen::RowVectorXd> row(
+        f.taps + (f.closure_tap() + i) * f.stride, n + 1 + p);
+    shot->d_closure.row(i) << row.head(n), row.tail(p);
+  }
+  Eigen::RowVectorXd column_unit(n + p);
+  column_unit << q_unit_.transpose(), parameter_unit_.transpose();
+  shot->d_outputs.array().colwise() *= output_unit_.array();
+  shot->d_closure.array().colwise() *= closure_unit.array();
+  shot->d_outputs.array().rowwise() /= column_unit.array();
+  shot->d_closure.array().rowwise() /= column_unit.array();
+  return shot->closure.allFinite() && shot->d_closure.allFinite();
 }
 
 std::array<std::vector<BeamSpan>, 2> EquilibriumSolver::Spans(
     const std::vector<PointContact>& contacts) const {
-  LadderState state = state_;
-  LadderLinearization linearization;
   std::array<std::vector<BeamSpan>, 2> spans;
-  March(model_, contacts, scheme_, MarchMode::kLifted, false, &state,
-        &linearization, &spans);
+  if (!newton_.Evaluate(contacts)) return spans;
+  const LadderFrame<double>& f = newton_.frame();
+  const LadderWorkspace<double>& unit = newton_.workspace();
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    const int i = LadderModel::Index(side);
+    const int first = i == 0 ? 0 : f.front_elements;
+    const BeamMesh& mesh = model().mesh(side);
+    for (int k = 0; k < mesh.elements(); ++k) {
+      double arc = mesh.nodes_mm[k];
+      const auto add = [&](int slot) {
+        spans[i].push_back(
+            {arc,
+             f.slot_length[slot] * unit.length_unit(),
+             f.slot_x[slot] * unit.length_unit(),
+             f.slot_y[slot] * unit.length_unit(),
+             {f.slot_theta[slot], f.slot_moment[slot] * unit.moment_unit(),
+              f.slot_fx[slot] * unit.force_unit(),
+              f.slot_fy[slot] * unit.force_unit()},
+             f.slot_stiffness[slot] * unit.stiffness_unit(),
+             f.slot_axial[slot] / unit.force_unit()});
+        arc += spans[i].back().length_mm;
+      };
+      add(first + k);
+      for (int c = 0; c < f.contact_count; ++c) {
+        if (f.contacts[c].element == first + k) add(f.elements + c);
+      }
+    }
+  }
   return spans;
 }
 

@@ -2,94 +2,134 @@
 #define FINRAY_STATICS_EQUILIBRIUM_H_
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <array>
+#include <string>
 #include <vector>
 
-#include "finray/statics/ladder.h"
+#include "finray/statics/ladder_newton.h"
 
 namespace finray {
 
-/// Solves the ladder (ladder.h) for given loads: full Newton steps from the
-/// present state, from the undeformed finger if that fails, and along a ramp of
-/// the loads and of the assembly prestress if that fails too.
+/// How a solve ended.
+enum class SolveStatus {
+  kSolved,
+  kBadLoad,     ///< A contact off its beam, or a number that is not finite.
+  kLimitPoint,  ///< The equilibrium that grows out of the unloaded finger ends
+                ///< (folds over) before the whole load is reached.
+  kNotConverged,
+};
+
+/// Closure equations of the ladder at base loads and tensions that need not be
+/// in equilibrium, every node being where the march from the base puts it.
+struct LadderShot {
+  using Matrix =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  /// Rib lengths (r), then tip x, y, theta, M, N_x, N_y of front against back.
+  Eigen::VectorXd closure;
+  /// [gauge angles (m); contact (x, y, theta) each; tip (x, y, theta)].
+  Eigen::VectorXd outputs;
+  /// By [q (6 + r); l_c, f_c of each contact; EI front; EI back; rib lengths].
+  Matrix d_closure, d_outputs;
+};
+
+/// Finds the equilibrium of a finger under point contacts: full Newton steps
+/// from the present state, from the undeformed finger if that fails, and along
+/// the path of growing loads and assembly prestress if that fails too. Under
+/// loads so high that several equilibria may exist only the path is trusted, or
+/// a state that is near already.
 ///
-/// The solver keeps its state between calls, so a log is solved warm; it holds
-/// all memory it needs after the first call with a number of contacts.
+/// The solver keeps its state between calls, so a log is solved warm; a warm
+/// solve allocates nothing.
 class EquilibriumSolver {
  public:
+  using Matrix = LadderShot::Matrix;
+
+  /// Throws InputError if the scheme cannot model the finger.
   EquilibriumSolver(const Finger& finger, const Discretization& discretization);
 
-  LadderModel& model() { return model_; }
-  const LadderModel& model() const { return model_; }
+  LadderModel& model() { return newton_.model(); }
+  const LadderModel& model() const { return newton_.model(); }
+  Scheme scheme() const { return scheme_; }
 
-  const LadderState& state() const { return state_; }
-  void set_state(const LadderState& state) { state_ = state; }
+  /// How far Newton's method goes: an estimate of the error that is left, of
+  /// base loads and tensions relative to the largest, of angles in rad. By
+  /// default 1e-14, that is to rounding; 1e-6 saves an iteration or two.
+  void set_tolerance(double relative) { newton_.set_tolerance(relative); }
+
+  LadderState state() const;
+  void set_state(const LadderState& state);
   /// Back to the undeformed finger: the next solve is a cold one.
-  void Reset() { state_ = LadderState::Undeformed(model_); }
+  void Reset();
 
-  /// Finds the equilibrium under `contacts`. False if none was found, or if a
-  /// contact lies off the beam; the
-  /// state is then the undeformed finger's and the results are not to be used.
+  /// Finds the equilibrium under `contacts`. If false, status() and Why() say
+  /// why not; the state is then the undeformed finger's and the results are not
+  /// to be used.
   bool Solve(const std::vector<PointContact>& contacts);
   /// As Solve, and fills the derivatives below.
   bool SolveWithSensitivities(const std::vector<PointContact>& contacts);
 
-  // Results of the last successful solve. Arc lengths, forces and so on as in
-  // LadderLinearization.
+  SolveStatus status() const { return status_; }
+  /// One clause for people; empty if solved.
+  std::string Why() const;
+  /// The share of the load at which the path ended, if it did.
+  double path_fraction() const { return path_fraction_; }
+
+  // Results of the last successful solve.
 
   double gauge_angle(int gauge) const { return outputs_[gauge]; }
   /// (x, y, theta) of a contact in mm and rad.
   Eigen::Vector3d contact_pose(int contact) const {
-    return outputs_.segment<3>(model_.gauges() + 3 * contact);
+    return outputs_.segment<3>(model().gauges() + 3 * contact);
   }
   Eigen::Vector3d tip_pose() const { return outputs_.tail<3>(); }
-  double rib_tension(int rib) const { return state_.q[6 + rib]; }
+  double rib_tension(int rib) const;
   /// Moment and force that the clamp exerts on a base, (M, F_x, F_y).
-  Eigen::Vector3d base_reaction(Side side) const {
-    return -state_.q.segment<3>(3 * LadderModel::Index(side));
-  }
+  Eigen::Vector3d base_reaction(Side side) const;
 
   /// [gauge angles (m); contact (x, y, theta) each; tip (x, y, theta)].
   const Eigen::VectorXd& outputs() const { return outputs_; }
-  /// Their derivatives at equilibrium, by the implicit function theorem:
-  /// dy/dp - dy/dq (dc/dq)^-1 dc/dp with c the closure equations. Columns
-  /// [l_c, f_c of each contact; EI front; EI back; rib lengths (r)].
-  const LadderLinearization::Matrix& d_outputs() const { return d_outputs_; }
-  /// The same for the unknowns q (base reactions are their negatives).
-  const LadderLinearization::Matrix& d_q() const { return d_q_; }
+  /// Their derivatives at equilibrium, by the implicit function theorem.
+  /// Columns [l_c, f_c of each contact; EI front; EI back; rib lengths (r)].
+  const Matrix& d_outputs() const { return d_outputs_; }
+  /// The same for the unknowns q of ladder.h (base reactions are their
+  /// negatives).
+  const Matrix& d_q() const { return d_q_; }
 
   /// Newton iterations of the last solve, all attempts together.
   int iterations() const { return iterations_; }
 
+  /// Unknowns of the last solve: six base loads, rib tensions and four a node.
+  int unknowns() const;
+
   /// The pieces of both beams at the present state, for drawing and integrals.
   std::array<std::vector<BeamSpan>, 2> Spans(
       const std::vector<PointContact>& contacts) const;
-  Scheme scheme() const { return scheme_; }
+
+  /// Evaluates the closure equations at `q`. False if they are not finite.
+  bool Shoot(const Eigen::VectorXd& q,
+             const std::vector<PointContact>& contacts, LadderShot* shot);
 
  private:
-  bool SolveFromHere(const std::vector<PointContact>& contacts,
-                     bool sensitivities);
-  bool SolveAlongRamp(const std::vector<PointContact>& contacts);
-  bool SolveFrom(const std::vector<PointContact>& contacts, bool sensitivities);
-  double ResidualNorm() const;
-  bool ComputeStep();
-  double LargestTurn() const;
-  void ApplyStep(double fraction);
-  void ReduceOutputs(bool sensitivities);
+  bool SolveFor(const std::vector<PointContact>& contacts,
+                SweepColumns columns);
+  bool Attempt(const std::vector<PointContact>& contacts, SweepColumns columns);
+  bool IsBadLoad(const std::vector<PointContact>& contacts) const;
+  bool IsHeavy(const std::vector<PointContact>& contacts) const;
+  void CollectValues();
+  void CollectDerivatives();
+  void OutputUnits();
+  void AddTaps(int first, int count, Matrix* target) const;
 
-  LadderModel model_;
   Scheme scheme_;
-  LadderState state_;
-  LadderLinearization linearization_;
-  Eigen::VectorXd row_unit_, column_unit_;
-  Eigen::MatrixXd scaled_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
-  Eigen::VectorXd step_, node_step_;
-  Eigen::MatrixXd parameter_response_;  // -(dc/dq)^-1 dc/dp
-  Eigen::VectorXd outputs_;
-  LadderLinearization::Matrix d_outputs_, d_q_;
+  mutable LadderNewton newton_;  // Spans() uses its scratch memory
+  bool undeformed_ = true;
+  SolveStatus status_ = SolveStatus::kSolved;
+  double path_fraction_ = 0;
   int iterations_ = 0;
+  std::vector<double> angles_before_;
+  Eigen::VectorXd outputs_;
+  Eigen::VectorXd output_unit_, parameter_unit_, q_unit_;
+  Matrix d_outputs_, d_q_;
 };
 
 }  // namespace finray

@@ -1,11 +1,11 @@
 #ifndef FINRAY_STATICS_RIGID_LINK_ELEMENT_H_
 #define FINRAY_STATICS_RIGID_LINK_ELEMENT_H_
 
-#include <cmath>
-
 #include "finray/statics/element.h"
+#include "finray/statics/lanes.h"
 
 namespace finray {
+inline namespace FINRAY_ISA {
 
 /// One segment of the paper's rigid chain: half a link, an elastic joint of
 /// stiffness k = EI / h, half a link,
@@ -15,95 +15,111 @@ namespace finray {
 ///
 /// which is the leapfrog integrator of the beam equation (order 2). An angle
 /// inside the segment takes the share of the joint that lies before it, so that
-/// a gauge which covers part of a segment reads part of its joint.
+/// a gauge which covers part of a segment reads part of its joint. Rigid links
+/// do not stretch: the axial flexibility is ignored.
+template <class V = double>
 class RigidLinkElement {
  public:
-  void Compute(const ElementStart& start, double stiffness, double length) {
+  using Scalar = typename ValueTraits<V>::Scalar;
+
+  void Solve(const BasicElementStart<V>& start, const V& stiffness,
+             const V& /*axial_flexibility*/, const V& length) {
     start_ = start;
     stiffness_ = stiffness;
     length_ = length;
-    const double nx = start.force_x_N, ny = start.force_y_N;
-    const double half = 0.5 * length;
-    c0_ = std::cos(start.theta_rad);
-    s0_ = std::sin(start.theta_rad);
-    const double cross0 = c0_ * ny - s0_ * nx;
-    joint_moment_ = start.moment_N_mm - half * cross0;
-    const double flexibility = length / stiffness;
-    const double theta1 = start.theta_rad + flexibility * joint_moment_;
-    const double c1 = std::cos(theta1), s1 = std::sin(theta1);
-    const double cross1 = c1 * ny - s1 * nx;
-
-    map_.end[0] = half * (c0_ + c1);
-    map_.end[1] = half * (s0_ + s1);
+    half_ = length * Scalar(0.5);
+    flexibility_ = length / stiffness;
+    SinCos(start.theta_rad, &s0_, &c0_);
+    cross0_ = c0_ * start.force_y_N - s0_ * start.force_x_N;
+    joint_moment_ = start.moment_N_mm - half_ * cross0_;
+    const V theta1 = start.theta_rad + flexibility_ * joint_moment_;
+    SinCos(theta1, &s1_, &c1_);
+    cross1_ = c1_ * start.force_y_N - s1_ * start.force_x_N;
+    map_.end[0] = half_ * (c0_ + c1_);
+    map_.end[1] = half_ * (s0_ + s1_);
     map_.end[2] = theta1;
-    map_.end[3] = joint_moment_ - half * cross1;
-
-    // by (theta, M, N_x, N_y), then by EI, then by h
-    const double d_moment[6] = {half * (s0_ * ny + c0_ * nx),
-                                1,
-                                half * s0_,
-                                -half * c0_,
-                                0,
-                                -0.5 * cross0};
-    double d_theta[6];
-    for (int p = 0; p < 6; ++p) d_theta[p] = flexibility * d_moment[p];
-    d_theta[0] += 1;
-    d_theta[4] -= flexibility * joint_moment_ / stiffness;
-    d_theta[5] += joint_moment_ / stiffness;
-    for (int p = 0; p < 6; ++p) {
-      double column[4] = {
-          -half * s1 * d_theta[p], half * c1 * d_theta[p], d_theta[p],
-          d_moment[p] + half * (s1 * ny + c1 * nx) * d_theta[p]};
-      if (p == 0) {
-        column[0] -= half * s0_;
-        column[1] += half * c0_;
-      } else if (p == 2) {
-        column[3] += half * s1;
-      } else if (p == 3) {
-        column[3] -= half * c1;
-      } else if (p == 5) {
-        column[0] += 0.5 * (c0_ + c1);
-        column[1] += 0.5 * (s0_ + s1);
-        column[3] -= 0.5 * cross1;
-      }
-      for (int i = 0; i < 4; ++i) {
-        (p < 4    ? map_.d_start[i][p]
-         : p == 4 ? map_.d_stiffness[i]
-                  : map_.d_length[i]) = column[i];
-      }
-    }
+    map_.end[3] = joint_moment_ - half_ * cross1_;
   }
 
-  const ElementMap& map() const { return map_; }
+  void Differentiate() {
+    const V nx = start_.force_x_N, ny = start_.force_y_N;
+    const V one = V{} + Scalar(1);
+    const V d_moment[4] = {half_ * (s0_ * ny + c0_ * nx), one, half_ * s0_,
+                           -half_ * c0_};
+    V d_theta[4];
+    for (int p = 0; p < 4; ++p) d_theta[p] = flexibility_ * d_moment[p];
+    d_theta[0] += one;
+    for (int p = 0; p < 4; ++p) Column(d_theta[p], d_moment[p], p);
+    map_.d_start[0][0] -= half_ * s0_;
+    map_.d_start[1][0] += half_ * c0_;
+    map_.d_start[3][2] += half_ * s1_;
+    map_.d_start[3][3] -= half_ * c1_;
+  }
 
-  AngleReadout AngleAt(double offset) const {
-    const double share = length_ > 0 ? offset / length_ : 0;
-    AngleReadout readout;
-    readout.theta_rad =
-        start_.theta_rad + share * (map_.end[2] - start_.theta_rad);
+  void DifferentiateByParameters() {
+    const V turn = joint_moment_ / stiffness_;
+    Spread(-flexibility_ * turn, V{}, map_.d_stiffness);
+    const V d_moment = cross0_ * Scalar(-0.5);
+    Spread(turn + flexibility_ * d_moment, d_moment, map_.d_length);
+    map_.d_length[0] += (c0_ + c1_) * Scalar(0.5);
+    map_.d_length[1] += (s0_ + s1_) * Scalar(0.5);
+    map_.d_length[3] -= cross1_ * Scalar(0.5);
+  }
+
+  const BasicElementMap<V>& map() const { return map_; }
+
+  BasicAngleReadout<V> AngleAt(const V& offset) const {
+    // A segment of no length has no joint to share.
+    const V safe = length_ > V{} ? length_ : V{} + Scalar(1);
+    const V share = offset / safe;
+    const V turn = map_.end[2] - start_.theta_rad;
+    BasicAngleReadout<V> readout;
+    readout.theta_rad = start_.theta_rad + share * turn;
     for (int p = 0; p < 4; ++p) {
       readout.d_start[p] = share * map_.d_start[2][p];
     }
-    readout.d_start[0] += 1 - share;
+    readout.d_start[0] += Scalar(1) - share;
     readout.d_stiffness = share * map_.d_stiffness[2];
-    readout.d_offset =
-        length_ > 0 ? (map_.end[2] - start_.theta_rad) / length_ : 0;
+    readout.d_offset = turn / safe;
     readout.d_length = share * (map_.d_length[2] - readout.d_offset);
     return readout;
   }
 
-  BeamPoint PointAt(double offset) const {
-    const double share = length_ > 0 ? offset / length_ : 0;
-    return {share * map_.end[0], share * map_.end[1], AngleAt(offset).theta_rad,
+  BasicBeamPoint<V> PointAt(const V& offset) const {
+    const V safe = length_ > V{} ? length_ : V{} + Scalar(1);
+    const V share = offset / safe;
+    return {share * map_.end[0], share * map_.end[1],
+            start_.theta_rad + share * (map_.end[2] - start_.theta_rad),
             joint_moment_};
   }
 
+  /// Order 2 is what it is; nothing is estimated.
+  V Truncation() const { return V{}; }
+
  private:
-  ElementStart start_;
-  double stiffness_, length_, c0_, s0_, joint_moment_;
-  ElementMap map_;
+  // The end's derivatives by what turns link 1 by d_theta and changes the
+  // joint's moment by d_moment.
+  void Spread(const V& d_theta, const V& d_moment, V* column) const {
+    column[0] = -half_ * s1_ * d_theta;
+    column[1] = half_ * c1_ * d_theta;
+    column[2] = d_theta;
+    column[3] =
+        d_moment +
+        half_ * (s1_ * start_.force_y_N + c1_ * start_.force_x_N) * d_theta;
+  }
+  void Column(const V& d_theta, const V& d_moment, int p) {
+    V column[4];
+    Spread(d_theta, d_moment, column);
+    for (int i = 0; i < 4; ++i) map_.d_start[i][p] = column[i];
+  }
+
+  BasicElementStart<V> start_;
+  V stiffness_, length_, half_, flexibility_;
+  V c0_, s0_, c1_, s1_, cross0_, cross1_, joint_moment_;
+  BasicElementMap<V> map_;
 };
 
+}  // namespace FINRAY_ISA
 }  // namespace finray
 
 #endif  // FINRAY_STATICS_RIGID_LINK_ELEMENT_H_

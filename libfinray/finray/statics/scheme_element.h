@@ -7,12 +7,23 @@
 
 namespace finray {
 
-/// Calls `visitor` with an element of the scheme's class; the one place that
-/// knows which class carries which scheme out.
+/// Calls `visitor` with an element of the scheme's class. It allows for
+/// stretching, which costs more: this is for drawing, not for solving.
 template <class Visitor>
 auto VisitElement(Scheme scheme, Visitor&& visitor) {
-  if (scheme == Scheme::kRigidChain) return visitor(RigidLinkElement());
-  return visitor(TaylorElement<16>());
+  switch (scheme) {
+    case Scheme::kRigidChain:
+      return visitor(RigidLinkElement<double>());
+    case Scheme::kTaylor4:
+      return visitor(TaylorElement<4, double, true>());
+    case Scheme::kTaylor8:
+      return visitor(TaylorElement<8, double, true>());
+    case Scheme::kTaylor12:
+      return visitor(TaylorElement<12, double, true>());
+    case Scheme::kTaylor:
+      break;
+  }
+  return visitor(TaylorElement<16, double, true>());
 }
 
 }  // namespace finray

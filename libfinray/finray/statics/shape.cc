@@ -8,10 +8,7 @@ namespace finray {
 
 Shape::Shape(const EquilibriumSolver& solver,
              const std::vector<PointContact>& contacts)
-    : scheme_(solver.scheme()),
-      stiffness_{solver.model().stiffness(Side::kFront),
-                 solver.model().stiffness(Side::kBack)},
-      spans_(solver.Spans(contacts)) {}
+    : scheme_(solver.scheme()), spans_(solver.Spans(contacts)) {}
 
 Section Shape::At(Side side, double arc_mm) const {
   const auto& spans = spans_[LadderModel::Index(side)];
@@ -21,8 +18,8 @@ Section Shape::At(Side side, double arc_mm) const {
   if (after != spans.begin()) --after;
   const BeamSpan& span = *after;
   const BeamPoint point = VisitElement(scheme_, [&](auto element) {
-    element.Compute(span.start, stiffness_[LadderModel::Index(side)],
-                    span.length_mm);
+    element.Solve(span.start, span.stiffness_N_mm2,
+                  span.axial_flexibility_per_N, span.length_mm);
     return element.PointAt(arc_mm - span.arc_mm);
   });
   return {span.x_mm + point.x_mm, span.y_mm + point.y_mm, point.theta_rad,

@@ -36,7 +36,6 @@ class Shape {
 
  private:
   Scheme scheme_;
-  std::array<double, 2> stiffness_;
   std::array<std::vector<BeamSpan>, 2> spans_;
 };
 

@@ -1,158 +1,248 @@
 #ifndef FINRAY_STATICS_TAYLOR_ELEMENT_H_
 #define FINRAY_STATICS_TAYLOR_ELEMENT_H_
 
-#include <array>
-#include <cmath>
+#include <type_traits>
 
 #include "finray/statics/element.h"
+#include "finray/statics/lanes.h"
 
 namespace finray {
+inline namespace FINRAY_ISA {
 
 /// Taylor series of order K of the beam equation (element.h) in arc length.
 ///
-/// With m = M / EI and n = N / EI the coefficients follow by recurrence:
+/// With m = M / EI, n = N / EI and k = EI / EA the coefficients follow by
+/// recurrence:
 ///
-///   theta_{k+1} = m_k / (k+1),        m_{k+1} = (n_x s_k - n_y c_k) / (k+1),
-///   c_{k+1} = -sum_j m_j s_{k-j} / (k+1),   s_{k+1} = sum_j m_j c_{k-j} /
-///   (k+1), x_{k+1} = c_k / (k+1),            y_{k+1} = s_k / (k+1),
+///   theta_{i+1} = m_i / (i+1),         m_{i+1} = (n_x Y_i - n_y X_i) / (i+1),
+///   c_{i+1} = -sum_j m_j s_{i-j} / (i+1),  s_{i+1} = sum_j m_j c_{i-j} /
+///   (i+1), x_{i+1} = X_i / (i+1),                 y_{i+1} = Y_i / (i+1),
 ///
-/// and so do their derivatives by p in (m_0, n_x, n_y), because
-/// dc/dp = -s dtheta/dp and ds/dp = c dtheta/dp hold between the series. The
-/// derivative by theta_0 follows from turning the frame, the one by EI from the
-/// shape depending on M / EI and N / EI only. The series is its own dense
-/// output. The only trigonometric call is at the start.
-template <int K>
+/// where (X, Y) = (c, s) + e (c, s), e = k (n_x c + n_y s), of which the second
+/// term is there only if the beam stretches. Their derivatives by p in (m_0,
+/// n_x, n_y, k) follow in the same way, because dc/dp = -s dtheta/dp and ds/dp
+/// = c dtheta/dp hold between the series. The derivative by theta_0 follows
+/// from turning the frame, the one by EI from the shape depending on M / EI, N
+/// / EI and EI / EA only, the moment from its balance, M + (r - r_0) x N = M_0.
+/// The series is its own dense output. The only trigonometric call is at the
+/// start.
+template <int K, class V = double, bool kStretch = false>
 class TaylorElement {
  public:
-  void Compute(const ElementStart& start, double stiffness, double length) {
+  using Scalar = typename ValueTraits<V>::Scalar;
+
+  void Solve(const BasicElementStart<V>& start, const V& stiffness,
+             const V& axial_flexibility, const V& length) {
     start_ = start;
     stiffness_ = stiffness;
-    const double m0 = start.moment_N_mm / stiffness;
-    const double nx = start.force_x_N / stiffness;
-    const double ny = start.force_y_N / stiffness;
-
-    std::array<double, K + 1> c, s;
-    c[0] = std::cos(start.theta_rad);
-    s[0] = std::sin(start.theta_rad);
+    length_ = length;
+    nx_ = start.force_x_N / stiffness;
+    ny_ = start.force_y_N / stiffness;
+    SinCos(start.theta_rad, &s_[0], &c_[0]);
     theta_[0] = start.theta_rad;
-    m_[0] = m0;
-    x_[0] = y_[0] = 0;
-    // Derivatives by p = m_0, n_x, n_y, innermost so that their sums overlap.
-    Series3 dm, dx, dy;
-    dtheta_[0] = dx[0] = dy[0] = {0, 0, 0};
-    dm[0] = {1, 0, 0};
-    for (int k = 0; k < K; ++k) {
-      double ms = m_[0] * s[k], mc = m_[0] * c[k];
-      double dc[3] = {0, 0, 0}, ds[3] = {0, 0, 0};
-      for (int j = 1; j <= k; ++j) {
-        const double sj = s[k - j], cj = c[k - j];
-        ms += m_[j] * sj;
-        mc += m_[j] * cj;
-        for (int p = 0; p < 3; ++p) {
-          dc[p] -= sj * dtheta_[j][p];
-          ds[p] += cj * dtheta_[j][p];
+    m_[0] = start.moment_N_mm / stiffness;
+    x_[0] = y_[0] = V{};
+    if constexpr (kStretch) ratio_ = stiffness * axial_flexibility;
+    for (int i = 0; i < K; ++i) {
+      V ms = m_[0] * s_[i], mc = m_[0] * c_[i];
+      for (int j = 1; j <= i; ++j) {
+        ms += m_[j] * s_[i - j];
+        mc += m_[j] * c_[i - j];
+      }
+      V slope_x = c_[i], slope_y = s_[i];
+      if constexpr (kStretch) {
+        e_[i] = ratio_ * (nx_ * c_[i] + ny_ * s_[i]);
+        for (int j = 0; j <= i; ++j) {
+          slope_x += e_[j] * c_[i - j];
+          slope_y += e_[j] * s_[i - j];
         }
+        slope_x_[i] = slope_x;
+        slope_y_[i] = slope_y;
       }
-      const double inverse = 1.0 / (k + 1);
-      c[k + 1] = -ms * inverse;
-      s[k + 1] = mc * inverse;
-      theta_[k + 1] = m_[k] * inverse;
-      m_[k + 1] = (nx * s[k] - ny * c[k]) * inverse;
-      x_[k + 1] = c[k] * inverse;
-      y_[k + 1] = s[k] * inverse;
-      const double direct[3] = {0, s[k], -c[k]};
-      for (int p = 0; p < 3; ++p) {
-        dtheta_[k + 1][p] = dm[k][p] * inverse;
-        dm[k + 1][p] = (nx * ds[p] - ny * dc[p] + direct[p]) * inverse;
-        dx[k + 1][p] = dc[p] * inverse;
-        dy[k + 1][p] = ds[p] * inverse;
-      }
+      const Scalar inverse = Scalar(1) / Scalar(i + 1);
+      c_[i + 1] = -ms * inverse;
+      s_[i + 1] = mc * inverse;
+      theta_[i + 1] = m_[i] * inverse;
+      m_[i + 1] = (nx_ * slope_y - ny_ * slope_x) * inverse;
+      x_[i + 1] = slope_x * inverse;
+      y_[i + 1] = slope_y * inverse;
     }
+    map_.end[0] = Evaluate(x_, length);
+    map_.end[1] = Evaluate(y_, length);
+    map_.end[2] = Evaluate(theta_, length);
+    map_.end[3] = start.moment_N_mm + start.force_x_N * map_.end[1] -
+                  start.force_y_N * map_.end[0];
+  }
 
-    double* end = map_.end;
-    end[0] = Evaluate(x_, length);
-    end[1] = Evaluate(y_, length);
-    end[2] = Evaluate(theta_, length);
-    end[3] = stiffness * Evaluate(m_, length);
-    map_.d_length[0] = Slope(x_, length);
-    map_.d_length[1] = Slope(y_, length);
-    map_.d_length[2] = Slope(theta_, length);
-    map_.d_length[3] = stiffness * Slope(m_, length);
-    const std::array<double, 3> by[4] = {
-        Evaluate(dx, length), Evaluate(dy, length), Evaluate(dtheta_, length),
-        Evaluate(dm, length)};
-    for (int p = 0; p < 3; ++p) {
-      // d/dM = (d/dm) / EI; for M itself the two EI cancel.
-      for (int i = 0; i < 3; ++i) {
-        map_.d_start[i][p + 1] = by[i][p] / stiffness;
-      }
-      map_.d_start[3][p + 1] = by[3][p];
+  void Differentiate() {
+    DifferentiateSeries();
+    V by[3][kBy];
+    Evaluate(dx_, length_, by[0]);
+    Evaluate(dy_, length_, by[1]);
+    Evaluate(dtheta_, length_, by[2]);
+    for (int i = 0; i < 3; ++i) {
+      // d/dM = (d/dm) / EI
+      for (int p = 0; p < 3; ++p)
+        map_.d_start[i][p + 1] = by[i][p] / stiffness_;
+      if constexpr (kStretch) by_ratio_[i] = by[i][3];
     }
-    const double turned[4] = {-end[1], end[0], 1, 0};
-    const double scaled[4] = {0, 0, 0, end[3] / stiffness};
-    for (int i = 0; i < 4; ++i) {
-      map_.d_start[i][0] = turned[i] + ByTheta(map_.d_start[i]);
-      map_.d_stiffness[i] = scaled[i] + ByStiffness(map_.d_start[i]);
+    map_.d_start[0][0] = ByTheta(map_.d_start[0]) - map_.end[1];
+    map_.d_start[1][0] = ByTheta(map_.d_start[1]) + map_.end[0];
+    map_.d_start[2][0] = ByTheta(map_.d_start[2]) + Scalar(1);
+    for (int p = 0; p < 4; ++p) {
+      map_.d_start[3][p] = start_.force_x_N * map_.d_start[1][p] -
+                           start_.force_y_N * map_.d_start[0][p];
+    }
+    map_.d_start[3][1] += Scalar(1);
+    map_.d_start[3][2] += map_.end[1];
+    map_.d_start[3][3] -= map_.end[0];
+  }
+
+  void DifferentiateByParameters() {
+    for (int i = 0; i < 3; ++i) {
+      map_.d_stiffness[i] = ByStiffness(map_.d_start[i]);
+      if constexpr (kStretch) {
+        map_.d_stiffness[i] += by_ratio_[i] * ratio_ / stiffness_;
+      }
+    }
+    map_.d_length[0] = Slope(x_, length_);
+    map_.d_length[1] = Slope(y_, length_);
+    map_.d_length[2] = Slope(theta_, length_);
+    for (V* d : {map_.d_stiffness, map_.d_length}) {
+      d[3] = start_.force_x_N * d[1] - start_.force_y_N * d[0];
     }
   }
 
-  const ElementMap& map() const { return map_; }
+  const BasicElementMap<V>& map() const { return map_; }
 
-  AngleReadout AngleAt(double offset) const {
-    AngleReadout readout;
+  BasicAngleReadout<V> AngleAt(const V& offset) const {
+    BasicAngleReadout<V> readout;
     readout.theta_rad = Evaluate(theta_, offset);
-    const std::array<double, 3> by = Evaluate(dtheta_, offset);
+    V by[kBy];
+    Evaluate(dtheta_, offset, by);
     for (int p = 0; p < 3; ++p) readout.d_start[p + 1] = by[p] / stiffness_;
-    readout.d_start[0] = 1 + ByTheta(readout.d_start);
+    readout.d_start[0] = ByTheta(readout.d_start) + Scalar(1);
     readout.d_stiffness = ByStiffness(readout.d_start);
+    if constexpr (kStretch) {
+      readout.d_stiffness += by[3] * ratio_ / stiffness_;
+    }
     readout.d_offset = Slope(theta_, offset);
-    readout.d_length = 0;
+    readout.d_length = V{};
     return readout;
   }
 
-  BeamPoint PointAt(double offset) const {
+  BasicBeamPoint<V> PointAt(const V& offset) const {
     return {Evaluate(x_, offset), Evaluate(y_, offset),
             Evaluate(theta_, offset), stiffness_ * Evaluate(m_, offset)};
   }
 
- private:
-  using Series = std::array<double, K + 1>;
-  using Series3 = std::array<std::array<double, 3>, K + 1>;
+  /// The last two terms of the angle's series.
+  V Truncation() const {
+    V power = length_;
+    for (int i = 1; i < K - 1; ++i) power *= length_;
+    const V last = theta_[K] * power * length_, next = theta_[K - 1] * power;
+    return (last < V{} ? -last : last) + (next < V{} ? -next : next);
+  }
 
-  static double Evaluate(const Series& a, double h) {
-    double sum = a[K];
-    for (int k = K - 1; k >= 0; --k) sum = sum * h + a[k];
-    return sum;
-  }
-  static std::array<double, 3> Evaluate(const Series3& a, double h) {
-    std::array<double, 3> sum = a[K];
-    for (int k = K - 1; k >= 0; --k) {
-      for (int p = 0; p < 3; ++p) sum[p] = sum[p] * h + a[k][p];
+ private:
+  static constexpr int kBy = kStretch ? 4 : 3;  // m_0, n_x, n_y, EI / EA
+  using Series = V[K + 1];
+  using SeriesBy = V[K + 1][kBy];
+
+  void DifferentiateSeries() {
+    V dm[kBy], de[K + 1][kBy], dc[K + 1][kBy], ds[K + 1][kBy];
+    for (int p = 0; p < kBy; ++p) {
+      dtheta_[0][p] = dx_[0][p] = dy_[0][p] = dm[p] = V{};
     }
+    dm[0] += Scalar(1);
+    for (int i = 0; i < K; ++i) {
+      // of the coefficients i of c and s, by d(c, s) = (-s, c) dtheta
+      V dci[kBy], dsi[kBy];
+      for (int p = 0; p < kBy; ++p) dci[p] = dsi[p] = V{};
+      for (int j = 1; j <= i; ++j) {
+        for (int p = 0; p < kBy; ++p) {
+          dci[p] -= s_[i - j] * dtheta_[j][p];
+          dsi[p] += c_[i - j] * dtheta_[j][p];
+        }
+      }
+      V slope_x[kBy], slope_y[kBy];
+      for (int p = 0; p < kBy; ++p) {
+        slope_x[p] = dci[p];
+        slope_y[p] = dsi[p];
+      }
+      if constexpr (kStretch) {
+        for (int p = 0; p < kBy; ++p) {
+          dc[i][p] = dci[p];
+          ds[i][p] = dsi[p];
+          de[i][p] = ratio_ * (nx_ * dci[p] + ny_ * dsi[p]);
+        }
+        de[i][1] += ratio_ * c_[i];
+        de[i][2] += ratio_ * s_[i];
+        de[i][3] += nx_ * c_[i] + ny_ * s_[i];
+        for (int j = 0; j <= i; ++j) {
+          for (int p = 0; p < kBy; ++p) {
+            slope_x[p] += de[j][p] * c_[i - j] + e_[j] * dc[i - j][p];
+            slope_y[p] += de[j][p] * s_[i - j] + e_[j] * ds[i - j][p];
+          }
+        }
+      }
+      const Scalar inverse = Scalar(1) / Scalar(i + 1);
+      for (int p = 0; p < kBy; ++p) {
+        dtheta_[i + 1][p] = dm[p] * inverse;
+        dm[p] = nx_ * slope_y[p] - ny_ * slope_x[p];
+        dx_[i + 1][p] = slope_x[p] * inverse;
+        dy_[i + 1][p] = slope_y[p] * inverse;
+      }
+      if constexpr (kStretch) {
+        dm[1] += slope_y_[i];
+        dm[2] -= slope_x_[i];
+      } else {
+        dm[1] += s_[i];
+        dm[2] -= c_[i];
+      }
+      for (int p = 0; p < kBy; ++p) dm[p] *= inverse;
+    }
+  }
+
+  static V Evaluate(const Series& a, const V& h) {
+    V sum = a[K];
+    for (int i = K - 1; i >= 0; --i) sum = sum * h + a[i];
     return sum;
   }
-  static double Slope(const Series& a, double h) {
-    double sum = K * a[K];
-    for (int k = K - 1; k >= 1; --k) sum = sum * h + k * a[k];
+  static void Evaluate(const SeriesBy& a, const V& h, V* sum) {
+    for (int p = 0; p < kBy; ++p) sum[p] = a[K][p];
+    for (int i = K - 1; i >= 0; --i) {
+      for (int p = 0; p < kBy; ++p) sum[p] = sum[p] * h + a[i][p];
+    }
+  }
+  static V Slope(const Series& a, const V& h) {
+    V sum = a[K] * Scalar(K);
+    for (int i = K - 1; i >= 1; --i) sum = sum * h + a[i] * Scalar(i);
     return sum;
   }
   // Turning the start by d is turning N by -d and the result by d.
-  double ByTheta(const double* d) const {
+  V ByTheta(const V* d) const {
     return d[2] * start_.force_y_N - d[3] * start_.force_x_N;
   }
-  double ByStiffness(const double* d) const {
+  V ByStiffness(const V* d) const {
     return -(start_.moment_N_mm * d[1] + start_.force_x_N * d[2] +
              start_.force_y_N * d[3]) /
            stiffness_;
   }
 
-  ElementStart start_;
-  double stiffness_;
-  Series theta_, m_, x_, y_;
-  Series3 dtheta_;
-  ElementMap map_;
+  BasicElementStart<V> start_;
+  V stiffness_, length_, nx_, ny_;
+  Series c_, s_, theta_, m_, x_, y_;
+  SeriesBy dtheta_, dx_, dy_;
+  BasicElementMap<V> map_;
+  // Of a beam that stretches only.
+  struct Nothing {};
+  std::conditional_t<kStretch, V, Nothing> ratio_;
+  std::conditional_t<kStretch, V[K], Nothing> e_, slope_x_, slope_y_;
+  std::conditional_t<kStretch, V[3], Nothing> by_ratio_;
 };
 
+}  // namespace FINRAY_ISA
 }  // namespace finray
 
 #endif  // FINRAY_STATICS_TAYLOR_ELEMENT_H_

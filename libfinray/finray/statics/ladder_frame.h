@@ -1,0 +1,112 @@
+#ifndef FINRAY_STATICS_LADDER_FRAME_H_
+#define FINRAY_STATICS_LADDER_FRAME_H_
+
+namespace finray {
+
+// What the ladder kernel (ladder_kernel.h) works on: plain arrays, as its code
+// is compiled for several instruction sets and must not share inline functions
+// of a library with the rest. All numbers are in units of l_0, EI_0 / l_0 and
+// EI_0 / l_0^2, which makes them comparable when pivots are chosen.
+//
+// Elements are numbered front beam first, base to tip, then the back beam. A
+// slot is a piece of an element: the element up to its first contact has the
+// element's number, what follows contact c has number elements + c.
+
+/// Which derivatives a sweep carries beside the Newton step.
+enum class SweepColumns {
+  kNone,
+  kParameters,  ///< l_c, f_c of each contact; EI front, back; rib lengths.
+  kLoad,        ///< the load factor: contact forces and rib lengths together.
+};
+
+/// A contact at its place in the mesh.
+template <class T>
+struct LadderContact {
+  int side;  ///< 0 front, 1 back.
+  int element;
+  T offset;  ///< from the start of the element.
+  T normal;
+  T friction;
+  T d_normal;  ///< by the load factor.
+  int index;   ///< the caller's number of it.
+};
+
+/// Where one end of a gauge reads its beam's angle.
+template <class T>
+struct LadderReadout {
+  int gauge;
+  int sign;
+  int element;
+  T offset;
+};
+
+/// Base moments and forces and rib tensions (q of ladder.h), and (x, y, theta,
+/// M) at the start of each element.
+template <class T>
+struct LadderNodes {
+  T *q, *x, *y, *theta, *moment;
+};
+
+/// One evaluation of an element, as BasicElementMap, lanes innermost.
+constexpr int kMapEnd = 0, kMapStart = 4, kMapStiffness = 20, kMapLength = 24,
+              kMapValues = 28;
+/// One readout: angle, its derivatives by the start, EI, offset and length.
+constexpr int kReadoutValues = 8;
+/// Columns kept of each node's rows: six parameters, the step, the load.
+constexpr int kNodeColumns = 8;
+
+template <class T>
+struct LadderFrame {
+  // The finger and its mesh.
+  int front_elements = 0, elements = 0, ribs = 0;
+  T base_x[2] = {0, 0}, base_angle[2] = {0, 0};
+  T *length, *stiffness, *stiffness_ratio, *axial_flexibility;
+  int* rib_element[2];  ///< the element that starts at the hinge.
+  T *rib_length, *rib_flexibility, *d_rib_length;
+  int readout_count = 0;
+  LadderReadout<T>* readouts;  ///< by element and offset.
+
+  // The load.
+  int contact_count = 0;
+  LadderContact<T>* contacts;  ///< by element and offset.
+
+  // The state, Newton's step and, with kLoad, the derivative by the load.
+  LadderNodes<T> state, step, by_load;
+
+  // What evaluation leaves.
+  T *slot_x, *slot_y;
+  T *slot_theta, *slot_moment, *slot_fx, *slot_fy;  ///< starts
+  T *slot_length, *slot_stiffness, *slot_axial;
+  T *maps, *truncation;
+  T* gap;      ///< four an element, at its start.
+  T* closure;  ///< ribs, then six at the tip.
+  T tip[3];    ///< x, y, theta of the front beam's end.
+  T *rib_ux, *rib_uy, *rib_distance;
+  int* readout_slot;
+  T* readout_map;
+
+  // What a sweep leaves: rows of `stride` columns [six parameters, or all of q
+  // | the constant of the step | derivatives]. After a closed sweep the taps
+  // hold, from column `affine` on, the change of (x, y, theta) of each contact
+  // and of the tip and of the readouts; after an open one rib lengths and the
+  // six equations of the tip follow, all with their derivatives by q.
+  int affine = 6, stride = 8;
+  T* taps;
+  T* q_step;  ///< rows of the change of q.
+
+  // The sweep's own memory.
+  T *rows, *tip_rows, *node_rows, *pivots, *parameters;
+  int *pivot_column, *pivot_rib, *events;
+  T* pivot_flexibility;
+
+  int slots() const { return elements + contact_count; }
+  int contact_tap(int c) const { return 3 * c; }
+  int tip_tap() const { return 3 * contact_count; }
+  int readout_tap(int i) const { return tip_tap() + 3 + i; }
+  int closure_tap() const { return readout_tap(readout_count); }
+  int taps_count() const { return closure_tap() + ribs + 6; }
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_STATICS_LADDER_FRAME_H_

@@ -1,0 +1,63 @@
+#ifndef FINRAY_STATICS_LADDER_KERNEL_H_
+#define FINRAY_STATICS_LADDER_KERNEL_H_
+
+#include "finray/statics/discretization.h"
+#include "finray/statics/ladder_frame.h"
+
+namespace finray {
+
+// One Newton step of the lifted ladder (ladder.h) in two passes.
+//
+// Evaluate: every element starts from its stored state, so all of them are
+// integrated side by side in vector lanes. Internal forces follow from base
+// forces, rib tensions and stored hinge positions.
+//
+// Sweep: both beams are walked from base to tip. The changes of the state of
+// both, twelve numbers, lie in an affine space of six parameters, at first the
+// base moments and forces:
+//
+//   dz = B p + b,   B 12 x 6.
+//
+// An element multiplies by its map and adds its gap to b. A rib of length L and
+// tension T is an equation g . p + g_0 = kappa dT, kappa = L / EA, which takes
+// one parameter away as dT becomes one. So there are six throughout, whatever
+// the number of ribs, and the cost is linear in elements. The only operation is
+// the exchange of a parameter p_k, with the largest |g_k|, for another quantity
+// tau:
+//
+//   p_k = (kappa tau - sum_{j != k} g_j p_j - g_0) / g_k.
+//
+// Where B grows too far (long, soft, highly loaded bays grow like exp(sqrt(N
+// L^2 / EI))) the parameters are exchanged for entries of dz with full
+// pivoting, which keeps the sweep as stable as Gaussian elimination with
+// pivoting. At the tip six exchanges with kappa = 0 use up the parameters.
+// Walking back through the exchanges gives the step.
+
+struct LadderKernel {
+  /// Fills slots, maps, gaps and closures. Returns the largest residual, NaN if
+  /// any number is. With `parameters` also derivatives by EI and length; with
+  /// `propagate` the nodes are overwritten by what reaches them, so that there
+  /// are no gaps.
+  double (*evaluate)(LadderFrame<double>&, bool parameters, bool propagate);
+  /// Fills readout_map from the slots of the last evaluation.
+  void (*read_gauges)(LadderFrame<double>&);
+  /// Solves for step, taps and q_step. False if the system is singular.
+  bool (*sweep)(LadderFrame<double>&, SweepColumns, bool readouts);
+  /// Fills taps only, with all of q as parameters: no rib is exchanged and the
+  /// tip stays open.
+  void (*open_sweep)(LadderFrame<double>&, SweepColumns);
+};
+
+/// The kernel of a scheme in the best instruction set of this machine; kStretch
+/// for beams with axial flexibility.
+const LadderKernel& FindLadderKernel(Scheme scheme, bool stretch);
+
+/// The instruction sets that this machine can run, best first, and the kernel
+/// of one of them: for tests and benchmarks.
+int LadderInstructionSets();
+const char* LadderInstructionSetName(int set);
+const LadderKernel& FindLadderKernel(Scheme scheme, bool stretch, int set);
+
+}  // namespace finray
+
+#endif  // FINRAY_STATICS_LADDER_KERNEL_H_

@@ -1,0 +1,310 @@
+#include "finray/statics/ladder_workspace.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "finray/finger/geometry.h"
+#include "finray/statics/lanes.h"
+
+namespace finray {
+namespace {
+
+int RoundUp(int value, int multiple) {
+  return (value + multiple - 1) / multiple * multiple;
+}
+
+double ScaledFlexibility(double axial_stiffness_N, double force_unit) {
+  return force_unit / axial_stiffness_N;  // 0 for an infinite one
+}
+
+}  // namespace
+
+template <class T>
+LadderWorkspace<T>::LadderWorkspace(const LadderModel& model)
+    : length_unit_(model.finger().front_length_mm),
+      force_unit_(ForceUnit(model.finger())) {
+  const Finger& finger = model.finger();
+  frame_.ribs = model.ribs();
+  for (const Rib& rib : finger.ribs) {
+    nominal_mm_.push_back(NominalRibLength(finger, rib));
+  }
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    const int i = LadderModel::Index(side);
+    frame_.base_x[i] =
+        static_cast<T>(BeamBase(finger, side).x() / length_unit_);
+    frame_.base_angle[i] = static_cast<T>(BeamAngle(finger, side));
+  }
+  SetMesh(model);
+}
+
+template <class T>
+LadderWorkspace<T>::LadderWorkspace(const LadderWorkspace& other)
+    : length_unit_(other.length_unit_),
+      force_unit_(other.force_unit_),
+      frame_(other.frame_),
+      contact_capacity_(other.contact_capacity_),
+      stride_capacity_(other.stride_capacity_),
+      readouts_(other.readouts_),
+      nominal_mm_(other.nominal_mm_) {
+  Allocate();
+  std::copy(other.numbers_.begin(), other.numbers_.end(), numbers_.begin());
+  std::copy(other.integers_.begin(), other.integers_.end(), integers_.begin());
+  std::copy(other.contacts_.begin(), other.contacts_.end(), contacts_.begin());
+}
+
+// Names every array with its length, once to count and once to hand out memory.
+template <class T>
+template <class Take>
+void LadderWorkspace<T>::LayOut(Take&& take) {
+  LadderFrame<T>& f = frame_;
+  const int width = Lanes<T>::kWidth;
+  const int elements = f.elements, ribs = f.ribs, q = 6 + ribs;
+  const int slots = RoundUp(elements + contact_capacity_, width);
+  const int stride = stride_capacity_;
+  for (LadderNodes<T>* z : {&f.state, &f.step, &f.by_load}) {
+    take(&z->q, q);
+    for (T** field : {&z->x, &z->y, &z->theta, &z->moment}) {
+      take(field, elements);
+    }
+  }
+  for (T** field :
+       {&f.length, &f.stiffness, &f.stiffness_ratio, &f.axial_flexibility}) {
+    take(field, elements);
+  }
+  for (T** field : {&f.rib_length, &f.rib_flexibility, &f.d_rib_length,
+                    &f.rib_ux, &f.rib_uy, &f.rib_distance}) {
+    take(field, ribs);
+  }
+  for (T** field : {&f.slot_x, &f.slot_y, &f.slot_theta, &f.slot_moment,
+                    &f.slot_fx, &f.slot_fy, &f.slot_length, &f.slot_stiffness,
+                    &f.slot_axial, &f.truncation}) {
+    take(field, slots);
+  }
+  take(&f.maps, slots * kMapValues);
+  take(&f.gap, 4 * elements);
+  take(&f.closure, q);
+  take(&f.readout_map, kReadoutValues * f.readout_count);
+  const int taps = 3 * contact_capacity_ + 3 + f.readout_count + q;
+  // Each element may exchange all six parameters.
+  const int pivots = 6 * elements + ribs + 6;
+  take(&f.taps, taps * stride);
+  take(&f.q_step, q * stride);
+  take(&f.rows, 12 * stride);
+  take(&f.tip_rows, 6 * stride);
+  take(&f.node_rows, 4 * kNodeColumns * elements);
+  take(&f.pivots, pivots * stride);
+  take(&f.parameters, 6 * stride);
+  take(&f.pivot_flexibility, pivots);
+  take(&f.rib_element[0], ribs);
+  take(&f.rib_element[1], ribs);
+  take(&f.readout_slot, f.readout_count);
+  take(&f.pivot_column, pivots);
+  take(&f.pivot_rib, pivots);
+  take(&f.events, elements + taps + pivots);
+}
+
+template <class T>
+void LadderWorkspace<T>::Allocate() {
+  struct Count {
+    std::size_t numbers = 0, integers = 0;
+    void operator()(T** /*to*/, int n) { numbers += n; }
+    void operator()(int** /*to*/, int n) { integers += n; }
+  } count;
+  LayOut(count);
+  std::vector<T> numbers(count.numbers);
+  std::vector<int> integers(count.integers);
+  struct Hand {
+    T* number;
+    int* integer;
+    void operator()(T** to, int n) {
+      *to = number;
+      number += n;
+    }
+    void operator()(int** to, int n) {
+      *to = integer;
+      integer += n;
+    }
+  } hand{numbers.data(), integers.data()};
+  LayOut(hand);
+  numbers_ = std::move(numbers);
+  integers_ = std::move(integers);
+  contacts_.resize(contact_capacity_);
+  frame_.contacts = contacts_.data();
+  frame_.readouts = readouts_.data();
+}
+
+template <class T>
+void LadderWorkspace<T>::SetMesh(const LadderModel& model) {
+  frame_.front_elements = model.mesh(Side::kFront).elements();
+  frame_.elements = frame_.front_elements + model.mesh(Side::kBack).elements();
+  readouts_.clear();
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    const int first = side == Side::kFront ? 0 : frame_.front_elements;
+    for (const LadderModel::GaugeEnd& end : model.gauge_ends(side)) {
+      readouts_.push_back({end.gauge, end.sign, first + end.point.element,
+                           static_cast<T>(end.point.offset_mm / length_unit_)});
+    }
+  }
+  frame_.readout_count = static_cast<int>(readouts_.size());
+  Allocate();
+
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    const BeamMesh& mesh = model.mesh(side);
+    const int first = side == Side::kFront ? 0 : frame_.front_elements;
+    const double flexibility =
+        ScaledFlexibility(AxialStiffness(model.finger(), side), force_unit_);
+    for (int k = 0; k < mesh.elements(); ++k) {
+      frame_.length[first + k] = static_cast<T>(
+          (mesh.nodes_mm[k + 1] - mesh.nodes_mm[k]) / length_unit_);
+      frame_.stiffness_ratio[first + k] =
+          static_cast<T>(mesh.stiffness_ratio[k]);
+      frame_.axial_flexibility[first + k] = static_cast<T>(flexibility);
+    }
+    for (int i = 0; i < frame_.ribs; ++i) {
+      frame_.rib_element[LadderModel::Index(side)][i] =
+          first + mesh.rib_node[i];
+    }
+  }
+  SetFinger(model);
+}
+
+template <class T>
+void LadderWorkspace<T>::SetFinger(const LadderModel& model, double fraction) {
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    const bool front = side == Side::kFront;
+    const T stiffness =
+        static_cast<T>(model.stiffness(side) / stiffness_unit());
+    const int end = front ? frame_.front_elements : frame_.elements;
+    for (int e = front ? 0 : frame_.front_elements; e < end; ++e) {
+      frame_.stiffness[e] = stiffness * frame_.stiffness_ratio[e];
+    }
+  }
+  for (int i = 0; i < frame_.ribs; ++i) {
+    const Rib& rib = model.finger().ribs[i];
+    const double slope = rib.length_mm - nominal_mm_[i];
+    const double length = rib.length_mm - (1 - fraction) * slope;
+    frame_.rib_length[i] = static_cast<T>(length / length_unit_);
+    frame_.d_rib_length[i] = static_cast<T>(slope / length_unit_);
+    frame_.rib_flexibility[i] =
+        static_cast<T>(ScaledFlexibility(rib.axial_stiffness_N, force_unit_));
+  }
+}
+
+template <class T>
+bool LadderWorkspace<T>::SetContacts(const LadderModel& model,
+                                     const std::vector<PointContact>& contacts,
+                                     double fraction) {
+  const int count = static_cast<int>(contacts.size());
+  if (count > contact_capacity_) {
+    contact_capacity_ = count;
+    SetMeshMemory(model);
+  }
+  frame_.contact_count = count;
+  for (int i = 0; i < count; ++i) {
+    const PointContact& contact = contacts[i];
+    const BeamMesh& mesh = model.mesh(contact.side);
+    // Written so that a NaN fails.
+    if (!(contact.arc_mm >= 0 && contact.arc_mm <= mesh.nodes_mm.back()) ||
+        !std::isfinite(contact.normal_N) || !std::isfinite(contact.friction)) {
+      return false;
+    }
+    const bool front = contact.side == Side::kFront;
+    const MeshPoint at = mesh.Locate(contact.arc_mm);
+    const double normal = contact.normal_N / force_unit_;
+    const LadderContact<T> placed{
+        front ? 0 : 1,
+        at.element + (front ? 0 : frame_.front_elements),
+        static_cast<T>(at.offset_mm / length_unit_),
+        static_cast<T>(fraction * normal),
+        static_cast<T>(contact.friction),
+        static_cast<T>(normal),
+        i};
+    // Insertion keeps contacts of one place in the order given.
+    int k = i;
+    for (; k > 0; --k) {
+      const LadderContact<T>& before = contacts_[k - 1];
+      if (before.element < placed.element ||
+          (before.element == placed.element &&
+           before.offset <= placed.offset)) {
+        break;
+      }
+      contacts_[k] = before;
+    }
+    contacts_[k] = placed;
+  }
+  return true;
+}
+
+template <class T>
+bool LadderWorkspace<T>::SetColumns(const LadderModel& model,
+                                    SweepColumns columns, bool open) {
+  const int derivatives = columns == SweepColumns::kParameters
+                              ? 2 * frame_.contact_count + 2 + frame_.ribs
+                              : 1;
+  frame_.affine = open ? 6 + frame_.ribs : 6;
+  frame_.stride = std::max(
+      kNodeColumns, RoundUp(frame_.affine + 1 + derivatives, Lanes<T>::kWidth));
+  if (frame_.stride <= stride_capacity_) return false;
+  stride_capacity_ = frame_.stride;
+  SetMeshMemory(model);
+  return true;
+}
+
+// Takes more memory for the same mesh and keeps the state.
+template <class T>
+void LadderWorkspace<T>::SetMeshMemory(const LadderModel& model) {
+  const std::vector<T> kept(
+      frame_.state.q, frame_.state.q + 6 + frame_.ribs + 4 * frame_.elements);
+  SetMesh(model);
+  std::copy(kept.begin(), kept.end(), frame_.state.q);
+}
+
+template <class T>
+void LadderWorkspace<T>::Load(const LadderState& state) {
+  const LadderNodes<T>& z = frame_.state;
+  for (int i = 0; i < 6 + frame_.ribs; ++i) {
+    const bool moment = i == 0 || i == 3;
+    z.q[i] =
+        static_cast<T>(state.q[i] / (moment ? moment_unit() : force_unit_));
+  }
+  const int counts[2] = {frame_.front_elements,
+                         frame_.elements - frame_.front_elements};
+  for (int side = 0; side < 2; ++side) {
+    const int first = side == 0 ? 0 : frame_.front_elements;
+    for (int k = 0; k < counts[side]; ++k) {
+      const auto node = state.nodes[side].col(k);
+      z.x[first + k] = static_cast<T>(node[1] / length_unit_);
+      z.y[first + k] = static_cast<T>(node[2] / length_unit_);
+      z.theta[first + k] = static_cast<T>(node[3]);
+      z.moment[first + k] = static_cast<T>(node[4] / moment_unit());
+    }
+    z.moment[first] = z.q[3 * side];
+  }
+}
+
+template <class T>
+void LadderWorkspace<T>::Save(const LadderModel& model,
+                              LadderState* state) const {
+  const LadderNodes<T>& z = frame_.state;
+  state->q.resize(6 + frame_.ribs);
+  for (int i = 0; i < 6 + frame_.ribs; ++i) {
+    const bool moment = i == 0 || i == 3;
+    state->q[i] = z.q[i] * (moment ? moment_unit() : force_unit_);
+  }
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    const BeamMesh& mesh = model.mesh(side);
+    const int first = side == Side::kFront ? 0 : frame_.front_elements;
+    LadderState::Nodes& nodes = state->nodes[LadderModel::Index(side)];
+    nodes.resize(5, mesh.elements());
+    for (int k = 0; k < mesh.elements(); ++k) {
+      nodes.col(k) << mesh.nodes_mm[k], z.x[first + k] * length_unit_,
+          z.y[first + k] * length_unit_, z.theta[first + k],
+          z.moment[first + k] * moment_unit();
+    }
+  }
+}
+
+template class LadderWorkspace<double>;
+template class LadderWorkspace<float>;
+
+}  // namespace finray

@@ -1,0 +1,65 @@
+#ifndef FINRAY_STATICS_LOAD_PATH_H_
+#define FINRAY_STATICS_LOAD_PATH_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "finray/statics/ladder_newton.h"
+
+namespace finray {
+
+/// Follows the equilibria of a finger from the unloaded one as contact forces
+/// and assembly prestress grow together, each to a share lambda of what is
+/// given, by pseudo-arclength continuation: with z the shape and (z', lambda')
+/// the unit tangent of the path, every point solves equilibrium together with
+///
+///   z' . (z - z_0) + lambda' (lambda - lambda_0) = ds,
+///
+/// so that the path goes on where lambda turns back, at a limit point.
+class LoadPath {
+ public:
+  /// `newton` must stand at an equilibrium at share `fraction` of the load.
+  LoadPath(LadderNewton* newton, const std::vector<PointContact>& contacts,
+           double fraction);
+
+  /// Goes one step on. False if no point was found however small the step; the
+  /// path stays where it was.
+  bool Advance();
+
+  double fraction() const { return fraction_; }
+  /// Whether the last step passed a limit point, and at which share of the load
+  /// (by a parabola through the tangents at its ends).
+  bool passed_limit_point() const { return limit_fraction_ > 0; }
+  double limit_fraction() const { return limit_fraction_; }
+
+ private:
+  bool Tangent();
+  bool Correct(double arc);
+  double Dot(const double* a, const double* b) const;
+  void Keep(Eigen::VectorXd* state) const;
+  void Restore(const Eigen::VectorXd& state);
+  Eigen::Index Size() const;
+
+  LadderNewton* newton_;
+  std::vector<PointContact> contacts_;
+  double fraction_, trial_fraction_ = 0;
+  double step_ = 0.05;
+  double limit_fraction_ = 0;
+  bool has_tangent_ = false;
+  int corrections_ = 0;
+  Eigen::VectorXd start_, tangent_;  // in the order of LadderNodes
+  double tangent_fraction_ = 0;
+};
+
+/// How a walk along the path to the whole load ended.
+enum class LoadPathEnd { kReached, kLimitPoint, kStuck };
+
+/// Walks from the undeformed finger to the whole load. On kReached `newton`
+/// stands near the equilibrium there, to be converged; otherwise *fraction is
+/// the share of the load at which the path turns back or was lost.
+LoadPathEnd WalkLoadPath(const std::vector<PointContact>& contacts,
+                         LadderNewton* newton, double* fraction);
+
+}  // namespace finray
+
+#endif  // FINRAY_STATICS_LOAD_PATH_H_
