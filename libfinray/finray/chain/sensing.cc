@@ -12,7 +12,8 @@ namespace finray {
 namespace {
 
 constexpr double kMaxTurn = 0.5;
-constexpr double kMaxMove = 0.1;  // of l_0
+constexpr double kMaxMove = 0.03;   // of l_0
+constexpr double kMaxChange = 0.3;  // of f_c + F_0
 constexpr double kSmallStep = 1e-9;
 
 // The pseudo-inverse step of (18) in units of the columns. It is subtracted:
@@ -63,8 +64,11 @@ ChainSensing SenseContact(const ChainLayout& layout, const Eigen::VectorXd& s0,
     const Eigen::VectorXd step =
         Step(layout, units, s0, options.model_weight, state, contact);
     if (!step.allFinite()) break;
-    const double fraction = std::min({1.0, kMaxTurn / LargestTurn(step.head(n)),
-                                      kMaxMove / std::abs(step[n + loads])});
+    const double fraction =
+        std::min({1.0, kMaxTurn / LargestTurn(step.head(n)),
+                  kMaxMove / std::abs(step[n + loads]),
+                  kMaxChange * (1 + contact.normal_N / layout.force_unit_N) /
+                      std::abs(step[n + loads + 1])});
     const Eigen::VectorXd change = fraction * step.cwiseProduct(units.columns);
     state.theta += change.head(n);
     state.loads += change.segment(n, loads);

@@ -29,10 +29,11 @@ struct ChainSensing {
 /// tau and d above s: Householder QR wants the heavy rows first.
 ///
 /// It starts from the equilibrium under `start`, whose friction is kept. Steps
-/// are shortened so that no link turns by more than 0.5 rad and l_c moves by no
-/// more than 10 % of l_0; l_c stays on the beam and f_c >= 0, and a solution on
-/// such a bound has not converged. `converged` is false, and nothing is NaN,
-/// where it fails.
+/// are shortened so that no link turns by more than 0.5 rad, l_c moves by no
+/// more than 3 % of l_0 (beyond the next rib its force is of no use as a start)
+/// and f_c by no more than 30 % of f_c + F_0. l_c stays on the beam and
+/// f_c >= 0; a solution on such a bound has not converged. `converged` is
+/// false, and nothing is NaN, where it fails.
 ChainSensing SenseContact(const ChainLayout& layout, const Eigen::VectorXd& s0,
                           const ChainContact& start,
                           const ChainSensingOptions& options = {});
