@@ -1,0 +1,154 @@
+#ifndef FINRAY_CHAIN_FINGER_EQUATIONS_H_
+#define FINRAY_CHAIN_FINGER_EQUATIONS_H_
+
+#include <Eigen/Core>
+
+#include "finray/chain/chain_layout.h"
+
+namespace finray {
+
+// The finger under one contact (Section III and IV.A). Unknowns
+//
+//   theta            n joint angles, rad
+//   loads = (F_t, f) 3 + r: the wrench on the chain at {T}, then the magnitudes
+//                    of the rib forces, compression > 0 as in (8): a rib's
+//                    tension is -f_k
+//   contact          (l_c, f_c), mm and N
+//
+// equations
+//
+//   y   = ln(g_st g_t^-1)^vee                                       (4)
+//   tau = K theta - J_t^T F_t - sum (J_Lk - J_Rk)^T F_k - J_c^T F_c   (9), (14)
+//   d_k = |r_Lk - r_Rk| - d_k0 (1 - f_k / EA_k)                     (7)
+//
+// with F_k = f_k W_k (8) and F_c = f_c W_c (15), W_c here of x_c + mu y_c. The
+// contact frame rides on the link that holds l_c, so n_c counts the front
+// joints before l_c and x_c turns by theta_i where l_c passes joint i. Without
+// contact (f_c = 0) this is C(theta, F_t, f) of (12).
+
+/// One of the ribs in a configuration.
+template <typename T>
+struct RibFrame {
+  Vector2<T> left, right;  ///< r_L and r_R of (11).
+  T distance;
+  Vector2<T> direction;  ///< u_k, from R to L.
+  Wrench<T> wrench;      ///< W_k.
+};
+
+template <typename T>
+RibFrame<T> MakeRibFrame(const ChainRib& rib, const ChainPoses<T>& poses) {
+  RibFrame<T> frame;
+  frame.left =
+      poses.after[rib.joints_before_left] * Vector2<T>(rib.left.cast<T>());
+  frame.right =
+      poses.after[rib.joints_before_right] * Vector2<T>(rib.right.cast<T>());
+  const Vector2<T> across = frame.left - frame.right;
+  frame.distance = across.norm();
+  frame.direction = across / frame.distance;
+  frame.wrench = ForceWrench(frame.left, frame.direction);
+  return frame;
+}
+
+/// The contact frame {C} in a configuration.
+template <typename T>
+struct ContactFrame {
+  int joints_before = 0;       ///< n_c.
+  Vector2<T> point;            ///< r_C.
+  Vector2<T> normal, tangent;  ///< x_c and y_c.
+  Vector2<T> force;            ///< x_c + mu y_c: the force per unit of f_c.
+  Wrench<T> wrench;            ///< W_c.
+};
+
+/// g_sc of (25) and the wrench of (15). `arc` should lie on the front beam.
+template <typename T>
+ContactFrame<T> MakeContactFrame(const ChainLayout& layout,
+                                 const ChainPoses<T>& poses, const T& arc,
+                                 double friction) {
+  ContactFrame<T> frame;
+  for (const double joint : layout.front_joint_mm) {
+    if (arc > T(joint)) ++frame.joints_before;
+  }
+  const Pose<T>& g = poses.after[frame.joints_before];
+  frame.point = g * Vector2<T>(T(0), arc);
+  frame.normal = g.Rotate(Vector2<T>(T(1), T(0)));
+  frame.tangent = g.Rotate(Vector2<T>(T(0), T(1)));
+  frame.force = frame.normal + T(friction) * frame.tangent;
+  frame.wrench = ForceWrench(frame.point, frame.force);
+  return frame;
+}
+
+/// The sum of the wrenches that act beyond each joint, 3 x n: what J^T F of
+/// (14) multiplies with xi_i. A rib's cancel beyond R.
+template <typename T>
+Eigen::Matrix<T, 3, Eigen::Dynamic> WrenchesBeyond(const ChainLayout& layout,
+                                                   const ChainPoses<T>& poses,
+                                                   const T* loads,
+                                                   const T* contact,
+                                                   double friction) {
+  const int n = layout.joints();
+  Eigen::Matrix<T, 3, Eigen::Dynamic> beyond(3, n);
+  beyond.colwise() = Wrench<T>(loads[0], loads[1], loads[2]);
+  for (std::size_t k = 0; k < layout.ribs.size(); ++k) {
+    const ChainRib& rib = layout.ribs[k];
+    const Wrench<T> wrench = MakeRibFrame(rib, poses).wrench * loads[3 + k];
+    for (int i = rib.joints_before_left; i < rib.joints_before_right; ++i) {
+      beyond.col(i) -= wrench;
+    }
+  }
+  const ContactFrame<T> frame =
+      MakeContactFrame(layout, poses, contact[0], friction);
+  const Wrench<T> wrench = frame.wrench * contact[1];
+  for (int i = 0; i < frame.joints_before; ++i) beyond.col(i) += wrench;
+  return beyond;
+}
+
+/// tau of (14), n entries in N mm.
+template <typename T>
+Eigen::Matrix<T, Eigen::Dynamic, 1> JointTorques(const ChainLayout& layout,
+                                                 const ChainPoses<T>& poses,
+                                                 const T* theta, const T* loads,
+                                                 const T* contact,
+                                                 double friction) {
+  const auto beyond = WrenchesBeyond(layout, poses, loads, contact, friction);
+  Eigen::Matrix<T, Eigen::Dynamic, 1> tau(layout.joints());
+  for (int i = 0; i < layout.joints(); ++i) {
+    tau[i] = layout.chain.stiffness[i] * theta[i] -
+             poses.xi.col(i).dot(beyond.col(i));
+  }
+  return tau;
+}
+
+/// d of (12), r entries in mm.
+template <typename T>
+Eigen::Matrix<T, Eigen::Dynamic, 1> RibDeviations(const ChainLayout& layout,
+                                                  const ChainPoses<T>& poses,
+                                                  const T* loads) {
+  Eigen::Matrix<T, Eigen::Dynamic, 1> d(layout.ribs.size());
+  for (std::size_t k = 0; k < layout.ribs.size(); ++k) {
+    const ChainRib& rib = layout.ribs[k];
+    d[k] = MakeRibFrame(rib, poses).distance - rib.length_mm +
+           rib.compliance_mm_per_N * loads[3 + k];
+  }
+  return d;
+}
+
+/// C of (12): y (3), tau (n), d (r).
+template <typename T>
+Eigen::Matrix<T, Eigen::Dynamic, 1> FingerEquations(const ChainLayout& layout,
+                                                    const T* theta,
+                                                    const T* loads,
+                                                    const T* contact,
+                                                    double friction) {
+  const ChainPoses<T> poses = Kinematics(layout.chain, theta);
+  const int n = layout.joints();
+  Eigen::Matrix<T, Eigen::Dynamic, 1> c(n + layout.loads());
+  c.template head<3>() = TipDeviation(layout.chain, poses, layout.target);
+  c.segment(3, n) =
+      JointTorques(layout, poses, theta, loads, contact, friction);
+  c.tail(layout.ribs.size()) = RibDeviations(layout, poses, loads);
+  return c;
+}
+
+}  // namespace finray
+
+#endif  // FINRAY_CHAIN_FINGER_EQUATIONS_H_

@@ -1,0 +1,100 @@
+#include "finray/chain/forward.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "finray/chain/finger_jacobian.h"
+#include "finray/chain/newton_step.h"
+
+namespace finray {
+namespace {
+
+constexpr int kMaxIterations = 40;
+constexpr double kMaxTurn = 0.5;
+// Newton is quadratic: after a step this small nothing is left to gain.
+constexpr double kSmallStep = 1e-9;
+constexpr double kSmallestRampStep = 1. / 512;
+
+bool Newton(const ChainLayout& layout, const ChainContact& contact,
+            const ChainUnits& units, ChainState* state) {
+  const int n = layout.joints(), size = n + layout.loads();
+  const double at[2] = {contact.arc_mm, contact.normal_N};
+  ChainState now = *state;
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    const Eigen::VectorXd c =
+        FingerEquations<double>(layout, now.theta.data(), now.loads.data(), at,
+                                contact.friction)
+            .cwiseQuotient(units.rows);
+    if (!c.allFinite()) return false;
+    const Eigen::MatrixXd jacobian =
+        units.rows.cwiseInverse().asDiagonal() *
+        FingerJacobian(layout, now.theta.data(), now.loads.data(), at,
+                       contact.friction)
+            .leftCols(size) *
+        units.columns.head(size).asDiagonal();
+    // (6) prints a plus, which would lead away from the solution.
+    const Eigen::VectorXd step = -jacobian.partialPivLu().solve(c);
+    if (!step.allFinite()) return false;
+    const double turn = LargestTurn(step.head(n));
+    const double fraction = turn > kMaxTurn ? kMaxTurn / turn : 1;
+    now.theta += fraction * step.head(n);
+    now.loads +=
+        fraction * step.tail(layout.loads())
+                       .cwiseProduct(units.columns.segment(n, layout.loads()));
+    const double scale =
+        1 + now.loads.tail(layout.ribs.size()).cwiseAbs().sum() /
+                layout.force_unit_N;
+    if (step.cwiseAbs().maxCoeff() < kSmallStep * scale) {
+      if (!now.AllFinite()) return false;
+      *state = now;
+      return true;
+    }
+  }
+  return false;
+}
+
+// The finger with a share of its prestress and of its load.
+bool SolveAlongRamp(const ChainLayout& layout, const ChainContact& contact,
+                    const ChainUnits& units, ChainState* state) {
+  ChainLayout part = layout;
+  ChainContact load = contact;
+  double reached = 0, step = 0.25;
+  while (reached < 1) {
+    const double share = std::min(1.0, reached + step);
+    for (std::size_t k = 0; k < part.ribs.size(); ++k) {
+      const double nominal = (part.ribs[k].left - part.ribs[k].right).norm();
+      part.ribs[k].length_mm =
+          nominal + share * (layout.ribs[k].length_mm - nominal);
+    }
+    load.normal_N = share * contact.normal_N;
+    if (Newton(part, load, units, state)) {
+      reached = share;
+      step *= 2;
+    } else {
+      step /= 2;
+      if (step < kSmallestRampStep) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool SolveForward(const ChainLayout& layout, const ChainContact& contact,
+                  ChainState* state) {
+  *state = ChainState::Straight(layout);
+  const bool on_beam =
+      contact.arc_mm >= 0 && contact.arc_mm <= layout.length_unit_mm;
+  if (!on_beam || !std::isfinite(contact.normal_N) ||
+      !std::isfinite(contact.friction)) {
+    return false;
+  }
+  const ChainUnits units(layout);
+  if (Newton(layout, contact, units, state)) return true;
+  if (SolveAlongRamp(layout, contact, units, state)) return true;
+  *state = ChainState::Straight(layout);
+  return false;
+}
+
+}  // namespace finray

@@ -1,0 +1,91 @@
+#include "finray/chain/chain_layout.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "chain/chain_fixture.h"
+#include "finray/io/error.h"
+
+namespace finray {
+namespace {
+
+TEST(ChainLayoutTest, RunsFromTheFrontBaseOverTheTipToTheBackBase) {
+  const ChainLayout layout =
+      MakeChainLayout(PaperFinger(), 60, GaugeRule::kOverlap);
+  const int n = layout.joints();
+  const int front = static_cast<int>(layout.front_joint_mm.size());
+  const auto joint = [&](int i) {
+    return Eigen::Vector2d(-layout.chain.twists(2, i),
+                           layout.chain.twists(1, i));
+  };
+  for (int i = 0; i < n; ++i) {
+    EXPECT_EQ(joint(i).x() > 1e-9, i >= front) << i;
+    if (i + 1 == front || i + 1 == n) continue;
+    // Up in front, down behind.
+    EXPECT_EQ(joint(i + 1).y() > joint(i).y(), i < front) << i;
+  }
+  EXPECT_NEAR(layout.target.t.x(), 56.5637, 1e-4);
+  EXPECT_EQ(layout.target.t.y(), 0);
+  // Compliance adds up to that of both beams.
+  EXPECT_NEAR(layout.chain.stiffness.cwiseInverse().sum(),
+              (140 + 140 / std::sin(112 * M_PI / 180)) / 12500, 1e-13);
+  for (const ChainRib& rib : layout.ribs) {
+    // The rib's hinges lie between the joints before and after them.
+    const int l = rib.joints_before_left, r = rib.joints_before_right;
+    EXPECT_LT(joint(l - 1).y(), rib.left.y());
+    EXPECT_GT(joint(l).y(), rib.left.y());
+    EXPECT_GT(joint(r - 1).y(), rib.right.y());
+    EXPECT_LT(joint(r).y(), rib.right.y());
+  }
+}
+
+TEST(ChainLayoutTest, SplitsASegment) {
+  const Finger finger = PaperFinger();
+  const ChainLayout plain = MakeChainLayout(finger, 60, GaugeRule::kOverlap);
+  const ChainLayout split =
+      MakeChainLayout(finger, 60, GaugeRule::kOverlap, {72.4});
+  EXPECT_EQ(split.joints(), plain.joints() + 1);
+  EXPECT_NEAR(split.chain.stiffness.cwiseInverse().sum(),
+              plain.chain.stiffness.cwiseInverse().sum(), 1e-14);
+  // On a rib, at an end or twice in a place there is nothing to split.
+  EXPECT_EQ(
+      MakeChainLayout(finger, 60, GaugeRule::kOverlap, {0, 61, 140}).joints(),
+      plain.joints());
+  EXPECT_EQ(
+      MakeChainLayout(finger, 60, GaugeRule::kOverlap, {72.4, 72.4}).joints(),
+      split.joints());
+}
+
+TEST(ChainLayoutTest, GaugeRulesCountWholeJointsOrShares) {
+  Finger finger = PaperFinger();
+  finger.gauges[0].beam = Side::kFront;
+  const ChainLayout whole = MakeChainLayout(finger, 60, GaugeRule::kWholeJoint);
+  const ChainLayout overlap = MakeChainLayout(finger, 60, GaugeRule::kOverlap);
+  for (int j = 0; j < 4; ++j) {
+    const double sign = j == 0 ? 1 : -1;
+    double covered = 0;
+    for (int i = 0; i < whole.joints(); ++i) {
+      const double w = sign * whole.gauges(j, i);
+      const double o = sign * overlap.gauges(j, i);
+      EXPECT_TRUE(w == 0 || w == 1);
+      EXPECT_TRUE(o >= 0 && o <= 1 + 1e-12);
+      covered += o * 12500 / overlap.chain.stiffness[i];
+    }
+    EXPECT_NEAR(covered, 18, 1e-10);
+  }
+}
+
+TEST(ChainLayoutTest, RefusesBadArguments) {
+  Finger finger = PaperFinger();
+  EXPECT_THROW(MakeChainLayout(finger, 0, GaugeRule::kOverlap), InputError);
+  EXPECT_THROW(MakeChainLayout(finger, 60, GaugeRule::kOverlap, {141}),
+               InputError);
+  EXPECT_THROW(MakeChainLayout(finger, 60, GaugeRule::kOverlap, {std::nan("")}),
+               InputError);
+  finger.back_axial_stiffness_N = 1e6;
+  EXPECT_THROW(MakeChainLayout(finger, 60, GaugeRule::kOverlap), InputError);
+}
+
+}  // namespace
+}  // namespace finray

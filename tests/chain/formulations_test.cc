@@ -1,0 +1,229 @@
+// The paper's chain against the ladder of rigid links at equal resolution: one
+// set of equations in two ways of writing them.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "chain/chain_fixture.h"
+#include "finray/chain/finger_equations.h"
+#include "finray/chain/forward.h"
+#include "finray/statics/equilibrium.h"
+#include "finray/statics/rigid_link_element.h"
+#include "statics/special_cases.h"
+
+namespace finray {
+namespace {
+
+// Joint angles in the order of the chain: what each segment turns.
+Eigen::VectorXd LadderJointAngles(const EquilibriumSolver& solver,
+                                  const std::vector<PointContact>& contacts) {
+  const auto spans = solver.Spans(contacts);
+  const double tip = solver.tip_pose().z();
+  const Finger& finger = solver.model().finger();
+  std::vector<double> angles;
+  std::vector<double> turns[2];
+  for (int side = 0; side < 2; ++side) {
+    const double end = side == 0 ? tip : tip + finger.back_angle_rad - M_PI / 2;
+    for (std::size_t i = 0; i < spans[side].size(); ++i) {
+      if (spans[side][i].length_mm < 1e-9) continue;  // cut on a node
+      const double after =
+          i + 1 < spans[side].size() ? spans[side][i + 1].start.theta_rad : end;
+      turns[side].push_back(after - spans[side][i].start.theta_rad);
+    }
+  }
+  angles = turns[0];
+  // Down the back beam, a joint turns what lies towards the base.
+  for (auto turn = turns[1].rbegin(); turn != turns[1].rend(); ++turn) {
+    angles.push_back(-*turn);
+  }
+  return Eigen::Map<Eigen::VectorXd>(angles.data(), angles.size());
+}
+
+struct Differences {
+  double joint = 0, rib = 0, gauge = 0;
+};
+
+void Compare(const Finger& finger, const ChainContact& contact, int resolution,
+             Differences* worst) {
+  const std::vector<PointContact> contacts = {
+      {contact.arc_mm, contact.normal_N, contact.friction}};
+  EquilibriumSolver ladder(finger, {Scheme::kRigidChain, resolution});
+  ASSERT_TRUE(ladder.Solve(contacts));
+  const ChainLayout layout = MakeChainLayout(
+      finger, resolution, GaugeRule::kOverlap, {contact.arc_mm});
+  ChainState state;
+  ASSERT_TRUE(SolveForward(layout, contact, &state));
+  const Eigen::VectorXd angles = LadderJointAngles(ladder, contacts);
+  ASSERT_EQ(angles.size(), layout.joints());
+  const double joint = (angles - state.theta).cwiseAbs().maxCoeff();
+  EXPECT_LT(joint, 1e-9);
+  // Beside a contact on a clamp or the tip the ribs carry nothing.
+  double largest = 1e-3 * contact.normal_N, rib = 0;
+  for (std::size_t k = 0; k < finger.ribs.size(); ++k) {
+    const int i = static_cast<int>(k);
+    largest = std::max(largest, std::abs(ladder.rib_tension(i)));
+    rib = std::max(rib, std::abs(ladder.rib_tension(i) - state.rib_tension(i)));
+  }
+  if (largest > 0) rib /= largest;
+  EXPECT_LT(rib, 1e-9);
+  const Eigen::VectorXd gauges = layout.gauges * state.theta;
+  double gauge = 0;
+  for (int j = 0; j < gauges.size(); ++j) {
+    gauge = std::max(gauge, std::abs(gauges[j] - ladder.gauge_angle(j)));
+  }
+  EXPECT_LT(gauge, 1e-9);
+  // The reaction at {T} is the clamp's.
+  const Eigen::Vector3d reaction = ladder.base_reaction(Side::kBack);
+  const double base = 140 / std::tan(68 * M_PI / 180);
+  EXPECT_NEAR(state.loads[1], reaction[1], 1e-8 * (1 + contact.normal_N));
+  EXPECT_NEAR(state.loads[2], reaction[2], 1e-8 * (1 + contact.normal_N));
+  EXPECT_NEAR(state.loads[0], reaction[0] + base * reaction[2],
+              1e-6 * (1 + contact.normal_N));
+  worst->joint = std::max(worst->joint, joint);
+  worst->rib = std::max(worst->rib, rib);
+  worst->gauge = std::max(worst->gauge, gauge);
+}
+
+void Print(const char* what, const Differences& worst) {
+  std::printf(
+      "%s: joint angles %.1e rad, ribs %.1e of the largest, gauges %.1e rad\n",
+      what, worst.joint, worst.rib, worst.gauge);
+}
+
+TEST(FormulationsTest, PaperFingerOverTheGrid) {
+  for (const int resolution : {60, 200}) {
+    Differences worst;
+    for (const double arc : {8.0, 30.0, 61.0, 72.4, 100.0, 125.0}) {
+      for (const double force : {0.05, 1.0, 5.0, 20.0}) {
+        SCOPED_TRACE("l_c " + std::to_string(arc) + ", f_c " +
+                     std::to_string(force));
+        Compare(PaperFinger(), {arc, force, 0}, resolution, &worst);
+      }
+    }
+    Print(resolution == 60 ? "n = 60" : "n = 200", worst);
+  }
+}
+
+TEST(FormulationsTest, SpecialCases) {
+  Differences worst;
+  for (const Case& at : SpecialCases()) {
+    if (at.contacts.size() > 1) continue;  // the paper has one
+    SCOPED_TRACE(at.name);
+    ChainContact contact;
+    if (!at.contacts.empty()) {
+      contact = {at.contacts[0].arc_mm, at.contacts[0].normal_N,
+                 at.contacts[0].friction};
+    }
+    Compare(at.finger, contact, 60, &worst);
+  }
+  for (const double arc : {12.5, 61.0, 66.7, 128.0}) {
+    for (const double friction : {-0.4, 0.4}) {
+      SCOPED_TRACE("rich finger, l_c " + std::to_string(arc));
+      Compare(RichFinger(), {arc, 6, friction}, 60, &worst);
+      Compare(PrestressedPaperFinger(), {arc, 6, friction}, 60, &worst);
+    }
+  }
+  Print("special cases", worst);
+}
+
+// Pieces of other stiffness: both beams marched here, each segment with its own
+// EI, from the chain's reactions and rib forces.
+TEST(FormulationsTest, StiffnessPiecesAreMarched) {
+  Finger finger = RichFinger();
+  finger.front_pieces = {{25, 1.8}, {50, 0.6}, {90, 1.0}, {140, 2.2}};
+  finger.back_pieces = {{40, 0.7}, {100, 1.6}, {151, 1.1}};
+  const ChainContact contact = {72.4, 5, 0.2};
+  const ChainLayout layout =
+      MakeChainLayout(finger, 90, GaugeRule::kOverlap, {contact.arc_mm});
+  ChainState state;
+  ASSERT_TRUE(SolveForward(layout, contact, &state));
+  // It is not the finger without pieces.
+  Finger uniform = finger;
+  uniform.front_pieces.clear();
+  uniform.back_pieces.clear();
+  ChainState other;
+  const ChainLayout plain =
+      MakeChainLayout(uniform, 90, GaugeRule::kOverlap, {contact.arc_mm});
+  ASSERT_TRUE(SolveForward(plain, contact, &other));
+  EXPECT_GT(std::abs(state.rib_tension(2) - other.rib_tension(2)), 0.05);
+
+  const auto poses = Kinematics(layout.chain, state.theta.data());
+  const double at[2] = {contact.arc_mm, contact.normal_N};
+  const auto beyond =
+      WrenchesBeyond(layout, poses, state.loads.data(), at, contact.friction);
+  const auto ratio = [](const std::vector<StiffnessPiece>& pieces, double arc) {
+    for (const auto& piece : pieces) {
+      if (arc < piece.end_mm) return piece.stiffness_ratio;
+    }
+    return pieces.back().stiffness_ratio;
+  };
+  // Front: the segments' lengths from the joints' places, both ends known.
+  double from = 0, x = 0, y = 0, theta = M_PI / 2;
+  double moment = beyond(0, 0);
+  for (std::size_t i = 0; i < layout.front_joint_mm.size(); ++i) {
+    const double length = 2 * (layout.front_joint_mm[i] - from);
+    RigidLinkElement element;
+    element.Compute({theta, moment, beyond(1, i), beyond(2, i)},
+                    8000 * ratio(finger.front_pieces, layout.front_joint_mm[i]),
+                    length);
+    EXPECT_NEAR(element.map().end[2] - theta, state.theta[i], 1e-10) << i;
+    x += element.map().end[0];
+    y += element.map().end[1];
+    theta = element.map().end[2];
+    moment = element.map().end[3];
+    from += length;
+  }
+  EXPECT_NEAR(from, 140, 1e-9);
+  // Back, from its base up.
+  const double base = 140 / std::tan(68 * M_PI / 180);
+  const int n = layout.joints();
+  double bx = base, by = 0, back_theta = 112 * M_PI / 180;
+  from = 0;
+  // The clamp's moment about the base, seen from the beam towards the base.
+  moment = -(state.loads[0] - base * state.loads[2]);
+  for (int i = n - 1; i >= static_cast<int>(layout.front_joint_mm.size());
+       --i) {
+    const Eigen::Vector2d joint(-layout.chain.twists(2, i),
+                                layout.chain.twists(1, i));
+    const double arc = (joint - Eigen::Vector2d(base, 0)).norm();
+    const double length = 2 * (arc - from);
+    RigidLinkElement element;
+    element.Compute({back_theta, moment, -beyond(1, i), -beyond(2, i)},
+                    21000 * ratio(finger.back_pieces, arc), length);
+    EXPECT_NEAR(back_theta - element.map().end[2], state.theta[i], 1e-10) << i;
+    bx += element.map().end[0];
+    by += element.map().end[1];
+    back_theta = element.map().end[2];
+    moment = element.map().end[3];
+    from += length;
+  }
+  EXPECT_NEAR(x, bx, 1e-8);
+  EXPECT_NEAR(y, by, 1e-8);
+  EXPECT_NEAR(theta - back_theta, -22 * M_PI / 180, 1e-10);
+}
+
+TEST(FormulationsTest, RefusesWhatItCannotSolve) {
+  const ChainLayout layout =
+      MakeChainLayout(PaperFinger(), 40, GaugeRule::kOverlap);
+  ChainState state;
+  for (const ChainContact& contact :
+       std::vector<ChainContact>{{-1, 2, 0},
+                                 {140.1, 2, 0},
+                                 {std::nan(""), 2, 0},
+                                 {70, std::nan(""), 0},
+                                 {70, INFINITY, 0},
+                                 {70, 1e300, 0},
+                                 {70, 1e9, 0},
+                                 {70, 2, std::nan("")}}) {
+    EXPECT_FALSE(SolveForward(layout, contact, &state));
+    EXPECT_EQ(state.theta, ChainState::Straight(layout).theta);
+    EXPECT_EQ(state.loads, ChainState::Straight(layout).loads);
+  }
+  EXPECT_TRUE(SolveForward(layout, {70, 2, 0}, &state));
+}
+
+}  // namespace
+}  // namespace finray
