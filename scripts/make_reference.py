@@ -81,7 +81,7 @@ def circle_cases():
 
 
 class Singular(Exception):
-    """The load path cannot be followed; holds the share reached and why."""
+    """The load path cannot be followed: the share of the load reached and why."""
 
 
 def follow(geometry, contacts, circle):
@@ -91,7 +91,7 @@ def follow(geometry, contacts, circle):
     largest = 0.1 if circle else 0.25
     step = min(largest, 0.5 / max(float(c.force) for c in contacts)) \
         if not circle else 0.02
-    share, before, steps, why = REAL(0), None, 0, ''
+    share, before, steps = REAL(0), None, 0
     while share < 1:
         step = min(step, largest, float(1 - share))
         guess = state
@@ -101,11 +101,12 @@ def follow(geometry, contacts, circle):
         found = system.solve(guess, to)
         change = system.turns(found[0] - guess) if found else 1
         if not found or change > 0.03 or found[1] != sign:
-            why = ('determinant changes sign' if found and found[1] != sign
-                   else 'no continuous path')
             step /= 2
             if step < 1e-7:
-                raise Singular(float(share), why)
+                # At a limit point the finger moves infinitely fast with the load.
+                slope = system.turns(state - before[0]) / before[1] if before else 0
+                raise Singular(float(share),
+                               'limit point' if slope > 100 else 'path lost')
             continue
         before, state, share = (state, float(to - share)), found[0], to
         steps += 1
