@@ -31,7 +31,7 @@ TEST(PlanTest, ReadsEverything) {
       "0.1, contact_std_mm: 0.2}\n"
       "robust_loss: {type: cauchy, scale: 3}\n"
       "holdout: {by: block, fraction: 0.25}\n");
-  EXPECT_EQ(plan.scene.circle_radius_mm, 15);
+  EXPECT_EQ(plan.scene.circle_radius_mm(), 15);
   EXPECT_EQ(plan.family(ParameterFamily::kFrontStiffness).prior_std, 50);
   EXPECT_TRUE(plan.family(ParameterFamily::kGaugeGain).free);
   EXPECT_FALSE(plan.family(ParameterFamily::kGaugeGain).prior_std.has_value());
@@ -49,7 +49,7 @@ TEST(PlanTest, SceneMayBeAFileBesideThePlan) {
   const Plan plan = ReadPlan(folder.Write(
       "plan.yaml",
       "schema_version: 1\nscene: scene.yaml\nparameters: {rib_length: {}}\n"));
-  EXPECT_EQ(plan.scene.circle_radius_mm, 7);
+  EXPECT_EQ(plan.scene.circle_radius_mm(), 7);
 }
 
 TEST(PlanTest, RefusesUnknownKeysAndUnits) {

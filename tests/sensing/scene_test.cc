@@ -24,7 +24,7 @@ TEST(SceneTest, Reads) {
       "columns: {\"Fz [N]\": force_N}\n");
   EXPECT_EQ(scene.contacts, 1);
   EXPECT_EQ(scene.friction_coefficient, 0.2);
-  EXPECT_EQ(scene.circle_radius_mm, 20);
+  EXPECT_EQ(scene.circle_radius_mm(), 20);
   EXPECT_EQ(scene.columns.at("Fz [N]"), "force_N");
   EXPECT_FALSE(Load("contacts: auto\n").contacts.has_value());
   EXPECT_TRUE(ReadScene(FINRAY_SOURCE_DIR "/configs/scenes/one_contact.yaml")

@@ -30,7 +30,7 @@ TEST_F(SimulationTest, PointsObjectsAndFreeRows) {
       "contact_1_mm,normal_1_N,contact_2_mm,normal_2_N,object_x_mm,object_y_mm,"
       "note\n50,2,,,,,one\n50,2,90,1,,,two\n,,,,-12,70,object\n,,,,,,none\n");
   Scene scene;
-  scene.circle_radius_mm = 15;
+  scene.object = RigidObject{Outline(CircleOutline{15}), {}};
   FrameTable shapes;
   const SimulationSummary summary =
       Simulate(finger_, scene, {}, &frames, &shapes);
@@ -96,7 +96,7 @@ TEST_F(SimulationTest, ALogHasNoiseAndNoTruth) {
   for (int i = 0; i < 400; ++i) text += "-13,70\n";
   FrameTable frames = Load(text);
   Scene scene;
-  scene.circle_radius_mm = 15;
+  scene.object = RigidObject{Outline(CircleOutline{15}), {}};
   Simulate(finger_, scene, {}, &frames);
   const FrameTable log = MakeLog(finger_, frames, {0.02, 0.05, 4});
   EXPECT_FALSE(log.Has("contact_1_mm"));
