@@ -16,9 +16,11 @@ struct Approach {
 };
 
 /// The local minima of the front beam's distance d from an object, base to tip,
-/// of those that lie below `below_mm` or are the least of all. Sampled densely;
-/// between samples the minimum is where d' = t . n_o passes through zero.
+/// of those that lie below `below_mm` or are the least of all. Sampled densely,
+/// also at and midway between `contacts`; between samples the minimum is where
+/// d' = t . n_o passes through zero.
 std::vector<Approach> FindApproaches(const Shape& shape, double length_mm,
+                                     const std::vector<PointContact>& contacts,
                                      const Outline& outline,
                                      const ObjectPose& pose, double below_mm);
 
