@@ -68,6 +68,14 @@ TEST(PlanTest, RefusesUnknownKeysAndUnits) {
   error("parameters: {rib_length: {prior_std_mm: -1}}\n", "a number above 0");
   error("parameters: {}\nholdout: {by: day}\n", "expected one of log, block");
   error("scene: {contacts: 2}\nparameters: {}\n", "one contact or none");
+  error(
+      "scene: {object: {shape: ellipse, semi_axis_x_mm: 9, semi_axis_y_mm: "
+      "8}}\nparameters: {}\n",
+      "plan.yaml:2:8: calibration takes circles");
+  error(
+      "scene: {object: {shape: circle, radius_mm: 9, spring: "
+      "{stiffness_N_per_mm: 1, direction_deg: 0}}}\nparameters: {}\n",
+      "no other shape and no spring");
 }
 
 }  // namespace
