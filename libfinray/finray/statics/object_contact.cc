@@ -18,6 +18,7 @@ constexpr double kLongestStep = 0.025;
 constexpr double kNearEnd = 0.02;  // of l_0
 constexpr int kMostEquilibria = 4000;
 constexpr int kMaxRounds = 40;
+// Rounds in which a contact held at a wrong place may still move.
 constexpr int kMovingRounds = 8;
 constexpr std::size_t kMostContacts = 40;
 constexpr int kMaxWithdrawals = 200;
@@ -81,8 +82,9 @@ bool ObjectContactSolver::Settle(const ObjectPose& pose,
       *contacts = slid;
     } else {
       solver_->set_state(start);
-      if (!tangency_.Solve(pose, TangencyUnknowns::kForces, contacts))
+      if (!tangency_.Solve(pose, TangencyUnknowns::kForces, contacts)) {
         return false;
+      }
     }
     const auto weakest =
         std::min_element(contacts->begin(), contacts->end(),
@@ -189,7 +191,9 @@ ObjectContactStatus ObjectContactSolver::MoveIn(
                              });
   };
   Approach touch = deepest(pose);
-  if (touch.distance_mm >= 0) return ObjectContactStatus::kNoContact;
+  if (touch.distance_mm >= -kContactDepthTolerance * length_) {
+    return ObjectContactStatus::kNoContact;
+  }
   if (!object_.spring && CoversBase(pose)) {
     return ObjectContactStatus::kNoTangency;
   }

@@ -40,7 +40,7 @@ struct ObjectContact {
 };
 
 /// No point of the front beam lies deeper inside the object than this share of
-/// l_0.
+/// l_0; an object that the free finger reaches into by less is not touched.
 constexpr double kContactDepthTolerance = 5e-9;
 
 /// Finds the equilibrium of the finger against an object of known place: points
