@@ -82,7 +82,7 @@ TEST_F(SimulationTest, ObjectsTurnAndTouchSeveralTimes) {
 }
 
 TEST_F(SimulationTest, AnObjectOnASpringGivesWay) {
-  const std::string text = "object_x_mm,object_y_mm\n-11,70\n-40,70\n";
+  const std::string text = "object_x_mm,object_y_mm\n-11,70\n-40,70\n0,141\n";
   FrameTable sprung = Load(text), rigid = Load(text);
   Scene scene;
   scene.object = RigidObject{Outline(CircleOutline{15}), {}};
@@ -96,6 +96,8 @@ TEST_F(SimulationTest, AnObjectOnASpringGivesWay) {
   EXPECT_NEAR(2 * displacement[0], force * std::sin(angle), 1e-9);
   EXPECT_LT(force, rigid.Numbers("normal_1_N")[0]);
   EXPECT_EQ(displacement[1], 0);
+  // Pushed against the tip.
+  EXPECT_EQ(sprung.MutableText("status")[2], "not_converged");
 }
 
 TEST_F(SimulationTest, BadLoadsNameTheirLine) {

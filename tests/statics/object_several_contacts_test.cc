@@ -46,6 +46,15 @@ TEST(ObjectSeveralContactsTest, FlatSideTouchesAtBothCorners) {
   }
 }
 
+// The flat side of a sprung square bridges the tip, which is no side contact.
+TEST(ObjectSeveralContactsTest, FlatSideOverTheTipIsNoTangency) {
+  RigidObject square = Square(20, 2);
+  square.spring = ObjectSpring{5, M_PI};
+  EquilibriumSolver solver(PaperFinger(), {});
+  EXPECT_EQ(SolveObjectContact(square, {{0, 138}, 0}, 0, &solver).status,
+            ObjectContactStatus::kNoTangency);
+}
+
 // Turned by more than the beam bends, a square touches with one corner.
 TEST(ObjectSeveralContactsTest, TurnedSquareTouchesAtOneCorner) {
   const RigidObject square = Square(20, 2);

@@ -164,6 +164,11 @@ ObjectContactStatus ObjectContactSolver::Verified(
     const ObjectPose& pose, const std::vector<PointContact>& contacts) {
   const double deepest = -kContactDepthTolerance * length_;
   ObjectContactStatus status = ObjectContactStatus::kContact;
+  for (const PointContact& contact : contacts) {
+    if (contact.arc_mm <= 0 || contact.arc_mm >= length_) {
+      return ObjectContactStatus::kNoTangency;
+    }
+  }
   tangency_.Linearize(pose, contacts);
   for (const Approach& approach : Approaches(pose, contacts, deepest)) {
     if (approach.distance_mm >= deepest) continue;
