@@ -56,8 +56,8 @@ inline void DumpConfig(const Finger& finger, const Scene& scene,
             << "contacts: "
             << (scene.contacts ? std::to_string(*scene.contacts) : "auto")
             << "\nfriction_coefficient: " << scene.friction_coefficient << "\n";
-  if (scene.circle_radius_mm) {
-    std::cout << "circle_radius_mm: " << *scene.circle_radius_mm << "\n";
+  if (scene.object) {
+    std::cout << "object: " << ObjectToYaml(*scene.object) << "\n";
   }
   std::istringstream lines(FingerToYaml(finger));
   std::cout << "finger:\n";

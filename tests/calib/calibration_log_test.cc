@@ -30,7 +30,7 @@ TEST(CalibrationLogTest, DecidesWhatTouches) {
           "0,0,0,0,,-5,160\n"       // passes above the tip
           "0,0,0,0,,,\n");          // nothing known
   Plan plan;
-  plan.scene.circle_radius_mm = 15;
+  plan.scene.object = RigidObject{Outline(CircleOutline{15}), {}};
   const CalibrationLogs logs = ReadCalibrationLogs({path}, PaperFinger(), plan);
   const bool expected[] = {true, false, true, false, false, true};
   for (int i = 0; i < 6; ++i) EXPECT_EQ(logs.frames[i].contact, expected[i]);

@@ -50,7 +50,7 @@ std::string StandardLog(const TempFolder& folder, const Finger& finger,
   frames.Write(folder.Path("frames.csv"));
   frames = FrameTable::Read(folder.Path("frames.csv"));
   Scene scene;
-  scene.circle_radius_mm = 15;
+  scene.object = RigidObject{Outline(CircleOutline{15}), {}};
   EXPECT_EQ(Simulate(finger, scene, {}, &frames).not_converged, 0);
   MakeLog(finger, frames, {0.02, 0.05, seed}).Write(folder.Path("log.csv"));
   return folder.Path("log.csv");
@@ -58,7 +58,7 @@ std::string StandardLog(const TempFolder& folder, const Finger& finger,
 
 Plan StandardPlan() {
   Plan plan;
-  plan.scene.circle_radius_mm = 15;
+  plan.scene.object = RigidObject{Outline(CircleOutline{15}), {}};
   const double priors[] = {50, 50, 200, 1.0, 0.5};
   for (int i = 0; i < 5; ++i) {
     plan.families[i].free = true;

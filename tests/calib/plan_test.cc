@@ -31,7 +31,7 @@ TEST(PlanTest, ReadsEverything) {
       "0.1, contact_std_mm: 0.2}\n"
       "robust_loss: {type: cauchy, scale: 3}\n"
       "holdout: {by: block, fraction: 0.25}\n");
-  EXPECT_EQ(plan.scene.circle_radius_mm, 15);
+  EXPECT_EQ(plan.scene.circle_radius_mm(), 15);
   EXPECT_EQ(plan.family(ParameterFamily::kFrontStiffness).prior_std, 50);
   EXPECT_TRUE(plan.family(ParameterFamily::kGaugeGain).free);
   EXPECT_FALSE(plan.family(ParameterFamily::kGaugeGain).prior_std.has_value());
@@ -49,7 +49,7 @@ TEST(PlanTest, SceneMayBeAFileBesideThePlan) {
   const Plan plan = ReadPlan(folder.Write(
       "plan.yaml",
       "schema_version: 1\nscene: scene.yaml\nparameters: {rib_length: {}}\n"));
-  EXPECT_EQ(plan.scene.circle_radius_mm, 7);
+  EXPECT_EQ(plan.scene.circle_radius_mm(), 7);
 }
 
 TEST(PlanTest, RefusesUnknownKeysAndUnits) {
@@ -68,6 +68,14 @@ TEST(PlanTest, RefusesUnknownKeysAndUnits) {
   error("parameters: {rib_length: {prior_std_mm: -1}}\n", "a number above 0");
   error("parameters: {}\nholdout: {by: day}\n", "expected one of log, block");
   error("scene: {contacts: 2}\nparameters: {}\n", "one contact or none");
+  error(
+      "scene: {object: {shape: ellipse, semi_axis_x_mm: 9, semi_axis_y_mm: "
+      "8}}\nparameters: {}\n",
+      "plan.yaml:2:8: calibration takes circles");
+  error(
+      "scene: {object: {shape: circle, radius_mm: 9, spring: "
+      "{stiffness_N_per_mm: 1, direction_deg: 0}}}\nparameters: {}\n",
+      "no other shape and no spring");
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "finray/statics/circle_contact.h"
+#include "finray/statics/object_contact.h"
 #include "residuals_fixture.h"
 
 namespace finray {
@@ -33,9 +33,10 @@ INSTANTIATE_TEST_SUITE_P(Forms, ObjectContactEquilibriumTest,
 
 TEST_P(ObjectContactEquilibriumTest, VanishesWhereTheCircleTouches) {
   EquilibriumSolver solver(finger_, {});
-  PointContact contact;
-  ASSERT_EQ(SolveCircleContact({{-12, 66}, 15}, kFriction, &solver, &contact),
-            CircleContactStatus::kContact);
+  const ObjectContact found = SolveObjectContact(
+      {Outline(CircleOutline{15}), {}}, {{-12, 66}}, kFriction, &solver);
+  ASSERT_EQ(found.status, ObjectContactStatus::kContact);
+  const PointContact& contact = found.contacts.front();
   unknowns_ = {contact.arc_mm, contact.normal_N};
   FrameSet frames(finger_, {}, GetParam(), &shared_, 1);
   FrameEvaluation& frame = frames.Add(1, kFriction, unknowns_.data());

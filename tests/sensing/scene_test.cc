@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "finray/io/error.h"
 #include "temp_file.h"
 
@@ -24,11 +26,67 @@ TEST(SceneTest, Reads) {
       "columns: {\"Fz [N]\": force_N}\n");
   EXPECT_EQ(scene.contacts, 1);
   EXPECT_EQ(scene.friction_coefficient, 0.2);
-  EXPECT_EQ(scene.circle_radius_mm, 20);
+  EXPECT_EQ(scene.circle_radius_mm(), 20);
   EXPECT_EQ(scene.columns.at("Fz [N]"), "force_N");
   EXPECT_FALSE(Load("contacts: auto\n").contacts.has_value());
   EXPECT_TRUE(ReadScene(FINRAY_SOURCE_DIR "/configs/scenes/one_contact.yaml")
                   .columns.empty());
+}
+
+TEST(SceneTest, ReadsObjects) {
+  const Scene ellipse = Load(
+      "object: {shape: ellipse, semi_axis_x_mm: 12, semi_axis_y_mm: 20,\n"
+      "         spring: {stiffness_N_per_mm: 2.0, direction_deg: 180}}\n");
+  const auto& axes = std::get<EllipseOutline>(ellipse.object->outline.shape());
+  EXPECT_EQ(axes.semi_axis_x_mm, 12);
+  EXPECT_EQ(axes.semi_axis_y_mm, 20);
+  EXPECT_EQ(ellipse.object->spring->stiffness_N_per_mm, 2);
+  EXPECT_EQ(ellipse.object->spring->direction_rad, M_PI);
+  EXPECT_FALSE(ellipse.circle_radius_mm());
+
+  const Scene polygon = Load(
+      "object: {shape: rounded_polygon, fillet_radius_mm: 2.5,\n"
+      "         vertices_mm: [[-8, 6], [8, 7.5], [9, -6], [-8, -6]]}\n");
+  const auto& corners =
+      std::get<RoundedPolygonOutline>(polygon.object->outline.shape());
+  EXPECT_EQ(corners.fillet_radius_mm, 2.5);
+  ASSERT_EQ(corners.vertices_mm.size(), 4u);
+  EXPECT_EQ(corners.vertices_mm[0], Eigen::Vector2d(-8, -6));
+  EXPECT_FALSE(polygon.object->spring);
+
+  for (const Scene& scene : {ellipse, polygon}) {
+    const std::string text = ObjectToYaml(*scene.object);
+    EXPECT_EQ(ObjectToYaml(*Load("object: " + text + "\n").object), text);
+  }
+}
+
+TEST(SceneTest, BadObjectsNameTheirPlace) {
+  const auto error = [](const std::string& object, const std::string& message) {
+    EXPECT_THAT([&] { Load("contacts: 1\nobject: {" + object + "}\n"); },
+                ThrowsMessage<InputError>(HasSubstr(message)));
+  };
+  error("shape: ellipse, radius_mm: 3", "scene.yaml:2:26: unknown key");
+  error("shape: ellipse, semi_axis_y_mn: 3", "did you mean 'semi_axis_y_mm'?");
+  error("shape: elipse", "(did you mean 'ellipse'?)");
+  error("shape: circle, radius_mm: -3", "expected a number above 0");
+  const std::string polygon =
+      "shape: rounded_polygon, fillet_radius_mm: 1, vertices_mm: ";
+  error(polygon + "[[0, 0], [1, 0, 2]]",
+        "scene.yaml:2:77: vertices_mm[2]: expected two numbers");
+  error(polygon + "[[0, 0], [1, x]]",
+        "vertices_mm[2]: expected a number, found 'x'");
+  error(polygon + "3", "vertices_mm: expected a list of pairs");
+  error(polygon + "[[0, 0]]", "expected at least 2 vertices");
+  error(polygon + "[[0, 0], [4, 0], [1, 1], [0, 4]]",
+        "scene.yaml:2:68: vertices_mm: the vertices are not those of a convex");
+  error("shape: rounded_polygon, vertices_mm: [[0, 0], [4, 0]]",
+        "'fillet_radius_mm' is missing");
+  error("shape: circle, radius_mm: 3, spring: {stiffness_N_mm: 2}",
+        "(did you mean 'stiffness_N_per_mm'?)");
+  error("shape: circle, radius_mm: 3, spring: {stiffness_N_per_mm: 0}",
+        "expected a number above 0");
+  error("shape: circle, radius_mm: 3, spring: {stiffness_N_per_mm: 1}",
+        "'direction_deg' is missing");
 }
 
 TEST(SceneTest, RefusesWhatIsNotModelled) {

@@ -30,7 +30,7 @@ TEST_F(SimulationTest, PointsObjectsAndFreeRows) {
       "contact_1_mm,normal_1_N,contact_2_mm,normal_2_N,object_x_mm,object_y_mm,"
       "note\n50,2,,,,,one\n50,2,90,1,,,two\n,,,,-12,70,object\n,,,,,,none\n");
   Scene scene;
-  scene.circle_radius_mm = 15;
+  scene.object = RigidObject{Outline(CircleOutline{15}), {}};
   FrameTable shapes;
   const SimulationSummary summary =
       Simulate(finger_, scene, {}, &frames, &shapes);
@@ -51,6 +51,53 @@ TEST_F(SimulationTest, PointsObjectsAndFreeRows) {
   EXPECT_EQ(frames.Numbers("force_N")[2], frames.Numbers("force_N")[2]);
   EXPECT_EQ(frames.Numbers("force_N")[3], 0);
   EXPECT_EQ(frames.MutableText("note")[2], "object");
+}
+
+TEST_F(SimulationTest, ObjectsTurnAndTouchSeveralTimes) {
+  FrameTable frames = Load(
+      "object_x_mm,object_y_mm,object_angle_deg\n-14,70,\n-23,70,30\n"
+      "-60,70,0\n0,138,0\n");
+  Scene scene;
+  scene.object =
+      RigidObject{Outline(RoundedPolygonOutline{
+                      {{-20, -20}, {20, -20}, {20, 20}, {-20, 20}}, 2}),
+                  {}};
+  const SimulationSummary summary = Simulate(finger_, scene, {}, &frames);
+  EXPECT_EQ(summary.contact, 2);
+  EXPECT_EQ(summary.free, 1);
+  EXPECT_EQ(summary.not_converged, 1);
+  EXPECT_THAT(summary.first_failure,
+              HasSubstr("in.csv:5: the object meets an end of the front beam"));
+  EXPECT_FALSE(frames.Has("contact_3_mm"));
+  EXPECT_FALSE(frames.Has("object_displacement_mm"));
+  EXPECT_GT(frames.Numbers("normal_1_N")[0], 0);
+  EXPECT_GT(frames.Numbers("normal_2_N")[0], 0);
+  EXPECT_NEAR(frames.Numbers("contact_1_y_mm")[0], 50, 1);
+  EXPECT_NEAR(frames.Numbers("contact_2_y_mm")[0], 90, 1);
+  EXPECT_GT(frames.Numbers("normal_1_N")[1], 0);
+  EXPECT_TRUE(std::isnan(frames.Numbers("normal_2_N")[1]));
+  EXPECT_EQ(frames.Numbers("normal_1_N")[2], 0);
+  EXPECT_EQ(frames.MutableText("status")[2], "no_contact");
+  EXPECT_EQ(frames.MutableText("status")[3], "not_converged");
+}
+
+TEST_F(SimulationTest, AnObjectOnASpringGivesWay) {
+  const std::string text = "object_x_mm,object_y_mm\n-11,70\n-40,70\n0,141\n";
+  FrameTable sprung = Load(text), rigid = Load(text);
+  Scene scene;
+  scene.object = RigidObject{Outline(CircleOutline{15}), {}};
+  Simulate(finger_, scene, {}, &rigid);
+  scene.object->spring = ObjectSpring{2, M_PI};
+  Simulate(finger_, scene, {}, &sprung);
+  EXPECT_FALSE(rigid.Has("object_displacement_mm"));
+  const auto& displacement = sprung.Numbers("object_displacement_mm");
+  const double angle = sprung.Numbers("contact_1_angle_rad")[0];
+  const double force = sprung.Numbers("normal_1_N")[0];
+  EXPECT_NEAR(2 * displacement[0], force * std::sin(angle), 1e-9);
+  EXPECT_LT(force, rigid.Numbers("normal_1_N")[0]);
+  EXPECT_EQ(displacement[1], 0);
+  // Pushed against the tip.
+  EXPECT_EQ(sprung.MutableText("status")[2], "not_converged");
 }
 
 TEST_F(SimulationTest, BadLoadsNameTheirLine) {
@@ -96,7 +143,7 @@ TEST_F(SimulationTest, ALogHasNoiseAndNoTruth) {
   for (int i = 0; i < 400; ++i) text += "-13,70\n";
   FrameTable frames = Load(text);
   Scene scene;
-  scene.circle_radius_mm = 15;
+  scene.object = RigidObject{Outline(CircleOutline{15}), {}};
   Simulate(finger_, scene, {}, &frames);
   const FrameTable log = MakeLog(finger_, frames, {0.02, 0.05, 4});
   EXPECT_FALSE(log.Has("contact_1_mm"));

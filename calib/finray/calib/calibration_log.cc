@@ -23,7 +23,7 @@ bool Touches(const CalibrationFrame& frame, const Finger& finger,
   if (std::isfinite(frame.force_N)) {
     return frame.force_N > kSignificant * plan.force_std_N;
   }
-  if (frame.object_mm.allFinite() && plan.scene.circle_radius_mm) {
+  if (frame.object_mm.allFinite() && plan.scene.circle_radius_mm()) {
     // Depth past the undeformed front beam, which lies on x = 0.
     const double nearest_y =
         std::clamp(frame.object_mm.y(), 0.0, finger.front_length_mm);
@@ -31,7 +31,7 @@ bool Touches(const CalibrationFrame& frame, const Finger& finger,
     const double reach =
         frame.object_mm.x() +
         std::sqrt(std::max(
-            0.0, std::pow(*plan.scene.circle_radius_mm, 2) - over * over));
+            0.0, std::pow(*plan.scene.circle_radius_mm(), 2) - over * over));
     return reach > kSignificant * plan.object_std_mm;
   }
   return true;

@@ -13,7 +13,7 @@
 #include "finray/residuals/object_contact_residual.h"
 #include "finray/residuals/parameter_prior_residual.h"
 #include "finray/residuals/reference_force_residual.h"
-#include "finray/statics/circle_contact.h"
+#include "finray/statics/object_contact.h"
 
 namespace finray {
 namespace {
@@ -112,12 +112,12 @@ void CalibrationProblem::AddFrame(int index) {
                                                   plan_.force_std_N),
                    ResidualFamily::kForce, index, -1, {contact});
   }
-  if (frame.object_mm.allFinite() && plan_.scene.circle_radius_mm) {
+  if (frame.object_mm.allFinite() && plan_.scene.circle_radius_mm()) {
     std::vector<double*> blocks = model;
     blocks.push_back(parameters_.object_origin_mm);
     AddMeasurement(ObjectContactResidual::Create(
                        &evaluation, 0, frame.object_mm,
-                       *plan_.scene.circle_radius_mm, plan_.object_std_mm),
+                       *plan_.scene.circle_radius_mm(), plan_.object_std_mm),
                    ResidualFamily::kObject, index, -1, blocks);
   }
   if (std::isfinite(frame.contact_mm)) {
@@ -141,16 +141,15 @@ void CalibrationProblem::GuessContact(int index, double* contact) {
   const double length = finger_.front_length_mm;
   contact[0] = length / 2;
   contact[1] = ForceUnit(finger_);
-  if (frame.object_mm.allFinite() && plan_.scene.circle_radius_mm) {
-    const Circle circle{frame.object_mm, *plan_.scene.circle_radius_mm};
-    PointContact found;
+  if (frame.object_mm.allFinite() && plan_.scene.circle_radius_mm()) {
     guess_solver_.Reset();
-    const CircleContactStatus status = SolveCircleContact(
-        circle, plan_.scene.friction_coefficient, &guess_solver_, &found);
+    const ObjectContact found =
+        SolveObjectContact(*plan_.scene.object, {frame.object_mm},
+                           plan_.scene.friction_coefficient, &guess_solver_);
     contact[0] = std::clamp(frame.object_mm.y(), 0.0, length);
-    if (status == CircleContactStatus::kContact) {
-      contact[0] = found.arc_mm;
-      contact[1] = found.normal_N;
+    if (found.status == ObjectContactStatus::kContact) {
+      contact[0] = found.contacts.front().arc_mm;
+      contact[1] = found.contacts.front().normal_N;
     }
   }
   if (std::isfinite(frame.contact_mm)) {
@@ -158,7 +157,7 @@ void CalibrationProblem::GuessContact(int index, double* contact) {
   }
   const bool placed =
       std::isfinite(frame.contact_mm) ||
-      (frame.object_mm.allFinite() && plan_.scene.circle_radius_mm);
+      (frame.object_mm.allFinite() && plan_.scene.circle_radius_mm());
   if (!placed) GuessContactFromGauges(frame, contact);
   const double force =
       frame.force_xy_N.allFinite() ? frame.force_xy_N.norm() : frame.force_N;

@@ -146,8 +146,8 @@ void EmitConfig(const Plan& plan, const CalibrationInputs& inputs,
   Pair(yaml, "contacts",
        plan.scene.contacts ? std::to_string(*plan.scene.contacts) : "auto");
   Number(yaml, "friction_coefficient", plan.scene.friction_coefficient);
-  if (plan.scene.circle_radius_mm) {
-    Number(yaml, "circle_radius_mm", *plan.scene.circle_radius_mm);
+  if (plan.scene.circle_radius_mm()) {
+    Number(yaml, "circle_radius_mm", *plan.scene.circle_radius_mm());
   }
   Number(yaml, "force_std_N", plan.force_std_N);
   if (plan.gauge_std_V) Number(yaml, "gauge_std_V", *plan.gauge_std_V);

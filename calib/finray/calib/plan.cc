@@ -79,6 +79,12 @@ Plan ReadPlan(const std::string& path) {
   if (plan.scene.contacts.value_or(1) > 1) {
     yaml.Fail("scene", "calibration takes frames with one contact or none");
   }
+  if (plan.scene.object &&
+      (!plan.scene.circle_radius_mm() || plan.scene.object->spring)) {
+    yaml.Fail("scene",
+              "calibration takes circles held rigidly as objects, no other "
+              "shape and no spring");
+  }
   ReadParameters(yaml.Map("parameters"), &plan);
   if (yaml.Has("measurements")) {
     const YamlMap map = yaml.Map("measurements");

@@ -258,4 +258,33 @@ std::vector<YamlMap> YamlMap::Maps(const std::string& key) const {
   return maps;
 }
 
+std::vector<std::array<double, 2>> YamlMap::Pairs(
+    const std::string& key) const {
+  if (!Has(key)) Fail(key, "'" + key + "' is missing in " + name_);
+  const YAML::Node value = node_[key];
+  if (!value.IsSequence()) {
+    Fail(key, key + ": expected a list of pairs, found " + Shown(value));
+  }
+  std::vector<std::array<double, 2>> pairs;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const std::string name = key + "[" + std::to_string(i + 1) + "]";
+    if (!value[i].IsSequence() || value[i].size() != 2) {
+      throw InputError(Place(path_, value[i].Mark()) + name +
+                       ": expected two numbers, [x, y]");
+    }
+    std::array<double, 2>& pair = pairs.emplace_back();
+    for (std::size_t k = 0; k < 2; ++k) {
+      const YAML::Node cell = value[i][k];
+      const auto number = cell.IsScalar() ? ParseNumber(cell.Scalar())
+                                          : std::optional<double>();
+      if (!number) {
+        throw InputError(Place(path_, cell.Mark()) + name +
+                         ": expected a number, found " + Shown(cell));
+      }
+      pair[k] = *number;
+    }
+  }
+  return pairs;
+}
+
 }  // namespace finray

@@ -3,6 +3,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +46,9 @@ class YamlMap {
   YamlMap Map(const std::string& key) const;
   /// A sequence of mappings; empty when the key is absent or has no value.
   std::vector<YamlMap> Maps(const std::string& key) const;
+
+  /// A sequence of pairs of numbers, [[x, y], ...]; the key must be there.
+  std::vector<std::array<double, 2>> Pairs(const std::string& key) const;
 
   /// Throws InputError at the position of `key` (of the mapping if absent).
   [[noreturn]] void Fail(const std::string& key,

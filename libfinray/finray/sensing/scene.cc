@@ -1,5 +1,9 @@
 #include "finray/sensing/scene.h"
 
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
 namespace finray {
 namespace {
 
@@ -15,13 +19,85 @@ std::optional<int> ReadContacts(const YamlMap& yaml) {
   return contacts;
 }
 
-double ReadCircle(const YamlMap& object) {
-  object.AllowOnly({"shape", "radius_mm"});
-  object.Choice("shape", {"circle"});
-  return object.PositiveNumber("radius_mm");
+Outline::Shape ReadShape(const YamlMap& object) {
+  const std::string shape =
+      object.Choice("shape", {"circle", "ellipse", "rounded_polygon"});
+  if (shape == "circle") {
+    object.AllowOnly({"shape", "radius_mm", "spring"});
+    return CircleOutline{object.PositiveNumber("radius_mm")};
+  }
+  if (shape == "ellipse") {
+    object.AllowOnly({"shape", "semi_axis_x_mm", "semi_axis_y_mm", "spring"});
+    return EllipseOutline{object.PositiveNumber("semi_axis_x_mm"),
+                          object.PositiveNumber("semi_axis_y_mm")};
+  }
+  object.AllowOnly({"shape", "vertices_mm", "fillet_radius_mm", "spring"});
+  RoundedPolygonOutline polygon;
+  for (const auto& vertex : object.Pairs("vertices_mm")) {
+    polygon.vertices_mm.emplace_back(vertex[0], vertex[1]);
+  }
+  if (polygon.vertices_mm.size() < 2) {
+    object.Fail("vertices_mm", "vertices_mm: expected at least 2 vertices");
+  }
+  polygon.fillet_radius_mm = object.PositiveNumber("fillet_radius_mm");
+  return polygon;
+}
+
+RigidObject ReadObject(const YamlMap& object) {
+  const Outline::Shape shape = ReadShape(object);
+  std::optional<ObjectSpring> spring;
+  if (object.Has("spring")) {
+    const YamlMap map = object.Map("spring");
+    map.AllowOnly({"stiffness_N_per_mm", "direction_deg"});
+    spring = {map.PositiveNumber("stiffness_N_per_mm"),
+              map.Number("direction_deg") * M_PI / 180};
+  }
+  try {
+    return {Outline(shape), spring};
+  } catch (const std::invalid_argument& error) {
+    object.Fail("vertices_mm", std::string("vertices_mm: ") + error.what());
+  }
+}
+
+YAML::Emitter& operator<<(YAML::Emitter& yaml, const CircleOutline& circle) {
+  return yaml << "circle" << YAML::Key << "radius_mm" << YAML::Value
+              << circle.radius_mm;
+}
+
+YAML::Emitter& operator<<(YAML::Emitter& yaml, const EllipseOutline& ellipse) {
+  return yaml << "ellipse" << YAML::Key << "semi_axis_x_mm" << YAML::Value
+              << ellipse.semi_axis_x_mm << YAML::Key << "semi_axis_y_mm"
+              << YAML::Value << ellipse.semi_axis_y_mm;
+}
+
+YAML::Emitter& operator<<(YAML::Emitter& yaml,
+                          const RoundedPolygonOutline& polygon) {
+  yaml << "rounded_polygon" << YAML::Key << "vertices_mm" << YAML::Value
+       << YAML::BeginSeq;
+  for (const Eigen::Vector2d& vertex : polygon.vertices_mm) {
+    yaml << YAML::BeginSeq << vertex.x() << vertex.y() << YAML::EndSeq;
+  }
+  return yaml << YAML::EndSeq << YAML::Key << "fillet_radius_mm" << YAML::Value
+              << polygon.fillet_radius_mm;
 }
 
 }  // namespace
+
+std::string ObjectToYaml(const RigidObject& object) {
+  YAML::Emitter yaml;
+  yaml.SetDoublePrecision(std::numeric_limits<double>::max_digits10);
+  yaml << YAML::Flow << YAML::BeginMap << YAML::Key << "shape" << YAML::Value;
+  std::visit([&](const auto& shape) { yaml << shape; }, object.outline.shape());
+  if (object.spring) {
+    yaml << YAML::Key << "spring" << YAML::Value << YAML::BeginMap << YAML::Key
+         << "stiffness_N_per_mm" << YAML::Value
+         << object.spring->stiffness_N_per_mm << YAML::Key << "direction_deg"
+         << YAML::Value << object.spring->direction_rad * 180 / M_PI
+         << YAML::EndMap;
+  }
+  yaml << YAML::EndMap;
+  return yaml.c_str();
+}
 
 std::map<std::string, std::string> ReadColumns(const YamlMap& yaml) {
   std::map<std::string, std::string> columns;
@@ -40,8 +116,7 @@ Scene ReadScene(const YamlMap& yaml) {
   Scene scene;
   scene.contacts = ReadContacts(yaml);
   scene.friction_coefficient = yaml.Number("friction_coefficient", 0);
-  if (yaml.Has("object"))
-    scene.circle_radius_mm = ReadCircle(yaml.Map("object"));
+  if (yaml.Has("object")) scene.object = ReadObject(yaml.Map("object"));
   scene.columns = ReadColumns(yaml);
   return scene;
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "finray/io/yaml_map.h"
+#include "finray/statics/object_contact.h"
 
 namespace finray {
 
@@ -14,15 +15,23 @@ struct Scene {
   /// Number of contacts; empty: decided frame by frame ("auto").
   std::optional<int> contacts;
   double friction_coefficient = 0;  ///< mu; + pulls the finger to its tip.
-  std::optional<double> circle_radius_mm;  ///< of the object, if there is one.
+  std::optional<RigidObject> object;
   /// A lab's own headers for columns of the frame table.
   std::map<std::string, std::string> columns;
+
+  /// The radius of the object if there is one and it is a circle.
+  std::optional<double> circle_radius_mm() const {
+    return object ? object->outline.circle_radius_mm() : std::nullopt;
+  }
 };
 
 /// Reads a scene YAML. Throws InputError for unknown keys and for what is not
 /// modelled.
 Scene ReadScene(const std::string& path);
 Scene ReadScene(const YamlMap& yaml);
+
+/// The `object:` mapping of a scene as YAML on one line, read back the same.
+std::string ObjectToYaml(const RigidObject& object);
 
 /// The `columns:` mapping of a YAML, empty if there is none.
 std::map<std::string, std::string> ReadColumns(const YamlMap& yaml);

@@ -1,81 +1,28 @@
 #include "finray/sensing/simulation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "finray/finger/geometry.h"
-#include "finray/io/error.h"
 #include "finray/sensing/frame_columns.h"
-#include "finray/statics/circle_contact.h"
+#include "finray/sensing/load_reader.h"
+#include "finray/statics/object_contact.h"
 #include "finray/statics/shape.h"
 
 namespace finray {
 namespace {
 
-struct Row {
-  std::vector<PointContact> contacts;
+constexpr char kDisplacement[] = "object_displacement_mm";
+
+// The equilibrium of one row.
+struct SolvedRow {
+  ObjectContactStatus status = ObjectContactStatus::kNotConverged;
   bool object = false;
-  Circle circle;
-};
-
-class LoadReader {
- public:
-  LoadReader(const Finger& finger, const Scene& scene, const FrameTable& table)
-      : finger_(finger), scene_(scene), table_(table) {
-    for (int c = 0; table.Has(ContactArc(c)); ++c) {
-      arc_.push_back(table.Numbers(ContactArc(c)));
-      normal_.push_back(table.Numbers(NormalForce(c)));
-      friction_.push_back(table.NumbersOrNan(Friction(c)));
-    }
-    x_ = table.NumbersOrNan("object_x_mm");
-    y_ = table.NumbersOrNan("object_y_mm");
-    if (table.Has("object_x_mm") && arc_.empty() && !scene.circle_radius_mm) {
-      throw InputError(table.path() +
-                       ": has the object's place, but the scene has no object; "
-                       "give one with --scene");
-    }
-  }
-
-  int contacts() const { return static_cast<int>(arc_.size()); }
-
-  Row Read(std::size_t row) const {
-    Row load;
-    for (int c = 0; c < contacts(); ++c) {
-      const double arc = arc_[c][row], normal = normal_[c][row];
-      if (std::isnan(arc) && (std::isnan(normal) || normal == 0)) continue;
-      if (!(arc >= 0 && arc <= finger_.front_length_mm)) {
-        Fail(row, ContactArc(c) +
-                      ": expected an arc length on the front beam, "
-                      "0 to " +
-                      std::to_string(finger_.front_length_mm) + " mm");
-      }
-      if (!(normal >= 0)) {
-        Fail(row, NormalForce(c) + ": expected a force of at least 0 N with " +
-                      ContactArc(c));
-      }
-      const double mu = friction_[c][row];
-      load.contacts.push_back(
-          {arc, normal, std::isnan(mu) ? scene_.friction_coefficient : mu});
-    }
-    if (load.contacts.empty() && std::isfinite(x_[row]) &&
-        std::isfinite(y_[row]) && scene_.circle_radius_mm) {
-      load.object = true;
-      load.circle = {{x_[row], y_[row]}, *scene_.circle_radius_mm};
-    }
-    return load;
-  }
-
- private:
-  [[noreturn]] void Fail(std::size_t row, const std::string& message) const {
-    throw InputError(table_.path() + ":" + std::to_string(table_.line(row)) +
-                     ": " + message);
-  }
-
-  const Finger& finger_;
-  const Scene& scene_;
-  const FrameTable& table_;
-  std::vector<std::vector<double>> arc_, normal_, friction_;
-  std::vector<double> x_, y_;
+  std::vector<PointContact> contacts;
+  double displacement_mm = 0;
+  Eigen::VectorXd outputs;  // of the solver
+  Eigen::VectorXd rib_tensions;
 };
 
 void AddShape(const EquilibriumSolver& solver,
@@ -100,10 +47,106 @@ void AddShape(const EquilibriumSolver& solver,
   }
 }
 
-const char* Reason(CircleContactStatus status) {
-  return status == CircleContactStatus::kNoTangency
+const char* Reason(ObjectContactStatus status) {
+  return status == ObjectContactStatus::kNoTangency
              ? "the object meets an end of the front beam, not its side"
              : "no equilibrium found under this load";
+}
+
+bool IsSolved(const SolvedRow& row) {
+  return row.status == ObjectContactStatus::kContact ||
+         row.status == ObjectContactStatus::kNoContact;
+}
+
+SolvedRow SolveRow(const RowLoad& load, const Scene& scene,
+                   EquilibriumSolver* solver) {
+  // Every row on its own, so that it does not depend on those before.
+  solver->Reset();
+  SolvedRow row;
+  row.object = load.object.has_value();
+  row.contacts = load.contacts;
+  if (row.object) {
+    const ObjectContact found = SolveObjectContact(
+        *scene.object, *load.object, scene.friction_coefficient, solver);
+    row.status = found.status;
+    row.contacts = found.contacts;
+    row.displacement_mm = found.displacement_mm;
+  } else if (solver->Solve(load.contacts)) {
+    row.status = ObjectContactStatus::kContact;
+  }
+  if (IsSolved(row)) {
+    row.outputs = solver->outputs();
+    row.rib_tensions = solver->state().q.tail(solver->model().ribs());
+  }
+  return row;
+}
+
+// Makes the columns to fill, empty, in the order in which they shall stand.
+void AddColumns(const Finger& finger, int contacts, int object_contacts,
+                bool displacement, FrameTable* frames) {
+  std::vector<std::string> names;
+  for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
+    names.insert(names.end(), {GaugeVolts(j), GaugeAngle(j)});
+  }
+  for (int c = 0; c < contacts; ++c) {
+    names.insert(names.end(), {ContactX(c), ContactY(c), ContactAngle(c)});
+  }
+  if (displacement) names.push_back(kDisplacement);
+  for (int i = 0; i < static_cast<int>(finger.ribs.size()); ++i) {
+    names.push_back(RibForce(i));
+  }
+  names.insert(names.end(),
+               {"force_N", "tip_x_mm", "tip_y_mm", "tip_angle_rad"});
+  for (int c = 0; c < object_contacts; ++c) {
+    // These may hold the loads of other rows.
+    frames->MutableNumbers(ContactArc(c));
+    frames->MutableNumbers(NormalForce(c));
+  }
+  for (const std::string& name : names) {
+    frames->MutableNumbers(name).assign(frames->rows(), std::nan(""));
+  }
+  frames->MutableText("status").assign(frames->rows(), "");
+}
+
+// Fills in one solved row; returns the force on the finger.
+double FillRow(const Finger& finger, const SolvedRow& solved, bool displacement,
+               std::size_t row, FrameTable* frames) {
+  const auto set = [&](const std::string& name, double value) {
+    frames->MutableNumbers(name)[row] = value;
+  };
+  const int gauges = static_cast<int>(finger.gauges.size());
+  for (int j = 0; j < gauges; ++j) {
+    const Gauge& gauge = finger.gauges[j];
+    const double angle = solved.outputs[j];
+    set(GaugeAngle(j), angle);
+    set(GaugeVolts(j), gauge.gain_V_per_rad * angle + gauge.offset_V);
+  }
+  if (solved.object && solved.contacts.empty()) set(NormalForce(0), 0);
+  Eigen::Vector2d force(0, 0);
+  for (int c = 0; c < static_cast<int>(solved.contacts.size()); ++c) {
+    const PointContact& contact = solved.contacts[c];
+    const Eigen::Vector3d pose = solved.outputs.segment<3>(gauges + 3 * c);
+    if (solved.object) {
+      set(ContactArc(c), contact.arc_mm);
+      set(NormalForce(c), contact.normal_N);
+    }
+    set(ContactX(c), pose.x());
+    set(ContactY(c), pose.y());
+    set(ContactAngle(c), pose.z());
+    const Eigen::Vector2d t(std::cos(pose.z()), std::sin(pose.z()));
+    force += contact.normal_N *
+             (Eigen::Vector2d(t.y(), -t.x()) + contact.friction * t);
+  }
+  set("force_N", force.norm());
+  if (displacement && solved.object) set(kDisplacement, solved.displacement_mm);
+  for (int i = 0; i < solved.rib_tensions.size(); ++i) {
+    set(RibForce(i), solved.rib_tensions[i]);
+  }
+  const Eigen::Vector3d tip = solved.outputs.tail<3>();
+  set("tip_x_mm", tip.x());
+  set("tip_y_mm", tip.y());
+  set("tip_angle_rad", tip.z());
+  return force.norm();
 }
 
 }  // namespace
@@ -114,108 +157,48 @@ SimulationSummary Simulate(const Finger& finger, const Scene& scene,
   const LoadReader loads(finger, scene, *frames);
   const std::size_t rows = frames->rows();
   // A bad row is found before any is solved.
-  bool objects = false;
-  std::vector<Row> all;
-  for (std::size_t row = 0; row < rows; ++row) {
-    all.push_back(loads.Read(row));
-    objects |= all.back().object;
-  }
-  const int contacts = std::max(loads.contacts(), objects ? 1 : 0);
-  // In the order in which they shall stand.
-  std::vector<std::string> names;
-  for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
-    names.insert(names.end(), {GaugeVolts(j), GaugeAngle(j)});
-  }
-  for (int c = 0; c < contacts; ++c) {
-    names.insert(names.end(), {ContactX(c), ContactY(c), ContactAngle(c)});
-  }
-  if (objects) names.insert(names.end(), {ContactArc(0), NormalForce(0)});
-  for (int i = 0; i < static_cast<int>(finger.ribs.size()); ++i) {
-    names.push_back(RibForce(i));
-  }
-  names.insert(names.end(),
-               {"force_N", "tip_x_mm", "tip_y_mm", "tip_angle_rad"});
-  for (const std::string& name : names) {
-    auto& column = frames->MutableNumbers(name);
-    const bool load = name == ContactArc(0) || name == NormalForce(0);
-    if (!load) column.assign(rows, std::nan(""));
-  }
-  frames->MutableText("status").assign(rows, "");
-  const auto set = [&](const std::string& name, std::size_t row, double value) {
-    frames->MutableNumbers(name)[row] = value;
-  };
+  std::vector<RowLoad> all;
+  for (std::size_t row = 0; row < rows; ++row) all.push_back(loads.Read(row));
   if (shapes != nullptr) *shapes = FrameTable(rows * 202);
   std::size_t next_shape = 0;
 
-  SimulationSummary summary;
   EquilibriumSolver solver(finger, discretization);
+  std::vector<SolvedRow> solved;
+  int object_contacts = 0;
   for (std::size_t row = 0; row < rows; ++row) {
-    Row& load = all[row];
-    bool solved;
-    const char* reason = "no equilibrium found under this load";
-    if (load.object) {
-      // Every row on its own, so that it does not depend on those before.
-      solver.Reset();
-      PointContact contact;
-      const CircleContactStatus status = SolveCircleContact(
-          load.circle, scene.friction_coefficient, &solver, &contact);
-      reason = Reason(status);
-      solved = status == CircleContactStatus::kContact;
-      if (solved) {
-        load.contacts = {contact};
-        set(ContactArc(0), row, contact.arc_mm);
-        set(NormalForce(0), row, contact.normal_N);
-      } else if (status == CircleContactStatus::kNoContact) {
-        solved = solver.Solve({});
-        set(NormalForce(0), row, 0);
-      }
-    } else {
-      solver.Reset();
-      solved = solver.Solve(load.contacts);
+    solved.push_back(SolveRow(all[row], scene, &solver));
+    const SolvedRow& now = solved.back();
+    if (now.object) {
+      object_contacts =
+          std::max({object_contacts, 1, static_cast<int>(now.contacts.size())});
     }
-    if (!solved) {
-      ++summary.not_converged;
-      frames->MutableText("status")[row] = "not_converged";
-      if (summary.first_failure.empty()) {
-        summary.first_failure = frames->path() + ":" +
-                                std::to_string(frames->line(row)) + ": " +
-                                reason;
-      }
-      continue;
-    }
-    Eigen::Vector2d force(0, 0);
-    for (std::size_t c = 0; c < load.contacts.size(); ++c) {
-      const int index = static_cast<int>(c);
-      const Eigen::Vector3d pose = solver.contact_pose(index);
-      set(ContactX(index), row, pose.x());
-      set(ContactY(index), row, pose.y());
-      set(ContactAngle(index), row, pose.z());
-      const Eigen::Vector2d t(std::cos(pose.z()), std::sin(pose.z()));
-      force += load.contacts[c].normal_N *
-               (Eigen::Vector2d(t.y(), -t.x()) + load.contacts[c].friction * t);
-    }
-    set("force_N", row, force.norm());
-    for (int j = 0; j < solver.model().gauges(); ++j) {
-      const Gauge& gauge = finger.gauges[j];
-      const double angle = solver.gauge_angle(j);
-      set(GaugeAngle(j), row, angle);
-      set(GaugeVolts(j), row, gauge.gain_V_per_rad * angle + gauge.offset_V);
-    }
-    for (int i = 0; i < solver.model().ribs(); ++i) {
-      set(RibForce(i), row, solver.rib_tension(i));
-    }
-    const Eigen::Vector3d tip = solver.tip_pose();
-    set("tip_x_mm", row, tip.x());
-    set("tip_y_mm", row, tip.y());
-    set("tip_angle_rad", row, tip.z());
-    const bool touches = force.norm() > 0;
-    ++(touches ? summary.contact : summary.free);
-    frames->MutableText("status")[row] = touches ? "ok" : "no_contact";
-    if (shapes != nullptr) {
-      AddShape(solver, load.contacts, row, shapes, &next_shape);
+    if (shapes != nullptr && IsSolved(now)) {
+      AddShape(solver, now.contacts, row, shapes, &next_shape);
     }
   }
   if (shapes != nullptr) shapes->Truncate(next_shape);
+
+  SimulationSummary summary;
+  const bool displacement = object_contacts > 0 && scene.object->spring;
+  AddColumns(finger, std::max(loads.contacts(), object_contacts),
+             object_contacts, displacement, frames);
+  for (std::size_t row = 0; row < rows; ++row) {
+    std::string& status = frames->MutableText("status")[row];
+    if (!IsSolved(solved[row])) {
+      ++summary.not_converged;
+      status = "not_converged";
+      if (summary.first_failure.empty()) {
+        summary.first_failure = frames->path() + ":" +
+                                std::to_string(frames->line(row)) + ": " +
+                                Reason(solved[row].status);
+      }
+      continue;
+    }
+    const bool touches =
+        FillRow(finger, solved[row], displacement, row, frames) > 0;
+    ++(touches ? summary.contact : summary.free);
+    status = touches ? "ok" : "no_contact";
+  }
   return summary;
 }
 

@@ -21,8 +21,10 @@ struct SimulationSummary {
 /// force_N and status. A row's load is, in this order:
 ///  - point contacts: contact_<c>_mm, normal_<c>_N, friction_<c> (default the
 ///    scene's), as many as the columns give;
-///  - the scene's object at object_x_mm, object_y_mm, whose l_c and f_c are
-///    filled in too;
+///  - the scene's object at object_x_mm, object_y_mm, turned by
+///    object_angle_deg (default 0). Its contacts are filled in too:
+///    contact_<c>, normal_<c> for as many as the row with most has, and
+///    object_displacement_mm if it stands on a spring;
 ///  - nothing.
 /// If `shapes` is given it receives both beams of every row: columns row, beam,
 /// arc_mm, x_mm, y_mm, angle_rad, moment_N_mm. Throws InputError naming the
