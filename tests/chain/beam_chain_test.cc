@@ -84,8 +84,8 @@ TEST(BeamChainTest, ClampedBeamIsTheLeapfrogMarch) {
   ElementStart at = {0, state.tip[0], state.tip[1], state.tip[2]};
   double x = 0, y = 0;
   for (int i = 0; i < n; ++i) {
-    RigidLinkElement element;
-    element.Compute(at, stiffness, length / n);
+    const auto element =
+        ComputedElement<RigidLinkElement<>>(at, stiffness, length / n);
     x += element.map().end[0];
     y += element.map().end[1];
     EXPECT_NEAR(element.map().end[2] - at.theta_rad, state.theta[i], 1e-10);

@@ -41,8 +41,8 @@ TEST_P(EquilibriumResidualTest, WeightedAgreesWithReduced) {
     ASSERT_TRUE(start.Solve({{75, 2, kFriction}}));
     std::vector<double> unknowns;
     if (weighted) {
-      unknowns.assign(start.state().q.data(),
-                      start.state().q.data() + start.state().q.size());
+      const Eigen::VectorXd q = start.state().q;
+      unknowns.assign(q.data(), q.data() + q.size());
     }
     unknowns.insert(unknowns.end(), {75, 2});
     FrameSet frames(finger_, {}, form, &shared_, 1);

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "finray/statics/circle_contact.h"
+#include "finray/statics/object_contact.h"
 #include "statics/continuum_reference.h"
 
 namespace finray {
@@ -18,18 +18,21 @@ void ExpectAgreement(const Discretization& discretization, double bound,
     const std::string name = reference.Text("case", row);
     SCOPED_TRACE(name);
     const PointContact expected = reference.Contacts(row).at(0);
-    const Circle circle{{reference.Number("object_x_mm", row),
-                         reference.Number("object_y_mm", row)},
-                        reference.Parsed("radius_mm", row)};
+    const RigidObject circle{
+        Outline(CircleOutline{reference.Parsed("radius_mm", row)}), {}};
     EquilibriumSolver solver(reference.FingerOf(row), discretization);
-    PointContact contact;
-    const CircleContactStatus status =
-        SolveCircleContact(circle, expected.friction, &solver, &contact);
-    EXPECT_EQ(status, CircleContactStatus::kContact);
-    if (status != CircleContactStatus::kContact) {
+    const ObjectContact found =
+        SolveObjectContact(circle,
+                           {{reference.Number("object_x_mm", row),
+                             reference.Number("object_y_mm", row)}},
+                           expected.friction, &solver);
+    EXPECT_EQ(found.status, ObjectContactStatus::kContact);
+    EXPECT_EQ(found.contacts.size(), 1u);
+    if (found.contacts.size() != 1) {
       errors.AddFailure("circle");
       continue;
     }
+    const PointContact contact = found.contacts[0];
     const double error = std::max(
         {reference.Error(row, solver),
          std::abs(contact.arc_mm - expected.arc_mm) /
