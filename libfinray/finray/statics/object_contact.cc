@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/finger/geometry.h"
 #include "finray/statics/object_clearance.h"
 #include "finray/statics/tangency.h"
 
@@ -49,6 +50,7 @@ class ObjectContactSolver {
   bool CoversBase(const ObjectPose& pose) const;
   ObjectContactStatus MoveIn(const ObjectPose& pose,
                              std::vector<PointContact>* contacts);
+  Vector2d InnerWay(const Section& near, const ObjectPose& pose) const;
   std::vector<Approach> Approaches(const ObjectPose& pose,
                                    const std::vector<PointContact>& contacts,
                                    double below_mm) const;
@@ -181,6 +183,31 @@ ObjectContactStatus ObjectContactSolver::Verified(
   return status;
 }
 
+// An object that lies between the beams has come there from outside and pushes
+// the front beam before it. The way from where the beam, which it is nearest to
+// at `near`, runs through its middle; zero if it is not between the beams.
+Vector2d ObjectContactSolver::InnerWay(const Section& near,
+                                       const ObjectPose& pose) const {
+  const Vector2d into(std::sin(near.theta_rad), -std::cos(near.theta_rad));
+  const Vector2d beam(near.x_mm, near.y_mm);
+  const Outline::Distance nearest = object_.outline.DistanceOf(beam, pose);
+  const Finger& finger = solver_->model().finger();
+  const double angle = BeamAngle(finger, Side::kBack);
+  const Vector2d behind(std::sin(angle), -std::cos(angle));
+  // The object's point nearest to the beam.
+  const Vector2d face = beam - nearest.distance_mm * nearest.normal;
+  if (behind.dot(face - BeamBase(finger, Side::kBack)) > 0 ||
+      nearest.normal.dot(into) > -0.5) {
+    return Vector2d::Zero();
+  }
+  const double angle_into = std::atan2(into.y(), into.x()) - pose.angle_rad;
+  const double width =
+      (object_.outline.PointAt(angle_into).position_mm -
+       object_.outline.PointAt(angle_into + M_PI).position_mm)
+          .dot(Vector2d(std::cos(angle_into), std::sin(angle_into)));
+  return (nearest.distance_mm + 0.5 * width) * into;
+}
+
 // The object withdrawn until it only touches the free finger, then moved in.
 ObjectContactStatus ObjectContactSolver::MoveIn(
     const ObjectPose& pose, std::vector<PointContact>* contacts) {
@@ -196,15 +223,19 @@ ObjectContactStatus ObjectContactSolver::MoveIn(
                              });
   };
   Approach touch = deepest(pose);
+  ObjectPose withdrawn = pose;
   if (touch.distance_mm >= -kContactDepthTolerance * length_) {
-    return ObjectContactStatus::kNoContact;
+    const Vector2d inwards =
+        InnerWay(free.At(Side::kFront, touch.arc_mm), pose);
+    if (inwards.isZero()) return ObjectContactStatus::kNoContact;
+    withdrawn.position_mm -= inwards;
+    touch = deepest(withdrawn);
   }
   if (!object_.spring && CoversBase(pose)) {
     return ObjectContactStatus::kNoTangency;
   }
   const double theta = free.At(Side::kFront, touch.arc_mm).theta_rad;
   const Vector2d outward(-std::sin(theta), std::cos(theta));
-  ObjectPose withdrawn = pose;
   for (int i = 0; i < kMaxWithdrawals; ++i) {
     if (touch.distance_mm >= -kTolerance * length_) break;
     // Never further than to first touch, as no point moves faster.
