@@ -14,9 +14,12 @@ int EffectiveResolution(const Discretization& discretization) {
       return 100;
     case Scheme::kTaylor8:
       return 48;
-    default:
+    case Scheme::kTaylor12:
       return 24;
+    case Scheme::kTaylor:
+      break;
   }
+  return 12;
 }
 
 const std::vector<std::string>& SchemeNames() {

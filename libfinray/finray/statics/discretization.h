@@ -17,15 +17,16 @@ enum class Scheme {
 };
 
 /// Scheme and number of elements over both beams together; no bay has less than
-/// one element. A resolution of 0 stands for the scheme's default, which in
-/// Taylor schemes is refined where the load asks for it, until the terms that
+/// one element. A resolution of 0 stands for the scheme's default, which in the
+/// orders 12 and 16 is refined where the load asks for it, until the terms that
 /// an element's series leaves out are below kRefinedTruncation_rad.
 struct Discretization {
   Scheme scheme = Scheme::kTaylor;
   int resolution = 0;
 
   bool adaptive() const {
-    return resolution == 0 && scheme != Scheme::kRigidChain;
+    return resolution == 0 &&
+           (scheme == Scheme::kTaylor12 || scheme == Scheme::kTaylor);
   }
 };
 

@@ -17,8 +17,8 @@ namespace finray {
 // TaylorElement and RigidLinkElement, for a value V (lanes.h) of any width:
 //
 //   void Solve(start, stiffness, axial_flexibility, length);
-//   void Differentiate();                      // by the start of the element
-//   void DifferentiateByParameters();          // by EI and h, after that
+//   void SolveAndDifferentiate(the same);   // by the start of the element
+//   void DifferentiateByParameters();       // by EI and h, after that
 //   const BasicElementMap<V>& map() const;
 //   BasicAngleReadout<V> AngleAt(V offset) const;   // inside the element
 //   BasicBeamPoint<V> PointAt(V offset) const;
@@ -72,8 +72,7 @@ template <class Element>
 Element ComputedElement(const ElementStart& start, double stiffness,
                         double length, double axial_flexibility = 0) {
   Element element;
-  element.Solve(start, stiffness, axial_flexibility, length);
-  element.Differentiate();
+  element.SolveAndDifferentiate(start, stiffness, axial_flexibility, length);
   element.DifferentiateByParameters();
   return element;
 }

@@ -63,9 +63,8 @@ class LadderEvaluator {
       }
       V input[8];
       for (int k = 0; k < 8; ++k) input[k] = Load(gathered[k]);
-      element.Solve({input[0], input[1], input[2], input[3]}, input[4],
-                    input[5], input[6]);
-      element.Differentiate();
+      element.SolveAndDifferentiate({input[0], input[1], input[2], input[3]},
+                                    input[4], input[5], input[6]);
       element.DifferentiateByParameters();
       const auto at = element.AngleAt(input[7]);
       for (int lane = 0; lane < kWidth && lane < lanes; ++lane) {
@@ -203,11 +202,11 @@ class LadderEvaluator {
 
   void ComputeMaps(int slot, bool parameters) {
     Wide element;
-    element.Solve({Load(f_.slot_theta + slot), Load(f_.slot_moment + slot),
-                   Load(f_.slot_fx + slot), Load(f_.slot_fy + slot)},
-                  Load(f_.slot_stiffness + slot), Load(f_.slot_axial + slot),
-                  Load(f_.slot_length + slot));
-    element.Differentiate();
+    element.SolveAndDifferentiate(
+        {Load(f_.slot_theta + slot), Load(f_.slot_moment + slot),
+         Load(f_.slot_fx + slot), Load(f_.slot_fy + slot)},
+        Load(f_.slot_stiffness + slot), Load(f_.slot_axial + slot),
+        Load(f_.slot_length + slot));
     const auto& map = element.map();
     T* out = f_.maps + slot * kMapValues;
     for (int i = 0; i < 4; ++i) {

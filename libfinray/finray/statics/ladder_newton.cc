@@ -14,8 +14,10 @@ constexpr int kMaxIterations = 30;
 constexpr int kMostRefinements = 8;
 // A node that turns further than this in one step has left the linear range.
 constexpr double kMaxTurn_rad = 0.7;
-// From this residual on a step may be the last, so that it carries derivatives.
-constexpr double kNearlyThere = 1e-2;
+// Only a step from a residual below this, or from where a small one led, may be
+// the last and needs to carry gauges and derivatives.
+constexpr double kNearlyThere = 1e-7;
+constexpr double kSmallChange = 3e-2;
 // Rounding may keep changes below this from shrinking further.
 constexpr double kFloor = 1e-6;
 // A start from another load, whose change says nothing of Newton's constant.
@@ -113,7 +115,8 @@ bool LadderNewton::ConvergeOnMesh(const std::vector<PointContact>& contacts,
     ++iterations_;
     const double residual = kernel_->evaluate(f, parameters, false);
     if (!std::isfinite(residual)) return false;
-    const bool maybe_last = residual < kNearlyThere * load;
+    const bool maybe_last =
+        residual < kNearlyThere * load || (i > 0 && last_change < kSmallChange);
     const SweepColumns now = maybe_last ? columns : SweepColumns::kNone;
     workspace_.SetColumns(model_, now, false);
     if (maybe_last) kernel_->read_gauges(f);

@@ -48,6 +48,9 @@ class LadderSweeper {
   // Beyond this the parameters are exchanged: it costs as many digits of a
   // step, which Newton's next one corrects.
   static constexpr T kLargestGrowth = 1000;
+  // Elements between two looks; none grows by more than a few.
+  static constexpr int kCheckEvery = 4;
+  static constexpr int kParameterVectors = (6 + kWidth - 1) / kWidth;
 
   int vectors() const { return kVectors > 0 ? kVectors : f_.stride / kWidth; }
   T* RowOf(int side, int row) const {
@@ -130,7 +133,7 @@ class LadderSweeper {
       slot = f_.elements + c;
     }
     PassSlot(side, e, slot, begins_at, -1, readouts);
-    if (!open_ && Growth(side) > kLargestGrowth) Reparametrize();
+    if (!open_ && ++since_check_ >= kCheckEvery) CheckGrowth();
   }
 
   // A slot that begins (ends) at a contact becomes shorter (longer) when that
@@ -274,16 +277,23 @@ class LadderSweeper {
     ++pivots_;
   }
 
-  T Growth(int side) const {
-    T largest = 0;
-    for (int i = 0; i < kRows; ++i) {
-      const T* row = RowOf(side, i);
-      for (int j = 0; j < 6; ++j) {
-        const T size = Magnitude(row[j]);
-        largest = size > largest ? size : largest;
+  void CheckGrowth() {
+    since_check_ = 0;
+    V largest[kParameterVectors];
+    for (V& v : largest) v = V{};
+    for (int i = 0; i < 2 * kRows; ++i) {
+      const U* row = Wide(f_.rows + i * f_.stride);
+      for (int v = 0; v < kParameterVectors; ++v) {
+        const V size = row[v] < V{} ? -row[v] : row[v];
+        largest[v] = size > largest[v] ? size : largest[v];
       }
     }
-    return largest;
+    for (int j = 0; j < 6; ++j) {
+      if (largest[j / kWidth][j % kWidth] > kLargestGrowth) {
+        Reparametrize();
+        return;
+      }
+    }
   }
 
   void Reparametrize() {
@@ -323,22 +333,11 @@ class LadderSweeper {
 
   bool EliminateTip() {
     for (int k = 0; k < 6; ++k) {
-      int row = k, column = 0;
-      T largest = 0;
-      for (int i = k; i < 6; ++i) {
-        for (int j = 0; j < 6; ++j) {
-          const T size = Magnitude(f_.tip_rows[i * f_.stride + j]);
-          if (size > largest) {
-            largest = size;
-            row = i;
-            column = j;
-          }
-        }
-      }
-      if (!(largest > 0)) return false;
-      T* chosen = f_.tip_rows + row * f_.stride;
-      Copy(chosen, f_.pivots + pivots_ * f_.stride);
-      if (row != k) Copy(f_.tip_rows + k * f_.stride, chosen);
+      const T* row = f_.tip_rows + k * f_.stride;
+      const int column = LargestColumn(row);
+      // Written so that a NaN fails.
+      if (!(Magnitude(row[column]) > 0)) return false;
+      Copy(row, f_.pivots + pivots_ * f_.stride);
       Exchange(column, 0, -1, f_.tip_rows + (k + 1) * f_.stride, 5 - k);
     }
     return true;
@@ -387,11 +386,17 @@ class LadderSweeper {
     if (by_load()) FinishNodeColumn(kept, f_.affine + 1, &f_.by_load, e);
   }
   void FinishNodeColumn(const T* kept, int column, LadderNodes<T>* z, int e) {
+    T with[kNodeColumns] = {};
+    for (int j = 0; j < 6; ++j) with[j] = f_.parameters[j * f_.stride + column];
+    with[column] = 1;
     T change[4];
-    for (int i = 0; i < 4; ++i) change[i] = kept[kNodeColumns * i + column];
-    for (int j = 0; j < 6; ++j) {
-      const T p = f_.parameters[j * f_.stride + column];
-      for (int i = 0; i < 4; ++i) change[i] += kept[kNodeColumns * i + j] * p;
+    for (int i = 0; i < 4; ++i) {
+      V sum = V{};
+      for (int v = 0; v < kNodeColumns / kWidth; ++v) {
+        sum += Wide(kept + kNodeColumns * i)[v] * Wide(with)[v];
+      }
+      change[i] = sum[0];
+      for (int lane = 1; lane < kWidth; ++lane) change[i] += sum[lane];
     }
     z->x[e] = change[0];
     z->y[e] = change[1];
@@ -428,7 +433,7 @@ class LadderSweeper {
   LadderFrame<T>& f_;
   const SweepColumns columns_;
   const bool open_;
-  int events_ = 0, pivots_ = 0;
+  int events_ = 0, pivots_ = 0, since_check_ = 0;
   int next_contact_[2] = {0, 0}, next_readout_[2] = {0, 0};
   bool gap_taken_[2] = {false, false};
 };

@@ -2,6 +2,7 @@
 #define FINRAY_STATICS_LANES_H_
 
 #include <cmath>
+#include <type_traits>
 
 // Numbers side by side, so that one instruction serves several elements. The
 // arithmetic of the elements is written once for a "value" V: a plain double or
@@ -9,6 +10,17 @@
 // lives in a namespace of that name, so that the linker keeps both.
 #ifndef FINRAY_ISA
 #define FINRAY_ISA generic
+#endif
+
+// The C library's vector sines (libmvec, to 4 units in the last place).
+#if defined(__AVX2__) && defined(__GLIBC__)
+#define FINRAY_VECTOR_SINES
+extern "C" {
+__attribute__((vector_size(32))) double _ZGVdN4v_sin(
+    __attribute__((vector_size(32))) double);
+__attribute__((vector_size(32))) double _ZGVdN4v_cos(
+    __attribute__((vector_size(32))) double);
+}
 #endif
 
 namespace finray {
@@ -46,6 +58,11 @@ inline void SinCos(const V& angle, V* sine, V* cosine) {
   if constexpr (ValueTraits<V>::kWidth == 1) {
     *sine = std::sin(angle);
     *cosine = std::cos(angle);
+#ifdef FINRAY_VECTOR_SINES
+  } else if constexpr (std::is_same_v<V, Lanes<double>::Vector>) {
+    *sine = _ZGVdN4v_sin(angle);
+    *cosine = _ZGVdN4v_cos(angle);
+#endif
   } else {
     V s{}, c{};
     for (int i = 0; i < ValueTraits<V>::kWidth; ++i) {

@@ -41,7 +41,10 @@ class RigidLinkElement {
     map_.end[3] = joint_moment_ - half_ * cross1_;
   }
 
-  void Differentiate() {
+  void SolveAndDifferentiate(const BasicElementStart<V>& start,
+                             const V& stiffness, const V& axial_flexibility,
+                             const V& length) {
+    Solve(start, stiffness, axial_flexibility, length);
     const V nx = start_.force_x_N, ny = start_.force_y_N;
     const V one = V{} + Scalar(1);
     const V d_moment[4] = {half_ * (s0_ * ny + c0_ * nx), one, half_ * s0_,

@@ -33,57 +33,22 @@ class TaylorElement {
 
   void Solve(const BasicElementStart<V>& start, const V& stiffness,
              const V& axial_flexibility, const V& length) {
-    start_ = start;
-    stiffness_ = stiffness;
-    length_ = length;
-    nx_ = start.force_x_N / stiffness;
-    ny_ = start.force_y_N / stiffness;
-    SinCos(start.theta_rad, &s_[0], &c_[0]);
-    theta_[0] = start.theta_rad;
-    m_[0] = start.moment_N_mm / stiffness;
-    x_[0] = y_[0] = V{};
-    if constexpr (kStretch) ratio_ = stiffness * axial_flexibility;
-    for (int i = 0; i < K; ++i) {
-      V ms = m_[0] * s_[i], mc = m_[0] * c_[i];
-      for (int j = 1; j <= i; ++j) {
-        ms += m_[j] * s_[i - j];
-        mc += m_[j] * c_[i - j];
-      }
-      V slope_x = c_[i], slope_y = s_[i];
-      if constexpr (kStretch) {
-        e_[i] = ratio_ * (nx_ * c_[i] + ny_ * s_[i]);
-        for (int j = 0; j <= i; ++j) {
-          slope_x += e_[j] * c_[i - j];
-          slope_y += e_[j] * s_[i - j];
-        }
-        slope_x_[i] = slope_x;
-        slope_y_[i] = slope_y;
-      }
-      const Scalar inverse = Scalar(1) / Scalar(i + 1);
-      c_[i + 1] = -ms * inverse;
-      s_[i + 1] = mc * inverse;
-      theta_[i + 1] = m_[i] * inverse;
-      m_[i + 1] = (nx_ * slope_y - ny_ * slope_x) * inverse;
-      x_[i + 1] = slope_x * inverse;
-      y_[i + 1] = slope_y * inverse;
-    }
-    map_.end[0] = Evaluate(x_, length);
-    map_.end[1] = Evaluate(y_, length);
-    map_.end[2] = Evaluate(theta_, length);
-    map_.end[3] = start.moment_N_mm + start.force_x_N * map_.end[1] -
-                  start.force_y_N * map_.end[0];
+    Expand<false>(start, stiffness, axial_flexibility, length);
   }
 
-  void Differentiate() {
-    DifferentiateSeries();
+  void SolveAndDifferentiate(const BasicElementStart<V>& start,
+                             const V& stiffness, const V& axial_flexibility,
+                             const V& length) {
+    Expand<true>(start, stiffness, axial_flexibility, length);
     V by[3][kBy];
     Evaluate(dx_, length_, by[0]);
     Evaluate(dy_, length_, by[1]);
     Evaluate(dtheta_, length_, by[2]);
+    const V flexibility = Scalar(1) / stiffness_;
     for (int i = 0; i < 3; ++i) {
       // d/dM = (d/dm) / EI
       for (int p = 0; p < 3; ++p)
-        map_.d_start[i][p + 1] = by[i][p] / stiffness_;
+        map_.d_start[i][p + 1] = by[i][p] * flexibility;
       if constexpr (kStretch) by_ratio_[i] = by[i][3];
     }
     map_.d_start[0][0] = ByTheta(map_.d_start[0]) - map_.end[1];
@@ -149,28 +114,56 @@ class TaylorElement {
   using Series = V[K + 1];
   using SeriesBy = V[K + 1][kBy];
 
-  void DifferentiateSeries() {
-    V dm[kBy], de[K + 1][kBy], dc[K + 1][kBy], ds[K + 1][kBy];
-    for (int p = 0; p < kBy; ++p) {
-      dtheta_[0][p] = dx_[0][p] = dy_[0][p] = dm[p] = V{};
+  // The series and, in the same loops so that their sums overlap, those of
+  // their derivatives.
+  template <bool kDerivatives>
+  void Expand(const BasicElementStart<V>& start, const V& stiffness,
+              const V& axial_flexibility, const V& length) {
+    start_ = start;
+    stiffness_ = stiffness;
+    length_ = length;
+    nx_ = start.force_x_N / stiffness;
+    ny_ = start.force_y_N / stiffness;
+    SinCos(start.theta_rad, &s_[0], &c_[0]);
+    theta_[0] = start.theta_rad;
+    m_[0] = start.moment_N_mm / stiffness;
+    x_[0] = y_[0] = V{};
+    if constexpr (kStretch) ratio_ = stiffness * axial_flexibility;
+    V dm[kBy], de[kStretch ? K : 1][kBy], dc[kStretch ? K : 1][kBy],
+        ds[kStretch ? K : 1][kBy];
+    if constexpr (kDerivatives) {
+      for (int p = 0; p < kBy; ++p) {
+        dtheta_[0][p] = dx_[0][p] = dy_[0][p] = dm[p] = V{};
+      }
+      dm[0] += Scalar(1);
     }
-    dm[0] += Scalar(1);
     for (int i = 0; i < K; ++i) {
-      // of the coefficients i of c and s, by d(c, s) = (-s, c) dtheta
+      V ms = m_[0] * s_[i], mc = m_[0] * c_[i];
       V dci[kBy], dsi[kBy];
       for (int p = 0; p < kBy; ++p) dci[p] = dsi[p] = V{};
       for (int j = 1; j <= i; ++j) {
-        for (int p = 0; p < kBy; ++p) {
-          dci[p] -= s_[i - j] * dtheta_[j][p];
-          dsi[p] += c_[i - j] * dtheta_[j][p];
+        const V sine = s_[i - j], cosine = c_[i - j];
+        ms += m_[j] * sine;
+        mc += m_[j] * cosine;
+        if constexpr (kDerivatives) {
+          for (int p = 0; p < kBy; ++p) {
+            dci[p] -= sine * dtheta_[j][p];
+            dsi[p] += cosine * dtheta_[j][p];
+          }
         }
       }
-      V slope_x[kBy], slope_y[kBy];
+      V slope_x = c_[i], slope_y = s_[i];
+      V d_slope_x[kBy], d_slope_y[kBy];
       for (int p = 0; p < kBy; ++p) {
-        slope_x[p] = dci[p];
-        slope_y[p] = dsi[p];
+        d_slope_x[p] = dci[p];
+        d_slope_y[p] = dsi[p];
       }
       if constexpr (kStretch) {
+        e_[i] = ratio_ * (nx_ * c_[i] + ny_ * s_[i]);
+        for (int j = 0; j <= i; ++j) {
+          slope_x += e_[j] * c_[i - j];
+          slope_y += e_[j] * s_[i - j];
+        }
         for (int p = 0; p < kBy; ++p) {
           dc[i][p] = dci[p];
           ds[i][p] = dsi[p];
@@ -179,29 +172,37 @@ class TaylorElement {
         de[i][1] += ratio_ * c_[i];
         de[i][2] += ratio_ * s_[i];
         de[i][3] += nx_ * c_[i] + ny_ * s_[i];
-        for (int j = 0; j <= i; ++j) {
+        for (int j = 0; kDerivatives && j <= i; ++j) {
           for (int p = 0; p < kBy; ++p) {
-            slope_x[p] += de[j][p] * c_[i - j] + e_[j] * dc[i - j][p];
-            slope_y[p] += de[j][p] * s_[i - j] + e_[j] * ds[i - j][p];
+            d_slope_x[p] += de[j][p] * c_[i - j] + e_[j] * dc[i - j][p];
+            d_slope_y[p] += de[j][p] * s_[i - j] + e_[j] * ds[i - j][p];
           }
         }
       }
       const Scalar inverse = Scalar(1) / Scalar(i + 1);
-      for (int p = 0; p < kBy; ++p) {
-        dtheta_[i + 1][p] = dm[p] * inverse;
-        dm[p] = nx_ * slope_y[p] - ny_ * slope_x[p];
-        dx_[i + 1][p] = slope_x[p] * inverse;
-        dy_[i + 1][p] = slope_y[p] * inverse;
+      c_[i + 1] = -ms * inverse;
+      s_[i + 1] = mc * inverse;
+      theta_[i + 1] = m_[i] * inverse;
+      m_[i + 1] = (nx_ * slope_y - ny_ * slope_x) * inverse;
+      x_[i + 1] = slope_x * inverse;
+      y_[i + 1] = slope_y * inverse;
+      if constexpr (kDerivatives) {
+        for (int p = 0; p < kBy; ++p) {
+          dtheta_[i + 1][p] = dm[p] * inverse;
+          dm[p] = nx_ * d_slope_y[p] - ny_ * d_slope_x[p];
+          dx_[i + 1][p] = d_slope_x[p] * inverse;
+          dy_[i + 1][p] = d_slope_y[p] * inverse;
+        }
+        dm[1] += slope_y;
+        dm[2] -= slope_x;
+        for (int p = 0; p < kBy; ++p) dm[p] *= inverse;
       }
-      if constexpr (kStretch) {
-        dm[1] += slope_y_[i];
-        dm[2] -= slope_x_[i];
-      } else {
-        dm[1] += s_[i];
-        dm[2] -= c_[i];
-      }
-      for (int p = 0; p < kBy; ++p) dm[p] *= inverse;
     }
+    map_.end[0] = Evaluate(x_, length);
+    map_.end[1] = Evaluate(y_, length);
+    map_.end[2] = Evaluate(theta_, length);
+    map_.end[3] = start.moment_N_mm + start.force_x_N * map_.end[1] -
+                  start.force_y_N * map_.end[0];
   }
 
   static V Evaluate(const Series& a, const V& h) {
@@ -238,7 +239,7 @@ class TaylorElement {
   // Of a beam that stretches only.
   struct Nothing {};
   std::conditional_t<kStretch, V, Nothing> ratio_;
-  std::conditional_t<kStretch, V[K], Nothing> e_, slope_x_, slope_y_;
+  std::conditional_t<kStretch, V[K], Nothing> e_;
   std::conditional_t<kStretch, V[3], Nothing> by_ratio_;
 };
 
