@@ -163,7 +163,7 @@ TEST_F(CommandLineTest, DumpsWhatIsInForce) {
           "--finger " + paper_ + " --frames %in.csv --out %out --dump_config");
   EXPECT_EQ(outcome.code, 0);
   const YAML::Node config = YAML::Load(outcome.output);
-  EXPECT_EQ(config["resolution"].as<int>(), 24);
+  EXPECT_EQ(config["resolution"].as<int>(), 12);
   EXPECT_NEAR(config["finger"]["ribs"][0]["back_mm"].as<double>(), 27.1574,
               1e-4);
   EXPECT_FALSE(std::filesystem::exists(folder_.Path("out")));

@@ -56,7 +56,7 @@ TEST_F(SimulationTest, PointsObjectsAndFreeRows) {
 TEST_F(SimulationTest, ObjectsTurnAndTouchSeveralTimes) {
   FrameTable frames = Load(
       "object_x_mm,object_y_mm,object_angle_deg\n-14,70,\n-23,70,30\n"
-      "-60,70,0\n0,138,0\n");
+      "-60,70,0\n0,160,0\n");
   Scene scene;
   scene.object =
       RigidObject{Outline(RoundedPolygonOutline{

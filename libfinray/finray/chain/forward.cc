@@ -17,7 +17,7 @@ constexpr double kSmallStep = 1e-9;
 constexpr double kSmallestRampStep = 1. / 512;
 
 bool Newton(const ChainLayout& layout, const ChainContact& contact,
-            const ChainUnits& units, ChainState* state) {
+            const ChainUnits& units, double last_step, ChainState* state) {
   const int n = layout.joints(), size = n + layout.loads();
   const double at[2] = {contact.arc_mm, contact.normal_N};
   ChainState now = *state;
@@ -45,7 +45,7 @@ bool Newton(const ChainLayout& layout, const ChainContact& contact,
     const double scale =
         1 + now.loads.tail(layout.ribs.size()).cwiseAbs().sum() /
                 layout.force_unit_N;
-    if (step.cwiseAbs().maxCoeff() < kSmallStep * scale) {
+    if (step.cwiseAbs().maxCoeff() < last_step * scale) {
       if (!now.AllFinite()) return false;
       *state = now;
       return true;
@@ -68,7 +68,7 @@ bool SolveAlongRamp(const ChainLayout& layout, const ChainContact& contact,
           nominal + share * (layout.ribs[k].length_mm - nominal);
     }
     load.normal_N = share * contact.normal_N;
-    if (Newton(part, load, units, state)) {
+    if (Newton(part, load, units, kSmallStep, state)) {
       reached = share;
       step *= 2;
     } else {
@@ -79,22 +79,29 @@ bool SolveAlongRamp(const ChainLayout& layout, const ChainContact& contact,
   return true;
 }
 
+bool IsBadContact(const ChainLayout& layout, const ChainContact& contact) {
+  // Written so that a NaN is bad.
+  return !(contact.arc_mm >= 0 && contact.arc_mm <= layout.length_unit_mm) ||
+         !std::isfinite(contact.normal_N) || !std::isfinite(contact.friction);
+}
+
 }  // namespace
 
 bool SolveForward(const ChainLayout& layout, const ChainContact& contact,
                   ChainState* state) {
   *state = ChainState::Straight(layout);
-  const bool on_beam =
-      contact.arc_mm >= 0 && contact.arc_mm <= layout.length_unit_mm;
-  if (!on_beam || !std::isfinite(contact.normal_N) ||
-      !std::isfinite(contact.friction)) {
-    return false;
-  }
+  if (IsBadContact(layout, contact)) return false;
   const ChainUnits units(layout);
-  if (Newton(layout, contact, units, state)) return true;
+  if (Newton(layout, contact, units, kSmallStep, state)) return true;
   if (SolveAlongRamp(layout, contact, units, state)) return true;
   *state = ChainState::Straight(layout);
   return false;
+}
+
+bool ContinueForward(const ChainLayout& layout, const ChainContact& contact,
+                     double last_step, ChainState* state) {
+  return !IsBadContact(layout, contact) &&
+         Newton(layout, contact, ChainUnits(layout), last_step, state);
 }
 
 }  // namespace finray

@@ -16,6 +16,12 @@ namespace finray {
 bool SolveForward(const ChainLayout& layout, const ChainContact& contact,
                   ChainState* state);
 
+/// The same from wherever `state` is, as along a log: Newton only, until a step
+/// (in the units of ChainUnits) is below `last_step`, after which the error is
+/// of the order of its square. False if that fails; `state` is then unchanged.
+bool ContinueForward(const ChainLayout& layout, const ChainContact& contact,
+                     double last_step, ChainState* state);
+
 }  // namespace finray
 
 #endif  // FINRAY_CHAIN_FORWARD_H_
