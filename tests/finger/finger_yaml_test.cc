@@ -160,18 +160,18 @@ TEST(FingerYamlTest, RefusesPiecesThatDoNotFillTheBeam) {
   };
   const std::string ei = ", bending_stiffness_N_mm2: 3}";
   error("pieces: [{end_mm: 60" + ei + ", {end_mm: 60" + ei + "]",
-        "f.yaml:5:74: end_mm: pieces must be listed from base to tip, but the "
+        "f.yaml:5:71: end_mm: pieces must be listed from base to tip, but the "
         "one before ends at 60 mm, this one at 60 mm");
   error("pieces: [{end_mm: 60" + ei + ", {end_mm: 100" + ei + "]",
-        "f.yaml:5:74: end_mm: the last piece must end at the tip, 140 mm, "
+        "f.yaml:5:71: end_mm: the last piece must end at the tip, 140 mm, "
         "found 100; left out, it does");
   error("pieces: [{end_mm: 140" + ei + ", {end_mm: 150" + ei + "]",
-        "f.yaml:5:28: end_mm: expected an end before the tip, which is at 140 "
+        "f.yaml:5:29: end_mm: expected an end before the tip, which is at 140 "
         "mm, as this is not the last piece");
   error("pieces: [{bending_stiffness_N_mm2: 3}, {end_mm: 140" + ei + "]",
-        "f.yaml:5:19: 'end_mm' is missing in pieces[1]");
+        "f.yaml:5:20: 'end_mm' is missing in pieces[1]");
   error("pieces: [{end_mn: 140" + ei + "]",
-        "f.yaml:5:20: unknown key 'end_mn' in pieces[1] (did you mean "
+        "f.yaml:5:21: unknown key 'end_mn' in pieces[1] (did you mean "
         "'end_mm'?)");
   error("peices: []",
         "f.yaml:5:11: unknown key 'peices' in front (did you mean 'pieces'?)");
@@ -179,7 +179,7 @@ TEST(FingerYamlTest, RefusesPiecesThatDoNotFillTheBeam) {
   error("pieces: 3", "f.yaml:5:19: pieces: expected a list, found '3'");
   error("pieces: [{}]", "'bending_stiffness_N_mm2' is missing in pieces[1]");
   error("pieces: [{bending_stiffness_N_mm2: 0}]",
-        "f.yaml:5:45: bending_stiffness_N_mm2: expected a number above 0");
+        "f.yaml:5:46: bending_stiffness_N_mm2: expected a number above 0");
   error("pieces: [{width_mm: 3, bending_stiffness_N_mm2: 3}]",
         "either bending_stiffness_N_mm2 or the plate");
   error("bending_stiffness_N_mm2: 3, pieces: [{bending_stiffness_N_mm2: 3}]",

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 #include "finray/sensing/batch_estimation.h"
 #include "temp_file.h"
@@ -160,21 +161,28 @@ TEST_F(SimulationTest, SimulateThenEstimateReturnsTheContact) {
     text +=
         std::to_string(20 + 2 * i) + "," + std::to_string(0.5 + 0.2 * i) + "\n";
   }
-  FrameTable frames = Load(text);
-  const auto arc = frames.Numbers("contact_1_mm");
-  const auto force = frames.Numbers("normal_1_N");
-  Simulate(finger_, Scene(), {}, &frames);
-  FrameTable two = frames;
-  const EstimationSummary summary =
-      EstimateLog(finger_, Scene(), {}, 1, &frames);
-  EXPECT_EQ(summary.force_compared, 40u);
-  EXPECT_LT(summary.force_rms_N, 1e-9);
-  for (int i = 0; i < 40; ++i) {
-    EXPECT_NEAR(frames.Numbers("contact_1_mm")[i], arc[i], 1e-5);
-    EXPECT_NEAR(frames.Numbers("normal_1_N")[i], force[i], 1e-6 * force[i]);
+  Finger rich = finger_;
+  rich.front_pieces = {{50.3, 1}, {140, 0.7}};
+  rich.back_pieces = {{70, 1}, {BeamLength(rich, Side::kBack), 1.4}};
+  rich.front_axial_stiffness_N = 2e4;
+  rich.back_axial_stiffness_N = 1e4;
+  for (const Finger& finger : {finger_, rich}) {
+    FrameTable frames = Load(text);
+    const auto arc = frames.Numbers("contact_1_mm");
+    const auto force = frames.Numbers("normal_1_N");
+    Simulate(finger, Scene(), {}, &frames);
+    FrameTable two = frames;
+    const EstimationSummary summary =
+        EstimateLog(finger, Scene(), {}, 1, &frames);
+    EXPECT_EQ(summary.force_compared, 40u);
+    EXPECT_LT(summary.force_rms_N, 1e-9);
+    for (int i = 0; i < 40; ++i) {
+      EXPECT_NEAR(frames.Numbers("contact_1_mm")[i], arc[i], 1e-5);
+      EXPECT_NEAR(frames.Numbers("normal_1_N")[i], force[i], 1e-6 * force[i]);
+    }
+    EstimateLog(finger, Scene(), {}, 2, &two);
+    EXPECT_EQ(two.ToCsv(), frames.ToCsv());
   }
-  EstimateLog(finger_, Scene(), {}, 2, &two);
-  EXPECT_EQ(two.ToCsv(), frames.ToCsv());
 }
 
 TEST_F(SimulationTest, ALogHasNoiseAndNoTruth) {
