@@ -55,7 +55,11 @@ inline void DumpConfig(const Finger& finger, const Scene& scene,
             << "resolution: " << EffectiveResolution(discretization) << "\n"
             << "contacts: "
             << (scene.contacts ? std::to_string(*scene.contacts) : "auto")
-            << "\nfriction_coefficient: " << scene.friction_coefficient << "\n";
+            << "\n";
+  if (!scene.contact_beams.empty()) {
+    std::cout << "contact_beams: " << ContactBeamsToYaml(scene) << "\n";
+  }
+  std::cout << "friction_coefficient: " << scene.friction_coefficient << "\n";
   if (scene.object) {
     std::cout << "object: " << ObjectToYaml(*scene.object) << "\n";
   }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "finray/finger/geometry.h"
 #include "finray/io/frame_table.h"
 #include "temp_file.h"
 #include "test_finger.h"
@@ -167,6 +168,85 @@ TEST_F(CommandLineTest, DumpsWhatIsInForce) {
   EXPECT_NEAR(config["finger"]["ribs"][0]["back_mm"].as<double>(), 27.1574,
               1e-4);
   EXPECT_FALSE(std::filesystem::exists(folder_.Path("out")));
+}
+
+TEST_F(CommandLineTest, PiecesStretchAndBackContacts) {
+  Finger finger = PaperFinger();
+  finger.front_pieces = {{60, 1}, {140, 1.25}};
+  finger.back_axial_stiffness_N = 2e4;
+  folder_.Write("finger.yaml", FingerToYaml(finger));
+  folder_.Write("scene.yaml", "contacts: 1\ncontact_beams: [back]\n");
+  folder_.Write("in.csv", "contact_1_mm,normal_1_N\n145,2\n");
+  const std::string simulate =
+      "--finger %finger.yaml --scene %scene.yaml --frames %in.csv --out %out";
+  const Outcome dump = Run("finray_simulate", simulate + " --dump_config");
+  ASSERT_EQ(dump.code, 0) << dump.output;
+  const YAML::Node config = YAML::Load(dump.output);
+  EXPECT_EQ(config["contact_beams"][0].as<std::string>(), "back");
+  const YAML::Node beams = config["finger"]["beams"];
+  EXPECT_EQ(beams["back"]["axial_stiffness_N"].as<double>(), 2e4);
+  EXPECT_EQ(beams["front"]["pieces"][1]["bending_stiffness_N_mm2"].as<double>(),
+            1.25 * 12500);
+  ExpectBadInput("finray_simulate", simulate + " --scheme rigid_chain",
+                 "rigid links do not stretch, but the finger has an "
+                 "axial_stiffness_N");
+  folder_.Write("plan.yaml",
+                "schema_version: 1\nscene: scene.yaml\nparameters: {}\n");
+  const std::string refused =
+      "scene.yaml:2:16: contact_beams: contacts on the back beam can be "
+      "simulated only";
+  ExpectBadInput("finray_calibrate",
+                 "--finger %finger.yaml --plan %plan.yaml --logs " + data_ +
+                     "train.csv --out_dir %out",
+                 refused);
+  ExpectBadInput("finray_estimate",
+                 "--finger %finger.yaml --scene %scene.yaml --logs " + data_ +
+                     "train.csv --out_dir %out",
+                 refused);
+  folder_.Write("in.csv", "contact_1_mm,normal_1_N\n152,2\n");
+  ExpectBadInput("finray_simulate", simulate,
+                 "in.csv:2: contact_1_mm: expected an arc length on the back "
+                 "beam");
+  folder_.Write("in.csv", "contact_1_mm,normal_1_N\n145,2\n");
+  EXPECT_EQ(Run("finray_simulate", simulate).code, 0);
+}
+
+TEST_F(CommandLineTest, CalibrationKeepsPiecesAndStretch) {
+  Finger finger = PaperFinger();
+  finger.back_pieces = {{60, 1}, {BeamLength(finger, Side::kBack), 0.8}};
+  finger.front_axial_stiffness_N = 3e4;
+  folder_.Write("truth.yaml", FingerToYaml(finger));
+  std::string loads = "contact_1_mm,normal_1_N\n";
+  for (int i = 0; i < 30; ++i) {
+    loads +=
+        std::to_string(30 + 3 * i) + "," + std::to_string(1 + i % 5) + "\n";
+  }
+  folder_.Write("in.csv", loads);
+  ASSERT_EQ(Run("finray_simulate",
+                "--finger %truth.yaml --frames %in.csv --out %out.csv")
+                .code,
+            0);
+  Finger start = finger;
+  start.back_stiffness_N_mm2 *= 1.1;
+  folder_.Write("start.yaml", FingerToYaml(start));
+  folder_.Write("plan.yaml",
+                "schema_version: 1\n"
+                "scene: {contacts: 1, contact_beams: [front]}\n"
+                "parameters: {back_stiffness: {prior_std_percent: 50}}\n");
+  const Outcome outcome =
+      Run("finray_calibrate",
+          "--finger %start.yaml --plan %plan.yaml --logs %out.csv "
+          "--out_dir %cal --report=false");
+  ASSERT_EQ(outcome.code, 0) << outcome.output;
+  const Finger found = ReadFinger(folder_.Path("cal/finger.yaml"));
+  EXPECT_NEAR(found.back_stiffness_N_mm2, 12500, 2);
+  ASSERT_EQ(found.back_pieces.size(), 2u);
+  EXPECT_EQ(found.back_pieces[1].stiffness_ratio, 0.8);
+  EXPECT_EQ(found.back_pieces[0].end_mm, 60);
+  EXPECT_EQ(found.front_axial_stiffness_N, 3e4);
+  const YAML::Node config =
+      YAML::LoadFile(folder_.Path("cal/calibration.yaml"))["config"];
+  EXPECT_EQ(config["contact_beams"][0].as<std::string>(), "front");
 }
 
 TEST_F(CommandLineTest, UsageErrorsAreOne) {

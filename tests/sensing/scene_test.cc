@@ -89,6 +89,42 @@ TEST(SceneTest, BadObjectsNameTheirPlace) {
         "'direction_deg' is missing");
 }
 
+TEST(SceneTest, ContactBeams) {
+  EXPECT_TRUE(Load("contacts: 2\n").contact_beams.empty());
+  for (const char* contacts : {"contacts: 2\n", "contacts: auto\n", ""}) {
+    const Scene scene =
+        Load(std::string(contacts) + "contact_beams: [front, back]\n");
+    EXPECT_EQ(scene.contact_beams,
+              (std::vector<Side>{Side::kFront, Side::kBack}));
+    EXPECT_EQ(ContactBeamsToYaml(scene), "[front, back]");
+    EXPECT_THAT(
+        [&] { RefuseBackContacts(scene); },
+        ThrowsMessage<InputError>(HasSubstr(
+            "contact_beams: contacts on the back beam can be simulated only")));
+  }
+  RefuseBackContacts(Load("contact_beams: [front]\n"));
+  const auto error = [](const std::string& text, const std::string& message) {
+    EXPECT_THAT([&] { Load(text); },
+                ThrowsMessage<InputError>(HasSubstr(message)));
+  };
+  error("contact_beams: [front, bakc]\n",
+        "scene.yaml:1:24: contact_beams[2]: expected one of front, back, found "
+        "'bakc' (did you mean 'back'?)");
+  error("contact_beams: [[front]]\n",
+        "contact_beams[1]: expected one of front, back, found a sequence");
+  error("contact_beams: back\n",
+        "scene.yaml:1:16: contact_beams: expected a list of words, found "
+        "'back'");
+  error("contacts: 1\ncontact_beams: [front, back]\n",
+        "scene.yaml:2:16: contact_beams: expected one word for each of the 1 "
+        "contacts, found 2");
+  error("contact_beams: []\n", "expected 1 to 16 words, found 0");
+  error("contact_beam: [back]\n", "(did you mean 'contact_beams'?)");
+  error("object: {shape: circle, radius_mm: 3}\ncontact_beams: [back]\n",
+        "scene.yaml:2:16: contact_beams: an object touches the front beam "
+        "only");
+}
+
 TEST(SceneTest, RefusesWhatIsNotModelled) {
   EXPECT_THAT([] { Load("contcats: 1\n"); },
               ThrowsMessage<InputError>(

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 #include "finray/sensing/batch_estimation.h"
 #include "temp_file.h"
@@ -115,27 +116,73 @@ TEST_F(SimulationTest, BadLoadsNameTheirLine) {
   error("object_x_mm,object_y_mm\n-10,50\n", "the scene has no object");
 }
 
+TEST_F(SimulationTest, ContactsOnTheBackBeam) {
+  const std::string text =
+      "contact_1_mm,normal_1_N,contact_2_mm,normal_2_N,friction_2\n"
+      "50,2,145,1,0.3\n,,145,1,0.3\n";
+  FrameTable frames = Load(text);
+  const Scene scene = ReadScene(
+      folder_.Write("s.yaml", "contacts: 2\ncontact_beams: [front, back]\n"));
+  Simulate(finger_, scene, {}, &frames);
+  EquilibriumSolver solver(finger_, {});
+  const PointContact back{145, 1, 0.3, Side::kBack};
+  ASSERT_TRUE(solver.Solve({{50, 2, 0}, back}));
+  EXPECT_NEAR(frames.Numbers("gauge_3_rad")[0], solver.gauge_angle(2), 1e-12);
+  EXPECT_NEAR(frames.Numbers("contact_2_x_mm")[0], solver.contact_pose(1).x(),
+              1e-9);
+  EXPECT_NEAR(frames.Numbers("force_N")[1], std::hypot(1, 0.3), 1e-12);
+  const double theta = solver.contact_pose(1).z();
+  const Eigen::Vector3d front = solver.contact_pose(0);
+  const Eigen::Vector2d sum =
+      2 * Eigen::Vector2d(std::sin(front.z()), -std::cos(front.z())) +
+      Eigen::Vector2d(-std::sin(theta), std::cos(theta)) +
+      0.3 * Eigen::Vector2d(std::cos(theta), std::sin(theta));
+  EXPECT_NEAR(frames.Numbers("force_N")[0], sum.norm(), 1e-9);
+
+  const auto error = [&](const std::string& beams, const std::string& loads,
+                         const std::string& message) {
+    const Scene other = ReadScene(folder_.Write("s.yaml", beams));
+    FrameTable bad = Load(loads);
+    EXPECT_THAT([&] { Simulate(finger_, other, {}, &bad); },
+                ThrowsMessage<InputError>(HasSubstr(message)));
+  };
+  error("contact_beams: [front, back]\n",
+        "contact_1_mm,normal_1_N,contact_2_mm,normal_2_N\n50,1,151,1\n",
+        "in.csv:2: contact_2_mm: expected an arc length on the back beam, 0 to "
+        "150.99");
+  error("contact_beams: [back]\n", text,
+        "s.yaml:1:16: contact_beams: expected a word for each of the 2 "
+        "contacts in ");
+}
+
 TEST_F(SimulationTest, SimulateThenEstimateReturnsTheContact) {
   std::string text = "contact_1_mm,normal_1_N\n";
   for (int i = 0; i < 40; ++i) {
     text +=
         std::to_string(20 + 2 * i) + "," + std::to_string(0.5 + 0.2 * i) + "\n";
   }
-  FrameTable frames = Load(text);
-  const auto arc = frames.Numbers("contact_1_mm");
-  const auto force = frames.Numbers("normal_1_N");
-  Simulate(finger_, Scene(), {}, &frames);
-  FrameTable two = frames;
-  const EstimationSummary summary =
-      EstimateLog(finger_, Scene(), {}, 1, &frames);
-  EXPECT_EQ(summary.force_compared, 40u);
-  EXPECT_LT(summary.force_rms_N, 1e-9);
-  for (int i = 0; i < 40; ++i) {
-    EXPECT_NEAR(frames.Numbers("contact_1_mm")[i], arc[i], 1e-5);
-    EXPECT_NEAR(frames.Numbers("normal_1_N")[i], force[i], 1e-6 * force[i]);
+  Finger rich = finger_;
+  rich.front_pieces = {{50.3, 1}, {140, 0.7}};
+  rich.back_pieces = {{70, 1}, {BeamLength(rich, Side::kBack), 1.4}};
+  rich.front_axial_stiffness_N = 2e4;
+  rich.back_axial_stiffness_N = 1e4;
+  for (const Finger& finger : {finger_, rich}) {
+    FrameTable frames = Load(text);
+    const auto arc = frames.Numbers("contact_1_mm");
+    const auto force = frames.Numbers("normal_1_N");
+    Simulate(finger, Scene(), {}, &frames);
+    FrameTable two = frames;
+    const EstimationSummary summary =
+        EstimateLog(finger, Scene(), {}, 1, &frames);
+    EXPECT_EQ(summary.force_compared, 40u);
+    EXPECT_LT(summary.force_rms_N, 1e-9);
+    for (int i = 0; i < 40; ++i) {
+      EXPECT_NEAR(frames.Numbers("contact_1_mm")[i], arc[i], 1e-5);
+      EXPECT_NEAR(frames.Numbers("normal_1_N")[i], force[i], 1e-6 * force[i]);
+    }
+    EstimateLog(finger, Scene(), {}, 2, &two);
+    EXPECT_EQ(two.ToCsv(), frames.ToCsv());
   }
-  EstimateLog(finger_, Scene(), {}, 2, &two);
-  EXPECT_EQ(two.ToCsv(), frames.ToCsv());
 }
 
 TEST_F(SimulationTest, ALogHasNoiseAndNoTruth) {

@@ -90,7 +90,7 @@ FrameTable CalibrationShape(CalibrationProblem& problem,
     };
     for (const Side side : {Side::kFront, Side::kBack}) {
       for (int k = 0; k <= kPoints; ++k) {
-        add(side == Side::kFront ? "front" : "back",
+        add(SideName(side),
             point(side, BeamLength(finger, side) * k / kPoints));
       }
     }

@@ -145,6 +145,9 @@ void EmitConfig(const Plan& plan, const CalibrationInputs& inputs,
   Pair(yaml, "resolution", inputs.resolution);
   Pair(yaml, "contacts",
        plan.scene.contacts ? std::to_string(*plan.scene.contacts) : "auto");
+  if (!plan.scene.contact_beams.empty()) {
+    Pair(yaml, "contact_beams", YAML::Load(ContactBeamsToYaml(plan.scene)));
+  }
   Number(yaml, "friction_coefficient", plan.scene.friction_coefficient);
   if (plan.scene.circle_radius_mm()) {
     Number(yaml, "circle_radius_mm", *plan.scene.circle_radius_mm());

@@ -76,6 +76,7 @@ Plan ReadPlan(const std::string& path) {
   }
   Plan plan;
   plan.scene = ReadPlanScene(yaml);
+  RefuseBackContacts(plan.scene);
   if (plan.scene.contacts.value_or(1) > 1) {
     yaml.Fail("scene", "calibration takes frames with one contact or none");
   }

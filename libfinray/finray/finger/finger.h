@@ -10,6 +10,10 @@ namespace finray {
 /// The two flexible beams of a finger. The front beam touches the object.
 enum class Side { kFront, kBack };
 
+inline const char* SideName(Side side) {
+  return side == Side::kFront ? "front" : "back";
+}
+
 /// A rigid (or axially elastic) rib hinged to both beams.
 struct Rib {
   double front_mm =

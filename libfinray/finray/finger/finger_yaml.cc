@@ -2,7 +2,7 @@
 
 #include <charconv>
 #include <cmath>
-#include <initializer_list>
+#include <limits>
 #include <locale>
 #include <sstream>
 #include <string_view>
@@ -25,37 +25,160 @@ std::string Short(double value) {
   return text.str();
 }
 
-// EI, given as such or by a rectangular plate: E w t^3 / 12.
-double ReadStiffness(const YamlMap& beam) {
-  if (beam.Has("axial_stiffness_N")) {
-    beam.Fail("axial_stiffness_N",
-              "axial_stiffness_N: beams are taken as inextensible; leave it "
-              "out");
+// A number that YamlMap has accepted, to more digits than a double holds.
+long double LongNumber(std::string_view text) {
+  if (!text.empty() && text[0] == '+') text.remove_prefix(1);
+  long double number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
+// A number near `value`, in as few digits as it takes to be read back well.
+template <typename ReadsBack>
+std::string TextThat(const ReadsBack& reads_back, long double value) {
+  const auto rounded = static_cast<double>(value);
+  std::string shortest;
+  for (const double near :
+       {rounded, std::nextafter(rounded, 0.0),
+        std::nextafter(rounded, std::numeric_limits<double>::infinity())}) {
+    const std::string text = NumberText(near);
+    if (reads_back(text) &&
+        (shortest.empty() || text.size() < shortest.size())) {
+      shortest = text;
+    }
   }
-  beam.AllowOnly({"bending_stiffness_N_mm2", "width_mm", "thickness_mm",
-                  "youngs_modulus_GPa"});
+  if (!shortest.empty()) return shortest;
+  char text[64];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+constexpr const char* kBendingStiffness = "bending_stiffness_N_mm2";
+constexpr const char* kPlate[] = {"width_mm", "thickness_mm",
+                                  "youngs_modulus_GPa"};
+
+// EI, given as such or by a rectangular plate: E w t^3 / 12.
+double ReadStiffness(const YamlMap& yaml) {
   bool plate = false;
-  for (const char* key : {"width_mm", "thickness_mm", "youngs_modulus_GPa"}) {
-    if (!beam.Has(key)) continue;
+  for (const char* key : kPlate) {
+    if (!yaml.Has(key)) continue;
     plate = true;
-    if (beam.Has("bending_stiffness_N_mm2")) {
-      beam.Fail(key, std::string(key) +
+    if (yaml.Has(kBendingStiffness)) {
+      yaml.Fail(key, std::string(key) +
                          ": give either bending_stiffness_N_mm2 or the "
                          "plate's dimensions");
     }
   }
-  if (!plate) return beam.PositiveNumber("bending_stiffness_N_mm2");
+  if (!plate) return yaml.PositiveNumber(kBendingStiffness);
   constexpr double kGPa = 1e3;  // N / mm^2
-  const double thickness = beam.PositiveNumber("thickness_mm");
-  const double stiffness = beam.PositiveNumber("youngs_modulus_GPa") * kGPa *
-                           beam.PositiveNumber("width_mm") *
+  const double thickness = yaml.PositiveNumber("thickness_mm");
+  const double stiffness = yaml.PositiveNumber("youngs_modulus_GPa") * kGPa *
+                           yaml.PositiveNumber("width_mm") *
                            std::pow(thickness, 3) / 12;
   if (!(stiffness > 0 && std::isfinite(stiffness))) {
-    beam.Fail("thickness_mm", "the plate has a bending stiffness of " +
+    yaml.Fail("thickness_mm", "the plate has a bending stiffness of " +
                                   Short(stiffness) +
                                   " N mm^2, expected a number above 0");
   }
   return stiffness;
+}
+
+// The ratio of two stiffnesses, rounded once. In long double, as the quotient
+// of two doubles does not take every value: not every ratio could be written.
+double StiffnessRatio(long double stiffness, long double reference) {
+  return static_cast<double>(stiffness / reference);
+}
+
+// Where the piece ends; `start_mm` is where the one before it does.
+double ReadPieceEnd(const YamlMap& yaml, bool last, double start_mm,
+                    double length_mm) {
+  constexpr double kSlack_mm = 1e-6;
+  if (last && !yaml.Has("end_mm")) return length_mm;
+  const double end_mm = yaml.PositiveNumber("end_mm");
+  if (end_mm <= start_mm) {
+    yaml.Fail("end_mm",
+              "end_mm: pieces must be listed from base to tip, but the one "
+              "before ends at " +
+                  Short(start_mm) + " mm, this one at " + Short(end_mm) +
+                  " mm");
+  }
+  if (last) {
+    if (std::abs(end_mm - length_mm) <= kSlack_mm) return length_mm;
+    yaml.Fail("end_mm", "end_mm: the last piece must end at the tip, " +
+                            NumberText(length_mm) + " mm, found " +
+                            Short(end_mm) + "; left out, it does");
+  }
+  if (end_mm >= length_mm - kSlack_mm) {
+    yaml.Fail("end_mm", "end_mm: expected an end before the tip, which is at " +
+                            Short(length_mm) +
+                            " mm, as this is not the last piece");
+  }
+  return end_mm;
+}
+
+struct BeamStiffness {
+  double bending_N_mm2 = 0;
+  double axial_N = std::numeric_limits<double>::infinity();
+  std::vector<StiffnessPiece> pieces;
+};
+
+void ReadPieces(const YamlMap& yaml, double length_mm, BeamStiffness* beam) {
+  for (const char* key : {kBendingStiffness, kPlate[0], kPlate[1], kPlate[2]}) {
+    if (yaml.Has(key)) {
+      yaml.Fail(key, std::string(key) + ": give either the beam's or pieces");
+    }
+  }
+  const std::vector<YamlMap> entries = yaml.Maps("pieces");
+  if (entries.empty()) yaml.Fail("pieces", "pieces: expected at least one");
+  long double reference = 0;
+  double end_mm = 0;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const YamlMap& entry = entries[i];
+    entry.AllowOnly(
+        {"end_mm", kBendingStiffness, kPlate[0], kPlate[1], kPlate[2]});
+    end_mm = ReadPieceEnd(entry, i + 1 == entries.size(), end_mm, length_mm);
+    const double rounded = ReadStiffness(entry);
+    const long double stiffness =
+        entry.Has(kBendingStiffness) ? LongNumber(entry.Text(kBendingStiffness))
+                                     : rounded;
+    if (i == 0) {
+      beam->bending_N_mm2 = rounded;
+      reference = stiffness;
+    }
+    const double ratio = StiffnessRatio(stiffness, reference);
+    if (!(ratio > 0 && std::isfinite(ratio))) {
+      entry.Fail(kBendingStiffness, "the piece is " + Short(ratio) +
+                                        " times as stiff as the first one, "
+                                        "expected a number above 0");
+    }
+    beam->pieces.push_back({end_mm, ratio});
+  }
+}
+
+BeamStiffness ReadBeam(const YamlMap& yaml, double length_mm) {
+  yaml.AllowOnly({kBendingStiffness, kPlate[0], kPlate[1], kPlate[2],
+                  "axial_stiffness_N", "pieces"});
+  BeamStiffness beam;
+  if (yaml.Has("pieces")) {
+    ReadPieces(yaml, length_mm, &beam);
+  } else {
+    beam.bending_N_mm2 = ReadStiffness(yaml);
+  }
+  beam.axial_N = yaml.PositiveNumber("axial_stiffness_N", beam.axial_N);
+  return beam;
+}
+
+void ReadBeams(const YamlMap& yaml, Finger* finger) {
+  yaml.AllowOnly({"front", "back"});
+  const BeamStiffness front =
+      ReadBeam(yaml.Map("front"), BeamLength(*finger, Side::kFront));
+  const BeamStiffness back =
+      ReadBeam(yaml.Map("back"), BeamLength(*finger, Side::kBack));
+  finger->front_stiffness_N_mm2 = front.bending_N_mm2;
+  finger->back_stiffness_N_mm2 = back.bending_N_mm2;
+  finger->front_axial_stiffness_N = front.axial_N;
+  finger->back_axial_stiffness_N = back.axial_N;
+  finger->front_pieces = front.pieces;
+  finger->back_pieces = back.pieces;
 }
 
 // Where the rib meets the back beam, known to be strictly inside it.
@@ -149,29 +272,45 @@ Gauge ReadGauge(const YamlMap& yaml, const Finger& finger) {
 // degrees may be coarser than one in radians: one angle in ten could not be
 // written so that it reads back.
 double RadFromDegrees(std::string_view text) {
-  if (!text.empty() && text[0] == '+') text.remove_prefix(1);
-  long double degrees = 0;
-  std::from_chars(text.data(), text.data() + text.size(), degrees);
-  return static_cast<double>(degrees * kLongDegree);
+  return static_cast<double>(LongNumber(text) * kLongDegree);
 }
 
-// Degrees that read back as the same radians, in as few digits as that takes.
+// Degrees that read back as the same radians.
 std::string DegreesText(double rad) {
-  const double degrees = rad / kDegree;
-  std::string shortest;
-  for (const double near : {degrees, std::nextafter(degrees, 0.0),
-                            std::nextafter(degrees, 360.0)}) {
-    const std::string text = NumberText(near);
-    if (RadFromDegrees(text) == rad &&
-        (shortest.empty() || text.size() < shortest.size())) {
-      shortest = text;
-    }
+  return TextThat(
+      [rad](const std::string& text) { return RadFromDegrees(text) == rad; },
+      rad / kLongDegree);
+}
+
+std::string BeamToYaml(const Finger& finger, Side side) {
+  std::ostringstream yaml;
+  const double stiffness = BendingStiffness(finger, side);
+  const double axial = AxialStiffness(finger, side);
+  const std::vector<StiffnessPiece>& pieces = Pieces(finger, side);
+  if (pieces.empty()) {
+    yaml << "    bending_stiffness_N_mm2: " << NumberText(stiffness) << "\n";
   }
-  if (!shortest.empty()) return shortest;
-  char text[64];
-  const auto end =
-      std::to_chars(text, text + sizeof text, rad / kLongDegree).ptr;
-  return std::string(text, end);
+  if (std::isfinite(axial)) {
+    yaml << "    axial_stiffness_N: " << NumberText(axial) << "\n";
+  }
+  if (pieces.empty()) return yaml.str();
+  yaml << "    pieces:\n";
+  // The file has no stiffness of the beam but that of its first piece.
+  const double first_ratio = pieces[0].stiffness_ratio;
+  const std::string first = NumberText(stiffness * first_ratio);
+  const long double reference = LongNumber(first);
+  for (const StiffnessPiece& piece : pieces) {
+    const double ratio = piece.stiffness_ratio / first_ratio;
+    const auto reads_back = [&](const std::string& text) {
+      return StiffnessRatio(LongNumber(text), reference) == ratio;
+    };
+    yaml << "      - {end_mm: " << NumberText(piece.end_mm)
+         << ", bending_stiffness_N_mm2: "
+         << (&piece == &pieces[0] ? first
+                                  : TextThat(reads_back, ratio * reference))
+         << "}\n";
+  }
+  return yaml.str();
 }
 
 }  // namespace
@@ -199,10 +338,7 @@ Finger ReadFinger(const std::string& path) {
                       Short(angle));
   }
   finger.back_angle_rad = RadFromDegrees(geometry.Text("back_angle_deg"));
-  const YamlMap beams = yaml.Map("beams");
-  beams.AllowOnly({"front", "back"});
-  finger.front_stiffness_N_mm2 = ReadStiffness(beams.Map("front"));
-  finger.back_stiffness_N_mm2 = ReadStiffness(beams.Map("back"));
+  ReadBeams(yaml.Map("beams"), &finger);
   ReadRibs(yaml, &finger);
   for (const YamlMap& entry : yaml.Maps("gauges")) {
     finger.gauges.push_back(ReadGauge(entry, finger));
@@ -222,10 +358,9 @@ std::string FingerToYaml(const Finger& finger, const std::string& comment) {
        << "geometry: {front_length_mm: " << NumberText(finger.front_length_mm)
        << ", back_angle_deg: " << DegreesText(finger.back_angle_rad) << "}\n"
        << "beams:\n"
-       << "  front: {bending_stiffness_N_mm2: "
-       << NumberText(finger.front_stiffness_N_mm2) << "}\n"
-       << "  back:  {bending_stiffness_N_mm2: "
-       << NumberText(finger.back_stiffness_N_mm2) << "}\n";
+       << "  front:\n"
+       << BeamToYaml(finger, Side::kFront) << "  back:\n"
+       << BeamToYaml(finger, Side::kBack);
   if (!finger.ribs.empty()) yaml << "ribs:\n";
   for (const Rib& rib : finger.ribs) {
     yaml << "  - {front_mm: " << NumberText(rib.front_mm)
@@ -238,7 +373,7 @@ std::string FingerToYaml(const Finger& finger, const std::string& comment) {
   }
   if (!finger.gauges.empty()) yaml << "gauges:\n";
   for (const Gauge& gauge : finger.gauges) {
-    yaml << "  - {beam: " << (gauge.beam == Side::kFront ? "front" : "back")
+    yaml << "  - {beam: " << SideName(gauge.beam)
          << ", start_mm: " << NumberText(gauge.start_mm)
          << ", length_mm: " << NumberText(gauge.length_mm)
          << ", gain_V_per_rad: " << NumberText(gauge.gain_V_per_rad)

@@ -64,6 +64,18 @@ void RefuseNul(const std::string& path, const std::string& text) {
                    "found a NUL byte, expected UTF-8 text");
 }
 
+// What is wrong with a value that is none of `words`.
+std::string NotOneOf(const std::string& name,
+                     const std::vector<std::string>& words,
+                     const YAML::Node& value) {
+  std::string known;
+  for (const std::string& word : words) {
+    known += (known.empty() ? "" : ", ") + word;
+  }
+  return name + ": expected one of " + known + ", found " + Shown(value) +
+         (value.IsScalar() ? DidYouMean(value.Scalar(), words) : "");
+}
+
 YAML::Node ParseOneDocument(const std::string& path, const std::string& text) {
   std::vector<YAML::Node> documents;
   try {
@@ -136,8 +148,12 @@ std::vector<std::string> YamlMap::Keys() const {
 }
 
 void YamlMap::Fail(const std::string& key, const std::string& message) const {
+  throw InputError(PlaceOf(key) + message);
+}
+
+std::string YamlMap::PlaceOf(const std::string& key) const {
   const YAML::Node value = node_[key];
-  throw InputError(Place(path_, value ? value.Mark() : node_.Mark()) + message);
+  return Place(path_, value ? value.Mark() : node_.Mark());
 }
 
 double YamlMap::Number(const std::string& key) const {
@@ -213,12 +229,7 @@ std::string YamlMap::Choice(const std::string& key,
                             const std::vector<std::string>& words) const {
   const std::string text = Text(key);
   if (std::find(words.begin(), words.end(), text) != words.end()) return text;
-  std::string known;
-  for (const std::string& word : words) {
-    known += (known.empty() ? "" : ", ") + word;
-  }
-  Fail(key, key + ": expected one of " + known + ", found " +
-                Shown(node_[key]) + DidYouMean(text, words));
+  Fail(key, NotOneOf(key, words, node_[key]));
 }
 
 std::string YamlMap::Choice(const std::string& key,
@@ -256,6 +267,26 @@ std::vector<YamlMap> YamlMap::Maps(const std::string& key) const {
     maps.push_back(YamlMap(value[i], path_, name));
   }
   return maps;
+}
+
+std::vector<std::string> YamlMap::Choices(
+    const std::string& key, const std::vector<std::string>& words) const {
+  if (!Has(key)) Fail(key, "'" + key + "' is missing in " + name_);
+  const YAML::Node value = node_[key];
+  if (!value.IsSequence()) {
+    Fail(key, key + ": expected a list of words, found " + Shown(value));
+  }
+  std::vector<std::string> chosen;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const YAML::Node word = value[i];
+    if (!word.IsScalar() ||
+        std::find(words.begin(), words.end(), word.Scalar()) == words.end()) {
+      const std::string name = key + "[" + std::to_string(i + 1) + "]";
+      throw InputError(Place(path_, word.Mark()) + NotOneOf(name, words, word));
+    }
+    chosen.push_back(word.Scalar());
+  }
+  return chosen;
 }
 
 std::vector<std::array<double, 2>> YamlMap::Pairs(

@@ -47,12 +47,18 @@ class YamlMap {
   /// A sequence of mappings; empty when the key is absent or has no value.
   std::vector<YamlMap> Maps(const std::string& key) const;
 
+  /// A sequence of the listed words; the key must be there.
+  std::vector<std::string> Choices(const std::string& key,
+                                   const std::vector<std::string>& words) const;
+
   /// A sequence of pairs of numbers, [[x, y], ...]; the key must be there.
   std::vector<std::array<double, 2>> Pairs(const std::string& key) const;
 
   /// Throws InputError at the position of `key` (of the mapping if absent).
   [[noreturn]] void Fail(const std::string& key,
                          const std::string& message) const;
+  /// "path:line:column: " of a key's value, for errors found later.
+  std::string PlaceOf(const std::string& key) const;
   const std::string& path() const { return path_; }
 
  private:

@@ -56,6 +56,7 @@ FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
       solver_(finger, discretization),
       table_(&solver_),
       shared_(SharedParameters::Of(finger)) {
+  RefuseBackContacts(scene);
   if (scene.contacts.value_or(1) > 1) {
     throw InputError("scene: " + std::to_string(*scene.contacts) +
                      " contacts cannot be estimated; 0, 1 and auto can");

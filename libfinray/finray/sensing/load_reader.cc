@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 #include "finray/sensing/frame_columns.h"
 
@@ -14,6 +15,15 @@ LoadReader::LoadReader(const Finger& finger, const Scene& scene,
     arc_.push_back(table.Numbers(ContactArc(c)));
     normal_.push_back(table.Numbers(NormalForce(c)));
     friction_.push_back(table.NumbersOrNan(Friction(c)));
+  }
+  if (!scene.contact_beams.empty() &&
+      arc_.size() > scene.contact_beams.size()) {
+    throw InputError(scene.contact_beams_place +
+                     "contact_beams: expected a word for each "
+                     "of the " +
+                     std::to_string(arc_.size()) + " contacts in " +
+                     table.path() + ", found " +
+                     std::to_string(scene.contact_beams.size()));
   }
   x_ = table.NumbersOrNan("object_x_mm");
   y_ = table.NumbersOrNan("object_y_mm");
@@ -30,11 +40,13 @@ RowLoad LoadReader::Read(std::size_t row) const {
   for (int c = 0; c < contacts(); ++c) {
     const double arc = arc_[c][row], normal = normal_[c][row];
     if (std::isnan(arc) && (std::isnan(normal) || normal == 0)) continue;
-    if (!(arc >= 0 && arc <= finger_.front_length_mm)) {
-      Fail(row, ContactArc(c) +
-                    ": expected an arc length on the front beam, "
-                    "0 to " +
-                    std::to_string(finger_.front_length_mm) + " mm");
+    const Side side =
+        scene_.contact_beams.empty() ? Side::kFront : scene_.contact_beams[c];
+    const double length = BeamLength(finger_, side);
+    if (!(arc >= 0 && arc <= length)) {
+      Fail(row, ContactArc(c) + ": expected an arc length on the " +
+                    SideName(side) + " beam, 0 to " + std::to_string(length) +
+                    " mm");
     }
     if (!(normal >= 0)) {
       Fail(row, NormalForce(c) + ": expected a force of at least 0 N with " +
@@ -42,7 +54,7 @@ RowLoad LoadReader::Read(std::size_t row) const {
     }
     const double mu = friction_[c][row];
     load.contacts.push_back(
-        {arc, normal, std::isnan(mu) ? scene_.friction_coefficient : mu});
+        {arc, normal, std::isnan(mu) ? scene_.friction_coefficient : mu, side});
   }
   if (load.contacts.empty() && std::isfinite(x_[row]) &&
       std::isfinite(y_[row]) && scene_.object) {

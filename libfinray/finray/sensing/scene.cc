@@ -1,8 +1,11 @@
 #include "finray/sensing/scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+
+#include "finray/io/error.h"
 
 namespace finray {
 namespace {
@@ -17,6 +20,39 @@ std::optional<int> ReadContacts(const YamlMap& yaml) {
                               std::to_string(kMostContacts) + ", or auto");
   }
   return contacts;
+}
+
+bool HasBackContacts(const Scene& scene) {
+  return std::count(scene.contact_beams.begin(), scene.contact_beams.end(),
+                    Side::kBack) > 0;
+}
+
+void ReadContactBeams(const YamlMap& yaml, Scene* scene) {
+  if (!yaml.Has("contact_beams")) return;
+  for (const std::string& word :
+       yaml.Choices("contact_beams", {"front", "back"})) {
+    scene->contact_beams.push_back(word == "front" ? Side::kFront
+                                                   : Side::kBack);
+  }
+  const std::size_t words = scene->contact_beams.size();
+  const auto fail = [&](const std::string& expected) {
+    yaml.Fail("contact_beams", "contact_beams: expected " + expected +
+                                   ", found " + std::to_string(words));
+  };
+  if (scene->contacts) {
+    if (words != static_cast<std::size_t>(*scene->contacts)) {
+      fail("one word for each of the " + std::to_string(*scene->contacts) +
+           " contacts");
+    }
+  } else if (words < 1 || words > kMostContacts) {
+    fail("1 to " + std::to_string(kMostContacts) + " words");
+  }
+  if (scene->object && HasBackContacts(*scene)) {
+    yaml.Fail("contact_beams",
+              "contact_beams: an object touches the front beam only; leave out "
+              "the object or 'back'");
+  }
+  scene->contact_beams_place = yaml.PlaceOf("contact_beams");
 }
 
 Outline::Shape ReadShape(const YamlMap& object) {
@@ -83,6 +119,22 @@ YAML::Emitter& operator<<(YAML::Emitter& yaml,
 
 }  // namespace
 
+void RefuseBackContacts(const Scene& scene) {
+  if (HasBackContacts(scene)) {
+    throw InputError(scene.contact_beams_place +
+                     "contact_beams: contacts on the back beam can be "
+                     "simulated only; expected front");
+  }
+}
+
+std::string ContactBeamsToYaml(const Scene& scene) {
+  std::string words;
+  for (const Side side : scene.contact_beams) {
+    words += (words.empty() ? "" : ", ") + std::string(SideName(side));
+  }
+  return "[" + words + "]";
+}
+
 std::string ObjectToYaml(const RigidObject& object) {
   YAML::Emitter yaml;
   yaml.SetDoublePrecision(std::numeric_limits<double>::max_digits10);
@@ -108,8 +160,8 @@ std::map<std::string, std::string> ReadColumns(const YamlMap& yaml) {
 }
 
 Scene ReadScene(const YamlMap& yaml) {
-  yaml.AllowOnly({"schema_version", "contacts", "friction_coefficient",
-                  "object", "columns"});
+  yaml.AllowOnly({"schema_version", "contacts", "contact_beams",
+                  "friction_coefficient", "object", "columns"});
   if (yaml.Has("schema_version") && yaml.Integer("schema_version") != 1) {
     yaml.Fail("schema_version", "expected 1");
   }
@@ -117,6 +169,7 @@ Scene ReadScene(const YamlMap& yaml) {
   scene.contacts = ReadContacts(yaml);
   scene.friction_coefficient = yaml.Number("friction_coefficient", 0);
   if (yaml.Has("object")) scene.object = ReadObject(yaml.Map("object"));
+  ReadContactBeams(yaml, &scene);
   scene.columns = ReadColumns(yaml);
   return scene;
 }

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "finray/io/yaml_map.h"
 #include "finray/statics/object_contact.h"
@@ -14,6 +15,10 @@ namespace finray {
 struct Scene {
   /// Number of contacts; empty: decided frame by frame ("auto").
   std::optional<int> contacts;
+  /// The beam of each point contact, contact_1 first; empty: all in front.
+  std::vector<Side> contact_beams;
+  /// "path:line:column: " of that list, for messages.
+  std::string contact_beams_place = "scene: ";
   double friction_coefficient = 0;  ///< mu; + pulls the finger to its tip.
   std::optional<RigidObject> object;
   /// A lab's own headers for columns of the frame table.
@@ -29,6 +34,13 @@ struct Scene {
 /// modelled.
 Scene ReadScene(const std::string& path);
 Scene ReadScene(const YamlMap& yaml);
+
+/// Throws InputError at the place of `contact_beams` if any is the back beam,
+/// for tools that know contacts on the front beam only.
+void RefuseBackContacts(const Scene& scene);
+
+/// The words of `contact_beams`, "[front, back]".
+std::string ContactBeamsToYaml(const Scene& scene);
 
 /// The `object:` mapping of a scene as YAML on one line, read back the same.
 std::string ObjectToYaml(const RigidObject& object);

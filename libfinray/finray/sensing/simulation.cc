@@ -37,7 +37,7 @@ void AddShape(const EquilibriumSolver& solver,
       const Section at = shape.At(side, arc);
       const std::size_t k = (*next)++;
       shapes->MutableNumbers("row")[k] = static_cast<double>(row + 1);
-      shapes->MutableText("beam")[k] = side == Side::kFront ? "front" : "back";
+      shapes->MutableText("beam")[k] = SideName(side);
       shapes->MutableNumbers("arc_mm")[k] = arc;
       shapes->MutableNumbers("x_mm")[k] = at.x_mm;
       shapes->MutableNumbers("y_mm")[k] = at.y_mm;
@@ -134,8 +134,9 @@ double FillRow(const Finger& finger, const SolvedRow& solved, bool displacement,
     set(ContactY(c), pose.y());
     set(ContactAngle(c), pose.z());
     const Eigen::Vector2d t(std::cos(pose.z()), std::sin(pose.z()));
+    const double into = contact.side == Side::kFront ? 1 : -1;
     force += contact.normal_N *
-             (Eigen::Vector2d(t.y(), -t.x()) + contact.friction * t);
+             (into * Eigen::Vector2d(t.y(), -t.x()) + contact.friction * t);
   }
   set("force_N", force.norm());
   if (displacement && solved.object) set(kDisplacement, solved.displacement_mm);

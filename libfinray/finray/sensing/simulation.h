@@ -20,7 +20,8 @@ struct SimulationSummary {
 /// Solves every row of `frames` and fills in gauges, ribs, tip, contact poses,
 /// force_N and status. A row's load is, in this order:
 ///  - point contacts: contact_<c>_mm, normal_<c>_N, friction_<c> (default the
-///    scene's), as many as the columns give;
+///    scene's), as many as the columns give, each on the beam that the scene
+///    says;
 ///  - the scene's object at object_x_mm, object_y_mm, turned by
 ///    object_angle_deg (default 0). Its contacts are filled in too:
 ///    contact_<c>, normal_<c> for as many as the row with most has, and
