@@ -23,6 +23,7 @@ struct SolvedRow {
   double displacement_mm = 0;
   Eigen::VectorXd outputs;  // of the solver
   Eigen::VectorXd rib_tensions;
+  std::string failure;  // Why it is not solved.
 };
 
 void AddShape(const EquilibriumSolver& solver,
@@ -47,10 +48,10 @@ void AddShape(const EquilibriumSolver& solver,
   }
 }
 
-const char* Reason(ObjectContactStatus status) {
+std::string Reason(ObjectContactStatus status) {
   return status == ObjectContactStatus::kNoTangency
              ? "the object meets an end of the front beam, not its side"
-             : "no equilibrium found under this load";
+             : "no equilibrium found against this object";
 }
 
 bool IsSolved(const SolvedRow& row) {
@@ -71,8 +72,11 @@ SolvedRow SolveRow(const RowLoad& load, const Scene& scene,
     row.status = found.status;
     row.contacts = found.contacts;
     row.displacement_mm = found.displacement_mm;
+    if (!IsSolved(row)) row.failure = Reason(row.status);
   } else if (solver->Solve(load.contacts)) {
     row.status = ObjectContactStatus::kContact;
+  } else {
+    row.failure = solver->Why();
   }
   if (IsSolved(row)) {
     row.outputs = solver->outputs();
@@ -191,7 +195,7 @@ SimulationSummary Simulate(const Finger& finger, const Scene& scene,
       if (summary.first_failure.empty()) {
         summary.first_failure = frames->path() + ":" +
                                 std::to_string(frames->line(row)) + ": " +
-                                Reason(solved[row].status);
+                                solved[row].failure;
       }
       continue;
     }

@@ -22,6 +22,7 @@ namespace finray {
 //   const BasicElementMap<V>& map() const;
 //   BasicAngleReadout<V> AngleAt(V offset) const;   // inside the element
 //   BasicBeamPoint<V> PointAt(V offset) const;
+//   void DenseOutput(V (*coefficients)[4]) const;   // kDegree + 1 of them
 //   V Truncation() const;                      // of the angle at the end, rad
 
 /// What an element starts from; position does not matter.

@@ -96,6 +96,20 @@ class RigidLinkElement {
             joint_moment_};
   }
 
+  /// Coefficients of (x, y, theta, M) as polynomials of the offset.
+  static constexpr int kDegree = 1;
+  void DenseOutput(V (*coefficients)[4]) const {
+    const V safe = length_ > V{} ? length_ : V{} + Scalar(1);
+    const V ends[4] = {map_.end[0], map_.end[1], map_.end[2] - start_.theta_rad,
+                       V{}};
+    for (int i = 0; i < 4; ++i) {
+      coefficients[0][i] = V{};
+      coefficients[1][i] = ends[i] / safe;
+    }
+    coefficients[0][2] = start_.theta_rad;
+    coefficients[0][3] = joint_moment_;
+  }
+
   /// Order 2 is what it is; nothing is estimated.
   V Truncation() const { return V{}; }
 

@@ -7,30 +7,50 @@
 namespace finray {
 
 Shape::Shape(const EquilibriumSolver& solver,
-             const std::vector<PointContact>& contacts)
-    : scheme_(solver.scheme()), spans_(solver.Spans(contacts)) {}
+             const std::vector<PointContact>& contacts) {
+  const auto spans = solver.Spans(contacts);
+  for (int side = 0; side < 2; ++side) {
+    for (const BeamSpan& span : spans[side]) {
+      VisitElement(solver.scheme(), [&](auto element) {
+        using Element = decltype(element);
+        element.Solve(span.start, span.stiffness_N_mm2,
+                      span.axial_flexibility_per_N, span.length_mm);
+        double coefficients[Element::kDegree + 1][4];
+        element.DenseOutput(coefficients);
+        coefficients[0][0] = span.x_mm;
+        coefficients[0][1] = span.y_mm;
+        degree_ = Element::kDegree;
+        pieces_[side].push_back({span.arc_mm, span.length_mm,
+                                 span.start.force_x_N, span.start.force_y_N,
+                                 coefficients_.size()});
+        coefficients_.insert(coefficients_.end(), std::begin(coefficients[0]),
+                             std::end(coefficients[Element::kDegree]));
+      });
+    }
+  }
+}
 
 Section Shape::At(Side side, double arc_mm) const {
-  const auto& spans = spans_[LadderModel::Index(side)];
+  const auto& pieces = pieces_[LadderModel::Index(side)];
   auto after = std::upper_bound(
-      spans.begin(), spans.end(), arc_mm,
-      [](double arc, const BeamSpan& span) { return arc < span.arc_mm; });
-  if (after != spans.begin()) --after;
-  const BeamSpan& span = *after;
-  const BeamPoint point = VisitElement(scheme_, [&](auto element) {
-    element.Solve(span.start, span.stiffness_N_mm2,
-                  span.axial_flexibility_per_N, span.length_mm);
-    return element.PointAt(arc_mm - span.arc_mm);
-  });
-  return {span.x_mm + point.x_mm, span.y_mm + point.y_mm, point.theta_rad,
-          point.moment_N_mm,      span.start.force_x_N,   span.start.force_y_N};
+      pieces.begin(), pieces.end(), arc_mm,
+      [](double arc, const Piece& piece) { return arc < piece.arc_mm; });
+  if (after != pieces.begin()) --after;
+  const double offset = arc_mm - after->arc_mm;
+  const double* first = coefficients_.data() + after->first_coefficient;
+  double value[4] = {0, 0, 0, 0};
+  for (int i = degree_; i >= 0; --i) {
+    for (int k = 0; k < 4; ++k) value[k] = value[k] * offset + first[4 * i + k];
+  }
+  return {value[0], value[1],         value[2],
+          value[3], after->force_x_N, after->force_y_N};
 }
 
 std::vector<double> Shape::Stations(Side side) const {
-  const auto& spans = spans_[LadderModel::Index(side)];
+  const auto& pieces = pieces_[LadderModel::Index(side)];
   std::vector<double> stations;
-  for (const BeamSpan& span : spans) stations.push_back(span.arc_mm);
-  stations.push_back(spans.back().arc_mm + spans.back().length_mm);
+  for (const Piece& piece : pieces) stations.push_back(piece.arc_mm);
+  stations.push_back(pieces.back().arc_mm + pieces.back().length_mm);
   return stations;
 }
 

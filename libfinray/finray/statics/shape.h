@@ -35,8 +35,17 @@ class Shape {
   std::vector<double> Stations(Side side) const;
 
  private:
-  Scheme scheme_;
-  std::array<std::vector<BeamSpan>, 2> spans_;
+  // A piece of a beam, its (x, y, theta, M) polynomials of the arc length from
+  // its start.
+  struct Piece {
+    double arc_mm, length_mm;
+    double force_x_N, force_y_N;
+    std::size_t first_coefficient;
+  };
+
+  int degree_ = 0;
+  std::array<std::vector<Piece>, 2> pieces_;
+  std::vector<double> coefficients_;  // four a power, rising powers
 };
 
 }  // namespace finray

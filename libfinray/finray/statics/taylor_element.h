@@ -101,6 +101,17 @@ class TaylorElement {
             Evaluate(theta_, offset), stiffness_ * Evaluate(m_, offset)};
   }
 
+  /// Coefficients of (x, y, theta, M) as polynomials of the offset.
+  static constexpr int kDegree = K;
+  void DenseOutput(V (*coefficients)[4]) const {
+    for (int i = 0; i <= K; ++i) {
+      coefficients[i][0] = x_[i];
+      coefficients[i][1] = y_[i];
+      coefficients[i][2] = theta_[i];
+      coefficients[i][3] = stiffness_ * m_[i];
+    }
+  }
+
   /// The last two terms of the angle's series.
   V Truncation() const {
     V power = length_;
