@@ -8,6 +8,7 @@
 #include <string>
 
 #include "finray/statics/equilibrium.h"
+#include "finray/statics/load_path.h"
 #include "statics/equilibrium_check.h"
 #include "statics/random_finger.h"
 
@@ -51,6 +52,32 @@ TEST(RandomFingersTest, EverySolveIsAnEquilibriumOrSaysWhyNot) {
       most_iterations, worst, where.c_str());
   EXPECT_GE(solved, 0.995 * kFingers);
   EXPECT_EQ(lost, 0);
+}
+
+// What a solve finds, by whatever means, lies on the path of growing loads.
+TEST(RandomFingersTest, SolvesStayOnThePathOfGrowingLoads) {
+  int compared = 0;
+  double worst = 0;
+  for (unsigned seed = 0; seed < kFingers; ++seed) {
+    SCOPED_TRACE(seed);
+    const RandomFinger random(seed);
+    EquilibriumSolver solver(random.finger(), {});
+    if (!solver.Solve(random.contacts())) continue;
+    LadderNewton newton(random.finger(), {});
+    double fraction = 0;
+    ASSERT_EQ(WalkLoadPath(random.contacts(), &newton, &fraction),
+              LoadPathEnd::kReached);
+    ASSERT_TRUE(newton.Converge(random.contacts(), 1, SweepColumns::kNone));
+    LadderState state;
+    newton.Save(&state);
+    const Eigen::VectorXd q = solver.state().q;
+    const double difference = (q - state.q).cwiseAbs().maxCoeff() /
+                              std::max(1e-3, q.cwiseAbs().maxCoeff());
+    EXPECT_LT(difference, 1e-7);
+    worst = std::max(worst, difference);
+    ++compared;
+  }
+  std::printf("%d walks, worst difference %.1e\n", compared, worst);
 }
 
 // From a neighbouring load the solver arrives where it does from the

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "finray/finger/geometry.h"
@@ -123,8 +124,13 @@ bool EquilibriumSolver::IsHeavy(
     force += std::abs(contact.normal_N) * std::hypot(1, contact.friction);
   }
   const double length = model().finger().front_length_mm;
-  const double softest =
-      std::min(model().stiffness(Side::kFront), model().stiffness(Side::kBack));
+  double softest = std::numeric_limits<double>::infinity();
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    const auto& ratios = model().mesh(side).stiffness_ratio;
+    softest =
+        std::min(softest, model().stiffness(side) *
+                              *std::min_element(ratios.begin(), ratios.end()));
+  }
   return force * length * length > kHeavyLoad * softest;
 }
 

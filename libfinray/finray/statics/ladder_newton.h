@@ -64,7 +64,8 @@ class LadderNewton {
   bool SetLoad(const std::vector<PointContact>& contacts, double fraction,
                SweepColumns columns, bool open);
   double LoadChange() const;
-  bool IsConverged(int iteration, double change, double last_change) const;
+  bool IsConverged(int iteration, double size, double change,
+                   double last_change) const;
   bool ConvergeOnMesh(const std::vector<PointContact>& contacts,
                       double fraction, SweepColumns columns);
 
