@@ -57,6 +57,7 @@ class LadderNewton {
   bool Shoot(const Eigen::VectorXd& q,
              const std::vector<PointContact>& contacts);
 
+  int iterations() const { return iterations_; }
   /// Iterations since the last call.
   int TakeIterations();
 
