@@ -33,6 +33,7 @@ TEST(LoadPathTest, FindsTheLimitLoadsOfThePapersFinger) {
     SCOPED_TRACE(arc);
     // At whatever load is asked for.
     for (const double force : {1.02 * limit, 200.0}) {
+      solver.Reset();
       EXPECT_FALSE(solver.Solve({{arc, force, 0}}));
       EXPECT_EQ(solver.status(), SolveStatus::kLimitPoint);
       const double tolerance = arc == 45 || arc == 130 ? 1e-3 : 2e-3;
@@ -113,7 +114,10 @@ void FollowThroughTheFold(double softer, double arc, double limit_N) {
     if (folds == 1) {
       ++beyond;
       lowest = std::min(lowest, path.fraction());
-      if (beyond <= 5) EXPECT_LT(path.fraction(), last + 1e-3);
+      // At first the load falls.
+      if (beyond > 1 && beyond <= 5) {
+        EXPECT_LT(path.fraction(), last);
+      }
     }
     last = path.fraction();
 
@@ -134,7 +138,9 @@ void FollowThroughTheFold(double softer, double arc, double limit_N) {
 
     const int sign = Sign(&solver, part);
     if (folds == 0) {
-      if (points > 1) EXPECT_EQ(sign, sign_before) << points;
+      if (points > 1) {
+        EXPECT_EQ(sign, sign_before) << points;
+      }
       sign_before = sign;
     }
     if (folds == 1 && path.passed_limit_point()) {

@@ -14,6 +14,10 @@ constexpr double kTolerance = 1e-9;
 constexpr int kMostSteps = 2000;
 // Between the tangents of neighbouring points.
 constexpr double kLeastCosine = 0.5;
+// Between a step and what the tangents at its ends promise, over the step; and
+// what Newton's method leaves of it.
+constexpr double kLargestGap = 0.1;
+constexpr double kNoGap = 1e-5;
 // A step to the goal aims so far past it, as lambda' mostly falls.
 constexpr double kBeyond = 1.2;
 // lambda' at a limit point, over its change within the step.
@@ -126,6 +130,22 @@ double LoadPath::LimitFraction(double arc, double end_slope) {
   return limit;
 }
 
+// Whether one smooth path leads here: the step is what the tangents at its ends
+// promise on average. Beside a bifurcation another path runs on with much the
+// same tangent where the finger's own bends off sharply, and only this gap
+// between the two tells. The load is left out of it as it hides the shape.
+bool LoadPath::Joins(const Eigen::VectorXd& reached,
+                     const Eigen::VectorXd& tangent, double slope) const {
+  if (Dot(tangent.data(), tangent_.data()) + slope * tangent_fraction_ <
+      kLeastCosine) {
+    return false;
+  }
+  const Eigen::VectorXd chord = reached - start_;
+  const Eigen::VectorXd gap = chord - 0.5 * step_ * (tangent_ + tangent);
+  return std::sqrt(Dot(gap.data(), gap.data())) <
+         kLargestGap * std::sqrt(Dot(chord.data(), chord.data())) + kNoGap;
+}
+
 bool LoadPath::Advance(double goal) {
   limit_fraction_ = 0;
   if (!has_tangent_ && !Tangent()) return false;
@@ -141,9 +161,7 @@ bool LoadPath::Advance(double goal) {
     double slope = 0;
     Keep(&reached);
     if (!FindTangent(fraction, &tangent, &slope) ||
-        // A sharp turn is a step onto something else.
-        Dot(tangent.data(), tangent_.data()) + slope * tangent_fraction_ <
-            kLeastCosine) {
+        !Joins(reached, tangent, slope)) {
       continue;
     }
     const bool turns = (slope < 0) != (tangent_fraction_ < 0);

@@ -39,6 +39,8 @@ class LoadPath {
   bool FindTangent(double fraction, Eigen::VectorXd* tangent, double* slope);
   bool Tangent();
   bool GoTo(double arc);
+  bool Joins(const Eigen::VectorXd& reached, const Eigen::VectorXd& tangent,
+             double slope) const;
   double LimitFraction(double arc, double end_slope);
   bool Correct(double arc);
   double Dot(const double* a, const double* b) const;
