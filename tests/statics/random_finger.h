@@ -115,9 +115,14 @@ class RandomFinger {
       PointContact contact;
       contact.side = Chance(0.85) ? Side::kFront : Side::kBack;
       contact.arc_mm = Uniform(0, 1) * BeamLength(finger_, contact.side);
-      contact.normal_N = std::min(LogUniform(1e-3, 30), most);
+      contact.normal_N = LogUniform(1e-3, 30);
       contact.friction = Chance(0.5) ? Uniform(-0.5, 0.8) : 0;
       contacts_.push_back(contact);
+    }
+    double sum = 0;
+    for (const PointContact& contact : contacts_) sum += contact.normal_N;
+    for (PointContact& contact : contacts_) {
+      contact.normal_N *= std::min(1.0, most / sum);
     }
   }
 

