@@ -80,22 +80,24 @@ TEST(ExtremesTest, StiffnessAndForceOverManyDecades) {
 TEST(ExtremesTest, TinyForcesActLinearly) {
   EquilibriumSolver solver(PaperFinger(), {});
   const int gauges = solver.model().gauges();
-  double worst = 0;
+  double worst_rad = 0, worst_N = 0;
   for (const double arc : {0.5, 20.0, 61.0, 95.0, 136.0}) {
     SCOPED_TRACE(arc);
     ASSERT_TRUE(solver.SolveWithSensitivities({{arc, 0, 0}}));
     const Eigen::VectorXd gauge_slope = solver.d_outputs().col(1).head(gauges);
     const Eigen::VectorXd rib_slope = solver.d_q().col(1).tail(5);
-    // The response is odd to first order: an error of second order remains.
-    for (const double force : {1e-9, 1e-8, 1e-6}) {
+    // Beside what is not linear there is rounding: of angles, which are kept as
+    // such and not as changes, and of rib lengths in stiff bays.
+    for (const double force : {1e-9, 1e-8, 1e-6, 1e-5}) {
+      SCOPED_TRACE(force);
       ASSERT_TRUE(solver.Solve({{arc, force, 0}}));
-      const Eigen::VectorXd gauge = solver.outputs().head(gauges) / force;
-      const Eigen::VectorXd rib = solver.state().q.tail(5) / force;
-      const double error =
-          std::max((gauge - gauge_slope).norm() / gauge_slope.norm(),
-                   (rib - rib_slope).norm() / rib_slope.norm());
-      EXPECT_LT(error, 1e-7 + force) << force;
-      if (force == 1e-9) worst = std::max(worst, error);
+      const double gauge =
+          (solver.outputs().head(gauges) - force * gauge_slope).norm();
+      const double rib = (solver.state().q.tail(5) - force * rib_slope).norm();
+      EXPECT_LT(gauge, 4e-15 + force * force * gauge_slope.norm());
+      EXPECT_LT(rib, 4e-12 + force * force * rib_slope.norm());
+      worst_rad = std::max(worst_rad, force < 1e-7 ? gauge : 0);
+      worst_N = std::max(worst_N, force < 1e-7 ? rib : 0);
     }
     // The same from the other end of the linear range, by differences.
     Eigen::VectorXd sides[2];
@@ -106,7 +108,8 @@ TEST(ExtremesTest, TinyForcesActLinearly) {
     EXPECT_LT(((sides[1] - sides[0]) / 2e-3 - gauge_slope).norm(),
               1e-6 * gauge_slope.norm());
   }
-  std::printf("1e-9 N: worst relative error %.1e\n", worst);
+  std::printf("up to 1e-8 N: gauges within %.1e rad, ribs within %.1e N\n",
+              worst_rad, worst_N);
 }
 
 TEST(ExtremesTest, ChainsOfFourToTwentyThousandLinks) {
@@ -173,7 +176,7 @@ TEST(ExtremesTest, SoftFingersKeepQuadraticConvergence) {
       const Eigen::VectorXd slope = solver.d_outputs().col(1);
       ASSERT_TRUE(solver.Solve({{arc, 1.01 * force, 0}}));
       most = std::max(most, solver.iterations());
-      EXPECT_LE(solver.iterations(), 7);
+      EXPECT_LE(solver.iterations(), 8);
       const double step = 1e-4 * force;
       Eigen::VectorXd sides[2];
       for (int k = 0; k < 2; ++k) {
