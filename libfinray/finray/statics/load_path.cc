@@ -16,7 +16,7 @@ constexpr int kMostSteps = 2000;
 constexpr double kLeastCosine = 0.5;
 // Between a step and what the tangents at its ends promise, over the step; and
 // what Newton's method leaves of it.
-constexpr double kLargestGap = 0.1;
+constexpr double kLargestGap = 0.05;
 constexpr double kNoGap = 1e-5;
 // A step to the goal aims so far past it, as lambda' mostly falls.
 constexpr double kBeyond = 1.2;
