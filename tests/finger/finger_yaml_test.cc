@@ -252,5 +252,31 @@ TEST(FingerYamlTest, RefusesWhatCannotBeBuilt) {
       "back_angle_deg: expected an angle between 90 and 180");
 }
 
+TEST(FingerYamlTest, RefusesRibsThatTheLadderCannotClimb) {
+  // At the tip, where both beams are.
+  ExpectError(Text(kBeams, "  - {front_mm: 140, angle_deg: 10}\n", kGauge),
+              "f.yaml:8:16: front_mm: the rib leaves the front beam, which is "
+              "140 mm long");
+  ExpectError(Text(kBeams, "  - {front_mm: 130, back_mm: 151}\n", kGauge),
+              "f.yaml:8:30: the rib misses the back beam: it would meet it at "
+              "151 mm, expected between 0 and 150.995 mm");
+  ExpectError(Text(kBeams, "  - {front_mm: 0, back_mm: 10}\n", kGauge),
+              "f.yaml:8:16: front_mm: expected a number above 0, found '0'");
+  ExpectError(
+      Text(kBeams, "  - {front_mm: 17, back_mm: 20, length_mm: 0}\n", kGauge),
+      "f.yaml:8:44: length_mm: expected a number above 0, found '0'");
+  ExpectError(Text(kBeams,
+                   "  - {front_mm: 17, back_mm: 60}\n"
+                   "  - {front_mm: 39, back_mm: 50}\n",
+                   kGauge),
+              "f.yaml:9:16: ribs 1 and 2 cross: they meet the back beam at 60 "
+              "and 50 mm");
+  ExpectError(Text(kBeams,
+                   "  - {front_mm: 17, back_mm: 60}\n"
+                   "  - {front_mm: 17, back_mm: 70}\n",
+                   kGauge),
+              "f.yaml:9:16: front_mm: ribs must be listed from base to tip");
+}
+
 }  // namespace
 }  // namespace finray

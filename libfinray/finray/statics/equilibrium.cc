@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "finray/finger/geometry.h"
@@ -10,10 +11,15 @@
 namespace finray {
 namespace {
 
-// sum of |f_c| l_0^2 / EI beyond which Newton's method may arrive at another
-// equilibrium than the one that grows out of the unloaded finger
-// (docs/statics.md): only the path, or a start this near, is trusted then.
-constexpr double kHeavyLoad = 40;
+// sum of |f_c| l_0^2 / EI, times the root of what the wedge of the beams makes
+// of it, beyond which Newton's method may arrive at another equilibrium than
+// the one that grows out of the unloaded finger (docs/statics.md): only the
+// path, or a start this near, is trusted then. Fingers of less than three ribs
+// sway.
+constexpr double kHeavyLoad = 60, kHeavyLoadOfFewRibs = 15;
+constexpr int kFewRibs = 2;
+// Newton's method that takes longer has wandered, so that the same holds.
+constexpr int kStraightIterations = 7;
 constexpr double kNear_rad = 0.3;
 
 }  // namespace
@@ -71,12 +77,18 @@ bool EquilibriumSolver::Attempt(const std::vector<PointContact>& contacts,
                                 SweepColumns columns) {
   const LadderFrame<double>& f = newton_.frame();
   const bool heavy = IsHeavy(contacts);
+  // Whether Newton's method converged, and straight.
+  const auto converges = [&] {
+    const int before = newton_.iterations();
+    return newton_.Converge(contacts, 1, columns) &&
+           (heavy || newton_.iterations() - before <= kStraightIterations);
+  };
   if (!undeformed_) {
     const int mesh_before = f.elements;
     if (heavy) {
       angles_before_.assign(f.state.theta, f.state.theta + f.elements);
     }
-    if (newton_.Converge(contacts, 1, columns)) {
+    if (converges()) {
       if (!heavy) return true;
       double turn = 0;
       if (f.elements == mesh_before) {
@@ -89,7 +101,7 @@ bool EquilibriumSolver::Attempt(const std::vector<PointContact>& contacts,
   }
   if (!heavy) {
     newton_.Reset();
-    if (newton_.Converge(contacts, 1, columns)) return true;
+    if (converges()) return true;
   }
   switch (WalkLoadPath(contacts, &newton_, &path_fraction_)) {
     case LoadPathEnd::kReached:
@@ -123,9 +135,18 @@ bool EquilibriumSolver::IsHeavy(
     force += std::abs(contact.normal_N) * std::hypot(1, contact.friction);
   }
   const double length = model().finger().front_length_mm;
-  const double softest =
-      std::min(model().stiffness(Side::kFront), model().stiffness(Side::kBack));
-  return force * length * length > kHeavyLoad * softest;
+  double softest = std::numeric_limits<double>::infinity();
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    const auto& ratios = model().mesh(side).stiffness_ratio;
+    softest =
+        std::min(softest, model().stiffness(side) *
+                              *std::min_element(ratios.begin(), ratios.end()));
+  }
+  const double wedge =
+      std::max(1.0, -std::tan(model().finger().back_angle_rad));
+  return force * length * length * std::sqrt(wedge) >
+         (model().ribs() > kFewRibs ? kHeavyLoad : kHeavyLoadOfFewRibs) *
+             softest;
 }
 
 std::string EquilibriumSolver::Why() const {

@@ -44,7 +44,8 @@ class EquilibriumSolver {
  public:
   using Matrix = LadderShot::Matrix;
 
-  /// Throws InputError if the scheme cannot model the finger.
+  /// Throws InputError if the scheme cannot model the finger or its ribs cross,
+  /// have no length or are at a base or the tip.
   EquilibriumSolver(const Finger& finger, const Discretization& discretization);
 
   LadderModel& model() { return newton_.model(); }

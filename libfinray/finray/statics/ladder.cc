@@ -1,11 +1,46 @@
 #include "finray/statics/ladder.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
 
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 
 namespace finray {
+namespace {
+
+// The march meets ribs in one order on both beams, inside of them.
+void CheckRibs(const Finger& finger) {
+  const double front_length = BeamLength(finger, Side::kFront);
+  const double back_length = BeamLength(finger, Side::kBack);
+  double front = 0, back = 0;
+  for (std::size_t i = 0; i < finger.ribs.size(); ++i) {
+    const Rib& rib = finger.ribs[i];
+    const std::string name = "rib " + std::to_string(i + 1);
+    // Written so that a NaN fails.
+    if (!(rib.front_mm > 0 && rib.front_mm < front_length && rib.back_mm > 0 &&
+          rib.back_mm < back_length)) {
+      throw InputError(name + " does not join the beams between base and tip");
+    }
+    if (!(rib.front_mm > front && rib.back_mm > back)) {
+      throw InputError("ribs " + std::to_string(i) + " and " +
+                       std::to_string(i + 1) +
+                       " cross or are not listed from base to tip");
+    }
+    if (!(rib.length_mm > 0 && std::isfinite(rib.length_mm))) {
+      throw InputError(name + " has no length");
+    }
+    if (!(rib.axial_stiffness_N > 0)) {
+      throw InputError(name + " has no axial stiffness");
+    }
+    front = rib.front_mm;
+    back = rib.back_mm;
+  }
+}
+
+}  // namespace
 
 LadderModel::LadderModel(const Finger& finger,
                          const Discretization& discretization)
@@ -19,6 +54,7 @@ LadderModel::LadderModel(const Finger& finger,
         "--scheme rigid_chain: rigid links do not stretch, but the finger has "
         "an axial_stiffness_N of its beams; use a taylor scheme");
   }
+  CheckRibs(finger);
   const int resolution = EffectiveResolution(discretization);
   set_mesh({MakeBeamMesh(finger, Side::kFront, resolution),
             MakeBeamMesh(finger, Side::kBack, resolution)});

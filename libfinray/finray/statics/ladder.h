@@ -46,7 +46,8 @@ struct PointContact {
 /// solves (calibration does).
 class LadderModel {
  public:
-  /// Throws InputError if the scheme cannot model the finger.
+  /// Throws InputError if the scheme cannot model the finger or its ribs cross,
+  /// have no length or are at a base or the tip.
   LadderModel(const Finger& finger, const Discretization& discretization);
 
   const Finger& finger() const { return finger_; }

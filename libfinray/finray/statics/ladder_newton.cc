@@ -20,6 +20,9 @@ constexpr double kNearlyThere = 1e-7;
 constexpr double kSmallChange = 3e-2;
 // Rounding may keep changes below this from shrinking further.
 constexpr double kFloor = 1e-6;
+// The same of the shape. Stiff ladders without load turn rounding of the shape
+// into loads that are nothing but noise.
+constexpr double kShapeFloor = 1e-12;
 // A start from another load, whose change says nothing of Newton's constant.
 constexpr double kFarChange = 0.1;
 
@@ -128,7 +131,7 @@ bool LadderNewton::ConvergeOnMesh(const std::vector<PointContact>& contacts,
     if (i > 8 && residual > 1e3 * best && size > kFloor) return false;
     Move(std::min(1.0, kMaxTurn_rad / size), 0);
     const double change = std::max(size, LoadChange());
-    if (maybe_last && IsConverged(i, change, last_change)) return true;
+    if (maybe_last && IsConverged(i, size, change, last_change)) return true;
     last_change = change;
   }
   return false;
@@ -136,13 +139,14 @@ bool LadderNewton::ConvergeOnMesh(const std::vector<PointContact>& contacts,
 
 // Newton squares errors: what the change promises for the next one, or what the
 // last two do, is to be below the tolerance.
-bool LadderNewton::IsConverged(int iteration, double change,
+bool LadderNewton::IsConverged(int iteration, double size, double change,
                                double last_change) const {
   if (1e4 * change * change < tolerance_) return true;
   if (iteration == 0) return false;
   const double ratio = change / last_change;
   const double next = change * ratio * (last_change > kFarChange ? 1 : ratio);
-  return next < tolerance_ || (change < kFloor && ratio > 0.5);
+  const bool rounding = change < kFloor || size < kShapeFloor;
+  return next < tolerance_ || (rounding && ratio > 0.5);
 }
 
 // The step in base loads and tensions over the largest of them. The finger

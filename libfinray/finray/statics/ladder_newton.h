@@ -57,6 +57,7 @@ class LadderNewton {
   bool Shoot(const Eigen::VectorXd& q,
              const std::vector<PointContact>& contacts);
 
+  int iterations() const { return iterations_; }
   /// Iterations since the last call.
   int TakeIterations();
 
@@ -64,7 +65,8 @@ class LadderNewton {
   bool SetLoad(const std::vector<PointContact>& contacts, double fraction,
                SweepColumns columns, bool open);
   double LoadChange() const;
-  bool IsConverged(int iteration, double change, double last_change) const;
+  bool IsConverged(int iteration, double size, double change,
+                   double last_change) const;
   bool ConvergeOnMesh(const std::vector<PointContact>& contacts,
                       double fraction, SweepColumns columns);
 

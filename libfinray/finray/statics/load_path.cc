@@ -12,6 +12,16 @@ constexpr double kSmallestStep = 1e-7;
 constexpr int kMaxCorrections = 8;
 constexpr double kTolerance = 1e-9;
 constexpr int kMostSteps = 2000;
+// Between the tangents of neighbouring points.
+constexpr double kLeastCosine = 0.5;
+// Between a step and what the tangents at its ends promise, over the step; and
+// what Newton's method leaves of it.
+constexpr double kLargestGap = 0.05;
+constexpr double kNoGap = 1e-5;
+// A step to the goal aims so far past it, as lambda' mostly falls.
+constexpr double kBeyond = 1.2;
+// lambda' at a limit point, over its change within the step.
+constexpr double kTurned = 1e-3;
 
 }  // namespace
 
@@ -43,9 +53,11 @@ double LoadPath::Dot(const double* a, const double* b) const {
   return sum / f.elements;
 }
 
-// The unit tangent at the present point, pointing onwards.
-bool LoadPath::Tangent() {
-  if (!newton_->Linearize(contacts_, fraction_)) return false;
+// The unit tangent at the present point, at `fraction` of the load, pointing
+// onwards; `slope` is its component along the load.
+bool LoadPath::FindTangent(double fraction, Eigen::VectorXd* tangent,
+                           double* slope) {
+  if (!newton_->Linearize(contacts_, fraction)) return false;
   const double* by_load = newton_->frame().by_load.q;
   const double norm = std::sqrt(Dot(by_load, by_load) + 1);
   if (!std::isfinite(norm)) return false;
@@ -53,12 +65,19 @@ bool LoadPath::Tangent() {
   if (has_tangent_ && tangent_.size() == Size()) {
     sign = Dot(tangent_.data(), by_load) + tangent_fraction_ < 0 ? -1 : 1;
   } else if (has_tangent_) {
-    // On another mesh; between two steps lambda' keeps its sign but at a limit
-    // point, and the mesh is not changed there.
+    // On another mesh; between two steps lambda' keeps its sign but where the
+    // path turns, and the mesh is not changed there.
     sign = tangent_fraction_ < 0 ? -1 : 1;
   }
-  tangent_ = sign / norm * Eigen::Map<const Eigen::VectorXd>(by_load, Size());
-  tangent_fraction_ = sign / norm;
+  *tangent = sign / norm * Eigen::Map<const Eigen::VectorXd>(by_load, Size());
+  *slope = sign / norm;
+  return true;
+}
+
+bool LoadPath::Tangent() {
+  Eigen::VectorXd tangent;
+  if (!FindTangent(fraction_, &tangent, &tangent_fraction_)) return false;
+  tangent_.swap(tangent);
   has_tangent_ = true;
   return true;
 }
@@ -84,41 +103,85 @@ bool LoadPath::Correct(double arc) {
   return false;
 }
 
-bool LoadPath::Advance() {
+bool LoadPath::GoTo(double arc) {
+  Restore(start_ + arc * tangent_);
+  trial_fraction_ = fraction_ + arc * tangent_fraction_;
+  return Correct(arc);
+}
+
+// The largest share of the load within a step of length `arc` at whose end
+// lambda' is `end_slope`: regula falsi on lambda', which falls about linearly
+// through zero.
+double LoadPath::LimitFraction(double arc, double end_slope) {
+  double limit = std::max(fraction_, trial_fraction_);
+  double from = 0, from_slope = tangent_fraction_;
+  double to = arc, to_slope = end_slope;
+  const double turned = kTurned * (from_slope - to_slope);
+  Eigen::VectorXd tangent;
+  for (int i = 0; i < kMaxCorrections; ++i) {
+    const double at = from + (to - from) * from_slope / (from_slope - to_slope);
+    double slope = 0;
+    if (!GoTo(at) || !FindTangent(trial_fraction_, &tangent, &slope)) break;
+    limit = std::max(limit, trial_fraction_);
+    if (std::abs(slope) < turned) break;
+    (slope > 0 ? from : to) = at;
+    (slope > 0 ? from_slope : to_slope) = slope;
+  }
+  return limit;
+}
+
+// Whether one smooth path leads here: the step is what the tangents at its ends
+// promise on average. Beside a bifurcation another path runs on with much the
+// same tangent where the finger's own bends off sharply, and only this gap
+// between the two tells. The load is left out of it as it hides the shape.
+bool LoadPath::Joins(const Eigen::VectorXd& reached,
+                     const Eigen::VectorXd& tangent, double slope) const {
+  if (Dot(tangent.data(), tangent_.data()) + slope * tangent_fraction_ <
+      kLeastCosine) {
+    return false;
+  }
+  const Eigen::VectorXd chord = reached - start_;
+  const Eigen::VectorXd gap = chord - 0.5 * step_ * (tangent_ + tangent);
+  return std::sqrt(Dot(gap.data(), gap.data())) <
+         kLargestGap * std::sqrt(Dot(chord.data(), chord.data())) + kNoGap;
+}
+
+bool LoadPath::Advance(double goal) {
   limit_fraction_ = 0;
   if (!has_tangent_ && !Tangent()) return false;
+  if (tangent_fraction_ > 0) {
+    step_ = std::min(step_, kBeyond * (goal - fraction_) / tangent_fraction_ +
+                                10 * kSmallestStep);
+  }
+  Eigen::VectorXd reached, tangent;
   for (; step_ > kSmallestStep; step_ *= 0.4) {
-    Restore(start_ + step_ * tangent_);
-    trial_fraction_ = fraction_ + step_ * tangent_fraction_;
-    if (!Correct(step_)) continue;
-    const double before = tangent_fraction_, from = fraction_;
-    const Eigen::VectorXd tangent_before = tangent_;
-    fraction_ = trial_fraction_;
-    Eigen::VectorXd reached;
+    if (!GoTo(step_)) continue;
+    const double fraction = trial_fraction_;
+    const bool quick = corrections_ <= 3;
+    double slope = 0;
     Keep(&reached);
-    if (!Tangent() ||
-        // A sharp turn is a step onto something else.
-        Dot(tangent_.data(), tangent_before.data()) +
-                tangent_fraction_ * before <
-            0.5) {
-      fraction_ = from;
-      tangent_ = tangent_before;
-      tangent_fraction_ = before;
-      Restore(start_);
+    if (!FindTangent(fraction, &tangent, &slope) ||
+        !Joins(reached, tangent, slope)) {
       continue;
     }
-    if (before > 0 && tangent_fraction_ < 0) {
-      // lambda' falls linearly to zero at the limit point.
-      limit_fraction_ =
-          from + 0.5 * step_ * before * before / (before - tangent_fraction_);
-      limit_fraction_ = std::max({limit_fraction_, from, fraction_});
-    } else if (newton_->RefineMesh() &&
-               !(newton_->Converge(contacts_, fraction_, SweepColumns::kLoad) &&
-                 Tangent())) {
+    const bool turns = (slope < 0) != (tangent_fraction_ < 0);
+    if (turns && slope < 0) {
+      const double limit = LimitFraction(step_, slope);
+      // The goal lies before the limit point: a shorter step ends there.
+      if (limit > goal) continue;
+      limit_fraction_ = limit;
+      Restore(reached);
+    }
+    fraction_ = fraction;
+    tangent_.swap(tangent);
+    tangent_fraction_ = slope;
+    if (!turns && newton_->RefineMesh() &&
+        !(newton_->Converge(contacts_, fraction_, SweepColumns::kLoad) &&
+          Tangent())) {
       return false;
     }
     Keep(&start_);
-    if (corrections_ <= 3) step_ = std::min(kLargestStep, 1.5 * step_);
+    if (quick) step_ = std::min(kLargestStep, 1.5 * step_);
     return true;
   }
   Restore(start_);
@@ -134,10 +197,10 @@ LoadPathEnd WalkLoadPath(const std::vector<PointContact>& contacts,
   }
   LoadPath path(newton, contacts, 0);
   for (int i = 0; i < kMostSteps; ++i) {
-    const bool advanced = path.Advance();
+    const bool advanced = path.Advance(1);
     *fraction = path.fraction();
     if (!advanced) return LoadPathEnd::kStuck;
-    if (path.passed_limit_point() && path.limit_fraction() < 1) {
+    if (path.passed_limit_point()) {
       *fraction = path.limit_fraction();
       return LoadPathEnd::kLimitPoint;
     }

@@ -2,6 +2,7 @@
 #define FINRAY_STATICS_LOAD_PATH_H_
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "finray/statics/ladder_newton.h"
@@ -23,17 +24,24 @@ class LoadPath {
            double fraction);
 
   /// Goes one step on. False if no point was found however small the step; the
-  /// path stays where it was.
-  bool Advance();
+  /// path stays where it was. A step that reaches `goal`, a share of the load,
+  /// ends before any limit point above it, so that the point reached lies on
+  /// this side of that.
+  bool Advance(double goal = std::numeric_limits<double>::infinity());
 
   double fraction() const { return fraction_; }
   /// Whether the last step passed a limit point, and at which share of the load
-  /// (by a parabola through the tangents at its ends).
+  /// (to about 1e-7 of the load).
   bool passed_limit_point() const { return limit_fraction_ > 0; }
   double limit_fraction() const { return limit_fraction_; }
 
  private:
+  bool FindTangent(double fraction, Eigen::VectorXd* tangent, double* slope);
   bool Tangent();
+  bool GoTo(double arc);
+  bool Joins(const Eigen::VectorXd& reached, const Eigen::VectorXd& tangent,
+             double slope) const;
+  double LimitFraction(double arc, double end_slope);
   bool Correct(double arc);
   double Dot(const double* a, const double* b) const;
   void Keep(Eigen::VectorXd* state) const;
