@@ -328,7 +328,8 @@ TEST_F(CommandLineTest, ARowWithoutSolutionIsMarkedAndStrictFails) {
       "--finger " + paper_ + " --frames %in.csv --out %out.csv";
   const Outcome outcome = Run("finray_simulate", arguments);
   EXPECT_EQ(outcome.code, 0);
-  EXPECT_THAT(outcome.output, HasSubstr("in.csv:3: no equilibrium found"));
+  EXPECT_THAT(outcome.output,
+              HasSubstr("in.csv:3: the equilibrium ends at a limit point"));
   FrameTable frames = FrameTable::Read(folder_.Path("out.csv"));
   EXPECT_EQ(frames.MutableText("status")[1], "not_converged");
   EXPECT_TRUE(std::isnan(frames.Numbers("tip_x_mm")[1]));

@@ -82,6 +82,16 @@ TEST_F(SimulationTest, ObjectsTurnAndTouchSeveralTimes) {
   EXPECT_EQ(frames.MutableText("status")[3], "not_converged");
 }
 
+TEST_F(SimulationTest, SaysWhereAPathOfLoadsEnds) {
+  FrameTable frames = Load("contact_1_mm,normal_1_N\n70,2\n130,200\n");
+  const SimulationSummary summary = Simulate(finger_, {}, {}, &frames);
+  EXPECT_EQ(summary.not_converged, 1);
+  EXPECT_THAT(summary.first_failure,
+              HasSubstr("in.csv:3: the equilibrium ends at a limit point at "
+                        "53.3 % of this load"));
+  EXPECT_TRUE(std::isnan(frames.Numbers("gauge_1_V")[1]));
+}
+
 TEST_F(SimulationTest, AnObjectOnASpringGivesWay) {
   const std::string text = "object_x_mm,object_y_mm\n-11,70\n-40,70\n0,141\n";
   FrameTable sprung = Load(text), rigid = Load(text);

@@ -109,7 +109,7 @@ class RandomFinger {
     const double length = finger_.front_length_mm;
     const double softest =
         std::min(finger_.front_stiffness_N_mm2, finger_.back_stiffness_N_mm2);
-    const double most = 80 * softest / (length * length);
+    const double most = 50 * softest / (length * length);
     const int count = Count(3);
     for (int i = 0; i < count; ++i) {
       PointContact contact;

@@ -18,7 +18,7 @@ namespace {
 // sway.
 constexpr double kHeavyLoad = 60, kHeavyLoadOfFewRibs = 15;
 constexpr int kFewRibs = 2;
-// Newton's method that takes longer has wandered, so that the same holds.
+// Newton's method that takes longer on one mesh has wandered: the same holds.
 constexpr int kStraightIterations = 7;
 constexpr double kNear_rad = 0.3;
 
@@ -75,30 +75,13 @@ bool EquilibriumSolver::SolveFor(const std::vector<PointContact>& contacts,
 
 bool EquilibriumSolver::Attempt(const std::vector<PointContact>& contacts,
                                 SweepColumns columns) {
-  const LadderFrame<double>& f = newton_.frame();
   const bool heavy = IsHeavy(contacts);
-  // Whether Newton's method converged, and straight.
   const auto converges = [&] {
-    const int before = newton_.iterations();
     return newton_.Converge(contacts, 1, columns) &&
-           (heavy || newton_.iterations() - before <= kStraightIterations);
+           (heavy ? newton_.turn() < kNear_rad
+                  : newton_.longest_run() <= kStraightIterations);
   };
-  if (!undeformed_) {
-    const int mesh_before = f.elements;
-    if (heavy) {
-      angles_before_.assign(f.state.theta, f.state.theta + f.elements);
-    }
-    if (converges()) {
-      if (!heavy) return true;
-      double turn = 0;
-      if (f.elements == mesh_before) {
-        for (int e = 0; e < f.elements; ++e) {
-          turn = std::max(turn, std::abs(f.state.theta[e] - angles_before_[e]));
-        }
-      }
-      if (turn < kNear_rad) return true;
-    }
-  }
+  if (!undeformed_ && converges()) return true;
   if (!heavy) {
     newton_.Reset();
     if (converges()) return true;
@@ -151,7 +134,8 @@ bool EquilibriumSolver::IsHeavy(
 
 std::string EquilibriumSolver::Why() const {
   std::ostringstream text;
-  const double percent = 0.1 * std::round(1000 * path_fraction_);
+  text.precision(3);
+  const double percent = 100 * path_fraction_;
   switch (status_) {
     case SolveStatus::kSolved:
       break;

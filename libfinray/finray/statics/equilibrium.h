@@ -127,7 +127,6 @@ class EquilibriumSolver {
   SolveStatus status_ = SolveStatus::kSolved;
   double path_fraction_ = 0;
   int iterations_ = 0;
-  std::vector<double> angles_before_;
   Eigen::VectorXd outputs_;
   Eigen::VectorXd output_unit_, parameter_unit_, q_unit_;
   Matrix d_outputs_, d_q_;

@@ -97,8 +97,19 @@ bool LadderNewton::SetLoad(const std::vector<PointContact>& contacts,
 
 bool LadderNewton::Converge(const std::vector<PointContact>& contacts,
                             double fraction, SweepColumns columns) {
+  const LadderFrame<double>& f = frame();
+  turn_ = 0;
+  longest_run_ = 0;
   for (int i = 0; i < kMostRefinements; ++i) {
+    const int before = iterations_;
+    angles_before_.assign(f.state.theta, f.state.theta + f.elements);
     if (!ConvergeOnMesh(contacts, fraction, columns)) return false;
+    double turn = 0;
+    for (int e = 0; e < f.elements; ++e) {
+      turn = std::max(turn, std::abs(f.state.theta[e] - angles_before_[e]));
+    }
+    turn_ += turn;
+    longest_run_ = std::max(longest_run_, iterations_ - before);
     if (!RefineMesh()) return true;
   }
   return false;

@@ -39,6 +39,11 @@ class LadderNewton {
 
   /// Fills the slots of the frame at the present state under the whole load.
   bool Evaluate(const std::vector<PointContact>& contacts);
+  /// Of the last Converge: how far the node that turned most has turned, rad,
+  /// and the most iterations that a mesh took.
+  double turn() const { return turn_; }
+  int longest_run() const { return longest_run_; }
+
   /// One linearisation at the present state, without a step; kLoad. False if
   /// the system is singular or a number is not finite.
   bool Linearize(const std::vector<PointContact>& contacts, double fraction);
@@ -57,7 +62,6 @@ class LadderNewton {
   bool Shoot(const Eigen::VectorXd& q,
              const std::vector<PointContact>& contacts);
 
-  int iterations() const { return iterations_; }
   /// Iterations since the last call.
   int TakeIterations();
 
@@ -77,7 +81,9 @@ class LadderNewton {
   LadderWorkspace<double> workspace_;
   const LadderKernel* kernel_;
   double tolerance_ = 1e-14;
-  int iterations_ = 0;
+  int iterations_ = 0, longest_run_ = 0;
+  double turn_ = 0;
+  std::vector<double> angles_before_;
 };
 
 }  // namespace finray
