@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "finray/calib/calibration_result.h"
-#include "finray/calib/sha256.h"
 #include "finray/io/atomic_file.h"
+#include "finray/io/sha256.h"
 
 namespace finray {
 namespace {

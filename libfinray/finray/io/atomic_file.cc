@@ -12,6 +12,7 @@
 #include <filesystem>
 
 #include "finray/io/error.h"
+#include "finray/io/file_descriptor.h"
 
 namespace finray {
 namespace {
@@ -20,44 +21,38 @@ namespace fs = std::filesystem;
 
 // These return 0 or what went wrong as an errno value.
 
-int WriteAll(int file, const std::string& content) {
-  std::size_t done = 0;
-  while (done < content.size()) {
-    const ssize_t n = write(file, content.data() + done, content.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return errno;
-    done += static_cast<std::size_t>(n);
-  }
-  return 0;
-}
-
 int WriteThrough(const fs::path& path, const std::string& content) {
-  const int file = open(path.c_str(), O_WRONLY | O_CLOEXEC);
-  if (file < 0) return errno;
-  const int error = WriteAll(file, content);
-  return close(file) != 0 && error == 0 ? errno : error;
+  FileDescriptor file;
+  int error = file.Open(path, O_WRONLY);
+  if (error != 0) return error;
+  error = file.Write(content);
+  const int close_error = file.Close();
+  return error != 0 ? error : close_error;
 }
 
 // A new file in the folder. Not mkstemp, whose files only their owner may read.
-int CreateTemporary(const fs::path& folder, fs::path* path, int* file) {
+int CreateTemporary(const fs::path& folder, fs::path* path,
+                    FileDescriptor* file) {
   static std::atomic<unsigned> counter{0};
+  int error = 0;
   do {
     *path = folder / (".finray-" + std::to_string(getpid()) + "-" +
                       std::to_string(counter++) + ".tmp");
-    *file = open(path->c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  } while (*file < 0 && errno == EEXIST);
-  return *file < 0 ? errno : 0;
+    error = file->Open(*path, O_WRONLY | O_CREAT | O_EXCL);
+  } while (error == EEXIST);
+  return error;
 }
 
 int WriteAndRename(const fs::path& path, const std::string& content) {
   fs::path temporary;
-  int file = -1;
+  FileDescriptor file;
   int error = CreateTemporary(path.parent_path(), &temporary, &file);
   if (error != 0) return error;
-  error = WriteAll(file, content);
+  error = file.Write(content);
   // A full disk may show only now.
-  if (error == 0 && fsync(file) != 0) error = errno;
-  if (close(file) != 0 && error == 0) error = errno;
+  if (error == 0) error = file.Sync();
+  const int close_error = file.Close();
+  if (error == 0) error = close_error;
   if (error == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) {
     error = errno;
   }

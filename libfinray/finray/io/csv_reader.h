@@ -22,6 +22,8 @@ class CsvReader {
   bool NextHeader();
   /// The next line, whatever it starts with; false at the end of the file.
   bool NextRow();
+  /// Passes over that line, whatever it holds; false at the end of the file.
+  bool SkipRow() { return NextLine(); }
 
   /// Cells of the current line.
   const std::vector<std::string_view>& cells() const { return cells_.cells(); }

@@ -94,13 +94,17 @@ void FrameTable::Truncate(std::size_t rows) {
   }
 }
 
-std::string FrameTable::ToCsv() const {
+std::string FrameTable::HeaderCsv() const {
   std::string csv;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     if (i > 0) csv += ',';
     csv += CsvText(columns_[i].name);
   }
-  csv += '\n';
+  return csv + '\n';
+}
+
+std::string FrameTable::RowsCsv() const {
+  std::string csv;
   // A blank line would not count as a row.
   const bool alone = columns_.size() == 1;
   for (std::size_t row = 0; row < rows_; ++row) {

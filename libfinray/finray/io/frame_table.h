@@ -57,12 +57,17 @@ class FrameTable {
 
   /// CSV text; doubles read back identical; what is not finite is an empty cell
   /// ("nan" where the line would be blank).
-  std::string ToCsv() const;
+  std::string ToCsv() const { return HeaderCsv() + RowsCsv(); }
+  /// Its first line, and the others, each with its line end.
+  std::string HeaderCsv() const;
+  std::string RowsCsv() const;
   /// Writes ToCsv() (gzipped if the name ends in .gz) under a temporary name,
   /// then renames.
   void Write(const std::string& path) const;
 
  private:
+  friend class FrameReader;
+
   struct Column {
     std::string name;
     std::variant<std::vector<double>, std::vector<std::string>> cells;

@@ -1,30 +1,15 @@
 #ifndef FINRAY_SENSING_BATCH_ESTIMATION_H_
 #define FINRAY_SENSING_BATCH_ESTIMATION_H_
 
-#include <array>
 #include <vector>
 
 #include "finray/io/frame_table.h"
-#include "finray/sensing/frame_estimator.h"
+#include "finray/sensing/estimation_summary.h"
 
 namespace finray {
 
-/// How a log came out.
-struct EstimationSummary {
-  std::size_t frames = 0;
-  std::array<std::size_t, 5> by_status{};  ///< indexed by FrameStatus
-  /// Against the log's own force_N, where it has one and the frame was solved.
-  std::size_t force_compared = 0;
-  double force_rms_N = 0;
-  double force_max_N = 0;
-
-  std::size_t count(FrameStatus status) const {
-    return by_status[static_cast<std::size_t>(status)];
-  }
-};
-
-/// Estimates all frames given by their gauge volts. Frames are independent and
-/// each starts cold, so the results do not depend on `threads`.
+/// Estimates all frames given by their gauge volts, in blocks at fixed places
+/// (FrameSolverPool), so that the results do not depend on `threads`.
 std::vector<FrameEstimate> EstimateFrames(
     const Finger& finger, const Scene& scene,
     const Discretization& discretization,

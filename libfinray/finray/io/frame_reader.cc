@@ -1,11 +1,11 @@
+#include "finray/io/frame_reader.h"
+
 #include <algorithm>
 #include <limits>
 #include <optional>
 #include <set>
 
-#include "finray/io/csv_reader.h"
 #include "finray/io/error.h"
-#include "finray/io/frame_table.h"
 #include "finray/io/frame_vocabulary.h"
 #include "finray/io/nearest_name.h"
 #include "finray/io/parse_number.h"
@@ -84,49 +84,71 @@ std::optional<double> CellNumber(std::string_view text) {
 
 }  // namespace
 
+FrameReader::FrameReader(const std::string& path,
+                         const std::map<std::string, std::string>& renames)
+    : path_(path),
+      reader_(path),
+      headers_(ReadHeaders(&reader_, path, renames)) {}
+
+bool FrameReader::Read(std::size_t rows, FrameTable* table) {
+  *table = FrameTable();
+  table->path_ = path_;
+  for (const std::string& name : headers_) {
+    if (IsFrameColumn(name)) {
+      table->columns_.push_back({name, std::vector<double>()});
+    } else {
+      table->columns_.push_back({name, std::vector<std::string>()});
+    }
+  }
+  while (table->rows_ < rows && reader_.NextRow()) ReadRow(table);
+  position_ += table->rows_;
+  if (position_ == 0 && rows > 0) {
+    throw InputError(path_ + ": is an empty log: it has a header but no rows");
+  }
+  return table->rows_ > 0;
+}
+
+void FrameReader::ReadRow(FrameTable* table) const {
+  const auto& cells = reader_.cells();
+  if (cells.size() != headers_.size()) {
+    reader_.Fail("expected " + std::to_string(headers_.size()) +
+                 " cells as in the header, found " +
+                 std::to_string(cells.size()));
+  }
+  const std::size_t nul = reader_.FirstNul();
+  if (nul < cells.size()) {
+    reader_.FailAt(
+        nul, headers_[nul] + ": the cell holds a NUL byte, expected text");
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    auto& column = table->columns_[i].cells;
+    if (auto* texts = std::get_if<std::vector<std::string>>(&column)) {
+      texts->emplace_back(cells[i]);
+      continue;
+    }
+    const std::optional<double> number = CellNumber(cells[i]);
+    if (!number) {
+      reader_.FailAt(
+          i, headers_[i] + ": expected a number, found " + ShownText(cells[i]));
+    }
+    std::get<std::vector<double>>(column).push_back(*number);
+  }
+  table->lines_.push_back(reader_.line());
+  ++table->rows_;
+}
+
+std::size_t FrameReader::Skip(std::size_t rows) {
+  std::size_t skipped = 0;
+  while (skipped < rows && reader_.SkipRow()) ++skipped;
+  position_ += skipped;
+  return skipped;
+}
+
 FrameTable FrameTable::Read(const std::string& path,
                             const std::map<std::string, std::string>& renames) {
   FrameTable table;
-  table.path_ = path;
-  CsvReader reader(path);
-  for (const std::string& name : ReadHeaders(&reader, path, renames)) {
-    if (IsVocabulary(name)) {
-      table.columns_.push_back({name, std::vector<double>()});
-    } else {
-      table.columns_.push_back({name, std::vector<std::string>()});
-    }
-  }
-  while (reader.NextRow()) {
-    const auto& cells = reader.cells();
-    if (cells.size() != table.columns_.size()) {
-      reader.Fail("expected " + std::to_string(table.columns_.size()) +
-                  " cells as in the header, found " +
-                  std::to_string(cells.size()));
-    }
-    const std::size_t nul = reader.FirstNul();
-    if (nul < cells.size()) {
-      reader.FailAt(nul, table.columns_[nul].name +
-                             ": the cell holds a NUL byte, expected text");
-    }
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      Column& column = table.columns_[i];
-      if (auto* texts = std::get_if<std::vector<std::string>>(&column.cells)) {
-        texts->emplace_back(cells[i]);
-        continue;
-      }
-      const std::optional<double> number = CellNumber(cells[i]);
-      if (!number) {
-        reader.FailAt(i, column.name + ": expected a number, found " +
-                             ShownText(cells[i]));
-      }
-      std::get<std::vector<double>>(column.cells).push_back(*number);
-    }
-    table.lines_.push_back(reader.line());
-    ++table.rows_;
-  }
-  if (table.rows_ == 0) {
-    throw InputError(path + ": is an empty log: it has a header but no rows");
-  }
+  FrameReader(path, renames)
+      .Read(std::numeric_limits<std::size_t>::max(), &table);
   return table;
 }
 

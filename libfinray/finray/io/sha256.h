@@ -1,5 +1,5 @@
-#ifndef FINRAY_CALIB_SHA256_H_
-#define FINRAY_CALIB_SHA256_H_
+#ifndef FINRAY_IO_SHA256_H_
+#define FINRAY_IO_SHA256_H_
 
 #include <string>
 
@@ -8,6 +8,9 @@ namespace finray {
 /// SHA-256 of a file's bytes in hexadecimal. InputError if it cannot be read.
 std::string Sha256OfFile(const std::string& path);
 
+/// SHA-256 of a text's bytes in hexadecimal.
+std::string Sha256OfText(const std::string& text);
+
 }  // namespace finray
 
-#endif  // FINRAY_CALIB_SHA256_H_
+#endif  // FINRAY_IO_SHA256_H_

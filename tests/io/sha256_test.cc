@@ -1,4 +1,4 @@
-#include "finray/calib/sha256.h"
+#include "finray/io/sha256.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,143 @@
+#include "finray/io/log_list.h"
+
+#include <glob.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+#include "finray/io/csv_cells.h"
+#include "finray/io/error.h"
+#include "finray/io/gzip.h"
+
+namespace finray {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool EndsWith(const std::string& text, const std::string& end) {
+  return text.size() > end.size() &&
+         text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+bool IsResult(const fs::path& path, const std::string& results_folder) {
+  const std::string name = path.filename().string();
+  if (name != "summary.csv" && !EndsWith(name, ".frames.csv")) return false;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  std::error_code unknown;
+  return fs::equivalent(folder, results_folder, unknown);
+}
+
+// The files that a pattern matches, sorted byte by byte.
+std::vector<std::string> Matches(const std::string& pattern,
+                                 const std::string& results_folder) {
+  glob_t found = {};
+  const std::unique_ptr<glob_t, void (*)(glob_t*)> owner(&found, globfree);
+  std::vector<std::string> files;
+  if (glob(pattern.c_str(), GLOB_NOSORT, nullptr, &found) == 0) {
+    for (std::size_t i = 0; i < found.gl_pathc; ++i) {
+      std::error_code unknown;
+      if (!fs::is_directory(found.gl_pathv[i], unknown) &&
+          !IsResult(found.gl_pathv[i], results_folder)) {
+        files.emplace_back(found.gl_pathv[i]);
+      }
+    }
+  }
+  // glob's own order depends on the locale.
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// Appends a file, or what a pattern matches. `place` begins messages.
+void AddFiles(const std::string& item, const std::string& place,
+              const std::string& results_folder,
+              std::vector<std::string>* logs) {
+  std::error_code unknown;
+  if (item.find_first_of("*?[") == std::string::npos ||
+      fs::exists(item, unknown)) {
+    logs->push_back(item);
+    return;
+  }
+  const std::vector<std::string> files = Matches(item, results_folder);
+  if (files.empty()) {
+    throw InputError(place + "'" + item + "' matches no file");
+  }
+  logs->insert(logs->end(), files.begin(), files.end());
+}
+
+std::string Contents(const std::string& path) {
+  GzipFile file(path);
+  std::string text;
+  char buffer[1 << 14];
+  while (const int n = file.Read(buffer, sizeof buffer)) {
+    text.append(buffer, static_cast<std::size_t>(n));
+  }
+  return text;
+}
+
+std::string_view WithoutComment(std::string_view line) {
+  for (std::size_t at = line.find('#'); at != std::string_view::npos;
+       at = line.find('#', at + 1)) {
+    if (at == 0 || line[at - 1] == ' ' || line[at - 1] == '\t') {
+      return line.substr(0, at);
+    }
+  }
+  return line;
+}
+
+void AddList(const std::string& path, const std::string& results_folder,
+             std::vector<std::string>* logs) {
+  const std::string text = Contents(path);
+  const fs::path folder = fs::path(path).parent_path();
+  const std::size_t before = logs->size();
+  int number = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string_view line(text.data() + begin, end - begin);
+    begin = end + 1;
+    ++number;
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    line = Trimmed(WithoutComment(line));
+    if (line.empty()) continue;
+    const std::string place = path + ":" + std::to_string(number) + ": ";
+    const std::string file = (folder / std::string(line)).string();
+    const std::size_t first = logs->size();
+    AddFiles(file, place, results_folder, logs);
+    std::error_code unknown;
+    if (logs->size() == first + 1 && !fs::exists(logs->back(), unknown)) {
+      throw InputError(place + "there is no log '" + logs->back() + "'");
+    }
+  }
+  if (logs->size() == before) {
+    throw InputError(path + ": lists no logs");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> ExpandLogs(const std::vector<std::string>& items,
+                                    const std::string& results_folder) {
+  std::vector<std::string> logs;
+  for (const std::string& item : items) {
+    if (item.front() == '@') {
+      AddList(item.substr(1), results_folder, &logs);
+    } else if (EndsWith(item, ".txt") || EndsWith(item, ".list")) {
+      AddList(item, results_folder, &logs);
+    } else {
+      AddFiles(item, "--logs: ", results_folder, &logs);
+    }
+  }
+  if (logs.empty()) throw InputError("--logs: names no log");
+  return logs;
+}
+
+std::string LogName(const std::string& path) {
+  std::string name = fs::path(path).filename().string();
+  for (const char* end : {".gz", ".csv"}) {
+    if (EndsWith(name, end)) name.resize(name.size() - std::string(end).size());
+  }
+  return name;
+}
+
+}  // namespace finray

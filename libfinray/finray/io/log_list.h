@@ -1,0 +1,28 @@
+#ifndef FINRAY_IO_LOG_LIST_H_
+#define FINRAY_IO_LOG_LIST_H_
+
+#include <string>
+#include <vector>
+
+namespace finray {
+
+/// The logs that the items of a --logs flag stand for, in their order. An item
+/// is
+///  - a file: a.csv, a.csv.gz;
+///  - a pattern with *, ? or [...]: the files that match, sorted by name;
+///  - a list: @list, or a name ending in .txt or .list. It has one file or
+///    pattern a line, from the list's own folder on; what follows a # at the
+///    start of a line or behind a space is a comment.
+/// A file with one of these characters in its name is taken before a pattern.
+/// Patterns pass over results that lie in `results_folder`: *.frames.csv and
+/// summary.csv. Throws InputError for a pattern without a match, a list without
+/// a line and no items at all, naming it (and its line).
+std::vector<std::string> ExpandLogs(const std::vector<std::string>& items,
+                                    const std::string& results_folder = "");
+
+/// The name that a log's results go by: a.csv and a.csv.gz give "a".
+std::string LogName(const std::string& path);
+
+}  // namespace finray
+
+#endif  // FINRAY_IO_LOG_LIST_H_

@@ -1,0 +1,184 @@
+#include "finray/io/resumable_file.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include "finray/io/error.h"
+
+namespace finray {
+namespace {
+
+namespace fs = std::filesystem;
+
+// "checkpoint <bytes> <note> end", and "finished <bytes> <note> end" behind the
+// last one. A line that was cut short, or whose bytes did not reach the disk,
+// does not read so.
+constexpr std::string_view kKey = "finray journal 1 ";
+constexpr std::string_view kCheckpoint = "checkpoint ";
+constexpr std::string_view kFinished = "finished ";
+constexpr std::string_view kEnd = " end\n";
+
+struct State {
+  std::uint64_t bytes = 0;
+  std::string note;
+  bool finished = false;
+};
+
+bool TakeFront(std::string_view front, std::string_view* text) {
+  if (text->substr(0, front.size()) != front) return false;
+  text->remove_prefix(front.size());
+  return true;
+}
+
+// `line` with its line end.
+std::optional<State> ParseLine(std::string_view line) {
+  State state;
+  state.finished = TakeFront(kFinished, &line);
+  if (!state.finished && !TakeFront(kCheckpoint, &line)) return std::nullopt;
+  if (line.size() < kEnd.size() ||
+      line.substr(line.size() - kEnd.size()) != kEnd) {
+    return std::nullopt;
+  }
+  line.remove_suffix(kEnd.size());
+  const auto number =
+      std::from_chars(line.data(), line.data() + line.size(), state.bytes);
+  line.remove_prefix(static_cast<std::size_t>(number.ptr - line.data()));
+  if (number.ec != std::errc() || !TakeFront(" ", &line)) return std::nullopt;
+  state.note = line;
+  return state;
+}
+
+std::string JournalLine(std::string_view kind, std::uint64_t bytes,
+                        const std::string& note) {
+  std::string line(kind);
+  return line.append(std::to_string(bytes))
+      .append(" ")
+      .append(note)
+      .append(kEnd);
+}
+
+}  // namespace
+
+ResumableFile::ResumableFile(const std::string& path, const std::string& key,
+                             bool resume)
+    : path_(path) {
+  std::error_code unknown;
+  if (fs::exists(path, unknown)) {
+    if (!fs::is_regular_file(path, unknown)) {
+      throw InputError(path + ": cannot be written: it is no regular file");
+    }
+    path_ = fs::canonical(path).string();  // links are followed
+  }
+  const fs::path target = path_;
+  folder_ = target.parent_path().string();
+  const std::string hidden = "." + target.filename().string();
+  part_path_ = (target.parent_path() / (hidden + ".part")).string();
+  journal_path_ = (target.parent_path() / (hidden + ".journal")).string();
+  Check(journal_.Open(journal_path_, O_RDWR | O_CREAT));
+  Lock();
+  if (!resume || !Restore(key)) StartOver(key);
+}
+
+void ResumableFile::Lock() {
+  const bool locked = flock(journal_.get(), LOCK_EX | LOCK_NB) == 0;
+  // File systems without locks are used without them.
+  bool busy = !locked && errno == EWOULDBLOCK;
+  struct stat journal;
+  // A run that has just come to its end may have removed it meanwhile.
+  if (!busy)
+    busy = fstat(journal_.get(), &journal) == 0 && journal.st_nlink == 0;
+  if (busy) throw InputError(path_ + ": another process is writing it");
+}
+
+bool ResumableFile::Restore(const std::string& key) {
+  std::string journal;
+  Check(journal_.ReadAll(&journal));
+  std::string_view rest = journal;
+  if (!TakeFront(kKey, &rest) || !TakeFront(key, &rest) ||
+      !TakeFront("\n", &rest)) {
+    return false;
+  }
+  std::optional<State> last;
+  while (!rest.empty()) {
+    const auto length = std::min(rest.find('\n'), rest.size() - 1) + 1;
+    auto state = ParseLine(rest.substr(0, length));
+    if (!state) break;
+    last = std::move(state);
+    rest.remove_prefix(length);
+  }
+  if (!last) return false;
+  std::error_code unknown;
+  const bool part = fs::exists(part_path_, unknown);
+  if (part) {
+    if (fs::file_size(part_path_, unknown) < last->bytes || unknown) {
+      return false;
+    }
+    Check(part_.Open(part_path_, O_RDWR));
+    Check(part_.Truncate(last->bytes));
+  } else if (!last->finished || !fs::exists(path_, unknown) ||
+             fs::file_size(path_, unknown) != last->bytes) {
+    return false;
+  }
+  Check(journal_.Truncate(journal.size() - rest.size()));
+  bytes_ = last->bytes;
+  note_ = last->note;
+  finished_ = !part;
+  return true;
+}
+
+void ResumableFile::StartOver(const std::string& key) {
+  // The old checkpoints go before the bytes that they count.
+  Check(journal_.Truncate(0));
+  WriteJournal(std::string(kKey).append(key).append("\n"));
+  Check(part_.Open(part_path_, O_RDWR | O_CREAT | O_TRUNC));
+}
+
+void ResumableFile::WriteJournal(const std::string& line) {
+  Check(journal_.Write(line));
+  Check(journal_.Sync());
+}
+
+void ResumableFile::Append(const std::string& text) {
+  Check(part_.Write(text));
+  bytes_ += text.size();
+}
+
+void ResumableFile::Checkpoint(const std::string& note) {
+  Check(part_.Sync());
+  WriteJournal(JournalLine(kCheckpoint, bytes_, note));
+}
+
+void ResumableFile::Finish(const std::string& note) {
+  Check(part_.Sync());
+  WriteJournal(JournalLine(kFinished, bytes_, note));
+  Check(part_.Close());
+  if (std::rename(part_path_.c_str(), path_.c_str()) != 0) Check(errno);
+  SyncFolder(folder_);  // some file systems cannot
+  finished_ = true;
+}
+
+void ResumableFile::Forget() { unlink(journal_path_.c_str()); }
+
+void ResumableFile::Discard() {
+  unlink(part_path_.c_str());
+  unlink(journal_path_.c_str());
+}
+
+void ResumableFile::Check(int error) const {
+  if (error != 0) {
+    throw InputError(path_ + ": cannot be written: " + std::strerror(error));
+  }
+}
+
+}  // namespace finray

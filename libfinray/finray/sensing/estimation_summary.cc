@@ -1,0 +1,91 @@
+#include "finray/sensing/estimation_summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "finray/io/atomic_file.h"
+#include "finray/io/parse_number.h"
+
+namespace finray {
+
+std::size_t EstimationSummary::unsolved() const {
+  return count(FrameStatus::kNotConverged) + count(FrameStatus::kBadInput);
+}
+
+double EstimationSummary::force_rms_N() const {
+  if (force_compared == 0) return 0;
+  return std::sqrt(force_squares_N2 / static_cast<double>(force_compared));
+}
+
+void EstimationSummary::Add(const FrameEstimate& estimate, double friction,
+                            double force_N) {
+  ++frames;
+  ++by_status[static_cast<std::size_t>(estimate.status)];
+  const bool solved = estimate.status == FrameStatus::kOk ||
+                      estimate.status == FrameStatus::kUnobservable ||
+                      estimate.status == FrameStatus::kNoContact;
+  if (!solved || std::isnan(force_N)) return;
+  const double error = std::hypot(1, friction) * estimate.normal_N - force_N;
+  force_squares_N2 += error * error;
+  force_max_N = std::max(force_max_N, std::abs(error));
+  ++force_compared;
+}
+
+void EstimationSummary::Add(const EstimationSummary& other) {
+  frames += other.frames;
+  for (std::size_t i = 0; i < by_status.size(); ++i) {
+    by_status[i] += other.by_status[i];
+  }
+  force_compared += other.force_compared;
+  force_squares_N2 += other.force_squares_N2;
+  force_max_N = std::max(force_max_N, other.force_max_N);
+}
+
+std::string SummaryToText(const EstimationSummary& summary) {
+  std::string text = std::to_string(summary.frames);
+  for (const std::size_t count : summary.by_status) {
+    text += " " + std::to_string(count);
+  }
+  return text + " " + std::to_string(summary.force_compared) + " " +
+         NumberText(summary.force_squares_N2) + " " +
+         NumberText(summary.force_max_N);
+}
+
+std::optional<EstimationSummary> SummaryFromText(const std::string& text) {
+  std::istringstream stream(text);
+  EstimationSummary summary;
+  stream >> summary.frames;
+  for (std::size_t& count : summary.by_status) stream >> count;
+  std::string squares, largest, rest;
+  if (!(stream >> summary.force_compared >> squares >> largest) ||
+      stream >> rest) {
+    return std::nullopt;
+  }
+  const std::optional<double> sum = ParseNumber(squares);
+  const std::optional<double> max = ParseNumber(largest);
+  if (!sum || !max) return std::nullopt;
+  summary.force_squares_N2 = *sum;
+  summary.force_max_N = *max;
+  return summary;
+}
+
+void EmitSummary(const EstimationSummary& summary, YAML::Emitter* yaml) {
+  *yaml << YAML::Key << "frames" << YAML::Value << summary.frames;
+  *yaml << YAML::Key << "status" << YAML::Value << YAML::BeginMap;
+  for (const FrameStatus status : EstimationSummary::kStatuses) {
+    *yaml << YAML::Key << StatusName(status) << YAML::Value
+          << summary.count(status);
+  }
+  *yaml << YAML::EndMap;
+  if (summary.force_compared > 0) {
+    *yaml << YAML::Key << "force_compared_frames" << YAML::Value
+          << summary.force_compared;
+    *yaml << YAML::Key << "force_rms_error_N" << YAML::Value
+          << NumberText(summary.force_rms_N());
+    *yaml << YAML::Key << "force_max_error_N" << YAML::Value
+          << NumberText(summary.force_max_N);
+  }
+}
+
+}  // namespace finray
