@@ -25,6 +25,7 @@ enum ExitCode {
   kBadInput = 2,
   kSolveFailed = 3,
   kGateFailed = 4,
+  kInterrupted = 130,
 };
 
 /// A flag that the user must give, for exit code 1.

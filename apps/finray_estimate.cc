@@ -1,18 +1,23 @@
-// Contact location and force of every frame of a log, from its gauges.
+// Contact location and force of every frame of many logs, from their gauges.
 
-#include <algorithm>
+#include <cstdio>
 #include <filesystem>
-#include <set>
 
 #include "app.h"
 #include "finray/io/atomic_file.h"
-#include "finray/sensing/batch_estimation.h"
+#include "finray/io/log_list.h"
+#include "finray/sensing/batch_summary.h"
+#include "progress_bar.h"
+#include "stop_signal.h"
 
 DEFINE_string(finger, "", "finger YAML, best a calibrated one");
 DEFINE_string(scene, "", "scene YAML; without it contacts: auto");
-DEFINE_string(logs, "", "CSV logs with gauge_<j>_V, separated by commas");
+DEFINE_string(logs, "",
+              "CSV logs with gauge_<j>_V, separated by commas: files, patterns "
+              "('runs/*.csv'), lists (@list.txt)");
 DEFINE_string(out_dir, "", "folder for <log>.frames.csv and summary.yaml");
 DEFINE_int32(threads, 1, "threads over frames");
+DEFINE_bool(resume, false, "keep finished logs, go on with interrupted ones");
 DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
 DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
 DEFINE_bool(dump_config, false, "print what is in force, and stop");
@@ -20,130 +25,120 @@ DEFINE_bool(strict, false, "fail if any frame is not_converged or bad_input");
 
 namespace {
 
-using finray::EstimationSummary;
-using finray::FrameStatus;
+using namespace finray;
 
-constexpr FrameStatus kStatuses[] = {
-    FrameStatus::kOk, FrameStatus::kNoContact, FrameStatus::kUnobservable,
-    FrameStatus::kNotConverged, FrameStatus::kBadInput};
-
-// a.csv, a.csv.gz -> a
-std::string LogName(const std::string& path) {
-  std::string name = std::filesystem::path(path).filename().string();
-  for (const char* ending : {".gz", ".csv"}) {
-    const std::string end = ending;
-    if (name.size() > end.size() &&
-        name.compare(name.size() - end.size(), end.size(), end) == 0) {
-      name.resize(name.size() - end.size());
-    }
-  }
-  return name;
+std::string InFolder(const char* name) {
+  return (std::filesystem::path(FLAGS_out_dir) / name).string();
 }
 
-void EmitSummary(const EstimationSummary& summary, YAML::Emitter* yaml) {
-  *yaml << YAML::Key << "frames" << YAML::Value << summary.frames;
-  *yaml << YAML::Key << "status" << YAML::Value << YAML::BeginMap;
-  for (const FrameStatus status : kStatuses) {
-    *yaml << YAML::Key << StatusName(status) << YAML::Value
-          << summary.count(status);
+std::vector<LogJob> MakeJobs(const BatchSettings& settings) {
+  const auto logs =
+      ExpandLogs(SplitList(Required("logs", FLAGS_logs)), FLAGS_out_dir);
+  const auto results = ResultPaths(logs, FLAGS_out_dir);
+  std::vector<LogJob> jobs;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    jobs.emplace_back(&settings, logs[i], results[i]);
   }
-  *yaml << YAML::EndMap;
-  if (summary.force_compared > 0) {
-    *yaml << YAML::Key << "force_compared_frames" << YAML::Value
-          << summary.force_compared;
-    *yaml << YAML::Key << "force_rms_error_N" << YAML::Value
-          << finray::NumberText(summary.force_rms_N);
-    *yaml << YAML::Key << "force_max_error_N" << YAML::Value
-          << finray::NumberText(summary.force_max_N);
+  return jobs;
+}
+
+// All logs, before anything is written. False if told to stop.
+bool CheckAll(std::vector<LogJob>* jobs) {
+  for (LogJob& job : *jobs) {
+    if (!job.Check()) return false;
+  }
+  return true;
+}
+
+// What an earlier run has summed up would no longer be true of the folder.
+void RemoveOldSummaries() {
+  for (const char* name : {"summary.yaml", "summary.csv"}) {
+    std::error_code missing;
+    std::filesystem::remove(InFolder(name), missing);
+  }
+}
+
+bool RunAll(FrameSolverPool* pool, std::vector<LogJob>* jobs) {
+  for (LogJob& job : *jobs) {
+    if (!job.Run(pool)) return false;
+  }
+  return true;
+}
+
+std::size_t Frames(const std::vector<LogJob>& jobs) {
+  std::size_t frames = 0;
+  for (const LogJob& job : jobs) frames += job.frames();
+  return frames;
+}
+
+int Interrupted(const std::string& when) {
+  std::cerr << "finray_estimate: interrupted " << when
+            << "; the same command with --resume goes on from there\n";
+  return kInterrupted;
+}
+
+void PrintSummary(const std::vector<LogJob>& jobs, const ProgressBar& bar) {
+  const EstimationSummary all = Total(jobs);
+  const double seconds = bar.seconds();
+  std::printf("%s\n", InFolder("summary.yaml").c_str());
+  std::printf("frames         %zu in %zu log%s, %.3g s", all.frames,
+              jobs.size(), jobs.size() == 1 ? "" : "s", seconds);
+  if (bar.done() > 0) {
+    std::printf(", %.0f frames/s", static_cast<double>(bar.done()) / seconds);
+  }
+  if (bar.kept() > 0) std::printf(", %zu kept", bar.kept());
+  std::printf("\nok             %zu, no_contact %zu\n",
+              all.count(FrameStatus::kOk), all.count(FrameStatus::kNoContact));
+  std::printf("unobservable   %zu\n", all.count(FrameStatus::kUnobservable));
+  std::printf("not solved     %zu not_converged, %zu bad_input\n",
+              all.count(FrameStatus::kNotConverged),
+              all.count(FrameStatus::kBadInput));
+  if (all.force_compared > 0) {
+    std::printf("force error    %g N rms, %g N at most, over %zu frames\n",
+                all.force_rms_N(), all.force_max_N, all.force_compared);
+  } else {
+    std::printf("force error    not known: no force_N in the logs\n");
   }
 }
 
 int Run() {
-  using namespace finray;
-  const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
-  const Scene scene = FLAGS_scene.empty() ? Scene() : ReadScene(FLAGS_scene);
-  const auto logs = SplitList(Required("logs", FLAGS_logs));
-  const std::string& out_dir = Required("out_dir", FLAGS_out_dir);
-  const Discretization discretization =
-      ParseDiscretization(FLAGS_scheme, FLAGS_resolution);
+  BatchSettings settings(Required("finger", FLAGS_finger), FLAGS_scene,
+                         ParseDiscretization(FLAGS_scheme, FLAGS_resolution));
+  Required("logs", FLAGS_logs);
+  Required("out_dir", FLAGS_out_dir);
   if (FLAGS_dump_config) {
-    DumpConfig(finger, scene, discretization);
+    DumpConfig(settings.finger, settings.scene, settings.discretization);
     return kGood;
   }
-  std::set<std::string> names;
-  for (const std::string& log : logs) {
-    if (!names.insert(LogName(log)).second) {
-      throw InputError("--logs: two logs are called '" + LogName(log) +
-                       "', so their results would have one name");
-    }
-  }
-  // All logs are read before anything is written.
-  std::vector<FrameTable> tables;
-  for (const std::string& log : logs) {
-    tables.push_back(FrameTable::Read(log, scene.columns));
+  settings.threads = FLAGS_threads;
+  settings.resume = FLAGS_resume;
+  settings.stop = StopSignal::Requested;
+  StopSignal::Install();
+
+  std::vector<LogJob> jobs = MakeJobs(settings);
+  if (!CheckAll(&jobs)) return Interrupted("before the first frame");
+  FrameSolverPool pool(
+      ColdSolvers(settings.finger, settings.scene, settings.discretization));
+  MakeFolder(FLAGS_out_dir);
+  RemoveOldSummaries();
+  ProgressBar bar(Frames(jobs));
+  settings.progress = [&bar](std::size_t frames, bool kept) {
+    bar.Add(frames, kept);
+  };
+  const bool whole = RunAll(&pool, &jobs);
+  bar.Clear();
+  if (!whole) {
+    return Interrupted("after " + std::to_string(bar.done() + bar.kept()) +
+                       " of " + std::to_string(Frames(jobs)) + " frames");
   }
 
-  YAML::Emitter yaml;
-  yaml << YAML::BeginMap << YAML::Key << "finger" << YAML::Value << finger.name
-       << YAML::Key << "scheme" << YAML::Value << FLAGS_scheme << YAML::Key
-       << "version" << YAML::Value << FINRAY_VERSION << YAML::Key << "logs"
-       << YAML::Value << YAML::BeginSeq;
-  EstimationSummary all;
-  double squares = 0;
-  for (FrameTable& log : tables) {
-    const std::string& path = log.path();
-    const EstimationSummary summary =
-        EstimateLog(finger, scene, discretization, FLAGS_threads, &log);
-    MakeFolder(out_dir);
-    const std::string out =
-        (std::filesystem::path(out_dir) / (LogName(path) + ".frames.csv"))
-            .string();
-    log.Write(out);
-    yaml << YAML::BeginMap << YAML::Key << "log" << YAML::Value << path
-         << YAML::Key << "result" << YAML::Value << out;
-    EmitSummary(summary, &yaml);
-    yaml << YAML::EndMap;
-    all.frames += summary.frames;
-    for (std::size_t i = 0; i < all.by_status.size(); ++i) {
-      all.by_status[i] += summary.by_status[i];
-    }
-    const auto n = static_cast<double>(summary.force_compared);
-    squares += n * summary.force_rms_N * summary.force_rms_N;
-    all.force_compared += summary.force_compared;
-    all.force_max_N = std::max(all.force_max_N, summary.force_max_N);
-  }
-  if (all.force_compared > 0) {
-    all.force_rms_N =
-        std::sqrt(squares / static_cast<double>(all.force_compared));
-  }
-  yaml << YAML::EndSeq << YAML::Key << "all" << YAML::Value << YAML::BeginMap;
-  EmitSummary(all, &yaml);
-  yaml << YAML::EndMap << YAML::EndMap;
-  const std::string summary_path =
-      (std::filesystem::path(out_dir) / "summary.yaml").string();
-  WriteFileAtomically(summary_path, std::string(yaml.c_str()) + "\n");
-
-  std::cout << summary_path << "\n"
-            << "frames         " << all.frames << " in " << logs.size()
-            << (logs.size() == 1 ? " log\n" : " logs\n") << "ok             "
-            << all.count(FrameStatus::kOk) << ", no_contact "
-            << all.count(FrameStatus::kNoContact) << "\n"
-            << "unobservable   " << all.count(FrameStatus::kUnobservable)
-            << "\n"
-            << "not solved     " << all.count(FrameStatus::kNotConverged)
-            << " not_converged, " << all.count(FrameStatus::kBadInput)
-            << " bad_input\n";
-  if (all.force_compared > 0) {
-    std::cout << "force error    " << all.force_rms_N << " N rms, "
-              << all.force_max_N << " N at most, over " << all.force_compared
-              << " frames\n";
-  } else {
-    std::cout << "force error    not known: no force_N in the logs\n";
-  }
-  const std::size_t unsolved =
-      all.count(FrameStatus::kNotConverged) + all.count(FrameStatus::kBadInput);
-  return unsolved == all.frames || (FLAGS_strict && unsolved > 0) ? kSolveFailed
-                                                                  : kGood;
+  BatchTable(jobs).Write(InFolder("summary.csv"));
+  WriteFileAtomically(InFolder("summary.yaml"), BatchYaml(settings, jobs));
+  PrintSummary(jobs, bar);
+  const EstimationSummary all = Total(jobs);
+  return all.unsolved() == all.frames || (FLAGS_strict && all.unsolved() > 0)
+             ? kSolveFailed
+             : kGood;
 }
 
 }  // namespace
@@ -152,7 +147,7 @@ int main(int argc, char** argv) {
   return finray::RunApp(
       argc, argv,
       "Contact location and force from the gauges of every frame.\n"
-      "finray_estimate --finger F.yaml --logs a.csv,b.csv --out_dir D "
-      "[--scene S.yaml]",
+      "finray_estimate --finger F.yaml --logs 'runs/*.csv' --out_dir D "
+      "[--scene S.yaml] [--resume]",
       Run);
 }

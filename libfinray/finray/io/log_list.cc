@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string_view>
 
@@ -16,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr char kResult[] = ".frames.csv";
+
 bool EndsWith(const std::string& text, const std::string& end) {
   return text.size() > end.size() &&
          text.compare(text.size() - end.size(), end.size(), end) == 0;
@@ -23,7 +26,7 @@ bool EndsWith(const std::string& text, const std::string& end) {
 
 bool IsResult(const fs::path& path, const std::string& results_folder) {
   const std::string name = path.filename().string();
-  if (name != "summary.csv" && !EndsWith(name, ".frames.csv")) return false;
+  if (name != "summary.csv" && !EndsWith(name, kResult)) return false;
   const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
   std::error_code unknown;
   return fs::equivalent(folder, results_folder, unknown);
@@ -138,6 +141,30 @@ std::string LogName(const std::string& path) {
     if (EndsWith(name, end)) name.resize(name.size() - std::string(end).size());
   }
   return name;
+}
+
+std::vector<std::string> ResultPaths(const std::vector<std::string>& logs,
+                                     const std::string& folder) {
+  std::vector<std::string> results;
+  std::map<std::string, std::string> log_of;
+  for (const std::string& log : logs) {
+    results.push_back((fs::path(folder) / (LogName(log) + kResult)).string());
+    const auto [at, is_new] = log_of.insert({results.back(), log});
+    if (!is_new) {
+      throw InputError("--logs: '" + at->second + "' and '" + log +
+                       "' would both be written to " + results.back());
+    }
+  }
+  for (const std::string& log : logs) {
+    const fs::path name = fs::path(log).filename();
+    const auto at = log_of.find((fs::path(folder) / name).string());
+    std::error_code unknown;
+    if (at != log_of.end() && fs::equivalent(at->first, log, unknown)) {
+      throw InputError("--logs: the result of '" + at->second +
+                       "' would overwrite '" + log + "'");
+    }
+  }
+  return results;
 }
 
 }  // namespace finray

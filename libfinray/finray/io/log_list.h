@@ -23,6 +23,11 @@ std::vector<std::string> ExpandLogs(const std::vector<std::string>& items,
 /// The name that a log's results go by: a.csv and a.csv.gz give "a".
 std::string LogName(const std::string& path);
 
+/// folder/<LogName>.frames.csv of each log. Throws InputError if two logs have
+/// one result, or if a result would overwrite a log, naming both.
+std::vector<std::string> ResultPaths(const std::vector<std::string>& logs,
+                                     const std::string& folder);
+
 }  // namespace finray
 
 #endif  // FINRAY_IO_LOG_LIST_H_

@@ -1,0 +1,61 @@
+#include "finray/sensing/batch_summary.h"
+
+#include "finray/io/atomic_file.h"
+
+namespace finray {
+
+EstimationSummary Total(const std::vector<LogJob>& jobs) {
+  EstimationSummary all;
+  for (const LogJob& job : jobs) all.Add(job.summary());
+  return all;
+}
+
+std::string BatchYaml(const BatchSettings& settings,
+                      const std::vector<LogJob>& jobs) {
+  YAML::Emitter yaml;
+  const auto pair = [&yaml](const char* key, const auto& value) {
+    yaml << YAML::Key << key << YAML::Value << value;
+  };
+  yaml << YAML::BeginMap;
+  pair("finger", settings.finger.name);
+  pair("scheme", SchemeName(settings.discretization.scheme));
+  pair("version", FINRAY_VERSION);
+  yaml << YAML::Key << "logs" << YAML::Value << YAML::BeginSeq;
+  for (const LogJob& job : jobs) {
+    yaml << YAML::BeginMap;
+    pair("log", job.log());
+    pair("result", job.result());
+    pair("key", job.key());
+    EmitSummary(job.summary(), &yaml);
+    yaml << YAML::EndMap;
+  }
+  yaml << YAML::EndSeq << YAML::Key << "all" << YAML::Value << YAML::BeginMap;
+  EmitSummary(Total(jobs), &yaml);
+  yaml << YAML::EndMap << YAML::EndMap;
+  return std::string(yaml.c_str()) + "\n";
+}
+
+FrameTable BatchTable(const std::vector<LogJob>& jobs) {
+  FrameTable table(jobs.size());
+  for (std::size_t row = 0; row < jobs.size(); ++row) {
+    const LogJob& job = jobs[row];
+    const EstimationSummary& summary = job.summary();
+    const auto set = [&](const std::string& name, const std::string& text) {
+      table.MutableText(name)[row] = text;
+    };
+    set("log", job.log());
+    set("result", job.result());
+    set("frames", std::to_string(summary.frames));
+    for (const FrameStatus status : EstimationSummary::kStatuses) {
+      set(StatusName(status), std::to_string(summary.count(status)));
+    }
+    const bool compared = summary.force_compared > 0;
+    set("force_compared_frames", std::to_string(summary.force_compared));
+    set("force_rms_error_N", compared ? NumberText(summary.force_rms_N()) : "");
+    set("force_max_error_N", compared ? NumberText(summary.force_max_N) : "");
+    set("key", job.key());
+  }
+  return table;
+}
+
+}  // namespace finray
