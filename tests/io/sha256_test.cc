@@ -13,6 +13,7 @@ TEST(Sha256Test, KnownDigests) {  // FIPS 180-4 examples
             "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(Sha256OfFile(folder.Write("b", "")),
             "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(Sha256OfText("abc"), Sha256OfFile(folder.Path("a")));
 }
 
 }  // namespace

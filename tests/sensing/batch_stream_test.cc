@@ -1,0 +1,228 @@
+// Streams and jobs with a solver that would show any dependence on threads,
+// chunks or interruptions.
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "finray/io/error.h"
+#include "finray/sensing/batch_summary.h"
+#include "finray/sensing/log_stream.h"
+#include "temp_file.h"
+#include "test_finger.h"
+
+namespace finray {
+namespace {
+
+constexpr int kFrames = 1000;  // not a whole number of blocks
+
+// Its results depend on all frames since the last cold start.
+class ChainSolver : public FrameSolver {
+ public:
+  FrameEstimate Solve(const std::vector<double>& readings_V,
+                      const FrameEstimate* before) override {
+    FrameEstimate estimate;
+    estimate.status = FrameStatus::kOk;
+    estimate.normal_N =
+        std::sin(readings_V[0]) + (before ? 0.9 * before->normal_N : 1);
+    estimate.contact_mm = estimate.contact_std_mm = estimate.normal_std_N = 1;
+    estimate.contact_pose.setConstant(std::nan(""));
+    estimate.tip_pose.setConstant(0.1 * estimate.normal_N);
+    estimate.rib_tension_N.assign(5, 1);
+    estimate.chi2 = 0;
+    // Blocks come to their end out of order.
+    if (std::fmod(readings_V[0], 7) < 1) std::this_thread::yield();
+    return estimate;
+  }
+};
+
+class BatchStreamTest : public testing::Test {
+ protected:
+  BatchStreamTest()
+      : settings_(FINRAY_SOURCE_DIR "/configs/fingers/paper_140mm.yaml", "",
+                  {}) {
+    std::string text = "gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V,force_N,note\n";
+    for (int i = 0; i < kFrames; ++i) {
+      text += std::to_string(0.37 * i) + ",0,0,0," +
+              std::to_string(1 + 0.01 * i) + ",n" + std::to_string(i) + "\n";
+    }
+    log_ = folder_.Write("log.csv", text);
+  }
+
+  LogJob Job(const std::string& name) {
+    LogJob job(&settings_, log_, folder_.Path(name));
+    EXPECT_TRUE(job.Check());
+    return job;
+  }
+
+  // Result and summary of an uninterrupted run on one thread.
+  std::pair<std::string, std::string> Expected() {
+    FrameSolverPool pool(chain_);
+    EXPECT_TRUE(Job("expected.csv").Run(&pool));
+    return {folder_.Read("expected.csv"), folder_.Read("log.summary.yaml")};
+  }
+
+  const FrameSolverFactory chain_ = [] {
+    return std::make_unique<ChainSolver>();
+  };
+  TempFolder folder_;
+  BatchSettings settings_;
+  std::string log_;
+};
+
+TEST_F(BatchStreamTest, SameBytesForAllThreadsAndChunks) {
+  const auto [rows, summary] = Expected();
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), kFrames + 1);
+  for (const int threads : {1, 2, 5}) {
+    for (const std::size_t chunk : {1, 3, 64}) {
+      FrameSolverPool pool(chain_);
+      settings_.threads = threads;
+      settings_.chunk_blocks = chunk;
+      LogJob job = Job("out.csv");
+      EXPECT_TRUE(job.Run(&pool));
+      EXPECT_EQ(folder_.Read("out.csv"), rows) << threads << " " << chunk;
+      EXPECT_EQ(folder_.Read("log.summary.yaml"), summary);
+    }
+  }
+}
+
+TEST_F(BatchStreamTest, BlocksLieAtFixedPlaces) {
+  int cold = 0;
+  class Counter : public ChainSolver {
+   public:
+    explicit Counter(int* cold) : cold_(cold) {}
+    FrameEstimate Solve(const std::vector<double>& readings_V,
+                        const FrameEstimate* before) override {
+      if (before == nullptr) ++*cold_;
+      return ChainSolver::Solve(readings_V, before);
+    }
+
+   private:
+    int* cold_;
+  };
+  FrameSolverPool pool([&] { return std::make_unique<Counter>(&cold); });
+  Job("out.csv").Run(&pool);
+  EXPECT_EQ(cold, (kFrames + kBlockFrames - 1) / kBlockFrames);
+}
+
+TEST_F(BatchStreamTest, StopAfterAnyBlockAndResume) {
+  const auto [rows, summary] = Expected();
+  settings_.threads = 2;
+  settings_.chunk_blocks = 4;
+  for (int stop_at = 0; stop_at <= 17; ++stop_at) {
+    std::filesystem::remove(folder_.Path("log.summary.yaml"));
+    FrameSolverPool pool(chain_);
+    const std::string name = "out" + std::to_string(stop_at) + ".csv";
+    settings_.resume = false;
+    LogJob first = Job(name);
+    int asked = 0;
+    settings_.stop = [&] { return asked++ == stop_at; };
+    const bool whole = first.Run(&pool);
+    settings_.stop = nullptr;
+    EXPECT_EQ(whole, stop_at > 16) << stop_at;
+    EXPECT_EQ(std::filesystem::exists(folder_.Path(name)), whole);
+    EXPECT_EQ(first.summary().frames, std::min(stop_at * 64, kFrames));
+
+    settings_.resume = true;
+    std::size_t kept = 0, estimated = 0;
+    settings_.progress = [&](std::size_t frames, bool before) {
+      (before ? kept : estimated) += frames;
+    };
+    LogJob second = Job(name);
+    EXPECT_TRUE(second.Run(&pool));
+    settings_.progress = nullptr;
+    EXPECT_EQ(kept, first.summary().frames);
+    EXPECT_EQ(estimated + kept, static_cast<std::size_t>(kFrames));
+    EXPECT_EQ(folder_.Read(name), rows) << stop_at;
+    EXPECT_EQ(folder_.Read("log.summary.yaml"), summary);
+  }
+}
+
+TEST_F(BatchStreamTest, AnythingThatMattersChangesTheKey) {
+  const std::string key = Job("out.csv").key();
+  EXPECT_EQ(key.size(), 64u);
+  settings_.threads = 7;
+  settings_.chunk_blocks = 1;
+  EXPECT_EQ(Job("other.csv").key(), key);
+  const auto changed = [&](auto change) {
+    const BatchSettings before = settings_;
+    change();
+    const bool differs = Job("out.csv").key() != key;
+    settings_ = before;
+    return differs;
+  };
+  EXPECT_TRUE(changed([&] { settings_.finger_sha256 = "f"; }));
+  EXPECT_TRUE(changed([&] { settings_.scene_sha256 = "s"; }));
+  EXPECT_TRUE(changed([&] { settings_.discretization.resolution = 40; }));
+  EXPECT_TRUE(
+      changed([&] { settings_.discretization.scheme = Scheme::kTaylor8; }));
+  EXPECT_TRUE(changed([&] {
+    folder_.Write("log.csv", folder_.Read("log.csv") + "1,1,1,1,1,more\n");
+  }));
+}
+
+TEST_F(BatchStreamTest, AFinishedLogIsDoneAgainUnlessAllIsAsItWas) {
+  FrameSolverPool pool(chain_);
+  const auto [rows, summary] = Expected();
+  settings_.resume = true;
+  const auto estimated = [&] {
+    std::size_t count = 0;
+    settings_.progress = [&](std::size_t frames, bool kept) {
+      if (!kept) count += frames;
+    };
+    LogJob job = Job("expected.csv");
+    EXPECT_TRUE(job.Run(&pool));
+    settings_.progress = nullptr;
+    EXPECT_EQ(folder_.Read("expected.csv"), rows);
+    EXPECT_EQ(folder_.Read("log.summary.yaml"), summary);
+    EXPECT_EQ(BatchTable({job}).rows(), 1u);
+    EXPECT_EQ(job.frames(), static_cast<std::size_t>(kFrames));
+    return count;
+  };
+  EXPECT_EQ(estimated(), 0u);
+  folder_.Write("expected.csv", rows + "x");
+  EXPECT_EQ(estimated(), 1000u);
+  std::filesystem::remove(folder_.Path("expected.csv"));
+  EXPECT_EQ(estimated(), 1000u);
+  folder_.Write("log.summary.yaml", "key: [\n");
+  EXPECT_EQ(estimated(), 1000u);
+  std::filesystem::remove(folder_.Path("log.summary.yaml"));
+  EXPECT_EQ(estimated(), 1000u);
+  settings_.resume = false;
+  EXPECT_EQ(estimated(), 1000u);
+}
+
+TEST_F(BatchStreamTest, ALogThatChangesMeanwhileIsRefused) {
+  FrameSolverPool pool(chain_);
+  LogJob job = Job("out.csv");
+  std::ofstream(log_, std::ios::app) << "1,1,1,1,1,more\n";
+  EXPECT_THROW(job.Run(&pool), InputError);
+  for (const char* name : {"out.csv", ".out.csv.part", ".out.csv.journal"}) {
+    EXPECT_FALSE(std::filesystem::exists(folder_.Path(name))) << name;
+  }
+}
+
+TEST(EstimationSummaryTest, ReadsBackTheSame) {
+  EstimationSummary summary;
+  FrameEstimate estimate;
+  for (int i = 0; i < 100; ++i) {
+    estimate.status = EstimationSummary::kStatuses[i % 5];
+    estimate.normal_N = 0.1 * i;
+    summary.Add(estimate, 0.3, i % 7 ? 0.05 * i : std::nan(""));
+  }
+  const auto back = SummaryFromText(SummaryToText(summary));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->frames, 100u);
+  EXPECT_EQ(back->by_status, summary.by_status);
+  EXPECT_EQ(back->force_compared, summary.force_compared);
+  EXPECT_EQ(back->force_squares_N2, summary.force_squares_N2);
+  EXPECT_EQ(back->force_max_N, summary.force_max_N);
+  EXPECT_FALSE(SummaryFromText(""));
+  EXPECT_FALSE(SummaryFromText("1 2 3"));
+  EXPECT_FALSE(SummaryFromText(SummaryToText(summary) + " 1"));
+}
+
+}  // namespace
+}  // namespace finray
