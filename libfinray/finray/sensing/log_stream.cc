@@ -1,5 +1,6 @@
 #include "finray/sensing/log_stream.h"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
@@ -61,6 +62,9 @@ bool EstimateStream(const Finger& finger, const Scene& scene,
 
   using tbb::filter_mode;
   threads = std::max(1, threads);
+  // As many as asked for, also if the machine has fewer.
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
   tbb::task_arena(threads).execute([&] {
     tbb::parallel_pipeline(static_cast<std::size_t>(threads * kBlocksPerThread),
                            tbb::make_filter<void, BlockPointer>(

@@ -1,0 +1,262 @@
+// finray_estimate over many and long logs, interrupted and resumed.
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <yaml-cpp/yaml.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <map>
+#include <random>
+#include <thread>
+
+#include "apps/command_line.h"
+#include "finray/io/frame_table.h"
+
+namespace finray {
+namespace {
+
+using testing::HasSubstr;
+
+class BatchTest : public CommandLineTest {
+ protected:
+  BatchTest() {
+    // Frames cost next to nothing: what is tested is what is around them.
+    folder_.Write("scene.yaml", "contacts: 0\n");
+    std::filesystem::create_directory(folder_.Path("runs"));
+  }
+
+  void WriteLog(const std::string& name, int frames, int seed) {
+    std::ofstream log(folder_.Path(name));
+    log << "time_s,gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V,force_N,note\n";
+    for (int i = 0; i < frames; ++i) {
+      const int v = (i * 37 + seed) % 1000;
+      log << i << "," << v * 1e-5 << ",0.00" << v % 97 << ",0.01,"
+          << (v % 50 == 0 ? "" : "0.001") << "," << v * 1e-3 << ",n" << v
+          << "\n";
+    }
+  }
+
+  // Arguments for the logs of the folder.
+  std::string Arguments(const std::string& logs, const std::string& more) {
+    return "--finger " + paper_ + " --scene %scene.yaml --logs " + logs +
+           " --threads 2 " + more;
+  }
+
+  std::map<std::string, std::string> Files(const std::string& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(folder_.Path(folder))) {
+      const std::string name = entry.path().filename().string();
+      // Temporaries of small files that a kill has hit.
+      if (name.rfind(".finray-", 0) == 0) continue;
+      files[name] = folder_.Read(folder + "/" + name);
+    }
+    return files;
+  }
+
+  // A process of the executable, silent.
+  pid_t Start(const std::vector<std::string>& arguments) {
+    std::vector<char*> argv;
+    std::vector<std::string> all = {FINRAY_BINARY_DIR "/finray_estimate"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    for (std::string& argument : all) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    const pid_t child = fork();
+    if (child == 0) {
+      const int log = open(folder_.Path("stderr").c_str(),
+                           O_WRONLY | O_CREAT | O_TRUNC, 0666);
+      dup2(log, STDOUT_FILENO);
+      dup2(log, STDERR_FILENO);
+      execv(argv[0], argv.data());
+      _exit(127);
+    }
+    return child;
+  }
+
+  std::vector<std::string> ArgumentsOf(const std::string& logs,
+                                       const std::string& out) {
+    return {"--finger",  paper_,
+            "--scene",   folder_.Path("scene.yaml"),
+            "--logs",    folder_.Path(logs),
+            "--out_dir", folder_.Path(out),
+            "--threads", "2"};
+  }
+
+  static int ExitCode(int status) {
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+  // Peak memory of a run over a log of so many frames, in MB.
+  double PeakMemory(int frames) {
+    WriteLog("long.csv", frames, 1);
+    const pid_t child = Start(ArgumentsOf("long.csv", "out"));
+    int status = 0;
+    rusage usage;
+    wait4(child, &status, 0, &usage);
+    EXPECT_EQ(ExitCode(status), 0) << folder_.Read("stderr");
+    EXPECT_THAT(folder_.Read("stderr"),
+                HasSubstr("frames         " + std::to_string(frames)));
+    std::printf("%s%d frames: peak %.1f MB\n", folder_.Read("stderr").c_str(),
+                frames, usage.ru_maxrss / 1024.0);
+    return static_cast<double>(usage.ru_maxrss) / 1024;
+  }
+};
+
+TEST_F(BatchTest, PatternsListsAndTables) {
+  WriteLog("runs/a.csv", 300, 1);
+  WriteLog("runs/b.csv", 200, 2);
+  folder_.Write("list.txt", "# two\nruns/b.csv\nruns/a.csv\n");
+  const Outcome outcome =
+      Run("finray_estimate", Arguments("'%runs/*.csv'", "--out_dir %out"));
+  ASSERT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 6);
+  EXPECT_THAT(outcome.output, HasSubstr("frames         500 in 2 logs, "));
+  const FrameTable table = FrameTable::Read(folder_.Path("out/summary.csv"));
+  EXPECT_EQ(table.rows(), 2u);
+  FrameTable copy = table;
+  EXPECT_EQ(copy.MutableText("frames")[1], "200");
+  EXPECT_EQ(copy.MutableText("no_contact")[0], "300");
+  EXPECT_EQ(copy.MutableText("log")[0], folder_.Path("runs/a.csv"));
+  const YAML::Node yaml = YAML::LoadFile(folder_.Path("out/summary.yaml"));
+  EXPECT_EQ(yaml["logs"][1]["frames"].as<int>(), 200);
+  EXPECT_EQ(yaml["logs"][1]["key"].as<std::string>(),
+            YAML::LoadFile(folder_.Path("out/b.summary.yaml"))["key"]
+                .as<std::string>());
+  EXPECT_EQ(yaml["all"]["force_compared_frames"].as<int>(), 500);
+
+  // Results in the logs' own folder are no logs.
+  const std::string in_place = Arguments("'%runs/*.csv'", "--out_dir %runs");
+  ASSERT_EQ(Run("finray_estimate", in_place).code, 0);
+  const auto files = Files("runs");
+  const Outcome again = Run("finray_estimate", in_place + " --resume");
+  ASSERT_EQ(again.code, 0) << again.output;
+  EXPECT_THAT(again.output, HasSubstr(", 500 kept"));
+  EXPECT_EQ(Files("runs"), files);
+
+  EXPECT_EQ(
+      Run("finray_estimate", Arguments("@%list.txt", "--out_dir %two")).code,
+      0);
+  EXPECT_EQ(folder_.Read("two/a.frames.csv"), folder_.Read("out/a.frames.csv"));
+  EXPECT_EQ(YAML::LoadFile(folder_.Path("two/summary.yaml"))["logs"][0]["log"]
+                .as<std::string>(),
+            folder_.Path("runs/b.csv"));
+}
+
+TEST_F(BatchTest, BadListsAndLogsAreFoundBeforeAnythingIsWritten) {
+  WriteLog("runs/a.csv", 300, 1);
+  const auto bad = [&](const std::string& logs, const std::string& message) {
+    ExpectBadInput("finray_estimate", Arguments(logs, "--out_dir %out"),
+                   message);
+  };
+  bad("'%runs/*.tsv'", "runs/*.tsv' matches no file");
+  bad("@%none.txt", "none.txt: cannot be read");
+  std::filesystem::copy(folder_.Path("runs/a.csv"), folder_.Path("a.csv"));
+  bad("%runs/a.csv,%a.csv", "a.csv' would both be written to");
+  bad("%runs/a.csv,/dev/zero", "/dev/zero: expected a file");
+  // One bad cell behind much that is good, in the last log.
+  WriteLog("b.csv", 20000, 2);
+  std::ofstream(folder_.Path("b.csv"), std::ios::app)
+      << "1,0.1,0.1,oops,0.1,1,x\n1,1,1,1,1,1,y\n";
+  bad("%runs/a.csv,%b.csv",
+      "b.csv:20002:4: gauge_3_V: expected a number, found 'oops'");
+}
+
+TEST_F(BatchTest, KilledAtAnyMomentAndResumed) {
+  for (int i = 0; i < 3; ++i) {
+    WriteLog("runs/log" + std::to_string(i) + ".csv", 30000 + 5000 * i, i);
+  }
+  const auto arguments = ArgumentsOf("runs/*.csv", "killed");
+  const pid_t whole = Start(ArgumentsOf("runs/*.csv", "whole"));
+  const auto start = std::chrono::steady_clock::now();
+  int status = 0;
+  waitpid(whole, &status, 0);
+  ASSERT_EQ(ExitCode(status), 0) << folder_.Read("stderr");
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
+          .count();
+  const auto expected = Files("whole");
+
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> when(0, 0.9 * seconds);
+  int kills = 0;
+  for (int round = 0; round < 4; ++round) {
+    std::filesystem::remove_all(folder_.Path("killed"));
+    bool resume = false;
+    for (;;) {
+      auto these = arguments;
+      if (resume) these.push_back("--resume");
+      resume = true;
+      const pid_t child = Start(these);
+      std::this_thread::sleep_for(
+          std::chrono::duration<double>(when(generator)));
+      kill(child, SIGKILL);
+      waitpid(child, &status, 0);
+      if (ExitCode(status) == 0) break;
+      ASSERT_EQ(ExitCode(status), -SIGKILL) << folder_.Read("stderr");
+      ++kills;
+      if (!std::filesystem::exists(folder_.Path("killed"))) continue;
+      for (const auto& [name, bytes] : Files("killed")) {
+        if (name[0] != '.' && name.find(".frames.csv") != std::string::npos) {
+          ASSERT_EQ(bytes, expected.at(name)) << name;
+        }
+      }
+    }
+    auto files = Files("killed");
+    ASSERT_EQ(files.size(), expected.size());
+    for (auto& [name, bytes] : files) {
+      // The overall summaries name the results' folder.
+      for (std::size_t at;
+           (at = bytes.find("/killed/")) != std::string::npos;) {
+        bytes.replace(at, 8, "/whole/");
+      }
+      ASSERT_EQ(bytes, expected.at(name)) << name;
+    }
+  }
+  std::printf("%d kills in runs of %.2f s\n", kills, seconds);
+  EXPECT_GT(kills, 0);
+}
+
+TEST_F(BatchTest, SignalsEndARunThatCanBeResumed) {
+  WriteLog("runs/a.csv", 2000, 1);
+  WriteLog("runs/b.csv", 200000, 2);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    std::filesystem::remove_all(folder_.Path("out"));
+    const pid_t child = Start(ArgumentsOf("runs/*.csv", "out"));
+    while (!std::filesystem::exists(folder_.Path("out/.b.frames.csv.part"))) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    kill(child, signal);
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(ExitCode(status), 130);
+    const std::string said = folder_.Read("stderr");
+    EXPECT_THAT(said, HasSubstr("finray_estimate: interrupted after "));
+    EXPECT_THAT(said, HasSubstr(" of 202000 frames; the same command with "
+                                "--resume goes on from there\n"));
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1);
+    EXPECT_TRUE(std::filesystem::exists(folder_.Path("out/a.frames.csv")));
+    EXPECT_FALSE(std::filesystem::exists(folder_.Path("out/b.frames.csv")));
+    EXPECT_FALSE(std::filesystem::exists(folder_.Path("out/summary.yaml")));
+    const Outcome outcome =
+        Run("finray_estimate",
+            Arguments("'%runs/*.csv'", "--out_dir %out --resume"));
+    EXPECT_EQ(outcome.code, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(" kept\n"));
+  }
+}
+
+TEST_F(BatchTest, MemoryStaysBehindTheLog) {
+  // As a table these frames alone would take 100 MB, as text three times that.
+  EXPECT_LT(PeakMemory(400000), 150);
+}
+
+TEST_F(BatchTest, SlowTenMillionFrames) {
+  EXPECT_LT(PeakMemory(10000000), 300);
+}
+
+}  // namespace
+}  // namespace finray
