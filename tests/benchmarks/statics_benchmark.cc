@@ -19,6 +19,7 @@
 #include "finray/chain/forward.h"
 #include "finray/statics/equilibrium.h"
 #include "finray/statics/ladder_kernel.h"
+#include "finray/statics/ladder_newton.h"
 #include "test_finger.h"
 
 namespace finray {
@@ -124,6 +125,22 @@ void Ladder(benchmark::State& state, Scheme scheme) {
   state.counters["error"] = error.worst();
 }
 
+// The two passes of a Newton step of the default scheme in one instruction set.
+void Pass(benchmark::State& state, int set, bool evaluate) {
+  LadderNewton newton(PaperFinger(), {});
+  newton.Converge({Frame(0)}, 1, SweepColumns::kNone);
+  LadderFrame<double> frame = newton.frame();
+  const LadderKernel& kernel = FindLadderKernel(Scheme::kTaylor, false, set);
+  kernel.evaluate(frame, false, false);
+  for (auto _ : state) {
+    if (evaluate) {
+      benchmark::DoNotOptimize(kernel.evaluate(frame, false, false));
+    } else {
+      benchmark::DoNotOptimize(kernel.sweep(frame, SweepColumns::kNone, false));
+    }
+  }
+}
+
 // Keeps what was measured, for the comparison at the end.
 class ComparingReporter : public benchmark::ConsoleReporter {
  public:
@@ -187,6 +204,15 @@ void Register() {
           [scheme = scheme](benchmark::State& state) { Ladder(state, scheme); })
           ->Arg(resolution)
           ->Unit(benchmark::kMicrosecond);
+    }
+  }
+  for (int set = 0; set < LadderInstructionSets(); ++set) {
+    for (const bool evaluate : {true, false}) {
+      const std::string name = std::string(evaluate ? "evaluate" : "sweep") +
+                               "_" + LadderInstructionSetName(set);
+      benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+        Pass(state, set, evaluate);
+      })->Unit(benchmark::kMicrosecond);
     }
   }
 }
