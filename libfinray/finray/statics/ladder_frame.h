@@ -15,6 +15,7 @@ namespace finray {
 /// Which derivatives a sweep carries beside the Newton step.
 enum class SweepColumns {
   kNone,
+  kContacts,    ///< l_c, f_c of each contact.
   kParameters,  ///< l_c, f_c of each contact; EI front, back; rib lengths.
   kLoad,        ///< the load factor: contact forces and rib lengths together.
 };
@@ -52,8 +53,10 @@ constexpr int kMapEnd = 0, kMapStart = 4, kMapStiffness = 20, kMapLength = 24,
               kMapValues = 28;
 /// One readout: angle, its derivatives by the start, EI, offset and length.
 constexpr int kReadoutValues = 8;
-/// Columns kept of each node's rows: six parameters, the step, the load.
-constexpr int kNodeColumns = 8;
+/// Columns kept of each node's rows: six parameters, the step, and derivatives
+/// by the load or by up to kFittedContacts contacts.
+constexpr int kNodeColumns = 8, kMostNodeColumns = 16;
+constexpr int kFittedContacts = 2;
 
 template <class T>
 struct LadderFrame {
@@ -90,7 +93,8 @@ struct LadderFrame {
   // hold, from column `affine` on, the change of (x, y, theta) of each contact
   // and of the tip and of the readouts; after an open one rib lengths and the
   // six equations of the tip follow, all with their derivatives by q.
-  int affine = 6, stride = 8;
+  int affine = 6, stride = 8, node_columns = kNodeColumns;
+  int event_count = 0;
   T* taps;
   T* q_step;  ///< rows of the change of q.
 

@@ -187,6 +187,17 @@ bool LadderNewton::Linearize(const std::vector<PointContact>& contacts,
   return kernel_->sweep(f, SweepColumns::kLoad, false);
 }
 
+bool LadderNewton::LinearizeByContacts(
+    const std::vector<PointContact>& contacts) {
+  if (!SetLoad(contacts, 1, SweepColumns::kContacts, false)) return false;
+  LadderFrame<double>& f = workspace_.frame();
+  ++iterations_;
+  // Derivatives by length are those by l_c.
+  if (!std::isfinite(kernel_->evaluate(f, true, false))) return false;
+  kernel_->read_gauges(f);
+  return kernel_->sweep(f, SweepColumns::kContacts, true);
+}
+
 void LadderNewton::Move(double a, double b) {
   const LadderFrame<double>& f = frame();
   // The five fields of a state lie one behind the other.
