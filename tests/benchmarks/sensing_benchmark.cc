@@ -22,7 +22,7 @@ namespace finray {
 namespace {
 
 constexpr double kNoise_rad = 1e-4;
-constexpr int kFrames = 2000;
+constexpr int kFrames = 4190;  // once there and back
 
 struct Log {
   std::vector<PointContact> truth;

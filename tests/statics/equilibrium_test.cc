@@ -11,6 +11,7 @@
 #include <limits>
 #include <string>
 
+#include "finray/io/error.h"
 #include "finray/statics/shape.h"
 #include "statics/special_cases.h"
 #include "statics/strain_energy.h"
@@ -428,6 +429,19 @@ TEST_P(EquilibriumTest, ContactsOffTheBeamAreRefused) {
     EXPECT_FALSE(solver.Solve({{arc, 2, 0}})) << arc;
   }
   EXPECT_TRUE(solver.Solve({{140, 2, 0}}));
+}
+
+TEST_P(EquilibriumTest, NothingIsReadFromASolveThatFailed) {
+  EquilibriumSolver solver(PaperFinger(), discretization());
+  EXPECT_FALSE(solver.Solve({{500, 2, 0}}));
+  EXPECT_EQ(solver.status(), SolveStatus::kBadLoad);
+  EXPECT_THROW(Shape(solver, {}), std::logic_error);
+  EXPECT_THROW(solver.set_state(LadderState()), InputError);
+  EXPECT_TRUE(solver.Solve({{70, 2, 0}}));
+  EXPECT_NO_THROW(Shape(solver, {{70, 2, 0}}));
+  LadderShot shot;
+  EXPECT_TRUE(solver.Shoot(solver.state().q * 1.1, {{70, 2, 0}}, &shot));
+  EXPECT_THROW(Shape(solver, {{70, 2, 0}}), std::logic_error);
 }
 
 TEST_P(EquilibriumTest, ContactPassesOverARibContinuously) {

@@ -6,7 +6,8 @@ namespace finray {
 // What the ladder kernel (ladder_kernel.h) works on: plain arrays, as its code
 // is compiled for several instruction sets and must not share inline functions
 // of a library with the rest. All numbers are in units of l_0, EI_0 / l_0 and
-// EI_0 / l_0^2, which makes them comparable when pivots are chosen.
+// EI_0 / l_0^2, EI_0 = sqrt(EI_front EI_back), which makes them comparable when
+// pivots are chosen.
 //
 // Elements are numbered front beam first, base to tip, then the back beam. A
 // slot is a piece of an element: the element up to its first contact has the
@@ -57,6 +58,9 @@ constexpr int kReadoutValues = 8;
 /// by the load or by up to kFittedContacts contacts.
 constexpr int kNodeColumns = 8, kMostNodeColumns = 16;
 constexpr int kFittedContacts = 2;
+/// Elements between two looks at the growth of a sweep's columns; none grows by
+/// more than a few.
+constexpr int kGrowthCheckEvery = 4;
 
 template <class T>
 struct LadderFrame {

@@ -77,8 +77,6 @@ class LadderSweeper {
   // Beyond this the parameters are exchanged: it costs as many digits of a
   // step, which Newton's next one corrects.
   static constexpr T kLargestGrowth = 1000;
-  // Elements between two looks; none grows by more than a few.
-  static constexpr int kCheckEvery = 4;
   static constexpr int kParameterVectors = (6 + kWidth - 1) / kWidth;
 
   int vectors() const { return kVectors > 0 ? kVectors : f_.stride / kWidth; }
@@ -165,7 +163,7 @@ class LadderSweeper {
       slot = f_.elements + c;
     }
     PassSlot(side, e, slot, begins_at, -1, readouts);
-    if (!open_ && ++since_check_ >= kCheckEvery) CheckGrowth();
+    if (!open_ && ++since_check_ >= kGrowthCheckEvery) CheckGrowth();
   }
 
   // A slot that begins (ends) at a contact becomes shorter (longer) when that

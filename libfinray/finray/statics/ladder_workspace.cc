@@ -85,8 +85,8 @@ void LadderWorkspace<T>::LayOut(Take&& take) {
   take(&f.closure, q);
   take(&f.readout_map, kReadoutValues * f.readout_count);
   const int taps = 3 * contact_capacity_ + 3 + f.readout_count + q;
-  // Each element may exchange all six parameters.
-  const int pivots = 6 * elements + ribs + 6;
+  // Every so many elements all six parameters may be exchanged.
+  const int pivots = 6 * (elements / kGrowthCheckEvery) + ribs + 6;
   take(&f.taps, taps * stride);
   take(&f.q_step, q * stride);
   take(&f.rows, 12 * stride);
