@@ -19,12 +19,13 @@
 #include "finray/chain/forward.h"
 #include "finray/statics/equilibrium.h"
 #include "finray/statics/ladder_kernel.h"
+#include "finray/statics/ladder_newton.h"
 #include "test_finger.h"
 
 namespace finray {
 namespace {
 
-constexpr int kFrames = 2000;
+constexpr int kFrames = 4190;  // once there and back
 // Accuracy asked of every solver.
 constexpr double kTolerance = 1e-6;
 
@@ -80,9 +81,13 @@ void Paper(benchmark::State& state) {
   };
   ChainState chain;
   WorstError error;
-  if (!SolveForward(layout, contact(0), &chain)) state.SkipWithError("lost");
   for (int i = 0; i < kFrames; i += 50) {
-    if (!SolveForward(layout, contact(i), &chain)) state.SkipWithError("lost");
+    // Warm, as it is timed.
+    if (!SolveForward(layout, contact(i + 1), &chain) ||
+        !ContinueForward(layout, contact(i), last_step, &chain)) {
+      state.SkipWithError("lost");
+      return;
+    }
     Eigen::VectorXd ribs(layout.ribs.size());
     for (int k = 0; k < ribs.size(); ++k) ribs[k] = chain.rib_tension(k);
     error.Add(i, layout.gauges * chain.theta, ribs);
@@ -92,6 +97,7 @@ void Paper(benchmark::State& state) {
   for (auto _ : state) {
     if (!ContinueForward(layout, contact(i), last_step, &chain)) {
       state.SkipWithError("lost");
+      break;
     }
     i = (i + 1) % kFrames;
   }
@@ -106,7 +112,10 @@ void Ladder(benchmark::State& state, Scheme scheme) {
   WorstError error;
   for (int i = 0; i < kFrames; ++i) {
     contacts[0] = Frame(i);
-    if (!solver.Solve(contacts)) state.SkipWithError("lost");
+    if (!solver.Solve(contacts)) {
+      state.SkipWithError("lost");
+      return;
+    }
     if (i % 50 == 0) {
       error.Add(i, solver.outputs().head(solver.model().gauges()),
                 solver.state().q.tail(solver.model().ribs()));
@@ -118,10 +127,29 @@ void Ladder(benchmark::State& state, Scheme scheme) {
   int i = 0;
   for (auto _ : state) {
     contacts[0] = Frame(i);
-    benchmark::DoNotOptimize(solver.Solve(contacts));
+    if (!solver.Solve(contacts)) {
+      state.SkipWithError("lost");
+      break;
+    }
     i = (i + 1) % kFrames;
   }
   state.counters["error"] = error.worst();
+}
+
+// The two passes of a Newton step of the default scheme in one instruction set.
+void Pass(benchmark::State& state, int set, bool evaluate) {
+  LadderNewton newton(PaperFinger(), {});
+  newton.Converge({Frame(0)}, 1, SweepColumns::kNone);
+  LadderFrame<double> frame = newton.frame();
+  const LadderKernel& kernel = FindLadderKernel(Scheme::kTaylor, false, set);
+  kernel.evaluate(frame, false, false);
+  for (auto _ : state) {
+    if (evaluate) {
+      benchmark::DoNotOptimize(kernel.evaluate(frame, false, false));
+    } else {
+      benchmark::DoNotOptimize(kernel.sweep(frame, SweepColumns::kNone, false));
+    }
+  }
 }
 
 // Keeps what was measured, for the comparison at the end.
@@ -187,6 +215,15 @@ void Register() {
           [scheme = scheme](benchmark::State& state) { Ladder(state, scheme); })
           ->Arg(resolution)
           ->Unit(benchmark::kMicrosecond);
+    }
+  }
+  for (int set = 0; set < LadderInstructionSets(); ++set) {
+    for (const bool evaluate : {true, false}) {
+      const std::string name = std::string(evaluate ? "evaluate" : "sweep") +
+                               "_" + LadderInstructionSetName(set);
+      benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+        Pass(state, set, evaluate);
+      })->Unit(benchmark::kMicrosecond);
     }
   }
 }

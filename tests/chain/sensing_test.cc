@@ -189,5 +189,13 @@ TEST(ChainSensingTest, SaysWhenItFails) {
   }
 }
 
+TEST(ChainSensingTest, NoContactIsNoSolution) {
+  const ChainLayout layout =
+      MakeChainLayout(PaperFinger(), 40, GaugeRule::kOverlap);
+  const ChainSensing found =
+      SenseContact(layout, Eigen::VectorXd::Zero(4), {70, 0, 0});
+  EXPECT_FALSE(found.converged);
+}
+
 }  // namespace
 }  // namespace finray

@@ -10,7 +10,7 @@
 #include "finray/finger/geometry.h"
 #include "finray/statics/equilibrium.h"
 #include "finray/statics/shape.h"
-#include "statics/gauss_legendre.h"
+#include "statics/strain_energy.h"
 #include "temp_file.h"
 #include "test_finger.h"
 
@@ -141,35 +141,6 @@ TEST(RichBeamsTest, ReactionsBalanceTheContacts) {
     EXPECT_LT(force.norm(), 1e-9);
     EXPECT_LT(std::abs(moment), 1e-7);
   }
-}
-
-// Of bending and stretching.
-double StrainEnergy(const EquilibriumSolver& solver,
-                    const std::vector<PointContact>& contacts) {
-  const Finger& finger = solver.model().finger();
-  const Shape shape(solver, contacts);
-  double energy = 0;
-  for (const Side side : {Side::kFront, Side::kBack}) {
-    const std::vector<double> stations = shape.Stations(side);
-    for (std::size_t k = 0; k + 1 < stations.size(); ++k) {
-      for (const QuadraturePoint& q :
-           GaussLegendre(8, stations[k], stations[k + 1])) {
-        const Section at = shape.At(side, q.at);
-        const auto& pieces = Pieces(finger, side);
-        const auto piece = std::find_if(
-            pieces.begin(), pieces.end(),
-            [&](const StiffnessPiece& p) { return q.at < p.end_mm; });
-        const double bending =
-            BendingStiffness(finger, side) * piece->stiffness_ratio;
-        const double tension = at.force_x_N * std::cos(at.theta_rad) +
-                               at.force_y_N * std::sin(at.theta_rad);
-        energy +=
-            q.weight * (at.moment_N_mm * at.moment_N_mm / (2 * bending) +
-                        tension * tension / (2 * AxialStiffness(finger, side)));
-      }
-    }
-  }
-  return energy;
 }
 
 TEST(RichBeamsTest, WorkOfTheContactsIsStoredAsStrainEnergy) {

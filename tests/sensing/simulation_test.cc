@@ -82,6 +82,15 @@ TEST_F(SimulationTest, ObjectsTurnAndTouchSeveralTimes) {
   EXPECT_EQ(frames.MutableText("status")[3], "not_converged");
 }
 
+TEST_F(SimulationTest, HalfAPlaceIsAnError) {
+  FrameTable frames = Load("object_x_mm,object_y_mm\n,\n-10,\n");
+  Scene scene;
+  scene.object = RigidObject{Outline(CircleOutline{15}), {}};
+  EXPECT_THAT([&] { Simulate(finger_, scene, {}, &frames); },
+              ThrowsMessage<InputError>(HasSubstr(
+                  "in.csv:3: object_x_mm and object_y_mm: expected both")));
+}
+
 TEST_F(SimulationTest, SaysWhereAPathOfLoadsEnds) {
   FrameTable frames = Load("contact_1_mm,normal_1_N\n70,2\n130,200\n");
   const SimulationSummary summary = Simulate(finger_, {}, {}, &frames);

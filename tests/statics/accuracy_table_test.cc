@@ -17,20 +17,6 @@ namespace {
 constexpr double kFrontLength = 140;
 constexpr double kStiffness = 12500;
 
-// One contact over the whole beam and range of forces.
-std::vector<Case> GridCases() {
-  std::vector<Case> cases;
-  for (double arc = 5; arc <= 135; arc += 5) {
-    for (const double force : {0.05, 0.2, 1.0, 3.0, 8.0, 20.0}) {
-      cases.push_back(
-          {"l_c " + std::to_string(arc) + ", f_c " + std::to_string(force),
-           PaperFinger(),
-           {{arc, force, 0}}});
-    }
-  }
-  return cases;
-}
-
 // Largest differences of tip (of l_0), gauges and rib forces (of the largest).
 struct Difference {
   double tip, gauges, ribs;

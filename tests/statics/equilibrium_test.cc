@@ -11,9 +11,10 @@
 #include <limits>
 #include <string>
 
+#include "finray/io/error.h"
 #include "finray/statics/shape.h"
-#include "statics/gauss_legendre.h"
 #include "statics/special_cases.h"
+#include "statics/strain_energy.h"
 
 namespace finray {
 namespace {
@@ -37,20 +38,6 @@ Vector2d NormalInward(double theta) {
 Vector2d Point(const Section& section) { return {section.x_mm, section.y_mm}; }
 Vector2d Force(const Section& section) {
   return {section.force_x_N, section.force_y_N};
-}
-
-// One contact over the whole beam and range of forces.
-std::vector<Case> GridCases() {
-  std::vector<Case> cases;
-  for (double arc = 5; arc <= 135; arc += 5) {
-    for (const double force : {0.05, 0.2, 1.0, 3.0, 8.0, 20.0}) {
-      cases.push_back(
-          {"l_c " + std::to_string(arc) + ", f_c " + std::to_string(force),
-           PaperFinger(),
-           {{arc, force, 0}}});
-    }
-  }
-  return cases;
 }
 
 std::vector<Case> AllCases() {
@@ -208,30 +195,6 @@ TEST_P(EquilibriumTest, RibsKeepTheirLengthAndTheTipIsClosed) {
           1e-11);
     }
   }
-}
-
-double StrainEnergy(const EquilibriumSolver& solver,
-                    const std::vector<PointContact>& contacts) {
-  const Finger& finger = solver.model().finger();
-  const Shape shape(solver, contacts);
-  double energy = 0;
-  for (const Side side : {Side::kFront, Side::kBack}) {
-    const std::vector<double> stations = shape.Stations(side);
-    for (std::size_t k = 0; k + 1 < stations.size(); ++k) {
-      for (const QuadraturePoint& q :
-           GaussLegendre(8, stations[k], stations[k + 1])) {
-        const double moment = shape.At(side, q.at).moment_N_mm;
-        energy +=
-            q.weight * moment * moment / (2 * solver.model().stiffness(side));
-      }
-    }
-  }
-  for (std::size_t i = 0; i < finger.ribs.size(); ++i) {
-    const double tension = solver.rib_tension(static_cast<int>(i));
-    energy += tension * tension * finger.ribs[i].length_mm /
-              (2 * finger.ribs[i].axial_stiffness_N);
-  }
-  return energy;
 }
 
 // Integral of F . dr over a load path, against the energy it stores.
@@ -466,6 +429,19 @@ TEST_P(EquilibriumTest, ContactsOffTheBeamAreRefused) {
     EXPECT_FALSE(solver.Solve({{arc, 2, 0}})) << arc;
   }
   EXPECT_TRUE(solver.Solve({{140, 2, 0}}));
+}
+
+TEST_P(EquilibriumTest, NothingIsReadFromASolveThatFailed) {
+  EquilibriumSolver solver(PaperFinger(), discretization());
+  EXPECT_FALSE(solver.Solve({{500, 2, 0}}));
+  EXPECT_EQ(solver.status(), SolveStatus::kBadLoad);
+  EXPECT_THROW(Shape(solver, {}), std::logic_error);
+  EXPECT_THROW(solver.set_state(LadderState()), InputError);
+  EXPECT_TRUE(solver.Solve({{70, 2, 0}}));
+  EXPECT_NO_THROW(Shape(solver, {{70, 2, 0}}));
+  LadderShot shot;
+  EXPECT_TRUE(solver.Shoot(solver.state().q * 1.1, {{70, 2, 0}}, &shot));
+  EXPECT_THROW(Shape(solver, {{70, 2, 0}}), std::logic_error);
 }
 
 TEST_P(EquilibriumTest, ContactPassesOverARibContinuously) {

@@ -10,6 +10,7 @@
 #include <cstdio>
 
 #include "finray/statics/equilibrium.h"
+#include "finray/statics/ladder_newton.h"
 #include "finray/statics/ladder_workspace.h"
 #include "test_finger.h"
 
@@ -138,6 +139,17 @@ TEST(LadderKernelTest, SweepIsStableWhereAMarchIsNot) {
   const double error = Difference(swept, fixture.DenseStep(kernel));
   std::printf("soft finger: %.1e\n", error);
   EXPECT_LT(error, 1e-5);
+}
+
+// Its rows have room for so many.
+TEST(LadderKernelTest, DerivativesByManyContactsAreRefused) {
+  LadderNewton newton(PaperFinger(), {});
+  std::vector<PointContact> contacts;
+  for (int c = 0; c < 6; ++c) contacts.push_back({20.0 + 15 * c, 0.5, 0});
+  ASSERT_TRUE(newton.Converge(contacts, 1, SweepColumns::kNone));
+  EXPECT_FALSE(newton.LinearizeByContacts(contacts));
+  contacts.resize(kFittedContacts);
+  EXPECT_TRUE(newton.LinearizeByContacts(contacts));
 }
 
 TEST(LadderKernelTest, InstructionSetsAgree) {

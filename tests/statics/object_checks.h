@@ -9,7 +9,7 @@
 
 #include "finray/statics/object_contact.h"
 #include "finray/statics/shape.h"
-#include "statics/gauss_legendre.h"
+#include "statics/strain_energy.h"
 
 namespace finray {
 
@@ -24,24 +24,6 @@ inline Eigen::Vector2d TotalForce(const ObjectContact& found,
              (Eigen::Vector2d(t.y(), -t.x()) + found.contacts[c].friction * t);
   }
   return force;
-}
-
-inline double StrainEnergy(const EquilibriumSolver& solver,
-                           const std::vector<PointContact>& contacts) {
-  const Shape shape(solver, contacts);
-  double energy = 0;
-  for (const Side side : {Side::kFront, Side::kBack}) {
-    const std::vector<double> stations = shape.Stations(side);
-    for (std::size_t k = 0; k + 1 < stations.size(); ++k) {
-      for (const QuadraturePoint& q :
-           GaussLegendre(8, stations[k], stations[k + 1])) {
-        const double moment = shape.At(side, q.at).moment_N_mm;
-        energy +=
-            q.weight * moment * moment / (2 * solver.model().stiffness(side));
-      }
-    }
-  }
-  return energy;
 }
 
 /// Least distance of the front beam, sampled densely, from an object at rest.

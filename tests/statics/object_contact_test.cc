@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 
+#include "finray/statics/object_clearance.h"
 #include "statics/object_checks.h"
 #include "test_finger.h"
 
@@ -249,6 +250,20 @@ TEST(ObjectContactTest, FollowsASoftFingerDeep) {
   const ObjectContact again =
       Solve(Circle(20), Touching(66.5, 30, 20), 0, &cold);
   EXPECT_NEAR(TotalForce(again, cold).norm(), before, 1e-6);
+}
+
+// A chain's kinks must not hide its nearest point.
+TEST(ObjectContactTest, AChainHasANearestPoint) {
+  Finger finger = PaperFinger();
+  finger.ribs[2].length_mm += 0.3;
+  EquilibriumSolver solver(finger, {Scheme::kRigidChain, 0});
+  ASSERT_TRUE(solver.Solve({}));
+  const Shape free(solver, {});
+  const Outline circle(CircleOutline{11});
+  for (int i = 0; i < 2000; ++i) {
+    const ObjectPose pose = {{-25 + 0.011 * i, 20 + 0.05 * i}};
+    EXPECT_FALSE(FindApproaches(free, 140, {}, circle, pose, 0).empty());
+  }
 }
 
 }  // namespace

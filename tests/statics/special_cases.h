@@ -26,6 +26,20 @@ struct Case {
   std::vector<PointContact> contacts;
 };
 
+/// One contact over the whole beam and range of forces.
+inline std::vector<Case> GridCases() {
+  std::vector<Case> cases;
+  for (double arc = 5; arc <= 135; arc += 5) {
+    for (const double force : {0.05, 0.2, 1.0, 3.0, 8.0, 20.0}) {
+      cases.push_back(
+          {"l_c " + std::to_string(arc) + ", f_c " + std::to_string(force),
+           PaperFinger(),
+           {{arc, force, 0}}});
+    }
+  }
+  return cases;
+}
+
 /// Friction, several contacts, ends, ribs, prestress, elastic ribs, unequal
 /// beams, no ribs.
 inline std::vector<Case> SpecialCases() {

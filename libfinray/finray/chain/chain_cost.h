@@ -14,10 +14,10 @@ namespace finray {
 //
 // and residuals, with the units of ChainUnits:
 //
-//   TipClosureCost      w (y_0, y_1 / l_0, y_2 / l_0)        (4)    theta
-//   JointTorqueCost     w tau / (F_0 l_0)                    (14)   all three
-//   RibDistanceCost     w d / l_0                            (7)    theta,
-//   loads GaugeAngleCost      (S_e theta - s_0) / sigma            (16)   theta
+//   TipClosureCost   w (y_0, y_1 / l_0, y_2 / l_0)   (4)    theta
+//   JointTorqueCost  w tau / (F_0 l_0)               (14)   all three
+//   RibDistanceCost  w d / l_0                       (7)    theta, loads
+//   GaugeAngleCost   (S_e theta - s_0) / sigma       (16)   theta
 //
 // `layout` must outlive the cost functions.
 

@@ -76,7 +76,8 @@ ChainSensing SenseContact(const ChainLayout& layout, const Eigen::VectorXd& s0,
     const double normal = contact.normal_N + change[n + loads + 1];
     contact.arc_mm = std::clamp(arc, 0.0, layout.length_unit_mm);
     contact.normal_N = std::max(0.0, normal);
-    const bool on_bound = contact.arc_mm != arc || contact.normal_N != normal;
+    const bool on_bound = contact.arc_mm <= 0 || contact.normal_N <= 0 ||
+                          contact.arc_mm >= layout.length_unit_mm;
     if (!on_bound && step.cwiseAbs().maxCoeff() < kSmallStep &&
         state.AllFinite()) {
       result.converged = true;

@@ -1,14 +1,10 @@
 #ifndef FINRAY_SENSING_FRAME_ESTIMATOR_H_
 #define FINRAY_SENSING_FRAME_ESTIMATOR_H_
 
-#include <ceres/problem.h>
-#include <ceres/solver.h>
-
-#include <memory>
 #include <vector>
 
 #include "finray/finger/finger.h"
-#include "finray/residuals/frame_set.h"
+#include "finray/sensing/contact_fit.h"
 #include "finray/sensing/gauge_table.h"
 #include "finray/sensing/scene.h"
 
@@ -36,10 +32,9 @@ struct FrameEstimate {
   int iterations = 0;
 };
 
-/// Estimates one frame at a time from gauge volts: l_c and f_c by least squares
-/// (18) on GaugeReadingResidual blocks in the reduced form, f_c >= 0 and
-/// 0 <= l_c <= l_0 as bounds, started from a GaugeTable, so that every frame is
-/// a cold one and the result does not depend on its neighbours.
+/// Estimates one frame at a time from gauge volts: l_c and f_c by ContactFit,
+/// started from a GaugeTable, so that every frame is a cold one and the result
+/// does not depend on its neighbours.
 ///
 /// Statuses (docs/estimation.md):
 ///  - no_contact: the free finger explains the frame; with contacts "auto" that
@@ -69,21 +64,18 @@ class FrameEstimator {
 
  private:
   FrameEstimate FreeEstimate(double chi2) const;
-  FrameEstimate ContactEstimate(const GaugeTable::Start& start);
+  FrameEstimate ContactEstimate(const GaugeTable::Start& start,
+                                const Eigen::VectorXd& angles_rad,
+                                const Eigen::VectorXd& weight_per_rad);
 
   Finger finger_;
   Scene scene_;
   EquilibriumSolver solver_;
   GaugeTable table_;
+  ContactFit fit_;
   std::vector<GaugeTable::Start> starts_;
+  std::vector<PointContact> contacts_;
   FrameEstimate free_;
-
-  // One Ceres problem serves all frames: the blocks read readings_V_.
-  SharedParameters shared_;
-  std::vector<double> gains_, offsets_, readings_V_;
-  double contact_[2];  // l_c, f_c
-  std::unique_ptr<FrameSet> frames_;
-  std::unique_ptr<ceres::Problem> problem_;
 };
 
 }  // namespace finray

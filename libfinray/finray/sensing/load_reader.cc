@@ -56,8 +56,10 @@ RowLoad LoadReader::Read(std::size_t row) const {
     load.contacts.push_back(
         {arc, normal, std::isnan(mu) ? scene_.friction_coefficient : mu, side});
   }
-  if (load.contacts.empty() && std::isfinite(x_[row]) &&
-      std::isfinite(y_[row]) && scene_.object) {
+  if (std::isnan(x_[row]) != std::isnan(y_[row])) {
+    Fail(row, "object_x_mm and object_y_mm: expected both or neither");
+  }
+  if (load.contacts.empty() && std::isfinite(x_[row]) && scene_.object) {
     const double angle = std::isnan(angle_[row]) ? 0 : angle_[row];
     load.object = {{x_[row], y_[row]}, angle * M_PI / 180};
   }

@@ -20,7 +20,7 @@ namespace finray {
 //   void SolveAndDifferentiate(the same);   // by the start of the element
 //   void DifferentiateByParameters();       // by EI and h, after that
 //   const BasicElementMap<V>& map() const;
-//   BasicAngleReadout<V> AngleAt(V offset) const;   // inside the element
+//   BasicAngleReadout<V> AngleAt(V offset) const;   // inside, after all three
 //   BasicBeamPoint<V> PointAt(V offset) const;
 //   void DenseOutput(V (*coefficients)[4]) const;   // kDegree + 1 of them
 //   V Truncation() const;                      // of the angle at the end, rad

@@ -88,7 +88,8 @@ bool EquilibriumSolver::Attempt(const std::vector<PointContact>& contacts,
   }
   switch (WalkLoadPath(contacts, &newton_, &path_fraction_)) {
     case LoadPathEnd::kReached:
-      return newton_.Converge(contacts, 1, columns);
+      return newton_.Converge(contacts, 1, columns) &&
+             newton_.turn() < kNear_rad;
     case LoadPathEnd::kLimitPoint:
       status_ = SolveStatus::kLimitPoint;
       return false;
@@ -252,8 +253,13 @@ void EquilibriumSolver::AddTaps(int first, int count, Matrix* target) const {
 bool EquilibriumSolver::Shoot(const Eigen::VectorXd& q,
                               const std::vector<PointContact>& contacts,
                               LadderShot* shot) {
+  // The state is the shot's, which is no equilibrium.
+  status_ = SolveStatus::kNotConverged;
   undeformed_ = false;
-  if (!newton_.Shoot(q, contacts)) return false;
+  if (!newton_.Shoot(q, contacts)) {
+    Reset();
+    return false;
+  }
   const LadderFrame<double>& f = newton_.frame();
   OutputUnits();
   const int m = model().gauges(), r = model().ribs(), n = 6 + r;

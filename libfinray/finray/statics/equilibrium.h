@@ -103,10 +103,12 @@ class EquilibriumSolver {
   int unknowns() const;
 
   /// The pieces of both beams at the present state, for drawing and integrals.
+  /// It uses the solver's scratch memory: not from two threads at once.
   std::array<std::vector<BeamSpan>, 2> Spans(
       const std::vector<PointContact>& contacts) const;
 
-  /// Evaluates the closure equations at `q`. False if they are not finite.
+  /// Evaluates the closure equations at `q`. False if they are not finite. The
+  /// solver is left at the shot, so that status() is no longer kSolved.
   bool Shoot(const Eigen::VectorXd& q,
              const std::vector<PointContact>& contacts, LadderShot* shot);
 

@@ -6,7 +6,8 @@ namespace finray {
 // What the ladder kernel (ladder_kernel.h) works on: plain arrays, as its code
 // is compiled for several instruction sets and must not share inline functions
 // of a library with the rest. All numbers are in units of l_0, EI_0 / l_0 and
-// EI_0 / l_0^2, which makes them comparable when pivots are chosen.
+// EI_0 / l_0^2, EI_0 = sqrt(EI_front EI_back), which makes them comparable when
+// pivots are chosen.
 //
 // Elements are numbered front beam first, base to tip, then the back beam. A
 // slot is a piece of an element: the element up to its first contact has the
@@ -15,6 +16,7 @@ namespace finray {
 /// Which derivatives a sweep carries beside the Newton step.
 enum class SweepColumns {
   kNone,
+  kContacts,    ///< l_c, f_c of each contact.
   kParameters,  ///< l_c, f_c of each contact; EI front, back; rib lengths.
   kLoad,        ///< the load factor: contact forces and rib lengths together.
 };
@@ -52,8 +54,13 @@ constexpr int kMapEnd = 0, kMapStart = 4, kMapStiffness = 20, kMapLength = 24,
               kMapValues = 28;
 /// One readout: angle, its derivatives by the start, EI, offset and length.
 constexpr int kReadoutValues = 8;
-/// Columns kept of each node's rows: six parameters, the step, the load.
-constexpr int kNodeColumns = 8;
+/// Columns kept of each node's rows: six parameters, the step, and derivatives
+/// by the load or by up to kFittedContacts contacts.
+constexpr int kNodeColumns = 8, kMostNodeColumns = 16;
+constexpr int kFittedContacts = 2;
+/// Elements between two looks at the growth of a sweep's columns; none grows by
+/// more than a few.
+constexpr int kGrowthCheckEvery = 4;
 
 template <class T>
 struct LadderFrame {
@@ -90,7 +97,8 @@ struct LadderFrame {
   // hold, from column `affine` on, the change of (x, y, theta) of each contact
   // and of the tip and of the readouts; after an open one rib lengths and the
   // six equations of the tip follow, all with their derivatives by q.
-  int affine = 6, stride = 8;
+  int affine = 6, stride = 8, node_columns = kNodeColumns;
+  int event_count = 0;
   T* taps;
   T* q_step;  ///< rows of the change of q.
 

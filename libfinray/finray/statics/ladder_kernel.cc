@@ -30,6 +30,8 @@ bool SweepColumnsOf(Frame& frame, SweepColumns columns, bool open,
   switch (frame.stride) {
     case 8:
       return LadderSweeper<double, 2>(&frame, columns, open).Run(readouts);
+    case 12:
+      return LadderSweeper<double, 3>(&frame, columns, open).Run(readouts);
     case 16:
       return LadderSweeper<double, 4>(&frame, columns, open).Run(readouts);
     default:
@@ -41,6 +43,11 @@ bool Sweep(Frame& frame, SweepColumns columns, bool readouts) {
   return SweepColumnsOf(frame, columns, false, readouts);
 }
 
+void Combine(Frame& frame, const double* change) {
+  LadderSweeper<double, 0>(&frame, SweepColumns::kContacts, false)
+      .Combine(change);
+}
+
 void OpenSweep(Frame& frame, SweepColumns columns) {
   SweepColumnsOf(frame, columns, true, true);
 }
@@ -48,7 +55,7 @@ void OpenSweep(Frame& frame, SweepColumns columns) {
 template <class Wide, class Single>
 constexpr LadderKernel KernelOfScheme() {
   return {EvaluateScheme<Wide, Single>, ReadGaugesOfScheme<Wide, Single>, Sweep,
-          OpenSweep};
+          Combine, OpenSweep};
 }
 
 template <int K, bool kStretch>

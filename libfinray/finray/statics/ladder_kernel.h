@@ -41,8 +41,13 @@ struct LadderKernel {
   double (*evaluate)(LadderFrame<double>&, bool parameters, bool propagate);
   /// Fills readout_map from the slots of the last evaluation.
   void (*read_gauges)(LadderFrame<double>&);
-  /// Solves for step, taps and q_step. False if the system is singular.
+  /// Solves for taps, q_step and, but for kContacts, the step. False if the
+  /// system is singular.
   bool (*sweep)(LadderFrame<double>&, SweepColumns, bool readouts);
+  /// After a sweep with kContacts, which takes up to kFittedContacts: the step
+  /// that also moves the contacts, by `change` of (l_c, f_c) of each in the
+  /// caller's order.
+  void (*combine)(LadderFrame<double>&, const double* change);
   /// Fills taps only, with all of q as parameters: no rib is exchanged and the
   /// tip stays open.
   void (*open_sweep)(LadderFrame<double>&, SweepColumns);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "finray/finger/geometry.h"
+#include "finray/io/error.h"
 #include "finray/statics/mesh_refinement.h"
 
 namespace finray {
@@ -27,9 +28,8 @@ constexpr double kShapeFloor = 1e-12;
 constexpr double kFarChange = 0.1;
 
 bool Stretches(const Finger& finger) {
-  constexpr double kRigid = std::numeric_limits<double>::infinity();
-  return finger.front_axial_stiffness_N < kRigid ||
-         finger.back_axial_stiffness_N < kRigid;
+  return std::isfinite(AxialStiffness(finger, Side::kFront)) ||
+         std::isfinite(AxialStiffness(finger, Side::kBack));
 }
 
 }  // namespace
@@ -68,6 +68,11 @@ void LadderNewton::Reset() {
 }
 
 void LadderNewton::Load(const LadderState& state) {
+  if (state.q.size() != model_.unknowns() || state.nodes[0].cols() == 0 ||
+      state.nodes[1].cols() == 0) {
+    throw InputError("the state is not one of finger '" + model_.finger().name +
+                     "'");
+  }
   bool same = true;
   for (const Side side : {Side::kFront, Side::kBack}) {
     const auto& nodes = state.nodes[LadderModel::Index(side)];
@@ -185,6 +190,19 @@ bool LadderNewton::Linearize(const std::vector<PointContact>& contacts,
   ++iterations_;
   if (!std::isfinite(kernel_->evaluate(f, false, false))) return false;
   return kernel_->sweep(f, SweepColumns::kLoad, false);
+}
+
+bool LadderNewton::LinearizeByContacts(
+    const std::vector<PointContact>& contacts) {
+  static_assert(7 + 2 * kFittedContacts <= kMostNodeColumns);
+  if (contacts.size() > kFittedContacts) return false;
+  if (!SetLoad(contacts, 1, SweepColumns::kContacts, false)) return false;
+  LadderFrame<double>& f = workspace_.frame();
+  ++iterations_;
+  // Derivatives by length are those by l_c.
+  if (!std::isfinite(kernel_->evaluate(f, true, false))) return false;
+  kernel_->read_gauges(f);
+  return kernel_->sweep(f, SweepColumns::kContacts, true);
 }
 
 void LadderNewton::Move(double a, double b) {

@@ -47,6 +47,16 @@ class LadderNewton {
   /// One linearisation at the present state, without a step; kLoad. False if
   /// the system is singular or a number is not finite.
   bool Linearize(const std::vector<PointContact>& contacts, double fraction);
+  /// As Linearize at the whole load, with derivatives by l_c and f_c of each
+  /// contact (at most kFittedContacts) and the gauges read: taps are filled, no
+  /// step is. False as above.
+  bool LinearizeByContacts(const std::vector<PointContact>& contacts);
+  /// Fills `step` after that: Newton's step, with each contact's (l_c, f_c)
+  /// moved by `change` in units of the workspace.
+  void StepWithContacts(const double* change) {
+    kernel_->combine(workspace_.frame(), change);
+  }
+
   /// state += a * step + b * by_load.
   void Move(double a, double b);
   /// Largest change of a node in a * step + b * by_load: angles in rad,

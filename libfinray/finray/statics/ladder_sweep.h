@@ -42,14 +42,41 @@ class LadderSweeper {
     return true;
   }
 
+  // The walk back once more, for the one change that moves each contact by
+  // `change` of (l_c, f_c).
+  void Combine(const T* change) {
+    T with[kMostNodeColumns] = {};  // parameters, 1, change
+    with[f_.affine] = 1;
+    const int derivatives = 2 * f_.contact_count;
+    for (int k = 0; k < derivatives; ++k) with[f_.affine + 1 + k] = change[k];
+    LadderNodes<T>& step = f_.step;
+    for (int i = f_.event_count - 1; i >= 0; --i) {
+      const int event = f_.events[i] % 4, index = f_.events[i] / 4;
+      if (event == kNode) FinishNodeWith(with, &step, index);
+      if (event != kPivot) continue;
+      const T* g = f_.pivots + index * f_.stride;
+      const int column = f_.pivot_column[index];
+      const T exchanged = with[column];
+      if (f_.pivot_rib[index] >= 0) step.q[6 + f_.pivot_rib[index]] = exchanged;
+      T sum = f_.pivot_flexibility[index] * exchanged;
+      with[column] = 0;
+      for (int k = 0; k <= f_.affine + derivatives; ++k) sum -= g[k] * with[k];
+      with[column] = sum / g[column];
+    }
+    for (int j = 0; j < 6; ++j) step.q[j] = with[j];
+    for (int side = 0; side < 2; ++side) {
+      const int base = side == 0 ? 0 : f_.front_elements;
+      step.x[base] = step.y[base] = step.theta[base] = 0;
+      step.moment[base] = step.q[3 * side];
+    }
+  }
+
  private:
   enum Row { kX, kY, kTheta, kMoment, kForceX, kForceY, kRows };
   enum Event { kNode, kTap, kPivot };
   // Beyond this the parameters are exchanged: it costs as many digits of a
   // step, which Newton's next one corrects.
   static constexpr T kLargestGrowth = 1000;
-  // Elements between two looks; none grows by more than a few.
-  static constexpr int kCheckEvery = 4;
   static constexpr int kParameterVectors = (6 + kWidth - 1) / kWidth;
 
   int vectors() const { return kVectors > 0 ? kVectors : f_.stride / kWidth; }
@@ -75,6 +102,9 @@ class LadderSweeper {
   void Log(Event event, int index) { f_.events[events_++] = 4 * index + event; }
 
   bool parameters() const { return columns_ == SweepColumns::kParameters; }
+  bool by_contacts() const {
+    return parameters() || columns_ == SweepColumns::kContacts;
+  }
   bool by_load() const { return columns_ == SweepColumns::kLoad; }
   int ContactColumn(int c) const {
     return f_.affine + 1 + 2 * f_.contacts[c].index;
@@ -111,10 +141,10 @@ class LadderSweeper {
 
   void KeepNode(int side, int e) {
     if (open_) return;
-    T* kept = f_.node_rows + 4 * kNodeColumns * e;
+    T* kept = f_.node_rows + 4 * f_.node_columns * e;
     for (int i = 0; i < 4; ++i) {
-      for (int v = 0; v < kNodeColumns / kWidth; ++v) {
-        Wide(kept + kNodeColumns * i)[v] = Wide(RowOf(side, i))[v];
+      for (int v = 0; v < f_.node_columns / kWidth; ++v) {
+        Wide(kept + f_.node_columns * i)[v] = Wide(RowOf(side, i))[v];
       }
     }
     Log(kNode, e);
@@ -133,7 +163,7 @@ class LadderSweeper {
       slot = f_.elements + c;
     }
     PassSlot(side, e, slot, begins_at, -1, readouts);
-    if (!open_ && ++since_check_ >= kCheckEvery) CheckGrowth();
+    if (!open_ && ++since_check_ >= kGrowthCheckEvery) CheckGrowth();
   }
 
   // A slot that begins (ends) at a contact becomes shorter (longer) when that
@@ -166,11 +196,13 @@ class LadderSweeper {
       theta[v] = a[2][0] * t + a[2][1] * m + a[2][2] * n + a[2][3] * w;
       moment[v] = a[3][0] * t + a[3][1] * m + a[3][2] * n + a[3][3] * w;
     }
-    if (!parameters()) return;
+    if (!by_contacts()) return;
     for (int i = 0; i < 4; ++i) {
       T* row = RowOf(side, i);
-      row[StiffnessColumn(side)] +=
-          f_.stiffness_ratio[e] * map[(kMapStiffness + i) * kWidth];
+      if (parameters()) {
+        row[StiffnessColumn(side)] +=
+            f_.stiffness_ratio[e] * map[(kMapStiffness + i) * kWidth];
+      }
       const T by_length = map[(kMapLength + i) * kWidth];
       if (begins_at >= 0) row[ContactColumn(begins_at)] -= by_length;
       if (ends_at >= 0) row[ContactColumn(ends_at)] += by_length;
@@ -184,6 +216,8 @@ class LadderSweeper {
     for (int p = 0; p < 4; ++p) Add(at[1 + p], RowOf(side, kTheta + p), tap);
     if (parameters()) {
       tap[StiffnessColumn(side)] += f_.stiffness_ratio[e] * at[5];
+    }
+    if (by_contacts()) {
       if (begins_at >= 0) tap[ContactColumn(begins_at)] -= at[6] + at[7];
       if (ends_at >= 0) tap[ContactColumn(ends_at)] += at[7];
     }
@@ -206,7 +240,7 @@ class LadderSweeper {
     for (int i = 0; i < 2; ++i) {
       T* force = RowOf(side, kForceX + i);
       Add(-contact.normal * turned[i], RowOf(side, kTheta), force);
-      if (parameters()) force[ContactColumn(c) + 1] -= unit[i];
+      if (by_contacts()) force[ContactColumn(c) + 1] -= unit[i];
       if (by_load()) force[f_.affine + 1] -= contact.d_normal * unit[i];
     }
   }
@@ -346,13 +380,15 @@ class LadderSweeper {
   // From the tip, where no parameter is left, back to the base; `p` holds their
   // values [constant | derivatives] in columns from `affine` on.
   void WalkBack() {
+    f_.event_count = events_;
+    const bool nodes = columns_ != SweepColumns::kContacts;
     for (int j = 0; j < 6; ++j) Clear(f_.parameters + j * f_.stride);
     while (events_ > 0) {
       const int event = f_.events[--events_];
       const int index = event / 4;
       switch (event % 4) {
         case kNode:
-          FinishNode(index);
+          if (nodes) FinishNode(index);
           break;
         case kTap:
           FinishRow(Tap(index));
@@ -365,6 +401,7 @@ class LadderSweeper {
     for (int j = 0; j < 6; ++j) {
       Copy(f_.parameters + j * f_.stride, f_.q_step + j * f_.stride);
     }
+    if (!nodes) return;
     const int load = f_.affine + 1;
     for (int i = 0; i < 6 + f_.ribs; ++i) {
       f_.step.q[i] = f_.q_step[i * f_.stride + f_.affine];
@@ -381,19 +418,25 @@ class LadderSweeper {
   }
 
   void FinishNode(int e) {
-    const T* kept = f_.node_rows + 4 * kNodeColumns * e;
-    FinishNodeColumn(kept, f_.affine, &f_.step, e);
-    if (by_load()) FinishNodeColumn(kept, f_.affine + 1, &f_.by_load, e);
+    T with[kMostNodeColumns] = {};
+    for (int column = f_.affine; column <= f_.affine + by_load(); ++column) {
+      for (int j = 0; j < 6; ++j) {
+        with[j] = f_.parameters[j * f_.stride + column];
+      }
+      with[column] = 1;
+      if (column > f_.affine) with[f_.affine] = 0;
+      FinishNodeWith(with, column == f_.affine ? &f_.step : &f_.by_load, e);
+    }
   }
-  void FinishNodeColumn(const T* kept, int column, LadderNodes<T>* z, int e) {
-    T with[kNodeColumns] = {};
-    for (int j = 0; j < 6; ++j) with[j] = f_.parameters[j * f_.stride + column];
-    with[column] = 1;
+
+  // The change of node e where columns are taken times `with`.
+  void FinishNodeWith(const T* with, LadderNodes<T>* z, int e) const {
+    const T* kept = f_.node_rows + 4 * f_.node_columns * e;
     T change[4];
     for (int i = 0; i < 4; ++i) {
       V sum = V{};
-      for (int v = 0; v < kNodeColumns / kWidth; ++v) {
-        sum += Wide(kept + kNodeColumns * i)[v] * Wide(with)[v];
+      for (int v = 0; v < f_.node_columns / kWidth; ++v) {
+        sum += Wide(kept + f_.node_columns * i)[v] * Wide(with)[v];
       }
       change[i] = sum[0];
       for (int lane = 1; lane < kWidth; ++lane) change[i] += sum[lane];

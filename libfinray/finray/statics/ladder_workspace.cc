@@ -85,13 +85,13 @@ void LadderWorkspace<T>::LayOut(Take&& take) {
   take(&f.closure, q);
   take(&f.readout_map, kReadoutValues * f.readout_count);
   const int taps = 3 * contact_capacity_ + 3 + f.readout_count + q;
-  // Each element may exchange all six parameters.
-  const int pivots = 6 * elements + ribs + 6;
+  // Every so many elements all six parameters may be exchanged.
+  const int pivots = 6 * (elements / kGrowthCheckEvery) + ribs + 6;
   take(&f.taps, taps * stride);
   take(&f.q_step, q * stride);
   take(&f.rows, 12 * stride);
   take(&f.tip_rows, 6 * stride);
-  take(&f.node_rows, 4 * kNodeColumns * elements);
+  take(&f.node_rows, 4 * kMostNodeColumns * elements);
   take(&f.pivots, pivots * stride);
   take(&f.parameters, 6 * stride);
   take(&f.pivot_flexibility, pivots);
@@ -238,12 +238,17 @@ bool LadderWorkspace<T>::SetContacts(const LadderModel& model,
 template <class T>
 bool LadderWorkspace<T>::SetColumns(const LadderModel& model,
                                     SweepColumns columns, bool open) {
+  const int contacts = 2 * frame_.contact_count;
   const int derivatives = columns == SweepColumns::kParameters
-                              ? 2 * frame_.contact_count + 2 + frame_.ribs
-                              : 1;
+                              ? contacts + 2 + frame_.ribs
+                          : columns == SweepColumns::kContacts ? contacts
+                                                               : 1;
   frame_.affine = open ? 6 + frame_.ribs : 6;
   frame_.stride = std::max(
       kNodeColumns, RoundUp(frame_.affine + 1 + derivatives, Lanes<T>::kWidth));
+  frame_.node_columns = columns == SweepColumns::kContacts && !open
+                            ? frame_.stride
+                            : kNodeColumns;
   if (frame_.stride <= stride_capacity_) return false;
   stride_capacity_ = frame_.stride;
   SetMeshMemory(model);

@@ -21,7 +21,7 @@ class LadderWorkspace {
   LadderFrame<T>& frame() { return frame_; }
   const LadderFrame<T>& frame() const { return frame_; }
 
-  // Units: l_0, EI_0 / l_0^2 with EI_0 of the front beam at construction.
+  // Units: l_0, EI_0 / l_0^2 with EI_0 of ForceUnit() at construction.
   double length_unit() const { return length_unit_; }
   double force_unit() const { return force_unit_; }
   double moment_unit() const { return force_unit_ * length_unit_; }

@@ -13,7 +13,7 @@
 #endif
 
 // The C library's vector sines (libmvec, to 4 units in the last place).
-#if defined(__AVX2__) && defined(__GLIBC__)
+#if defined(__AVX2__) && !defined(FINRAY_NO_VECTOR_SINES)
 #define FINRAY_VECTOR_SINES
 extern "C" {
 __attribute__((vector_size(32))) double _ZGVdN4v_sin(

@@ -12,6 +12,8 @@ constexpr double kSmallestStep = 1e-7;
 constexpr int kMaxCorrections = 8;
 constexpr double kTolerance = 1e-9;
 constexpr int kMostSteps = 2000;
+// A correction longer than this has left the step it belongs to.
+constexpr double kLargestCorrection = 6 * kLargestStep;
 // Between the tangents of neighbouring points.
 constexpr double kLeastCosine = 0.5;
 // Between a step and what the tangents at its ends promise, over the step; and
@@ -95,7 +97,7 @@ bool LoadPath::Correct(double arc) {
                            tangent_fraction_ * (trial_fraction_ - fraction_)) /
                           slope;
     const double size = newton_->Size(1, change);
-    if (!std::isfinite(size) || size > 2 * kLargestStep * 3) return false;
+    if (!std::isfinite(size) || size > kLargestCorrection) return false;
     newton_->Move(1, change);
     trial_fraction_ += change;
     if (size < kTolerance || (corrections_ > 0 && size < 1e-6)) return true;
@@ -147,9 +149,9 @@ bool LoadPath::Joins(const Eigen::VectorXd& reached,
 }
 
 bool LoadPath::Advance(double goal) {
-  limit_fraction_ = 0;
-  if (!has_tangent_ && !Tangent()) return false;
-  if (tangent_fraction_ > 0) {
+  passed_limit_point_ = false;
+  if (lost_ || (!has_tangent_ && !Tangent())) return false;
+  if (tangent_fraction_ > 0 && goal > fraction_) {
     step_ = std::min(step_, kBeyond * (goal - fraction_) / tangent_fraction_ +
                                 10 * kSmallestStep);
   }
@@ -169,6 +171,7 @@ bool LoadPath::Advance(double goal) {
       const double limit = LimitFraction(step_, slope);
       // The goal lies before the limit point: a shorter step ends there.
       if (limit > goal) continue;
+      passed_limit_point_ = true;
       limit_fraction_ = limit;
       Restore(reached);
     }
@@ -178,6 +181,8 @@ bool LoadPath::Advance(double goal) {
     if (!turns && newton_->RefineMesh() &&
         !(newton_->Converge(contacts_, fraction_, SweepColumns::kLoad) &&
           Tangent())) {
+      // On another mesh there is no way back to where the step began.
+      lost_ = true;
       return false;
     }
     Keep(&start_);
@@ -207,6 +212,7 @@ LoadPathEnd WalkLoadPath(const std::vector<PointContact>& contacts,
     if (path.fraction() >= 1) {
       // Back along the tangent to the load itself.
       newton->Move(0, (1 - path.fraction()));
+      *fraction = 1;
       return LoadPathEnd::kReached;
     }
   }

@@ -24,15 +24,15 @@ class LoadPath {
            double fraction);
 
   /// Goes one step on. False if no point was found however small the step; the
-  /// path stays where it was. A step that reaches `goal`, a share of the load,
-  /// ends before any limit point above it, so that the point reached lies on
-  /// this side of that.
+  /// path stays where it was, or can no longer be followed. A step that reaches
+  /// `goal`, a share of the load, ends before any limit point above it, so that
+  /// the point reached lies on this side of that.
   bool Advance(double goal = std::numeric_limits<double>::infinity());
 
   double fraction() const { return fraction_; }
-  /// Whether the last step passed a limit point, and at which share of the load
-  /// (to about 1e-7 of the load).
-  bool passed_limit_point() const { return limit_fraction_ > 0; }
+  /// Whether the last step passed a limit point at which the load is largest,
+  /// and at which share of it (to about 1e-7 of the load).
+  bool passed_limit_point() const { return passed_limit_point_; }
   double limit_fraction() const { return limit_fraction_; }
 
  private:
@@ -53,7 +53,7 @@ class LoadPath {
   double fraction_, trial_fraction_ = 0;
   double step_ = 0.05;
   double limit_fraction_ = 0;
-  bool has_tangent_ = false;
+  bool has_tangent_ = false, passed_limit_point_ = false, lost_ = false;
   int corrections_ = 0;
   Eigen::VectorXd start_, tangent_;  // in the order of LadderNodes
   double tangent_fraction_ = 0;
@@ -63,8 +63,8 @@ class LoadPath {
 enum class LoadPathEnd { kReached, kLimitPoint, kStuck };
 
 /// Walks from the undeformed finger to the whole load. On kReached `newton`
-/// stands near the equilibrium there, to be converged; otherwise *fraction is
-/// the share of the load at which the path turns back or was lost.
+/// stands near the equilibrium there, to be converged; *fraction is the share
+/// of the load that was reached, at which the path turns back or was lost.
 LoadPathEnd WalkLoadPath(const std::vector<PointContact>& contacts,
                          LadderNewton* newton, double* fraction);
 

@@ -9,8 +9,8 @@
 namespace finray {
 
 /// Divides every element whose series, as last evaluated in `workspace`, leaves
-/// out more than kRefinedTruncation_rad, into as many as its order promises to
-/// need, and reads the state at the new nodes from the series. False if the
+/// out about kRefinedTruncation_rad or more, into as many as its order promises
+/// to need, and reads the state at the new nodes from the series. False if the
 /// mesh would become unreasonably fine.
 bool RefineToSeries(const LadderModel& model,
                     const LadderWorkspace<double>& workspace, Scheme scheme,

@@ -77,7 +77,12 @@ std::vector<Approach> FindApproaches(const Shape& shape, double length_mm,
       }
       arc = 0.5 * (low + high);
     }
-    approaches.push_back({arc, sample(arc).distance, false});
+    // A chain's points lie on chords but its angles turn evenly, so that the
+    // slope's root need not be the lowest point.
+    const double refined = sample(arc).distance;
+    if (refined > here.distance) arc = here.arc;
+    approaches.push_back({arc, std::min(refined, here.distance), false});
+    least = std::min(least, refined);
   }
   approaches.erase(std::remove_if(approaches.begin(), approaches.end(),
                                   [&](const Approach& a) {

@@ -278,6 +278,10 @@ ObjectContactStatus ObjectContactSolver::MoveIn(
 ObjectContact ObjectContactSolver::Solve(
     const ObjectPose& pose, const std::vector<PointContact>& guess) {
   ObjectContact result;
+  result.status = ObjectContactStatus::kNotConverged;
+  if (!pose.position_mm.allFinite() || !std::isfinite(pose.angle_rad)) {
+    return result;
+  }
   std::vector<PointContact>& contacts = result.contacts;
   contacts = guess;
   for (PointContact& contact : contacts) contact.friction = friction_;

@@ -1,6 +1,7 @@
 #include "finray/statics/shape.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "finray/statics/scheme_element.h"
 
@@ -8,6 +9,9 @@ namespace finray {
 
 Shape::Shape(const EquilibriumSolver& solver,
              const std::vector<PointContact>& contacts) {
+  if (solver.status() != SolveStatus::kSolved) {
+    throw std::logic_error("the shape of a finger without equilibrium");
+  }
   const auto spans = solver.Spans(contacts);
   for (int side = 0; side < 2; ++side) {
     for (const BeamSpan& span : spans[side]) {

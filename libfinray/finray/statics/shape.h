@@ -23,7 +23,8 @@ struct Section {
 /// snapshot: later solves do not change it.
 class Shape {
  public:
-  /// `contacts` are those of the solver's last solve.
+  /// `contacts` are those of the solver's last solve. Throws std::logic_error
+  /// if that found no equilibrium.
   Shape(const EquilibriumSolver& solver,
         const std::vector<PointContact>& contacts);
 

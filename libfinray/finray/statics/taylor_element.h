@@ -14,9 +14,12 @@ inline namespace FINRAY_ISA {
 /// With m = M / EI, n = N / EI and k = EI / EA the coefficients follow by
 /// recurrence:
 ///
-///   theta_{i+1} = m_i / (i+1),         m_{i+1} = (n_x Y_i - n_y X_i) / (i+1),
-///   c_{i+1} = -sum_j m_j s_{i-j} / (i+1),  s_{i+1} = sum_j m_j c_{i-j} /
-///   (i+1), x_{i+1} = X_i / (i+1),                 y_{i+1} = Y_i / (i+1),
+///   theta_{i+1} = m_i / (i+1),
+///   m_{i+1} = (n_x Y_i - n_y X_i) / (i+1),
+///   c_{i+1} = -sum_j m_j s_{i-j} / (i+1),
+///   s_{i+1} = sum_j m_j c_{i-j} / (i+1),
+///   x_{i+1} = X_i / (i+1),
+///   y_{i+1} = Y_i / (i+1),
 ///
 /// where (X, Y) = (c, s) + e (c, s), e = k (n_x c + n_y s), of which the second
 /// term is there only if the beam stretches. Their derivatives by p in (m_0,

@@ -1,0 +1,94 @@
+#ifndef FINRAY_SENSING_CONTACT_FIT_H_
+#define FINRAY_SENSING_CONTACT_FIT_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "finray/statics/ladder_newton.h"
+
+namespace finray {
+
+/// Contacts that explain gauge angles s_j: minimises
+///
+///   chi2(l_c, f_c) = sum_j w_j^2 (s_j(l_c, f_c) - measured_j)^2
+///
+/// over equilibria, 0 <= l_c <= l_0, f_c >= 0, which is (17), (18) of the paper
+/// with equilibrium eliminated: each iteration is one linearisation of the
+/// ladder, whose gauge rows, derivatives by (l_c, f_c) included, give the
+/// change of the contacts by least squares and with it the step of all nodes.
+/// So equilibrium and contacts converge together, in a handful of iterations,
+/// and no weight between them is left to choose. A warm fit allocates nothing.
+class ContactFit {
+ public:
+  /// Throws InputError as LadderModel.
+  ContactFit(const Finger& finger, const Discretization& discretization);
+
+  /// Where Gauss-Newton ends: the next change of l_c over l_0 and of f_c over
+  /// its size is expected below this.
+  void set_tolerance(double relative) { tolerance_ = relative; }
+
+  /// Upper bound of f_c.
+  void set_most_force(double force_N) { most_force_N_ = force_N; }
+
+  /// The equilibrium to start from, near the contacts given to Fit.
+  void set_state(const LadderState& state) { newton_.Load(state); }
+
+  /// Starts from the present equilibrium and from `*contacts` (one or two, on
+  /// the front beam; their friction is kept) and leaves both at the solution.
+  /// `weight_per_rad` is 0 where a gauge was not measured. False if it does not
+  /// converge; state and contacts are then of no use.
+  bool Fit(const Eigen::VectorXd& angles_rad,
+           const Eigen::VectorXd& weight_per_rad,
+           std::vector<PointContact>* contacts);
+
+  // Of the last successful fit.
+
+  double chi2() const { return chi2_; }
+  int iterations() const { return iterations_; }
+  /// Fisher information of (l_c, f_c) of each contact, per mm and N.
+  using Information = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
+                                    2 * kFittedContacts, 2 * kFittedContacts>;
+  const Information& information() const { return information_; }
+  /// (x, y, theta) of a contact and of the tip, mm and rad.
+  const Eigen::Vector3d& contact_pose(int contact) const {
+    return poses_[contact];
+  }
+  const Eigen::Vector3d& tip_pose() const { return poses_[kFittedContacts]; }
+  double rib_tension(int rib) const {
+    return newton_.frame().state.q[6 + rib] * newton_.workspace().force_unit();
+  }
+
+ private:
+  using Change =
+      Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kFittedContacts, 1>;
+
+  void ReadGauges(const Eigen::VectorXd& angles_rad,
+                  const Eigen::VectorXd& weight_per_rad, int unknowns);
+  void ReadPoses(int contacts, const Change& change);
+  Change BoundedChange(const std::vector<PointContact>& contacts,
+                       double damping) const;
+  void Keep(const std::vector<PointContact>& contacts);
+  void Restore(std::vector<PointContact>* contacts);
+
+  LadderNewton newton_;
+  double tolerance_ = 1e-12;
+  double most_force_N_ = std::numeric_limits<double>::infinity();
+  double chi2_ = 0;
+  int iterations_ = 0;
+  Information information_;
+  std::array<Eigen::Vector3d, kFittedContacts + 1> poses_;
+  // Whitened residuals and slopes by (l_c, f_c) in the ladder's units, and
+  // their normal equations.
+  Eigen::VectorXd residual_;
+  Eigen::Matrix<double, Eigen::Dynamic, 2 * kFittedContacts> slope_;
+  Information normal_;
+  Change gradient_;
+  std::vector<double> kept_state_;
+  std::vector<PointContact> kept_contacts_;
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_SENSING_CONTACT_FIT_H_
