@@ -7,8 +7,10 @@
 #include <cmath>
 #include <thread>
 
+#include "finray/io/atomic_file.h"
 #include "finray/io/error.h"
 #include "finray/sensing/batch_summary.h"
+#include "finray/sensing/frame_results.h"
 #include "finray/sensing/log_stream.h"
 #include "temp_file.h"
 #include "test_finger.h"
@@ -201,6 +203,26 @@ TEST_F(BatchStreamTest, ALogThatChangesMeanwhileIsRefused) {
   EXPECT_THROW(job.Run(&pool), InputError);
   for (const char* name : {"out.csv", ".out.csv.part", ".out.csv.journal"}) {
     EXPECT_FALSE(std::filesystem::exists(folder_.Path(name))) << name;
+  }
+}
+
+TEST_F(BatchStreamTest, TheEstimatorRemembersNothing) {
+  const FrameTable table =
+      FrameTable::Read(FINRAY_SOURCE_DIR "/datasets/simulated_r15/train.csv");
+  const auto volts = ReadVolts(settings_.finger, table);
+  const FrameSolverFactory cold = ColdSolvers(settings_.finger, {}, {});
+  const auto forward = cold(), backward = cold();
+  std::vector<FrameEstimate> estimates;
+  for (const auto& readings : volts) {
+    estimates.push_back(forward->Solve(readings, nullptr));
+  }
+  for (std::size_t i = volts.size(); i-- > 0;) {
+    const FrameEstimate again = backward->Solve(volts[i], nullptr);
+    EXPECT_EQ(again.status, estimates[i].status);
+    EXPECT_EQ(NumberText(again.contact_mm),
+              NumberText(estimates[i].contact_mm));
+    EXPECT_EQ(NumberText(again.normal_N), NumberText(estimates[i].normal_N));
+    EXPECT_EQ(NumberText(again.chi2), NumberText(estimates[i].chi2));
   }
 }
 
