@@ -184,6 +184,12 @@ TEST_F(BatchStreamTest, AFinishedLogIsDoneAgainUnlessAllIsAsItWas) {
     return count;
   };
   EXPECT_EQ(estimated(), 0u);
+  {
+    ResumableFile interrupted(folder_.Path("expected.csv"), "k", false);
+    interrupted.Append("part");
+  }
+  EXPECT_EQ(estimated(), 0u);
+  EXPECT_FALSE(ResumableFile::IsUnderWay(folder_.Path("expected.csv")));
   folder_.Write("expected.csv", rows + "x");
   EXPECT_EQ(estimated(), 1000u);
   std::filesystem::remove(folder_.Path("expected.csv"));

@@ -27,6 +27,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kKey = "finray journal 1 ";
 constexpr std::string_view kCheckpoint = "checkpoint ";
 constexpr std::string_view kFinished = "finished ";
+constexpr char kJournal[] = ".journal";
 constexpr std::string_view kEnd = " end\n";
 
 struct State {
@@ -59,6 +60,18 @@ std::optional<State> ParseLine(std::string_view line) {
   return state;
 }
 
+// Links are followed.
+fs::path Target(const std::string& path) {
+  std::error_code missing;
+  const fs::path target = fs::canonical(path, missing);
+  return missing ? fs::path(path) : target;
+}
+
+std::string Hidden(const fs::path& target, const char* ending) {
+  const std::string name = "." + target.filename().string() + ending;
+  return (target.parent_path() / name).string();
+}
+
 std::string JournalLine(std::string_view kind, std::uint64_t bytes,
                         const std::string& note) {
   std::string line(kind);
@@ -70,21 +83,21 @@ std::string JournalLine(std::string_view kind, std::uint64_t bytes,
 
 }  // namespace
 
+bool ResumableFile::IsUnderWay(const std::string& path) {
+  std::error_code unknown;
+  return fs::exists(Hidden(Target(path), kJournal), unknown);
+}
+
 ResumableFile::ResumableFile(const std::string& path, const std::string& key,
                              bool resume)
-    : path_(path) {
+    : path_(Target(path).string()),
+      folder_(Target(path).parent_path().string()),
+      part_path_(Hidden(path_, ".part")),
+      journal_path_(Hidden(path_, kJournal)) {
   std::error_code unknown;
-  if (fs::exists(path, unknown)) {
-    if (!fs::is_regular_file(path, unknown)) {
-      throw InputError(path + ": cannot be written: it is no regular file");
-    }
-    path_ = fs::canonical(path).string();  // links are followed
+  if (fs::exists(path_, unknown) && !fs::is_regular_file(path_, unknown)) {
+    throw InputError(path + ": cannot be written: it is no regular file");
   }
-  const fs::path target = path_;
-  folder_ = target.parent_path().string();
-  const std::string hidden = "." + target.filename().string();
-  part_path_ = (target.parent_path() / (hidden + ".part")).string();
-  journal_path_ = (target.parent_path() / (hidden + ".journal")).string();
   Check(journal_.Open(journal_path_, O_RDWR | O_CREAT));
   Lock();
   if (!resume || !Restore(key)) StartOver(key);

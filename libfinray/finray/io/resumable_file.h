@@ -21,6 +21,9 @@ namespace finray {
 /// if another process is writing it.
 class ResumableFile {
  public:
+  /// Whether a run is writing this file or was interrupted while it did.
+  static bool IsUnderWay(const std::string& path);
+
   /// With `resume`, goes on behind the last checkpoint of an interrupted file
   /// of the same key (text on one line); otherwise starts over.
   ResumableFile(const std::string& path, const std::string& key, bool resume);

@@ -122,6 +122,10 @@ void LogJob::ReportProgress(std::size_t frames, bool kept) const {
 
 bool LogJob::Run(FrameSolverPool* pool) {
   if (finished_before_) {
+    // Of a run that set out to do it again.
+    if (ResumableFile::IsUnderWay(result_)) {
+      ResumableFile(result_, key_, true).Discard();
+    }
     ReportProgress(frames_, true);
     return true;
   }
