@@ -155,6 +155,7 @@ void ResumableFile::StartOver(const std::string& key) {
   Check(journal_.Truncate(0));
   WriteJournal(std::string(kKey).append(key).append("\n"));
   Check(part_.Open(part_path_, O_RDWR | O_CREAT | O_TRUNC));
+  SyncFolder(folder_);  // both are new; some file systems cannot
 }
 
 void ResumableFile::WriteJournal(const std::string& line) {
@@ -177,7 +178,7 @@ void ResumableFile::Finish(const std::string& note) {
   WriteJournal(JournalLine(kFinished, bytes_, note));
   Check(part_.Close());
   if (std::rename(part_path_.c_str(), path_.c_str()) != 0) Check(errno);
-  SyncFolder(folder_);  // some file systems cannot
+  SyncFolder(folder_);
   finished_ = true;
 }
 
