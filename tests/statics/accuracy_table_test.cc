@@ -9,6 +9,7 @@
 #include "finray/statics/equilibrium.h"
 #include "finray/statics/taylor_element.h"
 #include "statics/beam_ode.h"
+#include "statics/computed_element.h"
 #include "statics/special_cases.h"
 
 namespace finray {

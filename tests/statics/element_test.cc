@@ -5,6 +5,7 @@
 
 #include "finray/statics/rigid_link_element.h"
 #include "finray/statics/taylor_element.h"
+#include "statics/computed_element.h"
 
 namespace finray {
 namespace {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "finray/finger/geometry.h"
 #include "finray/statics/shape.h"
 
 namespace finray {
@@ -25,8 +26,8 @@ class EquilibriumCheck {
     length_ = finger_.front_length_mm;
     // Loads below those that bend the finger by 1e-3 rad count as such.
     force_ = 1e-3 *
-             std::min(solver.model().stiffness(Side::kFront),
-                      solver.model().stiffness(Side::kBack)) /
+             std::min(BendingStiffness(solver.model().finger(), Side::kFront),
+                      BendingStiffness(solver.model().finger(), Side::kBack)) /
              (length_ * length_);
     for (const PointContact& contact : contacts) {
       force_ = std::max(force_, std::abs(contact.normal_N));
@@ -183,7 +184,7 @@ class EquilibriumCheck {
       const Section from = shape_.At(side, stations[k]);
       const Beam beam{
           force.x(), force.y(),
-          solver.model().stiffness(side) *
+          BendingStiffness(solver.model().finger(), side) *
               StiffnessRatio(front ? finger_.front_pieces : finger_.back_pieces,
                              middle),
           front ? finger_.front_axial_stiffness_N

@@ -13,6 +13,12 @@
 
 namespace finray {
 
+constexpr ObjectContactStatus kContact = ObjectContactStatus::kContact;
+
+inline RigidObject Circle(double radius) {
+  return {Outline(CircleOutline{radius}), {}};
+}
+
 /// The force of an object on the finger.
 inline Eigen::Vector2d TotalForce(const ObjectContact& found,
                                   const EquilibriumSolver& solver) {

@@ -18,12 +18,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr ObjectContactStatus kContact = ObjectContactStatus::kContact;
-
-RigidObject Circle(double radius) {
-  return {Outline(CircleOutline{radius}), {}};
-}
-
 // Where a circle overlaps the free (straight) finger by `depth` at height y.
 ObjectPose Touching(double height, double depth, double radius) {
   return {{depth - radius, height}, 0};

@@ -15,12 +15,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr ObjectContactStatus kContact = ObjectContactStatus::kContact;
-
-RigidObject Circle(double radius) {
-  return {Outline(CircleOutline{radius}), {}};
-}
-
 RigidObject Square(double half, double fillet) {
   return {Outline(RoundedPolygonOutline{
               {{-half, -half}, {half, -half}, {half, half}, {-half, half}},

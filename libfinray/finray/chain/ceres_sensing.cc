@@ -71,10 +71,7 @@ ChainSensing SenseContactWithCeres(const ChainLayout& layout,
                                    double gauge_std_rad,
                                    const ChainSensingOptions& options) {
   ChainSensing result;
-  result.contact = start;
-  const bool started = SolveForward(layout, start, &result.state);
-  result.misfit = layout.gauges * result.state.theta - s0;
-  if (!started || !s0.allFinite()) return result;
+  if (!StartSensing(layout, s0, start, &result)) return result;
 
   ChainState state = result.state;
   double contact[2] = {start.arc_mm, start.normal_N};

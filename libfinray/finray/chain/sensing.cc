@@ -46,16 +46,21 @@ Eigen::VectorXd Step(const ChainLayout& layout, const ChainUnits& units,
 
 }  // namespace
 
+bool StartSensing(const ChainLayout& layout, const Eigen::VectorXd& s0,
+                  const ChainContact& start, ChainSensing* result) {
+  result->contact = start;
+  const bool started = SolveForward(layout, start, &result->state);
+  result->misfit = layout.gauges * result->state.theta - s0;
+  return started && s0.allFinite();
+}
+
 ChainSensing SenseContact(const ChainLayout& layout, const Eigen::VectorXd& s0,
                           const ChainContact& start,
                           const ChainSensingOptions& options) {
   const int n = layout.joints(), loads = layout.loads();
   const ChainUnits units(layout);
   ChainSensing result;
-  result.contact = start;
-  const bool started = SolveForward(layout, start, &result.state);
-  result.misfit = layout.gauges * result.state.theta - s0;
-  if (!started || !s0.allFinite()) return result;
+  if (!StartSensing(layout, s0, start, &result)) return result;
 
   ChainState state = result.state;
   ChainContact contact = start;

@@ -23,6 +23,11 @@ struct ChainSensing {
   Eigen::VectorXd misfit;  ///< s of (16), rad.
 };
 
+/// Where both ways of sensing start: the equilibrium under `start` and what it
+/// misfits. False if there is none or s0 is not finite.
+bool StartSensing(const ChainLayout& layout, const Eigen::VectorXd& s0,
+                  const ChainContact& start, ChainSensing* result);
+
 /// Contact from gauge angles s_0 (m, rad): the overdetermined Newton (18) on
 /// C(theta, F_t, f, l_c, f_c) of (17), n + 3 + r + m rows for n + 3 + r + 2
 /// unknowns. Its pseudo-inverse is a column-pivoted QR of the weighted rows, y,

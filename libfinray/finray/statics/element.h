@@ -68,16 +68,6 @@ using ElementMap = BasicElementMap<double>;
 using AngleReadout = BasicAngleReadout<double>;
 using BeamPoint = BasicBeamPoint<double>;
 
-/// Everything an element can tell, in one call.
-template <class Element>
-Element ComputedElement(const ElementStart& start, double stiffness,
-                        double length, double axial_flexibility = 0) {
-  Element element;
-  element.SolveAndDifferentiate(start, stiffness, axial_flexibility, length);
-  element.DifferentiateByParameters();
-  return element;
-}
-
 }  // namespace finray
 
 #endif  // FINRAY_STATICS_ELEMENT_H_

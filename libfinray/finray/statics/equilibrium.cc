@@ -123,7 +123,7 @@ bool EquilibriumSolver::IsHeavy(
   for (const Side side : {Side::kFront, Side::kBack}) {
     const auto& ratios = model().mesh(side).stiffness_ratio;
     softest =
-        std::min(softest, model().stiffness(side) *
+        std::min(softest, BendingStiffness(model().finger(), side) *
                               *std::min_element(ratios.begin(), ratios.end()));
   }
   const double wedge =

@@ -52,10 +52,6 @@ class LadderModel {
 
   const Finger& finger() const { return finger_; }
   const BeamMesh& mesh(Side side) const { return mesh_[Index(side)]; }
-  double stiffness(Side side) const {
-    return side == Side::kFront ? finger_.front_stiffness_N_mm2
-                                : finger_.back_stiffness_N_mm2;
-  }
   int ribs() const { return static_cast<int>(finger_.ribs.size()); }
   int gauges() const { return static_cast<int>(finger_.gauges.size()); }
   int unknowns() const { return 6 + ribs(); }

@@ -172,8 +172,8 @@ template <class T>
 void LadderWorkspace<T>::SetFinger(const LadderModel& model, double fraction) {
   for (const Side side : {Side::kFront, Side::kBack}) {
     const bool front = side == Side::kFront;
-    const T stiffness =
-        static_cast<T>(model.stiffness(side) / stiffness_unit());
+    const T stiffness = static_cast<T>(BendingStiffness(model.finger(), side) /
+                                       stiffness_unit());
     const int end = front ? frame_.front_elements : frame_.elements;
     for (int e = front ? 0 : frame_.front_elements; e < end; ++e) {
       frame_.stiffness[e] = stiffness * frame_.stiffness_ratio[e];
