@@ -172,7 +172,7 @@ bool ContactFit::Fit(const Eigen::VectorXd& angles_rad,
     Keep(*contacts);
     last_cost = cost;
     const Change change = BoundedChange(*contacts, damping);
-    newton_.StepWithContacts(change.data());
+    newton_.StepWithContacts(1, change.data());
     const double size = newton_.Size(1, 0);
     if (!std::isfinite(size)) return false;
     const double share = std::min(1.0, kMaxTurn_rad / size);

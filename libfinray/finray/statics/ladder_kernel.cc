@@ -13,15 +13,10 @@ namespace {
 using Frame = LadderFrame<double>;
 using V = Lanes<double>::Vector;
 
-template <class Wide, class Single>
-double EvaluateScheme(Frame& frame, bool parameters, bool propagate) {
-  return LadderEvaluator<double, Wide, Single>(&frame).Evaluate(parameters,
-                                                                propagate);
-}
-
-template <class Wide, class Single>
-void ReadGaugesOfScheme(Frame& frame) {
-  LadderEvaluator<double, Wide, Single>(&frame).ReadGauges();
+template <class T, class Wide, class Single>
+T EvaluateScheme(LadderFrame<T>& frame, bool parameters, bool propagate) {
+  return LadderEvaluator<T, Wide, Single>(&frame, parameters)
+      .Evaluate(propagate);
 }
 
 bool SweepColumnsOf(Frame& frame, SweepColumns columns, bool open,
@@ -43,9 +38,27 @@ bool Sweep(Frame& frame, SweepColumns columns, bool readouts) {
   return SweepColumnsOf(frame, columns, false, readouts);
 }
 
-void Combine(Frame& frame, const double* change) {
+// One contact's derivatives and nothing else.
+using SweeperFour = LadderSweeper<FourFrames, 9>;
+
+template <class Element>
+void EvaluateFour(LadderFrame<FourFrames>& frame, FourFrames* residual) {
+  *residual = EvaluateScheme<FourFrames, Element, Element>(frame, true, false);
+}
+
+bool SweepFour(LadderFrame<FourFrames>& frame) {
+  return SweeperFour(&frame, SweepColumns::kContacts, false).Run(true);
+}
+
+void CombineFour(LadderFrame<FourFrames>& frame, double newton,
+                 const FourFrames* change) {
+  SweeperFour(&frame, SweepColumns::kContacts, false)
+      .Combine(newton, change, 2);
+}
+
+void Combine(Frame& frame, double newton, const double* change) {
   LadderSweeper<double, 0>(&frame, SweepColumns::kContacts, false)
-      .Combine(change);
+      .Combine(newton, change, 2 * frame.contact_count);
 }
 
 void OpenSweep(Frame& frame, SweepColumns columns) {
@@ -54,8 +67,11 @@ void OpenSweep(Frame& frame, SweepColumns columns) {
 
 template <class Wide, class Single>
 constexpr LadderKernel KernelOfScheme() {
-  return {EvaluateScheme<Wide, Single>, ReadGaugesOfScheme<Wide, Single>, Sweep,
-          Combine, OpenSweep};
+  return {EvaluateScheme<double, Wide, Single>,
+          Sweep,
+          Combine,
+          OpenSweep,
+          {EvaluateFour<Wide>, SweepFour, CombineFour}};
 }
 
 template <int K, bool kStretch>

@@ -138,7 +138,6 @@ bool LadderNewton::ConvergeOnMesh(const std::vector<PointContact>& contacts,
         residual < kNearlyThere * load || (i > 0 && last_change < kSmallChange);
     const SweepColumns now = maybe_last ? columns : SweepColumns::kNone;
     workspace_.SetColumns(model_, now, false);
-    if (maybe_last) kernel_->read_gauges(f);
     if (!kernel_->sweep(f, now, maybe_last)) return false;
     const double size = Size(1, 0);
     if (!std::isfinite(size)) return false;
@@ -201,7 +200,6 @@ bool LadderNewton::LinearizeByContacts(
   ++iterations_;
   // Derivatives by length are those by l_c.
   if (!std::isfinite(kernel_->evaluate(f, true, false))) return false;
-  kernel_->read_gauges(f);
   return kernel_->sweep(f, SweepColumns::kContacts, true);
 }
 
@@ -265,7 +263,6 @@ bool LadderNewton::Shoot(const Eigen::VectorXd& q,
   f.state.moment[0] = f.state.q[0];
   f.state.moment[f.front_elements] = f.state.q[3];
   if (!std::isfinite(kernel_->evaluate(f, true, true))) return false;
-  kernel_->read_gauges(f);
   kernel_->open_sweep(f, SweepColumns::kParameters);
   return true;
 }

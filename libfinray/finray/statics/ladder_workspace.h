@@ -10,7 +10,8 @@ namespace finray {
 
 /// The memory of a ladder frame and the way into and out of its units. Memory
 /// is taken when the mesh changes or more contacts or columns than ever before
-/// are asked for; otherwise no call allocates. T is double or float.
+/// are asked for; otherwise no call allocates. T is double, float or
+/// FourFrames, all of which then take the same numbers unless a lane is named.
 template <class T>
 class LadderWorkspace {
  public:
@@ -42,8 +43,9 @@ class LadderWorkspace {
   /// what was evaluated or set since SetMesh is lost then, but for the state.
   bool SetColumns(const LadderModel& model, SweepColumns columns, bool open);
 
-  void Load(const LadderState& state);
-  void Save(const LadderModel& model, LadderState* state) const;
+  void Load(const LadderState& state, int lane = kAllLanes);
+  void Save(const LadderModel& model, LadderState* state, int lane = 0) const;
+  static constexpr int kAllLanes = -1;
 
  private:
   void Allocate();

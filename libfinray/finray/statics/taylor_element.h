@@ -47,11 +47,10 @@ class TaylorElement {
     Evaluate(dx_, length_, by[0]);
     Evaluate(dy_, length_, by[1]);
     Evaluate(dtheta_, length_, by[2]);
-    const V flexibility = Scalar(1) / stiffness_;
     for (int i = 0; i < 3; ++i) {
       // d/dM = (d/dm) / EI
       for (int p = 0; p < 3; ++p)
-        map_.d_start[i][p + 1] = by[i][p] * flexibility;
+        map_.d_start[i][p + 1] = by[i][p] * flexibility_;
       if constexpr (kStretch) by_ratio_[i] = by[i][3];
     }
     map_.d_start[0][0] = ByTheta(map_.d_start[0]) - map_.end[1];
@@ -70,7 +69,7 @@ class TaylorElement {
     for (int i = 0; i < 3; ++i) {
       map_.d_stiffness[i] = ByStiffness(map_.d_start[i]);
       if constexpr (kStretch) {
-        map_.d_stiffness[i] += by_ratio_[i] * ratio_ / stiffness_;
+        map_.d_stiffness[i] += by_ratio_[i] * ratio_ * flexibility_;
       }
     }
     map_.d_length[0] = Slope(x_, length_);
@@ -88,11 +87,11 @@ class TaylorElement {
     readout.theta_rad = Evaluate(theta_, offset);
     V by[kBy];
     Evaluate(dtheta_, offset, by);
-    for (int p = 0; p < 3; ++p) readout.d_start[p + 1] = by[p] / stiffness_;
+    for (int p = 0; p < 3; ++p) readout.d_start[p + 1] = by[p] * flexibility_;
     readout.d_start[0] = ByTheta(readout.d_start) + Scalar(1);
     readout.d_stiffness = ByStiffness(readout.d_start);
     if constexpr (kStretch) {
-      readout.d_stiffness += by[3] * ratio_ / stiffness_;
+      readout.d_stiffness += by[3] * ratio_ * flexibility_;
     }
     readout.d_offset = Slope(theta_, offset);
     readout.d_length = V{};
@@ -136,11 +135,12 @@ class TaylorElement {
     start_ = start;
     stiffness_ = stiffness;
     length_ = length;
-    nx_ = start.force_x_N / stiffness;
-    ny_ = start.force_y_N / stiffness;
+    flexibility_ = Scalar(1) / stiffness;
+    nx_ = start.force_x_N * flexibility_;
+    ny_ = start.force_y_N * flexibility_;
     SinCos(start.theta_rad, &s_[0], &c_[0]);
     theta_[0] = start.theta_rad;
-    m_[0] = start.moment_N_mm / stiffness;
+    m_[0] = start.moment_N_mm * flexibility_;
     x_[0] = y_[0] = V{};
     if constexpr (kStretch) ratio_ = stiffness * axial_flexibility;
     V dm[kBy], de[kStretch ? K : 1][kBy], dc[kStretch ? K : 1][kBy],
@@ -241,12 +241,12 @@ class TaylorElement {
   }
   V ByStiffness(const V* d) const {
     return -(start_.moment_N_mm * d[1] + start_.force_x_N * d[2] +
-             start_.force_y_N * d[3]) /
-           stiffness_;
+             start_.force_y_N * d[3]) *
+           flexibility_;
   }
 
   BasicElementStart<V> start_;
-  V stiffness_, length_, nx_, ny_;
+  V stiffness_, flexibility_, length_, nx_, ny_;
   Series c_, s_, theta_, m_, x_, y_;
   SeriesBy dtheta_, dx_, dy_;
   BasicElementMap<V> map_;
