@@ -38,13 +38,13 @@ class LadderEvaluator {
   LadderEvaluator(LadderFrame<T>* frame, bool parameters)
       : f_(*frame), parameters_(parameters) {}
 
-  T Evaluate(bool propagate) {
+  void Evaluate(bool propagate) {
     AssignReadouts();
     FillSlots(propagate);
     if constexpr (kWidth > 1) {
       for (int slot = 0; slot < f_.slots(); slot += kWidth) ComputeMaps(slot);
     }
-    return CollectGaps();
+    CollectGaps();
   }
 
  private:
@@ -241,7 +241,7 @@ class LadderEvaluator {
             MapEnd(slot, 3)};
   }
 
-  T CollectGaps() {
+  void CollectGaps() {
     const LadderNodes<T>& z = f_.state;
     End tip[2];
     T largest{};
@@ -274,7 +274,7 @@ class LadderEvaluator {
     for (int i = 0; i < f_.ribs + 6; ++i) {
       largest = Larger(largest, Magnitude(f_.closure[i]));
     }
-    return largest;
+    f_.residual = largest;
   }
 
   // The slot that holds each readout: past the last contact at or before it.

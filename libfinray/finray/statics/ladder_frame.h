@@ -16,7 +16,9 @@ namespace finray {
 // T is double or float, and vector lanes are elements (evaluation) and columns
 // (sweep) of one frame; or it is FourFrames of lanes.h, each number being one
 // of each of four frames, which share mesh, pivots and what else is an integer
-// here. The code is the same.
+// here. The code is the same. Numbers are aligned to their size, which not
+// every instruction set does of itself; so no local variable goes to the
+// kernel.
 
 /// Which derivatives a sweep carries beside the Newton step.
 enum class SweepColumns {
@@ -33,7 +35,7 @@ struct LadderContact {
   int element;
   int index;    ///< the caller's number of it.
   int columns;  ///< the number of its derivatives by (l_c, f_c).
-  T offset;     ///< from the start of the element.
+  alignas(sizeof(T)) T offset;  ///< from the start of the element.
   T normal;
   T friction;
   T d_normal;  ///< by the load factor.
@@ -46,7 +48,7 @@ struct LadderReadout {
   int gauge;
   int sign;
   int element;
-  T offset;
+  alignas(sizeof(T)) T offset;
 };
 
 /// Base moments and forces and rib tensions (q of ladder.h), and (x, y, theta,
@@ -73,7 +75,7 @@ template <class T>
 struct LadderFrame {
   // The finger and its mesh.
   int front_elements = 0, elements = 0, ribs = 0;
-  T base_x[2] = {}, base_angle[2] = {};
+  alignas(sizeof(T)) T base_x[2] = {}, base_angle[2] = {};
   T *length, *stiffness, *stiffness_ratio, *axial_flexibility;
   int *rib_element[2];  ///< the element that starts at the hinge.
   T *rib_length, *rib_flexibility, *d_rib_length;
@@ -94,7 +96,9 @@ struct LadderFrame {
   T *maps, *truncation;
   T *gap;      ///< four an element, at its start.
   T *closure;  ///< ribs, then six at the tip.
-  T tip[3];    ///< x, y, theta of the front beam's end.
+  /// (x, y, theta) of the front beam's end.
+  alignas(sizeof(T)) T tip[3];
+  alignas(sizeof(T)) T residual;  ///< the largest, NaN if any is.
   T *rib_ux, *rib_uy, *rib_distance;
   int *first_readout, *end_readout;  ///< the readouts of each slot.
   T *readout_map;
@@ -108,6 +112,9 @@ struct LadderFrame {
   int event_count = 0;
   T *taps;
   T *q_step;  ///< rows of the change of q.
+
+  /// What Combine moves each contact by, (l_c, f_c).
+  alignas(sizeof(T)) T change[2 * kFittedContacts];
 
   // The sweep's own memory.
   T *rows, *tip_rows, *node_rows, *pivots, *parameters;

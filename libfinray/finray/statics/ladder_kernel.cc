@@ -14,9 +14,8 @@ using Frame = LadderFrame<double>;
 using V = Lanes<double>::Vector;
 
 template <class T, class Wide, class Single>
-T EvaluateScheme(LadderFrame<T>& frame, bool parameters, bool propagate) {
-  return LadderEvaluator<T, Wide, Single>(&frame, parameters)
-      .Evaluate(propagate);
+void EvaluateScheme(LadderFrame<T>& frame, bool parameters, bool propagate) {
+  LadderEvaluator<T, Wide, Single>(&frame, parameters).Evaluate(propagate);
 }
 
 bool SweepColumnsOf(Frame& frame, SweepColumns columns, bool open,
@@ -42,23 +41,21 @@ bool Sweep(Frame& frame, SweepColumns columns, bool readouts) {
 using SweeperFour = LadderSweeper<FourFrames, 9>;
 
 template <class Element>
-void EvaluateFour(LadderFrame<FourFrames>& frame, FourFrames* residual) {
-  *residual = EvaluateScheme<FourFrames, Element, Element>(frame, true, false);
+void EvaluateFour(LadderFrame<FourFrames>& frame) {
+  EvaluateScheme<FourFrames, Element, Element>(frame, true, false);
 }
 
 bool SweepFour(LadderFrame<FourFrames>& frame) {
   return SweeperFour(&frame, SweepColumns::kContacts, false).Run(true);
 }
 
-void CombineFour(LadderFrame<FourFrames>& frame, double newton,
-                 const FourFrames* change) {
-  SweeperFour(&frame, SweepColumns::kContacts, false)
-      .Combine(newton, change, 2);
+void CombineFour(LadderFrame<FourFrames>& frame, double newton) {
+  SweeperFour(&frame, SweepColumns::kContacts, false).Combine(newton, 2);
 }
 
-void Combine(Frame& frame, double newton, const double* change) {
+void Combine(Frame& frame, double newton) {
   LadderSweeper<double, 0>(&frame, SweepColumns::kContacts, false)
-      .Combine(newton, change, 2 * frame.contact_count);
+      .Combine(newton, 2 * frame.contact_count);
 }
 
 void OpenSweep(Frame& frame, SweepColumns columns) {

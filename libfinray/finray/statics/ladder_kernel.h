@@ -35,18 +35,17 @@ namespace finray {
 // Walking back through the exchanges gives the step.
 
 struct LadderKernel {
-  /// Fills slots, maps, readouts, gaps and closures. Returns the largest
-  /// residual, NaN if any number is. With `parameters` also derivatives by EI
-  /// and length; with `propagate` the nodes are overwritten by what reaches
-  /// them, so that there are no gaps.
-  double (*evaluate)(LadderFrame<double>&, bool parameters, bool propagate);
+  /// Fills slots, maps, readouts, gaps and closures. With `parameters` also
+  /// derivatives by EI and length; with `propagate` the nodes are overwritten
+  /// by what reaches them, so that there are no gaps.
+  void (*evaluate)(LadderFrame<double>&, bool parameters, bool propagate);
   /// Solves for taps, q_step and, but for kContacts, the step. False if the
   /// system is singular.
   bool (*sweep)(LadderFrame<double>&, SweepColumns, bool readouts);
   /// After a sweep with kContacts, which takes up to kFittedContacts: the step
-  /// of `newton` times Newton's that also moves the contacts, by `change` of
-  /// (l_c, f_c) of each in the caller's order.
-  void (*combine)(LadderFrame<double>&, double newton, const double* change);
+  /// of `newton` times Newton's that also moves the contacts, by the frame's
+  /// `change` in the caller's order.
+  void (*combine)(LadderFrame<double>&, double newton);
   /// Fills taps only, with all of q as parameters: no rib is exchanged and the
   /// tip stays open.
   void (*open_sweep)(LadderFrame<double>&, SweepColumns);
@@ -55,10 +54,9 @@ struct LadderKernel {
   /// sweep is singular if it is in any lane. Its memory is that of SetColumns
   /// with kContacts and one contact.
   struct {
-    void (*evaluate)(LadderFrame<FourFrames>&, FourFrames* residual);
+    void (*evaluate)(LadderFrame<FourFrames>&);
     bool (*sweep)(LadderFrame<FourFrames>&);
-    void (*combine)(LadderFrame<FourFrames>&, double newton,
-                    const FourFrames* change);
+    void (*combine)(LadderFrame<FourFrames>&, double newton);
   } four;
 };
 

@@ -132,7 +132,8 @@ bool LadderNewton::ConvergeOnMesh(const std::vector<PointContact>& contacts,
   double last_change = 0, best = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMaxIterations; ++i) {
     ++iterations_;
-    const double residual = kernel_->evaluate(f, parameters, false);
+    kernel_->evaluate(f, parameters, false);
+    const double residual = f.residual;
     if (!std::isfinite(residual)) return false;
     const bool maybe_last =
         residual < kNearlyThere * load || (i > 0 && last_change < kSmallChange);
@@ -178,8 +179,9 @@ double LadderNewton::LoadChange() const {
 }
 
 bool LadderNewton::Evaluate(const std::vector<PointContact>& contacts) {
-  return SetLoad(contacts, 1, SweepColumns::kNone, false) &&
-         std::isfinite(kernel_->evaluate(workspace_.frame(), false, false));
+  if (!SetLoad(contacts, 1, SweepColumns::kNone, false)) return false;
+  kernel_->evaluate(workspace_.frame(), false, false);
+  return std::isfinite(frame().residual);
 }
 
 bool LadderNewton::Linearize(const std::vector<PointContact>& contacts,
@@ -187,7 +189,8 @@ bool LadderNewton::Linearize(const std::vector<PointContact>& contacts,
   if (!SetLoad(contacts, fraction, SweepColumns::kLoad, false)) return false;
   LadderFrame<double>& f = workspace_.frame();
   ++iterations_;
-  if (!std::isfinite(kernel_->evaluate(f, false, false))) return false;
+  kernel_->evaluate(f, false, false);
+  if (!std::isfinite(f.residual)) return false;
   return kernel_->sweep(f, SweepColumns::kLoad, false);
 }
 
@@ -199,8 +202,15 @@ bool LadderNewton::LinearizeByContacts(
   LadderFrame<double>& f = workspace_.frame();
   ++iterations_;
   // Derivatives by length are those by l_c.
-  if (!std::isfinite(kernel_->evaluate(f, true, false))) return false;
+  kernel_->evaluate(f, true, false);
+  if (!std::isfinite(f.residual)) return false;
   return kernel_->sweep(f, SweepColumns::kContacts, true);
+}
+
+void LadderNewton::StepWithContacts(double newton, const double* change) {
+  LadderFrame<double>& f = workspace_.frame();
+  std::copy_n(change, 2 * f.contact_count, f.change);
+  kernel_->combine(f, newton);
 }
 
 void LadderNewton::Move(double a, double b) {
@@ -224,8 +234,7 @@ double LadderNewton::Size(double a, double b) const {
   for (int i = 0; i < 3 * f.elements; ++i) {
     const double size =
         std::abs(b == 0 ? a * step[i] : a * step[i] + b * by_load[i]);
-    // Written so that a NaN gets through.
-    if (!(size <= largest)) largest = size;
+    largest = Larger(largest, size);
   }
   return largest;
 }
@@ -262,7 +271,8 @@ bool LadderNewton::Shoot(const Eigen::VectorXd& q,
   }
   f.state.moment[0] = f.state.q[0];
   f.state.moment[f.front_elements] = f.state.q[3];
-  if (!std::isfinite(kernel_->evaluate(f, true, true))) return false;
+  kernel_->evaluate(f, true, true);
+  if (!std::isfinite(f.residual)) return false;
   kernel_->open_sweep(f, SweepColumns::kParameters);
   return true;
 }

@@ -53,9 +53,7 @@ class LadderNewton {
   bool LinearizeByContacts(const std::vector<PointContact>& contacts);
   /// Fills `step` after that: `newton` times Newton's step, with each contact's
   /// (l_c, f_c) moved by `change` in units of the workspace.
-  void StepWithContacts(double newton, const double* change) {
-    kernel_->combine(workspace_.frame(), newton, change);
-  }
+  void StepWithContacts(double newton, const double* change);
 
   /// state += a * step + b * by_load.
   void Move(double a, double b);

@@ -43,12 +43,12 @@ class LadderSweeper {
     return true;
   }
 
-  // The walk back once more, for the one change that moves each contact by
-  // `change` of (l_c, f_c).
-  void Combine(Scalar newton, const T* change, int derivatives) {
+  // The walk back once more, for the one change that moves the contacts by the
+  // frame's `change`.
+  void Combine(Scalar newton, int derivatives) {
     T with[kMostNodeColumns] = {};  // parameters, 1, change
     with[affine()] += newton;
-    for (int k = 0; k < derivatives; ++k) with[affine() + 1 + k] = change[k];
+    for (int k = 0; k < derivatives; ++k) with[affine() + 1 + k] = f_.change[k];
     LadderNodes<T>& step = f_.step;
     for (int i = f_.event_count - 1; i >= 0; --i) {
       const int event = f_.events[i] % 4, index = f_.events[i] / 4;

@@ -65,7 +65,7 @@ LadderWorkspace<T>::LadderWorkspace(const LadderWorkspace& other)
       readouts_(other.readouts_),
       nominal_mm_(other.nominal_mm_) {
   Allocate();
-  std::copy(other.numbers_.begin(), other.numbers_.end(), numbers_.begin());
+  std::copy(other.cells_.begin(), other.cells_.end(), cells_.begin());
   std::copy(other.integers_.begin(), other.integers_.end(), integers_.begin());
   std::copy(other.contacts_.begin(), other.contacts_.end(), contacts_.begin());
 }
@@ -130,7 +130,8 @@ void LadderWorkspace<T>::Allocate() {
     void operator()(int** /*to*/, int n) { integers += n; }
   } count;
   LayOut(count);
-  std::vector<T> numbers(count.numbers);
+  constexpr std::size_t kInCell = sizeof(Cell) / sizeof(T);
+  std::vector<Cell> cells((count.numbers + kInCell - 1) / kInCell);
   std::vector<int> integers(count.integers);
   struct Hand {
     T* number;
@@ -143,9 +144,9 @@ void LadderWorkspace<T>::Allocate() {
       *to = integer;
       integer += n;
     }
-  } hand{numbers.data(), integers.data()};
+  } hand{cells.data()->numbers, integers.data()};
   LayOut(hand);
-  numbers_ = std::move(numbers);
+  cells_ = std::move(cells);
   integers_ = std::move(integers);
   contacts_.resize(contact_capacity_);
   frame_.contacts = contacts_.data();

@@ -56,7 +56,11 @@ class LadderWorkspace {
   double length_unit_, force_unit_;
   LadderFrame<T> frame_;
   int contact_capacity_ = 0, stride_capacity_ = 8;
-  std::vector<T> numbers_;
+  // 32 bytes, of that alignment.
+  struct alignas(32) Cell {
+    T numbers[32 / sizeof(T)];
+  };
+  std::vector<Cell> cells_;
   std::vector<int> integers_;
   std::vector<LadderReadout<T>> readouts_;
   std::vector<LadderContact<T>> contacts_;
