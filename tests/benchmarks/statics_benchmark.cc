@@ -143,10 +143,10 @@ void Pass(benchmark::State& state, int set, bool evaluate) {
   newton.Converge({Frame(0)}, 1, SweepColumns::kNone);
   LadderFrame<double> frame = newton.frame();
   const LadderKernel& kernel = FindLadderKernel(Scheme::kTaylor, false, set);
-  kernel.evaluate(frame, false, false);
+  kernel.evaluate(frame, SweepColumns::kNone, false);
   for (auto _ : state) {
     if (evaluate) {
-      kernel.evaluate(frame, false, false);
+      kernel.evaluate(frame, SweepColumns::kNone, false);
     } else {
       benchmark::DoNotOptimize(kernel.sweep(frame, SweepColumns::kNone, false));
     }

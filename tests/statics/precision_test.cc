@@ -32,7 +32,8 @@ Outcome SolveIn(const Finger& finger, const PointContact& contact) {
   workspace.SetContacts(model, contacts);
   workspace.Load(LadderState::Undeformed(model));
   LadderFrame<T>& f = workspace.frame();
-  LadderEvaluator<T, Wide, TaylorElement<16, T>> evaluator(&f, false);
+  LadderEvaluator<T, Wide, TaylorElement<16, T>> evaluator(&f,
+                                                           SweepColumns::kNone);
   Outcome outcome{Eigen::VectorXd::Zero(model.gauges()), {}};
   for (int iteration = 0; iteration < 12; ++iteration) {
     evaluator.Evaluate(false);

@@ -35,8 +35,8 @@ class LadderEvaluator {
   using U = typename Lanes<T>::Unaligned;
   static constexpr int kWidth = Lanes<T>::kWidth;
 
-  LadderEvaluator(LadderFrame<T>* frame, bool parameters)
-      : f_(*frame), parameters_(parameters) {}
+  LadderEvaluator(LadderFrame<T>* frame, SweepColumns columns)
+      : f_(*frame), columns_(columns) {}
 
   void Evaluate(bool propagate) {
     AssignReadouts();
@@ -196,18 +196,36 @@ class LadderEvaluator {
       }
     }
     Store(f_.truncation + slot, element.Truncation());
+    if (columns_ == SweepColumns::kParameters) {
+      element.DifferentiateByStiffness();
+      for (int i = 0; i < 4; ++i) {
+        Store(out + (kMapStiffness + i) * kWidth, map.d_stiffness[i]);
+      }
+    }
     int readouts = 0;
+    bool at_contact = false;
     for (int lane = 0; lane < kWidth; ++lane) {
       const int here = Readouts(slot + lane);
       if (here > readouts) readouts = here;
+      at_contact |= IsAtContact(slot + lane);
     }
-    if (!parameters_ && readouts == 0) return;
-    element.DifferentiateByParameters();
-    for (int i = 0; i < 4; ++i) {
-      Store(out + (kMapStiffness + i) * kWidth, map.d_stiffness[i]);
-      Store(out + (kMapLength + i) * kWidth, map.d_length[i]);
+    if (at_contact && (columns_ == SweepColumns::kContacts ||
+                       columns_ == SweepColumns::kParameters)) {
+      element.DifferentiateByLength();
+      for (int i = 0; i < 4; ++i) {
+        Store(out + (kMapLength + i) * kWidth, map.d_length[i]);
+      }
     }
     for (int k = 0; k < readouts; ++k) ReadGauges(element, slot, k);
+  }
+
+  // Whether the slot's length changes as a contact moves.
+  bool IsAtContact(int slot) const {
+    if (slot >= f_.elements) return true;
+    for (int c = 0; c < f_.contact_count; ++c) {
+      if (f_.contacts[c].element == slot) return true;
+    }
+    return false;
   }
 
   // The k-th readout of each of the slots.
@@ -306,7 +324,7 @@ class LadderEvaluator {
   }
 
   LadderFrame<T>& f_;
-  const bool parameters_;
+  const SweepColumns columns_;
 };
 
 }  // namespace FINRAY_ISA

@@ -14,8 +14,9 @@ using Frame = LadderFrame<double>;
 using V = Lanes<double>::Vector;
 
 template <class T, class Wide, class Single>
-void EvaluateScheme(LadderFrame<T>& frame, bool parameters, bool propagate) {
-  LadderEvaluator<T, Wide, Single>(&frame, parameters).Evaluate(propagate);
+void EvaluateScheme(LadderFrame<T>& frame, SweepColumns columns,
+                    bool propagate) {
+  LadderEvaluator<T, Wide, Single>(&frame, columns).Evaluate(propagate);
 }
 
 bool SweepColumnsOf(Frame& frame, SweepColumns columns, bool open,
@@ -42,7 +43,8 @@ using SweeperFour = LadderSweeper<FourFrames, 9>;
 
 template <class Element>
 void EvaluateFour(LadderFrame<FourFrames>& frame) {
-  EvaluateScheme<FourFrames, Element, Element>(frame, true, false);
+  EvaluateScheme<FourFrames, Element, Element>(frame, SweepColumns::kContacts,
+                                               false);
 }
 
 bool SweepFour(LadderFrame<FourFrames>& frame) {

@@ -35,10 +35,10 @@ namespace finray {
 // Walking back through the exchanges gives the step.
 
 struct LadderKernel {
-  /// Fills slots, maps, readouts, gaps and closures. With `parameters` also
-  /// derivatives by EI and length; with `propagate` the nodes are overwritten
-  /// by what reaches them, so that there are no gaps.
-  void (*evaluate)(LadderFrame<double>&, bool parameters, bool propagate);
+  /// Fills slots, maps, readouts, gaps and closures, for a sweep with such
+  /// columns or with none. With `propagate` the nodes are overwritten by what
+  /// reaches them, so that there are no gaps.
+  void (*evaluate)(LadderFrame<double>&, SweepColumns, bool propagate);
   /// Solves for taps, q_step and, but for kContacts, the step. False if the
   /// system is singular.
   bool (*sweep)(LadderFrame<double>&, SweepColumns, bool readouts);

@@ -128,11 +128,10 @@ bool LadderNewton::ConvergeOnMesh(const std::vector<PointContact>& contacts,
   for (int c = 0; c < f.contact_count; ++c) {
     load += std::abs(f.contacts[c].normal);
   }
-  const bool parameters = columns == SweepColumns::kParameters;
   double last_change = 0, best = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMaxIterations; ++i) {
     ++iterations_;
-    kernel_->evaluate(f, parameters, false);
+    kernel_->evaluate(f, columns, false);
     const double residual = f.residual;
     if (!std::isfinite(residual)) return false;
     const bool maybe_last =
@@ -180,7 +179,7 @@ double LadderNewton::LoadChange() const {
 
 bool LadderNewton::Evaluate(const std::vector<PointContact>& contacts) {
   if (!SetLoad(contacts, 1, SweepColumns::kNone, false)) return false;
-  kernel_->evaluate(workspace_.frame(), false, false);
+  kernel_->evaluate(workspace_.frame(), SweepColumns::kNone, false);
   return std::isfinite(frame().residual);
 }
 
@@ -189,7 +188,7 @@ bool LadderNewton::Linearize(const std::vector<PointContact>& contacts,
   if (!SetLoad(contacts, fraction, SweepColumns::kLoad, false)) return false;
   LadderFrame<double>& f = workspace_.frame();
   ++iterations_;
-  kernel_->evaluate(f, false, false);
+  kernel_->evaluate(f, SweepColumns::kLoad, false);
   if (!std::isfinite(f.residual)) return false;
   return kernel_->sweep(f, SweepColumns::kLoad, false);
 }
@@ -201,8 +200,7 @@ bool LadderNewton::LinearizeByContacts(
   if (!SetLoad(contacts, 1, SweepColumns::kContacts, false)) return false;
   LadderFrame<double>& f = workspace_.frame();
   ++iterations_;
-  // Derivatives by length are those by l_c.
-  kernel_->evaluate(f, true, false);
+  kernel_->evaluate(f, SweepColumns::kContacts, false);
   if (!std::isfinite(f.residual)) return false;
   return kernel_->sweep(f, SweepColumns::kContacts, true);
 }
@@ -271,7 +269,7 @@ bool LadderNewton::Shoot(const Eigen::VectorXd& q,
   }
   f.state.moment[0] = f.state.q[0];
   f.state.moment[f.front_elements] = f.state.q[3];
-  kernel_->evaluate(f, true, true);
+  kernel_->evaluate(f, SweepColumns::kParameters, true);
   if (!std::isfinite(f.residual)) return false;
   kernel_->open_sweep(f, SweepColumns::kParameters);
   return true;

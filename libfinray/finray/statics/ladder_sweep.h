@@ -82,6 +82,8 @@ class LadderSweeper {
   int vectors() const { return kVectors > 0 ? kVectors : f_.stride / kWidth; }
   int stride() const { return vectors() * kWidth; }
   int affine() const { return open_ ? f_.affine : 6; }
+  // The first vector that the walk back has values in.
+  int first_value() const { return affine() / kWidth; }
   T* RowOf(int side, int row) const {
     return f_.rows + (kRows * side + row) * stride();
   }
@@ -216,8 +218,14 @@ class LadderSweeper {
   void TapReadout(int side, int i, int begins_at, int ends_at, int e) {
     const T* at = f_.readout_map + kReadoutValues * i;
     T* tap = Tap(f_.readout_tap(i));
-    Clear(tap);
-    for (int p = 0; p < 4; ++p) Add(at[1 + p], RowOf(side, kTheta + p), tap);
+    const V by[4] = {Broadcast(at[1]), Broadcast(at[2]), Broadcast(at[3]),
+                     Broadcast(at[4])};
+    const U* from = Wide(RowOf(side, kTheta));
+    for (int v = 0; v < vectors(); ++v) {
+      V sum = by[0] * from[v];
+      for (int p = 1; p < 4; ++p) sum += by[p] * from[p * vectors() + v];
+      Wide(tap)[v] = sum;
+    }
     if (parameters()) {
       tap[StiffnessColumn(side)] += f_.stiffness_ratio[e] * at[5];
     }
@@ -329,22 +337,16 @@ class LadderSweeper {
 
   void CheckGrowth() {
     since_check_ = 0;
-    V largest[kParameterVectors];
-    for (V& v : largest) v = V{};
+    V squares[kParameterVectors];
+    for (V& v : squares) v = V{};
     for (int i = 0; i < 2 * kRows; ++i) {
       const U* row = Wide(f_.rows + i * stride());
-      for (int v = 0; v < kParameterVectors; ++v) {
-        const V size = Magnitude(V(row[v]));
-        largest[v] = size > largest[v] ? size : largest[v];
-      }
+      for (int v = 0; v < kParameterVectors; ++v) squares[v] += row[v] * row[v];
     }
-    const T* columns = reinterpret_cast<const T*>(largest);
-    for (int j = 0; j < 6; ++j) {
-      if (LargestLane(columns[j]) > kLargestGrowth) {
-        Reparametrize();
-        return;
-      }
-    }
+    const T* of_column = reinterpret_cast<const T*>(squares);
+    T largest = of_column[0];
+    for (int j = 1; j < 6; ++j) largest = Larger(largest, of_column[j]);
+    if (LargestLane(largest) > kLargestGrowth * kLargestGrowth) Reparametrize();
   }
 
   void Reparametrize() {
@@ -466,9 +468,15 @@ class LadderSweeper {
   }
 
   void FinishRow(T* row) const {
-    T by[6];
-    for (int j = 0; j < 6; ++j) by[j] = row[j];
-    for (int j = 0; j < 6; ++j) Add(by[j], f_.parameters + j * stride(), row);
+    V by[6];
+    for (int j = 0; j < 6; ++j) by[j] = Broadcast(row[j]);
+    for (int v = first_value(); v < vectors(); ++v) {
+      V sum = Wide(row)[v];
+      for (int j = 0; j < 6; ++j) {
+        sum += by[j] * Wide(f_.parameters + j * stride())[v];
+      }
+      Wide(row)[v] = sum;
+    }
   }
 
   void UndoExchange(int pivot) {
@@ -480,7 +488,7 @@ class LadderSweeper {
     }
     const V kappa = Broadcast(f_.pivot_flexibility[pivot]);
     const V inverse = Broadcast(Scalar(1) / g[column]);
-    for (int v = 0; v < vectors(); ++v) {
+    for (int v = first_value(); v < vectors(); ++v) {
       V sum = kappa * Wide(exchanged)[v] - Wide(g)[v];
       for (int j = 0; j < 6; ++j) {
         if (j != column) {

@@ -63,6 +63,11 @@ inline V Magnitude(const V& a) {
   return a < V{} ? -a : a;
 }
 
+/// The smaller one; NaN if either is.
+template <class V>
+inline V Smaller(const V& a, const V& b) {
+  return ((a < b) | (a != a)) ? a : b;
+}
 /// The larger one; NaN if either is.
 template <class V>
 inline V Larger(const V& a, const V& b) {
@@ -85,12 +90,10 @@ inline typename ValueTraits<V>::Scalar SmallestLane(const V& a) {
   if constexpr (ValueTraits<V>::kWidth == 1) {
     return a;
   } else {
-    auto smallest = a[0];
-    for (int i = 1; i < ValueTraits<V>::kWidth; ++i) {
-      // Written so that a NaN gets through.
-      if (!(a[i] >= smallest)) smallest = a[i];
-    }
-    return smallest;
+    static_assert(ValueTraits<V>::kWidth == 4);
+    using Integers = typename ValueTraits<V>::Integers;
+    const V pairs = Smaller(a, V(__builtin_shuffle(a, Integers{2, 3, 0, 1})));
+    return Smaller(pairs, V(__builtin_shuffle(pairs, Integers{1, 0, 3, 2})))[0];
   }
 }
 template <class V>
