@@ -113,7 +113,9 @@ struct LadderFrame {
   T *taps;
   T *q_step;  ///< rows of the change of q.
 
-  /// What Combine moves each contact by, (l_c, f_c).
+  /// What Combine takes: the share of Newton's step, and by how much each
+  /// contact is moved, (l_c, f_c).
+  alignas(sizeof(T)) T newton;
   alignas(sizeof(T)) T change[2 * kFittedContacts];
 
   // The sweep's own memory.

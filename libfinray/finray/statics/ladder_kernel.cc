@@ -51,13 +51,13 @@ bool SweepFour(LadderFrame<FourFrames>& frame) {
   return SweeperFour(&frame, SweepColumns::kContacts, false).Run(true);
 }
 
-void CombineFour(LadderFrame<FourFrames>& frame, double newton) {
-  SweeperFour(&frame, SweepColumns::kContacts, false).Combine(newton, 2);
+void CombineFour(LadderFrame<FourFrames>& frame) {
+  SweeperFour(&frame, SweepColumns::kContacts, false).Combine(2);
 }
 
-void Combine(Frame& frame, double newton) {
+void Combine(Frame& frame) {
   LadderSweeper<double, 0>(&frame, SweepColumns::kContacts, false)
-      .Combine(newton, 2 * frame.contact_count);
+      .Combine(2 * frame.contact_count);
 }
 
 void OpenSweep(Frame& frame, SweepColumns columns) {

@@ -43,9 +43,9 @@ struct LadderKernel {
   /// system is singular.
   bool (*sweep)(LadderFrame<double>&, SweepColumns, bool readouts);
   /// After a sweep with kContacts, which takes up to kFittedContacts: the step
-  /// of `newton` times Newton's that also moves the contacts, by the frame's
-  /// `change` in the caller's order.
-  void (*combine)(LadderFrame<double>&, double newton);
+  /// of the frame's `newton` times Newton's that also moves the contacts, by
+  /// the frame's `change` in the caller's order.
+  void (*combine)(LadderFrame<double>&);
   /// Fills taps only, with all of q as parameters: no rib is exchanged and the
   /// tip stays open.
   void (*open_sweep)(LadderFrame<double>&, SweepColumns);
@@ -56,7 +56,7 @@ struct LadderKernel {
   struct {
     void (*evaluate)(LadderFrame<FourFrames>&);
     bool (*sweep)(LadderFrame<FourFrames>&);
-    void (*combine)(LadderFrame<FourFrames>&, double newton);
+    void (*combine)(LadderFrame<FourFrames>&);
   } four;
 };
 

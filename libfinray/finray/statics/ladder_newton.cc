@@ -27,11 +27,6 @@ constexpr double kShapeFloor = 1e-12;
 // A start from another load, whose change says nothing of Newton's constant.
 constexpr double kFarChange = 0.1;
 
-bool Stretches(const Finger& finger) {
-  return std::isfinite(AxialStiffness(finger, Side::kFront)) ||
-         std::isfinite(AxialStiffness(finger, Side::kBack));
-}
-
 }  // namespace
 
 LadderNewton::LadderNewton(const Finger& finger,
@@ -208,7 +203,8 @@ bool LadderNewton::LinearizeByContacts(
 void LadderNewton::StepWithContacts(double newton, const double* change) {
   LadderFrame<double>& f = workspace_.frame();
   std::copy_n(change, 2 * f.contact_count, f.change);
-  kernel_->combine(f, newton);
+  f.newton = newton;
+  kernel_->combine(f);
 }
 
 void LadderNewton::Move(double a, double b) {

@@ -43,11 +43,10 @@ class LadderSweeper {
     return true;
   }
 
-  // The walk back once more, for the one change that moves the contacts by the
-  // frame's `change`.
-  void Combine(Scalar newton, int derivatives) {
+  // The walk back once more, for the frame's `newton` and `change`.
+  void Combine(int derivatives) {
     T with[kMostNodeColumns] = {};  // parameters, 1, change
-    with[affine()] += newton;
+    with[affine()] = f_.newton;
     for (int k = 0; k < derivatives; ++k) with[affine() + 1 + k] = f_.change[k];
     LadderNodes<T>& step = f_.step;
     for (int i = f_.event_count - 1; i >= 0; --i) {
