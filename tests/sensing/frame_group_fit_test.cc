@@ -281,7 +281,7 @@ TEST(FrameGroupFitTest, FollowsALogToTheLeastSquares) {
       log.LeastSquares({Scheme::kTaylor, 96});
   ASSERT_EQ(same.size(), log.truth.size());
   FrameGroupFit fit(PaperFinger(), discretization);
-  fit.set_tolerance(5e-6);
+  fit.set_tolerance(1e-5);
   fit.Start(log.StateAt(discretization, 0), log.truth[0]);
   std::vector<FrameFit> fits(same.size());
   fit.Fit(log.angles, log.weights, fits.data());

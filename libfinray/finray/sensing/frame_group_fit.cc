@@ -23,6 +23,7 @@ FrameGroupFit::FrameGroupFit(const Finger& finger,
   const int gauges = lanes_.model().gauges();
   reading_.resize(gauges);
   for (auto& slope : slope_) slope.resize(gauges);
+  for (auto& slope : slope_before_) slope.resize(gauges);
   kept_state_.resize(lanes_.state_size());
   angles_.resize(gauges);
   weights_.resize(gauges);
@@ -103,6 +104,7 @@ void FrameGroupFit::Linearize(const Frames& frames) {
     normal_N[lane] = lane_[lane].normal_N;
     if (frames.Busy(lane_[lane])) first |= 1u << lane;
   }
+  comparable_ = linearised_;
   linearised_ = lanes_.Place(arc_mm, normal_N, kAllFrameLanes, first);
   if (!lanes_.Linearize()) {
     // One lane spoils all; idle ones must not do so again.
@@ -110,7 +112,11 @@ void FrameGroupFit::Linearize(const Frames& frames) {
     FourFrames* state = lanes_.frame().state.q;
     std::copy(kept_state_.begin(), kept_state_.end(), state);
   }
-  change_[0] = change_[1] = FourFrames{};
+  for (int k = 0; k < 2; ++k) {
+    step_[k] = change_[k];
+    change_[k] = FourFrames{};
+    slope_before_[k].swap(slope_[k]);
+  }
   for (int lane = 0; lane < kFrameLanes; ++lane) {
     newton_[lane] = Has(linearised_, lane);
   }
@@ -176,8 +182,9 @@ bool FrameGroupFit::Improve(const Frames& frames, int lane, bool predict) {
       reading_[j][lane] += slope_[k][j][lane] * change[k];
     }
   }
-  l.converged =
-      !predict && IsLastChange(moved, l.last_change, crossed, tolerance_);
+  l.converged = !predict && IsLastChange(moved, l.last_change,
+                                         Rate(frames, lane, equations, x),
+                                         crossed, tolerance_);
   l.last_change = moved;
   return true;
 }
@@ -203,6 +210,26 @@ ContactEquations FrameGroupFit::EquationsOf(const Frames& frames,
   equations.normal << normal[0], normal[1], normal[1], normal[2];
   equations.gradient << gradient[0], gradient[1];
   return equations;
+}
+
+// CurvatureRate over the step between the last two linearisations.
+double FrameGroupFit::Rate(const Frames& frames, int lane,
+                           const ContactEquations& equations,
+                           const ContactVector& x) const {
+  if (!Has(comparable_, lane)) return 0;
+  const int frame = lane_[lane].frame;
+  ContactVector by_residual = ContactVector::Zero(2), step(2);
+  for (std::size_t j = 0; j < reading_.size(); ++j) {
+    const double weight = frames.weights_per_rad(j, frame);
+    const double residual =
+        weight * weight * (reading_[j][lane] - frames.angles_rad(j, frame));
+    for (int k = 0; k < 2; ++k) {
+      by_residual[k] +=
+          residual * (slope_[k][j][lane] - slope_before_[k][j][lane]);
+    }
+  }
+  step << step_[0][lane], step_[1][lane];
+  return CurvatureRate(equations, 0, by_residual, step, x);
 }
 
 // What stands for a change of the whole shape: gaps between its elements, and

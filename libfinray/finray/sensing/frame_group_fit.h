@@ -87,6 +87,8 @@ class FrameGroupFit {
   void Advance(const Frames& frames, int lane);
   bool Improve(const Frames& frames, int lane, bool predict);
   ContactEquations EquationsOf(const Frames& frames, int lane) const;
+  double Rate(const Frames& frames, int lane, const ContactEquations& equations,
+              const ContactVector& x) const;
   double ShapeChange(int lane, bool newton, const ContactVector& change) const;
   bool IsResolved(int lane) const;
   void Record(const Frames& frames, int lane) const;
@@ -109,6 +111,11 @@ class FrameGroupFit {
   FourFrames newton_{}, change_[2] = {};
   // Gauge angles after that step and change; slopes by (l_c, f_c).
   std::vector<FourFrames> reading_, slope_[2];
+  // The slopes of the linearisation before, the change that led from there, and
+  // the lanes in which it did.
+  std::vector<FourFrames> slope_before_[2];
+  FourFrames step_[2] = {};
+  LaneSet comparable_ = 0;
   // Where each lane's frame started, for a fit alone; lanes yet to be copied.
   std::vector<FourFrames> kept_state_;
   LaneSet to_keep_ = 0;
