@@ -7,8 +7,11 @@ namespace finray {
 namespace {
 
 // Frames that take longer, or begin with a larger change, are fitted alone.
-constexpr int kMostIterations = 6;
+constexpr int kMostIterations = 10;
 constexpr double kLargestChange = 0.5;
+// A lane does not begin a frame that is further ahead of another lane's: their
+// contacts would lie in too many elements.
+constexpr int kMostLead = 4 * kFrameLanes;
 
 }  // namespace
 
@@ -59,22 +62,18 @@ void FrameGroupFit::Fit(const Columns& angles_rad,
   const Frames frames{angles_rad, weights_per_rad, fits};
   for (int lane = 0; lane < kFrameLanes; ++lane) {
     TakeFrame(lane, lane);
-    if (one_by_one_ || !frames.Busy(lane_[lane])) continue;
-    if (Has(linearised_, lane) && !Improve(frames, lane, true)) {
-      FitLane(frames, lane);
-    }
   }
+  for (int lane = 0; lane < kFrameLanes; ++lane) Begin(frames, lane);
   const auto busy = [&](const Lane& lane) { return frames.Busy(lane); };
   while (!one_by_one_ && std::any_of(lane_.begin(), lane_.end(), busy)) {
     Keep(to_keep_);
     if (linearised_ != 0) lanes_.Step(newton_, change_);
-    Linearize(frames);
+    Linearize();
     for (int lane = 0; lane < kFrameLanes; ++lane) {
-      if (one_by_one_ || !frames.Busy(lane_[lane])) continue;
-      if (Has(linearised_, lane)) {
-        Advance(frames, lane);
+      if (lane_[lane].waiting) {
+        Begin(frames, lane);
       } else {
-        FitLane(frames, lane);
+        Advance(frames, lane);
       }
     }
   }
@@ -88,6 +87,7 @@ void FrameGroupFit::TakeFrame(int lane, int frame) {
   Lane& l = lane_[lane];
   l.frame = frame;
   l.iteration = 0;
+  l.waiting = true;
   l.last_cost = std::numeric_limits<double>::infinity();
   l.last_change = kUnknownChange;
   l.kept_arc_mm = l.arc_mm;
@@ -95,14 +95,27 @@ void FrameGroupFit::TakeFrame(int lane, int frame) {
   to_keep_ |= 1u << lane;
 }
 
-// Idle lanes come along, so that they are where the next call starts.
-void FrameGroupFit::Linearize(const Frames& frames) {
+// Predicts where the lane's frame is, if there is a linearisation to tell.
+void FrameGroupFit::Begin(const Frames& frames, int lane) {
+  Lane& l = lane_[lane];
+  if (one_by_one_ || !frames.Busy(l)) return;
+  for (const Lane& other : lane_) {
+    if (l.frame > other.frame + kMostLead) return;
+  }
+  l.waiting = false;
+  if (Has(linearised_, lane) && !Improve(frames, lane, true)) {
+    FitLane(frames, lane);
+  }
+}
+
+// Lanes without a frame come along, so that they are where the next one starts.
+void FrameGroupFit::Linearize() {
   std::array<double, kFrameLanes> arc_mm, normal_N;
   LaneSet first = 0;
   for (int lane = 0; lane < kFrameLanes; ++lane) {
     arc_mm[lane] = lane_[lane].arc_mm;
     normal_N[lane] = lane_[lane].normal_N;
-    if (frames.Busy(lane_[lane])) first |= 1u << lane;
+    if (!lane_[lane].waiting) first |= 1u << lane;
   }
   comparable_ = linearised_;
   linearised_ = lanes_.Place(arc_mm, normal_N, kAllFrameLanes, first);
@@ -142,15 +155,16 @@ void FrameGroupFit::ReadGauges() {
 // the next one.
 void FrameGroupFit::Advance(const Frames& frames, int lane) {
   Lane& l = lane_[lane];
-  if (++l.iteration > kMostIterations || !Improve(frames, lane, false) ||
-      (l.converged && !IsResolved(lane))) {
+  if (one_by_one_) return;
+  if (!Has(linearised_, lane) || ++l.iteration > kMostIterations ||
+      !Improve(frames, lane, false) || (l.converged && !IsResolved(lane))) {
     FitLane(frames, lane);
     return;
   }
   if (!l.converged) return;
   Record(frames, lane);
   TakeFrame(lane, l.frame + kFrameLanes);
-  if (frames.Busy(l) && !Improve(frames, lane, true)) FitLane(frames, lane);
+  Begin(frames, lane);
 }
 
 // Moves the contact to where the linearisation has the least squares. False if

@@ -26,9 +26,10 @@ struct FrameFit {
 /// ContactFit of one contact for the frames of a log, four at a time in vector
 /// lanes. Lane k takes frames k, k + 4, k + 8 .. as fast as they converge, and
 /// starts each from what the last linearisation makes of its readings, as
-/// ContactFit::Follow does. As the end of one frame and the prediction of the
-/// next are changes of the same linearisation, they are one step: a frame that
-/// converges at once costs a quarter of one linearisation and one step.
+/// ContactFit::Follow does; none runs far ahead. As the end of one frame and
+/// the prediction of the next are changes of the same linearisation, they are
+/// one step: a frame that converges at once costs a quarter of one
+/// linearisation and one step.
 ///
 /// Lanes have their own residuals, weights, changes, bounds and convergence.
 /// What does not fit in is fitted alone by ContactFit, from where its lane
@@ -66,6 +67,7 @@ class FrameGroupFit {
   struct Lane {
     int frame;  // its column; the lane is idle if that is beyond the last
     int iteration;
+    bool waiting;  // for the others, before it begins
     bool converged;
     double arc_mm, normal_N;
     double last_cost, last_change;
@@ -82,7 +84,8 @@ class FrameGroupFit {
   };
 
   void TakeFrame(int lane, int frame);
-  void Linearize(const Frames& frames);
+  void Begin(const Frames& frames, int lane);
+  void Linearize();
   void ReadGauges();
   void Advance(const Frames& frames, int lane);
   bool Improve(const Frames& frames, int lane, bool predict);
