@@ -30,6 +30,13 @@ void SolvePositive(ContactMatrix* a, ContactVector* b) {
   ContactMatrix& l = *a;
   ContactVector& x = *b;
   const int n = static_cast<int>(x.size());
+  if (n == 2) {
+    const double inverse = 1 / (l(0, 0) * l(1, 1) - l(1, 0) * l(1, 0));
+    const double first = x[0];
+    x[0] = (l(1, 1) * first - l(1, 0) * x[1]) * inverse;
+    x[1] = (l(0, 0) * x[1] - l(1, 0) * first) * inverse;
+    return;
+  }
   for (int j = 0; j < n; ++j) {
     const double pivot = 1 / l(j, j);
     for (int i = j + 1; i < n; ++i) {

@@ -83,9 +83,16 @@ class LadderSweeper {
   int affine() const { return open_ ? f_.affine : 6; }
   // The first vector that the walk back has values in.
   int first_value() const { return affine() / kWidth; }
+  // The rows of a node's position, angle and moment lie where they are kept;
+  // behind the nodes come both tips and, on either side, a contact.
+  T* Node(int e) const { return f_.node_rows + 4 * stride() * e; }
+  T* TipNode(int side) const { return Node(f_.elements + side); }
+  T* ContactNode(int side) const { return Node(f_.elements + 2 + side); }
   T* RowOf(int side, int row) const {
-    return f_.rows + (kRows * side + row) * stride();
+    return row < kForceX ? node_[side] + row * stride()
+                         : f_.rows + (2 * side + row - kForceX) * stride();
   }
+  T* RowOf(int i) const { return RowOf(i / kRows, i % kRows); }
   T* Tap(int tap) const { return f_.taps + tap * stride(); }
 
   static V Broadcast(const T& value) { return value - V{}; }
@@ -125,7 +132,9 @@ class LadderSweeper {
            f_.contacts[next_contact_[1]].side == 0) {
       ++next_contact_[1];
     }
-    for (int i = 0; i < 2 * kRows; ++i) Clear(f_.rows + i * stride());
+    node_[0] = Node(0);
+    node_[1] = Node(f_.front_elements);
+    for (int i = 0; i < 2 * kRows; ++i) Clear(RowOf(i));
     for (int side = 0; side < 2; ++side) {
       for (int i = 0; i < 3; ++i) {
         RowOf(side, kMoment + i)[3 * side + i] += Scalar(1);
@@ -141,37 +150,28 @@ class LadderSweeper {
     for (int i = 0; i < 4; ++i) RowOf(side, i)[affine()] += f_.gap[4 * e + i];
   }
 
-  void KeepNode(int side, int e) {
-    if (open_) return;
-    T* kept = f_.node_rows + 4 * f_.node_columns * e;
-    for (int i = 0; i < 4; ++i) {
-      for (int v = 0; v < f_.node_columns / kWidth; ++v) {
-        Wide(kept + f_.node_columns * i)[v] = Wide(RowOf(side, i))[v];
-      }
-    }
-    Log(kNode, e);
-  }
-
   void PassElement(int side, int e, bool readouts) {
     TakeUpGap(side, e);
-    if (gap_taken_[side]) KeepNode(side, e);
+    if (gap_taken_[side] && !open_) Log(kNode, e);
     gap_taken_[side] = false;
+    const bool last = e + 1 == (side == 0 ? f_.front_elements : f_.elements);
     int slot = e, begins_at = -1;
     for (int& c = next_contact_[side];
          c < f_.contact_count && f_.contacts[c].element == e; ++c) {
-      PassSlot(side, e, slot, begins_at, c, readouts);
+      PassSlot(side, e, slot, begins_at, c, readouts, ContactNode(side));
       PassContact(side, c);
       begins_at = c;
       slot = f_.elements + c;
     }
-    PassSlot(side, e, slot, begins_at, -1, readouts);
+    PassSlot(side, e, slot, begins_at, -1, readouts,
+             last ? TipNode(side) : Node(e + 1));
     if (!open_ && ++since_check_ >= kGrowthCheckEvery) CheckGrowth();
   }
 
   // A slot that begins (ends) at a contact becomes shorter (longer) when that
   // contact moves towards the tip.
   void PassSlot(int side, int e, int slot, int begins_at, int ends_at,
-                bool readouts) {
+                bool readouts, T* end) {
     for (int i = f_.first_readout[slot]; readouts && i < f_.end_readout[slot];
          ++i) {
       TapReadout(side, i, begins_at, ends_at, e);
@@ -184,19 +184,19 @@ class LadderSweeper {
         a[i][p] = Broadcast(map[(kMapStart + 4 * i + p) * kWidth]);
       }
     }
-    U* x = Wide(RowOf(side, kX));
-    U* y = Wide(RowOf(side, kY));
-    U* theta = Wide(RowOf(side, kTheta));
-    U* moment = Wide(RowOf(side, kMoment));
-    const U* fx = Wide(RowOf(side, kForceX));
-    const U* fy = Wide(RowOf(side, kForceY));
+    const U* from[kRows];
+    U* to[4];
+    for (int i = 0; i < kRows; ++i) from[i] = Wide(RowOf(side, i));
+    for (int i = 0; i < 4; ++i) to[i] = Wide(end + i * stride());
     for (int v = 0; v < vectors(); ++v) {
-      const V t = theta[v], m = moment[v], n = fx[v], w = fy[v];
-      x[v] += a[0][0] * t + a[0][1] * m + a[0][2] * n + a[0][3] * w;
-      y[v] += a[1][0] * t + a[1][1] * m + a[1][2] * n + a[1][3] * w;
-      theta[v] = a[2][0] * t + a[2][1] * m + a[2][2] * n + a[2][3] * w;
-      moment[v] = a[3][0] * t + a[3][1] * m + a[3][2] * n + a[3][3] * w;
+      const V t = from[kTheta][v], m = from[kMoment][v];
+      const V n = from[kForceX][v], w = from[kForceY][v];
+      for (int i = 0; i < 4; ++i) {
+        const V moved = a[i][0] * t + a[i][1] * m + a[i][2] * n + a[i][3] * w;
+        to[i][v] = i < kTheta ? from[i][v] + moved : moved;
+      }
     }
+    node_[side] = end;
     if (!by_contacts()) return;
     for (int i = 0; i < 4; ++i) {
       T* row = RowOf(side, i);
@@ -219,10 +219,11 @@ class LadderSweeper {
     T* tap = Tap(f_.readout_tap(i));
     const V by[4] = {Broadcast(at[1]), Broadcast(at[2]), Broadcast(at[3]),
                      Broadcast(at[4])};
-    const U* from = Wide(RowOf(side, kTheta));
+    const U* from[4];
+    for (int p = 0; p < 4; ++p) from[p] = Wide(RowOf(side, kTheta + p));
     for (int v = 0; v < vectors(); ++v) {
-      V sum = by[0] * from[v];
-      for (int p = 1; p < 4; ++p) sum += by[p] * from[p * vectors() + v];
+      V sum = by[0] * from[0][v];
+      for (int p = 1; p < 4; ++p) sum += by[p] * from[p][v];
       Wide(tap)[v] = sum;
     }
     if (parameters()) {
@@ -294,7 +295,7 @@ class LadderSweeper {
     } else {
       length[affine()] += f_.closure[rib];
       column = LargestColumn(length);
-      Exchange(column, kappa, rib, f_.rows, 2 * kRows);
+      Exchange(column, kappa, rib);
     }
     RowOf(0, kForceX)[column] -= ux;
     RowOf(0, kForceY)[column] -= uy;
@@ -317,8 +318,15 @@ class LadderSweeper {
   }
 
   // Exchanges parameter `column` for the quantity whose row is the next of
-  // pivots, in `count` rows from `rows`.
-  void Exchange(int column, const T& kappa, int rib, T* rows, int count) {
+  // pivots, in the rows of both beams.
+  void Exchange(int column, const T& kappa, int rib) {
+    for (int side = 0; side < 2; ++side) {
+      ExchangeIn(column, kappa, node_[side], 4);
+      ExchangeIn(column, kappa, RowOf(side, kForceX), 2);
+    }
+    KeepPivot(column, kappa, rib);
+  }
+  void ExchangeIn(int column, const T& kappa, T* rows, int count) const {
     const T* g = f_.pivots + pivots_ * stride();
     const T inverse = Scalar(1) / g[column];
     for (int i = 0; i < count; ++i) {
@@ -327,6 +335,8 @@ class LadderSweeper {
       Add(-factor, g, row);
       row[column] = factor * kappa;
     }
+  }
+  void KeepPivot(int column, const T& kappa, int rib) {
     f_.pivot_column[pivots_] = column;
     f_.pivot_flexibility[pivots_] = kappa;
     f_.pivot_rib[pivots_] = rib;
@@ -339,7 +349,7 @@ class LadderSweeper {
     V squares[kParameterVectors];
     for (V& v : squares) v = V{};
     for (int i = 0; i < 2 * kRows; ++i) {
-      const U* row = Wide(f_.rows + i * stride());
+      const U* row = Wide(RowOf(i));
       for (int v = 0; v < kParameterVectors; ++v) squares[v] += row[v] * row[v];
     }
     const T* of_column = reinterpret_cast<const T*>(squares);
@@ -355,8 +365,7 @@ class LadderSweeper {
       Scalar largest = -1;
       for (int i = 0; i < 2 * kRows; ++i) {
         for (int j = 0; j < 6; ++j) {
-          const Scalar size =
-              SmallestLane(Magnitude(f_.rows[i * stride() + j]));
+          const Scalar size = SmallestLane(Magnitude(RowOf(i)[j]));
           // A row that was chosen is one in its own column, zero elsewhere.
           if (!used[j] && size > largest) {
             largest = size;
@@ -367,8 +376,8 @@ class LadderSweeper {
       }
       if (!(largest > 0)) return;
       used[column] = true;
-      Copy(f_.rows + pivot_row * stride(), f_.pivots + pivots_ * stride());
-      Exchange(column, T{} + Scalar(1), -1, f_.rows, 2 * kRows);
+      Copy(RowOf(pivot_row), f_.pivots + pivots_ * stride());
+      Exchange(column, T{} + Scalar(1), -1);
     }
   }
 
@@ -391,7 +400,8 @@ class LadderSweeper {
       // Written so that a NaN fails.
       if (!(SmallestLane(Magnitude(row[column])) > 0)) return false;
       Copy(row, f_.pivots + pivots_ * stride());
-      Exchange(column, T{}, -1, f_.tip_rows + (k + 1) * stride(), 5 - k);
+      ExchangeIn(column, T{}, f_.tip_rows + (k + 1) * stride(), 5 - k);
+      KeepPivot(column, T{}, -1);
     }
     return true;
   }
@@ -450,12 +460,12 @@ class LadderSweeper {
 
   // The change of node e where columns are taken times `with`.
   void FinishNodeWith(const T* with, LadderNodes<T>* z, int e) const {
-    const T* kept = f_.node_rows + 4 * f_.node_columns * e;
+    const T* kept = Node(e);
     T change[4];
     for (int i = 0; i < 4; ++i) {
       V sum = V{};
       for (int v = 0; v < f_.node_columns / kWidth; ++v) {
-        sum += Wide(kept + f_.node_columns * i)[v] * Wide(with)[v];
+        sum += Wide(kept + stride() * i)[v] * Wide(with)[v];
       }
       change[i] = reinterpret_cast<const T*>(&sum)[0];
       for (int lane = 1; lane < kWidth; ++lane) change[i] += sum[lane];
@@ -504,6 +514,7 @@ class LadderSweeper {
   int events_ = 0, pivots_ = 0, since_check_ = 0;
   int next_contact_[2] = {0, 0};
   bool gap_taken_[2] = {false, false};
+  T* node_[2] = {};  // the rows where either walk is
 };
 
 }  // namespace FINRAY_ISA

@@ -107,9 +107,9 @@ void LadderWorkspace<T>::LayOut(Take&& take) {
   const int pivots = 6 * (elements / kGrowthCheckEvery) + ribs + 6;
   take(&f.taps, taps * stride);
   take(&f.q_step, q * stride);
-  take(&f.rows, 12 * stride);
+  take(&f.rows, 4 * stride);
   take(&f.tip_rows, 6 * stride);
-  take(&f.node_rows, 4 * kMostNodeColumns * elements);
+  take(&f.node_rows, 4 * stride * (elements + 4));
   take(&f.pivots, pivots * stride);
   take(&f.parameters, 6 * stride);
   take(&f.pivot_flexibility, pivots);
