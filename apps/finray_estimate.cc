@@ -118,7 +118,7 @@ int Run() {
   std::vector<LogJob> jobs = MakeJobs(settings);
   if (!CheckAll(&jobs)) return Interrupted("before the first frame");
   FrameSolverPool pool(
-      ColdSolvers(settings.finger, settings.scene, settings.discretization));
+      FrameSolvers(settings.finger, settings.scene, settings.discretization));
   MakeFolder(FLAGS_out_dir);
   RemoveOldSummaries();
   ProgressBar bar(Frames(jobs));

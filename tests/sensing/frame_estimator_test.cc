@@ -22,14 +22,15 @@ Scene OneContact() {
   return scene;
 }
 
-std::vector<double> Volts(const EquilibriumSolver& solver) {
-  std::vector<double> volts;
+FrameReadings Readings(const EquilibriumSolver& solver) {
+  FrameReadings readings;
   const Finger& finger = solver.model().finger();
   for (int j = 0; j < solver.model().gauges(); ++j) {
-    volts.push_back(finger.gauges[j].gain_V_per_rad * solver.gauge_angle(j) +
-                    finger.gauges[j].offset_V);
+    readings.gauges_V.push_back(finger.gauges[j].gain_V_per_rad *
+                                    solver.gauge_angle(j) +
+                                finger.gauges[j].offset_V);
   }
-  return volts;
+  return readings;
 }
 
 TEST(FrameEstimatorTest, NoiseFreeGridFromACold) {
@@ -45,9 +46,10 @@ TEST(FrameEstimatorTest, NoiseFreeGridFromACold) {
       const double arc = 15 + (112 - 15) * i / 29.0;
       const double force = 0.1 * std::pow(100, j / 19.0);
       ASSERT_TRUE(solver.Solve({{arc, force, 0}}));
-      const FrameEstimate estimate = estimator.Estimate(Volts(solver));
-      const double arc_error = std::abs(estimate.contact_mm - arc);
-      const double force_error = std::abs(estimate.normal_N / force - 1);
+      const FrameEstimate estimate = estimator.Estimate(Readings(solver));
+      const double arc_error = std::abs(estimate.contact[0].arc_mm - arc);
+      const double force_error =
+          std::abs(estimate.contact[0].normal_N / force - 1);
       right += arc_error < 1e-5 && force_error < 1e-6;
       worst_arc = std::max(worst_arc, arc_error);
       worst_force = std::max(worst_force, force_error);
@@ -64,20 +66,20 @@ TEST(FrameEstimatorTest, StdIsWhatNoiseDoes) {
   FrameEstimator estimator(finger, OneContact(), {});
   EquilibriumSolver solver(finger, {});
   ASSERT_TRUE(solver.Solve({{75, 3, 0}}));
-  const std::vector<double> clean = Volts(solver);
+  const FrameReadings clean = Readings(solver);
   std::mt19937_64 generator(5);
   std::normal_distribution<double> noise(0, 3e-4);
   double arc2 = 0, force2 = 0, arc_std = 0, force_std = 0, chi2 = 0;
   constexpr int kRepeats = 1000;
   for (int i = 0; i < kRepeats; ++i) {
-    std::vector<double> volts = clean;
-    for (double& v : volts) v += noise(generator);
-    const FrameEstimate estimate = estimator.Estimate(volts);
+    FrameReadings readings = clean;
+    for (double& v : readings.gauges_V) v += noise(generator);
+    const FrameEstimate estimate = estimator.Estimate(readings);
     ASSERT_EQ(estimate.status, FrameStatus::kOk);
-    arc2 += std::pow(estimate.contact_mm - 75, 2);
-    force2 += std::pow(estimate.normal_N - 3, 2);
-    arc_std += estimate.contact_std_mm;
-    force_std += estimate.normal_std_N;
+    arc2 += std::pow(estimate.contact[0].arc_mm - 75, 2);
+    force2 += std::pow(estimate.contact[0].normal_N - 3, 2);
+    arc_std += estimate.contact[0].arc_std_mm;
+    force_std += estimate.contact[0].normal_std_N;
     chi2 += estimate.chi2;
   }
   // The spread of 1000 repeats is known to 2.2 %.
@@ -91,24 +93,25 @@ TEST(FrameEstimatorTest, SaysWhatItCannotSee) {
   EquilibriumSolver solver(finger, {});
   FrameEstimator automatic(finger, Scene(), {});
   ASSERT_TRUE(solver.Solve({}));
-  EXPECT_EQ(automatic.Estimate(Volts(solver)).status, FrameStatus::kNoContact);
+  EXPECT_EQ(automatic.Estimate(Readings(solver)).status,
+            FrameStatus::kNoContact);
   // Near the tip and light: no gauge tells place from force.
   ASSERT_TRUE(solver.Solve({{128, 0.5, 0}}));
   FrameEstimator one(finger, OneContact(), {});
-  const FrameEstimate tip = one.Estimate(Volts(solver));
+  const FrameEstimate tip = one.Estimate(Readings(solver));
   EXPECT_EQ(tip.status, FrameStatus::kUnobservable);
   ASSERT_TRUE(solver.Solve({{70, 3, 0}}));
-  std::vector<double> volts = Volts(solver);
-  const FrameEstimate whole = one.Estimate(volts);
+  FrameReadings readings = Readings(solver);
+  const FrameEstimate whole = one.Estimate(readings);
   EXPECT_EQ(whole.status, FrameStatus::kOk);
   // One gauge less still does, with less certainty; three less do not.
-  volts[0] = std::nan("");
-  const FrameEstimate less = one.Estimate(volts);
-  EXPECT_NEAR(less.contact_mm, 70, 1e-6);
-  EXPECT_GT(less.contact_std_mm, whole.contact_std_mm);
-  volts[1] = volts[2] = std::nan("");
-  EXPECT_EQ(one.Estimate(volts).status, FrameStatus::kBadInput);
-  EXPECT_TRUE(std::isnan(one.Estimate(volts).normal_N));
+  readings.gauges_V[0] = std::nan("");
+  const FrameEstimate less = one.Estimate(readings);
+  EXPECT_NEAR(less.contact[0].arc_mm, 70, 1e-6);
+  EXPECT_GT(less.contact[0].arc_std_mm, whole.contact[0].arc_std_mm);
+  readings.gauges_V[1] = readings.gauges_V[2] = std::nan("");
+  EXPECT_EQ(one.Estimate(readings).status, FrameStatus::kBadInput);
+  EXPECT_TRUE(std::isnan(one.Estimate(readings).contact[0].normal_N));
 }
 
 TEST(FrameEstimatorTest, FreeFramesWithNoiseAreNoContact) {
@@ -118,9 +121,10 @@ TEST(FrameEstimatorTest, FreeFramesWithNoiseAreNoContact) {
   std::normal_distribution<double> noise(0, 3e-4);
   int free = 0;
   for (int i = 0; i < 300; ++i) {
-    std::vector<double> volts(4);
-    for (double& v : volts) v = noise(generator);
-    const FrameEstimate estimate = automatic.Estimate(volts);
+    FrameReadings readings;
+    readings.gauges_V.resize(4);
+    for (double& v : readings.gauges_V) v = noise(generator);
+    const FrameEstimate estimate = automatic.Estimate(readings);
     free += estimate.status == FrameStatus::kNoContact;
   }
   EXPECT_GE(free, 297);  // p = 0.001 a frame
@@ -133,9 +137,9 @@ TEST(FrameEstimatorTest, KnownFrictionIsPartOfTheModel) {
   Scene scene = OneContact();
   scene.friction_coefficient = 0.3;
   FrameEstimator estimator(finger, scene, {});
-  const FrameEstimate estimate = estimator.Estimate(Volts(solver));
-  EXPECT_NEAR(estimate.contact_mm, 64, 1e-6);
-  EXPECT_NEAR(estimate.normal_N, 5, 1e-6);
+  const FrameEstimate estimate = estimator.Estimate(Readings(solver));
+  EXPECT_NEAR(estimate.contact[0].arc_mm, 64, 1e-6);
+  EXPECT_NEAR(estimate.contact[0].normal_N, 5, 1e-6);
   EXPECT_NEAR(estimate.rib_tension_N[2], solver.rib_tension(2), 1e-6);
   EXPECT_NEAR((estimate.tip_pose - solver.tip_pose()).norm(), 0, 1e-6);
 }

@@ -17,22 +17,6 @@ constexpr int kMostStarts = 3;
 
 }  // namespace
 
-const char* StatusName(FrameStatus status) {
-  switch (status) {
-    case FrameStatus::kOk:
-      return "ok";
-    case FrameStatus::kNoContact:
-      return "no_contact";
-    case FrameStatus::kUnobservable:
-      return "unobservable";
-    case FrameStatus::kNotConverged:
-      return "not_converged";
-    case FrameStatus::kBadInput:
-      return "bad_input";
-  }
-  return "";
-}
-
 FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
                                const Discretization& discretization)
     : finger_(finger),
@@ -53,17 +37,15 @@ FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
   free_.status = FrameStatus::kNoContact;
   fit_.set_most_force(kMostForce * table_.heaviest_N());
   solver_.Solve({});
-  free_.contact_mm = free_.contact_std_mm = kNaN;
-  free_.normal_N = 0;
-  free_.normal_std_N = kNaN;
-  free_.contact_pose.setConstant(kNaN);
+  free_.contact[0].normal_N = 0;
   free_.tip_pose = solver_.tip_pose();
   for (int i = 0; i < solver_.model().ribs(); ++i) {
     free_.rib_tension_N.push_back(solver_.rib_tension(i));
   }
 }
 
-FrameEstimate FrameEstimator::Estimate(const std::vector<double>& readings_V) {
+FrameEstimate FrameEstimator::Estimate(const FrameReadings& readings) {
+  const std::vector<double>& readings_V = readings.gauges_V;
   const int gauges = static_cast<int>(finger_.gauges.size());
   Eigen::VectorXd angles(gauges), weights(gauges);
   int measured = 0;
@@ -79,44 +61,46 @@ FrameEstimate FrameEstimator::Estimate(const std::vector<double>& readings_V) {
       (angles - table_.free_angles()).cwiseProduct(weights).squaredNorm();
   const int unknowns = scene_.contacts == 0 ? 0 : 2;
   if (measured < std::max(unknowns, 1)) {
-    FrameEstimate estimate = FreeEstimate(kNaN);
+    FrameEstimate estimate = FreeEstimate(kNaN, 0);
     estimate.status = FrameStatus::kBadInput;
-    estimate.normal_N = kNaN;
+    estimate.contact[0].normal_N = kNaN;
     estimate.tip_pose.setConstant(kNaN);
     estimate.rib_tension_N.assign(free_.rib_tension_N.size(), kNaN);
     return estimate;
   }
-  if (scene_.contacts == 0) return FreeEstimate(free_chi2);
+  if (scene_.contacts == 0) return FreeEstimate(free_chi2, measured);
 
   table_.FindStarts(angles, weights, &starts_);
-  FrameEstimate best = FreeEstimate(kNaN);
+  FrameEstimate best = FreeEstimate(kNaN, 0);
   best.status = FrameStatus::kNotConverged;
-  best.normal_N = kNaN;
+  best.contact[0].normal_N = kNaN;
   int iterations = 0;
   if (starts_.size() > kMostStarts) starts_.resize(kMostStarts);
   for (const GaugeTable::Start& start : starts_) {
-    const FrameEstimate estimate = ContactEstimate(start, angles, weights);
+    const FrameEstimate estimate = FitFrom(start, angles, weights);
     iterations += estimate.iterations;
     if (estimate.status == FrameStatus::kNotConverged) continue;
     if (std::isnan(best.chi2) || estimate.chi2 < best.chi2) best = estimate;
     if (best.chi2 < kWellExplained * measured) break;
   }
   best.iterations = iterations;
+  best.dof = measured - unknowns;
   const bool free =
-      scene_.contacts ? best.normal_N < kLeastForce_N
+      scene_.contacts ? best.contact[0].normal_N < kLeastForce_N
                       : free_chi2 - best.chi2 < kSignificance;  // false for NaN
-  return free ? FreeEstimate(free_chi2) : best;
+  return free ? FreeEstimate(free_chi2, measured) : best;
 }
 
-FrameEstimate FrameEstimator::FreeEstimate(double chi2) const {
+FrameEstimate FrameEstimator::FreeEstimate(double chi2, int dof) const {
   FrameEstimate estimate = free_;
   estimate.chi2 = chi2;
+  estimate.dof = dof;
   return estimate;
 }
 
-FrameEstimate FrameEstimator::ContactEstimate(
-    const GaugeTable::Start& start, const Eigen::VectorXd& angles_rad,
-    const Eigen::VectorXd& weight_per_rad) {
+FrameEstimate FrameEstimator::FitFrom(const GaugeTable::Start& start,
+                                      const Eigen::VectorXd& angles_rad,
+                                      const Eigen::VectorXd& weight_per_rad) {
   PointContact& contact = contacts_[0];
   contact = {start.arc_mm, start.normal_N, scene_.friction_coefficient};
   fit_.set_state(*start.state);
@@ -126,9 +110,11 @@ FrameEstimate FrameEstimator::ContactEstimate(
   estimate.status = FrameStatus::kNotConverged;
   if (!converged) return estimate;
 
-  estimate.contact_mm = contact.arc_mm;
-  estimate.normal_N = contact.normal_N;
-  estimate.contact_pose = fit_.contact_pose(0);
+  ContactEstimate& found = estimate.contact[0];
+  estimate.contacts = 1;
+  found.arc_mm = contact.arc_mm;
+  found.normal_N = contact.normal_N;
+  found.pose = fit_.contact_pose(0);
   estimate.tip_pose = fit_.tip_pose();
   for (std::size_t i = 0; i < estimate.rib_tension_N.size(); ++i) {
     estimate.rib_tension_N[i] = fit_.rib_tension(static_cast<int>(i));
@@ -143,16 +129,16 @@ FrameEstimate FrameEstimator::ContactEstimate(
   const bool singular =
       !(determinant > 1e-14 * information(0, 0) * information(1, 1));
   const double infinity = std::numeric_limits<double>::infinity();
-  estimate.contact_std_mm =
+  found.arc_std_mm =
       singular ? infinity : length * std::sqrt(information(1, 1) / determinant);
-  estimate.normal_std_N =
+  found.normal_std_N =
       singular ? infinity
                : unit[1] * std::sqrt(information(0, 0) / determinant);
   const bool on_bound = contact.arc_mm <= 0 || contact.arc_mm >= length ||
                         contact.normal_N >= kMostForce * table_.heaviest_N();
   const bool determined =
-      estimate.contact_std_mm <= kLargestArcStd * length &&
-      estimate.normal_std_N <= kLargestForceStd * contact.normal_N && !on_bound;
+      found.arc_std_mm <= kLargestArcStd * length &&
+      found.normal_std_N <= kLargestForceStd * contact.normal_N && !on_bound;
   estimate.status = determined ? FrameStatus::kOk : FrameStatus::kUnobservable;
   return estimate;
 }

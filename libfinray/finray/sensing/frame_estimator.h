@@ -5,32 +5,12 @@
 
 #include "finray/finger/finger.h"
 #include "finray/sensing/contact_fit.h"
+#include "finray/sensing/frame_estimate.h"
+#include "finray/sensing/frame_readings.h"
 #include "finray/sensing/gauge_table.h"
 #include "finray/sensing/scene.h"
 
 namespace finray {
-
-/// The `status` column of a frame table.
-enum class FrameStatus {
-  kOk,
-  kNoContact,
-  kUnobservable,
-  kNotConverged,
-  kBadInput
-};
-const char* StatusName(FrameStatus status);
-
-/// What the gauges of one frame say.
-struct FrameEstimate {
-  FrameStatus status = FrameStatus::kBadInput;
-  double contact_mm, contact_std_mm;  ///< l_c; NaN without a contact.
-  double normal_N, normal_std_N;      ///< f_c; 0 without a contact.
-  Eigen::Vector3d contact_pose;       ///< x, y (mm), theta (rad) or NaN.
-  Eigen::Vector3d tip_pose;
-  std::vector<double> rib_tension_N;
-  double chi2;  ///< Sum of squared whitened gauge residuals.
-  int iterations = 0;
-};
 
 /// Estimates one frame at a time from gauge volts: l_c and f_c by ContactFit,
 /// started from a GaugeTable, so that every frame is a cold one and the result
@@ -57,16 +37,15 @@ class FrameEstimator {
   FrameEstimator(const Finger& finger, const Scene& scene,
                  const Discretization& discretization);
 
-  /// `readings_V`: one per gauge, NaN where not measured.
-  FrameEstimate Estimate(const std::vector<double>& readings_V);
+  FrameEstimate Estimate(const FrameReadings& readings);
 
   const Finger& finger() const { return finger_; }
 
  private:
-  FrameEstimate FreeEstimate(double chi2) const;
-  FrameEstimate ContactEstimate(const GaugeTable::Start& start,
-                                const Eigen::VectorXd& angles_rad,
-                                const Eigen::VectorXd& weight_per_rad);
+  FrameEstimate FreeEstimate(double chi2, int dof) const;
+  FrameEstimate FitFrom(const GaugeTable::Start& start,
+                        const Eigen::VectorXd& angles_rad,
+                        const Eigen::VectorXd& weight_per_rad);
 
   Finger finger_;
   Scene scene_;
