@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "finray/finger/geometry.h"
+#include "finray/finger/parameter_covariance_yaml.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/yaml_map.h"
 
@@ -323,8 +324,8 @@ Finger ReadFinger(const std::string& path) {
     yaml.Fail("schema_version",
               "schema_version: expected 1, found " + std::to_string(version));
   }
-  yaml.AllowOnly(
-      {"schema_version", "name", "geometry", "beams", "ribs", "gauges"});
+  yaml.AllowOnly({"schema_version", "name", "geometry", "beams", "ribs",
+                  "gauges", "calibration"});
   Finger finger;
   finger.name = yaml.Text("name");
   const YamlMap geometry = yaml.Map("geometry");
@@ -342,6 +343,10 @@ Finger ReadFinger(const std::string& path) {
   ReadRibs(yaml, &finger);
   for (const YamlMap& entry : yaml.Maps("gauges")) {
     finger.gauges.push_back(ReadGauge(entry, finger));
+  }
+  if (yaml.Has("calibration")) {
+    finger.calibration =
+        ReadParameterCovariance(yaml.Map("calibration"), finger);
   }
   return finger;
 }
@@ -380,6 +385,8 @@ std::string FingerToYaml(const Finger& finger, const std::string& comment) {
          << ", offset_V: " << NumberText(gauge.offset_V)
          << ", noise_V: " << NumberText(gauge.noise_V) << "}\n";
   }
+  if (finger.calibration)
+    yaml << ParameterCovarianceToYaml(*finger.calibration);
   return yaml.str();
 }
 
