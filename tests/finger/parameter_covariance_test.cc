@@ -156,7 +156,7 @@ TEST(ParameterCovarianceTest, RefusesWhatIsNoCovariance) {
       "parameters: [gauge_1_offset_V, rib_1_length_mm, "
       "back_stiffness_N_mm2], std: [1, 1, 1], correlations: [[1], [0.9, 1], "
       "[0.9, -0.9, 1]]",
-      "f.yaml:11:115: correlations: contradict each other: expected no "
+      "f.yaml:11:116: correlations: contradict each other: expected no "
       "eigenvalue below 0, found -0.8");
 }
 

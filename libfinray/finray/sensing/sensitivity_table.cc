@@ -1,0 +1,134 @@
+#include "finray/sensing/sensitivity_table.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include "finray/finger/geometry.h"
+
+namespace finray {
+namespace {
+
+constexpr int kStencil = 4;        // nodes of a cubic
+constexpr double kSpacing = 0.03;  // of l_0, at most
+// Forces in units of EI / l_0^2, to where GaugeTable ends.
+constexpr double kForces[] = {0, 0.5, 1,  2,  3.5, 5,  7,
+                              9, 12,  16, 20, 25,  32, 40};
+// Nodes at the end of a segment belong to it, not to the next one.
+constexpr double kInside = 1e-9;  // of l_0
+
+// Where derivatives of the gauges by l_c have kinks, and both ends.
+std::vector<double> Lines(const Finger& finger) {
+  std::vector<double> lines = {0, finger.front_length_mm};
+  for (const Rib& rib : finger.ribs) lines.push_back(rib.front_mm);
+  for (const StiffnessPiece& piece : finger.front_pieces) {
+    lines.push_back(piece.end_mm);
+  }
+  for (const Gauge& gauge : finger.gauges) {
+    if (gauge.beam != Side::kFront) continue;
+    lines.push_back(gauge.start_mm);
+    lines.push_back(gauge.start_mm + gauge.length_mm);
+  }
+  std::sort(lines.begin(), lines.end());
+  const double least = 1e-6 * finger.front_length_mm;
+  lines.erase(
+      std::unique(lines.begin(), lines.end(),
+                  [least](double a, double b) { return b - a < least; }),
+      lines.end());
+  return lines;
+}
+
+// The weights at `x` of four neighbouring nodes of `count` rising ones, of
+// which the i-th is node(i); returns the first of the four.
+template <class Node>
+int CubicWeights(double x, int count, const Node& node,
+                 std::array<double, kStencil>* weights) {
+  int above = 1;
+  while (above < count - 1 && node(above) < x) ++above;
+  const int first = std::clamp(above - 2, 0, count - kStencil);
+  for (int i = 0; i < kStencil; ++i) {
+    double weight = 1;
+    for (int j = 0; j < kStencil; ++j) {
+      if (j == i) continue;
+      weight *= (x - node(first + j)) / (node(first + i) - node(first + j));
+    }
+    (*weights)[i] = weight;
+  }
+  return first;
+}
+
+}  // namespace
+
+SensitivityTable::SensitivityTable(double friction, EquilibriumSolver* solver)
+    : columns_(4 + solver->model().ribs()) {
+  const Finger& finger = solver->model().finger();
+  const double length = finger.front_length_mm;
+  for (const double force : kForces) {
+    forces_N_.push_back(force * ForceUnit(finger));
+  }
+  const std::vector<double> lines = Lines(finger);
+  int rows = 0;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const double steps = (lines[i] - lines[i - 1]) / (kSpacing * length);
+    segments_.push_back(
+        {lines[i], rows, std::max(kStencil, static_cast<int>(steps) + 2)});
+    rows += segments_.back().count;
+  }
+  values_.resize(solver->model().gauges() * columns_,
+                 rows * static_cast<int>(forces_N_.size()));
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    const double inside = kInside * length;
+    const double start = lines[i] + inside, end = lines[i + 1] - inside;
+    const int steps = segments_[i].count - 1;
+    for (int k = 0; k <= steps; ++k) {
+      AddRow(start + (end - start) * k / steps, friction, solver);
+    }
+  }
+  solver->Reset();
+}
+
+void SensitivityTable::AddRow(double arc_mm, double friction,
+                              EquilibriumSolver* solver) {
+  const int gauges = solver->model().gauges();
+  Row row{arc_mm, 0, 0};
+  if (!rows_.empty()) row.first = rows_.back().first + rows_.back().count;
+  solver->Reset();
+  for (const double force_N : forces_N_) {
+    // Soft fingers fold over at the heavy end; the row ends there.
+    if (!solver->SolveWithSensitivities({{arc_mm, force_N, friction}})) break;
+    Eigen::Map<Eigen::MatrixXd> node(values_.col(row.first + row.count).data(),
+                                     gauges, columns_);
+    node = solver->d_outputs().topRows(gauges);
+    node.col(1) *= force_N;
+    ++row.count;
+  }
+  rows_.push_back(row);
+}
+
+bool SensitivityTable::Interpolate(double arc_mm, double normal_N,
+                                   Eigen::MatrixXd* derivatives) const {
+  const Segment* segment = &segments_[0];
+  while (segment != &segments_.back() && arc_mm > segment->end_mm) ++segment;
+  std::array<double, kStencil> by_arc, by_force;
+  const Row* rows = &rows_[segment->first];
+  rows += CubicWeights(
+      arc_mm, segment->count, [rows](int i) { return rows[i].arc_mm; },
+      &by_arc);
+  int count = rows[0].count;
+  for (int i = 1; i < kStencil; ++i) count = std::min(count, rows[i].count);
+  if (count < kStencil || !(normal_N <= forces_N_[count - 1])) return false;
+  const int force = CubicWeights(
+      normal_N, count, [this](int i) { return forces_N_[i]; }, &by_force);
+  derivatives->resize(values_.rows() / columns_, columns_);
+  Eigen::Map<Eigen::VectorXd> sum(derivatives->data(), values_.rows());
+  sum.setZero();
+  for (int i = 0; i < kStencil; ++i) {
+    for (int k = 0; k < kStencil; ++k) {
+      sum += by_arc[i] * by_force[k] * values_.col(rows[i].first + force + k);
+    }
+  }
+  return true;
+}
+
+}  // namespace finray
