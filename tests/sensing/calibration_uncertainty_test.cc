@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <random>
@@ -154,18 +155,26 @@ TEST(CalibrationUncertaintyTest,
   Eigen::VectorXd three = weights;
   three[0] = 0;
   check("three gauges", finger, 0, three);
-  for (int kind = 0; kind < kFingerParameterKinds; ++kind) {
-    Finger one = finger;
-    for (Eigen::Index k = 0; k < one.calibration->std.size(); ++k) {
-      if (static_cast<int>(one.calibration->parameters[k].kind) != kind) {
-        one.calibration->std[k] = 0;
-      }
-    }
-    const std::string name =
-        "only like " +
-        ParameterName({static_cast<FingerParameterKind>(kind), 0});
-    check(name.c_str(), one, 0, weights);
-  }
+  // Each kind of error alone.
+  const auto only =
+      [&finger](std::initializer_list<FingerParameterKind> kinds) {
+        Finger one = finger;
+        for (Eigen::Index k = 0; k < one.calibration->std.size(); ++k) {
+          const auto kind = one.calibration->parameters[k].kind;
+          if (std::count(kinds.begin(), kinds.end(), kind) == 0) {
+            one.calibration->std[k] = 0;
+          }
+        }
+        return one;
+      };
+  check("stiffness alone",
+        only({FingerParameterKind::kFrontStiffness,
+              FingerParameterKind::kBackStiffness}),
+        0, weights);
+  check("gains alone", only({FingerParameterKind::kGaugeGain}), 0, weights);
+  check("offsets alone", only({FingerParameterKind::kGaugeOffset}), 0, weights);
+  check("rib lengths alone", only({FingerParameterKind::kRibLength}), 0,
+        weights);
   check("front gauges, pieces", FrontGauges(), 0, Weights(FrontGauges()));
   check("front gauges, friction 0.3", FrontGauges(), 0.3,
         Weights(FrontGauges()));
@@ -197,7 +206,9 @@ TEST(CalibrationUncertaintyTest, TwoContactsAreExact) {
 // Fingers drawn from the covariance, their noise-free volts read with the
 // nominal finger.
 TEST(CalibrationUncertaintyTest, EstimatesOfWrongFingersSpreadAsItSays) {
-  const Finger nominal = UncertainFinger();
+  Finger nominal = UncertainFinger();
+  // So small that contacts move in proportion.
+  nominal.calibration->std *= 0.4;
   const Eigen::MatrixXd factor = nominal.calibration->Factor();
   for (const double friction : {0.0, 0.3}) {
     Scene scene;
@@ -277,8 +288,8 @@ TEST(CalibrationUncertaintyTest, StiffnessAndForceScaleTogether) {
     ASSERT_TRUE(solver.Solve({{arc_mm, 3.3, 0}}));
     const auto found =
         uncertainty.Of({{arc_mm, 3.3, 0}}, Volts(solver), Weights(finger));
-    EXPECT_LT(std::sqrt(found(0, 0)), 1e-6);
-    EXPECT_NEAR(std::sqrt(found(1, 1)), 0.2 * 3.3, 1e-7);
+    EXPECT_LT(std::sqrt(found(0, 0)), 1e-5);
+    EXPECT_NEAR(std::sqrt(found(1, 1)), 0.2 * 3.3, 1e-5);
   }
 }
 

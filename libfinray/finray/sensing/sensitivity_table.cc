@@ -10,11 +10,14 @@
 namespace finray {
 namespace {
 
-constexpr int kStencil = 4;        // nodes of a cubic
-constexpr double kSpacing = 0.03;  // of l_0, at most
+constexpr int kStencil = 4;         // nodes of a cubic
+constexpr double kSpacing = 0.025;  // of l_0, at most
 // Forces in units of EI / l_0^2, to where GaugeTable ends.
 constexpr double kForces[] = {0, 0.5, 1,  2,  3.5, 5,  7,
                               9, 12,  16, 20, 25,  32, 40};
+// Nodes of a segment lie so much closer at its ends, where a polynomial of one
+// side only has to do: 0 is evenly, 1 as the extrema of Chebyshev's.
+constexpr double kCrowding = 0.7;
 // Nodes at the end of a segment belong to it, not to the next one.
 constexpr double kInside = 1e-9;  // of l_0
 
@@ -39,14 +42,20 @@ std::vector<double> Lines(const Finger& finger) {
   return lines;
 }
 
-// The weights at `x` of four neighbouring nodes of `count` rising ones, of
-// which the i-th is node(i); returns the first of the four.
+// Where the k-th of `steps` + 1 nodes lies between the ends, 0 and 1.
+double Crowded(int k, int steps) {
+  const double even = static_cast<double>(k) / steps;
+  return even + kCrowding * ((1 - std::cos(M_PI * even)) / 2 - even);
+}
+
+// The weights at `x` of kStencil neighbouring nodes of `count` rising ones, of
+// which the i-th is node(i); returns the first of them.
 template <class Node>
-int CubicWeights(double x, int count, const Node& node,
-                 std::array<double, kStencil>* weights) {
+int StencilWeights(double x, int count, const Node& node,
+                   std::array<double, kStencil>* weights) {
   int above = 1;
   while (above < count - 1 && node(above) < x) ++above;
-  const int first = std::clamp(above - 2, 0, count - kStencil);
+  const int first = std::clamp(above - kStencil / 2, 0, count - kStencil);
   for (int i = 0; i < kStencil; ++i) {
     double weight = 1;
     for (int j = 0; j < kStencil; ++j) {
@@ -82,7 +91,7 @@ SensitivityTable::SensitivityTable(double friction, EquilibriumSolver* solver)
     const double start = lines[i] + inside, end = lines[i + 1] - inside;
     const int steps = segments_[i].count - 1;
     for (int k = 0; k <= steps; ++k) {
-      AddRow(start + (end - start) * k / steps, friction, solver);
+      AddRow(start + (end - start) * Crowded(k, steps), friction, solver);
     }
   }
   solver->Reset();
@@ -112,13 +121,13 @@ bool SensitivityTable::Interpolate(double arc_mm, double normal_N,
   while (segment != &segments_.back() && arc_mm > segment->end_mm) ++segment;
   std::array<double, kStencil> by_arc, by_force;
   const Row* rows = &rows_[segment->first];
-  rows += CubicWeights(
+  rows += StencilWeights(
       arc_mm, segment->count, [rows](int i) { return rows[i].arc_mm; },
       &by_arc);
   int count = rows[0].count;
   for (int i = 1; i < kStencil; ++i) count = std::min(count, rows[i].count);
   if (count < kStencil || !(normal_N <= forces_N_[count - 1])) return false;
-  const int force = CubicWeights(
+  const int force = StencilWeights(
       normal_N, count, [this](int i) { return forces_N_[i]; }, &by_force);
   derivatives->resize(values_.rows() / columns_, columns_);
   Eigen::Map<Eigen::VectorXd> sum(derivatives->data(), values_.rows());

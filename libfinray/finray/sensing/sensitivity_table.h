@@ -13,11 +13,12 @@ namespace finray {
 ///
 ///   ds/dl_c, f_c ds/df_c, ds/dEI_front, ds/dEI_back, ds/d(rib lengths).
 ///
-/// Between nodes they are cubic in l_c and in f_c. They are smooth in l_c but
-/// for ribs, ends of gauges and of stiffness pieces on the front beam, so there
-/// the grid has lines, and no cubic reaches across. By ln f_c, as then all
-/// columns are in proportion to f_c near 0, and as relations that hold at the
-/// nodes (all stiffnesses and the force scale together) hold between them.
+/// Between nodes they are polynomials of fifth degree in l_c and in f_c. They
+/// are smooth in l_c but for ribs, ends of gauges and of stiffness pieces on
+/// the front beam, so there the grid has lines, and no polynomial reaches
+/// across. By ln f_c, as then all columns are in proportion to f_c near 0, and
+/// as relations that hold at the nodes (all stiffnesses and the force scale
+/// together) hold between them.
 class SensitivityTable {
  public:
   /// With `friction` at the contact. The solver is left as after Reset().
