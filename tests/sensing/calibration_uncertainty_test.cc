@@ -10,6 +10,7 @@
 
 #include "count_allocations.h"
 #include "finray/sensing/frame_estimator.h"
+#include "sensing/gauge_volts.h"
 #include "sensing/uncertain_finger.h"
 #include "test_finger.h"
 
@@ -38,39 +39,28 @@ Finger FrontGauges() {
   return finger;
 }
 
-std::vector<double> Volts(const EquilibriumSolver& solver) {
-  std::vector<double> volts;
-  const Finger& finger = solver.model().finger();
-  for (int j = 0; j < solver.model().gauges(); ++j) {
-    volts.push_back(finger.gauges[j].gain_V_per_rad * solver.gauge_angle(j) +
-                    finger.gauges[j].offset_V);
-  }
-  return volts;
-}
-
-Eigen::VectorXd Weights(const Finger& finger) {
-  Eigen::VectorXd weights(finger.gauges.size());
-  for (Eigen::Index j = 0; j < weights.size(); ++j) {
-    weights[j] =
-        std::abs(finger.gauges[j].gain_V_per_rad) / finger.gauges[j].noise_V;
-  }
-  return weights;
-}
-
 // The formula, written down once more with the statics' own derivatives, and
-// the noise's covariance.
+// the noise's covariance. A circle's centre is measured if the weights say so.
 struct Exact {
   Eigen::MatrixXd system, noise;
 };
+constexpr double kRadius_mm = 15;
 Exact ExactCovariance(const EquilibriumSolver& solver, int contacts,
                       const Eigen::VectorXd& weights) {
   const Finger& finger = solver.model().finger();
   const int m = solver.model().gauges(), n = 2 * contacts;
-  const Eigen::MatrixXd ds = solver.d_outputs().topRows(m);
+  const auto rows = static_cast<int>(weights.size());
+  Eigen::MatrixXd ds = solver.d_outputs().topRows(rows);
+  if (rows > m) {
+    const double theta = solver.contact_pose(0)[2];
+    const Eigen::RowVectorXd turn = solver.d_outputs().row(m + 2);
+    ds.row(m) -= kRadius_mm * std::cos(theta) * turn;
+    ds.row(m + 1) -= kRadius_mm * std::sin(theta) * turn;
+  }
   const Eigen::MatrixXd j = ds.leftCols(n);
   const Eigen::MatrixXd w = weights.cwiseAbs2().asDiagonal();
   const ParameterCovariance& known = *finger.calibration;
-  Eigen::MatrixXd dr(m, known.std.size());
+  Eigen::MatrixXd dr(rows, known.std.size());
   for (Eigen::Index k = 0; k < dr.cols(); ++k) {
     const FingerParameter& p = known.parameters[k];
     dr.col(k).setZero();
@@ -110,7 +100,10 @@ struct Worst {
 Worst WorstOfTable(const Finger& finger, double friction,
                    const Eigen::VectorXd& weights, int frames) {
   EquilibriumSolver solver(finger, {});
-  CalibrationUncertainty uncertainty(finger, friction, &solver);
+  const bool circle = weights.size() > solver.model().gauges();
+  CalibrationUncertainty uncertainty(
+      finger, friction, &solver,
+      circle ? std::optional(kRadius_mm) : std::nullopt);
   std::mt19937_64 generator(11);
   std::uniform_real_distribution<double> uniform;
   const double heaviest_N = 25;
@@ -175,6 +168,9 @@ TEST(CalibrationUncertaintyTest,
   check("offsets alone", only({FingerParameterKind::kGaugeOffset}), 0, weights);
   check("rib lengths alone", only({FingerParameterKind::kRibLength}), 0,
         weights);
+  Eigen::VectorXd circle(6);
+  circle << weights, 20, 20;  // known to 0.05 mm
+  check("with a circle's place", finger, 0, circle);
   check("front gauges, pieces", FrontGauges(), 0, Weights(FrontGauges()));
   check("front gauges, friction 0.3", FrontGauges(), 0.3,
         Weights(FrontGauges()));

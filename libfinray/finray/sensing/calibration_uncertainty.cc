@@ -1,47 +1,50 @@
 #include "finray/sensing/calibration_uncertainty.h"
 
-#include <Eigen/Cholesky>
+#include <cmath>
 #include <limits>
 
 namespace finray {
-namespace {
-
-// Below this share of independence the slopes tell no contact.
-constexpr double kSingular = 1e-14;
-
-}  // namespace
 
 CalibrationUncertainty::Model::Model(const Finger& finger, double friction,
+                                     std::optional<double> circle_radius_mm,
                                      EquilibriumSolver* solver)
     : finger(finger),
+      circle_radius_mm(circle_radius_mm),
       solver(*solver),
-      table(friction, solver),
+      table(friction, circle_radius_mm, solver),
       factor(finger.calibration->Factor()),
-      derivatives(solver->model().gauges(), table.columns()),
-      slope(solver->model().gauges(), 2),
-      by_angle(2, slope.rows()),
+      derivatives(table.rows(), table.columns()),
+      slope(table.rows(), 2),
+      by_measured(2, table.rows()),
       by_parameter(2, factor.rows()),
       by_factor(2, factor.cols()) {}
 
-CalibrationUncertainty::CalibrationUncertainty(const Finger& finger,
-                                               double friction,
-                                               EquilibriumSolver* solver) {
-  if (finger.calibration) model_.emplace(finger, friction, solver);
+CalibrationUncertainty::CalibrationUncertainty(
+    const Finger& finger, double friction, EquilibriumSolver* solver,
+    std::optional<double> circle_radius_mm) {
+  if (finger.calibration) {
+    model_.emplace(finger, friction, circle_radius_mm, solver);
+  }
 }
 
-CalibrationUncertainty::Covariance CalibrationUncertainty::Of(
+ContactMatrix CalibrationUncertainty::Of(
     const std::vector<PointContact>& contacts,
-    const std::vector<double>& readings_V,
-    const Eigen::VectorXd& weight_per_rad) {
+    const std::vector<double>& readings_V, const Eigen::VectorXd& weights) {
   Model& m = *model_;
   const int unknowns = 2 * static_cast<int>(contacts.size());
-  Covariance covariance(unknowns, unknowns);
-  if (!FindDerivatives(contacts) || !InvertSlope(unknowns, weight_per_rad)) {
+  ContactMatrix covariance(unknowns, unknowns);
+  if (!FindDerivatives(contacts)) {
     covariance.setZero();
     covariance.diagonal().setConstant(std::numeric_limits<double>::infinity());
     return covariance;
   }
-  FillByParameter(unknowns, readings_V, weight_per_rad);
+  m.slope = weights.asDiagonal() * m.derivatives.leftCols(unknowns);
+  covariance.noalias() = m.slope.transpose().lazyProduct(m.slope);
+  const ContactMatrix noise = CovarianceOf(covariance);
+  if (std::isinf(noise(0, 0))) return noise;
+  m.by_measured.noalias() = noise.lazyProduct(m.slope.transpose());
+  m.by_measured.array().rowwise() *= weights.transpose().array();
+  FillByParameter(unknowns, readings_V, weights);
   m.by_factor.noalias() = m.by_parameter.lazyProduct(m.factor);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     // From ln f_c to f_c.
@@ -62,36 +65,13 @@ bool CalibrationUncertainty::FindDerivatives(
   // A cold solve: the result must not depend on the frame before.
   m.solver.Reset();
   if (!m.solver.SolveWithSensitivities(contacts)) return false;
-  m.derivatives = m.solver.d_outputs().topRows(m.slope.rows());
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    m.derivatives.col(2 * static_cast<int>(c) + 1) *= contacts[c].normal_N;
-  }
-  return true;
-}
-
-// by_angle = (J'WJ)^-1 J'W, by the normal equations scaled to a diagonal of 1.
-bool CalibrationUncertainty::InvertSlope(
-    int unknowns, const Eigen::VectorXd& weight_per_rad) {
-  Model& m = *model_;
-  m.slope = weight_per_rad.asDiagonal() * m.derivatives.leftCols(unknowns);
-  Covariance normal(unknowns, unknowns);
-  normal.noalias() = m.slope.transpose().lazyProduct(m.slope);
-  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kFittedContacts, 1>
-      unit = normal.diagonal().cwiseSqrt().cwiseInverse();
-  if (!unit.allFinite()) return false;
-  normal = unit.asDiagonal() * normal * unit.asDiagonal();
-  const Eigen::LDLT<Covariance> factored(normal);
-  if (!(factored.vectorD().minCoeff() > kSingular)) return false;
-  m.by_angle = unit.asDiagonal() * m.slope.transpose();
-  m.by_angle = m.by_angle * weight_per_rad.asDiagonal();
-  factored.solveInPlace(m.by_angle);
-  m.by_angle = unit.asDiagonal() * m.by_angle;
+  ReadSensitivities(m.solver, contacts, m.circle_radius_mm, &m.derivatives);
   return true;
 }
 
 void CalibrationUncertainty::FillByParameter(
     int unknowns, const std::vector<double>& readings_V,
-    const Eigen::VectorXd& weight_per_rad) {
+    const Eigen::VectorXd& weights) {
   Model& m = *model_;
   const std::vector<FingerParameter>& parameters =
       m.finger.calibration->parameters;
@@ -100,11 +80,11 @@ void CalibrationUncertainty::FillByParameter(
     const int index = parameters[k].index;
     auto column = m.by_parameter.col(static_cast<int>(k));
     const auto by_reading = [&](double slope) {
-      column = -slope * m.by_angle.col(index);
+      column = -slope * m.by_measured.col(index);
     };
     const auto by_statics = [&](int which) {
       column.noalias() =
-          -m.by_angle.lazyProduct(m.derivatives.col(unknowns + which));
+          -m.by_measured.lazyProduct(m.derivatives.col(unknowns + which));
     };
     switch (parameters[k].kind) {
       case FingerParameterKind::kFrontStiffness:
@@ -119,7 +99,7 @@ void CalibrationUncertainty::FillByParameter(
       case FingerParameterKind::kGaugeGain: {
         const Gauge& gauge = m.finger.gauges[index];
         // An unused gauge may have no reading.
-        by_reading(weight_per_rad[index] == 0
+        by_reading(weights[index] == 0
                        ? 0
                        : (readings_V[index] - gauge.offset_V) /
                              (gauge.gain_V_per_rad * gauge.gain_V_per_rad));

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 
 #include "finray/finger/geometry.h"
+#include "finray/sensing/circle_centre.h"
 
 namespace finray {
 namespace {
 
-constexpr int kStencil = 4;         // nodes of a cubic
+constexpr int kStencil = 6;         // nodes of a polynomial
 constexpr double kSpacing = 0.025;  // of l_0, at most
 // Forces in units of EI / l_0^2, to where GaugeTable ends.
 constexpr double kForces[] = {0, 0.5, 1,  2,  3.5, 5,  7,
@@ -69,8 +69,30 @@ int StencilWeights(double x, int count, const Node& node,
 
 }  // namespace
 
-SensitivityTable::SensitivityTable(double friction, EquilibriumSolver* solver)
-    : columns_(4 + solver->model().ribs()) {
+void ReadSensitivities(const EquilibriumSolver& solver,
+                       const std::vector<PointContact>& contacts,
+                       std::optional<double> circle_radius_mm,
+                       Eigen::MatrixXd* derivatives) {
+  const EquilibriumSolver::Matrix& outputs = solver.d_outputs();
+  const int gauges = solver.model().gauges();
+  derivatives->resize(gauges + (circle_radius_mm ? 2 : 0), outputs.cols());
+  derivatives->topRows(gauges) = outputs.topRows(gauges);
+  if (circle_radius_mm) {
+    derivatives->bottomRows<2>() =
+        outputs.middleRows<2>(gauges) +
+        CircleCentreByAngle(solver.contact_pose(0)[2], *circle_radius_mm) *
+            outputs.row(gauges + 2);
+  }
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    derivatives->col(2 * static_cast<int>(c) + 1) *= contacts[c].normal_N;
+  }
+}
+
+SensitivityTable::SensitivityTable(double friction,
+                                   std::optional<double> circle_radius_mm,
+                                   EquilibriumSolver* solver)
+    : node_(solver->model().gauges() + (circle_radius_mm ? 2 : 0),
+            4 + solver->model().ribs()) {
   const Finger& finger = solver->model().finger();
   const double length = finger.front_length_mm;
   for (const double force : kForces) {
@@ -84,32 +106,32 @@ SensitivityTable::SensitivityTable(double friction, EquilibriumSolver* solver)
         {lines[i], rows, std::max(kStencil, static_cast<int>(steps) + 2)});
     rows += segments_.back().count;
   }
-  values_.resize(solver->model().gauges() * columns_,
-                 rows * static_cast<int>(forces_N_.size()));
+  values_.resize(node_.size(), rows * static_cast<int>(forces_N_.size()));
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     const double inside = kInside * length;
     const double start = lines[i] + inside, end = lines[i + 1] - inside;
     const int steps = segments_[i].count - 1;
     for (int k = 0; k <= steps; ++k) {
-      AddRow(start + (end - start) * Crowded(k, steps), friction, solver);
+      AddRow(start + (end - start) * Crowded(k, steps), friction,
+             circle_radius_mm, solver);
     }
   }
   solver->Reset();
 }
 
 void SensitivityTable::AddRow(double arc_mm, double friction,
+                              std::optional<double> circle_radius_mm,
                               EquilibriumSolver* solver) {
-  const int gauges = solver->model().gauges();
   Row row{arc_mm, 0, 0};
   if (!rows_.empty()) row.first = rows_.back().first + rows_.back().count;
   solver->Reset();
+  std::vector<PointContact> contacts = {{arc_mm, 0, friction}};
   for (const double force_N : forces_N_) {
+    contacts[0].normal_N = force_N;
     // Soft fingers fold over at the heavy end; the row ends there.
-    if (!solver->SolveWithSensitivities({{arc_mm, force_N, friction}})) break;
-    Eigen::Map<Eigen::MatrixXd> node(values_.col(row.first + row.count).data(),
-                                     gauges, columns_);
-    node = solver->d_outputs().topRows(gauges);
-    node.col(1) *= force_N;
+    if (!solver->SolveWithSensitivities(contacts)) break;
+    ReadSensitivities(*solver, contacts, circle_radius_mm, &node_);
+    values_.col(row.first + row.count) = node_.reshaped();
     ++row.count;
   }
   rows_.push_back(row);
@@ -120,21 +142,21 @@ bool SensitivityTable::Interpolate(double arc_mm, double normal_N,
   const Segment* segment = &segments_[0];
   while (segment != &segments_.back() && arc_mm > segment->end_mm) ++segment;
   std::array<double, kStencil> by_arc, by_force;
-  const Row* rows = &rows_[segment->first];
-  rows += StencilWeights(
-      arc_mm, segment->count, [rows](int i) { return rows[i].arc_mm; },
+  const Row* near = &rows_[segment->first];
+  near += StencilWeights(
+      arc_mm, segment->count, [near](int i) { return near[i].arc_mm; },
       &by_arc);
-  int count = rows[0].count;
-  for (int i = 1; i < kStencil; ++i) count = std::min(count, rows[i].count);
+  int count = near[0].count;
+  for (int i = 1; i < kStencil; ++i) count = std::min(count, near[i].count);
   if (count < kStencil || !(normal_N <= forces_N_[count - 1])) return false;
   const int force = StencilWeights(
       normal_N, count, [this](int i) { return forces_N_[i]; }, &by_force);
-  derivatives->resize(values_.rows() / columns_, columns_);
+  derivatives->resize(rows(), columns());
   Eigen::Map<Eigen::VectorXd> sum(derivatives->data(), values_.rows());
   sum.setZero();
   for (int i = 0; i < kStencil; ++i) {
     for (int k = 0; k < kStencil; ++k) {
-      sum += by_arc[i] * by_force[k] * values_.col(rows[i].first + force + k);
+      sum += by_arc[i] * by_force[k] * values_.col(near[i].first + force + k);
     }
   }
   return true;
