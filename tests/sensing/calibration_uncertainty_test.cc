@@ -116,6 +116,10 @@ Worst WorstOfTable(const Finger& finger, double friction,
     if (!solver.SolveWithSensitivities({contact})) continue;
     const Exact exact = ExactCovariance(solver, 1, weights);
     if (!(std::sqrt(exact.noise(0, 0)) < 7)) continue;
+    // A circle tells the place of a contact even where nothing tells its force.
+    if (!(std::sqrt(exact.noise(1, 1)) < 0.25 * contact.normal_N) && circle) {
+      continue;
+    }
     const auto found = uncertainty.Of({contact}, Volts(solver), weights);
     ++worst.frames;
     for (int k = 0; k < 2; ++k) {

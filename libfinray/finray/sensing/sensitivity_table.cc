@@ -57,12 +57,13 @@ int StencilWeights(double x, int count, const Node& node,
   while (above < count - 1 && node(above) < x) ++above;
   const int first = std::clamp(above - kStencil / 2, 0, count - kStencil);
   for (int i = 0; i < kStencil; ++i) {
-    double weight = 1;
+    double numerator = 1, denominator = 1;
     for (int j = 0; j < kStencil; ++j) {
       if (j == i) continue;
-      weight *= (x - node(first + j)) / (node(first + i) - node(first + j));
+      numerator *= x - node(first + j);
+      denominator *= node(first + i) - node(first + j);
     }
-    (*weights)[i] = weight;
+    (*weights)[i] = numerator / denominator;
   }
   return first;
 }
