@@ -36,22 +36,22 @@ def read_yaml(path):
     return content
 
 
-def check_value(where, key, value, default):
+def check_value(place, key, value, default):
     """A config value has the type of its default."""
     if key == "logs":
         value = [value] if isinstance(value, str) else value
         if not isinstance(value, list) or not all(isinstance(v, str) for v in value):
-            raise BadInput(f"{where}: {key}: expected a text or a list of texts")
+            raise BadInput(f"{place}: expected a text or a list of texts")
         return value
     if isinstance(value, bool) or not isinstance(value, type(default)):
         kind = "a whole number" if isinstance(default, int) else "a text"
-        raise BadInput(f"{where}: {key}: expected {kind}, not {value!r}")
+        raise BadInput(f"{place}: expected {kind}, not {value!r}")
     if key in AT_LEAST_ONE and value < 1:
-        raise BadInput(f"{where}: {key}: expected at least 1, not {value}")
+        raise BadInput(f"{place}: expected at least 1, not {value}")
     if key == "resolution" and value < 0:
-        raise BadInput(f"{where}: {key}: expected 0 or more, not {value}")
+        raise BadInput(f"{place}: expected 0 or more, not {value}")
     if key == "scheme" and value not in SCHEMES:
-        raise BadInput(f"{where}: {key}: expected one of {', '.join(SCHEMES)}, "
+        raise BadInput(f"{place}: expected one of {', '.join(SCHEMES)}, "
                        f"not '{value}'")
     return value
 
@@ -86,7 +86,7 @@ def effective(config_path, flags):
                 near = difflib.get_close_matches(str(key), defaults, 1)
                 hint = f"; did you mean '{near[0]}'?" if near else ""
                 raise BadInput(f"{config_path}: unknown key '{key}'{hint}")
-            given[key] = check_value(config_path, key, value, defaults[key])
+            given[key] = check_value(f"{config_path}: {key}", key, value, defaults[key])
         config.update(with_absolute_paths(
             given, os.path.dirname(os.path.abspath(config_path))))
     flags = {key: check_value("--" + key, key, value, defaults[key])
