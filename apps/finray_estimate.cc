@@ -129,7 +129,7 @@ int Run() {
   std::vector<LogJob> jobs = MakeJobs(settings);
   if (!CheckAll(&jobs)) return Interrupted("before the first frame");
   FrameSolverPool pool(
-      ColdSolvers(settings.finger, settings.scene, settings.discretization));
+      FrameSolvers(settings.finger, settings.scene, settings.discretization));
   MakeFolders(jobs);
   RemoveOldSummaries();
   ProgressBar bar(Frames(jobs));

@@ -26,7 +26,8 @@ void EstimationSummary::Add(const FrameEstimate& estimate, double friction,
                       estimate.status == FrameStatus::kUnobservable ||
                       estimate.status == FrameStatus::kNoContact;
   if (!solved || std::isnan(force_N)) return;
-  const double error = std::hypot(1, friction) * estimate.normal_N - force_N;
+  const double error =
+      std::hypot(1, friction) * estimate.contact[0].normal_N - force_N;
   force_squares_N2 += error * error;
   force_max_N = std::max(force_max_N, std::abs(error));
   ++force_compared;

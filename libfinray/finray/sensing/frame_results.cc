@@ -13,10 +13,12 @@ double FiniteOrNan(double value) {
 
 }  // namespace
 
-std::vector<std::vector<double>> ReadVolts(const Finger& finger,
-                                           const FrameTable& log) {
-  std::vector<std::vector<double>> volts(
-      log.rows(), std::vector<double>(finger.gauges.size()));
+std::vector<FrameReadings> ReadReadings(const Finger& finger,
+                                        const FrameTable& log) {
+  std::vector<FrameReadings> readings(log.rows());
+  for (FrameReadings& frame : readings) {
+    frame.gauges_V.resize(finger.gauges.size());
+  }
   for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
     const Gauge& gauge = finger.gauges[j];
     const std::string name = GaugeVolts(static_cast<int>(j));
@@ -24,16 +26,16 @@ std::vector<std::vector<double>> ReadVolts(const Finger& finger,
     const bool angles = !log.Has(name) && log.Has(angle_name);
     const auto& column = log.Numbers(angles ? angle_name : name);
     for (std::size_t row = 0; row < log.rows(); ++row) {
-      volts[row][j] = angles
-                          ? gauge.gain_V_per_rad * column[row] + gauge.offset_V
-                          : column[row];
+      readings[row].gauges_V[j] =
+          angles ? gauge.gain_V_per_rad * column[row] + gauge.offset_V
+                 : column[row];
     }
   }
-  return volts;
+  return readings;
 }
 
 void FillResults(const Finger& finger, const Scene& scene,
-                 const std::vector<std::vector<double>>& readings_V,
+                 const std::vector<FrameReadings>& readings,
                  const std::vector<FrameEstimate>& estimates, FrameTable* log) {
   const auto fill = [&](const std::string& name, const auto& value) {
     std::vector<double>& column = log->MutableNumbers(name);
@@ -42,26 +44,26 @@ void FillResults(const Finger& finger, const Scene& scene,
     }
   };
   using E = const FrameEstimate&;
-  fill(ContactArc(0), [](E e) { return e.contact_mm; });
-  fill(ContactArcStd(0), [](E e) { return e.contact_std_mm; });
-  fill(NormalForce(0), [](E e) { return e.normal_N; });
-  fill(NormalForceStd(0), [](E e) { return e.normal_std_N; });
+  fill(ContactArc(0), [](E e) { return e.contact[0].arc_mm; });
+  fill(ContactArcStd(0), [](E e) { return e.contact[0].arc_std_mm; });
+  fill(NormalForce(0), [](E e) { return e.contact[0].normal_N; });
+  fill(NormalForceStd(0), [](E e) { return e.contact[0].normal_std_N; });
   if (scene.friction_coefficient != 0) {
     fill(Friction(0), [&](E e) {
-      return std::isfinite(e.contact_mm) ? scene.friction_coefficient
-                                         : std::nan("");
+      return std::isfinite(e.contact[0].arc_mm) ? scene.friction_coefficient
+                                                : std::nan("");
     });
   }
-  fill(ContactX(0), [](E e) { return e.contact_pose.x(); });
-  fill(ContactY(0), [](E e) { return e.contact_pose.y(); });
-  fill(ContactAngle(0), [](E e) { return e.contact_pose.z(); });
+  fill(ContactX(0), [](E e) { return e.contact[0].pose.x(); });
+  fill(ContactY(0), [](E e) { return e.contact[0].pose.y(); });
+  fill(ContactAngle(0), [](E e) { return e.contact[0].pose.z(); });
   for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
     const Gauge& gauge = finger.gauges[j];
     std::vector<double>& column =
         log->MutableNumbers(GaugeAngle(static_cast<int>(j)));
-    for (std::size_t row = 0; row < readings_V.size(); ++row) {
+    for (std::size_t row = 0; row < readings.size(); ++row) {
       column[row] =
-          (readings_V[row][j] - gauge.offset_V) / gauge.gain_V_per_rad;
+          (readings[row].gauges_V[j] - gauge.offset_V) / gauge.gain_V_per_rad;
     }
   }
   for (std::size_t i = 0; i < finger.ribs.size(); ++i) {

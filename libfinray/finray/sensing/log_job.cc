@@ -84,7 +84,7 @@ bool LogJob::Check() {
   if (finished_before_) return true;
   FrameReader reader(log_, settings_->scene.columns);
   for (FrameTable rows; reader.Read(kCheckedFrames, &rows);) {
-    ReadVolts(settings_->finger, rows);
+    ReadReadings(settings_->finger, rows);
     if (settings_->stop && settings_->stop()) return false;
   }
   frames_ = reader.position();

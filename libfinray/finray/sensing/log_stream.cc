@@ -26,10 +26,10 @@ void Estimate(const Finger& finger, const Scene& scene, FrameSolverPool* pool,
               Block* block) {
   FrameTable& frames = block->frames;
   const std::size_t rows = frames.rows();
-  const auto volts = ReadVolts(finger, frames);
+  const auto readings = ReadReadings(finger, frames);
   std::vector<FrameEstimate> estimates(rows);
-  pool->SolveBlock(volts.data(), rows, estimates.data());
-  FillResults(finger, scene, volts, estimates, &frames);
+  pool->SolveBlock(readings.data(), rows, estimates.data());
+  FillResults(finger, scene, readings, estimates, &frames);
   const std::vector<double> force = frames.NumbersOrNan("force_N");
   for (std::size_t row = 0; row < rows; ++row) {
     block->result.summary.Add(estimates[row], scene.friction_coefficient,

@@ -22,7 +22,7 @@ struct StreamedBlock {
 ///
 /// `stop` (may be empty) is asked before each block is read. Returns false if
 /// it made an end; all blocks that were read have been written then. Throws
-/// what the reader, ReadVolts and `write` throw.
+/// what the reader, ReadReadings and `write` throw.
 bool EstimateStream(const Finger& finger, const Scene& scene,
                     FrameSolverPool* pool, int threads,
                     const std::function<bool()>& stop, FrameReader* reader,
