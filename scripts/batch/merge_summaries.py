@@ -16,7 +16,6 @@ import sys
 from batch_config import BadInput
 from plan_groups import write_if_changed
 
-STATUSES = ("ok", "no_contact", "unobservable", "not_converged", "bad_input")
 SUMMARIES = ("summary.csv", "summary.yaml")
 LOG_ENTRY = "  - log: "
 
@@ -50,13 +49,15 @@ def number_text(value):
 class Totals:
     def __init__(self):
         self.frames, self.compared, self.squares_N2 = 0, 0, 0.0
-        self.status = dict.fromkeys(STATUSES, 0)
+        self.status = {}
         self.max_N, self.max_text = -1.0, ""
 
     def add(self, row):
         self.frames += int(row["frames"])
-        for status in STATUSES:
-            self.status[status] += int(row[status])
+        columns = list(row)
+        for status in columns[columns.index("frames") + 1:
+                              columns.index("force_compared_frames")]:
+            self.status[status] = self.status.get(status, 0) + int(row[status])
         compared = int(row["force_compared_frames"])
         if compared == 0:
             return
