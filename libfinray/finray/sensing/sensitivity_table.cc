@@ -1,7 +1,6 @@
 #include "finray/sensing/sensitivity_table.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "finray/finger/geometry.h"
@@ -10,7 +9,8 @@
 namespace finray {
 namespace {
 
-constexpr int kStencil = 6;         // nodes of a polynomial
+constexpr int kStencil = 6;  // nodes of a polynomial
+using StencilVector = Eigen::Matrix<double, kStencil, 1>;
 constexpr double kSpacing = 0.025;  // of l_0, at most
 // Forces in units of EI / l_0^2, to where GaugeTable ends.
 constexpr double kForces[] = {0, 0.5, 1,  2,  3.5, 5,  7,
@@ -52,7 +52,7 @@ double Crowded(int k, int steps) {
 // which the i-th is node(i); returns the first of them.
 template <class Node>
 int StencilWeights(double x, int count, const Node& node,
-                   std::array<double, kStencil>* weights) {
+                   StencilVector* weights) {
   int above = 1;
   while (above < count - 1 && node(above) < x) ++above;
   const int first = std::clamp(above - kStencil / 2, 0, count - kStencil);
@@ -142,7 +142,7 @@ bool SensitivityTable::Interpolate(double arc_mm, double normal_N,
                                    Eigen::MatrixXd* derivatives) const {
   const Segment* segment = &segments_[0];
   while (segment != &segments_.back() && arc_mm > segment->end_mm) ++segment;
-  std::array<double, kStencil> by_arc, by_force;
+  StencilVector by_arc, by_force;
   const Row* near = &rows_[segment->first];
   near += StencilWeights(
       arc_mm, segment->count, [near](int i) { return near[i].arc_mm; },
@@ -156,9 +156,8 @@ bool SensitivityTable::Interpolate(double arc_mm, double normal_N,
   Eigen::Map<Eigen::VectorXd> sum(derivatives->data(), values_.rows());
   sum.setZero();
   for (int i = 0; i < kStencil; ++i) {
-    for (int k = 0; k < kStencil; ++k) {
-      sum += by_arc[i] * by_force[k] * values_.col(near[i].first + force + k);
-    }
+    sum.noalias() += values_.middleCols<kStencil>(near[i].first + force) *
+                     (by_arc[i] * by_force);
   }
   return true;
 }
