@@ -89,7 +89,8 @@ void PrintSummary(const std::vector<LogJob>& jobs, const ProgressBar& bar) {
   if (bar.kept() > 0) std::printf(", %zu kept", bar.kept());
   std::printf("\nok             %zu, no_contact %zu\n",
               all.count(FrameStatus::kOk), all.count(FrameStatus::kNoContact));
-  std::printf("unobservable   %zu\n", all.count(FrameStatus::kUnobservable));
+  std::printf("unobservable   %zu, unexplained %zu\n",
+              all.count(FrameStatus::kUnobservable), all.unexplained);
   std::printf("not solved     %zu not_converged, %zu bad_input\n",
               all.count(FrameStatus::kNotConverged),
               all.count(FrameStatus::kBadInput));
