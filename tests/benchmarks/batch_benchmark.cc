@@ -25,6 +25,8 @@
 #include "finray/io/frame_reader.h"
 #include "finray/io/frame_table.h"
 #include "finray/sensing/frame_columns.h"
+#include "finray/sensing/latency_histogram.h"
+#include "finray/sensing/live_rows.h"
 #include "finray/sensing/log_job.h"
 #include "finray/sensing/result_rows.h"
 #include "finray/statics/equilibrium.h"
@@ -199,6 +201,29 @@ class BatchBenchmark {
     print("estimate", estimate);
   }
 
+  // A line at a time, from the line to its row, without the pipes.
+  void Live() {
+    FrameReader reader(log_);
+    LineBlock lines;
+    reader.ReadLines(std::numeric_limits<std::size_t>::max(), &lines);
+    std::string header;
+    for (const std::string& name : reader.parser().names()) {
+      header += (header.empty() ? "" : ",") + name;
+    }
+    LiveRows rows(settings_->finger, settings_->scene, {}, "log",
+                  {header, 1, false});
+    LatencyHistogram latency;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const double start = WallSeconds();
+      rows.Next(lines.at(i));
+      latency.Add(static_cast<std::uint64_t>(1e9 * (WallSeconds() - start)));
+    }
+    std::printf(
+        "live, us from line to row     p50 %.1f  p99 %.1f  p99.9 %.1f\n",
+        1e-3 * latency.Quantile(0.5), 1e-3 * latency.Quantile(0.99),
+        1e-3 * latency.Quantile(0.999));
+  }
+
   void WholeRuns() {
     const FrameSolverFactory free = [this] {
       return std::make_unique<MadeBefore>(&estimates_);
@@ -250,6 +275,7 @@ int main(int argc, char** argv) {
   if (frames < 1 || mkdtemp(folder.data()) == nullptr) return 1;
   finray::BatchBenchmark benchmark(frames, folder);
   benchmark.Stages();
+  benchmark.Live();
   benchmark.WholeRuns();
   std::filesystem::remove_all(folder);
   return 0;
