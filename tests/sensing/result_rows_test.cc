@@ -81,6 +81,9 @@ TEST(ResultRowsTest, ColumnsFollowFromTheScene) {
                              "alternative_chi2"));
   EXPECT_EQ(header(std::nullopt), two);
   EXPECT_EQ(header(std::nullopt, 3), header(1, 3));
+  Scene measured;
+  measured.object_std_mm = 0.1;
+  EXPECT_EQ(ResultLayout(PaperFinger(), measured, log).HeaderCsv(), one);
   EXPECT_THAT(header(0), Not(HasSubstr("alternative")));
   // All of them read back as numbers.
   const FrameParser back(

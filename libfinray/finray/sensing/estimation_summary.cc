@@ -27,7 +27,7 @@ void EstimationSummary::Add(const FrameEstimate& estimate, double friction,
                       estimate.status == FrameStatus::kUnobservable ||
                       estimate.status == FrameStatus::kNoContact;
   if (!solved) return;
-  if (estimate.p_value() < kUnexplained) ++unexplained;
+  if (estimate.p_value() < FrameEstimator::kUnexplained) ++unexplained;
   if (std::isnan(force_N)) return;
   const double error = EstimatedForce(estimate, friction) - force_N;
   force_squares_N2 += error * error;

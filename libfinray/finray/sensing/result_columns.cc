@@ -59,8 +59,9 @@ ResultColumns::ResultColumns(const Finger& finger, const Scene& scene)
       alternative_(scene.contacts != 0),
       friction_(scene.friction_coefficient) {
   constexpr std::size_t kGaugesForTwo = 4;  // as many as unknowns
-  const bool two =
-      scene.contacts ? *scene.contacts == 2 : gauges_.size() >= kGaugesForTwo;
+  const bool automatic =
+      gauges_.size() >= kGaugesForTwo && !scene.object_std_mm;
+  const bool two = scene.contacts ? *scene.contacts == 2 : automatic;
   if (two) contacts_ = 2;
   FrameReadings readings;
   readings.gauges_V.resize(gauges_.size());

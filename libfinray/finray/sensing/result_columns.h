@@ -11,8 +11,8 @@ namespace finray {
 /// The numeric columns that an estimate fills in, in their order:
 /// contact_<c>_*, normal_<c>_*, friction_<c>, gauge angles, ribs, tip, chi2,
 /// chi2_p_value, iterations, alternative_*. They depend on the finger and the
-/// scene only; the second contact has columns if the scene allows two: contacts
-/// 2, or auto with four gauges or more.
+/// scene only; the second contact has columns if FrameEstimator may find one:
+/// contacts 2, or auto with four gauges or more and no object_std_mm.
 class ResultColumns {
  public:
   ResultColumns(const Finger& finger, const Scene& scene);
