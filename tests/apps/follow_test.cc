@@ -277,7 +277,8 @@ TEST_F(FollowTest, SignalsEndIt) {
 }
 
 TEST_F(FollowTest, FlagsOfABatchAreRefused) {
-  for (const char* flag : {"logs", "out_dir", "resume", "threads"}) {
+  for (const char* flag :
+       {"logs", "logs_root", "out_dir", "resume", "threads"}) {
     const Outcome outcome =
         Run("finray_estimate", "--follow --finger " + paper_ + " --" + flag +
                                    (flag == std::string("resume") ? "" : " 1"));

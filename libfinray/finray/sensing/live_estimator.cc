@@ -7,7 +7,7 @@ LiveEstimator::LiveEstimator(const Finger& finger, const Scene& scene,
     : estimator_(finger, scene, discretization) {}
 
 const FrameEstimate& LiveEstimator::Next(const FrameReadings& readings) {
-  estimate_ = estimator_.Estimate(readings);
+  estimate_ = estimator_.Follow(readings);
   return estimate_;
 }
 
