@@ -18,11 +18,6 @@ constexpr std::size_t kMostStarts = 4, kMostPairStarts = 12, kMostDescents = 4;
 // and of four parameters.
 constexpr double kDistinct[] = {9.21, 13.28};
 
-bool IsExplained(double chi2, int dof) {
-  return dof < 1 ? chi2 < kNearlyNothing
-                 : ChiSquaredTail(chi2, dof) > kWellExplained;
-}
-
 }  // namespace
 
 ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
@@ -39,6 +34,11 @@ ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
   for (ContactSolution& solution : solutions_) {
     solution.rib_tension_N.resize(finger.ribs.size());
   }
+}
+
+bool ContactSearch::IsExplained(double chi2, int dof) {
+  return dof < 1 ? chi2 < kNearlyNothing
+                 : ChiSquaredTail(chi2, dof) > kWellExplained;
 }
 
 double ContactSearch::least_chi2() const {
@@ -91,6 +91,7 @@ bool ContactSearch::Fit(const ContactStart& start,
   ContactSolution& solution = solutions_[found_];
   solution.chi2 = fit_.chi2();
   solution.information = fit_.information();
+  fit_.SaveState(&solution.state);
   solution.tip_pose = fit_.tip_pose();
   for (std::size_t i = 0; i < solution.rib_tension_N.size(); ++i) {
     solution.rib_tension_N[i] = fit_.rib_tension(static_cast<int>(i));
@@ -112,6 +113,7 @@ bool ContactSearch::Descend(const ContactStart& start,
   ContactSolution& solution = solutions_[found_];
   solution.chi2 = descent_.at().chi2();
   solution.information = descent_.at().information();
+  solution.state = solver_.state();
   solution.tip_pose = solver_.tip_pose();
   for (std::size_t i = 0; i < solution.rib_tension_N.size(); ++i) {
     solution.rib_tension_N[i] = solver_.rib_tension(static_cast<int>(i));

@@ -23,6 +23,7 @@ struct ContactSolution {
   std::array<Eigen::Vector3d, kFittedContacts> poses;
   Eigen::Vector3d tip_pose;
   std::vector<double> rib_tension_N;
+  LadderState state;  ///< In equilibrium with the contacts.
 };
 
 /// Finds the contacts that explain a frame without a guess: ContactFit from the
@@ -50,6 +51,10 @@ class ContactSearch {
   const ContactSolution* rival() const;
   /// Of all fits together.
   int iterations() const { return iterations_; }
+
+  /// Whether noise is likely to make chi2 this large; without degrees of
+  /// freedom, whether it is next to nothing.
+  static bool IsExplained(double chi2, int dof);
 
   /// Whether a contact is where the search ends: at an end of the beam or at
   /// the largest force.

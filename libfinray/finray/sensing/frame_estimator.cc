@@ -18,6 +18,10 @@ void CopyContacts(const ContactSolution& from, ContactEstimates* to) {
   }
 }
 
+double ArcStd(const ContactMatrix& information) {
+  return std::sqrt(CovarianceOf(information)(0, 0));
+}
+
 void CheckScene(const Finger& finger, const Scene& scene) {
   RefuseBackContacts(scene);
   const int contacts = scene.contacts.value_or(1);
@@ -50,6 +54,9 @@ FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
       scene_(scene),
       search_(finger, scene, discretization),
       systematic_(SystematicOf(finger, scene, discretization)) {
+  if (FrameFollower::Serves(scene)) {
+    follower_.emplace(finger, scene, discretization, search_);
+  }
   if (scene.smoothing) smoother_.emplace(finger, scene, discretization);
   EquilibriumSolver solver(finger, discretization);
   solver.Solve({});
@@ -63,11 +70,7 @@ FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
 
 FrameEstimate FrameEstimator::Estimate(const FrameReadings& readings) {
   Measure(finger_, scene_, readings, &measurement_);
-  const Eigen::VectorXd& free = search_.table().free_angles();
-  const Eigen::Index gauges = free.size();
-  free_chi2_ = (measurement_.values.head(gauges) - free)
-                   .cwiseProduct(measurement_.weights.head(gauges))
-                   .squaredNorm();
+  free_chi2_ = FreeChi2(measurement_);
   const int contacts = scene_.contacts.value_or(1);
   if (measurement_.gauges < 1 || measurement_.all < kUnknowns * contacts) {
     return Unsolved(FrameStatus::kBadInput);
@@ -79,17 +82,103 @@ FrameEstimate FrameEstimator::Estimate(const FrameReadings& readings) {
 void FrameEstimator::EstimateBlock(const FrameReadings* readings,
                                    std::size_t count,
                                    FrameEstimate* estimates) {
-  for (std::size_t i = 0; i < count; ++i) estimates[i] = Estimate(readings[i]);
+  for (std::size_t i = 0; i < count;) {
+    estimates[i] = Estimate(readings[i]);
+    const bool follow = CanFollow(estimates[i]);
+    ++i;
+    if (follow) i += FollowOn(readings + i, count - i, estimates + i);
+  }
   if (smoother_) Smooth(readings, count, std::nullopt, estimates);
 }
 
 FrameEstimate FrameEstimator::Follow(const FrameReadings& readings) {
-  FrameEstimate estimate = Estimate(readings);
+  FrameEstimate estimate;
+  if (!following_ || FitRun(&readings, 1) == 0 ||
+      !TakeFollowed(readings, 0, &estimate)) {
+    estimate = Estimate(readings);
+    following_ = CanFollow(estimate);
+  }
   if (smoother_) {
     Smooth(&readings, 1, followed_, &estimate);
     followed_ = smoother_->last();
   }
   return estimate;
+}
+
+// Whether the frame that was searched last is one to follow others from.
+bool FrameEstimator::CanFollow(const FrameEstimate& estimate) {
+  return follower_ && estimate.contacts == 1 &&
+         estimate.status == FrameStatus::kOk &&
+         follower_->Start(search_.best(), ArcStd(search_.best().information),
+                          measurement_.gauges);
+}
+
+std::size_t FrameEstimator::FollowOn(const FrameReadings* readings,
+                                     std::size_t count,
+                                     FrameEstimate* estimates) {
+  const std::size_t frames = FitRun(readings, count);
+  for (std::size_t i = 0; i < frames; ++i) {
+    if (!TakeFollowed(readings[i], i, &estimates[i])) {
+      estimates[i] = Estimate(readings[i]);
+    }
+  }
+  return frames;
+}
+
+// Fits as many of the next frames as have all gauges and a contact.
+std::size_t FrameEstimator::FitRun(const FrameReadings* readings,
+                                   std::size_t count) {
+  if (measurements_.size() < count) measurements_.resize(count);
+  const auto all = static_cast<int>(finger_.gauges.size());
+  std::size_t frames = 0;
+  for (; frames < count; ++frames) {
+    FrameMeasurement& measurement = measurements_[frames];
+    Measure(finger_, scene_, readings[frames], &measurement);
+    if (measurement.gauges < all || FreeChi2(measurement) < kSignificance) {
+      break;
+    }
+  }
+  if (frames > 0) follower_->Fit(measurements_, frames);
+  return frames;
+}
+
+bool FrameEstimator::TakeFollowed(const FrameReadings& readings,
+                                  std::size_t frame, FrameEstimate* estimate) {
+  const FrameFit& fit = follower_->fit(frame);
+  if (!fit.converged) return false;
+  const ContactMatrix covariance = CovarianceOf(fit.information);
+  const double arc_std = std::sqrt(covariance(0, 0));
+  const bool touches =
+      scene_.contacts
+          ? fit.normal_N >= kLeastForce_N
+          : fit.chi2 < kSignificance &&
+                FreeChi2(measurements_[frame]) - fit.chi2 >= kSignificance;
+  if (!touches || !follower_->IsCertain(frame, arc_std)) return false;
+  estimate->contacts = 1;
+  estimate->contact[0] = {fit.arc_mm, arc_std, fit.normal_N,
+                          std::sqrt(covariance(1, 1)), fit.contact_pose};
+  estimate->contact[1] = {};
+  estimate->alternative = {};
+  estimate->alternative_chi2 = kNaN;
+  estimate->tip_pose = fit.tip_pose;
+  estimate->rib_tension_N.assign(fit.rib_tension_N.begin(),
+                                 fit.rib_tension_N.end());
+  estimate->chi2 = fit.chi2;
+  estimate->dof = static_cast<int>(finger_.gauges.size()) - kUnknowns;
+  estimate->iterations = fit.iterations;
+  Judge(readings, measurements_[frame].weights, estimate);
+  return true;
+}
+
+double FrameEstimator::FreeChi2(const FrameMeasurement& measurement) const {
+  const Eigen::VectorXd& free = search_.table().free_angles();
+  double chi2 = 0;
+  for (Eigen::Index j = 0; j < free.size(); ++j) {
+    const double off =
+        measurement.weights[j] * (measurement.values[j] - free[j]);
+    chi2 += off * off;
+  }
+  return chi2;
 }
 
 void FrameEstimator::Smooth(

@@ -6,6 +6,7 @@
 #include "finray/sensing/contact_search.h"
 #include "finray/sensing/contact_smoother.h"
 #include "finray/sensing/frame_estimate.h"
+#include "finray/sensing/frame_follower.h"
 #include "finray/sensing/frame_readings.h"
 #include "finray/sensing/scene.h"
 
@@ -41,6 +42,8 @@ class FrameEstimator {
   /// need, and a finger without an unloaded equilibrium.
   FrameEstimator(const Finger& finger, const Scene& scene,
                  const Discretization& discretization);
+  FrameEstimator(const FrameEstimator&) = delete;
+  FrameEstimator& operator=(const FrameEstimator&) = delete;
 
   /// The frame alone.
   FrameEstimate Estimate(const FrameReadings& readings);
@@ -57,6 +60,13 @@ class FrameEstimator {
   const Finger& finger() const { return finger_; }
 
  private:
+  bool CanFollow(const FrameEstimate& estimate);
+  std::size_t FollowOn(const FrameReadings* readings, std::size_t count,
+                       FrameEstimate* estimates);
+  std::size_t FitRun(const FrameReadings* readings, std::size_t count);
+  bool TakeFollowed(const FrameReadings& readings, std::size_t frame,
+                    FrameEstimate* estimate);
+  double FreeChi2(const FrameMeasurement& measurement) const;
   FrameEstimate Automatic(const FrameReadings& readings);
   FrameEstimate WithContacts(const FrameReadings& readings, int contacts);
   FrameEstimate Free() const;
@@ -72,6 +82,8 @@ class FrameEstimator {
   Finger finger_;
   Scene scene_;
   ContactSearch search_;
+  std::optional<FrameFollower> follower_;  // where it serves the scene
+  bool following_ = false;                 // by Follow
   CalibrationUncertainty systematic_;
   std::vector<PointContact> contacts_;
   std::optional<ContactSmoother> smoother_;
@@ -79,6 +91,7 @@ class FrameEstimator {
   FrameEstimate free_;
   // Of the frame under way.
   FrameMeasurement measurement_;
+  std::vector<FrameMeasurement> measurements_;  // of a run of frames
   double free_chi2_ = 0;
 };
 
