@@ -135,7 +135,9 @@ void CheckMeans(unsigned calibrations, double tolerance) {
       ++wrong;
       continue;
     }
-    FrameEstimator estimator(finger, scene, {});
+    Finger known = finger;
+    known.calibration.reset();  // its std are those of noise alone
+    FrameEstimator estimator(known, scene, {});
     EquilibriumSolver solver(finger, {});
     CalibrationUncertainty uncertainty(finger, 0, &solver);
     for (const double arc_mm : {25, 40, 55, 70, 85, 100}) {
