@@ -146,9 +146,9 @@ TEST(FrameEstimatorTest, KnownFrictionIsPartOfTheModel) {
 
 TEST(FrameEstimatorTest, RefusesWhatItCannotModel) {
   Scene two;
-  two.contacts = 2;
+  two.contacts = 3;
   EXPECT_THAT([&] { FrameEstimator(PaperFinger(), two, {}); },
-              ThrowsMessage<InputError>(HasSubstr("2 contacts cannot")));
+              ThrowsMessage<InputError>(HasSubstr("3 contacts cannot")));
   Finger bare = PaperFinger();
   bare.gauges.clear();
   EXPECT_THAT([&] { FrameEstimator(bare, Scene(), {}); },

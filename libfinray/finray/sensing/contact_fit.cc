@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "finray/sensing/circle_centre.h"
+
 namespace finray {
 namespace {
 
@@ -30,19 +32,20 @@ constexpr double kLeastForce = 0.02;  // in units of EI / l_0^2
 }  // namespace
 
 ContactFit::ContactFit(const Finger& finger,
-                       const Discretization& discretization)
-    : newton_(finger, discretization) {
-  const int gauges = newton_.model().gauges();
-  residual_.resize(gauges);
-  slope_.resize(gauges, 2 * kFittedContacts);
+                       const Discretization& discretization,
+                       std::optional<double> circle_radius_mm)
+    : newton_(finger, discretization), circle_radius_mm_(circle_radius_mm) {
+  const int rows = newton_.model().gauges() + (circle_radius_mm ? 2 : 0);
+  residual_.resize(rows);
+  slope_.resize(rows, 2 * kFittedContacts);
 }
 
 // Values of the state before the step, brought to its end by the taps.
-void ContactFit::ReadGauges(const Eigen::VectorXd& angles_rad,
-                            const Eigen::VectorXd& weight_per_rad,
-                            int unknowns) {
+void ContactFit::ReadMeasurements(const Eigen::VectorXd& measured,
+                                  const Eigen::VectorXd& weights,
+                                  int unknowns) {
   const LadderFrame<double>& f = newton_.frame();
-  residual_ = -angles_rad;
+  residual_ = -measured;
   slope_.setZero();
   for (int i = 0; i < f.readout_count; ++i) {
     const LadderReadout<double>& readout = f.readouts[i];
@@ -53,14 +56,36 @@ void ContactFit::ReadGauges(const Eigen::VectorXd& angles_rad,
       slope_(readout.gauge, k) += readout.sign * tap[1 + k];
     }
   }
-  residual_.array() *= weight_per_rad.array();
-  slope_.array().colwise() *= weight_per_rad.array();
+  if (circle_radius_mm_) ReadCentre(*circle_radius_mm_, unknowns);
+  residual_.array() *= weights.array();
+  slope_.array().colwise() *= weights.array();
   normal_.resize(unknowns, unknowns);
   gradient_.resize(unknowns);
   for (int k = 0; k < unknowns; ++k) {
     gradient_[k] = slope_.col(k).dot(residual_);
     for (int l = 0; l <= k; ++l) {
       normal_(k, l) = normal_(l, k) = slope_.col(k).dot(slope_.col(l));
+    }
+  }
+}
+
+void ContactFit::ReadCentre(double radius_mm, int unknowns) {
+  const LadderFrame<double>& f = newton_.frame();
+  const double length = newton_.workspace().length_unit();
+  const int slot = f.elements, gauges = newton_.model().gauges();
+  const double theta = f.slot_theta[slot];
+  const Eigen::Vector2d at = CircleCentre(
+      {length * f.slot_x[slot], length * f.slot_y[slot], theta}, radius_mm);
+  const Eigen::Vector2d by_angle = CircleCentreByAngle(theta, radius_mm);
+  const double* pose = f.taps + f.contact_tap(0) * f.stride + f.affine;
+  for (int i = 0; i < 2; ++i) {
+    const auto change = [&](int column) {
+      return length * pose[i * f.stride + column] +
+             by_angle[i] * pose[2 * f.stride + column];
+    };
+    residual_[gauges + i] += at[i] + change(0);
+    for (int k = 0; k < unknowns; ++k) {
+      slope_(gauges + i, k) = change(1 + k);
     }
   }
 }
@@ -148,8 +173,8 @@ void ContactFit::Restore(std::vector<PointContact>* contacts) {
   *contacts = kept_contacts_;
 }
 
-bool ContactFit::Fit(const Eigen::VectorXd& angles_rad,
-                     const Eigen::VectorXd& weight_per_rad,
+bool ContactFit::Fit(const Eigen::VectorXd& measured,
+                     const Eigen::VectorXd& weights,
                      std::vector<PointContact>* contacts) {
   const int count = static_cast<int>(contacts->size());
   const int unknowns = 2 * count;
@@ -160,7 +185,7 @@ bool ContactFit::Fit(const Eigen::VectorXd& angles_rad,
   double damping = 0, last_change = 1;
   for (iterations_ = 1; iterations_ <= kMaxIterations; ++iterations_) {
     if (!newton_.LinearizeByContacts(*contacts)) return false;
-    ReadGauges(angles_rad, weight_per_rad, unknowns);
+    ReadMeasurements(measured, weights, unknowns);
     const double cost = residual_.squaredNorm();
     if (!std::isfinite(cost)) return false;
     if (cost > kMostRise * last_cost + 1 && damping < 1e6) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "finray/statics/ladder_newton.h"
@@ -22,8 +23,11 @@ namespace finray {
 /// and no weight between them is left to choose. A warm fit allocates nothing.
 class ContactFit {
  public:
-  /// Throws InputError as LadderModel.
-  ContactFit(const Finger& finger, const Discretization& discretization);
+  /// Throws InputError as LadderModel. With `circle_radius_mm` the centre of a
+  /// circle that touches at the one contact (circle_centre.h) is measured too:
+  /// its x and y in mm follow the gauges' angles in all that is measured.
+  ContactFit(const Finger& finger, const Discretization& discretization,
+             std::optional<double> circle_radius_mm = std::nullopt);
 
   /// Where Gauss-Newton ends: the next change of l_c over l_0 and of f_c over
   /// its size is expected below this.
@@ -37,10 +41,9 @@ class ContactFit {
 
   /// Starts from the present equilibrium and from `*contacts` (one or two, on
   /// the front beam; their friction is kept) and leaves both at the solution.
-  /// `weight_per_rad` is 0 where a gauge was not measured. False if it does not
+  /// `weights` (1 / std) are 0 where nothing was measured. False if it does not
   /// converge; state and contacts are then of no use.
-  bool Fit(const Eigen::VectorXd& angles_rad,
-           const Eigen::VectorXd& weight_per_rad,
+  bool Fit(const Eigen::VectorXd& measured, const Eigen::VectorXd& weights,
            std::vector<PointContact>* contacts);
 
   // Of the last successful fit.
@@ -64,8 +67,9 @@ class ContactFit {
   using Change =
       Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kFittedContacts, 1>;
 
-  void ReadGauges(const Eigen::VectorXd& angles_rad,
-                  const Eigen::VectorXd& weight_per_rad, int unknowns);
+  void ReadMeasurements(const Eigen::VectorXd& measured,
+                        const Eigen::VectorXd& weights, int unknowns);
+  void ReadCentre(double radius_mm, int unknowns);
   void ReadPoses(int contacts, const Change& change);
   Change BoundedChange(const std::vector<PointContact>& contacts,
                        double damping) const;
@@ -73,6 +77,7 @@ class ContactFit {
   void Restore(std::vector<PointContact>* contacts);
 
   LadderNewton newton_;
+  std::optional<double> circle_radius_mm_;
   double tolerance_ = 1e-12;
   double most_force_N_ = std::numeric_limits<double>::infinity();
   double chi2_ = 0;

@@ -1,144 +1,177 @@
 #include "finray/sensing/frame_estimator.h"
 
-#include <Eigen/LU>
 #include <cmath>
-#include <limits>
 
 #include "finray/io/error.h"
 
 namespace finray {
 namespace {
 
+constexpr int kUnknowns = 2;  // of a contact
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-// A second start is only worth its time while the best leaves more than this
-// many standard deviations per gauge unexplained.
-constexpr double kWellExplained = 4;
-constexpr int kMostStarts = 3;
+
+void CopyContacts(const ContactSolution& from, ContactEstimates* to) {
+  for (int c = 0; c < from.count; ++c) {
+    (*to)[c].arc_mm = from.contacts[c].arc_mm;
+    (*to)[c].normal_N = from.contacts[c].normal_N;
+    (*to)[c].pose = from.poses[c];
+  }
+}
+
+void CheckScene(const Finger& finger, const Scene& scene) {
+  RefuseBackContacts(scene);
+  const int contacts = scene.contacts.value_or(1);
+  if (contacts > kFittedContacts) {
+    throw InputError("scene: " + std::to_string(contacts) +
+                     " contacts cannot be estimated; 0, 1, 2 and auto can");
+  }
+  const auto gauges = static_cast<int>(finger.gauges.size());
+  if (gauges == 0) {
+    throw InputError("finger '" + finger.name +
+                     "' has no gauges to estimate from");
+  }
+  if (contacts == 2 && gauges < 2 * kUnknowns) {
+    throw InputError("scene: 2 contacts need at least 4 gauges, finger '" +
+                     finger.name + "' has " + std::to_string(gauges));
+  }
+}
 
 }  // namespace
 
 FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
                                const Discretization& discretization)
-    : finger_(finger),
+    : finger_((CheckScene(finger, scene), finger)),
       scene_(scene),
-      solver_(finger, discretization),
-      table_(&solver_),
-      fit_(finger, discretization),
-      contacts_(1) {
-  RefuseBackContacts(scene);
-  if (scene.contacts.value_or(1) > 1) {
-    throw InputError("scene: " + std::to_string(*scene.contacts) +
-                     " contacts cannot be estimated; 0, 1 and auto can");
-  }
-  if (finger.gauges.empty()) {
-    throw InputError("finger '" + finger.name +
-                     "' has no gauges to estimate from");
-  }
+      search_(finger, scene, discretization) {
+  const auto rows = static_cast<Eigen::Index>(finger.gauges.size()) +
+                    (scene.object_std_mm ? 2 : 0);
+  measured_.resize(rows);
+  weights_.resize(rows);
+  const EquilibriumSolver& solver = search_.free_finger();
   free_.status = FrameStatus::kNoContact;
-  fit_.set_most_force(kMostForce * table_.heaviest_N());
-  solver_.Solve({});
   free_.contact[0].normal_N = 0;
-  free_.tip_pose = solver_.tip_pose();
-  for (int i = 0; i < solver_.model().ribs(); ++i) {
-    free_.rib_tension_N.push_back(solver_.rib_tension(i));
+  free_.tip_pose = solver.tip_pose();
+  for (int i = 0; i < solver.model().ribs(); ++i) {
+    free_.rib_tension_N.push_back(solver.rib_tension(i));
   }
 }
 
 FrameEstimate FrameEstimator::Estimate(const FrameReadings& readings) {
-  const std::vector<double>& readings_V = readings.gauges_V;
-  const int gauges = static_cast<int>(finger_.gauges.size());
-  Eigen::VectorXd angles(gauges), weights(gauges);
-  int measured = 0;
-  for (int j = 0; j < gauges; ++j) {
-    const Gauge& gauge = finger_.gauges[j];
-    const bool has = std::isfinite(readings_V[j]);
-    measured += has;
-    angles[j] =
-        has ? (readings_V[j] - gauge.offset_V) / gauge.gain_V_per_rad : 0;
-    weights[j] = has ? std::abs(gauge.gain_V_per_rad) / gauge.noise_V : 0;
+  Measure(readings);
+  const int contacts = scene_.contacts.value_or(1);
+  if (gauges_measured_ < 1 || all_measured_ < kUnknowns * contacts) {
+    return Unsolved(FrameStatus::kBadInput);
   }
-  const double free_chi2 =
-      (angles - table_.free_angles()).cwiseProduct(weights).squaredNorm();
-  const int unknowns = scene_.contacts == 0 ? 0 : 2;
-  if (measured < std::max(unknowns, 1)) {
-    FrameEstimate estimate = FreeEstimate(kNaN, 0);
-    estimate.status = FrameStatus::kBadInput;
-    estimate.contact[0].normal_N = kNaN;
-    estimate.tip_pose.setConstant(kNaN);
-    estimate.rib_tension_N.assign(free_.rib_tension_N.size(), kNaN);
-    return estimate;
-  }
-  if (scene_.contacts == 0) return FreeEstimate(free_chi2, measured);
-
-  table_.FindStarts(angles, weights, &starts_);
-  FrameEstimate best = FreeEstimate(kNaN, 0);
-  best.status = FrameStatus::kNotConverged;
-  best.contact[0].normal_N = kNaN;
-  int iterations = 0;
-  if (starts_.size() > kMostStarts) starts_.resize(kMostStarts);
-  for (const GaugeTable::Start& start : starts_) {
-    const FrameEstimate estimate = FitFrom(start, angles, weights);
-    iterations += estimate.iterations;
-    if (estimate.status == FrameStatus::kNotConverged) continue;
-    if (std::isnan(best.chi2) || estimate.chi2 < best.chi2) best = estimate;
-    if (best.chi2 < kWellExplained * measured) break;
-  }
-  best.iterations = iterations;
-  best.dof = measured - unknowns;
-  const bool free =
-      scene_.contacts ? best.contact[0].normal_N < kLeastForce_N
-                      : free_chi2 - best.chi2 < kSignificance;  // false for NaN
-  return free ? FreeEstimate(free_chi2, measured) : best;
+  if (!scene_.contacts) return Automatic();
+  return WithContacts(contacts);
 }
 
-FrameEstimate FrameEstimator::FreeEstimate(double chi2, int dof) const {
-  FrameEstimate estimate = free_;
-  estimate.chi2 = chi2;
-  estimate.dof = dof;
+void FrameEstimator::Measure(const FrameReadings& readings) {
+  const auto gauges = static_cast<int>(finger_.gauges.size());
+  free_chi2_ = 0;
+  gauges_measured_ = 0;
+  for (int j = 0; j < gauges; ++j) {
+    const Gauge& gauge = finger_.gauges[j];
+    const double reading = readings.gauges_V[j];
+    const bool has = IsMeasured(gauge, reading);
+    gauges_measured_ += has;
+    measured_[j] = has ? (reading - gauge.offset_V) / gauge.gain_V_per_rad : 0;
+    weights_[j] = has ? std::abs(gauge.gain_V_per_rad) / gauge.noise_V : 0;
+    const double off =
+        weights_[j] * (measured_[j] - search_.table().free_angles()[j]);
+    free_chi2_ += off * off;
+  }
+  all_measured_ = gauges_measured_;
+  if (!scene_.object_std_mm) return;
+  const double place[] = {readings.object_x_mm, readings.object_y_mm};
+  for (int i = 0; i < 2; ++i) {
+    const bool has = std::isfinite(place[i]);
+    all_measured_ += has;
+    measured_[gauges + i] = has ? place[i] : 0;
+    weights_[gauges + i] = has ? 1 / *scene_.object_std_mm : 0;
+  }
+}
+
+// One contact more for as long as it makes a significant difference. The free
+// finger says nothing of a measured object, so that its place counts for one
+// contact against another only.
+FrameEstimate FrameEstimator::Automatic() {
+  if (free_chi2_ < kSignificance) return Free();
+  FrameEstimate one = Unsolved(FrameStatus::kNotConverged);
+  if (search_.Search(1, measured_, weights_)) {
+    if (free_chi2_ - search_.best().chi2 < kSignificance) return Free();
+    one = Found(search_);
+    if (one.chi2 < kSignificance) return one;
+  }
+  const int needed = 2 * kUnknowns;
+  if (gauges_measured_ < needed || scene_.object_std_mm) return one;
+  const int before = search_.iterations();
+  if (!search_.Search(2, measured_, weights_)) return one;
+  const ContactSolution& two = search_.best();
+  for (const PointContact& contact : two.contacts) {
+    if (contact.normal_N < kLeastForce_N) return one;
+  }
+  if (one.chi2 - two.chi2 < kSignificance) return one;
+  FrameEstimate estimate = Found(search_);
+  estimate.iterations += before;
   return estimate;
 }
 
-FrameEstimate FrameEstimator::FitFrom(const GaugeTable::Start& start,
-                                      const Eigen::VectorXd& angles_rad,
-                                      const Eigen::VectorXd& weight_per_rad) {
-  PointContact& contact = contacts_[0];
-  contact = {start.arc_mm, start.normal_N, scene_.friction_coefficient};
-  fit_.set_state(*start.state);
-  FrameEstimate estimate = free_;
-  const bool converged = fit_.Fit(angles_rad, weight_per_rad, &contacts_);
-  estimate.iterations = fit_.iterations();
-  estimate.status = FrameStatus::kNotConverged;
-  if (!converged) return estimate;
-
-  ContactEstimate& found = estimate.contact[0];
-  estimate.contacts = 1;
-  found.arc_mm = contact.arc_mm;
-  found.normal_N = contact.normal_N;
-  found.pose = fit_.contact_pose(0);
-  estimate.tip_pose = fit_.tip_pose();
-  for (std::size_t i = 0; i < estimate.rib_tension_N.size(); ++i) {
-    estimate.rib_tension_N[i] = fit_.rib_tension(static_cast<int>(i));
+FrameEstimate FrameEstimator::WithContacts(int contacts) {
+  if (contacts == 0) return Free();
+  if (!search_.Search(contacts, measured_, weights_)) {
+    return Unsolved(FrameStatus::kNotConverged);
   }
-  estimate.chi2 = fit_.chi2();
-  Eigen::Matrix2d information = fit_.information();
-  const double length = finger_.front_length_mm;
-  // In units of l_0 and f_c, so that "singular" has a meaning.
-  const Eigen::Vector2d unit(length, std::max(contact.normal_N, kLeastForce_N));
-  information = (unit.asDiagonal() * information * unit.asDiagonal()).eval();
-  const double determinant = information.determinant();
-  const bool singular =
-      !(determinant > 1e-14 * information(0, 0) * information(1, 1));
-  const double infinity = std::numeric_limits<double>::infinity();
-  found.arc_std_mm =
-      singular ? infinity : length * std::sqrt(information(1, 1) / determinant);
-  found.normal_std_N =
-      singular ? infinity
-               : unit[1] * std::sqrt(information(0, 0) / determinant);
-  const bool on_bound = contact.arc_mm <= 0 || contact.arc_mm >= length ||
-                        contact.normal_N >= kMostForce * table_.heaviest_N();
-  const bool determined =
-      found.arc_std_mm <= kLargestArcStd * length &&
-      found.normal_std_N <= kLargestForceStd * contact.normal_N && !on_bound;
+  const ContactSolution& best = search_.best();
+  for (int c = 0; c < best.count; ++c) {
+    if (best.contacts[c].normal_N < kLeastForce_N) {
+      return WithContacts(contacts - 1);
+    }
+  }
+  return Found(search_);
+}
+
+FrameEstimate FrameEstimator::Free() const {
+  FrameEstimate estimate = free_;
+  estimate.chi2 = free_chi2_;
+  estimate.dof = gauges_measured_;
+  return estimate;
+}
+
+FrameEstimate FrameEstimator::Unsolved(FrameStatus status) const {
+  FrameEstimate estimate;
+  estimate.status = status;
+  estimate.rib_tension_N.assign(free_.rib_tension_N.size(), kNaN);
+  return estimate;
+}
+
+FrameEstimate FrameEstimator::Found(const ContactSearch& search) const {
+  const ContactSolution& best = search.best();
+  FrameEstimate estimate;
+  estimate.contacts = best.count;
+  CopyContacts(best, &estimate.contact);
+  estimate.tip_pose = best.tip_pose;
+  estimate.rib_tension_N = best.rib_tension_N;
+  estimate.chi2 = best.chi2;
+  estimate.dof = all_measured_ - kUnknowns * best.count;
+  estimate.iterations = search.iterations();
+
+  const ContactMatrix covariance = CovarianceOf(best.information);
+  bool determined = true;
+  for (int c = 0; c < best.count; ++c) {
+    ContactEstimate& contact = estimate.contact[c];
+    contact.arc_std_mm = std::sqrt(covariance(2 * c, 2 * c));
+    contact.normal_std_N = std::sqrt(covariance(2 * c + 1, 2 * c + 1));
+    determined &=
+        contact.arc_std_mm <= kLargestArcStd * finger_.front_length_mm &&
+        contact.normal_std_N <= kLargestForceStd * contact.normal_N &&
+        !search.OnBound(best.contacts[c]);
+  }
+  if (const ContactSolution* rival = search.rival()) {
+    CopyContacts(*rival, &estimate.alternative);
+    estimate.alternative_chi2 = rival->chi2;
+    determined = false;
+  }
   estimate.status = determined ? FrameStatus::kOk : FrameStatus::kUnobservable;
   return estimate;
 }

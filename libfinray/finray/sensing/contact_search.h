@@ -1,0 +1,85 @@
+#ifndef FINRAY_SENSING_CONTACT_SEARCH_H_
+#define FINRAY_SENSING_CONTACT_SEARCH_H_
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "finray/sensing/contact_covariance.h"
+#include "finray/sensing/contact_fit.h"
+#include "finray/sensing/gauge_table.h"
+#include "finray/sensing/pair_table.h"
+#include "finray/sensing/scene.h"
+
+namespace finray {
+
+/// A minimum of chi2 over contacts, base to tip.
+struct ContactSolution {
+  int count = 0;
+  std::array<PointContact, kFittedContacts> contacts;
+  double chi2 = 0;
+  ContactMatrix information;  ///< Of (l_c, f_c) of each contact.
+  std::array<Eigen::Vector3d, kFittedContacts> poses;
+  Eigen::Vector3d tip_pose;
+  std::vector<double> rib_tension_N;
+};
+
+/// Finds the contacts that explain a frame without a guess: ContactFit from the
+/// best starts of a table, and from all others that might lead to a rival,
+/// another solution that explains the frame about as well.
+class ContactSearch {
+ public:
+  /// Two solutions explain a frame equally well if their chi2 differ by less
+  /// than 95 % of what noise does to the chi2 of two parameters.
+  static constexpr double kWithinNoise = 5.99;
+  static constexpr double kMostForce = 4;  ///< over the table's heaviest
+
+  /// Throws InputError for a finger without an unloaded equilibrium.
+  ContactSearch(const Finger& finger, const Scene& scene,
+                const Discretization& discretization);
+
+  /// Searches with one or two contacts. False if no start converged. `measured`
+  /// and `weights` as ContactFit::Fit, with the circle if the scene measures
+  /// it.
+  bool Search(int contacts, const Eigen::VectorXd& measured,
+              const Eigen::VectorXd& weights);
+
+  // Of the last search that came to something.
+
+  const ContactSolution& best() const { return solutions_[best_]; }
+  /// The best solution that is not `best` within its uncertainty but explains
+  /// the frame as well; null if there is none.
+  const ContactSolution* rival() const;
+  /// Of all fits together.
+  int iterations() const { return iterations_; }
+
+  /// Whether a contact is where the search ends: at an end of the beam or at
+  /// the largest force.
+  bool OnBound(const PointContact& contact) const;
+
+  /// The finger without load.
+  const EquilibriumSolver& free_finger() const { return solver_; }
+  const GaugeTable& table() const { return table_; }
+
+ private:
+  void FindStarts(int contacts, const Eigen::VectorXd& measured,
+                  const Eigen::VectorXd& weights);
+  bool FitFrom(const ContactStart& start, const Eigen::VectorXd& measured,
+               const Eigen::VectorXd& weights);
+  bool IsDistinct(const ContactSolution& other) const;
+
+  Scene scene_;
+  double length_mm_;
+  EquilibriumSolver solver_;
+  GaugeTable table_;
+  std::unique_ptr<PairTable> pair_table_;  // made when needed
+  ContactFit fit_;
+  std::vector<ContactStart> starts_;
+  std::vector<PointContact> contacts_;
+  std::vector<ContactSolution> solutions_;  // memory for the most
+  int found_ = 0, best_ = 0, iterations_ = 0;
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_SENSING_CONTACT_SEARCH_H_
