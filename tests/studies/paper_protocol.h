@@ -42,6 +42,7 @@ class SimulatedLab {
     for (std::size_t j = 0; j < nominal_.gauges.size(); ++j) {
       nominal_.gauges[j].noise_V = finger_.gauges[j].noise_V;
     }
+    plan_.gauge_std_V.reset();  // the gauges' own
     Simulate(finger_, plan_.scene, {}, &calibration_log_);
   }
 
@@ -74,9 +75,9 @@ class SimulatedLab {
         ObjectContact found;
         for (int i = 0; i < 60 && high - low > 1e-9; ++i) {
           const double depth = (low + high) / 2;
-          found = SolveObjectContact(*plan_.scene.object,
-                                     {depth - kRadius_mm, height, 0}, 0,
-                                     &solver, found.contacts);
+          found = SolveObjectContact(
+              *plan_.scene.object, ObjectPose{{depth - kRadius_mm, height}, 0},
+              0, &solver, found.contacts);
           double sum = 0;
           for (const PointContact& c : found.contacts) sum += c.normal_N;
           (sum < force && found.status != ObjectContactStatus::kNotConverged
