@@ -19,7 +19,7 @@ import sys
 
 import numpy as np
 
-from plot_style import BLUE, INK, ORANGE, PALE, plt, save
+from plot_style import BLUE, INK, ORANGE, plt, save
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DATASET = ROOT / "datasets" / "simulated_r15"
@@ -144,29 +144,39 @@ def cycle(tools, fingers, height, rate, seed):
         rows.append((rate, height, label, rms(error[used]), np.max(np.abs(error[used])), rms(error), int(np.sum(~used)),
                      len(time), np.max(force[~used], initial=0), int(np.sum(free & (status != "no_contact"))),
                      int(np.sum(free)), np.max(force[status == "no_contact"])))
-        frames[label] = (time, force, np.where(used, estimate, np.nan), std)
+        frames[label] = (time, force, np.where(used, estimate, np.nan), np.where(status == "ok", std, np.nan))
     return rows, frames
 
 
 def plot(frames, path):
     time, force, estimate, std = frames
-    std = np.nan_to_num(std)
-    figure, (top, bottom) = plt.subplots(2, 1, figsize=(9, 5), sharex=True, height_ratios=(2.2, 1))
-    top.plot(time, force, color=INK, linewidth=2.2, label="true force")
-    top.plot(time, estimate, color=ORANGE, linewidth=0.9, label="from four gauges")
-    top.set_ylabel("force, N")
-    top.set_title("Four contacts in a minute, 100 frames a second")
-    top.legend(loc="upper right", ncol=2, bbox_to_anchor=(1, 1.13))
-    top.set_ylim(-0.3, 8.6)
-    bottom.fill_between(time, -2 * std, 2 * std, color=BLUE, alpha=0.25, linewidth=0, label="±2 std of a frame")
-    bottom.plot(time, estimate - force, color=ORANGE, linewidth=0.6, label="error")
-    bottom.axhline(0, color=PALE, linewidth=0.8)
-    bottom.set_ylabel("error, N")
-    bottom.set_xlabel("time, s")
-    bottom.set_ylim(-0.32, 0.32)
-    bottom.set_xlim(0, DURATION_S)
-    bottom.legend(loc="upper right", ncol=2, bbox_to_anchor=(1, 1.3))
+    error = estimate - force
+    zoom = (28.6, 31.8)  # about the second gap
+    figure, axes = plt.subplots(2, 2, figsize=(9.5, 5), sharex="col", width_ratios=(2.4, 1), height_ratios=(1.5, 1))
+    for line, span in zip(axes.T, ((0, DURATION_S), zoom)):
+        top, bottom = line
+        close = span is zoom
+        top.plot(time, force, color=INK, linewidth=2.6, label="true force")
+        top.plot(time, estimate, color=ORANGE, linewidth=1.2, marker="o" if close else "", markersize=2.2,
+                 linestyle="" if close else "-", label="from four gauges")
+        bottom.plot(time, error, color=ORANGE, linewidth=0.5, marker="o" if close else "", markersize=2.2,
+                    linestyle="" if close else "-", label="error")
+        for sign in (-2, 2):
+            bottom.plot(time, sign * std, color=BLUE, linewidth=1.1, label="±2 std of each frame" if sign > 0 else None)
+        bottom.set_ylim(-0.1, 0.1)
+        bottom.set_xlim(*span)
+        bottom.set_xlabel("time, s")
+    axes[0, 0].set_ylim(-0.3, 8.6)
+    axes[0, 1].set_ylim(-0.06, 1.05)
+    axes[0, 0].set_ylabel("force, N")
+    axes[1, 0].set_ylabel("error, N")
+    axes[0, 0].set_title("Four contacts in a minute, 100 frames a second")
+    axes[0, 1].set_title("The second gap, 0.77 s")
+    handles = [handle for axis in axes[:, 0] for handle in axis.get_legend_handles_labels()[0]]
+    figure.tight_layout()
     figure.align_ylabels()
+    figure.legend(handles, [handle.get_label() for handle in handles], loc="lower center", ncol=4,
+                  bbox_to_anchor=(0.5, -0.06))
     save(figure, path)
 
 

@@ -29,14 +29,18 @@ Layout Read(const char* name, const std::string& file) {
   return layout;
 }
 
-// Std of l_1, f_1, l_2, f_2.
+// Std of l_1, f_1, l_2, f_2; infinite where the gauges tell nothing to
+// rounding.
 Eigen::VectorXd Bounds(const std::vector<PointContact>& contacts,
                        EquilibriumSolver* solver) {
-  return CramerRaoCovariance(contacts, solver).diagonal().cwiseSqrt();
+  const Eigen::VectorXd variance =
+      CramerRaoCovariance(contacts, solver).diagonal();
+  return (variance.array() > 0)
+      .select(variance.array().sqrt(), std::numeric_limits<double>::infinity());
 }
 
-// Places to 5 % of l_0 and forces to a quarter, which are the limits of
-// FrameStatus::kUnobservable; false for NaN.
+// Places to 5 % of l_0 and forces to a quarter, the limits of
+// FrameStatus::kUnobservable.
 bool IsUsable(const Finger& finger, const std::vector<PointContact>& contacts,
               const Eigen::VectorXd& bounds) {
   for (std::size_t c = 0; c < contacts.size(); ++c) {
