@@ -3,18 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/sensing/chi_squared.h"
+
 namespace finray {
 namespace {
 
-// A second start is only worth its time while the best leaves more than this
-// per measurement unexplained, or if it might lead to a rival: the table knows
-// chi2 to a factor.
-constexpr double kWellExplained = 4;
+// Noise makes chi2 this large in one frame of a hundred: then other starts are
+// tried; and without degrees of freedom from this on.
+constexpr double kWellExplained = 0.01, kNearlyNothing = 4;
+// The table knows the chi2 of a start that might lead to a rival to a factor.
 constexpr double kTableFactor = 0.25;
-constexpr std::size_t kMostStarts = 4, kMostPairStarts = 8;
+constexpr std::size_t kMostStarts = 4, kMostPairStarts = 12, kMostDescents = 4;
 // A rival lies outside the region that holds 99 % of the estimates: chi2 of two
 // and of four parameters.
 constexpr double kDistinct[] = {9.21, 13.28};
+
+bool IsExplained(double chi2, int dof) {
+  return dof < 1 ? chi2 < kNearlyNothing
+                 : ChiSquaredTail(chi2, dof) > kWellExplained;
+}
 
 std::optional<double> MeasuredRadius(const Scene& scene) {
   return scene.object_std_mm ? scene.circle_radius_mm() : std::nullopt;
@@ -29,6 +36,8 @@ ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
       solver_(finger, discretization),
       table_(&solver_, scene.friction_coefficient, MeasuredRadius(scene)),
       fit_(finger, discretization, MeasuredRadius(scene)),
+      descent_(&solver_, MeasuredRadius(scene),
+               kMostForce * table_.heaviest_N()),
       solutions_(kMostPairStarts) {
   fit_.set_most_force(kMostForce * table_.heaviest_N());
   solver_.Solve({});
@@ -37,24 +46,27 @@ ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
   }
 }
 
+double ContactSearch::least_chi2() const {
+  return found_ > 0 ? solutions_[best_].chi2
+                    : std::numeric_limits<double>::infinity();
+}
+
 bool ContactSearch::Search(int contacts, const Eigen::VectorXd& measured,
                            const Eigen::VectorXd& weights) {
   FindStarts(contacts, measured, weights);
-  const double well =
-      kWellExplained * static_cast<double>((weights.array() > 0).count());
+  const int dof =
+      static_cast<int>((weights.array() > 0).count()) - 2 * contacts;
   found_ = iterations_ = 0;
+  int descents = 0;
   for (const ContactStart& start : starts_) {
-    if (found_ > 0) {
-      const double least = solutions_[best_].chi2;
-      const bool may_be_rival =
-          kTableFactor * start.chi2 < least + kWithinNoise;
-      if (least < well && !may_be_rival) break;
-    }
-    if (!FitFrom(start, measured, weights)) continue;
-    if (found_ == 0 || solutions_[found_].chi2 < solutions_[best_].chi2) {
-      best_ = found_;
-    }
-    ++found_;
+    const bool explained = found_ > 0 && IsExplained(least_chi2(), dof);
+    const bool may_be_rival =
+        kTableFactor * start.chi2 < least_chi2() + kWithinNoise;
+    if (explained && !may_be_rival) break;
+    if (Fit(start, measured, weights)) continue;
+    if (explained || descents == kMostDescents) continue;
+    ++descents;
+    Descend(start, measured, weights);
   }
   return found_ > 0;
 }
@@ -74,9 +86,9 @@ void ContactSearch::FindStarts(int contacts, const Eigen::VectorXd& measured,
   pair_table_->FindStarts(measured, weights, kMostPairStarts, &starts_);
 }
 
-bool ContactSearch::FitFrom(const ContactStart& start,
-                            const Eigen::VectorXd& measured,
-                            const Eigen::VectorXd& weights) {
+bool ContactSearch::Fit(const ContactStart& start,
+                        const Eigen::VectorXd& measured,
+                        const Eigen::VectorXd& weights) {
   contacts_.assign(start.contacts.begin(),
                    start.contacts.begin() + start.count);
   fit_.set_state(*start.state);
@@ -84,29 +96,57 @@ bool ContactSearch::FitFrom(const ContactStart& start,
   iterations_ += fit_.iterations();
   if (!converged) return false;
   ContactSolution& solution = solutions_[found_];
-  solution.count = start.count;
   solution.chi2 = fit_.chi2();
   solution.information = fit_.information();
   solution.tip_pose = fit_.tip_pose();
   for (std::size_t i = 0; i < solution.rib_tension_N.size(); ++i) {
     solution.rib_tension_N[i] = fit_.rib_tension(static_cast<int>(i));
   }
-  const bool swapped =
-      start.count == 2 && contacts_[1].arc_mm < contacts_[0].arc_mm;
   for (int c = 0; c < start.count; ++c) {
-    const int from = swapped ? 1 - c : c;
-    solution.contacts[c] = contacts_[from];
-    solution.poses[c] = fit_.contact_pose(from);
+    solution.poses[c] = fit_.contact_pose(c);
   }
-  if (swapped) {
-    const ContactMatrix was = solution.information;
+  Add(&solution);
+  return true;
+}
+
+bool ContactSearch::Descend(const ContactStart& start,
+                            const Eigen::VectorXd& measured,
+                            const Eigen::VectorXd& weights) {
+  contacts_.assign(start.contacts.begin(),
+                   start.contacts.begin() + start.count);
+  const bool arrived =
+      descent_.Descend(*start.state, measured, weights, &contacts_);
+  iterations_ += descent_.iterations();
+  if (!arrived) return false;
+  ContactSolution& solution = solutions_[found_];
+  solution.chi2 = descent_.chi2();
+  solution.information = descent_.information();
+  solution.tip_pose = solver_.tip_pose();
+  for (std::size_t i = 0; i < solution.rib_tension_N.size(); ++i) {
+    solution.rib_tension_N[i] = solver_.rib_tension(static_cast<int>(i));
+  }
+  for (int c = 0; c < start.count; ++c) {
+    solution.poses[c] = solver_.contact_pose(c);
+  }
+  Add(&solution);
+  return true;
+}
+
+void ContactSearch::Add(ContactSolution* solution) {
+  solution->count = static_cast<int>(contacts_.size());
+  std::copy(contacts_.begin(), contacts_.end(), solution->contacts.begin());
+  if (solution->count == 2 && contacts_[1].arc_mm < contacts_[0].arc_mm) {
+    std::swap(solution->contacts[0], solution->contacts[1]);
+    std::swap(solution->poses[0], solution->poses[1]);
+    const ContactMatrix was = solution->information;
     for (int i = 0; i < 4; ++i) {
       for (int j = 0; j < 4; ++j) {
-        solution.information(i, j) = was((i + 2) % 4, (j + 2) % 4);
+        solution->information(i, j) = was((i + 2) % 4, (j + 2) % 4);
       }
     }
   }
-  return true;
+  if (solution->chi2 < least_chi2() || found_ == 0) best_ = found_;
+  ++found_;
 }
 
 bool ContactSearch::IsDistinct(const ContactSolution& other) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "finray/sensing/contact_covariance.h"
+#include "finray/sensing/contact_descent.h"
 #include "finray/sensing/contact_fit.h"
 #include "finray/sensing/gauge_table.h"
 #include "finray/sensing/pair_table.h"
@@ -64,8 +65,14 @@ class ContactSearch {
  private:
   void FindStarts(int contacts, const Eigen::VectorXd& measured,
                   const Eigen::VectorXd& weights);
-  bool FitFrom(const ContactStart& start, const Eigen::VectorXd& measured,
+  // Each adds what comes of a start to the solutions.
+  bool Fit(const ContactStart& start, const Eigen::VectorXd& measured,
+           const Eigen::VectorXd& weights);
+  bool Descend(const ContactStart& start, const Eigen::VectorXd& measured,
                const Eigen::VectorXd& weights);
+  // Adds a solution in its order from base to tip.
+  void Add(ContactSolution* solution);
+  double least_chi2() const;
   bool IsDistinct(const ContactSolution& other) const;
 
   Scene scene_;
@@ -74,6 +81,7 @@ class ContactSearch {
   GaugeTable table_;
   std::unique_ptr<PairTable> pair_table_;  // made when needed
   ContactFit fit_;
+  ContactDescent descent_;
   std::vector<ContactStart> starts_;
   std::vector<PointContact> contacts_;
   std::vector<ContactSolution> solutions_;  // memory for the most

@@ -156,7 +156,11 @@ FrameEstimate FrameEstimator::Found(const ContactSearch& search) const {
   estimate.dof = all_measured_ - kUnknowns * best.count;
   estimate.iterations = search.iterations();
 
-  const ContactMatrix covariance = CovarianceOf(best.information);
+  ContactMatrix covariance = CovarianceOf(best.information);
+  // What noise does not explain is something else, of about that size.
+  if (estimate.p_value() < kUnexplained) {
+    covariance *= estimate.chi2 / estimate.dof;
+  }
   bool determined = true;
   for (int c = 0; c < best.count; ++c) {
     ContactEstimate& contact = estimate.contact[c];

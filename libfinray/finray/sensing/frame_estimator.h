@@ -16,6 +16,10 @@ namespace finray {
 /// `contacts: auto` takes one contact more while that lowers chi2 by
 /// kSignificance or more, two only with four gauges or more.
 ///
+/// A frame whose chi2 has a p-value below kUnexplained is not what the model
+/// says with this noise: its std are those of a noise that would explain it,
+/// scaled by sqrt(chi2 / dof).
+///
 /// Statuses (docs/estimation.md):
 ///  - no_contact: no contact, by that criterion or, with the number given, as
 ///    all forces are below kLeastForce_N.
@@ -26,6 +30,7 @@ namespace finray {
 class FrameEstimator {
  public:
   static constexpr double kSignificance = 13.8;  // chi2, 2 dof, p = 0.001
+  static constexpr double kUnexplained = 0.001;  // p-value
   static constexpr double kLeastForce_N = 0.03;
   static constexpr double kLargestArcStd = 0.05;
   static constexpr double kLargestForceStd = 0.25;
