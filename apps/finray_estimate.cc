@@ -16,6 +16,9 @@ DEFINE_string(logs, "",
               "CSV logs with gauge_<j>_V, separated by commas: files, patterns "
               "('runs/*.csv'), lists (@list.txt)");
 DEFINE_string(out_dir, "", "folder for <log>.frames.csv and summary.yaml");
+DEFINE_string(logs_root, "",
+              "folder above all logs: results lie in --out_dir as logs lie in "
+              "it; without it all lie in --out_dir itself");
 DEFINE_int32(threads, 1, "threads over frames");
 DEFINE_bool(resume, false, "keep finished logs, go on with interrupted ones");
 DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
@@ -34,7 +37,7 @@ std::string InFolder(const char* name) {
 std::vector<LogJob> MakeJobs(const BatchSettings& settings) {
   const auto logs =
       ExpandLogs(SplitList(Required("logs", FLAGS_logs)), FLAGS_out_dir);
-  const auto results = ResultPaths(logs, FLAGS_out_dir);
+  const auto results = ResultPaths(logs, FLAGS_out_dir, FLAGS_logs_root);
   std::vector<LogJob> jobs;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     jobs.emplace_back(&settings, logs[i], results[i]);
@@ -48,6 +51,14 @@ bool CheckAll(std::vector<LogJob>* jobs) {
     if (!job.Check()) return false;
   }
   return true;
+}
+
+void MakeFolders(const std::vector<LogJob>& jobs) {
+  MakeFolder(FLAGS_out_dir);
+  if (FLAGS_logs_root.empty()) return;
+  for (const LogJob& job : jobs) {
+    MakeFolder(std::filesystem::path(job.result()).parent_path().string());
+  }
 }
 
 // What an earlier run has summed up would no longer be true of the folder.
@@ -119,7 +130,7 @@ int Run() {
   if (!CheckAll(&jobs)) return Interrupted("before the first frame");
   FrameSolverPool pool(
       FrameSolvers(settings.finger, settings.scene, settings.discretization));
-  MakeFolder(FLAGS_out_dir);
+  MakeFolders(jobs);
   RemoveOldSummaries();
   ProgressBar bar(Frames(jobs));
   settings.progress = [&bar](std::size_t frames, bool kept) {

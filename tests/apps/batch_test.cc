@@ -7,6 +7,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <map>
@@ -144,6 +145,35 @@ TEST_F(BatchTest, PatternsListsAndTables) {
   EXPECT_EQ(YAML::LoadFile(folder_.Path("two/summary.yaml"))["logs"][0]["log"]
                 .as<std::string>(),
             folder_.Path("runs/b.csv"));
+}
+
+TEST_F(BatchTest, ResultsLieAsTheLogsLieInTheirRoot) {
+  std::filesystem::create_directory(folder_.Path("runs/x"));
+  WriteLog("runs/a.csv", 300, 1);
+  WriteLog("runs/x/a.csv", 200, 2);
+  const std::string logs = "%runs/a.csv,%runs/x/a.csv";
+  ExpectBadInput("finray_estimate", Arguments(logs, "--out_dir %out"),
+                 "would both be written to");
+  const std::string mirrored =
+      Arguments(logs, "--out_dir %out --logs_root %runs");
+  ASSERT_EQ(Run("finray_estimate", mirrored).code, 0);
+  EXPECT_NE(folder_.Read("out/x/a.frames.csv"),
+            folder_.Read("out/a.frames.csv"));
+  EXPECT_THAT(Run("finray_estimate", mirrored + " --resume").output,
+              HasSubstr(", 500 kept"));
+
+  // Force errors of logs combine without loss.
+  FrameTable table = FrameTable::Read(folder_.Path("out/summary.csv"));
+  std::vector<double> squares;
+  for (const std::string& text : table.MutableText("force_squares_N2")) {
+    squares.push_back(std::stod(text));
+  }
+  const YAML::Node all =
+      YAML::LoadFile(folder_.Path("out/summary.yaml"))["all"];
+  EXPECT_GT(squares[0], 0);
+  EXPECT_EQ(all["force_squares_N2"].as<double>(), squares[0] + squares[1]);
+  EXPECT_EQ(all["force_rms_error_N"].as<double>(),
+            std::sqrt((squares[0] + squares[1]) / 500));
 }
 
 TEST_F(BatchTest, BadListsAndLogsAreFoundBeforeAnythingIsWritten) {

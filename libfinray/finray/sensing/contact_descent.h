@@ -1,12 +1,10 @@
 #ifndef FINRAY_SENSING_CONTACT_DESCENT_H_
 #define FINRAY_SENSING_CONTACT_DESCENT_H_
 
-#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
-#include "finray/sensing/contact_covariance.h"
-#include "finray/statics/equilibrium.h"
+#include "finray/sensing/contact_linearization.h"
 
 namespace finray {
 
@@ -24,32 +22,24 @@ class ContactDescent {
         circle_radius_mm_(circle_radius_mm),
         most_force_N_(most_force_N) {}
 
-  /// From `*contacts` to near a minimum; `measured` and `weights` as
-  /// ContactFit::Fit. The solver is then in equilibrium with the contacts.
-  /// False if there is no equilibrium to start from.
-  bool Descend(const LadderState& state, const Eigen::VectorXd& measured,
-               const Eigen::VectorXd& weights,
+  /// From `*contacts` to near a minimum. The solver is then in equilibrium with
+  /// the contacts. False if there is no equilibrium to start from.
+  bool Descend(const LadderState& state, const FrameMeasurement& measurement,
                std::vector<PointContact>* contacts);
 
-  // Of the last descent; shape and loads are the solver's.
-
-  double chi2() const { return chi2_; }
-  /// Of (l_c, f_c) of each contact, per mm and N.
-  ContactMatrix information() const { return slope_.transpose() * slope_; }
+  /// At the end of the last descent; shape and loads are the solver's.
+  const ContactLinearization& at() const { return at_; }
   int iterations() const { return iterations_; }
 
  private:
-  // chi2, residuals and slopes at the contacts; false without an equilibrium.
-  bool Evaluate(const Eigen::VectorXd& measured, const Eigen::VectorXd& weights,
-                const std::vector<PointContact>& contacts);
+  std::vector<PointContact> Trial(const std::vector<PointContact>& contacts,
+                                  double damping) const;
 
   EquilibriumSolver* solver_;
   std::optional<double> circle_radius_mm_;
   double most_force_N_;
   int iterations_ = 0;
-  double chi2_ = 0;
-  Eigen::VectorXd residual_;
-  Eigen::MatrixXd slope_;
+  ContactLinearization at_;
 };
 
 }  // namespace finray

@@ -23,10 +23,6 @@ bool IsExplained(double chi2, int dof) {
                  : ChiSquaredTail(chi2, dof) > kWellExplained;
 }
 
-std::optional<double> MeasuredRadius(const Scene& scene) {
-  return scene.object_std_mm ? scene.circle_radius_mm() : std::nullopt;
-}
-
 }  // namespace
 
 ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
@@ -51,11 +47,9 @@ double ContactSearch::least_chi2() const {
                     : std::numeric_limits<double>::infinity();
 }
 
-bool ContactSearch::Search(int contacts, const Eigen::VectorXd& measured,
-                           const Eigen::VectorXd& weights) {
-  FindStarts(contacts, measured, weights);
-  const int dof =
-      static_cast<int>((weights.array() > 0).count()) - 2 * contacts;
+bool ContactSearch::Search(int contacts, const FrameMeasurement& measurement) {
+  FindStarts(contacts, measurement);
+  const int dof = measurement.all - 2 * contacts;
   found_ = iterations_ = 0;
   int descents = 0;
   for (const ContactStart& start : starts_) {
@@ -63,18 +57,18 @@ bool ContactSearch::Search(int contacts, const Eigen::VectorXd& measured,
     const bool may_be_rival =
         kTableFactor * start.chi2 < least_chi2() + kWithinNoise;
     if (explained && !may_be_rival) break;
-    if (Fit(start, measured, weights)) continue;
+    if (Fit(start, measurement)) continue;
     if (explained || descents == kMostDescents) continue;
     ++descents;
-    Descend(start, measured, weights);
+    Descend(start, measurement);
   }
   return found_ > 0;
 }
 
-void ContactSearch::FindStarts(int contacts, const Eigen::VectorXd& measured,
-                               const Eigen::VectorXd& weights) {
+void ContactSearch::FindStarts(int contacts,
+                               const FrameMeasurement& measurement) {
   if (contacts == 1) {
-    table_.FindStarts(measured, weights, &starts_);
+    table_.FindStarts(measurement.values, measurement.weights, &starts_);
     if (starts_.size() > kMostStarts) starts_.resize(kMostStarts);
     return;
   }
@@ -83,16 +77,17 @@ void ContactSearch::FindStarts(int contacts, const Eigen::VectorXd& measured,
         std::make_unique<PairTable>(&solver_, scene_.friction_coefficient);
     solver_.Solve({});
   }
-  pair_table_->FindStarts(measured, weights, kMostPairStarts, &starts_);
+  pair_table_->FindStarts(measurement.values, measurement.weights,
+                          kMostPairStarts, &starts_);
 }
 
 bool ContactSearch::Fit(const ContactStart& start,
-                        const Eigen::VectorXd& measured,
-                        const Eigen::VectorXd& weights) {
+                        const FrameMeasurement& measurement) {
   contacts_.assign(start.contacts.begin(),
                    start.contacts.begin() + start.count);
   fit_.set_state(*start.state);
-  const bool converged = fit_.Fit(measured, weights, &contacts_);
+  const bool converged =
+      fit_.Fit(measurement.values, measurement.weights, &contacts_);
   iterations_ += fit_.iterations();
   if (!converged) return false;
   ContactSolution& solution = solutions_[found_];
@@ -110,17 +105,15 @@ bool ContactSearch::Fit(const ContactStart& start,
 }
 
 bool ContactSearch::Descend(const ContactStart& start,
-                            const Eigen::VectorXd& measured,
-                            const Eigen::VectorXd& weights) {
+                            const FrameMeasurement& measurement) {
   contacts_.assign(start.contacts.begin(),
                    start.contacts.begin() + start.count);
-  const bool arrived =
-      descent_.Descend(*start.state, measured, weights, &contacts_);
+  const bool arrived = descent_.Descend(*start.state, measurement, &contacts_);
   iterations_ += descent_.iterations();
   if (!arrived) return false;
   ContactSolution& solution = solutions_[found_];
-  solution.chi2 = descent_.chi2();
-  solution.information = descent_.information();
+  solution.chi2 = descent_.at().chi2();
+  solution.information = descent_.at().information();
   solution.tip_pose = solver_.tip_pose();
   for (std::size_t i = 0; i < solution.rib_tension_N.size(); ++i) {
     solution.rib_tension_N[i] = solver_.rib_tension(static_cast<int>(i));
@@ -171,9 +164,9 @@ const ContactSolution* ContactSearch::rival() const {
   return rival;
 }
 
-bool ContactSearch::OnBound(const PointContact& contact) const {
-  return contact.arc_mm <= 0 || contact.arc_mm >= length_mm_ ||
-         contact.normal_N >= kMostForce * table_.heaviest_N();
+bool ContactSearch::OnBound(double arc_mm, double normal_N) const {
+  return arc_mm <= 0 || arc_mm >= length_mm_ ||
+         normal_N >= kMostForce * table_.heaviest_N();
 }
 
 }  // namespace finray

@@ -39,11 +39,8 @@ class ContactSearch {
   ContactSearch(const Finger& finger, const Scene& scene,
                 const Discretization& discretization);
 
-  /// Searches with one or two contacts. False if no start converged. `measured`
-  /// and `weights` as ContactFit::Fit, with the circle if the scene measures
-  /// it.
-  bool Search(int contacts, const Eigen::VectorXd& measured,
-              const Eigen::VectorXd& weights);
+  /// Searches with one or two contacts. False if no start converged.
+  bool Search(int contacts, const FrameMeasurement& measurement);
 
   // Of the last search that came to something.
 
@@ -56,20 +53,17 @@ class ContactSearch {
 
   /// Whether a contact is where the search ends: at an end of the beam or at
   /// the largest force.
-  bool OnBound(const PointContact& contact) const;
+  bool OnBound(double arc_mm, double normal_N) const;
 
   /// The finger without load.
   const EquilibriumSolver& free_finger() const { return solver_; }
   const GaugeTable& table() const { return table_; }
 
  private:
-  void FindStarts(int contacts, const Eigen::VectorXd& measured,
-                  const Eigen::VectorXd& weights);
+  void FindStarts(int contacts, const FrameMeasurement& measurement);
   // Each adds what comes of a start to the solutions.
-  bool Fit(const ContactStart& start, const Eigen::VectorXd& measured,
-           const Eigen::VectorXd& weights);
-  bool Descend(const ContactStart& start, const Eigen::VectorXd& measured,
-               const Eigen::VectorXd& weights);
+  bool Fit(const ContactStart& start, const FrameMeasurement& measurement);
+  bool Descend(const ContactStart& start, const FrameMeasurement& measurement);
   // Adds a solution in its order from base to tip.
   void Add(ContactSolution* solution);
   double least_chi2() const;

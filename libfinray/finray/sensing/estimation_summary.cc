@@ -86,6 +86,8 @@ void EmitSummary(const EstimationSummary& summary, YAML::Emitter* yaml) {
           << NumberText(summary.force_rms_N());
     *yaml << YAML::Key << "force_max_error_N" << YAML::Value
           << NumberText(summary.force_max_N);
+    *yaml << YAML::Key << "force_squares_N2" << YAML::Value
+          << NumberText(summary.force_squares_N2);
   }
 }
 

@@ -43,10 +43,7 @@ FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
     : finger_((CheckScene(finger, scene), finger)),
       scene_(scene),
       search_(finger, scene, discretization) {
-  const auto rows = static_cast<Eigen::Index>(finger.gauges.size()) +
-                    (scene.object_std_mm ? 2 : 0);
-  measured_.resize(rows);
-  weights_.resize(rows);
+  if (scene.smoothing) smoother_.emplace(finger, scene, discretization);
   const EquilibriumSolver& solver = search_.free_finger();
   free_.status = FrameStatus::kNoContact;
   free_.contact[0].normal_N = 0;
@@ -57,38 +54,43 @@ FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
 }
 
 FrameEstimate FrameEstimator::Estimate(const FrameReadings& readings) {
-  Measure(readings);
+  Measure(finger_, scene_, readings, &measurement_);
+  const Eigen::VectorXd& free = search_.table().free_angles();
+  const Eigen::Index gauges = free.size();
+  free_chi2_ = (measurement_.values.head(gauges) - free)
+                   .cwiseProduct(measurement_.weights.head(gauges))
+                   .squaredNorm();
   const int contacts = scene_.contacts.value_or(1);
-  if (gauges_measured_ < 1 || all_measured_ < kUnknowns * contacts) {
+  if (measurement_.gauges < 1 || measurement_.all < kUnknowns * contacts) {
     return Unsolved(FrameStatus::kBadInput);
   }
   if (!scene_.contacts) return Automatic();
   return WithContacts(contacts);
 }
 
-void FrameEstimator::Measure(const FrameReadings& readings) {
-  const auto gauges = static_cast<int>(finger_.gauges.size());
-  free_chi2_ = 0;
-  gauges_measured_ = 0;
-  for (int j = 0; j < gauges; ++j) {
-    const Gauge& gauge = finger_.gauges[j];
-    const double reading = readings.gauges_V[j];
-    const bool has = IsMeasured(gauge, reading);
-    gauges_measured_ += has;
-    measured_[j] = has ? (reading - gauge.offset_V) / gauge.gain_V_per_rad : 0;
-    weights_[j] = has ? std::abs(gauge.gain_V_per_rad) / gauge.noise_V : 0;
-    const double off =
-        weights_[j] * (measured_[j] - search_.table().free_angles()[j]);
-    free_chi2_ += off * off;
+void FrameEstimator::EstimateBlock(const FrameReadings* readings,
+                                   std::size_t count,
+                                   FrameEstimate* estimates) {
+  for (std::size_t i = 0; i < count; ++i) estimates[i] = Estimate(readings[i]);
+  if (smoother_) Smooth(readings, count, std::nullopt, estimates);
+}
+
+FrameEstimate FrameEstimator::Follow(const FrameReadings& readings) {
+  FrameEstimate estimate = Estimate(readings);
+  if (smoother_) {
+    Smooth(&readings, 1, followed_, &estimate);
+    followed_ = smoother_->last();
   }
-  all_measured_ = gauges_measured_;
-  if (!scene_.object_std_mm) return;
-  const double place[] = {readings.object_x_mm, readings.object_y_mm};
-  for (int i = 0; i < 2; ++i) {
-    const bool has = std::isfinite(place[i]);
-    all_measured_ += has;
-    measured_[gauges + i] = has ? place[i] : 0;
-    weights_[gauges + i] = has ? 1 / *scene_.object_std_mm : 0;
+  return estimate;
+}
+
+void FrameEstimator::Smooth(
+    const FrameReadings* readings, std::size_t count,
+    const std::optional<ContactSmoother::Belief>& before,
+    FrameEstimate* estimates) {
+  smoother_->Smooth(readings, count, before, estimates);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (estimates[i].contacts == 1) Judge(&estimates[i]);
   }
 }
 
@@ -98,15 +100,15 @@ void FrameEstimator::Measure(const FrameReadings& readings) {
 FrameEstimate FrameEstimator::Automatic() {
   if (free_chi2_ < kSignificance) return Free();
   FrameEstimate one = Unsolved(FrameStatus::kNotConverged);
-  if (search_.Search(1, measured_, weights_)) {
+  if (search_.Search(1, measurement_)) {
     if (free_chi2_ - search_.best().chi2 < kSignificance) return Free();
     one = Found(search_);
     if (one.chi2 < kSignificance) return one;
   }
   const int needed = 2 * kUnknowns;
-  if (gauges_measured_ < needed || scene_.object_std_mm) return one;
+  if (measurement_.gauges < needed || scene_.object_std_mm) return one;
   const int before = search_.iterations();
-  if (!search_.Search(2, measured_, weights_)) return one;
+  if (!search_.Search(2, measurement_)) return one;
   const ContactSolution& two = search_.best();
   for (const PointContact& contact : two.contacts) {
     if (contact.normal_N < kLeastForce_N) return one;
@@ -119,7 +121,7 @@ FrameEstimate FrameEstimator::Automatic() {
 
 FrameEstimate FrameEstimator::WithContacts(int contacts) {
   if (contacts == 0) return Free();
-  if (!search_.Search(contacts, measured_, weights_)) {
+  if (!search_.Search(contacts, measurement_)) {
     return Unsolved(FrameStatus::kNotConverged);
   }
   const ContactSolution& best = search_.best();
@@ -134,7 +136,7 @@ FrameEstimate FrameEstimator::WithContacts(int contacts) {
 FrameEstimate FrameEstimator::Free() const {
   FrameEstimate estimate = free_;
   estimate.chi2 = free_chi2_;
-  estimate.dof = gauges_measured_;
+  estimate.dof = measurement_.gauges;
   return estimate;
 }
 
@@ -153,7 +155,7 @@ FrameEstimate FrameEstimator::Found(const ContactSearch& search) const {
   estimate.tip_pose = best.tip_pose;
   estimate.rib_tension_N = best.rib_tension_N;
   estimate.chi2 = best.chi2;
-  estimate.dof = all_measured_ - kUnknowns * best.count;
+  estimate.dof = measurement_.all - kUnknowns * best.count;
   estimate.iterations = search.iterations();
 
   ContactMatrix covariance = CovarianceOf(best.information);
@@ -161,23 +163,29 @@ FrameEstimate FrameEstimator::Found(const ContactSearch& search) const {
   if (estimate.p_value() < kUnexplained) {
     covariance *= estimate.chi2 / estimate.dof;
   }
-  bool determined = true;
   for (int c = 0; c < best.count; ++c) {
     ContactEstimate& contact = estimate.contact[c];
     contact.arc_std_mm = std::sqrt(covariance(2 * c, 2 * c));
     contact.normal_std_N = std::sqrt(covariance(2 * c + 1, 2 * c + 1));
-    determined &=
-        contact.arc_std_mm <= kLargestArcStd * finger_.front_length_mm &&
-        contact.normal_std_N <= kLargestForceStd * contact.normal_N &&
-        !search.OnBound(best.contacts[c]);
   }
   if (const ContactSolution* rival = search.rival()) {
     CopyContacts(*rival, &estimate.alternative);
     estimate.alternative_chi2 = rival->chi2;
-    determined = false;
   }
-  estimate.status = determined ? FrameStatus::kOk : FrameStatus::kUnobservable;
+  Judge(&estimate);
   return estimate;
+}
+
+void FrameEstimator::Judge(FrameEstimate* estimate) const {
+  bool determined = std::isnan(estimate->alternative_chi2);
+  for (int c = 0; c < estimate->contacts; ++c) {
+    const ContactEstimate& contact = estimate->contact[c];
+    determined &=
+        contact.arc_std_mm <= kLargestArcStd * finger_.front_length_mm &&
+        contact.normal_std_N <= kLargestForceStd * contact.normal_N &&
+        !search_.OnBound(contact.arc_mm, contact.normal_N);
+  }
+  estimate->status = determined ? FrameStatus::kOk : FrameStatus::kUnobservable;
 }
 
 }  // namespace finray

@@ -3,15 +3,15 @@
 
 #include "finray/finger/finger.h"
 #include "finray/sensing/contact_search.h"
+#include "finray/sensing/contact_smoother.h"
 #include "finray/sensing/frame_estimate.h"
 #include "finray/sensing/frame_readings.h"
 #include "finray/sensing/scene.h"
 
 namespace finray {
 
-/// Estimates one frame at a time: as many contacts as the scene says, or as few
-/// as explain the readings, l_c and f_c of each by ContactSearch. Every frame
-/// is a cold one and the result does not depend on its neighbours.
+/// Estimates frames: as many contacts as the scene says, or as few as explain
+/// the readings, l_c and f_c of each by ContactSearch, without a guess.
 ///
 /// `contacts: auto` takes one contact more while that lowers chi2 by
 /// kSignificance or more, two only with four gauges or more.
@@ -41,26 +41,39 @@ class FrameEstimator {
   FrameEstimator(const Finger& finger, const Scene& scene,
                  const Discretization& discretization);
 
+  /// The frame alone.
   FrameEstimate Estimate(const FrameReadings& readings);
+
+  /// Frames that follow each other, smoothed if the scene says so. The result
+  /// depends on these readings and on nothing else.
+  void EstimateBlock(const FrameReadings* readings, std::size_t count,
+                     FrameEstimate* estimates);
+
+  /// The frame that follows the one of the last call, smoothed by those before
+  /// it if the scene says so.
+  FrameEstimate Follow(const FrameReadings& readings);
 
   const Finger& finger() const { return finger_; }
 
  private:
-  void Measure(const FrameReadings& readings);
   FrameEstimate Automatic();
   FrameEstimate WithContacts(int contacts);
   FrameEstimate Free() const;
   FrameEstimate Unsolved(FrameStatus status) const;
   FrameEstimate Found(const ContactSearch& search) const;
+  void Judge(FrameEstimate* estimate) const;
+  void Smooth(const FrameReadings* readings, std::size_t count,
+              const std::optional<ContactSmoother::Belief>& before,
+              FrameEstimate* estimates);
 
   Finger finger_;
   Scene scene_;
   ContactSearch search_;
+  std::optional<ContactSmoother> smoother_;
+  std::optional<ContactSmoother::Belief> followed_;  // by Follow
   FrameEstimate free_;
-  // Of the frame under way: gauge angles and, if the scene measures it, the
-  // circle's centre; 1 / std, 0 where not measured.
-  Eigen::VectorXd measured_, weights_;
-  int gauges_measured_ = 0, all_measured_ = 0;
+  // Of the frame under way.
+  FrameMeasurement measurement_;
   double free_chi2_ = 0;
 };
 

@@ -15,9 +15,7 @@ class EstimatorSolver : public FrameSolver {
 
   void SolveBlock(const FrameReadings* readings, std::size_t count,
                   FrameEstimate* estimates) override {
-    for (std::size_t i = 0; i < count; ++i) {
-      estimates[i] = estimator_.Estimate(readings[i]);
-    }
+    estimator_.EstimateBlock(readings, count, estimates);
   }
 
  private:

@@ -34,6 +34,7 @@ GaugeTable::GaugeTable(EquilibriumSolver* solver, double friction,
   const double length = finger.front_length_mm;
   const double unit = ForceUnit(finger);
   const int gauges = solver->model().gauges();
+  row_spacing_mm_ = length / kRows;
   heaviest_N_ = unit * *std::rbegin(kForces);
   solver->Reset();
   if (!solver->Solve({})) {

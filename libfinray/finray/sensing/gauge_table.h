@@ -29,10 +29,6 @@ class GaugeTable {
   /// The heaviest force of the grid, 40 EI / l_0^2.
   double heaviest_N() const { return heaviest_N_; }
 
-  /// Angles of the finger under no load.
-  const Eigen::VectorXd& free_angles() const { return free_angles_; }
-
- private:
   struct Node {
     double normal_N;
     Eigen::VectorXd values;
@@ -40,13 +36,21 @@ class GaugeTable {
   };
   struct Row {
     double arc_mm;
-    std::vector<Node> nodes;  // rising force, the first one without load
+    std::vector<Node> nodes;  ///< Rising force, the first one without load.
   };
+  /// Base to tip.
+  const std::vector<Row>& rows() const { return rows_; }
+  double row_spacing_mm() const { return row_spacing_mm_; }
+
+  /// Angles of the finger under no load.
+  const Eigen::VectorXd& free_angles() const { return free_angles_; }
+
+ private:
   ContactStart BestOf(const Row& row, const Eigen::VectorXd& values,
                       const Eigen::VectorXd& weights) const;
 
   double friction_;
-  double heaviest_N_;
+  double heaviest_N_, row_spacing_mm_;
   Eigen::VectorXd free_angles_;
   std::vector<Row> rows_;
 };

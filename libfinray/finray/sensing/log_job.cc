@@ -191,9 +191,6 @@ void LogJob::WriteSummary(std::uint64_t bytes) const {
   yaml << YAML::EndMap;
   pair("result_bytes", bytes);
   EmitSummary(summary_, &yaml);
-  if (summary_.force_compared > 0) {
-    pair("force_squares_N2", NumberText(summary_.force_squares_N2));
-  }
   yaml << YAML::EndMap;
   WriteFileAtomically(summary_path_, std::string(yaml.c_str()) + "\n");
 }
