@@ -51,7 +51,8 @@ TEST(FrameEstimatorColdStartTest, GaugesOnBothBeams) {
                              "/configs/fingers/paper_140mm_eight_gauges.yaml"),
                   scene);
   ColdStartTally sum;
-  for (int i = 0; i <= 50; ++i) {
+  // Above, places at either end of the highest gauge read alike.
+  for (int i = 0; i <= 44; ++i) {
     for (int j = 0; j <= 20; ++j) {
       sum.Add(start.Run(10 + 2.5 * i, 0.05 * std::pow(200, j / 20.0)));
     }
