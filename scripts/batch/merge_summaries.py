@@ -49,7 +49,7 @@ def number_text(value):
 class Totals:
     def __init__(self):
         self.frames, self.compared, self.squares_N2 = 0, 0, 0.0
-        self.status = {}
+        self.status, self.unexplained = {}, 0
         self.max_N, self.max_text = -1.0, ""
 
     def add(self, row):
@@ -58,6 +58,7 @@ class Totals:
         for status in columns[columns.index("frames") + 1:
                               columns.index("force_compared_frames")]:
             self.status[status] = self.status.get(status, 0) + int(row[status])
+        self.unexplained += int(row["unexplained_frames"])
         compared = int(row["force_compared_frames"])
         if compared == 0:
             return
@@ -76,6 +77,7 @@ class Totals:
     def yaml(self):
         text = f"all:\n  frames: {self.frames}\n  status:\n"
         text += "".join(f"    {s}: {n}\n" for s, n in self.status.items())
+        text += f"  unexplained_frames: {self.unexplained}\n"
         if self.compared > 0:
             text += (f"  force_compared_frames: {self.compared}\n"
                      f"  force_rms_error_N: {number_text(self.rms_N())}\n"
@@ -89,7 +91,7 @@ class Totals:
                  f"{self.compared} frames" if self.compared > 0
                  else "not known: no force_N in the logs")
         return (f"ok             {status['ok']}, no_contact {status['no_contact']}\n"
-                f"unobservable   {status['unobservable']}\n"
+                f"unobservable   {status['unobservable']}, unexplained {self.unexplained}\n"
                 f"not solved     {status['not_converged']} not_converged, "
                 f"{status['bad_input']} bad_input\n"
                 f"force error    {force}")

@@ -122,12 +122,19 @@ TEST_F(BatchTest, PatternsListsAndTables) {
   EXPECT_EQ(copy.MutableText("frames")[1], "200");
   EXPECT_EQ(copy.MutableText("no_contact")[0], "300");
   EXPECT_EQ(copy.MutableText("log")[0], folder_.Path("runs/a.csv"));
+  const auto headers = table.headers();
+  EXPECT_EQ(headers[headers.size() - 2], "unexplained_frames");
+  EXPECT_EQ(headers.back(), "key");
   const YAML::Node yaml = YAML::LoadFile(folder_.Path("out/summary.yaml"));
   EXPECT_EQ(yaml["logs"][1]["frames"].as<int>(), 200);
   EXPECT_EQ(yaml["logs"][1]["key"].as<std::string>(),
             YAML::LoadFile(folder_.Path("out/b.summary.yaml"))["key"]
                 .as<std::string>());
   EXPECT_EQ(yaml["all"]["force_compared_frames"].as<int>(), 500);
+  // Readings of many mrad and no contact allowed.
+  const int unexplained = yaml["all"]["unexplained_frames"].as<int>();
+  EXPECT_EQ(unexplained, 500);
+  EXPECT_THAT(outcome.output, HasSubstr("unobservable   0, unexplained 500\n"));
 
   // Results in the logs' own folder are no logs.
   const std::string in_place = Arguments("'%runs/*.csv'", "--out_dir %runs");

@@ -1,6 +1,7 @@
 // Streams and jobs with a solver that would show any dependence on threads,
 // chunks or interruptions.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -9,6 +10,7 @@
 
 #include "finray/io/atomic_file.h"
 #include "finray/io/error.h"
+#include "finray/io/gzip.h"
 #include "finray/sensing/batch_summary.h"
 #include "finray/sensing/frame_results.h"
 #include "finray/sensing/log_stream.h"
@@ -213,6 +215,31 @@ TEST_F(BatchStreamTest, ALogThatChangesMeanwhileIsRefused) {
   }
 }
 
+TEST_F(BatchStreamTest, TheFirstBadPlaceIsTheOneReported) {
+  std::string text = folder_.Read("log.csv");
+  for (int i = 0; i < 20000; ++i) text += "1,1,1,1,1,more\n";
+  const auto at_line = [&](int line) {
+    std::size_t at = 0;
+    for (int i = 1; i < line; ++i) at = text.find('\n', at) + 1;
+    return at;
+  };
+  text.replace(at_line(15000), 1, "x");
+  text.replace(at_line(14990), 2, "1 ");  // a comma less
+  text.replace(at_line(18000), 1, "y");
+  WriteFileAtomically(log_ + ".gz", Gzipped(text));
+  folder_.Write("log.csv", text);
+  for (const int threads : {1, 2, 4}) {
+    settings_.threads = threads;
+    for (const std::string& log : {log_, log_ + ".gz"}) {
+      LogJob job(&settings_, log, folder_.Path("out.csv"));
+      EXPECT_THAT([&] { job.Check(); },
+                  testing::ThrowsMessage<InputError>(
+                      log + ":14990: expected 6 cells as in the header, "
+                            "found 5"));
+    }
+  }
+}
+
 TEST_F(BatchStreamTest, TheEstimatorRemembersNothing) {
   const FrameTable table =
       FrameTable::Read(FINRAY_SOURCE_DIR "/datasets/simulated_r15/train.csv");
@@ -246,12 +273,17 @@ TEST(EstimationSummaryTest, ReadsBackTheSame) {
   for (int i = 0; i < 100; ++i) {
     estimate.status = EstimationSummary::kStatuses[i % 5];
     estimate.contact[0].normal_N = 0.1 * i;
+    estimate.dof = 2;
+    estimate.chi2 = i;  // p = exp(-chi2 / 2) < 0.001 from 13.8 on
     summary.Add(estimate, 0.3, i % 7 ? 0.05 * i : std::nan(""));
   }
   const auto back = SummaryFromText(SummaryToText(summary));
   ASSERT_TRUE(back);
   EXPECT_EQ(back->frames, 100u);
   EXPECT_EQ(back->by_status, summary.by_status);
+  // Three of five statuses are solved.
+  EXPECT_EQ(summary.unexplained, 17u * 3);
+  EXPECT_EQ(back->unexplained, summary.unexplained);
   EXPECT_EQ(back->force_compared, summary.force_compared);
   EXPECT_EQ(back->force_squares_N2, summary.force_squares_N2);
   EXPECT_EQ(back->force_max_N, summary.force_max_N);

@@ -2,8 +2,11 @@
 #define FINRAY_FINGER_FINGER_H_
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "finray/finger/parameter_covariance.h"
 
 namespace finray {
 
@@ -66,6 +69,8 @@ struct Finger {
   std::vector<StiffnessPiece> front_pieces, back_pieces;
   std::vector<Rib> ribs;
   std::vector<Gauge> gauges;
+  /// How well these numbers are known, if a calibration has told.
+  std::optional<ParameterCovariance> calibration;
 };
 
 }  // namespace finray

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "finray/finger/geometry.h"
+#include "finray/finger/parameter_covariance_yaml.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/yaml_map.h"
 
@@ -328,8 +329,8 @@ Finger ReadFinger(const std::string& path) {
     yaml.Fail("schema_version",
               "schema_version: expected 1, found " + std::to_string(version));
   }
-  yaml.AllowOnly(
-      {"schema_version", "name", "geometry", "beams", "ribs", "gauges"});
+  yaml.AllowOnly({"schema_version", "name", "geometry", "beams", "ribs",
+                  "gauges", "calibration"});
   Finger finger;
   finger.name = yaml.Text("name");
   const YamlMap geometry = yaml.Map("geometry");
@@ -347,6 +348,10 @@ Finger ReadFinger(const std::string& path) {
   ReadRibs(yaml, &finger);
   for (const YamlMap& entry : yaml.Maps("gauges")) {
     finger.gauges.push_back(ReadGauge(entry, finger));
+  }
+  if (yaml.Has("calibration")) {
+    finger.calibration =
+        ReadParameterCovariance(yaml.Map("calibration"), finger);
   }
   return finger;
 }
@@ -392,6 +397,8 @@ std::string FingerToYaml(const Finger& finger, const std::string& comment) {
     }
     yaml << "}\n";
   }
+  if (finger.calibration)
+    yaml << ParameterCovarianceToYaml(*finger.calibration);
   return yaml.str();
 }
 

@@ -36,7 +36,6 @@ ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
                kMostForce * table_.heaviest_N()),
       solutions_(kMostPairStarts) {
   fit_.set_most_force(kMostForce * table_.heaviest_N());
-  solver_.Solve({});
   for (ContactSolution& solution : solutions_) {
     solution.rib_tension_N.resize(finger.ribs.size());
   }
@@ -75,7 +74,6 @@ void ContactSearch::FindStarts(int contacts,
   if (!pair_table_) {
     pair_table_ =
         std::make_unique<PairTable>(&solver_, scene_.friction_coefficient);
-    solver_.Solve({});
   }
   pair_table_->FindStarts(measurement.values, measurement.weights,
                           kMostPairStarts, &starts_);

@@ -55,8 +55,6 @@ class ContactSearch {
   /// the largest force.
   bool OnBound(double arc_mm, double normal_N) const;
 
-  /// The finger without load.
-  const EquilibriumSolver& free_finger() const { return solver_; }
   const GaugeTable& table() const { return table_; }
 
  private:

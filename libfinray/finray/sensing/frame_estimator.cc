@@ -36,15 +36,23 @@ void CheckScene(const Finger& finger, const Scene& scene) {
   }
 }
 
+CalibrationUncertainty SystematicOf(const Finger& finger, const Scene& scene,
+                                    const Discretization& discretization) {
+  EquilibriumSolver solver(finger, discretization);
+  return {finger, scene.friction_coefficient, &solver, MeasuredRadius(scene)};
+}
+
 }  // namespace
 
 FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
                                const Discretization& discretization)
     : finger_((CheckScene(finger, scene), finger)),
       scene_(scene),
-      search_(finger, scene, discretization) {
+      search_(finger, scene, discretization),
+      systematic_(SystematicOf(finger, scene, discretization)) {
   if (scene.smoothing) smoother_.emplace(finger, scene, discretization);
-  const EquilibriumSolver& solver = search_.free_finger();
+  EquilibriumSolver solver(finger, discretization);
+  solver.Solve({});
   free_.status = FrameStatus::kNoContact;
   free_.contact[0].normal_N = 0;
   free_.tip_pose = solver.tip_pose();
@@ -64,8 +72,8 @@ FrameEstimate FrameEstimator::Estimate(const FrameReadings& readings) {
   if (measurement_.gauges < 1 || measurement_.all < kUnknowns * contacts) {
     return Unsolved(FrameStatus::kBadInput);
   }
-  if (!scene_.contacts) return Automatic();
-  return WithContacts(contacts);
+  if (!scene_.contacts) return Automatic(readings);
+  return WithContacts(readings, contacts);
 }
 
 void FrameEstimator::EstimateBlock(const FrameReadings* readings,
@@ -90,19 +98,21 @@ void FrameEstimator::Smooth(
     FrameEstimate* estimates) {
   smoother_->Smooth(readings, count, before, estimates);
   for (std::size_t i = 0; i < count; ++i) {
-    if (estimates[i].contacts == 1) Judge(&estimates[i]);
+    if (estimates[i].contacts != 1) continue;
+    Measure(finger_, scene_, readings[i], &measurement_);
+    Judge(readings[i], measurement_.weights, &estimates[i]);
   }
 }
 
 // One contact more for as long as it makes a significant difference. The free
 // finger says nothing of a measured object, so that its place counts for one
 // contact against another only.
-FrameEstimate FrameEstimator::Automatic() {
+FrameEstimate FrameEstimator::Automatic(const FrameReadings& readings) {
   if (free_chi2_ < kSignificance) return Free();
   FrameEstimate one = Unsolved(FrameStatus::kNotConverged);
   if (search_.Search(1, measurement_)) {
     if (free_chi2_ - search_.best().chi2 < kSignificance) return Free();
-    one = Found(search_);
+    one = Found(readings);
     if (one.chi2 < kSignificance) return one;
   }
   const int needed = 2 * kUnknowns;
@@ -114,12 +124,13 @@ FrameEstimate FrameEstimator::Automatic() {
     if (contact.normal_N < kLeastForce_N) return one;
   }
   if (one.chi2 - two.chi2 < kSignificance) return one;
-  FrameEstimate estimate = Found(search_);
+  FrameEstimate estimate = Found(readings);
   estimate.iterations += before;
   return estimate;
 }
 
-FrameEstimate FrameEstimator::WithContacts(int contacts) {
+FrameEstimate FrameEstimator::WithContacts(const FrameReadings& readings,
+                                           int contacts) {
   if (contacts == 0) return Free();
   if (!search_.Search(contacts, measurement_)) {
     return Unsolved(FrameStatus::kNotConverged);
@@ -127,10 +138,10 @@ FrameEstimate FrameEstimator::WithContacts(int contacts) {
   const ContactSolution& best = search_.best();
   for (int c = 0; c < best.count; ++c) {
     if (best.contacts[c].normal_N < kLeastForce_N) {
-      return WithContacts(contacts - 1);
+      return WithContacts(readings, contacts - 1);
     }
   }
-  return Found(search_);
+  return Found(readings);
 }
 
 FrameEstimate FrameEstimator::Free() const {
@@ -147,8 +158,8 @@ FrameEstimate FrameEstimator::Unsolved(FrameStatus status) const {
   return estimate;
 }
 
-FrameEstimate FrameEstimator::Found(const ContactSearch& search) const {
-  const ContactSolution& best = search.best();
+FrameEstimate FrameEstimator::Found(const FrameReadings& readings) {
+  const ContactSolution& best = search_.best();
   FrameEstimate estimate;
   estimate.contacts = best.count;
   CopyContacts(best, &estimate.contact);
@@ -156,7 +167,7 @@ FrameEstimate FrameEstimator::Found(const ContactSearch& search) const {
   estimate.rib_tension_N = best.rib_tension_N;
   estimate.chi2 = best.chi2;
   estimate.dof = measurement_.all - kUnknowns * best.count;
-  estimate.iterations = search.iterations();
+  estimate.iterations = search_.iterations();
 
   ContactMatrix covariance = CovarianceOf(best.information);
   // What noise does not explain is something else, of about that size.
@@ -168,15 +179,34 @@ FrameEstimate FrameEstimator::Found(const ContactSearch& search) const {
     contact.arc_std_mm = std::sqrt(covariance(2 * c, 2 * c));
     contact.normal_std_N = std::sqrt(covariance(2 * c + 1, 2 * c + 1));
   }
-  if (const ContactSolution* rival = search.rival()) {
+  if (const ContactSolution* rival = search_.rival()) {
     CopyContacts(*rival, &estimate.alternative);
     estimate.alternative_chi2 = rival->chi2;
   }
-  Judge(&estimate);
+  Judge(readings, measurement_.weights, &estimate);
   return estimate;
 }
 
-void FrameEstimator::Judge(FrameEstimate* estimate) const {
+void FrameEstimator::Judge(const FrameReadings& readings,
+                           const Eigen::VectorXd& weights,
+                           FrameEstimate* estimate) {
+  if (!systematic_.empty()) {
+    contacts_.clear();
+    for (int c = 0; c < estimate->contacts; ++c) {
+      contacts_.push_back({estimate->contact[c].arc_mm,
+                           estimate->contact[c].normal_N,
+                           scene_.friction_coefficient});
+    }
+    const ContactMatrix covariance =
+        systematic_.Of(contacts_, readings.gauges_V, weights);
+    for (int c = 0; c < estimate->contacts; ++c) {
+      ContactEstimate& contact = estimate->contact[c];
+      contact.arc_std_mm =
+          std::hypot(contact.arc_std_mm, std::sqrt(covariance(2 * c, 2 * c)));
+      contact.normal_std_N = std::hypot(
+          contact.normal_std_N, std::sqrt(covariance(2 * c + 1, 2 * c + 1)));
+    }
+  }
   bool determined = std::isnan(estimate->alternative_chi2);
   for (int c = 0; c < estimate->contacts; ++c) {
     const ContactEstimate& contact = estimate->contact[c];

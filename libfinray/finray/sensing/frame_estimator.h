@@ -2,6 +2,7 @@
 #define FINRAY_SENSING_FRAME_ESTIMATOR_H_
 
 #include "finray/finger/finger.h"
+#include "finray/sensing/calibration_uncertainty.h"
 #include "finray/sensing/contact_search.h"
 #include "finray/sensing/contact_smoother.h"
 #include "finray/sensing/frame_estimate.h"
@@ -56,12 +57,14 @@ class FrameEstimator {
   const Finger& finger() const { return finger_; }
 
  private:
-  FrameEstimate Automatic();
-  FrameEstimate WithContacts(int contacts);
+  FrameEstimate Automatic(const FrameReadings& readings);
+  FrameEstimate WithContacts(const FrameReadings& readings, int contacts);
   FrameEstimate Free() const;
   FrameEstimate Unsolved(FrameStatus status) const;
-  FrameEstimate Found(const ContactSearch& search) const;
-  void Judge(FrameEstimate* estimate) const;
+  FrameEstimate Found(const FrameReadings& readings);
+  // Adds what the calibration leaves uncertain to the std, and sets the status.
+  void Judge(const FrameReadings& readings, const Eigen::VectorXd& weights,
+             FrameEstimate* estimate);
   void Smooth(const FrameReadings* readings, std::size_t count,
               const std::optional<ContactSmoother::Belief>& before,
               FrameEstimate* estimates);
@@ -69,6 +72,8 @@ class FrameEstimator {
   Finger finger_;
   Scene scene_;
   ContactSearch search_;
+  CalibrationUncertainty systematic_;
+  std::vector<PointContact> contacts_;
   std::optional<ContactSmoother> smoother_;
   std::optional<ContactSmoother::Belief> followed_;  // by Follow
   FrameEstimate free_;

@@ -8,15 +8,12 @@
 
 namespace finray {
 
-/// What each row has measured: volts of all gauges from gauge_<j>_V or, where
-/// that is all there is, gauge_<j>_rad. Throws InputError if a gauge of the
-/// finger has no column.
+/// What each row has measured (ReadingColumns). Throws InputError if a gauge of
+/// the finger has no column.
 std::vector<FrameReadings> ReadReadings(const Finger& finger,
                                         const FrameTable& log);
 
-/// Fills in contact_1_*, normal_1_*, friction_1, gauge angles, ribs, tip, chi2,
-/// iterations and status of each row. Which columns that adds depends on those
-/// of the table, the finger and the scene only.
+/// Fills in ResultColumns and the status of each row.
 void FillResults(const Finger& finger, const Scene& scene,
                  const std::vector<FrameReadings>& readings,
                  const std::vector<FrameEstimate>& estimates, FrameTable* log);
