@@ -20,6 +20,7 @@
 #include "finray/statics/equilibrium.h"
 #include "finray/statics/ladder_kernel.h"
 #include "finray/statics/ladder_newton.h"
+#include "finray/statics/ladder_workspace.h"
 #include "test_finger.h"
 
 namespace finray {
@@ -142,14 +143,41 @@ void Pass(benchmark::State& state, int set, bool evaluate) {
   newton.Converge({Frame(0)}, 1, SweepColumns::kNone);
   LadderFrame<double> frame = newton.frame();
   const LadderKernel& kernel = FindLadderKernel(Scheme::kTaylor, false, set);
-  kernel.evaluate(frame, false, false);
+  kernel.evaluate(frame, SweepColumns::kNone, false);
   for (auto _ : state) {
     if (evaluate) {
-      benchmark::DoNotOptimize(kernel.evaluate(frame, false, false));
+      kernel.evaluate(frame, SweepColumns::kNone, false);
     } else {
       benchmark::DoNotOptimize(kernel.sweep(frame, SweepColumns::kNone, false));
     }
   }
+}
+
+// The same of four frames in lanes, with the derivatives of a fit: per frame.
+void PassOfFour(benchmark::State& state, int set, bool evaluate) {
+  const Discretization discretization{Scheme::kTaylor8, 12};
+  LadderNewton newton(PaperFinger(), discretization);
+  newton.Converge({Frame(0)}, 1, SweepColumns::kNone);
+  LadderState equilibrium;
+  newton.Save(&equilibrium);
+  LadderWorkspace<FourFrames> workspace(newton.model());
+  while (!workspace.SetContacts(newton.model(), {Frame(0)}) ||
+         workspace.SetColumns(newton.model(), SweepColumns::kContacts, false)) {
+  }
+  workspace.Load(equilibrium);
+  LadderFrame<FourFrames>& frame = workspace.frame();
+  const LadderKernel& kernel = FindLadderKernel(Scheme::kTaylor8, false, set);
+  kernel.four.evaluate(frame);
+  for (auto _ : state) {
+    if (evaluate) {
+      kernel.four.evaluate(frame);
+    } else {
+      benchmark::DoNotOptimize(kernel.four.sweep(frame));
+    }
+  }
+  state.counters["us/frame"] = benchmark::Counter(
+      1e-6 * kFrameLanes * static_cast<double>(state.iterations()),
+      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 // Keeps what was measured, for the comparison at the end.
@@ -224,6 +252,10 @@ void Register() {
       benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
         Pass(state, set, evaluate);
       })->Unit(benchmark::kMicrosecond);
+      benchmark::RegisterBenchmark(
+          ("four_frames_" + name).c_str(),
+          [=](benchmark::State& state) { PassOfFour(state, set, evaluate); })
+          ->Unit(benchmark::kMicrosecond);
     }
   }
 }

@@ -11,7 +11,8 @@ Element ComputedElement(const ElementStart& start, double stiffness,
                         double length, double axial_flexibility = 0) {
   Element element;
   element.SolveAndDifferentiate(start, stiffness, axial_flexibility, length);
-  element.DifferentiateByParameters();
+  element.DifferentiateByStiffness();
+  element.DifferentiateByLength();
   return element;
 }
 

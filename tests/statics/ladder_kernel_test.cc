@@ -58,7 +58,7 @@ class Fixture {
     LadderFrame<double>& f = frame();
     f.state.moment[0] = f.state.q[0];
     f.state.moment[f.front_elements] = f.state.q[3];
-    kernel.evaluate(f, false, false);
+    kernel.evaluate(f, SweepColumns::kNone, false);
     std::vector<double> all(f.closure, f.closure + f.ribs + 6);
     for (int e = 1; e < f.elements; ++e) {
       if (e == f.front_elements) continue;

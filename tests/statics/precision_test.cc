@@ -32,11 +32,11 @@ Outcome SolveIn(const Finger& finger, const PointContact& contact) {
   workspace.SetContacts(model, contacts);
   workspace.Load(LadderState::Undeformed(model));
   LadderFrame<T>& f = workspace.frame();
-  LadderEvaluator<T, Wide, TaylorElement<16, T>> evaluator(&f);
+  LadderEvaluator<T, Wide, TaylorElement<16, T>> evaluator(&f,
+                                                           SweepColumns::kNone);
   Outcome outcome{Eigen::VectorXd::Zero(model.gauges()), {}};
   for (int iteration = 0; iteration < 12; ++iteration) {
-    evaluator.Evaluate(false, false);
-    evaluator.ReadGauges();
+    evaluator.Evaluate(false);
     LadderSweeper<T, 0>(&f, SweepColumns::kNone, false).Run(true);
     const int count = 6 + f.ribs + 4 * f.elements;
     for (int i = 0; i < count; ++i) f.state.q[i] += f.step.q[i];

@@ -1,6 +1,5 @@
 #include "finray/sensing/contact_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,18 +15,6 @@ constexpr int kMaxIterations = 60;
 // deviations and, for the shape, rad and l_0.
 constexpr int kPatience = 8;
 constexpr double kNoDifference = 1e-4;
-// Beyond these a linearisation says nothing: a bay, a quarter turn.
-constexpr double kLongestMove = 0.1;  // of l_0
-constexpr double kMaxTurn_rad = 0.7;
-// Levenberg's damping of l_c as of a prior of 30 mm about where it is, which
-// keeps a contact of no force from wandering; it vanishes with chi2, so that
-// convergence to data without noise stays quadratic.
-constexpr double kArcDamping = 22;
-// A change that raises chi2 by this factor and by more than 1 is taken back.
-// Less says little: before equilibrium is reached chi2 is known to first order
-// only.
-constexpr double kMostRise = 2;
-constexpr double kLeastForce = 0.02;  // in units of EI / l_0^2
 
 }  // namespace
 
@@ -36,37 +23,27 @@ ContactFit::ContactFit(const Finger& finger,
                        std::optional<double> circle_radius_mm)
     : newton_(finger, discretization), circle_radius_mm_(circle_radius_mm) {
   const int rows = newton_.model().gauges() + (circle_radius_mm ? 2 : 0);
+  reading_.resize(rows);
   residual_.resize(rows);
+  d_reading_.resize(rows, 2 * kFittedContacts);
   slope_.resize(rows, 2 * kFittedContacts);
 }
 
 // Values of the state before the step, brought to its end by the taps.
-void ContactFit::ReadMeasurements(const Eigen::VectorXd& measured,
-                                  const Eigen::VectorXd& weights,
-                                  int unknowns) {
+void ContactFit::ReadGauges(int unknowns) {
   const LadderFrame<double>& f = newton_.frame();
-  residual_ = -measured;
-  slope_.setZero();
+  reading_.setZero();
+  d_reading_.setZero();
   for (int i = 0; i < f.readout_count; ++i) {
     const LadderReadout<double>& readout = f.readouts[i];
     const double* tap = f.taps + f.readout_tap(i) * f.stride + f.affine;
-    residual_[readout.gauge] +=
+    reading_[readout.gauge] +=
         readout.sign * (f.readout_map[kReadoutValues * i] + tap[0]);
     for (int k = 0; k < unknowns; ++k) {
-      slope_(readout.gauge, k) += readout.sign * tap[1 + k];
+      d_reading_(readout.gauge, k) += readout.sign * tap[1 + k];
     }
   }
   if (circle_radius_mm_) ReadCentre(*circle_radius_mm_, unknowns);
-  residual_.array() *= weights.array();
-  slope_.array().colwise() *= weights.array();
-  normal_.resize(unknowns, unknowns);
-  gradient_.resize(unknowns);
-  for (int k = 0; k < unknowns; ++k) {
-    gradient_[k] = slope_.col(k).dot(residual_);
-    for (int l = 0; l <= k; ++l) {
-      normal_(k, l) = normal_(l, k) = slope_.col(k).dot(slope_.col(l));
-    }
-  }
 }
 
 void ContactFit::ReadCentre(double radius_mm, int unknowns) {
@@ -83,15 +60,32 @@ void ContactFit::ReadCentre(double radius_mm, int unknowns) {
       return length * pose[i * f.stride + column] +
              by_angle[i] * pose[2 * f.stride + column];
     };
-    residual_[gauges + i] += at[i] + change(0);
+    reading_[gauges + i] = at[i] + change(0);
     for (int k = 0; k < unknowns; ++k) {
-      slope_(gauges + i, k) = change(1 + k);
+      d_reading_(gauges + i, k) = change(1 + k);
     }
   }
 }
 
+void ContactFit::Whiten(const Eigen::VectorXd& measured,
+                        const Eigen::VectorXd& weights, int unknowns) {
+  residual_.array() = (reading_ - measured).array() * weights.array();
+  slope_ = d_reading_;
+  slope_.array().colwise() *= weights.array();
+  equations_.normal.resize(unknowns, unknowns);
+  equations_.gradient.resize(unknowns);
+  for (int k = 0; k < unknowns; ++k) {
+    equations_.gradient[k] = slope_.col(k).dot(residual_);
+    for (int l = 0; l <= k; ++l) {
+      equations_.normal(k, l) = equations_.normal(l, k) =
+          slope_.col(k).dot(slope_.col(l));
+    }
+  }
+  equations_.chi2 = residual_.squaredNorm();
+}
+
 // Poses of contacts and tip, brought to the end of the step likewise.
-void ContactFit::ReadPoses(int contacts, const Change& change) {
+void ContactFit::ReadPoses(int contacts, const ContactVector& change) {
   const LadderFrame<double>& f = newton_.frame();
   const double length = newton_.workspace().length_unit();
   const auto pose = [&](int tap, double x, double y, double theta) {
@@ -112,56 +106,6 @@ void ContactFit::ReadPoses(int contacts, const Change& change) {
   poses_[kFittedContacts] = pose(f.tip_tap(), f.tip[0], f.tip[1], f.tip[2]);
 }
 
-// The damped Gauss-Newton change; what would pass a bound stays at it and the
-// rest is solved for anew.
-ContactFit::Change ContactFit::BoundedChange(
-    const std::vector<PointContact>& contacts, double damping) const {
-  const int unknowns = static_cast<int>(gradient_.size());
-  const double length = newton_.workspace().length_unit();
-  const double force = newton_.workspace().force_unit();
-  const double unexplained = std::min(1.0, residual_.squaredNorm());
-  Information system = normal_;
-  for (int k = 0; k < unknowns; ++k) {
-    system(k, k) *= 1 + damping;
-    system(k, k) += k % 2 == 0 ? kArcDamping * unexplained : 1e-9;
-  }
-  Change rest = -gradient_, change = Change::Zero(unknowns);
-  bool fixed[2 * kFittedContacts] = {};
-  for (int pass = 0; pass <= unknowns; ++pass) {
-    Information free = system;
-    Change right = rest;
-    for (int k = 0; k < unknowns; ++k) {
-      if (!fixed[k]) continue;
-      right -= system.col(k) * change[k];
-    }
-    for (int k = 0; k < unknowns; ++k) {
-      if (!fixed[k]) continue;
-      free.row(k).setZero();
-      free.col(k).setZero();
-      free(k, k) = 1;
-      right[k] = change[k];
-    }
-    change = free.ldlt().solve(right);
-    bool inside = true;
-    for (int k = 0; k < unknowns; ++k) {
-      const PointContact& contact = contacts[k / 2];
-      const bool arc = k % 2 == 0;
-      const double at =
-          arc ? contact.arc_mm / length : contact.normal_N / force;
-      const double low = std::max(-at, arc ? -kLongestMove : -at);
-      const double high =
-          arc ? std::min(1 - at, kLongestMove) : most_force_N_ / force - at;
-      const double bounded = std::clamp(change[k], low, high);
-      if (fixed[k] || bounded == change[k]) continue;
-      change[k] = bounded;
-      fixed[k] = true;
-      inside = false;
-    }
-    if (inside) break;
-  }
-  return change;
-}
-
 void ContactFit::Keep(const std::vector<PointContact>& contacts) {
   const LadderFrame<double>& f = newton_.frame();
   kept_state_.assign(f.state.q, f.state.q + 6 + f.ribs + 4 * f.elements);
@@ -176,59 +120,90 @@ void ContactFit::Restore(std::vector<PointContact>* contacts) {
 bool ContactFit::Fit(const Eigen::VectorXd& measured,
                      const Eigen::VectorXd& weights,
                      std::vector<PointContact>* contacts) {
+  return Run(measured, weights, false, contacts);
+}
+
+bool ContactFit::Follow(const Eigen::VectorXd& measured,
+                        const Eigen::VectorXd& weights,
+                        std::vector<PointContact>* contacts) {
+  return Run(measured, weights,
+             linearised_contacts_ == static_cast<int>(contacts->size()),
+             contacts);
+}
+
+bool ContactFit::Run(const Eigen::VectorXd& measured,
+                     const Eigen::VectorXd& weights, bool predict,
+                     std::vector<PointContact>* contacts) {
   const int count = static_cast<int>(contacts->size());
   const int unknowns = 2 * count;
   const double length = newton_.workspace().length_unit();
   const double force = newton_.workspace().force_unit();
+  const BeamMesh& mesh = newton_.model().mesh(Side::kFront);
+  linearised_contacts_ = 0;
   if (count < 1 || count > kFittedContacts) return false;
   double last_cost = std::numeric_limits<double>::infinity();
   double damping = 0, last_change = 1;
-  for (iterations_ = 1; iterations_ <= kMaxIterations; ++iterations_) {
-    if (!newton_.LinearizeByContacts(*contacts)) return false;
-    ReadMeasurements(measured, weights, unknowns);
-    const double cost = residual_.squaredNorm();
-    if (!std::isfinite(cost)) return false;
-    if (cost > kMostRise * last_cost + 1 && damping < 1e6) {
+  ContactVector x(unknowns);
+  for (iterations_ = predict ? 0 : 1; iterations_ <= kMaxIterations;
+       ++iterations_) {
+    // The prediction goes on from the last linearisation of the frame before,
+    // whose Newton step has been taken.
+    const bool predicts = iterations_ == 0;
+    if (!predicts) {
+      if (!newton_.LinearizeByContacts(*contacts)) return false;
+      ReadGauges(unknowns);
+    }
+    Whiten(measured, weights, unknowns);
+    if (!std::isfinite(equations_.chi2)) return false;
+    if (equations_.chi2 > kMostRise * last_cost + 1 && damping < 1e6) {
       Restore(contacts);
       damping = std::max(1e-3, 100 * damping);
       last_cost = std::numeric_limits<double>::infinity();
       continue;
     }
     Keep(*contacts);
-    last_cost = cost;
-    const Change change = BoundedChange(*contacts, damping);
-    newton_.StepWithContacts(change.data());
+    last_cost = equations_.chi2;
+    for (int c = 0; c < count; ++c) {
+      x[2 * c] = (*contacts)[c].arc_mm / length;
+      x[2 * c + 1] = (*contacts)[c].normal_N / force;
+    }
+    const ContactVector change =
+        BoundedChange(equations_, x, most_force_N_ / force, damping);
+    newton_.StepWithContacts(predicts ? 0 : 1, change.data());
     const double size = newton_.Size(1, 0);
     if (!std::isfinite(size)) return false;
     const double share = std::min(1.0, kMaxTurn_rad / size);
     newton_.Move(share, 0);
-    double moved = size;
+    const double moved = LargestChange(change, x, size);
+    bool crossed = false;
     for (int c = 0; c < count; ++c) {
       PointContact& contact = (*contacts)[c];
+      const int before = mesh.Locate(contact.arc_mm).element;
       contact.arc_mm = std::clamp(
           contact.arc_mm + share * change[2 * c] * length, 0.0, length);
-      const double before = contact.normal_N / force;
       contact.normal_N =
           std::max(0.0, contact.normal_N + share * change[2 * c + 1] * force);
-      moved = std::max({moved, std::abs(change[2 * c]),
-                        std::abs(change[2 * c + 1]) / (before + kLeastForce)});
+      crossed |= mesh.Locate(contact.arc_mm).element != before;
     }
     damping *= 0.1;
-    const double ratio = moved / last_change;
-    const double deviations = std::sqrt(change.dot(normal_ * change));
-    if (moved * std::min(1.0, ratio) < tolerance_ ||
-        (iterations_ >= kPatience && deviations < kNoDifference &&
-         size < kNoDifference)) {
+    const double deviations = std::sqrt(change.dot(equations_.normal * change));
+    if (!predicts && (IsLastChange(moved, last_change, crossed, tolerance_) ||
+                      (iterations_ >= kPatience && deviations < kNoDifference &&
+                       size < kNoDifference))) {
       ReadPoses(count, change);
+      reading_.noalias() += d_reading_.leftCols(unknowns) * change;
       residual_.noalias() += slope_.leftCols(unknowns) * change;
       chi2_ = residual_.squaredNorm();
-      information_ = normal_;
+      information_ = equations_.normal;
       for (int k = 0; k < unknowns; ++k) {
         const double unit = k % 2 == 0 ? length : force;
         information_.row(k) /= unit;
         information_.col(k) /= unit;
       }
-      if (!newton_.RefineMesh()) return true;
+      if (!newton_.RefineMesh()) {
+        linearised_contacts_ = count;
+        return true;
+      }
       last_cost = std::numeric_limits<double>::infinity();
     }
     last_change = moved;

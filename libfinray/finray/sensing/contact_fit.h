@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "finray/sensing/contact_step.h"
 #include "finray/statics/ladder_newton.h"
 
 namespace finray {
@@ -37,7 +38,11 @@ class ContactFit {
   void set_most_force(double force_N) { most_force_N_ = force_N; }
 
   /// The equilibrium to start from, near the contacts given to Fit.
-  void set_state(const LadderState& state) { newton_.Load(state); }
+  void set_state(const LadderState& state) {
+    newton_.Load(state);
+    linearised_contacts_ = 0;
+  }
+  void SaveState(LadderState* state) const { newton_.Save(state); }
 
   /// Starts from the present equilibrium and from `*contacts` (one or two, on
   /// the front beam; their friction is kept) and leaves both at the solution.
@@ -46,13 +51,22 @@ class ContactFit {
   bool Fit(const Eigen::VectorXd& measured, const Eigen::VectorXd& weights,
            std::vector<PointContact>* contacts);
 
+  /// As Fit, for a frame like the one that the last call came to, in which
+  /// state and `*contacts` must be as that call left them: what that frame's
+  /// last linearisation makes of the new readings is where this one starts, so
+  /// that one iteration mostly is enough. It may be the last by the same rule
+  /// as any: the prediction's change counts as the one before. As Fit if there
+  /// was no such call.
+  bool Follow(const Eigen::VectorXd& measured, const Eigen::VectorXd& weights,
+              std::vector<PointContact>* contacts);
+
   // Of the last successful fit.
 
   double chi2() const { return chi2_; }
+  /// Linearisations that it took.
   int iterations() const { return iterations_; }
   /// Fisher information of (l_c, f_c) of each contact, per mm and N.
-  using Information = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
-                                    2 * kFittedContacts, 2 * kFittedContacts>;
+  using Information = ContactMatrix;
   const Information& information() const { return information_; }
   /// (x, y, theta) of a contact and of the tip, mm and rad.
   const Eigen::Vector3d& contact_pose(int contact) const {
@@ -64,15 +78,13 @@ class ContactFit {
   }
 
  private:
-  using Change =
-      Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kFittedContacts, 1>;
-
-  void ReadMeasurements(const Eigen::VectorXd& measured,
-                        const Eigen::VectorXd& weights, int unknowns);
+  bool Run(const Eigen::VectorXd& measured, const Eigen::VectorXd& weights,
+           bool predict, std::vector<PointContact>* contacts);
+  void ReadGauges(int unknowns);
   void ReadCentre(double radius_mm, int unknowns);
-  void ReadPoses(int contacts, const Change& change);
-  Change BoundedChange(const std::vector<PointContact>& contacts,
-                       double damping) const;
+  void Whiten(const Eigen::VectorXd& measured, const Eigen::VectorXd& weights,
+              int unknowns);
+  void ReadPoses(int contacts, const ContactVector& change);
   void Keep(const std::vector<PointContact>& contacts);
   void Restore(std::vector<PointContact>* contacts);
 
@@ -84,12 +96,13 @@ class ContactFit {
   int iterations_ = 0;
   Information information_;
   std::array<Eigen::Vector3d, kFittedContacts + 1> poses_;
-  // Whitened residuals and slopes by (l_c, f_c) in the ladder's units, and
-  // their normal equations.
-  Eigen::VectorXd residual_;
-  Eigen::Matrix<double, Eigen::Dynamic, 2 * kFittedContacts> slope_;
-  Information normal_;
-  Change gradient_;
+  // Gauge angles and slopes by (l_c, f_c) in the ladder's units; the same
+  // whitened, as residuals.
+  Eigen::VectorXd reading_, residual_;
+  Eigen::Matrix<double, Eigen::Dynamic, 2 * kFittedContacts> d_reading_, slope_;
+  ContactEquations equations_;
+  // Of how many contacts the frame holds the last linearisation of a fit.
+  int linearised_contacts_ = 0;
   std::vector<double> kept_state_;
   std::vector<PointContact> kept_contacts_;
 };

@@ -18,9 +18,10 @@ namespace finray {
 //
 //   void Solve(start, stiffness, axial_flexibility, length);
 //   void SolveAndDifferentiate(the same);   // by the start of the element
-//   void DifferentiateByParameters();       // by EI and h, after that
+//   void DifferentiateByStiffness();        // after that
+//   void DifferentiateByLength();           // likewise
 //   const BasicElementMap<V>& map() const;
-//   BasicAngleReadout<V> AngleAt(V offset) const;   // inside, after all three
+//   BasicAngleReadout<V> AngleAt(V offset) const;   // inside, after the second
 //   BasicBeamPoint<V> PointAt(V offset) const;
 //   void DenseOutput(V (*coefficients)[4]) const;   // kDegree + 1 of them
 //   V Truncation() const;                      // of the angle at the end, rad

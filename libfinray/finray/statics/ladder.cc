@@ -60,6 +60,11 @@ LadderModel::LadderModel(const Finger& finger,
             MakeBeamMesh(finger, Side::kBack, resolution)});
 }
 
+bool Stretches(const Finger& finger) {
+  return std::isfinite(AxialStiffness(finger, Side::kFront)) ||
+         std::isfinite(AxialStiffness(finger, Side::kBack));
+}
+
 void LadderModel::set_mesh(const std::array<BeamMesh, 2>& mesh) {
   mesh_ = mesh;
   for (const Side side : {Side::kFront, Side::kBack}) {

@@ -42,6 +42,9 @@ struct PointContact {
   Side side = Side::kFront;
 };
 
+/// Whether a beam has axial flexibility.
+bool Stretches(const Finger& finger);
+
 /// A finger cut into elements. Stiffness and rib lengths may be changed between
 /// solves (calibration does).
 class LadderModel {

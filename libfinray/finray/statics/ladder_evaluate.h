@@ -7,75 +7,44 @@
 namespace finray {
 inline namespace FINRAY_ISA {
 
-template <class T>
-inline T Magnitude(T a) {
-  return a < 0 ? -a : a;
-}
-
 // The force of a contact for f = 1, normal into the finger plus friction along
 // the tangent, n + mu t, and its derivative by theta.
 template <class T>
-inline void ContactDirection(const LadderContact<T>& contact, T theta, T* unit,
-                             T* turned) {
+inline void ContactDirection(const LadderContact<T>& contact, const T& theta,
+                             T* unit, T* turned) {
+  using Scalar = typename ValueTraits<T>::Scalar;
   T s, c;
   SinCos(theta, &s, &c);
-  const T into = contact.side == 0 ? T(1) : T(-1), mu = contact.friction;
+  const Scalar into = contact.side == 0 ? Scalar(1) : Scalar(-1);
+  const T mu = contact.friction;
   unit[0] = into * s + mu * c;
-  unit[1] = -into * c + mu * s;
+  unit[1] = mu * s - into * c;
   turned[0] = into * c - mu * s;
   turned[1] = into * s + mu * c;
 }
 
 // The first half of a Newton step (ladder_kernel.h). Wide is the scheme's
-// element over vector lanes, Single the same over one number.
+// element over vector lanes, Single the same over one T. Where lanes are
+// elements, starts are collected first and then solved vector by vector; where
+// they are frames (kWidth 1), each element is solved when the walk meets it.
 template <class T, class Wide, class Single>
 class LadderEvaluator {
  public:
+  using Scalar = typename ValueTraits<T>::Scalar;
   using V = typename Lanes<T>::Vector;
   using U = typename Lanes<T>::Unaligned;
   static constexpr int kWidth = Lanes<T>::kWidth;
 
-  explicit LadderEvaluator(LadderFrame<T>* frame) : f_(*frame) {}
+  LadderEvaluator(LadderFrame<T>* frame, SweepColumns columns)
+      : f_(*frame), columns_(columns) {}
 
-  T Evaluate(bool parameters, bool propagate) {
-    FillSlots(propagate);
-    for (int slot = 0; slot < f_.slots(); slot += kWidth) {
-      ComputeMaps(slot, parameters);
-    }
-    return CollectGaps();
-  }
-
-  void ReadGauges() {
+  void Evaluate(bool propagate) {
     AssignReadouts();
-    Wide element;
-    for (int first = 0; first < f_.readout_count; first += kWidth) {
-      const int lanes = f_.readout_count - first;
-      T gathered[8][kWidth];
-      for (int lane = 0; lane < kWidth; ++lane) {
-        const int i = first + (lane < lanes ? lane : 0);
-        const int slot = f_.readout_slot[i];
-        const T offset = ReadoutOffset(i);
-        const T values[8] = {f_.slot_theta[slot],     f_.slot_moment[slot],
-                             f_.slot_fx[slot],        f_.slot_fy[slot],
-                             f_.slot_stiffness[slot], f_.slot_axial[slot],
-                             f_.slot_length[slot],    offset};
-        for (int k = 0; k < 8; ++k) gathered[k][lane] = values[k];
-      }
-      V input[8];
-      for (int k = 0; k < 8; ++k) input[k] = Load(gathered[k]);
-      element.SolveAndDifferentiate({input[0], input[1], input[2], input[3]},
-                                    input[4], input[5], input[6]);
-      element.DifferentiateByParameters();
-      const auto at = element.AngleAt(input[7]);
-      for (int lane = 0; lane < kWidth && lane < lanes; ++lane) {
-        T* out = f_.readout_map + kReadoutValues * (first + lane);
-        out[0] = at.theta_rad[lane];
-        for (int p = 0; p < 4; ++p) out[1 + p] = at.d_start[p][lane];
-        out[5] = at.d_stiffness[lane];
-        out[6] = at.d_offset[lane];
-        out[7] = at.d_length[lane];
-      }
+    FillSlots(propagate);
+    if constexpr (kWidth > 1) {
+      for (int slot = 0; slot < f_.slots(); slot += kWidth) ComputeMaps(slot);
     }
+    CollectGaps();
   }
 
  private:
@@ -120,14 +89,14 @@ class LadderEvaluator {
     }
     // What fills the last lanes must be harmless.
     for (int slot = f_.slots(); slot % kWidth != 0; ++slot) {
-      PutSlot(slot, {0, 0, 0, 0}, 0, 0);
-      f_.slot_fx[slot] = f_.slot_fy[slot] = 0;
-      f_.slot_stiffness[slot] = 1;
-      f_.slot_axial[slot] = 0;
+      PutSlot(slot, {T{}, T{}, T{}, T{}}, 0, T{});
+      f_.slot_fx[slot] = f_.slot_fy[slot] = T{};
+      f_.slot_stiffness[slot] = T{} + Scalar(1);
+      f_.slot_axial[slot] = T{};
     }
   }
 
-  void PutSlot(int slot, const End& start, int element, T length) {
+  void PutSlot(int slot, const End& start, int element, const T& length) {
     f_.slot_x[slot] = start.x;
     f_.slot_y[slot] = start.y;
     f_.slot_theta[slot] = start.theta;
@@ -143,7 +112,7 @@ class LadderEvaluator {
     f_.slot_fx[e] = force[0];
     f_.slot_fy[e] = force[1];
     int slot = e;
-    T from = 0;
+    T from{};
     for (; *contact < f_.contact_count && f_.contacts[*contact].element == e;
          ++*contact) {
       const LadderContact<T>& c = f_.contacts[*contact];
@@ -159,8 +128,11 @@ class LadderEvaluator {
       f_.slot_fx[slot] = force[0];
       f_.slot_fy[slot] = force[1];
     }
+    if constexpr (kWidth == 1) {
+      ComputeMaps(slot);
+    }
     if (propagate) {
-      const End end = SolveSlot(slot);
+      const End end = kWidth == 1 ? SlotEnd(slot) : SolveSlot(slot);
       z.x[e + 1] = end.x;
       z.y[e + 1] = end.y;
       z.theta[e + 1] = end.theta;
@@ -168,27 +140,34 @@ class LadderEvaluator {
     }
   }
 
-  End SolveSlot(int slot) const {
-    Single element;
-    element.Solve({f_.slot_theta[slot], f_.slot_moment[slot], f_.slot_fx[slot],
-                   f_.slot_fy[slot]},
-                  f_.slot_stiffness[slot], f_.slot_axial[slot],
-                  f_.slot_length[slot]);
-    const auto& end = element.map().end;
-    return {f_.slot_x[slot] + end[0], f_.slot_y[slot] + end[1], end[2], end[3]};
+  End SolveSlot(int slot) {
+    if constexpr (kWidth == 1) {
+      ComputeMaps(slot);
+      return SlotEnd(slot);
+    } else {
+      Single element;
+      element.Solve({f_.slot_theta[slot], f_.slot_moment[slot],
+                     f_.slot_fx[slot], f_.slot_fy[slot]},
+                    f_.slot_stiffness[slot], f_.slot_axial[slot],
+                    f_.slot_length[slot]);
+      const auto& end = element.map().end;
+      return {f_.slot_x[slot] + end[0], f_.slot_y[slot] + end[1], end[2],
+              end[3]};
+    }
   }
 
   void PassRib(int rib, const int at[2], T force[2][2]) {
     const LadderNodes<T>& z = f_.state;
     const T dx = z.x[at[1]] - z.x[at[0]], dy = z.y[at[1]] - z.y[at[0]];
-    const T distance = std::sqrt(dx * dx + dy * dy);
+    const T distance = SquareRoot(T(dx * dx + dy * dy));
     const T ux = dx / distance, uy = dy / distance;
     const T tension = z.q[6 + rib];
     f_.rib_ux[rib] = ux;
     f_.rib_uy[rib] = uy;
     f_.rib_distance[rib] = distance;
     f_.closure[rib] =
-        distance - f_.rib_length[rib] * (1 + tension * f_.rib_flexibility[rib]);
+        distance -
+        f_.rib_length[rib] * (Scalar(1) + tension * f_.rib_flexibility[rib]);
     force[0][0] -= tension * ux;
     force[0][1] -= tension * uy;
     force[1][0] += tension * ux;
@@ -199,8 +178,9 @@ class LadderEvaluator {
   static void Store(T* to, const V& value) {
     *reinterpret_cast<U*>(to) = value;
   }
+  static T* Lane(V* value) { return reinterpret_cast<T*>(value); }
 
-  void ComputeMaps(int slot, bool parameters) {
+  void ComputeMaps(int slot) {
     Wide element;
     element.SolveAndDifferentiate(
         {Load(f_.slot_theta + slot), Load(f_.slot_moment + slot),
@@ -216,11 +196,56 @@ class LadderEvaluator {
       }
     }
     Store(f_.truncation + slot, element.Truncation());
-    if (!parameters) return;
-    element.DifferentiateByParameters();
-    for (int i = 0; i < 4; ++i) {
-      Store(out + (kMapStiffness + i) * kWidth, map.d_stiffness[i]);
-      Store(out + (kMapLength + i) * kWidth, map.d_length[i]);
+    if (columns_ == SweepColumns::kParameters) {
+      element.DifferentiateByStiffness();
+      for (int i = 0; i < 4; ++i) {
+        Store(out + (kMapStiffness + i) * kWidth, map.d_stiffness[i]);
+      }
+    }
+    int readouts = 0;
+    bool at_contact = false;
+    for (int lane = 0; lane < kWidth; ++lane) {
+      const int here = Readouts(slot + lane);
+      if (here > readouts) readouts = here;
+      at_contact |= IsAtContact(slot + lane);
+    }
+    if (at_contact && (columns_ == SweepColumns::kContacts ||
+                       columns_ == SweepColumns::kParameters)) {
+      element.DifferentiateByLength();
+      for (int i = 0; i < 4; ++i) {
+        Store(out + (kMapLength + i) * kWidth, map.d_length[i]);
+      }
+    }
+    for (int k = 0; k < readouts; ++k) ReadGauges(element, slot, k);
+  }
+
+  // Whether the slot's length changes as a contact moves.
+  bool IsAtContact(int slot) const {
+    if (slot >= f_.elements) return true;
+    for (int c = 0; c < f_.contact_count; ++c) {
+      if (f_.contacts[c].element == slot) return true;
+    }
+    return false;
+  }
+
+  // The k-th readout of each of the slots.
+  void ReadGauges(const Wide& element, int slot, int k) {
+    V offset{};
+    for (int lane = 0; lane < kWidth; ++lane) {
+      if (k < Readouts(slot + lane)) {
+        Lane(&offset)[lane] = ReadoutOffset(slot + lane, k);
+      }
+    }
+    auto at = element.AngleAt(offset);
+    for (int lane = 0; lane < kWidth; ++lane) {
+      if (k >= Readouts(slot + lane)) continue;
+      T* out =
+          f_.readout_map + kReadoutValues * (f_.first_readout[slot + lane] + k);
+      out[0] = Lane(&at.theta_rad)[lane];
+      for (int p = 0; p < 4; ++p) out[1 + p] = Lane(at.d_start + p)[lane];
+      out[5] = Lane(&at.d_stiffness)[lane];
+      out[6] = Lane(&at.d_offset)[lane];
+      out[7] = Lane(&at.d_length)[lane];
     }
   }
 
@@ -234,15 +259,10 @@ class LadderEvaluator {
             MapEnd(slot, 3)};
   }
 
-  T CollectGaps() {
+  void CollectGaps() {
     const LadderNodes<T>& z = f_.state;
     End tip[2];
-    T largest = 0;
-    // Written so that a NaN gets through.
-    const auto meet = [&largest](T residual) {
-      const T size = Magnitude(residual);
-      if (!(size <= largest)) largest = size;
-    };
+    T largest{};
     for (int side = 0; side < 2; ++side) {
       for (int e = side == 0 ? 0 : f_.front_elements; e < SideEnd(side); ++e) {
         const End end = SlotEnd(f_.contact_count == 0 ? e : LastSlot(e));
@@ -255,7 +275,9 @@ class LadderEvaluator {
         gap[1] = end.y - z.y[e + 1];
         gap[2] = end.theta - z.theta[e + 1];
         gap[3] = end.moment - z.moment[e + 1];
-        for (int i = 0; i < 4; ++i) meet(gap[i]);
+        for (int i = 0; i < 4; ++i) {
+          largest = Larger(largest, Magnitude(gap[i]));
+        }
       }
     }
     f_.tip[0] = tip[0].x;
@@ -267,32 +289,42 @@ class LadderEvaluator {
     closure[2] =
         (tip[0].theta - f_.base_angle[0]) - (tip[1].theta - f_.base_angle[1]);
     closure[3] = tip[0].moment + tip[1].moment;
-    for (int i = 0; i < f_.ribs + 6; ++i) meet(f_.closure[i]);
-    return largest;
+    for (int i = 0; i < f_.ribs + 6; ++i) {
+      largest = Larger(largest, Magnitude(f_.closure[i]));
+    }
+    f_.residual = largest;
   }
 
   // The slot that holds each readout: past the last contact at or before it.
   void AssignReadouts() {
+    const int slots = (f_.slots() + kWidth - 1) / kWidth * kWidth;
+    for (int slot = 0; slot < slots; ++slot) {
+      f_.first_readout[slot] = f_.end_readout[slot] = 0;
+    }
     for (int i = 0; i < f_.readout_count; ++i) {
       const LadderReadout<T>& readout = f_.readouts[i];
       int slot = readout.element;
       for (int c = 0; c < f_.contact_count; ++c) {
         if (f_.contacts[c].element == readout.element &&
-            f_.contacts[c].offset <= readout.offset) {
+            SmallestLane(T(readout.offset - f_.contacts[c].offset)) >= 0) {
           slot = f_.elements + c;
         }
       }
-      f_.readout_slot[i] = slot;
+      if (f_.end_readout[slot] == 0) f_.first_readout[slot] = i;
+      f_.end_readout[slot] = i + 1;
     }
   }
-  T ReadoutOffset(int i) const {
-    const int slot = f_.readout_slot[i];
-    const T from =
-        slot < f_.elements ? T(0) : f_.contacts[slot - f_.elements].offset;
-    return f_.readouts[i].offset - from;
+  int Readouts(int slot) const {
+    return f_.end_readout[slot] - f_.first_readout[slot];
+  }
+  T ReadoutOffset(int slot, int k) const {
+    const T& offset = f_.readouts[f_.first_readout[slot] + k].offset;
+    if (slot < f_.elements) return offset;
+    return offset - f_.contacts[slot - f_.elements].offset;
   }
 
   LadderFrame<T>& f_;
+  const SweepColumns columns_;
 };
 
 }  // namespace FINRAY_ISA

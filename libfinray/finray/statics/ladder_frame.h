@@ -12,6 +12,13 @@ namespace finray {
 // Elements are numbered front beam first, base to tip, then the back beam. A
 // slot is a piece of an element: the element up to its first contact has the
 // element's number, what follows contact c has number elements + c.
+//
+// T is double or float, and vector lanes are elements (evaluation) and columns
+// (sweep) of one frame; or it is FourFrames of lanes.h, each number being one
+// of each of four frames, which share mesh, pivots and what else is an integer
+// here. The code is the same. Numbers are aligned to their size, which not
+// every instruction set does of itself; so no local variable goes to the
+// kernel.
 
 /// Which derivatives a sweep carries beside the Newton step.
 enum class SweepColumns {
@@ -26,11 +33,13 @@ template <class T>
 struct LadderContact {
   int side;  ///< 0 front, 1 back.
   int element;
-  T offset;  ///< from the start of the element.
+  int index;    ///< the caller's number of it.
+  int columns;  ///< the number of its derivatives by (l_c, f_c).
+  alignas(sizeof(T)) T offset;  ///< from the start of the element.
   T normal;
   T friction;
   T d_normal;  ///< by the load factor.
-  int index;   ///< the caller's number of it.
+  T present;   ///< 0 in frames that have no contact in this element, else 1.
 };
 
 /// Where one end of a gauge reads its beam's angle.
@@ -39,7 +48,7 @@ struct LadderReadout {
   int gauge;
   int sign;
   int element;
-  T offset;
+  alignas(sizeof(T)) T offset;
 };
 
 /// Base moments and forces and rib tensions (q of ladder.h), and (x, y, theta,
@@ -66,16 +75,16 @@ template <class T>
 struct LadderFrame {
   // The finger and its mesh.
   int front_elements = 0, elements = 0, ribs = 0;
-  T base_x[2] = {0, 0}, base_angle[2] = {0, 0};
+  alignas(sizeof(T)) T base_x[2] = {}, base_angle[2] = {};
   T *length, *stiffness, *stiffness_ratio, *axial_flexibility;
-  int* rib_element[2];  ///< the element that starts at the hinge.
+  int *rib_element[2];  ///< the element that starts at the hinge.
   T *rib_length, *rib_flexibility, *d_rib_length;
   int readout_count = 0;
-  LadderReadout<T>* readouts;  ///< by element and offset.
+  LadderReadout<T> *readouts;  ///< by element and offset.
 
   // The load.
   int contact_count = 0;
-  LadderContact<T>* contacts;  ///< by element and offset.
+  LadderContact<T> *contacts;  ///< by element and offset.
 
   // The state, Newton's step and, with kLoad, the derivative by the load.
   LadderNodes<T> state, step, by_load;
@@ -85,12 +94,14 @@ struct LadderFrame {
   T *slot_theta, *slot_moment, *slot_fx, *slot_fy;  ///< starts
   T *slot_length, *slot_stiffness, *slot_axial;
   T *maps, *truncation;
-  T* gap;      ///< four an element, at its start.
-  T* closure;  ///< ribs, then six at the tip.
-  T tip[3];    ///< x, y, theta of the front beam's end.
+  T *gap;      ///< four an element, at its start.
+  T *closure;  ///< ribs, then six at the tip.
+  /// (x, y, theta) of the front beam's end.
+  alignas(sizeof(T)) T tip[3];
+  alignas(sizeof(T)) T residual;  ///< the largest, NaN if any is.
   T *rib_ux, *rib_uy, *rib_distance;
-  int* readout_slot;
-  T* readout_map;
+  int *first_readout, *end_readout;  ///< the readouts of each slot.
+  T *readout_map;
 
   // What a sweep leaves: rows of `stride` columns [six parameters, or all of q
   // | the constant of the step | derivatives]. After a closed sweep the taps
@@ -99,13 +110,18 @@ struct LadderFrame {
   // six equations of the tip follow, all with their derivatives by q.
   int affine = 6, stride = 8, node_columns = kNodeColumns;
   int event_count = 0;
-  T* taps;
-  T* q_step;  ///< rows of the change of q.
+  T *taps;
+  T *q_step;  ///< rows of the change of q.
+
+  /// What Combine takes: the share of Newton's step, and by how much each
+  /// contact is moved, (l_c, f_c).
+  alignas(sizeof(T)) T newton;
+  alignas(sizeof(T)) T change[2 * kFittedContacts];
 
   // The sweep's own memory.
   T *rows, *tip_rows, *node_rows, *pivots, *parameters;
   int *pivot_column, *pivot_rib, *events;
-  T* pivot_flexibility;
+  T *pivot_flexibility;
 
   int slots() const { return elements + contact_count; }
   int contact_tap(int c) const { return 3 * c; }

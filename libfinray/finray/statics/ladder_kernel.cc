@@ -13,15 +13,10 @@ namespace {
 using Frame = LadderFrame<double>;
 using V = Lanes<double>::Vector;
 
-template <class Wide, class Single>
-double EvaluateScheme(Frame& frame, bool parameters, bool propagate) {
-  return LadderEvaluator<double, Wide, Single>(&frame).Evaluate(parameters,
-                                                                propagate);
-}
-
-template <class Wide, class Single>
-void ReadGaugesOfScheme(Frame& frame) {
-  LadderEvaluator<double, Wide, Single>(&frame).ReadGauges();
+template <class T, class Wide, class Single>
+void EvaluateScheme(LadderFrame<T>& frame, SweepColumns columns,
+                    bool propagate) {
+  LadderEvaluator<T, Wide, Single>(&frame, columns).Evaluate(propagate);
 }
 
 bool SweepColumnsOf(Frame& frame, SweepColumns columns, bool open,
@@ -43,9 +38,26 @@ bool Sweep(Frame& frame, SweepColumns columns, bool readouts) {
   return SweepColumnsOf(frame, columns, false, readouts);
 }
 
-void Combine(Frame& frame, const double* change) {
+// One contact's derivatives and nothing else.
+using SweeperFour = LadderSweeper<FourFrames, 9>;
+
+template <class Element>
+void EvaluateFour(LadderFrame<FourFrames>& frame) {
+  EvaluateScheme<FourFrames, Element, Element>(frame, SweepColumns::kContacts,
+                                               false);
+}
+
+bool SweepFour(LadderFrame<FourFrames>& frame) {
+  return SweeperFour(&frame, SweepColumns::kContacts, false).Run(true);
+}
+
+void CombineFour(LadderFrame<FourFrames>& frame) {
+  SweeperFour(&frame, SweepColumns::kContacts, false).Combine(2);
+}
+
+void Combine(Frame& frame) {
   LadderSweeper<double, 0>(&frame, SweepColumns::kContacts, false)
-      .Combine(change);
+      .Combine(2 * frame.contact_count);
 }
 
 void OpenSweep(Frame& frame, SweepColumns columns) {
@@ -54,8 +66,11 @@ void OpenSweep(Frame& frame, SweepColumns columns) {
 
 template <class Wide, class Single>
 constexpr LadderKernel KernelOfScheme() {
-  return {EvaluateScheme<Wide, Single>, ReadGaugesOfScheme<Wide, Single>, Sweep,
-          Combine, OpenSweep};
+  return {EvaluateScheme<double, Wide, Single>,
+          Sweep,
+          Combine,
+          OpenSweep,
+          {EvaluateFour<Wide>, SweepFour, CombineFour}};
 }
 
 template <int K, bool kStretch>

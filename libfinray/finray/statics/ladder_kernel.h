@@ -3,6 +3,7 @@
 
 #include "finray/statics/discretization.h"
 #include "finray/statics/ladder_frame.h"
+#include "finray/statics/lanes.h"
 
 namespace finray {
 
@@ -34,23 +35,29 @@ namespace finray {
 // Walking back through the exchanges gives the step.
 
 struct LadderKernel {
-  /// Fills slots, maps, gaps and closures. Returns the largest residual, NaN if
-  /// any number is. With `parameters` also derivatives by EI and length; with
-  /// `propagate` the nodes are overwritten by what reaches them, so that there
-  /// are no gaps.
-  double (*evaluate)(LadderFrame<double>&, bool parameters, bool propagate);
-  /// Fills readout_map from the slots of the last evaluation.
-  void (*read_gauges)(LadderFrame<double>&);
+  /// Fills slots, maps, readouts, gaps and closures, for a sweep with such
+  /// columns or with none. With `propagate` the nodes are overwritten by what
+  /// reaches them, so that there are no gaps.
+  void (*evaluate)(LadderFrame<double>&, SweepColumns, bool propagate);
   /// Solves for taps, q_step and, but for kContacts, the step. False if the
   /// system is singular.
   bool (*sweep)(LadderFrame<double>&, SweepColumns, bool readouts);
   /// After a sweep with kContacts, which takes up to kFittedContacts: the step
-  /// that also moves the contacts, by `change` of (l_c, f_c) of each in the
-  /// caller's order.
-  void (*combine)(LadderFrame<double>&, const double* change);
+  /// of the frame's `newton` times Newton's that also moves the contacts, by
+  /// the frame's `change` in the caller's order.
+  void (*combine)(LadderFrame<double>&);
   /// Fills taps only, with all of q as parameters: no rib is exchanged and the
   /// tip stays open.
   void (*open_sweep)(LadderFrame<double>&, SweepColumns);
+
+  /// The same for four frames in lanes, with the derivatives by one contact; a
+  /// sweep is singular if it is in any lane. Its memory is that of SetColumns
+  /// with kContacts and one contact.
+  struct {
+    void (*evaluate)(LadderFrame<FourFrames>&);
+    bool (*sweep)(LadderFrame<FourFrames>&);
+    void (*combine)(LadderFrame<FourFrames>&);
+  } four;
 };
 
 /// The kernel of a scheme in the best instruction set of this machine; kStretch

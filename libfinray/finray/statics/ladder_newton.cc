@@ -27,11 +27,6 @@ constexpr double kShapeFloor = 1e-12;
 // A start from another load, whose change says nothing of Newton's constant.
 constexpr double kFarChange = 0.1;
 
-bool Stretches(const Finger& finger) {
-  return std::isfinite(AxialStiffness(finger, Side::kFront)) ||
-         std::isfinite(AxialStiffness(finger, Side::kBack));
-}
-
 }  // namespace
 
 LadderNewton::LadderNewton(const Finger& finger,
@@ -128,17 +123,16 @@ bool LadderNewton::ConvergeOnMesh(const std::vector<PointContact>& contacts,
   for (int c = 0; c < f.contact_count; ++c) {
     load += std::abs(f.contacts[c].normal);
   }
-  const bool parameters = columns == SweepColumns::kParameters;
   double last_change = 0, best = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMaxIterations; ++i) {
     ++iterations_;
-    const double residual = kernel_->evaluate(f, parameters, false);
+    kernel_->evaluate(f, columns, false);
+    const double residual = f.residual;
     if (!std::isfinite(residual)) return false;
     const bool maybe_last =
         residual < kNearlyThere * load || (i > 0 && last_change < kSmallChange);
     const SweepColumns now = maybe_last ? columns : SweepColumns::kNone;
     workspace_.SetColumns(model_, now, false);
-    if (maybe_last) kernel_->read_gauges(f);
     if (!kernel_->sweep(f, now, maybe_last)) return false;
     const double size = Size(1, 0);
     if (!std::isfinite(size)) return false;
@@ -179,8 +173,9 @@ double LadderNewton::LoadChange() const {
 }
 
 bool LadderNewton::Evaluate(const std::vector<PointContact>& contacts) {
-  return SetLoad(contacts, 1, SweepColumns::kNone, false) &&
-         std::isfinite(kernel_->evaluate(workspace_.frame(), false, false));
+  if (!SetLoad(contacts, 1, SweepColumns::kNone, false)) return false;
+  kernel_->evaluate(workspace_.frame(), SweepColumns::kNone, false);
+  return std::isfinite(frame().residual);
 }
 
 bool LadderNewton::Linearize(const std::vector<PointContact>& contacts,
@@ -188,7 +183,8 @@ bool LadderNewton::Linearize(const std::vector<PointContact>& contacts,
   if (!SetLoad(contacts, fraction, SweepColumns::kLoad, false)) return false;
   LadderFrame<double>& f = workspace_.frame();
   ++iterations_;
-  if (!std::isfinite(kernel_->evaluate(f, false, false))) return false;
+  kernel_->evaluate(f, SweepColumns::kLoad, false);
+  if (!std::isfinite(f.residual)) return false;
   return kernel_->sweep(f, SweepColumns::kLoad, false);
 }
 
@@ -199,10 +195,16 @@ bool LadderNewton::LinearizeByContacts(
   if (!SetLoad(contacts, 1, SweepColumns::kContacts, false)) return false;
   LadderFrame<double>& f = workspace_.frame();
   ++iterations_;
-  // Derivatives by length are those by l_c.
-  if (!std::isfinite(kernel_->evaluate(f, true, false))) return false;
-  kernel_->read_gauges(f);
+  kernel_->evaluate(f, SweepColumns::kContacts, false);
+  if (!std::isfinite(f.residual)) return false;
   return kernel_->sweep(f, SweepColumns::kContacts, true);
+}
+
+void LadderNewton::StepWithContacts(double newton, const double* change) {
+  LadderFrame<double>& f = workspace_.frame();
+  std::copy_n(change, 2 * f.contact_count, f.change);
+  f.newton = newton;
+  kernel_->combine(f);
 }
 
 void LadderNewton::Move(double a, double b) {
@@ -226,8 +228,7 @@ double LadderNewton::Size(double a, double b) const {
   for (int i = 0; i < 3 * f.elements; ++i) {
     const double size =
         std::abs(b == 0 ? a * step[i] : a * step[i] + b * by_load[i]);
-    // Written so that a NaN gets through.
-    if (!(size <= largest)) largest = size;
+    largest = Larger(largest, size);
   }
   return largest;
 }
@@ -264,8 +265,8 @@ bool LadderNewton::Shoot(const Eigen::VectorXd& q,
   }
   f.state.moment[0] = f.state.q[0];
   f.state.moment[f.front_elements] = f.state.q[3];
-  if (!std::isfinite(kernel_->evaluate(f, true, true))) return false;
-  kernel_->read_gauges(f);
+  kernel_->evaluate(f, SweepColumns::kParameters, true);
+  if (!std::isfinite(f.residual)) return false;
   kernel_->open_sweep(f, SweepColumns::kParameters);
   return true;
 }

@@ -51,11 +51,9 @@ class LadderNewton {
   /// contact (at most kFittedContacts) and the gauges read: taps are filled, no
   /// step is. False as above.
   bool LinearizeByContacts(const std::vector<PointContact>& contacts);
-  /// Fills `step` after that: Newton's step, with each contact's (l_c, f_c)
-  /// moved by `change` in units of the workspace.
-  void StepWithContacts(const double* change) {
-    kernel_->combine(workspace_.frame(), change);
-  }
+  /// Fills `step` after that: `newton` times Newton's step, with each contact's
+  /// (l_c, f_c) moved by `change` in units of the workspace.
+  void StepWithContacts(double newton, const double* change);
 
   /// state += a * step + b * by_load.
   void Move(double a, double b);

@@ -12,6 +12,7 @@ inline namespace FINRAY_ISA {
 template <class T, int kVectors>
 class LadderSweeper {
  public:
+  using Scalar = typename ValueTraits<T>::Scalar;
   using V = typename Lanes<T>::Vector;
   using U = typename Lanes<T>::Unaligned;
   static constexpr int kWidth = Lanes<T>::kWidth;
@@ -42,31 +43,29 @@ class LadderSweeper {
     return true;
   }
 
-  // The walk back once more, for the one change that moves each contact by
-  // `change` of (l_c, f_c).
-  void Combine(const T* change) {
+  // The walk back once more, for the frame's `newton` and `change`.
+  void Combine(int derivatives) {
     T with[kMostNodeColumns] = {};  // parameters, 1, change
-    with[f_.affine] = 1;
-    const int derivatives = 2 * f_.contact_count;
-    for (int k = 0; k < derivatives; ++k) with[f_.affine + 1 + k] = change[k];
+    with[affine()] = f_.newton;
+    for (int k = 0; k < derivatives; ++k) with[affine() + 1 + k] = f_.change[k];
     LadderNodes<T>& step = f_.step;
     for (int i = f_.event_count - 1; i >= 0; --i) {
       const int event = f_.events[i] % 4, index = f_.events[i] / 4;
       if (event == kNode) FinishNodeWith(with, &step, index);
       if (event != kPivot) continue;
-      const T* g = f_.pivots + index * f_.stride;
+      const T* g = f_.pivots + index * stride();
       const int column = f_.pivot_column[index];
       const T exchanged = with[column];
       if (f_.pivot_rib[index] >= 0) step.q[6 + f_.pivot_rib[index]] = exchanged;
       T sum = f_.pivot_flexibility[index] * exchanged;
-      with[column] = 0;
-      for (int k = 0; k <= f_.affine + derivatives; ++k) sum -= g[k] * with[k];
+      with[column] = T{};
+      for (int k = 0; k <= affine() + derivatives; ++k) sum -= g[k] * with[k];
       with[column] = sum / g[column];
     }
     for (int j = 0; j < 6; ++j) step.q[j] = with[j];
     for (int side = 0; side < 2; ++side) {
       const int base = side == 0 ? 0 : f_.front_elements;
-      step.x[base] = step.y[base] = step.theta[base] = 0;
+      step.x[base] = step.y[base] = step.theta[base] = T{};
       step.moment[base] = step.q[3 * side];
     }
   }
@@ -76,16 +75,20 @@ class LadderSweeper {
   enum Event { kNode, kTap, kPivot };
   // Beyond this the parameters are exchanged: it costs as many digits of a
   // step, which Newton's next one corrects.
-  static constexpr T kLargestGrowth = 1000;
+  static constexpr Scalar kLargestGrowth = 1000;
   static constexpr int kParameterVectors = (6 + kWidth - 1) / kWidth;
 
   int vectors() const { return kVectors > 0 ? kVectors : f_.stride / kWidth; }
+  int stride() const { return vectors() * kWidth; }
+  int affine() const { return open_ ? f_.affine : 6; }
+  // The first vector that the walk back has values in.
+  int first_value() const { return affine() / kWidth; }
   T* RowOf(int side, int row) const {
-    return f_.rows + (kRows * side + row) * f_.stride;
+    return f_.rows + (kRows * side + row) * stride();
   }
-  T* Tap(int tap) const { return f_.taps + tap * f_.stride; }
+  T* Tap(int tap) const { return f_.taps + tap * stride(); }
 
-  static V Broadcast(T value) { return value - V{}; }
+  static V Broadcast(const T& value) { return value - V{}; }
   static U* Wide(T* row) { return reinterpret_cast<U*>(row); }
   static const U* Wide(const T* row) { return reinterpret_cast<const U*>(row); }
   void Clear(T* row) const {
@@ -95,7 +98,7 @@ class LadderSweeper {
     for (int v = 0; v < vectors(); ++v) Wide(to)[v] = Wide(from)[v];
   }
   // to += a from
-  void Add(T a, const T* from, T* to) const {
+  void Add(const T& a, const T* from, T* to) const {
     const V wide = Broadcast(a);
     for (int v = 0; v < vectors(); ++v) Wide(to)[v] += wide * Wide(from)[v];
   }
@@ -107,13 +110,14 @@ class LadderSweeper {
   }
   bool by_load() const { return columns_ == SweepColumns::kLoad; }
   int ContactColumn(int c) const {
-    return f_.affine + 1 + 2 * f_.contacts[c].index;
+    return affine() + 1 + 2 * f_.contacts[c].columns;
   }
+  const T& Present(int c) const { return f_.contacts[c].present; }
   int StiffnessColumn(int side) const {
-    return f_.affine + 1 + 2 * f_.contact_count + side;
+    return affine() + 1 + 2 * f_.contact_count + side;
   }
   int RibColumn(int rib) const {
-    return f_.affine + 1 + 2 * f_.contact_count + 2 + rib;
+    return affine() + 1 + 2 * f_.contact_count + 2 + rib;
   }
 
   void Begin() {
@@ -121,13 +125,11 @@ class LadderSweeper {
            f_.contacts[next_contact_[1]].side == 0) {
       ++next_contact_[1];
     }
-    while (next_readout_[1] < f_.readout_count &&
-           f_.readouts[next_readout_[1]].element < f_.front_elements) {
-      ++next_readout_[1];
-    }
-    for (int i = 0; i < 2 * kRows; ++i) Clear(f_.rows + i * f_.stride);
+    for (int i = 0; i < 2 * kRows; ++i) Clear(f_.rows + i * stride());
     for (int side = 0; side < 2; ++side) {
-      for (int i = 0; i < 3; ++i) RowOf(side, kMoment + i)[3 * side + i] = 1;
+      for (int i = 0; i < 3; ++i) {
+        RowOf(side, kMoment + i)[3 * side + i] += Scalar(1);
+      }
     }
   }
 
@@ -136,7 +138,7 @@ class LadderSweeper {
   void TakeUpGap(int side, int e) {
     if (gap_taken_[side] || e == (side == 0 ? 0 : f_.front_elements)) return;
     gap_taken_[side] = true;
-    for (int i = 0; i < 4; ++i) RowOf(side, i)[f_.affine] += f_.gap[4 * e + i];
+    for (int i = 0; i < 4; ++i) RowOf(side, i)[affine()] += f_.gap[4 * e + i];
   }
 
   void KeepNode(int side, int e) {
@@ -170,10 +172,9 @@ class LadderSweeper {
   // contact moves towards the tip.
   void PassSlot(int side, int e, int slot, int begins_at, int ends_at,
                 bool readouts) {
-    while (readouts && next_readout_[side] < f_.readout_count &&
-           f_.readout_slot[next_readout_[side]] == slot) {
-      TapReadout(side, next_readout_[side], begins_at, ends_at, e);
-      ++next_readout_[side];
+    for (int i = f_.first_readout[slot]; readouts && i < f_.end_readout[slot];
+         ++i) {
+      TapReadout(side, i, begins_at, ends_at, e);
     }
     const T* map =
         f_.maps + (slot / kWidth) * kWidth * kMapValues + slot % kWidth;
@@ -203,23 +204,37 @@ class LadderSweeper {
         row[StiffnessColumn(side)] +=
             f_.stiffness_ratio[e] * map[(kMapStiffness + i) * kWidth];
       }
-      const T by_length = map[(kMapLength + i) * kWidth];
-      if (begins_at >= 0) row[ContactColumn(begins_at)] -= by_length;
-      if (ends_at >= 0) row[ContactColumn(ends_at)] += by_length;
+      const T& by_length = map[(kMapLength + i) * kWidth];
+      if (begins_at >= 0) {
+        row[ContactColumn(begins_at)] -= Present(begins_at) * by_length;
+      }
+      if (ends_at >= 0) {
+        row[ContactColumn(ends_at)] += Present(ends_at) * by_length;
+      }
     }
   }
 
   void TapReadout(int side, int i, int begins_at, int ends_at, int e) {
     const T* at = f_.readout_map + kReadoutValues * i;
     T* tap = Tap(f_.readout_tap(i));
-    Clear(tap);
-    for (int p = 0; p < 4; ++p) Add(at[1 + p], RowOf(side, kTheta + p), tap);
+    const V by[4] = {Broadcast(at[1]), Broadcast(at[2]), Broadcast(at[3]),
+                     Broadcast(at[4])};
+    const U* from = Wide(RowOf(side, kTheta));
+    for (int v = 0; v < vectors(); ++v) {
+      V sum = by[0] * from[v];
+      for (int p = 1; p < 4; ++p) sum += by[p] * from[p * vectors() + v];
+      Wide(tap)[v] = sum;
+    }
     if (parameters()) {
       tap[StiffnessColumn(side)] += f_.stiffness_ratio[e] * at[5];
     }
     if (by_contacts()) {
-      if (begins_at >= 0) tap[ContactColumn(begins_at)] -= at[6] + at[7];
-      if (ends_at >= 0) tap[ContactColumn(ends_at)] += at[7];
+      if (begins_at >= 0) {
+        tap[ContactColumn(begins_at)] -= Present(begins_at) * (at[6] + at[7]);
+      }
+      if (ends_at >= 0) {
+        tap[ContactColumn(ends_at)] += Present(ends_at) * at[7];
+      }
     }
     Log(kTap, f_.readout_tap(i));
   }
@@ -240,8 +255,10 @@ class LadderSweeper {
     for (int i = 0; i < 2; ++i) {
       T* force = RowOf(side, kForceX + i);
       Add(-contact.normal * turned[i], RowOf(side, kTheta), force);
-      if (by_contacts()) force[ContactColumn(c) + 1] -= unit[i];
-      if (by_load()) force[f_.affine + 1] -= contact.d_normal * unit[i];
+      if (by_contacts()) {
+        force[ContactColumn(c) + 1] -= contact.present * unit[i];
+      }
+      if (by_load()) force[affine() + 1] -= contact.d_normal * unit[i];
     }
   }
 
@@ -250,7 +267,7 @@ class LadderSweeper {
     const T tension = f_.state.q[6 + rib];
     const T kappa = f_.rib_length[rib] * f_.rib_flexibility[rib];
     T* length =
-        open_ ? Tap(f_.closure_tap() + rib) : f_.pivots + pivots_ * f_.stride;
+        open_ ? Tap(f_.closure_tap() + rib) : f_.pivots + pivots_ * stride();
     const V wide_x = Broadcast(ux), wide_y = Broadcast(uy);
     const V swing = Broadcast(tension / f_.rib_distance[rib]);
     U* front_x = Wide(RowOf(0, kForceX));
@@ -268,14 +285,14 @@ class LadderSweeper {
       back_x[v] -= across * wide_y;
       back_y[v] += across * wide_x;
     }
-    const T strained = 1 + tension * f_.rib_flexibility[rib];
+    const T strained = Scalar(1) + tension * f_.rib_flexibility[rib];
     if (parameters()) length[RibColumn(rib)] -= strained;
-    if (by_load()) length[f_.affine + 1] -= strained * f_.d_rib_length[rib];
+    if (by_load()) length[affine() + 1] -= strained * f_.d_rib_length[rib];
     int column = 6 + rib;
     if (open_) {
       length[column] -= kappa;
     } else {
-      length[f_.affine] += f_.closure[rib];
+      length[affine()] += f_.closure[rib];
       column = LargestColumn(length);
       Exchange(column, kappa, rib, f_.rows, 2 * kRows);
     }
@@ -285,21 +302,27 @@ class LadderSweeper {
     RowOf(1, kForceY)[column] += uy;
   }
 
+  // By the lane in which it is smallest: all lanes share their pivots.
   static int LargestColumn(const T* row) {
     int column = 0;
+    Scalar largest = SmallestLane(Magnitude(row[0]));
     for (int j = 1; j < 6; ++j) {
-      if (Magnitude(row[j]) > Magnitude(row[column])) column = j;
+      const Scalar size = SmallestLane(Magnitude(row[j]));
+      if (size > largest) {
+        largest = size;
+        column = j;
+      }
     }
     return column;
   }
 
   // Exchanges parameter `column` for the quantity whose row is the next of
   // pivots, in `count` rows from `rows`.
-  void Exchange(int column, T kappa, int rib, T* rows, int count) {
-    const T* g = f_.pivots + pivots_ * f_.stride;
-    const T inverse = 1 / g[column];
+  void Exchange(int column, const T& kappa, int rib, T* rows, int count) {
+    const T* g = f_.pivots + pivots_ * stride();
+    const T inverse = Scalar(1) / g[column];
     for (int i = 0; i < count; ++i) {
-      T* row = rows + i * f_.stride;
+      T* row = rows + i * stride();
       const T factor = row[column] * inverse;
       Add(-factor, g, row);
       row[column] = factor * kappa;
@@ -313,31 +336,27 @@ class LadderSweeper {
 
   void CheckGrowth() {
     since_check_ = 0;
-    V largest[kParameterVectors];
-    for (V& v : largest) v = V{};
+    V squares[kParameterVectors];
+    for (V& v : squares) v = V{};
     for (int i = 0; i < 2 * kRows; ++i) {
-      const U* row = Wide(f_.rows + i * f_.stride);
-      for (int v = 0; v < kParameterVectors; ++v) {
-        const V size = row[v] < V{} ? -row[v] : row[v];
-        largest[v] = size > largest[v] ? size : largest[v];
-      }
+      const U* row = Wide(f_.rows + i * stride());
+      for (int v = 0; v < kParameterVectors; ++v) squares[v] += row[v] * row[v];
     }
-    for (int j = 0; j < 6; ++j) {
-      if (largest[j / kWidth][j % kWidth] > kLargestGrowth) {
-        Reparametrize();
-        return;
-      }
-    }
+    const T* of_column = reinterpret_cast<const T*>(squares);
+    T largest = of_column[0];
+    for (int j = 1; j < 6; ++j) largest = Larger(largest, of_column[j]);
+    if (LargestLane(largest) > kLargestGrowth * kLargestGrowth) Reparametrize();
   }
 
   void Reparametrize() {
     bool used[6] = {};
     for (int k = 0; k < 6; ++k) {
       int pivot_row = 0, column = 0;
-      T largest = -1;
+      Scalar largest = -1;
       for (int i = 0; i < 2 * kRows; ++i) {
         for (int j = 0; j < 6; ++j) {
-          const T size = Magnitude(f_.rows[i * f_.stride + j]);
+          const Scalar size =
+              SmallestLane(Magnitude(f_.rows[i * stride() + j]));
           // A row that was chosen is one in its own column, zero elsewhere.
           if (!used[j] && size > largest) {
             largest = size;
@@ -348,8 +367,8 @@ class LadderSweeper {
       }
       if (!(largest > 0)) return;
       used[column] = true;
-      Copy(f_.rows + pivot_row * f_.stride, f_.pivots + pivots_ * f_.stride);
-      Exchange(column, 1, -1, f_.rows, 2 * kRows);
+      Copy(f_.rows + pivot_row * stride(), f_.pivots + pivots_ * stride());
+      Exchange(column, T{} + Scalar(1), -1, f_.rows, 2 * kRows);
     }
   }
 
@@ -358,21 +377,21 @@ class LadderSweeper {
     TapPose(0, f_.tip_tap());
     T* rows = open_ ? Tap(f_.closure_tap() + f_.ribs) : f_.tip_rows;
     for (int i = 0; i < kRows; ++i) {
-      T* row = rows + i * f_.stride;
+      T* row = rows + i * stride();
       Copy(RowOf(0, i), row);
-      Add(i < kMoment ? -1 : 1, RowOf(1, i), row);
-      if (!open_) row[f_.affine] += f_.closure[f_.ribs + i];
+      Add(T{} + Scalar(i < kMoment ? -1 : 1), RowOf(1, i), row);
+      if (!open_) row[affine()] += f_.closure[f_.ribs + i];
     }
   }
 
   bool EliminateTip() {
     for (int k = 0; k < 6; ++k) {
-      const T* row = f_.tip_rows + k * f_.stride;
+      const T* row = f_.tip_rows + k * stride();
       const int column = LargestColumn(row);
       // Written so that a NaN fails.
-      if (!(Magnitude(row[column]) > 0)) return false;
-      Copy(row, f_.pivots + pivots_ * f_.stride);
-      Exchange(column, 0, -1, f_.tip_rows + (k + 1) * f_.stride, 5 - k);
+      if (!(SmallestLane(Magnitude(row[column])) > 0)) return false;
+      Copy(row, f_.pivots + pivots_ * stride());
+      Exchange(column, T{}, -1, f_.tip_rows + (k + 1) * stride(), 5 - k);
     }
     return true;
   }
@@ -382,7 +401,7 @@ class LadderSweeper {
   void WalkBack() {
     f_.event_count = events_;
     const bool nodes = columns_ != SweepColumns::kContacts;
-    for (int j = 0; j < 6; ++j) Clear(f_.parameters + j * f_.stride);
+    for (int j = 0; j < 6; ++j) Clear(f_.parameters + j * stride());
     while (events_ > 0) {
       const int event = f_.events[--events_];
       const int index = event / 4;
@@ -399,19 +418,19 @@ class LadderSweeper {
       }
     }
     for (int j = 0; j < 6; ++j) {
-      Copy(f_.parameters + j * f_.stride, f_.q_step + j * f_.stride);
+      Copy(f_.parameters + j * stride(), f_.q_step + j * stride());
     }
     if (!nodes) return;
-    const int load = f_.affine + 1;
+    const int load = affine() + 1;
     for (int i = 0; i < 6 + f_.ribs; ++i) {
-      f_.step.q[i] = f_.q_step[i * f_.stride + f_.affine];
-      if (by_load()) f_.by_load.q[i] = f_.q_step[i * f_.stride + load];
+      f_.step.q[i] = f_.q_step[i * stride() + affine()];
+      if (by_load()) f_.by_load.q[i] = f_.q_step[i * stride() + load];
     }
     for (int side = 0; side < 2; ++side) {
       const int base = side == 0 ? 0 : f_.front_elements;
       for (const LadderNodes<T>* z : {&f_.step, &f_.by_load}) {
         if (z == &f_.by_load && !by_load()) break;
-        z->x[base] = z->y[base] = z->theta[base] = 0;
+        z->x[base] = z->y[base] = z->theta[base] = T{};
         z->moment[base] = z->q[3 * side];
       }
     }
@@ -419,13 +438,13 @@ class LadderSweeper {
 
   void FinishNode(int e) {
     T with[kMostNodeColumns] = {};
-    for (int column = f_.affine; column <= f_.affine + by_load(); ++column) {
+    for (int column = affine(); column <= affine() + by_load(); ++column) {
       for (int j = 0; j < 6; ++j) {
-        with[j] = f_.parameters[j * f_.stride + column];
+        with[j] = f_.parameters[j * stride() + column];
       }
-      with[column] = 1;
-      if (column > f_.affine) with[f_.affine] = 0;
-      FinishNodeWith(with, column == f_.affine ? &f_.step : &f_.by_load, e);
+      with[column] = T{} + Scalar(1);
+      if (column > affine()) with[affine()] = T{};
+      FinishNodeWith(with, column == affine() ? &f_.step : &f_.by_load, e);
     }
   }
 
@@ -438,7 +457,7 @@ class LadderSweeper {
       for (int v = 0; v < f_.node_columns / kWidth; ++v) {
         sum += Wide(kept + f_.node_columns * i)[v] * Wide(with)[v];
       }
-      change[i] = sum[0];
+      change[i] = reinterpret_cast<const T*>(&sum)[0];
       for (int lane = 1; lane < kWidth; ++lane) change[i] += sum[lane];
     }
     z->x[e] = change[0];
@@ -448,25 +467,31 @@ class LadderSweeper {
   }
 
   void FinishRow(T* row) const {
-    T by[6];
-    for (int j = 0; j < 6; ++j) by[j] = row[j];
-    for (int j = 0; j < 6; ++j) Add(by[j], f_.parameters + j * f_.stride, row);
+    V by[6];
+    for (int j = 0; j < 6; ++j) by[j] = Broadcast(row[j]);
+    for (int v = first_value(); v < vectors(); ++v) {
+      V sum = Wide(row)[v];
+      for (int j = 0; j < 6; ++j) {
+        sum += by[j] * Wide(f_.parameters + j * stride())[v];
+      }
+      Wide(row)[v] = sum;
+    }
   }
 
   void UndoExchange(int pivot) {
-    const T* g = f_.pivots + pivot * f_.stride;
+    const T* g = f_.pivots + pivot * stride();
     const int column = f_.pivot_column[pivot];
-    T* exchanged = f_.parameters + column * f_.stride;
+    T* exchanged = f_.parameters + column * stride();
     if (f_.pivot_rib[pivot] >= 0) {
-      Copy(exchanged, f_.q_step + (6 + f_.pivot_rib[pivot]) * f_.stride);
+      Copy(exchanged, f_.q_step + (6 + f_.pivot_rib[pivot]) * stride());
     }
     const V kappa = Broadcast(f_.pivot_flexibility[pivot]);
-    const V inverse = Broadcast(1 / g[column]);
-    for (int v = 0; v < vectors(); ++v) {
+    const V inverse = Broadcast(Scalar(1) / g[column]);
+    for (int v = first_value(); v < vectors(); ++v) {
       V sum = kappa * Wide(exchanged)[v] - Wide(g)[v];
       for (int j = 0; j < 6; ++j) {
         if (j != column) {
-          sum -= Broadcast(g[j]) * Wide(f_.parameters + j * f_.stride)[v];
+          sum -= Broadcast(g[j]) * Wide(f_.parameters + j * stride())[v];
         }
       }
       Wide(exchanged)[v] = sum * inverse;
@@ -477,7 +502,7 @@ class LadderSweeper {
   const SweepColumns columns_;
   const bool open_;
   int events_ = 0, pivots_ = 0, since_check_ = 0;
-  int next_contact_[2] = {0, 0}, next_readout_[2] = {0, 0};
+  int next_contact_[2] = {0, 0};
   bool gap_taken_[2] = {false, false};
 };
 

@@ -13,6 +13,25 @@ int RoundUp(int value, int multiple) {
   return (value + multiple - 1) / multiple * multiple;
 }
 
+void Put(double value, int /*lane*/, double* to) { *to = value; }
+void Put(double value, int /*lane*/, float* to) {
+  *to = static_cast<float>(value);
+}
+void Put(double value, int lane, FourFrames* to) {
+  for (int i = 0; i < kFrameLanes; ++i) {
+    if (lane < 0 || lane == i) (*to)[i] = value;
+  }
+}
+template <class T>
+void Put(double value, T* to) {
+  Put(value, -1, to);
+}
+template <class T>
+double Get(const T& from, int /*lane*/) {
+  return from;
+}
+double Get(const FourFrames& from, int lane) { return from[lane]; }
+
 double ScaledFlexibility(double axial_stiffness_N, double force_unit) {
   return force_unit / axial_stiffness_N;  // 0 for an infinite one
 }
@@ -30,9 +49,8 @@ LadderWorkspace<T>::LadderWorkspace(const LadderModel& model)
   }
   for (const Side side : {Side::kFront, Side::kBack}) {
     const int i = LadderModel::Index(side);
-    frame_.base_x[i] =
-        static_cast<T>(BeamBase(finger, side).x() / length_unit_);
-    frame_.base_angle[i] = static_cast<T>(BeamAngle(finger, side));
+    Put(BeamBase(finger, side).x() / length_unit_, &frame_.base_x[i]);
+    Put(BeamAngle(finger, side), &frame_.base_angle[i]);
   }
   SetMesh(model);
 }
@@ -47,7 +65,7 @@ LadderWorkspace<T>::LadderWorkspace(const LadderWorkspace& other)
       readouts_(other.readouts_),
       nominal_mm_(other.nominal_mm_) {
   Allocate();
-  std::copy(other.numbers_.begin(), other.numbers_.end(), numbers_.begin());
+  std::copy(other.cells_.begin(), other.cells_.end(), cells_.begin());
   std::copy(other.integers_.begin(), other.integers_.end(), integers_.begin());
   std::copy(other.contacts_.begin(), other.contacts_.end(), contacts_.begin());
 }
@@ -97,7 +115,8 @@ void LadderWorkspace<T>::LayOut(Take&& take) {
   take(&f.pivot_flexibility, pivots);
   take(&f.rib_element[0], ribs);
   take(&f.rib_element[1], ribs);
-  take(&f.readout_slot, f.readout_count);
+  take(&f.first_readout, slots);
+  take(&f.end_readout, slots);
   take(&f.pivot_column, pivots);
   take(&f.pivot_rib, pivots);
   take(&f.events, elements + taps + pivots);
@@ -111,7 +130,8 @@ void LadderWorkspace<T>::Allocate() {
     void operator()(int** /*to*/, int n) { integers += n; }
   } count;
   LayOut(count);
-  std::vector<T> numbers(count.numbers);
+  constexpr std::size_t kInCell = sizeof(Cell) / sizeof(T);
+  std::vector<Cell> cells((count.numbers + kInCell - 1) / kInCell);
   std::vector<int> integers(count.integers);
   struct Hand {
     T* number;
@@ -124,9 +144,9 @@ void LadderWorkspace<T>::Allocate() {
       *to = integer;
       integer += n;
     }
-  } hand{numbers.data(), integers.data()};
+  } hand{cells.data()->numbers, integers.data()};
   LayOut(hand);
-  numbers_ = std::move(numbers);
+  cells_ = std::move(cells);
   integers_ = std::move(integers);
   contacts_.resize(contact_capacity_);
   frame_.contacts = contacts_.data();
@@ -141,8 +161,9 @@ void LadderWorkspace<T>::SetMesh(const LadderModel& model) {
   for (const Side side : {Side::kFront, Side::kBack}) {
     const int first = side == Side::kFront ? 0 : frame_.front_elements;
     for (const LadderModel::GaugeEnd& end : model.gauge_ends(side)) {
-      readouts_.push_back({end.gauge, end.sign, first + end.point.element,
-                           static_cast<T>(end.point.offset_mm / length_unit_)});
+      readouts_.push_back(
+          {end.gauge, end.sign, first + end.point.element, T{}});
+      Put(end.point.offset_mm / length_unit_, &readouts_.back().offset);
     }
   }
   frame_.readout_count = static_cast<int>(readouts_.size());
@@ -154,11 +175,10 @@ void LadderWorkspace<T>::SetMesh(const LadderModel& model) {
     const double flexibility =
         ScaledFlexibility(AxialStiffness(model.finger(), side), force_unit_);
     for (int k = 0; k < mesh.elements(); ++k) {
-      frame_.length[first + k] = static_cast<T>(
-          (mesh.nodes_mm[k + 1] - mesh.nodes_mm[k]) / length_unit_);
-      frame_.stiffness_ratio[first + k] =
-          static_cast<T>(mesh.stiffness_ratio[k]);
-      frame_.axial_flexibility[first + k] = static_cast<T>(flexibility);
+      Put((mesh.nodes_mm[k + 1] - mesh.nodes_mm[k]) / length_unit_,
+          &frame_.length[first + k]);
+      Put(mesh.stiffness_ratio[k], &frame_.stiffness_ratio[first + k]);
+      Put(flexibility, &frame_.axial_flexibility[first + k]);
     }
     for (int i = 0; i < frame_.ribs; ++i) {
       frame_.rib_element[LadderModel::Index(side)][i] =
@@ -172,8 +192,8 @@ template <class T>
 void LadderWorkspace<T>::SetFinger(const LadderModel& model, double fraction) {
   for (const Side side : {Side::kFront, Side::kBack}) {
     const bool front = side == Side::kFront;
-    const T stiffness = static_cast<T>(BendingStiffness(model.finger(), side) /
-                                       stiffness_unit());
+    T stiffness;
+    Put(BendingStiffness(model.finger(), side) / stiffness_unit(), &stiffness);
     const int end = front ? frame_.front_elements : frame_.elements;
     for (int e = front ? 0 : frame_.front_elements; e < end; ++e) {
       frame_.stiffness[e] = stiffness * frame_.stiffness_ratio[e];
@@ -183,10 +203,10 @@ void LadderWorkspace<T>::SetFinger(const LadderModel& model, double fraction) {
     const Rib& rib = model.finger().ribs[i];
     const double slope = rib.length_mm - nominal_mm_[i];
     const double length = rib.length_mm - (1 - fraction) * slope;
-    frame_.rib_length[i] = static_cast<T>(length / length_unit_);
-    frame_.d_rib_length[i] = static_cast<T>(slope / length_unit_);
-    frame_.rib_flexibility[i] =
-        static_cast<T>(ScaledFlexibility(rib.axial_stiffness_N, force_unit_));
+    Put(length / length_unit_, &frame_.rib_length[i]);
+    Put(slope / length_unit_, &frame_.d_rib_length[i]);
+    Put(ScaledFlexibility(rib.axial_stiffness_N, force_unit_),
+        &frame_.rib_flexibility[i]);
   }
 }
 
@@ -211,21 +231,22 @@ bool LadderWorkspace<T>::SetContacts(const LadderModel& model,
     const bool front = contact.side == Side::kFront;
     const MeshPoint at = mesh.Locate(contact.arc_mm);
     const double normal = contact.normal_N / force_unit_;
-    const LadderContact<T> placed{
-        front ? 0 : 1,
-        at.element + (front ? 0 : frame_.front_elements),
-        static_cast<T>(at.offset_mm / length_unit_),
-        static_cast<T>(fraction * normal),
-        static_cast<T>(contact.friction),
-        static_cast<T>(normal),
-        i};
+    LadderContact<T> placed{};
+    placed.side = front ? 0 : 1;
+    placed.element = at.element + (front ? 0 : frame_.front_elements);
+    placed.index = placed.columns = i;
+    Put(at.offset_mm / length_unit_, &placed.offset);
+    Put(fraction * normal, &placed.normal);
+    Put(contact.friction, &placed.friction);
+    Put(normal, &placed.d_normal);
+    Put(1, &placed.present);
     // Insertion keeps contacts of one place in the order given.
     int k = i;
     for (; k > 0; --k) {
       const LadderContact<T>& before = contacts_[k - 1];
       if (before.element < placed.element ||
           (before.element == placed.element &&
-           before.offset <= placed.offset)) {
+           Get(before.offset, 0) <= Get(placed.offset, 0))) {
         break;
       }
       contacts_[k] = before;
@@ -265,12 +286,11 @@ void LadderWorkspace<T>::SetMeshMemory(const LadderModel& model) {
 }
 
 template <class T>
-void LadderWorkspace<T>::Load(const LadderState& state) {
+void LadderWorkspace<T>::Load(const LadderState& state, int lane) {
   const LadderNodes<T>& z = frame_.state;
   for (int i = 0; i < 6 + frame_.ribs; ++i) {
     const bool moment = i == 0 || i == 3;
-    z.q[i] =
-        static_cast<T>(state.q[i] / (moment ? moment_unit() : force_unit_));
+    Put(state.q[i] / (moment ? moment_unit() : force_unit_), lane, &z.q[i]);
   }
   const int counts[2] = {frame_.front_elements,
                          frame_.elements - frame_.front_elements};
@@ -278,23 +298,23 @@ void LadderWorkspace<T>::Load(const LadderState& state) {
     const int first = side == 0 ? 0 : frame_.front_elements;
     for (int k = 0; k < counts[side]; ++k) {
       const auto node = state.nodes[side].col(k);
-      z.x[first + k] = static_cast<T>(node[1] / length_unit_);
-      z.y[first + k] = static_cast<T>(node[2] / length_unit_);
-      z.theta[first + k] = static_cast<T>(node[3]);
-      z.moment[first + k] = static_cast<T>(node[4] / moment_unit());
+      Put(node[1] / length_unit_, lane, &z.x[first + k]);
+      Put(node[2] / length_unit_, lane, &z.y[first + k]);
+      Put(node[3], lane, &z.theta[first + k]);
+      Put(node[4] / moment_unit(), lane, &z.moment[first + k]);
     }
     z.moment[first] = z.q[3 * side];
   }
 }
 
 template <class T>
-void LadderWorkspace<T>::Save(const LadderModel& model,
-                              LadderState* state) const {
+void LadderWorkspace<T>::Save(const LadderModel& model, LadderState* state,
+                              int lane) const {
   const LadderNodes<T>& z = frame_.state;
   state->q.resize(6 + frame_.ribs);
   for (int i = 0; i < 6 + frame_.ribs; ++i) {
     const bool moment = i == 0 || i == 3;
-    state->q[i] = z.q[i] * (moment ? moment_unit() : force_unit_);
+    state->q[i] = Get(z.q[i], lane) * (moment ? moment_unit() : force_unit_);
   }
   for (const Side side : {Side::kFront, Side::kBack}) {
     const BeamMesh& mesh = model.mesh(side);
@@ -302,14 +322,17 @@ void LadderWorkspace<T>::Save(const LadderModel& model,
     LadderState::Nodes& nodes = state->nodes[LadderModel::Index(side)];
     nodes.resize(5, mesh.elements());
     for (int k = 0; k < mesh.elements(); ++k) {
-      nodes.col(k) << mesh.nodes_mm[k], z.x[first + k] * length_unit_,
-          z.y[first + k] * length_unit_, z.theta[first + k],
-          z.moment[first + k] * moment_unit();
+      nodes.col(k) << mesh.nodes_mm[k],
+          Get(z.x[first + k], lane) * length_unit_,
+          Get(z.y[first + k], lane) * length_unit_,
+          Get(z.theta[first + k], lane),
+          Get(z.moment[first + k], lane) * moment_unit();
     }
   }
 }
 
 template class LadderWorkspace<double>;
 template class LadderWorkspace<float>;
+template class LadderWorkspace<FourFrames>;
 
 }  // namespace finray

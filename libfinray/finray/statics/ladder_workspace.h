@@ -10,7 +10,8 @@ namespace finray {
 
 /// The memory of a ladder frame and the way into and out of its units. Memory
 /// is taken when the mesh changes or more contacts or columns than ever before
-/// are asked for; otherwise no call allocates. T is double or float.
+/// are asked for; otherwise no call allocates. T is double, float or
+/// FourFrames, all of which then take the same numbers unless a lane is named.
 template <class T>
 class LadderWorkspace {
  public:
@@ -42,8 +43,9 @@ class LadderWorkspace {
   /// what was evaluated or set since SetMesh is lost then, but for the state.
   bool SetColumns(const LadderModel& model, SweepColumns columns, bool open);
 
-  void Load(const LadderState& state);
-  void Save(const LadderModel& model, LadderState* state) const;
+  void Load(const LadderState& state, int lane = kAllLanes);
+  void Save(const LadderModel& model, LadderState* state, int lane = 0) const;
+  static constexpr int kAllLanes = -1;
 
  private:
   void Allocate();
@@ -54,7 +56,11 @@ class LadderWorkspace {
   double length_unit_, force_unit_;
   LadderFrame<T> frame_;
   int contact_capacity_ = 0, stride_capacity_ = 8;
-  std::vector<T> numbers_;
+  // 32 bytes, of that alignment.
+  struct alignas(32) Cell {
+    T numbers[32 / sizeof(T)];
+  };
+  std::vector<Cell> cells_;
   std::vector<int> integers_;
   std::vector<LadderReadout<T>> readouts_;
   std::vector<LadderContact<T>> contacts_;

@@ -59,11 +59,12 @@ class RigidLinkElement {
     map_.d_start[3][3] -= half_ * c1_;
   }
 
-  void DifferentiateByParameters() {
-    const V turn = joint_moment_ / stiffness_;
-    Spread(-flexibility_ * turn, V{}, map_.d_stiffness);
-    const V d_moment = cross0_ * Scalar(-0.5);
-    Spread(turn + flexibility_ * d_moment, d_moment, map_.d_length);
+  void DifferentiateByStiffness() {
+    Spread(-flexibility_ * joint_moment_ / stiffness_, V{}, map_.d_stiffness);
+  }
+
+  void DifferentiateByLength() {
+    Spread(TurnByLength(), cross0_ * Scalar(-0.5), map_.d_length);
     map_.d_length[0] += (c0_ + c1_) * Scalar(0.5);
     map_.d_length[1] += (s0_ + s1_) * Scalar(0.5);
     map_.d_length[3] -= cross1_ * Scalar(0.5);
@@ -82,9 +83,9 @@ class RigidLinkElement {
       readout.d_start[p] = share * map_.d_start[2][p];
     }
     readout.d_start[0] += Scalar(1) - share;
-    readout.d_stiffness = share * map_.d_stiffness[2];
+    readout.d_stiffness = -share * flexibility_ * joint_moment_ / stiffness_;
     readout.d_offset = turn / safe;
-    readout.d_length = share * (map_.d_length[2] - readout.d_offset);
+    readout.d_length = share * (TurnByLength() - readout.d_offset);
     return readout;
   }
 
@@ -114,6 +115,9 @@ class RigidLinkElement {
   V Truncation() const { return V{}; }
 
  private:
+  V TurnByLength() const {
+    return (joint_moment_ - half_ * cross0_) / stiffness_;
+  }
   // The end's derivatives by what turns link 1 by d_theta and changes the
   // joint's moment by d_moment.
   void Spread(const V& d_theta, const V& d_moment, V* column) const {

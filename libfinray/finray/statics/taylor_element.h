@@ -47,11 +47,10 @@ class TaylorElement {
     Evaluate(dx_, length_, by[0]);
     Evaluate(dy_, length_, by[1]);
     Evaluate(dtheta_, length_, by[2]);
-    const V flexibility = Scalar(1) / stiffness_;
     for (int i = 0; i < 3; ++i) {
       // d/dM = (d/dm) / EI
       for (int p = 0; p < 3; ++p)
-        map_.d_start[i][p + 1] = by[i][p] * flexibility;
+        map_.d_start[i][p + 1] = by[i][p] * flexibility_;
       if constexpr (kStretch) by_ratio_[i] = by[i][3];
     }
     map_.d_start[0][0] = ByTheta(map_.d_start[0]) - map_.end[1];
@@ -66,19 +65,21 @@ class TaylorElement {
     map_.d_start[3][3] -= map_.end[0];
   }
 
-  void DifferentiateByParameters() {
+  void DifferentiateByStiffness() {
     for (int i = 0; i < 3; ++i) {
       map_.d_stiffness[i] = ByStiffness(map_.d_start[i]);
       if constexpr (kStretch) {
-        map_.d_stiffness[i] += by_ratio_[i] * ratio_ / stiffness_;
+        map_.d_stiffness[i] += by_ratio_[i] * ratio_ * flexibility_;
       }
     }
+    Balance(map_.d_stiffness);
+  }
+
+  void DifferentiateByLength() {
     map_.d_length[0] = Slope(x_, length_);
     map_.d_length[1] = Slope(y_, length_);
     map_.d_length[2] = Slope(theta_, length_);
-    for (V* d : {map_.d_stiffness, map_.d_length}) {
-      d[3] = start_.force_x_N * d[1] - start_.force_y_N * d[0];
-    }
+    Balance(map_.d_length);
   }
 
   const BasicElementMap<V>& map() const { return map_; }
@@ -88,11 +89,11 @@ class TaylorElement {
     readout.theta_rad = Evaluate(theta_, offset);
     V by[kBy];
     Evaluate(dtheta_, offset, by);
-    for (int p = 0; p < 3; ++p) readout.d_start[p + 1] = by[p] / stiffness_;
+    for (int p = 0; p < 3; ++p) readout.d_start[p + 1] = by[p] * flexibility_;
     readout.d_start[0] = ByTheta(readout.d_start) + Scalar(1);
     readout.d_stiffness = ByStiffness(readout.d_start);
     if constexpr (kStretch) {
-      readout.d_stiffness += by[3] * ratio_ / stiffness_;
+      readout.d_stiffness += by[3] * ratio_ * flexibility_;
     }
     readout.d_offset = Slope(theta_, offset);
     readout.d_length = V{};
@@ -117,10 +118,8 @@ class TaylorElement {
 
   /// The last two terms of the angle's series.
   V Truncation() const {
-    V power = length_;
-    for (int i = 1; i < K - 1; ++i) power *= length_;
-    const V last = theta_[K] * power * length_, next = theta_[K - 1] * power;
-    return (last < V{} ? -last : last) + (next < V{} ? -next : next);
+    return Power<K - 1>(length_) *
+           (Magnitude(theta_[K]) * length_ + Magnitude(theta_[K - 1]));
   }
 
  private:
@@ -136,29 +135,46 @@ class TaylorElement {
     start_ = start;
     stiffness_ = stiffness;
     length_ = length;
-    nx_ = start.force_x_N / stiffness;
-    ny_ = start.force_y_N / stiffness;
+    flexibility_ = Scalar(1) / stiffness;
+    nx_ = start.force_x_N * flexibility_;
+    ny_ = start.force_y_N * flexibility_;
     SinCos(start.theta_rad, &s_[0], &c_[0]);
     theta_[0] = start.theta_rad;
-    m_[0] = start.moment_N_mm / stiffness;
+    m_[0] = start.moment_N_mm * flexibility_;
     x_[0] = y_[0] = V{};
     if constexpr (kStretch) ratio_ = stiffness * axial_flexibility;
     V dm[kBy], de[kStretch ? K : 1][kBy], dc[kStretch ? K : 1][kBy],
         ds[kStretch ? K : 1][kBy];
     if constexpr (kDerivatives) {
       for (int p = 0; p < kBy; ++p) {
-        dtheta_[0][p] = dx_[0][p] = dy_[0][p] = dm[p] = V{};
+        dm[p] = V{};
       }
       dm[0] += Scalar(1);
     }
-    for (int i = 0; i < K; ++i) {
+    // The last term of the series leaves nothing to go on with.
+    const auto term = [&](int i, auto last) __attribute__((always_inline)) {
+      constexpr bool kLast = decltype(last)::value;
       V ms = m_[0] * s_[i], mc = m_[0] * c_[i];
       V dci[kBy], dsi[kBy];
       for (int p = 0; p < kBy; ++p) dci[p] = dsi[p] = V{};
-      for (int j = 1; j <= i; ++j) {
+      if (i > 0) {
+        // theta_1 = m_0
+        const V sine = s_[i - 1], cosine = c_[i - 1];
+        if constexpr (!kLast) {
+          ms += m_[1] * sine;
+          mc += m_[1] * cosine;
+        }
+        if constexpr (kDerivatives) {
+          dci[0] -= sine;
+          dsi[0] += cosine;
+        }
+      }
+      for (int j = 2; j <= i; ++j) {
         const V sine = s_[i - j], cosine = c_[i - j];
-        ms += m_[j] * sine;
-        mc += m_[j] * cosine;
+        if constexpr (!kLast) {
+          ms += m_[j] * sine;
+          mc += m_[j] * cosine;
+        }
         if constexpr (kDerivatives) {
           for (int p = 0; p < kBy; ++p) {
             dci[p] -= sine * dtheta_[j][p];
@@ -194,29 +210,45 @@ class TaylorElement {
         }
       }
       const Scalar inverse = Scalar(1) / Scalar(i + 1);
-      c_[i + 1] = -ms * inverse;
-      s_[i + 1] = mc * inverse;
+      if constexpr (!kLast) {
+        c_[i + 1] = -ms * inverse;
+        s_[i + 1] = mc * inverse;
+      }
       theta_[i + 1] = m_[i] * inverse;
-      m_[i + 1] = (nx_ * slope_y - ny_ * slope_x) * inverse;
       x_[i + 1] = slope_x * inverse;
       y_[i + 1] = slope_y * inverse;
+      m_[i + 1] = nx_ * y_[i + 1] - ny_ * x_[i + 1];
       if constexpr (kDerivatives) {
         for (int p = 0; p < kBy; ++p) {
           dtheta_[i + 1][p] = dm[p] * inverse;
-          dm[p] = nx_ * d_slope_y[p] - ny_ * d_slope_x[p];
           dx_[i + 1][p] = d_slope_x[p] * inverse;
           dy_[i + 1][p] = d_slope_y[p] * inverse;
+          if constexpr (!kLast) {
+            dm[p] = nx_ * dy_[i + 1][p] - ny_ * dx_[i + 1][p];
+          }
         }
-        dm[1] += slope_y;
-        dm[2] -= slope_x;
-        for (int p = 0; p < kBy; ++p) dm[p] *= inverse;
+        dm[1] += y_[i + 1];
+        dm[2] -= x_[i + 1];
       }
-    }
+    };
+    for (int i = 0; i + 1 < K; ++i) term(i, std::false_type());
+    term(K - 1, std::true_type());
     map_.end[0] = Evaluate(x_, length);
     map_.end[1] = Evaluate(y_, length);
     map_.end[2] = Evaluate(theta_, length);
     map_.end[3] = start.moment_N_mm + start.force_x_N * map_.end[1] -
                   start.force_y_N * map_.end[0];
+  }
+
+  template <int n>
+  static V Power(const V& a) {
+    if constexpr (n == 1) return a;
+    if constexpr (n > 1 && n % 2 == 1) return a * Power<n - 1>(a);
+    if constexpr (n > 1 && n % 2 == 0) return Power<n / 2>(V(a * a));
+  }
+  // The moment's derivative from those of the position.
+  void Balance(V* d) const {
+    d[3] = start_.force_x_N * d[1] - start_.force_y_N * d[0];
   }
 
   static V Evaluate(const Series& a, const V& h) {
@@ -226,9 +258,11 @@ class TaylorElement {
   }
   static void Evaluate(const SeriesBy& a, const V& h, V* sum) {
     for (int p = 0; p < kBy; ++p) sum[p] = a[K][p];
-    for (int i = K - 1; i >= 0; --i) {
+    for (int i = K - 1; i >= 1; --i) {
       for (int p = 0; p < kBy; ++p) sum[p] = sum[p] * h + a[i][p];
     }
+    // Nothing of the start itself.
+    for (int p = 0; p < kBy; ++p) sum[p] *= h;
   }
   static V Slope(const Series& a, const V& h) {
     V sum = a[K] * Scalar(K);
@@ -241,12 +275,12 @@ class TaylorElement {
   }
   V ByStiffness(const V* d) const {
     return -(start_.moment_N_mm * d[1] + start_.force_x_N * d[2] +
-             start_.force_y_N * d[3]) /
-           stiffness_;
+             start_.force_y_N * d[3]) *
+           flexibility_;
   }
 
   BasicElementStart<V> start_;
-  V stiffness_, length_, nx_, ny_;
+  V stiffness_, flexibility_, length_, nx_, ny_;
   Series c_, s_, theta_, m_, x_, y_;
   SeriesBy dtheta_, dx_, dy_;
   BasicElementMap<V> map_;
