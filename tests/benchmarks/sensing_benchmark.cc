@@ -10,74 +10,39 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <random>
 #include <string>
+#include <vector>
 
-#include "finray/chain/forward.h"
 #include "finray/chain/sensing.h"
 #include "finray/sensing/contact_fit.h"
 #include "finray/sensing/frame_group_fit.h"
-#include "finray/statics/equilibrium.h"
+#include "finray/statics/ladder_kernel.h"
 #include "sensing/ceres_contact_fit.h"
+#include "sensing/gauge_log.h"
 #include "test_finger.h"
 
 namespace finray {
 namespace {
 
-constexpr double kNoise_rad = 1e-4;
-constexpr double kTolerance = 1e-5;
+constexpr double kTolerance = 5e-6;
 constexpr int kBlock = 64;
 constexpr int kFrames = 65 * kBlock;  // once there and back
 
-struct Log {
-  std::vector<PointContact> truth;
-  Eigen::MatrixXd angles, weights;
-  std::vector<PointContact> best;  // least squares
-};
-
-Finger LogFinger() {
-  Finger finger = PaperFinger();
-  for (Gauge& gauge : finger.gauges) gauge.noise_V = kNoise_rad;
-  return finger;
-}
-
-LadderState StateOf(const Discretization& discretization,
-                    const PointContact& contact) {
-  EquilibriumSolver solver(LogFinger(), discretization);
-  solver.Solve({contact});
-  return solver.state();
-}
-
-const Log& TheLog() {
-  static const Log log = [] {
-    Log made;
-    std::mt19937_64 generator(1);
-    std::normal_distribution<double> noise(0, kNoise_rad);
-    const Discretization fine{Scheme::kTaylor, 96};
-    EquilibriumSolver solver(LogFinger(), fine);
-    ContactFit fit(LogFinger(), fine);
-    made.angles.resize(4, kFrames);
-    made.weights.setConstant(4, kFrames, 1 / kNoise_rad);
-    for (int i = 0; i < kFrames; ++i) {
-      made.truth.push_back(
-          {70 + 40 * std::sin(0.0015 * i), 4 + 3 * std::cos(0.006 * i), 0});
-      solver.Solve({made.truth.back()});
-      made.angles.col(i) = solver.outputs().head(4);
-      for (double& angle : made.angles.col(i)) angle += noise(generator);
-      std::vector<PointContact> contacts = {made.truth.back()};
-      fit.set_state(solver.state());
-      fit.Fit(made.angles.col(i), made.weights.col(i), &contacts);
-      made.best.push_back(contacts[0]);
-    }
-    return made;
-  }();
+const GaugeLog& TheLog() {
+  static const GaugeLog log(kFrames);
   return log;
+}
+
+const std::vector<PointContact>& Best() {
+  static const std::vector<PointContact> best =
+      TheLog().LeastSquares({Scheme::kTaylor, 96});
+  return best;
 }
 
 class WorstError {
  public:
   void Add(int frame, const PointContact& contact) {
-    const PointContact& best = TheLog().best[frame];
+    const PointContact& best = Best()[frame];
     arc_mm_ = std::max(arc_mm_, std::abs(contact.arc_mm - best.arc_mm));
     force_percent_ = std::max(
         force_percent_, 100 * std::abs(contact.normal_N / best.normal_N - 1));
@@ -94,7 +59,7 @@ class WorstError {
 template <class Restart, class Fit>
 void Run(benchmark::State& state, int frames, int block, Restart restart,
          Fit fit) {
-  TheLog();
+  Best();
   WorstError error;
   std::vector<PointContact> contacts(block);
   restart();
@@ -125,12 +90,12 @@ void Run(benchmark::State& state, int frames, int block, Restart restart,
 // `follow`: from what the last linearisation makes of the readings.
 void Alone(benchmark::State& state, const Discretization& discretization,
            double tolerance, bool follow) {
-  ContactFit fit(LogFinger(), discretization);
+  ContactFit fit(PaperFinger(), discretization);
   fit.set_tolerance(tolerance);
   std::vector<PointContact> contacts(1);
   Eigen::VectorXd angles(4);
   const Eigen::VectorXd weights = TheLog().weights.col(0);
-  const LadderState first = StateOf(discretization, TheLog().truth[0]);
+  const LadderState first = TheLog().StateAt(discretization, 0);
   Run(
       state, kFrames, 1,
       [&] {
@@ -146,11 +111,11 @@ void Alone(benchmark::State& state, const Discretization& discretization,
       });
 }
 
-void InLanes(benchmark::State& state, const Discretization& discretization) {
-  FrameGroupFit fit(LogFinger(), discretization);
-  fit.set_tolerance(kTolerance);
+void InLanes(benchmark::State& state, const Discretization& discretization, double tolerance = kTolerance) {
+  FrameGroupFit fit(PaperFinger(), discretization);
+  fit.set_tolerance(tolerance);
   std::vector<FrameFit> fits(kBlock);
-  const LadderState first = StateOf(discretization, TheLog().truth[0]);
+  const LadderState first = TheLog().StateAt(discretization, 0);
   long frames = 0, in_lanes = 0, iterations = 0;
   Run(
       state, kFrames, kBlock, [&] { fit.Start(first, TheLog().truth[0]); },
@@ -170,7 +135,9 @@ void InLanes(benchmark::State& state, const Discretization& discretization) {
 }
 
 void Ceres(benchmark::State& state) {
-  CeresContactFit fit(LogFinger(), {});
+  Finger finger = PaperFinger();
+  for (Gauge& gauge : finger.gauges) gauge.noise_V = GaugeLog::kNoise_rad;
+  CeresContactFit fit(finger, {});
   PointContact contact;
   std::vector<double> volts(4);
   Run(
@@ -185,7 +152,7 @@ void Ceres(benchmark::State& state) {
 
 void Paper(benchmark::State& state, int joints) {
   const ChainLayout layout =
-      MakeChainLayout(LogFinger(), joints, GaugeRule::kOverlap);
+      MakeChainLayout(PaperFinger(), joints, GaugeRule::kOverlap);
   ChainContact contact;
   Run(
       state, 50, 1,
@@ -274,6 +241,9 @@ void Register() {
     add(name("alone", one),
         [=](benchmark::State& state) { Alone(state, one, kTolerance, true); });
   }
+  for (double t : {1e-5, 5e-6, 2e-6, 1e-6, 5e-7}) add("try " + std::to_string(1e6*t), [=](benchmark::State& state) {
+      InLanes(state, paper_like, t);
+    });
   for (const Discretization& one : all) {
     add(name("lanes", one),
         [=](benchmark::State& state) { InLanes(state, one); });

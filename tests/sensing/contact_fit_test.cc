@@ -9,6 +9,7 @@
 
 #include "finray/statics/equilibrium.h"
 #include "sensing/ceres_contact_fit.h"
+#include "sensing/gauge_log.h"
 #include "test_finger.h"
 
 namespace finray {
@@ -160,6 +161,74 @@ TEST(ContactFitTest, AGaugeOfNoWeightIsNotThere) {
   StartAt(finger, contacts, &fit);
   ASSERT_TRUE(fit.Fit(angles, weights, &contacts));
   EXPECT_NEAR(contacts[0].arc_mm, 70, 1e-5);
+}
+
+// The rule that ends a fit does not end it too early, whether a frame starts
+// from the state of the last one or from its linearisation.
+TEST(ContactFitTest, FollowsALogToTheLeastSquares) {
+  const GaugeLog log(4160);
+  const Discretization discretization{Scheme::kTaylor8, 12};
+  const std::vector<PointContact> same = log.LeastSquares(discretization);
+  const std::vector<PointContact> fine =
+      log.LeastSquares({Scheme::kTaylor, 96});
+  ASSERT_EQ(same.size(), log.truth.size());
+  for (const bool follow : {false, true}) {
+    ContactFit fit(PaperFinger(), discretization);
+    fit.set_tolerance(5e-6);
+    fit.set_state(log.StateAt(discretization, 0));
+    std::vector<PointContact> contacts = {log.truth[0]};
+    double worst_same = 0, worst_fine = 0, worst_force = 0;
+    int iterations = 0;
+    for (std::size_t i = 0; i < same.size(); ++i) {
+      ASSERT_TRUE(
+          follow ? fit.Follow(log.angles.col(i), log.weights.col(i), &contacts)
+                 : fit.Fit(log.angles.col(i), log.weights.col(i), &contacts));
+      iterations += fit.iterations();
+      const PointContact& at = contacts[0];
+      worst_same = std::max(worst_same, std::abs(at.arc_mm - same[i].arc_mm));
+      worst_fine = std::max(worst_fine, std::abs(at.arc_mm - fine[i].arc_mm));
+      worst_force =
+          std::max(worst_force, std::abs(at.normal_N / fine[i].normal_N - 1));
+    }
+    const double mean = static_cast<double>(iterations) / same.size();
+    std::printf("%s: %.2f linearisations, %.1e mm; %.1e mm and %.1e %%\n",
+                follow ? "Follow" : "Fit", mean, worst_same, worst_fine,
+                100 * worst_force);
+    EXPECT_LT(worst_same, 1e-3);
+    EXPECT_LT(worst_fine, 0.01);
+    EXPECT_LT(worst_force, 1e-3);
+    if (follow) {
+      EXPECT_LT(mean, 1.5);
+    }
+  }
+}
+
+// Jumps over several elements, to and from light forces and the ends.
+TEST(ContactFitTest, FollowsJumps) {
+  const Finger finger = PaperFinger();
+  ContactFit fit(finger, {});
+  std::vector<PointContact> contacts = {{70, 2, 0}};
+  StartAt(finger, contacts, &fit);
+  std::mt19937_64 generator(5);
+  std::uniform_real_distribution<double> arc(15, 115), force(0.3, 9);
+  int lost = 0;
+  for (int i = 0; i < 200; ++i) {
+    const PointContact truth = {arc(generator), force(generator), 0};
+    const Eigen::VectorXd angles = Angles(finger, {truth});
+    const PointContact before = contacts[0];
+    if (!fit.Follow(angles, Weights(finger), &contacts) || fit.chi2() > 1) {
+      // Gauss-Newton from far away may end elsewhere, and says so.
+      ++lost;
+      contacts = {truth};
+      StartAt(finger, contacts, &fit);
+      continue;
+    }
+    EXPECT_NEAR(contacts[0].arc_mm, truth.arc_mm, 1e-4)
+        << "from " << before.arc_mm;
+    EXPECT_NEAR(contacts[0].normal_N, truth.normal_N, 1e-5 * truth.normal_N);
+  }
+  std::printf("%d of 200 jumps lost\n", lost);
+  EXPECT_LT(lost, 60);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
 #include "finray/statics/equilibrium.h"
 #include "finray/statics/ladder_newton.h"
@@ -150,6 +151,42 @@ TEST(LadderKernelTest, DerivativesByManyContactsAreRefused) {
   EXPECT_FALSE(newton.LinearizeByContacts(contacts));
   contacts.resize(kFittedContacts);
   EXPECT_TRUE(newton.LinearizeByContacts(contacts));
+}
+
+// Four frames in lanes in one set against another.
+TEST(LadderKernelTest, InstructionSetsAgreeInLanes) {
+  for (const Scheme scheme :
+       {Scheme::kRigidChain, Scheme::kTaylor8, Scheme::kTaylor}) {
+    for (const bool stretch : {false, true}) {
+      const LadderModel model(PaperFinger(), {scheme, 24});
+      EquilibriumSolver solver(PaperFinger(), {scheme, 24});
+      const PointContact contact = {70, 3, 0.1};
+      ASSERT_TRUE(solver.Solve({contact}));
+      LadderWorkspace<FourFrames> workspace(model);
+      do {
+        workspace.SetContacts(model, {contact});
+      } while (workspace.SetColumns(model, SweepColumns::kContacts, false));
+      LadderFrame<FourFrames>& f = workspace.frame();
+      f.contacts[0].normal[2] *= 1.3;
+      std::vector<Eigen::VectorXd> ends;
+      for (int set = 0; set < LadderInstructionSets(); ++set) {
+        const LadderKernel& kernel = FindLadderKernel(scheme, stretch, set);
+        workspace.Load(solver.state());
+        f.state.q[7][1] += 0.1;
+        kernel.four.evaluate(f);
+        ASSERT_TRUE(kernel.four.sweep(f));
+        f.newton = FourFrames{1, 1, 1, 0};
+        f.change[0] = FourFrames{0, 0.01, 0, -0.02};
+        f.change[1] = FourFrames{0.1, 0, 0, 0};
+        kernel.four.step(f);
+        const int count = kFrameLanes * (6 + f.ribs + 4 * f.elements);
+        ends.push_back(Eigen::Map<const Eigen::VectorXd>(
+            reinterpret_cast<const double*>(f.state.q), count));
+        EXPECT_LT(Difference(ends.back(), ends[0]), 1e-11)
+            << LadderInstructionSetName(set);
+      }
+    }
+  }
 }
 
 TEST(LadderKernelTest, InstructionSetsAgree) {

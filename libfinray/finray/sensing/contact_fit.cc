@@ -142,7 +142,7 @@ bool ContactFit::Run(const Eigen::VectorXd& measured,
   linearised_contacts_ = 0;
   if (count < 1 || count > kFittedContacts) return false;
   double last_cost = std::numeric_limits<double>::infinity();
-  double damping = 0, last_change = 1;
+  double damping = 0, last_change = kUnknownChange;
   ContactVector x(unknowns);
   for (iterations_ = predict ? 0 : 1; iterations_ <= kMaxIterations;
        ++iterations_) {

@@ -40,9 +40,14 @@ ContactVector BoundedChange(const ContactEquations& equations,
                             const ContactVector& x, double most_force,
                             double damping);
 
-/// The largest of the changes of l_c over l_0, f_c over its size, and `shape`.
+/// The largest of the changes of l_c over l_0, f_c over its size, and `shape`,
+/// that of positions over l_0 and angles.
 double LargestChange(const ContactVector& change, const ContactVector& x,
                      double shape);
+
+/// In place of a change before the first one: of how fast changes shrink
+/// nothing is known but that Newton squares them, with some constant.
+constexpr double kUnknownChange = 1e-4;
 
 /// Whether the next change is expected below `tolerance` after changes `before`
 /// and then `now`: their ratio at least is what the next one shrinks by. Where

@@ -6,8 +6,9 @@
 namespace finray {
 namespace {
 
-// Frames that take longer are fitted alone, without three others waiting.
+// Frames that take longer, or begin with a larger change, are fitted alone.
 constexpr int kMostIterations = 6;
+constexpr double kLargestChange = 0.5;
 
 }  // namespace
 
@@ -21,7 +22,7 @@ FrameGroupFit::FrameGroupFit(const Finger& finger,
       contact_(1) {
   const int gauges = lanes_.model().gauges();
   reading_.resize(gauges);
-  for (auto& slope : slopes_) slope.resize(gauges);
+  for (auto& slope : slope_) slope.resize(gauges);
   kept_state_.resize(lanes_.state_size());
   angles_.resize(gauges);
   weights_.resize(gauges);
@@ -40,13 +41,13 @@ void FrameGroupFit::set_most_force(double force_N) {
 void FrameGroupFit::Start(const LadderState& state,
                           const PointContact& contact) {
   one_by_one_ = false;
+  linearised_ = 0;
+  newton_ = change_[0] = change_[1] = FourFrames{};
   for (int lane = 0; lane < kFrameLanes; ++lane) {
     one_by_one_ |= !lanes_.Load(state, lane);
+    lane_[lane].arc_mm = contact.arc_mm;
+    lane_[lane].normal_N = contact.normal_N;
   }
-  arc_mm_.fill(contact.arc_mm);
-  normal_N_.fill(contact.normal_N);
-  linearised_ = 0;
-  newton_ = FourFrames{};
   state_ = state;
   contact_[0] = {contact.arc_mm, contact.normal_N, friction_};
   alone_.set_state(state);
@@ -54,129 +55,72 @@ void FrameGroupFit::Start(const LadderState& state,
 
 void FrameGroupFit::Fit(const Columns& angles_rad,
                         const Columns& weights_per_rad, FrameFit* fits) {
-  const int count = static_cast<int>(angles_rad.cols());
-  for (int first = 0; first < count; first += kFrameLanes) {
-    const int frames = std::min(kFrameLanes, count - first);
-    if (!one_by_one_) {
-      FitGroup(angles_rad.middleCols(first, frames),
-               weights_per_rad.middleCols(first, frames), fits + first);
-      continue;
-    }
-    for (int i = first; i < first + frames; ++i) {
-      FitAlone(angles_rad, weights_per_rad, i, fits + i);
-    }
-  }
-}
-
-// Where there are less frames than lanes, the last one fills them.
-void FrameGroupFit::FitGroup(const Columns& angles_rad,
-                             const Columns& weights_per_rad, FrameFit* fits) {
-  const int frames = static_cast<int>(angles_rad.cols());
-  const double length = lanes_.workspace().length_unit();
-  const double force = lanes_.workspace().force_unit();
-  const BeamMesh& mesh = lanes_.model().mesh(Side::kFront);
-  Keep();
-  LaneSet active = kAllFrameLanes, converged = 0;
-  const auto give_up = [&](int lane) {
-    active &= ~(1u << lane);
-    RestoreLane(lane);
-  };
-  Numbers last_cost, last_change;
-  last_cost.fill(std::numeric_limits<double>::infinity());
-  last_change.fill(1);
-  const bool predict = linearised_ == kAllFrameLanes;
-  for (int iteration = predict ? 0 : 1;
-       iteration <= kMostIterations && active != 0; ++iteration) {
-    const bool predicts = iteration == 0;
-    if (!predicts) {
-      // Lanes that have converged come along to be where the next group starts.
-      linearised_ =
-          lanes_.Place(arc_mm_, normal_N_, active | converged, active);
-      active &= linearised_;
-      if (active == 0) break;
-      if (!lanes_.Linearize()) {
-        linearised_ = active = 0;
-        break;
-      }
-      newton_ = FourFrames{} + 1.0;
-      ReadGauges();
-    }
-    FourFrames newton{}, share{}, steps[2] = {};
-    ContactEquations equations[kFrameLanes];
-    ContactVector x[kFrameLanes], change[kFrameLanes];
-    for (int lane = 0; lane < kFrameLanes; ++lane) {
-      if (!Has(active, lane)) continue;
-      const int frame = std::min(lane, frames - 1);
-      equations[lane] = EquationsOf(lane, angles_rad.col(frame).data(),
-                                    weights_per_rad.col(frame).data());
-      const double cost = equations[lane].chi2;
-      // Written so that a NaN fails.
-      if (!(cost <= kMostRise * last_cost[lane] + 1)) {
-        give_up(lane);
-        continue;
-      }
-      last_cost[lane] = cost;
-      x[lane].resize(2);
-      x[lane] << arc_mm_[lane] / length, normal_N_[lane] / force;
-      change[lane] =
-          BoundedChange(equations[lane], x[lane], most_force_N_ / force, 0);
-      newton[lane] = newton_[lane];
-      for (int k = 0; k < 2; ++k) steps[k][lane] = change[lane][k];
-    }
-    lanes_.Step(newton, steps);
-    FourFrames size;
-    lanes_.Size(&size);
-    for (int lane = 0; lane < kFrameLanes; ++lane) {
-      if (!Has(active, lane)) continue;
-      share[lane] = 1;
-      newton_[lane] = 0;
-    }
-    lanes_.Move(share);
-    for (int lane = 0; lane < kFrameLanes; ++lane) {
-      if (Has(active, lane) && !(size[lane] <= kMaxTurn_rad)) give_up(lane);
-    }
-    for (std::size_t j = 0; j < reading_.size(); ++j) {
-      reading_[j] += slopes_[0][j] * steps[0] + slopes_[1][j] * steps[1];
-    }
-    for (int lane = 0; lane < kFrameLanes; ++lane) {
-      if (!Has(active, lane)) continue;
-      const double moved = LargestChange(change[lane], x[lane], size[lane]);
-      const int before = mesh.Locate(arc_mm_[lane]).element;
-      arc_mm_[lane] =
-          std::clamp(arc_mm_[lane] + change[lane][0] * length, 0.0, length);
-      normal_N_[lane] =
-          std::max(0.0, normal_N_[lane] + change[lane][1] * force);
-      const bool crossed = mesh.Locate(arc_mm_[lane]).element != before;
-      const bool last = !predicts && IsLastChange(moved, last_change[lane],
-                                                  crossed, tolerance_);
-      last_change[lane] = moved;
-      if (!last) continue;
-      active &= ~(1u << lane);
-      if (!IsResolved(lane)) continue;
-      converged |= 1u << lane;
-      if (lane >= frames) continue;
-      fits[lane].iterations = iteration;
-      Record(lane, angles_rad.col(lane).data(),
-             weights_per_rad.col(lane).data(), change[lane],
-             equations[lane].normal, fits + lane);
-    }
-  }
+  const Frames frames{angles_rad, weights_per_rad, fits};
   for (int lane = 0; lane < kFrameLanes; ++lane) {
-    if (Has(converged, lane)) continue;
-    RestoreLane(lane);
-    if (lane >= frames) continue;
-    if (one_by_one_) {
-      FitAlone(angles_rad, weights_per_rad, lane, fits + lane);
-    } else {
-      FitLane(angles_rad, weights_per_rad, lane, fits + lane);
+    TakeFrame(lane, lane);
+    if (one_by_one_ || !frames.Busy(lane_[lane])) continue;
+    if (Has(linearised_, lane) && !Improve(frames, lane, true)) {
+      FitLane(frames, lane);
     }
+  }
+  const auto busy = [&](const Lane& lane) { return frames.Busy(lane); };
+  while (!one_by_one_ && std::any_of(lane_.begin(), lane_.end(), busy)) {
+    Keep(to_keep_);
+    if (linearised_ != 0) lanes_.Step(newton_, change_);
+    Linearize(frames);
+    for (int lane = 0; lane < kFrameLanes; ++lane) {
+      if (one_by_one_ || !frames.Busy(lane_[lane])) continue;
+      if (Has(linearised_, lane)) {
+        Advance(frames, lane);
+      } else {
+        FitLane(frames, lane);
+      }
+    }
+  }
+  if (!one_by_one_) return;
+  for (int i = 0; i < frames.count(); ++i) {
+    if (i >= lane_[i % kFrameLanes].frame) FitAlone(frames, i);
   }
 }
 
-// Of the state at the end of Newton's step, in all lanes.
+void FrameGroupFit::TakeFrame(int lane, int frame) {
+  Lane& l = lane_[lane];
+  l.frame = frame;
+  l.iteration = 0;
+  l.last_cost = std::numeric_limits<double>::infinity();
+  l.last_change = kUnknownChange;
+  l.kept_arc_mm = l.arc_mm;
+  l.kept_normal_N = l.normal_N;
+  to_keep_ |= 1u << lane;
+}
+
+// Idle lanes come along, so that they are where the next call starts.
+void FrameGroupFit::Linearize(const Frames& frames) {
+  std::array<double, kFrameLanes> arc_mm, normal_N;
+  LaneSet first = 0;
+  for (int lane = 0; lane < kFrameLanes; ++lane) {
+    arc_mm[lane] = lane_[lane].arc_mm;
+    normal_N[lane] = lane_[lane].normal_N;
+    if (frames.Busy(lane_[lane])) first |= 1u << lane;
+  }
+  linearised_ = lanes_.Place(arc_mm, normal_N, kAllFrameLanes, first);
+  if (!lanes_.Linearize()) {
+    // One lane spoils all; idle ones must not do so again.
+    linearised_ = 0;
+    FourFrames* state = lanes_.frame().state.q;
+    std::copy(kept_state_.begin(), kept_state_.end(), state);
+  }
+  change_[0] = change_[1] = FourFrames{};
+  for (int lane = 0; lane < kFrameLanes; ++lane) {
+    newton_[lane] = Has(linearised_, lane);
+  }
+  ReadGauges();
+}
+
+// At the end of Newton's step, in all lanes.
 void FrameGroupFit::ReadGauges() {
   const LadderFrame<FourFrames>& f = lanes_.frame();
-  for (std::vector<FourFrames>* of : {&reading_, &slopes_[0], &slopes_[1]}) {
+  for (std::vector<FourFrames>* of : {&reading_, &slope_[0], &slope_[1]}) {
     std::fill(of->begin(), of->end(), FourFrames{});
   }
   for (int i = 0; i < f.readout_count; ++i) {
@@ -184,27 +128,99 @@ void FrameGroupFit::ReadGauges() {
     const double sign = f.readouts[i].sign;
     const FourFrames* tap = f.taps + f.readout_tap(i) * f.stride + f.affine;
     reading_[j] += sign * (f.readout_map[kReadoutValues * i] + tap[0]);
-    for (int k = 0; k < 2; ++k) slopes_[k][j] += sign * tap[1 + k];
+    for (int k = 0; k < 2; ++k) slope_[k][j] += sign * tap[1 + k];
   }
 }
 
-ContactEquations FrameGroupFit::EquationsOf(int lane, const double* angle,
-                                            const double* weight) const {
-  double normal[2][2] = {}, gradient[2] = {}, chi2 = 0;
-  for (std::size_t j = 0; j < reading_.size(); ++j) {
-    const double residual = weight[j] * (reading_[j][lane] - angle[j]);
-    const double slope[2] = {weight[j] * slopes_[0][j][lane],
-                             weight[j] * slopes_[1][j][lane]};
-    chi2 += residual * residual;
-    for (int k = 0; k < 2; ++k) {
-      gradient[k] += slope[k] * residual;
-      for (int l = 0; l < 2; ++l) normal[k][l] += slope[k] * slope[l];
+// After a linearisation: ends the lane's frame, if it converges, and predicts
+// the next one.
+void FrameGroupFit::Advance(const Frames& frames, int lane) {
+  Lane& l = lane_[lane];
+  if (++l.iteration > kMostIterations || !Improve(frames, lane, false) ||
+      (l.converged && !IsResolved(lane))) {
+    FitLane(frames, lane);
+    return;
+  }
+  if (!l.converged) return;
+  Record(frames, lane);
+  TakeFrame(lane, l.frame + kFrameLanes);
+  if (frames.Busy(l) && !Improve(frames, lane, true)) FitLane(frames, lane);
+}
+
+// Moves the contact to where the linearisation has the least squares. False if
+// the frame is better fitted alone.
+bool FrameGroupFit::Improve(const Frames& frames, int lane, bool predict) {
+  Lane& l = lane_[lane];
+  const double length = lanes_.workspace().length_unit();
+  const double force = lanes_.workspace().force_unit();
+  const ContactEquations equations = EquationsOf(frames, lane);
+  // Written so that a NaN fails, here and below.
+  if (!(equations.chi2 <= kMostRise * l.last_cost + 1)) return false;
+  l.last_cost = equations.chi2;
+  l.normal = equations.normal;
+  ContactVector x(2);
+  x << l.arc_mm / length, l.normal_N / force;
+  const ContactVector change =
+      BoundedChange(equations, x, most_force_N_ / force, 0);
+  const double moved =
+      LargestChange(change, x, ShapeChange(lane, !predict, change));
+  if (!(moved <= kLargestChange)) return false;
+  const BeamMesh& mesh = lanes_.model().mesh(Side::kFront);
+  const int before = mesh.Locate(l.arc_mm).element;
+  l.arc_mm = std::clamp(l.arc_mm + change[0] * length, 0.0, length);
+  l.normal_N = std::max(0.0, l.normal_N + change[1] * force);
+  const bool crossed = mesh.Locate(l.arc_mm).element != before;
+  for (int k = 0; k < 2; ++k) {
+    change_[k][lane] += change[k];
+    for (std::size_t j = 0; j < reading_.size(); ++j) {
+      reading_[j][lane] += slope_[k][j][lane] * change[k];
     }
   }
+  l.converged =
+      !predict && IsLastChange(moved, l.last_change, crossed, tolerance_);
+  l.last_change = moved;
+  return true;
+}
+
+ContactEquations FrameGroupFit::EquationsOf(const Frames& frames,
+                                            int lane) const {
+  const int frame = lane_[lane].frame;
+  double normal[3] = {}, gradient[2] = {}, chi2 = 0;
+  for (std::size_t j = 0; j < reading_.size(); ++j) {
+    const double weight = frames.weights_per_rad(j, frame);
+    const double residual =
+        weight * (reading_[j][lane] - frames.angles_rad(j, frame));
+    const double by_arc = weight * slope_[0][j][lane];
+    const double by_force = weight * slope_[1][j][lane];
+    chi2 += residual * residual;
+    gradient[0] += by_arc * residual;
+    gradient[1] += by_force * residual;
+    normal[0] += by_arc * by_arc;
+    normal[1] += by_arc * by_force;
+    normal[2] += by_force * by_force;
+  }
   ContactEquations equations{ContactMatrix(2, 2), ContactVector(2), chi2};
-  equations.normal << normal[0][0], normal[0][1], normal[1][0], normal[1][1];
+  equations.normal << normal[0], normal[1], normal[1], normal[2];
   equations.gradient << gradient[0], gradient[1];
   return equations;
+}
+
+// What stands for a change of the whole shape: gaps between its elements, and
+// the poses of tip and contact.
+double FrameGroupFit::ShapeChange(int lane, bool newton,
+                                  const ContactVector& change) const {
+  const LadderFrame<FourFrames>& f = lanes_.frame();
+  double largest = newton ? f.residual[lane] : 0;
+  for (const int first :
+       {f.tip_tap(), f.contact_tap(lanes_.contact_of(lane))}) {
+    for (int tap = first; tap < first + 3; ++tap) {
+      const FourFrames* row = f.taps + tap * f.stride + f.affine;
+      largest = std::max(largest, std::abs((newton ? row[0][lane] : 0) +
+                                           row[1][lane] * change[0] +
+                                           row[2][lane] * change[1]));
+    }
+  }
+  return largest;
 }
 
 // Whether the series of the last linearisation had converged.
@@ -218,98 +234,114 @@ bool FrameGroupFit::IsResolved(int lane) const {
   return worst < kRefinedTruncation_rad;
 }
 
-// What was linear in the last change is brought to its end.
-void FrameGroupFit::Record(int lane, const double* angle, const double* weight,
-                           const ContactVector& change,
-                           const ContactMatrix& normal, FrameFit* fit) const {
+// What is linear in the last change is brought to its end.
+void FrameGroupFit::Record(const Frames& frames, int lane) const {
   const LadderFrame<FourFrames>& f = lanes_.frame();
+  const Lane& l = lane_[lane];
+  FrameFit& fit = frames.fits[l.frame];
   const double length = lanes_.workspace().length_unit();
   const double force = lanes_.workspace().force_unit();
-  fit->converged = fit->in_lanes = true;
-  fit->arc_mm = arc_mm_[lane];
-  fit->normal_N = normal_N_[lane];
-  fit->information << normal(0, 0) / (length * length),
-      normal(0, 1) / (length * force), normal(1, 0) / (length * force),
-      normal(1, 1) / (force * force);
-  fit->chi2 = 0;
+  fit.converged = fit.in_lanes = true;
+  fit.iterations = l.iteration;
+  fit.arc_mm = l.arc_mm;
+  fit.normal_N = l.normal_N;
+  const double mixed = l.normal(0, 1) / (length * force);
+  fit.information << l.normal(0, 0) / (length * length), mixed, mixed,
+      l.normal(1, 1) / (force * force);
+  fit.chi2 = 0;
   for (std::size_t j = 0; j < reading_.size(); ++j) {
-    const double residual = weight[j] * (reading_[j][lane] - angle[j]);
-    fit->chi2 += residual * residual;
+    const double residual = frames.weights_per_rad(j, l.frame) *
+                            (reading_[j][lane] - frames.angles_rad(j, l.frame));
+    fit.chi2 += residual * residual;
   }
-  const auto moved = [&](const FourFrames& from, int tap) {
-    const FourFrames* row = f.taps + tap * f.stride + f.affine;
-    return from[lane] + row[0][lane] + row[1][lane] * change[0] +
-           row[2][lane] * change[1];
+  const auto moved = [&](const FourFrames& from, const FourFrames* row) {
+    row += f.affine;
+    return from[lane] + row[0][lane] + row[1][lane] * change_[0][lane] +
+           row[2][lane] * change_[1][lane];
+  };
+  const auto pose = [&](const FourFrames& x, const FourFrames& y,
+                        const FourFrames& theta, int tap) {
+    const FourFrames* rows = f.taps + tap * f.stride;
+    return Eigen::Vector3d(length * moved(x, rows),
+                           length * moved(y, rows + f.stride),
+                           moved(theta, rows + 2 * f.stride));
   };
   const int contact = lanes_.contact_of(lane), slot = f.elements + contact;
-  const int at = f.contact_tap(contact), tip = f.tip_tap();
-  fit->contact_pose << length * moved(f.slot_x[slot], at),
-      length * moved(f.slot_y[slot], at + 1), moved(f.slot_theta[slot], at + 2);
-  fit->tip_pose << length * moved(f.tip[0], tip),
-      length * moved(f.tip[1], tip + 1), moved(f.tip[2], tip + 2);
-  fit->rib_tension_N.resize(f.ribs);
+  fit.contact_pose = pose(f.slot_x[slot], f.slot_y[slot], f.slot_theta[slot],
+                          f.contact_tap(contact));
+  fit.tip_pose = pose(f.tip[0], f.tip[1], f.tip[2], f.tip_tap());
+  fit.rib_tension_N.resize(f.ribs);
   for (int i = 0; i < f.ribs; ++i) {
-    fit->rib_tension_N[i] = f.state.q[6 + i][lane] * force;
+    fit.rib_tension_N[i] =
+        force * moved(f.state.q[6 + i], f.q_step + (6 + i) * f.stride);
   }
 }
 
-void FrameGroupFit::Keep() {
+void FrameGroupFit::Keep(LaneSet lanes) {
   const FourFrames* state = lanes_.frame().state.q;
-  std::copy(state, state + lanes_.state_size(), kept_state_.begin());
-  kept_arc_mm_ = arc_mm_;
-  kept_normal_N_ = normal_N_;
+  if (lanes == kAllFrameLanes) {
+    std::copy_n(state, kept_state_.size(), kept_state_.begin());
+  } else {
+    for (int lane = 0; lane < kFrameLanes; ++lane) {
+      if (!Has(lanes, lane)) continue;
+      for (std::size_t i = 0; i < kept_state_.size(); ++i) {
+        kept_state_[i][lane] = state[i][lane];
+      }
+    }
+  }
+  to_keep_ &= ~lanes;
 }
 
-// Back to where the group started from.
-void FrameGroupFit::RestoreLane(int lane) {
+// A lane's frame without the others, from where it started.
+void FrameGroupFit::FitLane(const Frames& frames, int lane) {
+  Lane& l = lane_[lane];
+  Keep(to_keep_ & 1u << lane);
   FourFrames* state = lanes_.frame().state.q;
   for (std::size_t i = 0; i < kept_state_.size(); ++i) {
     state[i][lane] = kept_state_[i][lane];
   }
-  arc_mm_[lane] = kept_arc_mm_[lane];
-  normal_N_[lane] = kept_normal_N_[lane];
+  l.arc_mm = l.kept_arc_mm;
+  l.normal_N = l.kept_normal_N;
   linearised_ &= ~(1u << lane);
-}
+  newton_[lane] = change_[0][lane] = change_[1][lane] = 0;
 
-// A lane's frame without the others, from where the lane stands.
-void FrameGroupFit::FitLane(const Columns& angles_rad,
-                            const Columns& weights_per_rad, int lane,
-                            FrameFit* fit) {
   lanes_.Save(&state_, lane);
   alone_.set_state(state_);
-  contact_[0] = {arc_mm_[lane], normal_N_[lane], friction_};
-  FitAlone(angles_rad, weights_per_rad, lane, fit);
-  if (!fit->converged) return;
-  one_by_one_ = !lanes_.Load(state_, lane);
-  arc_mm_[lane] = fit->arc_mm;
-  normal_N_[lane] = fit->normal_N;
+  contact_[0] = {l.arc_mm, l.normal_N, friction_};
+  FitAlone(frames, l.frame);
+  const FrameFit& fit = frames.fits[l.frame];
+  if (fit.converged) {
+    one_by_one_ = !lanes_.Load(state_, lane);
+    l.arc_mm = fit.arc_mm;
+    l.normal_N = fit.normal_N;
+  }
+  TakeFrame(lane, l.frame + kFrameLanes);
 }
 
 // From the last frame that was fitted so.
-void FrameGroupFit::FitAlone(const Columns& angles_rad,
-                             const Columns& weights_per_rad, int frame,
-                             FrameFit* fit) {
+void FrameGroupFit::FitAlone(const Frames& frames, int frame) {
+  FrameFit& fit = frames.fits[frame];
   const PointContact before = contact_[0];
-  angles_ = angles_rad.col(frame);
-  weights_ = weights_per_rad.col(frame);
-  fit->in_lanes = false;
-  fit->converged = alone_.Follow(angles_, weights_, &contact_);
-  fit->iterations = alone_.iterations();
-  if (!fit->converged) {
+  angles_ = frames.angles_rad.col(frame);
+  weights_ = frames.weights_per_rad.col(frame);
+  fit.in_lanes = false;
+  fit.converged = alone_.Follow(angles_, weights_, &contact_);
+  fit.iterations = alone_.iterations();
+  if (!fit.converged) {
     alone_.set_state(state_);
     contact_[0] = before;
     return;
   }
   alone_.SaveState(&state_);
-  fit->arc_mm = contact_[0].arc_mm;
-  fit->normal_N = contact_[0].normal_N;
-  fit->information = alone_.information();
-  fit->chi2 = alone_.chi2();
-  fit->contact_pose = alone_.contact_pose(0);
-  fit->tip_pose = alone_.tip_pose();
-  fit->rib_tension_N.resize(lanes_.model().ribs());
+  fit.arc_mm = contact_[0].arc_mm;
+  fit.normal_N = contact_[0].normal_N;
+  fit.chi2 = alone_.chi2();
+  fit.information = alone_.information();
+  fit.contact_pose = alone_.contact_pose(0);
+  fit.tip_pose = alone_.tip_pose();
+  fit.rib_tension_N.resize(lanes_.model().ribs());
   for (int i = 0; i < lanes_.model().ribs(); ++i) {
-    fit->rib_tension_N[i] = alone_.rib_tension(i);
+    fit.rib_tension_N[i] = alone_.rib_tension(i);
   }
 }
 

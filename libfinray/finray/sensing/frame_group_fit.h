@@ -14,26 +14,30 @@ namespace finray {
 /// What a fit of one contact to one frame came to.
 struct FrameFit {
   bool converged = false;
+  bool in_lanes = false;
+  int iterations = 0;  ///< linearisations.
   double arc_mm = 0, normal_N = 0;
-  Eigen::Matrix2d information;  ///< Fisher's, of (l_c, f_c) per mm and N.
   double chi2 = 0;
+  Eigen::Matrix2d information;  ///< Fisher's, of (l_c, f_c) per mm and N.
   Eigen::Vector3d contact_pose, tip_pose;  ///< (x, y, theta), mm and rad.
   Eigen::VectorXd rib_tension_N;
-  int iterations = 0;  ///< linearisations.
-  bool in_lanes = false;
 };
 
-/// ContactFit of one contact for frames of a log, four at a time in vector
-/// lanes: lane k takes frames k, k + 4, k + 8 .. and starts each from what its
-/// last frame's linearisation makes of the new readings, as ContactFit::Follow
-/// does. Lanes have their own residuals, weights, changes and convergence.
-/// What does not fit in is fitted alone, by ContactFit, from where its lane
-/// stood: a lane that meets a bound, turns too far, does not lower its chi2 or
-/// does not converge in a few iterations, and contacts in a third element or
-/// beyond the end of a gauge that other lanes' have not reached.
+/// ContactFit of one contact for the frames of a log, four at a time in vector
+/// lanes. Lane k takes frames k, k + 4, k + 8 .. as fast as they converge, and
+/// starts each from what the last linearisation makes of its readings, as
+/// ContactFit::Follow does. As the end of one frame and the prediction of the
+/// next are changes of the same linearisation, they are one step: a frame that
+/// converges at once costs a quarter of one linearisation and one step.
 ///
-/// Results depend on the state given to Start and on the frames since. After
-/// the first calls nothing is allocated.
+/// Lanes have their own residuals, weights, changes, bounds and convergence.
+/// What does not fit in is fitted alone by ContactFit, from where its lane
+/// stood: a frame that changes a lot, does not lower its chi2 or does not
+/// converge in a few iterations, and a contact in a third element or beyond
+/// the end of a gauge that other lanes' have not reached.
+///
+/// Results depend on the state given to Start, the frames since, and the calls
+/// they came in. After the first calls nothing is allocated.
 class FrameGroupFit {
  public:
   /// Throws InputError as LadderModel.
@@ -44,36 +48,51 @@ class FrameGroupFit {
   void set_tolerance(double relative);
   void set_most_force(double force_N);
 
-  /// Where the next frame starts: an equilibrium with a contact near its own.
+  /// Where the next frames start: an equilibrium with a contact near theirs.
   void Start(const LadderState& state, const PointContact& contact);
 
   /// Fits frames that follow each other, the first one the last that was
   /// fitted (or Start). A column of angles and weights (per rad, 0: not
-  /// measured) is a frame. Where a frame does not converge the next one starts
+  /// measured) is a frame. Lanes end together, so calls of many frames are
+  /// faster. Where a frame does not converge the next one of its lane starts
   /// from before it.
   void Fit(const Eigen::Ref<const Eigen::MatrixXd>& angles_rad,
            const Eigen::Ref<const Eigen::MatrixXd>& weights_per_rad,
            FrameFit* fits);
 
  private:
-  using Numbers = std::array<double, kFrameLanes>;
   using Columns = Eigen::Ref<const Eigen::MatrixXd>;
 
-  void FitGroup(const Columns& angles_rad, const Columns& weights_per_rad,
-                FrameFit* fits);
+  struct Lane {
+    int frame;  // its column; the lane is idle if that is beyond the last
+    int iteration;
+    bool converged;
+    double arc_mm, normal_N;
+    double last_cost, last_change;
+    ContactMatrix normal;  // of the last equations
+    double kept_arc_mm, kept_normal_N;
+  };
+  // The frames of a call.
+  struct Frames {
+    const Columns& angles_rad;
+    const Columns& weights_per_rad;
+    FrameFit* fits;
+    int count() const { return static_cast<int>(angles_rad.cols()); }
+    bool Busy(const Lane& lane) const { return lane.frame < count(); }
+  };
+
+  void TakeFrame(int lane, int frame);
+  void Linearize(const Frames& frames);
   void ReadGauges();
-  ContactEquations EquationsOf(int lane, const double* angle,
-                               const double* weight) const;
+  void Advance(const Frames& frames, int lane);
+  bool Improve(const Frames& frames, int lane, bool predict);
+  ContactEquations EquationsOf(const Frames& frames, int lane) const;
+  double ShapeChange(int lane, bool newton, const ContactVector& change) const;
   bool IsResolved(int lane) const;
-  void Record(int lane, const double* angle, const double* weight,
-              const ContactVector& change, const ContactMatrix& normal,
-              FrameFit* fit) const;
-  void Keep();
-  void RestoreLane(int lane);
-  void FitLane(const Columns& angles_rad, const Columns& weights_per_rad,
-               int lane, FrameFit* fit);
-  void FitAlone(const Columns& angles_rad, const Columns& weights_per_rad,
-                int frame, FrameFit* fit);
+  void Record(const Frames& frames, int lane) const;
+  void Keep(LaneSet lanes);
+  void FitLane(const Frames& frames, int lane);
+  void FitAlone(const Frames& frames, int frame);
 
   LadderLanes lanes_;
   ContactFit alone_;
@@ -82,17 +101,17 @@ class FrameGroupFit {
   double friction_;
   bool adaptive_;
 
-  // Of each lane: the contact, and whether the frame of lanes_ holds a
-  // linearisation at the lane's state, or at the one before the last step.
-  Numbers arc_mm_{}, normal_N_{};
+  std::array<Lane, kFrameLanes> lane_{};
+  // The lanes whose linearisation is of use, each of which then has Newton's
+  // step ahead of it (1, else 0) and has moved its contact since, by (l_c, f_c)
+  // in units of the ladder.
   LaneSet linearised_ = 0;
-  FourFrames newton_{};  // the share of Newton's step that is not taken yet
-  // Gauge angles at the end of that step and their slopes by (l_c, f_c).
-  std::vector<FourFrames> reading_, slopes_[2];
-
-  // What a group started from.
+  FourFrames newton_{}, change_[2] = {};
+  // Gauge angles after that step and change; slopes by (l_c, f_c).
+  std::vector<FourFrames> reading_, slope_[2];
+  // Where each lane's frame started, for a fit alone; lanes yet to be copied.
   std::vector<FourFrames> kept_state_;
-  Numbers kept_arc_mm_{}, kept_normal_N_{};
+  LaneSet to_keep_ = 0;
 
   // A load that asks for a finer mesh than the lanes have: from there on to the
   // next Start frames are fitted one by one.

@@ -51,8 +51,11 @@ bool SweepFour(LadderFrame<FourFrames>& frame) {
   return SweeperFour(&frame, SweepColumns::kContacts, false).Run(true);
 }
 
-void CombineFour(LadderFrame<FourFrames>& frame) {
+void StepFour(LadderFrame<FourFrames>& frame) {
   SweeperFour(&frame, SweepColumns::kContacts, false).Combine(2);
+  // The five fields of a state lie one behind the other.
+  const int count = 6 + frame.ribs + 4 * frame.elements;
+  for (int i = 0; i < count; ++i) frame.state.q[i] += frame.step.q[i];
 }
 
 void Combine(Frame& frame) {
@@ -70,7 +73,7 @@ constexpr LadderKernel KernelOfScheme() {
           Sweep,
           Combine,
           OpenSweep,
-          {EvaluateFour<Wide>, SweepFour, CombineFour}};
+          {EvaluateFour<Wide>, SweepFour, StepFour}};
 }
 
 template <int K, bool kStretch>

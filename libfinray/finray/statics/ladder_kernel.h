@@ -56,7 +56,8 @@ struct LadderKernel {
   struct {
     void (*evaluate)(LadderFrame<FourFrames>&);
     bool (*sweep)(LadderFrame<FourFrames>&);
-    void (*combine)(LadderFrame<FourFrames>&);
+    /// What combine leaves in `step` is also added to the state.
+    void (*step)(LadderFrame<FourFrames>&);
   } four;
 };
 

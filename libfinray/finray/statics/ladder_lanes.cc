@@ -107,23 +107,7 @@ void LadderLanes::Step(const FourFrames& newton, const FourFrames change[2]) {
   f.newton = newton;
   f.change[0] = change[0];
   f.change[1] = change[1];
-  kernel_->four.combine(f);
-}
-
-void LadderLanes::Size(FourFrames* largest) const {
-  const LadderFrame<FourFrames>& f = frame();
-  // x, y and theta of all nodes
-  *largest = FourFrames{};
-  for (int i = 0; i < 3 * f.elements; ++i) {
-    *largest = Larger(*largest, Magnitude(f.step.x[i]));
-  }
-}
-
-void LadderLanes::Move(const FourFrames& share) {
-  const LadderFrame<FourFrames>& f = frame();
-  for (int i = 0; i < state_size(); ++i) {
-    f.state.q[i] += share * f.step.q[i];
-  }
+  kernel_->four.step(f);
 }
 
 }  // namespace finray

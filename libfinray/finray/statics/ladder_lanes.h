@@ -49,12 +49,10 @@ class LadderLanes {
   /// Linearises with derivatives by (l_c, f_c) and readings. False if singular
   /// or not finite in any lane.
   bool Linearize();
-  /// After that: fills `step` with `newton` times Newton's, the contact moved
-  /// by (l_c, f_c) in units of the workspace. Lane by lane.
+  /// After that: adds to the state `newton` times Newton's step (0 or 1, lane
+  /// by lane) with the contacts moved by `change` of (l_c, f_c) in units of the
+  /// workspace.
   void Step(const FourFrames& newton, const FourFrames change[2]);
-  /// As LadderNewton's Size and Move.
-  void Size(FourFrames* largest) const;
-  void Move(const FourFrames& share);
 
   /// Number of values that make up a state, which begin at frame().state.q.
   int state_size() const { return 6 + frame().ribs + 4 * frame().elements; }
