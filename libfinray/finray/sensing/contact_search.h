@@ -45,9 +45,12 @@ class ContactSearch {
 
   // Of the last search that came to something.
 
+  /// The solution with the least chi2, or a lighter one that explains the frame
+  /// within kWithinNoise as well: a light touch near the tip and a heavy one
+  /// may read alike, and light ones are more common.
   const ContactSolution& best() const { return solutions_[best_]; }
-  /// The best solution that is not `best` within its uncertainty but explains
-  /// the frame as well; null if there is none.
+  /// The best other solution that is not `best` within its uncertainty but
+  /// explains the frame as well; null if there is none.
   const ContactSolution* rival() const;
   /// Of all fits together.
   int iterations() const { return iterations_; }
@@ -70,6 +73,7 @@ class ContactSearch {
   // Adds a solution in its order from base to tip.
   void Add(ContactSolution* solution);
   double least_chi2() const;
+  void PreferLight();
   bool IsDistinct(const ContactSolution& other) const;
 
   Scene scene_;

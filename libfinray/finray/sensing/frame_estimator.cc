@@ -148,11 +148,10 @@ bool FrameEstimator::TakeFollowed(const FrameReadings& readings,
   if (!fit.converged) return false;
   const ContactMatrix covariance = CovarianceOf(fit.information);
   const double arc_std = std::sqrt(covariance(0, 0));
-  const bool touches =
-      scene_.contacts
-          ? fit.normal_N >= kLeastForce_N
-          : fit.chi2 < kSignificance &&
-                FreeChi2(measurements_[frame]) - fit.chi2 >= kSignificance;
+  const bool touches = scene_.contacts
+      ? fit.normal_N >=
+            kLeastForce_N FreeChi2(measurements_[frame]) - fit.chi2 >=
+            kSignificance;
   if (!touches || !follower_->IsCertain(frame, arc_std)) return false;
   estimate->contacts = 1;
   estimate->contact[0] = {fit.arc_mm, arc_std, fit.normal_N,
@@ -202,7 +201,7 @@ FrameEstimate FrameEstimator::Automatic(const FrameReadings& readings) {
   if (search_.Search(1, measurement_)) {
     if (free_chi2_ - search_.best().chi2 < kSignificance) return Free();
     one = Found(readings);
-    if (one.chi2 < kSignificance) return one;
+    if (one.chi2 < kSecondSignificance) return one;
   }
   const int needed = 2 * kUnknowns;
   if (measurement_.gauges < needed || scene_.object_std_mm) return one;
@@ -212,7 +211,7 @@ FrameEstimate FrameEstimator::Automatic(const FrameReadings& readings) {
   for (const PointContact& contact : two.contacts) {
     if (contact.normal_N < kLeastForce_N) return one;
   }
-  if (one.chi2 - two.chi2 < kSignificance) return one;
+  if (one.chi2 - two.chi2 < kSecondSignificance) return one;
   FrameEstimate estimate = Found(readings);
   estimate.iterations += before;
   return estimate;

@@ -15,8 +15,9 @@ namespace finray {
 /// Estimates frames: as many contacts as the scene says, or as few as explain
 /// the readings, l_c and f_c of each by ContactSearch, without a guess.
 ///
-/// `contacts: auto` takes one contact more while that lowers chi2 by
-/// kSignificance or more, two only with four gauges or more.
+/// `contacts: auto` takes a contact if that lowers chi2 by kSignificance or
+/// more, and with four gauges or more a second one if that lowers it by another
+/// kSecondSignificance or more.
 ///
 /// A frame whose chi2 has a p-value below kUnexplained is not what the model
 /// says with this noise: its std are those of a noise that would explain it,
@@ -32,6 +33,8 @@ namespace finray {
 class FrameEstimator {
  public:
   static constexpr double kSignificance = 13.8;  // chi2, 2 dof, p = 0.001
+  /// A second contact explains almost anything: it takes p = 1e-6.
+  static constexpr double kSecondSignificance = 27.6;
   static constexpr double kUnexplained = 0.001;  // p-value
   static constexpr double kLeastForce_N = 0.03;
   static constexpr double kLargestArcStd = 0.05;
