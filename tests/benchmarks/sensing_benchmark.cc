@@ -24,7 +24,7 @@
 namespace finray {
 namespace {
 
-constexpr double kTolerance = 5e-6;
+constexpr double kTolerance = 1e-5;
 constexpr int kBlock = 64;
 constexpr int kFrames = 65 * kBlock;  // once there and back
 
@@ -111,9 +111,9 @@ void Alone(benchmark::State& state, const Discretization& discretization,
       });
 }
 
-void InLanes(benchmark::State& state, const Discretization& discretization, double tolerance = kTolerance) {
+void InLanes(benchmark::State& state, const Discretization& discretization) {
   FrameGroupFit fit(PaperFinger(), discretization);
-  fit.set_tolerance(tolerance);
+  fit.set_tolerance(kTolerance);
   std::vector<FrameFit> fits(kBlock);
   const LadderState first = TheLog().StateAt(discretization, 0);
   long frames = 0, in_lanes = 0, iterations = 0;
@@ -241,9 +241,6 @@ void Register() {
     add(name("alone", one),
         [=](benchmark::State& state) { Alone(state, one, kTolerance, true); });
   }
-  for (double t : {1e-5, 5e-6, 2e-6, 1e-6, 5e-7}) add("try " + std::to_string(1e6*t), [=](benchmark::State& state) {
-      InLanes(state, paper_like, t);
-    });
   for (const Discretization& one : all) {
     add(name("lanes", one),
         [=](benchmark::State& state) { InLanes(state, one); });

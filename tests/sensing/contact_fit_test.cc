@@ -174,7 +174,7 @@ TEST(ContactFitTest, FollowsALogToTheLeastSquares) {
   ASSERT_EQ(same.size(), log.truth.size());
   for (const bool follow : {false, true}) {
     ContactFit fit(PaperFinger(), discretization);
-    fit.set_tolerance(5e-6);
+    fit.set_tolerance(1e-5);
     fit.set_state(log.StateAt(discretization, 0));
     std::vector<PointContact> contacts = {log.truth[0]};
     double worst_same = 0, worst_fine = 0, worst_force = 0;

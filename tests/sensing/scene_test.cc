@@ -109,7 +109,7 @@ TEST(SceneTest, ReadsMeasurementsAndSmoothing) {
             measured,
         ":2:31: object_std_mm: a measured object needs an object of shape");
   error("contacts: 2\nobject: {shape: circle, radius_mm: 20}\n" + measured,
-        "needs contacts: 0, 1 or auto");
+        "needs contacts: 1 or auto");
   error("measurements: {object_std_mm: 0}\n", "object_std_mm");
   error("smoothing: {contact_std_mm: 1}\n", "normal_std_N");
   error("smoothing: {contact_mm: 1, normal_std_N: 1}\n", "contact_std_mm");

@@ -12,6 +12,7 @@ double ChiSquaredTail(double chi2, int dof) {
   }
   const double x = 0.5 * std::max(chi2, 0.0);
   if (x == 0) return 1;
+  if (std::isinf(x)) return 0;
   // Q(a + 1, x) = Q(a, x) + x^a e^-x / Gamma(a + 1), from Q(0, x) = 0 or
   // Q(1/2, x) = erfc(sqrt x).
   const bool odd = dof % 2 == 1;

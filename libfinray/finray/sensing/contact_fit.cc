@@ -26,12 +26,14 @@ ContactFit::ContactFit(const Finger& finger,
   reading_.resize(rows);
   residual_.resize(rows);
   d_reading_.resize(rows, 2 * kFittedContacts);
+  d_reading_before_.resize(rows, 2 * kFittedContacts);
   slope_.resize(rows, 2 * kFittedContacts);
 }
 
 // Values of the state before the step, brought to its end by the taps.
 void ContactFit::ReadGauges(int unknowns) {
   const LadderFrame<double>& f = newton_.frame();
+  d_reading_before_.swap(d_reading_);
   reading_.setZero();
   d_reading_.setZero();
   for (int i = 0; i < f.readout_count; ++i) {
@@ -82,6 +84,21 @@ void ContactFit::Whiten(const Eigen::VectorXd& measured,
     }
   }
   equations_.chi2 = residual_.squaredNorm();
+}
+
+// CurvatureRate over the step between the last two linearisations.
+double ContactFit::Rate(const Eigen::VectorXd& weights, double damping,
+                        const ContactVector& step,
+                        const ContactVector& x) const {
+  const int unknowns = static_cast<int>(x.size());
+  ContactVector by_residual = ContactVector::Zero(unknowns);
+  for (int k = 0; k < unknowns; ++k) {
+    for (Eigen::Index j = 0; j < residual_.size(); ++j) {
+      by_residual[k] += weights[j] * residual_[j] *
+                        (d_reading_(j, k) - d_reading_before_(j, k));
+    }
+  }
+  return CurvatureRate(equations_, damping, by_residual, step, x);
 }
 
 // Poses of contacts and tip, brought to the end of the step likewise.
@@ -143,7 +160,9 @@ bool ContactFit::Run(const Eigen::VectorXd& measured,
   if (count < 1 || count > kFittedContacts) return false;
   double last_cost = std::numeric_limits<double>::infinity();
   double damping = 0, last_change = kUnknownChange;
-  ContactVector x(unknowns);
+  ContactVector x(unknowns), step;
+  // Whether step_ leads from one linearisation to the next.
+  bool comparable = predict;
   for (iterations_ = predict ? 0 : 1; iterations_ <= kMaxIterations;
        ++iterations_) {
     // The prediction goes on from the last linearisation of the frame before,
@@ -152,6 +171,8 @@ bool ContactFit::Run(const Eigen::VectorXd& measured,
     if (!predicts) {
       if (!newton_.LinearizeByContacts(*contacts)) return false;
       ReadGauges(unknowns);
+      step = step_;
+      step_.setZero(unknowns);
     }
     Whiten(measured, weights, unknowns);
     if (!std::isfinite(equations_.chi2)) return false;
@@ -159,6 +180,8 @@ bool ContactFit::Run(const Eigen::VectorXd& measured,
       Restore(contacts);
       damping = std::max(1e-3, 100 * damping);
       last_cost = std::numeric_limits<double>::infinity();
+      last_change = kUnknownChange;
+      comparable = false;
       continue;
     }
     Keep(*contacts);
@@ -185,28 +208,35 @@ bool ContactFit::Run(const Eigen::VectorXd& measured,
           std::max(0.0, contact.normal_N + share * change[2 * c + 1] * force);
       crossed |= mesh.Locate(contact.arc_mm).element != before;
     }
-    damping *= 0.1;
+    step_ += share * change;
+    reading_.noalias() += d_reading_.leftCols(unknowns) * change;
+    residual_.noalias() += slope_.leftCols(unknowns) * change;
+    const double rate =
+        comparable && !predicts ? Rate(weights, damping, step, x) : 0;
     const double deviations = std::sqrt(change.dot(equations_.normal * change));
-    if (!predicts && (IsLastChange(moved, last_change, crossed, tolerance_) ||
-                      (iterations_ >= kPatience && deviations < kNoDifference &&
-                       size < kNoDifference))) {
-      ReadPoses(count, change);
-      reading_.noalias() += d_reading_.leftCols(unknowns) * change;
-      residual_.noalias() += slope_.leftCols(unknowns) * change;
-      chi2_ = residual_.squaredNorm();
-      information_ = equations_.normal;
-      for (int k = 0; k < unknowns; ++k) {
-        const double unit = k % 2 == 0 ? length : force;
-        information_.row(k) /= unit;
-        information_.col(k) /= unit;
-      }
-      if (!newton_.RefineMesh()) {
-        linearised_contacts_ = count;
-        return true;
-      }
-      last_cost = std::numeric_limits<double>::infinity();
-    }
+    const bool last =
+        IsLastChange(moved, last_change, rate, crossed, tolerance_) ||
+        (iterations_ >= kPatience && deviations < kNoDifference &&
+         size < kNoDifference);
+    damping *= 0.1;
     last_change = moved;
+    comparable = true;
+    if (predicts || !last) continue;
+    ReadPoses(count, change);
+    chi2_ = residual_.squaredNorm();
+    information_ = equations_.normal;
+    for (int k = 0; k < unknowns; ++k) {
+      const double unit = k % 2 == 0 ? length : force;
+      information_.row(k) /= unit;
+      information_.col(k) /= unit;
+    }
+    if (!newton_.RefineMesh()) {
+      linearised_contacts_ = count;
+      return true;
+    }
+    last_cost = std::numeric_limits<double>::infinity();
+    last_change = kUnknownChange;
+    comparable = false;
   }
   return false;
 }

@@ -84,6 +84,8 @@ class ContactFit {
   void ReadCentre(double radius_mm, int unknowns);
   void Whiten(const Eigen::VectorXd& measured, const Eigen::VectorXd& weights,
               int unknowns);
+  double Rate(const Eigen::VectorXd& weights, double damping,
+              const ContactVector& step, const ContactVector& x) const;
   void ReadPoses(int contacts, const ContactVector& change);
   void Keep(const std::vector<PointContact>& contacts);
   void Restore(std::vector<PointContact>* contacts);
@@ -96,10 +98,12 @@ class ContactFit {
   int iterations_ = 0;
   Information information_;
   std::array<Eigen::Vector3d, kFittedContacts + 1> poses_;
-  // Gauge angles and slopes by (l_c, f_c) in the ladder's units; the same
-  // whitened, as residuals.
+  // Gauge angles and slopes by (l_c, f_c) in the ladder's units; the slopes of
+  // the linearisation before; the same whitened, as residuals.
   Eigen::VectorXd reading_, residual_;
-  Eigen::Matrix<double, Eigen::Dynamic, 2 * kFittedContacts> d_reading_, slope_;
+  Eigen::Matrix<double, Eigen::Dynamic, 2 * kFittedContacts> d_reading_,
+      d_reading_before_, slope_;
+  ContactVector step_;  // since the last linearisation
   ContactEquations equations_;
   // Of how many contacts the frame holds the last linearisation of a fit.
   int linearised_contacts_ = 0;

@@ -18,9 +18,6 @@ constexpr std::size_t kMostStarts = 4, kMostPairStarts = 12, kMostDescents = 4;
 // and of four parameters.
 constexpr double kDistinct[] = {9.21, 13.28};
 
-// Half of the force is lighter, a rounding is not.
-constexpr double kLighter = 0.9;
-
 }  // namespace
 
 ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
@@ -64,25 +61,7 @@ bool ContactSearch::Search(int contacts, const FrameMeasurement& measurement) {
     ++descents;
     Descend(start, measurement);
   }
-  if (found_ > 0) PreferLight();
   return found_ > 0;
-}
-
-void ContactSearch::PreferLight() {
-  const double least = least_chi2();
-  const auto force = [](const ContactSolution& solution) {
-    double sum = 0;
-    for (int c = 0; c < solution.count; ++c) {
-      sum += solution.contacts[c].normal_N;
-    }
-    return sum;
-  };
-  for (int i = 0; i < found_; ++i) {
-    if (solutions_[i].chi2 < least + kWithinNoise &&
-        force(solutions_[i]) < kLighter * force(best())) {
-      best_ = i;
-    }
-  }
 }
 
 void ContactSearch::FindStarts(int contacts,
@@ -175,12 +154,10 @@ bool ContactSearch::IsDistinct(const ContactSolution& other) const {
 }
 
 const ContactSolution* ContactSearch::rival() const {
-  double least = best().chi2;
-  for (int i = 0; i < found_; ++i) least = std::min(least, solutions_[i].chi2);
   const ContactSolution* rival = nullptr;
   for (int i = 0; i < found_; ++i) {
     const ContactSolution& other = solutions_[i];
-    if (i == best_ || other.chi2 > least + kWithinNoise) continue;
+    if (i == best_ || other.chi2 > best().chi2 + kWithinNoise) continue;
     if (!IsDistinct(other)) continue;
     if (rival == nullptr || other.chi2 < rival->chi2) rival = &other;
   }

@@ -39,18 +39,17 @@ class ContactSearch {
   /// Throws InputError for a finger without an unloaded equilibrium.
   ContactSearch(const Finger& finger, const Scene& scene,
                 const Discretization& discretization);
+  ContactSearch(const ContactSearch&) = delete;
+  ContactSearch& operator=(const ContactSearch&) = delete;
 
   /// Searches with one or two contacts. False if no start converged.
   bool Search(int contacts, const FrameMeasurement& measurement);
 
   // Of the last search that came to something.
 
-  /// The solution with the least chi2, or a lighter one that explains the frame
-  /// within kWithinNoise as well: a light touch near the tip and a heavy one
-  /// may read alike, and light ones are more common.
   const ContactSolution& best() const { return solutions_[best_]; }
-  /// The best other solution that is not `best` within its uncertainty but
-  /// explains the frame as well; null if there is none.
+  /// The best solution that is not `best` within its uncertainty but explains
+  /// the frame as well; null if there is none.
   const ContactSolution* rival() const;
   /// Of all fits together.
   int iterations() const { return iterations_; }
@@ -73,7 +72,6 @@ class ContactSearch {
   // Adds a solution in its order from base to tip.
   void Add(ContactSolution* solution);
   double least_chi2() const;
-  void PreferLight();
   bool IsDistinct(const ContactSolution& other) const;
 
   Scene scene_;

@@ -39,6 +39,7 @@ void ContactSmoother::Smooth(const FrameReadings* readings, std::size_t count,
                              const std::optional<Belief>& before,
                              FrameEstimate* estimates) {
   last_.reset();
+  smoothed_.assign(count, false);
   for (std::size_t begin = 0; begin < count;) {
     if (!IsOneContact(estimates[begin])) {
       last_.reset();
@@ -47,13 +48,16 @@ void ContactSmoother::Smooth(const FrameReadings* readings, std::size_t count,
     }
     std::size_t end = begin + 1;
     while (end < count && IsOneContact(estimates[end])) ++end;
-    SmoothRun(readings + begin, end - begin, begin == 0 ? before : std::nullopt,
-              estimates + begin);
+    const bool smoothed =
+        SmoothRun(readings + begin, end - begin,
+                  begin == 0 ? before : std::nullopt, estimates + begin);
+    std::fill(smoothed_.begin() + static_cast<long>(begin),
+              smoothed_.begin() + static_cast<long>(end), smoothed);
     begin = end;
   }
 }
 
-void ContactSmoother::SmoothRun(const FrameReadings* readings,
+bool ContactSmoother::SmoothRun(const FrameReadings* readings,
                                 std::size_t count,
                                 const std::optional<Belief>& before,
                                 FrameEstimate* estimates) {
@@ -65,12 +69,25 @@ void ContactSmoother::SmoothRun(const FrameReadings* readings,
                     estimates[t].contact[0].normal_N};
   }
   solver_.Reset();
-  if (!Linearize(count)) return;  // the frames remain what they are
+  if (!Linearize(count)) return false;  // the frames remain what they are
+  if (count == 1 && !before) {
+    // Nothing to be smoothed with, but the next frame may be.
+    const Eigen::Matrix2d covariance = frames_[0].information.inverse();
+    if (covariance.allFinite()) last_ = {frames_[0].x, covariance};
+    return false;
+  }
   double damping = 0;
   std::vector<Eigen::Vector2d> x(count);
   for (int i = 0; i < kMostIterations; ++i) {
     const double cost = Cost(count, before);
     Eliminate(count, damping, before);
+    double expected = 0;
+    for (std::size_t t = 0; t < count; ++t) {
+      const Frame& frame = frames_[t];
+      expected += frame.step.dot(frame.information * frame.step);
+    }
+    // At the minimum to rounding, or, as a NaN, nowhere.
+    if (!(expected > kLeastDecrease)) break;
     for (std::size_t t = 0; t < count; ++t) {
       Frame& frame = frames_[t];
       x[t] = frame.x;
@@ -85,7 +102,7 @@ void ContactSmoother::SmoothRun(const FrameReadings* readings,
       continue;
     }
     for (std::size_t t = 0; t < count; ++t) frames_[t].x = x[t];
-    Linearize(count);
+    if (!Linearize(count)) return false;
     damping = std::max(1e-3, 10 * damping);
     if (damping > kMostDamping) break;
   }
@@ -93,6 +110,10 @@ void ContactSmoother::SmoothRun(const FrameReadings* readings,
   for (std::size_t t = 0; t < count; ++t) {
     const Frame& frame = frames_[t];
     const Eigen::Matrix2d covariance = Covariance(t);
+    if (!covariance.allFinite()) {
+      last_.reset();
+      return false;
+    }
     ContactEstimate& contact = estimates[t].contact[0];
     contact.arc_mm = frame.x[0];
     contact.normal_N = frame.x[1];
@@ -103,6 +124,7 @@ void ContactSmoother::SmoothRun(const FrameReadings* readings,
     estimates[t].rib_tension_N = frame.rib_tension_N;
     last_ = {frame.x, covariance};
   }
+  return true;
 }
 
 bool ContactSmoother::Linearize(std::size_t count) {

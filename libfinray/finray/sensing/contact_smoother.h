@@ -38,6 +38,9 @@ class ContactSmoother {
   void Smooth(const FrameReadings* readings, std::size_t count,
               const std::optional<Belief>& before, FrameEstimate* estimates);
 
+  /// Whether the last call has set the frame.
+  bool HasSmoothed(std::size_t frame) const { return smoothed_[frame]; }
+
   /// The last frame of the last call, if it had a contact: `before` of the
   /// next.
   const std::optional<Belief>& last() const { return last_; }
@@ -55,7 +58,7 @@ class ContactSmoother {
     Eigen::Matrix2d forward, backward;
     Eigen::Vector2d right, step;
   };
-  void SmoothRun(const FrameReadings* readings, std::size_t count,
+  bool SmoothRun(const FrameReadings* readings, std::size_t count,
                  const std::optional<Belief>& before, FrameEstimate* estimates);
   bool Linearize(std::size_t count);
   double Cost(std::size_t count, const std::optional<Belief>& before) const;
@@ -70,6 +73,7 @@ class ContactSmoother {
   std::vector<PointContact> contacts_;
   Eigen::Matrix2d change_information_;  // 1 / q^2
   std::vector<Frame> frames_;
+  std::vector<bool> smoothed_;
   std::optional<Belief> last_;
 };
 

@@ -13,6 +13,18 @@ constexpr double kArcDamping = 22;
 constexpr double kForceDamping = 1e-9;
 constexpr double kLeastForce = 0.02;  // in units of EI / l_0^2
 
+// A + D
+ContactMatrix Damped(const ContactEquations& equations, double damping) {
+  const double unexplained = std::min(1.0, equations.chi2);
+  ContactMatrix system = equations.normal;
+  for (Eigen::Index k = 0; k < system.rows(); ++k) {
+    system(k, k) *= 1 + damping;
+    system(k, k) +=
+        kForceDamping + (k % 2 == 0 ? kArcDamping * unexplained : 0);
+  }
+  return system;
+}
+
 // x of a x = b for a symmetric and positive a, by L D L'.
 void SolvePositive(ContactMatrix* a, ContactVector* b) {
   ContactMatrix& l = *a;
@@ -38,13 +50,7 @@ ContactVector BoundedChange(const ContactEquations& equations,
                             const ContactVector& x, double most_force,
                             double damping) {
   const int unknowns = static_cast<int>(x.size());
-  const double unexplained = std::min(1.0, equations.chi2);
-  ContactMatrix system = equations.normal;
-  for (int k = 0; k < unknowns; ++k) {
-    system(k, k) *= 1 + damping;
-    system(k, k) +=
-        kForceDamping + (k % 2 == 0 ? kArcDamping * unexplained : 0);
-  }
+  const ContactMatrix system = Damped(equations, damping);
   ContactVector change = ContactVector::Zero(unknowns);
   bool fixed[2 * kFittedContacts] = {};
   for (int pass = 0; pass <= unknowns; ++pass) {
@@ -89,8 +95,25 @@ double LargestChange(const ContactVector& change, const ContactVector& x,
   return largest;
 }
 
-bool IsLastChange(double now, double before, bool crossed, double tolerance) {
-  return now * (crossed ? 1.0 : std::min(1.0, now / before)) < tolerance;
+double CurvatureRate(const ContactEquations& equations, double damping,
+                     const ContactVector& by_residual,
+                     const ContactVector& step, const ContactVector& x) {
+  const double size = LargestChange(step, x, 0);
+  if (size == 0) return 0;
+  ContactMatrix system = Damped(equations, damping);
+  ContactVector change = -by_residual;
+  for (int k = 0; k < x.size(); ++k) {
+    change[k] += (system(k, k) - equations.normal(k, k)) * step[k];
+  }
+  SolvePositive(&system, &change);
+  return LargestChange(change, x, 0) / size;
+}
+
+bool IsLastChange(double now, double before, double rate, bool crossed,
+                  double tolerance) {
+  const double ratio = now / before;
+  const double shrinks = kDoubt * (rate + ratio * ratio);
+  return now * (crossed ? 1.0 : std::min(1.0, shrinks)) < tolerance;
 }
 
 }  // namespace finray

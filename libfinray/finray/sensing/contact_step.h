@@ -45,15 +45,30 @@ ContactVector BoundedChange(const ContactEquations& equations,
 double LargestChange(const ContactVector& change, const ContactVector& x,
                      double shape);
 
-/// In place of a change before the first one: of how fast changes shrink
-/// nothing is known but that Newton squares them, with some constant.
+// When to stop. Near the end changes obey next = rho now + C now^2. C follows
+// from the last two: Newton squares, so that C now is at most (now / before)^2.
+// rho is due to what A + D has too much and what it leaves out, the curvature
+// of the gauges,
+//
+//   rho = |(A + D)^-1 (D step - dS' r)| / |step|,
+//
+// r the residuals after the change and dS by how much the slopes differ from
+// those of the linearisation before, which was `step` away. That is the rate
+// along that step; others may be a few times as large (kDoubt).
+constexpr double kDoubt = 4;
+/// In place of a change before the first one.
 constexpr double kUnknownChange = 1e-4;
 
-/// Whether the next change is expected below `tolerance` after changes `before`
-/// and then `now`: their ratio at least is what the next one shrinks by. Where
-/// the last one took a contact to another element, the linearisation did not
-/// reach so far and `now` itself counts.
-bool IsLastChange(double now, double before, bool crossed, double tolerance);
+/// rho; `by_residual` is dS' r.
+double CurvatureRate(const ContactEquations& equations, double damping,
+                     const ContactVector& by_residual,
+                     const ContactVector& step, const ContactVector& x);
+
+/// Whether the next change is expected below `tolerance`. Where the last one
+/// took a contact to another element, the linearisation did not reach so far
+/// and `now` itself counts.
+bool IsLastChange(double now, double before, double rate, bool crossed,
+                  double tolerance);
 
 }  // namespace finray
 

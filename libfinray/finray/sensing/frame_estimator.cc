@@ -34,6 +34,15 @@ void CheckScene(const Finger& finger, const Scene& scene) {
     throw InputError("finger '" + finger.name +
                      "' has no gauges to estimate from");
   }
+  if (scene.object_std_mm && (!scene.circle_radius_mm() || contacts != 1)) {
+    throw InputError(
+        "scene: a measured object needs a circle and one contact or auto");
+  }
+  const int needed = contacts > 0 ? kUnknowns : 0;
+  if (gauges + (scene.object_std_mm ? 2 : 0) < needed) {
+    throw InputError("scene: a contact needs at least 2 gauges, finger '" +
+                     finger.name + "' has " + std::to_string(gauges));
+  }
   if (contacts == 2 && gauges < 2 * kUnknowns) {
     throw InputError("scene: 2 contacts need at least 4 gauges, finger '" +
                      finger.name + "' has " + std::to_string(gauges));
@@ -148,10 +157,11 @@ bool FrameEstimator::TakeFollowed(const FrameReadings& readings,
   if (!fit.converged) return false;
   const ContactMatrix covariance = CovarianceOf(fit.information);
   const double arc_std = std::sqrt(covariance(0, 0));
-  const bool touches = scene_.contacts
-      ? fit.normal_N >=
-            kLeastForce_N FreeChi2(measurements_[frame]) - fit.chi2 >=
-            kSignificance;
+  const bool touches =
+      scene_.contacts
+          ? fit.normal_N >= kLeastForce_N
+          : fit.chi2 < kSecondSignificance &&
+                FreeChi2(measurements_[frame]) - fit.chi2 >= kSignificance;
   if (!touches || !follower_->IsCertain(frame, arc_std)) return false;
   estimate->contacts = 1;
   estimate->contact[0] = {fit.arc_mm, arc_std, fit.normal_N,
@@ -186,7 +196,7 @@ void FrameEstimator::Smooth(
     FrameEstimate* estimates) {
   smoother_->Smooth(readings, count, before, estimates);
   for (std::size_t i = 0; i < count; ++i) {
-    if (estimates[i].contacts != 1) continue;
+    if (!smoother_->HasSmoothed(i)) continue;
     Measure(finger_, scene_, readings[i], &measurement_);
     Judge(readings[i], measurement_.weights, &estimates[i]);
   }

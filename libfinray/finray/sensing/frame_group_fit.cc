@@ -7,8 +7,11 @@ namespace finray {
 namespace {
 
 // Frames that take longer, or begin with a larger change, are fitted alone.
-constexpr int kMostIterations = 6;
+constexpr int kMostIterations = 10;
 constexpr double kLargestChange = 0.5;
+// A lane does not begin a frame that is further ahead of another lane's: their
+// contacts would lie in too many elements.
+constexpr int kMostLead = 4 * kFrameLanes;
 
 }  // namespace
 
@@ -23,6 +26,7 @@ FrameGroupFit::FrameGroupFit(const Finger& finger,
   const int gauges = lanes_.model().gauges();
   reading_.resize(gauges);
   for (auto& slope : slope_) slope.resize(gauges);
+  for (auto& slope : slope_before_) slope.resize(gauges);
   kept_state_.resize(lanes_.state_size());
   angles_.resize(gauges);
   weights_.resize(gauges);
@@ -58,22 +62,18 @@ void FrameGroupFit::Fit(const Columns& angles_rad,
   const Frames frames{angles_rad, weights_per_rad, fits};
   for (int lane = 0; lane < kFrameLanes; ++lane) {
     TakeFrame(lane, lane);
-    if (one_by_one_ || !frames.Busy(lane_[lane])) continue;
-    if (Has(linearised_, lane) && !Improve(frames, lane, true)) {
-      FitLane(frames, lane);
-    }
   }
+  for (int lane = 0; lane < kFrameLanes; ++lane) Begin(frames, lane);
   const auto busy = [&](const Lane& lane) { return frames.Busy(lane); };
   while (!one_by_one_ && std::any_of(lane_.begin(), lane_.end(), busy)) {
     Keep(to_keep_);
     if (linearised_ != 0) lanes_.Step(newton_, change_);
-    Linearize(frames);
+    Linearize();
     for (int lane = 0; lane < kFrameLanes; ++lane) {
-      if (one_by_one_ || !frames.Busy(lane_[lane])) continue;
-      if (Has(linearised_, lane)) {
-        Advance(frames, lane);
+      if (lane_[lane].waiting) {
+        Begin(frames, lane);
       } else {
-        FitLane(frames, lane);
+        Advance(frames, lane);
       }
     }
   }
@@ -87,6 +87,7 @@ void FrameGroupFit::TakeFrame(int lane, int frame) {
   Lane& l = lane_[lane];
   l.frame = frame;
   l.iteration = 0;
+  l.waiting = true;
   l.last_cost = std::numeric_limits<double>::infinity();
   l.last_change = kUnknownChange;
   l.kept_arc_mm = l.arc_mm;
@@ -94,15 +95,29 @@ void FrameGroupFit::TakeFrame(int lane, int frame) {
   to_keep_ |= 1u << lane;
 }
 
-// Idle lanes come along, so that they are where the next call starts.
-void FrameGroupFit::Linearize(const Frames& frames) {
+// Predicts where the lane's frame is, if there is a linearisation to tell.
+void FrameGroupFit::Begin(const Frames& frames, int lane) {
+  Lane& l = lane_[lane];
+  if (one_by_one_ || !frames.Busy(l)) return;
+  for (const Lane& other : lane_) {
+    if (l.frame > other.frame + kMostLead) return;
+  }
+  l.waiting = false;
+  if (Has(linearised_, lane) && !Improve(frames, lane, true)) {
+    FitLane(frames, lane);
+  }
+}
+
+// Lanes without a frame come along, so that they are where the next one starts.
+void FrameGroupFit::Linearize() {
   std::array<double, kFrameLanes> arc_mm, normal_N;
   LaneSet first = 0;
   for (int lane = 0; lane < kFrameLanes; ++lane) {
     arc_mm[lane] = lane_[lane].arc_mm;
     normal_N[lane] = lane_[lane].normal_N;
-    if (frames.Busy(lane_[lane])) first |= 1u << lane;
+    if (!lane_[lane].waiting) first |= 1u << lane;
   }
+  comparable_ = linearised_;
   linearised_ = lanes_.Place(arc_mm, normal_N, kAllFrameLanes, first);
   if (!lanes_.Linearize()) {
     // One lane spoils all; idle ones must not do so again.
@@ -110,7 +125,11 @@ void FrameGroupFit::Linearize(const Frames& frames) {
     FourFrames* state = lanes_.frame().state.q;
     std::copy(kept_state_.begin(), kept_state_.end(), state);
   }
-  change_[0] = change_[1] = FourFrames{};
+  for (int k = 0; k < 2; ++k) {
+    step_[k] = change_[k];
+    change_[k] = FourFrames{};
+    slope_before_[k].swap(slope_[k]);
+  }
   for (int lane = 0; lane < kFrameLanes; ++lane) {
     newton_[lane] = Has(linearised_, lane);
   }
@@ -136,15 +155,16 @@ void FrameGroupFit::ReadGauges() {
 // the next one.
 void FrameGroupFit::Advance(const Frames& frames, int lane) {
   Lane& l = lane_[lane];
-  if (++l.iteration > kMostIterations || !Improve(frames, lane, false) ||
-      (l.converged && !IsResolved(lane))) {
+  if (one_by_one_) return;
+  if (!Has(linearised_, lane) || ++l.iteration > kMostIterations ||
+      !Improve(frames, lane, false) || (l.converged && !IsResolved(lane))) {
     FitLane(frames, lane);
     return;
   }
   if (!l.converged) return;
   Record(frames, lane);
   TakeFrame(lane, l.frame + kFrameLanes);
-  if (frames.Busy(l) && !Improve(frames, lane, true)) FitLane(frames, lane);
+  Begin(frames, lane);
 }
 
 // Moves the contact to where the linearisation has the least squares. False if
@@ -176,8 +196,9 @@ bool FrameGroupFit::Improve(const Frames& frames, int lane, bool predict) {
       reading_[j][lane] += slope_[k][j][lane] * change[k];
     }
   }
-  l.converged =
-      !predict && IsLastChange(moved, l.last_change, crossed, tolerance_);
+  l.converged = !predict && IsLastChange(moved, l.last_change,
+                                         Rate(frames, lane, equations, x),
+                                         crossed, tolerance_);
   l.last_change = moved;
   return true;
 }
@@ -203,6 +224,26 @@ ContactEquations FrameGroupFit::EquationsOf(const Frames& frames,
   equations.normal << normal[0], normal[1], normal[1], normal[2];
   equations.gradient << gradient[0], gradient[1];
   return equations;
+}
+
+// CurvatureRate over the step between the last two linearisations.
+double FrameGroupFit::Rate(const Frames& frames, int lane,
+                           const ContactEquations& equations,
+                           const ContactVector& x) const {
+  if (!Has(comparable_, lane)) return 0;
+  const int frame = lane_[lane].frame;
+  ContactVector by_residual = ContactVector::Zero(2), step(2);
+  for (std::size_t j = 0; j < reading_.size(); ++j) {
+    const double weight = frames.weights_per_rad(j, frame);
+    const double residual =
+        weight * weight * (reading_[j][lane] - frames.angles_rad(j, frame));
+    for (int k = 0; k < 2; ++k) {
+      by_residual[k] +=
+          residual * (slope_[k][j][lane] - slope_before_[k][j][lane]);
+    }
+  }
+  step << step_[0][lane], step_[1][lane];
+  return CurvatureRate(equations, 0, by_residual, step, x);
 }
 
 // What stands for a change of the whole shape: gaps between its elements, and

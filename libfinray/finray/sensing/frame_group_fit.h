@@ -26,9 +26,10 @@ struct FrameFit {
 /// ContactFit of one contact for the frames of a log, four at a time in vector
 /// lanes. Lane k takes frames k, k + 4, k + 8 .. as fast as they converge, and
 /// starts each from what the last linearisation makes of its readings, as
-/// ContactFit::Follow does. As the end of one frame and the prediction of the
-/// next are changes of the same linearisation, they are one step: a frame that
-/// converges at once costs a quarter of one linearisation and one step.
+/// ContactFit::Follow does; none runs far ahead. As the end of one frame and
+/// the prediction of the next are changes of the same linearisation, they are
+/// one step: a frame that converges at once costs a quarter of one
+/// linearisation and one step.
 ///
 /// Lanes have their own residuals, weights, changes, bounds and convergence.
 /// What does not fit in is fitted alone by ContactFit, from where its lane
@@ -66,6 +67,7 @@ class FrameGroupFit {
   struct Lane {
     int frame;  // its column; the lane is idle if that is beyond the last
     int iteration;
+    bool waiting;  // for the others, before it begins
     bool converged;
     double arc_mm, normal_N;
     double last_cost, last_change;
@@ -82,11 +84,14 @@ class FrameGroupFit {
   };
 
   void TakeFrame(int lane, int frame);
-  void Linearize(const Frames& frames);
+  void Begin(const Frames& frames, int lane);
+  void Linearize();
   void ReadGauges();
   void Advance(const Frames& frames, int lane);
   bool Improve(const Frames& frames, int lane, bool predict);
   ContactEquations EquationsOf(const Frames& frames, int lane) const;
+  double Rate(const Frames& frames, int lane, const ContactEquations& equations,
+              const ContactVector& x) const;
   double ShapeChange(int lane, bool newton, const ContactVector& change) const;
   bool IsResolved(int lane) const;
   void Record(const Frames& frames, int lane) const;
@@ -109,6 +114,11 @@ class FrameGroupFit {
   FourFrames newton_{}, change_[2] = {};
   // Gauge angles after that step and change; slopes by (l_c, f_c).
   std::vector<FourFrames> reading_, slope_[2];
+  // The slopes of the linearisation before, the change that led from there, and
+  // the lanes in which it did.
+  std::vector<FourFrames> slope_before_[2];
+  FourFrames step_[2] = {};
+  LaneSet comparable_ = 0;
   // Where each lane's frame started, for a fit alone; lanes yet to be copied.
   std::vector<FourFrames> kept_state_;
   LaneSet to_keep_ = 0;

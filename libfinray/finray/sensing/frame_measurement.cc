@@ -1,12 +1,16 @@
 #include "finray/sensing/frame_measurement.h"
 
 #include <cmath>
+#include <stdexcept>
 
 namespace finray {
 
 void Measure(const Finger& finger, const Scene& scene,
              const FrameReadings& readings, FrameMeasurement* measurement) {
   const auto gauges = static_cast<Eigen::Index>(finger.gauges.size());
+  if (readings.gauges_V.size() != finger.gauges.size()) {
+    throw std::invalid_argument("expected one reading for each gauge");
+  }
   const Eigen::Index rows = gauges + (scene.object_std_mm ? 2 : 0);
   FrameMeasurement& m = *measurement;
   m.values.setZero(rows);

@@ -19,7 +19,8 @@ struct FrameMeasurement {
   int all = 0;     ///< with the centre's coordinates
 };
 
-/// Fills `measurement`, whose memory is used again.
+/// Fills `measurement`, whose memory is used again. Throws
+/// std::invalid_argument unless there is a reading (or NaN) for every gauge.
 void Measure(const Finger& finger, const Scene& scene,
              const FrameReadings& readings, FrameMeasurement* measurement);
 

@@ -20,7 +20,7 @@ constexpr double kForces[] = {0.5, 1, 2, 4, 7, 11, 16, 22, 30, 40};
 // middle.
 double LeastOfParabola(double left, double middle, double right) {
   const double curvature = left - 2 * middle + right;
-  if (!(curvature > 0)) return middle;
+  if (!(curvature > 0) || std::isinf(curvature)) return middle;
   const double slope = 0.5 * (right - left);
   return std::max(0.0, middle - 0.5 * slope * slope / curvature);
 }

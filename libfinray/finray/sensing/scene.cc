@@ -102,8 +102,8 @@ void ReadMeasurements(const YamlMap& yaml, Scene* scene) {
   const char* expected = nullptr;
   if (!scene->circle_radius_mm() || scene->object->spring) {
     expected = "an object of shape circle without a spring";
-  } else if (scene->contacts.value_or(1) > 1) {
-    expected = "contacts: 0, 1 or auto";
+  } else if (scene->contacts.value_or(1) != 1) {
+    expected = "contacts: 1 or auto";
   }
   if (expected != nullptr) {
     yaml.Fail("object_std_mm", std::string("object_std_mm: a measured object "
@@ -194,6 +194,10 @@ Scene ReadScene(const YamlMap& yaml) {
   if (yaml.Has("smoothing")) {
     const YamlMap map = yaml.Map("smoothing");
     map.AllowOnly({"contact_std_mm", "normal_std_N"});
+    if (scene.contacts.value_or(1) != 1) {
+      yaml.Fail("smoothing",
+                "smoothing: it needs contacts: 1 or auto in the scene");
+    }
     scene.smoothing = {map.PositiveNumber("contact_std_mm"),
                        map.PositiveNumber("normal_std_N")};
   }
