@@ -64,6 +64,14 @@ inline void DumpConfig(const Finger& finger, const Scene& scene,
   if (scene.object) {
     std::cout << "object: " << ObjectToYaml(*scene.object) << "\n";
   }
+  if (scene.object_std_mm) {
+    std::cout << "measurements: {object_std_mm: " << *scene.object_std_mm
+              << "}\n";
+  }
+  if (scene.smoothing) {
+    std::cout << "smoothing: {contact_std_mm: " << scene.smoothing->contact_mm
+              << ", normal_std_N: " << scene.smoothing->normal_N << "}\n";
+  }
   std::istringstream lines(FingerToYaml(finger));
   std::cout << "finger:\n";
   for (std::string line; std::getline(lines, line);) {

@@ -7,6 +7,7 @@
 #include "finray/io/atomic_file.h"
 #include "finray/io/log_list.h"
 #include "finray/sensing/batch_summary.h"
+#include "follow.h"
 #include "progress_bar.h"
 #include "stop_signal.h"
 
@@ -16,12 +17,17 @@ DEFINE_string(logs, "",
               "CSV logs with gauge_<j>_V, separated by commas: files, patterns "
               "('runs/*.csv'), lists (@list.txt)");
 DEFINE_string(out_dir, "", "folder for <log>.frames.csv and summary.yaml");
+DEFINE_string(logs_root, "",
+              "folder above all logs: results lie in --out_dir as logs lie in "
+              "it; without it all lie in --out_dir itself");
 DEFINE_int32(threads, 1, "threads over frames");
 DEFINE_bool(resume, false, "keep finished logs, go on with interrupted ones");
 DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
 DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
 DEFINE_bool(dump_config, false, "print what is in force, and stop");
 DEFINE_bool(strict, false, "fail if any frame is not_converged or bad_input");
+DEFINE_bool(follow, false,
+            "a log from standard input, each row at once to standard output");
 
 namespace {
 
@@ -34,7 +40,7 @@ std::string InFolder(const char* name) {
 std::vector<LogJob> MakeJobs(const BatchSettings& settings) {
   const auto logs =
       ExpandLogs(SplitList(Required("logs", FLAGS_logs)), FLAGS_out_dir);
-  const auto results = ResultPaths(logs, FLAGS_out_dir);
+  const auto results = ResultPaths(logs, FLAGS_out_dir, FLAGS_logs_root);
   std::vector<LogJob> jobs;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     jobs.emplace_back(&settings, logs[i], results[i]);
@@ -48,6 +54,14 @@ bool CheckAll(std::vector<LogJob>* jobs) {
     if (!job.Check()) return false;
   }
   return true;
+}
+
+void MakeFolders(const std::vector<LogJob>& jobs) {
+  MakeFolder(FLAGS_out_dir);
+  if (FLAGS_logs_root.empty()) return;
+  for (const LogJob& job : jobs) {
+    MakeFolder(std::filesystem::path(job.result()).parent_path().string());
+  }
 }
 
 // What an earlier run has summed up would no longer be true of the folder.
@@ -89,7 +103,8 @@ void PrintSummary(const std::vector<LogJob>& jobs, const ProgressBar& bar) {
   if (bar.kept() > 0) std::printf(", %zu kept", bar.kept());
   std::printf("\nok             %zu, no_contact %zu\n",
               all.count(FrameStatus::kOk), all.count(FrameStatus::kNoContact));
-  std::printf("unobservable   %zu\n", all.count(FrameStatus::kUnobservable));
+  std::printf("unobservable   %zu, unexplained %zu\n",
+              all.count(FrameStatus::kUnobservable), all.unexplained);
   std::printf("not solved     %zu not_converged, %zu bad_input\n",
               all.count(FrameStatus::kNotConverged),
               all.count(FrameStatus::kBadInput));
@@ -101,14 +116,32 @@ void PrintSummary(const std::vector<LogJob>& jobs, const ProgressBar& bar) {
   }
 }
 
+// Live rows go from one pipe to the other, one by one.
+void RefuseBatchFlags() {
+  for (const char* flag :
+       {"logs", "logs_root", "out_dir", "resume", "threads"}) {
+    if (!gflags::GetCommandLineFlagInfoOrDie(flag).is_default) {
+      throw UsageError(std::string("--") + flag + " does not go with --follow");
+    }
+  }
+}
+
 int Run() {
+  if (FLAGS_follow) RefuseBatchFlags();
   BatchSettings settings(Required("finger", FLAGS_finger), FLAGS_scene,
                          ParseDiscretization(FLAGS_scheme, FLAGS_resolution));
-  Required("logs", FLAGS_logs);
-  Required("out_dir", FLAGS_out_dir);
+  if (!FLAGS_follow) {
+    Required("logs", FLAGS_logs);
+    Required("out_dir", FLAGS_out_dir);
+  }
   if (FLAGS_dump_config) {
     DumpConfig(settings.finger, settings.scene, settings.discretization);
     return kGood;
+  }
+  if (FLAGS_follow) {
+    return Follow(settings.finger, settings.scene, settings.discretization,
+                  FLAGS_strict)
+        .Run();
   }
   settings.threads = FLAGS_threads;
   settings.resume = FLAGS_resume;
@@ -118,8 +151,8 @@ int Run() {
   std::vector<LogJob> jobs = MakeJobs(settings);
   if (!CheckAll(&jobs)) return Interrupted("before the first frame");
   FrameSolverPool pool(
-      ColdSolvers(settings.finger, settings.scene, settings.discretization));
-  MakeFolder(FLAGS_out_dir);
+      FrameSolvers(settings.finger, settings.scene, settings.discretization));
+  MakeFolders(jobs);
   RemoveOldSummaries();
   ProgressBar bar(Frames(jobs));
   settings.progress = [&bar](std::size_t frames, bool kept) {
@@ -148,6 +181,8 @@ int main(int argc, char** argv) {
       argc, argv,
       "Contact location and force from the gauges of every frame.\n"
       "finray_estimate --finger F.yaml --logs 'runs/*.csv' --out_dir D "
-      "[--scene S.yaml] [--resume]",
+      "[--scene S.yaml] [--resume]\n"
+      "sensor | finray_estimate --follow --finger F.yaml [--scene S.yaml] | "
+      "consumer",
       Run);
 }

@@ -7,6 +7,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <map>
@@ -121,12 +122,19 @@ TEST_F(BatchTest, PatternsListsAndTables) {
   EXPECT_EQ(copy.MutableText("frames")[1], "200");
   EXPECT_EQ(copy.MutableText("no_contact")[0], "300");
   EXPECT_EQ(copy.MutableText("log")[0], folder_.Path("runs/a.csv"));
+  const auto headers = table.headers();
+  EXPECT_EQ(headers[headers.size() - 2], "unexplained_frames");
+  EXPECT_EQ(headers.back(), "key");
   const YAML::Node yaml = YAML::LoadFile(folder_.Path("out/summary.yaml"));
   EXPECT_EQ(yaml["logs"][1]["frames"].as<int>(), 200);
   EXPECT_EQ(yaml["logs"][1]["key"].as<std::string>(),
             YAML::LoadFile(folder_.Path("out/b.summary.yaml"))["key"]
                 .as<std::string>());
   EXPECT_EQ(yaml["all"]["force_compared_frames"].as<int>(), 500);
+  // Readings of many mrad and no contact allowed.
+  const int unexplained = yaml["all"]["unexplained_frames"].as<int>();
+  EXPECT_EQ(unexplained, 500);
+  EXPECT_THAT(outcome.output, HasSubstr("unobservable   0, unexplained 500\n"));
 
   // Results in the logs' own folder are no logs.
   const std::string in_place = Arguments("'%runs/*.csv'", "--out_dir %runs");
@@ -144,6 +152,35 @@ TEST_F(BatchTest, PatternsListsAndTables) {
   EXPECT_EQ(YAML::LoadFile(folder_.Path("two/summary.yaml"))["logs"][0]["log"]
                 .as<std::string>(),
             folder_.Path("runs/b.csv"));
+}
+
+TEST_F(BatchTest, ResultsLieAsTheLogsLieInTheirRoot) {
+  std::filesystem::create_directory(folder_.Path("runs/x"));
+  WriteLog("runs/a.csv", 300, 1);
+  WriteLog("runs/x/a.csv", 200, 2);
+  const std::string logs = "%runs/a.csv,%runs/x/a.csv";
+  ExpectBadInput("finray_estimate", Arguments(logs, "--out_dir %out"),
+                 "would both be written to");
+  const std::string mirrored =
+      Arguments(logs, "--out_dir %out --logs_root %runs");
+  ASSERT_EQ(Run("finray_estimate", mirrored).code, 0);
+  EXPECT_NE(folder_.Read("out/x/a.frames.csv"),
+            folder_.Read("out/a.frames.csv"));
+  EXPECT_THAT(Run("finray_estimate", mirrored + " --resume").output,
+              HasSubstr(", 500 kept"));
+
+  // Force errors of logs combine without loss.
+  FrameTable table = FrameTable::Read(folder_.Path("out/summary.csv"));
+  std::vector<double> squares;
+  for (const std::string& text : table.MutableText("force_squares_N2")) {
+    squares.push_back(std::stod(text));
+  }
+  const YAML::Node all =
+      YAML::LoadFile(folder_.Path("out/summary.yaml"))["all"];
+  EXPECT_GT(squares[0], 0);
+  EXPECT_EQ(all["force_squares_N2"].as<double>(), squares[0] + squares[1]);
+  EXPECT_EQ(all["force_rms_error_N"].as<double>(),
+            std::sqrt((squares[0] + squares[1]) / 500));
 }
 
 TEST_F(BatchTest, BadListsAndLogsAreFoundBeforeAnythingIsWritten) {

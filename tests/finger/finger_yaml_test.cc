@@ -68,6 +68,25 @@ TEST(FingerYamlTest, RoundTripIsExact) {
   EXPECT_EQ(back.gauges[2].gain_V_per_rad, finger.gauges[2].gain_V_per_rad);
 }
 
+TEST(FingerYamlTest, ReadingsAtTheEndsAreSaturated) {
+  const TempFolder folder;
+  const std::string gauge =
+      "  - {beam: back, start_mm: 30, length_mm: 18, min_V: -2.5, max_V: 5}\n";
+  const Finger finger =
+      ReadFinger(folder.Write("f.yaml", Text(kBeams, kRib, gauge)));
+  const Finger back = ReadFinger(folder.Write("g.yaml", FingerToYaml(finger)));
+  for (const Finger& read : {finger, back}) {
+    EXPECT_TRUE(IsMeasured(read.gauges[0], 4.999));
+    EXPECT_FALSE(IsMeasured(read.gauges[0], 5));
+    EXPECT_FALSE(IsMeasured(read.gauges[0], -2.5));
+    EXPECT_FALSE(IsMeasured(read.gauges[0], std::nan("")));
+  }
+  ExpectError(Text(kBeams, kRib,
+                   "  - {beam: back, start_mm: 30, length_mm: 18, min_V: 1, "
+                   "max_V: 1}\n"),
+              "f.yaml:10:54: min_V: expected less than max_V");
+}
+
 TEST(FingerYamlTest, ReadsPiecesAndAxialStiffness) {
   const TempFolder folder;
   const Finger finger = ReadFinger(folder.Write(

@@ -95,5 +95,21 @@ TEST_F(LogListTest, ResultsDoNotClash) {
       ThrowsMessage<InputError>(HasSubstr("x.csv' would overwrite '")));
 }
 
+TEST_F(LogListTest, ResultsLieAsTheLogsLieInTheirRoot) {
+  EXPECT_THAT(
+      ResultPaths({"p/a.csv", "p/q/a.csv", "p/q/../b.csv"}, "D", "p"),
+      ElementsAre("D/a.frames.csv", "D/q/a.frames.csv", "D/b.frames.csv"));
+  EXPECT_THAT(
+      [] {
+        ResultPaths({"p/q/a.csv", "p/q/a.csv.gz"}, "D", "p");
+      },
+      ThrowsMessage<InputError>(HasSubstr("both be written to D/q/a.frames")));
+  for (const char* log : {"b.csv", "pq/a.csv", "p/../a.csv"}) {
+    EXPECT_THAT([&] { ResultPaths({log}, "D", "p"); },
+                ThrowsMessage<InputError>(HasSubstr(
+                    std::string("'") + log + "' is not below --logs_root p")));
+  }
+}
+
 }  // namespace
 }  // namespace finray

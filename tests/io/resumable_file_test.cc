@@ -55,6 +55,29 @@ TEST_F(ResumableFileTest, GoesOnFromTheLastCheckpoint) {
   EXPECT_EQ(folder_.Read("a.csv"), "one two");
 }
 
+TEST_F(ResumableFileTest, CheckpointsMadeMeanwhileCountWhatIsThere) {
+  {
+    ResumableFile file(path_, "k", false);
+    for (int i = 0; i < 50; ++i) {
+      file.Append("0123456789");
+      file.CheckpointSoon(std::to_string(i));
+    }
+  }
+  {
+    ResumableFile file(path_, "k", true);
+    ASSERT_NE(file.note(), "");  // the first one was not skipped
+    EXPECT_EQ(file.bytes(), 10u * (std::stoul(file.note()) + 1));
+    file.Append("more");
+    file.CheckpointSoon("soon");
+    file.Checkpoint("now");
+  }
+  ResumableFile file(path_, "k", true);
+  EXPECT_EQ(file.note(), "now");
+  file.CheckpointSoon("soon");
+  file.Finish("end");
+  EXPECT_EQ(folder_.Read("a.csv").size(), file.bytes());
+}
+
 TEST_F(ResumableFileTest, StartsOverWithAnotherKeyOrOnRequest) {
   for (const bool resume : {true, false}) {
     Crash();

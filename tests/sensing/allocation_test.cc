@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "allocation_counter.h"
+#include "count_allocations.h"
 #include "finray/sensing/contact_fit.h"
 #include "finray/sensing/frame_group_fit.h"
 #include "sensing/gauge_log.h"

@@ -1,6 +1,7 @@
 // Streams and jobs with a solver that would show any dependence on threads,
 // chunks or interruptions.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -9,6 +10,7 @@
 
 #include "finray/io/atomic_file.h"
 #include "finray/io/error.h"
+#include "finray/io/gzip.h"
 #include "finray/sensing/batch_summary.h"
 #include "finray/sensing/frame_results.h"
 #include "finray/sensing/log_stream.h"
@@ -23,20 +25,21 @@ constexpr int kFrames = 1000;  // not a whole number of blocks
 // Its results depend on all frames since the last cold start.
 class ChainSolver : public FrameSolver {
  public:
-  FrameEstimate Solve(const std::vector<double>& readings_V,
-                      const FrameEstimate* before) override {
-    FrameEstimate estimate;
-    estimate.status = FrameStatus::kOk;
-    estimate.normal_N =
-        std::sin(readings_V[0]) + (before ? 0.9 * before->normal_N : 1);
-    estimate.contact_mm = estimate.contact_std_mm = estimate.normal_std_N = 1;
-    estimate.contact_pose.setConstant(std::nan(""));
-    estimate.tip_pose.setConstant(0.1 * estimate.normal_N);
-    estimate.rib_tension_N.assign(5, 1);
-    estimate.chi2 = 0;
-    // Blocks come to their end out of order.
-    if (std::fmod(readings_V[0], 7) < 1) std::this_thread::yield();
-    return estimate;
+  void SolveBlock(const FrameReadings* readings, std::size_t count,
+                  FrameEstimate* estimates) override {
+    double force = 1;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double reading = readings[i].gauges_V[0];
+      force = std::sin(reading) + (i == 0 ? 1 : 0.9 * force);
+      FrameEstimate& estimate = estimates[i];
+      estimate.status = FrameStatus::kOk;
+      estimate.contact[0].normal_N = force;
+      estimate.tip_pose.setConstant(0.1 * force);
+      estimate.rib_tension_N.assign(5, 1);
+      estimate.chi2 = 0;
+      // Blocks come to their end out of order.
+      if (std::fmod(reading, 7) < 1) std::this_thread::yield();
+    }
   }
 };
 
@@ -91,22 +94,22 @@ TEST_F(BatchStreamTest, SameBytesForAllThreadsAndChunks) {
 }
 
 TEST_F(BatchStreamTest, BlocksLieAtFixedPlaces) {
-  int cold = 0;
+  int blocks = 0;
   class Counter : public ChainSolver {
    public:
-    explicit Counter(int* cold) : cold_(cold) {}
-    FrameEstimate Solve(const std::vector<double>& readings_V,
-                        const FrameEstimate* before) override {
-      if (before == nullptr) ++*cold_;
-      return ChainSolver::Solve(readings_V, before);
+    explicit Counter(int* blocks) : blocks_(blocks) {}
+    void SolveBlock(const FrameReadings* readings, std::size_t count,
+                    FrameEstimate* estimates) override {
+      ++*blocks_;
+      ChainSolver::SolveBlock(readings, count, estimates);
     }
 
    private:
-    int* cold_;
+    int* blocks_;
   };
-  FrameSolverPool pool([&] { return std::make_unique<Counter>(&cold); });
+  FrameSolverPool pool([&] { return std::make_unique<Counter>(&blocks); });
   Job("out.csv").Run(&pool);
-  EXPECT_EQ(cold, (kFrames + kBlockFrames - 1) / kBlockFrames);
+  EXPECT_EQ(blocks, (kFrames + kBlockFrames - 1) / kBlockFrames);
 }
 
 TEST_F(BatchStreamTest, StopAfterAnyBlockAndResume) {
@@ -212,23 +215,55 @@ TEST_F(BatchStreamTest, ALogThatChangesMeanwhileIsRefused) {
   }
 }
 
+TEST_F(BatchStreamTest, TheFirstBadPlaceIsTheOneReported) {
+  std::string text = folder_.Read("log.csv");
+  for (int i = 0; i < 20000; ++i) text += "1,1,1,1,1,more\n";
+  const auto at_line = [&](int line) {
+    std::size_t at = 0;
+    for (int i = 1; i < line; ++i) at = text.find('\n', at) + 1;
+    return at;
+  };
+  text.replace(at_line(15000), 1, "x");
+  text.replace(at_line(14990), 2, "1 ");  // a comma less
+  text.replace(at_line(18000), 1, "y");
+  WriteFileAtomically(log_ + ".gz", Gzipped(text));
+  folder_.Write("log.csv", text);
+  for (const int threads : {1, 2, 4}) {
+    settings_.threads = threads;
+    for (const std::string& log : {log_, log_ + ".gz"}) {
+      LogJob job(&settings_, log, folder_.Path("out.csv"));
+      EXPECT_THAT([&] { job.Check(); },
+                  testing::ThrowsMessage<InputError>(
+                      log + ":14990: expected 6 cells as in the header, "
+                            "found 5"));
+    }
+  }
+}
+
 TEST_F(BatchStreamTest, TheEstimatorRemembersNothing) {
   const FrameTable table =
       FrameTable::Read(FINRAY_SOURCE_DIR "/datasets/simulated_r15/train.csv");
-  const auto volts = ReadVolts(settings_.finger, table);
-  const FrameSolverFactory cold = ColdSolvers(settings_.finger, {}, {});
-  const auto forward = cold(), backward = cold();
-  std::vector<FrameEstimate> estimates;
-  for (const auto& readings : volts) {
-    estimates.push_back(forward->Solve(readings, nullptr));
-  }
-  for (std::size_t i = volts.size(); i-- > 0;) {
-    const FrameEstimate again = backward->Solve(volts[i], nullptr);
-    EXPECT_EQ(again.status, estimates[i].status);
-    EXPECT_EQ(NumberText(again.contact_mm),
-              NumberText(estimates[i].contact_mm));
-    EXPECT_EQ(NumberText(again.normal_N), NumberText(estimates[i].normal_N));
-    EXPECT_EQ(NumberText(again.chi2), NumberText(estimates[i].chi2));
+  const auto readings = ReadReadings(settings_.finger, table);
+  const FrameSolverFactory make = FrameSolvers(settings_.finger, {}, {});
+  const auto forward = make(), backward = make();
+  const std::size_t blocks = readings.size() / kBlockFrames;
+  std::vector<FrameEstimate> first(readings.size()), second(readings.size());
+  const auto solve = [&](FrameSolver& solver, std::size_t block,
+                         std::vector<FrameEstimate>* estimates) {
+    solver.SolveBlock(&readings[block * kBlockFrames], kBlockFrames,
+                      &(*estimates)[block * kBlockFrames]);
+  };
+  ASSERT_GE(blocks, 2u);
+  for (std::size_t i = 0; i < blocks; ++i) solve(*forward, i, &first);
+  for (std::size_t i = blocks; i-- > 0;) solve(*backward, i, &second);
+  for (std::size_t i = 0; i < blocks * kBlockFrames; ++i) {
+    const FrameEstimate &was = first[i], &is = second[i];
+    EXPECT_EQ(is.status, was.status);
+    EXPECT_EQ(NumberText(is.contact[0].arc_mm),
+              NumberText(was.contact[0].arc_mm));
+    EXPECT_EQ(NumberText(is.contact[0].normal_N),
+              NumberText(was.contact[0].normal_N));
+    EXPECT_EQ(NumberText(is.chi2), NumberText(was.chi2));
   }
 }
 
@@ -237,13 +272,18 @@ TEST(EstimationSummaryTest, ReadsBackTheSame) {
   FrameEstimate estimate;
   for (int i = 0; i < 100; ++i) {
     estimate.status = EstimationSummary::kStatuses[i % 5];
-    estimate.normal_N = 0.1 * i;
+    estimate.contact[0].normal_N = 0.1 * i;
+    estimate.dof = 2;
+    estimate.chi2 = i;  // p = exp(-chi2 / 2) < 0.001 from 13.8 on
     summary.Add(estimate, 0.3, i % 7 ? 0.05 * i : std::nan(""));
   }
   const auto back = SummaryFromText(SummaryToText(summary));
   ASSERT_TRUE(back);
   EXPECT_EQ(back->frames, 100u);
   EXPECT_EQ(back->by_status, summary.by_status);
+  // Three of five statuses are solved.
+  EXPECT_EQ(summary.unexplained, 17u * 3);
+  EXPECT_EQ(back->unexplained, summary.unexplained);
   EXPECT_EQ(back->force_compared, summary.force_compared);
   EXPECT_EQ(back->force_squares_N2, summary.force_squares_N2);
   EXPECT_EQ(back->force_max_N, summary.force_max_N);

@@ -22,14 +22,15 @@ Scene OneContact() {
   return scene;
 }
 
-std::vector<double> Volts(const EquilibriumSolver& solver) {
-  std::vector<double> volts;
+FrameReadings Readings(const EquilibriumSolver& solver) {
+  FrameReadings readings;
   const Finger& finger = solver.model().finger();
   for (int j = 0; j < solver.model().gauges(); ++j) {
-    volts.push_back(finger.gauges[j].gain_V_per_rad * solver.gauge_angle(j) +
-                    finger.gauges[j].offset_V);
+    readings.gauges_V.push_back(finger.gauges[j].gain_V_per_rad *
+                                    solver.gauge_angle(j) +
+                                finger.gauges[j].offset_V);
   }
-  return volts;
+  return readings;
 }
 
 TEST(FrameEstimatorTest, NoiseFreeGridFromACold) {
@@ -45,9 +46,10 @@ TEST(FrameEstimatorTest, NoiseFreeGridFromACold) {
       const double arc = 15 + (112 - 15) * i / 29.0;
       const double force = 0.1 * std::pow(100, j / 19.0);
       ASSERT_TRUE(solver.Solve({{arc, force, 0}}));
-      const FrameEstimate estimate = estimator.Estimate(Volts(solver));
-      const double arc_error = std::abs(estimate.contact_mm - arc);
-      const double force_error = std::abs(estimate.normal_N / force - 1);
+      const FrameEstimate estimate = estimator.Estimate(Readings(solver));
+      const double arc_error = std::abs(estimate.contact[0].arc_mm - arc);
+      const double force_error =
+          std::abs(estimate.contact[0].normal_N / force - 1);
       right += arc_error < 1e-5 && force_error < 1e-6;
       worst_arc = std::max(worst_arc, arc_error);
       worst_force = std::max(worst_force, force_error);
@@ -64,20 +66,20 @@ TEST(FrameEstimatorTest, StdIsWhatNoiseDoes) {
   FrameEstimator estimator(finger, OneContact(), {});
   EquilibriumSolver solver(finger, {});
   ASSERT_TRUE(solver.Solve({{75, 3, 0}}));
-  const std::vector<double> clean = Volts(solver);
+  const FrameReadings clean = Readings(solver);
   std::mt19937_64 generator(5);
   std::normal_distribution<double> noise(0, 3e-4);
   double arc2 = 0, force2 = 0, arc_std = 0, force_std = 0, chi2 = 0;
   constexpr int kRepeats = 1000;
   for (int i = 0; i < kRepeats; ++i) {
-    std::vector<double> volts = clean;
-    for (double& v : volts) v += noise(generator);
-    const FrameEstimate estimate = estimator.Estimate(volts);
+    FrameReadings readings = clean;
+    for (double& v : readings.gauges_V) v += noise(generator);
+    const FrameEstimate estimate = estimator.Estimate(readings);
     ASSERT_EQ(estimate.status, FrameStatus::kOk);
-    arc2 += std::pow(estimate.contact_mm - 75, 2);
-    force2 += std::pow(estimate.normal_N - 3, 2);
-    arc_std += estimate.contact_std_mm;
-    force_std += estimate.normal_std_N;
+    arc2 += std::pow(estimate.contact[0].arc_mm - 75, 2);
+    force2 += std::pow(estimate.contact[0].normal_N - 3, 2);
+    arc_std += estimate.contact[0].arc_std_mm;
+    force_std += estimate.contact[0].normal_std_N;
     chi2 += estimate.chi2;
   }
   // The spread of 1000 repeats is known to 2.2 %.
@@ -91,24 +93,25 @@ TEST(FrameEstimatorTest, SaysWhatItCannotSee) {
   EquilibriumSolver solver(finger, {});
   FrameEstimator automatic(finger, Scene(), {});
   ASSERT_TRUE(solver.Solve({}));
-  EXPECT_EQ(automatic.Estimate(Volts(solver)).status, FrameStatus::kNoContact);
+  EXPECT_EQ(automatic.Estimate(Readings(solver)).status,
+            FrameStatus::kNoContact);
   // Near the tip and light: no gauge tells place from force.
   ASSERT_TRUE(solver.Solve({{128, 0.5, 0}}));
   FrameEstimator one(finger, OneContact(), {});
-  const FrameEstimate tip = one.Estimate(Volts(solver));
+  const FrameEstimate tip = one.Estimate(Readings(solver));
   EXPECT_EQ(tip.status, FrameStatus::kUnobservable);
   ASSERT_TRUE(solver.Solve({{70, 3, 0}}));
-  std::vector<double> volts = Volts(solver);
-  const FrameEstimate whole = one.Estimate(volts);
+  FrameReadings readings = Readings(solver);
+  const FrameEstimate whole = one.Estimate(readings);
   EXPECT_EQ(whole.status, FrameStatus::kOk);
   // One gauge less still does, with less certainty; three less do not.
-  volts[0] = std::nan("");
-  const FrameEstimate less = one.Estimate(volts);
-  EXPECT_NEAR(less.contact_mm, 70, 1e-6);
-  EXPECT_GT(less.contact_std_mm, whole.contact_std_mm);
-  volts[1] = volts[2] = std::nan("");
-  EXPECT_EQ(one.Estimate(volts).status, FrameStatus::kBadInput);
-  EXPECT_TRUE(std::isnan(one.Estimate(volts).normal_N));
+  readings.gauges_V[0] = std::nan("");
+  const FrameEstimate less = one.Estimate(readings);
+  EXPECT_NEAR(less.contact[0].arc_mm, 70, 1e-6);
+  EXPECT_GT(less.contact[0].arc_std_mm, whole.contact[0].arc_std_mm);
+  readings.gauges_V[1] = readings.gauges_V[2] = std::nan("");
+  EXPECT_EQ(one.Estimate(readings).status, FrameStatus::kBadInput);
+  EXPECT_TRUE(std::isnan(one.Estimate(readings).contact[0].normal_N));
 }
 
 TEST(FrameEstimatorTest, FreeFramesWithNoiseAreNoContact) {
@@ -118,9 +121,10 @@ TEST(FrameEstimatorTest, FreeFramesWithNoiseAreNoContact) {
   std::normal_distribution<double> noise(0, 3e-4);
   int free = 0;
   for (int i = 0; i < 300; ++i) {
-    std::vector<double> volts(4);
-    for (double& v : volts) v = noise(generator);
-    const FrameEstimate estimate = automatic.Estimate(volts);
+    FrameReadings readings;
+    readings.gauges_V.resize(4);
+    for (double& v : readings.gauges_V) v = noise(generator);
+    const FrameEstimate estimate = automatic.Estimate(readings);
     free += estimate.status == FrameStatus::kNoContact;
   }
   EXPECT_GE(free, 297);  // p = 0.001 a frame
@@ -133,18 +137,194 @@ TEST(FrameEstimatorTest, KnownFrictionIsPartOfTheModel) {
   Scene scene = OneContact();
   scene.friction_coefficient = 0.3;
   FrameEstimator estimator(finger, scene, {});
-  const FrameEstimate estimate = estimator.Estimate(Volts(solver));
-  EXPECT_NEAR(estimate.contact_mm, 64, 1e-6);
-  EXPECT_NEAR(estimate.normal_N, 5, 1e-6);
+  const FrameEstimate estimate = estimator.Estimate(Readings(solver));
+  EXPECT_NEAR(estimate.contact[0].arc_mm, 64, 1e-6);
+  EXPECT_NEAR(estimate.contact[0].normal_N, 5, 1e-6);
   EXPECT_NEAR(estimate.rib_tension_N[2], solver.rib_tension(2), 1e-6);
   EXPECT_NEAR((estimate.tip_pose - solver.tip_pose()).norm(), 0, 1e-6);
 }
 
+TEST(FrameEstimatorTest, ASaturatedGaugeIsLeftOut) {
+  Finger finger = PaperFinger();
+  EquilibriumSolver solver(finger, {});
+  ASSERT_TRUE(solver.Solve({{70, 3, 0}}));
+  FrameReadings readings = Readings(solver);
+  const double seen = readings.gauges_V[0];
+  finger.gauges[0].max_V = std::abs(seen) / 2;
+  finger.gauges[0].min_V = -std::abs(seen) / 2;
+  readings.gauges_V[0] = std::copysign(std::abs(seen) / 2, seen);
+  const FrameEstimate estimate =
+      FrameEstimator(finger, OneContact(), {}).Estimate(readings);
+  EXPECT_NEAR(estimate.contact[0].arc_mm, 70, 1e-6);
+  EXPECT_EQ(estimate.dof, 1);
+}
+
+TEST(FrameEstimatorTest, AMeasuredCircleTellsPlaceFromForce) {
+  // Near the tip the gauges alone know the place to a few mm.
+  const Finger finger = PaperFinger();
+  Scene scene = OneContact();
+  scene.object = {Outline(CircleOutline{15}), std::nullopt};
+  EquilibriumSolver solver(finger, {});
+  const ObjectPose pose{{-13, 121}, 0};
+  const ObjectContact truth =
+      SolveObjectContact(*scene.object, pose, 0, &solver);
+  ASSERT_EQ(truth.contacts.size(), 1u);
+  FrameReadings readings = Readings(solver);
+  const FrameEstimate alone =
+      FrameEstimator(finger, scene, {}).Estimate(readings);
+  EXPECT_GT(alone.contact[0].arc_std_mm, 1);
+
+  scene.object_std_mm = 0.05;
+  FrameEstimator measured(finger, scene, {});
+  readings.object_x_mm = pose.position_mm.x();
+  readings.object_y_mm = pose.position_mm.y();
+  const FrameEstimate placed = measured.Estimate(readings);
+  EXPECT_EQ(placed.status, FrameStatus::kOk);
+  EXPECT_EQ(placed.dof, 4);
+  EXPECT_NEAR(placed.contact[0].arc_mm, truth.contacts[0].arc_mm, 1e-6);
+  EXPECT_NEAR(placed.contact[0].normal_N, truth.contacts[0].normal_N, 1e-6);
+  EXPECT_LT(placed.contact[0].arc_std_mm, 0.1);
+  EXPECT_LT(placed.contact[0].normal_std_N,
+            0.5 * alone.contact[0].normal_std_N);
+  // With one gauge left and one coordinate of the stage.
+  for (int j = 1; j < 4; ++j) readings.gauges_V[j] = std::nan("");
+  readings.object_x_mm = std::nan("");
+  const FrameEstimate least = measured.Estimate(readings);
+  EXPECT_EQ(least.dof, 0);
+  EXPECT_NEAR(least.contact[0].arc_mm, truth.contacts[0].arc_mm, 1e-5);
+  EXPECT_NEAR(least.contact[0].normal_N, truth.contacts[0].normal_N, 1e-5);
+}
+
+Finger EightGauges(double noise_V) {
+  Finger finger = PaperFinger();
+  for (int j = 0; j < 4; ++j) {
+    Gauge gauge = finger.gauges[j];
+    gauge.beam = Side::kFront;
+    finger.gauges.push_back(gauge);
+  }
+  for (Gauge& gauge : finger.gauges) gauge.noise_V = noise_V;
+  return finger;
+}
+
+TEST(FrameEstimatorTest, TwoContactsFromACold) {
+  const Finger finger = EightGauges(1e-4);
+  Scene scene;
+  scene.contacts = 2;
+  FrameEstimator estimator(finger, scene, {});
+  EquilibriumSolver solver(finger, {});
+  for (const double first : {25.0, 45.0, 65.0}) {
+    for (const double apart : {25.0, 45.0}) {
+      for (const double force : {1.0, 5.0}) {
+        const PointContact one{first, force, 0}, two{first + apart, 3, 0};
+        ASSERT_TRUE(solver.Solve({one, two}));
+        const FrameEstimate estimate = estimator.Estimate(Readings(solver));
+        ASSERT_EQ(estimate.contacts, 2) << first << " " << apart;
+        EXPECT_EQ(estimate.status, FrameStatus::kOk) << first << " " << apart;
+        EXPECT_NEAR(estimate.contact[0].arc_mm, one.arc_mm, 1e-5);
+        EXPECT_NEAR(estimate.contact[1].arc_mm, two.arc_mm, 1e-5);
+        EXPECT_NEAR(estimate.contact[0].normal_N, one.normal_N, 1e-6);
+        EXPECT_NEAR(estimate.contact[1].normal_N, two.normal_N, 1e-6);
+        EXPECT_NEAR((estimate.contact[1].pose - solver.contact_pose(1)).norm(),
+                    0, 1e-5);
+        EXPECT_EQ(estimate.dof, 4);
+      }
+    }
+  }
+  // One of them leaves.
+  ASSERT_TRUE(solver.Solve({{60, 3, 0}}));
+  const FrameEstimate one = estimator.Estimate(Readings(solver));
+  EXPECT_EQ(one.contacts, 1);
+  EXPECT_NEAR(one.contact[0].arc_mm, 60, 1e-5);
+}
+
+TEST(FrameEstimatorTest, AutoCountsContacts) {
+  const Finger finger = EightGauges(1e-4);
+  FrameEstimator estimator(finger, Scene(), {});
+  EquilibriumSolver solver(finger, {});
+  std::mt19937_64 generator(7);
+  std::normal_distribution<double> noise(0, 1e-4);
+  const std::vector<PointContact> cases[] = {
+      {}, {{70, 3, 0}}, {{35, 4, 0}, {85, 2, 0}}};
+  for (int count = 0; count < 3; ++count) {
+    ASSERT_TRUE(solver.Solve(cases[count]));
+    int right = 0;
+    for (int i = 0; i < 50; ++i) {
+      FrameReadings readings = Readings(solver);
+      for (double& v : readings.gauges_V) v += noise(generator);
+      right += estimator.Estimate(readings).contacts == count;
+    }
+    EXPECT_GE(right, 49) << count;  // p = 0.001 a frame
+  }
+}
+
+TEST(FrameEstimatorTest, ReportsBothSolutionsThatExplainAFrame) {
+  // Two contacts behind four gauges, one past the last rib: another pair has
+  // the same angles.
+  Finger finger = PaperFinger();
+  for (Gauge& gauge : finger.gauges) gauge.noise_V = 1e-4;
+  Scene scene;
+  scene.contacts = 2;
+  EquilibriumSolver solver(finger, {});
+  const std::vector<PointContact> truth = {{13.2, 2.92, 0}, {125.4, 4.38, 0}};
+  ASSERT_TRUE(solver.Solve(truth));
+  const FrameReadings readings = Readings(solver);
+  const FrameEstimate estimate =
+      FrameEstimator(finger, scene, {}).Estimate(readings);
+  EXPECT_EQ(estimate.status, FrameStatus::kUnobservable);
+  ASSERT_TRUE(std::isfinite(estimate.alternative_chi2));
+  int right = 0;
+  for (const ContactEstimates& found :
+       {estimate.contact, estimate.alternative}) {
+    right += std::abs(found[0].arc_mm - 13.2) < 1e-3 &&
+             std::abs(found[1].arc_mm - 125.4) < 1e-3;
+    // Either one is a solution, checked by an equilibrium of its own.
+    ASSERT_TRUE(solver.Solve({{found[0].arc_mm, found[0].normal_N, 0},
+                              {found[1].arc_mm, found[1].normal_N, 0}}));
+    for (int j = 0; j < 4; ++j) {
+      EXPECT_NEAR(solver.gauge_angle(j), readings.gauges_V[j], 1e-8);
+    }
+  }
+  EXPECT_EQ(right, 1);
+}
+
+TEST(FrameEstimatorTest, ArrivesWhereGaussNewtonCircles) {
+  // A light contact in the last bay: what noise leaves unexplained, times the
+  // curvature, outweighs the information.
+  const Finger finger = PaperFinger();
+  FrameEstimator estimator(finger, OneContact(), {});
+  EquilibriumSolver solver(finger, {});
+  std::mt19937_64 generator(8);
+  std::normal_distribution<double> noise(0, 3e-4);
+  int solved = 0;
+  constexpr int kFrames = 200;
+  for (int i = 0; i < kFrames; ++i) {
+    ASSERT_TRUE(solver.Solve({{118 + 0.08 * i, 2, 0}}));
+    FrameReadings readings = Readings(solver);
+    for (double& v : readings.gauges_V) v += noise(generator);
+    const FrameEstimate estimate = estimator.Estimate(readings);
+    solved += estimate.status != FrameStatus::kNotConverged;
+    if (!std::isfinite(estimate.contact[0].arc_mm)) continue;
+    // A minimum: it is no worse than the truth.
+    double truth = 0;
+    for (int j = 0; j < 4; ++j) {
+      truth +=
+          std::pow((readings.gauges_V[j] - solver.gauge_angle(j)) / 3e-4, 2);
+    }
+    EXPECT_LE(estimate.chi2, truth + 1e-3);
+  }
+  EXPECT_EQ(solved, kFrames);
+}
+
 TEST(FrameEstimatorTest, RefusesWhatItCannotModel) {
   Scene two;
-  two.contacts = 2;
+  two.contacts = 3;
   EXPECT_THAT([&] { FrameEstimator(PaperFinger(), two, {}); },
-              ThrowsMessage<InputError>(HasSubstr("2 contacts cannot")));
+              ThrowsMessage<InputError>(HasSubstr("3 contacts cannot")));
+  two.contacts = 2;
+  Finger three = PaperFinger();
+  three.gauges.pop_back();
+  EXPECT_THAT([&] { FrameEstimator(three, two, {}); },
+              ThrowsMessage<InputError>(HasSubstr("need at least 4 gauges")));
   Finger bare = PaperFinger();
   bare.gauges.clear();
   EXPECT_THAT([&] { FrameEstimator(bare, Scene(), {}); },

@@ -89,6 +89,32 @@ TEST(SceneTest, BadObjectsNameTheirPlace) {
         "'direction_deg' is missing");
 }
 
+TEST(SceneTest, ReadsMeasurementsAndSmoothing) {
+  const Scene scene = Load(
+      "object: {shape: circle, radius_mm: 20}\n"
+      "measurements: {object_std_mm: 0.05}\n"
+      "smoothing: {contact_std_mm: 0.5, normal_std_N: 0.2}\n");
+  EXPECT_EQ(scene.object_std_mm, 0.05);
+  ASSERT_TRUE(scene.smoothing);
+  EXPECT_EQ(scene.smoothing->contact_mm, 0.5);
+  EXPECT_EQ(scene.smoothing->normal_N, 0.2);
+  EXPECT_FALSE(Load("contacts: 1\n").smoothing);
+  const auto error = [](const std::string& text, const std::string& message) {
+    EXPECT_THAT([&] { Load(text); },
+                ThrowsMessage<InputError>(HasSubstr(message)));
+  };
+  const std::string measured = "measurements: {object_std_mm: 0.05}\n";
+  error(measured, ":1:31: object_std_mm: a measured object needs an object of");
+  error("object: {shape: ellipse, semi_axis_x_mm: 1, semi_axis_y_mm: 2}\n" +
+            measured,
+        ":2:31: object_std_mm: a measured object needs an object of shape");
+  error("contacts: 2\nobject: {shape: circle, radius_mm: 20}\n" + measured,
+        "needs contacts: 1 or auto");
+  error("measurements: {object_std_mm: 0}\n", "object_std_mm");
+  error("smoothing: {contact_std_mm: 1}\n", "normal_std_N");
+  error("smoothing: {contact_mm: 1, normal_std_N: 1}\n", "contact_std_mm");
+}
+
 TEST(SceneTest, ContactBeams) {
   EXPECT_TRUE(Load("contacts: 2\n").contact_beams.empty());
   for (const char* contacts : {"contacts: 2\n", "contacts: auto\n", ""}) {

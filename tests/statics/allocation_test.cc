@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "allocation_counter.h"
+#include "count_allocations.h"
 #include "finray/statics/equilibrium.h"
 #include "test_finger.h"
 

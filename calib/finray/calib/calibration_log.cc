@@ -95,7 +95,11 @@ CalibrationLogs ReadCalibrationLogs(const std::vector<std::string>& paths,
       frame.log = static_cast<int>(log);
       frame.row = static_cast<int>(row);
       frame.time_s = time[row];
-      for (const auto* v : volts) frame.gauges_V.push_back((*v)[row]);
+      for (std::size_t j = 0; j < volts.size(); ++j) {
+        const double reading = (*volts[j])[row];
+        frame.gauges_V.push_back(
+            IsMeasured(finger.gauges[j], reading) ? reading : std::nan(""));
+      }
       frame.force_N = force[row];
       frame.force_xy_N = {force_x[row], force_y[row]};
       frame.object_mm = {object_x[row], object_y[row]};

@@ -168,7 +168,8 @@ void CalibrationProblem::GuessContact(int index, double* contact) {
 void CalibrationProblem::GuessContactFromGauges(const CalibrationFrame& frame,
                                                 double* contact) {
   if (!guess_table_) {
-    guess_table_ = std::make_unique<GaugeTable>(&guess_solver_);
+    guess_table_ = std::make_unique<GaugeTable>(
+        &guess_solver_, plan_.scene.friction_coefficient, std::nullopt);
   }
   const auto gauges = static_cast<Eigen::Index>(frame.gauges_V.size());
   Eigen::VectorXd angles = Eigen::VectorXd::Zero(gauges);
@@ -179,10 +180,10 @@ void CalibrationProblem::GuessContactFromGauges(const CalibrationFrame& frame,
     angles[j] = (frame.gauges_V[j] - parameters_.offsets_V[j]) / gain;
     weights[j] = std::abs(gain) / gauge_std_V(static_cast<int>(j));
   }
-  std::vector<GaugeTable::Start> starts;
+  std::vector<ContactStart> starts;
   guess_table_->FindStarts(angles, weights, &starts);
-  contact[0] = starts[0].arc_mm;
-  contact[1] = starts[0].normal_N;
+  contact[0] = starts[0].contacts[0].arc_mm;
+  contact[1] = starts[0].contacts[0].normal_N;
 }
 
 // Offsets are what the gauges read in free frames, to begin with.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "finray/calib/finger_covariance.h"
+
 namespace finray {
 namespace {
 
@@ -108,6 +110,7 @@ CalibrationResult Calibrate(CalibrationProblem* problem,
   result.solve = problem->Solve();
   result.identifiability = AnalyzeIdentifiability(problem);
   result.finger = problem->parameters().Apply(problem->finger());
+  KeepCovariance(problem->parameters(), result.identifiability, &result.finger);
   result.forces = CheckForces(problem->finger(), result.finger, problem->plan(),
                               problem->logs(), discretization, threads);
   if (!result.solve.converged) {

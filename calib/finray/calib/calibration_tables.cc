@@ -40,12 +40,12 @@ FrameTable CalibrationFrames(CalibrationProblem& problem,
     set("time_s", frame.time_s);
     set("held_out", frame.held_out);
     set("force_N", ReferenceForce(frame));
-    set("force_before_N", per_normal * before.normal_N);
-    set("force_after_N", per_normal * after.normal_N);
-    set("force_after_std_N", per_normal * after.normal_std_N);
-    set("contact_before_mm", before.contact_mm);
-    set("contact_after_mm", after.contact_mm);
-    set("contact_after_std_mm", after.contact_std_mm);
+    set("force_before_N", per_normal * before.contact[0].normal_N);
+    set("force_after_N", per_normal * after.contact[0].normal_N);
+    set("force_after_std_N", per_normal * after.contact[0].normal_std_N);
+    set("contact_before_mm", before.contact[0].arc_mm);
+    set("contact_after_mm", after.contact[0].arc_mm);
+    set("contact_after_std_mm", after.contact[0].arc_std_mm);
     const auto contact = problem.contact(static_cast<int>(i));
     set("fit_contact_mm", contact[0]);
     set("fit_normal_N", contact[1]);

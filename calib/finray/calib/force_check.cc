@@ -14,20 +14,21 @@ double ReferenceForce(const CalibrationFrame& frame) {
 ForceCheck CheckForces(const Finger& before, const Finger& after,
                        const Plan& plan, const CalibrationLogs& logs,
                        const Discretization& discretization, int threads) {
-  std::vector<std::vector<double>> volts;
+  std::vector<FrameReadings> readings;
   for (const CalibrationFrame& frame : logs.frames) {
-    volts.push_back(frame.gauges_V);
+    readings.emplace_back();
+    readings.back().gauges_V = frame.gauges_V;
   }
   ForceCheck check;
   check.before =
-      EstimateFrames(before, plan.scene, discretization, volts, threads);
+      EstimateFrames(before, plan.scene, discretization, readings, threads);
   check.after =
-      EstimateFrames(after, plan.scene, discretization, volts, threads);
+      EstimateFrames(after, plan.scene, discretization, readings, threads);
   const double per_normal = std::hypot(1, plan.scene.friction_coefficient);
   for (std::size_t i = 0; i < logs.frames.size(); ++i) {
     const double force = ReferenceForce(logs.frames[i]);
-    const double was = per_normal * check.before[i].normal_N - force;
-    const double is = per_normal * check.after[i].normal_N - force;
+    const double was = per_normal * check.before[i].contact[0].normal_N - force;
+    const double is = per_normal * check.after[i].contact[0].normal_N - force;
     if (std::isnan(was) || std::isnan(is)) continue;
     ForceCheck::Error& error =
         logs.frames[i].held_out ? check.held_out : check.fitted;

@@ -113,9 +113,10 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem) {
                                        ? ParameterStatus::kPriorDominated
                                        : ParameterStatus::kEstimated;
     result.status.push_back(status);
+    result.bounded_std.push_back(unit[i] * std::sqrt(covariance(i, i)));
     result.std.push_back(null && !held_by_prior
                              ? std::numeric_limits<double>::infinity()
-                             : unit[i] * std::sqrt(covariance(i, i)));
+                             : result.bounded_std.back());
   }
   for (int k = 0; k < n && value[k] < 1; ++k) {
     WeakDirection direction;

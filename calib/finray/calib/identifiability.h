@@ -45,6 +45,9 @@ struct Identifiability {
   static constexpr double kNull = 1e-4;
 
   std::vector<double> std;  ///< of the variable of each free parameter
+  /// The same, but finite: what the data say nothing of, and no prior, has
+  /// 1 / kNull of its scale.
+  std::vector<double> bounded_std;
   std::vector<ParameterStatus> status;  ///< one per free parameter
   Eigen::MatrixXd correlation;          ///< free x free
   std::vector<WeakDirection> weak;

@@ -19,47 +19,66 @@ CalibrationParameters::CalibrationParameters(const Finger& finger,
     gains_V_per_rad.push_back(gauge.gain_V_per_rad);
     offsets_V.push_back(gauge.offset_V);
   }
-  Add(plan, ParameterFamily::kFrontStiffness, "front_stiffness_N_mm2", "N mm^2",
-      &shared.ln_front_stiffness, true, 1);
-  Add(plan, ParameterFamily::kBackStiffness, "back_stiffness_N_mm2", "N mm^2",
-      &shared.ln_back_stiffness, true, 1);
-  for (std::size_t j = 0; j < gains_V_per_rad.size(); ++j) {
-    const std::string gauge = "gauge_" + std::to_string(j + 1);
-    Add(plan, ParameterFamily::kGaugeGain, gauge + "_gain_V_per_rad", "V/rad",
-        &gains_V_per_rad[j], false, std::abs(gains_V_per_rad[j]));
+  for (const FingerParameter& parameter : ParametersOf(finger)) {
+    AddOfFinger(plan, parameter);
   }
-  for (std::size_t j = 0; j < offsets_V.size(); ++j) {
-    const std::string gauge = "gauge_" + std::to_string(j + 1);
-    Add(plan, ParameterFamily::kGaugeOffset, gauge + "_offset_V", "V",
-        &offsets_V[j], false, 1);
-  }
-  for (std::size_t i = 0; i < shared.rib_lengths_mm.size(); ++i) {
-    Add(plan, ParameterFamily::kRibLength,
-        "rib_" + std::to_string(i + 1) + "_length_mm", "mm",
-        &shared.rib_lengths_mm[i], false, 1);
-  }
-  Add(plan, ParameterFamily::kObjectOrigin, "object_origin_x_mm", "mm",
-      &object_origin_mm[0], false, 10);
-  Add(plan, ParameterFamily::kObjectOrigin, "object_origin_y_mm", "mm",
-      &object_origin_mm[1], false, 10);
+  AddOrigin(plan, "object_origin_x_mm", &object_origin_mm[0]);
+  AddOrigin(plan, "object_origin_y_mm", &object_origin_mm[1]);
 }
 
-void CalibrationParameters::Add(const Plan& plan, ParameterFamily family,
-                                std::string name, std::string unit,
-                                double* variable, bool is_log, double scale) {
+double* CalibrationParameters::Variable(const FingerParameter& parameter) {
+  switch (parameter.kind) {
+    case FingerParameterKind::kFrontStiffness:
+      return &shared.ln_front_stiffness;
+    case FingerParameterKind::kBackStiffness:
+      return &shared.ln_back_stiffness;
+    case FingerParameterKind::kGaugeGain:
+      return &gains_V_per_rad[parameter.index];
+    case FingerParameterKind::kGaugeOffset:
+      return &offsets_V[parameter.index];
+    case FingerParameterKind::kRibLength:
+      break;
+  }
+  return &shared.rib_lengths_mm[parameter.index];
+}
+
+void CalibrationParameters::AddOfFinger(const Plan& plan,
+                                        const FingerParameter& of_finger) {
   CalibrationParameter parameter;
-  parameter.name = std::move(name);
-  parameter.unit = std::move(unit);
-  parameter.family = family;
+  parameter.name = ParameterName(of_finger);
+  parameter.unit = ParameterUnit(of_finger.kind);
+  parameter.family = static_cast<ParameterFamily>(of_finger.kind);
+  parameter.of_finger = of_finger;
+  parameter.variable = Variable(of_finger);
+  parameter.is_log = of_finger.kind == FingerParameterKind::kFrontStiffness ||
+                     of_finger.kind == FingerParameterKind::kBackStiffness;
+  if (of_finger.kind == FingerParameterKind::kGaugeGain) {
+    parameter.scale = std::abs(*parameter.variable);
+  }
+  Add(plan, std::move(parameter));
+}
+
+void CalibrationParameters::AddOrigin(const Plan& plan, const char* name,
+                                      double* variable) {
+  CalibrationParameter parameter;
+  parameter.name = name;
+  parameter.unit = "mm";
+  parameter.family = ParameterFamily::kObjectOrigin;
   parameter.variable = variable;
-  parameter.is_log = is_log;
-  parameter.free = plan.family(family).free;
-  parameter.initial = *variable;
-  parameter.scale = scale;
-  if (plan.family(family).prior_std) {
-    const double prior_std = *plan.family(family).prior_std;
-    const bool percent = is_log || family == ParameterFamily::kGaugeGain;
-    parameter.prior_std = percent ? prior_std / 100 * scale : prior_std;
+  parameter.scale = 10;
+  Add(plan, std::move(parameter));
+}
+
+void CalibrationParameters::Add(const Plan& plan,
+                                CalibrationParameter parameter) {
+  const FamilyPlan& family = plan.family(parameter.family);
+  parameter.free = family.free;
+  parameter.initial = *parameter.variable;
+  if (family.prior_std) {
+    const bool percent =
+        parameter.is_log || parameter.family == ParameterFamily::kGaugeGain;
+    parameter.prior_std =
+        percent ? *family.prior_std / 100 * parameter.scale : *family.prior_std;
   }
   if (parameter.free) free_.push_back(static_cast<int>(all_.size()));
   all_.push_back(std::move(parameter));
@@ -67,19 +86,12 @@ void CalibrationParameters::Add(const Plan& plan, ParameterFamily family,
 
 Finger CalibrationParameters::Apply(const Finger& finger) const {
   Finger calibrated = finger;
-  // exp(ln x) is not x: a stiffness that was not varied keeps its digits.
-  if (all_[0].free) {
-    calibrated.front_stiffness_N_mm2 = std::exp(shared.ln_front_stiffness);
-  }
-  if (all_[1].free) {
-    calibrated.back_stiffness_N_mm2 = std::exp(shared.ln_back_stiffness);
-  }
-  for (std::size_t j = 0; j < gains_V_per_rad.size(); ++j) {
-    calibrated.gauges[j].gain_V_per_rad = gains_V_per_rad[j];
-    calibrated.gauges[j].offset_V = offsets_V[j];
-  }
-  for (std::size_t i = 0; i < shared.rib_lengths_mm.size(); ++i) {
-    calibrated.ribs[i].length_mm = shared.rib_lengths_mm[i];
+  // exp(ln x) is not x: what was not varied keeps its digits.
+  for (const int i : free_) {
+    const CalibrationParameter& parameter = all_[i];
+    if (!parameter.of_finger) continue;
+    SetParameter(*parameter.of_finger, parameter.Value(*parameter.variable),
+                 &calibrated);
   }
   return calibrated;
 }

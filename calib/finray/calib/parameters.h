@@ -17,6 +17,8 @@ struct CalibrationParameter {
   std::string name;  ///< as in calibration.yaml, e.g. "rib_2_length_mm"
   std::string unit;
   ParameterFamily family;
+  /// What of the finger it is; empty for the object's origin.
+  std::optional<FingerParameter> of_finger;
   double* variable;  ///< where the solver finds it
   bool is_log = false;
   bool free = false;
@@ -49,8 +51,10 @@ class CalibrationParameters {
   Finger Apply(const Finger& finger) const;
 
  private:
-  void Add(const Plan& plan, ParameterFamily family, std::string name,
-           std::string unit, double* variable, bool is_log, double scale);
+  double* Variable(const FingerParameter& parameter);
+  void AddOfFinger(const Plan& plan, const FingerParameter& parameter);
+  void AddOrigin(const Plan& plan, const char* name, double* variable);
+  void Add(const Plan& plan, CalibrationParameter parameter);
 
   std::vector<CalibrationParameter> all_;
   std::vector<int> free_;

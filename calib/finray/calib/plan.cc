@@ -77,6 +77,11 @@ Plan ReadPlan(const std::string& path) {
   Plan plan;
   plan.scene = ReadPlanScene(yaml);
   RefuseBackContacts(plan.scene);
+  if (plan.scene.object_std_mm || plan.scene.smoothing) {
+    yaml.Fail("scene",
+              "a plan's scene has no measurements and no smoothing: the plan "
+              "has measurements of its own");
+  }
   if (plan.scene.contacts.value_or(1) > 1) {
     yaml.Fail("scene", "calibration takes frames with one contact or none");
   }

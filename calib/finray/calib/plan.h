@@ -6,20 +6,22 @@
 #include <optional>
 #include <string>
 
+#include "finray/finger/finger_parameter.h"
 #include "finray/sensing/scene.h"
 
 namespace finray {
 
-/// Kinds of parameters a calibration may vary.
+/// Kinds of parameters a calibration may vary: a finger's, by their own
+/// numbers, and where the object's positions are counted from.
 enum class ParameterFamily {
-  kFrontStiffness,
-  kBackStiffness,
-  kGaugeGain,
-  kGaugeOffset,
-  kRibLength,
-  kObjectOrigin,
+  kFrontStiffness = static_cast<int>(FingerParameterKind::kFrontStiffness),
+  kBackStiffness = static_cast<int>(FingerParameterKind::kBackStiffness),
+  kGaugeGain = static_cast<int>(FingerParameterKind::kGaugeGain),
+  kGaugeOffset = static_cast<int>(FingerParameterKind::kGaugeOffset),
+  kRibLength = static_cast<int>(FingerParameterKind::kRibLength),
+  kObjectOrigin = kFingerParameterKinds,
 };
-constexpr int kParameterFamilies = 6;
+constexpr int kParameterFamilies = kFingerParameterKinds + 1;
 
 /// Whether a family is varied, and what is known of it before.
 struct FamilyPlan {

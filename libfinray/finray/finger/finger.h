@@ -2,8 +2,11 @@
 #define FINRAY_FINGER_FINGER_H_
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "finray/finger/parameter_covariance.h"
 
 namespace finray {
 
@@ -33,7 +36,16 @@ struct Gauge {
   double gain_V_per_rad = 1;
   double offset_V = 0;
   double noise_V = 3e-4;  ///< Standard deviation of one reading.
+  /// What the electronics can tell: a reading at or beyond either is saturated,
+  /// and no measurement.
+  double min_V = -std::numeric_limits<double>::infinity();
+  double max_V = std::numeric_limits<double>::infinity();
 };
+
+/// Whether a reading says anything: it is there and not saturated.
+inline bool IsMeasured(const Gauge& gauge, double reading_V) {
+  return reading_V > gauge.min_V && reading_V < gauge.max_V;
+}
 
 /// A piece of a beam whose bending stiffness is not the beam's.
 struct StiffnessPiece {
@@ -57,6 +69,8 @@ struct Finger {
   std::vector<StiffnessPiece> front_pieces, back_pieces;
   std::vector<Rib> ribs;
   std::vector<Gauge> gauges;
+  /// How well these numbers are known, if a calibration has told.
+  std::optional<ParameterCovariance> calibration;
 };
 
 }  // namespace finray

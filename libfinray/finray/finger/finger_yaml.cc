@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "finray/finger/geometry.h"
+#include "finray/finger/parameter_covariance_yaml.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/yaml_map.h"
 
@@ -245,7 +246,7 @@ void ReadRibs(const YamlMap& yaml, Finger* finger) {
 
 Gauge ReadGauge(const YamlMap& yaml, const Finger& finger) {
   yaml.AllowOnly({"beam", "start_mm", "length_mm", "gain_V_per_rad", "offset_V",
-                  "noise_V"});
+                  "noise_V", "min_V", "max_V"});
   Gauge gauge;
   gauge.beam = yaml.Choice("beam", {"front", "back"}) == "front" ? Side::kFront
                                                                  : Side::kBack;
@@ -265,6 +266,11 @@ Gauge ReadGauge(const YamlMap& yaml, const Finger& finger) {
   }
   gauge.offset_V = yaml.Number("offset_V", gauge.offset_V);
   gauge.noise_V = yaml.PositiveNumber("noise_V", gauge.noise_V);
+  gauge.min_V = yaml.Number("min_V", gauge.min_V);
+  gauge.max_V = yaml.Number("max_V", gauge.max_V);
+  if (!(gauge.min_V < gauge.max_V)) {
+    yaml.Fail("min_V", "min_V: expected less than max_V");
+  }
   return gauge;
 }
 
@@ -323,8 +329,8 @@ Finger ReadFinger(const std::string& path) {
     yaml.Fail("schema_version",
               "schema_version: expected 1, found " + std::to_string(version));
   }
-  yaml.AllowOnly(
-      {"schema_version", "name", "geometry", "beams", "ribs", "gauges"});
+  yaml.AllowOnly({"schema_version", "name", "geometry", "beams", "ribs",
+                  "gauges", "calibration"});
   Finger finger;
   finger.name = yaml.Text("name");
   const YamlMap geometry = yaml.Map("geometry");
@@ -342,6 +348,10 @@ Finger ReadFinger(const std::string& path) {
   ReadRibs(yaml, &finger);
   for (const YamlMap& entry : yaml.Maps("gauges")) {
     finger.gauges.push_back(ReadGauge(entry, finger));
+  }
+  if (yaml.Has("calibration")) {
+    finger.calibration =
+        ReadParameterCovariance(yaml.Map("calibration"), finger);
   }
   return finger;
 }
@@ -378,8 +388,17 @@ std::string FingerToYaml(const Finger& finger, const std::string& comment) {
          << ", length_mm: " << NumberText(gauge.length_mm)
          << ", gain_V_per_rad: " << NumberText(gauge.gain_V_per_rad)
          << ", offset_V: " << NumberText(gauge.offset_V)
-         << ", noise_V: " << NumberText(gauge.noise_V) << "}\n";
+         << ", noise_V: " << NumberText(gauge.noise_V);
+    if (std::isfinite(gauge.min_V)) {
+      yaml << ", min_V: " << NumberText(gauge.min_V);
+    }
+    if (std::isfinite(gauge.max_V)) {
+      yaml << ", max_V: " << NumberText(gauge.max_V);
+    }
+    yaml << "}\n";
   }
+  if (finger.calibration)
+    yaml << ParameterCovarianceToYaml(*finger.calibration);
   return yaml.str();
 }
 

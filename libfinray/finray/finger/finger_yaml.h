@@ -11,7 +11,7 @@ namespace finray {
 /// file, line and column for anything that is not a buildable finger: unknown
 /// keys, missing or non-positive dimensions, pieces that do not fill their
 /// beam, a rib that misses the back beam, ribs that cross, a gauge off its
-/// beam.
+/// beam, a `calibration` that is none of this finger.
 Finger ReadFinger(const std::string& path);
 
 /// The YAML text of a finger; ReadFinger returns the same doubles, with

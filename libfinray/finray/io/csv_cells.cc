@@ -19,28 +19,23 @@ bool TakeQuoted(std::string_view* line, std::string* cell) {
 
 }  // namespace
 
-std::string_view Trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-std::string CsvCells::Split(std::string_view line) {
-  cells_.clear();
-  unquoted_.clear();
+const char* SplitCsvLine(std::string_view line,
+                         std::vector<std::string_view>* cells,
+                         std::deque<std::string>* unquoted) {
+  cells->clear();
   for (;;) {
     const auto start = line.find_first_not_of(" \t");
     const bool quoted = start != std::string_view::npos && line[start] == '"';
     if (quoted) {
       line.remove_prefix(start + 1);
-      const bool closed = TakeQuoted(&line, &unquoted_.emplace_back());
-      cells_.push_back(unquoted_.back());
+      const bool closed = TakeQuoted(&line, &unquoted->emplace_back());
+      cells->push_back(unquoted->back());
       if (!closed) return "a quoted cell does not end on its line";
     }
     const auto comma = line.find(',');
     const std::string_view rest = Trimmed(line.substr(0, comma));
     if (!quoted) {
-      cells_.push_back(rest);
+      cells->push_back(rest);
     } else if (!rest.empty()) {
       return "text behind the closing quote of a cell";
     }
@@ -49,18 +44,19 @@ std::string CsvCells::Split(std::string_view line) {
   }
 }
 
-std::string CsvText(const std::string& cell) {
+void AppendCsvText(std::string_view cell, std::string* csv) {
   const bool comment = !cell.empty() && cell.front() == '#';
   if (cell.find_first_of(",\"\r\n") == std::string::npos &&
       Trimmed(cell) == cell && !comment) {
-    return cell;
+    csv->append(cell);
+    return;
   }
-  std::string quoted = "\"";
+  *csv += '"';
   for (const char c : cell) {
-    if (c == '"') quoted += '"';
-    quoted += c;
+    if (c == '"') *csv += '"';
+    *csv += c;
   }
-  return quoted + '"';
+  *csv += '"';
 }
 
 }  // namespace finray

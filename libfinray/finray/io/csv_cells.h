@@ -9,25 +9,24 @@
 namespace finray {
 
 /// Without spaces and tabs at both ends.
-std::string_view Trimmed(std::string_view text);
+inline std::string_view Trimmed(std::string_view text) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t'; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return text;
+}
 
-/// The cells of one line of RFC 4180 CSV. Spaces around cells do not count,
-/// those inside quotes do.
-class CsvCells {
- public:
-  /// Splits a line; the cells refer to it and live until the next Split.
-  /// Returns "" or what is wrong with the last of cells().
-  std::string Split(std::string_view line);
+/// Makes `cells` those of one line of RFC 4180 CSV. Spaces around cells do not
+/// count, those inside quotes do. The cells refer to the line, quoted ones to
+/// strings that are added to `unquoted`. Returns "" or what is wrong with the
+/// last of the cells.
+const char* SplitCsvLine(std::string_view line,
+                         std::vector<std::string_view>* cells,
+                         std::deque<std::string>* unquoted);
 
-  const std::vector<std::string_view>& cells() const { return cells_; }
-
- private:
-  std::vector<std::string_view> cells_;
-  std::deque<std::string> unquoted_;  // strings keep their place
-};
-
-/// A cell as it is written: quoted where it would not read back the same.
-std::string CsvText(const std::string& cell);
+/// Appends a cell as it is written: quoted where it would not read back the
+/// same.
+void AppendCsvText(std::string_view cell, std::string* csv);
 
 }  // namespace finray
 

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <limits>  // csv.h needs it and does not include it
 
+#include "finray/io/csv_cells.h"
 #include "finray/io/error.h"
 #include "finray/io/gzip.h"
 
@@ -16,9 +17,8 @@ namespace finray {
 namespace {
 
 // The line reader takes NUL for the end of a line, which would hide the rest of
-// it. NUL bytes are handed on as this one, which text does not contain either.
-constexpr char kNulStandIn = '\x01';
-
+// it. NUL bytes are handed on as kNulStandIn, which text does not contain
+// either.
 class Source : public io::ByteSourceBase {
  public:
   Source(const std::string& path, bool* saw_nul)
@@ -60,67 +60,24 @@ CsvReader::CsvReader(const std::string& path)
 
 CsvReader::~CsvReader() = default;
 
-bool CsvReader::NextLine() {
-  const char* text = nullptr;
+bool CsvReader::Next() {
   try {
     do {
-      text = lines_->reader.next_line();
+      const char* text = lines_->reader.next_line();
       if (text == nullptr) return false;
-      line_ = text;
-      line_number_ = static_cast<int>(lines_->reader.get_file_line());
+      line_.text = text;
+      line_.number = static_cast<int>(lines_->reader.get_file_line());
       // One is gone already; "\r\r\n" comes from careless conversions.
-      if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);
-    } while (Trimmed(line_).empty());
+      if (!line_.text.empty() && line_.text.back() == '\r') {
+        line_.text.remove_suffix(1);
+      }
+    } while (Trimmed(line_.text).empty());
   } catch (const io::error::base&) {
-    ++line_number_;
-    Fail("the line is too long for a table of numbers");
+    throw InputError(path_ + ":" + std::to_string(line_.number + 1) +
+                     ": the line is too long for a table of numbers");
   }
+  line_.nul = lines_->saw_nul;
   return true;
-}
-
-void CsvReader::Split() {
-  const std::string error = cells_.Split(line_);
-  if (!error.empty()) FailAt(cells().size() - 1, error);
-}
-
-bool CsvReader::NextHeader() {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  do {
-    if (!NextLine()) return false;
-    // The line reader skips one at the start of the file only; files put
-    // together from others have them behind their comments too.
-    while (line_.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
-      line_.remove_prefix(kByteOrderMark.size());
-    }
-    line_ = Trimmed(line_);
-  } while (line_.empty() || line_.front() == '#');
-  Split();
-  return true;
-}
-
-bool CsvReader::NextRow() {
-  if (!NextLine()) return false;
-  Split();
-  return true;
-}
-
-std::size_t CsvReader::FirstNul() const {
-  std::size_t index = 0;
-  if (!lines_->saw_nul) return cells().size();
-  while (index < cells().size() &&
-         cells()[index].find(kNulStandIn) == std::string_view::npos) {
-    ++index;
-  }
-  return index;
-}
-
-void CsvReader::Fail(const std::string& message) const {
-  throw InputError(path_ + ":" + std::to_string(line_number_) + ": " + message);
-}
-
-void CsvReader::FailAt(std::size_t index, const std::string& message) const {
-  throw InputError(path_ + ":" + std::to_string(line_number_) + ":" +
-                   std::to_string(index + 1) + ": " + message);
 }
 
 }  // namespace finray

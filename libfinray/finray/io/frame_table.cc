@@ -10,7 +10,6 @@
 #include "finray/io/error.h"
 #include "finray/io/frame_vocabulary.h"
 #include "finray/io/gzip.h"
-#include "finray/io/nearest_name.h"
 
 namespace finray {
 namespace {
@@ -65,12 +64,7 @@ bool FrameTable::Has(const std::string& name) const {
 
 const std::vector<double>& FrameTable::Numbers(const std::string& name) const {
   if (const Column* column = Find(name)) return CellsAs<Numeric>(*column);
-  std::string hint = DidYouMean(name, headers());
-  if (hint.empty()) {
-    hint = "; it has";
-    for (const Column& column : columns_) hint += " " + column.name;
-  }
-  throw InputError(Name() + ": no column '" + name + "'" + hint);
+  throw InputError(Name() + ": " + NoColumn(name, headers()));
 }
 
 std::vector<double> FrameTable::NumbersOrNan(const std::string& name) const {
@@ -98,7 +92,7 @@ std::string FrameTable::HeaderCsv() const {
   std::string csv;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     if (i > 0) csv += ',';
-    csv += CsvText(columns_[i].name);
+    AppendCsvText(columns_[i].name, &csv);
   }
   return csv + '\n';
 }
@@ -119,7 +113,11 @@ std::string FrameTable::RowsCsv() const {
         }
       } else {
         const std::string& text = std::get<Texts>(columns_[i].cells)[row];
-        csv += alone && text.empty() ? "\"\"" : CsvText(text);
+        if (alone && text.empty()) {
+          csv += "\"\"";
+        } else {
+          AppendCsvText(text, &csv);
+        }
       }
     }
     csv += '\n';

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <vector>
 
 #include "finray/io/nearest_name.h"
 
@@ -18,6 +17,8 @@ constexpr std::string_view kPatterns[] = {"time_s",
                                           "normal_#_N",
                                           "normal_#_std_N",
                                           "friction_#",
+                                          "alternative_contact_#_mm",
+                                          "alternative_normal_#_N",
                                           "contact_#_x_mm",
                                           "contact_#_y_mm",
                                           "contact_#_angle_rad",
@@ -33,6 +34,8 @@ constexpr std::string_view kPatterns[] = {"time_s",
                                           "tip_y_mm",
                                           "tip_angle_rad",
                                           "chi2",
+                                          "chi2_p_value",
+                                          "alternative_chi2",
                                           "iterations",
                                           "temperature_C"};
 
@@ -74,6 +77,16 @@ std::string DidYouMeanFrameColumn(const std::string& name) {
     if (hash != std::string::npos) column.replace(hash, 1, index);
   }
   return DidYouMean(name, columns);
+}
+
+std::string NoColumn(const std::string& name,
+                     const std::vector<std::string>& columns) {
+  std::string hint = DidYouMean(name, columns);
+  if (hint.empty()) {
+    hint = "; it has";
+    for (const std::string& column : columns) hint += " " + column;
+  }
+  return "no column '" + name + "'" + hint;
 }
 
 }  // namespace finray

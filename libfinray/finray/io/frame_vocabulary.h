@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace finray {
 
@@ -12,6 +13,10 @@ bool IsFrameColumn(std::string_view name);
 
 /// " (did you mean 'x'?)" with the nearest column of the tools, or "".
 std::string DidYouMeanFrameColumn(const std::string& name);
+
+/// "no column 'x'" and the nearest of the columns there are, or all of them.
+std::string NoColumn(const std::string& name,
+                     const std::vector<std::string>& columns);
 
 }  // namespace finray
 

@@ -117,6 +117,17 @@ void AddList(const std::string& path, const std::string& results_folder,
   }
 }
 
+// The folder of `log` as seen from `root`.
+fs::path FolderBelow(const std::string& root, const std::string& log) {
+  const fs::path below =
+      fs::absolute(log).lexically_normal().lexically_relative(
+          fs::absolute(root).lexically_normal());
+  if (below.empty() || *below.begin() == "..") {
+    throw InputError("--logs: '" + log + "' is not below --logs_root " + root);
+  }
+  return below.parent_path();
+}
+
 }  // namespace
 
 std::vector<std::string> ExpandLogs(const std::vector<std::string>& items,
@@ -144,11 +155,14 @@ std::string LogName(const std::string& path) {
 }
 
 std::vector<std::string> ResultPaths(const std::vector<std::string>& logs,
-                                     const std::string& folder) {
+                                     const std::string& folder,
+                                     const std::string& root) {
   std::vector<std::string> results;
   std::map<std::string, std::string> log_of;
   for (const std::string& log : logs) {
-    results.push_back((fs::path(folder) / (LogName(log) + kResult)).string());
+    fs::path place = folder;
+    if (!root.empty()) place /= FolderBelow(root, log);
+    results.push_back((place / (LogName(log) + kResult)).string());
     const auto [at, is_new] = log_of.insert({results.back(), log});
     if (!is_new) {
       throw InputError("--logs: '" + at->second + "' and '" + log +
@@ -156,8 +170,9 @@ std::vector<std::string> ResultPaths(const std::vector<std::string>& logs,
     }
   }
   for (const std::string& log : logs) {
-    const fs::path name = fs::path(log).filename();
-    const auto at = log_of.find((fs::path(folder) / name).string());
+    fs::path place = folder;
+    if (!root.empty()) place /= FolderBelow(root, log);
+    const auto at = log_of.find((place / fs::path(log).filename()).string());
     std::error_code unknown;
     if (at != log_of.end() && fs::equivalent(at->first, log, unknown)) {
       throw InputError("--logs: the result of '" + at->second +

@@ -23,10 +23,13 @@ std::vector<std::string> ExpandLogs(const std::vector<std::string>& items,
 /// The name that a log's results go by: a.csv and a.csv.gz give "a".
 std::string LogName(const std::string& path);
 
-/// folder/<LogName>.frames.csv of each log. Throws InputError if two logs have
-/// one result, or if a result would overwrite a log, naming both.
+/// folder/<LogName>.frames.csv of each log. With `root`, a folder that all logs
+/// are below, results lie in `folder` as the logs lie in `root`, and logs of
+/// different folders may share a name. Throws InputError if two logs have one
+/// result, if a result would overwrite a log, or if a log is not below `root`.
 std::vector<std::string> ResultPaths(const std::vector<std::string>& logs,
-                                     const std::string& folder);
+                                     const std::string& folder,
+                                     const std::string& root = "");
 
 }  // namespace finray
 

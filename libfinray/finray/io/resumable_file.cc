@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -153,14 +154,20 @@ bool ResumableFile::Restore(const std::string& key) {
 void ResumableFile::StartOver(const std::string& key) {
   // The old checkpoints go before the bytes that they count.
   Check(journal_.Truncate(0));
-  WriteJournal(std::string(kKey).append(key).append("\n"));
+  Check(journal_.Write(std::string(kKey).append(key).append("\n")));
+  Check(journal_.Sync());
   Check(part_.Open(part_path_, O_RDWR | O_CREAT | O_TRUNC));
   SyncFolder(folder_);  // both are new; some file systems cannot
 }
 
-void ResumableFile::WriteJournal(const std::string& line) {
-  Check(journal_.Write(line));
-  Check(journal_.Sync());
+int ResumableFile::Save(const std::string& line) {
+  int error = part_.Sync();
+  if (error == 0) error = journal_.Write(line);
+  return error != 0 ? error : journal_.Sync();
+}
+
+void ResumableFile::Settle() {
+  if (saving_.valid()) Check(saving_.get());
 }
 
 void ResumableFile::Append(const std::string& text) {
@@ -169,13 +176,23 @@ void ResumableFile::Append(const std::string& text) {
 }
 
 void ResumableFile::Checkpoint(const std::string& note) {
-  Check(part_.Sync());
-  WriteJournal(JournalLine(kCheckpoint, bytes_, note));
+  Settle();
+  Check(Save(JournalLine(kCheckpoint, bytes_, note)));
+}
+
+void ResumableFile::CheckpointSoon(const std::string& note) {
+  if (saving_.valid() &&
+      saving_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    return;
+  }
+  Settle();
+  saving_ = std::async(std::launch::async, &ResumableFile::Save, this,
+                       JournalLine(kCheckpoint, bytes_, note));
 }
 
 void ResumableFile::Finish(const std::string& note) {
-  Check(part_.Sync());
-  WriteJournal(JournalLine(kFinished, bytes_, note));
+  Settle();
+  Check(Save(JournalLine(kFinished, bytes_, note)));
   Check(part_.Close());
   if (std::rename(part_path_.c_str(), path_.c_str()) != 0) Check(errno);
   SyncFolder(folder_);
@@ -185,6 +202,7 @@ void ResumableFile::Finish(const std::string& note) {
 void ResumableFile::Forget() { unlink(journal_path_.c_str()); }
 
 void ResumableFile::Discard() {
+  if (saving_.valid()) saving_.wait();
   unlink(part_path_.c_str());
   unlink(journal_path_.c_str());
 }

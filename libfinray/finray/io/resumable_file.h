@@ -2,6 +2,7 @@
 #define FINRAY_IO_RESUMABLE_FILE_H_
 
 #include <cstdint>
+#include <future>
 #include <string>
 
 #include "finray/io/file_descriptor.h"
@@ -38,6 +39,9 @@ class ResumableFile {
   void Append(const std::string& text);
   /// Makes all that was appended safe, with a note on one line.
   void Checkpoint(const std::string& note);
+  /// The same without waiting for the disk: more can be appended meanwhile.
+  /// Does nothing while the disk is still busy with the one before.
+  void CheckpointSoon(const std::string& note);
   /// A last checkpoint; then gives the file its own name.
   void Finish(const std::string& note);
   /// Removes the journal: from now on the file looks after itself.
@@ -49,7 +53,10 @@ class ResumableFile {
   void Lock();
   bool Restore(const std::string& key);
   void StartOver(const std::string& key);
-  void WriteJournal(const std::string& line);
+  // Bytes and line to the disk, in this order; an errno value if that fails.
+  int Save(const std::string& line);
+  // Waits for the checkpoint under way.
+  void Settle();
   // Throws unless `error` is 0.
   void Check(int error) const;
 
@@ -58,6 +65,7 @@ class ResumableFile {
   std::string note_;
   std::uint64_t bytes_ = 0;
   bool finished_ = false;
+  std::future<int> saving_;  // last: its end comes before that of the files
 };
 
 }  // namespace finray

@@ -64,6 +64,32 @@ void RefuseNul(const std::string& path, const std::string& text) {
                    "found a NUL byte, expected UTF-8 text");
 }
 
+std::string ElementName(const std::string& name, std::size_t index) {
+  return name + "[" + std::to_string(index + 1) + "]";
+}
+
+double NumberIn(const std::string& path, const YAML::Node& cell,
+                const std::string& name) {
+  const auto number =
+      cell.IsScalar() ? ParseNumber(cell.Scalar()) : std::optional<double>();
+  if (number) return *number;
+  throw InputError(Place(path, cell.Mark()) + name +
+                   ": expected a number, found " + Shown(cell));
+}
+
+std::vector<double> NumbersIn(const std::string& path, const YAML::Node& value,
+                              const std::string& name) {
+  if (!value.IsSequence()) {
+    throw InputError(Place(path, value.Mark()) + name +
+                     ": expected a list of numbers, found " + Shown(value));
+  }
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    numbers.push_back(NumberIn(path, value[i], ElementName(name, i)));
+  }
+  return numbers;
+}
+
 // What is wrong with a value that is none of `words`.
 std::string NotOneOf(const std::string& name,
                      const std::vector<std::string>& words,
@@ -151,6 +177,19 @@ void YamlMap::Fail(const std::string& key, const std::string& message) const {
   throw InputError(PlaceOf(key) + message);
 }
 
+void YamlMap::FailIn(const std::string& key,
+                     const std::vector<std::size_t>& element,
+                     const std::string& message) const {
+  YAML::Node node = node_[key];
+  std::string name = key;
+  for (const std::size_t index : element) {
+    // Assigning to a node would change the document.
+    node.reset(static_cast<const YAML::Node>(node)[index]);
+    name = ElementName(name, index);
+  }
+  throw InputError(Place(path_, node.Mark()) + name + ": " + message);
+}
+
 std::string YamlMap::PlaceOf(const std::string& key) const {
   const YAML::Node value = node_[key];
   return Place(path_, value ? value.Mark() : node_.Mark());
@@ -158,11 +197,7 @@ std::string YamlMap::PlaceOf(const std::string& key) const {
 
 double YamlMap::Number(const std::string& key) const {
   if (!Has(key)) Fail(key, "'" + key + "' is missing in " + name_);
-  const YAML::Node value = node_[key];
-  const auto number =
-      value.IsScalar() ? ParseNumber(value.Scalar()) : std::optional<double>();
-  if (!number) Fail(key, key + ": expected a number, found " + Shown(value));
-  return *number;
+  return NumberIn(path_, node_[key], key);
 }
 
 double YamlMap::Number(const std::string& key, double fallback) const {
@@ -259,7 +294,7 @@ std::vector<YamlMap> YamlMap::Maps(const std::string& key) const {
     Fail(key, key + ": expected a list, found " + Shown(value));
   }
   for (std::size_t i = 0; i < value.size(); ++i) {
-    const std::string name = key + "[" + std::to_string(i + 1) + "]";
+    const std::string name = ElementName(key, i);
     if (!value[i].IsMap()) {
       throw InputError(Place(path_, value[i].Mark()) + name +
                        ": expected a mapping, found " + Shown(value[i]));
@@ -281,12 +316,31 @@ std::vector<std::string> YamlMap::Choices(
     const YAML::Node word = value[i];
     if (!word.IsScalar() ||
         std::find(words.begin(), words.end(), word.Scalar()) == words.end()) {
-      const std::string name = key + "[" + std::to_string(i + 1) + "]";
+      const std::string name = ElementName(key, i);
       throw InputError(Place(path_, word.Mark()) + NotOneOf(name, words, word));
     }
     chosen.push_back(word.Scalar());
   }
   return chosen;
+}
+
+std::vector<double> YamlMap::Numbers(const std::string& key) const {
+  if (!Has(key)) Fail(key, "'" + key + "' is missing in " + name_);
+  return NumbersIn(path_, node_[key], key);
+}
+
+std::vector<std::vector<double>> YamlMap::NumberRows(
+    const std::string& key) const {
+  if (!Has(key)) Fail(key, "'" + key + "' is missing in " + name_);
+  const YAML::Node value = node_[key];
+  if (!value.IsSequence()) {
+    Fail(key, key + ": expected a list of rows, found " + Shown(value));
+  }
+  std::vector<std::vector<double>> rows;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    rows.push_back(NumbersIn(path_, value[i], ElementName(key, i)));
+  }
+  return rows;
 }
 
 std::vector<std::array<double, 2>> YamlMap::Pairs(
@@ -298,21 +352,14 @@ std::vector<std::array<double, 2>> YamlMap::Pairs(
   }
   std::vector<std::array<double, 2>> pairs;
   for (std::size_t i = 0; i < value.size(); ++i) {
-    const std::string name = key + "[" + std::to_string(i + 1) + "]";
+    const std::string name = ElementName(key, i);
     if (!value[i].IsSequence() || value[i].size() != 2) {
       throw InputError(Place(path_, value[i].Mark()) + name +
                        ": expected two numbers, [x, y]");
     }
     std::array<double, 2>& pair = pairs.emplace_back();
     for (std::size_t k = 0; k < 2; ++k) {
-      const YAML::Node cell = value[i][k];
-      const auto number = cell.IsScalar() ? ParseNumber(cell.Scalar())
-                                          : std::optional<double>();
-      if (!number) {
-        throw InputError(Place(path_, cell.Mark()) + name +
-                         ": expected a number, found " + Shown(cell));
-      }
-      pair[k] = *number;
+      pair[k] = NumberIn(path_, value[i][k], name);
     }
   }
   return pairs;

@@ -51,12 +51,21 @@ class YamlMap {
   std::vector<std::string> Choices(const std::string& key,
                                    const std::vector<std::string>& words) const;
 
+  /// A sequence of numbers, and one of such sequences; the key must be there.
+  std::vector<double> Numbers(const std::string& key) const;
+  std::vector<std::vector<double>> NumberRows(const std::string& key) const;
+
   /// A sequence of pairs of numbers, [[x, y], ...]; the key must be there.
   std::vector<std::array<double, 2>> Pairs(const std::string& key) const;
 
   /// Throws InputError at the position of `key` (of the mapping if absent).
   [[noreturn]] void Fail(const std::string& key,
                          const std::string& message) const;
+  /// As Fail, at an element of the sequence at `key`, whose name goes before
+  /// the message: {1, 0} is "key[2][1]: ".
+  [[noreturn]] void FailIn(const std::string& key,
+                           const std::vector<std::size_t>& element,
+                           const std::string& message) const;
   /// "path:line:column: " of a key's value, for errors found later.
   std::string PlaceOf(const std::string& key) const;
   const std::string& path() const { return path_; }

@@ -13,16 +13,16 @@ namespace finray {
 std::vector<FrameEstimate> EstimateFrames(
     const Finger& finger, const Scene& scene,
     const Discretization& discretization,
-    const std::vector<std::vector<double>>& readings_V, int threads) {
-  std::vector<FrameEstimate> estimates(readings_V.size());
-  FrameSolverPool pool(ColdSolvers(finger, scene, discretization));
+    const std::vector<FrameReadings>& readings, int threads) {
+  std::vector<FrameEstimate> estimates(readings.size());
+  FrameSolverPool pool(FrameSolvers(finger, scene, discretization));
   const std::size_t blocks =
-      (readings_V.size() + kBlockFrames - 1) / kBlockFrames;
+      (readings.size() + kBlockFrames - 1) / kBlockFrames;
   tbb::task_arena(std::max(1, threads)).execute([&] {
     tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
       const std::size_t begin = block * kBlockFrames;
-      const std::size_t end = std::min(begin + kBlockFrames, readings_V.size());
-      pool.SolveBlock(&readings_V[begin], end - begin, &estimates[begin]);
+      const std::size_t end = std::min(begin + kBlockFrames, readings.size());
+      pool.SolveBlock(&readings[begin], end - begin, &estimates[begin]);
     });
   });
   return estimates;
@@ -31,10 +31,10 @@ std::vector<FrameEstimate> EstimateFrames(
 EstimationSummary EstimateLog(const Finger& finger, const Scene& scene,
                               const Discretization& discretization, int threads,
                               FrameTable* log) {
-  const auto volts = ReadVolts(finger, *log);
+  const auto readings = ReadReadings(finger, *log);
   const std::vector<FrameEstimate> estimates =
-      EstimateFrames(finger, scene, discretization, volts, threads);
-  FillResults(finger, scene, volts, estimates, log);
+      EstimateFrames(finger, scene, discretization, readings, threads);
+  FillResults(finger, scene, readings, estimates, log);
   const std::vector<double> force = log->NumbersOrNan("force_N");
   EstimationSummary summary;
   for (std::size_t row = 0; row < estimates.size(); ++row) {

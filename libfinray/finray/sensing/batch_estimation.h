@@ -8,12 +8,12 @@
 
 namespace finray {
 
-/// Estimates all frames given by their gauge volts, in blocks at fixed places
+/// Estimates all frames, in blocks at fixed places
 /// (FrameSolverPool), so that the results do not depend on `threads`.
 std::vector<FrameEstimate> EstimateFrames(
     const Finger& finger, const Scene& scene,
     const Discretization& discretization,
-    const std::vector<std::vector<double>>& readings_V, int threads);
+    const std::vector<FrameReadings>& readings, int threads);
 
 /// Estimates every row of a log from gauge_<j>_V (from gauge_<j>_rad where that
 /// is all there is) and fills in contact_1_*, normal_1_*, friction_1, gauge

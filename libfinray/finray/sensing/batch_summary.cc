@@ -53,6 +53,9 @@ FrameTable BatchTable(const std::vector<LogJob>& jobs) {
     set("force_compared_frames", std::to_string(summary.force_compared));
     set("force_rms_error_N", compared ? NumberText(summary.force_rms_N()) : "");
     set("force_max_error_N", compared ? NumberText(summary.force_max_N) : "");
+    set("force_squares_N2",
+        compared ? NumberText(summary.force_squares_N2) : "");
+    set("unexplained_frames", std::to_string(summary.unexplained));
     set("key", job.key());
   }
   return table;

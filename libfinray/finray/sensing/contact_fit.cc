@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "finray/sensing/circle_centre.h"
+
 namespace finray {
 namespace {
 
@@ -17,14 +19,15 @@ constexpr double kNoDifference = 1e-4;
 }  // namespace
 
 ContactFit::ContactFit(const Finger& finger,
-                       const Discretization& discretization)
-    : newton_(finger, discretization) {
-  const int gauges = newton_.model().gauges();
-  reading_.resize(gauges);
-  residual_.resize(gauges);
-  d_reading_.resize(gauges, 2 * kFittedContacts);
-  d_reading_before_.resize(gauges, 2 * kFittedContacts);
-  slope_.resize(gauges, 2 * kFittedContacts);
+                       const Discretization& discretization,
+                       std::optional<double> circle_radius_mm)
+    : newton_(finger, discretization), circle_radius_mm_(circle_radius_mm) {
+  const int rows = newton_.model().gauges() + (circle_radius_mm ? 2 : 0);
+  reading_.resize(rows);
+  residual_.resize(rows);
+  d_reading_.resize(rows, 2 * kFittedContacts);
+  d_reading_before_.resize(rows, 2 * kFittedContacts);
+  slope_.resize(rows, 2 * kFittedContacts);
 }
 
 // Values of the state before the step, brought to its end by the taps.
@@ -42,13 +45,35 @@ void ContactFit::ReadGauges(int unknowns) {
       d_reading_(readout.gauge, k) += readout.sign * tap[1 + k];
     }
   }
+  if (circle_radius_mm_) ReadCentre(*circle_radius_mm_, unknowns);
 }
 
-void ContactFit::Whiten(const Eigen::VectorXd& angles_rad,
-                        const Eigen::VectorXd& weight_per_rad, int unknowns) {
-  residual_.array() = (reading_ - angles_rad).array() * weight_per_rad.array();
+void ContactFit::ReadCentre(double radius_mm, int unknowns) {
+  const LadderFrame<double>& f = newton_.frame();
+  const double length = newton_.workspace().length_unit();
+  const int slot = f.elements, gauges = newton_.model().gauges();
+  const double theta = f.slot_theta[slot];
+  const Eigen::Vector2d at = CircleCentre(
+      {length * f.slot_x[slot], length * f.slot_y[slot], theta}, radius_mm);
+  const Eigen::Vector2d by_angle = CircleCentreByAngle(theta, radius_mm);
+  const double* pose = f.taps + f.contact_tap(0) * f.stride + f.affine;
+  for (int i = 0; i < 2; ++i) {
+    const auto change = [&](int column) {
+      return length * pose[i * f.stride + column] +
+             by_angle[i] * pose[2 * f.stride + column];
+    };
+    reading_[gauges + i] = at[i] + change(0);
+    for (int k = 0; k < unknowns; ++k) {
+      d_reading_(gauges + i, k) = change(1 + k);
+    }
+  }
+}
+
+void ContactFit::Whiten(const Eigen::VectorXd& measured,
+                        const Eigen::VectorXd& weights, int unknowns) {
+  residual_.array() = (reading_ - measured).array() * weights.array();
   slope_ = d_reading_;
-  slope_.array().colwise() *= weight_per_rad.array();
+  slope_.array().colwise() *= weights.array();
   equations_.normal.resize(unknowns, unknowns);
   equations_.gradient.resize(unknowns);
   for (int k = 0; k < unknowns; ++k) {
@@ -62,14 +87,14 @@ void ContactFit::Whiten(const Eigen::VectorXd& angles_rad,
 }
 
 // CurvatureRate over the step between the last two linearisations.
-double ContactFit::Rate(const Eigen::VectorXd& weight_per_rad, double damping,
+double ContactFit::Rate(const Eigen::VectorXd& weights, double damping,
                         const ContactVector& step,
                         const ContactVector& x) const {
   const int unknowns = static_cast<int>(x.size());
   ContactVector by_residual = ContactVector::Zero(unknowns);
   for (int k = 0; k < unknowns; ++k) {
     for (Eigen::Index j = 0; j < residual_.size(); ++j) {
-      by_residual[k] += weight_per_rad[j] * residual_[j] *
+      by_residual[k] += weights[j] * residual_[j] *
                         (d_reading_(j, k) - d_reading_before_(j, k));
     }
   }
@@ -109,22 +134,22 @@ void ContactFit::Restore(std::vector<PointContact>* contacts) {
   *contacts = kept_contacts_;
 }
 
-bool ContactFit::Fit(const Eigen::VectorXd& angles_rad,
-                     const Eigen::VectorXd& weight_per_rad,
+bool ContactFit::Fit(const Eigen::VectorXd& measured,
+                     const Eigen::VectorXd& weights,
                      std::vector<PointContact>* contacts) {
-  return Run(angles_rad, weight_per_rad, false, contacts);
+  return Run(measured, weights, false, contacts);
 }
 
-bool ContactFit::Follow(const Eigen::VectorXd& angles_rad,
-                        const Eigen::VectorXd& weight_per_rad,
+bool ContactFit::Follow(const Eigen::VectorXd& measured,
+                        const Eigen::VectorXd& weights,
                         std::vector<PointContact>* contacts) {
-  return Run(angles_rad, weight_per_rad,
+  return Run(measured, weights,
              linearised_contacts_ == static_cast<int>(contacts->size()),
              contacts);
 }
 
-bool ContactFit::Run(const Eigen::VectorXd& angles_rad,
-                     const Eigen::VectorXd& weight_per_rad, bool predict,
+bool ContactFit::Run(const Eigen::VectorXd& measured,
+                     const Eigen::VectorXd& weights, bool predict,
                      std::vector<PointContact>* contacts) {
   const int count = static_cast<int>(contacts->size());
   const int unknowns = 2 * count;
@@ -149,7 +174,7 @@ bool ContactFit::Run(const Eigen::VectorXd& angles_rad,
       step = step_;
       step_.setZero(unknowns);
     }
-    Whiten(angles_rad, weight_per_rad, unknowns);
+    Whiten(measured, weights, unknowns);
     if (!std::isfinite(equations_.chi2)) return false;
     if (equations_.chi2 > kMostRise * last_cost + 1 && damping < 1e6) {
       Restore(contacts);
@@ -187,7 +212,7 @@ bool ContactFit::Run(const Eigen::VectorXd& angles_rad,
     reading_.noalias() += d_reading_.leftCols(unknowns) * change;
     residual_.noalias() += slope_.leftCols(unknowns) * change;
     const double rate =
-        comparable && !predicts ? Rate(weight_per_rad, damping, step, x) : 0;
+        comparable && !predicts ? Rate(weights, damping, step, x) : 0;
     const double deviations = std::sqrt(change.dot(equations_.normal * change));
     const bool last =
         IsLastChange(moved, last_change, rate, crossed, tolerance_) ||

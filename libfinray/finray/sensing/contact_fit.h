@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "finray/sensing/contact_step.h"
@@ -23,8 +24,11 @@ namespace finray {
 /// and no weight between them is left to choose. A warm fit allocates nothing.
 class ContactFit {
  public:
-  /// Throws InputError as LadderModel.
-  ContactFit(const Finger& finger, const Discretization& discretization);
+  /// Throws InputError as LadderModel. With `circle_radius_mm` the centre of a
+  /// circle that touches at the one contact (circle_centre.h) is measured too:
+  /// its x and y in mm follow the gauges' angles in all that is measured.
+  ContactFit(const Finger& finger, const Discretization& discretization,
+             std::optional<double> circle_radius_mm = std::nullopt);
 
   /// Where Gauss-Newton ends: the next change of l_c over l_0 and of f_c over
   /// its size is expected below this.
@@ -42,10 +46,9 @@ class ContactFit {
 
   /// Starts from the present equilibrium and from `*contacts` (one or two, on
   /// the front beam; their friction is kept) and leaves both at the solution.
-  /// `weight_per_rad` is 0 where a gauge was not measured. False if it does not
+  /// `weights` (1 / std) are 0 where nothing was measured. False if it does not
   /// converge; state and contacts are then of no use.
-  bool Fit(const Eigen::VectorXd& angles_rad,
-           const Eigen::VectorXd& weight_per_rad,
+  bool Fit(const Eigen::VectorXd& measured, const Eigen::VectorXd& weights,
            std::vector<PointContact>* contacts);
 
   /// As Fit, for a frame like the one that the last call came to, in which
@@ -54,8 +57,7 @@ class ContactFit {
   /// that one iteration mostly is enough. It may be the last by the same rule
   /// as any: the prediction's change counts as the one before. As Fit if there
   /// was no such call.
-  bool Follow(const Eigen::VectorXd& angles_rad,
-              const Eigen::VectorXd& weight_per_rad,
+  bool Follow(const Eigen::VectorXd& measured, const Eigen::VectorXd& weights,
               std::vector<PointContact>* contacts);
 
   // Of the last successful fit.
@@ -76,19 +78,20 @@ class ContactFit {
   }
 
  private:
-  bool Run(const Eigen::VectorXd& angles_rad,
-           const Eigen::VectorXd& weight_per_rad, bool predict,
-           std::vector<PointContact>* contacts);
+  bool Run(const Eigen::VectorXd& measured, const Eigen::VectorXd& weights,
+           bool predict, std::vector<PointContact>* contacts);
   void ReadGauges(int unknowns);
-  void Whiten(const Eigen::VectorXd& angles_rad,
-              const Eigen::VectorXd& weight_per_rad, int unknowns);
-  double Rate(const Eigen::VectorXd& weight_per_rad, double damping,
+  void ReadCentre(double radius_mm, int unknowns);
+  void Whiten(const Eigen::VectorXd& measured, const Eigen::VectorXd& weights,
+              int unknowns);
+  double Rate(const Eigen::VectorXd& weights, double damping,
               const ContactVector& step, const ContactVector& x) const;
   void ReadPoses(int contacts, const ContactVector& change);
   void Keep(const std::vector<PointContact>& contacts);
   void Restore(std::vector<PointContact>* contacts);
 
   LadderNewton newton_;
+  std::optional<double> circle_radius_mm_;
   double tolerance_ = 1e-12;
   double most_force_N_ = std::numeric_limits<double>::infinity();
   double chi2_ = 0;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "finray/sensing/contact_covariance.h"
 #include "finray/statics/ladder_frame.h"
 
 namespace finray {
@@ -18,8 +19,6 @@ namespace finray {
 
 using ContactVector =
     Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kFittedContacts, 1>;
-using ContactMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
-                                    2 * kFittedContacts, 2 * kFittedContacts>;
 
 // Beyond these a linearisation says nothing: a bay, a quarter turn.
 constexpr double kLongestMove = 0.1;  // of l_0

@@ -6,6 +6,7 @@
 
 #include "finray/io/atomic_file.h"
 #include "finray/io/parse_number.h"
+#include "finray/sensing/estimated_force.h"
 
 namespace finray {
 
@@ -25,8 +26,10 @@ void EstimationSummary::Add(const FrameEstimate& estimate, double friction,
   const bool solved = estimate.status == FrameStatus::kOk ||
                       estimate.status == FrameStatus::kUnobservable ||
                       estimate.status == FrameStatus::kNoContact;
-  if (!solved || std::isnan(force_N)) return;
-  const double error = std::hypot(1, friction) * estimate.normal_N - force_N;
+  if (!solved) return;
+  if (estimate.p_value() < FrameEstimator::kUnexplained) ++unexplained;
+  if (std::isnan(force_N)) return;
+  const double error = EstimatedForce(estimate, friction) - force_N;
   force_squares_N2 += error * error;
   force_max_N = std::max(force_max_N, std::abs(error));
   ++force_compared;
@@ -37,6 +40,7 @@ void EstimationSummary::Add(const EstimationSummary& other) {
   for (std::size_t i = 0; i < by_status.size(); ++i) {
     by_status[i] += other.by_status[i];
   }
+  unexplained += other.unexplained;
   force_compared += other.force_compared;
   force_squares_N2 += other.force_squares_N2;
   force_max_N = std::max(force_max_N, other.force_max_N);
@@ -47,7 +51,8 @@ std::string SummaryToText(const EstimationSummary& summary) {
   for (const std::size_t count : summary.by_status) {
     text += " " + std::to_string(count);
   }
-  return text + " " + std::to_string(summary.force_compared) + " " +
+  return text + " " + std::to_string(summary.unexplained) + " " +
+         std::to_string(summary.force_compared) + " " +
          NumberText(summary.force_squares_N2) + " " +
          NumberText(summary.force_max_N);
 }
@@ -58,7 +63,8 @@ std::optional<EstimationSummary> SummaryFromText(const std::string& text) {
   stream >> summary.frames;
   for (std::size_t& count : summary.by_status) stream >> count;
   std::string squares, largest, rest;
-  if (!(stream >> summary.force_compared >> squares >> largest) ||
+  if (!(stream >> summary.unexplained >> summary.force_compared >> squares >>
+        largest) ||
       stream >> rest) {
     return std::nullopt;
   }
@@ -78,6 +84,8 @@ void EmitSummary(const EstimationSummary& summary, YAML::Emitter* yaml) {
           << summary.count(status);
   }
   *yaml << YAML::EndMap;
+  *yaml << YAML::Key << "unexplained_frames" << YAML::Value
+        << summary.unexplained;
   if (summary.force_compared > 0) {
     *yaml << YAML::Key << "force_compared_frames" << YAML::Value
           << summary.force_compared;
@@ -85,6 +93,8 @@ void EmitSummary(const EstimationSummary& summary, YAML::Emitter* yaml) {
           << NumberText(summary.force_rms_N());
     *yaml << YAML::Key << "force_max_error_N" << YAML::Value
           << NumberText(summary.force_max_N);
+    *yaml << YAML::Key << "force_squares_N2" << YAML::Value
+          << NumberText(summary.force_squares_N2);
   }
 }
 

@@ -37,6 +37,12 @@ inline std::string NormalForce(int c) {
 inline std::string NormalForceStd(int c) {
   return IndexedColumn("normal_", c, "_std_N");
 }
+inline std::string AlternativeContactArc(int c) {
+  return IndexedColumn("alternative_contact_", c, "_mm");
+}
+inline std::string AlternativeNormalForce(int c) {
+  return IndexedColumn("alternative_normal_", c, "_N");
+}
 inline std::string Friction(int c) { return IndexedColumn("friction_", c, ""); }
 inline std::string RibForce(int i) { return IndexedColumn("rib_", i, "_N"); }
 

@@ -1,160 +1,319 @@
 #include "finray/sensing/frame_estimator.h"
 
-#include <Eigen/LU>
 #include <cmath>
-#include <limits>
 
 #include "finray/io/error.h"
 
 namespace finray {
 namespace {
 
+constexpr int kUnknowns = 2;  // of a contact
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-// A second start is only worth its time while the best leaves more than this
-// many standard deviations per gauge unexplained.
-constexpr double kWellExplained = 4;
-constexpr int kMostStarts = 3;
 
-}  // namespace
-
-const char* StatusName(FrameStatus status) {
-  switch (status) {
-    case FrameStatus::kOk:
-      return "ok";
-    case FrameStatus::kNoContact:
-      return "no_contact";
-    case FrameStatus::kUnobservable:
-      return "unobservable";
-    case FrameStatus::kNotConverged:
-      return "not_converged";
-    case FrameStatus::kBadInput:
-      return "bad_input";
+void CopyContacts(const ContactSolution& from, ContactEstimates* to) {
+  for (int c = 0; c < from.count; ++c) {
+    (*to)[c].arc_mm = from.contacts[c].arc_mm;
+    (*to)[c].normal_N = from.contacts[c].normal_N;
+    (*to)[c].pose = from.poses[c];
   }
-  return "";
 }
 
-FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
-                               const Discretization& discretization)
-    : finger_(finger),
-      scene_(scene),
-      solver_(finger, discretization),
-      table_(&solver_),
-      fit_(finger, discretization),
-      contacts_(1) {
+double ArcStd(const ContactMatrix& information) {
+  return std::sqrt(CovarianceOf(information)(0, 0));
+}
+
+void CheckScene(const Finger& finger, const Scene& scene) {
   RefuseBackContacts(scene);
-  if (scene.contacts.value_or(1) > 1) {
-    throw InputError("scene: " + std::to_string(*scene.contacts) +
-                     " contacts cannot be estimated; 0, 1 and auto can");
+  const int contacts = scene.contacts.value_or(1);
+  if (contacts > kFittedContacts) {
+    throw InputError("scene: " + std::to_string(contacts) +
+                     " contacts cannot be estimated; 0, 1, 2 and auto can");
   }
-  if (finger.gauges.empty()) {
+  const auto gauges = static_cast<int>(finger.gauges.size());
+  if (gauges == 0) {
     throw InputError("finger '" + finger.name +
                      "' has no gauges to estimate from");
   }
+  if (scene.object_std_mm && (!scene.circle_radius_mm() || contacts != 1)) {
+    throw InputError(
+        "scene: a measured object needs a circle and one contact or auto");
+  }
+  const int needed = contacts > 0 ? kUnknowns : 0;
+  if (gauges + (scene.object_std_mm ? 2 : 0) < needed) {
+    throw InputError("scene: a contact needs at least 2 gauges, finger '" +
+                     finger.name + "' has " + std::to_string(gauges));
+  }
+  if (contacts == 2 && gauges < 2 * kUnknowns) {
+    throw InputError("scene: 2 contacts need at least 4 gauges, finger '" +
+                     finger.name + "' has " + std::to_string(gauges));
+  }
+}
+
+CalibrationUncertainty SystematicOf(const Finger& finger, const Scene& scene,
+                                    const Discretization& discretization) {
+  EquilibriumSolver solver(finger, discretization);
+  return {finger, scene.friction_coefficient, &solver, MeasuredRadius(scene)};
+}
+
+}  // namespace
+
+FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
+                               const Discretization& discretization)
+    : finger_((CheckScene(finger, scene), finger)),
+      scene_(scene),
+      search_(finger, scene, discretization),
+      systematic_(SystematicOf(finger, scene, discretization)) {
+  if (FrameFollower::Serves(scene)) {
+    follower_.emplace(finger, scene, discretization, search_);
+  }
+  if (scene.smoothing) smoother_.emplace(finger, scene, discretization);
+  EquilibriumSolver solver(finger, discretization);
+  solver.Solve({});
   free_.status = FrameStatus::kNoContact;
-  fit_.set_most_force(kMostForce * table_.heaviest_N());
-  solver_.Solve({});
-  free_.contact_mm = free_.contact_std_mm = kNaN;
-  free_.normal_N = 0;
-  free_.normal_std_N = kNaN;
-  free_.contact_pose.setConstant(kNaN);
-  free_.tip_pose = solver_.tip_pose();
-  for (int i = 0; i < solver_.model().ribs(); ++i) {
-    free_.rib_tension_N.push_back(solver_.rib_tension(i));
+  free_.contact[0].normal_N = 0;
+  free_.tip_pose = solver.tip_pose();
+  for (int i = 0; i < solver.model().ribs(); ++i) {
+    free_.rib_tension_N.push_back(solver.rib_tension(i));
   }
 }
 
-FrameEstimate FrameEstimator::Estimate(const std::vector<double>& readings_V) {
-  const int gauges = static_cast<int>(finger_.gauges.size());
-  Eigen::VectorXd angles(gauges), weights(gauges);
-  int measured = 0;
-  for (int j = 0; j < gauges; ++j) {
-    const Gauge& gauge = finger_.gauges[j];
-    const bool has = std::isfinite(readings_V[j]);
-    measured += has;
-    angles[j] =
-        has ? (readings_V[j] - gauge.offset_V) / gauge.gain_V_per_rad : 0;
-    weights[j] = has ? std::abs(gauge.gain_V_per_rad) / gauge.noise_V : 0;
+FrameEstimate FrameEstimator::Estimate(const FrameReadings& readings) {
+  Measure(finger_, scene_, readings, &measurement_);
+  free_chi2_ = FreeChi2(measurement_);
+  const int contacts = scene_.contacts.value_or(1);
+  if (measurement_.gauges < 1 || measurement_.all < kUnknowns * contacts) {
+    return Unsolved(FrameStatus::kBadInput);
   }
-  const double free_chi2 =
-      (angles - table_.free_angles()).cwiseProduct(weights).squaredNorm();
-  const int unknowns = scene_.contacts == 0 ? 0 : 2;
-  if (measured < std::max(unknowns, 1)) {
-    FrameEstimate estimate = FreeEstimate(kNaN);
-    estimate.status = FrameStatus::kBadInput;
-    estimate.normal_N = kNaN;
-    estimate.tip_pose.setConstant(kNaN);
-    estimate.rib_tension_N.assign(free_.rib_tension_N.size(), kNaN);
-    return estimate;
-  }
-  if (scene_.contacts == 0) return FreeEstimate(free_chi2);
-
-  table_.FindStarts(angles, weights, &starts_);
-  FrameEstimate best = FreeEstimate(kNaN);
-  best.status = FrameStatus::kNotConverged;
-  best.normal_N = kNaN;
-  int iterations = 0;
-  if (starts_.size() > kMostStarts) starts_.resize(kMostStarts);
-  for (const GaugeTable::Start& start : starts_) {
-    const FrameEstimate estimate = ContactEstimate(start, angles, weights);
-    iterations += estimate.iterations;
-    if (estimate.status == FrameStatus::kNotConverged) continue;
-    if (std::isnan(best.chi2) || estimate.chi2 < best.chi2) best = estimate;
-    if (best.chi2 < kWellExplained * measured) break;
-  }
-  best.iterations = iterations;
-  const bool free =
-      scene_.contacts ? best.normal_N < kLeastForce_N
-                      : free_chi2 - best.chi2 < kSignificance;  // false for NaN
-  return free ? FreeEstimate(free_chi2) : best;
+  if (!scene_.contacts) return Automatic(readings);
+  return WithContacts(readings, contacts);
 }
 
-FrameEstimate FrameEstimator::FreeEstimate(double chi2) const {
-  FrameEstimate estimate = free_;
-  estimate.chi2 = chi2;
+void FrameEstimator::EstimateBlock(const FrameReadings* readings,
+                                   std::size_t count,
+                                   FrameEstimate* estimates) {
+  for (std::size_t i = 0; i < count;) {
+    estimates[i] = Estimate(readings[i]);
+    const bool follow = CanFollow(estimates[i]);
+    ++i;
+    if (follow) i += FollowOn(readings + i, count - i, estimates + i);
+  }
+  if (smoother_) Smooth(readings, count, std::nullopt, estimates);
+}
+
+FrameEstimate FrameEstimator::Follow(const FrameReadings& readings) {
+  FrameEstimate estimate;
+  if (!following_ || FitRun(&readings, 1) == 0 ||
+      !TakeFollowed(readings, 0, &estimate)) {
+    estimate = Estimate(readings);
+    following_ = CanFollow(estimate);
+  }
+  if (smoother_) {
+    Smooth(&readings, 1, followed_, &estimate);
+    followed_ = smoother_->last();
+  }
   return estimate;
 }
 
-FrameEstimate FrameEstimator::ContactEstimate(
-    const GaugeTable::Start& start, const Eigen::VectorXd& angles_rad,
-    const Eigen::VectorXd& weight_per_rad) {
-  PointContact& contact = contacts_[0];
-  contact = {start.arc_mm, start.normal_N, scene_.friction_coefficient};
-  fit_.set_state(*start.state);
-  FrameEstimate estimate = free_;
-  const bool converged = fit_.Fit(angles_rad, weight_per_rad, &contacts_);
-  estimate.iterations = fit_.iterations();
-  estimate.status = FrameStatus::kNotConverged;
-  if (!converged) return estimate;
+// Whether the frame that was searched last is one to follow others from.
+bool FrameEstimator::CanFollow(const FrameEstimate& estimate) {
+  return follower_ && estimate.contacts == 1 &&
+         estimate.status == FrameStatus::kOk &&
+         follower_->Start(search_.best(), ArcStd(search_.best().information),
+                          measurement_.gauges);
+}
 
-  estimate.contact_mm = contact.arc_mm;
-  estimate.normal_N = contact.normal_N;
-  estimate.contact_pose = fit_.contact_pose(0);
-  estimate.tip_pose = fit_.tip_pose();
-  for (std::size_t i = 0; i < estimate.rib_tension_N.size(); ++i) {
-    estimate.rib_tension_N[i] = fit_.rib_tension(static_cast<int>(i));
+std::size_t FrameEstimator::FollowOn(const FrameReadings* readings,
+                                     std::size_t count,
+                                     FrameEstimate* estimates) {
+  const std::size_t frames = FitRun(readings, count);
+  for (std::size_t i = 0; i < frames; ++i) {
+    if (!TakeFollowed(readings[i], i, &estimates[i])) {
+      estimates[i] = Estimate(readings[i]);
+    }
   }
-  estimate.chi2 = fit_.chi2();
-  Eigen::Matrix2d information = fit_.information();
-  const double length = finger_.front_length_mm;
-  // In units of l_0 and f_c, so that "singular" has a meaning.
-  const Eigen::Vector2d unit(length, std::max(contact.normal_N, kLeastForce_N));
-  information = (unit.asDiagonal() * information * unit.asDiagonal()).eval();
-  const double determinant = information.determinant();
-  const bool singular =
-      !(determinant > 1e-14 * information(0, 0) * information(1, 1));
-  const double infinity = std::numeric_limits<double>::infinity();
-  estimate.contact_std_mm =
-      singular ? infinity : length * std::sqrt(information(1, 1) / determinant);
-  estimate.normal_std_N =
-      singular ? infinity
-               : unit[1] * std::sqrt(information(0, 0) / determinant);
-  const bool on_bound = contact.arc_mm <= 0 || contact.arc_mm >= length ||
-                        contact.normal_N >= kMostForce * table_.heaviest_N();
-  const bool determined =
-      estimate.contact_std_mm <= kLargestArcStd * length &&
-      estimate.normal_std_N <= kLargestForceStd * contact.normal_N && !on_bound;
-  estimate.status = determined ? FrameStatus::kOk : FrameStatus::kUnobservable;
+  return frames;
+}
+
+// Fits as many of the next frames as have all gauges and a contact.
+std::size_t FrameEstimator::FitRun(const FrameReadings* readings,
+                                   std::size_t count) {
+  if (measurements_.size() < count) measurements_.resize(count);
+  const auto all = static_cast<int>(finger_.gauges.size());
+  std::size_t frames = 0;
+  for (; frames < count; ++frames) {
+    FrameMeasurement& measurement = measurements_[frames];
+    Measure(finger_, scene_, readings[frames], &measurement);
+    if (measurement.gauges < all || FreeChi2(measurement) < kSignificance) {
+      break;
+    }
+  }
+  if (frames > 0) follower_->Fit(measurements_, frames);
+  return frames;
+}
+
+bool FrameEstimator::TakeFollowed(const FrameReadings& readings,
+                                  std::size_t frame, FrameEstimate* estimate) {
+  const FrameFit& fit = follower_->fit(frame);
+  if (!fit.converged) return false;
+  const ContactMatrix covariance = CovarianceOf(fit.information);
+  const double arc_std = std::sqrt(covariance(0, 0));
+  const bool touches =
+      scene_.contacts
+          ? fit.normal_N >= kLeastForce_N
+          : fit.chi2 < kSecondSignificance &&
+                FreeChi2(measurements_[frame]) - fit.chi2 >= kSignificance;
+  if (!touches || !follower_->IsCertain(frame, arc_std)) return false;
+  estimate->contacts = 1;
+  estimate->contact[0] = {fit.arc_mm, arc_std, fit.normal_N,
+                          std::sqrt(covariance(1, 1)), fit.contact_pose};
+  estimate->contact[1] = {};
+  estimate->alternative = {};
+  estimate->alternative_chi2 = kNaN;
+  estimate->tip_pose = fit.tip_pose;
+  estimate->rib_tension_N.assign(fit.rib_tension_N.begin(),
+                                 fit.rib_tension_N.end());
+  estimate->chi2 = fit.chi2;
+  estimate->dof = static_cast<int>(finger_.gauges.size()) - kUnknowns;
+  estimate->iterations = fit.iterations;
+  Judge(readings, measurements_[frame].weights, estimate);
+  return true;
+}
+
+double FrameEstimator::FreeChi2(const FrameMeasurement& measurement) const {
+  const Eigen::VectorXd& free = search_.table().free_angles();
+  double chi2 = 0;
+  for (Eigen::Index j = 0; j < free.size(); ++j) {
+    const double off =
+        measurement.weights[j] * (measurement.values[j] - free[j]);
+    chi2 += off * off;
+  }
+  return chi2;
+}
+
+void FrameEstimator::Smooth(
+    const FrameReadings* readings, std::size_t count,
+    const std::optional<ContactSmoother::Belief>& before,
+    FrameEstimate* estimates) {
+  smoother_->Smooth(readings, count, before, estimates);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!smoother_->HasSmoothed(i)) continue;
+    Measure(finger_, scene_, readings[i], &measurement_);
+    Judge(readings[i], measurement_.weights, &estimates[i]);
+  }
+}
+
+// One contact more for as long as it makes a significant difference. The free
+// finger says nothing of a measured object, so that its place counts for one
+// contact against another only.
+FrameEstimate FrameEstimator::Automatic(const FrameReadings& readings) {
+  if (free_chi2_ < kSignificance) return Free();
+  FrameEstimate one = Unsolved(FrameStatus::kNotConverged);
+  if (search_.Search(1, measurement_)) {
+    if (free_chi2_ - search_.best().chi2 < kSignificance) return Free();
+    one = Found(readings);
+    if (one.chi2 < kSecondSignificance) return one;
+  }
+  const int needed = 2 * kUnknowns;
+  if (measurement_.gauges < needed || scene_.object_std_mm) return one;
+  const int before = search_.iterations();
+  if (!search_.Search(2, measurement_)) return one;
+  const ContactSolution& two = search_.best();
+  for (const PointContact& contact : two.contacts) {
+    if (contact.normal_N < kLeastForce_N) return one;
+  }
+  if (one.chi2 - two.chi2 < kSecondSignificance) return one;
+  FrameEstimate estimate = Found(readings);
+  estimate.iterations += before;
   return estimate;
+}
+
+FrameEstimate FrameEstimator::WithContacts(const FrameReadings& readings,
+                                           int contacts) {
+  if (contacts == 0) return Free();
+  if (!search_.Search(contacts, measurement_)) {
+    return Unsolved(FrameStatus::kNotConverged);
+  }
+  const ContactSolution& best = search_.best();
+  for (int c = 0; c < best.count; ++c) {
+    if (best.contacts[c].normal_N < kLeastForce_N) {
+      return WithContacts(readings, contacts - 1);
+    }
+  }
+  return Found(readings);
+}
+
+FrameEstimate FrameEstimator::Free() const {
+  FrameEstimate estimate = free_;
+  estimate.chi2 = free_chi2_;
+  estimate.dof = measurement_.gauges;
+  return estimate;
+}
+
+FrameEstimate FrameEstimator::Unsolved(FrameStatus status) const {
+  FrameEstimate estimate;
+  estimate.status = status;
+  estimate.rib_tension_N.assign(free_.rib_tension_N.size(), kNaN);
+  return estimate;
+}
+
+FrameEstimate FrameEstimator::Found(const FrameReadings& readings) {
+  const ContactSolution& best = search_.best();
+  FrameEstimate estimate;
+  estimate.contacts = best.count;
+  CopyContacts(best, &estimate.contact);
+  estimate.tip_pose = best.tip_pose;
+  estimate.rib_tension_N = best.rib_tension_N;
+  estimate.chi2 = best.chi2;
+  estimate.dof = measurement_.all - kUnknowns * best.count;
+  estimate.iterations = search_.iterations();
+
+  ContactMatrix covariance = CovarianceOf(best.information);
+  // What noise does not explain is something else, of about that size.
+  if (estimate.p_value() < kUnexplained) {
+    covariance *= estimate.chi2 / estimate.dof;
+  }
+  for (int c = 0; c < best.count; ++c) {
+    ContactEstimate& contact = estimate.contact[c];
+    contact.arc_std_mm = std::sqrt(covariance(2 * c, 2 * c));
+    contact.normal_std_N = std::sqrt(covariance(2 * c + 1, 2 * c + 1));
+  }
+  if (const ContactSolution* rival = search_.rival()) {
+    CopyContacts(*rival, &estimate.alternative);
+    estimate.alternative_chi2 = rival->chi2;
+  }
+  Judge(readings, measurement_.weights, &estimate);
+  return estimate;
+}
+
+void FrameEstimator::Judge(const FrameReadings& readings,
+                           const Eigen::VectorXd& weights,
+                           FrameEstimate* estimate) {
+  if (!systematic_.empty()) {
+    contacts_.clear();
+    for (int c = 0; c < estimate->contacts; ++c) {
+      contacts_.push_back({estimate->contact[c].arc_mm,
+                           estimate->contact[c].normal_N,
+                           scene_.friction_coefficient});
+    }
+    const ContactMatrix covariance =
+        systematic_.Of(contacts_, readings.gauges_V, weights);
+    for (int c = 0; c < estimate->contacts; ++c) {
+      ContactEstimate& contact = estimate->contact[c];
+      contact.arc_std_mm =
+          std::hypot(contact.arc_std_mm, std::sqrt(covariance(2 * c, 2 * c)));
+      contact.normal_std_N = std::hypot(
+          contact.normal_std_N, std::sqrt(covariance(2 * c + 1, 2 * c + 1)));
+    }
+  }
+  bool determined = std::isnan(estimate->alternative_chi2);
+  for (int c = 0; c < estimate->contacts; ++c) {
+    const ContactEstimate& contact = estimate->contact[c];
+    determined &=
+        contact.arc_std_mm <= kLargestArcStd * finger_.front_length_mm &&
+        contact.normal_std_N <= kLargestForceStd * contact.normal_N &&
+        !search_.OnBound(contact.arc_mm, contact.normal_N);
+  }
+  estimate->status = determined ? FrameStatus::kOk : FrameStatus::kUnobservable;
 }
 
 }  // namespace finray

@@ -1,81 +1,101 @@
 #ifndef FINRAY_SENSING_FRAME_ESTIMATOR_H_
 #define FINRAY_SENSING_FRAME_ESTIMATOR_H_
 
-#include <vector>
-
 #include "finray/finger/finger.h"
-#include "finray/sensing/contact_fit.h"
-#include "finray/sensing/gauge_table.h"
+#include "finray/sensing/calibration_uncertainty.h"
+#include "finray/sensing/contact_search.h"
+#include "finray/sensing/contact_smoother.h"
+#include "finray/sensing/frame_estimate.h"
+#include "finray/sensing/frame_follower.h"
+#include "finray/sensing/frame_readings.h"
 #include "finray/sensing/scene.h"
 
 namespace finray {
 
-/// The `status` column of a frame table.
-enum class FrameStatus {
-  kOk,
-  kNoContact,
-  kUnobservable,
-  kNotConverged,
-  kBadInput
-};
-const char* StatusName(FrameStatus status);
-
-/// What the gauges of one frame say.
-struct FrameEstimate {
-  FrameStatus status = FrameStatus::kBadInput;
-  double contact_mm, contact_std_mm;  ///< l_c; NaN without a contact.
-  double normal_N, normal_std_N;      ///< f_c; 0 without a contact.
-  Eigen::Vector3d contact_pose;       ///< x, y (mm), theta (rad) or NaN.
-  Eigen::Vector3d tip_pose;
-  std::vector<double> rib_tension_N;
-  double chi2;  ///< Sum of squared whitened gauge residuals.
-  int iterations = 0;
-};
-
-/// Estimates one frame at a time from gauge volts: l_c and f_c by ContactFit,
-/// started from a GaugeTable, so that every frame is a cold one and the result
-/// does not depend on its neighbours.
+/// Estimates frames: as many contacts as the scene says, or as few as explain
+/// the readings, l_c and f_c of each by ContactSearch, without a guess.
+///
+/// `contacts: auto` takes a contact if that lowers chi2 by kSignificance or
+/// more, and with four gauges or more a second one if that lowers it by another
+/// kSecondSignificance or more.
+///
+/// A frame whose chi2 has a p-value below kUnexplained is not what the model
+/// says with this noise: its std are those of a noise that would explain it,
+/// scaled by sqrt(chi2 / dof).
 ///
 /// Statuses (docs/estimation.md):
-///  - no_contact: the free finger explains the frame; with contacts "auto" that
-///    is when one contact lowers chi2 by less than kSignificance, with one
-///    contact given when f_c is below kLeastForce_N.
+///  - no_contact: no contact, by that criterion or, with the number given, as
+///    all forces are below kLeastForce_N.
 ///  - unobservable: solved, but std of l_c above kLargestArcStd of l_0 or std
-///  of
-///    f_c above kLargestForceStd of f_c, or l_c at an end of the beam.
-///  - bad_input: fewer gauges measured than unknowns.
+///    of f_c above kLargestForceStd of f_c, or l_c at an end of the beam, or
+///    another solution explains the frame as well.
+///  - bad_input: fewer measurements than unknowns.
 class FrameEstimator {
  public:
   static constexpr double kSignificance = 13.8;  // chi2, 2 dof, p = 0.001
+  /// A second contact explains almost anything: it takes p = 1e-6.
+  static constexpr double kSecondSignificance = 27.6;
+  static constexpr double kUnexplained = 0.001;  // p-value
   static constexpr double kLeastForce_N = 0.03;
   static constexpr double kLargestArcStd = 0.05;
   static constexpr double kLargestForceStd = 0.25;
-  static constexpr double kMostForce = 4;
 
-  /// Throws InputError for a scene of more than one contact or a finger without
-  /// an unloaded equilibrium.
+  /// Throws InputError for a scene of more than two contacts or with contacts
+  /// on the back beam, a finger without gauges or with fewer than the contacts
+  /// need, and a finger without an unloaded equilibrium.
   FrameEstimator(const Finger& finger, const Scene& scene,
                  const Discretization& discretization);
+  FrameEstimator(const FrameEstimator&) = delete;
+  FrameEstimator& operator=(const FrameEstimator&) = delete;
 
-  /// `readings_V`: one per gauge, NaN where not measured.
-  FrameEstimate Estimate(const std::vector<double>& readings_V);
+  /// The frame alone.
+  FrameEstimate Estimate(const FrameReadings& readings);
+
+  /// Frames that follow each other, smoothed if the scene says so. The result
+  /// depends on these readings and on nothing else.
+  void EstimateBlock(const FrameReadings* readings, std::size_t count,
+                     FrameEstimate* estimates);
+
+  /// The frame that follows the one of the last call, smoothed by those before
+  /// it if the scene says so.
+  FrameEstimate Follow(const FrameReadings& readings);
 
   const Finger& finger() const { return finger_; }
 
  private:
-  FrameEstimate FreeEstimate(double chi2) const;
-  FrameEstimate ContactEstimate(const GaugeTable::Start& start,
-                                const Eigen::VectorXd& angles_rad,
-                                const Eigen::VectorXd& weight_per_rad);
+  bool CanFollow(const FrameEstimate& estimate);
+  std::size_t FollowOn(const FrameReadings* readings, std::size_t count,
+                       FrameEstimate* estimates);
+  std::size_t FitRun(const FrameReadings* readings, std::size_t count);
+  bool TakeFollowed(const FrameReadings& readings, std::size_t frame,
+                    FrameEstimate* estimate);
+  double FreeChi2(const FrameMeasurement& measurement) const;
+  FrameEstimate Automatic(const FrameReadings& readings);
+  FrameEstimate WithContacts(const FrameReadings& readings, int contacts);
+  FrameEstimate Free() const;
+  FrameEstimate Unsolved(FrameStatus status) const;
+  FrameEstimate Found(const FrameReadings& readings);
+  // Adds what the calibration leaves uncertain to the std, and sets the status.
+  void Judge(const FrameReadings& readings, const Eigen::VectorXd& weights,
+             FrameEstimate* estimate);
+  void Smooth(const FrameReadings* readings, std::size_t count,
+              const std::optional<ContactSmoother::Belief>& before,
+              FrameEstimate* estimates);
 
   Finger finger_;
   Scene scene_;
-  EquilibriumSolver solver_;
-  GaugeTable table_;
-  ContactFit fit_;
-  std::vector<GaugeTable::Start> starts_;
+  ContactSearch search_;
+  std::optional<FrameFollower> follower_;  // where it serves the scene
+  bool following_ = false;                 // by Follow
+  CalibrationUncertainty systematic_;
   std::vector<PointContact> contacts_;
+  std::optional<ContactSmoother> smoother_;
+  std::optional<ContactSmoother::Belief> followed_;  // by Follow
   FrameEstimate free_;
+  // Of the frame under way.
+  FrameMeasurement measurement_;
+  std::vector<FrameMeasurement> measurements_;  // of a run of frames
+  double free_chi2_ = 0;
 };
 
 }  // namespace finray

@@ -1,81 +1,37 @@
 #include "finray/sensing/frame_results.h"
 
-#include <cmath>
-
-#include "finray/sensing/frame_columns.h"
+#include "finray/sensing/reading_columns.h"
+#include "finray/sensing/result_columns.h"
 
 namespace finray {
-namespace {
 
-double FiniteOrNan(double value) {
-  return std::isfinite(value) ? value : std::nan("");
-}
-
-}  // namespace
-
-std::vector<std::vector<double>> ReadVolts(const Finger& finger,
-                                           const FrameTable& log) {
-  std::vector<std::vector<double>> volts(
-      log.rows(), std::vector<double>(finger.gauges.size()));
-  for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
-    const Gauge& gauge = finger.gauges[j];
-    const std::string name = GaugeVolts(static_cast<int>(j));
-    const std::string angle_name = GaugeAngle(static_cast<int>(j));
-    const bool angles = !log.Has(name) && log.Has(angle_name);
-    const auto& column = log.Numbers(angles ? angle_name : name);
-    for (std::size_t row = 0; row < log.rows(); ++row) {
-      volts[row][j] = angles
-                          ? gauge.gain_V_per_rad * column[row] + gauge.offset_V
-                          : column[row];
-    }
+std::vector<FrameReadings> ReadReadings(const Finger& finger,
+                                        const FrameTable& log) {
+  const std::vector<std::string> names = log.headers();
+  const ReadingColumns columns(finger, names, log.path());
+  std::vector<FrameReadings> readings(log.rows());
+  for (std::size_t row = 0; row < log.rows(); ++row) {
+    columns.Read([&](std::size_t i) { return log.Numbers(names[i])[row]; },
+                 &readings[row]);
   }
-  return volts;
+  return readings;
 }
 
 void FillResults(const Finger& finger, const Scene& scene,
-                 const std::vector<std::vector<double>>& readings_V,
+                 const std::vector<FrameReadings>& readings,
                  const std::vector<FrameEstimate>& estimates, FrameTable* log) {
-  const auto fill = [&](const std::string& name, const auto& value) {
-    std::vector<double>& column = log->MutableNumbers(name);
-    for (std::size_t row = 0; row < estimates.size(); ++row) {
-      column[row] = FiniteOrNan(value(estimates[row]));
-    }
-  };
-  using E = const FrameEstimate&;
-  fill(ContactArc(0), [](E e) { return e.contact_mm; });
-  fill(ContactArcStd(0), [](E e) { return e.contact_std_mm; });
-  fill(NormalForce(0), [](E e) { return e.normal_N; });
-  fill(NormalForceStd(0), [](E e) { return e.normal_std_N; });
-  if (scene.friction_coefficient != 0) {
-    fill(Friction(0), [&](E e) {
-      return std::isfinite(e.contact_mm) ? scene.friction_coefficient
-                                         : std::nan("");
-    });
+  const ResultColumns columns(finger, scene);
+  std::vector<std::vector<double>*> filled;
+  for (const std::string& name : columns.names()) {
+    filled.push_back(&log->MutableNumbers(name));
   }
-  fill(ContactX(0), [](E e) { return e.contact_pose.x(); });
-  fill(ContactY(0), [](E e) { return e.contact_pose.y(); });
-  fill(ContactAngle(0), [](E e) { return e.contact_pose.z(); });
-  for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
-    const Gauge& gauge = finger.gauges[j];
-    std::vector<double>& column =
-        log->MutableNumbers(GaugeAngle(static_cast<int>(j)));
-    for (std::size_t row = 0; row < readings_V.size(); ++row) {
-      column[row] =
-          (readings_V[row][j] - gauge.offset_V) / gauge.gain_V_per_rad;
-    }
-  }
-  for (std::size_t i = 0; i < finger.ribs.size(); ++i) {
-    fill(RibForce(static_cast<int>(i)),
-         [i](E e) { return e.rib_tension_N[i]; });
-  }
-  fill("tip_x_mm", [](E e) { return e.tip_pose.x(); });
-  fill("tip_y_mm", [](E e) { return e.tip_pose.y(); });
-  fill("tip_angle_rad", [](E e) { return e.tip_pose.z(); });
-  fill("chi2", [](E e) { return e.chi2; });
-  fill("iterations", [](E e) { return static_cast<double>(e.iterations); });
-
   std::vector<std::string>& status = log->MutableText("status");
+  std::vector<double> values(filled.size());
   for (std::size_t row = 0; row < estimates.size(); ++row) {
+    columns.Values(readings[row], estimates[row], values.data());
+    for (std::size_t i = 0; i < filled.size(); ++i) {
+      (*filled[i])[row] = values[i];
+    }
     status[row] = StatusName(estimates[row].status);
   }
 }

@@ -8,16 +8,14 @@
 
 namespace finray {
 
-/// Volts of all gauges by row, from gauge_<j>_V or, where that is all there is,
-/// gauge_<j>_rad. Throws InputError if a gauge of the finger has no column.
-std::vector<std::vector<double>> ReadVolts(const Finger& finger,
-                                           const FrameTable& log);
+/// What each row has measured (ReadingColumns). Throws InputError if a gauge of
+/// the finger has no column.
+std::vector<FrameReadings> ReadReadings(const Finger& finger,
+                                        const FrameTable& log);
 
-/// Fills in contact_1_*, normal_1_*, friction_1, gauge angles, ribs, tip, chi2,
-/// iterations and status of each row. Which columns that adds depends on those
-/// of the table, the finger and the scene only.
+/// Fills in ResultColumns and the status of each row.
 void FillResults(const Finger& finger, const Scene& scene,
-                 const std::vector<std::vector<double>>& readings_V,
+                 const std::vector<FrameReadings>& readings,
                  const std::vector<FrameEstimate>& estimates, FrameTable* log);
 
 }  // namespace finray

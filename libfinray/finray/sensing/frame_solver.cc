@@ -7,15 +7,15 @@
 namespace finray {
 namespace {
 
-class ColdSolver : public FrameSolver {
+class EstimatorSolver : public FrameSolver {
  public:
-  ColdSolver(const Finger& finger, const Scene& scene,
-             const Discretization& discretization)
+  EstimatorSolver(const Finger& finger, const Scene& scene,
+                  const Discretization& discretization)
       : estimator_(finger, scene, discretization) {}
 
-  FrameEstimate Solve(const std::vector<double>& readings_V,
-                      const FrameEstimate* /*before*/) override {
-    return estimator_.Estimate(readings_V);
+  void SolveBlock(const FrameReadings* readings, std::size_t count,
+                  FrameEstimate* estimates) override {
+    estimator_.EstimateBlock(readings, count, estimates);
   }
 
  private:
@@ -24,10 +24,10 @@ class ColdSolver : public FrameSolver {
 
 }  // namespace
 
-FrameSolverFactory ColdSolvers(const Finger& finger, const Scene& scene,
-                               const Discretization& discretization) {
+FrameSolverFactory FrameSolvers(const Finger& finger, const Scene& scene,
+                                const Discretization& discretization) {
   return [finger, scene, discretization] {
-    return std::make_unique<ColdSolver>(finger, scene, discretization);
+    return std::make_unique<EstimatorSolver>(finger, scene, discretization);
   };
 }
 
@@ -44,14 +44,11 @@ FrameSolverPool::FrameSolverPool(FrameSolverFactory make)
 
 FrameSolverPool::~FrameSolverPool() = default;
 
-void FrameSolverPool::SolveBlock(const std::vector<double>* readings_V,
+void FrameSolverPool::SolveBlock(const FrameReadings* readings,
                                  std::size_t count, FrameEstimate* estimates) {
   std::unique_ptr<FrameSolver>& solver = solvers_->of_thread.local();
   if (!solver) solver = solvers_->make();
-  for (std::size_t i = 0; i < count; ++i) {
-    estimates[i] =
-        solver->Solve(readings_V[i], i == 0 ? nullptr : &estimates[i - 1]);
-  }
+  solver->SolveBlock(readings, count, estimates);
 }
 
 }  // namespace finray

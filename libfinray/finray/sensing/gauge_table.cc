@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
+#include "finray/sensing/circle_centre.h"
 
 namespace finray {
 namespace {
@@ -14,13 +16,25 @@ constexpr int kRows = 56;
 // Forces in units of EI / l_0^2: 0.64 N for the paper's finger, so to 26 N.
 constexpr double kForces[] = {0.5, 1, 2, 4, 7, 11, 16, 22, 30, 40};
 
+// Of the parabola through three equally spaced values with the least in the
+// middle.
+double LeastOfParabola(double left, double middle, double right) {
+  const double curvature = left - 2 * middle + right;
+  if (!(curvature > 0) || std::isinf(curvature)) return middle;
+  const double slope = 0.5 * (right - left);
+  return std::max(0.0, middle - 0.5 * slope * slope / curvature);
+}
+
 }  // namespace
 
-GaugeTable::GaugeTable(EquilibriumSolver* solver) {
+GaugeTable::GaugeTable(EquilibriumSolver* solver, double friction,
+                       std::optional<double> circle_radius_mm)
+    : friction_(friction) {
   const Finger& finger = solver->model().finger();
   const double length = finger.front_length_mm;
   const double unit = ForceUnit(finger);
   const int gauges = solver->model().gauges();
+  row_spacing_mm_ = length / kRows;
   heaviest_N_ = unit * *std::rbegin(kForces);
   solver->Reset();
   if (!solver->Solve({})) {
@@ -29,74 +43,88 @@ GaugeTable::GaugeTable(EquilibriumSolver* solver) {
                      "possible?");
   }
   free_angles_ = solver->outputs().head(gauges);
-  free_state_ = solver->state();
+  const LadderState free_state = solver->state();
+  const auto values = [&] {
+    Eigen::VectorXd values(gauges + (circle_radius_mm ? 2 : 0));
+    values.head(gauges) = solver->outputs().head(gauges);
+    if (circle_radius_mm) {
+      values.tail<2>() =
+          CircleCentre(solver->contact_pose(0), *circle_radius_mm);
+    }
+    return values;
+  };
   for (int i = 0; i < kRows; ++i) {
     Row row{length * (i + 0.5) / kRows, {}};
-    solver->set_state(free_state_);
-    for (const double force : kForces) {
-      const PointContact contact{row.arc_mm, force * unit, 0};
+    solver->set_state(free_state);
+    for (int k = -1; k < static_cast<int>(std::size(kForces)); ++k) {
+      const double force = k < 0 ? 0 : kForces[k] * unit;
       // Soft fingers fold over at the heavy end; the table ends there.
-      if (!solver->Solve({contact})) break;
-      row.nodes.push_back(
-          {contact.normal_N, solver->outputs().head(gauges), solver->state()});
+      if (!solver->Solve({{row.arc_mm, force, friction}})) break;
+      row.nodes.push_back({force, values(), solver->state()});
     }
-    rows_.push_back(std::move(row));
+    if (!row.nodes.empty()) rows_.push_back(std::move(row));
   }
   solver->Reset();
 }
 
-void GaugeTable::FindStarts(const Eigen::VectorXd& angles_rad,
-                            const Eigen::VectorXd& weight_per_rad,
-                            std::vector<Start>* starts) const {
-  // Per row: the nearest point of the curve of angles over force, which starts
-  // at no load and is taken as straight between nodes.
-  std::array<Start, kRows> best;
-  for (int i = 0; i < kRows; ++i) {
-    const Row& row = rows_[i];
-    best[i] = {row.arc_mm, 0,
-               0.5 * (angles_rad - free_angles_)
-                         .cwiseProduct(weight_per_rad)
-                         .squaredNorm(),
-               &free_state_};
-    for (std::size_t k = 0; k < row.nodes.size(); ++k) {
-      const Node& to = row.nodes[k];
-      const bool first = k == 0;
-      const double from_force = first ? 0 : row.nodes[k - 1].normal_N;
-      const Eigen::VectorXd& from =
-          first ? free_angles_ : row.nodes[k - 1].angles_rad;
-      double along = 0, square = 0;
-      for (int j = 0; j < angles_rad.size(); ++j) {
-        const double w = weight_per_rad[j];
-        const double edge = w * (to.angles_rad[j] - from[j]);
-        if (w > 0) along += edge * w * (angles_rad[j] - from[j]);
-        square += edge * edge;
-      }
-      const double share =
-          square > 0 ? std::clamp(along / square, 0.0, 1.0) : 0.0;
-      double cost = 0;
-      for (int j = 0; j < angles_rad.size(); ++j) {
-        const double w = weight_per_rad[j];
-        if (w == 0) continue;
-        const double misfit =
-            w *
-            (from[j] + share * (to.angles_rad[j] - from[j]) - angles_rad[j]);
-        cost += 0.5 * misfit * misfit;
-      }
-      if (cost < best[i].cost) {
-        best[i] = {row.arc_mm, from_force + share * (to.normal_N - from_force),
-                   cost,
-                   share > 0.5 || first ? &to.state : &row.nodes[k - 1].state};
-      }
+// The nearest point of the curve of values over force, which is taken as
+// straight between nodes.
+ContactStart GaugeTable::BestOf(const Row& row, const Eigen::VectorXd& values,
+                                const Eigen::VectorXd& weights) const {
+  ContactStart best;
+  best.count = 1;
+  best.chi2 = std::numeric_limits<double>::infinity();
+  const auto count = values.size();
+  for (std::size_t k = 1; k < row.nodes.size(); ++k) {
+    const Node &from = row.nodes[k - 1], &to = row.nodes[k];
+    double along = 0, square = 0, misfit = 0;
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const double w = weights[j];
+      if (w == 0) continue;
+      const double edge = w * (to.values[j] - from.values[j]);
+      const double off = w * (values[j] - from.values[j]);
+      along += edge * off;
+      square += edge * edge;
+      misfit += off * off;
+    }
+    const double share =
+        square > 0 ? std::clamp(along / square, 0.0, 1.0) : 0.0;
+    const double chi2 =
+        std::max(0.0, misfit + share * (share * square - 2 * along));
+    if (chi2 < best.chi2) {
+      best.contacts[0] = {row.arc_mm,
+                          from.normal_N + share * (to.normal_N - from.normal_N),
+                          friction_};
+      best.chi2 = chi2;
+      // A state without load says nothing of how it bends here.
+      best.state = share > 0.5 || k == 1 ? &to.state : &from.state;
     }
   }
+  return best;
+}
+
+void GaugeTable::FindStarts(const Eigen::VectorXd& values,
+                            const Eigen::VectorXd& weights,
+                            std::vector<ContactStart>* starts) const {
+  std::array<ContactStart, kRows> best;
+  const int rows = static_cast<int>(rows_.size());
+  for (int i = 0; i < rows; ++i) best[i] = BestOf(rows_[i], values, weights);
   starts->clear();
-  for (int i = 0; i < kRows; ++i) {
-    const bool below_left = i == 0 || best[i].cost <= best[i - 1].cost;
-    const bool below_right = i + 1 == kRows || best[i].cost < best[i + 1].cost;
-    if (below_left && below_right) starts->push_back(best[i]);
+  for (int i = 0; i < rows; ++i) {
+    if (best[i].state == nullptr) continue;
+    const bool below_left = i == 0 || best[i].chi2 <= best[i - 1].chi2;
+    const bool below_right = i + 1 == rows || best[i].chi2 < best[i + 1].chi2;
+    if (!below_left || !below_right) continue;
+    starts->push_back(best[i]);
+    if (i > 0 && i + 1 < rows) {
+      starts->back().chi2 =
+          LeastOfParabola(best[i - 1].chi2, best[i].chi2, best[i + 1].chi2);
+    }
   }
   std::sort(starts->begin(), starts->end(),
-            [](const Start& a, const Start& b) { return a.cost < b.cost; });
+            [](const ContactStart& a, const ContactStart& b) {
+              return a.chi2 < b.chi2;
+            });
 }
 
 }  // namespace finray

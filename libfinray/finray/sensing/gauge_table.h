@@ -2,53 +2,56 @@
 #define FINRAY_SENSING_GAUGE_TABLE_H_
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
+#include "finray/sensing/contact_start.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {
 
-/// Gauge angles over a coarse grid of one contact's l_c and f_c, with the
-/// equilibria, from which a frame's estimate is started without a guess. Built
-/// once for a finger.
+/// What would be measured, over a coarse grid of one contact's l_c and f_c,
+/// with the equilibria: a frame's estimate is started from it without a guess.
+/// Built once for a finger.
+///
+/// Measured values are the gauges' angles in rad and, if the object is a
+/// measured circle, its centre (x, y) in mm behind them (circle_centre.h).
 class GaugeTable {
  public:
-  explicit GaugeTable(EquilibriumSolver* solver);
+  GaugeTable(EquilibriumSolver* solver, double friction,
+             std::optional<double> circle_radius_mm);
 
-  /// A place to start from: the contact, and the equilibrium nearest to it.
-  struct Start {
-    double arc_mm;
-    double normal_N;
-    double cost;  ///< Half the sum of squares of the whitened misfit.
-    const LadderState* state;
-  };
-
-  /// The local minima over l_c of the misfit to `angles_rad`, whitened by
-  /// `weight_per_rad` (0: not measured), best first; f_c is interpolated.
-  void FindStarts(const Eigen::VectorXd& angles_rad,
-                  const Eigen::VectorXd& weight_per_rad,
-                  std::vector<Start>* starts) const;
+  /// The local minima over l_c of the misfit to `values`, whitened by `weights`
+  /// (0: not measured), best first; f_c is interpolated.
+  void FindStarts(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
+                  std::vector<ContactStart>* starts) const;
 
   /// The heaviest force of the grid, 40 EI / l_0^2.
   double heaviest_N() const { return heaviest_N_; }
+
+  struct Node {
+    double normal_N;
+    Eigen::VectorXd values;
+    LadderState state;
+  };
+  struct Row {
+    double arc_mm;
+    std::vector<Node> nodes;  ///< Rising force, the first one without load.
+  };
+  /// Base to tip.
+  const std::vector<Row>& rows() const { return rows_; }
+  double row_spacing_mm() const { return row_spacing_mm_; }
 
   /// Angles of the finger under no load.
   const Eigen::VectorXd& free_angles() const { return free_angles_; }
 
  private:
-  struct Node {
-    double normal_N;
-    Eigen::VectorXd angles_rad;
-    LadderState state;
-  };
-  struct Row {
-    double arc_mm;
-    std::vector<Node> nodes;  // rising force
-  };
+  ContactStart BestOf(const Row& row, const Eigen::VectorXd& values,
+                      const Eigen::VectorXd& weights) const;
 
-  double heaviest_N_;
+  double friction_;
+  double heaviest_N_, row_spacing_mm_;
   Eigen::VectorXd free_angles_;
-  LadderState free_state_;
   std::vector<Row> rows_;
 };
 

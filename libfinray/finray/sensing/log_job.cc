@@ -1,5 +1,6 @@
 #include "finray/sensing/log_job.h"
 
+#include <future>
 #include <utility>
 
 #include "finray/finger/finger_yaml.h"
@@ -9,7 +10,6 @@
 #include "finray/io/log_list.h"
 #include "finray/io/sha256.h"
 #include "finray/io/yaml_map.h"
-#include "finray/sensing/frame_results.h"
 #include "finray/sensing/log_stream.h"
 
 namespace finray {
@@ -17,12 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Frames in memory while a log is checked.
-constexpr std::size_t kCheckedFrames = 4096;
-
 std::string Key(const BatchSettings& settings, const std::string& log_sha256) {
   return Sha256OfText(
-      "results 1\nversion " FINRAY_VERSION "\nlog " + log_sha256 + "\nfinger " +
+      "results 3\nversion " FINRAY_VERSION "\nlog " + log_sha256 + "\nfinger " +
       settings.finger_sha256 + "\nscene " + settings.scene_sha256 +
       "\nscheme " + SchemeName(settings.discretization.scheme) +
       "\nresolution " + std::to_string(settings.discretization.resolution) +
@@ -41,6 +38,7 @@ EstimationSummary SummaryFromYaml(const YamlMap& yaml) {
     summary.by_status[static_cast<std::size_t>(s)] =
         Count(status, StatusName(s));
   }
+  summary.unexplained = Count(yaml, "unexplained_frames");
   if (yaml.Has("force_compared_frames")) {
     summary.force_compared = Count(yaml, "force_compared_frames");
     summary.force_squares_N2 = yaml.NonNegativeNumber("force_squares_N2");
@@ -78,16 +76,28 @@ bool LogJob::Check() {
   }
   bytes_ = fs::file_size(log_, unknown);
   written_ = fs::last_write_time(log_, unknown);
-  log_sha256_ = Sha256OfFile(log_);
-  key_ = Key(*settings_, log_sha256_);
-  finished_before_ = settings_->resume && ReadFinished();
-  if (finished_before_) return true;
+  // Beside the check where there is a thread for it.
+  auto hash = std::async(
+      settings_->threads > 1 ? std::launch::async : std::launch::deferred,
+      Sha256OfFile, log_);
+  const auto set_key = [&] {
+    log_sha256_ = hash.get();
+    key_ = Key(*settings_, log_sha256_);
+  };
+  const bool perhaps_finished =
+      settings_->resume && fs::exists(summary_path_, unknown);
+  if (perhaps_finished) {
+    set_key();
+    finished_before_ = ReadFinished();
+    if (finished_before_) return true;
+  }
   FrameReader reader(log_, settings_->scene.columns);
-  for (FrameTable rows; reader.Read(kCheckedFrames, &rows);) {
-    ReadVolts(settings_->finger, rows);
-    if (settings_->stop && settings_->stop()) return false;
+  if (!CheckStream(settings_->finger, settings_->threads, settings_->stop,
+                   &reader)) {
+    return false;
   }
   frames_ = reader.position();
+  if (!perhaps_finished) set_key();
   return true;
 }
 
@@ -144,7 +154,7 @@ bool LogJob::Estimate(FrameSolverPool* pool, ResumableFile* out) {
     out->Append(block.csv);
     summary_.Add(block.summary);
     if (++blocks % settings_->chunk_blocks == 0) {
-      out->Checkpoint(SummaryToText(summary_));
+      out->CheckpointSoon(SummaryToText(summary_));
     }
     ReportProgress(block.summary.frames, false);
   };
@@ -191,9 +201,6 @@ void LogJob::WriteSummary(std::uint64_t bytes) const {
   yaml << YAML::EndMap;
   pair("result_bytes", bytes);
   EmitSummary(summary_, &yaml);
-  if (summary_.force_compared > 0) {
-    pair("force_squares_N2", NumberText(summary_.force_squares_N2));
-  }
   yaml << YAML::EndMap;
   WriteFileAtomically(summary_path_, std::string(yaml.c_str()) + "\n");
 }

@@ -1,6 +1,7 @@
 #ifndef FINRAY_SENSING_LOG_STREAM_H_
 #define FINRAY_SENSING_LOG_STREAM_H_
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -16,17 +17,22 @@ struct StreamedBlock {
   EstimationSummary summary;
 };
 
-/// Estimates a log from where the reader is (the begin of a block) to its end.
-/// A few blocks are under way at a time, on `threads` threads; `write` gets
-/// them one by one in their order. Memory does not grow with the log.
-///
-/// `stop` (may be empty) is asked before each block is read. Returns false if
-/// it made an end; all blocks that were read have been written then. Throws
-/// what the reader, ReadVolts and `write` throw.
+// Both functions go through a log from where the reader is (the begin of a
+// block) to its end. Few blocks are under way at a time, so that memory does
+// not grow with the log; lines are read one after the other, all else is done
+// on `threads` threads. `stop` (may be empty) is asked before each block is
+// read; false is returned if it made an end.
+
+/// Estimates; `write` gets all blocks that were read one by one in their order.
+/// Throws InputError for a bad log, and what `write` throws.
 bool EstimateStream(const Finger& finger, const Scene& scene,
                     FrameSolverPool* pool, int threads,
                     const std::function<bool()>& stop, FrameReader* reader,
                     const std::function<void(const StreamedBlock&)>& write);
+
+/// Reads and parses only. Throws InputError at the first bad place of the log.
+bool CheckStream(const Finger& finger, int threads,
+                 const std::function<bool()>& stop, FrameReader* reader);
 
 }  // namespace finray
 

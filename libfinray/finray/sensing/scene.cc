@@ -95,6 +95,23 @@ RigidObject ReadObject(const YamlMap& object) {
   }
 }
 
+// A place is of use where it tells the contact's: one contact of a circle.
+void ReadMeasurements(const YamlMap& yaml, Scene* scene) {
+  yaml.AllowOnly({"object_std_mm"});
+  scene->object_std_mm = yaml.PositiveNumber("object_std_mm");
+  const char* expected = nullptr;
+  if (!scene->circle_radius_mm() || scene->object->spring) {
+    expected = "an object of shape circle without a spring";
+  } else if (scene->contacts.value_or(1) != 1) {
+    expected = "contacts: 1 or auto";
+  }
+  if (expected != nullptr) {
+    yaml.Fail("object_std_mm", std::string("object_std_mm: a measured object "
+                                           "needs ") +
+                                   expected + " in the scene");
+  }
+}
+
 YAML::Emitter& operator<<(YAML::Emitter& yaml, const CircleOutline& circle) {
   return yaml << "circle" << YAML::Key << "radius_mm" << YAML::Value
               << circle.radius_mm;
@@ -161,7 +178,8 @@ std::map<std::string, std::string> ReadColumns(const YamlMap& yaml) {
 
 Scene ReadScene(const YamlMap& yaml) {
   yaml.AllowOnly({"schema_version", "contacts", "contact_beams",
-                  "friction_coefficient", "object", "columns"});
+                  "friction_coefficient", "object", "measurements", "smoothing",
+                  "columns"});
   if (yaml.Has("schema_version") && yaml.Integer("schema_version") != 1) {
     yaml.Fail("schema_version", "expected 1");
   }
@@ -170,6 +188,19 @@ Scene ReadScene(const YamlMap& yaml) {
   scene.friction_coefficient = yaml.Number("friction_coefficient", 0);
   if (yaml.Has("object")) scene.object = ReadObject(yaml.Map("object"));
   ReadContactBeams(yaml, &scene);
+  if (yaml.Has("measurements")) {
+    ReadMeasurements(yaml.Map("measurements"), &scene);
+  }
+  if (yaml.Has("smoothing")) {
+    const YamlMap map = yaml.Map("smoothing");
+    map.AllowOnly({"contact_std_mm", "normal_std_N"});
+    if (scene.contacts.value_or(1) != 1) {
+      yaml.Fail("smoothing",
+                "smoothing: it needs contacts: 1 or auto in the scene");
+    }
+    scene.smoothing = {map.PositiveNumber("contact_std_mm"),
+                       map.PositiveNumber("normal_std_N")};
+  }
   scene.columns = ReadColumns(yaml);
   return scene;
 }

@@ -11,6 +11,12 @@
 
 namespace finray {
 
+/// Std of the change from frame to frame.
+struct Smoothing {
+  double contact_mm;
+  double normal_N;
+};
+
 /// What a scene contains, hence what is modelled.
 struct Scene {
   /// Number of contacts; empty: decided frame by frame ("auto").
@@ -21,6 +27,12 @@ struct Scene {
   std::string contact_beams_place = "scene: ";
   double friction_coefficient = 0;  ///< mu; + pulls the finger to its tip.
   std::optional<RigidObject> object;
+  /// How well object_x_mm, object_y_mm are known, if the estimate of a contact
+  /// is to use them.
+  std::optional<double> object_std_mm;
+  /// How much l_c and f_c change from a frame to the next, if neighbours are to
+  /// be smoothed.
+  std::optional<Smoothing> smoothing;
   /// A lab's own headers for columns of the frame table.
   std::map<std::string, std::string> columns;
 

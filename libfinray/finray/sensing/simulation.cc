@@ -7,6 +7,7 @@
 #include "finray/finger/geometry.h"
 #include "finray/sensing/frame_columns.h"
 #include "finray/sensing/load_reader.h"
+#include "finray/statics/contact_force.h"
 #include "finray/statics/object_contact.h"
 #include "finray/statics/shape.h"
 
@@ -137,10 +138,7 @@ double FillRow(const Finger& finger, const SolvedRow& solved, bool displacement,
     set(ContactX(c), pose.x());
     set(ContactY(c), pose.y());
     set(ContactAngle(c), pose.z());
-    const Eigen::Vector2d t(std::cos(pose.z()), std::sin(pose.z()));
-    const double into = contact.side == Side::kFront ? 1 : -1;
-    force += contact.normal_N *
-             (into * Eigen::Vector2d(t.y(), -t.x()) + contact.friction * t);
+    force += ContactForce(contact, pose.z());
   }
   set("force_N", force.norm());
   if (displacement && solved.object) set(kDisplacement, solved.displacement_mm);

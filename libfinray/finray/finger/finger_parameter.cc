@@ -1,0 +1,74 @@
+#include "finray/finger/finger_parameter.h"
+
+#include "finray/finger/finger.h"
+
+namespace finray {
+namespace {
+
+// Where a finger, const or not, keeps a parameter.
+template <class AnyFinger>
+auto& Variable(AnyFinger& finger, const FingerParameter& parameter) {
+  switch (parameter.kind) {
+    case FingerParameterKind::kFrontStiffness:
+      return finger.front_stiffness_N_mm2;
+    case FingerParameterKind::kBackStiffness:
+      return finger.back_stiffness_N_mm2;
+    case FingerParameterKind::kGaugeGain:
+      return finger.gauges[parameter.index].gain_V_per_rad;
+    case FingerParameterKind::kGaugeOffset:
+      return finger.gauges[parameter.index].offset_V;
+    case FingerParameterKind::kRibLength:
+      break;
+  }
+  return finger.ribs[parameter.index].length_mm;
+}
+
+}  // namespace
+
+std::vector<FingerParameter> ParametersOf(const Finger& finger) {
+  std::vector<FingerParameter> all = {{FingerParameterKind::kFrontStiffness},
+                                      {FingerParameterKind::kBackStiffness}};
+  const auto add = [&all](FingerParameterKind kind, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      all.push_back({kind, static_cast<int>(i)});
+    }
+  };
+  add(FingerParameterKind::kGaugeGain, finger.gauges.size());
+  add(FingerParameterKind::kGaugeOffset, finger.gauges.size());
+  add(FingerParameterKind::kRibLength, finger.ribs.size());
+  return all;
+}
+
+std::string ParameterName(const FingerParameter& parameter) {
+  const std::string number = std::to_string(parameter.index + 1);
+  switch (parameter.kind) {
+    case FingerParameterKind::kFrontStiffness:
+      return "front_stiffness_N_mm2";
+    case FingerParameterKind::kBackStiffness:
+      return "back_stiffness_N_mm2";
+    case FingerParameterKind::kGaugeGain:
+      return "gauge_" + number + "_gain_V_per_rad";
+    case FingerParameterKind::kGaugeOffset:
+      return "gauge_" + number + "_offset_V";
+    case FingerParameterKind::kRibLength:
+      break;
+  }
+  return "rib_" + number + "_length_mm";
+}
+
+const char* ParameterUnit(FingerParameterKind kind) {
+  constexpr const char* kUnits[kFingerParameterKinds] = {"N mm^2", "N mm^2",
+                                                         "V/rad", "V", "mm"};
+  return kUnits[static_cast<int>(kind)];
+}
+
+double ParameterValue(const Finger& finger, const FingerParameter& parameter) {
+  return Variable(finger, parameter);
+}
+
+void SetParameter(const FingerParameter& parameter, double value,
+                  Finger* finger) {
+  Variable(*finger, parameter) = value;
+}
+
+}  // namespace finray

@@ -1,0 +1,29 @@
+#ifndef FINRAY_FINGER_PARAMETER_COVARIANCE_YAML_H_
+#define FINRAY_FINGER_PARAMETER_COVARIANCE_YAML_H_
+
+#include <string>
+
+#include "finray/finger/finger.h"
+#include "finray/io/yaml_map.h"
+
+namespace finray {
+
+// The `calibration` block of a finger YAML (docs/formats.md):
+//
+//   parameters: [front_stiffness_N_mm2, gauge_1_gain_V_per_rad]
+//   std: [95.5, 0.004]
+//   correlations: [[1], [0.2, 1]]      # lower triangle; left out: all 0
+
+/// Reads it for a finger whose ribs and gauges are known. Throws InputError for
+/// a parameter that the finger has not, twice the same one, a wrong number of
+/// numbers, and what is no covariance.
+ParameterCovariance ReadParameterCovariance(const YamlMap& yaml,
+                                            const Finger& finger);
+
+/// The text of the block, from `calibration:` on; it reads back as the same
+/// doubles.
+std::string ParameterCovarianceToYaml(const ParameterCovariance& covariance);
+
+}  // namespace finray
+
+#endif  // FINRAY_FINGER_PARAMETER_COVARIANCE_YAML_H_

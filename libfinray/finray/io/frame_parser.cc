@@ -1,0 +1,161 @@
+#include "finray/io/frame_parser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "finray/io/csv_cells.h"
+#include "finray/io/error.h"
+#include "finray/io/frame_vocabulary.h"
+#include "finray/io/nearest_name.h"
+#include "finray/io/parse_number.h"
+#include "finray/io/shown_text.h"
+
+namespace finray {
+namespace {
+
+// All renames refer to the names in the file, so that two columns can be
+// swapped.
+std::vector<std::string> Renamed(
+    const std::string& path, const std::vector<std::string>& found,
+    const std::map<std::string, std::string>& renames) {
+  std::vector<std::string> headers = found;
+  for (const auto& [key, value] : renames) {
+    // {lab's header: our name}, or the other way round.
+    const bool reversed = IsFrameColumn(key) && !IsFrameColumn(value);
+    const std::string& from = reversed ? value : key;
+    const std::string& to = reversed ? key : value;
+    if (!IsFrameColumn(to) && to != "status") {
+      throw InputError(path + ": column '" + from + "' is to be renamed to '" +
+                       to + "', which no tool knows" +
+                       DidYouMeanFrameColumn(to));
+    }
+    const auto at = std::find(found.begin(), found.end(), from);
+    if (at == found.end()) {
+      throw InputError(path + ": no column '" + from + "' to rename to '" + to +
+                       "'" + DidYouMean(from, found));
+    }
+    headers[static_cast<std::size_t>(at - found.begin())] = to;
+  }
+  return headers;
+}
+
+bool IsNan(std::string_view text) {
+  // printf writes the sign of a NaN.
+  if (!text.empty() && (text[0] == '-' || text[0] == '+')) {
+    text.remove_prefix(1);
+  }
+  return text.size() == 3 && (text[0] | 0x20) == 'n' &&
+         (text[1] | 0x20) == 'a' && (text[2] | 0x20) == 'n';
+}
+
+// Number of a cell, NaN for one that was not measured.
+std::optional<double> CellNumber(std::string_view text) {
+  if (text.empty() || IsNan(text)) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  return ParseNumber(text);
+}
+
+}  // namespace
+
+bool IsHeaderLine(CsvLine* line) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  while (line->text.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
+    line->text.remove_prefix(kByteOrderMark.size());
+  }
+  line->text = Trimmed(line->text);
+  return !line->text.empty() && line->text.front() != '#';
+}
+
+FrameParser::FrameParser(const std::string& path, const CsvLine& header,
+                         const std::map<std::string, std::string>& renames)
+    : path_(path) {
+  std::vector<std::string_view> cells;
+  std::deque<std::string> unquoted;
+  const std::string error = SplitCsvLine(header.text, &cells, &unquoted);
+  if (!error.empty()) FailAt(header.number, cells.size() - 1, error);
+  const std::size_t nul = header.nul ? FirstNul(cells) : cells.size();
+  if (nul < cells.size()) {
+    FailAt(header.number, nul,
+           "the header holds a NUL byte, expected UTF-8 text");
+  }
+  names_ = Renamed(path, {cells.begin(), cells.end()}, renames);
+  if (std::all_of(names_.begin(), names_.end(), ParseNumber)) {
+    Fail(header.number, "expected a header, found numbers only");
+  }
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    if (!seen.insert(names_[i]).second) {
+      FailAt(header.number, i,
+             "header " + ShownText(names_[i]) + " appears twice");
+    }
+    numeric_.push_back(IsFrameColumn(names_[i]));
+  }
+}
+
+std::optional<std::size_t> FrameParser::Find(const std::string& name) const {
+  const auto at = std::find(names_.begin(), names_.end(), name);
+  if (at == names_.end()) return std::nullopt;
+  return static_cast<std::size_t>(at - names_.begin());
+}
+
+std::size_t FrameParser::Require(const std::string& name) const {
+  const auto column = Find(name);
+  if (!column) throw InputError(path_ + ": " + NoColumn(name, names_));
+  return *column;
+}
+
+void FrameParser::Parse(const CsvLine& line, FrameRows* rows) const {
+  std::vector<std::string_view>& split = rows->split_;
+  FrameRows::Cell* cells = rows->AddRow(names_.size());
+  const char* error = SplitCsvLine(line.text, &split, &rows->unquoted_);
+  if (*error != '\0') FailAt(line.number, split.size() - 1, error);
+  if (split.size() != names_.size()) {
+    Fail(line.number, "expected " + std::to_string(names_.size()) +
+                          " cells as in the header, found " +
+                          std::to_string(split.size()));
+  }
+  const std::size_t nul = line.nul ? FirstNul(split) : split.size();
+  if (nul < split.size()) {
+    FailAt(line.number, nul,
+           names_[nul] + ": the cell holds a NUL byte, expected text");
+  }
+  for (std::size_t i = 0; i < split.size(); ++i) {
+    if (!numeric_[i]) {
+      cells[i].text = split[i];
+      continue;
+    }
+    const std::string_view text = Trimmed(split[i]);  // of what quotes kept
+    const std::optional<double> number = CellNumber(text);
+    if (!number) {
+      FailAt(line.number, i,
+             names_[i] + ": expected a number, found " + ShownText(split[i]));
+    }
+    cells[i] = {*number, text};
+  }
+}
+
+std::size_t FrameParser::FirstNul(const std::vector<std::string_view>& cells) {
+  constexpr std::string_view kNul("\0\x01", 2);
+  static_assert(kNul[1] == kNulStandIn);
+  std::size_t index = 0;
+  while (index < cells.size() &&
+         cells[index].find_first_of(kNul) == std::string_view::npos) {
+    ++index;
+  }
+  return index;
+}
+
+void FrameParser::Fail(int line, const std::string& message) const {
+  throw InputError(path_ + ":" + std::to_string(line) + ": " + message);
+}
+
+void FrameParser::FailAt(int line, std::size_t cell,
+                         const std::string& message) const {
+  throw InputError(path_ + ":" + std::to_string(line) + ":" +
+                   std::to_string(cell + 1) + ": " + message);
+}
+
+}  // namespace finray

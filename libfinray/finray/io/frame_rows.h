@@ -1,0 +1,53 @@
+#ifndef FINRAY_IO_FRAME_ROWS_H_
+#define FINRAY_IO_FRAME_ROWS_H_
+
+#include <cstddef>
+#include <deque>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace finray {
+
+/// Some rows of a frame table, cell by cell as they are read. The memory is
+/// used again from one Clear() to the next.
+class FrameRows {
+ public:
+  struct Cell {
+    /// NaN for text and for what was not measured.
+    double number = std::numeric_limits<double>::quiet_NaN();
+    /// Without quotes; refers to the line.
+    std::string_view text;
+  };
+
+  void Clear() {
+    rows_ = 0;
+    cells_.clear();
+    unquoted_.clear();
+  }
+  std::size_t rows() const { return rows_; }
+  const Cell& at(std::size_t row, std::size_t column) const {
+    return cells_[row * columns_ + column];
+  }
+
+ private:
+  friend class FrameParser;
+
+  // Appends an empty one and returns its first cell.
+  Cell* AddRow(std::size_t columns) {
+    columns_ = columns;
+    ++rows_;
+    cells_.resize(rows_ * columns);
+    return &cells_[(rows_ - 1) * columns];
+  }
+
+  std::size_t rows_ = 0, columns_ = 0;
+  std::vector<Cell> cells_;
+  std::vector<std::string_view> split_;  // the line that is being read
+  std::deque<std::string> unquoted_;     // strings keep their place
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_IO_FRAME_ROWS_H_

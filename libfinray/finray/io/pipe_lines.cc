@@ -1,0 +1,84 @@
+#include "finray/io/pipe_lines.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "finray/io/csv_cells.h"
+#include "finray/io/error.h"
+
+namespace finray {
+namespace {
+
+constexpr std::size_t kFirstBuffer = 1 << 16;
+constexpr std::size_t kLongestLine = 1 << 24;
+
+}  // namespace
+
+PipeLines::PipeLines(int file, int wake, const std::string& source)
+    : file_(file), wake_(wake), source_(source), buffer_(kFirstBuffer) {}
+
+bool PipeLines::Next() {
+  do {
+    while (!Take()) {
+      if (ended_ || !Fill()) return false;
+    }
+  } while (Trimmed(line_.text).empty());
+  return true;
+}
+
+bool PipeLines::Take() {
+  const char* start = buffer_.data() + begin_;
+  const auto* line_end = static_cast<const char*>(
+      std::memchr(buffer_.data() + searched_, '\n', end_ - searched_));
+  searched_ = end_;
+  if (line_end == nullptr) {
+    if (!ended_ || begin_ == end_) return false;
+    line_end = buffer_.data() + end_;  // the last line has no end of its own
+  }
+  line_.text = {start, static_cast<std::size_t>(line_end - start)};
+  begin_ = std::min(begin_ + line_.text.size() + 1, end_);
+  searched_ = begin_;
+  while (!line_.text.empty() && line_.text.back() == '\r') {
+    line_.text.remove_suffix(1);
+  }
+  line_.nul = line_.text.find('\0') != std::string_view::npos;
+  ++line_.number;
+  return true;
+}
+
+bool PipeLines::Fill() {
+  if (begin_ > 0) {
+    std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+    end_ -= begin_;
+    searched_ -= begin_;
+    begin_ = 0;
+  }
+  if (end_ == buffer_.size()) {
+    if (end_ >= kLongestLine) {
+      throw InputError(source_ + ":" + std::to_string(line_.number + 1) +
+                       ": the line is too long for a table of numbers");
+    }
+    buffer_.resize(2 * end_);
+  }
+  pollfd waiting[2] = {{file_, POLLIN, 0}, {wake_, POLLIN, 0}};
+  while (poll(waiting, 2, -1) < 0) {
+    if (errno != EINTR) break;  // read says what is wrong
+  }
+  if (wake_ >= 0 && waiting[1].revents != 0) return false;
+  ssize_t count;
+  do {
+    count = read(file_, buffer_.data() + end_, buffer_.size() - end_);
+  } while (count < 0 && errno == EINTR);
+  if (count < 0) {
+    throw InputError(source_ + ": cannot be read: " + std::strerror(errno));
+  }
+  ended_ = count == 0;
+  end_ += static_cast<std::size_t>(count);
+  return true;
+}
+
+}  // namespace finray

@@ -1,0 +1,115 @@
+#include "finray/sensing/calibration_uncertainty.h"
+
+#include <cmath>
+#include <limits>
+
+namespace finray {
+
+CalibrationUncertainty::Model::Model(const Finger& finger, double friction,
+                                     std::optional<double> circle_radius_mm,
+                                     EquilibriumSolver* solver)
+    : finger(finger),
+      circle_radius_mm(circle_radius_mm),
+      solver(*solver),
+      table(friction, circle_radius_mm, solver),
+      factor(finger.calibration->Factor()),
+      derivatives(table.rows(), table.columns()),
+      slope(table.rows(), 2),
+      by_measured(2, table.rows()),
+      by_parameter(2, factor.rows()),
+      by_factor(2, factor.cols()) {}
+
+CalibrationUncertainty::CalibrationUncertainty(
+    const Finger& finger, double friction, EquilibriumSolver* solver,
+    std::optional<double> circle_radius_mm) {
+  if (finger.calibration) {
+    model_.emplace(finger, friction, circle_radius_mm, solver);
+  }
+}
+
+ContactMatrix CalibrationUncertainty::Of(
+    const std::vector<PointContact>& contacts,
+    const std::vector<double>& readings_V, const Eigen::VectorXd& weights) {
+  Model& m = *model_;
+  const int unknowns = 2 * static_cast<int>(contacts.size());
+  ContactMatrix covariance(unknowns, unknowns);
+  if (!FindDerivatives(contacts)) {
+    covariance.setZero();
+    covariance.diagonal().setConstant(std::numeric_limits<double>::infinity());
+    return covariance;
+  }
+  m.slope = weights.asDiagonal() * m.derivatives.leftCols(unknowns);
+  covariance.noalias() = m.slope.transpose().lazyProduct(m.slope);
+  const ContactMatrix noise = CovarianceOf(covariance);
+  if (std::isinf(noise(0, 0))) return noise;
+  m.by_measured.noalias() = noise.lazyProduct(m.slope.transpose());
+  m.by_measured.array().rowwise() *= weights.transpose().array();
+  FillByParameter(unknowns, readings_V, weights);
+  m.by_factor.noalias() = m.by_parameter.lazyProduct(m.factor);
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    // From ln f_c to f_c.
+    m.by_factor.row(2 * static_cast<int>(c) + 1) *= contacts[c].normal_N;
+  }
+  covariance.noalias() = m.by_factor.lazyProduct(m.by_factor.transpose());
+  return covariance;
+}
+
+bool CalibrationUncertainty::FindDerivatives(
+    const std::vector<PointContact>& contacts) {
+  Model& m = *model_;
+  if (contacts.size() == 1 &&
+      m.table.Interpolate(contacts[0].arc_mm, contacts[0].normal_N,
+                          &m.derivatives)) {
+    return true;
+  }
+  // A cold solve: the result must not depend on the frame before.
+  m.solver.Reset();
+  if (!m.solver.SolveWithSensitivities(contacts)) return false;
+  ReadSensitivities(m.solver, contacts, m.circle_radius_mm, &m.derivatives);
+  return true;
+}
+
+void CalibrationUncertainty::FillByParameter(
+    int unknowns, const std::vector<double>& readings_V,
+    const Eigen::VectorXd& weights) {
+  Model& m = *model_;
+  const std::vector<FingerParameter>& parameters =
+      m.finger.calibration->parameters;
+  m.by_parameter.resize(unknowns, static_cast<int>(parameters.size()));
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const int index = parameters[k].index;
+    auto column = m.by_parameter.col(static_cast<int>(k));
+    const auto by_reading = [&](double slope) {
+      column = -slope * m.by_measured.col(index);
+    };
+    const auto by_statics = [&](int which) {
+      column.noalias() =
+          -m.by_measured.lazyProduct(m.derivatives.col(unknowns + which));
+    };
+    switch (parameters[k].kind) {
+      case FingerParameterKind::kFrontStiffness:
+        by_statics(0);
+        break;
+      case FingerParameterKind::kBackStiffness:
+        by_statics(1);
+        break;
+      case FingerParameterKind::kRibLength:
+        by_statics(2 + index);
+        break;
+      case FingerParameterKind::kGaugeGain: {
+        const Gauge& gauge = m.finger.gauges[index];
+        // An unused gauge may have no reading.
+        by_reading(weights[index] == 0
+                       ? 0
+                       : (readings_V[index] - gauge.offset_V) /
+                             (gauge.gain_V_per_rad * gauge.gain_V_per_rad));
+        break;
+      }
+      case FingerParameterKind::kGaugeOffset:
+        by_reading(1 / m.finger.gauges[index].gain_V_per_rad);
+        break;
+    }
+  }
+}
+
+}  // namespace finray

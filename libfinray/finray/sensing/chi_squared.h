@@ -1,0 +1,13 @@
+#ifndef FINRAY_SENSING_CHI_SQUARED_H_
+#define FINRAY_SENSING_CHI_SQUARED_H_
+
+namespace finray {
+
+/// P(X > chi2) for X chi-squared with `dof` degrees of freedom, by the finite
+/// sums for whole and half orders of the incomplete gamma function (DLMF 8.4.8,
+/// 8.4.11 with 8.8.2); NaN if dof < 1 or chi2 is NaN.
+double ChiSquaredTail(double chi2, int dof);
+
+}  // namespace finray
+
+#endif  // FINRAY_SENSING_CHI_SQUARED_H_

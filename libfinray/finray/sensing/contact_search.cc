@@ -1,0 +1,172 @@
+#include "finray/sensing/contact_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "finray/sensing/chi_squared.h"
+
+namespace finray {
+namespace {
+
+// Noise makes chi2 this large in one frame of a hundred: then other starts are
+// tried; and without degrees of freedom from this on.
+constexpr double kWellExplained = 0.01, kNearlyNothing = 4;
+// The table knows the chi2 of a start that might lead to a rival to a factor.
+constexpr double kTableFactor = 0.25;
+constexpr std::size_t kMostStarts = 4, kMostPairStarts = 12, kMostDescents = 4;
+// A rival lies outside the region that holds 99 % of the estimates: chi2 of two
+// and of four parameters.
+constexpr double kDistinct[] = {9.21, 13.28};
+
+}  // namespace
+
+ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
+                             const Discretization& discretization)
+    : scene_(scene),
+      length_mm_(finger.front_length_mm),
+      solver_(finger, discretization),
+      table_(&solver_, scene.friction_coefficient, MeasuredRadius(scene)),
+      fit_(finger, discretization, MeasuredRadius(scene)),
+      descent_(&solver_, MeasuredRadius(scene),
+               kMostForce * table_.heaviest_N()),
+      solutions_(kMostPairStarts) {
+  fit_.set_most_force(kMostForce * table_.heaviest_N());
+  for (ContactSolution& solution : solutions_) {
+    solution.rib_tension_N.resize(finger.ribs.size());
+  }
+}
+
+bool ContactSearch::IsExplained(double chi2, int dof) {
+  return dof < 1 ? chi2 < kNearlyNothing
+                 : ChiSquaredTail(chi2, dof) > kWellExplained;
+}
+
+double ContactSearch::least_chi2() const {
+  return found_ > 0 ? solutions_[best_].chi2
+                    : std::numeric_limits<double>::infinity();
+}
+
+bool ContactSearch::Search(int contacts, const FrameMeasurement& measurement) {
+  FindStarts(contacts, measurement);
+  const int dof = measurement.all - 2 * contacts;
+  found_ = iterations_ = 0;
+  int descents = 0;
+  for (const ContactStart& start : starts_) {
+    const bool explained = found_ > 0 && IsExplained(least_chi2(), dof);
+    const bool may_be_rival =
+        kTableFactor * start.chi2 < least_chi2() + kWithinNoise;
+    if (explained && !may_be_rival) break;
+    if (Fit(start, measurement)) continue;
+    if (explained || descents == kMostDescents) continue;
+    ++descents;
+    Descend(start, measurement);
+  }
+  return found_ > 0;
+}
+
+void ContactSearch::FindStarts(int contacts,
+                               const FrameMeasurement& measurement) {
+  if (contacts == 1) {
+    table_.FindStarts(measurement.values, measurement.weights, &starts_);
+    if (starts_.size() > kMostStarts) starts_.resize(kMostStarts);
+    return;
+  }
+  if (!pair_table_) {
+    pair_table_ =
+        std::make_unique<PairTable>(&solver_, scene_.friction_coefficient);
+  }
+  pair_table_->FindStarts(measurement.values, measurement.weights,
+                          kMostPairStarts, &starts_);
+}
+
+bool ContactSearch::Fit(const ContactStart& start,
+                        const FrameMeasurement& measurement) {
+  contacts_.assign(start.contacts.begin(),
+                   start.contacts.begin() + start.count);
+  fit_.set_state(*start.state);
+  const bool converged =
+      fit_.Fit(measurement.values, measurement.weights, &contacts_);
+  iterations_ += fit_.iterations();
+  if (!converged) return false;
+  ContactSolution& solution = solutions_[found_];
+  solution.chi2 = fit_.chi2();
+  solution.information = fit_.information();
+  fit_.SaveState(&solution.state);
+  solution.tip_pose = fit_.tip_pose();
+  for (std::size_t i = 0; i < solution.rib_tension_N.size(); ++i) {
+    solution.rib_tension_N[i] = fit_.rib_tension(static_cast<int>(i));
+  }
+  for (int c = 0; c < start.count; ++c) {
+    solution.poses[c] = fit_.contact_pose(c);
+  }
+  Add(&solution);
+  return true;
+}
+
+bool ContactSearch::Descend(const ContactStart& start,
+                            const FrameMeasurement& measurement) {
+  contacts_.assign(start.contacts.begin(),
+                   start.contacts.begin() + start.count);
+  const bool arrived = descent_.Descend(*start.state, measurement, &contacts_);
+  iterations_ += descent_.iterations();
+  if (!arrived) return false;
+  ContactSolution& solution = solutions_[found_];
+  solution.chi2 = descent_.at().chi2();
+  solution.information = descent_.at().information();
+  solution.state = solver_.state();
+  solution.tip_pose = solver_.tip_pose();
+  for (std::size_t i = 0; i < solution.rib_tension_N.size(); ++i) {
+    solution.rib_tension_N[i] = solver_.rib_tension(static_cast<int>(i));
+  }
+  for (int c = 0; c < start.count; ++c) {
+    solution.poses[c] = solver_.contact_pose(c);
+  }
+  Add(&solution);
+  return true;
+}
+
+void ContactSearch::Add(ContactSolution* solution) {
+  solution->count = static_cast<int>(contacts_.size());
+  std::copy(contacts_.begin(), contacts_.end(), solution->contacts.begin());
+  if (solution->count == 2 && contacts_[1].arc_mm < contacts_[0].arc_mm) {
+    std::swap(solution->contacts[0], solution->contacts[1]);
+    std::swap(solution->poses[0], solution->poses[1]);
+    const ContactMatrix was = solution->information;
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < 4; ++j) {
+        solution->information(i, j) = was((i + 2) % 4, (j + 2) % 4);
+      }
+    }
+  }
+  if (solution->chi2 < least_chi2() || found_ == 0) best_ = found_;
+  ++found_;
+}
+
+bool ContactSearch::IsDistinct(const ContactSolution& other) const {
+  const ContactSolution& one = best();
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kFittedContacts, 1> apart(
+      2 * one.count);
+  for (int c = 0; c < one.count; ++c) {
+    apart[2 * c] = other.contacts[c].arc_mm - one.contacts[c].arc_mm;
+    apart[2 * c + 1] = other.contacts[c].normal_N - one.contacts[c].normal_N;
+  }
+  return apart.dot(one.information * apart) > kDistinct[one.count - 1];
+}
+
+const ContactSolution* ContactSearch::rival() const {
+  const ContactSolution* rival = nullptr;
+  for (int i = 0; i < found_; ++i) {
+    const ContactSolution& other = solutions_[i];
+    if (i == best_ || other.chi2 > best().chi2 + kWithinNoise) continue;
+    if (!IsDistinct(other)) continue;
+    if (rival == nullptr || other.chi2 < rival->chi2) rival = &other;
+  }
+  return rival;
+}
+
+bool ContactSearch::OnBound(double arc_mm, double normal_N) const {
+  return arc_mm <= 0 || arc_mm >= length_mm_ ||
+         normal_N >= kMostForce * table_.heaviest_N();
+}
+
+}  // namespace finray

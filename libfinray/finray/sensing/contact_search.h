@@ -1,0 +1,92 @@
+#ifndef FINRAY_SENSING_CONTACT_SEARCH_H_
+#define FINRAY_SENSING_CONTACT_SEARCH_H_
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "finray/sensing/contact_covariance.h"
+#include "finray/sensing/contact_descent.h"
+#include "finray/sensing/contact_fit.h"
+#include "finray/sensing/gauge_table.h"
+#include "finray/sensing/pair_table.h"
+#include "finray/sensing/scene.h"
+
+namespace finray {
+
+/// A minimum of chi2 over contacts, base to tip.
+struct ContactSolution {
+  int count = 0;
+  std::array<PointContact, kFittedContacts> contacts;
+  double chi2 = 0;
+  ContactMatrix information;  ///< Of (l_c, f_c) of each contact.
+  std::array<Eigen::Vector3d, kFittedContacts> poses;
+  Eigen::Vector3d tip_pose;
+  std::vector<double> rib_tension_N;
+  LadderState state;  ///< In equilibrium with the contacts.
+};
+
+/// Finds the contacts that explain a frame without a guess: ContactFit from the
+/// best starts of a table, and from all others that might lead to a rival,
+/// another solution that explains the frame about as well.
+class ContactSearch {
+ public:
+  /// Two solutions explain a frame equally well if their chi2 differ by less
+  /// than 95 % of what noise does to the chi2 of two parameters.
+  static constexpr double kWithinNoise = 5.99;
+  static constexpr double kMostForce = 4;  ///< over the table's heaviest
+
+  /// Throws InputError for a finger without an unloaded equilibrium.
+  ContactSearch(const Finger& finger, const Scene& scene,
+                const Discretization& discretization);
+  ContactSearch(const ContactSearch&) = delete;
+  ContactSearch& operator=(const ContactSearch&) = delete;
+
+  /// Searches with one or two contacts. False if no start converged.
+  bool Search(int contacts, const FrameMeasurement& measurement);
+
+  // Of the last search that came to something.
+
+  const ContactSolution& best() const { return solutions_[best_]; }
+  /// The best solution that is not `best` within its uncertainty but explains
+  /// the frame as well; null if there is none.
+  const ContactSolution* rival() const;
+  /// Of all fits together.
+  int iterations() const { return iterations_; }
+
+  /// Whether noise is likely to make chi2 this large; without degrees of
+  /// freedom, whether it is next to nothing.
+  static bool IsExplained(double chi2, int dof);
+
+  /// Whether a contact is where the search ends: at an end of the beam or at
+  /// the largest force.
+  bool OnBound(double arc_mm, double normal_N) const;
+
+  const GaugeTable& table() const { return table_; }
+
+ private:
+  void FindStarts(int contacts, const FrameMeasurement& measurement);
+  // Each adds what comes of a start to the solutions.
+  bool Fit(const ContactStart& start, const FrameMeasurement& measurement);
+  bool Descend(const ContactStart& start, const FrameMeasurement& measurement);
+  // Adds a solution in its order from base to tip.
+  void Add(ContactSolution* solution);
+  double least_chi2() const;
+  bool IsDistinct(const ContactSolution& other) const;
+
+  Scene scene_;
+  double length_mm_;
+  EquilibriumSolver solver_;
+  GaugeTable table_;
+  std::unique_ptr<PairTable> pair_table_;  // made when needed
+  ContactFit fit_;
+  ContactDescent descent_;
+  std::vector<ContactStart> starts_;
+  std::vector<PointContact> contacts_;
+  std::vector<ContactSolution> solutions_;  // memory for the most
+  int found_ = 0, best_ = 0, iterations_ = 0;
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_SENSING_CONTACT_SEARCH_H_

@@ -1,0 +1,15 @@
+#ifndef FINRAY_SENSING_ESTIMATED_FORCE_H_
+#define FINRAY_SENSING_ESTIMATED_FORCE_H_
+
+#include "finray/sensing/frame_estimate.h"
+
+namespace finray {
+
+/// Magnitude of the force of all contacts together, to be compared with a
+/// reference sensor; NaN if the frame is not solved.
+double EstimatedForce(const FrameEstimate& estimate,
+                      double friction_coefficient);
+
+}  // namespace finray
+
+#endif  // FINRAY_SENSING_ESTIMATED_FORCE_H_

@@ -1,0 +1,62 @@
+#ifndef FINRAY_SENSING_FRAME_ESTIMATE_H_
+#define FINRAY_SENSING_FRAME_ESTIMATE_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "finray/statics/ladder_frame.h"
+
+namespace finray {
+
+/// The `status` column of a frame table.
+enum class FrameStatus {
+  kOk,
+  kNoContact,
+  kUnobservable,
+  kNotConverged,
+  kBadInput
+};
+const char* StatusName(FrameStatus status);
+
+/// One contact of an estimate; NaN where there is none.
+struct ContactEstimate {
+  double arc_mm = std::numeric_limits<double>::quiet_NaN();  ///< l_c
+  double arc_std_mm = std::numeric_limits<double>::quiet_NaN();
+  double normal_N = std::numeric_limits<double>::quiet_NaN();  ///< f_c
+  double normal_std_N = std::numeric_limits<double>::quiet_NaN();
+  /// x, y (mm), theta (rad) of the front beam there.
+  Eigen::Vector3d pose =
+      Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+};
+using ContactEstimates = std::array<ContactEstimate, kFittedContacts>;
+
+/// What the readings of one frame say.
+struct FrameEstimate {
+  FrameStatus status = FrameStatus::kBadInput;
+  int contacts = 0;
+  /// Base to tip. Without a contact the first one's force is 0, or NaN if the
+  /// frame is not solved.
+  ContactEstimates contact;
+  Eigen::Vector3d tip_pose =
+      Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> rib_tension_N;
+  /// Sum of squared whitened residuals, and what is left of the measurements
+  /// when the unknowns are taken off.
+  double chi2 = std::numeric_limits<double>::quiet_NaN();
+  int dof = 0;
+  int iterations = 0;
+  /// Another, distinct solution with as many contacts that explains the frame
+  /// within its noise, and its chi2; NaN where there is none.
+  ContactEstimates alternative;
+  double alternative_chi2 = std::numeric_limits<double>::quiet_NaN();
+
+  /// The probability that noise alone makes chi2 as large or larger; NaN
+  /// without degrees of freedom.
+  double p_value() const;
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_SENSING_FRAME_ESTIMATE_H_

@@ -1,0 +1,14 @@
+#include "finray/sensing/live_estimator.h"
+
+namespace finray {
+
+LiveEstimator::LiveEstimator(const Finger& finger, const Scene& scene,
+                             const Discretization& discretization)
+    : estimator_(finger, scene, discretization) {}
+
+const FrameEstimate& LiveEstimator::Next(const FrameReadings& readings) {
+  estimate_ = estimator_.Follow(readings);
+  return estimate_;
+}
+
+}  // namespace finray

@@ -1,0 +1,107 @@
+"""A batch's settings: scripts/batch/config.yaml, a config of the user's, flags."""
+
+import difflib
+import os
+import shutil
+
+import yaml
+
+DEFAULTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "config.yaml")
+SCHEMES = ("taylor", "rigid_chain")
+REQUIRED = ("finger", "logs", "out_dir")
+AT_LEAST_ONE = ("logs_per_task", "log_MB_per_task", "cpus_per_task", "memory_MB",
+                "minutes")
+
+
+class BadInput(Exception):
+    """One line for the user."""
+
+
+class BadUsage(Exception):
+    """One line for the user."""
+
+
+def read_yaml(path):
+    try:
+        with open(path, encoding="utf-8") as file:
+            content = yaml.safe_load(file)
+    except OSError as error:
+        raise BadInput(f"{path}: cannot be read: {error.strerror}") from error
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark
+        raise BadInput(f"{path}:{mark.line + 1}:{mark.column + 1}: "
+                       f"{error.problem}") from error
+    if not isinstance(content, dict):
+        raise BadInput(f"{path}: expected keys with values")
+    return content
+
+
+def check_value(place, key, value, default):
+    """A config value has the type of its default."""
+    if key == "logs":
+        value = [value] if isinstance(value, str) else value
+        if not isinstance(value, list) or not all(isinstance(v, str) for v in value):
+            raise BadInput(f"{place}: expected a text or a list of texts")
+        return value
+    if isinstance(value, bool) or not isinstance(value, type(default)):
+        kind = "a whole number" if isinstance(default, int) else "a text"
+        raise BadInput(f"{place}: expected {kind}, not {value!r}")
+    if key in AT_LEAST_ONE and value < 1:
+        raise BadInput(f"{place}: expected at least 1, not {value}")
+    if key == "resolution" and value < 0:
+        raise BadInput(f"{place}: expected 0 or more, not {value}")
+    if key == "scheme" and value not in SCHEMES:
+        raise BadInput(f"{place}: expected one of {', '.join(SCHEMES)}, "
+                       f"not '{value}'")
+    return value
+
+
+def in_folder(folder, item):
+    """An item of `logs`, or a path, from `folder` on."""
+    at = "@" if item.startswith("@") else ""
+    return at + os.path.abspath(os.path.join(folder, item[len(at):]))
+
+
+def with_absolute_paths(values, folder):
+    values = dict(values)
+    for key in ("finger", "scene", "out_dir"):
+        if values.get(key):
+            values[key] = in_folder(folder, values[key])
+    if "logs" in values:
+        values["logs"] = [in_folder(folder, item) for item in values["logs"]]
+    executable = values.get("finray_estimate", "")
+    if "/" in executable:
+        values["finray_estimate"] = in_folder(folder, executable)
+    return values
+
+
+def effective(config_path, flags):
+    """All keys. `flags`: those given, by key; paths from here on."""
+    defaults = read_yaml(DEFAULTS)
+    config = dict(defaults)
+    if config_path:
+        given = read_yaml(config_path)
+        for key, value in given.items():
+            if key not in defaults:
+                near = difflib.get_close_matches(str(key), defaults, 1)
+                hint = f"; did you mean '{near[0]}'?" if near else ""
+                raise BadInput(f"{config_path}: unknown key '{key}'{hint}")
+            given[key] = check_value(f"{config_path}: {key}", key, value, defaults[key])
+        config.update(with_absolute_paths(
+            given, os.path.dirname(os.path.abspath(config_path))))
+    flags = {key: check_value("--" + key, key, value, defaults[key])
+             for key, value in flags.items()}
+    config.update(with_absolute_paths(flags, os.getcwd()))
+    for key in REQUIRED:
+        if not config[key]:
+            raise BadUsage(f"--{key} is missing; see --help")
+    config["finray_estimate"] = find_executable(config["finray_estimate"])
+    return config
+
+
+def find_executable(name):
+    path = shutil.which(name)
+    if path is None:
+        raise BadUsage(f"finray_estimate: there is no executable '{name}'; give it "
+                       "by --finray_estimate or put its folder into PATH")
+    return os.path.abspath(path)

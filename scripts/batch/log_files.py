@@ -1,0 +1,74 @@
+"""The logs that items of --logs stand for, as finray_estimate takes them."""
+
+import glob
+import os
+
+from batch_config import BadInput
+
+
+def is_below(folder, path):
+    return path.startswith(folder.rstrip("/") + "/")
+
+
+def files_of(item, place, out_dir):
+    """A file, or the files that a pattern matches, sorted byte by byte."""
+    if not any(c in item for c in "*?[") or os.path.exists(item):
+        if not os.path.isfile(item):
+            raise BadInput(f"{place}there is no log '{item}'")
+        return [item]
+    found = [path for path in glob.glob(item)
+             if not is_below(out_dir, path) and os.path.isfile(path)]
+    if not found:
+        raise BadInput(f"{place}'{item}' matches no file")
+    return sorted(found, key=os.fsencode)
+
+
+def without_comment(line):
+    for at, character in enumerate(line):
+        if character == "#" and (at == 0 or line[at - 1] in " \t"):
+            return line[:at].strip()
+    return line.strip()
+
+
+def files_of_list(path, out_dir):
+    """One file or pattern a line, from the list's own folder on."""
+    try:
+        with open(path, encoding="utf-8", errors="surrogateescape") as file:
+            lines = file.read().split("\n")
+    except OSError as error:
+        raise BadInput(f"{path}: cannot be read: {error.strerror}") from error
+    logs = []
+    for number, line in enumerate(lines, 1):
+        item = without_comment(line)
+        if item:
+            item = os.path.normpath(os.path.join(os.path.dirname(path), item))
+            logs += files_of(item, f"{path}:{number}: ", out_dir)
+    if not logs:
+        raise BadInput(f"{path}: lists no logs")
+    return logs
+
+
+def check_name(log):
+    """A list of logs must be able to hold it."""
+    if without_comment(log) != log or any(c in log for c in "\r\n"):
+        raise BadInput(f"--logs: '{log}': a log's path must not have ' #', a line "
+                       "end or a space at its end")
+
+
+def expand(items, out_dir):
+    """Absolute paths in the order in which finray_estimate would take them."""
+    logs = []
+    for item in items:
+        if item.startswith("@"):
+            logs += files_of_list(item[1:], out_dir)
+        elif item.endswith((".txt", ".list")):
+            logs += files_of_list(item, out_dir)
+        else:
+            logs += files_of(item, "--logs: ", out_dir)
+    seen = set()
+    for log in logs:
+        check_name(log)
+        if log in seen:
+            raise BadInput(f"--logs: '{log}' is named twice")
+        seen.add(log)
+    return logs

@@ -1,0 +1,96 @@
+#!/usr/bin/python3
+"""scripts/batch/run on this machine."""
+
+import batch_fixture
+from batch_fixture import FRAMES
+
+LOGS = ["d1/a.csv", "d1/b.csv", "d1/c.csv", "d2/a.csv", "d2/b.csv", "d3/a.csv"]
+GROUP_SUMMARY = "groups/*/*/summary.yaml"
+
+
+class RunTest(batch_fixture.BatchTestCase):
+    def test_gives_what_one_run_over_all_logs_gives(self):
+        self.write_logs(LOGS)
+        # One has no reference force.
+        path = self.folder / "runs" / LOGS[1]
+        path.write_text(path.read_text().replace("force_N", "other"))
+        output = self.run_batch("--logs_per_task", "4", "--jobs", "2")
+        self.assertIn("in 6 logs, 2 groups", output)
+        self.expect_equal_to_single()
+        before = self.times("[!.]*/**/*")
+        self.run_batch("--logs_per_task", "4")
+        self.assertEqual(self.changed("[!.]*/**/*", before), [])
+
+    def test_does_again_what_depends_on_a_change(self):
+        self.write_logs(LOGS)
+        self.run_batch("--logs_per_task", "4")
+
+        summaries, frames = self.times(GROUP_SUMMARY), self.times(FRAMES)
+        batch_fixture.write_log(self.folder / "runs/d2/b.csv", 30, 5)
+        batch_fixture.write_log(self.folder / "runs/d1/d.csv", 14, 5)
+        self.run_batch("--logs_per_task", "4")
+        self.assertEqual(self.changed(GROUP_SUMMARY, summaries),
+                         ["groups/000/001/summary.yaml"])
+        self.assertEqual(self.changed(FRAMES, frames),
+                         ["groups/000/001/d1/d.frames.csv",
+                          "groups/000/001/d2/b.frames.csv"])
+        self.expect_equal_to_single()
+
+        frames = self.times(FRAMES)
+        self.finger.write_text(self.finger.read_text() + "\n# new\n")
+        self.run_batch("--logs_per_task", "4")
+        self.assertEqual(self.changed(FRAMES, frames), sorted(frames))
+
+        (self.folder / "runs/d1/a.csv").unlink()
+        self.run_batch("--logs_per_task", "4")
+        self.expect_equal_to_single()
+
+    def test_bad_log_stops_its_group_only(self):
+        self.write_logs(LOGS)
+        self.run_batch("--logs_per_task", "2")
+        path = self.folder / "runs/d1/c.csv"
+        good = path.read_text()
+        path.write_text(good + "1,x,0,0,0,0,0,0\n")
+        output = self.run_batch("--logs_per_task", "2", code=2)
+        self.assertRegex(output, r"group 000/001 .* failed with exit code 2: .*"
+                         r"d1/c.csv:16.*\n.*2 of 3 groups are done, 1 failed")
+        self.assertFalse((self.out / "summary.yaml").exists())
+        self.assertFalse((self.out / "summary.csv").exists())
+        path.write_text(good)
+        self.run_batch("--logs_per_task", "2")
+        self.expect_equal_to_single()
+
+
+class BadInputTest(batch_fixture.BatchTestCase):
+    def expect_line(self, text, *more, code=2, **arguments):
+        output = self.run_batch(*more, code=code, **arguments)
+        self.assertIn(text, output)
+        self.assertEqual(output.count("\n"), 1, output)
+
+    def test_says_what_is_wrong_in_one_line(self):
+        self.write_logs(LOGS[:1])
+        config = self.folder / "c.yaml"
+        config.write_text("log_per_task: 3\n")
+        self.expect_line("c.yaml: unknown key 'log_per_task'; did you mean "
+                         "'logs_per_task'?", "--config", "c.yaml")
+        config.write_text("cpus_per_task: many\n")
+        self.expect_line("c.yaml: cpus_per_task: expected a whole number, not 'many'",
+                         "--config", "c.yaml")
+        config.write_text("logs_per_task: 0\n")
+        self.expect_line("logs_per_task: expected at least 1", "--config", "c.yaml")
+        self.expect_line("'--job' is not a flag", "--job", "2", code=1)
+        self.expect_line("--scheme: expected one of taylor, rigid_chain",
+                         "--scheme", "linear")
+        self.expect_line("runs/*.tsv' matches no file", logs="runs/*.tsv")
+        self.finger.write_text("schema_version: 1\nname: x\n")
+        self.expect_line("finger.yaml")
+        self.assertEqual(list(self.out.glob("groups/*")), [])
+
+    def test_names_the_package_of_snakemake(self):
+        self.write_logs(LOGS[:1])
+        self.expect_line("snakemake is not installed; the Debian package is snakemake",
+                         code=1, env={"PATH": str(self.folder)})
+
+
+if __name__ == "__main__":
+    batch_fixture.main()

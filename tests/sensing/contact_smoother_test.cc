@@ -1,0 +1,167 @@
+#include "finray/sensing/contact_smoother.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <random>
+
+#include "finray/sensing/frame_estimator.h"
+#include "test_finger.h"
+
+namespace finray {
+namespace {
+
+constexpr double kNoise = 3e-4;
+
+Scene SmoothScene(double contact_mm, double normal_N) {
+  Scene scene;
+  scene.contacts = 1;
+  scene.smoothing = {contact_mm, normal_N};
+  return scene;
+}
+
+// A contact that wanders as the scene's prior says.
+struct Walk {
+  Walk(int frames, double contact_mm, double normal_N, unsigned seed) {
+    EquilibriumSolver solver(PaperFinger(), {});
+    std::mt19937_64 generator(seed);
+    std::normal_distribution<double> normal(0, 1);
+    Eigen::Vector2d x(70, 1.5);
+    for (int i = 0; i < frames; ++i) {
+      if (i > 0) {
+        x[0] += contact_mm * normal(generator);
+        x[1] = std::max(0.5, x[1] + normal_N * normal(generator));
+      }
+      EXPECT_TRUE(solver.Solve({{x[0], x[1], 0}}));
+      truth.push_back(x);
+      readings.emplace_back();
+      for (int j = 0; j < 4; ++j) {
+        readings.back().gauges_V.push_back(solver.gauge_angle(j) +
+                                           kNoise * normal(generator));
+      }
+    }
+  }
+  std::vector<Eigen::Vector2d> truth;
+  std::vector<FrameReadings> readings;
+};
+
+TEST(ContactSmootherTest, IsTheLeastOfTheWholeCost) {
+  // A dense Gauss-Newton over all frames at once, from finite differences.
+  constexpr int kFrames = 6;
+  const Walk walk(kFrames, 0.4, 0.1, 1);
+  const Scene scene = SmoothScene(0.4, 0.1);
+  std::vector<FrameEstimate> estimates(kFrames);
+  FrameEstimator estimator(PaperFinger(), scene, {});
+  estimator.EstimateBlock(walk.readings.data(), kFrames, estimates.data());
+
+  EquilibriumSolver solver(PaperFinger(), {});
+  const auto residuals = [&](const Eigen::VectorXd& x) {
+    Eigen::VectorXd r(4 * kFrames + 2 * (kFrames - 1));
+    for (int t = 0; t < kFrames; ++t) {
+      EXPECT_TRUE(solver.Solve({{x[2 * t], x[2 * t + 1], 0}}));
+      for (int j = 0; j < 4; ++j) {
+        r[4 * t + j] =
+            (solver.gauge_angle(j) - walk.readings[t].gauges_V[j]) / kNoise;
+      }
+      if (t == 0) continue;
+      const int row = 4 * kFrames + 2 * (t - 1);
+      r[row] = (x[2 * t] - x[2 * t - 2]) / 0.4;
+      r[row + 1] = (x[2 * t + 1] - x[2 * t - 1]) / 0.1;
+    }
+    return r;
+  };
+  Eigen::VectorXd x(2 * kFrames);
+  for (int t = 0; t < kFrames; ++t) x.segment<2>(2 * t) = walk.truth[t];
+  Eigen::MatrixXd information;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::VectorXd r = residuals(x);
+    Eigen::MatrixXd slope(r.size(), x.size());
+    for (int k = 0; k < x.size(); ++k) {
+      Eigen::VectorXd up = x, down = x;
+      up[k] += 1e-5;
+      down[k] -= 1e-5;
+      slope.col(k) = (residuals(up) - residuals(down)) / 2e-5;
+    }
+    information = slope.transpose() * slope;
+    x -= information.inverse() * (slope.transpose() * r);
+  }
+  const Eigen::MatrixXd covariance = information.inverse();
+  for (int t = 0; t < kFrames; ++t) {
+    const ContactEstimate& contact = estimates[t].contact[0];
+    const double arc_std = std::sqrt(covariance(2 * t, 2 * t));
+    const double normal_std = std::sqrt(covariance(2 * t + 1, 2 * t + 1));
+    EXPECT_NEAR(contact.arc_mm, x[2 * t], 2e-3 * arc_std);
+    EXPECT_NEAR(contact.normal_N, x[2 * t + 1], 2e-3 * normal_std);
+    EXPECT_NEAR(contact.arc_std_mm / arc_std, 1, 1e-3);
+    EXPECT_NEAR(contact.normal_std_N / normal_std, 1, 1e-3);
+  }
+}
+
+TEST(ContactSmootherTest, HelpsAsMuchAsItsStdSays) {
+  constexpr int kFrames = 256;
+  const Walk walk(kFrames, 0.2, 0.03, 2);
+  FrameEstimator estimator(PaperFinger(), SmoothScene(0.2, 0.03), {});
+  Scene alone;
+  alone.contacts = 1;
+  FrameEstimator each(PaperFinger(), alone, {});
+  std::vector<FrameEstimate> estimates(kFrames);
+  double square = 0, single = 0, follow = 0, chi2 = 0, follow_chi2 = 0;
+  for (int begin = 0; begin < kFrames; begin += 64) {
+    estimator.EstimateBlock(&walk.readings[begin], 64, &estimates[begin]);
+  }
+  for (int t = 0; t < kFrames; ++t) {
+    const auto error = [&](const FrameEstimate& e) {
+      return e.contact[0].arc_mm - walk.truth[t][0];
+    };
+    const FrameEstimate followed = estimator.Follow(walk.readings[t]);
+    square += std::pow(error(estimates[t]), 2);
+    single += std::pow(error(each.Estimate(walk.readings[t])), 2);
+    follow += std::pow(error(followed), 2);
+    chi2 +=
+        std::pow(error(estimates[t]) / estimates[t].contact[0].arc_std_mm, 2);
+    follow_chi2 +=
+        std::pow(error(followed) / followed.contact[0].arc_std_mm, 2);
+  }
+  std::printf("rms error of l_c: alone %.2f, followed %.2f, smoothed %.2f mm\n",
+              std::sqrt(single / kFrames), std::sqrt(follow / kFrames),
+              std::sqrt(square / kFrames));
+  EXPECT_LT(square, 0.5 * single);
+  EXPECT_LT(square, follow);
+  EXPECT_LT(follow, single);
+  // Neighbours err together: a few dozen independent errors.
+  EXPECT_NEAR(chi2 / kFrames, 1, 0.4);
+  EXPECT_NEAR(follow_chi2 / kFrames, 1, 0.4);
+}
+
+TEST(ContactSmootherTest, ARunEndsWhereTheContactDoes) {
+  // Two contacts far apart with free frames between them: nothing drags one
+  // towards the other.
+  Walk walk(12, 0.01, 0.01, 3);
+  EquilibriumSolver solver(PaperFinger(), {});
+  for (int t = 4; t < 12; ++t) {
+    if (t < 8) {
+      ASSERT_TRUE(solver.Solve({}));
+    } else {
+      ASSERT_TRUE(solver.Solve({{95, 4, 0}}));
+    }
+    for (int j = 0; j < 4; ++j) {
+      walk.readings[t].gauges_V[j] = solver.gauge_angle(j);
+    }
+  }
+  Scene scene = SmoothScene(0.05, 0.01);
+  scene.contacts.reset();
+  FrameEstimator estimator(PaperFinger(), scene, {});
+  std::vector<FrameEstimate> estimates(12);
+  estimator.EstimateBlock(walk.readings.data(), 12, estimates.data());
+  for (int t = 4; t < 8; ++t) {
+    EXPECT_EQ(estimates[t].status, FrameStatus::kNoContact);
+  }
+  for (int t = 8; t < 12; ++t) {
+    EXPECT_NEAR(estimates[t].contact[0].arc_mm, 95, 1e-3);
+    EXPECT_NEAR(estimates[t].contact[0].normal_N, 4, 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace finray

@@ -1,0 +1,43 @@
+#include "finray/sensing/estimated_force.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "finray/sensing/simulation.h"
+#include "test_finger.h"
+
+namespace finray {
+namespace {
+
+// The reference force of a simulated frame of two contacts.
+TEST(EstimatedForceTest, IsWhatASensorUnderTheFingerMeasures) {
+  Scene scene;
+  scene.friction_coefficient = 0.3;
+  FrameTable frames(1);
+  const double arc[] = {40, 110}, normal[] = {3, 2};
+  for (int c = 0; c < 2; ++c) {
+    const std::string index = std::to_string(c + 1);
+    frames.MutableNumbers("contact_" + index + "_mm")[0] = arc[c];
+    frames.MutableNumbers("normal_" + index + "_N")[0] = normal[c];
+  }
+  Simulate(PaperFinger(), scene, {}, &frames);
+  FrameEstimate estimate;
+  estimate.contacts = 2;
+  for (int c = 0; c < 2; ++c) {
+    estimate.contact[c].arc_mm = arc[c];
+    estimate.contact[c].normal_N = normal[c];
+    estimate.contact[c].pose.z() =
+        frames.Numbers("contact_" + std::to_string(c + 1) + "_angle_rad")[0];
+  }
+  const double force = EstimatedForce(estimate, 0.3);
+  EXPECT_NEAR(force, frames.Numbers("force_N")[0], 1e-12);
+  EXPECT_LT(force, 5 * std::hypot(1, 0.3) - 1e-3);  // they are not parallel
+
+  estimate.contacts = 1;
+  EXPECT_NEAR(EstimatedForce(estimate, 0.3), 3 * std::hypot(1, 0.3), 1e-14);
+  EXPECT_TRUE(std::isnan(EstimatedForce(FrameEstimate(), 0.3)));
+}
+
+}  // namespace
+}  // namespace finray

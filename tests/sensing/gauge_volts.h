@@ -1,0 +1,34 @@
+#ifndef FINRAY_TESTS_SENSING_GAUGE_VOLTS_H_
+#define FINRAY_TESTS_SENSING_GAUGE_VOLTS_H_
+
+#include <cmath>
+#include <vector>
+
+#include "finray/statics/equilibrium.h"
+
+namespace finray {
+
+/// What the gauges of a solved finger read without noise.
+inline std::vector<double> Volts(const EquilibriumSolver& solver) {
+  std::vector<double> volts;
+  for (int j = 0; j < solver.model().gauges(); ++j) {
+    const Gauge& gauge = solver.model().finger().gauges[j];
+    volts.push_back(gauge.gain_V_per_rad * solver.gauge_angle(j) +
+                    gauge.offset_V);
+  }
+  return volts;
+}
+
+/// 1 / std of the angles.
+inline Eigen::VectorXd Weights(const Finger& finger) {
+  Eigen::VectorXd weights(finger.gauges.size());
+  for (Eigen::Index j = 0; j < weights.size(); ++j) {
+    weights[j] =
+        std::abs(finger.gauges[j].gain_V_per_rad) / finger.gauges[j].noise_V;
+  }
+  return weights;
+}
+
+}  // namespace finray
+
+#endif  // FINRAY_TESTS_SENSING_GAUGE_VOLTS_H_
