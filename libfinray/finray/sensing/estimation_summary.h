@@ -24,7 +24,8 @@ struct EstimationSummary {
   /// Solved, but neither the finger as described nor its noise makes such
   /// readings: p-value of chi2 below FrameEstimator::kUnexplained.
   std::size_t unexplained = 0;
-  /// Against the log's own force_N, where it has one and the frame was solved.
+  /// Against the log's own force_N, where it has one and the frame is ok or
+  /// no_contact.
   std::size_t force_compared = 0;
   double force_squares_N2 = 0;
   double force_max_N = 0;
