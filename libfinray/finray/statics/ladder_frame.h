@@ -63,8 +63,8 @@ constexpr int kMapEnd = 0, kMapStart = 4, kMapStiffness = 20, kMapLength = 24,
               kMapValues = 28;
 /// One readout: angle, its derivatives by the start, EI, offset and length.
 constexpr int kReadoutValues = 8;
-/// Columns needed of each node's rows: six parameters, the step, and derivatives
-/// by the load or by up to kFittedContacts contacts.
+/// Columns needed of each node's rows: six parameters, the step, and
+/// derivatives by the load or by up to kFittedContacts contacts.
 constexpr int kNodeColumns = 8, kMostNodeColumns = 16;
 constexpr int kFittedContacts = 2;
 /// Elements between two looks at the growth of a sweep's columns; none grows by
