@@ -39,7 +39,7 @@ bool Sweep(Frame& frame, SweepColumns columns, bool readouts) {
 }
 
 // One contact's derivatives and nothing else.
-using SweeperFour = LadderSweeper<FourFrames, 9>;
+constexpr int kFourColumns = 9;
 
 template <class Element>
 void EvaluateFour(LadderFrame<FourFrames>& frame) {
@@ -48,18 +48,21 @@ void EvaluateFour(LadderFrame<FourFrames>& frame) {
 }
 
 bool SweepFour(LadderFrame<FourFrames>& frame) {
-  return SweeperFour(&frame, SweepColumns::kContacts, false).Run(true);
+  return LadderSweeper<FourFrames, kFourColumns>(&frame,
+                                                 SweepColumns::kContacts, false)
+      .Run(true);
 }
 
 void StepFour(LadderFrame<FourFrames>& frame) {
-  SweeperFour(&frame, SweepColumns::kContacts, false).Combine(2);
+  LadderWalkBack<FourFrames, kFourColumns>(&frame, SweepColumns::kContacts)
+      .Combine(2);
   // The five fields of a state lie one behind the other.
   const int count = 6 + frame.ribs + 4 * frame.elements;
   for (int i = 0; i < count; ++i) frame.state.q[i] += frame.step.q[i];
 }
 
 void Combine(Frame& frame) {
-  LadderSweeper<double, 0>(&frame, SweepColumns::kContacts, false)
+  LadderWalkBack<double, 0>(&frame, SweepColumns::kContacts)
       .Combine(2 * frame.contact_count);
 }
 

@@ -2,23 +2,38 @@
 #define FINRAY_STATICS_LADDER_SWEEP_H_
 
 #include "finray/statics/ladder_evaluate.h"
+#include "finray/statics/ladder_walk_back.h"
 
 namespace finray {
 inline namespace FINRAY_ISA {
 
-// The second half of a Newton step (ladder_kernel.h). Rows hold the change of
-// one quantity as [parameters | constant | derivatives], kVectors vectors long
-// (0: as many as the frame says).
+// The second half of a Newton step (ladder_kernel.h): both beams are walked
+// from base to tip, and back (ladder_walk_back.h) if the tip is not left open.
 template <class T, int kVectors>
-class LadderSweeper {
- public:
-  using Scalar = typename ValueTraits<T>::Scalar;
-  using V = typename Lanes<T>::Vector;
-  using U = typename Lanes<T>::Unaligned;
-  static constexpr int kWidth = Lanes<T>::kWidth;
+class LadderSweeper : private LadderRows<T, kVectors> {
+  using Rows = LadderRows<T, kVectors>;
+  using Rows::Add;
+  using Rows::Broadcast;
+  using Rows::Clear;
+  using Rows::Copy;
+  using Rows::f_;
+  using Rows::kNode;
+  using Rows::kPivot;
+  using Rows::kTap;
+  using Rows::kWidth;
+  using Rows::Node;
+  using Rows::stride;
+  using Rows::Tap;
+  using Rows::vectors;
+  using Rows::Wide;
+  using typename Rows::Event;
+  using typename Rows::Scalar;
+  using typename Rows::U;
+  using typename Rows::V;
 
+ public:
   LadderSweeper(LadderFrame<T>* frame, SweepColumns columns, bool open)
-      : f_(*frame), columns_(columns), open_(open) {}
+      : Rows(frame), columns_(columns), open_(open) {}
 
   // Without readouts their taps keep what they held.
   bool Run(bool readouts) {
@@ -39,53 +54,21 @@ class LadderSweeper {
     CloseTip();
     if (open_) return true;
     if (!EliminateTip()) return false;
-    WalkBack();
+    f_.event_count = events_;
+    LadderWalkBack<T, kVectors>(&f_, columns_).Run();
     return true;
-  }
-
-  // The walk back once more, for the frame's `newton` and `change`.
-  void Combine(int derivatives) {
-    T with[kMostNodeColumns] = {};  // parameters, 1, change
-    with[affine()] = f_.newton;
-    for (int k = 0; k < derivatives; ++k) with[affine() + 1 + k] = f_.change[k];
-    LadderNodes<T>& step = f_.step;
-    for (int i = f_.event_count - 1; i >= 0; --i) {
-      const int event = f_.events[i] % 4, index = f_.events[i] / 4;
-      if (event == kNode) FinishNodeWith(with, &step, index);
-      if (event != kPivot) continue;
-      const T* g = f_.pivots + index * stride();
-      const int column = f_.pivot_column[index];
-      const T exchanged = with[column];
-      if (f_.pivot_rib[index] >= 0) step.q[6 + f_.pivot_rib[index]] = exchanged;
-      T sum = f_.pivot_flexibility[index] * exchanged;
-      with[column] = T{};
-      for (int k = 0; k <= affine() + derivatives; ++k) sum -= g[k] * with[k];
-      with[column] = sum / g[column];
-    }
-    for (int j = 0; j < 6; ++j) step.q[j] = with[j];
-    for (int side = 0; side < 2; ++side) {
-      const int base = side == 0 ? 0 : f_.front_elements;
-      step.x[base] = step.y[base] = step.theta[base] = T{};
-      step.moment[base] = step.q[3 * side];
-    }
   }
 
  private:
   enum Row { kX, kY, kTheta, kMoment, kForceX, kForceY, kRows };
-  enum Event { kNode, kTap, kPivot };
   // Beyond this the parameters are exchanged: it costs as many digits of a
   // step, which Newton's next one corrects.
   static constexpr Scalar kLargestGrowth = 1000;
   static constexpr int kParameterVectors = (6 + kWidth - 1) / kWidth;
 
-  int vectors() const { return kVectors > 0 ? kVectors : f_.stride / kWidth; }
-  int stride() const { return vectors() * kWidth; }
   int affine() const { return open_ ? f_.affine : 6; }
-  // The first vector that the walk back has values in.
-  int first_value() const { return affine() / kWidth; }
   // The rows of a node's position, angle and moment lie where they are kept;
   // behind the nodes come both tips and, on either side, a contact.
-  T* Node(int e) const { return f_.node_rows + 4 * stride() * e; }
   T* TipNode(int side) const { return Node(f_.elements + side); }
   T* ContactNode(int side) const { return Node(f_.elements + 2 + side); }
   T* RowOf(int side, int row) const {
@@ -93,22 +76,7 @@ class LadderSweeper {
                          : f_.rows + (2 * side + row - kForceX) * stride();
   }
   T* RowOf(int i) const { return RowOf(i / kRows, i % kRows); }
-  T* Tap(int tap) const { return f_.taps + tap * stride(); }
 
-  static V Broadcast(const T& value) { return value - V{}; }
-  static U* Wide(T* row) { return reinterpret_cast<U*>(row); }
-  static const U* Wide(const T* row) { return reinterpret_cast<const U*>(row); }
-  void Clear(T* row) const {
-    for (int v = 0; v < vectors(); ++v) Wide(row)[v] = V{};
-  }
-  void Copy(const T* from, T* to) const {
-    for (int v = 0; v < vectors(); ++v) Wide(to)[v] = Wide(from)[v];
-  }
-  // to += a from
-  void Add(const T& a, const T* from, T* to) const {
-    const V wide = Broadcast(a);
-    for (int v = 0; v < vectors(); ++v) Wide(to)[v] += wide * Wide(from)[v];
-  }
   void Log(Event event, int index) { f_.events[events_++] = 4 * index + event; }
 
   bool parameters() const { return columns_ == SweepColumns::kParameters; }
@@ -406,109 +374,6 @@ class LadderSweeper {
     return true;
   }
 
-  // From the tip, where no parameter is left, back to the base; `p` holds their
-  // values [constant | derivatives] in columns from `affine` on.
-  void WalkBack() {
-    f_.event_count = events_;
-    const bool nodes = columns_ != SweepColumns::kContacts;
-    for (int j = 0; j < 6; ++j) Clear(f_.parameters + j * stride());
-    while (events_ > 0) {
-      const int event = f_.events[--events_];
-      const int index = event / 4;
-      switch (event % 4) {
-        case kNode:
-          if (nodes) FinishNode(index);
-          break;
-        case kTap:
-          FinishRow(Tap(index));
-          break;
-        case kPivot:
-          UndoExchange(index);
-          break;
-      }
-    }
-    for (int j = 0; j < 6; ++j) {
-      Copy(f_.parameters + j * stride(), f_.q_step + j * stride());
-    }
-    if (!nodes) return;
-    const int load = affine() + 1;
-    for (int i = 0; i < 6 + f_.ribs; ++i) {
-      f_.step.q[i] = f_.q_step[i * stride() + affine()];
-      if (by_load()) f_.by_load.q[i] = f_.q_step[i * stride() + load];
-    }
-    for (int side = 0; side < 2; ++side) {
-      const int base = side == 0 ? 0 : f_.front_elements;
-      for (const LadderNodes<T>* z : {&f_.step, &f_.by_load}) {
-        if (z == &f_.by_load && !by_load()) break;
-        z->x[base] = z->y[base] = z->theta[base] = T{};
-        z->moment[base] = z->q[3 * side];
-      }
-    }
-  }
-
-  void FinishNode(int e) {
-    T with[kMostNodeColumns] = {};
-    for (int column = affine(); column <= affine() + by_load(); ++column) {
-      for (int j = 0; j < 6; ++j) {
-        with[j] = f_.parameters[j * stride() + column];
-      }
-      with[column] = T{} + Scalar(1);
-      if (column > affine()) with[affine()] = T{};
-      FinishNodeWith(with, column == affine() ? &f_.step : &f_.by_load, e);
-    }
-  }
-
-  // The change of node e where columns are taken times `with`.
-  void FinishNodeWith(const T* with, LadderNodes<T>* z, int e) const {
-    const T* kept = Node(e);
-    T change[4];
-    for (int i = 0; i < 4; ++i) {
-      V sum = V{};
-      for (int v = 0; v < f_.node_columns / kWidth; ++v) {
-        sum += Wide(kept + stride() * i)[v] * Wide(with)[v];
-      }
-      change[i] = reinterpret_cast<const T*>(&sum)[0];
-      for (int lane = 1; lane < kWidth; ++lane) change[i] += sum[lane];
-    }
-    z->x[e] = change[0];
-    z->y[e] = change[1];
-    z->theta[e] = change[2];
-    z->moment[e] = change[3];
-  }
-
-  void FinishRow(T* row) const {
-    V by[6];
-    for (int j = 0; j < 6; ++j) by[j] = Broadcast(row[j]);
-    for (int v = first_value(); v < vectors(); ++v) {
-      V sum = Wide(row)[v];
-      for (int j = 0; j < 6; ++j) {
-        sum += by[j] * Wide(f_.parameters + j * stride())[v];
-      }
-      Wide(row)[v] = sum;
-    }
-  }
-
-  void UndoExchange(int pivot) {
-    const T* g = f_.pivots + pivot * stride();
-    const int column = f_.pivot_column[pivot];
-    T* exchanged = f_.parameters + column * stride();
-    if (f_.pivot_rib[pivot] >= 0) {
-      Copy(exchanged, f_.q_step + (6 + f_.pivot_rib[pivot]) * stride());
-    }
-    const V kappa = Broadcast(f_.pivot_flexibility[pivot]);
-    const V inverse = Broadcast(Scalar(1) / g[column]);
-    for (int v = first_value(); v < vectors(); ++v) {
-      V sum = kappa * Wide(exchanged)[v] - Wide(g)[v];
-      for (int j = 0; j < 6; ++j) {
-        if (j != column) {
-          sum -= Broadcast(g[j]) * Wide(f_.parameters + j * stride())[v];
-        }
-      }
-      Wide(exchanged)[v] = sum * inverse;
-    }
-  }
-
-  LadderFrame<T>& f_;
   const SweepColumns columns_;
   const bool open_;
   int events_ = 0, pivots_ = 0, since_check_ = 0;
