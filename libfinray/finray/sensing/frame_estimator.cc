@@ -175,6 +175,7 @@ bool FrameEstimator::TakeFollowed(const FrameReadings& readings,
   estimate->chi2 = fit.chi2;
   estimate->dof = static_cast<int>(finger_.gauges.size()) - kUnknowns;
   estimate->iterations = fit.iterations;
+  if (estimate->p_value() < kUnexplained) return false;
   Judge(readings, measurements_[frame].weights, estimate);
   return true;
 }
