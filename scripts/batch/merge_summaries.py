@@ -1,7 +1,4 @@
-#!/usr/bin/python3
 """summary.csv and summary.yaml of all groups' ones, in the order of all logs.
-
-Usage: merge_summaries.py OUT_DIR
 
 What a group's summaries say of a log is copied as it stands. The totals add up in
 the order of the logs, so that they are those of one finray_estimate over all of
@@ -11,7 +8,6 @@ them to the last bit.
 import csv
 import math
 import os
-import sys
 
 from batch_config import BadInput
 from plan_groups import write_if_changed
@@ -109,11 +105,21 @@ def group_entries(folder):
     rows = list(csv.DictReader(lines))
     yaml_logs = read_text(os.path.join(folder, "summary.yaml")).rpartition("all:\n")[0]
     yaml_head, *entries = ("\n" + yaml_logs).split("\n" + LOG_ENTRY)
-    if not len(rows) == len(lines) - 1 == len(entries):
-        raise BadInput(f"{folder}/summary.yaml: expected the logs of summary.csv")
+    if (not len(rows) == len(lines) - 1 == len(entries)
+            or any("log" not in row for row in rows)):
+        raise BadInput(f"{folder}/summary.yaml: expected the logs of summary.csv; "
+                       "remove it, and its group is done again")
     logs = {row["log"]: (line, row, LOG_ENTRY + entry.removesuffix("\n") + "\n")
             for line, row, entry in zip(lines[1:], rows, entries)}
     return (lines[0], yaml_head[1:] + "\n"), logs
+
+
+def add_row(row, group, totals):
+    try:
+        totals.add(row)
+    except (ValueError, KeyError, TypeError) as error:
+        raise BadInput(f"groups/{group}/summary.csv: the row of '{row['log']}' is "
+                       "none of finray_estimate's") from error
 
 
 def merge(out_dir):
@@ -137,27 +143,10 @@ def merge(out_dir):
         line, row, entry = entries[log, group]
         csv_lines.append(line)
         yaml_entries.append(entry)
-        totals.add(row)
+        add_row(row, group, totals)
     (csv_head, yaml_head), = heads
     write_if_changed(os.path.join(out_dir, "summary.csv"),
                      csv_head + "".join(csv_lines))
     write_if_changed(os.path.join(out_dir, "summary.yaml"),
                      yaml_head + "".join(yaml_entries) + totals.yaml())
     return totals
-
-
-def totals_of(out_dir):
-    """Of summaries that are there."""
-    totals = Totals()
-    with open(os.path.join(out_dir, "summary.csv"), encoding="utf-8",
-              errors="surrogateescape", newline="") as file:
-        for row in csv.DictReader(file):
-            totals.add(row)
-    return totals
-
-
-if __name__ == "__main__":
-    try:
-        merge(*sys.argv[1:])
-    except (BadInput, OSError) as bad:
-        sys.exit(f"merge_summaries: {bad}")

@@ -61,6 +61,31 @@ class RunTest(batch_fixture.BatchTestCase):
         self.expect_equal_to_single()
 
 
+    def test_says_why_a_merge_failed(self):
+        self.write_logs(LOGS)
+        self.run_batch("--logs_per_task", "4")
+        merged = (self.out / "summary.csv").read_bytes()
+        # The overall summary cannot be written.
+        (self.out / "summary.csv").unlink()
+        (self.out / "summary.csv.new").mkdir()
+        self.assertIn("run: all groups are done, but the overall summary cannot be "
+                      f"written: {self.out}/summary.csv.new: Is a directory\n",
+                      self.run_batch("--logs_per_task", "4", code=1))
+        (self.out / "summary.csv.new").rmdir()
+        # A group's is not what finray_estimate has written.
+        path = self.out / "groups/000/001/summary.csv"
+        good = path.read_text()
+        path.write_text(good.replace(",13,", ",many,").replace(",16,", ",many,"))
+        self.assertIn("run: groups/000/001/summary.csv: the row of '",
+                      self.run_batch("--logs_per_task", "4", code=2))
+        path.write_text(good + good.splitlines(keepends=True)[1])
+        self.assertIn("summary.yaml: expected the logs of summary.csv",
+                      self.run_batch("--logs_per_task", "4", code=2))
+        path.write_text(good)
+        self.run_batch("--logs_per_task", "4")
+        self.assertEqual((self.out / "summary.csv").read_bytes(), merged)
+
+
 class BadInputTest(batch_fixture.BatchTestCase):
     def expect_line(self, text, *more, code=2, **arguments):
         output = self.run_batch(*more, code=code, **arguments)
