@@ -103,6 +103,13 @@ class BadInputTest(batch_fixture.BatchTestCase):
                          "--config", "c.yaml")
         config.write_text("logs_per_task: 0\n")
         self.expect_line("logs_per_task: expected at least 1", "--config", "c.yaml")
+        config.write_bytes(b"minutes: 3\nscene: \xff\n")
+        self.expect_line("c.yaml:2:8: expected text in UTF-8", "--config", "c.yaml")
+        config.write_bytes(b"minutes: 3\nscene: a\x07\n")
+        self.expect_line("c.yaml:2:9: character 0x7 is not allowed in YAML",
+                         "--config", "c.yaml")
+        config.write_text("minutes: [3\n")
+        self.expect_line("c.yaml:2:1: ", "--config", "c.yaml")
         self.expect_line("'--job' is not a flag", "--job", "2", code=1)
         self.expect_line("--scheme: expected one of taylor, rigid_chain",
                          "--scheme", "linear")
