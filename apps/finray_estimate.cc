@@ -26,6 +26,8 @@ DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
 DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
 DEFINE_bool(dump_config, false, "print what is in force, and stop");
 DEFINE_bool(strict, false, "fail if any frame is not_converged or bad_input");
+DEFINE_bool(keep_going, false,
+            "leave out logs that are bad input, list them in summary.yaml");
 DEFINE_bool(follow, false,
             "a log from standard input, each row at once to standard output");
 
@@ -48,11 +50,21 @@ std::vector<LogJob> MakeJobs(const BatchSettings& settings) {
   return jobs;
 }
 
-// All logs, before anything is written. False if told to stop.
-bool CheckAll(std::vector<LogJob>* jobs) {
+// All logs, before anything is written. Bad ones are an error, or moved to
+// `bad`. False if told to stop.
+bool CheckAll(std::vector<LogJob>* jobs, std::vector<BadLog>* bad) {
+  std::vector<LogJob> good;
   for (LogJob& job : *jobs) {
-    if (!job.Check()) return false;
+    try {
+      if (!job.Check()) return false;
+      good.push_back(std::move(job));
+    } catch (const InputError& error) {
+      if (!FLAGS_keep_going) throw;
+      std::cerr << "finray_estimate: " << error.what() << "\n";
+      bad->push_back({job.log(), error.what()});
+    }
   }
+  jobs->swap(good);
   return true;
 }
 
@@ -119,7 +131,7 @@ void PrintSummary(const std::vector<LogJob>& jobs, const ProgressBar& bar) {
 // Live rows go from one pipe to the other, one by one.
 void RefuseBatchFlags() {
   for (const char* flag :
-       {"logs", "logs_root", "out_dir", "resume", "threads"}) {
+       {"logs", "logs_root", "out_dir", "resume", "threads", "keep_going"}) {
     if (!gflags::GetCommandLineFlagInfoOrDie(flag).is_default) {
       throw UsageError(std::string("--") + flag + " does not go with --follow");
     }
@@ -149,7 +161,8 @@ int Run() {
   StopSignal::Install();
 
   std::vector<LogJob> jobs = MakeJobs(settings);
-  if (!CheckAll(&jobs)) return Interrupted("before the first frame");
+  std::vector<BadLog> bad_logs;
+  if (!CheckAll(&jobs, &bad_logs)) return Interrupted("before the first frame");
   FrameSolverPool pool(
       FrameSolvers(settings.finger, settings.scene, settings.discretization));
   MakeFolders(jobs);
@@ -166,8 +179,10 @@ int Run() {
   }
 
   BatchTable(jobs).Write(InFolder("summary.csv"));
-  WriteFileAtomically(InFolder("summary.yaml"), BatchYaml(settings, jobs));
+  WriteFileAtomically(InFolder("summary.yaml"),
+                      BatchYaml(settings, jobs, bad_logs));
   PrintSummary(jobs, bar);
+  if (!bad_logs.empty()) return kBadInput;
   const EstimationSummary all = Total(jobs);
   return all.unsolved() == all.frames || (FLAGS_strict && all.unsolved() > 0)
              ? kSolveFailed

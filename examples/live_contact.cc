@@ -1,4 +1,4 @@
-// Contact from four gauges, frame by frame.
+// Contact from the gauges of a finger, frame by frame.
 
 #include <cstdio>
 
@@ -7,15 +7,17 @@
 
 int main(int argc, char** argv) {
   if (argc != 2) return 1;
+  const finray::Finger finger = finray::ReadFinger(argv[1]);
   finray::Scene scene;
   scene.contacts = 1;
-  finray::LiveEstimator estimator(finray::ReadFinger(argv[1]), scene);
+  finray::LiveEstimator estimator(finger, scene);
   finray::FrameReadings readings;
-  readings.gauges_V.resize(4);
-  double* volts = readings.gauges_V.data();
-  // Instead of your sensor: four volts a line.
-  while (std::scanf("%lf %lf %lf %lf", volts, volts + 1, volts + 2,
-                    volts + 3) == 4) {
+  readings.gauges_V.resize(finger.gauges.size());
+  while (true) {
+    // Instead of your sensor: a line of volts, one for each gauge.
+    for (double& volts : readings.gauges_V) {
+      if (std::scanf("%lf", &volts) != 1) return 0;
+    }
     const finray::FrameEstimate& estimate = estimator.Next(readings);
     const finray::ContactEstimate& contact = estimate.contact[0];
     std::printf("%s %.2f mm %.3f N\n", finray::StatusName(estimate.status),

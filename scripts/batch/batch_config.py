@@ -21,12 +21,27 @@ class BadUsage(Exception):
     """One line for the user."""
 
 
+def place_of(path, before):
+    """path:line:column, of the byte or character behind `before`."""
+    newline = b"\n" if isinstance(before, bytes) else "\n"
+    line = before.count(newline)
+    return f"{path}:{line + 1}:{len(before) - before.rfind(newline)}"
+
+
 def read_yaml(path):
     try:
-        with open(path, encoding="utf-8") as file:
-            content = yaml.safe_load(file)
+        with open(path, "rb") as file:
+            raw = file.read()
+        text = raw.decode("utf-8")
+        content = yaml.safe_load(text)
     except OSError as error:
         raise BadInput(f"{path}: cannot be read: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise BadInput(f"{place_of(path, raw[:error.start])}: "
+                       "expected text in UTF-8") from error
+    except yaml.reader.ReaderError as error:
+        raise BadInput(f"{place_of(path, text[:error.position])}: character "
+                       f"{error.character:#x} is not allowed in YAML") from error
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark
         raise BadInput(f"{path}:{mark.line + 1}:{mark.column + 1}: "

@@ -1,7 +1,4 @@
-#!/usr/bin/python3
 """summary.csv and summary.yaml of all groups' ones, in the order of all logs.
-
-Usage: merge_summaries.py OUT_DIR
 
 What a group's summaries say of a log is copied as it stands. The totals add up in
 the order of the logs, so that they are those of one finray_estimate over all of
@@ -9,15 +6,19 @@ them to the last bit.
 """
 
 import csv
+import dataclasses
 import math
 import os
-import sys
+
+import yaml
 
 from batch_config import BadInput
 from plan_groups import write_if_changed
 
 SUMMARIES = ("summary.csv", "summary.yaml")
 LOG_ENTRY = "  - log: "
+NO_LOGS = "  []\n"
+BAD_LOGS = "bad_logs:\n"
 
 
 def number_text(value):
@@ -47,17 +48,18 @@ def number_text(value):
 
 
 class Totals:
-    def __init__(self):
+    def __init__(self, columns):
+        """Of summary.csv."""
         self.frames, self.compared, self.squares_N2 = 0, 0, 0.0
-        self.status, self.unexplained = {}, 0
+        self.status = {status: 0 for status in columns[
+            columns.index("frames") + 1:columns.index("force_compared_frames")]}
+        self.unexplained = 0
         self.max_N, self.max_text = -1.0, ""
 
     def add(self, row):
         self.frames += int(row["frames"])
-        columns = list(row)
-        for status in columns[columns.index("frames") + 1:
-                              columns.index("force_compared_frames")]:
-            self.status[status] = self.status.get(status, 0) + int(row[status])
+        for status in self.status:
+            self.status[status] += int(row[status])
         self.unexplained += int(row["unexplained_frames"])
         compared = int(row["force_compared_frames"])
         if compared == 0:
@@ -103,61 +105,80 @@ def read_text(path):
         return file.read()
 
 
-def group_entries(folder):
-    """CSV head, YAML head and, by log, (CSV line, its cells, YAML entry)."""
+@dataclasses.dataclass
+class Group:
+    """A group's summaries. Texts are as they stand there."""
+
+    heads: tuple  # of the CSV and the YAML file
+    logs: dict    # by log (CSV line, its cells, YAML entry)
+    bad: dict     # by log its YAML entry
+
+
+def entries_of(text):
+    """What is before them, and a list of logs' entries."""
+    head, *entries = ("\n" + text).split("\n" + LOG_ENTRY)
+    return head[1:] + "\n", [LOG_ENTRY + entry.removesuffix("\n") + "\n"
+                             for entry in entries]
+
+
+def read_group(folder):
     lines = read_text(os.path.join(folder, "summary.csv")).splitlines(keepends=True)
     rows = list(csv.DictReader(lines))
-    yaml_logs = read_text(os.path.join(folder, "summary.yaml")).rpartition("all:\n")[0]
-    yaml_head, *entries = ("\n" + yaml_logs).split("\n" + LOG_ENTRY)
-    if not len(rows) == len(lines) - 1 == len(entries):
-        raise BadInput(f"{folder}/summary.yaml: expected the logs of summary.csv")
-    logs = {row["log"]: (line, row, LOG_ENTRY + entry.removesuffix("\n") + "\n")
-            for line, row, entry in zip(lines[1:], rows, entries)}
-    return (lines[0], yaml_head[1:] + "\n"), logs
+    logs_text, _, all_text = read_text(
+        os.path.join(folder, "summary.yaml")).rpartition("\nall:\n")
+    yaml_head, entries = entries_of(logs_text)
+    yaml_head = yaml_head.removesuffix(NO_LOGS)
+    if (not len(rows) == len(lines) - 1 == len(entries)
+            or any("log" not in row for row in rows)):
+        raise BadInput(f"{folder}/summary.yaml: expected the logs of summary.csv; "
+                       "remove it, and its group is done again")
+    _, bad = entries_of(all_text.partition("\n" + BAD_LOGS)[2])
+    return Group((lines[0], yaml_head),
+                 {row["log"]: (line, row, entry)
+                  for line, row, entry in zip(lines[1:], rows, entries)},
+                 {yaml.safe_load(entry)[0]["log"]: entry for entry in bad})
+
+
+def add_row(row, group, totals):
+    try:
+        totals.add(row)
+    except (ValueError, KeyError, TypeError) as error:
+        raise BadInput(f"groups/{group}/summary.csv: the row of '{row['log']}' is "
+                       "none of finray_estimate's") from error
 
 
 def merge(out_dir):
-    """Writes both summaries and returns the totals."""
+    """Writes both summaries. Returns the totals and the reasons of bad logs."""
     order = csv.DictReader(read_text(os.path.join(out_dir, "plan", "order.csv"))
                            .splitlines())
     order = [(row["log"], row["group"]) for row in order]
-    heads, entries = {}, {}
-    for group in dict.fromkeys(group for _, group in order):
-        head, logs = group_entries(os.path.join(out_dir, "groups", group))
-        heads.setdefault(head, group)
-        entries.update(((log, group), entry) for log, entry in logs.items())
+    groups = {group: read_group(os.path.join(out_dir, "groups", group))
+              for group in dict.fromkeys(group for _, group in order)}
+    heads = {}
+    for name, group in groups.items():
+        heads.setdefault(group.heads, name)
     if len(heads) > 1:
         first, other, *_ = heads.values()
         raise BadInput(f"groups {first} and {other} were done by different versions, "
                        "schemes or fingers")
-    totals, csv_lines, yaml_entries = Totals(), [], []
-    for log, group in order:
-        if (log, group) not in entries:
-            raise BadInput(f"group {group}: its summary lacks '{log}'")
-        line, row, entry = entries[log, group]
-        csv_lines.append(line)
-        yaml_entries.append(entry)
-        totals.add(row)
     (csv_head, yaml_head), = heads
+    totals = Totals(csv_head.rstrip("\r\n").split(","))
+    csv_lines, yaml_entries, bad_entries = [], [], []
+    for log, name in order:
+        group = groups[name]
+        if log in group.logs:
+            line, row, entry = group.logs[log]
+            csv_lines.append(line)
+            yaml_entries.append(entry)
+            add_row(row, name, totals)
+        elif log in group.bad:
+            bad_entries.append(group.bad[log])
+        else:
+            raise BadInput(f"group {name}: its summary lacks '{log}'")
     write_if_changed(os.path.join(out_dir, "summary.csv"),
                      csv_head + "".join(csv_lines))
+    bad_text = BAD_LOGS + "".join(bad_entries) if bad_entries else ""
     write_if_changed(os.path.join(out_dir, "summary.yaml"),
-                     yaml_head + "".join(yaml_entries) + totals.yaml())
-    return totals
-
-
-def totals_of(out_dir):
-    """Of summaries that are there."""
-    totals = Totals()
-    with open(os.path.join(out_dir, "summary.csv"), encoding="utf-8",
-              errors="surrogateescape", newline="") as file:
-        for row in csv.DictReader(file):
-            totals.add(row)
-    return totals
-
-
-if __name__ == "__main__":
-    try:
-        merge(*sys.argv[1:])
-    except (BadInput, OSError) as bad:
-        sys.exit(f"merge_summaries: {bad}")
+                     yaml_head + ("".join(yaml_entries) or NO_LOGS)
+                     + totals.yaml() + bad_text)
+    return totals, [yaml.safe_load(entry)[0]["reason"] for entry in bad_entries]

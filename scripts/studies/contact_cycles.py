@@ -87,10 +87,7 @@ class Tools:
         self.run("finray_simulate", finger=self.finger, scene=self.scene,
                  frames=write(self.out / "calibration.in.csv", columns), out=self.out / "calibration.truth.csv",
                  log_out=log, seed=11)
-        # The gauges' own noise_V is the std to calibrate with.
-        plan = self.out / "plan.yaml"
-        plan.write_text((ROOT / "configs" / "plans" / "force_and_circle.yaml").read_text().replace(
-            "gauge_std_V: 0.0003, ", ""))
+        plan = ROOT / "configs" / "plans" / "force_and_circle.yaml"
         self.run("finray_calibrate", finger=start, plan=plan, logs=log, out_dir=self.out / "calibration")
         return self.out / "calibration" / "finger.yaml"
 

@@ -202,6 +202,47 @@ TEST_F(BatchTest, BadListsAndLogsAreFoundBeforeAnythingIsWritten) {
       "b.csv:20002:4: gauge_3_V: expected a number, found 'oops'");
 }
 
+TEST_F(BatchTest, KeepsGoingWithoutBadLogs) {
+  for (int i = 0; i < 3; ++i) {
+    WriteLog("runs/" + std::to_string(i) + ".csv", 300, i);
+  }
+  ASSERT_EQ(Run("finray_estimate",
+                Arguments("%runs/0.csv,%runs/2.csv", "--out_dir %good"))
+                .code,
+            0);
+  std::ofstream(folder_.Path("runs/1.csv"), std::ios::app)
+      << "1,0.1,0.1,oops,0.1,1,x\n";
+  const std::string log = folder_.Path("runs/1.csv");
+  const std::string reason =
+      log + ":302:4: gauge_3_V: expected a number, found 'oops'";
+  const Outcome outcome =
+      Run("finray_estimate",
+          Arguments("'%runs/*.csv'", "--keep_going --out_dir %all"));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("finray_estimate: " + reason + "\n"));
+  EXPECT_THAT(outcome.output, HasSubstr("600 in 2 logs"));
+
+  const auto good = Files("good"), all = Files("all");
+  EXPECT_EQ(all.size(), good.size());
+  EXPECT_EQ(all.at("0.frames.csv"), good.at("0.frames.csv"));
+  EXPECT_EQ(all.at("2.frames.csv"), good.at("2.frames.csv"));
+  const YAML::Node yaml = YAML::LoadFile(folder_.Path("all/summary.yaml"));
+  EXPECT_EQ(yaml["logs"].size(), 2u);
+  ASSERT_EQ(yaml["bad_logs"].size(), 1u);
+  EXPECT_EQ(yaml["bad_logs"][0]["log"].as<std::string>(), log);
+  EXPECT_EQ(yaml["bad_logs"][0]["reason"].as<std::string>(), reason);
+  EXPECT_EQ(yaml["all"]["frames"].as<int>(), 600);
+
+  // None is left.
+  EXPECT_EQ(
+      Run("finray_estimate", Arguments(log, "--keep_going --out_dir %none"))
+          .code,
+      2);
+  const std::string table = folder_.Read("all/summary.csv");
+  EXPECT_EQ(folder_.Read("none/summary.csv"),
+            table.substr(0, table.find('\n') + 1));
+}
+
 TEST_F(BatchTest, KilledAtAnyMomentAndResumed) {
   for (int i = 0; i < 3; ++i) {
     WriteLog("runs/log" + std::to_string(i) + ".csv", 30000 + 5000 * i, i);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "apps/command_line.h"
+#include "finray/finger/finger_yaml.h"
 #include "finray/io/frame_table.h"
 
 namespace finray {
@@ -277,13 +278,14 @@ TEST_F(FollowTest, SignalsEndIt) {
 }
 
 TEST_F(FollowTest, FlagsOfABatchAreRefused) {
-  for (const char* flag :
-       {"logs", "logs_root", "out_dir", "resume", "threads"}) {
+  for (const std::string flag :
+       {"logs", "logs_root", "out_dir", "resume", "threads", "keep_going"}) {
+    const bool takes_none = flag == "resume" || flag == "keep_going";
     const Outcome outcome =
         Run("finray_estimate", "--follow --finger " + paper_ + " --" + flag +
-                                   (flag == std::string("resume") ? "" : " 1"));
+                                   (takes_none ? "" : " 1"));
     EXPECT_EQ(outcome.code, 1);
-    EXPECT_EQ(outcome.output, "finray_estimate: --" + std::string(flag) +
+    EXPECT_EQ(outcome.output, "finray_estimate: --" + flag +
                                   " does not go with --follow; see --help\n");
   }
 }
@@ -297,26 +299,30 @@ TEST_F(FollowTest, TheExampleOfTheDocs) {
   EXPECT_THAT(docs.str(), HasSubstr("```cpp\n" + example.str() + "```\n"));
 
   folder_.Write("in.csv", "contact_1_mm,normal_1_N\n62,3\n");
-  ASSERT_EQ(Run("finray_simulate",
-                "--finger " + paper_ + " --frames %in.csv --out %out.csv")
-                .code,
-            0);
-  const FrameTable frame = FrameTable::Read(folder_.Path("out.csv"));
-  std::string volts;
-  for (int j = 1; j <= 4; ++j) {
-    volts +=
-        std::to_string(frame.Numbers("gauge_" + std::to_string(j) + "_V")[0]) +
-        (j < 4 ? " " : "\n");
+  const std::string three_gauges =
+      FINRAY_SOURCE_DIR "/configs/fingers/printed_100mm.yaml";
+  for (const std::string& finger : {paper_, three_gauges}) {
+    ASSERT_EQ(Run("finray_simulate",
+                  "--finger " + finger + " --frames %in.csv --out %out.csv")
+                  .code,
+              0);
+    const FrameTable frame = FrameTable::Read(folder_.Path("out.csv"));
+    std::ostringstream volts;
+    volts.precision(9);
+    for (std::size_t j = 1; j <= ReadFinger(finger).gauges.size(); ++j) {
+      volts << frame.Numbers("gauge_" + std::to_string(j) + "_V")[0] << " ";
+    }
+    folder_.Write("volts", volts.str() + "\n" + volts.str() + "\n");
+    const Outcome outcome = Run("live_contact", finger + " < %volts");
+    double arc = 0, force = 0;
+    EXPECT_EQ(
+        std::sscanf(outcome.output.c_str(), "ok %lf mm %lf N", &arc, &force), 2)
+        << outcome.output;
+    EXPECT_NEAR(arc, 62, 0.05);
+    EXPECT_NEAR(force, 3, 0.01);
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'),
+              2);
   }
-  folder_.Write("volts", volts + volts);
-  const Outcome outcome = Run("live_contact", paper_ + " < %volts");
-  double arc = 0, force = 0;
-  EXPECT_EQ(
-      std::sscanf(outcome.output.c_str(), "ok %lf mm %lf N", &arc, &force), 2)
-      << outcome.output;
-  EXPECT_NEAR(arc, 62, 0.05);
-  EXPECT_NEAR(force, 3, 0.01);
-  EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 2);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 """scripts/batch/run on this machine."""
 
+import os
+
 import batch_fixture
 from batch_fixture import FRAMES
 
@@ -45,20 +47,63 @@ class RunTest(batch_fixture.BatchTestCase):
         self.run_batch("--logs_per_task", "4")
         self.expect_equal_to_single()
 
-    def test_bad_log_stops_its_group_only(self):
+    def test_bad_logs_are_left_out_and_listed(self):
         self.write_logs(LOGS)
-        self.run_batch("--logs_per_task", "2")
-        path = self.folder / "runs/d1/c.csv"
-        good = path.read_text()
-        path.write_text(good + "1,x,0,0,0,0,0,0\n")
-        output = self.run_batch("--logs_per_task", "2", code=2)
-        self.assertRegex(output, r"group 000/001 .* failed with exit code 2: .*"
-                         r"d1/c.csv:16.*\n.*2 of 3 groups are done, 1 failed")
-        self.assertFalse((self.out / "summary.yaml").exists())
-        self.assertFalse((self.out / "summary.csv").exists())
+        bad = [self.folder / "runs" / name for name in ("d1/c.csv", "d3/a.csv")]
+        good = [path.read_text() for path in bad]
+        for path, text in zip(bad, good):
+            path.write_text(text + "1,x,0,0,0,0,0,0\n")
+        # Groups of one, so that one is left without a log.
+        for size in ("1", "4"):
+            out = "out" + size
+            output = self.run_batch("--logs_per_task", size, code=2, out=out)
+            self.assertRegex(output, r"in 4 logs, .*\n(.*\n)*run: .*d1/c.csv:16:2: .*\n"
+                             r"run: .*d3/a.csv:19:2: .*\nrun: 2 logs left out")
+            self.expect_equal_to_single(self.folder / out, code=2)
+        for path, text in zip(bad, good):
+            path.write_text(text)
+        self.run_batch("--logs_per_task", "4", out="out4")
+        self.expect_equal_to_single(self.folder / "out4")
+
+    def test_bad_log_is_tried_again(self):
+        self.write_logs(LOGS[:3])
+        path = self.folder / "runs" / LOGS[1]
+        good, time = path.read_text(), path.stat().st_mtime_ns
+        head, row, rest = good.split("\n", 2)
+        path.write_text("\n".join([head, "x" + row[1:], rest]))
+        self.run_batch(code=2)
+        # Of the same size and time, as where only the rights to read it changed.
         path.write_text(good)
-        self.run_batch("--logs_per_task", "2")
+        os.utime(path, ns=(time, time))
+        frames = self.times(FRAMES)
+        self.run_batch()
+        self.assertEqual(self.changed(FRAMES, frames),
+                         ["groups/000/000/b.frames.csv"])
         self.expect_equal_to_single()
+
+    def test_says_why_a_merge_failed(self):
+        self.write_logs(LOGS)
+        self.run_batch("--logs_per_task", "4")
+        merged = (self.out / "summary.csv").read_bytes()
+        # The overall summary cannot be written.
+        (self.out / "summary.csv").unlink()
+        (self.out / "summary.csv.new").mkdir()
+        self.assertIn("run: all groups are done, but the overall summary cannot be "
+                      f"written: {self.out}/summary.csv.new: Is a directory\n",
+                      self.run_batch("--logs_per_task", "4", code=1))
+        (self.out / "summary.csv.new").rmdir()
+        # A group's is not what finray_estimate has written.
+        path = self.out / "groups/000/001/summary.csv"
+        good = path.read_text()
+        path.write_text(good.replace(",13,", ",many,").replace(",16,", ",many,"))
+        self.assertIn("run: groups/000/001/summary.csv: the row of '",
+                      self.run_batch("--logs_per_task", "4", code=2))
+        path.write_text(good + good.splitlines(keepends=True)[1])
+        self.assertIn("summary.yaml: expected the logs of summary.csv",
+                      self.run_batch("--logs_per_task", "4", code=2))
+        path.write_text(good)
+        self.run_batch("--logs_per_task", "4")
+        self.assertEqual((self.out / "summary.csv").read_bytes(), merged)
 
 
 class BadInputTest(batch_fixture.BatchTestCase):
@@ -78,6 +123,13 @@ class BadInputTest(batch_fixture.BatchTestCase):
                          "--config", "c.yaml")
         config.write_text("logs_per_task: 0\n")
         self.expect_line("logs_per_task: expected at least 1", "--config", "c.yaml")
+        config.write_bytes(b"minutes: 3\nscene: \xff\n")
+        self.expect_line("c.yaml:2:8: expected text in UTF-8", "--config", "c.yaml")
+        config.write_bytes(b"minutes: 3\nscene: a\x07\n")
+        self.expect_line("c.yaml:2:9: character 0x7 is not allowed in YAML",
+                         "--config", "c.yaml")
+        config.write_text("minutes: [3\n")
+        self.expect_line("c.yaml:2:1: ", "--config", "c.yaml")
         self.expect_line("'--job' is not a flag", "--job", "2", code=1)
         self.expect_line("--scheme: expected one of taylor, rigid_chain",
                          "--scheme", "linear")

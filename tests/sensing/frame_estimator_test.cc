@@ -8,6 +8,7 @@
 #include <random>
 
 #include "finray/io/error.h"
+#include "studies/gauge_frames.h"
 #include "test_finger.h"
 
 namespace finray {
@@ -20,17 +21,6 @@ Scene OneContact() {
   Scene scene;
   scene.contacts = 1;
   return scene;
-}
-
-FrameReadings Readings(const EquilibriumSolver& solver) {
-  FrameReadings readings;
-  const Finger& finger = solver.model().finger();
-  for (int j = 0; j < solver.model().gauges(); ++j) {
-    readings.gauges_V.push_back(finger.gauges[j].gain_V_per_rad *
-                                    solver.gauge_angle(j) +
-                                finger.gauges[j].offset_V);
-  }
-  return readings;
 }
 
 TEST(FrameEstimatorTest, NoiseFreeGridFromACold) {
@@ -46,7 +36,7 @@ TEST(FrameEstimatorTest, NoiseFreeGridFromACold) {
       const double arc = 15 + (112 - 15) * i / 29.0;
       const double force = 0.1 * std::pow(100, j / 19.0);
       ASSERT_TRUE(solver.Solve({{arc, force, 0}}));
-      const FrameEstimate estimate = estimator.Estimate(Readings(solver));
+      const FrameEstimate estimate = estimator.Estimate(CleanReadings(solver));
       const double arc_error = std::abs(estimate.contact[0].arc_mm - arc);
       const double force_error =
           std::abs(estimate.contact[0].normal_N / force - 1);
@@ -66,7 +56,7 @@ TEST(FrameEstimatorTest, StdIsWhatNoiseDoes) {
   FrameEstimator estimator(finger, OneContact(), {});
   EquilibriumSolver solver(finger, {});
   ASSERT_TRUE(solver.Solve({{75, 3, 0}}));
-  const FrameReadings clean = Readings(solver);
+  const FrameReadings clean = CleanReadings(solver);
   std::mt19937_64 generator(5);
   std::normal_distribution<double> noise(0, 3e-4);
   double arc2 = 0, force2 = 0, arc_std = 0, force_std = 0, chi2 = 0;
@@ -93,15 +83,15 @@ TEST(FrameEstimatorTest, SaysWhatItCannotSee) {
   EquilibriumSolver solver(finger, {});
   FrameEstimator automatic(finger, Scene(), {});
   ASSERT_TRUE(solver.Solve({}));
-  EXPECT_EQ(automatic.Estimate(Readings(solver)).status,
+  EXPECT_EQ(automatic.Estimate(CleanReadings(solver)).status,
             FrameStatus::kNoContact);
   // Near the tip and light: no gauge tells place from force.
   ASSERT_TRUE(solver.Solve({{128, 0.5, 0}}));
   FrameEstimator one(finger, OneContact(), {});
-  const FrameEstimate tip = one.Estimate(Readings(solver));
+  const FrameEstimate tip = one.Estimate(CleanReadings(solver));
   EXPECT_EQ(tip.status, FrameStatus::kUnobservable);
   ASSERT_TRUE(solver.Solve({{70, 3, 0}}));
-  FrameReadings readings = Readings(solver);
+  FrameReadings readings = CleanReadings(solver);
   const FrameEstimate whole = one.Estimate(readings);
   EXPECT_EQ(whole.status, FrameStatus::kOk);
   // One gauge less still does, with less certainty; three less do not.
@@ -137,7 +127,7 @@ TEST(FrameEstimatorTest, KnownFrictionIsPartOfTheModel) {
   Scene scene = OneContact();
   scene.friction_coefficient = 0.3;
   FrameEstimator estimator(finger, scene, {});
-  const FrameEstimate estimate = estimator.Estimate(Readings(solver));
+  const FrameEstimate estimate = estimator.Estimate(CleanReadings(solver));
   EXPECT_NEAR(estimate.contact[0].arc_mm, 64, 1e-6);
   EXPECT_NEAR(estimate.contact[0].normal_N, 5, 1e-6);
   EXPECT_NEAR(estimate.rib_tension_N[2], solver.rib_tension(2), 1e-6);
@@ -148,7 +138,7 @@ TEST(FrameEstimatorTest, ASaturatedGaugeIsLeftOut) {
   Finger finger = PaperFinger();
   EquilibriumSolver solver(finger, {});
   ASSERT_TRUE(solver.Solve({{70, 3, 0}}));
-  FrameReadings readings = Readings(solver);
+  FrameReadings readings = CleanReadings(solver);
   const double seen = readings.gauges_V[0];
   finger.gauges[0].max_V = std::abs(seen) / 2;
   finger.gauges[0].min_V = -std::abs(seen) / 2;
@@ -169,7 +159,7 @@ TEST(FrameEstimatorTest, AMeasuredCircleTellsPlaceFromForce) {
   const ObjectContact truth =
       SolveObjectContact(*scene.object, pose, 0, &solver);
   ASSERT_EQ(truth.contacts.size(), 1u);
-  FrameReadings readings = Readings(solver);
+  FrameReadings readings = CleanReadings(solver);
   const FrameEstimate alone =
       FrameEstimator(finger, scene, {}).Estimate(readings);
   EXPECT_GT(alone.contact[0].arc_std_mm, 1);
@@ -217,7 +207,8 @@ TEST(FrameEstimatorTest, TwoContactsFromACold) {
       for (const double force : {1.0, 5.0}) {
         const PointContact one{first, force, 0}, two{first + apart, 3, 0};
         ASSERT_TRUE(solver.Solve({one, two}));
-        const FrameEstimate estimate = estimator.Estimate(Readings(solver));
+        const FrameEstimate estimate =
+            estimator.Estimate(CleanReadings(solver));
         ASSERT_EQ(estimate.contacts, 2) << first << " " << apart;
         EXPECT_EQ(estimate.status, FrameStatus::kOk) << first << " " << apart;
         EXPECT_NEAR(estimate.contact[0].arc_mm, one.arc_mm, 1e-5);
@@ -232,7 +223,7 @@ TEST(FrameEstimatorTest, TwoContactsFromACold) {
   }
   // One of them leaves.
   ASSERT_TRUE(solver.Solve({{60, 3, 0}}));
-  const FrameEstimate one = estimator.Estimate(Readings(solver));
+  const FrameEstimate one = estimator.Estimate(CleanReadings(solver));
   EXPECT_EQ(one.contacts, 1);
   EXPECT_NEAR(one.contact[0].arc_mm, 60, 1e-5);
 }
@@ -249,7 +240,7 @@ TEST(FrameEstimatorTest, AutoCountsContacts) {
     ASSERT_TRUE(solver.Solve(cases[count]));
     int right = 0;
     for (int i = 0; i < 50; ++i) {
-      FrameReadings readings = Readings(solver);
+      FrameReadings readings = CleanReadings(solver);
       for (double& v : readings.gauges_V) v += noise(generator);
       right += estimator.Estimate(readings).contacts == count;
     }
@@ -267,7 +258,7 @@ TEST(FrameEstimatorTest, ReportsBothSolutionsThatExplainAFrame) {
   EquilibriumSolver solver(finger, {});
   const std::vector<PointContact> truth = {{13.2, 2.92, 0}, {125.4, 4.38, 0}};
   ASSERT_TRUE(solver.Solve(truth));
-  const FrameReadings readings = Readings(solver);
+  const FrameReadings readings = CleanReadings(solver);
   const FrameEstimate estimate =
       FrameEstimator(finger, scene, {}).Estimate(readings);
   EXPECT_EQ(estimate.status, FrameStatus::kUnobservable);
@@ -299,7 +290,7 @@ TEST(FrameEstimatorTest, ArrivesWhereGaussNewtonCircles) {
   constexpr int kFrames = 200;
   for (int i = 0; i < kFrames; ++i) {
     ASSERT_TRUE(solver.Solve({{118 + 0.08 * i, 2, 0}}));
-    FrameReadings readings = Readings(solver);
+    FrameReadings readings = CleanReadings(solver);
     for (double& v : readings.gauges_V) v += noise(generator);
     const FrameEstimate estimate = estimator.Estimate(readings);
     solved += estimate.status != FrameStatus::kNotConverged;

@@ -216,5 +216,15 @@ TEST(ExtremesTest, AbsurdLoadsLeaveNoTrace) {
   }
 }
 
+// A path without a limit point, along which ever more elements are needed.
+TEST(ExtremesTest, PathsToAbsurdLoadsEndSoon) {
+  for (const double arc : {36.0, 136.0}) {
+    EquilibriumSolver solver(PaperFinger(), {});
+    EXPECT_FALSE(solver.Solve({{arc, -1e17, 0}}));
+    EXPECT_EQ(solver.status(), SolveStatus::kNotConverged);
+    EXPECT_LT(solver.iterations(), 3000) << arc;
+  }
+}
+
 }  // namespace
 }  // namespace finray

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "finray/statics/object_contact.h"
+#include "finray/statics/tangency.h"
 #include "statics/object_checks.h"
 #include "test_finger.h"
 
@@ -129,6 +130,20 @@ TEST(ObjectSeveralContactsTest, LoadIsTheGradientOfTheStoredEnergy) {
   const Vector2d force = TotalForce(found, solver);
   EXPECT_LT((slope.head<2>() - force).norm(), 1e-5 * force.norm());
   EXPECT_NEAR(slope.z(), moment, 1e-4 * std::abs(moment));
+}
+
+// From within a corner the nearest side runs across the beam: the equations are
+// singular there, and no force that they ask for is tried.
+TEST(ObjectSeveralContactsTest, GivesUpWhereTheNormalRunsAlongTheBeam) {
+  const RigidObject square = Square(20, 2);
+  for (const double arc : {50.0, 50.001, 50.3, 51.0}) {
+    EquilibriumSolver solver(PaperFinger(), {});
+    Tangency tangency(square, 0, &solver);
+    std::vector<PointContact> contacts = {{arc, 0, 0}};
+    EXPECT_FALSE(tangency.Solve({{3.5 - 22, 70}, 0},
+                                TangencyUnknowns::kPlacesAndForces, &contacts));
+    EXPECT_EQ(tangency.equilibria(), 1) << arc;
+  }
 }
 
 class ObjectSpringTest : public testing::TestWithParam<double> {

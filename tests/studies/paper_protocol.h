@@ -42,7 +42,6 @@ class SimulatedLab {
     for (std::size_t j = 0; j < nominal_.gauges.size(); ++j) {
       nominal_.gauges[j].noise_V = finger_.gauges[j].noise_V;
     }
-    plan_.gauge_std_V.reset();  // the gauges' own
     Simulate(finger_, plan_.scene, {}, &calibration_log_);
   }
 

@@ -11,7 +11,8 @@ EstimationSummary Total(const std::vector<LogJob>& jobs) {
 }
 
 std::string BatchYaml(const BatchSettings& settings,
-                      const std::vector<LogJob>& jobs) {
+                      const std::vector<LogJob>& jobs,
+                      const std::vector<BadLog>& bad_logs) {
   YAML::Emitter yaml;
   const auto pair = [&yaml](const char* key, const auto& value) {
     yaml << YAML::Key << key << YAML::Value << value;
@@ -31,12 +32,33 @@ std::string BatchYaml(const BatchSettings& settings,
   }
   yaml << YAML::EndSeq << YAML::Key << "all" << YAML::Value << YAML::BeginMap;
   EmitSummary(Total(jobs), &yaml);
-  yaml << YAML::EndMap << YAML::EndMap;
+  yaml << YAML::EndMap;
+  if (!bad_logs.empty()) {
+    yaml << YAML::Key << "bad_logs" << YAML::Value << YAML::BeginSeq;
+    for (const BadLog& bad : bad_logs) {
+      yaml << YAML::BeginMap;
+      pair("log", bad.log);
+      pair("reason", bad.reason);
+      yaml << YAML::EndMap;
+    }
+    yaml << YAML::EndSeq;
+  }
+  yaml << YAML::EndMap;
   return std::string(yaml.c_str()) + "\n";
 }
 
 FrameTable BatchTable(const std::vector<LogJob>& jobs) {
   FrameTable table(jobs.size());
+  // Of no log at all too.
+  for (const char* name : {"log", "result", "frames"}) table.MutableText(name);
+  for (const FrameStatus status : EstimationSummary::kStatuses) {
+    table.MutableText(StatusName(status));
+  }
+  for (const char* name :
+       {"force_compared_frames", "force_rms_error_N", "force_max_error_N",
+        "force_squares_N2", "unexplained_frames", "key"}) {
+    table.MutableText(name);
+  }
   for (std::size_t row = 0; row < jobs.size(); ++row) {
     const LogJob& job = jobs[row];
     const EstimationSummary& summary = job.summary();

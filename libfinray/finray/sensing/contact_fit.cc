@@ -230,9 +230,14 @@ bool ContactFit::Run(const Eigen::VectorXd& measured,
       information_.row(k) /= unit;
       information_.col(k) /= unit;
     }
-    if (!newton_.RefineMesh()) {
-      linearised_contacts_ = count;
-      return true;
+    switch (newton_.RefineMesh()) {
+      case MeshChange::kNone:
+        linearised_contacts_ = count;
+        return true;
+      case MeshChange::kRefined:
+        break;
+      case MeshChange::kTooFine:
+        return false;
     }
     last_cost = std::numeric_limits<double>::infinity();
     last_change = kUnknownChange;

@@ -37,7 +37,8 @@ struct BatchSettings {
 /// Estimates one log into its result, D/<log>.frames.csv, with its own summary
 /// beside it, D/<log>.summary.yaml. Results carry a key there: a SHA-256 over
 /// the contents of the log, the finger and the scene file, over scheme,
-/// resolution and version. Whatever has the same key has the same bytes.
+/// resolution, version, kBlockFrames and the number of the results' format.
+/// Whatever has the same key has the same bytes.
 ///
 /// All functions throw InputError, for a bad log or a result that cannot be
 /// written.

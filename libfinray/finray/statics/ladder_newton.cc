@@ -110,7 +110,8 @@ bool LadderNewton::Converge(const std::vector<PointContact>& contacts,
     }
     turn_ += turn;
     longest_run_ = std::max(longest_run_, iterations_ - before);
-    if (!RefineMesh()) return true;
+    const MeshChange change = RefineMesh();
+    if (change != MeshChange::kRefined) return change == MeshChange::kNone;
   }
   return false;
 }
@@ -233,25 +234,25 @@ double LadderNewton::Size(double a, double b) const {
   return largest;
 }
 
-bool LadderNewton::RefineMesh() {
-  if (!discretization_.adaptive()) return false;
+MeshChange LadderNewton::RefineMesh() {
+  if (!discretization_.adaptive()) return MeshChange::kNone;
   const LadderFrame<double>& f = frame();
   double worst = 0;
   for (int slot = 0; slot < f.slots(); ++slot) {
     worst = std::max(worst, f.truncation[slot]);
   }
-  if (worst < kRefinedTruncation_rad) return false;
+  if (worst < kRefinedTruncation_rad) return MeshChange::kNone;
   std::array<BeamMesh, 2> finer;
   LadderState state;
   if (!RefineToSeries(model_, workspace_, discretization_.scheme, &finer,
                       &state)) {
-    return false;
+    return MeshChange::kTooFine;
   }
   model_.set_mesh(finer);
   workspace_.SetMesh(model_);
   workspace_.Load(state);
   refined_ = true;
-  return true;
+  return MeshChange::kRefined;
 }
 
 bool LadderNewton::Shoot(const Eigen::VectorXd& q,

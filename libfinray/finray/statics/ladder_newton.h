@@ -9,6 +9,12 @@
 
 namespace finray {
 
+enum class MeshChange {
+  kNone,
+  kRefined,  ///< The state is interpolated and to be converged anew.
+  kTooFine,  ///< Would be finer than any load that a finger bears asks for.
+};
+
 /// Newton's method on the lifted ladder from wherever it stands, at a share of
 /// a load. Where the discretization is adaptive the mesh is refined until the
 /// series converge. Nothing is allocated but by the first call, by more
@@ -61,9 +67,8 @@ class LadderNewton {
   /// positions in l_0.
   double Size(double a, double b) const;
 
-  /// Refines where the last evaluation's series had not converged. True if the
-  /// mesh was changed: the state is then interpolated and to be converged anew.
-  bool RefineMesh();
+  /// Refines where the last evaluation's series had not converged.
+  MeshChange RefineMesh();
 
   /// All of q as unknowns and no gaps: fills the taps at base loads and
   /// tensions `q`, as FindLadderKernel's open_sweep. False if not finite.

@@ -148,6 +148,21 @@ bool LoadPath::Joins(const Eigen::VectorXd& reached,
          kLargestGap * std::sqrt(Dot(chord.data(), chord.data())) + kNoGap;
 }
 
+// False if the path cannot be followed any further: on another mesh there is no
+// way back to where the step began.
+bool LoadPath::Refine() {
+  switch (newton_->RefineMesh()) {
+    case MeshChange::kNone:
+      return true;
+    case MeshChange::kRefined:
+      return newton_->Converge(contacts_, fraction_, SweepColumns::kLoad) &&
+             Tangent();
+    case MeshChange::kTooFine:
+      break;
+  }
+  return false;
+}
+
 bool LoadPath::Advance(double goal) {
   passed_limit_point_ = false;
   if (lost_ || (!has_tangent_ && !Tangent())) return false;
@@ -178,10 +193,7 @@ bool LoadPath::Advance(double goal) {
     fraction_ = fraction;
     tangent_.swap(tangent);
     tangent_fraction_ = slope;
-    if (!turns && newton_->RefineMesh() &&
-        !(newton_->Converge(contacts_, fraction_, SweepColumns::kLoad) &&
-          Tangent())) {
-      // On another mesh there is no way back to where the step began.
+    if (!turns && !Refine()) {
       lost_ = true;
       return false;
     }

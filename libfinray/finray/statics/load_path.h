@@ -38,6 +38,7 @@ class LoadPath {
  private:
   bool FindTangent(double fraction, Eigen::VectorXd* tangent, double* slope);
   bool Tangent();
+  bool Refine();
   bool GoTo(double arc);
   bool Joins(const Eigen::VectorXd& reached, const Eigen::VectorXd& tangent,
              double slope) const;

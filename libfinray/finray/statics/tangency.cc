@@ -37,8 +37,7 @@ ObjectPose Tangency::Displaced(ObjectPose pose) const {
 
 // u = -e . sum f_c (n + mu t) / k and its derivatives, with dn = t dtheta and
 // dt = -n dtheta.
-void Tangency::Push(const std::vector<PointContact>& contacts,
-                    const Eigen::MatrixXd& d_pose) {
+void Tangency::Push(const std::vector<PointContact>& contacts) {
   const int count = static_cast<int>(contacts.size());
   displacement_mm_ = 0;
   d_displacement_.setZero(2 * count);
@@ -54,7 +53,7 @@ void Tangency::Push(const std::vector<PointContact>& contacts,
         softness * direction_.dot(tangent - friction_ * normal);
     displacement_mm_ += contacts[c].normal_N * by_force;
     d_displacement_[count + c] += by_force;
-    d_displacement_ += contacts[c].normal_N * by_turn * d_pose.row(3 * c + 2);
+    d_displacement_ += contacts[c].normal_N * by_turn * d_pose_.row(3 * c + 2);
   }
 }
 
@@ -65,14 +64,13 @@ void Tangency::Linearize(const ObjectPose& pose,
                          const std::vector<PointContact>& contacts) {
   const int count = static_cast<int>(contacts.size());
   const int row = solver_->model().gauges();
-  // Of (x, y, theta) of each contact.
-  Eigen::MatrixXd d_pose(3 * count, 2 * count);
+  d_pose_.resize(3 * count, 2 * count);
   for (int c = 0; c < count; ++c) {
-    d_pose.col(c) = solver_->d_outputs().col(2 * c).segment(row, 3 * count);
-    d_pose.col(count + c) =
+    d_pose_.col(c) = solver_->d_outputs().col(2 * c).segment(row, 3 * count);
+    d_pose_.col(count + c) =
         solver_->d_outputs().col(2 * c + 1).segment(row, 3 * count);
   }
-  Push(contacts, d_pose);
+  Push(contacts);
   const ObjectPose moved = Displaced(pose);
 
   residual_.resize(2 * count);
@@ -89,14 +87,25 @@ void Tangency::Linearize(const ObjectPose& pose,
     residual_[count + c] = tangent.dot(outline.normal);
     outside_ = outside_ && normal.dot(outline.normal) > 0;
     const Eigen::Matrix2Xd d_offset =
-        d_pose.middleRows<2>(3 * c) - direction_ * d_displacement_;
+        d_pose_.middleRows<2>(3 * c) - direction_ * d_displacement_;
     jacobian_.row(c) = outline.normal.transpose() * d_offset;
     jacobian_.row(count + c) =
-        -normal.dot(outline.normal) * d_pose.row(3 * c + 2) +
+        -normal.dot(outline.normal) * d_pose_.row(3 * c + 2) +
         tangent.dot(along) /
             (outline.curvature_radius_mm + outline.distance_mm) *
             (along.transpose() * d_offset);
   }
+}
+
+// How far the contact points would go, to first order, with other forces.
+double Tangency::Way(const Eigen::VectorXd& forces) const {
+  const Eigen::Index count = forces.size();
+  const Eigen::VectorXd moves = d_pose_.rightCols(count) * forces;
+  double way = 0;
+  for (Eigen::Index c = 0; c < count; ++c) {
+    way = std::max(way, moves.segment<2>(3 * c).norm());
+  }
+  return way;
 }
 
 // Newton on the contact equations, each evaluation an equilibrium; with places
@@ -121,7 +130,9 @@ bool Tangency::Solve(const ObjectPose& pose, TangencyUnknowns unknowns,
     const Eigen::VectorXd step = -jacobian_.topRightCorner(equations, equations)
                                       .partialPivLu()
                                       .solve(residual_.head(equations));
-    if (!step.allFinite()) return false;
+    // Where the outline's normal runs along the beam the equations are singular
+    // and the forces rounding: 1e17 N and more, which no finger bears.
+    if (!step.allFinite() || Way(step.tail(count)) > length_) return false;
     double fraction = 1;
     if (sliding) {
       const double move = step.head(count).lpNorm<Eigen::Infinity>();

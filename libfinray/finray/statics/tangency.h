@@ -46,8 +46,8 @@ class Tangency {
   int equilibria() const { return equilibria_; }
 
  private:
-  void Push(const std::vector<PointContact>& contacts,
-            const Eigen::MatrixXd& d_pose);
+  void Push(const std::vector<PointContact>& contacts);
+  double Way(const Eigen::VectorXd& forces) const;
 
   const RigidObject& object_;
   const double friction_;
@@ -61,6 +61,7 @@ class Tangency {
   // each].
   Eigen::VectorXd residual_;
   Eigen::MatrixXd jacobian_;
+  Eigen::MatrixXd d_pose_;  // of (x, y, theta) of each contact
   Eigen::RowVectorXd d_displacement_;
   bool outside_ = false;  // The beam's normals point out of the object.
 };
