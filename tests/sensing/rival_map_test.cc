@@ -40,10 +40,9 @@ TEST(RivalMapTest, WhatItCallsUniqueHasNoRival) {
       for (double& angle : measurement.values) angle += normal(generator);
       if (!search.Search(1, measurement)) continue;
       const ContactSolution& best = search.best();
-      if (!map.IsUnique(best.contacts[0].arc_mm,
-                        std::sqrt(CovarianceOf(best.information)(0, 0)),
-                        best.contacts[0].normal_N, best.chi2,
-                        ContactSearch::kWithinNoise)) {
+      const double std = std::sqrt(CovarianceOf(best.information)(0, 0));
+      if (!map.IsUnique(best.contacts[0].arc_mm, std, best.contacts[0].normal_N,
+                        best.chi2, ContactSearch::kWithinNoise)) {
         continue;
       }
       ++unique;
@@ -58,8 +57,9 @@ TEST(RivalMapTest, WhatItCallsUniqueHasNoRival) {
         if (!fit.Fit(measurement.values, measurement.weights, &contacts)) {
           continue;
         }
+        // In a flat valley a fit may stop short of its lowest point.
         const bool same =
-            std::abs(contacts[0].arc_mm - best.contacts[0].arc_mm) < 1e-3;
+            std::abs(contacts[0].arc_mm - best.contacts[0].arc_mm) < 2 * std;
         EXPECT_TRUE(same ||
                     fit.chi2() > best.chi2 + ContactSearch::kWithinNoise)
             << noise << ": " << contacts[0].arc_mm << " and "
