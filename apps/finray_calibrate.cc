@@ -31,16 +31,21 @@ void PrintSummary(finray::CalibrationProblem& problem,
   for (const ParameterStatus status : result.identifiability.status) {
     ++counts[static_cast<int>(status)];
   }
-  int contact = 0, free = 0, held_out = 0;
+  int contact = 0, free = 0, held_out = 0, bench = 0;
   for (const CalibrationFrame& frame : problem.logs().frames) {
-    ++(frame.held_out ? held_out : frame.contact ? contact : free);
+    ++(frame.held_out    ? held_out
+       : frame.IsBench() ? bench
+       : frame.contact   ? contact
+                         : free);
   }
   std::printf("%s\n", InFolder("finger.yaml").c_str());
   std::printf("solver         %s after %d iterations\n",
               result.solve.converged ? "converged" : "did not converge",
               result.solve.iterations);
-  std::printf("frames         %d contact, %d free, %d held out\n", contact,
-              free, held_out);
+  std::printf("frames         %d contact, %d free, %d held out", contact, free,
+              held_out);
+  if (bench > 0) std::printf(", %d on the bench", bench);
+  std::printf("\n");
   std::printf(
       "parameters     %d estimated, %d prior_dominated, %d unidentifiable\n",
       counts[0], counts[1], counts[2]);

@@ -111,8 +111,10 @@ CalibrationResult Calibrate(CalibrationProblem* problem,
   result.identifiability = AnalyzeIdentifiability(problem);
   result.finger = problem->parameters().Apply(problem->finger());
   KeepCovariance(problem->parameters(), result.identifiability, &result.finger);
-  result.forces = CheckForces(problem->finger(), result.finger, problem->plan(),
-                              problem->logs(), discretization, threads);
+  result.forces = CheckForces(
+      problem->finger(), result.finger, problem->plan(), problem->logs(),
+      problem->parameters().Corrected(problem->logs(), result.finger),
+      discretization, threads);
   if (!result.solve.converged) {
     result.warnings.push_back(
         {"not_converged", "the solver stopped early: " + result.solve.message,

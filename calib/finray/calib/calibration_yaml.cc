@@ -156,6 +156,15 @@ void EmitConfig(const Plan& plan, const CalibrationInputs& inputs,
   if (plan.gauge_std_V) Number(yaml, "gauge_std_V", *plan.gauge_std_V);
   Number(yaml, "object_std_mm", plan.object_std_mm);
   Number(yaml, "contact_std_mm", plan.contact_std_mm);
+  if (plan.pin_std_mm) Number(yaml, "pin_std_mm", *plan.pin_std_mm);
+  if (plan.tip_std_mm) Number(yaml, "tip_std_mm", *plan.tip_std_mm);
+  if (plan.family(ParameterFamily::kTemperatureCoefficient).free) {
+    Number(yaml, "reference_C", plan.reference_temperature_C);
+  }
+  if (plan.gauge_walk) {
+    Number(yaml, "walk_std_V_per_sqrt_h", plan.gauge_walk->std_V_per_sqrt_h);
+    Number(yaml, "knot_every_s", plan.gauge_walk->knot_every_s);
+  }
   Pair(yaml, "robust_loss", kLosses[static_cast<int>(plan.loss)]);
   Number(yaml, "robust_scale", plan.loss_scale);
   *yaml << YAML::EndMap;

@@ -20,7 +20,7 @@ Contents Survey(const CalibrationProblem& problem) {
   const auto& frames = problem.logs().frames;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const CalibrationFrame& frame = frames[i];
-    if (frame.held_out) continue;
+    if (frame.held_out || frame.IsBench()) continue;
     (frame.contact ? has.contacts : has.free_frames) = true;
     if (!frame.contact) continue;
     has.force |= std::isfinite(frame.force_N) || frame.force_xy_N.allFinite();
