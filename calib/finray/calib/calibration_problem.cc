@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <limits>
-#include <unordered_map>
 #include <unordered_set>
 
 #include "finray/finger/geometry.h"
@@ -119,31 +118,6 @@ void CalibrationProblem::GuessContactFromGauges(const CalibrationFrame& frame,
   guess_table_->FindStarts(angles, weights, &starts);
   contact[0] = starts[0].contacts[0].arc_mm;
   contact[1] = starts[0].contacts[0].normal_N;
-}
-
-// Offsets are what the gauges read in free frames, to begin with. A log that is
-// held out and has an offset of its own keeps that one: its gauges are zeroed.
-void CalibrationProblem::GuessOffsets() {
-  if (!plan_.family(ParameterFamily::kGaugeOffset).free) return;
-  struct Mean {
-    double sum = 0;
-    int count = 0;
-  };
-  std::unordered_map<double*, Mean> means;
-  const bool per_log = plan_.family(ParameterFamily::kGaugeOffset).per_log;
-  const std::vector<bool> held_out = logs_.HeldOut();
-  for (const CalibrationFrame& frame : logs_.frames) {
-    if (frame.contact || frame.IsBench()) continue;
-    if (frame.held_out && !(per_log && held_out[frame.log])) continue;
-    for (std::size_t j = 0; j < frame.gauges_V.size(); ++j) {
-      if (!std::isfinite(frame.gauges_V[j])) continue;
-      Mean& mean =
-          means[parameters_.readings.offset_V(static_cast<int>(j), frame.log)];
-      mean.sum += frame.gauges_V[j];
-      ++mean.count;
-    }
-  }
-  for (const auto& [offset, mean] : means) *offset = mean.sum / mean.count;
 }
 
 void CalibrationProblem::AddPriors() {

@@ -49,6 +49,11 @@ class CalibrationProblem {
   };
   SolveReport Solve();
 
+  /// Where offsets are per log, gives those logs that are held out as a whole
+  /// the offsets that their free frames show of the finger as it is now: a lab
+  /// zeroes its gauges too. To be called after Solve.
+  void ZeroHeldOutLogs();
+
   /// One measurement residual and where it belongs.
   struct ResidualInfo {
     ResidualFamily family;

@@ -108,6 +108,7 @@ CalibrationResult Calibrate(CalibrationProblem* problem,
                             const Discretization& discretization, int threads) {
   CalibrationResult result;
   result.solve = problem->Solve();
+  problem->ZeroHeldOutLogs();
   result.identifiability = AnalyzeIdentifiability(problem);
   result.finger = problem->parameters().Apply(problem->finger());
   KeepCovariance(problem->parameters(), result.identifiability, &result.finger);
