@@ -173,10 +173,11 @@ class LogColumns {
         }
       }
     }
-    ReadGauges(table);
     cylinder_ = column("cylinder_radius_mm");
-    const bool bench = std::none_of(cylinder_.begin(), cylinder_.end(),
+    const bool bench = !cylinder_.empty() &&
+                       std::none_of(cylinder_.begin(), cylinder_.end(),
                                     [](double r) { return std::isnan(r); });
+    ReadGauges(table, bench);
     const auto needed = [&](ParameterFamily family, const char* name,
                             const char* parameter) {
       const bool needs = plan.family(family).free && !bench;
@@ -232,13 +233,15 @@ class LogColumns {
     std::vector<double> x_mm, y_mm;
   };
 
-  // A log of pins may do without gauges, but not without one of them.
-  void ReadGauges(const FrameTable& table) {
-    bool any = pins_.empty();
+  // A log of pins may do without gauges, but not without one of them. On the
+  // bench they are bent one by one.
+  void ReadGauges(const FrameTable& table, bool bench) {
+    int found = 0;
     const int gauges = static_cast<int>(finger_.gauges.size());
-    for (int j = 0; j < gauges; ++j) any |= table.Has(GaugeVolts(j));
+    for (int j = 0; j < gauges; ++j) found += table.Has(GaugeVolts(j));
+    const bool all = bench ? found == 0 : found > 0 || pins_.empty();
     for (int j = 0; j < gauges; ++j) {
-      volts_.push_back(any ? table.Numbers(GaugeVolts(j))
+      volts_.push_back(all ? table.Numbers(GaugeVolts(j))
                            : table.NumbersOrNan(GaugeVolts(j)));
     }
   }

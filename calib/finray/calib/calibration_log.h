@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,24 +21,26 @@ struct SeenPin {
 
 /// One row of a log, NaN for what was not measured.
 struct CalibrationFrame {
+  static constexpr double kNotMeasured =
+      std::numeric_limits<double>::quiet_NaN();
   int log = 0;  ///< which log, and which of its rows (from 0)
   int row = 0;
-  double time_s;
+  double time_s = kNotMeasured;
   bool contact = false;   ///< touches the object; else it is a free frame,
                           ///< or no frame of the finger but of the bench
   bool held_out = false;  ///< kept from the fit
   std::vector<double> gauges_V;
-  double force_N;
-  Eigen::Vector2d force_xy_N;
-  Eigen::Vector2d object_mm;
-  double contact_mm;
-  double temperature_C;
+  double force_N = kNotMeasured;
+  Eigen::Vector2d force_xy_N{kNotMeasured, kNotMeasured};
+  Eigen::Vector2d object_mm{kNotMeasured, kNotMeasured};
+  double contact_mm = kNotMeasured;
+  double temperature_C = kNotMeasured;
   /// Only where the plan says how good they are.
   std::vector<SeenPin> pins;
-  Eigen::Vector2d tip_mm;
+  Eigen::Vector2d tip_mm{kNotMeasured, kNotMeasured};
   /// Of the cylinder round which the gauges were bent on the bench, apart from
   /// the finger.
-  double cylinder_radius_mm;
+  double cylinder_radius_mm = kNotMeasured;
 
   bool IsBench() const { return !std::isnan(cylinder_radius_mm); }
 };

@@ -116,6 +116,8 @@ CalibrationResult Calibrate(CalibrationProblem* problem,
       problem->finger(), result.finger, problem->plan(), problem->logs(),
       problem->parameters().Corrected(problem->logs(), result.finger),
       discretization, threads);
+  result.bench =
+      TestBenchLinearity(problem->finger(), problem->plan(), problem->logs());
   if (!result.solve.converged) {
     result.warnings.push_back(
         {"not_converged", "the solver stopped early: " + result.solve.message,
@@ -124,6 +126,13 @@ CalibrationResult Calibrate(CalibrationProblem* problem,
   WarnOfWeakness(*problem, result.identifiability, &result.warnings);
   WarnOfNoise(result.identifiability, &result.warnings);
   WarnOfForces(result.forces, problem->plan().force_std_N, &result.warnings);
+  for (const BenchLinearity& gauge : result.bench) {
+    if (gauge.IsLinear()) continue;
+    result.warnings.push_back(
+        {"gauge_not_linear", gauge.Words(),
+         "bend the gauge only as far as the finger will, or calibrate its gain "
+         "on the finger against a force sensor"});
+  }
   return result;
 }
 

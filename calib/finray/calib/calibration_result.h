@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "finray/calib/bench_linearity.h"
 #include "finray/calib/calibration_problem.h"
 #include "finray/calib/force_check.h"
 #include "finray/calib/identifiability.h"
@@ -23,7 +24,8 @@ struct CalibrationResult {
   CalibrationProblem::SolveReport solve;
   Identifiability identifiability;
   ForceCheck forces;
-  Finger finger;  ///< calibrated
+  std::vector<BenchLinearity> bench;  ///< by gauge, where there are readings
+  Finger finger;                      ///< calibrated
   std::vector<CalibrationWarning> warnings;
 
   bool AllIdentified() const;

@@ -107,6 +107,25 @@ void EmitNoise(const Identifiability& found, YAML::Emitter* yaml) {
   *yaml << YAML::EndMap;
 }
 
+void EmitBench(const std::vector<BenchLinearity>& bench, YAML::Emitter* yaml) {
+  if (bench.empty()) return;
+  *yaml << YAML::Key << "bench" << YAML::Value << YAML::BeginSeq;
+  for (const BenchLinearity& of_gauge : bench) {
+    *yaml << YAML::BeginMap;
+    Pair(yaml, "gauge", of_gauge.gauge + 1);
+    Pair(yaml, "readings", of_gauge.readings);
+    Pair(yaml, "linear", of_gauge.IsLinear());
+    Number(yaml, "largest_angle_rad", of_gauge.largest_angle_rad);
+    Number(yaml, "quadratic_V_per_rad2", of_gauge.quadratic_V_per_rad2);
+    Number(yaml, "quadratic_std", of_gauge.quadratic_std);
+    Number(yaml, "quadratic_p_value", of_gauge.quadratic_p_value);
+    Number(yaml, "lack_of_fit_F", of_gauge.lack_of_fit_F);
+    Number(yaml, "lack_of_fit_p_value", of_gauge.lack_of_fit_p_value);
+    *yaml << YAML::EndMap;
+  }
+  *yaml << YAML::EndSeq;
+}
+
 void EmitForceError(const ForceCheck::Error& error, YAML::Emitter* yaml) {
   *yaml << YAML::Flow << YAML::BeginMap;
   Pair(yaml, "frames", error.frames);
@@ -187,6 +206,7 @@ std::string CalibrationYaml(CalibrationProblem& problem,
   EmitWeakDirections(problem, result.identifiability, &yaml);
   EmitCorrelations(problem, result.identifiability, &yaml);
   EmitNoise(result.identifiability, &yaml);
+  EmitBench(result.bench, &yaml);
   yaml << YAML::Key << "fit" << YAML::Value;
   EmitForceError(result.forces.fitted, &yaml);
   yaml << YAML::Key << "holdout" << YAML::Value;

@@ -28,6 +28,12 @@ ForceCheck CheckForces(const Finger& before, const Finger& after,
                           threads);
   };
   ForceCheck check;
+  // A contact has two unknowns; without as many gauges there is no estimate.
+  if (before.gauges.size() < 2) {
+    check.before.resize(logs.frames.size());
+    check.after.resize(logs.frames.size());
+    return check;
+  }
   check.before = estimate(before, logs);
   check.after = estimate(after, corrected);
   const double per_normal = std::hypot(1, plan.scene.friction_coefficient);
