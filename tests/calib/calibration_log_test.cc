@@ -86,6 +86,7 @@ TEST(CalibrationLogTest, RefusesParametersWithoutTheirData) {
   error(ParameterFamily::kForceScale,
         "plan: force_scale is free, but no log has a force_N");
   error(ParameterFamily::kForceOffset, "plan: force_offset is free");
+  error(ParameterFamily::kCameraOrigin, "plan: camera_origin is free");
   Plan plan;
   plan.pin_std_mm = 0.5;
   EXPECT_THAT([&] { ReadCalibrationLogs({path}, PaperFinger(), plan); },

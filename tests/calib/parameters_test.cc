@@ -319,11 +319,20 @@ TEST(ParametersTest, PinsAndTipWithoutObject) {
       log.MutableNumbers(axis)[i] = frames.Numbers(axis)[i] + normal(generator);
     }
   }
+  // A camera that counts from (0.7, -1.1).
+  for (const std::string& name : log.headers()) {
+    if (name.rfind("rib", 0) != 0 && name.rfind("tip", 0) != 0) continue;
+    const double origin = name[name.size() - 4] == 'x' ? 0.7 : -1.1;
+    for (double& value : log.MutableNumbers(name)) value -= origin;
+  }
   log.Write(folder.Path("seen.csv"));
   Plan plan = StandardPlan();
   plan.pin_std_mm = plan.tip_std_mm = 0.1;
+  Free(ParameterFamily::kCameraOrigin, &plan).prior_std = 2;
   const Recovery seen(Nominal(), plan, {folder.Path("seen.csv")});
   seen.ExpectFinger(truth);
+  seen.Expect("camera_origin_x_mm", 0.7, 0.03);
+  seen.Expect("camera_origin_y_mm", -1.1, 0.03);
   EXPECT_NEAR(seen.Chi2PerDof(ResidualFamily::kPin), 1, 0.08);
   EXPECT_NEAR(seen.Chi2PerDof(ResidualFamily::kTip), 1, 0.3);
 }

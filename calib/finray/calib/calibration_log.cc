@@ -138,6 +138,12 @@ void RefuseWithoutForces(const Plan& plan, const CalibrationLogs& logs) {
 }
 
 void RefuseWithoutPoints(const Plan& plan, const CalibrationLogs& logs) {
+  if (plan.family(ParameterFamily::kCameraOrigin).free && !plan.pin_std_mm &&
+      !plan.tip_std_mm) {
+    throw InputError(
+        "plan: camera_origin is free, but measurements have no pin_std_mm and "
+        "no tip_std_mm, so that nothing a camera saw is used");
+  }
   const auto none = [&](auto&& has) {
     return std::none_of(logs.frames.begin(), logs.frames.end(), has);
   };

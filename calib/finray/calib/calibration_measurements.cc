@@ -149,15 +149,17 @@ void CalibrationProblem::AddPlace(int index, const FrameEvaluation& evaluation,
 void CalibrationProblem::AddPoints(int index, const FrameEvaluation& evaluation,
                                    const std::vector<double*>& model) {
   const CalibrationFrame& frame = logs_.frames[index];
+  std::vector<double*> blocks = model;
+  blocks.push_back(parameters_.camera_origin_mm);
   for (const SeenPin& pin : frame.pins) {
     AddMeasurement(PointResidual::CreatePin(&evaluation, pin.rib, pin.side,
                                             pin.at_mm, *plan_.pin_std_mm),
-                   ResidualFamily::kPin, index, -1, model);
+                   ResidualFamily::kPin, index, -1, blocks);
   }
   if (frame.tip_mm.allFinite()) {
     AddMeasurement(
         PointResidual::CreateTip(&evaluation, frame.tip_mm, *plan_.tip_std_mm),
-        ResidualFamily::kTip, index, -1, model);
+        ResidualFamily::kTip, index, -1, blocks);
   }
 }
 

@@ -42,6 +42,7 @@ CalibrationParameters::CalibrationParameters(const Finger& finger,
   AddForceSensor(plan, logs);
   AddTemperature(plan);
   AddDrift(plan, logs);
+  AddCamera(plan);
 }
 
 void CalibrationParameters::AddOfFinger(const Plan& plan,
@@ -181,6 +182,20 @@ void CalibrationParameters::AddDrift(const Plan& plan,
   }
 }
 
+void CalibrationParameters::AddCamera(const Plan& plan) {
+  if (!plan.family(ParameterFamily::kCameraOrigin).free) return;
+  for (int axis = 0; axis < 2; ++axis) {
+    CalibrationParameter parameter;
+    parameter.name = axis == 0 ? "camera_origin_x_mm" : "camera_origin_y_mm";
+    parameter.unit = "mm";
+    parameter.family = ParameterFamily::kCameraOrigin;
+    parameter.variable = &camera_origin_mm[axis];
+    parameter.block = camera_origin_mm;
+    parameter.scale = 10;
+    Add(plan, std::move(parameter));
+  }
+}
+
 void CalibrationParameters::AddOfLog(const Plan& plan,
                                      const CalibrationLogs& logs, int log,
                                      CalibrationParameter parameter) {
@@ -229,6 +244,9 @@ CalibrationLogs CalibrationParameters::Corrected(const CalibrationLogs& logs,
     frame.force_xy_N /= scale;
     frame.object_mm +=
         Eigen::Map<const Eigen::Vector2d>(object_origin_mm(frame.log));
+    const Eigen::Map<const Eigen::Vector2d> camera(camera_origin_mm);
+    for (SeenPin& pin : frame.pins) pin.at_mm += camera;
+    frame.tip_mm += camera;
   }
   return corrected;
 }

@@ -53,6 +53,8 @@ class CalibrationParameters {
   /// the components.
   double ln_force_scale = 0;
   double force_offset_N = 0, force_offset_xy_N[2] = {0, 0};
+  /// Where positions of rib pins and the tip are counted from.
+  double camera_origin_mm[2] = {0, 0};
 
   /// Where a log's object positions are counted from.
   double* object_origin_mm(int log) {
@@ -70,7 +72,7 @@ class CalibrationParameters {
   Finger Apply(const Finger& finger) const;
 
   /// The logs as they would be of a finger with `calibrated`'s offsets, without
-  /// drift, at the reference temperature, with a true force sensor and object
+  /// drift, at the reference temperature, with a true force sensor and all
   /// positions in frame S.
   CalibrationLogs Corrected(const CalibrationLogs& logs,
                             const Finger& calibrated);
@@ -81,6 +83,7 @@ class CalibrationParameters {
   void AddOrigins(const Plan& plan, const CalibrationLogs& logs);
   void AddForceSensor(const Plan& plan, const CalibrationLogs& logs);
   void AddTemperature(const Plan& plan);
+  void AddCamera(const Plan& plan);
   void AddDrift(const Plan& plan, const CalibrationLogs& logs);
   // The parameter's name is to be followed by the log's.
   void AddOfLog(const Plan& plan, const CalibrationLogs& logs, int log,

@@ -23,6 +23,7 @@ constexpr FamilyKey kFamilyKeys[kParameterFamilies] = {
     {"force_offset", "prior_std_N"},
     {"temperature_coefficient", "prior_std_V_per_C"},
     {"gauge_drift", "prior_std_V_per_h"},
+    {"camera_origin", "prior_std_mm"},
 };
 constexpr char kWalk[] = "walk_std_V_per_sqrt_h", kKnots[] = "knot_every_s";
 

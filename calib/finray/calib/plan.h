@@ -13,7 +13,8 @@ namespace finray {
 
 /// Kinds of parameters a calibration may vary: a finger's, by their own
 /// numbers, and those of the logs: where the object's positions are counted
-/// from, what the force sensor and the gauges add.
+/// from, what the force sensor and the gauges add, where the camera counts
+/// from.
 enum class ParameterFamily {
   kFrontStiffness = static_cast<int>(FingerParameterKind::kFrontStiffness),
   kBackStiffness = static_cast<int>(FingerParameterKind::kBackStiffness),
@@ -25,8 +26,9 @@ enum class ParameterFamily {
   kForceOffset,
   kTemperatureCoefficient,
   kGaugeDrift,
+  kCameraOrigin,
 };
-constexpr int kParameterFamilies = kFingerParameterKinds + 5;
+constexpr int kParameterFamilies = kFingerParameterKinds + 6;
 
 /// Whether a family is varied, and what is known of it before.
 struct FamilyPlan {

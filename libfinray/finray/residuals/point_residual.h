@@ -5,12 +5,13 @@
 
 namespace finray {
 
-/// A point of the finger that a camera saw, in frame S:
+/// A point of the finger that a camera saw at p:
 ///
-///   r = (r_P - p) / sigma,   two residuals,
+///   r = (r_P - (p + o)) / sigma,   two residuals,
 ///
 /// with r_P where the equilibrium puts the point: a rib's hinge on the front or
-/// back beam, or the tip. Parameter blocks: those of FrameResidual.
+/// back beam, or the tip; o is the origin of the camera's coordinates in frame
+/// S. Parameter blocks: those of FrameResidual, camera origin (2, mm).
 class PointResidual : public FrameResidual {
  public:
   /// The frame must have been made with pins.
