@@ -10,11 +10,17 @@
 namespace finray {
 namespace {
 
-// A number as YAML has it: .nan, .inf.
+// A number as YAML has it: .nan, .inf, and with a point before an exponent,
+// without which YAML 1.1 takes it for text.
 std::string YamlNumber(double value) {
   if (std::isnan(value)) return ".nan";
   if (std::isinf(value)) return value > 0 ? ".inf" : "-.inf";
-  return NumberText(value);
+  std::string text = NumberText(value);
+  const std::size_t exponent = text.find('e');
+  if (exponent != std::string::npos && text.find('.') == std::string::npos) {
+    text.insert(exponent, ".0");
+  }
+  return text;
 }
 
 template <class T>

@@ -10,6 +10,18 @@ std::string GaugeName(int gauge, const char* rest) {
   return "gauge_" + std::to_string(gauge + 1) + "_" + rest;
 }
 
+// The last log with rows of the finger that are not held out; the last on the
+// bench if there is none.
+int LastFitted(const CalibrationLogs& logs) {
+  int finger = -1, bench = -1;
+  for (const CalibrationFrame& frame : logs.frames) {
+    if (frame.held_out) continue;
+    int& last = frame.IsBench() ? bench : finger;
+    last = std::max(last, frame.log);
+  }
+  return finger >= 0 ? finger : bench;
+}
+
 }  // namespace
 
 double CalibrationParameter::Value(double at) const {
@@ -26,10 +38,7 @@ CalibrationParameters::CalibrationParameters(const Finger& finger,
     : shared(SharedParameters::Of(finger)),
       readings(finger, plan, logs),
       held_out_(logs.HeldOut()),
-      last_fitted_(static_cast<int>(
-                       held_out_.rend() -
-                       std::find(held_out_.rbegin(), held_out_.rend(), false)) -
-                   1),
+      last_fitted_(LastFitted(logs)),
       origin_per_log_(plan.family(ParameterFamily::kObjectOrigin).per_log),
       origins_mm_(origin_per_log_ ? logs.paths.size() : 1, {0, 0}) {
   for (const Gauge& gauge : finger.gauges) {

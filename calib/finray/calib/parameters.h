@@ -68,7 +68,8 @@ class CalibrationParameters {
   const std::vector<int>& free() const { return free_; }
 
   /// The finger that the present values describe. Where offsets are per log it
-  /// has those of the last log that was fitted.
+  /// has those of the last log that was fitted, of the finger if there is one,
+  /// else of the bench.
   Finger Apply(const Finger& finger) const;
 
   /// The logs as they would be of a finger with `calibrated`'s offsets, without
@@ -92,7 +93,7 @@ class CalibrationParameters {
            bool held_out = false);
 
   std::vector<bool> held_out_;  // by log: every row is
-  int last_fitted_;             // the last log of which that is not so
+  int last_fitted_;             // the log whose offsets the finger has
   bool origin_per_log_;
   std::vector<std::array<double, 2>> origins_mm_;
   std::vector<CalibrationParameter> all_;
