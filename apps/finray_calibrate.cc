@@ -17,6 +17,9 @@ DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
 DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
 DEFINE_bool(dump_config, false, "print what is in force, and stop");
 DEFINE_bool(report, true, "render report.html");
+DEFINE_bool(
+    leave_one_log_out, true,
+    "with several logs: repeat without each, to see whether they agree");
 
 namespace {
 
@@ -62,6 +65,10 @@ void PrintSummary(finray::CalibrationProblem& problem,
   } else {
     std::printf("not known: no reference force in the logs\n");
   }
+  std::printf("next           %s\n",
+              result.next.empty()
+                  ? "no 20 frames would shrink the worst direction by a tenth"
+                  : result.next[0].words.c_str());
   for (const CalibrationWarning& warning : result.warnings) {
     LOG(WARNING) << warning.text << "; " << warning.remedy;
   }
@@ -81,8 +88,8 @@ int Run() {
   }
   const CalibrationLogs logs = ReadCalibrationLogs(paths, finger, plan);
   CalibrationProblem problem(finger, plan, logs, discretization, FLAGS_threads);
-  const CalibrationResult result =
-      Calibrate(&problem, discretization, FLAGS_threads);
+  const CalibrationResult result = Calibrate(
+      &problem, discretization, FLAGS_threads, FLAGS_leave_one_log_out);
 
   std::string command =
       "finray_calibrate --finger " + FLAGS_finger + " --plan " + FLAGS_plan +

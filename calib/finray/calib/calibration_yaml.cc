@@ -3,19 +3,14 @@
 
 #include <cmath>
 
+#include "finray/calib/calibration_checks_yaml.h"
 #include "finray/calib/calibration_result.h"
+#include "finray/calib/yaml_number.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/sha256.h"
 
 namespace finray {
 namespace {
-
-// A number as YAML has it: .nan, .inf.
-std::string YamlNumber(double value) {
-  if (std::isnan(value)) return ".nan";
-  if (std::isinf(value)) return value > 0 ? ".inf" : "-.inf";
-  return NumberText(value);
-}
 
 template <class T>
 void Pair(YAML::Emitter* yaml, const char* key, const T& value) {
@@ -182,6 +177,7 @@ std::string CalibrationYaml(CalibrationProblem& problem,
   EmitForceError(result.forces.fitted, &yaml);
   yaml << YAML::Key << "holdout" << YAML::Value;
   EmitForceError(result.forces.held_out, &yaml);
+  EmitChecks(problem, result, &yaml);
   yaml << YAML::Key << "warnings" << YAML::Value << YAML::BeginSeq;
   for (const CalibrationWarning& warning : result.warnings) {
     yaml << YAML::BeginMap;

@@ -123,7 +123,7 @@ void ErrorTable::Add(const FrameReference& reference,
 }
 
 void EmitErrorTable(const ErrorTable& table, YAML::Emitter* yaml) {
-  const auto row = [yaml](const char* name, const ErrorRow& errors) {
+  const auto row = [&](const char* name, const ErrorRow& errors) {
     if (errors.frames == 0) return;
     *yaml << YAML::Key << name << YAML::Value << YAML::Flow << YAML::BeginMap;
     EmitRow(errors, &errors != &table.free, yaml);
