@@ -111,8 +111,9 @@ ResidualCorrelation AnalyzeResidualCorrelation(CalibrationProblem* problem,
     result.tau[i] = time.tau;
     const double share = of_data(i, i) / covariance(i, i);
     if (!(share > 1e-6)) continue;
-    const double q = std::max(1.0, Gamma(influence[i], 0) / of_data(i, i));
-    result.enlargement[i] = std::sqrt(1 + (q * time.tau - 1) * share);
+    const double v =
+        std::max(1.0, time.tau * Gamma(influence[i], 0) / of_data(i, i));
+    result.enlargement[i] = std::sqrt(1 + (v - 1) * share);
   }
   return result;
 }

@@ -36,7 +36,7 @@ IntegratedTime IntegrateTime(const std::vector<std::vector<double>>& logs);
 /// and theta - truth = -sum_t psi_t. White residuals of the stated std give the
 /// sum a variance of C S C. Of correlated ones it is V_i times that,
 ///
-///   V_i = max(1, q_i tau_i),   q_i = sum psi^2 / (C S C)_ii, at least 1,
+///   V_i = tau_i sum_t psi_t,i^2 / (C S C)_ii, at least 1,
 ///
 /// with tau_i of psi_t,i. So an offset that drifts widens what rides on that
 /// offset, not what is told by loads at random. The part of the variance that
