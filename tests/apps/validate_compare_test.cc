@@ -133,7 +133,7 @@ TEST_F(ValidateCompareTest, CompareTwoCalibrations) {
                 "schema_version: 1\nparameters:\n  - {name: x, unit: mm, "
                 "value: 1, std: -1, status: estimated}\n");
   ExpectBadInput("finray_compare", "%train %bad --out_dir %out",
-                 "calibration.yaml:3:42: std: expected");
+                 "calibration.yaml:3:40: std: expected a number of at least 0");
 }
 
 TEST_F(ValidateCompareTest, CalibrateChecksItself) {

@@ -106,7 +106,7 @@ void CheckEnlargement(int repeats, double tolerance) {
   EXPECT_NEAR(slow.enlargement / slow.spread_over_std, 1, tolerance);
 }
 TEST(ResidualCorrelationTest, StdAreEnlargedByWhatCorrelationDoes) {
-  CheckEnlargement(30, 0.4);
+  CheckEnlargement(60, 0.4);
 }
 TEST(ResidualCorrelationTest, SlowStdAreEnlargedByWhatCorrelationDoes) {
   CheckEnlargement(240, 0.2);
