@@ -134,6 +134,24 @@ TEST(ContactSmootherTest, HelpsAsMuchAsItsStdSays) {
   EXPECT_NEAR(follow_chi2 / kFrames, 1, 0.4);
 }
 
+TEST(ContactSmootherTest, AnUnexplainedFrameCountsForLittle) {
+  Walk walk(9, 0.01, 0.01, 5);
+  walk.readings[4].gauges_V[1] += 0.02;
+  FrameEstimator smooth(PaperFinger(), SmoothScene(0.5, 0.1), {});
+  std::vector<FrameEstimate> estimates(9);
+  smooth.EstimateBlock(walk.readings.data(), 9, estimates.data());
+  const FrameEstimate alone = smooth.Estimate(walk.readings[4]);
+  ASSERT_GT(alone.noise_scale(), 5);
+  const auto off = [&](const FrameEstimate& e) {
+    return std::abs(e.contact[0].arc_mm - walk.truth[4][0]);
+  };
+  EXPECT_LT(off(estimates[4]), 0.3 * off(alone));
+  EXPECT_LT(off(estimates[4]), 4 * estimates[4].contact[0].arc_std_mm);
+  EXPECT_LT(estimates[4].contact[0].arc_std_mm,
+            0.5 * alone.contact[0].arc_std_mm);
+  EXPECT_EQ(estimates[4].status, FrameStatus::kOk);
+}
+
 TEST(ContactSmootherTest, ARunEndsWhereTheContactDoes) {
   // Two contacts far apart with free frames between them: nothing drags one
   // towards the other.

@@ -21,7 +21,8 @@ TEST(RivalMapTest, WhatItCallsUniqueHasNoRival) {
     FrameMeasurement measurement;
     measurement.weights = Eigen::VectorXd::Constant(4, 1 / noise);
     measurement.gauges = measurement.all = 4;
-    const RivalMap map(table, measurement.weights);
+    ContactFit map_fit(finger, {});
+    const RivalMap map(table, measurement.weights, &map_fit);
     ContactSearch search(finger, Scene(), {});
     std::mt19937_64 generator(11);
     std::uniform_real_distribution<double> place(10, 135), force(0, 2);

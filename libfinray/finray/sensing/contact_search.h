@@ -32,8 +32,8 @@ struct ContactSolution {
 class ContactSearch {
  public:
   /// Two solutions explain a frame equally well if their chi2 differ by less
-  /// than 95 % of what noise does to the chi2 of two parameters.
-  static constexpr double kWithinNoise = 5.99;
+  /// than 99 % of what noise does to the chi2 of two parameters.
+  static constexpr double kWithinNoise = 9.21;
   static constexpr double kMostForce = 4;  ///< over the table's heaviest
 
   /// Throws InputError for a finger without an unloaded equilibrium.

@@ -65,6 +65,7 @@ bool ContactSmoother::SmoothRun(const FrameReadings* readings,
   if (frames_.size() < count) frames_.resize(count);
   for (std::size_t t = 0; t < count; ++t) {
     Measure(finger_, scene_, readings[t], &frames_[t].measurement);
+    frames_[t].measurement.weights /= estimates[t].noise_scale();
     frames_[t].x = {estimates[t].contact[0].arc_mm,
                     estimates[t].contact[0].normal_N};
   }

@@ -17,7 +17,9 @@ namespace finray {
 /// with q the scene's std of the change from frame to frame. Gauss-Newton over
 /// the whole run, each frame linearised in equilibrium
 /// (contact_linearization.h) and the block tridiagonal system solved in one
-/// sweep there and back, which gives the covariance of every frame too. A run
+/// sweep there and back, which gives the covariance of every frame too. Frames
+/// that noise does not explain count as little as they are worth
+/// (FrameEstimate::noise_scale). A run
 /// ends where there is no contact, where there are two and where a frame is not
 /// solved.
 class ContactSmoother {

@@ -27,7 +27,7 @@ void EstimationSummary::Add(const FrameEstimate& estimate, double friction,
                       estimate.status == FrameStatus::kUnobservable ||
                       estimate.status == FrameStatus::kNoContact;
   if (!solved) return;
-  if (estimate.p_value() < FrameEstimator::kUnexplained) ++unexplained;
+  if (estimate.p_value() < FrameEstimate::kUnexplained) ++unexplained;
   // The numbers of unobservable frames are not to be used.
   if (estimate.status == FrameStatus::kUnobservable) return;
   if (std::isnan(force_N)) return;

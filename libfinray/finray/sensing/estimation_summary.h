@@ -22,7 +22,7 @@ struct EstimationSummary {
   std::size_t frames = 0;
   std::array<std::size_t, 5> by_status{};  ///< indexed by FrameStatus
   /// Solved, but neither the finger as described nor its noise makes such
-  /// readings: p-value of chi2 below FrameEstimator::kUnexplained.
+  /// readings: p-value of chi2 below FrameEstimate::kUnexplained.
   std::size_t unexplained = 0;
   /// Against the log's own force_N, where it has one and the frame is ok or
   /// no_contact.

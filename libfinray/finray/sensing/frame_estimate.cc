@@ -1,5 +1,7 @@
 #include "finray/sensing/frame_estimate.h"
 
+#include <cmath>
+
 #include "finray/sensing/chi_squared.h"
 
 namespace finray {
@@ -21,5 +23,9 @@ const char* StatusName(FrameStatus status) {
 }
 
 double FrameEstimate::p_value() const { return ChiSquaredTail(chi2, dof); }
+
+double FrameEstimate::noise_scale() const {
+  return p_value() < kUnexplained ? std::sqrt(chi2 / dof) : 1;
+}
 
 }  // namespace finray

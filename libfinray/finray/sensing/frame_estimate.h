@@ -55,6 +55,12 @@ struct FrameEstimate {
   /// The probability that noise alone makes chi2 as large or larger; NaN
   /// without degrees of freedom.
   double p_value() const;
+
+  /// Noise over what the finger says it is, as this frame has it: 1, or
+  /// sqrt(chi2 / dof) where the p-value is below kUnexplained, as then it is
+  /// something else, of about that size, that explains the frame.
+  double noise_scale() const;
+  static constexpr double kUnexplained = 0.001;
 };
 
 }  // namespace finray

@@ -175,6 +175,7 @@ bool FrameEstimator::TakeFollowed(const FrameReadings& readings,
   estimate->chi2 = fit.chi2;
   estimate->dof = static_cast<int>(finger_.gauges.size()) - kUnknowns;
   estimate->iterations = fit.iterations;
+  if (estimate->p_value() < FrameEstimate::kUnexplained) return false;
   Judge(readings, measurements_[frame].weights, estimate);
   return true;
 }
@@ -267,15 +268,12 @@ FrameEstimate FrameEstimator::Found(const FrameReadings& readings) {
   estimate.dof = measurement_.all - kUnknowns * best.count;
   estimate.iterations = search_.iterations();
 
-  ContactMatrix covariance = CovarianceOf(best.information);
-  // What noise does not explain is something else, of about that size.
-  if (estimate.p_value() < kUnexplained) {
-    covariance *= estimate.chi2 / estimate.dof;
-  }
+  const ContactMatrix covariance = CovarianceOf(best.information);
+  const double scale = estimate.noise_scale();
   for (int c = 0; c < best.count; ++c) {
     ContactEstimate& contact = estimate.contact[c];
-    contact.arc_std_mm = std::sqrt(covariance(2 * c, 2 * c));
-    contact.normal_std_N = std::sqrt(covariance(2 * c + 1, 2 * c + 1));
+    contact.arc_std_mm = scale * std::sqrt(covariance(2 * c, 2 * c));
+    contact.normal_std_N = scale * std::sqrt(covariance(2 * c + 1, 2 * c + 1));
   }
   if (const ContactSolution* rival = search_.rival()) {
     CopyContacts(*rival, &estimate.alternative);

@@ -19,9 +19,8 @@ namespace finray {
 /// more, and with four gauges or more a second one if that lowers it by another
 /// kSecondSignificance or more.
 ///
-/// A frame whose chi2 has a p-value below kUnexplained is not what the model
-/// says with this noise: its std are those of a noise that would explain it,
-/// scaled by sqrt(chi2 / dof).
+/// A frame that is not what the model says with this noise has the std of a
+/// noise that would explain it (FrameEstimate::noise_scale).
 ///
 /// Statuses (docs/estimation.md):
 ///  - no_contact: no contact, by that criterion or, with the number given, as
@@ -35,7 +34,6 @@ class FrameEstimator {
   static constexpr double kSignificance = 13.8;  // chi2, 2 dof, p = 0.001
   /// A second contact explains almost anything: it takes p = 1e-6.
   static constexpr double kSecondSignificance = 27.6;
-  static constexpr double kUnexplained = 0.001;  // p-value
   static constexpr double kLeastForce_N = 0.03;
   static constexpr double kLargestArcStd = 0.05;
   static constexpr double kLargestForceStd = 0.25;

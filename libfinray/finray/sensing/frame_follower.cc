@@ -18,6 +18,14 @@ Eigen::VectorXd AllWeights(const Finger& finger) {
   return weights;
 }
 
+RivalMap MapRivals(const Finger& finger, const Discretization& discretization,
+                   const ContactSearch& search) {
+  ContactFit fit(finger, discretization);
+  fit.set_tolerance(kTolerance);
+  fit.set_most_force(ContactSearch::kMostForce * search.table().heaviest_N());
+  return {search.table(), AllWeights(finger), &fit};
+}
+
 }  // namespace
 
 bool FrameFollower::Serves(const Scene& scene) {
@@ -29,7 +37,7 @@ FrameFollower::FrameFollower(const Finger& finger, const Scene& scene,
                              const ContactSearch& search)
     : search_(search),
       gauges_(static_cast<int>(finger.gauges.size())),
-      rivals_(search.table(), AllWeights(finger)),
+      rivals_(MapRivals(finger, discretization, search)),
       group_(finger, discretization, scene.friction_coefficient) {
   group_.set_tolerance(kTolerance);
   group_.set_most_force(ContactSearch::kMostForce *
@@ -67,8 +75,7 @@ void FrameFollower::Fit(const std::vector<FrameMeasurement>& frames,
 
 bool FrameFollower::IsCertain(std::size_t frame, double arc_std_mm) const {
   const FrameFit& fit = fits_[frame];
-  return fit.converged && ContactSearch::IsExplained(fit.chi2, gauges_ - 2) &&
-         !search_.OnBound(fit.arc_mm, fit.normal_N) &&
+  return fit.converged && !search_.OnBound(fit.arc_mm, fit.normal_N) &&
          rivals_.IsUnique(fit.arc_mm, arc_std_mm, fit.normal_N, fit.chi2,
                           ContactSearch::kWithinNoise);
 }

@@ -11,9 +11,9 @@ namespace finray {
 
 /// Frames of one contact without a search: each is fitted from where the one
 /// before it ended (FrameGroupFit), and what comes of it is taken only where a
-/// search could find nothing else: a minimum that explains the frame, inside
-/// all bounds, where no other contact explains it as well (RivalMap). All other
-/// frames are to be searched.
+/// search could find nothing else: a minimum inside all bounds where no other
+/// contact explains the frame as well (RivalMap). All other frames are to be
+/// searched.
 class FrameFollower {
  public:
   /// For scenes that may have one contact and measure nothing but gauges.

@@ -16,6 +16,9 @@ constexpr int kRows = 56;
 // Forces in units of EI / l_0^2: 0.64 N for the paper's finger, so to 26 N.
 constexpr double kForces[] = {0.5, 1, 2, 4, 7, 11, 16, 22, 30, 40};
 
+// Gauss-Newton on a cubic, from the nearest point of its chord.
+constexpr int kRefinements = 4;
+
 // Of the parabola through three equally spaced values with the least in the
 // middle.
 double LeastOfParabola(double left, double middle, double right) {
@@ -24,6 +27,59 @@ double LeastOfParabola(double left, double middle, double right) {
   const double slope = 0.5 * (right - left);
   return std::max(0.0, middle - 0.5 * slope * slope / curvature);
 }
+
+// Of the parabola through a node and its neighbours.
+void SetSlopes(std::vector<GaugeTable::Node>* nodes) {
+  const std::size_t count = nodes->size();
+  for (std::size_t k = 0; k < count; ++k) {
+    GaugeTable::Node& node = (*nodes)[k];
+    node.by_force.setZero(node.values.size());
+    if (count < 3) continue;
+    const std::size_t middle = std::clamp<std::size_t>(k, 1, count - 2);
+    const GaugeTable::Node &a = (*nodes)[middle - 1], &b = (*nodes)[middle],
+                           &c = (*nodes)[middle + 1];
+    const double ab = b.normal_N - a.normal_N, bc = c.normal_N - b.normal_N;
+    const Eigen::VectorXd left = (b.values - a.values) / ab,
+                          right = (c.values - b.values) / bc;
+    const Eigen::VectorXd curvature = (right - left) / (ab + bc);
+    node.by_force =
+        left + curvature * (2 * node.normal_N - a.normal_N - b.normal_N);
+  }
+}
+
+// Values between two nodes, whitened residuals against what was measured.
+struct Hermite {
+  const GaugeTable::Node &from, &to;
+  const Eigen::VectorXd &values, &weights;
+
+  // chi2 at a share of the way, with half its first derivative by the share
+  // and Gauss-Newton's half of the second one.
+  struct Misfit {
+    double chi2 = 0, slope = 0, curvature = 0;
+  };
+  Misfit At(double t) const {
+    const double width = to.normal_N - from.normal_N;
+    const double u = 1 - t;
+    const double h0 = u * u * (1 + 2 * t), h1 = t * t * (3 - 2 * t);
+    const double g0 = width * t * u * u, g1 = -width * t * t * u;
+    const double d1 = 6 * t * u;
+    const double e0 = width * u * (1 - 3 * t), e1 = width * t * (3 * t - 2);
+    Misfit misfit;
+    for (Eigen::Index j = 0; j < values.size(); ++j) {
+      const double w = weights[j];
+      if (w == 0) continue;
+      const double off =
+          w * (h0 * from.values[j] + h1 * to.values[j] + g0 * from.by_force[j] +
+               g1 * to.by_force[j] - values[j]);
+      const double slope = w * (d1 * (to.values[j] - from.values[j]) +
+                                e0 * from.by_force[j] + e1 * to.by_force[j]);
+      misfit.chi2 += off * off;
+      misfit.slope += off * slope;
+      misfit.curvature += slope * slope;
+    }
+    return misfit;
+  }
+};
 
 }  // namespace
 
@@ -60,21 +116,25 @@ GaugeTable::GaugeTable(EquilibriumSolver* solver, double friction,
       const double force = k < 0 ? 0 : kForces[k] * unit;
       // Soft fingers fold over at the heavy end; the table ends there.
       if (!solver->Solve({{row.arc_mm, force, friction}})) break;
-      row.nodes.push_back({force, values(), solver->state()});
+      row.nodes.push_back({force, values(), {}, solver->state()});
     }
-    if (!row.nodes.empty()) rows_.push_back(std::move(row));
+    if (row.nodes.empty()) continue;
+    SetSlopes(&row.nodes);
+    rows_.push_back(std::move(row));
   }
   solver->Reset();
 }
 
-// The nearest point of the curve of values over force, which is taken as
-// straight between nodes.
+// The nearest point of the curve of values over force: of its chord, then of
+// the cubic over that chord.
 ContactStart GaugeTable::BestOf(const Row& row, const Eigen::VectorXd& values,
                                 const Eigen::VectorXd& weights) const {
   ContactStart best;
   best.count = 1;
   best.chi2 = std::numeric_limits<double>::infinity();
   const auto count = values.size();
+  std::size_t nearest = 0;
+  double share_of_way = 0;
   for (std::size_t k = 1; k < row.nodes.size(); ++k) {
     const Node &from = row.nodes[k - 1], &to = row.nodes[k];
     double along = 0, square = 0, misfit = 0;
@@ -92,14 +152,29 @@ ContactStart GaugeTable::BestOf(const Row& row, const Eigen::VectorXd& values,
     const double chi2 =
         std::max(0.0, misfit + share * (share * square - 2 * along));
     if (chi2 < best.chi2) {
-      best.contacts[0] = {row.arc_mm,
-                          from.normal_N + share * (to.normal_N - from.normal_N),
-                          friction_};
       best.chi2 = chi2;
-      // A state without load says nothing of how it bends here.
-      best.state = share > 0.5 || k == 1 ? &to.state : &from.state;
+      nearest = k;
+      share_of_way = share;
     }
   }
+  if (nearest == 0) return best;
+  const Node &from = row.nodes[nearest - 1], &to = row.nodes[nearest];
+  const Hermite cubic{from, to, values, weights};
+  best.chi2 = std::numeric_limits<double>::infinity();
+  double t = share_of_way;
+  for (int i = 0; i < kRefinements; ++i) {
+    const Hermite::Misfit misfit = cubic.At(t);
+    if (!(misfit.chi2 < best.chi2)) break;
+    best.chi2 = misfit.chi2;
+    share_of_way = t;
+    if (!(misfit.curvature > 0)) break;
+    t = std::clamp(t - misfit.slope / misfit.curvature, 0.0, 1.0);
+  }
+  best.contacts[0] = {
+      row.arc_mm, from.normal_N + share_of_way * (to.normal_N - from.normal_N),
+      friction_};
+  // A state without load says nothing of how it bends here.
+  best.state = share_of_way > 0.5 || nearest == 1 ? &to.state : &from.state;
   return best;
 }
 

@@ -7,8 +7,11 @@
 namespace finray {
 namespace {
 
-// A table of 2.5 mm and ten forces knows distances to this factor.
-constexpr double kTableFactor = 0.5;
+// Between nodes d is known to this factor (RivalMapTest).
+constexpr double kBetweenNodes = 0.8;
+// Without a fit, the table knows chi2 to this factor; and what that leaves far
+// above anything that noise may do is not fitted.
+constexpr double kTableFactor = 0.25, kFarAbove = 400;
 // A valley's std in rows.
 constexpr double kWidest = 0.5;
 // Starts this many rows from the node's own are the same contact.
@@ -16,22 +19,37 @@ constexpr double kSameRows = 1.5;
 
 }  // namespace
 
-RivalMap::RivalMap(const GaugeTable& table, const Eigen::VectorXd& weights)
+RivalMap::RivalMap(const GaugeTable& table, const Eigen::VectorXd& weights,
+                   ContactFit* fit)
     : table_(table) {
-  std::vector<ContactStart> starts;
   for (const GaugeTable::Row& row : table.rows()) {
-    std::vector<double>& rivals = rival_chi2_.emplace_back();
-    for (const GaugeTable::Node& node : row.nodes) {
-      table.FindStarts(node.values, weights, &starts);
-      double least = std::numeric_limits<double>::infinity();
-      for (const ContactStart& start : starts) {
-        const double rows = std::abs(start.contacts[0].arc_mm - row.arc_mm) /
-                            table.row_spacing_mm();
-        if (rows > kSameRows) least = std::min(least, start.chi2);
-      }
-      rivals.push_back(least);
+    std::vector<double>& distances = distance_per_N_.emplace_back();
+    for (std::size_t k = 1; k < row.nodes.size(); ++k) {
+      distances.push_back(DistancePerN(row.nodes[k], row.arc_mm, weights, fit));
     }
   }
+}
+
+double RivalMap::DistancePerN(const GaugeTable::Node& node, double arc_mm,
+                              const Eigen::VectorXd& weights, ContactFit* fit) {
+  const double same_mm = kSameRows * table_.row_spacing_mm();
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<PointContact> contact(1);
+  table_.FindStarts(node.values, weights, &starts_);
+  for (const ContactStart& start : starts_) {
+    contact[0] = start.contacts[0];
+    if (std::abs(contact[0].arc_mm - arc_mm) <= same_mm) continue;
+    double chi2 = kTableFactor * start.chi2;
+    if (chi2 < kFarAbove) {
+      fit->set_state(*start.state);
+      if (fit->Fit(node.values, weights, &contact)) {
+        if (std::abs(contact[0].arc_mm - arc_mm) <= same_mm) continue;
+        chi2 = fit->chi2();
+      }
+    }
+    least = std::min(least, chi2);
+  }
+  return std::sqrt(least) / node.normal_N;
 }
 
 bool RivalMap::IsUnique(double arc_mm, double arc_std_mm, double normal_N,
@@ -42,20 +60,18 @@ bool RivalMap::IsUnique(double arc_mm, double arc_std_mm, double normal_N,
       rows.begin(), rows.end(), arc_mm,
       [](const GaugeTable::Row& row, double arc) { return row.arc_mm < arc; });
   if (above == rows.begin() || above == rows.end()) return false;
-  const double needed = std::sqrt(chi2) + std::sqrt(chi2 + within_noise);
-  for (const std::size_t i :
-       {static_cast<std::size_t>(above - rows.begin()),
-        static_cast<std::size_t>(above - rows.begin()) - 1}) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::ptrdiff_t i :
+       {above - rows.begin(), above - rows.begin() - 1}) {
     const std::vector<GaugeTable::Node>& nodes = rows[i].nodes;
-    std::size_t k = 0;
+    std::size_t k = 1;
     while (k < nodes.size() && nodes[k].normal_N < normal_N) ++k;
-    // Beyond the table, or as light as its first force.
-    if (k < 2 || k == nodes.size()) return false;
-    for (const std::size_t n : {k - 1, k}) {
-      if (kTableFactor * std::sqrt(rival_chi2_[i][n]) < needed) return false;
-    }
+    if (k == nodes.size()) return false;  // beyond the table
+    least = std::min({least, distance_per_N_[i][k - 1],
+                      distance_per_N_[i][k > 1 ? k - 2 : 0]});
   }
-  return true;
+  return kBetweenNodes * least * normal_N >
+         std::sqrt(chi2) + std::sqrt(chi2 + within_noise);
 }
 
 }  // namespace finray
