@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 
 #include "finray/calib/eliminated_contact.h"
 #include "finray/calib/next_frames_words.h"
@@ -60,6 +61,18 @@ double LargestLoad(const CalibrationProblem& problem) {
       forces.begin() + static_cast<long>(forces.size() * 95 / 100);
   std::nth_element(forces.begin(), high, forces.end());
   return std::clamp(*high, kUsualLoad * unit, kLargestLoad * unit);
+}
+
+// The first fitted frame of each log.
+std::vector<CalibrationFrame> FirstFrames(const CalibrationProblem& problem) {
+  std::vector<CalibrationFrame> frames;
+  std::set<int> seen;
+  for (const CalibrationFrame& frame : problem.logs().frames) {
+    if (!frame.held_out && seen.insert(frame.log).second) {
+      frames.push_back(frame);
+    }
+  }
+  return frames;
 }
 
 // Gauges that no frame has read do not read in the next one either.
@@ -120,9 +133,11 @@ void NextFrames::Predict(const Discretization& discretization) {
     forces_N_.push_back(TwoDigits(share * largest_N));
   }
 
-  // All of them as one more log's frames, linearised where they would be.
-  CalibrationLogs logs;
-  logs.paths = problem_->logs().paths;
+  // All of them as further frames of a log, linearised where they would be,
+  // behind a frame of each log, so that there are the parameters of all logs.
+  CalibrationLogs logs = problem_->logs();
+  logs.frames = FirstFrames(*problem_);
+  const int recorded = static_cast<int>(logs.frames.size());
   EquilibriumSolver solver(finger, discretization);
   const std::vector<bool> works = WorkingGauges(*problem_);
   CalibrationFrame frame = Template(*problem_, false);
@@ -149,7 +164,9 @@ void NextFrames::Predict(const Discretization& discretization) {
   }
   const CalibrationProblem::Linearization at = predicted.Linearize(false);
   ForEachFrame(at, [&](int first, int count) {
-    Candidate& candidate = candidates_[at.rows[first].frame];
+    const int index = at.rows[first].frame - recorded;
+    if (index < 0) return;
+    Candidate& candidate = candidates_[index];
     for (int i = first; i < first + count; ++i) {
       candidate.families.push_back(at.rows[i].family);
     }
@@ -157,12 +174,11 @@ void NextFrames::Predict(const Discretization& discretization) {
         at.by_parameter.middleRows(first, count) * found_.unit.asDiagonal();
     candidate.by_contact = at.by_contact.middleRows(first, count);
   });
-  ChooseMeasurements(at);
+  ChooseMeasurements();
 }
 
 // What contact frames of the logs have, and that with what can be added.
-void NextFrames::ChooseMeasurements(
-    const CalibrationProblem::Linearization& at) {
+void NextFrames::ChooseMeasurements() {
   Families recorded, missing;
   const CalibrationProblem::Linearization of_logs = problem_->Linearize(false);
   for (const auto& row : of_logs.rows) {
@@ -172,9 +188,11 @@ void NextFrames::ChooseMeasurements(
   if (!Has(recorded, ResidualFamily::kGauge)) {
     recorded.push_back(ResidualFamily::kGauge);
   }
-  for (const auto& row : at.rows) {
-    if (!Has(recorded, row.family) && !Has(missing, row.family)) {
-      missing.push_back(row.family);
+  for (const Candidate& candidate : candidates_) {
+    for (const ResidualFamily family : candidate.families) {
+      if (!Has(recorded, family) && !Has(missing, family)) {
+        missing.push_back(family);
+      }
     }
   }
   measured_.push_back({recorded, {}});

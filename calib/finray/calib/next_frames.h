@@ -77,7 +77,7 @@ class NextFrames {
   };
 
   void Predict(const Discretization& discretization);
-  void ChooseMeasurements(const CalibrationProblem::Linearization& at);
+  void ChooseMeasurements();
   Eigen::MatrixXd Information(const Candidate& candidate,
                               const Families& measured) const;
   FrameAdvice BestWith(const Measured& measured,
