@@ -1,6 +1,5 @@
 #include "finray/calib/calibration_checks_yaml.h"
 
-#include "finray/calib/next_frames_words.h"
 #include "finray/calib/yaml_number.h"
 
 namespace finray {

@@ -12,18 +12,25 @@ std::string Text(const char* format, double value) {
   return text;
 }
 
-const char* MeasurementName(ResidualFamily family) {
-  switch (family) {
-    case ResidualFamily::kGauge:
-      return "gauges";
-    case ResidualFamily::kForce:
-      return "the reference force";
-    case ResidualFamily::kObject:
-      return "the object's centre";
-    case ResidualFamily::kContact:
-      return "the contact location";
+struct Measurement {
+  ResidualFamily family;
+  const char* words;
+  const char* columns;
+};
+constexpr Measurement kMeasurements[] = {
+    {ResidualFamily::kForce, "the reference force", "force_N"},
+    {ResidualFamily::kObject, "the object's centre",
+     "object_x_mm, object_y_mm"},
+    {ResidualFamily::kContact, "the contact location", "contact_1_mm"},
+};
+
+// "the reference force (force_N)"
+std::string Spoken(ResidualFamily family) {
+  for (const Measurement& measurement : kMeasurements) {
+    if (measurement.family != family) continue;
+    return std::string(measurement.words) + " (" + measurement.columns + ")";
   }
-  return "";
+  return ResidualFamilyName(family);
 }
 
 // "front stiffness": the name without its unit, which stands behind the number.
@@ -43,20 +50,6 @@ std::string Spoken(const CalibrationParameter& parameter) {
 
 }  // namespace
 
-const char* ColumnsOf(ResidualFamily family) {
-  switch (family) {
-    case ResidualFamily::kGauge:
-      return "gauge_<j>_V";
-    case ResidualFamily::kForce:
-      return "force_N";
-    case ResidualFamily::kObject:
-      return "object_x_mm, object_y_mm";
-    case ResidualFamily::kContact:
-      return "contact_1_mm";
-  }
-  return "";
-}
-
 std::string DescribeNextFrames(CalibrationProblem& problem,
                                const FrameAdvice& advice) {
   std::string words = std::to_string(FrameAdvice::kFrames) + " frames ";
@@ -71,9 +64,7 @@ std::string DescribeNextFrames(CalibrationProblem& problem,
     words += " with " + Text("%.2g N", advice.normal_N);
   }
   for (std::size_t i = 0; i < advice.added.size(); ++i) {
-    words += std::string(i == 0 ? " and " : " and with ") +
-             MeasurementName(advice.added[i]) + " (" +
-             ColumnsOf(advice.added[i]) + ")";
+    words += (i == 0 ? " and " : " and with ") + Spoken(advice.added[i]);
   }
   if (!advice.added.empty()) words += " recorded";
   const CalibrationParameter& p = problem.parameters().all()[advice.parameter];

@@ -12,9 +12,6 @@ namespace finray {
 std::string DescribeNextFrames(CalibrationProblem& problem,
                                const FrameAdvice& advice);
 
-/// "force_N", "object_x_mm, object_y_mm", ...: the columns of a family.
-const char* ColumnsOf(ResidualFamily family);
-
 }  // namespace finray
 
 #endif  // FINRAY_CALIB_NEXT_FRAMES_WORDS_H_
