@@ -17,6 +17,20 @@ const LeaveOneLogOut::Row* LeaveOneLogOut::Worst() const {
   return worst->p_value * tests < kSignificant ? &*worst : nullptr;
 }
 
+namespace {
+
+// The value that a parameter has without some logs; NaN if it is only theirs.
+double ValueWithout(const CalibrationParameters& without,
+                    const std::string& name) {
+  for (const int i : without.free()) {
+    const CalibrationParameter& p = without.all()[i];
+    if (p.name == name) return *p.variable;
+  }
+  return std::nan("");
+}
+
+}  // namespace
+
 LeaveOneLogOut LeaveLogsOut(CalibrationProblem& problem,
                             const Identifiability& found,
                             const Discretization& discretization, int threads) {
@@ -42,10 +56,9 @@ LeaveOneLogOut LeaveLogsOut(CalibrationProblem& problem,
     CalibrationProblem without(problem.finger(), problem.plan(), rest,
                                discretization, threads);
     result.all_converged &= without.Solve().converged;
-    const CalibrationParameters& found_without = without.parameters();
     for (std::size_t i = 0; i < all.free().size(); ++i) {
-      const CalibrationParameter& p = found_without.all()[all.free()[i]];
-      left(static_cast<Eigen::Index>(i), group) = *p.variable;
+      left(static_cast<Eigen::Index>(i), group) =
+          ValueWithout(without.parameters(), all.all()[all.free()[i]].name);
     }
   }
   const double g = result.groups;
@@ -55,6 +68,7 @@ LeaveOneLogOut LeaveLogsOut(CalibrationProblem& problem,
     const auto values = left.row(static_cast<Eigen::Index>(i)).array();
     const double spread =
         std::sqrt((g - 1) / g * (values - values.mean()).square().sum());
+    if (std::isnan(spread)) continue;
     const double ratio = spread / found.std[i];
     result.rows.push_back(
         {all.free()[i], p.ValueStd(*p.variable, spread),

@@ -30,7 +30,7 @@ struct LeaveOneLogOut {
   };
   int groups = 0;  ///< 0: not done
   bool all_converged = true;
-  /// Free parameters of the finger whose std is finite.
+  /// Free parameters of the finger, not of one log, whose std is finite.
   std::vector<Row> rows;
 
   /// The row whose logs disagree most, if they do significantly.

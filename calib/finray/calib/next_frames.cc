@@ -95,6 +95,7 @@ bool Measure(const PointContact* contact, const std::vector<bool>& works,
   if (contact != nullptr) contacts.push_back(*contact);
   if (!solver->Solve(contacts)) return false;
   const Finger& finger = solver->model().finger();
+  frame->gauges_V.resize(works.size());
   for (std::size_t j = 0; j < works.size(); ++j) {
     const Gauge& gauge = finger.gauges[j];
     frame->gauges_V[j] =
