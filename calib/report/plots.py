@@ -183,7 +183,8 @@ def coverage(frames, advice):
 
 def correlations(names, matrix):
     """Drawn by hand: squares whose opacity is the correlation, on the page's ground."""
-    n, cell, left, top = len(names), 26, 118, 118
+    n, cell = len(names), 26
+    left = top = max(60, 5.8 * max(map(len, names)) + 14)
     size_x, size_y = left + n * cell + 4, top + n * cell + 4
     out = [f'<svg role="img" aria-label="Correlations of the free parameters" '
            f'viewBox="0 0 {size_x} {size_y}" width="{size_x}" '

@@ -74,7 +74,9 @@ def whole(value):
 
 
 def short(name):
-    return re.sub(r"_(N_mm2|V_per_rad|V|mm|percent_per_K|V_per_h|N)$", "", name).replace("_", " ")
+    """Without its unit: rib_1_length_mm, gauge_1_offset_V[a.csv]."""
+    unit = r"_(N_mm2|V_per_rad|V_per_h|percent_per_K|V|mm|N)(?=$|\[)"
+    return re.sub(unit, "", name).replace("_", " ").replace("[", " [")
 
 
 def file_name(path):
