@@ -80,8 +80,10 @@ inline void DumpConfig(const Finger& finger, const Scene& scene,
 }
 
 /// Parses flags, runs, and turns what is thrown into one line and an exit code.
+/// What is not a flag goes to `arguments`, or is an error without it.
 inline int RunApp(int argc, char** argv, const std::string& usage,
-                  const std::function<int()>& run) {
+                  const std::function<int()>& run,
+                  std::vector<std::string>* arguments = nullptr) {
   gflags::SetUsageMessage(usage);
   gflags::SetVersionString(FINRAY_VERSION);
   FLAGS_logtostderr = true;
@@ -89,7 +91,9 @@ inline int RunApp(int argc, char** argv, const std::string& usage,
   gflags::ParseCommandLineFlags(&argc, &argv, true);
   const std::string name = gflags::ProgramInvocationShortName();
   try {
-    if (argc > 1) {
+    if (arguments != nullptr) {
+      arguments->assign(argv + 1, argv + argc);
+    } else if (argc > 1) {
       throw UsageError(std::string("'") + argv[1] +
                        "' is not a flag; flags start with --");
     }

@@ -17,6 +17,9 @@ DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
 DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
 DEFINE_bool(dump_config, false, "print what is in force, and stop");
 DEFINE_bool(report, true, "render report.html");
+DEFINE_bool(
+    leave_one_log_out, true,
+    "with several logs: repeat without each, to see whether they agree");
 
 namespace {
 
@@ -31,16 +34,21 @@ void PrintSummary(finray::CalibrationProblem& problem,
   for (const ParameterStatus status : result.identifiability.status) {
     ++counts[static_cast<int>(status)];
   }
-  int contact = 0, free = 0, held_out = 0;
+  int contact = 0, free = 0, held_out = 0, bench = 0;
   for (const CalibrationFrame& frame : problem.logs().frames) {
-    ++(frame.held_out ? held_out : frame.contact ? contact : free);
+    ++(frame.held_out    ? held_out
+       : frame.IsBench() ? bench
+       : frame.contact   ? contact
+                         : free);
   }
   std::printf("%s\n", InFolder("finger.yaml").c_str());
   std::printf("solver         %s after %d iterations\n",
               result.solve.converged ? "converged" : "did not converge",
               result.solve.iterations);
-  std::printf("frames         %d contact, %d free, %d held out\n", contact,
-              free, held_out);
+  std::printf("frames         %d contact, %d free, %d held out", contact, free,
+              held_out);
+  if (bench > 0) std::printf(", %d on the bench", bench);
+  std::printf("\n");
   std::printf(
       "parameters     %d estimated, %d prior_dominated, %d unidentifiable\n",
       counts[0], counts[1], counts[2]);
@@ -62,6 +70,10 @@ void PrintSummary(finray::CalibrationProblem& problem,
   } else {
     std::printf("not known: no reference force in the logs\n");
   }
+  std::printf("next           %s\n",
+              result.next.empty()
+                  ? "no 20 frames would shrink the worst direction by a tenth"
+                  : result.next[0].words.c_str());
   for (const CalibrationWarning& warning : result.warnings) {
     LOG(WARNING) << warning.text << "; " << warning.remedy;
   }
@@ -81,8 +93,8 @@ int Run() {
   }
   const CalibrationLogs logs = ReadCalibrationLogs(paths, finger, plan);
   CalibrationProblem problem(finger, plan, logs, discretization, FLAGS_threads);
-  const CalibrationResult result =
-      Calibrate(&problem, discretization, FLAGS_threads);
+  const CalibrationResult result = Calibrate(
+      &problem, discretization, FLAGS_threads, FLAGS_leave_one_log_out);
 
   std::string command =
       "finray_calibrate --finger " + FLAGS_finger + " --plan " + FLAGS_plan +

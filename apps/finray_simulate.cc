@@ -13,6 +13,8 @@ DEFINE_string(log_out, "",
               "CSV to write: what a lab would have recorded, with noise");
 DEFINE_double(force_std_N, 0.02, "noise of force_N in --log_out");
 DEFINE_double(object_std_mm, 0.05, "noise of object_* in --log_out");
+DEFINE_double(pin_std_mm, 0,
+              "noise of rib pins in --log_out; 0: it has no pins");
 DEFINE_uint64(seed, 1, "of the noise in --log_out");
 DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
 DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
@@ -33,8 +35,10 @@ int Run() {
     DumpConfig(finger, scene, discretization);
     return kGood;
   }
-  if (!(FLAGS_force_std_N >= 0 && FLAGS_object_std_mm >= 0)) {
-    throw InputError("--force_std_N, --object_std_mm: expected at least 0");
+  if (!(FLAGS_force_std_N >= 0 && FLAGS_object_std_mm >= 0 &&
+        FLAGS_pin_std_mm >= 0)) {
+    throw InputError(
+        "--force_std_N, --object_std_mm, --pin_std_mm: expected at least 0");
   }
 
   FrameTable frames = FrameTable::Read(in, scene.columns);
@@ -45,8 +49,9 @@ int Run() {
   frames.Write(out);
   if (!FLAGS_shape_out.empty()) shapes.Write(FLAGS_shape_out);
   if (!FLAGS_log_out.empty()) {
-    MakeLog(finger, frames,
-            {FLAGS_force_std_N, FLAGS_object_std_mm, FLAGS_seed})
+    MakeLog(
+        finger, frames,
+        {FLAGS_force_std_N, FLAGS_object_std_mm, FLAGS_seed, FLAGS_pin_std_mm})
         .Write(FLAGS_log_out);
   }
   std::cout << out << "\n"

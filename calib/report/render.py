@@ -7,34 +7,22 @@ writes one self-contained page, plots inside as SVG.
 
 import csv
 import datetime
-import io
 import math
 import os
 import pathlib
 import re
 import sys
-import tempfile
 
-os.environ.setdefault("MPLCONFIGDIR", tempfile.mkdtemp(prefix="finray_mpl_"))
+sys.dont_write_bytecode = True
 
 import jinja2
-import matplotlib
-
-matplotlib.use("svg")
-import matplotlib.pyplot as plt
 import yaml
 
-# Colours that read on light and on dark ground.
-BEFORE, AFTER, HELD_OUT, INK = "#d1793b", "#2f7fc1", "#3a9a6a", "#8a8f98"
+import plots
+from plots import known, number
 
-plt.rcParams.update({
-    "font.size": 9, "axes.edgecolor": INK, "axes.labelcolor": INK,
-    "xtick.color": INK, "ytick.color": INK, "text.color": INK,
-    "axes.spines.top": False, "axes.spines.right": False,
-    "figure.facecolor": "none", "axes.facecolor": "none",
-    "svg.fonttype": "none", "svg.hashsalt": "finray", "legend.frameon": False,
-    "font.family": "sans-serif",
-})
+MINUS = "\u2212"
+WORST_FRAMES = 8
 
 
 def read_csv(path):
@@ -42,157 +30,195 @@ def read_csv(path):
         return list(csv.DictReader(file))
 
 
-def number(cell):
-    return float(cell) if cell else math.nan
+def missing(value):
+    return value is None or isinstance(value, jinja2.Undefined) or (
+        isinstance(value, float) and math.isnan(value))
 
 
-def svg(figure):
-    text = io.StringIO()
-    figure.savefig(text, format="svg", bbox_inches="tight",
-                   metadata={"Date": None, "Creator": None})
-    plt.close(figure)
-    text = text.getvalue()
-    return text[text.index("<svg"):]
-
-
-def plot_forces(frames):
-    points = [f for f in frames if not math.isnan(number(f["force_N"]))]
-    if not points:
-        return None
-    reference = [number(f["force_N"]) for f in points]
-    top = 1.15 * max(max(reference), 0.1)
-    figure, axes = plt.subplots(figsize=(4.6, 4.2))
-    axes.plot([0, top], [0, top], color=INK, lw=0.8, zorder=1)
-    outside = 0
-    for name, colour, column, held in (
-            ("before", BEFORE, "force_before_N", None),
-            ("after, fitted", AFTER, "force_after_N", False),
-            ("after, held out", HELD_OUT, "force_after_N", True)):
-        chosen = [f for f in points if held is None or (f["held_out"] == "1") == held]
-        y = [number(f[column]) for f in chosen]
-        if column == "force_before_N":
-            outside = sum(1 for v in y if v > 1.3 * top)
-        if chosen:
-            axes.scatter([number(f["force_N"]) for f in chosen], y, s=12,
-                         color=colour, label=name, alpha=0.75, lw=0, zorder=2)
-    axes.set(xlim=(-0.03 * top, top), ylim=(-0.03 * top, 1.3 * top),
-             xlabel="reference force (N)", ylabel="force from the gauges (N)")
-    if outside:
-        axes.annotate(f"{outside} frames “before” lie above", (0.98, 0.99),
-                      xycoords="axes fraction", ha="right", va="top", fontsize=8)
-    axes.legend(loc="upper left", fontsize=8)
-    return svg(figure)
-
-
-def plot_residuals(frames, gauges):
-    figure, all_axes = plt.subplots(gauges, 1, figsize=(7.4, 1.25 * gauges + 0.5),
-                                    sharex=True, squeeze=False)
-    for j, axes in enumerate(all_axes[:, 0]):
-        column = f"gauge_{j + 1}_residual_std"
-        for kind, colour in (("contact", AFTER), ("free", HELD_OUT)):
-            points = [(i + 1, number(f[column])) for i, f in enumerate(frames)
-                      if f["kind"] == kind and not math.isnan(number(f[column]))]
-            if points:
-                axes.scatter(*zip(*points), s=7, color=colour, lw=0,
-                             label=kind if j == 0 else None)
-        axes.axhline(0, color=INK, lw=0.6)
-        axes.axhspan(-2, 2, color=INK, alpha=0.12, lw=0)
-        axes.set_ylabel(f"gauge {j + 1}\n(std)")
-    all_axes[-1, 0].set_xlabel("frame")
-    all_axes[0, 0].legend(loc="upper right", ncols=2, fontsize=8)
-    return svg(figure)
-
-
-def plot_shape(points):
-    figure, axes = plt.subplots(figsize=(3.6, 4.2))
-    parts = {}
-    for p in points:
-        parts.setdefault((p["state"], p["part"]), []).append(
-            (number(p["x_mm"]), number(p["y_mm"])))
-    for (state, part), line in parts.items():
-        x, y = zip(*line)
-        if part == "contact":
-            axes.annotate("", xy=line[0], xytext=line[1],
-                          arrowprops={"arrowstyle": "-|>", "color": BEFORE, "lw": 1.6})
-            continue
-        rib = part.startswith("rib")
-        style = {"color": INK, "lw": 0.7, "ls": (0, (3, 3))} if state == "undeformed" else {
-            "color": INK if rib else AFTER, "lw": 1.1 if rib else 2.2}
-        axes.plot(x, y, **style)
-    axes.set(aspect="equal", xlabel="x (mm)", ylabel="y (mm)")
-    axes.margins(0.08)
-    return svg(figure)
-
-
-def plot_coverage(frames):
-    figure, axes = plt.subplots(figsize=(4.6, 2.9))
-    points = [(number(f["fit_contact_mm"]), number(f["fit_normal_N"])) for f in frames]
-    points = [p for p in points if not math.isnan(p[0])]
-    if not points:
-        plt.close(figure)
-        return None
-    axes.scatter(*zip(*points), s=12, color=AFTER, alpha=0.75, lw=0)
-    axes.set(xlabel="contact, arc length on the front beam (mm)",
-             ylabel="normal force (N)")
-    axes.set_ylim(bottom=0)
-    return svg(figure)
-
-
-def plot_correlations(names, matrix):
-    n = len(names)
-    figure, axes = plt.subplots(figsize=(0.32 * n + 2.2, 0.32 * n + 1.6))
-    image = axes.imshow(matrix, vmin=-1, vmax=1, cmap="RdBu_r")
-    axes.set_xticks(range(n), names, rotation=90, fontsize=7)
-    axes.set_yticks(range(n), names, fontsize=7)
-    axes.spines[:].set_visible(False)
-    figure.colorbar(image, shrink=0.7)
-    return svg(figure)
+def minus(text):
+    return text.replace("-", MINUS)
 
 
 def digits(value, std):
     """A value to the digits that its std leaves meaningful."""
-    if value is None or math.isnan(value):
+    if missing(value):
         return "–"
     if std and math.isfinite(std):
         places = max(0, 1 - math.floor(math.log10(abs(std))))
-        return f"{value:.{places}f}"
-    return f"{value:.6g}"
+        return minus(f"{value:.{places}f}")
+    return minus(f"{value:.6g}")
 
 
-def three(value):
-    if value is None or (isinstance(value, float) and math.isnan(value)):
+def figures(value, count=3):
+    """A number to so many significant figures, without an exponent where it can."""
+    if missing(value):
         return "–"
-    if isinstance(value, float) and math.isinf(value):
-        return "∞"
-    return f"{float(value):.3g}"
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return str(value)
+    if math.isinf(value):
+        return "∞" if value > 0 else MINUS + "∞"
+    if value == 0 or isinstance(value, int):
+        return minus(str(value))
+    places = count - 1 - math.floor(math.log10(abs(value)))
+    if places > 6 or abs(value) >= 1e6:
+        return minus(f"{value:.{count - 1}e}")
+    return minus(f"{value:.{max(0, places)}f}")
+
+
+def two(value):
+    return figures(value, 2)
+
+
+def whole(value):
+    return "–" if missing(value) else f"{value:.0f}"
 
 
 def short(name):
-    return re.sub(r"_(N_mm2|V_per_rad|V|mm)$", "", name).replace("_", " ")
+    """Without its unit: rib_1_length_mm, gauge_1_offset_V[a.csv]."""
+    unit = r"_(N_mm2|V_per_rad|V_per_h|percent_per_K|V|mm|N)(?=$|\[)"
+    return re.sub(unit, "", name).replace("_", " ").replace("[", " [")
+
+
+def file_name(path):
+    return os.path.basename(str(path))
+
+
+def plural(count, word):
+    return f"{count} {word}" + ("" if count == 1 else "s")
+
+
+def verdict(c):
+    """The headline, what it means, and whether it is good."""
+    statuses = [p["status"] for p in c["parameters"] if p["status"] != "fixed"]
+    unknown = [short(p["name"]) for p in c["parameters"] if p["status"] == "unidentifiable"]
+    by_prior = statuses.count("prior_dominated")
+    if c["verdict"] == "not_converged":
+        return "The solver did not converge.", "Do not use these values.", False
+    if c["verdict"] == "unidentifiable":
+        return (f"The logs do not determine {plural(len(unknown), 'parameter')}.",
+                "Not to be used: " + ", ".join(unknown) + ".", False)
+    if c["verdict"] != "good":
+        return c["verdict"].replace("_", " ").capitalize() + ".", "See the warnings below.", False
+    text = f"All {len(statuses)} free parameters are determined."
+    if by_prior:
+        return text, f"Of {plural(by_prior, 'parameter')} the prior says more than the logs.", True
+    return text, "The logs say more of each than its prior.", True
+
+
+def tiles(c):
+    """What a reader asks first: name, figure, note."""
+    out = []
+    errors = c.get("errors", {})
+    part = "held_out" if "held_out" in errors else "fitted"
+    after = errors.get(part, {}).get("after", {}).get("contact", {})
+    before = errors.get(part, {}).get("before", {}).get("contact", {})
+    where = "on held-out frames" if part == "held_out" else "on the frames that were fitted"
+    if "force_rms_N" in after:
+        note = f"{figures(after['force_rms_percent'], 2)} % rms {where}"
+        if "force_rms_N" in before:
+            note += f"; {figures(before['force_rms_N'], 2)} N before"
+        out.append(("force error", f"{figures(after['force_rms_N'], 2)} N", note))
+    if "contact_rms_mm" in after:
+        out.append(("contact error", f"{figures(after['contact_rms_mm'], 2)} mm", f"rms {where}"))
+    coverage = [after[k] for k in ("force_coverage_95_percent", "contact_coverage_95_percent")
+                if k in after]
+    if coverage:
+        out.append(("95 % intervals cover", " / ".join(f"{v:.0f} %" for v in coverage),
+                    "of force / contact errors" if len(coverage) == 2 else "of errors"))
+    chi2 = sum(n["chi2"] for n in c["noise"].values())
+    dof = sum(n["dof"] for n in c["noise"].values())
+    if dof > 1:
+        out.append(("χ² per degree of freedom", figures(chi2 / dof, 3),
+                    "1 where noise is as the plan says"))
+    return out
+
+
+def regions(c):
+    """Rows of the table by region: label, then per part after and before."""
+    errors = c.get("errors", {})
+    parts = [p for p in ("fitted", "held_out") if p in errors]
+    rows = {}
+    for part in parts:
+        for kind in ("before", "after"):
+            table = errors[part][kind]
+            for region in table["regions"]:
+                key = (region["from_mm"], region["to_mm"])
+                rows.setdefault(key, {}).setdefault(part, {})[kind] = region
+    named = [(f"{a:.0f} to {b:.0f} mm", cells) for (a, b), cells in sorted(rows.items())]
+    whole = {part: {kind: errors[part][kind].get("contact", {}) for kind in ("before", "after")}
+             for part in parts}
+    if whole:
+        named.append(("all", whole))
+    return parts, named
+
+
+def worst_frames(frames, gauges, force_std):
+    """The frames that the model explains least, by their largest residual."""
+    rows = []
+    for f in frames:
+        scores = []
+        for j in range(gauges):
+            value = number(f[f"gauge_{j + 1}_residual_std"])
+            if known(value):
+                scores.append((abs(value), f"gauge {j + 1}", value))
+        error = number(f["force_after_N"]) - number(f["force_N"])
+        std = number(f["force_after_std_N"])
+        if known(error, std) and f["status_after"] == "ok":
+            both = math.hypot(std, force_std)
+            scores.append((abs(error) / both, "force from gauges", error / both))
+        if scores:
+            score, what, value = max(scores)
+            rows.append({"log": file_name(f["log"]), "row": f["row"], "score": score, "what": what,
+                         "value": value, "contact": number(f["contact_after_mm"]),
+                         "reference": number(f["force_N"]), "force": number(f["force_after_N"]),
+                         "std": std, "held_out": plots.held_out(f),
+                         "status": f["status_after"]})
+    return sorted(rows, key=lambda r: -r["score"])[:WORST_FRAMES]
+
+
+def tables(value):
+    """Whatever a section holds as (pairs, rows): for sections of other tools."""
+    pairs, rows = [], []
+    if isinstance(value, dict):
+        for key, item in value.items():
+            if isinstance(item, list) and item and isinstance(item[0], dict):
+                rows += item
+            else:
+                pairs.append((key.replace("_", " "), item))
+    elif isinstance(value, list):
+        rows = [v if isinstance(v, dict) else {"": v} for v in value]
+    columns = list(dict.fromkeys(k for row in rows for k in row))
+    return {"pairs": pairs, "columns": columns, "rows": rows}
 
 
 def main():
     folder = pathlib.Path(sys.argv[1])
-    calibration = yaml.safe_load((folder / "calibration.yaml").read_text("utf-8"))
+    c = yaml.safe_load((folder / "calibration.yaml").read_text("utf-8"))
     frames = read_csv(folder / "calibration.frames.csv")
-    shape = read_csv(folder / "calibration.shape.csv")
-    gauges = sum(1 for p in calibration["parameters"] if "_gain_" in p["name"])
-    correlations = calibration["correlations"]
+    gauges = sum(1 for p in c["parameters"] if "_gain_" in p["name"])
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent),
         autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    environment.filters.update(three=three, short=short)
-    environment.globals.update(digits=digits)
+    environment.filters.update(figures=figures, two=two, whole=whole, short=short,
+                               file_name=file_name)
+    environment.globals.update(digits=digits, plural=plural, tables=tables)
+    parts, region_rows = regions(c)
+    headline, meaning, good = verdict(c)
+    names = c["correlations"]["names"]
+    forces, above = plots.forces(frames)
     page = environment.get_template("report.html.jinja").render(
-        c=calibration,
-        frames={"contact": sum(f["kind"] == "contact" and f["held_out"] == "0" for f in frames),
-                "free": sum(f["kind"] == "free" and f["held_out"] == "0" for f in frames),
-                "held_out": sum(f["held_out"] == "1" for f in frames)},
-        forces=plot_forces(frames), shape=plot_shape(shape),
-        residuals=plot_residuals(frames, gauges) if gauges else None,
-        coverage=plot_coverage(frames),
-        correlations=plot_correlations([short(n) for n in correlations["names"]],
-                                       correlations["matrix"]),
+        c=c, headline=headline, meaning=meaning, good=good, tiles=tiles(c),
+        parts=parts, regions=region_rows, worst=worst_frames(frames, gauges, c["config"]["force_std_N"]),
+        weak=[(w, plots.weak_direction(w["components"], short)) for w in c["weak_directions"]],
+        frames={"contact": sum(f["kind"] == "contact" and not plots.held_out(f) for f in frames),
+                "free": sum(f["kind"] == "free" and not plots.held_out(f) for f in frames),
+                "held_out": sum(map(plots.held_out, frames))},
+        forces=forces, above=above, heights=plots.errors_by_height(frames),
+        shape=plots.shape(read_csv(folder / "calibration.shape.csv")),
+        residuals=plots.residuals(frames, gauges) if gauges else None,
+        coverage=plots.coverage(frames, c.get("next") or []),
+        correlations=plots.correlations([short(n) for n in names], c["correlations"]["matrix"])
+        if len(names) > 1 else None,
         date=datetime.date.today().isoformat())
     temporary = folder / "report.html.part"
     temporary.write_text(page, "utf-8")

@@ -84,7 +84,7 @@ TEST_F(CommandLineTest, CalibrateTheBundledLog) {
   }
   EXPECT_EQ(checked, 15);
   const std::string report = folder_.Read("cal/report.html");
-  EXPECT_THAT(report, HasSubstr("Every free parameter is determined"));
+  EXPECT_THAT(report, HasSubstr("All 15 free parameters are determined"));
   EXPECT_THAT(report, testing::Not(HasSubstr("src=\"http")));
 
   // The result is a finger that every other tool reads.

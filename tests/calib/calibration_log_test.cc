@@ -67,5 +67,109 @@ TEST(CalibrationLogTest, MissingGaugeNamesTheColumn) {
                   "no column 'gauge_4_V' (did you mean 'gauge4_V'?)")));
 }
 
+TEST(CalibrationLogTest, RefusesParametersWithoutTheirData) {
+  const TempFolder folder;
+  const std::string path =
+      folder.Write("a.csv", std::string(kGauges) + ",time_S\n0,0,0,0,1\n");
+  const auto error = [&](ParameterFamily family, const std::string& message) {
+    Plan plan;
+    plan.families[static_cast<int>(family)].free = true;
+    EXPECT_THAT([&] { ReadCalibrationLogs({path}, PaperFinger(), plan); },
+                ThrowsMessage<InputError>(HasSubstr(message)));
+  };
+  error(ParameterFamily::kGaugeDrift,
+        "a.csv: no column 'time_s' (did you mean 'time_S'?); the plan's "
+        "gauge_drift needs it");
+  error(ParameterFamily::kTemperatureCoefficient,
+        "no column 'temperature_C'; it has gauge_1_V gauge_2_V gauge_3_V "
+        "gauge_4_V time_S; the plan's temperature_coefficient needs it");
+  error(ParameterFamily::kForceScale,
+        "plan: force_scale is free, but no log has a force_N");
+  error(ParameterFamily::kForceOffset, "plan: force_offset is free");
+  error(ParameterFamily::kCameraOrigin, "plan: camera_origin is free");
+  Plan plan;
+  plan.pin_std_mm = 0.5;
+  EXPECT_THAT([&] { ReadCalibrationLogs({path}, PaperFinger(), plan); },
+              ThrowsMessage<InputError>(HasSubstr("rib_1_front_x_mm")));
+}
+
+TEST(CalibrationLogTest, TimeAndTemperatureLastUntilTheNext) {
+  const TempFolder folder;
+  const std::string path = folder.Write(
+      "a.csv", std::string(kGauges) +
+                   ",time_s,temperature_C\n"
+                   "0,0,0,0,,\n0,0,0,0,5,20\n0,0,0,0,,21\n0,0,0,0,7,\n");
+  Plan plan;
+  for (const ParameterFamily family :
+       {ParameterFamily::kGaugeDrift,
+        ParameterFamily::kTemperatureCoefficient}) {
+    plan.families[static_cast<int>(family)].free = true;
+  }
+  const auto frames = ReadCalibrationLogs({path}, PaperFinger(), plan).frames;
+  const double times[] = {5, 5, 5, 7}, temperatures[] = {20, 20, 21, 21};
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(frames[i].time_s, times[i]);
+    EXPECT_EQ(frames[i].temperature_C, temperatures[i]);
+  }
+}
+
+TEST(CalibrationLogTest, PinsStandInForGauges) {
+  const TempFolder folder;
+  const std::string path = folder.Write(
+      "a.csv",
+      "rib_2_front_x_mm,rib_2_front_y_mm,rib_4_back_x_mm,rib_4_back_y_mm\n"
+      "1,40,30,90\n1,,30,91\n");
+  Plan plan;
+  plan.pin_std_mm = 0.5;
+  const auto frames = ReadCalibrationLogs({path}, PaperFinger(), plan).frames;
+  ASSERT_EQ(frames[0].pins.size(), 2u);
+  EXPECT_EQ(frames[0].pins[1].rib, 3);
+  EXPECT_EQ(frames[0].pins[1].side, Side::kBack);
+  EXPECT_EQ(frames[0].pins[1].at_mm.y(), 90);
+  EXPECT_EQ(frames[1].pins.size(), 1u);
+}
+
+TEST(CalibrationLogTest, BenchRowsAndNames) {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder.Path("day2"));
+  const std::string text =
+      std::string(kGauges) + ",cylinder_radius_mm\n1,1,1,1,inf\n2,1,1,1,80\n";
+  const std::vector<std::string> paths = {folder.Write("a.csv", text),
+                                          folder.Write("day2/a.csv", text),
+                                          folder.Write("b.csv", text)};
+  const CalibrationLogs logs =
+      ReadCalibrationLogs(paths, PaperFinger(), Plan());
+  EXPECT_TRUE(logs.frames[0].IsBench());
+  EXPECT_FALSE(logs.frames[0].contact);
+  EXPECT_EQ(logs.names,
+            (std::vector<std::string>{paths[0], paths[1], "b.csv"}));
+  const std::string zero = folder.Write(
+      "z.csv", std::string(kGauges) + ",cylinder_radius_mm\n1,1,1,1,0\n");
+  EXPECT_THAT([&] { ReadCalibrationLogs({zero}, PaperFinger(), Plan()); },
+              ThrowsMessage<InputError>(
+                  HasSubstr("z.csv:2: cylinder_radius_mm: expected a radius")));
+}
+
+// A sensor with an unknown offset cannot say what touches; the object can.
+TEST(CalibrationLogTest, TouchesWithAnOffsetOfTheForceSensor) {
+  const TempFolder folder;
+  const std::string path =
+      folder.Write("a.csv", std::string(kGauges) +
+                                ",force_N,object_x_mm,object_y_mm\n"
+                                "0,0,0,0,0.2,-25,70\n"
+                                "0,0,0,0,0.2,-14,70\n"
+                                "0,0,0,0,0.2,,\n"
+                                "0,0,0,0,0.4,,\n");
+  Plan plan;
+  plan.scene.object = RigidObject{Outline(CircleOutline{15}), {}};
+  FamilyPlan& offset =
+      plan.families[static_cast<int>(ParameterFamily::kForceOffset)];
+  offset.free = true;
+  offset.prior_std = 0.1;
+  const bool expected[] = {false, true, false, true};
+  const auto frames = ReadCalibrationLogs({path}, PaperFinger(), plan).frames;
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(frames[i].contact, expected[i]);
+}
+
 }  // namespace
 }  // namespace finray

@@ -43,6 +43,29 @@ TEST(PlanTest, ReadsEverything) {
   EXPECT_EQ(plan.holdout_by, HoldoutBy::kBlock);
 }
 
+TEST(PlanTest, ReadsParametersOfLogs) {
+  const Plan plan = Load(
+      "schema_version: 1\n"
+      "parameters:\n"
+      "  gauge_offset: {prior_std_V: 1, per_log: true}\n"
+      "  object_origin: {per_log: true}\n"
+      "  force_scale: {prior_std_percent: 5}\n"
+      "  force_offset: {prior_std_N: 0.1}\n"
+      "  temperature_coefficient: {prior_std_V_per_C: 0.01, reference_C: 25}\n"
+      "  gauge_drift: {walk_std_V_per_sqrt_h: 0.02, knot_every_s: 60}\n"
+      "measurements: {pin_std_mm: 0.5, tip_std_mm: 0.4}\n");
+  EXPECT_TRUE(plan.family(ParameterFamily::kGaugeOffset).per_log);
+  EXPECT_TRUE(plan.family(ParameterFamily::kObjectOrigin).per_log);
+  EXPECT_EQ(plan.family(ParameterFamily::kForceScale).prior_std, 5);
+  EXPECT_EQ(plan.family(ParameterFamily::kForceOffset).prior_std, 0.1);
+  EXPECT_EQ(plan.reference_temperature_C, 25);
+  ASSERT_TRUE(plan.gauge_walk);
+  EXPECT_EQ(plan.gauge_walk->std_V_per_sqrt_h, 0.02);
+  EXPECT_EQ(plan.gauge_walk->knot_every_s, 60);
+  EXPECT_EQ(plan.pin_std_mm, 0.5);
+  EXPECT_EQ(plan.tip_std_mm, 0.4);
+}
+
 TEST(PlanTest, SceneMayBeAFileBesideThePlan) {
   const TempFolder folder;
   folder.Write("scene.yaml", "object: {shape: circle, radius_mm: 7}\n");
@@ -63,8 +86,17 @@ TEST(PlanTest, RefusesUnknownKeysAndUnits) {
   error("parameters: {rib_length: {prior_std_V: 1}}\n",
         "unknown key 'prior_std_V' in rib_length (did you mean "
         "'prior_std_mm'?)");
-  error("parameters: {gauge_drift: {prior_std_V_per_h: 1}}\n",
-        "gauge_drift cannot be estimated");
+  error("parameters: {gauge_drift: {fixed: true, prior_std_V_per_h: 1}}\n",
+        "plan.yaml:2:60: a fixed parameter has no prior_std_V_per_h");
+  error("parameters: {gauge_drift: {walk_std_V_per_sqrt_h: 1}}\n",
+        "'knot_every_s' is missing in gauge_drift");
+  error(
+      "parameters: {gauge_drift: {prior_std_V_per_h: 1, "
+      "walk_std_V_per_sqrt_h: 1, knot_every_s: 60}}\n",
+      "either at a rate");
+  error("parameters: {gauge_gain: {per_log: true}}\n",
+        "unknown key 'per_log' in gauge_gain");
+  error("parameters: {}\nmeasurements: {pin_std_mm: 0}\n", "above 0");
   error("parameters: {rib_length: {prior_std_mm: -1}}\n", "a number above 0");
   error("parameters: {}\nholdout: {by: day}\n", "expected one of log, block");
   error("scene: {contacts: 2}\nparameters: {}\n", "one contact or none");

@@ -34,9 +34,14 @@ inline Finger HiddenFinger() {
   return finger;
 }
 
-/// 200 frames with a circle of R = 15 mm pressed in, 10 free ones.
-inline std::string StandardLog(const TempFolder& folder, const Finger& finger,
-                               unsigned seed) {
+inline Scene StandardScene() {
+  Scene scene;
+  scene.object = RigidObject{Outline(CircleOutline{15}), {}};
+  return scene;
+}
+
+/// 200 frames with a circle of R = 15 mm pressed in, 10 free ones, as they are.
+inline FrameTable StandardFrames(const Finger& finger, unsigned seed) {
   std::mt19937_64 generator(seed);
   std::uniform_real_distribution<double> uniform;
   FrameTable frames(210);
@@ -50,19 +55,22 @@ inline std::string StandardLog(const TempFolder& folder, const Finger& finger,
     x[i] =
         i % 21 == 0 ? -25 : -15 + (0.5 + 6.5 * uniform(generator)) / stiffness;
   }
-  frames.Write(folder.Path("frames.csv"));
-  frames = FrameTable::Read(folder.Path("frames.csv"));
-  Scene scene;
-  scene.object = RigidObject{Outline(CircleOutline{15}), {}};
-  EXPECT_EQ(Simulate(finger, scene, {}, &frames).not_converged, 0);
-  MakeLog(finger, frames, {0.02, 0.05, seed}).Write(folder.Path("log.csv"));
+  EXPECT_EQ(Simulate(finger, StandardScene(), {}, &frames).not_converged, 0);
+  return frames;
+}
+
+/// Their log, written to a folder.
+inline std::string StandardLog(const TempFolder& folder, const Finger& finger,
+                               unsigned seed) {
+  MakeLog(finger, StandardFrames(finger, seed), {0.02, 0.05, seed})
+      .Write(folder.Path("log.csv"));
   return folder.Path("log.csv");
 }
 
 /// All of the finger free, nothing of the object.
 inline Plan StandardPlan() {
   Plan plan;
-  plan.scene.object = RigidObject{Outline(CircleOutline{15}), {}};
+  plan.scene = StandardScene();
   const double priors[] = {50, 50, 200, 1.0, 0.5};
   for (int i = 0; i < 5; ++i) {
     plan.families[i].free = true;

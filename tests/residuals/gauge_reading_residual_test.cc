@@ -41,5 +41,21 @@ TEST_P(GaugeReadingResidualTest, AnalyticalVersusFiniteDifferences) {
   }
 }
 
+// Offset, a drift rate after 0.4 h, a temperature coefficient 7 degrees below.
+TEST_P(GaugeReadingResidualTest, TermsBesideTheOffset) {
+  double gain = 1.7, volts = 0.31, term[] = {0.2, -0.03, 0.004};
+  std::vector<double*> blocks = Blocks();
+  blocks.push_back(&gain);
+  for (double& x : term) blocks.push_back(&x);
+  const std::unique_ptr<ceres::CostFunction> cost(
+      GaugeReadingResidual::Create(frame_, 1, &volts, 0.01, {1, 0.4, -7}));
+  double residual;
+  ASSERT_TRUE(cost->Evaluate(blocks.data(), &residual, nullptr));
+  EXPECT_NEAR(residual,
+              (1.7 * frame_->outputs()[1] + 0.2 - 0.012 - 0.028 - 0.31) / 0.01,
+              1e-12);
+  CheckDerivatives(*cost, blocks, 1e-6);
+}
+
 }  // namespace
 }  // namespace finray

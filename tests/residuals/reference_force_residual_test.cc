@@ -7,7 +7,21 @@
 namespace finray {
 namespace {
 
-class ReferenceForceResidualTest : public ResidualsFixture {};
+class ReferenceForceResidualTest : public ResidualsFixture {
+ protected:
+  std::vector<double*> MagnitudeBlocks() {
+    return {unknowns_.data(), &ln_scale_, offset_};
+  }
+  std::vector<double*> VectorBlocks() {
+    std::vector<double*> blocks = Blocks();
+    blocks.push_back(&ln_scale_);
+    blocks.push_back(offset_);
+    return blocks;
+  }
+
+  double ln_scale_ = std::log(1.25);
+  double offset_[2] = {0.3, -0.2};
+};
 INSTANTIATE_TEST_SUITE_P(Forms, ReferenceForceResidualTest,
                          testing::Values(EquilibriumForm::kReduced,
                                          EquilibriumForm::kWeighted),
@@ -19,9 +33,12 @@ TEST_P(ReferenceForceResidualTest, MagnitudeAndComponentsAgree) {
       ReferenceForceResidual::Create(frame_, 0, 1));
   const std::unique_ptr<ceres::CostFunction> vector(
       ReferenceForceVectorResidual::Create(frame_, {0, 0}, 1));
-  ASSERT_TRUE(norm->Evaluate(Blocks().data(), &magnitude, nullptr));
-  ASSERT_TRUE(vector->Evaluate(Blocks().data(), components, nullptr));
-  EXPECT_NEAR(magnitude, 4 * std::sqrt(1 + kFriction * kFriction), 1e-12);
+  ASSERT_TRUE(norm->Evaluate(MagnitudeBlocks().data(), &magnitude, nullptr));
+  ASSERT_TRUE(vector->Evaluate(VectorBlocks().data(), components, nullptr));
+  EXPECT_NEAR(magnitude - offset_[0],
+              1.25 * 4 * std::sqrt(1 + kFriction * kFriction), 1e-12);
+  for (int i = 0; i < 2; ++i) components[i] -= offset_[i];
+  magnitude -= offset_[0];
   EXPECT_NEAR(std::hypot(components[0], components[1]), magnitude, 1e-12);
   EXPECT_GT(components[0], 0);  // into the finger
 }
@@ -29,10 +46,24 @@ TEST_P(ReferenceForceResidualTest, MagnitudeAndComponentsAgree) {
 TEST_P(ReferenceForceResidualTest, AnalyticalVersusFiniteDifferences) {
   const std::unique_ptr<ceres::CostFunction> norm(
       ReferenceForceResidual::Create(frame_, 3.9, 0.02));
-  CheckDerivatives(*norm, {unknowns_.data()}, 1e-7);
+  CheckDerivatives(*norm, MagnitudeBlocks(), 1e-7);
   const std::unique_ptr<ceres::CostFunction> vector(
       ReferenceForceVectorResidual::Create(frame_, {3.9, 0.1}, 0.02));
-  CheckDerivatives(*vector, Blocks(), 1e-6);
+  CheckDerivatives(*vector, VectorBlocks(), 1e-6);
+}
+
+// A free frame: the sensor's offset is all it reads.
+TEST_P(ReferenceForceResidualTest, WithoutContact) {
+  FrameSet frames(finger_, {}, EquilibriumForm::kReduced, &shared_, 1);
+  const FrameEvaluation& free = frames.Add(0, 0, nullptr);
+  frames.PrepareForEvaluation(true, true);
+  const std::unique_ptr<ceres::CostFunction> norm(
+      ReferenceForceResidual::Create(&free, 0.3, 0.02));
+  double residual;
+  const std::vector<double*> blocks = {&ln_scale_, offset_};
+  ASSERT_TRUE(norm->Evaluate(blocks.data(), &residual, nullptr));
+  EXPECT_NEAR(residual, (offset_[0] - 0.3) / 0.02, 1e-12);
+  CheckDerivatives(*norm, blocks, 1e-7);
 }
 
 }  // namespace

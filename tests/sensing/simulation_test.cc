@@ -228,5 +228,25 @@ TEST_F(SimulationTest, ALogHasNoiseAndNoTruth) {
   EXPECT_NE(MakeLog(finger_, frames, {0.02, 0.05, 5}).ToCsv(), log.ToCsv());
 }
 
+TEST_F(SimulationTest, PinsAreARibApart) {
+  FrameTable frames(1);
+  frames.MutableNumbers("contact_1_mm") = {62};
+  frames.MutableNumbers("normal_1_N") = {4};
+  Simulate(finger_, {}, {}, &frames);
+  for (int i = 0; i < 5; ++i) {
+    const std::string rib = "rib_" + std::to_string(i + 1);
+    const auto apart = [&](const std::string& axis) {
+      return frames.Numbers(rib + "_back_" + axis + "_mm")[0] -
+             frames.Numbers(rib + "_front_" + axis + "_mm")[0];
+    };
+    EXPECT_NEAR(std::hypot(apart("x"), apart("y")), finger_.ribs[i].length_mm,
+                1e-9);
+  }
+  EXPECT_FALSE(MakeLog(finger_, frames, {0, 0, 1}).Has("rib_1_front_x_mm"));
+  EXPECT_NEAR(
+      MakeLog(finger_, frames, {0, 0, 1, 0.5}).Numbers("rib_1_front_x_mm")[0],
+      frames.Numbers("rib_1_front_x_mm")[0], 2.5);
+}
+
 }  // namespace
 }  // namespace finray

@@ -5,15 +5,11 @@
 
 #include <cmath>
 #include <limits>
-#include <unordered_map>
+#include <unordered_set>
 
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
-#include "finray/residuals/gauge_reading_residual.h"
-#include "finray/residuals/object_contact_residual.h"
 #include "finray/residuals/parameter_prior_residual.h"
-#include "finray/residuals/reference_force_residual.h"
-#include "finray/statics/object_contact.h"
 
 namespace finray {
 namespace {
@@ -33,7 +29,8 @@ std::unique_ptr<ceres::LossFunction> MakeLoss(const Plan& plan) {
 }  // namespace
 
 const char* ResidualFamilyName(ResidualFamily family) {
-  constexpr const char* kNames[] = {"gauge", "force", "object", "contact"};
+  constexpr const char* kNames[] = {"gauge", "force", "object", "contact",
+                                    "pin",   "tip",   "bench"};
   return kNames[static_cast<int>(family)];
 }
 
@@ -44,7 +41,7 @@ CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
     : finger_(finger),
       plan_(plan),
       logs_(logs),
-      parameters_(finger, plan),
+      parameters_(finger, plan, logs),
       guess_solver_(finger, discretization),
       frames_(finger, discretization, EquilibriumForm::kReduced,
               &parameters_.shared, threads),
@@ -63,182 +60,91 @@ CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
     if (!logs_.frames[i].held_out) AddFrame(static_cast<int>(i));
   }
   if (blocks_.empty()) {
-    throw InputError("logs: no frame has a gauge reading to fit");
+    throw InputError("logs: no frame has anything to fit");
   }
   AddPriors();
   FixWhatIsNotFree();
 }
 
-void CalibrationProblem::AddFrame(int index) {
-  const CalibrationFrame& frame = logs_.frames[index];
-  bool any_gauge = false;
-  for (const double volts : frame.gauges_V) any_gauge |= std::isfinite(volts);
-  if (!any_gauge) return;
-
-  double* contact = nullptr;
-  if (frame.contact) {
-    contact_of_frame_[index] = static_cast<int>(contacts_.size());
-    contacts_.emplace_back();
-    contact = contacts_.back().data();
-    GuessContact(index, contact);
-  }
-  FrameEvaluation& evaluation = frames_.Add(
-      frame.contact ? 1 : 0, plan_.scene.friction_coefficient, contact);
-  SharedParameters& shared = parameters_.shared;
-  const std::vector<double*> model = FrameParameterBlocks(
-      evaluation, contact, &shared.ln_front_stiffness,
-      &shared.ln_back_stiffness, shared.rib_lengths_mm.data());
-
-  for (int j = 0; j < evaluation.gauges(); ++j) {
-    if (!std::isfinite(frame.gauges_V[j])) continue;
-    std::vector<double*> blocks = model;
-    blocks.push_back(&parameters_.gains_V_per_rad[j]);
-    blocks.push_back(&parameters_.offsets_V[j]);
-    AddMeasurement(GaugeReadingResidual::Create(
-                       &evaluation, j, &frame.gauges_V[j], gauge_std_V(j)),
-                   ResidualFamily::kGauge, index, j, blocks);
-  }
-  if (contact == nullptr) return;
-  problem_->SetParameterLowerBound(contact, 0, 0);
-  problem_->SetParameterUpperBound(contact, 0, finger_.front_length_mm);
-  problem_->SetParameterLowerBound(contact, 1, 0);
-
-  if (frame.force_xy_N.allFinite()) {
-    AddMeasurement(ReferenceForceVectorResidual::Create(
-                       &evaluation, frame.force_xy_N, plan_.force_std_N),
-                   ResidualFamily::kForce, index, -1, model);
-  } else if (std::isfinite(frame.force_N)) {
-    AddMeasurement(ReferenceForceResidual::Create(&evaluation, frame.force_N,
-                                                  plan_.force_std_N),
-                   ResidualFamily::kForce, index, -1, {contact});
-  }
-  if (frame.object_mm.allFinite() && plan_.scene.circle_radius_mm()) {
-    std::vector<double*> blocks = model;
-    blocks.push_back(parameters_.object_origin_mm);
-    AddMeasurement(ObjectContactResidual::Create(
-                       &evaluation, 0, frame.object_mm,
-                       *plan_.scene.circle_radius_mm(), plan_.object_std_mm),
-                   ResidualFamily::kObject, index, -1, blocks);
-  }
-  if (std::isfinite(frame.contact_mm)) {
-    AddMeasurement(ContactLocationResidual::Create(
-                       &evaluation, 0, frame.contact_mm, plan_.contact_std_mm),
-                   ResidualFamily::kContact, index, -1, {contact});
-  }
-}
-
-void CalibrationProblem::AddMeasurement(ceres::CostFunction* cost,
-                                        ResidualFamily family, int frame,
-                                        int gauge,
-                                        const std::vector<double*>& blocks) {
-  blocks_.push_back(problem_->AddResidualBlock(cost, loss_.get(), blocks));
-  block_info_.push_back({family, frame, gauge});
-}
-
-// Where the measurements put the contact, before the model has been fitted.
-void CalibrationProblem::GuessContact(int index, double* contact) {
+// Where the measurements put the contact, before the model has been fitted, by
+// the nearest place of a table: the nominal finger knows it to a few bays,
+// which is enough.
+void CalibrationProblem::GuessContact(int index, double* contact,
+                                      FrameEvaluation* evaluation) {
   const CalibrationFrame& frame = logs_.frames[index];
   const double length = finger_.front_length_mm;
   contact[0] = length / 2;
   contact[1] = ForceUnit(finger_);
-  if (frame.object_mm.allFinite() && plan_.scene.circle_radius_mm()) {
-    guess_solver_.Reset();
-    const ObjectContact found =
-        SolveObjectContact(*plan_.scene.object, {frame.object_mm},
-                           plan_.scene.friction_coefficient, &guess_solver_);
-    contact[0] = std::clamp(frame.object_mm.y(), 0.0, length);
-    if (found.status == ObjectContactStatus::kContact) {
-      contact[0] = found.contacts.front().arc_mm;
-      contact[1] = found.contacts.front().normal_N;
+  const std::optional<double> radius = plan_.scene.circle_radius_mm();
+  const bool by_object = frame.object_mm.allFinite() && radius;
+  if (!guess_table_) {
+    guess_table_ = std::make_unique<GaugeTable>(
+        &guess_solver_, plan_.scene.friction_coefficient, radius);
+  }
+  const auto gauges = static_cast<Eigen::Index>(frame.gauges_V.size());
+  const Eigen::Index size = gauges + (radius ? 2 : 0);
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(size);
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(size);
+  if (by_object) {
+    values.tail<2>() = frame.object_mm;
+    weights.tail<2>().setConstant(1 / plan_.object_std_mm);
+  } else {
+    for (Eigen::Index j = 0; j < gauges; ++j) {
+      if (!std::isfinite(frame.gauges_V[j])) continue;
+      const double gain = parameters_.gains_V_per_rad[j];
+      const int gauge = static_cast<int>(j);
+      values[j] =
+          (frame.gauges_V[j] - parameters_.readings.Sum(frame, gauge)) / gain;
+      weights[j] = std::abs(gain) / gauge_std_V(gauge);
     }
+  }
+  std::vector<ContactStart> starts;
+  guess_table_->FindStarts(values, weights, &starts);
+  if (!starts.empty()) {
+    contact[0] = starts[0].contacts[0].arc_mm;
+    contact[1] = starts[0].contacts[0].normal_N;
+    evaluation->set_state(*starts[0].state);
   }
   if (std::isfinite(frame.contact_mm)) {
     contact[0] = std::clamp(frame.contact_mm, 0.0, length);
   }
-  const bool placed =
-      std::isfinite(frame.contact_mm) ||
-      (frame.object_mm.allFinite() && plan_.scene.circle_radius_mm());
-  if (!placed) GuessContactFromGauges(frame, contact);
   const double force =
       frame.force_xy_N.allFinite() ? frame.force_xy_N.norm() : frame.force_N;
   if (std::isfinite(force)) contact[1] = std::max(force, 0.0);
 }
 
-// The nominal finger and gains know the place to a few bays, which is enough.
-void CalibrationProblem::GuessContactFromGauges(const CalibrationFrame& frame,
-                                                double* contact) {
-  if (!guess_table_) {
-    guess_table_ = std::make_unique<GaugeTable>(
-        &guess_solver_, plan_.scene.friction_coefficient, std::nullopt);
-  }
-  const auto gauges = static_cast<Eigen::Index>(frame.gauges_V.size());
-  Eigen::VectorXd angles = Eigen::VectorXd::Zero(gauges);
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(gauges);
-  for (Eigen::Index j = 0; j < gauges; ++j) {
-    if (!std::isfinite(frame.gauges_V[j])) continue;
-    const double gain = parameters_.gains_V_per_rad[j];
-    angles[j] = (frame.gauges_V[j] - parameters_.offsets_V[j]) / gain;
-    weights[j] = std::abs(gain) / gauge_std_V(static_cast<int>(j));
-  }
-  std::vector<ContactStart> starts;
-  guess_table_->FindStarts(angles, weights, &starts);
-  contact[0] = starts[0].contacts[0].arc_mm;
-  contact[1] = starts[0].contacts[0].normal_N;
-}
-
-// Offsets are what the gauges read in free frames, to begin with.
-void CalibrationProblem::GuessOffsets() {
-  if (!plan_.family(ParameterFamily::kGaugeOffset).free) return;
-  for (std::size_t j = 0; j < parameters_.offsets_V.size(); ++j) {
-    double sum = 0;
-    int count = 0;
-    for (const CalibrationFrame& frame : logs_.frames) {
-      if (frame.contact || frame.held_out) continue;
-      if (!std::isfinite(frame.gauges_V[j])) continue;
-      sum += frame.gauges_V[j];
-      ++count;
-    }
-    if (count > 0) parameters_.offsets_V[j] = sum / count;
-  }
-}
-
 void CalibrationProblem::AddPriors() {
-  // One block at a time; several parameters may share a block (rib lengths).
-  std::unordered_map<ParameterFamily, std::vector<const CalibrationParameter*>>
-      vectors;
-  for (const CalibrationParameter& parameter : parameters_.all()) {
-    if (!parameter.free || !parameter.prior_std) continue;
-    const bool in_vector = parameter.family == ParameterFamily::kRibLength ||
-                           parameter.family == ParameterFamily::kObjectOrigin;
-    if (in_vector) {
-      vectors[parameter.family].push_back(&parameter);
-      continue;
-    }
+  // One block at a time; several parameters may share one (rib lengths).
+  const auto& all = parameters_.all();
+  for (std::size_t i = 0; i < all.size();) {
+    std::size_t end = i + 1;
+    while (end < all.size() && all[end].block == all[i].block) ++end;
+    const auto size = static_cast<Eigen::Index>(end - i);
     // A gauge or beam that no frame involves has no block.
-    if (!problem_->HasParameterBlock(parameter.variable)) continue;
-    problem_->AddResidualBlock(
-        ParameterPriorResidual::Create(
-            Eigen::VectorXd::Constant(1, parameter.initial),
-            Eigen::VectorXd::Constant(1, *parameter.prior_std)),
-        nullptr, parameter.variable);
-  }
-  for (const auto& [family, members] : vectors) {
-    if (!problem_->HasParameterBlock(members[0]->variable)) continue;
-    Eigen::VectorXd mean(members.size()), std(members.size());
-    for (std::size_t i = 0; i < members.size(); ++i) {
-      mean[i] = members[i]->initial;
-      std[i] = *members[i]->prior_std;
+    if (all[i].free && all[i].prior_std &&
+        problem_->HasParameterBlock(all[i].block)) {
+      Eigen::VectorXd mean(size), std(size);
+      for (Eigen::Index k = 0; k < size; ++k) {
+        mean[k] = all[i + k].initial;
+        std[k] = *all[i + k].prior_std;
+      }
+      problem_->AddResidualBlock(ParameterPriorResidual::Create(mean, std),
+                                 nullptr, all[i].block);
     }
-    problem_->AddResidualBlock(ParameterPriorResidual::Create(mean, std),
-                               nullptr, members[0]->variable);
+    i = end;
   }
 }
 
 void CalibrationProblem::FixWhatIsNotFree() {
-  for (const CalibrationParameter& parameter : parameters_.all()) {
-    if (!parameter.free && problem_->HasParameterBlock(parameter.variable)) {
-      problem_->SetParameterBlockConstant(parameter.variable);
-    }
+  std::unordered_set<const double*> varied;
+  for (const int i : parameters_.free()) {
+    varied.insert(parameters_.all()[i].block);
+  }
+  for (const auto& contact : contacts_) varied.insert(contact.data());
+  std::vector<double*> blocks;
+  problem_->GetParameterBlocks(&blocks);
+  for (double* block : blocks) {
+    if (varied.count(block) == 0) problem_->SetParameterBlockConstant(block);
   }
 }
 

@@ -17,15 +17,23 @@
 namespace finray {
 
 /// What a residual measures, for statistics.
-enum class ResidualFamily { kGauge, kForce, kObject, kContact };
-constexpr int kResidualFamilies = 4;
+enum class ResidualFamily {
+  kGauge,
+  kForce,
+  kObject,
+  kContact,
+  kPin,
+  kTip,
+  kBench
+};
+constexpr int kResidualFamilies = 7;
 const char* ResidualFamilyName(ResidualFamily family);
 
 /// The least-squares problem of a calibration, in the reduced form: over all
-/// frames that are not held out, gauge readings, reference force, object centre
-/// and contact location, whichever a row has, in units of their std, plus the
-/// priors. Unknowns: the free parameters, and l_c and f_c of each contact
-/// frame.
+/// frames that are not held out, gauge readings, reference force, object
+/// centre, contact location, rib pins and tip, whichever a row has, and gauge
+/// readings on the bench, in units of their std, plus the priors. Unknowns: the
+/// free parameters, and l_c and f_c of each contact frame.
 class CalibrationProblem {
  public:
   CalibrationProblem(const Finger& finger, const Plan& plan,
@@ -41,11 +49,16 @@ class CalibrationProblem {
   };
   SolveReport Solve();
 
+  /// Where offsets are per log, gives those logs that are held out as a whole
+  /// the offsets that their free frames show of the finger as it is now: a lab
+  /// zeroes its gauges too. To be called after Solve.
+  void ZeroHeldOutLogs();
+
   /// One measurement residual and where it belongs.
   struct ResidualInfo {
     ResidualFamily family;
     int frame;  ///< index into logs().frames
-    int gauge;  ///< for kGauge
+    int gauge;  ///< for kGauge and kBench
   };
   /// Measurement residuals at the present values and their derivatives by the
   /// free parameters and by the frame unknowns: the rows of
@@ -72,12 +85,21 @@ class CalibrationProblem {
 
  private:
   void AddFrame(int index);
+  void AddBenchFrame(int index);
+  bool HasEnough(const CalibrationFrame& frame) const;
+  void AddReadings(int index, const FrameEvaluation& evaluation,
+                   const std::vector<double*>& model);
+  void AddForce(int index, const FrameEvaluation& evaluation, double* contact,
+                const std::vector<double*>& model);
+  void AddPlace(int index, const FrameEvaluation& evaluation, double* contact,
+                const std::vector<double*>& model);
+  void AddPoints(int index, const FrameEvaluation& evaluation,
+                 const std::vector<double*>& model);
   void AddMeasurement(ceres::CostFunction* cost, ResidualFamily family,
                       int frame, int gauge, const std::vector<double*>& blocks);
   void AddPriors();
   void GuessOffsets();
-  void GuessContact(int index, double* contact);
-  void GuessContactFromGauges(const CalibrationFrame& frame, double* contact);
+  void GuessContact(int index, double* contact, FrameEvaluation* evaluation);
   void FixWhatIsNotFree();
 
   Finger finger_;

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "finray/calib/finger_covariance.h"
+#include "finray/calib/validation.h"
 
 namespace finray {
 namespace {
@@ -96,6 +97,73 @@ void WarnOfForces(const ForceCheck& forces, double force_std_N,
   }
 }
 
+void WarnOfCorrelation(CalibrationProblem& problem,
+                       const ResidualCorrelation& found,
+                       std::vector<CalibrationWarning>* warnings) {
+  const ResidualCorrelation::Series* slowest = found.Slowest();
+  if (!found.correlated() || slowest == nullptr) return;
+  const IntegratedTime& time = slowest->time;
+  std::string text = "residuals of neighbouring rows are correlated: ";
+  text += ResidualFamilyName(slowest->family);
+  if (slowest->gauge >= 0) text += " " + std::to_string(slowest->gauge + 1);
+  text +=
+      Text(" by %.2f from row to row, over %.3g rows", time.lag_1, time.tau) +
+      Text(", so that %.0f count as %.0f", time.n, time.effective());
+  const auto most =
+      std::max_element(found.enlargement.begin(), found.enlargement.end()) -
+      found.enlargement.begin();
+  const CalibrationParameters& parameters = problem.parameters();
+  text += Text("; std are enlarged for it, at most %.3g times (",
+               found.enlargement[most]) +
+          parameters.all()[parameters.free()[most]].name + ")";
+  warnings->push_back({"correlated_residuals", text,
+                       "let the gauges warm up, free what drifts, record "
+                       "heights and loads in random order; look at the "
+                       "residuals over the rows for what the model lacks"});
+}
+
+void WarnOfDisagreement(CalibrationProblem& problem,
+                        const LeaveOneLogOut& found,
+                        std::vector<CalibrationWarning>* warnings) {
+  if (!found.all_converged) {
+    warnings->push_back({"leave_one_log_out_not_converged",
+                         "without one of the logs the solver does not converge",
+                         "look at the logs one by one"});
+  }
+  const LeaveOneLogOut::Row* worst = found.Worst();
+  if (worst == nullptr) return;
+  warnings->push_back(
+      {"logs_disagree",
+       problem.parameters().all()[worst->parameter].name +
+           Text(" spreads %.2g times as far as its std when one log after the "
+                "other is left out",
+                worst->ratio()),
+       "look for what differs between the logs: mounting, temperature, object; "
+       "take the spread for the std until then"});
+}
+
+// Errors by region of the frames that were fitted, or held out.
+void TabulateRegions(CalibrationProblem& problem, const CalibrationLogs& logs,
+                     const Discretization& discretization,
+                     CalibrationResult* result) {
+  const auto references =
+      ReferencesOf(logs, result->finger, problem.plan(), discretization);
+  for (const bool held_out : {false, true}) {
+    CalibrationResult::Errors& errors =
+        held_out ? result->held_out : result->fitted;
+    const auto table = [&](const std::vector<FrameEstimate>& estimates) {
+      return TabulateErrors(
+          references, estimates, result->forces.after,
+          problem.finger().front_length_mm,
+          problem.plan().scene.friction_coefficient,
+          [&](std::size_t i) { return logs.frames[i].held_out == held_out &&
+                 !logs.frames[i].IsBench(); });
+    };
+    errors.before = table(result->forces.before);
+    errors.after = table(result->forces.after);
+  }
+}
+
 }  // namespace
 
 bool CalibrationResult::AllIdentified() const {
@@ -105,14 +173,31 @@ bool CalibrationResult::AllIdentified() const {
 }
 
 CalibrationResult Calibrate(CalibrationProblem* problem,
-                            const Discretization& discretization, int threads) {
+                            const Discretization& discretization, int threads,
+                            bool leave_logs_out) {
   CalibrationResult result;
   result.solve = problem->Solve();
+  problem->ZeroHeldOutLogs();
   result.identifiability = AnalyzeIdentifiability(problem);
+  result.residual_correlation =
+      AnalyzeResidualCorrelation(problem, result.identifiability);
+  EnlargeStd(result.residual_correlation, &result.identifiability);
+  result.next =
+      AdviseNextFrames(problem, discretization, &result.identifiability);
+  if (leave_logs_out) {
+    result.leave_one_log_out =
+        LeaveLogsOut(*problem, result.identifiability, discretization, threads);
+  }
   result.finger = problem->parameters().Apply(problem->finger());
   KeepCovariance(problem->parameters(), result.identifiability, &result.finger);
-  result.forces = CheckForces(problem->finger(), result.finger, problem->plan(),
-                              problem->logs(), discretization, threads);
+  const CalibrationLogs corrected =
+      problem->parameters().Corrected(problem->logs(), result.finger);
+  result.forces =
+      CheckForces(problem->finger(), result.finger, problem->plan(),
+                  problem->logs(), corrected, discretization, threads);
+  TabulateRegions(*problem, corrected, discretization, &result);
+  result.bench =
+      TestBenchLinearity(problem->finger(), problem->plan(), problem->logs());
   if (!result.solve.converged) {
     result.warnings.push_back(
         {"not_converged", "the solver stopped early: " + result.solve.message,
@@ -120,7 +205,16 @@ CalibrationResult Calibrate(CalibrationProblem* problem,
   }
   WarnOfWeakness(*problem, result.identifiability, &result.warnings);
   WarnOfNoise(result.identifiability, &result.warnings);
+  WarnOfCorrelation(*problem, result.residual_correlation, &result.warnings);
+  WarnOfDisagreement(*problem, result.leave_one_log_out, &result.warnings);
   WarnOfForces(result.forces, problem->plan().force_std_N, &result.warnings);
+  for (const BenchLinearity& gauge : result.bench) {
+    if (gauge.IsLinear()) continue;
+    result.warnings.push_back(
+        {"gauge_not_linear", gauge.Words(),
+         "bend the gauge only as far as the finger will, or calibrate its gain "
+         "on the finger against a force sensor"});
+  }
   return result;
 }
 

@@ -4,9 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "finray/calib/bench_linearity.h"
 #include "finray/calib/calibration_problem.h"
+#include "finray/calib/error_table.h"
 #include "finray/calib/force_check.h"
 #include "finray/calib/identifiability.h"
+#include "finray/calib/leave_one_log_out.h"
+#include "finray/calib/next_frames.h"
+#include "finray/calib/residual_correlation.h"
 #include "finray/io/frame_table.h"
 
 namespace finray {
@@ -23,15 +28,25 @@ struct CalibrationResult {
   CalibrationProblem::SolveReport solve;
   Identifiability identifiability;
   ForceCheck forces;
-  Finger finger;  ///< calibrated
+  /// By region of the finger, from the gauges alone.
+  struct Errors {
+    ErrorTable before, after;
+  } fitted, held_out;
+  ResidualCorrelation residual_correlation;
+  LeaveOneLogOut leave_one_log_out;
+  std::vector<FrameAdvice> next;  ///< what to record next
+  std::vector<BenchLinearity> bench;  ///< by gauge, where there are readings
+  Finger finger;                      ///< calibrated
   std::vector<CalibrationWarning> warnings;
 
   bool AllIdentified() const;
 };
 
-/// Solves the problem, analyses it and checks it against the force sensor.
+/// Solves the problem, analyses it and checks it against the references.
+/// `leave_logs_out`: repeats it without each log, if there are several.
 CalibrationResult Calibrate(CalibrationProblem* problem,
-                            const Discretization& discretization, int threads);
+                            const Discretization& discretization, int threads,
+                            bool leave_logs_out = false);
 
 /// What went in, for the record.
 struct CalibrationInputs {

@@ -34,7 +34,9 @@ FrameTable CalibrationFrames(CalibrationProblem& problem,
       table.MutableNumbers(name)[i] = value;
     };
     table.MutableText("log")[i] = problem.logs().paths[frame.log];
-    table.MutableText("kind")[i] = frame.contact ? "contact" : "free";
+    table.MutableText("kind")[i] = frame.IsBench() ? "bench"
+                                   : frame.contact ? "contact"
+                                                   : "free";
     table.MutableText("status_after")[i] = StatusName(after.status);
     set("row", frame.row + 1);
     set("time_s", frame.time_s);

@@ -3,19 +3,14 @@
 
 #include <cmath>
 
+#include "finray/calib/calibration_checks_yaml.h"
 #include "finray/calib/calibration_result.h"
+#include "finray/calib/yaml_number.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/sha256.h"
 
 namespace finray {
 namespace {
-
-// A number as YAML has it: .nan, .inf.
-std::string YamlNumber(double value) {
-  if (std::isnan(value)) return ".nan";
-  if (std::isinf(value)) return value > 0 ? ".inf" : "-.inf";
-  return NumberText(value);
-}
 
 template <class T>
 void Pair(YAML::Emitter* yaml, const char* key, const T& value) {
@@ -107,6 +102,25 @@ void EmitNoise(const Identifiability& found, YAML::Emitter* yaml) {
   *yaml << YAML::EndMap;
 }
 
+void EmitBench(const std::vector<BenchLinearity>& bench, YAML::Emitter* yaml) {
+  if (bench.empty()) return;
+  *yaml << YAML::Key << "bench" << YAML::Value << YAML::BeginSeq;
+  for (const BenchLinearity& of_gauge : bench) {
+    *yaml << YAML::BeginMap;
+    Pair(yaml, "gauge", of_gauge.gauge + 1);
+    Pair(yaml, "readings", of_gauge.readings);
+    Pair(yaml, "linear", of_gauge.IsLinear());
+    Number(yaml, "largest_angle_rad", of_gauge.largest_angle_rad);
+    Number(yaml, "quadratic_V_per_rad2", of_gauge.quadratic_V_per_rad2);
+    Number(yaml, "quadratic_std", of_gauge.quadratic_std);
+    Number(yaml, "quadratic_p_value", of_gauge.quadratic_p_value);
+    Number(yaml, "lack_of_fit_F", of_gauge.lack_of_fit_F);
+    Number(yaml, "lack_of_fit_p_value", of_gauge.lack_of_fit_p_value);
+    *yaml << YAML::EndMap;
+  }
+  *yaml << YAML::EndSeq;
+}
+
 void EmitForceError(const ForceCheck::Error& error, YAML::Emitter* yaml) {
   *yaml << YAML::Flow << YAML::BeginMap;
   Pair(yaml, "frames", error.frames);
@@ -156,6 +170,15 @@ void EmitConfig(const Plan& plan, const CalibrationInputs& inputs,
   if (plan.gauge_std_V) Number(yaml, "gauge_std_V", *plan.gauge_std_V);
   Number(yaml, "object_std_mm", plan.object_std_mm);
   Number(yaml, "contact_std_mm", plan.contact_std_mm);
+  if (plan.pin_std_mm) Number(yaml, "pin_std_mm", *plan.pin_std_mm);
+  if (plan.tip_std_mm) Number(yaml, "tip_std_mm", *plan.tip_std_mm);
+  if (plan.family(ParameterFamily::kTemperatureCoefficient).free) {
+    Number(yaml, "reference_C", plan.reference_temperature_C);
+  }
+  if (plan.gauge_walk) {
+    Number(yaml, "walk_std_V_per_sqrt_h", plan.gauge_walk->std_V_per_sqrt_h);
+    Number(yaml, "knot_every_s", plan.gauge_walk->knot_every_s);
+  }
   Pair(yaml, "robust_loss", kLosses[static_cast<int>(plan.loss)]);
   Number(yaml, "robust_scale", plan.loss_scale);
   *yaml << YAML::EndMap;
@@ -178,10 +201,12 @@ std::string CalibrationYaml(CalibrationProblem& problem,
   EmitWeakDirections(problem, result.identifiability, &yaml);
   EmitCorrelations(problem, result.identifiability, &yaml);
   EmitNoise(result.identifiability, &yaml);
+  EmitBench(result.bench, &yaml);
   yaml << YAML::Key << "fit" << YAML::Value;
   EmitForceError(result.forces.fitted, &yaml);
   yaml << YAML::Key << "holdout" << YAML::Value;
   EmitForceError(result.forces.held_out, &yaml);
+  EmitChecks(problem, result, &yaml);
   yaml << YAML::Key << "warnings" << YAML::Value << YAML::BeginSeq;
   for (const CalibrationWarning& warning : result.warnings) {
     yaml << YAML::BeginMap;

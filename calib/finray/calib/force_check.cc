@@ -13,22 +13,37 @@ double ReferenceForce(const CalibrationFrame& frame) {
 
 ForceCheck CheckForces(const Finger& before, const Finger& after,
                        const Plan& plan, const CalibrationLogs& logs,
+                       const CalibrationLogs& corrected,
                        const Discretization& discretization, int threads) {
-  std::vector<FrameReadings> readings;
-  for (const CalibrationFrame& frame : logs.frames) {
-    readings.emplace_back();
-    readings.back().gauges_V = frame.gauges_V;
-  }
+  // A calibration's frames have one contact or none.
+  Scene scene = plan.scene;
+  scene.most_contacts = 1;
+  const auto estimate = [&](const Finger& finger, const CalibrationLogs& of) {
+    std::vector<FrameReadings> readings;
+    for (const CalibrationFrame& frame : of.frames) {
+      readings.emplace_back();
+      readings.back().gauges_V = frame.gauges_V;
+      if (frame.IsBench()) {  // the finger has nothing to do with it
+        readings.back().gauges_V.assign(frame.gauges_V.size(), std::nan(""));
+      }
+    }
+    return EstimateFrames(finger, scene, discretization, readings, threads);
+  };
   ForceCheck check;
-  check.before =
-      EstimateFrames(before, plan.scene, discretization, readings, threads);
-  check.after =
-      EstimateFrames(after, plan.scene, discretization, readings, threads);
+  // A contact has two unknowns; without as many gauges there is no estimate.
+  if (before.gauges.size() < 2) {
+    check.before.resize(logs.frames.size());
+    check.after.resize(logs.frames.size());
+    return check;
+  }
+  check.before = estimate(before, logs);
+  check.after = estimate(after, corrected);
   const double per_normal = std::hypot(1, plan.scene.friction_coefficient);
   for (std::size_t i = 0; i < logs.frames.size(); ++i) {
     const double force = ReferenceForce(logs.frames[i]);
     const double was = per_normal * check.before[i].contact[0].normal_N - force;
-    const double is = per_normal * check.after[i].contact[0].normal_N - force;
+    const double is = per_normal * check.after[i].contact[0].normal_N -
+                      ReferenceForce(corrected.frames[i]);
     if (std::isnan(was) || std::isnan(is)) continue;
     ForceCheck::Error& error =
         logs.frames[i].held_out ? check.held_out : check.fitted;

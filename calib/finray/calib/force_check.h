@@ -10,6 +10,8 @@ namespace finray {
 
 /// What the gauges alone say of every frame, with the finger as it was and as
 /// calibrated: the comparison with the force sensor that a user asks for first.
+/// Before, with the logs as they are; after, with what the calibration knows of
+/// drift, temperature and the force sensor taken out of them.
 struct ForceCheck {
   std::vector<FrameEstimate> before, after;  ///< one per frame of the logs
 
@@ -25,6 +27,7 @@ struct ForceCheck {
 
 ForceCheck CheckForces(const Finger& before, const Finger& after,
                        const Plan& plan, const CalibrationLogs& logs,
+                       const CalibrationLogs& corrected,
                        const Discretization& discretization, int threads);
 
 /// The magnitude of the reference force of a frame; NaN if not measured.

@@ -5,53 +5,23 @@
 #include <cmath>
 #include <limits>
 
+#include "finray/calib/eliminated_contact.h"
 #include "finray/calib/weak_direction_words.h"
 
 namespace finray {
-namespace {
-
-// The part of a 2 x 2 information matrix that is not noise; a contact without
-// force, say, says nothing of its place.
-Eigen::Matrix2d PseudoInverse(const Eigen::Matrix2d& information) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(information);
-  Eigen::Matrix2d inverse = Eigen::Matrix2d::Zero();
-  for (int i = 0; i < 2; ++i) {
-    const double value = eigen.eigenvalues()[i];
-    if (value > 1e-12 * eigen.eigenvalues()[1] && value > 0) {
-      inverse += eigen.eigenvectors().col(i) *
-                 eigen.eigenvectors().col(i).transpose() / value;
-    }
-  }
-  return inverse;
-}
-
-// Calls `visit(first, count)` for the rows of each frame.
-template <class Visitor>
-void ForEachFrame(const CalibrationProblem::Linearization& at,
-                  const Visitor& visit) {
-  const auto rows = static_cast<int>(at.rows.size());
-  for (int first = 0; first < rows;) {
-    int last = first;
-    while (last < rows && at.rows[last].frame == at.rows[first].frame) ++last;
-    visit(first, last - first);
-    first = last;
-  }
-}
-
-// Rows of a frame with its contact eliminated: C - E (E'E)^-1 E'C.
-Eigen::MatrixXd EliminateContact(const CalibrationProblem::Linearization& at,
-                                 int first, int count) {
-  const auto c = at.by_parameter.middleRows(first, count);
-  const auto e = at.by_contact.middleRows(first, count);
-  return c - e * (PseudoInverse(e.transpose() * e) * (e.transpose() * c));
-}
-
-}  // namespace
 
 const char* ParameterStatusName(ParameterStatus status) {
   constexpr const char* kNames[] = {"estimated", "prior_dominated",
                                     "unidentifiable", "fixed"};
   return kNames[static_cast<int>(status)];
+}
+
+Eigen::MatrixXd BoundedCovariance(const Eigen::MatrixXd& information) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(information);
+  const Eigen::VectorXd bounded = eigen.eigenvalues().cwiseMax(
+      Identifiability::kNull * Identifiability::kNull);
+  return eigen.eigenvectors() * bounded.cwiseInverse().asDiagonal() *
+         eigen.eigenvectors().transpose();
 }
 
 Identifiability AnalyzeIdentifiability(CalibrationProblem* problem) {
@@ -75,20 +45,14 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem) {
   information = information.selfadjointView<Eigen::Lower>();
 
   Identifiability result;
+  result.unit = unit;
+  result.information = information;
+  result.prior = prior;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> data(information);
   const Eigen::VectorXd& value = data.eigenvalues();
   const Eigen::MatrixXd& vector = data.eigenvectors();
 
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> posterior(information +
-                                                                 prior);
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
-  for (int k = 0; k < n; ++k) {
-    const double bounded =
-        std::max(posterior.eigenvalues()[k],
-                 Identifiability::kNull * Identifiability::kNull);
-    covariance += posterior.eigenvectors().col(k) *
-                  posterior.eigenvectors().col(k).transpose() / bounded;
-  }
+  const Eigen::MatrixXd covariance = BoundedCovariance(information + prior);
   result.correlation.resize(n, n);
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
@@ -120,6 +84,7 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem) {
   }
   for (int k = 0; k < n && value[k] < 1; ++k) {
     WeakDirection direction;
+    direction.direction = vector.col(k);
     direction.null = value[k] < Identifiability::kNull;
     // Below that the eigenvalue is rounding.
     direction.std_over_prior = direction.null

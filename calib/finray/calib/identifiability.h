@@ -29,8 +29,9 @@ struct WeakDirection {
     double share;   ///< of the unit vector
   };
   std::vector<Component> components;  ///< largest first
+  Eigen::VectorXd direction;          ///< over the free ones, a unit vector
   std::string words;
-  std::string remedy;
+  std::string remedy;  ///< by AdviseNextFrames
 };
 
 /// What the data determine, from the reduced information matrix
@@ -50,6 +51,10 @@ struct Identifiability {
   std::vector<double> bounded_std;
   std::vector<ParameterStatus> status;  ///< one per free parameter
   Eigen::MatrixXd correlation;          ///< free x free
+  /// S and P, of variables in these units: prior std, or scale where there is
+  /// none.
+  Eigen::MatrixXd information, prior;
+  Eigen::VectorXd unit;
   std::vector<WeakDirection> weak;
 
   struct Noise {
@@ -59,6 +64,10 @@ struct Identifiability {
   };
   std::array<Noise, kResidualFamilies> noise;
 };
+
+/// (S + P)^-1 of a scaled information matrix, what is not determined being left
+/// 1 / kNull of its unit.
+Eigen::MatrixXd BoundedCovariance(const Eigen::MatrixXd& information);
 
 Identifiability AnalyzeIdentifiability(CalibrationProblem* problem);
 

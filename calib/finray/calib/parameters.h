@@ -1,25 +1,32 @@
 #ifndef FINRAY_CALIB_PARAMETERS_H_
 #define FINRAY_CALIB_PARAMETERS_H_
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "finray/calib/calibration_log.h"
 #include "finray/calib/plan.h"
+#include "finray/calib/reading_terms.h"
 #include "finray/finger/finger.h"
 #include "finray/residuals/frame_set.h"
 
 namespace finray {
 
-/// One number that a calibration may vary. Stiffness is varied as its
-/// logarithm; `is_log` says so.
+/// One number that a calibration may vary. What is positive by nature,
+/// stiffness and the force sensor's scale, is varied as its logarithm; `is_log`
+/// says so. Gains are not: readings are linear in them, so that a start wrong
+/// by any factor is one step away, their sign is a matter of wiring, and the
+/// gain of a dead gauge is zero.
 struct CalibrationParameter {
   std::string name;  ///< as in calibration.yaml, e.g. "rib_2_length_mm"
   std::string unit;
   ParameterFamily family;
-  /// What of the finger it is; empty for the object's origin.
+  /// What of the finger it is; empty for what belongs to logs.
   std::optional<FingerParameter> of_finger;
   double* variable;  ///< where the solver finds it
+  double* block;     ///< the first of the variables that the solver has as one
   bool is_log = false;
   bool free = false;
   double initial = 0;               ///< of the variable
@@ -35,27 +42,60 @@ struct CalibrationParameter {
 /// The variables of a calibration, at fixed addresses, and their description.
 class CalibrationParameters {
  public:
-  CalibrationParameters(const Finger& finger, const Plan& plan);
+  CalibrationParameters(const Finger& finger, const Plan& plan,
+                        const CalibrationLogs& logs);
   CalibrationParameters(const CalibrationParameters&) = delete;
 
   SharedParameters shared;
-  std::vector<double> gains_V_per_rad, offsets_V;
-  double object_origin_mm[2] = {0, 0};
+  std::vector<double> gains_V_per_rad;
+  ReadingTerms readings;
+  /// Of the force sensor, F = scale f + offset; offsets of the magnitude and of
+  /// the components.
+  double ln_force_scale = 0;
+  double force_offset_N = 0, force_offset_xy_N[2] = {0, 0};
+  /// Where positions of rib pins and the tip are counted from.
+  double camera_origin_mm[2] = {0, 0};
 
-  /// In the order of calibration.yaml.
+  /// Where a log's object positions are counted from.
+  double* object_origin_mm(int log) {
+    return origins_mm_[origin_per_log_ ? log : 0].data();
+  }
+
+  /// In the order of calibration.yaml: those of the finger and the origin, free
+  /// or not, then others that are free.
   const std::vector<CalibrationParameter>& all() const { return all_; }
   /// Indices into all() of the free ones.
   const std::vector<int>& free() const { return free_; }
 
-  /// The finger that the present values describe.
+  /// The finger that the present values describe. Where offsets are per log it
+  /// has those of the last log that was fitted, of the finger if there is one,
+  /// else of the bench.
   Finger Apply(const Finger& finger) const;
 
- private:
-  double* Variable(const FingerParameter& parameter);
-  void AddOfFinger(const Plan& plan, const FingerParameter& parameter);
-  void AddOrigin(const Plan& plan, const char* name, double* variable);
-  void Add(const Plan& plan, CalibrationParameter parameter);
+  /// The logs as they would be of a finger with `calibrated`'s offsets, without
+  /// drift, at the reference temperature, with a true force sensor and all
+  /// positions in frame S.
+  CalibrationLogs Corrected(const CalibrationLogs& logs,
+                            const Finger& calibrated);
 
+ private:
+  void AddOfFinger(const Plan& plan, const CalibrationLogs& logs,
+                   const FingerParameter& of_finger);
+  void AddOrigins(const Plan& plan, const CalibrationLogs& logs);
+  void AddForceSensor(const Plan& plan, const CalibrationLogs& logs);
+  void AddTemperature(const Plan& plan);
+  void AddCamera(const Plan& plan);
+  void AddDrift(const Plan& plan, const CalibrationLogs& logs);
+  // The parameter's name is to be followed by the log's.
+  void AddOfLog(const Plan& plan, const CalibrationLogs& logs, int log,
+                CalibrationParameter parameter);
+  void Add(const Plan& plan, CalibrationParameter parameter,
+           bool held_out = false);
+
+  std::vector<bool> held_out_;  // by log: every row is
+  int last_fitted_;             // the log whose offsets the finger has
+  bool origin_per_log_;
+  std::vector<std::array<double, 2>> origins_mm_;
   std::vector<CalibrationParameter> all_;
   std::vector<int> free_;
 };

@@ -9,50 +9,82 @@ namespace {
 struct FamilyKey {
   const char* key;
   const char* prior_key;
+  bool may_be_per_log = false;
 };
 // In the order of ParameterFamily.
 constexpr FamilyKey kFamilyKeys[kParameterFamilies] = {
     {"front_stiffness", "prior_std_percent"},
     {"back_stiffness", "prior_std_percent"},
     {"gauge_gain", "prior_std_percent"},
-    {"gauge_offset", "prior_std_V"},
+    {"gauge_offset", "prior_std_V", true},
     {"rib_length", "prior_std_mm"},
-    {"object_origin", "prior_std_mm"},
-};
-// Parameters that a plan may name but that are not part of the model yet.
-constexpr FamilyKey kFixedOnlyKeys[] = {
+    {"object_origin", "prior_std_mm", true},
     {"force_scale", "prior_std_percent"},
     {"force_offset", "prior_std_N"},
-    {"temperature_coefficient", "prior_std_percent_per_K"},
+    {"temperature_coefficient", "prior_std_V_per_C"},
     {"gauge_drift", "prior_std_V_per_h"},
+    {"camera_origin", "prior_std_mm"},
 };
+constexpr char kWalk[] = "walk_std_V_per_sqrt_h", kKnots[] = "knot_every_s";
+
+// What a family has beside `fixed` and its prior.
+std::vector<std::string> OwnKeys(ParameterFamily family) {
+  if (kFamilyKeys[static_cast<int>(family)].may_be_per_log) {
+    return {"per_log"};
+  }
+  switch (family) {
+    case ParameterFamily::kTemperatureCoefficient:
+      return {"reference_C"};
+    case ParameterFamily::kGaugeDrift:
+      return {kWalk, kKnots};
+    default:
+      return {};
+  }
+}
+
+void ReadWalk(const YamlMap& map, Plan* plan) {
+  if (!map.Has(kWalk) && !map.Has(kKnots)) return;
+  if (plan->family(ParameterFamily::kGaugeDrift).prior_std) {
+    map.Fail(kWalk,
+             "a drift is either at a rate (prior_std_V_per_h) or a walk "
+             "(walk_std_V_per_sqrt_h, knot_every_s)");
+  }
+  plan->gauge_walk = {map.PositiveNumber(kWalk), map.PositiveNumber(kKnots)};
+}
+
+void ReadFamily(const YamlMap& yaml, int index, Plan* plan) {
+  const FamilyKey& names = kFamilyKeys[index];
+  const auto family = static_cast<ParameterFamily>(index);
+  const YamlMap map = yaml.Map(names.key);
+  const std::vector<std::string> own = OwnKeys(family);
+  std::vector<std::string> allowed = {"fixed", names.prior_key};
+  allowed.insert(allowed.end(), own.begin(), own.end());
+  map.AllowOnly(allowed);
+  FamilyPlan& read = plan->families[index];
+  read.free = !map.Boolean("fixed", false);
+  if (!read.free) {
+    for (const std::string& key : map.Keys()) {
+      if (key != "fixed") map.Fail(key, "a fixed parameter has no " + key);
+    }
+    return;
+  }
+  if (map.Has(names.prior_key)) {
+    read.prior_std = map.PositiveNumber(names.prior_key);
+  }
+  read.per_log = names.may_be_per_log && map.Boolean("per_log", false);
+  if (family == ParameterFamily::kTemperatureCoefficient) {
+    plan->reference_temperature_C =
+        map.Number("reference_C", plan->reference_temperature_C);
+  }
+  if (family == ParameterFamily::kGaugeDrift) ReadWalk(map, plan);
+}
 
 void ReadParameters(const YamlMap& yaml, Plan* plan) {
   std::vector<std::string> known;
   for (const FamilyKey& family : kFamilyKeys) known.push_back(family.key);
-  for (const FamilyKey& family : kFixedOnlyKeys) known.push_back(family.key);
   yaml.AllowOnly(known);
   for (int i = 0; i < kParameterFamilies; ++i) {
-    const auto [key, prior_key] = kFamilyKeys[i];
-    if (!yaml.Has(key)) continue;
-    const YamlMap map = yaml.Map(key);
-    map.AllowOnly({"fixed", prior_key});
-    FamilyPlan& family = plan->families[i];
-    family.free = !map.Boolean("fixed", false);
-    if (map.Has(prior_key)) {
-      if (!family.free) map.Fail(prior_key, "a fixed parameter has no prior");
-      family.prior_std = map.PositiveNumber(prior_key);
-    }
-  }
-  for (const auto [key, prior_key] : kFixedOnlyKeys) {
-    if (!yaml.Has(key)) continue;
-    const YamlMap map = yaml.Map(key);
-    map.AllowOnly({"fixed", prior_key});
-    if (!map.Boolean("fixed", false)) {
-      yaml.Fail(key, std::string(key) +
-                         " cannot be estimated; write {fixed: true} or leave "
-                         "it out");
-    }
+    if (yaml.Has(kFamilyKeys[i].key)) ReadFamily(yaml, i, plan);
   }
 }
 
@@ -94,8 +126,8 @@ Plan ReadPlan(const std::string& path) {
   ReadParameters(yaml.Map("parameters"), &plan);
   if (yaml.Has("measurements")) {
     const YamlMap map = yaml.Map("measurements");
-    map.AllowOnly(
-        {"force_std_N", "gauge_std_V", "object_std_mm", "contact_std_mm"});
+    map.AllowOnly({"force_std_N", "gauge_std_V", "object_std_mm",
+                   "contact_std_mm", "pin_std_mm", "tip_std_mm"});
     plan.force_std_N = map.PositiveNumber("force_std_N", plan.force_std_N);
     if (map.Has("gauge_std_V")) {
       plan.gauge_std_V = map.PositiveNumber("gauge_std_V");
@@ -104,6 +136,10 @@ Plan ReadPlan(const std::string& path) {
         map.PositiveNumber("object_std_mm", plan.object_std_mm);
     plan.contact_std_mm =
         map.PositiveNumber("contact_std_mm", plan.contact_std_mm);
+    if (map.Has("pin_std_mm"))
+      plan.pin_std_mm = map.PositiveNumber("pin_std_mm");
+    if (map.Has("tip_std_mm"))
+      plan.tip_std_mm = map.PositiveNumber("tip_std_mm");
   }
   if (yaml.Has("robust_loss")) {
     const YamlMap map = yaml.Map("robust_loss");

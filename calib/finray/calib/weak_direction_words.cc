@@ -7,56 +7,6 @@
 #include "finray/calib/identifiability.h"
 
 namespace finray {
-namespace {
-
-// What the fitted logs have.
-struct Contents {
-  bool contacts = false, free_frames = false, force = false, place = false;
-  double lowest_mm = 1e300, highest_mm = -1e300;
-};
-
-Contents Survey(const CalibrationProblem& problem) {
-  Contents has;
-  const auto& frames = problem.logs().frames;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const CalibrationFrame& frame = frames[i];
-    if (frame.held_out) continue;
-    (frame.contact ? has.contacts : has.free_frames) = true;
-    if (!frame.contact) continue;
-    has.force |= std::isfinite(frame.force_N) || frame.force_xy_N.allFinite();
-    has.place |= frame.object_mm.allFinite() || std::isfinite(frame.contact_mm);
-    const double arc = problem.contact(static_cast<int>(i))[0];
-    if (std::isfinite(arc)) {
-      has.lowest_mm = std::min(has.lowest_mm, arc);
-      has.highest_mm = std::max(has.highest_mm, arc);
-    }
-  }
-  return has;
-}
-
-std::string Remedy(const CalibrationProblem& problem, const Contents& has) {
-  const double length = problem.finger().front_length_mm;
-  if (!has.contacts) return "record frames in which the finger is loaded";
-  if (!has.force) {
-    return "record the reference force (force_N); without it only ratios of "
-           "stiffness show";
-  }
-  if (!has.place) {
-    return "record where the object is (object_x_mm, object_y_mm) or where it "
-           "touches (contact_1_mm), or fix the gauge gains from a bench test";
-  }
-  if (!has.free_frames) {
-    return "record frames without contact; they fix the offsets";
-  }
-  if (has.highest_mm - has.lowest_mm < 0.3 * length) {
-    return "record contacts at more heights along the finger";
-  }
-  return "record more frames with larger loads, spread over the finger, or "
-         "give "
-         "a tighter prior";
-}
-
-}  // namespace
 
 void DescribeWeakDirection(CalibrationProblem& problem,
                            WeakDirection* direction) {
@@ -101,7 +51,6 @@ void DescribeWeakDirection(CalibrationProblem& problem,
         (direction->components.size() == 1 ? "alone: " : "together: ") + words;
   }
   direction->words = words;
-  direction->remedy = Remedy(problem, Survey(problem));
 }
 
 }  // namespace finray

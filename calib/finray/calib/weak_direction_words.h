@@ -6,8 +6,7 @@ namespace finray {
 class CalibrationProblem;
 struct WeakDirection;
 
-/// Says in words which parameters move together along a weak direction, and
-/// what to record so that they no longer can, from what the logs lack.
+/// Says in words which parameters move together along a weak direction.
 void DescribeWeakDirection(CalibrationProblem& problem,
                            WeakDirection* direction);
 

@@ -128,7 +128,10 @@ void FrameParser::Parse(const CsvLine& line, FrameRows* rows) const {
       continue;
     }
     const std::string_view text = Trimmed(split[i]);  // of what quotes kept
-    const std::optional<double> number = CellNumber(text);
+    std::optional<double> number = CellNumber(text);
+    if (!number && text == "inf" && MayBeInfinite(names_[i])) {
+      number = std::numeric_limits<double>::infinity();
+    }
     if (!number) {
       FailAt(line.number, i,
              names_[i] + ": expected a number, found " + ShownText(split[i]));

@@ -30,6 +30,11 @@ constexpr std::string_view kPatterns[] = {"time_s",
                                           "force_x_N",
                                           "force_y_N",
                                           "rib_#_N",
+                                          "rib_#_front_x_mm",
+                                          "rib_#_front_y_mm",
+                                          "rib_#_back_x_mm",
+                                          "rib_#_back_y_mm",
+                                          "cylinder_radius_mm",
                                           "tip_x_mm",
                                           "tip_y_mm",
                                           "tip_angle_rad",
@@ -63,6 +68,10 @@ bool IsFrameColumn(std::string_view name) {
   return std::any_of(
       std::begin(kPatterns), std::end(kPatterns),
       [name](std::string_view pattern) { return Matches(name, pattern); });
+}
+
+bool MayBeInfinite(std::string_view name) {
+  return name == "cylinder_radius_mm";
 }
 
 std::string DidYouMeanFrameColumn(const std::string& name) {

@@ -11,6 +11,9 @@ namespace finray {
 /// gauge_<j>_V with j = 1, 2, ... (no leading zeros).
 bool IsFrameColumn(std::string_view name);
 
+/// Whether "inf" is a value of the column: a cylinder of that radius is flat.
+bool MayBeInfinite(std::string_view name);
+
 /// " (did you mean 'x'?)" with the nearest column of the tools, or "".
 std::string DidYouMeanFrameColumn(const std::string& name);
 

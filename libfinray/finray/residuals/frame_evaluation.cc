@@ -6,14 +6,20 @@
 namespace finray {
 
 FrameEvaluation::FrameEvaluation(const LadderModel& model, EquilibriumForm form,
-                                 int contacts, double friction)
+                                 int contacts, double friction, bool pins)
     : form_(form),
       ribs_(model.ribs()),
       gauges_(model.gauges()),
-      contacts_(contacts),
+      contact_count_(contacts),
+      loads_(contacts),
       length_mm_(model.finger().front_length_mm),
       state_(LadderState::Undeformed(model)) {
-  for (PointContact& contact : contacts_) contact.friction = friction;
+  for (PointContact& contact : loads_) contact.friction = friction;
+  if (!pins) return;
+  for (const Rib& rib : model.finger().ribs) {
+    loads_.push_back({rib.front_mm, 0, 0, Side::kFront});
+    loads_.push_back({rib.back_mm, 0, 0, Side::kBack});
+  }
 }
 
 void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
@@ -33,8 +39,8 @@ void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
     const double* contact = frame + contact_offset(i);
     if (!std::isfinite(contact[0]) || !std::isfinite(contact[1])) return;
     // Bounds keep l_c on the beam up to rounding.
-    contacts_[i].arc_mm = std::clamp(contact[0], 0.0, length_mm_);
-    contacts_[i].normal_N = contact[1];
+    loads_[i].arc_mm = std::clamp(contact[0], 0.0, length_mm_);
+    loads_[i].normal_N = contact[1];
   }
   if (form_ == EquilibriumForm::kReduced) {
     UpdateReduced(solver);
@@ -52,24 +58,33 @@ void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
 
 void FrameEvaluation::UpdateReduced(EquilibriumSolver* solver) {
   solver->set_state(state_);
-  valid_ = solver->SolveWithSensitivities(contacts_);
+  valid_ = solver->SolveWithSensitivities(loads_);
   state_ = solver->state();
   if (!valid_) return;
   outputs_ = solver->outputs();
-  d_outputs_ = solver->d_outputs();
+  d_outputs_ = WithoutPinColumns(solver->d_outputs());
 }
 
 void FrameEvaluation::UpdateWeighted(const double* frame,
                                      EquilibriumSolver* solver) {
   const Eigen::VectorXd q = Eigen::Map<const Eigen::VectorXd>(frame, 6 + ribs_);
   LadderShot shot;
-  valid_ = solver->Shoot(q, contacts_, &shot);
+  valid_ = solver->Shoot(q, loads_, &shot);
   if (!valid_) return;
   outputs_ = shot.outputs;
   closure_ = shot.closure;
-  d_outputs_ = shot.d_outputs;
-  d_closure_ = shot.d_closure;
+  d_outputs_ = WithoutPinColumns(shot.d_outputs);
+  d_closure_ = WithoutPinColumns(shot.d_closure);
   state_ = solver->state();
+}
+
+// Pins stay where they are on their beams, and without force.
+FrameEvaluation::Matrix FrameEvaluation::WithoutPinColumns(
+    const Matrix& derivatives) const {
+  if (derivatives.cols() == columns()) return derivatives;
+  Matrix kept(derivatives.rows(), columns());
+  kept << derivatives.leftCols(frame_size()), derivatives.rightCols(2 + ribs_);
+  return kept;
 }
 
 }  // namespace finray

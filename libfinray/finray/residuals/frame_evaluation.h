@@ -19,6 +19,10 @@ enum class EquilibriumForm {
 /// The model of one frame at the present parameter values, shared by all
 /// residual blocks of the frame so that it is computed once per evaluation.
 ///
+/// The pins of the ribs are outputs where they are asked for. A pin is then a
+/// contact without force at the rib's place, which bends nothing and whose pose
+/// the equilibrium tells with its derivatives.
+///
 /// Columns of the derivatives, in the order of the parameter blocks of
 /// FrameResidual: [frame unknowns | ln EI front | ln EI back | rib lengths
 /// (r)], where the frame unknowns are [l_c, f_c of each contact], preceded by q
@@ -28,7 +32,7 @@ class FrameEvaluation {
   using Matrix = EquilibriumSolver::Matrix;
 
   FrameEvaluation(const LadderModel& model, EquilibriumForm form, int contacts,
-                  double friction);
+                  double friction, bool pins = false);
 
   /// Evaluates at frame unknowns and shared parameters (pointers may be null
   /// where their size is 0). `solver` is scratch: any solver of the same finger
@@ -43,7 +47,7 @@ class FrameEvaluation {
     return 2 * contacts() +
            (form_ == EquilibriumForm::kWeighted ? 6 + ribs_ : 0);
   }
-  int contacts() const { return static_cast<int>(contacts_.size()); }
+  int contacts() const { return contact_count_; }
   int ribs() const { return ribs_; }
   int gauges() const { return gauges_; }
   int columns() const { return frame_size() + 2 + ribs_; }
@@ -53,9 +57,16 @@ class FrameEvaluation {
   }
   /// Row of x_c (then y_c, theta_c) in outputs().
   int contact_row(int contact) const { return gauges_ + 3 * contact; }
-  const PointContact& contact(int i) const { return contacts_[i]; }
+  /// Row of x (then y, theta) of a rib's pin in outputs(); only with pins.
+  int pin_row(int rib, Side side) const {
+    return contact_row(contacts() + 2 * rib + LadderModel::Index(side));
+  }
+  /// Row of x_tip (then y, theta) in outputs().
+  int tip_row() const { return static_cast<int>(outputs_.size()) - 3; }
+  const PointContact& contact(int i) const { return loads_[i]; }
 
-  /// [gauge angles (m); contact (x, y, theta) each; tip (x, y, theta)].
+  /// [gauge angles (m); contact (x, y, theta) each; pins (x, y, theta), front
+  /// and back of each rib, if asked for; tip (x, y, theta)].
   const Eigen::VectorXd& outputs() const { return outputs_; }
   const Matrix& d_outputs() const { return d_outputs_; }
   /// Closure equations of ladder.h; weighted form only.
@@ -69,10 +80,11 @@ class FrameEvaluation {
  private:
   void UpdateReduced(EquilibriumSolver* solver);
   void UpdateWeighted(const double* frame, EquilibriumSolver* solver);
+  Matrix WithoutPinColumns(const Matrix& derivatives) const;
 
   EquilibriumForm form_;
-  int ribs_, gauges_;
-  std::vector<PointContact> contacts_;
+  int ribs_, gauges_, contact_count_;
+  std::vector<PointContact> loads_;  // contacts, then pins
   double length_mm_;
   bool valid_ = false;
   LadderState state_;

@@ -28,9 +28,10 @@ FrameSet::FrameSet(const Finger& finger, const Discretization& discretization,
       threads_(threads) {}
 
 FrameEvaluation& FrameSet::Add(int contacts, double friction,
-                               const double* frame) {
+                               const double* frame, bool pins) {
   frames_.push_back(
-      {FrameEvaluation(solver_.model(), form_, contacts, friction), frame});
+      {FrameEvaluation(solver_.model(), form_, contacts, friction, pins),
+       frame});
   return frames_.back().evaluation;
 }
 

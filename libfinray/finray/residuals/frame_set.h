@@ -31,8 +31,10 @@ class FrameSet : public ceres::EvaluationCallback {
            EquilibriumForm form, const SharedParameters* shared, int threads);
 
   /// Adds a frame with its unknowns at `frame` (null if it has none), which
-  /// must stay in place. The reference returned stays valid.
-  FrameEvaluation& Add(int contacts, double friction, const double* frame);
+  /// must stay in place. `pins`: with the rib pins among its outputs. The
+  /// reference returned stays valid.
+  FrameEvaluation& Add(int contacts, double friction, const double* frame,
+                       bool pins = false);
 
   void PrepareForEvaluation(bool evaluate_jacobians,
                             bool new_evaluation_point) override;

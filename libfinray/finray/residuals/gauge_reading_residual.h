@@ -1,33 +1,43 @@
 #ifndef FINRAY_RESIDUALS_GAUGE_READING_RESIDUAL_H_
 #define FINRAY_RESIDUALS_GAUGE_READING_RESIDUAL_H_
 
+#include <vector>
+
 #include "finray/residuals/frame_residual.h"
 
 namespace finray {
 
 /// A gauge's volts against its bending angle (16):
 ///
-///   r = (gain * alpha_j + offset - V) / sigma_V,
-///   alpha_j = theta(p_j + w_j) - theta(p_j).
+///   r = (gain * alpha_j + sum_k c_k x_k - V) / sigma_V,
+///   alpha_j = theta(p_j + w_j) - theta(p_j),
 ///
-/// Parameter blocks: those of FrameResidual, gain (1, V/rad), offset (1, V).
-/// A NaN reading (not measured) gives a zero residual.
+/// where the sum is all that a reading has beside bending: the offset, x_1 with
+/// c_1 = 1, and where a calibration asks for them a drift rate times the time,
+/// a temperature coefficient times the difference to the reference temperature.
+/// Parameter blocks: those of FrameResidual, gain (1, V/rad), then each x_k
+/// (1). A NaN reading (not measured) gives a zero residual.
 class GaugeReadingResidual : public FrameResidual {
  public:
   /// `reading_V` must stay in place; it may change between solves.
+  /// `coefficients` are the c_k; by default there is an offset only.
   static ceres::CostFunction* Create(const FrameEvaluation* frame, int gauge,
-                                     const double* reading_V, double std_V);
+                                     const double* reading_V, double std_V,
+                                     const std::vector<double>& coefficients = {
+                                         1});
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
   GaugeReadingResidual(const FrameEvaluation* frame, int gauge,
-                       const double* reading_V, double std_V);
+                       const double* reading_V, double std_V,
+                       const std::vector<double>& coefficients);
 
   int gauge_;
   const double* reading_V_;
   double std_V_;
+  std::vector<double> coefficients_;
 };
 
 }  // namespace finray

@@ -8,11 +8,13 @@
 namespace finray {
 
 /// The magnitude that a reference force sensor read, for a frame with one
-/// contact:
+/// contact or none (f_c = 0):
 ///
-///   r = (f_c sqrt(1 + mu^2) - F) / sigma_F.
+///   r = (s f_c sqrt(1 + mu^2) + o - F) / sigma_F,
 ///
-/// Linear in f_c, so smooth through zero. Parameter block: frame unknowns.
+/// with s the sensor's scale and o its offset. Linear in f_c, so smooth through
+/// zero. Parameter blocks: frame unknowns (if there is a contact), ln s (1), o
+/// (1, N).
 class ReferenceForceResidual : public ceres::CostFunction {
  public:
   static ceres::CostFunction* Create(const FrameEvaluation* frame,
@@ -32,9 +34,9 @@ class ReferenceForceResidual : public ceres::CostFunction {
 /// Both components, in frame S, of the force that the object exerts on the
 /// finger, summed over the contacts:
 ///
-///   r = (sum_c f_c (n_c + mu t_c) - F) / sigma_F,   two residuals.
+///   r = (s sum_c f_c (n_c + mu t_c) + o - F) / sigma_F,   two residuals.
 ///
-/// Parameter blocks: those of FrameResidual.
+/// Parameter blocks: those of FrameResidual, ln s (1), o (2, N).
 class ReferenceForceVectorResidual : public FrameResidual {
  public:
   static ceres::CostFunction* Create(const FrameEvaluation* frame,

@@ -45,6 +45,11 @@ inline std::string AlternativeNormalForce(int c) {
 }
 inline std::string Friction(int c) { return IndexedColumn("friction_", c, ""); }
 inline std::string RibForce(int i) { return IndexedColumn("rib_", i, "_N"); }
+/// Where a rib is hinged to a beam ("front", "back"), an axis being "x" or "y".
+inline std::string RibPin(int i, const std::string& beam,
+                          const std::string& axis) {
+  return IndexedColumn("rib_", i, "_") + beam + "_" + axis + "_mm";
+}
 
 }  // namespace finray
 

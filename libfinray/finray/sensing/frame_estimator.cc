@@ -215,7 +215,10 @@ FrameEstimate FrameEstimator::Automatic(const FrameReadings& readings) {
     if (one.chi2 < kSecondSignificance) return one;
   }
   const int needed = 2 * kUnknowns;
-  if (measurement_.gauges < needed || scene_.object_std_mm) return one;
+  if (scene_.most_contacts < 2 || measurement_.gauges < needed ||
+      scene_.object_std_mm) {
+    return one;
+  }
   const int before = search_.iterations();
   if (!search_.Search(2, measurement_)) return one;
   const ContactSolution& two = search_.best();

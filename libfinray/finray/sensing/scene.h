@@ -21,6 +21,8 @@ struct Smoothing {
 struct Scene {
   /// Number of contacts; empty: decided frame by frame ("auto").
   std::optional<int> contacts;
+  /// How many "auto" may find.
+  int most_contacts = 2;
   /// The beam of each point contact, contact_1 first; empty: all in front.
   std::vector<Side> contact_beams;
   /// "path:line:column: " of that list, for messages.

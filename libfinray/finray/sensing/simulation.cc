@@ -24,7 +24,8 @@ struct SolvedRow {
   double displacement_mm = 0;
   Eigen::VectorXd outputs;  // of the solver
   Eigen::VectorXd rib_tensions;
-  std::string failure;  // Why it is not solved.
+  std::vector<Eigen::Vector2d> pins;  // front and back of each rib
+  std::string failure;                // Why it is not solved.
 };
 
 void AddShape(const EquilibriumSolver& solver,
@@ -82,6 +83,14 @@ SolvedRow SolveRow(const RowLoad& load, const Scene& scene,
   if (IsSolved(row)) {
     row.outputs = solver->outputs();
     row.rib_tensions = solver->state().q.tail(solver->model().ribs());
+    const Shape shape(*solver, row.contacts);
+    for (const Rib& rib : solver->model().finger().ribs) {
+      for (const Side side : {Side::kFront, Side::kBack}) {
+        const Section at =
+            shape.At(side, side == Side::kFront ? rib.front_mm : rib.back_mm);
+        row.pins.emplace_back(at.x_mm, at.y_mm);
+      }
+    }
   }
   return row;
 }
@@ -99,6 +108,13 @@ void AddColumns(const Finger& finger, int contacts, int object_contacts,
   if (displacement) names.push_back(kDisplacement);
   for (int i = 0; i < static_cast<int>(finger.ribs.size()); ++i) {
     names.push_back(RibForce(i));
+  }
+  for (int i = 0; i < static_cast<int>(finger.ribs.size()); ++i) {
+    for (const Side side : {Side::kFront, Side::kBack}) {
+      for (const char* axis : {"x", "y"}) {
+        names.push_back(RibPin(i, SideName(side), axis));
+      }
+    }
   }
   names.insert(names.end(),
                {"force_N", "tip_x_mm", "tip_y_mm", "tip_angle_rad"});
@@ -144,6 +160,12 @@ double FillRow(const Finger& finger, const SolvedRow& solved, bool displacement,
   if (displacement && solved.object) set(kDisplacement, solved.displacement_mm);
   for (int i = 0; i < solved.rib_tensions.size(); ++i) {
     set(RibForce(i), solved.rib_tensions[i]);
+    for (const Side side : {Side::kFront, Side::kBack}) {
+      const Eigen::Vector2d& pin =
+          solved.pins[2 * i + LadderModel::Index(side)];
+      set(RibPin(i, SideName(side), "x"), pin.x());
+      set(RibPin(i, SideName(side), "y"), pin.y());
+    }
   }
   const Eigen::Vector3d tip = solved.outputs.tail<3>();
   set("tip_x_mm", tip.x());
@@ -230,6 +252,13 @@ FrameTable MakeLog(const Finger& finger, const FrameTable& simulated,
   if (simulated.Has("object_x_mm")) {
     copy("object_x_mm", noise.object_std_mm);
     copy("object_y_mm", noise.object_std_mm);
+  }
+  if (!(noise.pin_std_mm > 0)) return log;
+  for (int i = 0; i < static_cast<int>(finger.ribs.size()); ++i) {
+    for (const Side side : {Side::kFront, Side::kBack}) {
+      copy(RibPin(i, SideName(side), "x"), noise.pin_std_mm);
+      copy(RibPin(i, SideName(side), "y"), noise.pin_std_mm);
+    }
   }
   return log;
 }

@@ -17,8 +17,8 @@ struct SimulationSummary {
   std::string first_failure;
 };
 
-/// Solves every row of `frames` and fills in gauges, ribs, tip, contact poses,
-/// force_N and status. A row's load is, in this order:
+/// Solves every row of `frames` and fills in gauges, rib forces and pins, tip,
+/// contact poses, force_N and status. A row's load is, in this order:
 ///  - point contacts: contact_<c>_mm, normal_<c>_N, friction_<c> (default the
 ///    scene's), as many as the columns give, each on the beam that the scene
 ///    says;
@@ -40,11 +40,13 @@ struct LogNoise {
   double force_std_N = 0;
   double object_std_mm = 0;
   std::uint64_t seed = 1;
+  double pin_std_mm = 0;  ///< 0: no camera
 };
 
 /// What a lab would have recorded of simulated frames: time_s, gauge_<j>_V,
-/// force_N and the object's centre where there is one, with Gaussian noise, and
-/// nothing of the truth. Rows that were not solved are left out.
+/// force_N, the object's centre where there is one and rib pins where there is
+/// a camera, with Gaussian noise, and nothing of the truth. Rows that were not
+/// solved are left out.
 FrameTable MakeLog(const Finger& finger, const FrameTable& simulated,
                    const LogNoise& noise);
 

@@ -1,0 +1,138 @@
+// Two calibrations of one finger: do they agree, and does it matter?
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "app.h"
+#include "finray/calib/comparison.h"
+#include "finray/io/atomic_file.h"
+
+DEFINE_string(out_dir, "", "folder for comparison.yaml and comparison.csv");
+DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
+DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
+
+DEFINE_double(most_sigma, 0,
+              "gate: a parameter's difference over its std; 0: none");
+DEFINE_double(least_p_value, 0,
+              "gate: probability of chi2 over all parameters; 0: none");
+DEFINE_double(most_force_difference_N, 0,
+              "gate: force from the same readings, over the grid; 0: none");
+DEFINE_double(most_contact_difference_mm, 0,
+              "gate: place from the same readings, over the grid; 0: none");
+
+namespace {
+
+using namespace finray;
+
+std::vector<std::string> folders;
+
+std::string InFolder(const char* name) {
+  return (std::filesystem::path(FLAGS_out_dir) / name).string();
+}
+
+std::vector<ComparisonGate> Gates(const Comparison& comparison) {
+  const Comparison::Largest most = comparison.largest();
+  const Comparison::Parameter* worst = comparison.LargestSigma();
+  const auto nan = std::nan("");
+  const bool any = most.points > 0;
+  std::vector<ComparisonGate> gates;
+  const auto at_most = [&](const char* name, double bound, double value) {
+    if (bound > 0) gates.push_back({name, bound, value, value <= bound});
+  };
+  at_most("most_sigma", FLAGS_most_sigma,
+          worst == nullptr ? nan : std::abs(worst->sigma()));
+  if (FLAGS_least_p_value > 0) {
+    const double p = comparison.p_value();
+    gates.push_back(
+        {"least_p_value", FLAGS_least_p_value, p, p >= FLAGS_least_p_value});
+  }
+  at_most("most_force_difference_N", FLAGS_most_force_difference_N,
+          any ? most.force_N : nan);
+  at_most("most_contact_difference_mm", FLAGS_most_contact_difference_mm,
+          any ? most.contact_mm : nan);
+  return gates;
+}
+
+void PrintSummary(const Comparison& comparison,
+                  const std::vector<ComparisonGate>& gates) {
+  std::printf("%s\n", InFolder("comparison.yaml").c_str());
+  const Comparison::Parameter* worst = comparison.LargestSigma();
+  std::printf("parameters     %zu, largest difference %.2f std (%s, %.4g %s)\n",
+              comparison.parameters.size(), std::abs(worst->sigma()),
+              worst->name.c_str(), worst->b - worst->a, worst->unit.c_str());
+  std::printf("all together   chi2/dof %.2f over %d, p %.2g",
+              comparison.chi2 / comparison.dof, comparison.dof,
+              comparison.p_value());
+  if (comparison.shared_logs > 0) {
+    std::printf("; %d log%s in common, so that std are too large",
+                comparison.shared_logs, comparison.shared_logs == 1 ? "" : "s");
+  }
+  const Comparison::Largest most = comparison.largest();
+  std::printf("\nforce          ");
+  if (most.points == 0) {
+    std::printf("not comparable: b tells no contact of the grid\n");
+    std::printf("contact        not comparable\n");
+  } else {
+    std::printf(
+        "%.3g N rms, %.3g N at most (%.2f std) from the same readings\n",
+        most.force_rms_N, most.force_N, most.force_over_std);
+    std::printf("contact        %.3g mm rms, %.3g mm at most (%.2f std)\n",
+                most.contact_rms_mm, most.contact_mm, most.contact_over_std);
+  }
+  std::printf("gates         ");
+  if (gates.empty()) std::printf(" none given");
+  const char* separator = " ";
+  for (const ComparisonGate& gate : gates) {
+    std::printf("%s%s %.3g (%.3g) %s", separator, gate.name.c_str(), gate.bound,
+                gate.value, gate.passed ? "passed" : "FAILED");
+    separator = ", ";
+  }
+  std::printf("\n");
+}
+
+int Run() {
+  if (folders.size() != 2) {
+    throw UsageError("expected two calibrations, found " +
+                     std::to_string(folders.size()));
+  }
+  Required("out_dir", FLAGS_out_dir);
+  const std::pair<const char*, double> bounds[] = {
+      {"most_sigma", FLAGS_most_sigma},
+      {"least_p_value", FLAGS_least_p_value},
+      {"most_force_difference_N", FLAGS_most_force_difference_N},
+      {"most_contact_difference_mm", FLAGS_most_contact_difference_mm}};
+  for (const auto& [name, bound] : bounds) {
+    if (!(bound >= 0) || std::isinf(bound)) {
+      throw UsageError(std::string("--") + name +
+                       ": expected a number above 0");
+    }
+  }
+  const Discretization discretization =
+      ParseDiscretization(FLAGS_scheme, FLAGS_resolution);
+  const CalibrationFile a = ReadCalibration(folders[0]);
+  const CalibrationFile b = ReadCalibration(folders[1]);
+  const Comparison comparison = Compare(a, b, discretization);
+  const std::vector<ComparisonGate> gates = Gates(comparison);
+  MakeFolder(FLAGS_out_dir);
+  WriteFileAtomically(InFolder("comparison.yaml"),
+                      ComparisonYaml(comparison, a, b, gates));
+  ComparisonGrid(comparison).Write(InFolder("comparison.csv"));
+  PrintSummary(comparison, gates);
+  for (const ComparisonGate& gate : gates) {
+    if (!gate.passed) return kGateFailed;
+  }
+  return kGood;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return finray::RunApp(
+      argc, argv,
+      "Difference of two calibrations over its std, and what it does to "
+      "estimates.\n"
+      "finray_compare A B --out_dir D [--most_sigma 4]; A and B are result "
+      "folders of finray_calibrate",
+      Run, &folders);
+}

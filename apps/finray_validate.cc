@@ -1,0 +1,193 @@
+// Holds a calibrated finger against logs that it has not seen: a gate for CI.
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "app.h"
+#include "finray/calib/validation.h"
+#include "finray/io/atomic_file.h"
+
+DEFINE_string(finger, "", "calibrated finger YAML");
+DEFINE_string(scene, "", "scene YAML; neither this nor a plan: contacts: auto");
+DEFINE_string(plan, "", "plan YAML, for its scene, std and columns");
+DEFINE_string(logs, "",
+              "CSV logs with a reference (force, contact or object), separated "
+              "by commas");
+DEFINE_string(out_dir, "", "folder for validation.yaml, validation.frames.csv");
+DEFINE_string(baseline, "", "finger YAML to compare with, e.g. uncalibrated");
+DEFINE_int32(threads, 2, "threads over frames");
+DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
+DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
+DEFINE_bool(dump_config, false, "print what is in force, and stop");
+
+DEFINE_double(most_force_rms_N, 0, "gate: rms error of the force; 0: none");
+DEFINE_double(most_force_percent, 0,
+              "gate: the same in percent of the rms force; 0: none");
+DEFINE_double(most_contact_rms_mm, 0, "gate: rms error of l_c; 0: none");
+DEFINE_double(least_coverage_68_percent, 0,
+              "gate: frames within one predicted std; 0: none");
+DEFINE_double(least_coverage_95_percent, 0,
+              "gate: frames within 1.96 predicted std; 0: none");
+DEFINE_double(least_usable_percent, 0,
+              "gate: frames that are ok or no_contact; 0: none");
+
+namespace {
+
+using namespace finray;
+
+std::string InFolder(const char* name) {
+  return (std::filesystem::path(FLAGS_out_dir) / name).string();
+}
+
+Plan PlanOrScene() {
+  if (!FLAGS_plan.empty() && !FLAGS_scene.empty()) {
+    throw UsageError("--plan has a scene of its own; leave out --scene");
+  }
+  if (!FLAGS_plan.empty()) return ReadPlan(FLAGS_plan);
+  Plan plan;
+  if (FLAGS_scene.empty()) return plan;
+  plan.scene = ReadScene(FLAGS_scene);
+  RefuseBackContacts(plan.scene);
+  plan.columns = plan.scene.columns;
+  return plan;
+}
+
+std::vector<Gate> Gates() {
+  using Quantity = Gate::Quantity;
+  const std::pair<Quantity, double> all[] = {
+      {Quantity::kForceRms, FLAGS_most_force_rms_N},
+      {Quantity::kForcePercent, FLAGS_most_force_percent},
+      {Quantity::kContactRms, FLAGS_most_contact_rms_mm},
+      {Quantity::kCoverage68, FLAGS_least_coverage_68_percent},
+      {Quantity::kCoverage95, FLAGS_least_coverage_95_percent},
+      {Quantity::kUsable, FLAGS_least_usable_percent}};
+  std::vector<Gate> gates;
+  for (const auto& [quantity, bound] : all) {
+    if (!(bound >= 0) || std::isinf(bound)) {
+      throw UsageError(std::string("--") + GateName(quantity) +
+                       ": expected a number above 0");
+    }
+    if (bound > 0) gates.push_back({quantity, bound});
+  }
+  return gates;
+}
+
+void PrintErrors(const char* name, const ErrorStatistics& errors,
+                 const ErrorStatistics* baseline, const char* unit) {
+  if (errors.frames == 0) {
+    std::printf("%s not known: no usable frame with a reference\n", name);
+    return;
+  }
+  std::printf("%s %.3g %s rms", name, errors.rms(), unit);
+  if (unit[0] == 'N') std::printf(" (%.3g %%)", errors.percent());
+  std::printf(", %.3g %s at most", errors.largest, unit);
+  if (baseline != nullptr && baseline->frames > 0) {
+    std::printf("; baseline %.3g %s rms", baseline->rms(), unit);
+  }
+  std::printf("\n");
+}
+
+void PrintSummary(const CalibrationLogs& logs, const Validation& validation,
+                  const std::vector<GateResult>& gates) {
+  const ErrorRow& errors = validation.errors.contact;
+  const ErrorRow* baseline = validation.baseline_errors
+                                 ? &validation.baseline_errors->contact
+                                 : nullptr;
+  std::printf("%s\n", InFolder("validation.yaml").c_str());
+  std::printf(
+      "frames         %zu with contact (%zu usable), %zu free, in %zu log%s\n",
+      errors.frames, errors.usable, validation.errors.free.frames,
+      logs.paths.size(), logs.paths.size() == 1 ? "" : "s");
+  PrintErrors("force error   ", errors.force_N,
+              baseline ? &baseline->force_N : nullptr, "N");
+  PrintErrors("contact error ", errors.contact_mm,
+              baseline ? &baseline->contact_mm : nullptr, "mm");
+  std::printf("coverage      ");
+  const std::pair<const char*, const ErrorStatistics*> quantities[] = {
+      {"force", &errors.force_N}, {"contact", &errors.contact_mm}};
+  const char* separator = " ";
+  for (const auto& [name, statistics] : quantities) {
+    if (statistics->judged == 0) continue;
+    std::printf("%s%s %.1f and %.1f %%", separator, name,
+                statistics->coverage_68_percent(),
+                statistics->coverage_95_percent());
+    separator = ", ";
+  }
+  std::printf(" (68 and 95 %% predicted)\ngates         ");
+  if (gates.empty()) std::printf(" none given");
+  separator = " ";
+  for (const GateResult& result : gates) {
+    std::printf("%s%s %.3g (%.3g) %s", separator,
+                GateName(result.gate.quantity), result.gate.bound, result.value,
+                result.passed ? "passed" : "FAILED");
+    separator = ", ";
+  }
+  std::printf("\n");
+}
+
+int Run() {
+  const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
+  const Plan plan = PlanOrScene();
+  const auto paths = SplitList(Required("logs", FLAGS_logs));
+  Required("out_dir", FLAGS_out_dir);
+  const std::vector<Gate> gates = Gates();
+  std::optional<Finger> baseline;
+  if (!FLAGS_baseline.empty()) {
+    baseline = ReadFinger(FLAGS_baseline);
+    if (baseline->gauges.size() != finger.gauges.size()) {
+      throw InputError(FLAGS_baseline + ": " +
+                       std::to_string(baseline->gauges.size()) +
+                       " gauges, but " + FLAGS_finger + " has " +
+                       std::to_string(finger.gauges.size()));
+    }
+  }
+  const Discretization discretization =
+      ParseDiscretization(FLAGS_scheme, FLAGS_resolution);
+  if (FLAGS_dump_config) {
+    DumpConfig(finger, plan.scene, discretization);
+    return kGood;
+  }
+  Plan whole = plan;
+  whole.holdout_by = HoldoutBy::kNothing;  // all of these logs are held out
+  const CalibrationLogs logs = ReadCalibrationLogs(paths, finger, whole);
+  const Validation validation =
+      Validate(finger, baseline, whole, logs, discretization, FLAGS_threads);
+  const std::vector<GateResult> results = CheckGates(validation, gates);
+
+  std::string command = "finray_validate --finger " + FLAGS_finger;
+  if (!FLAGS_plan.empty()) command += " --plan " + FLAGS_plan;
+  if (!FLAGS_scene.empty()) command += " --scene " + FLAGS_scene;
+  if (!FLAGS_baseline.empty()) command += " --baseline " + FLAGS_baseline;
+  command += " --logs " + FLAGS_logs + " --out_dir " + FLAGS_out_dir +
+             " --scheme " + FLAGS_scheme + " --resolution " +
+             std::to_string(FLAGS_resolution);
+  for (const GateResult& result : results) {
+    command += std::string(" --") + GateName(result.gate.quantity) + " " +
+               NumberText(result.gate.bound);
+  }
+  MakeFolder(FLAGS_out_dir);
+  WriteFileAtomically(
+      InFolder("validation.yaml"),
+      ValidationYaml(logs, validation, results,
+                     {FLAGS_finger, FLAGS_baseline,
+                      FLAGS_plan.empty() ? FLAGS_scene : FLAGS_plan, command}));
+  ValidationFrames(logs, validation, plan.scene.friction_coefficient)
+      .Write(InFolder("validation.frames.csv"));
+  PrintSummary(logs, validation, results);
+  for (const GateResult& result : results) {
+    if (!result.passed) return kGateFailed;
+  }
+  return kGood;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return finray::RunApp(
+      argc, argv,
+      "Errors and coverage of a calibrated finger on logs with a reference.\n"
+      "finray_validate --finger D/finger.yaml --plan P.yaml --logs c.csv "
+      "--out_dir V [--baseline F.yaml] [--most_force_rms_N 0.1]",
+      Run);
+}

@@ -1,0 +1,15 @@
+#ifndef FINRAY_CALIB_CALIBRATION_CHECKS_YAML_H_
+#define FINRAY_CALIB_CALIBRATION_CHECKS_YAML_H_
+
+#include "finray/calib/calibration_result.h"
+
+namespace finray {
+
+/// The keys errors, residual_correlation, leave_one_log_out and next of
+/// calibration.yaml, into a mapping that has been begun.
+void EmitChecks(CalibrationProblem& problem, const CalibrationResult& result,
+                YAML::Emitter* yaml);
+
+}  // namespace finray
+
+#endif  // FINRAY_CALIB_CALIBRATION_CHECKS_YAML_H_

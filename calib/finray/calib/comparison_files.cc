@@ -1,0 +1,99 @@
+#include <cmath>
+
+#include "finray/calib/comparison.h"
+#include "finray/calib/yaml_number.h"
+#include "finray/io/sha256.h"
+
+namespace finray {
+
+FrameTable ComparisonGrid(const Comparison& comparison) {
+  FrameTable table(comparison.grid.size());
+  for (std::size_t i = 0; i < comparison.grid.size(); ++i) {
+    const Comparison::Point& point = comparison.grid[i];
+    const auto set = [&](const char* name, double value) {
+      table.MutableNumbers(name)[i] = value;
+    };
+    set("contact_1_mm", point.contact_mm);
+    set("normal_1_N", point.normal_N);
+    set("force_difference_N", point.force_difference_N);
+    set("force_difference_std_N", point.force_std_N);
+    set("force_difference_over_std",
+        point.force_difference_N / point.force_std_N);
+    set("contact_difference_mm", point.contact_difference_mm);
+    set("contact_difference_std_mm", point.contact_std_mm);
+    set("contact_difference_over_std",
+        point.contact_difference_mm / point.contact_std_mm);
+  }
+  return table;
+}
+
+std::string ComparisonYaml(const Comparison& comparison,
+                           const CalibrationFile& a, const CalibrationFile& b,
+                           const std::vector<ComparisonGate>& gates) {
+  YAML::Emitter yaml;
+  yaml << YAML::BeginMap;
+  YamlPair(&yaml, "schema_version", 1);
+  bool passed = true;
+  for (const ComparisonGate& gate : gates) passed &= gate.passed;
+  YamlPair(&yaml, "verdict",
+           gates.empty() ? "no_gates"
+           : passed      ? "passed"
+                         : "failed");
+  const std::pair<const char*, const CalibrationFile*> files[] = {{"a", &a},
+                                                                  {"b", &b}};
+  for (const auto& [key, file] : files) {
+    yaml << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginMap;
+    YamlPair(&yaml, "path", file->path);
+    YamlPair(&yaml, "sha256", Sha256OfFile(file->path));
+    yaml << YAML::EndMap;
+  }
+  YamlPair(&yaml, "shared_logs", comparison.shared_logs);
+  yaml << YAML::Key << "parameters" << YAML::Value << YAML::BeginSeq;
+  for (const Comparison::Parameter& p : comparison.parameters) {
+    yaml << YAML::Flow << YAML::BeginMap;
+    YamlPair(&yaml, "name", p.name);
+    YamlPair(&yaml, "unit", p.unit);
+    YamlPair(&yaml, "a", YamlNumber(p.a));
+    YamlPair(&yaml, "b", YamlNumber(p.b));
+    YamlPair(&yaml, "difference", YamlNumber(p.b - p.a));
+    YamlPair(&yaml, "std", YamlNumber(p.std));
+    YamlPair(&yaml, "difference_over_std", YamlNumber(p.sigma()));
+    yaml << YAML::EndMap;
+  }
+  yaml << YAML::EndSeq << YAML::Key << "all" << YAML::Value << YAML::Flow
+       << YAML::BeginMap;
+  YamlPair(&yaml, "chi2", YamlNumber(comparison.chi2));
+  YamlPair(&yaml, "dof", comparison.dof);
+  YamlPair(&yaml, "p_value", YamlNumber(comparison.p_value()));
+  yaml << YAML::EndMap;
+  const Comparison::Largest most = comparison.largest();
+  yaml << YAML::Key << "predicted" << YAML::Value << YAML::BeginMap;
+  YamlPair(&yaml, "points", comparison.grid.size());
+  YamlPair(&yaml, "compared_points", most.points);
+  if (most.points > 0) {
+    YamlPair(&yaml, "force_rms_difference_N", YamlNumber(most.force_rms_N));
+    YamlPair(&yaml, "force_max_difference_N", YamlNumber(most.force_N));
+    YamlPair(&yaml, "force_max_difference_over_std",
+             YamlNumber(most.force_over_std));
+    YamlPair(&yaml, "contact_rms_difference_mm",
+             YamlNumber(most.contact_rms_mm));
+    YamlPair(&yaml, "contact_max_difference_mm", YamlNumber(most.contact_mm));
+    YamlPair(&yaml, "contact_max_difference_over_std",
+             YamlNumber(most.contact_over_std));
+  }
+  yaml << YAML::EndMap << YAML::Key << "gates" << YAML::Value << YAML::BeginSeq;
+  for (const ComparisonGate& gate : gates) {
+    yaml << YAML::Flow << YAML::BeginMap;
+    YamlPair(&yaml, "name", gate.name);
+    YamlPair(&yaml, "bound", YamlNumber(gate.bound));
+    YamlPair(&yaml, "value", YamlNumber(gate.value));
+    YamlPair(&yaml, "passed", gate.passed);
+    yaml << YAML::EndMap;
+  }
+  yaml << YAML::EndSeq;
+  YamlPair(&yaml, "version", FINRAY_VERSION);
+  yaml << YAML::EndMap;
+  return std::string(yaml.c_str()) + "\n";
+}
+
+}  // namespace finray

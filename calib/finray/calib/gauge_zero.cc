@@ -1,0 +1,66 @@
+// What gauges read in free frames.
+
+#include <cmath>
+#include <unordered_map>
+
+#include "finray/calib/calibration_problem.h"
+
+namespace finray {
+namespace {
+
+struct Mean {
+  double sum = 0;
+  int count = 0;
+
+  void Add(double value) {
+    sum += value;
+    ++count;
+  }
+};
+
+}  // namespace
+
+// To begin with, offsets are what the gauges read in free frames.
+void CalibrationProblem::GuessOffsets() {
+  if (!plan_.family(ParameterFamily::kGaugeOffset).free) return;
+  std::unordered_map<double*, Mean> means;
+  for (const CalibrationFrame& frame : logs_.frames) {
+    if (frame.contact || frame.IsBench() || frame.held_out) continue;
+    for (int j = 0; j < static_cast<int>(frame.gauges_V.size()); ++j) {
+      if (!std::isfinite(frame.gauges_V[j])) continue;
+      means[parameters_.readings.offset_V(j, frame.log)].Add(frame.gauges_V[j]);
+    }
+  }
+  for (const auto& [offset, mean] : means) *offset = mean.sum / mean.count;
+}
+
+void CalibrationProblem::ZeroHeldOutLogs() {
+  if (!plan_.family(ParameterFamily::kGaugeOffset).per_log) return;
+  // Ribs that are not as drawn bend the finger without load.
+  const Finger found = parameters_.Apply(finger_);
+  EquilibriumSolver free(guess_solver_);
+  free.model().set_stiffness(found.front_stiffness_N_mm2,
+                             found.back_stiffness_N_mm2);
+  for (int i = 0; i < free.model().ribs(); ++i) {
+    free.model().set_rib_length(i, found.ribs[i].length_mm);
+  }
+  free.Reset();
+  if (!free.Solve({})) return;
+  const std::vector<bool> held_out = logs_.HeldOut();
+  std::unordered_map<double*, Mean> errors;
+  for (const CalibrationFrame& frame : logs_.frames) {
+    if (frame.contact || frame.IsBench() || !held_out[frame.log]) continue;
+    for (int j = 0; j < static_cast<int>(frame.gauges_V.size()); ++j) {
+      if (!std::isfinite(frame.gauges_V[j])) continue;
+      errors[parameters_.readings.offset_V(j, frame.log)].Add(
+          frame.gauges_V[j] -
+          parameters_.gains_V_per_rad[j] * free.gauge_angle(j) -
+          parameters_.readings.Sum(frame, j));
+    }
+  }
+  for (const auto& [offset, error] : errors) {
+    *offset += error.sum / error.count;
+  }
+}
+
+}  // namespace finray

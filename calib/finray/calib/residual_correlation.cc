@@ -1,0 +1,128 @@
+#include "finray/calib/residual_correlation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "finray/calib/eliminated_contact.h"
+#include "finray/sensing/chi_squared.h"
+
+namespace finray {
+namespace {
+
+constexpr int kLeastRows = 20;
+constexpr int kTestedLags = 10;
+constexpr double kWindow = 5;  // in units of tau
+
+double Gamma(const std::vector<std::vector<double>>& logs, int lag) {
+  double sum = 0;
+  for (const std::vector<double>& r : logs) {
+    for (std::size_t t = lag; t < r.size(); ++t) sum += r[t] * r[t - lag];
+  }
+  return sum;
+}
+
+}  // namespace
+
+IntegratedTime IntegrateTime(const std::vector<std::vector<double>>& logs) {
+  IntegratedTime result;
+  for (const auto& log : logs) result.n += static_cast<int>(log.size());
+  const double variance = Gamma(logs, 0);
+  if (result.n < kLeastRows || !(variance > 0)) return result;
+  const double n = result.n;
+  double q = 0, sum = 1;
+  int lags = 0, window = 0;
+  for (int k = 1; k <= result.n / 4; ++k) {
+    const double rho = Gamma(logs, k) / variance;
+    if (k == 1) result.lag_1 = rho;
+    if (k <= kTestedLags) {
+      q += rho * rho / (n - k);
+      ++lags;
+    }
+    if (window == 0) {
+      sum += 2 * rho;
+      if (k >= kWindow * std::max(sum, 1.0)) window = k;
+    }
+    if (window > 0 && k >= kTestedLags) break;
+  }
+  if (window == 0) window = result.n / 4;
+  result.tau = std::max(1.0, sum / (1 - (2 * window + 1) / n));
+  result.p_value = ChiSquaredTail(n * (n + 2) * q, lags);
+  return result;
+}
+
+const ResidualCorrelation::Series* ResidualCorrelation::Slowest() const {
+  const auto slowest = std::max_element(
+      series.begin(), series.end(),
+      [](const Series& a, const Series& b) { return a.time.tau < b.time.tau; });
+  return slowest == series.end() ? nullptr : &*slowest;
+}
+
+ResidualCorrelation AnalyzeResidualCorrelation(CalibrationProblem* problem,
+                                               const Identifiability& found) {
+  const CalibrationProblem::Linearization at = problem->Linearize(true);
+  const auto& frames = problem->logs().frames;
+  const auto logs = problem->logs().paths.size();
+  const auto n = static_cast<int>(found.std.size());
+  ResidualCorrelation result;
+  result.enlargement.assign(n, 1);
+  result.tau.assign(n, 1);
+
+  using Key = std::tuple<int, int, int, int>;  // of Series
+  std::map<Key, std::vector<double>> series;
+  std::vector<std::vector<std::vector<double>>> influence(
+      n, std::vector<std::vector<double>>(logs));
+  const Eigen::MatrixXd covariance =
+      BoundedCovariance(found.information + found.prior);
+  ForEachFrame(at, [&](int first, int count) {
+    const int log = frames[at.rows[first].frame].log;
+    std::map<std::pair<int, int>, int> components;
+    for (int i = first; i < first + count; ++i) {
+      const auto& row = at.rows[i];
+      const int family = static_cast<int>(row.family);
+      series[{log, family, row.gauge, components[{family, row.gauge}]++}]
+          .push_back(at.residuals[i]);
+    }
+    const Eigen::VectorXd psi =
+        covariance * (found.unit.asDiagonal() *
+                      (EliminateContact(at, first, count).transpose() *
+                       at.residuals.segment(first, count)));
+    for (int i = 0; i < n; ++i) influence[i][log].push_back(psi[i]);
+  });
+
+  double least = 1;
+  for (const auto& [key, values] : series) {
+    if (values.size() < kLeastRows) continue;
+    const auto [log, family, gauge, component] = key;
+    const IntegratedTime time = IntegrateTime({values});
+    // Alternating residuals do no harm.
+    if (time.tau > 1) least = std::min(least, time.p_value);
+    result.series.push_back(
+        {log, static_cast<ResidualFamily>(family), gauge, component, time});
+  }
+  result.p_value =
+      std::min(1.0, least * static_cast<double>(result.series.size()));
+  if (!result.correlated()) return result;
+
+  const Eigen::MatrixXd of_data = covariance * found.information * covariance;
+  for (int i = 0; i < n; ++i) {
+    const IntegratedTime time = IntegrateTime(influence[i]);
+    result.tau[i] = time.tau;
+    const double share = of_data(i, i) / covariance(i, i);
+    if (!(share > 1e-6)) continue;
+    const double v =
+        std::max(1.0, time.tau * Gamma(influence[i], 0) / of_data(i, i));
+    result.enlargement[i] = std::sqrt(1 + (v - 1) * share);
+  }
+  return result;
+}
+
+void EnlargeStd(const ResidualCorrelation& by, Identifiability* found) {
+  for (std::size_t i = 0; i < found->std.size(); ++i) {
+    found->std[i] *= by.enlargement[i];
+    found->bounded_std[i] *= by.enlargement[i];
+  }
+}
+
+}  // namespace finray

@@ -1,0 +1,37 @@
+#ifndef FINRAY_RESIDUALS_CYLINDER_GAUGE_RESIDUAL_H_
+#define FINRAY_RESIDUALS_CYLINDER_GAUGE_RESIDUAL_H_
+
+#include <ceres/cost_function.h>
+
+#include <vector>
+
+namespace finray {
+
+/// A gauge's volts on the bench, bent round a cylinder of radius R along its
+/// whole length w:
+///
+///   r = (gain * w / R + sum_k c_k x_k - V) / sigma_V,
+///
+/// the sum being that of GaugeReadingResidual. An infinite R is a flat gauge, a
+/// negative one bends it the other way. Parameter blocks: gain (1, V/rad), then
+/// each x_k (1).
+class CylinderGaugeResidual : public ceres::CostFunction {
+ public:
+  static ceres::CostFunction* Create(
+      double gauge_length_mm, double cylinder_radius_mm, double reading_V,
+      double std_V, const std::vector<double>& coefficients = {1});
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  CylinderGaugeResidual(double angle_rad, double reading_V, double std_V,
+                        const std::vector<double>& coefficients);
+
+  double angle_rad_, reading_V_, std_V_;
+  std::vector<double> coefficients_;
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_RESIDUALS_CYLINDER_GAUGE_RESIDUAL_H_

@@ -1,0 +1,40 @@
+#ifndef FINRAY_RESIDUALS_POINT_RESIDUAL_H_
+#define FINRAY_RESIDUALS_POINT_RESIDUAL_H_
+
+#include "finray/residuals/frame_residual.h"
+
+namespace finray {
+
+/// A point of the finger that a camera saw at p:
+///
+///   r = (r_P - (p + o)) / sigma,   two residuals,
+///
+/// with r_P where the equilibrium puts the point: a rib's hinge on the front or
+/// back beam, or the tip; o is the origin of the camera's coordinates in frame
+/// S. Parameter blocks: those of FrameResidual, camera origin (2, mm).
+class PointResidual : public FrameResidual {
+ public:
+  /// The frame must have been made with pins.
+  static ceres::CostFunction* CreatePin(const FrameEvaluation* frame, int rib,
+                                        Side side, const Eigen::Vector2d& at_mm,
+                                        double std_mm);
+  static ceres::CostFunction* CreateTip(const FrameEvaluation* frame,
+                                        const Eigen::Vector2d& at_mm,
+                                        double std_mm);
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  static constexpr int kTip = -1;
+  PointResidual(const FrameEvaluation* frame, int row,
+                const Eigen::Vector2d& at_mm, double std_mm);
+
+  int row_;  // of x in the frame's outputs, or kTip
+  Eigen::Vector2d at_mm_;
+  double std_mm_;
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_RESIDUALS_POINT_RESIDUAL_H_

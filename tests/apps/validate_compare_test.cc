@@ -1,0 +1,169 @@
+// finray_validate and finray_compare as a user, or CI, meets them.
+
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+
+#include "apps/command_line.h"
+#include "finray/io/frame_table.h"
+
+namespace finray {
+namespace {
+
+using testing::HasSubstr;
+
+class ValidateCompareTest : public CommandLineTest {
+ protected:
+  const std::string hidden_ = data_ + "hidden_finger.yaml";
+  const std::string validate_ = "--finger " + hidden_ + " --plan " + plan_ +
+                                " --logs " + data_ +
+                                "holdout.csv --out_dir %out";
+};
+
+TEST_F(ValidateCompareTest, TheTrueFingerPasses) {
+  const Outcome outcome =
+      Run("finray_validate", validate_ + " --baseline " + paper_ +
+                                 " --most_force_rms_N 0.1 --most_force_percent "
+                                 "3 --most_contact_rms_mm 2 "
+                                 "--least_coverage_68_percent 55 "
+                                 "--least_coverage_95_percent 90 "
+                                 "--least_usable_percent 90");
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 6);
+  const YAML::Node result = YAML::LoadFile(folder_.Path("out/validation.yaml"));
+  EXPECT_EQ(result["verdict"].as<std::string>(), "passed");
+  EXPECT_EQ(result["gates"].size(), 6u);
+  const YAML::Node errors = result["errors"];
+  EXPECT_EQ(errors["contact"]["frames"].as<int>() +
+                errors["free"]["frames"].as<int>(),
+            110);
+  int frames = 0;
+  for (const YAML::Node& region : errors["regions"]) {
+    frames += region["frames"].as<int>();
+  }
+  EXPECT_EQ(frames, errors["contact"]["frames"].as<int>());
+  EXPECT_LT(errors["contact"]["force_rms_N"].as<double>(),
+            result["baseline"]["contact"]["force_rms_N"].as<double>());
+
+  // The table has what the sums are made of.
+  const FrameTable table =
+      FrameTable::Read(folder_.Path("out/validation.frames.csv"));
+  ASSERT_EQ(table.rows(), 110u);
+  EXPECT_EQ(result["inputs"]["logs"].size(), 1u);
+}
+
+TEST_F(ValidateCompareTest, AGateThatFailsIsExitCode4) {
+  const Outcome outcome =
+      Run("finray_validate", validate_ + " --most_force_rms_N 0.001");
+  EXPECT_EQ(outcome.code, 4) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("most_force_rms_N 0.001"));
+  EXPECT_THAT(outcome.output, HasSubstr("FAILED"));
+  EXPECT_THAT(folder_.Read("out/validation.yaml"),
+              HasSubstr("verdict: failed"));
+}
+
+TEST_F(ValidateCompareTest, BadInputOfValidate) {
+  EXPECT_EQ(Run("finray_validate", "--finger " + hidden_).code, 1);
+  EXPECT_EQ(Run("finray_validate", validate_ + " --scene x.yaml").code, 1);
+  EXPECT_EQ(Run("finray_validate", validate_ + " --most_force_rms_N -1").code,
+            1);
+  folder_.Write("gauges.csv",
+                "gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V\n1,1,1,1\n");
+  const std::string blind =
+      "--finger " + hidden_ + " --logs %gauges.csv --out_dir %out";
+  ExpectBadInput("finray_validate", blind,
+                 "no frame with contact has a reference");
+  folder_.Write("force.csv",
+                "gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V,force_N\n"
+                "0.1,0.1,0.1,0.1,2\n");
+  ExpectBadInput("finray_validate",
+                 "--finger " + hidden_ +
+                     " --logs %force.csv --out_dir %out "
+                     "--most_contact_rms_mm 1",
+                 "--most_contact_rms_mm needs contact_1_mm");
+  folder_.Write("short.csv", "gauge_1_V,force_N\n1,1\n");
+  ExpectBadInput("finray_validate",
+                 "--finger " + hidden_ + " --logs %short.csv --out_dir %out",
+                 "short.csv: no column 'gauge_2_V'");
+  ExpectBadInput("finray_validate",
+                 validate_ + " --baseline " FINRAY_SOURCE_DIR
+                             "/configs/fingers/paper_140mm_eight_gauges.yaml",
+                 "8 gauges, but");
+}
+
+TEST_F(ValidateCompareTest, CompareTwoCalibrations) {
+  for (const char* log : {"train", "holdout"}) {
+    ASSERT_EQ(Run("finray_calibrate",
+                  "--finger " + hidden_ + " --plan " + plan_ + " --logs " +
+                      data_ + log + ".csv --report=false --out_dir %" + log)
+                  .code,
+              0);
+  }
+  Outcome outcome = Run("finray_compare",
+                        "%train %holdout/calibration.yaml --out_dir %out "
+                        "--most_sigma 5 --least_p_value 0.001");
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 6);
+  const YAML::Node result = YAML::LoadFile(folder_.Path("out/comparison.yaml"));
+  EXPECT_EQ(result["all"]["dof"].as<int>(), 15);
+  EXPECT_EQ(result["shared_logs"].as<int>(), 0);
+  EXPECT_EQ(result["verdict"].as<std::string>(), "passed");
+  for (const YAML::Node& p : result["parameters"]) {
+    const double a = p["a"].as<double>(), b = p["b"].as<double>();
+    EXPECT_EQ(p["difference"].as<double>(), b - a);
+  }
+  EXPECT_EQ(FrameTable::Read(folder_.Path("out/comparison.csv")).rows(), 36u);
+
+  outcome = Run("finray_compare",
+                "%train %holdout --out_dir %out --most_force_difference_N "
+                "0.0001");
+  EXPECT_EQ(outcome.code, 4) << outcome.output;
+  outcome = Run("finray_compare", "%train %train --out_dir %out");
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("1 log in common"));
+
+  std::filesystem::remove_all(folder_.Path("out"));
+  EXPECT_EQ(Run("finray_compare", "%train --out_dir %out").code, 1);
+  EXPECT_EQ(Run("finray_compare", "%train %holdout").code, 1);
+  ExpectBadInput("finray_compare", "%train %none --out_dir %out",
+                 "none: cannot be read");
+  folder_.Write("bad/calibration.yaml", "");
+  std::filesystem::create_directory(folder_.Path("bad"));
+  folder_.Write("bad/calibration.yaml",
+                "schema_version: 1\nparameters:\n  - {name: x, unit: mm, "
+                "value: 1, std: -1, status: estimated}\n");
+  ExpectBadInput("finray_compare", "%train %bad --out_dir %out",
+                 "calibration.yaml:3:40: std: expected a number of at least 0");
+}
+
+TEST_F(ValidateCompareTest, CalibrateChecksItself) {
+  folder_.Write("plan.yaml",
+                "schema_version: 1\n"
+                "scene: {contacts: auto, object: {shape: circle, "
+                "radius_mm: 15}}\n"
+                "parameters: {gauge_offset: {}, gauge_gain: {}}\n"
+                "holdout: {by: block, fraction: 0.2}\n");
+  const Outcome outcome = Run(
+      "finray_calibrate", "--finger " + hidden_ + " --plan %plan.yaml --logs " +
+                              data_ + "train.csv," + data_ +
+                              "holdout.csv --report=false --out_dir %cal");
+  ASSERT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("\nnext "));
+  const YAML::Node result =
+      YAML::LoadFile(folder_.Path("cal/calibration.yaml"));
+  const YAML::Node held = result["errors"]["held_out"]["after"]["contact"];
+  EXPECT_EQ(
+      held["frames"].as<int>() +
+          result["errors"]["held_out"]["after"]["free"]["frames"].as<int>(),
+      result["holdout"]["frames"].as<int>());
+  EXPECT_LT(held["force_rms_percent"].as<double>(), 3);
+  EXPECT_FALSE(result["residual_correlation"]["correlated"].as<bool>());
+  // 4 gauges, force and two coordinates of two logs.
+  EXPECT_EQ(result["residual_correlation"]["series"].size(), 14u);
+  EXPECT_EQ(result["leave_one_log_out"]["groups"].as<int>(), 2);
+  EXPECT_EQ(result["leave_one_log_out"]["parameters"].size(), 8u);
+  EXPECT_GE(result["next"].size(), 1u);
+}
+
+}  // namespace
+}  // namespace finray

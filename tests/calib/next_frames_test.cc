@@ -1,0 +1,151 @@
+#include "finray/calib/next_frames.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "calib/calibrated.h"
+#include "finray/calib/weak_direction_words.h"
+#include "finray/sensing/circle_centre.h"
+
+namespace finray {
+namespace {
+
+using testing::HasSubstr;
+
+// Keeps rows that `keep` says; rewrites the log.
+template <class Keep>
+std::string Filtered(const TempFolder& folder, const std::string& log,
+                     const Keep& keep) {
+  const FrameTable all = FrameTable::Read(log);
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < all.rows(); ++i) {
+    if (keep(all, i)) rows.push_back(i);
+  }
+  FrameTable kept(rows.size());
+  for (const std::string& name : all.headers()) {
+    auto& column = kept.MutableNumbers(name);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      column[i] = all.Numbers(name)[rows[i]];
+    }
+  }
+  kept.Write(folder.Path("filtered.csv"));
+  return folder.Path("filtered.csv");
+}
+
+// A log of 20 frames as advised, recorded with the true finger.
+std::string Record(const TempFolder& folder, const FrameAdvice& advice,
+                   double radius_mm) {
+  const Finger truth = HiddenFinger();
+  FrameTable frames(FrameAdvice::kFrames);
+  EquilibriumSolver solver(truth, {});
+  for (int i = 0; i < FrameAdvice::kFrames; ++i) {
+    const double arc = std::isnan(advice.contact_mm)
+                           ? std::round(14 * (1 + i % 9))
+                           : advice.contact_mm;
+    frames.MutableNumbers("contact_1_mm")[i] = arc;
+    frames.MutableNumbers("normal_1_N")[i] = advice.normal_N;
+    EXPECT_TRUE(solver.Solve({{arc, advice.normal_N, 0}}));
+    const Eigen::Vector2d centre =
+        CircleCentre(solver.contact_pose(0), radius_mm);
+    frames.MutableNumbers("object_x_mm")[i] = centre.x();
+    frames.MutableNumbers("object_y_mm")[i] = centre.y();
+  }
+  EXPECT_EQ(Simulate(truth, {}, {}, &frames).not_converged, 0);
+  MakeLog(truth, frames, {0.02, 0.05, 9}).Write(folder.Path("more.csv"));
+  return folder.Path("more.csv");
+}
+
+// One height only: the ribs together are weak. What is promised of 20 more
+// frames is what a calibration with them has.
+TEST(NextFramesTest, WhatIsPromisedIsKept) {
+  const TempFolder folder;
+  const std::string log =
+      Filtered(folder, StandardLog(folder, HiddenFinger(), 21),
+               [](const FrameTable& all, std::size_t i) {
+                 return std::abs(all.Numbers("object_y_mm")[i] - 60) < 6 ||
+                        all.Numbers("force_N")[i] < 0.06;
+               });
+  Calibrated before(StandardPlan(), {log});
+  ASSERT_FALSE(before.found.weak.empty());
+  const auto advised =
+      AdviseNextFrames(before.problem.get(), {}, &before.found);
+  ASSERT_FALSE(advised.empty());
+  const FrameAdvice& best = advised[0];
+  EXPECT_TRUE(best.added.empty());
+  Calibrated after(StandardPlan(), {log, Record(folder, best, 15)});
+  const CalibrationParameter& p =
+      before.problem->parameters().all()[best.parameter];
+  std::printf("%s; found %.4f mm\n", best.words.c_str(), after.Std(p.name));
+  EXPECT_NEAR(best.parameter_std_before, before.Std(p.name), 1e-9);
+  EXPECT_LT(best.parameter_std_after, 0.5 * best.parameter_std_before);
+  EXPECT_NEAR(best.parameter_std_after / after.Std(p.name), 1, 0.12);
+  // Frames like those that are there would not do.
+  FrameAdvice same = best;
+  same.contact_mm = 60;
+  Calibrated more(StandardPlan(), {log, Record(folder, same, 15)});
+  EXPECT_GT(more.Std(p.name), 1.5 * after.Std(p.name));
+}
+
+TEST(NextFramesTest, AMissingForceIsAskedFor) {
+  const TempFolder folder;
+  FrameTable log = FrameTable::Read(StandardLog(folder, HiddenFinger(), 22));
+  log.MutableNumbers("force_N").assign(210, NAN);
+  log.Write(folder.Path("blind.csv"));
+  Plan plan = StandardPlan();
+  for (FamilyPlan& family : plan.families) family.prior_std.reset();
+  Calibrated blind(plan, {folder.Path("blind.csv")});
+  const auto advised = AdviseNextFrames(blind.problem.get(), {}, &blind.found);
+  ASSERT_FALSE(advised.empty());
+  EXPECT_EQ(advised[0].added,
+            std::vector<ResidualFamily>{ResidualFamily::kForce});
+  EXPECT_TRUE(std::isinf(advised[0].parameter_std_before));
+  EXPECT_THAT(advised[0].words, HasSubstr("force_N"));
+  EXPECT_THAT(advised[0].words, HasSubstr("would determine"));
+  EXPECT_EQ(blind.found.weak[0].remedy, advised[0].words);
+  Calibrated seeing(plan,
+                    {folder.Path("blind.csv"), Record(folder, advised[0], 15)});
+  const CalibrationParameter& p =
+      blind.problem->parameters().all()[advised[0].parameter];
+  EXPECT_NEAR(advised[0].parameter_std_after /
+                  p.ValueStd(seeing.Variable(p.name), seeing.Std(p.name)),
+              1, 0.12);
+}
+
+// Force, but no place: gains ride on stiffness; known gains settle it.
+TEST(NextFramesTest, KnownGainsSettleStiffness) {
+  const TempFolder folder;
+  FrameTable log = FrameTable::Read(StandardLog(folder, HiddenFinger(), 23));
+  log.MutableNumbers("object_x_mm").assign(210, NAN);
+  log.Write(folder.Path("placeless.csv"));
+  Plan plan = StandardPlan();
+  plan.families[static_cast<int>(ParameterFamily::kRibLength)] = {};
+  plan.families[static_cast<int>(ParameterFamily::kGaugeOffset)] = {};
+  // Offsets are those of the truth then, and ribs too.
+  Finger start = HiddenFinger();
+  CalibrationProblem problem(
+      start, plan,
+      ReadCalibrationLogs({folder.Path("placeless.csv")}, start, plan), {}, 2);
+  ASSERT_TRUE(problem.Solve().converged);
+  Identifiability found = AnalyzeIdentifiability(&problem);
+  const auto advised = AdviseNextFrames(&problem, {}, &found);
+  ASSERT_FALSE(advised.empty());
+  const FrameAdvice& known = advised.back();
+  std::printf("%s\n", known.words.c_str());
+  ASSERT_TRUE(known.known_gains);
+  plan.families[static_cast<int>(ParameterFamily::kGaugeGain)] = {};
+  CalibrationProblem fixed(
+      start, plan,
+      ReadCalibrationLogs({folder.Path("placeless.csv")}, start, plan), {}, 2);
+  ASSERT_TRUE(fixed.Solve().converged);
+  const Identifiability settled = AnalyzeIdentifiability(&fixed);
+  const CalibrationParameter& p = problem.parameters().all()[known.parameter];
+  EXPECT_NEAR(known.parameter_std_after /
+                  p.ValueStd(*p.variable, settled.std[known.parameter]),
+              1, 0.05);
+}
+
+}  // namespace
+}  // namespace finray

@@ -1,0 +1,200 @@
+#include "finray/calib/validation.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "calib/calibrated.h"
+#include "finray/calib/finger_covariance.h"
+#include "finray/io/error.h"
+
+namespace finray {
+namespace {
+
+Plan ValidationPlan() {
+  Plan plan = StandardPlan();
+  plan.scene.contacts = 1;
+  return plan;
+}
+
+// Point contacts of `finger` over the middle of the beam, with noise.
+std::string PointLog(const TempFolder& folder, const Finger& finger, int rows,
+                     unsigned seed, bool with_place = true) {
+  std::mt19937_64 generator(seed);
+  std::uniform_real_distribution<double> uniform;
+  FrameTable frames(rows);
+  auto& arc = frames.MutableNumbers("contact_1_mm");
+  auto& force = frames.MutableNumbers("normal_1_N");
+  for (int i = 0; i < rows; ++i) {
+    arc[i] = 30 + 75 * uniform(generator);
+    force[i] = 2 + 5 * uniform(generator);
+  }
+  EXPECT_EQ(Simulate(finger, {}, {}, &frames).not_converged, 0);
+  FrameTable log = MakeLog(finger, frames, {0.02, 0, seed});
+  std::normal_distribution<double> normal;
+  for (int i = 0; with_place && i < rows; ++i) {
+    log.MutableNumbers("contact_1_mm")[i] =
+        frames.Numbers("contact_1_mm")[i] + 0.3 * normal(generator);
+  }
+  log.Write(folder.Path("points.csv"));
+  return folder.Path("points.csv");
+}
+
+Validation ValidateLog(const Finger& finger, const Plan& plan,
+                       const std::string& log) {
+  return Validate(finger, {}, plan, ReadCalibrationLogs({log}, finger, plan),
+                  {}, 2);
+}
+
+// Fingers drawn from the covariance that a calibration has left, which they say
+// of themselves: intervals cover what they promise. Frames of half the noise,
+// so that the fingers' errors show without it.
+void CheckCoverage(unsigned draws, double tolerance_68, double tolerance_95) {
+  const TempFolder folder;
+  Finger truth = HiddenFinger();
+  Calibrated calibrated(StandardPlan(), {StandardLog(folder, truth, 2)});
+  KeepCovariance(calibrated.problem->parameters(), calibrated.found, &truth);
+  truth.calibration->std *= 3;
+  const ParameterCovariance covariance = *truth.calibration;
+  const Eigen::MatrixXd factor = covariance.Factor();
+  for (Gauge& gauge : truth.gauges) gauge.noise_V /= 2;
+  std::mt19937_64 generator(4);
+  std::normal_distribution<double> normal;
+  ErrorStatistics force, contact, alone;
+  const auto pool = [](const ErrorStatistics& from, ErrorStatistics* to) {
+    to->judged += from.judged;
+    to->within_68 += from.within_68;
+    to->within_95 += from.within_95;
+  };
+  for (unsigned i = 0; i < draws; ++i) {
+    const std::string log = PointLog(folder, truth, 25, i);
+    const Eigen::VectorXd draw =
+        factor * Eigen::VectorXd::NullaryExpr(
+                     factor.cols(), [&] { return normal(generator); });
+    Finger wrong = truth;
+    for (std::size_t k = 0; k < covariance.parameters.size(); ++k) {
+      const FingerParameter& p = covariance.parameters[k];
+      SetParameter(p, ParameterValue(truth, p) + draw[k], &wrong);
+    }
+    const Validation with = ValidateLog(wrong, ValidationPlan(), log);
+    pool(with.errors.contact.force_N, &force);
+    pool(with.errors.contact.contact_mm, &contact);
+    wrong.calibration.reset();
+    const Validation without = ValidateLog(wrong, ValidationPlan(), log);
+    pool(without.errors.contact.force_N, &alone);
+  }
+  std::printf(
+      "coverage: force %.1f, %.1f %%; contact %.1f, %.1f %%; force without the "
+      "covariance %.1f, %.1f %%\n",
+      force.coverage_68_percent(), force.coverage_95_percent(),
+      contact.coverage_68_percent(), contact.coverage_95_percent(),
+      alone.coverage_68_percent(), alone.coverage_95_percent());
+  // Frames of a finger share its errors, so that draws count, not frames.
+  EXPECT_NEAR(force.coverage_68_percent(), 68.3, tolerance_68);
+  EXPECT_NEAR(force.coverage_95_percent(), 95, tolerance_95);
+  EXPECT_NEAR(contact.coverage_68_percent(), 68.3, tolerance_68);
+  EXPECT_NEAR(contact.coverage_95_percent(), 95, tolerance_95);
+  EXPECT_LT(alone.coverage_68_percent(), force.coverage_68_percent() - 3);
+}
+
+TEST(ValidationTest, CoverageOfFingersWithKnownErrors) {
+  CheckCoverage(20, 8, 4);
+}
+TEST(ValidationTest, SlowCoverageOfFingersWithKnownErrors) {
+  CheckCoverage(80, 5, 2.5);
+}
+
+// All stiffness 2 % too high: all forces 2 % too high, places right.
+TEST(ValidationTest, ForceErrorOfAStiffFinger) {
+  const TempFolder folder;
+  Finger truth = HiddenFinger();
+  for (Gauge& gauge : truth.gauges) gauge.noise_V = 1e-9;
+  FrameTable frames(5);
+  for (int i = 0; i < 5; ++i) {
+    frames.MutableNumbers("contact_1_mm")[i] = 15 + 25 * i;
+    frames.MutableNumbers("normal_1_N")[i] = 5;
+  }
+  ASSERT_EQ(Simulate(truth, {}, {}, &frames).not_converged, 0);
+  FrameTable log = MakeLog(truth, frames, {});
+  log.MutableNumbers("contact_1_mm") = frames.Numbers("contact_1_mm");
+  log.Write(folder.Path("clean.csv"));
+  Finger stiff = truth;
+  stiff.front_stiffness_N_mm2 *= 1.02;
+  stiff.back_stiffness_N_mm2 *= 1.02;
+  const Plan plan = ValidationPlan();
+  const Validation result = Validate(
+      stiff, truth, plan,
+      ReadCalibrationLogs({folder.Path("clean.csv")}, stiff, plan), {}, 1);
+  EXPECT_NEAR(result.errors.contact.force_N.percent(), 2, 1e-3);
+  EXPECT_NEAR(result.errors.contact.force_N.bias(), 0.1, 1e-4);
+  EXPECT_LT(result.errors.contact.contact_mm.largest, 1e-3);
+  EXPECT_LT(result.baseline_errors->contact.force_N.rms(), 1e-4);
+  // 15, 40, 65, 90, 115 mm of 140: one a region.
+  for (const ErrorRow& region : result.errors.regions) {
+    EXPECT_EQ(region.frames, 1u);
+    EXPECT_NEAR(region.force_N.percent(), 2, 1e-3);
+  }
+}
+
+TEST(ValidationTest, ACircleTellsThePlace) {
+  const TempFolder folder;
+  const Finger truth = HiddenFinger();
+  FrameTable frames(4);
+  for (int i = 0; i < 4; ++i) {
+    frames.MutableNumbers("object_x_mm")[i] = i == 0 ? -25 : -13;
+    frames.MutableNumbers("object_y_mm")[i] = 20 + 25 * i;
+  }
+  const Plan plan = StandardPlan();
+  ASSERT_EQ(Simulate(truth, plan.scene, {}, &frames).not_converged, 0);
+  MakeLog(truth, frames, {}).Write(folder.Path("circle.csv"));
+  const CalibrationLogs logs =
+      ReadCalibrationLogs({folder.Path("circle.csv")}, truth, plan);
+  const auto references = ReferencesOf(logs, truth, plan, {});
+  EXPECT_FALSE(references[0].contact);
+  for (int i = 1; i < 4; ++i) {
+    EXPECT_NEAR(references[i].contact_mm, frames.Numbers("contact_1_mm")[i],
+                1e-4);
+    EXPECT_EQ(references[i].contact_std_mm, plan.object_std_mm);
+    EXPECT_NEAR(references[i].force_N, frames.Numbers("normal_1_N")[i], 1e-5);
+  }
+  // Another stiffness of all moves it little.
+  Finger stiff = truth;
+  stiff.front_stiffness_N_mm2 *= 1.1;
+  EXPECT_NEAR(ReferencesOf(logs, stiff, plan, {})[2].contact_mm,
+              references[2].contact_mm, 0.1);
+}
+
+TEST(ValidationTest, Gates) {
+  const TempFolder folder;
+  const Finger truth = HiddenFinger();
+  const Plan plan = ValidationPlan();
+  const Validation result =
+      ValidateLog(truth, plan, PointLog(folder, truth, 30, 5));
+  using Quantity = Gate::Quantity;
+  const double rms = result.errors.contact.force_N.rms();
+  const auto results = CheckGates(result, {{Quantity::kForceRms, 1.01 * rms},
+                                           {Quantity::kForceRms, 0.99 * rms},
+                                           {Quantity::kUsable, 90},
+                                           {Quantity::kCoverage95, 100.5}});
+  EXPECT_TRUE(results[0].passed);
+  EXPECT_FALSE(results[1].passed);
+  EXPECT_TRUE(results[2].passed);
+  EXPECT_FALSE(results[3].passed);
+  EXPECT_EQ(results[1].value, rms);
+
+  const Validation placeless =
+      ValidateLog(truth, plan, PointLog(folder, truth, 5, 5, false));
+  EXPECT_THROW(CheckGates(placeless, {{Quantity::kContactRms, 1}}), InputError);
+  FrameTable blind = FrameTable::Read(PointLog(folder, truth, 5, 5, false));
+  blind.MutableNumbers("force_N").assign(5, NAN);
+  blind.Write(folder.Path("blind.csv"));
+  EXPECT_THAT([&] { ValidateLog(truth, plan, folder.Path("blind.csv")); },
+              testing::ThrowsMessage<InputError>(
+                  testing::HasSubstr("no frame with contact has a reference")));
+}
+
+}  // namespace
+}  // namespace finray
