@@ -42,7 +42,7 @@ CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
       plan_(plan),
       logs_(logs),
       parameters_(finger, plan, logs),
-      guess_solver_(finger, discretization),
+      discretization_(discretization),
       frames_(finger, discretization, EquilibriumForm::kReduced,
               &parameters_.shared, threads),
       loss_(MakeLoss(plan)) {
@@ -66,51 +66,44 @@ CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
   FixWhatIsNotFree();
 }
 
-// Where the measurements put the contact, before the model has been fitted, by
-// the nearest place of a table: the nominal finger knows it to a few bays,
-// which is enough.
+// Where the measurements put the contact, before the model has been fitted.
 void CalibrationProblem::GuessContact(int index, double* contact,
                                       FrameEvaluation* evaluation) {
   const CalibrationFrame& frame = logs_.frames[index];
   const double length = finger_.front_length_mm;
-  contact[0] = length / 2;
-  contact[1] = ForceUnit(finger_);
-  const std::optional<double> radius = plan_.scene.circle_radius_mm();
-  const bool by_object = frame.object_mm.allFinite() && radius;
-  if (!guess_table_) {
-    guess_table_ = std::make_unique<GaugeTable>(
-        &guess_solver_, plan_.scene.friction_coefficient, radius);
+  if (!guess_) {
+    guess_ =
+        std::make_unique<ContactGuess>(finger_, plan_.scene, discretization_);
   }
-  const auto gauges = static_cast<Eigen::Index>(frame.gauges_V.size());
-  const Eigen::Index size = gauges + (radius ? 2 : 0);
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(size);
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(size);
-  if (by_object) {
-    values.tail<2>() = frame.object_mm;
-    weights.tail<2>().setConstant(1 / plan_.object_std_mm);
-  } else {
-    for (Eigen::Index j = 0; j < gauges; ++j) {
-      if (!std::isfinite(frame.gauges_V[j])) continue;
-      const double gain = parameters_.gains_V_per_rad[j];
-      const int gauge = static_cast<int>(j);
-      values[j] =
-          (frame.gauges_V[j] - parameters_.readings.Sum(frame, gauge)) / gain;
-      weights[j] = std::abs(gain) / gauge_std_V(gauge);
-    }
-  }
-  std::vector<ContactStart> starts;
-  guess_table_->FindStarts(values, weights, &starts);
-  if (!starts.empty()) {
-    contact[0] = starts[0].contacts[0].arc_mm;
-    contact[1] = starts[0].contacts[0].normal_N;
-    evaluation->set_state(*starts[0].state);
-  }
+  const bool by_object =
+      frame.object_mm.allFinite() && plan_.scene.circle_radius_mm();
+  const std::optional<ContactGuess::Place> place =
+      by_object ? guess_->FromCircle(frame.object_mm) : GuessFromGauges(frame);
+  contact[0] = place ? place->arc_mm : length / 2;
+  contact[1] = place ? place->normal_N : ForceUnit(finger_);
+  if (place) evaluation->set_state(place->state);
   if (std::isfinite(frame.contact_mm)) {
     contact[0] = std::clamp(frame.contact_mm, 0.0, length);
   }
   const double force =
       frame.force_xy_N.allFinite() ? frame.force_xy_N.norm() : frame.force_N;
   if (std::isfinite(force)) contact[1] = std::max(force, 0.0);
+}
+
+std::optional<ContactGuess::Place> CalibrationProblem::GuessFromGauges(
+    const CalibrationFrame& frame) {
+  const auto gauges = static_cast<Eigen::Index>(frame.gauges_V.size());
+  Eigen::VectorXd angles = Eigen::VectorXd::Zero(gauges);
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(gauges);
+  for (Eigen::Index j = 0; j < gauges; ++j) {
+    if (!std::isfinite(frame.gauges_V[j])) continue;
+    const double gain = parameters_.gains_V_per_rad[j];
+    const int gauge = static_cast<int>(j);
+    angles[j] =
+        (frame.gauges_V[j] - parameters_.readings.Sum(frame, gauge)) / gain;
+    weights[j] = std::abs(gain) / gauge_std_V(gauge);
+  }
+  return guess_->FromGauges(angles, weights);
 }
 
 void CalibrationProblem::AddPriors() {

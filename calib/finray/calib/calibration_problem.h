@@ -6,13 +6,14 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "finray/calib/calibration_log.h"
+#include "finray/calib/contact_guess.h"
 #include "finray/calib/parameters.h"
 #include "finray/calib/plan.h"
-#include "finray/sensing/gauge_table.h"
 
 namespace finray {
 
@@ -100,14 +101,16 @@ class CalibrationProblem {
   void AddPriors();
   void GuessOffsets();
   void GuessContact(int index, double* contact, FrameEvaluation* evaluation);
+  std::optional<ContactGuess::Place> GuessFromGauges(
+      const CalibrationFrame& frame);
   void FixWhatIsNotFree();
 
   Finger finger_;
   Plan plan_;
   CalibrationLogs logs_;
   CalibrationParameters parameters_;
-  EquilibriumSolver guess_solver_;
-  std::unique_ptr<GaugeTable> guess_table_;  // made when needed
+  Discretization discretization_;
+  std::unique_ptr<ContactGuess> guess_;  // made when needed
   FrameSet frames_;
   std::unique_ptr<ceres::LossFunction> loss_;
   std::unique_ptr<ceres::Problem> problem_;

@@ -152,12 +152,13 @@ void TabulateRegions(CalibrationProblem& problem, const CalibrationLogs& logs,
     CalibrationResult::Errors& errors =
         held_out ? result->held_out : result->fitted;
     const auto table = [&](const std::vector<FrameEstimate>& estimates) {
-      return TabulateErrors(
-          references, estimates, result->forces.after,
-          problem.finger().front_length_mm,
-          problem.plan().scene.friction_coefficient,
-          [&](std::size_t i) { return logs.frames[i].held_out == held_out &&
-                 !logs.frames[i].IsBench(); });
+      return TabulateErrors(references, estimates, result->forces.after,
+                            problem.finger().front_length_mm,
+                            problem.plan().scene.friction_coefficient,
+                            [&](std::size_t i) {
+                              return logs.frames[i].held_out == held_out &&
+                                     !logs.frames[i].IsBench();
+                            });
     };
     errors.before = table(result->forces.before);
     errors.after = table(result->forces.after);

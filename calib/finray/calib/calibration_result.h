@@ -34,7 +34,7 @@ struct CalibrationResult {
   } fitted, held_out;
   ResidualCorrelation residual_correlation;
   LeaveOneLogOut leave_one_log_out;
-  std::vector<FrameAdvice> next;  ///< what to record next
+  std::vector<FrameAdvice> next;      ///< what to record next
   std::vector<BenchLinearity> bench;  ///< by gauge, where there are readings
   Finger finger;                      ///< calibrated
   std::vector<CalibrationWarning> warnings;

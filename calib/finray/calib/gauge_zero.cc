@@ -37,14 +37,7 @@ void CalibrationProblem::GuessOffsets() {
 void CalibrationProblem::ZeroHeldOutLogs() {
   if (!plan_.family(ParameterFamily::kGaugeOffset).per_log) return;
   // Ribs that are not as drawn bend the finger without load.
-  const Finger found = parameters_.Apply(finger_);
-  EquilibriumSolver free(guess_solver_);
-  free.model().set_stiffness(found.front_stiffness_N_mm2,
-                             found.back_stiffness_N_mm2);
-  for (int i = 0; i < free.model().ribs(); ++i) {
-    free.model().set_rib_length(i, found.ribs[i].length_mm);
-  }
-  free.Reset();
+  EquilibriumSolver free(parameters_.Apply(finger_), discretization_);
   if (!free.Solve({})) return;
   const std::vector<bool> held_out = logs_.HeldOut();
   std::unordered_map<double*, Mean> errors;
