@@ -274,6 +274,52 @@ TEST_F(CommandLineTest, BadInputIsTwoAndOneLine) {
                  "--finger " + paper_ + " --plan %plan.yaml --logs " + data_ +
                      "train.csv --out_dir %out",
                  "plan.yaml:2:14: unknown key 'rib_lenght' in parameters");
+  folder_.Write("plan.yaml",
+                "schema_version: 1\n"
+                "parameters: {temperature_coefficient: {}}\n");
+  ExpectBadInput("finray_calibrate",
+                 "--finger " + paper_ + " --plan %plan.yaml --logs " + data_ +
+                     "train.csv --out_dir %out",
+                 "train.csv: no column 'temperature_C'");
+}
+
+// Gauges on the bench: 18 mm long, 2 V/rad; the third one is bent.
+TEST_F(CommandLineTest, CalibrateOnTheBench) {
+  std::string rows =
+      "cylinder_radius_mm,gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V\n";
+  int sign = 1;
+  for (const char* radius :
+       {"inf", "200", "100", "60", "inf", "200", "100", "60"}) {
+    const double angle = 18 / std::stod(radius), noise = 1e-4 * (sign = -sign);
+    rows += radius;
+    for (int j = 0; j < 4; ++j) {
+      rows += "," + std::to_string(0.1 + 2 * angle + noise +
+                                   (j == 2 ? angle * angle : 0));
+    }
+    rows += "\n";
+  }
+  folder_.Write("bench.csv", rows);
+  folder_.Write(
+      "plan.yaml",
+      "schema_version: 1\n"
+      "parameters: {gauge_gain: {}, gauge_offset: {per_log: true}}\n");
+  const Outcome outcome =
+      Run("finray_calibrate", "--finger " + paper_ +
+                                  " --plan %plan.yaml --logs %bench.csv "
+                                  "--out_dir %bench");
+  ASSERT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("gauge 3 is not linear"));
+  EXPECT_THAT(outcome.output, HasSubstr("8 on the bench"));
+  EXPECT_NEAR(
+      ReadFinger(folder_.Path("bench/finger.yaml")).gauges[0].gain_V_per_rad, 2,
+      2e-3);
+  const YAML::Node result =
+      YAML::LoadFile(folder_.Path("bench/calibration.yaml"));
+  for (int j = 0; j < 4; ++j) {
+    EXPECT_EQ(result["bench"][j]["linear"].as<bool>(), j != 2);
+  }
+  EXPECT_EQ(result["parameters"][6]["name"].as<std::string>(),
+            "gauge_1_offset_V[bench.csv]");
 }
 
 TEST_F(CommandLineTest, ARowWithoutSolutionIsMarkedAndStrictFails) {
