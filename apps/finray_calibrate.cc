@@ -99,7 +99,8 @@ int Run() {
   std::string command =
       "finray_calibrate --finger " + FLAGS_finger + " --plan " + FLAGS_plan +
       " --logs " + FLAGS_logs + " --out_dir " + FLAGS_out_dir + " --scheme " +
-      FLAGS_scheme + " --resolution " + std::to_string(FLAGS_resolution);
+      FLAGS_scheme + " --resolution " + std::to_string(FLAGS_resolution) +
+      (FLAGS_leave_one_log_out ? "" : " --leave_one_log_out=false");
   MakeFolder(FLAGS_out_dir);
   WriteFileAtomically(
       InFolder("calibration.yaml"),

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "finray/io/error.h"
 #include "temp_file.h"
@@ -50,12 +51,38 @@ TEST(CalibrationLogTest, HoldsOutBlocksAndLogs) {
     return std::count_if(logs.frames.begin(), logs.frames.end(),
                          [](const auto& frame) { return frame.held_out; });
   };
-  EXPECT_EQ(count(ReadCalibrationLogs({path}, PaperFinger(), plan)), 20);
+  for (const double fraction : {0.1, 0.2, 0.4, 0.5, 0.7}) {
+    plan.holdout_fraction = fraction;
+    EXPECT_EQ(count(ReadCalibrationLogs({path}, PaperFinger(), plan)),
+              std::lround(100 * fraction));
+  }
+  plan.holdout_fraction = 0.2;
   plan.holdout_by = HoldoutBy::kLog;
   EXPECT_EQ(count(ReadCalibrationLogs({path, path, path}, PaperFinger(), plan)),
             100);
   EXPECT_THAT([&] { ReadCalibrationLogs({path}, PaperFinger(), plan); },
               ThrowsMessage<InputError>(HasSubstr("at least 2 logs")));
+}
+
+TEST(CalibrationLogTest, TheBenchIsNotHeldOut) {
+  const TempFolder folder;
+  std::string text = std::string(kGauges) + "\n";
+  for (int i = 0; i < 20; ++i) text += "0,0,0,0\n";
+  const std::vector<std::string> paths = {
+      folder.Write("bench.csv",
+                   std::string(kGauges) + ",cylinder_radius_mm\n1,1,1,1,inf\n"),
+      folder.Write("a.csv", text), folder.Write("b.csv", text)};
+  Plan plan;
+  for (const HoldoutBy by : {HoldoutBy::kLog, HoldoutBy::kBlock}) {
+    plan.holdout_by = by;
+    plan.holdout_fraction = 0.5;
+    const CalibrationLogs logs =
+        ReadCalibrationLogs(paths, PaperFinger(), plan);
+    EXPECT_FALSE(logs.frames[0].held_out);
+    EXPECT_EQ(std::count_if(logs.frames.begin(), logs.frames.end(),
+                            [](const auto& frame) { return frame.held_out; }),
+              20);
+  }
 }
 
 TEST(CalibrationLogTest, MissingGaugeNamesTheColumn) {

@@ -114,6 +114,34 @@ TEST(NextFramesTest, AMissingForceIsAskedFor) {
               1, 0.12);
 }
 
+// Steps of a drift, and offsets of a log that not all gauges are in: what is
+// proposed has fewer of them.
+TEST(NextFramesTest, ParametersOfLogsAreMatchedByName) {
+  const TempFolder folder;
+  const std::string path = StandardLog(folder, HiddenFinger(), 25);
+  FrameTable log = FrameTable::Read(path);
+  std::vector<double>& time = log.MutableNumbers("time_s");
+  for (std::size_t i = 0; i < time.size(); ++i) time[i] = 10.0 * i;
+  log.Write(path);
+  Plan plan = StandardPlan();
+  FamilyPlan& drift =
+      plan.families[static_cast<int>(ParameterFamily::kGaugeDrift)];
+  drift.free = true;
+  plan.gauge_walk = {0.01, 300};
+  Calibrated steps(plan, {path});
+  EXPECT_FALSE(AdviseNextFrames(steps.problem.get(), {}, &steps.found).empty());
+
+  plan = StandardPlan();
+  plan.families[static_cast<int>(ParameterFamily::kGaugeOffset)].per_log = true;
+  const std::string bench = folder.Write(
+      "bench.csv",
+      "cylinder_radius_mm,gauge_1_V\ninf,0.05\n100,0.374\n60,0.59\n");
+  Calibrated of_logs(plan, {path, bench});
+  for (const ParameterStatus status : of_logs.found.status) {
+    EXPECT_EQ(status, ParameterStatus::kEstimated);
+  }
+}
+
 // Force, but no place: gains ride on stiffness; known gains settle it.
 TEST(NextFramesTest, KnownGainsSettleStiffness) {
   const TempFolder folder;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <utility>
 
 #include "finray/io/error.h"
@@ -51,33 +52,49 @@ bool Touches(const CalibrationFrame& frame, const Finger& finger,
 
 void MarkHoldout(const Plan& plan, CalibrationLogs* logs) {
   if (plan.holdout_by == HoldoutBy::kNothing) return;
-  const auto every = static_cast<int>(std::lround(1 / plan.holdout_fraction));
-  if (plan.holdout_by == HoldoutBy::kLog) {
-    const int n = static_cast<int>(logs->paths.size());
-    if (n < 2) {
-      throw InputError("holdout by log needs at least 2 logs, got " +
-                       std::to_string(n) + "; use {by: block}");
-    }
-    // Spread over the list; at least one log on either side.
+  // Of n things those that are held out: spread evenly, as many as the
+  // fraction says, to the nearest.
+  const auto chosen = [&](int i, int n) {
     const int count = std::clamp(
         static_cast<int>(std::lround(plan.holdout_fraction * n)), 1, n - 1);
+    return (i + 1) * count / n > i * count / n;
+  };
+  // Logs of gauges on the bench are always fitted.
+  if (plan.holdout_by == HoldoutBy::kLog) {
+    std::map<int, int> of_finger;  // their place among the logs of the finger
+    for (const CalibrationFrame& frame : logs->frames) {
+      if (!frame.IsBench()) of_finger.emplace(frame.log, 0);
+    }
+    int n = 0;
+    for (auto& [log, place] : of_finger) place = n++;
+    if (n < 2) {
+      throw InputError(
+          "holdout by log needs at least 2 logs of the finger, got " +
+          std::to_string(n) + "; use {by: block}");
+    }
     for (CalibrationFrame& frame : logs->frames) {
-      frame.held_out = (frame.log + 1) * count / n > frame.log * count / n;
+      if (frame.IsBench()) continue;
+      frame.held_out = chosen(of_finger.at(frame.log), n);
     }
     return;
   }
-  for (CalibrationFrame& frame : logs->frames) {
-    const int block = frame.row / kHoldoutBlock;
-    frame.held_out = every > 1 && block % every == every - 1;
+  std::map<std::pair<int, int>, int> blocks;  // (log, block): its place
+  for (const CalibrationFrame& frame : logs->frames) {
+    if (!frame.IsBench()) blocks[{frame.log, frame.row / kHoldoutBlock}] = 0;
   }
-  const auto held = std::count_if(
-      logs->frames.begin(), logs->frames.end(),
-      [](const CalibrationFrame& frame) { return frame.held_out; });
-  if (held == 0 || held == static_cast<long>(logs->frames.size())) {
+  const int n = static_cast<int>(blocks.size());
+  if (n < 2) {
     throw InputError("holdout by block: the logs are too short, " +
                      std::to_string(logs->frames.size()) +
                      " frames in all; blocks have " +
                      std::to_string(kHoldoutBlock));
+  }
+  int i = 0;
+  for (auto& [block, place] : blocks) place = i++;
+  for (CalibrationFrame& frame : logs->frames) {
+    if (frame.IsBench()) continue;
+    frame.held_out =
+        chosen(blocks.at({frame.log, frame.row / kHoldoutBlock}), n);
   }
 }
 

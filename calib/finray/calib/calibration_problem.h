@@ -50,9 +50,10 @@ class CalibrationProblem {
   };
   SolveReport Solve();
 
-  /// Where offsets are per log, gives those logs that are held out as a whole
-  /// the offsets that their free frames show of the finger as it is now: a lab
-  /// zeroes its gauges too. To be called after Solve.
+  /// Where offsets or origins are per log, gives those logs that are held out
+  /// as a whole the ones of the last log that was fitted, and then the offsets
+  /// that their free frames show of the finger as it is now: a lab zeroes its
+  /// gauges too. To be called after Solve.
   void ZeroHeldOutLogs();
 
   /// One measurement residual and where it belongs.

@@ -31,9 +31,11 @@ void WarnOfNoise(const Identifiability& found,
     if (ratio > kTooNoisy) {
       warnings->push_back(
           {"noise_above_plan",
-           name + Text(" residuals are %.1f times what their std says "
-                       "(chi2/dof %.3g); reported std are too small by that",
-                       std::sqrt(ratio), ratio),
+           name +
+               Text(" residuals are %.1f times what their std says "
+                    "(chi2/dof %.3g); reported std do not have that in them, "
+                    "unless they were enlarged",
+                    std::sqrt(ratio), ratio),
            "look at the residuals by frame for outliers or a wrong model; "
            "raise "
            "the std in the plan's measurements if the sensor is that noisy"});

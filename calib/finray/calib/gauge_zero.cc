@@ -1,5 +1,6 @@
 // What gauges read in free frames.
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
@@ -35,11 +36,23 @@ void CalibrationProblem::GuessOffsets() {
 }
 
 void CalibrationProblem::ZeroHeldOutLogs() {
+  const std::vector<bool> held_out = logs_.HeldOut();
+  const int last = parameters_.last_fitted_log();
+  for (int log = 0; last >= 0 && log < static_cast<int>(held_out.size());
+       ++log) {
+    if (!held_out[log]) continue;
+    // Without a free frame nothing better is known.
+    for (int j = 0; j < static_cast<int>(finger_.gauges.size()); ++j) {
+      *parameters_.readings.offset_V(j, log) =
+          *parameters_.readings.offset_V(j, last);
+    }
+    std::copy_n(parameters_.object_origin_mm(last), 2,
+                parameters_.object_origin_mm(log));
+  }
   if (!plan_.family(ParameterFamily::kGaugeOffset).per_log) return;
   // Ribs that are not as drawn bend the finger without load.
   EquilibriumSolver free(parameters_.Apply(finger_), discretization_);
   if (!free.Solve({})) return;
-  const std::vector<bool> held_out = logs_.HeldOut();
   std::unordered_map<double*, Mean> errors;
   for (const CalibrationFrame& frame : logs_.frames) {
     if (frame.contact || frame.IsBench() || !held_out[frame.log]) continue;

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 #include <set>
+#include <string>
+#include <unordered_map>
 
 #include "finray/calib/eliminated_contact.h"
 #include "finray/calib/next_frames_words.h"
@@ -161,11 +163,34 @@ void NextFrames::Predict(const Discretization& discretization) {
     }
   }
   CalibrationProblem predicted(finger, plan, logs, discretization, 1);
-  const auto& from = problem_->parameters().all();
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    *predicted.parameters().all()[i].variable = *from[i].variable;
+  // By their names: other frames may have other steps of a drift, and other
+  // sensors.
+  const CalibrationParameters& known = problem_->parameters();
+  std::unordered_map<std::string, int> column_of;  // among the free ones
+  std::unordered_map<std::string, const double*> value_of;
+  for (const CalibrationParameter& p : known.all()) {
+    value_of[p.name] = p.variable;
+  }
+  const int columns = static_cast<int>(known.free().size());
+  for (int k = 0; k < columns; ++k) {
+    column_of[known.all()[known.free()[k]].name] = k;
+  }
+  const CalibrationParameters& of_predicted = predicted.parameters();
+  for (const CalibrationParameter& p : of_predicted.all()) {
+    if (const auto value = value_of.find(p.name); value != value_of.end()) {
+      *p.variable = *value->second;
+    }
   }
   const CalibrationProblem::Linearization at = predicted.Linearize(false);
+  Eigen::MatrixXd by_parameter =
+      Eigen::MatrixXd::Zero(at.by_parameter.rows(), columns);
+  for (std::size_t k = 0; k < of_predicted.free().size(); ++k) {
+    const auto column =
+        column_of.find(of_predicted.all()[of_predicted.free()[k]].name);
+    if (column == column_of.end()) continue;
+    by_parameter.col(column->second) =
+        at.by_parameter.col(static_cast<Eigen::Index>(k));
+  }
   ForEachFrame(at, [&](int first, int count) {
     const int index = at.rows[first].frame - recorded;
     if (index < 0) return;
@@ -174,9 +199,15 @@ void NextFrames::Predict(const Discretization& discretization) {
       candidate.families.push_back(at.rows[i].family);
     }
     candidate.by_parameter =
-        at.by_parameter.middleRows(first, count) * found_.unit.asDiagonal();
+        by_parameter.middleRows(first, count) * found_.unit.asDiagonal();
     candidate.by_contact = at.by_contact.middleRows(first, count);
   });
+  // With what can be proposed, some would have too little to be a frame.
+  candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(),
+                                   [](const Candidate& candidate) {
+                                     return candidate.families.empty();
+                                   }),
+                    candidates_.end());
   ChooseMeasurements();
 }
 
@@ -256,12 +287,17 @@ void NextFrames::Spread(const Eigen::MatrixXd& before,
   advice->parameter = problem_->parameters().free()[free];
   const CalibrationParameter& p =
       problem_->parameters().all()[advice->parameter];
+  // By what goes from row to row in the residuals; in new frames likewise.
+  const double enlarged =
+      found_.bounded_std[free] /
+      (found_.unit[free] * std::sqrt(before(largest, largest)));
   const auto std = [&](double variance) {
     // What is bounded for want of data is not known.
     if (variance > 0.01 / std::pow(Identifiability::kNull, 2)) {
       return std::numeric_limits<double>::infinity();
     }
-    return p.ValueStd(*p.variable, found_.unit[free] * std::sqrt(variance));
+    return p.ValueStd(*p.variable, found_.unit[free] * std::sqrt(variance)) *
+           enlarged;
   };
   advice->parameter_std_before = std(before(largest, largest));
   advice->parameter_std_after = std(after(largest, largest));

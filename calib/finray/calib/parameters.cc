@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/io/error.h"
+
 namespace finray {
 namespace {
 
@@ -20,6 +22,24 @@ int LastFitted(const CalibrationLogs& logs) {
     last = std::max(last, frame.log);
   }
   return finger >= 0 ? finger : bench;
+}
+
+// Whether a log that is fitted says anything of a gauge's offset, or of where
+// object positions are counted from.
+bool Reads(const CalibrationLogs& logs, int log, int gauge) {
+  return std::any_of(logs.frames.begin(), logs.frames.end(),
+                     [&](const CalibrationFrame& frame) {
+                       return frame.log == log && !frame.held_out &&
+                              std::isfinite(frame.gauges_V[gauge]);
+                     });
+}
+
+bool HasObject(const CalibrationLogs& logs, int log) {
+  return std::any_of(logs.frames.begin(), logs.frames.end(),
+                     [&](const CalibrationFrame& frame) {
+                       return frame.log == log && !frame.held_out &&
+                              frame.contact && frame.object_mm.allFinite();
+                     });
 }
 
 }  // namespace
@@ -82,6 +102,7 @@ void CalibrationParameters::AddOfFinger(const Plan& plan,
           CalibrationParameter of_log = parameter;
           of_log.variable = of_log.block = readings.offset_V(index, log);
           if (log != last_fitted_) of_log.of_finger.reset();
+          if (!Reads(logs, log, index) && !of_log.of_finger) continue;
           AddOfLog(plan, logs, log, std::move(of_log));
         }
         return;
@@ -108,6 +129,7 @@ void CalibrationParameters::AddOrigins(const Plan& plan,
       parameter.block = origins_mm_[log].data();
       parameter.scale = 10;
       if (origin_per_log_) {
+        if (!HasObject(logs, log)) continue;
         AddOfLog(plan, logs, log, std::move(parameter));
       } else {
         Add(plan, std::move(parameter));
@@ -167,6 +189,12 @@ void CalibrationParameters::AddTemperature(const Plan& plan) {
 void CalibrationParameters::AddDrift(const Plan& plan,
                                      const CalibrationLogs& logs) {
   if (!plan.family(ParameterFamily::kGaugeDrift).free) return;
+  if (std::all_of(logs.frames.begin(), logs.frames.end(),
+                  [](const CalibrationFrame& f) { return f.IsBench(); })) {
+    throw InputError(
+        "plan: gauge_drift is free, but no log is of the finger; gauges on the "
+        "bench have no time_s");
+  }
   CalibrationParameter parameter;
   parameter.family = ParameterFamily::kGaugeDrift;
   const int gauges = static_cast<int>(gains_V_per_rad.size());

@@ -61,6 +61,9 @@ class CalibrationParameters {
     return origins_mm_[origin_per_log_ ? log : 0].data();
   }
 
+  /// The log whose offsets the finger has where they are per log.
+  int last_fitted_log() const { return last_fitted_; }
+
   /// In the order of calibration.yaml: those of the finger and the origin, free
   /// or not, then others that are free.
   const std::vector<CalibrationParameter>& all() const { return all_; }
