@@ -13,13 +13,15 @@ DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
 DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
 
 DEFINE_double(most_sigma, 0,
-              "gate: a parameter's difference over its std; 0: none");
+              "gate: a parameter's difference over its std; default: none");
 DEFINE_double(least_p_value, 0,
-              "gate: probability of chi2 over all parameters; 0: none");
-DEFINE_double(most_force_difference_N, 0,
-              "gate: force from the same readings, over the grid; 0: none");
-DEFINE_double(most_contact_difference_mm, 0,
-              "gate: place from the same readings, over the grid; 0: none");
+              "gate: probability of chi2 over all parameters; default: none");
+DEFINE_double(
+    most_force_difference_N, 0,
+    "gate: force from the same readings, over the grid; default: none");
+DEFINE_double(
+    most_contact_difference_mm, 0,
+    "gate: place from the same readings, over the grid; default: none");
 
 namespace {
 
@@ -47,11 +49,26 @@ std::vector<ComparisonGate> Gates(const Comparison& comparison) {
     gates.push_back(
         {"least_p_value", FLAGS_least_p_value, p, p >= FLAGS_least_p_value});
   }
-  at_most("most_force_difference_N", FLAGS_most_force_difference_N,
-          any ? most.force_N : nan);
-  at_most("most_contact_difference_mm", FLAGS_most_contact_difference_mm,
-          any ? most.contact_mm : nan);
+  // A contact that only a tells is no small difference.
+  const auto in_field = [&](const char* name, double bound, double value) {
+    if (bound == 0) return;
+    gates.push_back({name, bound, any ? value : nan,
+                     any && most.lost == 0 && value <= bound});
+  };
+  in_field("most_force_difference_N", FLAGS_most_force_difference_N,
+           most.force_N);
+  in_field("most_contact_difference_mm", FLAGS_most_contact_difference_mm,
+           most.contact_mm);
   return gates;
+}
+
+void PrintNames(const char* what, const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  std::printf("%s", what);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    std::printf("%s%s", i == 0 ? " " : ", ", names[i].c_str());
+  }
+  std::printf("\n");
 }
 
 void PrintSummary(const Comparison& comparison,
@@ -61,6 +78,9 @@ void PrintSummary(const Comparison& comparison,
   std::printf("parameters     %zu, largest difference %.2f std (%s, %.4g %s)\n",
               comparison.parameters.size(), std::abs(worst->sigma()),
               worst->name.c_str(), worst->b - worst->a, worst->unit.c_str());
+  PrintNames("only in A     ", comparison.only_a);
+  PrintNames("only in B     ", comparison.only_b);
+  PrintNames("of other logs ", comparison.of_other_logs);
   std::printf("all together   chi2/dof %.2f over %d, p %.2g",
               comparison.chi2 / comparison.dof, comparison.dof,
               comparison.p_value());
@@ -75,8 +95,12 @@ void PrintSummary(const Comparison& comparison,
     std::printf("contact        not comparable\n");
   } else {
     std::printf(
-        "%.3g N rms, %.3g N at most (%.2f std) from the same readings\n",
-        most.force_rms_N, most.force_N, most.force_over_std);
+        "%.3g N rms, %.3g N at most (%.2f std) from the same readings, %d of "
+        "%zu points",
+        most.force_rms_N, most.force_N, most.force_over_std, most.points,
+        comparison.grid.size());
+    if (most.lost > 0) std::printf("; %d that A tells B does not", most.lost);
+    std::printf("\n");
     std::printf("contact        %.3g mm rms, %.3g mm at most (%.2f std)\n",
                 most.contact_rms_mm, most.contact_mm, most.contact_over_std);
   }
@@ -103,7 +127,8 @@ int Run() {
       {"most_force_difference_N", FLAGS_most_force_difference_N},
       {"most_contact_difference_mm", FLAGS_most_contact_difference_mm}};
   for (const auto& [name, bound] : bounds) {
-    if (!(bound >= 0) || std::isinf(bound)) {
+    const bool given = !gflags::GetCommandLineFlagInfoOrDie(name).is_default;
+    if (given && (!(bound > 0) || std::isinf(bound))) {
       throw UsageError(std::string("--") + name +
                        ": expected a number above 0");
     }

@@ -21,16 +21,17 @@ DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
 DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
 DEFINE_bool(dump_config, false, "print what is in force, and stop");
 
-DEFINE_double(most_force_rms_N, 0, "gate: rms error of the force; 0: none");
+DEFINE_double(most_force_rms_N, 0,
+              "gate: rms error of the force; default: none");
 DEFINE_double(most_force_percent, 0,
-              "gate: the same in percent of the rms force; 0: none");
-DEFINE_double(most_contact_rms_mm, 0, "gate: rms error of l_c; 0: none");
+              "gate: the same in percent of the rms force; default: none");
+DEFINE_double(most_contact_rms_mm, 0, "gate: rms error of l_c; default: none");
 DEFINE_double(least_coverage_68_percent, 0,
-              "gate: frames within one predicted std; 0: none");
+              "gate: frames within one predicted std; default: none");
 DEFINE_double(least_coverage_95_percent, 0,
-              "gate: frames within 1.96 predicted std; 0: none");
+              "gate: frames within 1.96 predicted std; default: none");
 DEFINE_double(least_usable_percent, 0,
-              "gate: frames that are ok or no_contact; 0: none");
+              "gate: frames that are ok or no_contact; default: none");
 
 namespace {
 
@@ -53,6 +54,19 @@ Plan PlanOrScene() {
   return plan;
 }
 
+void CheckBound(const std::string& name, double bound) {
+  const auto refuse = [&](const std::string& expected) {
+    throw UsageError("--" + name + ": expected " + expected + ", found " +
+                     NumberText(bound));
+  };
+  if (!(bound > 0) || std::isinf(bound)) refuse("a number above 0");
+  if (name.find("_percent") == std::string::npos) return;
+  if (bound > 100) refuse("at most 100 percent");
+  if (name.find("least_") == 0 && bound < 1) {
+    refuse("a number in percent, such as " + NumberText(100 * bound));
+  }
+}
+
 std::vector<Gate> Gates() {
   using Quantity = Gate::Quantity;
   const std::pair<Quantity, double> all[] = {
@@ -64,13 +78,33 @@ std::vector<Gate> Gates() {
       {Quantity::kUsable, FLAGS_least_usable_percent}};
   std::vector<Gate> gates;
   for (const auto& [quantity, bound] : all) {
-    if (!(bound >= 0) || std::isinf(bound)) {
-      throw UsageError(std::string("--") + GateName(quantity) +
-                       ": expected a number above 0");
-    }
-    if (bound > 0) gates.push_back({quantity, bound});
+    const char* name = GateName(quantity);
+    if (gflags::GetCommandLineFlagInfoOrDie(name).is_default) continue;
+    CheckBound(name, bound);
+    gates.push_back({quantity, bound});
   }
   return gates;
+}
+
+// What a calibration finds of these is in its calibration.yaml, of which
+// nothing is read here.
+void WarnOfWhatIsNotApplied(const Plan& plan) {
+  const std::pair<ParameterFamily, const char*> of_logs[] = {
+      {ParameterFamily::kObjectOrigin, "object_origin"},
+      {ParameterFamily::kForceScale, "force_scale"},
+      {ParameterFamily::kForceOffset, "force_offset"},
+      {ParameterFamily::kTemperatureCoefficient, "temperature_coefficient"},
+      {ParameterFamily::kGaugeDrift, "gauge_drift"}};
+  std::string names;
+  for (const auto& [family, name] : of_logs) {
+    if (!plan.family(family).free) continue;
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  if (names.empty()) return;
+  LOG(WARNING) << "the plan frees " << names
+               << ": what the calibration found of it is not applied to these "
+                  "logs, so that errors have it in them; correct the logs, or "
+                  "use `holdout` in the plan";
 }
 
 void PrintErrors(const char* name, const ErrorStatistics& errors,
@@ -96,8 +130,10 @@ void PrintSummary(const CalibrationLogs& logs, const Validation& validation,
                                  : nullptr;
   std::printf("%s\n", InFolder("validation.yaml").c_str());
   std::printf(
-      "frames         %zu with contact (%zu usable), %zu free, in %zu log%s\n",
-      errors.frames, errors.usable, validation.errors.free.frames,
+      "frames         %zu with contact (%zu usable, %zu missed), %zu free (%zu "
+      "untrue), in %zu log%s\n",
+      errors.frames, errors.usable, errors.missed,
+      validation.errors.free.frames, validation.errors.free.untrue,
       logs.paths.size(), logs.paths.size() == 1 ? "" : "s");
   PrintErrors("force error   ", errors.force_N,
               baseline ? &baseline->force_N : nullptr, "N");
@@ -148,6 +184,7 @@ int Run() {
     DumpConfig(finger, plan.scene, discretization);
     return kGood;
   }
+  WarnOfWhatIsNotApplied(plan);
   Plan whole = plan;
   whole.holdout_by = HoldoutBy::kNothing;  // all of these logs are held out
   const CalibrationLogs logs = ReadCalibrationLogs(paths, finger, whole);

@@ -67,6 +67,17 @@ TEST_F(ValidateCompareTest, BadInputOfValidate) {
   EXPECT_EQ(Run("finray_validate", validate_ + " --scene x.yaml").code, 1);
   EXPECT_EQ(Run("finray_validate", validate_ + " --most_force_rms_N -1").code,
             1);
+  // No gate that is silently none, or in the wrong unit.
+  Outcome outcome = Run("finray_validate", validate_ + " --most_force_rms_N 0");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("expected a number above 0, found 0"));
+  outcome =
+      Run("finray_validate", validate_ + " --least_coverage_95_percent 0.95");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("in percent, such as 95"));
+  EXPECT_EQ(
+      Run("finray_validate", validate_ + " --least_usable_percent 150").code,
+      1);
   folder_.Write("gauges.csv",
                 "gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V\n1,1,1,1\n");
   const std::string blind =
@@ -89,6 +100,22 @@ TEST_F(ValidateCompareTest, BadInputOfValidate) {
                  validate_ + " --baseline " FINRAY_SOURCE_DIR
                              "/configs/fingers/paper_140mm_eight_gauges.yaml",
                  "8 gauges, but");
+}
+
+TEST_F(ValidateCompareTest, SaysWhatItDoesNotApply) {
+  folder_.Write("plan.yaml",
+                "schema_version: 1\n"
+                "scene: {contacts: auto, object: {shape: circle, "
+                "radius_mm: 15}}\n"
+                "parameters: {gauge_offset: {}, force_scale: {}, "
+                "object_origin: {}}\n");
+  const Outcome outcome = Run(
+      "finray_validate", "--finger " + hidden_ + " --plan %plan.yaml --logs " +
+                             data_ + "holdout.csv --out_dir %out");
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              HasSubstr("the plan frees object_origin, force_scale: "));
+  EXPECT_THAT(outcome.output, HasSubstr(" missed), 10 free ("));
 }
 
 TEST_F(ValidateCompareTest, CompareTwoCalibrations) {
@@ -114,6 +141,12 @@ TEST_F(ValidateCompareTest, CompareTwoCalibrations) {
   }
   EXPECT_EQ(FrameTable::Read(folder_.Path("out/comparison.csv")).rows(), 36u);
 
+  EXPECT_THAT(outcome.output, HasSubstr(" of 36 points"));
+  EXPECT_EQ(Run("finray_compare",
+                "%train %holdout --out_dir %out --most_sigma "
+                "0")
+                .code,
+            1);
   outcome = Run("finray_compare",
                 "%train %holdout --out_dir %out --most_force_difference_N "
                 "0.0001");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -75,6 +76,36 @@ TEST(BenchLinearityTest, LackOfFitSeesOtherShapes) {
             3));
   EXPECT_LT(found[0].lack_of_fit_p_value, 1e-3);
   EXPECT_FALSE(found[0].IsLinear());
+}
+
+// Readings of a converter of 10 mV: repeats are the same number, and off the
+// line by as much as that.
+TEST(BenchLinearityTest, RoundedRepeatsAreNoPureError) {
+  CalibrationLogs logs = Bench([](double) { return 0; }, 1);
+  for (CalibrationFrame& frame : logs.frames) {
+    const double volts = 1.5 + 0.8 * 18 / frame.cylinder_radius_mm;
+    frame.gauges_V[0] = 0.01 * std::round(volts / 0.01);
+  }
+  Plan plan;
+  plan.gauge_std_V = 0.01 / std::sqrt(12);
+  const auto found = TestBenchLinearity(PaperFinger(), plan, logs);
+  EXPECT_TRUE(found[0].IsLinear());
+  EXPECT_GT(found[0].lack_of_fit_F, 0.1);
+  EXPECT_LT(found[0].lack_of_fit_F, 4);
+
+  // No scatter at all: what the reading's std leaves of q, from the normal
+  // equations.
+  Eigen::MatrixXd columns(logs.frames.size(), 3);
+  for (Eigen::Index i = 0; i < columns.rows(); ++i) {
+    const double angle = 18 / logs.frames[i].cylinder_radius_mm;
+    logs.frames[i].gauges_V[0] = 1 + angle;
+    columns.row(i) << 1, angle, angle * angle;
+  }
+  const double variance = (columns.transpose() * columns).inverse()(2, 2);
+  const auto exact = TestBenchLinearity(PaperFinger(), plan, logs);
+  EXPECT_NEAR(exact[0].quadratic_std, *plan.gauge_std_V * std::sqrt(variance),
+              1e-9);
+  EXPECT_TRUE(exact[0].IsLinear());
 }
 
 TEST(BenchLinearityTest, NothingToSayOfTooLittle) {

@@ -126,6 +126,56 @@ TEST(ComparisonTest, AStifferFingerPressesHarder) {
   EXPECT_NEAR(found.largest().force_N, 0.3 * ForceUnit(first.finger), 1e-4);
 }
 
+std::string Replaced(std::string text, const std::string& old,
+                     const std::string& with) {
+  for (std::size_t at = 0; (at = text.find(old, at)) != std::string::npos;
+       at += with.size()) {
+    text.replace(at, old.size(), with);
+  }
+  return text;
+}
+
+// Offsets of logs that have one name but are not the same.
+TEST(ComparisonTest, OffsetsOfDifferentLogsAreNotCompared) {
+  const TempFolder folder;
+  const std::string a =
+      Folder(folder, "a", StandardLog(folder, HiddenFinger(), 302));
+  std::string text =
+      Replaced(folder.Read("a/calibration.yaml"), "gauge_1_offset_V",
+               "\"gauge_1_offset_V[log.csv]\"");
+  folder.Write("a/calibration.yaml", text);
+  const CalibrationFile first = ReadCalibration(a);
+  const Comparison same = Compare(first, first, {});
+  EXPECT_EQ(same.parameters.size(), first.parameters.size());
+  EXPECT_TRUE(same.of_other_logs.empty());
+
+  std::filesystem::copy(a, folder.Path("b"));
+  text = Replaced(text, first.log_hashes[0], std::string(64, '0'));
+  text = Replaced(text, "gauge_2_offset_V", "gauge_9_offset_V");
+  folder.Write("b/calibration.yaml", text);
+  const Comparison other =
+      Compare(first, ReadCalibration(folder.Path("b")), {});
+  EXPECT_THAT(other.of_other_logs,
+              testing::ElementsAre("gauge_1_offset_V[log.csv]"));
+  EXPECT_THAT(other.only_a, testing::ElementsAre("gauge_2_offset_V"));
+  EXPECT_THAT(other.only_b, testing::ElementsAre("gauge_9_offset_V"));
+  EXPECT_EQ(other.parameters.size(), first.parameters.size() - 2);
+  EXPECT_EQ(other.dof, same.dof - 2);
+}
+
+TEST(ComparisonTest, CountsWhatOnlyAFinds) {
+  const TempFolder folder;
+  const CalibrationFile a = ReadCalibration(
+      Folder(folder, "a", StandardLog(folder, HiddenFinger(), 303)));
+  EXPECT_EQ(Compare(a, a, {}).largest().lost, 0);
+  // A dead finger: no readings of a's come near to its own.
+  CalibrationFile dead = a;
+  for (Gauge& gauge : dead.finger.gauges) gauge.noise_V *= 1e5;
+  const Comparison found = Compare(a, dead, {});
+  EXPECT_EQ(found.largest().points, 0);
+  EXPECT_GE(found.largest().lost, 30);
+}
+
 TEST(ComparisonTest, RefusesWhatCannotBeCompared) {
   const TempFolder folder;
   const std::string a =

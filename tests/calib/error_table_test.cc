@@ -49,17 +49,28 @@ TEST(ErrorTableTest, ByHand) {
                    100 * std::sqrt((0.25 + 1 + 9) / (16 + 9 + 9)));
   EXPECT_DOUBLE_EQ(force.bias(), (0.5 - 1 - 3) / 3);
   EXPECT_EQ(force.largest, 3);
-  EXPECT_EQ(force.judged, 2u);
-  EXPECT_EQ(force.coverage_68_percent(), 50);
-  EXPECT_EQ(force.coverage_95_percent(), 100);
+  // The missed one is outside.
+  EXPECT_EQ(force.judged, 3u);
+  EXPECT_DOUBLE_EQ(force.coverage_68_percent(), 100. / 3);
+  EXPECT_DOUBLE_EQ(force.coverage_95_percent(), 200. / 3);
   const ErrorStatistics& contact = table.contact.contact_mm;
   EXPECT_DOUBLE_EQ(contact.rms(), std::sqrt(5));
-  EXPECT_EQ(contact.coverage_68_percent(), 50);
-  EXPECT_EQ(contact.coverage_95_percent(), 50);
+  EXPECT_DOUBLE_EQ(contact.coverage_68_percent(), 100. / 3);
+  EXPECT_DOUBLE_EQ(contact.coverage_95_percent(), 100. / 3);
   EXPECT_EQ(table.regions[1].frames, 1u);
   EXPECT_EQ(table.regions[4].frames, 3u);
   EXPECT_EQ(table.RegionOf(100), 4);
   EXPECT_EQ(table.RegionOf(NAN), -1);
+}
+
+// Also where nothing but misses is known, and only of what has a reference.
+TEST(ErrorTableTest, MissesAloneAreNotCovered) {
+  ErrorTable table;
+  table.front_length_mm = 100;
+  table.Add({true, 5, 0, NAN, 0},
+            Estimate(FrameStatus::kNoContact, NAN, NAN, 0, NAN), NAN, 0);
+  EXPECT_EQ(table.contact.force_N.coverage_95_percent(), 0);
+  EXPECT_EQ(table.contact.contact_mm.judged, 0u);
 }
 
 TEST(ErrorTableTest, FrictionIsPartOfTheForce) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <random>
 
 #include "calib/calibrated.h"
@@ -131,6 +132,35 @@ TEST(ResidualCorrelationTest, LoadsAtRandomAverageItOut) {
   EXPECT_EQ(slow.correlated, 6);
   EXPECT_LT(slow.spread_over_std, 1.6);
   EXPECT_LT(slow.enlargement, 1.4);
+}
+
+// Of a pin hidden in every other row the series is every other row long, and
+// none is of two pins.
+TEST(ResidualCorrelationTest, SeriesAreOfPinsWhereverTheyStand) {
+  Plan plan;
+  plan.scene = StandardPlan().scene;
+  plan.pin_std_mm = 0.1;
+  plan.families[static_cast<int>(ParameterFamily::kGaugeOffset)].free = true;
+  CalibrationLogs logs;
+  logs.paths = logs.names = {"pins.csv"};
+  for (int i = 0; i < 60; ++i) {
+    CalibrationFrame frame;
+    frame.row = i;
+    frame.gauges_V = {0, 0, 0, 0};
+    if (i % 2 == 0) frame.pins.push_back({0, Side::kBack, {10, 20}});
+    frame.pins.push_back({2, Side::kFront, {0, 60}});
+    logs.frames.push_back(frame);
+  }
+  CalibrationProblem problem(PaperFinger(), plan, logs, {}, 1);
+  const ResidualCorrelation found =
+      AnalyzeResidualCorrelation(&problem, AnalyzeIdentifiability(&problem));
+  std::map<int, int> rows;  // by component
+  for (const auto& series : found.series) {
+    if (series.family == ResidualFamily::kPin) {
+      rows[series.component] = series.time.n;
+    }
+  }
+  EXPECT_EQ(rows, (std::map<int, int>{{2, 30}, {3, 30}, {8, 60}, {9, 60}}));
 }
 
 }  // namespace

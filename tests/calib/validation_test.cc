@@ -196,5 +196,28 @@ TEST(ValidationTest, Gates) {
                   testing::HasSubstr("no frame with contact has a reference")));
 }
 
+// Rows of the bench are no frames of the finger, and the std of one of two
+// contacts is not that of their sum.
+TEST(ValidationTest, BenchRowsAndTwoContacts) {
+  const TempFolder folder;
+  const Finger truth = HiddenFinger();
+  const Plan plan = ValidationPlan();
+  CalibrationLogs logs =
+      ReadCalibrationLogs({PointLog(folder, truth, 5, 6)}, truth, plan);
+  CalibrationFrame bench;
+  bench.cylinder_radius_mm = 100;
+  bench.gauges_V = {0, 0, 0, 0};
+  logs.frames.insert(logs.frames.begin() + 2, bench);
+  Validation result = Validate(truth, {}, plan, logs, {}, 1);
+  EXPECT_EQ(result.errors.contact.frames, 5u);
+  EXPECT_EQ(result.errors.free.frames, 0u);
+  result.estimates[3].contacts = 2;
+  const FrameTable table = ValidationFrames(logs, result, 0);
+  ASSERT_EQ(table.rows(), 5u);
+  EXPECT_EQ(table.Numbers("row")[2], 3);
+  EXPECT_TRUE(std::isfinite(table.Numbers("force_std_N")[1]));
+  EXPECT_TRUE(std::isnan(table.Numbers("force_std_N")[2]));
+}
+
 }  // namespace
 }  // namespace finray

@@ -22,6 +22,7 @@ struct Fit {
   Eigen::VectorXd x;
   double squares;
   int dof;
+  Eigen::MatrixXd inverse;  // x = inverse volts
 
   Fit(const Eigen::MatrixXd& columns, const Eigen::VectorXd& volts) {
     // Columns are of order one, and one may be a sum of others.
@@ -32,7 +33,11 @@ struct Fit {
     x = qr.solve(volts);
     squares = (volts - columns * x).squaredNorm();
     dof = static_cast<int>(volts.size() - qr.rank());
+    inverse = qr.pseudoInverse();
   }
+  // Of a reading, at least `least`: readings that are rounded may agree by
+  // more than they are known.
+  double Variance(double least) const { return std::max(squares / dof, least); }
 };
 
 int LevelOf(const std::set<double>& levels, double value) {
@@ -40,7 +45,8 @@ int LevelOf(const std::set<double>& levels, double value) {
 }
 
 BenchLinearity Test(const std::vector<Reading>& readings,
-                    const std::set<double>& angles, int offsets) {
+                    const std::set<double>& angles, int offsets,
+                    double reading_std_V) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   const auto n = static_cast<Eigen::Index>(readings.size());
   const auto levels = static_cast<int>(angles.size());
@@ -64,9 +70,12 @@ BenchLinearity Test(const std::vector<Reading>& readings,
   const Fit straight(line, volts), bent(curve, volts);
   const double q = bent.x[offsets + 1];
   const double reduction = straight.squares - bent.squares;
-  const double t_squared = reduction / (bent.squares / bent.dof);
+  const double least = reading_std_V * reading_std_V;
+  const double variance = bent.Variance(least);
+  const double t_squared = reduction / variance;
   found.quadratic_V_per_rad2 = q;
-  found.quadratic_std = std::abs(q) / std::sqrt(t_squared);
+  found.quadratic_std =
+      std::sqrt(variance) * bent.inverse.row(offsets + 1).norm();
   found.quadratic_p_value = FTail(t_squared, 1, bent.dof);
   found.first_gain_V_per_rad = bent.x[offsets] + 2 * q * lowest;
   found.last_gain_V_per_rad = bent.x[offsets] + 2 * q * highest;
@@ -75,7 +84,7 @@ BenchLinearity Test(const std::vector<Reading>& readings,
   const int more = straight.dof - pure.dof;
   found.lack_of_fit_F =
       pure.dof > 0 && more > 0
-          ? (straight.squares - pure.squares) / more / (pure.squares / pure.dof)
+          ? (straight.squares - pure.squares) / more / pure.Variance(least)
           : kNaN;
   found.lack_of_fit_p_value = FTail(found.lack_of_fit_F, more, pure.dof);
   return found;
@@ -125,7 +134,8 @@ std::vector<BenchLinearity> TestBenchLinearity(const Finger& finger,
     for (Reading& reading : readings) {
       reading.offset = LevelOf(offsets, reading.offset);
     }
-    all.push_back(Test(readings, angles, static_cast<int>(offsets.size())));
+    all.push_back(Test(readings, angles, static_cast<int>(offsets.size()),
+                       plan.gauge_std_V.value_or(finger.gauges[j].noise_V)));
     all.back().gauge = j;
   }
   return all;

@@ -15,10 +15,12 @@ namespace finray {
 ///   V = offset + gain a + q a^2,
 ///
 /// fitted by least squares with the scatter taken from the readings themselves,
-/// tells whether q is there (Student's t). Where radii were repeated, a line is
-/// also compared with a value of its own for each radius (lack of fit, F),
-/// which sees any other shape. Where the plan has offsets per log there is one
-/// for each log here too.
+/// tells whether q is there (Student's t). The scatter counts as no less than
+/// the std of a reading (the plan's, else the gauge's noise): repeats that a
+/// coarse converter has rounded to the same number are not that good. Where
+/// radii were repeated, a line is also compared with a value of its own for
+/// each radius (lack of fit, F), which sees any other shape. Where the plan has
+/// offsets per log there is one for each log here too.
 struct BenchLinearity {
   int gauge = 0;
   int readings = 0;

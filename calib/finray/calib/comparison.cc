@@ -6,6 +6,7 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
+#include "finray/io/yaml_map.h"
 #include "finray/sensing/calibration_uncertainty.h"
 #include "finray/sensing/chi_squared.h"
 #include "finray/sensing/frame_estimator.h"
@@ -20,13 +21,57 @@ constexpr double kLoads[] = {1, 3, 6, 10};  // EI / l_0^2
 // digits, is rounding.
 constexpr double kRank = 1e-6;
 
+// The log that a parameter belongs to, as its name says behind the bracket of
+// `gauge_1_offset_V[a.csv]`; empty if to none.
+std::string LogOf(const std::string& parameter) {
+  const auto open = parameter.find('[');
+  if (open == std::string::npos || parameter.back() != ']') return "";
+  return parameter.substr(open + 1, parameter.size() - open - 2);
+}
+
+// The SHA-256 of a log that is named by the end of its path; empty if it is not
+// there.
+std::string HashOfLog(const CalibrationFile& file, const std::string& log) {
+  const YamlMap yaml = YamlMap::FromFile(file.path);
+  for (const YamlMap& map : yaml.Map("inputs").Maps("logs")) {
+    const std::string path = "/" + map.Text("path"), end = "/" + log;
+    if (path.size() >= end.size() &&
+        path.compare(path.size() - end.size(), end.size(), end) == 0) {
+      return map.Text("sha256");
+    }
+  }
+  return "";
+}
+
+// Logs of one name may be of different days, with other offsets.
+bool IsOfOneLog(const CalibrationFile& a, const CalibrationFile& b,
+                const std::string& parameter) {
+  const std::string log = LogOf(parameter);
+  if (log.empty()) return true;
+  const std::string hash = HashOfLog(a, log);
+  return !hash.empty() && hash == HashOfLog(b, log);
+}
+
+void ListUnshared(const CalibrationFile& a, const CalibrationFile& b,
+                  std::vector<std::string>* names) {
+  for (const CalibrationFile::Parameter& p : a.parameters) {
+    if (b.Find(p.name) == nullptr) names->push_back(p.name);
+  }
+}
+
 void CompareParameters(const CalibrationFile& a, const CalibrationFile& b,
                        Comparison* comparison) {
   std::vector<std::string> names;
   std::vector<double> difference;
+  ListUnshared(a, b, &comparison->only_a);
+  ListUnshared(b, a, &comparison->only_b);
   for (const CalibrationFile::Parameter& p : a.parameters) {
     const CalibrationFile::Parameter* q = b.Find(p.name);
     if (q == nullptr) continue;
+    if (!IsOfOneLog(a, b, p.name)) {
+      comparison->of_other_logs.push_back(p.name);
+      continue;
+    }
     const double std = std::hypot(p.std, q->std);
     const bool known = std > 0 && std::isfinite(std);
     comparison->parameters.push_back(
@@ -127,7 +172,8 @@ void CompareGrid(const Finger& finger_a, const Finger& finger_b,
       const double force = load * ForceUnit(finger_a);
       const std::vector<double> volts = a.Read({arc, force, 0});
       if (volts.empty()) continue;
-      Comparison::Point point = {arc, force, kNaN, kNaN, kNaN, kNaN};
+      Comparison::Point point = {arc, force, kNaN, kNaN, kNaN, kNaN, false};
+      point.told_by_a = a.Sense(volts).status == FrameStatus::kOk;
       const FrameEstimate found = b.Sense(volts);
       if (found.status == FrameStatus::kOk) {
         const ContactEstimate& at = found.contact[0];
@@ -156,7 +202,10 @@ Comparison::Largest Comparison::largest() const {
     if (std::abs(value) > *largest) *largest = std::abs(value);
   };
   for (const Point& point : grid) {
-    if (std::isnan(point.force_difference_N)) continue;
+    if (std::isnan(point.force_difference_N)) {
+      most.lost += point.told_by_a;
+      continue;
+    }
     ++most.points;
     raise(point.force_difference_N, &most.force_N);
     raise(point.contact_difference_mm, &most.contact_mm);

@@ -33,6 +33,9 @@ struct Comparison {
     double sigma() const { return (b - a) / std; }
   };
   std::vector<Parameter> parameters;
+  /// Names that only one has, and those of one log, by its name, that are of
+  /// different ones by SHA-256: none of them is compared.
+  std::vector<std::string> only_a, only_b, of_other_logs;
   double chi2 = 0;
   int dof = 0;
   double p_value() const;
@@ -43,6 +46,7 @@ struct Comparison {
     /// NaN where b cannot tell the contact.
     double force_difference_N, contact_difference_mm;
     double force_std_N, contact_std_mm;  ///< NaN without covariances
+    bool told_by_a;  ///< a itself can tell the contact from its readings
   };
   std::vector<Point> grid;
 
@@ -51,7 +55,8 @@ struct Comparison {
     double force_N = 0, contact_mm = 0, force_over_std = 0,
            contact_over_std = 0;
     double force_rms_N = 0, contact_rms_mm = 0;
-    int points = 0;
+    int points = 0;  ///< that b tells
+    int lost = 0;    ///< that a tells, but b does not
   };
   Largest largest() const;
   /// The parameter with the largest |sigma|; nullptr if none has one.

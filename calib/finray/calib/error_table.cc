@@ -19,7 +19,7 @@ double Percent(std::size_t part, std::size_t of) {
 
 void EmitStatistics(const ErrorStatistics& errors, const char* quantity,
                     const char* unit, bool touching, YAML::Emitter* yaml) {
-  if (errors.frames == 0) return;
+  if (errors.frames + errors.judged == 0) return;
   const std::string name(quantity), suffix = std::string("_") + unit;
   YamlPair(yaml, name + "_frames", errors.frames);
   YamlPair(yaml, name + "_rms" + suffix, YamlNumber(errors.rms()));
@@ -61,6 +61,10 @@ void ErrorStatistics::Add(double error, double reference, double std) {
   within_95 += std::abs(error) <= k95 * std;
 }
 
+void ErrorStatistics::Miss(double reference) {
+  judged += !std::isnan(reference);
+}
+
 double ErrorStatistics::rms() const {
   return frames == 0 ? kNaN : std::sqrt(squares / static_cast<double>(frames));
 }
@@ -99,6 +103,10 @@ void ErrorRow::Add(const FrameReference& reference,
               one ? std::hypot(std::hypot(1, friction) * found.normal_std_N,
                                reference.force_std_N)
                   : kNaN);
+  if (reference.contact && !touches) {
+    force_N.Miss(reference.force_N);
+    contact_mm.Miss(reference.contact_mm);
+  }
   if (!one) return;
   contact_mm.Add(found.arc_mm - reference.contact_mm, reference.contact_mm,
                  std::hypot(found.arc_std_mm, reference.contact_std_mm));

@@ -27,10 +27,14 @@ struct ErrorStatistics {
   double reference_squares = 0;
   /// Frames with a std, and those of them with |e| <= k s, where s^2 is the
   /// variance of the estimate plus that of the reference: k = 1 (68.3 %) and
-  /// 1.96 (95 %).
+  /// 1.96 (95 %). What should have been found and was not has no std, and is
+  /// outside of both.
   std::size_t judged = 0, within_68 = 0, within_95 = 0;
 
   void Add(double error, double reference, double std);
+  /// A quantity that is there, unless NaN, and of which the estimate says that
+  /// it is not.
+  void Miss(double reference);
   double rms() const;
   double bias() const;
   /// rms of the errors in percent of the rms of the reference.

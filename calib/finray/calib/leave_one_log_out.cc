@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
+#include <optional>
 
-#include "finray/sensing/chi_squared.h"
+#include "finray/calib/eliminated_contact.h"
 
 namespace finray {
 
@@ -19,14 +20,38 @@ const LeaveOneLogOut::Row* LeaveOneLogOut::Worst() const {
 
 namespace {
 
-// The value that a parameter has without some logs; NaN if it is only theirs.
-double ValueWithout(const CalibrationParameters& without,
-                    const std::string& name) {
-  for (const int i : without.free()) {
-    const CalibrationParameter& p = without.all()[i];
-    if (p.name == name) return *p.variable;
+// Of all frames of each log that were fitted, at the solution.
+std::map<int, Eigen::MatrixXd> InformationByLog(CalibrationProblem* problem,
+                                                const Eigen::VectorXd& unit) {
+  const CalibrationProblem::Linearization at = problem->Linearize(true);
+  const auto n = unit.size();
+  std::map<int, Eigen::MatrixXd> by_log;
+  ForEachFrame(at, [&](int first, int count) {
+    const int log = problem->logs().frames[at.rows[first].frame].log;
+    const Eigen::MatrixXd c =
+        EliminateContact(at, first, count) * unit.asDiagonal();
+    const auto place = by_log.try_emplace(log, Eigen::MatrixXd::Zero(n, n));
+    place.first->second += c.transpose() * c;
+  });
+  return by_log;
+}
+
+// What a parameter is without some logs; empty if these do not determine it.
+std::optional<double> EstimateWithout(const CalibrationParameters& without,
+                                      const Identifiability& found,
+                                      const std::string& name) {
+  for (std::size_t i = 0; i < without.free().size(); ++i) {
+    const CalibrationParameter& p = without.all()[without.free()[i]];
+    if (p.name != name) continue;
+    if (found.status[i] != ParameterStatus::kEstimated) return {};
+    return *p.variable;
   }
-  return std::nan("");
+  return {};
+}
+
+// Probability that any of `tests` standard normal numbers is beyond +-z.
+double Bonferroni(double z, int tests) {
+  return std::min(1.0, tests * std::erfc(z / std::sqrt(2.0)));
 }
 
 }  // namespace
@@ -35,45 +60,64 @@ LeaveOneLogOut LeaveLogsOut(CalibrationProblem& problem,
                             const Identifiability& found,
                             const Discretization& discretization, int threads) {
   LeaveOneLogOut result;
-  std::set<int> used;
-  for (const CalibrationFrame& frame : problem.logs().frames) {
-    if (!frame.held_out) used.insert(frame.log);
-  }
-  if (used.size() < 2) return result;
-  const std::vector<int> logs(used.begin(), used.end());
+  // A log without a frame to fit tells nothing, and may be all that is left.
+  const auto by_log = InformationByLog(&problem, found.unit);
+  if (by_log.size() < 2) return result;
   result.groups =
-      std::min(LeaveOneLogOut::kMostGroups, static_cast<int>(logs.size()));
+      std::min(LeaveOneLogOut::kMostGroups, static_cast<int>(by_log.size()));
+  std::map<int, int> group_of;  // log
+  for (const auto& [log, information] : by_log) {
+    group_of.emplace(log, static_cast<int>(group_of.size()) % result.groups);
+  }
 
   CalibrationParameters& all = problem.parameters();
-  Eigen::MatrixXd left(all.free().size(), result.groups);
+  const Eigen::VectorXd variance =
+      BoundedCovariance(found.information + found.prior).diagonal();
+  std::vector<int> tests(all.free().size(), 0);
+  std::vector<double> largest_z(all.free().size(), 0);
   for (int group = 0; group < result.groups; ++group) {
     CalibrationLogs rest = problem.logs();
     for (CalibrationFrame& frame : rest.frames) {
-      const auto place =
-          std::lower_bound(logs.begin(), logs.end(), frame.log) - logs.begin();
-      if (place % result.groups == group) frame.held_out = true;
+      const auto place = group_of.find(frame.log);
+      if (place != group_of.end() && place->second == group) {
+        frame.held_out = true;
+      }
     }
     CalibrationProblem without(problem.finger(), problem.plan(), rest,
                                discretization, threads);
-    result.all_converged &= without.Solve().converged;
+    if (!without.Solve().converged) {
+      result.all_converged = false;
+      continue;  // no estimate
+    }
+    const Identifiability known = AnalyzeIdentifiability(&without);
+    Eigen::MatrixXd information = found.prior;
+    for (const auto& [log, its] : by_log) {
+      if (group_of[log] != group) information += its;
+    }
+    const Eigen::VectorXd variance_without =
+        BoundedCovariance(information).diagonal();
     for (std::size_t i = 0; i < all.free().size(); ++i) {
-      left(static_cast<Eigen::Index>(i), group) =
-          ValueWithout(without.parameters(), all.all()[all.free()[i]].name);
+      const CalibrationParameter& p = all.all()[all.free()[i]];
+      if (!p.of_finger || !std::isfinite(found.std[i])) continue;
+      const auto estimate =
+          EstimateWithout(without.parameters(), known, p.name);
+      if (!estimate) continue;
+      const auto at = static_cast<Eigen::Index>(i);
+      const double more =
+          std::max(0.0, variance_without[at] / variance[at] - 1);
+      const double std = found.std[i] * std::hypot(std::sqrt(more),
+                                                   LeaveOneLogOut::kNegligible);
+      ++tests[i];
+      largest_z[i] =
+          std::max(largest_z[i], std::abs(*estimate - *p.variable) / std);
     }
   }
-  const double g = result.groups;
   for (std::size_t i = 0; i < all.free().size(); ++i) {
+    if (tests[i] == 0) continue;
     const CalibrationParameter& p = all.all()[all.free()[i]];
-    if (!p.of_finger || !std::isfinite(found.std[i])) continue;
-    const auto values = left.row(static_cast<Eigen::Index>(i)).array();
-    const double spread =
-        std::sqrt((g - 1) / g * (values - values.mean()).square().sum());
-    if (std::isnan(spread)) continue;
-    const double ratio = spread / found.std[i];
-    result.rows.push_back(
-        {all.free()[i], p.ValueStd(*p.variable, spread),
-         p.ValueStd(*p.variable, found.std[i]),
-         ChiSquaredTail((g - 1) * ratio * ratio, result.groups - 1)});
+    const double std = p.ValueStd(*p.variable, found.std[i]);
+    result.rows.push_back({all.free()[i], largest_z[i] * std, std,
+                           Bonferroni(largest_z[i], tests[i])});
   }
   return result;
 }

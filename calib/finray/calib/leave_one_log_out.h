@@ -9,35 +9,46 @@
 namespace finray {
 
 /// Do the logs agree? The calibration is repeated without each log (without
-/// each of kMostGroups groups of them, if there are more), and the estimates
-/// theta_k are held against the std that all logs together should have:
+/// each of kMostGroups groups of them, if there are more). The data without a
+/// group are part of all data, so that its estimate theta_k differs from that
+/// of all, theta, by what the group adds:
 ///
-///   spread^2 = (G - 1) / G sum_k (theta_k - mean)^2     (the jackknife's)
+///   var(theta_k - theta) = s_k^2 - s^2,
+///   z_k = (theta_k - theta) / sqrt(s_k^2 - s^2),
 ///
-/// estimates the variance whatever makes logs differ; (G - 1) (spread / std)^2
-/// is about chi-squared with G - 1 degrees of freedom if the std is right.
+/// however much or little the group knows: logs need not be alike. s_k and s
+/// are of the same linearization, that of all data, with s enlarged where
+/// residuals are correlated and s_k as much. What a group changes by less than
+/// kNegligible s is no matter (and not linear): that is added to the std. The
+/// z_k of a parameter depend on each other; the largest is held against
+/// Bonferroni's bound.
 struct LeaveOneLogOut {
   static constexpr int kMostGroups = 10;
+  static constexpr double kNegligible = 0.03;
   /// A parameter whose logs agree so badly by chance in one calibration of a
   /// hundred, all parameters together.
   static constexpr double kSignificant = 0.01;
 
   struct Row {
-    int parameter;       ///< index into CalibrationParameters::all()
-    double spread, std;  ///< in the parameter's unit
-    double p_value;      ///< that noise alone spreads them so far
+    int parameter;  ///< index into CalibrationParameters::all()
+    /// std is that of all data; spread = std max_k |z_k| is what it would have
+    /// to be for the largest change to be one of one std. In the parameter's
+    /// unit.
+    double spread, std;
+    double p_value;  ///< that noise alone makes a z_k so large
     double ratio() const { return spread / std; }
   };
   int groups = 0;  ///< 0: not done
   bool all_converged = true;
-  /// Free parameters of the finger, not of one log, whose std is finite.
+  /// Free parameters of the finger, not of one log, that some of the groups can
+  /// be spared for: the others determine them.
   std::vector<Row> rows;
 
   /// The row whose logs disagree most, if they do significantly.
   const Row* Worst() const;
 };
 
-/// Nothing for fewer than two logs with fitted frames.
+/// Nothing for fewer than two logs with frames that could be fitted.
 LeaveOneLogOut LeaveLogsOut(CalibrationProblem& problem,
                             const Identifiability& found,
                             const Discretization& discretization, int threads);

@@ -23,6 +23,14 @@ double Gamma(const std::vector<std::vector<double>>& logs, int lag) {
   return sum;
 }
 
+// Which of a family's residuals in a frame the k-th is: of pins, which may be
+// hidden in some rows, by rib, side and coordinate.
+int Component(ResidualFamily family, const CalibrationFrame& frame, int k) {
+  if (family != ResidualFamily::kPin) return k;
+  const SeenPin& pin = frame.pins[k / 2];
+  return 2 * (2 * pin.rib + (pin.side == Side::kBack ? 1 : 0)) + k % 2;
+}
+
 }  // namespace
 
 IntegratedTime IntegrateTime(const std::vector<std::vector<double>>& logs) {
@@ -76,13 +84,15 @@ ResidualCorrelation AnalyzeResidualCorrelation(CalibrationProblem* problem,
   const Eigen::MatrixXd covariance =
       BoundedCovariance(found.information + found.prior);
   ForEachFrame(at, [&](int first, int count) {
-    const int log = frames[at.rows[first].frame].log;
+    const CalibrationFrame& frame = frames[at.rows[first].frame];
+    const int log = frame.log;
     std::map<std::pair<int, int>, int> components;
     for (int i = first; i < first + count; ++i) {
       const auto& row = at.rows[i];
       const int family = static_cast<int>(row.family);
-      series[{log, family, row.gauge, components[{family, row.gauge}]++}]
-          .push_back(at.residuals[i]);
+      const int component =
+          Component(row.family, frame, components[{family, row.gauge}]++);
+      series[{log, family, row.gauge, component}].push_back(at.residuals[i]);
     }
     const Eigen::VectorXd psi =
         covariance * (found.unit.asDiagonal() *

@@ -49,8 +49,10 @@ struct ResidualCorrelation {
   struct Series {
     int log;
     ResidualFamily family;
-    int gauge;      ///< for kGauge
-    int component;  ///< of several residuals of one family in a frame
+    int gauge;  ///< for kGauge
+    /// Of several residuals of one family in a frame; of pins x, y of rib 1
+    /// front, rib 1 back, rib 2 front, ...
+    int component;
     IntegratedTime time;
   };
   std::vector<Series> series;  ///< those of 20 rows or more

@@ -125,7 +125,8 @@ Validation Validate(const Finger& finger, const std::optional<Finger>& baseline,
   const auto table = [&](const std::vector<FrameEstimate>& estimates) {
     return TabulateErrors(
         result.references, estimates, result.estimates, finger.front_length_mm,
-        plan.scene.friction_coefficient, [](std::size_t) { return true; });
+        plan.scene.friction_coefficient,
+        [&](std::size_t i) { return !logs.frames[i].IsBench(); });
   };
   result.estimates = EstimateLogs(finger, plan, logs, discretization, threads);
   result.errors = table(result.estimates);

@@ -85,8 +85,8 @@ struct GateResult {
 std::vector<GateResult> CheckGates(const Validation& validation,
                                    const std::vector<Gate>& gates);
 
-/// A row a frame: log, row, time, kind, reference, estimate with std, status,
-/// errors, and the baseline's.
+/// A row a frame of the finger, not of the bench: log, row, time, kind,
+/// reference, estimate with std, status, errors, and the baseline's.
 FrameTable ValidationFrames(const CalibrationLogs& logs,
                             const Validation& validation, double friction);
 

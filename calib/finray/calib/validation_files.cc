@@ -1,4 +1,5 @@
 #include <cmath>
+#include <vector>
 
 #include "finray/calib/validation.h"
 #include "finray/calib/yaml_number.h"
@@ -9,7 +10,11 @@ namespace finray {
 
 FrameTable ValidationFrames(const CalibrationLogs& logs,
                             const Validation& validation, double friction) {
-  FrameTable table(logs.frames.size());
+  std::vector<std::size_t> of_finger;
+  for (std::size_t i = 0; i < logs.frames.size(); ++i) {
+    if (!logs.frames[i].IsBench()) of_finger.push_back(i);
+  }
+  FrameTable table(of_finger.size());
   for (const char* name : {"log", "kind"}) table.MutableText(name);
   for (const char* name :
        {"row", "time_s", "reference_force_N", "reference_contact_mm", "force_N",
@@ -25,23 +30,27 @@ FrameTable ValidationFrames(const CalibrationLogs& logs,
     }
   }
   table.MutableText("status");
-  for (std::size_t i = 0; i < logs.frames.size(); ++i) {
+  for (std::size_t row = 0; row < of_finger.size(); ++row) {
+    const std::size_t i = of_finger[row];
     const CalibrationFrame& frame = logs.frames[i];
     const FrameReference& reference = validation.references[i];
     const FrameEstimate& found = validation.estimates[i];
     const auto set = [&](const char* name, double value) {
-      table.MutableNumbers(name)[i] = value;
+      table.MutableNumbers(name)[row] = value;
     };
-    table.MutableText("log")[i] = logs.paths[frame.log];
-    table.MutableText("kind")[i] = frame.contact ? "contact" : "free";
-    table.MutableText("status")[i] = StatusName(found.status);
+    table.MutableText("log")[row] = logs.paths[frame.log];
+    table.MutableText("kind")[row] = frame.contact ? "contact" : "free";
+    table.MutableText("status")[row] = StatusName(found.status);
     const double force = EstimatedForce(found, friction);
     set("row", frame.row + 1);
     set("time_s", frame.time_s);
     set("reference_force_N", reference.force_N);
     set("reference_contact_mm", reference.contact_mm);
     set("force_N", force);
-    set("force_std_N", std::hypot(1, friction) * found.contact[0].normal_std_N);
+    // Of the sum of two it is not known.
+    set("force_std_N", found.contacts == 1 ? std::hypot(1, friction) *
+                                                 found.contact[0].normal_std_N
+                                           : std::nan(""));
     set("force_error_N", force - reference.force_N);
     set("contact_1_mm", found.contact[0].arc_mm);
     set("contact_1_std_mm", found.contact[0].arc_std_mm);
