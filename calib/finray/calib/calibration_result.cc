@@ -137,11 +137,11 @@ void WarnOfDisagreement(CalibrationProblem& problem,
   warnings->push_back(
       {"logs_disagree",
        problem.parameters().all()[worst->parameter].name +
-           Text(" spreads %.2g times as far as its std when one log after the "
-                "other is left out",
-                worst->ratio()),
+           Text(" changes by %.2g std of such a change when one of the logs is "
+                "left out (p = %.1g)",
+                worst->ratio(), worst->p_value),
        "look for what differs between the logs: mounting, temperature, object; "
-       "take the spread for the std until then"});
+       "take the spread in leave_one_log_out for the std until then"});
 }
 
 // Errors by region of the frames that were fitted, or held out.
