@@ -12,8 +12,8 @@
 #include "finray/io/error.h"
 #include "finray/io/gzip.h"
 #include "finray/sensing/batch_summary.h"
-#include "finray/sensing/frame_results.h"
 #include "finray/sensing/log_stream.h"
+#include "sensing/log_readings.h"
 #include "temp_file.h"
 #include "test_finger.h"
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "finray/sensing/frame_results.h"
 #include "finray/sensing/frame_solver.h"
 
 namespace finray {
@@ -26,21 +25,6 @@ std::vector<FrameEstimate> EstimateFrames(
     });
   });
   return estimates;
-}
-
-EstimationSummary EstimateLog(const Finger& finger, const Scene& scene,
-                              const Discretization& discretization, int threads,
-                              FrameTable* log) {
-  const auto readings = ReadReadings(finger, *log);
-  const std::vector<FrameEstimate> estimates =
-      EstimateFrames(finger, scene, discretization, readings, threads);
-  FillResults(finger, scene, readings, estimates, log);
-  const std::vector<double> force = log->NumbersOrNan("force_N");
-  EstimationSummary summary;
-  for (std::size_t row = 0; row < estimates.size(); ++row) {
-    summary.Add(estimates[row], scene.friction_coefficient, force[row]);
-  }
-  return summary;
 }
 
 }  // namespace finray

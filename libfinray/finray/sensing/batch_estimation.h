@@ -3,8 +3,10 @@
 
 #include <vector>
 
-#include "finray/io/frame_table.h"
-#include "finray/sensing/estimation_summary.h"
+#include "finray/finger/finger.h"
+#include "finray/sensing/frame_estimate.h"
+#include "finray/sensing/frame_readings.h"
+#include "finray/sensing/scene.h"
 
 namespace finray {
 
@@ -14,15 +16,6 @@ std::vector<FrameEstimate> EstimateFrames(
     const Finger& finger, const Scene& scene,
     const Discretization& discretization,
     const std::vector<FrameReadings>& readings, int threads);
-
-/// Estimates every row of a log from gauge_<j>_V (from gauge_<j>_rad where that
-/// is all there is) and fills in contact_1_*, normal_1_*, friction_1, gauge
-/// angles, ribs, tip, chi2, iterations and status. The log's own contact
-/// columns, if any, are overwritten, not used. Throws InputError if a gauge of
-/// the finger has no column.
-EstimationSummary EstimateLog(const Finger& finger, const Scene& scene,
-                              const Discretization& discretization, int threads,
-                              FrameTable* log);
 
 }  // namespace finray
 

@@ -1,0 +1,27 @@
+#ifndef FINRAY_TESTS_SENSING_LOG_READINGS_H_
+#define FINRAY_TESTS_SENSING_LOG_READINGS_H_
+
+#include <string>
+#include <vector>
+
+#include "finray/io/frame_table.h"
+#include "finray/sensing/reading_columns.h"
+
+namespace finray {
+
+/// What each row of a table has measured.
+inline std::vector<FrameReadings> ReadReadings(const Finger& finger,
+                                               const FrameTable& log) {
+  const std::vector<std::string> names = log.headers();
+  const ReadingColumns columns(finger, names, log.path());
+  std::vector<FrameReadings> readings(log.rows());
+  for (std::size_t row = 0; row < log.rows(); ++row) {
+    columns.Read([&](std::size_t i) { return log.Numbers(names[i])[row]; },
+                 &readings[row]);
+  }
+  return readings;
+}
+
+}  // namespace finray
+
+#endif  // FINRAY_TESTS_SENSING_LOG_READINGS_H_
