@@ -25,7 +25,7 @@ struct CalibrationWarning {
 
 /// All that a calibration yields.
 struct CalibrationResult {
-  CalibrationProblem::SolveReport solve;
+  SolveReport solve;
   Identifiability identifiability;
   ForceCheck forces;
   /// By region of the finger, from the gauges alone.

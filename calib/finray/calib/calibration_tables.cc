@@ -52,12 +52,12 @@ FrameTable CalibrationFrames(CalibrationProblem& problem,
     set("fit_contact_mm", contact[0]);
     set("fit_normal_N", contact[1]);
   }
-  const CalibrationProblem::Linearization at = problem.Linearize(false);
+  const Linearization& at = problem.AtSolution();
   for (std::size_t row = 0; row < at.rows.size(); ++row) {
     if (at.rows[row].family != ResidualFamily::kGauge) continue;
     table.MutableNumbers(IndexedColumn("gauge_", at.rows[row].gauge,
                                        "_residual_std"))[at.rows[row].frame] =
-        at.residuals[static_cast<Eigen::Index>(row)];
+        at.residuals[row];
   }
   return table;
 }

@@ -5,7 +5,6 @@
 #include <map>
 #include <tuple>
 
-#include "finray/calib/eliminated_contact.h"
 #include "finray/sensing/chi_squared.h"
 
 namespace finray {
@@ -69,7 +68,7 @@ const ResidualCorrelation::Series* ResidualCorrelation::Slowest() const {
 
 ResidualCorrelation AnalyzeResidualCorrelation(CalibrationProblem* problem,
                                                const Identifiability& found) {
-  const CalibrationProblem::Linearization at = problem->Linearize(true);
+  const Linearization& at = problem->AtSolution();
   const auto& frames = problem->logs().frames;
   const auto logs = problem->logs().paths.size();
   const auto n = static_cast<int>(found.std.size());
@@ -83,23 +82,23 @@ ResidualCorrelation AnalyzeResidualCorrelation(CalibrationProblem* problem,
       n, std::vector<std::vector<double>>(logs));
   const Eigen::MatrixXd covariance =
       BoundedCovariance(found.information + found.prior);
-  ForEachFrame(at, [&](int first, int count) {
-    const CalibrationFrame& frame = frames[at.rows[first].frame];
-    const int log = frame.log;
-    std::map<std::pair<int, int>, int> components;
-    for (int i = first; i < first + count; ++i) {
-      const auto& row = at.rows[i];
-      const int family = static_cast<int>(row.family);
-      const int component =
-          Component(row.family, frame, components[{family, row.gauge}]++);
-      series[{log, family, row.gauge, component}].push_back(at.residuals[i]);
-    }
+  std::map<std::pair<int, int>, int> components;  // of a frame
+  for (std::size_t i = 0; i < at.rows.size(); ++i) {
+    const ResidualInfo& row = at.rows[i];
+    if (i == 0 || row.frame != at.rows[i - 1].frame) components.clear();
+    const int family = static_cast<int>(row.family);
+    const int component = Component(row.family, frames[row.frame],
+                                    components[{family, row.gauge}]++);
+    series[{frames[row.frame].log, family, row.gauge, component}].push_back(
+        at.weighted_residuals[i]);
+  }
+  const Eigen::MatrixXd by_pull = covariance * found.unit.asDiagonal();
+  for (std::size_t k = 0; k < at.frames.size(); ++k) {
     const Eigen::VectorXd psi =
-        covariance * (found.unit.asDiagonal() *
-                      (EliminateContact(at, first, count).transpose() *
-                       at.residuals.segment(first, count)));
+        by_pull * at.pulls.col(static_cast<Eigen::Index>(k));
+    const int log = frames[at.frames[k]].log;
     for (int i = 0; i < n; ++i) influence[i][log].push_back(psi[i]);
-  });
+  }
 
   double least = 1;
   for (const auto& [key, values] : series) {
