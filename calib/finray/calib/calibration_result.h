@@ -27,7 +27,12 @@ struct CalibrationWarning {
 struct CalibrationResult {
   SolveReport solve;
   Identifiability identifiability;
-  ForceCheck forces;
+  /// The frames that were held against the references, indices into the logs'
+  /// frames: all, or if there are many, kMostChecked of the fitted ones and as
+  /// many of those held out, evenly spread.
+  std::vector<int> checked;
+  static constexpr std::size_t kMostChecked = 2000;
+  ForceCheck forces;  ///< of these frames
   /// By region of the finger, from the gauges alone.
   struct Errors {
     ErrorTable before, after;

@@ -13,7 +13,7 @@ namespace finray {
 /// Before, with the logs as they are; after, with what the calibration knows of
 /// drift, temperature and the force sensor taken out of them.
 struct ForceCheck {
-  std::vector<FrameEstimate> before, after;  ///< one per frame of the logs
+  std::vector<FrameEstimate> before, after;  ///< one per frame
 
   struct Error {
     std::size_t frames = 0;
