@@ -63,8 +63,10 @@ void PrintSummary(finray::CalibrationProblem& problem,
   const ForceCheck::Error& kept = result.forces.held_out;
   std::printf("\nforce error    ");
   if (fitted.frames > 0) {
-    std::printf("%.3g N rms before, %.3g N after", fitted.before_rms_N,
-                fitted.after_rms_N);
+    if (fitted.frames_before > 0) {
+      std::printf("%.3g N rms before, ", fitted.before_rms_N);
+    }
+    std::printf("%.3g N after", fitted.after_rms_N);
     if (kept.frames > 0) std::printf(", %.3g N held out", kept.after_rms_N);
     std::printf("\n");
   } else {

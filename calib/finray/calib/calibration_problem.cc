@@ -14,7 +14,6 @@
 #include <map>
 #include <stdexcept>
 
-#include "finray/calib/contact_guess.h"
 #include "finray/io/error.h"
 
 namespace finray {
@@ -22,7 +21,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Of a kind and log that the joint solve has at least.
-constexpr std::size_t kLeastOfLog = 100;
+constexpr std::size_t kLeastOfLog = 50;
 // States of more frames would take more memory than they save time.
 constexpr std::size_t kMostStates = 50000;
 constexpr std::size_t kBatch = 256;  // of frames, visited in one go
@@ -129,14 +128,13 @@ LadderState* CalibrationProblem::StateOf(int frame, LadderState* scratch) {
 
 SolveReport CalibrationProblem::Solve() {
   at_solution_.reset();
-  const bool all = fitted_.size() <= kJointFrames;
-  const SolveReport some =
-      SolveJointly(all ? fitted_ : SpreadFrames(kJointFrames));
+  const bool all = fitted_.size() <= kMostJoint;
+  const SolveReport some = SolveJointly(all ? fitted_ : SpreadFrames(kJoint));
   return all ? some : SolveAll(some);
 }
 
 SolveReport CalibrationProblem::SolveJointly(const std::vector<int>& frames) {
-  GuessContacts(frames);
+  GuessContacts(frames, ContactGuess::From::kObjectFirst);
   std::vector<LadderState> states;  // of these frames, if not kept
   if (states_.empty()) states.resize(frames.size());
   std::vector<JointSolve::Frame> joint;
@@ -152,8 +150,9 @@ SolveReport CalibrationProblem::SolveJointly(const std::vector<int>& frames) {
 }
 
 SolveReport CalibrationProblem::SolveAll(const SolveReport& some) {
-  GuessContacts(fitted_);
+  GuessContacts(fitted_, ContactGuess::From::kAll);
   const Eigen::VectorXd start = Values();
+  summed_at_.resize(0);
   FrameSums sums;
   if (!Sum(start, &sums)) {
     throw std::runtime_error("the model cannot be evaluated at the start");
@@ -168,7 +167,7 @@ SolveReport CalibrationProblem::SolveAll(const SolveReport& some) {
   ceres::Problem problem;
   Eigen::VectorXd z = Eigen::VectorXd::Zero(start.size());
   problem.AddResidualBlock(
-      new FrameSumResidual(start, units,
+      new FrameSumResidual(start, units, sums,
                            [this](const Eigen::VectorXd& x, FrameSums* at) {
                              return Sum(x, at);
                            }),
@@ -200,11 +199,15 @@ SolveReport CalibrationProblem::SolveAll(const SolveReport& some) {
 bool CalibrationProblem::Sum(const Eigen::VectorXd& at, FrameSums* sums) {
   SetValues(at);
   const auto n = static_cast<int>(at.size());
+  if (summed_at_.size() > 0) MoveContacts(at - summed_at_);
+  summed_at_ = at;
+  contact_slopes_.resize(2 * n, static_cast<Eigen::Index>(fitted_.size()));
   sums->SetZero(n);
   for (int k = 0; k < n; ++k) {
     const CalibrationParameter& p = parameters_.all()[parameters_.free()[k]];
     if (p.prior_std) sums->AddPrior(k, at[k], p.initial, *p.prior_std);
   }
+  Eigen::Index column = 0;
   return InParallel(
       fitted_,
       [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
@@ -212,7 +215,31 @@ bool CalibrationProblem::Sum(const Eigen::VectorXd& at, FrameSums* sums) {
         return linearizer->FitContact(logs_.frames[i], &contacts_[i],
                                       StateOf(i, &scratch), out);
       },
-      [&](int /*frame*/, const LinearizedFrame& frame) { sums->Add(frame); });
+      [&](int i, const LinearizedFrame& frame) {
+        const LinearizedFrame::ContactMove move = frame.Move();
+        sums->Add(frame, move);
+        Eigen::Map<Eigen::Matrix2Xf>(contact_slopes_.col(column++).data(), 2,
+                                     n) = move.by_parameter.cast<float>();
+        MoveContact(i, move.now);
+      });
+}
+
+// The contacts follow the parameters, to first order.
+void CalibrationProblem::MoveContacts(const Eigen::VectorXd& change) {
+  const Eigen::VectorXf move = change.cast<float>();
+  for (std::size_t k = 0; k < fitted_.size(); ++k) {
+    const Eigen::Map<const Eigen::Matrix2Xf> slopes(
+        contact_slopes_.col(static_cast<Eigen::Index>(k)).data(), 2,
+        move.size());
+    MoveContact(fitted_[k], (slopes * move).cast<double>());
+  }
+}
+
+void CalibrationProblem::MoveContact(int frame, const Eigen::Vector2d& move) {
+  if (!logs_.frames[frame].contact) return;
+  auto& [arc_mm, normal_N] = contacts_[frame];
+  arc_mm = std::clamp(arc_mm + move[0], 0.0, finger_.front_length_mm);
+  normal_N = std::max(0.0, normal_N + move[1]);
 }
 
 template <class Prepare, class Visit>
@@ -247,7 +274,7 @@ bool CalibrationProblem::InParallel(const std::vector<int>& frames,
 
 void CalibrationProblem::VisitFrames(
     const std::function<void(int frame, const LinearizedFrame&)>& visit) {
-  GuessContacts(fitted_);
+  GuessContacts(fitted_, ContactGuess::From::kObjectFirst);
   const bool good = InParallel(
       fitted_,
       [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
@@ -276,7 +303,8 @@ const Linearization& CalibrationProblem::AtSolution() {
 
 // Where the measurements put contacts that have no place yet, by the finger as
 // it is now.
-void CalibrationProblem::GuessContacts(const std::vector<int>& frames) {
+void CalibrationProblem::GuessContacts(const std::vector<int>& frames,
+                                       ContactGuess::From from) {
   std::vector<int> wanted;
   for (const int i : frames) {
     if (logs_.frames[i].contact && std::isnan(contacts_[i][0])) {
@@ -293,7 +321,7 @@ void CalibrationProblem::GuessContacts(const std::vector<int>& frames) {
         [&](const tbb::blocked_range<std::size_t>& range) {
           ContactGuess& local = guesses.local();
           for (std::size_t k = range.begin(); k < range.end(); ++k) {
-            ContactGuess::Place place = local.Of(logs_.frames[wanted[k]]);
+            ContactGuess::Place place = local.Of(logs_.frames[wanted[k]], from);
             contacts_[wanted[k]] = {place.arc_mm, place.normal_N};
             if (!states_.empty()) states_[wanted[k]] = std::move(place.state);
           }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "finray/calib/calibration_log.h"
+#include "finray/calib/contact_guess.h"
 #include "finray/calib/frame_linearizer.h"
 #include "finray/calib/frame_sums.h"
 #include "finray/calib/joint_solve.h"
@@ -29,11 +30,11 @@ class CalibrationProblem {
                      int threads);
   CalibrationProblem(const CalibrationProblem&) = delete;
 
-  /// From the present values: some kJointFrames frames, evenly spread, by
-  /// JointSolve; if there are more, then all by FrameSumResidual, from where
-  /// these lead to.
+  /// From the present values, by JointSolve; if there are more than kMostJoint
+  /// frames, first of some kJoint of them, evenly spread, and from where these
+  /// lead to all by FrameSumResidual.
   SolveReport Solve();
-  static constexpr int kJointFrames = 1000;
+  static constexpr int kMostJoint = 1000, kJoint = 500;
 
   /// Where to start from: stiffness, gains and rib lengths of `start`, contacts
   /// as they are with that finger. Offsets, unless fixed, are what free frames
@@ -81,6 +82,8 @@ class CalibrationProblem {
   SolveReport SolveJointly(const std::vector<int>& frames);
   SolveReport SolveAll(const SolveReport& some);
   bool Sum(const Eigen::VectorXd& at, FrameSums* sums);
+  void MoveContacts(const Eigen::VectorXd& change);
+  void MoveContact(int frame, const Eigen::Vector2d& move);
   // Calls `visit(frame, linearised)` in order after `prepare` has worked on the
   // frames in parallel; false if that fails for one.
   template <class Prepare, class Visit>
@@ -88,7 +91,7 @@ class CalibrationProblem {
                   const Visit& visit);
   LadderState* StateOf(int frame, LadderState* scratch);
   void GuessOffsets();
-  void GuessContacts(const std::vector<int>& frames);
+  void GuessContacts(const std::vector<int>& frames, ContactGuess::From from);
 
   Finger finger_;
   Plan plan_;
@@ -102,6 +105,10 @@ class CalibrationProblem {
   // By frame; the joint solve has them by their addresses.
   std::vector<std::array<double, 2>> contacts_;
   std::vector<LadderState> states_;  // empty if there are too many
+  // By fitted frame, how its contact goes with the parameters (row-wise 2 x
+  // free), of the last Sum, which was at summed_at_.
+  Eigen::MatrixXf contact_slopes_;
+  Eigen::VectorXd summed_at_;
   std::vector<Rejected> rejected_;
   std::unique_ptr<Linearization> at_solution_;
 };

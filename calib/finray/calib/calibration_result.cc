@@ -91,7 +91,7 @@ void WarnOfForces(const ForceCheck& forces, double force_std_N,
          "record logs that cover what the finger will meet: heights and "
          "loads"});
   }
-  if (forces.fitted.frames > 0 &&
+  if (forces.fitted.frames > 0 && forces.fitted.frames_before > 0 &&
       forces.fitted.after_rms_N > forces.fitted.before_rms_N + force_std_N) {
     warnings->push_back(
         {"no_better",
@@ -182,17 +182,19 @@ void TabulateRegions(CalibrationProblem& problem, const CalibrationLogs& logs,
   for (const bool held_out : {false, true}) {
     CalibrationResult::Errors& errors =
         held_out ? result->held_out : result->fitted;
-    const auto table = [&](const std::vector<FrameEstimate>& estimates) {
+    const auto table = [&](const std::vector<FrameEstimate>& estimates,
+                           bool before) {
       return TabulateErrors(references, estimates, result->forces.after,
                             problem.finger().front_length_mm,
                             problem.plan().scene.friction_coefficient,
                             [&](std::size_t i) {
                               return logs.frames[i].held_out == held_out &&
-                                     !logs.frames[i].IsBench();
+                                     !logs.frames[i].IsBench() &&
+                                     (!before || result->forces.has_before[i]);
                             });
     };
-    errors.before = table(result->forces.before);
-    errors.after = table(result->forces.after);
+    errors.before = table(result->forces.before, true);
+    errors.after = table(result->forces.after, false);
   }
 }
 
@@ -246,9 +248,8 @@ CalibrationResult Calibrate(CalibrationProblem* problem,
   const CalibrationLogs checked = Chosen(problem->logs(), result.checked);
   const CalibrationLogs corrected =
       problem->parameters().Corrected(checked, result.finger);
-  result.forces =
-      CheckForces(problem->finger(), result.finger, problem->plan(), checked,
-                  corrected, discretization, threads);
+  result.forces = CheckForces(problem->finger(), result.finger, problem->plan(),
+                              checked, corrected, discretization, threads);
   watch.Lap("check of forces");
   TabulateRegions(*problem, corrected, discretization, threads, &result);
   watch.Lap("check of contacts");

@@ -31,7 +31,7 @@ struct CalibrationResult {
   /// frames: all, or if there are many, kMostChecked of the fitted ones and as
   /// many of those held out, evenly spread.
   std::vector<int> checked;
-  static constexpr std::size_t kMostChecked = 2000;
+  static constexpr std::size_t kMostChecked = 1000;
   ForceCheck forces;  ///< of these frames
   /// By region of the finger, from the gauges alone.
   struct Errors {

@@ -52,10 +52,12 @@ FrameTable CalibrationFrames(CalibrationProblem& problem,
     };
     table.MutableText("status_after")[i] =
         StatusName(result.forces.after[k].status);
-    set("force_before_N", per_normal * before.normal_N);
+    if (result.forces.has_before[k]) {
+      set("force_before_N", per_normal * before.normal_N);
+      set("contact_before_mm", before.arc_mm);
+    }
     set("force_after_N", per_normal * after.normal_N);
     set("force_after_std_N", per_normal * after.normal_std_N);
-    set("contact_before_mm", before.arc_mm);
     set("contact_after_mm", after.arc_mm);
     set("contact_after_std_mm", after.arc_std_mm);
   }

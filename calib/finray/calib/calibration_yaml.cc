@@ -125,7 +125,10 @@ void EmitForceError(const ForceCheck::Error& error, YAML::Emitter* yaml) {
   *yaml << YAML::Flow << YAML::BeginMap;
   Pair(yaml, "frames", error.frames);
   if (error.frames > 0) {
-    Number(yaml, "force_rms_error_before_N", error.before_rms_N);
+    if (error.frames_before > 0) {
+      Number(yaml, "force_rms_error_before_N", error.before_rms_N);
+      Pair(yaml, "frames_before", error.frames_before);
+    }
     Number(yaml, "force_rms_error_after_N", error.after_rms_N);
     Number(yaml, "force_max_error_after_N", error.after_max_N);
     Number(yaml, "force_mean_N", error.reference_mean_N);

@@ -15,6 +15,7 @@ ContactGuess::ContactGuess(const Finger& finger, const Plan& plan,
       parameters_(*parameters),
       length_mm_(finger.front_length_mm),
       force_unit_N_(ForceUnit(finger)),
+      object_std_mm_(plan.object_std_mm),
       solver_(finger, discretization),
       table_(&solver_, plan.scene.friction_coefficient,
              plan.scene.circle_radius_mm()),
@@ -25,59 +26,38 @@ ContactGuess::ContactGuess(const Finger& finger, const Plan& plan,
   values_.resize(size);
   weights_.resize(size);
   fit_.set_most_force(table_.heaviest_N());
+  fit_.set_tolerance(1e-6);
 }
 
-ContactGuess::Place ContactGuess::Of(const CalibrationFrame& frame) {
-  Place place{length_mm_ / 2, force_unit_N_, {}};
-  std::optional<Place> found;
-  if (circle_ && frame.object_mm.allFinite()) {
-    const Eigen::Map<const Eigen::Vector2d> origin(
-        parameters_.object_origin_mm(frame.log));
-    found = FromCircle(frame.object_mm + origin);
-  } else {
-    found = FromGauges(frame);
-  }
-  if (found) place = *found;
+ContactGuess::Place ContactGuess::Of(const CalibrationFrame& frame, From from) {
+  values_.setZero();
+  weights_.setZero();
+  const bool by_object = circle_ && frame.object_mm.allFinite();
+  if (by_object) AddCircle(frame);
+  if (!by_object || from == From::kAll) AddGauges(frame);
+  // The circle is met exactly: what all stiffnesses and forces have in common
+  // may not be in the data, and stays as given only from a start near a
+  // solution. Gauges of unknown gains would be met at any price.
+  Place place = FromTable(by_object || from == From::kAll);
   if (std::isfinite(frame.contact_mm)) {
     place.arc_mm = std::clamp(frame.contact_mm, 0.0, length_mm_);
   }
   const double force =
       frame.force_xy_N.allFinite() ? frame.force_xy_N.norm() : frame.force_N;
-  if (std::isfinite(force)) place.normal_N = std::max(force, 0.0);
-  return place;
-}
-
-bool ContactGuess::FindStart() {
-  table_.FindStarts(values_, weights_, &starts_);
-  return !starts_.empty();
-}
-
-// The contact at which the circle touches, its centre being there. It is met
-// exactly: what all stiffnesses and forces have in common may not be in the
-// data, and stays as given only from a start near a solution.
-std::optional<ContactGuess::Place> ContactGuess::FromCircle(
-    const Eigen::Vector2d& centre_mm) {
-  values_.setZero();
-  weights_.setZero();
-  values_.tail<2>() = centre_mm;
-  weights_.tail<2>().setOnes();
-  if (!FindStart()) return std::nullopt;
-  const ContactStart& start = starts_[0];
-  std::vector<PointContact> contact = {start.contacts[0]};
-  fit_.set_state(*start.state);
-  if (!fit_.Fit(values_, weights_, &contact)) {
-    return Place{start.contacts[0].arc_mm, start.contacts[0].normal_N,
-                 *start.state};
+  if (std::isfinite(force) && from == From::kObjectFirst) {
+    place.normal_N = std::max(force, 0.0);
   }
-  Place place{contact[0].arc_mm, contact[0].normal_N, {}};
-  fit_.SaveState(&place.state);
   return place;
 }
 
-std::optional<ContactGuess::Place> ContactGuess::FromGauges(
-    const CalibrationFrame& frame) {
-  values_.setZero();
-  weights_.setZero();
+void ContactGuess::AddCircle(const CalibrationFrame& frame) {
+  const Eigen::Map<const Eigen::Vector2d> origin(
+      parameters_.object_origin_mm(frame.log));
+  values_.tail<2>() = frame.object_mm + origin;
+  weights_.tail<2>().setConstant(1 / object_std_mm_);
+}
+
+void ContactGuess::AddGauges(const CalibrationFrame& frame) {
   for (int j = 0; j < static_cast<int>(frame.gauges_V.size()); ++j) {
     const double gain = parameters_.gains_V_per_rad[j];
     if (!std::isfinite(frame.gauges_V[j]) || gain == 0) continue;
@@ -85,9 +65,21 @@ std::optional<ContactGuess::Place> ContactGuess::FromGauges(
         (frame.gauges_V[j] - parameters_.readings.Sum(frame, j)) / gain;
     weights_[j] = std::abs(gain) / blocks_.gauge_std_V(j);
   }
-  if (!FindStart()) return std::nullopt;
-  return Place{starts_[0].contacts[0].arc_mm, starts_[0].contacts[0].normal_N,
-               *starts_[0].state};
+}
+
+ContactGuess::Place ContactGuess::FromTable(bool fit) {
+  table_.FindStarts(values_, weights_, &starts_);
+  if (starts_.empty()) return {length_mm_ / 2, force_unit_N_, {}};
+  const ContactStart& start = starts_[0];
+  std::vector<PointContact> contact = {start.contacts[0]};
+  Place place{contact[0].arc_mm, contact[0].normal_N, *start.state};
+  if (!fit) return place;
+  fit_.set_state(*start.state);
+  if (!fit_.Fit(values_, weights_, &contact)) return place;
+  place.arc_mm = contact[0].arc_mm;
+  place.normal_N = contact[0].normal_N;
+  fit_.SaveState(&place.state);
+  return place;
 }
 
 }  // namespace finray

@@ -2,7 +2,6 @@
 #define FINRAY_CALIB_CONTACT_GUESS_H_
 
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
 #include "finray/calib/calibration_log.h"
@@ -30,16 +29,19 @@ class ContactGuess {
     double arc_mm = 0, normal_N = 0;
     LadderState state;  ///< An equilibrium near it; may be empty.
   };
-  Place Of(const CalibrationFrame& frame);
+  /// Whether gauges count beside the object's place: once their gains are
+  /// known.
+  enum class From { kObjectFirst, kAll };
+  Place Of(const CalibrationFrame& frame, From from);
 
  private:
-  std::optional<Place> FromCircle(const Eigen::Vector2d& centre_mm);
-  std::optional<Place> FromGauges(const CalibrationFrame& frame);
-  bool FindStart();
+  void AddCircle(const CalibrationFrame& frame);
+  void AddGauges(const CalibrationFrame& frame);
+  Place FromTable(bool fit);
 
   const MeasurementBlocks& blocks_;
   CalibrationParameters& parameters_;
-  double length_mm_, force_unit_N_;
+  double length_mm_, force_unit_N_, object_std_mm_;
   EquilibriumSolver solver_;
   GaugeTable table_;
   ContactFit fit_;

@@ -31,9 +31,10 @@ class FrameLinearizer {
   /// Moves the contact to where it explains the frame best, the parameters
   /// being what they are: Gauss-Newton on l_c and f_c within their bounds,
   /// until a further step would lower the cost by less than kSmallDecrease.
+  /// What is left of the way LinearizedFrame::Move knows well enough.
   bool FitContact(const CalibrationFrame& frame, std::array<double, 2>* contact,
                   LadderState* state, LinearizedFrame* out);
-  static constexpr double kSmallDecrease = 1e-9;  // in units of chi2 / 2
+  static constexpr double kSmallDecrease = 1e-5;  // in units of chi2 / 2
 
  private:
   // A frame's blocks about an evaluation at `unknowns`.

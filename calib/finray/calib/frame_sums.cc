@@ -12,11 +12,12 @@ void FrameSums::SetZero(int parameters) {
   cost = 0;
 }
 
-void FrameSums::Add(const LinearizedFrame& frame) {
+void FrameSums::Add(const LinearizedFrame& frame,
+                    const LinearizedFrame::ContactMove& move) {
   const Eigen::MatrixXd c = frame.WithoutContact();
   information.noalias() += c.transpose() * c;
   gradient.noalias() += c.transpose() * frame.WeightedResiduals();
-  cost += frame.cost;
+  cost += frame.cost - move.decrease;
 }
 
 void FrameSums::AddPrior(int parameter, double x, double mean, double std) {
@@ -28,20 +29,30 @@ void FrameSums::AddPrior(int parameter, double x, double mean, double std) {
 
 FrameSumResidual::FrameSumResidual(const Eigen::VectorXd& start,
                                    const Eigen::MatrixXd& units,
+                                   const FrameSums& at_start,
                                    Evaluator evaluator)
-    : start_(start), units_(units), evaluator_(std::move(evaluator)) {
+    : start_(start),
+      units_(units),
+      evaluator_(std::move(evaluator)),
+      at_(Eigen::VectorXd::Zero(start.size())),
+      valid_(true) {
   const int n = static_cast<int>(start.size());
   set_num_residuals(n + 1);
   mutable_parameter_block_sizes()->push_back(n);
+  Compress(at_start);
 }
 
 bool FrameSumResidual::EvaluateAt(const Eigen::VectorXd& z) const {
-  if (at_.size() > 0 && at_ == z) return valid_;
+  if (at_ == z) return valid_;
   at_ = z;
   FrameSums sums;
   valid_ = evaluator_(start_ + units_ * z, &sums);
-  if (!valid_) return false;
-  const Eigen::Index n = z.size();
+  if (valid_) Compress(sums);
+  return valid_;
+}
+
+void FrameSumResidual::Compress(const FrameSums& sums) const {
+  const Eigen::Index n = start_.size();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
       units_.transpose() * sums.information * units_);
   // Along what the frames do not say there is no gradient, but rounding.
@@ -58,7 +69,6 @@ bool FrameSumResidual::EvaluateAt(const Eigen::VectorXd& z) const {
   residuals_[n] = std::sqrt(std::max(0.0, rest));
   jacobian_.setZero(n + 1, n);
   jacobian_.topRows(n) = root.asDiagonal() * eigen.eigenvectors().transpose();
-  return true;
 }
 
 bool FrameSumResidual::Evaluate(double const* const* parameters,

@@ -21,7 +21,8 @@ struct FrameSums {
   double cost = 0;
 
   void SetZero(int parameters);
-  void Add(const LinearizedFrame& frame);
+  void Add(const LinearizedFrame& frame,
+           const LinearizedFrame::ContactMove& move);
   /// (x - mean)^2 / (2 std^2) of one parameter.
   void AddPrior(int parameter, double x, double mean, double std);
 };
@@ -41,21 +42,23 @@ class FrameSumResidual : public ceres::CostFunction {
   using Evaluator =
       std::function<bool(const Eigen::VectorXd& x, FrameSums* sums)>;
 
+  /// `at_start`: the sums there.
   FrameSumResidual(const Eigen::VectorXd& start, const Eigen::MatrixXd& units,
-                   Evaluator evaluator);
+                   const FrameSums& at_start, Evaluator evaluator);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
   bool EvaluateAt(const Eigen::VectorXd& z) const;
+  void Compress(const FrameSums& sums) const;
 
   Eigen::VectorXd start_;
   Eigen::MatrixXd units_;  // T
   Evaluator evaluator_;
   // Ceres asks for values and derivatives of a point one after the other.
   mutable Eigen::VectorXd at_;
-  mutable bool valid_ = false;
+  mutable bool valid_;
   mutable Eigen::VectorXd residuals_;
   mutable Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>
       jacobian_;

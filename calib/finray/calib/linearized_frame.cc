@@ -30,6 +30,15 @@ Eigen::MatrixXd EliminateContact(
   return c - e * (PseudoInverse(information) * (e.transpose() * c));
 }
 
+LinearizedFrame::ContactMove LinearizedFrame::Move() const {
+  const Eigen::Matrix2d inverse =
+      PseudoInverse(by_contact.transpose() * by_contact);
+  const Eigen::Vector2d pull = by_contact.transpose() * WeightedResiduals();
+  const Eigen::Vector2d now = -inverse * pull;
+  return {now, -inverse * (by_contact.transpose() * by_parameter),
+          -0.5 * pull.dot(now)};
+}
+
 Eigen::MatrixXd LinearizedFrame::WithoutContact() const {
   return EliminateContact(by_parameter, by_contact);
 }

@@ -29,6 +29,14 @@ struct LinearizedFrame {
   Eigen::VectorXd WeightedResiduals() const {
     return weights.cwiseProduct(residuals);
   }
+  /// Where the contact should go when the parameters go by dx: A + B dx of
+  /// (A | B) = -(E'E)^-1 E'(r | C).
+  struct ContactMove {
+    Eigen::Vector2d now;
+    Eigen::Matrix<double, 2, Eigen::Dynamic> by_parameter;
+    double decrease;  ///< of the cost, by the move A
+  };
+  ContactMove Move() const;
   /// Rows with the contact eliminated, C - E (E'E)^-1 E'C: what they say of the
   /// parameters when l_c and f_c may be anything. Their product with themselves
   /// is the frame's information.
