@@ -93,8 +93,9 @@ int Run() {
     DumpConfig(finger, plan.scene, discretization);
     return kGood;
   }
-  const CalibrationLogs logs = ReadCalibrationLogs(paths, finger, plan);
-  CalibrationProblem problem(finger, plan, logs, discretization, FLAGS_threads);
+  CalibrationProblem problem(finger, plan,
+                             ReadCalibrationLogs(paths, finger, plan),
+                             discretization, FLAGS_threads);
   const CalibrationResult result = Calibrate(
       &problem, discretization, FLAGS_threads, FLAGS_leave_one_log_out);
 

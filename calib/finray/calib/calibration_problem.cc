@@ -122,15 +122,24 @@ std::vector<int> CalibrationProblem::SpreadFrames(std::size_t most) const {
 
 LadderState* CalibrationProblem::StateOf(int frame, LadderState* scratch) {
   if (!states_.empty()) return &states_[frame];
-  scratch->q.resize(0);
+  const auto [arc_mm, normal_N] = contacts_[frame];
+  if (std::isnan(arc_mm)) {
+    scratch->q.resize(0);
+  } else {
+    *scratch = guess_->table().StateNear(arc_mm, normal_N);
+  }
   return scratch;
 }
 
 SolveReport CalibrationProblem::Solve() {
   at_solution_.reset();
-  const bool all = fitted_.size() <= kMostJoint;
-  const SolveReport some = SolveJointly(all ? fitted_ : SpreadFrames(kJoint));
-  return all ? some : SolveAll(some);
+  if (fitted_.size() <= kMostJoint) return SolveJointly(fitted_);
+  SolveReport report = SolveJointly(SpreadFrames(kJoint));
+  // Then one step or two are left for all of them.
+  if (fitted_.size() > 4 * kSummed) {
+    report = SolveSummed(SpreadFrames(kSummed), report);
+  }
+  return SolveSummed(fitted_, report);
 }
 
 SolveReport CalibrationProblem::SolveJointly(const std::vector<int>& frames) {
@@ -149,12 +158,13 @@ SolveReport CalibrationProblem::SolveJointly(const std::vector<int>& frames) {
       .Solve();
 }
 
-SolveReport CalibrationProblem::SolveAll(const SolveReport& some) {
-  GuessContacts(fitted_, ContactGuess::From::kAll);
+SolveReport CalibrationProblem::SolveSummed(const std::vector<int>& frames,
+                                            const SolveReport& before) {
+  GuessContacts(frames, ContactGuess::From::kAll);
   const Eigen::VectorXd start = Values();
   summed_at_.resize(0);
   FrameSums sums;
-  if (!Sum(start, &sums)) {
+  if (!Sum(frames, start, &sums)) {
     throw std::runtime_error("the model cannot be evaluated at the start");
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(sums.information);
@@ -168,8 +178,8 @@ SolveReport CalibrationProblem::SolveAll(const SolveReport& some) {
   Eigen::VectorXd z = Eigen::VectorXd::Zero(start.size());
   problem.AddResidualBlock(
       new FrameSumResidual(start, units, sums,
-                           [this](const Eigen::VectorXd& x, FrameSums* at) {
-                             return Sum(x, at);
+                           [&](const Eigen::VectorXd& x, FrameSums* at) {
+                             return Sum(frames, x, at);
                            }),
       nullptr, z.data());
   ceres::Solver::Options options;
@@ -178,38 +188,45 @@ SolveReport CalibrationProblem::SolveAll(const SolveReport& some) {
   options.initial_trust_region_radius = 1e10;
   options.max_trust_region_radius = 1e16;
   // z counts in standard deviations.
-  options.gradient_tolerance = 1e-3;
+  options.gradient_tolerance = 1e-2;
   options.function_tolerance = 0;
   options.parameter_tolerance = 0;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   // The contacts are those of the last point that was tried.
   const Eigen::VectorXd end = start + units * z;
-  if (end != Values()) Sum(end, &sums);
-  SolveReport report = some;
+  if (end != summed_at_) Sum(frames, end, &sums);
+  at_solution_ = std::move(summed_);
+  contact_slopes_.resize(0, 0);
+  SolveReport report = before;
   report.converged =
-      some.converged && summary.termination_type == ceres::CONVERGENCE;
+      before.converged && summary.termination_type == ceres::CONVERGENCE;
   report.iterations += static_cast<int>(summary.iterations.size()) - 1;
   report.initial_cost = summary.initial_cost;
   report.final_cost = summary.final_cost;
-  if (some.converged) report.message = summary.message;
+  if (before.converged) report.message = summary.message;
   return report;
 }
 
-bool CalibrationProblem::Sum(const Eigen::VectorXd& at, FrameSums* sums) {
+bool CalibrationProblem::Sum(const std::vector<int>& frames,
+                             const Eigen::VectorXd& at, FrameSums* sums) {
   SetValues(at);
   const auto n = static_cast<int>(at.size());
-  if (summed_at_.size() > 0) MoveContacts(at - summed_at_);
+  if (summed_at_.size() > 0) MoveContacts(frames, at - summed_at_);
   summed_at_ = at;
-  contact_slopes_.resize(2 * n, static_cast<Eigen::Index>(fitted_.size()));
+  contact_slopes_.resize(2 * n, static_cast<Eigen::Index>(frames.size()));
+  summed_.reset();
+  if (frames.size() == fitted_.size()) {
+    summed_ = std::make_unique<Linearization>(n, frames.size());
+  }
   sums->SetZero(n);
   for (int k = 0; k < n; ++k) {
     const CalibrationParameter& p = parameters_.all()[parameters_.free()[k]];
     if (p.prior_std) sums->AddPrior(k, at[k], p.initial, *p.prior_std);
   }
   Eigen::Index column = 0;
-  return InParallel(
-      fitted_,
+  const bool good = InParallel(
+      frames,
       [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
         LadderState scratch;
         return linearizer->FitContact(logs_.frames[i], &contacts_[i],
@@ -218,20 +235,24 @@ bool CalibrationProblem::Sum(const Eigen::VectorXd& at, FrameSums* sums) {
       [&](int i, const LinearizedFrame& frame) {
         const LinearizedFrame::ContactMove move = frame.Move();
         sums->Add(frame, move);
+        if (summed_) summed_->Add(i, logs_.frames[i].log, frame);
         Eigen::Map<Eigen::Matrix2Xf>(contact_slopes_.col(column++).data(), 2,
                                      n) = move.by_parameter.cast<float>();
         MoveContact(i, move.now);
       });
+  if (summed_) summed_->Finish();
+  return good;
 }
 
 // The contacts follow the parameters, to first order.
-void CalibrationProblem::MoveContacts(const Eigen::VectorXd& change) {
+void CalibrationProblem::MoveContacts(const std::vector<int>& frames,
+                                      const Eigen::VectorXd& change) {
   const Eigen::VectorXf move = change.cast<float>();
-  for (std::size_t k = 0; k < fitted_.size(); ++k) {
+  for (std::size_t k = 0; k < frames.size(); ++k) {
     const Eigen::Map<const Eigen::Matrix2Xf> slopes(
         contact_slopes_.col(static_cast<Eigen::Index>(k)).data(), 2,
         move.size());
-    MoveContact(fitted_[k], (slopes * move).cast<double>());
+    MoveContact(frames[k], (slopes * move).cast<double>());
   }
 }
 
@@ -312,9 +333,10 @@ void CalibrationProblem::GuessContacts(const std::vector<int>& frames,
     }
   }
   if (wanted.empty()) return;
-  const ContactGuess guess(parameters_.Apply(finger_), plan_, discretization_,
-                           &blocks_, &parameters_);
-  tbb::enumerable_thread_specific<ContactGuess> guesses(guess);
+  auto guess = std::make_unique<const ContactGuess>(parameters_.Apply(finger_),
+                                                    plan_, discretization_,
+                                                    &blocks_, &parameters_);
+  tbb::enumerable_thread_specific<ContactGuess> guesses(*guess);
   tbb::task_arena(threads_).execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, wanted.size(), 16),
@@ -327,6 +349,7 @@ void CalibrationProblem::GuessContacts(const std::vector<int>& frames,
           }
         });
   });
+  if (states_.empty()) guess_ = std::move(guess);
 }
 
 }  // namespace finray

@@ -32,9 +32,9 @@ class CalibrationProblem {
 
   /// From the present values, by JointSolve; if there are more than kMostJoint
   /// frames, first of some kJoint of them, evenly spread, and from where these
-  /// lead to all by FrameSumResidual.
+  /// lead to by FrameSumResidual, of kSummed and of all.
   SolveReport Solve();
-  static constexpr int kMostJoint = 1000, kJoint = 500;
+  static constexpr std::size_t kMostJoint = 1000, kJoint = 500, kSummed = 20000;
 
   /// Where to start from: stiffness, gains and rib lengths of `start`, contacts
   /// as they are with that finger. Offsets, unless fixed, are what free frames
@@ -80,9 +80,12 @@ class CalibrationProblem {
  private:
   std::vector<int> SpreadFrames(std::size_t most) const;
   SolveReport SolveJointly(const std::vector<int>& frames);
-  SolveReport SolveAll(const SolveReport& some);
-  bool Sum(const Eigen::VectorXd& at, FrameSums* sums);
-  void MoveContacts(const Eigen::VectorXd& change);
+  SolveReport SolveSummed(const std::vector<int>& frames,
+                          const SolveReport& before);
+  bool Sum(const std::vector<int>& frames, const Eigen::VectorXd& at,
+           FrameSums* sums);
+  void MoveContacts(const std::vector<int>& frames,
+                    const Eigen::VectorXd& change);
   void MoveContact(int frame, const Eigen::Vector2d& move);
   // Calls `visit(frame, linearised)` in order after `prepare` has worked on the
   // frames in parallel; false if that fails for one.
@@ -104,11 +107,13 @@ class CalibrationProblem {
   std::vector<int> fitted_;   // indices of frames
   // By frame; the joint solve has them by their addresses.
   std::vector<std::array<double, 2>> contacts_;
-  std::vector<LadderState> states_;  // empty if there are too many
-  // By fitted frame, how its contact goes with the parameters (row-wise 2 x
-  // free), of the last Sum, which was at summed_at_.
+  std::vector<LadderState> states_;            // empty if there are too many
+  std::unique_ptr<const ContactGuess> guess_;  // then, for what is near
+  // Of the last Sum: by its frames, how contacts go with the parameters (2 x
+  // free); where it was; and what it is in full, if over all frames.
   Eigen::MatrixXf contact_slopes_;
   Eigen::VectorXd summed_at_;
+  std::unique_ptr<Linearization> summed_;
   std::vector<Rejected> rejected_;
   std::unique_ptr<Linearization> at_solution_;
 };

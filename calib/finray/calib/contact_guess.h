@@ -34,6 +34,8 @@ class ContactGuess {
   enum class From { kObjectFirst, kAll };
   Place Of(const CalibrationFrame& frame, From from);
 
+  const GaugeTable& table() const { return table_; }
+
  private:
   void AddCircle(const CalibrationFrame& frame);
   void AddGauges(const CalibrationFrame& frame);

@@ -78,8 +78,6 @@ ResidualCorrelation AnalyzeResidualCorrelation(CalibrationProblem* problem,
 
   using Key = std::tuple<int, int, int, int>;  // of Series
   std::map<Key, std::vector<double>> series;
-  std::vector<std::vector<std::vector<double>>> influence(
-      n, std::vector<std::vector<double>>(logs));
   const Eigen::MatrixXd covariance =
       BoundedCovariance(found.information + found.prior);
   std::map<std::pair<int, int>, int> components;  // of a frame
@@ -92,14 +90,6 @@ ResidualCorrelation AnalyzeResidualCorrelation(CalibrationProblem* problem,
     series[{frames[row.frame].log, family, row.gauge, component}].push_back(
         at.weighted_residuals[i]);
   }
-  const Eigen::MatrixXd by_pull = covariance * found.unit.asDiagonal();
-  for (std::size_t k = 0; k < at.frames.size(); ++k) {
-    const Eigen::VectorXd psi =
-        by_pull * at.pulls.col(static_cast<Eigen::Index>(k));
-    const int log = frames[at.frames[k]].log;
-    for (int i = 0; i < n; ++i) influence[i][log].push_back(psi[i]);
-  }
-
   double least = 1;
   for (const auto& [key, values] : series) {
     if (values.size() < kLeastRows) continue;
@@ -114,14 +104,21 @@ ResidualCorrelation AnalyzeResidualCorrelation(CalibrationProblem* problem,
       std::min(1.0, least * static_cast<double>(result.series.size()));
   if (!result.correlated()) return result;
 
+  const Eigen::MatrixXd by_pull = covariance * found.unit.asDiagonal();
   const Eigen::MatrixXd of_data = covariance * found.information * covariance;
   for (int i = 0; i < n; ++i) {
-    const IntegratedTime time = IntegrateTime(influence[i]);
+    std::vector<std::vector<double>> influence(logs);  // psi_t,i
+    const Eigen::RowVectorXd all = by_pull.row(i) * at.pulls;
+    for (std::size_t k = 0; k < at.frames.size(); ++k) {
+      influence[frames[at.frames[k]].log].push_back(
+          all[static_cast<Eigen::Index>(k)]);
+    }
+    const IntegratedTime time = IntegrateTime(influence);
     result.tau[i] = time.tau;
     const double share = of_data(i, i) / covariance(i, i);
     if (!(share > 1e-6)) continue;
     const double v =
-        std::max(1.0, time.tau * Gamma(influence[i], 0) / of_data(i, i));
+        std::max(1.0, time.tau * Gamma(influence, 0) / of_data(i, i));
     result.enlargement[i] = std::sqrt(1 + (v - 1) * share);
   }
   return result;
