@@ -42,9 +42,10 @@ void PrintSummary(finray::CalibrationProblem& problem,
                          : free);
   }
   std::printf("%s\n", InFolder("finger.yaml").c_str());
-  std::printf("solver         %s after %d iterations\n",
-              result.solve.converged ? "converged" : "did not converge",
-              result.solve.iterations);
+  std::printf(
+      "solver         %s after %d iterations\n",
+      result.solution.solve.converged ? "converged" : "did not converge",
+      result.solution.solve.iterations);
   std::printf("frames         %d contact, %d free, %d held out", contact, free,
               held_out);
   if (bench > 0) std::printf(", %d on the bench", bench);
@@ -127,7 +128,7 @@ int Run() {
     }
   }
   PrintSummary(problem, result);
-  if (!result.solve.converged) return kSolveFailed;
+  if (!result.solution.solve.converged) return kSolveFailed;
   return result.AllIdentified() ? kGood : kGateFailed;
 }
 

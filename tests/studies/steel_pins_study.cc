@@ -60,7 +60,7 @@ void Run(const Case& which, const Finger& finger, const std::string& log) {
                              ReadCalibrationLogs({log}, finger, plan), {}, 2);
   const CalibrationResult result = Calibrate(&problem, {}, 2);
   std::printf("\n%s%s\n chi2/dof", which.name,
-              result.solve.converged ? "" : " (not converged)");
+              result.solution.solve.converged ? "" : " (not converged)");
   for (int i = 0; i < kResidualFamilies; ++i) {
     const auto& noise = result.identifiability.noise[i];
     if (noise.residuals == 0) continue;

@@ -46,14 +46,15 @@ CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
   for (std::size_t i = 0; i < logs_.frames.size(); ++i) {
     const CalibrationFrame& frame = logs_.frames[i];
     if (!frame.held_out && blocks_.HasEnough(frame)) {
-      fitted_.push_back(static_cast<int>(i));
+      candidates_.push_back(static_cast<int>(i));
     }
   }
-  if (fitted_.empty()) {
+  if (candidates_.empty()) {
     throw InputError("logs: no frame has anything to fit");
   }
+  fitted_ = candidates_;
   contacts_.assign(logs_.frames.size(), {kNaN, kNaN});
-  if (fitted_.size() <= kMostStates) states_.resize(logs_.frames.size());
+  if (candidates_.size() <= kMostStates) states_.resize(logs_.frames.size());
   StartFrom(finger);
 }
 
@@ -89,13 +90,25 @@ void CalibrationProblem::SetValues(const Eigen::VectorXd& values) {
   at_solution_.reset();
 }
 
-void CalibrationProblem::Reject(int frame, const std::string& reason) {
-  const auto place = std::lower_bound(fitted_.begin(), fitted_.end(), frame);
-  if (place == fitted_.end() || *place != frame) return;
-  fitted_.erase(place);
-  rejected_.push_back({frame, reason});
-  contacts_[frame] = {kNaN, kNaN};
+void CalibrationProblem::SetRejected(std::map<int, std::string> reasons) {
+  rejected_ = std::move(reasons);
+  fitted_.clear();
+  for (const int i : candidates_) {
+    if (rejected_.count(i) == 0) fitted_.push_back(i);
+  }
+  for (const auto& [frame, reason] : rejected_) contacts_[frame] = {kNaN, kNaN};
   at_solution_.reset();
+}
+
+CalibrationProblem::Point CalibrationProblem::Save() const {
+  return {Values(), contacts_};
+}
+
+void CalibrationProblem::Restore(const Point& point) {
+  SetValues(point.values);
+  contacts_ = point.contacts;
+  // States are of whatever came last.
+  for (LadderState& state : states_) state.q.resize(0);
 }
 
 // Evenly from every log, of contact frames, free ones and the bench apart, so
@@ -142,7 +155,24 @@ SolveReport CalibrationProblem::Solve() {
   return SolveSummed(fitted_, report);
 }
 
-SolveReport CalibrationProblem::SolveJointly(const std::vector<int>& frames) {
+std::vector<int> CalibrationProblem::SomeFrames() const {
+  return SpreadFrames(kJoint);
+}
+
+SolveReport CalibrationProblem::SolveSome(int most_iterations) {
+  at_solution_.reset();
+  return SolveJointly(SomeFrames(), most_iterations);
+}
+
+Eigen::MatrixXd CalibrationProblem::InformationOfSome() {
+  FrameSums sums;
+  summed_at_.resize(0);
+  Sum(SpreadFrames(kJoint), Values(), &sums);
+  return sums.information;
+}
+
+SolveReport CalibrationProblem::SolveJointly(const std::vector<int>& frames,
+                                             int most_iterations) {
   GuessContacts(frames, ContactGuess::From::kObjectFirst);
   std::vector<LadderState> states;  // of these frames, if not kept
   if (states_.empty()) states.resize(frames.size());
@@ -155,7 +185,7 @@ SolveReport CalibrationProblem::SolveJointly(const std::vector<int>& frames) {
   }
   return JointSolve(finger_, discretization_, plan_, blocks_, &parameters_,
                     joint, threads_)
-      .Solve();
+      .Solve(most_iterations);
 }
 
 SolveReport CalibrationProblem::SolveSummed(const std::vector<int>& frames,
@@ -307,6 +337,15 @@ void CalibrationProblem::VisitFrames(
   if (!good) {
     throw std::runtime_error("the model cannot be evaluated at the solution");
   }
+}
+
+bool CalibrationProblem::LinearizeFrame(int frame, LinearizedFrame* out) {
+  GuessContacts({frame}, ContactGuess::From::kAll);
+  FrameLinearizer linearizer(solver_, plan_, &blocks_, &parameters_);
+  LadderState scratch;
+  std::array<double, 2> contact = contacts_[frame];
+  LadderState state = *StateOf(frame, &scratch);
+  return linearizer.FitContact(logs_.frames[frame], &contact, &state, out);
 }
 
 const Linearization& CalibrationProblem::AtSolution() {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,13 +37,25 @@ class CalibrationProblem {
   SolveReport Solve();
   static constexpr std::size_t kMostJoint = 1000, kJoint = 500, kSummed = 20000;
 
+  /// Some kJoint frames, evenly spread; the joint solve of these alone, and
+  /// what they and the priors say of the free parameters.
+  std::vector<int> SomeFrames() const;
+  SolveReport SolveSome(int most_iterations = kMostIterations);
+  Eigen::MatrixXd InformationOfSome();
+  static constexpr int kMostIterations = 200;
+
+  /// Values and contacts, to come back to.
+  struct Point {
+    Eigen::VectorXd values;
+    std::vector<std::array<double, 2>> contacts;
+  };
+  Point Save() const;
+  void Restore(const Point& point);
+
   /// Where to start from: stiffness, gains and rib lengths of `start`, contacts
   /// as they are with that finger. Offsets, unless fixed, are what free frames
   /// show. Priors stay.
   void StartFrom(const Finger& start);
-  /// The present values of the free parameters.
-  Eigen::VectorXd Values() const;
-  void SetValues(const Eigen::VectorXd& values);
 
   /// Where offsets or origins are per log, gives those logs that are held out
   /// as a whole the ones of the last log that was fitted, and then the offsets
@@ -58,13 +71,13 @@ class CalibrationProblem {
   /// through this class.
   const Linearization& AtSolution();
 
-  /// Leaves a frame out from now on.
-  void Reject(int frame, const std::string& reason);
-  struct Rejected {
-    int frame;
-    std::string reason;
-  };
-  const std::vector<Rejected>& rejected() const { return rejected_; }
+  /// One frame, fitted or not, its contact where it explains it best. False if
+  /// the model cannot be evaluated.
+  bool LinearizeFrame(int frame, LinearizedFrame* out);
+
+  /// Frames to be left out, and why; others that were come back.
+  void SetRejected(std::map<int, std::string> reasons);
+  const std::map<int, std::string>& rejected() const { return rejected_; }
 
   /// l_c and f_c of a frame; NaN for those without, and those not fitted.
   std::array<double, 2> contact(int frame) const { return contacts_[frame]; }
@@ -78,8 +91,12 @@ class CalibrationProblem {
   double gauge_std_V(int gauge) const { return blocks_.gauge_std_V(gauge); }
 
  private:
+  // Of the free parameters.
+  Eigen::VectorXd Values() const;
+  void SetValues(const Eigen::VectorXd& values);
   std::vector<int> SpreadFrames(std::size_t most) const;
-  SolveReport SolveJointly(const std::vector<int>& frames);
+  SolveReport SolveJointly(const std::vector<int>& frames,
+                           int most_iterations = kMostIterations);
   SolveReport SolveSummed(const std::vector<int>& frames,
                           const SolveReport& before);
   bool Sum(const std::vector<int>& frames, const Eigen::VectorXd& at,
@@ -104,7 +121,8 @@ class CalibrationProblem {
   int threads_;
   MeasurementBlocks blocks_;
   EquilibriumSolver solver_;  // copied for each thread
-  std::vector<int> fitted_;   // indices of frames
+  // Indices of frames that could be fitted, and those that are.
+  std::vector<int> candidates_, fitted_;
   // By frame; the joint solve has them by their addresses.
   std::vector<std::array<double, 2>> contacts_;
   std::vector<LadderState> states_;            // empty if there are too many
@@ -114,7 +132,7 @@ class CalibrationProblem {
   Eigen::MatrixXf contact_slopes_;
   Eigen::VectorXd summed_at_;
   std::unique_ptr<Linearization> summed_;
-  std::vector<Rejected> rejected_;
+  std::map<int, std::string> rejected_;
   std::unique_ptr<Linearization> at_solution_;
 };
 

@@ -226,7 +226,7 @@ CalibrationResult Calibrate(CalibrationProblem* problem,
                             bool leave_logs_out) {
   CalibrationResult result;
   Stopwatch watch;
-  result.solve = problem->Solve();
+  result.solution = SolveRobustly(problem);
   watch.Lap("solve");
   problem->ZeroHeldOutLogs();
   result.identifiability = AnalyzeIdentifiability(problem);
@@ -255,9 +255,10 @@ CalibrationResult Calibrate(CalibrationProblem* problem,
   watch.Lap("check of contacts");
   result.bench =
       TestBenchLinearity(problem->finger(), problem->plan(), problem->logs());
-  if (!result.solve.converged) {
+  if (!result.solution.solve.converged) {
     result.warnings.push_back(
-        {"not_converged", "the solver stopped early: " + result.solve.message,
+        {"not_converged",
+         "the solver stopped early: " + result.solution.solve.message,
          "give priors, or start from a finger closer to the truth"});
   }
   WarnOfWeakness(*problem, result.identifiability, &result.warnings);

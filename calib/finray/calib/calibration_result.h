@@ -12,6 +12,7 @@
 #include "finray/calib/leave_one_log_out.h"
 #include "finray/calib/next_frames.h"
 #include "finray/calib/residual_correlation.h"
+#include "finray/calib/robust_solve.h"
 #include "finray/io/frame_table.h"
 
 namespace finray {
@@ -25,7 +26,7 @@ struct CalibrationWarning {
 
 /// All that a calibration yields.
 struct CalibrationResult {
-  SolveReport solve;
+  RobustSolution solution;
   Identifiability identifiability;
   /// The frames that were held against the references, indices into the logs'
   /// frames: all, or if there are many, kMostChecked of the fitted ones and as

@@ -44,7 +44,8 @@ ContactGuess::Place ContactGuess::Of(const CalibrationFrame& frame, From from) {
   }
   const double force =
       frame.force_xy_N.allFinite() ? frame.force_xy_N.norm() : frame.force_N;
-  if (std::isfinite(force) && from == From::kObjectFirst) {
+  // A wild one may be more than the finger can carry.
+  if (from == From::kObjectFirst && force <= table_.heaviest_N()) {
     place.normal_N = std::max(force, 0.0);
   }
   return place;

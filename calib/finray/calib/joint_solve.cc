@@ -85,10 +85,10 @@ void JointSolve::FixWhatIsNotFree() {
   }
 }
 
-SolveReport JointSolve::Solve() {
+SolveReport JointSolve::Solve(int most_iterations) {
   ceres::Solver::Options options;
   options.logging_type = ceres::SILENT;
-  options.max_num_iterations = 200;
+  options.max_num_iterations = most_iterations;
   // The residuals are whitened, and the weak directions of a calibration are
   // what it is about: a small radius would creep along them.
   options.initial_trust_region_radius = 1e10;

@@ -43,7 +43,7 @@ class JointSolve {
              CalibrationParameters* parameters,
              const std::vector<Frame>& frames, int threads);
 
-  SolveReport Solve();
+  SolveReport Solve(int most_iterations);
 
  private:
   void AddFrame(const Frame& frame, const MeasurementBlocks& blocks);
