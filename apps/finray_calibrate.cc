@@ -1,5 +1,6 @@
 // Calibrates a finger from logs with a reference: force, object place, or both.
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -35,20 +36,29 @@ void PrintSummary(finray::CalibrationProblem& problem,
     ++counts[static_cast<int>(status)];
   }
   int contact = 0, free = 0, held_out = 0, bench = 0;
-  for (const CalibrationFrame& frame : problem.logs().frames) {
+  for (std::size_t i = 0; i < problem.logs().frames.size(); ++i) {
+    if (problem.rejected().count(static_cast<int>(i)) > 0) continue;
+    const CalibrationFrame& frame = problem.logs().frames[i];
     ++(frame.held_out    ? held_out
        : frame.IsBench() ? bench
        : frame.contact   ? contact
                          : free);
   }
   std::printf("%s\n", InFolder("finger.yaml").c_str());
+  const RobustSolution& solution = result.solution;
+  const auto agree =
+      std::count_if(solution.starts.begin(), solution.starts.end(),
+                    [](const StartReport& start) { return start.agrees; });
   std::printf(
-      "solver         %s after %d iterations\n",
-      result.solution.solve.converged ? "converged" : "did not converge",
-      result.solution.solve.iterations);
+      "solver         %s after %d iterations, %ld of %zu starts agree\n",
+      solution.solve.converged ? "converged" : "did not converge",
+      solution.solve.iterations, agree, solution.starts.size());
   std::printf("frames         %d contact, %d free, %d held out", contact, free,
               held_out);
   if (bench > 0) std::printf(", %d on the bench", bench);
+  if (!problem.rejected().empty()) {
+    std::printf(", %zu rejected", problem.rejected().size());
+  }
   std::printf("\n");
   std::printf(
       "parameters     %d estimated, %d prior_dominated, %d unidentifiable\n",

@@ -54,6 +54,51 @@ void WarnOfNoise(const Identifiability& found,
   }
 }
 
+void WarnOfStarts(const RobustSolution& solution,
+                  std::vector<CalibrationWarning>* warnings) {
+  const auto& starts = solution.starts;
+  const auto agree = std::count_if(starts.begin(), starts.end(),
+                                   [](const auto& s) { return s.agrees; });
+  if (!starts[0].agrees) {
+    warnings->push_back(
+        {"given_start_misleads",
+         "from the given finger the solver comes to another, worse solution" +
+             Text(", %.3g std away; the result is from another start",
+                  starts[0].distance_std),
+         "compare the result with what you know of the finger"});
+  } else if (2 * agree <= static_cast<long>(starts.size())) {
+    warnings->push_back(
+        {"starts_disagree",
+         Text("only %.0f of %.0f starts come to this solution",
+              static_cast<double>(agree), static_cast<double>(starts.size())),
+         "give priors, or start from a finger closer to the truth"});
+  }
+}
+
+void WarnOfOutliers(const CalibrationProblem& problem,
+                    const RobustSolution& solution,
+                    std::vector<CalibrationWarning>* warnings) {
+  if (solution.outliers_too_many) {
+    warnings->push_back(
+        {"too_many_outliers",
+         "more than a quarter of the frames are not explained within their "
+         "noise; none was rejected",
+         "check columns, units, the finger's geometry and the std in the "
+         "plan's measurements"});
+  }
+  if (problem.rejected().empty()) return;
+  const auto& [index, reason] = *problem.rejected().begin();
+  const CalibrationFrame& frame = problem.logs().frames[index];
+  warnings->push_back(
+      {"frames_rejected",
+       Text("%.0f frames were rejected, the first one ",
+            static_cast<double>(problem.rejected().size())) +
+           problem.logs().names[frame.log] + " row " +
+           std::to_string(frame.row + 1) + ": " + reason,
+       "look at rejected_frames in calibration.yaml for what went wrong "
+       "there"});
+}
+
 void WarnOfWeakness(CalibrationProblem& problem, const Identifiability& found,
                     std::vector<CalibrationWarning>* warnings) {
   std::string unidentifiable;
@@ -147,13 +192,16 @@ void WarnOfDisagreement(CalibrationProblem& problem,
        "take the spread in leave_one_log_out for the std until then"});
 }
 
-std::vector<int> FramesToCheck(const CalibrationLogs& logs) {
+std::vector<int> FramesToCheck(const CalibrationProblem& problem) {
+  const CalibrationLogs& logs = problem.logs();
   std::vector<int> chosen;
   for (const bool held_out : {false, true}) {
     std::vector<int> frames;
     for (std::size_t i = 0; i < logs.frames.size(); ++i) {
-      if (logs.frames[i].held_out == held_out) {
-        frames.push_back(static_cast<int>(i));
+      const int index = static_cast<int>(i);
+      if (logs.frames[i].held_out == held_out &&
+          problem.rejected().count(index) == 0) {
+        frames.push_back(index);
       }
     }
     const std::size_t count =
@@ -244,7 +292,7 @@ CalibrationResult Calibrate(CalibrationProblem* problem,
   watch.Lap("leave one log out");
   result.finger = problem->parameters().Apply(problem->finger());
   KeepCovariance(problem->parameters(), result.identifiability, &result.finger);
-  result.checked = FramesToCheck(problem->logs());
+  result.checked = FramesToCheck(*problem);
   const CalibrationLogs checked = Chosen(problem->logs(), result.checked);
   const CalibrationLogs corrected =
       problem->parameters().Corrected(checked, result.finger);
@@ -261,6 +309,8 @@ CalibrationResult Calibrate(CalibrationProblem* problem,
          "the solver stopped early: " + result.solution.solve.message,
          "give priors, or start from a finger closer to the truth"});
   }
+  WarnOfStarts(result.solution, &result.warnings);
+  WarnOfOutliers(*problem, result.solution, &result.warnings);
   WarnOfWeakness(*problem, result.identifiability, &result.warnings);
   WarnOfNoise(result.identifiability, &result.warnings);
   WarnOfCorrelation(*problem, result.residual_correlation, &result.warnings);

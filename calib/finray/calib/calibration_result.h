@@ -70,7 +70,8 @@ std::string CalibrationYaml(CalibrationProblem& problem,
 
 /// One row a frame: log, time, kind (contact, free), held_out, reference force,
 /// force and place from the gauges before and after, l_c and f_c of the fit,
-/// and gauge residuals in std (empty where held out).
+/// gauge residuals in std (empty where held out or rejected), and why a
+/// frame was rejected.
 FrameTable CalibrationFrames(CalibrationProblem& problem,
                              const CalibrationResult& result);
 

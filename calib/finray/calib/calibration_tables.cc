@@ -24,6 +24,7 @@ FrameTable CalibrationFrames(CalibrationProblem& problem,
     table.MutableNumbers(IndexedColumn("gauge_", j, "_residual_std"));
   }
   table.MutableText("status_after");
+  table.MutableText("rejected");
   const double per_normal =
       std::hypot(1, problem.plan().scene.friction_coefficient);
   for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -60,6 +61,9 @@ FrameTable CalibrationFrames(CalibrationProblem& problem,
     set("force_after_std_N", per_normal * after.normal_std_N);
     set("contact_after_mm", after.arc_mm);
     set("contact_after_std_mm", after.arc_std_mm);
+  }
+  for (const auto& [frame, reason] : problem.rejected()) {
+    table.MutableText("rejected")[frame] = reason;
   }
   const Linearization& at = problem.AtSolution();
   for (std::size_t row = 0; row < at.rows.size(); ++row) {
