@@ -87,8 +87,15 @@ void PrintSummary(finray::CalibrationProblem& problem,
               result.next.empty()
                   ? "no 20 frames would shrink the worst direction by a tenth"
                   : result.next[0].words.c_str());
+  constexpr int kMostWeak = 3;  // all are in calibration.yaml
+  int weak = 0;
   for (const CalibrationWarning& warning : result.warnings) {
+    if (warning.code == "weak_direction" && ++weak > kMostWeak) continue;
     LOG(WARNING) << warning.text << "; " << warning.remedy;
+  }
+  if (weak > kMostWeak) {
+    LOG(WARNING) << weak - kMostWeak
+                 << " more weak directions are in calibration.yaml";
   }
 }
 

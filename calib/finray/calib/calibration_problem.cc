@@ -43,15 +43,24 @@ CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
   if (parameters_.free().empty()) {
     throw InputError("plan: no parameter is free, so there is nothing to do");
   }
+  // Without any reference, contacts can be anywhere that suits the gauges, and
+  // the solver finds nothing but that.
+  const bool reference = std::any_of(
+      logs_.frames.begin(), logs_.frames.end(), [&](const auto& frame) {
+        return frame.contact && !frame.held_out && blocks_.HasReference(frame);
+      });
+  bool any = false;
   for (std::size_t i = 0; i < logs_.frames.size(); ++i) {
     const CalibrationFrame& frame = logs_.frames[i];
-    if (!frame.held_out && blocks_.HasEnough(frame)) {
-      candidates_.push_back(static_cast<int>(i));
+    if (frame.held_out || !blocks_.HasEnough(frame)) continue;
+    any = true;
+    if (frame.contact && !reference) {
+      gauges_only_ = true;
+      continue;
     }
+    candidates_.push_back(static_cast<int>(i));
   }
-  if (candidates_.empty()) {
-    throw InputError("logs: no frame has anything to fit");
-  }
+  if (!any) throw InputError("logs: no frame has anything to fit");
   fitted_ = candidates_;
   contacts_.assign(logs_.frames.size(), {kNaN, kNaN});
   if (candidates_.size() <= kMostStates) states_.resize(logs_.frames.size());

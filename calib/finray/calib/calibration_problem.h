@@ -79,6 +79,9 @@ class CalibrationProblem {
   void SetRejected(std::map<int, std::string> reasons);
   const std::map<int, std::string>& rejected() const { return rejected_; }
 
+  /// Contact frames have no reference at all; they are then not fitted.
+  bool gauges_only() const { return gauges_only_; }
+
   /// l_c and f_c of a frame; NaN for those without, and those not fitted.
   std::array<double, 2> contact(int frame) const { return contacts_[frame]; }
 
@@ -121,6 +124,7 @@ class CalibrationProblem {
   int threads_;
   MeasurementBlocks blocks_;
   EquilibriumSolver solver_;  // copied for each thread
+  bool gauges_only_ = false;
   // Indices of frames that could be fitted, and those that are.
   std::vector<int> candidates_, fitted_;
   // By frame; the joint solve has them by their addresses.

@@ -57,6 +57,7 @@ void WarnOfNoise(const Identifiability& found,
 void WarnOfStarts(const RobustSolution& solution,
                   std::vector<CalibrationWarning>* warnings) {
   const auto& starts = solution.starts;
+  if (starts.empty()) return;
   const auto agree = std::count_if(starts.begin(), starts.end(),
                                    [](const auto& s) { return s.agrees; });
   if (!starts[0].agrees) {
@@ -99,28 +100,35 @@ void WarnOfOutliers(const CalibrationProblem& problem,
        "there"});
 }
 
-void WarnOfWeakness(CalibrationProblem& problem, const Identifiability& found,
+void WarnOfWeakness(CalibrationProblem& problem,
+                    const CalibrationResult& result,
                     std::vector<CalibrationWarning>* warnings) {
+  const Identifiability& found = result.identifiability;
   std::string unidentifiable;
   const CalibrationParameters& parameters = problem.parameters();
   for (std::size_t i = 0; i < found.status.size(); ++i) {
-    if (found.status[i] != ParameterStatus::kUnidentifiable) continue;
+    const bool has_words =
+        std::any_of(result.unsupported.begin(), result.unsupported.end(),
+                    [&](const Unsupported& u) {
+                      return std::count(u.free.begin(), u.free.end(),
+                                        static_cast<int>(i)) > 0;
+                    });
+    if (found.status[i] != ParameterStatus::kUnidentifiable || has_words) {
+      continue;
+    }
     unidentifiable += (unidentifiable.empty() ? "" : ", ") +
                       parameters.all()[parameters.free()[i]].name;
   }
   if (!unidentifiable.empty()) {
-    warnings->push_back({"unidentifiable",
-                         "the data do not determine " + unidentifiable,
-                         found.weak.empty() ? "" : found.weak[0].remedy});
+    warnings->push_back(
+        {"unidentifiable", "the data do not determine " + unidentifiable,
+         found.weak.empty() ? "record what tells them, or give priors that are"
+                              " more than a guess"
+                            : found.weak[0].remedy});
   }
   for (const WeakDirection& weak : found.weak) {
     warnings->push_back(
-        {"weak_direction",
-         weak.words + (weak.null ? std::string(": the data do not say how far")
-                                 : Text(": the data leave a std of %.3g times "
-                                        "the prior's",
-                                        weak.std_over_prior)),
-         weak.remedy});
+        {"weak_direction", weak.words + ": " + weak.how_far, weak.remedy});
   }
 }
 
@@ -282,6 +290,12 @@ CalibrationResult Calibrate(CalibrationProblem* problem,
       AnalyzeResidualCorrelation(problem, result.identifiability);
   EnlargeStd(result.residual_correlation, &result.identifiability);
   watch.Lap("uncertainty");
+  result.unsupported = FindUnsupported(*problem, result.identifiability);
+  for (const Unsupported& unsupported : result.unsupported) {
+    for (const int free : unsupported.free) {
+      result.identifiability.status[free] = ParameterStatus::kUnidentifiable;
+    }
+  }
   result.next =
       AdviseNextFrames(problem, discretization, &result.identifiability);
   watch.Lap("what to record next");
@@ -309,9 +323,21 @@ CalibrationResult Calibrate(CalibrationProblem* problem,
          "the solver stopped early: " + result.solution.solve.message,
          "give priors, or start from a finger closer to the truth"});
   }
+  if (problem->gauges_only()) {
+    result.warnings.push_back(
+        {"gauges_only",
+         "frames with contact have gauges only, which alone tell nothing of "
+         "the finger: they were not used",
+         "record the reference force (force_N), and the object's centre "
+         "(object_x_mm, object_y_mm) or the contact location (contact_1_mm)"});
+  }
   WarnOfStarts(result.solution, &result.warnings);
   WarnOfOutliers(*problem, result.solution, &result.warnings);
-  WarnOfWeakness(*problem, result.identifiability, &result.warnings);
+  WarnOfWeakness(*problem, result, &result.warnings);
+  for (const Unsupported& parameter : result.unsupported) {
+    result.warnings.push_back(
+        {parameter.code, parameter.text, parameter.remedy});
+  }
   WarnOfNoise(result.identifiability, &result.warnings);
   WarnOfCorrelation(*problem, result.residual_correlation, &result.warnings);
   WarnOfDisagreement(*problem, result.leave_one_log_out, &result.warnings);

@@ -13,6 +13,7 @@
 #include "finray/calib/next_frames.h"
 #include "finray/calib/residual_correlation.h"
 #include "finray/calib/robust_solve.h"
+#include "finray/calib/unsupported.h"
 #include "finray/io/frame_table.h"
 
 namespace finray {
@@ -39,6 +40,7 @@ struct CalibrationResult {
     ErrorTable before, after;
   } fitted, held_out;
   ResidualCorrelation residual_correlation;
+  std::vector<Unsupported> unsupported;
   LeaveOneLogOut leave_one_log_out;
   std::vector<FrameAdvice> next;      ///< what to record next
   std::vector<BenchLinearity> bench;  ///< by gauge, where there are readings

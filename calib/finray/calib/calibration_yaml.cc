@@ -53,6 +53,7 @@ void EmitWeakDirections(CalibrationProblem& problem,
   for (const WeakDirection& weak : found.weak) {
     *yaml << YAML::BeginMap;
     Pair(yaml, "words", weak.words);
+    Pair(yaml, "how_far", weak.how_far);
     Pair(yaml, "remedy", weak.remedy);
     Number(yaml, "std_over_prior", weak.std_over_prior);
     *yaml << YAML::Key << "components" << YAML::Value << YAML::Flow

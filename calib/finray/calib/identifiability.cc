@@ -23,6 +23,85 @@ Eigen::MatrixXd BoundedCovariance(const Eigen::MatrixXd& information) {
          eigen.eigenvectors().transpose();
 }
 
+namespace {
+
+WeakDirection Describe(CalibrationProblem* problem,
+                       const Eigen::VectorXd& vector, double std_over_prior) {
+  WeakDirection direction;
+  direction.direction = vector;
+  direction.null = std::isinf(std_over_prior);
+  direction.std_over_prior = std_over_prior;
+  for (Eigen::Index i = 0; i < vector.size(); ++i) {
+    if (std::abs(vector[i]) > 0.15) {
+      direction.components.push_back(
+          {problem->parameters().free()[static_cast<std::size_t>(i)],
+           vector[i]});
+    }
+  }
+  std::sort(direction.components.begin(), direction.components.end(),
+            [](const auto& a, const auto& b) {
+              return std::abs(a.share) > std::abs(b.share);
+            });
+  DescribeWeakDirection(*problem, &direction);
+  return direction;
+}
+
+constexpr double kRides = 0.9;   // correlation
+constexpr double kTogether = 3;  // std of all gains over that of their ratios
+
+// With a force sensor alone, gauges tell how the finger bends, but not how far:
+// a finger that is stiffer, with gains as much higher, reads the same.
+void AddCommonGain(CalibrationProblem* problem,
+                   const Eigen::MatrixXd& covariance, Identifiability* found) {
+  const CalibrationParameters& parameters = problem->parameters();
+  const auto n = covariance.rows();
+  std::vector<Eigen::VectorXd>
+      gains;  // relative change by the scaled variables
+  Eigen::VectorXd beams = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const CalibrationParameter& p = parameters.all()[parameters.free()[k]];
+    if (p.family == ParameterFamily::kGaugeGain && *p.variable != 0 &&
+        found->status[k] != ParameterStatus::kUnidentifiable) {
+      gains.push_back(Eigen::VectorXd::Unit(n, i) * found->unit[i] /
+                      *p.variable);
+    } else if (p.family == ParameterFamily::kFrontStiffness ||
+               p.family == ParameterFamily::kBackStiffness) {
+      beams[i] = 0.5 * found->unit[i];
+    }
+  }
+  if (gains.size() < 2 || beams.isZero(0)) return;
+  Eigen::VectorXd together = Eigen::VectorXd::Zero(n);
+  for (const Eigen::VectorXd& gain : gains) together += gain;
+  together /= static_cast<double>(gains.size());
+  const auto variance = [&](const Eigen::VectorXd& a) {
+    return a.dot(covariance * a);
+  };
+  double apart = 0;
+  for (const Eigen::VectorXd& gain : gains) apart += variance(gain - together);
+  apart = std::sqrt(apart / static_cast<double>(gains.size()));
+  const double all = std::sqrt(variance(together));
+  const double correlation =
+      together.dot(covariance * beams) / (all * std::sqrt(variance(beams)));
+  if (!(all > kTogether * apart) || !(std::abs(correlation) > kRides)) return;
+  const Eigen::VectorXd vector = (covariance * together).normalized();
+  WeakDirection direction = Describe(
+      problem, vector, 1 / std::sqrt(vector.dot(found->information * vector)));
+  direction.words = kGainsAgainstStiffness;
+  for (const WeakDirection& known : found->weak) {
+    if (known.words == direction.words) return;
+  }
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "the data leave a std of %.2g %% to all gains together, of "
+                "%.2g %% to their ratios",
+                100 * all, 100 * apart);
+  direction.how_far = text;
+  found->weak.push_back(std::move(direction));
+}
+
+}  // namespace
+
 Identifiability AnalyzeIdentifiability(CalibrationProblem* problem) {
   const Linearization& at = problem->AtSolution();
   const CalibrationParameters& parameters = problem->parameters();
@@ -69,36 +148,26 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem) {
         variance += share / value[k];
       }
     }
-    const ParameterStatus status = null ? ParameterStatus::kUnidentifiable
-                                   : held_by_prior && variance > 1
-                                       ? ParameterStatus::kPriorDominated
-                                       : ParameterStatus::kEstimated;
-    result.status.push_back(status);
+    const CalibrationParameter& p = parameters.all()[parameters.free()[i]];
+    const bool by_prior = held_by_prior && variance > 1;
+    result.status.push_back(null || (by_prior && unit[i] > p.vague_std)
+                                ? ParameterStatus::kUnidentifiable
+                            : by_prior ? ParameterStatus::kPriorDominated
+                                       : ParameterStatus::kEstimated);
     result.bounded_std.push_back(unit[i] * std::sqrt(covariance(i, i)));
     result.std.push_back(null && !held_by_prior
                              ? std::numeric_limits<double>::infinity()
                              : result.bounded_std.back());
   }
   for (int k = 0; k < n && value[k] < 1; ++k) {
-    WeakDirection direction;
-    direction.direction = vector.col(k);
-    direction.null = value[k] < Identifiability::kNull;
+    const bool null = value[k] < Identifiability::kNull;
     // Below that the eigenvalue is rounding.
-    direction.std_over_prior = direction.null
-                                   ? std::numeric_limits<double>::infinity()
-                                   : 1 / std::sqrt(value[k]);
-    for (int i = 0; i < n; ++i) {
-      if (std::abs(vector(i, k)) > 0.15) {
-        direction.components.push_back({parameters.free()[i], vector(i, k)});
-      }
-    }
-    std::sort(direction.components.begin(), direction.components.end(),
-              [](const auto& a, const auto& b) {
-                return std::abs(a.share) > std::abs(b.share);
-              });
-    DescribeWeakDirection(*problem, &direction);
-    result.weak.push_back(std::move(direction));
+    result.weak.push_back(Describe(problem, vector.col(k),
+                                   null
+                                       ? std::numeric_limits<double>::infinity()
+                                       : 1 / std::sqrt(value[k])));
   }
+  AddCommonGain(problem, covariance, &result);
 
   // Degrees of freedom by family: each residual counts one less its leverage,
   // c cov c' by the parameters and that by its contact.

@@ -13,7 +13,8 @@ namespace finray {
 enum class ParameterStatus {
   kEstimated,       ///< the data say more than the prior
   kPriorDominated,  ///< the prior says more than the data
-  kUnidentifiable,  ///< the data say nothing of it, alone or in a combination
+  kUnidentifiable,  ///< the data say nothing of it, alone or in a combination,
+                    ///< or less than a prior that is but a guess
   kFixed,
 };
 const char* ParameterStatusName(ParameterStatus status);
@@ -31,7 +32,8 @@ struct WeakDirection {
   std::vector<Component> components;  ///< largest first
   Eigen::VectorXd direction;          ///< over the free ones, a unit vector
   std::string words;
-  std::string remedy;  ///< by AdviseNextFrames
+  std::string how_far;  ///< what the data leave, in words
+  std::string remedy;   ///< by AdviseNextFrames
 };
 
 /// What the data determine, from the reduced information matrix
@@ -40,8 +42,10 @@ struct WeakDirection {
 ///
 /// in which the contacts have been eliminated, scaled by the prior std.
 /// Its eigenvectors with eigenvalues below 1 are weaker than the priors; those
-/// below kNull are not determined at all. The covariance is (S + P)^-1 with P
-/// the priors' information, a pseudo-inverse where even that is singular.
+/// below kNull are not determined at all. Gains that are known among each
+/// other, but together only as well as stiffness is, are a weak direction as
+/// well, whatever the priors. The covariance is (S + P)^-1 with P the priors'
+/// information, a pseudo-inverse where even that is singular.
 struct Identifiability {
   static constexpr double kNull = 1e-4;
 

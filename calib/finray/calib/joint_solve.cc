@@ -3,6 +3,7 @@
 #include <ceres/ordered_groups.h>
 #include <ceres/solver.h>
 
+#include <algorithm>
 #include <unordered_set>
 
 #include "finray/residuals/parameter_prior_residual.h"
@@ -57,9 +58,7 @@ void JointSolve::AddPriors() {
     std::size_t end = i + 1;
     while (end < all.size() && all[end].block == all[i].block) ++end;
     const auto size = static_cast<Eigen::Index>(end - i);
-    // A gauge or beam that no frame involves has no block.
-    if (all[i].free && all[i].prior_std &&
-        problem_->HasParameterBlock(all[i].block)) {
+    if (all[i].free && all[i].prior_std) {
       Eigen::VectorXd mean(size), std(size);
       for (Eigen::Index k = 0; k < size; ++k) {
         mean[k] = all[i + k].initial;
@@ -127,7 +126,8 @@ SolveReport JointSolve::Solve(int most_iterations) {
   }
   SolveReport report;
   report.converged = summary.termination_type == ceres::CONVERGENCE;
-  report.iterations = static_cast<int>(summary.iterations.size()) - 1;
+  report.iterations =
+      std::max(0, static_cast<int>(summary.iterations.size()) - 1);
   report.initial_cost = summary.initial_cost;
   report.final_cost = summary.final_cost;
   report.message = summary.message;

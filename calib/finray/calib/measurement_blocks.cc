@@ -36,6 +36,14 @@ bool MeasurementBlocks::HasEnough(const CalibrationFrame& frame) const {
   return 2 * (points + object) + force + std::isfinite(frame.contact_mm) > 2;
 }
 
+bool MeasurementBlocks::HasReference(const CalibrationFrame& frame) const {
+  const bool object =
+      frame.object_mm.allFinite() && plan_.scene.circle_radius_mm();
+  return object || std::isfinite(frame.contact_mm) ||
+         std::isfinite(frame.force_N) || frame.force_xy_N.allFinite() ||
+         !frame.pins.empty() || frame.tip_mm.allFinite();
+}
+
 std::vector<MeasurementBlock> MeasurementBlocks::Of(
     const CalibrationFrame& frame, const FrameEvaluation* evaluation,
     double* unknowns) const {

@@ -36,6 +36,8 @@ class MeasurementBlocks {
   /// Whether the frame can be fitted at all: without a gauge, a contact's place
   /// and force take two other measurements.
   bool HasEnough(const CalibrationFrame& frame) const;
+  /// Whether anything but gauges tells of the contact.
+  bool HasReference(const CalibrationFrame& frame) const;
 
   /// The blocks of a frame, which must stay in place, as must `evaluation` and
   /// `unknowns` (of FrameEvaluation; null if there are none). On the bench

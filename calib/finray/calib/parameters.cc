@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "finray/io/error.h"
 
@@ -40,6 +41,32 @@ bool HasObject(const CalibrationLogs& logs, int log) {
                        return frame.log == log && !frame.held_out &&
                               frame.contact && frame.object_mm.allFinite();
                      });
+}
+
+// What a lab would not call knowledge, of the variable. Drift and temperature
+// are small, and zero is a good guess.
+double VagueStd(const CalibrationParameter& parameter) {
+  switch (parameter.family) {
+    case ParameterFamily::kFrontStiffness:
+    case ParameterFamily::kBackStiffness:
+    case ParameterFamily::kForceScale:
+      return 0.2;
+    case ParameterFamily::kGaugeGain:
+      return 0.2 * parameter.scale;
+    case ParameterFamily::kGaugeOffset:
+      return 0.01;
+    case ParameterFamily::kRibLength:
+      return 0.2;
+    case ParameterFamily::kObjectOrigin:
+    case ParameterFamily::kCameraOrigin:
+      return 1;
+    case ParameterFamily::kForceOffset:
+      return 0.2;
+    case ParameterFamily::kTemperatureCoefficient:
+    case ParameterFamily::kGaugeDrift:
+      break;
+  }
+  return std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -93,10 +120,12 @@ void CalibrationParameters::AddOfFinger(const Plan& plan,
       parameter.is_log = true;
       break;
     case FingerParameterKind::kGaugeGain:
+      parameter.gauge = index;
       parameter.variable = parameter.block = &gains_V_per_rad[index];
       parameter.scale = std::abs(*parameter.variable);
       break;
     case FingerParameterKind::kGaugeOffset:
+      parameter.gauge = index;
       if (plan.family(parameter.family).per_log) {
         for (int log = 0; log < static_cast<int>(logs.paths.size()); ++log) {
           CalibrationParameter of_log = parameter;
@@ -251,6 +280,7 @@ void CalibrationParameters::Add(const Plan& plan,
     parameter.prior_std =
         percent ? *family.prior_std / 100 * parameter.scale : *family.prior_std;
   }
+  parameter.vague_std = VagueStd(parameter);
   if (parameter.free) free_.push_back(static_cast<int>(all_.size()));
   all_.push_back(std::move(parameter));
 }

@@ -29,10 +29,14 @@ struct CalibrationParameter {
   double* block;     ///< the first of the variables that the solver has as one
   bool is_log = false;
   bool free = false;
+  int gauge = -1;                   ///< of gains and offsets
   double initial = 0;               ///< of the variable
   std::optional<double> prior_std;  ///< of the variable
   /// A change that would matter, for scaling where there is no prior.
   double scale = 1;
+  /// A prior wider than this is a guess: where the data say less than such a
+  /// one, the parameter is not known.
+  double vague_std = 0;
 
   /// The user's number for a variable and the other way round.
   double Value(double at) const;

@@ -32,6 +32,13 @@ Finger Changed(const CalibrationProblem& problem, const Start& start) {
   return finger;
 }
 
+const StartReport& BestOf(const std::vector<StartReport>& starts) {
+  return *std::min_element(starts.begin(), starts.end(),
+                           [](const StartReport& a, const StartReport& b) {
+                             return a.distance_std < b.distance_std;
+                           });
+}
+
 // Each start's solution, that with the least cost being left in the problem.
 std::vector<StartReport> SolveFromStarts(CalibrationProblem* problem) {
   struct Solution {
@@ -76,11 +83,16 @@ std::vector<StartReport> SolveFromStarts(CalibrationProblem* problem) {
 
 RobustSolution SolveRobustly(CalibrationProblem* problem) {
   RobustSolution result;
+  if (problem->SomeFrames().empty()) {  // nothing but priors
+    result.solve = problem->Solve();
+    return result;
+  }
   problem->SolveSome(kFewIterations);
   problem->SetRejected(
       FindOutliersAmong(problem->SomeFrames(), problem).reasons);
   result.starts = SolveFromStarts(problem);
   result.solve = problem->Solve();
+  int iterations = BestOf(result.starts).iterations;
   for (; result.rounds < kMostRounds; ++result.rounds) {
     const Outliers outliers = FindOutliers(problem);
     result.outliers_too_many = outliers.too_many;
@@ -93,8 +105,10 @@ RobustSolution SolveRobustly(CalibrationProblem* problem) {
       break;
     }
     problem->SetRejected(outliers.reasons);
+    iterations += result.solve.iterations;
     result.solve = problem->Solve();
   }
+  result.solve.iterations += iterations;
   return result;
 }
 

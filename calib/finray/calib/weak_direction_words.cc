@@ -38,7 +38,7 @@ void DescribeWeakDirection(CalibrationProblem& problem,
     words = "front and back stiffness and all forces scale together";
   } else if (both_beams && gains > 0.1 && beams + gains > 0.8 &&
              same_sign(ParameterFamily::kGaugeGain)) {
-    words = "all gauge gains scale together against front and back stiffness";
+    words = kGainsAgainstStiffness;
   } else {
     for (const auto& component : direction->components) {
       char text[160];
@@ -51,6 +51,13 @@ void DescribeWeakDirection(CalibrationProblem& problem,
         (direction->components.size() == 1 ? "alone: " : "together: ") + words;
   }
   direction->words = words;
+  char how_far[80] = "the data do not say how far";
+  if (!direction->null) {
+    std::snprintf(how_far, sizeof how_far,
+                  "the data leave a std of %.3g times the prior's",
+                  direction->std_over_prior);
+  }
+  direction->how_far = how_far;
 }
 
 }  // namespace finray

@@ -6,6 +6,10 @@ namespace finray {
 class CalibrationProblem;
 struct WeakDirection;
 
+/// A direction that is looked for by itself.
+constexpr char kGainsAgainstStiffness[] =
+    "all gauge gains scale together against front and back stiffness";
+
 /// Says in words which parameters move together along a weak direction.
 void DescribeWeakDirection(CalibrationProblem& problem,
                            WeakDirection* direction);

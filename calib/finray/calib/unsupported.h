@@ -1,0 +1,30 @@
+#ifndef FINRAY_CALIB_UNSUPPORTED_H_
+#define FINRAY_CALIB_UNSUPPORTED_H_
+
+#include <string>
+#include <vector>
+
+#include "finray/calib/calibration_problem.h"
+#include "finray/calib/identifiability.h"
+
+namespace finray {
+
+/// Parameters whose std look good, and which still nobody should trust.
+struct Unsupported {
+  std::vector<int> free;  ///< indices into CalibrationParameters::free()
+  std::string code, text, remedy;
+};
+
+/// - The gain of a gauge that does not respond: nothing is known of what it
+///   would read. Its gain is zero within kInsignificant std, or below
+///   kDeadShare of what it was expected to be.
+/// - The offset of a gauge without any reading free of contact, unless its
+///   prior is knowledge: it is then the model's word for what the gauge would
+///   read unbent, and takes up whatever the model lacks.
+std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,
+                                         const Identifiability& found);
+constexpr double kInsignificant = 4, kDeadShare = 0.01;
+
+}  // namespace finray
+
+#endif  // FINRAY_CALIB_UNSUPPORTED_H_
