@@ -1,0 +1,60 @@
+#ifndef FINRAY_CONTROL_CONTACT_WATCH_H_
+#define FINRAY_CONTROL_CONTACT_WATCH_H_
+
+#include <vector>
+
+#include "finray/sensing/frame_estimate.h"
+
+namespace finray {
+
+/// When the loop may trust its eyes.
+struct Safety {
+  /// A contact whose force has a larger std is not seen.
+  double force_std_limit_N = 0.3;
+  /// So long the drive waits for an unseen contact to come back.
+  double hold_s = 0.5;
+  /// Below it a contact that is not determined is a light touch, towards which
+  /// the finger may move on; above it, one that is not seen.
+  double touch_N = 1.0;
+  /// Of drive towards an untouched object, mm/s or rad/s.
+  double approach_speed = 5;
+};
+
+/// What the drive does.
+enum class LoopMode {
+  kApproach,  ///< No contact, or a light touch: on towards the object.
+  kControl,   ///< The contact is seen: the controller drives.
+  kHold,      ///< It is not: the drive stays.
+  kStopped,   ///< It was not for hold_s: back to the start, for good.
+};
+const char* LoopModeName(LoopMode mode);
+
+/// What one estimate is good for.
+enum class Sight { kSeen, kFree, kLight, kBlind };
+
+/// - seen: status ok and a std of the force below the limit;
+/// - free: no contact;
+/// - light: unobservable, but neither the estimate nor its alternative, each
+///   with twice its std, reach touch_N;
+/// - blind: all else, bad input included.
+Sight Judge(const FrameEstimate& estimate, const Safety& safety);
+
+/// Follows what the fingers see, frame by frame, and decides who drives: blind
+/// if any finger is, seen if all are, otherwise on the approach.
+class ContactWatch {
+ public:
+  ContactWatch(const Safety& safety, double period_s);
+
+  LoopMode Next(const std::vector<FrameEstimate>& estimates);
+  LoopMode mode() const { return mode_; }
+
+ private:
+  Safety safety_;
+  double period_s_;
+  LoopMode mode_ = LoopMode::kApproach;
+  int blind_ = 0;  // periods in a row
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_CONTROL_CONTACT_WATCH_H_
