@@ -1,6 +1,5 @@
 #include "finray/control/contact_watch.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace finray {
@@ -19,7 +18,8 @@ const char* LoopModeName(LoopMode mode) {
   return "";
 }
 
-Sight Judge(const FrameEstimate& estimate, const Safety& safety) {
+Sight Judge(const FrameEstimate& estimate, double signal,
+            const Safety& safety) {
   const ContactEstimate& contact = estimate.contact[0];
   const ContactEstimate& other = estimate.alternative[0];
   if (estimate.status == FrameStatus::kNoContact) return Sight::kFree;
@@ -29,6 +29,7 @@ Sight Judge(const FrameEstimate& estimate, const Safety& safety) {
   }
   if (estimate.status != FrameStatus::kUnobservable) return Sight::kBlind;
   // NaN, where there is no number, is not below.
+  if (signal < 1) return Sight::kLight;
   const double most = contact.normal_N + 2 * contact.normal_std_N;
   const bool alternative = std::isfinite(other.normal_N);
   const bool light =
@@ -41,22 +42,23 @@ Sight Judge(const FrameEstimate& estimate, const Safety& safety) {
 ContactWatch::ContactWatch(const Safety& safety, double period_s)
     : safety_(safety), period_s_(period_s) {}
 
-LoopMode ContactWatch::Next(const std::vector<FrameEstimate>& estimates) {
+LoopMode ContactWatch::Next(const std::vector<FrameEstimate>& estimates,
+                            const std::vector<double>& signals) {
   if (mode_ == LoopMode::kStopped) return mode_;
-  const auto count = [&](Sight sight) {
-    return std::count_if(
-        estimates.begin(), estimates.end(),
-        [&](const FrameEstimate& e) { return Judge(e, safety_) == sight; });
-  };
-  const auto all = static_cast<std::ptrdiff_t>(estimates.size());
-  if (count(Sight::kBlind) > 0) {
+  std::size_t seen = 0, blind = 0;
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    const Sight sight = Judge(estimates[i], signals[i], safety_);
+    if (sight == Sight::kSeen) ++seen;
+    if (sight == Sight::kBlind) ++blind;
+  }
+  if (blind > 0) {
     ++blind_;
     mode_ = blind_ * period_s_ > safety_.hold_s ? LoopMode::kStopped
                                                 : LoopMode::kHold;
     return mode_;
   }
   blind_ = 0;
-  mode_ = count(Sight::kSeen) == all ? LoopMode::kControl : LoopMode::kApproach;
+  mode_ = seen == estimates.size() ? LoopMode::kControl : LoopMode::kApproach;
   return mode_;
 }
 

@@ -7,7 +7,7 @@
 
 namespace finray {
 
-/// When the loop may trust its eyes.
+/// When the loop may trust what it sees.
 struct Safety {
   /// A contact whose force has a larger std is not seen.
   double force_std_limit_N = 0.3;
@@ -15,7 +15,7 @@ struct Safety {
   double hold_s = 0.5;
   /// Below it a contact that is not determined is a light touch, towards which
   /// the finger may move on; above it, one that is not seen.
-  double touch_N = 1.0;
+  double touch_N = 1.5;
   /// Of drive towards an untouched object, mm/s or rad/s.
   double approach_speed = 5;
 };
@@ -35,9 +35,11 @@ enum class Sight { kSeen, kFree, kLight, kBlind };
 /// - seen: status ok and a std of the force below the limit;
 /// - free: no contact;
 /// - light: unobservable, but neither the estimate nor its alternative, each
-///   with twice its std, reach touch_N;
+///   with twice its std, reach touch_N; or gauges that bend less than under
+///   a touch of touch_N anywhere on the finger but at its ends (`signal` below
+///   1, see TouchSignal);
 /// - blind: all else, bad input included.
-Sight Judge(const FrameEstimate& estimate, const Safety& safety);
+Sight Judge(const FrameEstimate& estimate, double signal, const Safety& safety);
 
 /// Follows what the fingers see, frame by frame, and decides who drives: blind
 /// if any finger is, seen if all are, otherwise on the approach.
@@ -45,7 +47,9 @@ class ContactWatch {
  public:
   ContactWatch(const Safety& safety, double period_s);
 
-  LoopMode Next(const std::vector<FrameEstimate>& estimates);
+  /// With the TouchSignal of each finger.
+  LoopMode Next(const std::vector<FrameEstimate>& estimates,
+                const std::vector<double>& signals);
   LoopMode mode() const { return mode_; }
 
  private:

@@ -48,7 +48,9 @@ FrameTable ControlLog(const Finger& finger, const Experiment& experiment,
       return r.readings[finger_index].gauges_V[j];
     });
   }
-  const ResultColumns columns(finger, experiment.scene);
+  Scene one = experiment.scene;
+  one.contacts = 1;
+  const ResultColumns columns(finger, one);
   std::vector<double> values(columns.names().size());
   for (std::size_t i = 0; i < run.rows.size(); ++i) {
     columns.Values(run.rows[i].readings[finger_index],

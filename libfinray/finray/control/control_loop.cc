@@ -7,6 +7,7 @@
 #include <random>
 
 #include "finray/control/make_controller.h"
+#include "finray/control/touch_signal.h"
 #include "finray/sensing/live_estimator.h"
 
 namespace finray {
@@ -36,6 +37,7 @@ class Loop {
                experiment.start.angle_rad, experiment.start.gap_mm),
         true_drive_(TrueActuation(), 0),
         known_drive_(experiment.actuation, 0),
+        touch_(finger, experiment.safety.touch_N, discretization),
         watch_(experiment.safety, experiment.actuation.period_s),
         controller_(
             MakeController(finger, experiment, settings, discretization)) {
@@ -113,7 +115,11 @@ class Loop {
       return;
     }
     known_drive_.AdvanceTo(row->time_s);
-    row->mode = watch_.Next(row->estimates);
+    std::vector<double> signals;
+    for (const FrameReadings& readings : row->readings) {
+      signals.push_back(touch_.Of(readings));
+    }
+    row->mode = watch_.Next(row->estimates, signals);
     row->command = CommandOf(*row);
     true_drive_.Command(row->time_s, row->command);
     known_drive_.Command(row->time_s, row->command);
@@ -148,6 +154,7 @@ class Loop {
   std::normal_distribution<double> unit_;
   Plant plant_;
   Actuator true_drive_, known_drive_;
+  const TouchSignal touch_;
   ContactWatch watch_;
   std::unique_ptr<Controller> controller_;
   std::vector<std::unique_ptr<LiveEstimator>> estimators_;

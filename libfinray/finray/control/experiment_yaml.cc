@@ -18,21 +18,21 @@ Scene ReadLoopScene(const YamlMap& yaml) {
     const auto folder = std::filesystem::path(yaml.path()).parent_path();
     return ReadScene((folder / yaml.Text("scene")).string());
   };
-  const Scene scene =
-      yaml.IsMap("scene") ? ReadScene(yaml.Map("scene")) : file();
+  Scene scene = yaml.IsMap("scene") ? ReadScene(yaml.Map("scene")) : file();
   const char* missing = nullptr;
   if (!scene.object) missing = "an object";
-  if (scene.contacts.value_or(1) != 1) missing = "contacts: 1 or auto";
+  if (scene.contacts) missing = "contacts: auto, one or none being decided";
   if (scene.object_std_mm) missing = "no measurements: nobody sees the object";
   if (missing != nullptr) {
     yaml.Fail("scene", std::string("scene: a control loop needs ") + missing);
   }
   RefuseBackContacts(scene);
+  scene.most_contacts = 1;
   return scene;
 }
 
 Trajectory::Shape ReadTrajectory(const YamlMap& yaml, const std::string& unit,
-                          bool with_mean) {
+                                 bool with_mean) {
   const std::string type =
       yaml.Choice("type", {"constant", "harmonic", "triangular", "steps"});
   if (type == "constant") {

@@ -23,6 +23,8 @@ ModelController::ModelController(std::vector<PushModel> models,
     : models_(std::move(models)),
       mechanism_(mechanism),
       filter_(prior, period_s),
+      period_s_(period_s),
+      timing_std_s_(prior.timing_std_s),
       preview_(preview),
       y_mm_(models_.size(), 0),
       arc_mm_(models_.size(), 0) {}
@@ -30,6 +32,7 @@ ModelController::ModelController(std::vector<PushModel> models,
 void ModelController::Lost() {
   filter_.Restart();
   seen_ = 0;
+  last_drive_.reset();
 }
 
 bool ModelController::SeeHeights(double drive,
@@ -70,6 +73,16 @@ std::optional<ModelController::MeanPush> ModelController::PushAt(
   return mean;
 }
 
+// Of the place that a push says, the drive having moved by `way` in the period.
+double ModelController::PlaceStd(const MeanPush& push, double drive,
+                                 double way) const {
+  const double approach =
+      way * mechanism_.ApproachPerDrive(drive, y_mm_.front());
+  return std::hypot(std::sqrt(push.variance_mm2),
+                    kLeastStd_N * push.compliance_mm_per_N,
+                    approach / period_s_ * timing_std_s_);
+}
+
 // X(F; u) = place, by Newton's method with the mechanism's slope.
 std::optional<double> ModelController::DriveFor(double force_N, double place_mm,
                                                 double drive) {
@@ -95,10 +108,10 @@ double ModelController::Next(double time_s,
   const auto push = SeeHeights(now, contacts) ? PushAt(now, contacts)
                                               : std::optional<MeanPush>();
   if (push) {
-    const double least = kLeastStd_N * push->compliance_mm_per_N;
     filter_.Update(push->object_x_mm, MeanForce(contacts).force_N,
-                   std::max(std::sqrt(push->variance_mm2), least));
+                   PlaceStd(*push, now, now - last_drive_.value_or(now)));
   }
+  last_drive_ = now;
   if (!filter_.started()) return drive.last_command();
   const double horizon = drive.settings().delay_s + drive.settings().period_s;
   const double force =

@@ -52,15 +52,18 @@ class ModelController : public Controller {
   // Of all fingers, under the force of each; std may be empty.
   std::optional<MeanPush> PushAt(double drive,
                                  const std::vector<SeenContact>& contacts);
+  double PlaceStd(const MeanPush& push, double drive, double way) const;
   std::optional<double> DriveFor(double force_N, double place_mm, double drive);
 
   std::vector<PushModel> models_;
   Mechanism mechanism_;
   ObjectFilter filter_;
+  double period_s_, timing_std_s_;
   bool preview_;
   // Of the object in each finger's world, and how many estimates are in it.
   std::vector<double> y_mm_, arc_mm_;
   int seen_ = 0;
+  std::optional<double> last_drive_;
 };
 
 }  // namespace finray

@@ -5,7 +5,7 @@
 namespace finray {
 namespace {
 
-constexpr double kStartVelocityStd_mm_s = 10;
+constexpr double kStartVelocityStd_mm_s = 3;
 
 }  // namespace
 

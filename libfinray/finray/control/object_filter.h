@@ -10,7 +10,10 @@ struct ObjectPrior {
   /// Std of the acceleration of its motion, in mm/s^2, anew in every period.
   double acceleration_mm_s2 = 20;
   /// Std of its compliance, mm/N; 0: held rigidly.
-  double compliance_mm_per_N = 1;
+  double compliance_mm_per_N = 0.5;
+  /// Std of the time of a reading against the drive: what it says of the place
+  /// is as uncertain as the drive's way in that time.
+  double timing_std_s = 0.01;
 };
 
 /// Where an object is that nobody measures but the finger. The finger's model
