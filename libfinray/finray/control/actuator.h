@@ -33,6 +33,8 @@ class Actuator {
 
   /// Goes on to a time and returns the position there. Times do not decrease.
   double AdvanceTo(double time_s);
+  /// Where the drive is, as it has been measured.
+  void CorrectTo(double position) { position_ = position; }
   /// The position at a later time, if no further command comes.
   double PredictAt(double time_s) const;
   /// The command that, given at `time_s` and replaced a period later, takes the

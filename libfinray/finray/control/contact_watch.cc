@@ -27,9 +27,9 @@ Sight Judge(const FrameEstimate& estimate, double signal,
       contact.normal_std_N <= safety.force_std_limit_N) {
     return Sight::kSeen;
   }
-  if (estimate.status != FrameStatus::kUnobservable) return Sight::kBlind;
   // NaN, where there is no number, is not below.
   if (signal < 1) return Sight::kLight;
+  if (estimate.status != FrameStatus::kUnobservable) return Sight::kBlind;
   const double most = contact.normal_N + 2 * contact.normal_std_N;
   const bool alternative = std::isfinite(other.normal_N);
   const bool light =

@@ -34,10 +34,10 @@ enum class Sight { kSeen, kFree, kLight, kBlind };
 
 /// - seen: status ok and a std of the force below the limit;
 /// - free: no contact;
-/// - light: unobservable, but neither the estimate nor its alternative, each
-///   with twice its std, reach touch_N; or gauges that bend less than under
-///   a touch of touch_N anywhere on the finger but at its ends (`signal` below
-///   1, see TouchSignal);
+/// - light: gauges that bend less than under a touch of touch_N anywhere on the
+///   finger but at its ends (`signal` below 1, see TouchSignal); or
+///   unobservable, but neither the estimate nor its alternative, each with
+///   twice its std, reach touch_N;
 /// - blind: all else, bad input included.
 Sight Judge(const FrameEstimate& estimate, double signal, const Safety& safety);
 

@@ -110,15 +110,20 @@ class Loop {
   }
 
   void Act(LoopRow* row) {
+    std::vector<double> signals;
+    row->sure = true;
+    for (std::size_t i = 0; i < estimators_.size(); ++i) {
+      signals.push_back(touch_.Of(row->readings[i]));
+      const Sight sight =
+          Judge(row->estimates[i], signals.back(), experiment_.safety);
+      row->sure &= sight == Sight::kSeen || sight == Sight::kFree;
+    }
     if (controller_ == nullptr) {
       row->command = 0;
       return;
     }
     known_drive_.AdvanceTo(row->time_s);
-    std::vector<double> signals;
-    for (const FrameReadings& readings : row->readings) {
-      signals.push_back(touch_.Of(readings));
-    }
+    if (experiment_.drive_is_measured) known_drive_.CorrectTo(row->drive);
     row->mode = watch_.Next(row->estimates, signals);
     row->command = CommandOf(*row);
     true_drive_.Command(row->time_s, row->command);

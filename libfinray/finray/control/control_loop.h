@@ -23,6 +23,7 @@ struct LoopRow {
   double force_N = 0;  ///< truly
   SeenForce seen;      ///< by the estimators; NaN where they see nothing
   LoopMode mode = LoopMode::kApproach;
+  bool sure = false;  ///< All fingers see their contact, or that there is none.
   std::vector<PlantFinger> fingers;
   std::vector<FrameReadings> readings;  ///< with noise
   std::vector<FrameEstimate> estimates;

@@ -47,14 +47,14 @@ ControlStatistics StatisticsOf(const LoopRun& run, const Experiment& experiment,
   for (const LoopRow& row : run.rows) {
     if (row.time_s < experiment.measure_from_s) continue;
     ++statistics.periods;
-    if (std::isfinite(row.seen.force_N)) {
+    if (row.sure) {
       statistics.estimate.Add(row.seen.force_N - row.force_N);
     }
     if (!controlled) continue;
     if (row.mode == LoopMode::kControl) ++statistics.controlled;
     const double error = row.force_N - row.set_point_N;
     statistics.control.Add(error);
-    if (experiment.set_point.SinceJump(row.time_s) >=
+    if (experiment.set_point.SinceStep(row.time_s) >=
         experiment.settled_after_s) {
       statistics.settled.Add(error);
     }

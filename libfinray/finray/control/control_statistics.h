@@ -26,8 +26,9 @@ struct ControlStatistics {
   std::size_t controlled = 0;  ///< of them, those in mode control
   ErrorSums control;           ///< true force less set-point
   ErrorSums settled;           ///< the same, settled_after_s behind any step
-  ErrorSums estimate;          ///< estimated force less true force
-  double worst_rms_N = 0;      ///< of control, of one run
+  /// Estimated force less true force, where every finger is sure.
+  ErrorSums estimate;
+  double worst_rms_N = 0;  ///< of control, of one run
   double best_rms_N = std::numeric_limits<double>::infinity();
 
   void Add(const ControlStatistics& other);

@@ -41,6 +41,9 @@ void EmitController(const Experiment& experiment,
                  static_cast<double>(s.periods);
   }
   EmitErrors("estimate_error", s.estimate, yaml);
+  *yaml << Key << "sure_percent" << Value
+        << 100.0 * static_cast<double>(s.estimate.count) /
+               static_cast<double>(s.periods);
   if (result.lag_s) {
     *yaml << Key << "lag_ms" << Value << std::round(1e3 * *result.lag_s);
   }

@@ -57,8 +57,9 @@ struct Experiment {
   Mechanism mechanism;
   ActuatorSettings actuation;  ///< as the controllers believe it
   double true_delay_s = 0.13;
-  double delay_std_s = 0;  ///< of an error of the true delay, drawn anew
-  Trajectory set_point;    ///< N
+  bool drive_is_measured = true;  ///< as by a stage's encoder, without error
+  double delay_std_s = 0;         ///< of an error of the true delay, drawn anew
+  Trajectory set_point;           ///< N
   std::vector<ControllerSettings> controllers;
   Safety safety;
   ModelError model_error;

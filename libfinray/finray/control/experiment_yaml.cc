@@ -40,9 +40,13 @@ Trajectory::Shape ReadTrajectory(const YamlMap& yaml, const std::string& unit,
     return ConstantTrajectory{yaml.Number("value_" + unit)};
   }
   if (type == "steps") {
-    yaml.AllowOnly({"type", "levels_" + unit, "hold_s"});
+    yaml.AllowOnly({"type", "levels_" + unit, "hold_s", "ramp_s"});
     StepTrajectory steps{yaml.Numbers("levels_" + unit),
-                         yaml.PositiveNumber("hold_s")};
+                         yaml.PositiveNumber("hold_s"),
+                         yaml.NonNegativeNumber("ramp_s", 0)};
+    if (steps.ramp_s > steps.hold_s) {
+      yaml.Fail("ramp_s", "ramp_s: expected hold_s at most");
+    }
     if (steps.levels.empty()) {
       yaml.Fail("levels_" + unit, "levels_" + unit + ": expected a level");
     }
@@ -99,12 +103,14 @@ std::string SpeedKey(const std::string& key, bool gripper) {
 void ReadActuation(const YamlMap& map, Experiment* experiment) {
   const bool gripper = experiment->mechanism.is_gripper();
   map.AllowOnly({"rate_Hz", "delay_ms", "true_delay_ms", "time_constant_ms",
-                 SpeedKey("speed_limit", gripper)});
+                 "drive_is_measured", SpeedKey("speed_limit", gripper)});
   ActuatorSettings& actuation = experiment->actuation;
   actuation.period_s = 1 / map.PositiveNumber("rate_Hz");
   actuation.delay_s = 1e-3 * map.NonNegativeNumber("delay_ms");
   actuation.time_constant_s =
       1e-3 * map.NonNegativeNumber("time_constant_ms", 0);
+  experiment->drive_is_measured =
+      map.Boolean("drive_is_measured", experiment->drive_is_measured);
   actuation.speed_limit = Speed(map, "speed_limit", gripper);
   experiment->true_delay_s =
       1e-3 * map.NonNegativeNumber("true_delay_ms", 1e3 * actuation.delay_s);

@@ -13,7 +13,8 @@ namespace finray {
 
 /// Force control by the finger's own model. In each period, T long,
 ///
-///  1. where the drive is now, u, follows from the commands so far;
+///  1. where the drive is now, u, is measured or follows from the commands so
+///     far;
 ///  2. the estimated force tells where the object is: z = X(F; u), the mean of
 ///     PushModel over the fingers, at the object's y (a mean of what estimates
 ///     say);

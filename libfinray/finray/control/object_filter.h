@@ -8,7 +8,7 @@ namespace finray {
 /// What is assumed of an unknown object.
 struct ObjectPrior {
   /// Std of the acceleration of its motion, in mm/s^2, anew in every period.
-  double acceleration_mm_s2 = 20;
+  double acceleration_mm_s2 = 10;
   /// Std of its compliance, mm/N; 0: held rigidly.
   double compliance_mm_per_N = 0.5;
   /// Std of the time of a reading against the drive: what it says of the place

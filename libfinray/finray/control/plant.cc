@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 
 // Finer than what an estimator has by default.
 constexpr Discretization kPlantDiscretization{Scheme::kTaylor, 64};
-constexpr double kBalanced_N = 1e-7;
+constexpr double kBalanced_N = 1e-6;
 constexpr int kMostShifts = 60;
 constexpr double kLongestShift_mm = 2;
 
@@ -96,7 +96,6 @@ bool Plant::Balance(double drive, double motion_mm, PlantState* state) {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   double last_shift = 0, last_difference = 0;
-  double slope = 1;  // N per mm, both fingers
   for (int step = 0; step < kMostShifts; ++step) {
     if (!Solve(0, drive, here + shift_mm_, state) ||
         !Solve(1, drive, 2 * middle - here - shift_mm_, state)) {
@@ -109,12 +108,12 @@ bool Plant::Balance(double drive, double motion_mm, PlantState* state) {
     if (step > 0) {
       const double secant =
           (difference - last_difference) / (shift_mm_ - last_shift);
-      if (secant > 0) slope = secant;
+      if (secant > 0) slope_N_per_mm_ = secant;
     }
     last_shift = shift_mm_;
     last_difference = difference;
-    shift_mm_ -=
-        std::clamp(difference / slope, -kLongestShift_mm, kLongestShift_mm);
+    shift_mm_ -= std::clamp(difference / slope_N_per_mm_, -kLongestShift_mm,
+                            kLongestShift_mm);
     if (shift_mm_ <= low || shift_mm_ >= high) shift_mm_ = 0.5 * (low + high);
   }
   state->failure = "the forces of both fingers do not balance";

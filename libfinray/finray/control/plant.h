@@ -67,6 +67,7 @@ class Plant {
   double friction_;
   ObjectPose start_;  // of the object in the world
   double shift_mm_ = 0;
+  double slope_N_per_mm_ = 1;  // of the difference of forces, by the shift
 };
 
 }  // namespace finray

@@ -27,7 +27,11 @@ struct ValueAt {
                         std::asin(std::sin(2 * M_PI * time_s / t.period_s));
   }
   double operator()(const StepTrajectory& t) const {
-    return t.levels[Level(t, time_s)];
+    const std::size_t level = Level(t, time_s);
+    const double since_s = time_s - static_cast<double>(level) * t.hold_s;
+    if (level == 0 || !(since_s < t.ramp_s)) return t.levels[level];
+    return t.levels[level - 1] + std::max(since_s, 0.0) / t.ramp_s *
+                                     (t.levels[level] - t.levels[level - 1]);
   }
 };
 
@@ -48,7 +52,7 @@ double Trajectory::At(double time_s) const {
   return std::visit(ValueAt{std::max(time_s, 0.0)}, shape_);
 }
 
-double Trajectory::SinceJump(double time_s) const {
+double Trajectory::SinceStep(double time_s) const {
   const auto* steps = std::get_if<StepTrajectory>(&shape_);
   if (steps == nullptr) return std::numeric_limits<double>::infinity();
   const std::size_t level = Level(*steps, time_s);

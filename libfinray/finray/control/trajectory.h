@@ -24,10 +24,12 @@ struct TriangularTrajectory {
   double mean, amplitude, period_s;
 };
 
-/// Each level for `hold_s`; the last one for ever.
+/// Each level for `hold_s`, the last one for ever. A step takes `ramp_s`,
+/// at most hold_s, from when the level before ends; 0: it is a jump.
 struct StepTrajectory {
   std::vector<double> levels;
   double hold_s;
+  double ramp_s = 0;
 };
 
 /// A prescribed course of a force (N) or a position (mm) over time.
@@ -43,8 +45,8 @@ class Trajectory {
 
   /// The value at a time; before 0 that at 0.
   double At(double time_s) const;
-  /// Time since the last jump; infinite before the first one.
-  double SinceJump(double time_s) const;
+  /// Time since the last step began; infinite before the first one.
+  double SinceStep(double time_s) const;
   /// The middle of the values that it takes.
   double Middle() const;
 
