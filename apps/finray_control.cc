@@ -8,6 +8,7 @@
 #include "app.h"
 #include "finray/control/control_log.h"
 #include "finray/control/control_summary.h"
+#include "finray/control/experiment_settings.h"
 #include "finray/control/experiment_yaml.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/sha256.h"
@@ -158,7 +159,9 @@ int Run() {
   Required("out_dir", FLAGS_out_dir);
   if (FLAGS_dump_config) {
     for (const Job& job : jobs) {
-      std::cout << "# " << job.path << "\n";
+      YAML::Emitter yaml;
+      EmitSettings(job.experiment, &yaml);
+      std::cout << "# " << job.path << "\n" << yaml.c_str() << "\n";
       DumpConfig(finger, job.experiment.scene, discretization);
     }
     return kGood;

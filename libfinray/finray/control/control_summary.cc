@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "finray/control/experiment_settings.h"
+
 namespace finray {
 namespace {
 
@@ -75,8 +77,9 @@ void EmitExperiment(const std::string& path, const Experiment& experiment,
           << Value << experiment.paper->rms_N << Key << "max_N" << Value
           << experiment.paper->max_N << YAML::EndMap;
   }
-  *yaml << Key << "measured_from_s" << Value << experiment.measure_from_s << Key
-        << "controllers" << Value << YAML::BeginSeq;
+  *yaml << Key << "settings" << Value;
+  EmitSettings(experiment, yaml);
+  *yaml << Key << "controllers" << Value << YAML::BeginSeq;
   for (const ControllerResult& result : results) {
     EmitController(experiment, result, yaml);
   }

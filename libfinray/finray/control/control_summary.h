@@ -15,6 +15,10 @@ namespace finray {
 std::vector<std::string> ControlLogNames(const Experiment& experiment,
                                          const ControllerSettings& controller);
 
+/// What is in force in an experiment, with all defaults, as a mapping of its
+/// YAML's keys.
+void EmitSettings(const Experiment& experiment, YAML::Emitter* yaml);
+
 /// One experiment of a summary.yaml (docs/formats.md), as a mapping.
 void EmitExperiment(const std::string& path, const Experiment& experiment,
                     const std::vector<ControllerResult>& results,

@@ -33,6 +33,8 @@ struct ControllerSettings {
   std::string name;      ///< of its log and its summary
   bool preview = false;  ///< Does it know the set-point beforehand?
   ObjectPrior prior;     ///< of the model controller
+  /// The height of a contact that the PI is tuned for.
+  double tuned_at_mm = 0;
 };
 
 /// Gauges that read nothing for some time.

@@ -116,7 +116,7 @@ void ReadActuation(const YamlMap& map, Experiment* experiment) {
       1e-3 * map.NonNegativeNumber("true_delay_ms", 1e3 * actuation.delay_s);
 }
 
-ControllerSettings ReadController(const YamlMap& map) {
+ControllerSettings ReadController(const YamlMap& map, const Finger& finger) {
   ControllerSettings settings;
   const std::string type = map.Choice("type", {"model", "pi", "none"});
   settings.name = map.Text("name", type);
@@ -132,8 +132,13 @@ ControllerSettings ReadController(const YamlMap& map) {
   }
   settings.preview = map.Boolean("preview", false);
   if (type == "pi") {
-    map.AllowOnly({"type", "name", "preview"});
+    map.AllowOnly({"type", "name", "preview", "tuned_at_mm"});
     settings.kind = ControllerKind::kPi;
+    settings.tuned_at_mm =
+        map.PositiveNumber("tuned_at_mm", 0.5 * finger.front_length_mm);
+    if (!(settings.tuned_at_mm < finger.front_length_mm)) {
+      map.Fail("tuned_at_mm", "tuned_at_mm: expected a height on the finger");
+    }
     return settings;
   }
   map.AllowOnly({"type", "name", "preview", "object_acceleration_mm_s2",
@@ -146,10 +151,11 @@ ControllerSettings ReadController(const YamlMap& map) {
   return settings;
 }
 
-void ReadControllers(const YamlMap& yaml, Experiment* experiment) {
+void ReadControllers(const YamlMap& yaml, const Finger& finger,
+                     Experiment* experiment) {
   std::set<std::string> names;
   for (const YamlMap& map : yaml.Maps("controllers")) {
-    experiment->controllers.push_back(ReadController(map));
+    experiment->controllers.push_back(ReadController(map, finger));
     const std::string& name = experiment->controllers.back().name;
     if (!names.insert(name).second) {
       map.Fail("type", "two controllers are called '" + name +
@@ -278,7 +284,7 @@ Experiment ReadExperiment(const std::string& path, const Finger& finger) {
     experiment.motion = ReadTrajectory(yaml.Map("object_motion"), "mm", false);
   }
   ReadActuation(yaml.Map("actuation"), &experiment);
-  ReadControllers(yaml, &experiment);
+  ReadControllers(yaml, finger, &experiment);
   ReadRun(yaml, &experiment);
   const auto& all = experiment.controllers;
   const bool sensing_only =

@@ -21,14 +21,14 @@ std::unique_ptr<Controller> MakeController(
         std::move(models), mechanism, settings.prior,
         experiment.actuation.period_s, settings.preview);
   }
-  const double y_mm = experiment.start.y_mm;
+  const double y_mm = settings.tuned_at_mm;
   const auto push =
       models.front().At(MakePose<double>(0, Eigen::Vector2d::Zero()), y_mm,
                         experiment.set_point.Middle(), y_mm);
   if (!push) {
     throw InputError("the finger's model has no contact of " +
                      std::to_string(experiment.set_point.Middle()) +
-                     " N at the object's y_mm, by which to tune the PI");
+                     " N at the height that the PI is tuned for");
   }
   return std::make_unique<PiController>(
       push->stiffness_N_per_mm * mechanism.ApproachPerDrive(0, y_mm),

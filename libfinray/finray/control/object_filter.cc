@@ -48,6 +48,7 @@ void ObjectFilter::Update(double place_mm, double force_N, double std_mm) {
   if (x_[2] < 0) {
     // The most likely state with no compliance.
     x_ -= covariance_.col(2) * (x_[2] / covariance_(2, 2));
+    x_[2] = 0;
   }
 }
 

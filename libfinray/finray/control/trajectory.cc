@@ -28,10 +28,11 @@ struct ValueAt {
   }
   double operator()(const StepTrajectory& t) const {
     const std::size_t level = Level(t, time_s);
-    const double since_s = time_s - static_cast<double>(level) * t.hold_s;
+    const double since_s =
+        std::max(time_s - static_cast<double>(level) * t.hold_s, 0.0);
     if (level == 0 || !(since_s < t.ramp_s)) return t.levels[level];
-    return t.levels[level - 1] + std::max(since_s, 0.0) / t.ramp_s *
-                                     (t.levels[level] - t.levels[level - 1]);
+    return t.levels[level - 1] +
+           since_s / t.ramp_s * (t.levels[level] - t.levels[level - 1]);
   }
 };
 
