@@ -46,14 +46,22 @@ TEST(ContactWatchTest, LightTouches) {
             Sight::kLight);
 }
 
+// The controller takes over when the contact has been seen three times.
+void Take(ContactWatch* watch, const std::vector<FrameEstimate>& estimates) {
+  const std::vector<double> signals(estimates.size(), kBent);
+  EXPECT_EQ(watch->Next(estimates, signals), LoopMode::kHold);
+  EXPECT_EQ(watch->Next(estimates, signals), LoopMode::kHold);
+  EXPECT_EQ(watch->Next(estimates, signals), LoopMode::kControl);
+}
+
 TEST(ContactWatchTest, HoldsThenStopsForGood) {
   ContactWatch watch(kSafety, 0.04);
   EXPECT_EQ(watch.Next({kFreeFinger}, {0}), LoopMode::kApproach);
-  EXPECT_EQ(watch.Next({kGood}, {kBent}), LoopMode::kControl);
+  Take(&watch, {kGood});
   // 0.1 s are two periods and a half.
   EXPECT_EQ(watch.Next({kLost}, {kBent}), LoopMode::kHold);
   EXPECT_EQ(watch.Next({kLost}, {kBent}), LoopMode::kHold);
-  EXPECT_EQ(watch.Next({kGood}, {kBent}), LoopMode::kControl);
+  Take(&watch, {kGood});
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(watch.Next({kLost}, {kBent}), LoopMode::kHold);
   }
@@ -61,11 +69,29 @@ TEST(ContactWatchTest, HoldsThenStopsForGood) {
   EXPECT_EQ(watch.Next({kGood}, {kBent}), LoopMode::kStopped);
 }
 
+// Here and there a frame looks sure: nobody acts on it.
+TEST(ContactWatchTest, SingleSureFramesAreNotBelieved) {
+  ContactWatch watch({0.3, 10, 1.5, 5}, 0.04);
+  for (int i = 0; i < 50; ++i) {
+    EXPECT_EQ(watch.Next({i % 3 == 0 ? kLost : kGood}, {kBent}),
+              LoopMode::kHold);
+  }
+}
+
+// A light touch that is seen does not keep the finger from going on.
+TEST(ContactWatchTest, GoesOnFromALightTouch) {
+  ContactWatch watch(kSafety, 0.04);
+  const FrameEstimate light = Estimate(FrameStatus::kOk, 0.8, 0.1);
+  EXPECT_EQ(watch.Next({light}, {kBent}), LoopMode::kApproach);
+  EXPECT_EQ(watch.Next({light}, {kBent}), LoopMode::kApproach);
+  EXPECT_EQ(watch.Next({light}, {kBent}), LoopMode::kControl);
+}
+
 TEST(ContactWatchTest, AllFingersHaveToSee) {
   ContactWatch watch(kSafety, 0.04);
   EXPECT_EQ(watch.Next({kGood, kFreeFinger}, {kBent, 0}), LoopMode::kApproach);
   EXPECT_EQ(watch.Next({kGood, kLost}, {kBent, kBent}), LoopMode::kHold);
-  EXPECT_EQ(watch.Next({kGood, kGood}, {kBent, kBent}), LoopMode::kControl);
+  Take(&watch, {kGood, kGood});
 }
 
 }  // namespace

@@ -47,7 +47,8 @@ TEST(ControlLoopTest, ApproachesTouchesAndRegulates) {
     const LoopRun run = RunLoop(PaperFinger(), experiment, controller, {}, 1);
     ASSERT_EQ(run.failure, "");
     ASSERT_EQ(run.rows.size(), 241u);
-    EXPECT_EQ(run.rows[0].mode, LoopMode::kApproach);
+    EXPECT_EQ(run.rows[0].mode, LoopMode::kZero);
+    EXPECT_EQ(run.rows[16].mode, LoopMode::kApproach);
     EXPECT_EQ(run.rows[0].force_N, 0);
     EXPECT_EQ(run.rows.back().mode, LoopMode::kControl);
     const ControlStatistics s = StatisticsOf(run, experiment, true);
@@ -149,7 +150,8 @@ TEST(ControlLoopTest, WrongDelay) {
 
 TEST(ControlLoopTest, WithoutAControllerTheDriveStays) {
   Experiment experiment = StepExperiment();
-  experiment.motion = Trajectory(HarmonicTrajectory{0, 5, 4});
+  experiment.start.gap_mm = 5;
+  experiment.motion = Trajectory(HarmonicTrajectory{0, 9, 8});
   ControllerSettings none;
   none.kind = ControllerKind::kNone;
   const LoopRun run = RunLoop(PaperFinger(), experiment, none, {}, 1);

@@ -6,6 +6,8 @@ namespace finray {
 
 const char* LoopModeName(LoopMode mode) {
   switch (mode) {
+    case LoopMode::kZero:
+      return "zero";
     case LoopMode::kApproach:
       return "approach";
     case LoopMode::kControl:
@@ -18,25 +20,26 @@ const char* LoopModeName(LoopMode mode) {
   return "";
 }
 
-Sight Judge(const FrameEstimate& estimate, double signal,
-            const Safety& safety) {
+bool IsLight(const FrameEstimate& estimate, double signal,
+             const Safety& safety) {
+  // NaN, where there is no number, is not below.
+  if (signal < 1) return true;
   const ContactEstimate& contact = estimate.contact[0];
   const ContactEstimate& other = estimate.alternative[0];
+  const double twice_std = 2 * contact.normal_std_N;
+  const bool alternative = std::isfinite(other.normal_N);
+  return contact.normal_N + twice_std < safety.touch_N &&
+         (!alternative || other.normal_N + twice_std < safety.touch_N);
+}
+
+Sight Judge(const FrameEstimate& estimate, double signal,
+            const Safety& safety) {
   if (estimate.status == FrameStatus::kNoContact) return Sight::kFree;
   if (estimate.status == FrameStatus::kOk &&
-      contact.normal_std_N <= safety.force_std_limit_N) {
+      estimate.contact[0].normal_std_N <= safety.force_std_limit_N) {
     return Sight::kSeen;
   }
-  // NaN, where there is no number, is not below.
-  if (signal < 1) return Sight::kLight;
-  if (estimate.status != FrameStatus::kUnobservable) return Sight::kBlind;
-  const double most = contact.normal_N + 2 * contact.normal_std_N;
-  const bool alternative = std::isfinite(other.normal_N);
-  const bool light =
-      most < safety.touch_N &&
-      (!alternative ||
-       other.normal_N + 2 * contact.normal_std_N < safety.touch_N);
-  return light ? Sight::kLight : Sight::kBlind;
+  return IsLight(estimate, signal, safety) ? Sight::kLight : Sight::kBlind;
 }
 
 ContactWatch::ContactWatch(const Safety& safety, double period_s)
@@ -45,20 +48,26 @@ ContactWatch::ContactWatch(const Safety& safety, double period_s)
 LoopMode ContactWatch::Next(const std::vector<FrameEstimate>& estimates,
                             const std::vector<double>& signals) {
   if (mode_ == LoopMode::kStopped) return mode_;
-  std::size_t seen = 0, blind = 0;
+  std::size_t seen = 0, blind = 0, light = 0;
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     const Sight sight = Judge(estimates[i], signals[i], safety_);
     if (sight == Sight::kSeen) ++seen;
     if (sight == Sight::kBlind) ++blind;
+    if (IsLight(estimates[i], signals[i], safety_)) ++light;
   }
+  const std::size_t all = estimates.size();
+  blind_ = blind > 0 ? blind_ + 1 : 0;
+  seen_ = seen == all ? seen_ + 1 : 0;
   if (blind > 0) {
-    ++blind_;
     mode_ = blind_ * period_s_ > safety_.hold_s ? LoopMode::kStopped
                                                 : LoopMode::kHold;
-    return mode_;
+  } else if (seen < all) {
+    mode_ = LoopMode::kApproach;
+  } else if (mode_ != LoopMode::kControl) {
+    mode_ = seen_ >= kSureFrames ? LoopMode::kControl
+            : light == all       ? LoopMode::kApproach
+                                 : LoopMode::kHold;
   }
-  blind_ = 0;
-  mode_ = seen == estimates.size() ? LoopMode::kControl : LoopMode::kApproach;
   return mode_;
 }
 

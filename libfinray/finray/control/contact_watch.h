@@ -22,6 +22,7 @@ struct Safety {
 
 /// What the drive does.
 enum class LoopMode {
+  kZero,      ///< The gauges are being zeroed: the drive waits.
   kApproach,  ///< No contact, or a light touch: on towards the object.
   kControl,   ///< The contact is seen: the controller drives.
   kHold,      ///< It is not: the drive stays.
@@ -30,21 +31,29 @@ enum class LoopMode {
 const char* LoopModeName(LoopMode mode);
 
 /// What one estimate is good for.
-enum class Sight { kSeen, kFree, kLight, kBlind };
-
-/// - seen: status ok and a std of the force below the limit;
-/// - free: no contact;
-/// - light: gauges that bend less than under a touch of touch_N anywhere on the
-///   finger but at its ends (`signal` below 1, see TouchSignal); or
-///   unobservable, but neither the estimate nor its alternative, each with
-///   twice its std, reach touch_N;
-/// - blind: all else, bad input included.
+enum class Sight {
+  kSeen,   ///< Status ok and a std of the force below the limit.
+  kFree,   ///< No contact.
+  kLight,  ///< Neither, but IsLight.
+  kBlind,  ///< All else, bad input included.
+};
 Sight Judge(const FrameEstimate& estimate, double signal, const Safety& safety);
 
-/// Follows what the fingers see, frame by frame, and decides who drives: blind
-/// if any finger is, seen if all are, otherwise on the approach.
+/// A light touch, if any: gauges that bend less than under touch_N anywhere on
+/// the finger but at its ends (`signal`, see TouchSignal, below 1); or an
+/// estimate that with twice its std does not reach touch_N, nor does its
+/// alternative.
+bool IsLight(const FrameEstimate& estimate, double signal,
+             const Safety& safety);
+
+/// Follows what the fingers see, frame by frame, and decides who drives: nobody
+/// if any finger is blind; the controller if all see, and have seen for
+/// kSureFrames when it takes over, as among many unobservable frames a few look
+/// sure; otherwise the approach.
 class ContactWatch {
  public:
+  static constexpr int kSureFrames = 3;
+
   ContactWatch(const Safety& safety, double period_s);
 
   /// With the TouchSignal of each finger.
@@ -56,7 +65,7 @@ class ContactWatch {
   Safety safety_;
   double period_s_;
   LoopMode mode_ = LoopMode::kApproach;
-  int blind_ = 0;  // periods in a row
+  int blind_ = 0, seen_ = 0;  // periods in a row
 };
 
 }  // namespace finray

@@ -6,6 +6,7 @@
 #include <memory>
 #include <random>
 
+#include "finray/control/gauge_zero.h"
 #include "finray/control/make_controller.h"
 #include "finray/control/touch_signal.h"
 #include "finray/sensing/live_estimator.h"
@@ -42,6 +43,7 @@ class Loop {
         controller_(
             MakeController(finger, experiment, settings, discretization)) {
     for (int i = 0; i < experiment.mechanism.fingers(); ++i) {
+      zeros_.emplace_back(finger, discretization);
       estimators_.push_back(std::make_unique<LiveEstimator>(
           finger, experiment.scene, discretization));
     }
@@ -88,6 +90,8 @@ class Loop {
         readings.gauges_V[j] += gauges_[j].noise_V * unit_(generator_);
       }
       if (i == 0) LoseGauges(row->time_s, &readings);
+      if (row->time_s < experiment_.zero_s) zeros_[i].Add(readings);
+      zeros_[i].Apply(&readings);
       row->estimates.push_back(estimators_[i]->Next(readings));
       row->readings.push_back(std::move(readings));
     }
@@ -124,7 +128,9 @@ class Loop {
     }
     known_drive_.AdvanceTo(row->time_s);
     if (experiment_.drive_is_measured) known_drive_.CorrectTo(row->drive);
-    row->mode = watch_.Next(row->estimates, signals);
+    row->mode = row->time_s < experiment_.zero_s
+                    ? LoopMode::kZero
+                    : watch_.Next(row->estimates, signals);
     row->command = CommandOf(*row);
     true_drive_.Command(row->time_s, row->command);
     known_drive_.Command(row->time_s, row->command);
@@ -135,6 +141,8 @@ class Loop {
         experiment_.safety.approach_speed * experiment_.actuation.period_s;
     const double last = known_drive_.last_command();
     switch (row.mode) {
+      case LoopMode::kZero:
+        return last;
       case LoopMode::kControl: {
         std::vector<SeenContact> seen;
         for (const FrameEstimate& e : row.estimates) seen.push_back(Seen(e));
@@ -161,6 +169,7 @@ class Loop {
   Actuator true_drive_, known_drive_;
   const TouchSignal touch_;
   ContactWatch watch_;
+  std::vector<GaugeZero> zeros_;
   std::unique_ptr<Controller> controller_;
   std::vector<std::unique_ptr<LiveEstimator>> estimators_;
 };

@@ -25,7 +25,7 @@ struct LoopRow {
   LoopMode mode = LoopMode::kApproach;
   bool sure = false;  ///< All fingers see their contact, or that there is none.
   std::vector<PlantFinger> fingers;
-  std::vector<FrameReadings> readings;  ///< with noise
+  std::vector<FrameReadings> readings;  ///< with noise, zeroed
   std::vector<FrameEstimate> estimates;
 };
 
@@ -36,10 +36,11 @@ struct LoopRun {
 };
 
 /// A closed loop at the rate of the actuation: plant, gauges with their noise,
-/// a LiveEstimator for each finger, ContactWatch, controller, delay and drive,
-/// plant. `finger` is what estimators and controllers know; the plant's fingers
-/// differ from it by the experiment's model error. Equal seeds give equal
-/// fingers and noise to all controllers.
+/// zeroed before the approach (GaugeZero), a LiveEstimator for each finger,
+/// ContactWatch, controller, delay and drive, plant. `finger` is what
+/// estimators and controllers know; the plant's fingers differ from it by the
+/// experiment's model error. Equal seeds give equal fingers and noise to all
+/// controllers.
 LoopRun RunLoop(const Finger& finger, const Experiment& experiment,
                 const ControllerSettings& controller,
                 const Discretization& discretization, std::uint64_t seed);

@@ -66,6 +66,7 @@ struct Experiment {
   Safety safety;
   ModelError model_error;
   std::optional<GaugeLoss> gauge_loss;
+  double zero_s = 0.5;  ///< at the start, for zeroing the gauges; 0: not
   double duration_s = 20;
   double measure_from_s = 4;
   double settled_after_s = 1;  ///< of a step of the set-point

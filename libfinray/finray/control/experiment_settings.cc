@@ -87,6 +87,7 @@ void EmitSettings(const Experiment& experiment, YAML::Emitter* yaml) {
       .With("rib_length_std_mm", error.rib_length_mm)
       .With("delay_std_ms", 1e3 * experiment.delay_std_s);
   Line("run", yaml)
+      .With("zero_s", experiment.zero_s)
       .With("duration_s", experiment.duration_s)
       .With("measure_from_s", experiment.measure_from_s)
       .With("settled_after_s", experiment.settled_after_s)

@@ -243,7 +243,9 @@ void ReadStart(const YamlMap& yaml, const Finger& finger,
 
 void ReadRun(const YamlMap& yaml, Experiment* experiment) {
   const YamlMap map = yaml.Map("run");
-  map.AllowOnly({"duration_s", "measure_from_s", "settled_after_s", "draws"});
+  map.AllowOnly(
+      {"zero_s", "duration_s", "measure_from_s", "settled_after_s", "draws"});
+  experiment->zero_s = map.NonNegativeNumber("zero_s", experiment->zero_s);
   experiment->duration_s = map.PositiveNumber("duration_s");
   experiment->measure_from_s =
       map.NonNegativeNumber("measure_from_s", experiment->measure_from_s);
