@@ -25,10 +25,16 @@ def read(path):
     with open(path, newline="") as file:
         rows = list(csv.DictReader(file))
     number = lambda cell: float(cell) if cell else math.nan
-    names = ("time_s", "set_point_N", "force_N", "force_estimate_N")
+    names = ("time_s", "set_point_N", "force_N", "force_estimate_N", "force_estimate_std_N")
     log = {name: [number(row[name]) for row in rows] for name in names}
     log["mode"] = [row["mode"] for row in rows]
+    log["status"] = [row["status"] for row in rows]
     return log
+
+
+def sure(status, std, limit):
+    """Whether the loop believes an estimate; one of no contact has no std."""
+    return status == "no_contact" or (status == "ok" and std <= limit)
 
 
 def spans(log, modes):
@@ -60,9 +66,11 @@ def draw(folder, experiment):
         if controlled:
             shown, against = log["force_N"], log["set_point_N"]
         else:
-            shown, against = log["force_estimate_N"], log["force_N"]
-            sure = [mode_force < 25 for mode_force in shown]
-            shown = [s if ok else math.nan for s, ok in zip(shown, sure)]
+            limit = experiment["settings"]["safety"]["force_std_limit_N"]
+            shown = [force if sure(status, std, limit) else math.nan
+                     for force, status, std in zip(log["force_estimate_N"], log["status"],
+                                                   log["force_estimate_std_N"])]
+            against = log["force_N"]
         error = [s - a for s, a in zip(shown, against)]
         above.plot(time, shown, color=colour, lw=1.3, label=label(controller))
         below.plot(time, error, color=colour, lw=1.1)

@@ -79,6 +79,21 @@ TEST(ControlLoopTest, EqualSeedsGiveEqualRuns) {
   EXPECT_NE(last(4).force_N, last(5).force_N);
 }
 
+// Two fingers that differ, one motor.
+TEST(ControlLoopTest, TwoFingersGrasp) {
+  Experiment experiment = StepExperiment();
+  experiment.mechanism = Mechanism(
+      FourBar(FourBarJoints{{10, -75}, {10, -15}, {50, -75}, {50, -15}}));
+  experiment.actuation.speed_limit = 0.8;
+  experiment.safety.approach_speed = 0.07;
+  experiment.set_point = Trajectory(StepTrajectory{{4, 6}, 4});
+  const LoopRun run = RunLoop(PaperFinger(), experiment, {}, {}, 2);
+  ASSERT_EQ(run.failure, "");
+  ASSERT_EQ(run.rows.back().fingers.size(), 2u);
+  EXPECT_EQ(run.rows.back().mode, LoopMode::kControl);
+  EXPECT_LT(StatisticsOf(run, experiment, true).settled.rms(), 0.15);
+}
+
 // Gauges drop out in the middle: the drive stays where it is, and if they do
 // not come back it goes back to the start and the force goes to 0.
 TEST(ControlLoopTest, HoldsAndStopsWithoutGauges) {
