@@ -12,6 +12,7 @@
 #include "finray/control/experiment_yaml.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/sha256.h"
+#include "progress_bar.h"
 
 DEFINE_string(finger, "",
               "finger YAML: what estimator and controllers know; the simulated "
@@ -31,6 +32,8 @@ DEFINE_bool(strict, false,
 namespace {
 
 using namespace finray;
+
+constexpr int kDigits = 12;  // 0.3 is 0.3
 
 struct Job {
   std::string path;
@@ -60,6 +63,17 @@ std::vector<Job> ReadJobs(const Finger& finger) {
   return jobs;
 }
 
+// Of all runs.
+std::size_t Periods(const std::vector<Job>& jobs) {
+  double periods = 0;
+  for (const Job& job : jobs) {
+    const Experiment& e = job.experiment;
+    periods += e.duration_s / e.actuation.period_s * e.draws *
+               static_cast<double>(e.controllers.size());
+  }
+  return static_cast<std::size_t>(periods);
+}
+
 void WriteLogs(const Finger& finger, const Job& job) {
   for (const ControllerResult& result : job.results) {
     const auto names = ControlLogNames(job.experiment, result.controller);
@@ -73,6 +87,7 @@ void WriteLogs(const Finger& finger, const Job& job) {
 void WriteSummary(const std::vector<Job>& jobs,
                   const Discretization& discretization) {
   YAML::Emitter yaml;
+  yaml.SetDoublePrecision(kDigits);
   yaml << YAML::BeginMap << YAML::Key << "finger" << YAML::Value << FLAGS_finger
        << YAML::Key << "scheme" << YAML::Value
        << SchemeName(discretization.scheme) << YAML::Key << "seed"
@@ -160,16 +175,20 @@ int Run() {
   if (FLAGS_dump_config) {
     for (const Job& job : jobs) {
       YAML::Emitter yaml;
+      yaml.SetDoublePrecision(kDigits);
       EmitSettings(job.experiment, &yaml);
       std::cout << "# " << job.path << "\n" << yaml.c_str() << "\n";
       DumpConfig(finger, job.experiment.scene, discretization);
     }
     return kGood;
   }
+  ProgressBar bar(Periods(jobs));
   for (Job& job : jobs) {
-    job.results = RunExperiment(finger, job.experiment, discretization,
-                                FLAGS_seed, FLAGS_threads);
+    job.results = RunExperiment(
+        finger, job.experiment, discretization, FLAGS_seed, FLAGS_threads,
+        [&bar](std::size_t periods) { bar.Add(periods, false); });
   }
+  bar.Clear();
   MakeFolder(FLAGS_out_dir);
   for (const Job& job : jobs) WriteLogs(finger, job);
   WriteSummary(jobs, discretization);

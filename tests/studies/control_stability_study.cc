@@ -4,7 +4,7 @@
 // 1 % of EI, 0.3 % of gains, 0.5 mV, 0.03 mm of ribs. Over the object's
 // stiffness and the delay of the actuation, and over the height of the contact.
 // Three draws each. A cell is the rms error in N over all of both steps / over
-// 5 to 8 s behind each, of the worst draw; "unstable": above 0.3 N there;
+// 5 to 8 s behind each, of the worst draw; "not settled": above 0.3 N there;
 // "stopped": the contact was not observable on the approach, and the loop gave
 // up.
 //
@@ -23,7 +23,7 @@
 namespace finray {
 namespace {
 
-constexpr double kUnstable_N = 0.3;
+constexpr double kSettled_N = 0.3;
 constexpr int kDraws = 3;
 constexpr double kRigid = 0;
 
@@ -64,7 +64,7 @@ std::string Cell(const Finger& finger, const Experiment& experiment,
     all = std::max(all, s.control.rms());
     settled = std::max(settled, s.settled.rms());
   }
-  if (!(settled < kUnstable_N)) return "unstable";
+  if (!(settled < kSettled_N)) return "not settled";
   char text[32];
   std::snprintf(text, sizeof text, "%.2f / %.2f", all, settled);
   return text;

@@ -2,6 +2,7 @@
 #define FINRAY_CONTROL_RUN_EXPERIMENT_H_
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,10 +21,12 @@ struct ControllerResult {
 };
 
 /// Runs all controllers over all draws; draw d has the seed seed + d, so that
-/// results do not depend on threads.
+/// results do not depend on threads. `progress`, if given, hears of the periods
+/// of every run that is done, one call at a time.
 std::vector<ControllerResult> RunExperiment(
     const Finger& finger, const Experiment& experiment,
-    const Discretization& discretization, std::uint64_t seed, int threads);
+    const Discretization& discretization, std::uint64_t seed, int threads,
+    const std::function<void(std::size_t)>& progress = {});
 
 }  // namespace finray
 
