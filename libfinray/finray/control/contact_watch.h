@@ -59,7 +59,6 @@ class ContactWatch {
   /// With the TouchSignal of each finger.
   LoopMode Next(const std::vector<FrameEstimate>& estimates,
                 const std::vector<double>& signals);
-  LoopMode mode() const { return mode_; }
 
  private:
   Safety safety_;

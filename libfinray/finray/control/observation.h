@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "finray/control/trajectory.h"
 #include "finray/sensing/frame_estimate.h"
 
 namespace finray {

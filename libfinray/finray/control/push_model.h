@@ -35,8 +35,6 @@ class PushModel {
   PushModel(const Finger& finger, double radius_mm, double friction,
             const Discretization& discretization);
 
-  double radius_mm() const { return radius_mm_; }
-
   /// The circle's centre in the world under a contact; nothing if there is no
   /// equilibrium.
   std::optional<Eigen::Vector2d> Centre(const Pose<double>& base, double arc_mm,
