@@ -42,9 +42,10 @@ void PrintSummary(finray::CalibrationProblem& problem,
                          : free);
   }
   std::printf("%s\n", InFolder("finger.yaml").c_str());
-  std::printf("solver         %s after %d iterations\n",
-              result.solve.converged ? "converged" : "did not converge",
-              result.solve.iterations);
+  std::printf(
+      "solver         %s after %d iterations\n",
+      result.solution.solve.converged ? "converged" : "did not converge",
+      result.solution.solve.iterations);
   std::printf("frames         %d contact, %d free, %d held out", contact, free,
               held_out);
   if (bench > 0) std::printf(", %d on the bench", bench);
@@ -63,8 +64,10 @@ void PrintSummary(finray::CalibrationProblem& problem,
   const ForceCheck::Error& kept = result.forces.held_out;
   std::printf("\nforce error    ");
   if (fitted.frames > 0) {
-    std::printf("%.3g N rms before, %.3g N after", fitted.before_rms_N,
-                fitted.after_rms_N);
+    if (fitted.frames_before > 0) {
+      std::printf("%.3g N rms before, ", fitted.before_rms_N);
+    }
+    std::printf("%.3g N after", fitted.after_rms_N);
     if (kept.frames > 0) std::printf(", %.3g N held out", kept.after_rms_N);
     std::printf("\n");
   } else {
@@ -91,8 +94,9 @@ int Run() {
     DumpConfig(finger, plan.scene, discretization);
     return kGood;
   }
-  const CalibrationLogs logs = ReadCalibrationLogs(paths, finger, plan);
-  CalibrationProblem problem(finger, plan, logs, discretization, FLAGS_threads);
+  CalibrationProblem problem(finger, plan,
+                             ReadCalibrationLogs(paths, finger, plan),
+                             discretization, FLAGS_threads);
   const CalibrationResult result = Calibrate(
       &problem, discretization, FLAGS_threads, FLAGS_leave_one_log_out);
 
@@ -124,7 +128,7 @@ int Run() {
     }
   }
   PrintSummary(problem, result);
-  if (!result.solve.converged) return kSolveFailed;
+  if (!result.solution.solve.converged) return kSolveFailed;
   return result.AllIdentified() ? kGood : kGateFailed;
 }
 

@@ -1,6 +1,9 @@
 #include "finray/calib/calibration_result.h"
 
+#include <glog/logging.h>
+
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -88,7 +91,7 @@ void WarnOfForces(const ForceCheck& forces, double force_std_N,
          "record logs that cover what the finger will meet: heights and "
          "loads"});
   }
-  if (forces.fitted.frames > 0 &&
+  if (forces.fitted.frames > 0 && forces.fitted.frames_before > 0 &&
       forces.fitted.after_rms_N > forces.fitted.before_rms_N + force_std_N) {
     warnings->push_back(
         {"no_better",
@@ -144,30 +147,73 @@ void WarnOfDisagreement(CalibrationProblem& problem,
        "take the spread in leave_one_log_out for the std until then"});
 }
 
+std::vector<int> FramesToCheck(const CalibrationLogs& logs) {
+  std::vector<int> chosen;
+  for (const bool held_out : {false, true}) {
+    std::vector<int> frames;
+    for (std::size_t i = 0; i < logs.frames.size(); ++i) {
+      if (logs.frames[i].held_out == held_out) {
+        frames.push_back(static_cast<int>(i));
+      }
+    }
+    const std::size_t count =
+        std::min(frames.size(), CalibrationResult::kMostChecked);
+    for (std::size_t k = 0; k < count; ++k) {
+      chosen.push_back(frames[k * frames.size() / count]);
+    }
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+CalibrationLogs Chosen(const CalibrationLogs& logs,
+                       const std::vector<int>& frames) {
+  CalibrationLogs chosen{logs.paths, logs.names, {}};
+  for (const int i : frames) chosen.frames.push_back(logs.frames[i]);
+  return chosen;
+}
+
 // Errors by region of the frames that were fitted, or held out.
 void TabulateRegions(CalibrationProblem& problem, const CalibrationLogs& logs,
-                     const Discretization& discretization,
+                     const Discretization& discretization, int threads,
                      CalibrationResult* result) {
-  const auto references =
-      ReferencesOf(logs, result->finger, problem.plan(), discretization);
+  const auto references = ReferencesOf(logs, result->finger, problem.plan(),
+                                       discretization, threads);
   for (const bool held_out : {false, true}) {
     CalibrationResult::Errors& errors =
         held_out ? result->held_out : result->fitted;
-    const auto table = [&](const std::vector<FrameEstimate>& estimates) {
+    const auto table = [&](const std::vector<FrameEstimate>& estimates,
+                           bool before) {
       return TabulateErrors(references, estimates, result->forces.after,
                             problem.finger().front_length_mm,
                             problem.plan().scene.friction_coefficient,
                             [&](std::size_t i) {
                               return logs.frames[i].held_out == held_out &&
-                                     !logs.frames[i].IsBench();
+                                     !logs.frames[i].IsBench() &&
+                                     (!before || result->forces.has_before[i]);
                             });
     };
-    errors.before = table(result->forces.before);
-    errors.after = table(result->forces.after);
+    errors.before = table(result->forces.before, true);
+    errors.after = table(result->forces.after, false);
   }
 }
 
 }  // namespace
+
+// Says with --v=1 how long each part took.
+class Stopwatch {
+ public:
+  void Lap(const char* part) {
+    const auto now = std::chrono::steady_clock::now();
+    VLOG(1) << part << ": "
+            << std::chrono::duration<double>(now - last_).count() << " s";
+    last_ = now;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ =
+      std::chrono::steady_clock::now();
+};
 
 bool CalibrationResult::AllIdentified() const {
   return std::none_of(
@@ -179,31 +225,40 @@ CalibrationResult Calibrate(CalibrationProblem* problem,
                             const Discretization& discretization, int threads,
                             bool leave_logs_out) {
   CalibrationResult result;
-  result.solve = problem->Solve();
+  Stopwatch watch;
+  result.solution = SolveRobustly(problem);
+  watch.Lap("solve");
   problem->ZeroHeldOutLogs();
   result.identifiability = AnalyzeIdentifiability(problem);
   result.residual_correlation =
       AnalyzeResidualCorrelation(problem, result.identifiability);
   EnlargeStd(result.residual_correlation, &result.identifiability);
+  watch.Lap("uncertainty");
   result.next =
       AdviseNextFrames(problem, discretization, &result.identifiability);
+  watch.Lap("what to record next");
   if (leave_logs_out) {
     result.leave_one_log_out =
         LeaveLogsOut(*problem, result.identifiability, discretization, threads);
   }
+  watch.Lap("leave one log out");
   result.finger = problem->parameters().Apply(problem->finger());
   KeepCovariance(problem->parameters(), result.identifiability, &result.finger);
+  result.checked = FramesToCheck(problem->logs());
+  const CalibrationLogs checked = Chosen(problem->logs(), result.checked);
   const CalibrationLogs corrected =
-      problem->parameters().Corrected(problem->logs(), result.finger);
-  result.forces =
-      CheckForces(problem->finger(), result.finger, problem->plan(),
-                  problem->logs(), corrected, discretization, threads);
-  TabulateRegions(*problem, corrected, discretization, &result);
+      problem->parameters().Corrected(checked, result.finger);
+  result.forces = CheckForces(problem->finger(), result.finger, problem->plan(),
+                              checked, corrected, discretization, threads);
+  watch.Lap("check of forces");
+  TabulateRegions(*problem, corrected, discretization, threads, &result);
+  watch.Lap("check of contacts");
   result.bench =
       TestBenchLinearity(problem->finger(), problem->plan(), problem->logs());
-  if (!result.solve.converged) {
+  if (!result.solution.solve.converged) {
     result.warnings.push_back(
-        {"not_converged", "the solver stopped early: " + result.solve.message,
+        {"not_converged",
+         "the solver stopped early: " + result.solution.solve.message,
          "give priors, or start from a finger closer to the truth"});
   }
   WarnOfWeakness(*problem, result.identifiability, &result.warnings);
