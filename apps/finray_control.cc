@@ -1,0 +1,209 @@
+// Force control simulated: a finger on a drive against an object, with the
+// estimator in the loop.
+
+#include <cstdio>
+#include <filesystem>
+#include <set>
+
+#include "app.h"
+#include "finray/control/control_log.h"
+#include "finray/control/control_summary.h"
+#include "finray/control/experiment_settings.h"
+#include "finray/control/experiment_yaml.h"
+#include "finray/io/atomic_file.h"
+#include "finray/io/sha256.h"
+#include "progress_bar.h"
+
+DEFINE_string(finger, "",
+              "finger YAML: what estimator and controllers know; the simulated "
+              "one differs by the experiment's model_error");
+DEFINE_string(experiment, "", "experiment YAMLs, separated by commas");
+DEFINE_string(out_dir, "", "folder for logs and summary.yaml");
+DEFINE_int32(draws, 0, "of finger and noise; 0: as the experiment says");
+DEFINE_uint64(seed, 1, "of the first draw");
+DEFINE_int32(threads, 1, "threads over draws and controllers");
+DEFINE_string(scheme, "taylor", "of the estimator: rigid_chain or taylor");
+DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
+DEFINE_bool(dump_config, false, "print what is in force, and stop");
+DEFINE_bool(strict, false,
+            "fail a gate, exit code 4, if any run of a controller is stopped, "
+            "or the first controller's rms error is not below the paper's");
+
+namespace {
+
+using namespace finray;
+
+constexpr int kDigits = 12;  // 0.3 is 0.3
+
+struct Job {
+  std::string path;
+  Experiment experiment;
+  std::vector<ControllerResult> results;
+};
+
+std::string InFolder(const std::string& name) {
+  return (std::filesystem::path(FLAGS_out_dir) / name).string();
+}
+
+// All of them, before anything runs.
+std::vector<Job> ReadJobs(const Finger& finger) {
+  std::vector<Job> jobs;
+  std::set<std::string> names;
+  for (const std::string& path :
+       SplitList(Required("experiment", FLAGS_experiment))) {
+    jobs.push_back({path, ReadExperiment(path, finger), {}});
+    Experiment& experiment = jobs.back().experiment;
+    if (!names.insert(experiment.name).second) {
+      throw InputError(path + ": another experiment is called '" +
+                       experiment.name + "' too; results would be the same");
+    }
+    if (FLAGS_draws > 0) experiment.draws = FLAGS_draws;
+  }
+  if (jobs.empty()) throw UsageError("--experiment names no file");
+  return jobs;
+}
+
+// Of all runs.
+std::size_t Periods(const std::vector<Job>& jobs) {
+  double periods = 0;
+  for (const Job& job : jobs) {
+    const Experiment& e = job.experiment;
+    periods += e.duration_s / e.actuation.period_s * e.draws *
+               static_cast<double>(e.controllers.size());
+  }
+  return static_cast<std::size_t>(periods);
+}
+
+void WriteLogs(const Finger& finger, const Job& job) {
+  for (const ControllerResult& result : job.results) {
+    const auto names = ControlLogNames(job.experiment, result.controller);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      ControlLog(finger, job.experiment, result.first, static_cast<int>(i))
+          .Write(InFolder(names[i]));
+    }
+  }
+}
+
+void WriteSummary(const std::vector<Job>& jobs,
+                  const Discretization& discretization) {
+  YAML::Emitter yaml;
+  yaml.SetDoublePrecision(kDigits);
+  yaml << YAML::BeginMap << YAML::Key << "finger" << YAML::Value << FLAGS_finger
+       << YAML::Key << "scheme" << YAML::Value
+       << SchemeName(discretization.scheme) << YAML::Key << "seed"
+       << YAML::Value << FLAGS_seed << YAML::Key << "version" << YAML::Value
+       << FINRAY_VERSION << YAML::Key << "inputs" << YAML::Value
+       << YAML::BeginMap << YAML::Key << FLAGS_finger << YAML::Value
+       << Sha256OfFile(FLAGS_finger);
+  for (const Job& job : jobs) {
+    yaml << YAML::Key << job.path << YAML::Value << Sha256OfFile(job.path);
+  }
+  yaml << YAML::EndMap << YAML::Key << "experiments" << YAML::Value
+       << YAML::BeginSeq;
+  for (const Job& job : jobs) {
+    EmitExperiment(job.path, job.experiment, job.results, &yaml);
+  }
+  yaml << YAML::EndSeq << YAML::EndMap;
+  WriteFileAtomically(InFolder("summary.yaml"),
+                      std::string(yaml.c_str()) + "\n");
+}
+
+void PrintTable(const std::vector<Job>& jobs) {
+  std::printf("%s\n", InFolder("summary.yaml").c_str());
+  std::printf("%-20s %-16s %8s %8s %8s %9s %9s %s\n", "experiment",
+              "controller", "rms N", "max N", "paper N", "estimate", "settled",
+              "stopped");
+  for (const Job& job : jobs) {
+    for (const ControllerResult& result : job.results) {
+      const ControlStatistics& s = result.statistics;
+      const bool controlled = s.control.count > 0;
+      const ErrorSums& errors = controlled ? s.control : s.estimate;
+      std::printf("%-20s %-16s %8.3f %8.3f ", job.experiment.name.c_str(),
+                  result.controller.name.c_str(), errors.rms(), errors.most);
+      if (job.experiment.paper) {
+        std::printf("%8.2f ", job.experiment.paper->rms_N);
+      } else {
+        std::printf("%8s ", "-");
+      }
+      std::printf("%9.3f ", s.estimate.rms());
+      if (controlled) {
+        std::printf("%9.3f %zu/%zu\n", s.settled.rms(), s.stopped_runs, s.runs);
+      } else {
+        std::printf("%9s -\n", "-");
+      }
+    }
+  }
+}
+
+// What did not go on to its end.
+bool WarnOfFailures(const std::vector<Job>& jobs) {
+  bool failed = false;
+  for (const Job& job : jobs) {
+    for (const ControllerResult& result : job.results) {
+      if (result.statistics.failed_runs == 0) continue;
+      failed = true;
+      LOG(WARNING) << job.experiment.name << ", " << result.controller.name
+                   << ": " << result.statistics.failed_runs << " of "
+                   << result.statistics.runs
+                   << " runs ended early: " << result.failure;
+    }
+  }
+  return failed;
+}
+
+bool FailsGate(const std::vector<Job>& jobs) {
+  for (const Job& job : jobs) {
+    for (const ControllerResult& result : job.results) {
+      if (result.statistics.stopped_runs > 0) return true;
+    }
+    const ControlStatistics& s = job.results.front().statistics;
+    const ErrorSums& errors = s.control.count > 0 ? s.control : s.estimate;
+    if (job.experiment.paper && !(errors.rms() < job.experiment.paper->rms_N)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+int Run() {
+  const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
+  const Discretization discretization =
+      ParseDiscretization(FLAGS_scheme, FLAGS_resolution);
+  if (FLAGS_draws < 0) throw InputError("--draws: expected 0 or more");
+  std::vector<Job> jobs = ReadJobs(finger);
+  Required("out_dir", FLAGS_out_dir);
+  if (FLAGS_dump_config) {
+    for (const Job& job : jobs) {
+      YAML::Emitter yaml;
+      yaml.SetDoublePrecision(kDigits);
+      EmitSettings(job.experiment, &yaml);
+      std::cout << "# " << job.path << "\n" << yaml.c_str() << "\n";
+      DumpConfig(finger, job.experiment.scene, discretization);
+    }
+    return kGood;
+  }
+  ProgressBar bar(Periods(jobs));
+  for (Job& job : jobs) {
+    job.results = RunExperiment(
+        finger, job.experiment, discretization, FLAGS_seed, FLAGS_threads,
+        [&bar](std::size_t periods) { bar.Add(periods, false); });
+  }
+  bar.Clear();
+  MakeFolder(FLAGS_out_dir);
+  for (const Job& job : jobs) WriteLogs(finger, job);
+  WriteSummary(jobs, discretization);
+  PrintTable(jobs);
+  if (WarnOfFailures(jobs)) return kSolveFailed;
+  return FLAGS_strict && FailsGate(jobs) ? kGateFailed : kGood;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return finray::RunApp(
+      argc, argv,
+      "Force control with the estimator in the loop, simulated.\n"
+      "finray_control --finger F.yaml --experiment E.yaml[,E2.yaml] "
+      "--out_dir D [--seed 1] [--draws 10]",
+      Run);
+}

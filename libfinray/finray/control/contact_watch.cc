@@ -1,0 +1,74 @@
+#include "finray/control/contact_watch.h"
+
+#include <cmath>
+
+namespace finray {
+
+const char* LoopModeName(LoopMode mode) {
+  switch (mode) {
+    case LoopMode::kZero:
+      return "zero";
+    case LoopMode::kApproach:
+      return "approach";
+    case LoopMode::kControl:
+      return "control";
+    case LoopMode::kHold:
+      return "hold";
+    case LoopMode::kStopped:
+      return "stopped";
+  }
+  return "";
+}
+
+bool IsLight(const FrameEstimate& estimate, double signal,
+             const Safety& safety) {
+  // NaN, where there is no number, is not below.
+  if (signal < 1) return true;
+  const ContactEstimate& contact = estimate.contact[0];
+  const ContactEstimate& other = estimate.alternative[0];
+  const double twice_std = 2 * contact.normal_std_N;
+  const bool alternative = std::isfinite(other.normal_N);
+  return contact.normal_N + twice_std < safety.touch_N &&
+         (!alternative || other.normal_N + twice_std < safety.touch_N);
+}
+
+Sight Judge(const FrameEstimate& estimate, double signal,
+            const Safety& safety) {
+  if (estimate.status == FrameStatus::kNoContact) return Sight::kFree;
+  if (estimate.status == FrameStatus::kOk &&
+      estimate.contact[0].normal_std_N <= safety.force_std_limit_N) {
+    return Sight::kSeen;
+  }
+  return IsLight(estimate, signal, safety) ? Sight::kLight : Sight::kBlind;
+}
+
+ContactWatch::ContactWatch(const Safety& safety, double period_s)
+    : safety_(safety), period_s_(period_s) {}
+
+LoopMode ContactWatch::Next(const std::vector<FrameEstimate>& estimates,
+                            const std::vector<double>& signals) {
+  if (mode_ == LoopMode::kStopped) return mode_;
+  std::size_t seen = 0, blind = 0, light = 0;
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    const Sight sight = Judge(estimates[i], signals[i], safety_);
+    if (sight == Sight::kSeen) ++seen;
+    if (sight == Sight::kBlind) ++blind;
+    if (IsLight(estimates[i], signals[i], safety_)) ++light;
+  }
+  const std::size_t all = estimates.size();
+  blind_ = blind > 0 ? blind_ + 1 : 0;
+  seen_ = seen == all ? seen_ + 1 : 0;
+  if (blind > 0) {
+    mode_ = blind_ * period_s_ > safety_.hold_s ? LoopMode::kStopped
+                                                : LoopMode::kHold;
+  } else if (seen < all) {
+    mode_ = LoopMode::kApproach;
+  } else if (mode_ != LoopMode::kControl) {
+    mode_ = seen_ >= kSureFrames ? LoopMode::kControl
+            : light == all       ? LoopMode::kApproach
+                                 : LoopMode::kHold;
+  }
+  return mode_;
+}
+
+}  // namespace finray

@@ -1,0 +1,185 @@
+#include "finray/control/control_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <memory>
+#include <random>
+
+#include "finray/control/gauge_zero.h"
+#include "finray/control/make_controller.h"
+#include "finray/control/touch_signal.h"
+#include "finray/sensing/live_estimator.h"
+
+namespace finray {
+namespace {
+
+std::vector<Finger> TrueFingers(const Finger& finger,
+                                const Experiment& experiment,
+                                std::mt19937_64* generator) {
+  std::vector<Finger> fingers;
+  for (int i = 0; i < experiment.mechanism.fingers(); ++i) {
+    fingers.push_back(Perturbed(finger, experiment.model_error, generator));
+  }
+  return fingers;
+}
+
+class Loop {
+ public:
+  Loop(const Finger& finger, const Experiment& experiment,
+       const ControllerSettings& settings, const Discretization& discretization,
+       std::uint64_t seed)
+      : experiment_(experiment),
+        gauges_(finger.gauges),
+        generator_(seed),
+        plant_(TrueFingers(finger, experiment, &generator_),
+               experiment.mechanism, *experiment.scene.object,
+               experiment.scene.friction_coefficient, experiment.start.y_mm,
+               experiment.start.angle_rad, experiment.start.gap_mm),
+        true_drive_(TrueActuation(), 0),
+        known_drive_(experiment.actuation, 0),
+        touch_(finger, experiment.safety.touch_N, discretization),
+        watch_(experiment.safety, experiment.actuation.period_s),
+        controller_(
+            MakeController(finger, experiment, settings, discretization)) {
+    for (int i = 0; i < experiment.mechanism.fingers(); ++i) {
+      zeros_.emplace_back(finger, discretization);
+      estimators_.push_back(std::make_unique<LiveEstimator>(
+          finger, experiment.scene, discretization));
+    }
+  }
+
+  LoopRun Run() {
+    LoopRun run;
+    const double period = experiment_.actuation.period_s;
+    const int periods =
+        static_cast<int>(std::floor(experiment_.duration_s / period + 1e-9));
+    for (int k = 0; k <= periods; ++k) {
+      LoopRow row;
+      row.time_s = k * period;
+      if (!Sense(&row, &run.failure)) return run;
+      Act(&row);
+      run.rows.push_back(std::move(row));
+    }
+    return run;
+  }
+
+ private:
+  ActuatorSettings TrueActuation() {
+    ActuatorSettings settings = experiment_.actuation;
+    settings.delay_s =
+        std::max(0.0, experiment_.true_delay_s +
+                          experiment_.delay_std_s * unit_(generator_));
+    return settings;
+  }
+
+  bool Sense(LoopRow* row, std::string* failure) {
+    row->set_point_N = experiment_.set_point.At(row->time_s);
+    row->object_motion_mm = experiment_.motion.At(row->time_s);
+    row->drive = true_drive_.AdvanceTo(row->time_s);
+    PlantState state = plant_.At(row->drive, row->object_motion_mm);
+    if (!state.failure.empty()) {
+      *failure = state.failure;
+      return false;
+    }
+    row->force_N = state.force_N;
+    row->fingers = std::move(state.fingers);
+    for (std::size_t i = 0; i < estimators_.size(); ++i) {
+      FrameReadings readings = row->fingers[i].readings;
+      for (std::size_t j = 0; j < gauges_.size(); ++j) {
+        readings.gauges_V[j] += gauges_[j].noise_V * unit_(generator_);
+      }
+      if (i == 0) LoseGauges(row->time_s, &readings);
+      if (row->time_s < experiment_.zero_s) zeros_[i].Add(readings);
+      zeros_[i].Apply(&readings);
+      row->estimates.push_back(estimators_[i]->Next(readings));
+      row->readings.push_back(std::move(readings));
+    }
+    std::vector<SeenContact> seen;
+    for (const FrameEstimate& estimate : row->estimates) {
+      seen.push_back(Seen(estimate));
+      // No contact is no force, and has no std.
+      if (estimate.status == FrameStatus::kNoContact) seen.back().normal_N = 0;
+    }
+    row->seen = MeanForce(seen);
+    return true;
+  }
+
+  void LoseGauges(double time_s, FrameReadings* readings) const {
+    const auto& loss = experiment_.gauge_loss;
+    if (!loss || time_s < loss->from_s || time_s >= loss->to_s) return;
+    for (const int gauge : loss->gauges) {
+      readings->gauges_V[gauge] = std::nan("");
+    }
+  }
+
+  void Act(LoopRow* row) {
+    std::vector<double> signals;
+    row->sure = true;
+    for (std::size_t i = 0; i < estimators_.size(); ++i) {
+      signals.push_back(touch_.Of(row->readings[i]));
+      const Sight sight =
+          Judge(row->estimates[i], signals.back(), experiment_.safety);
+      row->sure &= sight == Sight::kSeen || sight == Sight::kFree;
+    }
+    if (controller_ == nullptr) {
+      row->command = 0;
+      return;
+    }
+    known_drive_.AdvanceTo(row->time_s);
+    if (experiment_.drive_is_measured) known_drive_.CorrectTo(row->drive);
+    row->mode = row->time_s < experiment_.zero_s
+                    ? LoopMode::kZero
+                    : watch_.Next(row->estimates, signals);
+    row->command = CommandOf(*row);
+    true_drive_.Command(row->time_s, row->command);
+    known_drive_.Command(row->time_s, row->command);
+  }
+
+  double CommandOf(const LoopRow& row) {
+    const double step =
+        experiment_.safety.approach_speed * experiment_.actuation.period_s;
+    const double last = known_drive_.last_command();
+    switch (row.mode) {
+      case LoopMode::kZero:
+        return last;
+      case LoopMode::kControl: {
+        std::vector<SeenContact> seen;
+        for (const FrameEstimate& e : row.estimates) seen.push_back(Seen(e));
+        return controller_->Next(row.time_s, seen, experiment_.set_point,
+                                 known_drive_);
+      }
+      case LoopMode::kApproach:
+        controller_->Lost();
+        return last + step;
+      case LoopMode::kHold:
+        controller_->Skip();
+        return last;
+      case LoopMode::kStopped:
+        return std::max(0.0, last - step);
+    }
+    return last;
+  }
+
+  const Experiment& experiment_;
+  const std::vector<Gauge> gauges_;
+  std::mt19937_64 generator_;
+  std::normal_distribution<double> unit_;
+  Plant plant_;
+  Actuator true_drive_, known_drive_;
+  const TouchSignal touch_;
+  ContactWatch watch_;
+  std::vector<GaugeZero> zeros_;
+  std::unique_ptr<Controller> controller_;
+  std::vector<std::unique_ptr<LiveEstimator>> estimators_;
+};
+
+}  // namespace
+
+LoopRun RunLoop(const Finger& finger, const Experiment& experiment,
+                const ControllerSettings& controller,
+                const Discretization& discretization, std::uint64_t seed) {
+  return Loop(finger, experiment, controller, discretization, seed).Run();
+}
+
+}  // namespace finray

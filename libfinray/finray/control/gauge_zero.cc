@@ -1,0 +1,36 @@
+#include "finray/control/gauge_zero.h"
+
+#include "finray/io/error.h"
+#include "finray/statics/equilibrium.h"
+
+namespace finray {
+
+GaugeZero::GaugeZero(const Finger& finger,
+                     const Discretization& discretization) {
+  EquilibriumSolver solver(finger, discretization);
+  if (!solver.Solve({})) {
+    throw InputError("the free finger has no equilibrium: " + solver.Why());
+  }
+  for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
+    const Gauge& gauge = finger.gauges[j];
+    free_V_.push_back(gauge.gain_V_per_rad * solver.gauge_angle(j) +
+                      gauge.offset_V);
+  }
+  sum_V_.assign(free_V_.size(), 0);
+}
+
+void GaugeZero::Add(const FrameReadings& readings) {
+  for (std::size_t j = 0; j < sum_V_.size(); ++j) {
+    sum_V_[j] += readings.gauges_V[j] - free_V_[j];
+  }
+  ++count_;
+}
+
+void GaugeZero::Apply(FrameReadings* readings) const {
+  if (count_ == 0) return;
+  for (std::size_t j = 0; j < sum_V_.size(); ++j) {
+    readings->gauges_V[j] -= sum_V_[j] / count_;
+  }
+}
+
+}  // namespace finray

@@ -1,0 +1,125 @@
+#include "finray/control/model_controller.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace finray {
+namespace {
+
+// Estimates that the object's height is a mean of, at most: the older ones
+// fade, as the object may slide along the finger.
+constexpr int kHeightMemory = 30;
+constexpr int kMostDriveSteps = 20;
+constexpr double kTolerance_mm = 1e-6;
+// A force's std is hardly known better than this.
+constexpr double kLeastStd_N = 1e-4;
+
+}  // namespace
+
+ModelController::ModelController(std::vector<PushModel> models,
+                                 const Mechanism& mechanism,
+                                 const ObjectPrior& prior, double period_s,
+                                 bool preview)
+    : models_(std::move(models)),
+      mechanism_(mechanism),
+      filter_(prior, period_s),
+      period_s_(period_s),
+      timing_std_s_(prior.timing_std_s),
+      preview_(preview),
+      y_mm_(models_.size(), 0),
+      arc_mm_(models_.size(), 0) {}
+
+void ModelController::Lost() {
+  filter_.Restart();
+  seen_ = 0;
+  last_drive_.reset();
+}
+
+bool ModelController::SeeHeights(double drive,
+                                 const std::vector<SeenContact>& contacts) {
+  const auto base = mechanism_.FingerPose(drive);
+  if (!base) return false;
+  std::vector<double> heights;
+  for (std::size_t i = 0; i < models_.size(); ++i) {
+    const auto centre =
+        models_[i].Centre(*base, contacts[i].arc_mm, contacts[i].normal_N);
+    if (!centre) return false;
+    heights.push_back(centre->y());
+  }
+  seen_ = std::min(seen_ + 1, kHeightMemory);
+  for (std::size_t i = 0; i < models_.size(); ++i) {
+    y_mm_[i] += (heights[i] - y_mm_[i]) / seen_;
+    arc_mm_[i] = contacts[i].arc_mm;
+  }
+  return true;
+}
+
+std::optional<ModelController::MeanPush> ModelController::PushAt(
+    double drive, const std::vector<SeenContact>& contacts) {
+  const auto base = mechanism_.FingerPose(drive);
+  if (!base) return std::nullopt;
+  MeanPush mean;
+  const double n = static_cast<double>(models_.size());
+  for (std::size_t i = 0; i < models_.size(); ++i) {
+    const auto push =
+        models_[i].At(*base, y_mm_[i], contacts[i].normal_N, arc_mm_[i]);
+    if (!push) return std::nullopt;
+    mean.object_x_mm += push->object_x_mm / n;
+    mean.compliance_mm_per_N += 1 / push->stiffness_N_per_mm / n;
+    const double std_mm =
+        contacts[i].normal_std_N / push->stiffness_N_per_mm / n;
+    mean.variance_mm2 += std_mm * std_mm;
+  }
+  return mean;
+}
+
+// Of the place that a push says, the drive having moved by `way` in the period.
+double ModelController::PlaceStd(const MeanPush& push, double drive,
+                                 double way) const {
+  const double approach =
+      way * mechanism_.ApproachPerDrive(drive, y_mm_.front());
+  return std::hypot(std::sqrt(push.variance_mm2),
+                    kLeastStd_N * push.compliance_mm_per_N,
+                    approach / period_s_ * timing_std_s_);
+}
+
+// X(F; u) = place, by Newton's method with the mechanism's slope.
+std::optional<double> ModelController::DriveFor(double force_N, double place_mm,
+                                                double drive) {
+  const std::vector<SeenContact> wanted(models_.size(), {0, force_N, 0});
+  for (int i = 0; i < kMostDriveSteps; ++i) {
+    const auto push = PushAt(drive, wanted);
+    if (!push) return std::nullopt;
+    const double gap = push->object_x_mm - place_mm;
+    if (std::abs(gap) < kTolerance_mm) return drive;
+    const double slope = mechanism_.ApproachPerDrive(drive, y_mm_.front());
+    if (!(slope > 0)) return std::nullopt;
+    drive += gap / slope;
+  }
+  return std::nullopt;
+}
+
+double ModelController::Next(double time_s,
+                             const std::vector<SeenContact>& contacts,
+                             const Trajectory& set_point,
+                             const Actuator& drive) {
+  const double now = drive.PredictAt(time_s);
+  filter_.Predict();
+  const auto push = SeeHeights(now, contacts) ? PushAt(now, contacts)
+                                              : std::optional<MeanPush>();
+  if (push) {
+    filter_.Update(push->object_x_mm, MeanForce(contacts).force_N,
+                   PlaceStd(*push, now, now - last_drive_.value_or(now)));
+  }
+  last_drive_ = now;
+  if (!filter_.started()) return drive.last_command();
+  const double horizon = drive.settings().delay_s + drive.settings().period_s;
+  const double force =
+      std::max(0.0, set_point.At(preview_ ? time_s + horizon : time_s));
+  const double place =
+      filter_.PlaceIn(horizon) - filter_.compliance_mm_per_N() * force;
+  const auto wanted = DriveFor(force, place, now);
+  return wanted ? drive.CommandFor(time_s, *wanted) : drive.last_command();
+}
+
+}  // namespace finray

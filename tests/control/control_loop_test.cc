@@ -1,0 +1,181 @@
+#include "finray/control/control_loop.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "finray/control/control_statistics.h"
+#include "test_finger.h"
+
+namespace finray {
+namespace {
+
+// Steps of 3 to 5 N at 80 mm, with the noise of the gauges and a model error of
+// the size that a calibration leaves.
+Experiment StepExperiment() {
+  Experiment experiment;
+  experiment.scene.most_contacts = 1;
+  experiment.scene.object = RigidObject{Outline(CircleOutline{15}), {}};
+  experiment.start = {80, 0, 1};
+  experiment.actuation = {1.0 / 30, 0.13, 0.03, 50};
+  experiment.set_point = Trajectory(StepTrajectory{{3, 5}, 4});
+  experiment.model_error = {1, 0.3, 5e-4, 0.03};
+  experiment.duration_s = 8;
+  experiment.measure_from_s = 3;
+  return experiment;
+}
+
+ControllerSettings Pi() {
+  ControllerSettings settings;
+  settings.kind = ControllerKind::kPi;
+  settings.tuned_at_mm = 70;
+  return settings;
+}
+
+double LargestForce(const LoopRun& run) {
+  double largest = 0;
+  for (const LoopRow& row : run.rows) largest = std::max(largest, row.force_N);
+  return largest;
+}
+
+// From no contact to the force that is wanted, by either controller. Errors are
+// those of the estimator: 1 % of EI is 0.05 N.
+TEST(ControlLoopTest, ApproachesTouchesAndRegulates) {
+  const Experiment experiment = StepExperiment();
+  for (const ControllerSettings& controller : {ControllerSettings(), Pi()}) {
+    const LoopRun run = RunLoop(PaperFinger(), experiment, controller, {}, 1);
+    ASSERT_EQ(run.failure, "");
+    ASSERT_EQ(run.rows.size(), 241u);
+    EXPECT_EQ(run.rows[0].mode, LoopMode::kZero);
+    EXPECT_EQ(run.rows[16].mode, LoopMode::kApproach);
+    EXPECT_EQ(run.rows[0].force_N, 0);
+    EXPECT_EQ(run.rows.back().mode, LoopMode::kControl);
+    const ControlStatistics s = StatisticsOf(run, experiment, true);
+    EXPECT_LT(s.settled.rms(), 0.15);
+    EXPECT_EQ(s.stopped_runs, 0u);
+  }
+}
+
+// What a perfect model without noise would do, but for the loop's own limits.
+TEST(ControlLoopTest, NoModelErrorNoError) {
+  Experiment experiment = StepExperiment();
+  experiment.model_error = {};
+  Finger finger = PaperFinger();
+  for (Gauge& gauge : finger.gauges) gauge.noise_V = 1e-7;
+  const LoopRun run = RunLoop(finger, experiment, ControllerSettings(), {}, 1);
+  const ControlStatistics s = StatisticsOf(run, experiment, true);
+  EXPECT_LT(s.settled.most, 0.001);
+  EXPECT_LT(s.estimate.most, 1e-4);
+}
+
+TEST(ControlLoopTest, EqualSeedsGiveEqualRuns) {
+  Experiment experiment = StepExperiment();
+  experiment.duration_s = 2;
+  const auto last = [&](std::uint64_t seed) {
+    return RunLoop(PaperFinger(), experiment, {}, {}, seed).rows.back();
+  };
+  EXPECT_EQ(last(4).force_N, last(4).force_N);
+  EXPECT_NE(last(4).force_N, last(5).force_N);
+}
+
+// Two fingers that differ, one motor.
+TEST(ControlLoopTest, TwoFingersGrasp) {
+  Experiment experiment = StepExperiment();
+  experiment.mechanism = Mechanism(
+      FourBar(FourBarJoints{{10, -75}, {10, -15}, {50, -75}, {50, -15}}));
+  experiment.actuation.speed_limit = 0.8;
+  experiment.safety.approach_speed = 0.07;
+  experiment.set_point = Trajectory(StepTrajectory{{4, 6}, 4});
+  const LoopRun run = RunLoop(PaperFinger(), experiment, {}, {}, 2);
+  ASSERT_EQ(run.failure, "");
+  ASSERT_EQ(run.rows.back().fingers.size(), 2u);
+  EXPECT_EQ(run.rows.back().mode, LoopMode::kControl);
+  EXPECT_LT(StatisticsOf(run, experiment, true).settled.rms(), 0.15);
+}
+
+// Gauges drop out in the middle: the drive stays where it is, and if they do
+// not come back it goes back to the start and the force goes to 0.
+TEST(ControlLoopTest, HoldsAndStopsWithoutGauges) {
+  for (const ControllerSettings& controller : {ControllerSettings(), Pi()}) {
+    Experiment experiment = StepExperiment();
+    experiment.gauge_loss = GaugeLoss{3, 99, {0, 1, 2}};
+    const LoopRun run = RunLoop(PaperFinger(), experiment, controller, {}, 1);
+    ASSERT_EQ(run.failure, "");
+    EXPECT_EQ(run.rows[89].mode, LoopMode::kControl);
+    for (int k = 90; k < 104; ++k) {
+      EXPECT_EQ(run.rows[k].mode, LoopMode::kHold) << k;
+      EXPECT_EQ(run.rows[k].command, run.rows[89].command);
+    }
+    EXPECT_EQ(run.rows[106].mode, LoopMode::kStopped);
+    EXPECT_EQ(run.rows.back().mode, LoopMode::kStopped);
+    EXPECT_EQ(run.rows.back().force_N, 0);
+    EXPECT_NEAR(run.rows.back().drive, 0, 1e-3);
+  }
+}
+
+// They are away for less than hold_s: the loop goes on.
+TEST(ControlLoopTest, GoesOnAfterAShortLoss) {
+  Experiment experiment = StepExperiment();
+  experiment.gauge_loss = GaugeLoss{3, 3.3, {0, 1, 2}};
+  const LoopRun run = RunLoop(PaperFinger(), experiment, {}, {}, 1);
+  EXPECT_EQ(run.rows[95].mode, LoopMode::kHold);
+  EXPECT_EQ(run.rows.back().mode, LoopMode::kControl);
+  EXPECT_LT(StatisticsOf(run, experiment, true).settled.rms(), 0.15);
+}
+
+// Above the last rib gauges tell a contact badly, and the finger is so stiff
+// that the delay alone costs newtons: what the loop cannot see it must not
+// push.
+TEST(ControlLoopTest, DoesNotPushWhatItCannotSee) {
+  Experiment experiment = StepExperiment();
+  experiment.start.y_mm = 128;
+  experiment.safety.approach_speed = 1;
+  experiment.duration_s = 10;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const LoopRun run = RunLoop(PaperFinger(), experiment, {}, {}, seed);
+    for (const LoopRow& row : run.rows) {
+      if (row.mode == LoopMode::kControl) {
+        EXPECT_EQ(row.estimates[0].status, FrameStatus::kOk);
+        EXPECT_LE(row.estimates[0].contact[0].normal_std_N,
+                  experiment.safety.force_std_limit_N);
+      }
+    }
+    EXPECT_LT(LargestForce(run), 4) << seed;
+  }
+}
+
+// The same, forced: the limit of the std is below what gauges can do.
+TEST(ControlLoopTest, StopsAboveTheStdLimit) {
+  Experiment experiment = StepExperiment();
+  experiment.safety.force_std_limit_N = 0.01;
+  const LoopRun run = RunLoop(PaperFinger(), experiment, {}, {}, 1);
+  EXPECT_EQ(run.rows.back().mode, LoopMode::kStopped);
+  EXPECT_LT(LargestForce(run), 3);
+  for (const LoopRow& row : run.rows) EXPECT_NE(row.mode, LoopMode::kControl);
+}
+
+// A stage that is slower than it says: the measured drive makes up for it.
+TEST(ControlLoopTest, WrongDelay) {
+  Experiment experiment = StepExperiment();
+  experiment.true_delay_s = 0.2;
+  const LoopRun run = RunLoop(PaperFinger(), experiment, {}, {}, 1);
+  EXPECT_LT(StatisticsOf(run, experiment, true).settled.rms(), 0.15);
+}
+
+TEST(ControlLoopTest, WithoutAControllerTheDriveStays) {
+  Experiment experiment = StepExperiment();
+  experiment.start.gap_mm = 5;
+  experiment.motion = Trajectory(HarmonicTrajectory{0, 9, 8});
+  ControllerSettings none;
+  none.kind = ControllerKind::kNone;
+  const LoopRun run = RunLoop(PaperFinger(), experiment, none, {}, 1);
+  for (const LoopRow& row : run.rows) EXPECT_EQ(row.drive, 0);
+  EXPECT_GT(LargestForce(run), 3);
+  const ControlStatistics s = StatisticsOf(run, experiment, false);
+  EXPECT_EQ(s.control.count, 0u);
+  EXPECT_LT(s.estimate.rms(), 0.1);
+}
+
+}  // namespace
+}  // namespace finray

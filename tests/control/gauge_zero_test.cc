@@ -1,0 +1,51 @@
+#include "finray/control/gauge_zero.h"
+
+#include <gtest/gtest.h>
+
+#include "finray/statics/equilibrium.h"
+#include "test_finger.h"
+
+namespace finray {
+namespace {
+
+FrameReadings Readings(const Finger& finger,
+                       const std::vector<PointContact>& contacts) {
+  EquilibriumSolver solver(finger, {});
+  EXPECT_TRUE(solver.Solve(contacts));
+  FrameReadings readings;
+  for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
+    const Gauge& gauge = finger.gauges[j];
+    readings.gauges_V.push_back(gauge.gain_V_per_rad * solver.gauge_angle(j) +
+                                gauge.offset_V);
+  }
+  return readings;
+}
+
+// Offsets that the model does not know, on a finger that its ribs bend.
+TEST(GaugeZeroTest, TakesUnknownOffsetsOff) {
+  Finger model = PaperFinger();
+  model.ribs[2].length_mm += 0.3;
+  model.gauges[1].offset_V = 0.2;
+  Finger truth = model;
+  truth.gauges[0].offset_V += 0.01;
+  truth.gauges[3].offset_V -= 0.02;
+  GaugeZero zero(model, {});
+  FrameReadings loaded = Readings(truth, {{80, 4}});
+  zero.Apply(&loaded);
+  EXPECT_EQ(loaded.gauges_V, Readings(truth, {{80, 4}}).gauges_V);
+  // Two noisy readings of the free finger, whose mean is right.
+  FrameReadings free = Readings(truth, {});
+  for (const double noise : {0.001, -0.001}) {
+    FrameReadings noisy = free;
+    for (double& volts : noisy.gauges_V) volts += noise;
+    zero.Add(noisy);
+  }
+  zero.Apply(&loaded);
+  const FrameReadings expected = Readings(model, {{80, 4}});
+  for (int j = 0; j < 4; ++j) {
+    EXPECT_NEAR(loaded.gauges_V[j], expected.gauges_V[j], 1e-12) << j;
+  }
+}
+
+}  // namespace
+}  // namespace finray

@@ -1,0 +1,107 @@
+#include "finray/control/plant.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <stdexcept>
+
+#include "finray/control/model_error.h"
+#include "finray/control/push_model.h"
+#include "test_finger.h"
+
+namespace finray {
+namespace {
+
+using Eigen::Vector2d;
+
+const RigidObject kCircle{Outline(CircleOutline{15}), {}};
+
+Mechanism Gripper() {
+  return Mechanism(
+      FourBar(FourBarJoints{{10, -75}, {10, -15}, {50, -75}, {50, -15}}));
+}
+
+// The gap is what the stage has to go before it touches; from there on the
+// force is what the model of push_model.h says.
+TEST(PlantTest, StageAgainstAFixedObject) {
+  const Finger finger = PaperFinger();
+  Plant plant({finger}, Mechanism(), kCircle, 0, 80, 0, 2);
+  EXPECT_EQ(plant.At(1.99, 0).force_N, 0);
+  EXPECT_GT(plant.At(2.01, 0).force_N, 0);
+  PushModel model(finger, 15, 0, {});
+  for (const double force : {1.0, 5.0, 2.0}) {
+    const auto push =
+        model.At(MakePose<double>(0, Vector2d::Zero()), 80, force, 80);
+    ASSERT_TRUE(push);
+    const double depth = push->object_x_mm + 15;
+    EXPECT_NEAR(plant.At(2 + depth, 0).force_N, force, 1e-6);
+    // The object moves by as much instead of the stage.
+    EXPECT_NEAR(plant.At(0, 2 + depth).force_N, force, 1e-6);
+  }
+}
+
+// An object on a spring gives: F = k u, and the finger's way is shorter by u.
+TEST(PlantTest, ObjectOnASpring) {
+  const Finger finger = PaperFinger();
+  const RigidObject sprung{Outline(CircleOutline{15}), ObjectSpring{0.5, M_PI}};
+  Plant plant({finger}, Mechanism(), sprung, 0, 80, 0, 0);
+  const PlantState state = plant.At(9, 0);
+  ASSERT_EQ(state.failure, "");
+  const PlantFinger& touched = state.fingers[0];
+  EXPECT_NEAR(touched.force_N.x(), 0.5 * touched.displacement_mm, 1e-6);
+  Plant fixed({finger}, Mechanism(), kCircle, 0, 80, 0, 0);
+  EXPECT_NEAR(fixed.At(9 - touched.displacement_mm, 0).force_N, state.force_N,
+              1e-6);
+}
+
+// Unlike fingers shift the object until their forces along x are the same.
+TEST(PlantTest, TwoFingersBalance) {
+  const Finger finger = PaperFinger();
+  std::mt19937_64 generator(3);
+  const ModelError error{5, 0, 0, 0.05};
+  Plant plant({Perturbed(finger, error, &generator),
+               Perturbed(finger, error, &generator)},
+              Gripper(), kCircle, 0, 80, 0, 1);
+  EXPECT_EQ(plant.At(0, 0).force_N, 0);
+  for (const double motor : {0.05, 0.12, 0.2, 0.08}) {
+    const PlantState state = plant.At(motor, 0);
+    ASSERT_EQ(state.failure, "");
+    EXPECT_GT(state.force_N, 0.5);
+    EXPECT_NEAR(state.fingers[0].force_N.x(), state.fingers[1].force_N.x(),
+                1e-6);
+    // The object is the same: both gaps together do not depend on its shift.
+    const double sum = state.fingers[0].object.position_mm.x() +
+                       state.fingers[1].object.position_mm.x();
+    EXPECT_NEAR(sum, 2 * (-16 + 60 * std::sin(motor)), 1e-9);
+  }
+}
+
+// Two equal fingers are each like one against a wall.
+TEST(PlantTest, EqualFingersDoNotShiftTheObject) {
+  const Finger finger = PaperFinger();
+  Plant two({finger, finger}, Gripper(), kCircle, 0, 80, 0, 1);
+  const PlantState state = two.At(0.1, 0);
+  EXPECT_NEAR(state.fingers[0].object.position_mm.x(),
+              state.fingers[1].object.position_mm.x(), 1e-6);
+  EquilibriumSolver solver(finger, {});
+  const ObjectContact found =
+      SolveObjectContact(kCircle, state.fingers[0].object, 0, &solver);
+  ASSERT_EQ(found.contacts.size(), 1u);
+  EXPECT_NEAR(found.contacts[0].normal_N, state.force_N, 1e-5);
+}
+
+TEST(PlantTest, SaysWhyThereIsNoEquilibrium) {
+  Plant plant({PaperFinger()}, Mechanism(), kCircle, 0, 139, 0, 1);
+  EXPECT_EQ(plant.At(6, 0).failure,
+            "the object meets an end of the front beam, not its side");
+}
+
+TEST(PlantTest, RefusesASpringBetweenTwoFingers) {
+  const RigidObject sprung{Outline(CircleOutline{15}), ObjectSpring{1, 0}};
+  const Finger finger = PaperFinger();
+  EXPECT_THROW(Plant({finger, finger}, Gripper(), sprung, 0, 80, 0, 1),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace finray

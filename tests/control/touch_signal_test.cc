@@ -1,0 +1,45 @@
+#include "finray/control/touch_signal.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "finray/statics/equilibrium.h"
+#include "test_finger.h"
+
+namespace finray {
+namespace {
+
+FrameReadings Readings(const Finger& finger, double arc_mm, double force_N) {
+  EquilibriumSolver solver(finger, {});
+  EXPECT_TRUE(solver.Solve({{arc_mm, force_N}}));
+  FrameReadings readings;
+  for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
+    readings.gauges_V.push_back(solver.gauge_angle(j));
+  }
+  return readings;
+}
+
+// No contact of touch_N within 0.2 and 0.8 of the length is called lighter.
+TEST(TouchSignalTest, IsOneOrMoreForTheTouchItself) {
+  const Finger finger = PaperFinger();
+  const TouchSignal signal(finger, 1.5, {});
+  double least = 1e9;
+  for (double arc = 28; arc <= 112; arc += 3.5) {
+    least = std::min(least, signal.Of(Readings(finger, arc, 1.5)));
+  }
+  EXPECT_NEAR(least, 1, 0.001);
+  EXPECT_LT(signal.Of(Readings(finger, 80, 0.01)), 0.1);
+}
+
+TEST(TouchSignalTest, IsUnknownWithoutAGauge) {
+  const Finger finger = PaperFinger();
+  const TouchSignal signal(finger, 1.5, {});
+  FrameReadings readings = Readings(finger, 80, 0.01);
+  readings.gauges_V[2] = std::nan("");
+  EXPECT_TRUE(std::isnan(signal.Of(readings)));
+}
+
+}  // namespace
+}  // namespace finray
