@@ -1,0 +1,48 @@
+#ifndef FINRAY_PERCEPTION_CONVEX_CURVE_H_
+#define FINRAY_PERCEPTION_CONVEX_CURVE_H_
+
+#include <Eigen/Core>
+
+namespace finray {
+
+/// A closed convex curve by its radius of curvature over the angle a of its
+/// outward normal n(a) = (cos a, sin a), constant in each of M equal cells:
+///
+///   r(a) = r(0) + int_0^a rho(b) t(b) db,   t = dn/da,
+///
+/// a chain of arcs that meet with one tangent. Any rho >= 0 that closes,
+/// int rho t = 0 around, is a convex outline, a straight edge being a peak and
+/// a sharp corner a stretch of 0.
+class ConvexCurve {
+ public:
+  using Radii = Eigen::VectorXd;
+  /// Derivatives of a point by the radii; those by the start are 1.
+  using PointSlope = Eigen::Matrix<double, 2, Eigen::Dynamic>;
+
+  ConvexCurve(const Eigen::Vector2d& start_mm, const Radii& radii_mm);
+
+  /// The point where the outward normal has this angle, any number of turns.
+  Eigen::Vector2d At(double normal_angle_rad) const;
+  /// Its derivative by the radii. `cells` is their number.
+  static PointSlope SlopeAt(double normal_angle_rad, Eigen::Index cells);
+
+  /// The radius of curvature, averaged over normals within `reach_rad`.
+  double MeanRadius(double normal_angle_rad, double reach_rad) const;
+
+  Eigen::Index cells() const { return radii_.size(); }
+  const Radii& radii_mm() const { return radii_; }
+  const Eigen::Vector2d& start_mm() const { return start_; }
+  double perimeter_mm() const;
+  /// Arc length from the normal angle 0, growing by the perimeter each turn.
+  double ArcAt(double normal_angle_rad) const;
+  /// The normal angle at an arc length, its inverse.
+  double NormalAngleAt(double arc_mm) const;
+
+ private:
+  Eigen::Vector2d start_;
+  Radii radii_;
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_PERCEPTION_CONVEX_CURVE_H_
