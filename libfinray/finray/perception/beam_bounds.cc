@@ -45,9 +45,11 @@ std::vector<BeamBound> FindBeamBounds(const std::vector<Touch>& touches,
                                       const ConvexCurve& curve,
                                       double stage_std_mm, double reach_mm) {
   std::vector<BeamBound> bounds;
-  const auto cells = static_cast<int>(curve.cells());
+  const NormalGrid& grid = curve.grid();
   std::vector<Vector2d> points;
-  for (int j = 0; j < cells; ++j) points.push_back(curve.At(2 * M_PI * j / cells));
+  for (Eigen::Index j = 0; j < grid.cells(); ++j) {
+    points.push_back(curve.At(grid.Start(j)));
+  }
   for (const Touch& touch : touches) {
     const std::vector<Vector2d> beam = touch.BeamNear(reach_mm);
     const Vector2d normal = touch.Normal();
@@ -55,8 +57,8 @@ std::vector<BeamBound> FindBeamBounds(const std::vector<Touch>& touches,
     const double normal_variance =
         normal.dot(touch.covariance.topLeftCorner<2, 2>() * normal) +
         stage_std_mm * stage_std_mm;
-    for (int j = 0; j < cells; ++j) {
-      const double angle = 2 * M_PI * j / cells;
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      const double angle = grid.Start(static_cast<Eigen::Index>(j));
       if (std::abs(std::remainder(angle - touch.normal_angle_rad, 2 * M_PI)) >
           kSector_rad) {
         continue;

@@ -3,10 +3,12 @@
 
 #include <Eigen/Core>
 
+#include "finray/perception/normal_grid.h"
+
 namespace finray {
 
 /// A closed convex curve by its radius of curvature over the angle a of its
-/// outward normal n(a) = (cos a, sin a), constant in each of M equal cells:
+/// outward normal n(a) = (cos a, sin a), constant in each cell of a grid:
 ///
 ///   r(a) = r(0) + int_0^a rho(b) t(b) db,   t = dn/da,
 ///
@@ -19,17 +21,20 @@ class ConvexCurve {
   /// Derivatives of a point by the radii; those by the start are 1.
   using PointSlope = Eigen::Matrix<double, 2, Eigen::Dynamic>;
 
-  ConvexCurve(const Eigen::Vector2d& start_mm, const Radii& radii_mm);
+  ConvexCurve(const NormalGrid& grid, const Eigen::Vector2d& start_mm,
+              const Radii& radii_mm);
 
   /// The point where the outward normal has this angle, any number of turns.
   Eigen::Vector2d At(double normal_angle_rad) const;
-  /// Its derivative by the radii. `cells` is their number.
-  static PointSlope SlopeAt(double normal_angle_rad, Eigen::Index cells);
+  /// Its derivative by the radii.
+  static PointSlope SlopeAt(double normal_angle_rad, const NormalGrid& grid);
+  /// That of the end of a turn, less that of the start.
+  static PointSlope ClosureSlope(const NormalGrid& grid);
 
   /// The radius of curvature, averaged over normals within `reach_rad`.
   double MeanRadius(double normal_angle_rad, double reach_rad) const;
 
-  Eigen::Index cells() const { return radii_.size(); }
+  const NormalGrid& grid() const { return grid_; }
   const Radii& radii_mm() const { return radii_; }
   const Eigen::Vector2d& start_mm() const { return start_; }
   double perimeter_mm() const;
@@ -39,6 +44,7 @@ class ConvexCurve {
   double NormalAngleAt(double arc_mm) const;
 
  private:
+  NormalGrid grid_;
   Eigen::Vector2d start_;
   Radii radii_;
 };

@@ -18,13 +18,14 @@ Eigen::VectorXd Radii(const double* u, Eigen::Index cells) {
 OutlinePointCost::OutlinePointCost(const Eigen::Vector2d& point_mm,
                                    double normal_angle_rad,
                                    const Whitening& whitening, bool one_sided,
-                                   Eigen::Index cells)
+                                   const NormalGrid& grid)
     : point_(point_mm),
       whitening_(whitening),
       one_sided_(one_sided),
-      slope_(ConvexCurve::SlopeAt(normal_angle_rad, cells)) {
+      slope_(ConvexCurve::SlopeAt(normal_angle_rad, grid)) {
   set_num_residuals(static_cast<int>(whitening.rows()));
-  mutable_parameter_block_sizes()->assign({static_cast<int>(cells), 2});
+  mutable_parameter_block_sizes()->assign(
+      {static_cast<int>(grid.cells()), 2});
 }
 
 bool OutlinePointCost::Evaluate(double const* const* parameters,
@@ -49,35 +50,54 @@ bool OutlinePointCost::Evaluate(double const* const* parameters,
   return residual.allFinite();
 }
 
-OutlineRoughnessCost::OutlineRoughnessCost(Eigen::Index cells)
-    : weight_(std::sqrt(static_cast<double>(cells) / (2 * M_PI))) {
-  set_num_residuals(static_cast<int>(cells));
-  mutable_parameter_block_sizes()->assign({static_cast<int>(cells)});
+OutlineRoughnessCost::OutlineRoughnessCost(const NormalGrid& grid)
+    : cells_(grid.cells()) {
+  const auto middle = [&](Eigen::Index cell) {
+    return grid.Start(cell) + 0.5 * grid.Width(cell);
+  };
+  const auto link = [&](Eigen::Index from, Eigen::Index to) {
+    double distance = middle(to) - middle(from);
+    if (distance <= 0) distance += 2 * M_PI;
+    links_.push_back({from, to, 1 / std::sqrt(distance)});
+  };
+  // The last cell is no edge's (normal_grid.cc).
+  Eigen::Index before = cells_ - 1;
+  for (Eigen::Index j = 0; j < cells_; ++j) {
+    if (grid.IsEdge(j)) {
+      if (grid.IsEdge(j + 1)) link(j, j + 1);
+      continue;
+    }
+    link(before, j);
+    before = j;
+  }
+  set_num_residuals(static_cast<int>(links_.size()));
+  mutable_parameter_block_sizes()->assign({static_cast<int>(cells_)});
 }
 
 bool OutlineRoughnessCost::Evaluate(double const* const* parameters,
                                     double* residuals,
                                     double** jacobians) const {
-  const int cells = num_residuals();
   const double* u = parameters[0];
-  for (int j = 0; j < cells; ++j) {
-    residuals[j] = weight_ * (u[(j + 1) % cells] - u[j]);
+  for (std::size_t k = 0; k < links_.size(); ++k) {
+    const Link& link = links_[k];
+    residuals[k] = link.weight * (u[link.to] - u[link.from]);
   }
   if (jacobians == nullptr || jacobians[0] == nullptr) return true;
-  RowsMap by_u(jacobians[0], cells, cells);
+  RowsMap by_u(jacobians[0], static_cast<Eigen::Index>(links_.size()), cells_);
   by_u.setZero();
-  for (int j = 0; j < cells; ++j) {
-    by_u(j, (j + 1) % cells) = weight_;
-    by_u(j, j) = -weight_;
+  for (std::size_t k = 0; k < links_.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    by_u(row, links_[k].to) = links_[k].weight;
+    by_u(row, links_[k].from) = -links_[k].weight;
   }
   return true;
 }
 
-OutlineClosureCost::OutlineClosureCost(Eigen::Index cells, double std_mm)
-    : slope_(ConvexCurve::SlopeAt(std::nextafter(2 * M_PI, 0), cells) /
-             std_mm) {
+OutlineClosureCost::OutlineClosureCost(const NormalGrid& grid,
+                                       double std_mm)
+    : slope_(ConvexCurve::ClosureSlope(grid) / std_mm) {
   set_num_residuals(2);
-  mutable_parameter_block_sizes()->assign({static_cast<int>(cells)});
+  mutable_parameter_block_sizes()->assign({static_cast<int>(grid.cells())});
 }
 
 bool OutlineClosureCost::Evaluate(double const* const* parameters,

@@ -4,6 +4,7 @@
 #include <ceres/ceres.h>
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "finray/perception/convex_curve.h"
 
@@ -19,7 +20,7 @@ class OutlinePointCost : public ceres::CostFunction {
   /// One-sided: a residual above 0 counts as 0.
   OutlinePointCost(const Eigen::Vector2d& point_mm, double normal_angle_rad,
                    const Whitening& whitening, bool one_sided,
-                   Eigen::Index cells);
+                   const NormalGrid& grid);
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
@@ -30,22 +31,29 @@ class OutlinePointCost : public ceres::CostFunction {
   ConvexCurve::PointSlope slope_;
 };
 
-/// (u_j+1 - u_j) / sqrt(cell), around; one block, u.
+/// (u_k - u_j) / sqrt(distance of the cells' middles) for neighbours j, k around,
+/// passing over straight edges, whose cells are held to each other only; one
+/// block, u.
 class OutlineRoughnessCost : public ceres::CostFunction {
  public:
-  explicit OutlineRoughnessCost(Eigen::Index cells);
+  explicit OutlineRoughnessCost(const NormalGrid& grid);
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  double weight_;
+  struct Link {
+    Eigen::Index from, to;
+    double weight;
+  };
+  Eigen::Index cells_;
+  std::vector<Link> links_;
 };
 
 /// The gap between the curve's ends over `std_mm`, far less than any error of a
 /// touch; one block, u.
 class OutlineClosureCost : public ceres::CostFunction {
  public:
-  OutlineClosureCost(Eigen::Index cells, double std_mm);
+  OutlineClosureCost(const NormalGrid& grid, double std_mm);
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 

@@ -19,19 +19,20 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-constexpr double kClosureStd_mm = 1e-4;
+constexpr double kClosureStd_mm = 5e-3;
 constexpr double kHuberScale = 3;
+// Over which the radius of curvature is averaged at least.
+constexpr double kLeastReach_rad = 0.026;
 // Rounds in which weights, bounds and lambda follow the outline.
-constexpr int kRounds = 3;
+constexpr int kRounds = 4;
 // log10 of lambda: the first round's grid, then steps about the best.
 constexpr double kLeastPower = -7, kMostPower = 6;
 constexpr double kFirstStep = 1, kLaterStep = 0.25;
 // Touches do not agree better than this share of what they claim.
 constexpr double kLeastScale = 1e-3;
-constexpr double kSmallestRadius_mm = 1e-6, kLargestRadius_mm = 1e6;
 
 // Circle through the tangents: h_i = centre . n_i + radius.
-ConvexCurve Circle(const std::vector<Touch>& touches, Index cells) {
+ConvexCurve Circle(const std::vector<Touch>& touches, const NormalGrid& grid) {
   MatrixXd rows(static_cast<Index>(touches.size()), 3);
   VectorXd support(rows.rows());
   for (Index i = 0; i < rows.rows(); ++i) {
@@ -42,16 +43,16 @@ ConvexCurve Circle(const std::vector<Touch>& touches, Index cells) {
   const Eigen::Vector3d found =
       (rows.transpose() * rows).ldlt().solve(rows.transpose() * support);
   const double radius = std::max(found[2], 1e-3);
-  return {found.head<2>() + Vector2d(radius, 0),
-          VectorXd::Constant(cells, radius)};
+  return {grid, found.head<2>() + Vector2d(radius, 0),
+          VectorXd::Constant(grid.cells(), radius)};
 }
 
 // Whitening of point - r(normal angle), the point's error and what the angle's
 // moves r by.
 Matrix2d Whitening(const Touch& touch, const ConvexCurve& curve,
                    double stage_std_mm) {
-  const double cell = 2 * M_PI / static_cast<double>(curve.cells());
-  const double reach = std::max(2 * std::sqrt(touch.covariance(2, 2)), cell);
+  const double reach =
+      std::max(2 * std::sqrt(touch.covariance(2, 2)), kLeastReach_rad);
   const Vector2d normal = touch.Normal();
   Eigen::Matrix<double, 2, 3> slope;
   slope.leftCols<2>().setIdentity();
@@ -65,39 +66,42 @@ Matrix2d Whitening(const Touch& touch, const ConvexCurve& curve,
 // The problem at given weights and bounds.
 class Fit {
  public:
-  Fit(const std::vector<Touch>& touches, const ConvexCurve& about,
-      const OutlineFitSettings& settings)
-      : cells_(about.cells()) {
-    for (const Touch& touch : touches) {
+  // `along[i]`: touch i lies along an edge.
+  Fit(const std::vector<Touch>& touches, const std::vector<bool>& along,
+      const ConvexCurve& about, const OutlineFitSettings& settings)
+      : grid_(about.grid()), cells_(grid_.cells()), along_(along) {
+    for (std::size_t i = 0; i < touches.size(); ++i) {
+      if (along[i]) continue;
       costs_.push_back(std::make_unique<OutlinePointCost>(
-          touch.point_mm, touch.normal_angle_rad,
-          Whitening(touch, about, settings.stage_std_mm), false, cells_));
+          touches[i].point_mm, touches[i].normal_angle_rad,
+          Whitening(touches[i], about, settings.stage_std_mm), false, grid_));
     }
     touches_ = costs_.size();
-    for (const BeamBound& bound :
-         FindBeamBounds(touches, about, settings.stage_std_mm,
-                        settings.beam_reach_mm)) {
+    Take(about);
+  }
+
+  void AddBounds(const std::vector<BeamBound>& bounds) {
+    for (const BeamBound& bound : bounds) {
       costs_.push_back(std::make_unique<OutlinePointCost>(
           bound.beam_point_mm, bound.normal_angle_rad,
-          bound.beam_normal.transpose() / bound.std_mm, true, cells_));
+          bound.beam_normal.transpose() / bound.std_mm, true, grid_));
     }
-    Take(about);
   }
 
   void Take(const ConvexCurve& curve) {
     u_ = curve.radii_mm().array().log();
     start_ = curve.start_mm();
   }
-  ConvexCurve curve() const { return {start_, u_.array().exp()}; }
+  ConvexCurve curve() const { return {grid_, start_, u_.array().exp()}; }
 
   // False if Ceres finds no minimum.
   bool Solve(double lambda) {
     ceres::Problem problem = MakeProblem(lambda);
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-    options.max_num_iterations = 200;
-    options.function_tolerance = 1e-9;
-    options.parameter_tolerance = 1e-9;
+    options.max_num_iterations = 50;
+    options.function_tolerance = 1e-5;
+    options.parameter_tolerance = 1e-8;
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
@@ -136,25 +140,20 @@ class Fit {
       information.noalias() +=
           weight * linear.slope.transpose() * linear.slope;
     }
-    const double cell = 2 * M_PI / static_cast<double>(cells_);
-    for (Index j = 0; j < cells_; ++j) {
-      const Index next = (j + 1) % cells_;
-      information(j, j) += lambda / cell;
-      information(next, next) += lambda / cell;
-      information(j, next) -= lambda / cell;
-      information(next, j) -= lambda / cell;
-    }
-    const ConvexCurve::PointSlope closure =
-        ConvexCurve::SlopeAt(std::nextafter(2 * M_PI, 0), cells_) *
-        u_.array().exp().matrix().asDiagonal() / kClosureStd_mm;
-    information.topLeftCorner(cells_, cells_) += closure.transpose() * closure;
+    const Dense roughness = Slope(OutlineRoughnessCost(grid_));
+    const Dense closure = Slope(OutlineClosureCost(grid_, kClosureStd_mm));
+    information.topLeftCorner(cells_, cells_) +=
+        lambda * roughness.transpose() * roughness +
+        closure.transpose() * closure;
     return information;
   }
 
   std::vector<double> Distances() const {
     std::vector<double> distances;
-    for (std::size_t i = 0; i < touches_; ++i) {
-      distances.push_back(Linearize(*costs_[i]).residual.norm());
+    std::size_t next = 0;
+    for (const bool along : along_) {
+      distances.push_back(
+          along ? std::nan("") : Linearize(*costs_[next++]).residual.norm());
     }
     return distances;
   }
@@ -168,10 +167,11 @@ class Fit {
   }
 
  private:
+  using Dense =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   struct Linear {
     VectorXd residual;
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>
-        slope;
+    Dense slope;
   };
 
   ceres::Problem MakeProblem(double lambda) {
@@ -184,28 +184,30 @@ class Fit {
       problem.AddResidualBlock(cost.get(), new ceres::HuberLoss(kHuberScale),
                                u_.data(), start_.data());
     }
-    roughness_ = std::make_unique<OutlineRoughnessCost>(cells_);
-    closure_ = std::make_unique<OutlineClosureCost>(cells_, kClosureStd_mm);
+    roughness_ = std::make_unique<OutlineRoughnessCost>(grid_);
+    closure_ = std::make_unique<OutlineClosureCost>(grid_, kClosureStd_mm);
     problem.AddResidualBlock(
         roughness_.get(),
         new ceres::ScaledLoss(nullptr, lambda, ceres::TAKE_OWNERSHIP),
         u_.data());
     problem.AddResidualBlock(closure_.get(), nullptr, u_.data());
-    for (int j = 0; j < cells_; ++j) {
-      problem.SetParameterLowerBound(u_.data(), j,
-                                     std::log(kSmallestRadius_mm));
-      problem.SetParameterUpperBound(u_.data(), j,
-                                     std::log(kLargestRadius_mm));
-    }
     return problem;
+  }
+
+  // Of a cost that has u alone.
+  Dense Slope(const ceres::CostFunction& cost) const {
+    VectorXd residual(cost.num_residuals());
+    Dense slope(cost.num_residuals(), cells_);
+    const double* parameters[] = {u_.data()};
+    double* jacobians[] = {slope.data()};
+    cost.Evaluate(parameters, residual.data(), jacobians);
+    return slope;
   }
 
   Linear Linearize(const OutlinePointCost& cost) const {
     const Index rows = cost.num_residuals();
     Linear linear{VectorXd(rows), {}};
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_u(
-        rows, cells_),
-        by_start(rows, 2);
+    Dense by_u(rows, cells_), by_start(rows, 2);
     const double* parameters[] = {u_.data(), start_.data()};
     double* jacobians[] = {by_u.data(), by_start.data()};
     cost.Evaluate(parameters, linear.residual.data(), jacobians);
@@ -214,7 +216,9 @@ class Fit {
     return linear;
   }
 
+  NormalGrid grid_;
   Index cells_;
+  std::vector<bool> along_;
   std::size_t touches_ = 0;
   std::vector<std::unique_ptr<OutlinePointCost>> costs_;  // touches, bounds
   std::unique_ptr<OutlineRoughnessCost> roughness_;
@@ -250,15 +254,63 @@ double BestLambda(double from_power, double to_power, double step, Fit* fit) {
   return best_lambda;
 }
 
+std::vector<BeamBound> Bounds(const std::vector<Touch>& touches,
+                              const ConvexCurve& curve,
+                              const OutlineFitSettings& settings) {
+  return FindBeamBounds(touches, curve, settings.stage_std_mm,
+                        settings.beam_reach_mm);
+}
+
+// The outline on a grid with cells for its edges: their lengths go there.
+ConvexCurve WithEdges(const ConvexCurve& curve,
+                      const std::vector<StraightEdge>& edges, int cells) {
+  if (edges.empty()) return curve;
+  std::vector<double> angles;
+  for (const StraightEdge& edge : edges) angles.push_back(edge.middle_rad);
+  const NormalGrid grid(cells, angles);
+  VectorXd radii(grid.cells());
+  const auto in = [](double angle, const StraightEdge& edge) {
+    const double middle = 0.5 * (edge.from_rad + edge.to_rad);
+    return std::abs(std::remainder(angle - middle, 2 * M_PI)) <=
+           0.5 * (edge.to_rad - edge.from_rad);
+  };
+  for (Index j = 0; j < grid.cells(); ++j) {
+    const double middle = grid.Start(j) + 0.5 * grid.Width(j);
+    radii[j] = curve.radii_mm()[curve.grid().CellOf(middle)];
+    for (const StraightEdge& edge : edges) {
+      if (!in(middle, edge)) continue;
+      radii[j] = grid.IsEdge(j)
+                     ? edge.length_mm / (NormalGrid::kEdgeCells *
+                                         NormalGrid::kEdgeCell_rad)
+                     : curve.radii_mm()[curve.grid().CellOf(std::fmod(
+                           edge.from_rad + 2 * M_PI - 0.03, 2 * M_PI))];
+    }
+  }
+  return {grid, curve.start_mm(), radii};
+}
+
+std::vector<bool> Along(const std::vector<Touch>& touches,
+                        const std::vector<StraightEdge>& edges,
+                        const ConvexCurve& curve) {
+  std::vector<bool> along;
+  for (const Touch& touch : touches) {
+    along.push_back(std::any_of(edges.begin(), edges.end(),
+                                [&](const StraightEdge& edge) {
+                                  return LiesAlong(touch, edge, curve);
+                                }));
+  }
+  return along;
+}
+
 }  // namespace
 
 double OutlineFit::NormalStd(double normal_angle_rad) const {
-  const Index cells = curve.cells();
+  const Index cells = curve.grid().cells();
   const Vector2d normal(std::cos(normal_angle_rad),
                         std::sin(normal_angle_rad));
   VectorXd slope(cells + 2);
   slope.head(cells) =
-      (normal.transpose() * ConvexCurve::SlopeAt(normal_angle_rad, cells) *
+      (normal.transpose() * ConvexCurve::SlopeAt(normal_angle_rad, curve.grid()) *
        curve.radii_mm().asDiagonal())
           .transpose();
   slope.tail<2>() = normal;
@@ -271,17 +323,21 @@ OutlineFit FitOutline(const std::vector<Touch>& touches,
     throw std::invalid_argument("an outline needs three touches");
   }
   OutlineFit result;
-  result.curve = Circle(touches, settings.cells);
+  result.curve = Circle(touches, NormalGrid(settings.cells));
+  std::vector<bool> along(touches.size(), false);
   for (int round = 0; round < kRounds; ++round) {
-    Fit fit(touches, result.curve, settings);
-    if (round == 0) {
-      result.smoothing = BestLambda(kLeastPower, kMostPower, kFirstStep, &fit);
-    } else {
-      const double power = std::log10(result.smoothing);
-      const double reach = round == 1 ? kFirstStep : 2 * kLaterStep;
-      result.smoothing =
-          BestLambda(power - reach, power + reach, kLaterStep, &fit);
+    if (round > 0) {
+      result.edges = FindStraightEdges(result.curve, touches);
+      along = Along(touches, result.edges, result.curve);
+      result.curve = WithEdges(result.curve, result.edges, settings.cells);
     }
+    Fit fit(touches, along, result.curve, settings);
+    if (round > 0) fit.AddBounds(Bounds(touches, result.curve, settings));
+    const double power = std::log10(result.smoothing);
+    result.smoothing =
+        round < 2 ? BestLambda(kLeastPower, kMostPower, kFirstStep, &fit)
+                  : BestLambda(power - kFirstStep, power + kFirstStep,
+                               kLaterStep, &fit);
     result.curve = fit.curve();
     if (round + 1 < kRounds) continue;
     result.noise_scale = fit.noise_scale();
@@ -300,7 +356,9 @@ OutlineFit FitOutline(const std::vector<Touch>& touches,
 OutlineFit RefitOutline(const std::vector<Touch>& touches,
                         const OutlineFit& start,
                         const OutlineFitSettings& settings) {
-  Fit fit(touches, start.curve, settings);
+  Fit fit(touches, Along(touches, start.edges, start.curve), start.curve,
+          settings);
+  fit.AddBounds(Bounds(touches, start.curve, settings));
   if (!fit.Solve(start.smoothing)) {
     throw std::runtime_error("no outline fits the touches of a varied finger");
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "finray/perception/convex_curve.h"
+#include "finray/perception/straight_edges.h"
 #include "finray/perception/touch.h"
 
 namespace finray {
@@ -23,6 +24,9 @@ namespace finray {
 //    well a peak as the round of an ellipse is flat.
 //  - d_k > 0 is how far a point of the outline lies beyond a touch's beam.
 //
+// Stretches that are flatter than a beam can tell (straight_edges.h) become
+// straight edges, and touches along them are left out but for their beams.
+//
 // lambda is the one at which the touches are most probable (restricted maximum
 // likelihood, the scale s of their noise being unknown too),
 //
@@ -38,13 +42,14 @@ struct OutlineFitSettings {
 };
 
 struct OutlineFit {
-  ConvexCurve curve{Eigen::Vector2d::Zero(), Eigen::VectorXd()};
+  ConvexCurve curve{NormalGrid(1), {0, 0}, Eigen::VectorXd::Ones(1)};
   /// Of (u_1 .. u_M, start), from touches and roughness, with a noise of
   /// max(1, noise_scale).
   Eigen::MatrixXd covariance;
   double smoothing = 0;    ///< lambda
   double noise_scale = 0;  ///< s: noise of the touches over what they claim
-  /// |L_i^-1 e_i| of each touch.
+  std::vector<StraightEdge> edges;
+  /// |L_i^-1 e_i| of each touch, NaN along an edge.
   std::vector<double> distances;
   int beam_bounds = 0;  ///< that hold the outline in
 
@@ -57,7 +62,7 @@ struct OutlineFit {
 OutlineFit FitOutline(const std::vector<Touch>& touches,
                       const OutlineFitSettings& settings = {});
 
-/// The same with lambda given and starting from `start`, for touches that
+/// The same with lambda and edges given and starting from `start`, for touches that
 /// differ a little (finger_variations.h); no covariance.
 OutlineFit RefitOutline(const std::vector<Touch>& touches,
                         const OutlineFit& start,
