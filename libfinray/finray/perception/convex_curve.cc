@@ -10,10 +10,10 @@ using Eigen::Vector2d;
 
 Vector2d Normal(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
-// An angle as whole turns and what is left of it.
+// An angle as whole turns from the origin and the angle within the first one.
 struct Turned {
-  explicit Turned(double angle)
-      : turns(std::floor(angle / (2 * M_PI))),
+  Turned(double angle, const NormalGrid& grid)
+      : turns(std::floor((angle - grid.origin_rad()) / (2 * M_PI))),
         within(angle - turns * 2 * M_PI) {}
   double turns, within;
 };
@@ -32,9 +32,9 @@ Vector2d ConvexCurve::At(double normal_angle_rad) const {
 ConvexCurve::PointSlope ConvexCurve::SlopeAt(double normal_angle_rad,
                                              const NormalGrid& grid) {
   PointSlope slope = PointSlope::Zero(2, grid.cells());
-  const double within = Turned(normal_angle_rad).within;
+  const double within = Turned(normal_angle_rad, grid).within;
   const Index last = grid.CellOf(within);
-  Vector2d before = Normal(0);
+  Vector2d before = Normal(grid.origin_rad());
   for (Index j = 0; j < last; ++j) {
     const Vector2d after = Normal(grid.Start(j + 1));
     slope.col(j) = after - before;
@@ -45,7 +45,7 @@ ConvexCurve::PointSlope ConvexCurve::SlopeAt(double normal_angle_rad,
 }
 
 ConvexCurve::PointSlope ConvexCurve::ClosureSlope(const NormalGrid& grid) {
-  return SlopeAt(std::nextafter(2 * M_PI, 0), grid);
+  return SlopeAt(std::nextafter(grid.origin_rad() + 2 * M_PI, 0), grid);
 }
 
 double ConvexCurve::MeanRadius(double normal_angle_rad,
@@ -64,7 +64,7 @@ double ConvexCurve::perimeter_mm() const {
 }
 
 double ConvexCurve::ArcAt(double normal_angle_rad) const {
-  const Turned turned(normal_angle_rad);
+  const Turned turned(normal_angle_rad, grid_);
   const Index cell = grid_.CellOf(turned.within);
   double arc = turned.turns * perimeter_mm();
   for (Index j = 0; j < cell; ++j) arc += radii_[j] * grid_.Width(j);

@@ -10,9 +10,9 @@ namespace finray {
 /// A closed convex curve by its radius of curvature over the angle a of its
 /// outward normal n(a) = (cos a, sin a), constant in each cell of a grid:
 ///
-///   r(a) = r(0) + int_0^a rho(b) t(b) db,   t = dn/da,
+///   r(a) = r(o) + int_o^a rho(b) t(b) db,   t = dn/da,
 ///
-/// a chain of arcs that meet with one tangent. Any rho >= 0 that closes,
+/// o being the grid's origin: a chain of arcs that meet with one tangent. Any rho >= 0 that closes,
 /// int rho t = 0 around, is a convex outline, a straight edge being a peak and
 /// a sharp corner a stretch of 0.
 class ConvexCurve {
@@ -38,7 +38,7 @@ class ConvexCurve {
   const Radii& radii_mm() const { return radii_; }
   const Eigen::Vector2d& start_mm() const { return start_; }
   double perimeter_mm() const;
-  /// Arc length from the normal angle 0, growing by the perimeter each turn.
+  /// Arc length from the grid's origin, growing by the perimeter each turn.
   double ArcAt(double normal_angle_rad) const;
   /// The normal angle at an arc length, its inverse.
   double NormalAngleAt(double arc_mm) const;

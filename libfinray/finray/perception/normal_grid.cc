@@ -6,23 +6,46 @@
 
 namespace finray {
 
-// Bounds of edge cells first; of the equal cells those that keep clear of them.
-NormalGrid::NormalGrid(int cells, std::vector<double> edge_angles_rad) {
-  std::vector<std::pair<double, bool>> starts;  // and whether an edge's
-  const double half = 0.5 * kEdgeCells * kEdgeCell_rad;
-  for (double& angle : edge_angles_rad) {
+namespace {
+
+// The middle of the widest gap between angles; 0 if there are none.
+double FarFrom(std::vector<double> angles) {
+  if (angles.empty()) return 0;
+  for (double& angle : angles) {
     angle -= std::floor(angle / (2 * M_PI)) * 2 * M_PI;
-    // It does not pass the angle 0.
-    angle = std::clamp(angle, 2 * half, 2 * M_PI - 2 * half);
+  }
+  std::sort(angles.begin(), angles.end());
+  double widest = 0, middle = 0;
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    const double next =
+        i + 1 < angles.size() ? angles[i + 1] : angles[0] + 2 * M_PI;
+    if (next - angles[i] <= widest) continue;
+    widest = next - angles[i];
+    middle = 0.5 * (next + angles[i]);
+  }
+  return std::fmod(middle, 2 * M_PI);
+}
+
+}  // namespace
+
+// Bounds of edge cells first; of the equal cells those that keep clear of them.
+NormalGrid::NormalGrid(int cells, const std::vector<double>& edge_angles_rad) {
+  const double origin = FarFrom(edge_angles_rad);
+  const double half = 0.5 * kEdgeCells * kEdgeCell_rad;
+  std::vector<std::pair<double, bool>> starts;  // and whether an edge's
+  for (const double angle : edge_angles_rad) {
+    const double turns = std::floor((angle - origin) / (2 * M_PI));
     for (int k = 0; k <= kEdgeCells; ++k) {
-      starts.emplace_back(angle - half + k * kEdgeCell_rad, k < kEdgeCells);
+      starts.emplace_back(
+          angle - turns * 2 * M_PI - half + k * kEdgeCell_rad, k < kEdgeCells);
     }
   }
   for (int j = 0; j < cells; ++j) {
-    const double start = 2 * M_PI * j / cells;
+    const double start = origin + 2 * M_PI * j / cells;
     const bool clear = std::none_of(
         edge_angles_rad.begin(), edge_angles_rad.end(), [&](double angle) {
-          return std::abs(start - angle) < half + kEdgeCell_rad / 2;
+          return std::abs(std::remainder(start - angle, 2 * M_PI)) <
+                 half + kEdgeCell_rad / 2;
         });
     if (clear) starts.emplace_back(start, false);
   }
@@ -32,8 +55,7 @@ NormalGrid::NormalGrid(int cells, std::vector<double> edge_angles_rad) {
     bounds_[static_cast<Eigen::Index>(i)] = starts[i].first;
     edge_.push_back(starts[i].second);
   }
-  bounds_[0] = 0;
-  bounds_[bounds_.size() - 1] = 2 * M_PI;
+  bounds_[bounds_.size() - 1] = origin + 2 * M_PI;
 }
 
 Eigen::Index NormalGrid::CellOf(double angle_rad) const {

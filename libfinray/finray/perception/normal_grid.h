@@ -6,22 +6,24 @@
 
 namespace finray {
 
-/// Cells of the angle of an outline's normal, from 0 around to 2 pi: equal
-/// ones, and in the place of a straight edge a few narrow ones that may hold
-/// its length.
+/// Cells of the angle of an outline's normal, once around from an origin that
+/// is far from edges: equal ones, and in the place of a straight edge a few
+/// narrow ones that may hold its length.
 class NormalGrid {
  public:
   static constexpr int kEdgeCells = 3;
   static constexpr double kEdgeCell_rad = 0.007;
 
-  explicit NormalGrid(int cells, std::vector<double> edge_angles_rad = {});
+  explicit NormalGrid(int cells,
+                      const std::vector<double>& edge_angles_rad = {});
 
   Eigen::Index cells() const { return bounds_.size() - 1; }
   double Start(Eigen::Index cell) const { return bounds_[cell]; }
   double Width(Eigen::Index cell) const {
     return bounds_[cell + 1] - bounds_[cell];
   }
-  /// The cell of an angle from 0 up to 2 pi.
+  double origin_rad() const { return bounds_[0]; }
+  /// The cell of an angle from the origin up to a turn beyond.
   Eigen::Index CellOf(double angle_rad) const;
   /// Whether it belongs to a straight edge.
   bool IsEdge(Eigen::Index cell) const {

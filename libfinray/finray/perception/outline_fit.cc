@@ -21,15 +21,18 @@ using Eigen::VectorXd;
 
 constexpr double kClosureStd_mm = 5e-3;
 constexpr double kHuberScale = 3;
+constexpr double kEdgeLengthStd = 3;  // of its logarithm
 // Over which the radius of curvature is averaged at least.
 constexpr double kLeastReach_rad = 0.026;
 // Rounds in which weights, bounds and lambda follow the outline.
-constexpr int kRounds = 4;
+constexpr int kSmoothRounds = 2, kLastRounds = 2;
 // log10 of lambda: the first round's grid, then steps about the best.
-constexpr double kLeastPower = -7, kMostPower = 6;
+constexpr double kLeastPower = -4, kMostPower = 5;
 constexpr double kFirstStep = 1, kLaterStep = 0.25;
 // Touches do not agree better than this share of what they claim.
-constexpr double kLeastScale = 1e-3;
+constexpr double kLeastScale = 0.1;
+// Beside an edge, the radius that cells near it start from.
+constexpr double kBeside_rad = 0.03;
 
 // Circle through the tangents: h_i = centre . n_i + radius.
 ConvexCurve Circle(const std::vector<Touch>& touches, const NormalGrid& grid) {
@@ -43,7 +46,7 @@ ConvexCurve Circle(const std::vector<Touch>& touches, const NormalGrid& grid) {
   const Eigen::Vector3d found =
       (rows.transpose() * rows).ldlt().solve(rows.transpose() * support);
   const double radius = std::max(found[2], 1e-3);
-  return {grid, found.head<2>() + Vector2d(radius, 0),
+  return {grid, found.head<2>() + Vector2d(radius, 0),  // its origin is 0
           VectorXd::Constant(grid.cells(), radius)};
 }
 
@@ -99,7 +102,7 @@ class Fit {
     ceres::Problem problem = MakeProblem(lambda);
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-    options.max_num_iterations = 50;
+    options.max_num_iterations = 40;
     options.function_tolerance = 1e-5;
     options.parameter_tolerance = 1e-8;
     options.logging_type = ceres::SILENT;
@@ -120,7 +123,37 @@ class Fit {
       return std::numeric_limits<double>::infinity();
     }
     return n * std::log(noise_scale() * noise_scale()) + log_det -
-           static_cast<double>(cells_ - 1) * std::log(lambda);
+           LogDeterminantOfRoughness(lambda) +
+           2 * edges() * std::log(kEdgeLengthStd);
+  }
+
+  // Its null space: the level of the outline, and that of each edge.
+  double LogDeterminantOfRoughness(double lambda) const {
+    const Dense slope = Slope(OutlineRoughnessCost(grid_));
+    MatrixXd roughness = slope.transpose() * slope;
+    VectorXd level = VectorXd::Zero(cells_);
+    for (Index j = 0; j < cells_; ++j) {
+      if (!grid_.IsEdge(j)) {
+        level[j] = 1;
+      } else if (!grid_.IsEdge(j - 1)) {
+        roughness.block<NormalGrid::kEdgeCells, NormalGrid::kEdgeCells>(j, j)
+            .array() += 1.0 / NormalGrid::kEdgeCells;
+      }
+    }
+    roughness += level * level.transpose() / level.squaredNorm();
+    const double rank = static_cast<double>(cells_) - 1 - edges();
+    return rank * std::log(lambda) + 2 * roughness.llt()
+                                             .matrixLLT()
+                                             .diagonal()
+                                             .array()
+                                             .log()
+                                             .sum();
+  }
+
+  int edges() const {
+    int cells = 0;
+    for (Index j = 0; j < cells_; ++j) cells += grid_.IsEdge(j);
+    return cells / NormalGrid::kEdgeCells;
   }
 
   double noise_scale() const {
@@ -229,7 +262,10 @@ class Fit {
 };
 
 // Goes through lambda from smooth to rough and leaves the fit at the best.
-double BestLambda(double from_power, double to_power, double step, Fit* fit) {
+struct Best {
+  double lambda, improbability;
+};
+Best BestLambda(double from_power, double to_power, double step, Fit* fit) {
   const ConvexCurve start = fit->curve();
   double best = std::numeric_limits<double>::infinity(), best_lambda = 0;
   ConvexCurve best_curve = start;
@@ -251,7 +287,7 @@ double BestLambda(double from_power, double to_power, double step, Fit* fit) {
   }
   fit->Take(best_curve);
   fit->Solve(best_lambda);
-  return best_lambda;
+  return {best_lambda, best};
 }
 
 std::vector<BeamBound> Bounds(const std::vector<Touch>& touches,
@@ -259,6 +295,13 @@ std::vector<BeamBound> Bounds(const std::vector<Touch>& touches,
                               const OutlineFitSettings& settings) {
   return FindBeamBounds(touches, curve, settings.stage_std_mm,
                         settings.beam_reach_mm);
+}
+
+double RadiusOf(const ConvexCurve& curve, double normal_angle_rad) {
+  const double from = normal_angle_rad - curve.grid().origin_rad();
+  const double turns = std::floor(from / (2 * M_PI));
+  return curve.radii_mm()[curve.grid().CellOf(normal_angle_rad -
+                                              turns * 2 * M_PI)];
 }
 
 // The outline on a grid with cells for its edges: their lengths go there.
@@ -276,17 +319,16 @@ ConvexCurve WithEdges(const ConvexCurve& curve,
   };
   for (Index j = 0; j < grid.cells(); ++j) {
     const double middle = grid.Start(j) + 0.5 * grid.Width(j);
-    radii[j] = curve.radii_mm()[curve.grid().CellOf(middle)];
+    radii[j] = RadiusOf(curve, middle);
     for (const StraightEdge& edge : edges) {
       if (!in(middle, edge)) continue;
       radii[j] = grid.IsEdge(j)
                      ? edge.length_mm / (NormalGrid::kEdgeCells *
                                          NormalGrid::kEdgeCell_rad)
-                     : curve.radii_mm()[curve.grid().CellOf(std::fmod(
-                           edge.from_rad + 2 * M_PI - 0.03, 2 * M_PI))];
+                     : RadiusOf(curve, edge.from_rad - kBeside_rad);
     }
   }
-  return {grid, curve.start_mm(), radii};
+  return {grid, curve.At(grid.origin_rad()), radii};
 }
 
 std::vector<bool> Along(const std::vector<Touch>& touches,
@@ -300,6 +342,51 @@ std::vector<bool> Along(const std::vector<Touch>& touches,
                                 }));
   }
   return along;
+}
+
+// The edge as the fit has it: its cells' length and mean normal.
+StraightEdge Settled(StraightEdge edge, const ConvexCurve& curve) {
+  const NormalGrid& grid = curve.grid();
+  double length = 0, moment = 0;
+  for (Index j = 0; j < grid.cells(); ++j) {
+    const double middle = grid.Start(j) + 0.5 * grid.Width(j);
+    const double off = std::remainder(middle - edge.middle_rad, 2 * M_PI);
+    if (!grid.IsEdge(j) || std::abs(off) > 3 * NormalGrid::kEdgeCell_rad) {
+      continue;
+    }
+    length += curve.radii_mm()[j] * grid.Width(j);
+    moment += curve.radii_mm()[j] * grid.Width(j) * off;
+  }
+  if (length > 0) edge.middle_rad += moment / length;
+  edge.length_mm = length;
+  return edge;
+}
+
+// Flat stretches as straight edges, if that makes the touches away from them
+// more probable than a smooth outline does.
+void TakeEdges(const std::vector<Touch>& touches,
+               const OutlineFitSettings& settings, OutlineFit* result,
+               std::vector<bool>* along) {
+  const auto edges = FindStraightEdges(result->curve, touches);
+  if (edges.empty()) return;
+  const std::vector<bool> apart = Along(touches, edges, result->curve);
+  if (std::count(apart.begin(), apart.end(), false) < 3) return;
+  const auto bounds = Bounds(touches, result->curve, settings);
+  Fit smooth(touches, apart, result->curve, settings);
+  smooth.AddBounds(bounds);
+  Fit straight(touches, apart,
+               WithEdges(result->curve, edges, settings.cells), settings);
+  straight.AddBounds(bounds);
+  const Best of_smooth =
+      BestLambda(kLeastPower, kMostPower, kFirstStep, &smooth);
+  const Best of_straight =
+      BestLambda(kLeastPower, kMostPower, kFirstStep, &straight);
+  if (of_straight.improbability >= of_smooth.improbability) return;
+  result->edges = edges;
+  result->smoothing = of_straight.lambda;
+  result->curve = straight.curve();
+  for (StraightEdge& edge : result->edges) edge = Settled(edge, result->curve);
+  *along = apart;
 }
 
 }  // namespace
@@ -325,21 +412,28 @@ OutlineFit FitOutline(const std::vector<Touch>& touches,
   OutlineFit result;
   result.curve = Circle(touches, NormalGrid(settings.cells));
   std::vector<bool> along(touches.size(), false);
-  for (int round = 0; round < kRounds; ++round) {
-    if (round > 0) {
-      result.edges = FindStraightEdges(result.curve, touches);
-      along = Along(touches, result.edges, result.curve);
+  // Smooth first: weights of the first round are those of a circle.
+  for (int round = 0; round < kSmoothRounds; ++round) {
+    Fit fit(touches, along, result.curve, settings);
+    if (round > 0) fit.AddBounds(Bounds(touches, result.curve, settings));
+    result.smoothing =
+        BestLambda(kLeastPower, kMostPower, kFirstStep, &fit).lambda;
+    result.curve = fit.curve();
+  }
+  TakeEdges(touches, settings, &result, &along);
+  for (int round = 0; round < kLastRounds; ++round) {
+    if (!result.edges.empty()) {
       result.curve = WithEdges(result.curve, result.edges, settings.cells);
     }
     Fit fit(touches, along, result.curve, settings);
-    if (round > 0) fit.AddBounds(Bounds(touches, result.curve, settings));
+    fit.AddBounds(Bounds(touches, result.curve, settings));
     const double power = std::log10(result.smoothing);
-    result.smoothing =
-        round < 2 ? BestLambda(kLeastPower, kMostPower, kFirstStep, &fit)
-                  : BestLambda(power - kFirstStep, power + kFirstStep,
-                               kLaterStep, &fit);
+    result.smoothing = BestLambda(power - kFirstStep, power + kFirstStep,
+                                  kLaterStep, &fit)
+                           .lambda;
     result.curve = fit.curve();
-    if (round + 1 < kRounds) continue;
+    for (StraightEdge& edge : result.edges) edge = Settled(edge, result.curve);
+    if (round + 1 < kLastRounds) continue;
     result.noise_scale = fit.noise_scale();
     result.distances = fit.Distances();
     result.beam_bounds = fit.ActiveBounds();

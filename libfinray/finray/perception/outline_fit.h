@@ -24,19 +24,22 @@ namespace finray {
 //    well a peak as the round of an ellipse is flat.
 //  - d_k > 0 is how far a point of the outline lies beyond a touch's beam.
 //
-// Stretches that are flatter than a beam can tell (straight_edges.h) become
-// straight edges, and touches along them are left out but for their beams.
+// Stretches so flat that they may be straight edges (straight_edges.h) become
+// such, lengths whose cells no roughness holds to their neighbours, if the
+// touches away from them are more probable that way. Touches along them are then
+// left out, but for their beams.
 //
 // lambda is the one at which the touches are most probable (restricted maximum
 // likelihood, the scale s of their noise being unknown too),
 //
-//   n log(Q / n) + log det(A + lambda R) - (M - 1) log lambda  -> min
+//   n log(Q / n) + log det(A + lambda R) - log det+(lambda R) + 2 e log(s_e)
 //
 // over the n residuals of touches, Q being the minimum above, A the information
-// of touches and beams, R that of the roughness.
+// of touches and beams, R that of the roughness, det+ leaving out its null
+// space, e the number of edges and s_e the std of the logarithm of their length.
 
 struct OutlineFitSettings {
-  int cells = 240;
+  int cells = 180;
   double stage_std_mm = 0.02;       ///< of object_x_mm, object_y_mm, each.
   double beam_reach_mm = 140;       ///< The beam is a bound so near a contact.
 };

@@ -23,7 +23,7 @@ struct StraightEdge {
 
 /// Stretches whose radius of curvature exceeds kFlat of the beam's, and that
 /// are longer than kShortestEdge of the mean radius.
-constexpr double kFlat = 0.5;
+constexpr double kFlat = 0.15;
 constexpr double kShortestEdge = 0.3;
 std::vector<StraightEdge> FindStraightEdges(const ConvexCurve& curve,
                                             const std::vector<Touch>& touches);
