@@ -43,6 +43,28 @@ double NormalAngleOfRay(const ConvexCurve& curve, const Vector2d& centre,
   return curve.NormalAngleAt(0.5 * (low + high));
 }
 
+// How far beyond a point the nearest beam lies, along the outline's normal.
+double Clearance(const Vector2d& point, double normal_angle_rad,
+                 const std::vector<Touch>& touches) {
+  constexpr double kFarthest_mm = 10;
+  const Vector2d normal(std::cos(normal_angle_rad),
+                        std::sin(normal_angle_rad));
+  const Vector2d tangent(-normal.y(), normal.x());
+  double least = kFarthest_mm;
+  for (const Touch& touch : touches) {
+    for (std::size_t i = 0; i + 1 < touch.beam_mm.size(); ++i) {
+      const Vector2d a = touch.beam_mm[i] - point;
+      const Vector2d b = touch.beam_mm[i + 1] - point;
+      const double aside_a = tangent.dot(a), aside_b = tangent.dot(b);
+      if ((aside_a > 0) == (aside_b > 0)) continue;
+      const double share = aside_a / (aside_a - aside_b);
+      const double height = normal.dot((1 - share) * a + share * b);
+      if (height > -1) least = std::min(least, std::max(height, 0.0));
+    }
+  }
+  return least;
+}
+
 // What the calibration leaves uncertain of the radii: their changes, finger by
 // finger.
 Eigen::VectorXd CalibrationVariance(const FrameTable& table,
@@ -99,9 +121,16 @@ Reconstruction Reconstruct(const FrameTable& table, const Finger& finger,
     point.angle_rad = angle;
     point.position_mm = curve.At(normal);
     point.radius_mm = (point.position_mm - result.centroid_mm).norm();
-    point.std_mm =
-        result.fit.NormalStd(normal) / std::cos(normal - angle);
     point.supported = coverage.Supports(normal);
+    double normal_std = result.fit.NormalStd(normal);
+    if (!point.supported) {
+      // Anywhere between there and the beams is as likely.
+      normal_std = std::hypot(
+          normal_std, Clearance(point.position_mm, normal,
+                                result.touches.usable) /
+                          std::sqrt(3.0));
+    }
+    point.std_mm = normal_std / std::cos(normal - angle);
     result.outline.push_back(point);
   }
   const Eigen::VectorXd variance = CalibrationVariance(
