@@ -5,10 +5,15 @@
 // orientations, 3 N, gauges 3e-4 rad, stage 0.02 mm. `seeds` draws of noise.
 //
 //   build/test/tests/reconstruction_study [SEEDS [OBJECT]]
+//   build/test/tests/reconstruction_study write DIR
+//
+// The second one writes logs of the noisy touches and true outlines instead.
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
+#include "finray/io/atomic_file.h"
 #include "finray/perception/fourier_descriptors.h"
 #include "finray/perception/interior_envelope.h"
 #include "finray/perception/radial_error.h"
@@ -99,10 +104,32 @@ void Run(int seeds, const char* only) {
   }
 }
 
+void Write(const std::string& folder) {
+  MakeFolder(folder);
+  for (const NamedObject& object : StudyObjects()) {
+    std::string stem = folder + "/" + object.name;
+    std::replace(stem.end() - static_cast<std::ptrdiff_t>(object.name.size()),
+                 stem.end(), ' ', '_');
+    SimulateTouches(PaperFinger(), object.touched, {}, {}, {true, 0.02, 1})
+        .Write(stem + ".touches.csv");
+    FrameTable outline(360);
+    const Polygon points = EvenlySpaced(object.truth, 360);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      outline.MutableNumbers("x_mm")[i] = points[i].x();
+      outline.MutableNumbers("y_mm")[i] = points[i].y();
+    }
+    outline.Write(stem + ".outline.csv");
+  }
+}
+
 }  // namespace
 }  // namespace finray
 
 int main(int argc, char** argv) {
+  if (argc == 3 && std::string(argv[1]) == "write") {
+    finray::Write(argv[2]);
+    return 0;
+  }
   finray::Run(argc > 1 ? std::atoi(argv[1]) : 10,
               argc > 2 ? argv[2] : nullptr);
 }
