@@ -169,7 +169,10 @@ double StiffnessFit::ForceAt(double displacement_mm) const {
 }
 
 double StiffnessFit::DisplacementAt(double force_N) const {
-  double low = least_mm - 1, high = largest_mm + 1;
+  if (degree == 1) return (force_N - coefficients[0]) / coefficients[1];
+  // Little beyond the points, where the law still rises.
+  const double beyond = 0.05 * (largest_mm - least_mm);
+  double low = least_mm - beyond, high = largest_mm + beyond;
   for (int i = 0; i < 100; ++i) {
     const double middle = 0.5 * (low + high);
     (ForceAt(middle) < force_N ? low : high) = middle;
@@ -218,6 +221,9 @@ StiffnessFit FitStiffness(const std::vector<ForcePoint>& points,
     if (best && (!rises || fit.chi2 + price >= least)) continue;
     least = fit.chi2 + price;
     best = fit;
+  }
+  if (!(best->coefficients[1] > 0) && best->degree == 1) {
+    throw InputError("the force does not grow with the displacement");
   }
   best->standing = points.size() - sliding.size();
   return *best;
