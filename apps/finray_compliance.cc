@@ -125,11 +125,11 @@ void PrintSummary(const Compliance& found) {
     standing += trial.fit.standing;
     rows += trial.rows;
   }
-  std::printf("points         %zu of %zu rows in %zu trials; %zu left out as "
-              "the slider stood\n",
-              points, rows, found.trials.size(), standing);
-  std::printf("compared       from %.3g to %.3g N\n", found.from_N,
-              found.to_N);
+  std::printf(
+      "points         %zu of %zu rows in %zu trials; %zu left out as "
+      "the slider stood\n",
+      points, rows, found.trials.size(), standing);
+  std::printf("compared       from %.3g to %.3g N\n", found.from_N, found.to_N);
   for (std::size_t i = 0; i < found.objects.size(); ++i) {
     const ObjectStiffness& object = found.objects[i];
     std::printf("%-14s %.4g +- %.2g N/mm", object.name.c_str(),
@@ -186,8 +186,8 @@ int Run() {
   PrintSummary(found);
   if (FLAGS_plots) {
     const std::string problem =
-        RunPythonScript(FINRAY_PLOT_DIR "/plot_compliance.py",
-                        {FLAGS_out_dir}, "python3-matplotlib");
+        RunPythonScript(FINRAY_PLOT_DIR "/plot_compliance.py", {FLAGS_out_dir},
+                        "python3-matplotlib");
     if (!problem.empty()) LOG(WARNING) << "no plots: " << problem;
   }
   return found.order_confidence < FLAGS_least_order_confidence ? kGateFailed

@@ -54,19 +54,21 @@ void CheckFlags() {
 void PrintSummary(const Reconstruction& found, const RadialError* error,
                   const RadialError* envelope_error) {
   std::printf("%s\n", InFolder("outline.csv").c_str());
-  std::printf("touches        %zu of %zu rows usable, %zu contacts\n",
-              [&] {
-                const auto ok = found.touches.rows.find(FrameStatus::kOk);
-                return ok == found.touches.rows.end() ? 0 : ok->second;
-              }(),
-              found.touches.all_rows(), found.touches.usable.size());
+  std::printf(
+      "touches        %zu of %zu rows usable, %zu contacts\n",
+      [&] {
+        const auto ok = found.touches.rows.find(FrameStatus::kOk);
+        return ok == found.touches.rows.end() ? 0 : ok->second;
+      }(),
+      found.touches.all_rows(), found.touches.usable.size());
   double std = 0;
   for (const OutlinePoint& point : found.outline) {
     std += point.std_mm / static_cast<double>(found.outline.size());
   }
-  std::printf("outline        %.4g mm around, mean std %.2g mm, noise %.2f of "
-              "what was expected\n",
-              found.fit.curve.perimeter_mm(), std, found.fit.noise_scale);
+  std::printf(
+      "outline        %.4g mm around, mean std %.2g mm, noise %.2f of "
+      "what was expected\n",
+      found.fit.curve.perimeter_mm(), std, found.fit.noise_scale);
   std::printf("supported      %.0f %%; no touch lies on %zu stretch%s",
               100 * found.supported_share, found.gaps.size(),
               found.gaps.size() == 1 ? "" : "es");
@@ -78,11 +80,12 @@ void PrintSummary(const Reconstruction& found, const RadialError* error,
     std::printf("radial error   not known: no --truth\n");
     return;
   }
-  std::printf("radial error   mean %.3g %%, 95 %% below %.3g %%, largest %.3g "
-              "%%; interior envelope %.3g, %.3g, %.3g %%\n",
-              error->Mean(), error->Quantile(0.95), error->Largest(),
-              envelope_error->Mean(), envelope_error->Quantile(0.95),
-              envelope_error->Largest());
+  std::printf(
+      "radial error   mean %.3g %%, 95 %% below %.3g %%, largest %.3g "
+      "%%; interior envelope %.3g, %.3g, %.3g %%\n",
+      error->Mean(), error->Quantile(0.95), error->Largest(),
+      envelope_error->Mean(), envelope_error->Quantile(0.95),
+      envelope_error->Largest());
 }
 
 int Run() {
@@ -127,8 +130,7 @@ int Run() {
   }
 
   MakeFolder(FLAGS_out_dir);
-  OutlineTable(found, truth ? &*truth : nullptr)
-      .Write(InFolder("outline.csv"));
+  OutlineTable(found, truth ? &*truth : nullptr).Write(InFolder("outline.csv"));
   TouchTable(found).Write(InFolder("touches.csv"));
   BeamTable(found, FLAGS_envelope_mm).Write(InFolder("beams.csv"));
   WriteFileAtomically(

@@ -12,8 +12,8 @@ namespace {
 ConvexCurve CurveOf(const Outline& outline, const NormalGrid& grid) {
   Eigen::VectorXd radii(grid.cells());
   for (Eigen::Index j = 0; j < grid.cells(); ++j) {
-    radii[j] = outline.PointAt(grid.Start(j) + grid.Width(j) / 2)
-                   .curvature_radius_mm;
+    radii[j] =
+        outline.PointAt(grid.Start(j) + grid.Width(j) / 2).curvature_radius_mm;
   }
   return {grid, outline.PointAt(grid.origin_rad()).position_mm, radii};
 }
@@ -37,10 +37,12 @@ TEST(ConvexCurveTest, EllipseConvergesWithTheCells) {
     const ConvexCurve curve = CurveOf(ellipse, NormalGrid(cells));
     double worst = 0;
     for (double a = 0; a < 6.2; a += 0.1) {
-      worst = std::max(
-          worst, (curve.At(a) - ellipse.PointAt(a).position_mm).norm());
+      worst = std::max(worst,
+                       (curve.At(a) - ellipse.PointAt(a).position_mm).norm());
     }
-    if (before > 0) EXPECT_NEAR(before / worst, 4, 1.2) << cells;
+    if (before > 0) {
+      EXPECT_NEAR(before / worst, 4, 1.2) << cells;
+    }
     before = worst;
   }
   EXPECT_LT(before, 2e-3);
@@ -65,10 +67,10 @@ TEST(ConvexCurveTest, SlopesAreThoseByTheRadii) {
     for (Eigen::Index j = 0; j < grid.cells(); ++j) {
       ConvexCurve::Radii moved = radii;
       moved[j] += 1;  // linear
-      EXPECT_LT((ConvexCurve(grid, {1, 2}, moved).At(a) - curve.At(a) -
-                 slope.col(j))
-                    .norm(),
-                1e-13);
+      EXPECT_LT(
+          (ConvexCurve(grid, {1, 2}, moved).At(a) - curve.At(a) - slope.col(j))
+              .norm(),
+          1e-13);
     }
   }
 }

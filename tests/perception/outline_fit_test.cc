@@ -18,11 +18,10 @@ double LargestError(const OutlineFit& fit, const Outline& outline) {
   double worst = 0;
   for (int i = 0; i < 360; ++i) {
     const double arc = fit.curve.perimeter_mm() * i / 360;
-    worst = std::max(worst,
-                     std::abs(outline
-                                  .DistanceOf(fit.curve.At(
-                                      fit.curve.NormalAngleAt(arc)))
-                                  .distance_mm));
+    worst = std::max(
+        worst,
+        std::abs(outline.DistanceOf(fit.curve.At(fit.curve.NormalAngleAt(arc)))
+                     .distance_mm));
   }
   return worst;
 }
@@ -68,8 +67,7 @@ TEST(OutlineFitTest, StdIsThatOfTheErrors) {
     std::vector<Touch> touches = ExactTouches(ellipse, 36, 0.02 * draw);
     for (Touch& touch : touches) {
       touch.covariance.topLeftCorner<2, 2>() *= 4;  // 0.04 mm
-      touch.point_mm +=
-          0.04 * Vector2d(normal(generator), normal(generator));
+      touch.point_mm += 0.04 * Vector2d(normal(generator), normal(generator));
       touch.normal_angle_rad += 5e-4 * normal(generator);
     }
     OutlineFitSettings settings;
@@ -97,12 +95,11 @@ TEST(OutlineFitTest, BeamsHoldTheOutlineIn) {
     // The finger is on the far side of the beam.
     EXPECT_GT(bound.beam_normal.dot(bound.beam_point_mm), 0);
   }
-  EXPECT_TRUE(
-      FindBeamBounds(ExactTouches(circle, 12),
-                     ConvexCurve(NormalGrid(90), {17, 0},
-                                 Eigen::VectorXd::Constant(90, 17)),
-                     0.02, 30)
-          .empty());
+  EXPECT_TRUE(FindBeamBounds(ExactTouches(circle, 12),
+                             ConvexCurve(NormalGrid(90), {17, 0},
+                                         Eigen::VectorXd::Constant(90, 17)),
+                             0.02, 30)
+                  .empty());
 }
 
 }  // namespace

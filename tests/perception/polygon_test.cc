@@ -43,8 +43,9 @@ TEST(FourierDescriptorsTest, CircleHasTwo) {
   for (auto& point : circle) point += Eigen::Vector2d(1, -2);
   const FourierDescriptors descriptors(circle, 19);
   for (int k = -9; k <= 9; ++k) {
-    const std::complex<double> expected =
-        k == 0 ? std::complex<double>(1, -2) : k == 1 ? 5.0 : 0.0;
+    const std::complex<double> expected = k == 0   ? std::complex<double>(1, -2)
+                                          : k == 1 ? 5.0
+                                                   : 0.0;
     EXPECT_LT(std::abs(descriptors.coefficients()[k + 9] - expected), 2e-5)
         << k;
   }

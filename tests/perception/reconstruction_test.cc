@@ -14,8 +14,9 @@ namespace {
 Reconstruction Touched(const NamedObject& object, bool noisy,
                        const Finger& finger = PaperFinger()) {
   const TouchNoise noise{noisy, noisy ? 0.02 : 0.0, 1};
-  return Reconstruct(SimulateTouches(PaperFinger(), object.touched, {}, {}, noise),
-                     finger, Scene(), {}, {});
+  return Reconstruct(
+      SimulateTouches(PaperFinger(), object.touched, {}, {}, noise), finger,
+      Scene(), {}, {});
 }
 
 TEST(ReconstructionTest, EllipseWithoutNoise) {
@@ -59,10 +60,10 @@ TEST(ReconstructionTest, DentIsMarkedAsNotTouched) {
 TEST(ReconstructionTest, CalibrationWidensTheBand) {
   const NamedObject circle = StudyObjects()[0];
   Finger finger = PaperFinger();
-  finger.calibration = ParameterCovariance{
-      {{FingerParameterKind::kBackStiffness, 0}},
-      Eigen::VectorXd::Constant(1, 250),
-      Eigen::MatrixXd::Identity(1, 1)};
+  finger.calibration =
+      ParameterCovariance{{{FingerParameterKind::kBackStiffness, 0}},
+                          Eigen::VectorXd::Constant(1, 250),
+                          Eigen::MatrixXd::Identity(1, 1)};
   const Reconstruction known = Touched(circle, false);
   const Reconstruction uncertain = Touched(circle, false, finger);
   Finger moved = finger;

@@ -41,8 +41,7 @@ TEST(TouchCoverageTest, RefusesTouchesFromOneSide) {
                   "frame, a gap of 142 deg")));
 }
 
-// A circle without the touches from 60 deg: open but for the reach of R / 4 on
-// either side.
+// A circle without the touches from 60 deg: open but for R / 20 on either side.
 TEST(TouchCoverageTest, SaysWhereNoTouchLies) {
   const Outline circle(CircleOutline{20});
   const ConvexCurve curve(NormalGrid(90), {20, 0},
@@ -53,11 +52,11 @@ TEST(TouchCoverageTest, SaysWhereNoTouchLies) {
   }
   const TouchCoverage coverage(curve, touches);
   ASSERT_EQ(coverage.Gaps().size(), 1u);
-  EXPECT_NEAR(coverage.Gaps()[0].length_mm, 20 * (M_PI / 3 - 0.5), 0.1);
-  EXPECT_NEAR(coverage.SupportedShare(), 1 - (M_PI / 3 - 0.5) / (2 * M_PI),
+  EXPECT_NEAR(coverage.Gaps()[0].length_mm, 20 * (M_PI / 3 - 0.1), 0.1);
+  EXPECT_NEAR(coverage.SupportedShare(), 1 - (M_PI / 3 - 0.1) / (2 * M_PI),
               1e-3);
   EXPECT_FALSE(coverage.Supports(M_PI / 6));
-  EXPECT_TRUE(coverage.Supports(M_PI / 3 - 0.24));
+  EXPECT_TRUE(coverage.Supports(M_PI / 3 - 0.04));
   EXPECT_TRUE(coverage.Supports(M_PI));
 }
 

@@ -9,18 +9,18 @@
 
 namespace finray {
 
-/// A touch as a beam bent round the outline with a radius of 200 mm would make
+/// A touch as a beam bent round the outline with a radius of 600 mm would make
 /// it, exact, with the given errors claimed.
 inline Touch ExactTouch(const Outline& outline, double normal_angle_rad,
                         double std_mm = 0.02, double std_rad = 5e-4) {
-  constexpr double kBeamRadius_mm = 200, kHalf_mm = 40;
+  constexpr double kBeamRadius_mm = 600, kHalf_mm = 40;
   Touch touch{};
   touch.point_mm = outline.PointAt(normal_angle_rad).position_mm;
   touch.normal_angle_rad = std::remainder(normal_angle_rad, 2 * M_PI);
   touch.normal_N = 3;
-  touch.covariance = Eigen::Vector3d(std_mm * std_mm, std_mm * std_mm,
-                                     std_rad * std_rad)
-                         .asDiagonal();
+  touch.covariance =
+      Eigen::Vector3d(std_mm * std_mm, std_mm * std_mm, std_rad * std_rad)
+          .asDiagonal();
   const Eigen::Vector2d n = touch.Normal();
   // Base to tip: the finger, on the side of n, is on its right.
   const Eigen::Vector2d t(-n.y(), n.x());

@@ -12,7 +12,8 @@ using Eigen::Vector2d;
 
 std::vector<Outline> Outlines() {
   return {
-      Outline(CircleOutline{7}), Outline(EllipseOutline{12, 5}),
+      Outline(CircleOutline{7}),
+      Outline(EllipseOutline{12, 5}),
       Outline(EllipseOutline{3, 20}),
       Outline(RoundedPolygonOutline{{{-8, -5}, {9, -4}, {6, 7}, {-7, 6}}, 2.5}),
       Outline(RoundedPolygonOutline{{{-10, 3}, {10, 3}}, 4}),
@@ -50,11 +51,10 @@ TEST(OutlineTest, EllipsePointsObeyTheImplicitEquation) {
 TEST(OutlineTest, SupportSeriesIsTheDistanceOfTheTangents) {
   const Outline outline(SupportOutline{9, {{2, -1}, {0.5, 0.4}}});
   for (double angle = -3; angle < 3; angle += 0.21) {
-    EXPECT_NEAR(
-        outline.PointAt(angle).position_mm.dot(Direction(angle)),
-        9 + 2 * std::cos(angle) - std::sin(angle) + 0.5 * std::cos(2 * angle) +
-            0.4 * std::sin(2 * angle),
-        1e-13);
+    EXPECT_NEAR(outline.PointAt(angle).position_mm.dot(Direction(angle)),
+                9 + 2 * std::cos(angle) - std::sin(angle) +
+                    0.5 * std::cos(2 * angle) + 0.4 * std::sin(2 * angle),
+                1e-13);
   }
 }
 
@@ -176,8 +176,7 @@ TEST(OutlineTest, RefusesWhatIsNoConvexOutline) {
   // h + h'' = 9 - 8 a cos(3 angle) is 0 for a = 9 / 8.
   refuses(SupportOutline{0});
   refuses(SupportOutline{9, {{0, 0}, {0, 0}, {1.126, 0}}});
-  EXPECT_NO_THROW(
-      Outline(SupportOutline{9, {{0, 0}, {0, 0}, {1.124, 0}}}));
+  EXPECT_NO_THROW(Outline(SupportOutline{9, {{0, 0}, {0, 0}, {1.124, 0}}}));
 }
 
 }  // namespace

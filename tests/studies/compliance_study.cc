@@ -3,7 +3,7 @@
 // fingers, sorted from stiff to soft. Gauges 3e-4 rad, stage 0.02 mm, slider
 // friction 0.1 N. The plant has elements four times as fine as the estimator's
 // and parameters drawn as a calibration leaves them (EI 1 %, gains 0.3 %, ribs
-// 0.03 mm; with `rough` 3 %, 1 %, 0.1 mm); each trial has a plant of its own.
+// 0.03 mm; with `rough` 2 %, 1 %, 0.05 mm); each trial has a plant of its own.
 //
 //   build/test/tests/compliance_study [DRAWS]
 //   build/test/tests/compliance_study write DIR
@@ -31,7 +31,7 @@ struct ModelError {
 };
 constexpr ModelError kNone{"none", 0, 0, 0};
 constexpr ModelError kCalibrated{"calibrated", 0.01, 0.003, 0.03};
-constexpr ModelError kRough{"rough", 0.03, 0.01, 0.1};
+constexpr ModelError kRough{"rough", 0.02, 0.01, 0.05};
 
 Finger Plant(const ModelError& error, std::mt19937_64* generator) {
   std::normal_distribution<double> normal;
@@ -64,9 +64,9 @@ FrameTable SpringLog(double stiffness, const ModelError& error,
                      std::mt19937_64* generator) {
   SliderProtocol protocol;
   protocol.friction_N = kFriction_N;
-  return SimulateSlider(
-      Plant(error, generator), [=](double u) { return stiffness * u; }, Fine(),
-      protocol, {true, 0.02, (*generator)()});
+  return SimulateSlider(Plant(error, generator),
+                        [=](double u) { return stiffness * u; }, Fine(),
+                        protocol, {true, 0.02, (*generator)()});
 }
 
 void Springs(const ModelError& error, int draws) {
@@ -105,21 +105,21 @@ void Springs(const ModelError& error, int draws) {
         squares += off * off;
         worst = std::max(worst, std::abs(off));
         friction += trial.fit.friction_N();
-        const double stds =
-            std::abs(off) * stiffness / trial.stiffness.std;
+        const double stds = std::abs(off) * stiffness / trial.stiffness.std;
         in_1 += stds <= 1;
         in_2 += stds <= 1.96;
         ++trials;
       }
-      worst_of_five = std::max(
-          worst_of_five,
-          std::abs(found.objects[0].mean.N_per_mm / stiffness - 1));
+      worst_of_five =
+          std::max(worst_of_five,
+                   std::abs(found.objects[0].mean.N_per_mm / stiffness - 1));
     }
-    std::printf("| %.1f | %.4f | %.2f | %.2f | %.2f | %.0f, %.0f | %.3f | "
-                "%d |\n",
-                stiffness, sum / trials, 100 * std::sqrt(squares / trials),
-                100 * worst, 100 * worst_of_five, 100.0 * in_1 / trials,
-                100.0 * in_2 / trials, friction / trials, refused);
+    std::printf(
+        "| %.1f | %.4f | %.2f | %.2f | %.2f | %.0f, %.0f | %.3f | "
+        "%d |\n",
+        stiffness, sum / trials, 100 * std::sqrt(squares / trials), 100 * worst,
+        100 * worst_of_five, 100.0 * in_1 / trials, 100.0 * in_2 / trials,
+        friction / trials, refused);
     std::fflush(stdout);
   }
 }
@@ -131,25 +131,24 @@ struct SoftObject {
   double linear_mm_per_N, bend_mm_per_N2;
 };
 // u = linear F + bend F^2: stiffening if bend < 0, softening if above.
-constexpr SoftObject kObjects[] = {
-    {"solid silicone cylinder", 0.22, -0.008},
-    {"hollow silicone cylinder", 0.40, -0.015},
-    {"plastic bottle", 0.60, 0.02},
-    {"aluminium can", 0.80, 0.03},
-    {"napkin package", 1.70, -0.12},
-    {"paper cup", 2.20, 0.10}};
+constexpr SoftObject kObjects[] = {{"solid silicone cylinder", 0.22, -0.008},
+                                   {"hollow silicone cylinder", 0.40, -0.015},
+                                   {"plastic bottle", 0.60, 0.02},
+                                   {"aluminium can", 0.80, 0.03},
+                                   {"napkin package", 1.70, -0.12},
+                                   {"paper cup", 2.20, 0.10}};
 
 SqueezeLogs ObjectLogs(const SoftObject& object, const ModelError& error,
                        std::mt19937_64* generator) {
   const Finger first = Plant(error, generator);
   const Finger second = Plant(error, generator);
   SliderProtocol protocol;
-  return SimulateSqueeze(
-      first, second,
-      [&](double f) {
-        return object.linear_mm_per_N * f + object.bend_mm_per_N2 * f * f;
-      },
-      Fine(), protocol, 4, {true, 0.02, (*generator)()});
+  return SimulateSqueeze(first, second,
+                         [&](double f) {
+                           return object.linear_mm_per_N * f +
+                                  object.bend_mm_per_N2 * f * f;
+                         },
+                         Fine(), protocol, 4, {true, 0.02, (*generator)()});
 }
 
 void Squeeze(const ModelError& error, int draws) {
@@ -197,20 +196,21 @@ void Squeeze(const ModelError& error, int draws) {
     whole += found.order_confidence;
   }
   const int done = draws - refused;
-  std::printf("| object | k from 1 to 3 N, N/mm | found, N/mm | rms error, %% | "
-              "mean degree | P(stiffer than the next) |\n"
-              "|---|---|---|---|---|---|\n");
+  std::printf(
+      "| object | k from 1 to 3 N, N/mm | found, N/mm | rms error, %% | "
+      "mean degree | P(stiffer than the next) |\n"
+      "|---|---|---|---|---|---|\n");
   for (std::size_t i = 0; i < kCount; ++i) {
     std::printf("| %s | %.3f | %.3f | %.2f | %.1f |", kObjects[i].name,
-                truth[i], sum[i] / done,
-                100 * std::sqrt(squares[i] / done),
+                truth[i], sum[i] / done, 100 * std::sqrt(squares[i] / done),
                 static_cast<double>(degrees[i]) / done);
     if (i + 1 < kCount) std::printf(" %.4f", pair[i] / done);
     std::printf(" |\n");
   }
-  std::printf("whole order right in %d of %d draws, mean confidence %.3f; "
-              "%d refused\n",
-              right, done, whole / done, refused);
+  std::printf(
+      "whole order right in %d of %d draws, mean confidence %.3f; "
+      "%d refused\n",
+      right, done, whole / done, refused);
 }
 
 void Write(const std::string& folder) {

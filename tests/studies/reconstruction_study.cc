@@ -43,13 +43,15 @@ void Run(int seeds, const char* only) {
   for (const bool noisy : {false, true}) {
     std::printf(
         "\n%s; radial error in percent, mean / 95 %% / largest\n"
-        "| object | fit | fit, 19 descriptors | envelope, 19 descriptors "
+        "| object | fit | its supported part | fit, 19 descriptors | envelope, "
+        "19 descriptors "
         "| truth, 19 descriptors | within 1, 1.96 std, %% | supported, %% | "
-        "lambda | noise | bounds | touches |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+        "lambda | noise | bounds | touches "
+        "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
         noisy ? "gauges 3e-4 rad, stage 0.02 mm" : "without noise");
     for (const NamedObject& object : StudyObjects()) {
       if (only != nullptr && object.name != only) continue;
-      Score fit, fit_descriptors, envelope, truth_descriptors;
+      Score fit, fit_touched, fit_descriptors, envelope, truth_descriptors;
       double within_1 = 0, within_2 = 0, supported = 0, lambda = 0, scale = 0;
       double touches = 0, bounds = 0;
       for (int seed = 1; seed <= (noisy ? seeds : 1); ++seed) {
@@ -63,16 +65,21 @@ void Run(int seeds, const char* only) {
             Reconstruct(table, finger, Scene(), {}, {});
         const RadialError error = CompareRadii(found.polygon(), object.truth);
         fit.Add(error);
-        fit_descriptors.Add(CompareRadii(
-            FourierDescriptors(found.polygon(), 19).Sampled(1440),
-            object.truth));
+        RadialError touched;
+        for (std::size_t i = 0; i < found.outline.size(); ++i) {
+          if (!found.outline[i].supported) continue;
+          touched.percent.push_back(error.percent[i]);
+        }
+        fit_touched.Add(touched);
+        fit_descriptors.Add(
+            CompareRadii(FourierDescriptors(found.polygon(), 19).Sampled(1440),
+                         object.truth));
         envelope.Add(CompareRadii(
             FourierDescriptors(InteriorEnvelope(found.touches.usable, 10), 19)
                 .Sampled(1440),
             object.truth));
         truth_descriptors.Add(CompareRadii(
-            FourierDescriptors(object.truth, 19).Sampled(1440),
-            object.truth));
+            FourierDescriptors(object.truth, 19).Sampled(1440), object.truth));
         int in_1 = 0, in_2 = 0;
         for (const OutlinePoint& point : found.outline) {
           const auto radius =
@@ -91,8 +98,8 @@ void Run(int seeds, const char* only) {
         touches += static_cast<double>(found.touches.usable.size());
       }
       std::printf("| %s |", object.name.c_str());
-      for (const Score* score :
-           {&fit, &fit_descriptors, &envelope, &truth_descriptors}) {
+      for (const Score* score : {&fit, &fit_touched, &fit_descriptors,
+                                 &envelope, &truth_descriptors}) {
         score->Print();
       }
       const double n = fit.count;
@@ -130,6 +137,5 @@ int main(int argc, char** argv) {
     finray::Write(argv[2]);
     return 0;
   }
-  finray::Run(argc > 1 ? std::atoi(argv[1]) : 10,
-              argc > 2 ? argv[2] : nullptr);
+  finray::Run(argc > 1 ? std::atoi(argv[1]) : 10, argc > 2 ? argv[2] : nullptr);
 }

@@ -42,8 +42,7 @@ inline Polygon Dumbbell(double a, double R, double r) {
                        double to) {
     for (int i = 0; i < 400; ++i) {
       const double at = from + (to - from) * i / 400;
-      points.emplace_back(x + radius * std::cos(at),
-                          y + radius * std::sin(at));
+      points.emplace_back(x + radius * std::cos(at), y + radius * std::sin(at));
     }
   };
   const double lift = M_PI / 2 - half;  // where an arc leaves its circle
@@ -65,8 +64,7 @@ inline std::vector<NamedObject> StudyObjects() {
   };
   add("circle", "smooth", CircleOutline{18});
   add("ellipse", "smooth", EllipseOutline{23, 15});
-  add("egg", "smooth",
-      SupportOutline{18, {{0, 0}, {1.2, 0}, {0.8, 0}}});
+  add("egg", "smooth", SupportOutline{18, {{0, 0}, {1.2, 0}, {0.8, 0}}});
   add("rounded triangle", "smooth",
       SupportOutline{18, {{0, 0}, {0, 0}, {1.4, 0.3}}});
   add("rounded square", "smooth",

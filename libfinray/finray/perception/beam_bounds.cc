@@ -65,8 +65,8 @@ std::vector<BeamBound> FindBeamBounds(const std::vector<Touch>& touches,
       }
       const double aside = tangent.dot(points[j] - touch.point_mm);
       if (std::abs(aside) < kNearContact_mm) continue;
-      const double std_mm = std::sqrt(
-          normal_variance + aside * aside * touch.covariance(2, 2));
+      const double std_mm =
+          std::sqrt(normal_variance + aside * aside * touch.covariance(2, 2));
       const Nearest nearest = NearestOf(beam, points[j]);
       if (nearest.beyond_mm < -kNear * std_mm ||
           nearest.beyond_mm > kDeepest_mm) {

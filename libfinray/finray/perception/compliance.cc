@@ -61,8 +61,7 @@ SensedLoads RowsOf(const LogLoads& log, const std::string& object,
 }
 
 // Trials of a log in the order of their first rows.
-std::vector<std::pair<std::string, std::string>> TrialsOf(
-    const LogLoads& log) {
+std::vector<std::pair<std::string, std::string>> TrialsOf(const LogLoads& log) {
   std::vector<std::pair<std::string, std::string>> trials;
   for (std::size_t row = 0; row < log.object.size(); ++row) {
     const std::pair<std::string, std::string> key(log.object[row],
@@ -106,17 +105,17 @@ std::vector<ComplianceTrial> Trials(const std::vector<ComplianceLog>& logs,
       trial.rows = part.rows;
       try {
         trial.direction = DirectionOf(part, first.scene, settings);
-        trial.points = ForcePoints(part, trial.direction.angle_rad,
-                                   RadiusOf(first.scene),
-                                   settings.stage_std_mm);
+        trial.points =
+            ForcePoints(part, trial.direction.angle_rad, RadiusOf(first.scene),
+                        settings.stage_std_mm);
         if (opposite) {
           SensedLoads facing = opposite->loads;
           trial.points = SqueezePoints(
               trial.points,
-              ForcePoints(facing,
-                          DirectionOf(facing, second->scene, settings)
-                              .angle_rad,
-                          RadiusOf(second->scene), settings.stage_std_mm));
+              ForcePoints(
+                  facing,
+                  DirectionOf(facing, second->scene, settings).angle_rad,
+                  RadiusOf(second->scene), settings.stage_std_mm));
         }
         MarkDirections(settings.stage_std_mm, &trial.points);
         trial.fit = FitStiffness(trial.points, settings.most_degree);
@@ -162,16 +161,15 @@ void AddCalibration(const std::vector<ComplianceLog>& logs,
   for (const Finger& finger : FingerVariations(varying.finger)) {
     const ComplianceFinger varied{finger, varying.scene};
     Compliance other;
-    other.trials =
-        vary_second ? Trials(logs, first, &varied, discretization, settings)
-                    : Trials(logs, varied, second, discretization, settings);
+    other.trials = vary_second
+                       ? Trials(logs, first, &varied, discretization, settings)
+                       : Trials(logs, varied, second, discretization, settings);
     Compare(result->from_N, result->to_N, &other);
     for (ObjectStiffness& object : result->objects) {
       for (const ObjectStiffness& moved : other.objects) {
         if (moved.name != object.name) continue;
-        object.calibration_std =
-            std::hypot(object.calibration_std,
-                       moved.mean.N_per_mm - object.mean.N_per_mm);
+        object.calibration_std = std::hypot(
+            object.calibration_std, moved.mean.N_per_mm - object.mean.N_per_mm);
       }
     }
   }
@@ -198,8 +196,7 @@ Compliance MeasureCompliance(const std::vector<ComplianceLog>& logs,
                      " N; the second must be larger");
   }
   Compare(from, to, &result);
-  AddCalibration(logs, first, second, false, discretization, settings,
-                 &result);
+  AddCalibration(logs, first, second, false, discretization, settings, &result);
   if (second != nullptr) {
     AddCalibration(logs, first, second, true, discretization, settings,
                    &result);

@@ -15,21 +15,20 @@ constexpr double kDegree = M_PI / 180;
 void EmitTrial(const ComplianceTrial& trial, YAML::Emitter* emitter) {
   YAML::Emitter& yaml = *emitter;
   const StiffnessFit& fit = trial.fit;
-  yaml << YAML::BeginMap << YAML::Key << "object" << YAML::Value
-       << trial.object << YAML::Key << "trial" << YAML::Value << trial.name
-       << YAML::Key << "rows" << YAML::Value << trial.rows << YAML::Key
-       << "points" << YAML::Value << fit.points << YAML::Key << "standing"
-       << YAML::Value << fit.standing;
+  yaml << YAML::BeginMap << YAML::Key << "object" << YAML::Value << trial.object
+       << YAML::Key << "trial" << YAML::Value << trial.name << YAML::Key
+       << "rows" << YAML::Value << trial.rows << YAML::Key << "points"
+       << YAML::Value << fit.points << YAML::Key << "standing" << YAML::Value
+       << fit.standing;
   yaml << YAML::Key << "direction_deg" << YAML::Value
        << trial.direction.angle_rad / kDegree << YAML::Key
        << "direction_std_deg" << YAML::Value
        << trial.direction.std_rad / kDegree;
   yaml << YAML::Key << "stiffness_N_per_mm" << YAML::Value
-       << trial.stiffness.N_per_mm << YAML::Key << "std_N_per_mm"
-       << YAML::Value << trial.stiffness.std;
+       << trial.stiffness.N_per_mm << YAML::Key << "std_N_per_mm" << YAML::Value
+       << trial.stiffness.std;
   yaml << YAML::Key << "friction_N" << YAML::Value << fit.friction_N()
-       << YAML::Key << "friction_std_N" << YAML::Value
-       << fit.friction_std_N();
+       << YAML::Key << "friction_std_N" << YAML::Value << fit.friction_std_N();
   yaml << YAML::Key << "law" << YAML::Value << YAML::Flow << YAML::BeginSeq;
   for (int m = 0; m <= fit.degree; ++m) yaml << fit.coefficients[m];
   yaml << YAML::EndSeq << YAML::Key << "chi2" << YAML::Value << fit.chi2
@@ -76,9 +75,9 @@ FrameTable StiffnessTable(const Compliance& found) {
     set("stiffness_N_per_mm", object.mean.N_per_mm);
     set("std_N_per_mm", object.mean.std);
     set("calibration_std_N_per_mm", object.calibration_std);
-    set("probability_stiffer_than_next",
-        i < found.pair_confidence.size() ? found.pair_confidence[i]
-                                         : std::nan(""));
+    set("probability_stiffer_than_next", i < found.pair_confidence.size()
+                                             ? found.pair_confidence[i]
+                                             : std::nan(""));
   }
   return table;
 }
@@ -117,10 +116,9 @@ std::string ComplianceYaml(const Compliance& found,
     yaml << YAML::BeginMap << YAML::Key << "object" << YAML::Value
          << object.name << YAML::Key << "trials" << YAML::Value
          << object.trials.size() << YAML::Key << "stiffness_N_per_mm"
-         << YAML::Value << object.mean.N_per_mm << YAML::Key
-         << "std_N_per_mm" << YAML::Value << object.mean.std << YAML::Key
-         << "calibration_std_N_per_mm" << YAML::Value
-         << object.calibration_std;
+         << YAML::Value << object.mean.N_per_mm << YAML::Key << "std_N_per_mm"
+         << YAML::Value << object.mean.std << YAML::Key
+         << "calibration_std_N_per_mm" << YAML::Value << object.calibration_std;
     if (i < found.pair_confidence.size()) {
       yaml << YAML::Key << "probability_stiffer_than_next" << YAML::Value
            << found.pair_confidence[i];

@@ -96,9 +96,7 @@ class NoisyLog {
   FrameTable& table() { return table_; }
 
  private:
-  double Error(double std) {
-    return std > 0 ? std * normal_(generator_) : 0.0;
-  }
+  double Error(double std) { return std > 0 ? std * normal_(generator_) : 0.0; }
 
   FrameTable table_;
   SliderNoise noise_;
@@ -160,14 +158,12 @@ SqueezeLogs SimulateSqueeze(const Finger& first, const Finger& second,
     const double force = largest_N * (row + 1) / protocol.steps;
     double depth[2];
     for (std::size_t k = 0; k < 2; ++k) {
-      depth[k] = pulleys[k].Depth(kDeepest_mm, [&](double d) {
-        return pulleys[k].Force(d) - force;
-      });
+      depth[k] = pulleys[k].Depth(
+          kDeepest_mm, [&](double d) { return pulleys[k].Force(d) - force; });
       pulleys[k].Force(depth[k]);
     }
     // Both palms have come as near to the middle.
-    const double closing =
-        0.5 * (depth[0] + depth[1] + displacement(force));
+    const double closing = 0.5 * (depth[0] + depth[1] + displacement(force));
     for (std::size_t k = 0; k < 2; ++k) {
       logs[k].Write(static_cast<std::size_t>(row), pulleys[k].solver(),
                     pulleys[k].Centre(closing), protocol.height_mm, force);

@@ -42,9 +42,9 @@ FrameTable SimulateSlider(const Finger& plant, const ForceLaw& law,
                           const SliderNoise& noise);
 
 /// Both fingers' logs of squeezing an object between them, which is free to
-/// shift: at rising forces, `steps` up to `largest_N`. In either log the object's
-/// place is that of a pulley of half the object, held where the middle between
-/// both palms puts it. `displacement` is the law's inverse.
+/// shift: at rising forces, `steps` up to `largest_N`. In either log the
+/// object's place is that of a pulley of half the object, held where the middle
+/// between both palms puts it. `displacement` is the law's inverse.
 struct SqueezeLogs {
   FrameTable first, second;
 };

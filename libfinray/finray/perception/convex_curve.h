@@ -12,9 +12,9 @@ namespace finray {
 ///
 ///   r(a) = r(o) + int_o^a rho(b) t(b) db,   t = dn/da,
 ///
-/// o being the grid's origin: a chain of arcs that meet with one tangent. Any rho >= 0 that closes,
-/// int rho t = 0 around, is a convex outline, a straight edge being a peak and
-/// a sharp corner a stretch of 0.
+/// o being the grid's origin: a chain of arcs that meet with one tangent. Any
+/// rho >= 0 that closes, int rho t = 0 around, is a convex outline, a straight
+/// edge being a peak and a sharp corner a stretch of 0.
 class ConvexCurve {
  public:
   using Radii = Eigen::VectorXd;

@@ -96,8 +96,7 @@ std::vector<ForcePoint> ForcePoints(const SensedLoads& loads,
     Eigen::Matrix<double, 2, 4> slope;
     slope << e.x(), e.y(), -radius_mm * e.dot(n_slope), 0, 0, 0,
         -force * e.dot(n_slope), -e.dot(n);
-    point.covariance =
-        slope * load.contact.covariance * slope.transpose();
+    point.covariance = slope * load.contact.covariance * slope.transpose();
     point.covariance(0, 0) += stage_std_mm * stage_std_mm;
   }
   return points;
@@ -143,8 +142,8 @@ void MarkDirections(double stage_std_mm, std::vector<ForcePoint>* points) {
     }
     const double way =
         p[i].direction * (p[i].displacement_mm - p[turn].displacement_mm);
-    const double error = std::sqrt(p[i].covariance(0, 0) +
-                                   p[turn].covariance(0, 0));
+    const double error =
+        std::sqrt(p[i].covariance(0, 0) + p[turn].covariance(0, 0));
     slides = slides || way > kMoved * error;
     p[i].slides = slides;
   }

@@ -14,8 +14,8 @@ namespace finray {
 
 /// An object that yields along a line, as a finger pressed against it senses
 /// it. With e the direction in which it is pushed, p its unloaded place (the
-/// stage's object_x_mm, object_y_mm), n the beam's normal into the finger at the
-/// contact r, R the radius of the pulley that the finger touches:
+/// stage's object_x_mm, object_y_mm), n the beam's normal into the finger at
+/// the contact r, R the radius of the pulley that the finger touches:
 ///
 ///   u = (r - R n - p) . e,    F = -f_c n . e,
 ///

@@ -36,8 +36,8 @@ NormalGrid::NormalGrid(int cells, const std::vector<double>& edge_angles_rad) {
   for (const double angle : edge_angles_rad) {
     const double turns = std::floor((angle - origin) / (2 * M_PI));
     for (int k = 0; k <= kEdgeCells; ++k) {
-      starts.emplace_back(
-          angle - turns * 2 * M_PI - half + k * kEdgeCell_rad, k < kEdgeCells);
+      starts.emplace_back(angle - turns * 2 * M_PI - half + k * kEdgeCell_rad,
+                          k < kEdgeCells);
     }
   }
   for (int j = 0; j < cells; ++j) {

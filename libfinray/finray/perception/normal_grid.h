@@ -12,7 +12,7 @@ namespace finray {
 class NormalGrid {
  public:
   static constexpr int kEdgeCells = 3;
-  static constexpr double kEdgeCell_rad = 0.007;
+  static constexpr double kEdgeCell_rad = 0.003;
 
   explicit NormalGrid(int cells,
                       const std::vector<double>& edge_angles_rad = {});

@@ -5,9 +5,12 @@
 namespace finray {
 namespace {
 
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic,
-                           Eigen::RowMajor>;
+using Rows =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using RowsMap = Eigen::Map<Rows>;
+
+// Loose: how an edge's cells share its length is the edge's direction.
+constexpr double kEdgeLink = 0.01;
 
 Eigen::VectorXd Radii(const double* u, Eigen::Index cells) {
   return Eigen::Map<const Eigen::VectorXd>(u, cells).array().exp();
@@ -24,8 +27,7 @@ OutlinePointCost::OutlinePointCost(const Eigen::Vector2d& point_mm,
       one_sided_(one_sided),
       slope_(ConvexCurve::SlopeAt(normal_angle_rad, grid)) {
   set_num_residuals(static_cast<int>(whitening.rows()));
-  mutable_parameter_block_sizes()->assign(
-      {static_cast<int>(grid.cells()), 2});
+  mutable_parameter_block_sizes()->assign({static_cast<int>(grid.cells()), 2});
 }
 
 bool OutlinePointCost::Evaluate(double const* const* parameters,
@@ -64,7 +66,7 @@ OutlineRoughnessCost::OutlineRoughnessCost(const NormalGrid& grid)
   Eigen::Index before = cells_ - 1;
   for (Eigen::Index j = 0; j < cells_; ++j) {
     if (grid.IsEdge(j)) {
-      if (grid.IsEdge(j + 1)) link(j, j + 1);
+      if (grid.IsEdge(j + 1)) links_.push_back({j, j + 1, kEdgeLink});
       continue;
     }
     link(before, j);
@@ -93,16 +95,14 @@ bool OutlineRoughnessCost::Evaluate(double const* const* parameters,
   return true;
 }
 
-OutlineClosureCost::OutlineClosureCost(const NormalGrid& grid,
-                                       double std_mm)
+OutlineClosureCost::OutlineClosureCost(const NormalGrid& grid, double std_mm)
     : slope_(ConvexCurve::ClosureSlope(grid) / std_mm) {
   set_num_residuals(2);
   mutable_parameter_block_sizes()->assign({static_cast<int>(grid.cells())});
 }
 
 bool OutlineClosureCost::Evaluate(double const* const* parameters,
-                                  double* residuals,
-                                  double** jacobians) const {
+                                  double* residuals, double** jacobians) const {
   const Eigen::Index cells = slope_.cols();
   const Eigen::VectorXd radii = Radii(parameters[0], cells);
   Eigen::Map<Eigen::Vector2d> residual(residuals);

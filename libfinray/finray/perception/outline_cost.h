@@ -31,9 +31,9 @@ class OutlinePointCost : public ceres::CostFunction {
   ConvexCurve::PointSlope slope_;
 };
 
-/// (u_k - u_j) / sqrt(distance of the cells' middles) for neighbours j, k around,
-/// passing over straight edges, whose cells are held to each other only; one
-/// block, u.
+/// (u_k - u_j) / sqrt(distance of the cells' middles) for neighbours j, k
+/// around, passing over straight edges, whose cells are held to each other
+/// only; one block, u.
 class OutlineRoughnessCost : public ceres::CostFunction {
  public:
   explicit OutlineRoughnessCost(const NormalGrid& grid);

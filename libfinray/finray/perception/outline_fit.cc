@@ -142,12 +142,8 @@ class Fit {
     }
     roughness += level * level.transpose() / level.squaredNorm();
     const double rank = static_cast<double>(cells_) - 1 - edges();
-    return rank * std::log(lambda) + 2 * roughness.llt()
-                                             .matrixLLT()
-                                             .diagonal()
-                                             .array()
-                                             .log()
-                                             .sum();
+    return rank * std::log(lambda) +
+           2 * roughness.llt().matrixLLT().diagonal().array().log().sum();
   }
 
   int edges() const {
@@ -170,8 +166,7 @@ class Fit {
       const double weight = squared > kHuberScale * kHuberScale
                                 ? kHuberScale / std::sqrt(squared)
                                 : 1;
-      information.noalias() +=
-          weight * linear.slope.transpose() * linear.slope;
+      information.noalias() += weight * linear.slope.transpose() * linear.slope;
     }
     const Dense roughness = Slope(OutlineRoughnessCost(grid_));
     const Dense closure = Slope(OutlineClosureCost(grid_, kClosureStd_mm));
@@ -185,8 +180,8 @@ class Fit {
     std::vector<double> distances;
     std::size_t next = 0;
     for (const bool along : along_) {
-      distances.push_back(
-          along ? std::nan("") : Linearize(*costs_[next++]).residual.norm());
+      distances.push_back(along ? std::nan("")
+                                : Linearize(*costs_[next++]).residual.norm());
     }
     return distances;
   }
@@ -300,8 +295,8 @@ std::vector<BeamBound> Bounds(const std::vector<Touch>& touches,
 double RadiusOf(const ConvexCurve& curve, double normal_angle_rad) {
   const double from = normal_angle_rad - curve.grid().origin_rad();
   const double turns = std::floor(from / (2 * M_PI));
-  return curve.radii_mm()[curve.grid().CellOf(normal_angle_rad -
-                                              turns * 2 * M_PI)];
+  return curve
+      .radii_mm()[curve.grid().CellOf(normal_angle_rad - turns * 2 * M_PI)];
 }
 
 // The outline on a grid with cells for its edges: their lengths go there.
@@ -322,10 +317,9 @@ ConvexCurve WithEdges(const ConvexCurve& curve,
     radii[j] = RadiusOf(curve, middle);
     for (const StraightEdge& edge : edges) {
       if (!in(middle, edge)) continue;
-      radii[j] = grid.IsEdge(j)
-                     ? edge.length_mm / (NormalGrid::kEdgeCells *
-                                         NormalGrid::kEdgeCell_rad)
-                     : RadiusOf(curve, edge.from_rad - kBeside_rad);
+      radii[j] = grid.IsEdge(j) ? edge.length_mm / (NormalGrid::kEdgeCells *
+                                                    NormalGrid::kEdgeCell_rad)
+                                : RadiusOf(curve, edge.from_rad - kBeside_rad);
     }
   }
   return {grid, curve.At(grid.origin_rad()), radii};
@@ -336,10 +330,10 @@ std::vector<bool> Along(const std::vector<Touch>& touches,
                         const ConvexCurve& curve) {
   std::vector<bool> along;
   for (const Touch& touch : touches) {
-    along.push_back(std::any_of(edges.begin(), edges.end(),
-                                [&](const StraightEdge& edge) {
-                                  return LiesAlong(touch, edge, curve);
-                                }));
+    along.push_back(
+        std::any_of(edges.begin(), edges.end(), [&](const StraightEdge& edge) {
+          return LiesAlong(touch, edge, curve);
+        }));
   }
   return along;
 }
@@ -374,8 +368,8 @@ void TakeEdges(const std::vector<Touch>& touches,
   const auto bounds = Bounds(touches, result->curve, settings);
   Fit smooth(touches, apart, result->curve, settings);
   smooth.AddBounds(bounds);
-  Fit straight(touches, apart,
-               WithEdges(result->curve, edges, settings.cells), settings);
+  Fit straight(touches, apart, WithEdges(result->curve, edges, settings.cells),
+               settings);
   straight.AddBounds(bounds);
   const Best of_smooth =
       BestLambda(kLeastPower, kMostPower, kFirstStep, &smooth);
@@ -393,13 +387,12 @@ void TakeEdges(const std::vector<Touch>& touches,
 
 double OutlineFit::NormalStd(double normal_angle_rad) const {
   const Index cells = curve.grid().cells();
-  const Vector2d normal(std::cos(normal_angle_rad),
-                        std::sin(normal_angle_rad));
+  const Vector2d normal(std::cos(normal_angle_rad), std::sin(normal_angle_rad));
   VectorXd slope(cells + 2);
-  slope.head(cells) =
-      (normal.transpose() * ConvexCurve::SlopeAt(normal_angle_rad, curve.grid()) *
-       curve.radii_mm().asDiagonal())
-          .transpose();
+  slope.head(cells) = (normal.transpose() *
+                       ConvexCurve::SlopeAt(normal_angle_rad, curve.grid()) *
+                       curve.radii_mm().asDiagonal())
+                          .transpose();
   slope.tail<2>() = normal;
   return std::sqrt(std::max(0.0, slope.dot(covariance * slope)));
 }
@@ -428,9 +421,9 @@ OutlineFit FitOutline(const std::vector<Touch>& touches,
     Fit fit(touches, along, result.curve, settings);
     fit.AddBounds(Bounds(touches, result.curve, settings));
     const double power = std::log10(result.smoothing);
-    result.smoothing = BestLambda(power - kFirstStep, power + kFirstStep,
-                                  kLaterStep, &fit)
-                           .lambda;
+    result.smoothing =
+        BestLambda(power - kFirstStep, power + kFirstStep, kLaterStep, &fit)
+            .lambda;
     result.curve = fit.curve();
     for (StraightEdge& edge : result.edges) edge = Settled(edge, result.curve);
     if (round + 1 < kLastRounds) continue;
@@ -439,10 +432,9 @@ OutlineFit FitOutline(const std::vector<Touch>& touches,
     result.beam_bounds = fit.ActiveBounds();
     const double scale = std::max(1.0, result.noise_scale);
     const MatrixXd information = fit.Information(result.smoothing);
-    result.covariance =
-        scale * scale *
-        information.llt().solve(
-            MatrixXd::Identity(information.rows(), information.cols()));
+    result.covariance = scale * scale *
+                        information.llt().solve(MatrixXd::Identity(
+                            information.rows(), information.cols()));
   }
   return result;
 }

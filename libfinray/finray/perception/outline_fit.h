@@ -26,8 +26,8 @@ namespace finray {
 //
 // Stretches so flat that they may be straight edges (straight_edges.h) become
 // such, lengths whose cells no roughness holds to their neighbours, if the
-// touches away from them are more probable that way. Touches along them are then
-// left out, but for their beams.
+// touches away from them are more probable that way. Touches along them are
+// then left out, but for their beams.
 //
 // lambda is the one at which the touches are most probable (restricted maximum
 // likelihood, the scale s of their noise being unknown too),
@@ -36,12 +36,13 @@ namespace finray {
 //
 // over the n residuals of touches, Q being the minimum above, A the information
 // of touches and beams, R that of the roughness, det+ leaving out its null
-// space, e the number of edges and s_e the std of the logarithm of their length.
+// space, e the number of edges and s_e the std of the logarithm of their
+// length.
 
 struct OutlineFitSettings {
   int cells = 180;
-  double stage_std_mm = 0.02;       ///< of object_x_mm, object_y_mm, each.
-  double beam_reach_mm = 140;       ///< The beam is a bound so near a contact.
+  double stage_std_mm = 0.02;  ///< of object_x_mm, object_y_mm, each.
+  double beam_reach_mm = 140;  ///< The beam is a bound so near a contact.
 };
 
 struct OutlineFit {
@@ -65,8 +66,8 @@ struct OutlineFit {
 OutlineFit FitOutline(const std::vector<Touch>& touches,
                       const OutlineFitSettings& settings = {});
 
-/// The same with lambda and edges given and starting from `start`, for touches that
-/// differ a little (finger_variations.h); no covariance.
+/// The same with lambda and edges given and starting from `start`, for touches
+/// that differ a little (finger_variations.h); no covariance.
 OutlineFit RefitOutline(const std::vector<Touch>& touches,
                         const OutlineFit& start,
                         const OutlineFitSettings& settings = {});

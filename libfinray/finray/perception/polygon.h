@@ -20,8 +20,7 @@ Polygon EvenlySpaced(const Polygon& polygon, int count);
 /// Distance from `centre` to where the ray at an angle leaves the curve last;
 /// nothing if it misses.
 std::optional<double> RadiusAt(const Polygon& polygon,
-                               const Eigen::Vector2d& centre,
-                               double angle_rad);
+                               const Eigen::Vector2d& centre, double angle_rad);
 
 }  // namespace finray
 

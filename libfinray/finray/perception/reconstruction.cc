@@ -47,8 +47,7 @@ double NormalAngleOfRay(const ConvexCurve& curve, const Vector2d& centre,
 double Clearance(const Vector2d& point, double normal_angle_rad,
                  const std::vector<Touch>& touches) {
   constexpr double kFarthest_mm = 10;
-  const Vector2d normal(std::cos(normal_angle_rad),
-                        std::sin(normal_angle_rad));
+  const Vector2d normal(std::cos(normal_angle_rad), std::sin(normal_angle_rad));
   const Vector2d tangent(-normal.y(), normal.x());
   double least = kFarthest_mm;
   for (const Touch& touch : touches) {
@@ -75,15 +74,13 @@ Eigen::VectorXd CalibrationVariance(const FrameTable& table,
   const auto points = static_cast<Eigen::Index>(found.outline.size());
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(points);
   for (const Finger& varied : FingerVariations(finger)) {
-    const Touches touches =
-        SenseTouches(table, varied, scene, discretization);
+    const Touches touches = SenseTouches(table, varied, scene, discretization);
     if (touches.usable.size() < kLeastTouches) continue;
     const Polygon moved =
         Sampled(RefitOutline(touches.usable, found.fit, settings).curve);
     for (Eigen::Index i = 0; i < points; ++i) {
       const OutlinePoint& point = found.outline[static_cast<std::size_t>(i)];
-      const auto radius =
-          RadiusAt(moved, found.centroid_mm, point.angle_rad);
+      const auto radius = RadiusAt(moved, found.centroid_mm, point.angle_rad);
       if (!radius) continue;
       variance[i] += (*radius - point.radius_mm) * (*radius - point.radius_mm);
     }
@@ -125,10 +122,9 @@ Reconstruction Reconstruct(const FrameTable& table, const Finger& finger,
     double normal_std = result.fit.NormalStd(normal);
     if (!point.supported) {
       // Anywhere between there and the beams is as likely.
-      normal_std = std::hypot(
-          normal_std, Clearance(point.position_mm, normal,
-                                result.touches.usable) /
-                          std::sqrt(3.0));
+      normal_std = std::hypot(normal_std, Clearance(point.position_mm, normal,
+                                                    result.touches.usable) /
+                                              std::sqrt(3.0));
     }
     point.std_mm = normal_std / std::cos(normal - angle);
     result.outline.push_back(point);

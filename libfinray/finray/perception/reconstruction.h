@@ -33,8 +33,8 @@ struct Reconstruction {
 /// Senses the touches of a table, checks that they go round the object, fits
 /// the outline and puts a std to it: of noise and stage; of the finger's
 /// calibration, by fitting once more for each of FingerVariations; and where no
-/// touch supports the outline, of what the beams leave open, as a convex outline
-/// may lie anywhere between the fitted one and the nearest beam. Throws
+/// touch supports the outline, of what the beams leave open, as a convex
+/// outline may lie anywhere between the fitted one and the nearest beam. Throws
 /// InputError and SpreadError as CheckSpread does.
 Reconstruction Reconstruct(const FrameTable& table, const Finger& finger,
                            const Scene& scene,

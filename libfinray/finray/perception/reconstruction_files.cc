@@ -17,8 +17,7 @@ namespace {
 
 constexpr double kDegree = M_PI / 180;
 
-void EmitError(const char* key, const RadialError& error,
-               YAML::Emitter* yaml) {
+void EmitError(const char* key, const RadialError& error, YAML::Emitter* yaml) {
   *yaml << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginMap
         << YAML::Key << "mean" << YAML::Value << error.Mean() << YAML::Key
         << "rms" << YAML::Value << error.Rms() << YAML::Key << "quantile_95"
@@ -51,10 +50,9 @@ void EmitPoint(const Eigen::Vector2d& point, YAML::Emitter* yaml) {
 FrameTable OutlineTable(const Reconstruction& found, const Polygon* truth) {
   FrameTable table(found.outline.size());
   const RadialError error =
-      truth == nullptr
-          ? RadialError()
-          : CompareRadii(found.polygon(), *truth,
-                         static_cast<int>(found.outline.size()));
+      truth == nullptr ? RadialError()
+                       : CompareRadii(found.polygon(), *truth,
+                                      static_cast<int>(found.outline.size()));
   for (std::size_t i = 0; i < found.outline.size(); ++i) {
     const OutlinePoint& point = found.outline[i];
     const auto set = [&](const char* name, double value) {
@@ -126,12 +124,12 @@ std::string ReconstructionYaml(const Reconstruction& found,
   for (const auto& [status, count] : found.touches.rows) {
     yaml << YAML::Key << StatusName(status) << YAML::Value << count;
   }
-  const auto along = std::count_if(
-      found.fit.distances.begin(), found.fit.distances.end(),
-      [](double distance) { return std::isnan(distance); });
-  const auto astray = std::count_if(
-      found.fit.distances.begin(), found.fit.distances.end(),
-      [](double distance) { return distance > 4; });
+  const auto along =
+      std::count_if(found.fit.distances.begin(), found.fit.distances.end(),
+                    [](double distance) { return std::isnan(distance); });
+  const auto astray =
+      std::count_if(found.fit.distances.begin(), found.fit.distances.end(),
+                    [](double distance) { return distance > 4; });
   yaml << YAML::Key << "contacts" << YAML::Value << found.touches.usable.size()
        << YAML::Key << "along_edges" << YAML::Value << along << YAML::Key
        << "astray" << YAML::Value << astray << YAML::EndMap;
@@ -145,9 +143,9 @@ std::string ReconstructionYaml(const Reconstruction& found,
   yaml << YAML::Key << "straight_edges" << YAML::Value << YAML::BeginSeq;
   for (const StraightEdge& edge : found.fit.edges) {
     yaml << YAML::Flow << YAML::BeginMap << YAML::Key << "normal_deg"
-         << YAML::Value
-         << std::remainder(edge.middle_rad, 2 * M_PI) / kDegree << YAML::Key
-         << "length_mm" << YAML::Value << edge.length_mm << YAML::EndMap;
+         << YAML::Value << std::remainder(edge.middle_rad, 2 * M_PI) / kDegree
+         << YAML::Key << "length_mm" << YAML::Value << edge.length_mm
+         << YAML::EndMap;
   }
   yaml << YAML::EndSeq;
   yaml << YAML::Key << "supported_percent" << YAML::Value

@@ -53,9 +53,9 @@ class PointCost : public ceres::CostFunction {
     const double v = *parameters[1];
     const double friction = friction_ ? point_.direction * a[degree_ + 1] : 0;
     Eigen::Map<Vector2d> residual(residuals);
-    residual = whitening_ *
-               Vector2d(point_.displacement_mm - v,
-                        point_.force_N - Law(a, degree_, v) - friction);
+    residual =
+        whitening_ * Vector2d(point_.displacement_mm - v,
+                              point_.force_N - Law(a, degree_, v) - friction);
     if (jacobians == nullptr) return true;
     if (jacobians[0] != nullptr) {
       Eigen::RowVectorXd by_law(size);
@@ -136,9 +136,10 @@ StiffnessFit FitDegree(const std::vector<ForcePoint>& points, int degree,
   fit.chi2 = 2 * summary.final_cost;
   fit.dof = static_cast<int>(points.size()) - static_cast<int>(size);
   const double scale = fit.noise_scale();
-  fit.covariance =
-      scale * scale *
-      Information(points, degree, friction, a, v).completeOrthogonalDecomposition().pseudoInverse();
+  fit.covariance = scale * scale *
+                   Information(points, degree, friction, a, v)
+                       .completeOrthogonalDecomposition()
+                       .pseudoInverse();
   const auto by_force = [](const ForcePoint& x, const ForcePoint& y) {
     return x.force_N < y.force_N;
   };
@@ -192,11 +193,11 @@ StiffnessFit FitStiffness(const std::vector<ForcePoint>& points,
   std::copy_if(points.begin(), points.end(), std::back_inserter(sliding),
                [](const ForcePoint& point) { return point.slides; });
   if (sliding.size() < kLeastPoints) {
-    throw InputError("too few force-displacement points: " +
-                     std::to_string(sliding.size()) +
-                     " with one contact and a slider that moves; expected at "
-                     "least " +
-                     std::to_string(kLeastPoints));
+    throw InputError(
+        "too few force-displacement points: " + std::to_string(sliding.size()) +
+        " with one contact and a slider that moves; expected at "
+        "least " +
+        std::to_string(kLeastPoints));
   }
   const auto forward =
       std::count_if(sliding.begin(), sliding.end(),
@@ -208,14 +209,12 @@ StiffnessFit FitStiffness(const std::vector<ForcePoint>& points,
   for (int degree = 1; degree <= most_degree; ++degree) {
     if (static_cast<int>(sliding.size()) < degree + 3 + friction) break;
     StiffnessFit fit = FitDegree(sliding, degree, friction);
-    const double price =
-        static_cast<double>(fit.coefficients.size()) *
-        std::log(static_cast<double>(sliding.size()));
+    const double price = static_cast<double>(fit.coefficients.size()) *
+                         std::log(static_cast<double>(sliding.size()));
     // A law that turns back is none.
     bool rises = true;
     for (int k = 0; k <= 20; ++k) {
-      const double u =
-          fit.least_mm + (fit.largest_mm - fit.least_mm) * k / 20;
+      const double u = fit.least_mm + (fit.largest_mm - fit.least_mm) * k / 20;
       rises = rises && Slope(fit.coefficients, degree, u) > 0;
     }
     if (best && (!rises || fit.chi2 + price >= least)) continue;

@@ -21,8 +21,8 @@ namespace finray {
 /// is the maximum likelihood fit, for a straight line York's. F_c is an unknown
 /// if the points have both directions; else it is within a_0.
 struct StiffnessFit {
-  Eigen::VectorXd coefficients;       ///< a_0 .. a_degree, then F_c if fitted
-  Eigen::MatrixXd covariance;         ///< of these, of the points' errors
+  Eigen::VectorXd coefficients;  ///< a_0 .. a_degree, then F_c if fitted
+  Eigen::MatrixXd covariance;    ///< of these, of the points' errors
   int degree = 1;
   bool has_friction = false;
   double chi2 = 0;
@@ -31,7 +31,7 @@ struct StiffnessFit {
   double least_mm = 0, largest_mm = 0;
   std::size_t points = 0, standing = 0;  ///< used; left out as the slider stood
 
-  double friction_N() const;      ///< NaN if it is not fitted
+  double friction_N() const;  ///< NaN if it is not fitted
   double friction_std_N() const;
   /// Without friction.
   double ForceAt(double displacement_mm) const;

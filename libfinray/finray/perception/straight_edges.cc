@@ -50,22 +50,26 @@ std::vector<StraightEdge> FindStraightEdges(const ConvexCurve& curve,
   for (Index j = first; j < first + cells; ++j) {
     if (!flat(j)) continue;
     const auto start = [&](Index cell) {
-      return grid.Start(cell % cells) +
-             (cell >= cells ? 2 * M_PI : 0);
+      return grid.Start(cell % cells) + (cell >= cells ? 2 * M_PI : 0);
     };
     StraightEdge edge{start(j), 0, 0, 0};
     for (; j < first + cells && flat(j); ++j) {
       const double width = grid.Width(j % cells);
-      const double length = curve.radii_mm()[j % cells] * width;
-      edge.length_mm += length;
-      edge.middle_rad += length * (start(j) + 0.5 * width);
+      edge.length_mm += curve.radii_mm()[j % cells] * width;
       edge.to_rad = start(j) + width;
     }
-    edge.middle_rad /= edge.length_mm;
-    if (edge.length_mm >
-        kShortestEdge * curve.perimeter_mm() / (2 * M_PI)) {
-      edges.push_back(edge);
+    const Vector2d chord = curve.At(edge.to_rad) - curve.At(edge.from_rad);
+    edge.middle_rad = std::atan2(-chord.x(), chord.y());
+    const bool flatter =
+        edge.length_mm / (edge.to_rad - edge.from_rad) > kAlong / curvature;
+    if (edge.length_mm < kShortestEdge * curve.perimeter_mm() / (2 * M_PI) ||
+        (!flatter &&
+         std::any_of(touches.begin(), touches.end(), [&](const Touch& touch) {
+           return LiesAlong(touch, edge, curve);
+         }))) {
+      continue;
     }
+    edges.push_back(edge);
   }
   return edges;
 }

@@ -17,13 +17,16 @@ namespace finray {
 /// A stretch of the outline from one normal angle to another.
 struct StraightEdge {
   double from_rad, to_rad;
-  double middle_rad;  ///< mean normal angle, by length
+  double middle_rad;  ///< normal angle of the chord between its ends
   double length_mm;
 };
 
 /// Stretches whose radius of curvature exceeds kFlat of the beam's, and that
-/// are longer than kShortestEdge of the mean radius.
+/// are longer than kShortestEdge of the mean radius. Touches that lie along one
+/// are against it unless its mean radius of curvature exceeds kAlong of the
+/// beam's, where they are not to be trusted.
 constexpr double kFlat = 0.15;
+constexpr double kAlong = 0.4;
 constexpr double kShortestEdge = 0.3;
 std::vector<StraightEdge> FindStraightEdges(const ConvexCurve& curve,
                                             const std::vector<Touch>& touches);

@@ -103,8 +103,8 @@ void AddTouches(std::size_t row, const SensedFrame& frame,
     Touch& touch = touches->emplace_back();
     touch.row = row;
     touch.point_mm = back * (sensed.pose.head<2>() - pose.position_mm);
-    touch.normal_angle_rad = std::remainder(
-        sensed.pose[2] - M_PI / 2 - pose.angle_rad, 2 * M_PI);
+    touch.normal_angle_rad =
+        std::remainder(sensed.pose[2] - M_PI / 2 - pose.angle_rad, 2 * M_PI);
     touch.normal_N = sensed.contact.normal_N;
     touch.covariance =
         turn * sensed.covariance.topLeftCorner<3, 3>() * turn.transpose();
@@ -122,8 +122,7 @@ Vector2d Touch::Normal() const {
 
 std::vector<Vector2d> Touch::BeamNear(double reach_mm) const {
   std::vector<Vector2d> near;
-  const double step =
-      beam_length_mm / static_cast<double>(beam_mm.size() - 1);
+  const double step = beam_length_mm / static_cast<double>(beam_mm.size() - 1);
   for (std::size_t i = 0; i < beam_mm.size(); ++i) {
     const double arc = step * static_cast<double>(i);
     if (std::abs(arc - contact_arc_mm) <= reach_mm) near.push_back(beam_mm[i]);

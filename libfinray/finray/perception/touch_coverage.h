@@ -19,9 +19,11 @@ constexpr std::size_t kLeastTouches = 8;
 /// Between neighbouring normals. An outline closes over a gap of 180 deg in any
 /// way.
 constexpr double kWidestGap_rad = M_PI / 2;
-/// Of the mean radius, perimeter / (2 pi): an outline counts as supported so
-/// far along it from the nearest contact point.
-constexpr double kSupportReach = 0.25;
+/// Of the mean radius, perimeter / (2 pi): neighbouring contact points so far
+/// apart along the outline leave it without support between them, but for a
+/// little beside each.
+constexpr double kWidestSpacing = 0.5;
+constexpr double kBesideContact = 0.05;
 
 /// Throws InputError for fewer than kLeastTouches usable touches and
 /// SpreadError for normals with a gap wider than kWidestGap_rad.
@@ -46,9 +48,12 @@ class TouchCoverage {
   std::vector<Gap> Gaps() const;
 
  private:
+  struct Stretch {
+    double from_mm, to_mm;  // arc lengths; may pass the perimeter
+  };
+
   const ConvexCurve& curve_;
-  std::vector<double> arcs_;  // of the contact points, sorted
-  double reach_mm_;
+  std::vector<Stretch> open_;
 };
 
 }  // namespace finray

@@ -36,14 +36,12 @@ ObjectPose Press(const RigidObject& object, double angle_rad,
     found = SolveObjectContact(object, pose, 0, solver, found.contacts);
     const bool solved = found.status == ObjectContactStatus::kContact;
     const double force = Force(found);
-    if (solved &&
-        std::abs(force - protocol.force_N) <
-            kForceTolerance * protocol.force_N) {
+    if (solved && std::abs(force - protocol.force_N) <
+                      kForceTolerance * protocol.force_N) {
       return pose;
     }
-    const bool deep =
-        solved ? force > protocol.force_N
-               : found.status != ObjectContactStatus::kNoContact;
+    const bool deep = solved ? force > protocol.force_N
+                             : found.status != ObjectContactStatus::kNoContact;
     (deep ? high : low) = depth;
     // The force is nearly in proportion to the depth.
     double next = solved && force > 0 ? depth * protocol.force_N / force : 0;

@@ -56,9 +56,8 @@ void ReadContactBeams(const YamlMap& yaml, Scene* scene) {
 }
 
 Outline::Shape ReadShape(const YamlMap& object) {
-  const std::string shape =
-      object.Choice("shape", {"circle", "ellipse", "rounded_polygon",
-                              "support_series"});
+  const std::string shape = object.Choice(
+      "shape", {"circle", "ellipse", "rounded_polygon", "support_series"});
   if (shape == "circle") {
     object.AllowOnly({"shape", "radius_mm", "spring"});
     return CircleOutline{object.PositiveNumber("radius_mm")};
@@ -152,8 +151,8 @@ YAML::Emitter& operator<<(YAML::Emitter& yaml, const SupportOutline& outline) {
 YAML::Emitter& operator<<(YAML::Emitter& yaml,
                           const RoundedPolygonOutline& polygon) {
   return yaml << "rounded_polygon" << YAML::Key << "vertices_mm" << YAML::Value
-              << polygon.vertices_mm << YAML::Key << "fillet_radius_mm" << YAML::Value
-              << polygon.fillet_radius_mm;
+              << polygon.vertices_mm << YAML::Key << "fillet_radius_mm"
+              << YAML::Value << polygon.fillet_radius_mm;
 }
 
 }  // namespace

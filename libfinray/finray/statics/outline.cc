@@ -151,15 +151,14 @@ Outline::Distance DistanceFrom(const EllipseOutline& ellipse,
   return nearest;
 }
 
-// As for an ellipse, by t(a) . (p - q(a)), which from outside falls through zero
-// within a right angle of the direction in which the point lies. The first
+// As for an ellipse, by t(a) . (p - q(a)), which from outside falls through
+// zero within a right angle of the direction in which the point lies. The first
 // harmonic only shifts the outline; where it shifts it to is always inside.
 Outline::Distance DistanceFrom(const SupportOutline& outline,
                                const Vector2d& point) {
   const auto& harmonics = outline.harmonics_mm;
   const Vector2d centre = harmonics.empty() ? Vector2d(0, 0) : harmonics[0];
-  double angle =
-      std::atan2(point.y() - centre.y(), point.x() - centre.x());
+  double angle = std::atan2(point.y() - centre.y(), point.x() - centre.x());
   double low = angle - M_PI / 2, high = angle + M_PI / 2;
   Outline::Distance nearest;
   for (int i = 0; i < 100; ++i) {
