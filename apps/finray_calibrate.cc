@@ -1,5 +1,6 @@
 // Calibrates a finger from logs with a reference: force, object place, or both.
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -35,19 +36,29 @@ void PrintSummary(finray::CalibrationProblem& problem,
     ++counts[static_cast<int>(status)];
   }
   int contact = 0, free = 0, held_out = 0, bench = 0;
-  for (const CalibrationFrame& frame : problem.logs().frames) {
+  for (std::size_t i = 0; i < problem.logs().frames.size(); ++i) {
+    if (problem.rejected().count(static_cast<int>(i)) > 0) continue;
+    const CalibrationFrame& frame = problem.logs().frames[i];
     ++(frame.held_out    ? held_out
        : frame.IsBench() ? bench
        : frame.contact   ? contact
                          : free);
   }
   std::printf("%s\n", InFolder("finger.yaml").c_str());
-  std::printf("solver         %s after %d iterations\n",
-              result.solve.converged ? "converged" : "did not converge",
-              result.solve.iterations);
+  const RobustSolution& solution = result.solution;
+  const auto agree =
+      std::count_if(solution.starts.begin(), solution.starts.end(),
+                    [](const StartReport& start) { return start.agrees; });
+  std::printf(
+      "solver         %s after %d iterations, %ld of %zu starts agree\n",
+      solution.solve.converged ? "converged" : "did not converge",
+      solution.solve.iterations, agree, solution.starts.size());
   std::printf("frames         %d contact, %d free, %d held out", contact, free,
               held_out);
   if (bench > 0) std::printf(", %d on the bench", bench);
+  if (!problem.rejected().empty()) {
+    std::printf(", %zu rejected", problem.rejected().size());
+  }
   std::printf("\n");
   std::printf(
       "parameters     %d estimated, %d prior_dominated, %d unidentifiable\n",
@@ -63,8 +74,10 @@ void PrintSummary(finray::CalibrationProblem& problem,
   const ForceCheck::Error& kept = result.forces.held_out;
   std::printf("\nforce error    ");
   if (fitted.frames > 0) {
-    std::printf("%.3g N rms before, %.3g N after", fitted.before_rms_N,
-                fitted.after_rms_N);
+    if (fitted.frames_before > 0) {
+      std::printf("%.3g N rms before, ", fitted.before_rms_N);
+    }
+    std::printf("%.3g N after", fitted.after_rms_N);
     if (kept.frames > 0) std::printf(", %.3g N held out", kept.after_rms_N);
     std::printf("\n");
   } else {
@@ -91,8 +104,9 @@ int Run() {
     DumpConfig(finger, plan.scene, discretization);
     return kGood;
   }
-  const CalibrationLogs logs = ReadCalibrationLogs(paths, finger, plan);
-  CalibrationProblem problem(finger, plan, logs, discretization, FLAGS_threads);
+  CalibrationProblem problem(finger, plan,
+                             ReadCalibrationLogs(paths, finger, plan),
+                             discretization, FLAGS_threads);
   const CalibrationResult result = Calibrate(
       &problem, discretization, FLAGS_threads, FLAGS_leave_one_log_out);
 
@@ -124,7 +138,7 @@ int Run() {
     }
   }
   PrintSummary(problem, result);
-  if (!result.solve.converged) return kSolveFailed;
+  if (!result.solution.solve.converged) return kSolveFailed;
   return result.AllIdentified() ? kGood : kGateFailed;
 }
 

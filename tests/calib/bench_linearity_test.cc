@@ -138,7 +138,7 @@ TEST(BenchLinearityTest, PlanOfItsOwn) {
   CalibrationProblem problem(finger, plan,
                              ReadCalibrationLogs({path}, finger, plan), {}, 1);
   const CalibrationResult result = Calibrate(&problem, {}, 1);
-  EXPECT_TRUE(result.solve.converged);
+  EXPECT_TRUE(result.solution.solve.converged);
   EXPECT_TRUE(result.AllIdentified());
   const auto& std = result.identifiability.std;
   EXPECT_NEAR(result.finger.gauges[0].gain_V_per_rad, 0.8, 4 * std[0]);

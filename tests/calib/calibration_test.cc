@@ -29,7 +29,7 @@ TEST(CalibrationTest, StandardLogIsWithinItsStd) {
     CalibrationProblem problem(
         Nominal(), plan, ReadCalibrationLogs({log}, Nominal(), plan), {}, 2);
     const CalibrationResult result = Calibrate(&problem, {}, 2);
-    EXPECT_TRUE(result.solve.converged);
+    EXPECT_TRUE(result.solution.solve.converged);
     EXPECT_TRUE(result.AllIdentified());
     const CalibrationParameters& parameters = problem.parameters();
     ASSERT_EQ(parameters.free().size(), 15u);
@@ -165,7 +165,7 @@ TEST(CalibrationTest, SteelFingerAgainstItsForceSensor) {
                           finger, plan),
       {}, 2);
   const CalibrationResult result = Calibrate(&problem, {}, 2);
-  EXPECT_TRUE(result.solve.converged);
+  EXPECT_TRUE(result.solution.solve.converged);
   EXPECT_TRUE(result.AllIdentified());
   std::printf("steel finger: force %.2f N rms before, %.2f N after\n",
               result.forces.fitted.before_rms_N,

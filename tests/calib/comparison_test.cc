@@ -28,7 +28,7 @@ std::string Folder(const TempFolder& folder, const std::string& name,
     }
   }
   CalibrationResult result;
-  result.solve.converged = true;
+  result.solution.solve.converged = true;
   result.identifiability = calibrated.found;
   result.finger = calibrated.problem->parameters().Apply(Nominal());
   KeepCovariance(calibrated.problem->parameters(), calibrated.found,

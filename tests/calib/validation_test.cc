@@ -152,7 +152,7 @@ TEST(ValidationTest, ACircleTellsThePlace) {
   MakeLog(truth, frames, {}).Write(folder.Path("circle.csv"));
   const CalibrationLogs logs =
       ReadCalibrationLogs({folder.Path("circle.csv")}, truth, plan);
-  const auto references = ReferencesOf(logs, truth, plan, {});
+  const auto references = ReferencesOf(logs, truth, plan, {}, 2);
   EXPECT_FALSE(references[0].contact);
   for (int i = 1; i < 4; ++i) {
     EXPECT_NEAR(references[i].contact_mm, frames.Numbers("contact_1_mm")[i],
@@ -163,7 +163,7 @@ TEST(ValidationTest, ACircleTellsThePlace) {
   // Another stiffness of all moves it little.
   Finger stiff = truth;
   stiff.front_stiffness_N_mm2 *= 1.1;
-  EXPECT_NEAR(ReferencesOf(logs, stiff, plan, {})[2].contact_mm,
+  EXPECT_NEAR(ReferencesOf(logs, stiff, plan, {}, 2)[2].contact_mm,
               references[2].contact_mm, 0.1);
 }
 

@@ -60,7 +60,7 @@ void Run(const Case& which, const Finger& finger, const std::string& log) {
                              ReadCalibrationLogs({log}, finger, plan), {}, 2);
   const CalibrationResult result = Calibrate(&problem, {}, 2);
   std::printf("\n%s%s\n chi2/dof", which.name,
-              result.solve.converged ? "" : " (not converged)");
+              result.solution.solve.converged ? "" : " (not converged)");
   for (int i = 0; i < kResidualFamilies; ++i) {
     const auto& noise = result.identifiability.noise[i];
     if (noise.residuals == 0) continue;
@@ -80,7 +80,7 @@ void Run(const Case& which, const Finger& finger, const std::string& log) {
   }
   if (!which.pins) return;
   // Model less camera, by advance and pin.
-  const auto at = problem.Linearize(false);
+  const auto& at = problem.AtSolution();
   const auto& frames = problem.logs().frames;
   std::printf(" model - camera, mm (x, y) of pins front 1-4, back 1-4\n");
   for (std::size_t row = 0; row < at.rows.size();) {
@@ -94,7 +94,7 @@ void Run(const Case& which, const Finger& finger, const std::string& log) {
     for (const Side side : {Side::kFront, Side::kBack}) {
       for (std::size_t k = 0; k < count; ++k) {
         if (frames[frame].pins[k].side != side) continue;
-        const auto first = static_cast<Eigen::Index>(row + 2 * k);
+        const std::size_t first = row + 2 * k;
         std::printf(" (%+.1f %+.1f)", kPinStd_mm * at.residuals[first],
                     kPinStd_mm * at.residuals[first + 1]);
       }

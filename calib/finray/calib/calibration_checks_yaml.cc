@@ -100,10 +100,40 @@ void EmitNext(CalibrationProblem& problem,
   *yaml << YAML::EndSeq;
 }
 
+void EmitStarts(const std::vector<StartReport>& starts, YAML::Emitter* yaml) {
+  *yaml << YAML::Key << "starts" << YAML::Value << YAML::BeginSeq;
+  for (const StartReport& start : starts) {
+    *yaml << YAML::Flow << YAML::BeginMap;
+    YamlPair(yaml, "start", start.name);
+    YamlPair(yaml, "converged", start.converged);
+    YamlPair(yaml, "iterations", start.iterations);
+    YamlPair(yaml, "cost", YamlNumber(start.cost));
+    YamlPair(yaml, "distance_std", YamlNumber(start.distance_std));
+    YamlPair(yaml, "agrees", start.agrees);
+    *yaml << YAML::EndMap;
+  }
+  *yaml << YAML::EndSeq;
+}
+
+void EmitRejected(const CalibrationProblem& problem, YAML::Emitter* yaml) {
+  *yaml << YAML::Key << "rejected_frames" << YAML::Value << YAML::BeginSeq;
+  for (const auto& [index, reason] : problem.rejected()) {
+    const CalibrationFrame& frame = problem.logs().frames[index];
+    *yaml << YAML::Flow << YAML::BeginMap;
+    YamlPair(yaml, "log", problem.logs().paths[frame.log]);
+    YamlPair(yaml, "row", frame.row + 1);
+    YamlPair(yaml, "reason", reason);
+    *yaml << YAML::EndMap;
+  }
+  *yaml << YAML::EndSeq;
+}
+
 }  // namespace
 
 void EmitChecks(CalibrationProblem& problem, const CalibrationResult& result,
                 YAML::Emitter* yaml) {
+  EmitStarts(result.solution.starts, yaml);
+  EmitRejected(problem, yaml);
   EmitErrors(result, yaml);
   EmitCorrelation(problem, result.residual_correlation, yaml);
   EmitLeaveOneLogOut(problem, result.leave_one_log_out, yaml);

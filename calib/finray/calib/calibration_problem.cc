@@ -1,239 +1,394 @@
 #include "finray/calib/calibration_problem.h"
 
-#include <ceres/ordered_groups.h>
+#include <ceres/problem.h>
 #include <ceres/solver.h>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_set>
+#include <map>
+#include <stdexcept>
 
-#include "finray/finger/geometry.h"
 #include "finray/io/error.h"
-#include "finray/residuals/parameter_prior_residual.h"
 
 namespace finray {
 namespace {
 
-std::unique_ptr<ceres::LossFunction> MakeLoss(const Plan& plan) {
-  switch (plan.loss) {
-    case RobustLoss::kNone:
-      return nullptr;
-    case RobustLoss::kHuber:
-      return std::make_unique<ceres::HuberLoss>(plan.loss_scale);
-    case RobustLoss::kCauchy:
-      return std::make_unique<ceres::CauchyLoss>(plan.loss_scale);
-  }
-  return nullptr;
-}
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+// Of a kind and log that the joint solve has at least.
+constexpr std::size_t kLeastOfLog = 50;
+// States of more frames would take more memory than they save time.
+constexpr std::size_t kMostStates = 50000;
+constexpr std::size_t kBatch = 256;  // of frames, visited in one go
 
 }  // namespace
 
-const char* ResidualFamilyName(ResidualFamily family) {
-  constexpr const char* kNames[] = {"gauge", "force", "object", "contact",
-                                    "pin",   "tip",   "bench"};
-  return kNames[static_cast<int>(family)];
-}
-
 CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
-                                       const CalibrationLogs& logs,
+                                       CalibrationLogs logs,
                                        const Discretization& discretization,
                                        int threads)
     : finger_(finger),
       plan_(plan),
-      logs_(logs),
-      parameters_(finger, plan, logs),
+      logs_(std::move(logs)),
+      parameters_(finger, plan, logs_),
       discretization_(discretization),
-      frames_(finger, discretization, EquilibriumForm::kReduced,
-              &parameters_.shared, threads),
-      loss_(MakeLoss(plan)) {
+      threads_(threads),
+      blocks_(finger_, plan_, &parameters_),
+      solver_(finger, discretization) {
   if (parameters_.free().empty()) {
     throw InputError("plan: no parameter is free, so there is nothing to do");
   }
-  ceres::Problem::Options options;
-  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  options.evaluation_callback = &frames_;
-  problem_ = std::make_unique<ceres::Problem>(options);
-  contact_of_frame_.assign(logs_.frames.size(), -1);
-  contacts_.reserve(logs_.frames.size());
-  GuessOffsets();
   for (std::size_t i = 0; i < logs_.frames.size(); ++i) {
-    if (!logs_.frames[i].held_out) AddFrame(static_cast<int>(i));
+    const CalibrationFrame& frame = logs_.frames[i];
+    if (!frame.held_out && blocks_.HasEnough(frame)) {
+      candidates_.push_back(static_cast<int>(i));
+    }
   }
-  if (blocks_.empty()) {
+  if (candidates_.empty()) {
     throw InputError("logs: no frame has anything to fit");
   }
-  AddPriors();
-  FixWhatIsNotFree();
+  fitted_ = candidates_;
+  contacts_.assign(logs_.frames.size(), {kNaN, kNaN});
+  if (candidates_.size() <= kMostStates) states_.resize(logs_.frames.size());
+  StartFrom(finger);
 }
 
-// Where the measurements put the contact, before the model has been fitted.
-void CalibrationProblem::GuessContact(int index, double* contact,
-                                      FrameEvaluation* evaluation) {
-  const CalibrationFrame& frame = logs_.frames[index];
-  const double length = finger_.front_length_mm;
-  if (!guess_) {
-    guess_ =
-        std::make_unique<ContactGuess>(finger_, plan_.scene, discretization_);
-  }
-  const bool by_object =
-      frame.object_mm.allFinite() && plan_.scene.circle_radius_mm();
-  const std::optional<ContactGuess::Place> place =
-      by_object ? guess_->FromCircle(frame.object_mm) : GuessFromGauges(frame);
-  contact[0] = place ? place->arc_mm : length / 2;
-  contact[1] = place ? place->normal_N : ForceUnit(finger_);
-  if (place) evaluation->set_state(place->state);
-  if (std::isfinite(frame.contact_mm)) {
-    contact[0] = std::clamp(frame.contact_mm, 0.0, length);
-  }
-  const double force =
-      frame.force_xy_N.allFinite() ? frame.force_xy_N.norm() : frame.force_N;
-  if (std::isfinite(force)) contact[1] = std::max(force, 0.0);
-}
-
-std::optional<ContactGuess::Place> CalibrationProblem::GuessFromGauges(
-    const CalibrationFrame& frame) {
-  const auto gauges = static_cast<Eigen::Index>(frame.gauges_V.size());
-  Eigen::VectorXd angles = Eigen::VectorXd::Zero(gauges);
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(gauges);
-  for (Eigen::Index j = 0; j < gauges; ++j) {
-    if (!std::isfinite(frame.gauges_V[j])) continue;
-    const double gain = parameters_.gains_V_per_rad[j];
-    const int gauge = static_cast<int>(j);
-    angles[j] =
-        (frame.gauges_V[j] - parameters_.readings.Sum(frame, gauge)) / gain;
-    weights[j] = std::abs(gain) / gauge_std_V(gauge);
-  }
-  return guess_->FromGauges(angles, weights);
-}
-
-void CalibrationProblem::AddPriors() {
-  // One block at a time; several parameters may share one (rib lengths).
-  const auto& all = parameters_.all();
-  for (std::size_t i = 0; i < all.size();) {
-    std::size_t end = i + 1;
-    while (end < all.size() && all[end].block == all[i].block) ++end;
-    const auto size = static_cast<Eigen::Index>(end - i);
-    // A gauge or beam that no frame involves has no block.
-    if (all[i].free && all[i].prior_std &&
-        problem_->HasParameterBlock(all[i].block)) {
-      Eigen::VectorXd mean(size), std(size);
-      for (Eigen::Index k = 0; k < size; ++k) {
-        mean[k] = all[i + k].initial;
-        std[k] = *all[i + k].prior_std;
-      }
-      problem_->AddResidualBlock(ParameterPriorResidual::Create(mean, std),
-                                 nullptr, all[i].block);
-    }
-    i = end;
-  }
-}
-
-void CalibrationProblem::FixWhatIsNotFree() {
-  std::unordered_set<const double*> varied;
+void CalibrationProblem::StartFrom(const Finger& start) {
   for (const int i : parameters_.free()) {
-    varied.insert(parameters_.all()[i].block);
+    const CalibrationParameter& p = parameters_.all()[i];
+    if (!p.of_finger) {
+      *p.variable = p.initial;
+    } else {
+      const double value = ParameterValue(start, *p.of_finger);
+      *p.variable = p.is_log ? std::log(value) : value;
+    }
   }
-  for (const auto& contact : contacts_) varied.insert(contact.data());
-  std::vector<double*> blocks;
-  problem_->GetParameterBlocks(&blocks);
-  for (double* block : blocks) {
-    if (varied.count(block) == 0) problem_->SetParameterBlockConstant(block);
-  }
+  for (auto& contact : contacts_) contact = {kNaN, kNaN};
+  at_solution_.reset();
+  GuessOffsets();
 }
 
-CalibrationProblem::SolveReport CalibrationProblem::Solve() {
+Eigen::VectorXd CalibrationProblem::Values() const {
+  const auto& free = parameters_.free();
+  Eigen::VectorXd values(static_cast<Eigen::Index>(free.size()));
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    values[static_cast<Eigen::Index>(k)] = *parameters_.all()[free[k]].variable;
+  }
+  return values;
+}
+
+void CalibrationProblem::SetValues(const Eigen::VectorXd& values) {
+  const auto& free = parameters_.free();
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    *parameters_.all()[free[k]].variable = values[static_cast<Eigen::Index>(k)];
+  }
+  at_solution_.reset();
+}
+
+void CalibrationProblem::SetRejected(std::map<int, std::string> reasons) {
+  rejected_ = std::move(reasons);
+  fitted_.clear();
+  for (const int i : candidates_) {
+    if (rejected_.count(i) == 0) fitted_.push_back(i);
+  }
+  for (const auto& [frame, reason] : rejected_) contacts_[frame] = {kNaN, kNaN};
+  at_solution_.reset();
+}
+
+CalibrationProblem::Point CalibrationProblem::Save() const {
+  return {Values(), contacts_};
+}
+
+void CalibrationProblem::Restore(const Point& point) {
+  SetValues(point.values);
+  contacts_ = point.contacts;
+  // States are of whatever came last.
+  for (LadderState& state : states_) state.q.resize(0);
+}
+
+// Evenly from every log, of contact frames, free ones and the bench apart, so
+// that none of them is missed by a stride that agrees with the log's own.
+std::vector<int> CalibrationProblem::SpreadFrames(std::size_t most) const {
+  std::map<std::pair<int, int>, std::vector<int>> kinds;
+  for (const int i : fitted_) {
+    const CalibrationFrame& frame = logs_.frames[i];
+    const int kind = frame.IsBench() ? 2 : frame.contact ? 1 : 0;
+    kinds[{frame.log, kind}].push_back(i);
+  }
+  std::vector<int> chosen;
+  for (const auto& [kind, frames] : kinds) {
+    const std::size_t n = frames.size();
+    const std::size_t quota =
+        std::min(n, std::max(kLeastOfLog, most * n / fitted_.size()));
+    for (std::size_t k = 0; k < quota; ++k) {
+      chosen.push_back(frames[k * n / quota]);
+    }
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+LadderState* CalibrationProblem::StateOf(int frame, LadderState* scratch) {
+  if (!states_.empty()) return &states_[frame];
+  const auto [arc_mm, normal_N] = contacts_[frame];
+  if (std::isnan(arc_mm)) {
+    scratch->q.resize(0);
+  } else {
+    *scratch = guess_->table().StateNear(arc_mm, normal_N);
+  }
+  return scratch;
+}
+
+SolveReport CalibrationProblem::Solve() {
+  at_solution_.reset();
+  if (fitted_.size() <= kMostJoint) return SolveJointly(fitted_);
+  SolveReport report = SolveJointly(SpreadFrames(kJoint));
+  // Then one step or two are left for all of them.
+  if (fitted_.size() > 4 * kSummed) {
+    report = SolveSummed(SpreadFrames(kSummed), report);
+  }
+  return SolveSummed(fitted_, report);
+}
+
+std::vector<int> CalibrationProblem::SomeFrames() const {
+  return SpreadFrames(kJoint);
+}
+
+SolveReport CalibrationProblem::SolveSome(int most_iterations) {
+  at_solution_.reset();
+  return SolveJointly(SomeFrames(), most_iterations);
+}
+
+Eigen::MatrixXd CalibrationProblem::InformationOfSome() {
+  FrameSums sums;
+  summed_at_.resize(0);
+  Sum(SpreadFrames(kJoint), Values(), &sums);
+  return sums.information;
+}
+
+SolveReport CalibrationProblem::SolveJointly(const std::vector<int>& frames,
+                                             int most_iterations) {
+  GuessContacts(frames, ContactGuess::From::kObjectFirst);
+  std::vector<LadderState> states;  // of these frames, if not kept
+  if (states_.empty()) states.resize(frames.size());
+  std::vector<JointSolve::Frame> joint;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const int i = frames[k];
+    const CalibrationFrame& frame = logs_.frames[i];
+    joint.push_back({&frame, frame.contact ? contacts_[i].data() : nullptr,
+                     states_.empty() ? &states[k] : &states_[i]});
+  }
+  return JointSolve(finger_, discretization_, plan_, blocks_, &parameters_,
+                    joint, threads_)
+      .Solve(most_iterations);
+}
+
+SolveReport CalibrationProblem::SolveSummed(const std::vector<int>& frames,
+                                            const SolveReport& before) {
+  GuessContacts(frames, ContactGuess::From::kAll);
+  const Eigen::VectorXd start = Values();
+  summed_at_.resize(0);
+  FrameSums sums;
+  if (!Sum(frames, start, &sums)) {
+    throw std::runtime_error("the model cannot be evaluated at the start");
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(sums.information);
+  const Eigen::VectorXd value = eigen.eigenvalues();
+  const double least = 1e-14 * value[value.size() - 1];
+  const Eigen::MatrixXd units =
+      eigen.eigenvectors() *
+      value.cwiseMax(least).cwiseSqrt().cwiseInverse().asDiagonal();
+
+  ceres::Problem problem;
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(start.size());
+  problem.AddResidualBlock(
+      new FrameSumResidual(start, units, sums,
+                           [&](const Eigen::VectorXd& x, FrameSums* at) {
+                             return Sum(frames, x, at);
+                           }),
+      nullptr, z.data());
   ceres::Solver::Options options;
   options.logging_type = ceres::SILENT;
-  options.max_num_iterations = 200;
-  // The residuals are whitened, and the weak directions of a calibration are
-  // what it is about: a small radius would creep along them.
+  options.linear_solver_type = ceres::DENSE_QR;
   options.initial_trust_region_radius = 1e10;
   options.max_trust_region_radius = 1e16;
-  options.function_tolerance = 1e-12;
-  options.parameter_tolerance = 1e-11;
-  options.gradient_tolerance = 1e-12;
-  if (contacts_.empty()) {
-    options.linear_solver_type = ceres::DENSE_QR;
-  } else {
-    options.linear_solver_type = ceres::DENSE_SCHUR;
-    auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
-    std::vector<double*> all;
-    problem_->GetParameterBlocks(&all);
-    // A group of its own for each shared block: within a group Ceres orders by
-    // address, and results would depend on where the heap put things.
-    int group = 1;
-    for (double* block : all) ordering->AddElementToGroup(block, group++);
-    for (auto& contact : contacts_) {
-      ordering->AddElementToGroup(contact.data(), 0);
-    }
-    options.linear_solver_ordering = ordering;
-  }
+  // z counts in standard deviations.
+  options.gradient_tolerance = 1e-2;
+  options.function_tolerance = 0;
+  options.parameter_tolerance = 0;
   ceres::Solver::Summary summary;
-  ceres::Solve(options, problem_.get(), &summary);
-  SolveReport report;
-  report.converged = summary.termination_type == ceres::CONVERGENCE;
-  report.iterations = static_cast<int>(summary.iterations.size()) - 1;
+  ceres::Solve(options, &problem, &summary);
+  // The contacts are those of the last point that was tried.
+  const Eigen::VectorXd end = start + units * z;
+  if (end != summed_at_) Sum(frames, end, &sums);
+  at_solution_ = std::move(summed_);
+  contact_slopes_.resize(0, 0);
+  SolveReport report = before;
+  report.converged =
+      before.converged && summary.termination_type == ceres::CONVERGENCE;
+  report.iterations += static_cast<int>(summary.iterations.size()) - 1;
   report.initial_cost = summary.initial_cost;
   report.final_cost = summary.final_cost;
-  report.message = summary.message;
+  if (before.converged) report.message = summary.message;
   return report;
 }
 
-CalibrationProblem::Linearization CalibrationProblem::Linearize(bool robust) {
-  // Free parameter blocks first, then the contacts, in order of their frames.
-  ceres::Problem::EvaluateOptions options;
-  options.residual_blocks = blocks_;
-  options.apply_loss_function = robust;
-  std::vector<int> parameter_of_column;
-  for (std::size_t k = 0; k < parameters_.free().size();) {
-    double* block = parameters_.all()[parameters_.free()[k]].variable;
-    if (!problem_->HasParameterBlock(block)) {
-      ++k;  // an element of a block, or not part of any residual
-      continue;
-    }
-    const int size = problem_->ParameterBlockSize(block);
-    options.parameter_blocks.push_back(block);
-    for (int i = 0; i < size; ++i) {
-      parameter_of_column.push_back(static_cast<int>(k++));
-    }
+bool CalibrationProblem::Sum(const std::vector<int>& frames,
+                             const Eigen::VectorXd& at, FrameSums* sums) {
+  SetValues(at);
+  const auto n = static_cast<int>(at.size());
+  if (summed_at_.size() > 0) MoveContacts(frames, at - summed_at_);
+  summed_at_ = at;
+  contact_slopes_.resize(2 * n, static_cast<Eigen::Index>(frames.size()));
+  summed_.reset();
+  if (frames.size() == fitted_.size()) {
+    summed_ = std::make_unique<Linearization>(n, frames.size());
   }
-  const int shared_columns = static_cast<int>(parameter_of_column.size());
-  for (auto& contact : contacts_) {
-    options.parameter_blocks.push_back(contact.data());
+  sums->SetZero(n);
+  for (int k = 0; k < n; ++k) {
+    const CalibrationParameter& p = parameters_.all()[parameters_.free()[k]];
+    if (p.prior_std) sums->AddPrior(k, at[k], p.initial, *p.prior_std);
   }
-  Linearization out;
-  std::vector<double> residuals;
-  ceres::CRSMatrix jacobian;
-  if (!problem_->Evaluate(options, nullptr, &residuals, nullptr, &jacobian)) {
-    throw std::runtime_error("the model cannot be evaluated at the solution");
-  }
-  const auto rows = static_cast<Eigen::Index>(residuals.size());
-  out.residuals = Eigen::Map<Eigen::VectorXd>(residuals.data(), rows);
-  out.by_parameter.setZero(rows, parameters_.free().size());
-  out.by_contact.setZero(rows, 2);
-  for (std::size_t block = 0; block < blocks_.size(); ++block) {
-    const int size = problem_->GetCostFunctionForResidualBlock(blocks_[block])
-                         ->num_residuals();
-    for (int i = 0; i < size; ++i) out.rows.push_back(block_info_[block]);
-  }
-  for (Eigen::Index row = 0; row < rows; ++row) {
-    for (int k = jacobian.rows[row]; k < jacobian.rows[row + 1]; ++k) {
-      const int column = jacobian.cols[k];
-      if (column < shared_columns) {
-        out.by_parameter(row, parameter_of_column[column]) = jacobian.values[k];
-      } else {
-        out.by_contact(row, (column - shared_columns) % 2) = jacobian.values[k];
-      }
-    }
-  }
-  return out;
+  Eigen::Index column = 0;
+  const bool good = InParallel(
+      frames,
+      [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
+        LadderState scratch;
+        return linearizer->FitContact(logs_.frames[i], &contacts_[i],
+                                      StateOf(i, &scratch), out);
+      },
+      [&](int i, const LinearizedFrame& frame) {
+        const LinearizedFrame::ContactMove move = frame.Move();
+        sums->Add(frame, move);
+        if (summed_) summed_->Add(i, logs_.frames[i].log, frame);
+        Eigen::Map<Eigen::Matrix2Xf>(contact_slopes_.col(column++).data(), 2,
+                                     n) = move.by_parameter.cast<float>();
+        MoveContact(i, move.now);
+      });
+  if (summed_) summed_->Finish();
+  return good;
 }
 
-std::array<double, 2> CalibrationProblem::contact(int frame) const {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  const int index = contact_of_frame_[frame];
-  if (index < 0) return {kNaN, kNaN};
-  return contacts_[index];
+// The contacts follow the parameters, to first order.
+void CalibrationProblem::MoveContacts(const std::vector<int>& frames,
+                                      const Eigen::VectorXd& change) {
+  const Eigen::VectorXf move = change.cast<float>();
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const Eigen::Map<const Eigen::Matrix2Xf> slopes(
+        contact_slopes_.col(static_cast<Eigen::Index>(k)).data(), 2,
+        move.size());
+    MoveContact(frames[k], (slopes * move).cast<double>());
+  }
+}
+
+void CalibrationProblem::MoveContact(int frame, const Eigen::Vector2d& move) {
+  if (!logs_.frames[frame].contact) return;
+  auto& [arc_mm, normal_N] = contacts_[frame];
+  arc_mm = std::clamp(arc_mm + move[0], 0.0, finger_.front_length_mm);
+  normal_N = std::max(0.0, normal_N + move[1]);
+}
+
+template <class Prepare, class Visit>
+bool CalibrationProblem::InParallel(const std::vector<int>& frames,
+                                    const Prepare& prepare,
+                                    const Visit& visit) {
+  tbb::task_arena arena(threads_);
+  tbb::enumerable_thread_specific<FrameLinearizer> linearizers([this] {
+    return FrameLinearizer(solver_, plan_, &blocks_, &parameters_);
+  });
+  std::vector<LinearizedFrame> batch(std::min(kBatch, frames.size()));
+  std::vector<char> good(batch.size());
+  for (std::size_t first = 0; first < frames.size(); first += kBatch) {
+    const std::size_t count = std::min(kBatch, frames.size() - first);
+    arena.execute([&] {
+      tbb::parallel_for(
+          tbb::blocked_range<std::size_t>(0, count, 16),
+          [&](const tbb::blocked_range<std::size_t>& range) {
+            FrameLinearizer& linearizer = linearizers.local();
+            for (std::size_t k = range.begin(); k < range.end(); ++k) {
+              good[k] = prepare(frames[first + k], &linearizer, &batch[k]);
+            }
+          });
+    });
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!good[k]) return false;
+      visit(frames[first + k], batch[k]);
+    }
+  }
+  return true;
+}
+
+void CalibrationProblem::VisitFrames(
+    const std::function<void(int frame, const LinearizedFrame&)>& visit) {
+  GuessContacts(fitted_, ContactGuess::From::kObjectFirst);
+  const bool good = InParallel(
+      fitted_,
+      [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
+        LadderState scratch;
+        return linearizer->Linearize(logs_.frames[i], contacts_[i],
+                                     StateOf(i, &scratch), out);
+      },
+      visit);
+  if (!good) {
+    throw std::runtime_error("the model cannot be evaluated at the solution");
+  }
+}
+
+bool CalibrationProblem::LinearizeFrame(int frame, LinearizedFrame* out) {
+  GuessContacts({frame}, ContactGuess::From::kAll);
+  FrameLinearizer linearizer(solver_, plan_, &blocks_, &parameters_);
+  LadderState scratch;
+  std::array<double, 2> contact = contacts_[frame];
+  LadderState state = *StateOf(frame, &scratch);
+  return linearizer.FitContact(logs_.frames[frame], &contact, &state, out);
+}
+
+const Linearization& CalibrationProblem::AtSolution() {
+  if (!at_solution_) {
+    auto at = std::make_unique<Linearization>(
+        static_cast<int>(parameters_.free().size()), fitted_.size());
+    VisitFrames([&](int frame, const LinearizedFrame& linearized) {
+      at->Add(frame, logs_.frames[frame].log, linearized);
+    });
+    at->Finish();
+    at_solution_ = std::move(at);
+  }
+  return *at_solution_;
+}
+
+// Where the measurements put contacts that have no place yet, by the finger as
+// it is now.
+void CalibrationProblem::GuessContacts(const std::vector<int>& frames,
+                                       ContactGuess::From from) {
+  std::vector<int> wanted;
+  for (const int i : frames) {
+    if (logs_.frames[i].contact && std::isnan(contacts_[i][0])) {
+      wanted.push_back(i);
+    }
+  }
+  if (wanted.empty()) return;
+  auto guess = std::make_unique<const ContactGuess>(parameters_.Apply(finger_),
+                                                    plan_, discretization_,
+                                                    &blocks_, &parameters_);
+  tbb::enumerable_thread_specific<ContactGuess> guesses(*guess);
+  tbb::task_arena(threads_).execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, wanted.size(), 16),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          ContactGuess& local = guesses.local();
+          for (std::size_t k = range.begin(); k < range.end(); ++k) {
+            ContactGuess::Place place = local.Of(logs_.frames[wanted[k]], from);
+            contacts_[wanted[k]] = {place.arc_mm, place.normal_N};
+            if (!states_.empty()) states_[wanted[k]] = std::move(place.state);
+          }
+        });
+  });
+  if (states_.empty()) guess_ = std::move(guess);
 }
 
 }  // namespace finray

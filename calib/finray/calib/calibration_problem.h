@@ -1,54 +1,61 @@
 #ifndef FINRAY_CALIB_CALIBRATION_PROBLEM_H_
 #define FINRAY_CALIB_CALIBRATION_PROBLEM_H_
 
-#include <ceres/loss_function.h>
-#include <ceres/problem.h>
-
 #include <array>
+#include <functional>
+#include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "finray/calib/calibration_log.h"
 #include "finray/calib/contact_guess.h"
+#include "finray/calib/frame_linearizer.h"
+#include "finray/calib/frame_sums.h"
+#include "finray/calib/joint_solve.h"
+#include "finray/calib/linearization.h"
+#include "finray/calib/measurement_blocks.h"
 #include "finray/calib/parameters.h"
 #include "finray/calib/plan.h"
 
 namespace finray {
 
-/// What a residual measures, for statistics.
-enum class ResidualFamily {
-  kGauge,
-  kForce,
-  kObject,
-  kContact,
-  kPin,
-  kTip,
-  kBench
-};
-constexpr int kResidualFamilies = 7;
-const char* ResidualFamilyName(ResidualFamily family);
-
 /// The least-squares problem of a calibration, in the reduced form: over all
-/// frames that are not held out, gauge readings, reference force, object
-/// centre, contact location, rib pins and tip, whichever a row has, and gauge
-/// readings on the bench, in units of their std, plus the priors. Unknowns: the
-/// free parameters, and l_c and f_c of each contact frame.
+/// frames that are not held out or rejected, what MeasurementBlocks makes of
+/// them, in units of their std, plus the priors. Unknowns: the free parameters,
+/// and l_c and f_c of each contact frame.
 class CalibrationProblem {
  public:
   CalibrationProblem(const Finger& finger, const Plan& plan,
-                     const CalibrationLogs& logs,
-                     const Discretization& discretization, int threads);
+                     CalibrationLogs logs, const Discretization& discretization,
+                     int threads);
+  CalibrationProblem(const CalibrationProblem&) = delete;
 
-  struct SolveReport {
-    bool converged = false;
-    int iterations = 0;
-    double initial_cost = 0;
-    double final_cost = 0;
-    std::string message;
-  };
+  /// From the present values, by JointSolve; if there are more than kMostJoint
+  /// frames, first of some kJoint of them, evenly spread, and from where these
+  /// lead to by FrameSumResidual, of kSummed and of all.
   SolveReport Solve();
+  static constexpr std::size_t kMostJoint = 1000, kJoint = 500, kSummed = 20000;
+
+  /// Some kJoint frames, evenly spread; the joint solve of these alone, and
+  /// what they and the priors say of the free parameters.
+  std::vector<int> SomeFrames() const;
+  SolveReport SolveSome(int most_iterations = kMostIterations);
+  Eigen::MatrixXd InformationOfSome();
+  static constexpr int kMostIterations = 200;
+
+  /// Values and contacts, to come back to.
+  struct Point {
+    Eigen::VectorXd values;
+    std::vector<std::array<double, 2>> contacts;
+  };
+  Point Save() const;
+  void Restore(const Point& point);
+
+  /// Where to start from: stiffness, gains and rib lengths of `start`, contacts
+  /// as they are with that finger. Offsets, unless fixed, are what free frames
+  /// show. Priors stay.
+  void StartFrom(const Finger& start);
 
   /// Where offsets or origins are per log, gives those logs that are held out
   /// as a whole the ones of the last log that was fitted, and then the offsets
@@ -56,71 +63,77 @@ class CalibrationProblem {
   /// gauges too. To be called after Solve.
   void ZeroHeldOutLogs();
 
-  /// One measurement residual and where it belongs.
-  struct ResidualInfo {
-    ResidualFamily family;
-    int frame;  ///< index into logs().frames
-    int gauge;  ///< for kGauge and kBench
-  };
-  /// Measurement residuals at the present values and their derivatives by the
-  /// free parameters and by the frame unknowns: the rows of
-  /// [C | E] with E block diagonal. Rows of a frame follow each other.
-  struct Linearization {
-    std::vector<ResidualInfo> rows;
-    Eigen::VectorXd residuals;
-    Eigen::MatrixXd by_parameter;  // rows x free parameters
-    Eigen::Matrix<double, Eigen::Dynamic, 2> by_contact;  // rows x (l_c, f_c)
-  };
-  /// `robust`: weighted by the robust loss as the solver weights them.
-  Linearization Linearize(bool robust);
+  /// Calls `visit` for each fitted frame in order, linearised at the present
+  /// values. Throws std::runtime_error if one cannot be.
+  void VisitFrames(
+      const std::function<void(int frame, const LinearizedFrame&)>& visit);
+  /// All of them. Computed once, and again after the parameters were changed
+  /// through this class.
+  const Linearization& AtSolution();
 
-  /// l_c and f_c of a frame; NaN for free and held-out frames.
-  std::array<double, 2> contact(int frame) const;
+  /// One frame, fitted or not, its contact where it explains it best. False if
+  /// the model cannot be evaluated.
+  bool LinearizeFrame(int frame, LinearizedFrame* out);
+
+  /// Frames to be left out, and why; others that were come back.
+  void SetRejected(std::map<int, std::string> reasons);
+  const std::map<int, std::string>& rejected() const { return rejected_; }
+
+  /// l_c and f_c of a frame; NaN for those without, and those not fitted.
+  std::array<double, 2> contact(int frame) const { return contacts_[frame]; }
 
   CalibrationParameters& parameters() { return parameters_; }
   const CalibrationLogs& logs() const { return logs_; }
   const Plan& plan() const { return plan_; }
   const Finger& finger() const { return finger_; }
-  double gauge_std_V(int gauge) const {
-    return plan_.gauge_std_V.value_or(finger_.gauges[gauge].noise_V);
-  }
+  const Discretization& discretization() const { return discretization_; }
+  int threads() const { return threads_; }
+  double gauge_std_V(int gauge) const { return blocks_.gauge_std_V(gauge); }
 
  private:
-  void AddFrame(int index);
-  void AddBenchFrame(int index);
-  bool HasEnough(const CalibrationFrame& frame) const;
-  void AddReadings(int index, const FrameEvaluation& evaluation,
-                   const std::vector<double*>& model);
-  void AddForce(int index, const FrameEvaluation& evaluation, double* contact,
-                const std::vector<double*>& model);
-  void AddPlace(int index, const FrameEvaluation& evaluation, double* contact,
-                const std::vector<double*>& model);
-  void AddPoints(int index, const FrameEvaluation& evaluation,
-                 const std::vector<double*>& model);
-  void AddMeasurement(ceres::CostFunction* cost, ResidualFamily family,
-                      int frame, int gauge, const std::vector<double*>& blocks);
-  void AddPriors();
+  // Of the free parameters.
+  Eigen::VectorXd Values() const;
+  void SetValues(const Eigen::VectorXd& values);
+  std::vector<int> SpreadFrames(std::size_t most) const;
+  SolveReport SolveJointly(const std::vector<int>& frames,
+                           int most_iterations = kMostIterations);
+  SolveReport SolveSummed(const std::vector<int>& frames,
+                          const SolveReport& before);
+  bool Sum(const std::vector<int>& frames, const Eigen::VectorXd& at,
+           FrameSums* sums);
+  void MoveContacts(const std::vector<int>& frames,
+                    const Eigen::VectorXd& change);
+  void MoveContact(int frame, const Eigen::Vector2d& move);
+  // Calls `visit(frame, linearised)` in order after `prepare` has worked on the
+  // frames in parallel; false if that fails for one.
+  template <class Prepare, class Visit>
+  bool InParallel(const std::vector<int>& frames, const Prepare& prepare,
+                  const Visit& visit);
+  LadderState* StateOf(int frame, LadderState* scratch);
   void GuessOffsets();
-  void GuessContact(int index, double* contact, FrameEvaluation* evaluation);
-  std::optional<ContactGuess::Place> GuessFromGauges(
-      const CalibrationFrame& frame);
-  void FixWhatIsNotFree();
+  void GuessContacts(const std::vector<int>& frames, ContactGuess::From from);
 
   Finger finger_;
   Plan plan_;
   CalibrationLogs logs_;
   CalibrationParameters parameters_;
   Discretization discretization_;
-  std::unique_ptr<ContactGuess> guess_;  // made when needed
-  FrameSet frames_;
-  std::unique_ptr<ceres::LossFunction> loss_;
-  std::unique_ptr<ceres::Problem> problem_;
-  // In one piece and never moved: Ceres knows blocks by their addresses, and
-  // eliminates them in that order.
+  int threads_;
+  MeasurementBlocks blocks_;
+  EquilibriumSolver solver_;  // copied for each thread
+  // Indices of frames that could be fitted, and those that are.
+  std::vector<int> candidates_, fitted_;
+  // By frame; the joint solve has them by their addresses.
   std::vector<std::array<double, 2>> contacts_;
-  std::vector<int> contact_of_frame_;  // index into contacts_, or -1
-  std::vector<ceres::ResidualBlockId> blocks_;
-  std::vector<ResidualInfo> block_info_;
+  std::vector<LadderState> states_;            // empty if there are too many
+  std::unique_ptr<const ContactGuess> guess_;  // then, for what is near
+  // Of the last Sum: by its frames, how contacts go with the parameters (2 x
+  // free); where it was; and what it is in full, if over all frames.
+  Eigen::MatrixXf contact_slopes_;
+  Eigen::VectorXd summed_at_;
+  std::unique_ptr<Linearization> summed_;
+  std::map<int, std::string> rejected_;
+  std::unique_ptr<Linearization> at_solution_;
 };
 
 }  // namespace finray

@@ -1,6 +1,9 @@
 #include "finray/calib/calibration_result.h"
 
+#include <glog/logging.h>
+
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -51,6 +54,51 @@ void WarnOfNoise(const Identifiability& found,
   }
 }
 
+void WarnOfStarts(const RobustSolution& solution,
+                  std::vector<CalibrationWarning>* warnings) {
+  const auto& starts = solution.starts;
+  const auto agree = std::count_if(starts.begin(), starts.end(),
+                                   [](const auto& s) { return s.agrees; });
+  if (!starts[0].agrees) {
+    warnings->push_back(
+        {"given_start_misleads",
+         "from the given finger the solver comes to another, worse solution" +
+             Text(", %.3g std away; the result is from another start",
+                  starts[0].distance_std),
+         "compare the result with what you know of the finger"});
+  } else if (2 * agree <= static_cast<long>(starts.size())) {
+    warnings->push_back(
+        {"starts_disagree",
+         Text("only %.0f of %.0f starts come to this solution",
+              static_cast<double>(agree), static_cast<double>(starts.size())),
+         "give priors, or start from a finger closer to the truth"});
+  }
+}
+
+void WarnOfOutliers(const CalibrationProblem& problem,
+                    const RobustSolution& solution,
+                    std::vector<CalibrationWarning>* warnings) {
+  if (solution.outliers_too_many) {
+    warnings->push_back(
+        {"too_many_outliers",
+         "more than a quarter of the frames are not explained within their "
+         "noise; none was rejected",
+         "check columns, units, the finger's geometry and the std in the "
+         "plan's measurements"});
+  }
+  if (problem.rejected().empty()) return;
+  const auto& [index, reason] = *problem.rejected().begin();
+  const CalibrationFrame& frame = problem.logs().frames[index];
+  warnings->push_back(
+      {"frames_rejected",
+       Text("%.0f frames were rejected, the first one ",
+            static_cast<double>(problem.rejected().size())) +
+           problem.logs().names[frame.log] + " row " +
+           std::to_string(frame.row + 1) + ": " + reason,
+       "look at rejected_frames in calibration.yaml for what went wrong "
+       "there"});
+}
+
 void WarnOfWeakness(CalibrationProblem& problem, const Identifiability& found,
                     std::vector<CalibrationWarning>* warnings) {
   std::string unidentifiable;
@@ -88,7 +136,7 @@ void WarnOfForces(const ForceCheck& forces, double force_std_N,
          "record logs that cover what the finger will meet: heights and "
          "loads"});
   }
-  if (forces.fitted.frames > 0 &&
+  if (forces.fitted.frames > 0 && forces.fitted.frames_before > 0 &&
       forces.fitted.after_rms_N > forces.fitted.before_rms_N + force_std_N) {
     warnings->push_back(
         {"no_better",
@@ -144,30 +192,76 @@ void WarnOfDisagreement(CalibrationProblem& problem,
        "take the spread in leave_one_log_out for the std until then"});
 }
 
+std::vector<int> FramesToCheck(const CalibrationProblem& problem) {
+  const CalibrationLogs& logs = problem.logs();
+  std::vector<int> chosen;
+  for (const bool held_out : {false, true}) {
+    std::vector<int> frames;
+    for (std::size_t i = 0; i < logs.frames.size(); ++i) {
+      const int index = static_cast<int>(i);
+      if (logs.frames[i].held_out == held_out &&
+          problem.rejected().count(index) == 0) {
+        frames.push_back(index);
+      }
+    }
+    const std::size_t count =
+        std::min(frames.size(), CalibrationResult::kMostChecked);
+    for (std::size_t k = 0; k < count; ++k) {
+      chosen.push_back(frames[k * frames.size() / count]);
+    }
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+CalibrationLogs Chosen(const CalibrationLogs& logs,
+                       const std::vector<int>& frames) {
+  CalibrationLogs chosen{logs.paths, logs.names, {}};
+  for (const int i : frames) chosen.frames.push_back(logs.frames[i]);
+  return chosen;
+}
+
 // Errors by region of the frames that were fitted, or held out.
 void TabulateRegions(CalibrationProblem& problem, const CalibrationLogs& logs,
-                     const Discretization& discretization,
+                     const Discretization& discretization, int threads,
                      CalibrationResult* result) {
-  const auto references =
-      ReferencesOf(logs, result->finger, problem.plan(), discretization);
+  const auto references = ReferencesOf(logs, result->finger, problem.plan(),
+                                       discretization, threads);
   for (const bool held_out : {false, true}) {
     CalibrationResult::Errors& errors =
         held_out ? result->held_out : result->fitted;
-    const auto table = [&](const std::vector<FrameEstimate>& estimates) {
+    const auto table = [&](const std::vector<FrameEstimate>& estimates,
+                           bool before) {
       return TabulateErrors(references, estimates, result->forces.after,
                             problem.finger().front_length_mm,
                             problem.plan().scene.friction_coefficient,
                             [&](std::size_t i) {
                               return logs.frames[i].held_out == held_out &&
-                                     !logs.frames[i].IsBench();
+                                     !logs.frames[i].IsBench() &&
+                                     (!before || result->forces.has_before[i]);
                             });
     };
-    errors.before = table(result->forces.before);
-    errors.after = table(result->forces.after);
+    errors.before = table(result->forces.before, true);
+    errors.after = table(result->forces.after, false);
   }
 }
 
 }  // namespace
+
+// Says with --v=1 how long each part took.
+class Stopwatch {
+ public:
+  void Lap(const char* part) {
+    const auto now = std::chrono::steady_clock::now();
+    VLOG(1) << part << ": "
+            << std::chrono::duration<double>(now - last_).count() << " s";
+    last_ = now;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ =
+      std::chrono::steady_clock::now();
+};
 
 bool CalibrationResult::AllIdentified() const {
   return std::none_of(
@@ -179,33 +273,44 @@ CalibrationResult Calibrate(CalibrationProblem* problem,
                             const Discretization& discretization, int threads,
                             bool leave_logs_out) {
   CalibrationResult result;
-  result.solve = problem->Solve();
+  Stopwatch watch;
+  result.solution = SolveRobustly(problem);
+  watch.Lap("solve");
   problem->ZeroHeldOutLogs();
   result.identifiability = AnalyzeIdentifiability(problem);
   result.residual_correlation =
       AnalyzeResidualCorrelation(problem, result.identifiability);
   EnlargeStd(result.residual_correlation, &result.identifiability);
+  watch.Lap("uncertainty");
   result.next =
       AdviseNextFrames(problem, discretization, &result.identifiability);
+  watch.Lap("what to record next");
   if (leave_logs_out) {
     result.leave_one_log_out =
         LeaveLogsOut(*problem, result.identifiability, discretization, threads);
   }
+  watch.Lap("leave one log out");
   result.finger = problem->parameters().Apply(problem->finger());
   KeepCovariance(problem->parameters(), result.identifiability, &result.finger);
+  result.checked = FramesToCheck(*problem);
+  const CalibrationLogs checked = Chosen(problem->logs(), result.checked);
   const CalibrationLogs corrected =
-      problem->parameters().Corrected(problem->logs(), result.finger);
-  result.forces =
-      CheckForces(problem->finger(), result.finger, problem->plan(),
-                  problem->logs(), corrected, discretization, threads);
-  TabulateRegions(*problem, corrected, discretization, &result);
+      problem->parameters().Corrected(checked, result.finger);
+  result.forces = CheckForces(problem->finger(), result.finger, problem->plan(),
+                              checked, corrected, discretization, threads);
+  watch.Lap("check of forces");
+  TabulateRegions(*problem, corrected, discretization, threads, &result);
+  watch.Lap("check of contacts");
   result.bench =
       TestBenchLinearity(problem->finger(), problem->plan(), problem->logs());
-  if (!result.solve.converged) {
+  if (!result.solution.solve.converged) {
     result.warnings.push_back(
-        {"not_converged", "the solver stopped early: " + result.solve.message,
+        {"not_converged",
+         "the solver stopped early: " + result.solution.solve.message,
          "give priors, or start from a finger closer to the truth"});
   }
+  WarnOfStarts(result.solution, &result.warnings);
+  WarnOfOutliers(*problem, result.solution, &result.warnings);
   WarnOfWeakness(*problem, result.identifiability, &result.warnings);
   WarnOfNoise(result.identifiability, &result.warnings);
   WarnOfCorrelation(*problem, result.residual_correlation, &result.warnings);

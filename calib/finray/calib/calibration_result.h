@@ -12,6 +12,7 @@
 #include "finray/calib/leave_one_log_out.h"
 #include "finray/calib/next_frames.h"
 #include "finray/calib/residual_correlation.h"
+#include "finray/calib/robust_solve.h"
 #include "finray/io/frame_table.h"
 
 namespace finray {
@@ -25,9 +26,14 @@ struct CalibrationWarning {
 
 /// All that a calibration yields.
 struct CalibrationResult {
-  CalibrationProblem::SolveReport solve;
+  RobustSolution solution;
   Identifiability identifiability;
-  ForceCheck forces;
+  /// The frames that were held against the references, indices into the logs'
+  /// frames: all, or if there are many, kMostChecked of the fitted ones and as
+  /// many of those held out, evenly spread.
+  std::vector<int> checked;
+  static constexpr std::size_t kMostChecked = 1000;
+  ForceCheck forces;  ///< of these frames
   /// By region of the finger, from the gauges alone.
   struct Errors {
     ErrorTable before, after;
@@ -64,7 +70,8 @@ std::string CalibrationYaml(CalibrationProblem& problem,
 
 /// One row a frame: log, time, kind (contact, free), held_out, reference force,
 /// force and place from the gauges before and after, l_c and f_c of the fit,
-/// and gauge residuals in std (empty where held out).
+/// gauge residuals in std (empty where held out or rejected), and why a
+/// frame was rejected.
 FrameTable CalibrationFrames(CalibrationProblem& problem,
                              const CalibrationResult& result);
 

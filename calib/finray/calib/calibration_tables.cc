@@ -24,12 +24,11 @@ FrameTable CalibrationFrames(CalibrationProblem& problem,
     table.MutableNumbers(IndexedColumn("gauge_", j, "_residual_std"));
   }
   table.MutableText("status_after");
+  table.MutableText("rejected");
   const double per_normal =
       std::hypot(1, problem.plan().scene.friction_coefficient);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const CalibrationFrame& frame = frames[i];
-    const FrameEstimate& before = result.forces.before[i];
-    const FrameEstimate& after = result.forces.after[i];
     const auto set = [&](const std::string& name, double value) {
       table.MutableNumbers(name)[i] = value;
     };
@@ -37,27 +36,41 @@ FrameTable CalibrationFrames(CalibrationProblem& problem,
     table.MutableText("kind")[i] = frame.IsBench() ? "bench"
                                    : frame.contact ? "contact"
                                                    : "free";
-    table.MutableText("status_after")[i] = StatusName(after.status);
     set("row", frame.row + 1);
     set("time_s", frame.time_s);
     set("held_out", frame.held_out);
     set("force_N", ReferenceForce(frame));
-    set("force_before_N", per_normal * before.contact[0].normal_N);
-    set("force_after_N", per_normal * after.contact[0].normal_N);
-    set("force_after_std_N", per_normal * after.contact[0].normal_std_N);
-    set("contact_before_mm", before.contact[0].arc_mm);
-    set("contact_after_mm", after.contact[0].arc_mm);
-    set("contact_after_std_mm", after.contact[0].arc_std_mm);
     const auto contact = problem.contact(static_cast<int>(i));
     set("fit_contact_mm", contact[0]);
     set("fit_normal_N", contact[1]);
   }
-  const CalibrationProblem::Linearization at = problem.Linearize(false);
+  for (std::size_t k = 0; k < result.checked.size(); ++k) {
+    const int i = result.checked[k];
+    const ContactEstimate& before = result.forces.before[k].contact[0];
+    const ContactEstimate& after = result.forces.after[k].contact[0];
+    const auto set = [&](const std::string& name, double value) {
+      table.MutableNumbers(name)[i] = value;
+    };
+    table.MutableText("status_after")[i] =
+        StatusName(result.forces.after[k].status);
+    if (result.forces.has_before[k]) {
+      set("force_before_N", per_normal * before.normal_N);
+      set("contact_before_mm", before.arc_mm);
+    }
+    set("force_after_N", per_normal * after.normal_N);
+    set("force_after_std_N", per_normal * after.normal_std_N);
+    set("contact_after_mm", after.arc_mm);
+    set("contact_after_std_mm", after.arc_std_mm);
+  }
+  for (const auto& [frame, reason] : problem.rejected()) {
+    table.MutableText("rejected")[frame] = reason;
+  }
+  const Linearization& at = problem.AtSolution();
   for (std::size_t row = 0; row < at.rows.size(); ++row) {
     if (at.rows[row].family != ResidualFamily::kGauge) continue;
     table.MutableNumbers(IndexedColumn("gauge_", at.rows[row].gauge,
                                        "_residual_std"))[at.rows[row].frame] =
-        at.residuals[static_cast<Eigen::Index>(row)];
+        at.residuals[row];
   }
   return table;
 }

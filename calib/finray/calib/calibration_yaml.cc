@@ -125,7 +125,10 @@ void EmitForceError(const ForceCheck::Error& error, YAML::Emitter* yaml) {
   *yaml << YAML::Flow << YAML::BeginMap;
   Pair(yaml, "frames", error.frames);
   if (error.frames > 0) {
-    Number(yaml, "force_rms_error_before_N", error.before_rms_N);
+    if (error.frames_before > 0) {
+      Number(yaml, "force_rms_error_before_N", error.before_rms_N);
+      Pair(yaml, "frames_before", error.frames_before);
+    }
     Number(yaml, "force_rms_error_after_N", error.after_rms_N);
     Number(yaml, "force_max_error_after_N", error.after_max_N);
     Number(yaml, "force_mean_N", error.reference_mean_N);
@@ -194,9 +197,9 @@ std::string CalibrationYaml(CalibrationProblem& problem,
   Pair(&yaml, "schema_version", 1);
   Pair(&yaml, "finger", problem.finger().name);
   Pair(&yaml, "verdict",
-       !result.solve.converged   ? "not_converged"
-       : !result.AllIdentified() ? "unidentifiable"
-                                 : "good");
+       !result.solution.solve.converged ? "not_converged"
+       : !result.AllIdentified()        ? "unidentifiable"
+                                        : "good");
   EmitParameters(problem, result.identifiability, &yaml);
   EmitWeakDirections(problem, result.identifiability, &yaml);
   EmitCorrelations(problem, result.identifiability, &yaml);
@@ -217,10 +220,10 @@ std::string CalibrationYaml(CalibrationProblem& problem,
   }
   yaml << YAML::EndSeq;
   yaml << YAML::Key << "solver" << YAML::Value << YAML::Flow << YAML::BeginMap;
-  Pair(&yaml, "converged", result.solve.converged);
-  Pair(&yaml, "iterations", result.solve.iterations);
-  Number(&yaml, "initial_cost", result.solve.initial_cost);
-  Number(&yaml, "final_cost", result.solve.final_cost);
+  Pair(&yaml, "converged", result.solution.solve.converged);
+  Pair(&yaml, "iterations", result.solution.solve.iterations);
+  Number(&yaml, "initial_cost", result.solution.solve.initial_cost);
+  Number(&yaml, "final_cost", result.solution.solve.final_cost);
   yaml << YAML::EndMap;
   EmitInputs(inputs, &yaml);
   EmitConfig(problem.plan(), inputs, &yaml);

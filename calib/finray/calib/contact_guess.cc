@@ -1,54 +1,86 @@
 #include "finray/calib/contact_guess.h"
 
-#include <vector>
+#include <algorithm>
+#include <cmath>
+
+#include "finray/finger/geometry.h"
 
 namespace finray {
 
-ContactGuess::ContactGuess(const Finger& finger, const Scene& scene,
-                           const Discretization& discretization)
-    : solver_(finger, discretization),
-      table_(&solver_, scene.friction_coefficient, scene.circle_radius_mm()),
-      fit_(finger, discretization, scene.circle_radius_mm()) {
-  const auto size = static_cast<Eigen::Index>(
-      finger.gauges.size() + (scene.circle_radius_mm() ? 2 : 0));
+ContactGuess::ContactGuess(const Finger& finger, const Plan& plan,
+                           const Discretization& discretization,
+                           const MeasurementBlocks* blocks,
+                           CalibrationParameters* parameters)
+    : blocks_(*blocks),
+      parameters_(*parameters),
+      length_mm_(finger.front_length_mm),
+      force_unit_N_(ForceUnit(finger)),
+      object_std_mm_(plan.object_std_mm),
+      solver_(finger, discretization),
+      table_(&solver_, plan.scene.friction_coefficient,
+             plan.scene.circle_radius_mm()),
+      fit_(finger, discretization, plan.scene.circle_radius_mm()),
+      circle_(plan.scene.circle_radius_mm().has_value()) {
+  const auto size =
+      static_cast<Eigen::Index>(finger.gauges.size() + (circle_ ? 2 : 0));
   values_.resize(size);
   weights_.resize(size);
   fit_.set_most_force(table_.heaviest_N());
+  fit_.set_tolerance(1e-6);
 }
 
-bool ContactGuess::FindStart() {
-  table_.FindStarts(values_, weights_, &starts_);
-  return !starts_.empty();
-}
-
-std::optional<ContactGuess::Place> ContactGuess::FromCircle(
-    const Eigen::Vector2d& centre_mm) {
+ContactGuess::Place ContactGuess::Of(const CalibrationFrame& frame, From from) {
   values_.setZero();
   weights_.setZero();
-  values_.tail<2>() = centre_mm;
-  weights_.tail<2>().setOnes();
-  if (!FindStart()) return std::nullopt;
-  const ContactStart& start = starts_[0];
-  std::vector<PointContact> contact = {start.contacts[0]};
-  fit_.set_state(*start.state);
-  if (!fit_.Fit(values_, weights_, &contact)) {
-    return Place{start.contacts[0].arc_mm, start.contacts[0].normal_N,
-                 *start.state};
+  const bool by_object = circle_ && frame.object_mm.allFinite();
+  if (by_object) AddCircle(frame);
+  if (!by_object || from == From::kAll) AddGauges(frame);
+  // The circle is met exactly: what all stiffnesses and forces have in common
+  // may not be in the data, and stays as given only from a start near a
+  // solution. Gauges of unknown gains would be met at any price.
+  Place place = FromTable(by_object || from == From::kAll);
+  if (std::isfinite(frame.contact_mm)) {
+    place.arc_mm = std::clamp(frame.contact_mm, 0.0, length_mm_);
   }
-  Place place{contact[0].arc_mm, contact[0].normal_N, {}};
-  fit_.SaveState(&place.state);
+  const double force =
+      frame.force_xy_N.allFinite() ? frame.force_xy_N.norm() : frame.force_N;
+  // A wild one may be more than the finger can carry.
+  if (from == From::kObjectFirst && force <= table_.heaviest_N()) {
+    place.normal_N = std::max(force, 0.0);
+  }
   return place;
 }
 
-std::optional<ContactGuess::Place> ContactGuess::FromGauges(
-    const Eigen::VectorXd& angles_rad, const Eigen::VectorXd& weights) {
-  values_.setZero();
-  weights_.setZero();
-  values_.head(angles_rad.size()) = angles_rad;
-  weights_.head(weights.size()) = weights;
-  if (!FindStart()) return std::nullopt;
-  return Place{starts_[0].contacts[0].arc_mm, starts_[0].contacts[0].normal_N,
-               *starts_[0].state};
+void ContactGuess::AddCircle(const CalibrationFrame& frame) {
+  const Eigen::Map<const Eigen::Vector2d> origin(
+      parameters_.object_origin_mm(frame.log));
+  values_.tail<2>() = frame.object_mm + origin;
+  weights_.tail<2>().setConstant(1 / object_std_mm_);
+}
+
+void ContactGuess::AddGauges(const CalibrationFrame& frame) {
+  for (int j = 0; j < static_cast<int>(frame.gauges_V.size()); ++j) {
+    const double gain = parameters_.gains_V_per_rad[j];
+    if (!std::isfinite(frame.gauges_V[j]) || gain == 0) continue;
+    values_[j] =
+        (frame.gauges_V[j] - parameters_.readings.Sum(frame, j)) / gain;
+    weights_[j] = std::abs(gain) / blocks_.gauge_std_V(j);
+  }
+}
+
+ContactGuess::Place ContactGuess::FromTable(bool fit) {
+  table_.FindStarts(values_, weights_, &starts_);
+  if (starts_.empty()) return {length_mm_ / 2, force_unit_N_, {}};
+  const ContactStart& start = starts_[0];
+  std::vector<PointContact> contact = {start.contacts[0]};
+  Place place{contact[0].arc_mm, contact[0].normal_N, *start.state};
+  if (!fit) return place;
+  fit_.set_state(*start.state);
+  if (!fit_.Fit(values_, weights_, &contact)) return place;
+  place.arc_mm = contact[0].arc_mm;
+  place.normal_N = contact[0].normal_N;
+  fit_.SaveState(&place.state);
+  return place;
 }
 
 }  // namespace finray

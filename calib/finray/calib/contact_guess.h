@@ -2,43 +2,52 @@
 #define FINRAY_CALIB_CONTACT_GUESS_H_
 
 #include <Eigen/Core>
-#include <optional>
+#include <vector>
 
+#include "finray/calib/calibration_log.h"
+#include "finray/calib/measurement_blocks.h"
+#include "finray/calib/parameters.h"
 #include "finray/sensing/contact_fit.h"
 #include "finray/sensing/gauge_table.h"
-#include "finray/sensing/scene.h"
 
 namespace finray {
 
-/// Where a frame's contact is according to the finger as it is given, for a
-/// calibration to start from: the nearest place of a table (gauge_table.h),
-/// which knows it to a few bays.
+/// Where a frame's contact is according to the finger as the parameters
+/// describe it now, for a solve to start from: from the object's place, else
+/// from the gauges, by a table that knows it to a few bays (gauge_table.h); a
+/// contact location and a force that were measured themselves come first.
 class ContactGuess {
  public:
-  /// Throws InputError for a finger without an unloaded equilibrium.
-  ContactGuess(const Finger& finger, const Scene& scene,
-               const Discretization& discretization);
+  /// `blocks` and `parameters` must stay in place. Throws InputError for a
+  /// finger without an unloaded equilibrium.
+  ContactGuess(const Finger& finger, const Plan& plan,
+               const Discretization& discretization,
+               const MeasurementBlocks* blocks,
+               CalibrationParameters* parameters);
 
   struct Place {
     double arc_mm = 0, normal_N = 0;
-    LadderState state;  ///< An equilibrium near it.
+    LadderState state;  ///< An equilibrium near it; may be empty.
   };
+  /// Whether gauges count beside the object's place: once their gains are
+  /// known.
+  enum class From { kObjectFirst, kAll };
+  Place Of(const CalibrationFrame& frame, From from);
 
-  /// The contact at which the scene's circle touches, its centre being there.
-  /// It is met exactly: what all stiffnesses and forces have in common may not
-  /// be in the data, and stays as given only from a start near a solution.
-  std::optional<Place> FromCircle(const Eigen::Vector2d& centre_mm);
-
-  /// From gauge angles, weighted per rad (0: not measured).
-  std::optional<Place> FromGauges(const Eigen::VectorXd& angles_rad,
-                                  const Eigen::VectorXd& weights);
+  const GaugeTable& table() const { return table_; }
 
  private:
-  bool FindStart();
+  void AddCircle(const CalibrationFrame& frame);
+  void AddGauges(const CalibrationFrame& frame);
+  Place FromTable(bool fit);
 
+  const MeasurementBlocks& blocks_;
+  CalibrationParameters& parameters_;
+  double length_mm_, force_unit_N_, object_std_mm_;
   EquilibriumSolver solver_;
   GaugeTable table_;
   ContactFit fit_;
+  bool circle_;
   Eigen::VectorXd values_, weights_;  // gauges, then the circle's centre
   std::vector<ContactStart> starts_;
 };

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "finray/calib/eliminated_contact.h"
 #include "finray/calib/weak_direction_words.h"
 
 namespace finray {
@@ -25,7 +24,7 @@ Eigen::MatrixXd BoundedCovariance(const Eigen::MatrixXd& information) {
 }
 
 Identifiability AnalyzeIdentifiability(CalibrationProblem* problem) {
-  const CalibrationProblem::Linearization at = problem->Linearize(true);
+  const Linearization& at = problem->AtSolution();
   const CalibrationParameters& parameters = problem->parameters();
   const int n = static_cast<int>(parameters.free().size());
 
@@ -36,13 +35,11 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem) {
     unit[i] = p.prior_std.value_or(p.scale);
     if (p.prior_std) prior(i, i) = 1;
   }
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n, n);
-  ForEachFrame(at, [&](int first, int count) {
-    const Eigen::MatrixXd c =
-        EliminateContact(at, first, count) * unit.asDiagonal();
-    information.selfadjointView<Eigen::Lower>().rankUpdate(c.transpose());
-  });
-  information = information.selfadjointView<Eigen::Lower>();
+  const auto scaled = [&](const Eigen::MatrixXd& of_variables) {
+    return Eigen::MatrixXd(unit.asDiagonal() * of_variables *
+                           unit.asDiagonal());
+  };
+  const Eigen::MatrixXd information = scaled(at.Information());
 
   Identifiability result;
   result.unit = unit;
@@ -103,22 +100,19 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem) {
     result.weak.push_back(std::move(direction));
   }
 
-  // Degrees of freedom by family: each residual counts one less its leverage.
-  ForEachFrame(at, [&](int first, int count) {
-    const Eigen::MatrixXd c =
-        EliminateContact(at, first, count) * unit.asDiagonal();
-    const auto e = at.by_contact.middleRows(first, count);
-    const Eigen::Matrix2d inverse = PseudoInverse(e.transpose() * e);
-    for (int i = 0; i < count; ++i) {
-      const double leverage = c.row(i).dot(covariance * c.row(i).transpose()) +
-                              e.row(i).dot(inverse * e.row(i).transpose());
-      Identifiability::Noise& noise =
-          result.noise[static_cast<int>(at.rows[first + i].family)];
-      ++noise.residuals;
-      noise.dof += 1 - leverage;
-      noise.chi2 += at.residuals[first + i] * at.residuals[first + i];
-    }
-  });
+  // Degrees of freedom by family: each residual counts one less its leverage,
+  // c cov c' by the parameters and that by its contact.
+  for (std::size_t i = 0; i < at.rows.size(); ++i) {
+    Identifiability::Noise& noise =
+        result.noise[static_cast<int>(at.rows[i].family)];
+    ++noise.residuals;
+    noise.chi2 += at.weighted_residuals[i] * at.weighted_residuals[i];
+  }
+  for (int f = 0; f < kResidualFamilies; ++f) {
+    result.noise[f].dof =
+        result.noise[f].residuals - at.contact_leverage[f] -
+        covariance.cwiseProduct(scaled(at.information_by_family[f])).sum();
+  }
   return result;
 }
 

@@ -5,8 +5,6 @@
 #include <map>
 #include <optional>
 
-#include "finray/calib/eliminated_contact.h"
-
 namespace finray {
 
 const LeaveOneLogOut::Row* LeaveOneLogOut::Worst() const {
@@ -19,22 +17,6 @@ const LeaveOneLogOut::Row* LeaveOneLogOut::Worst() const {
 }
 
 namespace {
-
-// Of all frames of each log that were fitted, at the solution.
-std::map<int, Eigen::MatrixXd> InformationByLog(CalibrationProblem* problem,
-                                                const Eigen::VectorXd& unit) {
-  const CalibrationProblem::Linearization at = problem->Linearize(true);
-  const auto n = unit.size();
-  std::map<int, Eigen::MatrixXd> by_log;
-  ForEachFrame(at, [&](int first, int count) {
-    const int log = problem->logs().frames[at.rows[first].frame].log;
-    const Eigen::MatrixXd c =
-        EliminateContact(at, first, count) * unit.asDiagonal();
-    const auto place = by_log.try_emplace(log, Eigen::MatrixXd::Zero(n, n));
-    place.first->second += c.transpose() * c;
-  });
-  return by_log;
-}
 
 // What a parameter is without some logs; empty if these do not determine it.
 std::optional<double> EstimateWithout(const CalibrationParameters& without,
@@ -61,7 +43,7 @@ LeaveOneLogOut LeaveLogsOut(CalibrationProblem& problem,
                             const Discretization& discretization, int threads) {
   LeaveOneLogOut result;
   // A log without a frame to fit tells nothing, and may be all that is left.
-  const auto by_log = InformationByLog(&problem, found.unit);
+  const auto& by_log = problem.AtSolution().information_by_log;
   if (by_log.size() < 2) return result;
   result.groups =
       std::min(LeaveOneLogOut::kMostGroups, static_cast<int>(by_log.size()));
@@ -92,7 +74,8 @@ LeaveOneLogOut LeaveLogsOut(CalibrationProblem& problem,
     const Identifiability known = AnalyzeIdentifiability(&without);
     Eigen::MatrixXd information = found.prior;
     for (const auto& [log, its] : by_log) {
-      if (group_of[log] != group) information += its;
+      if (group_of[log] == group) continue;
+      information += found.unit.asDiagonal() * its * found.unit.asDiagonal();
     }
     const Eigen::VectorXd variance_without =
         BoundedCovariance(information).diagonal();

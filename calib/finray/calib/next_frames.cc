@@ -9,7 +9,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "finray/calib/eliminated_contact.h"
+#include "finray/calib/linearized_frame.h"
 #include "finray/calib/next_frames_words.h"
 #include "finray/finger/geometry.h"
 #include "finray/sensing/circle_centre.h"
@@ -181,26 +181,21 @@ void NextFrames::Predict(const Discretization& discretization) {
       *p.variable = *value->second;
     }
   }
-  const CalibrationProblem::Linearization at = predicted.Linearize(false);
-  Eigen::MatrixXd by_parameter =
-      Eigen::MatrixXd::Zero(at.by_parameter.rows(), columns);
-  for (std::size_t k = 0; k < of_predicted.free().size(); ++k) {
-    const auto column =
-        column_of.find(of_predicted.all()[of_predicted.free()[k]].name);
-    if (column == column_of.end()) continue;
-    by_parameter.col(column->second) =
-        at.by_parameter.col(static_cast<Eigen::Index>(k));
-  }
-  ForEachFrame(at, [&](int first, int count) {
-    const int index = at.rows[first].frame - recorded;
+  predicted.VisitFrames([&](int frame, const LinearizedFrame& at) {
+    const int index = frame - recorded;
     if (index < 0) return;
     Candidate& candidate = candidates_[index];
-    for (int i = first; i < first + count; ++i) {
-      candidate.families.push_back(at.rows[i].family);
+    for (const auto& row : at.rows) candidate.families.push_back(row.family);
+    candidate.by_parameter.setZero(at.by_parameter.rows(), columns);
+    for (std::size_t k = 0; k < of_predicted.free().size(); ++k) {
+      const auto column =
+          column_of.find(of_predicted.all()[of_predicted.free()[k]].name);
+      if (column == column_of.end()) continue;
+      candidate.by_parameter.col(column->second) =
+          at.by_parameter.col(static_cast<Eigen::Index>(k)) *
+          found_.unit[column->second];
     }
-    candidate.by_parameter =
-        by_parameter.middleRows(first, count) * found_.unit.asDiagonal();
-    candidate.by_contact = at.by_contact.middleRows(first, count);
+    candidate.by_contact = at.by_contact;
   });
   // With what can be proposed, some would have too little to be a frame.
   candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(),
@@ -214,8 +209,7 @@ void NextFrames::Predict(const Discretization& discretization) {
 // What contact frames of the logs have, and that with what can be added.
 void NextFrames::ChooseMeasurements() {
   Families recorded, missing;
-  const CalibrationProblem::Linearization of_logs = problem_->Linearize(false);
-  for (const auto& row : of_logs.rows) {
+  for (const ResidualInfo& row : problem_->AtSolution().rows) {
     const bool contact = problem_->logs().frames[row.frame].contact;
     if (contact && !Has(recorded, row.family)) recorded.push_back(row.family);
   }

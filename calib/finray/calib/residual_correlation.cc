@@ -5,7 +5,6 @@
 #include <map>
 #include <tuple>
 
-#include "finray/calib/eliminated_contact.h"
 #include "finray/sensing/chi_squared.h"
 
 namespace finray {
@@ -69,7 +68,7 @@ const ResidualCorrelation::Series* ResidualCorrelation::Slowest() const {
 
 ResidualCorrelation AnalyzeResidualCorrelation(CalibrationProblem* problem,
                                                const Identifiability& found) {
-  const CalibrationProblem::Linearization at = problem->Linearize(true);
+  const Linearization& at = problem->AtSolution();
   const auto& frames = problem->logs().frames;
   const auto logs = problem->logs().paths.size();
   const auto n = static_cast<int>(found.std.size());
@@ -79,28 +78,18 @@ ResidualCorrelation AnalyzeResidualCorrelation(CalibrationProblem* problem,
 
   using Key = std::tuple<int, int, int, int>;  // of Series
   std::map<Key, std::vector<double>> series;
-  std::vector<std::vector<std::vector<double>>> influence(
-      n, std::vector<std::vector<double>>(logs));
   const Eigen::MatrixXd covariance =
       BoundedCovariance(found.information + found.prior);
-  ForEachFrame(at, [&](int first, int count) {
-    const CalibrationFrame& frame = frames[at.rows[first].frame];
-    const int log = frame.log;
-    std::map<std::pair<int, int>, int> components;
-    for (int i = first; i < first + count; ++i) {
-      const auto& row = at.rows[i];
-      const int family = static_cast<int>(row.family);
-      const int component =
-          Component(row.family, frame, components[{family, row.gauge}]++);
-      series[{log, family, row.gauge, component}].push_back(at.residuals[i]);
-    }
-    const Eigen::VectorXd psi =
-        covariance * (found.unit.asDiagonal() *
-                      (EliminateContact(at, first, count).transpose() *
-                       at.residuals.segment(first, count)));
-    for (int i = 0; i < n; ++i) influence[i][log].push_back(psi[i]);
-  });
-
+  std::map<std::pair<int, int>, int> components;  // of a frame
+  for (std::size_t i = 0; i < at.rows.size(); ++i) {
+    const ResidualInfo& row = at.rows[i];
+    if (i == 0 || row.frame != at.rows[i - 1].frame) components.clear();
+    const int family = static_cast<int>(row.family);
+    const int component = Component(row.family, frames[row.frame],
+                                    components[{family, row.gauge}]++);
+    series[{frames[row.frame].log, family, row.gauge, component}].push_back(
+        at.weighted_residuals[i]);
+  }
   double least = 1;
   for (const auto& [key, values] : series) {
     if (values.size() < kLeastRows) continue;
@@ -115,14 +104,21 @@ ResidualCorrelation AnalyzeResidualCorrelation(CalibrationProblem* problem,
       std::min(1.0, least * static_cast<double>(result.series.size()));
   if (!result.correlated()) return result;
 
+  const Eigen::MatrixXd by_pull = covariance * found.unit.asDiagonal();
   const Eigen::MatrixXd of_data = covariance * found.information * covariance;
   for (int i = 0; i < n; ++i) {
-    const IntegratedTime time = IntegrateTime(influence[i]);
+    std::vector<std::vector<double>> influence(logs);  // psi_t,i
+    const Eigen::RowVectorXd all = by_pull.row(i) * at.pulls;
+    for (std::size_t k = 0; k < at.frames.size(); ++k) {
+      influence[frames[at.frames[k]].log].push_back(
+          all[static_cast<Eigen::Index>(k)]);
+    }
+    const IntegratedTime time = IntegrateTime(influence);
     result.tau[i] = time.tau;
     const double share = of_data(i, i) / covariance(i, i);
     if (!(share > 1e-6)) continue;
     const double v =
-        std::max(1.0, time.tau * Gamma(influence[i], 0) / of_data(i, i));
+        std::max(1.0, time.tau * Gamma(influence, 0) / of_data(i, i));
     result.enlargement[i] = std::sqrt(1 + (v - 1) * share);
   }
   return result;

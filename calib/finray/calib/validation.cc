@@ -1,5 +1,10 @@
 #include "finray/calib/validation.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -66,10 +71,10 @@ bool IsUpperBound(Gate::Quantity quantity) {
 
 std::vector<FrameReference> ReferencesOf(const CalibrationLogs& logs,
                                          const Finger& finger, const Plan& plan,
-                                         const Discretization& discretization) {
-  EquilibriumSolver solver(finger, discretization);
-  std::vector<FrameReference> references;
-  for (const CalibrationFrame& frame : logs.frames) {
+                                         const Discretization& discretization,
+                                         int threads) {
+  const auto reference_of = [&](const CalibrationFrame& frame,
+                                EquilibriumSolver* solver) {
     FrameReference reference;
     reference.contact = frame.contact;
     reference.force_N = ReferenceForce(frame);
@@ -79,11 +84,24 @@ std::vector<FrameReference> ReferencesOf(const CalibrationLogs& logs,
       reference.contact_std_mm = plan.contact_std_mm;
     } else if (frame.contact && frame.object_mm.allFinite() &&
                plan.scene.circle_radius_mm()) {
-      reference.contact_mm = TouchedAt(frame, plan, &solver);
+      reference.contact_mm = TouchedAt(frame, plan, solver);
       reference.contact_std_mm = plan.object_std_mm;
     }
-    references.push_back(reference);
-  }
+    return reference;
+  };
+  std::vector<FrameReference> references(logs.frames.size());
+  tbb::enumerable_thread_specific<EquilibriumSolver> solvers(
+      EquilibriumSolver(finger, discretization));
+  tbb::task_arena(threads).execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, references.size(), 16),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        EquilibriumSolver& solver = solvers.local();
+                        for (std::size_t i = range.begin(); i < range.end();
+                             ++i) {
+                          references[i] = reference_of(logs.frames[i], &solver);
+                        }
+                      });
+  });
   return references;
 }
 
@@ -115,7 +133,7 @@ Validation Validate(const Finger& finger, const std::optional<Finger>& baseline,
                     const Plan& plan, const CalibrationLogs& logs,
                     const Discretization& discretization, int threads) {
   Validation result;
-  result.references = ReferencesOf(logs, finger, plan, discretization);
+  result.references = ReferencesOf(logs, finger, plan, discretization, threads);
   if (!HasForce(result) && !HasPlace(result)) {
     throw InputError(
         "logs: no frame with contact has a reference; expected force_N (or "

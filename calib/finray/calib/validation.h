@@ -19,7 +19,8 @@ namespace finray {
 ///    centre tells the place along the beam almost whatever the stiffness.
 std::vector<FrameReference> ReferencesOf(const CalibrationLogs& logs,
                                          const Finger& finger, const Plan& plan,
-                                         const Discretization& discretization);
+                                         const Discretization& discretization,
+                                         int threads);
 
 /// Estimates from the gauges alone, log by log.
 std::vector<FrameEstimate> EstimateLogs(const Finger& finger, const Plan& plan,

@@ -178,6 +178,19 @@ ContactStart GaugeTable::BestOf(const Row& row, const Eigen::VectorXd& values,
   return best;
 }
 
+const LadderState& GaugeTable::StateNear(double arc_mm, double normal_N) const {
+  const auto row = std::min_element(
+      rows_.begin(), rows_.end(), [&](const Row& a, const Row& b) {
+        return std::abs(a.arc_mm - arc_mm) < std::abs(b.arc_mm - arc_mm);
+      });
+  return std::min_element(row->nodes.begin(), row->nodes.end(),
+                          [&](const Node& a, const Node& b) {
+                            return std::abs(a.normal_N - normal_N) <
+                                   std::abs(b.normal_N - normal_N);
+                          })
+      ->state;
+}
+
 void GaugeTable::FindStarts(const Eigen::VectorXd& values,
                             const Eigen::VectorXd& weights,
                             std::vector<ContactStart>* starts) const {

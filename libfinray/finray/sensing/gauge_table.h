@@ -29,6 +29,9 @@ class GaugeTable {
   void FindStarts(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
                   std::vector<ContactStart>* starts) const;
 
+  /// An equilibrium of the grid near that under one contact.
+  const LadderState& StateNear(double arc_mm, double normal_N) const;
+
   /// The heaviest force of the grid, 40 EI / l_0^2.
   double heaviest_N() const { return heaviest_N_; }
 

@@ -1,0 +1,60 @@
+#ifndef FINRAY_CALIB_FRAME_LINEARIZER_H_
+#define FINRAY_CALIB_FRAME_LINEARIZER_H_
+
+#include <array>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "finray/calib/linearized_frame.h"
+#include "finray/calib/measurement_blocks.h"
+#include "finray/statics/equilibrium.h"
+
+namespace finray {
+
+/// Evaluates frames one by one through their residual blocks, at the present
+/// values of the parameters, which it only reads. One for each thread.
+class FrameLinearizer {
+ public:
+  /// `blocks` and `parameters` must stay in place.
+  FrameLinearizer(const EquilibriumSolver& solver, const Plan& plan,
+                  const MeasurementBlocks* blocks,
+                  const CalibrationParameters* parameters);
+
+  /// The frame with its contact at (l_c, f_c) = `contact` (of no account for a
+  /// frame without). Equilibrium is sought from `*state` and left there. False
+  /// if the model cannot be evaluated.
+  bool Linearize(const CalibrationFrame& frame,
+                 const std::array<double, 2>& contact, LadderState* state,
+                 LinearizedFrame* out);
+
+  /// Moves the contact to where it explains the frame best, the parameters
+  /// being what they are: Gauss-Newton on l_c and f_c within their bounds,
+  /// until a further step would lower the cost by less than kSmallDecrease.
+  /// What is left of the way LinearizedFrame::Move knows well enough.
+  bool FitContact(const CalibrationFrame& frame, std::array<double, 2>* contact,
+                  LadderState* state, LinearizedFrame* out);
+  static constexpr double kSmallDecrease = 1e-5;  // in units of chi2 / 2
+
+ private:
+  // A frame's blocks about an evaluation at `unknowns`.
+  struct Model;
+
+  bool Evaluate(const CalibrationFrame& frame, Model* model,
+                LinearizedFrame* out);
+  void AddBlock(const MeasurementBlock& block, const double* contact,
+                int first_row, LinearizedFrame* out);
+
+  EquilibriumSolver solver_;
+  double friction_;
+  const MeasurementBlocks& blocks_;
+  const CalibrationParameters& parameters_;
+  std::unique_ptr<ceres::LossFunction> loss_;
+  std::unordered_map<const double*, int> column_of_;  // first one of a block
+  std::vector<std::vector<double>> scratch_;          // a Jacobian each
+  std::vector<double*> jacobians_;
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_CALIB_FRAME_LINEARIZER_H_

@@ -1,0 +1,168 @@
+#include "finray/calib/outliers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "finray/sensing/chi_squared.h"
+
+namespace finray {
+namespace {
+
+struct FrameChi2 {
+  int frame;
+  double chi2;
+  int dof;
+};
+
+// Wilson and Hilferty.
+double MedianOfChi2(int dof) { return dof * std::pow(1 - 2.0 / (9 * dof), 3); }
+
+int Dof(const CalibrationProblem& problem, int frame, std::size_t rows) {
+  return static_cast<int>(rows) -
+         (problem.logs().frames[frame].contact ? 2 : 0);
+}
+
+std::vector<FrameChi2> OfFittedFrames(CalibrationProblem* problem) {
+  const Linearization& at = problem->AtSolution();
+  std::vector<FrameChi2> frames;
+  for (std::size_t i = 0; i < at.rows.size();) {
+    const int frame = at.rows[i].frame;
+    double chi2 = 0;
+    const std::size_t first = i;
+    for (; i < at.rows.size() && at.rows[i].frame == frame; ++i) {
+      chi2 += at.residuals[i] * at.residuals[i];
+    }
+    frames.push_back({frame, chi2, Dof(*problem, frame, i - first)});
+  }
+  return frames;
+}
+
+std::string Name(const LinearizedFrame::Row& row) {
+  switch (row.family) {
+    case ResidualFamily::kGauge:
+    case ResidualFamily::kBench:
+      return "gauge " + std::to_string(row.gauge + 1);
+    case ResidualFamily::kForce:
+      return "force";
+    case ResidualFamily::kObject:
+      return "object's place";
+    case ResidualFamily::kContact:
+      return "contact's place";
+    case ResidualFamily::kPin:
+      return "a pin";
+    case ResidualFamily::kTip:
+      return "tip";
+  }
+  return "";
+}
+
+// The measurement without which the rest would fit best: chi2 would go down by
+// r^2 / (1 - leverage).
+std::string Reason(const LinearizedFrame& at, double chi2, int dof,
+                   double scale, double threshold) {
+  const Eigen::Matrix2d inverse =
+      PseudoInverse(at.by_contact.transpose() * at.by_contact);
+  std::map<std::string, double> gain;
+  std::map<std::string, int> rows;
+  for (std::size_t i = 0; i < at.rows.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const auto e = at.by_contact.row(row);
+    const double spare = std::max(1e-3, 1 - e.dot(inverse * e.transpose()));
+    const std::string name = Name(at.rows[i]);
+    gain[name] += at.residuals[row] * at.residuals[row] / spare;
+    ++rows[name];
+  }
+  const auto worst = std::max_element(
+      gain.begin(), gain.end(),
+      [](const auto& a, const auto& b) { return a.second < b.second; });
+  char text[160];
+  const int rest = dof - rows[worst->first];
+  if (rest < 1 || ChiSquaredTail((chi2 - worst->second) / (scale * scale),
+                                 rest) > threshold) {
+    std::snprintf(text, sizeof text, "%s is off by %.3g std",
+                  worst->first.c_str(), std::sqrt(worst->second));
+  } else {
+    std::snprintf(text, sizeof text,
+                  "measurements contradict each other (chi2 %.3g of %d), %s "
+                  "most of all",
+                  chi2, dof, worst->first.c_str());
+  }
+  return text;
+}
+
+// Of each frame with its contact where it explains it best; those that cannot
+// be evaluated go to `reasons`.
+std::vector<FrameChi2> Refit(const std::vector<int>& frames,
+                             CalibrationProblem* problem, Outliers* found) {
+  std::vector<FrameChi2> refitted;
+  LinearizedFrame at;
+  for (const int frame : frames) {
+    if (problem->LinearizeFrame(frame, &at)) {
+      refitted.push_back({frame, at.residuals.squaredNorm(),
+                          Dof(*problem, frame, at.rows.size())});
+    } else {
+      found->reasons.emplace(frame, "the finger cannot carry what it shows");
+    }
+  }
+  return refitted;
+}
+
+void SetScale(const std::vector<FrameChi2>& frames, Outliers* found) {
+  std::vector<double> ratios;
+  for (const FrameChi2& frame : frames) {
+    if (frame.dof > 0) ratios.push_back(frame.chi2 / MedianOfChi2(frame.dof));
+  }
+  if (ratios.empty()) return;
+  const auto middle = ratios.begin() + static_cast<long>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  found->scale = std::sqrt(std::max(1.0, *middle));
+}
+
+void Judge(const std::vector<FrameChi2>& frames, CalibrationProblem* problem,
+           Outliers* found) {
+  const double count = static_cast<double>(frames.size());
+  const double threshold = Outliers::kFalseAlarms / count;
+  LinearizedFrame at;
+  for (const FrameChi2& frame : frames) {
+    const bool explained =
+        frame.dof < 1 ||
+        ChiSquaredTail(frame.chi2 / (found->scale * found->scale), frame.dof) >
+            threshold;
+    if (explained || !problem->LinearizeFrame(frame.frame, &at)) continue;
+    found->reasons.emplace(frame.frame, Reason(at, frame.chi2, frame.dof,
+                                               found->scale, threshold));
+  }
+  found->too_many =
+      static_cast<double>(found->reasons.size()) > Outliers::kMostShare * count;
+  if (found->too_many) found->reasons.clear();
+}
+
+}  // namespace
+
+Outliers FindOutliers(CalibrationProblem* problem) {
+  Outliers found;
+  std::vector<FrameChi2> frames = OfFittedFrames(problem);
+  SetScale(frames, &found);
+  std::vector<int> rejected;
+  for (const auto& [frame, reason] : problem->rejected()) {
+    rejected.push_back(frame);
+  }
+  for (const FrameChi2& frame : Refit(rejected, problem, &found)) {
+    frames.push_back(frame);
+  }
+  Judge(frames, problem, &found);
+  return found;
+}
+
+Outliers FindOutliersAmong(const std::vector<int>& frames,
+                           CalibrationProblem* problem) {
+  Outliers found;
+  const std::vector<FrameChi2> refitted = Refit(frames, problem, &found);
+  SetScale(refitted, &found);
+  Judge(refitted, problem, &found);
+  return found;
+}
+
+}  // namespace finray

@@ -1,0 +1,101 @@
+#include "finray/calib/robust_solve.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "finray/calib/outliers.h"
+
+namespace finray {
+namespace {
+
+constexpr int kMostRounds = 6;
+constexpr int kFewIterations = 15;
+
+struct Start {
+  const char* name;
+  double front, back, gains;  // factors on the given finger
+};
+// Far enough to reach another basin if there is one.
+constexpr Start kStarts[] = {
+    {"as given", 1, 1, 1},
+    {"three times as stiff", 3, 3, 1},
+    {"a third as stiff", 1 / 3.0, 1 / 3.0, 1},
+    {"front stiffer, gains doubled", 2, 0.5, 2},
+    {"back stiffer, gains halved", 0.5, 2, 0.5},
+};
+
+Finger Changed(const CalibrationProblem& problem, const Start& start) {
+  Finger finger = problem.finger();
+  finger.front_stiffness_N_mm2 *= start.front;
+  finger.back_stiffness_N_mm2 *= start.back;
+  for (Gauge& gauge : finger.gauges) gauge.gain_V_per_rad *= start.gains;
+  return finger;
+}
+
+// Each start's solution, that with the least cost being left in the problem.
+std::vector<StartReport> SolveFromStarts(CalibrationProblem* problem) {
+  struct Solution {
+    StartReport report;
+    CalibrationProblem::Point point;
+  };
+  std::vector<Solution> solutions;
+  const Solution* best = nullptr;
+  solutions.reserve(std::size(kStarts));
+  for (const Start& start : kStarts) {
+    problem->StartFrom(Changed(*problem, start));
+    const SolveReport solve = problem->SolveSome();
+    StartReport report{
+        start.name, solve.converged, solve.iterations, solve.final_cost, 0,
+        false};
+    solutions.push_back({report, problem->Save()});
+  }
+  for (const Solution& solution : solutions) {
+    const StartReport& report = solution.report;
+    if (best == nullptr || (report.converged && !best->report.converged) ||
+        (report.converged == best->report.converged &&
+         report.cost < best->report.cost * (1 - 1e-6))) {
+      best = &solution;
+    }
+  }
+  problem->Restore(best->point);
+  const Eigen::MatrixXd information = problem->InformationOfSome();
+  std::vector<StartReport> reports;
+  for (Solution& solution : solutions) {
+    const Eigen::VectorXd off = solution.point.values - best->point.values;
+    solution.report.distance_std =
+        std::sqrt(std::max(0.0, off.dot(information * off)));
+    solution.report.agrees =
+        solution.report.converged &&
+        solution.report.distance_std < StartReport::kSameSolution;
+    reports.push_back(solution.report);
+  }
+  return reports;
+}
+
+}  // namespace
+
+RobustSolution SolveRobustly(CalibrationProblem* problem) {
+  RobustSolution result;
+  problem->SolveSome(kFewIterations);
+  problem->SetRejected(
+      FindOutliersAmong(problem->SomeFrames(), problem).reasons);
+  result.starts = SolveFromStarts(problem);
+  result.solve = problem->Solve();
+  for (; result.rounds < kMostRounds; ++result.rounds) {
+    const Outliers outliers = FindOutliers(problem);
+    result.outliers_too_many = outliers.too_many;
+    const auto same_frame = [](const auto& a, const auto& b) {
+      return a.first == b.first;
+    };
+    if (outliers.reasons.size() == problem->rejected().size() &&
+        std::equal(outliers.reasons.begin(), outliers.reasons.end(),
+                   problem->rejected().begin(), same_frame)) {
+      break;
+    }
+    problem->SetRejected(outliers.reasons);
+    result.solve = problem->Solve();
+  }
+  return result;
+}
+
+}  // namespace finray
