@@ -9,6 +9,7 @@
 #include "finray/io/log_list.h"
 #include "finray/io/python_script.h"
 #include "finray/perception/compliance_files.h"
+#include "outputs.h"
 
 DEFINE_string(finger, "", "finger YAML, best a calibrated one");
 DEFINE_string(scene, "",
@@ -174,6 +175,9 @@ int Run() {
     }
   }
   const std::vector<ComplianceLog> logs = ReadLogs(first.scene, &inputs);
+  RefuseToOverwrite(inputs,
+                    {InFolder("points.csv"), InFolder("stiffness.csv"),
+                     InFolder("laws.csv"), InFolder("compliance.yaml")});
   const Compliance found = MeasureCompliance(
       logs, first, second ? &*second : nullptr, discretization, settings);
 

@@ -9,6 +9,7 @@
 #include "finray/io/python_script.h"
 #include "finray/perception/interior_envelope.h"
 #include "finray/perception/reconstruction_files.h"
+#include "outputs.h"
 
 DEFINE_string(finger, "", "finger YAML, best a calibrated one");
 DEFINE_string(scene, "", "scene YAML; without it contacts: auto");
@@ -103,6 +104,13 @@ int Run() {
   if (SplitList(log).size() != 1) {
     throw UsageError("--logs: expected one log, the touches of one object");
   }
+  std::vector<std::string> inputs = {FLAGS_finger, log};
+  for (const std::string& path : {FLAGS_scene, FLAGS_truth}) {
+    if (!path.empty()) inputs.push_back(path);
+  }
+  RefuseToOverwrite(inputs,
+                    {InFolder("outline.csv"), InFolder("touches.csv"),
+                     InFolder("beams.csv"), InFolder("reconstruction.yaml")});
   const FrameTable table = FrameTable::Read(log, scene.columns);
   std::optional<Polygon> truth;
   if (!FLAGS_truth.empty()) truth = ReadOutline(FLAGS_truth);
@@ -121,12 +129,9 @@ int Run() {
       InteriorEnvelope(found.touches.usable, FLAGS_envelope_mm),
       FLAGS_descriptors);
   std::optional<RadialError> error, envelope_error;
-  std::vector<std::string> inputs = {FLAGS_finger, log};
-  if (!FLAGS_scene.empty()) inputs.push_back(FLAGS_scene);
   if (truth) {
     error = CompareRadii(found.polygon(), *truth);
     envelope_error = CompareRadii(envelope.Sampled(kDrawnPoints), *truth);
-    inputs.push_back(FLAGS_truth);
   }
 
   MakeFolder(FLAGS_out_dir);

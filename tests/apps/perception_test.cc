@@ -73,6 +73,15 @@ TEST_F(PerceptionCommandTest, BadFlagsAndFiles) {
                  "bad.csv:3: y_mm: expected a number, found 'b'");
 }
 
+TEST_F(PerceptionCommandTest, DoesNotWriteOverItsInput) {
+  WriteTouches(24, 24);
+  const Outcome outcome =
+      Run("finray_reconstruct",
+          "--finger " + paper_ + " --logs %touches.csv --out_dir %");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("would be written over"));
+}
+
 TEST_F(PerceptionCommandTest, SortsTwoSprings) {
   for (const double stiffness : {0.5, 2.0}) {
     SimulateSlider(PaperFinger(), [=](double u) { return stiffness * u; }, {},

@@ -19,8 +19,11 @@ constexpr int kBeamPoints = 281;
 class TouchReader {
  public:
   TouchReader(const FrameTable& table, const Finger& finger)
-      : table_(table), names_(table.headers()) {
-    for (const char* name : {"object_x_mm", "object_y_mm"}) table.Numbers(name);
+      : table_(table),
+        names_(table.headers()),
+        x_(table.Numbers("object_x_mm")),
+        y_(table.Numbers("object_y_mm")),
+        angle_deg_(table.NumbersOrNan("object_angle_deg")) {
     for (const std::string& name : names_) {
       cells_.push_back(FrameTable::IsVocabulary(name) ? &table.Numbers(name)
                                                       : nullptr);
@@ -28,15 +31,20 @@ class TouchReader {
     const bool gauges = table.Has(GaugeVolts(0)) || table.Has(GaugeAngle(0));
     if (gauges || !table.Has(ContactArc(0))) {
       columns_.emplace(finger, names_, table.path());
+      return;
+    }
+    for (int c = 0; c < kFittedContacts && table.Has(ContactArc(c)); ++c) {
+      given_.push_back(
+          {&table.Numbers(ContactArc(c)), &table.Numbers(ContactArcStd(c)),
+           &table.Numbers(NormalForce(c)), &table.Numbers(NormalForceStd(c))});
     }
   }
 
   bool estimated() const { return !columns_; }
 
   ObjectPose Pose(std::size_t row) const {
-    const double angle = table_.NumbersOrNan("object_angle_deg")[row];
-    const ObjectPose pose{{table_.Numbers("object_x_mm")[row],
-                           table_.Numbers("object_y_mm")[row]},
+    const double angle = angle_deg_[row];
+    const ObjectPose pose{{x_[row], y_[row]},
                           (std::isnan(angle) ? 0 : angle) * M_PI / 180};
     if (!pose.position_mm.allFinite()) {
       throw InputError(Place(row) +
@@ -59,12 +67,11 @@ class TouchReader {
     std::vector<Vector2d> std;
     SensedFrame frame;
     frame.status = FrameStatus::kNoContact;
-    for (int c = 0; c < kFittedContacts; ++c) {
-      const double arc = table_.NumbersOrNan(ContactArc(c))[row];
-      const double normal = table_.NumbersOrNan(NormalForce(c))[row];
+    for (std::size_t c = 0; c < given_.size(); ++c) {
+      const Given& given = given_[c];
+      const double arc = (*given.arc)[row], normal = (*given.normal)[row];
       if (std::isnan(arc) || !(normal > 0)) continue;
-      const Vector2d errors(table_.Numbers(ContactArcStd(c))[row],
-                            table_.Numbers(NormalForceStd(c))[row]);
+      const Vector2d errors((*given.arc_std)[row], (*given.normal_std)[row]);
       if (!errors.allFinite()) {
         throw InputError(Place(row) + "contact " + std::to_string(c + 1) +
                          " has no std");
@@ -81,8 +88,15 @@ class TouchReader {
     return table_.path() + ":" + std::to_string(table_.line(row)) + ": ";
   }
 
+  struct Given {
+    const std::vector<double>*arc, *arc_std, *normal, *normal_std;
+  };
+
   const FrameTable& table_;
   std::vector<std::string> names_;
+  const std::vector<double>&x_, &y_;
+  std::vector<double> angle_deg_;
+  std::vector<Given> given_;  // contacts of a table without gauges
   std::vector<const std::vector<double>*> cells_;
   std::optional<ReadingColumns> columns_;
 };
