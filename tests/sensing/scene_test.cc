@@ -74,7 +74,7 @@ TEST(SceneTest, BadObjectsNameTheirPlace) {
                 ThrowsMessage<InputError>(HasSubstr(message)));
   };
   error("shape: support_series, radius_mm: 9, harmonics_mm: [[0,0], [4, 0]]",
-        "scene.yaml:2:63: harmonics_mm: the outline is not convex");
+        "scene.yaml:2:61: harmonics_mm: the outline is not convex");
   error("shape: ellipse, radius_mm: 3", "scene.yaml:2:26: unknown key");
   error("shape: ellipse, semi_axis_y_mn: 3", "did you mean 'semi_axis_y_mm'?");
   error("shape: elipse", "(did you mean 'ellipse'?)");

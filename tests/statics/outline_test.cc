@@ -17,7 +17,7 @@ std::vector<Outline> Outlines() {
       Outline(EllipseOutline{3, 20}),
       Outline(RoundedPolygonOutline{{{-8, -5}, {9, -4}, {6, 7}, {-7, 6}}, 2.5}),
       Outline(RoundedPolygonOutline{{{-10, 3}, {10, 3}}, 4}),
-      Outline(SupportOutline{9, {{2, -1}, {0.5, 0.4}, {0.3, -0.2}}})};
+      Outline(SupportOutline{9, {{2, -1}, {0.2, 0.1}, {0.05, -0.03}}})};
 }
 
 Vector2d Direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
