@@ -21,6 +21,9 @@ DEFINE_bool(report, true, "render report.html");
 DEFINE_bool(
     leave_one_log_out, true,
     "with several logs: repeat without each, to see whether they agree");
+DEFINE_bool(check_weighted, false,
+            "solve once more with equilibrium as weighted residuals, and "
+            "compare");
 
 namespace {
 
@@ -83,6 +86,13 @@ void PrintSummary(finray::CalibrationProblem& problem,
   } else {
     std::printf("not known: no reference force in the logs\n");
   }
+  if (result.weighted) {
+    std::printf(
+        "weighted form  %s; values differ by %.1g std, std by %.1g of "
+        "themselves\n",
+        result.weighted->weighted.converged ? "converged" : "did not converge",
+        result.weighted->value_difference_std, result.weighted->std_difference);
+  }
   std::printf("next           %s\n",
               result.next.empty()
                   ? "no 20 frames would shrink the worst direction by a tenth"
@@ -114,14 +124,22 @@ int Run() {
   CalibrationProblem problem(finger, plan,
                              ReadCalibrationLogs(paths, finger, plan),
                              discretization, FLAGS_threads);
-  const CalibrationResult result = Calibrate(
-      &problem, discretization, FLAGS_threads, FLAGS_leave_one_log_out);
+  CalibrationResult result = Calibrate(&problem, discretization, FLAGS_threads,
+                                       FLAGS_leave_one_log_out);
+  if (FLAGS_check_weighted) {
+    // Ceres takes a shorter step where a factorisation fails, and says so.
+    const int level = FLAGS_minloglevel;
+    FLAGS_minloglevel = google::GLOG_ERROR;
+    result.weighted = CheckWeighted(&problem);
+    FLAGS_minloglevel = level;
+  }
 
   std::string command =
       "finray_calibrate --finger " + FLAGS_finger + " --plan " + FLAGS_plan +
       " --logs " + FLAGS_logs + " --out_dir " + FLAGS_out_dir + " --scheme " +
       FLAGS_scheme + " --resolution " + std::to_string(FLAGS_resolution) +
-      (FLAGS_leave_one_log_out ? "" : " --leave_one_log_out=false");
+      (FLAGS_leave_one_log_out ? "" : " --leave_one_log_out=false") +
+      (FLAGS_check_weighted ? " --check_weighted" : "");
   MakeFolder(FLAGS_out_dir);
   WriteFileAtomically(
       InFolder("calibration.yaml"),

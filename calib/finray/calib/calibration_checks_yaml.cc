@@ -115,6 +115,18 @@ void EmitStarts(const std::vector<StartReport>& starts, YAML::Emitter* yaml) {
   *yaml << YAML::EndSeq;
 }
 
+void EmitWeighted(const WeightedCheck& check, YAML::Emitter* yaml) {
+  *yaml << YAML::Key << "weighted_check" << YAML::Value << YAML::Flow
+        << YAML::BeginMap;
+  YamlPair(yaml, "frames", check.frames);
+  YamlPair(yaml, "converged", check.weighted.converged);
+  YamlPair(yaml, "iterations", check.weighted.iterations);
+  YamlPair(yaml, "value_difference_std",
+           YamlNumber(check.value_difference_std));
+  YamlPair(yaml, "std_difference", YamlNumber(check.std_difference));
+  *yaml << YAML::EndMap;
+}
+
 void EmitRejected(const CalibrationProblem& problem, YAML::Emitter* yaml) {
   *yaml << YAML::Key << "rejected_frames" << YAML::Value << YAML::BeginSeq;
   for (const auto& [index, reason] : problem.rejected()) {
@@ -134,6 +146,7 @@ void EmitChecks(CalibrationProblem& problem, const CalibrationResult& result,
                 YAML::Emitter* yaml) {
   EmitStarts(result.solution.starts, yaml);
   EmitRejected(problem, yaml);
+  if (result.weighted) EmitWeighted(*result.weighted, yaml);
   EmitErrors(result, yaml);
   EmitCorrelation(problem, result.residual_correlation, yaml);
   EmitLeaveOneLogOut(problem, result.leave_one_log_out, yaml);

@@ -25,6 +25,19 @@ constexpr std::size_t kLeastOfLog = 50;
 // States of more frames would take more memory than they save time.
 constexpr std::size_t kMostStates = 50000;
 constexpr std::size_t kBatch = 256;  // of frames, visited in one go
+// Gradients, per std, at which a solve ends: 1e-6 of a std from the minimum,
+// or, of many frames, a hundredth.
+constexpr double kNear = 1e-6, kNearEnough = 1e-2;
+// Along what the data and priors say less of than this, in units of the priors
+// or scales, nothing is moved: that would be rounding.
+constexpr double kLeastInformation = 1e-8;
+
+double WithoutLastDigits(double value) {
+  // Seven digits are left, much less than a std.
+  int exponent;
+  const double mantissa = std::frexp(value, &exponent);
+  return std::ldexp(std::nearbyint(std::ldexp(mantissa, 24)), exponent - 24);
+}
 
 }  // namespace
 
@@ -155,13 +168,30 @@ LadderState* CalibrationProblem::StateOf(int frame, LadderState* scratch) {
 
 SolveReport CalibrationProblem::Solve() {
   at_solution_.reset();
-  if (fitted_.size() <= kMostJoint) return SolveJointly(fitted_);
-  SolveReport report = SolveJointly(SpreadFrames(kJoint));
+  const bool few = fitted_.size() <= kMostJoint;
+  SolveReport report = SolveJointly(few ? fitted_ : SpreadFrames(kJoint));
   // Then one step or two are left for all of them.
   if (fitted_.size() > 4 * kSummed) {
-    report = SolveSummed(SpreadFrames(kSummed), report);
+    report = SolveSummed(SpreadFrames(kSummed), report, kNearEnough);
   }
-  return SolveSummed(fitted_, report);
+  ForgetLastDigits();
+  return SolveSummed(fitted_, report, few ? kNear : kNearEnough);
+}
+
+// What Ceres leaves differs in the last digits from run to run, as Schur
+// complements are summed in another order. The sum over frames is the same
+// whatever the number of threads: from the same start it gives the same result,
+// bit by bit.
+void CalibrationProblem::ForgetLastDigits() {
+  Eigen::VectorXd values = Values();
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    values[k] = WithoutLastDigits(values[k]);
+  }
+  SetValues(values);
+  for (auto& contact : contacts_) {
+    for (double& value : contact) value = WithoutLastDigits(value);
+  }
+  for (LadderState& state : states_) state.q.resize(0);
 }
 
 std::vector<int> CalibrationProblem::SomeFrames() const {
@@ -197,8 +227,73 @@ SolveReport CalibrationProblem::SolveJointly(const std::vector<int>& frames,
       .Solve(most_iterations);
 }
 
+SolveReport CalibrationProblem::SolveSomeWeighted(
+    Eigen::MatrixXd* information) {
+  at_solution_.reset();
+  const std::vector<int> frames = SomeFrames();
+  const Finger finger = parameters_.Apply(finger_);
+  EquilibriumSolver solver(finger, discretization_);
+  std::vector<std::vector<double>> unknowns;
+  std::size_t size = 0;
+  for (const int i : frames) {
+    const CalibrationFrame& frame = logs_.frames[i];
+    unknowns.emplace_back();
+    if (frame.IsBench()) continue;
+    std::vector<PointContact> contacts;
+    if (frame.contact) {
+      contacts.push_back(
+          {contacts_[i][0], contacts_[i][1], plan_.scene.friction_coefficient});
+    }
+    if (!solver.Solve(contacts)) {
+      throw std::runtime_error("the model cannot be evaluated at the solution");
+    }
+    const Eigen::VectorXd q = solver.state().q;
+    unknowns.back().assign(q.data(), q.data() + q.size());
+    if (frame.contact) {
+      unknowns.back().insert(unknowns.back().end(), contacts_[i].begin(),
+                             contacts_[i].end());
+    }
+    size += unknowns.back().size();
+  }
+  // In one piece: Ceres eliminates them in the order of their addresses.
+  std::vector<double> all;
+  all.reserve(size);
+  std::vector<LadderState> states(frames.size());
+  std::vector<JointSolve::Frame> joint;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    double* first = unknowns[k].empty() ? nullptr : all.data() + all.size();
+    all.insert(all.end(), unknowns[k].begin(), unknowns[k].end());
+    joint.push_back({&logs_.frames[frames[k]], first, &states[k]});
+  }
+  JointSolve solve(finger_, discretization_, plan_, blocks_, &parameters_,
+                   joint, threads_, EquilibriumForm::kWeighted);
+  const SolveReport report = solve.Solve(kMostIterations);
+  *information = solve.Information();
+  return report;
+}
+
+// Columns are changes of one std along the directions that are determined.
+Eigen::MatrixXd CalibrationProblem::DeterminedUnits(
+    const Eigen::MatrixXd& information) const {
+  Eigen::VectorXd unit(information.rows());
+  for (Eigen::Index k = 0; k < unit.size(); ++k) {
+    const CalibrationParameter& p =
+        parameters_.all()[parameters_.free()[static_cast<std::size_t>(k)]];
+    unit[k] = p.prior_std.value_or(p.scale);
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      unit.asDiagonal() * information * unit.asDiagonal());
+  const auto weak =
+      std::count_if(eigen.eigenvalues().begin(), eigen.eigenvalues().end(),
+                    [](double value) { return value < kLeastInformation; });
+  const Eigen::Index kept = unit.size() - weak;
+  return unit.asDiagonal() * eigen.eigenvectors().rightCols(kept) *
+         eigen.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+}
+
 SolveReport CalibrationProblem::SolveSummed(const std::vector<int>& frames,
-                                            const SolveReport& before) {
+                                            const SolveReport& before,
+                                            double gradient_tolerance) {
   GuessContacts(frames, ContactGuess::From::kAll);
   const Eigen::VectorXd start = Values();
   summed_at_.resize(0);
@@ -206,15 +301,11 @@ SolveReport CalibrationProblem::SolveSummed(const std::vector<int>& frames,
   if (!Sum(frames, start, &sums)) {
     throw std::runtime_error("the model cannot be evaluated at the start");
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(sums.information);
-  const Eigen::VectorXd value = eigen.eigenvalues();
-  const double least = 1e-14 * value[value.size() - 1];
-  const Eigen::MatrixXd units =
-      eigen.eigenvectors() *
-      value.cwiseMax(least).cwiseSqrt().cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd units = DeterminedUnits(sums.information);
+  if (units.cols() == 0) return before;
 
   ceres::Problem problem;
-  Eigen::VectorXd z = Eigen::VectorXd::Zero(start.size());
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(units.cols());
   problem.AddResidualBlock(
       new FrameSumResidual(start, units, sums,
                            [&](const Eigen::VectorXd& x, FrameSums* at) {
@@ -227,7 +318,7 @@ SolveReport CalibrationProblem::SolveSummed(const std::vector<int>& frames,
   options.initial_trust_region_radius = 1e10;
   options.max_trust_region_radius = 1e16;
   // z counts in standard deviations.
-  options.gradient_tolerance = 1e-2;
+  options.gradient_tolerance = gradient_tolerance;
   options.function_tolerance = 0;
   options.parameter_tolerance = 0;
   ceres::Solver::Summary summary;
@@ -348,9 +439,15 @@ void CalibrationProblem::VisitFrames(
   }
 }
 
-bool CalibrationProblem::LinearizeFrame(int frame, LinearizedFrame* out) {
+bool CalibrationProblem::LinearizeFrame(int frame, bool robust,
+                                        LinearizedFrame* out) {
   GuessContacts({frame}, ContactGuess::From::kAll);
-  FrameLinearizer linearizer(solver_, plan_, &blocks_, &parameters_);
+  Plan plan = plan_;
+  if (robust) {
+    plan.loss = RobustLoss::kCauchy;
+    plan.loss_scale = 1;
+  }
+  FrameLinearizer linearizer(solver_, plan, &blocks_, &parameters_);
   LadderState scratch;
   std::array<double, 2> contact = contacts_[frame];
   LadderState state = *StateOf(frame, &scratch);

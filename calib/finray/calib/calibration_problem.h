@@ -31,9 +31,10 @@ class CalibrationProblem {
                      int threads);
   CalibrationProblem(const CalibrationProblem&) = delete;
 
-  /// From the present values, by JointSolve; if there are more than kMostJoint
-  /// frames, first of some kJoint of them, evenly spread, and from where these
-  /// lead to by FrameSumResidual, of kSummed and of all.
+  /// From the present values, by JointSolve of all frames, or if there are more
+  /// than kMostJoint, of some kJoint, evenly spread. From where that leads to
+  /// by FrameSumResidual, of many frames first of some kSummed, then of all.
+  /// The result does not depend on the number of threads.
   SolveReport Solve();
   static constexpr std::size_t kMostJoint = 1000, kJoint = 500, kSummed = 20000;
 
@@ -42,6 +43,9 @@ class CalibrationProblem {
   std::vector<int> SomeFrames() const;
   SolveReport SolveSome(int most_iterations = kMostIterations);
   Eigen::MatrixXd InformationOfSome();
+  /// The same in the weighted form, from the present values, which it changes;
+  /// `information` is that of the frames alone.
+  SolveReport SolveSomeWeighted(Eigen::MatrixXd* information);
   static constexpr int kMostIterations = 200;
 
   /// Values and contacts, to come back to.
@@ -71,9 +75,9 @@ class CalibrationProblem {
   /// through this class.
   const Linearization& AtSolution();
 
-  /// One frame, fitted or not, its contact where it explains it best. False if
-  /// the model cannot be evaluated.
-  bool LinearizeFrame(int frame, LinearizedFrame* out);
+  /// One frame, fitted or not, its contact where it explains it best; `robust`:
+  /// most of it, by Cauchy's loss. False if the model cannot be evaluated.
+  bool LinearizeFrame(int frame, bool robust, LinearizedFrame* out);
 
   /// Frames to be left out, and why; others that were come back.
   void SetRejected(std::map<int, std::string> reasons);
@@ -101,7 +105,9 @@ class CalibrationProblem {
   SolveReport SolveJointly(const std::vector<int>& frames,
                            int most_iterations = kMostIterations);
   SolveReport SolveSummed(const std::vector<int>& frames,
-                          const SolveReport& before);
+                          const SolveReport& before, double gradient_tolerance);
+  void ForgetLastDigits();
+  Eigen::MatrixXd DeterminedUnits(const Eigen::MatrixXd& information) const;
   bool Sum(const std::vector<int>& frames, const Eigen::VectorXd& at,
            FrameSums* sums);
   void MoveContacts(const std::vector<int>& frames,

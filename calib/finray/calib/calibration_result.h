@@ -1,6 +1,7 @@
 #ifndef FINRAY_CALIB_CALIBRATION_RESULT_H_
 #define FINRAY_CALIB_CALIBRATION_RESULT_H_
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "finray/calib/residual_correlation.h"
 #include "finray/calib/robust_solve.h"
 #include "finray/calib/unsupported.h"
+#include "finray/calib/weighted_check.h"
 #include "finray/io/frame_table.h"
 
 namespace finray {
@@ -41,6 +43,7 @@ struct CalibrationResult {
   } fitted, held_out;
   ResidualCorrelation residual_correlation;
   std::vector<Unsupported> unsupported;
+  std::optional<WeightedCheck> weighted;  ///< where asked for
   LeaveOneLogOut leave_one_log_out;
   std::vector<FrameAdvice> next;      ///< what to record next
   std::vector<BenchLinearity> bench;  ///< by gauge, where there are readings

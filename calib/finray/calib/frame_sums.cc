@@ -34,9 +34,9 @@ FrameSumResidual::FrameSumResidual(const Eigen::VectorXd& start,
     : start_(start),
       units_(units),
       evaluator_(std::move(evaluator)),
-      at_(Eigen::VectorXd::Zero(start.size())),
+      at_(Eigen::VectorXd::Zero(units.cols())),
       valid_(true) {
-  const int n = static_cast<int>(start.size());
+  const int n = static_cast<int>(units.cols());
   set_num_residuals(n + 1);
   mutable_parameter_block_sizes()->push_back(n);
   Compress(at_start);
@@ -52,7 +52,7 @@ bool FrameSumResidual::EvaluateAt(const Eigen::VectorXd& z) const {
 }
 
 void FrameSumResidual::Compress(const FrameSums& sums) const {
-  const Eigen::Index n = start_.size();
+  const Eigen::Index n = units_.cols();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
       units_.transpose() * sums.information * units_);
   // Along what the frames do not say there is no gradient, but rounding.
@@ -73,7 +73,7 @@ void FrameSumResidual::Compress(const FrameSums& sums) const {
 
 bool FrameSumResidual::Evaluate(double const* const* parameters,
                                 double* residuals, double** jacobians) const {
-  const Eigen::Index n = start_.size();
+  const Eigen::Index n = units_.cols();
   if (!EvaluateAt(Eigen::Map<const Eigen::VectorXd>(parameters[0], n))) {
     return false;
   }

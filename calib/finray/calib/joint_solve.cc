@@ -1,12 +1,17 @@
 #include "finray/calib/joint_solve.h"
 
+#include <ceres/crs_matrix.h>
 #include <ceres/ordered_groups.h>
 #include <ceres/solver.h>
 
+#include <Eigen/QR>
 #include <algorithm>
+#include <stdexcept>
 #include <unordered_set>
 
+#include "finray/residuals/equilibrium_residual.h"
 #include "finray/residuals/parameter_prior_residual.h"
+#include "finray/residuals/rib_length_residual.h"
 
 namespace finray {
 
@@ -14,12 +19,13 @@ JointSolve::JointSolve(const Finger& finger,
                        const Discretization& discretization, const Plan& plan,
                        const MeasurementBlocks& blocks,
                        CalibrationParameters* parameters,
-                       const std::vector<Frame>& frames, int threads)
-    : plan_(plan),
+                       const std::vector<Frame>& frames, int threads,
+                       EquilibriumForm form)
+    : finger_(finger),
+      plan_(plan),
       parameters_(*parameters),
-      length_mm_(finger.front_length_mm),
-      evaluations_(finger, discretization, EquilibriumForm::kReduced,
-                   &parameters->shared, threads),
+      form_(form),
+      evaluations_(finger, discretization, form, &parameters->shared, threads),
       frames_(frames),
       loss_(MakeLoss(plan)) {
   ceres::Problem::Options options;
@@ -34,21 +40,35 @@ JointSolve::JointSolve(const Finger& finger,
 void JointSolve::AddFrame(const Frame& frame, const MeasurementBlocks& blocks) {
   FrameEvaluation* evaluation = nullptr;
   if (!frame.frame->IsBench()) {
-    evaluation = &evaluations_.Add(frame.contact != nullptr ? 1 : 0,
+    evaluation = &evaluations_.Add(frame.frame->contact ? 1 : 0,
                                    plan_.scene.friction_coefficient,
-                                   frame.contact, !frame.frame->pins.empty());
+                                   frame.unknowns, !frame.frame->pins.empty());
     if (frame.state->q.size() > 0) evaluation->set_state(*frame.state);
   }
   evaluation_of_.push_back(evaluation);
+  blocks_of_.emplace_back();
   for (MeasurementBlock& block :
-       blocks.Of(*frame.frame, evaluation, frame.contact)) {
-    problem_->AddResidualBlock(block.cost.release(), loss_.get(),
-                               block.parameters);
+       blocks.Of(*frame.frame, evaluation, frame.unknowns)) {
+    blocks_of_.back().push_back(problem_->AddResidualBlock(
+        block.cost.release(), loss_.get(), block.parameters));
   }
-  if (frame.contact == nullptr) return;
-  problem_->SetParameterLowerBound(frame.contact, 0, 0);
-  problem_->SetParameterUpperBound(frame.contact, 0, length_mm_);
-  problem_->SetParameterLowerBound(frame.contact, 1, 0);
+  if (form_ == EquilibriumForm::kWeighted && evaluation != nullptr) {
+    SharedParameters& shared = parameters_.shared;
+    const std::vector<double*> model = FrameParameterBlocks(
+        *evaluation, frame.unknowns, &shared.ln_front_stiffness,
+        &shared.ln_back_stiffness, shared.rib_lengths_mm.data());
+    for (ceres::CostFunction* cost :
+         {EquilibriumResidual::Create(evaluation, finger_, kEquilibriumWeight),
+          RibLengthResidual::Create(evaluation, finger_, kEquilibriumWeight)}) {
+      blocks_of_.back().push_back(
+          problem_->AddResidualBlock(cost, nullptr, model));
+    }
+  }
+  if (!frame.frame->contact) return;
+  const int at = evaluation->contact_offset(0);
+  problem_->SetParameterLowerBound(frame.unknowns, at, 0);
+  problem_->SetParameterUpperBound(frame.unknowns, at, finger_.front_length_mm);
+  problem_->SetParameterLowerBound(frame.unknowns, at + 1, 0);
 }
 
 void JointSolve::AddPriors() {
@@ -76,7 +96,7 @@ void JointSolve::FixWhatIsNotFree() {
   for (const int i : parameters_.free()) {
     varied.insert(parameters_.all()[i].block);
   }
-  for (const Frame& frame : frames_) varied.insert(frame.contact);
+  for (const Frame& frame : frames_) varied.insert(frame.unknowns);
   std::vector<double*> blocks;
   problem_->GetParameterBlocks(&blocks);
   for (double* block : blocks) {
@@ -98,13 +118,13 @@ SolveReport JointSolve::Solve(int most_iterations) {
   std::vector<double*> all;
   problem_->GetParameterBlocks(&all);
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
-  std::unordered_set<double*> contacts;
+  std::unordered_set<double*> unknowns;
   for (const Frame& frame : frames_) {
-    if (frame.contact == nullptr) continue;
-    contacts.insert(frame.contact);
-    ordering->AddElementToGroup(frame.contact, 0);
+    if (frame.unknowns == nullptr) continue;
+    unknowns.insert(frame.unknowns);
+    ordering->AddElementToGroup(frame.unknowns, 0);
   }
-  if (contacts.empty()) {
+  if (unknowns.empty()) {
     options.linear_solver_type = ceres::DENSE_QR;
   } else {
     options.linear_solver_type = ceres::DENSE_SCHUR;
@@ -112,7 +132,7 @@ SolveReport JointSolve::Solve(int most_iterations) {
     // address, and results would depend on where the heap put things.
     int group = 1;
     for (double* block : all) {
-      if (contacts.count(block) == 0)
+      if (unknowns.count(block) == 0)
         ordering->AddElementToGroup(block, group++);
     }
     options.linear_solver_ordering = ordering;
@@ -132,6 +152,52 @@ SolveReport JointSolve::Solve(int most_iterations) {
   report.final_cost = summary.final_cost;
   report.message = summary.message;
   return report;
+}
+
+Eigen::MatrixXd JointSolve::Information() {
+  const auto n = static_cast<Eigen::Index>(parameters_.free().size());
+  ceres::Problem::EvaluateOptions options;
+  std::vector<Eigen::Index> column_of;  // of Ceres' columns
+  for (std::size_t k = 0; k < parameters_.free().size(); ++k) {
+    const CalibrationParameter& p = parameters_.all()[parameters_.free()[k]];
+    if (!problem_->HasParameterBlock(p.block)) continue;
+    column_of.push_back(static_cast<Eigen::Index>(k));
+    if (options.parameter_blocks.empty() ||
+        options.parameter_blocks.back() != p.block) {
+      options.parameter_blocks.push_back(p.block);
+    }
+  }
+  const auto shared = static_cast<int>(column_of.size());
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    options.residual_blocks = blocks_of_[i];
+    ceres::Problem::EvaluateOptions of_frame = options;
+    if (frames_[i].unknowns != nullptr) {
+      of_frame.parameter_blocks.push_back(frames_[i].unknowns);
+    }
+    ceres::CRSMatrix sparse;
+    if (!problem_->Evaluate(of_frame, nullptr, nullptr, nullptr, &sparse)) {
+      throw std::runtime_error("the model cannot be evaluated at the solution");
+    }
+    Eigen::MatrixXd c = Eigen::MatrixXd::Zero(sparse.num_rows, n);
+    Eigen::MatrixXd e =
+        Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols - shared);
+    for (int row = 0; row < sparse.num_rows; ++row) {
+      for (int k = sparse.rows[row]; k < sparse.rows[row + 1]; ++k) {
+        const int column = sparse.cols[k];
+        (column < shared ? c(row, column_of[column])
+                         : e(row, column - shared)) = sparse.values[k];
+      }
+    }
+    if (e.cols() > 0) {
+      const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(e);
+      c = (qr.householderQ().adjoint() * c)
+              .bottomRows(c.rows() - qr.rank())
+              .eval();
+    }
+    information.noalias() += c.transpose() * c;
+  }
+  return information;
 }
 
 }  // namespace finray

@@ -27,37 +27,48 @@ struct SolveReport {
 /// contacts need not be where they explain their frame best before the gains
 /// are known. Memory and time go with the number of frames: some thousand are
 /// plenty to come near enough for FrameSumResidual.
+///
+/// In the weighted form base loads and rib tensions are unknowns of a frame as
+/// well, and equilibrium is one of its residuals.
 class JointSolve {
  public:
-  /// A frame and where its contact is kept; null without one.
+  /// A frame and where its unknowns are kept (those of FrameEvaluation: the
+  /// contact, in the weighted form behind q); null without any.
   struct Frame {
     const CalibrationFrame* frame;
-    double* contact;
+    double* unknowns;
     LadderState* state;  ///< to start from, and left at the solution
   };
 
-  /// All pointers must stay in place. `contact` pointers ascend with the
-  /// frames.
+  /// All pointers must stay in place; those to unknowns ascend with the frames.
   JointSolve(const Finger& finger, const Discretization& discretization,
              const Plan& plan, const MeasurementBlocks& blocks,
              CalibrationParameters* parameters,
-             const std::vector<Frame>& frames, int threads);
+             const std::vector<Frame>& frames, int threads,
+             EquilibriumForm form = EquilibriumForm::kReduced);
+  static constexpr double kEquilibriumWeight = 1e6;
 
   SolveReport Solve(int most_iterations);
+
+  /// What the frames say of the free parameters, S, their unknowns being
+  /// eliminated by orthogonal projection.
+  Eigen::MatrixXd Information();
 
  private:
   void AddFrame(const Frame& frame, const MeasurementBlocks& blocks);
   void AddPriors();
   void FixWhatIsNotFree();
 
+  const Finger& finger_;
   const Plan& plan_;
   CalibrationParameters& parameters_;
-  double length_mm_;
+  EquilibriumForm form_;
   FrameSet evaluations_;
   std::vector<Frame> frames_;
   std::vector<FrameEvaluation*> evaluation_of_;  // null on the bench
   std::unique_ptr<ceres::LossFunction> loss_;
   std::unique_ptr<ceres::Problem> problem_;
+  std::vector<std::vector<ceres::ResidualBlockId>> blocks_of_;  // by frame
 };
 
 }  // namespace finray

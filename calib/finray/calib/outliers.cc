@@ -58,35 +58,33 @@ std::string Name(const LinearizedFrame::Row& row) {
   return "";
 }
 
-// The measurement without which the rest would fit best: chi2 would go down by
-// r^2 / (1 - leverage).
-std::string Reason(const LinearizedFrame& at, double chi2, int dof,
+// One measurement, if the others agree with each other.
+std::string Reason(const LinearizedFrame& robust, double chi2, int dof,
                    double scale, double threshold) {
-  const Eigen::Matrix2d inverse =
-      PseudoInverse(at.by_contact.transpose() * at.by_contact);
-  std::map<std::string, double> gain;
-  std::map<std::string, int> rows;
-  for (std::size_t i = 0; i < at.rows.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    const auto e = at.by_contact.row(row);
-    const double spare = std::max(1e-3, 1 - e.dot(inverse * e.transpose()));
-    const std::string name = Name(at.rows[i]);
-    gain[name] += at.residuals[row] * at.residuals[row] / spare;
-    ++rows[name];
+  std::map<std::string, std::pair<double, int>> parts;  // chi2, rows
+  double all = 0;
+  for (std::size_t i = 0; i < robust.rows.size(); ++i) {
+    const double r = robust.residuals[static_cast<Eigen::Index>(i)];
+    auto& [part, rows] = parts[Name(robust.rows[i])];
+    part += r * r;
+    all += r * r;
+    ++rows;
   }
-  const auto worst = std::max_element(
-      gain.begin(), gain.end(),
-      [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto worst = std::max_element(parts.begin(), parts.end(),
+                                      [](const auto& a, const auto& b) {
+                                        return a.second.first < b.second.first;
+                                      });
+  const auto [part, rows] = worst->second;
+  const int rest = dof - rows;
   char text[160];
-  const int rest = dof - rows[worst->first];
-  if (rest < 1 || ChiSquaredTail((chi2 - worst->second) / (scale * scale),
-                                 rest) > threshold) {
+  if (rest < 1 ||
+      ChiSquaredTail((all - part) / (scale * scale), rest) > threshold) {
     std::snprintf(text, sizeof text, "%s is off by %.3g std",
-                  worst->first.c_str(), std::sqrt(worst->second));
+                  worst->first.c_str(), std::sqrt(part));
   } else {
     std::snprintf(text, sizeof text,
-                  "measurements contradict each other (chi2 %.3g of %d), %s "
-                  "most of all",
+                  "measurements contradict each other (chi2 %.3g, %d degrees "
+                  "of freedom), %s most of all",
                   chi2, dof, worst->first.c_str());
   }
   return text;
@@ -99,7 +97,7 @@ std::vector<FrameChi2> Refit(const std::vector<int>& frames,
   std::vector<FrameChi2> refitted;
   LinearizedFrame at;
   for (const int frame : frames) {
-    if (problem->LinearizeFrame(frame, &at)) {
+    if (problem->LinearizeFrame(frame, false, &at)) {
       refitted.push_back({frame, at.residuals.squaredNorm(),
                           Dof(*problem, frame, at.rows.size())});
     } else {
@@ -130,7 +128,7 @@ void Judge(const std::vector<FrameChi2>& frames, CalibrationProblem* problem,
         frame.dof < 1 ||
         ChiSquaredTail(frame.chi2 / (found->scale * found->scale), frame.dof) >
             threshold;
-    if (explained || !problem->LinearizeFrame(frame.frame, &at)) continue;
+    if (explained || !problem->LinearizeFrame(frame.frame, true, &at)) continue;
     found->reasons.emplace(frame.frame, Reason(at, frame.chi2, frame.dof,
                                                found->scale, threshold));
   }

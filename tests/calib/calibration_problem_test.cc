@@ -1,0 +1,81 @@
+#include "finray/calib/calibration_problem.h"
+
+#include <gtest/gtest.h>
+
+#include "calib/standard_log.h"
+#include "finray/calib/identifiability.h"
+#include "finray/calib/weighted_check.h"
+
+namespace finray {
+namespace {
+
+Plan PlanWithoutPriors() {
+  Plan plan = StandardPlan();
+  for (int i = 0; i < 5; ++i) plan.families[i].prior_std.reset();
+  return plan;
+}
+
+struct Solved {
+  std::vector<double> values, std;
+};
+
+Solved Solve(const std::vector<std::string>& logs, int threads) {
+  const Plan plan = PlanWithoutPriors();
+  CalibrationProblem problem(
+      Nominal(), plan, ReadCalibrationLogs(logs, Nominal(), plan), {}, threads);
+  EXPECT_TRUE(problem.Solve().converged);
+  Solved solved;
+  solved.std = AnalyzeIdentifiability(&problem).std;
+  for (const int i : problem.parameters().free()) {
+    solved.values.push_back(*problem.parameters().all()[i].variable);
+  }
+  return solved;
+}
+
+// Every frame twice says the same, twice as surely. Twice is too many for the
+// joint solve.
+TEST(CalibrationProblemTest, ManyFramesAsFew) {
+  const TempFolder folders[3];
+  std::vector<std::string> logs, twice;
+  for (unsigned i = 0; i < 3; ++i) {
+    logs.push_back(StandardLog(folders[i], HiddenFinger(), 20 + i));
+  }
+  twice = logs;
+  twice.insert(twice.end(), logs.begin(), logs.end());
+  static_assert(3 * 210 <= CalibrationProblem::kMostJoint &&
+                2 * 3 * 210 > CalibrationProblem::kMostJoint);
+  const Solved few = Solve(logs, 2);
+  const Solved many = Solve(twice, 2);
+  ASSERT_EQ(few.values.size(), 15u);
+  for (std::size_t i = 0; i < few.values.size(); ++i) {
+    EXPECT_NEAR(many.values[i], few.values[i], 0.02 * many.std[i]) << i;
+    EXPECT_NEAR(many.std[i] * std::sqrt(2.0), few.std[i], 1e-3 * few.std[i]);
+  }
+  const Solved one_thread = Solve(twice, 1);
+  EXPECT_EQ(one_thread.values, many.values);
+  EXPECT_EQ(one_thread.std, many.std);
+}
+
+TEST(CalibrationProblemTest, WeightedFormAgrees) {
+  const TempFolder folder;
+  const Plan plan = StandardPlan();
+  CalibrationProblem problem(
+      Nominal(), plan,
+      ReadCalibrationLogs({StandardLog(folder, HiddenFinger(), 23)}, Nominal(),
+                          plan),
+      {}, 2);
+  EXPECT_TRUE(problem.Solve().converged);
+  const CalibrationProblem::Point before = problem.Save();
+  const WeightedCheck check = CheckWeighted(&problem);
+  std::printf("weighted form: %d iterations, values %.2g std, std %.2g\n",
+              check.weighted.iterations, check.value_difference_std,
+              check.std_difference);
+  EXPECT_TRUE(check.weighted.converged);
+  EXPECT_EQ(check.frames, 210);
+  EXPECT_LT(check.value_difference_std, 1e-4);
+  EXPECT_LT(check.std_difference, 1e-4);
+  EXPECT_EQ(problem.Save().values, before.values);
+}
+
+}  // namespace
+}  // namespace finray

@@ -1,0 +1,133 @@
+#include "finray/calib/frame_linearizer.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "calib/standard_log.h"
+#include "finray/sensing/frame_columns.h"
+
+namespace finray {
+namespace {
+
+class FrameLinearizerTest : public testing::Test {
+ protected:
+  FrameLinearizerTest() {
+    FrameTable log = FrameTable::Read(StandardLog(folder_, HiddenFinger(), 11));
+    log.MutableNumbers(GaugeVolts(2))[3] += 0.5;  // an outlier
+    log.Write(folder_.Path("log.csv"));
+    plan_ = StandardPlan();
+    plan_.loss = RobustLoss::kCauchy;
+    plan_.families[static_cast<int>(ParameterFamily::kObjectOrigin)].free =
+        true;
+    logs_ = ReadCalibrationLogs({folder_.Path("log.csv")}, Nominal(), plan_);
+    parameters_ =
+        std::make_unique<CalibrationParameters>(HiddenFinger(), plan_, logs_);
+    blocks_ =
+        std::make_unique<MeasurementBlocks>(finger_, plan_, parameters_.get());
+    linearizer_ =
+        std::make_unique<FrameLinearizer>(EquilibriumSolver(finger_, {}), plan_,
+                                          blocks_.get(), parameters_.get());
+  }
+
+  double Cost(int frame, const std::array<double, 2>& contact) {
+    LadderState state;
+    LinearizedFrame at;
+    EXPECT_TRUE(
+        linearizer_->Linearize(logs_.frames[frame], contact, &state, &at));
+    return at.cost;
+  }
+
+  TempFolder folder_;
+  Finger finger_ = HiddenFinger();
+  Plan plan_;
+  CalibrationLogs logs_;
+  std::unique_ptr<CalibrationParameters> parameters_;
+  std::unique_ptr<MeasurementBlocks> blocks_;
+  std::unique_ptr<FrameLinearizer> linearizer_;
+};
+
+// [C | E]' w r is the gradient of the cost, robust loss included.
+TEST_F(FrameLinearizerTest, GradientOfTheCost) {
+  for (const int frame : {0, 3, 7}) {
+    const bool touches = logs_.frames[frame].contact;
+    std::array<double, 2> contact = {60, 2.5};
+    LadderState state;
+    LinearizedFrame at;
+    ASSERT_TRUE(
+        linearizer_->Linearize(logs_.frames[frame], contact, &state, &at));
+    const Eigen::VectorXd weighted = at.WeightedResiduals();
+    const auto difference = [&](double* variable, double step) {
+      const double kept = *variable;
+      *variable = kept + step;
+      const double above = Cost(frame, contact);
+      *variable = kept - step;
+      const double below = Cost(frame, contact);
+      *variable = kept;
+      return (above - below) / (2 * step);
+    };
+    const Eigen::VectorXd by_parameter = at.by_parameter.transpose() * weighted;
+    for (std::size_t k = 0; k < parameters_->free().size(); ++k) {
+      double* variable = parameters_->all()[parameters_->free()[k]].variable;
+      const double expected = difference(variable, 1e-6);
+      EXPECT_NEAR(by_parameter[static_cast<Eigen::Index>(k)], expected,
+                  1e-5 * std::abs(expected) + 1e-4)
+          << frame << " " << parameters_->all()[parameters_->free()[k]].name;
+    }
+    if (!touches) continue;
+    const Eigen::Vector2d by_contact = at.by_contact.transpose() * weighted;
+    for (int i = 0; i < 2; ++i) {
+      const double expected = difference(&contact[i], 1e-5);
+      EXPECT_NEAR(by_contact[i], expected, 1e-5 * std::abs(expected) + 1e-4);
+    }
+  }
+}
+
+TEST_F(FrameLinearizerTest, FitsTheContact) {
+  for (const int frame : {3, 7, 30}) {  // frame 0 is free
+    ASSERT_TRUE(logs_.frames[frame].contact);
+    std::array<double, 2> contact = {
+        std::clamp(logs_.frames[frame].object_mm.y() + 5, 20.0, 120.0),
+        1.5 * logs_.frames[frame].force_N};
+    LadderState state;
+    LinearizedFrame at;
+    ASSERT_TRUE(
+        linearizer_->FitContact(logs_.frames[frame], &contact, &state, &at));
+    const LinearizedFrame::ContactMove move = at.Move();
+    EXPECT_LT(move.decrease, 2 * FrameLinearizer::kSmallDecrease);
+    const std::array<double, 2> best = {contact[0] + move.now[0],
+                                        contact[1] + move.now[1]};
+    const double least = Cost(frame, best);
+    EXPECT_NEAR(least, at.cost - move.decrease,
+                FrameLinearizer::kSmallDecrease);
+    for (const double dl : {-0.3, 0.0, 0.3}) {
+      for (const double df : {-0.05, 0.0, 0.05}) {
+        EXPECT_GE(Cost(frame, {best[0] + dl, best[1] + df}), least - 1e-9);
+      }
+    }
+  }
+}
+
+// The best contact goes with the parameters as B says.
+TEST_F(FrameLinearizerTest, ContactsFollowTheParameters) {
+  std::array<double, 2> contact = {60, 2};
+  LadderState state;
+  LinearizedFrame at;
+  const CalibrationFrame& frame = logs_.frames[7];
+  ASSERT_TRUE(linearizer_->FitContact(frame, &contact, &state, &at));
+  const auto move = at.Move();
+  const Eigen::Vector2d start =
+      Eigen::Vector2d(contact[0], contact[1]) + move.now;
+  const double step = 1e-3;
+  *parameters_->all()[parameters_->free()[0]].variable += step;
+  std::array<double, 2> moved = contact;
+  ASSERT_TRUE(linearizer_->FitContact(frame, &moved, &state, &at));
+  const Eigen::Vector2d end =
+      Eigen::Vector2d(moved[0], moved[1]) + at.Move().now;
+  const Eigen::Vector2d expected = move.by_parameter.col(0) * step;
+  // Up to what Gauss-Newton and the changing weights leave out.
+  EXPECT_LT((end - start - expected).norm(), 0.2 * expected.norm());
+}
+
+}  // namespace
+}  // namespace finray

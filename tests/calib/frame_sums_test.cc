@@ -1,0 +1,95 @@
+#include "finray/calib/frame_sums.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+namespace finray {
+namespace {
+
+// A quadratic cost with a contact of its own in each frame, by dense algebra.
+TEST(FrameSumsTest, ContactsAreEliminated) {
+  const Eigen::MatrixXd c = Eigen::MatrixXd::Random(7, 3);
+  const Eigen::MatrixXd e = Eigen::MatrixXd::Random(7, 2);
+  const Eigen::VectorXd r = Eigen::VectorXd::Random(7);
+  LinearizedFrame frame;
+  frame.rows.assign(7, {ResidualFamily::kGauge, 0});
+  frame.residuals = r;
+  frame.weights = Eigen::VectorXd::Ones(7);
+  frame.by_parameter = c;
+  frame.by_contact = e;
+  frame.cost = r.squaredNorm() / 2;
+  FrameSums sums;
+  sums.SetZero(3);
+  sums.Add(frame, frame.Move());
+  sums.AddPrior(1, 0.5, 0.2, 0.1);
+  // The least over the contact of |r + C dx + E dc|^2 / 2.
+  const auto least = [&](const Eigen::Vector3d& dx) {
+    const Eigen::VectorXd at = r + c * dx;
+    const Eigen::Vector2d dc = -e.colPivHouseholderQr().solve(at);
+    return (at + e * dc).squaredNorm() / 2 +
+           std::pow((0.3 + dx[1]) / 0.1, 2) / 2;
+  };
+  for (const Eigen::Vector3d& dx :
+       {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, -2, 3)}) {
+    EXPECT_NEAR(
+        sums.cost + sums.gradient.dot(dx) + 0.5 * dx.dot(sums.information * dx),
+        least(dx), 1e-10 * least(dx) + 1e-12);
+  }
+}
+
+// Ceres sees the cost, gradient and information through it, also where a
+// combination is not determined.
+TEST(FrameSumsTest, ResidualBlockHasTheirCostAndDerivatives) {
+  Eigen::MatrixXd j = Eigen::MatrixXd::Random(9, 4);
+  j.col(3) = j.col(0) - 2 * j.col(1);
+  const Eigen::VectorXd r = Eigen::VectorXd::Random(9);
+  const Eigen::VectorXd start = Eigen::VectorXd::Random(4);
+  const Eigen::MatrixXd units = Eigen::Vector4d(1, 0.1, 10, 1).asDiagonal();
+  const auto sums_at = [&](const Eigen::VectorXd& x, FrameSums* sums) {
+    const Eigen::VectorXd at = r + j * (x - start);
+    sums->information = j.transpose() * j;
+    sums->gradient = j.transpose() * at;
+    sums->cost = at.squaredNorm() / 2;
+    return x[0] < 100;
+  };
+  FrameSums at_start;
+  ASSERT_TRUE(sums_at(start, &at_start));
+  const FrameSumResidual block(start, units, at_start, sums_at);
+  for (const Eigen::VectorXd& z :
+       {Eigen::VectorXd::Zero(4).eval(), Eigen::VectorXd::Ones(4).eval()}) {
+    Eigen::VectorXd residuals(5);
+    Eigen::Matrix<double, 5, 4, Eigen::RowMajor> jacobian;
+    const double* parameters[] = {z.data()};
+    double* jacobians[] = {jacobian.data()};
+    ASSERT_TRUE(block.Evaluate(parameters, residuals.data(), jacobians));
+    FrameSums expected;
+    sums_at(start + units * z, &expected);
+    EXPECT_NEAR(residuals.squaredNorm() / 2, expected.cost,
+                1e-12 * expected.cost);
+    EXPECT_LT(
+        (jacobian.transpose() * residuals - units * expected.gradient).norm(),
+        1e-9 * expected.gradient.norm());
+    EXPECT_LT(
+        (jacobian.transpose() * jacobian - units * expected.information * units)
+            .norm(),
+        1e-9 * expected.information.norm() * 100);
+  }
+  const Eigen::Vector4d far(1000, 0, 0, 0);
+  const double* parameters[] = {far.data()};
+  Eigen::VectorXd residuals(5);
+  EXPECT_FALSE(block.Evaluate(parameters, residuals.data(), nullptr));
+}
+
+TEST(FrameSumsTest, PseudoInverse) {
+  Eigen::Matrix2d a;
+  a << 4, 1, 1, 3;
+  EXPECT_LT((PseudoInverse(a) - a.inverse()).norm(), 1e-14);
+  EXPECT_TRUE(PseudoInverse(Eigen::Matrix2d::Zero()).isZero(0));
+  const Eigen::Vector2d v(3, -2);
+  const Eigen::Matrix2d one = v * v.transpose();
+  EXPECT_LT((PseudoInverse(one) - one / (13.0 * 13)).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace finray

@@ -1,0 +1,112 @@
+#include "finray/calib/robust_solve.h"
+
+#include <gtest/gtest.h>
+
+#include "calib/hard_log.h"
+#include "finray/calib/identifiability.h"
+#include "finray/calib/outliers.h"
+
+namespace finray {
+namespace {
+
+struct HardCase {
+  HardCase(const HardLogKind& kind, unsigned seed)
+      : hard(MakeHardLog(kind, seed)), plan(HardPlan(kind)) {
+    hard.log.Write(folder.Path("log.csv"));
+    const Finger start = HardStart(hard);
+    problem = std::make_unique<CalibrationProblem>(
+        start, plan, ReadCalibrationLogs({folder.Path("log.csv")}, start, plan),
+        Discretization(), 2);
+    solution = SolveRobustly(problem.get());
+  }
+
+  void ExpectTruth() {
+    EXPECT_TRUE(solution.solve.converged);
+    const Identifiability found = AnalyzeIdentifiability(problem.get());
+    const CalibrationParameters& parameters = problem->parameters();
+    for (std::size_t i = 0; i < parameters.free().size(); ++i) {
+      const CalibrationParameter& p = parameters.all()[parameters.free()[i]];
+      if (!p.of_finger) continue;
+      EXPECT_LT(std::abs(p.Value(*p.variable) -
+                         ParameterValue(hard.truth, *p.of_finger)),
+                4 * p.ValueStd(*p.variable, found.std[i]))
+          << p.name;
+    }
+  }
+
+  TempFolder folder;
+  HardLog hard;
+  Plan plan;
+  std::unique_ptr<CalibrationProblem> problem;
+  RobustSolution solution;
+};
+
+TEST(RobustSolveTest, ACleanLogRejectsNothing) {
+  HardCase clean(kHardLogKinds[0], 1);
+  clean.ExpectTruth();
+  EXPECT_TRUE(clean.problem->rejected().empty());
+  for (const StartReport& start : clean.solution.starts) {
+    EXPECT_TRUE(start.agrees) << start.name;
+  }
+}
+
+// Outliers, dropouts and drift at once.
+TEST(RobustSolveTest, ANastyLogIsCleaned) {
+  for (const unsigned seed : {8u, 10u}) {  // these went wrong without rejection
+    HardCase nasty(kHardLogKinds[2], seed);
+    nasty.ExpectTruth();
+    std::size_t found = 0, false_alarms = 0;
+    for (const auto& [frame, reason] : nasty.problem->rejected()) {
+      const int row = nasty.problem->logs().frames[frame].row;
+      nasty.hard.outliers.count(row) > 0 ? ++found : ++false_alarms;
+      EXPECT_FALSE(reason.empty());
+    }
+    // Some are no outliers: what was changed has dropped out, or looks alike.
+    EXPECT_GE(found, 17u) << "of " << nasty.hard.outliers.size();
+    EXPECT_LE(false_alarms, 1u);
+  }
+}
+
+TEST(RobustSolveTest, NamesWhatIsOff) {
+  HardLog hard = MakeHardLog(kHardLogKinds[0], 2);
+  hard.log.MutableNumbers("gauge_3_V")[17] += 0.3;
+  hard.log.MutableNumbers("force_N")[33] += 2;
+  hard.log.MutableNumbers("object_y_mm")[51] -= 4;
+  const TempFolder folder;
+  hard.log.Write(folder.Path("log.csv"));
+  const Finger start = HardStart(hard);
+  const Plan plan = StandardPlan();  // no robust loss
+  CalibrationProblem problem(
+      start, plan, ReadCalibrationLogs({folder.Path("log.csv")}, start, plan),
+      {}, 2);
+  SolveRobustly(&problem);
+  ASSERT_EQ(problem.rejected().size(), 3u);
+  EXPECT_EQ(problem.rejected().at(17).rfind("gauge 3 is off by", 0), 0u)
+      << problem.rejected().at(17);
+  EXPECT_EQ(problem.rejected().at(33).rfind("force is off by", 0), 0u)
+      << problem.rejected().at(33);
+  EXPECT_EQ(problem.rejected().count(51), 1u);
+}
+
+// A model that is wrong everywhere is no reason to reject frames.
+TEST(RobustSolveTest, NoiseBeyondThePlanIsNoOutlier) {
+  HardLogKind loud = kHardLogKinds[0];
+  loud.noise = 4;
+  HardLog hard = MakeHardLog(loud, 3);
+  const TempFolder folder;
+  hard.log.Write(folder.Path("log.csv"));
+  Finger start = HardStart(hard);
+  for (Gauge& gauge : start.gauges) gauge.noise_V /= 4;
+  Plan plan = StandardPlan();
+  plan.force_std_N *= 4;  // which decides what is a free frame
+  CalibrationProblem problem(
+      start, plan, ReadCalibrationLogs({folder.Path("log.csv")}, start, plan),
+      {}, 2);
+  const RobustSolution solution = SolveRobustly(&problem);
+  EXPECT_TRUE(solution.solve.converged);
+  EXPECT_TRUE(problem.rejected().empty());
+  EXPECT_NEAR(FindOutliers(&problem).scale, 4, 1);
+}
+
+}  // namespace
+}  // namespace finray
