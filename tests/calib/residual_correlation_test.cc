@@ -122,6 +122,27 @@ TEST(ResidualCorrelationTest, WhiteResidualsEnlargeNothing) {
   EXPECT_DOUBLE_EQ(white.enlargement, 1);
 }
 
+// Twice the noise that the plan says makes std twice as large.
+TEST(ResidualCorrelationTest, LoudResidualsEnlarge) {
+  const TempFolder folder;
+  Finger start = Nominal();
+  for (Gauge& gauge : start.gauges) gauge.noise_V /= 2;
+  Plan plan = StandardPlan();
+  plan.object_std_mm /= 2;
+  Calibrated calibrated(plan, {StandardLog(folder, HiddenFinger(), 31)}, start);
+  const ResidualCorrelation found =
+      AnalyzeResidualCorrelation(calibrated.problem.get(), calibrated.found);
+  EXPECT_FALSE(found.correlated());
+  EXPECT_TRUE(found.loud);
+  double mean = 0;
+  for (const double enlargement : found.enlargement) {
+    EXPECT_GT(enlargement, 1.3);
+    EXPECT_LT(enlargement, 2.7);
+    mean += enlargement / static_cast<double>(found.enlargement.size());
+  }
+  EXPECT_NEAR(mean, 1.9, 0.2);  // the force is as good as the plan says
+}
+
 // With all free an offset is told apart from ribs by loads at random, whose
 // influence on it is white: dividing all information by the time of the
 // residuals would make its std three times too large.

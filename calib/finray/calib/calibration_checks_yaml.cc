@@ -42,7 +42,7 @@ void EmitCorrelation(CalibrationProblem& problem,
   *yaml << YAML::EndSeq << YAML::Key << "std_enlarged_by" << YAML::Value
         << YAML::Flow << YAML::BeginMap;
   const CalibrationParameters& parameters = problem.parameters();
-  for (std::size_t i = 0; found.correlated() && i < found.enlargement.size();
+  for (std::size_t i = 0; found.enlarges() && i < found.enlargement.size();
        ++i) {
     YamlPair(yaml, parameters.all()[parameters.free()[i]].name,
              YamlNumber(found.enlargement[i]));

@@ -36,8 +36,8 @@ void WarnOfNoise(const Identifiability& found,
           {"noise_above_plan",
            name +
                Text(" residuals are %.1f times what their std says "
-                    "(chi2/dof %.3g); reported std do not have that in them, "
-                    "unless they were enlarged",
+                    "(chi2/dof %.3g); reported std are enlarged for it where "
+                    "it is beyond doubt",
                     std::sqrt(ratio), ratio),
            "look at the residuals by frame for outliers or a wrong model; "
            "raise "

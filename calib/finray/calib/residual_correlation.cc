@@ -102,7 +102,13 @@ ResidualCorrelation AnalyzeResidualCorrelation(CalibrationProblem* problem,
   }
   result.p_value =
       std::min(1.0, least * static_cast<double>(result.series.size()));
-  if (!result.correlated()) return result;
+  for (const Identifiability::Noise& noise : found.noise) {
+    const double beyond = noise.chi2 - noise.dof;
+    result.loud |=
+        beyond > ResidualCorrelation::kLoud * std::sqrt(2 * noise.dof) &&
+        beyond > ResidualCorrelation::kLoudShare * noise.dof;
+  }
+  if (!result.enlarges()) return result;
 
   const Eigen::MatrixXd by_pull = covariance * found.unit.asDiagonal();
   const Eigen::MatrixXd of_data = covariance * found.information * covariance;
@@ -113,7 +119,8 @@ ResidualCorrelation AnalyzeResidualCorrelation(CalibrationProblem* problem,
       influence[frames[at.frames[k]].log].push_back(
           all[static_cast<Eigen::Index>(k)]);
     }
-    const IntegratedTime time = IntegrateTime(influence);
+    IntegratedTime time = IntegrateTime(influence);
+    if (!result.correlated()) time.tau = 1;
     result.tau[i] = time.tau;
     const double share = of_data(i, i) / covariance(i, i);
     if (!(share > 1e-6)) continue;

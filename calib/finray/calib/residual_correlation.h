@@ -57,11 +57,18 @@ struct ResidualCorrelation {
   };
   std::vector<Series> series;  ///< those of 20 rows or more
   double p_value = 1;
-  /// Per free parameter: sqrt(var_i / C_ii), and its own tau_i. All 1 without
-  /// correlation.
+  /// Per free parameter: sqrt(var_i / C_ii), and its own tau_i. All 1 for white
+  /// residuals of the stated std.
   std::vector<double> enlargement, tau;
 
+  /// Residuals of some kind are larger than their std say: chi2 is beyond its
+  /// dof by kLoud std of its own and by kLoudShare. Std are then enlarged by
+  /// the same formula, with tau = 1 if residuals are white.
+  static constexpr double kLoud = 4, kLoudShare = 0.1;
+  bool loud = false;
+
   bool correlated() const { return p_value < kSignificant; }
+  bool enlarges() const { return correlated() || loud; }
   /// The one of the longest time; nullptr if there is none.
   const Series* Slowest() const;
 };
