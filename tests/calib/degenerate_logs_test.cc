@@ -5,8 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <map>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "calib/log_rows.h"
 #include "calib/standard_log.h"
@@ -136,11 +141,14 @@ TEST_F(DegenerateLogsTest, ForceOnlyOfSmallLoads) {
   for (const std::string& name : Join(kStiffness, kGains)) {
     EXPECT_THAT(outcome.unidentifiable, Contains(name));
   }
-  EXPECT_THAT(outcome.directions, Contains(kGainsAgainstStiffness));
+  // The ribs join in, so that the direction is spelt out.
+  EXPECT_THAT(outcome.directions,
+              Contains(AllOf(HasSubstr("front_stiffness"),
+                             HasSubstr("back_stiffness"), HasSubstr("gauge_1"),
+                             HasSubstr("gauge_4"), HasSubstr("rib_"))));
   EXPECT_THAT(outcome.remedies, HasSubstr("object's centre (object_x_mm"));
 }
 
-// The ribs only together: each carries where it is, and all at one height.
 TEST_F(DegenerateLogsTest, OneHeight) {
   const Outcome outcome =
       Calibrated(RowsWhere(Whole(), [](const FrameTable& log, std::size_t i) {
@@ -181,20 +189,23 @@ TEST_F(DegenerateLogsTest, AllFramesEqual) {
               UnorderedElementsAreArray(Join(kAllButOffsets, kOffsets)));
   EXPECT_THAT(touching.codes, Contains("no_free_frame"));
   EXPECT_THAT(touching.remedies, HasSubstr("spread over the finger"));
+  ASSERT_FALSE(Touches(Whole(), 0));
   const Outcome free =
       Calibrated(RowsOf(Whole(), std::vector<std::size_t>(50, 0)));
   EXPECT_THAT(free.unidentifiable, UnorderedElementsAreArray(kAllButOffsets));
 }
 
-// Fewer measurements than unknowns: residuals are zero, and prove nothing.
-TEST_F(DegenerateLogsTest, FewerFramesThanUnknowns) {
+// Hardly more measurements than unknowns, then fewer: residuals are as small as
+// can be, and prove nothing.
+TEST_F(DegenerateLogsTest, FewFrames) {
   const Outcome four = Calibrated(First(3, 1));
   EXPECT_FALSE(four.all_identified);
-  for (const std::string& name : kRibs) {
-    EXPECT_THAT(four.unidentifiable, Contains(name));
-  }
+  EXPECT_THAT(kRibs, testing::IsSupersetOf(four.unidentifiable));
+  EXPECT_GE(four.unidentifiable.size(), 3u);
+  EXPECT_THAT(four.directions, Contains(HasSubstr("together: rib_")));
   const Outcome two = Calibrated(First(1, 1));
-  EXPECT_THAT(two.unidentifiable, UnorderedElementsAreArray(kAllButOffsets));
+  EXPECT_THAT(two.unidentifiable,
+              testing::IsSupersetOf(Join(kStiffness, kRibs)));
   EXPECT_THAT(two.texts, HasSubstr("the data do not say how far"));
 }
 
@@ -207,7 +218,7 @@ TEST_F(DegenerateLogsTest, OnlyFreeFrames) {
               UnorderedElementsAreArray(kAllButOffsets));
 }
 
-// A constant is fitted by a gain of zero as well as by any number of bits.
+// A constant is fitted perfectly, by a gain of zero; so is noise alone.
 TEST_F(DegenerateLogsTest, AGaugeThatDoesNotRespond) {
   std::mt19937_64 generator(1);
   for (const double noise_V : {0.0, 5e-4}) {
@@ -266,7 +277,7 @@ TEST_F(DegenerateLogsTest, ForceOnlyLeavesGainsAgainstStiffness) {
   for (const std::string& name : kStiffness) {
     std::printf("%s: std %.2f %%, with known gains %.2f %%\n", name.c_str(),
                 100 * loose.std.at(name), 100 * known.std.at(name));
-    EXPECT_LT(known.std.at(name), loose.std.at(name) / 2);
+    EXPECT_LT(known.std.at(name), loose.std.at(name) / 3);
   }
 }
 
