@@ -54,7 +54,15 @@ TEST(SceneTest, ReadsObjects) {
   EXPECT_EQ(corners.vertices_mm[0], Eigen::Vector2d(-8, -6));
   EXPECT_FALSE(polygon.object->spring);
 
-  for (const Scene& scene : {ellipse, polygon}) {
+  const Scene series = Load(
+      "object: {shape: support_series, radius_mm: 18,\n"
+      "         harmonics_mm: [[0, 0], [1.5, -0.5]]}\n");
+  const auto& support =
+      std::get<SupportOutline>(series.object->outline.shape());
+  EXPECT_EQ(support.radius_mm, 18);
+  EXPECT_EQ(support.harmonics_mm.at(1), Eigen::Vector2d(1.5, -0.5));
+
+  for (const Scene& scene : {ellipse, polygon, series}) {
     const std::string text = ObjectToYaml(*scene.object);
     EXPECT_EQ(ObjectToYaml(*Load("object: " + text + "\n").object), text);
   }
@@ -65,6 +73,8 @@ TEST(SceneTest, BadObjectsNameTheirPlace) {
     EXPECT_THAT([&] { Load("contacts: 1\nobject: {" + object + "}\n"); },
                 ThrowsMessage<InputError>(HasSubstr(message)));
   };
+  error("shape: support_series, radius_mm: 9, harmonics_mm: [[0,0], [4, 0]]",
+        "scene.yaml:2:61: harmonics_mm: the outline is not convex");
   error("shape: ellipse, radius_mm: 3", "scene.yaml:2:26: unknown key");
   error("shape: ellipse, semi_axis_y_mn: 3", "did you mean 'semi_axis_y_mm'?");
   error("shape: elipse", "(did you mean 'ellipse'?)");

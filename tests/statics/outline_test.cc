@@ -12,10 +12,12 @@ using Eigen::Vector2d;
 
 std::vector<Outline> Outlines() {
   return {
-      Outline(CircleOutline{7}), Outline(EllipseOutline{12, 5}),
+      Outline(CircleOutline{7}),
+      Outline(EllipseOutline{12, 5}),
       Outline(EllipseOutline{3, 20}),
       Outline(RoundedPolygonOutline{{{-8, -5}, {9, -4}, {6, 7}, {-7, 6}}, 2.5}),
-      Outline(RoundedPolygonOutline{{{-10, 3}, {10, 3}}, 4})};
+      Outline(RoundedPolygonOutline{{{-10, 3}, {10, 3}}, 4}),
+      Outline(SupportOutline{9, {{2, -1}, {0.2, 0.1}, {0.05, -0.03}}})};
 }
 
 Vector2d Direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
@@ -42,6 +44,17 @@ TEST(OutlineTest, EllipsePointsObeyTheImplicitEquation) {
     const Vector2d gradient(p.x() / 144, p.y() / 25);
     EXPECT_NEAR(p.dot(gradient), 1, 1e-14);
     EXPECT_LT((gradient.normalized() - Direction(angle)).norm(), 1e-14);
+  }
+}
+
+// The tangent with normal n lies at h = n . p from the origin.
+TEST(OutlineTest, SupportSeriesIsTheDistanceOfTheTangents) {
+  const Outline outline(SupportOutline{9, {{2, -1}, {0.5, 0.4}}});
+  for (double angle = -3; angle < 3; angle += 0.21) {
+    EXPECT_NEAR(outline.PointAt(angle).position_mm.dot(Direction(angle)),
+                9 + 2 * std::cos(angle) - std::sin(angle) +
+                    0.5 * std::cos(2 * angle) + 0.4 * std::sin(2 * angle),
+                1e-13);
   }
 }
 
@@ -160,6 +173,10 @@ TEST(OutlineTest, RefusesWhatIsNoConvexOutline) {
     star.vertices_mm.push_back(10 * Direction(0.8 * M_PI * i));
   }
   refuses(star);
+  // h + h'' = 9 - 8 a cos(3 angle) is 0 for a = 9 / 8.
+  refuses(SupportOutline{0});
+  refuses(SupportOutline{9, {{0, 0}, {0, 0}, {1.126, 0}}});
+  EXPECT_NO_THROW(Outline(SupportOutline{9, {{0, 0}, {0, 0}, {1.124, 0}}}));
 }
 
 }  // namespace

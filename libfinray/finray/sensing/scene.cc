@@ -56,8 +56,8 @@ void ReadContactBeams(const YamlMap& yaml, Scene* scene) {
 }
 
 Outline::Shape ReadShape(const YamlMap& object) {
-  const std::string shape =
-      object.Choice("shape", {"circle", "ellipse", "rounded_polygon"});
+  const std::string shape = object.Choice(
+      "shape", {"circle", "ellipse", "rounded_polygon", "support_series"});
   if (shape == "circle") {
     object.AllowOnly({"shape", "radius_mm", "spring"});
     return CircleOutline{object.PositiveNumber("radius_mm")};
@@ -66,6 +66,14 @@ Outline::Shape ReadShape(const YamlMap& object) {
     object.AllowOnly({"shape", "semi_axis_x_mm", "semi_axis_y_mm", "spring"});
     return EllipseOutline{object.PositiveNumber("semi_axis_x_mm"),
                           object.PositiveNumber("semi_axis_y_mm")};
+  }
+  if (shape == "support_series") {
+    object.AllowOnly({"shape", "radius_mm", "harmonics_mm", "spring"});
+    SupportOutline outline{object.PositiveNumber("radius_mm")};
+    for (const auto& harmonic : object.Pairs("harmonics_mm")) {
+      outline.harmonics_mm.emplace_back(harmonic[0], harmonic[1]);
+    }
+    return outline;
   }
   object.AllowOnly({"shape", "vertices_mm", "fillet_radius_mm", "spring"});
   RoundedPolygonOutline polygon;
@@ -91,7 +99,9 @@ RigidObject ReadObject(const YamlMap& object) {
   try {
     return {Outline(shape), spring};
   } catch (const std::invalid_argument& error) {
-    object.Fail("vertices_mm", std::string("vertices_mm: ") + error.what());
+    const char* key =
+        object.Has("harmonics_mm") ? "harmonics_mm" : "vertices_mm";
+    object.Fail(key, std::string(key) + ": " + error.what());
   }
 }
 
@@ -124,14 +134,25 @@ YAML::Emitter& operator<<(YAML::Emitter& yaml, const EllipseOutline& ellipse) {
 }
 
 YAML::Emitter& operator<<(YAML::Emitter& yaml,
-                          const RoundedPolygonOutline& polygon) {
-  yaml << "rounded_polygon" << YAML::Key << "vertices_mm" << YAML::Value
-       << YAML::BeginSeq;
-  for (const Eigen::Vector2d& vertex : polygon.vertices_mm) {
-    yaml << YAML::BeginSeq << vertex.x() << vertex.y() << YAML::EndSeq;
+                          const std::vector<Eigen::Vector2d>& pairs) {
+  yaml << YAML::BeginSeq;
+  for (const Eigen::Vector2d& pair : pairs) {
+    yaml << YAML::BeginSeq << pair.x() << pair.y() << YAML::EndSeq;
   }
-  return yaml << YAML::EndSeq << YAML::Key << "fillet_radius_mm" << YAML::Value
-              << polygon.fillet_radius_mm;
+  return yaml << YAML::EndSeq;
+}
+
+YAML::Emitter& operator<<(YAML::Emitter& yaml, const SupportOutline& outline) {
+  return yaml << "support_series" << YAML::Key << "radius_mm" << YAML::Value
+              << outline.radius_mm << YAML::Key << "harmonics_mm" << YAML::Value
+              << outline.harmonics_mm;
+}
+
+YAML::Emitter& operator<<(YAML::Emitter& yaml,
+                          const RoundedPolygonOutline& polygon) {
+  return yaml << "rounded_polygon" << YAML::Key << "vertices_mm" << YAML::Value
+              << polygon.vertices_mm << YAML::Key << "fillet_radius_mm"
+              << YAML::Value << polygon.fillet_radius_mm;
 }
 
 }  // namespace

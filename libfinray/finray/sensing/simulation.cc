@@ -253,6 +253,7 @@ FrameTable MakeLog(const Finger& finger, const FrameTable& simulated,
     copy("object_x_mm", noise.object_std_mm);
     copy("object_y_mm", noise.object_std_mm);
   }
+  if (simulated.Has("object_angle_deg")) copy("object_angle_deg", 0);
   if (!(noise.pin_std_mm > 0)) return log;
   for (int i = 0; i < static_cast<int>(finger.ribs.size()); ++i) {
     for (const Side side : {Side::kFront, Side::kBack}) {

@@ -87,6 +87,41 @@ Outline::Point PointOf(const CircleOutline& circle, const Vector2d& normal) {
   return {circle.radius_mm * normal, circle.radius_mm};
 }
 
+Outline::Point PointOf(const SupportOutline& outline, const Vector2d& normal) {
+  const Vector2d tangent(-normal.y(), normal.x());
+  double support = outline.radius_mm, slope = 0, bend = 0;
+  Vector2d turn(1, 0);  // (cos, sin) of k times the normal's angle
+  for (std::size_t k = 1; k <= outline.harmonics_mm.size(); ++k) {
+    turn = {turn.x() * normal.x() - turn.y() * normal.y(),
+            turn.y() * normal.x() + turn.x() * normal.y()};
+    const Vector2d& ab = outline.harmonics_mm[k - 1];
+    const double order = static_cast<double>(k);
+    support += ab.dot(turn);
+    slope += order * Cross(turn, ab);
+    bend -= order * order * ab.dot(turn);
+  }
+  return {support * normal + slope * tangent, support + bend};
+}
+
+void CheckConvex(const SupportOutline& outline) {
+  constexpr int kNormals = 3600;
+  for (const Vector2d& harmonic : outline.harmonics_mm) {
+    if (!harmonic.allFinite()) {
+      throw std::invalid_argument("a harmonic is not finite");
+    }
+  }
+  for (int i = 0; i < kNormals; ++i) {
+    const double angle = 2 * M_PI * i / kNormals;
+    const Vector2d normal(std::cos(angle), std::sin(angle));
+    if (!(PointOf(outline, normal).curvature_radius_mm > 0)) {
+      throw std::invalid_argument(
+          "the outline is not convex: its radius of curvature h + h'' is not "
+          "above 0 at a normal of " +
+          std::to_string(i * 360 / kNormals) + " deg");
+    }
+  }
+}
+
 // The nearest boundary point q lies in the quadrant of the point p, where
 // t(a) . (p - q(a)) falls through zero once; its slope by a is -(d + rho).
 Outline::Distance DistanceFrom(const EllipseOutline& ellipse,
@@ -113,6 +148,34 @@ Outline::Distance DistanceFrom(const EllipseOutline& ellipse,
   }
   nearest.normal = {std::copysign(nearest.normal.x(), point.x()),
                     std::copysign(nearest.normal.y(), point.y())};
+  return nearest;
+}
+
+// As for an ellipse, by t(a) . (p - q(a)), which from outside falls through
+// zero within a right angle of the direction in which the point lies. The first
+// harmonic only shifts the outline; where it shifts it to is always inside.
+Outline::Distance DistanceFrom(const SupportOutline& outline,
+                               const Vector2d& point) {
+  const auto& harmonics = outline.harmonics_mm;
+  const Vector2d centre = harmonics.empty() ? Vector2d(0, 0) : harmonics[0];
+  double angle = std::atan2(point.y() - centre.y(), point.x() - centre.x());
+  double low = angle - M_PI / 2, high = angle + M_PI / 2;
+  Outline::Distance nearest;
+  for (int i = 0; i < 100; ++i) {
+    const Vector2d normal(std::cos(angle), std::sin(angle));
+    const Vector2d tangent(-normal.y(), normal.x());
+    const Outline::Point q = PointOf(outline, normal);
+    const Vector2d offset = point - q.position_mm;
+    nearest = {offset.dot(normal), normal, q.curvature_radius_mm};
+    const double ahead = offset.dot(tangent);
+    const double fall = nearest.distance_mm + q.curvature_radius_mm;
+    if (fall > 0 && std::abs(ahead) <= 1e-15 * fall) break;
+    (ahead > 0 ? low : high) = angle;
+    double next = angle + ahead / fall;
+    if (!(fall > 0 && next > low && next < high)) next = 0.5 * (low + high);
+    if (next == angle) break;
+    angle = next;
+  }
   return nearest;
 }
 
@@ -170,6 +233,9 @@ Outline::Outline(const Shape& shape) : shape_(shape) {
   } else if (auto* polygon = std::get_if<RoundedPolygonOutline>(&shape_)) {
     CheckLength(polygon->fillet_radius_mm, "the fillet radius");
     Normalize(&polygon->vertices_mm);
+  } else if (const auto* support = std::get_if<SupportOutline>(&shape_)) {
+    CheckLength(support->radius_mm, "the radius");
+    CheckConvex(*support);
   }
 }
 

@@ -31,16 +31,29 @@ struct RoundedPolygonOutline {
   double fillet_radius_mm;
 };
 
+/// A smooth outline by its support function: the tangent whose outward normal
+/// has the angle a lies at the distance
+///
+///   h(a) = r + sum_k a_k cos(k a) + b_k sin(k a),   k = 1, 2, ...
+///
+/// from the origin. The outline is convex as its radius of curvature h + h'' is
+/// above 0 all around.
+struct SupportOutline {
+  double radius_mm;                             ///< r
+  std::vector<Eigen::Vector2d> harmonics_mm{};  ///< (a_k, b_k) from k = 1
+};
+
 /// The closed convex boundary of a rigid object, in its own frame. It has a
 /// tangent everywhere; its curvature may jump (where an edge meets an arc).
 class Outline {
  public:
-  using Shape =
-      std::variant<CircleOutline, EllipseOutline, RoundedPolygonOutline>;
+  using Shape = std::variant<CircleOutline, EllipseOutline,
+                             RoundedPolygonOutline, SupportOutline>;
 
   /// Vertices in either sense; they are stored counter-clockwise. Throws
-  /// std::invalid_argument, saying why, for lengths that are not positive and
-  /// vertices that are not those of a strictly convex polygon.
+  /// std::invalid_argument, saying why, for lengths that are not positive,
+  /// vertices that are not those of a strictly convex polygon, and a support
+  /// function that is not that of a convex outline.
   explicit Outline(const Shape& shape);
 
   const Shape& shape() const { return shape_; }

@@ -1,0 +1,210 @@
+// Stiffness of yielding objects from what fingers sense, sorted.
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "app.h"
+#include "finray/io/atomic_file.h"
+#include "finray/io/log_list.h"
+#include "finray/io/python_script.h"
+#include "finray/perception/compliance_files.h"
+#include "outputs.h"
+
+DEFINE_string(finger, "", "finger YAML, best a calibrated one");
+DEFINE_string(scene, "",
+              "scene YAML: a circle's radius_mm is the pulley's, its spring's "
+              "direction_deg the slider's");
+DEFINE_string(logs, "",
+              "CSV logs with gauge_<j>_V, object_x_mm, object_y_mm and, if one "
+              "holds several, text columns object and trial; separated by "
+              "commas: files, patterns, lists");
+DEFINE_string(second_finger, "",
+              "finger YAML of the other finger; without it the same");
+DEFINE_string(second_logs, "",
+              "the other finger's logs, one for each of --logs, if objects "
+              "are squeezed between two fingers");
+DEFINE_string(out_dir, "",
+              "folder for compliance.yaml, stiffness.csv, points.csv, "
+              "compliance.svg");
+DEFINE_string(direction_deg, "",
+              "direction in which objects are pushed, from +x of frame S; "
+              "without it the scene's spring's, else estimated");
+DEFINE_double(stage_std_mm, 0.02, "std of object_x_mm and object_y_mm");
+DEFINE_int32(most_degree, 3,
+             "of the force law in the displacement; 1: straight lines");
+DEFINE_string(from_N, "",
+              "stiffness is compared from this force on; without it 20 % of "
+              "the largest that all trials reach");
+DEFINE_string(to_N, "", "up to this force; without it 80 %");
+DEFINE_double(least_order_confidence, 0,
+              "gate: probability that the whole order is right; default: none");
+DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
+DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
+DEFINE_bool(dump_config, false, "print what is in force, and stop");
+DEFINE_bool(plots, true, "draw compliance.svg and compliance.png");
+
+namespace {
+
+using namespace finray;
+
+std::string InFolder(const char* name) {
+  return (std::filesystem::path(FLAGS_out_dir) / name).string();
+}
+
+std::optional<double> NumberOrNothing(const char* flag,
+                                      const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  std::istringstream stream(text);
+  double value = 0;
+  if (!(stream >> value) || !stream.eof() || !std::isfinite(value)) {
+    throw UsageError(std::string("--") + flag + ": expected a number, found '" +
+                     text + "'");
+  }
+  return value;
+}
+
+ComplianceSettings Settings() {
+  ComplianceSettings settings;
+  settings.stage_std_mm = FLAGS_stage_std_mm;
+  settings.most_degree = FLAGS_most_degree;
+  settings.from_N = NumberOrNothing("from_N", FLAGS_from_N);
+  settings.to_N = NumberOrNothing("to_N", FLAGS_to_N);
+  if (const auto degrees =
+          NumberOrNothing("direction_deg", FLAGS_direction_deg)) {
+    settings.direction_rad = *degrees * M_PI / 180;
+  }
+  if (!(FLAGS_stage_std_mm > 0) || !std::isfinite(FLAGS_stage_std_mm)) {
+    throw UsageError("--stage_std_mm: expected a number above 0");
+  }
+  if (FLAGS_most_degree < 1 || FLAGS_most_degree > 5) {
+    throw UsageError("--most_degree: expected 1 to 5");
+  }
+  if (!(FLAGS_least_order_confidence >= 0 &&
+        FLAGS_least_order_confidence <= 1)) {
+    throw UsageError("--least_order_confidence: expected 0 to 1");
+  }
+  return settings;
+}
+
+std::vector<ComplianceLog> ReadLogs(const Scene& scene,
+                                    std::vector<std::string>* inputs) {
+  const auto expand = [&](const std::string& list) {
+    const auto paths = ExpandLogs(SplitList(list), FLAGS_out_dir);
+    inputs->insert(inputs->end(), paths.begin(), paths.end());
+    return paths;
+  };
+  const auto first = expand(Required("logs", FLAGS_logs));
+  std::vector<std::string> second;
+  if (!FLAGS_second_logs.empty()) {
+    second = expand(FLAGS_second_logs);
+    if (second.size() != first.size()) {
+      throw InputError("--second_logs: has " + std::to_string(second.size()) +
+                       " logs, --logs " + std::to_string(first.size()) +
+                       "; each needs the other finger's");
+    }
+  }
+  std::vector<ComplianceLog> logs;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    ComplianceLog& log = logs.emplace_back();
+    // Up to the first dot: cup.left.csv is of a cup.
+    log.name = std::filesystem::path(first[i]).filename().string();
+    log.name = log.name.substr(0, log.name.find('.', 1));
+    log.first = FrameTable::Read(first[i], scene.columns);
+    if (!second.empty()) {
+      log.second = FrameTable::Read(second[i], scene.columns);
+    }
+  }
+  return logs;
+}
+
+void PrintSummary(const Compliance& found) {
+  std::printf("%s\n", InFolder("compliance.yaml").c_str());
+  std::size_t points = 0, rows = 0, standing = 0;
+  for (const ComplianceTrial& trial : found.trials) {
+    points += trial.fit.points;
+    standing += trial.fit.standing;
+    rows += trial.rows;
+  }
+  std::printf(
+      "points         %zu of %zu rows in %zu trials; %zu left out as "
+      "the slider stood\n",
+      points, rows, found.trials.size(), standing);
+  std::printf("compared       from %.3g to %.3g N\n", found.from_N, found.to_N);
+  for (std::size_t i = 0; i < found.objects.size(); ++i) {
+    const ObjectStiffness& object = found.objects[i];
+    std::printf("%-14s %.4g +- %.2g N/mm", object.name.c_str(),
+                object.mean.N_per_mm,
+                std::hypot(object.mean.std, object.calibration_std));
+    if (i < found.pair_confidence.size()) {
+      std::printf(", stiffer than the next with %.4g %%",
+                  100 * found.pair_confidence[i]);
+    }
+    std::printf("\n");
+  }
+  if (found.objects.size() > 1) {
+    std::printf("whole order    right with %.4g %%\n",
+                100 * found.order_confidence);
+  }
+}
+
+int Run() {
+  const ComplianceFinger first{
+      ReadFinger(Required("finger", FLAGS_finger)),
+      FLAGS_scene.empty() ? Scene() : ReadScene(FLAGS_scene)};
+  const Discretization discretization =
+      ParseDiscretization(FLAGS_scheme, FLAGS_resolution);
+  if (FLAGS_dump_config) {
+    DumpConfig(first.finger, first.scene, discretization);
+    return kGood;
+  }
+  Required("logs", FLAGS_logs);
+  Required("out_dir", FLAGS_out_dir);
+  if (FLAGS_second_logs.empty() && !FLAGS_second_finger.empty()) {
+    throw UsageError("--second_finger does not go without --second_logs");
+  }
+  const ComplianceSettings settings = Settings();
+  std::vector<std::string> inputs = {FLAGS_finger};
+  if (!FLAGS_scene.empty()) inputs.push_back(FLAGS_scene);
+  std::optional<ComplianceFinger> second;
+  if (!FLAGS_second_logs.empty()) {
+    second = first;
+    if (!FLAGS_second_finger.empty()) {
+      second->finger = ReadFinger(FLAGS_second_finger);
+      inputs.push_back(FLAGS_second_finger);
+    }
+  }
+  const std::vector<ComplianceLog> logs = ReadLogs(first.scene, &inputs);
+  RefuseToOverwrite(inputs,
+                    {InFolder("points.csv"), InFolder("stiffness.csv"),
+                     InFolder("laws.csv"), InFolder("compliance.yaml")});
+  const Compliance found = MeasureCompliance(
+      logs, first, second ? &*second : nullptr, discretization, settings);
+
+  MakeFolder(FLAGS_out_dir);
+  PointTable(found).Write(InFolder("points.csv"));
+  StiffnessTable(found).Write(InFolder("stiffness.csv"));
+  LawTable(found).Write(InFolder("laws.csv"));
+  WriteFileAtomically(InFolder("compliance.yaml"),
+                      ComplianceYaml(found, inputs));
+  PrintSummary(found);
+  if (FLAGS_plots) {
+    const std::string problem =
+        RunPythonScript(FINRAY_PLOT_DIR "/plot_compliance.py", {FLAGS_out_dir},
+                        "python3-matplotlib");
+    if (!problem.empty()) LOG(WARNING) << "no plots: " << problem;
+  }
+  return found.order_confidence < FLAGS_least_order_confidence ? kGateFailed
+                                                               : kGood;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return finray::RunApp(
+      argc, argv,
+      "Stiffness of yielding objects, from stiff to soft.\n"
+      "finray_compliance --finger F.yaml --scene S.yaml --logs 'runs/*.csv' "
+      "--out_dir D [--second_logs 'other/*.csv']",
+      Run);
+}

@@ -1,0 +1,143 @@
+#include "finray/perception/compliance_files.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <limits>
+
+#include "finray/io/sha256.h"
+
+namespace finray {
+namespace {
+
+constexpr double kDegree = M_PI / 180;
+
+void EmitTrial(const ComplianceTrial& trial, YAML::Emitter* emitter) {
+  YAML::Emitter& yaml = *emitter;
+  const StiffnessFit& fit = trial.fit;
+  yaml << YAML::BeginMap << YAML::Key << "object" << YAML::Value << trial.object
+       << YAML::Key << "trial" << YAML::Value << trial.name << YAML::Key
+       << "rows" << YAML::Value << trial.rows << YAML::Key << "points"
+       << YAML::Value << fit.points << YAML::Key << "standing" << YAML::Value
+       << fit.standing;
+  yaml << YAML::Key << "direction_deg" << YAML::Value
+       << trial.direction.angle_rad / kDegree << YAML::Key
+       << "direction_std_deg" << YAML::Value
+       << trial.direction.std_rad / kDegree;
+  yaml << YAML::Key << "stiffness_N_per_mm" << YAML::Value
+       << trial.stiffness.N_per_mm << YAML::Key << "std_N_per_mm" << YAML::Value
+       << trial.stiffness.std;
+  yaml << YAML::Key << "friction_N" << YAML::Value << fit.friction_N()
+       << YAML::Key << "friction_std_N" << YAML::Value << fit.friction_std_N();
+  yaml << YAML::Key << "law" << YAML::Value << YAML::Flow << YAML::BeginSeq;
+  for (int m = 0; m <= fit.degree; ++m) yaml << fit.coefficients[m];
+  yaml << YAML::EndSeq << YAML::Key << "chi2" << YAML::Value << fit.chi2
+       << YAML::Key << "dof" << YAML::Value << fit.dof << YAML::EndMap;
+}
+
+}  // namespace
+
+FrameTable PointTable(const Compliance& found) {
+  std::size_t count = 0, next = 0;
+  for (const ComplianceTrial& trial : found.trials) {
+    count += trial.points.size();
+  }
+  FrameTable table(count);
+  for (const ComplianceTrial& trial : found.trials) {
+    for (const ForcePoint& point : trial.points) {
+      const auto set = [&](const char* name, double value) {
+        table.MutableNumbers(name)[next] = value;
+      };
+      table.MutableText("object")[next] = trial.object;
+      table.MutableText("trial")[next] = trial.name;
+      set("row", static_cast<double>(point.row + 1));
+      set("displacement_mm", point.displacement_mm);
+      set("displacement_std_mm", std::sqrt(point.covariance(0, 0)));
+      set("force_N", point.force_N);
+      set("force_std_N", std::sqrt(point.covariance(1, 1)));
+      set("direction", point.direction);
+      set("slides", point.slides ? 1 : 0);
+      ++next;
+    }
+  }
+  return table;
+}
+
+FrameTable StiffnessTable(const Compliance& found) {
+  FrameTable table(found.objects.size());
+  for (std::size_t i = 0; i < found.objects.size(); ++i) {
+    const ObjectStiffness& object = found.objects[i];
+    const auto set = [&](const char* name, double value) {
+      table.MutableNumbers(name)[i] = value;
+    };
+    table.MutableText("object")[i] = object.name;
+    set("trials", static_cast<double>(object.trials.size()));
+    set("stiffness_N_per_mm", object.mean.N_per_mm);
+    set("std_N_per_mm", object.mean.std);
+    set("calibration_std_N_per_mm", object.calibration_std);
+    set("probability_stiffer_than_next", i < found.pair_confidence.size()
+                                             ? found.pair_confidence[i]
+                                             : std::nan(""));
+  }
+  return table;
+}
+
+FrameTable LawTable(const Compliance& found) {
+  constexpr std::size_t kSteps = 40;
+  FrameTable table(found.trials.size() * (kSteps + 1));
+  std::size_t next = 0;
+  for (const ComplianceTrial& trial : found.trials) {
+    const StiffnessFit& fit = trial.fit;
+    for (std::size_t k = 0; k <= kSteps; ++k, ++next) {
+      const double u = fit.least_mm + (fit.largest_mm - fit.least_mm) *
+                                          static_cast<double>(k) / kSteps;
+      table.MutableText("object")[next] = trial.object;
+      table.MutableText("trial")[next] = trial.name;
+      table.MutableNumbers("displacement_mm")[next] = u;
+      table.MutableNumbers("force_N")[next] = fit.ForceAt(u);
+      table.MutableNumbers("friction_N")[next] = fit.friction_N();
+    }
+  }
+  return table;
+}
+
+std::string ComplianceYaml(const Compliance& found,
+                           const std::vector<std::string>& inputs) {
+  YAML::Emitter yaml;
+  yaml.SetDoublePrecision(std::numeric_limits<double>::max_digits10);
+  yaml << YAML::BeginMap << YAML::Key << "compared_between_N" << YAML::Value
+       << YAML::Flow << YAML::BeginSeq << found.from_N << found.to_N
+       << YAML::EndSeq;
+  yaml << YAML::Key << "order_confidence" << YAML::Value
+       << found.order_confidence;
+  yaml << YAML::Key << "objects" << YAML::Value << YAML::BeginSeq;
+  for (std::size_t i = 0; i < found.objects.size(); ++i) {
+    const ObjectStiffness& object = found.objects[i];
+    yaml << YAML::BeginMap << YAML::Key << "object" << YAML::Value
+         << object.name << YAML::Key << "trials" << YAML::Value
+         << object.trials.size() << YAML::Key << "stiffness_N_per_mm"
+         << YAML::Value << object.mean.N_per_mm << YAML::Key << "std_N_per_mm"
+         << YAML::Value << object.mean.std << YAML::Key
+         << "calibration_std_N_per_mm" << YAML::Value << object.calibration_std;
+    if (i < found.pair_confidence.size()) {
+      yaml << YAML::Key << "probability_stiffer_than_next" << YAML::Value
+           << found.pair_confidence[i];
+    }
+    yaml << YAML::EndMap;
+  }
+  yaml << YAML::EndSeq << YAML::Key << "trials" << YAML::Value
+       << YAML::BeginSeq;
+  for (const ComplianceTrial& trial : found.trials) EmitTrial(trial, &yaml);
+  yaml << YAML::EndSeq << YAML::Key << "inputs" << YAML::Value
+       << YAML::BeginSeq;
+  for (const std::string& path : inputs) {
+    yaml << YAML::Flow << YAML::BeginMap << YAML::Key << "path" << YAML::Value
+         << path << YAML::Key << "sha256" << YAML::Value << Sha256OfFile(path)
+         << YAML::EndMap;
+  }
+  yaml << YAML::EndSeq << YAML::Key << "version" << YAML::Value
+       << FINRAY_VERSION << YAML::EndMap;
+  return std::string(yaml.c_str()) + "\n";
+}
+
+}  // namespace finray

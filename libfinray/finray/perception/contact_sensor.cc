@@ -1,0 +1,76 @@
+#include "finray/perception/contact_sensor.h"
+
+#include "finray/sensing/contact_linearization.h"
+
+namespace finray {
+
+ContactSensor::ContactSensor(const Finger& finger, const Scene& scene,
+                             const Discretization& discretization)
+    : finger_(finger),
+      scene_(scene),
+      estimator_(finger, scene, discretization),
+      solver_(finger, discretization) {}
+
+SensedFrame ContactSensor::Sense(const FrameReadings& readings) {
+  const FrameEstimate estimate = estimator_.Estimate(readings);
+  SensedFrame frame;
+  frame.status = estimate.status;
+  if (estimate.status != FrameStatus::kOk) return frame;
+  std::vector<PointContact> contacts;
+  for (int c = 0; c < estimate.contacts; ++c) {
+    contacts.push_back({estimate.contact[c].arc_mm,
+                        estimate.contact[c].normal_N,
+                        scene_.friction_coefficient});
+  }
+  Measure(finger_, scene_, readings, &measurement_);
+  ContactLinearization linearization;
+  solver_.Reset();
+  if (!linearization.At(contacts, measurement_, MeasuredRadius(scene_),
+                        &solver_)) {
+    frame.status = FrameStatus::kNotConverged;
+    return frame;
+  }
+  const double scale = estimate.noise_scale();
+  return At(contacts,
+            scale * scale * CovarianceOf(linearization.information()));
+}
+
+SensedFrame ContactSensor::FromEstimate(
+    const std::vector<PointContact>& contacts,
+    const std::vector<Eigen::Vector2d>& std) {
+  solver_.Reset();
+  if (!solver_.SolveWithSensitivities(contacts)) {
+    SensedFrame frame;
+    frame.status = FrameStatus::kNotConverged;
+    return frame;
+  }
+  const auto unknowns = static_cast<Eigen::Index>(2 * contacts.size());
+  ContactMatrix covariance = ContactMatrix::Zero(unknowns, unknowns);
+  for (std::size_t c = 0; c < std.size(); ++c) {
+    covariance.diagonal().segment<2>(2 * static_cast<Eigen::Index>(c)) =
+        std[c].cwiseAbs2();
+  }
+  return At(contacts, covariance);
+}
+
+SensedFrame ContactSensor::At(const std::vector<PointContact>& contacts,
+                              const ContactMatrix& covariance) {
+  const auto unknowns = static_cast<Eigen::Index>(2 * contacts.size());
+  SensedFrame frame;
+  frame.status = FrameStatus::kOk;
+  frame.shape.emplace(solver_, contacts);
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const auto first = static_cast<Eigen::Index>(c);
+    Eigen::Matrix<double, 4, Eigen::Dynamic> slope(4, unknowns);
+    slope.topRows<3>() = solver_.d_outputs().block(
+        solver_.model().gauges() + 3 * first, 0, 3, unknowns);
+    slope.row(3).setZero();
+    slope(3, 2 * first + 1) = 1;
+    frame.contacts.push_back({contacts[c],
+                              solver_.contact_pose(static_cast<int>(c)),
+                              slope * covariance * slope.transpose()});
+  }
+  return frame;
+}
+
+}  // namespace finray

@@ -1,0 +1,394 @@
+#include "finray/perception/outline_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include "finray/perception/beam_bounds.h"
+#include "finray/perception/edge_cells.h"
+#include "finray/perception/outline_cost.h"
+
+namespace finray {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix2d;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+constexpr double kClosureStd_mm = 5e-3;
+constexpr double kHuberScale = 3;
+constexpr double kEdgeLengthStd = 3;  // of its logarithm
+// Over which the radius of curvature is averaged at least.
+constexpr double kLeastReach_rad = 0.026;
+// Rounds in which weights, bounds and lambda follow the outline.
+constexpr int kSmoothRounds = 2, kLastRounds = 2;
+// log10 of lambda: the first round's grid, then steps about the best.
+constexpr double kLeastPower = -4, kMostPower = 5;
+constexpr double kFirstStep = 1, kLaterStep = 0.25;
+// Touches do not agree better than this share of what they claim.
+constexpr double kLeastScale = 0.1;
+
+// Circle through the tangents: h_i = centre . n_i + radius.
+ConvexCurve Circle(const std::vector<Touch>& touches, const NormalGrid& grid) {
+  MatrixXd rows(static_cast<Index>(touches.size()), 3);
+  VectorXd support(rows.rows());
+  for (Index i = 0; i < rows.rows(); ++i) {
+    const Vector2d normal = touches[i].Normal();
+    rows.row(i) << normal.x(), normal.y(), 1;
+    support[i] = normal.dot(touches[i].point_mm);
+  }
+  const Eigen::Vector3d found =
+      (rows.transpose() * rows).ldlt().solve(rows.transpose() * support);
+  const double radius = std::max(found[2], 1e-3);
+  return {grid, found.head<2>() + Vector2d(radius, 0),  // its origin is 0
+          VectorXd::Constant(grid.cells(), radius)};
+}
+
+// Whitening of point - r(normal angle), the point's error and what the angle's
+// moves r by.
+Matrix2d Whitening(const Touch& touch, const ConvexCurve& curve,
+                   double stage_std_mm) {
+  const double reach =
+      std::max(2 * std::sqrt(touch.covariance(2, 2)), kLeastReach_rad);
+  const Vector2d normal = touch.Normal();
+  Eigen::Matrix<double, 2, 3> slope;
+  slope.leftCols<2>().setIdentity();
+  slope.col(2) = -curve.MeanRadius(touch.normal_angle_rad, reach) *
+                 Vector2d(-normal.y(), normal.x());
+  Matrix2d covariance = slope * touch.covariance * slope.transpose();
+  covariance.diagonal().array() += stage_std_mm * stage_std_mm;
+  return covariance.llt().matrixL().solve(Matrix2d::Identity());
+}
+
+// The problem at given weights and bounds.
+class Fit {
+ public:
+  // `along[i]`: touch i lies along an edge.
+  Fit(const std::vector<Touch>& touches, const std::vector<bool>& along,
+      const ConvexCurve& about, const OutlineFitSettings& settings)
+      : grid_(about.grid()), cells_(grid_.cells()), along_(along) {
+    for (std::size_t i = 0; i < touches.size(); ++i) {
+      if (along[i]) continue;
+      costs_.push_back(std::make_unique<OutlinePointCost>(
+          touches[i].point_mm, touches[i].normal_angle_rad,
+          Whitening(touches[i], about, settings.stage_std_mm), false, grid_));
+    }
+    touches_ = costs_.size();
+    Take(about);
+  }
+
+  void AddBounds(const std::vector<BeamBound>& bounds) {
+    for (const BeamBound& bound : bounds) {
+      costs_.push_back(std::make_unique<OutlinePointCost>(
+          bound.beam_point_mm, bound.normal_angle_rad,
+          bound.beam_normal.transpose() / bound.std_mm, true, grid_));
+    }
+  }
+
+  void Take(const ConvexCurve& curve) {
+    u_ = curve.radii_mm().array().log();
+    start_ = curve.start_mm();
+  }
+  ConvexCurve curve() const { return {grid_, start_, u_.array().exp()}; }
+
+  // False if Ceres finds no minimum.
+  bool Solve(double lambda) {
+    ceres::Problem problem = MakeProblem(lambda);
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+    options.max_num_iterations = 40;
+    options.function_tolerance = 1e-5;
+    options.parameter_tolerance = 1e-8;
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+    cost_ = 2 * summary.final_cost;
+    return summary.IsSolutionUsable();
+  }
+
+  // The criterion that lambda minimises, at the last solution.
+  double Improbability(double lambda) const {
+    const double n = 2 * static_cast<double>(touches_);
+    const MatrixXd information = Information(lambda);
+    const Eigen::LLT<MatrixXd> factor(information);
+    const double log_det =
+        2 * factor.matrixLLT().diagonal().array().log().sum();
+    if (factor.info() != Eigen::Success || !std::isfinite(log_det)) {
+      return std::numeric_limits<double>::infinity();
+    }
+    return n * std::log(noise_scale() * noise_scale()) + log_det -
+           LogDeterminantOfRoughness(lambda) +
+           2 * edges() * std::log(kEdgeLengthStd);
+  }
+
+  // Its null space: the level of the outline, and that of each edge.
+  double LogDeterminantOfRoughness(double lambda) const {
+    const Dense slope = Slope(OutlineRoughnessCost(grid_));
+    MatrixXd roughness = slope.transpose() * slope;
+    VectorXd level = VectorXd::Zero(cells_);
+    for (Index j = 0; j < cells_; ++j) {
+      if (!grid_.IsEdge(j)) {
+        level[j] = 1;
+      } else if (!grid_.IsEdge(j - 1)) {
+        roughness.block<NormalGrid::kEdgeCells, NormalGrid::kEdgeCells>(j, j)
+            .array() += 1.0 / NormalGrid::kEdgeCells;
+      }
+    }
+    roughness += level * level.transpose() / level.squaredNorm();
+    const double rank = static_cast<double>(cells_) - 1 - edges();
+    return rank * std::log(lambda) +
+           2 * roughness.llt().matrixLLT().diagonal().array().log().sum();
+  }
+
+  int edges() const {
+    int cells = 0;
+    for (Index j = 0; j < cells_; ++j) cells += grid_.IsEdge(j);
+    return cells / NormalGrid::kEdgeCells;
+  }
+
+  double noise_scale() const {
+    return std::max(kLeastScale,
+                    std::sqrt(cost_ / (2 * static_cast<double>(touches_))));
+  }
+
+  // Of u and the start: J'J of everything, touches weighted by their loss.
+  MatrixXd Information(double lambda) const {
+    MatrixXd information = MatrixXd::Zero(cells_ + 2, cells_ + 2);
+    for (const auto& cost : costs_) {
+      const Linear linear = Linearize(*cost);
+      const double squared = linear.residual.squaredNorm();
+      const double weight = squared > kHuberScale * kHuberScale
+                                ? kHuberScale / std::sqrt(squared)
+                                : 1;
+      information.noalias() += weight * linear.slope.transpose() * linear.slope;
+    }
+    const Dense roughness = Slope(OutlineRoughnessCost(grid_));
+    const Dense closure = Slope(OutlineClosureCost(grid_, kClosureStd_mm));
+    information.topLeftCorner(cells_, cells_) +=
+        lambda * roughness.transpose() * roughness +
+        closure.transpose() * closure;
+    return information;
+  }
+
+  std::vector<double> Distances() const {
+    std::vector<double> distances;
+    std::size_t next = 0;
+    for (const bool along : along_) {
+      distances.push_back(along ? std::nan("")
+                                : Linearize(*costs_[next++]).residual.norm());
+    }
+    return distances;
+  }
+
+  int ActiveBounds() const {
+    int active = 0;
+    for (std::size_t i = touches_; i < costs_.size(); ++i) {
+      active += Linearize(*costs_[i]).residual[0] != 0;
+    }
+    return active;
+  }
+
+ private:
+  using Dense =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  struct Linear {
+    VectorXd residual;
+    Dense slope;
+  };
+
+  ceres::Problem MakeProblem(double lambda) {
+    ceres::Problem::Options options;
+    options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ceres::Problem problem(options);
+    problem.AddParameterBlock(u_.data(), static_cast<int>(cells_));
+    problem.AddParameterBlock(start_.data(), 2);
+    for (const auto& cost : costs_) {
+      problem.AddResidualBlock(cost.get(), new ceres::HuberLoss(kHuberScale),
+                               u_.data(), start_.data());
+    }
+    roughness_ = std::make_unique<OutlineRoughnessCost>(grid_);
+    closure_ = std::make_unique<OutlineClosureCost>(grid_, kClosureStd_mm);
+    problem.AddResidualBlock(
+        roughness_.get(),
+        new ceres::ScaledLoss(nullptr, lambda, ceres::TAKE_OWNERSHIP),
+        u_.data());
+    problem.AddResidualBlock(closure_.get(), nullptr, u_.data());
+    return problem;
+  }
+
+  // Of a cost that has u alone.
+  Dense Slope(const ceres::CostFunction& cost) const {
+    VectorXd residual(cost.num_residuals());
+    Dense slope(cost.num_residuals(), cells_);
+    const double* parameters[] = {u_.data()};
+    double* jacobians[] = {slope.data()};
+    cost.Evaluate(parameters, residual.data(), jacobians);
+    return slope;
+  }
+
+  Linear Linearize(const OutlinePointCost& cost) const {
+    const Index rows = cost.num_residuals();
+    Linear linear{VectorXd(rows), {}};
+    Dense by_u(rows, cells_), by_start(rows, 2);
+    const double* parameters[] = {u_.data(), start_.data()};
+    double* jacobians[] = {by_u.data(), by_start.data()};
+    cost.Evaluate(parameters, linear.residual.data(), jacobians);
+    linear.slope.resize(rows, cells_ + 2);
+    linear.slope << by_u, by_start;
+    return linear;
+  }
+
+  NormalGrid grid_;
+  Index cells_;
+  std::vector<bool> along_;
+  std::size_t touches_ = 0;
+  std::vector<std::unique_ptr<OutlinePointCost>> costs_;  // touches, bounds
+  std::unique_ptr<OutlineRoughnessCost> roughness_;
+  std::unique_ptr<OutlineClosureCost> closure_;
+  VectorXd u_;
+  Vector2d start_;
+  double cost_ = 0;
+};
+
+// Goes through lambda from smooth to rough and leaves the fit at the best.
+struct Best {
+  double lambda, improbability;
+};
+Best BestLambda(double from_power, double to_power, double step, Fit* fit) {
+  const ConvexCurve start = fit->curve();
+  double best = std::numeric_limits<double>::infinity(), best_lambda = 0;
+  ConvexCurve best_curve = start;
+  for (double power = to_power; power >= from_power - 1e-9; power -= step) {
+    const double lambda = std::pow(10, power);
+    if (!fit->Solve(lambda)) {
+      fit->Take(start);
+      continue;
+    }
+    const double improbability = fit->Improbability(lambda);
+    if (improbability < best) {
+      best = improbability;
+      best_lambda = lambda;
+      best_curve = fit->curve();
+    }
+  }
+  if (best_lambda == 0) {
+    throw std::runtime_error("no outline fits the touches");
+  }
+  fit->Take(best_curve);
+  fit->Solve(best_lambda);
+  return {best_lambda, best};
+}
+
+std::vector<BeamBound> Bounds(const std::vector<Touch>& touches,
+                              const ConvexCurve& curve,
+                              const OutlineFitSettings& settings) {
+  return FindBeamBounds(touches, curve, settings.stage_std_mm,
+                        settings.beam_reach_mm);
+}
+
+// Flat stretches as straight edges, if that makes the touches away from them
+// more probable than a smooth outline does.
+void TakeEdges(const std::vector<Touch>& touches,
+               const OutlineFitSettings& settings, OutlineFit* result,
+               std::vector<bool>* along) {
+  const auto edges = FindStraightEdges(result->curve, touches);
+  if (edges.empty()) return;
+  const std::vector<bool> apart = Along(touches, edges, result->curve);
+  if (std::count(apart.begin(), apart.end(), false) < 3) return;
+  const auto bounds = Bounds(touches, result->curve, settings);
+  Fit smooth(touches, apart, result->curve, settings);
+  smooth.AddBounds(bounds);
+  Fit straight(touches, apart, WithEdges(result->curve, edges, settings.cells),
+               settings);
+  straight.AddBounds(bounds);
+  const Best of_smooth =
+      BestLambda(kLeastPower, kMostPower, kFirstStep, &smooth);
+  const Best of_straight =
+      BestLambda(kLeastPower, kMostPower, kFirstStep, &straight);
+  if (of_straight.improbability >= of_smooth.improbability) return;
+  result->edges = edges;
+  result->smoothing = of_straight.lambda;
+  result->curve = straight.curve();
+  for (StraightEdge& edge : result->edges) edge = Settled(edge, result->curve);
+  *along = apart;
+}
+
+}  // namespace
+
+double OutlineFit::NormalStd(double normal_angle_rad) const {
+  const Index cells = curve.grid().cells();
+  const Vector2d normal(std::cos(normal_angle_rad), std::sin(normal_angle_rad));
+  VectorXd slope(cells + 2);
+  slope.head(cells) = (normal.transpose() *
+                       ConvexCurve::SlopeAt(normal_angle_rad, curve.grid()) *
+                       curve.radii_mm().asDiagonal())
+                          .transpose();
+  slope.tail<2>() = normal;
+  return std::sqrt(std::max(0.0, slope.dot(covariance * slope)));
+}
+
+OutlineFit FitOutline(const std::vector<Touch>& touches,
+                      const OutlineFitSettings& settings) {
+  if (touches.size() < 3) {
+    throw std::invalid_argument("an outline needs three touches");
+  }
+  OutlineFit result;
+  result.curve = Circle(touches, NormalGrid(settings.cells));
+  std::vector<bool> along(touches.size(), false);
+  // Smooth first: weights of the first round are those of a circle.
+  for (int round = 0; round < kSmoothRounds; ++round) {
+    Fit fit(touches, along, result.curve, settings);
+    if (round > 0) fit.AddBounds(Bounds(touches, result.curve, settings));
+    result.smoothing =
+        BestLambda(kLeastPower, kMostPower, kFirstStep, &fit).lambda;
+    result.curve = fit.curve();
+  }
+  TakeEdges(touches, settings, &result, &along);
+  for (int round = 0; round < kLastRounds; ++round) {
+    if (!result.edges.empty()) {
+      result.curve = WithEdges(result.curve, result.edges, settings.cells);
+    }
+    Fit fit(touches, along, result.curve, settings);
+    fit.AddBounds(Bounds(touches, result.curve, settings));
+    const double power = std::log10(result.smoothing);
+    result.smoothing =
+        BestLambda(power - kFirstStep, power + kFirstStep, kLaterStep, &fit)
+            .lambda;
+    result.curve = fit.curve();
+    for (StraightEdge& edge : result.edges) edge = Settled(edge, result.curve);
+    if (round + 1 < kLastRounds) continue;
+    result.noise_scale = fit.noise_scale();
+    result.distances = fit.Distances();
+    result.beam_bounds = fit.ActiveBounds();
+    const double scale = std::max(1.0, result.noise_scale);
+    const MatrixXd information = fit.Information(result.smoothing);
+    result.covariance = scale * scale *
+                        information.llt().solve(MatrixXd::Identity(
+                            information.rows(), information.cols()));
+  }
+  return result;
+}
+
+OutlineFit RefitOutline(const std::vector<Touch>& touches,
+                        const OutlineFit& start,
+                        const OutlineFitSettings& settings) {
+  Fit fit(touches, Along(touches, start.edges, start.curve), start.curve,
+          settings);
+  fit.AddBounds(Bounds(touches, start.curve, settings));
+  if (!fit.Solve(start.smoothing)) {
+    throw std::runtime_error("no outline fits the touches of a varied finger");
+  }
+  OutlineFit result;
+  result.curve = fit.curve();
+  result.smoothing = start.smoothing;
+  result.noise_scale = fit.noise_scale();
+  result.distances = fit.Distances();
+  return result;
+}
+
+}  // namespace finray

@@ -1,0 +1,204 @@
+#include "finray/perception/reconstruction_files.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "finray/io/error.h"
+#include "finray/io/parse_number.h"
+#include "finray/io/sha256.h"
+#include "finray/io/shown_text.h"
+
+namespace finray {
+namespace {
+
+constexpr double kDegree = M_PI / 180;
+
+void EmitError(const char* key, const RadialError& error, YAML::Emitter* yaml) {
+  *yaml << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginMap
+        << YAML::Key << "mean" << YAML::Value << error.Mean() << YAML::Key
+        << "rms" << YAML::Value << error.Rms() << YAML::Key << "quantile_95"
+        << YAML::Value << error.Quantile(0.95) << YAML::Key << "largest"
+        << YAML::Value << error.Largest() << YAML::EndMap;
+}
+
+void EmitDescriptors(const char* key, const FourierDescriptors& descriptors,
+                     YAML::Emitter* yaml) {
+  const auto& c = descriptors.coefficients();
+  const int most = static_cast<int>(c.size()) / 2;
+  *yaml << YAML::Key << key << YAML::Value << YAML::BeginSeq;
+  for (int k = -most; k <= most; ++k) {
+    const auto& value = c[static_cast<std::size_t>(k + most)];
+    *yaml << YAML::Flow << YAML::BeginMap << YAML::Key << "k" << YAML::Value
+          << k << YAML::Key << "real_mm" << YAML::Value << value.real()
+          << YAML::Key << "imaginary_mm" << YAML::Value << value.imag()
+          << YAML::EndMap;
+  }
+  *yaml << YAML::EndSeq;
+}
+
+void EmitPoint(const Eigen::Vector2d& point, YAML::Emitter* yaml) {
+  *yaml << YAML::Flow << YAML::BeginSeq << point.x() << point.y()
+        << YAML::EndSeq;
+}
+
+}  // namespace
+
+FrameTable OutlineTable(const Reconstruction& found, const Polygon* truth) {
+  FrameTable table(found.outline.size());
+  const RadialError error =
+      truth == nullptr ? RadialError()
+                       : CompareRadii(found.polygon(), *truth,
+                                      static_cast<int>(found.outline.size()));
+  for (std::size_t i = 0; i < found.outline.size(); ++i) {
+    const OutlinePoint& point = found.outline[i];
+    const auto set = [&](const char* name, double value) {
+      table.MutableNumbers(name)[i] = value;
+    };
+    set("angle_deg", point.angle_rad / kDegree);
+    set("x_mm", point.position_mm.x());
+    set("y_mm", point.position_mm.y());
+    set("radius_mm", point.radius_mm);
+    set("std_mm", point.std_mm);
+    set("supported", point.supported ? 1 : 0);
+    if (truth == nullptr) continue;
+    const auto radius = RadiusAt(*truth, CentroidOf(*truth), point.angle_rad);
+    set("true_radius_mm", radius.value_or(std::nan("")));
+    set("radial_error_percent", error.percent[i]);
+  }
+  return table;
+}
+
+FrameTable TouchTable(const Reconstruction& found) {
+  const std::vector<Touch>& touches = found.touches.usable;
+  FrameTable table(touches.size());
+  for (std::size_t i = 0; i < touches.size(); ++i) {
+    const Touch& touch = touches[i];
+    const auto set = [&](const char* name, double value) {
+      table.MutableNumbers(name)[i] = value;
+    };
+    set("row", static_cast<double>(touch.row + 1));
+    set("point_x_mm", touch.point_mm.x());
+    set("point_y_mm", touch.point_mm.y());
+    set("normal_deg", touch.normal_angle_rad / kDegree);
+    set("normal_N", touch.normal_N);
+    const Eigen::Vector2d n = touch.Normal();
+    set("normal_std_mm",
+        std::sqrt(n.dot(touch.covariance.topLeftCorner<2, 2>() * n)));
+    set("distance_std", found.fit.distances[i]);
+  }
+  return table;
+}
+
+FrameTable BeamTable(const Reconstruction& found, double reach_mm) {
+  std::vector<std::array<double, 3>> rows;
+  for (const Touch& touch : found.touches.usable) {
+    for (const Eigen::Vector2d& point : touch.BeamNear(reach_mm)) {
+      rows.push_back(
+          {static_cast<double>(touch.row + 1), point.x(), point.y()});
+    }
+  }
+  FrameTable table(rows.size());
+  const char* names[] = {"row", "x_mm", "y_mm"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::vector<double>& cells = table.MutableNumbers(names[k]);
+    for (std::size_t i = 0; i < rows.size(); ++i) cells[i] = rows[i][k];
+  }
+  return table;
+}
+
+std::string ReconstructionYaml(const Reconstruction& found,
+                               const FourierDescriptors& descriptors,
+                               const FourierDescriptors& envelope,
+                               const RadialError* error,
+                               const RadialError* envelope_error,
+                               const std::vector<std::string>& inputs) {
+  YAML::Emitter yaml;
+  yaml.SetDoublePrecision(std::numeric_limits<double>::max_digits10);
+  yaml << YAML::BeginMap;
+  yaml << YAML::Key << "touches" << YAML::Value << YAML::BeginMap << YAML::Key
+       << "rows" << YAML::Value << found.touches.all_rows();
+  for (const auto& [status, count] : found.touches.rows) {
+    yaml << YAML::Key << StatusName(status) << YAML::Value << count;
+  }
+  const auto along =
+      std::count_if(found.fit.distances.begin(), found.fit.distances.end(),
+                    [](double distance) { return std::isnan(distance); });
+  const auto astray =
+      std::count_if(found.fit.distances.begin(), found.fit.distances.end(),
+                    [](double distance) { return distance > 4; });
+  yaml << YAML::Key << "contacts" << YAML::Value << found.touches.usable.size()
+       << YAML::Key << "along_edges" << YAML::Value << along << YAML::Key
+       << "astray" << YAML::Value << astray << YAML::EndMap;
+  yaml << YAML::Key << "fit" << YAML::Value << YAML::Flow << YAML::BeginMap
+       << YAML::Key << "smoothing" << YAML::Value << found.fit.smoothing
+       << YAML::Key << "noise_scale" << YAML::Value << found.fit.noise_scale
+       << YAML::Key << "beam_bounds" << YAML::Value << found.fit.beam_bounds
+       << YAML::EndMap;
+  yaml << YAML::Key << "centroid_mm" << YAML::Value;
+  EmitPoint(found.centroid_mm, &yaml);
+  yaml << YAML::Key << "straight_edges" << YAML::Value << YAML::BeginSeq;
+  for (const StraightEdge& edge : found.fit.edges) {
+    yaml << YAML::Flow << YAML::BeginMap << YAML::Key << "normal_deg"
+         << YAML::Value << std::remainder(edge.middle_rad, 2 * M_PI) / kDegree
+         << YAML::Key << "length_mm" << YAML::Value << edge.length_mm
+         << YAML::EndMap;
+  }
+  yaml << YAML::EndSeq;
+  yaml << YAML::Key << "supported_percent" << YAML::Value
+       << 100 * found.supported_share;
+  yaml << YAML::Key << "unsupported" << YAML::Value << YAML::BeginSeq;
+  for (const TouchCoverage::Gap& gap : found.gaps) {
+    yaml << YAML::Flow << YAML::BeginMap << YAML::Key << "from_mm"
+         << YAML::Value;
+    EmitPoint(gap.from_mm, &yaml);
+    yaml << YAML::Key << "to_mm" << YAML::Value;
+    EmitPoint(gap.to_mm, &yaml);
+    yaml << YAML::Key << "length_mm" << YAML::Value << gap.length_mm
+         << YAML::EndMap;
+  }
+  yaml << YAML::EndSeq;
+  EmitDescriptors("descriptors", descriptors, &yaml);
+  EmitDescriptors("envelope_descriptors", envelope, &yaml);
+  if (error != nullptr) {
+    EmitError("radial_error_percent", *error, &yaml);
+    EmitError("envelope_radial_error_percent", *envelope_error, &yaml);
+  }
+  yaml << YAML::Key << "inputs" << YAML::Value << YAML::BeginSeq;
+  for (const std::string& path : inputs) {
+    yaml << YAML::Flow << YAML::BeginMap << YAML::Key << "path" << YAML::Value
+         << path << YAML::Key << "sha256" << YAML::Value << Sha256OfFile(path)
+         << YAML::EndMap;
+  }
+  yaml << YAML::EndSeq << YAML::Key << "version" << YAML::Value
+       << FINRAY_VERSION << YAML::EndMap;
+  return std::string(yaml.c_str()) + "\n";
+}
+
+Polygon ReadOutline(const std::string& path) {
+  FrameTable table = FrameTable::Read(path);
+  Polygon polygon(table.rows());
+  const char* names[] = {"x_mm", "y_mm"};
+  for (int k = 0; k < 2; ++k) {
+    if (!table.Has(names[k])) table.Numbers(names[k]);  // says what it has
+    const auto& cells = table.MutableText(names[k]);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const auto number = ParseNumber(cells[i]);
+      if (!number || !std::isfinite(*number)) {
+        throw InputError(path + ":" + std::to_string(table.line(i)) + ": " +
+                         names[k] + ": expected a number, found " +
+                         ShownText(cells[i]));
+      }
+      polygon[i][k] = *number;
+    }
+  }
+  if (polygon.size() < 3) {
+    throw InputError(path + ": an outline needs at least 3 points");
+  }
+  return polygon;
+}
+
+}  // namespace finray

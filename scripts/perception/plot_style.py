@@ -1,0 +1,29 @@
+"""The look of the perception plots; each is written as SVG and PNG."""
+
+import os
+import tempfile
+
+os.environ.setdefault("MPLCONFIGDIR", tempfile.mkdtemp(prefix="finray_mpl_"))
+
+import matplotlib
+
+matplotlib.use("agg")
+import matplotlib.pyplot as plt
+
+BLUE, ORANGE, GREEN, RED = "#2f6fab", "#d1793b", "#3a9a6a", "#b3382c"
+INK, QUIET, PALE = "#22272e", "#6b7480", "#d3dae1"
+
+plt.rcParams.update({
+    "font.size": 9, "axes.edgecolor": QUIET, "axes.labelcolor": INK, "xtick.color": QUIET,
+    "ytick.color": QUIET, "text.color": INK, "axes.spines.top": False, "axes.spines.right": False,
+    "axes.grid": True, "grid.color": "#e4e8ec", "grid.linewidth": 0.7, "axes.axisbelow": True,
+    "legend.frameon": False, "font.family": "sans-serif", "figure.dpi": 150,
+    "svg.fonttype": "none", "svg.hashsalt": "finray",
+})
+
+
+def save(figure, stem):
+    """No version or date in them: the same bytes for the same numbers."""
+    figure.savefig(f"{stem}.svg", bbox_inches="tight", metadata={"Date": None, "Creator": None})
+    figure.savefig(f"{stem}.png", bbox_inches="tight", metadata={"Software": None})
+    plt.close(figure)

@@ -1,0 +1,96 @@
+#include "finray/perception/convex_curve.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "finray/statics/outline.h"
+
+namespace finray {
+namespace {
+
+ConvexCurve CurveOf(const Outline& outline, const NormalGrid& grid) {
+  Eigen::VectorXd radii(grid.cells());
+  for (Eigen::Index j = 0; j < grid.cells(); ++j) {
+    radii[j] =
+        outline.PointAt(grid.Start(j) + grid.Width(j) / 2).curvature_radius_mm;
+  }
+  return {grid, outline.PointAt(grid.origin_rad()).position_mm, radii};
+}
+
+TEST(ConvexCurveTest, CircleIsExact) {
+  const Outline circle(CircleOutline{7});
+  for (const NormalGrid& grid : {NormalGrid(9), NormalGrid(30, {1.0, 4.0})}) {
+    const ConvexCurve curve = CurveOf(circle, grid);
+    for (double a = -7; a < 7; a += 0.31) {
+      EXPECT_LT((curve.At(a) - circle.PointAt(a).position_mm).norm(), 1e-13);
+    }
+    EXPECT_NEAR(curve.perimeter_mm(), 14 * M_PI, 1e-12);
+  }
+}
+
+// Midpoint radii: second order in the width of a cell.
+TEST(ConvexCurveTest, EllipseConvergesWithTheCells) {
+  const Outline ellipse(EllipseOutline{12, 5});
+  double before = 0;
+  for (const int cells : {90, 180, 360}) {
+    const ConvexCurve curve = CurveOf(ellipse, NormalGrid(cells));
+    double worst = 0;
+    for (double a = 0; a < 6.2; a += 0.1) {
+      worst = std::max(worst,
+                       (curve.At(a) - ellipse.PointAt(a).position_mm).norm());
+    }
+    if (before > 0) {
+      EXPECT_NEAR(before / worst, 4, 1.2) << cells;
+    }
+    before = worst;
+  }
+  EXPECT_LT(before, 2e-3);
+}
+
+TEST(ConvexCurveTest, ArcLengthAndItsInverse) {
+  const ConvexCurve curve =
+      CurveOf(Outline(EllipseOutline{12, 5}), NormalGrid(60, {0.7}));
+  for (double a = -5; a < 10; a += 0.37) {
+    EXPECT_NEAR(curve.NormalAngleAt(curve.ArcAt(a)), a, 1e-12);
+    const double ahead = curve.ArcAt(a + 1e-6) - curve.ArcAt(a - 1e-6);
+    EXPECT_NEAR((curve.At(a + 1e-6) - curve.At(a - 1e-6)).norm(), ahead, 1e-10);
+  }
+}
+
+TEST(ConvexCurveTest, SlopesAreThoseByTheRadii) {
+  const NormalGrid grid(12, {2.0});
+  ConvexCurve::Radii radii = ConvexCurve::Radii::LinSpaced(grid.cells(), 1, 9);
+  const ConvexCurve curve(grid, {1, 2}, radii);
+  for (const double a : {0.1, 1.9, 2.0, 5.0}) {
+    const ConvexCurve::PointSlope slope = ConvexCurve::SlopeAt(a, grid);
+    for (Eigen::Index j = 0; j < grid.cells(); ++j) {
+      ConvexCurve::Radii moved = radii;
+      moved[j] += 1;  // linear
+      EXPECT_LT(
+          (ConvexCurve(grid, {1, 2}, moved).At(a) - curve.At(a) - slope.col(j))
+              .norm(),
+          1e-13);
+    }
+  }
+}
+
+TEST(NormalGridTest, EdgesHaveNarrowCellsAwayFromTheOrigin) {
+  const NormalGrid grid(36, {0.0, M_PI / 2});
+  EXPECT_NEAR(std::remainder(grid.origin_rad() - 1.25 * M_PI, 2 * M_PI), 0,
+              1e-12);
+  int edge = 0;
+  double around = 0;
+  for (Eigen::Index j = 0; j < grid.cells(); ++j) {
+    around += grid.Width(j);
+    ASSERT_GT(grid.Width(j), 0);
+    if (!grid.IsEdge(j)) continue;
+    ++edge;
+    EXPECT_NEAR(grid.Width(j), NormalGrid::kEdgeCell_rad, 1e-12);
+  }
+  EXPECT_EQ(edge, 2 * NormalGrid::kEdgeCells);
+  EXPECT_NEAR(around, 2 * M_PI, 1e-12);
+}
+
+}  // namespace
+}  // namespace finray

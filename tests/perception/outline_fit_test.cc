@@ -1,0 +1,106 @@
+#include "finray/perception/outline_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "finray/perception/beam_bounds.h"
+#include "perception/touch_fixture.h"
+
+namespace finray {
+namespace {
+
+using Eigen::Vector2d;
+
+// The largest distance of the fit from an outline.
+double LargestError(const OutlineFit& fit, const Outline& outline) {
+  double worst = 0;
+  for (int i = 0; i < 360; ++i) {
+    const double arc = fit.curve.perimeter_mm() * i / 360;
+    worst = std::max(
+        worst,
+        std::abs(outline.DistanceOf(fit.curve.At(fit.curve.NormalAngleAt(arc)))
+                     .distance_mm));
+  }
+  return worst;
+}
+
+TEST(OutlineFitTest, EllipseFromExactTouches) {
+  const Outline ellipse(EllipseOutline{22, 15});
+  const OutlineFit fit = FitOutline(ExactTouches(ellipse, 36));
+  EXPECT_TRUE(fit.edges.empty());
+  EXPECT_LT(LargestError(fit, ellipse), 2e-3);
+}
+
+// Four edges and one radius of curvature: the chain of log rho would have to
+// swing by factors of a hundred.
+TEST(OutlineFitTest, SquareHasStraightEdges) {
+  const Outline square(
+      RoundedPolygonOutline{{{-14, -14}, {14, -14}, {14, 14}, {-14, 14}}, 4});
+  const OutlineFit fit = FitOutline(ExactTouches(square, 36));
+  ASSERT_EQ(fit.edges.size(), 4u);
+  for (const StraightEdge& edge : fit.edges) {
+    EXPECT_NEAR(edge.length_mm, 28, 0.7);
+    EXPECT_NEAR(std::remainder(edge.middle_rad, M_PI / 2), 0, 5e-3);
+  }
+  EXPECT_LT(LargestError(fit, square), 0.15);
+}
+
+TEST(OutlineFitTest, OneTouchAstrayDoesNotBendTheRest) {
+  const Outline circle(CircleOutline{18});
+  std::vector<Touch> touches = ExactTouches(circle, 36);
+  touches[7].point_mm -= 1.5 * touches[7].Normal();
+  const OutlineFit fit = FitOutline(touches);
+  EXPECT_GT(fit.distances[7], 10);
+  EXPECT_LT(LargestError(fit, circle), 0.1);
+}
+
+// Errors over the std that is claimed, over draws and places.
+TEST(OutlineFitTest, StdIsThatOfTheErrors) {
+  const Outline ellipse(EllipseOutline{22, 15});
+  std::mt19937_64 generator(3);
+  std::normal_distribution<double> normal;
+  double squares = 0;
+  int count = 0;
+  for (int draw = 0; draw < 6; ++draw) {
+    std::vector<Touch> touches = ExactTouches(ellipse, 36, 0.02 * draw);
+    for (Touch& touch : touches) {
+      touch.covariance.topLeftCorner<2, 2>() *= 4;  // 0.04 mm
+      touch.point_mm += 0.04 * Vector2d(normal(generator), normal(generator));
+      touch.normal_angle_rad += 5e-4 * normal(generator);
+    }
+    OutlineFitSettings settings;
+    settings.stage_std_mm = 1e-3;
+    const OutlineFit fit = FitOutline(touches, settings);
+    for (double a = 0; a < 6.2; a += 0.4) {
+      const double error =
+          ellipse.DistanceOf(fit.curve.At(a)).distance_mm / fit.NormalStd(a);
+      squares += error * error;
+      ++count;
+    }
+  }
+  EXPECT_NEAR(std::sqrt(squares / count), 1, 0.35);
+}
+
+TEST(OutlineFitTest, BeamsHoldTheOutlineIn) {
+  const Outline circle(CircleOutline{18});
+  const ConvexCurve larger(NormalGrid(90), {20, 0},
+                           Eigen::VectorXd::Constant(90, 20));
+  const auto bounds =
+      FindBeamBounds(ExactTouches(circle, 12), larger, 0.02, 30);
+  ASSERT_FALSE(bounds.empty());
+  for (const BeamBound& bound : bounds) {
+    EXPECT_NEAR(bound.beam_normal.norm(), 1, 1e-12);
+    // The finger is on the far side of the beam.
+    EXPECT_GT(bound.beam_normal.dot(bound.beam_point_mm), 0);
+  }
+  EXPECT_TRUE(FindBeamBounds(ExactTouches(circle, 12),
+                             ConvexCurve(NormalGrid(90), {17, 0},
+                                         Eigen::VectorXd::Constant(90, 17)),
+                             0.02, 30)
+                  .empty());
+}
+
+}  // namespace
+}  // namespace finray

@@ -1,0 +1,95 @@
+#include "finray/perception/reconstruction.h"
+
+#include <gtest/gtest.h>
+
+#include "finray/perception/fourier_descriptors.h"
+#include "finray/perception/interior_envelope.h"
+#include "finray/perception/radial_error.h"
+#include "studies/ten_objects.h"
+#include "test_finger.h"
+
+namespace finray {
+namespace {
+
+Reconstruction Touched(const NamedObject& object, bool noisy,
+                       const Finger& finger = PaperFinger()) {
+  const TouchNoise noise{noisy, noisy ? 0.02 : 0.0, 1};
+  return Reconstruct(
+      SimulateTouches(PaperFinger(), object.touched, {}, {}, noise), finger,
+      Scene(), {}, {});
+}
+
+TEST(ReconstructionTest, EllipseWithoutNoise) {
+  const NamedObject ellipse = StudyObjects()[1];
+  const Reconstruction found = Touched(ellipse, false);
+  EXPECT_EQ(found.touches.usable.size(), 36u);
+  EXPECT_TRUE(found.gaps.empty());
+  EXPECT_LT(CompareRadii(found.polygon(), ellipse.truth).Largest(), 0.01);
+  // The paper's method, on the same touches.
+  const RadialError envelope = CompareRadii(
+      FourierDescriptors(InteriorEnvelope(found.touches.usable, 10), 19)
+          .Sampled(720),
+      ellipse.truth);
+  EXPECT_LT(envelope.Largest(), 0.5);
+  EXPECT_GT(envelope.Mean(), 0.05);
+}
+
+TEST(ReconstructionTest, SquareWithNoise) {
+  const NamedObject square = StudyObjects()[5];
+  const Reconstruction found = Touched(square, true);
+  EXPECT_EQ(found.fit.edges.size(), 4u);
+  EXPECT_EQ(found.gaps.size(), 4u);
+  EXPECT_LT(CompareRadii(found.polygon(), square.truth).Largest(), 2);
+}
+
+// A dumbbell's waist: touched on its hull only, and marked.
+TEST(ReconstructionTest, DentIsMarkedAsNotTouched) {
+  const NamedObject dumbbell = StudyObjects()[10];
+  const Reconstruction found = Touched(dumbbell, true);
+  EXPECT_EQ(found.gaps.size(), 2u);
+  const RadialError error = CompareRadii(found.polygon(), dumbbell.truth);
+  EXPECT_GT(error.Largest(), 4);
+  for (std::size_t i = 0; i < found.outline.size(); ++i) {
+    if (std::abs(error.percent[i]) > 2) {
+      EXPECT_FALSE(found.outline[i].supported) << i;
+    }
+  }
+}
+
+// A stiffness that is 1 % uncertain moves forces, and so all beams.
+TEST(ReconstructionTest, CalibrationWidensTheBand) {
+  const NamedObject circle = StudyObjects()[0];
+  Finger finger = PaperFinger();
+  finger.calibration =
+      ParameterCovariance{{{FingerParameterKind::kBackStiffness, 0}},
+                          Eigen::VectorXd::Constant(1, 250),
+                          Eigen::MatrixXd::Identity(1, 1)};
+  const Reconstruction known = Touched(circle, false);
+  const Reconstruction uncertain = Touched(circle, false, finger);
+  Finger moved = finger;
+  moved.back_stiffness_N_mm2 += 250;
+  const Reconstruction other = Touched(circle, false, moved);
+  for (std::size_t i = 0; i < 360; i += 45) {
+    const double change =
+        other.outline[i].radius_mm - known.outline[i].radius_mm;
+    EXPECT_NEAR(uncertain.outline[i].std_mm,
+                std::hypot(known.outline[i].std_mm, change), 5e-3);
+    EXPECT_GT(uncertain.outline[i].std_mm, known.outline[i].std_mm);
+  }
+}
+
+TEST(ReconstructionSlowTest, TenObjectsMeetTheirBounds) {
+  for (const NamedObject& object : StudyObjects()) {
+    if (object.kind == "concave") continue;
+    const bool smooth = object.kind == "smooth";
+    const auto largest = [&](bool noisy) {
+      return CompareRadii(Touched(object, noisy).polygon(), object.truth)
+          .Largest();
+    };
+    EXPECT_LT(largest(false), smooth ? 0.1 : 2) << object.name;
+    EXPECT_LT(largest(true), smooth ? 1 : 2) << object.name;
+  }
+}
+
+}  // namespace
+}  // namespace finray
