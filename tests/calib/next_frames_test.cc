@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "calib/calibrated.h"
+#include "calib/log_rows.h"
 #include "finray/calib/weak_direction_words.h"
 #include "finray/sensing/circle_centre.h"
 
@@ -14,26 +15,6 @@ namespace finray {
 namespace {
 
 using testing::HasSubstr;
-
-// Keeps rows that `keep` says; rewrites the log.
-template <class Keep>
-std::string Filtered(const TempFolder& folder, const std::string& log,
-                     const Keep& keep) {
-  const FrameTable all = FrameTable::Read(log);
-  std::vector<std::size_t> rows;
-  for (std::size_t i = 0; i < all.rows(); ++i) {
-    if (keep(all, i)) rows.push_back(i);
-  }
-  FrameTable kept(rows.size());
-  for (const std::string& name : all.headers()) {
-    auto& column = kept.MutableNumbers(name);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      column[i] = all.Numbers(name)[rows[i]];
-    }
-  }
-  kept.Write(folder.Path("filtered.csv"));
-  return folder.Path("filtered.csv");
-}
 
 // A log of 20 frames as advised, recorded with the true finger.
 std::string Record(const TempFolder& folder, const FrameAdvice& advice,
@@ -62,12 +43,13 @@ std::string Record(const TempFolder& folder, const FrameAdvice& advice,
 // frames is what a calibration with them has.
 TEST(NextFramesTest, WhatIsPromisedIsKept) {
   const TempFolder folder;
-  const std::string log =
-      Filtered(folder, StandardLog(folder, HiddenFinger(), 21),
-               [](const FrameTable& all, std::size_t i) {
-                 return std::abs(all.Numbers("object_y_mm")[i] - 60) < 6 ||
-                        all.Numbers("force_N")[i] < 0.06;
-               });
+  const std::string log = folder.Path("one_height.csv");
+  RowsWhere(FrameTable::Read(StandardLog(folder, HiddenFinger(), 21)),
+            [](const FrameTable& all, std::size_t i) {
+              return std::abs(all.Numbers("object_y_mm")[i] - 60) < 6 ||
+                     all.Numbers("force_N")[i] < 0.06;
+            })
+      .Write(log);
   Calibrated before(StandardPlan(), {log});
   ASSERT_FALSE(before.found.weak.empty());
   const auto advised =

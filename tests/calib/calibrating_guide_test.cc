@@ -1,0 +1,67 @@
+// docs/calibrating.md has every warning code of the sources, and no other.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+
+namespace finray {
+namespace {
+
+std::string TextOf(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+void AddMatches(const std::string& text, const std::regex& pattern,
+                std::set<std::string>* found) {
+  for (std::sregex_iterator match(text.begin(), text.end(), pattern), end;
+       match != end; ++match) {
+    found->insert((*match)[1]);
+  }
+}
+
+// A code begins a warning's braces, follows the list of an Unsupported's
+// parameters, or is assigned.
+std::set<std::string> CodesOfSources() {
+  const std::regex pushed(
+      "warnings(?:->|\\.)push_back\\(\\s*\\{\\s*\"(\\w+)\"");
+  const std::regex listed(
+      "unsupported\\.push_back\\(\\s*\\{\\{[^\"]*\\},"
+      "\\s*\"(\\w+)\"");
+  const std::regex assigned("\\.code = \"(\\w+)\"");
+  std::set<std::string> codes;
+  for (const auto& file : std::filesystem::directory_iterator(
+           FINRAY_SOURCE_DIR "/calib/finray/calib")) {
+    if (file.path().extension() != ".cc") continue;
+    const std::string text = TextOf(file.path());
+    for (const std::regex& pattern : {pushed, listed, assigned}) {
+      AddMatches(text, pattern, &codes);
+    }
+  }
+  return codes;
+}
+
+TEST(CalibratingGuideTest, HasEveryWarningCode) {
+  const std::set<std::string> codes = CodesOfSources();
+  // One of each pattern, lest a pattern finds nothing any more.
+  for (const char* code : {"noise_above_plan", "dead_gauge", "no_free_frame"}) {
+    EXPECT_THAT(codes, testing::Contains(code));
+  }
+  const std::string guide = TextOf(FINRAY_SOURCE_DIR "/docs/calibrating.md");
+  const std::size_t from = guide.find("\n## Troubleshooting: warning codes\n");
+  ASSERT_NE(from, std::string::npos);
+  std::set<std::string> documented;
+  AddMatches(guide.substr(from, guide.find("\n## ", from + 1) - from),
+             std::regex("\n\\| `(\\w+)` \\|"), &documented);
+  EXPECT_EQ(documented, codes);
+}
+
+}  // namespace
+}  // namespace finray
