@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <stdexcept>
 
 #include "app.h"
 #include "finray/calib/calibration_result.h"
+#include "finray/calib/plausibility.h"
 #include "finray/calib/report.h"
 #include "finray/io/atomic_file.h"
 
@@ -52,12 +54,17 @@ void PrintSummary(finray::CalibrationProblem& problem,
   const auto agree =
       std::count_if(solution.starts.begin(), solution.starts.end(),
                     [](const StartReport& start) { return start.agrees; });
-  std::printf(
-      "solver         %s after %d iterations, %ld of %zu starts agree\n",
-      solution.solve.converged ? "converged" : "did not converge",
-      solution.solve.iterations, agree, solution.starts.size());
-  std::printf("frames         %d contact, %d free, %d held out", contact, free,
-              held_out);
+  std::printf("solver         %s after %d iterations",
+              solution.solve.converged ? "converged" : "did not converge",
+              solution.solve.iterations);
+  if (!solution.starts.empty()) {
+    std::printf(", %ld of %zu starts agree", agree, solution.starts.size());
+  }
+  if (result.Verdict() != "good") {
+    std::printf("; verdict: %s", result.Verdict().c_str());
+  }
+  std::printf("\nframes         %d contact, %d free, %d held out", contact,
+              free, held_out);
   if (bench > 0) std::printf(", %d on the bench", bench);
   if (!problem.rejected().empty()) {
     std::printf(", %zu rejected", problem.rejected().size());
@@ -84,13 +91,11 @@ void PrintSummary(finray::CalibrationProblem& problem,
     if (kept.frames > 0) std::printf(", %.3g N held out", kept.after_rms_N);
     std::printf("\n");
   } else {
-    std::printf("not known: no reference force in the logs\n");
+    std::printf("not known: it takes a reference force and two gauges\n");
   }
-  if (result.weighted) {
+  if (result.weighted && result.weighted->frames > 0) {
     std::printf(
-        "weighted form  %s; values differ by %.1g std, std by %.1g of "
-        "themselves\n",
-        result.weighted->weighted.converged ? "converged" : "did not converge",
+        "weighted form  values differ by %.1g std, std by %.1g of themselves\n",
         result.weighted->value_difference_std, result.weighted->std_difference);
   }
   std::printf("next           %s\n",
@@ -124,13 +129,18 @@ int Run() {
   CalibrationProblem problem(finger, plan,
                              ReadCalibrationLogs(paths, finger, plan),
                              discretization, FLAGS_threads);
+  RefuseImplausible(&problem);
   CalibrationResult result = Calibrate(&problem, discretization, FLAGS_threads,
                                        FLAGS_leave_one_log_out);
   if (FLAGS_check_weighted) {
     // Ceres takes a shorter step where a factorisation fails, and says so.
     const int level = FLAGS_minloglevel;
     FLAGS_minloglevel = google::GLOG_ERROR;
-    result.weighted = CheckWeighted(&problem);
+    try {
+      result.weighted = CheckWeighted(&problem);
+    } catch (const std::runtime_error& error) {
+      LOG(ERROR) << "no check in the weighted form: " << error.what();
+    }
     FLAGS_minloglevel = level;
   }
 
@@ -163,8 +173,10 @@ int Run() {
     }
   }
   PrintSummary(problem, result);
-  if (!result.solution.solve.converged) return kSolveFailed;
-  return result.AllIdentified() ? kGood : kGateFailed;
+  const std::string verdict = result.Verdict();
+  return verdict == "good"            ? kGood
+         : verdict == "not_converged" ? kSolveFailed
+                                      : kGateFailed;
 }
 
 }  // namespace

@@ -172,6 +172,7 @@ SolveReport CalibrationProblem::Solve() {
   SolveReport report = SolveJointly(few ? fitted_ : SpreadFrames(kJoint));
   // Then one step or two are left for all of them.
   if (fitted_.size() > 4 * kSummed) {
+    ForgetLastDigits();
     report = SolveSummed(SpreadFrames(kSummed), report, kNearEnough);
   }
   ForgetLastDigits();
@@ -206,7 +207,9 @@ SolveReport CalibrationProblem::SolveSome(int most_iterations) {
 Eigen::MatrixXd CalibrationProblem::InformationOfSome() {
   FrameSums sums;
   summed_at_.resize(0);
-  Sum(SpreadFrames(kJoint), Values(), &sums);
+  if (!Sum(SpreadFrames(kJoint), Values(), &sums)) {
+    throw std::runtime_error("the model cannot be evaluated at the solution");
+  }
   return sums.information;
 }
 
@@ -325,16 +328,17 @@ SolveReport CalibrationProblem::SolveSummed(const std::vector<int>& frames,
   ceres::Solve(options, &problem, &summary);
   // The contacts are those of the last point that was tried.
   const Eigen::VectorXd end = start + units * z;
-  if (end != summed_at_) Sum(frames, end, &sums);
+  if (end != summed_at_ && !Sum(frames, end, &sums)) {
+    throw std::runtime_error("the model cannot be evaluated at the solution");
+  }
   at_solution_ = std::move(summed_);
   contact_slopes_.resize(0, 0);
   SolveReport report = before;
-  report.converged =
-      before.converged && summary.termination_type == ceres::CONVERGENCE;
+  report.converged = summary.termination_type == ceres::CONVERGENCE;
   report.iterations += static_cast<int>(summary.iterations.size()) - 1;
   report.initial_cost = summary.initial_cost;
   report.final_cost = summary.final_cost;
-  if (before.converged) report.message = summary.message;
+  report.message = summary.message;
   return report;
 }
 
@@ -439,6 +443,11 @@ void CalibrationProblem::VisitFrames(
   }
 }
 
+std::array<double, 2> CalibrationProblem::contact(int frame) const {
+  if (rejected_.count(frame) > 0) return {kNaN, kNaN};
+  return contacts_[frame];
+}
+
 bool CalibrationProblem::LinearizeFrame(int frame, bool robust,
                                         LinearizedFrame* out) {
   GuessContacts({frame}, ContactGuess::From::kAll);
@@ -467,6 +476,11 @@ const Linearization& CalibrationProblem::AtSolution() {
   return *at_solution_;
 }
 
+ContactGuess CalibrationProblem::MakeGuess() {
+  return ContactGuess(parameters_.Apply(finger_), plan_, discretization_,
+                      &blocks_, &parameters_);
+}
+
 // Where the measurements put contacts that have no place yet, by the finger as
 // it is now.
 void CalibrationProblem::GuessContacts(const std::vector<int>& frames,
@@ -478,9 +492,7 @@ void CalibrationProblem::GuessContacts(const std::vector<int>& frames,
     }
   }
   if (wanted.empty()) return;
-  auto guess = std::make_unique<const ContactGuess>(parameters_.Apply(finger_),
-                                                    plan_, discretization_,
-                                                    &blocks_, &parameters_);
+  auto guess = std::make_unique<const ContactGuess>(MakeGuess());
   tbb::enumerable_thread_specific<ContactGuess> guesses(*guess);
   tbb::task_arena(threads_).execute([&] {
     tbb::parallel_for(

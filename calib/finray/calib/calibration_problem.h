@@ -56,6 +56,9 @@ class CalibrationProblem {
   Point Save() const;
   void Restore(const Point& point);
 
+  /// Of contacts by the finger as it is now.
+  ContactGuess MakeGuess();
+
   /// Where to start from: stiffness, gains and rib lengths of `start`, contacts
   /// as they are with that finger. Offsets, unless fixed, are what free frames
   /// show. Priors stay.
@@ -75,6 +78,8 @@ class CalibrationProblem {
   /// through this class.
   const Linearization& AtSolution();
 
+  /// Makes a first guess of these frames' contacts, where there is none yet.
+  void GuessContacts(const std::vector<int>& frames, ContactGuess::From from);
   /// One frame, fitted or not, its contact where it explains it best; `robust`:
   /// most of it, by Cauchy's loss. False if the model cannot be evaluated.
   bool LinearizeFrame(int frame, bool robust, LinearizedFrame* out);
@@ -87,7 +92,7 @@ class CalibrationProblem {
   bool gauges_only() const { return gauges_only_; }
 
   /// l_c and f_c of a frame; NaN for those without, and those not fitted.
-  std::array<double, 2> contact(int frame) const { return contacts_[frame]; }
+  std::array<double, 2> contact(int frame) const;
 
   CalibrationParameters& parameters() { return parameters_; }
   const CalibrationLogs& logs() const { return logs_; }
@@ -120,7 +125,6 @@ class CalibrationProblem {
                   const Visit& visit);
   LadderState* StateOf(int frame, LadderState* scratch);
   void GuessOffsets();
-  void GuessContacts(const std::vector<int>& frames, ContactGuess::From from);
 
   Finger finger_;
   Plan plan_;

@@ -60,11 +60,12 @@ void WarnOfStarts(const RobustSolution& solution,
   if (starts.empty()) return;
   const auto agree = std::count_if(starts.begin(), starts.end(),
                                    [](const auto& s) { return s.agrees; });
-  if (!starts[0].agrees) {
+  if (starts[0].distance_std >= StartReport::kSameSolution) {
     warnings->push_back(
         {"given_start_misleads",
-         "from the given finger the solver comes to another, worse solution" +
-             Text(", %.3g std away; the result is from another start",
+         "the solver does not come to this solution from the given finger, "
+         "but" +
+             Text(" ends %.3g std away; the result is from another start",
                   starts[0].distance_std),
          "compare the result with what you know of the finger"});
   } else if (2 * agree <= static_cast<long>(starts.size())) {
@@ -87,13 +88,21 @@ void WarnOfOutliers(const CalibrationProblem& problem,
          "check columns, units, the finger's geometry and the std in the "
          "plan's measurements"});
   }
+  if (!solution.settled) {
+    warnings->push_back(
+        {"outliers_unsettled",
+         "which frames are outliers changes from round to round",
+         "look for what differs between the frames; raise the "
+         "std in the plan's measurements"});
+  }
   if (problem.rejected().empty()) return;
   const auto& [index, reason] = *problem.rejected().begin();
   const CalibrationFrame& frame = problem.logs().frames[index];
   warnings->push_back(
       {"frames_rejected",
-       Text("%.0f frames were rejected, the first one ",
-            static_cast<double>(problem.rejected().size())) +
+       std::to_string(problem.rejected().size()) +
+           (problem.rejected().size() == 1 ? " frame was rejected, "
+                                           : " frames were rejected, first ") +
            problem.logs().names[frame.log] + " row " +
            std::to_string(frame.row + 1) + ": " + reason,
        "look at rejected_frames in calibration.yaml for what went wrong "
@@ -141,6 +150,7 @@ void WarnOfForces(const ForceCheck& forces, double force_std_N,
         {"holdout_worse",
          Text("held-out frames are off by %.3g N rms, fitted ones by %.3g N",
               held_out.after_rms_N, forces.fitted.after_rms_N),
+         "look for outliers among them (held-out frames are never rejected); "
          "record logs that cover what the finger will meet: heights and "
          "loads"});
   }
@@ -171,7 +181,7 @@ void WarnOfCorrelation(CalibrationProblem& problem,
       std::max_element(found.enlargement.begin(), found.enlargement.end()) -
       found.enlargement.begin();
   const CalibrationParameters& parameters = problem.parameters();
-  text += Text("; std are enlarged for it, at most %.3g times (",
+  text += Text("; std are enlarged for it, at most %.4g times (",
                found.enlargement[most]) +
           parameters.all()[parameters.free()[most]].name + ")";
   warnings->push_back({"correlated_residuals", text,
@@ -275,6 +285,23 @@ bool CalibrationResult::AllIdentified() const {
   return std::none_of(
       identifiability.status.begin(), identifiability.status.end(),
       [](ParameterStatus s) { return s == ParameterStatus::kUnidentifiable; });
+}
+
+std::string CalibrationResult::Verdict() const {
+  if (!solution.solve.converged) return "not_converged";
+  const auto& starts = solution.starts;
+  if (!starts.empty() &&
+      std::count_if(starts.begin(), starts.end(),
+                    [](const auto& start) { return start.agrees; }) < 2) {
+    return "starts_disagree";
+  }
+  for (const Identifiability::Noise& noise : identifiability.noise) {
+    if (noise.dof >= kEnoughDof &&
+        noise.chi2 > kUnexplained * kUnexplained * noise.dof) {
+      return "unexplained";
+    }
+  }
+  return AllIdentified() ? "good" : "unidentifiable";
 }
 
 CalibrationResult Calibrate(CalibrationProblem* problem,

@@ -51,6 +51,11 @@ struct CalibrationResult {
   std::vector<CalibrationWarning> warnings;
 
   bool AllIdentified() const;
+  /// `not_converged`; `starts_disagree`, no two of several; `unexplained`,
+  /// residuals of some kind are kUnexplained times their std and more;
+  /// `unidentifiable`; or `good`.
+  std::string Verdict() const;
+  static constexpr double kUnexplained = 5;
 };
 
 /// Solves the problem, analyses it and checks it against the references.

@@ -197,10 +197,7 @@ std::string CalibrationYaml(CalibrationProblem& problem,
   yaml << YAML::BeginMap;
   Pair(&yaml, "schema_version", 1);
   Pair(&yaml, "finger", problem.finger().name);
-  Pair(&yaml, "verdict",
-       !result.solution.solve.converged ? "not_converged"
-       : !result.AllIdentified()        ? "unidentifiable"
-                                        : "good");
+  Pair(&yaml, "verdict", result.Verdict());
   EmitParameters(problem, result.identifiability, &yaml);
   EmitWeakDirections(problem, result.identifiability, &yaml);
   EmitCorrelations(problem, result.identifiability, &yaml);

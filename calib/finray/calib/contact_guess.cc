@@ -70,16 +70,17 @@ void ContactGuess::AddGauges(const CalibrationFrame& frame) {
 
 ContactGuess::Place ContactGuess::FromTable(bool fit) {
   table_.FindStarts(values_, weights_, &starts_);
-  if (starts_.empty()) return {length_mm_ / 2, force_unit_N_, {}};
+  if (starts_.empty()) return {length_mm_ / 2, force_unit_N_, {}, false};
   const ContactStart& start = starts_[0];
   std::vector<PointContact> contact = {start.contacts[0]};
-  Place place{contact[0].arc_mm, contact[0].normal_N, *start.state};
+  Place place{contact[0].arc_mm, contact[0].normal_N, *start.state, false};
   if (!fit) return place;
   fit_.set_state(*start.state);
   if (!fit_.Fit(values_, weights_, &contact)) return place;
   place.arc_mm = contact[0].arc_mm;
   place.normal_N = contact[0].normal_N;
   fit_.SaveState(&place.state);
+  place.met = true;
   return place;
 }
 

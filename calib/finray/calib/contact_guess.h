@@ -28,6 +28,7 @@ class ContactGuess {
   struct Place {
     double arc_mm = 0, normal_N = 0;
     LadderState state;  ///< An equilibrium near it; may be empty.
+    bool met = false;   ///< What it was looked for by is met, not only near.
   };
   /// Whether gauges count beside the object's place: once their gains are
   /// known.

@@ -67,6 +67,8 @@ LeaveOneLogOut LeaveLogsOut(CalibrationProblem& problem,
     }
     CalibrationProblem without(problem.finger(), problem.plan(), rest,
                                discretization, threads);
+    // What was no part of the solution is none of this one.
+    without.SetRejected(problem.rejected());
     if (!without.Solve().converged) {
       result.all_converged = false;
       continue;  // no estimate

@@ -94,6 +94,7 @@ std::string Reason(const LinearizedFrame& robust, double chi2, int dof,
 // be evaluated go to `reasons`.
 std::vector<FrameChi2> Refit(const std::vector<int>& frames,
                              CalibrationProblem* problem, Outliers* found) {
+  problem->GuessContacts(frames, ContactGuess::From::kAll);
   std::vector<FrameChi2> refitted;
   LinearizedFrame at;
   for (const int frame : frames) {

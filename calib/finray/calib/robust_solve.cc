@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kMostRounds = 6;
 constexpr int kFewIterations = 15;
+constexpr int kStartIterations = 80;
 
 struct Start {
   const char* name;
@@ -50,7 +51,7 @@ std::vector<StartReport> SolveFromStarts(CalibrationProblem* problem) {
   solutions.reserve(std::size(kStarts));
   for (const Start& start : kStarts) {
     problem->StartFrom(Changed(*problem, start));
-    const SolveReport solve = problem->SolveSome();
+    const SolveReport solve = problem->SolveSome(kStartIterations);
     StartReport report{
         start.name, solve.converged, solve.iterations, solve.final_cost, 0,
         false};
@@ -85,6 +86,7 @@ RobustSolution SolveRobustly(CalibrationProblem* problem) {
   RobustSolution result;
   if (problem->SomeFrames().empty()) {  // nothing but priors
     result.solve = problem->Solve();
+    result.settled = true;
     return result;
   }
   problem->SolveSome(kFewIterations);
@@ -95,13 +97,14 @@ RobustSolution SolveRobustly(CalibrationProblem* problem) {
   int iterations = BestOf(result.starts).iterations;
   for (; result.rounds < kMostRounds; ++result.rounds) {
     const Outliers outliers = FindOutliers(problem);
-    result.outliers_too_many = outliers.too_many;
     const auto same_frame = [](const auto& a, const auto& b) {
       return a.first == b.first;
     };
     if (outliers.reasons.size() == problem->rejected().size() &&
         std::equal(outliers.reasons.begin(), outliers.reasons.end(),
                    problem->rejected().begin(), same_frame)) {
+      result.settled = true;
+      result.outliers_too_many = outliers.too_many;
       break;
     }
     problem->SetRejected(outliers.reasons);

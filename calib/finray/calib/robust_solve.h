@@ -24,6 +24,7 @@ struct RobustSolution {
   SolveReport solve;
   std::vector<StartReport> starts;  ///< the given one first
   int rounds = 0;                   ///< of rejection
+  bool settled = false;  ///< the rejected frames are what the solution says
   bool outliers_too_many = false;
 };
 

@@ -25,6 +25,21 @@ bool HasUnloadedReading(CalibrationProblem& problem, const double* offset,
   return false;
 }
 
+// Median of the gains over what they were expected to be.
+double UsualGain(const CalibrationParameters& parameters) {
+  std::vector<double> ratios;
+  for (const int i : parameters.free()) {
+    const CalibrationParameter& p = parameters.all()[i];
+    if (p.family == ParameterFamily::kGaugeGain) {
+      ratios.push_back(std::abs(*p.variable / p.initial));
+    }
+  }
+  if (ratios.empty()) return 0;
+  const auto middle = ratios.begin() + static_cast<long>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return *middle;
+}
+
 }  // namespace
 
 std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,
@@ -32,13 +47,14 @@ std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,
   const CalibrationParameters& parameters = problem.parameters();
   std::vector<Unsupported> unsupported;
   Unsupported offsets;
+  const double usual = UsualGain(parameters);
   for (std::size_t k = 0; k < parameters.free().size(); ++k) {
     if (found.status[k] == ParameterStatus::kUnidentifiable) continue;
     const CalibrationParameter& p = parameters.all()[parameters.free()[k]];
     const double value = *p.variable, std = found.std[k];
     if (p.family == ParameterFamily::kGaugeGain &&
-        std::abs(value) <
-            std::max(kInsignificant * std, kDeadShare * std::abs(p.initial))) {
+        std::abs(value) < std::max(kInsignificant * std,
+                                   kDeadShare * usual * std::abs(p.initial))) {
       char text[160];
       std::snprintf(text, sizeof text,
                     "gauge %d does not respond to the load: its gain is %.2g "
@@ -61,8 +77,8 @@ std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,
   if (!offsets.free.empty()) {
     offsets.code = "no_free_frame";
     offsets.text =
-        "no frame that is fitted shows gauges without contact; the model's "
-        "word alone are " +
+        "no fitted frame shows the gauges without contact; only the model "
+        "tells " +
         offsets.text;
     offsets.remedy =
         "record some ten frames without contact in every log, or fix "

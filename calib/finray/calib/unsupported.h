@@ -16,8 +16,8 @@ struct Unsupported {
 };
 
 /// - The gain of a gauge that does not respond: nothing is known of what it
-///   would read. Its gain is zero within kInsignificant std, or below
-///   kDeadShare of what it was expected to be.
+///   would read. Its gain is zero within kInsignificant std, or, over what it
+///   was expected to be, below kDeadShare of the others'.
 /// - The offset of a gauge without any reading free of contact, unless its
 ///   prior is knowledge: it is then the model's word for what the gauge would
 ///   read unbent, and takes up whatever the model lacks.

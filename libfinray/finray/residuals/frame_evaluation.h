@@ -43,6 +43,8 @@ class FrameEvaluation {
               EquilibriumSolver* solver);
 
   bool valid() const { return valid_; }
+  /// Not to be evaluated at the present values.
+  void Invalidate() { valid_ = false; }
   int frame_size() const {
     return 2 * contacts() +
            (form_ == EquilibriumForm::kWeighted ? 6 + ribs_ : 0);

@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <atomic>
 #include <cmath>
 
 namespace finray {
@@ -40,10 +41,18 @@ void FrameSet::PrepareForEvaluation(bool /*evaluate_jacobians*/,
   // Derivatives are always computed with the values: they cost little beside
   // the solve, and a point that Ceres accepts needs them next.
   if (!new_evaluation_point) return;
-  const auto update = [this](Frame& frame, EquilibriumSolver* solver) {
+  // Ceres takes a step back where one frame has no equilibrium, and to find
+  // that out takes long: the others are not worth it.
+  std::atomic<bool> failed = false;
+  const auto update = [&](Frame& frame, EquilibriumSolver* solver) {
+    if (failed) {
+      frame.evaluation.Invalidate();
+      return;
+    }
     frame.evaluation.Update(frame.unknowns, shared_->ln_front_stiffness,
                             shared_->ln_back_stiffness,
                             shared_->rib_lengths_mm.data(), solver);
+    if (!frame.evaluation.valid()) failed = true;
   };
   if (threads_ <= 1 || frames_.size() < 2) {
     for (Frame& frame : frames_) update(frame, &solver_);

@@ -1,0 +1,104 @@
+#include "finray/calib/plausibility.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "finray/calib/force_check.h"
+#include "finray/finger/geometry.h"
+#include "finray/io/error.h"
+
+namespace finray {
+namespace {
+
+constexpr std::size_t kLooked = 100;  // at so many frames
+
+double Median(std::vector<double>* values) {
+  const auto middle = values->begin() + static_cast<long>(values->size() / 2);
+  std::nth_element(values->begin(), middle, values->end());
+  return *middle;
+}
+
+std::vector<const CalibrationFrame*> SomeTouching(
+    const CalibrationProblem& problem) {
+  std::vector<const CalibrationFrame*> touching;
+  for (const CalibrationFrame& frame : problem.logs().frames) {
+    if (frame.contact && !frame.held_out) touching.push_back(&frame);
+  }
+  const std::size_t count = std::min(touching.size(), kLooked);
+  std::vector<const CalibrationFrame*> some;
+  for (std::size_t k = 0; k < count; ++k) {
+    some.push_back(touching[k * touching.size() / count]);
+  }
+  return some;
+}
+
+template <class... Values>
+[[noreturn]] void Refuse(const char* format, Values... values) {
+  char text[320];
+  std::snprintf(text, sizeof text, format, values...);
+  throw InputError(text);
+}
+
+}  // namespace
+
+void RefuseImplausible(CalibrationProblem* problem) {
+  const Plan& plan = problem->plan();
+  const std::vector<const CalibrationFrame*> frames = SomeTouching(*problem);
+  std::vector<double> forces;
+  for (const CalibrationFrame* frame : frames) {
+    const double force = ReferenceForce(*frame);
+    if (std::isfinite(force)) forces.push_back(force);
+  }
+  const double unit = ForceUnit(problem->finger());
+  if (!forces.empty()) {
+    const double median = Median(&forces);
+    if (median < kLeastForce * unit || median > kMostForce * unit) {
+      Refuse(
+          "logs: the median force of frames with contact is %.3g N; of this "
+          "finger %.2g to %.2g N are expected: is the column in N, and the "
+          "finger's stiffness in N mm^2?",
+          median, kLeastForce * unit, kMostForce * unit);
+    }
+  }
+  if (!plan.scene.circle_radius_mm() ||
+      plan.family(ParameterFamily::kObjectOrigin).free) {
+    return;
+  }
+  ContactGuess guess = problem->MakeGuess();
+  std::vector<double> ratios;
+  int objects = 0, met = 0;
+  for (const CalibrationFrame* frame : frames) {
+    if (!frame->object_mm.allFinite()) continue;
+    CalibrationFrame object = *frame;
+    object.force_N = object.contact_mm = CalibrationFrame::kNotMeasured;
+    object.force_xy_N.setConstant(CalibrationFrame::kNotMeasured);
+    const ContactGuess::Place place =
+        guess.Of(object, ContactGuess::From::kObjectFirst);
+    ++objects;
+    met += place.met;
+    const double force = ReferenceForce(*frame);
+    if (place.met && place.normal_N > 0 && force > 0) {
+      ratios.push_back(force / place.normal_N);
+    }
+  }
+  if (objects >= 4 && 2 * met < objects) {
+    Refuse(
+        "logs: of %d frames with contact the circle of radius %g mm can touch "
+        "the finger in %d: check units, signs and columns of object_x_mm and "
+        "object_y_mm, the radius, or free object_origin",
+        objects, *plan.scene.circle_radius_mm(), met);
+  }
+  if (ratios.size() < 4) return;
+  const double ratio = Median(&ratios);
+  if (ratio > kFactor || ratio < 1 / kFactor) {
+    Refuse(
+        "logs: forces are %.3g times what the finger would need to give way to "
+        "the object like that: check the units of force and positions, and the "
+        "finger's stiffness",
+        ratio);
+  }
+}
+
+}  // namespace finray
