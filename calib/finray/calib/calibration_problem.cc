@@ -196,7 +196,7 @@ void CalibrationProblem::ForgetLastDigits() {
 }
 
 std::vector<int> CalibrationProblem::SomeFrames() const {
-  return SpreadFrames(kJoint);
+  return SpreadFrames(kSome);
 }
 
 SolveReport CalibrationProblem::SolveSome(int most_iterations) {
@@ -207,7 +207,7 @@ SolveReport CalibrationProblem::SolveSome(int most_iterations) {
 Eigen::MatrixXd CalibrationProblem::InformationOfSome() {
   FrameSums sums;
   summed_at_.resize(0);
-  if (!Sum(SpreadFrames(kJoint), Values(), &sums)) {
+  if (!Sum(SomeFrames(), Values(), &sums)) {
     throw std::runtime_error("the model cannot be evaluated at the solution");
   }
   return sums.information;

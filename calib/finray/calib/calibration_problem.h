@@ -38,7 +38,7 @@ class CalibrationProblem {
   SolveReport Solve();
   static constexpr std::size_t kMostJoint = 1000, kJoint = 500, kSummed = 20000;
 
-  /// Some kJoint frames, evenly spread; the joint solve of these alone, and
+  /// Some kSome frames, evenly spread; the joint solve of these alone, and
   /// what they and the priors say of the free parameters.
   std::vector<int> SomeFrames() const;
   SolveReport SolveSome(int most_iterations = kMostIterations);
@@ -47,6 +47,9 @@ class CalibrationProblem {
   /// `information` is that of the frames alone.
   SolveReport SolveSomeWeighted(Eigen::MatrixXd* information);
   static constexpr int kMostIterations = 200;
+  static constexpr std::size_t kSome = 250;
+  /// All that could be fitted, rejected or not.
+  const std::vector<int>& candidates() const { return candidates_; }
 
   /// Values and contacts, to come back to.
   struct Point {

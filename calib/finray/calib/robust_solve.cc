@@ -93,6 +93,11 @@ RobustSolution SolveRobustly(CalibrationProblem* problem) {
   problem->SetRejected(
       FindOutliersAmong(problem->SomeFrames(), problem).reasons);
   result.starts = SolveFromStarts(problem);
+  // The joint solve of the others is spared their outliers as well.
+  if (problem->candidates().size() <= CalibrationProblem::kMostJoint) {
+    problem->SetRejected(
+        FindOutliersAmong(problem->candidates(), problem).reasons);
+  }
   result.solve = problem->Solve();
   int iterations = BestOf(result.starts).iterations;
   for (; result.rounds < kMostRounds; ++result.rounds) {

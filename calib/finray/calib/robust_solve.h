@@ -30,7 +30,7 @@ struct RobustSolution {
 
 /// Solves from several starts, goes on from the best, and solves again without
 /// the frames that are outliers, until these stay the same. Starts are compared
-/// on at most CalibrationProblem::kJoint frames, without those that a few
+/// on at most CalibrationProblem::kSome frames, without those that a few
 /// iterations from the given start leave far out: these make it long, and
 /// basins of their own.
 RobustSolution SolveRobustly(CalibrationProblem* problem);
