@@ -26,6 +26,10 @@ def held_out(frame):
     return frame["held_out"] == "1"
 
 
+def fitted(frame):
+    return not held_out(frame) and not frame["rejected"]
+
+
 def scatter(axes, points, colour, marker, label=None, size=14):
     if points:
         axes.scatter(*zip(*points), s=size, color=colour, marker=marker, alpha=0.7,
