@@ -6,22 +6,11 @@
 #include <random>
 #include <vector>
 
+#include "finray/sensing/clean_readings.h"
 #include "finray/sensing/frame_readings.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {
-
-/// What the gauges of the solver's finger read at its present equilibrium,
-/// without noise.
-inline FrameReadings CleanReadings(const EquilibriumSolver& solver) {
-  FrameReadings readings;
-  const std::vector<Gauge>& gauges = solver.model().finger().gauges;
-  for (int j = 0; j < static_cast<int>(gauges.size()); ++j) {
-    readings.gauges_V.push_back(
-        gauges[j].gain_V_per_rad * solver.gauge_angle(j) + gauges[j].offset_V);
-  }
-  return readings;
-}
 
 inline FrameReadings WithNoise(FrameReadings readings, const Finger& finger,
                                std::mt19937_64* generator) {

@@ -36,6 +36,8 @@ class CalibrationProblem {
   /// by FrameSumResidual, of many frames first of some kSummed, then of all.
   /// The result does not depend on the number of threads.
   SolveReport Solve();
+  /// From near the solution: without the joint solve if there are many frames.
+  SolveReport SolveOn();
   static constexpr std::size_t kMostJoint = 1000, kJoint = 500, kSummed = 20000;
 
   /// Some kSome frames, evenly spread; the joint solve of these alone, and
@@ -73,10 +75,10 @@ class CalibrationProblem {
   /// gauges too. To be called after Solve.
   void ZeroHeldOutLogs();
 
+  using Visitor = std::function<void(int frame, const LinearizedFrame&)>;
   /// Calls `visit` for each fitted frame in order, linearised at the present
   /// values. Throws std::runtime_error if one cannot be.
-  void VisitFrames(
-      const std::function<void(int frame, const LinearizedFrame&)>& visit);
+  void VisitFrames(const Visitor& visit);
   /// All of them. Computed once, and again after the parameters were changed
   /// through this class.
   const Linearization& AtSolution();
@@ -114,6 +116,7 @@ class CalibrationProblem {
                            int most_iterations = kMostIterations);
   SolveReport SolveSummed(const std::vector<int>& frames,
                           const SolveReport& before, double gradient_tolerance);
+  SolveReport Finish(const SolveReport& before);
   void ForgetLastDigits();
   Eigen::MatrixXd DeterminedUnits(const Eigen::MatrixXd& information) const;
   bool Sum(const std::vector<int>& frames, const Eigen::VectorXd& at,
@@ -123,9 +126,10 @@ class CalibrationProblem {
   void MoveContact(int frame, const Eigen::Vector2d& move);
   // Calls `visit(frame, linearised)` in order after `prepare` has worked on the
   // frames in parallel; false if that fails for one.
-  template <class Prepare, class Visit>
+  using Prepare = std::function<bool(int frame, FrameLinearizer* linearizer,
+                                     LinearizedFrame* out)>;
   bool InParallel(const std::vector<int>& frames, const Prepare& prepare,
-                  const Visit& visit);
+                  const Visitor& visit);
   LadderState* StateOf(int frame, LadderState* scratch);
   void GuessOffsets();
 

@@ -107,11 +107,10 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem) {
   const CalibrationParameters& parameters = problem->parameters();
   const int n = static_cast<int>(parameters.free().size());
 
-  Eigen::VectorXd unit(n);
+  const Eigen::VectorXd unit = parameters.Units();
   Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(n, n);  // in those units
   for (int i = 0; i < n; ++i) {
     const CalibrationParameter& p = parameters.all()[parameters.free()[i]];
-    unit[i] = p.prior_std.value_or(p.scale);
     if (p.prior_std) prior(i, i) = 1;
   }
   const auto scaled = [&](const Eigen::MatrixXd& of_variables) {

@@ -285,6 +285,15 @@ void CalibrationParameters::Add(const Plan& plan,
   all_.push_back(std::move(parameter));
 }
 
+Eigen::VectorXd CalibrationParameters::Units() const {
+  Eigen::VectorXd units(static_cast<Eigen::Index>(free_.size()));
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    const CalibrationParameter& p = all_[free_[k]];
+    units[static_cast<Eigen::Index>(k)] = p.prior_std.value_or(p.scale);
+  }
+  return units;
+}
+
 Finger CalibrationParameters::Apply(const Finger& finger) const {
   Finger calibrated = finger;
   // exp(ln x) is not x: what was not varied keeps its digits.

@@ -74,6 +74,9 @@ class CalibrationParameters {
   /// Indices into all() of the free ones.
   const std::vector<int>& free() const { return free_; }
 
+  /// By free one: the prior's std, or the scale where there is none.
+  Eigen::VectorXd Units() const;
+
   /// The finger that the present values describe. Where offsets are per log it
   /// has those of the last log that was fitted, of the finger if there is one,
   /// else of the bench.

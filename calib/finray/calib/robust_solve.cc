@@ -114,7 +114,7 @@ RobustSolution SolveRobustly(CalibrationProblem* problem) {
     }
     problem->SetRejected(outliers.reasons);
     iterations += result.solve.iterations;
-    result.solve = problem->Solve();
+    result.solve = problem->SolveOn();
   }
   result.solve.iterations += iterations;
   return result;

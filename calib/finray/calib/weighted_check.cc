@@ -42,13 +42,7 @@ WeightedCheck CheckWeighted(CalibrationProblem* problem) {
   const Eigen::VectorXd at_weighted = problem->Save().values;
   problem->Restore(before);
 
-  const CalibrationParameters& parameters = problem->parameters();
-  Eigen::VectorXd unit(at_weighted.size());
-  for (Eigen::Index k = 0; k < unit.size(); ++k) {
-    const CalibrationParameter& p =
-        parameters.all()[parameters.free()[static_cast<std::size_t>(k)]];
-    unit[k] = p.prior_std.value_or(p.scale);
-  }
+  const Eigen::VectorXd unit = problem->parameters().Units();
   const Eigen::VectorXd std = Std(reduced, unit);
   const Eigen::VectorXd std_weighted = Std(weighted, unit);
   for (Eigen::Index k = 0; k < unit.size(); ++k) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "finray/sensing/clean_readings.h"
 #include "finray/statics/contact_force.h"
 #include "finray/statics/discretization.h"
 
@@ -23,16 +24,6 @@ const char* Reason(ObjectContactStatus status) {
   return status == ObjectContactStatus::kNoTangency
              ? "the object meets an end of the front beam, not its side"
              : "no equilibrium found against the object";
-}
-
-FrameReadings CleanReadings(const EquilibriumSolver& solver) {
-  FrameReadings readings;
-  const std::vector<Gauge>& gauges = solver.model().finger().gauges;
-  for (int j = 0; j < static_cast<int>(gauges.size()); ++j) {
-    readings.gauges_V.push_back(
-        gauges[j].gain_V_per_rad * solver.gauge_angle(j) + gauges[j].offset_V);
-  }
-  return readings;
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "finray/io/sha256.h"
+#include "finray/perception/inputs_yaml.h"
 
 namespace finray {
 namespace {
@@ -128,15 +128,9 @@ std::string ComplianceYaml(const Compliance& found,
   yaml << YAML::EndSeq << YAML::Key << "trials" << YAML::Value
        << YAML::BeginSeq;
   for (const ComplianceTrial& trial : found.trials) EmitTrial(trial, &yaml);
-  yaml << YAML::EndSeq << YAML::Key << "inputs" << YAML::Value
-       << YAML::BeginSeq;
-  for (const std::string& path : inputs) {
-    yaml << YAML::Flow << YAML::BeginMap << YAML::Key << "path" << YAML::Value
-         << path << YAML::Key << "sha256" << YAML::Value << Sha256OfFile(path)
-         << YAML::EndMap;
-  }
-  yaml << YAML::EndSeq << YAML::Key << "version" << YAML::Value
-       << FINRAY_VERSION << YAML::EndMap;
+  yaml << YAML::EndSeq;
+  EmitInputs(inputs, &yaml);
+  yaml << YAML::EndMap;
   return std::string(yaml.c_str()) + "\n";
 }
 

@@ -9,8 +9,8 @@
 
 #include "finray/io/error.h"
 #include "finray/io/parse_number.h"
-#include "finray/io/sha256.h"
 #include "finray/io/shown_text.h"
+#include "finray/perception/inputs_yaml.h"
 
 namespace finray {
 namespace {
@@ -167,14 +167,8 @@ std::string ReconstructionYaml(const Reconstruction& found,
     EmitError("radial_error_percent", *error, &yaml);
     EmitError("envelope_radial_error_percent", *envelope_error, &yaml);
   }
-  yaml << YAML::Key << "inputs" << YAML::Value << YAML::BeginSeq;
-  for (const std::string& path : inputs) {
-    yaml << YAML::Flow << YAML::BeginMap << YAML::Key << "path" << YAML::Value
-         << path << YAML::Key << "sha256" << YAML::Value << Sha256OfFile(path)
-         << YAML::EndMap;
-  }
-  yaml << YAML::EndSeq << YAML::Key << "version" << YAML::Value
-       << FINRAY_VERSION << YAML::EndMap;
+  EmitInputs(inputs, &yaml);
+  yaml << YAML::EndMap;
   return std::string(yaml.c_str()) + "\n";
 }
 

@@ -45,8 +45,8 @@ struct LogNoise {
 
 /// What a lab would have recorded of simulated frames: time_s, gauge_<j>_V,
 /// force_N, the object's place (its turn without noise) where there is one and
-/// rib pins where there is a camera, with Gaussian noise, and nothing of the truth. Rows that were not
-/// solved are left out.
+/// rib pins where there is a camera, with Gaussian noise, and nothing of the
+/// truth. Rows that were not solved are left out.
 FrameTable MakeLog(const Finger& finger, const FrameTable& simulated,
                    const LogNoise& noise);
 

@@ -1,0 +1,267 @@
+// How the parameters of a CalibrationProblem are found.
+
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "finray/calib/calibration_problem.h"
+
+namespace finray {
+namespace {
+
+// Gradients, per std, at which a solve ends: 1e-6 of a std from the minimum,
+// or, of many frames, a hundredth.
+constexpr double kNear = 1e-6, kNearEnough = 1e-2;
+// Along what the data and priors say less of than this, in units of the priors
+// or scales, nothing is moved: that would be rounding.
+constexpr double kLeastInformation = 1e-8;
+
+double WithoutLastDigits(double value) {
+  // Seven digits are left, much less than a std.
+  int exponent;
+  const double mantissa = std::frexp(value, &exponent);
+  return std::ldexp(std::nearbyint(std::ldexp(mantissa, 24)), exponent - 24);
+}
+
+}  // namespace
+
+SolveReport CalibrationProblem::Solve() {
+  at_solution_.reset();
+  const bool few = fitted_.size() <= kMostJoint;
+  SolveReport report = SolveJointly(few ? fitted_ : SpreadFrames(kJoint));
+  // Then one step or two are left for all of them.
+  if (fitted_.size() > 4 * kSummed) {
+    ForgetLastDigits();
+    report = SolveSummed(SpreadFrames(kSummed), report, kNearEnough);
+  }
+  return Finish(report);
+}
+
+SolveReport CalibrationProblem::SolveOn() {
+  return fitted_.size() <= kMostJoint ? Solve() : Finish({});
+}
+
+SolveReport CalibrationProblem::Finish(const SolveReport& before) {
+  ForgetLastDigits();
+  return SolveSummed(fitted_, before,
+                     fitted_.size() <= kMostJoint ? kNear : kNearEnough);
+}
+
+// What Ceres leaves differs in the last digits from run to run, as Schur
+// complements are summed in another order. The sum over frames is the same
+// whatever the number of threads: from the same start it gives the same result,
+// bit by bit.
+void CalibrationProblem::ForgetLastDigits() {
+  Eigen::VectorXd values = Values();
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    values[k] = WithoutLastDigits(values[k]);
+  }
+  SetValues(values);
+  for (auto& contact : contacts_) {
+    for (double& value : contact) value = WithoutLastDigits(value);
+  }
+  for (LadderState& state : states_) state.q.resize(0);
+}
+
+std::vector<int> CalibrationProblem::SomeFrames() const {
+  return SpreadFrames(kSome);
+}
+
+SolveReport CalibrationProblem::SolveSome(int most_iterations) {
+  at_solution_.reset();
+  return SolveJointly(SomeFrames(), most_iterations);
+}
+
+Eigen::MatrixXd CalibrationProblem::InformationOfSome() {
+  FrameSums sums;
+  summed_at_.resize(0);
+  if (!Sum(SomeFrames(), Values(), &sums)) {
+    throw std::runtime_error("the model cannot be evaluated at the solution");
+  }
+  return sums.information;
+}
+
+SolveReport CalibrationProblem::SolveJointly(const std::vector<int>& frames,
+                                             int most_iterations) {
+  GuessContacts(frames, ContactGuess::From::kObjectFirst);
+  std::vector<LadderState> states;  // of these frames, if not kept
+  if (states_.empty()) states.resize(frames.size());
+  std::vector<JointSolve::Frame> joint;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const int i = frames[k];
+    const CalibrationFrame& frame = logs_.frames[i];
+    joint.push_back({&frame, frame.contact ? contacts_[i].data() : nullptr,
+                     states_.empty() ? &states[k] : &states_[i]});
+  }
+  return JointSolve(finger_, discretization_, plan_, blocks_, &parameters_,
+                    joint, threads_)
+      .Solve(most_iterations);
+}
+
+SolveReport CalibrationProblem::SolveSomeWeighted(
+    Eigen::MatrixXd* information) {
+  at_solution_.reset();
+  const std::vector<int> frames = SomeFrames();
+  const Finger finger = parameters_.Apply(finger_);
+  EquilibriumSolver solver(finger, discretization_);
+  std::vector<std::vector<double>> unknowns;
+  std::size_t size = 0;
+  for (const int i : frames) {
+    const CalibrationFrame& frame = logs_.frames[i];
+    unknowns.emplace_back();
+    if (frame.IsBench()) continue;
+    std::vector<PointContact> contacts;
+    if (frame.contact) {
+      contacts.push_back(
+          {contacts_[i][0], contacts_[i][1], plan_.scene.friction_coefficient});
+    }
+    if (!solver.Solve(contacts)) {
+      throw std::runtime_error("the model cannot be evaluated at the solution");
+    }
+    const Eigen::VectorXd q = solver.state().q;
+    unknowns.back().assign(q.data(), q.data() + q.size());
+    if (frame.contact) {
+      unknowns.back().insert(unknowns.back().end(), contacts_[i].begin(),
+                             contacts_[i].end());
+    }
+    size += unknowns.back().size();
+  }
+  // In one piece: Ceres eliminates them in the order of their addresses.
+  std::vector<double> all;
+  all.reserve(size);
+  std::vector<LadderState> states(frames.size());
+  std::vector<JointSolve::Frame> joint;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    double* first = unknowns[k].empty() ? nullptr : all.data() + all.size();
+    all.insert(all.end(), unknowns[k].begin(), unknowns[k].end());
+    joint.push_back({&logs_.frames[frames[k]], first, &states[k]});
+  }
+  JointSolve solve(finger_, discretization_, plan_, blocks_, &parameters_,
+                   joint, threads_, EquilibriumForm::kWeighted);
+  const SolveReport report = solve.Solve(kMostIterations);
+  *information = solve.Information();
+  return report;
+}
+
+// Columns are changes of one std along the directions that are determined.
+Eigen::MatrixXd CalibrationProblem::DeterminedUnits(
+    const Eigen::MatrixXd& information) const {
+  const Eigen::VectorXd unit = parameters_.Units();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      unit.asDiagonal() * information * unit.asDiagonal());
+  const auto weak =
+      std::count_if(eigen.eigenvalues().begin(), eigen.eigenvalues().end(),
+                    [](double value) { return value < kLeastInformation; });
+  const Eigen::Index kept = unit.size() - weak;
+  return unit.asDiagonal() * eigen.eigenvectors().rightCols(kept) *
+         eigen.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+}
+
+SolveReport CalibrationProblem::SolveSummed(const std::vector<int>& frames,
+                                            const SolveReport& before,
+                                            double gradient_tolerance) {
+  GuessContacts(frames, ContactGuess::From::kAll);
+  const Eigen::VectorXd start = Values();
+  summed_at_.resize(0);
+  FrameSums sums;
+  if (!Sum(frames, start, &sums)) {
+    throw std::runtime_error("the model cannot be evaluated at the start");
+  }
+  const Eigen::MatrixXd units = DeterminedUnits(sums.information);
+  if (units.cols() == 0) return before;
+
+  ceres::Problem problem;
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(units.cols());
+  problem.AddResidualBlock(
+      new FrameSumResidual(start, units, sums,
+                           [&](const Eigen::VectorXd& x, FrameSums* at) {
+                             return Sum(frames, x, at);
+                           }),
+      nullptr, z.data());
+  ceres::Solver::Options options;
+  options.logging_type = ceres::SILENT;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.initial_trust_region_radius = 1e10;
+  options.max_trust_region_radius = 1e16;
+  // z counts in standard deviations.
+  options.gradient_tolerance = gradient_tolerance;
+  options.function_tolerance = 0;
+  options.parameter_tolerance = 0;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  // The contacts are those of the last point that was tried.
+  const Eigen::VectorXd end = start + units * z;
+  if (end != summed_at_ && !Sum(frames, end, &sums)) {
+    throw std::runtime_error("the model cannot be evaluated at the solution");
+  }
+  at_solution_ = std::move(summed_);
+  contact_slopes_.resize(0, 0);
+  SolveReport report = before;
+  report.converged = summary.termination_type == ceres::CONVERGENCE;
+  report.iterations += static_cast<int>(summary.iterations.size()) - 1;
+  report.initial_cost = summary.initial_cost;
+  report.final_cost = summary.final_cost;
+  report.message = summary.message;
+  return report;
+}
+
+bool CalibrationProblem::Sum(const std::vector<int>& frames,
+                             const Eigen::VectorXd& at, FrameSums* sums) {
+  SetValues(at);
+  const auto n = static_cast<int>(at.size());
+  if (summed_at_.size() > 0) MoveContacts(frames, at - summed_at_);
+  summed_at_ = at;
+  contact_slopes_.resize(2 * n, static_cast<Eigen::Index>(frames.size()));
+  summed_.reset();
+  if (frames.size() == fitted_.size()) {
+    summed_ = std::make_unique<Linearization>(n, frames.size());
+  }
+  sums->SetZero(n);
+  for (int k = 0; k < n; ++k) {
+    const CalibrationParameter& p = parameters_.all()[parameters_.free()[k]];
+    if (p.prior_std) sums->AddPrior(k, at[k], p.initial, *p.prior_std);
+  }
+  Eigen::Index column = 0;
+  const bool good = InParallel(
+      frames,
+      [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
+        LadderState scratch;
+        return linearizer->FitContact(logs_.frames[i], &contacts_[i],
+                                      StateOf(i, &scratch), out);
+      },
+      [&](int i, const LinearizedFrame& frame) {
+        const LinearizedFrame::ContactMove move = frame.Move();
+        sums->Add(frame, move);
+        if (summed_) summed_->Add(i, logs_.frames[i].log, frame);
+        Eigen::Map<Eigen::Matrix2Xf>(contact_slopes_.col(column++).data(), 2,
+                                     n) = move.by_parameter.cast<float>();
+        MoveContact(i, move.now);
+      });
+  if (summed_) summed_->Finish();
+  return good;
+}
+
+// The contacts follow the parameters, to first order.
+void CalibrationProblem::MoveContacts(const std::vector<int>& frames,
+                                      const Eigen::VectorXd& change) {
+  const Eigen::VectorXf move = change.cast<float>();
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const Eigen::Map<const Eigen::Matrix2Xf> slopes(
+        contact_slopes_.col(static_cast<Eigen::Index>(k)).data(), 2,
+        move.size());
+    MoveContact(frames[k], (slopes * move).cast<double>());
+  }
+}
+
+void CalibrationProblem::MoveContact(int frame, const Eigen::Vector2d& move) {
+  if (!logs_.frames[frame].contact) return;
+  auto& [arc_mm, normal_N] = contacts_[frame];
+  arc_mm = std::clamp(arc_mm + move[0], 0.0, finger_.front_length_mm);
+  normal_N = std::max(0.0, normal_N + move[1]);
+}
+
+}  // namespace finray
