@@ -33,13 +33,13 @@ class Comparison:
 
     @property
     def paper_text(self):
-        return f"{'below ' if self.limit else ''}{self.paper:g} {self.unit}"
+        number = f"{self.paper:g}" if self.paper == round(self.paper) else f"{self.paper:.2f}"
+        return f"{'below ' if self.limit else ''}{number} {self.unit}"
 
     @property
     def ours_text(self):
         if math.isnan(self.ours):
-            return "none"
-        # As many places as show it beside the paper's, and never none of it.
+            return "refused"
         places = 2 if abs(self.ours) >= 1 else 3
         return f"{self.ours:.{places}f} {self.unit}"
 
@@ -69,6 +69,10 @@ class Section:
     tables: list = dataclasses.field(default_factory=list)  # (title, header, rows, note)
 
 
+def count(number, word):
+    return f"{number:g} {word}" + ("" if number == 1 else "s")
+
+
 def model_error_text(error):
     """The std of a finger's parameters, as studies and experiments write them."""
     parts = []
@@ -82,4 +86,4 @@ def model_error_text(error):
         parts.append(f"ribs {error['rib_length_std_mm']:g} mm")
     if error.get("delay_std_ms"):
         parts.append(f"delay {error['delay_std_ms']:g} ms")
-    return "model error " + ", ".join(parts) if parts else "no model error"
+    return "model error (std) " + ", ".join(parts) if parts else "no model error"

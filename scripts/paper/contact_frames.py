@@ -97,13 +97,17 @@ def sections(folder):
                       ("setting", "x_mm", "y_mm", "true_x_mm", "true_y_mm"), STUDY)
     heights = read_csv(folder / "by_height.csv", ("setting", "height_mm", "force_rms_N"), STUDY)
     put_in = read_yaml(folder / "conditions.yaml", ("gauge_noise_rad", "stage_std_mm", "force_sensor_std_N",
-                                                    "circle_radius_mm", "draws", "repeats"), STUDY)
+                                                    "circle_radius_mm", "nominal_error", "draws", "repeats"), STUDY)
     found = {setting: means(grid, setting) for setting in SETTINGS}
-    noise = f"gauges {put_in['gauge_noise_rad']:g} rad"
+    noise = f"gauge noise {put_in['gauge_noise_rad']:g} rad"
     stage = f"stage {put_in['stage_std_mm']:g} mm"
     calibrated = (f"finger calibrated from a log of its own noise (force sensor "
                   f"{put_in['force_sensor_std_N']:g} N, {stage})")
     draws = f"{put_in['draws']:g} calibrations, noise {put_in['repeats']:g} times each"
+    off = put_in["nominal_error"]
+    drawn = (f"finger as drawn: EI off by {off['front_stiffness_percent']:+g} % (front), "
+             f"{off['back_stiffness_percent']:+g} % (back), ribs by up to {off['largest_rib_length_mm']:.2f} mm")
+    sensed_drawn = f"{noise}, gauges calibrated on a bench and zeroed, {drawn}"
     sensed = f"{noise}, {calibrated}, {draws}"
     model = f"{stage}, {calibrated}, {draws}"
     rows = [
@@ -112,24 +116,22 @@ def sections(folder):
         Comparison("contact frame from kinetostatics, mean error of angle", "Fig. 11, V-B", "deg", 1.21,
                    found[MODEL]["angle"], model, ONLY_WHAT_IS_PUT_IN),
         Comparison("contact frame from kinetostatics, finger not calibrated, place", "Fig. 11, V-B", "mm", 0.70,
-                   found[NOMINAL[MODEL]]["place"], f"{stage}, finger as drawn: EI off by 11 %, ribs as drawn",
+                   found[NOMINAL[MODEL]]["place"], f"{stage}, {drawn}",
                    ONLY_WHAT_IS_PUT_IN),
         Comparison("contact frame sensed, mean error of place", "Fig. 11, V-B", "mm", 0.58,
                    found[SENSED]["place"], sensed, ONLY_WHAT_IS_PUT_IN),
         Comparison("contact frame sensed, mean error of angle", "Fig. 11, V-B", "deg", 1.24,
                    found[SENSED]["angle"], sensed, ONLY_WHAT_IS_PUT_IN),
         Comparison("contact frame sensed, finger not calibrated, place", "Fig. 11, V-B", "mm", 0.58,
-                   found[NOMINAL[SENSED]]["place"],
-                   f"{noise}, gauges calibrated on a bench, finger as drawn: EI off by 11 %",
-                   "Without a calibration the finger's own error counts: its stiffness is off by 11 %."),
+                   found[NOMINAL[SENSED]]["place"], sensed_drawn,
+                   "Without a calibration the finger's own errors count as much as the gauges' noise: calibrate it."),
         Comparison("sensed force, mean error", "Fig. 12, V-B", "N", 0.15, found[SENSED]["force"], sensed,
                    ONLY_WHAT_IS_PUT_IN),
         Comparison("sensed force, mean error, of the force", "Fig. 12, V-B", "%", 5,
                    found[SENSED]["force percent"], sensed, ONLY_WHAT_IS_PUT_IN),
         Comparison("sensed force, finger not calibrated", "Fig. 12, V-B", "N", 0.15,
-                   found[NOMINAL[SENSED]]["force"],
-                   f"{noise}, gauges calibrated on a bench, finger as drawn: EI off by 11 %",
-                   "Forces are as wrong as the stiffness is: without a calibration the drawing's is off by 11 %."),
+                   found[NOMINAL[SENSED]]["force"], sensed_drawn,
+                   "Forces are as wrong as the stiffness is: calibrate the finger."),
     ]
     by_height = {row["height_mm"]: row["force_rms_N"] for row in heights if row["setting"] == SENSED}
     middle = min(by_height.values())

@@ -6,7 +6,7 @@ from look import AFTER, INK, legend, plt, svg
 
 STUDY = "scripts/studies/contact_cycles.py"
 COLUMNS = ("rate_Hz", "height_mm", "finger", "rms_N", "max_N", "rms_of_all_N", "unobservable", "frames",
-           "unobservable_up_to_N")
+           "unobservable_up_to_N", "gauge_noise_rad")
 
 
 def plot(frames):
@@ -31,7 +31,7 @@ def sections(folder):
     all_worst = max(used, key=lambda row: row["rms_of_all_N"])
     share = 100 * max(row["unobservable"] / row["frames"] for row in used)
     most = max(row["unobservable_up_to_N"] for row in used)
-    conditions = ("gauges 3e-4 rad, finger calibrated from a noisy log, 30 frames/s, worst of heights "
+    conditions = (f"gauge noise {used[0]['gauge_noise_rad']:g} rad, finger calibrated from a noisy log, 30 frames/s, worst of heights "
                   + ", ".join(f"{row['height_mm']:g}" for row in used) + " mm")
     sure = f"frames the estimator vouches for ({share:.0f} % at most are flagged, touches up to {most:.1f} N)"
     rows = [

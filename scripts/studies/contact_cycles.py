@@ -31,7 +31,7 @@ DURATION_S, REST_S, GAPS_S = 60.0, 1.0, (0.26, 0.77, 0.14)
 HEIGHTS_MM, RATES_HZ = (45, 70, 95), (30, 100)
 SHOWN = (70, 100, "calibrated")
 COLUMNS = ("rate_Hz", "height_mm", "finger", "rms_N", "max_N", "rms_of_all_N", "unobservable", "frames",
-           "unobservable_up_to_N", "contact_in_free_frames", "free_frames", "lightest_seen_N")
+           "unobservable_up_to_N", "contact_in_free_frames", "free_frames", "lightest_seen_N", "gauge_noise_rad")
 
 
 def read(path):
@@ -201,7 +201,7 @@ def main():
             plot(frames[SHOWN[2]], out / "contact_cycles.png")
             names = ("time_s", "force_N", "force_estimate_N", "force_estimate_std_N")
             write(out / "contact_cycles_frames.csv", dict(zip(names, frames[SHOWN[2]])))
-    write_rows(out / "contact_cycles.csv", COLUMNS, table)
+    write_rows(out / "contact_cycles.csv", COLUMNS, [(*row, NOISE_RAD) for row in table])
 
 
 if __name__ == "__main__":
