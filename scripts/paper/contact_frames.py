@@ -135,11 +135,11 @@ def sections(folder):
     ]
     by_height = {row["height_mm"]: row["force_rms_N"] for row in heights if row["setting"] == SENSED}
     middle = min(by_height.values())
-    bottom, top = (by_height[near] / middle for near in (min(by_height, key=lambda h: abs(h - 30)),
-                                                         min(by_height, key=lambda h: abs(h - 100))))
+    ends = [end(row["height_mm"] for row in grid) for end in (min, max)]
+    bottom, top = (by_height[min(by_height, key=lambda height: abs(height - end))] / middle for end in ends)
     rows.append(Finding(
         "force error near base and tip over that in the middle", "Fig. 13, V-B", "3 to 4 times",
-        f"{bottom:.1f} times at 30 mm, {top:.1f} at 100 mm", sensed, 3 <= min(bottom, top) <= max(bottom, top) <= 4,
+        f"{bottom:.1f} times at {ends[0]:g} mm, {top:.1f} at {ends[1]:g} mm", sensed, 3 <= min(bottom, top) <= max(bottom, top) <= 4,
         "Same course, larger ratio: in the middle ours has nothing but gauge noise left, so that what is "
         "divided by is small. The paper does not say at which heights it measured."))
     table = [[name, *(f"{found[setting][key]:.3f}" for key in ("place", "angle", "force")),

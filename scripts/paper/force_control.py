@@ -66,15 +66,16 @@ class Experiment:
         return 1 / self.settings["actuation"]["rate_Hz"]
 
     def cost_of_delay(self, delay_s):
-        """Rms of a force that is the set-point, so late, and nothing else."""
+        """Rms and largest error of a force that is the set-point, so late, and
+        nothing else."""
         log = self.log("model")
         time, wanted = log["time_s"], log["set_point_N"]
         if self.jumps:  # between samples the old value holds
             late = wanted[np.searchsorted(time, time - delay_s + 1e-9, side="right").clip(1) - 1]
         else:
             late = np.interp(time - delay_s, time, wanted)
-        counts = time >= self.measured_from_s
-        return math.sqrt(np.mean((wanted - late)[counts] ** 2))
+        error = np.abs(wanted - late)[time >= self.measured_from_s]
+        return math.sqrt(np.mean(error ** 2)), np.max(error)
 
     def largest_jump(self):
         log = self.log("model")
@@ -102,15 +103,21 @@ class Experiment:
                 f"{count(runs, 'draw')}")
 
 
+def pure_delay(experiment, which):
+    """What being late costs, rms (0) or at most (1)."""
+    delay, with_period = experiment.delay_s, experiment.delay_s + experiment.period_s
+    costs = [experiment.cost_of_delay(d)[which] for d in (delay, with_period)]
+    return (f"A pure delay of {1000 * delay:.0f} ms, without any other error, costs {costs[0]:.3f} N "
+            f"{'at most' if which else 'rms'} on this course; with the loop's own period ({1000 * with_period:.0f} ms) "
+            f"{costs[1]:.3f} N.")
+
+
 def why_rms(experiment, preview):
     """Why the rms is not below the paper's, with what a pure delay would cost."""
     if preview or experiment.config["set_point"]["type"] == "constant":
         return "Model error and noise alone are more."
-    bound, with_period = (experiment.cost_of_delay(d) for d in
-                          (experiment.delay_s, experiment.delay_s + experiment.period_s))
-    return (f"Without preview a set-point is followed late. A pure delay of {1000 * experiment.delay_s:.0f} ms, without "
-            f"any other error, costs {bound:.3f} N rms on this course; with the loop's own period "
-            f"({1000 * (experiment.delay_s + experiment.period_s):.0f} ms) {with_period:.3f} N.")
+    return (f"Without preview a set-point is followed late. {pure_delay(experiment, 0)} A controller that guesses smooth "
+            "courses from their past could be less late; this one does not.")
 
 
 def why_largest(experiment, preview):
@@ -122,8 +129,8 @@ def why_largest(experiment, preview):
     if experiment.jumps:
         return (f"A jump of {experiment.largest_jump():g} N is an error of that size at its first instant, whoever "
                 "drives; the rest is noise, model error and the true delay's.")
-    return ("The force is as late as without preview it must be; the largest of all draws is counted."
-            if not preview else "The largest of all draws is counted.")
+    late = "" if preview else pure_delay(experiment, 1) + " "
+    return f"{late}The largest of all draws is counted."
 
 
 def comparisons(experiment, what):

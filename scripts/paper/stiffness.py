@@ -120,7 +120,7 @@ def sections(folder):
         "paper's order, as it gives no stiffness of them. Way and force both come from the sensed contact.",
         rows,
         [(plot_springs(seeds[0], springs), "Springs, first draw. Left: what was sensed, and the true springs as lines; "
-                                           "the offset is friction. Right: errors of five trials, dashed: 15 %."),
+                                           "the slider's friction is on either side. Right: errors of five trials, dashed: 15 %."),
          (plot_objects(seeds, objects), "Six objects, one squeeze in each draw.")],
         [("Springs", ("true, N/mm", "mean found, N/mm", "largest error of a mean of five, %",
                       "largest error of a trial, %"), spring_rows, "The paper: below 15 %."),
