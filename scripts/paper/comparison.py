@@ -40,7 +40,7 @@ class Comparison:
     def ours_text(self):
         if math.isnan(self.ours):
             return "refused"
-        places = 2 if abs(self.ours) >= 1 else 3
+        places = 3 if abs(self.ours) < 1 else 2 if abs(self.ours) < 10 else 1
         return f"{self.ours:.{places}f} {self.unit}"
 
 
