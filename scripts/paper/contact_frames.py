@@ -139,7 +139,8 @@ def sections(folder):
     bottom, top = (by_height[min(by_height, key=lambda height: abs(height - end))] / middle for end in ends)
     rows.append(Finding(
         "force error near base and tip over that in the middle", "Fig. 13, V-B", "3 to 4 times",
-        f"{bottom:.1f} times at {ends[0]:g} mm, {top:.1f} at {ends[1]:g} mm", sensed, 3 <= min(bottom, top) <= max(bottom, top) <= 4,
+        f"{bottom:.1f} times at {ends[0]:g} mm, {top:.1f} at {ends[1]:g} mm", sensed,
+        3 <= min(bottom, top) <= max(bottom, top) <= 4,
         "Same course, larger ratio: in the middle ours has nothing but gauge noise left, so that what is "
         "divided by is small. The paper does not say at which heights it measured."))
     table = [[name, *(f"{found[setting][key]:.3f}" for key in ("place", "angle", "force")),

@@ -16,7 +16,8 @@ GROUPS = (
     ("Force on a fixed object, Fig. 23",
      "A finger on a stage follows a force that changes; nothing but gauges is measured. The paper gives neither "
      "amplitude nor period: they are chosen so that a lag of 130 ms alone, which the paper blames, costs about what "
-     "the paper has.", (("fixed_harmonic", "harmonic force, fixed object"), ("fixed_step", "steps of force, fixed object"))),
+     "the paper has.", (("fixed_harmonic", "harmonic force, fixed object"),
+                       ("fixed_step", "steps of force, fixed object"))),
     ("Force on a moving object, Fig. 25",
      "6 N are to be held while the object moves in a way that the controller does not know. As the set-point is "
      "constant there is nothing to preview.",
@@ -98,7 +99,8 @@ class Experiment:
     def conditions(self):
         gauge = read_yaml(self.finger, ("gauges",), TOOL)["gauges"][0]
         runs = self.controllers["model"]["runs"]
-        return (f"gauge noise {gauge['noise_V'] / gauge['gain_V_per_rad']:g} rad, {model_error_text(self.settings['model_error'])}; loop delay "
+        return (f"gauge noise {gauge['noise_V'] / gauge['gain_V_per_rad']:g} rad, "
+                f"{model_error_text(self.settings['model_error'])}; loop delay "
                 f"{self.settings['actuation']['delay_ms']:g} ms, {self.settings['actuation']['rate_Hz']:g} Hz, "
                 f"{count(runs, 'draw')}")
 
@@ -217,7 +219,8 @@ def sections(folder):
                     f"{what}, largest error in stable steps, of the set-point", "Fig. 27, VI", "%", 5,
                     settled_percent(experiment), f"{experiment.conditions()}; first draw only, without preview",
                     "Forces are off by what stiffness and gains of the model are off.", limit=True))
-        plots = [(plot(experiment), f"{what[0].upper()}{what[1:]}, first draw; rms of all draws. Dashed in the lower plot: the "
-                                    f"paper's {experiment.paper['rms_N']:.2f} N rms.") for experiment, what in experiments]
+        plots = [(plot(experiment), f"{what[0].upper()}{what[1:]}, first draw; rms of all draws. Dashed in the "
+                                    f"lower plot: the paper's {experiment.paper['rms_N']:.2f} N rms.")
+                 for experiment, what in experiments]
         made.append(Section(title, sentence, rows, plots, [table(experiments)]))
     return made

@@ -31,7 +31,8 @@ def sections(folder):
     all_worst = max(used, key=lambda row: row["rms_of_all_N"])
     share = 100 * max(row["unobservable"] / row["frames"] for row in used)
     most = max(row["unobservable_up_to_N"] for row in used)
-    conditions = (f"gauge noise {used[0]['gauge_noise_rad']:g} rad, finger calibrated from a noisy log, 30 frames/s, worst of heights "
+    conditions = (f"gauge noise {used[0]['gauge_noise_rad']:g} rad, finger calibrated from a noisy log, 30 frames/s, "
+                  "worst of heights "
                   + ", ".join(f"{row['height_mm']:g}" for row in used) + " mm")
     sure = f"frames the estimator vouches for ({share:.0f} % at most are flagged, touches up to {most:.1f} N)"
     rows = [

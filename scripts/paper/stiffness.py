@@ -130,8 +130,8 @@ def sections(folder):
                             f"{max(errors):.1f}"])
     rows.append(Finding(
         "six objects between two fingers, sorted from stiff to soft", "Fig. 20, V-D", "order as volunteers feel it",
-        f"right in {orders} of {count(len(seeds), 'draw')}", f"one squeeze each to 4 N, {noise}, two fingers of different "
-        f"error; mean stated confidence of the whole order {100 * statistics.fmean(confidences):.0f} %",
+        f"right in {orders} of {count(len(seeds), 'draw')}",
+        f"one squeeze each to 4 N, {noise}, two fingers of different error; mean stated confidence of the whole order {100 * statistics.fmean(confidences):.0f} %",
         orders == len(seeds), "Where two neighbours are near in stiffness, one squeeze with this model error does not "
         "tell them apart; the stated confidence says so."))
     return [Section(
@@ -139,8 +139,9 @@ def sections(folder):
         "The finger pushes a slider on a spring; two fingers squeeze things whose force laws are assumed, in the "
         "paper's order, as it gives no stiffness of them. Way and force both come from the sensed contact.",
         rows,
-        [(plot_springs(seeds, springs), "Springs. Left: what was sensed in the first draw, and the true springs as lines; "
-                                           "the slider's friction is on either side. Right: errors of all trials and their mean; dashed: 15 %."),
+        [(plot_springs(seeds, springs),
+          "Springs. Left: what was sensed in the first draw, and the true springs as lines; the slider's friction is on "
+          "either side. Right: errors of all trials and their mean; dashed: 15 %."),
          (plot_objects(seeds, objects), "Six objects, one squeeze in each draw.")],
         [("Springs", ("true, N/mm", "mean found, N/mm", "largest error of a mean of five, %",
                       "largest error of a trial, %"), spring_rows, "The paper: below 15 %."),
