@@ -120,16 +120,17 @@ std::vector<ComplianceLog> ReadLogs(const Scene& scene,
 
 void PrintSummary(const Compliance& found) {
   std::printf("%s\n", InFolder("compliance.yaml").c_str());
-  std::size_t points = 0, rows = 0, standing = 0;
+  std::size_t points = 0, rows = 0, standing = 0, left_out = 0;
   for (const ComplianceTrial& trial : found.trials) {
     points += trial.fit.points;
     standing += trial.fit.standing;
+    left_out += trial.fit.left_out;
     rows += trial.rows;
   }
   std::printf(
       "points         %zu of %zu rows in %zu trials; %zu left out as "
-      "the slider stood\n",
-      points, rows, found.trials.size(), standing);
+      "the slider stood, %zu as they contradict the others\n",
+      points, rows, found.trials.size(), standing, left_out);
   std::printf("compared       from %.3g to %.3g N\n", found.from_N, found.to_N);
   for (std::size_t i = 0; i < found.objects.size(); ++i) {
     const ObjectStiffness& object = found.objects[i];

@@ -94,6 +94,34 @@ TEST(StiffnessFitTest, BentLawsTakeHigherDegrees) {
   EXPECT_NEAR(StiffnessBetween(fit, 0.7, 1.8).N_per_mm, 1.1, 1e-4);
 }
 
+// Light touches that read as 50 N, with std as small as any.
+TEST(StiffnessFitTest, LeavesOutWhatContradictsTheOthers) {
+  constexpr double kStiffness = 2, kStd = 0.03;
+  std::mt19937_64 generator(8);
+  std::normal_distribution<double> normal;
+  for (const double model_error : {0.0, 0.3}) {  // N: far above the std
+    std::vector<ForcePoint> points, clean;
+    for (int i = 0; i < 40; ++i) {
+      const double u = 0.1 * i;
+      const double wave = model_error * std::sin(1.3 * u);
+      clean.push_back(PointOf(u + kStd * normal(generator),
+                              kStiffness * u + wave + kStd * normal(generator),
+                              kStd, kStd));
+      points.push_back(clean.back());
+      if (i % 8 == 1) points.back().force_N = 50 + normal(generator);
+    }
+    const StiffnessFit fit = FitStiffness(points, 1);
+    EXPECT_EQ(fit.left_out, 5u) << model_error;
+    EXPECT_EQ(fit.points, 35u);
+    EXPECT_LT(fit.largest_force_N, 10);
+    const StiffnessFit all = FitStiffness(clean, 1);
+    EXPECT_EQ(all.left_out, 0u);
+    EXPECT_EQ(all.points, 40u);
+    EXPECT_NEAR(fit.coefficients[1], all.coefficients[1],
+                3 * std::sqrt(fit.covariance(1, 1)));
+  }
+}
+
 TEST(StiffnessFitTest, RefusesTooFewPointsAndFallingForces) {
   std::vector<ForcePoint> points;
   for (int i = 0; i < 8; ++i) points.push_back(PointOf(i, -i, 0.1, 0.1));

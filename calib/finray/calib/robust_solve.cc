@@ -41,7 +41,9 @@ const StartReport& BestOf(const std::vector<StartReport>& starts) {
 }
 
 // Each start's solution, that with the least cost being left in the problem.
-std::vector<StartReport> SolveFromStarts(CalibrationProblem* problem) {
+// The first one goes on from where it is.
+std::vector<StartReport> SolveFromStarts(CalibrationProblem* problem,
+                                         int iterations_so_far) {
   struct Solution {
     StartReport report;
     CalibrationProblem::Point point;
@@ -50,8 +52,9 @@ std::vector<StartReport> SolveFromStarts(CalibrationProblem* problem) {
   const Solution* best = nullptr;
   solutions.reserve(std::size(kStarts));
   for (const Start& start : kStarts) {
-    problem->StartFrom(Changed(*problem, start));
-    const SolveReport solve = problem->SolveSome(kStartIterations);
+    if (&start != kStarts) problem->StartFrom(Changed(*problem, start));
+    SolveReport solve = problem->SolveSome(kStartIterations);
+    if (&start == kStarts) solve.iterations += iterations_so_far;
     StartReport report{
         start.name, solve.converged, solve.iterations, solve.final_cost, 0,
         false};
@@ -95,9 +98,9 @@ RobustSolution SolveRobustly(CalibrationProblem* problem) {
   const auto reject_among = [&](const std::vector<int>& frames) {
     problem->SetRejected(FindOutliersAmong(frames, problem).reasons);
   };
-  problem->SolveSome(kFewIterations);
+  const SolveReport first = problem->SolveSome(kFewIterations);
   reject_among(problem->SomeFrames());
-  result.starts = SolveFromStarts(problem);
+  result.starts = SolveFromStarts(problem, first.iterations);
   // More and more frames, each time spared their outliers.
   if (const std::vector<int> many = problem->ManyFrames(); !many.empty()) {
     reject_among(many);

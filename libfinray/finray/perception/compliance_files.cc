@@ -19,7 +19,8 @@ void EmitTrial(const ComplianceTrial& trial, YAML::Emitter* emitter) {
        << YAML::Key << "trial" << YAML::Value << trial.name << YAML::Key
        << "rows" << YAML::Value << trial.rows << YAML::Key << "points"
        << YAML::Value << fit.points << YAML::Key << "standing" << YAML::Value
-       << fit.standing;
+       << fit.standing << YAML::Key << "left_out" << YAML::Value
+       << fit.left_out;
   yaml << YAML::Key << "direction_deg" << YAML::Value
        << trial.direction.angle_rad / kDegree << YAML::Key
        << "direction_std_deg" << YAML::Value

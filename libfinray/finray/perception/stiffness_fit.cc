@@ -21,6 +21,13 @@ using Eigen::VectorXd;
 
 constexpr double kUnexplained = 0.001;
 
+// Points that are left out though they belong to the law, expected in a trial.
+constexpr double kFalseAlarms = 0.01;
+// Of the points; if there are more, the law is wrong, or the std.
+constexpr double kMostLeftOut = 0.25;
+constexpr double kMedianOfChi2 = 0.4549;  // with one degree of freedom
+constexpr int kAnnealingSteps = 20;
+
 double Law(const VectorXd& a, int degree, double u) {
   double force = 0;
   for (int m = degree; m >= 0; --m) force = force * u + a[m];
@@ -95,24 +102,85 @@ MatrixXd Information(const std::vector<ForcePoint>& points, int degree,
   return information;
 }
 
+// F as a linear function of the law's parameters, u being the true one.
+struct Rows {
+  MatrixXd left;
+  VectorXd right;
+};
+Rows RowsOf(const std::vector<ForcePoint>& points, int degree, bool friction) {
+  const auto count = static_cast<Index>(points.size());
+  Rows rows{MatrixXd(count, degree + 1 + friction), VectorXd(count)};
+  for (Index i = 0; i < count; ++i) {
+    const ForcePoint& point = points[static_cast<std::size_t>(i)];
+    for (int m = 0; m <= degree; ++m) {
+      rows.left(i, m) = std::pow(point.displacement_mm, m);
+    }
+    if (friction) rows.left(i, degree + 1) = point.direction;
+    rows.right[i] = point.force_N;
+  }
+  return rows;
+}
+
+// Squared distance of each point from a law, across it.
+std::vector<double> Distances(const std::vector<ForcePoint>& points, int degree,
+                              bool friction, const VectorXd& a) {
+  std::vector<double> chi2;
+  for (const ForcePoint& point : points) {
+    const double u = point.displacement_mm;
+    const double off = point.force_N - Law(a, degree, u) -
+                       (friction ? point.direction * a[degree + 1] : 0);
+    const Vector2d across(-Slope(a, degree, u), 1);
+    chi2.push_back(off * off / across.dot(point.covariance * across));
+  }
+  return chi2;
+}
+
+// Points that the law of most of them explains, the errors being as large as
+// they are for the half of them.
+std::vector<ForcePoint> Explained(const std::vector<ForcePoint>& points,
+                                  int degree, bool friction) {
+  // F on u, with Cauchy's weights of ever smaller scales: with errors of both
+  // a line might go up through wild points.
+  const Rows rows = RowsOf(points, degree, friction);
+  VectorXd a = rows.left.colPivHouseholderQr().solve(rows.right);
+  std::vector<double> chi2 = Distances(points, degree, friction, a);
+  double variance = 1;
+  for (int step = 0; step < kAnnealingSteps; ++step) {
+    std::vector<double> sorted = chi2;
+    const auto middle = sorted.begin() + static_cast<long>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    variance = std::max(1.0, *middle / kMedianOfChi2);
+    VectorXd weights(rows.right.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      weights[static_cast<Index>(i)] = 1 / std::sqrt(1 + chi2[i] / variance);
+    }
+    a = (weights.asDiagonal() * rows.left)
+            .colPivHouseholderQr()
+            .solve(weights.cwiseProduct(rows.right));
+    chi2 = Distances(points, degree, friction, a);
+  }
+  std::vector<ForcePoint> explained;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (ChiSquaredTail(chi2[i] / variance, 1) >
+        kFalseAlarms / static_cast<double>(points.size())) {
+      explained.push_back(points[i]);
+    }
+  }
+  const bool too_many = static_cast<double>(points.size() - explained.size()) >
+                        kMostLeftOut * static_cast<double>(points.size());
+  return too_many ? points : explained;
+}
+
 StiffnessFit FitDegree(const std::vector<ForcePoint>& points, int degree,
                        bool friction) {
   StiffnessFit fit;
   fit.degree = degree;
   fit.has_friction = friction;
-  const Index size = degree + 1 + friction;
   // Least squares of F on u to start from.
-  MatrixXd rows(static_cast<Index>(points.size()), size);
-  VectorXd forces(rows.rows());
+  const Rows rows = RowsOf(points, degree, friction);
+  VectorXd a = rows.left.colPivHouseholderQr().solve(rows.right);
   std::vector<double> v;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto r = static_cast<Index>(i);
-    v.push_back(points[i].displacement_mm);
-    for (int m = 0; m <= degree; ++m) rows(r, m) = std::pow(v[i], m);
-    if (friction) rows(r, degree + 1) = points[i].direction;
-    forces[r] = points[i].force_N;
-  }
-  VectorXd a = rows.colPivHouseholderQr().solve(forces);
+  for (const ForcePoint& point : points) v.push_back(point.displacement_mm);
   ceres::Problem problem;
   auto* ordering = new ceres::ParameterBlockOrdering;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -134,7 +202,7 @@ StiffnessFit FitDegree(const std::vector<ForcePoint>& points, int degree,
   }
   fit.coefficients = a;
   fit.chi2 = 2 * summary.final_cost;
-  fit.dof = static_cast<int>(points.size()) - static_cast<int>(size);
+  fit.dof = static_cast<int>(points.size()) - static_cast<int>(a.size());
   const double scale = fit.noise_scale();
   fit.covariance = scale * scale *
                    Information(points, degree, friction, a, v)
@@ -199,11 +267,19 @@ StiffnessFit FitStiffness(const std::vector<ForcePoint>& points,
         "least " +
         std::to_string(kLeastPoints));
   }
-  const auto forward =
-      std::count_if(sliding.begin(), sliding.end(),
-                    [](const ForcePoint& p) { return p.direction > 0; });
-  const auto backward = static_cast<std::ptrdiff_t>(sliding.size()) - forward;
-  const bool friction = forward >= 2 && backward >= 2;
+  const auto both_ways = [&] {
+    const auto forward =
+        std::count_if(sliding.begin(), sliding.end(),
+                      [](const ForcePoint& p) { return p.direction > 0; });
+    return forward >= 2 &&
+           static_cast<std::ptrdiff_t>(sliding.size()) - forward >= 2;
+  };
+  const std::size_t moving = sliding.size();
+  // Judged by the law that can follow most.
+  const int judge = std::min(most_degree, static_cast<int>(moving) - 3 -
+                                              static_cast<int>(both_ways()));
+  if (judge >= 1) sliding = Explained(sliding, judge, both_ways());
+  const bool friction = both_ways();
   std::optional<StiffnessFit> best;
   double least = 0;
   for (int degree = 1; degree <= most_degree; ++degree) {
@@ -224,7 +300,8 @@ StiffnessFit FitStiffness(const std::vector<ForcePoint>& points,
   if (!(best->coefficients[1] > 0) && best->degree == 1) {
     throw InputError("the force does not grow with the displacement");
   }
-  best->standing = points.size() - sliding.size();
+  best->standing = points.size() - moving;
+  best->left_out = moving - sliding.size();
   return *best;
 }
 
