@@ -1,0 +1,126 @@
+#include "finray/benchmark/recommendation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "finray/benchmark/pareto.h"
+
+namespace finray {
+namespace {
+
+constexpr double kShareOfPeriod = 0.1;
+// A hundredth of the std of l_c by noise of 1e-4 rad, 0.15 .. 0.33 mm.
+constexpr double kBatchError_mm = 1e-3;
+// Below this all is equally accurate.
+constexpr double kNoError_mm = 1e-9;
+
+using Candidates = std::vector<const Measurement*>;
+
+Candidates Of(const std::vector<Measurement>& all, const std::string& task,
+              const std::string& how) {
+  Candidates found;
+  for (const Measurement& m : all) {
+    if (m.name.task == task && m.name.scene == "one_contact" &&
+        (how.empty() || m.name.how == how) && m.solved_percent == 100) {
+      found.push_back(&m);
+    }
+  }
+  return found;
+}
+
+double TimeOf(const Measurement& m) {
+  return std::isnan(m.slow_frame_us) ? m.median_us() : m.slow_frame_us;
+}
+
+double ErrorOf(const Measurement& m) {
+  return std::max(m.errors.contact_mm, kNoError_mm);
+}
+
+// The fastest of those that are as accurate as the most accurate one.
+const Measurement* MostAccurate(const Candidates& candidates) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Measurement* m : candidates) least = std::min(least, ErrorOf(*m));
+  const Measurement* best = nullptr;
+  for (const Measurement* m : candidates) {
+    if (ErrorOf(*m) > (1 + kSameError) * least) continue;
+    if (best == nullptr || TimeOf(*m) < TimeOf(*best)) best = m;
+  }
+  return best;
+}
+
+Recommendation Made(const char* use, const char* why, double limit_us,
+                    const Measurement* m) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  if (m == nullptr) return {use, "", why, limit_us, nan, nan, nan};
+  return {use,
+          m->name.id(),
+          why,
+          limit_us,
+          TimeOf(*m),
+          limit_us / TimeOf(*m),
+          m->errors.contact_mm};
+}
+
+Recommendation ForRate(const char* use, double period_us,
+                       const std::vector<Measurement>& all) {
+  Candidates fast;
+  for (const Measurement* m : Of(all, "estimation", "live")) {
+    if (TimeOf(*m) <= kShareOfPeriod * period_us) fast.push_back(m);
+  }
+  return Made(use,
+              "the most accurate live estimate in a tenth of the period, of "
+              "equal ones the fastest",
+              period_us, MostAccurate(fast));
+}
+
+}  // namespace
+
+std::vector<Recommendation> Recommend(const std::vector<Measurement>& all) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Measurement* batch = nullptr;
+  for (const Measurement* m : Of(all, "estimation", "block")) {
+    if (ErrorOf(*m) <= kBatchError_mm &&
+        (batch == nullptr || m->median_us() < batch->median_us())) {
+      batch = m;
+    }
+  }
+  return {ForRate("30_Hz", 1e6 / 30, all), ForRate("1_kHz", 1e3, all),
+          Made("batch",
+               "the fastest estimate of logs with l_c off by 1e-3 mm at most",
+               nan, batch),
+          Made("reference", "the most accurate, of equal ones the fastest", nan,
+               MostAccurate(Of(all, "sensing", "")))};
+}
+
+std::vector<DefaultCheck> CheckDefaults(const std::vector<Measurement>& all) {
+  constexpr double kFaster = 0.8;
+  static const struct {
+    const char *task, *how;
+  } kUses[] = {{"estimation", "block"},
+               {"estimation", "live"},
+               {"sensing", "lanes"},
+               {"sensing", "alone"}};
+  std::vector<DefaultCheck> checks;
+  for (const auto& [task, how] : kUses) {
+    const Candidates candidates = Of(all, task, how);
+    std::vector<TimeAndError> points;
+    for (const Measurement* m : candidates) points.push_back(PointOf(*m));
+    const std::vector<std::size_t> front = ParetoFront(points);
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (candidates[i]->name.solver != "default") continue;
+      DefaultCheck check{candidates[i]->name.id(),
+                         std::count(front.begin(), front.end(), i) > 0,
+                         {}};
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        if (points[k].time < kFaster * points[i].time &&
+            points[k].error < points[i].error) {
+          check.better.push_back(candidates[k]->name.id());
+        }
+      }
+      checks.push_back(check);
+    }
+  }
+  return checks;
+}
+
+}  // namespace finray
