@@ -101,16 +101,16 @@ class Bench {
   }
 
   void Round() {
-    const double before = YardstickUs();
-    double time = 0;
+    double time = 0, yardstick = 0;
     ForStretches([&](int first, int count) {
+      yardstick += YardstickUs();
       const double start = ThreadSeconds();
       runner_->Run(first, count);
       time += ThreadSeconds() - start;
+      yardstick += YardstickUs();
     });
-    const double after = YardstickUs();
     result_.time_us.push_back(1e6 * time / result_.frames);
-    result_.yardstick_us.push_back((before + after) / 2);
+    result_.yardstick_us.push_back(yardstick / (2 * setting_.budget.stretches));
   }
 
   const Measurement& result() const { return result_; }

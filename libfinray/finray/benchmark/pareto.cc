@@ -11,15 +11,15 @@ namespace {
 
 // mm or rad; the reference itself is no better.
 constexpr double kLeastError = 1e-11;
+constexpr double kSameTime = 1.05, kFaster = 1.15, kExacter = 1.5;
 
 }  // namespace
 
 bool Dominates(const TimeAndError& a, const TimeAndError& b) {
-  const bool faster = a.time * (1 + kSameTime) < b.time;
-  const bool slower = b.time * (1 + kSameTime) < a.time;
-  const bool exacter = a.error * (1 + kSameError) < b.error;
-  const bool coarser = b.error * (1 + kSameError) < a.error;
-  return !slower && !coarser && (faster || exacter);
+  if (a.time > kSameTime * b.time || a.error > kSameError * b.error) {
+    return false;
+  }
+  return kFaster * a.time < b.time || kExacter * a.error < b.error;
 }
 
 std::vector<std::size_t> ParetoFront(const std::vector<TimeAndError>& points) {

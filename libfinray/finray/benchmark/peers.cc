@@ -22,7 +22,7 @@ const char* const kScenes[] = {"one_contact", "friction"};
 // The frames of a scene that peers are given: the first of some stretches.
 std::vector<int> PeerFrames(const BenchmarkCase& c, bool quick) {
   const int all = static_cast<int>(c.frames.size()) / BenchmarkCase::LeadIn(1);
-  const int stretches = std::min(all, quick ? 2 : 8);
+  const int stretches = std::min(all, quick ? 2 : 6);
   std::vector<int> frames;
   for (int k = 0; k < stretches; ++k) {
     frames.push_back(BenchmarkCase::LeadIn(k * all / stretches) + 1);

@@ -11,6 +11,8 @@ namespace {
 constexpr double kShareOfPeriod = 0.1;
 // A hundredth of the std of l_c by noise of 1e-4 rad, 0.15 .. 0.33 mm.
 constexpr double kBatchError_mm = 1e-3;
+// What ends of iterations differ by is no accuracy.
+constexpr double kSame = 2;
 // Below this all is equally accurate.
 constexpr double kNoError_mm = 1e-9;
 
@@ -42,7 +44,7 @@ const Measurement* MostAccurate(const Candidates& candidates) {
   for (const Measurement* m : candidates) least = std::min(least, ErrorOf(*m));
   const Measurement* best = nullptr;
   for (const Measurement* m : candidates) {
-    if (ErrorOf(*m) > (1 + kSameError) * least) continue;
+    if (ErrorOf(*m) > kSame * least) continue;
     if (best == nullptr || TimeOf(*m) < TimeOf(*best)) best = m;
   }
   return best;

@@ -7,7 +7,7 @@ namespace finray {
 namespace {
 
 constexpr int kSize = 48;
-constexpr int kTimes = 24;
+constexpr int kTimes = 2;
 
 // The sum of the solution, so that no compiler leaves the work out.
 double Eliminate(double shift) {
