@@ -26,9 +26,12 @@ DEFINE_string(finger, FINRAY_SOURCE_DIR "/configs/fingers/paper_140mm.yaml",
 DEFINE_string(out_dir, "",
               "folder for benchmark.json, benchmark.csv, report.html");
 DEFINE_bool(quick, false, "less than a minute: part of the log, few rounds");
+DEFINE_string(only, "",
+              "settings whose id holds one of these, separated by commas; left "
+              "out: all");
 DEFINE_int32(threads, 0,
              "most threads of the scaling with threads; 0: all cores");
-DEFINE_int32(rounds, 0, "repeats of every setting; 0: 5 if quick, else 15");
+DEFINE_int32(rounds, 0, "repeats of every setting; 0: 9 if quick, else 25");
 DEFINE_string(peers, "none",
               "other programs to ask too: none, auto (all that are installed), "
               "or of scipy, octave, calculix, separated by commas");
@@ -99,9 +102,31 @@ std::string UtcNow() {
   return text;
 }
 
+std::vector<BenchmarkSetting> ChosenSettings(const Finger& finger) {
+  std::vector<BenchmarkSetting> grid = BenchmarkGrid(finger, FLAGS_quick);
+  const std::vector<std::string> only = SplitList(FLAGS_only);
+  if (only.empty()) return grid;
+  std::vector<BenchmarkSetting> chosen;
+  for (BenchmarkSetting& setting : grid) {
+    const std::string id = setting.name.id();
+    if (std::any_of(only.begin(), only.end(), [&](const std::string& part) {
+          return id.find(part) != std::string::npos;
+        })) {
+      chosen.push_back(std::move(setting));
+    }
+  }
+  if (chosen.empty()) {
+    throw InputError("--only: no setting's id holds '" + FLAGS_only +
+                     "'; ids are like " + grid.front().name.id());
+  }
+  return chosen;
+}
+
+int Rounds() { return FLAGS_rounds > 0 ? FLAGS_rounds : FLAGS_quick ? 9 : 25; }
+
 MeasuringOptions Options(ProgressBar* bar) {
   MeasuringOptions options;
-  options.rounds = FLAGS_rounds > 0 ? FLAGS_rounds : FLAGS_quick ? 5 : 15;
+  options.rounds = Rounds();
 #ifdef FINRAY_COUNTS_ALLOCATIONS
   options.allocations = [] {
     return AllocationCount{static_cast<double>(allocations),
@@ -127,11 +152,19 @@ void PrintSummary(const BenchmarkRun& run) {
     std::printf("\n");
   }
   for (const DefaultCheck& check : CheckDefaults(run.settings)) {
-    std::printf("default        %s: %s\n", check.id.c_str(),
-                check.holds()     ? "on the Pareto front, none is 20 % faster "
-                                    "and more accurate"
-                : !check.on_front ? "NOT on the Pareto front"
-                                  : "beaten");
+    std::printf(
+        "default        %s: %s; fastest with l_c as good: %s, %.2f of its time "
+        "(%.2f .. %.2f)\n",
+        check.id.c_str(),
+        check.holds()     ? "on the Pareto front, none is 20 % faster and more "
+                            "accurate"
+        : !check.on_front ? "NOT on the Pareto front"
+                          : "BEATEN",
+        check.rival.c_str(), check.rival_time, check.rival_interval.low,
+        check.rival_interval.high);
+    for (const std::string& id : check.dominated_by) {
+      std::printf("               dominated by %s\n", id.c_str());
+    }
     for (const std::string& id : check.better) {
       std::printf("               20 %% faster and more accurate: %s\n",
                   id.c_str());
@@ -157,6 +190,7 @@ int Measure() {
                      finger.name + "' has " +
                      std::to_string(finger.gauges.size()));
   }
+  const std::vector<BenchmarkSetting> grid = ChosenSettings(finger);
   MakeFolder(FLAGS_out_dir);
 
   BenchmarkRun run;
@@ -165,6 +199,7 @@ int Measure() {
   run.command =
       "finray_benchmark --finger " + FLAGS_finger + " --out_dir " +
       FLAGS_out_dir + (FLAGS_quick ? " --quick" : "") +
+      (FLAGS_only.empty() ? "" : " --only " + FLAGS_only) +
       (FLAGS_rounds > 0 ? " --rounds " + std::to_string(FLAGS_rounds) : "") +
       (FLAGS_threads > 0 ? " --threads " + std::to_string(FLAGS_threads) : "") +
       " --peers " + FLAGS_peers;
@@ -177,14 +212,12 @@ int Measure() {
   run.reference = SchemeName(finest.scheme) + ", order 16, " +
                   std::to_string(finest.resolution) + " elements";
 
-  const std::vector<BenchmarkSetting> grid = BenchmarkGrid(finger, FLAGS_quick);
   std::vector<BenchmarkCase> cases;
   for (const std::string& scene : BenchmarkScenes()) {
     cases.push_back(MakeBenchmarkCase(finger, scene));
   }
-  const int rounds = FLAGS_rounds > 0 ? FLAGS_rounds : FLAGS_quick ? 5 : 15;
   {
-    ProgressBar bar(grid.size() * static_cast<std::size_t>(rounds + 1));
+    ProgressBar bar(grid.size() * static_cast<std::size_t>(Rounds() + 1));
     const MeasuringOptions options = Options(&bar);
     run.rounds = options.rounds;
     run.settings = MeasureSettings(grid, cases, options);

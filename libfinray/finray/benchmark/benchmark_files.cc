@@ -126,7 +126,12 @@ void WriteConclusions(const std::vector<Measurement>& settings,
   for (const DefaultCheck& check : CheckDefaults(settings)) {
     json->Open('{').Text("id", check.id).Boolean("holds", check.holds());
     json->Boolean("on_front", check.on_front);
-    json->Texts("faster_and_more_accurate", check.better).Close();
+    json->Texts("dominated_by", check.dominated_by);
+    json->Texts("faster_and_more_accurate", check.better);
+    json->Text("rival", check.rival).Number("rival_time", check.rival_time);
+    json->Numbers("rival_interval",
+                  {check.rival_interval.low, check.rival_interval.high});
+    json->Close();
   }
   json->Close();
 }

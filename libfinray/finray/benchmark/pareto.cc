@@ -11,7 +11,7 @@ namespace {
 
 // mm or rad; the reference itself is no better.
 constexpr double kLeastError = 1e-11;
-constexpr double kSameTime = 1.05, kFaster = 1.15, kExacter = 1.5;
+constexpr double kSameTime = 1.05, kFaster = 1.15, kExacter = 1.5, kCoarser = 2;
 
 }  // namespace
 
@@ -44,6 +44,18 @@ TimeAndError PointOf(const Measurement& measurement) {
           std::max(measurement.error(), kLeastError)};
 }
 
+bool DominatesSetting(const Measurement& a, const Measurement& b,
+                      double time_ratio) {
+  const auto coarser = [](double of_a, double of_b) {
+    return of_a > kCoarser * std::max(of_b, kLeastError);
+  };
+  const BenchmarkErrors &x = a.errors, &y = b.errors;
+  return Dominates({time_ratio, PointOf(a).error}, {1, PointOf(b).error}) &&
+         !coarser(x.contact_mm, y.contact_mm) &&
+         !coarser(x.normal_N, y.normal_N) && !coarser(x.tip_mm, y.tip_mm) &&
+         !coarser(x.gauges_rad, y.gauges_rad);
+}
+
 std::vector<SceneFront> ParetoFronts(const std::vector<Measurement>& all) {
   std::vector<SceneFront> fronts;
   for (const Measurement& first : all) {
@@ -52,20 +64,26 @@ std::vector<SceneFront> ParetoFronts(const std::vector<Measurement>& all) {
     };
     if (std::any_of(fronts.begin(), fronts.end(), same)) continue;
     std::vector<std::size_t> members;
-    std::vector<TimeAndError> points;
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Measurement& m = all[i];
-      if (m.name.task != first.name.task || m.name.scene != first.name.scene ||
-          m.solved_percent < 100 || std::isnan(m.error())) {
-        continue;
+      if (m.name.task == first.name.task && m.name.scene == first.name.scene &&
+          m.solved_percent == 100 && !std::isnan(m.error())) {
+        members.push_back(i);
       }
-      members.push_back(i);
-      points.push_back(PointOf(m));
     }
     SceneFront front{first.name.task, first.name.scene, {}};
-    for (const std::size_t k : ParetoFront(points)) {
-      front.front.push_back(members[k]);
+    for (const std::size_t i : members) {
+      if (std::none_of(members.begin(), members.end(), [&](std::size_t k) {
+            return DominatesSetting(
+                all[k], all[i], PointOf(all[k]).time / PointOf(all[i]).time);
+          })) {
+        front.front.push_back(i);
+      }
     }
+    std::sort(front.front.begin(), front.front.end(),
+              [&](std::size_t i, std::size_t k) {
+                return PointOf(all[i]).time < PointOf(all[k]).time;
+              });
     fronts.push_back(front);
   }
   return fronts;

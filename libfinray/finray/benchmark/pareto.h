@@ -22,15 +22,21 @@ std::vector<std::size_t> ParetoFront(const std::vector<TimeAndError>& points);
 /// Errors that are as good as equal.
 constexpr double kSameError = 1.02;
 
-/// The front of one task and scene among the settings that solve every frame:
-/// indices into `all`. Errors below what doubles resolve count as that.
+/// Whether `a` dominates `b` in time and error() (`time_ratio`: a's over b's),
+/// and in no other error (l_c, f_c, tip, gauges) has more than twice of b's.
+/// Errors below what doubles resolve count as that.
+bool DominatesSetting(const Measurement& a, const Measurement& b,
+                      double time_ratio);
+
+/// The front of one task and scene, by DominatesSetting among the settings that
+/// solve every frame: indices into `all`, by increasing time.
 struct SceneFront {
   std::string task, scene;
   std::vector<std::size_t> front;
 };
 std::vector<SceneFront> ParetoFronts(const std::vector<Measurement>& all);
 
-/// Time and error of a measurement as ParetoFronts takes them.
+/// Time and error of a measurement as DominatesSetting takes them.
 TimeAndError PointOf(const Measurement& measurement);
 
 }  // namespace finray

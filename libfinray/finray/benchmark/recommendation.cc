@@ -95,7 +95,8 @@ std::vector<Recommendation> Recommend(const std::vector<Measurement>& all) {
 }
 
 std::vector<DefaultCheck> CheckDefaults(const std::vector<Measurement>& all) {
-  constexpr double kFaster = 0.8;
+  constexpr double kConfidence = 0.95;
+  constexpr double kMuchFaster = 0.8;
   static const struct {
     const char *task, *how;
   } kUses[] = {{"estimation", "block"},
@@ -105,22 +106,37 @@ std::vector<DefaultCheck> CheckDefaults(const std::vector<Measurement>& all) {
   std::vector<DefaultCheck> checks;
   for (const auto& [task, how] : kUses) {
     const Candidates candidates = Of(all, task, how);
-    std::vector<TimeAndError> points;
-    for (const Measurement* m : candidates) points.push_back(PointOf(*m));
-    const std::vector<std::size_t> front = ParetoFront(points);
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      if (candidates[i]->name.solver != "default") continue;
-      DefaultCheck check{candidates[i]->name.id(),
-                         std::count(front.begin(), front.end(), i) > 0,
-                         {}};
-      for (std::size_t k = 0; k < points.size(); ++k) {
-        if (points[k].time < kFaster * points[i].time &&
-            points[k].error < points[i].error) {
-          check.better.push_back(candidates[k]->name.id());
-        }
+    const auto found =
+        std::find_if(candidates.begin(), candidates.end(),
+                     [](const auto* m) { return m->name.solver == "default"; });
+    if (found == candidates.end()) continue;
+    const Measurement& ours = **found;
+    DefaultCheck check;
+    check.id = ours.name.id();
+    for (const Measurement* other : candidates) {
+      if (other == &ours) continue;
+      const std::string id = other->name.id();
+      const double ratio = Median(other->ratios()) / Median(ours.ratios());
+      const Interval interval =
+          RatioOfMedians(ours.ratios(), other->ratios(), kConfidence);
+      const double our_error = PointOf(ours).error;
+      const double error = PointOf(*other).error;
+      // The longest that its time may be.
+      if (DominatesSetting(*other, ours, interval.high)) {
+        check.dominated_by.push_back(id);
       }
-      checks.push_back(check);
+      if (interval.high < kMuchFaster && kSameError * error < our_error) {
+        check.better.push_back(id);
+      }
+      if (error <= kSame * our_error &&
+          (check.rival.empty() || ratio < check.rival_time)) {
+        check.rival = id;
+        check.rival_time = ratio;
+        check.rival_interval = interval;
+      }
     }
+    check.on_front = check.dominated_by.empty();
+    checks.push_back(check);
   }
   return checks;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "finray/benchmark/measurement.h"
+#include "finray/benchmark/statistics.h"
 
 namespace finray {
 
@@ -27,12 +28,19 @@ struct Recommendation {
 std::vector<Recommendation> Recommend(const std::vector<Measurement>& all);
 
 /// Whether what finray uses by default is a good choice: in each way of use it
-/// lies on the Pareto front of the settings used in that way, and no other of
-/// them is both 20 % faster and more accurate.
+/// lies on the Pareto front (pareto.h) of the settings used in that way, and no
+/// other of them is both 20 % faster and more accurate. A time is faster if the
+/// 95 % interval of its ratio over the rounds says so.
 struct DefaultCheck {
   std::string id;
-  bool on_front;
-  std::vector<std::string> better;  ///< Ids that are both.
+  bool on_front = true;
+  std::vector<std::string> dominated_by;  ///< Ids.
+  std::vector<std::string> better;        ///< 20 % faster and more accurate.
+  /// The fastest of those whose error of l_c is no more than twice the
+  /// default's, and its time over the default's.
+  std::string rival;
+  double rival_time = 1;
+  Interval rival_interval = {1, 1};
   bool holds() const { return on_front && better.empty(); }
 };
 std::vector<DefaultCheck> CheckDefaults(const std::vector<Measurement>& all);
