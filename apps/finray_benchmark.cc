@@ -31,7 +31,7 @@ DEFINE_string(only, "",
               "out: all");
 DEFINE_int32(threads, 0,
              "most threads of the scaling with threads; 0: all cores");
-DEFINE_int32(rounds, 0, "repeats of every setting; 0: 9 if quick, else 25");
+DEFINE_int32(rounds, 0, "repeats of every setting; 0: 9 if quick, else 15");
 DEFINE_string(peers, "none",
               "other programs to ask too: none, auto (all that are installed), "
               "or of scipy, octave, calculix, separated by commas");
@@ -122,7 +122,7 @@ std::vector<BenchmarkSetting> ChosenSettings(const Finger& finger) {
   return chosen;
 }
 
-int Rounds() { return FLAGS_rounds > 0 ? FLAGS_rounds : FLAGS_quick ? 9 : 25; }
+int Rounds() { return FLAGS_rounds > 0 ? FLAGS_rounds : FLAGS_quick ? 9 : 15; }
 
 MeasuringOptions Options(ProgressBar* bar) {
   MeasuringOptions options;

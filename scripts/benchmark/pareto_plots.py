@@ -36,6 +36,9 @@ def pareto(settings, front):
                      facecolors=colour if solved else "none", edgecolors=colour,
                      linewidths=0 if solved else 1, alpha=1 if on else 0.55)
     axes.set(xscale="log", yscale="log", xlabel="time a frame (µs)", ylabel=label)
+    # Room for the names.
+    left, right = axes.get_xlim()
+    axes.set_xlim(left, right * (right / left)**0.2)
     name(axes, [p for p in points if p[0]["id"] in front])
     axes.grid(True, which="major", color=LINE, lw=0.5)
     axes.minorticks_off()
@@ -48,10 +51,10 @@ def name(axes, points):
     taken = []
     for s, t, e in sorted(points, key=lambda p: p[1]):
         x, y = axes.transData.transform((t, e))
-        if any(abs(x - a) < 90 and abs(y - b) < 11 for a, b in taken):
+        if any(abs(x - a) < 110 and abs(y - b) < 10 for a, b in taken):
             continue
         taken.append((x, y))
-        axes.annotate(s["solver"], (t, e), xytext=(6, 3), textcoords="offset points",
+        axes.annotate(f"{s['solver']}/{s['how']}", (t, e), xytext=(6, 3), textcoords="offset points",
                       fontsize=7.5)
 
 

@@ -81,7 +81,7 @@ def tiles(run, by_id):
     if threads:
         best = max(threads, key=lambda t: t["frames_per_s"])
         out.append(("throughput", f"{best['frames_per_s'] / 1e3:.0f} 000 /s",
-                    f"frames, {best['threads']} threads"))
+                    f"frames, {best['threads']} thread" + "s" * (best["threads"] > 1)))
     return out
 
 

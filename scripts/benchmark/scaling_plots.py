@@ -15,13 +15,13 @@ def links(solvers):
         axes.plot(one["links"], one["time_us"], color=FAMILIES[family][0],
                   marker="o" if task == "forward" else "s", ms=4, lw=1.2,
                   ls="-" if task == "forward" else "--",
-                  label=f"{one['solver']}: n^{one['exponent']:.2f}")
+                  label=f"{one['solver']}, n to the {one['exponent']:.2f}")
     axes.set(xscale="log", yscale="log", xlabel="links n", ylabel="time a frame (µs)")
     axes.grid(True, which="major", color=LINE, lw=0.5)
     axes.minorticks_off()
     axes.set_xticks([25, 50, 100, 200, 400, 800, 1600],
                     labels=["25", "50", "100", "200", "400", "800", "1600"])
-    axes.legend(loc="upper left")
+    axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=2, borderaxespad=0.2)
     return svg(figure, "Time by the number of links")
 
 
@@ -32,6 +32,7 @@ def frames(batches):
     axes.plot([b["frames"] for b in batches],
               [1e6 * b["median_s"] / b["frames"] for b in batches], color=AFTER, marker="o",
               ms=4, lw=1.2)
+    axes.axhline(1e6 * batches[-1]["median_s"] / batches[-1]["frames"], color=QUIET, lw=1, ls=":")
     axes.set(xscale="log", yscale="log", xlabel="frames of a batch",
              ylabel="time a frame, all told (µs)")
     axes.grid(True, which="major", color=LINE, lw=0.5)

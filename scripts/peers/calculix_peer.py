@@ -159,7 +159,7 @@ def run(job, folder):
     if shutil.which("ccx") is None:
         raise NotInstalled("calculix-ccx is not installed")
     version = subprocess.run(["ccx", "-v"], capture_output=True, text=True, check=False).stdout
-    version = " ".join(version.split()) or "CalculiX"
+    version = "CalculiX " + version.split()[-1] if version.split() else "CalculiX"
     finger = job["finger"]
     nominal = make_deck(finger, job["scenes"][0]["frames"][0], 5)
     for rib, (a, b, _) in zip(finger["ribs"], nominal.springs[2:]):

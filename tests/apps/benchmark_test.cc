@@ -90,7 +90,7 @@ TEST_F(BenchmarkCommandTest, BadInput) {
                  "no setting's id holds 'nothing'");
   Write("bad.json", "{\"tool\": \"finray_benchmark\", \"schema_version\": 2}");
   ExpectBadInput("finray_benchmark", "--compare %bad.json,%bad.json",
-                 "bad.json:1:49: schema_version");
+                 "bad.json:1:48: schema_version: expected 1");
   EXPECT_EQ(Run("finray_benchmark", finger).code, 1);
   EXPECT_EQ(Run("finray_benchmark", "--compare %bad.json").code, 1);
 }

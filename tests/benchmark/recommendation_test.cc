@@ -25,7 +25,7 @@ TEST(RecommendationTest, EachUseGetsItsOwn) {
       Made("estimation", "coarse", "live", 5, 1e-2, 10),
       Made("estimation", "exact", "live", 50, 1e-6, 90),
       // In a tenth of 33 ms but not of 1 ms.
-      Made("estimation", "slow_and_exact", "live", 200, 1e-8, 500),
+      Made("estimation", "slow_and_exact", "live", 200, 1e-7, 500),
       Made("estimation", "too_coarse", "block", 1, 1e-2),
       Made("estimation", "good", "block", 2, 1e-4),
       Made("estimation", "better", "block", 3, 1e-6),
@@ -40,6 +40,19 @@ TEST(RecommendationTest, EachUseGetsItsOwn) {
   EXPECT_NEAR(found[1].margin, 1000. / 90, 1e-9);
   EXPECT_EQ(found[2].id, "estimation/one_contact/good/block");
   EXPECT_EQ(found[3].id, "sensing/one_contact/as_fine/to_rounding");
+}
+
+// A scheme that is as good in l_c alone, and one that is as good in all.
+TEST(RecommendationTest, AccuracyIsThatOfAllErrors) {
+  std::vector<Measurement> all = {
+      Made("estimation", "default", "live", 50, 1e-6, 90),
+      Made("estimation", "coarse_tip", "live", 30, 1e-6, 50),
+      Made("estimation", "as_good", "live", 45, 1e-6, 80)};
+  for (Measurement& m : all) m.errors.tip_mm = 1e-8;
+  all[1].errors.tip_mm = 1e-7;
+  EXPECT_EQ(Recommend(all)[1].id, "estimation/one_contact/default/live");
+  all[2].slow_frame_us = 60;
+  EXPECT_EQ(Recommend(all)[1].id, "estimation/one_contact/as_good/live");
 }
 
 TEST(RecommendationTest, NothingServes) {

@@ -196,7 +196,7 @@ BenchmarkRun ReadBenchmark(const std::string& path) {
   const YamlMap top = YamlMap::FromFile(file);
   top.Choice("tool", {"finray_benchmark"});
   if (top.Integer("schema_version") != 1) {
-    top.Fail("schema_version", "only 1 is known");
+    top.Fail("schema_version", "schema_version: expected 1");
   }
   BenchmarkRun run;
   run.quick = top.Boolean("quick", false);
@@ -229,9 +229,9 @@ BenchmarkRun ReadBenchmark(const std::string& path) {
     m.time_us = map.Numbers("time_us");
     m.yardstick_us = map.Numbers("yardstick_us");
     if (m.time_us.empty() || m.time_us.size() != m.yardstick_us.size()) {
-      map.Fail("yardstick_us", "expected as many numbers as time_us has, " +
-                                   std::to_string(m.time_us.size()) +
-                                   ", and at least one");
+      map.Fail("yardstick_us",
+               "yardstick_us: expected as many numbers as time_us has, " +
+                   std::to_string(m.time_us.size()) + ", and at least one");
     }
     run.settings.push_back(std::move(m));
   }

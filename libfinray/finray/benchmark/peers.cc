@@ -79,7 +79,7 @@ Measurement ReadPeerSetting(const YamlMap& map, const std::string& peer,
   const std::vector<int> frames = PeerFrames(c, quick);
   const std::vector<YamlMap> answers = map.Maps("answers");
   if (answers.size() != frames.size()) {
-    map.Fail("answers", "expected " + std::to_string(frames.size()));
+    map.Fail("answers", "answers: expected " + std::to_string(frames.size()));
   }
   int solved = 0;
   for (std::size_t k = 0; k < frames.size(); ++k) {

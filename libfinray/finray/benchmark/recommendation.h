@@ -21,10 +21,11 @@ struct Recommendation {
 };
 
 /// 30 Hz and 1 kHz: the most accurate live estimate whose slowest hundredth
-/// takes a tenth of the period at most, and of equally accurate ones the
-/// fastest. Batch: the fastest estimate of a log whose l_c is off by no more
-/// than a hundredth of what noise does to it (1e-3 mm). Reference: the most
-/// accurate of all that sense.
+/// takes a tenth of the period at most. Of those about as accurate (no error
+/// above twice the least) the fastest, or the default if that is as fast to
+/// 25 %. Batch: the fastest estimate of a log whose l_c is off by no more than
+/// a hundredth of what noise does to it (1e-3 mm). Reference: the most accurate
+/// of all that sense.
 std::vector<Recommendation> Recommend(const std::vector<Measurement>& all);
 
 /// Whether what finray uses by default is a good choice: in each way of use it
