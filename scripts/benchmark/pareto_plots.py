@@ -16,12 +16,15 @@ def error_of(setting):
     return setting.get("gauges_error_rad"), "largest error of a gauge angle (rad)"
 
 
-def pareto(settings, front):
+def pareto(settings, front, yardstick_us):
+    """Times are those over the yardstick, as the front has them, times its usual
+    time."""
     points = []
     for s in settings:
         error, label = error_of(s)
         if error is not None:
-            points.append((s, s["median_us"], max(error, LEAST_ERROR)))
+            points.append((s, s["median_over_yardstick"] * yardstick_us,
+                           max(error, LEAST_ERROR)))
     # Of the finger without a load nothing but time is to be told.
     if len(points) < 4 or all(e <= 1e-12 for _, _, e in points):
         return None

@@ -4,6 +4,7 @@
 import json
 import math
 import pathlib
+import statistics
 import sys
 
 sys.dont_write_bytecode = True
@@ -51,6 +52,10 @@ def duration(us):
         if us >= size:
             return f"{figures(us / size)} {unit}"
     return f"{figures(us)} µs"
+
+
+def quartiles(setting):
+    return " .. ".join(duration(setting[q]) for q in ("quartile_1_us", "quartile_3_us"))
 
 
 def size(count):
@@ -104,8 +109,8 @@ def groups(run):
     for s in run["settings"]:
         out.setdefault((s["task"], s["scene"]), []).append(s)
     front = {i for p in run["pareto"] for i in p["front"]}
-    return [(f"{task}/{scene}", sorted(rows, key=lambda s: s["median_us"]), front)
-            for (task, scene), rows in out.items()]
+    return [(f"{task}/{scene}", sorted(rows, key=lambda s: s["median_over_yardstick"]), front)
+            for (task, scene), rows in sorted(out.items(), key=lambda g: list(TASKS).index(g[0][0]))]
 
 
 def main():
@@ -115,8 +120,11 @@ def main():
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader([pathlib.Path(__file__).parent, LOOK]),
         autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    environment.filters.update(figures=figures, small=small, duration=duration, size=size)
+    environment.filters.update(figures=figures, small=small, duration=duration, size=size,
+                               quartiles=quartiles)
     headline, meaning, good = verdict(run)
+    yardstick_us = statistics.median(
+        y for s in run["settings"] for y in s["yardstick_us"])
     scenes = []
     for task in TASKS:
         plots = []
@@ -124,13 +132,14 @@ def main():
             if front["task"] != task:
                 continue
             plot = pareto_plots.pareto([s for s in run["settings"] if s["task"] == task and
-                                        s["scene"] == front["scene"]], front["front"])
+                                        s["scene"] == front["scene"]], front["front"],
+                                       yardstick_us)
             if plot:
                 plots.append((front["scene"].replace("_", " "), plot))
         scenes.append((TASKS[task], plots))
     page = environment.get_template("benchmark.html.jinja").render(
         run=run, headline=headline, meaning=meaning, good=good, tiles=tiles(run, by_id),
-        uses=USES, by_id=by_id, scenes=scenes, groups=groups(run),
+        uses=USES, yardstick_us=yardstick_us, by_id=by_id, scenes=scenes, groups=groups(run),
         key=pareto_plots.key(run["settings"]), links=scaling_plots.links(run["scaling"]["links"]),
         frames=scaling_plots.frames(run["scaling"]["frames"]),
         threads=scaling_plots.threads(run["scaling"]["threads"]))

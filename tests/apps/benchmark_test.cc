@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "apps/command_line.h"
+#include "finray/benchmark/benchmark_files.h"
 
 namespace finray {
 namespace {
@@ -78,6 +79,30 @@ TEST_F(BenchmarkCommandTest, ASlowerBuildFailsTheGate) {
   Write("c.json", Json("10, 10.1, 9.9", "y"));
   EXPECT_THAT(Run("finray_benchmark", "--compare %a.json,%c.json").output,
               HasSubstr("the runs differ in machine: x against y"));
+}
+
+// Other programs, which share no code with finray: each that is installed finds
+// the same equilibria, to what its own model leaves.
+TEST_F(BenchmarkCommandTest, SlowPeersAgree) {
+  const Outcome measured =
+      Run("finray_benchmark",
+          "--finger " + paper_ +
+              " --quick --rounds 1 --threads 1 --report=false --peers auto "
+              "--out_dir %out --only sensing/one_contact/default");
+  ASSERT_EQ(measured.code, 0) << measured.output;
+  for (const Measurement& m : ReadBenchmark(folder_.Path("out")).settings) {
+    if (m.name.how != "peer") continue;
+    SCOPED_TRACE(m.name.id());
+    EXPECT_EQ(m.solved_percent, 100);
+    // 40 links, or solids.
+    const bool solids = m.family == "calculix";
+    EXPECT_LT(m.errors.gauges_rad, solids ? 2e-5 : 3e-3);
+    EXPECT_LT(m.errors.tip_mm, solids ? 3e-3 : 3e-2);
+    if (m.name.task == "sensing") {
+      EXPECT_LT(m.errors.contact_mm, 1);
+      EXPECT_LT(m.errors.normal_percent, 3);
+    }
+  }
 }
 
 TEST_F(BenchmarkCommandTest, BadInput) {

@@ -50,6 +50,25 @@ TEST(ComparisonTest, VerdictsOfIntervals) {
   EXPECT_EQ(JudgeSpeed({nan, nan}, 0.15), SpeedVerdict::kUndecided);
 }
 
+TEST(ComparisonTest, TwoRoundsDecideNothing) {
+  BenchmarkRun a = MadeRun(10, 0.01, 1), b = MadeRun(20, 0.01, 2);
+  a.settings[0].time_us.resize(2);
+  a.settings[0].yardstick_us.resize(2);
+  EXPECT_EQ(CompareRuns(a, b, 0.15).settings[0].speed,
+            SpeedVerdict::kUndecided);
+}
+
+TEST(ComparisonTest, PeersAreLeftOut) {
+  BenchmarkRun a = MadeRun(10, 0.01, 1), b = MadeRun(10, 0.01, 2);
+  a.settings.push_back(MadeSetting("scipy40", 1e6, 0.01, 3, 1));
+  a.settings.back().name.how = "peer";
+  b.settings.push_back(a.settings.back());
+  b.settings.back().time_us[0] *= 3;
+  const BenchmarkComparison found = CompareRuns(a, b, 0.15);
+  EXPECT_EQ(found.settings.size(), 1u);
+  EXPECT_TRUE(found.passes());
+}
+
 TEST(ComparisonTest, LessAccurateFailsTheGate) {
   const BenchmarkRun a = MadeRun(10, 0.01, 1);
   BenchmarkRun b = MadeRun(5, 0.01, 2);

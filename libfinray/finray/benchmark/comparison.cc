@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kConfidence = 0.99;
 constexpr double kWorse = 1.5;
+// With less rounds an interval says nothing.
+constexpr std::size_t kLeastRounds = 3;
 // What another order of summation may change, in mm, N, % and rad.
 constexpr double kRounding = 1e-8;
 
@@ -32,6 +34,9 @@ std::string WhatIsWorse(const Measurement& a, const Measurement& b) {
   }
   return words;
 }
+
+// Other programs are no business of this gate.
+bool IsPeer(const Measurement& m) { return m.name.how == "peer"; }
 
 void AddDifference(const char* what, const std::string& a, const std::string& b,
                    std::vector<std::string>* differences) {
@@ -98,6 +103,7 @@ BenchmarkComparison CompareRuns(const BenchmarkRun& a, const BenchmarkRun& b,
         [&](const Measurement& m) { return m.name.id() == id; });
   };
   for (const Measurement& of_a : a.settings) {
+    if (IsPeer(of_a)) continue;
     const std::string id = of_a.name.id();
     const auto of_b = find(b, id);
     if (of_b == b.settings.end()) {
@@ -107,12 +113,15 @@ BenchmarkComparison CompareRuns(const BenchmarkRun& a, const BenchmarkRun& b,
     SettingComparison one;
     one.id = id;
     one.ratio = Median(of_b->ratios()) / Median(of_a.ratios());
-    one.interval = RatioOfMedians(of_a.ratios(), of_b->ratios(), kConfidence);
+    if (std::min(of_a.time_us.size(), of_b->time_us.size()) >= kLeastRounds) {
+      one.interval = RatioOfMedians(of_a.ratios(), of_b->ratios(), kConfidence);
+    }
     one.speed = JudgeSpeed(one.interval, most_slowdown);
     one.worse = WhatIsWorse(of_a, *of_b);
     comparison.settings.push_back(one);
   }
   for (const Measurement& of_b : b.settings) {
+    if (IsPeer(of_b)) continue;
     const std::string id = of_b.name.id();
     if (find(a, id) == a.settings.end()) comparison.only_b.push_back(id);
   }

@@ -1,6 +1,7 @@
 #ifndef FINRAY_BENCHMARK_COMPARISON_H_
 #define FINRAY_BENCHMARK_COMPARISON_H_
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,7 @@ SpeedVerdict JudgeSpeed(const Interval& ratio, double band);
 struct SettingComparison {
   std::string id;
   double ratio;
-  Interval interval;
+  Interval interval{std::nan(""), std::nan("")};  ///< NaN: too few rounds.
   SpeedVerdict speed;
   /// Errors in b above 1.5 times those of a and above rounding, or fewer frames
   /// solved, in words; empty if it is as accurate.
@@ -34,7 +35,7 @@ struct SettingComparison {
 };
 
 struct BenchmarkComparison {
-  std::vector<SettingComparison> settings;  ///< In both runs.
+  std::vector<SettingComparison> settings;  ///< In both runs, without peers.
   std::vector<std::string> only_a, only_b;
   /// Other machine, build, finger or depth: what makes the runs differ.
   std::vector<std::string> differences;

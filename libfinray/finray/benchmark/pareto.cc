@@ -39,8 +39,7 @@ std::vector<std::size_t> ParetoFront(const std::vector<TimeAndError>& points) {
 }
 
 TimeAndError PointOf(const Measurement& measurement) {
-  // Ratios, for times of one machine in one hour, scaled back to us.
-  return {Median(measurement.ratios()) * Median(measurement.yardstick_us),
+  return {Median(measurement.ratios()),
           std::max(measurement.error(), kLeastError)};
 }
 

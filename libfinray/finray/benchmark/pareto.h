@@ -36,7 +36,8 @@ struct SceneFront {
 };
 std::vector<SceneFront> ParetoFronts(const std::vector<Measurement>& all);
 
-/// Time and error of a measurement as DominatesSetting takes them.
+/// Time, in yardsticks, and error() of a measurement as DominatesSetting takes
+/// them.
 TimeAndError PointOf(const Measurement& measurement);
 
 }  // namespace finray
