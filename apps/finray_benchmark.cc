@@ -83,14 +83,20 @@ int Compare() {
     ratios.push_back(one.ratio);
   }
   std::printf(
-      "settings       %zu in both: %d faster, %d slower, %d same within %g %%, "
+      "settings       %zu in both: %d faster, %d slower, %d same (within %g "
+      "%%), "
       "%d undecided; %d less accurate\n",
       comparison.settings.size(), comparison.Count(SpeedVerdict::kFaster),
       comparison.Count(SpeedVerdict::kSlower),
       comparison.Count(SpeedVerdict::kSame), FLAGS_most_slowdown_percent,
       comparison.Count(SpeedVerdict::kUndecided), comparison.CountWorse());
-  std::printf("ratios         %.3f .. %.3f, median %.3f\n", Quantile(ratios, 0),
-              Quantile(ratios, 1), Median(ratios));
+  const double band = 1 + FLAGS_most_slowdown_percent / 100;
+  const auto within = std::count_if(
+      ratios.begin(), ratios.end(),
+      [band](double ratio) { return ratio <= band && ratio >= 1 / band; });
+  std::printf("ratios         %.3f .. %.3f, median %.3f; %ld within %g %%\n",
+              Quantile(ratios, 0), Quantile(ratios, 1), Median(ratios), within,
+              FLAGS_most_slowdown_percent);
   std::printf("gate           %s\n", comparison.passes() ? "pass" : "FAIL");
   return comparison.passes() ? kGood : kGateFailed;
 }

@@ -23,7 +23,7 @@ def pareto(settings, front, yardstick_us):
     for s in settings:
         error, label = error_of(s)
         if error is not None:
-            points.append((s, s["median_over_yardstick"] * yardstick_us,
+            points.append((s, s["quartile_1_over_yardstick"] * yardstick_us,
                            max(error, LEAST_ERROR)))
     # Of the finger without a load nothing but time is to be told.
     if len(points) < 4 or all(e <= 1e-12 for _, _, e in points):

@@ -43,6 +43,8 @@ constexpr NamedNumber kNumbers[] = {
      [](const Measurement& m) { return Quantile(m.time_us, 0.75); }},
     {"median_over_yardstick",
      [](const Measurement& m) { return Median(m.ratios()); }},
+    {"quartile_1_over_yardstick",
+     [](const Measurement& m) { return m.ratio(); }},
     {"slow_frame_us", [](const Measurement& m) { return m.slow_frame_us; }},
     {"allocations", [](const Measurement& m) { return m.allocations; }},
     {"allocated_bytes", [](const Measurement& m) { return m.bytes; }},

@@ -112,9 +112,10 @@ BenchmarkComparison CompareRuns(const BenchmarkRun& a, const BenchmarkRun& b,
     }
     SettingComparison one;
     one.id = id;
-    one.ratio = Median(of_b->ratios()) / Median(of_a.ratios());
+    one.ratio = of_b->ratio() / of_a.ratio();
     if (std::min(of_a.time_us.size(), of_b->time_us.size()) >= kLeastRounds) {
-      one.interval = RatioOfMedians(of_a.ratios(), of_b->ratios(), kConfidence);
+      one.interval = RatioOfQuantiles(of_a.ratios(), of_b->ratios(),
+                                      Measurement::kUndisturbed, kConfidence);
     }
     one.speed = JudgeSpeed(one.interval, most_slowdown);
     one.worse = WhatIsWorse(of_a, *of_b);

@@ -11,8 +11,8 @@
 namespace finray {
 
 // One setting in two runs. Times are those over the yardstick's beside them;
-// the ratio b / a of their medians has an interval by the bootstrap over
-// rounds. With a band of +- `band` about 1,
+// the ratio b / a of their lower quartiles has an interval by the bootstrap
+// over rounds. With a band of +- `band` about 1,
 //
 //   slower     all of the interval is above 1 + band
 //   faster     all of it is below 1 / (1 + band)

@@ -166,6 +166,8 @@ std::vector<double> Measurement::ratios() const {
   return ratios;
 }
 
+double Measurement::ratio() const { return Quantile(ratios(), kUndisturbed); }
+
 double Measurement::error() const {
   return std::isnan(errors.contact_mm) ? errors.gauges_rad : errors.contact_mm;
 }

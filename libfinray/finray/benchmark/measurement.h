@@ -45,6 +45,11 @@ struct Measurement {
   double median_us() const;
   /// time_us over yardstick_us, round by round.
   std::vector<double> ratios() const;
+  /// Their lower quartile: what settings and runs are compared by. Others on
+  /// the machine disturb some rounds and only ever lengthen them; of two runs
+  /// it differs half as much as the median.
+  static constexpr double kUndisturbed = 0.25;
+  double ratio() const;
   /// The error that the scene is about: l_c if it is found, else gauges.
   double error() const;
   const char* error_unit() const;

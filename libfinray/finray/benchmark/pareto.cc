@@ -39,8 +39,7 @@ std::vector<std::size_t> ParetoFront(const std::vector<TimeAndError>& points) {
 }
 
 TimeAndError PointOf(const Measurement& measurement) {
-  return {Median(measurement.ratios()),
-          std::max(measurement.error(), kLeastError)};
+  return {measurement.ratio(), std::max(measurement.error(), kLeastError)};
 }
 
 bool DominatesSetting(const Measurement& a, const Measurement& b,

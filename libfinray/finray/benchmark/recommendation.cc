@@ -138,9 +138,10 @@ std::vector<DefaultCheck> CheckDefaults(const std::vector<Measurement>& all) {
     for (const Measurement* other : candidates) {
       if (other == &ours) continue;
       const std::string id = other->name.id();
-      const double ratio = Median(other->ratios()) / Median(ours.ratios());
+      const double ratio = other->ratio() / ours.ratio();
       const Interval interval =
-          RatioOfMedians(ours.ratios(), other->ratios(), kConfidence);
+          RatioOfQuantiles(ours.ratios(), other->ratios(),
+                           Measurement::kUndisturbed, kConfidence);
       const double our_error = PointOf(ours).error;
       const double error = PointOf(*other).error;
       // The longest that its time may be.

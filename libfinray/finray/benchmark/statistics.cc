@@ -17,8 +17,9 @@ double Quantile(std::vector<double> values, double q) {
   return values[below] + share * (values[below + 1] - values[below]);
 }
 
-Interval RatioOfMedians(const std::vector<double>& a,
-                        const std::vector<double>& b, double confidence) {
+Interval RatioOfQuantiles(const std::vector<double>& a,
+                          const std::vector<double>& b, double q,
+                          double confidence) {
   constexpr int kDraws = 2000;
   if (a.empty() || b.empty()) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -26,15 +27,15 @@ Interval RatioOfMedians(const std::vector<double>& a,
   }
   std::mt19937_64 generator(1);
   std::vector<double> drawn;
-  const auto median = [&](const std::vector<double>& sample) {
+  const auto quantile = [&](const std::vector<double>& sample) {
     drawn.resize(sample.size());
     for (double& value : drawn) value = sample[generator() % sample.size()];
-    return Median(drawn);
+    return Quantile(drawn, q);
   };
   std::vector<double> ratios(kDraws);
   for (double& ratio : ratios) {
-    const double of_a = median(a);
-    ratio = median(b) / of_a;
+    const double of_a = quantile(a);
+    ratio = quantile(b) / of_a;
   }
   const double tail = (1 - confidence) / 2;
   return {Quantile(ratios, tail), Quantile(ratios, 1 - tail)};

@@ -16,11 +16,12 @@ struct Interval {
   double low, high;
 };
 
-/// What median(b) / median(a) may be, by the bootstrap: both samples are drawn
-/// anew, with replacement, 2000 times, and the tails of `confidence` are cut
-/// off. The same samples always give the same interval.
-Interval RatioOfMedians(const std::vector<double>& a,
-                        const std::vector<double>& b, double confidence);
+/// What the q-quantile of b over that of a may be, by the bootstrap: both
+/// samples are drawn anew, with replacement, 2000 times, and the tails of
+/// `confidence` are cut off. The same samples always give the same interval.
+Interval RatioOfQuantiles(const std::vector<double>& a,
+                          const std::vector<double>& b, double q,
+                          double confidence);
 
 /// The slope of log(y) over log(x) by least squares; NaN of less than two.
 double LogLogSlope(const std::vector<double>& x, const std::vector<double>& y);
