@@ -6,8 +6,7 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
-#include <optional>
-#include <thread>
+#include <set>
 
 #include "app.h"
 #include "count_allocations.h"
@@ -218,10 +217,17 @@ int Measure() {
   run.reference = SchemeName(finest.scheme) + ", order 16, " +
                   std::to_string(finest.resolution) + " elements";
 
+  // Batches are of one contact, peers are asked for that and for friction.
+  std::set<std::string> scenes = {"one_contact"};
+  if (!peers.empty()) scenes.insert("friction");
+  for (const BenchmarkSetting& one : grid) scenes.insert(one.name.scene);
   std::vector<BenchmarkCase> cases;
-  for (const std::string& scene : BenchmarkScenes()) {
+  for (const std::string& scene : scenes) {
     cases.push_back(MakeBenchmarkCase(finger, scene));
   }
+  const auto one_contact = std::find_if(
+      cases.begin(), cases.end(),
+      [](const BenchmarkCase& c) { return c.scene_name == "one_contact"; });
   {
     ProgressBar bar(grid.size() * static_cast<std::size_t>(Rounds() + 1));
     const MeasuringOptions options = Options(&bar);
@@ -230,8 +236,8 @@ int Measure() {
   }
   const int threads =
       FLAGS_threads > 0 ? FLAGS_threads : std::max(1, run.machine.cores);
-  run.scaling = MeasureBatches(cases[1], FLAGS_quick ? 4096 : 65536, threads,
-                               FLAGS_quick ? 3 : 7);
+  run.scaling = MeasureBatches(*one_contact, FLAGS_quick ? 4096 : 65536,
+                               threads, FLAGS_quick ? 3 : 7);
   run.scaling.links = ScalingWithLinks(run.settings);
   for (const std::string& peer : peers) {
     MeasurePeer(peer, FINRAY_SOURCE_DIR "/scripts/peers", FLAGS_out_dir, finger,

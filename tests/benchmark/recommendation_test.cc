@@ -51,7 +51,7 @@ TEST(RecommendationTest, AccuracyIsThatOfAllErrors) {
   for (Measurement& m : all) m.errors.tip_mm = 1e-8;
   all[1].errors.tip_mm = 1e-7;
   EXPECT_EQ(Recommend(all)[1].id, "estimation/one_contact/default/live");
-  all[2].slow_frame_us = 60;
+  all[2].time_us.assign(9, 35);
   EXPECT_EQ(Recommend(all)[1].id, "estimation/one_contact/as_good/live");
 }
 

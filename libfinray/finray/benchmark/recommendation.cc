@@ -65,10 +65,10 @@ const Measurement* MostAccurate(const Candidates& candidates) {
         e.gauges_rad > kSame * least.gauges_rad) {
       continue;
     }
-    if (best == nullptr || TimeOf(*m) < TimeOf(*best)) best = m;
+    if (best == nullptr || m->ratio() < best->ratio()) best = m;
     if (m->name.solver == "default") ours = m;
   }
-  if (ours != nullptr && TimeOf(*ours) < kAsFast * TimeOf(*best)) return ours;
+  if (ours != nullptr && ours->ratio() < kAsFast * best->ratio()) return ours;
   return best;
 }
 
@@ -104,7 +104,7 @@ std::vector<Recommendation> Recommend(const std::vector<Measurement>& all) {
   const Measurement* batch = nullptr;
   for (const Measurement* m : Of(all, "estimation", "block")) {
     if (m->errors.contact_mm <= kBatchError_mm &&
-        (batch == nullptr || m->median_us() < batch->median_us())) {
+        (batch == nullptr || m->ratio() < batch->ratio())) {
       batch = m;
     }
   }
