@@ -156,7 +156,8 @@ int Run() {
       CalibrationYaml(problem, result,
                       {FLAGS_finger, FLAGS_plan, paths, FLAGS_scheme,
                        FLAGS_resolution, command}));
-  CalibrationFrames(problem, result).Write(InFolder("calibration.frames.csv"));
+  WriteFileAtomically(InFolder("calibration.frames.csv"),
+                      CalibrationFramesCsv(problem, result));
   CalibrationShape(problem, result, discretization)
       .Write(InFolder("calibration.shape.csv"));
   std::string origin = "Calibrated from";

@@ -134,6 +134,10 @@ TEST_F(ValidateCompareTest, CompareTwoCalibrations) {
   const YAML::Node result = YAML::LoadFile(folder_.Path("out/comparison.yaml"));
   EXPECT_EQ(result["all"]["dof"].as<int>(), 15);
   EXPECT_EQ(result["shared_logs"].as<int>(), 0);
+  for (const char* key : {"only_in_a", "only_in_b", "of_other_logs"}) {
+    EXPECT_TRUE(result[key].IsSequence() && result[key].size() == 0) << key;
+  }
+  EXPECT_EQ(result["predicted"]["lost_points"].as<int>(), 0);
   EXPECT_EQ(result["verdict"].as<std::string>(), "passed");
   for (const YAML::Node& p : result["parameters"]) {
     const double a = p["a"].as<double>(), b = p["b"].as<double>();

@@ -6,13 +6,15 @@
 // 0.03 mm; with `rough` 2 %, 1 %, 0.05 mm); each trial has a plant of its own.
 //
 //   build/test/tests/compliance_study [DRAWS]
-//   build/test/tests/compliance_study write DIR
+//   build/test/tests/compliance_study write DIR [SEED]
 //
-// The second one writes the logs of one draw instead.
+// The second one writes the logs of one draw instead, with conditions.yaml:
+// what was put in and the true stiffness of each thing.
 
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <random>
 #include <string>
 
@@ -48,6 +50,7 @@ Finger Plant(const ModelError& error, std::mt19937_64* generator) {
 }
 
 // Finer than the estimator's, which starts from 12 elements.
+constexpr double kStage_mm = 0.02;
 Discretization Fine() { return {Scheme::kTaylor, 48}; }
 
 ComplianceFinger Estimator() {
@@ -60,13 +63,19 @@ ComplianceFinger Estimator() {
 constexpr double kSprings[] = {0.2, 0.5, 1.0, 2.0, 4.0};
 constexpr double kFriction_N = 0.1;
 
+std::string SpringName(double stiffness) {
+  char name[40];
+  std::snprintf(name, sizeof(name), "spring_%.1f", stiffness);
+  return name;
+}
+
 FrameTable SpringLog(double stiffness, const ModelError& error,
                      std::mt19937_64* generator) {
   SliderProtocol protocol;
   protocol.friction_N = kFriction_N;
   return SimulateSlider(Plant(error, generator),
                         [=](double u) { return stiffness * u; }, Fine(),
-                        protocol, {true, 0.02, (*generator)()});
+                        protocol, {true, kStage_mm, (*generator)()});
 }
 
 void Springs(const ModelError& error, int draws) {
@@ -138,17 +147,26 @@ constexpr SoftObject kObjects[] = {{"solid silicone cylinder", 0.22, -0.008},
                                    {"napkin package", 1.70, -0.12},
                                    {"paper cup", 2.20, 0.10}};
 
+// Between these forces objects are compared.
+constexpr double kFrom_N = 1, kTo_N = 3;
+
+double Secant(const SoftObject& object, double from_N, double to_N) {
+  return (to_N - from_N) /
+         (object.linear_mm_per_N * (to_N - from_N) +
+          object.bend_mm_per_N2 * (to_N * to_N - from_N * from_N));
+}
+
 SqueezeLogs ObjectLogs(const SoftObject& object, const ModelError& error,
                        std::mt19937_64* generator) {
   const Finger first = Plant(error, generator);
   const Finger second = Plant(error, generator);
   SliderProtocol protocol;
-  return SimulateSqueeze(first, second,
-                         [&](double f) {
-                           return object.linear_mm_per_N * f +
-                                  object.bend_mm_per_N2 * f * f;
-                         },
-                         Fine(), protocol, 4, {true, 0.02, (*generator)()});
+  return SimulateSqueeze(
+      first, second,
+      [&](double f) {
+        return object.linear_mm_per_N * f + object.bend_mm_per_N2 * f * f;
+      },
+      Fine(), protocol, 4, {true, kStage_mm, (*generator)()});
 }
 
 void Squeeze(const ModelError& error, int draws) {
@@ -167,8 +185,8 @@ void Squeeze(const ModelError& error, int draws) {
       logs.push_back({object.name, both.first, both.second});
     }
     ComplianceSettings settings;
-    settings.from_N = 1;
-    settings.to_N = 3;
+    settings.from_N = kFrom_N;
+    settings.to_N = kTo_N;
     // Both fingers push the object's half along their own -x.
     settings.direction_rad = M_PI;
     Compliance found;
@@ -181,8 +199,7 @@ void Squeeze(const ModelError& error, int draws) {
     bool sorted = true;
     for (std::size_t i = 0; i < kCount; ++i) {
       sorted = sorted && found.objects[i].name == kObjects[i].name;
-      truth[i] = 2 / (2 * kObjects[i].linear_mm_per_N +
-                      8 * kObjects[i].bend_mm_per_N2);
+      truth[i] = Secant(kObjects[i], kFrom_N, kTo_N);
       for (const ComplianceTrial& trial : found.trials) {
         if (trial.object != kObjects[i].name) continue;
         const double off = trial.stiffness.N_per_mm / truth[i] - 1;
@@ -213,19 +230,40 @@ void Squeeze(const ModelError& error, int draws) {
       right, done, whole / done, refused);
 }
 
-void Write(const std::string& folder) {
-  MakeFolder(folder);
-  std::mt19937_64 generator(1);
+void WriteConditions(const std::string& path) {
+  const Gauge gauge = PaperFinger().gauges[0];
+  std::ofstream conditions(path);
+  conditions << "gauge_noise_rad: " << gauge.noise_V / gauge.gain_V_per_rad
+             << "\nstage_std_mm: " << kStage_mm
+             << "\nslider_friction_N: " << kFriction_N
+             << "\nmodel_error: {stiffness_std_percent: "
+             << 100 * kCalibrated.stiffness
+             << ", gauge_gain_std_percent: " << 100 * kCalibrated.gain
+             << ", rib_length_std_mm: " << kCalibrated.rib_mm
+             << "}\nfrom_N: " << kFrom_N << "\nto_N: " << kTo_N
+             << "\nsprings:\n";
   for (const double stiffness : kSprings) {
-    char name[40], object[40];
+    conditions << "  - {name: " << SpringName(stiffness)
+               << ", N_per_mm: " << stiffness << "}\n";
+  }
+  conditions << "objects:\n";
+  for (const SoftObject& object : kObjects) {
+    conditions << "  - {name: " << object.name
+               << ", N_per_mm: " << Secant(object, kFrom_N, kTo_N) << "}\n";
+  }
+}
+
+void Write(const std::string& folder, unsigned seed) {
+  MakeFolder(folder);
+  WriteConditions(folder + "/conditions.yaml");
+  std::mt19937_64 generator(seed);
+  for (const double stiffness : kSprings) {
     for (int trial = 1; trial <= 5; ++trial) {
       FrameTable log = SpringLog(stiffness, kCalibrated, &generator);
       log.MutableText("trial").assign(log.rows(), std::to_string(trial));
-      std::snprintf(name, sizeof(name), "/spring_%.1f_%d.csv", stiffness,
-                    trial);
-      std::snprintf(object, sizeof(object), "spring_%.1f", stiffness);
-      log.MutableText("object").assign(log.rows(), object);
-      log.Write(folder + name);
+      log.MutableText("object").assign(log.rows(), SpringName(stiffness));
+      log.Write(folder + "/" + SpringName(stiffness) + "_" +
+                std::to_string(trial) + ".csv");
     }
   }
   for (const SoftObject& object : kObjects) {
@@ -241,8 +279,8 @@ void Write(const std::string& folder) {
 }  // namespace finray
 
 int main(int argc, char** argv) {
-  if (argc == 3 && std::string(argv[1]) == "write") {
-    finray::Write(argv[2]);
+  if (argc >= 3 && std::string(argv[1]) == "write") {
+    finray::Write(argv[2], argc > 3 ? std::atoi(argv[3]) : 1);
     return 0;
   }
   const int draws = argc > 1 ? std::atoi(argv[1]) : 10;

@@ -1,6 +1,7 @@
 #ifndef FINRAY_TESTS_STUDIES_PAPER_PROTOCOL_H_
 #define FINRAY_TESTS_STUDIES_PAPER_PROTOCOL_H_
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ namespace finray {
 /// The circle against the finger at one height of its centre.
 struct ProtocolFrame {
   double height_mm;
+  ObjectPose object;  ///< as it is; the stage reads it with an error
   FrameReadings clean;
   PointContact contact;
   Eigen::Vector3d pose;  ///< x, y, theta of the contact
@@ -46,6 +48,26 @@ class SimulatedLab {
   }
 
   const Finger& finger() const { return finger_; }
+
+  const RigidObject& object() const { return *plan_.scene.object; }
+  double stage_std_mm() const { return plan_.object_std_mm; }
+  double force_std_N() const { return plan_.force_std_N; }
+
+  /// The finger as its drawing says, with gauges calibrated on a bench and
+  /// zeroed on the free finger: what one has who calibrates no finger.
+  Finger Nominal() const {
+    Finger finger = nominal_;
+    EquilibriumSolver truth(finger_, {}), drawn(nominal_, {});
+    truth.Solve({});
+    drawn.Solve({});
+    finger.gauges = finger_.gauges;
+    for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
+      Gauge& gauge = finger.gauges[j];
+      gauge.offset_V +=
+          gauge.gain_V_per_rad * (truth.outputs()[j] - drawn.outputs()[j]);
+    }
+    return finger;
+  }
 
   /// The finger as calibrated from a log of 200 contacts and 10 free frames at
   /// the places of the bundled one, with noise of `seed`, from the paper's
@@ -84,7 +106,10 @@ class SimulatedLab {
                : high) = depth;
         }
         if (found.contacts.size() != 1) continue;
-        frames.push_back({height, CleanReadings(solver), found.contacts[0],
+        frames.push_back({height,
+                          {{low - kRadius_mm, height}, 0},
+                          CleanReadings(solver),
+                          found.contacts[0],
                           solver.contact_pose(0)});
       }
     }
@@ -110,7 +135,20 @@ struct ProtocolError {
   double place_mm, angle_deg, force_N;  ///< of the contact frame; all >= 0
   double arc_mm;                        ///< of l_c
   bool ok;                              ///< status
+  Eigen::Vector3d pose;                 ///< the estimate itself
 };
+
+inline ProtocolError ErrorOf(const ProtocolFrame& frame,
+                             const Eigen::Vector3d& pose, double arc_mm,
+                             double normal_N, bool ok) {
+  const Eigen::Vector3d off = pose - frame.pose;
+  return {off.head<2>().norm(),
+          std::abs(off[2]) * 180 / M_PI,
+          std::abs(normal_N - frame.contact.normal_N),
+          std::abs(arc_mm - frame.contact.arc_mm),
+          ok,
+          pose};
+}
 
 /// `noise_of`: the finger whose gauges' noise is added; null for none.
 inline std::vector<ProtocolError> ProtocolErrors(
@@ -121,11 +159,40 @@ inline std::vector<ProtocolError> ProtocolErrors(
     const FrameEstimate estimate = estimator->Estimate(
         noise_of ? WithNoise(frame.clean, *noise_of, generator) : frame.clean);
     const ContactEstimate& found = estimate.contact[0];
-    const Eigen::Vector3d off = found.pose - frame.pose;
-    errors.push_back({off.head<2>().norm(), std::abs(off[2]) * 180 / M_PI,
-                      std::abs(found.normal_N - frame.contact.normal_N),
-                      std::abs(found.arc_mm - frame.contact.arc_mm),
-                      estimate.status == FrameStatus::kOk});
+    errors.push_back(ErrorOf(frame, found.pose, found.arc_mm, found.normal_N,
+                             estimate.status == FrameStatus::kOk));
+  }
+  return errors;
+}
+
+/// The paper's kinetostatics: the contact that the finger of `solver` has where
+/// the stage, with an error of `stage_std_mm` in x and y, says the object is.
+/// No gauge is read. Where it has none everything is NaN.
+inline std::vector<ProtocolError> KinetostaticErrors(
+    const std::vector<ProtocolFrame>& frames, const RigidObject& object,
+    double stage_std_mm, EquilibriumSolver* solver,
+    std::mt19937_64* generator) {
+  std::normal_distribution<double> unit;
+  std::vector<ProtocolError> errors;
+  for (const ProtocolFrame& frame : frames) {
+    ObjectPose pose = frame.object;
+    pose.position_mm.x() += stage_std_mm * unit(*generator);
+    pose.position_mm.y() += stage_std_mm * unit(*generator);
+    const ObjectContact found = SolveObjectContact(object, pose, 0, solver);
+    const auto heaviest =
+        std::max_element(found.contacts.begin(), found.contacts.end(),
+                         [](const PointContact& a, const PointContact& b) {
+                           return a.normal_N < b.normal_N;
+                         });
+    if (heaviest == found.contacts.end()) {
+      const double none = std::nan("");
+      errors.push_back(
+          ErrorOf(frame, Eigen::Vector3d::Constant(none), none, none, false));
+      continue;
+    }
+    const int index = static_cast<int>(heaviest - found.contacts.begin());
+    errors.push_back(ErrorOf(frame, solver->contact_pose(index),
+                             heaviest->arc_mm, heaviest->normal_N, true));
   }
   return errors;
 }

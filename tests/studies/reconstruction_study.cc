@@ -5,14 +5,20 @@
 // orientations, 3 N, gauges 3e-4 rad, stage 0.02 mm. `seeds` draws of noise.
 //
 //   build/test/tests/reconstruction_study [SEEDS [OBJECT]]
-//   build/test/tests/reconstruction_study write DIR
+//   build/test/tests/reconstruction_study write DIR [SEED]
 //
-// The second one writes logs of the noisy touches and true outlines instead.
+// The second one writes logs of the noisy touches and true outlines instead;
+// with SEED the touching finger is off from the paper's by parameters drawn as
+// a calibration leaves them (EI 1 %, gains 0.3 %, ribs 0.03 mm), as
+// conditions.yaml says.
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <random>
 
+#include "finray/control/model_error.h"
 #include "finray/io/atomic_file.h"
 #include "finray/perception/fourier_descriptors.h"
 #include "finray/perception/interior_envelope.h"
@@ -111,13 +117,18 @@ void Run(int seeds, const char* only) {
   }
 }
 
-void Write(const std::string& folder) {
+constexpr ModelError kCalibrated{1, 0.3, 0, 0.03};
+
+void Write(const std::string& folder, const ModelError& error, unsigned seed) {
   MakeFolder(folder);
+  const double stage_std_mm = 0.02;
+  std::mt19937_64 generator(seed);
   for (const NamedObject& object : StudyObjects()) {
     std::string stem = folder + "/" + object.name;
     std::replace(stem.end() - static_cast<std::ptrdiff_t>(object.name.size()),
                  stem.end(), ' ', '_');
-    SimulateTouches(PaperFinger(), object.touched, {}, {}, {true, 0.02, 1})
+    SimulateTouches(Perturbed(PaperFinger(), error, &generator), object.touched,
+                    {}, {}, {true, stage_std_mm, seed})
         .Write(stem + ".touches.csv");
     FrameTable outline(360);
     const Polygon points = EvenlySpaced(object.truth, 360);
@@ -127,14 +138,31 @@ void Write(const std::string& folder) {
     }
     outline.Write(stem + ".outline.csv");
   }
+  const Gauge gauge = PaperFinger().gauges[0];
+  const TouchProtocol protocol;
+  std::ofstream conditions(folder + "/conditions.yaml");
+  conditions << "gauge_noise_rad: " << gauge.noise_V / gauge.gain_V_per_rad
+             << "\nstage_std_mm: " << stage_std_mm
+             << "\nmodel_error: {stiffness_std_percent: "
+             << error.stiffness_percent
+             << ", gauge_gain_std_percent: " << error.gauge_gain_percent
+             << ", rib_length_std_mm: " << error.rib_length_mm
+             << "}\norientations: " << protocol.orientations
+             << "\nforce_N: " << protocol.force_N << "\nobjects:\n";
+  for (const NamedObject& object : StudyObjects()) {
+    conditions << "  - {name: " << object.name << ", kind: " << object.kind
+               << "}\n";
+  }
 }
 
 }  // namespace
 }  // namespace finray
 
 int main(int argc, char** argv) {
-  if (argc == 3 && std::string(argv[1]) == "write") {
-    finray::Write(argv[2]);
+  if (argc >= 3 && std::string(argv[1]) == "write") {
+    const bool seeded = argc > 3;
+    finray::Write(argv[2], seeded ? finray::kCalibrated : finray::ModelError{},
+                  seeded ? std::atoi(argv[3]) : 1);
     return 0;
   }
   finray::Run(argc > 1 ? std::atoi(argv[1]) : 10, argc > 2 ? argv[2] : nullptr);

@@ -117,10 +117,11 @@ void CalibrationProblem::Restore(const Point& point) {
 }
 
 // Evenly from every log, of contact frames, free ones and the bench apart, so
-// that none of them is missed by a stride that agrees with the log's own.
+// that none of them is missed by a stride that agrees with the log's own. Those
+// that are rejected are left out, not replaced by others that nobody judged.
 std::vector<int> CalibrationProblem::SpreadFrames(std::size_t most) const {
   std::map<std::pair<int, int>, std::vector<int>> kinds;
-  for (const int i : fitted_) {
+  for (const int i : candidates_) {
     const CalibrationFrame& frame = logs_.frames[i];
     const int kind = frame.IsBench() ? 2 : frame.contact ? 1 : 0;
     kinds[{frame.log, kind}].push_back(i);
@@ -129,9 +130,10 @@ std::vector<int> CalibrationProblem::SpreadFrames(std::size_t most) const {
   for (const auto& [kind, frames] : kinds) {
     const std::size_t n = frames.size();
     const std::size_t quota =
-        std::min(n, std::max(kLeastOfLog, most * n / fitted_.size()));
+        std::min(n, std::max(kLeastOfLog, most * n / candidates_.size()));
     for (std::size_t k = 0; k < quota; ++k) {
-      chosen.push_back(frames[k * n / quota]);
+      const int frame = frames[k * n / quota];
+      if (rejected_.count(frame) == 0) chosen.push_back(frame);
     }
   }
   std::sort(chosen.begin(), chosen.end());
@@ -150,12 +152,11 @@ LadderState* CalibrationProblem::StateOf(int frame, LadderState* scratch) {
 }
 
 bool CalibrationProblem::InParallel(const std::vector<int>& frames,
-                                    const Prepare& prepare,
+                                    const Plan& plan, const Prepare& prepare,
                                     const Visitor& visit) {
   tbb::task_arena arena(threads_);
-  tbb::enumerable_thread_specific<FrameLinearizer> linearizers([this] {
-    return FrameLinearizer(solver_, plan_, &blocks_, &parameters_);
-  });
+  tbb::enumerable_thread_specific<FrameLinearizer> linearizers(
+      [&] { return FrameLinearizer(solver_, plan, &blocks_, &parameters_); });
   std::vector<LinearizedFrame> batch(std::min(kBatch, frames.size()));
   std::vector<char> good(batch.size());
   for (std::size_t first = 0; first < frames.size(); first += kBatch) {
@@ -181,7 +182,7 @@ bool CalibrationProblem::InParallel(const std::vector<int>& frames,
 void CalibrationProblem::VisitFrames(const Visitor& visit) {
   GuessContacts(fitted_, ContactGuess::From::kObjectFirst);
   const bool good = InParallel(
-      fitted_,
+      fitted_, plan_,
       [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
         LadderState scratch;
         return linearizer->Linearize(logs_.frames[i], contacts_[i],
@@ -198,19 +199,42 @@ std::array<double, 2> CalibrationProblem::contact(int frame) const {
   return contacts_[frame];
 }
 
-bool CalibrationProblem::LinearizeFrame(int frame, bool robust,
-                                        LinearizedFrame* out) {
-  GuessContacts({frame}, ContactGuess::From::kAll);
-  Plan plan = plan_;
-  if (robust) {
-    plan.loss = RobustLoss::kCauchy;
-    plan.loss_scale = 1;
-  }
-  FrameLinearizer linearizer(solver_, plan, &blocks_, &parameters_);
-  LadderState scratch;
-  std::array<double, 2> contact = contacts_[frame];
-  LadderState state = *StateOf(frame, &scratch);
-  return linearizer.FitContact(logs_.frames[frame], &contact, &state, out);
+void CalibrationProblem::FitContacts(const std::vector<int>& frames,
+                                     const Visitor& visit) {
+  GuessContacts(frames, ContactGuess::From::kAll);
+  InParallel(
+      frames, plan_,
+      [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
+        LadderState scratch;
+        if (!linearizer->FitContact(logs_.frames[i], &contacts_[i],
+                                    StateOf(i, &scratch), out)) {
+          out->rows.clear();
+        }
+        return true;
+      },
+      visit);
+}
+
+void CalibrationProblem::FitContactsRobustly(const std::vector<int>& frames,
+                                             const Visitor& visit) {
+  // Anew: a wrong measurement may have drawn the contact to where it is.
+  for (const int i : frames) contacts_[i] = {kNaN, kNaN};
+  GuessContacts(frames, ContactGuess::From::kAll);
+  Plan robust = plan_;
+  robust.loss = RobustLoss::kCauchy;
+  robust.loss_scale = 1;
+  InParallel(
+      frames, robust,
+      [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
+        LadderState scratch;
+        std::array<double, 2> contact = contacts_[i];
+        LadderState state = *StateOf(i, &scratch);
+        if (!linearizer->FitContact(logs_.frames[i], &contact, &state, out)) {
+          out->rows.clear();
+        }
+        return true;
+      },
+      visit);
 }
 
 const Linearization& CalibrationProblem::AtSolution() {

@@ -32,13 +32,19 @@ class CalibrationProblem {
   CalibrationProblem(const CalibrationProblem&) = delete;
 
   /// From the present values, by JointSolve of all frames, or if there are more
-  /// than kMostJoint, of some kJoint, evenly spread. From where that leads to
-  /// by FrameSumResidual, of many frames first of some kSummed, then of all.
-  /// The result does not depend on the number of threads.
+  /// than kMostJoint, of some kJoint, evenly spread; from where that leads to,
+  /// by SolveOn. The result does not depend on the number of threads.
   SolveReport Solve();
-  /// From near the solution: without the joint solve if there are many frames.
+  /// From near the solution: of all frames by FrameSumResidual.
   SolveReport SolveOn();
-  static constexpr std::size_t kMostJoint = 1000, kJoint = 500, kSummed = 20000;
+  static constexpr std::size_t kMostJoint = 1000, kJoint = 500;
+  bool few() const { return candidates_.size() <= kMostJoint; }
+
+  /// Of very many frames some kMany, evenly spread, else none: from the
+  /// solution of a few, that of these leaves one or two steps for all of them.
+  std::vector<int> ManyFrames() const;
+  SolveReport SolveMany();
+  static constexpr std::size_t kMany = 20000;
 
   /// Some kSome frames, evenly spread; the joint solve of these alone, and
   /// what they and the priors say of the free parameters.
@@ -85,9 +91,14 @@ class CalibrationProblem {
 
   /// Makes a first guess of these frames' contacts, where there is none yet.
   void GuessContacts(const std::vector<int>& frames, ContactGuess::From from);
-  /// One frame, fitted or not, its contact where it explains it best; `robust`:
-  /// most of it, by Cauchy's loss. False if the model cannot be evaluated.
-  bool LinearizeFrame(int frame, bool robust, LinearizedFrame* out);
+  /// Calls `visit` for each of these frames in order, fitted or not, its
+  /// contact put where it explains the frame best. No rows: it cannot be
+  /// evaluated.
+  void FitContacts(const std::vector<int>& frames, const Visitor& visit);
+  /// The same where it explains most of the frame, by Cauchy's loss. Contacts
+  /// are not kept: they are guessed anew, from all but the force.
+  void FitContactsRobustly(const std::vector<int>& frames,
+                           const Visitor& visit);
 
   /// Frames to be left out, and why; others that were come back.
   void SetRejected(std::map<int, std::string> reasons);
@@ -115,8 +126,7 @@ class CalibrationProblem {
   SolveReport SolveJointly(const std::vector<int>& frames,
                            int most_iterations = kMostIterations);
   SolveReport SolveSummed(const std::vector<int>& frames,
-                          const SolveReport& before, double gradient_tolerance);
-  SolveReport Finish(const SolveReport& before);
+                          double gradient_tolerance);
   void ForgetLastDigits();
   Eigen::MatrixXd DeterminedUnits(const Eigen::MatrixXd& information) const;
   bool Sum(const std::vector<int>& frames, const Eigen::VectorXd& at,
@@ -128,8 +138,8 @@ class CalibrationProblem {
   // frames in parallel; false if that fails for one.
   using Prepare = std::function<bool(int frame, FrameLinearizer* linearizer,
                                      LinearizedFrame* out)>;
-  bool InParallel(const std::vector<int>& frames, const Prepare& prepare,
-                  const Visitor& visit);
+  bool InParallel(const std::vector<int>& frames, const Plan& plan,
+                  const Prepare& prepare, const Visitor& visit);
   LadderState* StateOf(int frame, LadderState* scratch);
   void GuessOffsets();
 

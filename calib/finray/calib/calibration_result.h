@@ -78,12 +78,12 @@ std::string CalibrationYaml(CalibrationProblem& problem,
                             const CalibrationResult& result,
                             const CalibrationInputs& inputs);
 
-/// One row a frame: log, time, kind (contact, free), held_out, reference force,
+/// A CSV of one row a frame: log, time, kind (contact, free), held_out, reference force,
 /// force and place from the gauges before and after, l_c and f_c of the fit,
 /// gauge residuals in std (empty where held out or rejected), and why a
 /// frame was rejected.
-FrameTable CalibrationFrames(CalibrationProblem& problem,
-                             const CalibrationResult& result);
+std::string CalibrationFramesCsv(CalibrationProblem& problem,
+                                 const CalibrationResult& result);
 
 /// Both beams, undeformed and in the heaviest fitted frame, for drawing:
 /// columns state (undeformed, deformed), part (front, back, rib_<i>, contact),

@@ -31,24 +31,24 @@ double WithoutLastDigits(double value) {
 
 SolveReport CalibrationProblem::Solve() {
   at_solution_.reset();
-  const bool few = fitted_.size() <= kMostJoint;
-  SolveReport report = SolveJointly(few ? fitted_ : SpreadFrames(kJoint));
-  // Then one step or two are left for all of them.
-  if (fitted_.size() > 4 * kSummed) {
-    ForgetLastDigits();
-    report = SolveSummed(SpreadFrames(kSummed), report, kNearEnough);
-  }
-  return Finish(report);
+  const SolveReport joint =
+      SolveJointly(few() ? fitted_ : SpreadFrames(kJoint));
+  SolveReport report = SolveOn();
+  report.iterations += joint.iterations;
+  return report;
 }
 
 SolveReport CalibrationProblem::SolveOn() {
-  return fitted_.size() <= kMostJoint ? Solve() : Finish({});
+  return SolveSummed(fitted_, few() ? kNear : kNearEnough);
 }
 
-SolveReport CalibrationProblem::Finish(const SolveReport& before) {
-  ForgetLastDigits();
-  return SolveSummed(fitted_, before,
-                     fitted_.size() <= kMostJoint ? kNear : kNearEnough);
+SolveReport CalibrationProblem::SolveMany() {
+  return SolveSummed(ManyFrames(), kNearEnough);
+}
+
+std::vector<int> CalibrationProblem::ManyFrames() const {
+  return candidates_.size() > 4 * kMany ? SpreadFrames(kMany)
+                                        : std::vector<int>();
 }
 
 // What Ceres leaves differs in the last digits from run to run, as Schur
@@ -97,9 +97,11 @@ SolveReport CalibrationProblem::SolveJointly(const std::vector<int>& frames,
     joint.push_back({&frame, frame.contact ? contacts_[i].data() : nullptr,
                      states_.empty() ? &states[k] : &states_[i]});
   }
-  return JointSolve(finger_, discretization_, plan_, blocks_, &parameters_,
-                    joint, threads_)
-      .Solve(most_iterations);
+  const SolveReport report = JointSolve(finger_, discretization_, plan_,
+                                        blocks_, &parameters_, joint, threads_)
+                                 .Solve(most_iterations);
+  ForgetLastDigits();
+  return report;
 }
 
 SolveReport CalibrationProblem::SolveSomeWeighted(
@@ -162,7 +164,6 @@ Eigen::MatrixXd CalibrationProblem::DeterminedUnits(
 }
 
 SolveReport CalibrationProblem::SolveSummed(const std::vector<int>& frames,
-                                            const SolveReport& before,
                                             double gradient_tolerance) {
   GuessContacts(frames, ContactGuess::From::kAll);
   const Eigen::VectorXd start = Values();
@@ -172,7 +173,9 @@ SolveReport CalibrationProblem::SolveSummed(const std::vector<int>& frames,
     throw std::runtime_error("the model cannot be evaluated at the start");
   }
   const Eigen::MatrixXd units = DeterminedUnits(sums.information);
-  if (units.cols() == 0) return before;
+  if (units.cols() == 0) {
+    return {true, 0, sums.cost, sums.cost, "nothing is determined"};
+  }
 
   ceres::Problem problem;
   Eigen::VectorXd z = Eigen::VectorXd::Zero(units.cols());
@@ -200,9 +203,9 @@ SolveReport CalibrationProblem::SolveSummed(const std::vector<int>& frames,
   }
   at_solution_ = std::move(summed_);
   contact_slopes_.resize(0, 0);
-  SolveReport report = before;
+  SolveReport report;
   report.converged = summary.termination_type == ceres::CONVERGENCE;
-  report.iterations += static_cast<int>(summary.iterations.size()) - 1;
+  report.iterations = static_cast<int>(summary.iterations.size()) - 1;
   report.initial_cost = summary.initial_cost;
   report.final_cost = summary.final_cost;
   report.message = summary.message;
@@ -227,7 +230,7 @@ bool CalibrationProblem::Sum(const std::vector<int>& frames,
   }
   Eigen::Index column = 0;
   const bool good = InParallel(
-      frames,
+      frames, plan_,
       [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
         LadderState scratch;
         return linearizer->FitContact(logs_.frames[i], &contacts_[i],

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "finray/calib/calibration_result.h"
@@ -7,72 +8,120 @@
 
 namespace finray {
 
-FrameTable CalibrationFrames(CalibrationProblem& problem,
-                             const CalibrationResult& result) {
-  const auto& frames = problem.logs().frames;
-  FrameTable table(frames.size());
-  for (const char* name : {"log", "kind"}) table.MutableText(name);
-  for (const char* name :
-       {"row", "time_s", "held_out", "force_N", "force_before_N",
-        "force_after_N", "contact_before_mm", "contact_after_mm",
-        "force_after_std_N", "contact_after_std_mm", "fit_contact_mm",
-        "fit_normal_N"}) {
-    table.MutableNumbers(name);
-  }
-  const int gauges = static_cast<int>(problem.finger().gauges.size());
-  for (int j = 0; j < gauges; ++j) {
-    table.MutableNumbers(IndexedColumn("gauge_", j, "_residual_std"));
-  }
-  table.MutableText("status_after");
-  table.MutableText("rejected");
-  const double per_normal =
-      std::hypot(1, problem.plan().scene.friction_coefficient);
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const CalibrationFrame& frame = frames[i];
-    const auto set = [&](const std::string& name, double value) {
-      table.MutableNumbers(name)[i] = value;
-    };
-    table.MutableText("log")[i] = problem.logs().paths[frame.log];
-    table.MutableText("kind")[i] = frame.IsBench() ? "bench"
-                                   : frame.contact ? "contact"
-                                                   : "free";
-    set("row", frame.row + 1);
-    set("time_s", frame.time_s);
-    set("held_out", frame.held_out);
-    set("force_N", ReferenceForce(frame));
-    const auto contact = problem.contact(static_cast<int>(i));
-    set("fit_contact_mm", contact[0]);
-    set("fit_normal_N", contact[1]);
-  }
-  for (std::size_t k = 0; k < result.checked.size(); ++k) {
-    const int i = result.checked[k];
-    const ContactEstimate& before = result.forces.before[k].contact[0];
-    const ContactEstimate& after = result.forces.after[k].contact[0];
-    const auto set = [&](const std::string& name, double value) {
-      table.MutableNumbers(name)[i] = value;
-    };
-    table.MutableText("status_after")[i] =
-        StatusName(result.forces.after[k].status);
-    if (result.forces.has_before[k]) {
-      set("force_before_N", per_normal * before.normal_N);
-      set("contact_before_mm", before.arc_mm);
+namespace {
+
+// Rows that are a table at a time: of a million frames the text alone is large.
+constexpr std::size_t kChunk = 20000;
+
+// Writes the rows of frames [first, last), called from the first on.
+class FrameRows {
+ public:
+  FrameRows(CalibrationProblem& problem, const CalibrationResult& result)
+      : problem_(problem),
+        result_(result),
+        at_(problem.AtSolution()),
+        per_normal_(std::hypot(1, problem.plan().scene.friction_coefficient)) {}
+
+  FrameTable Next(std::size_t first, std::size_t last) {
+    FrameTable table(last - first);
+    AddColumns(&table);
+    for (std::size_t i = first; i < last; ++i) {
+      const CalibrationFrame& frame = problem_.logs().frames[i];
+      const auto set = [&](const std::string& name, double value) {
+        table.MutableNumbers(name)[i - first] = value;
+      };
+      table.MutableText("log")[i - first] = problem_.logs().paths[frame.log];
+      table.MutableText("kind")[i - first] = frame.IsBench() ? "bench"
+                                             : frame.contact ? "contact"
+                                                             : "free";
+      set("row", frame.row + 1);
+      set("time_s", frame.time_s);
+      set("held_out", frame.held_out);
+      set("force_N", ReferenceForce(frame));
+      const auto contact = problem_.contact(static_cast<int>(i));
+      set("fit_contact_mm", contact[0]);
+      set("fit_normal_N", contact[1]);
     }
-    set("force_after_N", per_normal * after.normal_N);
-    set("force_after_std_N", per_normal * after.normal_std_N);
-    set("contact_after_mm", after.arc_mm);
-    set("contact_after_std_mm", after.arc_std_mm);
+    AddForces(first, last, &table);
+    for (; residual_ < at_.rows.size(); ++residual_) {
+      const ResidualInfo& row = at_.rows[residual_];
+      const auto frame = static_cast<std::size_t>(row.frame);
+      if (frame >= last) break;
+      if (row.family != ResidualFamily::kGauge) continue;
+      table.MutableNumbers(
+          IndexedColumn("gauge_", row.gauge, "_residual_std"))[frame - first] =
+          at_.residuals[residual_];
+    }
+    for (auto it = problem_.rejected().lower_bound(static_cast<int>(first));
+         it != problem_.rejected().end() &&
+         static_cast<std::size_t>(it->first) < last;
+         ++it) {
+      table.MutableText("rejected")[it->first - first] = it->second;
+    }
+    return table;
   }
-  for (const auto& [frame, reason] : problem.rejected()) {
-    table.MutableText("rejected")[frame] = reason;
+
+ private:
+  void AddColumns(FrameTable* table) const {
+    for (const char* name : {"log", "kind"}) table->MutableText(name);
+    for (const char* name :
+         {"row", "time_s", "held_out", "force_N", "force_before_N",
+          "force_after_N", "contact_before_mm", "contact_after_mm",
+          "force_after_std_N", "contact_after_std_mm", "fit_contact_mm",
+          "fit_normal_N"}) {
+      table->MutableNumbers(name);
+    }
+    const int gauges = static_cast<int>(problem_.finger().gauges.size());
+    for (int j = 0; j < gauges; ++j) {
+      table->MutableNumbers(IndexedColumn("gauge_", j, "_residual_std"));
+    }
+    table->MutableText("status_after");
+    table->MutableText("rejected");
   }
-  const Linearization& at = problem.AtSolution();
-  for (std::size_t row = 0; row < at.rows.size(); ++row) {
-    if (at.rows[row].family != ResidualFamily::kGauge) continue;
-    table.MutableNumbers(IndexedColumn("gauge_", at.rows[row].gauge,
-                                       "_residual_std"))[at.rows[row].frame] =
-        at.residuals[row];
+
+  void AddForces(std::size_t first, std::size_t last, FrameTable* table) {
+    const ForceCheck& forces = result_.forces;
+    for (; checked_ < result_.checked.size(); ++checked_) {
+      const auto frame = static_cast<std::size_t>(result_.checked[checked_]);
+      if (frame >= last) break;
+      const ContactEstimate& before = forces.before[checked_].contact[0];
+      const ContactEstimate& after = forces.after[checked_].contact[0];
+      const auto set = [&](const char* name, double value) {
+        table->MutableNumbers(name)[frame - first] = value;
+      };
+      table->MutableText("status_after")[frame - first] =
+          StatusName(forces.after[checked_].status);
+      if (forces.has_before[checked_]) {
+        set("force_before_N", per_normal_ * before.normal_N);
+        set("contact_before_mm", before.arc_mm);
+      }
+      set("force_after_N", per_normal_ * after.normal_N);
+      set("force_after_std_N", per_normal_ * after.normal_std_N);
+      set("contact_after_mm", after.arc_mm);
+      set("contact_after_std_mm", after.arc_std_mm);
+    }
   }
-  return table;
+
+  CalibrationProblem& problem_;
+  const CalibrationResult& result_;
+  const Linearization& at_;
+  double per_normal_;
+  std::size_t residual_ = 0, checked_ = 0;  // the next ones
+};
+
+}  // namespace
+
+std::string CalibrationFramesCsv(CalibrationProblem& problem,
+                                 const CalibrationResult& result) {
+  const std::size_t frames = problem.logs().frames.size();
+  FrameRows rows(problem, result);
+  std::string csv;
+  for (std::size_t first = 0; first < frames; first += kChunk) {
+    const FrameTable table = rows.Next(first, std::min(first + kChunk, frames));
+    if (first == 0) csv = table.HeaderCsv();
+    csv += table.RowsCsv();
+  }
+  return csv;
 }
 
 FrameTable CalibrationShape(CalibrationProblem& problem,

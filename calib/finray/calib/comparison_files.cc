@@ -60,8 +60,15 @@ std::string ComparisonYaml(const Comparison& comparison,
     YamlPair(&yaml, "difference_over_std", YamlNumber(p.sigma()));
     yaml << YAML::EndMap;
   }
-  yaml << YAML::EndSeq << YAML::Key << "all" << YAML::Value << YAML::Flow
-       << YAML::BeginMap;
+  yaml << YAML::EndSeq;
+  const std::pair<const char*, const std::vector<std::string>&> unmatched[] = {
+      {"only_in_a", comparison.only_a},
+      {"only_in_b", comparison.only_b},
+      {"of_other_logs", comparison.of_other_logs}};
+  for (const auto& [key, names] : unmatched) {
+    yaml << YAML::Key << key << YAML::Value << YAML::Flow << names;
+  }
+  yaml << YAML::Key << "all" << YAML::Value << YAML::Flow << YAML::BeginMap;
   YamlPair(&yaml, "chi2", YamlNumber(comparison.chi2));
   YamlPair(&yaml, "dof", comparison.dof);
   YamlPair(&yaml, "p_value", YamlNumber(comparison.p_value()));
@@ -70,6 +77,7 @@ std::string ComparisonYaml(const Comparison& comparison,
   yaml << YAML::Key << "predicted" << YAML::Value << YAML::BeginMap;
   YamlPair(&yaml, "points", comparison.grid.size());
   YamlPair(&yaml, "compared_points", most.points);
+  YamlPair(&yaml, "lost_points", most.lost);
   if (most.points > 0) {
     YamlPair(&yaml, "force_rms_difference_N", YamlNumber(most.force_rms_N));
     YamlPair(&yaml, "force_max_difference_N", YamlNumber(most.force_N));

@@ -13,8 +13,8 @@ Linearization::Linearization(int parameters, std::size_t most_frames)
 void Linearization::Add(int frame, int log, const LinearizedFrame& at) {
   const Eigen::VectorXd weighted = at.WeightedResiduals();
   const Eigen::MatrixXd c = at.WithoutContact();
-  pulls.col(static_cast<Eigen::Index>(frames.size())).noalias() =
-      c.transpose() * weighted;
+  pulls.col(static_cast<Eigen::Index>(frames.size())) =
+      (c.transpose() * weighted).cast<float>();
   frames.push_back(frame);
   const Eigen::Matrix2d contact =
       PseudoInverse(at.by_contact.transpose() * at.by_contact);

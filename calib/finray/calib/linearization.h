@@ -31,7 +31,7 @@ struct Linearization {
   // By frame.
   std::vector<int> frames;
   /// J'r of each: which way it pulls the parameters (free x frames).
-  Eigen::MatrixXd pulls;
+  Eigen::MatrixXf pulls;
 
   std::map<int, Eigen::MatrixXd> information_by_log;
   std::array<Eigen::MatrixXd, kResidualFamilies> information_by_family;

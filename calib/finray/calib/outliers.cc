@@ -94,17 +94,15 @@ std::string Reason(const LinearizedFrame& robust, double chi2, int dof,
 // be evaluated go to `reasons`.
 std::vector<FrameChi2> Refit(const std::vector<int>& frames,
                              CalibrationProblem* problem, Outliers* found) {
-  problem->GuessContacts(frames, ContactGuess::From::kAll);
   std::vector<FrameChi2> refitted;
-  LinearizedFrame at;
-  for (const int frame : frames) {
-    if (problem->LinearizeFrame(frame, false, &at)) {
+  problem->FitContacts(frames, [&](int frame, const LinearizedFrame& at) {
+    if (at.rows.empty()) {
+      found->reasons.emplace(frame, "the finger cannot carry what it shows");
+    } else {
       refitted.push_back({frame, at.residuals.squaredNorm(),
                           Dof(*problem, frame, at.rows.size())});
-    } else {
-      found->reasons.emplace(frame, "the finger cannot carry what it shows");
     }
-  }
+  });
   return refitted;
 }
 
@@ -123,19 +121,31 @@ void Judge(const std::vector<FrameChi2>& frames, CalibrationProblem* problem,
            Outliers* found) {
   const double count = static_cast<double>(frames.size());
   const double threshold = Outliers::kFalseAlarms / count;
-  LinearizedFrame at;
+  std::vector<int> unexplained;
+  std::map<int, FrameChi2> chi2_of;
   for (const FrameChi2& frame : frames) {
-    const bool explained =
-        frame.dof < 1 ||
+    if (frame.dof < 1 ||
         ChiSquaredTail(frame.chi2 / (found->scale * found->scale), frame.dof) >
-            threshold;
-    if (explained || !problem->LinearizeFrame(frame.frame, true, &at)) continue;
-    found->reasons.emplace(frame.frame, Reason(at, frame.chi2, frame.dof,
-                                               found->scale, threshold));
+            threshold) {
+      continue;
+    }
+    unexplained.push_back(frame.frame);
+    chi2_of.emplace(frame.frame, frame);
   }
   found->too_many =
-      static_cast<double>(found->reasons.size()) > Outliers::kMostShare * count;
-  if (found->too_many) found->reasons.clear();
+      static_cast<double>(unexplained.size() + found->reasons.size()) >
+      Outliers::kMostShare * count;
+  if (found->too_many) {
+    found->reasons.clear();
+    return;
+  }
+  problem->FitContactsRobustly(
+      unexplained, [&](int frame, const LinearizedFrame& at) {
+        if (at.rows.empty()) return;
+        const FrameChi2& its = chi2_of.at(frame);
+        found->reasons.emplace(
+            frame, Reason(at, its.chi2, its.dof, found->scale, threshold));
+      });
 }
 
 }  // namespace

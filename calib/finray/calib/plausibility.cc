@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <vector>
 
 #include "finray/calib/force_check.h"
@@ -41,6 +42,79 @@ template <class... Values>
   throw InputError(text);
 }
 
+struct Press {
+  double force_N, x_mm, y_mm;
+};
+
+std::vector<Press> Presses(const std::vector<const CalibrationFrame*>& frames) {
+  std::vector<Press> presses;
+  for (const CalibrationFrame* frame : frames) {
+    const double force = ReferenceForce(*frame);
+    if (!std::isfinite(force) || !frame->object_mm.allFinite()) continue;
+    presses.push_back({force, frame->object_mm.x(), frame->object_mm.y()});
+  }
+  return presses;
+}
+
+// From the 10th to the 90th of a hundred.
+double Range(const std::vector<Press>& presses, double Press::*quantity) {
+  std::vector<double> values;
+  for (const Press& press : presses) values.push_back(press.*quantity);
+  std::sort(values.begin(), values.end());
+  return values[values.size() * 9 / 10] - values[values.size() / 10];
+}
+
+// Of force and x, about their means in each tenth of the finger's height.
+double CorrelationOfForceAndX(const std::vector<Press>& presses,
+                              double height_mm) {
+  std::map<int, std::vector<Press>> tenths;
+  for (const Press& press : presses) {
+    const double tenth = std::floor(10 * press.y_mm / height_mm);
+    tenths[static_cast<int>(std::clamp(tenth, -1e6, 1e6))].push_back(press);
+  }
+  double ff = 0, fx = 0, xx = 0;
+  for (const auto& [tenth, its] : tenths) {
+    double force = 0, x = 0;
+    for (const Press& press : its) {
+      force += press.force_N / static_cast<double>(its.size());
+      x += press.x_mm / static_cast<double>(its.size());
+    }
+    for (const Press& press : its) {
+      ff += (press.force_N - force) * (press.force_N - force);
+      fx += (press.force_N - force) * (press.x_mm - x);
+      xx += (press.x_mm - x) * (press.x_mm - x);
+    }
+  }
+  return ff > 0 && xx > 0 ? fx / std::sqrt(ff * xx) : 0;
+}
+
+// What holds wherever the object's origin is.
+void RefuseImplausibleMotion(const std::vector<Press>& presses,
+                             const Finger& finger, const Plan& plan) {
+  constexpr double kNoise = 10;  // in std: changes of force that mean something
+  if (presses.size() < 10) return;
+  const double change = Range(presses, &Press::force_N);
+  if (change < kNoise * plan.force_std_N) return;
+  const double moved =
+      std::max(Range(presses, &Press::x_mm), Range(presses, &Press::y_mm));
+  if (change > kMostStiffness * ForceUnit(finger) / finger.front_length_mm *
+                   std::max(moved, 1e-9)) {
+    Refuse(
+        "logs: forces change by %.3g N while the object moves by %.3g mm: are "
+        "object_x_mm and object_y_mm in mm, and of the same rows?",
+        change, moved);
+  }
+  const double correlation =
+      CorrelationOfForceAndX(presses, finger.front_length_mm);
+  if (correlation < kLeastCorrelation) {
+    Refuse(
+        "logs: the force falls as object_x_mm rises (correlation %.2f): +x "
+        "points from the front beam into the finger; check its sign and "
+        "column",
+        correlation);
+  }
+}
+
 }  // namespace
 
 void RefuseImplausible(CalibrationProblem* problem) {
@@ -62,6 +136,7 @@ void RefuseImplausible(CalibrationProblem* problem) {
           median, kLeastForce * unit, kMostForce * unit);
     }
   }
+  RefuseImplausibleMotion(Presses(frames), problem->finger(), plan);
   if (!plan.scene.circle_radius_mm() ||
       plan.family(ParameterFamily::kObjectOrigin).free) {
     return;

@@ -9,12 +9,17 @@ namespace finray {
 /// itself out on them: wrong units, signs, columns or radii. Throws InputError
 /// where, over frames with contact,
 ///  - the median force is not between kLeastForce and kMostForce, in EI /
-///  l_0^2;
+///    l_0^2;
+///  - the object hardly moves while forces change: 10 to 90 % of them by more
+///    than kMostStiffness, in EI / l_0^3;
+///  - the force falls as the object moves in: their correlation, in each tenth
+///    of the finger's height, is below kLeastCorrelation;
 ///  - fewer than half of the objects can touch the finger where they are, the
 ///    object's origin being fixed;
 ///  - what these need of force, the median force is off by more than kFactor.
 void RefuseImplausible(CalibrationProblem* problem);
-constexpr double kLeastForce = 1e-3, kMostForce = 400, kFactor = 50;
+constexpr double kLeastForce = 1e-3, kMostForce = 400, kFactor = 50,
+                 kMostStiffness = 5e3, kLeastCorrelation = -0.5;
 
 }  // namespace finray
 

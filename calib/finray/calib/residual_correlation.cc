@@ -114,10 +114,9 @@ ResidualCorrelation AnalyzeResidualCorrelation(CalibrationProblem* problem,
   const Eigen::MatrixXd of_data = covariance * found.information * covariance;
   for (int i = 0; i < n; ++i) {
     std::vector<std::vector<double>> influence(logs);  // psi_t,i
-    const Eigen::RowVectorXd all = by_pull.row(i) * at.pulls;
     for (std::size_t k = 0; k < at.frames.size(); ++k) {
-      influence[frames[at.frames[k]].log].push_back(
-          all[static_cast<Eigen::Index>(k)]);
+      influence[frames[at.frames[k]].log].push_back(by_pull.row(i).dot(
+          at.pulls.col(static_cast<Eigen::Index>(k)).cast<double>()));
     }
     IntegratedTime time = IntegrateTime(influence);
     if (!result.correlated()) time.tau = 1;

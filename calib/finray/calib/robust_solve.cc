@@ -89,16 +89,22 @@ RobustSolution SolveRobustly(CalibrationProblem* problem) {
     result.settled = true;
     return result;
   }
+  const auto solve = [&] {
+    return problem->few() ? problem->Solve() : problem->SolveOn();
+  };
+  const auto reject_among = [&](const std::vector<int>& frames) {
+    problem->SetRejected(FindOutliersAmong(frames, problem).reasons);
+  };
   problem->SolveSome(kFewIterations);
-  problem->SetRejected(
-      FindOutliersAmong(problem->SomeFrames(), problem).reasons);
+  reject_among(problem->SomeFrames());
   result.starts = SolveFromStarts(problem);
-  // The joint solve of the others is spared their outliers as well.
-  if (problem->candidates().size() <= CalibrationProblem::kMostJoint) {
-    problem->SetRejected(
-        FindOutliersAmong(problem->candidates(), problem).reasons);
+  // More and more frames, each time spared their outliers.
+  if (const std::vector<int> many = problem->ManyFrames(); !many.empty()) {
+    reject_among(many);
+    problem->SolveMany();
   }
-  result.solve = problem->Solve();
+  reject_among(problem->candidates());
+  result.solve = solve();
   int iterations = BestOf(result.starts).iterations;
   for (; result.rounds < kMostRounds; ++result.rounds) {
     const Outliers outliers = FindOutliers(problem);
@@ -114,7 +120,7 @@ RobustSolution SolveRobustly(CalibrationProblem* problem) {
     }
     problem->SetRejected(outliers.reasons);
     iterations += result.solve.iterations;
-    result.solve = problem->SolveOn();
+    result.solve = solve();
   }
   result.solve.iterations += iterations;
   return result;

@@ -28,6 +28,14 @@ double LeastOfParabola(double left, double middle, double right) {
   return std::max(0.0, middle - 0.5 * slope * slope / curvature);
 }
 
+Eigen::ArrayXXd Values(const std::vector<GaugeTable::Node>& nodes) {
+  Eigen::ArrayXXd values(nodes.size(), nodes[0].values.size());
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    values.row(static_cast<Eigen::Index>(k)) = nodes[k].values.transpose();
+  }
+  return values;
+}
+
 // Of the parabola through a node and its neighbours.
 void SetSlopes(std::vector<GaugeTable::Node>* nodes) {
   const std::size_t count = nodes->size();
@@ -110,7 +118,7 @@ GaugeTable::GaugeTable(EquilibriumSolver* solver, double friction,
     return values;
   };
   for (int i = 0; i < kRows; ++i) {
-    Row row{length * (i + 0.5) / kRows, {}};
+    Row row{length * (i + 0.5) / kRows, {}, {}};
     solver->set_state(free_state);
     for (int k = -1; k < static_cast<int>(std::size(kForces)); ++k) {
       const double force = k < 0 ? 0 : kForces[k] * unit;
@@ -120,6 +128,7 @@ GaugeTable::GaugeTable(EquilibriumSolver* solver, double friction,
     }
     if (row.nodes.empty()) continue;
     SetSlopes(&row.nodes);
+    row.values = Values(row.nodes);
     rows_.push_back(std::move(row));
   }
   solver->Reset();
@@ -132,28 +141,31 @@ ContactStart GaugeTable::BestOf(const Row& row, const Eigen::VectorXd& values,
   ContactStart best;
   best.count = 1;
   best.chi2 = std::numeric_limits<double>::infinity();
-  const auto count = values.size();
+  // All chords at once.
+  using Chords = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor,
+                              std::size(kForces), 1>;
+  const auto chords = static_cast<Eigen::Index>(row.nodes.size()) - 1;
+  Chords along = Chords::Zero(chords), square = along, misfit = along;
+  for (Eigen::Index j = 0; j < values.size(); ++j) {
+    const double w = weights[j];
+    if (w == 0) continue;
+    const auto from = row.values.col(j).head(chords);
+    const Chords edge = w * (row.values.col(j).tail(chords) - from);
+    const Chords off = w * (values[j] - from);
+    along += edge * off;
+    square += edge * edge;
+    misfit += off * off;
+  }
   std::size_t nearest = 0;
   double share_of_way = 0;
-  for (std::size_t k = 1; k < row.nodes.size(); ++k) {
-    const Node &from = row.nodes[k - 1], &to = row.nodes[k];
-    double along = 0, square = 0, misfit = 0;
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const double w = weights[j];
-      if (w == 0) continue;
-      const double edge = w * (to.values[j] - from.values[j]);
-      const double off = w * (values[j] - from.values[j]);
-      along += edge * off;
-      square += edge * edge;
-      misfit += off * off;
-    }
+  for (Eigen::Index k = 0; k < chords; ++k) {
     const double share =
-        square > 0 ? std::clamp(along / square, 0.0, 1.0) : 0.0;
+        square[k] > 0 ? std::clamp(along[k] / square[k], 0.0, 1.0) : 0.0;
     const double chi2 =
-        std::max(0.0, misfit + share * (share * square - 2 * along));
+        std::max(0.0, misfit[k] + share * (share * square[k] - 2 * along[k]));
     if (chi2 < best.chi2) {
       best.chi2 = chi2;
-      nearest = k;
+      nearest = static_cast<std::size_t>(k) + 1;
       share_of_way = share;
     }
   }

@@ -44,6 +44,7 @@ class GaugeTable {
   struct Row {
     double arc_mm;
     std::vector<Node> nodes;  ///< Rising force, the first one without load.
+    Eigen::ArrayXXd values;   ///< The nodes' again, nodes x values.
   };
   /// Base to tip.
   const std::vector<Row>& rows() const { return rows_; }

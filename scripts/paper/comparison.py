@@ -1,0 +1,89 @@
+"""A figure of the paper beside ours, and a section of the report."""
+
+import dataclasses
+import math
+
+BEATS, EQUALS, WORSE = "beats", "same", "does not beat"
+
+
+@dataclasses.dataclass(frozen=True)
+class Comparison:
+    """Errors: the smaller one is better.
+
+    `why` is printed where ours is not smaller; a comparison without it could not
+    be honest, so that it has no default.
+    """
+    what: str
+    source: str  # figure and section of the paper
+    unit: str
+    paper: float
+    ours: float
+    conditions: str
+    why: str
+    preview: bool = False  # the controller knows the set-point beforehand
+    limit: bool = False  # the paper gives an upper limit only
+
+    @property
+    def verdict(self):
+        return BEATS if self.ours < self.paper else WORSE  # NaN does not beat
+
+    @property
+    def beats(self):
+        return self.verdict == BEATS
+
+    @property
+    def paper_text(self):
+        number = f"{self.paper:g}" if self.paper == round(self.paper) else f"{self.paper:.2f}"
+        return f"{'below ' if self.limit else ''}{number} {self.unit}"
+
+    @property
+    def ours_text(self):
+        if math.isnan(self.ours):
+            return "refused"
+        places = 3 if abs(self.ours) < 1 else 2 if abs(self.ours) < 10 else 1
+        return f"{self.ours:.{places}f} {self.unit}"
+
+
+@dataclasses.dataclass(frozen=True)
+class Finding:
+    """Something that the paper finds without a number to beat."""
+    what: str
+    source: str
+    paper: str
+    ours: str
+    conditions: str
+    agrees: bool
+    why: str
+
+    @property
+    def verdict(self):
+        return EQUALS if self.agrees else "differs"
+
+
+@dataclasses.dataclass
+class Section:
+    title: str
+    sentence: str
+    rows: list  # of Comparison and Finding
+    plots: list = dataclasses.field(default_factory=list)  # (SVG, caption)
+    tables: list = dataclasses.field(default_factory=list)  # (title, header, rows, note)
+
+
+def count(number, word):
+    return f"{number:g} {word}" + ("" if number == 1 else "s")
+
+
+def model_error_text(error):
+    """The std of a finger's parameters, as studies and experiments write them."""
+    parts = []
+    if error.get("stiffness_std_percent"):
+        parts.append(f"EI {error['stiffness_std_percent']:g} %")
+    if error.get("gauge_gain_std_percent"):
+        parts.append(f"gains {error['gauge_gain_std_percent']:g} %")
+    if error.get("gauge_offset_std_V"):
+        parts.append(f"offsets {1000 * error['gauge_offset_std_V']:g} mV")
+    if error.get("rib_length_std_mm"):
+        parts.append(f"ribs {error['rib_length_std_mm']:g} mm")
+    if error.get("delay_std_ms"):
+        parts.append(f"delay {error['delay_std_ms']:g} ms")
+    return "model error (std) " + ", ".join(parts) if parts else "no model error"

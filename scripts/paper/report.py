@@ -1,0 +1,92 @@
+#!/usr/bin/python3
+"""The paper's figures beside ours in one page: report.py OUT_DIR
+
+Reads what simulate.py left in OUT_DIR and writes report.html, which needs nothing
+else, and table.md, the table at its top.
+"""
+
+import datetime
+import pathlib
+import sys
+
+sys.dont_write_bytecode = True
+
+import jinja2
+
+import contact_frames
+import force_control
+import force_sensing
+import outlines
+import stiffness
+from comparison import Comparison
+from inputs import BadInput
+from look import REPORT
+
+# In the paper's order; each module has sections(folder).
+EXPERIMENTS = (contact_frames, outlines, stiffness, force_sensing, force_control)
+NOT_IN_IT = ("hysteresis and creep of beams and joints", "friction at the contact and in the drive", "clamps that give",
+             "out-of-plane loads", "errors of the camera or force sensor that the result is compared with",
+             "drift and temperature")
+
+
+def tally(sections):
+    """Figures with a number to beat, apart by whether a preview was needed."""
+    rows = [row for section in sections for row in section.rows if isinstance(row, Comparison)]
+    own = [row for row in rows if not row.preview]
+    return {"figures": len(own), "beaten": sum(row.beats for row in own),
+            "worse": [row for row in own if not row.beats],
+            "preview_figures": sum(row.preview for row in rows),
+            "preview_beaten": sum(row.preview and row.beats for row in rows)}
+
+
+def fields(row):
+    """What a row of the table shows, for either kind."""
+    if isinstance(row, Comparison):
+        return {"paper": row.paper_text, "ours": row.ours_text, "why": "" if row.beats else row.why, "words": False,
+                "kind": "good" if row.beats else "bad"}
+    return {"paper": row.paper, "ours": row.ours, "why": "" if row.agrees else row.why, "words": True,
+            "kind": "good" if row.agrees else "warn"}
+
+
+def markdown(sections):
+    lines = ["| experiment | where | paper | ours, simulated | verdict |", "|---|---|---|---|---|"]
+    for section in sections:
+        for row in section.rows:
+            cells = fields(row)
+            lines.append(f"| {row.what} | {row.source} | {cells['paper']} | {cells['ours']} | {row.verdict} |")
+    return "\n".join(lines) + "\n"
+
+
+def page(sections):
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader([pathlib.Path(__file__).parent, REPORT]), autoescape=True,
+        trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    environment.globals.update(fields=fields)
+    environment.filters.update(minus=lambda text: text.replace(" -", " \u2212"))
+    return environment.get_template("paper.html.jinja").render(
+        sections=sections, tally=tally(sections), not_in_it=NOT_IN_IT, date=datetime.date.today().isoformat())
+
+
+def write(path, text):
+    temporary = path.with_name(path.name + ".part")
+    temporary.write_text(text, "utf-8")
+    temporary.rename(path)
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    folder = pathlib.Path(sys.argv[1])
+    try:
+        sections = [section for experiment in EXPERIMENTS for section in experiment.sections(folder)]
+    except BadInput as error:
+        print(f"paper_experiments: {error}", file=sys.stderr)
+        sys.exit(2)
+    write(folder / "report.html", page(sections))
+    write(folder / "table.md", markdown(sections))
+    print(markdown(sections), end="")
+    print(folder / "report.html")
+
+
+if __name__ == "__main__":
+    main()

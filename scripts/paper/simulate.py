@@ -1,0 +1,122 @@
+#!/usr/bin/python3
+"""Simulates the paper's experiments: simulate.py [--quick] BUILD_DIR OUT_DIR.
+
+Every experiment leaves CSV and YAML in a folder of its own below OUT_DIR, which
+report.py turns into a page. Seeds are fixed; --quick takes fewer of them.
+"""
+
+import argparse
+import concurrent.futures
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+FINGER = ROOT / "configs" / "fingers" / "paper_140mm.yaml"
+SCENES = ROOT / "configs" / "scenes"
+CONTROL = ("fixed_harmonic", "fixed_step", "moving_harmonic", "moving_triangular", "two_finger",
+           "two_finger_ramped")
+REFUSALS = (2, 4)  # exit codes: too few usable touches, or not from all sides
+
+
+class Failed(Exception):
+    pass
+
+
+def run(*words, allowed=()):
+    """The tool's output; its one line of what is wrong where it refuses."""
+    done = subprocess.run([str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          text=True)
+    if done.returncode == 0:
+        return done.stdout
+    if done.returncode in allowed:
+        return None
+    last = (done.stderr.strip().splitlines() or ["no message"])[-1]
+    raise Failed(f"{pathlib.Path(words[0]).name}: {last} (exit code {done.returncode})")
+
+
+def flags(**values):
+    return [f"--{name}={value}" for name, value in values.items()]
+
+
+def contact_frames(build, out, draws):
+    run(build / "tests" / "paper_protocol_study", out / "contact_frames", draws)
+
+
+def force_sensing(build, out):
+    run(ROOT / "scripts" / "studies" / "contact_cycles.py", build, out / "force_sensing")
+
+
+def outlines(build, out, seed):
+    """Each object with one contact known to be there, as in the paper's model, and
+    with their number found; a refused one leaves no folder."""
+    folder = out / "outlines" / f"seed_{seed}"
+    run(build / "tests" / "reconstruction_study", "write", folder, seed)
+    single = folder / "single_contact.yaml"
+    single.write_text("schema_version: 1\ncontacts: 1\n")
+    for log in sorted(folder.glob("*.touches.csv")):
+        name = log.name[:-len(".touches.csv")]
+        for kind, scene in (("single", single), ("auto", SCENES / "one_contact.yaml")):
+            run(build / "finray_reconstruct",
+                *flags(finger=FINGER, scene=scene, logs=log, truth=folder / f"{name}.outline.csv",
+                       plots="false", out_dir=folder / kind / name),
+                allowed=REFUSALS if kind == "auto" else ())
+
+
+def stiffness(build, out, seed):
+    folder = out / "stiffness" / f"seed_{seed}"
+    run(build / "tests" / "compliance_study", "write", folder, seed)
+    common = dict(finger=FINGER, scene=SCENES / "pulley.yaml", direction_deg=180, plots="false")
+    run(build / "finray_compliance",
+        *flags(**common, logs=folder / "spring_*.csv", most_degree=1, out_dir=folder / "springs"))
+    run(build / "finray_compliance",
+        *flags(**common, logs=folder / "*.left.csv", second_logs=folder / "*.right.csv", from_N=1, to_N=3,
+               out_dir=folder / "objects"))
+
+
+def force_control(build, out, name, draws):
+    run(build / "finray_control",
+        *flags(finger=FINGER, experiment=ROOT / "configs" / "control" / f"{name}.yaml", draws=draws,
+               out_dir=out / "force_control" / name))
+
+
+def tasks(build, out, quick):
+    """The long ones first, so that none is left over at the end."""
+    seeds = range(1, 2 if quick else 6)
+    yield contact_frames, (build, out, 10 if quick else 100)
+    for name in CONTROL:
+        yield force_control, (build, out, name, 2 if quick else 10)
+    for seed in seeds:
+        yield outlines, (build, out, seed)
+        yield stiffness, (build, out, seed)
+    yield force_sensing, (build, out)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("out", type=pathlib.Path)
+    arguments = parser.parse_args()
+    # What an earlier run left, perhaps with more seeds, is not of this one.
+    for name in ("contact_frames", "force_sensing", "outlines", "stiffness", "force_control"):
+        shutil.rmtree(arguments.out / name, ignore_errors=True)
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    start = time.monotonic()
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        running = {pool.submit(task, *words): " ".join([task.__name__, *map(str, words[2:])])
+                   for task, words in tasks(arguments.build, arguments.out, arguments.quick)}
+        for done in concurrent.futures.as_completed(running):
+            try:
+                done.result()
+            except (Failed, OSError) as error:
+                pool.shutdown(wait=True, cancel_futures=True)
+                sys.exit(f"paper_experiments: {running[done]}: {error}")
+            print(f"{time.monotonic() - start:5.0f} s  {running[done]}", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,140 @@
+#!/usr/bin/python3
+"""The page of the paper's experiments from tiny canned inputs."""
+
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "scripts" / "paper"))
+
+import contact_frames
+import force_control
+import report
+from comparison import Comparison, Finding, Section
+from inputs import BadInput, read_csv
+
+
+def figure(ours, paper=0.5, **more):
+    return Comparison("place", "Fig. 11, V-B", "mm", paper, ours, "noise 3e-4 rad", "too noisy", **more)
+
+
+def write(path, header, rows):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("\n".join([header, *(",".join(map(str, row)) for row in rows)]) + "\n")
+
+
+class VerdictTest(unittest.TestCase):
+    def test_only_a_smaller_error_beats(self):
+        self.assertEqual(figure(0.4).verdict, "beats")
+        self.assertEqual(figure(0.6).verdict, "does not beat")
+        self.assertEqual(figure(0.5).verdict, "does not beat")
+        self.assertEqual(figure(math.nan).verdict, "does not beat")
+
+    def test_a_preview_is_counted_apart(self):
+        section = Section("a", "b", [figure(0.4), figure(0.6), figure(0.4, preview=True),
+                                     Finding("order", "Fig. 20", "x", "y", "z", True, "")])
+        tally = report.tally([section])
+        self.assertEqual((tally["beaten"], tally["figures"]), (1, 2))
+        self.assertEqual((tally["preview_beaten"], tally["preview_figures"]), (1, 1))
+
+
+class PageTest(unittest.TestCase):
+    def test_a_worse_figure_says_so_and_why(self):
+        page = report.page([Section("Contact", "One sentence.", [figure(0.6)])])
+        self.assertIn("0 of 1 figures are beaten", page)
+        self.assertIn("does not beat", page)
+        self.assertIn("too noisy", page)
+        self.assertIn("These are simulations, not measurements of a real finger", page)
+
+    def test_a_better_one_gives_no_reason(self):
+        page = report.page([Section("Contact", "One sentence.", [figure(0.4)])])
+        self.assertIn("1 of 1 figures are beaten", page)
+        self.assertNotIn("does not beat", page)
+        self.assertNotIn("too noisy", page)
+
+    def test_table(self):
+        table = report.markdown([Section("Contact", "One sentence.", [figure(0.6)])])
+        self.assertIn("| place | Fig. 11, V-B | 0.50 mm | 0.600 mm | does not beat |", table)
+
+
+class InputTest(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def test_a_missing_input_is_one_line(self):
+        done = subprocess.run([ROOT / "scripts" / "paper" / "report.py", self.folder], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(done.stderr.strip(),
+                         f"paper_experiments: {self.folder}/contact_frames/grid.csv: No such file or directory; "
+                         "paper_protocol_study writes it")
+        self.assertFalse((self.folder / "report.html").exists())
+
+    def test_a_missing_column_is_named(self):
+        path = self.folder / "grid.csv"
+        write(path, "height_mm,force_N", [(30, 1)])
+        with self.assertRaisesRegex(BadInput, "grid.csv: no column place_mm; a study writes it"):
+            read_csv(path, ("height_mm", "place_mm"), "a study")
+
+    def test_contact_frames(self):
+        """Kinetostatics of 0.1 mm beat 0.70 mm; sensing of 0.6 mm is worse than 0.58 mm."""
+        folder = self.folder / "contact_frames"
+        settings = contact_frames.SETTINGS
+        places = {name: 0.1 if "kinetostatics" in name else 0.6 for name in settings}
+        write(folder / "grid.csv",
+              "setting,height_mm,force_N,place_mean_mm,angle_mean_deg,force_error_mean_N,not_ok_percent",
+              [(f'"{name}"', height, force, places[name] * scale, 0.1, 0.02, 0)
+               for name in settings for height, force, scale in ((30, 2, 1.5), (80, 4, 0.5))])
+        write(folder / "contact_frames.csv", "setting,x_mm,y_mm,true_x_mm,true_y_mm",
+              [(f'"{name}"', 1, 30, 1, 30.5) for name in settings])
+        write(folder / "by_height.csv", "setting,height_mm,force_rms_N",
+              [(f'"{name}"', height, force) for name in settings
+               for height, force in ((30, 0.035), (75, 0.01), (80, 0.031))])
+        (folder / "conditions.yaml").write_text(
+            "{gauge_noise_rad: 0.0003, stage_std_mm: 0.05, force_sensor_std_N: 0.02, circle_radius_mm: 15, draws: 1, "
+            "repeats: 1, nominal_error: {front_stiffness_percent: 12, back_stiffness_percent: -10, "
+            "largest_rib_length_mm: 0.2}}")
+        section, = contact_frames.sections(self.folder)
+        rows = {row.what: row for row in section.rows}
+        model = rows["contact frame from kinetostatics, mean error of place"]
+        sensed = rows["contact frame sensed, mean error of place"]
+        self.assertAlmostEqual(model.ours, 0.1)
+        self.assertAlmostEqual(sensed.ours, 0.6)
+        self.assertEqual((model.verdict, sensed.verdict), ("beats", "does not beat"))
+        self.assertAlmostEqual(rows["sensed force, mean error, of the force"].ours, 0.75)
+        self.assertEqual(rows["force error near base and tip over that in the middle"].verdict, "same")
+        page = report.page([section])
+        for outside in ('src="', 'href="http', "url(http", "<link", "<script", "@import"):
+            self.assertNotIn(outside, page)
+
+    def experiment(self, name, set_point):
+        """What finray_control leaves, but for the force: a course at 30 Hz."""
+        folder = self.folder / name
+        times = [k / 30 for k in range(30 * 30)]
+        write(folder / "model.csv", ",".join(force_control.COLUMNS), [(t, set_point(t), 4, 0, 0) for t in times])
+        (folder / "summary.yaml").write_text(
+            "{finger: f.yaml, experiments: [{paper: {figure: 23, rms_N: 0.32, max_N: 0.65}, "
+            "settings: {actuation: {delay_ms: 130, rate_Hz: 30}, run: {measure_from_s: 1.2}}, "
+            "controllers: [{name: model, logs: [model.csv]}]}]}")
+        return force_control.Experiment(self.folder, name)
+
+    def test_what_a_delay_alone_costs(self):
+        """A sqrt(2) sin(pi d / T) on a harmonic; a step of A every second is off by
+        A in four of thirty periods."""
+        harmonic = self.experiment("fixed_harmonic", lambda t: 4 + 2 * math.sin(2 * math.pi * t / 3.6))
+        rms, largest = harmonic.cost_of_delay(0.130)
+        self.assertAlmostEqual(rms, 2 * math.sqrt(2) * math.sin(math.pi * 0.130 / 3.6),
+                               delta=0.002)
+        self.assertAlmostEqual(largest, math.sqrt(2) * rms, delta=0.005)
+        steps = self.experiment("fixed_step", lambda t: 3 + 0.25 * math.floor(t + 1e-9))
+        self.assertAlmostEqual(steps.cost_of_delay(0.130)[0], 0.25 * math.sqrt(4 / 30), delta=0.002)
+
+
+if __name__ == "__main__":
+    unittest.main()
