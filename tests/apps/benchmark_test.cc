@@ -63,7 +63,7 @@ std::string Json(const std::string& time_us, const std::string& cpu) {
          time_us + "], \"yardstick_us\": [100, 100, 100]}]}\n";
 }
 
-TEST_F(BenchmarkCommandTest, ASlowerBuildFailsTheGate) {
+TEST_F(BenchmarkCommandTest, AWorseBuildFailsTheGate) {
   Write("a.json", Json("10, 10.1, 9.9", "x"));
   Write("b.json", Json("13, 13.1, 12.9", "x"));
   const Outcome slower = Run("finray_benchmark", "--compare %a.json,%b.json");

@@ -23,7 +23,7 @@ TEST(ComparisonTest, NoiseWithoutAChangeIsTheSame) {
   }
 }
 
-TEST(ComparisonTest, SlowerAndFasterAreSeen) {
+TEST(ComparisonTest, LongerAndShorterTimesAreSeen) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     EXPECT_EQ(VerdictOf(1.3, 0.05, 10 * seed), SpeedVerdict::kSlower) << seed;
     EXPECT_EQ(VerdictOf(0.7, 0.05, 10 * seed), SpeedVerdict::kFaster) << seed;
