@@ -16,8 +16,8 @@ namespace {
 // One minimisation with one weight. True where Ceres calls it converged.
 bool Minimise(const ChainLayout& layout, const Eigen::VectorXd& s0,
               double friction, double gauge_std_rad, double model_weight,
-              int max_iterations, ChainState* state, double* contact,
-              int* iterations) {
+              int max_iterations, ceres::LinearSolverType linear_solver,
+              ChainState* state, double* contact, int* iterations) {
   double* theta = state->theta.data();
   double* loads = state->loads.data();
   const double weight = model_weight / gauge_std_rad;
@@ -36,7 +36,7 @@ bool Minimise(const ChainLayout& layout, const Eigen::VectorXd& s0,
   problem.SetParameterLowerBound(contact, 1, 0);
 
   ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
+  options.linear_solver_type = linear_solver;
   // The default radius damps the gauge rows, light beside the model's, away.
   options.initial_trust_region_radius = 1e12;
   options.max_trust_region_radius = 1e16;
@@ -69,7 +69,8 @@ ChainSensing SenseContactWithCeres(const ChainLayout& layout,
                                    const Eigen::VectorXd& s0,
                                    const ChainContact& start,
                                    double gauge_std_rad,
-                                   const ChainSensingOptions& options) {
+                                   const ChainSensingOptions& options,
+                                   ceres::LinearSolverType linear_solver) {
   ChainSensing result;
   if (!StartSensing(layout, s0, start, &result)) return result;
 
@@ -80,9 +81,9 @@ ChainSensing SenseContactWithCeres(const ChainLayout& layout,
   // the weight grows by stages, the last of which has little left to do.
   bool converged = false;
   for (double weight = std::min(1.0, options.model_weight);;) {
-    converged =
-        Minimise(layout, s0, start.friction, gauge_std_rad, weight,
-                 options.max_iterations, &state, contact, &result.iterations);
+    converged = Minimise(layout, s0, start.friction, gauge_std_rad, weight,
+                         options.max_iterations, linear_solver, &state, contact,
+                         &result.iterations);
     if (weight == options.model_weight || !state.AllFinite()) break;
     weight = std::min(100 * weight, options.model_weight);
   }

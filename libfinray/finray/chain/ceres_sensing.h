@@ -1,6 +1,8 @@
 #ifndef FINRAY_CHAIN_CERES_SENSING_H_
 #define FINRAY_CHAIN_CERES_SENSING_H_
 
+#include <ceres/types.h>
+
 #include "finray/chain/sensing.h"
 
 namespace finray {
@@ -17,11 +19,14 @@ namespace finray {
 /// result at a joint or on a bound has not converged. And it compares costs,
 /// which resolve a minimum to the root of rounding: exact gauges give Newton's
 /// l_c to 1e-11 mm, noisy ones to about 1e-6 mm.
-ChainSensing SenseContactWithCeres(const ChainLayout& layout,
-                                   const Eigen::VectorXd& s0,
-                                   const ChainContact& start,
-                                   double gauge_std_rad = 3e-4,
-                                   const ChainSensingOptions& options = {});
+///
+/// `linear_solver` takes each step. Normal equations square the model's weight
+/// against the gauges', which leaves less of their digits than QR does.
+ChainSensing SenseContactWithCeres(
+    const ChainLayout& layout, const Eigen::VectorXd& s0,
+    const ChainContact& start, double gauge_std_rad = 3e-4,
+    const ChainSensingOptions& options = {},
+    ceres::LinearSolverType linear_solver = ceres::DENSE_QR);
 
 }  // namespace finray
 

@@ -17,7 +17,8 @@ constexpr double kSmallStep = 1e-9;
 constexpr double kSmallestRampStep = 1. / 512;
 
 bool Newton(const ChainLayout& layout, const ChainContact& contact,
-            const ChainUnits& units, double last_step, ChainState* state) {
+            const ChainUnits& units, double last_step, ChainState* state,
+            int* iterations = nullptr) {
   const int n = layout.joints(), size = n + layout.loads();
   const double at[2] = {contact.arc_mm, contact.normal_N};
   ChainState now = *state;
@@ -47,6 +48,7 @@ bool Newton(const ChainLayout& layout, const ChainContact& contact,
                 layout.force_unit_N;
     if (step.cwiseAbs().maxCoeff() < last_step * scale) {
       if (!now.AllFinite()) return false;
+      if (iterations != nullptr) *iterations = iteration + 1;
       *state = now;
       return true;
     }
@@ -99,9 +101,10 @@ bool SolveForward(const ChainLayout& layout, const ChainContact& contact,
 }
 
 bool ContinueForward(const ChainLayout& layout, const ChainContact& contact,
-                     double last_step, ChainState* state) {
+                     double last_step, ChainState* state, int* iterations) {
   return !IsBadContact(layout, contact) &&
-         Newton(layout, contact, ChainUnits(layout), last_step, state);
+         Newton(layout, contact, ChainUnits(layout), last_step, state,
+                iterations);
 }
 
 }  // namespace finray

@@ -19,8 +19,10 @@ bool SolveForward(const ChainLayout& layout, const ChainContact& contact,
 /// The same from wherever `state` is, as along a log: Newton only, until a step
 /// (in the units of ChainUnits) is below `last_step`, after which the error is
 /// of the order of its square. False if that fails; `state` is then unchanged.
+/// Tells the steps it took if `iterations` is given.
 bool ContinueForward(const ChainLayout& layout, const ChainContact& contact,
-                     double last_step, ChainState* state);
+                     double last_step, ChainState* state,
+                     int* iterations = nullptr);
 
 }  // namespace finray
 

@@ -1,0 +1,16 @@
+#ifndef FINRAY_APPS_COUNT_ALLOCATIONS_H_
+#define FINRAY_APPS_COUNT_ALLOCATIONS_H_
+
+#include <atomic>
+
+// Calls of malloc and its like, and the bytes they asked for, by an executable
+// that is linked with count_allocations.cc, where they can be counted.
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+#define FINRAY_COUNTS_ALLOCATIONS
+#endif
+
+namespace finray {
+extern std::atomic<long> allocations, allocated_bytes;
+}
+
+#endif  // FINRAY_APPS_COUNT_ALLOCATIONS_H_

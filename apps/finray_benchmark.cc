@@ -1,0 +1,272 @@
+// Speed and accuracy of every solver on this machine, and whether a build is
+// slower than another.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <set>
+
+#include "app.h"
+#include "count_allocations.h"
+#include "finray/benchmark/benchmark_files.h"
+#include "finray/benchmark/comparison.h"
+#include "finray/benchmark/pareto.h"
+#include "finray/benchmark/peers.h"
+#include "finray/benchmark/recommendation.h"
+#include "finray/io/atomic_file.h"
+#include "finray/io/python_script.h"
+#include "finray/io/sha256.h"
+#include "progress_bar.h"
+
+DEFINE_string(finger, FINRAY_SOURCE_DIR "/configs/fingers/paper_140mm.yaml",
+              "finger YAML");
+DEFINE_string(out_dir, "",
+              "folder for benchmark.json, benchmark.csv, report.html");
+DEFINE_bool(quick, false, "less than a minute: part of the log, few rounds");
+DEFINE_string(only, "",
+              "settings whose id holds one of these, separated by commas; left "
+              "out: all");
+DEFINE_int32(threads, 0,
+             "most threads of the scaling with threads; 0: all cores");
+DEFINE_int32(rounds, 0, "repeats of every setting; 0: 9 if quick, else 15");
+DEFINE_string(peers, "none",
+              "other programs to ask too: none, auto (all that are installed), "
+              "or of scipy, octave, calculix, separated by commas");
+DEFINE_string(compare, "",
+              "A,B: compares two runs (folders or benchmark.json) instead");
+DEFINE_double(most_slowdown_percent, 15,
+              "--compare: what is slower than this fails the gate");
+DEFINE_bool(report, true, "render report.html");
+
+namespace {
+
+using namespace finray;
+
+std::string InFolder(const char* name) {
+  return (std::filesystem::path(FLAGS_out_dir) / name).string();
+}
+
+int Compare() {
+  const std::vector<std::string> paths = SplitList(FLAGS_compare);
+  if (paths.size() != 2) throw UsageError("--compare: expected two runs, A,B");
+  if (!(FLAGS_most_slowdown_percent > 0)) {
+    throw UsageError("--most_slowdown_percent: expected a number above 0");
+  }
+  const BenchmarkRun a = ReadBenchmark(paths[0]), b = ReadBenchmark(paths[1]);
+  const BenchmarkComparison comparison =
+      CompareRuns(a, b, FLAGS_most_slowdown_percent / 100);
+  for (const std::string& difference : comparison.differences) {
+    LOG(WARNING) << "the runs differ in " << difference;
+  }
+  std::printf("%-62s %6s %15s  %s\n", "time over the yardstick's, B / A",
+              "ratio", "99 % interval", "verdict");
+  for (const SettingComparison& one : comparison.settings) {
+    std::printf(
+        "%-62s %6.3f %6.3f .. %5.3f  %s%s%s\n", one.id.c_str(), one.ratio,
+        one.interval.low, one.interval.high, SpeedVerdictName(one.speed),
+        one.worse.empty() ? "" : "; less accurate: ", one.worse.c_str());
+  }
+  if (comparison.settings.empty()) {
+    throw InputError(paths[1] + ": has no setting of " + paths[0]);
+  }
+  for (const std::string& id : comparison.only_a) {
+    std::printf("%-62s only in A\n", id.c_str());
+  }
+  for (const std::string& id : comparison.only_b) {
+    std::printf("%-62s only in B\n", id.c_str());
+  }
+  std::vector<double> ratios;
+  for (const SettingComparison& one : comparison.settings) {
+    ratios.push_back(one.ratio);
+  }
+  std::printf(
+      "settings       %zu in both: %d faster, %d slower, %d same (within %g "
+      "%%), "
+      "%d undecided; %d less accurate\n",
+      comparison.settings.size(), comparison.Count(SpeedVerdict::kFaster),
+      comparison.Count(SpeedVerdict::kSlower),
+      comparison.Count(SpeedVerdict::kSame), FLAGS_most_slowdown_percent,
+      comparison.Count(SpeedVerdict::kUndecided), comparison.CountWorse());
+  const double band = 1 + FLAGS_most_slowdown_percent / 100;
+  const auto within = std::count_if(
+      ratios.begin(), ratios.end(),
+      [band](double ratio) { return ratio <= band && ratio >= 1 / band; });
+  std::printf("ratios         %.3f .. %.3f, median %.3f; %ld within %g %%\n",
+              Quantile(ratios, 0), Quantile(ratios, 1), Median(ratios), within,
+              FLAGS_most_slowdown_percent);
+  std::printf("gate           %s\n", comparison.passes() ? "pass" : "FAIL");
+  return comparison.passes() ? kGood : kGateFailed;
+}
+
+std::string UtcNow() {
+  const std::time_t now = std::time(nullptr);
+  char text[32];
+  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
+  return text;
+}
+
+std::vector<BenchmarkSetting> ChosenSettings(const Finger& finger) {
+  std::vector<BenchmarkSetting> grid = BenchmarkGrid(finger, FLAGS_quick);
+  const std::vector<std::string> only = SplitList(FLAGS_only);
+  if (only.empty()) return grid;
+  std::vector<BenchmarkSetting> chosen;
+  for (BenchmarkSetting& setting : grid) {
+    const std::string id = setting.name.id();
+    if (std::any_of(only.begin(), only.end(), [&](const std::string& part) {
+          return id.find(part) != std::string::npos;
+        })) {
+      chosen.push_back(std::move(setting));
+    }
+  }
+  if (chosen.empty()) {
+    throw InputError("--only: no setting's id holds '" + FLAGS_only +
+                     "'; ids are like " + grid.front().name.id());
+  }
+  return chosen;
+}
+
+int Rounds() { return FLAGS_rounds > 0 ? FLAGS_rounds : FLAGS_quick ? 9 : 15; }
+
+MeasuringOptions Options(ProgressBar* bar) {
+  MeasuringOptions options;
+  options.rounds = Rounds();
+#ifdef FINRAY_COUNTS_ALLOCATIONS
+  options.allocations = [] {
+    return AllocationCount{static_cast<double>(allocations),
+                           static_cast<double>(allocated_bytes)};
+  };
+#endif
+  options.progress = [bar](int, int) { bar->Add(1, false); };
+  return options;
+}
+
+void PrintSummary(const BenchmarkRun& run) {
+  std::printf("%s\n", InFolder("benchmark.json").c_str());
+  std::printf("settings       %zu, %d rounds; %s, %s\n", run.settings.size(),
+              run.rounds, run.machine.cpu.c_str(),
+              run.machine.instruction_set.c_str());
+  for (const Recommendation& r : Recommend(run.settings)) {
+    std::printf("%-14s %s", r.use.c_str(),
+                r.id.empty() ? "nothing serves" : r.id.c_str());
+    if (!r.id.empty()) {
+      std::printf(", %.3g us, l_c off by %.1e mm", r.time_us, r.error_mm);
+    }
+    if (std::isfinite(r.margin)) std::printf(", margin %.0f", r.margin);
+    std::printf("\n");
+  }
+  for (const DefaultCheck& check : CheckDefaults(run.settings)) {
+    std::printf(
+        "default        %s: %s; fastest with l_c as good: %s, %.2f of its time "
+        "(%.2f .. %.2f)\n",
+        check.id.c_str(),
+        check.holds()     ? "on the Pareto front, none is 20 % faster and more "
+                            "accurate"
+        : !check.on_front ? "NOT on the Pareto front"
+                          : "BEATEN",
+        check.rival.c_str(), check.rival_time, check.rival_interval.low,
+        check.rival_interval.high);
+    for (const std::string& id : check.dominated_by) {
+      std::printf("               dominated by %s\n", id.c_str());
+    }
+    for (const std::string& id : check.better) {
+      std::printf("               20 %% faster and more accurate: %s\n",
+                  id.c_str());
+    }
+  }
+  for (const PeerStatus& peer : run.peers) {
+    std::printf("peer           %s %s\n", peer.name.c_str(),
+                peer.skipped.empty() ? peer.version.c_str()
+                                     : ("skipped: " + peer.skipped).c_str());
+  }
+}
+
+int Measure() {
+  const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
+  Required("out_dir", FLAGS_out_dir);
+  if (FLAGS_threads < 0) throw UsageError("--threads: expected 0 or more");
+  if (FLAGS_rounds < 0) throw UsageError("--rounds: expected 0 or more");
+  const std::vector<std::string> peers = ParsePeers(FLAGS_peers);
+  if (finger.gauges.size() < 4) {
+    throw InputError(FLAGS_finger +
+                     ": the benchmark senses up to two contacts, which takes 4 "
+                     "gauges; '" +
+                     finger.name + "' has " +
+                     std::to_string(finger.gauges.size()));
+  }
+  const std::vector<BenchmarkSetting> grid = ChosenSettings(finger);
+  MakeFolder(FLAGS_out_dir);
+
+  BenchmarkRun run;
+  run.quick = FLAGS_quick;
+  run.date = UtcNow();
+  run.command =
+      "finray_benchmark --finger " + FLAGS_finger + " --out_dir " +
+      FLAGS_out_dir + (FLAGS_quick ? " --quick" : "") +
+      (FLAGS_only.empty() ? "" : " --only " + FLAGS_only) +
+      (FLAGS_rounds > 0 ? " --rounds " + std::to_string(FLAGS_rounds) : "") +
+      (FLAGS_threads > 0 ? " --threads " + std::to_string(FLAGS_threads) : "") +
+      " --peers " + FLAGS_peers;
+  run.finger_name = finger.name;
+  run.finger_path = FLAGS_finger;
+  run.finger_sha256 = Sha256OfFile(FLAGS_finger);
+  run.machine = ThisMachine();
+  run.build = ThisBuild();
+  const Discretization finest = ReferenceDiscretization(finger);
+  run.reference = SchemeName(finest.scheme) + ", order 16, " +
+                  std::to_string(finest.resolution) + " elements";
+
+  // Batches are of one contact, peers are asked for that and for friction.
+  std::set<std::string> scenes = {"one_contact"};
+  if (!peers.empty()) scenes.insert("friction");
+  for (const BenchmarkSetting& one : grid) scenes.insert(one.name.scene);
+  std::vector<BenchmarkCase> cases;
+  for (const std::string& scene : scenes) {
+    cases.push_back(MakeBenchmarkCase(finger, scene));
+  }
+  const auto one_contact = std::find_if(
+      cases.begin(), cases.end(),
+      [](const BenchmarkCase& c) { return c.scene_name == "one_contact"; });
+  {
+    ProgressBar bar(grid.size() * static_cast<std::size_t>(Rounds() + 1));
+    const MeasuringOptions options = Options(&bar);
+    run.rounds = options.rounds;
+    run.settings = MeasureSettings(grid, cases, options);
+  }
+  const int threads =
+      FLAGS_threads > 0 ? FLAGS_threads : std::max(1, run.machine.cores);
+  run.scaling = MeasureBatches(*one_contact, FLAGS_quick ? 4096 : 65536,
+                               threads, FLAGS_quick ? 3 : 7);
+  run.scaling.links = ScalingWithLinks(run.settings);
+  for (const std::string& peer : peers) {
+    MeasurePeer(peer, FINRAY_SOURCE_DIR "/scripts/peers", FLAGS_out_dir, finger,
+                cases, FLAGS_quick, &run);
+  }
+
+  WriteFileAtomically(InFolder("benchmark.json"), BenchmarkJson(run));
+  WriteFileAtomically(InFolder("benchmark.csv"), BenchmarkCsv(run));
+  if (FLAGS_report) {
+    const std::string problem = RunPythonScript(
+        FINRAY_SOURCE_DIR "/scripts/benchmark/render.py", {FLAGS_out_dir},
+        "python3-matplotlib and python3-jinja2");
+    if (!problem.empty()) LOG(WARNING) << "no report.html: " << problem;
+  }
+  PrintSummary(run);
+  return kGood;
+}
+
+int Run() { return FLAGS_compare.empty() ? Measure() : Compare(); }
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return RunApp(
+      argc, argv,
+      "Measures speed and accuracy of every solver, or compares two such "
+      "runs.\n"
+      "finray_benchmark --out_dir D [--finger F.yaml] [--quick] "
+      "[--peers auto]\n"
+      "finray_benchmark --compare A,B [--most_slowdown_percent 15]",
+      Run);
+}

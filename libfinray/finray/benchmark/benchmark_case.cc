@@ -1,0 +1,164 @@
+#include "finray/benchmark/benchmark_case.h"
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "finray/finger/geometry.h"
+#include "finray/sensing/circle_centre.h"
+#include "finray/sensing/contact_fit.h"
+
+namespace finray {
+namespace {
+
+constexpr double kNoise_rad = 1e-4;
+// Four gauges hardly tell two contacts: with 1e-4 rad many frames have several
+// answers.
+constexpr double kNoiseOfTwo_rad = 1e-5;
+constexpr double kObjectStd_mm = 0.05;
+constexpr double kFriction = 0.3;
+constexpr int kFramesApart = 260;  // stretch from stretch
+constexpr double kPaperLength_mm = 140;
+constexpr double kPaperForceUnit_N = 12500. / (140 * 140);
+
+// The place of frame `i` of the whole way, lengths and forces of the paper's
+// finger.
+std::vector<PointContact> ContactsAt(const std::string& scene, int i) {
+  if (scene == "no_contact") return {};
+  const double swing = std::sin(0.0015 * i), swell = std::cos(0.006 * i);
+  if (scene == "two_contacts") {
+    return {{45 + 10 * swing, 2 + 0.6 * swell, 0},
+            {95 + 8 * std::sin(0.0015 * i + 1), 2 - 0.6 * swell, 0}};
+  }
+  return {
+      {70 + 40 * swing, 4 + 3 * swell, scene == "friction" ? kFriction : 0}};
+}
+
+ObjectPose CircleAt(int i) {
+  ObjectPose pose;
+  pose.position_mm = {-16 + 1.5 * std::sin(0.006 * i),
+                      70 + 10 * std::sin(0.004 * i)};
+  return pose;
+}
+
+Scene SceneOf(const std::string& name, double scale) {
+  Scene scene;
+  if (name == "no_contact") return scene;  // contacts: auto
+  scene.contacts = name == "two_contacts" ? 2 : 1;
+  if (name == "friction") scene.friction_coefficient = kFriction;
+  if (name == "circle") {
+    scene.object = RigidObject{Outline(CircleOutline{20 * scale}), {}};
+    scene.object_std_mm = kObjectStd_mm;
+  }
+  return scene;
+}
+
+FrameAnswer AnswerOf(const EquilibriumSolver& solver,
+                     const std::vector<PointContact>& contacts) {
+  return {true, contacts, solver.outputs().head(solver.model().gauges()),
+          solver.tip_pose(), solver.iterations()};
+}
+
+[[noreturn]] void Fail(const BenchmarkCase& c, int frame, const char* what) {
+  throw std::runtime_error("benchmark: " + c.finger.name + ", " + c.scene_name +
+                           ", frame " + std::to_string(frame) + ": " + what);
+}
+
+}  // namespace
+
+const std::vector<std::string>& BenchmarkScenes() {
+  static const std::vector<std::string> names = {
+      "no_contact", "one_contact", "two_contacts", "friction", "circle"};
+  return names;
+}
+
+int ElementsFor(const Finger& finger, double a_bay) {
+  const int bays = MakeBeamMesh(finger, Side::kFront, 1).elements() +
+                   MakeBeamMesh(finger, Side::kBack, 1).elements();
+  return static_cast<int>(std::lround(a_bay * bays));
+}
+
+Discretization ReferenceDiscretization(const Finger& finger) {
+  return {Scheme::kTaylor, ElementsFor(finger, 8)};
+}
+
+BenchmarkCase MakeBenchmarkCase(const Finger& finger, const std::string& scene,
+                                int stretches) {
+  BenchmarkCase c;
+  c.scene_name = scene;
+  c.finger = finger;
+  c.finger.calibration.reset();  // its uncertainty is no part of the solvers
+  const double noise = scene == "two_contacts" ? kNoiseOfTwo_rad : kNoise_rad;
+  for (Gauge& gauge : c.finger.gauges) {
+    gauge.noise_V = noise * std::abs(gauge.gain_V_per_rad);
+  }
+  const double length = finger.front_length_mm / kPaperLength_mm;
+  const double force = ForceUnit(finger) / kPaperForceUnit_N;
+  c.scene = SceneOf(scene, length);
+
+  const Discretization finest = ReferenceDiscretization(finger);
+  EquilibriumSolver solver(c.finger, finest);
+  ContactFit fit(c.finger, finest, MeasuredRadius(c.scene));
+  const bool fitted = !finger.gauges.empty() && c.scene.contacts.has_value();
+  std::mt19937_64 generator(1);
+  std::normal_distribution<double> normal;
+  ObjectContact touch;
+  for (int k = 0; k < stretches * (kStretchFrames + 1); ++k) {
+    const int i =
+        k / (kStretchFrames + 1) * kFramesApart + k % (kStretchFrames + 1);
+    BenchmarkFrame frame;
+    if (c.scene.object) {
+      frame.object = CircleAt(i);
+      frame.object.position_mm *= length;
+      touch = SolveObjectContact(*c.scene.object, frame.object, 0, &solver,
+                                 touch.contacts);
+      if (touch.status != ObjectContactStatus::kContact ||
+          touch.contacts.size() != 1) {
+        Fail(c, k, "the circle does not touch at one point");
+      }
+      frame.contacts = touch.contacts;
+    } else {
+      frame.contacts = ContactsAt(scene, i);
+      for (PointContact& contact : frame.contacts) {
+        contact.arc_mm *= length;
+        contact.normal_N *= force;
+      }
+      if (!solver.Solve(frame.contacts)) Fail(c, k, solver.Why().c_str());
+    }
+    c.forward.push_back(AnswerOf(solver, frame.contacts));
+
+    const Eigen::VectorXd& gauges = c.forward.back().gauges_rad;
+    for (Eigen::Index j = 0; j < gauges.size(); ++j) {
+      const Gauge& gauge = finger.gauges[j];
+      frame.readings.gauges_V.push_back(
+          (gauges[j] + noise * normal(generator)) * gauge.gain_V_per_rad +
+          gauge.offset_V);
+    }
+    if (c.scene.object_std_mm) {
+      frame.readings.object_x_mm =
+          frame.object.position_mm.x() + kObjectStd_mm * normal(generator);
+      frame.readings.object_y_mm =
+          frame.object.position_mm.y() + kObjectStd_mm * normal(generator);
+    }
+    Measure(c.finger, c.scene, frame.readings, &frame.measurement);
+    if (fitted) {
+      std::vector<PointContact> contacts = frame.contacts;
+      EquilibriumSolver model(c.finger, finest);
+      if (!model.Solve(contacts)) Fail(c, k, model.Why().c_str());
+      fit.set_state(model.state());
+      if (!fit.Fit(frame.measurement.values, frame.measurement.weights,
+                   &contacts) ||
+          !model.Solve(contacts)) {
+        Fail(c, k, "the gauges' least squares are not found");
+      }
+      c.sensed.push_back(AnswerOf(model, contacts));
+    } else {
+      // Without a contact there is nothing to fit: the free finger.
+      c.sensed.push_back(c.forward.back());
+    }
+    c.frames.push_back(std::move(frame));
+  }
+  return c;
+}
+
+}  // namespace finray

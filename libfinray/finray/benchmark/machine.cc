@@ -1,0 +1,82 @@
+#include "finray/benchmark/machine.h"
+
+#include <ceres/version.h>
+#include <sched.h>
+#include <sys/utsname.h>
+
+#include <Eigen/Core>
+#include <fstream>
+
+#include "finray/statics/ladder_kernel.h"
+
+namespace finray {
+namespace {
+
+std::string FirstLineOf(const std::string& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  return line;
+}
+
+std::string CpuModel() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind("model name", 0) == 0 || line.rfind("CPU part", 0) == 0) {
+      const auto colon = line.find(": ");
+      if (colon != std::string::npos) return line.substr(colon + 2);
+    }
+  }
+  return "unknown";
+}
+
+std::string Caches() {
+  std::string words;
+  for (int i = 0; i < 8; ++i) {
+    const std::string folder =
+        "/sys/devices/system/cpu/cpu0/cache/index" + std::to_string(i) + "/";
+    const std::string level = FirstLineOf(folder + "level");
+    const std::string type = FirstLineOf(folder + "type");
+    if (level.empty()) break;
+    if (type == "Instruction") continue;
+    words += (words.empty() ? "L" : ", L") + level +
+             (type == "Data" ? "d " : " ") + FirstLineOf(folder + "size");
+  }
+  return words.empty() ? "unknown" : words;
+}
+
+int Cores() {
+  cpu_set_t set;
+  return sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : 1;
+}
+
+}  // namespace
+
+Machine ThisMachine() {
+  Machine machine;
+  machine.cpu = CpuModel();
+  machine.cores = Cores();
+  machine.caches = Caches();
+  machine.governor =
+      FirstLineOf("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
+  if (machine.governor.empty()) machine.governor = "unknown";
+  machine.instruction_set = LadderInstructionSetName(0);
+  utsname name;
+  machine.system = uname(&name) == 0 ? std::string(name.sysname) + " " +
+                                           name.release + " " + name.machine
+                                     : "unknown";
+  return machine;
+}
+
+Build ThisBuild() {
+  return {FINRAY_VERSION,
+          FINRAY_GIT,
+          FINRAY_COMPILER,
+          FINRAY_FLAGS,
+          CERES_VERSION_STRING,
+          std::to_string(EIGEN_WORLD_VERSION) + "." +
+              std::to_string(EIGEN_MAJOR_VERSION) + "." +
+              std::to_string(EIGEN_MINOR_VERSION)};
+}
+
+}  // namespace finray

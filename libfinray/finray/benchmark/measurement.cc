@@ -1,0 +1,210 @@
+#include "finray/benchmark/measurement.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <stdexcept>
+
+#include "finray/benchmark/statistics.h"
+#include "finray/benchmark/yardstick.h"
+
+namespace finray {
+namespace {
+
+void Raise(double* largest, double value) {
+  // NaN is the start.
+  if (!(*largest >= value)) *largest = value;
+}
+
+double WallUs() {
+  return std::chrono::duration<double, std::micro>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+const BenchmarkCase& CaseOf(const std::vector<BenchmarkCase>& cases,
+                            const std::string& scene) {
+  for (const BenchmarkCase& c : cases) {
+    if (c.scene_name == scene) return c;
+  }
+  throw std::logic_error("no case of scene " + scene);
+}
+
+// A setting under way.
+class Bench {
+ public:
+  Bench(const BenchmarkSetting& setting, const BenchmarkCase& c,
+        const std::function<AllocationCount()>& allocations)
+      : setting_(setting), case_(c), allocations_(allocations) {
+    const double before = allocations_ ? allocations_().bytes : 0;
+    runner_ = setting.make(c);
+    result_.name = setting.name;
+    result_.words = setting.words;
+    result_.family = setting.family;
+    result_.links = setting.links;
+    if (setting.family == "taylor" || setting.family == "chain") {
+      result_.scheme = SchemeName(setting.discretization.scheme);
+      result_.resolution = setting.discretization.resolution;
+    }
+    if (allocations_) result_.setup_bytes = allocations_().bytes - before;
+  }
+
+  // Not timed as a whole: errors, iterations, memory, slow frames.
+  void Judge() {
+    const bool forward = setting_.name.task == "forward";
+    const auto& truth = forward ? case_.forward : case_.sensed;
+    const bool is_load = forward && !case_.scene.object;
+    int frames = 0, solved = 0;
+    double iterations = 0;
+    ForStretches([&](int first, int count) {
+      runner_->Run(first, count);
+      for (int k = 0; k < count; ++k) {
+        const FrameAnswer answer = runner_->Answer(k);
+        ++frames;
+        if (!answer.solved ||
+            !result_.errors.Add(answer, truth[first + k], is_load)) {
+          continue;
+        }
+        ++solved;
+        iterations += answer.iterations;
+      }
+    });
+    result_.frames = frames;
+    result_.solved_percent = 100. * solved / frames;
+    result_.iterations = iterations / std::max(solved, 1);
+    result_.unknowns = runner_->unknowns();
+    if (allocations_) {
+      double calls = 0, bytes = 0;
+      ForStretches([&](int first, int count) {
+        const AllocationCount before = allocations_();
+        runner_->Run(first, count);
+        const AllocationCount after = allocations_();
+        calls += after.calls - before.calls;
+        bytes += after.bytes - before.bytes;
+      });
+      result_.allocations = calls / frames;
+      result_.bytes = bytes / frames;
+    }
+    const std::string& how = setting_.name.how;
+    if (frames < 100 || how == "lanes" || how == "block") return;
+    std::vector<double> times;
+    ForStretches([&](int first, int count) {
+      for (int k = 0; k < count; ++k) {
+        const double start = WallUs();
+        runner_->Run(first + k, 1);
+        times.push_back(WallUs() - start);
+      }
+    });
+    result_.slow_frame_us = Quantile(times, 0.99);
+  }
+
+  void Round() {
+    double time = 0, yardstick = 0;
+    ForStretches([&](int first, int count) {
+      yardstick += YardstickUs();
+      const double start = ThreadSeconds();
+      runner_->Run(first, count);
+      time += ThreadSeconds() - start;
+      yardstick += YardstickUs();
+    });
+    result_.time_us.push_back(1e6 * time / result_.frames);
+    result_.yardstick_us.push_back(yardstick / (2 * setting_.budget.stretches));
+  }
+
+  const Measurement& result() const { return result_; }
+
+ private:
+  template <class Work>
+  void ForStretches(Work work) {
+    for (int k = 0; k < setting_.budget.stretches; ++k) {
+      // Of few stretches, some from everywhere.
+      const int all =
+          static_cast<int>(case_.frames.size()) / BenchmarkCase::LeadIn(1);
+      const int stretch = k * all / setting_.budget.stretches;
+      const int lead_in = BenchmarkCase::LeadIn(stretch);
+      runner_->Start(lead_in);
+      work(lead_in + 1, setting_.budget.frames);
+    }
+  }
+
+  const BenchmarkSetting& setting_;
+  const BenchmarkCase& case_;
+  const std::function<AllocationCount()>& allocations_;
+  std::unique_ptr<Runner> runner_;
+  Measurement result_;
+};
+
+}  // namespace
+
+bool BenchmarkErrors::Add(const FrameAnswer& answer, const FrameAnswer& truth,
+                          bool is_load) {
+  if (answer.contacts.size() != truth.contacts.size()) return false;
+  for (std::size_t i = 0; !is_load && i < truth.contacts.size(); ++i) {
+    const PointContact &a = answer.contacts[i], &b = truth.contacts[i];
+    const double force = std::abs(a.normal_N - b.normal_N);
+    Raise(&contact_mm, std::abs(a.arc_mm - b.arc_mm));
+    Raise(&normal_N, force);
+    Raise(&normal_percent, 100 * force / b.normal_N);
+  }
+  Raise(&tip_mm, (answer.tip_pose - truth.tip_pose).head<2>().norm());
+  if (truth.gauges_rad.size() > 0) {
+    Raise(&gauges_rad,
+          (answer.gauges_rad - truth.gauges_rad).cwiseAbs().maxCoeff());
+  }
+  return true;
+}
+
+double Measurement::median_us() const { return Median(time_us); }
+
+std::vector<double> Measurement::ratios() const {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < time_us.size(); ++i) {
+    ratios.push_back(time_us[i] / yardstick_us[i]);
+  }
+  return ratios;
+}
+
+double Measurement::ratio() const { return Quantile(ratios(), kUndisturbed); }
+
+double Measurement::error() const {
+  return std::isnan(errors.contact_mm) ? errors.gauges_rad : errors.contact_mm;
+}
+
+const char* Measurement::error_unit() const {
+  return std::isnan(errors.contact_mm) ? "rad" : "mm";
+}
+
+std::vector<Measurement> MeasureSettings(
+    const std::vector<BenchmarkSetting>& grid,
+    const std::vector<BenchmarkCase>& cases, const MeasuringOptions& options) {
+  std::vector<std::unique_ptr<Bench>> benches;
+  const int all = static_cast<int>(grid.size()) * (options.rounds + 1);
+  int done = 0;
+  const auto advance = [&] {
+    ++done;
+    if (options.progress) options.progress(done, all);
+  };
+  for (const BenchmarkSetting& setting : grid) {
+    benches.push_back(std::make_unique<Bench>(
+        setting, CaseOf(cases, setting.name.scene), options.allocations));
+    benches.back()->Judge();
+    advance();
+  }
+  std::vector<std::size_t> order(benches.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::mt19937 generator(1);
+  for (int round = 0; round < options.rounds; ++round) {
+    std::shuffle(order.begin(), order.end(), generator);
+    for (const std::size_t i : order) {
+      benches[i]->Round();
+      advance();
+    }
+  }
+  std::vector<Measurement> results;
+  for (const auto& bench : benches) results.push_back(bench->result());
+  return results;
+}
+
+}  // namespace finray

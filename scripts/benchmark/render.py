@@ -1,0 +1,152 @@
+#!/usr/bin/python3
+"""Renders report.html of a benchmark: render.py FOLDER, from its benchmark.json."""
+
+import json
+import math
+import pathlib
+import statistics
+import sys
+
+sys.dont_write_bytecode = True
+LOOK = pathlib.Path(__file__).parents[2] / "calib" / "report"
+sys.path.append(str(LOOK))
+
+import jinja2
+
+import pareto_plots
+import scaling_plots
+
+MINUS = "\u2212"
+USES = {"30_Hz": "30 Hz control", "1_kHz": "1 kHz control", "batch": "batch of logs",
+        "reference": "reference"}
+TASKS = {"forward": "Forward: load to shape", "sensing": "Sensing: gauges to contact",
+         "estimation": "Estimation: all of finray_estimate"}
+
+
+def known(value):
+    return isinstance(value, (int, float)) and math.isfinite(value)
+
+
+def figures(value, count=3):
+    """A number to so many significant figures."""
+    if not known(value):
+        return "–"
+    if value == 0:
+        return "0"
+    places = count - 1 - math.floor(math.log10(abs(value)))
+    text = f"{value:.{max(0, places)}f}" if places <= 4 else f"{value:.{count - 1}e}"
+    return text.replace("-", MINUS)
+
+
+def small(value):
+    """An error: one figure and its power of ten."""
+    if not known(value):
+        return "–"
+    return f"{value:.1e}".replace("-", MINUS) if value else "0"
+
+
+def duration(us):
+    if not known(us):
+        return "–"
+    for unit, size in (("s", 1e6), ("ms", 1e3)):
+        if us >= size:
+            return f"{figures(us / size)} {unit}"
+    return f"{figures(us)} µs"
+
+
+def quartiles(setting):
+    return " .. ".join(duration(setting[q]) for q in ("quartile_1_us", "quartile_3_us"))
+
+
+def size(count):
+    if not known(count):
+        return "–"
+    for unit, bytes_ in (("MB", 1e6), ("kB", 1e3)):
+        if count >= bytes_:
+            return f"{figures(count / bytes_)} {unit}"
+    return f"{count:.0f} B"
+
+
+def tiles(run, by_id):
+    out = []
+    log = by_id.get("estimation/one_contact/default/block")
+    paper = by_id.get("sensing/one_contact/paper100/alone")
+    if log:
+        out.append(("a frame of a log", duration(log["median_us"]),
+                    f"default, one core, l_c off by {small(log['contact_error_mm'])} mm"))
+    if log and paper:
+        ratio = paper["quartile_1_over_yardstick"] / log["quartile_1_over_yardstick"]
+        out.append(("against the paper’s Newton", f"{figures(ratio, 2)} times",
+                    f"faster than n = 100, whose l_c is off by {small(paper['contact_error_mm'])} mm"))
+    for r in run["recommended"]:
+        if r["use"] == "1_kHz" and r["id"]:
+            out.append(("live at 1 kHz", f"{figures(r['margin'], 2)} times",
+                        "the period over the slowest hundredth of frames"))
+    threads = run["scaling"]["threads"]
+    if threads:
+        best = max(threads, key=lambda t: t["frames_per_s"])
+        out.append(("throughput", f"{best['frames_per_s'] / 1e3:.0f} 000 /s",
+                    f"frames, {best['threads']} thread" + "s" * (best["threads"] > 1)))
+    return out
+
+
+def verdict(run):
+    checks = run["defaults"]
+    failing = [c for c in checks if not c["holds"]]
+    if not checks:
+        return "No setting of the default was measured.", "", False
+    if not failing:
+        return ("The default lies on the Pareto front.",
+                "In every way of sensing one contact no other setting is 20 % faster and more "
+                "accurate.", True)
+    return ("The default is not the best choice here.",
+            "See the table of defaults: " + ", ".join(c["id"] for c in failing) + ".", False)
+
+
+def groups(run):
+    """Settings by task and scene, in the order they were measured."""
+    out = {}
+    for s in run["settings"]:
+        out.setdefault((s["task"], s["scene"]), []).append(s)
+    front = {i for p in run["pareto"] for i in p["front"]}
+    return [(f"{task}/{scene}", sorted(rows, key=lambda s: s["quartile_1_over_yardstick"]), front)
+            for (task, scene), rows in sorted(out.items(), key=lambda g: list(TASKS).index(g[0][0]))]
+
+
+def main():
+    folder = pathlib.Path(sys.argv[1])
+    run = json.loads((folder / "benchmark.json").read_text("utf-8"))
+    by_id = {s["id"]: s for s in run["settings"]}
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader([pathlib.Path(__file__).parent, LOOK]),
+        autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    environment.filters.update(figures=figures, small=small, duration=duration, size=size,
+                               quartiles=quartiles)
+    headline, meaning, good = verdict(run)
+    yardstick_us = statistics.median(
+        y for s in run["settings"] for y in s["yardstick_us"])
+    scenes = []
+    for task in TASKS:
+        plots = []
+        for front in run["pareto"]:
+            if front["task"] != task:
+                continue
+            plot = pareto_plots.pareto([s for s in run["settings"] if s["task"] == task and
+                                        s["scene"] == front["scene"]], front["front"],
+                                       yardstick_us)
+            if plot:
+                plots.append((front["scene"].replace("_", " "), plot))
+        scenes.append((TASKS[task], plots))
+    page = environment.get_template("benchmark.html.jinja").render(
+        run=run, headline=headline, meaning=meaning, good=good, tiles=tiles(run, by_id),
+        uses=USES, yardstick_us=yardstick_us, by_id=by_id, scenes=scenes, groups=groups(run),
+        key=pareto_plots.key(run["settings"]), links=scaling_plots.links(run["scaling"]["links"]),
+        frames=scaling_plots.frames(run["scaling"]["frames"]),
+        threads=scaling_plots.threads(run["scaling"]["threads"]))
+    temporary = folder / "report.html.part"
+    temporary.write_text(page, "utf-8")
+    temporary.rename(folder / "report.html")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,56 @@
+"""How time grows with links, frames and threads."""
+
+import matplotlib.pyplot as plt
+
+from plot_style import FAMILIES
+from theme import AFTER, LINE, QUIET, svg
+
+
+def links(solvers):
+    if not solvers:
+        return None
+    figure, axes = plt.subplots(figsize=(4.7, 3.4))
+    for one in solvers:
+        task, family = one["solver"].split()
+        axes.plot(one["links"], one["time_us"], color=FAMILIES[family][0],
+                  marker="o" if task == "forward" else "s", ms=4, lw=1.2,
+                  ls="-" if task == "forward" else "--",
+                  label=f"{one['solver']}, n to the {one['exponent']:.2f}")
+    axes.set(xscale="log", yscale="log", xlabel="links n", ylabel="time a frame (µs)")
+    axes.grid(True, which="major", color=LINE, lw=0.5)
+    axes.minorticks_off()
+    axes.set_xticks([25, 50, 100, 200, 400, 800, 1600],
+                    labels=["25", "50", "100", "200", "400", "800", "1600"])
+    axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=2, borderaxespad=0.2)
+    return svg(figure, "Time by the number of links")
+
+
+def frames(batches):
+    if not batches:
+        return None
+    figure, axes = plt.subplots(figsize=(4.7, 3.4))
+    axes.plot([b["frames"] for b in batches],
+              [1e6 * b["median_s"] / b["frames"] for b in batches], color=AFTER, marker="o",
+              ms=4, lw=1.2)
+    axes.axhline(1e6 * batches[-1]["median_s"] / batches[-1]["frames"], color=QUIET, lw=1, ls=":")
+    axes.set(xscale="log", yscale="log", xlabel="frames of a batch",
+             ylabel="time a frame, all told (µs)")
+    axes.grid(True, which="major", color=LINE, lw=0.5)
+    axes.minorticks_off()
+    return svg(figure, "Time a frame by the number of frames")
+
+
+def threads(batches):
+    if len(batches) < 2:
+        return None
+    figure, axes = plt.subplots(figsize=(4.7, 3.4))
+    counts = [b["threads"] for b in batches]
+    one = batches[0]["frames_per_s"]
+    axes.plot(counts, [c * one / 1e3 for c in counts], color=QUIET, lw=1, ls=":",
+              label="in proportion")
+    axes.plot(counts, [b["frames_per_s"] / 1e3 for b in batches], color=AFTER, marker="o",
+              ms=4, lw=1.2, label="measured")
+    axes.set(xlabel="threads", ylabel="1000 frames / s", xticks=counts)
+    axes.set_ylim(bottom=0)
+    axes.legend(loc="upper left")
+    return svg(figure, "Frames a second by threads")
