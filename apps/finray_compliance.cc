@@ -124,7 +124,7 @@ void PrintSummary(const Compliance& found) {
   for (const ComplianceTrial& trial : found.trials) {
     points += trial.fit.points;
     standing += trial.fit.standing;
-    left_out += trial.fit.left_out;
+    left_out += trial.fit.left_out.size();
     rows += trial.rows;
   }
   std::printf(

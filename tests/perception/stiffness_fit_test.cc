@@ -111,15 +111,43 @@ TEST(StiffnessFitTest, LeavesOutWhatContradictsTheOthers) {
       if (i % 8 == 1) points.back().force_N = 50 + normal(generator);
     }
     const StiffnessFit fit = FitStiffness(points, 1);
-    EXPECT_EQ(fit.left_out, 5u) << model_error;
+    EXPECT_EQ(fit.left_out.size(), 5u) << model_error;
     EXPECT_EQ(fit.points, 35u);
     EXPECT_LT(fit.largest_force_N, 10);
     const StiffnessFit all = FitStiffness(clean, 1);
-    EXPECT_EQ(all.left_out, 0u);
+    EXPECT_TRUE(all.left_out.empty());
     EXPECT_EQ(all.points, 40u);
     EXPECT_NEAR(fit.coefficients[1], all.coefficients[1],
                 3 * std::sqrt(fit.covariance(1, 1)));
   }
+}
+
+TEST(StiffnessFitTest, FewPointsAreKept) {
+  std::vector<ForcePoint> points;
+  for (int i = 0; i < 5; ++i) {
+    points.push_back(PointOf(i, 2 * i, 0.03, 0.03));
+    points.back().direction = i < 3 ? 1 : -1;
+  }
+  points[1].force_N += 4;
+  const StiffnessFit fit = FitStiffness(points, 2);
+  EXPECT_EQ(fit.points, 5u);
+  EXPECT_TRUE(fit.left_out.empty());
+}
+
+// Points with large std say little, also of what the others are.
+TEST(StiffnessFitTest, UnsurePointsDoNotJudge) {
+  std::mt19937_64 generator(9);
+  std::normal_distribution<double> normal;
+  std::vector<ForcePoint> points;
+  for (int i = 0; i < 40; ++i) {
+    const double u = 0.1 * i;
+    points.push_back(PointOf(u, 2 * u + 0.03 * normal(generator), 0.01, 0.03));
+    if (i % 10 == 1) points.back().force_N += 50;
+    if (i % 20 == 5) points.back() = PointOf(u, 2 * u + 50, 0.01, 30);
+  }
+  const StiffnessFit fit = FitStiffness(points, 1);
+  EXPECT_EQ(fit.left_out.size(), 4u);
+  EXPECT_NEAR(fit.coefficients[1], 2, 0.02);
 }
 
 TEST(StiffnessFitTest, RefusesTooFewPointsAndFallingForces) {

@@ -95,8 +95,8 @@ class CalibrationProblem {
   /// contact put where it explains the frame best. No rows: it cannot be
   /// evaluated.
   void FitContacts(const std::vector<int>& frames, const Visitor& visit);
-  /// The same where it explains most of the frame, by Cauchy's loss. Contacts
-  /// are not kept: they are guessed anew, from all but the force.
+  /// The same where it explains most of the frame, by Cauchy's loss. What is
+  /// kept of contacts is a new guess, from all but the force.
   void FitContactsRobustly(const std::vector<int>& frames,
                            const Visitor& visit);
 

@@ -78,10 +78,10 @@ std::string CalibrationYaml(CalibrationProblem& problem,
                             const CalibrationResult& result,
                             const CalibrationInputs& inputs);
 
-/// A CSV of one row a frame: log, time, kind (contact, free), held_out, reference force,
-/// force and place from the gauges before and after, l_c and f_c of the fit,
-/// gauge residuals in std (empty where held out or rejected), and why a
-/// frame was rejected.
+/// A CSV of one row a frame: log, time, kind (contact, free, bench), held_out,
+/// reference force, force and place from the gauges before and after, l_c and
+/// f_c of the fit, gauge residuals in std (empty where held out or rejected),
+/// and why a frame was rejected.
 std::string CalibrationFramesCsv(CalibrationProblem& problem,
                                  const CalibrationResult& result);
 

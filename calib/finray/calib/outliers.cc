@@ -119,7 +119,7 @@ void SetScale(const std::vector<FrameChi2>& frames, Outliers* found) {
 
 void Judge(const std::vector<FrameChi2>& frames, CalibrationProblem* problem,
            Outliers* found) {
-  const double count = static_cast<double>(frames.size());
+  const auto count = static_cast<double>(frames.size() + found->reasons.size());
   const double threshold = Outliers::kFalseAlarms / count;
   std::vector<int> unexplained;
   std::map<int, FrameChi2> chi2_of;

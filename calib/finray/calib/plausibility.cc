@@ -43,6 +43,7 @@ template <class... Values>
 }
 
 struct Press {
+  int log;
   double force_N, x_mm, y_mm;
 };
 
@@ -51,7 +52,8 @@ std::vector<Press> Presses(const std::vector<const CalibrationFrame*>& frames) {
   for (const CalibrationFrame* frame : frames) {
     const double force = ReferenceForce(*frame);
     if (!std::isfinite(force) || !frame->object_mm.allFinite()) continue;
-    presses.push_back({force, frame->object_mm.x(), frame->object_mm.y()});
+    presses.push_back(
+        {frame->log, force, frame->object_mm.x(), frame->object_mm.y()});
   }
   return presses;
 }
@@ -64,13 +66,16 @@ double Range(const std::vector<Press>& presses, double Press::*quantity) {
   return values[values.size() * 9 / 10] - values[values.size() / 10];
 }
 
-// Of force and x, about their means in each tenth of the finger's height.
+// Of force and x, about their means in each tenth of the finger's height of
+// each log; 0 if x varies there by no more than a few std.
 double CorrelationOfForceAndX(const std::vector<Press>& presses,
-                              double height_mm) {
-  std::map<int, std::vector<Press>> tenths;
+                              double height_mm, double object_std_mm) {
+  constexpr double kMove = 5;  // std
+  std::map<std::pair<int, int>, std::vector<Press>> tenths;
   for (const Press& press : presses) {
-    const double tenth = std::floor(10 * press.y_mm / height_mm);
-    tenths[static_cast<int>(std::clamp(tenth, -1e6, 1e6))].push_back(press);
+    const double tenth =
+        std::clamp(std::floor(10 * press.y_mm / height_mm), -1e6, 1e6);
+    tenths[{press.log, static_cast<int>(tenth)}].push_back(press);
   }
   double ff = 0, fx = 0, xx = 0;
   for (const auto& [tenth, its] : tenths) {
@@ -85,7 +90,10 @@ double CorrelationOfForceAndX(const std::vector<Press>& presses,
       xx += (press.x_mm - x) * (press.x_mm - x);
     }
   }
-  return ff > 0 && xx > 0 ? fx / std::sqrt(ff * xx) : 0;
+  const auto dof = static_cast<double>(presses.size() - tenths.size());
+  return ff > 0 && xx > dof * std::pow(kMove * object_std_mm, 2)
+             ? fx / std::sqrt(ff * xx)
+             : 0;
 }
 
 // What holds wherever the object's origin is.
@@ -104,8 +112,8 @@ void RefuseImplausibleMotion(const std::vector<Press>& presses,
         "object_x_mm and object_y_mm in mm, and of the same rows?",
         change, moved);
   }
-  const double correlation =
-      CorrelationOfForceAndX(presses, finger.front_length_mm);
+  const double correlation = CorrelationOfForceAndX(
+      presses, finger.front_length_mm, plan.object_std_mm);
   if (correlation < kLeastCorrelation) {
     Refuse(
         "logs: the force falls as object_x_mm rises (correlation %.2f): +x "

@@ -12,8 +12,9 @@ namespace finray {
 ///    l_0^2;
 ///  - the object hardly moves while forces change: 10 to 90 % of them by more
 ///    than kMostStiffness, in EI / l_0^3;
-///  - the force falls as the object moves in: their correlation, in each tenth
-///    of the finger's height, is below kLeastCorrelation;
+///  - the force falls as the object moves in: their correlation, in each log
+///  and
+///    tenth of the finger's height, is below kLeastCorrelation;
 ///  - fewer than half of the objects can touch the finger where they are, the
 ///    object's origin being fixed;
 ///  - what these need of force, the median force is off by more than kFactor.

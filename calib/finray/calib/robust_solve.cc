@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
+#include <utility>
 
 #include "finray/calib/outliers.h"
 
@@ -95,20 +98,24 @@ RobustSolution SolveRobustly(CalibrationProblem* problem) {
   const auto solve = [&] {
     return problem->few() ? problem->Solve() : problem->SolveOn();
   };
+  // Those of other frames stay rejected.
   const auto reject_among = [&](const std::vector<int>& frames) {
-    problem->SetRejected(FindOutliersAmong(frames, problem).reasons);
+    std::map<int, std::string> reasons = problem->rejected();
+    for (const int frame : frames) reasons.erase(frame);
+    reasons.merge(FindOutliersAmong(frames, problem).reasons);
+    problem->SetRejected(std::move(reasons));
   };
   const SolveReport first = problem->SolveSome(kFewIterations);
   reject_among(problem->SomeFrames());
   result.starts = SolveFromStarts(problem, first.iterations);
+  int iterations = BestOf(result.starts).iterations;
   // More and more frames, each time spared their outliers.
   if (const std::vector<int> many = problem->ManyFrames(); !many.empty()) {
     reject_among(many);
-    problem->SolveMany();
+    iterations += problem->SolveMany().iterations;
   }
   reject_among(problem->candidates());
   result.solve = solve();
-  int iterations = BestOf(result.starts).iterations;
   for (; result.rounds < kMostRounds; ++result.rounds) {
     const Outliers outliers = FindOutliers(problem);
     const auto same_frame = [](const auto& a, const auto& b) {

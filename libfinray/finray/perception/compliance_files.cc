@@ -2,6 +2,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -20,7 +21,7 @@ void EmitTrial(const ComplianceTrial& trial, YAML::Emitter* emitter) {
        << "rows" << YAML::Value << trial.rows << YAML::Key << "points"
        << YAML::Value << fit.points << YAML::Key << "standing" << YAML::Value
        << fit.standing << YAML::Key << "left_out" << YAML::Value
-       << fit.left_out;
+       << fit.left_out.size();
   yaml << YAML::Key << "direction_deg" << YAML::Value
        << trial.direction.angle_rad / kDegree << YAML::Key
        << "direction_std_deg" << YAML::Value
@@ -58,6 +59,9 @@ FrameTable PointTable(const Compliance& found) {
       set("force_std_N", std::sqrt(point.covariance(1, 1)));
       set("direction", point.direction);
       set("slides", point.slides ? 1 : 0);
+      const std::vector<std::size_t>& rows = trial.fit.left_out;
+      set("left_out",
+          std::count(rows.begin(), rows.end(), point.row) > 0 ? 1 : 0);
       ++next;
     }
   }

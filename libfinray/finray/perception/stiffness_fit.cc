@@ -9,6 +9,8 @@
 #include <stdexcept>
 
 #include "finray/io/error.h"
+#include "finray/perception/contradicting_points.h"
+#include "finray/perception/force_law.h"
 #include "finray/sensing/chi_squared.h"
 
 namespace finray {
@@ -20,25 +22,6 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 constexpr double kUnexplained = 0.001;
-
-// Points that are left out though they belong to the law, expected in a trial.
-constexpr double kFalseAlarms = 0.01;
-// Of the points; if there are more, the law is wrong, or the std.
-constexpr double kMostLeftOut = 0.25;
-constexpr double kMedianOfChi2 = 0.4549;  // with one degree of freedom
-constexpr int kAnnealingSteps = 20;
-
-double Law(const VectorXd& a, int degree, double u) {
-  double force = 0;
-  for (int m = degree; m >= 0; --m) force = force * u + a[m];
-  return force;
-}
-
-double Slope(const VectorXd& a, int degree, double u) {
-  double slope = 0;
-  for (int m = degree; m >= 1; --m) slope = slope * u + m * a[m];
-  return slope;
-}
 
 // Whitened (u_i - v, F_i - F(v)); blocks: the law's parameters, v.
 class PointCost : public ceres::CostFunction {
@@ -60,9 +43,9 @@ class PointCost : public ceres::CostFunction {
     const double v = *parameters[1];
     const double friction = friction_ ? point_.direction * a[degree_ + 1] : 0;
     Eigen::Map<Vector2d> residual(residuals);
-    residual =
-        whitening_ * Vector2d(point_.displacement_mm - v,
-                              point_.force_N - Law(a, degree_, v) - friction);
+    residual = whitening_ *
+               Vector2d(point_.displacement_mm - v,
+                        point_.force_N - ForceOf(a, degree_, v) - friction);
     if (jacobians == nullptr) return true;
     if (jacobians[0] != nullptr) {
       Eigen::RowVectorXd by_law(size);
@@ -74,7 +57,7 @@ class PointCost : public ceres::CostFunction {
     }
     if (jacobians[1] != nullptr) {
       Eigen::Map<Vector2d>{jacobians[1]} =
-          whitening_ * Vector2d(-1, -Slope(a, degree_, v));
+          whitening_ * Vector2d(-1, -SlopeOf(a, degree_, v));
     }
     return true;
   }
@@ -95,81 +78,15 @@ MatrixXd Information(const std::vector<ForcePoint>& points, int degree,
     VectorXd row(a.size());
     for (int m = 0; m <= degree; ++m) row[m] = std::pow(v[i], m);
     if (friction) row[degree + 1] = points[i].direction;
-    const Vector2d across(-Slope(a, degree, v[i]), 1);
+    const Vector2d across(-SlopeOf(a, degree, v[i]), 1);
     information +=
         row * row.transpose() / across.dot(points[i].covariance * across);
   }
   return information;
 }
 
-// F as a linear function of the law's parameters, u being the true one.
-struct Rows {
-  MatrixXd left;
-  VectorXd right;
-};
-Rows RowsOf(const std::vector<ForcePoint>& points, int degree, bool friction) {
-  const auto count = static_cast<Index>(points.size());
-  Rows rows{MatrixXd(count, degree + 1 + friction), VectorXd(count)};
-  for (Index i = 0; i < count; ++i) {
-    const ForcePoint& point = points[static_cast<std::size_t>(i)];
-    for (int m = 0; m <= degree; ++m) {
-      rows.left(i, m) = std::pow(point.displacement_mm, m);
-    }
-    if (friction) rows.left(i, degree + 1) = point.direction;
-    rows.right[i] = point.force_N;
-  }
-  return rows;
-}
-
-// Squared distance of each point from a law, across it.
-std::vector<double> Distances(const std::vector<ForcePoint>& points, int degree,
-                              bool friction, const VectorXd& a) {
-  std::vector<double> chi2;
-  for (const ForcePoint& point : points) {
-    const double u = point.displacement_mm;
-    const double off = point.force_N - Law(a, degree, u) -
-                       (friction ? point.direction * a[degree + 1] : 0);
-    const Vector2d across(-Slope(a, degree, u), 1);
-    chi2.push_back(off * off / across.dot(point.covariance * across));
-  }
-  return chi2;
-}
-
-// Points that the law of most of them explains, the errors being as large as
-// they are for the half of them.
-std::vector<ForcePoint> Explained(const std::vector<ForcePoint>& points,
-                                  int degree, bool friction) {
-  // F on u, with Cauchy's weights of ever smaller scales: with errors of both
-  // a line might go up through wild points.
-  const Rows rows = RowsOf(points, degree, friction);
-  VectorXd a = rows.left.colPivHouseholderQr().solve(rows.right);
-  std::vector<double> chi2 = Distances(points, degree, friction, a);
-  double variance = 1;
-  for (int step = 0; step < kAnnealingSteps; ++step) {
-    std::vector<double> sorted = chi2;
-    const auto middle = sorted.begin() + static_cast<long>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    variance = std::max(1.0, *middle / kMedianOfChi2);
-    VectorXd weights(rows.right.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      weights[static_cast<Index>(i)] = 1 / std::sqrt(1 + chi2[i] / variance);
-    }
-    a = (weights.asDiagonal() * rows.left)
-            .colPivHouseholderQr()
-            .solve(weights.cwiseProduct(rows.right));
-    chi2 = Distances(points, degree, friction, a);
-  }
-  std::vector<ForcePoint> explained;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (ChiSquaredTail(chi2[i] / variance, 1) >
-        kFalseAlarms / static_cast<double>(points.size())) {
-      explained.push_back(points[i]);
-    }
-  }
-  const bool too_many = static_cast<double>(points.size() - explained.size()) >
-                        kMostLeftOut * static_cast<double>(points.size());
-  return too_many ? points : explained;
-}
+// One spare point more than the law has parameters, and one for chi2.
+int LeastPoints(int degree, bool friction) { return degree + 3 + friction; }
 
 StiffnessFit FitDegree(const std::vector<ForcePoint>& points, int degree,
                        bool friction) {
@@ -177,7 +94,7 @@ StiffnessFit FitDegree(const std::vector<ForcePoint>& points, int degree,
   fit.degree = degree;
   fit.has_friction = friction;
   // Least squares of F on u to start from.
-  const Rows rows = RowsOf(points, degree, friction);
+  const LawRows rows = LawRowsOf(points, degree, friction);
   VectorXd a = rows.left.colPivHouseholderQr().solve(rows.right);
   std::vector<double> v;
   for (const ForcePoint& point : points) v.push_back(point.displacement_mm);
@@ -234,7 +151,7 @@ double StiffnessFit::friction_std_N() const {
 }
 
 double StiffnessFit::ForceAt(double displacement_mm) const {
-  return Law(coefficients, degree, displacement_mm);
+  return ForceOf(coefficients, degree, displacement_mm);
 }
 
 double StiffnessFit::DisplacementAt(double force_N) const {
@@ -267,23 +184,28 @@ StiffnessFit FitStiffness(const std::vector<ForcePoint>& points,
         "least " +
         std::to_string(kLeastPoints));
   }
-  const auto both_ways = [&] {
+  const auto both_ways = [](const std::vector<ForcePoint>& some) {
     const auto forward =
-        std::count_if(sliding.begin(), sliding.end(),
+        std::count_if(some.begin(), some.end(),
                       [](const ForcePoint& p) { return p.direction > 0; });
     return forward >= 2 &&
-           static_cast<std::ptrdiff_t>(sliding.size()) - forward >= 2;
+           static_cast<std::ptrdiff_t>(some.size()) - forward >= 2;
   };
-  const std::size_t moving = sliding.size();
+  const std::size_t standing = points.size() - sliding.size();
   // Judged by the law that can follow most.
-  const int judge = std::min(most_degree, static_cast<int>(moving) - 3 -
-                                              static_cast<int>(both_ways()));
-  if (judge >= 1) sliding = Explained(sliding, judge, both_ways());
-  const bool friction = both_ways();
+  const int judge =
+      std::min(most_degree, static_cast<int>(sliding.size()) -
+                                LeastPoints(0, both_ways(sliding)));
+  const std::vector<std::size_t> left_out = TakeOutContradicting(
+      std::max(1, judge), both_ways(sliding), kLeastPoints + 1, &sliding);
+  const bool friction = both_ways(sliding);
   std::optional<StiffnessFit> best;
   double least = 0;
   for (int degree = 1; degree <= most_degree; ++degree) {
-    if (static_cast<int>(sliding.size()) < degree + 3 + friction) break;
+    if (degree > 1 &&
+        static_cast<int>(sliding.size()) < LeastPoints(degree, friction)) {
+      break;
+    }
     StiffnessFit fit = FitDegree(sliding, degree, friction);
     const double price = static_cast<double>(fit.coefficients.size()) *
                          std::log(static_cast<double>(sliding.size()));
@@ -291,7 +213,7 @@ StiffnessFit FitStiffness(const std::vector<ForcePoint>& points,
     bool rises = true;
     for (int k = 0; k <= 20; ++k) {
       const double u = fit.least_mm + (fit.largest_mm - fit.least_mm) * k / 20;
-      rises = rises && Slope(fit.coefficients, degree, u) > 0;
+      rises = rises && SlopeOf(fit.coefficients, degree, u) > 0;
     }
     if (best && (!rises || fit.chi2 + price >= least)) continue;
     least = fit.chi2 + price;
@@ -300,8 +222,8 @@ StiffnessFit FitStiffness(const std::vector<ForcePoint>& points,
   if (!(best->coefficients[1] > 0) && best->degree == 1) {
     throw InputError("the force does not grow with the displacement");
   }
-  best->standing = points.size() - moving;
-  best->left_out = moving - sliding.size();
+  best->standing = standing;
+  best->left_out = left_out;
   return *best;
 }
 

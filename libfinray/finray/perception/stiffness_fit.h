@@ -29,8 +29,8 @@ struct StiffnessFit {
   int dof = 0;
   double least_force_N = 0, largest_force_N = 0;  ///< of the points
   double least_mm = 0, largest_mm = 0;
-  /// Used; not used as the slider stood; left out as no law explains them.
-  std::size_t points = 0, standing = 0, left_out = 0;
+  std::size_t points = 0, standing = 0;  ///< used; not, as the slider stood
+  std::vector<std::size_t> left_out;     ///< rows that contradict the others
 
   double friction_N() const;  ///< NaN if it is not fitted
   double friction_std_N() const;
@@ -43,13 +43,10 @@ struct StiffnessFit {
 
 constexpr std::size_t kLeastPoints = 5;
 
-/// Fits the points that slide, less those that contradict the law of most
-/// others (a light touch that reads like a heavy one), at most a quarter: a
-/// point is left out whose distance, in units of what the middle one's says the
-/// std to be, at least 1, noise has less often than once in a hundred trials.
-/// The degree is the one from 1 to `most_degree`
-/// with the least chi2 + p log(n), p parameters from n points. Throws
-/// InputError for fewer than kLeastPoints of them.
+/// Fits the points that slide, less those that contradict most others
+/// (contradicting_points.h). The degree is the one from 1 to `most_degree` with
+/// the least chi2 + p log(n), p parameters from n points. Throws InputError for
+/// fewer than kLeastPoints of them.
 StiffnessFit FitStiffness(const std::vector<ForcePoint>& points,
                           int most_degree);
 
