@@ -80,7 +80,7 @@ def tally_text(sections):
     found = tally(sections)
     return (f"{found['rows']} rows. Without a preview {found['beaten']} of {found['figures']} beat the paper, with one "
             f"{found['preview_beaten']} of {found['preview_figures']}; of {found['findings']} without a number to beat "
-            f"{found['findings'] - found['differs']} are the same and {found['differs']} differ.")
+            f"{found['findings'] - found['differs']} are the same and {found['differs']} {'differs' if found['differs'] == 1 else 'differ'}.")
 
 
 def sections_of(experiment, folder):
@@ -94,7 +94,7 @@ def sections_of(experiment, folder):
         raise BadInput(f"{of}: no mean: {error}") from None
     except ZeroDivisionError as error:
         raise BadInput(f"{of}: {error}") from None
-    except (IndexError, StopIteration, TypeError, ValueError) as error:
+    except (AttributeError, IndexError, StopIteration, TypeError, ValueError) as error:
         raise BadInput(f"{of}: values not as expected: {' '.join(str(error).split())}") from None
 
 
