@@ -41,7 +41,8 @@ def tally(sections):
     findings = [row for row in every if not isinstance(row, Comparison)]
     own = [row for row in rows if not row.preview]
     return {"rows": len(every), "findings": len(findings),
-            "differs": sum(row.verdict == DIFFERS for row in findings), "figures": len(own), "beaten": sum(row.beats for row in own),
+            "differs": sum(row.verdict == DIFFERS for row in findings),
+            "figures": len(own), "beaten": sum(row.beats for row in own),
             "worse": [row for row in own if not row.beats],
             "preview_figures": sum(row.preview for row in rows),
             "preview_beaten": sum(row.preview and row.beats for row in rows)}
@@ -80,7 +81,8 @@ def tally_text(sections):
     found = tally(sections)
     return (f"{found['rows']} rows. Without a preview {found['beaten']} of {found['figures']} beat the paper, with one "
             f"{found['preview_beaten']} of {found['preview_figures']}; of {found['findings']} without a number to beat "
-            f"{found['findings'] - found['differs']} are the same and {found['differs']} {'differs' if found['differs'] == 1 else 'differ'}.")
+            f"{found['findings'] - found['differs']} are the same and {found['differs']} "
+            f"{'differs' if found['differs'] == 1 else 'differ'}.")
 
 
 def sections_of(experiment, folder):

@@ -117,7 +117,7 @@ def prepare(out):
         (out / name).unlink(missing_ok=True)
     for name in FOLDERS:
         (out / name).mkdir(parents=True)
-        (out / name / MARKER).write_text("scripts/paper_experiments wrote this folder and deletes it when it runs again.\n")
+        (out / name / MARKER).write_text("scripts/paper_experiments deletes this folder when it runs again.\n")
 
 
 def main():

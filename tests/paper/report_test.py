@@ -57,9 +57,10 @@ class VerdictTest(unittest.TestCase):
 
     def test_what_differs_is_counted(self):
         found = [Finding("order", "Fig. 20", "x", "y", "z", agrees, "") for agrees in (True, False, False)]
-        tally = report.tally([Section("a", "b", [figure(0.4), *found])])
+        section = Section("a", "b", [figure(0.4), *found])
+        tally = report.tally([section])
         self.assertEqual((tally["rows"], tally["findings"], tally["differs"]), (4, 3, 2))
-        self.assertIn("4 rows. Without a preview 1 of 1 beat", report.tally_text([Section("a", "b", [figure(0.4), *found])]))
+        self.assertIn("4 rows. Without a preview 1 of 1 beat", report.tally_text([section]))
 
 
 class PageTest(unittest.TestCase):
@@ -125,7 +126,8 @@ class InputTest(unittest.TestCase):
         write(folder / "points.csv", "object,trial,displacement_mm,force_N,left_out",
               [("spring", 1, 1, 0.2, 0), ("spring", 1, 2, 0.4, 0), ("spring", 1, 3, 50, 0), ("spring", 1, 4, 60, 1)])
         (folder / "compliance.yaml").write_text(
-            "trials: [{object: spring, trial: 1, left_out: 1, stiffness_N_per_mm: 0.25, std_N_per_mm: 0.1, chi2: 9, dof: 1}]")
+            "trials: [{object: spring, trial: 1, left_out: 1, stiffness_N_per_mm: 0.25, std_N_per_mm: 0.1, "
+            "chi2: 9, dof: 1}]")
         why = stiffness.why_trial([self.folder / "seed_1"], [{"name": "spring", "N_per_mm": 0.2}])
         self.assertIn("1 points left out", why)
         self.assertIn("has 1 of 3 points of up to 50 N where the spring has 0.6 N at most", why)
