@@ -2,12 +2,16 @@
 CSS variables in the SVG. Colours are Okabe and Ito's, apart for colour-blind
 readers; series differ in their markers too."""
 
+import atexit
 import io
 import os
 import re
+import shutil
 import tempfile
 
-os.environ.setdefault("MPLCONFIGDIR", tempfile.mkdtemp(prefix="finray_mpl_"))
+if "MPLCONFIGDIR" not in os.environ:
+    os.environ["MPLCONFIGDIR"] = tempfile.mkdtemp(prefix="finray_mpl_")
+    atexit.register(shutil.rmtree, os.environ["MPLCONFIGDIR"], ignore_errors=True)
 
 import matplotlib
 

@@ -3,7 +3,13 @@
 import dataclasses
 import math
 
-BEATS, EQUALS, WORSE = "beats", "same", "does not beat"
+BEATS, EQUALS, WORSE, DIFFERS = "beats", "same", "does not beat", "differs"
+
+
+def worst(items, key=lambda number: number):
+    """The item of the largest key; one whose key is NaN, if there is any, as Python's
+    max() would pass it over: max([0.1, nan]) is 0.1."""
+    return max(items, key=lambda item: (math.isnan(key(item)), key(item)))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -39,7 +45,7 @@ class Comparison:
     @property
     def ours_text(self):
         if math.isnan(self.ours):
-            return "refused"
+            return "none"
         places = 3 if abs(self.ours) < 1 else 2 if abs(self.ours) < 10 else 1
         return f"{self.ours:.{places}f} {self.unit}"
 
@@ -57,7 +63,7 @@ class Finding:
 
     @property
     def verdict(self):
-        return EQUALS if self.agrees else "differs"
+        return EQUALS if self.agrees else DIFFERS
 
 
 @dataclasses.dataclass

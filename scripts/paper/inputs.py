@@ -3,6 +3,7 @@ line that names the program which writes it."""
 
 import csv
 import math
+import pathlib
 
 import yaml
 
@@ -11,21 +12,26 @@ class BadInput(Exception):
     pass
 
 
-def _open(path, written_by):
+def _text(path, written_by):
     try:
-        return open(path, newline="", encoding="utf-8")
+        return pathlib.Path(path).read_text("utf-8")
     except OSError as error:
         raise BadInput(f"{path}: {error.strerror}; {written_by} writes it") from None
+    except UnicodeDecodeError as error:
+        raise BadInput(f"{path}: byte {error.start + 1} is not UTF-8; {written_by} writes it") from None
 
 
-def read_csv(path, columns, written_by):
-    """Rows as dicts: numbers where a cell is one, NaN where it is empty."""
-    with _open(path, written_by) as file:
-        reader = csv.DictReader(line for line in file if not line.startswith("#"))
-        for column in columns:
-            if column not in (reader.fieldnames or ()):
-                raise BadInput(f"{path}: no column {column}; {written_by} writes it")
-        rows = [{name: _cell(row[name]) for name in columns} for row in reader]
+def read_csv(path, columns, written_by, optional=()):
+    """Rows as dicts: numbers where a cell is one, NaN where it is empty; optional
+    columns if they are there."""
+    lines = _text(path, written_by).splitlines()
+    reader = csv.DictReader(line for line in lines if not line.startswith("#"))
+    there = reader.fieldnames or ()
+    for column in columns:
+        if column not in there:
+            raise BadInput(f"{path}: no column {column}; {written_by} writes it")
+    names = [*columns, *(name for name in optional if name in there)]
+    rows = [{name: _cell(row[name]) for name in names} for row in reader]
     if not rows:
         raise BadInput(f"{path}: no rows; {written_by} writes them")
     return rows
@@ -41,11 +47,10 @@ def _cell(text):
 
 
 def read_yaml(path, keys, written_by):
-    with _open(path, written_by) as file:
-        try:
-            content = yaml.safe_load(file)
-        except yaml.YAMLError as error:
-            raise BadInput(f"{path}: {' '.join(str(error).split())}") from None
+    try:
+        content = yaml.safe_load(_text(path, written_by))
+    except yaml.YAMLError as error:
+        raise BadInput(f"{path}: {' '.join(str(error).split())}") from None
     for key in keys:
         if not isinstance(content, dict) or key not in content:
             raise BadInput(f"{path}: no key {key}; {written_by} writes it")

@@ -19,22 +19,26 @@ FINGER = ROOT / "configs" / "fingers" / "paper_140mm.yaml"
 SCENES = ROOT / "configs" / "scenes"
 CONTROL = ("fixed_harmonic", "fixed_step", "moving_harmonic", "moving_triangular", "two_finger",
            "two_finger_ramped")
-REFUSALS = (2, 4)  # exit codes: too few usable touches, or not from all sides
+# What finray_reconstruct says, by exit code, when it refuses touches.
+REFUSALS = {2: "too few touches: ", 4: "badly spread touches: "}
+FOLDERS = ("contact_frames", "force_sensing", "outlines", "stiffness", "force_control")
+MARKER = ".paper_experiments"  # in folders that a run may delete
+PATTERNS = "*?[]{},\\"  # what --logs reads as patterns or as the end of a name
 
 
 class Failed(Exception):
     pass
 
 
-def run(*words, allowed=()):
-    """The tool's output; its one line of what is wrong where it refuses."""
+def run(*words, refusals=None):
+    """The tool's output; None where it refuses as it may."""
     done = subprocess.run([str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                           text=True)
     if done.returncode == 0:
         return done.stdout
-    if done.returncode in allowed:
-        return None
     last = (done.stderr.strip().splitlines() or ["no message"])[-1]
+    if refusals and done.returncode in refusals and refusals[done.returncode] in last:
+        return None
     raise Failed(f"{pathlib.Path(words[0]).name}: {last} (exit code {done.returncode})")
 
 
@@ -63,7 +67,7 @@ def outlines(build, out, seed):
             run(build / "finray_reconstruct",
                 *flags(finger=FINGER, scene=scene, logs=log, truth=folder / f"{name}.outline.csv",
                        plots="false", out_dir=folder / kind / name),
-                allowed=REFUSALS if kind == "auto" else ())
+                refusals=REFUSALS if kind == "auto" else None)
 
 
 def stiffness(build, out, seed):
@@ -95,16 +99,38 @@ def tasks(build, out, quick):
     yield force_sensing, (build, out)
 
 
+def prepare(out):
+    """Clears what an earlier run left, perhaps with more seeds: it is not of this one.
+    What is not marked as a run's own is left alone and refused."""
+    wrong = sorted(set(PATTERNS) & set(str(out)))
+    if wrong:
+        raise Failed(f"OUT_DIR {out}: {' '.join(wrong)} in a name cannot be told from a pattern of logs; expected a "
+                     f"name without any of {PATTERNS}")
+    old = [out / name for name in FOLDERS if os.path.lexists(out / name)]
+    for folder in old:
+        if folder.is_symlink() or not (folder / MARKER).is_file():
+            raise Failed(f"{folder}: there already and not marked as an earlier run's (no file {MARKER} in it); move "
+                         "it away or take another OUT_DIR")
+    for folder in old:
+        shutil.rmtree(folder)
+    for name in ("report.html", "table.md"):
+        (out / name).unlink(missing_ok=True)
+    for name in FOLDERS:
+        (out / name).mkdir(parents=True)
+        (out / name / MARKER).write_text("scripts/paper_experiments deletes this folder when it runs again.\n")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("out", type=pathlib.Path)
     arguments = parser.parse_args()
-    # What an earlier run left, perhaps with more seeds, is not of this one.
-    for name in ("contact_frames", "force_sensing", "outlines", "stiffness", "force_control"):
-        shutil.rmtree(arguments.out / name, ignore_errors=True)
-    arguments.out.mkdir(parents=True, exist_ok=True)
+    try:
+        prepare(arguments.out)
+    except (Failed, OSError) as error:
+        print(f"paper_experiments: {error}", file=sys.stderr)
+        sys.exit(2)
     start = time.monotonic()
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         running = {pool.submit(task, *words): " ".join([task.__name__, *map(str, words[2:])])

@@ -14,8 +14,11 @@ sys.path.insert(0, str(ROOT / "scripts" / "paper"))
 
 import contact_frames
 import force_control
+import outlines
 import report
-from comparison import Comparison, Finding, Section
+import simulate
+import stiffness
+from comparison import Comparison, Finding, Section, worst
 from inputs import BadInput, read_csv
 
 
@@ -35,12 +38,29 @@ class VerdictTest(unittest.TestCase):
         self.assertEqual(figure(0.5).verdict, "does not beat")
         self.assertEqual(figure(math.nan).verdict, "does not beat")
 
+    def test_nan_is_the_worst(self):
+        for numbers in ([0.1, math.nan], [math.nan, 0.1], [math.nan]):
+            self.assertTrue(math.isnan(worst(numbers)))
+            self.assertEqual(figure(worst(numbers)).verdict, "does not beat")
+            self.assertEqual(figure(worst(numbers)).ours_text, "none")
+        self.assertEqual(worst([0.1, 0.3, 0.2]), 0.3)
+        self.assertEqual(worst([("a", 1), ("b", math.nan), ("c", 2)], key=lambda item: item[1])[0], "b")
+        self.assertIn("nan", outlines.three([{"fit": {"mean": 1, "quantile_95": 1, "largest": value}}
+                                             for value in (0.1, math.nan)], "fit"))
+
     def test_a_preview_is_counted_apart(self):
         section = Section("a", "b", [figure(0.4), figure(0.6), figure(0.4, preview=True),
                                      Finding("order", "Fig. 20", "x", "y", "z", True, "")])
         tally = report.tally([section])
         self.assertEqual((tally["beaten"], tally["figures"]), (1, 2))
         self.assertEqual((tally["preview_beaten"], tally["preview_figures"]), (1, 1))
+
+    def test_what_differs_is_counted(self):
+        found = [Finding("order", "Fig. 20", "x", "y", "z", agrees, "") for agrees in (True, False, False)]
+        section = Section("a", "b", [figure(0.4), *found])
+        tally = report.tally([section])
+        self.assertEqual((tally["rows"], tally["findings"], tally["differs"]), (4, 3, 2))
+        self.assertIn("4 rows. Without a preview 1 of 1 beat", report.tally_text([section]))
 
 
 class PageTest(unittest.TestCase):
@@ -81,6 +101,36 @@ class InputTest(unittest.TestCase):
         write(path, "height_mm,force_N", [(30, 1)])
         with self.assertRaisesRegex(BadInput, "grid.csv: no column place_mm; a study writes it"):
             read_csv(path, ("height_mm", "place_mm"), "a study")
+
+    def test_what_cannot_be_used_is_one_line(self):
+        class Experiment:
+            __name__ = "springs"
+
+            def __init__(self, action):
+                self.sections = action
+
+        with self.assertRaisesRegex(BadInput, "springs: no value 'left_out'"):
+            report.sections_of(Experiment(lambda folder: {}["left_out"]), self.folder)
+        with self.assertRaisesRegex(BadInput, "springs: no mean: "):
+            report.sections_of(Experiment(lambda folder: stiffness.statistics.fmean([])), self.folder)
+        with self.assertRaisesRegex(BadInput, "springs: .*division by zero"):
+            report.sections_of(Experiment(lambda folder: 1 / 0.0), self.folder)
+        path = self.folder / "grid.csv"
+        path.write_bytes(b"height_mm\n\xff\n")
+        with self.assertRaisesRegex(BadInput, "grid.csv: byte 11 is not UTF-8; a study writes it"):
+            read_csv(path, ("height_mm",), "a study")
+
+    def test_points_left_out_are_not_of_the_trial(self):
+        """Two of four points are wrong; one of them is left out."""
+        folder = self.folder / "seed_1" / "springs"
+        write(folder / "points.csv", "object,trial,displacement_mm,force_N,left_out",
+              [("spring", 1, 1, 0.2, 0), ("spring", 1, 2, 0.4, 0), ("spring", 1, 3, 50, 0), ("spring", 1, 4, 60, 1)])
+        (folder / "compliance.yaml").write_text(
+            "trials: [{object: spring, trial: 1, left_out: 1, stiffness_N_per_mm: 0.25, std_N_per_mm: 0.1, "
+            "chi2: 9, dof: 1}]")
+        why = stiffness.why_trial([self.folder / "seed_1"], [{"name": "spring", "N_per_mm": 0.2}])
+        self.assertIn("1 points left out", why)
+        self.assertIn("has 1 of 3 points of up to 50 N where the spring has 0.6 N at most", why)
 
     def test_contact_frames(self):
         """Kinetostatics of 0.1 mm beat 0.70 mm; sensing of 0.6 mm is worse than 0.58 mm."""
@@ -134,6 +184,43 @@ class InputTest(unittest.TestCase):
         self.assertAlmostEqual(largest, math.sqrt(2) * rms, delta=0.005)
         steps = self.experiment("fixed_step", lambda t: 3 + 0.25 * math.floor(t + 1e-9))
         self.assertAlmostEqual(steps.cost_of_delay(0.130)[0], 0.25 * math.sqrt(4 / 30), delta=0.002)
+
+
+class SimulateTest(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.out = pathlib.Path(temporary.name) / "out"
+
+    def test_only_known_refusals_are_accepted(self):
+        def say(text, code):
+            return simulate.run("sh", "-c", f"echo 'finray_reconstruct: {text}' >&2; exit {code}",
+                                refusals=simulate.REFUSALS)
+
+        self.assertIsNone(say("a.csv: too few touches: 3 usable", 2))
+        self.assertIsNone(say("a.csv: badly spread touches: none", 4))
+        for text, code in (("a.csv: no column x", 2), ("too few touches: 3", 4), ("too few touches: 3", 1)):
+            with self.assertRaisesRegex(simulate.Failed, f"{text} .exit code {code}"):
+                say(text, code)
+
+    def test_only_marked_folders_are_deleted(self):
+        simulate.prepare(self.out)
+        old = self.out / "stiffness" / "seed_5"
+        old.mkdir()
+        (self.out / "report.html").touch()
+        simulate.prepare(self.out)
+        self.assertFalse(old.exists() or (self.out / "report.html").exists())
+        old.mkdir()
+        (self.out / "outlines" / simulate.MARKER).unlink()
+        with self.assertRaisesRegex(simulate.Failed, "outlines: there already and not marked"):
+            simulate.prepare(self.out)
+        self.assertTrue(old.exists())
+
+    def test_a_name_that_is_a_pattern_is_refused(self):
+        for name in ("a[1]", "a*", "a,b"):
+            with self.assertRaisesRegex(simulate.Failed, "pattern"):
+                simulate.prepare(self.out / name)
+        self.assertFalse(self.out.exists())
 
 
 if __name__ == "__main__":
