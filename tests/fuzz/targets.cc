@@ -36,14 +36,6 @@ void ReadFrameTable(std::string_view bytes) {
   });
 }
 
-void ReadRenamedTable(std::string_view bytes) {
-  const MemoryFile scene(TakeFile(&bytes)), log(bytes);
-  Tolerate([&] {
-    const auto columns = ReadScene(scene.path()).columns;
-    FrameTable::Read(log.path(), columns);
-  });
-}
-
 void ReadFingerYaml(std::string_view bytes) {
   const MemoryFile file(bytes);
   Tolerate([&] {

@@ -27,14 +27,15 @@ std::vector<std::string> Renamed(
     const std::string& from = reversed ? value : key;
     const std::string& to = reversed ? key : value;
     if (!IsFrameColumn(to) && to != "status") {
-      throw InputError(path + ": column '" + from + "' is to be renamed to '" +
-                       to + "', which no tool knows" +
-                       DidYouMeanFrameColumn(to));
+      throw InputError(path + ": column " + ShownText(from) +
+                       " is to be renamed to " + ShownText(to) +
+                       ", which no tool knows" + DidYouMeanFrameColumn(to));
     }
     const auto at = std::find(found.begin(), found.end(), from);
     if (at == found.end()) {
-      throw InputError(path + ": no column '" + from + "' to rename to '" + to +
-                       "'" + DidYouMean(from, found));
+      throw InputError(path + ": no column " + ShownText(from) +
+                       " to rename to " + ShownText(to) +
+                       DidYouMean(from, found));
     }
     headers[static_cast<std::size_t>(at - found.begin())] = to;
   }

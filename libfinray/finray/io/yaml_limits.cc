@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "finray/io/error.h"
+#include "finray/io/shown_text.h"
 #include "finray/io/yaml_place.h"
 
 namespace finray {
@@ -104,7 +105,7 @@ void CheckYamlLimits(const std::string& path, const std::string& text) {
     }
   } catch (const YAML::Exception& error) {
     throw InputError(YamlPlace(path, error.mark) +
-                     "not valid YAML: " + error.msg);
+                     "not valid YAML: " + ShownLine(error.msg));
   }
 }
 

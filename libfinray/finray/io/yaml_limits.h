@@ -15,6 +15,10 @@ constexpr std::size_t kMostYamlBytes = 16 << 20;
 constexpr std::size_t kMostYamlNodes = 1000000;
 constexpr std::size_t kMostYamlDepth = 50;
 
+/// Of numbers. What has to be above 0 is not below one over this either, so
+/// that products and ratios of a few numbers neither overflow nor vanish.
+constexpr double kLargestYamlNumber = 1e30;
+
 /// Throws InputError (path:line:column) for text that is no YAML, is beyond
 /// these limits, or refers to what it is inside.
 void CheckYamlLimits(const std::string& path, const std::string& text);

@@ -68,9 +68,16 @@ double NumberIn(const std::string& path, const YAML::Node& cell,
                 const std::string& name) {
   const auto number =
       cell.IsScalar() ? ParseNumber(cell.Scalar()) : std::optional<double>();
-  if (number) return *number;
-  throw InputError(YamlPlace(path, cell.Mark()) + name +
-                   ": expected a number, found " + Shown(cell));
+  if (!number) {
+    throw InputError(YamlPlace(path, cell.Mark()) + name +
+                     ": expected a number, found " + Shown(cell));
+  }
+  if (std::abs(*number) > kLargestYamlNumber) {
+    throw InputError(YamlPlace(path, cell.Mark()) + name +
+                     ": expected a number of at most 1e30, found " +
+                     Shown(cell));
+  }
+  return *number;
 }
 
 std::vector<double> NumbersIn(const std::string& path, const YAML::Node& value,
@@ -166,7 +173,7 @@ std::vector<std::string> YamlMap::Keys() const {
 }
 
 void YamlMap::Fail(const std::string& key, const std::string& message) const {
-  throw InputError(PlaceOf(key) + message);
+  throw InputError(PlaceOf(key) + ShownLine(message));
 }
 
 void YamlMap::FailIn(const std::string& key,
@@ -200,6 +207,10 @@ double YamlMap::PositiveNumber(const std::string& key) const {
   const double number = Number(key);
   if (!(number > 0)) {
     Fail(key, key + ": expected a number above 0, found " + Shown(node_[key]));
+  }
+  if (number < 1 / kLargestYamlNumber) {
+    Fail(key, key + ": expected a number of at least 1e-30, found " +
+                  Shown(node_[key]));
   }
   return number;
 }

@@ -14,8 +14,7 @@ inline std::string YamlPlace(const std::string& path, int line, int column) {
 }
 
 inline std::string YamlPlace(const std::string& path, const YAML::Mark& mark) {
-  return mark.is_null() ? path + ": "
-                        : YamlPlace(path, mark.line, mark.column);
+  return mark.is_null() ? path + ": " : YamlPlace(path, mark.line, mark.column);
 }
 
 }  // namespace finray
