@@ -255,7 +255,13 @@ std::string YamlMap::Text(const std::string& key) const {
   if (!node_[key].IsScalar()) {
     Fail(key, key + ": expected a word, found " + Shown(node_[key]));
   }
-  return node_[key].Scalar();
+  // It may become part of a path or of a message.
+  const std::string& text = node_[key].Scalar();
+  if (ShownLine(text) != text) {
+    Fail(key,
+         key + ": expected one short line of text, found " + Shown(node_[key]));
+  }
+  return text;
 }
 
 std::string YamlMap::Text(const std::string& key,
