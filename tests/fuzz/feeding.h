@@ -49,7 +49,7 @@ void Tolerate(const Read& read) {
     const bool one_line =
         !text.empty() && text.find_first_of(std::string_view("\0\n\r", 3)) ==
                              std::string_view::npos;
-    if (!one_line || text.size() > 2000) {
+    if (!one_line || text.size() > 6000) {
       std::fprintf(stderr, "a message is no short line: %s\n", error.what());
       std::abort();
     }
