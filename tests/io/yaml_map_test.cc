@@ -89,7 +89,9 @@ TEST_F(YamlMapTest, FilesThatStandForTooMuch) {
     laughs += "l" + std::to_string(i) + ": &l" + std::to_string(i) + " [";
     for (int k = 0; k < 10; ++k) laughs += (k > 0 ? ", " : "") + before;
     laughs += "]\n";
-    if (i == 4) EXPECT_NO_THROW(Load(laughs));
+    if (i == 4) {
+      EXPECT_NO_THROW(Load(laughs));
+    }
   }
   EXPECT_INPUT_ERROR(Load(laughs), "expected at most 1000000 values in a file");
   EXPECT_INPUT_ERROR(Load("a: " + std::string(17 << 20, 'x')),
