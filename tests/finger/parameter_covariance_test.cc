@@ -59,7 +59,8 @@ TEST(ParameterCovarianceTest, FactorIsARoot) {
             1e-12 * expected.cwiseAbs().maxCoeff());
   // An eigenvalue just below 0 counts as 0.
   covariance.std = Eigen::Vector2d(1, 1);
-  covariance.correlations << 1, 1.0000001, 1.0000001, 1;
+  covariance.correlations.setConstant(2, 2, 1.0000001);
+  covariance.correlations.diagonal().setOnes();
   EXPECT_TRUE(covariance.Factor().allFinite());
 }
 

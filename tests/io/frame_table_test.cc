@@ -107,6 +107,8 @@ TEST_F(FrameTableTest, ErrorsNameThePlace) {
 
 TEST_F(FrameTableTest, FilesThatAreNoTable) {
   EXPECT_INPUT_ERROR(Load(""), "is empty");
+  EXPECT_INPUT_ERROR(Load("time_s;force_N\n0;1\n"),
+                     "log.csv:1: no commas in the header 'time_s;force_N'");
   EXPECT_INPUT_ERROR(Load("force_N\n"), "has a header but no rows");
   EXPECT_INPUT_ERROR(Load(std::string("force_N\n1\0\n", 11)), "NUL");
   EXPECT_INPUT_ERROR(FrameTable::Read(folder_.Path("none.csv")),

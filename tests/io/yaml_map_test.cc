@@ -74,7 +74,44 @@ TEST_F(YamlMapTest, FilesThatAreNoMapping) {
   EXPECT_INPUT_ERROR(YamlMap::FromFile(folder_.Path("")), "is a folder");
 }
 
+TEST_F(YamlMapTest, FilesThatStandForTooMuch) {
+  EXPECT_INPUT_ERROR(Load(", a: 1\n"), "not valid YAML");
+  EXPECT_INPUT_ERROR(Load("a: &a [*a]\n"),
+                     "a.yaml:1:8: an alias refers to what it is in");
+  EXPECT_INPUT_ERROR(
+      Load("a: " + std::string(51, '[') + std::string(51, ']')),
+      "a.yaml:1:53: expected lists and mappings at most 50 deep");
+  Load("a: " + std::string(49, '[') + std::string(49, ']') + "\n");
+  // Ten to the sixth words, and what holds them.
+  std::string laughs = "l0: &l0 [x, x, x, x, x, x, x, x, x, x]\n";
+  for (int i = 1; i <= 5; ++i) {
+    const std::string before = "*l" + std::to_string(i - 1);
+    laughs += "l" + std::to_string(i) + ": &l" + std::to_string(i) + " [";
+    for (int k = 0; k < 10; ++k) laughs += (k > 0 ? ", " : "") + before;
+    laughs += "]\n";
+    if (i == 4) {
+      EXPECT_NO_THROW(Load(laughs));
+    }
+  }
+  EXPECT_INPUT_ERROR(Load(laughs), "expected at most 1000000 values in a file");
+  EXPECT_INPUT_ERROR(Load("a: " + std::string(17 << 20, 'x')),
+                     "is too long, expected a YAML file of at most 16 MiB");
+}
+
+TEST_F(YamlMapTest, NumbersHaveLimits) {
+  EXPECT_EQ(Load("a: -1e30\n").Number("a"), -1e30);
+  EXPECT_INPUT_ERROR(Load("a: -1.1e30\n").Number("a"), "at most 1e30");
+  EXPECT_EQ(Load("a: 1e-30\n").PositiveNumber("a"), 1e-30);
+  EXPECT_INPUT_ERROR(Load("a: 0.9e-30\n").PositiveNumber("a"),
+                     "at least 1e-30");
+  EXPECT_INPUT_ERROR(Load("a: 0x10\n").Number("a"), "expected a number");
+}
+
 TEST_F(YamlMapTest, MessagesAreOneLine) {
+  EXPECT_INPUT_ERROR(Load("a: \"x\\ny\"\n").Text("a"),
+                     "one short line of text");
+  EXPECT_THAT([&] { Load("%YAML 9\r\n---\na: 1\n"); },
+              ThrowsMessage<InputError>(Not(HasSubstr("\r"))));
   EXPECT_THAT([&] { Load("a: \"x\\ny\"\n").Number("a"); },
               ThrowsMessage<InputError>(Not(HasSubstr("\n"))));
 }

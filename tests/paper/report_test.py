@@ -66,14 +66,14 @@ class VerdictTest(unittest.TestCase):
 class PageTest(unittest.TestCase):
     def test_a_worse_figure_says_so_and_why(self):
         page = report.page([Section("Contact", "One sentence.", [figure(0.6)])])
-        self.assertIn("0 of 1 figures are beaten", page)
+        self.assertIn("0 of 1 with a number are beaten", page)
         self.assertIn("does not beat", page)
         self.assertIn("too noisy", page)
         self.assertIn("These are simulations, not measurements of a real finger", page)
 
     def test_a_better_one_gives_no_reason(self):
         page = report.page([Section("Contact", "One sentence.", [figure(0.4)])])
-        self.assertIn("1 of 1 figures are beaten", page)
+        self.assertIn("1 of 1 with a number are beaten", page)
         self.assertNotIn("does not beat", page)
         self.assertNotIn("too noisy", page)
 

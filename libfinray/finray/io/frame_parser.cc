@@ -27,14 +27,15 @@ std::vector<std::string> Renamed(
     const std::string& from = reversed ? value : key;
     const std::string& to = reversed ? key : value;
     if (!IsFrameColumn(to) && to != "status") {
-      throw InputError(path + ": column '" + from + "' is to be renamed to '" +
-                       to + "', which no tool knows" +
-                       DidYouMeanFrameColumn(to));
+      throw InputError(path + ": column " + ShownText(from) +
+                       " is to be renamed to " + ShownText(to) +
+                       ", which no tool knows" + DidYouMeanFrameColumn(to));
     }
     const auto at = std::find(found.begin(), found.end(), from);
     if (at == found.end()) {
-      throw InputError(path + ": no column '" + from + "' to rename to '" + to +
-                       "'" + DidYouMean(from, found));
+      throw InputError(path + ": no column " + ShownText(from) +
+                       " to rename to " + ShownText(to) +
+                       DidYouMean(from, found));
     }
     headers[static_cast<std::size_t>(at - found.begin())] = to;
   }
@@ -81,6 +82,10 @@ FrameParser::FrameParser(const std::string& path, const CsvLine& header,
     FailAt(header.number, nul,
            "the header holds a NUL byte, expected UTF-8 text");
   }
+  if (cells.size() == 1 && cells[0].find_first_of(";\t") != cells[0].npos) {
+    Fail(header.number, "no commas in the header " + ShownText(cells[0]) +
+                            ", expected cells with commas between them");
+  }
   names_ = Renamed(path, {cells.begin(), cells.end()}, renames);
   if (std::all_of(names_.begin(), names_.end(), ParseNumber)) {
     Fail(header.number, "expected a header, found numbers only");
@@ -119,8 +124,9 @@ void FrameParser::Parse(const CsvLine& line, FrameRows* rows) const {
   }
   const std::size_t nul = line.nul ? FirstNul(split) : split.size();
   if (nul < split.size()) {
-    FailAt(line.number, nul,
-           names_[nul] + ": the cell holds a NUL byte, expected text");
+    FailAt(
+        line.number, nul,
+        ShownLine(names_[nul]) + ": the cell holds a NUL byte, expected text");
   }
   for (std::size_t i = 0; i < split.size(); ++i) {
     if (!numeric_[i]) {

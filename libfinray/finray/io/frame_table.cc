@@ -10,6 +10,7 @@
 #include "finray/io/error.h"
 #include "finray/io/frame_vocabulary.h"
 #include "finray/io/gzip.h"
+#include "finray/io/shown_text.h"
 
 namespace finray {
 namespace {
@@ -44,7 +45,7 @@ const Cells& FrameTable::CellsAs(const Column& column) const {
   if (cells != nullptr) return *cells;
   const bool numeric = std::is_same_v<Cells, Numeric>;
   throw InputError(
-      Name() + ": column '" + column.name + "' holds " +
+      Name() + ": column " + ShownText(column.name) + " holds " +
       (numeric ? "text, expected numbers" : "numbers, expected text"));
 }
 

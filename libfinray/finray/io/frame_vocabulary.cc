@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "finray/io/nearest_name.h"
+#include "finray/io/shown_text.h"
 
 namespace finray {
 namespace {
@@ -95,7 +96,7 @@ std::string NoColumn(const std::string& name,
     hint = "; it has";
     for (const std::string& column : columns) hint += " " + column;
   }
-  return "no column '" + name + "'" + hint;
+  return "no column '" + name + "'" + ShownLine(hint);
 }
 
 }  // namespace finray

@@ -3,19 +3,16 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <limits>
 #include <stdexcept>
 
 #include "finray/io/error.h"
+#include "finray/io/input_file.h"
 
 namespace finray {
 
 GzipFile::GzipFile(const std::string& path) : path_(path) {
-  std::error_code unknown;  // gzopen says better what is wrong
-  if (std::filesystem::is_directory(path, unknown)) {
-    throw InputError(path + ": is a folder, expected a file");
-  }
+  RefuseFolderOrPipe(path, "a file");
   errno = 0;
   file_ = gzopen(path.c_str(), "rb");
   if (file_ == nullptr) {

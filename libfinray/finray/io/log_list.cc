@@ -11,6 +11,7 @@
 #include "finray/io/csv_cells.h"
 #include "finray/io/error.h"
 #include "finray/io/gzip.h"
+#include "finray/io/shown_text.h"
 
 namespace finray {
 namespace {
@@ -18,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kResult[] = ".frames.csv";
+constexpr std::size_t kLongestList = 16 << 20;
 
 bool EndsWith(const std::string& text, const std::string& end) {
   return text.size() > end.size() &&
@@ -64,7 +66,7 @@ void AddFiles(const std::string& item, const std::string& place,
   }
   const std::vector<std::string> files = Matches(item, results_folder);
   if (files.empty()) {
-    throw InputError(place + "'" + item + "' matches no file");
+    throw InputError(place + ShownLine("'" + item + "' matches no file"));
   }
   logs->insert(logs->end(), files.begin(), files.end());
 }
@@ -75,6 +77,9 @@ std::string Contents(const std::string& path) {
   char buffer[1 << 14];
   while (const int n = file.Read(buffer, sizeof buffer)) {
     text.append(buffer, static_cast<std::size_t>(n));
+    if (text.size() > kLongestList) {
+      throw InputError(path + ": is too long for a list of logs");
+    }
   }
   return text;
 }
@@ -109,7 +114,8 @@ void AddList(const std::string& path, const std::string& results_folder,
     AddFiles(file, place, results_folder, logs);
     std::error_code unknown;
     if (logs->size() == first + 1 && !fs::exists(logs->back(), unknown)) {
-      throw InputError(place + "there is no log '" + logs->back() + "'");
+      throw InputError(place +
+                       ShownLine("there is no log '" + logs->back() + "'"));
     }
   }
   if (logs->size() == before) {

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <numeric>
 
+#include "finray/io/shown_text.h"
+
 namespace finray {
 namespace {
 
@@ -68,7 +70,7 @@ std::string NearestName(const std::string& name,
 std::string DidYouMean(const std::string& name,
                        const std::vector<std::string>& candidates) {
   const std::string nearest = NearestName(name, candidates);
-  return nearest.empty() ? "" : " (did you mean '" + nearest + "'?)";
+  return nearest.empty() ? "" : " (did you mean " + ShownText(nearest) + "?)";
 }
 
 }  // namespace finray

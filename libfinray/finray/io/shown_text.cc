@@ -2,14 +2,20 @@
 
 namespace finray {
 
-std::string ShownText(std::string_view text) {
-  constexpr std::size_t kLongest = 40;
+std::string ShownLine(std::string_view text) {
+  constexpr std::size_t kLongest = 1000;
   std::string shown(text.substr(0, kLongest));
-  if (text.size() > kLongest) shown += "...";
   for (char& c : shown) {
     if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';
   }
-  return "'" + shown + "'";
+  if (text.size() > kLongest) shown += "...";
+  return shown;
+}
+
+std::string ShownText(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  const bool cut = text.size() > kLongest;
+  return "'" + ShownLine(text.substr(0, kLongest)) + (cut ? "..." : "") + "'";
 }
 
 }  // namespace finray

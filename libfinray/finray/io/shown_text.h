@@ -6,9 +6,11 @@
 
 namespace finray {
 
-/// Text of a user's file as it goes into a message: in quotes, cut short,
-/// control characters (line ends among them) as spaces, so that the message
-/// stays one line.
+/// Text as it goes into a message: control characters (line ends among them) as
+/// spaces, and not without end, so that the message stays one line.
+std::string ShownLine(std::string_view text);
+
+/// Text of a user's file: the same in quotes, cut shorter.
 std::string ShownText(std::string_view text);
 
 }  // namespace finray

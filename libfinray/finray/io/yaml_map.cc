@@ -4,27 +4,19 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <set>
-#include <sstream>
 
 #include "finray/io/error.h"
+#include "finray/io/input_file.h"
 #include "finray/io/nearest_name.h"
 #include "finray/io/parse_number.h"
 #include "finray/io/shown_text.h"
+#include "finray/io/yaml_limits.h"
+#include "finray/io/yaml_place.h"
 
 namespace finray {
 namespace {
-
-std::string Place(const std::string& path, int line, int column) {
-  return path + ":" + std::to_string(line + 1) + ":" +
-         std::to_string(column + 1) + ": ";
-}
-
-std::string Place(const std::string& path, const YAML::Mark& mark) {
-  return mark.is_null() ? path + ": " : Place(path, mark.line, mark.column);
-}
 
 // A value as it goes into a message: one short line.
 std::string Shown(const YAML::Node& node) {
@@ -35,19 +27,23 @@ std::string Shown(const YAML::Node& node) {
 }
 
 std::string ReadText(const std::string& path) {
-  std::error_code unknown;  // opening says better what is wrong
-  if (std::filesystem::is_directory(path, unknown)) {
-    throw InputError(path + ": is a folder, expected a YAML file");
-  }
+  RefuseFolderOrPipe(path, "a YAML file");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  // An empty file leaves the stream failed, yet is read well.
-  if (file) text << file.rdbuf();
+  std::string text;
+  char buffer[1 << 14];
+  while (file.read(buffer, sizeof buffer), file.gcount() > 0) {
+    text.append(buffer, static_cast<std::size_t>(file.gcount()));
+    if (text.size() > kMostYamlBytes) {
+      throw InputError(path +
+                       ": is too long, expected a YAML file of at most " +
+                       std::to_string(kMostYamlBytes >> 20) + " MiB");
+    }
+  }
   if (!file.is_open() || file.bad()) {
     throw InputError(path + ": cannot be read: " + std::strerror(errno));
   }
-  return text.str();
+  return text;
 }
 
 // The parser reads NUL as the end or as an escape.
@@ -58,10 +54,10 @@ void RefuseNul(const std::string& path, const std::string& text) {
   const auto start =
       nul == 0 ? std::string::npos : text.find_last_of('\n', nul - 1);
   const std::size_t column = start == std::string::npos ? nul : nul - start - 1;
-  throw InputError(Place(path,
-                         static_cast<int>(std::count(text.begin(), at, '\n')),
-                         static_cast<int>(column)) +
-                   "found a NUL byte, expected UTF-8 text");
+  throw InputError(
+      YamlPlace(path, static_cast<int>(std::count(text.begin(), at, '\n')),
+                static_cast<int>(column)) +
+      "found a NUL byte, expected UTF-8 text");
 }
 
 std::string ElementName(const std::string& name, std::size_t index) {
@@ -72,15 +68,22 @@ double NumberIn(const std::string& path, const YAML::Node& cell,
                 const std::string& name) {
   const auto number =
       cell.IsScalar() ? ParseNumber(cell.Scalar()) : std::optional<double>();
-  if (number) return *number;
-  throw InputError(Place(path, cell.Mark()) + name +
-                   ": expected a number, found " + Shown(cell));
+  if (!number) {
+    throw InputError(YamlPlace(path, cell.Mark()) + name +
+                     ": expected a number, found " + Shown(cell));
+  }
+  if (std::abs(*number) > kLargestYamlNumber) {
+    throw InputError(YamlPlace(path, cell.Mark()) + name +
+                     ": expected a number of at most 1e30, found " +
+                     Shown(cell));
+  }
+  return *number;
 }
 
 std::vector<double> NumbersIn(const std::string& path, const YAML::Node& value,
                               const std::string& name) {
   if (!value.IsSequence()) {
-    throw InputError(Place(path, value.Mark()) + name +
+    throw InputError(YamlPlace(path, value.Mark()) + name +
                      ": expected a list of numbers, found " + Shown(value));
   }
   std::vector<double> numbers;
@@ -103,18 +106,14 @@ std::string NotOneOf(const std::string& name,
 }
 
 YAML::Node ParseOneDocument(const std::string& path, const std::string& text) {
-  std::vector<YAML::Node> documents;
-  try {
-    documents = YAML::LoadAll(text);
-  } catch (const YAML::Exception& error) {
-    throw InputError(Place(path, error.mark) + "not valid YAML: " + error.msg);
-  }
+  CheckYamlLimits(path, text);
+  const std::vector<YAML::Node> documents = YAML::LoadAll(text);
   if (documents.empty() || documents[0].IsNull()) {
     throw InputError(path + ": is empty, expected a YAML mapping");
   }
   for (std::size_t i = 1; i < documents.size(); ++i) {
     if (documents[i].IsNull()) continue;  // behind a closing "---"
-    throw InputError(Place(path, documents[i].Mark()) +
+    throw InputError(YamlPlace(path, documents[i].Mark()) +
                      "found a second YAML document, expected one");
   }
   return documents[0];
@@ -127,12 +126,12 @@ YamlMap::YamlMap(YAML::Node node, std::string path, std::string name)
   std::set<std::string> seen;
   for (const auto& entry : node_) {
     if (!entry.first.IsScalar()) {
-      throw InputError(Place(path_, entry.first.Mark()) +
+      throw InputError(YamlPlace(path_, entry.first.Mark()) +
                        "expected a name in " + name_ + ", found " +
                        Shown(entry.first));
     }
     if (!seen.insert(entry.first.Scalar()).second) {
-      throw InputError(Place(path_, entry.first.Mark()) + "key " +
+      throw InputError(YamlPlace(path_, entry.first.Mark()) + "key " +
                        Shown(entry.first) + " appears twice in " + name_);
     }
   }
@@ -143,7 +142,7 @@ YamlMap YamlMap::FromFile(const std::string& path) {
   RefuseNul(path, text);
   const YAML::Node node = ParseOneDocument(path, text);
   if (!node.IsMap()) {
-    throw InputError(Place(path, node.Mark()) +
+    throw InputError(YamlPlace(path, node.Mark()) +
                      "expected a YAML mapping, found " + Shown(node));
   }
   return YamlMap(node, path, "the file");
@@ -158,7 +157,7 @@ void YamlMap::AllowOnly(const std::vector<std::string>& keys) const {
       hint = "; known are";
       for (const std::string& known : keys) hint += " " + known;
     }
-    throw InputError(Place(path_, entry.first.Mark()) + "unknown key " +
+    throw InputError(YamlPlace(path_, entry.first.Mark()) + "unknown key " +
                      Shown(entry.first) + " in " + name_ + hint);
   }
 }
@@ -174,7 +173,7 @@ std::vector<std::string> YamlMap::Keys() const {
 }
 
 void YamlMap::Fail(const std::string& key, const std::string& message) const {
-  throw InputError(PlaceOf(key) + message);
+  throw InputError(PlaceOf(key) + ShownLine(message));
 }
 
 void YamlMap::FailIn(const std::string& key,
@@ -187,12 +186,12 @@ void YamlMap::FailIn(const std::string& key,
     node.reset(static_cast<const YAML::Node>(node)[index]);
     name = ElementName(name, index);
   }
-  throw InputError(Place(path_, node.Mark()) + name + ": " + message);
+  throw InputError(YamlPlace(path_, node.Mark()) + name + ": " + message);
 }
 
 std::string YamlMap::PlaceOf(const std::string& key) const {
   const YAML::Node value = node_[key];
-  return Place(path_, value ? value.Mark() : node_.Mark());
+  return YamlPlace(path_, value ? value.Mark() : node_.Mark());
 }
 
 double YamlMap::Number(const std::string& key) const {
@@ -208,6 +207,10 @@ double YamlMap::PositiveNumber(const std::string& key) const {
   const double number = Number(key);
   if (!(number > 0)) {
     Fail(key, key + ": expected a number above 0, found " + Shown(node_[key]));
+  }
+  if (number < 1 / kLargestYamlNumber) {
+    Fail(key, key + ": expected a number of at least 1e-30, found " +
+                  Shown(node_[key]));
   }
   return number;
 }
@@ -252,7 +255,13 @@ std::string YamlMap::Text(const std::string& key) const {
   if (!node_[key].IsScalar()) {
     Fail(key, key + ": expected a word, found " + Shown(node_[key]));
   }
-  return node_[key].Scalar();
+  // It may become part of a path or of a message.
+  const std::string& text = node_[key].Scalar();
+  if (ShownLine(text) != text) {
+    Fail(key,
+         key + ": expected one short line of text, found " + Shown(node_[key]));
+  }
+  return text;
 }
 
 std::string YamlMap::Text(const std::string& key,
@@ -296,7 +305,7 @@ std::vector<YamlMap> YamlMap::Maps(const std::string& key) const {
   for (std::size_t i = 0; i < value.size(); ++i) {
     const std::string name = ElementName(key, i);
     if (!value[i].IsMap()) {
-      throw InputError(Place(path_, value[i].Mark()) + name +
+      throw InputError(YamlPlace(path_, value[i].Mark()) + name +
                        ": expected a mapping, found " + Shown(value[i]));
     }
     maps.push_back(YamlMap(value[i], path_, name));
@@ -317,7 +326,8 @@ std::vector<std::string> YamlMap::Choices(
     if (!word.IsScalar() ||
         std::find(words.begin(), words.end(), word.Scalar()) == words.end()) {
       const std::string name = ElementName(key, i);
-      throw InputError(Place(path_, word.Mark()) + NotOneOf(name, words, word));
+      throw InputError(YamlPlace(path_, word.Mark()) +
+                       NotOneOf(name, words, word));
     }
     chosen.push_back(word.Scalar());
   }
@@ -354,7 +364,7 @@ std::vector<std::array<double, 2>> YamlMap::Pairs(
   for (std::size_t i = 0; i < value.size(); ++i) {
     const std::string name = ElementName(key, i);
     if (!value[i].IsSequence() || value[i].size() != 2) {
-      throw InputError(Place(path_, value[i].Mark()) + name +
+      throw InputError(YamlPlace(path_, value[i].Mark()) + name +
                        ": expected two numbers, [x, y]");
     }
     std::array<double, 2>& pair = pairs.emplace_back();

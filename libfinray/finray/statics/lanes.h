@@ -91,9 +91,9 @@ inline typename ValueTraits<V>::Scalar SmallestLane(const V& a) {
     return a;
   } else {
     static_assert(ValueTraits<V>::kWidth == 4);
-    using Integers = typename ValueTraits<V>::Integers;
-    const V pairs = Smaller(a, V(__builtin_shuffle(a, Integers{2, 3, 0, 1})));
-    return Smaller(pairs, V(__builtin_shuffle(pairs, Integers{1, 0, 3, 2})))[0];
+    const V pairs = Smaller(a, V(__builtin_shufflevector(a, a, 2, 3, 0, 1)));
+    return Smaller(pairs,
+                   V(__builtin_shufflevector(pairs, pairs, 1, 0, 3, 2)))[0];
   }
 }
 template <class V>

@@ -1,0 +1,329 @@
+#!/usr/bin/python3
+"""Hostile files through the command line: exit code 2 and one line that names the
+file, within seconds and bounded memory, and nothing written."""
+
+import gzip
+import os
+import pathlib
+import re
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+sys.dont_write_bytecode = True
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+BINARIES = pathlib.Path(os.environ.get("FINRAY_BINARY_DIR", "."))
+# Sanitizers reserve terabytes of addresses.
+BOUNDED = os.environ.get("FINRAY_SANITIZE", "") == ""
+MEMORY = 1 << 30  # bytes of addresses
+SECONDS = 60      # a hang, on a busy machine too
+
+
+def first_lines(path, count):
+    return b"".join((SOURCE / path).read_bytes().splitlines(keepends=True)[:count])
+
+
+FINGER = (SOURCE / "configs/fingers/paper_140mm.yaml").read_bytes()
+SCENE = b"contacts: auto\nobject: {shape: circle, radius_mm: 15}\n"
+PLAN = (SOURCE / "configs/plans/force_and_circle.yaml").read_bytes()
+EXPERIMENT = (SOURCE / "configs/control/fixed_step.yaml").read_bytes()
+CALIBRATION = b"""schema_version: 1
+parameters:
+  - {name: front_stiffness_N_mm2, unit: N mm^2, value: 12500, std: 95, status: estimated}
+correlations: {names: [front_stiffness_N_mm2], matrix: [[1]]}
+inputs: {logs: [{path: a.csv, sha256: 00}]}
+"""
+LOADS = b"contact_1_mm,normal_1_N\n50,2\n60.5,1\n"
+LOG = first_lines("datasets/simulated_r15/holdout.csv", 6)
+SPRING = (SOURCE / "datasets/springs/spring_0.5_1.csv").read_bytes()
+TOUCHES = (SOURCE / "datasets/touches_square/touches.csv").read_bytes()
+OUTLINE = (SOURCE / "datasets/touches_square/outline.csv").read_bytes()
+
+# Each executable: its input files, good ones, and its arguments.
+APPS = {
+    "simulate": ({"finger.yaml": FINGER, "scene.yaml": SCENE, "in.csv": LOADS},
+                 "--finger finger.yaml --scene scene.yaml --frames in.csv --out out"),
+    "estimate": ({"finger.yaml": FINGER, "scene.yaml": SCENE, "log.csv": LOG},
+                 "--finger finger.yaml --scene scene.yaml --logs log.csv --out_dir out"),
+    "calibrate": ({"finger.yaml": FINGER, "plan.yaml": PLAN, "log.csv": LOG},
+                  "--finger finger.yaml --plan plan.yaml --logs log.csv --out_dir out"
+                  " --report=false"),
+    "validate": ({"finger.yaml": FINGER, "scene.yaml": SCENE, "log.csv": LOG},
+                 "--finger finger.yaml --scene scene.yaml --logs log.csv --out_dir out"),
+    "compare": ({"finger.yaml": FINGER, "calibration.yaml": CALIBRATION},
+                "calibration.yaml calibration.yaml --out_dir out"),
+    "compliance": ({"finger.yaml": FINGER, "scene.yaml": SCENE, "log.csv": SPRING},
+                   "--finger finger.yaml --scene scene.yaml --logs log.csv --out_dir out"
+                   " --noplots"),
+    "reconstruct": ({"finger.yaml": FINGER, "log.csv": TOUCHES, "truth.csv": OUTLINE},
+                    "--finger finger.yaml --logs log.csv --truth truth.csv --out_dir out"
+                    " --noplots"),
+    "control": ({"finger.yaml": FINGER, "experiment.yaml": EXPERIMENT},
+                "--finger finger.yaml --experiment experiment.yaml --out_dir out"
+                " --draws 1"),
+}
+
+
+def cell(value):
+    """The second cell of the first row replaced."""
+    def change(text):
+        rows = text.split(b"\n")
+        cells = rows[1].split(b",")
+        cells[1] = value
+        rows[1] = b",".join(cells)
+        return b"\n".join(rows)
+    return change
+
+
+def numbers(value):
+    """All numbers of a YAML replaced but for its schema_version."""
+    number = rb"(?<=[:\[,] )-?[0-9][0-9.e+-]*(?=[,}\]\n])|(?<=\[)-?[0-9.]+(?=[,\]])"
+    def change(text):
+        lines = text.split(b"\n")
+        return b"\n".join(line if b"schema_version" in line
+                          else re.sub(number, value, line) for line in lines)
+    return change
+
+
+def laughs(key):
+    """9^9 words behind few bytes."""
+    lines = [b"l0: &l0 [x, x, x, x, x, x, x, x, x]"]
+    lines += [b"l%d: &l%d [%s]" % (i, i, b", ".join([b"*l%d" % (i - 1)] * 9))
+              for i in range(1, 9)]
+    return b"\n".join(lines) + b"\n" + key + b": *l8\n"
+
+
+def nul(text):
+    return text[:len(text) // 2] + b"\0" + text[len(text) // 2:]
+
+
+BAD_CSV = {
+    "NUL": nul,
+    "UTF-16": lambda text: text.decode().encode("utf-16"),
+    "carriage returns only": lambda text: text.replace(b"\n", b"\r"),
+    "a line of 40 MB": lambda text: text + b"1" * 40_000_000,
+    "20 million cells": lambda text: text + b"1," * 20_000_000,
+    "empty": lambda text: b"",
+    "header only": lambda text: text.split(b"\n")[0] + b"\n",
+    "decimal commas": lambda text: text.replace(b".", b","),
+    "semicolons": lambda text: text.replace(b",", b";"),
+    "hexadecimal": cell(b"0x1p3"),
+    "1e999": cell(b"1e999"),
+    "infinite": cell(b"inf"),
+    "open quote": cell(b'"1'),
+    "a column twice": lambda text: text.split(b",")[0] + b"," + text,
+    "bytes": lambda text: bytes(i * 7919 >> 3 & 255 for i in range(5000)),
+    "gzip cut short": lambda text: gzip.compress(text)[:-12],
+    "gzip of 200 MB in a line": lambda text: gzip.compress(text + b"7" * 200_000_000, 1),
+}
+BAD_YAML = {
+    "NUL": nul,
+    "UTF-16": lambda text: text.decode().encode("utf-16"),
+    "tabs": lambda text: text.replace(b"\n", b"\n\t"),
+    "empty": lambda text: b"",
+    "a list": lambda text: b"- 1\n",
+    "a comma, which the parser never gets past": lambda text: b"," + text,
+    "lists in lists": lambda text: text + b"z: " + b"[" * 100_000,
+    "closed lists in lists": lambda text: text + b"z: " + b"[" * 300 + b"]" * 300,
+    "block lists": lambda text: text + b"z: " + b"- " * 20_000 + b"\n",
+    "billion laughs": lambda text: text + laughs(b"z"),
+    "inside itself": lambda text: text + b"z: &z [*z]\n",
+    "no such anchor": lambda text: text + b"z: *nothing\n",
+    "20 MB": lambda text: text + b"z: " + b"x" * 20_000_000 + b"\n",
+    "a key twice": lambda text: text + re.search(rb"^\w+:", text, re.M)[0] + b" 1\n",
+    "control characters in YAML's version": lambda text: b"%YAML 9\x07.\r\n---\n" + text,
+    "hexadecimal": numbers(b"0x10"),
+    "1e999": numbers(b"1e999"),
+    "1e308": numbers(b"1e308"),
+    "not a number": numbers(b".nan"),
+    "infinite": numbers(b".inf"),
+}
+
+
+class HostileInputTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="finray_hostile_"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def put(self, app):
+        """The good files, nothing else; returns the arguments."""
+        files, arguments = APPS[app]
+        out = self.folder / "out"
+        if out.is_dir():
+            shutil.rmtree(out)
+        else:
+            out.unlink(missing_ok=True)
+        for name, content in files.items():
+            path = self.folder / name
+            if path.is_dir():
+                path.rmdir()
+            else:
+                path.unlink(missing_ok=True)
+            path.write_bytes(content)
+        return arguments
+
+    def run_app(self, app, arguments, **more):
+        def bound():
+            resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+        return subprocess.run(
+            [BINARIES / f"finray_{app}", *arguments.split()], cwd=self.folder,
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=SECONDS, check=False,
+            preexec_fn=bound if BOUNDED else None, **more)
+
+    def expect_refused(self, app, arguments, name, **more):
+        """One line on stderr, about the file `name`; returns it."""
+        outcome = self.run_app(app, arguments, **more)
+        line = outcome.stderr.decode(errors="replace")
+        self.assertEqual(outcome.returncode, 2, line[:500])
+        self.assertEqual(line.count("\n"), 1, line[:500])
+        self.assertTrue(line.startswith(f"finray_{app}: {name}"), line[:500])
+        self.assertLess(len(line), 1300)
+        self.assertFalse((self.folder / "out").exists())
+        self.assertEqual(list(self.folder.glob(".*")), [])
+        return line
+
+    def refuse_all(self, ending, kinds):
+        for app, (files, _) in APPS.items():
+            for name in files:
+                if not name.endswith(ending):
+                    continue
+                for kind, change in kinds.items():
+                    bad = change(files[name])
+                    # Decimal points are not in all files.
+                    if bad == files[name]:
+                        continue
+                    with self.subTest(app=app, file=name, kind=kind):
+                        arguments = self.put(app)
+                        (self.folder / name).write_bytes(bad)
+                        self.expect_refused(app, arguments, name)
+
+    def test_tables(self):
+        self.refuse_all(".csv", BAD_CSV)
+
+    def test_yaml(self):
+        self.refuse_all(".yaml", BAD_YAML)
+
+    def test_what_is_no_file(self):
+        def absent(path):
+            path.unlink()
+
+        def folder(path):
+            path.unlink()
+            path.mkdir()
+
+        def pipe(path):
+            path.unlink()
+            os.mkfifo(path)
+
+        def endless(path):
+            path.unlink()
+            path.symlink_to("/dev/zero")
+
+        def unreadable(path):
+            path.chmod(0)
+
+        kinds = [absent, folder, pipe, endless]
+        if os.geteuid() != 0:  # root reads all
+            kinds.append(unreadable)
+        for app, (files, _) in APPS.items():
+            for name in files:
+                for make in kinds:
+                    with self.subTest(app=app, file=name, kind=make.__name__):
+                        arguments = self.put(app)
+                        make(self.folder / name)
+                        self.expect_refused(app, arguments, name)
+
+    def test_kinds_of_text_that_are_fine(self):
+        changes = (lambda text: b"\xef\xbb\xbf" + text,
+                   lambda text: text.replace(b"\n", b"\r\n"))
+        for change in changes:
+            outputs = []
+            for modify in (lambda text: text, change):
+                arguments = self.put("estimate")
+                for name in APPS["estimate"][0]:
+                    path = self.folder / name
+                    path.write_bytes(modify(path.read_bytes()))
+                outcome = self.run_app("estimate", arguments)
+                self.assertEqual(outcome.returncode, 0, outcome.stderr)
+                outputs.append((self.folder / "out/log.frames.csv").read_bytes())
+                shutil.rmtree(self.folder / "out")
+            self.assertEqual(*outputs)
+
+    def test_the_locale_has_no_say(self):
+        arguments = self.put("estimate")
+        self.run_app("estimate", arguments)
+        expected = (self.folder / "out/log.frames.csv").read_bytes()
+        shutil.rmtree(self.folder / "out")
+        # Where it is not installed it is the C locale.
+        self.run_app("estimate", arguments, env={**os.environ, "LC_ALL": "de_DE.UTF-8"})
+        self.assertEqual((self.folder / "out/log.frames.csv").read_bytes(), expected)
+
+    def test_outputs_that_cannot_be_written(self):
+        for app, (_, arguments) in APPS.items():
+            flag = "--out" if app == "simulate" else "--out_dir"
+            arguments = arguments.replace(f"{flag} out", f"{flag} taken/out")
+            with self.subTest(app=app):
+                self.put(app)
+                (self.folder / "taken").write_text("a file")
+                self.expect_refused(app, arguments, "taken/out")
+                self.assertEqual((self.folder / "taken").read_text(), "a file")
+
+    def test_a_full_disk(self):
+        arguments = self.put("simulate").replace("--out out", "--out /dev/full")
+        line = self.expect_refused("simulate", arguments, "/dev/full")
+        self.assertIn("No space left", line)
+
+    def test_a_folder_that_may_not_be_written(self):
+        if os.geteuid() == 0:
+            self.skipTest("root writes everywhere")
+        arguments = self.put("estimate")
+        (self.folder / "kept").mkdir(mode=0o500)
+        self.expect_refused("estimate", arguments.replace("_dir out", "_dir kept/out"),
+                            "kept/out")
+
+    def test_a_log_that_is_cut_while_it_is_read(self):
+        arguments = self.put("estimate")
+        log = self.folder / "log.csv"
+        header, *rows = LOG.splitlines(keepends=True)
+        log.write_bytes(header + b"".join(rows) * 10_000)
+
+        def cut():
+            # Once its rows are being written.
+            end = time.monotonic() + SECONDS
+            while not list(self.folder.glob("out/.*.part")) and time.monotonic() < end:
+                time.sleep(1e-3)
+            os.truncate(log, len(header) + 100)
+
+        cutter = threading.Thread(target=cut)
+        cutter.start()
+        outcome = self.run_app("estimate", arguments)
+        cutter.join()
+        self.assertEqual(outcome.returncode, 2, outcome.stderr)
+        self.assertIn(b"was changed while it was being read", outcome.stderr)
+        self.assertEqual(list((self.folder / "out").iterdir()), [])
+
+    def test_rows_of_a_pipe_without_end(self):
+        """10 GB would be the same: reading ends at the limit of a line."""
+        self.put("estimate")
+        with open("/dev/zero", "rb") as zeros:
+            outcome = self.run_app("estimate", "--follow --finger finger.yaml", stdin=zeros)
+        self.assertEqual(outcome.returncode, 2, outcome.stderr[:500])
+        self.assertEqual(outcome.stderr, b"finray_estimate: stdin:1: the line is too long "
+                                         b"for a table of numbers\n")
+
+    def test_a_sparse_line_of_10_GB(self):
+        for app, name in (("simulate", "in.csv"), ("estimate", "log.csv")):
+            with self.subTest(app=app):
+                arguments = self.put(app)
+                os.truncate(self.folder / name, 10 << 30)
+                line = self.expect_refused(app, arguments, name)
+                self.assertIn("too long for a table of numbers", line)
+
+
+if __name__ == "__main__":
+    unittest.main()

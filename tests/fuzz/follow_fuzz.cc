@@ -1,0 +1,3 @@
+#include "fuzz/fuzz.h"
+
+FINRAY_FUZZ_TARGET(finray::FollowRows)

@@ -1,0 +1,88 @@
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "finray/io/csv_cells.h"
+#include "finray/io/frame_parser.h"
+#include "finray/io/pipe_lines.h"
+#include "finray/sensing/live_rows.h"
+#include "finray/sensing/result_rows.h"
+#include "fuzz/feeding.h"
+#include "fuzz/targets.h"
+
+namespace finray {
+
+namespace {
+
+// Cut by PipeLines: CsvReader's buffer of 48 MB would make fuzzing slow.
+CsvLine NextHeader(PipeLines* lines) {
+  CsvLine header;
+  do {
+    if (!lines->Next()) throw InputError("the log is empty");
+    header = lines->line();
+  } while (!IsHeaderLine(&header));
+  return header;
+}
+
+}  // namespace
+
+void ReadRenamedTable(std::string_view bytes) {
+  const MemoryFile scene(TakeFile(&bytes)), log(bytes);
+  Tolerate([&] {
+    const auto columns = ReadScene(scene.path()).columns;
+    PipeLines lines(log.descriptor(), -1, "log");
+    const FrameParser parser("log", NextHeader(&lines), columns);
+    FrameRows rows;
+    while (lines.Next()) {
+      rows.Clear();
+      parser.Parse(lines.line(), &rows);
+    }
+  });
+}
+
+void ReadEstimateInputs(std::string_view bytes) {
+  const MemoryFile finger_file(TakeFile(&bytes));
+  const MemoryFile scene_file(TakeFile(&bytes));
+  const MemoryFile log(bytes);
+  Tolerate([&] {
+    const Finger finger = ReadFinger(finger_file.path());
+    const Scene scene = ReadScene(scene_file.path());
+    RefuseBackContacts(scene);
+    PipeLines lines(log.descriptor(), -1, "log");
+    const FrameParser parser("log", NextHeader(&lines), scene.columns);
+    const ResultLayout layout(finger, scene, parser);
+    layout.HeaderCsv();
+    FrameRows rows;
+    FrameReadings readings;
+    while (lines.Next()) {
+      rows.Clear();
+      parser.Parse(lines.line(), &rows);
+      layout.Read(rows, 0, &readings);
+      layout.ReferenceForce(rows, 0);
+    }
+  });
+}
+
+void FollowRows(std::string_view bytes) {
+  const MemoryFile file(bytes);
+  Tolerate([&] {
+    PipeLines lines(file.descriptor(), -1, "stdin");
+    LiveRows rows(Paper(), Scene(), {}, "stdin", NextHeader(&lines));
+    const std::string names = rows.HeaderCsv();
+    std::vector<std::string_view> cells;
+    std::deque<std::string> unquoted;
+    SplitCsvLine(names.substr(0, names.size() - 1), &cells, &unquoted);
+    const std::size_t columns = cells.size();
+    for (int i = 0; i < kFollowedRows && lines.Next(); ++i) {
+      const std::string& row = rows.Next(lines.line());
+      Check(!row.empty() && row.back() == '\n', "a row has no line end");
+      SplitCsvLine(std::string_view(row).substr(0, row.size() - 1), &cells,
+                   &unquoted);
+      Check(cells.size() == columns, "a row has not all cells");
+    }
+    while (lines.Next()) {
+    }
+  });
+}
+
+}  // namespace finray
