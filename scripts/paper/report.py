@@ -30,8 +30,8 @@ NOT_IN_IT = ("hysteresis and creep of beams and joints", "friction at the contac
              "drift and temperature",
              "and, the largest of all, whatever a real finger has beyond the beam model, which simulator and estimator "
              "share (in Figs. 11 to 17 and 22 on the same mesh too; elsewhere the simulator's is finer): friction, "
-             "contact of finite length, hysteresis are in none of these figures, and the angle of the sensed contact, "
-             "0.05 against 1.24 deg, is mostly that")
+             "contact of finite length, hysteresis are in none of these figures, as the angle of the sensed contact "
+             "suggests, 0.05 against 1.24 deg")
 
 
 def tally(sections):
