@@ -9,6 +9,9 @@
 #include "fuzz/targets.h"
 
 namespace finray {
+
+void PrintTo(const Target& target, std::ostream* out) { *out << target.name; }
+
 namespace {
 
 namespace fs = std::filesystem;
