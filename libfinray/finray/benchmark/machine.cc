@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <fstream>
 
+#include "finray/benchmark/build.h"
 #include "finray/statics/ladder_kernel.h"
 
 namespace finray {
