@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -60,6 +61,7 @@ struct CalibrationOutcome {
   double rib_mm = 0, offset_V = 0;           ///< errors
   double chi2_per_dof = 0;                   ///< of the first seed
   double condition_data = 0, condition = 0;  ///< of S, S + P, first seed
+  double seconds = 0;                        ///< the longest
   int rejected = 0, agree = std::numeric_limits<int>::max();
   std::vector<std::string> said;    ///< by seed: verdict, exit code
   std::vector<double> values, std;  ///< of the last one's free parameters
@@ -68,7 +70,9 @@ struct CalibrationOutcome {
 inline double ConditionNumber(const Eigen::MatrixXd& symmetric) {
   const Eigen::VectorXd values =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvalues();
-  return values[values.size() - 1] / values[0];
+  const double largest = values[values.size() - 1];
+  return values[0] > 0 ? largest / values[0]
+                       : std::numeric_limits<double>::infinity();
 }
 
 inline void AddParameters(const CalibrationCase& c, CalibrationProblem& problem,
@@ -161,7 +165,11 @@ inline void CalibrateOnce(const CalibrationCase& c, unsigned seed,
 inline CalibrationOutcome RunCalibration(const CalibrationCase& c, int seeds) {
   CalibrationOutcome outcome;
   for (int seed = 1; seed <= seeds; ++seed) {
+    const auto before = std::chrono::steady_clock::now();
     CalibrateOnce(c, static_cast<unsigned>(seed), &outcome);
+    const std::chrono::duration<double> took =
+        std::chrono::steady_clock::now() - before;
+    outcome.seconds = std::max(outcome.seconds, took.count());
   }
   return outcome;
 }
@@ -170,8 +178,8 @@ inline void PrintCalibrationHeader(const char* varied) {
   std::printf(
       "| %s | worst parameter, std | stiffness off by | gain | rib, mm | "
       "offset, V | chi2/dof | condition of S, S + P | starts that agree | "
-      "rejected | verdict, exit code, warnings "
-      "|\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+      "rejected | s | verdict, exit code, warnings "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
       varied);
 }
 
@@ -185,10 +193,10 @@ inline void PrintCalibration(const std::string& name,
   }
   std::printf(
       "| %s | %.2g (%s) | %.1e | %.1e | %.1e | %.1e | %.3g | %.1e, %.1e | %d | "
-      "%d | %s |\n",
+      "%d | %.0f | %s |\n",
       name.c_str(), o.worst_std, o.worst_name.c_str(), o.stiffness, o.gain,
       o.rib_mm, o.offset_V, o.chi2_per_dof, o.condition_data, o.condition,
-      o.values.empty() ? 0 : o.agree, o.rejected, said.c_str());
+      o.values.empty() ? 0 : o.agree, o.rejected, o.seconds, said.c_str());
   std::fflush(stdout);
 }
 

@@ -2,40 +2,47 @@
 // gains, gauges twice or dead, places, forces, stiffness, units and starts far
 // from the usual. The tables of docs/extremes.md.
 //
-//   extremes_study [sensing|calibration|all [frames [seeds]]]
+//   extremes_study [TABLES [FRAMES [LOGS]]]
 //
-// `frames` at each of 18 places (200), logs of each calibration (2).
+// TABLES: how the names of those to be printed begin (all of them), such as
+// sensing or calibration/offsets; FRAMES at each of 18 places (200), LOGS of
+// each calibration (2).
 
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "studies/calibration_extremes_tables.h"
 #include "studies/sensing_extremes_tables.h"
 
 int main(int argc, char** argv) {
   using namespace finray;
-  const std::string what = argc > 1 ? argv[1] : "all";
+  const std::string which = argc > 1 ? argv[1] : "";
   const int frames = argc > 2 ? std::atoi(argv[2]) : 200;
-  const int seeds = argc > 3 ? std::atoi(argv[3]) : 2;
-  if (what != "calibration") {
-    std::printf("## Sensing, %d frames at each of 18 places\n", frames);
-    NoiseTable(frames);
-    QuantisedTable(frames);
-    OffsetTable(frames);
-    UnitsTable(frames);
-    LayoutTable(frames);
-    PlacesTable(frames);
-    ConditionTable();
-  }
-  if (what != "sensing") {
-    std::printf("\n## Calibration, worst of %d logs\n", seeds);
-    CalibrationNoiseTable(seeds);
-    CalibrationQuantisedTable(seeds);
-    CalibrationOffsetTable(seeds);
-    CalibrationLayoutTable(seeds);
-    CalibrationStartTable(seeds);
-    CalibrationUnitsTable();
+  const int logs = argc > 3 ? std::atoi(argv[3]) : 2;
+  const std::vector<std::pair<std::string, std::function<void()>>> tables = {
+      {"sensing/noise", [=] { NoiseTable(frames); }},
+      {"sensing/quantised", [=] { QuantisedTable(frames); }},
+      {"sensing/offsets", [=] { OffsetTable(frames); }},
+      {"sensing/units", [=] { UnitsTable(frames); }},
+      {"sensing/gauges", [=] { LayoutTable(frames); }},
+      {"sensing/places", [=] { PlacesTable(frames); }},
+      {"sensing/condition", [] { ConditionTable(); }},
+      {"calibration/noise", [=] { CalibrationNoiseTable(logs); }},
+      {"calibration/quantised", [=] { CalibrationQuantisedTable(logs); }},
+      {"calibration/offsets", [=] { CalibrationOffsetTable(logs); }},
+      {"calibration/gains", [=] { CalibrationGainTable(logs); }},
+      {"calibration/gauges", [=] { CalibrationLayoutTable(logs); }},
+      {"calibration/starts", [=] { CalibrationStartTable(logs); }},
+      {"calibration/units", [] { CalibrationUnitsTable(); }},
+  };
+  for (const auto& [name, print] : tables) {
+    if (name.compare(0, which.size(), which) != 0) continue;
+    std::printf("\n## %s\n\n", name.c_str());
+    print();
   }
   return 0;
 }

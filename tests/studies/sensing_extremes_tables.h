@@ -20,7 +20,6 @@ inline Finger WithGaugeNoise(Finger finger, double noise_V) {
 }
 
 inline void NoiseTable(int frames) {
-  std::printf("\n### Noise of the gauges\n\n");
   PrintSensingHeader("noise, of the reading");
   for (const double told : {3e-4, 1e-12}) {
     SensingCase c;
@@ -52,7 +51,6 @@ inline void NoiseTable(int frames) {
 
 /// Converters of these bits over -1 to 1 V, in which the readings reach 0.3 V.
 inline void QuantisedTable(int frames) {
-  std::printf("\n### Quantised volts\n\n");
   PrintSensingHeader("bits over -1 .. 1 V, told noise_V");
   for (const int bits : {4, 6, 8, 10, 12, 16, 24}) {
     const double step = std::ldexp(2.0, -bits);
@@ -72,7 +70,6 @@ inline void QuantisedTable(int frames) {
 }
 
 inline void OffsetTable(int frames) {
-  std::printf("\n### Offsets\n\n");
   PrintSensingHeader("offset, what is left of it");
   const auto offset_by = [](Finger finger, double offset_V) {
     for (Gauge& gauge : finger.gauges) gauge.offset_V = offset_V;
@@ -133,7 +130,7 @@ inline std::string LargestDifference(const SensingOutcome& a,
 /// Same contacts, same noise in rad: nothing may change but the units.
 inline void UnitsTable(int frames) {
   std::printf(
-      "\n### Gains, stiffness, units\n\n| what is changed | l_c, of l_0 | f_c, "
+      "| what is changed | l_c, of l_0 | f_c, "
       "of f_c | std, of std | other status, of %d |\n|---|---|---|---|---|\n",
       frames * static_cast<int>(UsualPlaces().size()));
   const SensingCase usual;
@@ -206,7 +203,6 @@ inline std::vector<std::pair<std::string, Finger>> GaugeLayouts() {
 }
 
 inline void LayoutTable(int frames) {
-  std::printf("\n### Gauges twice, on top of each other, missing, dead\n\n");
   std::printf("Condition number at 75 mm and 2 N:\n\n");
   for (const auto& [name, finger] : GaugeLayouts()) {
     const SensingCondition condition = ConditionOf(finger, {75, 2});
@@ -238,7 +234,6 @@ inline void LayoutTable(int frames) {
 }
 
 inline void PlacesTable(int frames) {
-  std::printf("\n### Places and forces\n\n");
   std::printf(
       "Noise of 1e-6 rad; the contact is where it says, to rounding.\n\n");
   PrintSensingHeader("l_c, mm; f_c, N; contacts");
@@ -280,7 +275,7 @@ inline void PlacesTable(int frames) {
 
 inline void ConditionTable() {
   std::printf(
-      "\n### Condition of the gauges' slopes\n\nSlopes by l_c / l_0 and f_c "
+      "Slopes by l_c / l_0 and f_c "
       "(relative), rows over their std of 3e-4 rad: condition number, and how "
       "many std a change by 1 along the weak direction makes.\n\n"
       "| l_c, mm | 0.1 N | 1 N | 5 N | 20 N |\n|---|---|---|---|---|\n");
