@@ -5,8 +5,8 @@
 //   extremes_study [TABLES [FRAMES [LOGS]]]
 //
 // TABLES: how the names of those to be printed begin (all of them), such as
-// sensing or calibration/offsets; FRAMES at each of 18 places (200), LOGS of
-// each calibration (2).
+// sensing or calibration/offsets, and slow for what takes minutes a row; FRAMES
+// at each of 18 places (200), LOGS of each calibration (2).
 
 #include <cstdio>
 #include <cstdlib>
@@ -38,9 +38,11 @@ int main(int argc, char** argv) {
       {"calibration/gauges", [=] { CalibrationLayoutTable(logs); }},
       {"calibration/starts", [=] { CalibrationStartTable(logs); }},
       {"calibration/units", [] { CalibrationUnitsTable(); }},
+      {"slow/calibration", [] { CalibrationSlowTable(); }},
   };
   for (const auto& [name, print] : tables) {
     if (name.compare(0, which.size(), which) != 0) continue;
+    if (which.empty() && name.compare(0, 4, "slow") == 0) continue;
     std::printf("\n## %s\n\n", name.c_str());
     print();
   }

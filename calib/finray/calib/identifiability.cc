@@ -16,9 +16,25 @@ const char* ParameterStatusName(ParameterStatus status) {
 }
 
 Eigen::MatrixXd BoundedCovariance(const Eigen::MatrixXd& information) {
+  constexpr double kLeast = Identifiability::kNull * Identifiability::kNull;
+  constexpr double kRounding = 1e-12;
+  // Units far from what the data tell spread the eigenvalues by more than a
+  // double has digits: with a unit diagonal they are no matter.
+  const Eigen::VectorXd size =
+      information.diagonal().cwiseSqrt().cwiseInverse();
+  if (size.allFinite()) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> even(
+        size.asDiagonal() * information * size.asDiagonal());
+    if (even.eigenvalues()[0] > kRounding) {
+      const Eigen::MatrixXd root =
+          size.asDiagonal() * even.eigenvectors() *
+          even.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
+      const Eigen::MatrixXd covariance = root * root.transpose();
+      if (covariance.trace() < 1 / kLeast) return covariance;
+    }
+  }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(information);
-  const Eigen::VectorXd bounded = eigen.eigenvalues().cwiseMax(
-      Identifiability::kNull * Identifiability::kNull);
+  const Eigen::VectorXd bounded = eigen.eigenvalues().cwiseMax(kLeast);
   return eigen.eigenvectors() * bounded.cwiseInverse().asDiagonal() *
          eigen.eigenvectors().transpose();
 }
