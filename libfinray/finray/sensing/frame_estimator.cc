@@ -1,7 +1,9 @@
 #include "finray/sensing/frame_estimator.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 
 namespace finray {
@@ -61,6 +63,7 @@ FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
                                const Discretization& discretization)
     : finger_((CheckScene(finger, scene), finger)),
       scene_(scene),
+      least_force_N_(std::min(kLeastForce_N, kLeastForce * ForceUnit(finger))),
       search_(finger, scene, discretization),
       systematic_(SystematicOf(finger, scene, discretization)) {
   if (FrameFollower::Serves(scene)) {
@@ -159,7 +162,7 @@ bool FrameEstimator::TakeFollowed(const FrameReadings& readings,
   const double arc_std = std::sqrt(covariance(0, 0));
   const bool touches =
       scene_.contacts
-          ? fit.normal_N >= kLeastForce_N
+          ? fit.normal_N >= least_force_N_
           : fit.chi2 < kSecondSignificance &&
                 FreeChi2(measurements_[frame]) - fit.chi2 >= kSignificance;
   if (!touches || !follower_->IsCertain(frame, arc_std)) return false;
@@ -223,7 +226,7 @@ FrameEstimate FrameEstimator::Automatic(const FrameReadings& readings) {
   if (!search_.Search(2, measurement_)) return one;
   const ContactSolution& two = search_.best();
   for (const PointContact& contact : two.contacts) {
-    if (contact.normal_N < kLeastForce_N) return one;
+    if (contact.normal_N < least_force_N_) return one;
   }
   if (one.chi2 - two.chi2 < kSecondSignificance) return one;
   FrameEstimate estimate = Found(readings);
@@ -239,7 +242,7 @@ FrameEstimate FrameEstimator::WithContacts(const FrameReadings& readings,
   }
   const ContactSolution& best = search_.best();
   for (int c = 0; c < best.count; ++c) {
-    if (best.contacts[c].normal_N < kLeastForce_N) {
+    if (best.contacts[c].normal_N < least_force_N_) {
       return WithContacts(readings, contacts - 1);
     }
   }

@@ -24,7 +24,7 @@ namespace finray {
 ///
 /// Statuses (docs/estimation.md):
 ///  - no_contact: no contact, by that criterion or, with the number given, as
-///    all forces are below kLeastForce_N.
+///    all forces are below kLeastForce_N, of soft fingers kLeastForce.
 ///  - unobservable: solved, but std of l_c above kLargestArcStd of l_0 or std
 ///    of f_c above kLargestForceStd of f_c, or l_c at an end of the beam, or
 ///    another solution explains the frame as well.
@@ -35,6 +35,7 @@ class FrameEstimator {
   /// A second contact explains almost anything: it takes p = 1e-6.
   static constexpr double kSecondSignificance = 27.6;
   static constexpr double kLeastForce_N = 0.03;
+  static constexpr double kLeastForce = 0.05;  ///< In units of EI / l_0^2.
   static constexpr double kLargestArcStd = 0.05;
   static constexpr double kLargestForceStd = 0.25;
 
@@ -82,6 +83,7 @@ class FrameEstimator {
 
   Finger finger_;
   Scene scene_;
+  double least_force_N_;
   ContactSearch search_;
   std::optional<FrameFollower> follower_;  // where it serves the scene
   bool following_ = false;                 // by Follow
