@@ -49,15 +49,18 @@ double ContactSearch::least_chi2() const {
 bool ContactSearch::Search(int contacts, const FrameMeasurement& measurement) {
   FindStarts(contacts, measurement);
   const int dof = measurement.all - 2 * contacts;
+  // Of two gauges a minimum leaves nothing, however far the table's nodes are
+  // from it: no chi2 tells the right one.
+  const bool exact = contacts == 1 && dof < 1;
   found_ = iterations_ = 0;
   int descents = 0;
   for (const ContactStart& start : starts_) {
     const bool explained = found_ > 0 && IsExplained(least_chi2(), dof);
     const bool may_be_rival =
-        kTableFactor * start.chi2 < least_chi2() + kWithinNoise;
+        exact || kTableFactor * start.chi2 < least_chi2() + kWithinNoise;
     if (explained && !may_be_rival) break;
     if (Fit(start, measurement)) continue;
-    if (explained || descents == kMostDescents) continue;
+    if ((explained && !exact) || descents == kMostDescents) continue;
     ++descents;
     Descend(start, measurement);
   }
