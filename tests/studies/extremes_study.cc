@@ -4,9 +4,9 @@
 //
 //   extremes_study [TABLES [FRAMES [LOGS]]]
 //
-// TABLES: how the names of those to be printed begin (all of them), such as
-// sensing or calibration/offsets, and slow for what takes minutes a row; FRAMES
-// at each of 18 places (200), LOGS of each calibration (2).
+// TABLES: how the names of those to be printed begin, such as sensing or
+// calibration/offsets (all but slow, which takes minutes a row); FRAMES at each
+// of 18 places (50); LOGS of each calibration (1).
 
 #include <cstdio>
 #include <cstdlib>
@@ -21,8 +21,8 @@
 int main(int argc, char** argv) {
   using namespace finray;
   const std::string which = argc > 1 ? argv[1] : "";
-  const int frames = argc > 2 ? std::atoi(argv[2]) : 200;
-  const int logs = argc > 3 ? std::atoi(argv[3]) : 2;
+  const int frames = argc > 2 ? std::atoi(argv[2]) : 50;
+  const int logs = argc > 3 ? std::atoi(argv[3]) : 1;
   const std::vector<std::pair<std::string, std::function<void()>>> tables = {
       {"sensing/noise", [=] { NoiseTable(frames); }},
       {"sensing/quantised", [=] { QuantisedTable(frames); }},
