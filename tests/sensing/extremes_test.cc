@@ -141,8 +141,8 @@ TEST(ExtremesTest, GaugesAtOnePlaceTellNothing) {
 }
 
 // Two gauges leave nothing to tell a wrong contact by: all that explain the
-// readings have to be found. 40 % of these frames came out ok and elsewhere
-// when a search ended at the first one.
+// readings have to be found. Of the frames that were ok 30 % (the first pair)
+// were elsewhere when a search ended at the first one.
 TEST(ExtremesTest, TwoGaugesFindTheirRivals) {
   for (const std::vector<int>& gauges : {std::vector<int>{0, 3}, {2, 3}}) {
     const Finger paper = PaperFinger();
