@@ -93,7 +93,7 @@ TEST_F(FrameLinearizerTest, FitsTheContact) {
     LinearizedFrame at;
     ASSERT_TRUE(
         linearizer_->FitContact(logs_.frames[frame], &contact, &state, &at));
-    const LinearizedFrame::ContactMove move = at.Move();
+    const LinearizedFrame::ContactMove move = at.move;
     EXPECT_LT(move.decrease, 2 * FrameLinearizer::kSmallDecrease);
     const std::array<double, 2> best = {contact[0] + move.now[0],
                                         contact[1] + move.now[1]};
@@ -115,7 +115,7 @@ TEST_F(FrameLinearizerTest, ContactsFollowTheParameters) {
   LinearizedFrame at;
   const CalibrationFrame& frame = logs_.frames[7];
   ASSERT_TRUE(linearizer_->FitContact(frame, &contact, &state, &at));
-  const auto move = at.Move();
+  const auto move = at.move;
   const Eigen::Vector2d start =
       Eigen::Vector2d(contact[0], contact[1]) + move.now;
   const double step = 1e-3;
@@ -123,7 +123,7 @@ TEST_F(FrameLinearizerTest, ContactsFollowTheParameters) {
   std::array<double, 2> moved = contact;
   ASSERT_TRUE(linearizer_->FitContact(frame, &moved, &state, &at));
   const Eigen::Vector2d end =
-      Eigen::Vector2d(moved[0], moved[1]) + at.Move().now;
+      Eigen::Vector2d(moved[0], moved[1]) + at.move.now;
   const Eigen::Vector2d expected = move.by_parameter.col(0) * step;
   // Up to what Gauss-Newton and the changing weights leave out.
   EXPECT_LT((end - start - expected).norm(), 0.2 * expected.norm());

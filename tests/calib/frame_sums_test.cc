@@ -21,7 +21,8 @@ TEST(FrameSumsTest, ContactsAreEliminated) {
   frame.cost = r.squaredNorm() / 2;
   FrameSums sums;
   sums.SetZero(3);
-  sums.Add(frame, frame.Move());
+  frame.Eliminate();
+  sums.Add(frame);
   sums.AddPrior(1, 0.5, 0.2, 0.1);
   // The least over the contact of |r + C dx + E dc|^2 / 2.
   const auto least = [&](const Eigen::Vector3d& dx) {

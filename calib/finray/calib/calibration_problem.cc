@@ -3,9 +3,12 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -21,33 +24,43 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kLeastOfLog = 50;
 // States of more frames would take more memory than they save time.
 constexpr std::size_t kMostStates = 50000;
-constexpr std::size_t kBatch = 256;  // of frames, visited in one go
+// Frames that a thread works on in one go.
+constexpr std::size_t kChunk = 32;
 }  // namespace
 
-CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
-                                       CalibrationLogs logs,
-                                       const Discretization& discretization,
-                                       int threads)
+CalibrationProblem::CalibrationProblem(
+    const Finger& finger, const Plan& plan,
+    std::shared_ptr<const CalibrationLogs> logs,
+    const Discretization& discretization, int threads)
     : finger_(finger),
       plan_(plan),
       logs_(std::move(logs)),
-      parameters_(finger, plan, logs_),
+      parameters_(finger, plan, *logs_),
       discretization_(discretization),
       threads_(threads),
       blocks_(finger_, plan_, &parameters_),
-      solver_(finger, discretization) {
+      solver_(finger, discretization) {}
+
+CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
+                                       CalibrationLogs all_logs,
+                                       const Discretization& discretization,
+                                       int threads)
+    : CalibrationProblem(
+          finger, plan,
+          std::make_shared<const CalibrationLogs>(std::move(all_logs)),
+          discretization, threads) {
   if (parameters_.free().empty()) {
     throw InputError("plan: no parameter is free, so there is nothing to do");
   }
   // Without any reference, contacts can be anywhere that suits the gauges, and
   // the solver finds nothing but that.
   const bool reference = std::any_of(
-      logs_.frames.begin(), logs_.frames.end(), [&](const auto& frame) {
+      logs().frames.begin(), logs().frames.end(), [&](const auto& frame) {
         return frame.contact && !frame.held_out && blocks_.HasReference(frame);
       });
   bool any = false;
-  for (std::size_t i = 0; i < logs_.frames.size(); ++i) {
-    const CalibrationFrame& frame = logs_.frames[i];
+  for (std::size_t i = 0; i < logs().frames.size(); ++i) {
+    const CalibrationFrame& frame = logs().frames[i];
     if (frame.held_out || !blocks_.HasEnough(frame)) continue;
     any = true;
     if (frame.contact && !reference) {
@@ -57,10 +70,24 @@ CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
     candidates_.push_back(static_cast<int>(i));
   }
   if (!any) throw InputError("logs: no frame has anything to fit");
-  fitted_ = candidates_;
-  contacts_.assign(logs_.frames.size(), {kNaN, kNaN});
-  if (candidates_.size() <= kMostStates) states_.resize(logs_.frames.size());
+  FitAllCandidates();
   StartFrom(finger);
+}
+
+void CalibrationProblem::FitAllCandidates() {
+  fitted_ = candidates_;
+  contacts_.assign(logs().frames.size(), {kNaN, kNaN});
+  if (candidates_.size() <= kMostStates) states_.resize(logs().frames.size());
+}
+
+std::unique_ptr<CalibrationProblem> CalibrationProblem::Part(
+    const std::vector<int>& frames) const {
+  std::unique_ptr<CalibrationProblem> part(
+      new CalibrationProblem(finger_, plan_, logs_, discretization_, 1));
+  part->candidates_ = frames;
+  part->FitAllCandidates();
+  part->Restore(Save());
+  return part;
 }
 
 void CalibrationProblem::StartFrom(const Finger& start) {
@@ -75,6 +102,7 @@ void CalibrationProblem::StartFrom(const Finger& start) {
   }
   for (auto& contact : contacts_) contact = {kNaN, kNaN};
   at_solution_.reset();
+  start_.reset();
   GuessOffsets();
 }
 
@@ -93,6 +121,7 @@ void CalibrationProblem::SetValues(const Eigen::VectorXd& values) {
     *parameters_.all()[free[k]].variable = values[static_cast<Eigen::Index>(k)];
   }
   at_solution_.reset();
+  start_.reset();
 }
 
 void CalibrationProblem::SetRejected(std::map<int, std::string> reasons) {
@@ -122,7 +151,7 @@ void CalibrationProblem::Restore(const Point& point) {
 std::vector<int> CalibrationProblem::SpreadFrames(std::size_t most) const {
   std::map<std::pair<int, int>, std::vector<int>> kinds;
   for (const int i : candidates_) {
-    const CalibrationFrame& frame = logs_.frames[i];
+    const CalibrationFrame& frame = logs().frames[i];
     const int kind = frame.IsBench() ? 2 : frame.contact ? 1 : 0;
     kinds[{frame.log, kind}].push_back(i);
   }
@@ -154,29 +183,54 @@ LadderState* CalibrationProblem::StateOf(int frame, LadderState* scratch) {
 bool CalibrationProblem::InParallel(const std::vector<int>& frames,
                                     const Plan& plan, const Prepare& prepare,
                                     const Visitor& visit) {
-  tbb::task_arena arena(threads_);
+  struct Chunk {
+    std::size_t first, count;
+    std::array<LinearizedFrame, kChunk> frames;
+    std::array<bool, kChunk> good;
+  };
   tbb::enumerable_thread_specific<FrameLinearizer> linearizers(
       [&] { return FrameLinearizer(solver_, plan, &blocks_, &parameters_); });
-  std::vector<LinearizedFrame> batch(std::min(kBatch, frames.size()));
-  std::vector<char> good(batch.size());
-  for (std::size_t first = 0; first < frames.size(); first += kBatch) {
-    const std::size_t count = std::min(kBatch, frames.size() - first);
-    arena.execute([&] {
-      tbb::parallel_for(
-          tbb::blocked_range<std::size_t>(0, count, 16),
-          [&](const tbb::blocked_range<std::size_t>& range) {
-            FrameLinearizer& linearizer = linearizers.local();
-            for (std::size_t k = range.begin(); k < range.end(); ++k) {
-              good[k] = prepare(frames[first + k], &linearizer, &batch[k]);
-            }
-          });
-    });
-    for (std::size_t k = 0; k < count; ++k) {
-      if (!good[k]) return false;
-      visit(frames[first + k], batch[k]);
+  // As many are under way at most, and they end in order.
+  std::vector<Chunk> ring(4 * static_cast<std::size_t>(threads_));
+  std::size_t begun = 0;
+  std::atomic<bool> failed = false;
+  const auto begin = [&](tbb::flow_control& control) -> Chunk* {
+    const std::size_t first = begun * kChunk;
+    if (first >= frames.size() || failed) {
+      control.stop();
+      return nullptr;
     }
-  }
-  return true;
+    Chunk& chunk = ring[begun++ % ring.size()];
+    chunk.first = first;
+    chunk.count = std::min(kChunk, frames.size() - first);
+    return &chunk;
+  };
+  const auto prepare_all = [&](Chunk* chunk) {
+    FrameLinearizer& linearizer = linearizers.local();
+    for (std::size_t k = 0; k < chunk->count; ++k) {
+      chunk->good[k] =
+          prepare(frames[chunk->first + k], &linearizer, &chunk->frames[k]);
+    }
+    return chunk;
+  };
+  const auto visit_all = [&](Chunk* chunk) {
+    for (std::size_t k = 0; k < chunk->count && !failed; ++k) {
+      if (chunk->good[k]) {
+        visit(frames[chunk->first + k], chunk->frames[k]);
+      } else {
+        failed = true;
+      }
+    }
+  };
+  using Mode = tbb::filter_mode;
+  tbb::task_arena(threads_).execute([&] {
+    tbb::parallel_pipeline(
+        ring.size(),
+        tbb::make_filter<void, Chunk*>(Mode::serial_in_order, begin) &
+            tbb::make_filter<Chunk*, Chunk*>(Mode::parallel, prepare_all) &
+            tbb::make_filter<Chunk*, void>(Mode::serial_in_order, visit_all));
+  });
+  return !failed;
 }
 
 void CalibrationProblem::VisitFrames(const Visitor& visit) {
@@ -185,7 +239,7 @@ void CalibrationProblem::VisitFrames(const Visitor& visit) {
       fitted_, plan_,
       [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
         LadderState scratch;
-        return linearizer->Linearize(logs_.frames[i], contacts_[i],
+        return linearizer->Linearize(logs().frames[i], contacts_[i],
                                      StateOf(i, &scratch), out);
       },
       visit);
@@ -200,19 +254,24 @@ std::array<double, 2> CalibrationProblem::contact(int frame) const {
 }
 
 void CalibrationProblem::FitContacts(const std::vector<int>& frames,
-                                     const Visitor& visit) {
+                                     const Judge& judge) {
   GuessContacts(frames, ContactGuess::From::kAll);
+  FrameSums sums;
+  BeginSum(frames.size(), &sums);
   InParallel(
       frames, plan_,
       [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
         LadderState scratch;
-        if (!linearizer->FitContact(logs_.frames[i], &contacts_[i],
+        if (!linearizer->FitContact(logs().frames[i], &contacts_[i],
                                     StateOf(i, &scratch), out)) {
           out->rows.clear();
         }
         return true;
       },
-      visit);
+      [&](int i, const LinearizedFrame& frame) {
+        if (judge(i, frame)) AddToSum(i, frame, &sums);
+      });
+  start_ = std::move(sums);
 }
 
 void CalibrationProblem::FitContactsRobustly(const std::vector<int>& frames,
@@ -229,7 +288,7 @@ void CalibrationProblem::FitContactsRobustly(const std::vector<int>& frames,
         LadderState scratch;
         std::array<double, 2> contact = contacts_[i];
         LadderState state = *StateOf(i, &scratch);
-        if (!linearizer->FitContact(logs_.frames[i], &contact, &state, out)) {
+        if (!linearizer->FitContact(logs().frames[i], &contact, &state, out)) {
           out->rows.clear();
         }
         return true;
@@ -242,7 +301,7 @@ const Linearization& CalibrationProblem::AtSolution() {
     auto at = std::make_unique<Linearization>(
         static_cast<int>(parameters_.free().size()), fitted_.size());
     VisitFrames([&](int frame, const LinearizedFrame& linearized) {
-      at->Add(frame, logs_.frames[frame].log, linearized);
+      at->Add(frame, logs().frames[frame].log, linearized);
     });
     at->Finish();
     at_solution_ = std::move(at);
@@ -252,7 +311,7 @@ const Linearization& CalibrationProblem::AtSolution() {
 
 ContactGuess CalibrationProblem::MakeGuess() {
   return ContactGuess(parameters_.Apply(finger_), plan_, discretization_,
-                      &blocks_, &parameters_);
+                      &blocks_, &parameters_, threads_);
 }
 
 // Where the measurements put contacts that have no place yet, by the finger as
@@ -261,7 +320,7 @@ void CalibrationProblem::GuessContacts(const std::vector<int>& frames,
                                        ContactGuess::From from) {
   std::vector<int> wanted;
   for (const int i : frames) {
-    if (logs_.frames[i].contact && std::isnan(contacts_[i][0])) {
+    if (logs().frames[i].contact && std::isnan(contacts_[i][0])) {
       wanted.push_back(i);
     }
   }
@@ -269,16 +328,18 @@ void CalibrationProblem::GuessContacts(const std::vector<int>& frames,
   auto guess = std::make_unique<const ContactGuess>(MakeGuess());
   tbb::enumerable_thread_specific<ContactGuess> guesses(*guess);
   tbb::task_arena(threads_).execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, wanted.size(), 16),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-          ContactGuess& local = guesses.local();
-          for (std::size_t k = range.begin(); k < range.end(); ++k) {
-            ContactGuess::Place place = local.Of(logs_.frames[wanted[k]], from);
-            contacts_[wanted[k]] = {place.arc_mm, place.normal_N};
-            if (!states_.empty()) states_[wanted[k]] = std::move(place.state);
-          }
-        });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, wanted.size(), 16),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        ContactGuess& local = guesses.local();
+                        for (std::size_t k = range.begin(); k < range.end();
+                             ++k) {
+                          ContactGuess::Place place =
+                              local.Of(logs().frames[wanted[k]], from);
+                          contacts_[wanted[k]] = {place.arc_mm, place.normal_N};
+                          if (!states_.empty())
+                            states_[wanted[k]] = std::move(place.state);
+                        }
+                      });
   });
   if (states_.empty()) guess_ = std::move(guess);
 }

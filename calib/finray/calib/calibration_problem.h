@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,8 @@ class CalibrationProblem {
   SolveReport Solve();
   /// From near the solution: of all frames by FrameSumResidual.
   SolveReport SolveOn();
+  /// By JointSolve of all frames, however many.
+  SolveReport SolveJointly(const JointSolve::Limits& limits);
   static constexpr std::size_t kMostJoint = 1000, kJoint = 500;
   bool few() const { return candidates_.size() <= kMostJoint; }
 
@@ -49,13 +52,16 @@ class CalibrationProblem {
   /// Some kSome frames, evenly spread; the joint solve of these alone, and
   /// what they and the priors say of the free parameters.
   std::vector<int> SomeFrames() const;
-  SolveReport SolveSome(int most_iterations = kMostIterations);
+  SolveReport SolveSome(const JointSolve::Limits& limits = {});
   Eigen::MatrixXd InformationOfSome();
   /// The same in the weighted form, from the present values, which it changes;
   /// `information` is that of the frames alone.
   SolveReport SolveSomeWeighted(Eigen::MatrixXd* information);
-  static constexpr int kMostIterations = 200;
   static constexpr std::size_t kSome = 250;
+  /// The problem of these frames alone, from the present values and contacts,
+  /// for one thread: several can be solved at the same time.
+  std::unique_ptr<CalibrationProblem> Part(
+      const std::vector<int>& frames) const;
   /// All that could be fitted, rejected or not.
   const std::vector<int>& candidates() const { return candidates_; }
 
@@ -91,10 +97,12 @@ class CalibrationProblem {
 
   /// Makes a first guess of these frames' contacts, where there is none yet.
   void GuessContacts(const std::vector<int>& frames, ContactGuess::From from);
-  /// Calls `visit` for each of these frames in order, fitted or not, its
+  /// Calls `judge` for each of these frames in order, fitted or not, its
   /// contact put where it explains the frame best. No rows: it cannot be
-  /// evaluated.
-  void FitContacts(const std::vector<int>& frames, const Visitor& visit);
+  /// evaluated. What it says is good is summed up: if these are the frames that
+  /// a solve by FrameSumResidual is of, that need not begin by doing so.
+  using Judge = std::function<bool(int frame, const LinearizedFrame&)>;
+  void FitContacts(const std::vector<int>& frames, const Judge& judge);
   /// The same where it explains most of the frame, by Cauchy's loss. What is
   /// kept of contacts is a new guess, from all but the force.
   void FitContactsRobustly(const std::vector<int>& frames,
@@ -111,7 +119,7 @@ class CalibrationProblem {
   std::array<double, 2> contact(int frame) const;
 
   CalibrationParameters& parameters() { return parameters_; }
-  const CalibrationLogs& logs() const { return logs_; }
+  const CalibrationLogs& logs() const { return *logs_; }
   const Plan& plan() const { return plan_; }
   const Finger& finger() const { return finger_; }
   const Discretization& discretization() const { return discretization_; }
@@ -119,20 +127,26 @@ class CalibrationProblem {
   double gauge_std_V(int gauge) const { return blocks_.gauge_std_V(gauge); }
 
  private:
+  // Without candidates.
+  CalibrationProblem(const Finger& finger, const Plan& plan,
+                     std::shared_ptr<const CalibrationLogs> logs,
+                     const Discretization& discretization, int threads);
+  void FitAllCandidates();
   // Of the free parameters.
   Eigen::VectorXd Values() const;
   void SetValues(const Eigen::VectorXd& values);
   std::vector<int> SpreadFrames(std::size_t most) const;
   SolveReport SolveJointly(const std::vector<int>& frames,
-                           int most_iterations = kMostIterations);
+                           const JointSolve::Limits& limits);
   SolveReport SolveSummed(const std::vector<int>& frames,
                           double gradient_tolerance);
   void ForgetLastDigits();
   Eigen::MatrixXd DeterminedUnits(const Eigen::MatrixXd& information) const;
+  void BeginSum(std::size_t most_frames, FrameSums* sums);
+  void AddToSum(int frame, const LinearizedFrame& at, FrameSums* sums);
   bool Sum(const std::vector<int>& frames, const Eigen::VectorXd& at,
            FrameSums* sums);
-  void MoveContacts(const std::vector<int>& frames,
-                    const Eigen::VectorXd& change);
+  void MoveContacts(const Eigen::VectorXd& change);
   void MoveContact(int frame, const Eigen::Vector2d& move);
   // Calls `visit(frame, linearised)` in order after `prepare` has worked on the
   // frames in parallel; false if that fails for one.
@@ -145,7 +159,7 @@ class CalibrationProblem {
 
   Finger finger_;
   Plan plan_;
-  CalibrationLogs logs_;
+  std::shared_ptr<const CalibrationLogs> logs_;
   CalibrationParameters parameters_;
   Discretization discretization_;
   int threads_;
@@ -158,11 +172,13 @@ class CalibrationProblem {
   std::vector<std::array<double, 2>> contacts_;
   std::vector<LadderState> states_;            // empty if there are too many
   std::unique_ptr<const ContactGuess> guess_;  // then, for what is near
-  // Of the last Sum: by its frames, how contacts go with the parameters (2 x
-  // free); where it was; and what it is in full, if over all frames.
+  // Of the last sum: its frames; by these, how contacts go with the parameters
+  // (2 x free); where it was; and what it is in full, if over all frames.
+  std::vector<int> summed_frames_;
   Eigen::MatrixXf contact_slopes_;
   Eigen::VectorXd summed_at_;
   std::unique_ptr<Linearization> summed_;
+  std::optional<FrameSums> start_;  // of FitContacts, at the present values
   std::map<int, std::string> rejected_;
   std::unique_ptr<Linearization> at_solution_;
 };

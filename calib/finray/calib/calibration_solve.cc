@@ -20,6 +20,9 @@ constexpr double kNear = 1e-6, kNearEnough = 1e-2;
 // or scales, nothing is moved: that would be rounding.
 constexpr double kLeastInformation = 1e-8;
 
+// Sums over the frames go on from there.
+constexpr JointSolve::Limits kNearby = {200, 1e-8};
+
 double WithoutLastDigits(double value) {
   // Seven digits are left, much less than a std.
   int exponent;
@@ -32,7 +35,7 @@ double WithoutLastDigits(double value) {
 SolveReport CalibrationProblem::Solve() {
   at_solution_.reset();
   const SolveReport joint =
-      SolveJointly(few() ? fitted_ : SpreadFrames(kJoint));
+      SolveJointly(few() ? fitted_ : SpreadFrames(kJoint), kNearby);
   SolveReport report = SolveOn();
   report.iterations += joint.iterations;
   return report;
@@ -71,14 +74,19 @@ std::vector<int> CalibrationProblem::SomeFrames() const {
   return SpreadFrames(kSome);
 }
 
-SolveReport CalibrationProblem::SolveSome(int most_iterations) {
+SolveReport CalibrationProblem::SolveSome(const JointSolve::Limits& limits) {
   at_solution_.reset();
-  return SolveJointly(SomeFrames(), most_iterations);
+  return SolveJointly(SomeFrames(), limits);
+}
+
+SolveReport CalibrationProblem::SolveJointly(const JointSolve::Limits& limits) {
+  at_solution_.reset();
+  return SolveJointly(fitted_, limits);
 }
 
 Eigen::MatrixXd CalibrationProblem::InformationOfSome() {
   FrameSums sums;
-  summed_at_.resize(0);
+  summed_frames_.clear();
   if (!Sum(SomeFrames(), Values(), &sums)) {
     throw std::runtime_error("the model cannot be evaluated at the solution");
   }
@@ -86,20 +94,20 @@ Eigen::MatrixXd CalibrationProblem::InformationOfSome() {
 }
 
 SolveReport CalibrationProblem::SolveJointly(const std::vector<int>& frames,
-                                             int most_iterations) {
+                                             const JointSolve::Limits& limits) {
   GuessContacts(frames, ContactGuess::From::kObjectFirst);
   std::vector<LadderState> states;  // of these frames, if not kept
   if (states_.empty()) states.resize(frames.size());
   std::vector<JointSolve::Frame> joint;
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const int i = frames[k];
-    const CalibrationFrame& frame = logs_.frames[i];
+    const CalibrationFrame& frame = logs().frames[i];
     joint.push_back({&frame, frame.contact ? contacts_[i].data() : nullptr,
                      states_.empty() ? &states[k] : &states_[i]});
   }
   const SolveReport report = JointSolve(finger_, discretization_, plan_,
                                         blocks_, &parameters_, joint, threads_)
-                                 .Solve(most_iterations);
+                                 .Solve(limits);
   ForgetLastDigits();
   return report;
 }
@@ -113,7 +121,7 @@ SolveReport CalibrationProblem::SolveSomeWeighted(
   std::vector<std::vector<double>> unknowns;
   std::size_t size = 0;
   for (const int i : frames) {
-    const CalibrationFrame& frame = logs_.frames[i];
+    const CalibrationFrame& frame = logs().frames[i];
     unknowns.emplace_back();
     if (frame.IsBench()) continue;
     std::vector<PointContact> contacts;
@@ -140,11 +148,11 @@ SolveReport CalibrationProblem::SolveSomeWeighted(
   for (std::size_t k = 0; k < frames.size(); ++k) {
     double* first = unknowns[k].empty() ? nullptr : all.data() + all.size();
     all.insert(all.end(), unknowns[k].begin(), unknowns[k].end());
-    joint.push_back({&logs_.frames[frames[k]], first, &states[k]});
+    joint.push_back({&logs().frames[frames[k]], first, &states[k]});
   }
   JointSolve solve(finger_, discretization_, plan_, blocks_, &parameters_,
                    joint, threads_, EquilibriumForm::kWeighted);
-  const SolveReport report = solve.Solve(kMostIterations);
+  const SolveReport report = solve.Solve({});
   *information = solve.Information();
   return report;
 }
@@ -167,11 +175,16 @@ SolveReport CalibrationProblem::SolveSummed(const std::vector<int>& frames,
                                             double gradient_tolerance) {
   GuessContacts(frames, ContactGuess::From::kAll);
   const Eigen::VectorXd start = Values();
-  summed_at_.resize(0);
   FrameSums sums;
-  if (!Sum(frames, start, &sums)) {
-    throw std::runtime_error("the model cannot be evaluated at the start");
+  if (start_ && summed_frames_ == frames) {
+    sums = std::move(*start_);
+  } else {
+    summed_frames_.clear();
+    if (!Sum(frames, start, &sums)) {
+      throw std::runtime_error("the model cannot be evaluated at the start");
+    }
   }
+  start_.reset();
   const Eigen::MatrixXd units = DeterminedUnits(sums.information);
   if (units.cols() == 0) {
     return {true, 0, sums.cost, sums.cost, "nothing is determined"};
@@ -202,6 +215,7 @@ SolveReport CalibrationProblem::SolveSummed(const std::vector<int>& frames,
     throw std::runtime_error("the model cannot be evaluated at the solution");
   }
   at_solution_ = std::move(summed_);
+  summed_frames_ = {};
   contact_slopes_.resize(0, 0);
   SolveReport report;
   report.converged = summary.termination_type == ceres::CONVERGENCE;
@@ -212,56 +226,69 @@ SolveReport CalibrationProblem::SolveSummed(const std::vector<int>& frames,
   return report;
 }
 
-bool CalibrationProblem::Sum(const std::vector<int>& frames,
-                             const Eigen::VectorXd& at, FrameSums* sums) {
-  SetValues(at);
+void CalibrationProblem::BeginSum(std::size_t most_frames, FrameSums* sums) {
+  const Eigen::VectorXd at = Values();
   const auto n = static_cast<int>(at.size());
-  if (summed_at_.size() > 0) MoveContacts(frames, at - summed_at_);
   summed_at_ = at;
-  contact_slopes_.resize(2 * n, static_cast<Eigen::Index>(frames.size()));
   summed_.reset();
-  if (frames.size() == fitted_.size()) {
-    summed_ = std::make_unique<Linearization>(n, frames.size());
-  }
+  summed_frames_.clear();
+  summed_frames_.reserve(most_frames);
+  contact_slopes_.resize(2 * n, static_cast<Eigen::Index>(most_frames));
   sums->SetZero(n);
   for (int k = 0; k < n; ++k) {
     const CalibrationParameter& p = parameters_.all()[parameters_.free()[k]];
     if (p.prior_std) sums->AddPrior(k, at[k], p.initial, *p.prior_std);
   }
-  Eigen::Index column = 0;
+}
+
+void CalibrationProblem::AddToSum(int frame, const LinearizedFrame& at,
+                                  FrameSums* sums) {
+  sums->Add(at);
+  const auto column = static_cast<Eigen::Index>(summed_frames_.size());
+  Eigen::Map<Eigen::Matrix2Xf>(contact_slopes_.col(column).data(), 2,
+                               summed_at_.size()) =
+      at.move.by_parameter.cast<float>();
+  summed_frames_.push_back(frame);
+  MoveContact(frame, at.move.now);
+}
+
+bool CalibrationProblem::Sum(const std::vector<int>& frames,
+                             const Eigen::VectorXd& at, FrameSums* sums) {
+  SetValues(at);
+  if (!summed_frames_.empty()) MoveContacts(at - summed_at_);
+  BeginSum(frames.size(), sums);
+  if (frames.size() == fitted_.size()) {
+    summed_ = std::make_unique<Linearization>(static_cast<int>(at.size()),
+                                              frames.size());
+  }
   const bool good = InParallel(
       frames, plan_,
       [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
         LadderState scratch;
-        return linearizer->FitContact(logs_.frames[i], &contacts_[i],
+        return linearizer->FitContact(logs().frames[i], &contacts_[i],
                                       StateOf(i, &scratch), out);
       },
       [&](int i, const LinearizedFrame& frame) {
-        const LinearizedFrame::ContactMove move = frame.Move();
-        sums->Add(frame, move);
-        if (summed_) summed_->Add(i, logs_.frames[i].log, frame);
-        Eigen::Map<Eigen::Matrix2Xf>(contact_slopes_.col(column++).data(), 2,
-                                     n) = move.by_parameter.cast<float>();
-        MoveContact(i, move.now);
+        if (summed_) summed_->Add(i, logs().frames[i].log, frame);
+        AddToSum(i, frame, sums);
       });
   if (summed_) summed_->Finish();
   return good;
 }
 
 // The contacts follow the parameters, to first order.
-void CalibrationProblem::MoveContacts(const std::vector<int>& frames,
-                                      const Eigen::VectorXd& change) {
+void CalibrationProblem::MoveContacts(const Eigen::VectorXd& change) {
   const Eigen::VectorXf move = change.cast<float>();
-  for (std::size_t k = 0; k < frames.size(); ++k) {
+  for (std::size_t k = 0; k < summed_frames_.size(); ++k) {
     const Eigen::Map<const Eigen::Matrix2Xf> slopes(
         contact_slopes_.col(static_cast<Eigen::Index>(k)).data(), 2,
         move.size());
-    MoveContact(frames[k], (slopes * move).cast<double>());
+    MoveContact(summed_frames_[k], (slopes * move).cast<double>());
   }
 }
 
 void CalibrationProblem::MoveContact(int frame, const Eigen::Vector2d& move) {
-  if (!logs_.frames[frame].contact) return;
+  if (!logs().frames[frame].contact) return;
   auto& [arc_mm, normal_N] = contacts_[frame];
   arc_mm = std::clamp(arc_mm + move[0], 0.0, finger_.front_length_mm);
   normal_N = std::max(0.0, normal_N + move[1]);

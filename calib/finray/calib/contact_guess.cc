@@ -10,7 +10,7 @@ namespace finray {
 ContactGuess::ContactGuess(const Finger& finger, const Plan& plan,
                            const Discretization& discretization,
                            const MeasurementBlocks* blocks,
-                           CalibrationParameters* parameters)
+                           CalibrationParameters* parameters, int threads)
     : blocks_(*blocks),
       parameters_(*parameters),
       length_mm_(finger.front_length_mm),
@@ -18,7 +18,7 @@ ContactGuess::ContactGuess(const Finger& finger, const Plan& plan,
       object_std_mm_(plan.object_std_mm),
       solver_(finger, discretization),
       table_(&solver_, plan.scene.friction_coefficient,
-             plan.scene.circle_radius_mm()),
+             plan.scene.circle_radius_mm(), threads),
       fit_(finger, discretization, plan.scene.circle_radius_mm()),
       circle_(plan.scene.circle_radius_mm().has_value()) {
   const auto size =
@@ -26,7 +26,7 @@ ContactGuess::ContactGuess(const Finger& finger, const Plan& plan,
   values_.resize(size);
   weights_.resize(size);
   fit_.set_most_force(table_.heaviest_N());
-  fit_.set_tolerance(1e-6);
+  fit_.set_tolerance(1e-3);
 }
 
 ContactGuess::Place ContactGuess::Of(const CalibrationFrame& frame, From from) {
@@ -69,9 +69,10 @@ void ContactGuess::AddGauges(const CalibrationFrame& frame) {
 }
 
 ContactGuess::Place ContactGuess::FromTable(bool fit) {
-  table_.FindStarts(values_, weights_, &starts_);
-  if (starts_.empty()) return {length_mm_ / 2, force_unit_N_, {}, false};
-  const ContactStart& start = starts_[0];
+  const ContactStart start = table_.BestStart(values_, weights_);
+  if (start.state == nullptr) {
+    return {length_mm_ / 2, force_unit_N_, {}, false};
+  }
   std::vector<PointContact> contact = {start.contacts[0]};
   Place place{contact[0].arc_mm, contact[0].normal_N, *start.state, false};
   if (!fit) return place;

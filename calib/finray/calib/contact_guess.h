@@ -2,7 +2,6 @@
 #define FINRAY_CALIB_CONTACT_GUESS_H_
 
 #include <Eigen/Core>
-#include <vector>
 
 #include "finray/calib/calibration_log.h"
 #include "finray/calib/measurement_blocks.h"
@@ -23,7 +22,7 @@ class ContactGuess {
   ContactGuess(const Finger& finger, const Plan& plan,
                const Discretization& discretization,
                const MeasurementBlocks* blocks,
-               CalibrationParameters* parameters);
+               CalibrationParameters* parameters, int threads);
 
   struct Place {
     double arc_mm = 0, normal_N = 0;
@@ -50,7 +49,6 @@ class ContactGuess {
   ContactFit fit_;
   bool circle_;
   Eigen::VectorXd values_, weights_;  // gauges, then the circle's centre
-  std::vector<ContactStart> starts_;
 };
 
 }  // namespace finray

@@ -37,33 +37,39 @@ FrameLinearizer::FrameLinearizer(const EquilibriumSolver& solver,
   }
 }
 
+void FrameLinearizer::Prepare(const CalibrationFrame& frame, Model* model) {
+  if (!frame.IsBench()) {
+    model->evaluation.emplace(solver_.model(), EquilibriumForm::kReduced,
+                              frame.contact ? 1 : 0, friction_,
+                              !frame.pins.empty());
+  }
+  model->blocks =
+      blocks_.Of(frame, model->evaluation ? &*model->evaluation : nullptr,
+                 model->contact.data());
+}
+
 bool FrameLinearizer::Linearize(const CalibrationFrame& frame,
                                 const std::array<double, 2>& contact,
                                 LadderState* state, LinearizedFrame* out) {
   Model model;
-  model.contact = contact;
-  if (!frame.IsBench()) {
-    model.evaluation.emplace(solver_.model(), EquilibriumForm::kReduced,
-                             frame.contact ? 1 : 0, friction_,
-                             !frame.pins.empty());
-    if (state->q.size() > 0) model.evaluation->set_state(*state);
-  }
-  model.blocks =
-      blocks_.Of(frame, model.evaluation ? &*model.evaluation : nullptr,
-                 model.contact.data());
-  if (!Evaluate(frame, &model, out)) return false;
-  if (model.evaluation) *state = model.evaluation->state();
+  Prepare(frame, &model);
+  if (!Evaluate(contact, &model, state, out)) return false;
+  out->Eliminate();
   return true;
 }
 
-bool FrameLinearizer::Evaluate(const CalibrationFrame& frame, Model* model,
+bool FrameLinearizer::Evaluate(const std::array<double, 2>& contact,
+                               Model* model, LadderState* state,
                                LinearizedFrame* out) {
-  if (!frame.IsBench()) {
+  model->contact = contact;
+  if (model->evaluation) {
+    model->evaluation->set_state(*state);
     const SharedParameters& shared = parameters_.shared;
-    model->evaluation->Update(model->contact.data(), shared.ln_front_stiffness,
+    model->evaluation->Update(contact.data(), shared.ln_front_stiffness,
                               shared.ln_back_stiffness,
                               shared.rib_lengths_mm.data(), &solver_);
     if (!model->evaluation->valid()) return false;
+    *state = model->evaluation->state();
   }
   int rows = 0;
   for (const MeasurementBlock& block : model->blocks) {
@@ -135,7 +141,17 @@ void FrameLinearizer::AddBlock(const MeasurementBlock& block,
 bool FrameLinearizer::FitContact(const CalibrationFrame& frame,
                                  std::array<double, 2>* contact,
                                  LadderState* state, LinearizedFrame* out) {
-  if (!Linearize(frame, *contact, state, out)) return false;
+  if (!FindContact(frame, contact, state, out)) return false;
+  out->Eliminate();
+  return true;
+}
+
+bool FrameLinearizer::FindContact(const CalibrationFrame& frame,
+                                  std::array<double, 2>* contact,
+                                  LadderState* state, LinearizedFrame* out) {
+  Model model;
+  Prepare(frame, &model);
+  if (!Evaluate(*contact, &model, state, out)) return false;
   if (!frame.contact) return true;
   const Finger& finger = solver_.model().finger();
   const Eigen::Vector2d unit(finger.front_length_mm, ForceUnit(finger));
@@ -159,7 +175,7 @@ bool FrameLinearizer::FitContact(const CalibrationFrame& frame,
         std::clamp(unit[0] * (x[0] + change[0]), 0.0, unit[0]),
         std::max(0.0, unit[1] * (x[1] + change[1]))};
     LadderState near = *state;
-    if (Linearize(frame, moved, &near, &tried) && tried.cost < out->cost) {
+    if (Evaluate(moved, &model, &near, &tried) && tried.cost < out->cost) {
       *contact = moved;
       *state = std::move(near);
       std::swap(*out, tried);

@@ -31,17 +31,21 @@ class FrameLinearizer {
   /// Moves the contact to where it explains the frame best, the parameters
   /// being what they are: Gauss-Newton on l_c and f_c within their bounds,
   /// until a further step would lower the cost by less than kSmallDecrease.
-  /// What is left of the way LinearizedFrame::Move knows well enough.
+  /// What is left of the way LinearizedFrame::move knows well enough.
   bool FitContact(const CalibrationFrame& frame, std::array<double, 2>* contact,
                   LadderState* state, LinearizedFrame* out);
-  static constexpr double kSmallDecrease = 1e-5;  // in units of chi2 / 2
+  static constexpr double kSmallDecrease = 1e-3;  // in units of chi2 / 2
 
  private:
-  // A frame's blocks about an evaluation at `unknowns`.
+  // A frame's blocks about an evaluation at a contact.
   struct Model;
 
-  bool Evaluate(const CalibrationFrame& frame, Model* model,
-                LinearizedFrame* out);
+  void Prepare(const CalibrationFrame& frame, Model* model);
+  bool Evaluate(const std::array<double, 2>& contact, Model* model,
+                LadderState* state, LinearizedFrame* out);
+  bool FindContact(const CalibrationFrame& frame,
+                   std::array<double, 2>* contact, LadderState* state,
+                   LinearizedFrame* out);
   void AddBlock(const MeasurementBlock& block, const double* contact,
                 int first_row, LinearizedFrame* out);
 

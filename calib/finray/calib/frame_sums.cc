@@ -12,12 +12,11 @@ void FrameSums::SetZero(int parameters) {
   cost = 0;
 }
 
-void FrameSums::Add(const LinearizedFrame& frame,
-                    const LinearizedFrame::ContactMove& move) {
-  const Eigen::MatrixXd c = frame.WithoutContact();
+void FrameSums::Add(const LinearizedFrame& frame) {
+  const Eigen::MatrixXd& c = frame.reduced;
   information.noalias() += c.transpose() * c;
   gradient.noalias() += c.transpose() * frame.WeightedResiduals();
-  cost += frame.cost - move.decrease;
+  cost += frame.cost - frame.move.decrease;
 }
 
 void FrameSums::AddPrior(int parameter, double x, double mean, double std) {

@@ -21,8 +21,7 @@ struct FrameSums {
   double cost = 0;
 
   void SetZero(int parameters);
-  void Add(const LinearizedFrame& frame,
-           const LinearizedFrame::ContactMove& move);
+  void Add(const LinearizedFrame& frame);
   /// (x - mean)^2 / (2 std^2) of one parameter.
   void AddPrior(int parameter, double x, double mean, double std);
 };

@@ -25,7 +25,7 @@ struct Mean {
 void CalibrationProblem::GuessOffsets() {
   if (!plan_.family(ParameterFamily::kGaugeOffset).free) return;
   std::unordered_map<double*, Mean> means;
-  for (const CalibrationFrame& frame : logs_.frames) {
+  for (const CalibrationFrame& frame : logs().frames) {
     if (frame.contact || frame.IsBench() || frame.held_out) continue;
     for (int j = 0; j < static_cast<int>(frame.gauges_V.size()); ++j) {
       if (!std::isfinite(frame.gauges_V[j])) continue;
@@ -36,7 +36,7 @@ void CalibrationProblem::GuessOffsets() {
 }
 
 void CalibrationProblem::ZeroHeldOutLogs() {
-  const std::vector<bool> held_out = logs_.HeldOut();
+  const std::vector<bool> held_out = logs().HeldOut();
   const int last = parameters_.last_fitted_log();
   for (int log = 0; last >= 0 && log < static_cast<int>(held_out.size());
        ++log) {
@@ -54,7 +54,7 @@ void CalibrationProblem::ZeroHeldOutLogs() {
   EquilibriumSolver free(parameters_.Apply(finger_), discretization_);
   if (!free.Solve({})) return;
   std::unordered_map<double*, Mean> errors;
-  for (const CalibrationFrame& frame : logs_.frames) {
+  for (const CalibrationFrame& frame : logs().frames) {
     if (frame.contact || frame.IsBench() || !held_out[frame.log]) continue;
     for (int j = 0; j < static_cast<int>(frame.gauges_V.size()); ++j) {
       if (!std::isfinite(frame.gauges_V[j])) continue;

@@ -43,7 +43,7 @@ void JointSolve::AddFrame(const Frame& frame, const MeasurementBlocks& blocks) {
     evaluation = &evaluations_.Add(frame.frame->contact ? 1 : 0,
                                    plan_.scene.friction_coefficient,
                                    frame.unknowns, !frame.frame->pins.empty());
-    if (frame.state->q.size() > 0) evaluation->set_state(*frame.state);
+    evaluation->set_state(*frame.state);
   }
   evaluation_of_.push_back(evaluation);
   blocks_of_.emplace_back();
@@ -104,15 +104,15 @@ void JointSolve::FixWhatIsNotFree() {
   }
 }
 
-SolveReport JointSolve::Solve(int most_iterations) {
+SolveReport JointSolve::Solve(const Limits& limits) {
   ceres::Solver::Options options;
   options.logging_type = ceres::SILENT;
-  options.max_num_iterations = most_iterations;
+  options.max_num_iterations = limits.iterations;
   // The residuals are whitened, and the weak directions of a calibration are
   // what it is about: a small radius would creep along them.
   options.initial_trust_region_radius = 1e10;
   options.max_trust_region_radius = 1e16;
-  options.function_tolerance = 1e-12;
+  options.function_tolerance = limits.function_tolerance;
   options.parameter_tolerance = 1e-11;
   options.gradient_tolerance = 1e-12;
   std::vector<double*> all;

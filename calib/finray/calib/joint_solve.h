@@ -48,7 +48,12 @@ class JointSolve {
              EquilibriumForm form = EquilibriumForm::kReduced);
   static constexpr double kEquilibriumWeight = 1e6;
 
-  SolveReport Solve(int most_iterations);
+  struct Limits {
+    int iterations = 200;
+    /// A step that lowers the cost by less than this share is the last.
+    double function_tolerance = 1e-12;
+  };
+  SolveReport Solve(const Limits& limits);
 
   /// What the frames say of the free parameters, S, their unknowns being
   /// eliminated by orthogonal projection.

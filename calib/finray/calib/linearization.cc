@@ -12,7 +12,7 @@ Linearization::Linearization(int parameters, std::size_t most_frames)
 
 void Linearization::Add(int frame, int log, const LinearizedFrame& at) {
   const Eigen::VectorXd weighted = at.WeightedResiduals();
-  const Eigen::MatrixXd c = at.WithoutContact();
+  const Eigen::MatrixXd& c = at.reduced;
   pulls.col(static_cast<Eigen::Index>(frames.size())) =
       (c.transpose() * weighted).cast<float>();
   frames.push_back(frame);

@@ -30,17 +30,15 @@ Eigen::MatrixXd EliminateContact(
   return c - e * (PseudoInverse(information) * (e.transpose() * c));
 }
 
-LinearizedFrame::ContactMove LinearizedFrame::Move() const {
+void LinearizedFrame::Eliminate() {
   const Eigen::Matrix2d inverse =
       PseudoInverse(by_contact.transpose() * by_contact);
   const Eigen::Vector2d pull = by_contact.transpose() * WeightedResiduals();
-  const Eigen::Vector2d now = -inverse * pull;
-  return {now, -inverse * (by_contact.transpose() * by_parameter),
-          -0.5 * pull.dot(now)};
-}
-
-Eigen::MatrixXd LinearizedFrame::WithoutContact() const {
-  return EliminateContact(by_parameter, by_contact);
+  move.now = -inverse * pull;
+  move.by_parameter = -inverse * (by_contact.transpose() * by_parameter);
+  move.decrease = -0.5 * pull.dot(move.now);
+  reduced = by_parameter;
+  reduced.noalias() += by_contact * move.by_parameter;
 }
 
 }  // namespace finray

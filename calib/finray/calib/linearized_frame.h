@@ -32,15 +32,18 @@ struct LinearizedFrame {
   /// Where the contact should go when the parameters go by dx: A + B dx of
   /// (A | B) = -(E'E)^-1 E'(r | C).
   struct ContactMove {
-    Eigen::Vector2d now;
+    Eigen::Vector2d now = Eigen::Vector2d::Zero();
     Eigen::Matrix<double, 2, Eigen::Dynamic> by_parameter;
-    double decrease;  ///< of the cost, by the move A
+    double decrease = 0;  ///< of the cost, by the move A
   };
-  ContactMove Move() const;
+  ContactMove move;
   /// Rows with the contact eliminated, C - E (E'E)^-1 E'C: what they say of the
   /// parameters when l_c and f_c may be anything. Their product with themselves
   /// is the frame's information.
-  Eigen::MatrixXd WithoutContact() const;
+  Eigen::MatrixXd reduced;
+
+  /// Computes `move` and `reduced` from the rest.
+  void Eliminate();
 };
 
 /// The part of a 2 x 2 information matrix that is not noise, inverted; a

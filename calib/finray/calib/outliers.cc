@@ -90,18 +90,26 @@ std::string Reason(const LinearizedFrame& robust, double chi2, int dof,
   return text;
 }
 
+bool IsOutlier(const FrameChi2& frame, double scale, double threshold) {
+  return frame.dof >= 1 &&
+         ChiSquaredTail(frame.chi2 / (scale * scale), frame.dof) <= threshold;
+}
+
 // Of each frame with its contact where it explains it best; those that cannot
-// be evaluated go to `reasons`.
+// be evaluated go to `reasons`. The scale is what is known of it so far.
 std::vector<FrameChi2> Refit(const std::vector<int>& frames,
                              CalibrationProblem* problem, Outliers* found) {
+  const double threshold =
+      Outliers::kFalseAlarms / static_cast<double>(frames.size());
   std::vector<FrameChi2> refitted;
   problem->FitContacts(frames, [&](int frame, const LinearizedFrame& at) {
     if (at.rows.empty()) {
       found->reasons.emplace(frame, "the finger cannot carry what it shows");
-    } else {
-      refitted.push_back({frame, at.residuals.squaredNorm(),
-                          Dof(*problem, frame, at.rows.size())});
+      return false;
     }
+    refitted.push_back({frame, at.residuals.squaredNorm(),
+                        Dof(*problem, frame, at.rows.size())});
+    return !IsOutlier(refitted.back(), found->scale, threshold);
   });
   return refitted;
 }
@@ -124,11 +132,7 @@ void Judge(const std::vector<FrameChi2>& frames, CalibrationProblem* problem,
   std::vector<int> unexplained;
   std::map<int, FrameChi2> chi2_of;
   for (const FrameChi2& frame : frames) {
-    if (frame.dof < 1 ||
-        ChiSquaredTail(frame.chi2 / (found->scale * found->scale), frame.dof) >
-            threshold) {
-      continue;
-    }
+    if (!IsOutlier(frame, found->scale, threshold)) continue;
     unexplained.push_back(frame.frame);
     chi2_of.emplace(frame.frame, frame);
   }
@@ -166,8 +170,9 @@ Outliers FindOutliers(CalibrationProblem* problem) {
 }
 
 Outliers FindOutliersAmong(const std::vector<int>& frames,
-                           CalibrationProblem* problem) {
+                           double expected_scale, CalibrationProblem* problem) {
   Outliers found;
+  found.scale = expected_scale;
   const std::vector<FrameChi2> refitted = Refit(frames, problem, &found);
   SetScale(refitted, &found);
   Judge(refitted, problem, &found);

@@ -31,9 +31,10 @@ struct Outliers {
 /// Of all frames, at the solution; those that are rejected already are judged
 /// anew.
 Outliers FindOutliers(CalibrationProblem* problem);
-/// Of these frames, on the way to it.
+/// Of these frames, on the way to it. The others are summed up on the way, as
+/// far as they can be told by the scale that is expected.
 Outliers FindOutliersAmong(const std::vector<int>& frames,
-                           CalibrationProblem* problem);
+                           double expected_scale, CalibrationProblem* problem);
 
 }  // namespace finray
 

@@ -1,8 +1,12 @@
 #include "finray/calib/robust_solve.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -12,8 +16,8 @@ namespace finray {
 namespace {
 
 constexpr int kMostRounds = 6;
-constexpr int kFewIterations = 15;
-constexpr int kStartIterations = 80;
+// To see which frames are far out, and to tell a start's solution.
+constexpr JointSolve::Limits kFirst = {15, 1e-4}, kStart = {80, 1e-7};
 
 struct Start {
   const char* name;
@@ -44,25 +48,31 @@ const StartReport& BestOf(const std::vector<StartReport>& starts) {
 }
 
 // Each start's solution, that with the least cost being left in the problem.
-// The first one goes on from where it is.
+// The first one goes on from where it is. Each is solved in one thread, so that
+// their results do not depend on how many there are.
 std::vector<StartReport> SolveFromStarts(CalibrationProblem* problem,
                                          int iterations_so_far) {
   struct Solution {
     StartReport report;
     CalibrationProblem::Point point;
   };
-  std::vector<Solution> solutions;
+  std::vector<Solution> solutions(std::size(kStarts));
+  const std::vector<int> frames = problem->SomeFrames();
+  const auto solve = [&](std::size_t k) {
+    const std::unique_ptr<CalibrationProblem> part = problem->Part(frames);
+    if (k > 0) part->StartFrom(Changed(*problem, kStarts[k]));
+    const SolveReport joint = part->SolveJointly(kStart);
+    StartReport& report = solutions[k].report;
+    report.name = kStarts[k].name;
+    report.converged = joint.converged;
+    report.iterations = joint.iterations + (k == 0 ? iterations_so_far : 0);
+    report.cost = joint.final_cost;
+    solutions[k].point = part->Save();
+  };
+  tbb::task_arena(problem->threads()).execute([&] {
+    tbb::parallel_for(std::size_t{0}, solutions.size(), solve);
+  });
   const Solution* best = nullptr;
-  solutions.reserve(std::size(kStarts));
-  for (const Start& start : kStarts) {
-    if (&start != kStarts) problem->StartFrom(Changed(*problem, start));
-    SolveReport solve = problem->SolveSome(kStartIterations);
-    if (&start == kStarts) solve.iterations += iterations_so_far;
-    StartReport report{
-        start.name, solve.converged, solve.iterations, solve.final_cost, 0,
-        false};
-    solutions.push_back({report, problem->Save()});
-  }
   for (const Solution& solution : solutions) {
     const StartReport& report = solution.report;
     if (best == nullptr || (report.converged && !best->report.converged) ||
@@ -99,13 +109,16 @@ RobustSolution SolveRobustly(CalibrationProblem* problem) {
     return problem->few() ? problem->Solve() : problem->SolveOn();
   };
   // Those of other frames stay rejected.
+  double scale = 1;
   const auto reject_among = [&](const std::vector<int>& frames) {
     std::map<int, std::string> reasons = problem->rejected();
     for (const int frame : frames) reasons.erase(frame);
-    reasons.merge(FindOutliersAmong(frames, problem).reasons);
+    Outliers outliers = FindOutliersAmong(frames, scale, problem);
+    scale = outliers.scale;
+    reasons.merge(std::move(outliers.reasons));
     problem->SetRejected(std::move(reasons));
   };
-  const SolveReport first = problem->SolveSome(kFewIterations);
+  const SolveReport first = problem->SolveSome(kFirst);
   reject_among(problem->SomeFrames());
   result.starts = SolveFromStarts(problem, first.iterations);
   int iterations = BestOf(result.starts).iterations;

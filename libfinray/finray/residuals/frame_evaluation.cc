@@ -12,8 +12,7 @@ FrameEvaluation::FrameEvaluation(const LadderModel& model, EquilibriumForm form,
       gauges_(model.gauges()),
       contact_count_(contacts),
       loads_(contacts),
-      length_mm_(model.finger().front_length_mm),
-      state_(LadderState::Undeformed(model)) {
+      length_mm_(model.finger().front_length_mm) {
   for (PointContact& contact : loads_) contact.friction = friction;
   if (!pins) return;
   for (const Rib& rib : model.finger().ribs) {
@@ -57,7 +56,11 @@ void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
 }
 
 void FrameEvaluation::UpdateReduced(EquilibriumSolver* solver) {
-  solver->set_state(state_);
+  if (state_.q.size() > 0) {
+    solver->set_state(state_);
+  } else {
+    solver->Reset();
+  }
   valid_ = solver->SolveWithSensitivities(loads_);
   state_ = solver->state();
   if (!valid_) return;

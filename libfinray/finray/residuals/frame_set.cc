@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <utility>
 
 namespace finray {
 
@@ -36,11 +37,27 @@ FrameEvaluation& FrameSet::Add(int contacts, double friction,
   return frames_.back().evaluation;
 }
 
+// With bounds Ceres searches along each step, and then asks again for the point
+// that the search has ended at.
+bool FrameSet::Moved() {
+  std::vector<double> at = {shared_->ln_front_stiffness,
+                            shared_->ln_back_stiffness};
+  at.insert(at.end(), shared_->rib_lengths_mm.begin(),
+            shared_->rib_lengths_mm.end());
+  for (const Frame& frame : frames_) {
+    at.insert(at.end(), frame.unknowns,
+              frame.unknowns + frame.evaluation.frame_size());
+  }
+  if (at == evaluated_at_) return false;
+  evaluated_at_ = std::move(at);
+  return true;
+}
+
 void FrameSet::PrepareForEvaluation(bool /*evaluate_jacobians*/,
                                     bool new_evaluation_point) {
   // Derivatives are always computed with the values: they cost little beside
   // the solve, and a point that Ceres accepts needs them next.
-  if (!new_evaluation_point) return;
+  if (!new_evaluation_point || !Moved()) return;
   // Ceres takes a step back where one frame has no equilibrium, and to find
   // that out takes long: the others are not worth it.
   std::atomic<bool> failed = false;

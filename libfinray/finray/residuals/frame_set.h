@@ -48,11 +48,14 @@ class FrameSet : public ceres::EvaluationCallback {
     FrameEvaluation evaluation;
     const double* unknowns;
   };
+  bool Moved();
+
   EquilibriumSolver solver_;  // copied for each thread
   EquilibriumForm form_;
   const SharedParameters* shared_;
   int threads_;
   std::deque<Frame> frames_;
+  std::vector<double> evaluated_at_;  // parameters, then unknowns of all frames
 };
 
 }  // namespace finray

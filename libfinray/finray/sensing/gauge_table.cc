@@ -1,5 +1,9 @@
 #include "finray/sensing/gauge_table.h"
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +22,9 @@ constexpr double kForces[] = {0.5, 1, 2, 4, 7, 11, 16, 22, 30, 40};
 
 // Gauss-Newton on a cubic, from the nearest point of its chord.
 constexpr int kRefinements = 4;
+
+// Of those that BestStart looks into.
+constexpr int kValleys = 3;
 
 // Of the parabola through three equally spaced values with the least in the
 // middle.
@@ -53,6 +60,31 @@ void SetSlopes(std::vector<GaugeTable::Node>* nodes) {
     node.by_force =
         left + curvature * (2 * node.normal_N - a.normal_N - b.normal_N);
   }
+}
+
+// From the state of the free finger, which the solver has.
+GaugeTable::Row MakeRow(double arc_mm, double friction,
+                        const std::optional<double>& circle_radius_mm,
+                        EquilibriumSolver* solver) {
+  const int gauges = solver->model().gauges();
+  const double unit = ForceUnit(solver->model().finger());
+  GaugeTable::Row row{arc_mm, {}, {}};
+  for (int k = -1; k < static_cast<int>(std::size(kForces)); ++k) {
+    const double force = k < 0 ? 0 : kForces[k] * unit;
+    // Soft fingers fold over at the heavy end; the table ends there.
+    if (!solver->Solve({{arc_mm, force, friction}})) break;
+    Eigen::VectorXd values(gauges + (circle_radius_mm ? 2 : 0));
+    values.head(gauges) = solver->outputs().head(gauges);
+    if (circle_radius_mm) {
+      values.tail<2>() =
+          CircleCentre(solver->contact_pose(0), *circle_radius_mm);
+    }
+    row.nodes.push_back({force, values, {}, solver->state()});
+  }
+  if (row.nodes.empty()) return row;
+  SetSlopes(&row.nodes);
+  row.values = Values(row.nodes);
+  return row;
 }
 
 // Values between two nodes, whitened residuals against what was measured.
@@ -92,7 +124,7 @@ struct Hermite {
 }  // namespace
 
 GaugeTable::GaugeTable(EquilibriumSolver* solver, double friction,
-                       std::optional<double> circle_radius_mm)
+                       std::optional<double> circle_radius_mm, int threads)
     : friction_(friction) {
   const Finger& finger = solver->model().finger();
   const double length = finger.front_length_mm;
@@ -108,39 +140,26 @@ GaugeTable::GaugeTable(EquilibriumSolver* solver, double friction,
   }
   free_angles_ = solver->outputs().head(gauges);
   const LadderState free_state = solver->state();
-  const auto values = [&] {
-    Eigen::VectorXd values(gauges + (circle_radius_mm ? 2 : 0));
-    values.head(gauges) = solver->outputs().head(gauges);
-    if (circle_radius_mm) {
-      values.tail<2>() =
-          CircleCentre(solver->contact_pose(0), *circle_radius_mm);
-    }
-    return values;
-  };
-  for (int i = 0; i < kRows; ++i) {
-    Row row{length * (i + 0.5) / kRows, {}, {}};
-    solver->set_state(free_state);
-    for (int k = -1; k < static_cast<int>(std::size(kForces)); ++k) {
-      const double force = k < 0 ? 0 : kForces[k] * unit;
-      // Soft fingers fold over at the heavy end; the table ends there.
-      if (!solver->Solve({{row.arc_mm, force, friction}})) break;
-      row.nodes.push_back({force, values(), {}, solver->state()});
-    }
-    if (row.nodes.empty()) continue;
-    SetSlopes(&row.nodes);
-    row.values = Values(row.nodes);
-    rows_.push_back(std::move(row));
-  }
+  rows_.resize(kRows);
+  tbb::enumerable_thread_specific<EquilibriumSolver> solvers(*solver);
+  tbb::task_arena(threads).execute([&] {
+    tbb::parallel_for(0, kRows, [&](int i) {
+      EquilibriumSolver& own = solvers.local();
+      own.set_state(free_state);
+      rows_[i] =
+          MakeRow(length * (i + 0.5) / kRows, friction, circle_radius_mm, &own);
+    });
+  });
+  rows_.erase(std::remove_if(rows_.begin(), rows_.end(),
+                             [](const Row& row) { return row.nodes.empty(); }),
+              rows_.end());
   solver->Reset();
 }
 
-// The nearest point of the curve of values over force: of its chord, then of
-// the cubic over that chord.
-ContactStart GaugeTable::BestOf(const Row& row, const Eigen::VectorXd& values,
-                                const Eigen::VectorXd& weights) const {
-  ContactStart best;
-  best.count = 1;
-  best.chi2 = std::numeric_limits<double>::infinity();
+// The nearest point of a row's chords.
+GaugeTable::OnChord GaugeTable::NearestChord(
+    const Row& row, const Eigen::VectorXd& values,
+    const Eigen::VectorXd& weights) const {
   // All chords at once.
   using Chords = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor,
                               std::size(kForces), 1>;
@@ -156,23 +175,31 @@ ContactStart GaugeTable::BestOf(const Row& row, const Eigen::VectorXd& values,
     square += edge * edge;
     misfit += off * off;
   }
-  std::size_t nearest = 0;
-  double share_of_way = 0;
+  OnChord nearest;
   for (Eigen::Index k = 0; k < chords; ++k) {
     const double share =
         square[k] > 0 ? std::clamp(along[k] / square[k], 0.0, 1.0) : 0.0;
     const double chi2 =
         std::max(0.0, misfit[k] + share * (share * square[k] - 2 * along[k]));
-    if (chi2 < best.chi2) {
-      best.chi2 = chi2;
-      nearest = static_cast<std::size_t>(k) + 1;
-      share_of_way = share;
+    if (chi2 < nearest.chi2) {
+      nearest = {chi2, static_cast<std::size_t>(k) + 1, share};
     }
   }
-  if (nearest == 0) return best;
-  const Node &from = row.nodes[nearest - 1], &to = row.nodes[nearest];
-  const Hermite cubic{from, to, values, weights};
+  return nearest;
+}
+
+// The nearest point of the curve of values over force: of the cubic over the
+// nearest chord.
+ContactStart GaugeTable::Refined(const Row& row, const OnChord& chord,
+                                 const Eigen::VectorXd& values,
+                                 const Eigen::VectorXd& weights) const {
+  ContactStart best;
+  best.count = 1;
   best.chi2 = std::numeric_limits<double>::infinity();
+  if (chord.to == 0) return best;
+  const Node &from = row.nodes[chord.to - 1], &to = row.nodes[chord.to];
+  const Hermite cubic{from, to, values, weights};
+  double share_of_way = chord.share;
   double t = share_of_way;
   for (int i = 0; i < kRefinements; ++i) {
     const Hermite::Misfit misfit = cubic.At(t);
@@ -186,7 +213,37 @@ ContactStart GaugeTable::BestOf(const Row& row, const Eigen::VectorXd& values,
       row.arc_mm, from.normal_N + share_of_way * (to.normal_N - from.normal_N),
       friction_};
   // A state without load says nothing of how it bends here.
-  best.state = share_of_way > 0.5 || nearest == 1 ? &to.state : &from.state;
+  best.state = share_of_way > 0.5 || chord.to == 1 ? &to.state : &from.state;
+  return best;
+}
+
+ContactStart GaugeTable::BestStart(const Eigen::VectorXd& values,
+                                   const Eigen::VectorXd& weights) const {
+  std::array<OnChord, kRows> chords;
+  const int rows = static_cast<int>(rows_.size());
+  for (int i = 0; i < rows; ++i) {
+    chords[i] = NearestChord(rows_[i], values, weights);
+  }
+  // Valleys of the misfit, of which chords hide no deep one.
+  std::array<int, kRows> valleys;
+  int count = 0;
+  for (int i = 0; i < rows; ++i) {
+    if ((i == 0 || chords[i].chi2 <= chords[i - 1].chi2) &&
+        (i + 1 == rows || chords[i].chi2 < chords[i + 1].chi2)) {
+      valleys[count++] = i;
+    }
+  }
+  std::sort(valleys.begin(), valleys.begin() + count,
+            [&](int a, int b) { return chords[a].chi2 < chords[b].chi2; });
+  ContactStart best;
+  best.chi2 = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < std::min(count, kValleys); ++k) {
+    for (int i = std::max(0, valleys[k] - 1);
+         i < std::min(rows, valleys[k] + 2); ++i) {
+      const ContactStart start = Refined(rows_[i], chords[i], values, weights);
+      if (start.chi2 < best.chi2) best = start;
+    }
+  }
   return best;
 }
 
@@ -208,7 +265,10 @@ void GaugeTable::FindStarts(const Eigen::VectorXd& values,
                             std::vector<ContactStart>* starts) const {
   std::array<ContactStart, kRows> best;
   const int rows = static_cast<int>(rows_.size());
-  for (int i = 0; i < rows; ++i) best[i] = BestOf(rows_[i], values, weights);
+  for (int i = 0; i < rows; ++i) {
+    best[i] = Refined(rows_[i], NearestChord(rows_[i], values, weights), values,
+                      weights);
+  }
   starts->clear();
   for (int i = 0; i < rows; ++i) {
     if (best[i].state == nullptr) continue;

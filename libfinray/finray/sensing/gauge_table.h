@@ -2,6 +2,7 @@
 #define FINRAY_SENSING_GAUGE_TABLE_H_
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -21,13 +22,19 @@ namespace finray {
 /// measured circle, its centre (x, y) in mm behind them (circle_centre.h).
 class GaugeTable {
  public:
+  /// Built by so many threads, whose number does not change it.
   GaugeTable(EquilibriumSolver* solver, double friction,
-             std::optional<double> circle_radius_mm);
+             std::optional<double> circle_radius_mm, int threads = 1);
 
   /// The local minima over l_c of the misfit to `values`, whitened by `weights`
   /// (0: not measured), best first; f_c is interpolated.
   void FindStarts(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
                   std::vector<ContactStart>* starts) const;
+
+  /// The best of them, to a row's spacing, in less time; `state` is null if
+  /// there is none.
+  ContactStart BestStart(const Eigen::VectorXd& values,
+                         const Eigen::VectorXd& weights) const;
 
   /// An equilibrium of the grid near that under one contact.
   const LadderState& StateNear(double arc_mm, double normal_N) const;
@@ -54,8 +61,16 @@ class GaugeTable {
   const Eigen::VectorXd& free_angles() const { return free_angles_; }
 
  private:
-  ContactStart BestOf(const Row& row, const Eigen::VectorXd& values,
-                      const Eigen::VectorXd& weights) const;
+  struct OnChord {
+    double chi2 = std::numeric_limits<double>::infinity();
+    std::size_t to = 0;  // the node at its end; 0: none
+    double share = 0;    // of the way there
+  };
+  OnChord NearestChord(const Row& row, const Eigen::VectorXd& values,
+                       const Eigen::VectorXd& weights) const;
+  ContactStart Refined(const Row& row, const OnChord& chord,
+                       const Eigen::VectorXd& values,
+                       const Eigen::VectorXd& weights) const;
 
   double friction_;
   double heaviest_N_, row_spacing_mm_;
