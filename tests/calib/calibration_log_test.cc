@@ -94,6 +94,18 @@ TEST(CalibrationLogTest, MissingGaugeNamesTheColumn) {
                   "no column 'gauge_4_V' (did you mean 'gauge4_V'?)")));
 }
 
+TEST(CalibrationLogTest, RefusesHugeNumbers) {
+  const TempFolder folder;
+  for (const char* row : {"0,0,-1e16,0,1\n", "0,0,0,0,1e308\n"}) {
+    const std::string path = folder.Write(
+        "a.csv", std::string(kGauges) + ",force_N\n0,0,0,0,1\n" + row);
+    EXPECT_THAT([&] { ReadCalibrationLogs({path}, PaperFinger(), Plan()); },
+                ThrowsMessage<InputError>(testing::AllOf(
+                    HasSubstr(path + ":3: "),
+                    HasSubstr("expected a magnitude of at most 1e+15"))));
+  }
+}
+
 TEST(CalibrationLogTest, RefusesParametersWithoutTheirData) {
   const TempFolder folder;
   const std::string path =

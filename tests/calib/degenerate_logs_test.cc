@@ -122,6 +122,22 @@ TEST_F(DegenerateLogsTest, TheWholeLogTellsAll) {
   EXPECT_THAT(outcome.codes, Not(Contains("unidentifiable")));
 }
 
+// A prior far from what the data say would win without a word.
+TEST_F(DegenerateLogsTest, APriorThatTheDataContradict) {
+  Plan plan = StandardPlan();
+  FamilyPlan& offsets =
+      plan.families[static_cast<int>(ParameterFamily::kGaugeOffset)];
+  offsets.prior_std = 1e-4;  // V; the hidden finger's are some 10 mV
+  const Outcome outcome = Calibrated(Whole(), plan);
+  EXPECT_FALSE(outcome.all_identified);
+  EXPECT_THAT(outcome.codes, Contains("prior_contradicted"));
+  EXPECT_THAT(outcome.texts, HasSubstr("gauge_1_offset_V: the data put it"));
+  // Wrong, but with no weight against the data.
+  offsets.prior_std = 0.002;
+  const Outcome overruled = Calibrated(Whole(), plan);
+  EXPECT_THAT(overruled.codes, Not(Contains("prior_contradicted")));
+}
+
 TEST_F(DegenerateLogsTest, NoForceSensor) {
   const Outcome outcome = Calibrated(Without({"force_N"}));
   EXPECT_THAT(outcome.unidentifiable, UnorderedElementsAreArray(kStiffness));

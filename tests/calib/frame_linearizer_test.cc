@@ -122,8 +122,7 @@ TEST_F(FrameLinearizerTest, ContactsFollowTheParameters) {
   *parameters_->all()[parameters_->free()[0]].variable += step;
   std::array<double, 2> moved = contact;
   ASSERT_TRUE(linearizer_->FitContact(frame, &moved, &state, &at));
-  const Eigen::Vector2d end =
-      Eigen::Vector2d(moved[0], moved[1]) + at.move.now;
+  const Eigen::Vector2d end = Eigen::Vector2d(moved[0], moved[1]) + at.move.now;
   const Eigen::Vector2d expected = move.by_parameter.col(0) * step;
   // Up to what Gauss-Newton and the changing weights leave out.
   EXPECT_LT((end - start - expected).norm(), 0.2 * expected.norm());

@@ -88,6 +88,24 @@ TEST(RobustSolveTest, NamesWhatIsOff) {
   EXPECT_EQ(problem.rejected().count(51), 1u);
 }
 
+// To solve for it would take minutes, as the plan has no robust loss.
+TEST(RobustSolveTest, AForceThatNoFingerTakesIsLeftOut) {
+  HardLog hard = MakeHardLog(kHardLogKinds[0], 2);
+  hard.log.MutableNumbers("force_N")[33] = 1e5;
+  const TempFolder folder;
+  hard.log.Write(folder.Path("log.csv"));
+  const Finger start = HardStart(hard);
+  const Plan plan = StandardPlan();
+  CalibrationProblem problem(
+      start, plan, ReadCalibrationLogs({folder.Path("log.csv")}, start, plan),
+      {}, 2);
+  const RobustSolution solution = SolveRobustly(&problem);
+  EXPECT_TRUE(solution.settled);
+  ASSERT_EQ(problem.rejected().size(), 1u);
+  EXPECT_EQ(problem.rejected().at(33),
+            "a force of 1e+05 N is more than any finger like it takes");
+}
+
 // A model that is wrong everywhere is no reason to reject frames.
 TEST(RobustSolveTest, NoiseBeyondThePlanIsNoOutlier) {
   HardLogKind loud = kHardLogKinds[0];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <utility>
@@ -18,6 +19,7 @@ constexpr double kSignificant = 3;  // standard deviations
 // A block of neighbouring frames is held out as one, as neighbours share
 // errors.
 constexpr int kHoldoutBlock = 10;
+constexpr double kLargest = 1e15;
 
 // Whether the object reaches into the undeformed finger.
 bool Reaches(const CalibrationFrame& frame, const Finger& finger,
@@ -117,6 +119,21 @@ std::vector<std::string> NamesOf(const std::vector<std::string>& paths) {
   return names;
 }
 
+// Beyond what any sensor reads; a least-squares sum would not hold the square.
+void RefuseHuge(const FrameTable& table, const std::string& column,
+                const std::vector<double>& values) {
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    if (std::isinf(values[row]) || !(std::abs(values[row]) > kLargest)) {
+      continue;
+    }
+    char text[64];
+    std::snprintf(text, sizeof text, "at most %g, found %g", kLargest,
+                  values[row]);
+    throw InputError(table.path() + ":" + std::to_string(table.line(row)) +
+                     ": " + column + ": expected a magnitude of " + text);
+  }
+}
+
 // A column that a free parameter needs; cells without a number have that of
 // the row before, leading ones that of the first with one.
 std::vector<double> Needed(const FrameTable& table, const char* column,
@@ -184,7 +201,9 @@ class LogColumns {
   LogColumns(const FrameTable& table, const Finger& finger, const Plan& plan)
       : finger_(finger) {
     const auto column = [&](const std::string& name) {
-      return table.NumbersOrNan(name);
+      std::vector<double> values = table.NumbersOrNan(name);
+      RefuseHuge(table, name, values);
+      return values;
     };
     if (plan.pin_std_mm) {
       for (int i = 0; i < static_cast<int>(finger.ribs.size()); ++i) {
@@ -266,6 +285,7 @@ class LogColumns {
     for (int j = 0; j < gauges; ++j) {
       volts_.push_back(all ? table.Numbers(GaugeVolts(j))
                            : table.NumbersOrNan(GaugeVolts(j)));
+      RefuseHuge(table, GaugeVolts(j), volts_.back());
     }
   }
 

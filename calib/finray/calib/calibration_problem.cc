@@ -10,10 +10,13 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <map>
 #include <stdexcept>
 
+#include "finray/calib/force_check.h"
+#include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 
 namespace finray {
@@ -67,10 +70,20 @@ CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
       gauges_only_ = true;
       continue;
     }
+    const double force = ReferenceForce(frame);
+    if (force > kImpossibleForce * ForceUnit(finger)) {
+      char text[80];
+      std::snprintf(text, sizeof text,
+                    "a force of %.3g N is more than any finger like it takes",
+                    force);
+      impossible_.emplace(static_cast<int>(i), text);
+      continue;
+    }
     candidates_.push_back(static_cast<int>(i));
   }
   if (!any) throw InputError("logs: no frame has anything to fit");
   FitAllCandidates();
+  rejected_ = impossible_;
   StartFrom(finger);
 }
 
@@ -126,6 +139,7 @@ void CalibrationProblem::SetValues(const Eigen::VectorXd& values) {
 
 void CalibrationProblem::SetRejected(std::map<int, std::string> reasons) {
   rejected_ = std::move(reasons);
+  rejected_.insert(impossible_.begin(), impossible_.end());
   fitted_.clear();
   for (const int i : candidates_) {
     if (rejected_.count(i) == 0) fitted_.push_back(i);

@@ -62,7 +62,7 @@ class CalibrationProblem {
   /// for one thread: several can be solved at the same time.
   std::unique_ptr<CalibrationProblem> Part(
       const std::vector<int>& frames) const;
-  /// All that could be fitted, rejected or not.
+  /// All that could be fitted, rejected or not, if not impossible.
   const std::vector<int>& candidates() const { return candidates_; }
 
   /// Values and contacts, to come back to.
@@ -108,9 +108,14 @@ class CalibrationProblem {
   void FitContactsRobustly(const std::vector<int>& frames,
                            const Visitor& visit);
 
-  /// Frames to be left out, and why; others that were come back.
+  /// Frames to be left out, and why, beside those that are impossible; others
+  /// that were come back.
   void SetRejected(std::map<int, std::string> reasons);
   const std::map<int, std::string>& rejected() const { return rejected_; }
+  /// Frames with a force above kImpossibleForce, in EI / l_0^2: no finger bends
+  /// so far and no start is so wrong. To solve for them would take minutes.
+  const std::map<int, std::string>& impossible() const { return impossible_; }
+  static constexpr double kImpossibleForce = 2000;
 
   /// Contact frames have no reference at all; they are then not fitted.
   bool gauges_only() const { return gauges_only_; }
@@ -179,7 +184,7 @@ class CalibrationProblem {
   Eigen::VectorXd summed_at_;
   std::unique_ptr<Linearization> summed_;
   std::optional<FrameSums> start_;  // of FitContacts, at the present values
-  std::map<int, std::string> rejected_;
+  std::map<int, std::string> rejected_, impossible_;
   std::unique_ptr<Linearization> at_solution_;
 };
 

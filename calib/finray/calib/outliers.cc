@@ -160,12 +160,14 @@ Outliers FindOutliers(CalibrationProblem* problem) {
   SetScale(frames, &found);
   std::vector<int> rejected;
   for (const auto& [frame, reason] : problem->rejected()) {
-    rejected.push_back(frame);
+    if (problem->impossible().count(frame) == 0) rejected.push_back(frame);
   }
   for (const FrameChi2& frame : Refit(rejected, problem, &found)) {
     frames.push_back(frame);
   }
   Judge(frames, problem, &found);
+  found.reasons.insert(problem->impossible().begin(),
+                       problem->impossible().end());
   return found;
 }
 

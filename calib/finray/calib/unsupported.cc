@@ -67,6 +67,21 @@ std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,
            "check its wiring and the column it is read from; a finger without "
            "this gauge can be calibrated"});
     }
+    const double off = std::abs(value - p.initial);
+    if (p.prior_std && off > kContradiction * *p.prior_std &&
+        std * off > *p.prior_std * *p.prior_std) {
+      char text[200];
+      std::snprintf(text, sizeof text,
+                    "%s: the data put it %.3g std of its prior away from "
+                    "where that has it, and between the two it is neither",
+                    p.name.c_str(), off / *p.prior_std);
+      unsupported.push_back(
+          {{static_cast<int>(k)},
+           "prior_contradicted",
+           text,
+           "start from a finger closer to the truth, or leave this prior out "
+           "of the plan"});
+    }
     const bool guessed = !p.prior_std || *p.prior_std > p.vague_std;
     if (p.family == ParameterFamily::kGaugeOffset && guessed &&
         !HasUnloadedReading(problem, p.variable, p.gauge)) {
