@@ -29,6 +29,15 @@ constexpr std::size_t kLeastOfLog = 50;
 constexpr std::size_t kMostStates = 50000;
 // Frames that a thread works on in one go.
 constexpr std::size_t kChunk = 32;
+
+// Where a frame cannot be evaluated others still can: it has no rows then.
+bool FitOrClear(const CalibrationFrame& frame, std::array<double, 2>* contact,
+                LadderState* state, FrameLinearizer* linearizer,
+                LinearizedFrame* out) {
+  if (!linearizer->FitContact(frame, contact, state, out)) out->rows.clear();
+  return true;
+}
+
 }  // namespace
 
 CalibrationProblem::CalibrationProblem(
@@ -276,11 +285,8 @@ void CalibrationProblem::FitContacts(const std::vector<int>& frames,
       frames, plan_,
       [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
         LadderState scratch;
-        if (!linearizer->FitContact(logs().frames[i], &contacts_[i],
-                                    StateOf(i, &scratch), out)) {
-          out->rows.clear();
-        }
-        return true;
+        return FitOrClear(logs().frames[i], &contacts_[i], StateOf(i, &scratch),
+                          linearizer, out);
       },
       [&](int i, const LinearizedFrame& frame) {
         if (judge(i, frame)) AddToSum(i, frame, &sums);
@@ -302,10 +308,7 @@ void CalibrationProblem::FitContactsRobustly(const std::vector<int>& frames,
         LadderState scratch;
         std::array<double, 2> contact = contacts_[i];
         LadderState state = *StateOf(i, &scratch);
-        if (!linearizer->FitContact(logs().frames[i], &contact, &state, out)) {
-          out->rows.clear();
-        }
-        return true;
+        return FitOrClear(logs().frames[i], &contact, &state, linearizer, out);
       },
       visit);
 }
