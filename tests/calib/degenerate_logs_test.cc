@@ -125,15 +125,16 @@ TEST_F(DegenerateLogsTest, TheWholeLogTellsAll) {
 // A prior far from what the data say would win without a word.
 TEST_F(DegenerateLogsTest, APriorThatTheDataContradict) {
   Plan plan = StandardPlan();
-  FamilyPlan& offsets =
-      plan.families[static_cast<int>(ParameterFamily::kGaugeOffset)];
-  offsets.prior_std = 1e-4;  // V; the hidden finger's are some 10 mV
+  FamilyPlan& gains =
+      plan.families[static_cast<int>(ParameterFamily::kGaugeGain)];
+  gains.prior_std = 2;  // % of 1 V/rad; the hidden finger's are some 2 V/rad
   const Outcome outcome = Calibrated(Whole(), plan);
   EXPECT_FALSE(outcome.all_identified);
   EXPECT_THAT(outcome.codes, Contains("prior_contradicted"));
-  EXPECT_THAT(outcome.texts, HasSubstr("gauge_1_offset_V: the data put it"));
+  EXPECT_THAT(outcome.texts,
+              HasSubstr("contradict the prior of gauge_1_gain_V_per_rad"));
   // Wrong, but with no weight against the data.
-  offsets.prior_std = 0.002;
+  gains.prior_std = 20;
   const Outcome overruled = Calibrated(Whole(), plan);
   EXPECT_THAT(overruled.codes, Not(Contains("prior_contradicted")));
 }

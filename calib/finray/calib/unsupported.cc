@@ -40,6 +40,16 @@ double UsualGain(const CalibrationParameters& parameters) {
   return *middle;
 }
 
+// `off`: x - m, `share`: s^2, both in units of s_p. Values scatter about a true
+// prior's mean by s_p^2 - s^2, and without it they would be further off by
+// (x - m) s^2 / (s_p^2 - s^2).
+bool IsContradicted(double off, double share) {
+  const double rest = 1 - share;
+  if (rest < 1e-6) return false;  // the data say nothing
+  return std::abs(off) > kContradiction * std::sqrt(rest) &&
+         std::abs(off) * std::sqrt(share) > rest;
+}
+
 }  // namespace
 
 std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,
@@ -48,6 +58,8 @@ std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,
   std::vector<Unsupported> unsupported;
   Unsupported offsets;
   const double usual = UsualGain(parameters);
+  const Eigen::VectorXd shares =
+      BoundedCovariance(found.information + found.prior).diagonal();
   for (std::size_t k = 0; k < parameters.free().size(); ++k) {
     if (found.status[k] == ParameterStatus::kUnidentifiable) continue;
     const CalibrationParameter& p = parameters.all()[parameters.free()[k]];
@@ -67,14 +79,13 @@ std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,
            "check its wiring and the column it is read from; a finger without "
            "this gauge can be calibrated"});
     }
-    const double off = std::abs(value - p.initial);
-    if (p.prior_std && off > kContradiction * *p.prior_std &&
-        std * off > *p.prior_std * *p.prior_std) {
+    if (p.prior_std && IsContradicted((value - p.initial) / *p.prior_std,
+                                      shares[static_cast<Eigen::Index>(k)])) {
       char text[200];
       std::snprintf(text, sizeof text,
-                    "%s: the data put it %.3g std of its prior away from "
-                    "where that has it, and between the two it is neither",
-                    p.name.c_str(), off / *p.prior_std);
+                    "the data contradict the prior of %s: between the two it "
+                    "is %.3g prior std off, and draws others with it",
+                    p.name.c_str(), std::abs(value - p.initial) / *p.prior_std);
       unsupported.push_back(
           {{static_cast<int>(k)},
            "prior_contradicted",

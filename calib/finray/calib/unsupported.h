@@ -21,9 +21,9 @@ struct Unsupported {
 /// - The offset of a gauge without any reading free of contact, unless its
 ///   prior is knowledge: it is then the model's word for what the gauge would
 ///   read unbent, and takes up whatever the model lacks.
-/// - A parameter whose prior the data contradict, x being further from its
-///   mean m than kContradiction prior std s_p, and which it has drawn away from
-///   what they say by more than their std s: s |x - m| / s_p^2 > 1.
+/// - A parameter x +- s whose prior m +- s_p the data contradict and which has
+///   moved it by more than s:
+///     |x - m| > kContradiction sqrt(s_p^2 - s^2),  |x - m| s > s_p^2 - s^2.
 std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,
                                          const Identifiability& found);
 constexpr double kInsignificant = 4, kDeadShare = 0.01, kContradiction = 5;
