@@ -10,6 +10,8 @@
 namespace finray {
 namespace {
 
+constexpr double kSmallDecrease = 1e-4;
+
 class FrameLinearizerTest : public testing::Test {
  protected:
   FrameLinearizerTest() {
@@ -25,9 +27,9 @@ class FrameLinearizerTest : public testing::Test {
         std::make_unique<CalibrationParameters>(HiddenFinger(), plan_, logs_);
     blocks_ =
         std::make_unique<MeasurementBlocks>(finger_, plan_, parameters_.get());
-    linearizer_ =
-        std::make_unique<FrameLinearizer>(EquilibriumSolver(finger_, {}), plan_,
-                                          blocks_.get(), parameters_.get());
+    linearizer_ = std::make_unique<FrameLinearizer>(
+        EquilibriumSolver(finger_, {}), plan_, blocks_.get(), parameters_.get(),
+        kSmallDecrease);
   }
 
   double Cost(int frame, const std::array<double, 2>& contact) {
@@ -94,12 +96,11 @@ TEST_F(FrameLinearizerTest, FitsTheContact) {
     ASSERT_TRUE(
         linearizer_->FitContact(logs_.frames[frame], &contact, &state, &at));
     const LinearizedFrame::ContactMove move = at.move;
-    EXPECT_LT(move.decrease, 2 * FrameLinearizer::kSmallDecrease);
+    EXPECT_LT(move.decrease, 2 * kSmallDecrease);
     const std::array<double, 2> best = {contact[0] + move.now[0],
                                         contact[1] + move.now[1]};
     const double least = Cost(frame, best);
-    EXPECT_NEAR(least, at.cost - move.decrease,
-                FrameLinearizer::kSmallDecrease);
+    EXPECT_NEAR(least, at.cost - move.decrease, kSmallDecrease);
     for (const double dl : {-0.3, 0.0, 0.3}) {
       for (const double df : {-0.05, 0.0, 0.05}) {
         EXPECT_GE(Cost(frame, {best[0] + dl, best[1] + df}), least - 1e-9);

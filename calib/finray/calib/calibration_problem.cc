@@ -27,6 +27,10 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kLeastOfLog = 50;
 // States of more frames would take more memory than they save time.
 constexpr std::size_t kMostStates = 50000;
+// Contacts are fitted until a step would lower chi2 / 2 by less. The rest is
+// known to first order: more of it makes costs too rough to converge to 1e-6 of
+// a std, but not to what is near enough with many frames.
+constexpr double kSmallDecrease = 1e-5, kSmallOfMany = 1e-3;
 // Frames that a thread works on in one go.
 constexpr std::size_t kChunk = 32;
 
@@ -211,8 +215,10 @@ bool CalibrationProblem::InParallel(const std::vector<int>& frames,
     std::array<LinearizedFrame, kChunk> frames;
     std::array<bool, kChunk> good;
   };
-  tbb::enumerable_thread_specific<FrameLinearizer> linearizers(
-      [&] { return FrameLinearizer(solver_, plan, &blocks_, &parameters_); });
+  tbb::enumerable_thread_specific<FrameLinearizer> linearizers([&] {
+    return FrameLinearizer(solver_, plan, &blocks_, &parameters_,
+                           few() ? kSmallDecrease : kSmallOfMany);
+  });
   // As many are under way at most, and they end in order.
   std::vector<Chunk> ring(4 * static_cast<std::size_t>(threads_));
   std::size_t begun = 0;

@@ -25,9 +25,11 @@ struct FrameLinearizer::Model {
 FrameLinearizer::FrameLinearizer(const EquilibriumSolver& solver,
                                  const Plan& plan,
                                  const MeasurementBlocks* blocks,
-                                 const CalibrationParameters* parameters)
+                                 const CalibrationParameters* parameters,
+                                 double small_decrease)
     : solver_(solver),
       friction_(plan.scene.friction_coefficient),
+      small_decrease_(small_decrease),
       blocks_(*blocks),
       parameters_(*parameters),
       loss_(MakeLoss(plan)) {
@@ -170,7 +172,7 @@ bool FrameLinearizer::FindContact(const CalibrationFrame& frame,
     const double expected =
         -equations.gradient.dot(change) -
         0.5 * change.dot(ContactVector(equations.normal * change));
-    if (!(expected > kSmallDecrease)) return true;
+    if (!(expected > small_decrease_)) return true;
     const std::array<double, 2> moved = {
         std::clamp(unit[0] * (x[0] + change[0]), 0.0, unit[0]),
         std::max(0.0, unit[1] * (x[1] + change[1]))};

@@ -16,10 +16,12 @@ namespace finray {
 /// values of the parameters, which it only reads. One for each thread.
 class FrameLinearizer {
  public:
-  /// `blocks` and `parameters` must stay in place.
+  /// `blocks` and `parameters` must stay in place. `small_decrease` is where
+  /// FitContact ends, in units of chi2 / 2.
   FrameLinearizer(const EquilibriumSolver& solver, const Plan& plan,
                   const MeasurementBlocks* blocks,
-                  const CalibrationParameters* parameters);
+                  const CalibrationParameters* parameters,
+                  double small_decrease);
 
   /// The frame with its contact at (l_c, f_c) = `contact` (of no account for a
   /// frame without). Equilibrium is sought from `*state` and left there. False
@@ -30,11 +32,10 @@ class FrameLinearizer {
 
   /// Moves the contact to where it explains the frame best, the parameters
   /// being what they are: Gauss-Newton on l_c and f_c within their bounds,
-  /// until a further step would lower the cost by less than kSmallDecrease.
+  /// until a further step would lower the cost by less than small_decrease.
   /// What is left of the way LinearizedFrame::move knows well enough.
   bool FitContact(const CalibrationFrame& frame, std::array<double, 2>* contact,
                   LadderState* state, LinearizedFrame* out);
-  static constexpr double kSmallDecrease = 1e-3;  // in units of chi2 / 2
 
  private:
   // A frame's blocks about an evaluation at a contact.
@@ -50,7 +51,7 @@ class FrameLinearizer {
                 int first_row, LinearizedFrame* out);
 
   EquilibriumSolver solver_;
-  double friction_;
+  double friction_, small_decrease_;
   const MeasurementBlocks& blocks_;
   const CalibrationParameters& parameters_;
   std::unique_ptr<ceres::LossFunction> loss_;
