@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <string>
+#include <vector>
+
 #include "calib/hard_log.h"
 #include "finray/calib/identifiability.h"
 #include "finray/calib/outliers.h"
@@ -86,6 +90,37 @@ TEST(RobustSolveTest, NamesWhatIsOff) {
   EXPECT_EQ(problem.rejected().at(33).rfind("force is off by", 0), 0u)
       << problem.rejected().at(33);
   EXPECT_EQ(problem.rejected().count(51), 1u);
+}
+
+// The starts, the search for outliers and the sums, of more frames than are
+// solved jointly.
+TEST(RobustSolveTest, ThreadsDoNotChangeTheResult) {
+  const TempFolder folder;
+  std::vector<std::string> paths;
+  HardLog hard;
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    hard = MakeHardLog(kHardLogKinds[0], seed);
+    hard.log.MutableNumbers("force_N")[20] += 2;
+    paths.push_back(folder.Path(std::to_string(seed) + ".csv"));
+    hard.log.Write(paths.back());
+  }
+  const Finger start = HardStart(hard);
+  const Plan plan = HardPlan(kHardLogKinds[0]);
+  std::vector<CalibrationProblem::Point> points;
+  std::vector<std::map<int, std::string>> rejected;
+  for (const int threads : {1, 2, 5}) {
+    CalibrationProblem problem(
+        start, plan, ReadCalibrationLogs(paths, start, plan), {}, threads);
+    EXPECT_FALSE(problem.few());
+    SolveRobustly(&problem);
+    points.push_back(problem.Save());
+    rejected.push_back(problem.rejected());
+  }
+  EXPECT_GE(rejected[0].size(), 5u);
+  for (int k = 1; k < 3; ++k) {
+    EXPECT_EQ(points[k].values, points[0].values);
+    EXPECT_EQ(rejected[k], rejected[0]);
+  }
 }
 
 // To solve for it would take minutes, as the plan has no robust loss.

@@ -27,10 +27,10 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kLeastOfLog = 50;
 // States of more frames would take more memory than they save time.
 constexpr std::size_t kMostStates = 50000;
-// Contacts are fitted until a step would lower chi2 / 2 by less. The rest is
-// known to first order: more of it makes costs too rough to converge to 1e-6 of
-// a std, but not to what is near enough with many frames.
-constexpr double kSmallDecrease = 1e-5, kSmallOfMany = 1e-3;
+// Contacts are fitted until a step would lower chi2 / 2 by less. Gauss-Newton
+// knows the rest to a tenth: more of it makes costs too rough to converge to
+// 1e-6 of a std, but not to what is near enough with many frames.
+constexpr double kSmallDecrease = 1e-9, kSmallOfMany = 1e-3;
 // Frames that a thread works on in one go.
 constexpr std::size_t kChunk = 32;
 
@@ -53,7 +53,7 @@ CalibrationProblem::CalibrationProblem(
       logs_(std::move(logs)),
       parameters_(finger, plan, *logs_),
       discretization_(discretization),
-      threads_(threads),
+      threads_(std::max(1, threads)),
       blocks_(finger_, plan_, &parameters_),
       solver_(finger, discretization) {}
 
@@ -78,9 +78,8 @@ CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
   for (std::size_t i = 0; i < logs().frames.size(); ++i) {
     const CalibrationFrame& frame = logs().frames[i];
     if (frame.held_out || !blocks_.HasEnough(frame)) continue;
-    any = true;
     if (frame.contact && !reference) {
-      gauges_only_ = true;
+      any = gauges_only_ = true;
       continue;
     }
     const double force = ReferenceForce(frame);
@@ -92,6 +91,7 @@ CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
       impossible_.emplace(static_cast<int>(i), text);
       continue;
     }
+    any = true;
     candidates_.push_back(static_cast<int>(i));
   }
   if (!any) throw InputError("logs: no frame has anything to fit");
@@ -103,7 +103,9 @@ CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
 void CalibrationProblem::FitAllCandidates() {
   fitted_ = candidates_;
   contacts_.assign(logs().frames.size(), {kNaN, kNaN});
-  if (candidates_.size() <= kMostStates) states_.resize(logs().frames.size());
+  if (logs().frames.size() <= kMostStates) {
+    states_.resize(logs().frames.size());
+  }
 }
 
 std::unique_ptr<CalibrationProblem> CalibrationProblem::Part(
@@ -236,7 +238,7 @@ bool CalibrationProblem::InParallel(const std::vector<int>& frames,
   };
   const auto prepare_all = [&](Chunk* chunk) {
     FrameLinearizer& linearizer = linearizers.local();
-    for (std::size_t k = 0; k < chunk->count; ++k) {
+    for (std::size_t k = 0; k < chunk->count && !failed; ++k) {
       chunk->good[k] =
           prepare(frames[chunk->first + k], &linearizer, &chunk->frames[k]);
     }

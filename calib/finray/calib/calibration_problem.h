@@ -183,7 +183,8 @@ class CalibrationProblem {
   Eigen::MatrixXf contact_slopes_;
   Eigen::VectorXd summed_at_;
   std::unique_ptr<Linearization> summed_;
-  std::optional<FrameSums> start_;  // of FitContacts, at the present values
+  // Of FitContacts over summed_frames_, at the present values.
+  std::optional<FrameSums> start_;
   std::map<int, std::string> rejected_, impossible_;
   std::unique_ptr<Linearization> at_solution_;
 };

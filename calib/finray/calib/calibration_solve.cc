@@ -34,8 +34,8 @@ double WithoutLastDigits(double value) {
 
 SolveReport CalibrationProblem::Solve() {
   at_solution_.reset();
-  const SolveReport joint =
-      SolveJointly(few() ? fitted_ : SpreadFrames(kJoint), kNearby);
+  const SolveReport joint = few() ? SolveJointly(fitted_, JointSolve::Limits())
+                                  : SolveJointly(SpreadFrames(kJoint), kNearby);
   SolveReport report = SolveOn();
   report.iterations += joint.iterations;
   return report;
@@ -255,6 +255,7 @@ void CalibrationProblem::AddToSum(int frame, const LinearizedFrame& at,
 bool CalibrationProblem::Sum(const std::vector<int>& frames,
                              const Eigen::VectorXd& at, FrameSums* sums) {
   SetValues(at);
+  const std::vector<std::array<double, 2>> contacts = contacts_;
   if (!summed_frames_.empty()) MoveContacts(at - summed_at_);
   BeginSum(frames.size(), sums);
   if (frames.size() == fitted_.size()) {
@@ -272,8 +273,16 @@ bool CalibrationProblem::Sum(const std::vector<int>& frames,
         if (summed_) summed_->Add(i, logs().frames[i].log, frame);
         AddToSum(i, frame, sums);
       });
+  if (!good) {
+    // Some frames have been moved, by chance, others not.
+    contacts_ = contacts;
+    summed_frames_.clear();
+    summed_.reset();
+    for (LadderState& state : states_) state.q.resize(0);
+    return false;
+  }
   if (summed_) summed_->Finish();
-  return good;
+  return true;
 }
 
 // The contacts follow the parameters, to first order.

@@ -26,6 +26,7 @@ ContactGuess::ContactGuess(const Finger& finger, const Plan& plan,
   values_.resize(size);
   weights_.resize(size);
   fit_.set_most_force(table_.heaviest_N());
+  // Of l_0 and EI / l_0^2: what it is for goes on from there.
   fit_.set_tolerance(1e-3);
 }
 

@@ -56,7 +56,7 @@ std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,
                                          const Identifiability& found) {
   const CalibrationParameters& parameters = problem.parameters();
   std::vector<Unsupported> unsupported;
-  Unsupported offsets;
+  Unsupported offsets, contradicted;
   const double usual = UsualGain(parameters);
   const Eigen::VectorXd shares =
       BoundedCovariance(found.information + found.prior).diagonal();
@@ -64,9 +64,11 @@ std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,
     if (found.status[k] == ParameterStatus::kUnidentifiable) continue;
     const CalibrationParameter& p = parameters.all()[parameters.free()[k]];
     const double value = *p.variable, std = found.std[k];
-    if (p.family == ParameterFamily::kGaugeGain &&
+    const bool dead =
+        p.family == ParameterFamily::kGaugeGain &&
         std::abs(value) < std::max(kInsignificant * std,
-                                   kDeadShare * usual * std::abs(p.initial))) {
+                                   kDeadShare * usual * std::abs(p.initial));
+    if (dead) {
       char text[160];
       std::snprintf(text, sizeof text,
                     "gauge %d does not respond to the load: its gain is %.2g "
@@ -79,19 +81,13 @@ std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,
            "check its wiring and the column it is read from; a finger without "
            "this gauge can be calibrated"});
     }
-    if (p.prior_std && IsContradicted((value - p.initial) / *p.prior_std,
-                                      shares[static_cast<Eigen::Index>(k)])) {
-      char text[200];
-      std::snprintf(text, sizeof text,
-                    "the data contradict the prior of %s: between the two it "
-                    "is %.3g prior std off, and draws others with it",
-                    p.name.c_str(), std::abs(value - p.initial) / *p.prior_std);
-      unsupported.push_back(
-          {{static_cast<int>(k)},
-           "prior_contradicted",
-           text,
-           "start from a finger closer to the truth, or leave this prior out "
-           "of the plan"});
+    const double off = p.prior_std ? (value - p.initial) / *p.prior_std : 0.0;
+    if (!dead && IsContradicted(off, shares[static_cast<Eigen::Index>(k)])) {
+      char text[120];
+      std::snprintf(text, sizeof text, "%s%s (%.3g prior std off)",
+                    contradicted.text.empty() ? "" : ", ", p.name.c_str(), off);
+      contradicted.free.push_back(static_cast<int>(k));
+      contradicted.text += text;
     }
     const bool guessed = !p.prior_std || *p.prior_std > p.vague_std;
     if (p.family == ParameterFamily::kGaugeOffset && guessed &&
@@ -110,6 +106,17 @@ std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,
         "record some ten frames without contact in every log, or fix "
         "gauge_offset, or give it a prior_std_V of 0.01 or less";
     unsupported.push_back(offsets);
+  }
+  if (!contradicted.free.empty()) {
+    contradicted.code = "prior_contradicted";
+    contradicted.text =
+        "the data contradict priors, and what comes out lies between the two, "
+        "others being drawn with it: " +
+        contradicted.text;
+    contradicted.remedy =
+        "start from a finger closer to the truth, or leave these priors out of "
+        "the plan";
+    unsupported.push_back(contradicted);
   }
   return unsupported;
 }

@@ -21,7 +21,8 @@ struct Unsupported {
 /// - The offset of a gauge without any reading free of contact, unless its
 ///   prior is knowledge: it is then the model's word for what the gauge would
 ///   read unbent, and takes up whatever the model lacks.
-/// - A parameter x +- s whose prior m +- s_p the data contradict and which has
+/// - A parameter x +- s (not enlarged for what residuals show) whose prior m +-
+/// s_p the data contradict and which has
 ///   moved it by more than s:
 ///     |x - m| > kContradiction sqrt(s_p^2 - s^2),  |x - m| s > s_p^2 - s^2.
 std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,

@@ -21,9 +21,9 @@ struct SharedParameters {
 };
 
 /// The frames of a ceres::Problem. As its evaluation callback it evaluates all
-/// of them, in parallel, before Ceres asks their residual blocks; results do
-/// not depend on the number of threads, as each frame starts from its own
-/// state.
+/// of them, in parallel, before Ceres asks their residual blocks, unless they
+/// are where they were last. Results do not depend on the number of threads, as
+/// each frame starts from its own state, as long as all can be evaluated.
 class FrameSet : public ceres::EvaluationCallback {
  public:
   /// `shared` must stay in place; Ceres varies it.

@@ -142,7 +142,7 @@ GaugeTable::GaugeTable(EquilibriumSolver* solver, double friction,
   const LadderState free_state = solver->state();
   rows_.resize(kRows);
   tbb::enumerable_thread_specific<EquilibriumSolver> solvers(*solver);
-  tbb::task_arena(threads).execute([&] {
+  tbb::task_arena(std::max(1, threads)).execute([&] {
     tbb::parallel_for(0, kRows, [&](int i) {
       EquilibriumSolver& own = solvers.local();
       own.set_state(free_state);

@@ -1,0 +1,74 @@
+#include "finray/sensing/gauge_table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "finray/sensing/circle_centre.h"
+#include "test_finger.h"
+
+namespace finray {
+namespace {
+
+constexpr double kRadius_mm = 15, kNoise_rad = 3e-4, kObject_mm = 0.05;
+
+// Angles and the circle's centre under a contact, with noise.
+class GaugeTableTest : public testing::Test {
+ protected:
+  GaugeTableTest()
+      : solver_(PaperFinger(), {}), table_(&solver_, 0, kRadius_mm) {
+    weights_.setConstant(6, 1 / kNoise_rad);
+    weights_.tail<2>().setConstant(1 / kObject_mm);
+  }
+
+  // Somewhere between nodes.
+  Eigen::VectorXd Measured(double arc_mm, double normal_N) {
+    EXPECT_TRUE(solver_.Solve({{arc_mm, normal_N}}));
+    Eigen::VectorXd values(6);
+    values.head<4>() = solver_.outputs().head<4>();
+    values.tail<2>() = CircleCentre(solver_.contact_pose(0), kRadius_mm);
+    for (Eigen::Index j = 0; j < 6; ++j) {
+      values[j] += normal_(generator_) / weights_[j];
+    }
+    return values;
+  }
+
+  EquilibriumSolver solver_;
+  GaugeTable table_;
+  Eigen::VectorXd weights_;
+  std::mt19937 generator_{1};
+  std::normal_distribution<double> normal_;
+};
+
+TEST_F(GaugeTableTest, BestStartIsTheBestOfAll) {
+  std::vector<ContactStart> starts;
+  for (double arc_mm = 11; arc_mm < 130; arc_mm += 3.7) {
+    for (const double normal_N : {0.4, 0.9, 2.0, 4.1, 7.3}) {
+      const Eigen::VectorXd values = Measured(arc_mm, normal_N);
+      table_.FindStarts(values, weights_, &starts);
+      ASSERT_FALSE(starts.empty());
+      const ContactStart best = table_.BestStart(values, weights_);
+      ASSERT_NE(best.state, nullptr);
+      EXPECT_LE(
+          std::abs(best.contacts[0].arc_mm - starts[0].contacts[0].arc_mm),
+          1.01 * table_.row_spacing_mm());
+      EXPECT_LE(std::abs(best.contacts[0].arc_mm - arc_mm),
+                1.01 * table_.row_spacing_mm());
+      EXPECT_NEAR(best.contacts[0].normal_N, normal_N, 0.15 * normal_N);
+    }
+  }
+}
+
+TEST_F(GaugeTableTest, ThreadsDoNotChangeIt) {
+  const GaugeTable other(&solver_, 0, kRadius_mm, 3);
+  ASSERT_EQ(other.rows().size(), table_.rows().size());
+  for (std::size_t i = 0; i < other.rows().size(); ++i) {
+    EXPECT_EQ(other.rows()[i].arc_mm, table_.rows()[i].arc_mm);
+    EXPECT_TRUE((other.rows()[i].values == table_.rows()[i].values).all());
+  }
+}
+
+}  // namespace
+}  // namespace finray
