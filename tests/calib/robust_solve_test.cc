@@ -100,12 +100,12 @@ TEST(RobustSolveTest, ThreadsDoNotChangeTheResult) {
   HardLog hard;
   for (unsigned seed = 1; seed <= 5; ++seed) {
     hard = MakeHardLog(kHardLogKinds[0], seed);
-    hard.log.MutableNumbers("force_N")[20] += 2;
+    hard.log.MutableNumbers("gauge_3_V")[20] += 0.5;
     paths.push_back(folder.Path(std::to_string(seed) + ".csv"));
     hard.log.Write(paths.back());
   }
   const Finger start = HardStart(hard);
-  const Plan plan = HardPlan(kHardLogKinds[0]);
+  const Plan plan = StandardPlan();
   std::vector<CalibrationProblem::Point> points;
   std::vector<std::map<int, std::string>> rejected;
   for (const int threads : {1, 2, 5}) {

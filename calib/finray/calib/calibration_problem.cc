@@ -30,7 +30,7 @@ constexpr std::size_t kMostStates = 50000;
 // Contacts are fitted until a step would lower chi2 / 2 by less. Gauss-Newton
 // knows the rest to a tenth: more of it makes costs too rough to converge to
 // 1e-6 of a std, but not to what is near enough with many frames.
-constexpr double kSmallDecrease = 1e-9, kSmallOfMany = 1e-3;
+constexpr double kSmallDecrease = 1e-5, kSmallOfMany = 1e-3;
 // Frames that a thread works on in one go.
 constexpr std::size_t kChunk = 32;
 

@@ -65,7 +65,7 @@ bool FrameLinearizer::Evaluate(const std::array<double, 2>& contact,
                                LinearizedFrame* out) {
   model->contact = contact;
   if (model->evaluation) {
-    model->evaluation->set_state(*state);
+    if (state->q.size() > 0) model->evaluation->set_state(*state);
     const SharedParameters& shared = parameters_.shared;
     model->evaluation->Update(contact.data(), shared.ln_front_stiffness,
                               shared.ln_back_stiffness,

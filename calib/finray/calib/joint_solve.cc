@@ -43,7 +43,7 @@ void JointSolve::AddFrame(const Frame& frame, const MeasurementBlocks& blocks) {
     evaluation = &evaluations_.Add(frame.frame->contact ? 1 : 0,
                                    plan_.scene.friction_coefficient,
                                    frame.unknowns, !frame.frame->pins.empty());
-    evaluation->set_state(*frame.state);
+    if (frame.state->q.size() > 0) evaluation->set_state(*frame.state);
   }
   evaluation_of_.push_back(evaluation);
   blocks_of_.emplace_back();

@@ -12,7 +12,8 @@ FrameEvaluation::FrameEvaluation(const LadderModel& model, EquilibriumForm form,
       gauges_(model.gauges()),
       contact_count_(contacts),
       loads_(contacts),
-      length_mm_(model.finger().front_length_mm) {
+      length_mm_(model.finger().front_length_mm),
+      state_(LadderState::Undeformed(model)) {
   for (PointContact& contact : loads_) contact.friction = friction;
   if (!pins) return;
   for (const Rib& rib : model.finger().ribs) {
@@ -56,11 +57,7 @@ void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
 }
 
 void FrameEvaluation::UpdateReduced(EquilibriumSolver* solver) {
-  if (state_.q.size() > 0) {
-    solver->set_state(state_);
-  } else {
-    solver->Reset();
-  }
+  solver->set_state(state_);
   valid_ = solver->SolveWithSensitivities(loads_);
   state_ = solver->state();
   if (!valid_) return;

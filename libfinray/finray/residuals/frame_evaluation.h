@@ -75,8 +75,7 @@ class FrameEvaluation {
   const Eigen::VectorXd& closure() const { return closure_; }
   const Matrix& d_closure() const { return d_closure_; }
 
-  /// The equilibrium found last and next started from; empty before the first
-  /// one, which is started from the undeformed finger.
+  /// The equilibrium found last and next started from.
   const LadderState& state() const { return state_; }
   void set_state(const LadderState& state) { state_ = state; }
 
