@@ -25,7 +25,7 @@ TEST(ExtremesTest, WithoutNoiseElevenDigits) {
   EXPECT_LT(Quantile(outcome.force_error, 1), 2e-10);
 }
 
-TEST(ExtremesTest, ErrorsGoWithTheNoiseOverTenDecades) {
+TEST(ExtremesTest, ErrorsGoWithTheNoiseOverEightDecades) {
   const auto median = [](double noise) {
     SensingCase c;
     c.noise_of_reading = noise;
@@ -127,17 +127,20 @@ TEST(ExtremesTest, GaugesGivenTwice) {
 }
 
 TEST(ExtremesTest, GaugesAtOnePlaceTellNothing) {
+  int tried = 0;
   for (const auto& [name, finger] : GaugeLayouts()) {
     if (name.find("at one place") == std::string::npos &&
         name.find("mm apart") == std::string::npos) {
       continue;
     }
     SCOPED_TRACE(name);
+    ++tried;
     SensingCase c;
     c.truth = c.told = finger;
     const SensingOutcome outcome = RunSensing(c, kFrames);
     EXPECT_EQ(outcome.count(FrameStatus::kUnobservable), outcome.frames);
   }
+  EXPECT_GE(tried, 3);
 }
 
 // Two gauges leave nothing to tell a wrong contact by: all that explain the

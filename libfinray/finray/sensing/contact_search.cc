@@ -49,8 +49,8 @@ double ContactSearch::least_chi2() const {
 bool ContactSearch::Search(int contacts, const FrameMeasurement& measurement) {
   FindStarts(contacts, measurement);
   const int dof = measurement.all - 2 * contacts;
-  // Of two gauges a minimum leaves nothing, however far the table's nodes are
-  // from it: no chi2 tells the right one.
+  // As many readings as unknowns: a minimum leaves nothing, however far the
+  // table's nodes are from it, and no chi2 tells the right one.
   const bool exact = contacts == 1 && dof < 1;
   found_ = iterations_ = 0;
   int descents = 0;
