@@ -131,8 +131,7 @@ TEST_F(DegenerateLogsTest, APriorThatTheDataContradict) {
   const Outcome outcome = Calibrated(Whole(), plan);
   EXPECT_FALSE(outcome.all_identified);
   EXPECT_THAT(outcome.codes, Contains("prior_contradicted"));
-  EXPECT_THAT(outcome.texts,
-              HasSubstr("gauge_1_gain_V_per_rad ("));
+  EXPECT_THAT(outcome.texts, HasSubstr("gauge_1_gain_V_per_rad ("));
   // Wrong, but with no weight against the data.
   gains.prior_std = 20;
   const Outcome overruled = Calibrated(Whole(), plan);
