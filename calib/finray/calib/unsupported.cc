@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 namespace finray {
 namespace {
@@ -50,6 +51,12 @@ bool IsContradicted(double off, double share) {
          std::abs(off) * std::sqrt(share) > rest;
 }
 
+// One more parameter of the same fault.
+void List(std::size_t free, const std::string& words, Unsupported* listed) {
+  listed->free.push_back(static_cast<int>(free));
+  listed->text += (listed->text.empty() ? "" : ", ") + words;
+}
+
 }  // namespace
 
 std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,
@@ -83,17 +90,14 @@ std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,
     }
     const double off = p.prior_std ? (value - p.initial) / *p.prior_std : 0.0;
     if (!dead && IsContradicted(off, shares[static_cast<Eigen::Index>(k)])) {
-      char text[120];
-      std::snprintf(text, sizeof text, "%s%s (%.3g prior std off)",
-                    contradicted.text.empty() ? "" : ", ", p.name.c_str(), off);
-      contradicted.free.push_back(static_cast<int>(k));
-      contradicted.text += text;
+      char text[40];
+      std::snprintf(text, sizeof text, " (%.3g prior std off)", off);
+      List(k, p.name + text, &contradicted);
     }
     const bool guessed = !p.prior_std || *p.prior_std > p.vague_std;
     if (p.family == ParameterFamily::kGaugeOffset && guessed &&
         !HasUnloadedReading(problem, p.variable, p.gauge)) {
-      offsets.free.push_back(static_cast<int>(k));
-      offsets.text += (offsets.text.empty() ? "" : ", ") + p.name;
+      List(k, p.name, &offsets);
     }
   }
   if (!offsets.free.empty()) {
