@@ -31,6 +31,9 @@ constexpr std::size_t kMostStates = 50000;
 // knows the rest to a tenth: more of it makes costs too rough to converge to
 // 1e-6 of a std, but not to what is near enough with many frames.
 constexpr double kSmallDecrease = 1e-5, kSmallOfMany = 1e-3;
+// Of their equilibria, relative. It is far below any std, and spares many of
+// them an iteration.
+constexpr double kToleranceOfMany = 1e-10;
 // Frames that a thread works on in one go.
 constexpr std::size_t kChunk = 32;
 
@@ -217,9 +220,12 @@ bool CalibrationProblem::InParallel(const std::vector<int>& frames,
     std::array<LinearizedFrame, kChunk> frames;
     std::array<bool, kChunk> good;
   };
+  EquilibriumSolver solver = solver_;
+  if (!few()) solver.set_tolerance(kToleranceOfMany);
+  const double small_decrease = few() ? kSmallDecrease : kSmallOfMany;
   tbb::enumerable_thread_specific<FrameLinearizer> linearizers([&] {
-    return FrameLinearizer(solver_, plan, &blocks_, &parameters_,
-                           few() ? kSmallDecrease : kSmallOfMany);
+    return FrameLinearizer(solver, plan, &blocks_, &parameters_,
+                           small_decrease);
   });
   // As many are under way at most, and they end in order.
   std::vector<Chunk> ring(4 * static_cast<std::size_t>(threads_));

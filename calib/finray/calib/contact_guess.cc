@@ -6,6 +6,21 @@
 #include "finray/finger/geometry.h"
 
 namespace finray {
+namespace {
+
+// Where it is fitted from, or to be compared with other starts: half as fine
+// as for estimates, and as exact as what follows needs.
+constexpr int kRows = GaugeTable::kMostRows / 2;
+constexpr double kTableTolerance = 1e-6;
+
+EquilibriumSolver SolverFor(const Finger& finger,
+                            const Discretization& discretization) {
+  EquilibriumSolver solver(finger, discretization);
+  solver.set_tolerance(kTableTolerance);
+  return solver;
+}
+
+}  // namespace
 
 ContactGuess::ContactGuess(const Finger& finger, const Plan& plan,
                            const Discretization& discretization,
@@ -16,9 +31,9 @@ ContactGuess::ContactGuess(const Finger& finger, const Plan& plan,
       length_mm_(finger.front_length_mm),
       force_unit_N_(ForceUnit(finger)),
       object_std_mm_(plan.object_std_mm),
-      solver_(finger, discretization),
+      solver_(SolverFor(finger, discretization)),
       table_(&solver_, plan.scene.friction_coefficient,
-             plan.scene.circle_radius_mm(), threads),
+             plan.scene.circle_radius_mm(), threads, kRows),
       fit_(finger, discretization, plan.scene.circle_radius_mm()),
       circle_(plan.scene.circle_radius_mm().has_value()) {
   const auto size =

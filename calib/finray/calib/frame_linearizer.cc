@@ -13,6 +13,8 @@ namespace {
 
 constexpr int kMostSteps = 30;
 constexpr double kMostDamping = 1e8;
+// Where a Jacobian goes, if not to a parameter's columns.
+constexpr int kContact = -1, kNowhere = -2;
 
 }  // namespace
 
@@ -100,12 +102,15 @@ void FrameLinearizer::AddBlock(const MeasurementBlock& block,
   const auto& sizes = block.cost->parameter_block_sizes();
   scratch_.resize(std::max(scratch_.size(), sizes.size()));
   jacobians_.assign(sizes.size(), nullptr);
-  const auto wanted = [&](std::size_t k) {
-    return block.parameters[k] == contact ||
-           column_of_.count(block.parameters[k]) > 0;
-  };
+  columns_.assign(sizes.size(), kNowhere);
   for (std::size_t k = 0; k < sizes.size(); ++k) {
-    if (!wanted(k)) continue;
+    if (block.parameters[k] == contact) {
+      columns_[k] = kContact;
+    } else if (const auto at = column_of_.find(block.parameters[k]);
+               at != column_of_.end()) {
+      columns_[k] = at->second;
+    }
+    if (columns_[k] == kNowhere) continue;
     scratch_[k].resize(size * sizes[k]);
     jacobians_[k] = scratch_[k].data();
   }
@@ -131,11 +136,11 @@ void FrameLinearizer::AddBlock(const MeasurementBlock& block,
   for (std::size_t k = 0; k < sizes.size(); ++k) {
     if (jacobians_[k] == nullptr) continue;
     const Eigen::Map<const RowMajor> jacobian(jacobians_[k], size, sizes[k]);
-    if (block.parameters[k] == contact) {
+    if (columns_[k] == kContact) {
       out->by_contact.middleRows(first_row, size) = weight * jacobian;
     } else {
-      out->by_parameter.block(first_row, column_of_.at(block.parameters[k]),
-                              size, sizes[k]) = weight * jacobian;
+      out->by_parameter.block(first_row, columns_[k], size, sizes[k]) =
+          weight * jacobian;
     }
   }
 }
@@ -158,7 +163,6 @@ bool FrameLinearizer::FindContact(const CalibrationFrame& frame,
   const Finger& finger = solver_.model().finger();
   const Eigen::Vector2d unit(finger.front_length_mm, ForceUnit(finger));
   double damping = 0;
-  LinearizedFrame tried;
   for (int step = 0; step < kMostSteps; ++step) {
     const Eigen::Matrix<double, Eigen::Dynamic, 2> slopes =
         out->by_contact * unit.asDiagonal();
@@ -177,10 +181,10 @@ bool FrameLinearizer::FindContact(const CalibrationFrame& frame,
         std::clamp(unit[0] * (x[0] + change[0]), 0.0, unit[0]),
         std::max(0.0, unit[1] * (x[1] + change[1]))};
     LadderState near = *state;
-    if (Evaluate(moved, &model, &near, &tried) && tried.cost < out->cost) {
+    if (Evaluate(moved, &model, &near, &tried_) && tried_.cost < out->cost) {
       *contact = moved;
       *state = std::move(near);
-      std::swap(*out, tried);
+      std::swap(*out, tried_);
       damping /= 10;
       if (damping < 1e-6) damping = 0;
       continue;

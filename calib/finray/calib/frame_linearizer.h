@@ -56,8 +56,11 @@ class FrameLinearizer {
   const CalibrationParameters& parameters_;
   std::unique_ptr<ceres::LossFunction> loss_;
   std::unordered_map<const double*, int> column_of_;  // first one of a block
-  std::vector<std::vector<double>> scratch_;          // a Jacobian each
+  // Of a block's parameters: a Jacobian each, and where that goes.
+  std::vector<std::vector<double>> scratch_;
   std::vector<double*> jacobians_;
+  std::vector<int> columns_;
+  LinearizedFrame tried_;
 };
 
 }  // namespace finray

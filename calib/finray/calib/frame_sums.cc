@@ -14,7 +14,7 @@ void FrameSums::SetZero(int parameters) {
 
 void FrameSums::Add(const LinearizedFrame& frame) {
   const Eigen::MatrixXd& c = frame.reduced;
-  information.noalias() += c.transpose() * c;
+  AddSquare(c, &information);
   gradient.noalias() += c.transpose() * frame.WeightedResiduals();
   cost += frame.cost - frame.move.decrease;
 }

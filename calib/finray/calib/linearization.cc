@@ -22,7 +22,7 @@ void Linearization::Add(int frame, int log, const LinearizedFrame& at) {
   const Eigen::Index n = c.cols();
   const auto of_log =
       information_by_log.try_emplace(log, Eigen::MatrixXd::Zero(n, n));
-  of_log.first->second.noalias() += c.transpose() * c;
+  AddSquare(c, &of_log.first->second);
   for (Eigen::Index i = 0; i < count;) {
     const ResidualFamily family = at.rows[i].family;
     Eigen::Index end = i;
@@ -36,8 +36,7 @@ void Linearization::Add(int frame, int log, const LinearizedFrame& at) {
       weighted_residuals.push_back(weighted[end]);
     }
     const auto of_family = c.middleRows(i, end - i);
-    information_by_family[static_cast<int>(family)].noalias() +=
-        of_family.transpose() * of_family;
+    AddSquare(of_family, &information_by_family[static_cast<int>(family)]);
     i = end;
   }
 }

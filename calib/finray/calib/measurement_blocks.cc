@@ -80,7 +80,9 @@ void MeasurementBlocks::AddReadings(const CalibrationFrame& frame,
                                     Blocks* out) const {
   for (int j = 0; j < evaluation.gauges(); ++j) {
     if (!std::isfinite(frame.gauges_V[j])) continue;
-    std::vector<double*> blocks = model;
+    std::vector<double*> blocks;
+    blocks.reserve(model.size() + 2);
+    blocks = model;
     blocks.push_back(&parameters_.gains_V_per_rad[j]);
     const std::vector<double> coefficients = AddTerms(frame, j, &blocks);
     Add(GaugeReadingResidual::Create(&evaluation, j, &frame.gauges_V[j],

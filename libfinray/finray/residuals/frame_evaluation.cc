@@ -59,10 +59,10 @@ void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
 void FrameEvaluation::UpdateReduced(EquilibriumSolver* solver) {
   solver->set_state(state_);
   valid_ = solver->SolveWithSensitivities(loads_);
-  state_ = solver->state();
+  solver->SaveState(&state_);
   if (!valid_) return;
   outputs_ = solver->outputs();
-  d_outputs_ = WithoutPinColumns(solver->d_outputs());
+  SetWithoutPins(solver->d_outputs(), &d_outputs_);
 }
 
 void FrameEvaluation::UpdateWeighted(const double* frame,
@@ -73,18 +73,21 @@ void FrameEvaluation::UpdateWeighted(const double* frame,
   if (!valid_) return;
   outputs_ = shot.outputs;
   closure_ = shot.closure;
-  d_outputs_ = WithoutPinColumns(shot.d_outputs);
-  d_closure_ = WithoutPinColumns(shot.d_closure);
-  state_ = solver->state();
+  SetWithoutPins(shot.d_outputs, &d_outputs_);
+  SetWithoutPins(shot.d_closure, &d_closure_);
+  solver->SaveState(&state_);
 }
 
 // Pins stay where they are on their beams, and without force.
-FrameEvaluation::Matrix FrameEvaluation::WithoutPinColumns(
-    const Matrix& derivatives) const {
-  if (derivatives.cols() == columns()) return derivatives;
-  Matrix kept(derivatives.rows(), columns());
-  kept << derivatives.leftCols(frame_size()), derivatives.rightCols(2 + ribs_);
-  return kept;
+void FrameEvaluation::SetWithoutPins(const Matrix& derivatives,
+                                     Matrix* target) const {
+  if (derivatives.cols() == columns()) {
+    *target = derivatives;
+    return;
+  }
+  target->resize(derivatives.rows(), columns());
+  *target << derivatives.leftCols(frame_size()),
+      derivatives.rightCols(2 + ribs_);
 }
 
 }  // namespace finray

@@ -82,7 +82,7 @@ class FrameEvaluation {
  private:
   void UpdateReduced(EquilibriumSolver* solver);
   void UpdateWeighted(const double* frame, EquilibriumSolver* solver);
-  Matrix WithoutPinColumns(const Matrix& derivatives) const;
+  void SetWithoutPins(const Matrix& derivatives, Matrix* target) const;
 
   EquilibriumForm form_;
   int ribs_, gauges_, contact_count_;

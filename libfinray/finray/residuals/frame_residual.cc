@@ -7,25 +7,13 @@ FrameResidual::FrameResidual(const FrameEvaluation* frame, int residuals,
     : frame_(frame) {
   set_num_residuals(residuals);
   std::vector<int>* sizes = mutable_parameter_block_sizes();
+  sizes->reserve(4 + extra_blocks.size());
   if (frame->frame_size() > 0) sizes->push_back(frame->frame_size());
   sizes->push_back(1);
   sizes->push_back(1);
   if (frame->ribs() > 0) sizes->push_back(frame->ribs());
   extra_block_ = static_cast<int>(sizes->size());
   sizes->insert(sizes->end(), extra_blocks.begin(), extra_blocks.end());
-}
-
-void FrameResidual::SpreadRow(int residual, const Eigen::RowVectorXd& by_column,
-                              double** jacobians) const {
-  int column = 0;
-  for (int block = 0; block < extra_block_; ++block) {
-    const int size = parameter_block_sizes()[block];
-    if (jacobians[block] != nullptr) {
-      Eigen::Map<Eigen::RowVectorXd>(jacobians[block] + residual * size, size) =
-          by_column.segment(column, size);
-    }
-    column += size;
-  }
 }
 
 std::vector<double*> FrameParameterBlocks(const FrameEvaluation& frame,

@@ -27,8 +27,19 @@ class FrameResidual : public ceres::CostFunction {
 
   /// Writes one residual's derivatives by the columns of FrameEvaluation into
   /// the Jacobian blocks that Ceres asked for.
-  void SpreadRow(int residual, const Eigen::RowVectorXd& by_column,
-                 double** jacobians) const;
+  template <typename Row>
+  void SpreadRow(int residual, const Eigen::MatrixBase<Row>& by_column,
+                 double** jacobians) const {
+    int column = 0;
+    for (int block = 0; block < extra_block_; ++block) {
+      const int size = parameter_block_sizes()[block];
+      if (jacobians[block] != nullptr) {
+        Eigen::Map<Eigen::RowVectorXd>(jacobians[block] + residual * size,
+                                       size) = by_column.segment(column, size);
+      }
+      column += size;
+    }
+  }
 
   const FrameEvaluation& frame() const { return *frame_; }
 

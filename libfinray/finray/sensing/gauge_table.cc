@@ -16,7 +16,6 @@
 namespace finray {
 namespace {
 
-constexpr int kRows = 56;
 // Forces in units of EI / l_0^2: 0.64 N for the paper's finger, so to 26 N.
 constexpr double kForces[] = {0.5, 1, 2, 4, 7, 11, 16, 22, 30, 40};
 
@@ -124,13 +123,14 @@ struct Hermite {
 }  // namespace
 
 GaugeTable::GaugeTable(EquilibriumSolver* solver, double friction,
-                       std::optional<double> circle_radius_mm, int threads)
+                       std::optional<double> circle_radius_mm, int threads,
+                       int rows)
     : friction_(friction) {
   const Finger& finger = solver->model().finger();
   const double length = finger.front_length_mm;
   const double unit = ForceUnit(finger);
   const int gauges = solver->model().gauges();
-  row_spacing_mm_ = length / kRows;
+  row_spacing_mm_ = length / rows;
   heaviest_N_ = unit * *std::rbegin(kForces);
   solver->Reset();
   if (!solver->Solve({})) {
@@ -140,14 +140,14 @@ GaugeTable::GaugeTable(EquilibriumSolver* solver, double friction,
   }
   free_angles_ = solver->outputs().head(gauges);
   const LadderState free_state = solver->state();
-  rows_.resize(kRows);
+  rows_.resize(rows);
   tbb::enumerable_thread_specific<EquilibriumSolver> solvers(*solver);
   tbb::task_arena(std::max(1, threads)).execute([&] {
-    tbb::parallel_for(0, kRows, [&](int i) {
+    tbb::parallel_for(0, rows, [&](int i) {
       EquilibriumSolver& own = solvers.local();
       own.set_state(free_state);
       rows_[i] =
-          MakeRow(length * (i + 0.5) / kRows, friction, circle_radius_mm, &own);
+          MakeRow(length * (i + 0.5) / rows, friction, circle_radius_mm, &own);
     });
   });
   rows_.erase(std::remove_if(rows_.begin(), rows_.end(),
@@ -219,13 +219,13 @@ ContactStart GaugeTable::Refined(const Row& row, const OnChord& chord,
 
 ContactStart GaugeTable::BestStart(const Eigen::VectorXd& values,
                                    const Eigen::VectorXd& weights) const {
-  std::array<OnChord, kRows> chords;
+  std::array<OnChord, kMostRows> chords;
   const int rows = static_cast<int>(rows_.size());
   for (int i = 0; i < rows; ++i) {
     chords[i] = NearestChord(rows_[i], values, weights);
   }
   // Valleys of the misfit, of which chords hide no deep one.
-  std::array<int, kRows> valleys;
+  std::array<int, kMostRows> valleys;
   int count = 0;
   for (int i = 0; i < rows; ++i) {
     if ((i == 0 || chords[i].chi2 <= chords[i - 1].chi2) &&
@@ -263,7 +263,7 @@ const LadderState& GaugeTable::StateNear(double arc_mm, double normal_N) const {
 void GaugeTable::FindStarts(const Eigen::VectorXd& values,
                             const Eigen::VectorXd& weights,
                             std::vector<ContactStart>* starts) const {
-  std::array<ContactStart, kRows> best;
+  std::array<ContactStart, kMostRows> best;
   const int rows = static_cast<int>(rows_.size());
   for (int i = 0; i < rows; ++i) {
     best[i] = Refined(rows_[i], NearestChord(rows_[i], values, weights), values,

@@ -22,9 +22,13 @@ namespace finray {
 /// measured circle, its centre (x, y) in mm behind them (circle_centre.h).
 class GaugeTable {
  public:
-  /// Built by so many threads, whose number does not change it.
+  static constexpr int kMostRows = 56;
+  /// Equilibria are as exact as the solver's tolerance, contacts `rows` places
+  /// from base to tip. Built by so many threads, whose number does not change
+  /// it.
   GaugeTable(EquilibriumSolver* solver, double friction,
-             std::optional<double> circle_radius_mm, int threads = 1);
+             std::optional<double> circle_radius_mm, int threads = 1,
+             int rows = kMostRows);
 
   /// The local minima over l_c of the misfit to `values`, whitened by `weights`
   /// (0: not measured), best first; f_c is interpolated.

@@ -30,8 +30,12 @@ EquilibriumSolver::EquilibriumSolver(const Finger& finger,
 
 LadderState EquilibriumSolver::state() const {
   LadderState state;
-  newton_.Save(&state);
+  SaveState(&state);
   return state;
+}
+
+void EquilibriumSolver::SaveState(LadderState* state) const {
+  newton_.Save(state);
 }
 
 void EquilibriumSolver::set_state(const LadderState& state) {

@@ -58,6 +58,8 @@ class EquilibriumSolver {
   void set_tolerance(double relative) { newton_.set_tolerance(relative); }
 
   LadderState state() const;
+  /// The same without an allocation.
+  void SaveState(LadderState* state) const;
   void set_state(const LadderState& state);
   /// Back to the undeformed finger: the next solve is a cold one.
   void Reset();
