@@ -30,7 +30,7 @@ class Follow {
          const Discretization& discretization, bool strict)
       : finger_(finger),
         scene_(scene),
-        discretization_(discretization),
+        estimator_(finger, scene, discretization),
         strict_(strict) {}
 
   int Run() {
@@ -41,7 +41,7 @@ class Follow {
       if (!lines.Next()) return NoHeader();
       header = lines.line();
     } while (!IsHeaderLine(&header));
-    LiveRows rows(finger_, scene_, discretization_, kSource, header);
+    LiveRows rows(finger_, scene_, kSource, header, &estimator_);
     bool open = Write(rows.HeaderCsv());
     while (open && !StopSignal::Requested() && lines.Next()) {
       const Clock::time_point start = Clock::now();
@@ -104,7 +104,7 @@ class Follow {
 
   const Finger& finger_;
   const Scene& scene_;
-  Discretization discretization_;
+  LiveEstimator estimator_;
   bool strict_;
   LatencyHistogram latency_;
   std::size_t unsolved_ = 0;

@@ -210,8 +210,9 @@ class BatchBenchmark {
     for (const std::string& name : reader.parser().names()) {
       header += (header.empty() ? "" : ",") + name;
     }
-    LiveRows rows(settings_->finger, settings_->scene, {}, "log",
-                  {header, 1, false});
+    LiveEstimator estimator(settings_->finger, settings_->scene);
+    LiveRows rows(settings_->finger, settings_->scene, "log",
+                  {header, 1, false}, &estimator);
     LatencyHistogram latency;
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const double start = WallSeconds();

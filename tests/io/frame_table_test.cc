@@ -111,6 +111,9 @@ TEST_F(FrameTableTest, FilesThatAreNoTable) {
                      "log.csv:1: no commas in the header 'time_s;force_N'");
   EXPECT_INPUT_ERROR(Load("force_N\n"), "has a header but no rows");
   EXPECT_INPUT_ERROR(Load(std::string("force_N\n1\0\n", 11)), "NUL");
+  EXPECT_INPUT_ERROR(
+      Load("# comment\nforce_N,\x1f\x8b\n1,2\n"),
+      "log.csv:2:2: the header ' \x8b' holds a control character");
   EXPECT_INPUT_ERROR(FrameTable::Read(folder_.Path("none.csv")),
                      "none.csv: cannot be read: No such file");
   EXPECT_INPUT_ERROR(FrameTable::Read(folder_.Path("")), "is a folder");

@@ -59,6 +59,11 @@ std::optional<double> CellNumber(std::string_view text) {
   return ParseNumber(text);
 }
 
+// But tabs.
+bool IsControl(char c) {
+  return c != '\t' && (static_cast<unsigned char>(c) < 0x20 || c == '\x7f');
+}
+
 }  // namespace
 
 bool IsHeaderLine(CsvLine* line) {
@@ -81,6 +86,14 @@ FrameParser::FrameParser(const std::string& path, const CsvLine& header,
   if (nul < cells.size()) {
     FailAt(header.number, nul,
            "the header holds a NUL byte, expected UTF-8 text");
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    // Written first, such a name could be taken for a compressed file.
+    if (std::any_of(cells[i].begin(), cells[i].end(), IsControl)) {
+      FailAt(header.number, i,
+             "the header " + ShownText(cells[i]) +
+                 " holds a control character, expected UTF-8 text");
+    }
   }
   if (cells.size() == 1 && cells[0].find_first_of(";\t") != cells[0].npos) {
     Fail(header.number, "no commas in the header " + ShownText(cells[0]) +

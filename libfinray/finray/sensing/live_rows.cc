@@ -7,11 +7,11 @@
 namespace finray {
 
 LiveRows::LiveRows(const Finger& finger, const Scene& scene,
-                   const Discretization& discretization,
-                   const std::string& source, const CsvLine& header)
+                   const std::string& source, const CsvLine& header,
+                   LiveEstimator* estimator)
     : parser_(source, header, scene.columns),
       layout_(finger, scene, parser_),
-      estimator_(finger, scene, discretization) {}
+      estimator_(*estimator) {}
 
 const std::string& LiveRows::Next(const CsvLine& line) {
   rows_.Clear();

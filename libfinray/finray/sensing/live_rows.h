@@ -14,10 +14,10 @@ namespace finray {
 class LiveRows {
  public:
   /// `header` is the line of a log from `source`, which messages name. Throws
-  /// InputError for a bad one.
-  LiveRows(const Finger& finger, const Scene& scene,
-           const Discretization& discretization, const std::string& source,
-           const CsvLine& header);
+  /// InputError for a bad one. The estimator, of this finger and scene, must
+  /// stay in place.
+  LiveRows(const Finger& finger, const Scene& scene, const std::string& source,
+           const CsvLine& header, LiveEstimator* estimator);
 
   std::string HeaderCsv() const { return layout_.HeaderCsv(); }
 
@@ -32,7 +32,7 @@ class LiveRows {
  private:
   FrameParser parser_;
   ResultLayout layout_;
-  LiveEstimator estimator_;
+  LiveEstimator& estimator_;
   FrameRows rows_;
   FrameReadings readings_;
   ResultWriter writer_;
