@@ -106,7 +106,10 @@ TEST(ResultRowsTest, ValuesStandUnderTheirNames) {
   estimate.alternative_chi2 = 7;
   const ResultLayout layout(PaperFinger(), scene, log);
   const std::string row = Row(log, scene, "1,2,3,4", estimate);
-  const FrameParser names("b.csv", {layout.HeaderCsv(), 1, false}, {});
+  const std::string header = layout.HeaderCsv();
+  const FrameParser names(
+      "b.csv",
+      {std::string_view(header).substr(0, header.size() - 1), 1, false}, {});
   FrameRows rows;
   names.Parse({row.substr(0, row.size() - 1), 2, false}, &rows);
   const auto value = [&](const std::string& name) {
