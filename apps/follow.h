@@ -30,18 +30,19 @@ class Follow {
          const Discretization& discretization, bool strict)
       : finger_(finger),
         scene_(scene),
-        estimator_(finger, scene, discretization),
+        discretization_(discretization),
         strict_(strict) {}
 
   int Run() {
     std::signal(SIGPIPE, SIG_IGN);
     PipeLines lines(STDIN_FILENO, StopSignal::InstallWaking(), kSource);
+    LiveEstimator estimator(finger_, scene_, discretization_);
     CsvLine header;
     do {
       if (!lines.Next()) return NoHeader();
       header = lines.line();
     } while (!IsHeaderLine(&header));
-    LiveRows rows(finger_, scene_, kSource, header, &estimator_);
+    LiveRows rows(finger_, scene_, kSource, header, &estimator);
     bool open = Write(rows.HeaderCsv());
     while (open && !StopSignal::Requested() && lines.Next()) {
       const Clock::time_point start = Clock::now();
@@ -104,7 +105,7 @@ class Follow {
 
   const Finger& finger_;
   const Scene& scene_;
-  LiveEstimator estimator_;
+  Discretization discretization_;
   bool strict_;
   LatencyHistogram latency_;
   std::size_t unsolved_ = 0;

@@ -28,7 +28,7 @@ void ReadCalibrationYaml(std::string_view bytes);
 /// kNextFile. Frames are read, not solved.
 void ReadEstimateInputs(std::string_view bytes);
 /// A log as `finray_estimate --follow` takes it. The first kFollowedRows rows
-/// are estimated, with the paper's finger.
+/// are estimated, with the paper's finger and one contact.
 void FollowRows(std::string_view bytes);
 
 constexpr std::string_view kNextFile = "\n=====\n";

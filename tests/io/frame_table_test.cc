@@ -114,6 +114,11 @@ TEST_F(FrameTableTest, FilesThatAreNoTable) {
   EXPECT_INPUT_ERROR(
       Load("# comment\nforce_N,\x1f\x8b\n1,2\n"),
       "log.csv:2:2: the header ' \x8b' holds a control character");
+  EXPECT_INPUT_ERROR(Load("force_N\x7f\n1\n"), "holds a control character");
+  EXPECT_INPUT_ERROR(Load("time_s,force_N\r0,1\r"),
+                     "log.csv:1:2: the header 'force_N 0' holds a carriage "
+                     "return");
+  EXPECT_EQ(Load("a\tb,force_N\n1,2\n").rows(), 1u);
   EXPECT_INPUT_ERROR(FrameTable::Read(folder_.Path("none.csv")),
                      "none.csv: cannot be read: No such file");
   EXPECT_INPUT_ERROR(FrameTable::Read(folder_.Path("")), "is a folder");

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "finray/sensing/frame_estimator.h"
+#include "finray/sensing/live_estimator.h"
 #include "test_finger.h"
 
 namespace finray {
@@ -96,6 +97,22 @@ TEST(ContactSmootherTest, IsTheLeastOfTheWholeCost) {
     EXPECT_NEAR(contact.arc_std_mm / arc_std, 1, 1e-3);
     EXPECT_NEAR(contact.normal_std_N / normal_std, 1, 1e-3);
   }
+}
+
+TEST(ContactSmootherTest, AnotherLogBeginsAfresh) {
+  const Walk walk(20, 0.2, 0.03, 3);
+  const Scene scene = SmoothScene(0.2, 0.03);
+  LiveEstimator used(PaperFinger(), scene), fresh(PaperFinger(), scene),
+      going_on(PaperFinger(), scene);
+  for (const FrameReadings& readings : walk.readings) {
+    used.Next(readings);
+    going_on.Next(readings);
+  }
+  used.Restart();
+  const FrameReadings& first = walk.readings[0];
+  const double arc_mm = fresh.Next(first).contact[0].arc_mm;
+  EXPECT_NEAR(used.Next(first).contact[0].arc_mm, arc_mm, 1e-9);
+  EXPECT_GT(std::abs(going_on.Next(first).contact[0].arc_mm - arc_mm), 1e-3);
 }
 
 TEST(ContactSmootherTest, HelpsAsMuchAsItsStdSays) {

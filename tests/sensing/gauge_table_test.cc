@@ -70,5 +70,26 @@ TEST_F(GaugeTableTest, ThreadsDoNotChangeIt) {
   }
 }
 
+// As calibrations have it.
+TEST_F(GaugeTableTest, HalfTheRowsLessExact) {
+  EquilibriumSolver rough = solver_;
+  rough.set_tolerance(1e-6);
+  constexpr int kRows = GaugeTable::kMostRows / 2;
+  const GaugeTable one(&rough, 0, kRadius_mm, 1, kRows);
+  const GaugeTable three(&rough, 0, kRadius_mm, 3, kRows);
+  ASSERT_EQ(one.rows().size(), kRows);
+  EXPECT_DOUBLE_EQ(one.row_spacing_mm(), 2 * table_.row_spacing_mm());
+  for (int i = 0; i < kRows; ++i) {
+    const GaugeTable::Row& row = one.rows()[i];
+    EXPECT_TRUE((three.rows()[i].values == row.values).all());
+    for (std::size_t k = 0; k < row.nodes.size(); ++k) {
+      EXPECT_TRUE(solver_.Solve({{row.arc_mm, row.nodes[k].normal_N}}));
+      EXPECT_LT((row.nodes[k].values.head<4>() - solver_.outputs().head<4>())
+                    .lpNorm<Eigen::Infinity>(),
+                1e-2 * kNoise_rad);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace finray

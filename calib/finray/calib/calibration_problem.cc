@@ -31,8 +31,8 @@ constexpr std::size_t kMostStates = 50000;
 // knows the rest to a tenth: more of it makes costs too rough to converge to
 // 1e-6 of a std, but not to what is near enough with many frames.
 constexpr double kSmallDecrease = 1e-5, kSmallOfMany = 1e-3;
-// Of their equilibria, relative. It is far below any std, and spares many of
-// them an iteration.
+// Of their equilibria, relative: far below any std, and it spares iterations.
+// Derivatives are those before the last one, which moves by 1e-4 at most.
 constexpr double kToleranceOfMany = 1e-10;
 // Frames that a thread works on in one go.
 constexpr std::size_t kChunk = 32;

@@ -8,10 +8,11 @@
 namespace finray {
 namespace {
 
-// Where it is fitted from, or to be compared with other starts: half as fine
-// as for estimates, and as exact as what follows needs.
+// Places are fitted from, and states gone on from: half as many rows as for
+// estimates, and as exact as what follows needs. The fit is of l_0 and
+// EI / l_0^2.
 constexpr int kRows = GaugeTable::kMostRows / 2;
-constexpr double kTableTolerance = 1e-6;
+constexpr double kTableTolerance = 1e-6, kFitTolerance = 1e-3;
 
 EquilibriumSolver SolverFor(const Finger& finger,
                             const Discretization& discretization) {
@@ -41,8 +42,7 @@ ContactGuess::ContactGuess(const Finger& finger, const Plan& plan,
   values_.resize(size);
   weights_.resize(size);
   fit_.set_most_force(table_.heaviest_N());
-  // Of l_0 and EI / l_0^2: what it is for goes on from there.
-  fit_.set_tolerance(1e-3);
+  fit_.set_tolerance(kFitTolerance);
 }
 
 ContactGuess::Place ContactGuess::Of(const CalibrationFrame& frame, From from) {

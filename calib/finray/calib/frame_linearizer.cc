@@ -41,7 +41,11 @@ FrameLinearizer::FrameLinearizer(const EquilibriumSolver& solver,
   }
 }
 
-void FrameLinearizer::Prepare(const CalibrationFrame& frame, Model* model) {
+void FrameLinearizer::Prepare(const CalibrationFrame& frame,
+                              const LadderState& state, Model* model) {
+  // Without a state it starts from the mesh of the beginning, not from that of
+  // whatever frame was there before.
+  if (state.q.size() == 0) solver_.Reset();
   if (!frame.IsBench()) {
     model->evaluation.emplace(solver_.model(), EquilibriumForm::kReduced,
                               frame.contact ? 1 : 0, friction_,
@@ -56,7 +60,7 @@ bool FrameLinearizer::Linearize(const CalibrationFrame& frame,
                                 const std::array<double, 2>& contact,
                                 LadderState* state, LinearizedFrame* out) {
   Model model;
-  Prepare(frame, &model);
+  Prepare(frame, *state, &model);
   if (!Evaluate(contact, &model, state, out)) return false;
   out->Eliminate();
   return true;
@@ -157,7 +161,7 @@ bool FrameLinearizer::FindContact(const CalibrationFrame& frame,
                                   std::array<double, 2>* contact,
                                   LadderState* state, LinearizedFrame* out) {
   Model model;
-  Prepare(frame, &model);
+  Prepare(frame, *state, &model);
   if (!Evaluate(*contact, &model, state, out)) return false;
   if (!frame.contact) return true;
   const Finger& finger = solver_.model().finger();

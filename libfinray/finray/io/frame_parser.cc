@@ -59,7 +59,7 @@ std::optional<double> CellNumber(std::string_view text) {
   return ParseNumber(text);
 }
 
-// But tabs.
+// All but tabs.
 bool IsControl(char c) {
   return c != '\t' && (static_cast<unsigned char>(c) < 0x20 || c == '\x7f');
 }
@@ -88,12 +88,15 @@ FrameParser::FrameParser(const std::string& path, const CsvLine& header,
            "the header holds a NUL byte, expected UTF-8 text");
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    // Written first, such a name could be taken for a compressed file.
-    if (std::any_of(cells[i].begin(), cells[i].end(), IsControl)) {
-      FailAt(header.number, i,
-             "the header " + ShownText(cells[i]) +
-                 " holds a control character, expected UTF-8 text");
-    }
+    // No name has any; and a file that began with one could be taken for a
+    // compressed one.
+    const auto bad = std::find_if(cells[i].begin(), cells[i].end(), IsControl);
+    if (bad == cells[i].end()) continue;
+    FailAt(header.number, i,
+           "the header " + ShownText(cells[i]) +
+               (*bad == '\r' ? " holds a carriage return, expected lines that "
+                               "end with a line feed"
+                             : " holds a control character, expected text"));
   }
   if (cells.size() == 1 && cells[0].find_first_of(";\t") != cells[0].npos) {
     Fail(header.number, "no commas in the header " + ShownText(cells[0]) +

@@ -58,6 +58,11 @@ class FrameEstimator {
   /// The frame that follows the one of the last call, smoothed by those before
   /// it if the scene says so.
   FrameEstimate Follow(const FrameReadings& readings);
+  /// The next frame that is followed is the first one of its log.
+  void StopFollowing() {
+    following_ = false;
+    followed_.reset();
+  }
 
   const Finger& finger() const { return finger_; }
 

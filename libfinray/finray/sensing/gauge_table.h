@@ -24,8 +24,8 @@ class GaugeTable {
  public:
   static constexpr int kMostRows = 56;
   /// Equilibria are as exact as the solver's tolerance, contacts `rows` places
-  /// from base to tip. Built by so many threads, whose number does not change
-  /// it.
+  /// from base to tip, at most kMostRows. Built by so many threads, whose
+  /// number does not change it.
   GaugeTable(EquilibriumSolver* solver, double friction,
              std::optional<double> circle_radius_mm, int threads = 1,
              int rows = kMostRows);

@@ -17,6 +17,9 @@ class LiveEstimator {
   /// The contact of these readings; it lives until the next call.
   const FrameEstimate& Next(const FrameReadings& readings);
 
+  /// The next frame is the first one of another log.
+  void Restart() { estimator_.StopFollowing(); }
+
  private:
   FrameEstimator estimator_;
   FrameEstimate estimate_;

@@ -11,7 +11,9 @@ LiveRows::LiveRows(const Finger& finger, const Scene& scene,
                    LiveEstimator* estimator)
     : parser_(source, header, scene.columns),
       layout_(finger, scene, parser_),
-      estimator_(*estimator) {}
+      estimator_(*estimator) {
+  estimator_.Restart();
+}
 
 const std::string& LiveRows::Next(const CsvLine& line) {
   rows_.Clear();

@@ -15,7 +15,7 @@ class LiveRows {
  public:
   /// `header` is the line of a log from `source`, which messages name. Throws
   /// InputError for a bad one. The estimator, of this finger and scene, must
-  /// stay in place.
+  /// stay in place; it is restarted, and serves one log at a time.
   LiveRows(const Finger& finger, const Scene& scene, const std::string& source,
            const CsvLine& header, LiveEstimator* estimator);
 
