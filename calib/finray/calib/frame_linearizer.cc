@@ -41,11 +41,7 @@ FrameLinearizer::FrameLinearizer(const EquilibriumSolver& solver,
   }
 }
 
-void FrameLinearizer::Prepare(const CalibrationFrame& frame,
-                              const LadderState& state, Model* model) {
-  // Without a state it starts from the mesh of the beginning, not from that of
-  // whatever frame was there before.
-  if (state.q.size() == 0) solver_.Reset();
+void FrameLinearizer::Prepare(const CalibrationFrame& frame, Model* model) {
   if (!frame.IsBench()) {
     model->evaluation.emplace(solver_.model(), EquilibriumForm::kReduced,
                               frame.contact ? 1 : 0, friction_,
@@ -60,7 +56,7 @@ bool FrameLinearizer::Linearize(const CalibrationFrame& frame,
                                 const std::array<double, 2>& contact,
                                 LadderState* state, LinearizedFrame* out) {
   Model model;
-  Prepare(frame, *state, &model);
+  Prepare(frame, &model);
   if (!Evaluate(contact, &model, state, out)) return false;
   out->Eliminate();
   return true;
@@ -161,7 +157,7 @@ bool FrameLinearizer::FindContact(const CalibrationFrame& frame,
                                   std::array<double, 2>* contact,
                                   LadderState* state, LinearizedFrame* out) {
   Model model;
-  Prepare(frame, *state, &model);
+  Prepare(frame, &model);
   if (!Evaluate(*contact, &model, state, out)) return false;
   if (!frame.contact) return true;
   const Finger& finger = solver_.model().finger();

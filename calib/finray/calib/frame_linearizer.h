@@ -41,8 +41,7 @@ class FrameLinearizer {
   // A frame's blocks about an evaluation at a contact.
   struct Model;
 
-  void Prepare(const CalibrationFrame& frame, const LadderState& state,
-               Model* model);
+  void Prepare(const CalibrationFrame& frame, Model* model);
   bool Evaluate(const std::array<double, 2>& contact, Model* model,
                 LadderState* state, LinearizedFrame* out);
   bool FindContact(const CalibrationFrame& frame,
