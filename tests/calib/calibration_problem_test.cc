@@ -71,9 +71,9 @@ TEST(CalibrationProblemTest, WeightedFormAgrees) {
               check.weighted.iterations, check.value_difference_std,
               check.std_difference);
   EXPECT_EQ(check.frames, 210);
-  // Whether the weighted form calls itself converged is up to rounding.
-  EXPECT_LT(check.value_difference_std, 2e-4);
-  EXPECT_LT(check.std_difference, 1.5e-4);
+  EXPECT_TRUE(check.weighted.converged);
+  EXPECT_LT(check.value_difference_std, 1e-4);
+  EXPECT_LT(check.std_difference, 1e-4);
   EXPECT_EQ(problem.Save().values, before.values);
 }
 

@@ -146,7 +146,6 @@ class CalibrationProblem {
   SolveReport SolveSummed(const std::vector<int>& frames,
                           double gradient_tolerance);
   void ForgetLastDigits();
-  Eigen::MatrixXd DeterminedUnits(const Eigen::MatrixXd& information) const;
   void BeginSum(std::size_t most_frames, FrameSums* sums);
   void AddToSum(int frame, const LinearizedFrame& at, FrameSums* sums);
   bool Sum(const std::vector<int>& frames, const Eigen::VectorXd& at,

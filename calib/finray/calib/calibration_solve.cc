@@ -3,12 +3,12 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "finray/calib/calibration_problem.h"
+#include "finray/calib/information_spectrum.h"
 
 namespace finray {
 namespace {
@@ -16,9 +16,6 @@ namespace {
 // Gradients, per std, at which a solve ends: 1e-6 of a std from the minimum,
 // or, of many frames, a hundredth.
 constexpr double kNear = 1e-6, kNearEnough = 1e-2;
-// Along what the data and priors say less of than this, in units of the priors
-// or scales, nothing is moved: that would be rounding.
-constexpr double kLeastInformation = 1e-8;
 
 // Sums over the frames go on from there.
 constexpr JointSolve::Limits kNearby = {200, 1e-8};
@@ -152,23 +149,7 @@ SolveReport CalibrationProblem::SolveSomeWeighted(
   }
   JointSolve solve(finger_, discretization_, plan_, blocks_, &parameters_,
                    joint, threads_, EquilibriumForm::kWeighted);
-  const SolveReport report = solve.Solve({});
-  *information = solve.Information();
-  return report;
-}
-
-// Columns are changes of one std along the directions that are determined.
-Eigen::MatrixXd CalibrationProblem::DeterminedUnits(
-    const Eigen::MatrixXd& information) const {
-  const Eigen::VectorXd unit = parameters_.Units();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-      unit.asDiagonal() * information * unit.asDiagonal());
-  const auto weak =
-      std::count_if(eigen.eigenvalues().begin(), eigen.eigenvalues().end(),
-                    [](double value) { return value < kLeastInformation; });
-  const Eigen::Index kept = unit.size() - weak;
-  return unit.asDiagonal() * eigen.eigenvectors().rightCols(kept) *
-         eigen.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+  return solve.SolveByProjection(information);
 }
 
 SolveReport CalibrationProblem::SolveSummed(const std::vector<int>& frames,
@@ -185,7 +166,8 @@ SolveReport CalibrationProblem::SolveSummed(const std::vector<int>& frames,
     }
   }
   start_.reset();
-  const Eigen::MatrixXd units = DeterminedUnits(sums.information);
+  const Eigen::MatrixXd units =
+      DeterminedUnits(sums.information, parameters_.Units());
   if (units.cols() == 0) {
     return {true, 0, sums.cost, sums.cost, "nothing is determined"};
   }

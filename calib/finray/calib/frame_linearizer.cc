@@ -41,8 +41,12 @@ FrameLinearizer::FrameLinearizer(const EquilibriumSolver& solver,
   }
 }
 
-void FrameLinearizer::Prepare(const CalibrationFrame& frame, Model* model) {
+void FrameLinearizer::Prepare(const CalibrationFrame& frame,
+                              const LadderState& start, Model* model) {
   if (!frame.IsBench()) {
+    // Not from the mesh that another frame has refined: results would depend
+    // on which thread had which frame.
+    if (start.q.size() == 0) solver_.Reset();
     model->evaluation.emplace(solver_.model(), EquilibriumForm::kReduced,
                               frame.contact ? 1 : 0, friction_,
                               !frame.pins.empty());
@@ -56,7 +60,7 @@ bool FrameLinearizer::Linearize(const CalibrationFrame& frame,
                                 const std::array<double, 2>& contact,
                                 LadderState* state, LinearizedFrame* out) {
   Model model;
-  Prepare(frame, &model);
+  Prepare(frame, *state, &model);
   if (!Evaluate(contact, &model, state, out)) return false;
   out->Eliminate();
   return true;
@@ -157,7 +161,7 @@ bool FrameLinearizer::FindContact(const CalibrationFrame& frame,
                                   std::array<double, 2>* contact,
                                   LadderState* state, LinearizedFrame* out) {
   Model model;
-  Prepare(frame, &model);
+  Prepare(frame, *state, &model);
   if (!Evaluate(*contact, &model, state, out)) return false;
   if (!frame.contact) return true;
   const Finger& finger = solver_.model().finger();

@@ -41,7 +41,8 @@ class FrameLinearizer {
   // A frame's blocks about an evaluation at a contact.
   struct Model;
 
-  void Prepare(const CalibrationFrame& frame, Model* model);
+  void Prepare(const CalibrationFrame& frame, const LadderState& start,
+               Model* model);
   bool Evaluate(const std::array<double, 2>& contact, Model* model,
                 LadderState* state, LinearizedFrame* out);
   bool FindContact(const CalibrationFrame& frame,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "finray/calib/information_spectrum.h"
 #include "finray/calib/weak_direction_words.h"
 
 namespace finray {
@@ -17,26 +18,11 @@ const char* ParameterStatusName(ParameterStatus status) {
 
 Eigen::MatrixXd BoundedCovariance(const Eigen::MatrixXd& information) {
   constexpr double kLeast = Identifiability::kNull * Identifiability::kNull;
-  constexpr double kRounding = 1e-12;
-  // Units far from what the data tell spread the eigenvalues by more than a
-  // double has digits: with a unit diagonal they are no matter.
-  const Eigen::VectorXd size =
-      information.diagonal().cwiseSqrt().cwiseInverse();
-  if (size.allFinite()) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> even(
-        size.asDiagonal() * information * size.asDiagonal());
-    if (even.eigenvalues()[0] > kRounding) {
-      const Eigen::MatrixXd root =
-          size.asDiagonal() * even.eigenvectors() *
-          even.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
-      const Eigen::MatrixXd covariance = root * root.transpose();
-      if (covariance.trace() < 1 / kLeast) return covariance;
-    }
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(information);
-  const Eigen::VectorXd bounded = eigen.eigenvalues().cwiseMax(kLeast);
-  return eigen.eigenvectors() * bounded.cwiseInverse().asDiagonal() *
-         eigen.eigenvectors().transpose();
+  const InformationSpectrum spectrum(information);
+  const Eigen::MatrixXd root =
+      spectrum.vectors *
+      spectrum.values.cwiseMax(kLeast).cwiseSqrt().cwiseInverse().asDiagonal();
+  return root * root.transpose();
 }
 
 namespace {
@@ -139,9 +125,9 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem) {
   result.unit = unit;
   result.information = information;
   result.prior = prior;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> data(information);
-  const Eigen::VectorXd& value = data.eigenvalues();
-  const Eigen::MatrixXd& vector = data.eigenvectors();
+  const InformationSpectrum spectrum(information);
+  const Eigen::VectorXd& value = spectrum.values;
+  const Eigen::MatrixXd& vector = spectrum.vectors;
 
   const Eigen::MatrixXd covariance = BoundedCovariance(information + prior);
   result.correlation.resize(n, n);

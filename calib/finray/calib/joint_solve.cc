@@ -1,12 +1,9 @@
 #include "finray/calib/joint_solve.h"
 
-#include <ceres/crs_matrix.h>
 #include <ceres/ordered_groups.h>
 #include <ceres/solver.h>
 
-#include <Eigen/QR>
 #include <algorithm>
-#include <stdexcept>
 #include <unordered_set>
 
 #include "finray/residuals/equilibrium_residual.h"
@@ -152,52 +149,6 @@ SolveReport JointSolve::Solve(const Limits& limits) {
   report.final_cost = summary.final_cost;
   report.message = summary.message;
   return report;
-}
-
-Eigen::MatrixXd JointSolve::Information() {
-  const auto n = static_cast<Eigen::Index>(parameters_.free().size());
-  ceres::Problem::EvaluateOptions options;
-  std::vector<Eigen::Index> column_of;  // of Ceres' columns
-  for (std::size_t k = 0; k < parameters_.free().size(); ++k) {
-    const CalibrationParameter& p = parameters_.all()[parameters_.free()[k]];
-    if (!problem_->HasParameterBlock(p.block)) continue;
-    column_of.push_back(static_cast<Eigen::Index>(k));
-    if (options.parameter_blocks.empty() ||
-        options.parameter_blocks.back() != p.block) {
-      options.parameter_blocks.push_back(p.block);
-    }
-  }
-  const auto shared = static_cast<int>(column_of.size());
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n, n);
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
-    options.residual_blocks = blocks_of_[i];
-    ceres::Problem::EvaluateOptions of_frame = options;
-    if (frames_[i].unknowns != nullptr) {
-      of_frame.parameter_blocks.push_back(frames_[i].unknowns);
-    }
-    ceres::CRSMatrix sparse;
-    if (!problem_->Evaluate(of_frame, nullptr, nullptr, nullptr, &sparse)) {
-      throw std::runtime_error("the model cannot be evaluated at the solution");
-    }
-    Eigen::MatrixXd c = Eigen::MatrixXd::Zero(sparse.num_rows, n);
-    Eigen::MatrixXd e =
-        Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols - shared);
-    for (int row = 0; row < sparse.num_rows; ++row) {
-      for (int k = sparse.rows[row]; k < sparse.rows[row + 1]; ++k) {
-        const int column = sparse.cols[k];
-        (column < shared ? c(row, column_of[column])
-                         : e(row, column - shared)) = sparse.values[k];
-      }
-    }
-    if (e.cols() > 0) {
-      const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(e);
-      c = (qr.householderQ().adjoint() * c)
-              .bottomRows(c.rows() - qr.rank())
-              .eval();
-    }
-    information.noalias() += c.transpose() * c;
-  }
-  return information;
 }
 
 }  // namespace finray

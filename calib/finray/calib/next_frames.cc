@@ -1,6 +1,5 @@
 #include "finray/calib/next_frames.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "finray/calib/information_spectrum.h"
 #include "finray/calib/linearized_frame.h"
 #include "finray/calib/next_frames_words.h"
 #include "finray/finger/geometry.h"
@@ -388,9 +388,7 @@ std::optional<FrameAdvice> NextFrames::KnownGains(
 }
 
 Eigen::VectorXd NextFrames::WorstDirection() const {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(found_.information)
-      .eigenvectors()
-      .col(0);
+  return InformationSpectrum(found_.information).vectors.col(0);
 }
 
 std::vector<FrameAdvice> AdviseNextFrames(CalibrationProblem* problem,

@@ -11,9 +11,9 @@ namespace finray {
 ///            M_F + M_B, N_F + N_B),   six residuals,
 ///
 /// with S bringing lengths to units of l_0, moments to EI / l_0 and forces to
-/// EI / l_0^2. A weight of about 1e6 holds equilibrium to below gauge noise and
-/// still converges (docs/calibration.md). Parameter blocks: those of
-/// FrameResidual.
+/// EI / l_0^2. A weight of 1e6 and more holds equilibrium to below gauge noise;
+/// what it does to normal equations is in docs/calibration.md. Parameter
+/// blocks: those of FrameResidual.
 class EquilibriumResidual : public FrameResidual {
  public:
   static ceres::CostFunction* Create(const FrameEvaluation* frame,

@@ -1,0 +1,52 @@
+#include "finray/calib/information_spectrum.h"
+
+#include <lapacke.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace finray {
+
+InformationSpectrum::InformationSpectrum(const Eigen::MatrixXd& information) {
+  const auto n = static_cast<lapack_int>(information.rows());
+  if (n == 0) return;
+  const Eigen::VectorXd root = information.diagonal().cwiseMax(0).cwiseSqrt();
+  const Eigen::VectorXd size =
+      root.unaryExpr([](double r) { return r > 0 ? 1 / r : 0; });
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> even(
+      size.asDiagonal() * information * size.asDiagonal());
+  // Less is rounding, of either sign.
+  const double least = 4 * n * std::numeric_limits<double>::epsilon();
+  const Eigen::VectorXd kept = even.eigenvalues().unaryExpr(
+      [least](double value) { return value > least ? value : 0; });
+  Eigen::MatrixXd factor = kept.cwiseSqrt().asDiagonal() *
+                           even.eigenvectors().transpose() * root.asDiagonal();
+  Eigen::VectorXd singular(n);
+  Eigen::MatrixXd left(n, n), right(n, n);
+  double stat[7];
+  lapack_int rank[3];
+  if (LAPACKE_dgejsv(LAPACK_COL_MAJOR, 'C', 'N', 'V', 'N', 'N', 'N', n, n,
+                     factor.data(), n, singular.data(), left.data(), n,
+                     right.data(), n, stat, rank) != 0) {
+    throw std::runtime_error("the information matrix has no spectrum");
+  }
+  // They come multiplied by a factor, lest they overflow.
+  values = (stat[0] / stat[1] * singular).reverse().cwiseAbs2();
+  vectors = right.rowwise().reverse();
+}
+
+Eigen::MatrixXd DeterminedUnits(const Eigen::MatrixXd& information,
+                                const Eigen::VectorXd& unit) {
+  const InformationSpectrum spectrum(unit.asDiagonal() * information *
+                                     unit.asDiagonal());
+  const auto weak =
+      std::count_if(spectrum.values.begin(), spectrum.values.end(),
+                    [](double value) { return value < kLeastInformation; });
+  const Eigen::Index kept = unit.size() - weak;
+  return unit.asDiagonal() * spectrum.vectors.rightCols(kept) *
+         spectrum.values.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+}
+
+}  // namespace finray
