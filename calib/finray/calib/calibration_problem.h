@@ -49,10 +49,12 @@ class CalibrationProblem {
   SolveReport SolveMany();
   static constexpr std::size_t kMany = 20000;
 
-  /// Some kSome frames, evenly spread; the joint solve of these alone, and
-  /// what they and the priors say of the free parameters.
+  /// Some kSome frames, evenly spread; the joint solve of these alone, that by
+  /// FrameSumResidual from near their solution, and what they and the priors
+  /// say of the free parameters.
   std::vector<int> SomeFrames() const;
-  SolveReport SolveSome(const JointSolve::Limits& limits = {});
+  SolveReport SolveSome(const JointSolve::Limits& limits);
+  SolveReport SolveSomeOn();
   Eigen::MatrixXd InformationOfSome();
   /// The same in the weighted form, from the present values, which it changes;
   /// `information` is that of the frames alone.

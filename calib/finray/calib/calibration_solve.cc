@@ -76,6 +76,10 @@ SolveReport CalibrationProblem::SolveSome(const JointSolve::Limits& limits) {
   return SolveJointly(SomeFrames(), limits);
 }
 
+SolveReport CalibrationProblem::SolveSomeOn() {
+  return SolveSummed(SomeFrames(), kNear);
+}
+
 SolveReport CalibrationProblem::SolveJointly(const JointSolve::Limits& limits) {
   at_solution_.reset();
   return SolveJointly(fitted_, limits);

@@ -32,7 +32,7 @@ Eigen::VectorXd Std(const Eigen::MatrixXd& information,
 WeightedCheck CheckWeighted(CalibrationProblem* problem) {
   const CalibrationProblem::Point before = problem->Save();
   WeightedCheck check;
-  check.reduced = problem->SolveSome();
+  check.reduced = problem->SolveSomeOn();
   const Eigen::MatrixXd reduced = problem->InformationOfSome();
   const CalibrationProblem::Point at_reduced = problem->Save();
   Eigen::MatrixXd weighted;
