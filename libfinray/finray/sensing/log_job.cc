@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 std::string Key(const BatchSettings& settings, const std::string& log_sha256) {
   return Sha256OfText(
-      "results 4\nversion " FINRAY_VERSION "\nlog " + log_sha256 + "\nfinger " +
+      "results 5\nversion " FINRAY_VERSION "\nlog " + log_sha256 + "\nfinger " +
       settings.finger_sha256 + "\nscene " + settings.scene_sha256 +
       "\nscheme " + SchemeName(settings.discretization.scheme) +
       "\nresolution " + std::to_string(settings.discretization.resolution) +
