@@ -95,7 +95,9 @@ void PrintSummary(finray::CalibrationProblem& problem,
   }
   if (result.weighted && result.weighted->frames > 0) {
     std::printf(
-        "weighted form  values differ by %.1g std, std by %.1g of themselves\n",
+        "weighted form  %svalues differ by %.1g std, std by %.1g of "
+        "themselves\n",
+        result.weighted->converged ? "" : "not converged, ",
         result.weighted->value_difference_std, result.weighted->std_difference);
   }
   std::printf("next           %s\n",
@@ -134,7 +136,7 @@ int Run() {
                                        FLAGS_leave_one_log_out);
   if (FLAGS_check_weighted) {
     try {
-      result.weighted = CheckWeighted(&problem);
+      result.weighted = CheckWeighted(problem);
     } catch (const std::runtime_error& error) {
       LOG(ERROR) << "no check in the weighted form: " << error.what();
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <stdexcept>
 
 namespace finray {
 namespace {
@@ -69,8 +70,19 @@ TEST(InformationSpectrumTest, SingularAndEmpty) {
   EXPECT_EQ(spectrum.values[0], 0);
   EXPECT_LT(spectrum.values[1], 1e-12);
   EXPECT_NEAR(spectrum.values[2] / 2e8, 1, 1e-14);
+  EXPECT_LT((spectrum.vectors.transpose() * spectrum.vectors -
+             Eigen::Matrix3d::Identity())
+                .norm(),
+            1e-14);
+  EXPECT_EQ(DeterminedUnits(s, Eigen::Vector3d(1, 2, 3)).cols(), 1);
   EXPECT_EQ(InformationSpectrum(Eigen::MatrixXd::Zero(4, 4)).values.norm(), 0);
   EXPECT_EQ(InformationSpectrum(Eigen::MatrixXd(0, 0)).values.size(), 0);
+}
+
+TEST(InformationSpectrumTest, RefusesWhatIsNotFinite) {
+  Eigen::Matrix2d s = Eigen::Matrix2d::Identity();
+  s(0, 1) = s(1, 0) = std::nan("");
+  EXPECT_THROW(InformationSpectrum{s}, std::runtime_error);
 }
 
 }  // namespace

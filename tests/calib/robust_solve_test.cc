@@ -9,8 +9,8 @@
 #include "calib/hard_log.h"
 #include "calib/standard_log.h"
 #include "finray/calib/identifiability.h"
-#include "finray/calib/weighted_check.h"
 #include "finray/calib/outliers.h"
+#include "finray/calib/weighted_check.h"
 
 namespace finray {
 namespace {
@@ -71,8 +71,8 @@ TEST(RobustSolveTest, ANastyLogIsCleaned) {
     EXPECT_GE(found, 17u) << "of " << nasty.hard.outliers.size();
     EXPECT_LE(false_alarms, 1u);
     // With the robust loss, too, in either form.
-    const WeightedCheck check = CheckWeighted(nasty.problem.get());
-    EXPECT_TRUE(check.weighted.converged);
+    const WeightedCheck check = CheckWeighted(*nasty.problem);
+    EXPECT_TRUE(check.converged);
     EXPECT_LT(check.value_difference_std, 1e-4);
     EXPECT_LT(check.std_difference, 1e-4);
   }

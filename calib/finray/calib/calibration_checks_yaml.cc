@@ -119,8 +119,8 @@ void EmitWeighted(const WeightedCheck& check, YAML::Emitter* yaml) {
   *yaml << YAML::Key << "weighted_check" << YAML::Value << YAML::Flow
         << YAML::BeginMap;
   YamlPair(yaml, "frames", check.frames);
-  YamlPair(yaml, "converged", check.weighted.converged);
-  YamlPair(yaml, "iterations", check.weighted.iterations);
+  YamlPair(yaml, "converged", check.converged);
+  YamlPair(yaml, "iterations", check.iterations);
   YamlPair(yaml, "value_difference_std",
            YamlNumber(check.value_difference_std));
   YamlPair(yaml, "std_difference", YamlNumber(check.std_difference));

@@ -49,16 +49,16 @@ class CalibrationProblem {
   SolveReport SolveMany();
   static constexpr std::size_t kMany = 20000;
 
-  /// Some kSome frames, evenly spread; the joint solve of these alone, that by
-  /// FrameSumResidual from near their solution, and what they and the priors
-  /// say of the free parameters.
+  /// All frames in the weighted form, from near the solution; `information` is
+  /// what they and the priors say there of the free parameters. For some
+  /// hundred frames.
+  SolveReport SolveWeighted(Eigen::MatrixXd* information);
+
+  /// Some kSome frames, evenly spread; the joint solve of these alone, and
+  /// what they and the priors say of the free parameters.
   std::vector<int> SomeFrames() const;
   SolveReport SolveSome(const JointSolve::Limits& limits);
-  SolveReport SolveSomeOn();
   Eigen::MatrixXd InformationOfSome();
-  /// The same in the weighted form, from the present values, which it changes;
-  /// `information` is that of the frames alone.
-  SolveReport SolveSomeWeighted(Eigen::MatrixXd* information);
   static constexpr std::size_t kSome = 250;
   /// The problem of these frames alone, from the present values and contacts,
   /// for one thread: several can be solved at the same time.

@@ -76,10 +76,6 @@ SolveReport CalibrationProblem::SolveSome(const JointSolve::Limits& limits) {
   return SolveJointly(SomeFrames(), limits);
 }
 
-SolveReport CalibrationProblem::SolveSomeOn() {
-  return SolveSummed(SomeFrames(), kNear);
-}
-
 SolveReport CalibrationProblem::SolveJointly(const JointSolve::Limits& limits) {
   at_solution_.reset();
   return SolveJointly(fitted_, limits);
@@ -113,47 +109,35 @@ SolveReport CalibrationProblem::SolveJointly(const std::vector<int>& frames,
   return report;
 }
 
-SolveReport CalibrationProblem::SolveSomeWeighted(
-    Eigen::MatrixXd* information) {
+SolveReport CalibrationProblem::SolveWeighted(Eigen::MatrixXd* information) {
   at_solution_.reset();
-  const std::vector<int> frames = SomeFrames();
-  const Finger finger = parameters_.Apply(finger_);
-  EquilibriumSolver solver(finger, discretization_);
-  std::vector<std::vector<double>> unknowns;
-  std::size_t size = 0;
-  for (const int i : frames) {
-    const CalibrationFrame& frame = logs().frames[i];
-    unknowns.emplace_back();
+  EquilibriumSolver solver(parameters_.Apply(finger_), discretization_);
+  std::vector<std::vector<double>> unknowns(fitted_.size());
+  std::vector<LadderState> states(fitted_.size());
+  std::vector<JointSolve::Frame> joint;
+  for (std::size_t k = 0; k < fitted_.size(); ++k) {
+    const CalibrationFrame& frame = logs().frames[fitted_[k]];
+    joint.push_back({&frame, nullptr, &states[k]});
     if (frame.IsBench()) continue;
+    const auto& contact = contacts_[fitted_[k]];
     std::vector<PointContact> contacts;
     if (frame.contact) {
       contacts.push_back(
-          {contacts_[i][0], contacts_[i][1], plan_.scene.friction_coefficient});
+          {contact[0], contact[1], plan_.scene.friction_coefficient});
     }
     if (!solver.Solve(contacts)) {
       throw std::runtime_error("the model cannot be evaluated at the solution");
     }
     const Eigen::VectorXd q = solver.state().q;
-    unknowns.back().assign(q.data(), q.data() + q.size());
+    unknowns[k].assign(q.data(), q.data() + q.size());
     if (frame.contact) {
-      unknowns.back().insert(unknowns.back().end(), contacts_[i].begin(),
-                             contacts_[i].end());
+      unknowns[k].insert(unknowns[k].end(), contact.begin(), contact.end());
     }
-    size += unknowns.back().size();
+    joint.back().unknowns = unknowns[k].data();
   }
-  // In one piece: Ceres eliminates them in the order of their addresses.
-  std::vector<double> all;
-  all.reserve(size);
-  std::vector<LadderState> states(frames.size());
-  std::vector<JointSolve::Frame> joint;
-  for (std::size_t k = 0; k < frames.size(); ++k) {
-    double* first = unknowns[k].empty() ? nullptr : all.data() + all.size();
-    all.insert(all.end(), unknowns[k].begin(), unknowns[k].end());
-    joint.push_back({&logs().frames[frames[k]], first, &states[k]});
-  }
-  JointSolve solve(finger_, discretization_, plan_, blocks_, &parameters_,
-                   joint, threads_, EquilibriumForm::kWeighted);
-  return solve.SolveByProjection(information);
+  return JointSolve(finger_, discretization_, plan_, blocks_, &parameters_,
+                    joint, threads_, EquilibriumForm::kWeighted)
+      .SolveByProjection(information);
 }
 
 SolveReport CalibrationProblem::SolveSummed(const std::vector<int>& frames,

@@ -162,7 +162,7 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem) {
   }
   for (int k = 0; k < n && value[k] < 1; ++k) {
     const bool null = value[k] < Identifiability::kNull;
-    // Below that the eigenvalue is rounding.
+    // Less is as good as nothing.
     result.weak.push_back(Describe(problem, vector.col(k),
                                    null
                                        ? std::numeric_limits<double>::infinity()

@@ -4,23 +4,30 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 
 namespace finray {
+namespace {
+
+// Less of a matrix with a unit diagonal is rounding, of either sign.
+constexpr double kRounding = 1e-13;
+
+}  // namespace
 
 InformationSpectrum::InformationSpectrum(const Eigen::MatrixXd& information) {
   const auto n = static_cast<lapack_int>(information.rows());
   if (n == 0) return;
+  if (!information.allFinite()) {
+    throw std::runtime_error(
+        "the derivatives of the model by the parameters are not finite");
+  }
   const Eigen::VectorXd root = information.diagonal().cwiseMax(0).cwiseSqrt();
   const Eigen::VectorXd size =
       root.unaryExpr([](double r) { return r > 0 ? 1 / r : 0; });
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> even(
       size.asDiagonal() * information * size.asDiagonal());
-  // Less is rounding, of either sign.
-  const double least = 4 * n * std::numeric_limits<double>::epsilon();
   const Eigen::VectorXd kept = even.eigenvalues().unaryExpr(
-      [least](double value) { return value > least ? value : 0; });
+      [](double value) { return value > kRounding ? value : 0; });
   Eigen::MatrixXd factor = kept.cwiseSqrt().asDiagonal() *
                            even.eigenvectors().transpose() * root.asDiagonal();
   Eigen::VectorXd singular(n);
@@ -30,7 +37,7 @@ InformationSpectrum::InformationSpectrum(const Eigen::MatrixXd& information) {
   if (LAPACKE_dgejsv(LAPACK_COL_MAJOR, 'C', 'N', 'V', 'N', 'N', 'N', n, n,
                      factor.data(), n, singular.data(), left.data(), n,
                      right.data(), n, stat, rank) != 0) {
-    throw std::runtime_error("the information matrix has no spectrum");
+    throw std::runtime_error("the information of the data has no eigenvalues");
   }
   // They come multiplied by a factor, lest they overflow.
   values = (stat[0] / stat[1] * singular).reverse().cwiseAbs2();

@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "finray/calib/information_spectrum.h"
 #include "finray/calib/joint_solve.h"
@@ -17,20 +18,21 @@ namespace finray {
 // the upper ones.
 class JointSolve::Projection {
  public:
-  explicit Projection(const Rows& rows)
-      : by_parameter_(rows.by_parameter), residuals_(rows.residuals) {
-    if (rows.by_unknown.cols() == 0) return;
-    qr_.compute(rows.by_unknown);
-    by_parameter_.applyOnTheLeft(qr_.householderQ().adjoint());
-    residuals_.applyOnTheLeft(qr_.householderQ().adjoint());
-    rank_ = qr_.rank();
-  }
-
-  void AddTo(Eigen::MatrixXd* information, Eigen::VectorXd* gradient) const {
-    const Eigen::Index rows = residuals_.size() - rank_;
-    const auto c = by_parameter_.bottomRows(rows);
+  Projection(Rows rows, Eigen::MatrixXd* information, Eigen::VectorXd* gradient)
+      : upper_by_parameter_(std::move(rows.by_parameter)),
+        upper_residuals_(std::move(rows.residuals)) {
+    if (rows.by_unknown.cols() > 0) {
+      qr_.compute(rows.by_unknown);
+      upper_by_parameter_.applyOnTheLeft(qr_.householderQ().adjoint());
+      upper_residuals_.applyOnTheLeft(qr_.householderQ().adjoint());
+      rank_ = qr_.rank();
+    }
+    const Eigen::Index lower = upper_residuals_.size() - rank_;
+    const auto c = upper_by_parameter_.bottomRows(lower);
     information->noalias() += c.transpose() * c;
-    gradient->noalias() += c.transpose() * residuals_.tail(rows);
+    gradient->noalias() += c.transpose() * upper_residuals_.tail(lower);
+    upper_by_parameter_.conservativeResize(rank_, Eigen::NoChange);
+    upper_residuals_.conservativeResize(rank_);
   }
 
   // The unknowns' part of a step; those beyond the rank stay.
@@ -41,14 +43,13 @@ class JointSolve::Projection {
         -qr_.matrixR()
              .topLeftCorner(rank_, rank_)
              .triangularView<Eigen::Upper>()
-             .solve(residuals_.head(rank_) +
-                    by_parameter_.topRows(rank_) * parameter_step);
+             .solve(upper_residuals_ + upper_by_parameter_ * parameter_step);
     return qr_.colsPermutation() * step;
   }
 
  private:
-  Eigen::MatrixXd by_parameter_;
-  Eigen::VectorXd residuals_;
+  Eigen::MatrixXd upper_by_parameter_;
+  Eigen::VectorXd upper_residuals_;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
   Eigen::Index rank_ = 0;
 };
@@ -74,7 +75,8 @@ JointSolve::Rows JointSolve::RowsOf(std::size_t frame) {
   std::vector<double> residuals;
   ceres::CRSMatrix sparse;
   if (!problem_->Evaluate(options, nullptr, &residuals, nullptr, &sparse)) {
-    throw std::runtime_error("the model cannot be evaluated at the solution");
+    throw std::runtime_error(
+        "the weighted form cannot be evaluated near the solution");
   }
   Rows rows;
   rows.residuals =
@@ -96,26 +98,21 @@ SolveReport JointSolve::SolveByProjection(Eigen::MatrixXd* information) {
   constexpr int kMostSteps = 50;
   constexpr double kNear = 1e-6;  // of a std
   const auto n = static_cast<Eigen::Index>(parameters_.free().size());
+  const Eigen::VectorXd prior = parameters_.PriorInformation();
   SolveReport report;
-  problem_->Evaluate({}, &report.initial_cost, nullptr, nullptr, nullptr);
   while (!report.converged && report.iterations < kMostSteps) {
-    std::vector<Projection> frames;
-    information->setZero(n, n);
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(n);
-    for (std::size_t i = 0; i < frames_.size(); ++i) {
-      frames.emplace_back(RowsOf(i));
-      frames.back().AddTo(information, &gradient);
-    }
-    Eigen::MatrixXd with_priors = *information;
+    *information = prior.asDiagonal();
+    Eigen::VectorXd gradient(n);
     for (Eigen::Index k = 0; k < n; ++k) {
       const CalibrationParameter& p = FreeParameter(k);
-      if (!p.prior_std) continue;
-      const double weight = 1 / (*p.prior_std * *p.prior_std);
-      with_priors(k, k) += weight;
-      gradient[k] += weight * (*p.variable - p.initial);
+      gradient[k] = prior[k] * (*p.variable - p.initial);
+    }
+    std::vector<Projection> frames;
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
+      frames.emplace_back(RowsOf(i), information, &gradient);
     }
     const Eigen::MatrixXd units =
-        DeterminedUnits(with_priors, parameters_.Units());
+        DeterminedUnits(*information, parameters_.Units());
     const Eigen::VectorXd in_std = -(units.transpose() * gradient);
     const Eigen::VectorXd step = units * in_std;
     for (Eigen::Index k = 0; k < n; ++k) {
@@ -127,8 +124,6 @@ SolveReport JointSolve::SolveByProjection(Eigen::MatrixXd* information) {
     ++report.iterations;
     report.converged = (in_std.array().abs() < kNear).all();
   }
-  problem_->Evaluate({}, &report.final_cost, nullptr, nullptr, nullptr);
-  report.message = report.converged ? "converged" : "steps do not get shorter";
   return report;
 }
 

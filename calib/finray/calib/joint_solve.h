@@ -40,12 +40,15 @@ class JointSolve {
     LadderState* state;  ///< to start from, and left at the solution
   };
 
-  /// All pointers must stay in place; those to unknowns ascend with the frames.
+  /// All pointers must stay in place; for Solve those to unknowns ascend with
+  /// the frames.
   JointSolve(const Finger& finger, const Discretization& discretization,
              const Plan& plan, const MeasurementBlocks& blocks,
              CalibrationParameters* parameters,
              const std::vector<Frame>& frames, int threads,
              EquilibriumForm form = EquilibriumForm::kReduced);
+  /// Std differ by some 1e-4 from the reduced form's at 1e6, and by the weight's
+  /// square less.
   static constexpr double kEquilibriumWeight = 1e7;
 
   struct Limits {
@@ -57,9 +60,10 @@ class JointSolve {
 
   /// By Gauss-Newton steps in which the unknowns of each frame are eliminated
   /// by orthogonal projection: what Solve cannot do in the weighted form, as
-  /// its normal equations square the weight of 1e6 and more. From near the
-  /// solution, to 1e-6 of a std. `information` is what the frames say there of
-  /// the free parameters, S, without the priors.
+  /// normal equations square the weight. From near the solution, to 1e-6 of a
+  /// std; costs are not reported. `information` is what the frames and the
+  /// priors say there of the free parameters. The unknowns are eliminated as if
+  /// without bounds, as FrameLinearizer does.
   SolveReport SolveByProjection(Eigen::MatrixXd* information);
 
  private:

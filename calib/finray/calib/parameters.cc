@@ -294,6 +294,15 @@ Eigen::VectorXd CalibrationParameters::Units() const {
   return units;
 }
 
+Eigen::VectorXd CalibrationParameters::PriorInformation() const {
+  Eigen::VectorXd information(static_cast<Eigen::Index>(free_.size()));
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    const std::optional<double>& std = all_[free_[k]].prior_std;
+    information[static_cast<Eigen::Index>(k)] = std ? 1 / (*std * *std) : 0;
+  }
+  return information;
+}
+
 Finger CalibrationParameters::Apply(const Finger& finger) const {
   Finger calibrated = finger;
   // exp(ln x) is not x: what was not varied keeps its digits.

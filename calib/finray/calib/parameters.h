@@ -76,6 +76,8 @@ class CalibrationParameters {
 
   /// By free one: the prior's std, or the scale where there is none.
   Eigen::VectorXd Units() const;
+  /// By free one: 1 / std^2 of the prior, 0 where there is none.
+  Eigen::VectorXd PriorInformation() const;
 
   /// The finger that the present values describe. Where offsets are per log it
   /// has those of the last log that was fitted, of the finger if there is one,

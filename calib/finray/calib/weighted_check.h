@@ -12,15 +12,15 @@ namespace finray {
 /// beams is common to the two.
 struct WeightedCheck {
   int frames = 0;
-  SolveReport reduced, weighted;
+  bool converged = false;  ///< both forms
+  int iterations = 0;      ///< of the weighted form
   /// Largest difference of a free parameter in units of its std, and of a std
   /// relative to itself, over those that the data and priors determine.
   double value_difference_std = 0, std_difference = 0;
 };
 
-/// Of the problem's SomeFrames(), from the present solution; leaves the problem
-/// as it is.
-WeightedCheck CheckWeighted(CalibrationProblem* problem);
+/// Of the problem's SomeFrames(), from the present solution.
+WeightedCheck CheckWeighted(const CalibrationProblem& problem);
 
 }  // namespace finray
 
