@@ -47,8 +47,8 @@ class JointSolve {
              CalibrationParameters* parameters,
              const std::vector<Frame>& frames, int threads,
              EquilibriumForm form = EquilibriumForm::kReduced);
-  /// Std differ by some 1e-4 from the reduced form's at 1e6, and by the weight's
-  /// square less.
+  /// Std differ by some 1e-4 from the reduced form's at 1e6, and by the
+  /// weight's square less.
   static constexpr double kEquilibriumWeight = 1e7;
 
   struct Limits {
