@@ -25,7 +25,7 @@ struct Calibrated {
   int Free(const std::string& name) const {
     const CalibrationParameters& parameters = problem->parameters();
     for (std::size_t i = 0; i < parameters.free().size(); ++i) {
-      if (parameters.all()[parameters.free()[i]].name == name) {
+      if (parameters.FreeParameter(i).name == name) {
         return static_cast<int>(i);
       }
     }
@@ -34,7 +34,7 @@ struct Calibrated {
   }
   double Variable(const std::string& name) const {
     const CalibrationParameters& parameters = problem->parameters();
-    return *parameters.all()[parameters.free()[Free(name)]].variable;
+    return *parameters.FreeParameter(Free(name)).variable;
   }
   double Std(const std::string& name) const { return found.std[Free(name)]; }
 

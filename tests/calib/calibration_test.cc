@@ -34,7 +34,7 @@ TEST(CalibrationTest, StandardLogIsWithinItsStd) {
     const CalibrationParameters& parameters = problem.parameters();
     ASSERT_EQ(parameters.free().size(), 15u);
     for (int i = 0; i < 15; ++i) {
-      const CalibrationParameter& p = parameters.all()[parameters.free()[i]];
+      const CalibrationParameter& p = parameters.FreeParameter(i);
       const double std = result.identifiability.std[i];
       EXPECT_LT(std::abs(*p.variable - truth[i]), 4 * std) << p.name;
       EXPECT_EQ(result.identifiability.status[i], ParameterStatus::kEstimated);

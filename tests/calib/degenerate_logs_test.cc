@@ -92,7 +92,7 @@ class DegenerateLogsTest : public testing::Test {
     outcome.all_identified = result.AllIdentified();
     const CalibrationParameters& parameters = problem.parameters();
     for (std::size_t i = 0; i < parameters.free().size(); ++i) {
-      const CalibrationParameter& p = parameters.all()[parameters.free()[i]];
+      const CalibrationParameter& p = parameters.FreeParameter(i);
       outcome.std[p.name] = result.identifiability.std[i];
       if (result.identifiability.status[i] ==
           ParameterStatus::kUnidentifiable) {

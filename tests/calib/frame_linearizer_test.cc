@@ -70,11 +70,11 @@ TEST_F(FrameLinearizerTest, GradientOfTheCost) {
     };
     const Eigen::VectorXd by_parameter = at.by_parameter.transpose() * weighted;
     for (std::size_t k = 0; k < parameters_->free().size(); ++k) {
-      double* variable = parameters_->all()[parameters_->free()[k]].variable;
+      double* variable = parameters_->FreeParameter(k).variable;
       const double expected = difference(variable, 1e-6);
       EXPECT_NEAR(by_parameter[static_cast<Eigen::Index>(k)], expected,
                   1e-5 * std::abs(expected) + 1e-4)
-          << frame << " " << parameters_->all()[parameters_->free()[k]].name;
+          << frame << " " << parameters_->FreeParameter(k).name;
     }
     if (!touches) continue;
     const Eigen::Vector2d by_contact = at.by_contact.transpose() * weighted;
@@ -120,7 +120,7 @@ TEST_F(FrameLinearizerTest, ContactsFollowTheParameters) {
   const Eigen::Vector2d start =
       Eigen::Vector2d(contact[0], contact[1]) + move.now;
   const double step = 1e-3;
-  *parameters_->all()[parameters_->free()[0]].variable += step;
+  *parameters_->FreeParameter(0).variable += step;
   std::array<double, 2> moved = contact;
   ASSERT_TRUE(linearizer_->FitContact(frame, &moved, &state, &at));
   const Eigen::Vector2d end = Eigen::Vector2d(moved[0], moved[1]) + at.move.now;

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
+#include <memory>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -31,7 +34,7 @@ struct HardCase {
     const Identifiability found = AnalyzeIdentifiability(problem.get());
     const CalibrationParameters& parameters = problem->parameters();
     for (std::size_t i = 0; i < parameters.free().size(); ++i) {
-      const CalibrationParameter& p = parameters.all()[parameters.free()[i]];
+      const CalibrationParameter& p = parameters.FreeParameter(i);
       if (!p.of_finger) continue;
       EXPECT_LT(std::abs(p.Value(*p.variable) -
                          ParameterValue(hard.truth, *p.of_finger)),
@@ -127,6 +130,34 @@ TEST(RobustSolveTest, ThreadsDoNotChangeTheResult) {
   for (int k = 1; k < 3; ++k) {
     EXPECT_EQ(points[k].values, points[0].values);
     EXPECT_EQ(rejected[k], rejected[0]);
+  }
+}
+
+// Ceres orders blocks by address; ours are to be in their own order.
+TEST(RobustSolveTest, TheHeapDoesNotChangeTheResult) {
+  const TempFolder folder;
+  const Finger start = Nominal();
+  const Plan plan = StandardPlan();
+  const CalibrationLogs logs = ReadCalibrationLogs(
+      {StandardLog(folder, HiddenFinger(), 40)}, start, plan);
+  std::vector<std::unique_ptr<char[]>> holes(4000);
+  std::vector<CalibrationProblem::Point> points;
+  std::vector<std::vector<StartReport>> starts;
+  std::mt19937 random(1);
+  for (int i = 0; i < 3; ++i) {
+    CalibrationProblem problem(start, plan, logs, {}, 1);
+    starts.push_back(SolveRobustly(&problem).starts);
+    points.push_back(problem.Save());
+    // What comes next lies here and there.
+    for (auto& hole : holes) hole.reset(new char[8 + random() % 200]);
+    std::shuffle(holes.begin(), holes.end(), random);
+    for (std::size_t k = 0; k < holes.size(); k += 2) holes[k].reset();
+  }
+  for (int i = 1; i < 3; ++i) {
+    EXPECT_EQ(points[i].values, points[0].values);
+    for (std::size_t k = 0; k < starts[0].size(); ++k) {
+      EXPECT_EQ(starts[i][k].cost, starts[0][k].cost) << starts[0][k].name;
+    }
   }
 }
 

@@ -34,7 +34,7 @@ Solved Solve(const FrameTable& log, std::vector<std::string>* names) {
   names->clear();
   for (std::size_t i = 0; i < found.std.size(); ++i) {
     const CalibrationParameters& parameters = problem.parameters();
-    const CalibrationParameter& p = parameters.all()[parameters.free()[i]];
+    const CalibrationParameter& p = parameters.FreeParameter(i);
     names->push_back(p.name);
     solved.value.push_back(*p.variable);
     solved.std.push_back(found.std[i]);

@@ -82,7 +82,7 @@ inline void AddParameters(const CalibrationCase& c, CalibrationProblem& problem,
   outcome->values.clear();
   outcome->std.clear();
   for (std::size_t i = 0; i < parameters.free().size(); ++i) {
-    const CalibrationParameter& p = parameters.all()[parameters.free()[i]];
+    const CalibrationParameter& p = parameters.FreeParameter(i);
     const double truth = ParameterValue(c.truth, *p.of_finger);
     const double value = p.Value(*p.variable);
     const double off = std::abs(value - truth);

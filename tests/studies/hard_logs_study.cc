@@ -33,7 +33,7 @@ void Calibrate(const HardLogKind& kind, unsigned seed, Worst* worst) {
   const CalibrationParameters& parameters = problem.parameters();
   std::string where;
   for (std::size_t i = 0; i < parameters.free().size(); ++i) {
-    const CalibrationParameter& p = parameters.all()[parameters.free()[i]];
+    const CalibrationParameter& p = parameters.FreeParameter(i);
     if (!p.of_finger) continue;
     const double truth = ParameterValue(hard.truth, *p.of_finger);
     const double off = p.Value(*p.variable) - truth;

@@ -72,7 +72,7 @@ void Run(const Case& which, const Finger& finger, const std::string& log) {
               result.forces.fitted.after_rms_N);
   const auto& parameters = problem.parameters();
   for (std::size_t i = 0; i < parameters.free().size(); ++i) {
-    const CalibrationParameter& p = parameters.all()[parameters.free()[i]];
+    const CalibrationParameter& p = parameters.FreeParameter(i);
     std::printf(" %s %.4g +- %.2g (from %.4g)\n", p.name.c_str(),
                 p.Value(*p.variable),
                 p.ValueStd(*p.variable, result.identifiability.std[i]),

@@ -206,7 +206,7 @@ void CalibrationProblem::BeginSum(std::size_t most_frames, FrameSums* sums) {
   contact_slopes_.resize(2 * n, static_cast<Eigen::Index>(most_frames));
   sums->SetZero(n);
   for (int k = 0; k < n; ++k) {
-    const CalibrationParameter& p = parameters_.all()[parameters_.free()[k]];
+    const CalibrationParameter& p = parameters_.FreeParameter(k);
     if (p.prior_std) sums->AddPrior(k, at[k], p.initial, *p.prior_std);
   }
 }

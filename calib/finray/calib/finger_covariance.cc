@@ -10,7 +10,7 @@ void KeepCovariance(const CalibrationParameters& parameters,
   std::vector<int> kept;  // indices into free()
   std::vector<double> std;
   for (std::size_t i = 0; i < parameters.free().size(); ++i) {
-    const CalibrationParameter& p = parameters.all()[parameters.free()[i]];
+    const CalibrationParameter& p = parameters.FreeParameter(i);
     if (!p.of_finger) continue;
     kept.push_back(static_cast<int>(i));
     covariance.parameters.push_back(*p.of_finger);

@@ -36,8 +36,7 @@ FrameLinearizer::FrameLinearizer(const EquilibriumSolver& solver,
       parameters_(*parameters),
       loss_(MakeLoss(plan)) {
   for (std::size_t k = 0; k < parameters_.free().size(); ++k) {
-    column_of_.emplace(parameters_.all()[parameters_.free()[k]].block,
-                       static_cast<int>(k));
+    column_of_.emplace(parameters_.FreeParameter(k).block, static_cast<int>(k));
   }
 }
 

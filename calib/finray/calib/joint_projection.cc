@@ -60,7 +60,7 @@ JointSolve::Rows JointSolve::RowsOf(std::size_t frame) {
   options.residual_blocks = blocks_of_[frame];
   std::vector<Eigen::Index> column_of;  // of Ceres' columns
   for (Eigen::Index k = 0; k < n; ++k) {
-    const CalibrationParameter& p = FreeParameter(k);
+    const CalibrationParameter& p = parameters_.FreeParameter(k);
     if (!problem_->HasParameterBlock(p.block)) continue;
     column_of.push_back(k);
     if (options.parameter_blocks.empty() ||
@@ -104,7 +104,7 @@ SolveReport JointSolve::SolveByProjection(Eigen::MatrixXd* information) {
     *information = prior.asDiagonal();
     Eigen::VectorXd gradient(n);
     for (Eigen::Index k = 0; k < n; ++k) {
-      const CalibrationParameter& p = FreeParameter(k);
+      const CalibrationParameter& p = parameters_.FreeParameter(k);
       gradient[k] = prior[k] * (*p.variable - p.initial);
     }
     std::vector<Projection> frames;
@@ -116,7 +116,7 @@ SolveReport JointSolve::SolveByProjection(Eigen::MatrixXd* information) {
     const Eigen::VectorXd in_std = -(units.transpose() * gradient);
     const Eigen::VectorXd step = units * in_std;
     for (Eigen::Index k = 0; k < n; ++k) {
-      *FreeParameter(k).variable += step[k];
+      *parameters_.FreeParameter(k).variable += step[k];
     }
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       MoveUnknowns(i, frames[i].UnknownStep(step));
@@ -135,10 +135,6 @@ void JointSolve::MoveUnknowns(std::size_t frame, const Eigen::VectorXd& step) {
   double* contact = unknowns + evaluation_of_[frame]->contact_offset(0);
   contact[0] = std::clamp(contact[0], 0.0, finger_.front_length_mm);
   contact[1] = std::max(0.0, contact[1]);
-}
-
-const CalibrationParameter& JointSolve::FreeParameter(Eigen::Index k) const {
-  return parameters_.all()[parameters_.free()[static_cast<std::size_t>(k)]];
 }
 
 }  // namespace finray

@@ -112,25 +112,29 @@ SolveReport JointSolve::Solve(const Limits& limits) {
   options.function_tolerance = limits.function_tolerance;
   options.parameter_tolerance = 1e-11;
   options.gradient_tolerance = 1e-12;
-  std::vector<double*> all;
-  problem_->GetParameterBlocks(&all);
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
-  std::unordered_set<double*> unknowns;
   for (const Frame& frame : frames_) {
-    if (frame.unknowns == nullptr) continue;
-    unknowns.insert(frame.unknowns);
-    ordering->AddElementToGroup(frame.unknowns, 0);
+    if (frame.unknowns != nullptr) {
+      ordering->AddElementToGroup(frame.unknowns, 0);
+    }
   }
-  if (unknowns.empty()) {
+  if (ordering->NumElements() == 0) {
     options.linear_solver_type = ceres::DENSE_QR;
   } else {
     options.linear_solver_type = ceres::DENSE_SCHUR;
     // A group of its own for each shared block: within a group Ceres orders by
     // address, and results would depend on where the heap put things.
     int group = 1;
-    for (double* block : all) {
-      if (unknowns.count(block) == 0)
+    for (const int i : parameters_.free()) {
+      double* block = parameters_.all()[i].block;
+      if (problem_->HasParameterBlock(block) && !ordering->IsMember(block)) {
         ordering->AddElementToGroup(block, group++);
+      }
+    }
+    std::vector<double*> all;
+    problem_->GetParameterBlocks(&all);
+    for (double* block : all) {  // those that stay as they are
+      if (!ordering->IsMember(block)) ordering->AddElementToGroup(block, group);
     }
     options.linear_solver_ordering = ordering;
   }

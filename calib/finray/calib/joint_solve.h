@@ -75,7 +75,6 @@ class JointSolve {
   class Projection;
   Rows RowsOf(std::size_t frame);
   void MoveUnknowns(std::size_t frame, const Eigen::VectorXd& step);
-  const CalibrationParameter& FreeParameter(Eigen::Index k) const;
   void AddFrame(const Frame& frame, const MeasurementBlocks& blocks);
   void AddPriors();
   void FixWhatIsNotFree();

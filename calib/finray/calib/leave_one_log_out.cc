@@ -23,7 +23,7 @@ std::optional<double> EstimateWithout(const CalibrationParameters& without,
                                       const Identifiability& found,
                                       const std::string& name) {
   for (std::size_t i = 0; i < without.free().size(); ++i) {
-    const CalibrationParameter& p = without.all()[without.free()[i]];
+    const CalibrationParameter& p = without.FreeParameter(i);
     if (p.name != name) continue;
     if (found.status[i] != ParameterStatus::kEstimated) return {};
     return *p.variable;
@@ -82,7 +82,7 @@ LeaveOneLogOut LeaveLogsOut(CalibrationProblem& problem,
     const Eigen::VectorXd variance_without =
         BoundedCovariance(information).diagonal();
     for (std::size_t i = 0; i < all.free().size(); ++i) {
-      const CalibrationParameter& p = all.all()[all.free()[i]];
+      const CalibrationParameter& p = all.FreeParameter(i);
       if (!p.of_finger || !std::isfinite(found.std[i])) continue;
       const auto estimate =
           EstimateWithout(without.parameters(), known, p.name);
@@ -99,7 +99,7 @@ LeaveOneLogOut LeaveLogsOut(CalibrationProblem& problem,
   }
   for (std::size_t i = 0; i < all.free().size(); ++i) {
     if (tests[i] == 0) continue;
-    const CalibrationParameter& p = all.all()[all.free()[i]];
+    const CalibrationParameter& p = all.FreeParameter(i);
     const double std = p.ValueStd(*p.variable, found.std[i]);
     result.rows.push_back({all.free()[i], largest_z[i] * std, std,
                            Bonferroni(largest_z[i], tests[i])});

@@ -173,7 +173,7 @@ void NextFrames::Predict(const Discretization& discretization) {
   }
   const int columns = static_cast<int>(known.free().size());
   for (int k = 0; k < columns; ++k) {
-    column_of[known.all()[known.free()[k]].name] = k;
+    column_of[known.FreeParameter(k).name] = k;
   }
   const CalibrationParameters& of_predicted = predicted.parameters();
   for (const CalibrationParameter& p : of_predicted.all()) {
@@ -188,8 +188,7 @@ void NextFrames::Predict(const Discretization& discretization) {
     for (const auto& row : at.rows) candidate.families.push_back(row.family);
     candidate.by_parameter.setZero(at.by_parameter.rows(), columns);
     for (std::size_t k = 0; k < of_predicted.free().size(); ++k) {
-      const auto column =
-          column_of.find(of_predicted.all()[of_predicted.free()[k]].name);
+      const auto column = column_of.find(of_predicted.FreeParameter(k).name);
       if (column == column_of.end()) continue;
       candidate.by_parameter.col(column->second) =
           at.by_parameter.col(static_cast<Eigen::Index>(k)) *
@@ -368,8 +367,7 @@ std::optional<FrameAdvice> NextFrames::KnownGains(
   const CalibrationParameters& parameters = problem_->parameters();
   std::vector<int> others;
   for (int i = 0; i < direction.size(); ++i) {
-    if (parameters.all()[parameters.free()[i]].family !=
-        ParameterFamily::kGaugeGain) {
+    if (parameters.FreeParameter(i).family != ParameterFamily::kGaugeGain) {
       others.push_back(i);
     }
   }

@@ -73,6 +73,10 @@ class CalibrationParameters {
   const std::vector<CalibrationParameter>& all() const { return all_; }
   /// Indices into all() of the free ones.
   const std::vector<int>& free() const { return free_; }
+  /// The k-th free one.
+  const CalibrationParameter& FreeParameter(std::size_t k) const {
+    return all_[free_[k]];
+  }
 
   /// By free one: the prior's std, or the scale where there is none.
   Eigen::VectorXd Units() const;

@@ -8,8 +8,9 @@ namespace finray {
 /// The same calibration in the weighted form, as a cross-check of the reduced
 /// one: base loads and rib tensions of every frame are unknowns too, and
 /// equilibrium and closure are residuals of weight kEquilibriumWeight
-/// (EquilibriumResidual, RibLengthResidual). Nothing but the sweep along the
-/// beams is common to the two.
+/// (EquilibriumResidual, RibLengthResidual). Equilibrium and what follows from
+/// it for the parameters are found in another way; the sweep along the beams
+/// and the residuals of the measurements are common to the two.
 struct WeightedCheck {
   int frames = 0;
   bool converged = false;  ///< both forms
