@@ -12,6 +12,7 @@
 #include "finray/control/experiment_yaml.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/sha256.h"
+#include "finray/io/yaml_emitter.h"
 #include "progress_bar.h"
 
 DEFINE_string(finger, "",
@@ -86,8 +87,7 @@ void WriteLogs(const Finger& finger, const Job& job) {
 
 void WriteSummary(const std::vector<Job>& jobs,
                   const Discretization& discretization) {
-  YAML::Emitter yaml;
-  yaml.SetDoublePrecision(kDigits);
+  YamlEmitter yaml(kDigits);
   yaml << YAML::BeginMap << YAML::Key << "finger" << YAML::Value << FLAGS_finger
        << YAML::Key << "scheme" << YAML::Value
        << SchemeName(discretization.scheme) << YAML::Key << "seed"
@@ -174,8 +174,7 @@ int Run() {
   Required("out_dir", FLAGS_out_dir);
   if (FLAGS_dump_config) {
     for (const Job& job : jobs) {
-      YAML::Emitter yaml;
-      yaml.SetDoublePrecision(kDigits);
+      YamlEmitter yaml(kDigits);
       EmitSettings(job.experiment, &yaml);
       std::cout << "# " << job.path << "\n" << yaml.c_str() << "\n";
       DumpConfig(finger, job.experiment.scene, discretization);

@@ -7,6 +7,7 @@
 #include "app.h"
 #include "finray/calib/validation.h"
 #include "finray/io/atomic_file.h"
+#include "finray/io/number_text.h"
 
 DEFINE_string(finger, "", "calibrated finger YAML");
 DEFINE_string(scene, "", "scene YAML; neither this nor a plan: contacts: auto");

@@ -3,11 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <charconv>
-#include <cmath>
-#include <cstdlib>
-#include <limits>
-
 #include "finray/io/error.h"
 #include "temp_file.h"
 
@@ -39,16 +34,6 @@ TEST(AtomicFileTest, FailuresNameThePath) {
   folder.Write("file", "");
   EXPECT_THAT([&] { MakeFolder(folder.Path("file")); },
               ThrowsMessage<InputError>(HasSubstr("cannot be made a folder")));
-}
-
-TEST(NumberTextTest, ReadsBackTheSame) {
-  for (const double value :
-       {0.1, -1.0 / 3, 1e300, 5e-324, 123456789.123456789, 0.0}) {
-    EXPECT_EQ(std::strtod(NumberText(value).c_str(), nullptr), value);
-  }
-  EXPECT_EQ(NumberText(0.1), "0.1");
-  EXPECT_EQ(NumberText(std::nan("")), "nan");
-  EXPECT_EQ(NumberText(-std::numeric_limits<double>::infinity()), "-inf");
 }
 
 }  // namespace

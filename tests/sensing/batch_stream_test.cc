@@ -11,6 +11,7 @@
 #include "finray/io/atomic_file.h"
 #include "finray/io/error.h"
 #include "finray/io/gzip.h"
+#include "finray/io/number_text.h"
 #include "finray/sensing/batch_summary.h"
 #include "finray/sensing/log_stream.h"
 #include "sensing/log_readings.h"

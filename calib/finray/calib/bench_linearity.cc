@@ -3,11 +3,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <set>
 
 #include "finray/calib/f_distribution.h"
+#include "finray/io/number_text.h"
 
 namespace finray {
 namespace {
@@ -93,23 +93,20 @@ BenchLinearity Test(const std::vector<Reading>& readings,
 }  // namespace
 
 std::string BenchLinearity::Words() const {
-  char text[320];
   if (IsCurved()) {
-    std::snprintf(text, sizeof text,
-                  "gauge %d is not linear on the bench: from one end of the "
-                  "angles to the other its gain goes from %.3g to %.3g V/rad "
-                  "(quadratic term %.3g +- %.2g V/rad^2), so that readings "
-                  "leave a line by up to %.2g V",
-                  gauge + 1, first_gain_V_per_rad, last_gain_V_per_rad,
-                  quadratic_V_per_rad2, quadratic_std, bow_V);
-  } else {
-    std::snprintf(text, sizeof text,
-                  "gauge %d is not linear on the bench: a line misses the "
-                  "repeated radii by more than they scatter (F = %.3g, p = "
-                  "%.1g), though not by a curve",
-                  gauge + 1, lack_of_fit_F, lack_of_fit_p_value);
+    return FormatText(
+        "gauge %d is not linear on the bench: from one end of the "
+        "angles to the other its gain goes from %.3g to %.3g V/rad "
+        "(quadratic term %.3g +- %.2g V/rad^2), so that readings "
+        "leave a line by up to %.2g V",
+        gauge + 1, first_gain_V_per_rad, last_gain_V_per_rad,
+        quadratic_V_per_rad2, quadratic_std, bow_V);
   }
-  return text;
+  return FormatText(
+      "gauge %d is not linear on the bench: a line misses the "
+      "repeated radii by more than they scatter (F = %.3g, p = "
+      "%.1g), though not by a curve",
+      gauge + 1, lack_of_fit_F, lack_of_fit_p_value);
 }
 
 std::vector<BenchLinearity> TestBenchLinearity(const Finger& finger,

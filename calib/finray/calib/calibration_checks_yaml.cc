@@ -1,11 +1,11 @@
 #include "finray/calib/calibration_checks_yaml.h"
 
-#include "finray/calib/yaml_number.h"
+#include "finray/io/yaml_emitter.h"
 
 namespace finray {
 namespace {
 
-void EmitErrors(const CalibrationResult& result, YAML::Emitter* yaml) {
+void EmitErrors(const CalibrationResult& result, YamlEmitter* yaml) {
   *yaml << YAML::Key << "errors" << YAML::Value << YAML::BeginMap;
   const std::pair<const char*, const CalibrationResult::Errors*> parts[] = {
       {"fitted", &result.fitted}, {"held_out", &result.held_out}};
@@ -22,10 +22,10 @@ void EmitErrors(const CalibrationResult& result, YAML::Emitter* yaml) {
 }
 
 void EmitCorrelation(CalibrationProblem& problem,
-                     const ResidualCorrelation& found, YAML::Emitter* yaml) {
+                     const ResidualCorrelation& found, YamlEmitter* yaml) {
   *yaml << YAML::Key << "residual_correlation" << YAML::Value << YAML::BeginMap;
   YamlPair(yaml, "correlated", found.correlated());
-  YamlPair(yaml, "p_value", YamlNumber(found.p_value));
+  YamlPair(yaml, "p_value", found.p_value);
   *yaml << YAML::Key << "series" << YAML::Value << YAML::BeginSeq;
   for (const ResidualCorrelation::Series& series : found.series) {
     *yaml << YAML::Flow << YAML::BeginMap;
@@ -34,9 +34,9 @@ void EmitCorrelation(CalibrationProblem& problem,
     if (series.gauge >= 0) YamlPair(yaml, "gauge", series.gauge + 1);
     YamlPair(yaml, "component", series.component + 1);
     YamlPair(yaml, "residuals", series.time.n);
-    YamlPair(yaml, "lag_1", YamlNumber(series.time.lag_1));
-    YamlPair(yaml, "integrated_time_rows", YamlNumber(series.time.tau));
-    YamlPair(yaml, "effective_residuals", YamlNumber(series.time.effective()));
+    YamlPair(yaml, "lag_1", series.time.lag_1);
+    YamlPair(yaml, "integrated_time_rows", series.time.tau);
+    YamlPair(yaml, "effective_residuals", series.time.effective());
     *yaml << YAML::EndMap;
   }
   *yaml << YAML::EndSeq << YAML::Key << "std_enlarged_by" << YAML::Value
@@ -44,14 +44,13 @@ void EmitCorrelation(CalibrationProblem& problem,
   const CalibrationParameters& parameters = problem.parameters();
   for (std::size_t i = 0; found.enlarges() && i < found.enlargement.size();
        ++i) {
-    YamlPair(yaml, parameters.all()[parameters.free()[i]].name,
-             YamlNumber(found.enlargement[i]));
+    YamlPair(yaml, parameters.FreeParameter(i).name, found.enlargement[i]);
   }
   *yaml << YAML::EndMap << YAML::EndMap;
 }
 
 void EmitLeaveOneLogOut(CalibrationProblem& problem,
-                        const LeaveOneLogOut& found, YAML::Emitter* yaml) {
+                        const LeaveOneLogOut& found, YamlEmitter* yaml) {
   if (found.groups == 0) return;
   *yaml << YAML::Key << "leave_one_log_out" << YAML::Value << YAML::BeginMap;
   YamlPair(yaml, "groups", found.groups);
@@ -60,17 +59,17 @@ void EmitLeaveOneLogOut(CalibrationProblem& problem,
   for (const LeaveOneLogOut::Row& row : found.rows) {
     *yaml << YAML::Flow << YAML::BeginMap;
     YamlPair(yaml, "name", problem.parameters().all()[row.parameter].name);
-    YamlPair(yaml, "spread", YamlNumber(row.spread));
-    YamlPair(yaml, "std", YamlNumber(row.std));
-    YamlPair(yaml, "spread_over_std", YamlNumber(row.ratio()));
-    YamlPair(yaml, "p_value", YamlNumber(row.p_value));
+    YamlPair(yaml, "spread", row.spread);
+    YamlPair(yaml, "std", row.std);
+    YamlPair(yaml, "spread_over_std", row.ratio());
+    YamlPair(yaml, "p_value", row.p_value);
     *yaml << YAML::EndMap;
   }
   *yaml << YAML::EndSeq << YAML::EndMap;
 }
 
 void EmitNext(CalibrationProblem& problem,
-              const std::vector<FrameAdvice>& advised, YAML::Emitter* yaml) {
+              const std::vector<FrameAdvice>& advised, YamlEmitter* yaml) {
   *yaml << YAML::Key << "next" << YAML::Value << YAML::BeginSeq;
   for (const FrameAdvice& advice : advised) {
     *yaml << YAML::BeginMap;
@@ -82,8 +81,8 @@ void EmitNext(CalibrationProblem& problem,
     if (!advice.known_gains) YamlPair(yaml, "frames", FrameAdvice::kFrames);
     if (!advice.known_gains && !advice.free) {
       // Not a number: spread over the finger.
-      YamlPair(yaml, "contact_mm", YamlNumber(advice.contact_mm));
-      YamlPair(yaml, "normal_N", YamlNumber(advice.normal_N));
+      YamlPair(yaml, "contact_mm", advice.contact_mm);
+      YamlPair(yaml, "normal_N", advice.normal_N);
     }
     *yaml << YAML::Key << "add" << YAML::Value << YAML::Flow << YAML::BeginSeq;
     for (const ResidualFamily family : advice.added) {
@@ -92,42 +91,41 @@ void EmitNext(CalibrationProblem& problem,
     *yaml << YAML::EndSeq;
     YamlPair(yaml, "parameter",
              problem.parameters().all()[advice.parameter].name);
-    YamlPair(yaml, "std_before", YamlNumber(advice.parameter_std_before));
-    YamlPair(yaml, "std_after", YamlNumber(advice.parameter_std_after));
-    YamlPair(yaml, "direction_std_ratio", YamlNumber(advice.ratio()));
+    YamlPair(yaml, "std_before", advice.parameter_std_before);
+    YamlPair(yaml, "std_after", advice.parameter_std_after);
+    YamlPair(yaml, "direction_std_ratio", advice.ratio());
     *yaml << YAML::EndMap;
   }
   *yaml << YAML::EndSeq;
 }
 
-void EmitStarts(const std::vector<StartReport>& starts, YAML::Emitter* yaml) {
+void EmitStarts(const std::vector<StartReport>& starts, YamlEmitter* yaml) {
   *yaml << YAML::Key << "starts" << YAML::Value << YAML::BeginSeq;
   for (const StartReport& start : starts) {
     *yaml << YAML::Flow << YAML::BeginMap;
     YamlPair(yaml, "start", start.name);
     YamlPair(yaml, "converged", start.converged);
     YamlPair(yaml, "iterations", start.iterations);
-    YamlPair(yaml, "cost", YamlNumber(start.cost));
-    YamlPair(yaml, "distance_std", YamlNumber(start.distance_std));
+    YamlPair(yaml, "cost", start.cost);
+    YamlPair(yaml, "distance_std", start.distance_std);
     YamlPair(yaml, "agrees", start.agrees);
     *yaml << YAML::EndMap;
   }
   *yaml << YAML::EndSeq;
 }
 
-void EmitWeighted(const WeightedCheck& check, YAML::Emitter* yaml) {
+void EmitWeighted(const WeightedCheck& check, YamlEmitter* yaml) {
   *yaml << YAML::Key << "weighted_check" << YAML::Value << YAML::Flow
         << YAML::BeginMap;
   YamlPair(yaml, "frames", check.frames);
   YamlPair(yaml, "converged", check.converged);
   YamlPair(yaml, "iterations", check.iterations);
-  YamlPair(yaml, "value_difference_std",
-           YamlNumber(check.value_difference_std));
-  YamlPair(yaml, "std_difference", YamlNumber(check.std_difference));
+  YamlPair(yaml, "value_difference_std", check.value_difference_std);
+  YamlPair(yaml, "std_difference", check.std_difference);
   *yaml << YAML::EndMap;
 }
 
-void EmitRejected(const CalibrationProblem& problem, YAML::Emitter* yaml) {
+void EmitRejected(const CalibrationProblem& problem, YamlEmitter* yaml) {
   *yaml << YAML::Key << "rejected_frames" << YAML::Value << YAML::BeginSeq;
   for (const auto& [index, reason] : problem.rejected()) {
     const CalibrationFrame& frame = problem.logs().frames[index];
@@ -143,7 +141,7 @@ void EmitRejected(const CalibrationProblem& problem, YAML::Emitter* yaml) {
 }  // namespace
 
 void EmitChecks(CalibrationProblem& problem, const CalibrationResult& result,
-                YAML::Emitter* yaml) {
+                YamlEmitter* yaml) {
   EmitStarts(result.solution.starts, yaml);
   EmitRejected(problem, yaml);
   if (result.weighted) EmitWeighted(*result.weighted, yaml);

@@ -2,13 +2,14 @@
 #define FINRAY_CALIB_CALIBRATION_CHECKS_YAML_H_
 
 #include "finray/calib/calibration_result.h"
+#include "finray/io/yaml_emitter.h"
 
 namespace finray {
 
 /// The keys errors, residual_correlation, leave_one_log_out and next of
 /// calibration.yaml, into a mapping that has been begun.
 void EmitChecks(CalibrationProblem& problem, const CalibrationResult& result,
-                YAML::Emitter* yaml);
+                YamlEmitter* yaml);
 
 }  // namespace finray
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "finray/io/error.h"
 #include "finray/io/frame_table.h"
 #include "finray/io/frame_vocabulary.h"
+#include "finray/io/number_text.h"
 #include "finray/sensing/frame_columns.h"
 
 namespace finray {
@@ -126,11 +126,9 @@ void RefuseHuge(const FrameTable& table, const std::string& column,
     if (std::isinf(values[row]) || !(std::abs(values[row]) > kLargest)) {
       continue;
     }
-    char text[64];
-    std::snprintf(text, sizeof text, "at most %g, found %g", kLargest,
-                  values[row]);
     throw InputError(table.path() + ":" + std::to_string(table.line(row)) +
-                     ": " + column + ": expected a magnitude of " + text);
+                     ": " + column + ": expected a magnitude of " +
+                     FormatText("at most %g, found %g", kLargest, values[row]));
   }
 }
 

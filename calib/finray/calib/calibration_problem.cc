@@ -10,7 +10,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -18,6 +17,7 @@
 #include "finray/calib/force_check.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
+#include "finray/io/number_text.h"
 
 namespace finray {
 namespace {
@@ -87,11 +87,10 @@ CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
     }
     const double force = ReferenceForce(frame);
     if (force > kImpossibleForce * ForceUnit(finger)) {
-      char text[80];
-      std::snprintf(text, sizeof text,
-                    "a force of %.3g N is more than any finger like it takes",
-                    force);
-      impossible_.emplace(static_cast<int>(i), text);
+      impossible_.emplace(
+          static_cast<int>(i),
+          FormatText("a force of %.3g N is more than any finger like it takes",
+                     force));
       continue;
     }
     any = true;
@@ -138,18 +137,16 @@ void CalibrationProblem::StartFrom(const Finger& start) {
 }
 
 Eigen::VectorXd CalibrationProblem::Values() const {
-  const auto& free = parameters_.free();
-  Eigen::VectorXd values(static_cast<Eigen::Index>(free.size()));
-  for (std::size_t k = 0; k < free.size(); ++k) {
-    values[static_cast<Eigen::Index>(k)] = *parameters_.all()[free[k]].variable;
+  Eigen::VectorXd values(static_cast<Eigen::Index>(parameters_.free().size()));
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    values[k] = *parameters_.FreeParameter(k).variable;
   }
   return values;
 }
 
 void CalibrationProblem::SetValues(const Eigen::VectorXd& values) {
-  const auto& free = parameters_.free();
-  for (std::size_t k = 0; k < free.size(); ++k) {
-    *parameters_.all()[free[k]].variable = values[static_cast<Eigen::Index>(k)];
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    *parameters_.FreeParameter(k).variable = values[k];
   }
   at_solution_.reset();
   start_.reset();

@@ -5,19 +5,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 
 #include "finray/calib/finger_covariance.h"
 #include "finray/calib/validation.h"
+#include "finray/io/number_text.h"
 
 namespace finray {
 namespace {
-
-std::string Text(const char* format, double a, double b = 0) {
-  char text[256];
-  std::snprintf(text, sizeof text, format, a, b);
-  return text;
-}
 
 // A chi2 / dof beyond these says that a std in the plan is not what it is.
 constexpr double kTooNoisy = 2;
@@ -34,20 +28,21 @@ void WarnOfNoise(const Identifiability& found,
     if (ratio > kTooNoisy) {
       warnings->push_back(
           {"noise_above_plan",
-           name +
-               Text(" residuals are %.1f times what their std says "
-                    "(chi2/dof %.3g); reported std are enlarged for it where "
-                    "it is beyond doubt",
-                    std::sqrt(ratio), ratio),
+           name + FormatText(
+                      " residuals are %.1f times what their std says "
+                      "(chi2/dof %.3g); reported std are enlarged for it where "
+                      "it is beyond doubt",
+                      std::sqrt(ratio), ratio),
            "look at the residuals by frame for outliers or a wrong model; "
            "raise "
            "the std in the plan's measurements if the sensor is that noisy"});
     } else if (ratio < kTooQuiet) {
       warnings->push_back(
           {"noise_below_plan",
-           name + Text(" residuals are %.2f of what their std says (chi2/dof "
-                       "%.3g)",
-                       std::sqrt(ratio), ratio),
+           name + FormatText(
+                      " residuals are %.2f of what their std says (chi2/dof "
+                      "%.3g)",
+                      std::sqrt(ratio), ratio),
            "lower the std in the plan's measurements; reported std are too "
            "large"});
     }
@@ -65,14 +60,14 @@ void WarnOfStarts(const RobustSolution& solution,
         {"given_start_misleads",
          "the solver does not come to this solution from the given finger, "
          "but" +
-             Text(" ends %.3g std away; the result is from another start",
-                  starts[0].distance_std),
+             FormatText(" ends %.3g std away; the result is from another start",
+                        starts[0].distance_std),
          "compare the result with what you know of the finger"});
   } else if (2 * agree <= static_cast<long>(starts.size())) {
     warnings->push_back(
         {"starts_disagree",
-         Text("only %.0f of %.0f starts come to this solution",
-              static_cast<double>(agree), static_cast<double>(starts.size())),
+         FormatText("only %ld of %zu starts come to this solution", agree,
+                    starts.size()),
          "give priors, or start from a finger closer to the truth"});
   }
 }
@@ -125,8 +120,8 @@ void WarnOfWeakness(CalibrationProblem& problem,
     if (found.status[i] != ParameterStatus::kUnidentifiable || has_words) {
       continue;
     }
-    unidentifiable += (unidentifiable.empty() ? "" : ", ") +
-                      parameters.all()[parameters.free()[i]].name;
+    unidentifiable +=
+        (unidentifiable.empty() ? "" : ", ") + parameters.FreeParameter(i).name;
   }
   if (!unidentifiable.empty()) {
     warnings->push_back(
@@ -148,8 +143,9 @@ void WarnOfForces(const ForceCheck& forces, double force_std_N,
       held_out.after_rms_N > 2 * forces.fitted.after_rms_N) {
     warnings->push_back(
         {"holdout_worse",
-         Text("held-out frames are off by %.3g N rms, fitted ones by %.3g N",
-              held_out.after_rms_N, forces.fitted.after_rms_N),
+         FormatText(
+             "held-out frames are off by %.3g N rms, fitted ones by %.3g N",
+             held_out.after_rms_N, forces.fitted.after_rms_N),
          "look for outliers among them (held-out frames are never rejected); "
          "record logs that cover what the finger will meet: heights and "
          "loads"});
@@ -158,9 +154,10 @@ void WarnOfForces(const ForceCheck& forces, double force_std_N,
       forces.fitted.after_rms_N > forces.fitted.before_rms_N + force_std_N) {
     warnings->push_back(
         {"no_better",
-         Text("force from the gauges is off by %.3g N rms after and %.3g N "
-              "before",
-              forces.fitted.after_rms_N, forces.fitted.before_rms_N),
+         FormatText(
+             "force from the gauges is off by %.3g N rms after and %.3g N "
+             "before",
+             forces.fitted.after_rms_N, forces.fitted.before_rms_N),
          "check the columns and units of the logs and the finger's geometry"});
   }
 }
@@ -174,16 +171,16 @@ void WarnOfCorrelation(CalibrationProblem& problem,
   std::string text = "residuals of neighbouring rows are correlated: ";
   text += ResidualFamilyName(slowest->family);
   if (slowest->gauge >= 0) text += " " + std::to_string(slowest->gauge + 1);
-  text +=
-      Text(" by %.2f from row to row, over %.3g rows", time.lag_1, time.tau) +
-      Text(", so that %.0f count as %.0f", time.n, time.effective());
+  text += FormatText(
+      " by %.2f from row to row, over %.3g rows, so that %d count as %.0f",
+      time.lag_1, time.tau, time.n, time.effective());
   const auto most =
       std::max_element(found.enlargement.begin(), found.enlargement.end()) -
       found.enlargement.begin();
   const CalibrationParameters& parameters = problem.parameters();
-  text += Text("; std are enlarged for it, at most %.4g times (",
-               found.enlargement[most]) +
-          parameters.all()[parameters.free()[most]].name + ")";
+  text += FormatText("; std are enlarged for it, at most %.4g times (",
+                     found.enlargement[most]) +
+          parameters.FreeParameter(most).name + ")";
   warnings->push_back({"correlated_residuals", text,
                        "let the gauges warm up, free what drifts, record "
                        "heights and loads in random order; look at the "
@@ -203,9 +200,10 @@ void WarnOfDisagreement(CalibrationProblem& problem,
   warnings->push_back(
       {"logs_disagree",
        problem.parameters().all()[worst->parameter].name +
-           Text(" changes by %.2g std of such a change when one of the logs is "
-                "left out (p = %.1g)",
-                worst->ratio(), worst->p_value),
+           FormatText(
+               " changes by %.2g std of such a change when one of the logs is "
+               "left out (p = %.1g)",
+               worst->ratio(), worst->p_value),
        "look for what differs between the logs: mounting, temperature, object; "
        "take the spread in leave_one_log_out for the std until then"});
 }

@@ -1,27 +1,18 @@
 #include <ceres/version.h>
-#include <yaml-cpp/yaml.h>
 
 #include <cmath>
 
 #include "finray/calib/calibration_checks_yaml.h"
 #include "finray/calib/calibration_result.h"
-#include "finray/calib/yaml_number.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/sha256.h"
+#include "finray/io/yaml_emitter.h"
 
 namespace finray {
 namespace {
 
-template <class T>
-void Pair(YAML::Emitter* yaml, const char* key, const T& value) {
-  *yaml << YAML::Key << key << YAML::Value << value;
-}
-void Number(YAML::Emitter* yaml, const char* key, double value) {
-  Pair(yaml, key, YamlNumber(value));
-}
-
 void EmitParameters(CalibrationProblem& problem, const Identifiability& found,
-                    YAML::Emitter* yaml) {
+                    YamlEmitter* yaml) {
   *yaml << YAML::Key << "parameters" << YAML::Value << YAML::BeginSeq;
   const CalibrationParameters& parameters = problem.parameters();
   std::size_t free = 0;
@@ -30,17 +21,17 @@ void EmitParameters(CalibrationProblem& problem, const Identifiability& found,
     const bool is_free = free < parameters.free().size() &&
                          parameters.free()[free] == static_cast<int>(i);
     *yaml << YAML::Flow << YAML::BeginMap;
-    Pair(yaml, "name", p.name);
-    Pair(yaml, "unit", p.unit);
-    Number(yaml, "initial", p.Value(p.initial));
-    Number(yaml, "value", p.Value(*p.variable));
-    Number(yaml, "std",
-           is_free ? p.ValueStd(*p.variable, found.std[free]) : 0.0);
-    Number(yaml, "prior_std",
-           p.prior_std ? p.ValueStd(p.initial, *p.prior_std) : std::nan(""));
-    Pair(yaml, "status",
-         ParameterStatusName(is_free ? found.status[free]
-                                     : ParameterStatus::kFixed));
+    YamlPair(yaml, "name", p.name);
+    YamlPair(yaml, "unit", p.unit);
+    YamlPair(yaml, "initial", p.Value(p.initial));
+    YamlPair(yaml, "value", p.Value(*p.variable));
+    YamlPair(yaml, "std",
+             is_free ? p.ValueStd(*p.variable, found.std[free]) : 0.0);
+    YamlPair(yaml, "prior_std",
+             p.prior_std ? p.ValueStd(p.initial, *p.prior_std) : std::nan(""));
+    YamlPair(yaml, "status",
+             ParameterStatusName(is_free ? found.status[free]
+                                         : ParameterStatus::kFixed));
     *yaml << YAML::EndMap;
     free += is_free;
   }
@@ -48,19 +39,20 @@ void EmitParameters(CalibrationProblem& problem, const Identifiability& found,
 }
 
 void EmitWeakDirections(CalibrationProblem& problem,
-                        const Identifiability& found, YAML::Emitter* yaml) {
+                        const Identifiability& found, YamlEmitter* yaml) {
   *yaml << YAML::Key << "weak_directions" << YAML::Value << YAML::BeginSeq;
   for (const WeakDirection& weak : found.weak) {
     *yaml << YAML::BeginMap;
-    Pair(yaml, "words", weak.words);
-    Pair(yaml, "how_far", weak.how_far);
-    Pair(yaml, "remedy", weak.remedy);
-    Number(yaml, "std_over_prior", weak.std_over_prior);
+    YamlPair(yaml, "words", weak.words);
+    YamlPair(yaml, "how_far", weak.how_far);
+    YamlPair(yaml, "remedy", weak.remedy);
+    YamlPair(yaml, "std_over_prior", weak.std_over_prior);
     *yaml << YAML::Key << "components" << YAML::Value << YAML::Flow
           << YAML::BeginMap;
     for (const auto& component : weak.components) {
-      Number(yaml, problem.parameters().all()[component.parameter].name.c_str(),
-             component.share);
+      YamlPair(yaml,
+               problem.parameters().all()[component.parameter].name.c_str(),
+               component.share);
     }
     *yaml << YAML::EndMap << YAML::EndMap;
   }
@@ -68,7 +60,7 @@ void EmitWeakDirections(CalibrationProblem& problem,
 }
 
 void EmitCorrelations(CalibrationProblem& problem, const Identifiability& found,
-                      YAML::Emitter* yaml) {
+                      YamlEmitter* yaml) {
   const CalibrationParameters& parameters = problem.parameters();
   *yaml << YAML::Key << "correlations" << YAML::Value << YAML::BeginMap;
   *yaml << YAML::Key << "names" << YAML::Value << YAML::Flow << YAML::BeginSeq;
@@ -78,70 +70,70 @@ void EmitCorrelations(CalibrationProblem& problem, const Identifiability& found,
   for (int i = 0; i < found.correlation.rows(); ++i) {
     *yaml << YAML::Flow << YAML::BeginSeq;
     for (int j = 0; j < found.correlation.cols(); ++j) {
-      *yaml << YamlNumber(std::round(found.correlation(i, j) * 1e6) / 1e6);
+      *yaml << std::round(found.correlation(i, j) * 1e6) / 1e6;
     }
     *yaml << YAML::EndSeq;
   }
   *yaml << YAML::EndSeq << YAML::EndMap;
 }
 
-void EmitNoise(const Identifiability& found, YAML::Emitter* yaml) {
+void EmitNoise(const Identifiability& found, YamlEmitter* yaml) {
   *yaml << YAML::Key << "noise" << YAML::Value << YAML::BeginMap;
   for (int i = 0; i < kResidualFamilies; ++i) {
     const Identifiability::Noise& noise = found.noise[i];
     if (noise.residuals == 0) continue;
     *yaml << YAML::Key << ResidualFamilyName(static_cast<ResidualFamily>(i))
           << YAML::Value << YAML::Flow << YAML::BeginMap;
-    Pair(yaml, "residuals", noise.residuals);
-    Number(yaml, "dof", noise.dof);
-    Number(yaml, "chi2", noise.chi2);
+    YamlPair(yaml, "residuals", noise.residuals);
+    YamlPair(yaml, "dof", noise.dof);
+    YamlPair(yaml, "chi2", noise.chi2);
     // Without spare measurements the ratio would be noise over nothing.
-    Number(yaml, "chi2_per_dof",
-           noise.dof > 0.5 ? noise.chi2 / noise.dof : std::nan(""));
+    YamlPair(yaml, "chi2_per_dof",
+             noise.dof > 0.5 ? noise.chi2 / noise.dof : std::nan(""));
     *yaml << YAML::EndMap;
   }
   *yaml << YAML::EndMap;
 }
 
-void EmitBench(const std::vector<BenchLinearity>& bench, YAML::Emitter* yaml) {
+void EmitBench(const std::vector<BenchLinearity>& bench, YamlEmitter* yaml) {
   if (bench.empty()) return;
   *yaml << YAML::Key << "bench" << YAML::Value << YAML::BeginSeq;
   for (const BenchLinearity& of_gauge : bench) {
     *yaml << YAML::BeginMap;
-    Pair(yaml, "gauge", of_gauge.gauge + 1);
-    Pair(yaml, "readings", of_gauge.readings);
-    Pair(yaml, "linear", of_gauge.IsLinear());
-    Number(yaml, "largest_angle_rad", of_gauge.largest_angle_rad);
-    Number(yaml, "quadratic_V_per_rad2", of_gauge.quadratic_V_per_rad2);
-    Number(yaml, "quadratic_std", of_gauge.quadratic_std);
-    Number(yaml, "quadratic_p_value", of_gauge.quadratic_p_value);
-    Number(yaml, "lack_of_fit_F", of_gauge.lack_of_fit_F);
-    Number(yaml, "lack_of_fit_p_value", of_gauge.lack_of_fit_p_value);
+    YamlPair(yaml, "gauge", of_gauge.gauge + 1);
+    YamlPair(yaml, "readings", of_gauge.readings);
+    YamlPair(yaml, "linear", of_gauge.IsLinear());
+    YamlPair(yaml, "largest_angle_rad", of_gauge.largest_angle_rad);
+    YamlPair(yaml, "quadratic_V_per_rad2", of_gauge.quadratic_V_per_rad2);
+    YamlPair(yaml, "quadratic_std", of_gauge.quadratic_std);
+    YamlPair(yaml, "quadratic_p_value", of_gauge.quadratic_p_value);
+    YamlPair(yaml, "lack_of_fit_F", of_gauge.lack_of_fit_F);
+    YamlPair(yaml, "lack_of_fit_p_value", of_gauge.lack_of_fit_p_value);
     *yaml << YAML::EndMap;
   }
   *yaml << YAML::EndSeq;
 }
 
-void EmitForceError(const ForceCheck::Error& error, YAML::Emitter* yaml) {
+void EmitForceError(const ForceCheck::Error& error, YamlEmitter* yaml) {
   *yaml << YAML::Flow << YAML::BeginMap;
-  Pair(yaml, "frames", error.frames);
+  YamlPair(yaml, "frames", error.frames);
   if (error.frames > 0) {
     if (error.frames_before > 0) {
-      Number(yaml, "force_rms_error_before_N", error.before_rms_N);
-      Pair(yaml, "frames_before", error.frames_before);
+      YamlPair(yaml, "force_rms_error_before_N", error.before_rms_N);
+      YamlPair(yaml, "frames_before", error.frames_before);
     }
-    Number(yaml, "force_rms_error_after_N", error.after_rms_N);
-    Number(yaml, "force_max_error_after_N", error.after_max_N);
-    Number(yaml, "force_mean_N", error.reference_mean_N);
+    YamlPair(yaml, "force_rms_error_after_N", error.after_rms_N);
+    YamlPair(yaml, "force_max_error_after_N", error.after_max_N);
+    YamlPair(yaml, "force_mean_N", error.reference_mean_N);
   }
   *yaml << YAML::EndMap;
 }
 
-void EmitInputs(const CalibrationInputs& inputs, YAML::Emitter* yaml) {
+void EmitInputs(const CalibrationInputs& inputs, YamlEmitter* yaml) {
   const auto file = [yaml](const std::string& path) {
     *yaml << YAML::Flow << YAML::BeginMap;
-    Pair(yaml, "path", path);
-    Pair(yaml, "sha256", Sha256OfFile(path));
+    YamlPair(yaml, "path", path);
+    YamlPair(yaml, "sha256", Sha256OfFile(path));
     *yaml << YAML::EndMap;
   };
   *yaml << YAML::Key << "inputs" << YAML::Value << YAML::BeginMap;
@@ -155,36 +147,36 @@ void EmitInputs(const CalibrationInputs& inputs, YAML::Emitter* yaml) {
 }
 
 void EmitConfig(const Plan& plan, const CalibrationInputs& inputs,
-                YAML::Emitter* yaml) {
+                YamlEmitter* yaml) {
   constexpr const char* kLosses[] = {"none", "huber", "cauchy"};
   *yaml << YAML::Key << "config" << YAML::Value << YAML::BeginMap;
-  Pair(yaml, "command", inputs.command);
-  Pair(yaml, "scheme", inputs.scheme);
-  Pair(yaml, "resolution", inputs.resolution);
-  Pair(yaml, "contacts",
-       plan.scene.contacts ? std::to_string(*plan.scene.contacts) : "auto");
+  YamlPair(yaml, "command", inputs.command);
+  YamlPair(yaml, "scheme", inputs.scheme);
+  YamlPair(yaml, "resolution", inputs.resolution);
+  YamlPair(yaml, "contacts",
+           plan.scene.contacts ? std::to_string(*plan.scene.contacts) : "auto");
   if (!plan.scene.contact_beams.empty()) {
-    Pair(yaml, "contact_beams", YAML::Load(ContactBeamsToYaml(plan.scene)));
+    YamlPair(yaml, "contact_beams", YAML::Load(ContactBeamsToYaml(plan.scene)));
   }
-  Number(yaml, "friction_coefficient", plan.scene.friction_coefficient);
+  YamlPair(yaml, "friction_coefficient", plan.scene.friction_coefficient);
   if (plan.scene.circle_radius_mm()) {
-    Number(yaml, "circle_radius_mm", *plan.scene.circle_radius_mm());
+    YamlPair(yaml, "circle_radius_mm", *plan.scene.circle_radius_mm());
   }
-  Number(yaml, "force_std_N", plan.force_std_N);
-  if (plan.gauge_std_V) Number(yaml, "gauge_std_V", *plan.gauge_std_V);
-  Number(yaml, "object_std_mm", plan.object_std_mm);
-  Number(yaml, "contact_std_mm", plan.contact_std_mm);
-  if (plan.pin_std_mm) Number(yaml, "pin_std_mm", *plan.pin_std_mm);
-  if (plan.tip_std_mm) Number(yaml, "tip_std_mm", *plan.tip_std_mm);
+  YamlPair(yaml, "force_std_N", plan.force_std_N);
+  if (plan.gauge_std_V) YamlPair(yaml, "gauge_std_V", *plan.gauge_std_V);
+  YamlPair(yaml, "object_std_mm", plan.object_std_mm);
+  YamlPair(yaml, "contact_std_mm", plan.contact_std_mm);
+  if (plan.pin_std_mm) YamlPair(yaml, "pin_std_mm", *plan.pin_std_mm);
+  if (plan.tip_std_mm) YamlPair(yaml, "tip_std_mm", *plan.tip_std_mm);
   if (plan.family(ParameterFamily::kTemperatureCoefficient).free) {
-    Number(yaml, "reference_C", plan.reference_temperature_C);
+    YamlPair(yaml, "reference_C", plan.reference_temperature_C);
   }
   if (plan.gauge_walk) {
-    Number(yaml, "walk_std_V_per_sqrt_h", plan.gauge_walk->std_V_per_sqrt_h);
-    Number(yaml, "knot_every_s", plan.gauge_walk->knot_every_s);
+    YamlPair(yaml, "walk_std_V_per_sqrt_h", plan.gauge_walk->std_V_per_sqrt_h);
+    YamlPair(yaml, "knot_every_s", plan.gauge_walk->knot_every_s);
   }
-  Pair(yaml, "robust_loss", kLosses[static_cast<int>(plan.loss)]);
-  Number(yaml, "robust_scale", plan.loss_scale);
+  YamlPair(yaml, "robust_loss", kLosses[static_cast<int>(plan.loss)]);
+  YamlPair(yaml, "robust_scale", plan.loss_scale);
   *yaml << YAML::EndMap;
 }
 
@@ -193,11 +185,11 @@ void EmitConfig(const Plan& plan, const CalibrationInputs& inputs,
 std::string CalibrationYaml(CalibrationProblem& problem,
                             const CalibrationResult& result,
                             const CalibrationInputs& inputs) {
-  YAML::Emitter yaml;
+  YamlEmitter yaml;
   yaml << YAML::BeginMap;
-  Pair(&yaml, "schema_version", 1);
-  Pair(&yaml, "finger", problem.finger().name);
-  Pair(&yaml, "verdict", result.Verdict());
+  YamlPair(&yaml, "schema_version", 1);
+  YamlPair(&yaml, "finger", problem.finger().name);
+  YamlPair(&yaml, "verdict", result.Verdict());
   EmitParameters(problem, result.identifiability, &yaml);
   EmitWeakDirections(problem, result.identifiability, &yaml);
   EmitCorrelations(problem, result.identifiability, &yaml);
@@ -211,24 +203,24 @@ std::string CalibrationYaml(CalibrationProblem& problem,
   yaml << YAML::Key << "warnings" << YAML::Value << YAML::BeginSeq;
   for (const CalibrationWarning& warning : result.warnings) {
     yaml << YAML::BeginMap;
-    Pair(&yaml, "code", warning.code);
-    Pair(&yaml, "text", warning.text);
-    Pair(&yaml, "remedy", warning.remedy);
+    YamlPair(&yaml, "code", warning.code);
+    YamlPair(&yaml, "text", warning.text);
+    YamlPair(&yaml, "remedy", warning.remedy);
     yaml << YAML::EndMap;
   }
   yaml << YAML::EndSeq;
   yaml << YAML::Key << "solver" << YAML::Value << YAML::Flow << YAML::BeginMap;
-  Pair(&yaml, "converged", result.solution.solve.converged);
-  Pair(&yaml, "iterations", result.solution.solve.iterations);
-  Number(&yaml, "initial_cost", result.solution.solve.initial_cost);
-  Number(&yaml, "final_cost", result.solution.solve.final_cost);
+  YamlPair(&yaml, "converged", result.solution.solve.converged);
+  YamlPair(&yaml, "iterations", result.solution.solve.iterations);
+  YamlPair(&yaml, "initial_cost", result.solution.solve.initial_cost);
+  YamlPair(&yaml, "final_cost", result.solution.solve.final_cost);
   yaml << YAML::EndMap;
   EmitInputs(inputs, &yaml);
   EmitConfig(problem.plan(), inputs, &yaml);
   yaml << YAML::Key << "versions" << YAML::Value << YAML::Flow
        << YAML::BeginMap;
-  Pair(&yaml, "finray", FINRAY_VERSION);
-  Pair(&yaml, "ceres", CERES_VERSION_STRING);
+  YamlPair(&yaml, "finray", FINRAY_VERSION);
+  YamlPair(&yaml, "ceres", CERES_VERSION_STRING);
   yaml << YAML::EndMap << YAML::EndMap;
   return std::string(yaml.c_str()) + "\n";
 }

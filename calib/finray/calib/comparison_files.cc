@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "finray/calib/comparison.h"
-#include "finray/calib/yaml_number.h"
 #include "finray/io/sha256.h"
+#include "finray/io/yaml_emitter.h"
 
 namespace finray {
 
@@ -30,7 +30,7 @@ FrameTable ComparisonGrid(const Comparison& comparison) {
 std::string ComparisonYaml(const Comparison& comparison,
                            const CalibrationFile& a, const CalibrationFile& b,
                            const std::vector<ComparisonGate>& gates) {
-  YAML::Emitter yaml;
+  YamlEmitter yaml;
   yaml << YAML::BeginMap;
   YamlPair(&yaml, "schema_version", 1);
   bool passed = true;
@@ -53,11 +53,11 @@ std::string ComparisonYaml(const Comparison& comparison,
     yaml << YAML::Flow << YAML::BeginMap;
     YamlPair(&yaml, "name", p.name);
     YamlPair(&yaml, "unit", p.unit);
-    YamlPair(&yaml, "a", YamlNumber(p.a));
-    YamlPair(&yaml, "b", YamlNumber(p.b));
-    YamlPair(&yaml, "difference", YamlNumber(p.b - p.a));
-    YamlPair(&yaml, "std", YamlNumber(p.std));
-    YamlPair(&yaml, "difference_over_std", YamlNumber(p.sigma()));
+    YamlPair(&yaml, "a", p.a);
+    YamlPair(&yaml, "b", p.b);
+    YamlPair(&yaml, "difference", p.b - p.a);
+    YamlPair(&yaml, "std", p.std);
+    YamlPair(&yaml, "difference_over_std", p.sigma());
     yaml << YAML::EndMap;
   }
   yaml << YAML::EndSeq;
@@ -69,9 +69,9 @@ std::string ComparisonYaml(const Comparison& comparison,
     yaml << YAML::Key << key << YAML::Value << YAML::Flow << names;
   }
   yaml << YAML::Key << "all" << YAML::Value << YAML::Flow << YAML::BeginMap;
-  YamlPair(&yaml, "chi2", YamlNumber(comparison.chi2));
+  YamlPair(&yaml, "chi2", comparison.chi2);
   YamlPair(&yaml, "dof", comparison.dof);
-  YamlPair(&yaml, "p_value", YamlNumber(comparison.p_value()));
+  YamlPair(&yaml, "p_value", comparison.p_value());
   yaml << YAML::EndMap;
   const Comparison::Largest most = comparison.largest();
   yaml << YAML::Key << "predicted" << YAML::Value << YAML::BeginMap;
@@ -79,22 +79,19 @@ std::string ComparisonYaml(const Comparison& comparison,
   YamlPair(&yaml, "compared_points", most.points);
   YamlPair(&yaml, "lost_points", most.lost);
   if (most.points > 0) {
-    YamlPair(&yaml, "force_rms_difference_N", YamlNumber(most.force_rms_N));
-    YamlPair(&yaml, "force_max_difference_N", YamlNumber(most.force_N));
-    YamlPair(&yaml, "force_max_difference_over_std",
-             YamlNumber(most.force_over_std));
-    YamlPair(&yaml, "contact_rms_difference_mm",
-             YamlNumber(most.contact_rms_mm));
-    YamlPair(&yaml, "contact_max_difference_mm", YamlNumber(most.contact_mm));
-    YamlPair(&yaml, "contact_max_difference_over_std",
-             YamlNumber(most.contact_over_std));
+    YamlPair(&yaml, "force_rms_difference_N", most.force_rms_N);
+    YamlPair(&yaml, "force_max_difference_N", most.force_N);
+    YamlPair(&yaml, "force_max_difference_over_std", most.force_over_std);
+    YamlPair(&yaml, "contact_rms_difference_mm", most.contact_rms_mm);
+    YamlPair(&yaml, "contact_max_difference_mm", most.contact_mm);
+    YamlPair(&yaml, "contact_max_difference_over_std", most.contact_over_std);
   }
   yaml << YAML::EndMap << YAML::Key << "gates" << YAML::Value << YAML::BeginSeq;
   for (const ComparisonGate& gate : gates) {
     yaml << YAML::Flow << YAML::BeginMap;
     YamlPair(&yaml, "name", gate.name);
-    YamlPair(&yaml, "bound", YamlNumber(gate.bound));
-    YamlPair(&yaml, "value", YamlNumber(gate.value));
+    YamlPair(&yaml, "bound", gate.bound);
+    YamlPair(&yaml, "value", gate.value);
     YamlPair(&yaml, "passed", gate.passed);
     yaml << YAML::EndMap;
   }

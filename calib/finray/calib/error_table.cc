@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "finray/calib/yaml_number.h"
+#include "finray/io/yaml_emitter.h"
 #include "finray/sensing/estimated_force.h"
 
 namespace finray {
@@ -18,26 +18,24 @@ double Percent(std::size_t part, std::size_t of) {
 }
 
 void EmitStatistics(const ErrorStatistics& errors, const char* quantity,
-                    const char* unit, bool touching, YAML::Emitter* yaml) {
+                    const char* unit, bool touching, YamlEmitter* yaml) {
   if (errors.frames + errors.judged == 0) return;
   const std::string name(quantity), suffix = std::string("_") + unit;
   YamlPair(yaml, name + "_frames", errors.frames);
-  YamlPair(yaml, name + "_rms" + suffix, YamlNumber(errors.rms()));
-  YamlPair(yaml, name + "_bias" + suffix, YamlNumber(errors.bias()));
-  YamlPair(yaml, name + "_max" + suffix, YamlNumber(errors.largest));
+  YamlPair(yaml, name + "_rms" + suffix, errors.rms());
+  YamlPair(yaml, name + "_bias" + suffix, errors.bias());
+  YamlPair(yaml, name + "_max" + suffix, errors.largest);
   // Of free frames it would be in percent of noise.
   if (touching && name == "force") {
-    YamlPair(yaml, name + "_rms_percent", YamlNumber(errors.percent()));
+    YamlPair(yaml, name + "_rms_percent", errors.percent());
   }
   if (errors.judged == 0) return;
-  YamlPair(yaml, name + "_coverage_68_percent",
-           YamlNumber(errors.coverage_68_percent()));
-  YamlPair(yaml, name + "_coverage_95_percent",
-           YamlNumber(errors.coverage_95_percent()));
+  YamlPair(yaml, name + "_coverage_68_percent", errors.coverage_68_percent());
+  YamlPair(yaml, name + "_coverage_95_percent", errors.coverage_95_percent());
 }
 
 // Within a mapping that has been begun.
-void EmitRow(const ErrorRow& row, bool touching, YAML::Emitter* yaml) {
+void EmitRow(const ErrorRow& row, bool touching, YamlEmitter* yaml) {
   YamlPair(yaml, "frames", row.frames);
   YamlPair(yaml, "usable", row.usable);
   if (row.missed > 0) YamlPair(yaml, "missed", row.missed);
@@ -130,7 +128,7 @@ void ErrorTable::Add(const FrameReference& reference,
   if (region >= 0) regions[region].Add(reference, estimate, friction);
 }
 
-void EmitErrorTable(const ErrorTable& table, YAML::Emitter* yaml) {
+void EmitErrorTable(const ErrorTable& table, YamlEmitter* yaml) {
   const auto row = [&](const char* name, const ErrorRow& errors) {
     if (errors.frames == 0) return;
     *yaml << YAML::Key << name << YAML::Value << YAML::Flow << YAML::BeginMap;
@@ -144,9 +142,8 @@ void EmitErrorTable(const ErrorTable& table, YAML::Emitter* yaml) {
   for (int i = 0; i < ErrorTable::kRegions; ++i) {
     if (table.regions[i].frames == 0) continue;
     *yaml << YAML::Flow << YAML::BeginMap;
-    YamlPair(yaml, "from_mm",
-             YamlNumber(i == 0 ? 0 : table.region_end_mm(i - 1)));
-    YamlPair(yaml, "to_mm", YamlNumber(table.region_end_mm(i)));
+    YamlPair(yaml, "from_mm", i == 0 ? 0 : table.region_end_mm(i - 1));
+    YamlPair(yaml, "to_mm", table.region_end_mm(i));
     EmitRow(table.regions[i], true, yaml);
     *yaml << YAML::EndMap;
   }

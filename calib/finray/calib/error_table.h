@@ -1,12 +1,11 @@
 #ifndef FINRAY_CALIB_ERROR_TABLE_H_
 #define FINRAY_CALIB_ERROR_TABLE_H_
 
-#include <yaml-cpp/yaml.h>
-
 #include <cstddef>
 #include <limits>
 #include <vector>
 
+#include "finray/io/yaml_emitter.h"
 #include "finray/sensing/frame_estimate.h"
 
 namespace finray {
@@ -78,7 +77,7 @@ struct ErrorTable {
 };
 
 /// The table as a YAML mapping {contact, free, regions}.
-void EmitErrorTable(const ErrorTable& table, YAML::Emitter* yaml);
+void EmitErrorTable(const ErrorTable& table, YamlEmitter* yaml);
 
 }  // namespace finray
 

@@ -7,6 +7,7 @@
 
 #include "finray/calib/information_spectrum.h"
 #include "finray/calib/weak_direction_words.h"
+#include "finray/io/number_text.h"
 
 namespace finray {
 
@@ -17,11 +18,12 @@ const char* ParameterStatusName(ParameterStatus status) {
 }
 
 Eigen::MatrixXd BoundedCovariance(const Eigen::MatrixXd& information) {
-  constexpr double kLeast = Identifiability::kNull * Identifiability::kNull;
   const InformationSpectrum spectrum(information);
   const Eigen::MatrixXd root =
-      spectrum.vectors *
-      spectrum.values.cwiseMax(kLeast).cwiseSqrt().cwiseInverse().asDiagonal();
+      spectrum.vectors * spectrum.values.cwiseMax(kLeastInformation)
+                             .cwiseSqrt()
+                             .cwiseInverse()
+                             .asDiagonal();
   return root * root.transpose();
 }
 
@@ -62,7 +64,7 @@ void AddCommonGain(CalibrationProblem* problem,
   Eigen::VectorXd beams = Eigen::VectorXd::Zero(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const CalibrationParameter& p = parameters.all()[parameters.free()[k]];
+    const CalibrationParameter& p = parameters.FreeParameter(k);
     if (p.family == ParameterFamily::kGaugeGain && *p.variable != 0 &&
         found->status[k] != ParameterStatus::kUnidentifiable) {
       gains.push_back(Eigen::VectorXd::Unit(n, i) * found->unit[i] /
@@ -93,12 +95,10 @@ void AddCommonGain(CalibrationProblem* problem,
   for (const WeakDirection& known : found->weak) {
     if (known.words == direction.words) return;
   }
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "the data leave a std of %.2g %% to all gains together, of "
-                "%.2g %% to their ratios",
-                100 * all, 100 * apart);
-  direction.how_far = text;
+  direction.how_far = FormatText(
+      "the data leave a std of %.2g %% to all gains together, of "
+      "%.2g %% to their ratios",
+      100 * all, 100 * apart);
   found->weak.push_back(std::move(direction));
 }
 
@@ -112,7 +112,7 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem) {
   const Eigen::VectorXd unit = parameters.Units();
   Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(n, n);  // in those units
   for (int i = 0; i < n; ++i) {
-    const CalibrationParameter& p = parameters.all()[parameters.free()[i]];
+    const CalibrationParameter& p = parameters.FreeParameter(i);
     if (p.prior_std) prior(i, i) = 1;
   }
   const auto scaled = [&](const Eigen::MatrixXd& of_variables) {
@@ -149,7 +149,7 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem) {
         variance += share / value[k];
       }
     }
-    const CalibrationParameter& p = parameters.all()[parameters.free()[i]];
+    const CalibrationParameter& p = parameters.FreeParameter(i);
     const bool by_prior = held_by_prior && variance > 1;
     result.status.push_back(null || (by_prior && unit[i] > p.vague_std)
                                 ? ParameterStatus::kUnidentifiable

@@ -1,16 +1,11 @@
 #include "finray/calib/next_frames_words.h"
 
 #include <cmath>
-#include <cstdio>
+
+#include "finray/io/number_text.h"
 
 namespace finray {
 namespace {
-
-std::string Text(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 struct Measurement {
   ResidualFamily family;
@@ -62,8 +57,8 @@ std::string DescribeNextFrames(CalibrationProblem& problem,
   } else {
     words += std::isnan(advice.contact_mm)
                  ? "spread over the finger"
-                 : "at " + Text("%.0f mm", advice.contact_mm);
-    words += " with " + Text("%.2g N", advice.normal_N);
+                 : "at " + FormatText("%.0f mm", advice.contact_mm);
+    words += " with " + FormatText("%.2g N", advice.normal_N);
   }
   for (std::size_t i = 0; i < advice.added.size(); ++i) {
     words += (i == 0 ? " and " : " and with ") + Spoken(advice.added[i]);
@@ -73,7 +68,8 @@ std::string DescribeNextFrames(CalibrationProblem& problem,
   const bool percent = p.is_log || p.family == ParameterFamily::kGaugeGain;
   const double per = percent ? std::abs(p.Value(*p.variable)) / 100 : 1;
   const std::string unit = percent ? "%" : p.unit;
-  const std::string after = Text("%.2g ", advice.parameter_std_after / per);
+  const std::string after =
+      FormatText("%.2g ", advice.parameter_std_after / per);
   if (std::isinf(advice.parameter_std_after)) {
     return words + " would tell more of " + Spoken(p) + ", though not all";
   }
@@ -82,8 +78,8 @@ std::string DescribeNextFrames(CalibrationProblem& problem,
            after + unit;
   }
   return words + " would shrink the std of " + Spoken(p) + " from " +
-         Text("%.2g ", advice.parameter_std_before / per) + unit + " to " +
-         after + unit;
+         FormatText("%.2g ", advice.parameter_std_before / per) + unit +
+         " to " + after + unit;
 }
 
 }  // namespace finray

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
+#include "finray/io/number_text.h"
 #include "finray/sensing/chi_squared.h"
 
 namespace finray {
@@ -76,18 +76,15 @@ std::string Reason(const LinearizedFrame& robust, double chi2, int dof,
                                       });
   const auto [part, rows] = worst->second;
   const int rest = dof - rows;
-  char text[160];
   if (rest < 1 ||
       ChiSquaredTail((all - part) / (scale * scale), rest) > threshold) {
-    std::snprintf(text, sizeof text, "%s is off by %.3g std",
-                  worst->first.c_str(), std::sqrt(part));
-  } else {
-    std::snprintf(text, sizeof text,
-                  "measurements contradict each other (chi2 %.3g, %d degrees "
-                  "of freedom), %s most of all",
-                  chi2, dof, worst->first.c_str());
+    return FormatText("%s is off by %.3g std", worst->first.c_str(),
+                      std::sqrt(part));
   }
-  return text;
+  return FormatText(
+      "measurements contradict each other (chi2 %.3g, %d degrees "
+      "of freedom), %s most of all",
+      chi2, dof, worst->first.c_str());
 }
 
 bool IsOutlier(const FrameChi2& frame, double scale, double threshold) {

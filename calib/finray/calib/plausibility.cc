@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <vector>
 
 #include "finray/calib/force_check.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
+#include "finray/io/number_text.h"
 
 namespace finray {
 namespace {
@@ -37,9 +37,7 @@ std::vector<const CalibrationFrame*> SomeTouching(
 
 template <class... Values>
 [[noreturn]] void Refuse(const char* format, Values... values) {
-  char text[320];
-  std::snprintf(text, sizeof text, format, values...);
-  throw InputError(text);
+  throw InputError(FormatText(format, values...));
 }
 
 struct Press {

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
+
+#include "finray/io/number_text.h"
 
 namespace finray {
 namespace {
@@ -69,30 +70,27 @@ std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,
       BoundedCovariance(found.information + found.prior).diagonal();
   for (std::size_t k = 0; k < parameters.free().size(); ++k) {
     if (found.status[k] == ParameterStatus::kUnidentifiable) continue;
-    const CalibrationParameter& p = parameters.all()[parameters.free()[k]];
+    const CalibrationParameter& p = parameters.FreeParameter(k);
     const double value = *p.variable, std = found.std[k];
     const bool dead =
         p.family == ParameterFamily::kGaugeGain &&
         std::abs(value) < std::max(kInsignificant * std,
                                    kDeadShare * usual * std::abs(p.initial));
     if (dead) {
-      char text[160];
-      std::snprintf(text, sizeof text,
-                    "gauge %d does not respond to the load: its gain is %.2g "
-                    "+- %.1g V/rad",
-                    p.gauge + 1, value, std);
+      const std::string words = FormatText(
+          "gauge %d does not respond to the load: its gain is %.2g "
+          "+- %.1g V/rad",
+          p.gauge + 1, value, std);
       unsupported.push_back(
           {{static_cast<int>(k)},
            "dead_gauge",
-           text,
+           words,
            "check its wiring and the column it is read from; a finger without "
            "this gauge can be calibrated"});
     }
     const double off = p.prior_std ? (value - p.initial) / *p.prior_std : 0.0;
     if (!dead && IsContradicted(off, shares[static_cast<Eigen::Index>(k)])) {
-      char text[40];
-      std::snprintf(text, sizeof text, " (%.3g prior std off)", off);
-      List(k, p.name + text, &contradicted);
+      List(k, p.name + FormatText(" (%.3g prior std off)", off), &contradicted);
     }
     const bool guessed = !p.prior_std || *p.prior_std > p.vague_std;
     if (p.family == ParameterFamily::kGaugeOffset && guessed &&

@@ -2,8 +2,8 @@
 #include <vector>
 
 #include "finray/calib/validation.h"
-#include "finray/calib/yaml_number.h"
 #include "finray/io/sha256.h"
+#include "finray/io/yaml_emitter.h"
 #include "finray/sensing/estimated_force.h"
 
 namespace finray {
@@ -70,7 +70,7 @@ std::string ValidationYaml(const CalibrationLogs& logs,
                            const Validation& validation,
                            const std::vector<GateResult>& gates,
                            const ValidationInputs& inputs) {
-  YAML::Emitter yaml;
+  YamlEmitter yaml;
   yaml << YAML::BeginMap;
   YamlPair(&yaml, "schema_version", 1);
   bool passed = true;
@@ -83,8 +83,8 @@ std::string ValidationYaml(const CalibrationLogs& logs,
   for (const GateResult& result : gates) {
     yaml << YAML::Flow << YAML::BeginMap;
     YamlPair(&yaml, "name", GateName(result.gate.quantity));
-    YamlPair(&yaml, "bound", YamlNumber(result.gate.bound));
-    YamlPair(&yaml, "value", YamlNumber(result.value));
+    YamlPair(&yaml, "bound", result.gate.bound);
+    YamlPair(&yaml, "value", result.value);
     YamlPair(&yaml, "passed", result.passed);
     yaml << YAML::EndMap;
   }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "finray/calib/identifiability.h"
+#include "finray/io/number_text.h"
 
 namespace finray {
 
@@ -41,23 +41,19 @@ void DescribeWeakDirection(CalibrationProblem& problem,
     words = kGainsAgainstStiffness;
   } else {
     for (const auto& component : direction->components) {
-      char text[160];
-      std::snprintf(text, sizeof text, "%s%s (%+.2f)",
-                    words.empty() ? "" : ", ",
-                    all[component.parameter].name.c_str(), component.share);
-      words += text;
+      words +=
+          FormatText("%s%s (%+.2f)", words.empty() ? "" : ", ",
+                     all[component.parameter].name.c_str(), component.share);
     }
     words =
         (direction->components.size() == 1 ? "alone: " : "together: ") + words;
   }
   direction->words = words;
-  char how_far[80] = "the data do not say how far";
-  if (!direction->null) {
-    std::snprintf(how_far, sizeof how_far,
-                  "the data leave a std of %.3g times the prior's",
-                  direction->std_over_prior);
-  }
-  direction->how_far = how_far;
+  direction->how_far =
+      direction->null
+          ? "the data do not say how far"
+          : FormatText("the data leave a std of %.3g times the prior's",
+                       direction->std_over_prior);
 }
 
 }  // namespace finray

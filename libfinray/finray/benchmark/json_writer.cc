@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "finray/io/atomic_file.h"
+#include "finray/io/number_text.h"
 
 namespace finray {
 namespace {

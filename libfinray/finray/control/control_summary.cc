@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "finray/control/experiment_settings.h"
+#include "finray/io/yaml_emitter.h"
 
 namespace finray {
 namespace {
@@ -10,8 +11,7 @@ namespace {
 using YAML::Key;
 using YAML::Value;
 
-void EmitErrors(const char* name, const ErrorSums& errors,
-                YAML::Emitter* yaml) {
+void EmitErrors(const char* name, const ErrorSums& errors, YamlEmitter* yaml) {
   if (errors.count == 0) return;
   *yaml << Key << name << Value << YAML::Flow << YAML::BeginMap << Key
         << "periods" << Value << errors.count << Key << "rms_N" << Value
@@ -20,7 +20,7 @@ void EmitErrors(const char* name, const ErrorSums& errors,
 }
 
 void EmitController(const Experiment& experiment,
-                    const ControllerResult& result, YAML::Emitter* yaml) {
+                    const ControllerResult& result, YamlEmitter* yaml) {
   const ControlStatistics& s = result.statistics;
   *yaml << YAML::BeginMap << Key << "name" << Value << result.controller.name;
   *yaml << Key << "preview" << Value << result.controller.preview;
@@ -68,7 +68,7 @@ std::vector<std::string> ControlLogNames(const Experiment& experiment,
 
 void EmitExperiment(const std::string& path, const Experiment& experiment,
                     const std::vector<ControllerResult>& results,
-                    YAML::Emitter* yaml) {
+                    YamlEmitter* yaml) {
   *yaml << YAML::BeginMap << Key << "name" << Value << experiment.name << Key
         << "experiment" << Value << path << Key << "simulated" << Value << true;
   if (experiment.paper) {

@@ -1,12 +1,11 @@
 #ifndef FINRAY_CONTROL_CONTROL_SUMMARY_H_
 #define FINRAY_CONTROL_CONTROL_SUMMARY_H_
 
-#include <yaml-cpp/yaml.h>
-
 #include <string>
 #include <vector>
 
 #include "finray/control/run_experiment.h"
+#include "finray/io/yaml_emitter.h"
 
 namespace finray {
 
@@ -17,12 +16,12 @@ std::vector<std::string> ControlLogNames(const Experiment& experiment,
 
 /// What is in force in an experiment, with all defaults, as a mapping of its
 /// YAML's keys.
-void EmitSettings(const Experiment& experiment, YAML::Emitter* yaml);
+void EmitSettings(const Experiment& experiment, YamlEmitter* yaml);
 
 /// One experiment of a summary.yaml (docs/formats.md), as a mapping.
 void EmitExperiment(const std::string& path, const Experiment& experiment,
                     const std::vector<ControllerResult>& results,
-                    YAML::Emitter* yaml);
+                    YamlEmitter* yaml);
 
 }  // namespace finray
 

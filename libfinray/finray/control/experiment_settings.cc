@@ -3,13 +3,15 @@
 #include <cmath>
 #include <string>
 
+#include "finray/io/yaml_emitter.h"
+
 namespace finray {
 namespace {
 
 // A mapping on one line, begun and ended.
 class Line {
  public:
-  Line(const char* key, YAML::Emitter* yaml) : yaml_(yaml) {
+  Line(const char* key, YamlEmitter* yaml) : yaml_(yaml) {
     if (key != nullptr) *yaml_ << YAML::Key << key << YAML::Value;
     *yaml_ << YAML::Flow << YAML::BeginMap;
   }
@@ -22,10 +24,10 @@ class Line {
   }
 
  private:
-  YAML::Emitter* yaml_;
+  YamlEmitter* yaml_;
 };
 
-void EmitController(const ControllerSettings& controller, YAML::Emitter* yaml) {
+void EmitController(const ControllerSettings& controller, YamlEmitter* yaml) {
   Line line(nullptr, yaml);
   switch (controller.kind) {
     case ControllerKind::kModel:
@@ -51,7 +53,7 @@ void EmitController(const ControllerSettings& controller, YAML::Emitter* yaml) {
 
 }  // namespace
 
-void EmitSettings(const Experiment& experiment, YAML::Emitter* yaml) {
+void EmitSettings(const Experiment& experiment, YamlEmitter* yaml) {
   const bool gripper = experiment.mechanism.is_gripper();
   const double unit = gripper ? 180 / M_PI : 1;
   const std::string speed = gripper ? "_deg_s" : "_mm_s";

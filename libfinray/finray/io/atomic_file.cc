@@ -5,8 +5,6 @@
 
 #include <atomic>
 #include <cerrno>
-#include <charconv>
-#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -86,14 +84,6 @@ void MakeFolder(const std::string& path) {
     throw InputError(path + ": cannot be made a folder: " +
                      (error ? error.message() : "a file has that name"));
   }
-}
-
-std::string NumberText(double value) {
-  if (std::isnan(value)) return "nan";
-  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-  return std::string(text, end);
 }
 
 }  // namespace finray

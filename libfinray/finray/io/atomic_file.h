@@ -14,10 +14,6 @@ void WriteFileAtomically(const std::string& path, const std::string& content);
 /// Creates a folder and its parents; InputError naming it if that fails.
 void MakeFolder(const std::string& path);
 
-/// The shortest text that reads back as the same double; "nan", "inf" or
-/// "-inf" for what is not finite. Independent of the locale.
-std::string NumberText(double value);
-
 }  // namespace finray
 
 #endif  // FINRAY_IO_ATOMIC_FILE_H_

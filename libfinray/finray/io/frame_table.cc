@@ -10,6 +10,7 @@
 #include "finray/io/error.h"
 #include "finray/io/frame_vocabulary.h"
 #include "finray/io/gzip.h"
+#include "finray/io/number_text.h"
 #include "finray/io/shown_text.h"
 
 namespace finray {

@@ -1,11 +1,10 @@
 #include "finray/perception/compliance_files.h"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "finray/io/yaml_emitter.h"
 #include "finray/perception/inputs_yaml.h"
 
 namespace finray {
@@ -13,8 +12,8 @@ namespace {
 
 constexpr double kDegree = M_PI / 180;
 
-void EmitTrial(const ComplianceTrial& trial, YAML::Emitter* emitter) {
-  YAML::Emitter& yaml = *emitter;
+void EmitTrial(const ComplianceTrial& trial, YamlEmitter* emitter) {
+  YamlEmitter& yaml = *emitter;
   const StiffnessFit& fit = trial.fit;
   yaml << YAML::BeginMap << YAML::Key << "object" << YAML::Value << trial.object
        << YAML::Key << "trial" << YAML::Value << trial.name << YAML::Key
@@ -108,8 +107,7 @@ FrameTable LawTable(const Compliance& found) {
 
 std::string ComplianceYaml(const Compliance& found,
                            const std::vector<std::string>& inputs) {
-  YAML::Emitter yaml;
-  yaml.SetDoublePrecision(std::numeric_limits<double>::max_digits10);
+  YamlEmitter yaml;
   yaml << YAML::BeginMap << YAML::Key << "compared_between_N" << YAML::Value
        << YAML::Flow << YAML::BeginSeq << found.from_N << found.to_N
        << YAML::EndSeq;

@@ -1,7 +1,5 @@
 #include "finray/perception/reconstruction_files.h"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include "finray/io/error.h"
 #include "finray/io/parse_number.h"
 #include "finray/io/shown_text.h"
+#include "finray/io/yaml_emitter.h"
 #include "finray/perception/inputs_yaml.h"
 
 namespace finray {
@@ -17,7 +16,7 @@ namespace {
 
 constexpr double kDegree = M_PI / 180;
 
-void EmitError(const char* key, const RadialError& error, YAML::Emitter* yaml) {
+void EmitError(const char* key, const RadialError& error, YamlEmitter* yaml) {
   *yaml << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginMap
         << YAML::Key << "mean" << YAML::Value << error.Mean() << YAML::Key
         << "rms" << YAML::Value << error.Rms() << YAML::Key << "quantile_95"
@@ -26,7 +25,7 @@ void EmitError(const char* key, const RadialError& error, YAML::Emitter* yaml) {
 }
 
 void EmitDescriptors(const char* key, const FourierDescriptors& descriptors,
-                     YAML::Emitter* yaml) {
+                     YamlEmitter* yaml) {
   const auto& c = descriptors.coefficients();
   const int most = static_cast<int>(c.size()) / 2;
   *yaml << YAML::Key << key << YAML::Value << YAML::BeginSeq;
@@ -40,7 +39,7 @@ void EmitDescriptors(const char* key, const FourierDescriptors& descriptors,
   *yaml << YAML::EndSeq;
 }
 
-void EmitPoint(const Eigen::Vector2d& point, YAML::Emitter* yaml) {
+void EmitPoint(const Eigen::Vector2d& point, YamlEmitter* yaml) {
   *yaml << YAML::Flow << YAML::BeginSeq << point.x() << point.y()
         << YAML::EndSeq;
 }
@@ -116,8 +115,7 @@ std::string ReconstructionYaml(const Reconstruction& found,
                                const RadialError* error,
                                const RadialError* envelope_error,
                                const std::vector<std::string>& inputs) {
-  YAML::Emitter yaml;
-  yaml.SetDoublePrecision(std::numeric_limits<double>::max_digits10);
+  YamlEmitter yaml;
   yaml << YAML::BeginMap;
   yaml << YAML::Key << "touches" << YAML::Value << YAML::BeginMap << YAML::Key
        << "rows" << YAML::Value << found.touches.all_rows();

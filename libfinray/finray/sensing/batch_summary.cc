@@ -1,6 +1,8 @@
 #include "finray/sensing/batch_summary.h"
 
 #include "finray/io/atomic_file.h"
+#include "finray/io/number_text.h"
+#include "finray/io/yaml_emitter.h"
 
 namespace finray {
 
@@ -13,7 +15,7 @@ EstimationSummary Total(const std::vector<LogJob>& jobs) {
 std::string BatchYaml(const BatchSettings& settings,
                       const std::vector<LogJob>& jobs,
                       const std::vector<BadLog>& bad_logs) {
-  YAML::Emitter yaml;
+  YamlEmitter yaml;
   const auto pair = [&yaml](const char* key, const auto& value) {
     yaml << YAML::Key << key << YAML::Value << value;
   };

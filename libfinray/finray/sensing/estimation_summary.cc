@@ -5,7 +5,9 @@
 #include <sstream>
 
 #include "finray/io/atomic_file.h"
+#include "finray/io/number_text.h"
 #include "finray/io/parse_number.h"
+#include "finray/io/yaml_emitter.h"
 #include "finray/sensing/estimated_force.h"
 
 namespace finray {
@@ -78,7 +80,7 @@ std::optional<EstimationSummary> SummaryFromText(const std::string& text) {
   return summary;
 }
 
-void EmitSummary(const EstimationSummary& summary, YAML::Emitter* yaml) {
+void EmitSummary(const EstimationSummary& summary, YamlEmitter* yaml) {
   *yaml << YAML::Key << "frames" << YAML::Value << summary.frames;
   *yaml << YAML::Key << "status" << YAML::Value << YAML::BeginMap;
   for (const FrameStatus status : EstimationSummary::kStatuses) {
@@ -92,11 +94,11 @@ void EmitSummary(const EstimationSummary& summary, YAML::Emitter* yaml) {
     *yaml << YAML::Key << "force_compared_frames" << YAML::Value
           << summary.force_compared;
     *yaml << YAML::Key << "force_rms_error_N" << YAML::Value
-          << NumberText(summary.force_rms_N());
+          << summary.force_rms_N();
     *yaml << YAML::Key << "force_max_error_N" << YAML::Value
-          << NumberText(summary.force_max_N);
+          << summary.force_max_N;
     *yaml << YAML::Key << "force_squares_N2" << YAML::Value
-          << NumberText(summary.force_squares_N2);
+          << summary.force_squares_N2;
   }
 }
 

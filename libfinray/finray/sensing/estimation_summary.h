@@ -1,13 +1,12 @@
 #ifndef FINRAY_SENSING_ESTIMATION_SUMMARY_H_
 #define FINRAY_SENSING_ESTIMATION_SUMMARY_H_
 
-#include <yaml-cpp/yaml.h>
-
 #include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
 
+#include "finray/io/yaml_emitter.h"
 #include "finray/sensing/frame_estimator.h"
 
 namespace finray {
@@ -50,7 +49,7 @@ std::string SummaryToText(const EstimationSummary& summary);
 std::optional<EstimationSummary> SummaryFromText(const std::string& text);
 
 /// The keys of a summary.yaml, into a mapping that has been begun.
-void EmitSummary(const EstimationSummary& summary, YAML::Emitter* yaml);
+void EmitSummary(const EstimationSummary& summary, YamlEmitter* yaml);
 
 }  // namespace finray
 

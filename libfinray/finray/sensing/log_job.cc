@@ -9,6 +9,7 @@
 #include "finray/io/frame_reader.h"
 #include "finray/io/log_list.h"
 #include "finray/io/sha256.h"
+#include "finray/io/yaml_emitter.h"
 #include "finray/io/yaml_map.h"
 #include "finray/sensing/log_stream.h"
 
@@ -183,7 +184,7 @@ bool LogJob::Estimate(FrameSolverPool* pool, ResumableFile* out) {
 }
 
 void LogJob::WriteSummary(std::uint64_t bytes) const {
-  YAML::Emitter yaml;
+  YamlEmitter yaml;
   const auto pair = [&yaml](const char* key, const auto& value) {
     yaml << YAML::Key << key << YAML::Value << value;
   };

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "finray/io/error.h"
+#include "finray/io/yaml_emitter.h"
 
 namespace finray {
 namespace {
@@ -122,19 +123,19 @@ void ReadMeasurements(const YamlMap& yaml, Scene* scene) {
   }
 }
 
-YAML::Emitter& operator<<(YAML::Emitter& yaml, const CircleOutline& circle) {
+YamlEmitter& operator<<(YamlEmitter& yaml, const CircleOutline& circle) {
   return yaml << "circle" << YAML::Key << "radius_mm" << YAML::Value
               << circle.radius_mm;
 }
 
-YAML::Emitter& operator<<(YAML::Emitter& yaml, const EllipseOutline& ellipse) {
+YamlEmitter& operator<<(YamlEmitter& yaml, const EllipseOutline& ellipse) {
   return yaml << "ellipse" << YAML::Key << "semi_axis_x_mm" << YAML::Value
               << ellipse.semi_axis_x_mm << YAML::Key << "semi_axis_y_mm"
               << YAML::Value << ellipse.semi_axis_y_mm;
 }
 
-YAML::Emitter& operator<<(YAML::Emitter& yaml,
-                          const std::vector<Eigen::Vector2d>& pairs) {
+YamlEmitter& operator<<(YamlEmitter& yaml,
+                        const std::vector<Eigen::Vector2d>& pairs) {
   yaml << YAML::BeginSeq;
   for (const Eigen::Vector2d& pair : pairs) {
     yaml << YAML::BeginSeq << pair.x() << pair.y() << YAML::EndSeq;
@@ -142,14 +143,14 @@ YAML::Emitter& operator<<(YAML::Emitter& yaml,
   return yaml << YAML::EndSeq;
 }
 
-YAML::Emitter& operator<<(YAML::Emitter& yaml, const SupportOutline& outline) {
+YamlEmitter& operator<<(YamlEmitter& yaml, const SupportOutline& outline) {
   return yaml << "support_series" << YAML::Key << "radius_mm" << YAML::Value
               << outline.radius_mm << YAML::Key << "harmonics_mm" << YAML::Value
               << outline.harmonics_mm;
 }
 
-YAML::Emitter& operator<<(YAML::Emitter& yaml,
-                          const RoundedPolygonOutline& polygon) {
+YamlEmitter& operator<<(YamlEmitter& yaml,
+                        const RoundedPolygonOutline& polygon) {
   return yaml << "rounded_polygon" << YAML::Key << "vertices_mm" << YAML::Value
               << polygon.vertices_mm << YAML::Key << "fillet_radius_mm"
               << YAML::Value << polygon.fillet_radius_mm;
@@ -174,8 +175,7 @@ std::string ContactBeamsToYaml(const Scene& scene) {
 }
 
 std::string ObjectToYaml(const RigidObject& object) {
-  YAML::Emitter yaml;
-  yaml.SetDoublePrecision(std::numeric_limits<double>::max_digits10);
+  YamlEmitter yaml;
   yaml << YAML::Flow << YAML::BeginMap << YAML::Key << "shape" << YAML::Value;
   std::visit([&](const auto& shape) { yaml << shape; }, object.outline.shape());
   if (object.spring) {
