@@ -255,13 +255,29 @@ class HostileInputTest(unittest.TestCase):
             self.assertEqual(*outputs)
 
     def test_the_locale_has_no_say(self):
-        arguments = self.put("estimate")
-        self.run_app("estimate", arguments)
-        expected = (self.folder / "out/log.frames.csv").read_bytes()
-        shutil.rmtree(self.folder / "out")
-        # Where it is not installed it is the C locale.
-        self.run_app("estimate", arguments, env={**os.environ, "LC_ALL": "de_DE.UTF-8"})
-        self.assertEqual((self.folder / "out/log.frames.csv").read_bytes(), expected)
+        """Not even in a program that has taken on one with decimal commas."""
+        german = self.folder / "locales/de_DE.UTF-8"
+        german.parent.mkdir()
+        made = subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", german],
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+        if not BOUNDED or made.returncode != 0:
+            self.skipTest("sanitizers want to be loaded first" if not BOUNDED
+                          else made.stdout.decode())
+        environment = {**os.environ, "LC_ALL": german.name, "LOCPATH": str(german.parent),
+                       "LD_PRELOAD": os.environ["FINRAY_USER_LOCALE"]}
+        for app in APPS:
+            with self.subTest(app=app):
+                outputs = []
+                for env in (None, environment):
+                    outcome = self.run_app(app, self.put(app), env=env)
+                    out = self.folder / "out"
+                    outputs.append((outcome.returncode, {
+                        path.relative_to(self.folder): path.read_text()
+                        for path in [out, *sorted(out.rglob("*"))] if path.is_file()}))
+                self.assertTrue(outputs[0][1])
+                self.assertEqual(*outputs)
+        # That it has a say in what is printed shows that the test does test it.
+        self.assertRegex(outcome.stdout, rb"\d,\d")
 
     def test_outputs_that_cannot_be_written(self):
         for app, (_, arguments) in APPS.items():
@@ -273,10 +289,43 @@ class HostileInputTest(unittest.TestCase):
                 self.expect_refused(app, arguments, "taken/out")
                 self.assertEqual((self.folder / "taken").read_text(), "a file")
 
+    def on_small_disk(self, app, arguments, size, after=""):
+        """With `out` a disk of that size; the shell commands `after` see it too."""
+        script = (f"mkdir -p out && mount -t tmpfs -o size={size} tmpfs out || exit 77\n"
+                  f"{BINARIES}/finray_{app} {arguments}\ncode=$?\n{after}\nexit $code\n")
+        outcome = subprocess.run(
+            ["unshare", "--map-root-user", "--mount", "sh", "-c", script],
+            cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
+        if outcome.returncode in (1, 77):
+            self.skipTest("no mounting here: " + outcome.stderr.decode())
+        line = outcome.stderr.decode()
+        self.assertEqual(outcome.returncode, 2, line)
+        self.assertRegex(line, rf"\Afinray_{app}: out/.*: No space left on device\n\Z")
+        return outcome.stdout.decode()
+
     def test_a_full_disk(self):
         arguments = self.put("simulate").replace("--out out", "--out /dev/full")
         line = self.expect_refused("simulate", arguments, "/dev/full")
         self.assertIn("No space left", line)
+        for app, size in (("simulate", "4k"), ("calibrate", "8k"), ("control", "64k")):
+            with self.subTest(app=app):
+                arguments = self.put(app).replace("--out out", "--out out/result.csv")
+                (self.folder / "in.csv").write_bytes(LOADS + b"60.5,1\n" * 100)
+                self.assertEqual(self.on_small_disk(app, arguments, size, "ls -A out"), "")
+
+    def test_goes_on_when_a_full_disk_has_room_again(self):
+        arguments = self.put("estimate")
+        (self.folder / "scene.yaml").write_bytes(b"contacts: 0\n")
+        header, *rows = LOG.splitlines(keepends=True)
+        (self.folder / "log.csv").write_bytes(header + b"".join(rows) * 2000)
+        self.on_small_disk(
+            "estimate", arguments, "256k",
+            "test ! -e out/log.frames.csv && mount -o remount,size=64m out &&"
+            f" {BINARIES}/finray_estimate {arguments} --resume >/dev/null &&"
+            " cp out/log.frames.csv resumed.csv")
+        self.run_app("estimate", arguments)
+        self.assertEqual((self.folder / "resumed.csv").read_bytes(),
+                         (self.folder / "out/log.frames.csv").read_bytes())
 
     def test_a_folder_that_may_not_be_written(self):
         if os.geteuid() == 0:
