@@ -102,6 +102,14 @@ TEST(RobustSolveTest, NamesWhatIsOff) {
   EXPECT_EQ(problem.rejected().count(51), 1u);
 }
 
+void ExpectSameCosts(const std::vector<StartReport>& a,
+                     const std::vector<StartReport>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    EXPECT_EQ(a[k].cost, b[k].cost) << a[k].name;
+  }
+}
+
 // The starts, the search for outliers and the sums, of more frames than are
 // solved jointly.
 TEST(RobustSolveTest, ThreadsDoNotChangeTheResult) {
@@ -118,11 +126,12 @@ TEST(RobustSolveTest, ThreadsDoNotChangeTheResult) {
   const Plan plan = StandardPlan();
   std::vector<CalibrationProblem::Point> points;
   std::vector<std::map<int, std::string>> rejected;
+  std::vector<std::vector<StartReport>> starts;
   for (const int threads : {1, 2, 5}) {
     CalibrationProblem problem(
         start, plan, ReadCalibrationLogs(paths, start, plan), {}, threads);
     EXPECT_FALSE(problem.few());
-    SolveRobustly(&problem);
+    starts.push_back(SolveRobustly(&problem).starts);
     points.push_back(problem.Save());
     rejected.push_back(problem.rejected());
   }
@@ -130,6 +139,7 @@ TEST(RobustSolveTest, ThreadsDoNotChangeTheResult) {
   for (int k = 1; k < 3; ++k) {
     EXPECT_EQ(points[k].values, points[0].values);
     EXPECT_EQ(rejected[k], rejected[0]);
+    ExpectSameCosts(starts[k], starts[0]);
   }
 }
 
@@ -155,9 +165,7 @@ TEST(RobustSolveTest, TheHeapDoesNotChangeTheResult) {
   }
   for (int i = 1; i < 3; ++i) {
     EXPECT_EQ(points[i].values, points[0].values);
-    for (std::size_t k = 0; k < starts[0].size(); ++k) {
-      EXPECT_EQ(starts[i][k].cost, starts[0][k].cost) << starts[0][k].name;
-    }
+    ExpectSameCosts(starts[i], starts[0]);
   }
 }
 

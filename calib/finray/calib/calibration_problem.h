@@ -147,7 +147,6 @@ class CalibrationProblem {
                            const JointSolve::Limits& limits);
   SolveReport SolveSummed(const std::vector<int>& frames,
                           double gradient_tolerance);
-  void ForgetLastDigits();
   void BeginSum(std::size_t most_frames, FrameSums* sums);
   void AddToSum(int frame, const LinearizedFrame& at, FrameSums* sums);
   bool Sum(const std::vector<int>& frames, const Eigen::VectorXd& at,

@@ -4,11 +4,11 @@
 #include <ceres/solver.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "finray/calib/calibration_problem.h"
 #include "finray/calib/information_spectrum.h"
+#include "finray/io/number_text.h"
 
 namespace finray {
 namespace {
@@ -20,17 +20,9 @@ constexpr double kNear = 1e-6, kNearEnough = 1e-2;
 // Sums over the frames go on from there.
 constexpr JointSolve::Limits kNearby = {200, 1e-8};
 
-double WithoutLastDigits(double value) {
-  // Seven digits are left, much less than a std.
-  int exponent;
-  const double mantissa = std::frexp(value, &exponent);
-  return std::ldexp(std::nearbyint(std::ldexp(mantissa, 24)), exponent - 24);
-}
-
 }  // namespace
 
 SolveReport CalibrationProblem::Solve() {
-  at_solution_.reset();
   const SolveReport joint = few() ? SolveJointly(fitted_, JointSolve::Limits())
                                   : SolveJointly(SpreadFrames(kJoint), kNearby);
   SolveReport report = SolveOn();
@@ -51,33 +43,15 @@ std::vector<int> CalibrationProblem::ManyFrames() const {
                                         : std::vector<int>();
 }
 
-// What Ceres leaves differs in the last digits from run to run, as Schur
-// complements are summed in another order. The sum over frames is the same
-// whatever the number of threads: from the same start it gives the same result,
-// bit by bit.
-void CalibrationProblem::ForgetLastDigits() {
-  Eigen::VectorXd values = Values();
-  for (Eigen::Index k = 0; k < values.size(); ++k) {
-    values[k] = WithoutLastDigits(values[k]);
-  }
-  SetValues(values);
-  for (auto& contact : contacts_) {
-    for (double& value : contact) value = WithoutLastDigits(value);
-  }
-  for (LadderState& state : states_) state.q.resize(0);
-}
-
 std::vector<int> CalibrationProblem::SomeFrames() const {
   return SpreadFrames(kSome);
 }
 
 SolveReport CalibrationProblem::SolveSome(const JointSolve::Limits& limits) {
-  at_solution_.reset();
   return SolveJointly(SomeFrames(), limits);
 }
 
 SolveReport CalibrationProblem::SolveJointly(const JointSolve::Limits& limits) {
-  at_solution_.reset();
   return SolveJointly(fitted_, limits);
 }
 
@@ -92,6 +66,8 @@ Eigen::MatrixXd CalibrationProblem::InformationOfSome() {
 
 SolveReport CalibrationProblem::SolveJointly(const std::vector<int>& frames,
                                              const JointSolve::Limits& limits) {
+  at_solution_.reset();
+  start_.reset();
   GuessContacts(frames, ContactGuess::From::kObjectFirst);
   std::vector<LadderState> states;  // of these frames, if not kept
   if (states_.empty()) states.resize(frames.size());
@@ -102,11 +78,9 @@ SolveReport CalibrationProblem::SolveJointly(const std::vector<int>& frames,
     joint.push_back({&frame, frame.contact ? contacts_[i].data() : nullptr,
                      states_.empty() ? &states[k] : &states_[i]});
   }
-  const SolveReport report = JointSolve(finger_, discretization_, plan_,
-                                        blocks_, &parameters_, joint, threads_)
-                                 .Solve(limits);
-  ForgetLastDigits();
-  return report;
+  return JointSolve(finger_, discretization_, plan_, blocks_, &parameters_,
+                    joint, threads_)
+      .Solve(limits);
 }
 
 SolveReport CalibrationProblem::SolveWeighted(Eigen::MatrixXd* information) {
@@ -178,6 +152,7 @@ SolveReport CalibrationProblem::SolveSummed(const std::vector<int>& frames,
   options.function_tolerance = 0;
   options.parameter_tolerance = 0;
   ceres::Solver::Summary summary;
+  const ClassicNumbers in_messages;
   ceres::Solve(options, &problem, &summary);
   // The contacts are those of the last point that was tried.
   const Eigen::VectorXd end = start + units * z;

@@ -17,6 +17,9 @@ const char* ParameterStatusName(ParameterStatus status) {
   return kNames[static_cast<int>(status)];
 }
 
+static_assert(Identifiability::kNull * Identifiability::kNull ==
+              kLeastInformation);
+
 Eigen::MatrixXd BoundedCovariance(const Eigen::MatrixXd& information) {
   const InformationSpectrum spectrum(information);
   const Eigen::MatrixXd root =

@@ -47,7 +47,7 @@ struct WeakDirection {
 /// well, whatever the priors. The covariance is (S + P)^-1 with P the priors'
 /// information, a pseudo-inverse where even that is singular.
 struct Identifiability {
-  static constexpr double kNull = 1e-4;  // kLeastInformation^1/2
+  static constexpr double kNull = 1e-4;
 
   std::vector<double> std;  ///< of the variable of each free parameter
   /// The same, but finite: what the data say nothing of, and no prior, has

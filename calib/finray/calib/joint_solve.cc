@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "finray/io/number_text.h"
 #include "finray/residuals/equilibrium_residual.h"
 #include "finray/residuals/parameter_prior_residual.h"
 #include "finray/residuals/rib_length_residual.h"
@@ -139,7 +140,10 @@ SolveReport JointSolve::Solve(const Limits& limits) {
     options.linear_solver_ordering = ordering;
   }
   ceres::Solver::Summary summary;
+  const ClassicNumbers in_messages;
   ceres::Solve(options, problem_.get(), &summary);
+  // Its last step may have been taken back.
+  evaluations_.PrepareForEvaluation(true, true);
   for (std::size_t i = 0; i < frames_.size(); ++i) {
     if (evaluation_of_[i] != nullptr) {
       *frames_[i].state = evaluation_of_[i]->state();

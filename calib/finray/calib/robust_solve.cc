@@ -18,10 +18,7 @@ namespace {
 constexpr int kMostRounds = 6;
 // To see which frames are far out; and to tell a start's solution to a small
 // part of a std, also where chi2 is some 10^5 times what it should be.
-// kFirst ends before it has converged, and its last digits depend on the timing
-// of threads: a start that goes on from there forgets them below what
-// ForgetLastDigits rounds away with 1e-12, with 1e-10 it does not.
-constexpr JointSolve::Limits kFirst = {15, 1e-4}, kStart = {80, 1e-12};
+constexpr JointSolve::Limits kFirst = {15, 1e-4}, kStart = {80, 1e-10};
 
 struct Start {
   const char* name;
