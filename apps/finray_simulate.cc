@@ -1,7 +1,6 @@
 // Solves the finger for given contacts or object places, row by row.
 
 #include "app.h"
-#include "finray/io/atomic_file.h"
 #include "finray/sensing/simulation.h"
 
 DEFINE_string(finger, "", "finger YAML");

@@ -47,6 +47,11 @@ def number_text(value):
     return fixed if len(fixed) <= len(scientific) else scientific
 
 
+def yaml_number(text):
+    """A number as YAML 1.1 takes it for one: with a point before an exponent."""
+    return text if "." in text else text.replace("e", ".0e")
+
+
 class Totals:
     def __init__(self, columns):
         """Of summary.csv."""
@@ -82,9 +87,10 @@ class Totals:
         text += f"  unexplained_frames: {self.unexplained}\n"
         if self.compared > 0:
             text += (f"  force_compared_frames: {self.compared}\n"
-                     f"  force_rms_error_N: {number_text(self.rms_N())}\n"
-                     f"  force_max_error_N: {self.max_text}\n"
-                     f"  force_squares_N2: {number_text(self.squares_N2)}\n")
+                     f"  force_rms_error_N: {yaml_number(number_text(self.rms_N()))}\n"
+                     f"  force_max_error_N: {yaml_number(self.max_text)}\n"
+                     f"  force_squares_N2: "
+                     f"{yaml_number(number_text(self.squares_N2))}\n")
         return text
 
     def lines(self):

@@ -3,8 +3,10 @@
 
 import unittest
 
+import yaml
+
 import batch_fixture  # noqa: F401, finds scripts/batch
-from merge_summaries import number_text
+from merge_summaries import number_text, yaml_number
 from plan_groups import Log, assign
 
 LIMITS = {"logs_per_task": 3, "log_MB_per_task": 1}
@@ -71,6 +73,12 @@ class NumberTextTest(unittest.TestCase):
                             (123456789012345680.0, "123456789012345680"),
                             (1e-300, "1e-300")):
             self.assertEqual(number_text(value), text)
+
+    def test_as_yaml(self):
+        for text, expected in (("0", "0"), ("1e-04", "1.0e-04"), ("1.5e+22", "1.5e+22"),
+                               ("1e+05", "1.0e+05"), ("0.25", "0.25"), ("123000", "123000")):
+            self.assertEqual(yaml_number(text), expected)
+            self.assertEqual(yaml.safe_load(expected), float(text))
 
 
 if __name__ == "__main__":

@@ -29,5 +29,13 @@ TEST(FormatTextTest, WhateverItsLength) {
   EXPECT_EQ(FormatText("%s.", text.c_str()), text + ".");
 }
 
+TEST(FormatTextTest, LeavesTheLocaleAsItWas) {
+  const locale_t own = newlocale(LC_ALL_MASK, "C.UTF-8", nullptr);
+  const locale_t before = uselocale(own);
+  FormatText("%g", 1.5);
+  EXPECT_EQ(uselocale(before), own);
+  freelocale(own);
+}
+
 }  // namespace
 }  // namespace finray

@@ -6,6 +6,7 @@
 #include <limits>
 #include <locale>
 #include <string>
+#include <vector>
 
 namespace finray {
 namespace {

@@ -4,7 +4,6 @@
 
 #include "finray/calib/calibration_checks_yaml.h"
 #include "finray/calib/calibration_result.h"
-#include "finray/io/atomic_file.h"
 #include "finray/io/sha256.h"
 #include "finray/io/yaml_emitter.h"
 

@@ -8,7 +8,6 @@
 #include "finray/benchmark/pareto.h"
 #include "finray/benchmark/recommendation.h"
 #include "finray/benchmark/statistics.h"
-#include "finray/io/atomic_file.h"
 #include "finray/io/csv_cells.h"
 #include "finray/io/number_text.h"
 #include "finray/io/yaml_map.h"

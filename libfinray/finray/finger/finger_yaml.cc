@@ -9,7 +9,6 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/finger/parameter_covariance_yaml.h"
-#include "finray/io/atomic_file.h"
 #include "finray/io/number_text.h"
 #include "finray/io/yaml_limits.h"
 #include "finray/io/yaml_map.h"

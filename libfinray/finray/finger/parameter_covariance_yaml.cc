@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <sstream>
 
-#include "finray/io/atomic_file.h"
 #include "finray/io/number_text.h"
 
 namespace finray {

@@ -1,13 +1,19 @@
 #include "finray/io/number_text.h"
 
-#include <locale.h>  // uselocale is not in <clocale>
-
 #include <charconv>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
 
 namespace finray {
+namespace {
+
+locale_t Classic() {
+  static const locale_t classic = newlocale(LC_ALL_MASK, "C", nullptr);
+  return classic;
+}
+
+}  // namespace
 
 std::string NumberText(double value) {
   if (std::isnan(value)) return "nan";
@@ -18,20 +24,20 @@ std::string NumberText(double value) {
 }
 
 std::string FormatText(const char* format, ...) {
-  // Of this thread alone.
-  static const locale_t classic = newlocale(LC_ALL_MASK, "C", nullptr);
-  const locale_t before = uselocale(classic);
-  va_list values, again;
-  va_start(values, format);
-  va_copy(again, values);
-  std::string text(
-      static_cast<std::size_t>(std::vsnprintf(nullptr, 0, format, values)),
-      '\0');
-  std::vsnprintf(text.data(), text.size() + 1, format, again);
-  va_end(again);
-  va_end(values);
-  uselocale(before);
+  const ClassicNumbers classic;
+  std::string text;
+  // Once for its length.
+  for (int pass = 0; pass < 2; ++pass) {
+    va_list values;
+    va_start(values, format);
+    const int length =
+        std::vsnprintf(text.data(), text.size() + 1, format, values);
+    va_end(values);
+    if (pass == 0 && length > 0) text.resize(static_cast<std::size_t>(length));
+  }
   return text;
 }
+
+ClassicNumbers::ClassicNumbers() : before_(uselocale(Classic())) {}
 
 }  // namespace finray

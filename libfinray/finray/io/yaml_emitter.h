@@ -31,7 +31,8 @@ YamlEmitter& operator<<(YamlEmitter& yaml, const T& value) {
   YAML::Emitter& base = yaml;
   if constexpr (std::is_floating_point_v<T>) {
     base << YamlNumber(value, yaml.digits());
-  } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+  } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool> &&
+                       !std::is_same_v<T, char>) {
     base << std::to_string(value);
   } else {
     base << value;

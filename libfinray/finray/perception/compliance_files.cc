@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "finray/io/yaml_emitter.h"
 #include "finray/perception/inputs_yaml.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "finray/io/error.h"
 #include "finray/io/parse_number.h"

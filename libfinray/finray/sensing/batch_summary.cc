@@ -1,6 +1,5 @@
 #include "finray/sensing/batch_summary.h"
 
-#include "finray/io/atomic_file.h"
 #include "finray/io/number_text.h"
 #include "finray/io/yaml_emitter.h"
 

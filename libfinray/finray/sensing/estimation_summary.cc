@@ -4,7 +4,6 @@
 #include <cmath>
 #include <sstream>
 
-#include "finray/io/atomic_file.h"
 #include "finray/io/number_text.h"
 #include "finray/io/parse_number.h"
 #include "finray/io/yaml_emitter.h"

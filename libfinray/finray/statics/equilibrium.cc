@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "finray/finger/geometry.h"
+#include "finray/io/number_text.h"
 #include "finray/statics/load_path.h"
 
 namespace finray {
@@ -138,25 +138,23 @@ bool EquilibriumSolver::IsHeavy(
 }
 
 std::string EquilibriumSolver::Why() const {
-  std::ostringstream text;
-  text.precision(3);
   const double percent = 100 * path_fraction_;
   switch (status_) {
     case SolveStatus::kSolved:
       break;
     case SolveStatus::kBadLoad:
-      text << "a contact lies off its beam or a number is not finite";
-      break;
+      return "a contact lies off its beam or a number is not finite";
     case SolveStatus::kLimitPoint:
-      text << "the equilibrium ends at a limit point at " << percent
-           << " % of this load: the finger would snap through";
-      break;
+      return FormatText(
+          "the equilibrium ends at a limit point at %.3g %% of this load: the "
+          "finger would snap through",
+          percent);
     case SolveStatus::kNotConverged:
-      text << "no equilibrium found under this load (reached " << percent
-           << " % of it)";
-      break;
+      return FormatText(
+          "no equilibrium found under this load (reached %.3g %% of it)",
+          percent);
   }
-  return text.str();
+  return "";
 }
 
 double EquilibriumSolver::rib_tension(int rib) const {
