@@ -102,6 +102,21 @@ TEST(RobustSolveTest, NamesWhatIsOff) {
   EXPECT_EQ(problem.rejected().count(51), 1u);
 }
 
+// While it lives, what is allocated lies here and there.
+class FragmentedHeap {
+ public:
+  explicit FragmentedHeap(unsigned seed) {
+    std::mt19937 random(seed);
+    for (auto& block : blocks_) block.reset(new char[8 + random() % 200]);
+    std::shuffle(blocks_.begin(), blocks_.end(), random);
+    for (std::size_t i = 0; i < blocks_.size(); i += 2) blocks_[i].reset();
+  }
+
+ private:
+  std::vector<std::unique_ptr<char[]>> blocks_ =
+      std::vector<std::unique_ptr<char[]>>(4000);
+};
+
 void ExpectSameCosts(const std::vector<StartReport>& a,
                      const std::vector<StartReport>& b) {
   ASSERT_EQ(a.size(), b.size());
@@ -128,6 +143,7 @@ TEST(RobustSolveTest, ThreadsDoNotChangeTheResult) {
   std::vector<std::map<int, std::string>> rejected;
   std::vector<std::vector<StartReport>> starts;
   for (const int threads : {1, 2, 5}) {
+    const FragmentedHeap heap(static_cast<unsigned>(threads));
     CalibrationProblem problem(
         start, plan, ReadCalibrationLogs(paths, start, plan), {}, threads);
     EXPECT_FALSE(problem.few());
@@ -150,18 +166,13 @@ TEST(RobustSolveTest, TheHeapDoesNotChangeTheResult) {
   const Plan plan = StandardPlan();
   const CalibrationLogs logs = ReadCalibrationLogs(
       {StandardLog(folder, HiddenFinger(), 40)}, start, plan);
-  std::vector<std::unique_ptr<char[]>> holes(4000);
   std::vector<CalibrationProblem::Point> points;
   std::vector<std::vector<StartReport>> starts;
-  std::mt19937 random(1);
-  for (int i = 0; i < 3; ++i) {
+  for (unsigned i = 0; i < 3; ++i) {
+    const FragmentedHeap heap(i);
     CalibrationProblem problem(start, plan, logs, {}, 1);
     starts.push_back(SolveRobustly(&problem).starts);
     points.push_back(problem.Save());
-    // What comes next lies here and there.
-    for (auto& hole : holes) hole.reset(new char[8 + random() % 200]);
-    std::shuffle(holes.begin(), holes.end(), random);
-    for (std::size_t k = 0; k < holes.size(); k += 2) holes[k].reset();
   }
   for (int i = 1; i < 3; ++i) {
     EXPECT_EQ(points[i].values, points[0].values);
