@@ -19,7 +19,7 @@ class Line {
 
   template <class T>
   Line& With(const std::string& key, const T& value) {
-    *yaml_ << YAML::Key << key << YAML::Value << value;
+    YamlPair(yaml_, key, value);
     return *this;
   }
 

@@ -3,7 +3,6 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <locale>
 #include <sstream>
 #include <string_view>
 
@@ -20,12 +19,7 @@ constexpr double kDegree = M_PI / 180;
 constexpr long double kLongDegree =
     3.14159265358979323846264338327950288L / 180;
 
-std::string Short(double value) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << value;
-  return text.str();
-}
+std::string Short(double value) { return FormatText("%g", value); }
 
 // A number that YamlMap has accepted, to more digits than a double holds.
 long double LongNumber(std::string_view text) {

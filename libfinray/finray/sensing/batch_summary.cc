@@ -15,19 +15,16 @@ std::string BatchYaml(const BatchSettings& settings,
                       const std::vector<LogJob>& jobs,
                       const std::vector<BadLog>& bad_logs) {
   YamlEmitter yaml;
-  const auto pair = [&yaml](const char* key, const auto& value) {
-    yaml << YAML::Key << key << YAML::Value << value;
-  };
   yaml << YAML::BeginMap;
-  pair("finger", settings.finger.name);
-  pair("scheme", SchemeName(settings.discretization.scheme));
-  pair("version", FINRAY_VERSION);
+  YamlPair(&yaml, "finger", settings.finger.name);
+  YamlPair(&yaml, "scheme", SchemeName(settings.discretization.scheme));
+  YamlPair(&yaml, "version", FINRAY_VERSION);
   yaml << YAML::Key << "logs" << YAML::Value << YAML::BeginSeq;
   for (const LogJob& job : jobs) {
     yaml << YAML::BeginMap;
-    pair("log", job.log());
-    pair("result", job.result());
-    pair("key", job.key());
+    YamlPair(&yaml, "log", job.log());
+    YamlPair(&yaml, "result", job.result());
+    YamlPair(&yaml, "key", job.key());
     EmitSummary(job.summary(), &yaml);
     yaml << YAML::EndMap;
   }
@@ -38,8 +35,8 @@ std::string BatchYaml(const BatchSettings& settings,
     yaml << YAML::Key << "bad_logs" << YAML::Value << YAML::BeginSeq;
     for (const BadLog& bad : bad_logs) {
       yaml << YAML::BeginMap;
-      pair("log", bad.log);
-      pair("reason", bad.reason);
+      YamlPair(&yaml, "log", bad.log);
+      YamlPair(&yaml, "reason", bad.reason);
       yaml << YAML::EndMap;
     }
     yaml << YAML::EndSeq;

@@ -80,24 +80,18 @@ std::optional<EstimationSummary> SummaryFromText(const std::string& text) {
 }
 
 void EmitSummary(const EstimationSummary& summary, YamlEmitter* yaml) {
-  *yaml << YAML::Key << "frames" << YAML::Value << summary.frames;
+  YamlPair(yaml, "frames", summary.frames);
   *yaml << YAML::Key << "status" << YAML::Value << YAML::BeginMap;
   for (const FrameStatus status : EstimationSummary::kStatuses) {
-    *yaml << YAML::Key << StatusName(status) << YAML::Value
-          << summary.count(status);
+    YamlPair(yaml, StatusName(status), summary.count(status));
   }
   *yaml << YAML::EndMap;
-  *yaml << YAML::Key << "unexplained_frames" << YAML::Value
-        << summary.unexplained;
+  YamlPair(yaml, "unexplained_frames", summary.unexplained);
   if (summary.force_compared > 0) {
-    *yaml << YAML::Key << "force_compared_frames" << YAML::Value
-          << summary.force_compared;
-    *yaml << YAML::Key << "force_rms_error_N" << YAML::Value
-          << summary.force_rms_N();
-    *yaml << YAML::Key << "force_max_error_N" << YAML::Value
-          << summary.force_max_N;
-    *yaml << YAML::Key << "force_squares_N2" << YAML::Value
-          << summary.force_squares_N2;
+    YamlPair(yaml, "force_compared_frames", summary.force_compared);
+    YamlPair(yaml, "force_rms_error_N", summary.force_rms_N());
+    YamlPair(yaml, "force_max_error_N", summary.force_max_N);
+    YamlPair(yaml, "force_squares_N2", summary.force_squares_N2);
   }
 }
 

@@ -185,22 +185,19 @@ bool LogJob::Estimate(FrameSolverPool* pool, ResumableFile* out) {
 
 void LogJob::WriteSummary(std::uint64_t bytes) const {
   YamlEmitter yaml;
-  const auto pair = [&yaml](const char* key, const auto& value) {
-    yaml << YAML::Key << key << YAML::Value << value;
-  };
   yaml << YAML::BeginMap;
-  pair("key", key_);
-  pair("version", FINRAY_VERSION);
-  pair("scheme", SchemeName(settings_->discretization.scheme));
-  pair("resolution", settings_->discretization.resolution);
+  YamlPair(&yaml, "key", key_);
+  YamlPair(&yaml, "version", FINRAY_VERSION);
+  YamlPair(&yaml, "scheme", SchemeName(settings_->discretization.scheme));
+  YamlPair(&yaml, "resolution", settings_->discretization.resolution);
   yaml << YAML::Key << "inputs" << YAML::Value << YAML::BeginMap;
-  pair("log_sha256", log_sha256_);
-  pair("finger_sha256", settings_->finger_sha256);
+  YamlPair(&yaml, "log_sha256", log_sha256_);
+  YamlPair(&yaml, "finger_sha256", settings_->finger_sha256);
   if (!settings_->scene_sha256.empty()) {
-    pair("scene_sha256", settings_->scene_sha256);
+    YamlPair(&yaml, "scene_sha256", settings_->scene_sha256);
   }
   yaml << YAML::EndMap;
-  pair("result_bytes", bytes);
+  YamlPair(&yaml, "result_bytes", bytes);
   EmitSummary(summary_, &yaml);
   yaml << YAML::EndMap;
   WriteFileAtomically(summary_path_, std::string(yaml.c_str()) + "\n");
