@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "finray/finger/discretization.h"
 #include "finray/finger/finger_yaml.h"
 #include "finray/io/error.h"
-#include "finray/sensing/scene.h"
-#include "finray/statics/discretization.h"
+#include "finray/scene/scene.h"
 
 namespace finray {
 

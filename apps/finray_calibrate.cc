@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "app.h"
-#include "finray/calib/calibration_result.h"
-#include "finray/calib/plausibility.h"
-#include "finray/calib/report.h"
+#include "finray/calib/analysis/plausibility.h"
+#include "finray/calib/report/calibration_result.h"
+#include "finray/calib/report/report.h"
 #include "finray/io/atomic_file.h"
 
 DEFINE_string(finger, "", "finger YAML to start from");

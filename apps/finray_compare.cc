@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "app.h"
-#include "finray/calib/comparison.h"
+#include "finray/calib/analysis/calibration_comparison.h"
 #include "finray/io/atomic_file.h"
 
 DEFINE_string(out_dir, "", "folder for comparison.yaml and comparison.csv");

@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "app.h"
+#include "finray/batch/batch_summary.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/log_list.h"
-#include "finray/sensing/batch_summary.h"
 #include "follow.h"
 #include "progress_bar.h"
 #include "stop_signal.h"

@@ -1,7 +1,7 @@
 // Solves the finger for given contacts or object places, row by row.
 
 #include "app.h"
-#include "finray/sensing/simulation.h"
+#include "finray/scene/simulation.h"
 
 DEFINE_string(finger, "", "finger YAML");
 DEFINE_string(scene, "", "scene YAML; needed for rows with an object");

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "app.h"
-#include "finray/calib/validation.h"
+#include "finray/calib/analysis/validation.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/number_text.h"
 

@@ -12,10 +12,10 @@
 #include <string>
 
 #include "app.h"
+#include "finray/batch/latency_histogram.h"
+#include "finray/batch/live_rows.h"
 #include "finray/io/file_descriptor.h"
 #include "finray/io/pipe_lines.h"
-#include "finray/sensing/latency_histogram.h"
-#include "finray/sensing/live_rows.h"
 #include "stop_signal.h"
 
 namespace finray {

@@ -20,15 +20,15 @@
 #include <memory>
 #include <random>
 
+#include "finray/batch/latency_histogram.h"
+#include "finray/batch/live_rows.h"
+#include "finray/batch/log_job.h"
+#include "finray/batch/result_rows.h"
 #include "finray/finger/finger_yaml.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/frame_reader.h"
 #include "finray/io/frame_table.h"
-#include "finray/sensing/frame_columns.h"
-#include "finray/sensing/latency_histogram.h"
-#include "finray/sensing/live_rows.h"
-#include "finray/sensing/log_job.h"
-#include "finray/sensing/result_rows.h"
+#include "finray/scene/frame_columns.h"
 #include "finray/statics/equilibrium.h"
 #include "test_finger.h"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include "finray/statics/object_contact.h"
+#include "finray/objects/object_contact.h"
 #include "test_finger.h"
 
 namespace finray {

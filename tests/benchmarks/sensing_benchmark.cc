@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "finray/chain/sensing.h"
-#include "finray/sensing/contact_fit.h"
-#include "finray/sensing/frame_group_fit.h"
-#include "finray/statics/ladder_kernel.h"
-#include "sensing/ceres_contact_fit.h"
+#include "finray/ladder/ladder_kernel.h"
+#include "finray/sensing/fast/contact_fit.h"
+#include "finray/sensing/fast/frame_group_fit.h"
+#include "sensing/fast/ceres_contact_fit.h"
 #include "sensing/gauge_log.h"
 #include "test_finger.h"
 

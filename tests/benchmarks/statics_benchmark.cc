@@ -17,10 +17,10 @@
 #include <string>
 
 #include "finray/chain/forward.h"
+#include "finray/ladder/ladder_kernel.h"
+#include "finray/ladder/ladder_newton.h"
+#include "finray/ladder/ladder_workspace.h"
 #include "finray/statics/equilibrium.h"
-#include "finray/statics/ladder_kernel.h"
-#include "finray/statics/ladder_newton.h"
-#include "finray/statics/ladder_workspace.h"
 #include "test_finger.h"
 
 namespace finray {

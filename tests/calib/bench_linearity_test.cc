@@ -1,4 +1,4 @@
-#include "finray/calib/bench_linearity.h"
+#include "finray/calib/analysis/bench_linearity.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <map>
 #include <random>
 
-#include "finray/calib/calibration_result.h"
+#include "finray/calib/report/calibration_result.h"
 #include "temp_file.h"
 #include "test_finger.h"
 

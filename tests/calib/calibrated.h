@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "calib/standard_log.h"
-#include "finray/calib/calibration_problem.h"
-#include "finray/calib/identifiability.h"
+#include "finray/calib/analysis/identifiability.h"
+#include "finray/calib/problem/calibration_problem.h"
 
 namespace finray {
 

@@ -1,4 +1,4 @@
-#include "finray/calib/calibration_log.h"
+#include "finray/calib/problem/calibration_log.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

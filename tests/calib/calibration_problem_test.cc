@@ -1,10 +1,10 @@
-#include "finray/calib/calibration_problem.h"
+#include "finray/calib/problem/calibration_problem.h"
 
 #include <gtest/gtest.h>
 
 #include "calib/standard_log.h"
-#include "finray/calib/identifiability.h"
-#include "finray/calib/weighted_check.h"
+#include "finray/calib/analysis/identifiability.h"
+#include "finray/calib/solve/weighted_check.h"
 
 namespace finray {
 namespace {

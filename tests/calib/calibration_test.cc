@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "calib/standard_log.h"
-#include "finray/calib/calibration_result.h"
+#include "finray/calib/report/calibration_result.h"
 
 namespace finray {
 namespace {

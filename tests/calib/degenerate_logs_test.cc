@@ -15,8 +15,8 @@
 
 #include "calib/log_rows.h"
 #include "calib/standard_log.h"
-#include "finray/calib/calibration_result.h"
-#include "finray/calib/weak_direction_words.h"
+#include "finray/calib/analysis/weak_direction_words.h"
+#include "finray/calib/report/calibration_result.h"
 
 namespace finray {
 namespace {

@@ -1,4 +1,4 @@
-#include "finray/calib/error_table.h"
+#include "finray/calib/analysis/error_table.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "finray/calib/f_distribution.h"
+#include "finray/calib/analysis/f_distribution.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "finray/calib/finger_covariance.h"
+#include "finray/calib/analysis/finger_covariance.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "calib/standard_log.h"
-#include "finray/calib/calibration_result.h"
+#include "finray/calib/report/calibration_result.h"
 #include "finray/sensing/calibration_uncertainty.h"
 #include "sensing/gauge_volts.h"
 

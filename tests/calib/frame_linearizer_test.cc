@@ -1,11 +1,11 @@
-#include "finray/calib/frame_linearizer.h"
+#include "finray/calib/solve/frame_linearizer.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
 #include "calib/standard_log.h"
-#include "finray/sensing/frame_columns.h"
+#include "finray/scene/frame_columns.h"
 
 namespace finray {
 namespace {

@@ -1,4 +1,4 @@
-#include "finray/calib/frame_sums.h"
+#include "finray/calib/solve/frame_sums.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "calib/standard_log.h"
-#include "finray/sensing/frame_columns.h"
+#include "finray/scene/frame_columns.h"
 
 namespace finray {
 

@@ -1,4 +1,4 @@
-#include "finray/calib/information_spectrum.h"
+#include "finray/calib/solve/information_spectrum.h"
 
 #include <gtest/gtest.h>
 

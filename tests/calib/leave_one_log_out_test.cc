@@ -1,4 +1,4 @@
-#include "finray/calib/leave_one_log_out.h"
+#include "finray/calib/analysis/leave_one_log_out.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "finray/calib/next_frames.h"
+#include "finray/calib/analysis/next_frames.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 
 #include "calib/calibrated.h"
 #include "calib/log_rows.h"
-#include "finray/calib/weak_direction_words.h"
-#include "finray/sensing/circle_centre.h"
+#include "finray/calib/analysis/weak_direction_words.h"
+#include "finray/objects/circle_centre.h"
 
 namespace finray {
 namespace {

@@ -1,4 +1,4 @@
-#include "finray/calib/parameters.h"
+#include "finray/calib/problem/parameters.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <map>
 
 #include "calib/standard_log.h"
-#include "finray/calib/calibration_problem.h"
-#include "finray/calib/finger_covariance.h"
-#include "finray/calib/identifiability.h"
+#include "finray/calib/analysis/finger_covariance.h"
+#include "finray/calib/analysis/identifiability.h"
+#include "finray/calib/problem/calibration_problem.h"
 
 namespace finray {
 namespace {

@@ -1,4 +1,4 @@
-#include "finray/calib/plan.h"
+#include "finray/calib/problem/plan.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

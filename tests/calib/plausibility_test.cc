@@ -1,4 +1,4 @@
-#include "finray/calib/plausibility.h"
+#include "finray/calib/analysis/plausibility.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

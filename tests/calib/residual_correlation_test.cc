@@ -1,4 +1,4 @@
-#include "finray/calib/residual_correlation.h"
+#include "finray/calib/analysis/residual_correlation.h"
 
 #include <gtest/gtest.h>
 

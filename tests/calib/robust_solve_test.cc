@@ -1,4 +1,4 @@
-#include "finray/calib/robust_solve.h"
+#include "finray/calib/solve/robust_solve.h"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 
 #include "calib/hard_log.h"
 #include "calib/standard_log.h"
-#include "finray/calib/identifiability.h"
-#include "finray/calib/outliers.h"
-#include "finray/calib/weighted_check.h"
+#include "finray/calib/analysis/identifiability.h"
+#include "finray/calib/solve/outliers.h"
+#include "finray/calib/solve/weighted_check.h"
 
 namespace finray {
 namespace {

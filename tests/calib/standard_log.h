@@ -9,8 +9,8 @@
 #include <random>
 #include <string>
 
-#include "finray/calib/plan.h"
-#include "finray/sensing/simulation.h"
+#include "finray/calib/problem/plan.h"
+#include "finray/scene/simulation.h"
 #include "temp_file.h"
 #include "test_finger.h"
 

@@ -1,4 +1,4 @@
-#include "finray/calib/validation.h"
+#include "finray/calib/analysis/validation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <random>
 
 #include "calib/calibrated.h"
-#include "finray/calib/finger_covariance.h"
+#include "finray/calib/analysis/finger_covariance.h"
 #include "finray/io/error.h"
 
 namespace finray {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "finray/statics/rigid_link_element.h"
-#include "statics/computed_element.h"
+#include "finray/ladder/rigid_link_element.h"
+#include "ladder/computed_element.h"
 
 namespace finray {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "finray/statics/object_contact.h"
+#include "finray/objects/object_contact.h"
 #include "test_finger.h"
 
 namespace finray {

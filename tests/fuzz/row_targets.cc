@@ -2,11 +2,11 @@
 #include <string>
 #include <vector>
 
+#include "finray/batch/live_rows.h"
+#include "finray/batch/result_rows.h"
 #include "finray/io/csv_cells.h"
 #include "finray/io/frame_parser.h"
 #include "finray/io/pipe_lines.h"
-#include "finray/sensing/live_rows.h"
-#include "finray/sensing/result_rows.h"
 #include "fuzz/feeding.h"
 #include "fuzz/targets.h"
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "finray/calib/calibration_file.h"
-#include "finray/calib/plan.h"
+#include "finray/calib/problem/plan.h"
+#include "finray/calib/report/calibration_file.h"
 #include "finray/control/experiment_yaml.h"
 #include "finray/io/frame_table.h"
 #include "fuzz/feeding.h"

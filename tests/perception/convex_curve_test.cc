@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "finray/statics/outline.h"
+#include "finray/objects/outline.h"
 
 namespace finray {
 namespace {

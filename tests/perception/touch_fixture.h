@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "finray/objects/outline.h"
 #include "finray/perception/touch.h"
-#include "finray/statics/outline.h"
 
 namespace finray {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "finray/statics/object_contact.h"
+#include "finray/objects/object_contact.h"
 #include "residuals_fixture.h"
 
 namespace finray {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "finray/sensing/simulation.h"
+#include "finray/scene/simulation.h"
 #include "test_finger.h"
 
 namespace finray {

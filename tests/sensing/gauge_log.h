@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "finray/sensing/contact_fit.h"
+#include "finray/sensing/fast/contact_fit.h"
 #include "finray/statics/equilibrium.h"
 #include "test_finger.h"
 

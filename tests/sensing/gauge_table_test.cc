@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "finray/sensing/circle_centre.h"
+#include "finray/objects/circle_centre.h"
 #include "test_finger.h"
 
 namespace finray {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "finray/io/frame_table.h"
-#include "finray/sensing/reading_columns.h"
+#include "finray/scene/reading_columns.h"
 
 namespace finray {
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "finray/ladder/taylor_element.h"
 #include "finray/statics/equilibrium.h"
-#include "finray/statics/taylor_element.h"
+#include "ladder/computed_element.h"
 #include "statics/beam_ode.h"
-#include "statics/computed_element.h"
 #include "statics/special_cases.h"
 
 namespace finray {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "finray/statics/rigid_link_element.h"
-#include "finray/statics/taylor_element.h"
-#include "statics/computed_element.h"
+#include "finray/ladder/rigid_link_element.h"
+#include "finray/ladder/taylor_element.h"
+#include "ladder/computed_element.h"
 
 namespace finray {
 namespace {

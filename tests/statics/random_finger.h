@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "finray/finger/geometry.h"
-#include "finray/statics/ladder.h"
+#include "finray/ladder/ladder.h"
 
 namespace finray {
 

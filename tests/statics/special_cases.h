@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "finray/statics/ladder.h"
+#include "finray/ladder/ladder.h"
 #include "test_finger.h"
 
 namespace finray {

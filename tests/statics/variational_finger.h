@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "finray/statics/ladder.h"
+#include "finray/ladder/ladder.h"
 #include "statics/gauss_legendre.h"
 
 namespace finray {

@@ -7,8 +7,8 @@
 #include <cstdlib>
 
 #include "calib/standard_log.h"
-#include "finray/calib/residual_correlation.h"
-#include "finray/calib/robust_solve.h"
+#include "finray/calib/analysis/residual_correlation.h"
+#include "finray/calib/solve/robust_solve.h"
 
 namespace finray {
 namespace {

@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "calib/standard_log.h"
-#include "finray/calib/calibration_result.h"
-#include "finray/calib/plausibility.h"
+#include "finray/calib/analysis/plausibility.h"
+#include "finray/calib/report/calibration_result.h"
 #include "finray/io/error.h"
-#include "finray/sensing/frame_columns.h"
+#include "finray/scene/frame_columns.h"
 
 namespace finray {
 

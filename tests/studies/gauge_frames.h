@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "finray/sensing/clean_readings.h"
-#include "finray/sensing/frame_readings.h"
+#include "finray/scene/clean_readings.h"
+#include "finray/scene/frame_readings.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {

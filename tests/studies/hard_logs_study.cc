@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "calib/hard_log.h"
-#include "finray/calib/calibration_result.h"
+#include "finray/calib/report/calibration_result.h"
 
 namespace finray {
 namespace {

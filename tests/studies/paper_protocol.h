@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "finray/calib/calibration_result.h"
+#include "finray/calib/report/calibration_result.h"
+#include "finray/scene/simulation.h"
 #include "finray/sensing/frame_estimator.h"
-#include "finray/sensing/simulation.h"
 #include "studies/gauge_frames.h"
 #include "temp_file.h"
 #include "test_finger.h"

@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "finray/calib/calibration_result.h"
+#include "finray/calib/report/calibration_result.h"
 #include "finray/finger/finger_yaml.h"
-#include "finray/sensing/frame_columns.h"
+#include "finray/scene/frame_columns.h"
 #include "temp_file.h"
 
 namespace finray {

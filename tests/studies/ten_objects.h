@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "finray/objects/outline.h"
 #include "finray/perception/polygon.h"
 #include "finray/perception/touch_simulation.h"
-#include "finray/statics/outline.h"
 
 namespace finray {
 

@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "finray/finger/geometry.h"
-#include "finray/sensing/circle_centre.h"
-#include "finray/sensing/contact_fit.h"
+#include "finray/objects/circle_centre.h"
+#include "finray/sensing/fast/contact_fit.h"
 
 namespace finray {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "finray/sensing/frame_measurement.h"
-#include "finray/sensing/scene.h"
+#include "finray/scene/frame_measurement.h"
+#include "finray/scene/scene.h"
 
 namespace finray {
 

@@ -1,5 +1,5 @@
 #include "finray/benchmark/answers.h"
-#include "finray/sensing/contact_fit.h"
+#include "finray/sensing/fast/contact_fit.h"
 
 namespace finray {
 namespace {

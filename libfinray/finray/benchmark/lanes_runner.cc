@@ -1,5 +1,5 @@
 #include "finray/benchmark/answers.h"
-#include "finray/sensing/frame_group_fit.h"
+#include "finray/sensing/fast/frame_group_fit.h"
 
 namespace finray {
 namespace {

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "finray/benchmark/build.h"
-#include "finray/statics/ladder_kernel.h"
+#include "finray/ladder/ladder_kernel.h"
 
 namespace finray {
 namespace {

@@ -3,8 +3,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "finray/batch/batch_estimation.h"
 #include "finray/benchmark/statistics.h"
-#include "finray/sensing/batch_estimation.h"
 
 namespace finray {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "finray/sensing/frame_columns.h"
-#include "finray/sensing/result_columns.h"
+#include "finray/batch/result_columns.h"
+#include "finray/scene/frame_columns.h"
 
 namespace finray {
 

@@ -11,7 +11,7 @@
 #include "finray/control/model_error.h"
 #include "finray/control/object_filter.h"
 #include "finray/control/trajectory.h"
-#include "finray/sensing/scene.h"
+#include "finray/scene/scene.h"
 
 namespace finray {
 

@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "finray/finger/discretization.h"
 #include "finray/finger/finger.h"
-#include "finray/sensing/frame_readings.h"
-#include "finray/statics/discretization.h"
+#include "finray/scene/frame_readings.h"
 
 namespace finray {
 

@@ -5,9 +5,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "finray/sensing/clean_readings.h"
-#include "finray/statics/contact_force.h"
-#include "finray/statics/discretization.h"
+#include "finray/finger/discretization.h"
+#include "finray/finger/point_contact.h"
+#include "finray/scene/clean_readings.h"
 
 namespace finray {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "finray/control/mechanism.h"
 #include "finray/finger/finger.h"
-#include "finray/sensing/frame_readings.h"
-#include "finray/statics/object_contact.h"
+#include "finray/objects/object_contact.h"
+#include "finray/scene/frame_readings.h"
 
 namespace finray {
 

@@ -4,8 +4,8 @@
 #include <random>
 #include <stdexcept>
 
-#include "finray/sensing/frame_columns.h"
-#include "finray/statics/object_contact.h"
+#include "finray/objects/object_contact.h"
+#include "finray/scene/frame_columns.h"
 
 namespace finray {
 namespace {

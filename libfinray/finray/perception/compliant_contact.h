@@ -5,9 +5,9 @@
 #include <functional>
 #include <vector>
 
+#include "finray/finger/discretization.h"
 #include "finray/finger/finger.h"
 #include "finray/io/frame_table.h"
-#include "finray/statics/discretization.h"
 
 namespace finray {
 

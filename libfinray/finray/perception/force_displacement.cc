@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "finray/io/error.h"
-#include "finray/sensing/circle_centre.h"
-#include "finray/sensing/reading_columns.h"
+#include "finray/objects/circle_centre.h"
+#include "finray/scene/reading_columns.h"
 
 namespace finray {
 namespace {

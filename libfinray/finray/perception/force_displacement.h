@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "finray/io/frame_table.h"
+#include "finray/objects/outline.h"
 #include "finray/perception/contact_sensor.h"
-#include "finray/statics/outline.h"
 
 namespace finray {
 

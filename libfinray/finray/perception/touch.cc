@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "finray/io/error.h"
-#include "finray/sensing/frame_columns.h"
-#include "finray/sensing/reading_columns.h"
+#include "finray/scene/frame_columns.h"
+#include "finray/scene/reading_columns.h"
 
 namespace finray {
 namespace {

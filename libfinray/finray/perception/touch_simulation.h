@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "finray/finger/discretization.h"
 #include "finray/finger/finger.h"
 #include "finray/io/frame_table.h"
+#include "finray/objects/outline.h"
 #include "finray/perception/polygon.h"
-#include "finray/statics/discretization.h"
-#include "finray/statics/outline.h"
 
 namespace finray {
 

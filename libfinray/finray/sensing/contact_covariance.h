@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "finray/statics/ladder_frame.h"
+#include "finray/statics/equilibrium.h"
 
 namespace finray {
 

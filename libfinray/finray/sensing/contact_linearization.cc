@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "finray/sensing/circle_centre.h"
+#include "finray/objects/circle_centre.h"
 
 namespace finray {
 

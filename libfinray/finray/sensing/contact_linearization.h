@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "finray/scene/frame_measurement.h"
 #include "finray/sensing/contact_covariance.h"
-#include "finray/sensing/frame_measurement.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {

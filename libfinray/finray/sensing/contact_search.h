@@ -5,12 +5,12 @@
 #include <memory>
 #include <vector>
 
+#include "finray/scene/scene.h"
 #include "finray/sensing/contact_covariance.h"
 #include "finray/sensing/contact_descent.h"
-#include "finray/sensing/contact_fit.h"
+#include "finray/sensing/fast/contact_fit.h"
 #include "finray/sensing/gauge_table.h"
 #include "finray/sensing/pair_table.h"
-#include "finray/sensing/scene.h"
 
 namespace finray {
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "finray/scene/scene.h"
 #include "finray/sensing/contact_linearization.h"
 #include "finray/sensing/frame_estimate.h"
-#include "finray/sensing/scene.h"
 
 namespace finray {
 

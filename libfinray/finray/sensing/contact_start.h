@@ -3,8 +3,7 @@
 
 #include <array>
 
-#include "finray/statics/ladder.h"
-#include "finray/statics/ladder_frame.h"
+#include "finray/statics/equilibrium.h"
 
 namespace finray {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "finray/statics/contact_force.h"
+#include "finray/finger/point_contact.h"
 
 namespace finray {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "finray/statics/ladder_frame.h"
+#include "finray/statics/equilibrium.h"
 
 namespace finray {
 

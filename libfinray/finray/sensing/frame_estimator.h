@@ -2,13 +2,13 @@
 #define FINRAY_SENSING_FRAME_ESTIMATOR_H_
 
 #include "finray/finger/finger.h"
+#include "finray/scene/frame_readings.h"
+#include "finray/scene/scene.h"
 #include "finray/sensing/calibration_uncertainty.h"
 #include "finray/sensing/contact_search.h"
 #include "finray/sensing/contact_smoother.h"
+#include "finray/sensing/fast/frame_follower.h"
 #include "finray/sensing/frame_estimate.h"
-#include "finray/sensing/frame_follower.h"
-#include "finray/sensing/frame_readings.h"
-#include "finray/sensing/scene.h"
 
 namespace finray {
 

@@ -11,7 +11,7 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
-#include "finray/sensing/circle_centre.h"
+#include "finray/objects/circle_centre.h"
 
 namespace finray {
 namespace {

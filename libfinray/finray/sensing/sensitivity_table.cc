@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "finray/finger/geometry.h"
-#include "finray/sensing/circle_centre.h"
+#include "finray/objects/circle_centre.h"
 
 namespace finray {
 namespace {

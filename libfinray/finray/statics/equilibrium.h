@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "finray/statics/ladder_newton.h"
+#include "finray/ladder/ladder_newton.h"
 
 namespace finray {
 

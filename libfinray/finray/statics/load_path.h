@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "finray/statics/ladder_newton.h"
+#include "finray/ladder/ladder_newton.h"
 
 namespace finray {
 

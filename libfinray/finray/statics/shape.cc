@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "finray/statics/scheme_element.h"
+#include "finray/ladder/scheme_element.h"
 
 namespace finray {
 

@@ -1,0 +1,110 @@
+#include "finray/calib/analysis/leave_one_log_out.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace finray {
+
+const LeaveOneLogOut::Row* LeaveOneLogOut::Worst() const {
+  const auto worst = std::min_element(
+      rows.begin(), rows.end(),
+      [](const Row& a, const Row& b) { return a.p_value < b.p_value; });
+  if (worst == rows.end()) return nullptr;
+  const auto tests = static_cast<double>(rows.size());
+  return worst->p_value * tests < kSignificant ? &*worst : nullptr;
+}
+
+namespace {
+
+// What a parameter is without some logs; empty if these do not determine it.
+std::optional<double> EstimateWithout(const CalibrationParameters& without,
+                                      const Identifiability& found,
+                                      const std::string& name) {
+  for (std::size_t i = 0; i < without.free().size(); ++i) {
+    const CalibrationParameter& p = without.FreeParameter(i);
+    if (p.name != name) continue;
+    if (found.status[i] != ParameterStatus::kEstimated) return {};
+    return *p.variable;
+  }
+  return {};
+}
+
+// Probability that any of `tests` standard normal numbers is beyond +-z.
+double Bonferroni(double z, int tests) {
+  return std::min(1.0, tests * std::erfc(z / std::sqrt(2.0)));
+}
+
+}  // namespace
+
+LeaveOneLogOut LeaveLogsOut(CalibrationProblem& problem,
+                            const Identifiability& found,
+                            const Discretization& discretization, int threads) {
+  LeaveOneLogOut result;
+  // A log without a frame to fit tells nothing, and may be all that is left.
+  const auto& by_log = problem.AtSolution().information_by_log;
+  if (by_log.size() < 2) return result;
+  result.groups =
+      std::min(LeaveOneLogOut::kMostGroups, static_cast<int>(by_log.size()));
+  std::map<int, int> group_of;  // log
+  for (const auto& [log, information] : by_log) {
+    group_of.emplace(log, static_cast<int>(group_of.size()) % result.groups);
+  }
+
+  CalibrationParameters& all = problem.parameters();
+  const Eigen::VectorXd variance =
+      BoundedCovariance(found.information + found.prior).diagonal();
+  std::vector<int> tests(all.free().size(), 0);
+  std::vector<double> largest_z(all.free().size(), 0);
+  for (int group = 0; group < result.groups; ++group) {
+    CalibrationLogs rest = problem.logs();
+    for (CalibrationFrame& frame : rest.frames) {
+      const auto place = group_of.find(frame.log);
+      if (place != group_of.end() && place->second == group) {
+        frame.held_out = true;
+      }
+    }
+    CalibrationProblem without(problem.finger(), problem.plan(), rest,
+                               discretization, threads);
+    // What was no part of the solution is none of this one.
+    without.SetRejected(problem.rejected());
+    if (!without.Solve().converged) {
+      result.all_converged = false;
+      continue;  // no estimate
+    }
+    const Identifiability known = AnalyzeIdentifiability(&without);
+    Eigen::MatrixXd information = found.prior;
+    for (const auto& [log, its] : by_log) {
+      if (group_of[log] == group) continue;
+      information += found.unit.asDiagonal() * its * found.unit.asDiagonal();
+    }
+    const Eigen::VectorXd variance_without =
+        BoundedCovariance(information).diagonal();
+    for (std::size_t i = 0; i < all.free().size(); ++i) {
+      const CalibrationParameter& p = all.FreeParameter(i);
+      if (!p.of_finger || !std::isfinite(found.std[i])) continue;
+      const auto estimate =
+          EstimateWithout(without.parameters(), known, p.name);
+      if (!estimate) continue;
+      const auto at = static_cast<Eigen::Index>(i);
+      const double more =
+          std::max(0.0, variance_without[at] / variance[at] - 1);
+      const double std = found.std[i] * std::hypot(std::sqrt(more),
+                                                   LeaveOneLogOut::kNegligible);
+      ++tests[i];
+      largest_z[i] =
+          std::max(largest_z[i], std::abs(*estimate - *p.variable) / std);
+    }
+  }
+  for (std::size_t i = 0; i < all.free().size(); ++i) {
+    if (tests[i] == 0) continue;
+    const CalibrationParameter& p = all.FreeParameter(i);
+    const double std = p.ValueStd(*p.variable, found.std[i]);
+    result.rows.push_back({all.free()[i], largest_z[i] * std, std,
+                           Bonferroni(largest_z[i], tests[i])});
+  }
+  return result;
+}
+
+}  // namespace finray

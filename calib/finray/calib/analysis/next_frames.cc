@@ -1,0 +1,405 @@
+#include "finray/calib/analysis/next_frames.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <string>
+#include <unordered_map>
+
+#include "finray/calib/analysis/next_frames_words.h"
+#include "finray/calib/solve/information_spectrum.h"
+#include "finray/calib/solve/linearized_frame.h"
+#include "finray/finger/geometry.h"
+#include "finray/objects/circle_centre.h"
+
+namespace finray {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr int kHeights = 9;
+constexpr double kLoads[] = {0.1, 0.3, 0.6, 1};  // of the largest
+// In units of EI / l_0^2: what a finger carries with ease, and what it may.
+constexpr double kUsualLoad = 10, kLargestLoad = 40;
+constexpr double kWorthwhile = 0.9;
+constexpr std::size_t kMostAdvice = 4;
+
+double TwoDigits(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  return std::round(value / unit) * unit;
+}
+
+bool Has(const std::vector<ResidualFamily>& families, ResidualFamily family) {
+  return std::find(families.begin(), families.end(), family) != families.end();
+}
+
+// A frame as the logs have them, without its measurements.
+CalibrationFrame Template(const CalibrationProblem& problem, bool contact) {
+  CalibrationFrame frame;
+  for (const CalibrationFrame& recorded : problem.logs().frames) {
+    if (recorded.held_out || recorded.IsBench()) continue;
+    frame = recorded;
+    if (recorded.contact == contact) break;
+  }
+  frame.contact = contact;
+  frame.held_out = false;
+  frame.force_N = frame.contact_mm = kNaN;
+  frame.force_xy_N.setConstant(kNaN);
+  frame.object_mm.setConstant(kNaN);
+  frame.pins.clear();
+  frame.tip_mm.setConstant(kNaN);
+  return frame;
+}
+
+// What the logs show that the finger bears; a few wild frames do not count.
+double LargestLoad(const CalibrationProblem& problem) {
+  const double unit = ForceUnit(problem.finger());
+  std::vector<double> forces;
+  for (std::size_t i = 0; i < problem.logs().frames.size(); ++i) {
+    const double force = problem.contact(static_cast<int>(i))[1];
+    if (force > 0) forces.push_back(force);
+  }
+  if (forces.empty()) return kUsualLoad * unit;
+  const auto high =
+      forces.begin() + static_cast<long>(forces.size() * 95 / 100);
+  std::nth_element(forces.begin(), high, forces.end());
+  return std::clamp(*high, kUsualLoad * unit, kLargestLoad * unit);
+}
+
+// The first fitted frame of each log.
+std::vector<CalibrationFrame> FirstFrames(const CalibrationProblem& problem) {
+  std::vector<CalibrationFrame> frames;
+  std::set<int> seen;
+  for (const CalibrationFrame& frame : problem.logs().frames) {
+    if (!frame.held_out && seen.insert(frame.log).second) {
+      frames.push_back(frame);
+    }
+  }
+  return frames;
+}
+
+// Gauges that no frame has read do not read in the next one either.
+std::vector<bool> WorkingGauges(const CalibrationProblem& problem) {
+  std::vector<bool> works(problem.finger().gauges.size(), false);
+  for (const CalibrationFrame& frame : problem.logs().frames) {
+    for (std::size_t j = 0; j < works.size(); ++j) {
+      if (std::isfinite(frame.gauges_V[j])) works[j] = true;
+    }
+  }
+  return works;
+}
+
+// What all sensors would say; false if the finger cannot carry the load.
+bool Measure(const PointContact* contact, const std::vector<bool>& works,
+             const Plan& plan, EquilibriumSolver* solver,
+             CalibrationFrame* frame) {
+  solver->Reset();
+  std::vector<PointContact> contacts;
+  if (contact != nullptr) contacts.push_back(*contact);
+  if (!solver->Solve(contacts)) return false;
+  const Finger& finger = solver->model().finger();
+  frame->gauges_V.resize(works.size());
+  for (std::size_t j = 0; j < works.size(); ++j) {
+    const Gauge& gauge = finger.gauges[j];
+    frame->gauges_V[j] =
+        works[j]
+            ? gauge.gain_V_per_rad * solver->gauge_angle(static_cast<int>(j)) +
+                  gauge.offset_V
+            : kNaN;
+  }
+  if (contact == nullptr) return true;
+  frame->force_N = contact->normal_N;
+  frame->contact_mm = contact->arc_mm;
+  if (plan.scene.circle_radius_mm()) {
+    frame->object_mm =
+        CircleCentre(solver->contact_pose(0), *plan.scene.circle_radius_mm());
+  }
+  return true;
+}
+
+}  // namespace
+
+NextFrames::NextFrames(CalibrationProblem* problem,
+                       const Identifiability& found,
+                       const Discretization& discretization)
+    : problem_(problem), found_(found) {
+  Predict(discretization);
+}
+
+void NextFrames::Predict(const Discretization& discretization) {
+  const Finger finger = problem_->parameters().Apply(problem_->finger());
+  const Plan& plan = problem_->plan();
+  const double largest_N = LargestLoad(*problem_);
+  for (int i = 1; i <= kHeights; ++i) {
+    arcs_mm_.push_back(std::round(finger.front_length_mm * i / (kHeights + 1)));
+  }
+  for (const double share : kLoads) {
+    forces_N_.push_back(TwoDigits(share * largest_N));
+  }
+
+  // All of them as further frames of a log, linearised where they would be,
+  // behind a frame of each log, so that there are the parameters of all logs.
+  CalibrationLogs logs = problem_->logs();
+  logs.frames = FirstFrames(*problem_);
+  const int recorded = static_cast<int>(logs.frames.size());
+  EquilibriumSolver solver(finger, discretization);
+  const std::vector<bool> works = WorkingGauges(*problem_);
+  CalibrationFrame frame = Template(*problem_, false);
+  if (Measure(nullptr, works, plan, &solver, &frame)) {
+    logs.frames.push_back(frame);
+    candidates_.push_back({true, kNaN, 0, {}, {}, {}});
+  }
+  if (plan.scene.contacts.value_or(1) > 0) {
+    for (const double arc : arcs_mm_) {
+      for (const double force : forces_N_) {
+        frame = Template(*problem_, true);
+        const PointContact contact = {arc, force,
+                                      plan.scene.friction_coefficient};
+        if (!Measure(&contact, works, plan, &solver, &frame)) continue;
+        logs.frames.push_back(frame);
+        candidates_.push_back({false, arc, force, {}, {}, {}});
+      }
+    }
+  }
+  CalibrationProblem predicted(finger, plan, logs, discretization, 1);
+  // By their names: other frames may have other steps of a drift, and other
+  // sensors.
+  const CalibrationParameters& known = problem_->parameters();
+  std::unordered_map<std::string, int> column_of;  // among the free ones
+  std::unordered_map<std::string, const double*> value_of;
+  for (const CalibrationParameter& p : known.all()) {
+    value_of[p.name] = p.variable;
+  }
+  const int columns = static_cast<int>(known.free().size());
+  for (int k = 0; k < columns; ++k) {
+    column_of[known.FreeParameter(k).name] = k;
+  }
+  const CalibrationParameters& of_predicted = predicted.parameters();
+  for (const CalibrationParameter& p : of_predicted.all()) {
+    if (const auto value = value_of.find(p.name); value != value_of.end()) {
+      *p.variable = *value->second;
+    }
+  }
+  predicted.VisitFrames([&](int frame, const LinearizedFrame& at) {
+    const int index = frame - recorded;
+    if (index < 0) return;
+    Candidate& candidate = candidates_[index];
+    for (const auto& row : at.rows) candidate.families.push_back(row.family);
+    candidate.by_parameter.setZero(at.by_parameter.rows(), columns);
+    for (std::size_t k = 0; k < of_predicted.free().size(); ++k) {
+      const auto column = column_of.find(of_predicted.FreeParameter(k).name);
+      if (column == column_of.end()) continue;
+      candidate.by_parameter.col(column->second) =
+          at.by_parameter.col(static_cast<Eigen::Index>(k)) *
+          found_.unit[column->second];
+    }
+    candidate.by_contact = at.by_contact;
+  });
+  // With what can be proposed, some would have too little to be a frame.
+  candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(),
+                                   [](const Candidate& candidate) {
+                                     return candidate.families.empty();
+                                   }),
+                    candidates_.end());
+  ChooseMeasurements();
+}
+
+// What contact frames of the logs have, and that with what can be added.
+void NextFrames::ChooseMeasurements() {
+  Families recorded, missing;
+  for (const ResidualInfo& row : problem_->AtSolution().rows) {
+    const bool contact = problem_->logs().frames[row.frame].contact;
+    if (contact && !Has(recorded, row.family)) recorded.push_back(row.family);
+  }
+  if (!Has(recorded, ResidualFamily::kGauge)) {
+    recorded.push_back(ResidualFamily::kGauge);
+  }
+  for (const Candidate& candidate : candidates_) {
+    for (const ResidualFamily family : candidate.families) {
+      if (!Has(recorded, family) && !Has(missing, family)) {
+        missing.push_back(family);
+      }
+    }
+  }
+  measured_.push_back({recorded, {}});
+  const auto add = [&](const Families& added) {
+    Families all = recorded;
+    all.insert(all.end(), added.begin(), added.end());
+    measured_.push_back({all, added});
+  };
+  for (const ResidualFamily family : missing) add({family});
+  // Neither force nor place: one of them alone may not do.
+  const bool placed = Has(recorded, ResidualFamily::kObject) ||
+                      Has(recorded, ResidualFamily::kContact);
+  for (const ResidualFamily place :
+       {ResidualFamily::kObject, ResidualFamily::kContact}) {
+    if (Has(missing, ResidualFamily::kForce) && Has(missing, place) &&
+        !placed) {
+      add({ResidualFamily::kForce, place});
+    }
+  }
+}
+
+Eigen::MatrixXd NextFrames::Information(const Candidate& candidate,
+                                        const Families& measured) const {
+  std::vector<int> rows;
+  for (std::size_t i = 0; i < candidate.families.size(); ++i) {
+    if (Has(measured, candidate.families[i])) {
+      rows.push_back(static_cast<int>(i));
+    }
+  }
+  const Eigen::MatrixXd j =
+      EliminateContact(candidate.by_parameter(rows, Eigen::all),
+                       candidate.by_contact(rows, Eigen::all));
+  return j.transpose() * j;
+}
+
+void NextFrames::Judge(const Eigen::MatrixXd& information,
+                       const Eigen::VectorXd& direction,
+                       FrameAdvice* advice) const {
+  const Eigen::MatrixXd known = found_.information + found_.prior;
+  std::vector<int> all(direction.size());
+  std::iota(all.begin(), all.end(), 0);
+  Spread(BoundedCovariance(known),
+         BoundedCovariance(known + FrameAdvice::kFrames * information),
+         direction, all, advice);
+}
+
+// `parameters` are those, of the free ones, that the matrices are over.
+void NextFrames::Spread(const Eigen::MatrixXd& before,
+                        const Eigen::MatrixXd& after,
+                        const Eigen::VectorXd& direction,
+                        const std::vector<int>& parameters,
+                        FrameAdvice* advice) const {
+  advice->std_before = std::sqrt(direction.dot(before * direction));
+  advice->std_after = std::sqrt(direction.dot(after * direction));
+  Eigen::Index largest;
+  direction.cwiseAbs().maxCoeff(&largest);
+  const int free = parameters[static_cast<std::size_t>(largest)];
+  advice->parameter = problem_->parameters().free()[free];
+  const CalibrationParameter& p =
+      problem_->parameters().all()[advice->parameter];
+  // By what goes from row to row in the residuals; in new frames likewise.
+  const double enlarged =
+      found_.bounded_std[free] /
+      (found_.unit[free] * std::sqrt(before(largest, largest)));
+  const auto std = [&](double variance) {
+    // What is bounded for want of data is not known.
+    if (variance > 0.01 / std::pow(Identifiability::kNull, 2)) {
+      return std::numeric_limits<double>::infinity();
+    }
+    return p.ValueStd(*p.variable, found_.unit[free] * std::sqrt(variance)) *
+           enlarged;
+  };
+  advice->parameter_std_before = std(before(largest, largest));
+  advice->parameter_std_after = std(after(largest, largest));
+}
+
+FrameAdvice NextFrames::BestWith(const Measured& measured,
+                                 const Eigen::VectorXd& direction) const {
+  FrameAdvice best;
+  best.std_before = best.std_after = 1;
+  const auto consider = [&](const Eigen::MatrixXd& information, double arc,
+                            double force) {
+    FrameAdvice advice;
+    advice.contact_mm = arc;
+    advice.normal_N = force;
+    advice.measured = measured.all;
+    advice.added = measured.added;
+    Judge(information, direction, &advice);
+    if (advice.ratio() < best.ratio()) best = advice;
+  };
+  for (const double force : forces_N_) {
+    Eigen::MatrixXd spread =
+        Eigen::MatrixXd::Zero(direction.size(), direction.size());
+    int heights = 0;
+    for (const Candidate& candidate : candidates_) {
+      if (candidate.free || candidate.normal_N != force) continue;
+      const Eigen::MatrixXd one = Information(candidate, measured.all);
+      consider(one, candidate.contact_mm, force);
+      spread += one;
+      ++heights;
+    }
+    if (heights > 1) consider(spread / heights, kNaN, force);
+  }
+  return best;
+}
+
+std::vector<FrameAdvice> NextFrames::Best(
+    const Eigen::VectorXd& direction) const {
+  std::vector<FrameAdvice> all;
+  for (const Measured& measured : measured_) {
+    const FrameAdvice best = BestWith(measured, direction);
+    double bar = 1;  // what fewer measurements do
+    for (const FrameAdvice& other : all) {
+      const bool fewer =
+          std::all_of(other.added.begin(), other.added.end(),
+                      [&](ResidualFamily f) { return Has(measured.added, f); });
+      if (fewer) bar = std::min(bar, other.ratio());
+    }
+    if (best.ratio() <= kWorthwhile * bar) all.push_back(best);
+  }
+  for (const Candidate& candidate : candidates_) {
+    if (!candidate.free) continue;
+    FrameAdvice advice;
+    advice.free = true;
+    advice.measured = {ResidualFamily::kGauge};
+    Judge(Information(candidate, advice.measured), direction, &advice);
+    if (advice.ratio() <= kWorthwhile) all.push_back(advice);
+  }
+  // Equal in effect, the one that asks for less comes first.
+  std::stable_sort(all.begin(), all.end(),
+                   [](const FrameAdvice& a, const FrameAdvice& b) {
+                     return a.std_after < 0.98 * b.std_after;
+                   });
+  if (all.size() > kMostAdvice) all.resize(kMostAdvice);
+  if (const auto known = KnownGains(direction)) all.push_back(*known);
+  for (FrameAdvice& advice : all) {
+    advice.words = DescribeNextFrames(*problem_, advice);
+  }
+  return all;
+}
+
+// The same data with the gains given: their rows and columns are left out.
+std::optional<FrameAdvice> NextFrames::KnownGains(
+    const Eigen::VectorXd& direction) const {
+  const CalibrationParameters& parameters = problem_->parameters();
+  std::vector<int> others;
+  for (int i = 0; i < direction.size(); ++i) {
+    if (parameters.FreeParameter(i).family != ParameterFamily::kGaugeGain) {
+      others.push_back(i);
+    }
+  }
+  if (others.empty()) return {};
+  Eigen::VectorXd rest = direction(others);
+  const double share = rest.squaredNorm();
+  if (share < 0.05 || share > 0.95) return {};
+  rest /= std::sqrt(share);
+  const Eigen::MatrixXd known = found_.information + found_.prior;
+  FrameAdvice advice;
+  advice.known_gains = true;
+  Spread(BoundedCovariance(known)(others, others),
+         BoundedCovariance(known(others, others)), rest, others, &advice);
+  if (advice.ratio() > 0.5) return {};
+  return advice;
+}
+
+Eigen::VectorXd NextFrames::WorstDirection() const {
+  return InformationSpectrum(found_.information).vectors.col(0);
+}
+
+std::vector<FrameAdvice> AdviseNextFrames(CalibrationProblem* problem,
+                                          const Discretization& discretization,
+                                          Identifiability* found) {
+  const NextFrames next(problem, *found, discretization);
+  for (WeakDirection& weak : found->weak) {
+    const std::vector<FrameAdvice> best = next.Best(weak.direction);
+    weak.remedy = best.empty() ? "no 20 frames at one place or spread over "
+                                 "the finger would help much; give a prior"
+                               : best[0].words;
+  }
+  return next.Best(next.WorstDirection());
+}
+
+}  // namespace finray

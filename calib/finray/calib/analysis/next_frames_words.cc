@@ -1,0 +1,85 @@
+#include "finray/calib/analysis/next_frames_words.h"
+
+#include <cmath>
+
+#include "finray/io/number_text.h"
+
+namespace finray {
+namespace {
+
+struct Measurement {
+  ResidualFamily family;
+  const char* words;
+  const char* columns;
+};
+constexpr Measurement kMeasurements[] = {
+    {ResidualFamily::kForce, "the reference force", "force_N"},
+    {ResidualFamily::kObject, "the object's centre",
+     "object_x_mm, object_y_mm"},
+    {ResidualFamily::kContact, "the contact location", "contact_1_mm"},
+    {ResidualFamily::kPin, "the rib pins", "rib_<i>_front_x_mm, ..."},
+    {ResidualFamily::kTip, "the tip", "tip_x_mm, tip_y_mm"},
+};
+
+// "the reference force (force_N)"
+std::string Spoken(ResidualFamily family) {
+  for (const Measurement& measurement : kMeasurements) {
+    if (measurement.family != family) continue;
+    return std::string(measurement.words) + " (" + measurement.columns + ")";
+  }
+  return ResidualFamilyName(family);
+}
+
+// "front stiffness": the name without its unit, which stands behind the number.
+std::string Spoken(const CalibrationParameter& parameter) {
+  std::string name = parameter.name;
+  for (const char* suffix : {"_N_mm2", "_V_per_rad", "_V", "_mm"}) {
+    const std::string end = suffix;
+    if (name.size() > end.size() &&
+        name.compare(name.size() - end.size(), end.size(), end) == 0) {
+      name.resize(name.size() - end.size());
+      break;
+    }
+  }
+  for (char& c : name) c = c == '_' ? ' ' : c;
+  return name;
+}
+
+}  // namespace
+
+std::string DescribeNextFrames(CalibrationProblem& problem,
+                               const FrameAdvice& advice) {
+  std::string words = std::to_string(FrameAdvice::kFrames) + " frames ";
+  if (advice.known_gains) {
+    words = "gauge gains known from a bench test (a tight prior, or fixed)";
+  } else if (advice.free) {
+    words += "without contact";
+  } else {
+    words += std::isnan(advice.contact_mm)
+                 ? "spread over the finger"
+                 : "at " + FormatText("%.0f mm", advice.contact_mm);
+    words += " with " + FormatText("%.2g N", advice.normal_N);
+  }
+  for (std::size_t i = 0; i < advice.added.size(); ++i) {
+    words += (i == 0 ? " and " : " and with ") + Spoken(advice.added[i]);
+  }
+  if (!advice.added.empty()) words += " recorded";
+  const CalibrationParameter& p = problem.parameters().all()[advice.parameter];
+  const bool percent = p.is_log || p.family == ParameterFamily::kGaugeGain;
+  const double per = percent ? std::abs(p.Value(*p.variable)) / 100 : 1;
+  const std::string unit = percent ? "%" : p.unit;
+  const std::string after =
+      FormatText("%.2g ", advice.parameter_std_after / per);
+  if (std::isinf(advice.parameter_std_after)) {
+    return words + " would tell more of " + Spoken(p) + ", though not all";
+  }
+  if (std::isinf(advice.parameter_std_before)) {
+    return words + " would determine " + Spoken(p) + ", which is not yet, to " +
+           after + unit;
+  }
+  return words + " would shrink the std of " + Spoken(p) + " from " +
+         FormatText("%.2g ", advice.parameter_std_before / per) + unit +
+         " to " + after + unit;
+}
+
+}  // namespace finray

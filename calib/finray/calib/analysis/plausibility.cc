@@ -1,0 +1,185 @@
+#include "finray/calib/analysis/plausibility.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "finray/calib/analysis/force_check.h"
+#include "finray/finger/geometry.h"
+#include "finray/io/error.h"
+#include "finray/io/number_text.h"
+
+namespace finray {
+namespace {
+
+constexpr std::size_t kLooked = 100;  // at so many frames
+
+double Median(std::vector<double>* values) {
+  const auto middle = values->begin() + static_cast<long>(values->size() / 2);
+  std::nth_element(values->begin(), middle, values->end());
+  return *middle;
+}
+
+std::vector<const CalibrationFrame*> SomeTouching(
+    const CalibrationProblem& problem) {
+  std::vector<const CalibrationFrame*> touching;
+  for (const CalibrationFrame& frame : problem.logs().frames) {
+    if (frame.contact && !frame.held_out) touching.push_back(&frame);
+  }
+  const std::size_t count = std::min(touching.size(), kLooked);
+  std::vector<const CalibrationFrame*> some;
+  for (std::size_t k = 0; k < count; ++k) {
+    some.push_back(touching[k * touching.size() / count]);
+  }
+  return some;
+}
+
+template <class... Values>
+[[noreturn]] void Refuse(const char* format, Values... values) {
+  throw InputError(FormatText(format, values...));
+}
+
+struct Press {
+  int log;
+  double force_N, x_mm, y_mm;
+};
+
+std::vector<Press> Presses(const std::vector<const CalibrationFrame*>& frames) {
+  std::vector<Press> presses;
+  for (const CalibrationFrame* frame : frames) {
+    const double force = ReferenceForce(*frame);
+    if (!std::isfinite(force) || !frame->object_mm.allFinite()) continue;
+    presses.push_back(
+        {frame->log, force, frame->object_mm.x(), frame->object_mm.y()});
+  }
+  return presses;
+}
+
+// From the 10th to the 90th of a hundred.
+double Range(const std::vector<Press>& presses, double Press::*quantity) {
+  std::vector<double> values;
+  for (const Press& press : presses) values.push_back(press.*quantity);
+  std::sort(values.begin(), values.end());
+  return values[values.size() * 9 / 10] - values[values.size() / 10];
+}
+
+// Of force and x, about their means in each tenth of the finger's height of
+// each log; 0 if x varies there by no more than a few std.
+double CorrelationOfForceAndX(const std::vector<Press>& presses,
+                              double height_mm, double object_std_mm) {
+  constexpr double kMove = 5;  // std
+  std::map<std::pair<int, int>, std::vector<Press>> tenths;
+  for (const Press& press : presses) {
+    const double tenth =
+        std::clamp(std::floor(10 * press.y_mm / height_mm), -1e6, 1e6);
+    tenths[{press.log, static_cast<int>(tenth)}].push_back(press);
+  }
+  double ff = 0, fx = 0, xx = 0;
+  for (const auto& [tenth, its] : tenths) {
+    double force = 0, x = 0;
+    for (const Press& press : its) {
+      force += press.force_N / static_cast<double>(its.size());
+      x += press.x_mm / static_cast<double>(its.size());
+    }
+    for (const Press& press : its) {
+      ff += (press.force_N - force) * (press.force_N - force);
+      fx += (press.force_N - force) * (press.x_mm - x);
+      xx += (press.x_mm - x) * (press.x_mm - x);
+    }
+  }
+  const auto dof = static_cast<double>(presses.size() - tenths.size());
+  return ff > 0 && xx > dof * std::pow(kMove * object_std_mm, 2)
+             ? fx / std::sqrt(ff * xx)
+             : 0;
+}
+
+// What holds wherever the object's origin is.
+void RefuseImplausibleMotion(const std::vector<Press>& presses,
+                             const Finger& finger, const Plan& plan) {
+  constexpr double kNoise = 10;  // in std: changes of force that mean something
+  if (presses.size() < 10) return;
+  const double change = Range(presses, &Press::force_N);
+  if (change < kNoise * plan.force_std_N) return;
+  const double moved =
+      std::max(Range(presses, &Press::x_mm), Range(presses, &Press::y_mm));
+  if (change > kMostStiffness * ForceUnit(finger) / finger.front_length_mm *
+                   std::max(moved, 1e-9)) {
+    Refuse(
+        "logs: forces change by %.3g N while the object moves by %.3g mm: are "
+        "object_x_mm and object_y_mm in mm, and of the same rows?",
+        change, moved);
+  }
+  const double correlation = CorrelationOfForceAndX(
+      presses, finger.front_length_mm, plan.object_std_mm);
+  if (correlation < kLeastCorrelation) {
+    Refuse(
+        "logs: the force falls as object_x_mm rises (correlation %.2f): +x "
+        "points from the front beam into the finger; check its sign and "
+        "column",
+        correlation);
+  }
+}
+
+}  // namespace
+
+void RefuseImplausible(CalibrationProblem* problem) {
+  const Plan& plan = problem->plan();
+  const std::vector<const CalibrationFrame*> frames = SomeTouching(*problem);
+  std::vector<double> forces;
+  for (const CalibrationFrame* frame : frames) {
+    const double force = ReferenceForce(*frame);
+    if (std::isfinite(force)) forces.push_back(force);
+  }
+  const double unit = ForceUnit(problem->finger());
+  if (!forces.empty()) {
+    const double median = Median(&forces);
+    if (median < kLeastForce * unit || median > kMostForce * unit) {
+      Refuse(
+          "logs: the median force of frames with contact is %.3g N; of this "
+          "finger %.2g to %.2g N are expected: is the column in N, and the "
+          "finger's stiffness in N mm^2?",
+          median, kLeastForce * unit, kMostForce * unit);
+    }
+  }
+  RefuseImplausibleMotion(Presses(frames), problem->finger(), plan);
+  if (!plan.scene.circle_radius_mm() ||
+      plan.family(ParameterFamily::kObjectOrigin).free) {
+    return;
+  }
+  ContactGuess guess = problem->MakeGuess();
+  std::vector<double> ratios;
+  int objects = 0, met = 0;
+  for (const CalibrationFrame* frame : frames) {
+    if (!frame->object_mm.allFinite()) continue;
+    CalibrationFrame object = *frame;
+    object.force_N = object.contact_mm = CalibrationFrame::kNotMeasured;
+    object.force_xy_N.setConstant(CalibrationFrame::kNotMeasured);
+    const ContactGuess::Place place =
+        guess.Of(object, ContactGuess::From::kObjectFirst);
+    ++objects;
+    met += place.met;
+    const double force = ReferenceForce(*frame);
+    if (place.met && place.normal_N > 0 && force > 0) {
+      ratios.push_back(force / place.normal_N);
+    }
+  }
+  if (objects >= 4 && 2 * met < objects) {
+    Refuse(
+        "logs: of %d frames with contact the circle of radius %g mm can touch "
+        "the finger in %d: check units, signs and columns of object_x_mm and "
+        "object_y_mm, the radius, or free object_origin",
+        objects, *plan.scene.circle_radius_mm(), met);
+  }
+  if (ratios.size() < 4) return;
+  const double ratio = Median(&ratios);
+  if (ratio > kFactor || ratio < 1 / kFactor) {
+    Refuse(
+        "logs: forces are %.3g times what the finger would need to give way to "
+        "the object like that: check the units of force and positions, and the "
+        "finger's stiffness",
+        ratio);
+  }
+}
+
+}  // namespace finray

@@ -1,0 +1,27 @@
+#ifndef FINRAY_CALIB_ANALYSIS_PLAUSIBILITY_H_
+#define FINRAY_CALIB_ANALYSIS_PLAUSIBILITY_H_
+
+#include "finray/calib/problem/calibration_problem.h"
+
+namespace finray {
+
+/// Refuses logs that cannot be of the given finger, before a solver wears
+/// itself out on them: wrong units, signs, columns or radii. Throws InputError
+/// where, over frames with contact,
+///  - the median force is not between kLeastForce and kMostForce, in EI /
+///    l_0^2;
+///  - the object hardly moves while forces change: 10 to 90 % of them by more
+///    than kMostStiffness, in EI / l_0^3;
+///  - the force falls as the object moves in: their correlation, in each log
+///  and
+///    tenth of the finger's height, is below kLeastCorrelation;
+///  - fewer than half of the objects can touch the finger where they are, the
+///    object's origin being fixed;
+///  - what these need of force, the median force is off by more than kFactor.
+void RefuseImplausible(CalibrationProblem* problem);
+constexpr double kLeastForce = 1e-3, kMostForce = 400, kFactor = 50,
+                 kMostStiffness = 5e3, kLeastCorrelation = -0.5;
+
+}  // namespace finray
+
+#endif  // FINRAY_CALIB_ANALYSIS_PLAUSIBILITY_H_

@@ -1,0 +1,126 @@
+#include "finray/calib/analysis/unsupported.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "finray/io/number_text.h"
+
+namespace finray {
+namespace {
+
+// Whether a frame that is fitted shows this offset without a load.
+bool HasUnloadedReading(CalibrationProblem& problem, const double* offset,
+                        int gauge) {
+  const auto& frames = problem.logs().frames;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const CalibrationFrame& frame = frames[i];
+    if (frame.held_out || frame.contact ||
+        !std::isfinite(frame.gauges_V[gauge]) ||
+        problem.rejected().count(static_cast<int>(i)) > 0) {
+      continue;
+    }
+    if (problem.parameters().readings.offset_V(gauge, frame.log) == offset) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Median of the gains over what they were expected to be.
+double UsualGain(const CalibrationParameters& parameters) {
+  std::vector<double> ratios;
+  for (const int i : parameters.free()) {
+    const CalibrationParameter& p = parameters.all()[i];
+    if (p.family == ParameterFamily::kGaugeGain) {
+      ratios.push_back(std::abs(*p.variable / p.initial));
+    }
+  }
+  if (ratios.empty()) return 0;
+  const auto middle = ratios.begin() + static_cast<long>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return *middle;
+}
+
+// `off`: x - m, `share`: s^2, both in units of s_p. Values scatter about a true
+// prior's mean by s_p^2 - s^2, and without it they would be further off by
+// (x - m) s^2 / (s_p^2 - s^2).
+bool IsContradicted(double off, double share) {
+  const double rest = 1 - share;
+  if (rest < 1e-6) return false;  // the data say nothing
+  return std::abs(off) > kContradiction * std::sqrt(rest) &&
+         std::abs(off) * std::sqrt(share) > rest;
+}
+
+// One more parameter of the same fault.
+void List(std::size_t free, const std::string& words, Unsupported* listed) {
+  listed->free.push_back(static_cast<int>(free));
+  listed->text += (listed->text.empty() ? "" : ", ") + words;
+}
+
+}  // namespace
+
+std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,
+                                         const Identifiability& found) {
+  const CalibrationParameters& parameters = problem.parameters();
+  std::vector<Unsupported> unsupported;
+  Unsupported offsets, contradicted;
+  const double usual = UsualGain(parameters);
+  const Eigen::VectorXd shares =
+      BoundedCovariance(found.information + found.prior).diagonal();
+  for (std::size_t k = 0; k < parameters.free().size(); ++k) {
+    if (found.status[k] == ParameterStatus::kUnidentifiable) continue;
+    const CalibrationParameter& p = parameters.FreeParameter(k);
+    const double value = *p.variable, std = found.std[k];
+    const bool dead =
+        p.family == ParameterFamily::kGaugeGain &&
+        std::abs(value) < std::max(kInsignificant * std,
+                                   kDeadShare * usual * std::abs(p.initial));
+    if (dead) {
+      const std::string words = FormatText(
+          "gauge %d does not respond to the load: its gain is %.2g "
+          "+- %.1g V/rad",
+          p.gauge + 1, value, std);
+      unsupported.push_back(
+          {{static_cast<int>(k)},
+           "dead_gauge",
+           words,
+           "check its wiring and the column it is read from; a finger without "
+           "this gauge can be calibrated"});
+    }
+    const double off = p.prior_std ? (value - p.initial) / *p.prior_std : 0.0;
+    if (!dead && IsContradicted(off, shares[static_cast<Eigen::Index>(k)])) {
+      List(k, p.name + FormatText(" (%.3g prior std off)", off), &contradicted);
+    }
+    const bool guessed = !p.prior_std || *p.prior_std > p.vague_std;
+    if (p.family == ParameterFamily::kGaugeOffset && guessed &&
+        !HasUnloadedReading(problem, p.variable, p.gauge)) {
+      List(k, p.name, &offsets);
+    }
+  }
+  if (!offsets.free.empty()) {
+    offsets.code = "no_free_frame";
+    offsets.text =
+        "no fitted frame shows the gauges without contact; only the model "
+        "tells " +
+        offsets.text;
+    offsets.remedy =
+        "record some ten frames without contact in every log, or fix "
+        "gauge_offset, or give it a prior_std_V of 0.01 or less";
+    unsupported.push_back(offsets);
+  }
+  if (!contradicted.free.empty()) {
+    contradicted.code = "prior_contradicted";
+    contradicted.text =
+        "the data contradict priors, and what comes out lies between the two, "
+        "others being drawn with it: " +
+        contradicted.text;
+    contradicted.remedy =
+        "start from a finger closer to the truth, or leave these priors out of "
+        "the plan";
+    unsupported.push_back(contradicted);
+  }
+  return unsupported;
+}
+
+}  // namespace finray

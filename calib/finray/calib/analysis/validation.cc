@@ -1,0 +1,191 @@
+#include "finray/calib/analysis/validation.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "finray/batch/batch_estimation.h"
+#include "finray/calib/analysis/force_check.h"
+#include "finray/io/error.h"
+
+namespace finray {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+double TouchedAt(const CalibrationFrame& frame, const Plan& plan,
+                 EquilibriumSolver* solver) {
+  solver->Reset();
+  const ObjectContact found =
+      SolveObjectContact(*plan.scene.object, {frame.object_mm},
+                         plan.scene.friction_coefficient, solver);
+  const bool one = found.status == ObjectContactStatus::kContact &&
+                   found.contacts.size() == 1;
+  return one ? found.contacts[0].arc_mm : kNaN;
+}
+
+bool HasForce(const Validation& validation) {
+  return std::any_of(
+      validation.references.begin(), validation.references.end(),
+      [](const auto& r) { return r.contact && std::isfinite(r.force_N); });
+}
+bool HasPlace(const Validation& validation) {
+  return std::any_of(
+      validation.references.begin(), validation.references.end(),
+      [](const auto& r) { return r.contact && std::isfinite(r.contact_mm); });
+}
+
+double Lower(double a, double b) { return std::fmin(a, b); }
+
+double GateValue(const ErrorRow& errors, Gate::Quantity quantity) {
+  switch (quantity) {
+    case Gate::Quantity::kForceRms:
+      return errors.force_N.rms();
+    case Gate::Quantity::kForcePercent:
+      return errors.force_N.percent();
+    case Gate::Quantity::kContactRms:
+      return errors.contact_mm.rms();
+    case Gate::Quantity::kCoverage68:
+      return Lower(errors.force_N.coverage_68_percent(),
+                   errors.contact_mm.coverage_68_percent());
+    case Gate::Quantity::kCoverage95:
+      return Lower(errors.force_N.coverage_95_percent(),
+                   errors.contact_mm.coverage_95_percent());
+    case Gate::Quantity::kUsable:
+      return errors.usable_percent();
+  }
+  return kNaN;
+}
+
+bool IsUpperBound(Gate::Quantity quantity) {
+  return quantity == Gate::Quantity::kForceRms ||
+         quantity == Gate::Quantity::kForcePercent ||
+         quantity == Gate::Quantity::kContactRms;
+}
+
+}  // namespace
+
+std::vector<FrameReference> ReferencesOf(const CalibrationLogs& logs,
+                                         const Finger& finger, const Plan& plan,
+                                         const Discretization& discretization,
+                                         int threads) {
+  const auto reference_of = [&](const CalibrationFrame& frame,
+                                EquilibriumSolver* solver) {
+    FrameReference reference;
+    reference.contact = frame.contact;
+    reference.force_N = ReferenceForce(frame);
+    reference.force_std_N = plan.force_std_N;
+    if (std::isfinite(frame.contact_mm)) {
+      reference.contact_mm = frame.contact_mm;
+      reference.contact_std_mm = plan.contact_std_mm;
+    } else if (frame.contact && frame.object_mm.allFinite() &&
+               plan.scene.circle_radius_mm()) {
+      reference.contact_mm = TouchedAt(frame, plan, solver);
+      reference.contact_std_mm = plan.object_std_mm;
+    }
+    return reference;
+  };
+  std::vector<FrameReference> references(logs.frames.size());
+  tbb::enumerable_thread_specific<EquilibriumSolver> solvers(
+      EquilibriumSolver(finger, discretization));
+  tbb::task_arena(threads).execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, references.size(), 16),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        EquilibriumSolver& solver = solvers.local();
+                        for (std::size_t i = range.begin(); i < range.end();
+                             ++i) {
+                          references[i] = reference_of(logs.frames[i], &solver);
+                        }
+                      });
+  });
+  return references;
+}
+
+std::vector<FrameEstimate> EstimateLogs(const Finger& finger, const Plan& plan,
+                                        const CalibrationLogs& logs,
+                                        const Discretization& discretization,
+                                        int threads) {
+  Scene scene = plan.scene;
+  scene.object_std_mm.reset();  // the object is the reference
+  std::vector<FrameEstimate> all;
+  for (std::size_t i = 0; i < logs.frames.size();) {
+    std::vector<FrameReadings> readings;
+    for (const int log = logs.frames[i].log;
+         i < logs.frames.size() && logs.frames[i].log == log; ++i) {
+      readings.emplace_back();
+      readings.back().gauges_V = logs.frames[i].gauges_V;
+      if (logs.frames[i].IsBench()) {  // the finger has nothing to do with it
+        readings.back().gauges_V.assign(readings.back().gauges_V.size(), kNaN);
+      }
+    }
+    const auto some =
+        EstimateFrames(finger, scene, discretization, readings, threads);
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
+Validation Validate(const Finger& finger, const std::optional<Finger>& baseline,
+                    const Plan& plan, const CalibrationLogs& logs,
+                    const Discretization& discretization, int threads) {
+  Validation result;
+  result.references = ReferencesOf(logs, finger, plan, discretization, threads);
+  if (!HasForce(result) && !HasPlace(result)) {
+    throw InputError(
+        "logs: no frame with contact has a reference; expected force_N (or "
+        "force_x_N, force_y_N), contact_1_mm, or object_x_mm, object_y_mm with "
+        "a circle in the scene");
+  }
+  const auto table = [&](const std::vector<FrameEstimate>& estimates) {
+    return TabulateErrors(
+        result.references, estimates, result.estimates, finger.front_length_mm,
+        plan.scene.friction_coefficient,
+        [&](std::size_t i) { return !logs.frames[i].IsBench(); });
+  };
+  result.estimates = EstimateLogs(finger, plan, logs, discretization, threads);
+  result.errors = table(result.estimates);
+  if (baseline) {
+    result.baseline =
+        EstimateLogs(*baseline, plan, logs, discretization, threads);
+    result.baseline_errors = table(result.baseline);
+  }
+  return result;
+}
+
+const char* GateName(Gate::Quantity quantity) {
+  constexpr const char* kNames[] = {
+      "most_force_rms_N",          "most_force_percent",
+      "most_contact_rms_mm",       "least_coverage_68_percent",
+      "least_coverage_95_percent", "least_usable_percent"};
+  return kNames[static_cast<int>(quantity)];
+}
+
+std::vector<GateResult> CheckGates(const Validation& validation,
+                                   const std::vector<Gate>& gates) {
+  std::vector<GateResult> results;
+  for (const Gate& gate : gates) {
+    const bool of_force = gate.quantity == Gate::Quantity::kForceRms ||
+                          gate.quantity == Gate::Quantity::kForcePercent;
+    if (of_force && !HasForce(validation)) {
+      throw InputError(std::string("--") + GateName(gate.quantity) +
+                       " needs force_N in the logs");
+    }
+    if (gate.quantity == Gate::Quantity::kContactRms && !HasPlace(validation)) {
+      throw InputError(std::string("--") + GateName(gate.quantity) +
+                       " needs contact_1_mm in the logs, or object_x_mm, "
+                       "object_y_mm and a circle in the scene");
+    }
+    const double value = GateValue(validation.errors.contact, gate.quantity);
+    // NaN passes nothing.
+    const bool passed =
+        IsUpperBound(gate.quantity) ? value <= gate.bound : value >= gate.bound;
+    results.push_back({gate, value, passed});
+  }
+  return results;
+}
+
+}  // namespace finray

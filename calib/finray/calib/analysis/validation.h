@@ -1,0 +1,106 @@
+#ifndef FINRAY_CALIB_ANALYSIS_VALIDATION_H_
+#define FINRAY_CALIB_ANALYSIS_VALIDATION_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "finray/calib/analysis/error_table.h"
+#include "finray/calib/problem/calibration_log.h"
+#include "finray/finger/discretization.h"
+#include "finray/io/frame_table.h"
+
+namespace finray {
+
+/// What the logs themselves say of every frame, without gauges:
+///  - force: the reference sensor, with the plan's force_std_N;
+///  - contact: `contact_1_mm`, or else where the front beam of `finger` touches
+///    the plan's circle held at the measured centre, if that is one place. A
+///    centre tells the place along the beam almost whatever the stiffness.
+std::vector<FrameReference> ReferencesOf(const CalibrationLogs& logs,
+                                         const Finger& finger, const Plan& plan,
+                                         const Discretization& discretization,
+                                         int threads);
+
+/// Estimates from the gauges alone, log by log.
+std::vector<FrameEstimate> EstimateLogs(const Finger& finger, const Plan& plan,
+                                        const CalibrationLogs& logs,
+                                        const Discretization& discretization,
+                                        int threads);
+
+/// Errors of the frames that `chosen` says; a frame's region is that of the
+/// reference contact, else of the contact in `placed`.
+template <class Chosen>
+ErrorTable TabulateErrors(const std::vector<FrameReference>& references,
+                          const std::vector<FrameEstimate>& estimates,
+                          const std::vector<FrameEstimate>& placed,
+                          double front_length_mm, double friction,
+                          const Chosen& chosen) {
+  ErrorTable table;
+  table.front_length_mm = front_length_mm;
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    if (!chosen(i)) continue;
+    const double known = references[i].contact_mm;
+    table.Add(references[i], estimates[i],
+              known == known ? known : placed[i].contact[0].arc_mm, friction);
+  }
+  return table;
+}
+
+/// A finger held against logs that it was not calibrated from.
+struct Validation {
+  std::vector<FrameReference> references;
+  std::vector<FrameEstimate> estimates, baseline;  ///< baseline may be empty
+  ErrorTable errors;
+  std::optional<ErrorTable> baseline_errors;
+};
+
+/// Throws InputError if the logs have nothing to compare with.
+Validation Validate(const Finger& finger, const std::optional<Finger>& baseline,
+                    const Plan& plan, const CalibrationLogs& logs,
+                    const Discretization& discretization, int threads);
+
+/// A bound that a validation has to keep, over all frames with contact.
+struct Gate {
+  enum class Quantity {
+    kForceRms,
+    kForcePercent,
+    kContactRms,
+    kCoverage68,
+    kCoverage95,
+    kUsable,
+  };
+  Quantity quantity;
+  double bound;
+};
+/// The name of its flag, e.g. "most_force_rms_N"; least_... are lower bounds.
+const char* GateName(Gate::Quantity quantity);
+
+struct GateResult {
+  Gate gate;
+  double value;  ///< NaN, which fails, if no frame can be used
+  bool passed;
+};
+/// Coverage is the lower one of force and contact. Throws InputError for a gate
+/// whose quantity the logs have no reference for.
+std::vector<GateResult> CheckGates(const Validation& validation,
+                                   const std::vector<Gate>& gates);
+
+/// A row a frame of the finger, not of the bench: log, row, time, kind,
+/// reference, estimate with std, status, errors, and the baseline's.
+FrameTable ValidationFrames(const CalibrationLogs& logs,
+                            const Validation& validation, double friction);
+
+struct ValidationInputs {
+  std::string finger_path, baseline_path, plan_path;  ///< of plan or scene
+  std::string command;
+};
+/// The text of validation.yaml (docs/formats.md).
+std::string ValidationYaml(const CalibrationLogs& logs,
+                           const Validation& validation,
+                           const std::vector<GateResult>& gates,
+                           const ValidationInputs& inputs);
+
+}  // namespace finray
+
+#endif  // FINRAY_CALIB_ANALYSIS_VALIDATION_H_

@@ -1,0 +1,328 @@
+#include "finray/calib/problem/calibration_log.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include "finray/io/error.h"
+#include "finray/io/frame_table.h"
+#include "finray/io/frame_vocabulary.h"
+#include "finray/io/number_text.h"
+#include "finray/scene/frame_columns.h"
+
+namespace finray {
+namespace {
+
+constexpr double kSignificant = 3;  // standard deviations
+// A block of neighbouring frames is held out as one, as neighbours share
+// errors.
+constexpr int kHoldoutBlock = 10;
+constexpr double kLargest = 1e15;
+
+// Whether the object reaches into the undeformed finger.
+bool Reaches(const CalibrationFrame& frame, const Finger& finger,
+             const Plan& plan) {
+  // Depth past the undeformed front beam, which lies on x = 0.
+  const double nearest_y =
+      std::clamp(frame.object_mm.y(), 0.0, finger.front_length_mm);
+  const double over = frame.object_mm.y() - nearest_y;
+  const double reach =
+      frame.object_mm.x() +
+      std::sqrt(std::max(
+          0.0, std::pow(*plan.scene.circle_radius_mm(), 2) - over * over));
+  return reach > kSignificant * plan.object_std_mm;
+}
+
+bool Touches(const CalibrationFrame& frame, const Finger& finger,
+             const Plan& plan) {
+  if (frame.IsBench()) return false;
+  if (plan.scene.contacts) return *plan.scene.contacts > 0;
+  const bool object =
+      frame.object_mm.allFinite() && plan.scene.circle_radius_mm();
+  const FamilyPlan& offset = plan.family(ParameterFamily::kForceOffset);
+  if (object && offset.free) return Reaches(frame, finger, plan);
+  const double force =
+      frame.force_xy_N.allFinite() ? frame.force_xy_N.norm() : frame.force_N;
+  if (std::isfinite(force)) {
+    return force > kSignificant * std::hypot(plan.force_std_N,
+                                             offset.prior_std.value_or(0));
+  }
+  return object ? Reaches(frame, finger, plan) : true;
+}
+
+void MarkHoldout(const Plan& plan, CalibrationLogs* logs) {
+  if (plan.holdout_by == HoldoutBy::kNothing) return;
+  // Of n things those that are held out: spread evenly, as many as the
+  // fraction says, to the nearest.
+  const auto chosen = [&](int i, int n) {
+    const int count = std::clamp(
+        static_cast<int>(std::lround(plan.holdout_fraction * n)), 1, n - 1);
+    return (i + 1) * count / n > i * count / n;
+  };
+  // Logs of gauges on the bench are always fitted.
+  if (plan.holdout_by == HoldoutBy::kLog) {
+    std::map<int, int> of_finger;  // their place among the logs of the finger
+    for (const CalibrationFrame& frame : logs->frames) {
+      if (!frame.IsBench()) of_finger.emplace(frame.log, 0);
+    }
+    int n = 0;
+    for (auto& [log, place] : of_finger) place = n++;
+    if (n < 2) {
+      throw InputError(
+          "holdout by log needs at least 2 logs of the finger, got " +
+          std::to_string(n) + "; use {by: block}");
+    }
+    for (CalibrationFrame& frame : logs->frames) {
+      if (frame.IsBench()) continue;
+      frame.held_out = chosen(of_finger.at(frame.log), n);
+    }
+    return;
+  }
+  std::map<std::pair<int, int>, int> blocks;  // (log, block): its place
+  for (const CalibrationFrame& frame : logs->frames) {
+    if (!frame.IsBench()) blocks[{frame.log, frame.row / kHoldoutBlock}] = 0;
+  }
+  const int n = static_cast<int>(blocks.size());
+  if (n < 2) {
+    throw InputError("holdout by block: the logs are too short, " +
+                     std::to_string(logs->frames.size()) +
+                     " frames in all; blocks have " +
+                     std::to_string(kHoldoutBlock));
+  }
+  int i = 0;
+  for (auto& [block, place] : blocks) place = i++;
+  for (CalibrationFrame& frame : logs->frames) {
+    if (frame.IsBench()) continue;
+    frame.held_out =
+        chosen(blocks.at({frame.log, frame.row / kHoldoutBlock}), n);
+  }
+}
+
+// As little of each path as tells it from the others.
+std::vector<std::string> NamesOf(const std::vector<std::string>& paths) {
+  std::vector<std::string> names;
+  for (const std::string& path : paths) {
+    names.push_back(std::filesystem::path(path).filename().string());
+  }
+  const std::vector<std::string> short_names = names;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (std::count(short_names.begin(), short_names.end(), names[i]) == 1) {
+      continue;
+    }
+    names[i] = paths[i];
+    if (std::count(paths.begin(), paths.end(), paths[i]) > 1) {
+      names[i] += "#" + std::to_string(i + 1);
+    }
+  }
+  return names;
+}
+
+// Beyond what any sensor reads; a least-squares sum would not hold the square.
+void RefuseHuge(const FrameTable& table, const std::string& column,
+                const std::vector<double>& values) {
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    if (std::isinf(values[row]) || !(std::abs(values[row]) > kLargest)) {
+      continue;
+    }
+    throw InputError(table.path() + ":" + std::to_string(table.line(row)) +
+                     ": " + column + ": expected a magnitude of " +
+                     FormatText("at most %g, found %g", kLargest, values[row]));
+  }
+}
+
+// A column that a free parameter needs; cells without a number have that of
+// the row before, leading ones that of the first with one.
+std::vector<double> Needed(const FrameTable& table, const char* column,
+                           const char* parameter) {
+  if (!table.Has(column)) {
+    throw InputError(table.path() + ": " + NoColumn(column, table.headers()) +
+                     "; the plan's " + parameter + " needs it");
+  }
+  std::vector<double> values = table.Numbers(column);
+  const auto measured = [](double value) { return std::isfinite(value); };
+  const auto first = std::find_if(values.begin(), values.end(), measured);
+  if (first == values.end()) {
+    throw InputError(table.path() + ": column '" + column +
+                     "' has no number; the plan's " + parameter + " needs it");
+  }
+  double last = *first;
+  for (double& value : values) last = value = measured(value) ? value : last;
+  return values;
+}
+
+void RefuseWithoutForces(const Plan& plan, const CalibrationLogs& logs) {
+  for (const auto& [family, name] :
+       {std::pair(ParameterFamily::kForceScale, "force_scale"),
+        std::pair(ParameterFamily::kForceOffset, "force_offset")}) {
+    if (!plan.family(family).free) continue;
+    if (std::none_of(logs.frames.begin(), logs.frames.end(),
+                     [](const CalibrationFrame& frame) {
+                       return std::isfinite(frame.force_N) ||
+                              frame.force_xy_N.allFinite();
+                     })) {
+      throw InputError(std::string("plan: ") + name +
+                       " is free, but no log has a force_N, or a force_x_N "
+                       "and force_y_N");
+    }
+  }
+}
+
+void RefuseWithoutPoints(const Plan& plan, const CalibrationLogs& logs) {
+  if (plan.family(ParameterFamily::kCameraOrigin).free && !plan.pin_std_mm &&
+      !plan.tip_std_mm) {
+    throw InputError(
+        "plan: camera_origin is free, but measurements have no pin_std_mm and "
+        "no tip_std_mm, so that nothing a camera saw is used");
+  }
+  const auto none = [&](auto&& has) {
+    return std::none_of(logs.frames.begin(), logs.frames.end(), has);
+  };
+  if (plan.pin_std_mm &&
+      none([](const CalibrationFrame& frame) { return !frame.pins.empty(); })) {
+    throw InputError(
+        "plan: there is a pin_std_mm, but no log has both coordinates of a "
+        "rib's pin (rib_1_front_x_mm, rib_1_front_y_mm, ...)");
+  }
+  if (plan.tip_std_mm && none([](const CalibrationFrame& frame) {
+        return frame.tip_mm.allFinite();
+      })) {
+    throw InputError(
+        "plan: there is a tip_std_mm, but no log has a tip_x_mm and tip_y_mm");
+  }
+}
+
+// The columns of one log.
+class LogColumns {
+ public:
+  LogColumns(const FrameTable& table, const Finger& finger, const Plan& plan)
+      : finger_(finger) {
+    const auto column = [&](const std::string& name) {
+      std::vector<double> values = table.NumbersOrNan(name);
+      RefuseHuge(table, name, values);
+      return values;
+    };
+    if (plan.pin_std_mm) {
+      for (int i = 0; i < static_cast<int>(finger.ribs.size()); ++i) {
+        for (const Side side : {Side::kFront, Side::kBack}) {
+          if (!table.Has(RibPin(i, SideName(side), "x"))) continue;
+          pins_.push_back({i, side,
+                           table.Numbers(RibPin(i, SideName(side), "x")),
+                           table.Numbers(RibPin(i, SideName(side), "y"))});
+        }
+      }
+    }
+    cylinder_ = column("cylinder_radius_mm");
+    const bool bench = !cylinder_.empty() &&
+                       std::none_of(cylinder_.begin(), cylinder_.end(),
+                                    [](double r) { return std::isnan(r); });
+    ReadGauges(table, bench);
+    const auto needed = [&](ParameterFamily family, const char* name,
+                            const char* parameter) {
+      const bool needs = plan.family(family).free && !bench;
+      return needs ? Needed(table, name, parameter) : column(name);
+    };
+    time_ = needed(ParameterFamily::kGaugeDrift, "time_s", "gauge_drift");
+    temperature_ = needed(ParameterFamily::kTemperatureCoefficient,
+                          "temperature_C", "temperature_coefficient");
+    force_ = column("force_N");
+    force_x_ = column("force_x_N");
+    force_y_ = column("force_y_N");
+    object_x_ = column("object_x_mm");
+    object_y_ = column("object_y_mm");
+    contact_ = column("contact_1_mm");
+    tip_x_ = column(plan.tip_std_mm ? "tip_x_mm" : "");
+    tip_y_ = column(plan.tip_std_mm ? "tip_y_mm" : "");
+    for (std::size_t row = 0; row < cylinder_.size(); ++row) {
+      if (cylinder_[row] == 0) {
+        throw InputError(table.path() + ":" + std::to_string(table.line(row)) +
+                         ": cylinder_radius_mm: expected a radius, inf if "
+                         "flat, found 0");
+      }
+    }
+  }
+
+  CalibrationFrame Frame(std::size_t row) const {
+    CalibrationFrame frame;
+    frame.row = static_cast<int>(row);
+    frame.time_s = time_[row];
+    for (std::size_t j = 0; j < volts_.size(); ++j) {
+      const double reading = volts_[j][row];
+      frame.gauges_V.push_back(
+          IsMeasured(finger_.gauges[j], reading) ? reading : std::nan(""));
+    }
+    frame.force_N = force_[row];
+    frame.force_xy_N = {force_x_[row], force_y_[row]};
+    frame.object_mm = {object_x_[row], object_y_[row]};
+    frame.contact_mm = contact_[row];
+    frame.temperature_C = temperature_[row];
+    for (const Pin& pin : pins_) {
+      const Eigen::Vector2d at(pin.x_mm[row], pin.y_mm[row]);
+      if (at.allFinite()) frame.pins.push_back({pin.rib, pin.side, at});
+    }
+    frame.tip_mm = {tip_x_[row], tip_y_[row]};
+    frame.cylinder_radius_mm = cylinder_[row];
+    return frame;
+  }
+
+ private:
+  struct Pin {
+    int rib;
+    Side side;
+    std::vector<double> x_mm, y_mm;
+  };
+
+  // A log of pins may do without gauges, but not without one of them. On the
+  // bench they are bent one by one.
+  void ReadGauges(const FrameTable& table, bool bench) {
+    int found = 0;
+    const int gauges = static_cast<int>(finger_.gauges.size());
+    for (int j = 0; j < gauges; ++j) found += table.Has(GaugeVolts(j));
+    const bool all = bench ? found == 0 : found > 0 || pins_.empty();
+    for (int j = 0; j < gauges; ++j) {
+      volts_.push_back(all ? table.Numbers(GaugeVolts(j))
+                           : table.NumbersOrNan(GaugeVolts(j)));
+      RefuseHuge(table, GaugeVolts(j), volts_.back());
+    }
+  }
+
+  const Finger& finger_;
+  std::vector<std::vector<double>> volts_;
+  std::vector<Pin> pins_;
+  std::vector<double> time_, temperature_, force_, force_x_, force_y_,
+      object_x_, object_y_, contact_, tip_x_, tip_y_, cylinder_;
+};
+
+}  // namespace
+
+std::vector<bool> CalibrationLogs::HeldOut() const {
+  std::vector<bool> held_out(paths.size(), true);
+  for (const CalibrationFrame& frame : frames) {
+    if (!frame.held_out) held_out[frame.log] = false;
+  }
+  return held_out;
+}
+
+CalibrationLogs ReadCalibrationLogs(const std::vector<std::string>& paths,
+                                    const Finger& finger, const Plan& plan) {
+  CalibrationLogs logs;
+  logs.paths = paths;
+  logs.names = NamesOf(paths);
+  for (std::size_t log = 0; log < paths.size(); ++log) {
+    const FrameTable table = FrameTable::Read(paths[log], plan.columns);
+    const LogColumns columns(table, finger, plan);
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+      CalibrationFrame frame = columns.Frame(row);
+      frame.log = static_cast<int>(log);
+      frame.contact = Touches(frame, finger, plan);
+      logs.frames.push_back(std::move(frame));
+    }
+  }
+  RefuseWithoutForces(plan, logs);
+  RefuseWithoutPoints(plan, logs);
+  MarkHoldout(plan, &logs);
+  return logs;
+}
+
+}  // namespace finray

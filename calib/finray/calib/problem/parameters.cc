@@ -1,0 +1,339 @@
+#include "finray/calib/problem/parameters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "finray/io/error.h"
+
+namespace finray {
+namespace {
+
+std::string GaugeName(int gauge, const char* rest) {
+  return "gauge_" + std::to_string(gauge + 1) + "_" + rest;
+}
+
+// The last log with rows of the finger that are not held out; the last on the
+// bench if there is none.
+int LastFitted(const CalibrationLogs& logs) {
+  int finger = -1, bench = -1;
+  for (const CalibrationFrame& frame : logs.frames) {
+    if (frame.held_out) continue;
+    int& last = frame.IsBench() ? bench : finger;
+    last = std::max(last, frame.log);
+  }
+  return finger >= 0 ? finger : bench;
+}
+
+// Whether a log that is fitted says anything of a gauge's offset, or of where
+// object positions are counted from.
+bool Reads(const CalibrationLogs& logs, int log, int gauge) {
+  return std::any_of(logs.frames.begin(), logs.frames.end(),
+                     [&](const CalibrationFrame& frame) {
+                       return frame.log == log && !frame.held_out &&
+                              std::isfinite(frame.gauges_V[gauge]);
+                     });
+}
+
+bool HasObject(const CalibrationLogs& logs, int log) {
+  return std::any_of(logs.frames.begin(), logs.frames.end(),
+                     [&](const CalibrationFrame& frame) {
+                       return frame.log == log && !frame.held_out &&
+                              frame.contact && frame.object_mm.allFinite();
+                     });
+}
+
+// What a lab would not call knowledge, of the variable. Drift and temperature
+// are small, and zero is a good guess.
+double VagueStd(const CalibrationParameter& parameter) {
+  switch (parameter.family) {
+    case ParameterFamily::kFrontStiffness:
+    case ParameterFamily::kBackStiffness:
+    case ParameterFamily::kForceScale:
+      return 0.2;
+    case ParameterFamily::kGaugeGain:
+      return 0.2 * parameter.scale;
+    case ParameterFamily::kGaugeOffset:
+      return 0.01;
+    case ParameterFamily::kRibLength:
+      return 0.2;
+    case ParameterFamily::kObjectOrigin:
+    case ParameterFamily::kCameraOrigin:
+      return 1;
+    case ParameterFamily::kForceOffset:
+      return 0.2;
+    case ParameterFamily::kTemperatureCoefficient:
+    case ParameterFamily::kGaugeDrift:
+      break;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+double CalibrationParameter::Value(double at) const {
+  return is_log ? std::exp(at) : at;
+}
+
+double CalibrationParameter::ValueStd(double at, double std) const {
+  return is_log ? std::exp(at) * std : std;
+}
+
+CalibrationParameters::CalibrationParameters(const Finger& finger,
+                                             const Plan& plan,
+                                             const CalibrationLogs& logs)
+    : shared(SharedParameters::Of(finger)),
+      readings(finger, plan, logs),
+      held_out_(logs.HeldOut()),
+      last_fitted_(LastFitted(logs)),
+      origin_per_log_(plan.family(ParameterFamily::kObjectOrigin).per_log),
+      origins_mm_(origin_per_log_ ? logs.paths.size() : 1, {0, 0}) {
+  for (const Gauge& gauge : finger.gauges) {
+    gains_V_per_rad.push_back(gauge.gain_V_per_rad);
+  }
+  for (const FingerParameter& parameter : ParametersOf(finger)) {
+    AddOfFinger(plan, logs, parameter);
+  }
+  AddOrigins(plan, logs);
+  AddForceSensor(plan, logs);
+  AddTemperature(plan);
+  AddDrift(plan, logs);
+  AddCamera(plan);
+}
+
+void CalibrationParameters::AddOfFinger(const Plan& plan,
+                                        const CalibrationLogs& logs,
+                                        const FingerParameter& of_finger) {
+  CalibrationParameter parameter;
+  parameter.name = ParameterName(of_finger);
+  parameter.unit = ParameterUnit(of_finger.kind);
+  parameter.family = static_cast<ParameterFamily>(of_finger.kind);
+  parameter.of_finger = of_finger;
+  const int index = of_finger.index;
+  switch (of_finger.kind) {
+    case FingerParameterKind::kFrontStiffness:
+      parameter.variable = parameter.block = &shared.ln_front_stiffness;
+      parameter.is_log = true;
+      break;
+    case FingerParameterKind::kBackStiffness:
+      parameter.variable = parameter.block = &shared.ln_back_stiffness;
+      parameter.is_log = true;
+      break;
+    case FingerParameterKind::kGaugeGain:
+      parameter.gauge = index;
+      parameter.variable = parameter.block = &gains_V_per_rad[index];
+      parameter.scale = std::abs(*parameter.variable);
+      break;
+    case FingerParameterKind::kGaugeOffset:
+      parameter.gauge = index;
+      if (plan.family(parameter.family).per_log) {
+        for (int log = 0; log < static_cast<int>(logs.paths.size()); ++log) {
+          CalibrationParameter of_log = parameter;
+          of_log.variable = of_log.block = readings.offset_V(index, log);
+          if (log != last_fitted_) of_log.of_finger.reset();
+          if (!Reads(logs, log, index) && !of_log.of_finger) continue;
+          AddOfLog(plan, logs, log, std::move(of_log));
+        }
+        return;
+      }
+      parameter.variable = parameter.block = readings.offset_V(index, 0);
+      break;
+    case FingerParameterKind::kRibLength:
+      parameter.variable = &shared.rib_lengths_mm[index];
+      parameter.block = shared.rib_lengths_mm.data();
+      break;
+  }
+  Add(plan, std::move(parameter));
+}
+
+void CalibrationParameters::AddOrigins(const Plan& plan,
+                                       const CalibrationLogs& logs) {
+  for (int log = 0; log < static_cast<int>(origins_mm_.size()); ++log) {
+    for (int axis = 0; axis < 2; ++axis) {
+      CalibrationParameter parameter;
+      parameter.name = axis == 0 ? "object_origin_x_mm" : "object_origin_y_mm";
+      parameter.unit = "mm";
+      parameter.family = ParameterFamily::kObjectOrigin;
+      parameter.variable = &origins_mm_[log][axis];
+      parameter.block = origins_mm_[log].data();
+      parameter.scale = 10;
+      if (origin_per_log_) {
+        if (!HasObject(logs, log)) continue;
+        AddOfLog(plan, logs, log, std::move(parameter));
+      } else {
+        Add(plan, std::move(parameter));
+      }
+    }
+  }
+}
+
+void CalibrationParameters::AddForceSensor(const Plan& plan,
+                                           const CalibrationLogs& logs) {
+  CalibrationParameter parameter;
+  if (plan.family(ParameterFamily::kForceScale).free) {
+    parameter.name = "force_scale";
+    parameter.unit = "1";
+    parameter.family = ParameterFamily::kForceScale;
+    parameter.variable = parameter.block = &ln_force_scale;
+    parameter.is_log = true;
+    Add(plan, parameter);
+  }
+  if (!plan.family(ParameterFamily::kForceOffset).free) return;
+  bool magnitude = false, components = false;
+  for (const CalibrationFrame& frame : logs.frames) {
+    const bool both = frame.force_xy_N.allFinite();
+    components |= both;
+    magnitude |= !both && std::isfinite(frame.force_N);
+  }
+  parameter.unit = "N";
+  parameter.family = ParameterFamily::kForceOffset;
+  parameter.is_log = false;
+  if (magnitude) {
+    parameter.name = "force_offset_N";
+    parameter.variable = parameter.block = &force_offset_N;
+    Add(plan, parameter);
+  }
+  for (int axis = 0; components && axis < 2; ++axis) {
+    parameter.name = axis == 0 ? "force_offset_x_N" : "force_offset_y_N";
+    parameter.variable = &force_offset_xy_N[axis];
+    parameter.block = force_offset_xy_N;
+    Add(plan, parameter);
+  }
+}
+
+void CalibrationParameters::AddTemperature(const Plan& plan) {
+  if (!plan.family(ParameterFamily::kTemperatureCoefficient).free) return;
+  for (int j = 0; j < static_cast<int>(gains_V_per_rad.size()); ++j) {
+    CalibrationParameter parameter;
+    parameter.name = GaugeName(j, "temperature_coefficient_V_per_C");
+    parameter.unit = "V/C";
+    parameter.family = ParameterFamily::kTemperatureCoefficient;
+    parameter.variable = parameter.block =
+        readings.temperature_coefficient_V_per_C(j);
+    parameter.scale = 0.1;
+    Add(plan, std::move(parameter));
+  }
+}
+
+void CalibrationParameters::AddDrift(const Plan& plan,
+                                     const CalibrationLogs& logs) {
+  if (!plan.family(ParameterFamily::kGaugeDrift).free) return;
+  if (std::all_of(logs.frames.begin(), logs.frames.end(),
+                  [](const CalibrationFrame& f) { return f.IsBench(); })) {
+    throw InputError(
+        "plan: gauge_drift is free, but no log is of the finger; gauges on the "
+        "bench have no time_s");
+  }
+  CalibrationParameter parameter;
+  parameter.family = ParameterFamily::kGaugeDrift;
+  const int gauges = static_cast<int>(gains_V_per_rad.size());
+  for (int j = 0; !plan.gauge_walk && j < gauges; ++j) {
+    parameter.name = GaugeName(j, "drift_V_per_h");
+    parameter.unit = "V/h";
+    parameter.variable = parameter.block = readings.drift_V_per_h(j);
+    Add(plan, parameter);
+  }
+  parameter.unit = "V";
+  for (int log = 0; log < static_cast<int>(logs.paths.size()); ++log) {
+    for (int j = 0; j < gauges; ++j) {
+      for (int step = 0; step < readings.walk_steps(log); ++step) {
+        parameter.name =
+            GaugeName(j, ("drift_" + std::to_string(step + 1) + "_V").c_str());
+        parameter.variable = parameter.block =
+            readings.walk_step_V(j, log, step);
+        parameter.prior_std = readings.walk_step_std_V(log);
+        AddOfLog(plan, logs, log, parameter);
+      }
+    }
+  }
+}
+
+void CalibrationParameters::AddCamera(const Plan& plan) {
+  if (!plan.family(ParameterFamily::kCameraOrigin).free) return;
+  for (int axis = 0; axis < 2; ++axis) {
+    CalibrationParameter parameter;
+    parameter.name = axis == 0 ? "camera_origin_x_mm" : "camera_origin_y_mm";
+    parameter.unit = "mm";
+    parameter.family = ParameterFamily::kCameraOrigin;
+    parameter.variable = &camera_origin_mm[axis];
+    parameter.block = camera_origin_mm;
+    parameter.scale = 10;
+    Add(plan, std::move(parameter));
+  }
+}
+
+void CalibrationParameters::AddOfLog(const Plan& plan,
+                                     const CalibrationLogs& logs, int log,
+                                     CalibrationParameter parameter) {
+  parameter.name += "[" + logs.names[log] + "]";
+  Add(plan, std::move(parameter), held_out_[log]);
+}
+
+void CalibrationParameters::Add(const Plan& plan,
+                                CalibrationParameter parameter, bool held_out) {
+  const FamilyPlan& family = plan.family(parameter.family);
+  parameter.free = family.free && !held_out;
+  parameter.initial = *parameter.variable;
+  if (family.prior_std) {
+    const bool percent =
+        parameter.is_log || parameter.family == ParameterFamily::kGaugeGain;
+    parameter.prior_std =
+        percent ? *family.prior_std / 100 * parameter.scale : *family.prior_std;
+  }
+  parameter.vague_std = VagueStd(parameter);
+  if (parameter.free) free_.push_back(static_cast<int>(all_.size()));
+  all_.push_back(std::move(parameter));
+}
+
+Eigen::VectorXd CalibrationParameters::Units() const {
+  Eigen::VectorXd units(static_cast<Eigen::Index>(free_.size()));
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    const CalibrationParameter& p = all_[free_[k]];
+    units[static_cast<Eigen::Index>(k)] = p.prior_std.value_or(p.scale);
+  }
+  return units;
+}
+
+Eigen::VectorXd CalibrationParameters::PriorInformation() const {
+  Eigen::VectorXd information(static_cast<Eigen::Index>(free_.size()));
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    const std::optional<double>& std = all_[free_[k]].prior_std;
+    information[static_cast<Eigen::Index>(k)] = std ? 1 / (*std * *std) : 0;
+  }
+  return information;
+}
+
+Finger CalibrationParameters::Apply(const Finger& finger) const {
+  Finger calibrated = finger;
+  // exp(ln x) is not x: what was not varied keeps its digits.
+  for (const int i : free_) {
+    const CalibrationParameter& parameter = all_[i];
+    if (!parameter.of_finger) continue;
+    SetParameter(*parameter.of_finger, parameter.Value(*parameter.variable),
+                 &calibrated);
+  }
+  return calibrated;
+}
+
+CalibrationLogs CalibrationParameters::Corrected(const CalibrationLogs& logs,
+                                                 const Finger& calibrated) {
+  CalibrationLogs corrected = logs;
+  const double scale = std::exp(ln_force_scale);
+  for (CalibrationFrame& frame : corrected.frames) {
+    for (std::size_t j = 0; j < frame.gauges_V.size(); ++j) {
+      frame.gauges_V[j] += calibrated.gauges[j].offset_V -
+                           readings.Sum(frame, static_cast<int>(j));
+    }
+    frame.force_N = (frame.force_N - force_offset_N) / scale;
+    frame.force_xy_N -= Eigen::Map<const Eigen::Vector2d>(force_offset_xy_N);
+    frame.force_xy_N /= scale;
+    frame.object_mm +=
+        Eigen::Map<const Eigen::Vector2d>(object_origin_mm(frame.log));
+    const Eigen::Map<const Eigen::Vector2d> camera(camera_origin_mm);
+    for (SeenPin& pin : frame.pins) pin.at_mm += camera;
+    frame.tip_mm += camera;
+  }
+  return corrected;
+}
+
+}  // namespace finray

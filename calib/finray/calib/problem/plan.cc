@@ -1,0 +1,169 @@
+#include "finray/calib/problem/plan.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace finray {
+namespace {
+
+struct FamilyKey {
+  const char* key;
+  const char* prior_key;
+  bool may_be_per_log = false;
+};
+// In the order of ParameterFamily.
+constexpr FamilyKey kFamilyKeys[kParameterFamilies] = {
+    {"front_stiffness", "prior_std_percent"},
+    {"back_stiffness", "prior_std_percent"},
+    {"gauge_gain", "prior_std_percent"},
+    {"gauge_offset", "prior_std_V", true},
+    {"rib_length", "prior_std_mm"},
+    {"object_origin", "prior_std_mm", true},
+    {"force_scale", "prior_std_percent"},
+    {"force_offset", "prior_std_N"},
+    {"temperature_coefficient", "prior_std_V_per_C"},
+    {"gauge_drift", "prior_std_V_per_h"},
+    {"camera_origin", "prior_std_mm"},
+};
+constexpr char kWalk[] = "walk_std_V_per_sqrt_h", kKnots[] = "knot_every_s";
+
+// What a family has beside `fixed` and its prior.
+std::vector<std::string> OwnKeys(ParameterFamily family) {
+  if (kFamilyKeys[static_cast<int>(family)].may_be_per_log) {
+    return {"per_log"};
+  }
+  switch (family) {
+    case ParameterFamily::kTemperatureCoefficient:
+      return {"reference_C"};
+    case ParameterFamily::kGaugeDrift:
+      return {kWalk, kKnots};
+    default:
+      return {};
+  }
+}
+
+void ReadWalk(const YamlMap& map, Plan* plan) {
+  if (!map.Has(kWalk) && !map.Has(kKnots)) return;
+  if (plan->family(ParameterFamily::kGaugeDrift).prior_std) {
+    map.Fail(kWalk,
+             "a drift is either at a rate (prior_std_V_per_h) or a walk "
+             "(walk_std_V_per_sqrt_h, knot_every_s)");
+  }
+  plan->gauge_walk = {map.PositiveNumber(kWalk), map.PositiveNumber(kKnots)};
+}
+
+void ReadFamily(const YamlMap& yaml, int index, Plan* plan) {
+  const FamilyKey& names = kFamilyKeys[index];
+  const auto family = static_cast<ParameterFamily>(index);
+  const YamlMap map = yaml.Map(names.key);
+  const std::vector<std::string> own = OwnKeys(family);
+  std::vector<std::string> allowed = {"fixed", names.prior_key};
+  allowed.insert(allowed.end(), own.begin(), own.end());
+  map.AllowOnly(allowed);
+  FamilyPlan& read = plan->families[index];
+  read.free = !map.Boolean("fixed", false);
+  if (!read.free) {
+    for (const std::string& key : map.Keys()) {
+      if (key != "fixed") map.Fail(key, "a fixed parameter has no " + key);
+    }
+    return;
+  }
+  if (map.Has(names.prior_key)) {
+    read.prior_std = map.PositiveNumber(names.prior_key);
+  }
+  read.per_log = names.may_be_per_log && map.Boolean("per_log", false);
+  if (family == ParameterFamily::kTemperatureCoefficient) {
+    plan->reference_temperature_C =
+        map.Number("reference_C", plan->reference_temperature_C);
+  }
+  if (family == ParameterFamily::kGaugeDrift) ReadWalk(map, plan);
+}
+
+void ReadParameters(const YamlMap& yaml, Plan* plan) {
+  std::vector<std::string> known;
+  for (const FamilyKey& family : kFamilyKeys) known.push_back(family.key);
+  yaml.AllowOnly(known);
+  for (int i = 0; i < kParameterFamilies; ++i) {
+    if (yaml.Has(kFamilyKeys[i].key)) ReadFamily(yaml, i, plan);
+  }
+}
+
+Scene ReadPlanScene(const YamlMap& yaml) {
+  if (!yaml.Has("scene")) return {};
+  if (yaml.IsMap("scene")) return ReadScene(yaml.Map("scene"));
+  // Relative to the plan, so that a folder of both can be moved.
+  const std::filesystem::path scene = yaml.Text("scene");
+  return ReadScene(
+      (std::filesystem::path(yaml.path()).parent_path() / scene).string());
+}
+
+}  // namespace
+
+Plan ReadPlan(const std::string& path) {
+  const YamlMap yaml = YamlMap::FromFile(path);
+  yaml.AllowOnly({"schema_version", "scene", "parameters", "measurements",
+                  "robust_loss", "holdout", "columns"});
+  if (yaml.Integer("schema_version") != 1) {
+    yaml.Fail("schema_version", "expected 1");
+  }
+  Plan plan;
+  plan.scene = ReadPlanScene(yaml);
+  RefuseBackContacts(plan.scene);
+  if (plan.scene.object_std_mm || plan.scene.smoothing) {
+    yaml.Fail("scene",
+              "a plan's scene has no measurements and no smoothing: the plan "
+              "has measurements of its own");
+  }
+  if (plan.scene.contacts.value_or(1) > 1) {
+    yaml.Fail("scene", "calibration takes frames with one contact or none");
+  }
+  if (plan.scene.object &&
+      (!plan.scene.circle_radius_mm() || plan.scene.object->spring)) {
+    yaml.Fail("scene",
+              "calibration takes circles held rigidly as objects, no other "
+              "shape and no spring");
+  }
+  ReadParameters(yaml.Map("parameters"), &plan);
+  if (yaml.Has("measurements")) {
+    const YamlMap map = yaml.Map("measurements");
+    map.AllowOnly({"force_std_N", "gauge_std_V", "object_std_mm",
+                   "contact_std_mm", "pin_std_mm", "tip_std_mm"});
+    plan.force_std_N = map.PositiveNumber("force_std_N", plan.force_std_N);
+    if (map.Has("gauge_std_V")) {
+      plan.gauge_std_V = map.PositiveNumber("gauge_std_V");
+    }
+    plan.object_std_mm =
+        map.PositiveNumber("object_std_mm", plan.object_std_mm);
+    plan.contact_std_mm =
+        map.PositiveNumber("contact_std_mm", plan.contact_std_mm);
+    if (map.Has("pin_std_mm"))
+      plan.pin_std_mm = map.PositiveNumber("pin_std_mm");
+    if (map.Has("tip_std_mm"))
+      plan.tip_std_mm = map.PositiveNumber("tip_std_mm");
+  }
+  if (yaml.Has("robust_loss")) {
+    const YamlMap map = yaml.Map("robust_loss");
+    map.AllowOnly({"type", "scale"});
+    const std::string type = map.Choice("type", {"none", "huber", "cauchy"});
+    plan.loss = type == "none"    ? RobustLoss::kNone
+                : type == "huber" ? RobustLoss::kHuber
+                                  : RobustLoss::kCauchy;
+    plan.loss_scale = map.PositiveNumber("scale", plan.loss_scale);
+  }
+  if (yaml.Has("holdout")) {
+    const YamlMap map = yaml.Map("holdout");
+    map.AllowOnly({"by", "fraction"});
+    plan.holdout_by = map.Choice("by", {"log", "block"}) == "log"
+                          ? HoldoutBy::kLog
+                          : HoldoutBy::kBlock;
+    plan.holdout_fraction = map.PositiveNumber("fraction", 0.2);
+    if (plan.holdout_fraction >= 1) {
+      map.Fail("fraction", "expected a fraction between 0 and 1");
+    }
+  }
+  plan.columns = ReadColumns(yaml);
+  for (const auto& rename : plan.scene.columns) plan.columns.insert(rename);
+  return plan;
+}
+
+}  // namespace finray

@@ -1,0 +1,16 @@
+#ifndef FINRAY_CALIB_REPORT_CALIBRATION_CHECKS_YAML_H_
+#define FINRAY_CALIB_REPORT_CALIBRATION_CHECKS_YAML_H_
+
+#include "finray/calib/report/calibration_result.h"
+#include "finray/io/yaml_emitter.h"
+
+namespace finray {
+
+/// The keys errors, residual_correlation, leave_one_log_out and next of
+/// calibration.yaml, into a mapping that has been begun.
+void EmitChecks(CalibrationProblem& problem, const CalibrationResult& result,
+                YamlEmitter* yaml);
+
+}  // namespace finray
+
+#endif  // FINRAY_CALIB_REPORT_CALIBRATION_CHECKS_YAML_H_

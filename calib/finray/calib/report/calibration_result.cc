@@ -1,0 +1,383 @@
+#include "finray/calib/report/calibration_result.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "finray/calib/analysis/finger_covariance.h"
+#include "finray/calib/analysis/validation.h"
+#include "finray/io/number_text.h"
+
+namespace finray {
+namespace {
+
+// A chi2 / dof beyond these says that a std in the plan is not what it is.
+constexpr double kTooNoisy = 2;
+constexpr double kTooQuiet = 0.5;
+constexpr double kEnoughDof = 5;
+
+void WarnOfNoise(const Identifiability& found,
+                 std::vector<CalibrationWarning>* warnings) {
+  for (int i = 0; i < kResidualFamilies; ++i) {
+    const Identifiability::Noise& noise = found.noise[i];
+    if (noise.dof < kEnoughDof) continue;
+    const double ratio = noise.chi2 / noise.dof;
+    const std::string name = ResidualFamilyName(static_cast<ResidualFamily>(i));
+    if (ratio > kTooNoisy) {
+      warnings->push_back(
+          {"noise_above_plan",
+           name + FormatText(
+                      " residuals are %.1f times what their std says "
+                      "(chi2/dof %.3g); reported std are enlarged for it where "
+                      "it is beyond doubt",
+                      std::sqrt(ratio), ratio),
+           "look at the residuals by frame for outliers or a wrong model; "
+           "raise "
+           "the std in the plan's measurements if the sensor is that noisy"});
+    } else if (ratio < kTooQuiet) {
+      warnings->push_back(
+          {"noise_below_plan",
+           name + FormatText(
+                      " residuals are %.2f of what their std says (chi2/dof "
+                      "%.3g)",
+                      std::sqrt(ratio), ratio),
+           "lower the std in the plan's measurements; reported std are too "
+           "large"});
+    }
+  }
+}
+
+void WarnOfStarts(const RobustSolution& solution,
+                  std::vector<CalibrationWarning>* warnings) {
+  const auto& starts = solution.starts;
+  if (starts.empty()) return;
+  const auto agree = std::count_if(starts.begin(), starts.end(),
+                                   [](const auto& s) { return s.agrees; });
+  if (starts[0].distance_std >= StartReport::kSameSolution) {
+    warnings->push_back(
+        {"given_start_misleads",
+         "the solver does not come to this solution from the given finger, "
+         "but" +
+             FormatText(" ends %.3g std away; the result is from another start",
+                        starts[0].distance_std),
+         "compare the result with what you know of the finger"});
+  } else if (2 * agree <= static_cast<long>(starts.size())) {
+    warnings->push_back(
+        {"starts_disagree",
+         FormatText("only %ld of %zu starts come to this solution", agree,
+                    starts.size()),
+         "give priors, or start from a finger closer to the truth"});
+  }
+}
+
+void WarnOfOutliers(const CalibrationProblem& problem,
+                    const RobustSolution& solution,
+                    std::vector<CalibrationWarning>* warnings) {
+  if (solution.outliers_too_many) {
+    warnings->push_back(
+        {"too_many_outliers",
+         "more than a quarter of the frames are not explained within their "
+         "noise; none was rejected",
+         "check columns, units, the finger's geometry and the std in the "
+         "plan's measurements"});
+  }
+  if (!solution.settled) {
+    warnings->push_back(
+        {"outliers_unsettled",
+         "which frames are outliers changes from round to round",
+         "look for what differs between the frames; raise the "
+         "std in the plan's measurements"});
+  }
+  if (problem.rejected().empty()) return;
+  const auto& [index, reason] = *problem.rejected().begin();
+  const CalibrationFrame& frame = problem.logs().frames[index];
+  warnings->push_back(
+      {"frames_rejected",
+       std::to_string(problem.rejected().size()) +
+           (problem.rejected().size() == 1 ? " frame was rejected, "
+                                           : " frames were rejected, first ") +
+           problem.logs().names[frame.log] + " row " +
+           std::to_string(frame.row + 1) + ": " + reason,
+       "look at rejected_frames in calibration.yaml for what went wrong "
+       "there"});
+}
+
+void WarnOfWeakness(CalibrationProblem& problem,
+                    const CalibrationResult& result,
+                    std::vector<CalibrationWarning>* warnings) {
+  const Identifiability& found = result.identifiability;
+  std::string unidentifiable;
+  const CalibrationParameters& parameters = problem.parameters();
+  for (std::size_t i = 0; i < found.status.size(); ++i) {
+    const bool has_words =
+        std::any_of(result.unsupported.begin(), result.unsupported.end(),
+                    [&](const Unsupported& u) {
+                      return std::count(u.free.begin(), u.free.end(),
+                                        static_cast<int>(i)) > 0;
+                    });
+    if (found.status[i] != ParameterStatus::kUnidentifiable || has_words) {
+      continue;
+    }
+    unidentifiable +=
+        (unidentifiable.empty() ? "" : ", ") + parameters.FreeParameter(i).name;
+  }
+  if (!unidentifiable.empty()) {
+    warnings->push_back(
+        {"unidentifiable", "the data do not determine " + unidentifiable,
+         found.weak.empty() ? "record what tells them, or give priors that are"
+                              " more than a guess"
+                            : found.weak[0].remedy});
+  }
+  for (const WeakDirection& weak : found.weak) {
+    warnings->push_back(
+        {"weak_direction", weak.words + ": " + weak.how_far, weak.remedy});
+  }
+}
+
+void WarnOfForces(const ForceCheck& forces, double force_std_N,
+                  std::vector<CalibrationWarning>* warnings) {
+  const ForceCheck::Error& held_out = forces.held_out;
+  if (held_out.frames >= 10 &&
+      held_out.after_rms_N > 2 * forces.fitted.after_rms_N) {
+    warnings->push_back(
+        {"holdout_worse",
+         FormatText(
+             "held-out frames are off by %.3g N rms, fitted ones by %.3g N",
+             held_out.after_rms_N, forces.fitted.after_rms_N),
+         "look for outliers among them (held-out frames are never rejected); "
+         "record logs that cover what the finger will meet: heights and "
+         "loads"});
+  }
+  if (forces.fitted.frames > 0 && forces.fitted.frames_before > 0 &&
+      forces.fitted.after_rms_N > forces.fitted.before_rms_N + force_std_N) {
+    warnings->push_back(
+        {"no_better",
+         FormatText(
+             "force from the gauges is off by %.3g N rms after and %.3g N "
+             "before",
+             forces.fitted.after_rms_N, forces.fitted.before_rms_N),
+         "check the columns and units of the logs and the finger's geometry"});
+  }
+}
+
+void WarnOfCorrelation(CalibrationProblem& problem,
+                       const ResidualCorrelation& found,
+                       std::vector<CalibrationWarning>* warnings) {
+  const ResidualCorrelation::Series* slowest = found.Slowest();
+  if (!found.correlated() || slowest == nullptr) return;
+  const IntegratedTime& time = slowest->time;
+  std::string text = "residuals of neighbouring rows are correlated: ";
+  text += ResidualFamilyName(slowest->family);
+  if (slowest->gauge >= 0) text += " " + std::to_string(slowest->gauge + 1);
+  text += FormatText(
+      " by %.2f from row to row, over %.3g rows, so that %d count as %.0f",
+      time.lag_1, time.tau, time.n, time.effective());
+  const auto most =
+      std::max_element(found.enlargement.begin(), found.enlargement.end()) -
+      found.enlargement.begin();
+  const CalibrationParameters& parameters = problem.parameters();
+  text += FormatText("; std are enlarged for it, at most %.4g times (",
+                     found.enlargement[most]) +
+          parameters.FreeParameter(most).name + ")";
+  warnings->push_back({"correlated_residuals", text,
+                       "let the gauges warm up, free what drifts, record "
+                       "heights and loads in random order; look at the "
+                       "residuals over the rows for what the model lacks"});
+}
+
+void WarnOfDisagreement(CalibrationProblem& problem,
+                        const LeaveOneLogOut& found,
+                        std::vector<CalibrationWarning>* warnings) {
+  if (!found.all_converged) {
+    warnings->push_back({"leave_one_log_out_not_converged",
+                         "without one of the logs the solver does not converge",
+                         "look at the logs one by one"});
+  }
+  const LeaveOneLogOut::Row* worst = found.Worst();
+  if (worst == nullptr) return;
+  warnings->push_back(
+      {"logs_disagree",
+       problem.parameters().all()[worst->parameter].name +
+           FormatText(
+               " changes by %.2g std of such a change when one of the logs is "
+               "left out (p = %.1g)",
+               worst->ratio(), worst->p_value),
+       "look for what differs between the logs: mounting, temperature, object; "
+       "take the spread in leave_one_log_out for the std until then"});
+}
+
+std::vector<int> FramesToCheck(const CalibrationProblem& problem) {
+  const CalibrationLogs& logs = problem.logs();
+  std::vector<int> chosen;
+  for (const bool held_out : {false, true}) {
+    std::vector<int> frames;
+    for (std::size_t i = 0; i < logs.frames.size(); ++i) {
+      const int index = static_cast<int>(i);
+      if (logs.frames[i].held_out == held_out &&
+          problem.rejected().count(index) == 0) {
+        frames.push_back(index);
+      }
+    }
+    const std::size_t count =
+        std::min(frames.size(), CalibrationResult::kMostChecked);
+    for (std::size_t k = 0; k < count; ++k) {
+      chosen.push_back(frames[k * frames.size() / count]);
+    }
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+CalibrationLogs Chosen(const CalibrationLogs& logs,
+                       const std::vector<int>& frames) {
+  CalibrationLogs chosen{logs.paths, logs.names, {}};
+  for (const int i : frames) chosen.frames.push_back(logs.frames[i]);
+  return chosen;
+}
+
+// Errors by region of the frames that were fitted, or held out.
+void TabulateRegions(CalibrationProblem& problem, const CalibrationLogs& logs,
+                     const Discretization& discretization, int threads,
+                     CalibrationResult* result) {
+  const auto references = ReferencesOf(logs, result->finger, problem.plan(),
+                                       discretization, threads);
+  for (const bool held_out : {false, true}) {
+    CalibrationResult::Errors& errors =
+        held_out ? result->held_out : result->fitted;
+    const auto table = [&](const std::vector<FrameEstimate>& estimates,
+                           bool before) {
+      return TabulateErrors(references, estimates, result->forces.after,
+                            problem.finger().front_length_mm,
+                            problem.plan().scene.friction_coefficient,
+                            [&](std::size_t i) {
+                              return logs.frames[i].held_out == held_out &&
+                                     !logs.frames[i].IsBench() &&
+                                     (!before || result->forces.has_before[i]);
+                            });
+    };
+    errors.before = table(result->forces.before, true);
+    errors.after = table(result->forces.after, false);
+  }
+}
+
+}  // namespace
+
+// Says with --v=1 how long each part took.
+class Stopwatch {
+ public:
+  void Lap(const char* part) {
+    const auto now = std::chrono::steady_clock::now();
+    VLOG(1) << part << ": "
+            << std::chrono::duration<double>(now - last_).count() << " s";
+    last_ = now;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ =
+      std::chrono::steady_clock::now();
+};
+
+bool CalibrationResult::AllIdentified() const {
+  return std::none_of(
+      identifiability.status.begin(), identifiability.status.end(),
+      [](ParameterStatus s) { return s == ParameterStatus::kUnidentifiable; });
+}
+
+std::string CalibrationResult::Verdict() const {
+  if (!solution.solve.converged) return "not_converged";
+  const auto& starts = solution.starts;
+  if (!starts.empty() &&
+      std::count_if(starts.begin(), starts.end(),
+                    [](const auto& start) { return start.agrees; }) < 2) {
+    return "starts_disagree";
+  }
+  for (int i = 0; i < kResidualFamilies; ++i) {
+    const Identifiability::Noise& noise = identifiability.noise[i];
+    // Gauges that are not linear on the bench have words of their own.
+    if (i == static_cast<int>(ResidualFamily::kBench)) continue;
+    if (noise.dof >= kEnoughDof &&
+        noise.chi2 > kUnexplained * kUnexplained * noise.dof) {
+      return "unexplained";
+    }
+  }
+  return AllIdentified() ? "good" : "unidentifiable";
+}
+
+CalibrationResult Calibrate(CalibrationProblem* problem,
+                            const Discretization& discretization, int threads,
+                            bool leave_logs_out) {
+  CalibrationResult result;
+  Stopwatch watch;
+  result.solution = SolveRobustly(problem);
+  watch.Lap("solve");
+  problem->ZeroHeldOutLogs();
+  result.identifiability = AnalyzeIdentifiability(problem);
+  result.residual_correlation =
+      AnalyzeResidualCorrelation(problem, result.identifiability);
+  EnlargeStd(result.residual_correlation, &result.identifiability);
+  watch.Lap("uncertainty");
+  result.unsupported = FindUnsupported(*problem, result.identifiability);
+  for (const Unsupported& unsupported : result.unsupported) {
+    for (const int free : unsupported.free) {
+      result.identifiability.status[free] = ParameterStatus::kUnidentifiable;
+    }
+  }
+  result.next =
+      AdviseNextFrames(problem, discretization, &result.identifiability);
+  watch.Lap("what to record next");
+  if (leave_logs_out) {
+    result.leave_one_log_out =
+        LeaveLogsOut(*problem, result.identifiability, discretization, threads);
+  }
+  watch.Lap("leave one log out");
+  result.finger = problem->parameters().Apply(problem->finger());
+  KeepCovariance(problem->parameters(), result.identifiability, &result.finger);
+  result.checked = FramesToCheck(*problem);
+  const CalibrationLogs checked = Chosen(problem->logs(), result.checked);
+  const CalibrationLogs corrected =
+      problem->parameters().Corrected(checked, result.finger);
+  result.forces = CheckForces(problem->finger(), result.finger, problem->plan(),
+                              checked, corrected, discretization, threads);
+  watch.Lap("check of forces");
+  TabulateRegions(*problem, corrected, discretization, threads, &result);
+  watch.Lap("check of contacts");
+  result.bench =
+      TestBenchLinearity(problem->finger(), problem->plan(), problem->logs());
+  if (!result.solution.solve.converged) {
+    result.warnings.push_back(
+        {"not_converged",
+         "the solver stopped early: " + result.solution.solve.message,
+         "give priors, or start from a finger closer to the truth"});
+  }
+  if (problem->gauges_only()) {
+    result.warnings.push_back(
+        {"gauges_only",
+         "frames with contact have gauges only, which alone tell nothing of "
+         "the finger: they were not used",
+         "record the reference force (force_N), and the object's centre "
+         "(object_x_mm, object_y_mm) or the contact location (contact_1_mm)"});
+  }
+  WarnOfStarts(result.solution, &result.warnings);
+  WarnOfOutliers(*problem, result.solution, &result.warnings);
+  WarnOfWeakness(*problem, result, &result.warnings);
+  for (const Unsupported& parameter : result.unsupported) {
+    result.warnings.push_back(
+        {parameter.code, parameter.text, parameter.remedy});
+  }
+  WarnOfNoise(result.identifiability, &result.warnings);
+  WarnOfCorrelation(*problem, result.residual_correlation, &result.warnings);
+  WarnOfDisagreement(*problem, result.leave_one_log_out, &result.warnings);
+  WarnOfForces(result.forces, problem->plan().force_std_N, &result.warnings);
+  for (const BenchLinearity& gauge : result.bench) {
+    if (gauge.IsLinear()) continue;
+    result.warnings.push_back(
+        {"gauge_not_linear", gauge.Words(),
+         "bend the gauge only as far as the finger will, or calibrate its gain "
+         "on the finger against a force sensor"});
+  }
+  return result;
+}
+
+}  // namespace finray

@@ -1,0 +1,98 @@
+#ifndef FINRAY_CALIB_REPORT_CALIBRATION_RESULT_H_
+#define FINRAY_CALIB_REPORT_CALIBRATION_RESULT_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "finray/calib/analysis/bench_linearity.h"
+#include "finray/calib/analysis/error_table.h"
+#include "finray/calib/analysis/force_check.h"
+#include "finray/calib/analysis/identifiability.h"
+#include "finray/calib/analysis/leave_one_log_out.h"
+#include "finray/calib/analysis/next_frames.h"
+#include "finray/calib/analysis/residual_correlation.h"
+#include "finray/calib/analysis/unsupported.h"
+#include "finray/calib/problem/calibration_problem.h"
+#include "finray/calib/solve/robust_solve.h"
+#include "finray/calib/solve/weighted_check.h"
+#include "finray/io/frame_table.h"
+
+namespace finray {
+
+/// Something the user should know, and what to do about it.
+struct CalibrationWarning {
+  std::string code;
+  std::string text;
+  std::string remedy;
+};
+
+/// All that a calibration yields.
+struct CalibrationResult {
+  RobustSolution solution;
+  Identifiability identifiability;
+  /// The frames that were held against the references, indices into the logs'
+  /// frames: all, or if there are many, kMostChecked of the fitted ones and as
+  /// many of those held out, evenly spread.
+  std::vector<int> checked;
+  static constexpr std::size_t kMostChecked = 1000;
+  ForceCheck forces;  ///< of these frames
+  /// By region of the finger, from the gauges alone.
+  struct Errors {
+    ErrorTable before, after;
+  } fitted, held_out;
+  ResidualCorrelation residual_correlation;
+  std::vector<Unsupported> unsupported;
+  std::optional<WeightedCheck> weighted;  ///< where asked for
+  LeaveOneLogOut leave_one_log_out;
+  std::vector<FrameAdvice> next;      ///< what to record next
+  std::vector<BenchLinearity> bench;  ///< by gauge, where there are readings
+  Finger finger;                      ///< calibrated
+  std::vector<CalibrationWarning> warnings;
+
+  bool AllIdentified() const;
+  /// `not_converged`; `starts_disagree`, no two of several; `unexplained`,
+  /// residuals of some kind are kUnexplained times their std and more;
+  /// `unidentifiable`; or `good`.
+  std::string Verdict() const;
+  static constexpr double kUnexplained = 5;
+};
+
+/// Solves the problem, analyses it and checks it against the references.
+/// `leave_logs_out`: repeats it without each log, if there are several.
+CalibrationResult Calibrate(CalibrationProblem* problem,
+                            const Discretization& discretization, int threads,
+                            bool leave_logs_out = false);
+
+/// What went in, for the record.
+struct CalibrationInputs {
+  std::string finger_path, plan_path;
+  std::vector<std::string> log_paths;
+  std::string scheme;
+  int resolution = 0;
+  std::string command;
+};
+
+/// The text of calibration.yaml (docs/formats.md).
+std::string CalibrationYaml(CalibrationProblem& problem,
+                            const CalibrationResult& result,
+                            const CalibrationInputs& inputs);
+
+/// A CSV of one row a frame: log, time, kind (contact, free, bench), held_out,
+/// reference force, force and place from the gauges before and after, l_c and
+/// f_c of the fit, gauge residuals in std (empty where held out or rejected),
+/// and why a frame was rejected.
+std::string CalibrationFramesCsv(CalibrationProblem& problem,
+                                 const CalibrationResult& result);
+
+/// Both beams, undeformed and in the heaviest fitted frame, for drawing:
+/// columns state (undeformed, deformed), part (front, back, rib_<i>, contact),
+/// x_mm, y_mm. Of the contact: its point, then the tip of an arrow against the
+/// normal.
+FrameTable CalibrationShape(CalibrationProblem& problem,
+                            const CalibrationResult& result,
+                            const Discretization& discretization);
+
+}  // namespace finray
+
+#endif  // FINRAY_CALIB_REPORT_CALIBRATION_RESULT_H_

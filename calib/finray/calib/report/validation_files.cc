@@ -1,0 +1,122 @@
+#include <cmath>
+#include <vector>
+
+#include "finray/calib/analysis/validation.h"
+#include "finray/io/sha256.h"
+#include "finray/io/yaml_emitter.h"
+#include "finray/sensing/estimated_force.h"
+
+namespace finray {
+
+FrameTable ValidationFrames(const CalibrationLogs& logs,
+                            const Validation& validation, double friction) {
+  std::vector<std::size_t> of_finger;
+  for (std::size_t i = 0; i < logs.frames.size(); ++i) {
+    if (!logs.frames[i].IsBench()) of_finger.push_back(i);
+  }
+  FrameTable table(of_finger.size());
+  for (const char* name : {"log", "kind"}) table.MutableText(name);
+  for (const char* name :
+       {"row", "time_s", "reference_force_N", "reference_contact_mm", "force_N",
+        "force_std_N", "force_error_N", "contact_1_mm", "contact_1_std_mm",
+        "contact_error_mm", "chi2_p_value"}) {
+    table.MutableNumbers(name);
+  }
+  const bool compared = validation.baseline_errors.has_value();
+  if (compared) {
+    for (const char* name :
+         {"baseline_force_error_N", "baseline_contact_error_mm"}) {
+      table.MutableNumbers(name);
+    }
+  }
+  table.MutableText("status");
+  for (std::size_t row = 0; row < of_finger.size(); ++row) {
+    const std::size_t i = of_finger[row];
+    const CalibrationFrame& frame = logs.frames[i];
+    const FrameReference& reference = validation.references[i];
+    const FrameEstimate& found = validation.estimates[i];
+    const auto set = [&](const char* name, double value) {
+      table.MutableNumbers(name)[row] = value;
+    };
+    table.MutableText("log")[row] = logs.paths[frame.log];
+    table.MutableText("kind")[row] = frame.contact ? "contact" : "free";
+    table.MutableText("status")[row] = StatusName(found.status);
+    const double force = EstimatedForce(found, friction);
+    set("row", frame.row + 1);
+    set("time_s", frame.time_s);
+    set("reference_force_N", reference.force_N);
+    set("reference_contact_mm", reference.contact_mm);
+    set("force_N", force);
+    // Of the sum of two it is not known.
+    set("force_std_N", found.contacts == 1 ? std::hypot(1, friction) *
+                                                 found.contact[0].normal_std_N
+                                           : std::nan(""));
+    set("force_error_N", force - reference.force_N);
+    set("contact_1_mm", found.contact[0].arc_mm);
+    set("contact_1_std_mm", found.contact[0].arc_std_mm);
+    set("contact_error_mm", found.contact[0].arc_mm - reference.contact_mm);
+    set("chi2_p_value", found.p_value());
+    if (!compared) continue;
+    const FrameEstimate& before = validation.baseline[i];
+    set("baseline_force_error_N",
+        EstimatedForce(before, friction) - reference.force_N);
+    set("baseline_contact_error_mm",
+        before.contact[0].arc_mm - reference.contact_mm);
+  }
+  return table;
+}
+
+std::string ValidationYaml(const CalibrationLogs& logs,
+                           const Validation& validation,
+                           const std::vector<GateResult>& gates,
+                           const ValidationInputs& inputs) {
+  YamlEmitter yaml;
+  yaml << YAML::BeginMap;
+  YamlPair(&yaml, "schema_version", 1);
+  bool passed = true;
+  for (const GateResult& result : gates) passed &= result.passed;
+  YamlPair(&yaml, "verdict",
+           gates.empty() ? "no_gates"
+           : passed      ? "passed"
+                         : "failed");
+  yaml << YAML::Key << "gates" << YAML::Value << YAML::BeginSeq;
+  for (const GateResult& result : gates) {
+    yaml << YAML::Flow << YAML::BeginMap;
+    YamlPair(&yaml, "name", GateName(result.gate.quantity));
+    YamlPair(&yaml, "bound", result.gate.bound);
+    YamlPair(&yaml, "value", result.value);
+    YamlPair(&yaml, "passed", result.passed);
+    yaml << YAML::EndMap;
+  }
+  yaml << YAML::EndSeq << YAML::Key << "errors" << YAML::Value;
+  EmitErrorTable(validation.errors, &yaml);
+  if (validation.baseline_errors) {
+    yaml << YAML::Key << "baseline" << YAML::Value;
+    EmitErrorTable(*validation.baseline_errors, &yaml);
+  }
+  const auto file = [&yaml](const std::string& path) {
+    yaml << YAML::Flow << YAML::BeginMap;
+    YamlPair(&yaml, "path", path);
+    YamlPair(&yaml, "sha256", Sha256OfFile(path));
+    yaml << YAML::EndMap;
+  };
+  yaml << YAML::Key << "inputs" << YAML::Value << YAML::BeginMap;
+  const std::pair<const char*, const std::string*> named[] = {
+      {"finger", &inputs.finger_path},
+      {"baseline", &inputs.baseline_path},
+      {"plan_or_scene", &inputs.plan_path}};
+  for (const auto& [key, path] : named) {
+    if (path->empty()) continue;
+    yaml << YAML::Key << key << YAML::Value;
+    file(*path);
+  }
+  yaml << YAML::Key << "logs" << YAML::Value << YAML::BeginSeq;
+  for (const std::string& path : logs.paths) file(path);
+  yaml << YAML::EndSeq << YAML::EndMap;
+  YamlPair(&yaml, "command", inputs.command);
+  YamlPair(&yaml, "version", FINRAY_VERSION);
+  yaml << YAML::EndMap;
+  return std::string(yaml.c_str()) + "\n";
+}
+
+}  // namespace finray

@@ -1,0 +1,56 @@
+#ifndef FINRAY_CALIB_SOLVE_CONTACT_GUESS_H_
+#define FINRAY_CALIB_SOLVE_CONTACT_GUESS_H_
+
+#include <Eigen/Core>
+
+#include "finray/calib/problem/calibration_log.h"
+#include "finray/calib/problem/measurement_blocks.h"
+#include "finray/calib/problem/parameters.h"
+#include "finray/sensing/fast/contact_fit.h"
+#include "finray/sensing/gauge_table.h"
+
+namespace finray {
+
+/// Where a frame's contact is according to the finger as the parameters
+/// describe it now, for a solve to start from: from the object's place, else
+/// from the gauges, by a table that knows it to a few bays (gauge_table.h); a
+/// contact location and a force that were measured themselves come first.
+class ContactGuess {
+ public:
+  /// `blocks` and `parameters` must stay in place. Throws InputError for a
+  /// finger without an unloaded equilibrium.
+  ContactGuess(const Finger& finger, const Plan& plan,
+               const Discretization& discretization,
+               const MeasurementBlocks* blocks,
+               CalibrationParameters* parameters, int threads);
+
+  struct Place {
+    double arc_mm = 0, normal_N = 0;
+    LadderState state;  ///< An equilibrium near it; may be empty.
+    bool met = false;   ///< What it was looked for by is met, not only near.
+  };
+  /// Whether gauges count beside the object's place: once their gains are
+  /// known.
+  enum class From { kObjectFirst, kAll };
+  Place Of(const CalibrationFrame& frame, From from);
+
+  const GaugeTable& table() const { return table_; }
+
+ private:
+  void AddCircle(const CalibrationFrame& frame);
+  void AddGauges(const CalibrationFrame& frame);
+  Place FromTable(bool fit);
+
+  const MeasurementBlocks& blocks_;
+  CalibrationParameters& parameters_;
+  double length_mm_, force_unit_N_, object_std_mm_;
+  EquilibriumSolver solver_;
+  GaugeTable table_;
+  ContactFit fit_;
+  bool circle_;
+  Eigen::VectorXd values_, weights_;  // gauges, then the circle's centre
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_CALIB_SOLVE_CONTACT_GUESS_H_

@@ -1,0 +1,201 @@
+#include "finray/calib/solve/frame_linearizer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "finray/finger/geometry.h"
+#include "finray/sensing/fast/contact_step.h"
+
+namespace finray {
+namespace {
+
+constexpr int kMostSteps = 30;
+constexpr double kMostDamping = 1e8;
+// Where a Jacobian goes, if not to a parameter's columns.
+constexpr int kContact = -1, kNowhere = -2;
+
+}  // namespace
+
+struct FrameLinearizer::Model {
+  std::array<double, 2> contact;
+  std::optional<FrameEvaluation> evaluation;  // none on the bench
+  std::vector<MeasurementBlock> blocks;
+};
+
+FrameLinearizer::FrameLinearizer(const EquilibriumSolver& solver,
+                                 const Plan& plan,
+                                 const MeasurementBlocks* blocks,
+                                 const CalibrationParameters* parameters,
+                                 double small_decrease)
+    : solver_(solver),
+      friction_(plan.scene.friction_coefficient),
+      small_decrease_(small_decrease),
+      blocks_(*blocks),
+      parameters_(*parameters),
+      loss_(MakeLoss(plan)) {
+  for (std::size_t k = 0; k < parameters_.free().size(); ++k) {
+    column_of_.emplace(parameters_.FreeParameter(k).block, static_cast<int>(k));
+  }
+}
+
+void FrameLinearizer::Prepare(const CalibrationFrame& frame,
+                              const LadderState& start, Model* model) {
+  if (!frame.IsBench()) {
+    // Not from the mesh that another frame has refined: results would depend
+    // on which thread had which frame.
+    if (start.q.size() == 0) solver_.Reset();
+    model->evaluation.emplace(solver_.model(), EquilibriumForm::kReduced,
+                              frame.contact ? 1 : 0, friction_,
+                              !frame.pins.empty());
+  }
+  model->blocks =
+      blocks_.Of(frame, model->evaluation ? &*model->evaluation : nullptr,
+                 model->contact.data());
+}
+
+bool FrameLinearizer::Linearize(const CalibrationFrame& frame,
+                                const std::array<double, 2>& contact,
+                                LadderState* state, LinearizedFrame* out) {
+  Model model;
+  Prepare(frame, *state, &model);
+  if (!Evaluate(contact, &model, state, out)) return false;
+  out->Eliminate();
+  return true;
+}
+
+bool FrameLinearizer::Evaluate(const std::array<double, 2>& contact,
+                               Model* model, LadderState* state,
+                               LinearizedFrame* out) {
+  model->contact = contact;
+  if (model->evaluation) {
+    if (state->q.size() > 0) model->evaluation->set_state(*state);
+    const SharedParameters& shared = parameters_.shared;
+    model->evaluation->Update(contact.data(), shared.ln_front_stiffness,
+                              shared.ln_back_stiffness,
+                              shared.rib_lengths_mm.data(), &solver_);
+    if (!model->evaluation->valid()) return false;
+    *state = model->evaluation->state();
+  }
+  int rows = 0;
+  for (const MeasurementBlock& block : model->blocks) {
+    rows += block.cost->num_residuals();
+  }
+  out->rows.clear();
+  out->residuals.resize(rows);
+  out->weights.resize(rows);
+  out->by_parameter.setZero(
+      rows, static_cast<Eigen::Index>(parameters_.free().size()));
+  out->by_contact.setZero(rows, 2);
+  out->cost = 0;
+  for (const MeasurementBlock& block : model->blocks) {
+    const int first = static_cast<int>(out->rows.size());
+    AddBlock(block, model->contact.data(), first, out);
+  }
+  return out->residuals.allFinite();
+}
+
+void FrameLinearizer::AddBlock(const MeasurementBlock& block,
+                               const double* contact, int first_row,
+                               LinearizedFrame* out) {
+  using RowMajor =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const int size = block.cost->num_residuals();
+  const auto& sizes = block.cost->parameter_block_sizes();
+  scratch_.resize(std::max(scratch_.size(), sizes.size()));
+  jacobians_.assign(sizes.size(), nullptr);
+  columns_.assign(sizes.size(), kNowhere);
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    if (block.parameters[k] == contact) {
+      columns_[k] = kContact;
+    } else if (const auto at = column_of_.find(block.parameters[k]);
+               at != column_of_.end()) {
+      columns_[k] = at->second;
+    }
+    if (columns_[k] == kNowhere) continue;
+    scratch_[k].resize(size * sizes[k]);
+    jacobians_[k] = scratch_[k].data();
+  }
+  double* residuals = out->residuals.data() + first_row;
+  if (!block.cost->Evaluate(block.parameters.data(), residuals,
+                            jacobians_.data())) {
+    out->residuals[first_row] = std::numeric_limits<double>::quiet_NaN();
+  }
+  const double square = out->residuals.segment(first_row, size).squaredNorm();
+  double weight = 1;
+  if (loss_ && std::isfinite(square)) {
+    double rho[3];
+    loss_->Evaluate(square, rho);
+    weight = std::sqrt(rho[1]);
+    out->cost += rho[0] / 2;
+  } else {
+    out->cost += square / 2;
+  }
+  for (int i = 0; i < size; ++i) {
+    out->rows.push_back({block.family, block.gauge});
+    out->weights[first_row + i] = weight;
+  }
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    if (jacobians_[k] == nullptr) continue;
+    const Eigen::Map<const RowMajor> jacobian(jacobians_[k], size, sizes[k]);
+    if (columns_[k] == kContact) {
+      out->by_contact.middleRows(first_row, size) = weight * jacobian;
+    } else {
+      out->by_parameter.block(first_row, columns_[k], size, sizes[k]) =
+          weight * jacobian;
+    }
+  }
+}
+
+bool FrameLinearizer::FitContact(const CalibrationFrame& frame,
+                                 std::array<double, 2>* contact,
+                                 LadderState* state, LinearizedFrame* out) {
+  if (!FindContact(frame, contact, state, out)) return false;
+  out->Eliminate();
+  return true;
+}
+
+bool FrameLinearizer::FindContact(const CalibrationFrame& frame,
+                                  std::array<double, 2>* contact,
+                                  LadderState* state, LinearizedFrame* out) {
+  Model model;
+  Prepare(frame, *state, &model);
+  if (!Evaluate(*contact, &model, state, out)) return false;
+  if (!frame.contact) return true;
+  const Finger& finger = solver_.model().finger();
+  const Eigen::Vector2d unit(finger.front_length_mm, ForceUnit(finger));
+  double damping = 0;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Eigen::Matrix<double, Eigen::Dynamic, 2> slopes =
+        out->by_contact * unit.asDiagonal();
+    const ContactEquations equations{
+        slopes.transpose() * slopes,
+        slopes.transpose() * out->WeightedResiduals(), 2 * out->cost};
+    const ContactVector x =
+        Eigen::Vector2d((*contact)[0], (*contact)[1]).cwiseQuotient(unit);
+    const ContactVector change = BoundedChange(
+        equations, x, std::numeric_limits<double>::infinity(), damping);
+    const double expected =
+        -equations.gradient.dot(change) -
+        0.5 * change.dot(ContactVector(equations.normal * change));
+    if (!(expected > small_decrease_)) return true;
+    const std::array<double, 2> moved = {
+        std::clamp(unit[0] * (x[0] + change[0]), 0.0, unit[0]),
+        std::max(0.0, unit[1] * (x[1] + change[1]))};
+    LadderState near = *state;
+    if (Evaluate(moved, &model, &near, &tried_) && tried_.cost < out->cost) {
+      *contact = moved;
+      *state = std::move(near);
+      std::swap(*out, tried_);
+      damping /= 10;
+      if (damping < 1e-6) damping = 0;
+      continue;
+    }
+    damping = std::max(1e-3, 10 * damping);
+    if (damping > kMostDamping) return true;  // as good as rounding allows
+  }
+  return true;
+}
+
+}  // namespace finray

@@ -1,0 +1,69 @@
+#ifndef FINRAY_CALIB_SOLVE_FRAME_LINEARIZER_H_
+#define FINRAY_CALIB_SOLVE_FRAME_LINEARIZER_H_
+
+#include <array>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "finray/calib/problem/measurement_blocks.h"
+#include "finray/calib/solve/linearized_frame.h"
+#include "finray/statics/equilibrium.h"
+
+namespace finray {
+
+/// Evaluates frames one by one through their residual blocks, at the present
+/// values of the parameters, which it only reads. One for each thread.
+class FrameLinearizer {
+ public:
+  /// `blocks` and `parameters` must stay in place. `small_decrease` is where
+  /// FitContact ends, in units of chi2 / 2.
+  FrameLinearizer(const EquilibriumSolver& solver, const Plan& plan,
+                  const MeasurementBlocks* blocks,
+                  const CalibrationParameters* parameters,
+                  double small_decrease);
+
+  /// The frame with its contact at (l_c, f_c) = `contact` (of no account for a
+  /// frame without). Equilibrium is sought from `*state` and left there. False
+  /// if the model cannot be evaluated.
+  bool Linearize(const CalibrationFrame& frame,
+                 const std::array<double, 2>& contact, LadderState* state,
+                 LinearizedFrame* out);
+
+  /// Moves the contact to where it explains the frame best, the parameters
+  /// being what they are: Gauss-Newton on l_c and f_c within their bounds,
+  /// until a further step would lower the cost by less than small_decrease.
+  /// What is left of the way LinearizedFrame::move knows well enough.
+  bool FitContact(const CalibrationFrame& frame, std::array<double, 2>* contact,
+                  LadderState* state, LinearizedFrame* out);
+
+ private:
+  // A frame's blocks about an evaluation at a contact.
+  struct Model;
+
+  void Prepare(const CalibrationFrame& frame, const LadderState& start,
+               Model* model);
+  bool Evaluate(const std::array<double, 2>& contact, Model* model,
+                LadderState* state, LinearizedFrame* out);
+  bool FindContact(const CalibrationFrame& frame,
+                   std::array<double, 2>* contact, LadderState* state,
+                   LinearizedFrame* out);
+  void AddBlock(const MeasurementBlock& block, const double* contact,
+                int first_row, LinearizedFrame* out);
+
+  EquilibriumSolver solver_;
+  double friction_, small_decrease_;
+  const MeasurementBlocks& blocks_;
+  const CalibrationParameters& parameters_;
+  std::unique_ptr<ceres::LossFunction> loss_;
+  std::unordered_map<const double*, int> column_of_;  // first one of a block
+  // Of a block's parameters: a Jacobian each, and where that goes.
+  std::vector<std::vector<double>> scratch_;
+  std::vector<double*> jacobians_;
+  std::vector<int> columns_;
+  LinearizedFrame tried_;
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_CALIB_SOLVE_FRAME_LINEARIZER_H_

@@ -1,0 +1,59 @@
+#include "finray/calib/solve/information_spectrum.h"
+
+#include <lapacke.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <stdexcept>
+
+namespace finray {
+namespace {
+
+// Less of a matrix with a unit diagonal is rounding, of either sign.
+constexpr double kRounding = 1e-13;
+
+}  // namespace
+
+InformationSpectrum::InformationSpectrum(const Eigen::MatrixXd& information) {
+  const auto n = static_cast<lapack_int>(information.rows());
+  if (n == 0) return;
+  if (!information.allFinite()) {
+    throw std::runtime_error(
+        "the derivatives of the model by the parameters are not finite");
+  }
+  const Eigen::VectorXd root = information.diagonal().cwiseMax(0).cwiseSqrt();
+  const Eigen::VectorXd size =
+      root.unaryExpr([](double r) { return r > 0 ? 1 / r : 0; });
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> even(
+      size.asDiagonal() * information * size.asDiagonal());
+  const Eigen::VectorXd kept = even.eigenvalues().unaryExpr(
+      [](double value) { return value > kRounding ? value : 0; });
+  Eigen::MatrixXd factor = kept.cwiseSqrt().asDiagonal() *
+                           even.eigenvectors().transpose() * root.asDiagonal();
+  Eigen::VectorXd singular(n);
+  Eigen::MatrixXd left(n, n), right(n, n);
+  double stat[7];
+  lapack_int rank[3];
+  if (LAPACKE_dgejsv(LAPACK_COL_MAJOR, 'C', 'N', 'V', 'N', 'N', 'N', n, n,
+                     factor.data(), n, singular.data(), left.data(), n,
+                     right.data(), n, stat, rank) != 0) {
+    throw std::runtime_error("the information of the data has no eigenvalues");
+  }
+  // They come multiplied by a factor, lest they overflow.
+  values = (stat[0] / stat[1] * singular).reverse().cwiseAbs2();
+  vectors = right.rowwise().reverse();
+}
+
+Eigen::MatrixXd DeterminedUnits(const Eigen::MatrixXd& information,
+                                const Eigen::VectorXd& unit) {
+  const InformationSpectrum spectrum(unit.asDiagonal() * information *
+                                     unit.asDiagonal());
+  const auto weak =
+      std::count_if(spectrum.values.begin(), spectrum.values.end(),
+                    [](double value) { return value < kLeastInformation; });
+  const Eigen::Index kept = unit.size() - weak;
+  return unit.asDiagonal() * spectrum.vectors.rightCols(kept) *
+         spectrum.values.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+}
+
+}  // namespace finray

@@ -1,0 +1,44 @@
+#include "finray/calib/solve/linearized_frame.h"
+
+#include <cmath>
+
+namespace finray {
+
+Eigen::Matrix2d PseudoInverse(const Eigen::Matrix2d& a) {
+  // Eigenvalues of [p, q; q, s] in closed form.
+  const double mean = (a(0, 0) + a(1, 1)) / 2;
+  const double half = (a(0, 0) - a(1, 1)) / 2, q = a(1, 0);
+  const double radius = std::hypot(half, q);
+  const double large = mean + radius;
+  if (!(large > 0)) return Eigen::Matrix2d::Zero();
+  // Without the cancellation of mean - radius.
+  const double small = (a(0, 0) * a(1, 1) - q * q) / large;
+  if (small > 1e-12 * large) {
+    Eigen::Matrix2d inverse;
+    inverse << a(1, 1), -q, -q, a(0, 0);
+    return inverse / (small * large);
+  }
+  // The eigenvector v of the large one: v v' = (a - small) / (large - small).
+  return (a - small * Eigen::Matrix2d::Identity()) / (large - small) / large;
+}
+
+Eigen::MatrixXd EliminateContact(
+    const Eigen::MatrixXd& c,
+    const Eigen::Matrix<double, Eigen::Dynamic, 2>& e) {
+  const Eigen::Matrix2d information = e.transpose() * e;
+  if (information.isZero(0)) return c;
+  return c - e * (PseudoInverse(information) * (e.transpose() * c));
+}
+
+void LinearizedFrame::Eliminate() {
+  const Eigen::Matrix2d inverse =
+      PseudoInverse(by_contact.transpose() * by_contact);
+  const Eigen::Vector2d pull = by_contact.transpose() * WeightedResiduals();
+  move.now = -inverse * pull;
+  move.by_parameter = -inverse * (by_contact.transpose() * by_parameter);
+  move.decrease = -0.5 * pull.dot(move.now);
+  reduced = by_parameter;
+  reduced.noalias() += by_contact * move.by_parameter;
+}
+
+}  // namespace finray

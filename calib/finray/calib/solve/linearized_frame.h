@@ -1,0 +1,67 @@
+#ifndef FINRAY_CALIB_SOLVE_LINEARIZED_FRAME_H_
+#define FINRAY_CALIB_SOLVE_LINEARIZED_FRAME_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "finray/calib/problem/residual_family.h"
+
+namespace finray {
+
+/// The measurements of one frame at present values of parameters and contact,
+/// and their derivatives: the frame's rows of [C | E], in units of their std
+/// and weighted as the robust loss weights them,
+///
+///   w = sqrt(rho'(|r|^2)),   |r|^2 over the residuals of one measurement.
+struct LinearizedFrame {
+  struct Row {
+    ResidualFamily family;
+    int gauge;  ///< for kGauge and kBench, else -1
+  };
+  std::vector<Row> rows;
+  Eigen::VectorXd residuals;     ///< r, without weights
+  Eigen::VectorXd weights;       ///< w
+  Eigen::MatrixXd by_parameter;  ///< C: rows x free parameters, weighted
+  /// E: rows x (l_c, f_c), weighted; zero for a free frame.
+  Eigen::Matrix<double, Eigen::Dynamic, 2> by_contact;
+  double cost = 0;  ///< sum of rho / 2
+
+  Eigen::VectorXd WeightedResiduals() const {
+    return weights.cwiseProduct(residuals);
+  }
+  /// Where the contact should go when the parameters go by dx: A + B dx of
+  /// (A | B) = -(E'E)^-1 E'(r | C).
+  struct ContactMove {
+    Eigen::Vector2d now = Eigen::Vector2d::Zero();
+    Eigen::Matrix<double, 2, Eigen::Dynamic> by_parameter;
+    double decrease = 0;  ///< of the cost, by the move A
+  };
+  ContactMove move;
+  /// Rows with the contact eliminated, C - E (E'E)^-1 E'C: what they say of the
+  /// parameters when l_c and f_c may be anything. Their product with themselves
+  /// is the frame's information.
+  Eigen::MatrixXd reduced;
+
+  /// Computes `move` and `reduced` from the rest.
+  void Eliminate();
+};
+
+/// sum += C'C of few rows, for which Eigen's product of large matrices takes
+/// several times as long.
+template <typename Rows>
+void AddSquare(const Eigen::MatrixBase<Rows>& c, Eigen::MatrixXd* sum) {
+  sum->noalias() += c.transpose().lazyProduct(c.derived());
+}
+
+/// The part of a 2 x 2 information matrix that is not noise, inverted; a
+/// contact without force, say, says nothing of its place.
+Eigen::Matrix2d PseudoInverse(const Eigen::Matrix2d& information);
+
+/// C - E (E'E)^-1 E'C.
+Eigen::MatrixXd EliminateContact(
+    const Eigen::MatrixXd& by_parameter,
+    const Eigen::Matrix<double, Eigen::Dynamic, 2>& by_contact);
+
+}  // namespace finray
+
+#endif  // FINRAY_CALIB_SOLVE_LINEARIZED_FRAME_H_

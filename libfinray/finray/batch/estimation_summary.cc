@@ -1,0 +1,98 @@
+#include "finray/batch/estimation_summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "finray/io/number_text.h"
+#include "finray/io/parse_number.h"
+#include "finray/io/yaml_emitter.h"
+#include "finray/sensing/estimated_force.h"
+
+namespace finray {
+
+std::size_t EstimationSummary::unsolved() const {
+  return count(FrameStatus::kNotConverged) + count(FrameStatus::kBadInput);
+}
+
+double EstimationSummary::force_rms_N() const {
+  if (force_compared == 0) return 0;
+  return std::sqrt(force_squares_N2 / static_cast<double>(force_compared));
+}
+
+void EstimationSummary::Add(const FrameEstimate& estimate, double friction,
+                            double force_N) {
+  ++frames;
+  ++by_status[static_cast<std::size_t>(estimate.status)];
+  const bool solved = estimate.status == FrameStatus::kOk ||
+                      estimate.status == FrameStatus::kUnobservable ||
+                      estimate.status == FrameStatus::kNoContact;
+  if (!solved) return;
+  if (estimate.p_value() < FrameEstimate::kUnexplained) ++unexplained;
+  // The numbers of unobservable frames are not to be used.
+  if (estimate.status == FrameStatus::kUnobservable) return;
+  if (std::isnan(force_N)) return;
+  const double error = EstimatedForce(estimate, friction) - force_N;
+  force_squares_N2 += error * error;
+  force_max_N = std::max(force_max_N, std::abs(error));
+  ++force_compared;
+}
+
+void EstimationSummary::Add(const EstimationSummary& other) {
+  frames += other.frames;
+  for (std::size_t i = 0; i < by_status.size(); ++i) {
+    by_status[i] += other.by_status[i];
+  }
+  unexplained += other.unexplained;
+  force_compared += other.force_compared;
+  force_squares_N2 += other.force_squares_N2;
+  force_max_N = std::max(force_max_N, other.force_max_N);
+}
+
+std::string SummaryToText(const EstimationSummary& summary) {
+  std::string text = std::to_string(summary.frames);
+  for (const std::size_t count : summary.by_status) {
+    text += " " + std::to_string(count);
+  }
+  return text + " " + std::to_string(summary.unexplained) + " " +
+         std::to_string(summary.force_compared) + " " +
+         NumberText(summary.force_squares_N2) + " " +
+         NumberText(summary.force_max_N);
+}
+
+std::optional<EstimationSummary> SummaryFromText(const std::string& text) {
+  std::istringstream stream(text);
+  EstimationSummary summary;
+  stream >> summary.frames;
+  for (std::size_t& count : summary.by_status) stream >> count;
+  std::string squares, largest, rest;
+  if (!(stream >> summary.unexplained >> summary.force_compared >> squares >>
+        largest) ||
+      stream >> rest) {
+    return std::nullopt;
+  }
+  const std::optional<double> sum = ParseNumber(squares);
+  const std::optional<double> max = ParseNumber(largest);
+  if (!sum || !max) return std::nullopt;
+  summary.force_squares_N2 = *sum;
+  summary.force_max_N = *max;
+  return summary;
+}
+
+void EmitSummary(const EstimationSummary& summary, YamlEmitter* yaml) {
+  YamlPair(yaml, "frames", summary.frames);
+  *yaml << YAML::Key << "status" << YAML::Value << YAML::BeginMap;
+  for (const FrameStatus status : EstimationSummary::kStatuses) {
+    YamlPair(yaml, StatusName(status), summary.count(status));
+  }
+  *yaml << YAML::EndMap;
+  YamlPair(yaml, "unexplained_frames", summary.unexplained);
+  if (summary.force_compared > 0) {
+    YamlPair(yaml, "force_compared_frames", summary.force_compared);
+    YamlPair(yaml, "force_rms_error_N", summary.force_rms_N());
+    YamlPair(yaml, "force_max_error_N", summary.force_max_N);
+    YamlPair(yaml, "force_squares_N2", summary.force_squares_N2);
+  }
+}
+
+}  // namespace finray

@@ -1,0 +1,206 @@
+#include "finray/batch/log_job.h"
+
+#include <future>
+#include <utility>
+
+#include "finray/batch/log_stream.h"
+#include "finray/finger/finger_yaml.h"
+#include "finray/io/atomic_file.h"
+#include "finray/io/error.h"
+#include "finray/io/frame_reader.h"
+#include "finray/io/log_list.h"
+#include "finray/io/sha256.h"
+#include "finray/io/yaml_emitter.h"
+#include "finray/io/yaml_map.h"
+
+namespace finray {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string Key(const BatchSettings& settings, const std::string& log_sha256) {
+  return Sha256OfText(
+      "results 5\nversion " FINRAY_VERSION "\nlog " + log_sha256 + "\nfinger " +
+      settings.finger_sha256 + "\nscene " + settings.scene_sha256 +
+      "\nscheme " + SchemeName(settings.discretization.scheme) +
+      "\nresolution " + std::to_string(settings.discretization.resolution) +
+      "\nblock_frames " + std::to_string(kBlockFrames) + "\n");
+}
+
+std::size_t Count(const YamlMap& yaml, const std::string& key) {
+  return static_cast<std::size_t>(yaml.NonNegativeNumber(key));
+}
+
+EstimationSummary SummaryFromYaml(const YamlMap& yaml) {
+  EstimationSummary summary;
+  summary.frames = Count(yaml, "frames");
+  const YamlMap status = yaml.Map("status");
+  for (const FrameStatus s : EstimationSummary::kStatuses) {
+    summary.by_status[static_cast<std::size_t>(s)] =
+        Count(status, StatusName(s));
+  }
+  summary.unexplained = Count(yaml, "unexplained_frames");
+  if (yaml.Has("force_compared_frames")) {
+    summary.force_compared = Count(yaml, "force_compared_frames");
+    summary.force_squares_N2 = yaml.NonNegativeNumber("force_squares_N2");
+    summary.force_max_N = yaml.NonNegativeNumber("force_max_error_N");
+  }
+  return summary;
+}
+
+}  // namespace
+
+BatchSettings::BatchSettings(const std::string& finger_path,
+                             const std::string& scene_path,
+                             const Discretization& discretization_in)
+    : finger(ReadFinger(finger_path)),
+      discretization(discretization_in),
+      finger_sha256(Sha256OfFile(finger_path)) {
+  if (scene_path.empty()) return;
+  scene = ReadScene(scene_path);
+  scene_sha256 = Sha256OfFile(scene_path);
+}
+
+LogJob::LogJob(const BatchSettings* settings, std::string log,
+               std::string result)
+    : settings_(settings), log_(std::move(log)), result_(std::move(result)) {
+  const fs::path folder = fs::path(result_).parent_path();
+  summary_path_ = (folder / (LogName(log_) + ".summary.yaml")).string();
+}
+
+bool LogJob::Check() {
+  std::error_code unknown;
+  if (fs::is_fifo(log_, unknown) || fs::is_character_file(log_, unknown)) {
+    throw InputError(log_ +
+                     ": expected a file; a log is read more than once, which "
+                     "a pipe cannot be");
+  }
+  bytes_ = fs::file_size(log_, unknown);
+  written_ = fs::last_write_time(log_, unknown);
+  // Beside the check where there is a thread for it.
+  auto hash = std::async(
+      settings_->threads > 1 ? std::launch::async : std::launch::deferred,
+      Sha256OfFile, log_);
+  const auto set_key = [&] {
+    log_sha256_ = hash.get();
+    key_ = Key(*settings_, log_sha256_);
+  };
+  const bool perhaps_finished =
+      settings_->resume && fs::exists(summary_path_, unknown);
+  if (perhaps_finished) {
+    set_key();
+    finished_before_ = ReadFinished();
+    if (finished_before_) return true;
+  }
+  FrameReader reader(log_, settings_->scene.columns);
+  if (!CheckStream(settings_->finger, settings_->threads, settings_->stop,
+                   &reader)) {
+    return false;
+  }
+  frames_ = reader.position();
+  if (!perhaps_finished) set_key();
+  return true;
+}
+
+bool LogJob::ReadFinished() {
+  std::error_code missing;
+  if (!fs::exists(summary_path_, missing)) return false;
+  const std::uintmax_t bytes = fs::file_size(result_, missing);
+  if (missing) return false;
+  try {
+    const YamlMap yaml = YamlMap::FromFile(summary_path_);
+    if (yaml.Text("key") != key_ ||
+        yaml.Number("result_bytes") != static_cast<double>(bytes)) {
+      return false;
+    }
+    summary_ = SummaryFromYaml(yaml);
+  } catch (const InputError&) {
+    return false;  // not ours, or changed by hand: the log is done again
+  }
+  frames_ = summary_.frames;
+  return true;
+}
+
+bool LogJob::Changed() const {
+  std::error_code unknown;
+  return fs::file_size(log_, unknown) != bytes_ || unknown ||
+         fs::last_write_time(log_, unknown) != written_ || unknown;
+}
+
+void LogJob::ReportProgress(std::size_t frames, bool kept) const {
+  if (settings_->progress) settings_->progress(frames, kept);
+}
+
+bool LogJob::Run(FrameSolverPool* pool) {
+  if (finished_before_) {
+    // Of a run that set out to do it again.
+    if (ResumableFile::IsUnderWay(result_)) {
+      ResumableFile(result_, key_, true).Discard();
+    }
+    ReportProgress(frames_, true);
+    return true;
+  }
+  ResumableFile out(result_, key_, settings_->resume);
+  summary_ = SummaryFromText(out.note()).value_or(EstimationSummary());
+  ReportProgress(summary_.frames, true);
+  if (!out.finished() && !Estimate(pool, &out)) return false;
+  WriteSummary(out.bytes());
+  out.Forget();
+  return true;
+}
+
+bool LogJob::Estimate(FrameSolverPool* pool, ResumableFile* out) {
+  std::size_t blocks = 0;
+  const auto write = [&](const StreamedBlock& block) {
+    out->Append(block.csv);
+    summary_.Add(block.summary);
+    if (++blocks % settings_->chunk_blocks == 0) {
+      out->CheckpointSoon(SummaryToText(summary_));
+    }
+    ReportProgress(block.summary.frames, false);
+  };
+  bool whole = false;
+  try {
+    FrameReader reader(log_, settings_->scene.columns);
+    reader.Skip(summary_.frames);
+    whole = EstimateStream(settings_->finger, settings_->scene, pool,
+                           settings_->threads, settings_->stop, &reader, write);
+  } catch (const InputError&) {
+    if (!Changed()) throw;  // the result cannot be written
+  }
+  if (Changed()) {
+    out->Discard();
+    throw InputError(log_ + ": was changed while it was being read");
+  }
+  if (!whole) {
+    out->Checkpoint(SummaryToText(summary_));
+    return false;
+  }
+  // The summary of an older result must not stand beside the new one.
+  std::error_code missing;
+  fs::remove(summary_path_, missing);
+  out->Finish(SummaryToText(summary_));
+  return true;
+}
+
+void LogJob::WriteSummary(std::uint64_t bytes) const {
+  YamlEmitter yaml;
+  yaml << YAML::BeginMap;
+  YamlPair(&yaml, "key", key_);
+  YamlPair(&yaml, "version", FINRAY_VERSION);
+  YamlPair(&yaml, "scheme", SchemeName(settings_->discretization.scheme));
+  YamlPair(&yaml, "resolution", settings_->discretization.resolution);
+  yaml << YAML::Key << "inputs" << YAML::Value << YAML::BeginMap;
+  YamlPair(&yaml, "log_sha256", log_sha256_);
+  YamlPair(&yaml, "finger_sha256", settings_->finger_sha256);
+  if (!settings_->scene_sha256.empty()) {
+    YamlPair(&yaml, "scene_sha256", settings_->scene_sha256);
+  }
+  yaml << YAML::EndMap;
+  YamlPair(&yaml, "result_bytes", bytes);
+  EmitSummary(summary_, &yaml);
+  yaml << YAML::EndMap;
+  WriteFileAtomically(summary_path_, std::string(yaml.c_str()) + "\n");
+}
+
+}  // namespace finray

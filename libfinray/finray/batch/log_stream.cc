@@ -1,0 +1,132 @@
+#include "finray/batch/log_stream.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+#include "finray/batch/result_rows.h"
+#include "finray/io/error.h"
+
+namespace finray {
+namespace {
+
+// Blocks under way for each thread: enough to keep all busy while one of them
+// writes to the disk.
+constexpr int kBlocksPerThread = 8;
+// Rows of a block that is only checked.
+constexpr std::size_t kCheckedRows = 512;
+
+// What a block goes through, in memory that later ones use again.
+struct Block {
+  LineBlock lines;
+  FrameRows rows;
+  bool first = false;  // of the log
+  std::vector<FrameReadings> readings;
+  std::vector<FrameEstimate> estimates;
+  ResultWriter writer;
+  StreamedBlock result;
+};
+
+// Parses the lines. What is wrong with one of them comes before what is wrong
+// behind them.
+void Parse(const FrameParser& parser, Block* block) {
+  block->rows.Clear();
+  try {
+    for (std::size_t i = 0; i < block->lines.size(); ++i) {
+      parser.Parse(block->lines.at(i), &block->rows);
+    }
+  } catch (const InputError& error) {
+    block->lines.error = error.what();
+  }
+}
+
+void Estimate(const ResultLayout& layout, double friction,
+              FrameSolverPool* pool, Block* block) {
+  const FrameRows& rows = block->rows;
+  const std::size_t count = rows.rows();
+  block->readings.resize(count);
+  block->estimates.resize(count);
+  for (std::size_t row = 0; row < count; ++row) {
+    layout.Read(rows, row, &block->readings[row]);
+  }
+  pool->SolveBlock(block->readings.data(), count, block->estimates.data());
+  StreamedBlock& result = block->result;
+  result.summary = EstimationSummary();
+  result.csv.clear();
+  if (block->first) result.csv = layout.HeaderCsv();
+  for (std::size_t row = 0; row < count; ++row) {
+    const FrameEstimate& estimate = block->estimates[row];
+    block->writer.Append(layout, rows, row, block->readings[row], estimate,
+                         &result.csv);
+    result.summary.Add(estimate, friction, layout.ReferenceForce(rows, row));
+  }
+}
+
+// `work` is done on blocks of `rows` lines on all threads, `finish` on one by
+// one in their order; the first that is bad makes an end.
+bool ForEachBlock(int threads, std::size_t rows,
+                  const std::function<bool()>& stop, FrameReader* reader,
+                  const std::function<void(Block*)>& work,
+                  const std::function<void(const Block&)>& finish) {
+  threads = std::max(1, threads);
+  // A block comes to its end before the one that far behind it is read.
+  std::vector<Block> ring(static_cast<std::size_t>(threads * kBlocksPerThread));
+  std::size_t next = 0;
+  bool stopped = false;
+  const auto read = [&](tbb::flow_control& flow) -> Block* {
+    Block* block = &ring[next++ % ring.size()];
+    block->first = reader->position() == 0;
+    stopped = stop && stop();
+    if (stopped || !reader->ReadLines(rows, &block->lines)) flow.stop();
+    return block;
+  };
+  const auto work_on = [&](Block* block) {
+    Parse(reader->parser(), block);
+    if (block->lines.error.empty()) work(block);
+    return block;
+  };
+  const auto hand_over = [&](Block* block) {
+    if (!block->lines.error.empty()) throw InputError(block->lines.error);
+    finish(*block);
+  };
+  using tbb::filter_mode;
+  // As many as asked for, also if the machine has fewer.
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  tbb::task_arena(threads).execute([&] {
+    tbb::parallel_pipeline(
+        ring.size(),
+        tbb::make_filter<void, Block*>(filter_mode::serial_in_order, read) &
+            tbb::make_filter<Block*, Block*>(filter_mode::parallel, work_on) &
+            tbb::make_filter<Block*, void>(filter_mode::serial_in_order,
+                                           hand_over));
+  });
+  return !stopped;
+}
+
+}  // namespace
+
+bool EstimateStream(const Finger& finger, const Scene& scene,
+                    FrameSolverPool* pool, int threads,
+                    const std::function<bool()>& stop, FrameReader* reader,
+                    const std::function<void(const StreamedBlock&)>& write) {
+  const ResultLayout layout(finger, scene, reader->parser());
+  return ForEachBlock(
+      threads, kBlockFrames, stop, reader,
+      [&](Block* block) {
+        Estimate(layout, scene.friction_coefficient, pool, block);
+      },
+      [&](const Block& block) { write(block.result); });
+}
+
+bool CheckStream(const Finger& finger, int threads,
+                 const std::function<bool()>& stop, FrameReader* reader) {
+  const FrameParser& parser = reader->parser();
+  ReadingColumns(finger, parser.names(), parser.path());
+  return ForEachBlock(
+      threads, kCheckedRows, stop, reader, [](Block*) {}, [](const Block&) {});
+}
+
+}  // namespace finray

@@ -1,0 +1,82 @@
+#include "finray/batch/result_columns.h"
+
+#include <cmath>
+
+#include "finray/scene/frame_columns.h"
+
+namespace finray {
+
+// Calls column(name, value), where name() makes the name. The one place that
+// says which columns there are.
+template <class Column>
+void ResultColumns::ForEach(const FrameReadings& readings,
+                            const FrameEstimate& estimate,
+                            Column column) const {
+  const auto named = [&column](const char* name, double value) {
+    column([name] { return std::string(name); }, value);
+  };
+  for (int c = 0; c < contacts_; ++c) {
+    const ContactEstimate& contact = estimate.contact[c];
+    column([c] { return ContactArc(c); }, contact.arc_mm);
+    column([c] { return ContactArcStd(c); }, contact.arc_std_mm);
+    column([c] { return NormalForce(c); }, contact.normal_N);
+    column([c] { return NormalForceStd(c); }, contact.normal_std_N);
+    if (friction_ != 0) {
+      column([c] { return Friction(c); },
+             std::isfinite(contact.arc_mm) ? friction_ : std::nan(""));
+    }
+    column([c] { return ContactX(c); }, contact.pose.x());
+    column([c] { return ContactY(c); }, contact.pose.y());
+    column([c] { return ContactAngle(c); }, contact.pose.z());
+  }
+  for (std::size_t j = 0; j < gauges_.size(); ++j) {
+    column([j] { return GaugeAngle(static_cast<int>(j)); },
+           (readings.gauges_V[j] - gauges_[j].offset_V) /
+               gauges_[j].gain_V_per_rad);
+  }
+  for (std::size_t i = 0; i < ribs_; ++i) {
+    column([i] { return RibForce(static_cast<int>(i)); },
+           estimate.rib_tension_N[i]);
+  }
+  named("tip_x_mm", estimate.tip_pose.x());
+  named("tip_y_mm", estimate.tip_pose.y());
+  named("tip_angle_rad", estimate.tip_pose.z());
+  named("chi2", estimate.chi2);
+  named("chi2_p_value", estimate.p_value());
+  named("iterations", estimate.iterations);
+  if (!alternative_) return;
+  for (int c = 0; c < contacts_; ++c) {
+    const ContactEstimate& contact = estimate.alternative[c];
+    column([c] { return AlternativeContactArc(c); }, contact.arc_mm);
+    column([c] { return AlternativeNormalForce(c); }, contact.normal_N);
+  }
+  named("alternative_chi2", estimate.alternative_chi2);
+}
+
+ResultColumns::ResultColumns(const Finger& finger, const Scene& scene)
+    : gauges_(finger.gauges),
+      ribs_(finger.ribs.size()),
+      alternative_(scene.contacts != 0),
+      friction_(scene.friction_coefficient) {
+  constexpr std::size_t kGaugesForTwo = 4;  // as many as unknowns
+  const bool automatic =
+      gauges_.size() >= kGaugesForTwo && !scene.object_std_mm;
+  const bool two = scene.contacts ? *scene.contacts == 2 : automatic;
+  if (two) contacts_ = 2;
+  FrameReadings readings;
+  readings.gauges_V.resize(gauges_.size());
+  FrameEstimate estimate;
+  estimate.rib_tension_N.resize(ribs_);
+  ForEach(readings, estimate,
+          [this](auto name, double) { names_.push_back(name()); });
+}
+
+void ResultColumns::Values(const FrameReadings& readings,
+                           const FrameEstimate& estimate,
+                           double* values) const {
+  ForEach(readings, estimate, [&values](auto, double value) {
+    *values++ = std::isfinite(value) ? value : std::nan("");
+  });
+}
+
+}  // namespace finray

@@ -1,0 +1,52 @@
+#include "finray/finger/discretization.h"
+
+#include "finray/io/error.h"
+#include "finray/io/nearest_name.h"
+
+namespace finray {
+
+int EffectiveResolution(const Discretization& discretization) {
+  if (discretization.resolution > 0) return discretization.resolution;
+  switch (discretization.scheme) {
+    case Scheme::kRigidChain:
+      return 200;
+    case Scheme::kTaylor4:
+      return 100;
+    case Scheme::kTaylor8:
+      return 48;
+    case Scheme::kTaylor12:
+      return 24;
+    case Scheme::kTaylor:
+      break;
+  }
+  return 12;
+}
+
+const std::vector<std::string>& SchemeNames() {
+  static const std::vector<std::string> names = {
+      "rigid_chain", "taylor4", "taylor8", "taylor12", "taylor"};
+  return names;
+}
+
+std::string SchemeName(Scheme scheme) {
+  return SchemeNames()[static_cast<int>(scheme)];
+}
+
+Discretization ParseDiscretization(const std::string& scheme, int resolution) {
+  if (resolution < 0 || resolution > 100000) {
+    throw InputError("--resolution: " + std::to_string(resolution) +
+                     " is not a number of elements from 1 to 100000 "
+                     "(0: the scheme's default)");
+  }
+  for (std::size_t i = 0; i < SchemeNames().size(); ++i) {
+    if (SchemeNames()[i] == scheme) {
+      return {static_cast<Scheme>(i), resolution};
+    }
+  }
+  std::string known;
+  for (const std::string& name : SchemeNames()) known += " " + name;
+  throw InputError("--scheme: unknown scheme '" + scheme + "'" +
+                   DidYouMean(scheme, SchemeNames()) + "; known:" + known);
+}
+
+}  // namespace finray

@@ -1,0 +1,49 @@
+#ifndef FINRAY_FINGER_DISCRETIZATION_H_
+#define FINRAY_FINGER_DISCRETIZATION_H_
+
+#include <string>
+#include <vector>
+
+namespace finray {
+
+/// How the beam equation is integrated (docs/statics.md has the measured
+/// trade).
+enum class Scheme {
+  kRigidChain,  ///< The paper's rigid links, order 2 (RigidLinkElement).
+  kTaylor4,     ///< Taylor series of order 4 (TaylorElement).
+  kTaylor8,     ///< ... of order 8.
+  kTaylor12,    ///< ... of order 12.
+  kTaylor,      ///< ... of order 16, the default.
+};
+
+/// Scheme and number of elements over both beams together; no bay has less than
+/// one element. A resolution of 0 stands for the scheme's default, which in the
+/// orders 12 and 16 is refined where the load asks for it, until the terms that
+/// an element's series leaves out are below kRefinedTruncation_rad.
+struct Discretization {
+  Scheme scheme = Scheme::kTaylor;
+  int resolution = 0;
+
+  bool adaptive() const {
+    return resolution == 0 &&
+           (scheme == Scheme::kTaylor12 || scheme == Scheme::kTaylor);
+  }
+};
+
+constexpr double kRefinedTruncation_rad = 1e-10;
+
+/// The number of elements that a discretization asks for (to begin with): its
+/// resolution, or the scheme's default.
+int EffectiveResolution(const Discretization& discretization);
+
+/// The values of --scheme: "rigid_chain", "taylor" and so on.
+const std::vector<std::string>& SchemeNames();
+std::string SchemeName(Scheme scheme);
+
+/// From the values of --scheme and --resolution. Throws InputError naming the
+/// nearest scheme, or for a resolution below 0 or above 100 000.
+Discretization ParseDiscretization(const std::string& scheme, int resolution);
+
+}  // namespace finray
+
+#endif  // FINRAY_FINGER_DISCRETIZATION_H_

@@ -1,0 +1,105 @@
+#include "finray/ladder/ladder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "finray/finger/geometry.h"
+#include "finray/io/error.h"
+
+namespace finray {
+namespace {
+
+// The march meets ribs in one order on both beams, inside of them.
+void CheckRibs(const Finger& finger) {
+  const double front_length = BeamLength(finger, Side::kFront);
+  const double back_length = BeamLength(finger, Side::kBack);
+  double front = 0, back = 0;
+  for (std::size_t i = 0; i < finger.ribs.size(); ++i) {
+    const Rib& rib = finger.ribs[i];
+    const std::string name = "rib " + std::to_string(i + 1);
+    // Written so that a NaN fails.
+    if (!(rib.front_mm > 0 && rib.front_mm < front_length && rib.back_mm > 0 &&
+          rib.back_mm < back_length)) {
+      throw InputError(name + " does not join the beams between base and tip");
+    }
+    if (!(rib.front_mm > front && rib.back_mm > back)) {
+      throw InputError("ribs " + std::to_string(i) + " and " +
+                       std::to_string(i + 1) +
+                       " cross or are not listed from base to tip");
+    }
+    if (!(rib.length_mm > 0 && std::isfinite(rib.length_mm))) {
+      throw InputError(name + " has no length");
+    }
+    if (!(rib.axial_stiffness_N > 0)) {
+      throw InputError(name + " has no axial stiffness");
+    }
+    front = rib.front_mm;
+    back = rib.back_mm;
+  }
+}
+
+}  // namespace
+
+LadderModel::LadderModel(const Finger& finger,
+                         const Discretization& discretization)
+    : finger_(finger) {
+  if (discretization.scheme == Scheme::kRigidChain &&
+      (AxialStiffness(finger, Side::kFront) <
+           std::numeric_limits<double>::infinity() ||
+       AxialStiffness(finger, Side::kBack) <
+           std::numeric_limits<double>::infinity())) {
+    throw InputError(
+        "--scheme rigid_chain: rigid links do not stretch, but the finger has "
+        "an axial_stiffness_N of its beams; use a taylor scheme");
+  }
+  CheckRibs(finger);
+  const int resolution = EffectiveResolution(discretization);
+  set_mesh({MakeBeamMesh(finger, Side::kFront, resolution),
+            MakeBeamMesh(finger, Side::kBack, resolution)});
+}
+
+bool Stretches(const Finger& finger) {
+  return std::isfinite(AxialStiffness(finger, Side::kFront)) ||
+         std::isfinite(AxialStiffness(finger, Side::kBack));
+}
+
+void LadderModel::set_mesh(const std::array<BeamMesh, 2>& mesh) {
+  mesh_ = mesh;
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    auto& ends = gauge_ends_[Index(side)];
+    ends.clear();
+    for (int j = 0; j < gauges(); ++j) {
+      const Gauge& gauge = finger_.gauges[j];
+      if (gauge.beam != side) continue;
+      const double start = gauge.start_mm;
+      ends.push_back({j, -1, this->mesh(side).Locate(start)});
+      ends.push_back({j, 1, this->mesh(side).Locate(start + gauge.length_mm)});
+    }
+    std::sort(ends.begin(), ends.end(),
+              [](const GaugeEnd& a, const GaugeEnd& b) {
+                return std::make_pair(a.point.element, a.point.offset_mm) <
+                       std::make_pair(b.point.element, b.point.offset_mm);
+              });
+  }
+}
+
+LadderState LadderState::Undeformed(const LadderModel& model) {
+  LadderState state;
+  state.q.setZero(model.unknowns());
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    const BeamMesh& mesh = model.mesh(side);
+    auto& nodes = state.nodes[LadderModel::Index(side)];
+    nodes.setZero(5, mesh.elements());
+    for (int k = 0; k < mesh.elements(); ++k) {
+      nodes(0, k) = mesh.nodes_mm[k];
+      nodes.col(k).segment<2>(1) =
+          UndeformedPoint(model.finger(), side, mesh.nodes_mm[k]);
+      nodes(3, k) = BeamAngle(model.finger(), side);
+    }
+  }
+  return state;
+}
+
+}  // namespace finray

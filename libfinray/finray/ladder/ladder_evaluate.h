@@ -1,0 +1,333 @@
+#ifndef FINRAY_LADDER_LADDER_EVALUATE_H_
+#define FINRAY_LADDER_LADDER_EVALUATE_H_
+
+#include "finray/ladder/ladder_frame.h"
+#include "finray/ladder/lanes.h"
+
+namespace finray {
+inline namespace FINRAY_ISA {
+
+// The force of a contact for f = 1, normal into the finger plus friction along
+// the tangent, n + mu t, and its derivative by theta.
+template <class T>
+inline void ContactDirection(const LadderContact<T>& contact, const T& theta,
+                             T* unit, T* turned) {
+  using Scalar = typename ValueTraits<T>::Scalar;
+  T s, c;
+  SinCos(theta, &s, &c);
+  const Scalar into = contact.side == 0 ? Scalar(1) : Scalar(-1);
+  const T mu = contact.friction;
+  unit[0] = into * s + mu * c;
+  unit[1] = mu * s - into * c;
+  turned[0] = into * c - mu * s;
+  turned[1] = into * s + mu * c;
+}
+
+// The first half of a Newton step (ladder_kernel.h). Wide is the scheme's
+// element over vector lanes, Single the same over one T. Where lanes are
+// elements, starts are collected first and then solved vector by vector; where
+// they are frames (kWidth 1), each element is solved when the walk meets it.
+template <class T, class Wide, class Single>
+class LadderEvaluator {
+ public:
+  using Scalar = typename ValueTraits<T>::Scalar;
+  using V = typename Lanes<T>::Vector;
+  using U = typename Lanes<T>::Unaligned;
+  static constexpr int kWidth = Lanes<T>::kWidth;
+
+  LadderEvaluator(LadderFrame<T>* frame, SweepColumns columns)
+      : f_(*frame), columns_(columns) {}
+
+  void Evaluate(bool propagate) {
+    AssignReadouts();
+    FillSlots(propagate);
+    if constexpr (kWidth > 1) {
+      for (int slot = 0; slot < f_.slots(); slot += kWidth) ComputeMaps(slot);
+    }
+    CollectGaps();
+  }
+
+ private:
+  struct End {
+    T x, y, theta, moment;
+  };
+
+  int SideEnd(int side) const {
+    return side == 0 ? f_.front_elements : f_.elements;
+  }
+  int LastSlot(int element) const {
+    int slot = element;
+    for (int c = 0; c < f_.contact_count; ++c) {
+      if (f_.contacts[c].element == element) slot = f_.elements + c;
+    }
+    return slot;
+  }
+
+  // Forces by walking both beams together, rung by rung; contacts on the way.
+  void FillSlots(bool propagate) {
+    const LadderNodes<T>& z = f_.state;
+    T force[2][2] = {{z.q[1], z.q[2]}, {z.q[4], z.q[5]}};
+    int at[2] = {0, f_.front_elements};
+    int contact[2] = {0, 0};
+    while (contact[1] < f_.contact_count && f_.contacts[contact[1]].side == 0) {
+      ++contact[1];
+    }
+    for (int rib = 0; rib <= f_.ribs; ++rib) {
+      for (int side = 0; side < 2; ++side) {
+        const int end =
+            rib < f_.ribs ? f_.rib_element[side][rib] : SideEnd(side);
+        for (; at[side] < end; ++at[side]) {
+          FillElement(at[side], force[side], &contact[side],
+                      propagate && at[side] + 1 < SideEnd(side));
+        }
+      }
+      if (rib < f_.ribs) PassRib(rib, at, force);
+    }
+    const int first = f_.ribs;
+    for (int i = 0; i < 2; ++i) {
+      f_.closure[first + 4 + i] = force[0][i] + force[1][i];
+    }
+    // What fills the last lanes must be harmless.
+    for (int slot = f_.slots(); slot % kWidth != 0; ++slot) {
+      PutSlot(slot, {T{}, T{}, T{}, T{}}, 0, T{});
+      f_.slot_fx[slot] = f_.slot_fy[slot] = T{};
+      f_.slot_stiffness[slot] = T{} + Scalar(1);
+      f_.slot_axial[slot] = T{};
+    }
+  }
+
+  void PutSlot(int slot, const End& start, int element, const T& length) {
+    f_.slot_x[slot] = start.x;
+    f_.slot_y[slot] = start.y;
+    f_.slot_theta[slot] = start.theta;
+    f_.slot_moment[slot] = start.moment;
+    f_.slot_length[slot] = length;
+    f_.slot_stiffness[slot] = f_.stiffness[element];
+    f_.slot_axial[slot] = f_.axial_flexibility[element];
+  }
+
+  void FillElement(int e, T* force, int* contact, bool propagate) {
+    const LadderNodes<T>& z = f_.state;
+    PutSlot(e, {z.x[e], z.y[e], z.theta[e], z.moment[e]}, e, f_.length[e]);
+    f_.slot_fx[e] = force[0];
+    f_.slot_fy[e] = force[1];
+    int slot = e;
+    T from{};
+    for (; *contact < f_.contact_count && f_.contacts[*contact].element == e;
+         ++*contact) {
+      const LadderContact<T>& c = f_.contacts[*contact];
+      f_.slot_length[slot] = c.offset - from;
+      const End end = SolveSlot(slot);
+      T unit[2], turned[2];
+      ContactDirection(c, end.theta, unit, turned);
+      force[0] -= c.normal * unit[0];
+      force[1] -= c.normal * unit[1];
+      slot = f_.elements + *contact;
+      from = c.offset;
+      PutSlot(slot, end, e, f_.length[e] - from);
+      f_.slot_fx[slot] = force[0];
+      f_.slot_fy[slot] = force[1];
+    }
+    if constexpr (kWidth == 1) {
+      ComputeMaps(slot);
+    }
+    if (propagate) {
+      const End end = kWidth == 1 ? SlotEnd(slot) : SolveSlot(slot);
+      z.x[e + 1] = end.x;
+      z.y[e + 1] = end.y;
+      z.theta[e + 1] = end.theta;
+      z.moment[e + 1] = end.moment;
+    }
+  }
+
+  End SolveSlot(int slot) {
+    if constexpr (kWidth == 1) {
+      ComputeMaps(slot);
+      return SlotEnd(slot);
+    } else {
+      Single element;
+      element.Solve({f_.slot_theta[slot], f_.slot_moment[slot],
+                     f_.slot_fx[slot], f_.slot_fy[slot]},
+                    f_.slot_stiffness[slot], f_.slot_axial[slot],
+                    f_.slot_length[slot]);
+      const auto& end = element.map().end;
+      return {f_.slot_x[slot] + end[0], f_.slot_y[slot] + end[1], end[2],
+              end[3]};
+    }
+  }
+
+  void PassRib(int rib, const int at[2], T force[2][2]) {
+    const LadderNodes<T>& z = f_.state;
+    const T dx = z.x[at[1]] - z.x[at[0]], dy = z.y[at[1]] - z.y[at[0]];
+    const T distance = SquareRoot(T(dx * dx + dy * dy));
+    const T ux = dx / distance, uy = dy / distance;
+    const T tension = z.q[6 + rib];
+    f_.rib_ux[rib] = ux;
+    f_.rib_uy[rib] = uy;
+    f_.rib_distance[rib] = distance;
+    f_.closure[rib] =
+        distance -
+        f_.rib_length[rib] * (Scalar(1) + tension * f_.rib_flexibility[rib]);
+    force[0][0] -= tension * ux;
+    force[0][1] -= tension * uy;
+    force[1][0] += tension * ux;
+    force[1][1] += tension * uy;
+  }
+
+  static V Load(const T* from) { return *reinterpret_cast<const U*>(from); }
+  static void Store(T* to, const V& value) {
+    *reinterpret_cast<U*>(to) = value;
+  }
+  static T* Lane(V* value) { return reinterpret_cast<T*>(value); }
+
+  void ComputeMaps(int slot) {
+    Wide element;
+    element.SolveAndDifferentiate(
+        {Load(f_.slot_theta + slot), Load(f_.slot_moment + slot),
+         Load(f_.slot_fx + slot), Load(f_.slot_fy + slot)},
+        Load(f_.slot_stiffness + slot), Load(f_.slot_axial + slot),
+        Load(f_.slot_length + slot));
+    const auto& map = element.map();
+    T* out = f_.maps + slot * kMapValues;
+    for (int i = 0; i < 4; ++i) {
+      Store(out + (kMapEnd + i) * kWidth, map.end[i]);
+      for (int p = 0; p < 4; ++p) {
+        Store(out + (kMapStart + 4 * i + p) * kWidth, map.d_start[i][p]);
+      }
+    }
+    Store(f_.truncation + slot, element.Truncation());
+    if (columns_ == SweepColumns::kParameters) {
+      element.DifferentiateByStiffness();
+      for (int i = 0; i < 4; ++i) {
+        Store(out + (kMapStiffness + i) * kWidth, map.d_stiffness[i]);
+      }
+    }
+    int readouts = 0;
+    bool at_contact = false;
+    for (int lane = 0; lane < kWidth; ++lane) {
+      const int here = Readouts(slot + lane);
+      if (here > readouts) readouts = here;
+      at_contact |= IsAtContact(slot + lane);
+    }
+    if (at_contact && (columns_ == SweepColumns::kContacts ||
+                       columns_ == SweepColumns::kParameters)) {
+      element.DifferentiateByLength();
+      for (int i = 0; i < 4; ++i) {
+        Store(out + (kMapLength + i) * kWidth, map.d_length[i]);
+      }
+    }
+    for (int k = 0; k < readouts; ++k) ReadGauges(element, slot, k);
+  }
+
+  // Whether the slot's length changes as a contact moves.
+  bool IsAtContact(int slot) const {
+    if (slot >= f_.elements) return true;
+    for (int c = 0; c < f_.contact_count; ++c) {
+      if (f_.contacts[c].element == slot) return true;
+    }
+    return false;
+  }
+
+  // The k-th readout of each of the slots.
+  void ReadGauges(const Wide& element, int slot, int k) {
+    V offset{};
+    for (int lane = 0; lane < kWidth; ++lane) {
+      if (k < Readouts(slot + lane)) {
+        Lane(&offset)[lane] = ReadoutOffset(slot + lane, k);
+      }
+    }
+    auto at = element.AngleAt(offset);
+    for (int lane = 0; lane < kWidth; ++lane) {
+      if (k >= Readouts(slot + lane)) continue;
+      T* out =
+          f_.readout_map + kReadoutValues * (f_.first_readout[slot + lane] + k);
+      out[0] = Lane(&at.theta_rad)[lane];
+      for (int p = 0; p < 4; ++p) out[1 + p] = Lane(at.d_start + p)[lane];
+      out[5] = Lane(&at.d_stiffness)[lane];
+      out[6] = Lane(&at.d_offset)[lane];
+      out[7] = Lane(&at.d_length)[lane];
+    }
+  }
+
+  T MapEnd(int slot, int i) const {
+    return f_.maps[(slot / kWidth) * kWidth * kMapValues +
+                   (kMapEnd + i) * kWidth + slot % kWidth];
+  }
+  End SlotEnd(int slot) const {
+    return {f_.slot_x[slot] + MapEnd(slot, 0),
+            f_.slot_y[slot] + MapEnd(slot, 1), MapEnd(slot, 2),
+            MapEnd(slot, 3)};
+  }
+
+  void CollectGaps() {
+    const LadderNodes<T>& z = f_.state;
+    End tip[2];
+    T largest{};
+    for (int side = 0; side < 2; ++side) {
+      for (int e = side == 0 ? 0 : f_.front_elements; e < SideEnd(side); ++e) {
+        const End end = SlotEnd(f_.contact_count == 0 ? e : LastSlot(e));
+        if (e + 1 == SideEnd(side)) {
+          tip[side] = end;
+          break;
+        }
+        T* gap = f_.gap + 4 * (e + 1);
+        gap[0] = end.x - z.x[e + 1];
+        gap[1] = end.y - z.y[e + 1];
+        gap[2] = end.theta - z.theta[e + 1];
+        gap[3] = end.moment - z.moment[e + 1];
+        for (int i = 0; i < 4; ++i) {
+          largest = Larger(largest, Magnitude(gap[i]));
+        }
+      }
+    }
+    f_.tip[0] = tip[0].x;
+    f_.tip[1] = tip[0].y;
+    f_.tip[2] = tip[0].theta;
+    T* closure = f_.closure + f_.ribs;
+    closure[0] = tip[0].x - tip[1].x;
+    closure[1] = tip[0].y - tip[1].y;
+    closure[2] =
+        (tip[0].theta - f_.base_angle[0]) - (tip[1].theta - f_.base_angle[1]);
+    closure[3] = tip[0].moment + tip[1].moment;
+    for (int i = 0; i < f_.ribs + 6; ++i) {
+      largest = Larger(largest, Magnitude(f_.closure[i]));
+    }
+    f_.residual = largest;
+  }
+
+  // The slot that holds each readout: past the last contact at or before it.
+  void AssignReadouts() {
+    const int slots = (f_.slots() + kWidth - 1) / kWidth * kWidth;
+    for (int slot = 0; slot < slots; ++slot) {
+      f_.first_readout[slot] = f_.end_readout[slot] = 0;
+    }
+    for (int i = 0; i < f_.readout_count; ++i) {
+      const LadderReadout<T>& readout = f_.readouts[i];
+      int slot = readout.element;
+      for (int c = 0; c < f_.contact_count; ++c) {
+        if (f_.contacts[c].element == readout.element &&
+            SmallestLane(T(readout.offset - f_.contacts[c].offset)) >= 0) {
+          slot = f_.elements + c;
+        }
+      }
+      if (f_.end_readout[slot] == 0) f_.first_readout[slot] = i;
+      f_.end_readout[slot] = i + 1;
+    }
+  }
+  int Readouts(int slot) const {
+    return f_.end_readout[slot] - f_.first_readout[slot];
+  }
+  T ReadoutOffset(int slot, int k) const {
+    const T& offset = f_.readouts[f_.first_readout[slot] + k].offset;
+    if (slot < f_.elements) return offset;
+    return offset - f_.contacts[slot - f_.elements].offset;
+  }
+
+  LadderFrame<T>& f_;
+  const SweepColumns columns_;
+};
+
+}  // namespace FINRAY_ISA
+}  // namespace finray
+
+#endif  // FINRAY_LADDER_LADDER_EVALUATE_H_

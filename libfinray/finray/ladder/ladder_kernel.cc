@@ -1,0 +1,102 @@
+// Compiled once for every instruction set; see CMakeLists.txt.
+#include "finray/ladder/ladder_kernel.h"
+
+#include "finray/ladder/ladder_evaluate.h"
+#include "finray/ladder/ladder_sweep.h"
+#include "finray/ladder/rigid_link_element.h"
+#include "finray/ladder/taylor_element.h"
+
+namespace finray {
+inline namespace FINRAY_ISA {
+namespace {
+
+using Frame = LadderFrame<double>;
+using V = Lanes<double>::Vector;
+
+template <class T, class Wide, class Single>
+void EvaluateScheme(LadderFrame<T>& frame, SweepColumns columns,
+                    bool propagate) {
+  LadderEvaluator<T, Wide, Single>(&frame, columns).Evaluate(propagate);
+}
+
+bool SweepColumnsOf(Frame& frame, SweepColumns columns, bool open,
+                    bool readouts) {
+  // The lengths that a step and one contact's derivatives need.
+  switch (frame.stride) {
+    case 8:
+      return LadderSweeper<double, 2>(&frame, columns, open).Run(readouts);
+    case 12:
+      return LadderSweeper<double, 3>(&frame, columns, open).Run(readouts);
+    case 16:
+      return LadderSweeper<double, 4>(&frame, columns, open).Run(readouts);
+    default:
+      return LadderSweeper<double, 0>(&frame, columns, open).Run(readouts);
+  }
+}
+
+bool Sweep(Frame& frame, SweepColumns columns, bool readouts) {
+  return SweepColumnsOf(frame, columns, false, readouts);
+}
+
+// One contact's derivatives and nothing else.
+constexpr int kFourColumns = 9;
+
+template <class Element>
+void EvaluateFour(LadderFrame<FourFrames>& frame) {
+  EvaluateScheme<FourFrames, Element, Element>(frame, SweepColumns::kContacts,
+                                               false);
+}
+
+bool SweepFour(LadderFrame<FourFrames>& frame) {
+  return LadderSweeper<FourFrames, kFourColumns>(&frame,
+                                                 SweepColumns::kContacts, false)
+      .Run(true);
+}
+
+void StepFour(LadderFrame<FourFrames>& frame) {
+  LadderWalkBack<FourFrames, kFourColumns>(&frame, SweepColumns::kContacts)
+      .Combine(2);
+  // The five fields of a state lie one behind the other.
+  const int count = 6 + frame.ribs + 4 * frame.elements;
+  for (int i = 0; i < count; ++i) frame.state.q[i] += frame.step.q[i];
+}
+
+void Combine(Frame& frame) {
+  LadderWalkBack<double, 0>(&frame, SweepColumns::kContacts)
+      .Combine(2 * frame.contact_count);
+}
+
+void OpenSweep(Frame& frame, SweepColumns columns) {
+  SweepColumnsOf(frame, columns, true, true);
+}
+
+template <class Wide, class Single>
+constexpr LadderKernel KernelOfScheme() {
+  return {EvaluateScheme<double, Wide, Single>,
+          Sweep,
+          Combine,
+          OpenSweep,
+          {EvaluateFour<Wide>, SweepFour, StepFour}};
+}
+
+template <int K, bool kStretch>
+constexpr LadderKernel TaylorKernel() {
+  return KernelOfScheme<TaylorElement<K, V, kStretch>,
+                        TaylorElement<K, double, kStretch>>();
+}
+
+}  // namespace
+
+const LadderKernel& KernelOf(Scheme scheme, bool stretch) {
+  static constexpr LadderKernel kernels[][2] = {
+      {KernelOfScheme<RigidLinkElement<V>, RigidLinkElement<double>>(),
+       KernelOfScheme<RigidLinkElement<V>, RigidLinkElement<double>>()},
+      {TaylorKernel<4, false>(), TaylorKernel<4, true>()},
+      {TaylorKernel<8, false>(), TaylorKernel<8, true>()},
+      {TaylorKernel<12, false>(), TaylorKernel<12, true>()},
+      {TaylorKernel<16, false>(), TaylorKernel<16, true>()}};
+  return kernels[static_cast<int>(scheme)][stretch];
+}
+
+}  // namespace FINRAY_ISA
+}  // namespace finray

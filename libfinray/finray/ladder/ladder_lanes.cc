@@ -1,0 +1,113 @@
+#include "finray/ladder/ladder_lanes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace finray {
+
+LadderLanes::LadderLanes(const Finger& finger,
+                         const Discretization& discretization, double friction)
+    : model_(finger, discretization),
+      workspace_(model_),
+      kernel_(&FindLadderKernel(discretization.scheme, Stretches(finger))),
+      friction_(friction) {
+  // Memory for as many contacts, and columns for one.
+  const std::vector<PointContact> contacts(kMostContacts);
+  workspace_.SetContacts(model_, contacts);
+  do {
+    workspace_.SetContacts(model_, {contacts[0]});
+  } while (workspace_.SetColumns(model_, SweepColumns::kContacts, false));
+  workspace_.Load(LadderState::Undeformed(model_));
+}
+
+bool LadderLanes::Load(const LadderState& state, int lane) {
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    const auto& nodes = state.nodes[LadderModel::Index(side)];
+    const std::vector<double>& mesh = model_.mesh(side).nodes_mm;
+    if (nodes.cols() + 1 != static_cast<Eigen::Index>(mesh.size())) {
+      return false;
+    }
+    for (Eigen::Index k = 0; k < nodes.cols(); ++k) {
+      if (nodes(0, k) != mesh[k]) return false;
+    }
+  }
+  workspace_.Load(state, lane);
+  return true;
+}
+
+LaneSet LadderLanes::Place(const std::array<double, kFrameLanes>& arc_mm,
+                           const std::array<double, kFrameLanes>& normal_N,
+                           LaneSet wanted, LaneSet first) {
+  LadderFrame<FourFrames>& f = workspace_.frame();
+  const BeamMesh& mesh = model_.mesh(Side::kFront);
+  LaneSet placed = 0;
+  int count = 0, leader = -1;
+  int element[kFrameLanes] = {};
+  for (const LaneSet set : {wanted & first, wanted & ~first}) {
+    for (int lane = 0; lane < kFrameLanes; ++lane) {
+      if (!Has(set, lane)) continue;
+      element[lane] = mesh.Locate(arc_mm[lane]).element;
+      int c = 0;
+      while (c < count && f.contacts[c].element != element[lane]) ++c;
+      if (c == kMostContacts) continue;
+      if (c == count) f.contacts[count++].element = element[lane];
+      if (leader < 0) leader = lane;
+      placed |= 1u << lane;
+    }
+  }
+  if (placed == 0) return 0;
+  if (count == 2 && f.contacts[0].element > f.contacts[1].element) {
+    std::swap(f.contacts[0].element, f.contacts[1].element);
+  }
+  f.contact_count = count;
+  for (int c = 0; c < count; ++c) {
+    LadderContact<FourFrames>& contact = f.contacts[c];
+    const double start = mesh.nodes_mm[contact.element];
+    const double length = mesh.nodes_mm[contact.element + 1] - start;
+    const auto offset = [&](int lane) {
+      return std::clamp(arc_mm[lane] - start, 0.0, length) /
+             workspace_.length_unit();
+    };
+    // Readings are taken on the same side of the contact in all lanes.
+    for (int i = 0; i < f.readout_count; ++i) {
+      if (f.readouts[i].element != contact.element) continue;
+      const double at = f.readouts[i].offset[0];
+      for (int lane = 0; lane < kFrameLanes; ++lane) {
+        if ((offset(lane) <= at) != (offset(leader) <= at)) {
+          placed &= ~(1u << lane);
+        }
+      }
+    }
+    contact.side = 0;
+    contact.index = c;
+    contact.columns = 0;
+    contact.d_normal = FourFrames{};
+    for (int lane = 0; lane < kFrameLanes; ++lane) {
+      const bool present =
+          Has(placed, lane) && element[lane] == contact.element;
+      if (present) contact_of_[lane] = c;
+      contact.offset[lane] = offset(Has(placed, lane) ? lane : leader);
+      contact.normal[lane] =
+          present ? normal_N[lane] / workspace_.force_unit() : 0;
+      contact.friction[lane] = friction_;
+      contact.present[lane] = present;
+    }
+  }
+  return placed;
+}
+
+bool LadderLanes::Linearize() {
+  LadderFrame<FourFrames>& f = workspace_.frame();
+  kernel_->four.evaluate(f);
+  return std::isfinite(LargestLane(f.residual)) && kernel_->four.sweep(f);
+}
+
+void LadderLanes::Step(const FourFrames& newton, const FourFrames change[2]) {
+  LadderFrame<FourFrames>& f = workspace_.frame();
+  f.newton = newton;
+  f.change[0] = change[0];
+  f.change[1] = change[1];
+  kernel_->four.step(f);
+}
+
+}  // namespace finray

@@ -1,0 +1,388 @@
+#ifndef FINRAY_LADDER_LADDER_SWEEP_H_
+#define FINRAY_LADDER_LADDER_SWEEP_H_
+
+#include "finray/ladder/ladder_evaluate.h"
+#include "finray/ladder/ladder_walk_back.h"
+
+namespace finray {
+inline namespace FINRAY_ISA {
+
+// The second half of a Newton step (ladder_kernel.h): both beams are walked
+// from base to tip, and back (ladder_walk_back.h) if the tip is not left open.
+template <class T, int kVectors>
+class LadderSweeper : private LadderRows<T, kVectors> {
+  using Rows = LadderRows<T, kVectors>;
+  using Rows::Add;
+  using Rows::Broadcast;
+  using Rows::Clear;
+  using Rows::Copy;
+  using Rows::f_;
+  using Rows::kNode;
+  using Rows::kPivot;
+  using Rows::kTap;
+  using Rows::kWidth;
+  using Rows::Node;
+  using Rows::stride;
+  using Rows::Tap;
+  using Rows::vectors;
+  using Rows::Wide;
+  using typename Rows::Event;
+  using typename Rows::Scalar;
+  using typename Rows::U;
+  using typename Rows::V;
+
+ public:
+  LadderSweeper(LadderFrame<T>* frame, SweepColumns columns, bool open)
+      : Rows(frame), columns_(columns), open_(open) {}
+
+  // Without readouts their taps keep what they held.
+  bool Run(bool readouts) {
+    Begin();
+    int at[2] = {0, f_.front_elements};
+    for (int rib = 0; rib <= f_.ribs; ++rib) {
+      for (int side = 0; side < 2; ++side) {
+        const int end = rib < f_.ribs
+                            ? f_.rib_element[side][rib]
+                            : (side == 0 ? f_.front_elements : f_.elements);
+        for (; at[side] < end; ++at[side]) {
+          PassElement(side, at[side], readouts);
+        }
+        if (rib < f_.ribs) TakeUpGap(side, end);
+      }
+      if (rib < f_.ribs) PassRib(rib);
+    }
+    CloseTip();
+    if (open_) return true;
+    if (!EliminateTip()) return false;
+    f_.event_count = events_;
+    LadderWalkBack<T, kVectors>(&f_, columns_).Run();
+    return true;
+  }
+
+ private:
+  enum Row { kX, kY, kTheta, kMoment, kForceX, kForceY, kRows };
+  // Beyond this the parameters are exchanged: it costs as many digits of a
+  // step, which Newton's next one corrects.
+  static constexpr Scalar kLargestGrowth = 1000;
+  static constexpr int kParameterVectors = (6 + kWidth - 1) / kWidth;
+
+  int affine() const { return open_ ? f_.affine : 6; }
+  // The rows of a node's position, angle and moment lie where they are kept;
+  // behind the nodes come both tips and, on either side, a contact.
+  T* TipNode(int side) const { return Node(f_.elements + side); }
+  T* ContactNode(int side) const { return Node(f_.elements + 2 + side); }
+  T* RowOf(int side, int row) const {
+    return row < kForceX ? node_[side] + row * stride()
+                         : f_.rows + (2 * side + row - kForceX) * stride();
+  }
+  T* RowOf(int i) const { return RowOf(i / kRows, i % kRows); }
+
+  void Log(Event event, int index) { f_.events[events_++] = 4 * index + event; }
+
+  bool parameters() const { return columns_ == SweepColumns::kParameters; }
+  bool by_contacts() const {
+    return parameters() || columns_ == SweepColumns::kContacts;
+  }
+  bool by_load() const { return columns_ == SweepColumns::kLoad; }
+  int ContactColumn(int c) const {
+    return affine() + 1 + 2 * f_.contacts[c].columns;
+  }
+  const T& Present(int c) const { return f_.contacts[c].present; }
+  int StiffnessColumn(int side) const {
+    return affine() + 1 + 2 * f_.contact_count + side;
+  }
+  int RibColumn(int rib) const {
+    return affine() + 1 + 2 * f_.contact_count + 2 + rib;
+  }
+
+  void Begin() {
+    while (next_contact_[1] < f_.contact_count &&
+           f_.contacts[next_contact_[1]].side == 0) {
+      ++next_contact_[1];
+    }
+    node_[0] = Node(0);
+    node_[1] = Node(f_.front_elements);
+    for (int i = 0; i < 2 * kRows; ++i) Clear(RowOf(i));
+    for (int side = 0; side < 2; ++side) {
+      for (int i = 0; i < 3; ++i) {
+        RowOf(side, kMoment + i)[3 * side + i] += Scalar(1);
+      }
+    }
+  }
+
+  // The node at the start of element e: its stored state is off by the gap. At
+  // a rib that happens before the rib is passed.
+  void TakeUpGap(int side, int e) {
+    if (gap_taken_[side] || e == (side == 0 ? 0 : f_.front_elements)) return;
+    gap_taken_[side] = true;
+    for (int i = 0; i < 4; ++i) RowOf(side, i)[affine()] += f_.gap[4 * e + i];
+  }
+
+  void PassElement(int side, int e, bool readouts) {
+    TakeUpGap(side, e);
+    if (gap_taken_[side] && !open_) Log(kNode, e);
+    gap_taken_[side] = false;
+    const bool last = e + 1 == (side == 0 ? f_.front_elements : f_.elements);
+    int slot = e, begins_at = -1;
+    for (int& c = next_contact_[side];
+         c < f_.contact_count && f_.contacts[c].element == e; ++c) {
+      PassSlot(side, e, slot, begins_at, c, readouts, ContactNode(side));
+      PassContact(side, c);
+      begins_at = c;
+      slot = f_.elements + c;
+    }
+    PassSlot(side, e, slot, begins_at, -1, readouts,
+             last ? TipNode(side) : Node(e + 1));
+    if (!open_ && ++since_check_ >= kGrowthCheckEvery) CheckGrowth();
+  }
+
+  // A slot that begins (ends) at a contact becomes shorter (longer) when that
+  // contact moves towards the tip.
+  void PassSlot(int side, int e, int slot, int begins_at, int ends_at,
+                bool readouts, T* end) {
+    for (int i = f_.first_readout[slot]; readouts && i < f_.end_readout[slot];
+         ++i) {
+      TapReadout(side, i, begins_at, ends_at, e);
+    }
+    const T* map =
+        f_.maps + (slot / kWidth) * kWidth * kMapValues + slot % kWidth;
+    V a[4][4];
+    for (int i = 0; i < 4; ++i) {
+      for (int p = 0; p < 4; ++p) {
+        a[i][p] = Broadcast(map[(kMapStart + 4 * i + p) * kWidth]);
+      }
+    }
+    const U* from[kRows];
+    U* to[4];
+    for (int i = 0; i < kRows; ++i) from[i] = Wide(RowOf(side, i));
+    for (int i = 0; i < 4; ++i) to[i] = Wide(end + i * stride());
+    for (int v = 0; v < vectors(); ++v) {
+      const V t = from[kTheta][v], m = from[kMoment][v];
+      const V n = from[kForceX][v], w = from[kForceY][v];
+      for (int i = 0; i < 4; ++i) {
+        const V moved = a[i][0] * t + a[i][1] * m + a[i][2] * n + a[i][3] * w;
+        to[i][v] = i < kTheta ? from[i][v] + moved : moved;
+      }
+    }
+    node_[side] = end;
+    if (!by_contacts()) return;
+    for (int i = 0; i < 4; ++i) {
+      T* row = RowOf(side, i);
+      if (parameters()) {
+        row[StiffnessColumn(side)] +=
+            f_.stiffness_ratio[e] * map[(kMapStiffness + i) * kWidth];
+      }
+      const T& by_length = map[(kMapLength + i) * kWidth];
+      if (begins_at >= 0) {
+        row[ContactColumn(begins_at)] -= Present(begins_at) * by_length;
+      }
+      if (ends_at >= 0) {
+        row[ContactColumn(ends_at)] += Present(ends_at) * by_length;
+      }
+    }
+  }
+
+  void TapReadout(int side, int i, int begins_at, int ends_at, int e) {
+    const T* at = f_.readout_map + kReadoutValues * i;
+    T* tap = Tap(f_.readout_tap(i));
+    const V by[4] = {Broadcast(at[1]), Broadcast(at[2]), Broadcast(at[3]),
+                     Broadcast(at[4])};
+    const U* from[4];
+    for (int p = 0; p < 4; ++p) from[p] = Wide(RowOf(side, kTheta + p));
+    for (int v = 0; v < vectors(); ++v) {
+      V sum = by[0] * from[0][v];
+      for (int p = 1; p < 4; ++p) sum += by[p] * from[p][v];
+      Wide(tap)[v] = sum;
+    }
+    if (parameters()) {
+      tap[StiffnessColumn(side)] += f_.stiffness_ratio[e] * at[5];
+    }
+    if (by_contacts()) {
+      if (begins_at >= 0) {
+        tap[ContactColumn(begins_at)] -= Present(begins_at) * (at[6] + at[7]);
+      }
+      if (ends_at >= 0) {
+        tap[ContactColumn(ends_at)] += Present(ends_at) * at[7];
+      }
+    }
+    Log(kTap, f_.readout_tap(i));
+  }
+
+  void TapPose(int side, int first) {
+    for (int i = 0; i < 3; ++i) {
+      Copy(RowOf(side, i), Tap(first + i));
+      Log(kTap, first + i);
+    }
+  }
+
+  // N+ = N- - f (n + mu t).
+  void PassContact(int side, int c) {
+    TapPose(side, f_.contact_tap(f_.contacts[c].index));
+    const LadderContact<T>& contact = f_.contacts[c];
+    T unit[2], turned[2];
+    ContactDirection(contact, f_.slot_theta[f_.elements + c], unit, turned);
+    for (int i = 0; i < 2; ++i) {
+      T* force = RowOf(side, kForceX + i);
+      Add(-contact.normal * turned[i], RowOf(side, kTheta), force);
+      if (by_contacts()) {
+        force[ContactColumn(c) + 1] -= contact.present * unit[i];
+      }
+      if (by_load()) force[affine() + 1] -= contact.d_normal * unit[i];
+    }
+  }
+
+  void PassRib(int rib) {
+    const T ux = f_.rib_ux[rib], uy = f_.rib_uy[rib];
+    const T tension = f_.state.q[6 + rib];
+    const T kappa = f_.rib_length[rib] * f_.rib_flexibility[rib];
+    T* length =
+        open_ ? Tap(f_.closure_tap() + rib) : f_.pivots + pivots_ * stride();
+    const V wide_x = Broadcast(ux), wide_y = Broadcast(uy);
+    const V swing = Broadcast(tension / f_.rib_distance[rib]);
+    U* front_x = Wide(RowOf(0, kForceX));
+    U* front_y = Wide(RowOf(0, kForceY));
+    U* back_x = Wide(RowOf(1, kForceX));
+    U* back_y = Wide(RowOf(1, kForceY));
+    for (int v = 0; v < vectors(); ++v) {
+      const V dx = Wide(RowOf(1, kX))[v] - Wide(RowOf(0, kX))[v];
+      const V dy = Wide(RowOf(1, kY))[v] - Wide(RowOf(0, kY))[v];
+      Wide(length)[v] = wide_x * dx + wide_y * dy;
+      // T du = T / |r| (-u_y, u_x) times the motion across the rib
+      const V across = swing * (wide_x * dy - wide_y * dx);
+      front_x[v] += across * wide_y;
+      front_y[v] -= across * wide_x;
+      back_x[v] -= across * wide_y;
+      back_y[v] += across * wide_x;
+    }
+    const T strained = Scalar(1) + tension * f_.rib_flexibility[rib];
+    if (parameters()) length[RibColumn(rib)] -= strained;
+    if (by_load()) length[affine() + 1] -= strained * f_.d_rib_length[rib];
+    int column = 6 + rib;
+    if (open_) {
+      length[column] -= kappa;
+    } else {
+      length[affine()] += f_.closure[rib];
+      column = LargestColumn(length);
+      Exchange(column, kappa, rib);
+    }
+    RowOf(0, kForceX)[column] -= ux;
+    RowOf(0, kForceY)[column] -= uy;
+    RowOf(1, kForceX)[column] += ux;
+    RowOf(1, kForceY)[column] += uy;
+  }
+
+  // By the lane in which it is smallest: all lanes share their pivots.
+  static int LargestColumn(const T* row) {
+    int column = 0;
+    Scalar largest = SmallestLane(Magnitude(row[0]));
+    for (int j = 1; j < 6; ++j) {
+      const Scalar size = SmallestLane(Magnitude(row[j]));
+      if (size > largest) {
+        largest = size;
+        column = j;
+      }
+    }
+    return column;
+  }
+
+  // Exchanges parameter `column` for the quantity whose row is the next of
+  // pivots, in the rows of both beams.
+  void Exchange(int column, const T& kappa, int rib) {
+    for (int side = 0; side < 2; ++side) {
+      ExchangeIn(column, kappa, node_[side], 4);
+      ExchangeIn(column, kappa, RowOf(side, kForceX), 2);
+    }
+    KeepPivot(column, kappa, rib);
+  }
+  void ExchangeIn(int column, const T& kappa, T* rows, int count) const {
+    const T* g = f_.pivots + pivots_ * stride();
+    const T inverse = Scalar(1) / g[column];
+    for (int i = 0; i < count; ++i) {
+      T* row = rows + i * stride();
+      const T factor = row[column] * inverse;
+      Add(-factor, g, row);
+      row[column] = factor * kappa;
+    }
+  }
+  void KeepPivot(int column, const T& kappa, int rib) {
+    f_.pivot_column[pivots_] = column;
+    f_.pivot_flexibility[pivots_] = kappa;
+    f_.pivot_rib[pivots_] = rib;
+    Log(kPivot, pivots_);
+    ++pivots_;
+  }
+
+  void CheckGrowth() {
+    since_check_ = 0;
+    V squares[kParameterVectors];
+    for (V& v : squares) v = V{};
+    for (int i = 0; i < 2 * kRows; ++i) {
+      const U* row = Wide(RowOf(i));
+      for (int v = 0; v < kParameterVectors; ++v) squares[v] += row[v] * row[v];
+    }
+    const T* of_column = reinterpret_cast<const T*>(squares);
+    T largest = of_column[0];
+    for (int j = 1; j < 6; ++j) largest = Larger(largest, of_column[j]);
+    if (LargestLane(largest) > kLargestGrowth * kLargestGrowth) Reparametrize();
+  }
+
+  void Reparametrize() {
+    bool used[6] = {};
+    for (int k = 0; k < 6; ++k) {
+      int pivot_row = 0, column = 0;
+      Scalar largest = -1;
+      for (int i = 0; i < 2 * kRows; ++i) {
+        for (int j = 0; j < 6; ++j) {
+          const Scalar size = SmallestLane(Magnitude(RowOf(i)[j]));
+          // A row that was chosen is one in its own column, zero elsewhere.
+          if (!used[j] && size > largest) {
+            largest = size;
+            pivot_row = i;
+            column = j;
+          }
+        }
+      }
+      if (!(largest > 0)) return;
+      used[column] = true;
+      Copy(RowOf(pivot_row), f_.pivots + pivots_ * stride());
+      Exchange(column, T{} + Scalar(1), -1);
+    }
+  }
+
+  // Geometry must agree; moments and forces must cancel.
+  void CloseTip() {
+    TapPose(0, f_.tip_tap());
+    T* rows = open_ ? Tap(f_.closure_tap() + f_.ribs) : f_.tip_rows;
+    for (int i = 0; i < kRows; ++i) {
+      T* row = rows + i * stride();
+      Copy(RowOf(0, i), row);
+      Add(T{} + Scalar(i < kMoment ? -1 : 1), RowOf(1, i), row);
+      if (!open_) row[affine()] += f_.closure[f_.ribs + i];
+    }
+  }
+
+  bool EliminateTip() {
+    for (int k = 0; k < 6; ++k) {
+      const T* row = f_.tip_rows + k * stride();
+      const int column = LargestColumn(row);
+      // Written so that a NaN fails.
+      if (!(SmallestLane(Magnitude(row[column])) > 0)) return false;
+      Copy(row, f_.pivots + pivots_ * stride());
+      ExchangeIn(column, T{}, f_.tip_rows + (k + 1) * stride(), 5 - k);
+      KeepPivot(column, T{}, -1);
+    }
+    return true;
+  }
+
+  const SweepColumns columns_;
+  const bool open_;
+  int events_ = 0, pivots_ = 0, since_check_ = 0;
+  int next_contact_[2] = {0, 0};
+  bool gap_taken_[2] = {false, false};
+  T* node_[2] = {};  // the rows where either walk is
+};
+
+}  // namespace FINRAY_ISA
+}  // namespace finray
+
+#endif  // FINRAY_LADDER_LADDER_SWEEP_H_

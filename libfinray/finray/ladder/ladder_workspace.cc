@@ -1,0 +1,338 @@
+#include "finray/ladder/ladder_workspace.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "finray/finger/geometry.h"
+#include "finray/ladder/lanes.h"
+
+namespace finray {
+namespace {
+
+int RoundUp(int value, int multiple) {
+  return (value + multiple - 1) / multiple * multiple;
+}
+
+void Put(double value, int /*lane*/, double* to) { *to = value; }
+void Put(double value, int /*lane*/, float* to) {
+  *to = static_cast<float>(value);
+}
+void Put(double value, int lane, FourFrames* to) {
+  for (int i = 0; i < kFrameLanes; ++i) {
+    if (lane < 0 || lane == i) (*to)[i] = value;
+  }
+}
+template <class T>
+void Put(double value, T* to) {
+  Put(value, -1, to);
+}
+template <class T>
+double Get(const T& from, int /*lane*/) {
+  return from;
+}
+double Get(const FourFrames& from, int lane) { return from[lane]; }
+
+double ScaledFlexibility(double axial_stiffness_N, double force_unit) {
+  return force_unit / axial_stiffness_N;  // 0 for an infinite one
+}
+
+}  // namespace
+
+template <class T>
+LadderWorkspace<T>::LadderWorkspace(const LadderModel& model)
+    : length_unit_(model.finger().front_length_mm),
+      force_unit_(ForceUnit(model.finger())) {
+  const Finger& finger = model.finger();
+  frame_.ribs = model.ribs();
+  for (const Rib& rib : finger.ribs) {
+    nominal_mm_.push_back(NominalRibLength(finger, rib));
+  }
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    const int i = LadderModel::Index(side);
+    Put(BeamBase(finger, side).x() / length_unit_, &frame_.base_x[i]);
+    Put(BeamAngle(finger, side), &frame_.base_angle[i]);
+  }
+  SetMesh(model);
+}
+
+template <class T>
+LadderWorkspace<T>::LadderWorkspace(const LadderWorkspace& other)
+    : length_unit_(other.length_unit_),
+      force_unit_(other.force_unit_),
+      frame_(other.frame_),
+      contact_capacity_(other.contact_capacity_),
+      stride_capacity_(other.stride_capacity_),
+      readouts_(other.readouts_),
+      nominal_mm_(other.nominal_mm_) {
+  Allocate();
+  std::copy(other.cells_.begin(), other.cells_.end(), cells_.begin());
+  std::copy(other.integers_.begin(), other.integers_.end(), integers_.begin());
+  std::copy(other.contacts_.begin(), other.contacts_.end(), contacts_.begin());
+}
+
+// Names every array with its length, once to count and once to hand out memory.
+template <class T>
+template <class Take>
+void LadderWorkspace<T>::LayOut(Take&& take) {
+  LadderFrame<T>& f = frame_;
+  const int width = Lanes<T>::kWidth;
+  const int elements = f.elements, ribs = f.ribs, q = 6 + ribs;
+  const int slots = RoundUp(elements + contact_capacity_, width);
+  const int stride = stride_capacity_;
+  for (LadderNodes<T>* z : {&f.state, &f.step, &f.by_load}) {
+    take(&z->q, q);
+    for (T** field : {&z->x, &z->y, &z->theta, &z->moment}) {
+      take(field, elements);
+    }
+  }
+  for (T** field :
+       {&f.length, &f.stiffness, &f.stiffness_ratio, &f.axial_flexibility}) {
+    take(field, elements);
+  }
+  for (T** field : {&f.rib_length, &f.rib_flexibility, &f.d_rib_length,
+                    &f.rib_ux, &f.rib_uy, &f.rib_distance}) {
+    take(field, ribs);
+  }
+  for (T** field : {&f.slot_x, &f.slot_y, &f.slot_theta, &f.slot_moment,
+                    &f.slot_fx, &f.slot_fy, &f.slot_length, &f.slot_stiffness,
+                    &f.slot_axial, &f.truncation}) {
+    take(field, slots);
+  }
+  take(&f.maps, slots * kMapValues);
+  take(&f.gap, 4 * elements);
+  take(&f.closure, q);
+  take(&f.readout_map, kReadoutValues * f.readout_count);
+  const int taps = 3 * contact_capacity_ + 3 + f.readout_count + q;
+  // Every so many elements all six parameters may be exchanged.
+  const int pivots = 6 * (elements / kGrowthCheckEvery) + ribs + 6;
+  take(&f.taps, taps * stride);
+  take(&f.q_step, q * stride);
+  take(&f.rows, 4 * stride);
+  take(&f.tip_rows, 6 * stride);
+  take(&f.node_rows, 4 * stride * (elements + 4));
+  take(&f.pivots, pivots * stride);
+  take(&f.parameters, 6 * stride);
+  take(&f.pivot_flexibility, pivots);
+  take(&f.rib_element[0], ribs);
+  take(&f.rib_element[1], ribs);
+  take(&f.first_readout, slots);
+  take(&f.end_readout, slots);
+  take(&f.pivot_column, pivots);
+  take(&f.pivot_rib, pivots);
+  take(&f.events, elements + taps + pivots);
+}
+
+template <class T>
+void LadderWorkspace<T>::Allocate() {
+  struct Count {
+    std::size_t numbers = 0, integers = 0;
+    void operator()(T** /*to*/, int n) { numbers += n; }
+    void operator()(int** /*to*/, int n) { integers += n; }
+  } count;
+  LayOut(count);
+  constexpr std::size_t kInCell = sizeof(Cell) / sizeof(T);
+  std::vector<Cell> cells((count.numbers + kInCell - 1) / kInCell);
+  std::vector<int> integers(count.integers);
+  struct Hand {
+    T* number;
+    int* integer;
+    void operator()(T** to, int n) {
+      *to = number;
+      number += n;
+    }
+    void operator()(int** to, int n) {
+      *to = integer;
+      integer += n;
+    }
+  } hand{cells.data()->numbers, integers.data()};
+  LayOut(hand);
+  cells_ = std::move(cells);
+  integers_ = std::move(integers);
+  contacts_.resize(contact_capacity_);
+  frame_.contacts = contacts_.data();
+  frame_.readouts = readouts_.data();
+}
+
+template <class T>
+void LadderWorkspace<T>::SetMesh(const LadderModel& model) {
+  frame_.front_elements = model.mesh(Side::kFront).elements();
+  frame_.elements = frame_.front_elements + model.mesh(Side::kBack).elements();
+  readouts_.clear();
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    const int first = side == Side::kFront ? 0 : frame_.front_elements;
+    for (const LadderModel::GaugeEnd& end : model.gauge_ends(side)) {
+      readouts_.push_back(
+          {end.gauge, end.sign, first + end.point.element, T{}});
+      Put(end.point.offset_mm / length_unit_, &readouts_.back().offset);
+    }
+  }
+  frame_.readout_count = static_cast<int>(readouts_.size());
+  Allocate();
+
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    const BeamMesh& mesh = model.mesh(side);
+    const int first = side == Side::kFront ? 0 : frame_.front_elements;
+    const double flexibility =
+        ScaledFlexibility(AxialStiffness(model.finger(), side), force_unit_);
+    for (int k = 0; k < mesh.elements(); ++k) {
+      Put((mesh.nodes_mm[k + 1] - mesh.nodes_mm[k]) / length_unit_,
+          &frame_.length[first + k]);
+      Put(mesh.stiffness_ratio[k], &frame_.stiffness_ratio[first + k]);
+      Put(flexibility, &frame_.axial_flexibility[first + k]);
+    }
+    for (int i = 0; i < frame_.ribs; ++i) {
+      frame_.rib_element[LadderModel::Index(side)][i] =
+          first + mesh.rib_node[i];
+    }
+  }
+  SetFinger(model);
+}
+
+template <class T>
+void LadderWorkspace<T>::SetFinger(const LadderModel& model, double fraction) {
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    const bool front = side == Side::kFront;
+    T stiffness;
+    Put(BendingStiffness(model.finger(), side) / stiffness_unit(), &stiffness);
+    const int end = front ? frame_.front_elements : frame_.elements;
+    for (int e = front ? 0 : frame_.front_elements; e < end; ++e) {
+      frame_.stiffness[e] = stiffness * frame_.stiffness_ratio[e];
+    }
+  }
+  for (int i = 0; i < frame_.ribs; ++i) {
+    const Rib& rib = model.finger().ribs[i];
+    const double slope = rib.length_mm - nominal_mm_[i];
+    const double length = rib.length_mm - (1 - fraction) * slope;
+    Put(length / length_unit_, &frame_.rib_length[i]);
+    Put(slope / length_unit_, &frame_.d_rib_length[i]);
+    Put(ScaledFlexibility(rib.axial_stiffness_N, force_unit_),
+        &frame_.rib_flexibility[i]);
+  }
+}
+
+template <class T>
+bool LadderWorkspace<T>::SetContacts(const LadderModel& model,
+                                     const std::vector<PointContact>& contacts,
+                                     double fraction) {
+  const int count = static_cast<int>(contacts.size());
+  if (count > contact_capacity_) {
+    contact_capacity_ = count;
+    SetMeshMemory(model);
+  }
+  frame_.contact_count = count;
+  for (int i = 0; i < count; ++i) {
+    const PointContact& contact = contacts[i];
+    const BeamMesh& mesh = model.mesh(contact.side);
+    // Written so that a NaN fails.
+    if (!(contact.arc_mm >= 0 && contact.arc_mm <= mesh.nodes_mm.back()) ||
+        !std::isfinite(contact.normal_N) || !std::isfinite(contact.friction)) {
+      return false;
+    }
+    const bool front = contact.side == Side::kFront;
+    const MeshPoint at = mesh.Locate(contact.arc_mm);
+    const double normal = contact.normal_N / force_unit_;
+    LadderContact<T> placed{};
+    placed.side = front ? 0 : 1;
+    placed.element = at.element + (front ? 0 : frame_.front_elements);
+    placed.index = placed.columns = i;
+    Put(at.offset_mm / length_unit_, &placed.offset);
+    Put(fraction * normal, &placed.normal);
+    Put(contact.friction, &placed.friction);
+    Put(normal, &placed.d_normal);
+    Put(1, &placed.present);
+    // Insertion keeps contacts of one place in the order given.
+    int k = i;
+    for (; k > 0; --k) {
+      const LadderContact<T>& before = contacts_[k - 1];
+      if (before.element < placed.element ||
+          (before.element == placed.element &&
+           Get(before.offset, 0) <= Get(placed.offset, 0))) {
+        break;
+      }
+      contacts_[k] = before;
+    }
+    contacts_[k] = placed;
+  }
+  return true;
+}
+
+template <class T>
+bool LadderWorkspace<T>::SetColumns(const LadderModel& model,
+                                    SweepColumns columns, bool open) {
+  const int contacts = 2 * frame_.contact_count;
+  const int derivatives = columns == SweepColumns::kParameters
+                              ? contacts + 2 + frame_.ribs
+                          : columns == SweepColumns::kContacts ? contacts
+                                                               : 1;
+  frame_.affine = open ? 6 + frame_.ribs : 6;
+  frame_.stride = std::max(
+      kNodeColumns, RoundUp(frame_.affine + 1 + derivatives, Lanes<T>::kWidth));
+  frame_.node_columns = columns == SweepColumns::kContacts && !open
+                            ? frame_.stride
+                            : kNodeColumns;
+  if (frame_.stride <= stride_capacity_) return false;
+  stride_capacity_ = frame_.stride;
+  SetMeshMemory(model);
+  return true;
+}
+
+// Takes more memory for the same mesh and keeps the state.
+template <class T>
+void LadderWorkspace<T>::SetMeshMemory(const LadderModel& model) {
+  const std::vector<T> kept(
+      frame_.state.q, frame_.state.q + 6 + frame_.ribs + 4 * frame_.elements);
+  SetMesh(model);
+  std::copy(kept.begin(), kept.end(), frame_.state.q);
+}
+
+template <class T>
+void LadderWorkspace<T>::Load(const LadderState& state, int lane) {
+  const LadderNodes<T>& z = frame_.state;
+  for (int i = 0; i < 6 + frame_.ribs; ++i) {
+    const bool moment = i == 0 || i == 3;
+    Put(state.q[i] / (moment ? moment_unit() : force_unit_), lane, &z.q[i]);
+  }
+  const int counts[2] = {frame_.front_elements,
+                         frame_.elements - frame_.front_elements};
+  for (int side = 0; side < 2; ++side) {
+    const int first = side == 0 ? 0 : frame_.front_elements;
+    for (int k = 0; k < counts[side]; ++k) {
+      const auto node = state.nodes[side].col(k);
+      Put(node[1] / length_unit_, lane, &z.x[first + k]);
+      Put(node[2] / length_unit_, lane, &z.y[first + k]);
+      Put(node[3], lane, &z.theta[first + k]);
+      Put(node[4] / moment_unit(), lane, &z.moment[first + k]);
+    }
+    z.moment[first] = z.q[3 * side];
+  }
+}
+
+template <class T>
+void LadderWorkspace<T>::Save(const LadderModel& model, LadderState* state,
+                              int lane) const {
+  const LadderNodes<T>& z = frame_.state;
+  state->q.resize(6 + frame_.ribs);
+  for (int i = 0; i < 6 + frame_.ribs; ++i) {
+    const bool moment = i == 0 || i == 3;
+    state->q[i] = Get(z.q[i], lane) * (moment ? moment_unit() : force_unit_);
+  }
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    const BeamMesh& mesh = model.mesh(side);
+    const int first = side == Side::kFront ? 0 : frame_.front_elements;
+    LadderState::Nodes& nodes = state->nodes[LadderModel::Index(side)];
+    nodes.resize(5, mesh.elements());
+    for (int k = 0; k < mesh.elements(); ++k) {
+      nodes.col(k) << mesh.nodes_mm[k],
+          Get(z.x[first + k], lane) * length_unit_,
+          Get(z.y[first + k], lane) * length_unit_,
+          Get(z.theta[first + k], lane),
+          Get(z.moment[first + k], lane) * moment_unit();
+    }
+  }
+}
+
+template class LadderWorkspace<double>;
+template class LadderWorkspace<float>;
+template class LadderWorkspace<FourFrames>;
+
+}  // namespace finray

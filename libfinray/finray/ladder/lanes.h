@@ -1,0 +1,168 @@
+#ifndef FINRAY_LADDER_LANES_H_
+#define FINRAY_LADDER_LANES_H_
+
+#include <cmath>
+#include <cstring>
+
+// Numbers side by side, so that one instruction serves several elements or
+// several frames. The arithmetic is written once for a "value" V: a plain
+// double or float, or a vector of them. What is compiled for another
+// instruction set lives in a namespace of that name, so that the linker keeps
+// both.
+#ifndef FINRAY_ISA
+#define FINRAY_ISA generic
+#endif
+
+namespace finray {
+
+/// One number of each of four frames; see LadderFrame.
+typedef double FourFrames __attribute__((vector_size(32)));
+constexpr int kFrameLanes = 4;
+
+inline namespace FINRAY_ISA {
+
+/// 32 bytes of T: one AVX register, two of SSE or NEON.
+template <class T>
+struct Lanes {
+  typedef T Vector __attribute__((vector_size(32)));
+  /// The same in memory of any alignment.
+  typedef T Unaligned
+      __attribute__((vector_size(32), aligned(sizeof(T)), may_alias));
+  static constexpr int kWidth = 32 / sizeof(T);
+};
+
+/// Where lanes are frames a "vector" is one number of each.
+template <>
+struct Lanes<FourFrames> {
+  using Vector = FourFrames;
+  using Unaligned = FourFrames;
+  static constexpr int kWidth = 1;
+};
+
+/// The number type of a value, integers of its size and how many it holds.
+template <class V>
+struct ValueTraits {
+  using Scalar = V;
+  using Integers = long long;
+  static constexpr int kWidth = 1;
+};
+template <>
+struct ValueTraits<Lanes<double>::Vector> {
+  using Scalar = double;
+  typedef long long Integers __attribute__((vector_size(32)));
+  static constexpr int kWidth = Lanes<double>::kWidth;
+};
+template <>
+struct ValueTraits<Lanes<float>::Vector> {
+  using Scalar = float;
+  static constexpr int kWidth = Lanes<float>::kWidth;
+};
+
+template <class V>
+inline V Magnitude(const V& a) {
+  return a < V{} ? -a : a;
+}
+
+/// The smaller one; NaN if either is.
+template <class V>
+inline V Smaller(const V& a, const V& b) {
+  return ((a < b) | (a != a)) ? a : b;
+}
+/// The larger one; NaN if either is.
+template <class V>
+inline V Larger(const V& a, const V& b) {
+  return ((a < b) | (b != b)) ? b : a;
+}
+
+template <class V>
+inline V SquareRoot(V a) {
+  if constexpr (ValueTraits<V>::kWidth == 1) {
+    return std::sqrt(a);
+  } else {
+    for (int i = 0; i < ValueTraits<V>::kWidth; ++i) a[i] = std::sqrt(a[i]);
+    return a;
+  }
+}
+
+/// Over all lanes.
+template <class V>
+inline typename ValueTraits<V>::Scalar SmallestLane(const V& a) {
+  if constexpr (ValueTraits<V>::kWidth == 1) {
+    return a;
+  } else {
+    static_assert(ValueTraits<V>::kWidth == 4);
+    const V pairs = Smaller(a, V(__builtin_shufflevector(a, a, 2, 3, 0, 1)));
+    return Smaller(pairs,
+                   V(__builtin_shufflevector(pairs, pairs, 1, 0, 3, 2)))[0];
+  }
+}
+template <class V>
+inline typename ValueTraits<V>::Scalar LargestLane(const V& a) {
+  return -SmallestLane(V(-a));
+}
+
+template <class To, class From>
+inline To BitsOf(const From& from) {
+  static_assert(sizeof(To) == sizeof(From));
+  To to;
+  std::memcpy(&to, &from, sizeof(to));
+  return to;
+}
+
+/// To about one unit in the last place for |angle| < 1e5; less beyond.
+///
+/// angle = n pi / 2 + r with |r| <= pi / 4: pi / 2 is taken in three parts, the
+/// first of 33 bits, so that n times it is exact. The polynomials are those of
+/// Sun's fdlibm.
+template <class V>
+inline void SinCos(const V& angle, V* sine, V* cosine) {
+  using Scalar = typename ValueTraits<V>::Scalar;
+  if constexpr (sizeof(Scalar) == sizeof(double)) {
+    using Integers = typename ValueTraits<V>::Integers;
+    // Added, this leaves the nearest integer in the last bits.
+    constexpr double kRound = 6755399441055744.0;
+    const V rounded = angle * 6.36619772367581382433e-01 + kRound;
+    const Integers quarters = BitsOf<Integers>(rounded);
+    const V n = rounded - kRound;
+    const V r = ((angle - n * 1.57079632673412561417e+00) -
+                 n * 6.07710050630396597660e-11) -
+                n * 2.02226624871116645580e-21;
+    const V z = r * r;
+    const V s =
+        r + r * z *
+                (-1.66666666666666324348e-01 +
+                 z * (8.33333333332248946124e-03 +
+                      z * (-1.98412698298579493134e-04 +
+                           z * (2.75573137070700676789e-06 +
+                                z * (-2.50507602534068634195e-08 +
+                                     z * 1.58969099521155010221e-10)))));
+    const V half = z * 0.5, w = 1.0 - half;
+    const V c =
+        w + (((1.0 - w) - half) +
+             z * z *
+                 (4.16666666666666019037e-02 +
+                  z * (-1.38888888888741095749e-03 +
+                       z * (2.48015872894767294178e-05 +
+                            z * (-2.75573143513906633035e-07 +
+                                 z * (2.08757232129817482790e-09 +
+                                      z * -1.13596475577881948265e-11))))));
+    const V sine_of = (quarters & 1) != 0 ? c : s;
+    const V cosine_of = (quarters & 1) != 0 ? s : c;
+    *sine = BitsOf<V>(BitsOf<Integers>(sine_of) ^ ((quarters & 2) << 62));
+    *cosine =
+        BitsOf<V>(BitsOf<Integers>(cosine_of) ^ (((quarters + 1) & 2) << 62));
+  } else if constexpr (ValueTraits<V>::kWidth == 1) {
+    *sine = std::sin(angle);
+    *cosine = std::cos(angle);
+  } else {
+    for (int i = 0; i < ValueTraits<V>::kWidth; ++i) {
+      (*sine)[i] = std::sin(angle[i]);
+      (*cosine)[i] = std::cos(angle[i]);
+    }
+  }
+}
+
+}  // namespace FINRAY_ISA
+}  // namespace finray
+
+#endif  // FINRAY_LADDER_LANES_H_

@@ -1,0 +1,71 @@
+#ifndef FINRAY_OBJECTS_TANGENCY_H_
+#define FINRAY_OBJECTS_TANGENCY_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "finray/objects/object_contact.h"
+
+namespace finray {
+
+/// What may be varied so that a set of contacts touches an object.
+enum class TangencyUnknowns {
+  kPlacesAndForces,  ///< l_c and f_c; the object is touched tangentially.
+  kForces,           ///< f_c; the contact points lie on the outline.
+};
+
+/// The equations of object_contact.h for a given set of contacts, whatever the
+/// signs of their forces, solved by Newton's method with exact derivatives.
+/// Each evaluation is an equilibrium of the finger.
+class Tangency {
+ public:
+  Tangency(const RigidObject& object, double friction,
+           EquilibriumSolver* solver);
+
+  /// From the solver's present state and `*contacts`. False if it does not
+  /// converge, or to a place where the object lies on the finger's side.
+  bool Solve(const ObjectPose& pose, TangencyUnknowns unknowns,
+             std::vector<PointContact>* contacts);
+
+  /// Evaluates the equations at the solver's equilibrium, which must have
+  /// sensitivities, under `contacts`.
+  void Linearize(const ObjectPose& pose,
+                 const std::vector<PointContact>& contacts);
+
+  // At the last evaluation.
+
+  /// The largest distance of a contact point from the outline.
+  double largest_gap_mm() const;
+  /// Way of the object along its spring's direction.
+  double displacement_mm() const { return displacement_mm_; }
+  void ResetDisplacement() { displacement_mm_ = 0; }
+  /// Where the object is that was given at `pose`.
+  ObjectPose Displaced(ObjectPose pose) const;
+
+  /// Equilibria solved so far.
+  int equilibria() const { return equilibria_; }
+
+ private:
+  void Push(const std::vector<PointContact>& contacts);
+  double Way(const Eigen::VectorXd& forces) const;
+
+  const RigidObject& object_;
+  const double friction_;
+  EquilibriumSolver* const solver_;
+  const double length_;
+  Eigen::Vector2d direction_ = Eigen::Vector2d::Zero();  // of the spring
+
+  double displacement_mm_ = 0;
+  int equilibria_ = 0;
+  // Rows [d of each contact; t . n_o of each], columns [l_c of each; f_c of
+  // each].
+  Eigen::VectorXd residual_;
+  Eigen::MatrixXd jacobian_;
+  Eigen::MatrixXd d_pose_;  // of (x, y, theta) of each contact
+  Eigen::RowVectorXd d_displacement_;
+  bool outside_ = false;  // The beam's normals point out of the object.
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_OBJECTS_TANGENCY_H_

@@ -1,0 +1,23 @@
+#ifndef FINRAY_SCENE_CLEAN_READINGS_H_
+#define FINRAY_SCENE_CLEAN_READINGS_H_
+
+#include "finray/scene/frame_readings.h"
+#include "finray/statics/equilibrium.h"
+
+namespace finray {
+
+/// What the gauges of the solver's finger read at its present equilibrium,
+/// without noise.
+inline FrameReadings CleanReadings(const EquilibriumSolver& solver) {
+  FrameReadings readings;
+  const std::vector<Gauge>& gauges = solver.model().finger().gauges;
+  for (int j = 0; j < static_cast<int>(gauges.size()); ++j) {
+    readings.gauges_V.push_back(
+        gauges[j].gain_V_per_rad * solver.gauge_angle(j) + gauges[j].offset_V);
+  }
+  return readings;
+}
+
+}  // namespace finray
+
+#endif  // FINRAY_SCENE_CLEAN_READINGS_H_

@@ -1,0 +1,56 @@
+#ifndef FINRAY_SCENE_FRAME_COLUMNS_H_
+#define FINRAY_SCENE_FRAME_COLUMNS_H_
+
+#include <string>
+
+namespace finray {
+
+/// Indexed names of the frame table; indices count from 1, arguments from 0.
+inline std::string IndexedColumn(const char* before, int index,
+                                 const char* after) {
+  return before + std::to_string(index + 1) + after;
+}
+inline std::string GaugeVolts(int j) {
+  return IndexedColumn("gauge_", j, "_V");
+}
+inline std::string GaugeAngle(int j) {
+  return IndexedColumn("gauge_", j, "_rad");
+}
+inline std::string ContactArc(int c) {
+  return IndexedColumn("contact_", c, "_mm");
+}
+inline std::string ContactArcStd(int c) {
+  return IndexedColumn("contact_", c, "_std_mm");
+}
+inline std::string ContactX(int c) {
+  return IndexedColumn("contact_", c, "_x_mm");
+}
+inline std::string ContactY(int c) {
+  return IndexedColumn("contact_", c, "_y_mm");
+}
+inline std::string ContactAngle(int c) {
+  return IndexedColumn("contact_", c, "_angle_rad");
+}
+inline std::string NormalForce(int c) {
+  return IndexedColumn("normal_", c, "_N");
+}
+inline std::string NormalForceStd(int c) {
+  return IndexedColumn("normal_", c, "_std_N");
+}
+inline std::string AlternativeContactArc(int c) {
+  return IndexedColumn("alternative_contact_", c, "_mm");
+}
+inline std::string AlternativeNormalForce(int c) {
+  return IndexedColumn("alternative_normal_", c, "_N");
+}
+inline std::string Friction(int c) { return IndexedColumn("friction_", c, ""); }
+inline std::string RibForce(int i) { return IndexedColumn("rib_", i, "_N"); }
+/// Where a rib is hinged to a beam ("front", "back"), an axis being "x" or "y".
+inline std::string RibPin(int i, const std::string& beam,
+                          const std::string& axis) {
+  return IndexedColumn("rib_", i, "_") + beam + "_" + axis + "_mm";
+}
+
+}  // namespace finray
+
+#endif  // FINRAY_SCENE_FRAME_COLUMNS_H_

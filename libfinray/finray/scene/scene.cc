@@ -1,0 +1,232 @@
+#include "finray/scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "finray/io/error.h"
+#include "finray/io/yaml_emitter.h"
+
+namespace finray {
+namespace {
+
+constexpr int kMostContacts = 16;
+
+std::optional<int> ReadContacts(const YamlMap& yaml) {
+  if (yaml.Text("contacts", "auto") == "auto") return std::nullopt;
+  const int contacts = yaml.Integer("contacts");
+  if (contacts < 0 || contacts > kMostContacts) {
+    yaml.Fail("contacts", "expected a number of contacts from 0 to " +
+                              std::to_string(kMostContacts) + ", or auto");
+  }
+  return contacts;
+}
+
+bool HasBackContacts(const Scene& scene) {
+  return std::count(scene.contact_beams.begin(), scene.contact_beams.end(),
+                    Side::kBack) > 0;
+}
+
+void ReadContactBeams(const YamlMap& yaml, Scene* scene) {
+  if (!yaml.Has("contact_beams")) return;
+  for (const std::string& word :
+       yaml.Choices("contact_beams", {"front", "back"})) {
+    scene->contact_beams.push_back(word == "front" ? Side::kFront
+                                                   : Side::kBack);
+  }
+  const std::size_t words = scene->contact_beams.size();
+  const auto fail = [&](const std::string& expected) {
+    yaml.Fail("contact_beams", "contact_beams: expected " + expected +
+                                   ", found " + std::to_string(words));
+  };
+  if (scene->contacts) {
+    if (words != static_cast<std::size_t>(*scene->contacts)) {
+      fail("one word for each of the " + std::to_string(*scene->contacts) +
+           " contacts");
+    }
+  } else if (words < 1 || words > kMostContacts) {
+    fail("1 to " + std::to_string(kMostContacts) + " words");
+  }
+  if (scene->object && HasBackContacts(*scene)) {
+    yaml.Fail("contact_beams",
+              "contact_beams: an object touches the front beam only; leave out "
+              "the object or 'back'");
+  }
+  scene->contact_beams_place = yaml.PlaceOf("contact_beams");
+}
+
+Outline::Shape ReadShape(const YamlMap& object) {
+  const std::string shape = object.Choice(
+      "shape", {"circle", "ellipse", "rounded_polygon", "support_series"});
+  if (shape == "circle") {
+    object.AllowOnly({"shape", "radius_mm", "spring"});
+    return CircleOutline{object.PositiveNumber("radius_mm")};
+  }
+  if (shape == "ellipse") {
+    object.AllowOnly({"shape", "semi_axis_x_mm", "semi_axis_y_mm", "spring"});
+    return EllipseOutline{object.PositiveNumber("semi_axis_x_mm"),
+                          object.PositiveNumber("semi_axis_y_mm")};
+  }
+  if (shape == "support_series") {
+    object.AllowOnly({"shape", "radius_mm", "harmonics_mm", "spring"});
+    SupportOutline outline{object.PositiveNumber("radius_mm")};
+    for (const auto& harmonic : object.Pairs("harmonics_mm")) {
+      outline.harmonics_mm.emplace_back(harmonic[0], harmonic[1]);
+    }
+    return outline;
+  }
+  object.AllowOnly({"shape", "vertices_mm", "fillet_radius_mm", "spring"});
+  RoundedPolygonOutline polygon;
+  for (const auto& vertex : object.Pairs("vertices_mm")) {
+    polygon.vertices_mm.emplace_back(vertex[0], vertex[1]);
+  }
+  if (polygon.vertices_mm.size() < 2) {
+    object.Fail("vertices_mm", "vertices_mm: expected at least 2 vertices");
+  }
+  polygon.fillet_radius_mm = object.PositiveNumber("fillet_radius_mm");
+  return polygon;
+}
+
+RigidObject ReadObject(const YamlMap& object) {
+  const Outline::Shape shape = ReadShape(object);
+  std::optional<ObjectSpring> spring;
+  if (object.Has("spring")) {
+    const YamlMap map = object.Map("spring");
+    map.AllowOnly({"stiffness_N_per_mm", "direction_deg"});
+    spring = {map.PositiveNumber("stiffness_N_per_mm"),
+              map.Number("direction_deg") * M_PI / 180};
+  }
+  try {
+    return {Outline(shape), spring};
+  } catch (const std::invalid_argument& error) {
+    const char* key =
+        object.Has("harmonics_mm") ? "harmonics_mm" : "vertices_mm";
+    object.Fail(key, std::string(key) + ": " + error.what());
+  }
+}
+
+// A place is of use where it tells the contact's: one contact of a circle.
+void ReadMeasurements(const YamlMap& yaml, Scene* scene) {
+  yaml.AllowOnly({"object_std_mm"});
+  scene->object_std_mm = yaml.PositiveNumber("object_std_mm");
+  const char* expected = nullptr;
+  if (!scene->circle_radius_mm() || scene->object->spring) {
+    expected = "an object of shape circle without a spring";
+  } else if (scene->contacts.value_or(1) != 1) {
+    expected = "contacts: 1 or auto";
+  }
+  if (expected != nullptr) {
+    yaml.Fail("object_std_mm", std::string("object_std_mm: a measured object "
+                                           "needs ") +
+                                   expected + " in the scene");
+  }
+}
+
+YamlEmitter& operator<<(YamlEmitter& yaml, const CircleOutline& circle) {
+  return yaml << "circle" << YAML::Key << "radius_mm" << YAML::Value
+              << circle.radius_mm;
+}
+
+YamlEmitter& operator<<(YamlEmitter& yaml, const EllipseOutline& ellipse) {
+  return yaml << "ellipse" << YAML::Key << "semi_axis_x_mm" << YAML::Value
+              << ellipse.semi_axis_x_mm << YAML::Key << "semi_axis_y_mm"
+              << YAML::Value << ellipse.semi_axis_y_mm;
+}
+
+YamlEmitter& operator<<(YamlEmitter& yaml,
+                        const std::vector<Eigen::Vector2d>& pairs) {
+  yaml << YAML::BeginSeq;
+  for (const Eigen::Vector2d& pair : pairs) {
+    yaml << YAML::BeginSeq << pair.x() << pair.y() << YAML::EndSeq;
+  }
+  return yaml << YAML::EndSeq;
+}
+
+YamlEmitter& operator<<(YamlEmitter& yaml, const SupportOutline& outline) {
+  return yaml << "support_series" << YAML::Key << "radius_mm" << YAML::Value
+              << outline.radius_mm << YAML::Key << "harmonics_mm" << YAML::Value
+              << outline.harmonics_mm;
+}
+
+YamlEmitter& operator<<(YamlEmitter& yaml,
+                        const RoundedPolygonOutline& polygon) {
+  return yaml << "rounded_polygon" << YAML::Key << "vertices_mm" << YAML::Value
+              << polygon.vertices_mm << YAML::Key << "fillet_radius_mm"
+              << YAML::Value << polygon.fillet_radius_mm;
+}
+
+}  // namespace
+
+void RefuseBackContacts(const Scene& scene) {
+  if (HasBackContacts(scene)) {
+    throw InputError(scene.contact_beams_place +
+                     "contact_beams: contacts on the back beam can be "
+                     "simulated only; expected front");
+  }
+}
+
+std::string ContactBeamsToYaml(const Scene& scene) {
+  std::string words;
+  for (const Side side : scene.contact_beams) {
+    words += (words.empty() ? "" : ", ") + std::string(SideName(side));
+  }
+  return "[" + words + "]";
+}
+
+std::string ObjectToYaml(const RigidObject& object) {
+  YamlEmitter yaml;
+  yaml << YAML::Flow << YAML::BeginMap << YAML::Key << "shape" << YAML::Value;
+  std::visit([&](const auto& shape) { yaml << shape; }, object.outline.shape());
+  if (object.spring) {
+    yaml << YAML::Key << "spring" << YAML::Value << YAML::BeginMap << YAML::Key
+         << "stiffness_N_per_mm" << YAML::Value
+         << object.spring->stiffness_N_per_mm << YAML::Key << "direction_deg"
+         << YAML::Value << object.spring->direction_rad * 180 / M_PI
+         << YAML::EndMap;
+  }
+  yaml << YAML::EndMap;
+  return yaml.c_str();
+}
+
+std::map<std::string, std::string> ReadColumns(const YamlMap& yaml) {
+  std::map<std::string, std::string> columns;
+  if (!yaml.Has("columns")) return columns;
+  const YamlMap map = yaml.Map("columns");
+  for (const std::string& key : map.Keys()) columns[key] = map.Text(key);
+  return columns;
+}
+
+Scene ReadScene(const YamlMap& yaml) {
+  yaml.AllowOnly({"schema_version", "contacts", "contact_beams",
+                  "friction_coefficient", "object", "measurements", "smoothing",
+                  "columns"});
+  if (yaml.Has("schema_version") && yaml.Integer("schema_version") != 1) {
+    yaml.Fail("schema_version", "expected 1");
+  }
+  Scene scene;
+  scene.contacts = ReadContacts(yaml);
+  scene.friction_coefficient = yaml.Number("friction_coefficient", 0);
+  if (yaml.Has("object")) scene.object = ReadObject(yaml.Map("object"));
+  ReadContactBeams(yaml, &scene);
+  if (yaml.Has("measurements")) {
+    ReadMeasurements(yaml.Map("measurements"), &scene);
+  }
+  if (yaml.Has("smoothing")) {
+    const YamlMap map = yaml.Map("smoothing");
+    map.AllowOnly({"contact_std_mm", "normal_std_N"});
+    if (scene.contacts.value_or(1) != 1) {
+      yaml.Fail("smoothing",
+                "smoothing: it needs contacts: 1 or auto in the scene");
+    }
+    scene.smoothing = {map.PositiveNumber("contact_std_mm"),
+                       map.PositiveNumber("normal_std_N")};
+  }
+  scene.columns = ReadColumns(yaml);
+  return scene;
+}
+
+Scene ReadScene(const std::string& path) {
+  return ReadScene(YamlMap::FromFile(path));
+}
+
+}  // namespace finray

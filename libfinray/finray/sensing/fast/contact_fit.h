@@ -1,0 +1,116 @@
+#ifndef FINRAY_SENSING_FAST_CONTACT_FIT_H_
+#define FINRAY_SENSING_FAST_CONTACT_FIT_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "finray/ladder/ladder_newton.h"
+#include "finray/sensing/fast/contact_step.h"
+
+namespace finray {
+
+/// Contacts that explain gauge angles s_j: minimises
+///
+///   chi2(l_c, f_c) = sum_j w_j^2 (s_j(l_c, f_c) - measured_j)^2
+///
+/// over equilibria, 0 <= l_c <= l_0, f_c >= 0, which is (17), (18) of the paper
+/// with equilibrium eliminated: each iteration is one linearisation of the
+/// ladder, whose gauge rows, derivatives by (l_c, f_c) included, give the
+/// change of the contacts by least squares and with it the step of all nodes.
+/// So equilibrium and contacts converge together, in a handful of iterations,
+/// and no weight between them is left to choose. A warm fit allocates nothing.
+class ContactFit {
+ public:
+  /// Throws InputError as LadderModel. With `circle_radius_mm` the centre of a
+  /// circle that touches at the one contact (circle_centre.h) is measured too:
+  /// its x and y in mm follow the gauges' angles in all that is measured.
+  ContactFit(const Finger& finger, const Discretization& discretization,
+             std::optional<double> circle_radius_mm = std::nullopt);
+
+  /// Where Gauss-Newton ends: the next change of l_c over l_0 and of f_c over
+  /// its size is expected below this.
+  void set_tolerance(double relative) { tolerance_ = relative; }
+
+  /// Upper bound of f_c.
+  void set_most_force(double force_N) { most_force_N_ = force_N; }
+
+  /// The equilibrium to start from, near the contacts given to Fit.
+  void set_state(const LadderState& state) {
+    newton_.Load(state);
+    linearised_contacts_ = 0;
+  }
+  void SaveState(LadderState* state) const { newton_.Save(state); }
+
+  /// Starts from the present equilibrium and from `*contacts` (one or two, on
+  /// the front beam; their friction is kept) and leaves both at the solution.
+  /// `weights` (1 / std) are 0 where nothing was measured. False if it does not
+  /// converge; state and contacts are then of no use.
+  bool Fit(const Eigen::VectorXd& measured, const Eigen::VectorXd& weights,
+           std::vector<PointContact>* contacts);
+
+  /// As Fit, for a frame like the one that the last call came to, in which
+  /// state and `*contacts` must be as that call left them: what that frame's
+  /// last linearisation makes of the new readings is where this one starts, so
+  /// that one iteration mostly is enough. It may be the last by the same rule
+  /// as any: the prediction's change counts as the one before. As Fit if there
+  /// was no such call.
+  bool Follow(const Eigen::VectorXd& measured, const Eigen::VectorXd& weights,
+              std::vector<PointContact>* contacts);
+
+  // Of the last successful fit.
+
+  double chi2() const { return chi2_; }
+  /// Linearisations that it took.
+  int iterations() const { return iterations_; }
+  /// Fisher information of (l_c, f_c) of each contact, per mm and N.
+  using Information = ContactMatrix;
+  const Information& information() const { return information_; }
+  /// (x, y, theta) of a contact and of the tip, mm and rad.
+  const Eigen::Vector3d& contact_pose(int contact) const {
+    return poses_[contact];
+  }
+  const Eigen::Vector3d& tip_pose() const { return poses_[kFittedContacts]; }
+  double rib_tension(int rib) const {
+    return newton_.frame().state.q[6 + rib] * newton_.workspace().force_unit();
+  }
+
+ private:
+  bool Run(const Eigen::VectorXd& measured, const Eigen::VectorXd& weights,
+           bool predict, std::vector<PointContact>* contacts);
+  void ReadGauges(int unknowns);
+  void ReadCentre(double radius_mm, int unknowns);
+  void Whiten(const Eigen::VectorXd& measured, const Eigen::VectorXd& weights,
+              int unknowns);
+  double Rate(const Eigen::VectorXd& weights, double damping,
+              const ContactVector& step, const ContactVector& x) const;
+  void ReadPoses(int contacts, const ContactVector& change);
+  void Keep(const std::vector<PointContact>& contacts);
+  void Restore(std::vector<PointContact>* contacts);
+
+  LadderNewton newton_;
+  std::optional<double> circle_radius_mm_;
+  double tolerance_ = 1e-12;
+  double most_force_N_ = std::numeric_limits<double>::infinity();
+  double chi2_ = 0;
+  int iterations_ = 0;
+  Information information_;
+  std::array<Eigen::Vector3d, kFittedContacts + 1> poses_;
+  // Gauge angles and slopes by (l_c, f_c) in the ladder's units; the slopes of
+  // the linearisation before; the same whitened, as residuals.
+  Eigen::VectorXd reading_, residual_;
+  Eigen::Matrix<double, Eigen::Dynamic, 2 * kFittedContacts> d_reading_,
+      d_reading_before_, slope_;
+  ContactVector step_;  // since the last linearisation
+  ContactEquations equations_;
+  // Of how many contacts the frame holds the last linearisation of a fit.
+  int linearised_contacts_ = 0;
+  std::vector<double> kept_state_;
+  std::vector<PointContact> kept_contacts_;
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_SENSING_FAST_CONTACT_FIT_H_

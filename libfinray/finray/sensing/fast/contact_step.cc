@@ -1,0 +1,126 @@
+#include "finray/sensing/fast/contact_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace finray {
+namespace {
+
+// Levenberg's damping of l_c as of a prior of 30 mm about where it is, which
+// keeps a contact of no force from wandering; it vanishes with chi2, so that
+// convergence to data without noise stays quadratic.
+constexpr double kArcDamping = 22;
+constexpr double kForceDamping = 1e-9;
+constexpr double kLeastForce = 0.02;  // in units of EI / l_0^2
+
+// A + D
+ContactMatrix Damped(const ContactEquations& equations, double damping) {
+  const double unexplained = std::min(1.0, equations.chi2);
+  ContactMatrix system = equations.normal;
+  for (Eigen::Index k = 0; k < system.rows(); ++k) {
+    system(k, k) *= 1 + damping;
+    system(k, k) +=
+        kForceDamping + (k % 2 == 0 ? kArcDamping * unexplained : 0);
+  }
+  return system;
+}
+
+// x of a x = b for a symmetric and positive a, by L D L'.
+void SolvePositive(ContactMatrix* a, ContactVector* b) {
+  ContactMatrix& l = *a;
+  ContactVector& x = *b;
+  const int n = static_cast<int>(x.size());
+  if (n == 2) {
+    const double inverse = 1 / (l(0, 0) * l(1, 1) - l(1, 0) * l(1, 0));
+    const double first = x[0];
+    x[0] = (l(1, 1) * first - l(1, 0) * x[1]) * inverse;
+    x[1] = (l(0, 0) * x[1] - l(1, 0) * first) * inverse;
+    return;
+  }
+  for (int j = 0; j < n; ++j) {
+    const double pivot = 1 / l(j, j);
+    for (int i = j + 1; i < n; ++i) {
+      const double factor = l(i, j) * pivot;
+      for (int k = j + 1; k <= i; ++k) l(i, k) -= factor * l(k, j);
+      x[i] -= factor * x[j];
+    }
+  }
+  for (int j = n - 1; j >= 0; --j) {
+    for (int i = j + 1; i < n; ++i) x[j] -= l(i, j) * x[i];
+    x[j] /= l(j, j);
+  }
+}
+
+}  // namespace
+
+ContactVector BoundedChange(const ContactEquations& equations,
+                            const ContactVector& x, double most_force,
+                            double damping) {
+  const int unknowns = static_cast<int>(x.size());
+  const ContactMatrix system = Damped(equations, damping);
+  ContactVector change = ContactVector::Zero(unknowns);
+  bool fixed[2 * kFittedContacts] = {};
+  for (int pass = 0; pass <= unknowns; ++pass) {
+    ContactMatrix free = system;
+    ContactVector right = -equations.gradient;
+    for (int k = 0; k < unknowns; ++k) {
+      if (fixed[k]) right -= system.col(k) * change[k];
+    }
+    for (int k = 0; k < unknowns; ++k) {
+      if (!fixed[k]) continue;
+      free.row(k).setZero();
+      free.col(k).setZero();
+      free(k, k) = 1;
+      right[k] = change[k];
+    }
+    SolvePositive(&free, &right);
+    change = right;
+    bool inside = true;
+    for (int k = 0; k < unknowns; ++k) {
+      const bool arc = k % 2 == 0;
+      const double low = std::max(-x[k], arc ? -kLongestMove : -x[k]);
+      const double high =
+          arc ? std::min(1 - x[k], kLongestMove) : most_force - x[k];
+      const double bounded = std::clamp(change[k], low, high);
+      if (fixed[k] || bounded == change[k]) continue;
+      change[k] = bounded;
+      fixed[k] = true;
+      inside = false;
+    }
+    if (inside) break;
+  }
+  return change;
+}
+
+double LargestChange(const ContactVector& change, const ContactVector& x,
+                     double shape) {
+  double largest = shape;
+  for (int k = 0; k < change.size(); ++k) {
+    const double unit = k % 2 == 0 ? 1 : x[k] + kLeastForce;
+    largest = std::max(largest, std::abs(change[k]) / unit);
+  }
+  return largest;
+}
+
+double CurvatureRate(const ContactEquations& equations, double damping,
+                     const ContactVector& by_residual,
+                     const ContactVector& step, const ContactVector& x) {
+  const double size = LargestChange(step, x, 0);
+  if (size == 0) return 0;
+  ContactMatrix system = Damped(equations, damping);
+  ContactVector change = -by_residual;
+  for (int k = 0; k < x.size(); ++k) {
+    change[k] += (system(k, k) - equations.normal(k, k)) * step[k];
+  }
+  SolvePositive(&system, &change);
+  return LargestChange(change, x, 0) / size;
+}
+
+bool IsLastChange(double now, double before, double rate, bool crossed,
+                  double tolerance) {
+  const double ratio = now / before;
+  const double shrinks = kDoubt * (rate + ratio * ratio);
+  return now * (crossed ? 1.0 : std::min(1.0, shrinks)) < tolerance;
+}
+
+}  // namespace finray

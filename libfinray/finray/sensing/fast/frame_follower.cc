@@ -1,0 +1,83 @@
+#include "finray/sensing/fast/frame_follower.h"
+
+#include <cmath>
+
+namespace finray {
+namespace {
+
+// Of l_0 and of a force: what is left is far below any gauge's noise.
+constexpr double kTolerance = 1e-8;
+
+Eigen::VectorXd AllWeights(const Finger& finger) {
+  const auto gauges = static_cast<Eigen::Index>(finger.gauges.size());
+  Eigen::VectorXd weights(gauges);
+  for (Eigen::Index j = 0; j < gauges; ++j) {
+    const Gauge& gauge = finger.gauges[j];
+    weights[j] = std::abs(gauge.gain_V_per_rad) / gauge.noise_V;
+  }
+  return weights;
+}
+
+RivalMap MapRivals(const Finger& finger, const Discretization& discretization,
+                   const ContactSearch& search) {
+  ContactFit fit(finger, discretization);
+  fit.set_tolerance(kTolerance);
+  fit.set_most_force(ContactSearch::kMostForce * search.table().heaviest_N());
+  return {search.table(), AllWeights(finger), &fit};
+}
+
+}  // namespace
+
+bool FrameFollower::Serves(const Scene& scene) {
+  return scene.contacts.value_or(1) == 1 && !scene.object_std_mm;
+}
+
+FrameFollower::FrameFollower(const Finger& finger, const Scene& scene,
+                             const Discretization& discretization,
+                             const ContactSearch& search)
+    : search_(search),
+      gauges_(static_cast<int>(finger.gauges.size())),
+      rivals_(MapRivals(finger, discretization, search)),
+      group_(finger, discretization, scene.friction_coefficient) {
+  group_.set_tolerance(kTolerance);
+  group_.set_most_force(ContactSearch::kMostForce *
+                        search.table().heaviest_N());
+}
+
+bool FrameFollower::Start(const ContactSolution& solution, double arc_std_mm,
+                          int gauges) {
+  const PointContact& contact = solution.contacts[0];
+  if (solution.count != 1 || gauges != gauges_ ||
+      !rivals_.IsUnique(contact.arc_mm, arc_std_mm, contact.normal_N,
+                        solution.chi2, ContactSearch::kWithinNoise)) {
+    return false;
+  }
+  group_.Start(solution.state, contact);
+  return true;
+}
+
+void FrameFollower::Fit(const std::vector<FrameMeasurement>& frames,
+                        std::size_t count) {
+  if (fits_.size() < count) {
+    fits_.resize(count);
+    angles_rad_.resize(gauges_, static_cast<Eigen::Index>(count));
+    weights_.resize(gauges_, static_cast<Eigen::Index>(count));
+  }
+  const auto columns = static_cast<Eigen::Index>(count);
+  for (Eigen::Index i = 0; i < columns; ++i) {
+    const FrameMeasurement& frame = frames[static_cast<std::size_t>(i)];
+    angles_rad_.col(i) = frame.values;
+    weights_.col(i) = frame.weights;
+  }
+  group_.Fit(angles_rad_.leftCols(columns), weights_.leftCols(columns),
+             fits_.data());
+}
+
+bool FrameFollower::IsCertain(std::size_t frame, double arc_std_mm) const {
+  const FrameFit& fit = fits_[frame];
+  return fit.converged && !search_.OnBound(fit.arc_mm, fit.normal_N) &&
+         rivals_.IsUnique(fit.arc_mm, arc_std_mm, fit.normal_N, fit.chi2,
+                          ContactSearch::kWithinNoise);
+}
+
+}  // namespace finray

@@ -1,0 +1,389 @@
+#include "finray/sensing/fast/frame_group_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace finray {
+namespace {
+
+// Frames that take longer, or begin with a larger change, are fitted alone.
+constexpr int kMostIterations = 10;
+constexpr double kLargestChange = 0.5;
+// A lane does not begin a frame that is further ahead of another lane's: their
+// contacts would lie in too many elements.
+constexpr int kMostLead = 4 * kFrameLanes;
+
+}  // namespace
+
+FrameGroupFit::FrameGroupFit(const Finger& finger,
+                             const Discretization& discretization,
+                             double friction)
+    : lanes_(finger, discretization, friction),
+      alone_(finger, discretization),
+      friction_(friction),
+      adaptive_(discretization.adaptive()),
+      contact_(1) {
+  const int gauges = lanes_.model().gauges();
+  reading_.resize(gauges);
+  for (auto& slope : slope_) slope.resize(gauges);
+  for (auto& slope : slope_before_) slope.resize(gauges);
+  kept_state_.resize(lanes_.state_size());
+  angles_.resize(gauges);
+  weights_.resize(gauges);
+}
+
+void FrameGroupFit::set_tolerance(double relative) {
+  tolerance_ = relative;
+  alone_.set_tolerance(relative);
+}
+
+void FrameGroupFit::set_most_force(double force_N) {
+  most_force_N_ = force_N;
+  alone_.set_most_force(force_N);
+}
+
+void FrameGroupFit::Start(const LadderState& state,
+                          const PointContact& contact) {
+  one_by_one_ = false;
+  linearised_ = 0;
+  newton_ = change_[0] = change_[1] = FourFrames{};
+  for (int lane = 0; lane < kFrameLanes; ++lane) {
+    one_by_one_ |= !lanes_.Load(state, lane);
+    lane_[lane].arc_mm = contact.arc_mm;
+    lane_[lane].normal_N = contact.normal_N;
+  }
+  state_ = state;
+  contact_[0] = {contact.arc_mm, contact.normal_N, friction_};
+  alone_.set_state(state);
+}
+
+void FrameGroupFit::Fit(const Columns& angles_rad,
+                        const Columns& weights_per_rad, FrameFit* fits) {
+  const Frames frames{angles_rad, weights_per_rad, fits};
+  for (int lane = 0; lane < kFrameLanes; ++lane) {
+    TakeFrame(lane, lane);
+  }
+  for (int lane = 0; lane < kFrameLanes; ++lane) Begin(frames, lane);
+  const auto busy = [&](const Lane& lane) { return frames.Busy(lane); };
+  while (!one_by_one_ && std::any_of(lane_.begin(), lane_.end(), busy)) {
+    Keep(to_keep_);
+    if (linearised_ != 0) lanes_.Step(newton_, change_);
+    Linearize();
+    for (int lane = 0; lane < kFrameLanes; ++lane) {
+      if (lane_[lane].waiting) {
+        Begin(frames, lane);
+      } else {
+        Advance(frames, lane);
+      }
+    }
+  }
+  if (!one_by_one_) return;
+  for (int i = 0; i < frames.count(); ++i) {
+    if (i >= lane_[i % kFrameLanes].frame) FitAlone(frames, i);
+  }
+}
+
+void FrameGroupFit::TakeFrame(int lane, int frame) {
+  Lane& l = lane_[lane];
+  l.frame = frame;
+  l.iteration = 0;
+  l.waiting = true;
+  l.last_cost = std::numeric_limits<double>::infinity();
+  l.last_change = kUnknownChange;
+  l.kept_arc_mm = l.arc_mm;
+  l.kept_normal_N = l.normal_N;
+  to_keep_ |= 1u << lane;
+}
+
+// Predicts where the lane's frame is, if there is a linearisation to tell.
+void FrameGroupFit::Begin(const Frames& frames, int lane) {
+  Lane& l = lane_[lane];
+  if (one_by_one_ || !frames.Busy(l)) return;
+  for (const Lane& other : lane_) {
+    if (l.frame > other.frame + kMostLead) return;
+  }
+  l.waiting = false;
+  if (Has(linearised_, lane) && !Improve(frames, lane, true)) {
+    FitLane(frames, lane);
+  }
+}
+
+// Lanes without a frame come along, so that they are where the next one starts.
+void FrameGroupFit::Linearize() {
+  std::array<double, kFrameLanes> arc_mm, normal_N;
+  LaneSet first = 0;
+  for (int lane = 0; lane < kFrameLanes; ++lane) {
+    arc_mm[lane] = lane_[lane].arc_mm;
+    normal_N[lane] = lane_[lane].normal_N;
+    if (!lane_[lane].waiting) first |= 1u << lane;
+  }
+  comparable_ = linearised_;
+  linearised_ = lanes_.Place(arc_mm, normal_N, kAllFrameLanes, first);
+  if (!lanes_.Linearize()) {
+    // One lane spoils all; idle ones must not do so again.
+    linearised_ = 0;
+    FourFrames* state = lanes_.frame().state.q;
+    std::copy(kept_state_.begin(), kept_state_.end(), state);
+  }
+  for (int k = 0; k < 2; ++k) {
+    step_[k] = change_[k];
+    change_[k] = FourFrames{};
+    slope_before_[k].swap(slope_[k]);
+  }
+  for (int lane = 0; lane < kFrameLanes; ++lane) {
+    newton_[lane] = Has(linearised_, lane);
+  }
+  ReadGauges();
+}
+
+// At the end of Newton's step, in all lanes.
+void FrameGroupFit::ReadGauges() {
+  const LadderFrame<FourFrames>& f = lanes_.frame();
+  for (std::vector<FourFrames>* of : {&reading_, &slope_[0], &slope_[1]}) {
+    std::fill(of->begin(), of->end(), FourFrames{});
+  }
+  for (int i = 0; i < f.readout_count; ++i) {
+    const int j = f.readouts[i].gauge;
+    const double sign = f.readouts[i].sign;
+    const FourFrames* tap = f.taps + f.readout_tap(i) * f.stride + f.affine;
+    reading_[j] += sign * (f.readout_map[kReadoutValues * i] + tap[0]);
+    for (int k = 0; k < 2; ++k) slope_[k][j] += sign * tap[1 + k];
+  }
+}
+
+// After a linearisation: ends the lane's frame, if it converges, and predicts
+// the next one.
+void FrameGroupFit::Advance(const Frames& frames, int lane) {
+  Lane& l = lane_[lane];
+  if (one_by_one_) return;
+  if (!Has(linearised_, lane) || ++l.iteration > kMostIterations ||
+      !Improve(frames, lane, false) || (l.converged && !IsResolved(lane))) {
+    FitLane(frames, lane);
+    return;
+  }
+  if (!l.converged) return;
+  Record(frames, lane);
+  TakeFrame(lane, l.frame + kFrameLanes);
+  Begin(frames, lane);
+}
+
+// Moves the contact to where the linearisation has the least squares. False if
+// the frame is better fitted alone.
+bool FrameGroupFit::Improve(const Frames& frames, int lane, bool predict) {
+  Lane& l = lane_[lane];
+  const double length = lanes_.workspace().length_unit();
+  const double force = lanes_.workspace().force_unit();
+  const ContactEquations equations = EquationsOf(frames, lane);
+  // Written so that a NaN fails, here and below.
+  if (!(equations.chi2 <= kMostRise * l.last_cost + 1)) return false;
+  l.last_cost = equations.chi2;
+  l.normal = equations.normal;
+  ContactVector x(2);
+  x << l.arc_mm / length, l.normal_N / force;
+  const ContactVector change =
+      BoundedChange(equations, x, most_force_N_ / force, 0);
+  const double moved =
+      LargestChange(change, x, ShapeChange(lane, !predict, change));
+  if (!(moved <= kLargestChange)) return false;
+  const BeamMesh& mesh = lanes_.model().mesh(Side::kFront);
+  const int before = mesh.Locate(l.arc_mm).element;
+  l.arc_mm = std::clamp(l.arc_mm + change[0] * length, 0.0, length);
+  l.normal_N = std::max(0.0, l.normal_N + change[1] * force);
+  const bool crossed = mesh.Locate(l.arc_mm).element != before;
+  for (int k = 0; k < 2; ++k) {
+    change_[k][lane] += change[k];
+    for (std::size_t j = 0; j < reading_.size(); ++j) {
+      reading_[j][lane] += slope_[k][j][lane] * change[k];
+    }
+  }
+  l.converged = !predict && IsLastChange(moved, l.last_change,
+                                         Rate(frames, lane, equations, x),
+                                         crossed, tolerance_);
+  l.last_change = moved;
+  return true;
+}
+
+ContactEquations FrameGroupFit::EquationsOf(const Frames& frames,
+                                            int lane) const {
+  const int frame = lane_[lane].frame;
+  double normal[3] = {}, gradient[2] = {}, chi2 = 0;
+  for (std::size_t j = 0; j < reading_.size(); ++j) {
+    const double weight = frames.weights_per_rad(j, frame);
+    const double residual =
+        weight * (reading_[j][lane] - frames.angles_rad(j, frame));
+    const double by_arc = weight * slope_[0][j][lane];
+    const double by_force = weight * slope_[1][j][lane];
+    chi2 += residual * residual;
+    gradient[0] += by_arc * residual;
+    gradient[1] += by_force * residual;
+    normal[0] += by_arc * by_arc;
+    normal[1] += by_arc * by_force;
+    normal[2] += by_force * by_force;
+  }
+  ContactEquations equations{ContactMatrix(2, 2), ContactVector(2), chi2};
+  equations.normal << normal[0], normal[1], normal[1], normal[2];
+  equations.gradient << gradient[0], gradient[1];
+  return equations;
+}
+
+// CurvatureRate over the step between the last two linearisations.
+double FrameGroupFit::Rate(const Frames& frames, int lane,
+                           const ContactEquations& equations,
+                           const ContactVector& x) const {
+  if (!Has(comparable_, lane)) return 0;
+  const int frame = lane_[lane].frame;
+  ContactVector by_residual = ContactVector::Zero(2), step(2);
+  for (std::size_t j = 0; j < reading_.size(); ++j) {
+    const double weight = frames.weights_per_rad(j, frame);
+    const double residual =
+        weight * weight * (reading_[j][lane] - frames.angles_rad(j, frame));
+    for (int k = 0; k < 2; ++k) {
+      by_residual[k] +=
+          residual * (slope_[k][j][lane] - slope_before_[k][j][lane]);
+    }
+  }
+  step << step_[0][lane], step_[1][lane];
+  return CurvatureRate(equations, 0, by_residual, step, x);
+}
+
+// What stands for a change of the whole shape: gaps between its elements, and
+// the poses of tip and contact.
+double FrameGroupFit::ShapeChange(int lane, bool newton,
+                                  const ContactVector& change) const {
+  const LadderFrame<FourFrames>& f = lanes_.frame();
+  double largest = newton ? f.residual[lane] : 0;
+  for (const int first :
+       {f.tip_tap(), f.contact_tap(lanes_.contact_of(lane))}) {
+    for (int tap = first; tap < first + 3; ++tap) {
+      const FourFrames* row = f.taps + tap * f.stride + f.affine;
+      largest = std::max(largest, std::abs((newton ? row[0][lane] : 0) +
+                                           row[1][lane] * change[0] +
+                                           row[2][lane] * change[1]));
+    }
+  }
+  return largest;
+}
+
+// Whether the series of the last linearisation had converged.
+bool FrameGroupFit::IsResolved(int lane) const {
+  if (!adaptive_) return true;
+  const LadderFrame<FourFrames>& f = lanes_.frame();
+  double worst = 0;
+  for (int slot = 0; slot < f.slots(); ++slot) {
+    worst = std::max(worst, f.truncation[slot][lane]);
+  }
+  return worst < kRefinedTruncation_rad;
+}
+
+// What is linear in the last change is brought to its end.
+void FrameGroupFit::Record(const Frames& frames, int lane) const {
+  const LadderFrame<FourFrames>& f = lanes_.frame();
+  const Lane& l = lane_[lane];
+  FrameFit& fit = frames.fits[l.frame];
+  const double length = lanes_.workspace().length_unit();
+  const double force = lanes_.workspace().force_unit();
+  fit.converged = fit.in_lanes = true;
+  fit.iterations = l.iteration;
+  fit.arc_mm = l.arc_mm;
+  fit.normal_N = l.normal_N;
+  const double mixed = l.normal(0, 1) / (length * force);
+  fit.information << l.normal(0, 0) / (length * length), mixed, mixed,
+      l.normal(1, 1) / (force * force);
+  fit.chi2 = 0;
+  for (std::size_t j = 0; j < reading_.size(); ++j) {
+    const double residual = frames.weights_per_rad(j, l.frame) *
+                            (reading_[j][lane] - frames.angles_rad(j, l.frame));
+    fit.chi2 += residual * residual;
+  }
+  const auto moved = [&](const FourFrames& from, const FourFrames* row) {
+    row += f.affine;
+    return from[lane] + row[0][lane] + row[1][lane] * change_[0][lane] +
+           row[2][lane] * change_[1][lane];
+  };
+  const auto pose = [&](const FourFrames& x, const FourFrames& y,
+                        const FourFrames& theta, int tap) {
+    const FourFrames* rows = f.taps + tap * f.stride;
+    return Eigen::Vector3d(length * moved(x, rows),
+                           length * moved(y, rows + f.stride),
+                           moved(theta, rows + 2 * f.stride));
+  };
+  const int contact = lanes_.contact_of(lane), slot = f.elements + contact;
+  fit.contact_pose = pose(f.slot_x[slot], f.slot_y[slot], f.slot_theta[slot],
+                          f.contact_tap(contact));
+  fit.tip_pose = pose(f.tip[0], f.tip[1], f.tip[2], f.tip_tap());
+  fit.rib_tension_N.resize(f.ribs);
+  for (int i = 0; i < f.ribs; ++i) {
+    fit.rib_tension_N[i] =
+        force * moved(f.state.q[6 + i], f.q_step + (6 + i) * f.stride);
+  }
+}
+
+void FrameGroupFit::Keep(LaneSet lanes) {
+  const FourFrames* state = lanes_.frame().state.q;
+  if (lanes == kAllFrameLanes) {
+    std::copy_n(state, kept_state_.size(), kept_state_.begin());
+  } else {
+    for (int lane = 0; lane < kFrameLanes; ++lane) {
+      if (!Has(lanes, lane)) continue;
+      for (std::size_t i = 0; i < kept_state_.size(); ++i) {
+        kept_state_[i][lane] = state[i][lane];
+      }
+    }
+  }
+  to_keep_ &= ~lanes;
+}
+
+// A lane's frame without the others, from where it started.
+void FrameGroupFit::FitLane(const Frames& frames, int lane) {
+  Lane& l = lane_[lane];
+  Keep(to_keep_ & 1u << lane);
+  FourFrames* state = lanes_.frame().state.q;
+  for (std::size_t i = 0; i < kept_state_.size(); ++i) {
+    state[i][lane] = kept_state_[i][lane];
+  }
+  l.arc_mm = l.kept_arc_mm;
+  l.normal_N = l.kept_normal_N;
+  linearised_ &= ~(1u << lane);
+  newton_[lane] = change_[0][lane] = change_[1][lane] = 0;
+
+  lanes_.Save(&state_, lane);
+  alone_.set_state(state_);
+  contact_[0] = {l.arc_mm, l.normal_N, friction_};
+  FitAlone(frames, l.frame);
+  const FrameFit& fit = frames.fits[l.frame];
+  if (fit.converged) {
+    one_by_one_ = !lanes_.Load(state_, lane);
+    l.arc_mm = fit.arc_mm;
+    l.normal_N = fit.normal_N;
+  }
+  TakeFrame(lane, l.frame + kFrameLanes);
+}
+
+// From the last frame that was fitted so.
+void FrameGroupFit::FitAlone(const Frames& frames, int frame) {
+  FrameFit& fit = frames.fits[frame];
+  const PointContact before = contact_[0];
+  angles_ = frames.angles_rad.col(frame);
+  weights_ = frames.weights_per_rad.col(frame);
+  fit.in_lanes = false;
+  fit.converged = alone_.Follow(angles_, weights_, &contact_);
+  fit.iterations = alone_.iterations();
+  if (!fit.converged) {
+    alone_.set_state(state_);
+    contact_[0] = before;
+    return;
+  }
+  alone_.SaveState(&state_);
+  fit.arc_mm = contact_[0].arc_mm;
+  fit.normal_N = contact_[0].normal_N;
+  fit.chi2 = alone_.chi2();
+  fit.information = alone_.information();
+  fit.contact_pose = alone_.contact_pose(0);
+  fit.tip_pose = alone_.tip_pose();
+  fit.rib_tension_N.resize(lanes_.model().ribs());
+  for (int i = 0; i < lanes_.model().ribs(); ++i) {
+    fit.rib_tension_N[i] = alone_.rib_tension(i);
+  }
+}
+
+}  // namespace finray

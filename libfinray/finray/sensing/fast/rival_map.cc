@@ -1,0 +1,77 @@
+#include "finray/sensing/fast/rival_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace finray {
+namespace {
+
+// Between nodes d is known to this factor (RivalMapTest).
+constexpr double kBetweenNodes = 0.8;
+// Without a fit, the table knows chi2 to this factor; and what that leaves far
+// above anything that noise may do is not fitted.
+constexpr double kTableFactor = 0.25, kFarAbove = 400;
+// A valley's std in rows.
+constexpr double kWidest = 0.5;
+// Starts this many rows from the node's own are the same contact.
+constexpr double kSameRows = 1.5;
+
+}  // namespace
+
+RivalMap::RivalMap(const GaugeTable& table, const Eigen::VectorXd& weights,
+                   ContactFit* fit)
+    : table_(table) {
+  for (const GaugeTable::Row& row : table.rows()) {
+    std::vector<double>& distances = distance_per_N_.emplace_back();
+    for (std::size_t k = 1; k < row.nodes.size(); ++k) {
+      distances.push_back(DistancePerN(row.nodes[k], row.arc_mm, weights, fit));
+    }
+  }
+}
+
+double RivalMap::DistancePerN(const GaugeTable::Node& node, double arc_mm,
+                              const Eigen::VectorXd& weights, ContactFit* fit) {
+  const double same_mm = kSameRows * table_.row_spacing_mm();
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<PointContact> contact(1);
+  table_.FindStarts(node.values, weights, &starts_);
+  for (const ContactStart& start : starts_) {
+    contact[0] = start.contacts[0];
+    if (std::abs(contact[0].arc_mm - arc_mm) <= same_mm) continue;
+    double chi2 = kTableFactor * start.chi2;
+    if (chi2 < kFarAbove) {
+      fit->set_state(*start.state);
+      if (fit->Fit(node.values, weights, &contact)) {
+        if (std::abs(contact[0].arc_mm - arc_mm) <= same_mm) continue;
+        chi2 = fit->chi2();
+      }
+    }
+    least = std::min(least, chi2);
+  }
+  return std::sqrt(least) / node.normal_N;
+}
+
+bool RivalMap::IsUnique(double arc_mm, double arc_std_mm, double normal_N,
+                        double chi2, double within_noise) const {
+  if (!(arc_std_mm < kWidest * table_.row_spacing_mm())) return false;
+  const std::vector<GaugeTable::Row>& rows = table_.rows();
+  const auto above = std::lower_bound(
+      rows.begin(), rows.end(), arc_mm,
+      [](const GaugeTable::Row& row, double arc) { return row.arc_mm < arc; });
+  if (above == rows.begin() || above == rows.end()) return false;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::ptrdiff_t i :
+       {above - rows.begin(), above - rows.begin() - 1}) {
+    const std::vector<GaugeTable::Node>& nodes = rows[i].nodes;
+    std::size_t k = 1;
+    while (k < nodes.size() && nodes[k].normal_N < normal_N) ++k;
+    if (k == nodes.size()) return false;  // beyond the table
+    least = std::min({least, distance_per_N_[i][k - 1],
+                      distance_per_N_[i][k > 1 ? k - 2 : 0]});
+  }
+  return kBetweenNodes * least * normal_N >
+         std::sqrt(chi2) + std::sqrt(chi2 + within_noise);
+}
+
+}  // namespace finray

@@ -1,0 +1,30 @@
+#include "finray/finger/discretization.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "finray/io/error.h"
+
+namespace finray {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+TEST(DiscretizationTest, NamesRoundTrip) {
+  for (const std::string& name : SchemeNames()) {
+    EXPECT_EQ(SchemeName(ParseDiscretization(name, 10).scheme), name);
+  }
+}
+
+TEST(DiscretizationTest, ErrorsNameTheNearestScheme) {
+  EXPECT_THAT([] { ParseDiscretization("tailor", 10); },
+              ThrowsMessage<InputError>(HasSubstr("did you mean 'taylor'?")));
+  EXPECT_THAT([] { ParseDiscretization("taylor", -1); },
+              ThrowsMessage<InputError>(HasSubstr("--resolution: -1")));
+  EXPECT_THROW(ParseDiscretization("taylor", 1000001), InputError);
+  EXPECT_EQ(ParseDiscretization("rigid_chain", 100000).resolution, 100000);
+}
+
+}  // namespace
+}  // namespace finray

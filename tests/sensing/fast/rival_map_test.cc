@@ -1,0 +1,78 @@
+#include "finray/sensing/fast/rival_map.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <random>
+
+#include "finray/sensing/contact_search.h"
+#include "test_finger.h"
+
+namespace finray {
+namespace {
+
+// Wherever the map says so, an exhaustive search finds no rival.
+TEST(RivalMapTest, WhatItCallsUniqueHasNoRival) {
+  for (const double noise : {1e-4, 3e-4, 3e-3}) {
+    Finger finger = PaperFinger();
+    for (Gauge& gauge : finger.gauges) gauge.noise_V = noise;
+    EquilibriumSolver solver(finger, {});
+    const GaugeTable table(&solver, 0, std::nullopt);
+    FrameMeasurement measurement;
+    measurement.weights = Eigen::VectorXd::Constant(4, 1 / noise);
+    measurement.gauges = measurement.all = 4;
+    ContactFit map_fit(finger, {});
+    const RivalMap map(table, measurement.weights, &map_fit);
+    ContactSearch search(finger, Scene(), {});
+    std::mt19937_64 generator(11);
+    std::uniform_real_distribution<double> place(10, 135), force(0, 2);
+    std::normal_distribution<double> normal(0, noise);
+    int unique = 0, usual_unique = 0, usual_frames = 0;
+    constexpr int kFrames = 400;
+    for (int i = 0; i < kFrames; ++i) {
+      const PointContact truth{place(generator),
+                               0.1 * std::pow(10, force(generator)), 0};
+      ASSERT_TRUE(solver.Solve({truth}));
+      const bool usual = truth.arc_mm > 25 && truth.arc_mm < 108 &&
+                         truth.normal_N > 1 && truth.normal_N < 8;
+      usual_frames += usual;
+      measurement.values = solver.outputs().head(4);
+      for (double& angle : measurement.values) angle += normal(generator);
+      if (!search.Search(1, measurement)) continue;
+      const ContactSolution& best = search.best();
+      const double std = std::sqrt(CovarianceOf(best.information)(0, 0));
+      if (!map.IsUnique(best.contacts[0].arc_mm, std, best.contacts[0].normal_N,
+                        best.chi2, ContactSearch::kWithinNoise)) {
+        continue;
+      }
+      ++unique;
+      usual_unique += usual;
+      EXPECT_EQ(search.rival(), nullptr);
+      // From every row of the table: no other minimum is as good.
+      ContactFit fit(finger, {});
+      for (const GaugeTable::Row& row : table.rows()) {
+        std::vector<PointContact> contacts = {
+            {row.arc_mm, best.contacts[0].normal_N, 0}};
+        fit.set_state(row.nodes[5].state);
+        if (!fit.Fit(measurement.values, measurement.weights, &contacts)) {
+          continue;
+        }
+        // In a flat valley a fit may stop short of its lowest point.
+        const bool same =
+            std::abs(contacts[0].arc_mm - best.contacts[0].arc_mm) < 2 * std;
+        EXPECT_TRUE(same ||
+                    fit.chi2() > best.chi2 + ContactSearch::kWithinNoise)
+            << noise << ": " << contacts[0].arc_mm << " and "
+            << best.contacts[0].arc_mm;
+      }
+    }
+    std::printf("noise %g rad: %d of %d frames unique, %d of %d usual ones\n",
+                noise, unique, kFrames, usual_unique, usual_frames);
+    if (noise < 2e-4) {
+      EXPECT_GT(usual_unique, 0.8 * usual_frames);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace finray
