@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws docs/finger.svg: the paper's finger to scale, with the conventions.
+"""Draws docs/pictures/finger.svg: the paper's finger to scale, with the conventions.
 
 draw_finger.py [OUT.svg]
 """

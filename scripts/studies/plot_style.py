@@ -1,4 +1,4 @@
-"""The look of all plots of docs/accuracy.md."""
+"""The look of all plots of docs/evidence/accuracy.md."""
 
 import os
 import tempfile

@@ -292,7 +292,7 @@ TEST_F(FollowTest, FlagsOfABatchAreRefused) {
 
 TEST_F(FollowTest, TheExampleOfTheDocs) {
   std::ostringstream docs, example;
-  docs << std::ifstream(FINRAY_SOURCE_DIR "/docs/estimation.md").rdbuf();
+  docs << std::ifstream(FINRAY_SOURCE_DIR "/docs/guides/sense_live.md").rdbuf();
   example
       << std::ifstream(FINRAY_SOURCE_DIR "/examples/live_contact.cc").rdbuf();
   ASSERT_THAT(example.str(), Not(testing::IsEmpty()));

@@ -1,4 +1,5 @@
-// docs/calibrating.md has every warning code of the sources, and no other.
+// docs/guides/troubleshooting.md has every warning code of the sources, and no
+// other.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -37,7 +38,7 @@ std::set<std::string> CodesOfSources() {
       "\\s*\"(\\w+)\"");
   const std::regex assigned("\\.code = \"(\\w+)\"");
   std::set<std::string> codes;
-  for (const auto& file : std::filesystem::directory_iterator(
+  for (const auto& file : std::filesystem::recursive_directory_iterator(
            FINRAY_SOURCE_DIR "/calib/finray/calib")) {
     if (file.path().extension() != ".cc") continue;
     const std::string text = TextOf(file.path());
@@ -54,7 +55,8 @@ TEST(CalibratingGuideTest, HasEveryWarningCode) {
   for (const char* code : {"noise_above_plan", "dead_gauge", "no_free_frame"}) {
     EXPECT_THAT(codes, testing::Contains(code));
   }
-  const std::string guide = TextOf(FINRAY_SOURCE_DIR "/docs/calibrating.md");
+  const std::string guide =
+      TextOf(FINRAY_SOURCE_DIR "/docs/guides/troubleshooting.md");
   const std::size_t from = guide.find("\n## Troubleshooting: warning codes\n");
   ASSERT_NE(from, std::string::npos);
   std::set<std::string> documented;

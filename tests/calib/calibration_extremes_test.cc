@@ -1,4 +1,5 @@
-// Calibration far from the usual: what docs/extremes.md says, in little.
+// Calibration far from the usual: what docs/evidence/extremes.md says, in
+// little.
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #ifndef FINRAY_TESTS_CALIB_STANDARD_LOG_H_
 #define FINRAY_TESTS_CALIB_STANDARD_LOG_H_
 
-// The standard log of docs/calibration.md.
+// The standard log of docs/evidence/calibration_accuracy.md.
 
 #include <gtest/gtest.h>
 

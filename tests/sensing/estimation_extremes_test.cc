@@ -1,4 +1,4 @@
-// Sensing far from the usual: what docs/extremes.md says, in little.
+// Sensing far from the usual: what docs/evidence/extremes.md says, in little.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The claims of docs/accuracy.md about cold starts, on fewer frames.
+// The claims of docs/evidence/accuracy.md about cold starts, on fewer frames.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// The paper's experiments, simulated: the claims of docs/accuracy.md on fewer
-// frames.
+// The paper's experiments, simulated: the claims of docs/evidence/accuracy.md
+// on fewer frames.
 
 #include "studies/paper_protocol.h"
 

@@ -1,4 +1,5 @@
-// Prints the tables of docs/statics.md: accuracy by mesh and order.
+// Prints the tables of docs/evidence/statics_accuracy.md: accuracy by mesh and
+// order.
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Where sensing and calibration stop holding: noise, quantisation, offsets,
 // gains, gauges twice or dead, places, forces, stiffness, units and starts far
-// from the usual. The tables of docs/extremes.md.
+// from the usual. The tables of docs/evidence/extremes.md.
 //
 //   extremes_study [TABLES [FRAMES [LOGS]]]
 //

@@ -1,6 +1,6 @@
 // What a camera's view of the rib pins says of the model, on the real steel
-// finger pressed on a circle (docs/calibration.md). Argument: the folder of the
-// measurements.
+// finger pressed on a circle (docs/evidence/calibration_accuracy.md). Argument:
+// the folder of the measurements.
 
 #include <cmath>
 #include <cstdio>

@@ -94,7 +94,8 @@ class Grid {
       add(one, "warm", kForwardTolerance, false, "");
     }
     for (const Ladder& one : Chains()) {
-      // A chain's kinks touch an object too (docs/statics.md): 0.1 s a frame.
+      // A chain's kinks touch an object too, which costs 0.1 s a frame
+      // (docs/evidence/statics_accuracy.md).
       if (scene == "circle" && one.discretization.resolution != 200) continue;
       add(one, "warm", kForwardTolerance, false, "");
     }

@@ -8,7 +8,8 @@ namespace finray {
 /// What a line of the report is about, under a name that stays the same from
 /// run to run: `sensing/one_contact/taylor8x1/lanes`.
 struct SettingName {
-  std::string task;    ///< forward, sensing or estimation (docs/benchmark.md).
+  /// forward, sensing or estimation (docs/evidence/benchmark.md).
+  std::string task;
   std::string scene;   ///< no_contact, one_contact, ...
   std::string solver;  ///< Scheme and elements a bay, or solver and links.
   std::string how;     ///< warm, cold, alone, lanes, block, live, ...

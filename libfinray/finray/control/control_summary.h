@@ -18,7 +18,7 @@ std::vector<std::string> ControlLogNames(const Experiment& experiment,
 /// YAML's keys.
 void EmitSettings(const Experiment& experiment, YamlEmitter* yaml);
 
-/// One experiment of a summary.yaml (docs/formats.md), as a mapping.
+/// One experiment of a summary.yaml (docs/reference/formats.md), as a mapping.
 void EmitExperiment(const std::string& path, const Experiment& experiment,
                     const std::vector<ControllerResult>& results,
                     YamlEmitter* yaml);

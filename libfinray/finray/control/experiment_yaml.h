@@ -7,9 +7,9 @@
 
 namespace finray {
 
-/// Reads an experiment YAML (docs/formats.md). `finger` is the one that it is
-/// for. Throws InputError at the place of what is unknown, missing or
-/// impossible.
+/// Reads an experiment YAML (docs/reference/formats.md). `finger` is the one
+/// that it is for. Throws InputError at the place of what is unknown, missing
+/// or impossible.
 Experiment ReadExperiment(const std::string& path, const Finger& finger);
 
 }  // namespace finray

@@ -6,8 +6,8 @@
 
 namespace finray {
 
-/// How the beam equation is integrated (docs/statics.md has the measured
-/// trade).
+/// How the beam equation is integrated (docs/evidence/statics_accuracy.md has
+/// the measured trade).
 enum class Scheme {
   kRigidChain,  ///< The paper's rigid links, order 2 (RigidLinkElement).
   kTaylor4,     ///< Taylor series of order 4 (TaylorElement).

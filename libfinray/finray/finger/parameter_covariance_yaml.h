@@ -8,7 +8,7 @@
 
 namespace finray {
 
-// The `calibration` block of a finger YAML (docs/formats.md):
+// The `calibration` block of a finger YAML (docs/reference/formats.md):
 //
 //   parameters: [front_stiffness_N_mm2, gauge_1_gain_V_per_rad]
 //   std: [95.5, 0.004]

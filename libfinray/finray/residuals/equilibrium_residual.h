@@ -12,8 +12,8 @@ namespace finray {
 ///
 /// with S bringing lengths to units of l_0, moments to EI / l_0 and forces to
 /// EI / l_0^2. A weight of 1e6 and more holds equilibrium to below gauge noise;
-/// what it does to normal equations is in docs/calibration.md. Parameter
-/// blocks: those of FrameResidual.
+/// what it does to normal equations is in docs/reference/calibration.md.
+/// Parameter blocks: those of FrameResidual.
 class EquilibriumResidual : public FrameResidual {
  public:
   static ceres::CostFunction* Create(const FrameEvaluation* frame,

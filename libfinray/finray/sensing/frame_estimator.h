@@ -22,7 +22,7 @@ namespace finray {
 /// A frame that is not what the model says with this noise has the std of a
 /// noise that would explain it (FrameEstimate::noise_scale).
 ///
-/// Statuses (docs/estimation.md):
+/// Statuses (docs/reference/estimation.md):
 ///  - no_contact: no contact, by that criterion or, with the number given, as
 ///    all forces are below kLeastForce_N, of soft fingers kLeastForce.
 ///  - unobservable: solved, but std of l_c above kLargestArcStd of l_0 or std

@@ -6,7 +6,7 @@
 namespace finray {
 
 /// Frames as they come, each estimated before the next one is there. For
-/// control loops and displays (docs/estimation.md, "Real time"); one thread at
+/// control loops and displays (docs/guides/sense_live.md); one thread at
 /// a time.
 class LiveEstimator {
  public:

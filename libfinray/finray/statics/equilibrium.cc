@@ -13,9 +13,9 @@ namespace {
 
 // sum of |f_c| l_0^2 / EI, times the root of what the wedge of the beams makes
 // of it, beyond which Newton's method may arrive at another equilibrium than
-// the one that grows out of the unloaded finger (docs/statics.md): only the
-// path, or a start this near, is trusted then. Fingers of less than three ribs
-// sway.
+// the one that grows out of the unloaded finger (docs/reference/statics.md):
+// only the path, or a start this near, is trusted then. Fingers of less than
+// three ribs sway.
 constexpr double kHeavyLoad = 60, kHeavyLoadOfFewRibs = 15;
 constexpr int kFewRibs = 2;
 // Newton's method that takes longer on one mesh has wandered: the same holds.

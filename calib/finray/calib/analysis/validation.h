@@ -95,7 +95,7 @@ struct ValidationInputs {
   std::string finger_path, baseline_path, plan_path;  ///< of plan or scene
   std::string command;
 };
-/// The text of validation.yaml (docs/formats.md).
+/// The text of validation.yaml (docs/reference/formats.md).
 std::string ValidationYaml(const CalibrationLogs& logs,
                            const Validation& validation,
                            const std::vector<GateResult>& gates,

@@ -73,7 +73,7 @@ struct CalibrationInputs {
   std::string command;
 };
 
-/// The text of calibration.yaml (docs/formats.md).
+/// The text of calibration.yaml (docs/reference/formats.md).
 std::string CalibrationYaml(CalibrationProblem& problem,
                             const CalibrationResult& result,
                             const CalibrationInputs& inputs);
