@@ -14,9 +14,7 @@ FrameReadings Readings(const Finger& finger,
   EXPECT_TRUE(solver.Solve(contacts));
   FrameReadings readings;
   for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
-    const Gauge& gauge = finger.gauges[j];
-    readings.gauges_V.push_back(gauge.gain_V_per_rad * solver.gauge_angle(j) +
-                                gauge.offset_V);
+    readings.gauges_V.push_back(finger.gauges[j].Volts(solver.gauge_angle(j)));
   }
   return readings;
 }

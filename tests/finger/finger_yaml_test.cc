@@ -76,10 +76,10 @@ TEST(FingerYamlTest, ReadingsAtTheEndsAreSaturated) {
       ReadFinger(folder.Write("f.yaml", Text(kBeams, kRib, gauge)));
   const Finger back = ReadFinger(folder.Write("g.yaml", FingerToYaml(finger)));
   for (const Finger& read : {finger, back}) {
-    EXPECT_TRUE(IsMeasured(read.gauges[0], 4.999));
-    EXPECT_FALSE(IsMeasured(read.gauges[0], 5));
-    EXPECT_FALSE(IsMeasured(read.gauges[0], -2.5));
-    EXPECT_FALSE(IsMeasured(read.gauges[0], std::nan("")));
+    EXPECT_TRUE(read.gauges[0].IsMeasured(4.999));
+    EXPECT_FALSE(read.gauges[0].IsMeasured(5));
+    EXPECT_FALSE(read.gauges[0].IsMeasured(-2.5));
+    EXPECT_FALSE(read.gauges[0].IsMeasured(std::nan("")));
   }
   ExpectError(Text(kBeams, kRib,
                    "  - {beam: back, start_mm: 30, length_mm: 18, min_V: 1, "

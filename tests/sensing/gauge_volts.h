@@ -13,8 +13,7 @@ inline std::vector<double> Volts(const EquilibriumSolver& solver) {
   std::vector<double> volts;
   for (int j = 0; j < solver.model().gauges(); ++j) {
     const Gauge& gauge = solver.model().finger().gauges[j];
-    volts.push_back(gauge.gain_V_per_rad * solver.gauge_angle(j) +
-                    gauge.offset_V);
+    volts.push_back(gauge.Volts(solver.gauge_angle(j)));
   }
   return volts;
 }
@@ -23,8 +22,7 @@ inline std::vector<double> Volts(const EquilibriumSolver& solver) {
 inline Eigen::VectorXd Weights(const Finger& finger) {
   Eigen::VectorXd weights(finger.gauges.size());
   for (Eigen::Index j = 0; j < weights.size(); ++j) {
-    weights[j] =
-        std::abs(finger.gauges[j].gain_V_per_rad) / finger.gauges[j].noise_V;
+    weights[j] = finger.gauges[j].AngleWeight();
   }
   return weights;
 }

@@ -24,7 +24,7 @@ class Ambiguity {
         finger.front_stiffness_N_mm2 / std::pow(finger.front_length_mm, 2);
     weight_.resize(static_cast<int>(finger.gauges.size()));
     for (int j = 0; j < weight_.size(); ++j) {
-      weight_[j] = finger.gauges[j].gain_V_per_rad / finger.gauges[j].noise_V;
+      weight_[j] = finger.gauges[j].AngleWeight();
     }
     for (int i = 1; i < kPlaces; ++i) {
       curves_.push_back({finger.front_length_mm * i / kPlaces, {}});

@@ -233,7 +233,7 @@ void Squeeze(const ModelError& error, int draws) {
 void WriteConditions(const std::string& path) {
   const Gauge gauge = PaperFinger().gauges[0];
   std::ofstream conditions(path);
-  conditions << "gauge_noise_rad: " << gauge.noise_V / gauge.gain_V_per_rad
+  conditions << "gauge_noise_rad: " << 1 / gauge.AngleWeight()
              << "\nstage_std_mm: " << kStage_mm
              << "\nslider_friction_N: " << kFriction_N
              << "\nmodel_error: {stiffness_std_percent: "

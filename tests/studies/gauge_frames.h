@@ -50,7 +50,7 @@ inline Eigen::MatrixXd CramerRaoCovariance(std::vector<PointContact> contacts,
     x = at;
   }
   for (int j = 0; j < m; ++j) {
-    slope.row(j) *= gauges[j].gain_V_per_rad / gauges[j].noise_V;
+    slope.row(j) *= gauges[j].AngleWeight();
   }
   return (slope.transpose() * slope).inverse();
 }

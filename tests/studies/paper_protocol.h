@@ -63,8 +63,7 @@ class SimulatedLab {
     finger.gauges = finger_.gauges;
     for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
       Gauge& gauge = finger.gauges[j];
-      gauge.offset_V +=
-          gauge.gain_V_per_rad * (truth.outputs()[j] - drawn.outputs()[j]);
+      gauge.offset_V = gauge.Volts(truth.outputs()[j] - drawn.outputs()[j]);
     }
     return finger;
   }

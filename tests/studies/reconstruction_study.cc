@@ -141,7 +141,7 @@ void Write(const std::string& folder, const ModelError& error, unsigned seed) {
   const Gauge gauge = PaperFinger().gauges[0];
   const TouchProtocol protocol;
   std::ofstream conditions(folder + "/conditions.yaml");
-  conditions << "gauge_noise_rad: " << gauge.noise_V / gauge.gain_V_per_rad
+  conditions << "gauge_noise_rad: " << 1 / gauge.AngleWeight()
              << "\nstage_std_mm: " << stage_std_mm
              << "\nmodel_error: {stiffness_std_percent: "
              << error.stiffness_percent

@@ -174,7 +174,7 @@ inline SensingCondition ConditionOf(const Finger& finger,
   slope.col(0) *= finger.front_length_mm;
   slope.col(1) *= contact.normal_N;
   for (Eigen::Index j = 0; j < gauges; ++j) {
-    slope.row(j) *= finger.gauges[j].gain_V_per_rad / finger.gauges[j].noise_V;
+    slope.row(j) *= finger.gauges[j].AngleWeight();
   }
   const Eigen::VectorXd singular =
       Eigen::JacobiSVD<Eigen::MatrixXd>(slope).singularValues();

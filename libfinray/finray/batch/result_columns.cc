@@ -31,8 +31,7 @@ void ResultColumns::ForEach(const FrameReadings& readings,
   }
   for (std::size_t j = 0; j < gauges_.size(); ++j) {
     column([j] { return GaugeAngle(static_cast<int>(j)); },
-           (readings.gauges_V[j] - gauges_[j].offset_V) /
-               gauges_[j].gain_V_per_rad);
+           gauges_[j].Angle(readings.gauges_V[j]));
   }
   for (std::size_t i = 0; i < ribs_; ++i) {
     column([i] { return RibForce(static_cast<int>(i)); },

@@ -129,10 +129,8 @@ BenchmarkCase MakeBenchmarkCase(const Finger& finger, const std::string& scene,
 
     const Eigen::VectorXd& gauges = c.forward.back().gauges_rad;
     for (Eigen::Index j = 0; j < gauges.size(); ++j) {
-      const Gauge& gauge = finger.gauges[j];
       frame.readings.gauges_V.push_back(
-          (gauges[j] + noise * normal(generator)) * gauge.gain_V_per_rad +
-          gauge.offset_V);
+          finger.gauges[j].Volts(gauges[j] + noise * normal(generator)));
     }
     if (c.scene.object_std_mm) {
       frame.readings.object_x_mm =

@@ -156,7 +156,7 @@ std::unique_ptr<Runner> MakeCeresSensing(const BenchmarkCase& c, int links,
                                          CeresLinearSolver linear_solver) {
   double least = std::numeric_limits<double>::infinity();
   for (const Gauge& gauge : c.finger.gauges) {
-    least = std::min(least, gauge.noise_V / std::abs(gauge.gain_V_per_rad));
+    least = std::min(least, 1 / gauge.AngleWeight());
   }
   return std::make_unique<ChainSenses>(
       c, links,

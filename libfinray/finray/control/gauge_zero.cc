@@ -12,9 +12,7 @@ GaugeZero::GaugeZero(const Finger& finger,
     throw InputError("the free finger has no equilibrium: " + solver.Why());
   }
   for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
-    const Gauge& gauge = finger.gauges[j];
-    free_V_.push_back(gauge.gain_V_per_rad * solver.gauge_angle(j) +
-                      gauge.offset_V);
+    free_V_.push_back(finger.gauges[j].Volts(solver.gauge_angle(j)));
   }
   sum_V_.assign(free_V_.size(), 0);
 }

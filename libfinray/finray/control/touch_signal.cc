@@ -34,10 +34,8 @@ double TouchSignal::Of(const FrameReadings& readings) const {
   double largest = 0;
   for (std::size_t j = 0; j < gauges_.size(); ++j) {
     const double reading_V = readings.gauges_V[j];
-    if (!IsMeasured(gauges_[j], reading_V)) return std::nan("");
-    const double angle =
-        (reading_V - gauges_[j].offset_V) / gauges_[j].gain_V_per_rad;
-    largest = std::max(largest, std::abs(angle));
+    if (!gauges_[j].IsMeasured(reading_V)) return std::nan("");
+    largest = std::max(largest, std::abs(gauges_[j].Angle(reading_V)));
   }
   return largest / least_rad_;
 }

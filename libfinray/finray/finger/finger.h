@@ -1,6 +1,7 @@
 #ifndef FINRAY_FINGER_FINGER_H_
 #define FINRAY_FINGER_FINGER_H_
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -27,8 +28,10 @@ struct Rib {
   double axial_stiffness_N = std::numeric_limits<double>::infinity();  ///< EA.
 };
 
-/// A strain gauge that reads the bending angle of a piece of a beam:
-/// V = gain * ([theta(start + length) - theta(start)] - undeformed) + offset.
+/// A strain gauge. It reads the bending angle of the piece of beam that it
+/// covers, less that of the undeformed finger:
+///   V = gain * angle + offset,
+///   angle = [theta(start + length) - theta(start)] - undeformed.
 struct Gauge {
   Side beam = Side::kBack;
   double start_mm = 0;   ///< p_j, arc length from the base of its beam.
@@ -36,16 +39,23 @@ struct Gauge {
   double gain_V_per_rad = 1;
   double offset_V = 0;
   double noise_V = 3e-4;  ///< Standard deviation of one reading.
-  /// What the electronics can tell: a reading at or beyond either is saturated,
-  /// and no measurement.
+  /// The range of the electronics: a reading at or beyond either limit is
+  /// saturated.
   double min_V = -std::numeric_limits<double>::infinity();
   double max_V = std::numeric_limits<double>::infinity();
-};
 
-/// Whether a reading says anything: it is there and not saturated.
-inline bool IsMeasured(const Gauge& gauge, double reading_V) {
-  return reading_V > gauge.min_V && reading_V < gauge.max_V;
-}
+  double Volts(double angle_rad) const {
+    return gain_V_per_rad * angle_rad + offset_V;
+  }
+  /// The inverse of Volts, in rad. NaN if `volts` is NaN.
+  double Angle(double volts) const {
+    return (volts - offset_V) / gain_V_per_rad;
+  }
+  /// 1 / standard deviation of the angle of one reading, per rad.
+  double AngleWeight() const { return std::abs(gain_V_per_rad) / noise_V; }
+  /// False for a missing (NaN) and for a saturated reading.
+  bool IsMeasured(double volts) const { return volts > min_V && volts < max_V; }
+};
 
 /// A piece of a beam whose bending stiffness is not the beam's.
 struct StiffnessPiece {

@@ -83,7 +83,7 @@ class NoisyLog {
       const Gauge& gauge = finger.gauges[j];
       const int index = static_cast<int>(j);
       table_.MutableNumbers(GaugeVolts(index))[row] =
-          gauge.gain_V_per_rad * solver.gauge_angle(index) + gauge.offset_V +
+          gauge.Volts(solver.gauge_angle(index)) +
           Error(noise_.gauges ? gauge.noise_V : 0);
     }
     table_.MutableNumbers("object_x_mm")[row] =

@@ -75,7 +75,7 @@ FrameTable SimulateTouches(const Finger& plant, const Outline& outline,
     for (int j = 0; j < solver.model().gauges(); ++j) {
       const Gauge& gauge = plant.gauges[static_cast<std::size_t>(j)];
       table.MutableNumbers(GaugeVolts(j))[row] =
-          gauge.gain_V_per_rad * solver.gauge_angle(j) + gauge.offset_V +
+          gauge.Volts(solver.gauge_angle(j)) +
           error(noise.gauges ? gauge.noise_V : 0);
     }
     table.MutableNumbers("object_x_mm")[row] =

@@ -12,8 +12,7 @@ inline FrameReadings CleanReadings(const EquilibriumSolver& solver) {
   FrameReadings readings;
   const std::vector<Gauge>& gauges = solver.model().finger().gauges;
   for (int j = 0; j < static_cast<int>(gauges.size()); ++j) {
-    readings.gauges_V.push_back(
-        gauges[j].gain_V_per_rad * solver.gauge_angle(j) + gauges[j].offset_V);
+    readings.gauges_V.push_back(gauges[j].Volts(solver.gauge_angle(j)));
   }
   return readings;
 }

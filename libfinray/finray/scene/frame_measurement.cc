@@ -19,10 +19,10 @@ void Measure(const Finger& finger, const Scene& scene,
   for (Eigen::Index j = 0; j < gauges; ++j) {
     const Gauge& gauge = finger.gauges[j];
     const double reading = readings.gauges_V[j];
-    if (!IsMeasured(gauge, reading)) continue;
+    if (!gauge.IsMeasured(reading)) continue;
     ++m.gauges;
-    m.values[j] = (reading - gauge.offset_V) / gauge.gain_V_per_rad;
-    m.weights[j] = std::abs(gauge.gain_V_per_rad) / gauge.noise_V;
+    m.values[j] = gauge.Angle(reading);
+    m.weights[j] = gauge.AngleWeight();
   }
   m.all = m.gauges;
   if (!scene.object_std_mm) return;

@@ -22,8 +22,7 @@ ReadingColumns::ReadingColumns(const Finger& finger,
     const Column volts = find(name);
     const Column angle = find(GaugeAngle(static_cast<int>(j)));
     if (!volts && !angle) throw InputError(path + ": " + NoColumn(name, names));
-    gauges_.push_back({volts ? *volts : *angle, !volts, gauge.gain_V_per_rad,
-                       gauge.offset_V});
+    gauges_.push_back({volts ? *volts : *angle, !volts, gauge});
   }
   object_x_ = find("object_x_mm");
   object_y_ = find("object_y_mm");

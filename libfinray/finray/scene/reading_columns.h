@@ -25,10 +25,9 @@ class ReadingColumns {
   void Read(Number number, FrameReadings* readings) const {
     readings->gauges_V.resize(gauges_.size());
     for (std::size_t j = 0; j < gauges_.size(); ++j) {
-      const GaugeColumn& gauge = gauges_[j];
-      const double value = number(gauge.column);
-      readings->gauges_V[j] =
-          gauge.angle ? gauge.gain_V_per_rad * value + gauge.offset_V : value;
+      const GaugeColumn& of = gauges_[j];
+      const double value = number(of.column);
+      readings->gauges_V[j] = of.angle ? of.gauge.Volts(value) : value;
     }
     const auto read = [&](Column column, double otherwise) {
       const double value = column ? number(*column) : otherwise;
@@ -50,7 +49,7 @@ class ReadingColumns {
   struct GaugeColumn {
     std::size_t column;
     bool angle;
-    double gain_V_per_rad, offset_V;
+    Gauge gauge;
   };
 
   std::vector<GaugeColumn> gauges_;

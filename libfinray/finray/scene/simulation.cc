@@ -137,10 +137,9 @@ double FillRow(const Finger& finger, const SolvedRow& solved, bool displacement,
   };
   const int gauges = static_cast<int>(finger.gauges.size());
   for (int j = 0; j < gauges; ++j) {
-    const Gauge& gauge = finger.gauges[j];
     const double angle = solved.outputs[j];
     set(GaugeAngle(j), angle);
-    set(GaugeVolts(j), gauge.gain_V_per_rad * angle + gauge.offset_V);
+    set(GaugeVolts(j), finger.gauges[j].Volts(angle));
   }
   if (solved.object && solved.contacts.empty()) set(NormalForce(0), 0);
   Eigen::Vector2d force(0, 0);

@@ -101,8 +101,7 @@ void CalibrationUncertainty::FillByParameter(
         // An unused gauge may have no reading.
         by_reading(weights[index] == 0
                        ? 0
-                       : (readings_V[index] - gauge.offset_V) /
-                             (gauge.gain_V_per_rad * gauge.gain_V_per_rad));
+                       : gauge.Angle(readings_V[index]) / gauge.gain_V_per_rad);
         break;
       }
       case FingerParameterKind::kGaugeOffset:

@@ -112,8 +112,7 @@ class Sensor {
         estimator_(WithoutCovariance(finger), OneContact(), discretization),
         weights_(finger.gauges.size()) {
     for (Eigen::Index j = 0; j < weights_.size(); ++j) {
-      weights_[j] =
-          std::abs(finger.gauges[j].gain_V_per_rad) / finger.gauges[j].noise_V;
+      weights_[j] = finger.gauges[j].AngleWeight();
     }
   }
 
@@ -123,10 +122,8 @@ class Sensor {
     std::vector<double> volts;
     if (!solver_.Solve({contact})) return volts;
     for (std::size_t j = 0; j < finger_.gauges.size(); ++j) {
-      const Gauge& gauge = finger_.gauges[j];
-      volts.push_back(gauge.gain_V_per_rad *
-                          solver_.gauge_angle(static_cast<int>(j)) +
-                      gauge.offset_V);
+      volts.push_back(
+          finger_.gauges[j].Volts(solver_.gauge_angle(static_cast<int>(j))));
     }
     return volts;
   }

@@ -101,12 +101,8 @@ bool Measure(const PointContact* contact, const std::vector<bool>& works,
   const Finger& finger = solver->model().finger();
   frame->gauges_V.resize(works.size());
   for (std::size_t j = 0; j < works.size(); ++j) {
-    const Gauge& gauge = finger.gauges[j];
-    frame->gauges_V[j] =
-        works[j]
-            ? gauge.gain_V_per_rad * solver->gauge_angle(static_cast<int>(j)) +
-                  gauge.offset_V
-            : kNaN;
+    const double angle = solver->gauge_angle(static_cast<int>(j));
+    frame->gauges_V[j] = works[j] ? finger.gauges[j].Volts(angle) : kNaN;
   }
   if (contact == nullptr) return true;
   frame->force_N = contact->normal_N;

@@ -250,7 +250,7 @@ class LogColumns {
     for (std::size_t j = 0; j < volts_.size(); ++j) {
       const double reading = volts_[j][row];
       frame.gauges_V.push_back(
-          IsMeasured(finger_.gauges[j], reading) ? reading : std::nan(""));
+          finger_.gauges[j].IsMeasured(reading) ? reading : std::nan(""));
     }
     frame.force_N = force_[row];
     frame.force_xy_N = {force_x_[row], force_y_[row]};

@@ -12,8 +12,7 @@ Eigen::VectorXd AllWeights(const Finger& finger) {
   const auto gauges = static_cast<Eigen::Index>(finger.gauges.size());
   Eigen::VectorXd weights(gauges);
   for (Eigen::Index j = 0; j < gauges; ++j) {
-    const Gauge& gauge = finger.gauges[j];
-    weights[j] = std::abs(gauge.gain_V_per_rad) / gauge.noise_V;
+    weights[j] = finger.gauges[j].AngleWeight();
   }
   return weights;
 }
