@@ -57,7 +57,7 @@ TEST(CalibratingGuideTest, HasEveryWarningCode) {
   }
   const std::string guide =
       TextOf(FINRAY_SOURCE_DIR "/docs/guides/troubleshooting.md");
-  const std::size_t from = guide.find("\n## Troubleshooting: warning codes\n");
+  const std::size_t from = guide.find("\n## Warning codes\n");
   ASSERT_NE(from, std::string::npos);
   std::set<std::string> documented;
   AddMatches(guide.substr(from, guide.find("\n## ", from + 1) - from),

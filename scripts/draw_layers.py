@@ -1,0 +1,100 @@
+#!/usr/bin/python3
+"""Draws docs/pictures/layers.svg: the rooms of the library and of the calibration.
+
+draw_layers.py [OUT.svg]
+
+Exit code 1 if a room includes one that is not below it, or is not drawn.
+"""
+
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+INCLUDE = re.compile(r'#include "finray/([^"\n]*)/[^/"\n]+"')
+
+# From top to bottom; a room may include rooms of the rows below it only.
+ROWS = [
+    [("apps", "the executables: flags, files, exit codes")],
+    [("calib", "from plan and logs to a calibrated finger"),
+     ("perception", "outlines, stiffness"), ("control", "force control"), ("benchmark", "speed, error")],
+    [("batch", "many logs: jobs, streams, result rows, summaries")],
+    [("sensing", "contacts from gauges: search, fit, status, uncertainty; sensing/fast: what exists for speed")],
+    [("residuals", "the heart: a frame's measurements as Ceres blocks, for sensing and calib alike")],
+    [("scene", "what an experiment contains; measurements of a row, their reader; simulation")],
+    [("objects", "outlines, clearance, tangency, contact of an object")],
+    [("statics", "the face of the physics: equilibrium, sensitivities, shape, load path")],
+    [("ladder", "the fast kernel: marching, elements, lanes, mesh"), ("chain", "the paper's formulation as written")],
+    [("finger", "description, geometry, gauges, covariance of a calibration")],
+    [("io", "tables, YAML with places, files that survive")],
+]
+
+WIDTH, ROW, GAP, EDGE = 900, 46, 10, 16
+INK, QUIET, PAPER = "#22272e", "#5b6572", "#ffffff"
+BOX, HEART, CERES = "#eef2f6", "#fbe6d4", "#b3541e"
+
+
+def includes():
+    """For each room the rooms that it includes, and the rooms that include Ceres."""
+    rooms, ceres = {}, set()
+    for folder in ("libfinray/finray", "calib/finray"):
+        for path in sorted((ROOT / folder).rglob("*")):
+            if path.suffix not in (".h", ".cc"):
+                continue
+            room = path.relative_to(ROOT / folder).parts[0]
+            text = path.read_text(encoding="utf-8")
+            used = {name.split("/")[0] for name in INCLUDE.findall(text)} - {room}
+            rooms.setdefault(room, {}).update({name: path for name in used})
+            if "#include <ceres/" in text:
+                ceres.add(room)
+    return rooms, ceres
+
+
+def faults(rooms):
+    level = {name: i for i, row in enumerate(ROWS) for name, _ in row}
+    for room, used in rooms.items():
+        if room not in level:
+            yield f"{room}: not drawn"
+            continue
+        for name, path in used.items():
+            if name not in level or level[name] <= level[room]:
+                yield f"{path.relative_to(ROOT)}: {room} includes {name}, which is not below it"
+
+
+def box(x, y, width, name, words, ceres):
+    fill = HEART if name == "residuals" else BOX
+    mark = (f'<text x="{x + width - 10}" y="{y + 37}" text-anchor="end" font-size="12" fill="{CERES}">Ceres</text>'
+            if ceres else "")
+    return (f'<rect x="{x}" y="{y}" width="{width}" height="{ROW}" rx="5" fill="{fill}" stroke="{QUIET}"/>'
+            f'<text x="{x + 12}" y="{y + 19}" font-size="16" font-weight="bold" fill="{INK}">{name}</text>'
+            f'<text x="{x + 12}" y="{y + 37}" font-size="13" fill="{QUIET}">{words}</text>{mark}')
+
+
+def picture(ceres):
+    height = 2 * EDGE + len(ROWS) * (ROW + GAP) - GAP
+    out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" height="{height}" '
+           'font-family="sans-serif">',
+           f'<rect width="{WIDTH}" height="{height}" rx="8" fill="{PAPER}"/>']
+    for i, row in enumerate(ROWS):
+        y, free = EDGE + i * (ROW + GAP), WIDTH - 2 * EDGE - (len(row) - 1) * GAP
+        letters = [max(len(words), len(name) + 8) for name, words in row]
+        x = EDGE
+        for (name, words), share in zip(row, letters):
+            width = round(free * share / sum(letters))
+            out.append(box(x, y, width, name, words, name in ceres))
+            x += width + GAP
+    out.append("</svg>")
+    return "\n".join(out) + "\n"
+
+
+def main():
+    rooms, ceres = includes()
+    found = list(faults(rooms))
+    print("\n".join(found), end="\n" if found else "")
+    target = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "docs/pictures/layers.svg")
+    target.write_text(picture(ceres), encoding="utf-8")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
