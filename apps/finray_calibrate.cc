@@ -23,9 +23,6 @@ DEFINE_bool(report, true, "render report.html");
 DEFINE_bool(
     leave_one_log_out, true,
     "with several logs: repeat without each, to see whether they agree");
-DEFINE_bool(check_weighted, false,
-            "solve once more with equilibrium as weighted residuals, and "
-            "compare");
 
 namespace {
 
@@ -93,13 +90,6 @@ void PrintSummary(finray::CalibrationProblem& problem,
   } else {
     std::printf("not known: it takes a reference force and two gauges\n");
   }
-  if (result.weighted && result.weighted->frames > 0) {
-    std::printf(
-        "weighted form  %svalues differ by %.1g std, std by %.1g of "
-        "themselves\n",
-        result.weighted->converged ? "" : "not converged, ",
-        result.weighted->value_difference_std, result.weighted->std_difference);
-  }
   std::printf("next           %s\n",
               result.next.empty()
                   ? "no 20 frames would shrink the worst direction by a tenth"
@@ -134,20 +124,12 @@ int Run() {
   RefuseImplausible(&problem);
   CalibrationResult result = Calibrate(&problem, discretization, FLAGS_threads,
                                        FLAGS_leave_one_log_out);
-  if (FLAGS_check_weighted) {
-    try {
-      result.weighted = CheckWeighted(problem);
-    } catch (const std::runtime_error& error) {
-      LOG(ERROR) << "no check in the weighted form: " << error.what();
-    }
-  }
 
   std::string command =
       "finray_calibrate --finger " + FLAGS_finger + " --plan " + FLAGS_plan +
       " --logs " + FLAGS_logs + " --out_dir " + FLAGS_out_dir + " --scheme " +
       FLAGS_scheme + " --resolution " + std::to_string(FLAGS_resolution) +
-      (FLAGS_leave_one_log_out ? "" : " --leave_one_log_out=false") +
-      (FLAGS_check_weighted ? " --check_weighted" : "");
+      (FLAGS_leave_one_log_out ? "" : " --leave_one_log_out=false");
   MakeFolder(FLAGS_out_dir);
   WriteFileAtomically(
       InFolder("calibration.yaml"),

@@ -4,7 +4,6 @@
 
 #include "calib/standard_log.h"
 #include "finray/calib/analysis/identifiability.h"
-#include "finray/calib/solve/weighted_check.h"
 
 namespace finray {
 namespace {
@@ -54,25 +53,6 @@ TEST(CalibrationProblemTest, ManyFramesAsFew) {
   const Solved one_thread = Solve(twice, 1);
   EXPECT_EQ(one_thread.values, many.values);
   EXPECT_EQ(one_thread.std, many.std);
-}
-
-TEST(CalibrationProblemTest, WeightedFormAgrees) {
-  const TempFolder folder;
-  const Plan plan = StandardPlan();
-  CalibrationProblem problem(
-      Nominal(), plan,
-      ReadCalibrationLogs({StandardLog(folder, HiddenFinger(), 23)}, Nominal(),
-                          plan),
-      {}, 2);
-  EXPECT_TRUE(problem.Solve().converged);
-  const WeightedCheck check = CheckWeighted(problem);
-  std::printf("weighted form: %d iterations, values %.2g std, std %.2g\n",
-              check.iterations, check.value_difference_std,
-              check.std_difference);
-  EXPECT_EQ(check.frames, 210);
-  EXPECT_TRUE(check.converged);
-  EXPECT_LT(check.value_difference_std, 1e-4);
-  EXPECT_LT(check.std_difference, 1e-4);
 }
 
 }  // namespace

@@ -13,7 +13,6 @@
 #include "calib/standard_log.h"
 #include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/solve/outliers.h"
-#include "finray/calib/solve/weighted_check.h"
 
 namespace finray {
 namespace {
@@ -73,11 +72,6 @@ TEST(RobustSolveTest, ANastyLogIsCleaned) {
     // Some are no outliers: what was changed has dropped out, or looks alike.
     EXPECT_GE(found, 17u) << "of " << nasty.hard.outliers.size();
     EXPECT_LE(false_alarms, 1u);
-    // With the robust loss, too, in either form.
-    const WeightedCheck check = CheckWeighted(*nasty.problem);
-    EXPECT_TRUE(check.converged);
-    EXPECT_LT(check.value_difference_std, 1e-4);
-    EXPECT_LT(check.std_difference, 1e-4);
   }
 }
 

@@ -49,11 +49,6 @@ class CalibrationProblem {
   SolveReport SolveMany();
   static constexpr std::size_t kMany = 20000;
 
-  /// All frames in the weighted form, from near the solution; `information` is
-  /// what they and the priors say there of the free parameters. For some
-  /// hundred frames.
-  SolveReport SolveWeighted(Eigen::MatrixXd* information);
-
   /// Some kSome frames, evenly spread; the joint solve of these alone, and
   /// what they and the priors say of the free parameters.
   std::vector<int> SomeFrames() const;

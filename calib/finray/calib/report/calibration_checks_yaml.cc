@@ -114,17 +114,6 @@ void EmitStarts(const std::vector<StartReport>& starts, YamlEmitter* yaml) {
   *yaml << YAML::EndSeq;
 }
 
-void EmitWeighted(const WeightedCheck& check, YamlEmitter* yaml) {
-  *yaml << YAML::Key << "weighted_check" << YAML::Value << YAML::Flow
-        << YAML::BeginMap;
-  YamlPair(yaml, "frames", check.frames);
-  YamlPair(yaml, "converged", check.converged);
-  YamlPair(yaml, "iterations", check.iterations);
-  YamlPair(yaml, "value_difference_std", check.value_difference_std);
-  YamlPair(yaml, "std_difference", check.std_difference);
-  *yaml << YAML::EndMap;
-}
-
 void EmitRejected(const CalibrationProblem& problem, YamlEmitter* yaml) {
   *yaml << YAML::Key << "rejected_frames" << YAML::Value << YAML::BeginSeq;
   for (const auto& [index, reason] : problem.rejected()) {
@@ -144,7 +133,6 @@ void EmitChecks(CalibrationProblem& problem, const CalibrationResult& result,
                 YamlEmitter* yaml) {
   EmitStarts(result.solution.starts, yaml);
   EmitRejected(problem, yaml);
-  if (result.weighted) EmitWeighted(*result.weighted, yaml);
   EmitErrors(result, yaml);
   EmitCorrelation(problem, result.residual_correlation, yaml);
   EmitLeaveOneLogOut(problem, result.leave_one_log_out, yaml);

@@ -15,7 +15,6 @@
 #include "finray/calib/analysis/unsupported.h"
 #include "finray/calib/problem/calibration_problem.h"
 #include "finray/calib/solve/robust_solve.h"
-#include "finray/calib/solve/weighted_check.h"
 #include "finray/io/frame_table.h"
 
 namespace finray {
@@ -43,7 +42,6 @@ struct CalibrationResult {
   } fitted, held_out;
   ResidualCorrelation residual_correlation;
   std::vector<Unsupported> unsupported;
-  std::optional<WeightedCheck> weighted;  ///< where asked for
   LeaveOneLogOut leave_one_log_out;
   std::vector<FrameAdvice> next;      ///< what to record next
   std::vector<BenchLinearity> bench;  ///< by gauge, where there are readings

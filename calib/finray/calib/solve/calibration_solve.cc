@@ -83,37 +83,6 @@ SolveReport CalibrationProblem::SolveJointly(const std::vector<int>& frames,
       .Solve(limits);
 }
 
-SolveReport CalibrationProblem::SolveWeighted(Eigen::MatrixXd* information) {
-  at_solution_.reset();
-  EquilibriumSolver solver(parameters_.Apply(finger_), discretization_);
-  std::vector<std::vector<double>> unknowns(fitted_.size());
-  std::vector<LadderState> states(fitted_.size());
-  std::vector<JointSolve::Frame> joint;
-  for (std::size_t k = 0; k < fitted_.size(); ++k) {
-    const CalibrationFrame& frame = logs().frames[fitted_[k]];
-    joint.push_back({&frame, nullptr, &states[k]});
-    if (frame.IsBench()) continue;
-    const auto& contact = contacts_[fitted_[k]];
-    std::vector<PointContact> contacts;
-    if (frame.contact) {
-      contacts.push_back(
-          {contact[0], contact[1], plan_.scene.friction_coefficient});
-    }
-    if (!solver.Solve(contacts)) {
-      throw std::runtime_error("the model cannot be evaluated at the solution");
-    }
-    const Eigen::VectorXd q = solver.state().q;
-    unknowns[k].assign(q.data(), q.data() + q.size());
-    if (frame.contact) {
-      unknowns[k].insert(unknowns[k].end(), contact.begin(), contact.end());
-    }
-    joint.back().unknowns = unknowns[k].data();
-  }
-  return JointSolve(finger_, discretization_, plan_, blocks_, &parameters_,
-                    joint, threads_, EquilibriumForm::kWeighted)
-      .SolveByProjection(information);
-}
-
 SolveReport CalibrationProblem::SolveSummed(const std::vector<int>& frames,
                                             double gradient_tolerance) {
   GuessContacts(frames, ContactGuess::From::kAll);

@@ -7,9 +7,7 @@
 #include <unordered_set>
 
 #include "finray/io/number_text.h"
-#include "finray/residuals/equilibrium_residual.h"
 #include "finray/residuals/parameter_prior_residual.h"
-#include "finray/residuals/rib_length_residual.h"
 
 namespace finray {
 
@@ -17,13 +15,12 @@ JointSolve::JointSolve(const Finger& finger,
                        const Discretization& discretization, const Plan& plan,
                        const MeasurementBlocks& blocks,
                        CalibrationParameters* parameters,
-                       const std::vector<Frame>& frames, int threads,
-                       EquilibriumForm form)
+                       const std::vector<Frame>& frames, int threads)
     : finger_(finger),
       plan_(plan),
       parameters_(*parameters),
-      form_(form),
-      evaluations_(finger, discretization, form, &parameters->shared, threads),
+      evaluations_(finger, discretization, EquilibriumForm::kReduced,
+                   &parameters->shared, threads),
       frames_(frames),
       loss_(MakeLoss(plan)) {
   ceres::Problem::Options options;
@@ -40,33 +37,19 @@ void JointSolve::AddFrame(const Frame& frame, const MeasurementBlocks& blocks) {
   if (!frame.frame->IsBench()) {
     evaluation = &evaluations_.Add(frame.frame->contact ? 1 : 0,
                                    plan_.scene.friction_coefficient,
-                                   frame.unknowns, !frame.frame->pins.empty());
+                                   frame.contact, !frame.frame->pins.empty());
     if (frame.state->q.size() > 0) evaluation->set_state(*frame.state);
   }
   evaluation_of_.push_back(evaluation);
-  blocks_of_.emplace_back();
   for (MeasurementBlock& block :
-       blocks.Of(*frame.frame, evaluation, frame.unknowns)) {
-    blocks_of_.back().push_back(problem_->AddResidualBlock(
-        block.cost.release(), loss_.get(), block.parameters));
-  }
-  if (form_ == EquilibriumForm::kWeighted && evaluation != nullptr) {
-    SharedParameters& shared = parameters_.shared;
-    const std::vector<double*> model = FrameParameterBlocks(
-        *evaluation, frame.unknowns, &shared.ln_front_stiffness,
-        &shared.ln_back_stiffness, shared.rib_lengths_mm.data());
-    for (ceres::CostFunction* cost :
-         {EquilibriumResidual::Create(evaluation, finger_, kEquilibriumWeight),
-          RibLengthResidual::Create(evaluation, finger_, kEquilibriumWeight)}) {
-      blocks_of_.back().push_back(
-          problem_->AddResidualBlock(cost, nullptr, model));
-    }
+       blocks.Of(*frame.frame, evaluation, frame.contact)) {
+    problem_->AddResidualBlock(block.cost.release(), loss_.get(),
+                               block.parameters);
   }
   if (!frame.frame->contact) return;
-  const int at = evaluation->contact_offset(0);
-  problem_->SetParameterLowerBound(frame.unknowns, at, 0);
-  problem_->SetParameterUpperBound(frame.unknowns, at, finger_.front_length_mm);
-  problem_->SetParameterLowerBound(frame.unknowns, at + 1, 0);
+  problem_->SetParameterLowerBound(frame.contact, 0, 0);
+  problem_->SetParameterUpperBound(frame.contact, 0, finger_.front_length_mm);
+  problem_->SetParameterLowerBound(frame.contact, 1, 0);
 }
 
 void JointSolve::AddPriors() {
@@ -94,7 +77,7 @@ void JointSolve::FixWhatIsNotFree() {
   for (const int i : parameters_.free()) {
     varied.insert(parameters_.all()[i].block);
   }
-  for (const Frame& frame : frames_) varied.insert(frame.unknowns);
+  for (const Frame& frame : frames_) varied.insert(frame.contact);
   std::vector<double*> blocks;
   problem_->GetParameterBlocks(&blocks);
   for (double* block : blocks) {
@@ -115,8 +98,8 @@ SolveReport JointSolve::Solve(const Limits& limits) {
   options.gradient_tolerance = 1e-12;
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   for (const Frame& frame : frames_) {
-    if (frame.unknowns != nullptr) {
-      ordering->AddElementToGroup(frame.unknowns, 0);
+    if (frame.contact != nullptr) {
+      ordering->AddElementToGroup(frame.contact, 0);
     }
   }
   if (ordering->NumElements() == 0) {
