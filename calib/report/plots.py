@@ -37,12 +37,12 @@ def scatter(axes, points, colour, marker, label=None, size=14):
 
 
 def legend(axes, columns):
-    """Above the axes, so that it hides nothing."""
+    """Puts the legend above the axes, where it hides nothing."""
     axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=columns, borderaxespad=0.2)
 
 
 def forces(frames):
-    """And how many frames lie above the plot."""
+    """Says also how many frames lie above the plot."""
     points = [f for f in frames if known(number(f["force_N"]))]
     if not points:
         return None, 0

@@ -74,7 +74,7 @@ def whole(value):
 
 
 def short(name):
-    """Without its unit: rib_1_length_mm, gauge_1_offset_V[a.csv]."""
+    """The name without its unit: rib_1_length_mm, gauge_1_offset_V[a.csv]."""
     unit = r"_(N_mm2|V_per_rad|V_per_h|percent_per_K|V|mm|N)(?=$|\[)"
     return re.sub(unit, "", name).replace("_", " ").replace("[", " [")
 
@@ -106,7 +106,7 @@ def verdict(c):
 
 
 def tiles(c):
-    """What a reader asks first: name, figure, note."""
+    """The figures that a reader asks for first: name, figure, note."""
     out = []
     errors = c.get("errors", {})
     part = "held_out" if "held_out" in errors else "fitted"
@@ -177,7 +177,7 @@ def worst_frames(frames, gauges, force_std):
 
 
 def tables(value):
-    """Whatever a section holds as (pairs, rows): for sections of other tools."""
+    """The content of a section of another tool, as (pairs, rows)."""
     pairs, rows = [], []
     if isinstance(value, dict):
         for key, item in value.items():

@@ -55,6 +55,6 @@ def svg(figure, label):
         text = text.replace(colour, f"var({variable})")
     text = re.sub(r"font: ([\d.]+)px [^;\"]*", r"font: \1px var(--font)", text)
     text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.S)
-    # Ids of plots in one page must differ, but for what is the same anyway.
+    # Ids of plots in one page must differ, except those of equal elements.
     text = re.sub(r' id="(figure|patch|axes|text|matplotlib|xtick|ytick|line2d|legend|PathCollection|FillBetweenPolyCollection|LineCollection)[^"]*"', "", text)
     return text.replace("<svg", f'<svg role="img" aria-label="{label}"', 1)

@@ -52,7 +52,7 @@ def read_yaml(path):
 
 
 def check_value(place, key, value, default):
-    """A config value has the type of its default."""
+    """Refuses a value whose type is not that of the default."""
     if key == "logs":
         value = [value] if isinstance(value, str) else value
         if not isinstance(value, list) or not all(isinstance(v, str) for v in value):
@@ -72,7 +72,7 @@ def check_value(place, key, value, default):
 
 
 def in_folder(folder, item):
-    """An item of `logs`, or a path, from `folder` on."""
+    """An item of `logs`, or a path, relative to `folder`."""
     at = "@" if item.startswith("@") else ""
     return at + os.path.abspath(os.path.join(folder, item[len(at):]))
 
@@ -91,7 +91,8 @@ def with_absolute_paths(values, folder):
 
 
 def effective(config_path, flags):
-    """All keys. `flags`: those given, by key; paths from here on."""
+    """All keys with their values. `flags` are the given ones, by key; their paths are
+    relative to the working folder."""
     defaults = read_yaml(DEFAULTS)
     config = dict(defaults)
     if config_path:

@@ -1,4 +1,4 @@
-"""The logs that items of --logs stand for, as finray_estimate takes them."""
+"""The logs that items of --logs stand for, by the rules of finray_estimate."""
 
 import glob
 import os
@@ -31,7 +31,7 @@ def without_comment(line):
 
 
 def files_of_list(path, out_dir):
-    """One file or pattern a line, from the list's own folder on."""
+    """The items of a list: one file or pattern a line, relative to its own folder."""
     try:
         with open(path, encoding="utf-8", errors="surrogateescape") as file:
             lines = file.read().split("\n")
@@ -49,7 +49,7 @@ def files_of_list(path, out_dir):
 
 
 def check_name(log):
-    """A list of logs must be able to hold it."""
+    """Refuses a path that a list of logs cannot hold."""
     if without_comment(log) != log or any(c in log for c in "\r\n"):
         raise BadInput(f"--logs: '{log}': a log's path must not have ' #', a line "
                        "end or a space at its end")

@@ -1,8 +1,8 @@
-"""summary.csv and summary.yaml of all groups' ones, in the order of all logs.
+"""Merges the summaries of all groups into summary.csv and summary.yaml.
 
-What a group's summaries say of a log is copied as it stands. The totals add up in
-the order of the logs, so that they are those of one finray_estimate over all of
-them to the last bit.
+The entry of a log is copied from its group unchanged. The totals are added in the
+order of the logs, so that they equal those of one finray_estimate over all of them
+to the last bit.
 """
 
 import csv
@@ -22,8 +22,8 @@ BAD_LOGS = "bad_logs:\n"
 
 
 def number_text(value):
-    """The shortest text that reads back as the same double, fixed or scientific,
-    fixed if both are equally long: std::to_chars of C++."""
+    """The shortest text that reads back as the same double, as std::to_chars of C++
+    writes it: fixed or scientific, fixed if both are equally long."""
     digits, exponent = f"{value!r}", 0
     if "e" in digits:
         digits, exponent = digits.split("e")
@@ -48,7 +48,7 @@ def number_text(value):
 
 
 def yaml_number(text):
-    """A number as YAML 1.1 takes it for one: with a point before an exponent."""
+    """A number that YAML 1.1 reads as one: with a point before an exponent."""
     return text if "." in text else text.replace("e", ".0e")
 
 
@@ -113,7 +113,7 @@ def read_text(path):
 
 @dataclasses.dataclass
 class Group:
-    """A group's summaries. Texts are as they stand there."""
+    """The summaries of a group, with texts unchanged."""
 
     heads: tuple  # of the CSV and the YAML file
     logs: dict    # by log (CSV line, its cells, YAML entry)
@@ -121,7 +121,7 @@ class Group:
 
 
 def entries_of(text):
-    """What is before them, and a list of logs' entries."""
+    """The text before the entries, and a list of the logs' entries."""
     head, *entries = ("\n" + text).split("\n" + LOG_ENTRY)
     return head[1:] + "\n", [LOG_ENTRY + entry.removesuffix("\n") + "\n"
                              for entry in entries]

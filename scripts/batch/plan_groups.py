@@ -1,15 +1,15 @@
-"""Which log is done by which task.
+"""Assigns logs to tasks.
 
-A task does a group of logs, groups/<thousands>/<number>/ in --out_dir:
+A task estimates a group of logs, groups/<thousands>/<number>/ in --out_dir:
 
     logs.list       # root: /data/runs
                     /data/runs/a.csv # 81234 bytes, modified 1700000000123456789 ns
 
-Its results lie in the group's folder as the logs lie below its root. A log stays
-in its group for good. New logs, sorted byte by byte, fill up the last group, then
-make new ones; a group never takes a log from outside its root or two logs of one
-result. A list is rewritten only if it says something else than before, so that
-its time tells whether the group has to be done again.
+Results lie in the folder of the group as the logs lie below its root. A log stays in
+its group for good. New logs, sorted byte by byte, fill up the last group, then make
+new ones. A group never takes a log from outside its root, nor two logs with one
+result. A list is rewritten only if its content changes, so that its time tells
+whether the group has to be done again.
 """
 
 import csv
@@ -24,7 +24,7 @@ RESULT_SUFFIXES = (".gz", ".csv")
 
 
 def write_if_changed(path, text):
-    """Atomically, and not at all if it says that already."""
+    """Writes a file atomically, and not at all if it holds that text already."""
     content = os.fsencode(text)
     try:
         with open(path, "rb") as file:
@@ -39,7 +39,8 @@ def write_if_changed(path, text):
 
 
 def result_name(log):
-    """Two logs of one folder with the same one cannot be in one group."""
+    """The name of a log's result. Two logs of one folder that share it cannot be in one
+    group."""
     for suffix in RESULT_SUFFIXES:
         if len(os.path.basename(log)) > len(suffix):
             log = log.removesuffix(suffix)
@@ -90,7 +91,7 @@ class Group:
 
 
 def old_groups(out_dir):
-    """Number, root and log paths of the groups that are there."""
+    """Number, root and log paths of the existing groups."""
     for path in sorted(glob.glob(os.path.join(glob.escape(out_dir), "groups",
                                               "[0-9]*", "[0-9]*", LIST))):
         with open(path, encoding="utf-8", errors="surrogateescape") as file:
@@ -102,7 +103,7 @@ def old_groups(out_dir):
 
 
 def assign(logs, old, limits):
-    """Groups of all logs; those without logs are numbers that are taken."""
+    """Groups of all logs. Groups without logs keep their numbers."""
     groups, left = [], {log.path: log for log in logs}
     for number, root, paths in old:
         groups.append(Group(number, root))

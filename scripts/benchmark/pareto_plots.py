@@ -10,22 +10,21 @@ HOWS = {"s": "lanes, blocks of a log", "^": "to rounding", "v": "cold, every fra
 
 
 def error_of(setting):
-    """What the plot is about, and its name: l_c where it is found."""
+    """The error of a plot and its name: that of l_c where the setting finds it."""
     if "contact_error_mm" in setting:
         return setting["contact_error_mm"], "largest error of l_c (mm)"
     return setting.get("gauges_error_rad"), "largest error of a gauge angle (rad)"
 
 
 def pareto(settings, front, yardstick_us):
-    """Times are those over the yardstick, as the front has them, times its usual
-    time."""
+    """Times are ratios to the yardstick, as for the front, times its usual time."""
     points = []
     for s in settings:
         error, label = error_of(s)
         if error is not None:
             points.append((s, s["quartile_1_over_yardstick"] * yardstick_us,
                            max(error, LEAST_ERROR)))
-    # Of the finger without a load nothing but time is to be told.
+    # Without a load there is no error to plot, only time.
     if len(points) < 4 or all(e <= 1e-12 for _, _, e in points):
         return None
     figure, axes = plt.subplots(figsize=(4.7, 3.7))
@@ -39,7 +38,7 @@ def pareto(settings, front, yardstick_us):
                      facecolors=colour if solved else "none", edgecolors=colour,
                      linewidths=0 if solved else 1, alpha=1 if on else 0.55)
     axes.set(xscale="log", yscale="log", xlabel="time a frame (µs)", ylabel=label)
-    # Room for the names.
+    # Leave room for the names.
     left, right = axes.get_xlim()
     axes.set_xlim(left, right * (right / left)**0.2)
     name(axes, [p for p in points if p[0]["id"] in front])
@@ -49,7 +48,7 @@ def pareto(settings, front, yardstick_us):
 
 
 def name(axes, points):
-    """Names beside the points of the front, but where they would collide."""
+    """Names beside the points of the front, except where they would collide."""
     axes.figure.canvas.draw()
     taken = []
     for s, t, e in sorted(points, key=lambda p: p[1]):

@@ -7,7 +7,7 @@ BEATS, EQUALS, WORSE, DIFFERS = "beats", "same", "does not beat", "differs"
 
 
 def worst(items, key=lambda number: number):
-    """The item of the largest key; one whose key is NaN, if there is any, as Python's
+    """The item of the largest key, or one whose key is NaN if there is any. Python's
     max() would pass it over: max([0.1, nan]) is 0.1."""
     return max(items, key=lambda item: (math.isnan(key(item)), key(item)))
 
@@ -52,7 +52,7 @@ class Comparison:
 
 @dataclasses.dataclass(frozen=True)
 class Finding:
-    """Something that the paper finds without a number to beat."""
+    """A finding of the paper that has no number to beat."""
     what: str
     source: str
     paper: str

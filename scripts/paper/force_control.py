@@ -27,7 +27,7 @@ GROUPS = (
      "4 N to 10 N and back in steps of 2 N, with two four-bar linkages. The paper does not give the linkage, and its "
      "largest error, 0.80 N, rules out that its steps were jumps of 2 N: both are tried.",
      (("two_finger", "steps of 2 N, jumps"), ("two_finger_ramped", "steps of 2 N, each in 0.4 s"))))
-# What was chosen with the paper's figure in view is said beside ours.
+# Choices that were made with the paper's figure in view stand beside ours.
 CHOSEN = dict.fromkeys(
     ("fixed_harmonic", "fixed_step"),
     "; the course is chosen by us so that a pure delay of 130 ms costs about the rms error that the paper reports")
@@ -35,7 +35,7 @@ LOOK = {"model_preview": (HELD, "model-based, with preview"), "model": (AFTER, "
 
 
 class Experiment:
-    """What finray_control left of one experiment."""
+    """The files that finray_control wrote for one experiment."""
 
     def __init__(self, folder, name):
         self.name = name
@@ -71,8 +71,7 @@ class Experiment:
         return 1 / self.settings["actuation"]["rate_Hz"]
 
     def cost_of_delay(self, delay_s):
-        """Rms and largest error of a force that is the set-point, so late, and
-        nothing else."""
+        """Rms and largest error of a force that equals the set-point, only this late."""
         log = self.log("model")
         time, wanted = log["time_s"], log["set_point_N"]
         if self.jumps:  # between samples the old value holds

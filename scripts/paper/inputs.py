@@ -1,5 +1,5 @@
-"""What the simulations left, read strictly: a missing file or column is one clear
-line that names the program which writes it."""
+"""Reads the results of the simulations strictly: a missing file or column is one
+clear line that names the program which writes it."""
 
 import csv
 import math

@@ -10,7 +10,7 @@ from theme import AFTER, BEFORE, HELD, INK, QUIET, plt, svg  # noqa: E402,F401
 
 
 def legend(axes, columns):
-    """Above the axes, so that it hides nothing."""
+    """Puts the legend above the axes, where it hides nothing."""
     axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=columns, borderaxespad=0.2)
 
 

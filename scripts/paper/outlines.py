@@ -18,7 +18,7 @@ def stem(name):
 
 
 def results(seeds, objects, mode):
-    """By object, one result a seed; None where the tool refused the touches."""
+    """For each object one result a seed, or None where the tool refused the touches."""
     found = {}
     for item in objects:
         found[item["name"]] = []
@@ -31,7 +31,7 @@ def results(seeds, objects, mode):
 
 
 def values(found, method, figure):
-    """Over whatever was reconstructed; NaN if nothing was."""
+    """Over the outlines that were reconstructed; NaN if there are none."""
     numbers = [result[method][figure] for one in found for result in one if result]
     return numbers or [float("nan")]
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The paper's figures beside ours in one page: report.py OUT_DIR
 
-Reads what simulate.py left in OUT_DIR and writes report.html, which needs nothing
+Reads the results of simulate.py in OUT_DIR. Writes report.html, which needs nothing
 else, and table.md, the table at its top.
 """
 
@@ -35,7 +35,7 @@ NOT_IN_IT = ("hysteresis and creep of beams and joints", "friction at the contac
 
 
 def tally(sections):
-    """Rows with a number to beat, apart by whether a preview was needed, and findings."""
+    """Rows with a number to beat, without and with a preview, and findings."""
     every = [row for section in sections for row in section.rows]
     rows = [row for row in every if isinstance(row, Comparison)]
     findings = [row for row in every if not isinstance(row, Comparison)]
@@ -49,7 +49,7 @@ def tally(sections):
 
 
 def fields(row):
-    """What a row of the table shows, for either kind."""
+    """The cells of a row of the table, for either kind."""
     if isinstance(row, Comparison):
         return {"paper": row.paper_text, "ours": row.ours_text, "why": "" if row.beats else row.why, "words": False,
                 "kind": "good" if row.beats else "bad"}
@@ -86,7 +86,7 @@ def tally_text(sections):
 
 
 def sections_of(experiment, folder):
-    """As the experiment makes them; what it cannot make them from is one line."""
+    """The sections of an experiment, or one line that says why there are none."""
     of = folder / experiment.__name__
     try:
         return experiment.sections(folder)

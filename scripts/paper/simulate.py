@@ -31,7 +31,7 @@ class Failed(Exception):
 
 
 def run(*words, refusals=None):
-    """The tool's output; None where it refuses as it may."""
+    """The output of the tool, or None where it refuses for an accepted reason."""
     done = subprocess.run([str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                           text=True)
     if done.returncode == 0:
@@ -55,8 +55,8 @@ def force_sensing(build, out):
 
 
 def outlines(build, out, seed):
-    """Each object with one contact known to be there, as in the paper's model, and
-    with their number found; a refused one leaves no folder."""
+    """Reconstructs each object with one contact known to be there, as in the paper's
+    model, and with `contacts: auto`. A refused one leaves no folder."""
     folder = out / "outlines" / f"seed_{seed}"
     run(build / "tests" / "reconstruction_study", "write", folder, seed)
     single = folder / "single_contact.yaml"
@@ -88,7 +88,7 @@ def force_control(build, out, name, draws):
 
 
 def tasks(build, out, quick):
-    """The long ones first, so that none is left over at the end."""
+    """The experiments, long ones first so that none is left over at the end."""
     seeds = range(1, 2 if quick else 6)
     yield contact_frames, (build, out, 10 if quick else 100)
     for name in CONTROL:
@@ -100,8 +100,8 @@ def tasks(build, out, quick):
 
 
 def prepare(out):
-    """Clears what an earlier run left, perhaps with more seeds: it is not of this one.
-    What is not marked as a run's own is left alone and refused."""
+    """Deletes the results of an earlier run, which may have had more seeds. Refuses a
+    folder without the mark of a run and leaves it alone."""
     wrong = sorted(set(PATTERNS) & set(str(out)))
     if wrong:
         raise Failed(f"OUT_DIR {out}: {' '.join(wrong)} in a name cannot be told from a pattern of logs; expected a "

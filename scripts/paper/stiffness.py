@@ -25,8 +25,7 @@ def error_percent(trial, springs):
 
 
 def why_trial(seeds, springs):
-    """What is the matter with the worst trial, from the points that its law is fitted
-    to, and its std."""
+    """Explains the worst trial by its std and the points that its law is fitted to."""
     seed, trial = worst(((seed, trial) for seed in seeds for trial in trials(seed)),
                         key=lambda pair: abs(error_percent(pair[1], springs)))
     true = next(spring["N_per_mm"] for spring in springs if spring["name"] == trial["object"])

@@ -2,7 +2,7 @@
 and the tip cap as stiff springs. It knows no follower loads, so the contact force
 is given the direction that it has in equilibrium. Forward only.
 
-Besides EI, solids have shear and stretch: thin enough, little of either.
+Solids also have shear and stretch; they are thin, so both are small.
 """
 
 import math

@@ -1,5 +1,5 @@
-"""The paper's finger as a lab's script would have it: one chain of rigid links
-from the front base over the tip to the back base, vectorised with numpy.
+"""The paper's finger as a script of a lab models it: one chain of rigid links from
+the front base over the tip to the back base, vectorised with numpy.
 
 Unknowns (theta, F_t, f[, l_c, f_c]): n joint angles, the wrench at the clamped
 end, r rib compressions. Residuals: the end's pose (4), joint torques (9), (14),
@@ -31,7 +31,7 @@ class Chain:
         total = 1 + back_length
         front = divide([0, *front_ribs, 1], links, total)
         back = divide([0, *back_ribs, back_length], links, total)
-        # Along the chain the back beam is walked from the tip down.
+        # The chain walks the back beam from the tip down.
         self.front_nodes = front
         h = np.concatenate([np.diff(front), np.diff(back)[::-1]])
         self.front_joints = len(front) - 1
@@ -74,7 +74,7 @@ class Chain:
         return turn, np.cumsum(moved, axis=0)
 
     def at(self, turn, ends, link, rest):
-        """Where a point of a link is, that lies at `rest` in the straight finger."""
+        """The place of a point of a link that lies at `rest` in the straight finger."""
         start = ends[link - 1] if link > 0 else np.zeros(2)
         origin = self.joints[link - 1] if link > 0 else np.zeros(2)
         c, s = np.cos(turn[link]), np.sin(turn[link])

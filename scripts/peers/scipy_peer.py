@@ -13,7 +13,7 @@ SOLVED = 1e-6
 
 
 def forward(chain, start, contact, force, friction):
-    """From the straight finger; by shares of the load where that fails."""
+    """Solves from the straight finger, and by shares of the load where that fails."""
     for steps in (1, 4, 16):
         x, count = start.copy(), 0
         for share in np.arange(1, steps + 1) / steps:
@@ -45,7 +45,7 @@ def run(job, folder):
         for scene in job["scenes"]:
             cases = [(f, f["contact_mm"] / chain.unit, f["normal_N"] / chain.force)
                      for f in scene["frames"]]
-            # Differences make sensing with 100 links a matter of a minute a frame.
+            # With differences, sensing with 100 links takes about a minute a frame.
             for task in ("forward", "sensing") if links < 100 else ("forward",):
                 times = []
                 for _ in range(repeats):
@@ -64,7 +64,7 @@ def run(job, folder):
                                                      np.array(frame["measured_rad"]))
                             spent += time.perf_counter() - begin
                             contact, force = x[-2:]
-                        # Jacobians: evaluations over what one by differences takes.
+                        # Count Jacobians: evaluations over those of one Jacobian by differences.
                         count = round(count / (len(x) + 1))
                         answers.append(chain.answer(x, contact, force, count, solved))
                     times.append(1e6 * spent / len(cases))

@@ -12,7 +12,7 @@ import sys
 
 from plot_style import QUIET, plt, save
 
-# Okabe and Ito's, apart for colour-blind readers.
+# The colours of Okabe and Ito, which colour-blind readers can tell apart.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#8a7a00", "#555b66")
 MARKERS = "os^Dv<>P"
 

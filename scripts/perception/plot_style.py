@@ -23,7 +23,7 @@ plt.rcParams.update({
 
 
 def save(figure, stem):
-    """No version or date in them: the same bytes for the same numbers."""
+    """Saves SVG and PNG without version and date: equal numbers give equal bytes."""
     figure.savefig(f"{stem}.svg", bbox_inches="tight", metadata={"Date": None, "Creator": None})
     figure.savefig(f"{stem}.png", bbox_inches="tight", metadata={"Software": None})
     plt.close(figure)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""How long a calibration takes, by the number of frames.
+"""Measures how long a calibration takes, by the number of frames.
 
 calibration_speed.py BUILD_DIR [FRAMES ...]
 
@@ -45,7 +45,7 @@ def simulate(build, folder, frames):
 
 
 def calibrate(build, folder, log, threads):
-    """Seconds of the solve and of all, and megabytes."""
+    """Seconds of the solve and of the whole command, and megabytes."""
     start = time.perf_counter()
     process = subprocess.Popen([build / "finray_calibrate", "--finger", START, "--plan", PLAN,
                                 "--logs", log, "--out_dir", folder / "out", "--noreport",

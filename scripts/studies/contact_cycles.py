@@ -7,8 +7,8 @@ Simulates a circle of R = 15 mm that is pressed in and drawn back (the paper's
 Fig. 22: the same gaps of 0.26, 0.77 and 0.14 s), adds the noise of the gauges
 (3e-4 rad), estimates with `contacts: auto`, and compares with the true force:
 at 30 and 100 Hz, at three heights, with the true finger and with one that was
-calibrated from a noisy log. Prints a table and writes it as contact_cycles.csv,
-contact_cycles.png and, as contact_cycles_frames.csv, what it shows.
+calibrated from a noisy log. Prints a table and writes it as contact_cycles.csv.
+Draws contact_cycles.png and writes its points as contact_cycles_frames.csv.
 """
 
 import csv
@@ -57,7 +57,7 @@ def write(path, columns):
 
 
 class Tools:
-    """The command line, with the true finger and one calibrated anew."""
+    """Runs the tools with the true finger and with one that was calibrated anew."""
 
     def __init__(self, build, out):
         self.build, self.out = build, out
@@ -80,7 +80,7 @@ class Tools:
     def simulate(self, name, columns, seed):
         """The truth of every frame, and the path of the log with noise."""
         truth, log = self.out / f"{name}.truth.csv", self.out / f"{name}.csv"
-        # The log's force is the true one: what is compared with has no noise.
+        # The log keeps the true force, so that the reference has no noise.
         self.run("finray_simulate", finger=self.finger, scene=self.scene,
                  frames=write(self.out / f"{name}.frames.in.csv", columns), out=truth, log_out=log, seed=seed,
                  force_std_N=0)

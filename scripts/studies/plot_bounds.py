@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Plots of what the studies wrote: plot_bounds.py OUT_DIR.
+"""Plots the results of two studies: plot_bounds.py OUT_DIR.
 
-by_height.csv of paper_protocol_study to error_by_height.png, two_contacts.csv
-of two_contacts_study to two_contacts.png.
+Draws error_by_height.png from by_height.csv of paper_protocol_study, and
+two_contacts.png from two_contacts.csv of two_contacts_study.
 """
 
 import csv
@@ -17,7 +17,7 @@ from plot_style import BLUE, GREEN, INK, ORANGE, PALE, QUIET, plt, save
 RIBS_MM = (17, 39, 61, 83, 105)
 COLOURS = {"noise only": BLUE, "calibration only": GREEN, "noise and calibration": ORANGE}
 
-# Two of the lines nearly coincide: the first one is the wider.
+# Two of the lines nearly coincide, so the first one is wider.
 UNDER, OVER = {"linewidth": 5, "alpha": 0.4}, {"linewidth": 1.6, "marker": "o", "markersize": 3.2}
 
 

@@ -23,7 +23,7 @@ plt.rcParams.update({
 
 
 def save(figure, path):
-    # No version or date in it: the same bytes for the same numbers.
+    # Without version and date equal numbers give equal bytes.
     figure.savefig(path, bbox_inches="tight", pad_inches=0.12, metadata={"Software": None})
     plt.close(figure)
     print(path)
