@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   finray::Scene scene;
   scene.contacts = 1;
   finray::LiveEstimator estimator(finger, scene);
-  finray::FrameReadings readings;
+  finray::Measurements readings;
   readings.gauges_V.resize(finger.gauges.size());
   while (true) {
     // Instead of your sensor: a line of volts, one for each gauge.

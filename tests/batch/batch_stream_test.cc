@@ -26,7 +26,7 @@ constexpr int kFrames = 1000;  // not a whole number of blocks
 // Its results depend on all frames since the last cold start.
 class ChainSolver : public FrameSolver {
  public:
-  void SolveBlock(const FrameReadings* readings, std::size_t count,
+  void SolveBlock(const Measurements* readings, std::size_t count,
                   FrameEstimate* estimates) override {
     double force = 1;
     for (std::size_t i = 0; i < count; ++i) {
@@ -99,7 +99,7 @@ TEST_F(BatchStreamTest, BlocksLieAtFixedPlaces) {
   class Counter : public ChainSolver {
    public:
     explicit Counter(int* blocks) : blocks_(blocks) {}
-    void SolveBlock(const FrameReadings* readings, std::size_t count,
+    void SolveBlock(const Measurements* readings, std::size_t count,
                     FrameEstimate* estimates) override {
       ++*blocks_;
       ChainSolver::SolveBlock(readings, count, estimates);

@@ -25,7 +25,7 @@ std::string Row(const FrameParser& log, const Scene& scene,
   const ResultLayout layout(PaperFinger(), scene, log);
   FrameRows rows;
   log.Parse({line, 2, false}, &rows);
-  FrameReadings readings;
+  Measurements readings;
   layout.Read(rows, 0, &readings);
   std::string csv;
   ResultWriter().Append(layout, rows, 0, readings, estimate, &csv);
@@ -127,7 +127,7 @@ TEST(ResultRowsTest, ValuesStandUnderTheirNames) {
   EXPECT_EQ(value("gauge_2_rad"), 2);
 }
 
-TEST(ReadingColumnsTest, ReadsVoltsAnglesAndTheObjectsPlace) {
+TEST(MeasurementColumnsTest, ReadsVoltsAnglesAndTheObjectsPlace) {
   Finger finger = PaperFinger();
   finger.gauges.resize(2);
   finger.gauges[1].gain_V_per_rad = 10;
@@ -135,28 +135,28 @@ TEST(ReadingColumnsTest, ReadsVoltsAnglesAndTheObjectsPlace) {
   const std::vector<std::string> names = {
       "object_angle_deg", "gauge_2_rad", "object_y_mm", "gauge_1_V",
       "gauge_1_rad",      "object_x_mm", "force_N"};
-  const ReadingColumns columns(finger, names, "a.csv");
+  const MeasurementColumns columns(finger, names, "a.csv");
   std::vector<double> row = {90, 0.25, -3, 1.5, 9, 4, 2};
   const auto cell = [&](std::size_t i) { return row[i]; };
-  FrameReadings readings;
+  Measurements readings;
   columns.Read(cell, &readings);
   EXPECT_THAT(readings.gauges_V, testing::ElementsAre(1.5, 3));
-  EXPECT_EQ(readings.object_x_mm, 4);
-  EXPECT_EQ(readings.object_y_mm, -3);
+  EXPECT_EQ(readings.object_mm.x(), 4);
+  EXPECT_EQ(readings.object_mm.y(), -3);
   EXPECT_NEAR(readings.object_angle_rad, M_PI / 2, 1e-15);
-  EXPECT_EQ(columns.Force(cell), 2);
+  EXPECT_EQ(readings.force_N, 2);
   // What was not measured is not that of the frame before.
   row.assign(row.size(), std::nan(""));
   columns.Read(cell, &readings);
   EXPECT_TRUE(std::isnan(readings.gauges_V[1]));
-  EXPECT_TRUE(std::isnan(readings.object_x_mm));
+  EXPECT_TRUE(std::isnan(readings.object_mm.x()));
   EXPECT_EQ(readings.object_angle_rad, 0);
 
-  const ReadingColumns none(finger, {"gauge_1_V", "gauge_2_V"}, "a.csv");
+  const MeasurementColumns none(finger, {"gauge_1_V", "gauge_2_V"}, "a.csv");
   none.Read([](std::size_t) { return 1.0; }, &readings);
-  EXPECT_TRUE(std::isnan(readings.object_y_mm));
-  EXPECT_TRUE(std::isnan(none.Force([](std::size_t) { return 1.0; })));
-  EXPECT_THAT([&] { ReadingColumns(finger, {"gauge_1_V"}, "a.csv"); },
+  EXPECT_TRUE(std::isnan(readings.object_mm.y()));
+  EXPECT_TRUE(std::isnan(readings.force_N));
+  EXPECT_THAT([&] { MeasurementColumns(finger, {"gauge_1_V"}, "a.csv"); },
               testing::ThrowsMessage<InputError>(
                   HasSubstr("a.csv: no column 'gauge_2_V'")));
 }

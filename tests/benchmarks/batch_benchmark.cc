@@ -94,7 +94,7 @@ class MadeBefore : public FrameSolver {
  public:
   explicit MadeBefore(const std::vector<FrameEstimate>* estimates)
       : estimates_(*estimates) {}
-  void SolveBlock(const FrameReadings* /*readings*/, std::size_t count,
+  void SolveBlock(const Measurements* /*readings*/, std::size_t count,
                   FrameEstimate* estimates) override {
     for (std::size_t i = 0; i < count; ++i) {
       estimates[i] = estimates_[next_++ % estimates_.size()];
@@ -147,7 +147,7 @@ class BatchBenchmark {
     const FrameReader reader(log_);
     const ResultLayout layout(finger, scene, reader.parser());
     std::vector<FrameRows> rows(lines.size());
-    std::vector<FrameReadings> readings(static_cast<std::size_t>(frames_));
+    std::vector<Measurements> readings(static_cast<std::size_t>(frames_));
     const auto for_each = [&](auto work) {
       std::size_t frame = 0;
       for (FrameRows& block : rows) {

@@ -145,7 +145,7 @@ void CheckMeans(unsigned calibrations, double tolerance) {
       const std::vector<double> clean = Volts(truth);
       Eigen::Array2d mean(0, 0), noise(0, 0);
       for (int i = 0; i < kFrames; ++i) {
-        FrameReadings readings;
+        Measurements readings;
         for (std::size_t j = 0; j < clean.size(); ++j) {
           readings.gauges_V.push_back(clean[j] + finger.gauges[j].noise_V *
                                                      normal(generator));

@@ -26,7 +26,7 @@ class FrameLinearizerTest : public testing::Test {
     parameters_ =
         std::make_unique<CalibrationParameters>(HiddenFinger(), plan_, logs_);
     blocks_ =
-        std::make_unique<MeasurementBlocks>(finger_, plan_, parameters_.get());
+        std::make_unique<CalibrationBlocks>(finger_, plan_, parameters_.get());
     linearizer_ = std::make_unique<FrameLinearizer>(
         EquilibriumSolver(finger_, {}), plan_, blocks_.get(), parameters_.get(),
         kSmallDecrease);
@@ -45,7 +45,7 @@ class FrameLinearizerTest : public testing::Test {
   Plan plan_;
   CalibrationLogs logs_;
   std::unique_ptr<CalibrationParameters> parameters_;
-  std::unique_ptr<MeasurementBlocks> blocks_;
+  std::unique_ptr<CalibrationBlocks> blocks_;
   std::unique_ptr<FrameLinearizer> linearizer_;
 };
 

@@ -8,11 +8,11 @@
 namespace finray {
 namespace {
 
-FrameReadings Readings(const Finger& finger,
-                       const std::vector<PointContact>& contacts) {
+Measurements Readings(const Finger& finger,
+                      const std::vector<PointContact>& contacts) {
   EquilibriumSolver solver(finger, {});
   EXPECT_TRUE(solver.Solve(contacts));
-  FrameReadings readings;
+  Measurements readings;
   for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
     readings.gauges_V.push_back(finger.gauges[j].Volts(solver.gauge_angle(j)));
   }
@@ -28,18 +28,18 @@ TEST(GaugeZeroTest, TakesUnknownOffsetsOff) {
   truth.gauges[0].offset_V += 0.01;
   truth.gauges[3].offset_V -= 0.02;
   GaugeZero zero(model, {});
-  FrameReadings loaded = Readings(truth, {{80, 4}});
+  Measurements loaded = Readings(truth, {{80, 4}});
   zero.Apply(&loaded);
   EXPECT_EQ(loaded.gauges_V, Readings(truth, {{80, 4}}).gauges_V);
   // Two noisy readings of the free finger, whose mean is right.
-  FrameReadings free = Readings(truth, {});
+  Measurements free = Readings(truth, {});
   for (const double noise : {0.001, -0.001}) {
-    FrameReadings noisy = free;
+    Measurements noisy = free;
     for (double& volts : noisy.gauges_V) volts += noise;
     zero.Add(noisy);
   }
   zero.Apply(&loaded);
-  const FrameReadings expected = Readings(model, {{80, 4}});
+  const Measurements expected = Readings(model, {{80, 4}});
   for (int j = 0; j < 4; ++j) {
     EXPECT_NEAR(loaded.gauges_V[j], expected.gauges_V[j], 1e-12) << j;
   }

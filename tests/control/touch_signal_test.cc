@@ -11,10 +11,10 @@
 namespace finray {
 namespace {
 
-FrameReadings Readings(const Finger& finger, double arc_mm, double force_N) {
+Measurements Readings(const Finger& finger, double arc_mm, double force_N) {
   EquilibriumSolver solver(finger, {});
   EXPECT_TRUE(solver.Solve({{arc_mm, force_N}}));
-  FrameReadings readings;
+  Measurements readings;
   for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
     readings.gauges_V.push_back(solver.gauge_angle(j));
   }
@@ -36,7 +36,7 @@ TEST(TouchSignalTest, IsOneOrMoreForTheTouchItself) {
 TEST(TouchSignalTest, IsUnknownWithoutAGauge) {
   const Finger finger = PaperFinger();
   const TouchSignal signal(finger, 1.5, {});
-  FrameReadings readings = Readings(finger, 80, 0.01);
+  Measurements readings = Readings(finger, 80, 0.01);
   readings.gauges_V[2] = std::nan("");
   EXPECT_TRUE(std::isnan(signal.Of(readings)));
 }

@@ -53,7 +53,7 @@ void ReadEstimateInputs(std::string_view bytes) {
     const ResultLayout layout(finger, scene, parser);
     layout.HeaderCsv();
     FrameRows rows;
-    FrameReadings readings;
+    Measurements readings;
     while (lines.Next()) {
       rows.Clear();
       parser.Parse(lines.line(), &rows);

@@ -11,9 +11,9 @@
 namespace finray {
 namespace {
 
-FrameReadings Readings(EquilibriumSolver* solver, const PointContact& contact) {
+Measurements Readings(EquilibriumSolver* solver, const PointContact& contact) {
   EXPECT_TRUE(solver->Solve({contact}));
-  FrameReadings readings;
+  Measurements readings;
   for (int j = 0; j < solver->model().gauges(); ++j) {
     readings.gauges_V.push_back(solver->gauge_angle(j));
   }
@@ -27,7 +27,7 @@ TEST(ContactSensorTest, CovarianceIsThatOfTheScatter) {
   scene.contacts = 1;
   ContactSensor sensor(finger, scene, {});
   EquilibriumSolver solver(finger, {});
-  const FrameReadings clean = Readings(&solver, {70, 3});
+  const Measurements clean = Readings(&solver, {70, 3});
   const Eigen::Vector3d pose = solver.contact_pose(0);
   const SensedFrame exact = sensor.Sense(clean);
   ASSERT_EQ(exact.contacts.size(), 1u);
@@ -40,7 +40,7 @@ TEST(ContactSensorTest, CovarianceIsThatOfTheScatter) {
   Eigen::Matrix4d scatter = Eigen::Matrix4d::Zero();
   constexpr int kDraws = 600;
   for (int draw = 0; draw < kDraws; ++draw) {
-    FrameReadings noisy = clean;
+    Measurements noisy = clean;
     for (std::size_t j = 0; j < noisy.gauges_V.size(); ++j) {
       noisy.gauges_V[j] += finger.gauges[j].noise_V * normal(generator);
     }

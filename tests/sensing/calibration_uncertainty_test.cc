@@ -238,7 +238,7 @@ TEST(CalibrationUncertaintyTest, EstimatesOfWrongFingersSpreadAsItSays) {
         }
         EquilibriumSolver other(finger, {});
         ASSERT_TRUE(other.Solve(truth));
-        FrameReadings readings;
+        Measurements readings;
         readings.gauges_V = Volts(other);
         const FrameEstimate estimate = estimator.Estimate(readings);
         const Eigen::Vector2d error(estimate.contact[0].arc_mm - arc_mm,

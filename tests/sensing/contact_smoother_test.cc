@@ -44,7 +44,7 @@ struct Walk {
     }
   }
   std::vector<Eigen::Vector2d> truth;
-  std::vector<FrameReadings> readings;
+  std::vector<Measurements> readings;
 };
 
 TEST(ContactSmootherTest, IsTheLeastOfTheWholeCost) {
@@ -104,12 +104,12 @@ TEST(ContactSmootherTest, AnotherLogBeginsAfresh) {
   const Scene scene = SmoothScene(0.2, 0.03);
   LiveEstimator used(PaperFinger(), scene), fresh(PaperFinger(), scene),
       going_on(PaperFinger(), scene);
-  for (const FrameReadings& readings : walk.readings) {
+  for (const Measurements& readings : walk.readings) {
     used.Next(readings);
     going_on.Next(readings);
   }
   used.Restart();
-  const FrameReadings& first = walk.readings[0];
+  const Measurements& first = walk.readings[0];
   const double arc_mm = fresh.Next(first).contact[0].arc_mm;
   EXPECT_NEAR(used.Next(first).contact[0].arc_mm, arc_mm, 1e-9);
   EXPECT_GT(std::abs(going_on.Next(first).contact[0].arc_mm - arc_mm), 1e-3);

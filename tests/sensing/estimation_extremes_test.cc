@@ -117,7 +117,7 @@ TEST(ExtremesTest, GaugesGivenTwice) {
   ExpectSound(noisy);
   EXPECT_NEAR(double(noisy.force_within[0]) / noisy.ok(), 0.683, 0.06);
   c.disturb = [](const Finger& told, std::mt19937_64* generator,
-                 FrameReadings* readings) {
+                 Measurements* readings) {
     *readings = WithNoise(*readings, told, generator);
     std::vector<double>& V = readings->gauges_V;
     for (std::size_t j = 0; j < V.size(); j += 2) V[j + 1] = V[j];
@@ -181,7 +181,7 @@ TEST(ExtremesTest, ConvertersOfFewBits) {
     SensingCase c;
     c.told = WithGaugeNoise(c.truth, step / std::sqrt(12.0));
     c.disturb = [step](const Finger&, std::mt19937_64*,
-                       FrameReadings* readings) {
+                       Measurements* readings) {
       for (double& V : readings->gauges_V) V = step * std::round(V / step);
     };
     const SensingOutcome outcome = RunSensing(c, 2 * kFrames);

@@ -56,13 +56,13 @@ TEST(FrameEstimatorTest, StdIsWhatNoiseDoes) {
   FrameEstimator estimator(finger, OneContact(), {});
   EquilibriumSolver solver(finger, {});
   ASSERT_TRUE(solver.Solve({{75, 3, 0}}));
-  const FrameReadings clean = CleanReadings(solver);
+  const Measurements clean = CleanReadings(solver);
   std::mt19937_64 generator(5);
   std::normal_distribution<double> noise(0, 3e-4);
   double arc2 = 0, force2 = 0, arc_std = 0, force_std = 0, chi2 = 0;
   constexpr int kRepeats = 1000;
   for (int i = 0; i < kRepeats; ++i) {
-    FrameReadings readings = clean;
+    Measurements readings = clean;
     for (double& v : readings.gauges_V) v += noise(generator);
     const FrameEstimate estimate = estimator.Estimate(readings);
     ASSERT_EQ(estimate.status, FrameStatus::kOk);
@@ -91,7 +91,7 @@ TEST(FrameEstimatorTest, SaysWhatItCannotSee) {
   const FrameEstimate tip = one.Estimate(CleanReadings(solver));
   EXPECT_EQ(tip.status, FrameStatus::kUnobservable);
   ASSERT_TRUE(solver.Solve({{70, 3, 0}}));
-  FrameReadings readings = CleanReadings(solver);
+  Measurements readings = CleanReadings(solver);
   const FrameEstimate whole = one.Estimate(readings);
   EXPECT_EQ(whole.status, FrameStatus::kOk);
   // One gauge less still does, with less certainty; three less do not.
@@ -111,7 +111,7 @@ TEST(FrameEstimatorTest, FreeFramesWithNoiseAreNoContact) {
   std::normal_distribution<double> noise(0, 3e-4);
   int free = 0;
   for (int i = 0; i < 300; ++i) {
-    FrameReadings readings;
+    Measurements readings;
     readings.gauges_V.resize(4);
     for (double& v : readings.gauges_V) v = noise(generator);
     const FrameEstimate estimate = automatic.Estimate(readings);
@@ -138,7 +138,7 @@ TEST(FrameEstimatorTest, ASaturatedGaugeIsLeftOut) {
   Finger finger = PaperFinger();
   EquilibriumSolver solver(finger, {});
   ASSERT_TRUE(solver.Solve({{70, 3, 0}}));
-  FrameReadings readings = CleanReadings(solver);
+  Measurements readings = CleanReadings(solver);
   const double seen = readings.gauges_V[0];
   finger.gauges[0].max_V = std::abs(seen) / 2;
   finger.gauges[0].min_V = -std::abs(seen) / 2;
@@ -159,15 +159,14 @@ TEST(FrameEstimatorTest, AMeasuredCircleTellsPlaceFromForce) {
   const ObjectContact truth =
       SolveObjectContact(*scene.object, pose, 0, &solver);
   ASSERT_EQ(truth.contacts.size(), 1u);
-  FrameReadings readings = CleanReadings(solver);
+  Measurements readings = CleanReadings(solver);
   const FrameEstimate alone =
       FrameEstimator(finger, scene, {}).Estimate(readings);
   EXPECT_GT(alone.contact[0].arc_std_mm, 1);
 
   scene.object_std_mm = 0.05;
   FrameEstimator measured(finger, scene, {});
-  readings.object_x_mm = pose.position_mm.x();
-  readings.object_y_mm = pose.position_mm.y();
+  readings.object_mm = pose.position_mm;
   const FrameEstimate placed = measured.Estimate(readings);
   EXPECT_EQ(placed.status, FrameStatus::kOk);
   EXPECT_EQ(placed.dof, 4);
@@ -178,7 +177,7 @@ TEST(FrameEstimatorTest, AMeasuredCircleTellsPlaceFromForce) {
             0.5 * alone.contact[0].normal_std_N);
   // With one gauge left and one coordinate of the stage.
   for (int j = 1; j < 4; ++j) readings.gauges_V[j] = std::nan("");
-  readings.object_x_mm = std::nan("");
+  readings.object_mm.x() = std::nan("");
   const FrameEstimate least = measured.Estimate(readings);
   EXPECT_EQ(least.dof, 0);
   EXPECT_NEAR(least.contact[0].arc_mm, truth.contacts[0].arc_mm, 1e-5);
@@ -240,7 +239,7 @@ TEST(FrameEstimatorTest, AutoCountsContacts) {
     ASSERT_TRUE(solver.Solve(cases[count]));
     int right = 0;
     for (int i = 0; i < 50; ++i) {
-      FrameReadings readings = CleanReadings(solver);
+      Measurements readings = CleanReadings(solver);
       for (double& v : readings.gauges_V) v += noise(generator);
       right += estimator.Estimate(readings).contacts == count;
     }
@@ -258,7 +257,7 @@ TEST(FrameEstimatorTest, ReportsBothSolutionsThatExplainAFrame) {
   EquilibriumSolver solver(finger, {});
   const std::vector<PointContact> truth = {{13.2, 2.92, 0}, {125.4, 4.38, 0}};
   ASSERT_TRUE(solver.Solve(truth));
-  const FrameReadings readings = CleanReadings(solver);
+  const Measurements readings = CleanReadings(solver);
   const FrameEstimate estimate =
       FrameEstimator(finger, scene, {}).Estimate(readings);
   EXPECT_EQ(estimate.status, FrameStatus::kUnobservable);
@@ -290,7 +289,7 @@ TEST(FrameEstimatorTest, ArrivesWhereGaussNewtonCircles) {
   constexpr int kFrames = 200;
   for (int i = 0; i < kFrames; ++i) {
     ASSERT_TRUE(solver.Solve({{118 + 0.08 * i, 2, 0}}));
-    FrameReadings readings = CleanReadings(solver);
+    Measurements readings = CleanReadings(solver);
     for (double& v : readings.gauges_V) v += noise(generator);
     const FrameEstimate estimate = estimator.Estimate(readings);
     solved += estimate.status != FrameStatus::kNotConverged;

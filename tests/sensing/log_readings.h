@@ -5,16 +5,16 @@
 #include <vector>
 
 #include "finray/io/frame_table.h"
-#include "finray/scene/reading_columns.h"
+#include "finray/scene/measurement_columns.h"
 
 namespace finray {
 
 /// What each row of a table has measured.
-inline std::vector<FrameReadings> ReadReadings(const Finger& finger,
-                                               const FrameTable& log) {
+inline std::vector<Measurements> ReadReadings(const Finger& finger,
+                                              const FrameTable& log) {
   const std::vector<std::string> names = log.headers();
-  const ReadingColumns columns(finger, names, log.path());
-  std::vector<FrameReadings> readings(log.rows());
+  const MeasurementColumns columns(finger, names, log.path());
+  std::vector<Measurements> readings(log.rows());
   for (std::size_t row = 0; row < log.rows(); ++row) {
     columns.Read([&](std::size_t i) { return log.Numbers(names[i])[row]; },
                  &readings[row]);

@@ -42,7 +42,7 @@ class ColdStart {
     ColdStartTally tally;
     if (!solver_.Solve({{arc_mm, force_N, 0}})) return tally;
     const Finger& finger = estimator_.finger();
-    const FrameReadings readings = CleanReadings(solver_);
+    const Measurements readings = CleanReadings(solver_);
     const FrameEstimate estimate = estimator_.Estimate(readings);
     const ContactEstimate& found = estimate.contact[0];
     const double arc_error = std::abs(found.arc_mm - arc_mm);

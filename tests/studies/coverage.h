@@ -88,7 +88,7 @@ inline std::vector<CoverageCell> CoverageStudy(
       cell.force_bound_N = std::sqrt(bound(1, 1));
       solver.Solve({{arc, force, 0}});
       cell.distance = ambiguity.Distance(solver, arc, cell.arc_bound_mm);
-      const FrameReadings clean = CleanReadings(solver);
+      const Measurements clean = CleanReadings(solver);
       for (int i = 0; i < repeats; ++i) {
         const FrameEstimate estimate =
             estimator.Estimate(WithNoise(clean, finger, &generator));

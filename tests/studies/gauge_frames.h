@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "finray/scene/clean_readings.h"
-#include "finray/scene/frame_readings.h"
+#include "finray/scene/measurements.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {
 
-inline FrameReadings WithNoise(FrameReadings readings, const Finger& finger,
-                               std::mt19937_64* generator) {
+inline Measurements WithNoise(Measurements readings, const Finger& finger,
+                              std::mt19937_64* generator) {
   std::normal_distribution<double> unit;
   for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
     readings.gauges_V[j] += finger.gauges[j].noise_V * unit(*generator);

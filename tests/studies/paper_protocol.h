@@ -19,7 +19,7 @@ namespace finray {
 struct ProtocolFrame {
   double height_mm;
   ObjectPose object;  ///< as it is; the stage reads it with an error
-  FrameReadings clean;
+  Measurements clean;
   PointContact contact;
   Eigen::Vector3d pose;  ///< x, y, theta of the contact
 };

@@ -53,9 +53,9 @@ struct SensingCase {
   /// Noise of all gauges, as a share of the rms of the cell's readings, rad.
   double noise_of_reading = -1;
   /// What comes between clean readings and the estimator.
-  std::function<void(const Finger& told, std::mt19937_64*, FrameReadings*)>
+  std::function<void(const Finger& told, std::mt19937_64*, Measurements*)>
       disturb = [](const Finger& told, std::mt19937_64* generator,
-                   FrameReadings* readings) {
+                   Measurements* readings) {
         *readings = WithNoise(*readings, told, generator);
       };
   std::vector<PointContact> places = UsualPlaces();
@@ -149,7 +149,7 @@ inline SensingOutcome RunSensing(const SensingCase& c, int frames,
         ++outcome.beyond_limit;
         continue;
       }
-      FrameReadings readings = CleanReadings(solver);
+      Measurements readings = CleanReadings(solver);
       c.disturb(told, &generator, &readings);
       outcome.Add(contact, c.truth.front_length_mm,
                   estimator->Estimate(readings));

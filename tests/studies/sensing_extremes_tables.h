@@ -12,7 +12,7 @@
 namespace finray {
 
 /// Readings as they are.
-inline void NoNoise(const Finger&, std::mt19937_64*, FrameReadings*) {}
+inline void NoNoise(const Finger&, std::mt19937_64*, Measurements*) {}
 
 inline Finger WithGaugeNoise(Finger finger, double noise_V) {
   for (Gauge& gauge : finger.gauges) gauge.noise_V = noise_V;
@@ -40,7 +40,7 @@ inline void NoiseTable(int frames) {
     SensingCase c;
     c.noise_of_reading = 1e-3 * lie;
     c.disturb = [lie](const Finger& told, std::mt19937_64* generator,
-                      FrameReadings* readings) {
+                      Measurements* readings) {
       Finger noisy = told;
       for (Gauge& gauge : noisy.gauges) gauge.noise_V /= lie;
       *readings = WithNoise(*readings, noisy, generator);
@@ -59,7 +59,7 @@ inline void QuantisedTable(int frames) {
       const double noise = told ? step / std::sqrt(12.0) : 1e-6;
       c.told = WithGaugeNoise(c.truth, noise);
       c.disturb = [step](const Finger&, std::mt19937_64*,
-                         FrameReadings* readings) {
+                         Measurements* readings) {
         for (double& V : readings->gauges_V) V = step * std::round(V / step);
       };
       PrintSensing(
@@ -89,7 +89,7 @@ inline void OffsetTable(int frames) {
        {1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 0.1, 1.0, 1e3, 1e6}) {
     SensingCase c;
     c.disturb = [drift](const Finger& told, std::mt19937_64* generator,
-                        FrameReadings* readings) {
+                        Measurements* readings) {
       *readings = WithNoise(*readings, told, generator);
       // One gauge up, the next one down.
       double sign = 1;
@@ -145,7 +145,7 @@ inline void UnitsTable(int frames) {
     c.told = c.truth;
     // The same angles.
     c.disturb = [gain](const Finger& told, std::mt19937_64* generator,
-                       FrameReadings* readings) {
+                       Measurements* readings) {
       Finger signed_noise = told;
       for (Gauge& gauge : signed_noise.gauges)
         gauge.noise_V *= gain < 0 ? -1 : 1;
@@ -219,7 +219,7 @@ inline void LayoutTable(int frames) {
   const auto with_first_reading = [&](const char* name, double reading_V) {
     SensingCase c;
     c.disturb = [=](const Finger& told, std::mt19937_64* generator,
-                    FrameReadings* readings) {
+                    Measurements* readings) {
       *readings = WithNoise(*readings, told, generator);
       readings->gauges_V[1] = reading_V;
     };

@@ -12,7 +12,7 @@ namespace finray {
 std::vector<FrameEstimate> EstimateFrames(
     const Finger& finger, const Scene& scene,
     const Discretization& discretization,
-    const std::vector<FrameReadings>& readings, int threads) {
+    const std::vector<Measurements>& readings, int threads) {
   std::vector<FrameEstimate> estimates(readings.size());
   FrameSolverPool pool(FrameSolvers(finger, scene, discretization));
   const std::size_t blocks =

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "finray/finger/finger.h"
-#include "finray/scene/frame_readings.h"
+#include "finray/scene/measurements.h"
 #include "finray/scene/scene.h"
 #include "finray/sensing/frame_estimate.h"
 
@@ -15,7 +15,7 @@ namespace finray {
 std::vector<FrameEstimate> EstimateFrames(
     const Finger& finger, const Scene& scene,
     const Discretization& discretization,
-    const std::vector<FrameReadings>& readings, int threads);
+    const std::vector<Measurements>& readings, int threads);
 
 }  // namespace finray
 

@@ -13,7 +13,7 @@ class EstimatorSolver : public FrameSolver {
                   const Discretization& discretization)
       : estimator_(finger, scene, discretization) {}
 
-  void SolveBlock(const FrameReadings* readings, std::size_t count,
+  void SolveBlock(const Measurements* readings, std::size_t count,
                   FrameEstimate* estimates) override {
     estimator_.EstimateBlock(readings, count, estimates);
   }
@@ -44,7 +44,7 @@ FrameSolverPool::FrameSolverPool(FrameSolverFactory make)
 
 FrameSolverPool::~FrameSolverPool() = default;
 
-void FrameSolverPool::SolveBlock(const FrameReadings* readings,
+void FrameSolverPool::SolveBlock(const Measurements* readings,
                                  std::size_t count, FrameEstimate* estimates) {
   std::unique_ptr<FrameSolver>& solver = solvers_->of_thread.local();
   if (!solver) solver = solvers_->make();

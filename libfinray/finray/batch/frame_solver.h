@@ -17,7 +17,7 @@ class FrameSolver {
 
   /// Estimates `count` frames that follow each other. The result depends on
   /// these readings and on nothing else.
-  virtual void SolveBlock(const FrameReadings* readings, std::size_t count,
+  virtual void SolveBlock(const Measurements* readings, std::size_t count,
                           FrameEstimate* estimates) = 0;
 };
 
@@ -41,7 +41,7 @@ class FrameSolverPool {
 
   /// Estimates a block (of `count` frames, fewer at the end of a log), from any
   /// thread.
-  void SolveBlock(const FrameReadings* readings, std::size_t count,
+  void SolveBlock(const Measurements* readings, std::size_t count,
                   FrameEstimate* estimates);
 
  private:

@@ -34,7 +34,7 @@ class LiveRows {
   ResultLayout layout_;
   LiveEstimator& estimator_;
   FrameRows rows_;
-  FrameReadings readings_;
+  Measurements readings_;
   ResultWriter writer_;
   std::string row_, error_;
   FrameStatus status_ = FrameStatus::kBadInput;

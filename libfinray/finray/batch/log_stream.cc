@@ -23,7 +23,7 @@ struct Block {
   LineBlock lines;
   FrameRows rows;
   bool first = false;  // of the log
-  std::vector<FrameReadings> readings;
+  std::vector<Measurements> readings;
   std::vector<FrameEstimate> estimates;
   ResultWriter writer;
   StreamedBlock result;
@@ -60,7 +60,7 @@ void Estimate(const ResultLayout& layout, double friction,
     const FrameEstimate& estimate = block->estimates[row];
     block->writer.Append(layout, rows, row, block->readings[row], estimate,
                          &result.csv);
-    result.summary.Add(estimate, friction, layout.ReferenceForce(rows, row));
+    result.summary.Add(estimate, friction, block->readings[row].force_N);
   }
 }
 
@@ -124,7 +124,7 @@ bool EstimateStream(const Finger& finger, const Scene& scene,
 bool CheckStream(const Finger& finger, int threads,
                  const std::function<bool()>& stop, FrameReader* reader) {
   const FrameParser& parser = reader->parser();
-  ReadingColumns(finger, parser.names(), parser.path());
+  MeasurementColumns(finger, parser.names(), parser.path());
   return ForEachBlock(
       threads, kCheckedRows, stop, reader, [](Block*) {}, [](const Block&) {});
 }

@@ -9,7 +9,7 @@ namespace finray {
 // Calls column(name, value), where name() makes the name. The one place that
 // says which columns there are.
 template <class Column>
-void ResultColumns::ForEach(const FrameReadings& readings,
+void ResultColumns::ForEach(const Measurements& readings,
                             const FrameEstimate& estimate,
                             Column column) const {
   const auto named = [&column](const char* name, double value) {
@@ -62,7 +62,7 @@ ResultColumns::ResultColumns(const Finger& finger, const Scene& scene)
       gauges_.size() >= kGaugesForTwo && !scene.object_std_mm;
   const bool two = scene.contacts ? *scene.contacts == 2 : automatic;
   if (two) contacts_ = 2;
-  FrameReadings readings;
+  Measurements readings;
   readings.gauges_V.resize(gauges_.size());
   FrameEstimate estimate;
   estimate.rib_tension_N.resize(ribs_);
@@ -70,7 +70,7 @@ ResultColumns::ResultColumns(const Finger& finger, const Scene& scene)
           [this](auto name, double) { names_.push_back(name()); });
 }
 
-void ResultColumns::Values(const FrameReadings& readings,
+void ResultColumns::Values(const Measurements& readings,
                            const FrameEstimate& estimate,
                            double* values) const {
   ForEach(readings, estimate, [&values](auto, double value) {

@@ -19,12 +19,12 @@ class ResultColumns {
 
   const std::vector<std::string>& names() const { return names_; }
   /// Their values, NaN where there is none, to values[0 .. names().size() - 1].
-  void Values(const FrameReadings& readings, const FrameEstimate& estimate,
+  void Values(const Measurements& readings, const FrameEstimate& estimate,
               double* values) const;
 
  private:
   template <class Column>
-  void ForEach(const FrameReadings& readings, const FrameEstimate& estimate,
+  void ForEach(const Measurements& readings, const FrameEstimate& estimate,
                Column column) const;
 
   std::vector<Gauge> gauges_;

@@ -8,9 +8,16 @@
 
 namespace finray {
 
+MeasurementColumns::Options ReaderOptions(const Scene& scene) {
+  MeasurementColumns::Options options;
+  options.camera = scene.UsesCamera();
+  return options;
+}
+
 ResultLayout::ResultLayout(const Finger& finger, const Scene& scene,
                            const FrameParser& log)
-    : readings_(finger, log.names(), log.path()), results_(finger, scene) {
+    : readings_(finger, log.names(), log.path(), ReaderOptions(scene)),
+      results_(finger, scene) {
   for (std::size_t i = 0; i < log.names().size(); ++i) {
     outputs_.push_back({log.names()[i],
                         log.IsNumeric(i) ? Source::kNumber : Source::kText, i});
@@ -41,18 +48,13 @@ std::string ResultLayout::HeaderCsv() const {
 }
 
 void ResultLayout::Read(const FrameRows& rows, std::size_t row,
-                        FrameReadings* readings) const {
+                        Measurements* readings) const {
   readings_.Read([&](std::size_t i) { return rows.at(row, i).number; },
                  readings);
 }
 
-double ResultLayout::ReferenceForce(const FrameRows& rows,
-                                    std::size_t row) const {
-  return readings_.Force([&](std::size_t i) { return rows.at(row, i).number; });
-}
-
 void ResultWriter::Append(const ResultLayout& layout, const FrameRows& log,
-                          std::size_t row, const FrameReadings& readings,
+                          std::size_t row, const Measurements& readings,
                           const FrameEstimate& estimate, std::string* csv) {
   values_.resize(layout.results_.names().size());
   layout.results_.Values(readings, estimate, values_.data());

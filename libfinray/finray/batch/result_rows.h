@@ -6,9 +6,12 @@
 
 #include "finray/batch/result_columns.h"
 #include "finray/io/frame_parser.h"
-#include "finray/scene/reading_columns.h"
+#include "finray/scene/measurement_columns.h"
 
 namespace finray {
+
+/// What the scene needs of a log.
+MeasurementColumns::Options ReaderOptions(const Scene& scene);
 
 /// From the columns of a log to those of its result: those of the log as they
 /// are, ResultColumns and `status` in their old places or behind. Any number of
@@ -22,9 +25,7 @@ class ResultLayout {
   /// The first line of the result.
   std::string HeaderCsv() const;
   void Read(const FrameRows& rows, std::size_t row,
-            FrameReadings* readings) const;
-  /// NaN if the log has none.
-  double ReferenceForce(const FrameRows& rows, std::size_t row) const;
+            Measurements* readings) const;
 
  private:
   friend class ResultWriter;
@@ -38,7 +39,7 @@ class ResultLayout {
     std::size_t index;
   };
 
-  ReadingColumns readings_;
+  MeasurementColumns readings_;
   ResultColumns results_;
   std::vector<Output> outputs_;
 };
@@ -50,7 +51,7 @@ class ResultWriter {
  public:
   /// Appends a row with its line end.
   void Append(const ResultLayout& layout, const FrameRows& log, std::size_t row,
-              const FrameReadings& readings, const FrameEstimate& estimate,
+              const Measurements& readings, const FrameEstimate& estimate,
               std::string* csv);
 
  private:

@@ -133,12 +133,12 @@ BenchmarkCase MakeBenchmarkCase(const Finger& finger, const std::string& scene,
           finger.gauges[j].Volts(gauges[j] + noise * normal(generator)));
     }
     if (c.scene.object_std_mm) {
-      frame.readings.object_x_mm =
-          frame.object.position_mm.x() + kObjectStd_mm * normal(generator);
-      frame.readings.object_y_mm =
-          frame.object.position_mm.y() + kObjectStd_mm * normal(generator);
+      for (int i = 0; i < 2; ++i) {
+        frame.readings.object_mm[i] =
+            frame.object.position_mm[i] + kObjectStd_mm * normal(generator);
+      }
     }
-    Measure(c.finger, c.scene, frame.readings, &frame.measurement);
+    Pack(c.finger, c.scene, frame.readings, &frame.measurement);
     if (fitted) {
       std::vector<PointContact> contacts = frame.contacts;
       EquilibriumSolver model(c.finger, finest);

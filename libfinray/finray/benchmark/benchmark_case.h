@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "finray/scene/frame_measurement.h"
 #include "finray/scene/scene.h"
+#include "finray/sensing/packed_readings.h"
 
 namespace finray {
 
@@ -34,8 +34,8 @@ struct FrameAnswer {
 struct BenchmarkFrame {
   std::vector<PointContact> contacts;  ///< The load; with an object its answer.
   ObjectPose object;
-  FrameReadings readings;        ///< With noise, in V.
-  FrameMeasurement measurement;  ///< The same as ContactFit takes it.
+  Measurements readings;       ///< With noise, in V.
+  PackedReadings measurement;  ///< The same as ContactFit takes it.
 };
 
 struct BenchmarkCase {

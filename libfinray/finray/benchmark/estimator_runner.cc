@@ -67,7 +67,7 @@ class Estimator : public Runner {
   FrameEstimator estimator_;
   GaugesAt gauges_;
   EquilibriumSolver model_;
-  std::vector<FrameReadings> readings_;
+  std::vector<Measurements> readings_;
   std::vector<FrameEstimate> estimates_;
 };
 

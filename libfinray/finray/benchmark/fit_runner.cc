@@ -25,7 +25,7 @@ class Fit : public Runner {
 
   void Run(int first, int count) override {
     for (int k = 0; k < count; ++k) {
-      const FrameMeasurement& measured = case_.frames[first + k].measurement;
+      const PackedReadings& measured = case_.frames[first + k].measurement;
       FrameAnswer& answer = answers_[k];
       answer.solved =
           fit_.Follow(measured.values, measured.weights, &contacts_);

@@ -47,7 +47,7 @@ std::vector<LinkScaling> ScalingWithLinks(const std::vector<Measurement>& all) {
 
 Scaling MeasureBatches(const BenchmarkCase& one_contact, int most_frames,
                        int most_threads, int rounds) {
-  std::vector<FrameReadings> log;
+  std::vector<Measurements> log;
   while (static_cast<int>(log.size()) < most_frames) {
     for (const BenchmarkFrame& frame : one_contact.frames) {
       log.push_back(frame.readings);
@@ -61,8 +61,8 @@ Scaling MeasureBatches(const BenchmarkCase& one_contact, int most_frames,
     scaling.threads.push_back({most_frames, threads, {}});
   }
   const auto measure = [&](BatchScaling* batch) {
-    const std::vector<FrameReadings> readings(log.begin(),
-                                              log.begin() + batch->frames);
+    const std::vector<Measurements> readings(log.begin(),
+                                             log.begin() + batch->frames);
     const double start = Seconds();
     EstimateFrames(one_contact.finger, one_contact.scene, {}, readings,
                    batch->threads);

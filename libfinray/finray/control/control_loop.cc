@@ -85,7 +85,7 @@ class Loop {
     row->force_N = state.force_N;
     row->fingers = std::move(state.fingers);
     for (std::size_t i = 0; i < estimators_.size(); ++i) {
-      FrameReadings readings = row->fingers[i].readings;
+      Measurements readings = row->fingers[i].readings;
       for (std::size_t j = 0; j < gauges_.size(); ++j) {
         readings.gauges_V[j] += gauges_[j].noise_V * unit_(generator_);
       }
@@ -105,7 +105,7 @@ class Loop {
     return true;
   }
 
-  void LoseGauges(double time_s, FrameReadings* readings) const {
+  void LoseGauges(double time_s, Measurements* readings) const {
     const auto& loss = experiment_.gauge_loss;
     if (!loss || time_s < loss->from_s || time_s >= loss->to_s) return;
     for (const int gauge : loss->gauges) {

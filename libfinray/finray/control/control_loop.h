@@ -25,7 +25,7 @@ struct LoopRow {
   LoopMode mode = LoopMode::kApproach;
   bool sure = false;  ///< All fingers see their contact, or that there is none.
   std::vector<PlantFinger> fingers;
-  std::vector<FrameReadings> readings;  ///< with noise, zeroed
+  std::vector<Measurements> readings;  ///< with noise, zeroed
   std::vector<FrameEstimate> estimates;
 };
 

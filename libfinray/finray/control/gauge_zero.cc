@@ -17,14 +17,14 @@ GaugeZero::GaugeZero(const Finger& finger,
   sum_V_.assign(free_V_.size(), 0);
 }
 
-void GaugeZero::Add(const FrameReadings& readings) {
+void GaugeZero::Add(const Measurements& readings) {
   for (std::size_t j = 0; j < sum_V_.size(); ++j) {
     sum_V_[j] += readings.gauges_V[j] - free_V_[j];
   }
   ++count_;
 }
 
-void GaugeZero::Apply(FrameReadings* readings) const {
+void GaugeZero::Apply(Measurements* readings) const {
   if (count_ == 0) return;
   for (std::size_t j = 0; j < sum_V_.size(); ++j) {
     readings->gauges_V[j] -= sum_V_[j] / count_;

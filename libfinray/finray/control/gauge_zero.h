@@ -5,7 +5,7 @@
 
 #include "finray/finger/discretization.h"
 #include "finray/finger/finger.h"
-#include "finray/scene/frame_readings.h"
+#include "finray/scene/measurements.h"
 
 namespace finray {
 
@@ -18,9 +18,9 @@ class GaugeZero {
   GaugeZero(const Finger& finger, const Discretization& discretization);
 
   /// A reading of the free finger.
-  void Add(const FrameReadings& readings);
+  void Add(const Measurements& readings);
   /// Takes the zero off; without a free reading before, nothing.
-  void Apply(FrameReadings* readings) const;
+  void Apply(Measurements* readings) const;
 
  private:
   std::vector<double> free_V_, sum_V_;

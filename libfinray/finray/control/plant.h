@@ -8,13 +8,13 @@
 #include "finray/control/mechanism.h"
 #include "finray/finger/finger.h"
 #include "finray/objects/object_contact.h"
-#include "finray/scene/frame_readings.h"
+#include "finray/scene/measurements.h"
 
 namespace finray {
 
 /// One finger of the plant at an equilibrium.
 struct PlantFinger {
-  FrameReadings readings;      ///< of its gauges, without noise
+  Measurements readings;       ///< of its gauges, without noise
   ObjectPose object;           ///< where the object is given, in its frame S
   double displacement_mm = 0;  ///< of an object on a spring
   std::vector<PointContact> contacts;

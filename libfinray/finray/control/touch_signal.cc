@@ -30,7 +30,7 @@ TouchSignal::TouchSignal(const Finger& finger, double touch_N,
   }
 }
 
-double TouchSignal::Of(const FrameReadings& readings) const {
+double TouchSignal::Of(const Measurements& readings) const {
   double largest = 0;
   for (std::size_t j = 0; j < gauges_.size(); ++j) {
     const double reading_V = readings.gauges_V[j];

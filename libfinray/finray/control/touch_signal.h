@@ -5,7 +5,7 @@
 
 #include "finray/finger/discretization.h"
 #include "finray/finger/finger.h"
-#include "finray/scene/frame_readings.h"
+#include "finray/scene/measurements.h"
 
 namespace finray {
 
@@ -19,7 +19,7 @@ class TouchSignal {
 
   /// Largest bending angle of the gauges that read, over that least one; NaN
   /// if one does not read.
-  double Of(const FrameReadings& readings) const;
+  double Of(const Measurements& readings) const;
 
  private:
   std::vector<Gauge> gauges_;

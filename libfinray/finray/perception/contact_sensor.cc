@@ -11,7 +11,7 @@ ContactSensor::ContactSensor(const Finger& finger, const Scene& scene,
       estimator_(finger, scene, discretization),
       solver_(finger, discretization) {}
 
-SensedFrame ContactSensor::Sense(const FrameReadings& readings) {
+SensedFrame ContactSensor::Sense(const Measurements& readings) {
   const FrameEstimate estimate = estimator_.Estimate(readings);
   SensedFrame frame;
   frame.status = estimate.status;
@@ -22,7 +22,7 @@ SensedFrame ContactSensor::Sense(const FrameReadings& readings) {
                         estimate.contact[c].normal_N,
                         scene_.friction_coefficient});
   }
-  Measure(finger_, scene_, readings, &measurement_);
+  Pack(finger_, scene_, readings, &measurement_);
   ContactLinearization linearization;
   solver_.Reset();
   if (!linearization.At(contacts, measurement_, MeasuredRadius(scene_),

@@ -40,7 +40,7 @@ class ContactSensor {
   ContactSensor(const Finger& finger, const Scene& scene,
                 const Discretization& discretization);
 
-  SensedFrame Sense(const FrameReadings& readings);
+  SensedFrame Sense(const Measurements& readings);
   /// The same for contacts that are estimated already, with std of l_c and f_c.
   SensedFrame FromEstimate(const std::vector<PointContact>& contacts,
                            const std::vector<Eigen::Vector2d>& std);
@@ -53,7 +53,7 @@ class ContactSensor {
   Scene scene_;
   FrameEstimator estimator_;
   EquilibriumSolver solver_;
-  FrameMeasurement measurement_;
+  PackedReadings measurement_;
 };
 
 }  // namespace finray

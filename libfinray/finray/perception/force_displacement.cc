@@ -5,7 +5,7 @@
 
 #include "finray/io/error.h"
 #include "finray/objects/circle_centre.h"
-#include "finray/scene/reading_columns.h"
+#include "finray/scene/measurement_columns.h"
 
 namespace finray {
 namespace {
@@ -20,31 +20,24 @@ Vector2d Direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 SensedLoads SenseLoads(const FrameTable& table, ContactSensor* sensor,
                        const Finger& finger) {
-  const std::vector<std::string> names = table.headers();
-  std::vector<const std::vector<double>*> cells;
-  for (const std::string& name : names) {
-    cells.push_back(FrameTable::IsVocabulary(name) ? &table.Numbers(name)
-                                                   : nullptr);
+  for (const char* place : {"object_x_mm", "object_y_mm"}) {
+    table.Numbers(place);  // Throws if there is none.
   }
-  const auto& x = table.Numbers("object_x_mm");
-  const auto& y = table.Numbers("object_y_mm");
-  const ReadingColumns columns(finger, names, table.path());
+  const std::vector<Measurements> rows = ReadMeasurements(table, finger);
   SensedLoads sensed;
-  sensed.rows = table.rows();
-  FrameReadings readings;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    if (!std::isfinite(x[row]) || !std::isfinite(y[row])) {
+  sensed.rows = rows.size();
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    const Eigen::Vector2d& place = rows[row].object_mm;
+    if (!place.allFinite()) {
       throw InputError(table.path() + ":" + std::to_string(table.line(row)) +
                        ": no object_x_mm, object_y_mm; every row needs the "
                        "unloaded place of the object");
     }
-    columns.Read([&](std::size_t column) { return (*cells[column])[row]; },
-                 &readings);
-    const SensedFrame frame = sensor->Sense(readings);
+    const SensedFrame frame = sensor->Sense(rows[row]);
     if (frame.status != FrameStatus::kOk || frame.contacts.size() != 1) {
       continue;
     }
-    sensed.loads.push_back({row, frame.contacts[0], {x[row], y[row]}});
+    sensed.loads.push_back({row, frame.contacts[0], place});
   }
   return sensed;
 }

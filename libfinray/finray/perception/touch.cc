@@ -6,7 +6,7 @@
 
 #include "finray/io/error.h"
 #include "finray/scene/frame_columns.h"
-#include "finray/scene/reading_columns.h"
+#include "finray/scene/measurement_columns.h"
 
 namespace finray {
 namespace {
@@ -20,19 +20,15 @@ class TouchReader {
  public:
   TouchReader(const FrameTable& table, const Finger& finger)
       : table_(table),
-        names_(table.headers()),
-        x_(table.Numbers("object_x_mm")),
-        y_(table.Numbers("object_y_mm")),
-        angle_deg_(table.NumbersOrNan("object_angle_deg")) {
-    for (const std::string& name : names_) {
-      cells_.push_back(FrameTable::IsVocabulary(name) ? &table.Numbers(name)
-                                                      : nullptr);
+        estimated_(!table.Has(GaugeVolts(0)) && !table.Has(GaugeAngle(0)) &&
+                   table.Has(ContactArc(0))) {
+    for (const char* place : {"object_x_mm", "object_y_mm"}) {
+      table.Numbers(place);  // Throws if there is none.
     }
-    const bool gauges = table.Has(GaugeVolts(0)) || table.Has(GaugeAngle(0));
-    if (gauges || !table.Has(ContactArc(0))) {
-      columns_.emplace(finger, names_, table.path());
-      return;
-    }
+    MeasurementColumns::Options options;
+    options.gauges_may_lack = estimated_;
+    rows_ = ReadMeasurements(table, finger, options);
+    if (!estimated_) return;
     for (int c = 0; c < kFittedContacts && table.Has(ContactArc(c)); ++c) {
       given_.push_back(
           {&table.Numbers(ContactArc(c)), &table.Numbers(ContactArcStd(c)),
@@ -40,12 +36,10 @@ class TouchReader {
     }
   }
 
-  bool estimated() const { return !columns_; }
+  bool estimated() const { return estimated_; }
 
   ObjectPose Pose(std::size_t row) const {
-    const double angle = angle_deg_[row];
-    const ObjectPose pose{{x_[row], y_[row]},
-                          (std::isnan(angle) ? 0 : angle) * M_PI / 180};
+    const ObjectPose pose{rows_[row].object_mm, rows_[row].object_angle_rad};
     if (!pose.position_mm.allFinite()) {
       throw InputError(Place(row) +
                        "no object_x_mm, object_y_mm; every touch needs the "
@@ -54,12 +48,7 @@ class TouchReader {
     return pose;
   }
 
-  FrameReadings Readings(std::size_t row) const {
-    FrameReadings readings;
-    columns_->Read([&](std::size_t column) { return (*cells_[column])[row]; },
-                   &readings);
-    return readings;
-  }
+  const Measurements& Readings(std::size_t row) const { return rows_[row]; }
 
   SensedFrame Estimated(std::size_t row, double friction,
                         ContactSensor* sensor) const {
@@ -93,12 +82,9 @@ class TouchReader {
   };
 
   const FrameTable& table_;
-  std::vector<std::string> names_;
-  const std::vector<double>&x_, &y_;
-  std::vector<double> angle_deg_;
-  std::vector<Given> given_;  // contacts of a table without gauges
-  std::vector<const std::vector<double>*> cells_;
-  std::optional<ReadingColumns> columns_;
+  bool estimated_;  // The table has contacts, but no gauges.
+  std::vector<Measurements> rows_;
+  std::vector<Given> given_;
 };
 
 void AddTouches(std::size_t row, const SensedFrame& frame,

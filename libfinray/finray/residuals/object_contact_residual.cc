@@ -30,17 +30,23 @@ bool ObjectContactResidual::Evaluate(double const* const* parameters,
   const Eigen::Vector3d pose = frame().outputs().segment<3>(row);
   const Eigen::Vector2d t(std::cos(pose.z()), std::sin(pose.z()));
   const Eigen::Vector2d n(t.y(), -t.x());
-  Eigen::Map<Eigen::Vector2d>(residuals, 2) =
-      (pose.head<2>() - radius_mm_ * n - center_mm_ - origin) / std_mm_;
+  Eigen::Vector2d weight;
+  for (int i = 0; i < 2; ++i) {
+    weight[i] = std::isnan(center_mm_[i]) ? 0 : 1 / std_mm_;
+    residuals[i] = weight[i] == 0 ? 0
+                                  : weight[i] * (pose[i] - radius_mm_ * n[i] -
+                                                 center_mm_[i] - origin[i]);
+  }
   if (jacobians == nullptr) return true;
   const auto d_pose = frame().d_outputs().middleRows<3>(row);
   for (int i = 0; i < 2; ++i) {  // dn = t dtheta
-    SpreadRow(i, (d_pose.row(i) - radius_mm_ * t[i] * d_pose.row(2)) / std_mm_,
+    SpreadRow(i,
+              weight[i] * (d_pose.row(i) - radius_mm_ * t[i] * d_pose.row(2)),
               jacobians);
   }
   if (double* by_origin = jacobians[extra_block()]) {
     Eigen::Map<Eigen::Matrix2d> block(by_origin);
-    block = -Eigen::Matrix2d::Identity() / std_mm_;
+    block = -weight.asDiagonal().toDenseMatrix();
   }
   return true;
 }

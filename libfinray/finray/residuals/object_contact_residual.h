@@ -12,8 +12,8 @@ namespace finray {
 /// with r_c the contact point and n_c the local normal into the finger, p the
 /// measured centre and o the origin of its coordinates in frame S. Its
 /// component along the tangent decides l_c, the one along the normal the
-/// indentation. Parameter blocks: those of FrameResidual, object origin (2,
-/// mm).
+/// indentation. A NaN coordinate (not measured) gives a zero residual.
+/// Parameter blocks: those of FrameResidual, object origin (2, mm).
 class ObjectContactResidual : public FrameResidual {
  public:
   static ceres::CostFunction* Create(const FrameEvaluation* frame, int contact,

@@ -105,10 +105,18 @@ RigidObject ReadObject(const YamlMap& object) {
   }
 }
 
-// A place is of use where it tells the contact's: one contact of a circle.
+// A measured object tells where the contact is if it is a circle with one
+// contact.
 void ReadMeasurements(const YamlMap& yaml, Scene* scene) {
-  yaml.AllowOnly({"object_std_mm"});
-  scene->object_std_mm = yaml.PositiveNumber("object_std_mm");
+  yaml.AllowOnly({"object_std_mm", "pin_std_mm", "tip_std_mm"});
+  const auto read = [&yaml](const char* key) -> std::optional<double> {
+    if (!yaml.Has(key)) return std::nullopt;
+    return yaml.PositiveNumber(key);
+  };
+  scene->pin_std_mm = read("pin_std_mm");
+  scene->tip_std_mm = read("tip_std_mm");
+  scene->object_std_mm = read("object_std_mm");
+  if (!scene->object_std_mm) return;
   const char* expected = nullptr;
   if (!scene->circle_radius_mm() || scene->object->spring) {
     expected = "an object of shape circle without a spring";

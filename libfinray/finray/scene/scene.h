@@ -32,12 +32,16 @@ struct Scene {
   /// How well object_x_mm, object_y_mm are known, if the estimate of a contact
   /// is to use them.
   std::optional<double> object_std_mm;
+  /// How well a camera knows rib pins and the tip, where the estimate is to use
+  /// them (--solver ceres).
+  std::optional<double> pin_std_mm, tip_std_mm;
   /// How much l_c and f_c change from a frame to the next, if neighbours are to
   /// be smoothed.
   std::optional<Smoothing> smoothing;
   /// A lab's own headers for columns of the frame table.
   std::map<std::string, std::string> columns;
 
+  bool UsesCamera() const { return pin_std_mm || tip_std_mm; }
   /// The radius of the object if there is one and it is a circle.
   std::optional<double> circle_radius_mm() const {
     return object ? object->outline.circle_radius_mm() : std::nullopt;

@@ -43,7 +43,7 @@ std::vector<PointContact> ContactDescent::Trial(
 }
 
 bool ContactDescent::Descend(const LadderState& state,
-                             const FrameMeasurement& measurement,
+                             const PackedReadings& measurement,
                              std::vector<PointContact>* contacts) {
   const auto linearize = [&](const std::vector<PointContact>& at) {
     ++iterations_;

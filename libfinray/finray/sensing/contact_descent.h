@@ -24,7 +24,7 @@ class ContactDescent {
 
   /// From `*contacts` to near a minimum. The solver is then in equilibrium with
   /// the contacts. False if there is no equilibrium to start from.
-  bool Descend(const LadderState& state, const FrameMeasurement& measurement,
+  bool Descend(const LadderState& state, const PackedReadings& measurement,
                std::vector<PointContact>* contacts);
 
   /// At the end of the last descent; shape and loads are the solver's.

@@ -7,7 +7,7 @@
 namespace finray {
 
 bool ContactLinearization::At(const std::vector<PointContact>& contacts,
-                              const FrameMeasurement& measurement,
+                              const PackedReadings& measurement,
                               std::optional<double> circle_radius_mm,
                               EquilibriumSolver* solver) {
   if (!solver->SolveWithSensitivities(contacts)) return false;

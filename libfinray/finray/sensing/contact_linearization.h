@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "finray/scene/frame_measurement.h"
 #include "finray/sensing/contact_covariance.h"
+#include "finray/sensing/packed_readings.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {
@@ -26,7 +26,7 @@ struct ContactLinearization {
   /// Solves the equilibrium, from the solver's present state, and fills this.
   /// False if there is none.
   bool At(const std::vector<PointContact>& contacts,
-          const FrameMeasurement& measurement,
+          const PackedReadings& measurement,
           std::optional<double> circle_radius_mm, EquilibriumSolver* solver);
 };
 

@@ -46,7 +46,7 @@ double ContactSearch::least_chi2() const {
                     : std::numeric_limits<double>::infinity();
 }
 
-bool ContactSearch::Search(int contacts, const FrameMeasurement& measurement) {
+bool ContactSearch::Search(int contacts, const PackedReadings& measurement) {
   FindStarts(contacts, measurement);
   const int dof = measurement.all - 2 * contacts;
   // As many readings as unknowns: a minimum leaves nothing, however far the
@@ -68,7 +68,7 @@ bool ContactSearch::Search(int contacts, const FrameMeasurement& measurement) {
 }
 
 void ContactSearch::FindStarts(int contacts,
-                               const FrameMeasurement& measurement) {
+                               const PackedReadings& measurement) {
   if (contacts == 1) {
     table_.FindStarts(measurement.values, measurement.weights, &starts_);
     if (starts_.size() > kMostStarts) starts_.resize(kMostStarts);
@@ -83,7 +83,7 @@ void ContactSearch::FindStarts(int contacts,
 }
 
 bool ContactSearch::Fit(const ContactStart& start,
-                        const FrameMeasurement& measurement) {
+                        const PackedReadings& measurement) {
   contacts_.assign(start.contacts.begin(),
                    start.contacts.begin() + start.count);
   fit_.set_state(*start.state);
@@ -107,7 +107,7 @@ bool ContactSearch::Fit(const ContactStart& start,
 }
 
 bool ContactSearch::Descend(const ContactStart& start,
-                            const FrameMeasurement& measurement) {
+                            const PackedReadings& measurement) {
   contacts_.assign(start.contacts.begin(),
                    start.contacts.begin() + start.count);
   const bool arrived = descent_.Descend(*start.state, measurement, &contacts_);

@@ -43,7 +43,7 @@ class ContactSearch {
   ContactSearch& operator=(const ContactSearch&) = delete;
 
   /// Searches with one or two contacts. False if no start converged.
-  bool Search(int contacts, const FrameMeasurement& measurement);
+  bool Search(int contacts, const PackedReadings& measurement);
 
   // Of the last search that came to something.
 
@@ -65,10 +65,10 @@ class ContactSearch {
   const GaugeTable& table() const { return table_; }
 
  private:
-  void FindStarts(int contacts, const FrameMeasurement& measurement);
+  void FindStarts(int contacts, const PackedReadings& measurement);
   // Each adds what comes of a start to the solutions.
-  bool Fit(const ContactStart& start, const FrameMeasurement& measurement);
-  bool Descend(const ContactStart& start, const FrameMeasurement& measurement);
+  bool Fit(const ContactStart& start, const PackedReadings& measurement);
+  bool Descend(const ContactStart& start, const PackedReadings& measurement);
   // Adds a solution in its order from base to tip.
   void Add(ContactSolution* solution);
   double least_chi2() const;

@@ -35,7 +35,7 @@ ContactSmoother::ContactSmoother(const Finger& finger, const Scene& scene,
       contacts_(1),
       change_information_(ChangeInformation(scene)) {}
 
-void ContactSmoother::Smooth(const FrameReadings* readings, std::size_t count,
+void ContactSmoother::Smooth(const Measurements* readings, std::size_t count,
                              const std::optional<Belief>& before,
                              FrameEstimate* estimates) {
   last_.reset();
@@ -57,14 +57,13 @@ void ContactSmoother::Smooth(const FrameReadings* readings, std::size_t count,
   }
 }
 
-bool ContactSmoother::SmoothRun(const FrameReadings* readings,
-                                std::size_t count,
+bool ContactSmoother::SmoothRun(const Measurements* readings, std::size_t count,
                                 const std::optional<Belief>& before,
                                 FrameEstimate* estimates) {
   last_.reset();
   if (frames_.size() < count) frames_.resize(count);
   for (std::size_t t = 0; t < count; ++t) {
-    Measure(finger_, scene_, readings[t], &frames_[t].measurement);
+    Pack(finger_, scene_, readings[t], &frames_[t].measurement);
     frames_[t].measurement.weights /= estimates[t].noise_scale();
     frames_[t].x = {estimates[t].contact[0].arc_mm,
                     estimates[t].contact[0].normal_N};

@@ -37,7 +37,7 @@ class ContactSmoother {
   /// Smooths the runs of `count` frames. Changes l_c, f_c, their std, poses and
   /// rib tensions; chi2, dof and the alternative remain those of the frame
   /// alone. `before`: the frame before the first, if there was a contact.
-  void Smooth(const FrameReadings* readings, std::size_t count,
+  void Smooth(const Measurements* readings, std::size_t count,
               const std::optional<Belief>& before, FrameEstimate* estimates);
 
   /// Whether the last call has set the frame.
@@ -49,7 +49,7 @@ class ContactSmoother {
 
  private:
   struct Frame {
-    FrameMeasurement measurement;
+    PackedReadings measurement;
     Eigen::Vector2d x;
     Eigen::Matrix2d information;  // of the frame alone
     Eigen::Vector2d gradient;
@@ -60,7 +60,7 @@ class ContactSmoother {
     Eigen::Matrix2d forward, backward;
     Eigen::Vector2d right, step;
   };
-  bool SmoothRun(const FrameReadings* readings, std::size_t count,
+  bool SmoothRun(const Measurements* readings, std::size_t count,
                  const std::optional<Belief>& before, FrameEstimate* estimates);
   bool Linearize(std::size_t count);
   double Cost(std::size_t count, const std::optional<Belief>& before) const;

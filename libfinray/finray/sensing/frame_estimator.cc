@@ -80,8 +80,8 @@ FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
   }
 }
 
-FrameEstimate FrameEstimator::Estimate(const FrameReadings& readings) {
-  Measure(finger_, scene_, readings, &measurement_);
+FrameEstimate FrameEstimator::Estimate(const Measurements& readings) {
+  Pack(finger_, scene_, readings, &measurement_);
   free_chi2_ = FreeChi2(measurement_);
   const int contacts = scene_.contacts.value_or(1);
   if (measurement_.gauges < 1 || measurement_.all < kUnknowns * contacts) {
@@ -91,7 +91,7 @@ FrameEstimate FrameEstimator::Estimate(const FrameReadings& readings) {
   return WithContacts(readings, contacts);
 }
 
-void FrameEstimator::EstimateBlock(const FrameReadings* readings,
+void FrameEstimator::EstimateBlock(const Measurements* readings,
                                    std::size_t count,
                                    FrameEstimate* estimates) {
   for (std::size_t i = 0; i < count;) {
@@ -103,7 +103,7 @@ void FrameEstimator::EstimateBlock(const FrameReadings* readings,
   if (smoother_) Smooth(readings, count, std::nullopt, estimates);
 }
 
-FrameEstimate FrameEstimator::Follow(const FrameReadings& readings) {
+FrameEstimate FrameEstimator::Follow(const Measurements& readings) {
   FrameEstimate estimate;
   if (!following_ || FitRun(&readings, 1) == 0 ||
       !TakeFollowed(readings, 0, &estimate)) {
@@ -125,7 +125,7 @@ bool FrameEstimator::CanFollow(const FrameEstimate& estimate) {
                           measurement_.gauges);
 }
 
-std::size_t FrameEstimator::FollowOn(const FrameReadings* readings,
+std::size_t FrameEstimator::FollowOn(const Measurements* readings,
                                      std::size_t count,
                                      FrameEstimate* estimates) {
   const std::size_t frames = FitRun(readings, count);
@@ -138,14 +138,14 @@ std::size_t FrameEstimator::FollowOn(const FrameReadings* readings,
 }
 
 // Fits as many of the next frames as have all gauges and a contact.
-std::size_t FrameEstimator::FitRun(const FrameReadings* readings,
+std::size_t FrameEstimator::FitRun(const Measurements* readings,
                                    std::size_t count) {
   if (measurements_.size() < count) measurements_.resize(count);
   const auto all = static_cast<int>(finger_.gauges.size());
   std::size_t frames = 0;
   for (; frames < count; ++frames) {
-    FrameMeasurement& measurement = measurements_[frames];
-    Measure(finger_, scene_, readings[frames], &measurement);
+    PackedReadings& measurement = measurements_[frames];
+    Pack(finger_, scene_, readings[frames], &measurement);
     if (measurement.gauges < all || FreeChi2(measurement) < kSignificance) {
       break;
     }
@@ -154,7 +154,7 @@ std::size_t FrameEstimator::FitRun(const FrameReadings* readings,
   return frames;
 }
 
-bool FrameEstimator::TakeFollowed(const FrameReadings& readings,
+bool FrameEstimator::TakeFollowed(const Measurements& readings,
                                   std::size_t frame, FrameEstimate* estimate) {
   const FrameFit& fit = follower_->fit(frame);
   if (!fit.converged) return false;
@@ -183,7 +183,7 @@ bool FrameEstimator::TakeFollowed(const FrameReadings& readings,
   return true;
 }
 
-double FrameEstimator::FreeChi2(const FrameMeasurement& measurement) const {
+double FrameEstimator::FreeChi2(const PackedReadings& measurement) const {
   const Eigen::VectorXd& free = search_.table().free_angles();
   double chi2 = 0;
   for (Eigen::Index j = 0; j < free.size(); ++j) {
@@ -195,13 +195,13 @@ double FrameEstimator::FreeChi2(const FrameMeasurement& measurement) const {
 }
 
 void FrameEstimator::Smooth(
-    const FrameReadings* readings, std::size_t count,
+    const Measurements* readings, std::size_t count,
     const std::optional<ContactSmoother::Belief>& before,
     FrameEstimate* estimates) {
   smoother_->Smooth(readings, count, before, estimates);
   for (std::size_t i = 0; i < count; ++i) {
     if (!smoother_->HasSmoothed(i)) continue;
-    Measure(finger_, scene_, readings[i], &measurement_);
+    Pack(finger_, scene_, readings[i], &measurement_);
     Judge(readings[i], measurement_.weights, &estimates[i]);
   }
 }
@@ -209,7 +209,7 @@ void FrameEstimator::Smooth(
 // One contact more for as long as it makes a significant difference. The free
 // finger says nothing of a measured object, so that its place counts for one
 // contact against another only.
-FrameEstimate FrameEstimator::Automatic(const FrameReadings& readings) {
+FrameEstimate FrameEstimator::Automatic(const Measurements& readings) {
   if (free_chi2_ < kSignificance) return Free();
   FrameEstimate one = Unsolved(FrameStatus::kNotConverged);
   if (search_.Search(1, measurement_)) {
@@ -234,7 +234,7 @@ FrameEstimate FrameEstimator::Automatic(const FrameReadings& readings) {
   return estimate;
 }
 
-FrameEstimate FrameEstimator::WithContacts(const FrameReadings& readings,
+FrameEstimate FrameEstimator::WithContacts(const Measurements& readings,
                                            int contacts) {
   if (contacts == 0) return Free();
   if (!search_.Search(contacts, measurement_)) {
@@ -263,7 +263,7 @@ FrameEstimate FrameEstimator::Unsolved(FrameStatus status) const {
   return estimate;
 }
 
-FrameEstimate FrameEstimator::Found(const FrameReadings& readings) {
+FrameEstimate FrameEstimator::Found(const Measurements& readings) {
   const ContactSolution& best = search_.best();
   FrameEstimate estimate;
   estimate.contacts = best.count;
@@ -289,7 +289,7 @@ FrameEstimate FrameEstimator::Found(const FrameReadings& readings) {
   return estimate;
 }
 
-void FrameEstimator::Judge(const FrameReadings& readings,
+void FrameEstimator::Judge(const Measurements& readings,
                            const Eigen::VectorXd& weights,
                            FrameEstimate* estimate) {
   if (!systematic_.empty()) {

@@ -2,7 +2,7 @@
 #define FINRAY_SENSING_FRAME_ESTIMATOR_H_
 
 #include "finray/finger/finger.h"
-#include "finray/scene/frame_readings.h"
+#include "finray/scene/measurements.h"
 #include "finray/scene/scene.h"
 #include "finray/sensing/calibration_uncertainty.h"
 #include "finray/sensing/contact_search.h"
@@ -48,16 +48,16 @@ class FrameEstimator {
   FrameEstimator& operator=(const FrameEstimator&) = delete;
 
   /// The frame alone.
-  FrameEstimate Estimate(const FrameReadings& readings);
+  FrameEstimate Estimate(const Measurements& readings);
 
   /// Frames that follow each other, smoothed if the scene says so. The result
   /// depends on these readings and on nothing else.
-  void EstimateBlock(const FrameReadings* readings, std::size_t count,
+  void EstimateBlock(const Measurements* readings, std::size_t count,
                      FrameEstimate* estimates);
 
   /// The frame that follows the one of the last call, smoothed by those before
   /// it if the scene says so.
-  FrameEstimate Follow(const FrameReadings& readings);
+  FrameEstimate Follow(const Measurements& readings);
   /// The next frame that is followed is the first one of its log.
   void StopFollowing() {
     following_ = false;
@@ -68,21 +68,21 @@ class FrameEstimator {
 
  private:
   bool CanFollow(const FrameEstimate& estimate);
-  std::size_t FollowOn(const FrameReadings* readings, std::size_t count,
+  std::size_t FollowOn(const Measurements* readings, std::size_t count,
                        FrameEstimate* estimates);
-  std::size_t FitRun(const FrameReadings* readings, std::size_t count);
-  bool TakeFollowed(const FrameReadings& readings, std::size_t frame,
+  std::size_t FitRun(const Measurements* readings, std::size_t count);
+  bool TakeFollowed(const Measurements& readings, std::size_t frame,
                     FrameEstimate* estimate);
-  double FreeChi2(const FrameMeasurement& measurement) const;
-  FrameEstimate Automatic(const FrameReadings& readings);
-  FrameEstimate WithContacts(const FrameReadings& readings, int contacts);
+  double FreeChi2(const PackedReadings& measurement) const;
+  FrameEstimate Automatic(const Measurements& readings);
+  FrameEstimate WithContacts(const Measurements& readings, int contacts);
   FrameEstimate Free() const;
   FrameEstimate Unsolved(FrameStatus status) const;
-  FrameEstimate Found(const FrameReadings& readings);
+  FrameEstimate Found(const Measurements& readings);
   // Adds what the calibration leaves uncertain to the std, and sets the status.
-  void Judge(const FrameReadings& readings, const Eigen::VectorXd& weights,
+  void Judge(const Measurements& readings, const Eigen::VectorXd& weights,
              FrameEstimate* estimate);
-  void Smooth(const FrameReadings* readings, std::size_t count,
+  void Smooth(const Measurements* readings, std::size_t count,
               const std::optional<ContactSmoother::Belief>& before,
               FrameEstimate* estimates);
 
@@ -98,8 +98,8 @@ class FrameEstimator {
   std::optional<ContactSmoother::Belief> followed_;  // by Follow
   FrameEstimate free_;
   // Of the frame under way.
-  FrameMeasurement measurement_;
-  std::vector<FrameMeasurement> measurements_;  // of a run of frames
+  PackedReadings measurement_;
+  std::vector<PackedReadings> measurements_;  // of a run of frames
   double free_chi2_ = 0;
 };
 

@@ -6,7 +6,7 @@ LiveEstimator::LiveEstimator(const Finger& finger, const Scene& scene,
                              const Discretization& discretization)
     : estimator_(finger, scene, discretization) {}
 
-const FrameEstimate& LiveEstimator::Next(const FrameReadings& readings) {
+const FrameEstimate& LiveEstimator::Next(const Measurements& readings) {
   estimate_ = estimator_.Follow(readings);
   return estimate_;
 }

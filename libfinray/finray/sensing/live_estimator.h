@@ -15,7 +15,7 @@ class LiveEstimator {
                 const Discretization& discretization = {});
 
   /// The contact of these readings; it lives until the next call.
-  const FrameEstimate& Next(const FrameReadings& readings);
+  const FrameEstimate& Next(const Measurements& readings);
 
   /// The next frame is the first one of another log.
   void Restart() { estimator_.StopFollowing(); }

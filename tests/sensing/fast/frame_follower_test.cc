@@ -12,11 +12,11 @@ namespace finray {
 namespace {
 
 // A log that slides, jumps, lets go, loses a gauge and presses lightly.
-std::vector<FrameReadings> MixedLog(double noise_rad) {
+std::vector<Measurements> MixedLog(double noise_rad) {
   EquilibriumSolver solver(PaperFinger(), {});
   std::mt19937_64 generator(21);
   std::normal_distribution<double> noise(0, noise_rad);
-  std::vector<FrameReadings> log;
+  std::vector<Measurements> log;
   for (int i = 0; i < 512; ++i) {
     double arc = 70 + 45 * std::sin(0.03 * i);
     double force = 4 + 3.5 * std::cos(0.05 * i);
@@ -24,7 +24,7 @@ std::vector<FrameReadings> MixedLog(double noise_rad) {
     if (i % 128 > 110) force = 0;           // let go
     if (i > 300 && i < 340) force *= 0.05;  // lightly
     EXPECT_TRUE(solver.Solve({{arc, force, 0}}));
-    FrameReadings& readings = log.emplace_back();
+    Measurements& readings = log.emplace_back();
     for (int j = 0; j < 4; ++j) {
       readings.gauges_V.push_back(solver.gauge_angle(j) + noise(generator));
     }
@@ -55,7 +55,7 @@ TEST(FrameFollowerTest, BlocksAndLiveFramesAgreeWithSearches) {
   for (const double noise : {1e-4, 3e-4}) {
     Finger finger = PaperFinger();
     for (Gauge& gauge : finger.gauges) gauge.noise_V = noise;
-    const std::vector<FrameReadings> log = MixedLog(noise);
+    const std::vector<Measurements> log = MixedLog(noise);
     FrameEstimator block(finger, {}, {}), live(finger, {}, {}),
         alone(finger, {}, {});
     std::vector<FrameEstimate> estimates(log.size());

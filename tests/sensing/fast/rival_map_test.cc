@@ -18,7 +18,7 @@ TEST(RivalMapTest, WhatItCallsUniqueHasNoRival) {
     for (Gauge& gauge : finger.gauges) gauge.noise_V = noise;
     EquilibriumSolver solver(finger, {});
     const GaugeTable table(&solver, 0, std::nullopt);
-    FrameMeasurement measurement;
+    PackedReadings measurement;
     measurement.weights = Eigen::VectorXd::Constant(4, 1 / noise);
     measurement.gauges = measurement.all = 4;
     ContactFit map_fit(finger, {});

@@ -129,7 +129,7 @@ class Sensor {
   }
 
   FrameEstimate Sense(const std::vector<double>& volts) {
-    FrameReadings readings;
+    Measurements readings;
     readings.gauges_V = volts;
     return estimator_.Estimate(readings);
   }

@@ -18,8 +18,9 @@ ForceCheck CheckForces(const Finger& before, const Finger& after,
   // A calibration's frames have one contact or none.
   Scene scene = plan.scene;
   scene.most_contacts = 1;
+  scene.pin_std_mm = scene.tip_std_mm = std::nullopt;
   const auto estimate = [&](const Finger& finger, const CalibrationLogs& of) {
-    std::vector<FrameReadings> readings;
+    std::vector<Measurements> readings;
     for (const CalibrationFrame& frame : of.frames) {
       readings.emplace_back();
       readings.back().gauges_V = frame.gauges_V;

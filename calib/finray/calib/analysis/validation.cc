@@ -110,10 +110,11 @@ std::vector<FrameEstimate> EstimateLogs(const Finger& finger, const Plan& plan,
                                         const Discretization& discretization,
                                         int threads) {
   Scene scene = plan.scene;
-  scene.object_std_mm.reset();  // the object is the reference
+  // Whatever else was measured is the reference.
+  scene.object_std_mm = scene.pin_std_mm = scene.tip_std_mm = std::nullopt;
   std::vector<FrameEstimate> all;
   for (std::size_t i = 0; i < logs.frames.size();) {
-    std::vector<FrameReadings> readings;
+    std::vector<Measurements> readings;
     for (const int log = logs.frames[i].log;
          i < logs.frames.size() && logs.frames[i].log == log; ++i) {
       readings.emplace_back();

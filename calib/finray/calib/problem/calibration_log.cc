@@ -11,6 +11,7 @@
 #include "finray/io/frame_vocabulary.h"
 #include "finray/io/number_text.h"
 #include "finray/scene/frame_columns.h"
+#include "finray/scene/measurement_columns.h"
 
 namespace finray {
 namespace {
@@ -193,106 +194,75 @@ void RefuseWithoutPoints(const Plan& plan, const CalibrationLogs& logs) {
   }
 }
 
-// The columns of one log.
-class LogColumns {
- public:
-  LogColumns(const FrameTable& table, const Finger& finger, const Plan& plan)
-      : finger_(finger) {
-    const auto column = [&](const std::string& name) {
-      std::vector<double> values = table.NumbersOrNan(name);
-      RefuseHuge(table, name, values);
-      return values;
-    };
-    if (plan.pin_std_mm) {
-      for (int i = 0; i < static_cast<int>(finger.ribs.size()); ++i) {
-        for (const Side side : {Side::kFront, Side::kBack}) {
-          if (!table.Has(RibPin(i, SideName(side), "x"))) continue;
-          pins_.push_back({i, side,
-                           table.Numbers(RibPin(i, SideName(side), "x")),
-                           table.Numbers(RibPin(i, SideName(side), "y"))});
-        }
-      }
-    }
-    cylinder_ = column("cylinder_radius_mm");
-    const bool bench = !cylinder_.empty() &&
-                       std::none_of(cylinder_.begin(), cylinder_.end(),
-                                    [](double r) { return std::isnan(r); });
-    ReadGauges(table, bench);
-    const auto needed = [&](ParameterFamily family, const char* name,
-                            const char* parameter) {
-      const bool needs = plan.family(family).free && !bench;
-      return needs ? Needed(table, name, parameter) : column(name);
-    };
-    time_ = needed(ParameterFamily::kGaugeDrift, "time_s", "gauge_drift");
-    temperature_ = needed(ParameterFamily::kTemperatureCoefficient,
-                          "temperature_C", "temperature_coefficient");
-    force_ = column("force_N");
-    force_x_ = column("force_x_N");
-    force_y_ = column("force_y_N");
-    object_x_ = column("object_x_mm");
-    object_y_ = column("object_y_mm");
-    contact_ = column("contact_1_mm");
-    tip_x_ = column(plan.tip_std_mm ? "tip_x_mm" : "");
-    tip_y_ = column(plan.tip_std_mm ? "tip_y_mm" : "");
-    for (std::size_t row = 0; row < cylinder_.size(); ++row) {
-      if (cylinder_[row] == 0) {
-        throw InputError(table.path() + ":" + std::to_string(table.line(row)) +
-                         ": cylinder_radius_mm: expected a radius, inf if "
-                         "flat, found 0");
-      }
+// On the bench every row has a cylinder.
+bool IsBenchLog(const FrameTable& table) {
+  const std::vector<double> radii = table.NumbersOrNan("cylinder_radius_mm");
+  for (std::size_t row = 0; row < radii.size(); ++row) {
+    if (radii[row] == 0) {
+      throw InputError(table.path() + ":" + std::to_string(table.line(row)) +
+                       ": cylinder_radius_mm: expected a radius, inf if "
+                       "flat, found 0");
     }
   }
+  return !radii.empty() &&
+         std::none_of(radii.begin(), radii.end(),
+                      [](double radius) { return std::isnan(radius); });
+}
 
-  CalibrationFrame Frame(std::size_t row) const {
-    CalibrationFrame frame;
+void RefuseHugeCells(const FrameTable& table, int gauges) {
+  std::vector<std::string> names = {
+      "cylinder_radius_mm", "time_s",    "temperature_C", "force_N",
+      "force_x_N",          "force_y_N", "object_x_mm",   "object_y_mm",
+      "contact_1_mm",       "tip_x_mm",  "tip_y_mm"};
+  for (int j = 0; j < gauges; ++j) names.push_back(GaugeVolts(j));
+  for (const std::string& name : names) {
+    RefuseHuge(table, name, table.NumbersOrNan(name));
+  }
+}
+
+// The rows of one log. A log of pins may do without gauges, but not without one
+// of them; on the bench gauges are bent one by one.
+std::vector<CalibrationFrame> ReadLog(const FrameTable& table,
+                                      const Finger& finger, const Plan& plan) {
+  const bool bench = IsBenchLog(table);
+  const auto gauges = static_cast<int>(finger.gauges.size());
+  bool pins = false;
+  for (int i = 0; i < static_cast<int>(finger.ribs.size()); ++i) {
+    pins |= plan.pin_std_mm && (table.Has(RibPin(i, "front", "x")) ||
+                                table.Has(RibPin(i, "back", "x")));
+  }
+  int found = 0;
+  for (int j = 0; j < gauges; ++j) found += table.Has(GaugeVolts(j));
+  MeasurementColumns::Options options;
+  options.angles = false;
+  options.gauges_may_lack = bench ? found > 0 : found == 0 && pins;
+  options.camera = true;
+  std::vector<Measurements> rows = ReadMeasurements(table, finger, options);
+  RefuseHugeCells(table, gauges);
+  std::vector<double> times, temperatures;
+  if (!bench && plan.family(ParameterFamily::kGaugeDrift).free) {
+    times = Needed(table, "time_s", "gauge_drift");
+  }
+  if (!bench && plan.family(ParameterFamily::kTemperatureCoefficient).free) {
+    temperatures = Needed(table, "temperature_C", "temperature_coefficient");
+  }
+  std::vector<CalibrationFrame> frames(rows.size());
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    CalibrationFrame& frame = frames[row];
+    static_cast<Measurements&>(frame) = std::move(rows[row]);
     frame.row = static_cast<int>(row);
-    frame.time_s = time_[row];
-    for (std::size_t j = 0; j < volts_.size(); ++j) {
-      const double reading = volts_[j][row];
-      frame.gauges_V.push_back(
-          finger_.gauges[j].IsMeasured(reading) ? reading : std::nan(""));
-    }
-    frame.force_N = force_[row];
-    frame.force_xy_N = {force_x_[row], force_y_[row]};
-    frame.object_mm = {object_x_[row], object_y_[row]};
-    frame.contact_mm = contact_[row];
-    frame.temperature_C = temperature_[row];
-    for (const Pin& pin : pins_) {
-      const Eigen::Vector2d at(pin.x_mm[row], pin.y_mm[row]);
-      if (at.allFinite()) frame.pins.push_back({pin.rib, pin.side, at});
-    }
-    frame.tip_mm = {tip_x_[row], tip_y_[row]};
-    frame.cylinder_radius_mm = cylinder_[row];
-    return frame;
-  }
-
- private:
-  struct Pin {
-    int rib;
-    Side side;
-    std::vector<double> x_mm, y_mm;
-  };
-
-  // A log of pins may do without gauges, but not without one of them. On the
-  // bench they are bent one by one.
-  void ReadGauges(const FrameTable& table, bool bench) {
-    int found = 0;
-    const int gauges = static_cast<int>(finger_.gauges.size());
-    for (int j = 0; j < gauges; ++j) found += table.Has(GaugeVolts(j));
-    const bool all = bench ? found == 0 : found > 0 || pins_.empty();
     for (int j = 0; j < gauges; ++j) {
-      volts_.push_back(all ? table.Numbers(GaugeVolts(j))
-                           : table.NumbersOrNan(GaugeVolts(j)));
-      RefuseHuge(table, GaugeVolts(j), volts_.back());
+      double& volts = frame.gauges_V[j];
+      if (!finger.gauges[j].IsMeasured(volts)) volts = std::nan("");
     }
+    if (!times.empty()) frame.time_s = times[row];
+    if (!temperatures.empty()) frame.temperature_C = temperatures[row];
+    if (!frame.object_mm.allFinite()) frame.object_mm.setConstant(std::nan(""));
+    if (!plan.pin_std_mm) frame.pins.clear();
+    if (!plan.tip_std_mm) frame.tip_mm.setConstant(std::nan(""));
   }
-
-  const Finger& finger_;
-  std::vector<std::vector<double>> volts_;
-  std::vector<Pin> pins_;
-  std::vector<double> time_, temperature_, force_, force_x_, force_y_,
-      object_x_, object_y_, contact_, tip_x_, tip_y_, cylinder_;
-};
+  return frames;
+}
 
 }  // namespace
 
@@ -311,9 +281,7 @@ CalibrationLogs ReadCalibrationLogs(const std::vector<std::string>& paths,
   logs.names = NamesOf(paths);
   for (std::size_t log = 0; log < paths.size(); ++log) {
     const FrameTable table = FrameTable::Read(paths[log], plan.columns);
-    const LogColumns columns(table, finger, plan);
-    for (std::size_t row = 0; row < table.rows(); ++row) {
-      CalibrationFrame frame = columns.Frame(row);
+    for (CalibrationFrame& frame : ReadLog(table, finger, plan)) {
       frame.log = static_cast<int>(log);
       frame.contact = Touches(frame, finger, plan);
       logs.frames.push_back(std::move(frame));

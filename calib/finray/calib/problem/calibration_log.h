@@ -8,41 +8,18 @@
 #include <vector>
 
 #include "finray/calib/problem/plan.h"
-#include "finray/finger/finger.h"
+#include "finray/scene/measurements.h"
 
 namespace finray {
 
-/// A rib's hinge on one of the beams, seen by a camera.
-struct SeenPin {
-  int rib;
-  Side side;
-  Eigen::Vector2d at_mm;
-};
-
-/// One row of a log, NaN for what was not measured.
-struct CalibrationFrame {
-  static constexpr double kNotMeasured =
-      std::numeric_limits<double>::quiet_NaN();
-  int log = 0;  ///< which log, and which of its rows (from 0)
-  int row = 0;
-  double time_s = kNotMeasured;
-  bool contact = false;   ///< touches the object; else it is a free frame,
-                          ///< or no frame of the finger but of the bench
+/// One row of a log. A saturated gauge reads NaN; pins and tip are there only
+/// where the plan gives their std.
+struct CalibrationFrame : Measurements {
+  int log = 0;            ///< which log
+  int row = 0;            ///< which of its rows, from 0
+  bool contact = false;   ///< The finger touches the object. If not, this is a
+                          ///< free frame or a row of the bench.
   bool held_out = false;  ///< kept from the fit
-  std::vector<double> gauges_V;
-  double force_N = kNotMeasured;
-  Eigen::Vector2d force_xy_N{kNotMeasured, kNotMeasured};
-  Eigen::Vector2d object_mm{kNotMeasured, kNotMeasured};
-  double contact_mm = kNotMeasured;
-  double temperature_C = kNotMeasured;
-  /// Only where the plan says how good they are.
-  std::vector<SeenPin> pins;
-  Eigen::Vector2d tip_mm{kNotMeasured, kNotMeasured};
-  /// Of the cylinder round which the gauges were bent on the bench, apart from
-  /// the finger.
-  double cylinder_radius_mm = kNotMeasured;
-
-  bool IsBench() const { return !std::isnan(cylinder_radius_mm); }
 };
 
 /// All logs of a calibration.

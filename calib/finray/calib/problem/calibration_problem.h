@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "finray/calib/problem/calibration_blocks.h"
 #include "finray/calib/problem/calibration_log.h"
-#include "finray/calib/problem/measurement_blocks.h"
 #include "finray/calib/problem/parameters.h"
 #include "finray/calib/problem/plan.h"
 #include "finray/calib/solve/contact_guess.h"
@@ -22,7 +22,7 @@
 namespace finray {
 
 /// The least-squares problem of a calibration, in the reduced form: over all
-/// frames that are not held out or rejected, what MeasurementBlocks makes of
+/// frames that are not held out or rejected, what CalibrationBlocks makes of
 /// them, in units of their std, plus the priors. Unknowns: the free parameters,
 /// and l_c and f_c of each contact frame.
 class CalibrationProblem {
@@ -163,7 +163,7 @@ class CalibrationProblem {
   CalibrationParameters parameters_;
   Discretization discretization_;
   int threads_;
-  MeasurementBlocks blocks_;
+  CalibrationBlocks blocks_;
   EquilibriumSolver solver_;  // copied for each thread
   bool gauges_only_ = false;
   // Indices of frames that could be fitted, and those that are.

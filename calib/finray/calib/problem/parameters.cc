@@ -285,6 +285,22 @@ void CalibrationParameters::Add(const Plan& plan,
   all_.push_back(std::move(parameter));
 }
 
+FrameParameters CalibrationParameters::Of(const CalibrationFrame& frame) {
+  FrameParameters of;
+  of.finger = &shared;
+  of.gains_V_per_rad = gains_V_per_rad.data();
+  of.readings.reserve(frame.gauges_V.size());
+  for (std::size_t j = 0; j < frame.gauges_V.size(); ++j) {
+    of.readings.push_back(readings.Of(frame, static_cast<int>(j)));
+  }
+  of.ln_force_scale = &ln_force_scale;
+  of.force_offset_N = &force_offset_N;
+  of.force_offset_xy_N = force_offset_xy_N;
+  of.object_origin_mm = object_origin_mm(frame.log);
+  of.camera_origin_mm = camera_origin_mm;
+  return of;
+}
+
 Eigen::VectorXd CalibrationParameters::Units() const {
   Eigen::VectorXd units(static_cast<Eigen::Index>(free_.size()));
   for (std::size_t k = 0; k < free_.size(); ++k) {

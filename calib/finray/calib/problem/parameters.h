@@ -65,6 +65,9 @@ class CalibrationParameters {
     return origins_mm_[origin_per_log_ ? log : 0].data();
   }
 
+  /// The parameters that a frame's blocks depend on.
+  FrameParameters Of(const CalibrationFrame& frame);
+
   /// The log whose offsets the finger has where they are per log.
   int last_fitted_log() const { return last_fitted_; }
 

@@ -8,14 +8,9 @@
 #include "finray/calib/problem/calibration_log.h"
 #include "finray/calib/problem/plan.h"
 #include "finray/finger/finger.h"
+#include "finray/residuals/frame_blocks.h"
 
 namespace finray {
-
-/// One thing that a gauge reads beside bending: coefficient * variable.
-struct ReadingTerm {
-  double* variable;
-  double coefficient;
-};
 
 /// What gauges read beside gain * angle, with what the plan frees:
 ///

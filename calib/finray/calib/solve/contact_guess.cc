@@ -25,7 +25,7 @@ EquilibriumSolver SolverFor(const Finger& finger,
 
 ContactGuess::ContactGuess(const Finger& finger, const Plan& plan,
                            const Discretization& discretization,
-                           const MeasurementBlocks* blocks,
+                           const CalibrationBlocks* blocks,
                            CalibrationParameters* parameters, int threads)
     : blocks_(*blocks),
       parameters_(*parameters),

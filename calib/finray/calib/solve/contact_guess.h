@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "finray/calib/problem/calibration_blocks.h"
 #include "finray/calib/problem/calibration_log.h"
-#include "finray/calib/problem/measurement_blocks.h"
 #include "finray/calib/problem/parameters.h"
 #include "finray/sensing/fast/contact_fit.h"
 #include "finray/sensing/gauge_table.h"
@@ -21,7 +21,7 @@ class ContactGuess {
   /// finger without an unloaded equilibrium.
   ContactGuess(const Finger& finger, const Plan& plan,
                const Discretization& discretization,
-               const MeasurementBlocks* blocks,
+               const CalibrationBlocks* blocks,
                CalibrationParameters* parameters, int threads);
 
   struct Place {
@@ -41,7 +41,7 @@ class ContactGuess {
   void AddGauges(const CalibrationFrame& frame);
   Place FromTable(bool fit);
 
-  const MeasurementBlocks& blocks_;
+  const CalibrationBlocks& blocks_;
   CalibrationParameters& parameters_;
   double length_mm_, force_unit_N_, object_std_mm_;
   EquilibriumSolver solver_;

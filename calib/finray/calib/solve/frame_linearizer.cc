@@ -21,12 +21,12 @@ constexpr int kContact = -1, kNowhere = -2;
 struct FrameLinearizer::Model {
   std::array<double, 2> contact;
   std::optional<FrameEvaluation> evaluation;  // none on the bench
-  std::vector<MeasurementBlock> blocks;
+  std::vector<FrameBlock> blocks;
 };
 
 FrameLinearizer::FrameLinearizer(const EquilibriumSolver& solver,
                                  const Plan& plan,
-                                 const MeasurementBlocks* blocks,
+                                 const CalibrationBlocks* blocks,
                                  const CalibrationParameters* parameters,
                                  double small_decrease)
     : solver_(solver),
@@ -79,7 +79,7 @@ bool FrameLinearizer::Evaluate(const std::array<double, 2>& contact,
     *state = model->evaluation->state();
   }
   int rows = 0;
-  for (const MeasurementBlock& block : model->blocks) {
+  for (const FrameBlock& block : model->blocks) {
     rows += block.cost->num_residuals();
   }
   out->rows.clear();
@@ -89,16 +89,15 @@ bool FrameLinearizer::Evaluate(const std::array<double, 2>& contact,
       rows, static_cast<Eigen::Index>(parameters_.free().size()));
   out->by_contact.setZero(rows, 2);
   out->cost = 0;
-  for (const MeasurementBlock& block : model->blocks) {
+  for (const FrameBlock& block : model->blocks) {
     const int first = static_cast<int>(out->rows.size());
     AddBlock(block, model->contact.data(), first, out);
   }
   return out->residuals.allFinite();
 }
 
-void FrameLinearizer::AddBlock(const MeasurementBlock& block,
-                               const double* contact, int first_row,
-                               LinearizedFrame* out) {
+void FrameLinearizer::AddBlock(const FrameBlock& block, const double* contact,
+                               int first_row, LinearizedFrame* out) {
   using RowMajor =
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const int size = block.cost->num_residuals();

@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "finray/calib/problem/measurement_blocks.h"
+#include "finray/calib/problem/calibration_blocks.h"
 #include "finray/calib/solve/linearized_frame.h"
 #include "finray/statics/equilibrium.h"
 
@@ -19,7 +19,7 @@ class FrameLinearizer {
   /// `blocks` and `parameters` must stay in place. `small_decrease` is where
   /// FitContact ends, in units of chi2 / 2.
   FrameLinearizer(const EquilibriumSolver& solver, const Plan& plan,
-                  const MeasurementBlocks* blocks,
+                  const CalibrationBlocks* blocks,
                   const CalibrationParameters* parameters,
                   double small_decrease);
 
@@ -48,12 +48,12 @@ class FrameLinearizer {
   bool FindContact(const CalibrationFrame& frame,
                    std::array<double, 2>* contact, LadderState* state,
                    LinearizedFrame* out);
-  void AddBlock(const MeasurementBlock& block, const double* contact,
-                int first_row, LinearizedFrame* out);
+  void AddBlock(const FrameBlock& block, const double* contact, int first_row,
+                LinearizedFrame* out);
 
   EquilibriumSolver solver_;
   double friction_, small_decrease_;
-  const MeasurementBlocks& blocks_;
+  const CalibrationBlocks& blocks_;
   const CalibrationParameters& parameters_;
   std::unique_ptr<ceres::LossFunction> loss_;
   std::unordered_map<const double*, int> column_of_;  // first one of a block

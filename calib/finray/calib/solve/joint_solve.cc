@@ -13,7 +13,7 @@ namespace finray {
 
 JointSolve::JointSolve(const Finger& finger,
                        const Discretization& discretization, const Plan& plan,
-                       const MeasurementBlocks& blocks,
+                       const CalibrationBlocks& blocks,
                        CalibrationParameters* parameters,
                        const std::vector<Frame>& frames, int threads)
     : finger_(finger),
@@ -32,7 +32,7 @@ JointSolve::JointSolve(const Finger& finger,
   FixWhatIsNotFree();
 }
 
-void JointSolve::AddFrame(const Frame& frame, const MeasurementBlocks& blocks) {
+void JointSolve::AddFrame(const Frame& frame, const CalibrationBlocks& blocks) {
   FrameEvaluation* evaluation = nullptr;
   if (!frame.frame->IsBench()) {
     evaluation = &evaluations_.Add(frame.frame->contact ? 1 : 0,
@@ -41,7 +41,7 @@ void JointSolve::AddFrame(const Frame& frame, const MeasurementBlocks& blocks) {
     if (frame.state->q.size() > 0) evaluation->set_state(*frame.state);
   }
   evaluation_of_.push_back(evaluation);
-  for (MeasurementBlock& block :
+  for (FrameBlock& block :
        blocks.Of(*frame.frame, evaluation, frame.contact)) {
     problem_->AddResidualBlock(block.cost.release(), loss_.get(),
                                block.parameters);

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "finray/calib/problem/measurement_blocks.h"
+#include "finray/calib/problem/calibration_blocks.h"
 #include "finray/residuals/frame_set.h"
 
 namespace finray {
@@ -38,7 +38,7 @@ class JointSolve {
 
   /// All pointers must stay in place; those to contacts ascend with the frames.
   JointSolve(const Finger& finger, const Discretization& discretization,
-             const Plan& plan, const MeasurementBlocks& blocks,
+             const Plan& plan, const CalibrationBlocks& blocks,
              CalibrationParameters* parameters,
              const std::vector<Frame>& frames, int threads);
 
@@ -50,7 +50,7 @@ class JointSolve {
   SolveReport Solve(const Limits& limits);
 
  private:
-  void AddFrame(const Frame& frame, const MeasurementBlocks& blocks);
+  void AddFrame(const Frame& frame, const CalibrationBlocks& blocks);
   void AddPriors();
   void FixWhatIsNotFree();
 

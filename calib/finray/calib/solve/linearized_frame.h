@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "finray/calib/problem/residual_family.h"
+#include "finray/residuals/residual_family.h"
 
 namespace finray {
 

@@ -55,7 +55,7 @@ bool FrameFollower::Start(const ContactSolution& solution, double arc_std_mm,
   return true;
 }
 
-void FrameFollower::Fit(const std::vector<FrameMeasurement>& frames,
+void FrameFollower::Fit(const std::vector<PackedReadings>& frames,
                         std::size_t count) {
   if (fits_.size() < count) {
     fits_.resize(count);
@@ -64,7 +64,7 @@ void FrameFollower::Fit(const std::vector<FrameMeasurement>& frames,
   }
   const auto columns = static_cast<Eigen::Index>(count);
   for (Eigen::Index i = 0; i < columns; ++i) {
-    const FrameMeasurement& frame = frames[static_cast<std::size_t>(i)];
+    const PackedReadings& frame = frames[static_cast<std::size_t>(i)];
     angles_rad_.col(i) = frame.values;
     weights_.col(i) = frame.weights;
   }

@@ -28,7 +28,7 @@ class FrameFollower {
   bool Start(const ContactSolution& solution, double arc_std_mm, int gauges);
 
   /// Fits frames that follow each other, all with all gauges measured.
-  void Fit(const std::vector<FrameMeasurement>& frames, std::size_t count);
+  void Fit(const std::vector<PackedReadings>& frames, std::size_t count);
 
   /// Of the last call, frame by frame.
   const FrameFit& fit(std::size_t frame) const { return fits_[frame]; }

@@ -1,11 +1,11 @@
-#ifndef FINRAY_CALIB_PROBLEM_RESIDUAL_FAMILY_H_
-#define FINRAY_CALIB_PROBLEM_RESIDUAL_FAMILY_H_
+#ifndef FINRAY_RESIDUALS_RESIDUAL_FAMILY_H_
+#define FINRAY_RESIDUALS_RESIDUAL_FAMILY_H_
 
 #include <cstdint>
 
 namespace finray {
 
-/// What a residual measures, for statistics.
+/// The kind of measurement of a residual, for statistics.
 enum class ResidualFamily : std::int8_t {
   kGauge,
   kForce,
@@ -13,17 +13,19 @@ enum class ResidualFamily : std::int8_t {
   kContact,
   kPin,
   kTip,
-  kBench
+  kBench,
+  kEquilibrium,  ///< No measurement: what holds a frame in the weighted form.
 };
+/// Families of measurements.
 constexpr int kResidualFamilies = 7;
 
 /// E.g. "gauge".
 constexpr const char* ResidualFamilyName(ResidualFamily family) {
   constexpr const char* kNames[] = {"gauge", "force", "object", "contact",
-                                    "pin",   "tip",   "bench"};
+                                    "pin",   "tip",   "bench",  "equilibrium"};
   return kNames[static_cast<int>(family)];
 }
 
 }  // namespace finray
 
-#endif  // FINRAY_CALIB_PROBLEM_RESIDUAL_FAMILY_H_
+#endif  // FINRAY_RESIDUALS_RESIDUAL_FAMILY_H_

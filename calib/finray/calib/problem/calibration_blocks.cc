@@ -1,0 +1,82 @@
+#include "finray/calib/problem/calibration_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace finray {
+namespace {
+
+bool AnyGauge(const CalibrationFrame& frame) {
+  return std::any_of(frame.gauges_V.begin(), frame.gauges_V.end(),
+                     [](double volts) { return std::isfinite(volts); });
+}
+
+bool HasForce(const CalibrationFrame& frame) {
+  return std::isfinite(frame.force_N) || frame.force_xy_N.allFinite();
+}
+
+MeasurementModel ModelOf(const Finger& finger, const Plan& plan) {
+  MeasurementModel model;
+  for (const Gauge& gauge : finger.gauges) {
+    model.gauge_std_V.push_back(plan.gauge_std_V.value_or(gauge.noise_V));
+  }
+  model.force_std_N = plan.force_std_N;
+  model.contact_std_mm = plan.contact_std_mm;
+  if (const auto radius_mm = plan.scene.circle_radius_mm()) {
+    model.circle = {*radius_mm, plan.object_std_mm};
+  }
+  model.pin_std_mm = plan.pin_std_mm;
+  model.tip_std_mm = plan.tip_std_mm;
+  return model;
+}
+
+}  // namespace
+
+CalibrationBlocks::CalibrationBlocks(const Finger& finger, const Plan& plan,
+                                     CalibrationParameters* parameters)
+    : finger_(finger),
+      parameters_(*parameters),
+      model_(ModelOf(finger, plan)),
+      free_model_(model_) {
+  if (!plan.family(ParameterFamily::kForceOffset).free) {
+    free_model_.force_std_N.reset();
+  }
+}
+
+bool CalibrationBlocks::HasEnough(const CalibrationFrame& frame) const {
+  if (frame.IsBench() || AnyGauge(frame)) return AnyGauge(frame);
+  const bool object = frame.object_mm.allFinite() && model_.circle;
+  const auto points = frame.pins.size() + frame.tip_mm.allFinite();
+  if (!frame.contact) return points > 0;
+  return 2 * (points + object) + HasForce(frame) +
+             std::isfinite(frame.contact_mm) >
+         2;
+}
+
+bool CalibrationBlocks::HasReference(const CalibrationFrame& frame) const {
+  const bool object = frame.object_mm.allFinite() && model_.circle;
+  return object || std::isfinite(frame.contact_mm) || HasForce(frame) ||
+         !frame.pins.empty() || frame.tip_mm.allFinite();
+}
+
+std::vector<FrameBlock> CalibrationBlocks::Of(const CalibrationFrame& frame,
+                                              const FrameEvaluation* evaluation,
+                                              double* unknowns) const {
+  return MeasurementBlocks(frame, frame.contact ? model_ : free_model_,
+                           parameters_.Of(frame), finger_.gauges, evaluation,
+                           unknowns);
+}
+
+std::unique_ptr<ceres::LossFunction> MakeLoss(const Plan& plan) {
+  switch (plan.loss) {
+    case RobustLoss::kNone:
+      return nullptr;
+    case RobustLoss::kHuber:
+      return std::make_unique<ceres::HuberLoss>(plan.loss_scale);
+    case RobustLoss::kCauchy:
+      return std::make_unique<ceres::CauchyLoss>(plan.loss_scale);
+  }
+  return nullptr;
+}
+
+}  // namespace finray

@@ -1,0 +1,212 @@
+#include "finray/residuals/frame_blocks.h"
+
+#include <cmath>
+#include <utility>
+
+#include "finray/residuals/cylinder_gauge_residual.h"
+#include "finray/residuals/equilibrium_residual.h"
+#include "finray/residuals/gauge_reading_residual.h"
+#include "finray/residuals/object_contact_residual.h"
+#include "finray/residuals/point_residual.h"
+#include "finray/residuals/reference_force_residual.h"
+#include "finray/residuals/rib_length_residual.h"
+
+namespace finray {
+namespace {
+
+// What the blocks of one frame are made from.
+struct Builder {
+  const Measurements& row;
+  const MeasurementModel& model;
+  const FrameParameters& parameters;
+  const FrameEvaluation* evaluation;
+  double* unknowns;
+  std::vector<double*> of_model;  // parameter blocks of FrameResidual
+  std::vector<FrameBlock> blocks;
+
+  void Add(ceres::CostFunction* cost, std::vector<double*> parameter_blocks,
+           ResidualFamily family, int gauge = -1) {
+    blocks.push_back({std::unique_ptr<ceres::CostFunction>(cost),
+                      std::move(parameter_blocks), family, gauge});
+  }
+  // Parameter blocks of a residual that depends on the whole model.
+  std::vector<double*> OfModelAnd(double* a, double* b = nullptr) const {
+    std::vector<double*> all;
+    all.reserve(of_model.size() + 2);
+    all = of_model;
+    all.push_back(a);
+    if (b != nullptr) all.push_back(b);
+    return all;
+  }
+};
+
+// Appends the terms of a reading; returns their coefficients.
+std::vector<double> AddTerms(const std::vector<ReadingTerm>& terms,
+                             std::vector<double*>* blocks) {
+  std::vector<double> coefficients;
+  coefficients.reserve(terms.size());
+  for (const ReadingTerm& term : terms) {
+    blocks->push_back(term.variable);
+    coefficients.push_back(term.coefficient);
+  }
+  return coefficients;
+}
+
+void AddReadings(const std::vector<Gauge>& gauges, Builder* out) {
+  for (int j = 0; j < static_cast<int>(gauges.size()); ++j) {
+    if (!gauges[j].IsMeasured(out->row.gauges_V[j])) continue;
+    std::vector<double*> blocks =
+        out->OfModelAnd(&out->parameters.gains_V_per_rad[j]);
+    const auto coefficients = AddTerms(out->parameters.readings[j], &blocks);
+    out->Add(
+        GaugeReadingResidual::Create(out->evaluation, j, &out->row.gauges_V[j],
+                                     out->model.gauge_std_V[j], coefficients),
+        std::move(blocks), ResidualFamily::kGauge, j);
+  }
+}
+
+void AddBench(const std::vector<Gauge>& gauges, Builder* out) {
+  for (int j = 0; j < static_cast<int>(gauges.size()); ++j) {
+    if (!gauges[j].IsMeasured(out->row.gauges_V[j])) continue;
+    std::vector<double*> blocks = {&out->parameters.gains_V_per_rad[j]};
+    const auto coefficients = AddTerms(out->parameters.readings[j], &blocks);
+    out->Add(CylinderGaugeResidual::Create(
+                 gauges[j].length_mm, out->row.cylinder_radius_mm,
+                 out->row.gauges_V[j], out->model.gauge_std_V[j], coefficients),
+             std::move(blocks), ResidualFamily::kBench, j);
+  }
+}
+
+void AddForce(Builder* out) {
+  if (!out->model.force_std_N) return;
+  const double std_N = *out->model.force_std_N;
+  double* ln_scale = out->parameters.ln_force_scale;
+  if (out->row.force_xy_N.allFinite()) {
+    out->Add(ReferenceForceVectorResidual::Create(out->evaluation,
+                                                  out->row.force_xy_N, std_N),
+             out->OfModelAnd(ln_scale, out->parameters.force_offset_xy_N),
+             ResidualFamily::kForce);
+  } else if (std::isfinite(out->row.force_N)) {
+    std::vector<double*> blocks;
+    if (out->evaluation->contacts() > 0) blocks.push_back(out->unknowns);
+    blocks.push_back(ln_scale);
+    blocks.push_back(out->parameters.force_offset_N);
+    out->Add(ReferenceForceResidual::Create(out->evaluation, out->row.force_N,
+                                            std_N),
+             std::move(blocks), ResidualFamily::kForce);
+  }
+}
+
+void AddPlace(Builder* out) {
+  if (out->evaluation->contacts() == 0) return;
+  const Measurements& row = out->row;
+  const auto& circle = out->model.circle;
+  const bool any =
+      std::isfinite(row.object_mm.x()) || std::isfinite(row.object_mm.y());
+  if (circle && any) {
+    out->Add(ObjectContactResidual::Create(out->evaluation, 0, row.object_mm,
+                                           circle->radius_mm, circle->std_mm),
+             out->OfModelAnd(out->parameters.object_origin_mm),
+             ResidualFamily::kObject);
+  }
+  if (out->model.contact_std_mm && std::isfinite(row.contact_mm)) {
+    out->Add(ContactLocationResidual::Create(out->evaluation, 0, row.contact_mm,
+                                             *out->model.contact_std_mm),
+             {out->unknowns}, ResidualFamily::kContact);
+  }
+}
+
+void AddCamera(Builder* out) {
+  double* origin = out->parameters.camera_origin_mm;
+  if (out->model.pin_std_mm) {
+    for (const SeenPin& pin : out->row.pins) {
+      out->Add(PointResidual::CreatePin(out->evaluation, pin.rib, pin.side,
+                                        pin.at_mm, *out->model.pin_std_mm),
+               out->OfModelAnd(origin), ResidualFamily::kPin);
+    }
+  }
+  if (out->model.tip_std_mm && out->row.tip_mm.allFinite()) {
+    out->Add(PointResidual::CreateTip(out->evaluation, out->row.tip_mm,
+                                      *out->model.tip_std_mm),
+             out->OfModelAnd(origin), ResidualFamily::kTip);
+  }
+}
+
+std::vector<double*> ModelBlocks(const FrameParameters& parameters,
+                                 const FrameEvaluation& evaluation,
+                                 double* unknowns) {
+  SharedParameters& finger = *parameters.finger;
+  return FrameParameterBlocks(evaluation, unknowns, &finger.ln_front_stiffness,
+                              &finger.ln_back_stiffness,
+                              finger.rib_lengths_mm.data());
+}
+
+}  // namespace
+
+MeasurementModel MeasurementModel::OfScene(const Finger& finger,
+                                           const Scene& scene) {
+  MeasurementModel model;
+  for (const Gauge& gauge : finger.gauges) {
+    model.gauge_std_V.push_back(gauge.noise_V);
+  }
+  if (scene.object_std_mm) {
+    model.circle = {*scene.circle_radius_mm(), *scene.object_std_mm};
+  }
+  model.pin_std_mm = scene.pin_std_mm;
+  model.tip_std_mm = scene.tip_std_mm;
+  return model;
+}
+
+std::vector<FrameBlock> MeasurementBlocks(const Measurements& row,
+                                          const MeasurementModel& model,
+                                          const FrameParameters& parameters,
+                                          const std::vector<Gauge>& gauges,
+                                          const FrameEvaluation* evaluation,
+                                          double* unknowns) {
+  Builder out{row, model, parameters, evaluation, unknowns, {}, {}};
+  if (row.IsBench()) {
+    AddBench(gauges, &out);
+    return std::move(out.blocks);
+  }
+  out.of_model = ModelBlocks(parameters, *evaluation, unknowns);
+  AddReadings(gauges, &out);
+  AddForce(&out);
+  AddPlace(&out);
+  AddCamera(&out);
+  return std::move(out.blocks);
+}
+
+std::vector<FrameBlock> EquilibriumBlocks(const Finger& finger, double weight,
+                                          const FrameParameters& parameters,
+                                          const FrameEvaluation& evaluation,
+                                          double* unknowns) {
+  const Measurements none;
+  const MeasurementModel model;
+  Builder out{none, model, parameters, &evaluation, unknowns, {}, {}};
+  const auto blocks = ModelBlocks(parameters, evaluation, unknowns);
+  out.Add(EquilibriumResidual::Create(&evaluation, finger, weight), blocks,
+          ResidualFamily::kEquilibrium);
+  if (evaluation.ribs() > 0) {
+    out.Add(RibLengthResidual::Create(&evaluation, finger, weight), blocks,
+            ResidualFamily::kEquilibrium);
+  }
+  return std::move(out.blocks);
+}
+
+FingerParameters::FingerParameters(const Finger& finger)
+    : shared_(SharedParameters::Of(finger)) {
+  for (const Gauge& gauge : finger.gauges) {
+    gains_.push_back(gauge.gain_V_per_rad);
+    offsets_.push_back(gauge.offset_V);
+  }
+  frame_.finger = &shared_;
+  frame_.gains_V_per_rad = gains_.data();
+  for (double& offset : offsets_) frame_.readings.push_back({{&offset, 1}});
+  frame_.ln_force_scale = &ln_force_scale_;
+  frame_.force_offset_N = &force_offset_N_;
+  frame_.force_offset_xy_N = force_offset_xy_N_;
+  frame_.object_origin_mm = object_origin_mm_;
+  frame_.camera_origin_mm = camera_origin_mm_;
+}
+
+}  // namespace finray

@@ -1,0 +1,109 @@
+#ifndef FINRAY_RESIDUALS_FRAME_BLOCKS_H_
+#define FINRAY_RESIDUALS_FRAME_BLOCKS_H_
+
+#include <ceres/cost_function.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "finray/residuals/frame_set.h"
+#include "finray/residuals/residual_family.h"
+#include "finray/scene/measurements.h"
+#include "finray/scene/scene.h"
+
+namespace finray {
+
+// The heart of finray: one frame with its measurements becomes Ceres blocks.
+// Calibration calls this with parameters that Ceres varies, estimation with
+// parameters that it holds constant. A new kind of measurement is a residual
+// of its own and one more function in frame_blocks.cc.
+
+/// Which measurements of a row count, and their standard deviations. A kind
+/// without one is no measurement.
+struct MeasurementModel {
+  std::vector<double> gauge_std_V;  ///< One per gauge.
+  std::optional<double> force_std_N, contact_std_mm, pin_std_mm, tip_std_mm;
+  struct Circle {
+    double radius_mm, std_mm;  ///< std of each coordinate of the centre
+  };
+  std::optional<Circle> circle;
+
+  /// What an estimate takes from a row: gauges with the finger's noise and what
+  /// the scene says is measured. Reference forces and places are not used.
+  static MeasurementModel OfScene(const Finger& finger, const Scene& scene);
+};
+
+/// One thing that a gauge reads beside bending: coefficient * variable.
+struct ReadingTerm {
+  double* variable;
+  double coefficient;
+};
+
+/// Where Ceres finds the parameters that a frame's blocks share with others.
+/// All pointers must stay in place while the blocks live.
+struct FrameParameters {
+  SharedParameters* finger = nullptr;
+  double* gains_V_per_rad = nullptr;               ///< One per gauge.
+  std::vector<std::vector<ReadingTerm>> readings;  ///< One list per gauge.
+  double* ln_force_scale = nullptr;
+  double* force_offset_N = nullptr;     ///< of the magnitude
+  double* force_offset_xy_N = nullptr;  ///< of the components, 2
+  double* object_origin_mm = nullptr;   ///< 2
+  double* camera_origin_mm = nullptr;   ///< 2
+};
+
+/// One measurement of a frame as a residual block.
+struct FrameBlock {
+  std::unique_ptr<ceres::CostFunction> cost;
+  std::vector<double*> parameters;  ///< as ceres::Problem takes them
+  ResidualFamily family;
+  int gauge;  ///< for kGauge and kBench, else -1
+};
+
+/// The blocks of all measurements in `row` that count. `row`, `evaluation` and
+/// `unknowns` (those of FrameEvaluation; null if there are none) must stay in
+/// place. A row of the bench needs neither evaluation nor unknowns, but the
+/// finger's gauges.
+std::vector<FrameBlock> MeasurementBlocks(const Measurements& row,
+                                          const MeasurementModel& model,
+                                          const FrameParameters& parameters,
+                                          const std::vector<Gauge>& gauges,
+                                          const FrameEvaluation* evaluation,
+                                          double* unknowns);
+
+/// The blocks that hold equilibrium and rib lengths in the weighted form.
+/// `weight` is that of EquilibriumResidual.
+std::vector<FrameBlock> EquilibriumBlocks(const Finger& finger, double weight,
+                                          const FrameParameters& parameters,
+                                          const FrameEvaluation& evaluation,
+                                          double* unknowns);
+
+/// Contacts and std differ by some 1e-4 of a std from the reduced form's at a
+/// weight of 1e6, and by the weight's square less above.
+constexpr double kEquilibriumWeight = 1e7;
+
+/// A finger's own parameters at fixed addresses, for blocks whose parameters
+/// stay constant.
+class FingerParameters {
+ public:
+  explicit FingerParameters(const Finger& finger);
+  FingerParameters(const FingerParameters&) = delete;
+
+  const FrameParameters& frame() const { return frame_; }
+  SharedParameters* shared() { return &shared_; }
+  double* gain(int gauge) { return &gains_[gauge]; }
+  double* offset(int gauge) { return &offsets_[gauge]; }
+
+ private:
+  SharedParameters shared_;
+  std::vector<double> gains_, offsets_;
+  double ln_force_scale_ = 0, force_offset_N_ = 0;
+  double force_offset_xy_N_[2] = {}, object_origin_mm_[2] = {},
+         camera_origin_mm_[2] = {};
+  FrameParameters frame_;
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_RESIDUALS_FRAME_BLOCKS_H_

@@ -1,0 +1,48 @@
+#ifndef FINRAY_SCENE_MEASUREMENTS_H_
+#define FINRAY_SCENE_MEASUREMENTS_H_
+
+#include <Eigen/Core>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "finray/finger/finger.h"
+
+namespace finray {
+
+/// A rib's hinge on one of the beams, seen by a camera.
+struct SeenPin {
+  int rib;
+  Side side;
+  Eigen::Vector2d at_mm;
+};
+
+/// One row of a log: everything that was measured, NaN where nothing was.
+/// Positions are in frame S. Which of these measurements count, and with which
+/// std, is not said here (MeasurementModel of residuals/frame_blocks.h).
+struct Measurements {
+  static constexpr double kNotMeasured =
+      std::numeric_limits<double>::quiet_NaN();
+
+  std::vector<double> gauges_V;  ///< One per gauge of the finger, as read.
+  double time_s = kNotMeasured;
+  /// Reference sensor: the magnitude of the force, or its components.
+  double force_N = kNotMeasured;
+  Eigen::Vector2d force_xy_N{kNotMeasured, kNotMeasured};
+  /// The object's own frame, as a stage or a camera tells it.
+  Eigen::Vector2d object_mm{kNotMeasured, kNotMeasured};
+  double object_angle_rad = 0;
+  double contact_mm = kNotMeasured;  ///< l_c
+  double temperature_C = kNotMeasured;
+  std::vector<SeenPin> pins;
+  Eigen::Vector2d tip_mm{kNotMeasured, kNotMeasured};
+  /// Radius of the cylinder that the gauges were bent around on the bench,
+  /// apart from the finger.
+  double cylinder_radius_mm = kNotMeasured;
+
+  bool IsBench() const { return !std::isnan(cylinder_radius_mm); }
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_SCENE_MEASUREMENTS_H_
