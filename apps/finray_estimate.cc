@@ -24,6 +24,12 @@ DEFINE_int32(threads, 1, "threads over frames");
 DEFINE_bool(resume, false, "keep finished logs, go on with interrupted ones");
 DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
 DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
+DEFINE_string(solver, "fast",
+              "fast, or ceres: the residual blocks of the calibration, which "
+              "take every kind of measurement");
+DEFINE_string(equilibrium, "reduced",
+              "with --solver ceres: reduced (eliminated) or weighted (residual "
+              "blocks)");
 DEFINE_bool(dump_config, false, "print what is in force, and stop");
 DEFINE_bool(strict, false, "fail if any frame is not_converged or bad_input");
 DEFINE_bool(keep_going, false,
@@ -128,6 +134,26 @@ void PrintSummary(const std::vector<LogJob>& jobs, const ProgressBar& bar) {
   }
 }
 
+FrameMethod ChosenMethod() {
+  const auto choose = [](const char* flag, const std::string& value,
+                         const std::string& a, const std::string& b) {
+    if (value != a && value != b) {
+      throw UsageError(std::string("--") + flag + ": expected " + a + " or " +
+                       b + ", found '" + value + "'");
+    }
+    return value == b;
+  };
+  const bool ceres = choose("solver", FLAGS_solver, "fast", "ceres");
+  const bool weighted =
+      choose("equilibrium", FLAGS_equilibrium, "reduced", "weighted");
+  if (weighted && !ceres) {
+    throw UsageError("--equilibrium weighted goes with --solver ceres");
+  }
+  return !ceres     ? FrameMethod::kFast
+         : weighted ? FrameMethod::kCeresWeighted
+                    : FrameMethod::kCeresReduced;
+}
+
 // Live rows go from one pipe to the other, one by one.
 void RefuseBatchFlags() {
   for (const char* flag :
@@ -142,6 +168,7 @@ int Run() {
   if (FLAGS_follow) RefuseBatchFlags();
   BatchSettings settings(Required("finger", FLAGS_finger), FLAGS_scene,
                          ParseDiscretization(FLAGS_scheme, FLAGS_resolution));
+  settings.method = ChosenMethod();
   if (!FLAGS_follow) {
     Required("logs", FLAGS_logs);
     Required("out_dir", FLAGS_out_dir);
@@ -152,7 +179,7 @@ int Run() {
   }
   if (FLAGS_follow) {
     return Follow(settings.finger, settings.scene, settings.discretization,
-                  FLAGS_strict)
+                  settings.method, FLAGS_strict)
         .Run();
   }
   settings.threads = FLAGS_threads;
@@ -163,8 +190,8 @@ int Run() {
   std::vector<LogJob> jobs = MakeJobs(settings);
   std::vector<BadLog> bad_logs;
   if (!CheckAll(&jobs, &bad_logs)) return Interrupted("before the first frame");
-  FrameSolverPool pool(
-      FrameSolvers(settings.finger, settings.scene, settings.discretization));
+  FrameSolverPool pool(FrameSolvers(settings.finger, settings.scene,
+                                    settings.discretization, settings.method));
   MakeFolders(jobs);
   RemoveOldSummaries();
   ProgressBar bar(Frames(jobs));

@@ -27,16 +27,17 @@ namespace finray {
 class Follow {
  public:
   Follow(const Finger& finger, const Scene& scene,
-         const Discretization& discretization, bool strict)
+         const Discretization& discretization, FrameMethod method, bool strict)
       : finger_(finger),
         scene_(scene),
         discretization_(discretization),
+        method_(method),
         strict_(strict) {}
 
   int Run() {
     std::signal(SIGPIPE, SIG_IGN);
     PipeLines lines(STDIN_FILENO, StopSignal::InstallWaking(), kSource);
-    LiveEstimator estimator(finger_, scene_, discretization_);
+    LiveEstimator estimator(finger_, scene_, discretization_, method_);
     CsvLine header;
     do {
       if (!lines.Next()) return NoHeader();
@@ -106,6 +107,7 @@ class Follow {
   const Finger& finger_;
   const Scene& scene_;
   Discretization discretization_;
+  FrameMethod method_;
   bool strict_;
   LatencyHistogram latency_;
   std::size_t unsolved_ = 0;

@@ -18,6 +18,9 @@ std::string BatchYaml(const BatchSettings& settings,
   yaml << YAML::BeginMap;
   YamlPair(&yaml, "finger", settings.finger.name);
   YamlPair(&yaml, "scheme", SchemeName(settings.discretization.scheme));
+  if (settings.method != FrameMethod::kFast) {
+    YamlPair(&yaml, "solver", FrameMethodName(settings.method));
+  }
   YamlPair(&yaml, "version", FINRAY_VERSION);
   yaml << YAML::Key << "logs" << YAML::Value << YAML::BeginSeq;
   for (const LogJob& job : jobs) {

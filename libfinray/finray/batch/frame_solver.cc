@@ -10,8 +10,8 @@ namespace {
 class EstimatorSolver : public FrameSolver {
  public:
   EstimatorSolver(const Finger& finger, const Scene& scene,
-                  const Discretization& discretization)
-      : estimator_(finger, scene, discretization) {}
+                  const Discretization& discretization, FrameMethod method)
+      : estimator_(finger, scene, discretization, method) {}
 
   void SolveBlock(const Measurements* readings, std::size_t count,
                   FrameEstimate* estimates) override {
@@ -25,9 +25,11 @@ class EstimatorSolver : public FrameSolver {
 }  // namespace
 
 FrameSolverFactory FrameSolvers(const Finger& finger, const Scene& scene,
-                                const Discretization& discretization) {
-  return [finger, scene, discretization] {
-    return std::make_unique<EstimatorSolver>(finger, scene, discretization);
+                                const Discretization& discretization,
+                                FrameMethod method) {
+  return [finger, scene, discretization, method] {
+    return std::make_unique<EstimatorSolver>(finger, scene, discretization,
+                                             method);
   };
 }
 

@@ -25,7 +25,8 @@ using FrameSolverFactory = std::function<std::unique_ptr<FrameSolver>()>;
 
 /// Makes solvers by FrameEstimator, whose errors they throw.
 FrameSolverFactory FrameSolvers(const Finger& finger, const Scene& scene,
-                                const Discretization& discretization);
+                                const Discretization& discretization,
+                                FrameMethod method = FrameMethod::kFast);
 
 /// Frames that are solved together, the first of them from a cold start. Blocks
 /// lie at fixed places of a log: frame i is in block i / kBlockFrames. So the

@@ -20,11 +20,12 @@ namespace fs = std::filesystem;
 
 std::string Key(const BatchSettings& settings, const std::string& log_sha256) {
   return Sha256OfText(
-      "results 5\nversion " FINRAY_VERSION "\nlog " + log_sha256 + "\nfinger " +
+      "results 6\nversion " FINRAY_VERSION "\nlog " + log_sha256 + "\nfinger " +
       settings.finger_sha256 + "\nscene " + settings.scene_sha256 +
       "\nscheme " + SchemeName(settings.discretization.scheme) +
       "\nresolution " + std::to_string(settings.discretization.resolution) +
-      "\nblock_frames " + std::to_string(kBlockFrames) + "\n");
+      "\nsolver " + FrameMethodName(settings.method) + "\nblock_frames " +
+      std::to_string(kBlockFrames) + "\n");
 }
 
 std::size_t Count(const YamlMap& yaml, const std::string& key) {
@@ -190,6 +191,7 @@ void LogJob::WriteSummary(std::uint64_t bytes) const {
   YamlPair(&yaml, "version", FINRAY_VERSION);
   YamlPair(&yaml, "scheme", SchemeName(settings_->discretization.scheme));
   YamlPair(&yaml, "resolution", settings_->discretization.resolution);
+  YamlPair(&yaml, "solver", FrameMethodName(settings_->method));
   yaml << YAML::Key << "inputs" << YAML::Value << YAML::BeginMap;
   YamlPair(&yaml, "log_sha256", log_sha256_);
   YamlPair(&yaml, "finger_sha256", settings_->finger_sha256);

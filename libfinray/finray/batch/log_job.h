@@ -20,6 +20,7 @@ struct BatchSettings {
   Finger finger;
   Scene scene;
   Discretization discretization;
+  FrameMethod method = FrameMethod::kFast;
   std::string finger_sha256, scene_sha256;  ///< "" without a scene file.
   int threads = 1;
   /// Go on with what an earlier run has left, and keep what it has finished.

@@ -1,7 +1,5 @@
 #include "finray/perception/contact_sensor.h"
 
-#include "finray/sensing/contact_linearization.h"
-
 namespace finray {
 
 ContactSensor::ContactSensor(const Finger& finger, const Scene& scene,
@@ -22,28 +20,13 @@ SensedFrame ContactSensor::Sense(const Measurements& readings) {
                         estimate.contact[c].normal_N,
                         scene_.friction_coefficient});
   }
-  Pack(finger_, scene_, readings, &measurement_);
-  ContactLinearization linearization;
-  solver_.Reset();
-  if (!linearization.At(contacts, measurement_, MeasuredRadius(scene_),
-                        &solver_)) {
-    frame.status = FrameStatus::kNotConverged;
-    return frame;
-  }
   const double scale = estimate.noise_scale();
-  return At(contacts,
-            scale * scale * CovarianceOf(linearization.information()));
+  return At(contacts, scale * scale * estimate.noise_covariance);
 }
 
 SensedFrame ContactSensor::FromEstimate(
     const std::vector<PointContact>& contacts,
     const std::vector<Eigen::Vector2d>& std) {
-  solver_.Reset();
-  if (!solver_.SolveWithSensitivities(contacts)) {
-    SensedFrame frame;
-    frame.status = FrameStatus::kNotConverged;
-    return frame;
-  }
   const auto unknowns = static_cast<Eigen::Index>(2 * contacts.size());
   ContactMatrix covariance = ContactMatrix::Zero(unknowns, unknowns);
   for (std::size_t c = 0; c < std.size(); ++c) {
@@ -57,6 +40,11 @@ SensedFrame ContactSensor::At(const std::vector<PointContact>& contacts,
                               const ContactMatrix& covariance) {
   const auto unknowns = static_cast<Eigen::Index>(2 * contacts.size());
   SensedFrame frame;
+  solver_.Reset();
+  if (!solver_.SolveWithSensitivities(contacts)) {
+    frame.status = FrameStatus::kNotConverged;
+    return frame;
+  }
   frame.status = FrameStatus::kOk;
   frame.shape.emplace(solver_, contacts);
   for (std::size_t c = 0; c < contacts.size(); ++c) {

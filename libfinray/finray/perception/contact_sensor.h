@@ -53,7 +53,6 @@ class ContactSensor {
   Scene scene_;
   FrameEstimator estimator_;
   EquilibriumSolver solver_;
-  PackedReadings measurement_;
 };
 
 }  // namespace finray

@@ -36,6 +36,12 @@ class FrameSet : public ceres::EvaluationCallback {
   FrameEvaluation& Add(int contacts, double friction, const double* frame,
                        bool pins = false);
 
+  /// Forgets all frames.
+  void Clear() {
+    frames_.clear();
+    evaluated_at_.clear();
+  }
+
   void PrepareForEvaluation(bool evaluate_jacobians,
                             bool new_evaluation_point) override;
 

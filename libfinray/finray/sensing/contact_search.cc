@@ -13,21 +13,31 @@ namespace {
 constexpr double kWellExplained = 0.01, kNearlyNothing = 4;
 // The table knows the chi2 of a start that might lead to a rival to a factor.
 constexpr double kTableFactor = 0.25;
-constexpr std::size_t kMostStarts = 4, kMostPairStarts = 12, kMostDescents = 4;
+constexpr std::size_t kMostStarts = 4, kMostPairStarts = 12, kMostFallbacks = 4;
 // A rival lies outside the region that holds 99 % of the estimates: chi2 of two
 // and of four parameters.
 constexpr double kDistinct[] = {9.21, 13.28};
 
 }  // namespace
 
+const char* FrameMethodName(FrameMethod method) {
+  constexpr const char* kNames[] = {"fast", "ceres reduced", "ceres weighted"};
+  return kNames[static_cast<int>(method)];
+}
+
 ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
-                             const Discretization& discretization)
+                             const Discretization& discretization,
+                             FrameMethod method)
     : scene_(scene),
       length_mm_(finger.front_length_mm),
       solver_(finger, discretization),
       table_(&solver_, scene.friction_coefficient, MeasuredRadius(scene)),
+      method_(method),
       fit_(finger, discretization, MeasuredRadius(scene)),
-      descent_(&solver_, MeasuredRadius(scene),
+      problem_(finger, scene, discretization,
+               method == FrameMethod::kCeresWeighted
+                   ? EquilibriumForm::kWeighted
+                   : EquilibriumForm::kReduced,
                kMostForce * table_.heaviest_N()),
       solutions_(kMostPairStarts) {
   fit_.set_most_force(kMostForce * table_.heaviest_N());
@@ -46,31 +56,50 @@ double ContactSearch::least_chi2() const {
                     : std::numeric_limits<double>::infinity();
 }
 
-bool ContactSearch::Search(int contacts, const PackedReadings& measurement) {
-  FindStarts(contacts, measurement);
-  const int dof = measurement.all - 2 * contacts;
+bool ContactSearch::Search(int contacts, const Measurements& row,
+                           const PackedReadings& packed) {
+  FindStarts(contacts, packed);
+  const int dof = packed.all - 2 * contacts;
   // As many readings as unknowns: a minimum leaves nothing, however far the
   // table's nodes are from it, and no chi2 tells the right one.
   const bool exact = contacts == 1 && dof < 1;
   found_ = iterations_ = 0;
-  int descents = 0;
+  int fallbacks = 0;
   for (const ContactStart& start : starts_) {
     const bool explained = found_ > 0 && IsExplained(least_chi2(), dof);
     const bool may_be_rival =
         exact || kTableFactor * start.chi2 < least_chi2() + kWithinNoise;
     if (explained && !may_be_rival) break;
-    if (Fit(start, measurement)) continue;
-    if ((explained && !exact) || descents == kMostDescents) continue;
-    ++descents;
-    Descend(start, measurement);
+    if (method_ != FrameMethod::kFast) {
+      if (FitByCeres(start, row)) Keep();
+      continue;
+    }
+    if (FitFast(start, packed)) {
+      Keep();
+      continue;
+    }
+    if ((explained && !exact) || fallbacks == kMostFallbacks) continue;
+    ++fallbacks;
+    if (FitByCeres(start, row)) Keep();
   }
   return found_ > 0;
 }
 
-void ContactSearch::FindStarts(int contacts,
-                               const PackedReadings& measurement) {
+double ContactSearch::FreeChi2(const Measurements& row,
+                               const PackedReadings& packed) {
+  if (method_ != FrameMethod::kFast) return problem_.FreeChi2(row);
+  const Eigen::VectorXd& free = table_.free_angles();
+  double chi2 = 0;
+  for (Eigen::Index j = 0; j < free.size(); ++j) {
+    const double off = packed.weights[j] * (packed.values[j] - free[j]);
+    chi2 += off * off;
+  }
+  return chi2;
+}
+
+void ContactSearch::FindStarts(int contacts, const PackedReadings& packed) {
   if (contacts == 1) {
-    table_.FindStarts(measurement.values, measurement.weights, &starts_);
+    table_.FindStarts(packed.values, packed.weights, &starts_);
     if (starts_.size() > kMostStarts) starts_.resize(kMostStarts);
     return;
   }
@@ -78,20 +107,20 @@ void ContactSearch::FindStarts(int contacts,
     pair_table_ =
         std::make_unique<PairTable>(&solver_, scene_.friction_coefficient);
   }
-  pair_table_->FindStarts(measurement.values, measurement.weights,
-                          kMostPairStarts, &starts_);
+  pair_table_->FindStarts(packed.values, packed.weights, kMostPairStarts,
+                          &starts_);
 }
 
-bool ContactSearch::Fit(const ContactStart& start,
-                        const PackedReadings& measurement) {
+bool ContactSearch::FitFast(const ContactStart& start,
+                            const PackedReadings& packed) {
   contacts_.assign(start.contacts.begin(),
                    start.contacts.begin() + start.count);
   fit_.set_state(*start.state);
-  const bool converged =
-      fit_.Fit(measurement.values, measurement.weights, &contacts_);
+  const bool converged = fit_.Fit(packed.values, packed.weights, &contacts_);
   iterations_ += fit_.iterations();
   if (!converged) return false;
   ContactSolution& solution = solutions_[found_];
+  solution.count = start.count;
   solution.chi2 = fit_.chi2();
   solution.information = fit_.information();
   fit_.SaveState(&solution.state);
@@ -100,48 +129,37 @@ bool ContactSearch::Fit(const ContactStart& start,
     solution.rib_tension_N[i] = fit_.rib_tension(static_cast<int>(i));
   }
   for (int c = 0; c < start.count; ++c) {
+    solution.contacts[c] = contacts_[c];
     solution.poses[c] = fit_.contact_pose(c);
   }
-  Add(&solution);
   return true;
 }
 
-bool ContactSearch::Descend(const ContactStart& start,
-                            const PackedReadings& measurement) {
-  contacts_.assign(start.contacts.begin(),
-                   start.contacts.begin() + start.count);
-  const bool arrived = descent_.Descend(*start.state, measurement, &contacts_);
-  iterations_ += descent_.iterations();
-  if (!arrived) return false;
+bool ContactSearch::FitByCeres(const ContactStart& start,
+                               const Measurements& row) {
+  const bool converged = problem_.Fit(start, row, &solutions_[found_]);
+  iterations_ += problem_.iterations();
+  return converged;
+}
+
+void ContactSearch::Keep() {
   ContactSolution& solution = solutions_[found_];
-  solution.chi2 = descent_.at().chi2();
-  solution.information = descent_.at().information();
-  solution.state = solver_.state();
-  solution.tip_pose = solver_.tip_pose();
-  for (std::size_t i = 0; i < solution.rib_tension_N.size(); ++i) {
-    solution.rib_tension_N[i] = solver_.rib_tension(static_cast<int>(i));
-  }
-  for (int c = 0; c < start.count; ++c) {
-    solution.poses[c] = solver_.contact_pose(c);
-  }
-  Add(&solution);
-  return true;
-}
-
-void ContactSearch::Add(ContactSolution* solution) {
-  solution->count = static_cast<int>(contacts_.size());
-  std::copy(contacts_.begin(), contacts_.end(), solution->contacts.begin());
-  if (solution->count == 2 && contacts_[1].arc_mm < contacts_[0].arc_mm) {
-    std::swap(solution->contacts[0], solution->contacts[1]);
-    std::swap(solution->poses[0], solution->poses[1]);
-    const ContactMatrix was = solution->information;
-    for (int i = 0; i < 4; ++i) {
-      for (int j = 0; j < 4; ++j) {
-        solution->information(i, j) = was((i + 2) % 4, (j + 2) % 4);
+  if (solution.count == 2 &&
+      solution.contacts[1].arc_mm < solution.contacts[0].arc_mm) {
+    std::swap(solution.contacts[0], solution.contacts[1]);
+    std::swap(solution.poses[0], solution.poses[1]);
+    for (ContactMatrix* matrix :
+         {&solution.information, &solution.systematic}) {
+      if (matrix->size() == 0) continue;
+      const ContactMatrix was = *matrix;
+      for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j) {
+          (*matrix)(i, j) = was((i + 2) % 4, (j + 2) % 4);
+        }
       }
     }
   }
-  if (solution->chi2 < least_chi2() || found_ == 0) best_ = found_;
+  if (found_ == 0 || solution.chi2 < least_chi2()) best_ = found_;
   ++found_;
 }
 

@@ -6,29 +6,28 @@
 #include <vector>
 
 #include "finray/scene/scene.h"
-#include "finray/sensing/contact_covariance.h"
-#include "finray/sensing/contact_descent.h"
+#include "finray/sensing/contact_solution.h"
 #include "finray/sensing/fast/contact_fit.h"
+#include "finray/sensing/frame_problem.h"
 #include "finray/sensing/gauge_table.h"
+#include "finray/sensing/packed_readings.h"
 #include "finray/sensing/pair_table.h"
 
 namespace finray {
 
-/// A minimum of chi2 over contacts, base to tip.
-struct ContactSolution {
-  int count = 0;
-  std::array<PointContact, kFittedContacts> contacts;
-  double chi2 = 0;
-  ContactMatrix information;  ///< Of (l_c, f_c) of each contact.
-  std::array<Eigen::Vector3d, kFittedContacts> poses;
-  Eigen::Vector3d tip_pose;
-  std::vector<double> rib_tension_N;
-  LadderState state;  ///< In equilibrium with the contacts.
+/// What minimises chi2 from a start.
+enum class FrameMethod {
+  kFast,           ///< ContactFit: tested to be equal to the reduced form.
+  kCeresReduced,   ///< FrameProblem, equilibrium eliminated.
+  kCeresWeighted,  ///< FrameProblem, equilibrium as residual blocks.
 };
+/// "fast", "ceres reduced" or "ceres weighted".
+const char* FrameMethodName(FrameMethod method);
 
-/// Finds the contacts that explain a frame without a guess: ContactFit from the
-/// best starts of a table, and from all others that might lead to a rival,
-/// another solution that explains the frame about as well.
+/// Finds the contacts that explain a frame without a guess: it minimises chi2
+/// from the best starts of a table, and from all others that might lead to a
+/// rival, another solution that explains the frame about as well. Where
+/// ContactFit does not converge, FrameProblem takes its place.
 class ContactSearch {
  public:
   /// Two solutions explain a frame equally well if their chi2 differ by less
@@ -38,12 +37,17 @@ class ContactSearch {
 
   /// Throws InputError for a finger without an unloaded equilibrium.
   ContactSearch(const Finger& finger, const Scene& scene,
-                const Discretization& discretization);
+                const Discretization& discretization,
+                FrameMethod method = FrameMethod::kFast);
   ContactSearch(const ContactSearch&) = delete;
   ContactSearch& operator=(const ContactSearch&) = delete;
 
   /// Searches with one or two contacts. False if no start converged.
-  bool Search(int contacts, const PackedReadings& measurement);
+  bool Search(int contacts, const Measurements& row,
+              const PackedReadings& packed);
+
+  /// chi2 of the finger without a contact.
+  double FreeChi2(const Measurements& row, const PackedReadings& packed);
 
   // Of the last search that came to something.
 
@@ -65,12 +69,12 @@ class ContactSearch {
   const GaugeTable& table() const { return table_; }
 
  private:
-  void FindStarts(int contacts, const PackedReadings& measurement);
-  // Each adds what comes of a start to the solutions.
-  bool Fit(const ContactStart& start, const PackedReadings& measurement);
-  bool Descend(const ContactStart& start, const PackedReadings& measurement);
-  // Adds a solution in its order from base to tip.
-  void Add(ContactSolution* solution);
+  void FindStarts(int contacts, const PackedReadings& packed);
+  // Both fill in the next solution from a start.
+  bool FitFast(const ContactStart& start, const PackedReadings& packed);
+  bool FitByCeres(const ContactStart& start, const Measurements& row);
+  // Keeps the next solution, its contacts put in order from base to tip.
+  void Keep();
   double least_chi2() const;
   bool IsDistinct(const ContactSolution& other) const;
 
@@ -79,8 +83,9 @@ class ContactSearch {
   EquilibriumSolver solver_;
   GaugeTable table_;
   std::unique_ptr<PairTable> pair_table_;  // made when needed
+  FrameMethod method_;
   ContactFit fit_;
-  ContactDescent descent_;
+  FrameProblem problem_;
   std::vector<ContactStart> starts_;
   std::vector<PointContact> contacts_;
   std::vector<ContactSolution> solutions_;  // memory for the most

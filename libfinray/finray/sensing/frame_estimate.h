@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "finray/statics/equilibrium.h"
+#include "finray/sensing/contact_covariance.h"
 
 namespace finray {
 
@@ -39,6 +39,9 @@ struct FrameEstimate {
   /// Base to tip. Without a contact the first one's force is 0, or NaN if the
   /// frame is not solved.
   ContactEstimates contact;
+  /// Covariance of (l_c, f_c) of each contact that the std given in the finger
+  /// and the scene make, without noise_scale() and calibration errors.
+  ContactMatrix noise_covariance;
   Eigen::Vector3d tip_pose =
       Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   std::vector<double> rib_tension_N;

@@ -24,8 +24,13 @@ double ArcStd(const ContactMatrix& information) {
   return std::sqrt(CovarianceOf(information)(0, 0));
 }
 
-void CheckScene(const Finger& finger, const Scene& scene) {
+void CheckScene(const Finger& finger, const Scene& scene, FrameMethod method) {
   RefuseBackContacts(scene);
+  if (scene.UsesCamera() && method == FrameMethod::kFast) {
+    throw InputError(
+        "scene: pin_std_mm and tip_std_mm are measurements for the Ceres "
+        "solver only; expected --solver ceres");
+  }
   const int contacts = scene.contacts.value_or(1);
   if (contacts > kFittedContacts) {
     throw InputError("scene: " + std::to_string(contacts) +
@@ -60,13 +65,15 @@ CalibrationUncertainty SystematicOf(const Finger& finger, const Scene& scene,
 }  // namespace
 
 FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
-                               const Discretization& discretization)
-    : finger_((CheckScene(finger, scene), finger)),
+                               const Discretization& discretization,
+                               FrameMethod method)
+    : finger_((CheckScene(finger, scene, method), finger)),
       scene_(scene),
+      method_(method),
       least_force_N_(std::min(kLeastForce_N, kLeastForce * ForceUnit(finger))),
-      search_(finger, scene, discretization),
+      search_(finger, scene, discretization, method),
       systematic_(SystematicOf(finger, scene, discretization)) {
-  if (FrameFollower::Serves(scene)) {
+  if (method == FrameMethod::kFast && FrameFollower::Serves(scene)) {
     follower_.emplace(finger, scene, discretization, search_);
   }
   if (scene.smoothing) smoother_.emplace(finger, scene, discretization);
@@ -82,9 +89,10 @@ FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
 
 FrameEstimate FrameEstimator::Estimate(const Measurements& readings) {
   Pack(finger_, scene_, readings, &measurement_);
-  free_chi2_ = FreeChi2(measurement_);
+  free_chi2_ = search_.FreeChi2(readings, measurement_);
   const int contacts = scene_.contacts.value_or(1);
-  if (measurement_.gauges < 1 || measurement_.all < kUnknowns * contacts) {
+  if (measurement_.gauges + measurement_.camera < 1 ||
+      measurement_.all < kUnknowns * contacts) {
     return Unsolved(FrameStatus::kBadInput);
   }
   if (!scene_.contacts) return Automatic(readings);
@@ -146,7 +154,8 @@ std::size_t FrameEstimator::FitRun(const Measurements* readings,
   for (; frames < count; ++frames) {
     PackedReadings& measurement = measurements_[frames];
     Pack(finger_, scene_, readings[frames], &measurement);
-    if (measurement.gauges < all || FreeChi2(measurement) < kSignificance) {
+    if (measurement.gauges < all ||
+        search_.FreeChi2(readings[frames], measurement) < kSignificance) {
       break;
     }
   }
@@ -164,12 +173,14 @@ bool FrameEstimator::TakeFollowed(const Measurements& readings,
       scene_.contacts
           ? fit.normal_N >= least_force_N_
           : fit.chi2 < kSecondSignificance &&
-                FreeChi2(measurements_[frame]) - fit.chi2 >= kSignificance;
+                search_.FreeChi2(readings, measurements_[frame]) - fit.chi2 >=
+                    kSignificance;
   if (!touches || !follower_->IsCertain(frame, arc_std)) return false;
   estimate->contacts = 1;
   estimate->contact[0] = {fit.arc_mm, arc_std, fit.normal_N,
                           std::sqrt(covariance(1, 1)), fit.contact_pose};
   estimate->contact[1] = {};
+  estimate->noise_covariance = covariance;
   estimate->alternative = {};
   estimate->alternative_chi2 = kNaN;
   estimate->tip_pose = fit.tip_pose;
@@ -181,17 +192,6 @@ bool FrameEstimator::TakeFollowed(const Measurements& readings,
   if (estimate->p_value() < FrameEstimate::kUnexplained) return false;
   Judge(readings, measurements_[frame].weights, estimate);
   return true;
-}
-
-double FrameEstimator::FreeChi2(const PackedReadings& measurement) const {
-  const Eigen::VectorXd& free = search_.table().free_angles();
-  double chi2 = 0;
-  for (Eigen::Index j = 0; j < free.size(); ++j) {
-    const double off =
-        measurement.weights[j] * (measurement.values[j] - free[j]);
-    chi2 += off * off;
-  }
-  return chi2;
 }
 
 void FrameEstimator::Smooth(
@@ -212,7 +212,7 @@ void FrameEstimator::Smooth(
 FrameEstimate FrameEstimator::Automatic(const Measurements& readings) {
   if (free_chi2_ < kSignificance) return Free();
   FrameEstimate one = Unsolved(FrameStatus::kNotConverged);
-  if (search_.Search(1, measurement_)) {
+  if (search_.Search(1, readings, measurement_)) {
     if (free_chi2_ - search_.best().chi2 < kSignificance) return Free();
     one = Found(readings);
     if (one.chi2 < kSecondSignificance) return one;
@@ -223,7 +223,7 @@ FrameEstimate FrameEstimator::Automatic(const Measurements& readings) {
     return one;
   }
   const int before = search_.iterations();
-  if (!search_.Search(2, measurement_)) return one;
+  if (!search_.Search(2, readings, measurement_)) return one;
   const ContactSolution& two = search_.best();
   for (const PointContact& contact : two.contacts) {
     if (contact.normal_N < least_force_N_) return one;
@@ -237,7 +237,7 @@ FrameEstimate FrameEstimator::Automatic(const Measurements& readings) {
 FrameEstimate FrameEstimator::WithContacts(const Measurements& readings,
                                            int contacts) {
   if (contacts == 0) return Free();
-  if (!search_.Search(contacts, measurement_)) {
+  if (!search_.Search(contacts, readings, measurement_)) {
     return Unsolved(FrameStatus::kNotConverged);
   }
   const ContactSolution& best = search_.best();
@@ -252,7 +252,7 @@ FrameEstimate FrameEstimator::WithContacts(const Measurements& readings,
 FrameEstimate FrameEstimator::Free() const {
   FrameEstimate estimate = free_;
   estimate.chi2 = free_chi2_;
-  estimate.dof = measurement_.gauges;
+  estimate.dof = measurement_.gauges + measurement_.camera;
   return estimate;
 }
 
@@ -275,6 +275,7 @@ FrameEstimate FrameEstimator::Found(const Measurements& readings) {
   estimate.iterations = search_.iterations();
 
   const ContactMatrix covariance = CovarianceOf(best.information);
+  estimate.noise_covariance = covariance;
   const double scale = estimate.noise_scale();
   for (int c = 0; c < best.count; ++c) {
     ContactEstimate& contact = estimate.contact[c];
@@ -300,7 +301,9 @@ void FrameEstimator::Judge(const Measurements& readings,
                            scene_.friction_coefficient});
     }
     const ContactMatrix covariance =
-        systematic_.Of(contacts_, readings.gauges_V, weights);
+        method_ == FrameMethod::kFast
+            ? systematic_.Of(contacts_, readings.gauges_V, weights)
+            : search_.best().systematic;
     for (int c = 0; c < estimate->contacts; ++c) {
       ContactEstimate& contact = estimate->contact[c];
       contact.arc_std_mm =

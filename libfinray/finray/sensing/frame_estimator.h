@@ -43,7 +43,8 @@ class FrameEstimator {
   /// on the back beam, a finger without gauges or with fewer than the contacts
   /// need, and a finger without an unloaded equilibrium.
   FrameEstimator(const Finger& finger, const Scene& scene,
-                 const Discretization& discretization);
+                 const Discretization& discretization,
+                 FrameMethod method = FrameMethod::kFast);
   FrameEstimator(const FrameEstimator&) = delete;
   FrameEstimator& operator=(const FrameEstimator&) = delete;
 
@@ -73,7 +74,6 @@ class FrameEstimator {
   std::size_t FitRun(const Measurements* readings, std::size_t count);
   bool TakeFollowed(const Measurements& readings, std::size_t frame,
                     FrameEstimate* estimate);
-  double FreeChi2(const PackedReadings& measurement) const;
   FrameEstimate Automatic(const Measurements& readings);
   FrameEstimate WithContacts(const Measurements& readings, int contacts);
   FrameEstimate Free() const;
@@ -88,6 +88,7 @@ class FrameEstimator {
 
   Finger finger_;
   Scene scene_;
+  FrameMethod method_;
   double least_force_N_;
   ContactSearch search_;
   std::optional<FrameFollower> follower_;  // where it serves the scene

@@ -3,8 +3,9 @@
 namespace finray {
 
 LiveEstimator::LiveEstimator(const Finger& finger, const Scene& scene,
-                             const Discretization& discretization)
-    : estimator_(finger, scene, discretization) {}
+                             const Discretization& discretization,
+                             FrameMethod method)
+    : estimator_(finger, scene, discretization, method) {}
 
 const FrameEstimate& LiveEstimator::Next(const Measurements& readings) {
   estimate_ = estimator_.Follow(readings);

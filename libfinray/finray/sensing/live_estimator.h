@@ -12,7 +12,8 @@ class LiveEstimator {
  public:
   /// Throws what FrameEstimator throws. Takes some milliseconds.
   LiveEstimator(const Finger& finger, const Scene& scene,
-                const Discretization& discretization = {});
+                const Discretization& discretization = {},
+                FrameMethod method = FrameMethod::kFast);
 
   /// The contact of these readings; it lives until the next call.
   const FrameEstimate& Next(const Measurements& readings);

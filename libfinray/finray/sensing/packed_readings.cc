@@ -23,9 +23,10 @@ void Pack(const Finger& finger, const Scene& scene, const Measurements& row,
     p.values[j] = gauge.Angle(row.gauges_V[j]);
     p.weights[j] = gauge.AngleWeight();
   }
-  p.all = p.gauges;
-  if (scene.pin_std_mm) p.all += 2 * static_cast<int>(row.pins.size());
-  if (scene.tip_std_mm && row.tip_mm.allFinite()) p.all += 2;
+  p.camera = 0;
+  if (scene.pin_std_mm) p.camera += 2 * static_cast<int>(row.pins.size());
+  if (scene.tip_std_mm && row.tip_mm.allFinite()) p.camera += 2;
+  p.all = p.gauges + p.camera;
   if (!scene.object_std_mm) return;
   for (int i = 0; i < 2; ++i) {
     if (!std::isfinite(row.object_mm[i])) continue;

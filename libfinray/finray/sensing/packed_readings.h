@@ -16,9 +16,8 @@ namespace finray {
 struct PackedReadings {
   Eigen::VectorXd values, weights;
   int gauges = 0;  ///< Gauges with a reading.
-  /// Numbers that the row measures: gauges, coordinates of the centre, of pins
-  /// and of the tip.
-  int all = 0;
+  int camera = 0;  ///< Coordinates of pins and of the tip.
+  int all = 0;     ///< Both, and the coordinates of the circle's centre.
 };
 
 /// Fills `packed`, whose memory is used again. Throws

@@ -38,7 +38,11 @@ TEST(RivalMapTest, WhatItCallsUniqueHasNoRival) {
       usual_frames += usual;
       measurement.values = solver.outputs().head(4);
       for (double& angle : measurement.values) angle += normal(generator);
-      if (!search.Search(1, measurement)) continue;
+      Measurements row;
+      for (int j = 0; j < 4; ++j) {
+        row.gauges_V.push_back(finger.gauges[j].Volts(measurement.values[j]));
+      }
+      if (!search.Search(1, row, measurement)) continue;
       const ContactSolution& best = search.best();
       const double std = std::sqrt(CovarianceOf(best.information)(0, 0));
       if (!map.IsUnique(best.contacts[0].arc_mm, std, best.contacts[0].normal_N,

@@ -54,6 +54,8 @@ std::string Name(const LinearizedFrame::Row& row) {
       return "a pin";
     case ResidualFamily::kTip:
       return "tip";
+    case ResidualFamily::kEquilibrium:
+      break;
   }
   return "";
 }

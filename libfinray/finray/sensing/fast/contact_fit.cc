@@ -14,7 +14,7 @@ constexpr int kMaxIterations = 60;
 // iterations a change that makes no difference to chi2 is enough, in standard
 // deviations and, for the shape, rad and l_0.
 constexpr int kPatience = 8;
-constexpr double kNoDifference = 1e-4;
+constexpr double kNoDifference = 1e-5;
 
 }  // namespace
 

@@ -6,7 +6,7 @@ namespace finray {
 namespace {
 
 // Of l_0 and of a force: what is left is far below any gauge's noise.
-constexpr double kTolerance = 1e-8;
+constexpr double kTolerance = 5e-9;
 
 Eigen::VectorXd AllWeights(const Finger& finger) {
   const auto gauges = static_cast<Eigen::Index>(finger.gauges.size());

@@ -1,0 +1,30 @@
+#ifndef FINRAY_SENSING_CONTACT_SOLUTION_H_
+#define FINRAY_SENSING_CONTACT_SOLUTION_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "finray/sensing/contact_covariance.h"
+#include "finray/statics/equilibrium.h"
+
+namespace finray {
+
+/// A minimum of chi2 over contacts, base to tip.
+struct ContactSolution {
+  int count = 0;
+  std::array<PointContact, kFittedContacts> contacts;
+  double chi2 = 0;
+  ContactMatrix information;  ///< Fisher's, of (l_c, f_c) of each contact.
+  std::array<Eigen::Vector3d, kFittedContacts> poses;  ///< x, y (mm), theta
+  Eigen::Vector3d tip_pose;
+  std::vector<double> rib_tension_N;
+  LadderState state;  ///< In equilibrium with the contacts.
+  /// The covariance of (l_c, f_c) that the finger's calibration leaves; only
+  /// FrameProblem fills it in.
+  ContactMatrix systematic;
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_SENSING_CONTACT_SOLUTION_H_

@@ -1,0 +1,235 @@
+#include "finray/sensing/frame_problem.h"
+
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include <Eigen/QR>
+#include <limits>
+#include <unordered_map>
+
+#include "finray/residuals/block_rows.h"
+
+namespace finray {
+namespace {
+
+constexpr int kMostIterations = 200;
+// The minimum is found to 1e-5 of a std and better. The residuals are whitened,
+// so a small trust region would only creep along weak directions.
+constexpr double kParameterTolerance = 1e-11, kFunctionTolerance = 1e-15,
+                 kTrustRegion = 1e12;
+// The minimum under a small weight is near the one under a larger weight. From
+// further away the solver would creep along the curved valley in which
+// equilibrium holds.
+constexpr double kWeights[] = {1e3, 1e4, 1e5, 1e6, kEquilibriumWeight};
+
+}  // namespace
+
+FrameProblem::FrameProblem(const Finger& finger, const Scene& scene,
+                           const Discretization& discretization,
+                           EquilibriumForm form, double most_force_N)
+    : finger_(finger),
+      model_(MeasurementModel::OfScene(finger, scene)),
+      friction_(scene.friction_coefficient),
+      most_force_N_(most_force_N),
+      camera_(scene.UsesCamera()),
+      form_(form),
+      parameters_(finger),
+      frames_(finger, discretization, form, parameters_.shared(), 1),
+      solver_(finger, discretization) {
+  if (finger.calibration) calibration_factor_ = finger.calibration->Factor();
+}
+
+FrameEvaluation& FrameProblem::Prepare(const Measurements& row, int contacts,
+                                       const LadderState& state,
+                                       double weight) {
+  blocks_.clear();
+  frames_.Clear();
+  FrameEvaluation& frame =
+      frames_.Add(contacts, friction_, unknowns_.data(), camera_);
+  frame.set_state(state);
+  blocks_ = MeasurementBlocks(row, model_, parameters_.frame(), finger_.gauges,
+                              &frame, unknowns_.data());
+  if (form_ == EquilibriumForm::kWeighted) {
+    for (FrameBlock& block : EquilibriumBlocks(
+             finger_, weight, parameters_.frame(), frame, unknowns_.data())) {
+      blocks_.push_back(std::move(block));
+    }
+  }
+  return frame;
+}
+
+// In the weighted form base loads and tensions begin in equilibrium with the
+// contacts of the start.
+bool FrameProblem::SetUnknowns(const ContactStart& start) {
+  unknowns_.clear();
+  if (form_ == EquilibriumForm::kWeighted) {
+    const std::vector<PointContact> contacts(
+        start.contacts.begin(), start.contacts.begin() + start.count);
+    solver_.set_state(*start.state);
+    if (!solver_.Solve(contacts)) return false;
+    const Eigen::VectorXd q = solver_.state().q;
+    unknowns_.assign(q.data(), q.data() + q.size());
+  }
+  for (int c = 0; c < start.count; ++c) {
+    unknowns_.push_back(start.contacts[c].arc_mm);
+    unknowns_.push_back(start.contacts[c].normal_N);
+  }
+  return true;
+}
+
+bool FrameProblem::Fit(const ContactStart& start, const Measurements& row,
+                       ContactSolution* solution) {
+  iterations_ = 0;
+  if (!SetUnknowns(start)) return false;
+  if (form_ == EquilibriumForm::kReduced) {
+    const FrameEvaluation& frame =
+        Prepare(row, start.count, *start.state, kEquilibriumWeight);
+    return Solve() && Read(start, frame, solution);
+  }
+  for (const double weight : kWeights) {
+    const FrameEvaluation& frame =
+        Prepare(row, start.count, *start.state, weight);
+    const bool converged = Solve();
+    if (weight < kEquilibriumWeight) continue;
+    return converged && Read(start, frame, solution);
+  }
+  return false;
+}
+
+bool FrameProblem::Solve() {
+  ceres::Problem::Options options;
+  options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.evaluation_callback = &frames_;
+  ceres::Problem problem(options);
+  for (FrameBlock& block : blocks_) {
+    problem.AddResidualBlock(block.cost.get(), nullptr, block.parameters);
+  }
+  double* unknowns = unknowns_.data();
+  if (!problem.HasParameterBlock(unknowns)) return false;
+  std::vector<double*> all;
+  problem.GetParameterBlocks(&all);
+  for (double* block : all) {
+    if (block != unknowns) problem.SetParameterBlockConstant(block);
+  }
+  const FrameEvaluation& frame = frames_[0];
+  for (int c = 0; c < frame.contacts(); ++c) {
+    const int at = frame.contact_offset(c);
+    problem.SetParameterLowerBound(unknowns, at, 0);
+    problem.SetParameterUpperBound(unknowns, at, finger_.front_length_mm);
+    problem.SetParameterLowerBound(unknowns, at + 1, 0);
+    problem.SetParameterUpperBound(unknowns, at + 1, most_force_N_);
+  }
+  ceres::Solver::Options solve;
+  solve.logging_type = ceres::SILENT;
+  solve.linear_solver_type = ceres::DENSE_QR;
+  solve.max_num_iterations = kMostIterations;
+  solve.initial_trust_region_radius = kTrustRegion;
+  solve.max_trust_region_radius = 1e16;
+  solve.function_tolerance = kFunctionTolerance;
+  solve.parameter_tolerance = kParameterTolerance;
+  solve.gradient_tolerance = 0;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solve, &problem, &summary);
+  iterations_ += static_cast<int>(summary.iterations.size());
+  return summary.termination_type == ceres::CONVERGENCE;
+}
+
+bool FrameProblem::Read(const ContactStart& start, const FrameEvaluation& frame,
+                        ContactSolution* solution) {
+  // The last step that Ceres tried may have been rejected.
+  frames_.PrepareForEvaluation(true, true);
+  const int size = frame.frame_size();
+  BlockRows rows;
+  if (!frame.valid() ||
+      !rows.Evaluate(blocks_, {{unknowns_.data(), 0}}, size)) {
+    return false;
+  }
+  const int count = start.count;
+  solution->count = count;
+  solution->chi2 = rows.residuals.squaredNorm();
+  solution->state = frame.state();
+  for (int c = 0; c < count; ++c) {
+    solution->contacts[c] = frame.contact(c);
+    solution->poses[c] = frame.outputs().segment<3>(frame.contact_row(c));
+  }
+  solution->tip_pose = frame.outputs().segment<3>(frame.tip_row());
+  const Eigen::VectorXd& q = frame.state().q;
+  solution->rib_tension_N.assign(q.data() + 6, q.data() + 6 + frame.ribs());
+  // R of [base loads and tensions | contacts] = Q R holds at its lower right
+  // the root of the contacts' information with all else eliminated.
+  const Eigen::MatrixXd r =
+      Eigen::HouseholderQR<Eigen::MatrixXd>(rows.jacobian)
+          .matrixQR()
+          .topRows(std::min<Eigen::Index>(rows.jacobian.rows(), size))
+          .triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd root = r.bottomRightCorner(
+      std::max<Eigen::Index>(0, r.rows() - size + 2 * count), 2 * count);
+  solution->information = root.transpose() * root;
+  if (calibration_factor_.size() > 0) {
+    solution->systematic = Systematic(rows.jacobian, count);
+  }
+  return true;
+}
+
+// dx/dp = -(E'E)^-1 E'C by unknowns E and parameters C of all blocks, then
+// (dx/dp) C_pp (dx/dp)' as in CalibrationUncertainty.
+ContactMatrix FrameProblem::Systematic(const Eigen::MatrixXd& by_unknown,
+                                       int contacts) {
+  SharedParameters& shared = *parameters_.shared();
+  const auto& parameters = finger_.calibration->parameters;
+  const auto count = static_cast<Eigen::Index>(parameters.size());
+  const auto ribs = static_cast<Eigen::Index>(shared.rib_lengths_mm.size());
+  const auto gauges = static_cast<Eigen::Index>(finger_.gauges.size());
+  // Columns: stiffness, rib lengths, gains, offsets.
+  std::unordered_map<const double*, int> column_of = {
+      {&shared.ln_front_stiffness, 0}, {&shared.ln_back_stiffness, 1}};
+  if (ribs > 0) column_of.emplace(shared.rib_lengths_mm.data(), 2);
+  for (int j = 0; j < gauges; ++j) {
+    column_of.emplace(parameters_.gain(j), 2 + ribs + j);
+    column_of.emplace(parameters_.offset(j), 2 + ribs + gauges + j);
+  }
+  BlockRows rows;
+  rows.Evaluate(blocks_, column_of, static_cast<int>(2 + ribs + 2 * gauges));
+  Eigen::MatrixXd by_parameter(rows.jacobian.rows(), count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const FingerParameter& p = parameters[static_cast<std::size_t>(k)];
+    const auto column = [&](Eigen::Index i) { return rows.jacobian.col(i); };
+    switch (p.kind) {
+      case FingerParameterKind::kFrontStiffness:
+        by_parameter.col(k) = column(0) / finger_.front_stiffness_N_mm2;
+        break;
+      case FingerParameterKind::kBackStiffness:
+        by_parameter.col(k) = column(1) / finger_.back_stiffness_N_mm2;
+        break;
+      case FingerParameterKind::kRibLength:
+        by_parameter.col(k) = column(2 + p.index);
+        break;
+      case FingerParameterKind::kGaugeGain:
+        by_parameter.col(k) = column(2 + ribs + p.index);
+        break;
+      case FingerParameterKind::kGaugeOffset:
+        by_parameter.col(k) = column(2 + ribs + gauges + p.index);
+        break;
+    }
+  }
+  const Eigen::MatrixXd by_factor =
+      Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(by_unknown)
+          .solve(by_parameter * calibration_factor_)
+          .bottomRows(2 * contacts);
+  return by_factor * by_factor.transpose();
+}
+
+double FrameProblem::FreeChi2(const Measurements& row) {
+  const LadderState undeformed = LadderState::Undeformed(frames_.model());
+  ContactStart none;
+  none.state = &undeformed;
+  BlockRows rows;
+  if (SetUnknowns(none)) {
+    Prepare(row, 0, undeformed, kEquilibriumWeight);
+    frames_.PrepareForEvaluation(false, true);
+    if (rows.Evaluate(blocks_, {}, 0)) return rows.residuals.squaredNorm();
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace finray

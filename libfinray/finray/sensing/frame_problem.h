@@ -1,0 +1,68 @@
+#ifndef FINRAY_SENSING_FRAME_PROBLEM_H_
+#define FINRAY_SENSING_FRAME_PROBLEM_H_
+
+#include <optional>
+#include <vector>
+
+#include "finray/residuals/frame_blocks.h"
+#include "finray/sensing/contact_solution.h"
+#include "finray/sensing/contact_start.h"
+
+namespace finray {
+
+/// The contacts of one frame by ceres::Solve on the residual blocks that
+/// calibration uses too (residuals/frame_blocks.h), all parameters of the
+/// finger constant: minimises
+///
+///   chi2(x) = sum_k |r_k(x)|^2,   0 <= l_c <= l_0, 0 <= f_c <= its bound,
+///
+/// over x = (l_c, f_c) of each contact in the reduced form, and over
+/// x = (base loads, rib tensions, l_c, f_c) in the weighted one. This is the
+/// reference that the fast solver (ContactFit) is tested against, and the only
+/// one that takes every kind of measurement.
+class FrameProblem {
+ public:
+  /// Throws InputError as LadderModel does.
+  FrameProblem(const Finger& finger, const Scene& scene,
+               const Discretization& discretization, EquilibriumForm form,
+               double most_force_N);
+
+  /// Solves from a start. Returns false if no equilibrium is near it or Ceres
+  /// does not converge; `solution` is then of no use.
+  bool Fit(const ContactStart& start, const Measurements& row,
+           ContactSolution* solution);
+
+  /// chi2 of the finger without a contact; infinite without an equilibrium.
+  double FreeChi2(const Measurements& row);
+
+  /// Ceres iterations of the last Fit.
+  int iterations() const { return iterations_; }
+
+ private:
+  // The frame's evaluation and its blocks at `unknowns_`.
+  FrameEvaluation& Prepare(const Measurements& row, int contacts,
+                           const LadderState& state, double weight);
+  bool SetUnknowns(const ContactStart& start);
+  bool Solve();
+  bool Read(const ContactStart& start, const FrameEvaluation& frame,
+            ContactSolution* solution);
+  ContactMatrix Systematic(const Eigen::MatrixXd& by_unknown, int contacts);
+
+  Finger finger_;
+  MeasurementModel model_;
+  double friction_, most_force_N_;
+  bool camera_;
+  EquilibriumForm form_;
+  FingerParameters parameters_;
+  FrameSet frames_;
+  EquilibriumSolver
+      solver_;  // finds the base loads that weighted fits begin at
+  Eigen::MatrixXd calibration_factor_;  // of the finger's covariance, or empty
+  std::vector<double> unknowns_;
+  std::vector<FrameBlock> blocks_;
+  int iterations_ = 0;
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_SENSING_FRAME_PROBLEM_H_
