@@ -179,7 +179,7 @@ def main():
            f'<rect x="1" y="1" width="{width - 2}" height="{height - 2}" rx="14" fill="#ffffff" stroke="#d9dee4"/>\n'
            + "\n".join(out) + "\n</svg>\n")
     target = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else (
-        pathlib.Path(__file__).resolve().parent.parent / "docs" / "finger.svg")
+        pathlib.Path(__file__).resolve().parent.parent / "docs" / "pictures" / "finger.svg")
     target.write_text(svg, "utf-8")
 
 

@@ -74,7 +74,8 @@ def picture(ceres):
     height = 2 * EDGE + len(ROWS) * (ROW + GAP) - GAP
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" height="{height}" '
            'font-family="sans-serif">',
-           f'<rect width="{WIDTH}" height="{height}" rx="8" fill="{PAPER}"/>']
+           '<title>The rooms of finray, each above the rooms that it may use</title>',
+           f'<rect width="{WIDTH}" height="{height}" rx="8" fill="{PAPER}" stroke="#d9dee4"/>']
     for i, row in enumerate(ROWS):
         y, free = EDGE + i * (ROW + GAP), WIDTH - 2 * EDGE - (len(row) - 1) * GAP
         letters = [max(len(words), len(name) + 8) for name, words in row]
