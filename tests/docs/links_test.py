@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
-"""Every page, picture and heading that a document links exists, and so does every
-path below docs/ and every test program that a document or a source names."""
+"""Every page, picture and heading that a document links exists. So does every path
+below docs/ that a source or a document names, and every test program, test and
+source file that a document names."""
+import fnmatch
 import pathlib
 import re
 import sys
@@ -12,6 +14,10 @@ LINK = re.compile(r"\]\(([^)\s]+)\)")
 DOCS_PATH = re.compile(r"(?<![\w./-])docs/[\w./-]*\w")
 PROGRAM = re.compile(r"`(?:[^`\n]*[\s/])?(\w+_(?:test|study|benchmark))(?:[\s][^`\n]*)?`")
 HEADING = re.compile(r"^#+ +(.*)$")
+TEST = re.compile(r"\bTEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\)")
+FILTER = re.compile(r"--gtest_filter='?([^\s'`|]+)|`(\w+Test\.\w*\*?)`")
+SOURCE = re.compile(r"`(?:[\w/]+/)?(\w+\.(?:h|cc|py))`")
+ANY_TEST = "x_test.cc"  # stands for the test of x.h
 
 
 def files():
@@ -59,6 +65,31 @@ def programs():
     return names
 
 
+def tests():
+    """The full names of all tests, with the prefix of parameterised ones left out."""
+    return {".".join(names) for path in (ROOT / "tests").rglob("*.cc")
+            for names in TEST.findall(path.read_text(encoding="utf-8"))}
+
+
+def sources():
+    return {path.name for folder in ("libfinray", "calib", "apps", "examples", "scripts", "tests")
+            for path in (ROOT / folder).rglob("*") if path.suffix in (".h", ".cc", ".py")}
+
+
+def name_faults(line, known):
+    """What a line of a page names and the tree does not have."""
+    for name in PROGRAM.findall(line):
+        if name not in known["programs"]:
+            yield f"{name}: no such test program"
+    for filters in FILTER.findall(line):
+        for pattern in "".join(filters).split(":"):
+            if not fnmatch.filter(known["tests"], pattern):
+                yield f"{pattern}: no such test"
+    for name in SOURCE.findall(line):
+        if name not in known["sources"] | {ANY_TEST}:
+            yield f"{name}: no such source"
+
+
 def link_fault(page, target):
     """What is wrong with a link of a page, or None."""
     if re.match(r"[a-z]+:", target):
@@ -73,7 +104,7 @@ def link_fault(page, target):
 
 
 def faults():
-    known = programs()
+    known = {"programs": programs(), "tests": tests(), "sources": sources()}
     for path in files():
         try:
             text = path.read_text(encoding="utf-8")
@@ -91,9 +122,8 @@ def faults():
                 fault = link_fault(path, target)
                 if fault:
                     yield f"{where}:{number}: {target}: {fault}"
-            for name in PROGRAM.findall(line):
-                if name not in known:
-                    yield f"{where}:{number}: {name}: no such test program"
+            for fault in name_faults(line, known):
+                yield f"{where}:{number}: {fault}"
 
 
 def main():
