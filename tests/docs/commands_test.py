@@ -24,7 +24,7 @@ def main():
                    for flag in sorted(defined - shared - documented)]
         faults += [f"{source.stem}: there is no flag --{flag}"
                    for flag in sorted(documented - defined)]
-    print("\n".join(faults))
+    print(*faults, sep="\n", end="\n" if faults else "")
     return 1 if faults else 0
 
 
