@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr char kGood[] =
+constexpr char kGoodYaml[] =
     R"(schema_version: 1
 name: test
 scene: {object: {shape: circle, radius_mm: 15}}
@@ -36,7 +36,7 @@ class ExperimentYamlTest : public testing::Test {
   // `from` replaced by `to` gives this message.
   void ExpectError(const std::string& from, const std::string& to,
                    const std::string& message) {
-    std::string text = kGood;
+    std::string text = kGoodYaml;
     const std::size_t at = text.find(from);
     ASSERT_NE(at, std::string::npos) << from;
     text.replace(at, from.size(), to);
@@ -53,7 +53,7 @@ class ExperimentYamlTest : public testing::Test {
 };
 
 TEST_F(ExperimentYamlTest, Reads) {
-  const Experiment experiment = Read(kGood);
+  const Experiment experiment = Read(kGoodYaml);
   EXPECT_EQ(experiment.name, "test");
   EXPECT_DOUBLE_EQ(experiment.actuation.period_s, 0.04);
   EXPECT_DOUBLE_EQ(experiment.actuation.delay_s, 0.13);
@@ -68,7 +68,7 @@ TEST_F(ExperimentYamlTest, Reads) {
 }
 
 TEST_F(ExperimentYamlTest, ReadsAGripper) {
-  std::string text = kGood;
+  std::string text = kGoodYaml;
   text.replace(text.find("speed_limit_mm_s: 50"), 20, "speed_limit_deg_s: 90");
   text +=
       "gripper: {crank_pivot_mm: [0, -75], crank_joint_mm: [0, -15], "

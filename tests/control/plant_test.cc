@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-const RigidObject kCircle{Outline(CircleOutline{15}), {}};
+const RigidObject kPlantCircle{Outline(CircleOutline{15}), {}};
 
 Mechanism Gripper() {
   return Mechanism(
@@ -25,7 +25,7 @@ Mechanism Gripper() {
 // force is what the model of push_model.h says.
 TEST(PlantTest, StageAgainstAFixedObject) {
   const Finger finger = PaperFinger();
-  Plant plant({finger}, Mechanism(), kCircle, 0, 80, 0, 2);
+  Plant plant({finger}, Mechanism(), kPlantCircle, 0, 80, 0, 2);
   EXPECT_EQ(plant.At(1.99, 0).force_N, 0);
   EXPECT_GT(plant.At(2.01, 0).force_N, 0);
   PushModel model(finger, 15, 0, {});
@@ -49,7 +49,7 @@ TEST(PlantTest, ObjectOnASpring) {
   ASSERT_EQ(state.failure, "");
   const PlantFinger& touched = state.fingers[0];
   EXPECT_NEAR(touched.force_N.x(), 0.5 * touched.displacement_mm, 1e-6);
-  Plant fixed({finger}, Mechanism(), kCircle, 0, 80, 0, 0);
+  Plant fixed({finger}, Mechanism(), kPlantCircle, 0, 80, 0, 0);
   EXPECT_NEAR(fixed.At(9 - touched.displacement_mm, 0).force_N, state.force_N,
               1e-6);
 }
@@ -61,7 +61,7 @@ TEST(PlantTest, TwoFingersBalance) {
   const ModelError error{5, 0, 0, 0.05};
   Plant plant({Perturbed(finger, error, &generator),
                Perturbed(finger, error, &generator)},
-              Gripper(), kCircle, 0, 80, 0, 1);
+              Gripper(), kPlantCircle, 0, 80, 0, 1);
   EXPECT_EQ(plant.At(0, 0).force_N, 0);
   for (const double motor : {0.05, 0.12, 0.2, 0.08}) {
     const PlantState state = plant.At(motor, 0);
@@ -79,19 +79,19 @@ TEST(PlantTest, TwoFingersBalance) {
 // Two equal fingers are each like one against a wall.
 TEST(PlantTest, EqualFingersDoNotShiftTheObject) {
   const Finger finger = PaperFinger();
-  Plant two({finger, finger}, Gripper(), kCircle, 0, 80, 0, 1);
+  Plant two({finger, finger}, Gripper(), kPlantCircle, 0, 80, 0, 1);
   const PlantState state = two.At(0.1, 0);
   EXPECT_NEAR(state.fingers[0].object.position_mm.x(),
               state.fingers[1].object.position_mm.x(), 1e-6);
   EquilibriumSolver solver(finger, {});
   const ObjectContact found =
-      SolveObjectContact(kCircle, state.fingers[0].object, 0, &solver);
+      SolveObjectContact(kPlantCircle, state.fingers[0].object, 0, &solver);
   ASSERT_EQ(found.contacts.size(), 1u);
   EXPECT_NEAR(found.contacts[0].normal_N, state.force_N, 1e-5);
 }
 
 TEST(PlantTest, SaysWhyThereIsNoEquilibrium) {
-  Plant plant({PaperFinger()}, Mechanism(), kCircle, 0, 139, 0, 1);
+  Plant plant({PaperFinger()}, Mechanism(), kPlantCircle, 0, 139, 0, 1);
   EXPECT_EQ(plant.At(6, 0).failure,
             "the object meets an end of the front beam, not its side");
 }

@@ -85,7 +85,7 @@ TEST(ParameterCovarianceTest, NamesOfAllParameters) {
 }
 
 // A finger of one rib and one gauge with this block, which starts in line 11.
-void ExpectError(const std::string& block, const std::string& message) {
+void ExpectThrow(const std::string& block, const std::string& message) {
   const TempFolder folder;
   const std::string path =
       folder.Write("f.yaml",
@@ -103,57 +103,57 @@ void ExpectError(const std::string& block, const std::string& message) {
 }
 
 TEST(ParameterCovarianceTest, RefusesWhatIsNoCovariance) {
-  ExpectError("parametres: [rib_1_length_mm], std: [1]",
+  ExpectThrow("parametres: [rib_1_length_mm], std: [1]",
               "f.yaml:11:15: unknown key 'parametres' in calibration (did you "
               "mean 'parameters'?)");
-  ExpectError("std: [1]",
+  ExpectThrow("std: [1]",
               "f.yaml:11:14: 'parameters' is missing in calibration");
-  ExpectError("parameters: [], std: []",
+  ExpectThrow("parameters: [], std: []",
               "f.yaml:11:27: parameters: expected at least one");
-  ExpectError("parameters: [rib_1_lenght_mm], std: [1]",
+  ExpectThrow("parameters: [rib_1_lenght_mm], std: [1]",
               "f.yaml:11:28: parameters[1]: expected one of "
               "front_stiffness_N_mm2, back_stiffness_N_mm2, "
               "gauge_1_gain_V_per_rad, gauge_1_offset_V, rib_1_length_mm, "
               "found 'rib_1_lenght_mm' (did you mean 'rib_1_length_mm'?)");
-  ExpectError("parameters: [rib_2_length_mm], std: [1]",
+  ExpectThrow("parameters: [rib_2_length_mm], std: [1]",
               "found 'rib_2_length_mm' (did you mean 'rib_1_length_mm'?)");
-  ExpectError("parameters: [object_origin_x_mm], std: [1]",
+  ExpectThrow("parameters: [object_origin_x_mm], std: [1]",
               "found 'object_origin_x_mm'");
-  ExpectError("parameters: [gauge_1_offset_V, gauge_1_offset_V], std: [1, 1]",
+  ExpectThrow("parameters: [gauge_1_offset_V, gauge_1_offset_V], std: [1, 1]",
               "f.yaml:11:46: parameters[2]: 'gauge_1_offset_V' appears twice");
   const std::string two = "parameters: [gauge_1_offset_V, rib_1_length_mm], ";
-  ExpectError(two + "std: [1]",
+  ExpectThrow(two + "std: [1]",
               "f.yaml:11:69: std: expected 2 numbers, one a parameter, found "
               "1");
-  ExpectError(two + "std: [1, -0.5]",
+  ExpectThrow(two + "std: [1, -0.5]",
               "f.yaml:11:73: std[2]: expected a number of at least 0, found "
               "-0.5");
-  ExpectError(two + "std: [1, .inf]",
+  ExpectThrow(two + "std: [1, .inf]",
               "f.yaml:11:73: std[2]: expected a number, found '.inf'");
-  ExpectError(two + "std: 1",
+  ExpectThrow(two + "std: 1",
               "f.yaml:11:69: std: expected a list of numbers, found '1'");
   const std::string std = two + "std: [1, 1], correlations: ";
-  ExpectError(std + "1",
+  ExpectThrow(std + "1",
               "f.yaml:11:91: correlations: expected a list of rows, found '1'");
-  ExpectError(std + "[[1]]",
+  ExpectThrow(std + "[[1]]",
               "f.yaml:11:91: correlations: expected 2 rows, one a parameter, "
               "found 1");
-  ExpectError(std + "[1, [0, 1]]",
+  ExpectThrow(std + "[1, [0, 1]]",
               "f.yaml:11:92: correlations[1]: expected a list of numbers, "
               "found '1'");
-  ExpectError(std + "[[1], [1]]",
+  ExpectThrow(std + "[[1], [1]]",
               "f.yaml:11:97: correlations[2]: expected 2 numbers, the lower "
               "triangle up to its 1, found 1");
-  ExpectError(std + "[[1], [x, 1]]",
+  ExpectThrow(std + "[[1], [x, 1]]",
               "f.yaml:11:98: correlations[2][1]: expected a number, found "
               "'x'");
-  ExpectError(std + "[[1], [-1.1, 1]]",
+  ExpectThrow(std + "[[1], [-1.1, 1]]",
               "f.yaml:11:98: correlations[2][1]: expected a number from -1 to "
               "1, found -1.1");
-  ExpectError(std + "[[1], [0.5, 0.9]]",
+  ExpectThrow(std + "[[1], [0.5, 0.9]]",
               "f.yaml:11:103: correlations[2][2]: expected 1 on the diagonal, "
               "found 0.9");
-  ExpectError(
+  ExpectThrow(
       "parameters: [gauge_1_offset_V, rib_1_length_mm, "
       "back_stiffness_N_mm2], std: [1, 1, 1], correlations: [[1], [0.9, 1], "
       "[0.9, -0.9, 1]]",

@@ -13,7 +13,7 @@
 namespace finray {
 namespace {
 
-constexpr double kStiffness = 12500;
+constexpr double kEI_N_mm2 = 12500;
 
 // Bent, pulled, pushed and unloaded starts, in all quadrants.
 const std::vector<ElementStart>& Starts() {
@@ -29,11 +29,11 @@ template <class Element>
 class ElementInvariantTest : public testing::Test {
  public:
   static Element At(const ElementStart& start, double length) {
-    return ComputedElement<Element>(start, kStiffness, length);
+    return ComputedElement<Element>(start, kEI_N_mm2, length);
   }
 };
-using Elements = testing::Types<TaylorElement<16>, RigidLinkElement<>>;
-TYPED_TEST_SUITE(ElementInvariantTest, Elements);
+using InvariantElements = testing::Types<TaylorElement<16>, RigidLinkElement<>>;
+TYPED_TEST_SUITE(ElementInvariantTest, InvariantElements);
 
 // M_1 = M_0 - (r_1 - r_0) x N, whatever the shape.
 TYPED_TEST(ElementInvariantTest, MomentsBalance) {
@@ -74,7 +74,7 @@ TYPED_TEST(ElementInvariantTest, ReadoutMeetsTheMapAtTheEnd) {
 
 TYPED_TEST(ElementInvariantTest, WithoutForceTheMomentBendsAnArc) {
   const auto element = this->At({0.3, 400, 0, 0}, 12);
-  const double turn = 400 * 12 / kStiffness;
+  const double turn = 400 * 12 / kEI_N_mm2;
   const double* end = element.map().end;
   EXPECT_NEAR(end[2], 0.3 + turn, 1e-14);
   EXPECT_NEAR(end[3], 400, 1e-10);
@@ -86,11 +86,11 @@ TEST(TaylorElementInvariantTest, MatchesRungeKuttaEverywhere) {
   for (const ElementStart& start : Starts()) {
     for (const double length : {2.0, 6.0, 8.0}) {
       const auto element =
-          ComputedElement<TaylorElement<16>>(start, kStiffness, length);
+          ComputedElement<TaylorElement<16>>(start, kEI_N_mm2, length);
       for (const double share : {0.37, 1.0}) {
         const BeamOdeState exact = IntegrateBeam(
             {0, 0, start.theta_rad, start.moment_N_mm}, start.force_x_N,
-            start.force_y_N, kStiffness, share * length, 400);
+            start.force_y_N, kEI_N_mm2, share * length, 400);
         const BeamPoint point = element.PointAt(share * length);
         EXPECT_NEAR(point.x_mm, exact[0], 1e-12 * length);
         EXPECT_NEAR(point.y_mm, exact[1], 1e-12 * length);
@@ -107,11 +107,11 @@ TEST(RigidLinkElementInvariantTest, IsTwoHalfLinksAndAnElasticJoint) {
   const double length = 8;
   for (const ElementStart& start : Starts()) {
     const auto element =
-        ComputedElement<RigidLinkElement<>>(start, kStiffness, length);
+        ComputedElement<RigidLinkElement<>>(start, kEI_N_mm2, length);
     const double* end = element.map().end;
     const double x = length / 2 * std::cos(start.theta_rad);
     const double y = length / 2 * std::sin(start.theta_rad);
-    EXPECT_NEAR(kStiffness / length * (end[2] - start.theta_rad),
+    EXPECT_NEAR(kEI_N_mm2 / length * (end[2] - start.theta_rad),
                 start.moment_N_mm - (x * start.force_y_N - y * start.force_x_N),
                 1e-10);
     EXPECT_NEAR(end[0], x + length / 2 * std::cos(end[2]), 1e-12);
@@ -123,10 +123,10 @@ TEST(RigidLinkElementInvariantTest, LocalErrorIsOfOrderThree) {
   const ElementStart start{3.9, -400, -20, 9};
   const auto error = [&](double length, int row) {
     const auto element =
-        ComputedElement<RigidLinkElement<>>(start, kStiffness, length);
-    const BeamOdeState exact = IntegrateBeam(
-        {0, 0, start.theta_rad, start.moment_N_mm}, start.force_x_N,
-        start.force_y_N, kStiffness, length, 400);
+        ComputedElement<RigidLinkElement<>>(start, kEI_N_mm2, length);
+    const BeamOdeState exact =
+        IntegrateBeam({0, 0, start.theta_rad, start.moment_N_mm},
+                      start.force_x_N, start.force_y_N, kEI_N_mm2, length, 400);
     return std::abs(element.map().end[row] - static_cast<double>(exact[row]));
   };
   for (int row = 0; row < 4; ++row) {

@@ -44,7 +44,7 @@ Finger FrontGauges() {
 struct Exact {
   Eigen::MatrixXd system, noise;
 };
-constexpr double kRadius_mm = 15;
+constexpr double kCircle_mm = 15;
 Exact ExactCovariance(const EquilibriumSolver& solver, int contacts,
                       const Eigen::VectorXd& weights) {
   const Finger& finger = solver.model().finger();
@@ -54,8 +54,8 @@ Exact ExactCovariance(const EquilibriumSolver& solver, int contacts,
   if (rows > m) {
     const double theta = solver.contact_pose(0)[2];
     const Eigen::RowVectorXd turn = solver.d_outputs().row(m + 2);
-    ds.row(m) -= kRadius_mm * std::cos(theta) * turn;
-    ds.row(m + 1) -= kRadius_mm * std::sin(theta) * turn;
+    ds.row(m) -= kCircle_mm * std::cos(theta) * turn;
+    ds.row(m + 1) -= kCircle_mm * std::sin(theta) * turn;
   }
   const Eigen::MatrixXd j = ds.leftCols(n);
   const Eigen::MatrixXd w = weights.cwiseAbs2().asDiagonal();
@@ -103,7 +103,7 @@ Worst WorstOfTable(const Finger& finger, double friction,
   const bool circle = weights.size() > solver.model().gauges();
   CalibrationUncertainty uncertainty(
       finger, friction, &solver,
-      circle ? std::optional(kRadius_mm) : std::nullopt);
+      circle ? std::optional(kCircle_mm) : std::nullopt);
   std::mt19937_64 generator(11);
   std::uniform_real_distribution<double> uniform;
   const double heaviest_N = 25;

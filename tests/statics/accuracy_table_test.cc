@@ -16,7 +16,7 @@
 namespace finray {
 namespace {
 
-constexpr double kFrontLength = 140;
+constexpr double kFront_mm = 140;
 constexpr double kStiffness = 12500;
 
 // Largest differences of tip (of l_0), gauges and rib forces (of the largest).
@@ -26,7 +26,7 @@ struct Difference {
 
 Difference Compare(const EquilibriumSolver& a, const EquilibriumSolver& b) {
   Difference d;
-  d.tip = (a.tip_pose() - b.tip_pose()).head<2>().norm() / kFrontLength;
+  d.tip = (a.tip_pose() - b.tip_pose()).head<2>().norm() / kFront_mm;
   const int m = b.model().gauges(), r = b.model().ribs();
   const Eigen::VectorXd gauges = b.outputs().head(m);
   d.gauges = (a.outputs().head(m) - gauges).cwiseAbs().maxCoeff() /
@@ -179,7 +179,7 @@ TEST(AccuracyTableTest, RangeOfLoads) {
                        (solver.tip_pose() - fine.tip_pose()).head<2>().norm());
     }
     std::printf("| %g | %.0f | %d of %d | %d | %d | %.1e |\n", force,
-                force * kFrontLength * kFrontLength / kStiffness, solved, cases,
+                force * kFront_mm * kFront_mm / kStiffness, solved, cases,
                 limits, most, worst);
     EXPECT_EQ(solved + limits, cases) << force;
     EXPECT_LT(worst, 1e-6) << force;

@@ -159,4 +159,12 @@ BenchmarkCase MakeBenchmarkCase(const Finger& finger, const std::string& scene,
   return c;
 }
 
+const BenchmarkCase& CaseOf(const std::vector<BenchmarkCase>& cases,
+                            std::string_view scene) {
+  for (const BenchmarkCase& c : cases) {
+    if (c.scene_name == scene) return c;
+  }
+  throw std::logic_error("no case of scene " + std::string(scene));
+}
+
 }  // namespace finray

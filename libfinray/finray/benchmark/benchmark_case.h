@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "finray/scene/scene.h"
@@ -66,6 +67,10 @@ Discretization ReferenceDiscretization(const Finger& finger);
 /// finger has no equilibrium somewhere along the log.
 BenchmarkCase MakeBenchmarkCase(const Finger& finger, const std::string& scene,
                                 int stretches = kStretches);
+
+/// The case of a scene. Throws std::logic_error if there is none.
+const BenchmarkCase& CaseOf(const std::vector<BenchmarkCase>& cases,
+                            std::string_view scene);
 
 }  // namespace finray
 

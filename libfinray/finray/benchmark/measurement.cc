@@ -24,14 +24,6 @@ double WallUs() {
       .count();
 }
 
-const BenchmarkCase& CaseOf(const std::vector<BenchmarkCase>& cases,
-                            const std::string& scene) {
-  for (const BenchmarkCase& c : cases) {
-    if (c.scene_name == scene) return c;
-  }
-  throw std::logic_error("no case of scene " + scene);
-}
-
 // A setting under way.
 class Bench {
  public:

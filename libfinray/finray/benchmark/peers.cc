@@ -30,13 +30,6 @@ std::vector<int> PeerFrames(const BenchmarkCase& c, bool quick) {
   return frames;
 }
 
-const BenchmarkCase& CaseOf(const std::vector<BenchmarkCase>& cases,
-                            const std::string& scene) {
-  return *std::find_if(cases.begin(), cases.end(), [&](const BenchmarkCase& c) {
-    return c.scene_name == scene;
-  });
-}
-
 void WriteFinger(const Finger& finger, JsonWriter* json) {
   json->Open("finger", '{').Number("front_length_mm", finger.front_length_mm);
   json->Number("back_angle_rad", finger.back_angle_rad);

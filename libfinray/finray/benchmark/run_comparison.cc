@@ -13,10 +13,11 @@ constexpr double kWorse = 1.5;
 // With less rounds an interval says nothing.
 constexpr std::size_t kLeastRounds = 3;
 // What another order of summation may change, in mm, N, % and rad.
-constexpr double kRounding = 1e-8;
+constexpr double kRoundingSpread = 1e-8;
 
 void AddIfWorse(const char* what, double a, double b, std::string* words) {
-  if (!(b > kWorse * a && b > kRounding) && !(std::isnan(b) && a >= 0)) return;
+  if (!(b > kWorse * a && b > kRoundingSpread) && !(std::isnan(b) && a >= 0))
+    return;
   *words += std::string(words->empty() ? "" : ", ") + what + " " +
             NumberText(a) + " -> " + NumberText(b);
 }

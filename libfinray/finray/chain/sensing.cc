@@ -11,10 +11,10 @@
 namespace finray {
 namespace {
 
-constexpr double kMaxTurn = 0.5;
+constexpr double kMaxSensingTurn = 0.5;
 constexpr double kMaxMove = 0.03;   // of l_0
 constexpr double kMaxChange = 0.3;  // of f_c + F_0
-constexpr double kSmallStep = 1e-9;
+constexpr double kSmallSensingStep = 1e-9;
 
 // The pseudo-inverse step of (18) in units of the columns. It is subtracted:
 // the printed plus would lead away.
@@ -70,7 +70,7 @@ ChainSensing SenseContact(const ChainLayout& layout, const Eigen::VectorXd& s0,
         Step(layout, units, s0, options.model_weight, state, contact);
     if (!step.allFinite()) break;
     const double fraction =
-        std::min({1.0, kMaxTurn / LargestTurn(step.head(n)),
+        std::min({1.0, kMaxSensingTurn / LargestTurn(step.head(n)),
                   kMaxMove / std::abs(step[n + loads]),
                   kMaxChange * (1 + contact.normal_N / layout.force_unit_N) /
                       std::abs(step[n + loads + 1])});
@@ -83,7 +83,7 @@ ChainSensing SenseContact(const ChainLayout& layout, const Eigen::VectorXd& s0,
     contact.normal_N = std::max(0.0, normal);
     const bool on_bound = contact.arc_mm <= 0 || contact.normal_N <= 0 ||
                           contact.arc_mm >= layout.length_unit_mm;
-    if (!on_bound && step.cwiseAbs().maxCoeff() < kSmallStep &&
+    if (!on_bound && step.cwiseAbs().maxCoeff() < kSmallSensingStep &&
         state.AllFinite()) {
       result.converged = true;
       break;

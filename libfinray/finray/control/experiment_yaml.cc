@@ -6,12 +6,12 @@
 #include <set>
 #include <stdexcept>
 
+#include "finray/finger/geometry.h"
+
 namespace finray {
 namespace {
 
 using Eigen::Vector2d;
-
-constexpr double kDegree = M_PI / 180;
 
 Scene ReadLoopScene(const YamlMap& yaml) {
   const auto file = [&] {

@@ -10,7 +10,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int kMostIterations = 30;
-constexpr double kTolerance_mm = 1e-7;
+constexpr double kGapTolerance_mm = 1e-7;
 constexpr double kLongestStep_mm = 10;
 constexpr double kEnd_mm = 0.5;  // no contact nearer to an end of the beam
 
@@ -56,7 +56,7 @@ std::optional<Push> PushModel::At(const Pose<double>& base, double y_mm,
     if (!Solve(base, arc_mm, normal_N)) return std::nullopt;
     const double gap = y_mm - centre_.y();
     const double step = gap / by_arc_.y();
-    if (std::abs(gap) < kTolerance_mm) {
+    if (std::abs(gap) < kGapTolerance_mm) {
       const double compliance =
           by_force_.x() - by_arc_.x() * by_force_.y() / by_arc_.y();
       return Push{centre_.x(), arc_mm, 1 / compliance};

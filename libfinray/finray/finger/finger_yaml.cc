@@ -15,7 +15,6 @@
 namespace finray {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
 constexpr long double kLongDegree =
     3.14159265358979323846264338327950288L / 180;
 

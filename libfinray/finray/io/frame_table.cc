@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 
 #include "finray/io/atomic_file.h"
@@ -10,6 +9,7 @@
 #include "finray/io/error.h"
 #include "finray/io/frame_vocabulary.h"
 #include "finray/io/gzip.h"
+#include "finray/io/nan.h"
 #include "finray/io/number_text.h"
 #include "finray/io/shown_text.h"
 
@@ -18,8 +18,6 @@ namespace {
 
 using Numeric = std::vector<double>;
 using Texts = std::vector<std::string>;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 

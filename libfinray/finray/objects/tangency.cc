@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr int kMaxIterations = 30;
-constexpr double kTolerance = 1e-12;  // of l_0, and in rad
+constexpr double kTangencyTolerance = 1e-12;  // of l_0, and in rad
 
 }  // namespace
 
@@ -124,7 +124,7 @@ bool Tangency::Solve(const ObjectPose& pose, TangencyUnknowns unknowns,
     const double gap = residual_.head(count).lpNorm<Eigen::Infinity>();
     const double slope =
         sliding ? residual_.tail(count).lpNorm<Eigen::Infinity>() : 0;
-    if (gap <= kTolerance * length_ && slope <= kTolerance) {
+    if (gap <= kTangencyTolerance * length_ && slope <= kTangencyTolerance) {
       return outside_;
     }
     const Eigen::VectorXd step = -jacobian_.topRightCorner(equations, equations)

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/finger/geometry.h"
 #include "finray/io/yaml_emitter.h"
 #include "finray/perception/inputs_yaml.h"
 
 namespace finray {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 void EmitTrial(const ComplianceTrial& trial, YamlEmitter* emitter) {
   YamlEmitter& yaml = *emitter;

@@ -8,10 +8,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-double Cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 // How far along a ray the piece from a to b is met; infinite if it is not.
 double Crossing(const Vector2d& ray, const Vector2d& a, const Vector2d& b) {
   const double above_a = Cross(ray, a), above_b = Cross(ray, b);

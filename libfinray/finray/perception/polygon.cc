@@ -3,15 +3,12 @@
 #include <cmath>
 
 namespace finray {
-namespace {
 
 using Eigen::Vector2d;
 
 double Cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
-
-}  // namespace
 
 double AreaOf(const Polygon& polygon) {
   double twice = 0;

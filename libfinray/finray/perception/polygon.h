@@ -10,6 +10,9 @@ namespace finray {
 /// A closed curve as the points along it; the last one joins the first.
 using Polygon = std::vector<Eigen::Vector2d>;
 
+/// a_x b_y - a_y b_x.
+double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
+
 /// Of the area, which is taken as above 0 for a counter-clockwise curve.
 Eigen::Vector2d CentroidOf(const Polygon& polygon);
 double AreaOf(const Polygon& polygon);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 #include "finray/io/parse_number.h"
 #include "finray/io/shown_text.h"
@@ -12,8 +13,6 @@
 
 namespace finray {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 void EmitError(const char* key, const RadialError& error, YamlEmitter* yaml) {
   *yaml << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginMap

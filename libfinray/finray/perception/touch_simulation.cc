@@ -12,7 +12,7 @@ namespace finray {
 namespace {
 
 constexpr double kForceTolerance = 1e-4;  // of the force asked for
-constexpr double kDeepest_mm = 40;
+constexpr double kDeepestPress_mm = 40;
 
 double Force(const ObjectContact& found) {
   double sum = 0;
@@ -28,7 +28,7 @@ ObjectPose Press(const RigidObject& object, double angle_rad,
       Eigen::Rotation2Dd(angle_rad) *
       object.outline.PointAt(-angle_rad).position_mm;
   ObjectPose pose{{0, protocol.height_mm - leading.y()}, angle_rad};
-  double low = 0, high = kDeepest_mm;
+  double low = 0, high = kDeepestPress_mm;
   double depth = 2;
   ObjectContact found;
   for (int i = 0; i < 60; ++i) {

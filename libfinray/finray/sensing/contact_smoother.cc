@@ -8,11 +8,11 @@ namespace finray {
 namespace {
 
 constexpr int kMostIterations = 30;
-constexpr double kMostDamping = 1e6;
+constexpr double kMostSmootherDamping = 1e6;
 // A step that lowers the cost by less than this is the last.
-constexpr double kLeastDecrease = 1e-6;
+constexpr double kLeastCostDecrease = 1e-6;
 // Down to this share of its force at a time.
-constexpr double kLeastShare = 0.3;
+constexpr double kLeastForceShare = 0.3;
 
 Eigen::Matrix2d ChangeInformation(const Scene& scene) {
   const Smoothing& q = *scene.smoothing;
@@ -87,24 +87,24 @@ bool ContactSmoother::SmoothRun(const Measurements* readings, std::size_t count,
       expected += frame.step.dot(frame.information * frame.step);
     }
     // At the minimum to rounding, or, as a NaN, nowhere.
-    if (!(expected > kLeastDecrease)) break;
+    if (!(expected > kLeastCostDecrease)) break;
     for (std::size_t t = 0; t < count; ++t) {
       Frame& frame = frames_[t];
       x[t] = frame.x;
       frame.x += frame.step;
       frame.x[0] = std::clamp(frame.x[0], 0.0, finger_.front_length_mm);
-      frame.x[1] = std::max(frame.x[1], kLeastShare * x[t][1]);
+      frame.x[1] = std::max(frame.x[1], kLeastForceShare * x[t][1]);
     }
     const bool lower = Linearize(count) && Cost(count, before) < cost;
     if (lower) {
-      if (cost - Cost(count, before) < kLeastDecrease) break;
+      if (cost - Cost(count, before) < kLeastCostDecrease) break;
       damping *= 0.1;
       continue;
     }
     for (std::size_t t = 0; t < count; ++t) frames_[t].x = x[t];
     if (!Linearize(count)) return false;
     damping = std::max(1e-3, 10 * damping);
-    if (damping > kMostDamping) break;
+    if (damping > kMostSmootherDamping) break;
   }
   Eliminate(count, 0, before);
   for (std::size_t t = 0; t < count; ++t) {

@@ -5,12 +5,12 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
+#include "finray/io/nan.h"
 
 namespace finray {
 namespace {
 
 constexpr int kUnknowns = 2;  // of a contact
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 void CopyContacts(const ContactSolution& from, ContactEstimates* to) {
   for (int c = 0; c < from.count; ++c) {

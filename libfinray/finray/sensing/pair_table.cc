@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kPlaces = 12;
 // In units of EI / l_0^2: 1 to 16 N for the paper's finger.
-constexpr double kForces[] = {1.5, 5, 12, 25};
+constexpr double kPairForces[] = {1.5, 5, 12, 25};
 constexpr double kForceStep = 0.6;  // of the force
 constexpr double kFarthest = 3;     // steps
 
@@ -28,9 +28,9 @@ PairTable::PairTable(EquilibriumSolver* solver, double friction)
   for (int first = 0; first < kPlaces; ++first) {
     for (int second = first + 1; second < kPlaces; ++second) {
       std::vector<Node> nodes;
-      for (const double f1 : kForces) {
+      for (const double f1 : kPairForces) {
         solver->Reset();
-        for (const double f2 : kForces) {
+        for (const double f2 : kPairForces) {
           // Soft fingers fold over at the heavy end; the table ends there.
           if (!solver->SolveWithSensitivities(
                   {{place(first), f1 * unit, friction},

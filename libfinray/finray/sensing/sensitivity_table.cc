@@ -13,8 +13,8 @@ constexpr int kStencil = 6;  // nodes of a polynomial
 using StencilVector = Eigen::Matrix<double, kStencil, 1>;
 constexpr double kSpacing = 0.025;  // of l_0, at most
 // Forces in units of EI / l_0^2, to where GaugeTable ends.
-constexpr double kForces[] = {0, 0.5, 1,  2,  3.5, 5,  7,
-                              9, 12,  16, 20, 25,  32, 40};
+constexpr double kGridForces[] = {0, 0.5, 1,  2,  3.5, 5,  7,
+                                  9, 12,  16, 20, 25,  32, 40};
 // Nodes of a segment lie so much closer at its ends, where a polynomial of one
 // side only has to do: 0 is evenly, 1 as the extrema of Chebyshev's.
 constexpr double kCrowding = 0.7;
@@ -96,7 +96,7 @@ SensitivityTable::SensitivityTable(double friction,
             4 + solver->model().ribs()) {
   const Finger& finger = solver->model().finger();
   const double length = finger.front_length_mm;
-  for (const double force : kForces) {
+  for (const double force : kGridForces) {
     forces_N_.push_back(force * ForceUnit(finger));
   }
   const std::vector<double> lines = Lines(finger);

@@ -6,6 +6,7 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
+#include "finray/io/nan.h"
 #include "finray/io/yaml_map.h"
 #include "finray/sensing/calibration_uncertainty.h"
 #include "finray/sensing/chi_squared.h"
@@ -14,9 +15,8 @@
 namespace finray {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr int kHeights = 9;
-constexpr double kLoads[] = {1, 3, 6, 10};  // EI / l_0^2
+constexpr int kComparisonHeights = 9;
+constexpr double kComparisonLoads[] = {1, 3, 6, 10};  // EI / l_0^2
 // Below this share of the largest eigenvalue, of correlations written with six
 // digits, is rounding.
 constexpr double kRank = 1e-6;
@@ -163,9 +163,9 @@ class Sensor {
 void CompareGrid(const Finger& finger_a, const Finger& finger_b,
                  const Discretization& discretization, Comparison* comparison) {
   Sensor a(finger_a, discretization), b(finger_b, discretization);
-  for (int i = 1; i <= kHeights; ++i) {
-    const double arc = finger_a.front_length_mm * i / (kHeights + 1);
-    for (const double load : kLoads) {
+  for (int i = 1; i <= kComparisonHeights; ++i) {
+    const double arc = finger_a.front_length_mm * i / (kComparisonHeights + 1);
+    for (const double load : kComparisonLoads) {
       const double force = load * ForceUnit(finger_a);
       const std::vector<double> volts = a.Read({arc, force, 0});
       if (volts.empty()) continue;

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/io/nan.h"
 #include "finray/io/yaml_emitter.h"
 #include "finray/sensing/estimated_force.h"
 
 namespace finray {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double k95 = 1.959964;
 
 double Percent(std::size_t part, std::size_t of) {

@@ -12,12 +12,12 @@
 #include "finray/calib/solve/information_spectrum.h"
 #include "finray/calib/solve/linearized_frame.h"
 #include "finray/finger/geometry.h"
+#include "finray/io/nan.h"
 #include "finray/objects/circle_centre.h"
 
 namespace finray {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kHeights = 9;
 constexpr double kLoads[] = {0.1, 0.3, 0.6, 1};  // of the largest
 // In units of EI / l_0^2: what a finger carries with ease, and what it may.

@@ -11,11 +11,10 @@
 #include "finray/batch/batch_estimation.h"
 #include "finray/calib/analysis/force_check.h"
 #include "finray/io/error.h"
+#include "finray/io/nan.h"
 
 namespace finray {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 double TouchedAt(const CalibrationFrame& frame, const Plan& plan,
                  EquilibriumSolver* solver) {

@@ -10,19 +10,18 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <stdexcept>
 
 #include "finray/calib/analysis/force_check.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
+#include "finray/io/nan.h"
 #include "finray/io/number_text.h"
 
 namespace finray {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Of a kind and log that the joint solve has at least.
 constexpr std::size_t kLeastOfLog = 50;
 // States of more frames would take more memory than they save time.

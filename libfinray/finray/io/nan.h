@@ -1,0 +1,13 @@
+#ifndef FINRAY_IO_NAN_H_
+#define FINRAY_IO_NAN_H_
+
+#include <limits>
+
+namespace finray {
+
+/// Stands for a value that nobody measured or that cannot be told.
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace finray
+
+#endif  // FINRAY_IO_NAN_H_
