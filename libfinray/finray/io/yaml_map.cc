@@ -256,7 +256,8 @@ std::string YamlMap::Text(const std::string& key) const {
     Fail(key, key + ": expected a word, found " + Shown(node_[key]));
   }
   // It may become part of a path or of a message.
-  const std::string& text = node_[key].Scalar();
+  const YAML::Node value = node_[key];
+  const std::string& text = value.Scalar();
   if (ShownLine(text) != text) {
     Fail(key,
          key + ": expected one short line of text, found " + Shown(node_[key]));
