@@ -7,7 +7,7 @@
 namespace finray {
 namespace {
 
-constexpr int kMostIterations = 30;
+constexpr int kMostSmootherIterations = 30;
 constexpr double kMostSmootherDamping = 1e6;
 // A step that lowers the cost by less than this is the last.
 constexpr double kLeastCostDecrease = 1e-6;
@@ -78,7 +78,7 @@ bool ContactSmoother::SmoothRun(const Measurements* readings, std::size_t count,
   }
   double damping = 0;
   std::vector<Eigen::Vector2d> x(count);
-  for (int i = 0; i < kMostIterations; ++i) {
+  for (int i = 0; i < kMostSmootherIterations; ++i) {
     const double cost = Cost(count, before);
     Eliminate(count, damping, before);
     double expected = 0;
