@@ -17,7 +17,7 @@
 #include "finray/ladder/ladder_kernel.h"
 #include "finray/sensing/fast/contact_fit.h"
 #include "finray/sensing/fast/frame_group_fit.h"
-#include "sensing/fast/ceres_contact_fit.h"
+#include "finray/sensing/frame_problem.h"
 #include "sensing/gauge_log.h"
 #include "test_finger.h"
 
@@ -137,16 +137,21 @@ void InLanes(benchmark::State& state, const Discretization& discretization) {
 void Ceres(benchmark::State& state) {
   Finger finger = PaperFinger();
   for (Gauge& gauge : finger.gauges) gauge.noise_V = GaugeLog::kNoise_rad;
-  CeresContactFit fit(finger, {});
-  PointContact contact;
-  std::vector<double> volts(4);
+  FrameProblem problem(finger, Scene(), {}, EquilibriumForm::kReduced, 100);
+  ContactSolution solution;
+  Measurements row;
   Run(
-      state, 400, 1, [&] { contact = TheLog().truth[0]; },
+      state, 400, 1,
+      [&] {
+        solution.contacts[0] = TheLog().truth[0];
+        solution.state = TheLog().StateAt({}, 0);
+      },
       [&](int i, PointContact* out) {
-        volts.assign(TheLog().angles.col(i).begin(),
-                     TheLog().angles.col(i).end());
-        fit.Fit(volts, 1e-6, &contact);
-        *out = contact;
+        row.gauges_V.assign(TheLog().angles.col(i).begin(),
+                            TheLog().angles.col(i).end());
+        const LadderState state = solution.state;
+        problem.Fit({1, solution.contacts, 0, &state}, row, &solution);
+        *out = solution.contacts[0];
       });
 }
 

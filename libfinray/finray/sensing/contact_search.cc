@@ -64,7 +64,7 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
   // table's nodes are from it, and no chi2 tells the right one.
   const bool exact = contacts == 1 && dof < 1;
   found_ = iterations_ = 0;
-  int fallbacks = 0;
+  std::size_t fallbacks = 0;
   for (const ContactStart& start : starts_) {
     const bool explained = found_ > 0 && IsExplained(least_chi2(), dof);
     const bool may_be_rival =
@@ -78,8 +78,7 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
       Keep();
       continue;
     }
-    if ((explained && !exact) || fallbacks == kMostFallbacks) continue;
-    ++fallbacks;
+    if ((explained && !exact) || fallbacks++ == kMostFallbacks) continue;
     if (FitByCeres(start, row)) Keep();
   }
   return found_ > 0;
@@ -98,6 +97,23 @@ double ContactSearch::FreeChi2(const Measurements& row,
 }
 
 void ContactSearch::FindStarts(int contacts, const PackedReadings& packed) {
+  if (packed.weights.isZero(0)) {
+    // Only a camera tells of this frame: starts spread over the finger.
+    starts_.clear();
+    const auto& rows = table_.rows();
+    for (std::size_t k = 0; k < kMostStarts; ++k) {
+      const GaugeTable::Row& row =
+          rows[(2 * k + 1) * rows.size() / (2 * kMostStarts)];
+      const GaugeTable::Node& node = row.nodes[row.nodes.size() / 2];
+      ContactStart start;
+      start.count = 1;
+      start.contacts[0] = {row.arc_mm, node.normal_N,
+                           scene_.friction_coefficient};
+      start.state = &node.state;
+      starts_.push_back(start);
+    }
+    return;
+  }
   if (contacts == 1) {
     table_.FindStarts(packed.values, packed.weights, &starts_);
     if (starts_.size() > kMostStarts) starts_.resize(kMostStarts);

@@ -8,7 +8,6 @@
 #include <random>
 
 #include "finray/statics/equilibrium.h"
-#include "sensing/fast/ceres_contact_fit.h"
 #include "sensing/gauge_log.h"
 #include "test_finger.h"
 
@@ -58,36 +57,6 @@ TEST(ContactFitTest, FindsTheContactFromFarAway) {
       EXPECT_NEAR(fit.rib_tension(2), truth.rib_tension(2), 1e-5 * force);
     }
   }
-}
-
-// With noise there is something to minimise: ceres::Solve finds the same.
-TEST(ContactFitTest, AgreesWithCeres) {
-  const Finger finger = PaperFinger();
-  ContactFit fit(finger, {});
-  CeresContactFit ceres(finger, {});
-  std::mt19937_64 generator(11);
-  std::normal_distribution<double> noise(0, kNoise_rad);
-  double worst = 0, worst_chi2 = 0;
-  for (int i = 0; i < 60; ++i) {
-    const PointContact truth = {30 + 1.3 * i, 1 + 0.1 * i, 0};
-    Eigen::VectorXd angles = Angles(finger, {truth});
-    for (double& angle : angles) angle += noise(generator);
-    std::vector<PointContact> contacts = {truth};
-    StartAt(finger, contacts, &fit);
-    ASSERT_TRUE(fit.Fit(angles, Weights(finger), &contacts));
-    PointContact other = truth;
-    ASSERT_TRUE(ceres.Fit({angles.begin(), angles.end()}, 1e-13, &other));
-    // In standard deviations.
-    const Eigen::Vector2d difference(contacts[0].arc_mm - other.arc_mm,
-                                     contacts[0].normal_N - other.normal_N);
-    const double deviations =
-        std::sqrt(difference.dot(fit.information() * difference));
-    worst = std::max(worst, deviations);
-    worst_chi2 = std::max(worst_chi2, fit.chi2());
-    EXPECT_LT(deviations, 1e-3) << i;
-  }
-  std::printf("against ceres::Solve: %.1e std\n", worst);
-  EXPECT_GT(worst_chi2, 1);  // there was noise
 }
 
 TEST(ContactFitTest, TwoContactsWithGaugesOnBothBeams) {
