@@ -72,7 +72,7 @@ double Cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-double Difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+double Distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return (a - b).cwiseAbs().maxCoeff();
 }
 
@@ -88,7 +88,7 @@ TEST(RichBeamsTest, EqualPiecesAreTheUniformBeam) {
     for (const std::vector<PointContact>& contacts : kLoads) {
       ASSERT_TRUE(a.Solve(contacts));
       ASSERT_TRUE(b.Solve(contacts));
-      EXPECT_LT(Difference(a.outputs(), b.outputs()), 1e-12);
+      EXPECT_LT(Distance(a.outputs(), b.outputs()), 1e-12);
     }
   }
   // Anywhere else it is the same beam, to the accuracy of the mesh.
@@ -101,7 +101,7 @@ TEST(RichBeamsTest, EqualPiecesAreTheUniformBeam) {
   for (const std::vector<PointContact>& contacts : kLoads) {
     ASSERT_TRUE(a.Solve(contacts));
     ASSERT_TRUE(b.Solve(contacts));
-    EXPECT_LT(Difference(a.outputs(), b.outputs()), 1e-11);
+    EXPECT_LT(Distance(a.outputs(), b.outputs()), 1e-11);
   }
 }
 
@@ -114,8 +114,8 @@ TEST(RichBeamsTest, GreatAxialStiffnessIsInextensible) {
     ASSERT_TRUE(a.Solve(contacts));
     ASSERT_TRUE(b.Solve(contacts));
     ASSERT_TRUE(soft.Solve(contacts));
-    EXPECT_LT(Difference(a.outputs(), b.outputs()), 1e-8);
-    EXPECT_GT(Difference(a.outputs(), soft.outputs()), 1e-4);
+    EXPECT_LT(Distance(a.outputs(), b.outputs()), 1e-8);
+    EXPECT_GT(Distance(a.outputs(), soft.outputs()), 1e-4);
   }
 }
 

@@ -41,8 +41,7 @@ void JointSolve::AddFrame(const Frame& frame, const CalibrationBlocks& blocks) {
     if (frame.state->q.size() > 0) evaluation->set_state(*frame.state);
   }
   evaluation_of_.push_back(evaluation);
-  for (FrameBlock& block :
-       blocks.Of(*frame.frame, evaluation, frame.contact)) {
+  for (FrameBlock& block : blocks.Of(*frame.frame, evaluation, frame.contact)) {
     problem_->AddResidualBlock(block.cost.release(), loss_.get(),
                                block.parameters);
   }
