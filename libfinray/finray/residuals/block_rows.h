@@ -9,15 +9,15 @@
 
 namespace finray {
 
-/// The residuals of some blocks, one below the other, and their derivatives by
-/// chosen parameter blocks, whatever Ceres holds constant.
+/// The stacked residuals of some blocks and their derivatives by chosen
+/// parameter blocks. Parameters that Ceres holds constant can be chosen too.
 struct BlockRows {
   Eigen::VectorXd residuals;
   Eigen::MatrixXd jacobian;  ///< residuals x columns
 
-  /// `column_of` maps a parameter block to the column of its first element;
-  /// blocks that it does not name are left out. Returns false if a block cannot
-  /// be evaluated.
+  /// Evaluates `blocks`. `column_of` maps a parameter block to the column of
+  /// its first element; blocks that it does not name are left out. Returns
+  /// false if a block cannot be evaluated.
   bool Evaluate(const std::vector<FrameBlock>& blocks,
                 const std::unordered_map<const double*, int>& column_of,
                 int columns);

@@ -7,13 +7,13 @@
 
 namespace finray {
 
-/// A gauge's volts on the bench, bent round a cylinder of radius R along its
-/// whole length w:
+/// A gauge's volts on the test bench, where the gauge is bent along its whole
+/// length w around a cylinder of radius R:
 ///
-///   r = (gain * w / R + sum_k c_k x_k - V) / sigma_V,
+///   r = (gain * w / R + sum_k c_k x_k - V) / sigma_V.
 ///
-/// the sum being that of GaugeReadingResidual. An infinite R is a flat gauge, a
-/// negative one bends it the other way. Parameter blocks: gain (1, V/rad), then
+/// The sum is that of GaugeReadingResidual. An infinite R means a flat gauge, a
+/// negative R bends it the other way. Parameter blocks: gain (1, V/rad), then
 /// each x_k (1).
 class CylinderGaugeResidual : public ceres::CostFunction {
  public:

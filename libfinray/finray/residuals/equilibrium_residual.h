@@ -8,11 +8,11 @@ namespace finray {
 /// Equilibrium and closure of the tip as soft residuals, for the weighted form:
 ///
 ///   r = w S (x_F - x_B, y_F - y_B, theta_F - theta_B - cap angle,
-///            M_F + M_B, N_F + N_B),   six residuals,
+///            M_F + M_B, N_F + N_B),   six residuals.
 ///
-/// with S bringing lengths to units of l_0, moments to EI / l_0 and forces to
-/// EI / l_0^2. A weight of 1e6 and more holds equilibrium to below gauge noise;
-/// what it does to normal equations is in docs/reference/calibration.md.
+/// S is diagonal and scales lengths by 1 / l_0, moments by l_0 / EI and forces
+/// by l_0^2 / EI. A weight w of at least 1e6 holds equilibrium to below gauge
+/// noise; docs/reference/calibration.md says what it does to normal equations.
 /// Parameter blocks: those of FrameResidual.
 class EquilibriumResidual : public FrameResidual {
  public:

@@ -14,7 +14,7 @@
 namespace finray {
 namespace {
 
-// What the blocks of one frame are made from.
+// Collects the blocks of one frame.
 struct Builder {
   const Measurements& row;
   const MeasurementModel& model;
@@ -29,7 +29,8 @@ struct Builder {
     blocks.push_back({std::unique_ptr<ceres::CostFunction>(cost),
                       std::move(parameter_blocks), family, gauge});
   }
-  // Parameter blocks of a residual that depends on the whole model.
+  // Returns the parameter blocks of a residual that depends on the whole model:
+  // those of FrameResidual, then `a` and `b`.
   std::vector<double*> OfModelAnd(double* a, double* b = nullptr) const {
     std::vector<double*> all;
     all.reserve(of_model.size() + 2);
@@ -40,7 +41,8 @@ struct Builder {
   }
 };
 
-// Appends the terms of a reading; returns their coefficients.
+// Appends the variables of a reading's terms to `blocks` and returns their
+// coefficients.
 std::vector<double> AddTerms(const std::vector<ReadingTerm>& terms,
                              std::vector<double*>* blocks) {
   std::vector<double> coefficients;

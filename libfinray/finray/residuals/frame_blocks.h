@@ -14,13 +14,13 @@
 
 namespace finray {
 
-// The heart of finray: one frame with its measurements becomes Ceres blocks.
-// Calibration calls this with parameters that Ceres varies, estimation with
-// parameters that it holds constant. A new kind of measurement is a residual
-// of its own and one more function in frame_blocks.cc.
+// The heart of finray: it turns one frame with its measurements into Ceres
+// blocks. Calibration calls it with parameters that Ceres varies, estimation
+// with parameters that Ceres holds constant. To add a new kind of measurement,
+// write its residual and one more function in frame_blocks.cc.
 
-/// Which measurements of a row count, and their standard deviations. A kind
-/// without one is no measurement.
+/// Says which measurements of a row count and gives their standard deviations.
+/// A kind of measurement without a std is ignored.
 struct MeasurementModel {
   std::vector<double> gauge_std_V;  ///< One per gauge.
   std::optional<double> force_std_N, contact_std_mm, pin_std_mm, tip_std_mm;
@@ -29,19 +29,21 @@ struct MeasurementModel {
   };
   std::optional<Circle> circle;
 
-  /// What an estimate takes from a row: gauges with the finger's noise and what
-  /// the scene says is measured. Reference forces and places are not used.
+  /// The model for estimation: gauges with the finger's noise, and the
+  /// measurements that the scene gives a std for. Reference forces and measured
+  /// contact places are ignored.
   static MeasurementModel OfScene(const Finger& finger, const Scene& scene);
 };
 
-/// One thing that a gauge reads beside bending: coefficient * variable.
+/// A part of a gauge's reading that does not come from bending: coefficient *
+/// variable.
 struct ReadingTerm {
   double* variable;
   double coefficient;
 };
 
-/// Where Ceres finds the parameters that a frame's blocks share with others.
-/// All pointers must stay in place while the blocks live.
+/// Pointers to the parameters that a frame's blocks share with other frames.
+/// They must stay in place while the blocks live.
 struct FrameParameters {
   SharedParameters* finger = nullptr;
   double* gains_V_per_rad = nullptr;               ///< One per gauge.
@@ -61,10 +63,10 @@ struct FrameBlock {
   int gauge;  ///< for kGauge and kBench, else -1
 };
 
-/// The blocks of all measurements in `row` that count. `row`, `evaluation` and
-/// `unknowns` (those of FrameEvaluation; null if there are none) must stay in
-/// place. A row of the bench needs neither evaluation nor unknowns, but the
-/// finger's gauges.
+/// Returns one block for each measurement in `row` that counts. `row`,
+/// `evaluation` and `unknowns` (those of FrameEvaluation; null if there are
+/// none) must stay in place. A row of the test bench needs the finger's gauges,
+/// but neither evaluation nor unknowns.
 std::vector<FrameBlock> MeasurementBlocks(const Measurements& row,
                                           const MeasurementModel& model,
                                           const FrameParameters& parameters,
@@ -72,19 +74,20 @@ std::vector<FrameBlock> MeasurementBlocks(const Measurements& row,
                                           const FrameEvaluation* evaluation,
                                           double* unknowns);
 
-/// The blocks that hold equilibrium and rib lengths in the weighted form.
-/// `weight` is that of EquilibriumResidual.
+/// Returns the blocks that hold equilibrium and rib lengths in the weighted
+/// form. `weight` is that of EquilibriumResidual.
 std::vector<FrameBlock> EquilibriumBlocks(const Finger& finger, double weight,
                                           const FrameParameters& parameters,
                                           const FrameEvaluation& evaluation,
                                           double* unknowns);
 
-/// Contacts and std differ by some 1e-4 of a std from the reduced form's at a
-/// weight of 1e6, and by the weight's square less above.
+/// The weight that estimation ends with. At a weight of 1e6, contacts and std
+/// differ from the reduced form's by about 1e-4 of a std. Above that the
+/// difference falls with the square of the weight.
 constexpr double kEquilibriumWeight = 1e7;
 
-/// A finger's own parameters at fixed addresses, for blocks whose parameters
-/// stay constant.
+/// Holds a finger's own parameters at fixed addresses, for blocks whose
+/// parameters stay constant.
 class FingerParameters {
  public:
   explicit FingerParameters(const Finger& finger);

@@ -38,7 +38,7 @@ void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
   for (int i = 0; i < contacts(); ++i) {
     const double* contact = frame + contact_offset(i);
     if (!std::isfinite(contact[0]) || !std::isfinite(contact[1])) return;
-    // Bounds keep l_c on the beam up to rounding.
+    // Ceres holds l_c within its bounds only up to rounding.
     loads_[i].arc_mm = std::clamp(contact[0], 0.0, length_mm_);
     loads_[i].normal_N = contact[1];
   }
@@ -78,7 +78,8 @@ void FrameEvaluation::UpdateWeighted(const double* frame,
   solver->SaveState(&state_);
 }
 
-// Pins stay where they are on their beams, and without force.
+// Drops the columns of the pins' places and forces from `derivatives`: both are
+// fixed.
 void FrameEvaluation::SetWithoutPins(const Matrix& derivatives,
                                      Matrix* target) const {
   if (derivatives.cols() == columns()) {

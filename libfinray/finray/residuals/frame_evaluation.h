@@ -8,7 +8,7 @@
 
 namespace finray {
 
-/// How a frame keeps its equilibrium.
+/// How a frame is held in equilibrium.
 enum class EquilibriumForm {
   kReduced,   ///< Solved exactly inside; derivatives by the implicit function
               ///< theorem. Frame unknowns: l_c, f_c of each contact.
@@ -16,17 +16,17 @@ enum class EquilibriumForm {
               ///< by EquilibriumResidual and RibLengthResidual.
 };
 
-/// The model of one frame at the present parameter values, shared by all
-/// residual blocks of the frame so that it is computed once per evaluation.
+/// The model of one frame at the present parameter values. All residual blocks
+/// of the frame share it, so it is computed once per evaluation.
 ///
-/// The pins of the ribs are outputs where they are asked for. A pin is then a
-/// contact without force at the rib's place, which bends nothing and whose pose
-/// the equilibrium tells with its derivatives.
+/// Rib pins are outputs only on request. A pin is then modelled as a contact
+/// without force at the rib's place. It bends nothing, and the equilibrium
+/// yields its pose with derivatives.
 ///
-/// Columns of the derivatives, in the order of the parameter blocks of
-/// FrameResidual: [frame unknowns | ln EI front | ln EI back | rib lengths
-/// (r)], where the frame unknowns are [l_c, f_c of each contact], preceded by q
-/// of ladder.h (6 + r) in the weighted form.
+/// The derivatives have one column for each parameter of FrameResidual, in its
+/// order: [frame unknowns | ln EI front | ln EI back | rib lengths (r)]. The
+/// frame unknowns are [l_c, f_c of each contact] in the reduced form; the
+/// weighted form puts the 6 + r unknowns q of ladder.h before them.
 class FrameEvaluation {
  public:
   using Matrix = EquilibriumSolver::Matrix;
@@ -34,16 +34,16 @@ class FrameEvaluation {
   FrameEvaluation(const LadderModel& model, EquilibriumForm form, int contacts,
                   double friction, bool pins = false);
 
-  /// Evaluates at frame unknowns and shared parameters (pointers may be null
-  /// where their size is 0). `solver` is scratch: any solver of the same finger
-  /// and discretization will do. Afterwards valid() says whether the model
-  /// could be evaluated.
+  /// Evaluates the model at frame unknowns and shared parameters. A pointer may
+  /// be null where its size is 0. `solver` is scratch memory: any solver of the
+  /// same finger and discretization will do. Afterwards valid() says whether
+  /// the evaluation succeeded.
   void Update(const double* frame, double ln_front_stiffness,
               double ln_back_stiffness, const double* rib_lengths_mm,
               EquilibriumSolver* solver);
 
   bool valid() const { return valid_; }
-  /// Not to be evaluated at the present values.
+  /// Marks the model as not evaluated at the present values.
   void Invalidate() { valid_ = false; }
   int frame_size() const {
     return 2 * contacts() +
@@ -67,15 +67,15 @@ class FrameEvaluation {
   int tip_row() const { return static_cast<int>(outputs_.size()) - 3; }
   const PointContact& contact(int i) const { return loads_[i]; }
 
-  /// [gauge angles (m); contact (x, y, theta) each; pins (x, y, theta), front
-  /// and back of each rib, if asked for; tip (x, y, theta)].
+  /// The outputs: [gauge angles (m, rad); contacts (x, y, theta each); pins (x,
+  /// y, theta), front and back of each rib, on request; tip (x, y, theta)].
   const Eigen::VectorXd& outputs() const { return outputs_; }
   const Matrix& d_outputs() const { return d_outputs_; }
   /// Closure equations of ladder.h; weighted form only.
   const Eigen::VectorXd& closure() const { return closure_; }
   const Matrix& d_closure() const { return d_closure_; }
 
-  /// The equilibrium found last and next started from.
+  /// The last equilibrium found. The next evaluation starts from it.
   const LadderState& state() const { return state_; }
   void set_state(const LadderState& state) { state_ = state; }
 

@@ -9,24 +9,24 @@
 
 namespace finray {
 
-/// Base of the residual blocks that depend on a frame's whole model. Parameter
-/// blocks, in this order (blocks of size 0 are left out):
+/// Base class of the residual blocks that depend on a frame's whole model.
+/// Parameter blocks, in this order (blocks of size 0 are left out):
 ///
 ///   [frame unknowns | ln EI front (1) | ln EI back (1) | rib lengths (r) |
 ///    extra blocks of the derived class].
 ///
-/// Evaluate() returns false where the frame has no equilibrium, so that Ceres
-/// takes a smaller step.
+/// Evaluate() returns false if the frame has no equilibrium; Ceres then takes a
+/// smaller step.
 class FrameResidual : public ceres::CostFunction {
  protected:
   FrameResidual(const FrameEvaluation* frame, int residuals,
                 const std::vector<int>& extra_blocks = {});
 
-  /// Number of the first extra block.
+  /// Index of the first extra block.
   int extra_block() const { return extra_block_; }
 
-  /// Writes one residual's derivatives by the columns of FrameEvaluation into
-  /// the Jacobian blocks that Ceres asked for.
+  /// Copies one residual's derivatives, given by the columns of
+  /// FrameEvaluation, into the Jacobian blocks that Ceres asked for.
   template <typename Row>
   void SpreadRow(int residual, const Eigen::MatrixBase<Row>& by_column,
                  double** jacobians) const {
@@ -48,7 +48,8 @@ class FrameResidual : public ceres::CostFunction {
   int extra_block_;
 };
 
-/// The parameter pointers in the order of FrameResidual, for AddResidualBlock.
+/// Returns the parameter pointers in the order of FrameResidual, for
+/// AddResidualBlock.
 std::vector<double*> FrameParameterBlocks(const FrameEvaluation& frame,
                                           double* unknowns,
                                           double* ln_front_stiffness,

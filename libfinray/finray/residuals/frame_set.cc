@@ -37,8 +37,9 @@ FrameEvaluation& FrameSet::Add(int contacts, double friction,
   return frames_.back().evaluation;
 }
 
-// With bounds Ceres searches along each step, and then asks again for the point
-// that the search has ended at.
+// Says whether any parameter has changed since the last evaluation. With
+// bounds, Ceres searches along each step and then asks again for the point
+// where the search ended.
 bool FrameSet::Moved() {
   std::vector<double> at = {shared_->ln_front_stiffness,
                             shared_->ln_back_stiffness};
@@ -55,11 +56,11 @@ bool FrameSet::Moved() {
 
 void FrameSet::PrepareForEvaluation(bool /*evaluate_jacobians*/,
                                     bool new_evaluation_point) {
-  // Derivatives are always computed with the values: they cost little beside
-  // the solve, and a point that Ceres accepts needs them next.
+  // Derivatives are always computed along with the values: they cost little
+  // beside the solve, and Ceres needs them next at every point that it accepts.
   if (!new_evaluation_point || !Moved()) return;
-  // Ceres takes a step back where one frame has no equilibrium, and to find
-  // that out takes long: the others are not worth it.
+  // Ceres rejects the step if one frame has no equilibrium. The search for a
+  // missing equilibrium takes long, so the other frames are skipped.
   std::atomic<bool> failed = false;
   const auto update = [&](Frame& frame, EquilibriumSolver* solver) {
     if (failed) {

@@ -10,8 +10,8 @@
 
 namespace finray {
 
-/// Parameters that all frames of a problem share. Stiffness is carried as its
-/// logarithm: it is positive, and its errors are relative.
+/// The parameters that all frames of a problem share. Stiffness enters as its
+/// logarithm, because it is positive and its errors are relative.
 struct SharedParameters {
   double ln_front_stiffness = 0;  ///< ln(EI / N mm^2)
   double ln_back_stiffness = 0;
@@ -20,10 +20,11 @@ struct SharedParameters {
   static SharedParameters Of(const Finger& finger);
 };
 
-/// The frames of a ceres::Problem. As its evaluation callback it evaluates all
-/// of them, in parallel, before Ceres asks their residual blocks, unless they
-/// are where they were last. Results do not depend on the number of threads, as
-/// each frame starts from its own state, as long as all can be evaluated.
+/// The frames of a ceres::Problem, and the problem's evaluation callback.
+/// Before Ceres evaluates the residual blocks, the set evaluates all frames in
+/// parallel, unless no parameter has changed since the last time. Each frame
+/// starts from its own state. The results therefore do not depend on the number
+/// of threads, as long as all frames can be evaluated.
 class FrameSet : public ceres::EvaluationCallback {
  public:
   /// `shared` must stay in place; Ceres varies it.
@@ -31,12 +32,12 @@ class FrameSet : public ceres::EvaluationCallback {
            EquilibriumForm form, const SharedParameters* shared, int threads);
 
   /// Adds a frame with its unknowns at `frame` (null if it has none), which
-  /// must stay in place. `pins`: with the rib pins among its outputs. The
-  /// reference returned stays valid.
+  /// must stay in place. With `pins`, the rib pins are among its outputs. The
+  /// returned reference stays valid.
   FrameEvaluation& Add(int contacts, double friction, const double* frame,
                        bool pins = false);
 
-  /// Forgets all frames.
+  /// Removes all frames.
   void Clear() {
     frames_.clear();
     evaluated_at_.clear();

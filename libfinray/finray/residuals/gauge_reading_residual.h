@@ -7,20 +7,21 @@
 
 namespace finray {
 
-/// A gauge's volts against its bending angle (16):
+/// A gauge's reading against its bending angle, equation (16):
 ///
 ///   r = (gain * alpha_j + sum_k c_k x_k - V) / sigma_V,
-///   alpha_j = theta(p_j + w_j) - theta(p_j),
+///   alpha_j = theta(p_j + w_j) - theta(p_j).
 ///
-/// where the sum is all that a reading has beside bending: the offset, x_1 with
-/// c_1 = 1, and where a calibration asks for them a drift rate times the time,
-/// a temperature coefficient times the difference to the reference temperature.
-/// Parameter blocks: those of FrameResidual, gain (1, V/rad), then each x_k
-/// (1). A NaN reading (not measured) gives a zero residual.
+/// The sum holds everything in a reading that does not come from bending. Its
+/// first term is the offset, x_1 with c_1 = 1. A calibration may add a drift
+/// rate times the time, and a temperature coefficient times the difference to
+/// the reference temperature. Parameter blocks: those of FrameResidual, gain
+/// (1, V/rad), then each x_k (1). A NaN reading (not measured) gives a zero
+/// residual.
 class GaugeReadingResidual : public FrameResidual {
  public:
-  /// `reading_V` must stay in place; it may change between solves.
-  /// `coefficients` are the c_k; by default there is an offset only.
+  /// `reading_V` must stay in place; its value may change between solves.
+  /// `coefficients` are the c_k; the default is an offset only.
   static ceres::CostFunction* Create(const FrameEvaluation* frame, int gauge,
                                      const double* reading_V, double std_V,
                                      const std::vector<double>& coefficients = {

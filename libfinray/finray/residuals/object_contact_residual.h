@@ -7,13 +7,14 @@ namespace finray {
 
 /// Tangency of the front beam to a circular object whose centre was measured:
 ///
-///   r = (r_c - R n_c - (p + o)) / sigma,   two residuals,
+///   r = (r_c - R n_c - (p + o)) / sigma,   two residuals.
 ///
-/// with r_c the contact point and n_c the local normal into the finger, p the
-/// measured centre and o the origin of its coordinates in frame S. Its
-/// component along the tangent decides l_c, the one along the normal the
-/// indentation. A NaN coordinate (not measured) gives a zero residual.
-/// Parameter blocks: those of FrameResidual, object origin (2, mm).
+/// r_c is the contact point, n_c the local normal into the finger, R the
+/// circle's radius, p the measured centre and o the origin of its coordinates
+/// in frame S (all mm). The component of r along the tangent determines l_c,
+/// the one along the normal the indentation. A NaN coordinate (not measured)
+/// gives a zero residual. Parameter blocks: those of FrameResidual, object
+/// origin (2, mm).
 class ObjectContactResidual : public FrameResidual {
  public:
   static ceres::CostFunction* Create(const FrameEvaluation* frame, int contact,
@@ -33,7 +34,7 @@ class ObjectContactResidual : public FrameResidual {
   double radius_mm_, std_mm_;
 };
 
-/// A contact location that was measured itself:
+/// A measured contact location l:
 ///
 ///   r = (l_c - l) / sigma.
 ///

@@ -7,11 +7,11 @@
 
 namespace finray {
 
-/// What is known of a parameter block before the measurements:
+/// Prior knowledge of a parameter block:
 ///
-///   r = (x - mean) / sigma, element by element,
+///   r = (x - mean) / sigma, element by element.
 ///
-/// a ceres::NormalPrior with a diagonal matrix. Parameter block: x.
+/// It is a ceres::NormalPrior with a diagonal matrix. Parameter block: x.
 struct ParameterPriorResidual {
   static ceres::CostFunction* Create(const Eigen::VectorXd& mean,
                                      const Eigen::VectorXd& std);

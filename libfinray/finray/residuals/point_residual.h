@@ -7,14 +7,15 @@ namespace finray {
 
 /// A point of the finger that a camera saw at p:
 ///
-///   r = (r_P - (p + o)) / sigma,   two residuals,
+///   r = (r_P - (p + o)) / sigma,   two residuals.
 ///
-/// with r_P where the equilibrium puts the point: a rib's hinge on the front or
-/// back beam, or the tip; o is the origin of the camera's coordinates in frame
-/// S. Parameter blocks: those of FrameResidual, camera origin (2, mm).
+/// r_P is the point's position in equilibrium, o the origin of the camera's
+/// coordinates in frame S (all mm). The point is the tip, or a rib's hinge on
+/// the front or back beam. Parameter blocks: those of FrameResidual, camera
+/// origin (2, mm).
 class PointResidual : public FrameResidual {
  public:
-  /// The frame must have been made with pins.
+  /// `frame` must have been created with pins.
   static ceres::CostFunction* CreatePin(const FrameEvaluation* frame, int rib,
                                         Side side, const Eigen::Vector2d& at_mm,
                                         double std_mm);

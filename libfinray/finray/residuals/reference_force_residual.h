@@ -7,14 +7,14 @@
 
 namespace finray {
 
-/// The magnitude that a reference force sensor read, for a frame with one
+/// The magnitude F that a reference force sensor read, for a frame with one
 /// contact or none (f_c = 0):
 ///
-///   r = (s f_c sqrt(1 + mu^2) + o - F) / sigma_F,
+///   r = (s f_c sqrt(1 + mu^2) + o - F) / sigma_F.
 ///
-/// with s the sensor's scale and o its offset. Linear in f_c, so smooth through
-/// zero. Parameter blocks: frame unknowns (if there is a contact), ln s (1), o
-/// (1, N).
+/// s is the sensor's scale and o its offset. The residual is linear in f_c and
+/// therefore smooth through zero. Parameter blocks: frame unknowns (if there is
+/// a contact), ln s (1), o (1, N).
 class ReferenceForceResidual : public ceres::CostFunction {
  public:
   static ceres::CostFunction* Create(const FrameEvaluation* frame,
@@ -31,8 +31,8 @@ class ReferenceForceResidual : public ceres::CostFunction {
   double per_normal_, force_N_, std_N_;
 };
 
-/// Both components, in frame S, of the force that the object exerts on the
-/// finger, summed over the contacts:
+/// The two components in frame S, F, that a reference force sensor read of the
+/// force that the object exerts on the finger, summed over the contacts:
 ///
 ///   r = (s sum_c f_c (n_c + mu t_c) + o - F) / sigma_F,   two residuals.
 ///

@@ -5,7 +5,7 @@
 
 namespace finray {
 
-/// The kind of measurement of a residual, for statistics.
+/// The kind of measurement behind a residual, for statistics.
 enum class ResidualFamily : std::int8_t {
   kGauge,
   kForce,
@@ -14,12 +14,12 @@ enum class ResidualFamily : std::int8_t {
   kPin,
   kTip,
   kBench,
-  kEquilibrium,  ///< No measurement: what holds a frame in the weighted form.
+  kEquilibrium,  ///< Equilibrium in the weighted form; no measurement.
 };
-/// Families of measurements.
+/// Number of families that are measurements.
 constexpr int kResidualFamilies = 7;
 
-/// E.g. "gauge".
+/// Returns the family's name, e.g. "gauge".
 constexpr const char* ResidualFamilyName(ResidualFamily family) {
   constexpr const char* kNames[] = {"gauge", "force", "object", "contact",
                                     "pin",   "tip",   "bench",  "equilibrium"};

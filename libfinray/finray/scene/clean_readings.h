@@ -6,8 +6,8 @@
 
 namespace finray {
 
-/// What the gauges of the solver's finger read at its present equilibrium,
-/// without noise.
+/// Returns the volts that the gauges of the solver's finger read at its present
+/// equilibrium, without noise.
 inline Measurements CleanReadings(const EquilibriumSolver& solver) {
   Measurements readings;
   const std::vector<Gauge>& gauges = solver.model().finger().gauges;

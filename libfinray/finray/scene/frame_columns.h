@@ -5,7 +5,8 @@
 
 namespace finray {
 
-/// Indexed names of the frame table; indices count from 1, arguments from 0.
+/// Column names of the frame table that carry an index. The index in a name
+/// counts from 1, the function's argument from 0.
 inline std::string IndexedColumn(const char* before, int index,
                                  const char* after) {
   return before + std::to_string(index + 1) + after;
@@ -45,7 +46,8 @@ inline std::string AlternativeNormalForce(int c) {
 }
 inline std::string Friction(int c) { return IndexedColumn("friction_", c, ""); }
 inline std::string RibForce(int i) { return IndexedColumn("rib_", i, "_N"); }
-/// Where a rib is hinged to a beam ("front", "back"), an axis being "x" or "y".
+/// A coordinate of a rib's hinge on one beam. `beam` is "front" or "back",
+/// `axis` is "x" or "y".
 inline std::string RibPin(int i, const std::string& beam,
                           const std::string& axis) {
   return IndexedColumn("rib_", i, "_") + beam + "_" + axis + "_mm";

@@ -10,17 +10,17 @@
 
 namespace finray {
 
-/// What loads the finger in one row of a frame table.
+/// The load on the finger in one row of a frame table.
 struct RowLoad {
   std::vector<PointContact> contacts;
   std::optional<ObjectPose> object;  ///< Set only if there are no contacts.
 };
 
-/// Reads the loads of a frame table that is to be simulated. Throws InputError
-/// naming the line of a load that is incomplete, negative or off the beam.
+/// Reads the loads of a frame table for the simulation. Throws InputError with
+/// the line of a load that is incomplete, negative or off the beam.
 class LoadReader {
  public:
-  /// Keeps references to all three.
+  /// Keeps references to all three arguments.
   LoadReader(const Finger& finger, const Scene& scene, const FrameTable& table);
 
   /// The number of point contacts that the columns can hold.

@@ -13,21 +13,21 @@
 
 namespace finray {
 
-/// Finds the columns of a table that hold measurements, and reads its rows: the
-/// one reader of Measurements, for streams and for tables in memory.
+/// Finds the measurement columns of a table and reads its rows. Every reader of
+/// Measurements uses this class, for streams and for tables in memory.
 class MeasurementColumns {
  public:
   struct Options {
-    /// Where a log has gauge_<j>_rad instead of gauge_<j>_V, take the volts
-    /// that the finger's gauge reads at that angle.
+    /// Accept a column gauge_<j>_rad where gauge_<j>_V is missing. The angle is
+    /// converted to the volts that the finger's gauge reads there.
     bool angles = true;
-    /// A gauge may have no column; its readings are NaN.
+    /// Accept a gauge without a column; its readings are NaN.
     bool gauges_may_lack = false;
     bool camera = false;  ///< read rib pins and the tip
   };
 
   /// `names` are the table's columns. Throws InputError if a gauge of the
-  /// finger has no column but must have one.
+  /// finger has no column, unless the options allow that.
   MeasurementColumns(const Finger& finger,
                      const std::vector<std::string>& names,
                      const std::string& path, const Options& options);
@@ -36,8 +36,8 @@ class MeasurementColumns {
                      const std::string& path)
       : MeasurementColumns(finger, names, path, Options()) {}
 
-  /// Reads one row; number(i) is its cell in column i. The memory of `row` is
-  /// used again.
+  /// Reads one row into `row`, whose memory is reused. number(i) returns the
+  /// row's cell in column i.
   template <class Number>
   void Read(Number number, Measurements* row) const {
     const auto read = [&](Column column) {

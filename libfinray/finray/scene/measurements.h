@@ -17,9 +17,9 @@ struct SeenPin {
   Eigen::Vector2d at_mm;
 };
 
-/// One row of a log: everything that was measured, NaN where nothing was.
-/// Positions are in frame S. Which of these measurements count, and with which
-/// std, is not said here (MeasurementModel of residuals/frame_blocks.h).
+/// One row of a log: every measurement, NaN where nothing was measured.
+/// Positions are in frame S. MeasurementModel (residuals/frame_blocks.h) says
+/// which measurements count and with which std.
 struct Measurements {
   static constexpr double kNotMeasured =
       std::numeric_limits<double>::quiet_NaN();
@@ -29,15 +29,16 @@ struct Measurements {
   /// Reference sensor: the magnitude of the force, or its components.
   double force_N = kNotMeasured;
   Eigen::Vector2d force_xy_N{kNotMeasured, kNotMeasured};
-  /// The object's own frame, as a stage or a camera tells it.
+  /// Origin and turn of the object's own frame, measured by a stage or a
+  /// camera.
   Eigen::Vector2d object_mm{kNotMeasured, kNotMeasured};
   double object_angle_rad = 0;
   double contact_mm = kNotMeasured;  ///< l_c
   double temperature_C = kNotMeasured;
   std::vector<SeenPin> pins;
   Eigen::Vector2d tip_mm{kNotMeasured, kNotMeasured};
-  /// Radius of the cylinder that the gauges were bent around on the bench,
-  /// apart from the finger.
+  /// Radius of the cylinder around which the gauges were bent on a test bench,
+  /// without the finger.
   double cylinder_radius_mm = kNotMeasured;
 
   bool IsBench() const { return !std::isnan(cylinder_radius_mm); }

@@ -105,8 +105,9 @@ RigidObject ReadObject(const YamlMap& object) {
   }
 }
 
-// A measured object tells where the contact is if it is a circle with one
-// contact.
+// Reads the std of measured objects and points. A measured object locates the
+// contact only if it is a circle with one contact, so other objects are
+// refused.
 void ReadMeasurements(const YamlMap& yaml, Scene* scene) {
   yaml.AllowOnly({"object_std_mm", "pin_std_mm", "tip_std_mm"});
   const auto read = [&yaml](const char* key) -> std::optional<double> {

@@ -11,59 +11,62 @@
 
 namespace finray {
 
-/// Std of the change from frame to frame.
+/// Standard deviations of the changes from one frame to the next.
 struct Smoothing {
   double contact_mm;
   double normal_N;
 };
 
-/// What a scene contains, hence what is modelled.
+/// The contents of a scene. Only these are modelled.
 struct Scene {
-  /// Number of contacts; empty: decided frame by frame ("auto").
+  /// Number of contacts. Empty for "auto": the estimator decides frame by
+  /// frame.
   std::optional<int> contacts;
-  /// How many "auto" may find.
+  /// The largest number of contacts under "auto".
   int most_contacts = 2;
-  /// The beam of each point contact, contact_1 first; empty: all in front.
+  /// The beam of each point contact, contact_1 first. Empty: all contacts are
+  /// on the front beam.
   std::vector<Side> contact_beams;
-  /// "path:line:column: " of that list, for messages.
+  /// "path:line:column: " of `contact_beams` in the YAML, for messages.
   std::string contact_beams_place = "scene: ";
-  double friction_coefficient = 0;  ///< mu; + pulls the finger to its tip.
+  double friction_coefficient = 0;  ///< mu; + pulls towards the tip.
   std::optional<RigidObject> object;
-  /// How well object_x_mm, object_y_mm are known, if the estimate of a contact
-  /// is to use them.
+  /// Std of object_x_mm and object_y_mm. Empty: the estimate of a contact does
+  /// not use them.
   std::optional<double> object_std_mm;
-  /// How well a camera knows rib pins and the tip, where the estimate is to use
-  /// them (--solver ceres).
+  /// Std of the rib pins and of the tip seen by a camera. Empty: the estimate
+  /// does not use them. Only --solver ceres does.
   std::optional<double> pin_std_mm, tip_std_mm;
-  /// How much l_c and f_c change from a frame to the next, if neighbours are to
-  /// be smoothed.
+  /// How much l_c and f_c change between frames. Empty: neighbouring frames are
+  /// not smoothed.
   std::optional<Smoothing> smoothing;
-  /// A lab's own headers for columns of the frame table.
+  /// Maps a lab's own headers to columns of the frame table.
   std::map<std::string, std::string> columns;
 
   bool UsesCamera() const { return pin_std_mm || tip_std_mm; }
-  /// The radius of the object if there is one and it is a circle.
+  /// The radius of the object if it is a circle, else empty.
   std::optional<double> circle_radius_mm() const {
     return object ? object->outline.circle_radius_mm() : std::nullopt;
   }
 };
 
-/// Reads a scene YAML. Throws InputError for unknown keys and for what is not
-/// modelled.
+/// Reads a scene YAML. Throws InputError for unknown keys and for scenes that
+/// are not modelled.
 Scene ReadScene(const std::string& path);
 Scene ReadScene(const YamlMap& yaml);
 
-/// Throws InputError at the place of `contact_beams` if any is the back beam,
-/// for tools that know contacts on the front beam only.
+/// Throws InputError at the place of `contact_beams` if a contact is on the
+/// back beam. Tools call it that handle front contacts only.
 void RefuseBackContacts(const Scene& scene);
 
-/// The words of `contact_beams`, "[front, back]".
+/// Returns `contact_beams` as YAML, "[front, back]".
 std::string ContactBeamsToYaml(const Scene& scene);
 
-/// The `object:` mapping of a scene as YAML on one line, read back the same.
+/// Returns the `object:` mapping of a scene as one line of YAML. Reading it
+/// gives the same object.
 std::string ObjectToYaml(const RigidObject& object);
 
-/// The `columns:` mapping of a YAML, empty if there is none.
+/// Returns the `columns:` mapping of a YAML; empty if it has none.
 std::map<std::string, std::string> ReadColumns(const YamlMap& yaml);
 
 }  // namespace finray

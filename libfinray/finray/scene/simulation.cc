@@ -16,16 +16,16 @@ namespace {
 
 constexpr char kDisplacement[] = "object_displacement_mm";
 
-// The equilibrium of one row.
+// The solution of one row.
 struct SolvedRow {
   ObjectContactStatus status = ObjectContactStatus::kNotConverged;
   bool object = false;
   std::vector<PointContact> contacts;
   double displacement_mm = 0;
-  Eigen::VectorXd outputs;  // of the solver
+  Eigen::VectorXd outputs;  // EquilibriumSolver::outputs
   Eigen::VectorXd rib_tensions;
   std::vector<Eigen::Vector2d> pins;  // front and back of each rib
-  std::string failure;                // Why it is not solved.
+  std::string failure;                // why it is not solved
 };
 
 void AddShape(const EquilibriumSolver& solver,
@@ -63,7 +63,8 @@ bool IsSolved(const SolvedRow& row) {
 
 SolvedRow SolveRow(const RowLoad& load, const Scene& scene,
                    EquilibriumSolver* solver) {
-  // Every row on its own, so that it does not depend on those before.
+  // Every row starts from the unloaded finger, so that its result does not
+  // depend on the rows before.
   solver->Reset();
   SolvedRow row;
   row.object = load.object.has_value();
@@ -95,7 +96,7 @@ SolvedRow SolveRow(const RowLoad& load, const Scene& scene,
   return row;
 }
 
-// Makes the columns to fill, empty, in the order in which they shall stand.
+// Creates the columns to fill, empty, in the order of the output.
 void AddColumns(const Finger& finger, int contacts, int object_contacts,
                 bool displacement, FrameTable* frames) {
   std::vector<std::string> names;
@@ -119,7 +120,7 @@ void AddColumns(const Finger& finger, int contacts, int object_contacts,
   names.insert(names.end(),
                {"force_N", "tip_x_mm", "tip_y_mm", "tip_angle_rad"});
   for (int c = 0; c < object_contacts; ++c) {
-    // These may hold the loads of other rows.
+    // Other rows may give their loads in these columns, so they are kept.
     frames->MutableNumbers(ContactArc(c));
     frames->MutableNumbers(NormalForce(c));
   }
@@ -129,7 +130,7 @@ void AddColumns(const Finger& finger, int contacts, int object_contacts,
   frames->MutableText("status").assign(frames->rows(), "");
 }
 
-// Fills in one solved row; returns the force on the finger.
+// Fills in one solved row. Returns the force on the finger.
 double FillRow(const Finger& finger, const SolvedRow& solved, bool displacement,
                std::size_t row, FrameTable* frames) {
   const auto set = [&](const std::string& name, double value) {
@@ -180,7 +181,8 @@ SimulationSummary Simulate(const Finger& finger, const Scene& scene,
                            FrameTable* frames, FrameTable* shapes) {
   const LoadReader loads(finger, scene, *frames);
   const std::size_t rows = frames->rows();
-  // A bad row is found before any is solved.
+  // All loads are read first, so that a bad row is reported before any is
+  // solved.
   std::vector<RowLoad> all;
   for (std::size_t row = 0; row < rows; ++row) all.push_back(loads.Read(row));
   if (shapes != nullptr) *shapes = FrameTable(rows * 202);
