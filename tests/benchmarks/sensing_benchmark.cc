@@ -158,16 +158,12 @@ void Ceres(benchmark::State& state) {
 void Paper(benchmark::State& state, int joints) {
   const ChainLayout layout =
       MakeChainLayout(PaperFinger(), joints, GaugeRule::kOverlap);
-  ChainContact contact;
+  PointContact contact;
   Run(
-      state, 50, 1,
-      [&] {
-        const PointContact& first = TheLog().truth[0];
-        contact = {first.arc_mm, first.normal_N, 0};
-      },
+      state, 50, 1, [&] { contact = TheLog().truth[0]; },
       [&](int i, PointContact* out) {
         contact = SenseContact(layout, TheLog().angles.col(i), contact).contact;
-        *out = {contact.arc_mm, contact.normal_N, 0};
+        *out = contact;
       });
 }
 

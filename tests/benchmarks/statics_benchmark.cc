@@ -76,16 +76,12 @@ void Paper(benchmark::State& state) {
       MakeChainLayout(PaperFinger(), joints, GaugeRule::kOverlap);
   // After a step of this size the error is of its square.
   const double last_step = std::sqrt(kTolerance);
-  const auto contact = [](int i) {
-    const PointContact at = Frame(i);
-    return ChainContact{at.arc_mm, at.normal_N, 0};
-  };
   ChainState chain;
   WorstError error;
   for (int i = 0; i < kFrames; i += 50) {
     // Warm, as it is timed.
-    if (!SolveForward(layout, contact(i + 1), &chain) ||
-        !ContinueForward(layout, contact(i), last_step, &chain)) {
+    if (!SolveForward(layout, Frame(i + 1), &chain) ||
+        !ContinueForward(layout, Frame(i), last_step, &chain)) {
       state.SkipWithError("lost");
       return;
     }
@@ -93,10 +89,10 @@ void Paper(benchmark::State& state) {
     for (int k = 0; k < ribs.size(); ++k) ribs[k] = chain.rib_tension(k);
     error.Add(i, layout.gauges * chain.theta, ribs);
   }
-  SolveForward(layout, contact(0), &chain);
+  SolveForward(layout, Frame(0), &chain);
   int i = 0;
   for (auto _ : state) {
-    if (!ContinueForward(layout, contact(i), last_step, &chain)) {
+    if (!ContinueForward(layout, Frame(i), last_step, &chain)) {
       state.SkipWithError("lost");
       break;
     }

@@ -1,4 +1,4 @@
-#include "finray/chain/beam_chain.h"
+#include "chain/beam_chain.h"
 
 #include <gtest/gtest.h>
 

@@ -44,10 +44,9 @@ struct Differences {
   double joint = 0, rib = 0, gauge = 0;
 };
 
-void Compare(const Finger& finger, const ChainContact& contact, int resolution,
+void Compare(const Finger& finger, const PointContact& contact, int resolution,
              Differences* worst) {
-  const std::vector<PointContact> contacts = {
-      {contact.arc_mm, contact.normal_N, contact.friction}};
+  const std::vector<PointContact> contacts = {contact};
   EquilibriumSolver ladder(finger, {Scheme::kRigidChain, resolution});
   ASSERT_TRUE(ladder.Solve(contacts));
   const ChainLayout layout = MakeChainLayout(
@@ -110,12 +109,8 @@ TEST(FormulationsTest, SpecialCases) {
   for (const Case& at : SpecialCases()) {
     if (at.contacts.size() > 1) continue;  // the paper has one
     SCOPED_TRACE(at.name);
-    ChainContact contact;
-    if (!at.contacts.empty()) {
-      contact = {at.contacts[0].arc_mm, at.contacts[0].normal_N,
-                 at.contacts[0].friction};
-    }
-    Compare(at.finger, contact, 60, &worst);
+    Compare(at.finger, at.contacts.empty() ? PointContact() : at.contacts[0],
+            60, &worst);
   }
   for (const double arc : {12.5, 61.0, 66.7, 128.0}) {
     for (const double friction : {-0.4, 0.4}) {
@@ -146,15 +141,16 @@ TEST(FormulationsTest, RefusesWhatItCannotSolve) {
   const ChainLayout layout =
       MakeChainLayout(PaperFinger(), 40, GaugeRule::kOverlap);
   ChainState state;
-  for (const ChainContact& contact :
-       std::vector<ChainContact>{{-1, 2, 0},
+  for (const PointContact& contact :
+       std::vector<PointContact>{{-1, 2, 0},
                                  {140.1, 2, 0},
                                  {std::nan(""), 2, 0},
                                  {70, std::nan(""), 0},
                                  {70, INFINITY, 0},
                                  {70, 1e300, 0},
                                  {70, 1e9, 0},
-                                 {70, 2, std::nan("")}}) {
+                                 {70, 2, std::nan("")},
+                                 {70, 2, 0, Side::kBack}}) {
     EXPECT_FALSE(SolveForward(layout, contact, &state));
     EXPECT_EQ(state.theta, ChainState::Straight(layout).theta);
     EXPECT_EQ(state.loads, ChainState::Straight(layout).loads);

@@ -6,11 +6,11 @@
 #include <cstdio>
 #include <random>
 
+#include "chain/beam_chain.h"
 #include "chain/chain_fixture.h"
 #include "chain/jet_jacobian.h"
-#include "finray/chain/beam_chain.h"
-#include "finray/chain/chain_cost.h"
 #include "finray/chain/finger_jacobian.h"
+#include "finray/chain/scaled_equations.h"
 
 namespace finray {
 namespace {
@@ -139,57 +139,39 @@ TEST(ChainJacobianTest, SingleTermsMatchAutoDiff) {
   }
 }
 
-// What Ceres gets is what Newton gets.
-TEST(ChainJacobianTest, CostFunctionsCarryTheRowsOfTheEquations) {
+TEST(ChainJacobianTest, ScaledRowsAreThoseOfTheEquations) {
   std::mt19937 random(6);
   const ChainLayout layout =
       MakeChainLayout(RichFinger(), 24, GaugeRule::kOverlap);
   const int n = layout.joints(), loads = layout.loads();
-  const int r = static_cast<int>(layout.ribs.size());
   const Eigen::VectorXd theta = Random(n, 0.1, &random);
   const Eigen::VectorXd load = Random(loads, 4, &random);
   const Eigen::Vector2d contact(50.2, 3);
-  const double weight = 7;
-  const Eigen::VectorXd rows = weight * ChainUnits(layout).rows.cwiseInverse();
-  const Eigen::MatrixXd jacobian =
-      rows.asDiagonal() *
-      FingerJacobian(layout, theta.data(), load.data(), contact.data(), 0.2);
+  const Eigen::Vector4d s0(0.1, -0.2, 0.05, 0);
+  const ScaledEquations scaled{layout, 0.2, 7, s0, 0.5};
   const Eigen::VectorXd c =
-      FingerEquations<double>(layout, theta.data(), load.data(), contact.data(),
-                              0.2)
-          .cwiseProduct(rows);
-  const TipClosureCost tip(&layout, weight);
-  const JointTorqueCost torque(&layout, weight, 0.2);
-  const RibDistanceCost rib(&layout, weight);
-  const double* parameters[] = {theta.data(), load.data(), contact.data()};
-  const int columns[] = {0, n, n + loads};
-  int row = 0;
-  for (const ceres::CostFunction* cost :
-       {static_cast<const ceres::CostFunction*>(&tip),
-        static_cast<const ceres::CostFunction*>(&torque),
-        static_cast<const ceres::CostFunction*>(&rib)}) {
-    using RowMajor =
-        Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    Eigen::VectorXd residuals(cost->num_residuals());
-    const auto& sizes = cost->parameter_block_sizes();
-    std::vector<RowMajor> blocks(sizes.size());
-    std::vector<double*> pointers;
-    for (std::size_t b = 0; b < sizes.size(); ++b) {
-      blocks[b].resize(cost->num_residuals(), sizes[b]);
-      pointers.push_back(blocks[b].data());
-    }
-    ASSERT_TRUE(cost->Evaluate(parameters, residuals.data(), pointers.data()));
-    EXPECT_LT(RelativeError(residuals, c.segment(row, residuals.size())),
-              1e-14);
-    for (std::size_t b = 0; b < sizes.size(); ++b) {
-      EXPECT_LT(
-          RelativeError(blocks[b], jacobian.block(row, columns[b],
-                                                  residuals.size(), sizes[b])),
-          1e-14);
-    }
-    row += cost->num_residuals();
-  }
-  EXPECT_EQ(row, n + 3 + r);
+      scaled.Residual(theta.data(), load.data(), contact.data());
+  const Eigen::MatrixXd jacobian =
+      scaled.Jacobian(theta.data(), load.data(), contact.data());
+  const Eigen::VectorXd model = FingerEquations<double>(
+      layout, theta.data(), load.data(), contact.data(), 0.2);
+  const Eigen::MatrixXd by =
+      FingerJacobian(layout, theta.data(), load.data(), contact.data(), 0.2);
+  const double length = layout.length_unit_mm, force = layout.force_unit_N;
+  const auto check = [&](int row, double unit) {
+    EXPECT_NEAR(c[row], 7 * model[row] / unit, 1e-14 * std::abs(c[row]));
+    EXPECT_LT(RelativeError(jacobian.row(row), 7 / unit * by.row(row)), 1e-14);
+  };
+  check(0, 1);
+  check(1, length);
+  check(3, force * length);
+  check(3 + n, length);
+  ASSERT_EQ(c.size(), n + loads + 4);
+  EXPECT_LT(RelativeError(c.tail(4), (layout.gauges * theta - s0) / 0.5),
+            1e-14);
+  EXPECT_LT(RelativeError(jacobian.bottomLeftCorner(4, n), layout.gauges / 0.5),
+            1e-14);
+  EXPECT_TRUE(jacobian.bottomRightCorner(4, loads + 2).isZero(0));
 }
 
 }  // namespace

@@ -8,20 +8,20 @@
 #include <string>
 
 #include "chain/chain_fixture.h"
-#include "finray/chain/ceres_sensing.h"
+#include "finray/chain/ceres_chain.h"
 #include "finray/chain/forward.h"
 
 namespace finray {
 namespace {
 
 Eigen::VectorXd GaugesOf(const ChainLayout& layout,
-                         const ChainContact& contact) {
+                         const PointContact& contact) {
   ChainState state;
   EXPECT_TRUE(SolveForward(layout, contact, &state));
   return layout.gauges * state.theta;
 }
 
-ChainContact Near(const ChainContact& truth, double sign) {
+PointContact Near(const PointContact& truth, double sign) {
   return {truth.arc_mm + 5 * sign, truth.normal_N * (1 - 0.2 * sign),
           truth.friction};
 }
@@ -38,7 +38,7 @@ TEST(ChainSensingTest, RoundTrip) {
     for (const double arc : kArcs) {
       for (const double force : kForces) {
         for (const double sign : {-1.0, 1.0}) {
-          const ChainContact truth = {arc, force, 0};
+          const PointContact truth = {arc, force, 0};
           const ChainSensing sensed =
               SenseContact(layout, GaugesOf(layout, truth), Near(truth, sign));
           ++runs;
@@ -66,8 +66,8 @@ TEST(ChainSensingTest, RoundTrip) {
 }
 
 // Moved towards the middle of the link that holds the contact.
-ChainContact OnTheSameLink(const ChainLayout& layout,
-                           const ChainContact& truth) {
+PointContact OnTheSameLink(const ChainLayout& layout,
+                           const PointContact& truth) {
   const auto& joints = layout.front_joint_mm;
   const auto after =
       std::upper_bound(joints.begin(), joints.end(), truth.arc_mm);
@@ -87,12 +87,12 @@ TEST(ChainSensingTest, CeresAgreesWithNewton) {
   for (const double arc : {38.6, 61.4, 72.4, 97.9}) {
     for (const double force : {1.0, 5.0}) {
       for (const double noise : {0.0, 0.3}) {
-        const ChainContact truth = {arc, force, 0};
+        const PointContact truth = {arc, force, 0};
         SCOPED_TRACE(std::to_string(arc) + " mm, " + std::to_string(force) +
                      " N, noise " + std::to_string(noise));
         Eigen::VectorXd s0 = GaugesOf(layout, truth);
         s0 += noise * Eigen::Map<const Eigen::VectorXd>(noise_rad, 4);
-        const ChainContact start = OnTheSameLink(layout, truth);
+        const PointContact start = OnTheSameLink(layout, truth);
         const ChainSensing newton = SenseContact(layout, s0, start, options);
         const ChainSensing ceres =
             SenseContactWithCeres(layout, s0, start, 3e-4, options);
@@ -128,7 +128,7 @@ TEST(ChainSensingTest, CeresAgreesWithNewton) {
 TEST(ChainSensingTest, CeresParksAtAJointThatNewtonPasses) {
   const ChainLayout layout =
       MakeChainLayout(PaperFinger(), 40, GaugeRule::kOverlap);
-  const ChainContact truth = {35.1, 5, 0}, start = {36.6, 4.5, 0};
+  const PointContact truth = {35.1, 5, 0}, start = {36.6, 4.5, 0};
   const Eigen::VectorXd s0 = GaugesOf(layout, truth);
   const ChainSensing newton = SenseContact(layout, s0, start);
   ASSERT_TRUE(newton.converged);
@@ -148,7 +148,7 @@ TEST(ChainSensingTest, RoundTripOfARichFinger) {
   const ChainLayout layout =
       MakeChainLayout(RichFinger(), 60, GaugeRule::kOverlap);
   for (const double friction : {-0.3, 0.3}) {
-    const ChainContact truth = {72.4, 4, friction};
+    const PointContact truth = {72.4, 4, friction};
     const ChainSensing sensed =
         SenseContact(layout, GaugesOf(layout, truth), Near(truth, 1));
     ASSERT_TRUE(sensed.converged);

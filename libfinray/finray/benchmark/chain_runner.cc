@@ -5,8 +5,7 @@
 #include <functional>
 
 #include "finray/benchmark/answers.h"
-#include "finray/chain/ceres_forward.h"
-#include "finray/chain/ceres_sensing.h"
+#include "finray/chain/ceres_chain.h"
 #include "finray/chain/forward.h"
 
 namespace finray {
@@ -30,10 +29,10 @@ ceres::LinearSolverType TypeOf(CeresLinearSolver linear_solver) {
   return ceres::SPARSE_NORMAL_CHOLESKY;
 }
 
-ChainContact LoadOf(const BenchmarkCase& c, int frame) {
+PointContact LoadOf(const BenchmarkCase& c, int frame) {
   const auto& contacts = c.frames[frame].contacts;
   if (contacts.empty()) return {c.finger.front_length_mm / 2, 0, 0};
-  return {contacts[0].arc_mm, contacts[0].normal_N, contacts[0].friction};
+  return contacts[0];
 }
 
 // (x, y, theta) of the front beam's end.
@@ -66,7 +65,7 @@ class Chain : public Runner {
 
 class ChainForward : public Chain {
  public:
-  using Solve = std::function<bool(const ChainLayout&, const ChainContact&,
+  using Solve = std::function<bool(const ChainLayout&, const PointContact&,
                                    ChainState*, int*)>;
   ChainForward(const BenchmarkCase& c, int links, Solve solve)
       : Chain(c, links), solve_(std::move(solve)) {}
@@ -93,7 +92,7 @@ class ChainForward : public Chain {
 class ChainSenses : public Chain {
  public:
   using Sense = std::function<ChainSensing(
-      const ChainLayout&, const Eigen::VectorXd&, const ChainContact&)>;
+      const ChainLayout&, const Eigen::VectorXd&, const PointContact&)>;
   ChainSenses(const BenchmarkCase& c, int links, Sense sense)
       : Chain(c, links), sense_(std::move(sense)) {}
 
@@ -105,8 +104,7 @@ class ChainSenses : public Chain {
           sense_(layout_, case_.frames[first + k].measurement.values, contact_);
       answer.solved = sensed.converged;
       answer.iterations = sensed.iterations;
-      answer.contacts.assign(1, {sensed.contact.arc_mm, sensed.contact.normal_N,
-                                 sensed.contact.friction});
+      answer.contacts.assign(1, sensed.contact);
       Keep(sensed.state, &answer);
       contact_ = sensed.converged ? sensed.contact : LoadOf(case_, first + k);
     }
@@ -117,7 +115,7 @@ class ChainSenses : public Chain {
 
  private:
   Sense sense_;
-  ChainContact contact_;
+  PointContact contact_;
 };
 
 }  // namespace
@@ -125,7 +123,7 @@ class ChainSenses : public Chain {
 std::unique_ptr<Runner> MakePaperForward(const BenchmarkCase& c, int links) {
   return std::make_unique<ChainForward>(
       c, links,
-      [](const ChainLayout& layout, const ChainContact& contact,
+      [](const ChainLayout& layout, const PointContact& contact,
          ChainState* state, int* iterations) {
         return ContinueForward(layout, contact, kLastStep, state, iterations);
       });
@@ -135,7 +133,7 @@ std::unique_ptr<Runner> MakePaperSensing(const BenchmarkCase& c, int links) {
   return std::make_unique<ChainSenses>(
       c, links,
       [](const ChainLayout& layout, const Eigen::VectorXd& s0,
-         const ChainContact& start) {
+         const PointContact& start) {
         return SenseContact(layout, s0, start);
       });
 }
@@ -145,7 +143,7 @@ std::unique_ptr<Runner> MakeCeresForward(const BenchmarkCase& c, int links,
   return std::make_unique<ChainForward>(
       c, links,
       [type = TypeOf(linear_solver)](const ChainLayout& layout,
-                                     const ChainContact& contact,
+                                     const PointContact& contact,
                                      ChainState* state, int* iterations) {
         return ContinueForwardWithCeres(layout, contact, type, state,
                                         iterations);
@@ -162,7 +160,7 @@ std::unique_ptr<Runner> MakeCeresSensing(const BenchmarkCase& c, int links,
       c, links,
       [type = TypeOf(linear_solver), least](const ChainLayout& layout,
                                             const Eigen::VectorXd& s0,
-                                            const ChainContact& start) {
+                                            const PointContact& start) {
         ChainSensingOptions options;
         options.model_weight = kCeresModelWeight;
         return SenseContactWithCeres(layout, s0, start, least, options, type);

@@ -1,7 +1,6 @@
 #include "finray/chain/chain_layout.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "finray/finger/geometry.h"
@@ -55,17 +54,16 @@ void CheckArguments(const Finger& finger, int resolution,
                      ", expected at least 1");
   }
   for (const double split : splits_mm) {
+    // Written so that a NaN fails.
     if (!(split >= 0 && split <= finger.front_length_mm)) {
       throw InputError("chain: a split at " + std::to_string(split) +
                        " mm is off the front beam");
     }
   }
-  for (const Side side : {Side::kFront, Side::kBack}) {
-    if (std::isfinite(AxialStiffness(finger, side))) {
-      throw InputError(
-          "chain: rigid links do not stretch, but a beam has a finite "
-          "axial_stiffness_N");
-    }
+  if (Stretches(finger)) {
+    throw InputError(
+        "chain: rigid links do not stretch, but a beam has a finite "
+        "axial_stiffness_N");
   }
 }
 
@@ -116,7 +114,8 @@ ChainLayout MakeChainLayout(const Finger& finger, int resolution,
 
   for (std::size_t k = 0; k < finger.ribs.size(); ++k) {
     const Rib& rib = finger.ribs[k];
-    // The nodes' own numbers, so that rounding cannot move a rib by a segment.
+    // Compared with the nodes' own numbers: rounding must not move a rib by a
+    // segment.
     const double left = front_mesh.nodes_mm[front_mesh.rib_node[k]];
     const double right = back_mesh.nodes_mm[back_mesh.rib_node[k]];
     layout.ribs.push_back(

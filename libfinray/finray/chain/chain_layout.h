@@ -9,9 +9,9 @@
 
 namespace finray {
 
-/// What a gauge that ends inside a segment reads of that segment's joint.
+/// How much a gauge that ends inside a segment reads of the segment's joint.
 enum class GaugeRule {
-  kWholeJoint,  ///< S_e of (16): all of it if the joint lies inside, else none.
+  kWholeJoint,  ///< All of it if the joint lies in the gauge: S_e of (16).
   kOverlap,     ///< The share of the segment that the gauge covers.
 };
 
@@ -24,19 +24,19 @@ struct ChainRib {
   double compliance_mm_per_N;   ///< d_0 / EA; 0 for a rigid rib.
 };
 
-/// A finger as ONE chain (the "^" of Fig. 5): from the clamped front base up to
-/// the tip and down the back beam to the back base, which is {T}. Each segment
-/// of the meshes of both beams has one joint in its middle, k = EI / h. At the
-/// tip cap a rigid link turns the corner.
+/// A finger as one chain (the "^" of Fig. 5). It runs from the clamped front
+/// base up to the tip and down the back beam to the back base, which is {T}.
+/// Each segment of both beams' meshes has one joint in its middle, k = EI / h.
+/// A rigid link turns the corner at the tip.
 struct ChainLayout {
   ElasticChain chain;   ///< g_st,0 is at the back base, axes along S.
   Pose<double> target;  ///< g_t: the back base is clamped where it rests.
   std::vector<ChainRib> ribs;
   /// Arc lengths on the front beam of the front joints, which come first.
   std::vector<double> front_joint_mm;
-  /// S_e of (16), m x n. Arc length and joint angle run backwards on the back
-  /// beam, so that its entries are negative there: they make gauge angles by
-  /// the finger's convention, theta(p + w) - theta(p) with theta from the base.
+  /// S_e of (16), m x n: gauge angles are gauges * theta. Its entries are
+  /// negative on the back beam, where the chain runs from tip to base but the
+  /// finger's gauge angles, theta(p + w) - theta(p), count from the base.
   Eigen::MatrixXd gauges;
   double length_unit_mm;  ///< l_0.
   double force_unit_N;    ///< ForceUnit() of the finger.
@@ -46,10 +46,11 @@ struct ChainLayout {
   int loads() const { return 3 + static_cast<int>(ribs.size()); }
 };
 
-/// Lays the chain out on MakeBeamMesh(finger, side, resolution), with segments
-/// of the front beam split at the arc lengths `front_splits_mm`; one within
-/// 1e-9 l_0 of a node changes nothing. Throws InputError for a resolution below
-/// 1, a split off the beam, or a beam that stretches, which rigid links cannot.
+/// Lays the chain out on MakeBeamMesh(finger, side, resolution). Segments of
+/// the front beam are split at the arc lengths `front_splits_mm`; a split
+/// within 1e-9 l_0 of a node changes nothing. Throws InputError for a
+/// resolution below 1, a split off the beam, or a beam that stretches, as rigid
+/// links do not.
 ChainLayout MakeChainLayout(const Finger& finger, int resolution,
                             GaugeRule gauge_rule,
                             const std::vector<double>& front_splits_mm = {});

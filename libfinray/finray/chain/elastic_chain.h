@@ -8,27 +8,27 @@
 
 namespace finray {
 
-/// A chain of n rigid links with elastic revolute joints, as in Section II.B:
-/// the model of a beam of any rest shape. Joint displacements theta are zero in
-/// the rest shape and count counter-clockwise, the part towards the chain's end
-/// against the part towards its start.
+/// A chain of n rigid links with elastic revolute joints (Section II.B). It
+/// models a beam of any rest shape. A joint angle theta_i is zero in the rest
+/// shape and counts the counter-clockwise turn of the links behind joint i
+/// against those before it.
 struct ElasticChain {
   Eigen::Matrix3Xd twists;    ///< zeta_i of (1), 3 x n.
   Eigen::VectorXd stiffness;  ///< k_i = EI / h of segment i, N mm / rad.
   Pose<double> tip_rest;      ///< g_st,0: {T} at the chain's end at rest.
 
   int joints() const { return static_cast<int>(stiffness.size()); }
-  /// Appends a joint.
+  /// Appends a joint at a point of the rest shape (mm).
   void Add(const Eigen::Vector2d& point, double joint_stiffness);
 };
 
-/// The chain in a configuration.
+/// The poses of a chain in one configuration.
 template <typename T>
 struct ChainPoses {
   /// exp(zeta_1 theta_1) .. exp(zeta_i theta_i) for i = 0 .. n.
   std::vector<Pose<T>> after;
-  /// xi_i of (3), the joint twists in this configuration, 3 x n: J_t, and its
-  /// first columns the Jacobians of (10).
+  /// xi_i of (3), the joint twists in this configuration, 3 x n. All of it is
+  /// J_t; its first columns are the Jacobians of (10).
   Eigen::Matrix<T, 3, Eigen::Dynamic> xi;
 };
 
@@ -63,17 +63,17 @@ Twist<T> TipDeviation(const ElasticChain& chain, const ChainPoses<T>& poses,
              Pose<T>{T(g.c), T(g.s), Vector2<T>(g.t.cast<T>())});
 }
 
-/// dy/dtheta, 3 x n. (5) has J_t here, which is exact only where y = 0; this is
-/// the derivative everywhere, so that it can be checked and given to any
-/// minimiser. Newton's limit is the same.
+/// dy/dtheta, 3 x n. (5) has J_t here, which is exact only where y = 0. This
+/// derivative is exact everywhere, as minimisers and tests need it. Newton
+/// converges to the same point.
 Eigen::Matrix3Xd TipDeviationJacobian(const ElasticChain& chain,
                                       const ChainPoses<double>& poses,
                                       const Pose<double>& target);
 
-/// Adds -K_J to `out` (n x n) for wrenches constant in S, the first term of
-/// (22). Column i of `beyond` (3 x n) is the sum of the wrenches that act
-/// beyond joint i, hence K_J(i, j) = [xi_j, xi_i] . beyond_i for j < i and 0
-/// elsewhere: a joint turns only the axes that come after it.
+/// Subtracts K_J, the first term of (22), from `out` (n x n) for wrenches that
+/// are constant in S. Column i of `beyond` (3 x n) is the sum of the wrenches
+/// that act beyond joint i. K_J(i, j) = [xi_j, xi_i] . beyond_i for j < i and 0
+/// elsewhere, as a joint turns only the axes behind it.
 void SubtractWrenchStiffness(const ChainPoses<double>& poses,
                              const Eigen::Matrix3Xd& beyond,
                              Eigen::Ref<Eigen::MatrixXd> out);

@@ -7,26 +7,27 @@
 
 namespace finray {
 
-// The finger under one contact (Section III and IV.A). Unknowns
+// Equations (7) to (12), (14), (15) and (25) of the paper: the finger under one
+// contact (Sections III and IV.A). Unknowns:
 //
 //   theta            n joint angles, rad
-//   loads = (F_t, f) 3 + r: the wrench on the chain at {T}, then the magnitudes
-//                    of the rib forces, compression > 0 as in (8): a rib's
-//                    tension is -f_k
+//   loads = (F_t, f) 3 + r: the wrench on the chain at {T} in N mm and N, then
+//                    the rib forces in N, compression > 0 as in (8), so that a
+//                    rib's tension is -f_k
 //   contact          (l_c, f_c), mm and N
 //
-// equations
+// Equations C(theta, F_t, f) of (12):
 //
 //   y   = ln(g_st g_t^-1)^vee                                       (4)
 //   tau = K theta - J_t^T F_t - sum (J_Lk - J_Rk)^T F_k - J_c^T F_c   (9), (14)
 //   d_k = |r_Lk - r_Rk| - d_k0 (1 - f_k / EA_k)                     (7)
 //
-// with F_k = f_k W_k (8) and F_c = f_c W_c (15), W_c here of x_c + mu y_c. The
-// contact frame rides on the link that holds l_c, so n_c counts the front
-// joints before l_c and x_c turns by theta_i where l_c passes joint i. Without
-// contact (f_c = 0) this is C(theta, F_t, f) of (12).
+// with F_k = f_k W_k (8) and F_c = f_c W_c (15). Friction is added to the
+// paper's contact: W_c is the wrench of x_c + mu y_c. The contact frame belongs
+// to the link that holds l_c: n_c counts the front joints before l_c, and x_c
+// turns by theta_i where l_c passes joint i. f_c = 0 means no contact.
 
-/// One of the ribs in a configuration.
+/// A rib in one configuration.
 template <typename T>
 struct RibFrame {
   Vector2<T> left, right;  ///< r_L and r_R of (11).
@@ -49,7 +50,7 @@ RibFrame<T> MakeRibFrame(const ChainRib& rib, const ChainPoses<T>& poses) {
   return frame;
 }
 
-/// The contact frame {C} in a configuration.
+/// The contact frame {C} in one configuration.
 template <typename T>
 struct ContactFrame {
   int joints_before = 0;       ///< n_c.
@@ -59,7 +60,7 @@ struct ContactFrame {
   Wrench<T> wrench;            ///< W_c.
 };
 
-/// g_sc of (25) and the wrench of (15). `arc` should lie on the front beam.
+/// g_sc of (25) and W_c of (15). `arc` is l_c, on the front beam.
 template <typename T>
 ContactFrame<T> MakeContactFrame(const ChainLayout& layout,
                                  const ChainPoses<T>& poses, const T& arc,
@@ -77,8 +78,8 @@ ContactFrame<T> MakeContactFrame(const ChainLayout& layout,
   return frame;
 }
 
-/// The sum of the wrenches that act beyond each joint, 3 x n: what J^T F of
-/// (14) multiplies with xi_i. A rib's cancel beyond R.
+/// The sum of the wrenches that act beyond each joint, 3 x n. J^T F of (14) is
+/// xi_i . (column i). The two wrenches of a rib cancel beyond R.
 template <typename T>
 Eigen::Matrix<T, 3, Eigen::Dynamic> WrenchesBeyond(const ChainLayout& layout,
                                                    const ChainPoses<T>& poses,

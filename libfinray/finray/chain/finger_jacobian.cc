@@ -3,38 +3,11 @@
 namespace finray {
 namespace {
 
-// d W_k / d theta of (23), 3 x n: the line of force swings with the rib.
-Eigen::Matrix3Xd RibWrenchJacobian(const RibFrame<double>& frame,
-                                   const RibMotion& motion) {
-  const Eigen::Vector2d& u = frame.direction;
-  const Eigen::Matrix2Xd du =
-      (Eigen::Matrix2d::Identity() - u * u.transpose()) * motion.across /
-      frame.distance;
-  Eigen::Matrix3Xd jacobian(3, du.cols());
-  for (Eigen::Index j = 0; j < du.cols(); ++j) {
-    jacobian.col(j) << Cross(frame.left, du.col(j)) +
-                           Cross(motion.left.col(j), u),
-        du.col(j);
-  }
-  return jacobian;
-}
-
-// d W_c / d theta of (27) for the joints before {C}, 3 x n_c: Gamma_C J_c moves
-// the point, Psi J_c turns the force.
-Eigen::Matrix3Xd ContactWrenchJacobian(const ContactFrame<double>& frame,
-                                       const ChainPoses<double>& poses) {
-  Eigen::Matrix3Xd jacobian(3, frame.joints_before);
-  for (int j = 0; j < frame.joints_before; ++j) {
-    const Twist<double> xi = poses.xi.col(j);
-    const Eigen::Vector2d moved = Velocity<double>(xi, frame.point);
-    const Eigen::Vector2d turned = xi[0] * Turned<double>(frame.force);
-    jacobian.col(j) << Cross(frame.point, turned) + Cross(moved, frame.force),
-        turned;
-  }
-  return jacobian;
-}
-
-}  // namespace
+// d r_L and d (r_L - r_R) by theta, 2 x n each: Gamma_L J_L and
+// Gamma_L J_L - Gamma_R J_R of (21).
+struct RibMotion {
+  Eigen::Matrix2Xd left, across;
+};
 
 RibMotion MakeRibMotion(const ChainRib& rib, const RibFrame<double>& frame,
                         const ChainPoses<double>& poses) {
@@ -51,6 +24,51 @@ RibMotion MakeRibMotion(const ChainRib& rib, const RibFrame<double>& frame,
   }
   return motion;
 }
+
+// d W_k / d theta of (23), 3 x n: the line of the force turns with the rib.
+Eigen::Matrix3Xd RibWrenchJacobian(const RibFrame<double>& frame,
+                                   const RibMotion& motion) {
+  const Eigen::Vector2d& u = frame.direction;
+  const Eigen::Matrix2Xd du =
+      (Eigen::Matrix2d::Identity() - u * u.transpose()) * motion.across /
+      frame.distance;
+  Eigen::Matrix3Xd jacobian(3, du.cols());
+  for (Eigen::Index j = 0; j < du.cols(); ++j) {
+    jacobian.col(j) << Cross(frame.left, du.col(j)) +
+                           Cross(motion.left.col(j), u),
+        du.col(j);
+  }
+  return jacobian;
+}
+
+// d W_c / d theta of (27) for the n_c joints before {C}, 3 x n_c: Gamma_C J_c
+// moves the point and Psi J_c turns the force.
+Eigen::Matrix3Xd ContactWrenchJacobian(const ContactFrame<double>& frame,
+                                       const ChainPoses<double>& poses) {
+  Eigen::Matrix3Xd jacobian(3, frame.joints_before);
+  for (int j = 0; j < frame.joints_before; ++j) {
+    const Twist<double> xi = poses.xi.col(j);
+    const Eigen::Vector2d moved = Velocity<double>(xi, frame.point);
+    const Eigen::Vector2d turned = xi[0] * Turned<double>(frame.force);
+    jacobian.col(j) << Cross(frame.point, turned) + Cross(moved, frame.force),
+        turned;
+  }
+  return jacobian;
+}
+
+// d d / d theta of (21), r x n.
+Eigen::MatrixXd RibJacobian(const ChainLayout& layout,
+                            const ChainPoses<double>& poses) {
+  Eigen::MatrixXd jacobian(layout.ribs.size(), layout.joints());
+  for (std::size_t k = 0; k < layout.ribs.size(); ++k) {
+    const RibFrame<double> frame = MakeRibFrame(layout.ribs[k], poses);
+    jacobian.row(k) = frame.direction.transpose() *
+                      MakeRibMotion(layout.ribs[k], frame, poses).across;
+  }
+  return jacobian;
+}
+
+}  // namespace
 
 TorqueJacobian MakeTorqueJacobian(const ChainLayout& layout,
                                   const ChainPoses<double>& poses,
@@ -86,21 +104,10 @@ TorqueJacobian MakeTorqueJacobian(const ChainLayout& layout,
   jacobian.theta.topLeftCorner(n_c, n_c).noalias() -=
       contact[1] * xi_c.transpose() * ContactWrenchJacobian(frame, poses);
   jacobian.contact.setZero(n, 2);
-  // (28): the point moves along y_c, the direction stays.
+  // (28): the point moves along y_c and the direction stays.
   const Wrench<double> by_arc(Cross(frame.tangent, frame.force), 0, 0);
   jacobian.contact.col(0).head(n_c) = -contact[1] * xi_c.transpose() * by_arc;
   jacobian.contact.col(1).head(n_c) = -xi_c.transpose() * frame.wrench;
-  return jacobian;
-}
-
-Eigen::MatrixXd RibJacobian(const ChainLayout& layout,
-                            const ChainPoses<double>& poses) {
-  Eigen::MatrixXd jacobian(layout.ribs.size(), layout.joints());
-  for (std::size_t k = 0; k < layout.ribs.size(); ++k) {
-    const RibFrame<double> frame = MakeRibFrame(layout.ribs[k], poses);
-    jacobian.row(k) = frame.direction.transpose() *
-                      MakeRibMotion(layout.ribs[k], frame, poses).across;
-  }
   return jacobian;
 }
 

@@ -4,36 +4,33 @@
 #include <algorithm>
 #include <cmath>
 
-#include "finray/chain/finger_jacobian.h"
-#include "finray/chain/newton_step.h"
+#include "finray/chain/scaled_equations.h"
 
 namespace finray {
 namespace {
 
 constexpr int kMaxIterations = 40;
 constexpr double kMaxTurn = 0.5;
-// Newton is quadratic: after a step this small nothing is left to gain.
+// Newton squares the error: after a step this small rounding is all that is
+// left.
 constexpr double kSmallStep = 1e-9;
 constexpr double kSmallestRampStep = 1. / 512;
 
-bool Newton(const ChainLayout& layout, const ChainContact& contact,
-            const ChainUnits& units, double last_step, ChainState* state,
-            int* iterations = nullptr) {
+bool Newton(const ChainLayout& layout, const PointContact& contact,
+            double last_step, ChainState* state, int* iterations = nullptr) {
   const int n = layout.joints(), size = n + layout.loads();
+  const ScaledEquations equations{layout, contact.friction};
+  const Eigen::VectorXd units = equations.ColumnUnits().head(size);
   const double at[2] = {contact.arc_mm, contact.normal_N};
   ChainState now = *state;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const Eigen::VectorXd c =
-        FingerEquations<double>(layout, now.theta.data(), now.loads.data(), at,
-                                contact.friction)
-            .cwiseQuotient(units.rows);
+        equations.Residual(now.theta.data(), now.loads.data(), at);
     if (!c.allFinite()) return false;
     const Eigen::MatrixXd jacobian =
-        units.rows.cwiseInverse().asDiagonal() *
-        FingerJacobian(layout, now.theta.data(), now.loads.data(), at,
-                       contact.friction)
+        equations.Jacobian(now.theta.data(), now.loads.data(), at)
             .leftCols(size) *
-        units.columns.head(size).asDiagonal();
+        units.asDiagonal();
     // (6) prints a plus, which would lead away from the solution.
     const Eigen::VectorXd step = -jacobian.partialPivLu().solve(c);
     if (!step.allFinite()) return false;
@@ -41,8 +38,8 @@ bool Newton(const ChainLayout& layout, const ChainContact& contact,
     const double fraction = turn > kMaxTurn ? kMaxTurn / turn : 1;
     now.theta += fraction * step.head(n);
     now.loads +=
-        fraction * step.tail(layout.loads())
-                       .cwiseProduct(units.columns.segment(n, layout.loads()));
+        fraction *
+        step.tail(layout.loads()).cwiseProduct(units.tail(layout.loads()));
     const double scale =
         1 + now.loads.tail(layout.ribs.size()).cwiseAbs().sum() /
                 layout.force_unit_N;
@@ -56,11 +53,11 @@ bool Newton(const ChainLayout& layout, const ChainContact& contact,
   return false;
 }
 
-// The finger with a share of its prestress and of its load.
-bool SolveAlongRamp(const ChainLayout& layout, const ChainContact& contact,
-                    const ChainUnits& units, ChainState* state) {
+// Solves with a growing share of the prestress and of the contact force.
+bool SolveAlongRamp(const ChainLayout& layout, const PointContact& contact,
+                    ChainState* state) {
   ChainLayout part = layout;
-  ChainContact load = contact;
+  PointContact load = contact;
   double reached = 0, step = 0.25;
   while (reached < 1) {
     const double share = std::min(1.0, reached + step);
@@ -70,7 +67,7 @@ bool SolveAlongRamp(const ChainLayout& layout, const ChainContact& contact,
           nominal + share * (layout.ribs[k].length_mm - nominal);
     }
     load.normal_N = share * contact.normal_N;
-    if (Newton(part, load, units, kSmallStep, state)) {
+    if (Newton(part, load, kSmallStep, state)) {
       reached = share;
       step *= 2;
     } else {
@@ -81,30 +78,29 @@ bool SolveAlongRamp(const ChainLayout& layout, const ChainContact& contact,
   return true;
 }
 
-bool IsBadContact(const ChainLayout& layout, const ChainContact& contact) {
+bool IsBadContact(const ChainLayout& layout, const PointContact& contact) {
   // Written so that a NaN is bad.
-  return !(contact.arc_mm >= 0 && contact.arc_mm <= layout.length_unit_mm) ||
+  return contact.side != Side::kFront ||
+         !(contact.arc_mm >= 0 && contact.arc_mm <= layout.length_unit_mm) ||
          !std::isfinite(contact.normal_N) || !std::isfinite(contact.friction);
 }
 
 }  // namespace
 
-bool SolveForward(const ChainLayout& layout, const ChainContact& contact,
+bool SolveForward(const ChainLayout& layout, const PointContact& contact,
                   ChainState* state) {
   *state = ChainState::Straight(layout);
   if (IsBadContact(layout, contact)) return false;
-  const ChainUnits units(layout);
-  if (Newton(layout, contact, units, kSmallStep, state)) return true;
-  if (SolveAlongRamp(layout, contact, units, state)) return true;
+  if (Newton(layout, contact, kSmallStep, state)) return true;
+  if (SolveAlongRamp(layout, contact, state)) return true;
   *state = ChainState::Straight(layout);
   return false;
 }
 
-bool ContinueForward(const ChainLayout& layout, const ChainContact& contact,
+bool ContinueForward(const ChainLayout& layout, const PointContact& contact,
                      double last_step, ChainState* state, int* iterations) {
   return !IsBadContact(layout, contact) &&
-         Newton(layout, contact, ChainUnits(layout), last_step, state,
-                iterations);
+         Newton(layout, contact, last_step, state, iterations);
 }
 
 }  // namespace finray

@@ -6,14 +6,15 @@
 
 namespace finray {
 
-// The planar subgroup to which the paper's SE(3) degenerates. Twists and
-// wrenches have three components instead of six:
+// SE(2), the planar subgroup of the paper's SE(3): poses, exp and ln of (1) and
+// (4), Adjoint, Lie bracket. Twists and wrenches have three components instead
+// of six:
 //
 //   twist  (omega, v_x, v_y)   rad and mm; v is the velocity of the point of
 //                              the body that passes the origin of S,
 //   wrench (m, f_x, f_y)       N mm and N; m is the moment about that origin,
 //
-// so that twist . wrench is power. Everything is templated on the scalar, which
+// so that twist . wrench is power. The scalar is a template parameter, as it
 // may be a ceres::Jet.
 
 template <typename T>
@@ -23,7 +24,7 @@ using Twist = Eigen::Matrix<T, 3, 1>;
 template <typename T>
 using Wrench = Eigen::Matrix<T, 3, 1>;
 
-/// z component of a x b.
+/// The z component of a x b.
 template <typename A, typename B>
 typename A::Scalar Cross(const A& a, const B& b) {
   return a[0] * b[1] - a[1] * b[0];
@@ -69,28 +70,28 @@ Twist<T> RevoluteTwist(const Vector2<T>& point) {
   return Twist<T>(T(1), point[1], -point[0]);
 }
 
-/// The wrench of a force at a point, as in (8) and (15).
+/// The wrench of a force at a point, (8) and (15).
 template <typename T>
 Wrench<T> ForceWrench(const Vector2<T>& point, const Vector2<T>& force) {
   return Wrench<T>(Cross(point, force), force[0], force[1]);
 }
 
-/// The velocity that a twist gives to the point now at `point`: Gamma of (21)
-/// times the twist.
+/// The velocity that a twist gives to a point: Gamma of (21) times the twist.
 template <typename T>
 Vector2<T> Velocity(const Twist<T>& twist, const Vector2<T>& point) {
   return Vector2<T>(twist[1] - twist[0] * point[1],
                     twist[2] + twist[0] * point[0]);
 }
 
-/// exp of the twist's matrix.
+/// The exponential of a twist's matrix, as in (1).
 template <typename T>
 Pose<T> Exp(const Twist<T>& twist) {
   using std::cos;
   using std::sin;
   const T& w = twist[0];
   const T c = cos(w), s = sin(w);
-  // sin(w) / w and (1 - cos(w)) / w, whose quotients lose digits near 0.
+  // sin(w) / w and (1 - cos(w)) / w. Near 0 the quotients lose digits, so there
+  // a series serves.
   T a, b;
   const T w2 = w * w;
   if (w2 < T(1e-2)) {
@@ -105,7 +106,8 @@ Pose<T> Exp(const Twist<T>& twist) {
           Vector2<T>(a * twist[1] - b * twist[2], b * twist[1] + a * twist[2])};
 }
 
-/// h cot(h), and half its derivative by h in *slope if not null; h = angle / 2.
+/// h cot(h) with h = angle / 2, and half its derivative by h in *slope if that
+/// is not null.
 template <typename T>
 T HalfAngleCotangent(const T& angle, T* slope = nullptr) {
   using std::cos;
@@ -126,7 +128,7 @@ T HalfAngleCotangent(const T& angle, T* slope = nullptr) {
   return h * cot;
 }
 
-/// The twist in whose direction exp leads to the pose, |omega| <= pi.
+/// The inverse of Exp, ln of (4), with |omega| <= pi.
 template <typename T>
 Twist<T> Log(const Pose<T>& g) {
   using std::atan2;
@@ -135,8 +137,8 @@ Twist<T> Log(const Pose<T>& g) {
   return Twist<T>(w, a * g.t[0] + b * g.t[1], a * g.t[1] - b * g.t[0]);
 }
 
-/// d Log(g) = LogJacobian(g) xi for (dg g^-1)^vee = xi. It is the identity at
-/// g = 1, which is the approximation the paper makes in (5).
+/// The derivative of Log: d Log(g) = LogJacobian(g) xi for (dg g^-1)^vee = xi.
+/// At g = 1 it is the identity, which the paper takes everywhere in (5).
 inline Eigen::Matrix3d LogJacobian(const Pose<double>& g) {
   const double w = std::atan2(g.s, g.c);
   double slope;
@@ -150,14 +152,14 @@ inline Eigen::Matrix3d LogJacobian(const Pose<double>& g) {
   return jacobian;
 }
 
-/// Ad(g) twist, the twist seen from where g leads.
+/// Ad(g) twist: a twist given in the frame of g, seen from S.
 template <typename T>
 Twist<T> Adjoint(const Pose<T>& g, const Twist<T>& twist) {
   const Vector2<T> v = g.Rotate(Vector2<T>(twist[1], twist[2]));
   return Twist<T>(twist[0], v[0] + twist[0] * g.t[1], v[1] - twist[0] * g.t[0]);
 }
 
-/// The Lie bracket [a, b]: the rate of b carried by a, d Ad(exp(a e)) b / de.
+/// The Lie bracket [a, b] = d Ad(exp(a e)) b / de at e = 0.
 template <typename T>
 Twist<T> Bracket(const Twist<T>& a, const Twist<T>& b) {
   return Twist<T>(T(0), b[0] * a[2] - a[0] * b[2], a[0] * b[1] - b[0] * a[1]);

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "finray/chain/finger_jacobian.h"
 #include "finray/chain/forward.h"
-#include "finray/chain/newton_step.h"
+#include "finray/chain/scaled_equations.h"
 
 namespace finray {
 namespace {
@@ -16,30 +15,19 @@ constexpr double kMaxMove = 0.03;   // of l_0
 constexpr double kMaxChange = 0.3;  // of f_c + F_0
 constexpr double kSmallSensingStep = 1e-9;
 
-// The pseudo-inverse step of (18) in units of the columns. It is subtracted:
-// the printed plus would lead away.
-Eigen::VectorXd Step(const ChainLayout& layout, const ChainUnits& units,
-                     const Eigen::VectorXd& s0, double model_weight,
-                     const ChainState& state, const ChainContact& contact) {
-  const int n = layout.joints(), model = n + layout.loads();
-  const int m = static_cast<int>(s0.size());
+// The step of (18) in units of the columns. The print adds it; Newton
+// subtracts.
+Eigen::VectorXd Step(const ScaledEquations& equations,
+                     const Eigen::VectorXd& column_units,
+                     const ChainState& state, const PointContact& contact) {
+  const double* theta = state.theta.data();
+  const double* loads = state.loads.data();
   const double at[2] = {contact.arc_mm, contact.normal_N};
-  const Eigen::VectorXd row_weight = model_weight * units.rows.cwiseInverse();
-  Eigen::VectorXd c(model + m);
-  c.head(model) =
-      FingerEquations<double>(layout, state.theta.data(), state.loads.data(),
-                              at, contact.friction)
-          .cwiseProduct(row_weight);
-  c.tail(m) = layout.gauges * state.theta - s0;
-  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(model + m, model + 2);
-  jacobian.topRows(model) =
-      row_weight.asDiagonal() *
-      FingerJacobian(layout, state.theta.data(), state.loads.data(), at,
-                     contact.friction) *
-      units.columns.asDiagonal();
-  jacobian.bottomLeftCorner(m, n) = layout.gauges;
+  const Eigen::VectorXd c = equations.Residual(theta, loads, at);
+  const Eigen::MatrixXd jacobian =
+      equations.Jacobian(theta, loads, at) * column_units.asDiagonal();
   if (!c.allFinite() || !jacobian.allFinite()) {
-    return Eigen::VectorXd::Constant(model + 2, std::nan(""));
+    return Eigen::VectorXd::Constant(jacobian.cols(), std::nan(""));
   }
   return -jacobian.colPivHouseholderQr().solve(c);
 }
@@ -47,7 +35,7 @@ Eigen::VectorXd Step(const ChainLayout& layout, const ChainUnits& units,
 }  // namespace
 
 bool StartSensing(const ChainLayout& layout, const Eigen::VectorXd& s0,
-                  const ChainContact& start, ChainSensing* result) {
+                  const PointContact& start, ChainSensing* result) {
   result->contact = start;
   const bool started = SolveForward(layout, start, &result->state);
   result->misfit = layout.gauges * result->state.theta - s0;
@@ -55,26 +43,27 @@ bool StartSensing(const ChainLayout& layout, const Eigen::VectorXd& s0,
 }
 
 ChainSensing SenseContact(const ChainLayout& layout, const Eigen::VectorXd& s0,
-                          const ChainContact& start,
+                          const PointContact& start,
                           const ChainSensingOptions& options) {
   const int n = layout.joints(), loads = layout.loads();
-  const ChainUnits units(layout);
+  const ScaledEquations equations{layout, start.friction, options.model_weight,
+                                  s0};
+  const Eigen::VectorXd units = equations.ColumnUnits();
   ChainSensing result;
   if (!StartSensing(layout, s0, start, &result)) return result;
 
   ChainState state = result.state;
-  ChainContact contact = start;
+  PointContact contact = start;
   while (result.iterations < options.max_iterations) {
     ++result.iterations;
-    const Eigen::VectorXd step =
-        Step(layout, units, s0, options.model_weight, state, contact);
+    const Eigen::VectorXd step = Step(equations, units, state, contact);
     if (!step.allFinite()) break;
     const double fraction =
         std::min({1.0, kMaxSensingTurn / LargestTurn(step.head(n)),
                   kMaxMove / std::abs(step[n + loads]),
                   kMaxChange * (1 + contact.normal_N / layout.force_unit_N) /
                       std::abs(step[n + loads + 1])});
-    const Eigen::VectorXd change = fraction * step.cwiseProduct(units.columns);
+    const Eigen::VectorXd change = fraction * step.cwiseProduct(units);
     state.theta += change.head(n);
     state.loads += change.segment(n, loads);
     const double arc = contact.arc_mm + change[n + loads];

@@ -39,13 +39,19 @@ double AxialStiffness(const Finger& finger, Side side) {
                               : finger.back_axial_stiffness_N;
 }
 
+bool Stretches(const Finger& finger) {
+  return std::isfinite(finger.front_axial_stiffness_N) ||
+         std::isfinite(finger.back_axial_stiffness_N);
+}
+
 const std::vector<StiffnessPiece>& Pieces(const Finger& finger, Side side) {
   return side == Side::kFront ? finger.front_pieces : finger.back_pieces;
 }
 
 double RibBackArc(const Finger& finger, double front_mm, double angle_rad) {
-  // (0, front) + d (cos, sin)(angle) = base + s (cos, sin)(phi): crossing both
-  // sides with one direction leaves the other's distance.
+  // (0, front) + d (cos, sin)(angle) = base + s (cos, sin)(phi). The cross
+  // product of both sides with one direction leaves the distance along the
+  // other.
   const Eigen::Vector2d to_base =
       BeamBase(finger, Side::kBack) - Eigen::Vector2d(0, front_mm);
   const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {

@@ -1,4 +1,4 @@
-#include "finray/chain/ceres_forward.h"
+#include "finray/chain/ceres_chain.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace finray {
 namespace {
 
-TEST(CeresForwardTest, AgreesWithNewton) {
+TEST(CeresChainTest, ForwardAgreesWithNewton) {
   const ChainLayout layout =
       MakeChainLayout(RichFinger(), 40, GaugeRule::kOverlap);
   for (const ceres::LinearSolverType type :
@@ -17,7 +17,7 @@ TEST(CeresForwardTest, AgreesWithNewton) {
     SCOPED_TRACE(ceres::LinearSolverTypeToString(type));
     ChainState newton, state;
     ASSERT_TRUE(SolveForward(layout, {70, 2, 0.3}, &state));
-    const ChainContact load = {72.4, 2.5, 0.3};
+    const PointContact load = {72.4, 2.5, 0.3};
     ASSERT_TRUE(SolveForward(layout, load, &newton));
     int iterations = 0;
     ASSERT_TRUE(
