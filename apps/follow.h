@@ -15,7 +15,7 @@
 #include "finray/batch/latency_histogram.h"
 #include "finray/batch/live_rows.h"
 #include "finray/io/file_descriptor.h"
-#include "finray/io/pipe_lines.h"
+#include "finray/io/line_reader.h"
 #include "stop_signal.h"
 
 namespace finray {
@@ -36,7 +36,8 @@ class Follow {
 
   int Run() {
     std::signal(SIGPIPE, SIG_IGN);
-    PipeLines lines(STDIN_FILENO, StopSignal::InstallWaking(), kSource);
+    LineReader lines =
+        ReadPipe(STDIN_FILENO, StopSignal::InstallWaking(), kSource);
     LiveEstimator estimator(finger_, scene_, discretization_, method_);
     CsvLine header;
     do {

@@ -6,7 +6,7 @@
 #include "finray/batch/result_rows.h"
 #include "finray/io/csv_cells.h"
 #include "finray/io/frame_parser.h"
-#include "finray/io/pipe_lines.h"
+#include "finray/io/line_reader.h"
 #include "fuzz/feeding.h"
 #include "fuzz/targets.h"
 
@@ -14,8 +14,7 @@ namespace finray {
 
 namespace {
 
-// Cut by PipeLines: CsvReader's buffer of 48 MB would make fuzzing slow.
-CsvLine NextHeader(PipeLines* lines) {
+CsvLine NextHeader(LineReader* lines) {
   CsvLine header;
   do {
     if (!lines->Next()) throw InputError("the log is empty");
@@ -30,7 +29,7 @@ void ReadRenamedTable(std::string_view bytes) {
   const MemoryFile scene(TakeFile(&bytes)), log(bytes);
   Tolerate([&] {
     const auto columns = ReadScene(scene.path()).columns;
-    PipeLines lines(log.descriptor(), -1, "log");
+    LineReader lines = ReadPipe(log.descriptor(), -1, "log");
     const FrameParser parser("log", NextHeader(&lines), columns);
     FrameRows rows;
     while (lines.Next()) {
@@ -48,7 +47,7 @@ void ReadEstimateInputs(std::string_view bytes) {
     const Finger finger = ReadFinger(finger_file.path());
     const Scene scene = ReadScene(scene_file.path());
     RefuseBackContacts(scene);
-    PipeLines lines(log.descriptor(), -1, "log");
+    LineReader lines = ReadPipe(log.descriptor(), -1, "log");
     const FrameParser parser("log", NextHeader(&lines), scene.columns);
     const ResultLayout layout(finger, scene, parser);
     layout.HeaderCsv();
@@ -73,7 +72,7 @@ void FollowRows(std::string_view bytes) {
   static LiveEstimator estimator(Paper(), scene);
   const MemoryFile file(bytes);
   Tolerate([&] {
-    PipeLines lines(file.descriptor(), -1, "stdin");
+    LineReader lines = ReadPipe(file.descriptor(), -1, "stdin");
     LiveRows rows(Paper(), scene, "stdin", NextHeader(&lines), &estimator);
     const std::string names = rows.HeaderCsv();
     std::vector<std::string_view> cells;

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "finray/io/error.h"
+#include "finray/io/frame_vocabulary.h"
 #include "temp_file.h"
 
 namespace finray {
@@ -71,11 +72,11 @@ TEST_F(FrameTableTest, TextSurvivesAWrite) {
 TEST_F(FrameTableTest, Vocabulary) {
   for (const char* name : {"time_s", "gauge_12_V", "contact_1_std_mm",
                            "friction_2", "rib_5_N", "iterations"}) {
-    EXPECT_TRUE(FrameTable::IsVocabulary(name)) << name;
+    EXPECT_TRUE(IsFrameColumn(name)) << name;
   }
   for (const char* name : {"gauge_0_V", "gauge_01_V", "gauge__V", "gauge_1",
                            "status", "Force_N", "rib_x_N"}) {
-    EXPECT_FALSE(FrameTable::IsVocabulary(name)) << name;
+    EXPECT_FALSE(IsFrameColumn(name)) << name;
   }
 }
 

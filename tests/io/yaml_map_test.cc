@@ -77,7 +77,7 @@ TEST_F(YamlMapTest, FilesThatAreNoMapping) {
 TEST_F(YamlMapTest, FilesThatStandForTooMuch) {
   EXPECT_INPUT_ERROR(Load(", a: 1\n"), "not valid YAML");
   EXPECT_INPUT_ERROR(Load("a: &a [*a]\n"),
-                     "a.yaml:1:8: an alias refers to what it is in");
+                     "a.yaml:1:8: an alias refers to a value that contains it");
   EXPECT_INPUT_ERROR(
       Load("a: " + std::string(51, '[') + std::string(51, ']')),
       "a.yaml:1:53: expected lists and mappings at most 50 deep");

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "finray/io/frame_table.h"
-#include "finray/io/parse_number.h"
+#include "finray/io/number_text.h"
 #include "finray/statics/equilibrium.h"
 #include "test_finger.h"
 

@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "finray/io/number_text.h"
-#include "finray/io/parse_number.h"
 #include "finray/io/yaml_emitter.h"
 #include "finray/sensing/estimated_force.h"
 

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// These return 0 or what went wrong as an errno value.
+// These functions return 0 or an errno value.
 
 int WriteThrough(const fs::path& path, const std::string& content) {
   FileDescriptor file;
@@ -28,7 +28,7 @@ int WriteThrough(const fs::path& path, const std::string& content) {
   return error != 0 ? error : close_error;
 }
 
-// A new file in the folder. Not mkstemp, whose files only their owner may read.
+// Creates a new file in the folder. mkstemp would let only the owner read it.
 int CreateTemporary(const fs::path& folder, fs::path* path,
                     FileDescriptor* file) {
   static std::atomic<unsigned> counter{0};
@@ -47,7 +47,7 @@ int WriteAndRename(const fs::path& path, const std::string& content) {
   int error = CreateTemporary(path.parent_path(), &temporary, &file);
   if (error != 0) return error;
   error = file.Write(content);
-  // A full disk may show only now.
+  // A full disk may be reported only here.
   if (error == 0) error = file.Sync();
   const int close_error = file.Close();
   if (error == 0) error = close_error;

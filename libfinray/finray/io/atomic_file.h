@@ -5,13 +5,13 @@
 
 namespace finray {
 
-/// Writes the whole content under a temporary name in the same folder and
-/// renames it, so that `path` never holds a partial file. The temporary file is
-/// removed on failure. Links are followed; a device or pipe, which cannot be
-/// replaced, is written to as it is. Throws InputError saying what failed.
+/// Writes the content under a temporary name in the same folder and renames the
+/// file, so that `path` never holds a partial file. On failure it removes the
+/// temporary file and throws InputError with the cause. Links are followed. A
+/// device or pipe cannot be replaced and is written to directly.
 void WriteFileAtomically(const std::string& path, const std::string& content);
 
-/// Creates a folder and its parents; InputError naming it if that fails.
+/// Creates a folder and its parents. Throws InputError if that fails.
 void MakeFolder(const std::string& path);
 
 }  // namespace finray

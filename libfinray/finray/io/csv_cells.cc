@@ -3,8 +3,9 @@
 namespace finray {
 namespace {
 
-// Takes a quoted cell off the front of `line` (behind its first quote) and
-// undoubles its quotes. False if the closing quote is missing.
+// Removes a quoted cell, whose first quote is already gone, from the front of
+// `line`. Doubled quotes become single ones. False if the closing quote is
+// missing.
 bool TakeQuoted(std::string_view* line, std::string* cell) {
   for (;;) {
     const auto quote = line->find('"');

@@ -8,7 +8,7 @@
 
 namespace finray {
 
-/// Without spaces and tabs at both ends.
+/// The text without spaces and tabs at both ends.
 inline std::string_view Trimmed(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t'; };
   while (!text.empty() && blank(text.front())) text.remove_prefix(1);
@@ -16,16 +16,16 @@ inline std::string_view Trimmed(std::string_view text) {
   return text;
 }
 
-/// Makes `cells` those of one line of RFC 4180 CSV. Spaces around cells do not
-/// count, those inside quotes do. The cells refer to the line, quoted ones to
-/// strings that are added to `unquoted`. Returns "" or what is wrong with the
-/// last of the cells.
+/// Splits one line of RFC 4180 CSV into `cells`. Spaces around cells are
+/// removed, those inside quotes are kept. The cells refer to the line, quoted
+/// ones to strings that are added to `unquoted`. Returns "" or the error in the
+/// last cell.
 const char* SplitCsvLine(std::string_view line,
                          std::vector<std::string_view>* cells,
                          std::deque<std::string>* unquoted);
 
-/// Appends a cell as it is written: quoted where it would not read back the
-/// same.
+/// Appends a cell to a line, in quotes if it would not read back the same
+/// without them.
 void AppendCsvText(std::string_view cell, std::string* csv);
 
 }  // namespace finray

@@ -5,9 +5,9 @@
 
 namespace finray {
 
-/// Something the user gave cannot be used. what() is one line that names the
-/// place (file:line:column where there is one), what was found and what was
-/// expected. Executables print it and exit with code 2.
+/// An error in the user's input. what() is one line with the place
+/// (file:line:column if there is one), what was found and what was expected.
+/// Executables print it and exit with code 2.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

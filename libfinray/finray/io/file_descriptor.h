@@ -7,8 +7,8 @@
 
 namespace finray {
 
-/// An open file, closed with its owner. Its functions return 0 or what went
-/// wrong as an errno value.
+/// An open file that its destructor closes. The functions return 0 or an errno
+/// value.
 class FileDescriptor {
  public:
   FileDescriptor() = default;
@@ -16,27 +16,27 @@ class FileDescriptor {
   FileDescriptor(const FileDescriptor&) = delete;
   FileDescriptor& operator=(const FileDescriptor&) = delete;
 
-  /// Flags are those of open(2). A new file may be read by all, as far as the
-  /// umask lets them.
+  /// `flags` are those of open(2). All users may read a new file, within the
+  /// umask.
   int Open(const std::string& path, int flags);
-  /// Writes all bytes where the last ones ended.
+  /// Writes all bytes behind those written before.
   int Write(std::string_view bytes);
-  /// All that is left to read.
+  /// Reads the rest of the file.
   int ReadAll(std::string* bytes);
-  /// Cuts the file to its first `bytes`, and goes on writing behind them.
+  /// Cuts the file to its first `bytes`; the next write goes behind them.
   int Truncate(std::uint64_t bytes);
   /// Returns once the bytes are on the disk.
   int Sync();
   int Close();
 
-  /// The number that system calls take; -1 if none is open.
+  /// The descriptor for system calls; -1 if no file is open.
   int get() const { return file_; }
 
  private:
   int file_ = -1;
 };
 
-/// Makes what was renamed in a folder, or removed from it, safe.
+/// Returns once renames and removals in a folder are on the disk.
 int SyncFolder(const std::string& path);
 
 }  // namespace finray

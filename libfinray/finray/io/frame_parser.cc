@@ -9,14 +9,13 @@
 #include "finray/io/error.h"
 #include "finray/io/frame_vocabulary.h"
 #include "finray/io/nearest_name.h"
-#include "finray/io/parse_number.h"
+#include "finray/io/number_text.h"
 #include "finray/io/shown_text.h"
 
 namespace finray {
 namespace {
 
-// All renames refer to the names in the file, so that two columns can be
-// swapped.
+// Renames refer to the names in the file, so that two columns can be swapped.
 std::vector<std::string> Renamed(
     const std::string& path, const std::vector<std::string>& found,
     const std::map<std::string, std::string>& renames) {
@@ -43,7 +42,7 @@ std::vector<std::string> Renamed(
 }
 
 bool IsNan(std::string_view text) {
-  // printf writes the sign of a NaN.
+  // printf writes a NaN with its sign.
   if (!text.empty() && (text[0] == '-' || text[0] == '+')) {
     text.remove_prefix(1);
   }
@@ -51,7 +50,7 @@ bool IsNan(std::string_view text) {
          (text[1] | 0x20) == 'a' && (text[2] | 0x20) == 'n';
 }
 
-// Number of a cell, NaN for one that was not measured.
+// The number in a cell; NaN for an empty cell or "nan".
 std::optional<double> CellNumber(std::string_view text) {
   if (text.empty() || IsNan(text)) {
     return std::numeric_limits<double>::quiet_NaN();
@@ -59,7 +58,7 @@ std::optional<double> CellNumber(std::string_view text) {
   return ParseNumber(text);
 }
 
-// All but tabs.
+// Control characters except tabs.
 bool IsControl(char c) {
   return c != '\t' && (static_cast<unsigned char>(c) < 0x20 || c == '\x7f');
 }
@@ -88,8 +87,7 @@ FrameParser::FrameParser(const std::string& path, const CsvLine& header,
            "the header holds a NUL byte, expected UTF-8 text");
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    // No name has any; and a file that began with one could be taken for a
-    // compressed one.
+    // Names hold no control characters. Zip files that are not recognised do.
     const auto bad = std::find_if(cells[i].begin(), cells[i].end(), IsControl);
     if (bad == cells[i].end()) continue;
     FailAt(header.number, i,
@@ -149,7 +147,7 @@ void FrameParser::Parse(const CsvLine& line, FrameRows* rows) const {
       cells[i].text = split[i];
       continue;
     }
-    const std::string_view text = Trimmed(split[i]);  // of what quotes kept
+    const std::string_view text = Trimmed(split[i]);  // quotes keep spaces
     std::optional<double> number = CellNumber(text);
     if (!number && text == "inf" && MayBeInfinite(names_[i])) {
       number = std::numeric_limits<double>::infinity();
@@ -163,11 +161,9 @@ void FrameParser::Parse(const CsvLine& line, FrameRows* rows) const {
 }
 
 std::size_t FrameParser::FirstNul(const std::vector<std::string_view>& cells) {
-  constexpr std::string_view kNul("\0\x01", 2);
-  static_assert(kNul[1] == kNulStandIn);
   std::size_t index = 0;
   while (index < cells.size() &&
-         cells[index].find_first_of(kNul) == std::string_view::npos) {
+         cells[index].find('\0') == std::string_view::npos) {
     ++index;
   }
   return index;

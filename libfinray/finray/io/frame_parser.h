@@ -8,44 +8,43 @@
 #include <string_view>
 #include <vector>
 
-#include "finray/io/csv_line.h"
 #include "finray/io/frame_rows.h"
+#include "finray/io/line_reader.h"
 
 namespace finray {
 
-/// Whether a line is the header of a frame table and no '#' comment or blank.
-/// Takes byte order marks off its front: files put together from others have
-/// them behind their comments too.
+/// Whether a line is the header of a frame table rather than a '#' comment or
+/// blank. Removes byte order marks from its front; files that were put together
+/// from others have them behind comments too.
 bool IsHeaderLine(CsvLine* line);
 
-/// What a frame table's header says, and with it rows from lines. Any number of
-/// threads may use one.
+/// Parses the rows of a frame table by its header. Several threads may use one.
 class FrameParser {
  public:
   /// `renames` maps a lab's own headers to vocabulary names, or the other way
-  /// round where only that makes sense. InputError (path:line:column) for a bad
-  /// header.
+  /// round if only the key is a vocabulary name. InputError (path:line:column)
+  /// for a bad header.
   FrameParser(const std::string& path, const CsvLine& header,
               const std::map<std::string, std::string>& renames);
 
   const std::string& path() const { return path_; }
   const std::vector<std::string>& names() const { return names_; }
-  /// Whether a column holds numbers; others are kept as text.
+  /// Whether a column holds numbers; other columns hold text.
   bool IsNumeric(std::size_t column) const { return numeric_[column]; }
   std::optional<std::size_t> Find(const std::string& name) const;
-  /// InputError naming the nearest column if there is none of that name.
+  /// Throws InputError with the nearest name if there is no such column.
   std::size_t Require(const std::string& name) const;
 
-  /// Appends a line as a row. InputError (path:line:column) for one with the
-  /// wrong number of cells or a cell that is no number; the row then holds the
-  /// cells before that.
+  /// Appends a line as a row. InputError (path:line:column) for a wrong number
+  /// of cells or a cell that is no number; the row then holds the cells before
+  /// it.
   void Parse(const CsvLine& line, FrameRows* rows) const;
 
  private:
   [[noreturn]] void Fail(int line, const std::string& message) const;
   [[noreturn]] void FailAt(int line, std::size_t cell,
                            const std::string& message) const;
-  // Index of the first cell that holds a NUL byte, their number if none does.
+  // The first cell that holds a NUL byte, or the number of cells.
   static std::size_t FirstNul(const std::vector<std::string_view>& cells);
 
   std::string path_;

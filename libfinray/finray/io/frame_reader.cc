@@ -3,11 +3,12 @@
 #include <limits>
 
 #include "finray/io/error.h"
+#include "finray/io/gzip.h"
 
 namespace finray {
 namespace {
 
-CsvLine NextHeader(const std::string& path, CsvReader* reader) {
+CsvLine NextHeader(const std::string& path, LineReader* reader) {
   CsvLine line;
   do {
     if (!reader->Next()) {
@@ -22,7 +23,8 @@ CsvLine NextHeader(const std::string& path, CsvReader* reader) {
 
 FrameReader::FrameReader(const std::string& path,
                          const std::map<std::string, std::string>& renames)
-    : reader_(path), parser_(path, NextHeader(path, &reader_), renames) {
+    : reader_(std::make_unique<GzipFile>(path), path),
+      parser_(path, NextHeader(path, &reader_), renames) {
   looked_ahead_ = reader_.Next();
   if (!looked_ahead_) {
     throw InputError(path + ": is an empty log: it has a header but no rows");

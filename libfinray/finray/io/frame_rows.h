@@ -10,14 +10,13 @@
 
 namespace finray {
 
-/// Some rows of a frame table, cell by cell as they are read. The memory is
-/// used again from one Clear() to the next.
+/// Rows of a frame table, cell by cell. Clear() keeps the memory.
 class FrameRows {
  public:
   struct Cell {
-    /// NaN for text and for what was not measured.
+    /// NaN for text and for a cell that was not measured.
     double number = std::numeric_limits<double>::quiet_NaN();
-    /// Without quotes; refers to the line.
+    /// Without quotes. It refers to the line that was parsed.
     std::string_view text;
   };
 
@@ -34,7 +33,7 @@ class FrameRows {
  private:
   friend class FrameParser;
 
-  // Appends an empty one and returns its first cell.
+  // Appends an empty row and returns its first cell.
   Cell* AddRow(std::size_t columns) {
     columns_ = columns;
     ++rows_;
@@ -45,7 +44,7 @@ class FrameRows {
   std::size_t rows_ = 0, columns_ = 0;
   std::vector<Cell> cells_;
   std::vector<std::string_view> split_;  // the line that is being read
-  std::deque<std::string> unquoted_;     // strings keep their place
+  std::deque<std::string> unquoted_;     // a deque does not move its strings
 };
 
 }  // namespace finray

@@ -21,10 +21,6 @@ using Texts = std::vector<std::string>;
 
 }  // namespace
 
-bool FrameTable::IsVocabulary(const std::string& name) {
-  return IsFrameColumn(name);
-}
-
 std::vector<std::string> FrameTable::headers() const {
   std::vector<std::string> names;
   for (const Column& column : columns_) names.push_back(column.name);
@@ -99,7 +95,7 @@ std::string FrameTable::HeaderCsv() const {
 
 std::string FrameTable::RowsCsv() const {
   std::string csv;
-  // A blank line would not count as a row.
+  // A blank line would be skipped when the table is read.
   const bool alone = columns_.size() == 1;
   for (std::size_t row = 0; row < rows_; ++row) {
     for (std::size_t i = 0; i < columns_.size(); ++i) {

@@ -76,7 +76,7 @@ bool MayBeInfinite(std::string_view name) {
 }
 
 std::string DidYouMeanFrameColumn(const std::string& name) {
-  // Compared with the index that the name has, if any.
+  // The patterns get the index that the name has, if any.
   const auto digit = std::find_if(name.begin(), name.end(), IsDigit);
   std::string index(digit, std::find_if_not(digit, name.end(), IsDigit));
   if (index.empty() || index.front() == '0') index = "1";

@@ -25,7 +25,7 @@ GzipFile::~GzipFile() { gzclose(file_); }
 
 int GzipFile::Read(char* buffer, int size) {
   const int n = gzread(file_, buffer, static_cast<unsigned>(size));
-  // A file cut short yields its bytes and an error at once.
+  // A file that was cut short yields its bytes together with an error.
   int error = Z_OK;
   const char* message = gzerror(file_, &error);
   if (n < 0 || (error != Z_OK && error != Z_STREAM_END)) {
@@ -48,7 +48,7 @@ std::string Gzipped(const std::string& content) {
   std::size_t done = 0;
   int state = Z_OK;
   while (state != Z_STREAM_END) {
-    // zlib counts in 32 bits; tables may be longer.
+    // zlib counts in 32 bits, and tables may be longer than that.
     constexpr std::size_t kMost = std::numeric_limits<uInt>::max();
     const std::size_t piece = std::min(content.size() - done, kMost);
     stream.next_in =

@@ -5,27 +5,29 @@
 
 #include <string>
 
+#include "finray/io/line_reader.h"
+
 namespace finray {
 
-/// The bytes of a file, unzipped if it is gzipped; others come as they are.
-class GzipFile {
+/// The bytes of a file, unzipped if the file is gzipped.
+class GzipFile : public ByteSource {
  public:
   /// Throws InputError if the file cannot be read or is a folder.
   explicit GzipFile(const std::string& path);
-  ~GzipFile();
+  ~GzipFile() override;
   GzipFile(const GzipFile&) = delete;
   GzipFile& operator=(const GzipFile&) = delete;
 
-  /// Fills the buffer; fewer bytes than `size` only at the end of the file.
-  /// Throws InputError if the file is damaged or cut short.
-  int Read(char* buffer, int size);
+  /// Returns fewer bytes than `size` only at the end of the file. Throws
+  /// InputError if the file is damaged or cut short.
+  int Read(char* buffer, int size) override;
 
  private:
   std::string path_;
   gzFile file_;
 };
 
-/// The content gzipped.
+/// The gzipped content.
 std::string Gzipped(const std::string& content);
 
 }  // namespace finray

@@ -5,11 +5,15 @@
 
 namespace finray {
 
-/// Throws InputError for a folder and for a pipe, which would be waited for
-/// without end and could not be read a second time. `expected` says of what
-/// kind the file should be ("a YAML file"). Whether it can be opened shows when
-/// it is.
+/// Throws InputError for a folder and for a pipe. A pipe could block for ever
+/// and cannot be read twice. `expected` is the kind of file in the message ("a
+/// YAML file"). It does not check whether the file can be opened.
 void RefuseFolderOrPipe(const std::string& path, const std::string& expected);
+
+/// The bytes of a file. Throws InputError if it cannot be read, is a folder or
+/// a pipe, or is longer than `most_MiB`.
+std::string ReadWholeFile(const std::string& path, const std::string& expected,
+                          int most_MiB);
 
 }  // namespace finray
 

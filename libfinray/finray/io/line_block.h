@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "finray/io/csv_line.h"
+#include "finray/io/line_reader.h"
 
 namespace finray {
 
-/// Lines of a file that follow each other, copied from their reader so that
-/// others can parse them meanwhile. The memory is used again.
+/// Consecutive lines of a file, copied so that another thread can parse them
+/// while the reader goes on. Clear() keeps the memory.
 class LineBlock {
  public:
   void Clear() {
@@ -31,7 +31,7 @@ class LineBlock {
             line.number, line.nul};
   }
 
-  /// What is wrong with the file behind these lines, or "".
+  /// The error in the file behind these lines, or "".
   std::string error;
 
  private:

@@ -10,7 +10,7 @@
 
 #include "finray/io/csv_cells.h"
 #include "finray/io/error.h"
-#include "finray/io/gzip.h"
+#include "finray/io/input_file.h"
 #include "finray/io/shown_text.h"
 
 namespace finray {
@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kResult[] = ".frames.csv";
-constexpr std::size_t kLongestList = 16 << 20;
+constexpr int kLongestList_MiB = 16;
 
 bool EndsWith(const std::string& text, const std::string& end) {
   return text.size() > end.size() &&
@@ -34,7 +34,7 @@ bool IsResult(const fs::path& path, const std::string& results_folder) {
   return fs::equivalent(folder, results_folder, unknown);
 }
 
-// The files that a pattern matches, sorted byte by byte.
+// The files that match a pattern, sorted byte by byte.
 std::vector<std::string> Matches(const std::string& pattern,
                                  const std::string& results_folder) {
   glob_t found = {};
@@ -54,7 +54,7 @@ std::vector<std::string> Matches(const std::string& pattern,
   return files;
 }
 
-// Appends a file, or what a pattern matches. `place` begins messages.
+// Appends a file, or the files that match a pattern. `place` begins messages.
 void AddFiles(const std::string& item, const std::string& place,
               const std::string& results_folder,
               std::vector<std::string>* logs) {
@@ -71,19 +71,6 @@ void AddFiles(const std::string& item, const std::string& place,
   logs->insert(logs->end(), files.begin(), files.end());
 }
 
-std::string Contents(const std::string& path) {
-  GzipFile file(path);
-  std::string text;
-  char buffer[1 << 14];
-  while (const int n = file.Read(buffer, sizeof buffer)) {
-    text.append(buffer, static_cast<std::size_t>(n));
-    if (text.size() > kLongestList) {
-      throw InputError(path + ": is too long for a list of logs");
-    }
-  }
-  return text;
-}
-
 std::string_view WithoutComment(std::string_view line) {
   for (std::size_t at = line.find('#'); at != std::string_view::npos;
        at = line.find('#', at + 1)) {
@@ -96,7 +83,8 @@ std::string_view WithoutComment(std::string_view line) {
 
 void AddList(const std::string& path, const std::string& results_folder,
              std::vector<std::string>* logs) {
-  const std::string text = Contents(path);
+  const std::string text =
+      ReadWholeFile(path, "a list of logs", kLongestList_MiB);
   const fs::path folder = fs::path(path).parent_path();
   const std::size_t before = logs->size();
   int number = 0;
@@ -123,7 +111,7 @@ void AddList(const std::string& path, const std::string& results_folder,
   }
 }
 
-// The folder of `log` as seen from `root`.
+// The folder of `log` relative to `root`.
 fs::path FolderBelow(const std::string& root, const std::string& log) {
   const fs::path below =
       fs::absolute(log).lexically_normal().lexically_relative(

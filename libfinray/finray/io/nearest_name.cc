@@ -16,8 +16,8 @@ std::string Lower(std::string text) {
   return text;
 }
 
-// Letters and digits only: gauge4_V is gauge_4_V, not the equally near
-// gauge_1_V.
+// The letters and digits of a name: gauge4_V means gauge_4_V rather than
+// gauge_1_V, which is equally near.
 std::string Bare(const std::string& text) {
   std::string bare;
   for (const char c : Lower(text)) {
@@ -42,11 +42,9 @@ std::size_t EditDistance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-}  // namespace
-
 std::string NearestName(const std::string& name,
                         const std::vector<std::string>& candidates) {
-  // Hostile names may be megabytes long; no key is.
+  // A hostile file may hold names of megabytes.
   constexpr std::size_t kLongestName = 80;
   if (name.size() > kLongestName) return "";
   const std::string bare = Bare(name);
@@ -57,7 +55,7 @@ std::string NearestName(const std::string& name,
   std::size_t best = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
     const std::size_t distance = EditDistance(Lower(name), Lower(candidate));
-    // A slip leaves something of the name.
+    // A typing slip keeps some of the name.
     const std::size_t shorter = std::min(name.size(), candidate.size());
     if (distance < best && distance < shorter) {
       best = distance;
@@ -66,6 +64,8 @@ std::string NearestName(const std::string& name,
   }
   return nearest;
 }
+
+}  // namespace
 
 std::string DidYouMean(const std::string& name,
                        const std::vector<std::string>& candidates) {

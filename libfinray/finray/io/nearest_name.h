@@ -6,12 +6,8 @@
 
 namespace finray {
 
-/// The candidate closest to `name` by edit distance (case-insensitive), or ""
-/// if none is close enough to be what was meant.
-std::string NearestName(const std::string& name,
-                        const std::vector<std::string>& candidates);
-
-/// " (did you mean 'x'?)" or "".
+/// " (did you mean 'x'?)" with the candidate x nearest to `name` by edit
+/// distance (case-insensitive), or "" if none is near enough.
 std::string DidYouMean(const std::string& name,
                        const std::vector<std::string>& candidates);
 

@@ -15,6 +15,20 @@ locale_t Classic() {
 
 }  // namespace
 
+std::optional<double> ParseNumber(std::string_view text) {
+  // from_chars accepts no plus sign; "+-5" must not pass either.
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') {
+    text.remove_prefix(1);
+  }
+  const char* end = text.data() + text.size();
+  double value;
+  const auto result = std::from_chars(text.data(), end, value);
+  if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value)) {
+    return std::nullopt;
+  }
+  return value;
+}
+
 std::string NumberText(double value) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
@@ -26,7 +40,7 @@ std::string NumberText(double value) {
 std::string FormatText(const char* format, ...) {
   const ClassicNumbers classic;
   std::string text;
-  // Once for its length.
+  // The first pass finds the length.
   for (int pass = 0; pass < 2; ++pass) {
     va_list values;
     va_start(values, format);

@@ -3,22 +3,28 @@
 
 #include <locale.h>  // uselocale is not in <clocale>
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace finray {
 
-// Numbers with a decimal point, whatever locale a host program has taken on.
+// Numbers as text and back, with a decimal point in every locale.
 
-/// The shortest text that reads back as the same double; "nan", "inf" or
-/// "-inf" for what is not finite.
+/// The finite decimal number that the whole of `text` stands for ("12", "+1.5",
+/// "-2e-3"), or nothing.
+std::optional<double> ParseNumber(std::string_view text);
+
+/// The shortest text that reads back as the same double; "nan", "inf" or "-inf"
+/// if it is not finite.
 std::string NumberText(double value);
 
-/// As std::snprintf, of any length.
+/// As std::snprintf, but returns a string of any length.
 std::string FormatText(const char* format, ...)
     __attribute__((format(printf, 1, 2)));
 
-/// While it lives std::snprintf of this thread has the C locale: for libraries
-/// that write numbers into their messages.
+/// While it lives, std::snprintf of this thread uses the C locale. Libraries
+/// that write numbers into messages need it.
 class ClassicNumbers {
  public:
   ClassicNumbers();

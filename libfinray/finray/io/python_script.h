@@ -6,9 +6,9 @@
 
 namespace finray {
 
-/// Runs a Python script with Debian's interpreter, by its path, as the first on
-/// PATH may lack matplotlib. Returns what went wrong, empty if nothing did;
-/// `packages` is what the script needs, for the message.
+/// Runs a Python script with /usr/bin/python3, as another interpreter on PATH
+/// may lack matplotlib. Returns an error message, or "" on success. `packages`
+/// names the script's packages for that message.
 std::string RunPythonScript(const std::string& script,
                             const std::vector<std::string>& arguments,
                             const std::string& packages);

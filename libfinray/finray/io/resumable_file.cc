@@ -22,9 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "checkpoint <bytes> <note> end", and "finished <bytes> <note> end" behind the
-// last one. A line that was cut short, or whose bytes did not reach the disk,
-// does not read so.
+// The lines of a journal are "checkpoint <bytes> <note> end", the last one
+// "finished <bytes> <note> end". A line that was cut short does not match.
 constexpr std::string_view kKey = "finray journal 1 ";
 constexpr std::string_view kCheckpoint = "checkpoint ";
 constexpr std::string_view kFinished = "finished ";
@@ -43,7 +42,7 @@ bool TakeFront(std::string_view front, std::string_view* text) {
   return true;
 }
 
-// `line` with its line end.
+// `line` includes its line end.
 std::optional<State> ParseLine(std::string_view line) {
   State state;
   state.finished = TakeFront(kFinished, &line);
@@ -61,7 +60,7 @@ std::optional<State> ParseLine(std::string_view line) {
   return state;
 }
 
-// Links are followed.
+// The file behind a link.
 fs::path Target(const std::string& path) {
   std::error_code missing;
   const fs::path target = fs::canonical(path, missing);
@@ -106,10 +105,10 @@ ResumableFile::ResumableFile(const std::string& path, const std::string& key,
 
 void ResumableFile::Lock() {
   const bool locked = flock(journal_.get(), LOCK_EX | LOCK_NB) == 0;
-  // File systems without locks are used without them.
+  // A file system without locks is used without them.
   bool busy = !locked && errno == EWOULDBLOCK;
   struct stat journal;
-  // A run that has just come to its end may have removed it meanwhile.
+  // A run that has just ended may have removed the journal.
   if (!busy)
     busy = fstat(journal_.get(), &journal) == 0 && journal.st_nlink == 0;
   if (busy) throw InputError(path_ + ": another process is writing it");
@@ -152,12 +151,12 @@ bool ResumableFile::Restore(const std::string& key) {
 }
 
 void ResumableFile::StartOver(const std::string& key) {
-  // The old checkpoints go before the bytes that they count.
+  // The old checkpoints must be gone before the bytes that they count.
   Check(journal_.Truncate(0));
   Check(journal_.Write(std::string(kKey).append(key).append("\n")));
   Check(journal_.Sync());
   Check(part_.Open(part_path_, O_RDWR | O_CREAT | O_TRUNC));
-  SyncFolder(folder_);  // both are new; some file systems cannot
+  SyncFolder(folder_);  // for both new files; some file systems cannot do it
 }
 
 int ResumableFile::Save(const std::string& line) {

@@ -9,51 +9,53 @@
 
 namespace finray {
 
-/// A file written piece by piece over a time in which anything may end the
-/// process or the machine. It grows as `.<name>.part`; `.<name>.journal` holds
-/// the key it belongs to and its checkpoints. The file appears under its own
-/// name only when it is complete.
+/// A file that is written piece by piece and survives the end of the process or
+/// of the machine at any time. It grows as `.<name>.part`; `.<name>.journal`
+/// holds its key and its checkpoints. The file gets its own name when it is
+/// complete.
 ///
-/// Order of what reaches the disk: the bytes, then the checkpoint that counts
-/// them; the last checkpoint, then the rename, then the journal's removal. So
-/// a journal never counts bytes that are not there.
+/// The bytes reach the disk before the checkpoint that counts them; the last
+/// checkpoint before the rename; the rename before the journal is removed. So a
+/// journal never counts bytes that are not there.
 ///
-/// All functions throw InputError naming the file if it cannot be written, or
-/// if another process is writing it.
+/// All functions throw InputError with the file's name if it cannot be written
+/// or if another process is writing it.
 class ResumableFile {
  public:
-  /// Whether a run is writing this file or was interrupted while it did.
+  /// Whether a run is writing this file or was interrupted while writing it.
   static bool IsUnderWay(const std::string& path);
 
   /// With `resume`, goes on behind the last checkpoint of an interrupted file
-  /// of the same key (text on one line); otherwise starts over.
+  /// with the same key (one line of text). Otherwise, or if there is none,
+  /// starts over.
   ResumableFile(const std::string& path, const std::string& key, bool resume);
 
-  /// What the checkpoint it went on from was noted with; "" if it started over.
+  /// The note of the checkpoint where it went on; "" if it started over.
   const std::string& note() const { return note_; }
-  /// Whether it is complete and under its own name already, only Forget() being
-  /// left to do.
+  /// Whether the file is complete under its own name; only Forget() is left to
+  /// do.
   bool finished() const { return finished_; }
   std::uint64_t bytes() const { return bytes_; }
 
   void Append(const std::string& text);
-  /// Makes all that was appended safe, with a note on one line.
+  /// Returns once all appended bytes are on the disk, with a note of one line.
   void Checkpoint(const std::string& note);
-  /// The same without waiting for the disk: more can be appended meanwhile.
-  /// Does nothing while the disk is still busy with the one before.
+  /// The same without waiting for the disk. Does nothing while the checkpoint
+  /// before it is still being written.
   void CheckpointSoon(const std::string& note);
-  /// A last checkpoint; then gives the file its own name.
+  /// Makes the last checkpoint and gives the file its own name.
   void Finish(const std::string& note);
-  /// Removes the journal: from now on the file looks after itself.
+  /// Removes the journal.
   void Forget();
-  /// Removes what was written, for an input that turned out to be bad.
+  /// Removes the partial file and the journal.
   void Discard();
 
  private:
   void Lock();
   bool Restore(const std::string& key);
   void StartOver(const std::string& key);
-  // Bytes and line to the disk, in this order; an errno value if that fails.
+  // Brings the bytes and then the line to the disk. Returns 0 or an errno
+  // value.
   int Save(const std::string& line);
   // Waits for the checkpoint under way.
   void Settle();
@@ -65,7 +67,7 @@ class ResumableFile {
   std::string note_;
   std::uint64_t bytes_ = 0;
   bool finished_ = false;
-  std::future<int> saving_;  // last: its end comes before that of the files
+  std::future<int> saving_;  // last member, so that it ends before the files
 };
 
 }  // namespace finray

@@ -5,7 +5,8 @@
 
 namespace finray {
 
-/// SHA-256 of a file's bytes in hexadecimal. InputError if it cannot be read.
+/// SHA-256 of a file's bytes in hexadecimal. Throws InputError if the file
+/// cannot be read.
 std::string Sha256OfFile(const std::string& path);
 
 /// SHA-256 of a text's bytes in hexadecimal.

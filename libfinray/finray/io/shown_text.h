@@ -6,11 +6,11 @@
 
 namespace finray {
 
-/// Text as it goes into a message: control characters (line ends among them) as
-/// spaces, and not without end, so that the message stays one line.
+/// Text for a message of one line: control characters and line ends become
+/// spaces, and text beyond 1000 bytes is cut off.
 std::string ShownLine(std::string_view text);
 
-/// Text of a user's file: the same in quotes, cut shorter.
+/// Text from a user's file for a message: in quotes, and cut after 40 bytes.
 std::string ShownText(std::string_view text);
 
 }  // namespace finray

@@ -9,16 +9,16 @@
 
 namespace finray {
 
-/// A number that reads back as the same double, as YAML has it: .nan, .inf, and
-/// with a point before an exponent, without which YAML 1.1 takes it for text.
-/// With `digits` it is rounded to as many (0.1 + 0.2 is 0.3 with 12).
+/// A number in YAML that reads back as the same double: .nan, .inf, and with a
+/// point before an exponent, without which YAML 1.1 reads text. With `digits`
+/// it is rounded to that many (0.1 + 0.2 is 0.3 with 12).
 std::string YamlNumber(double value, int digits = 0);
 
-/// yaml-cpp writes numbers as the locale has them, "1,5" and "2.577" for 2577
-/// where a host program has taken on a German one. This one does not.
+/// A YAML::Emitter that writes numbers the same way in every locale. yaml-cpp
+/// follows the locale: in a German one it writes "1,5", and "2.577" for 2577.
 class YamlEmitter : public YAML::Emitter {
  public:
-  /// `digits` as of YamlNumber.
+  /// `digits` is that of YamlNumber.
   explicit YamlEmitter(int digits = 0) : digits_(digits) {}
   int digits() const { return digits_; }
 
@@ -47,7 +47,7 @@ YamlEmitter& operator<<(YamlEmitter& yaml, const std::vector<T>& values) {
   return yaml << YAML::EndSeq;
 }
 
-/// A key and its value in a mapping that has been begun.
+/// Writes a key and its value into an open mapping.
 template <class Key, class Value>
 void YamlPair(YamlEmitter* yaml, const Key& key, const Value& value) {
   *yaml << YAML::Key << key << YAML::Value << value;

@@ -9,7 +9,6 @@
 
 #include "finray/io/error.h"
 #include "finray/io/shown_text.h"
-#include "finray/io/yaml_place.h"
 
 namespace finray {
 namespace {
@@ -19,7 +18,7 @@ class Counter : public YAML::EventHandler {
   explicit Counter(const std::string& path) : path_(path) {}
 
   void OnDocumentStart(const YAML::Mark& mark) override {
-    // The parser goes on for ever where a flow's ',' ']' or '}' stands alone.
+    // At a lone ',' ']' or '}' the parser starts documents for ever.
     if (documents_++ > 0 && mark.pos == document_.pos) {
       Fail(mark, "not valid YAML: a value was expected here");
     }
@@ -37,7 +36,8 @@ class Counter : public YAML::EventHandler {
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto size = sizes_.find(anchor);
-    if (size == sizes_.end()) Fail(mark, "an alias refers to what it is in");
+    if (size == sizes_.end())
+      Fail(mark, "an alias refers to a value that contains it");
     Count(mark, size->second);
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string&,
@@ -55,7 +55,7 @@ class Counter : public YAML::EventHandler {
  private:
   struct Collection {
     YAML::anchor_t anchor;
-    std::size_t before;  // nodes of the file
+    std::size_t before;  // the number of nodes before it
   };
 
   [[noreturn]] void Fail(const YAML::Mark& mark, const std::string& what) {
@@ -91,10 +91,19 @@ class Counter : public YAML::EventHandler {
   std::size_t documents_ = 0, nodes_ = 0;
   YAML::Mark document_;
   std::vector<Collection> open_;
-  std::map<YAML::anchor_t, std::size_t> sizes_;  // of what has an anchor
+  std::map<YAML::anchor_t, std::size_t> sizes_;  // of values with an anchor
 };
 
 }  // namespace
+
+std::string YamlPlace(const std::string& path, int line, int column) {
+  return path + ":" + std::to_string(line + 1) + ":" +
+         std::to_string(column + 1) + ": ";
+}
+
+std::string YamlPlace(const std::string& path, const YAML::Mark& mark) {
+  return mark.is_null() ? path + ": " : YamlPlace(path, mark.line, mark.column);
+}
 
 void CheckYamlLimits(const std::string& path, const std::string& text) {
   Counter counter(path);

@@ -4,78 +4,97 @@
 #include <yaml-cpp/yaml.h>
 
 #include <array>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace finray {
 
-/// A YAML mapping read strictly: every getter throws InputError with
-/// "path:line:column: ..." when a value is missing or not what it should be.
-/// Numbers must be finite. Duplicate keys are refused.
+/// A YAML mapping that is read strictly: every getter throws InputError with
+/// "path:line:column: ..." if a value is missing or of the wrong kind. Numbers
+/// must be finite and within kLargestYamlNumber. Duplicate keys are errors. A
+/// getter with a fallback returns it if the key is missing.
 class YamlMap {
  public:
   /// Reads a file whose top level is a mapping.
   static YamlMap FromFile(const std::string& path);
 
-  /// Refuses keys not listed, suggesting the nearest one.
+  /// Throws for a key that is not listed, with the nearest one that is.
   void AllowOnly(const std::vector<std::string>& keys) const;
 
   bool Has(const std::string& key) const;
   std::vector<std::string> Keys() const;
 
   double Number(const std::string& key) const;
-  double Number(const std::string& key, double fallback) const;
+  double Number(const std::string& key, double fallback) const {
+    return Has(key) ? Number(key) : fallback;
+  }
   double PositiveNumber(const std::string& key) const;
-  double PositiveNumber(const std::string& key, double fallback) const;
+  double PositiveNumber(const std::string& key, double fallback) const {
+    return Has(key) ? PositiveNumber(key) : fallback;
+  }
   double NonNegativeNumber(const std::string& key) const;
-  double NonNegativeNumber(const std::string& key, double fallback) const;
+  double NonNegativeNumber(const std::string& key, double fallback) const {
+    return Has(key) ? NonNegativeNumber(key) : fallback;
+  }
   int Integer(const std::string& key) const;
   bool Boolean(const std::string& key, bool fallback) const;
   std::string Text(const std::string& key) const;
-  std::string Text(const std::string& key, const std::string& fallback) const;
-  /// One of the listed words, else an error that names them and the nearest.
+  std::string Text(const std::string& key, const std::string& fallback) const {
+    return Has(key) ? Text(key) : fallback;
+  }
+  /// One of the listed words. The error names all of them and the nearest.
   std::string Choice(const std::string& key,
                      const std::vector<std::string>& words) const;
   std::string Choice(const std::string& key,
                      const std::vector<std::string>& words,
-                     const std::string& fallback) const;
+                     const std::string& fallback) const {
+    return Has(key) ? Choice(key, words) : fallback;
+  }
 
-  /// Whether the value of `key` is a mapping (as against a scalar).
+  /// Whether the value of `key` is a mapping.
   bool IsMap(const std::string& key) const;
   YamlMap Map(const std::string& key) const;
-  /// A sequence of mappings; empty when the key is absent or has no value.
+  /// A sequence of mappings; empty if the key is missing or has no value.
   std::vector<YamlMap> Maps(const std::string& key) const;
 
-  /// A sequence of the listed words; the key must be there.
+  /// A sequence of the listed words.
   std::vector<std::string> Choices(const std::string& key,
                                    const std::vector<std::string>& words) const;
 
-  /// A sequence of numbers, and one of such sequences; the key must be there.
+  /// A sequence of numbers, and a sequence of such sequences.
   std::vector<double> Numbers(const std::string& key) const;
   std::vector<std::vector<double>> NumberRows(const std::string& key) const;
 
-  /// A sequence of pairs of numbers, [[x, y], ...]; the key must be there.
+  /// A sequence of pairs of numbers, [[x, y], ...].
   std::vector<std::array<double, 2>> Pairs(const std::string& key) const;
 
-  /// Throws InputError at the position of `key` (of the mapping if absent).
+  /// Throws InputError at the position of `key`, or of the mapping if the key
+  /// is missing.
   [[noreturn]] void Fail(const std::string& key,
                          const std::string& message) const;
-  /// As Fail, at an element of the sequence at `key`, whose name goes before
-  /// the message: {1, 0} is "key[2][1]: ".
+  /// As Fail, at an element of the sequence at `key`. The element's name begins
+  /// the message: "key[2][1]: " for {1, 0}.
   [[noreturn]] void FailIn(const std::string& key,
                            const std::vector<std::size_t>& element,
                            const std::string& message) const;
-  /// "path:line:column: " of a key's value, for errors found later.
+  /// "path:line:column: " of a key's value, for errors that are found later.
   std::string PlaceOf(const std::string& key) const;
   const std::string& path() const { return path_; }
 
  private:
   YamlMap(YAML::Node node, std::string path, std::string name);
 
+  // The value of a key, which must be there.
+  YAML::Node Value(const std::string& key) const;
+  // The same, which must be a sequence `of` something.
+  YAML::Node Sequence(const std::string& key, const std::string& of) const;
+  // Throws at the value of `key`, which is not `what`.
+  [[noreturn]] void FailExpecting(const std::string& key,
+                                  const std::string& what) const;
+
   YAML::Node node_;
   std::string path_;
-  std::string name_;  // what the mapping is called in messages, e.g. "ribs[2]"
+  std::string name_;  // the mapping's name in messages, e.g. "ribs[2]"
 };
 
 }  // namespace finray

@@ -6,7 +6,7 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
-#include "finray/io/parse_number.h"
+#include "finray/io/number_text.h"
 #include "finray/io/shown_text.h"
 #include "finray/io/yaml_emitter.h"
 #include "finray/perception/inputs_yaml.h"

@@ -52,8 +52,7 @@ std::vector<Measurements> ReadMeasurements(
   const MeasurementColumns columns(finger, names, table.path(), options);
   std::vector<const std::vector<double>*> cells;
   for (const std::string& name : names) {
-    cells.push_back(FrameTable::IsVocabulary(name) ? &table.Numbers(name)
-                                                   : nullptr);
+    cells.push_back(IsFrameColumn(name) ? &table.Numbers(name) : nullptr);
   }
   std::vector<Measurements> rows(table.rows());
   for (std::size_t row = 0; row < rows.size(); ++row) {

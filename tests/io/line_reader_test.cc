@@ -1,4 +1,4 @@
-#include "finray/io/pipe_lines.h"
+#include "finray/io/line_reader.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -9,15 +9,16 @@
 #include <thread>
 
 #include "finray/io/error.h"
+#include "finray/io/gzip.h"
 #include "temp_file.h"
 
 namespace finray {
 namespace {
 
-class PipeLinesTest : public testing::Test {
+class LineReaderTest : public testing::Test {
  protected:
-  PipeLinesTest() { EXPECT_EQ(pipe(ends_), 0); }
-  ~PipeLinesTest() override {
+  LineReaderTest() { EXPECT_EQ(pipe(ends_), 0); }
+  ~LineReaderTest() override {
     close(ends_[0]);
     if (ends_[1] >= 0) close(ends_[1]);
   }
@@ -32,7 +33,7 @@ class PipeLinesTest : public testing::Test {
   int ends_[2];
 };
 
-TEST_F(PipeLinesTest, PiecesOfAnySizeAreTheLines) {
+TEST_F(LineReaderTest, PiecesOfAnySizeAreTheLines) {
   const std::string text =
       "a\r\n\n\xC3\xA4,b\n \t\n" + std::string(100000, 'c') + "\r\r\nlast";
   for (const std::size_t piece : {1, 7, 4096}) {
@@ -45,7 +46,7 @@ TEST_F(PipeLinesTest, PiecesOfAnySizeAreTheLines) {
       }
       close(ends[1]);
     });
-    PipeLines lines(ends[0], -1, "pipe");
+    LineReader lines = ReadPipe(ends[0], -1, "pipe");
     const auto expect = [&](const std::string& line, int number) {
       ASSERT_TRUE(lines.Next());
       EXPECT_EQ(lines.line().text, line);
@@ -63,8 +64,8 @@ TEST_F(PipeLinesTest, PiecesOfAnySizeAreTheLines) {
   }
 }
 
-TEST_F(PipeLinesTest, SeesNulBytes) {
-  PipeLines lines(ends_[0], -1, "pipe");
+TEST_F(LineReaderTest, SeesNulBytes) {
+  LineReader lines = ReadPipe(ends_[0], -1, "pipe");
   Write(std::string("1,\0002\n3\n", 7));
   ASSERT_TRUE(lines.Next());
   EXPECT_TRUE(lines.line().nul);
@@ -73,11 +74,11 @@ TEST_F(PipeLinesTest, SeesNulBytes) {
   EXPECT_FALSE(lines.line().nul);
 }
 
-TEST_F(PipeLinesTest, ALineWithoutEndIsRefused) {
+TEST_F(LineReaderTest, ALineWithoutEndIsRefused) {
   const TempFolder folder;
   folder.Write("long", "a\n" + std::string((1 << 24) + 10, '1'));
   const int file = open(folder.Path("long").c_str(), O_RDONLY);
-  PipeLines lines(file, -1, "pipe");
+  LineReader lines = ReadPipe(file, -1, "pipe");
   ASSERT_TRUE(lines.Next());
   EXPECT_THAT([&] { lines.Next(); },
               testing::ThrowsMessage<InputError>(
@@ -85,10 +86,10 @@ TEST_F(PipeLinesTest, ALineWithoutEndIsRefused) {
   close(file);
 }
 
-TEST_F(PipeLinesTest, WakesUp) {
+TEST_F(LineReaderTest, WakesUp) {
   int wake[2];
   ASSERT_EQ(pipe(wake), 0);
-  PipeLines lines(ends_[0], wake[0], "pipe");
+  LineReader lines = ReadPipe(ends_[0], wake[0], "pipe");
   Write("a\nhalf");
   ASSERT_TRUE(lines.Next());
   std::thread waker([&] {
@@ -98,6 +99,25 @@ TEST_F(PipeLinesTest, WakesUp) {
   EXPECT_FALSE(lines.Next());
   waker.join();
   for (const int end : wake) close(end);
+}
+
+TEST_F(LineReaderTest, PipeAndFileGiveTheSameLines) {
+  const TempFolder folder;
+  const std::string text =
+      "\n a,b \r\n" + std::string(300000, '1') + "\n\t\n2\r\r\n,\nlast";
+  const std::string path = folder.Write("a.csv", text);
+  const int file = open(path.c_str(), O_RDONLY);
+  LineReader piped = ReadPipe(file, -1, "pipe");
+  LineReader read(std::make_unique<GzipFile>(path), path);
+  int lines = 0;
+  for (; read.Next(); ++lines) {
+    ASSERT_TRUE(piped.Next());
+    EXPECT_EQ(read.line().text, piped.line().text);
+    EXPECT_EQ(read.line().number, piped.line().number);
+  }
+  EXPECT_FALSE(piped.Next());
+  EXPECT_EQ(lines, 5);
+  close(file);
 }
 
 }  // namespace

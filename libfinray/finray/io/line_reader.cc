@@ -1,4 +1,4 @@
-#include "finray/io/pipe_lines.h"
+#include "finray/io/line_reader.h"
 
 #include <poll.h>
 #include <unistd.h>
@@ -13,15 +13,42 @@
 namespace finray {
 namespace {
 
-constexpr std::size_t kFirstBuffer = 1 << 16;
+constexpr std::size_t kFirstBuffer = 1 << 17;
 constexpr std::size_t kLongestLine = 1 << 24;
+
+class PipeSource : public ByteSource {
+ public:
+  PipeSource(int file, int wake, const std::string& name)
+      : file_(file), wake_(wake), name_(name) {}
+
+  int Read(char* buffer, int size) override {
+    pollfd waiting[2] = {{file_, POLLIN, 0}, {wake_, POLLIN, 0}};
+    while (poll(waiting, 2, -1) < 0) {
+      if (errno != EINTR) break;  // read() reports the error
+    }
+    if (wake_ >= 0 && waiting[1].revents != 0) return -1;
+    ssize_t count;
+    do {
+      count = read(file_, buffer, static_cast<std::size_t>(size));
+    } while (count < 0 && errno == EINTR);
+    if (count < 0) {
+      throw InputError(name_ + ": cannot be read: " + std::strerror(errno));
+    }
+    return static_cast<int>(count);
+  }
+
+ private:
+  int file_, wake_;
+  std::string name_;
+};
 
 }  // namespace
 
-PipeLines::PipeLines(int file, int wake, const std::string& source)
-    : file_(file), wake_(wake), source_(source), buffer_(kFirstBuffer) {}
+LineReader::LineReader(std::unique_ptr<ByteSource> bytes,
+                       const std::string& name)
+    : bytes_(std::move(bytes)), name_(name), buffer_(kFirstBuffer) {}
 
-bool PipeLines::Next() {
+bool LineReader::Next() {
   do {
     while (!Take()) {
       if (ended_ || !Fill()) return false;
@@ -30,7 +57,7 @@ bool PipeLines::Next() {
   return true;
 }
 
-bool PipeLines::Take() {
+bool LineReader::Take() {
   const char* start = buffer_.data() + begin_;
   const auto* line_end = static_cast<const char*>(
       std::memchr(buffer_.data() + searched_, '\n', end_ - searched_));
@@ -42,6 +69,7 @@ bool PipeLines::Take() {
   line_.text = {start, static_cast<std::size_t>(line_end - start)};
   begin_ = std::min(begin_ + line_.text.size() + 1, end_);
   searched_ = begin_;
+  // Careless conversions write "\r\r\n".
   while (!line_.text.empty() && line_.text.back() == '\r') {
     line_.text.remove_suffix(1);
   }
@@ -50,7 +78,7 @@ bool PipeLines::Take() {
   return true;
 }
 
-bool PipeLines::Fill() {
+bool LineReader::Fill() {
   if (begin_ > 0) {
     std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
     end_ -= begin_;
@@ -59,26 +87,21 @@ bool PipeLines::Fill() {
   }
   if (end_ == buffer_.size()) {
     if (end_ >= kLongestLine) {
-      throw InputError(source_ + ":" + std::to_string(line_.number + 1) +
+      throw InputError(name_ + ":" + std::to_string(line_.number + 1) +
                        ": the line is too long for a table of numbers");
     }
     buffer_.resize(2 * end_);
   }
-  pollfd waiting[2] = {{file_, POLLIN, 0}, {wake_, POLLIN, 0}};
-  while (poll(waiting, 2, -1) < 0) {
-    if (errno != EINTR) break;  // read says what is wrong
-  }
-  if (wake_ >= 0 && waiting[1].revents != 0) return false;
-  ssize_t count;
-  do {
-    count = read(file_, buffer_.data() + end_, buffer_.size() - end_);
-  } while (count < 0 && errno == EINTR);
-  if (count < 0) {
-    throw InputError(source_ + ": cannot be read: " + std::strerror(errno));
-  }
+  const int count = bytes_->Read(buffer_.data() + end_,
+                                 static_cast<int>(buffer_.size() - end_));
+  if (count < 0) return false;
   ended_ = count == 0;
   end_ += static_cast<std::size_t>(count);
   return true;
+}
+
+LineReader ReadPipe(int file, int wake, const std::string& name) {
+  return LineReader(std::make_unique<PipeSource>(file, wake, name), name);
 }
 
 }  // namespace finray

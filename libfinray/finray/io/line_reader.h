@@ -1,0 +1,65 @@
+#ifndef FINRAY_IO_LINE_READER_H_
+#define FINRAY_IO_LINE_READER_H_
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace finray {
+
+/// A line of a CSV file, without its end.
+struct CsvLine {
+  std::string_view text;
+  int number = 0;    ///< In the file, from 1.
+  bool nul = false;  ///< Whether the text holds a NUL byte.
+};
+
+/// Where a LineReader gets its bytes.
+class ByteSource {
+ public:
+  virtual ~ByteSource() = default;
+  /// Fills `buffer` with at most `size` bytes and returns their number: 0 at
+  /// the end, -1 if it was told to stop. Throws InputError if it cannot read.
+  virtual int Read(char* buffer, int size) = 0;
+};
+
+/// Reads a CSV file or a pipe line by line. It skips blank lines, accepts LF
+/// and CR LF as line ends, and the last line need not have one.
+class LineReader {
+ public:
+  /// `name` is the name of the source in messages.
+  LineReader(std::unique_ptr<ByteSource> bytes, const std::string& name);
+
+  /// Goes to the next line. False at the end, and as soon as the source was
+  /// told to stop. Throws InputError if the source cannot be read or a line is
+  /// longer than 16 MiB.
+  bool Next();
+  /// The current line. Its text is valid until the next call of Next().
+  const CsvLine& line() const { return line_; }
+
+ private:
+  // Reads more bytes; false if there will be none.
+  bool Fill();
+  // Moves the next line to line_; false if its end has not been read yet.
+  bool Take();
+
+  std::unique_ptr<ByteSource> bytes_;
+  std::string name_;
+  std::vector<char> buffer_;
+  // The bytes from begin_ to end_ are not used yet. There is no line end
+  // between begin_ and searched_.
+  std::size_t begin_ = 0, searched_ = 0, end_ = 0;
+  bool ended_ = false;
+  CsvLine line_;
+};
+
+/// Reads lines as soon as they arrive at `file`, an open descriptor, which the
+/// caller keeps and closes. It stops as soon as the descriptor `wake` (-1:
+/// none) can be read. `name` is the name of the pipe in messages.
+LineReader ReadPipe(int file, int wake, const std::string& name);
+
+}  // namespace finray
+
+#endif  // FINRAY_IO_LINE_READER_H_
