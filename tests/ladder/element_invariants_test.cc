@@ -64,10 +64,10 @@ TYPED_TEST(ElementInvariantTest, ReversalReturnsToTheStart) {
 TYPED_TEST(ElementInvariantTest, ReadoutMeetsTheMapAtTheEnd) {
   for (const ElementStart& start : Starts()) {
     const auto element = this->At(start, 9);
-    const BeamPoint end = element.PointAt(9);
-    EXPECT_NEAR(end.x_mm, element.map().end[0], 1e-13);
-    EXPECT_NEAR(end.y_mm, element.map().end[1], 1e-13);
-    EXPECT_NEAR(end.theta_rad, element.map().end[2], 1e-14);
+    const auto end = PointOf(element, 9);
+    EXPECT_NEAR(end[0], element.map().end[0], 1e-13);
+    EXPECT_NEAR(end[1], element.map().end[1], 1e-13);
+    EXPECT_NEAR(end[2], element.map().end[2], 1e-14);
     EXPECT_NEAR(element.AngleAt(9).theta_rad, element.map().end[2], 1e-14);
   }
 }
@@ -91,11 +91,11 @@ TEST(TaylorElementInvariantTest, MatchesRungeKuttaEverywhere) {
         const BeamOdeState exact = IntegrateBeam(
             {0, 0, start.theta_rad, start.moment_N_mm}, start.force_x_N,
             start.force_y_N, kEI_N_mm2, share * length, 400);
-        const BeamPoint point = element.PointAt(share * length);
-        EXPECT_NEAR(point.x_mm, exact[0], 1e-12 * length);
-        EXPECT_NEAR(point.y_mm, exact[1], 1e-12 * length);
-        EXPECT_NEAR(point.theta_rad, exact[2], 1e-12);
-        EXPECT_NEAR(point.moment_N_mm, exact[3], 1e-10);
+        const auto point = PointOf(element, share * length);
+        EXPECT_NEAR(point[0], exact[0], 1e-12 * length);
+        EXPECT_NEAR(point[1], exact[1], 1e-12 * length);
+        EXPECT_NEAR(point[2], exact[2], 1e-12);
+        EXPECT_NEAR(point[3], exact[3], 1e-10);
       }
     }
   }

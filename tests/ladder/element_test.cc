@@ -131,8 +131,8 @@ TEST(TaylorElementTest, DenseOutputKeepsThePendulumIntegral) {
   };
   const double expected = integral(kStart.theta_rad, kStart.moment_N_mm);
   for (double offset = 0; offset <= kLength; offset += 0.5) {
-    const BeamPoint at = element.PointAt(offset);
-    EXPECT_NEAR(integral(at.theta_rad, at.moment_N_mm), expected, 1e-12);
+    const auto at = PointOf(element, offset);
+    EXPECT_NEAR(integral(at[2], at[3]), expected, 1e-12);
   }
 }
 

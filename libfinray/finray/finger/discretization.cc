@@ -6,20 +6,10 @@
 namespace finray {
 
 int EffectiveResolution(const Discretization& discretization) {
-  if (discretization.resolution > 0) return discretization.resolution;
-  switch (discretization.scheme) {
-    case Scheme::kRigidChain:
-      return 200;
-    case Scheme::kTaylor4:
-      return 100;
-    case Scheme::kTaylor8:
-      return 48;
-    case Scheme::kTaylor12:
-      return 24;
-    case Scheme::kTaylor:
-      break;
-  }
-  return 12;
+  constexpr int kDefaults[] = {200, 100, 48, 24, 12};  // by scheme
+  return discretization.resolution > 0
+             ? discretization.resolution
+             : kDefaults[static_cast<int>(discretization.scheme)];
 }
 
 const std::vector<std::string>& SchemeNames() {

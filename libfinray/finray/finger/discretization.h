@@ -6,8 +6,8 @@
 
 namespace finray {
 
-/// How the beam equation is integrated (docs/evidence/statics_accuracy.md has
-/// the measured trade).
+/// How the beam equation is integrated. docs/evidence/statics_accuracy.md has
+/// the measured trade between accuracy and time.
 enum class Scheme {
   kRigidChain,  ///< The paper's rigid links, order 2 (RigidLinkElement).
   kTaylor4,     ///< Taylor series of order 4 (TaylorElement).
@@ -16,10 +16,10 @@ enum class Scheme {
   kTaylor,      ///< ... of order 16, the default.
 };
 
-/// Scheme and number of elements over both beams together; no bay has less than
-/// one element. A resolution of 0 stands for the scheme's default, which in the
-/// orders 12 and 16 is refined where the load asks for it, until the terms that
-/// an element's series leaves out are below kRefinedTruncation_rad.
+/// The scheme and the number of elements over both beams together; every bay
+/// has at least one. A resolution of 0 means the scheme's default. With orders
+/// 12 and 16 the default mesh is refined under load until an element's series
+/// leaves out less than kRefinedTruncation_rad.
 struct Discretization {
   Scheme scheme = Scheme::kTaylor;
   int resolution = 0;
@@ -32,16 +32,17 @@ struct Discretization {
 
 constexpr double kRefinedTruncation_rad = 1e-10;
 
-/// The number of elements that a discretization asks for (to begin with): its
-/// resolution, or the scheme's default.
+/// The number of elements that a discretization starts with: its resolution or
+/// the scheme's default.
 int EffectiveResolution(const Discretization& discretization);
 
 /// The values of --scheme: "rigid_chain", "taylor" and so on.
 const std::vector<std::string>& SchemeNames();
 std::string SchemeName(Scheme scheme);
 
-/// From the values of --scheme and --resolution. Throws InputError naming the
-/// nearest scheme, or for a resolution below 0 or above 100 000.
+/// Reads the values of --scheme and --resolution. Throws InputError for an
+/// unknown scheme, with the nearest one, and for a resolution below 0 or above
+/// 100 000.
 Discretization ParseDiscretization(const std::string& scheme, int resolution);
 
 }  // namespace finray

@@ -18,13 +18,13 @@ inline const char* SideName(Side side) {
   return side == Side::kFront ? "front" : "back";
 }
 
-/// A rigid (or axially elastic) rib hinged to both beams.
+/// A rib that is hinged to both beams, rigid or axially elastic. Hinges are
+/// given by arc length from the base of their beam. A length other than the
+/// distance of the hinges in the undeformed finger means prestress.
 struct Rib {
-  double front_mm =
-      0;  ///< Hinge on the front beam, arc length from its base (l_i).
-  double back_mm = 0;  ///< Hinge on the back beam, arc length from its base.
-  double length_mm =
-      0;  ///< Unloaded length; other than nominal means prestress.
+  double front_mm = 0;   ///< Hinge on the front beam, l_i.
+  double back_mm = 0;    ///< Hinge on the back beam.
+  double length_mm = 0;  ///< Unloaded length.
   double axial_stiffness_N = std::numeric_limits<double>::infinity();  ///< EA.
 };
 
@@ -57,29 +57,30 @@ struct Gauge {
   bool IsMeasured(double volts) const { return volts > min_V && volts < max_V; }
 };
 
-/// A piece of a beam whose bending stiffness is not the beam's.
+/// A piece of a beam with its own bending stiffness.
 struct StiffnessPiece {
-  double end_mm;           ///< It reaches from the last piece's end to here.
+  double end_mm;  ///< The piece reaches from the end of the last one here.
   double stiffness_ratio;  ///< Its EI over the beam's.
 };
 
-/// A Fin-Ray finger (the paper's Fig. 3 and Table I): two straight beams that
-/// start clamped at their bases and meet in a rigid tip cap, and the ribs
-/// between them, in the order they are met from base to tip on both beams.
+/// Start here: a Fin-Ray finger (the paper's Fig. 3 and Table I). Two straight
+/// beams are clamped at their bases and meet in a rigid tip cap. Ribs join
+/// them, listed from base to tip, in the same order on both beams.
 struct Finger {
   std::string name;
   double front_length_mm = 0;  ///< l_0.
   double back_angle_rad = 0;   ///< phi_0, direction of the back beam from +x.
   double front_stiffness_N_mm2 = 0;  ///< Bending stiffness EI.
   double back_stiffness_N_mm2 = 0;
-  /// Axial stiffness EA; infinite: the beam does not stretch.
+  /// Axial stiffness EA. A beam with an infinite one does not stretch.
   double front_axial_stiffness_N = std::numeric_limits<double>::infinity();
   double back_axial_stiffness_N = std::numeric_limits<double>::infinity();
-  /// Base to tip, the last one ending at the tip; empty: uniform stiffness.
+  /// From base to tip; the last piece ends at the tip. None means uniform
+  /// stiffness.
   std::vector<StiffnessPiece> front_pieces, back_pieces;
   std::vector<Rib> ribs;
   std::vector<Gauge> gauges;
-  /// How well these numbers are known, if a calibration has told.
+  /// How well a calibration knows these numbers, if there was one.
   std::optional<ParameterCovariance> calibration;
 };
 

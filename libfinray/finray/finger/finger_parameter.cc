@@ -5,7 +5,7 @@
 namespace finray {
 namespace {
 
-// Where a finger, const or not, keeps a parameter.
+// The member of a finger, const or not, that holds a parameter.
 template <class AnyFinger>
 auto& Variable(AnyFinger& finger, const FingerParameter& parameter) {
   switch (parameter.kind) {

@@ -8,7 +8,7 @@ namespace finray {
 
 struct Finger;
 
-/// Kinds of numbers of a finger that a calibration may determine.
+/// The kinds of numbers of a finger that a calibration may determine.
 enum class FingerParameterKind {
   kFrontStiffness,
   kBackStiffness,
@@ -18,21 +18,21 @@ enum class FingerParameterKind {
 };
 constexpr int kFingerParameterKinds = 5;
 
-/// One of these numbers.
+/// One number of a finger that a calibration may determine.
 struct FingerParameter {
   FingerParameterKind kind;
-  int index = 0;  ///< of the gauge or rib, from 0; 0 for a beam's stiffness
+  int index = 0;  ///< The gauge or rib, from 0; 0 for a beam's stiffness.
 
   bool operator==(const FingerParameter& other) const {
     return kind == other.kind && index == other.index;
   }
 };
 
-/// All of a finger's parameters: front and back stiffness, gains, offsets, rib
-/// lengths. Every list of parameters is in this order.
+/// All parameters of a finger: front and back stiffness, gains, offsets, rib
+/// lengths. Every list of parameters has this order.
 std::vector<FingerParameter> ParametersOf(const Finger& finger);
 
-/// As files have it, counted from 1, e.g. "gauge_1_gain_V_per_rad".
+/// The name in files, where indices count from 1: "gauge_1_gain_V_per_rad".
 std::string ParameterName(const FingerParameter& parameter);
 const char* ParameterUnit(FingerParameterKind kind);
 

@@ -20,7 +20,7 @@ constexpr long double kLongDegree =
 
 std::string Short(double value) { return FormatText("%g", value); }
 
-// A number that YamlMap has accepted, to more digits than a double holds.
+// A number that YamlMap has accepted, with more digits than a double holds.
 long double LongNumber(std::string_view text) {
   if (!text.empty() && text[0] == '+') text.remove_prefix(1);
   long double number = 0;
@@ -28,7 +28,7 @@ long double LongNumber(std::string_view text) {
   return number;
 }
 
-// A number near `value`, in as few digits as it takes to be read back well.
+// The shortest text of a number near `value` for which `reads_back` holds.
 template <typename ReadsBack>
 std::string TextThat(const ReadsBack& reads_back, long double value) {
   const auto rounded = static_cast<double>(value);
@@ -51,7 +51,7 @@ constexpr const char* kBendingStiffness = "bending_stiffness_N_mm2";
 constexpr const char* kPlate[] = {"width_mm", "thickness_mm",
                                   "youngs_modulus_GPa"};
 
-// EI, given as such or by a rectangular plate: E w t^3 / 12.
+// EI, given directly or as a rectangular plate: E w t^3 / 12.
 double ReadStiffness(const YamlMap& yaml) {
   bool plate = false;
   for (const char* key : kPlate) {
@@ -77,13 +77,13 @@ double ReadStiffness(const YamlMap& yaml) {
   return stiffness;
 }
 
-// The ratio of two stiffnesses, rounded once. In long double, as the quotient
-// of two doubles does not take every value: not every ratio could be written.
+// The ratio of two stiffnesses, rounded once. The quotient of two doubles does
+// not take every value, so some ratios could not be written; long double can.
 double StiffnessRatio(long double stiffness, long double reference) {
   return static_cast<double>(stiffness / reference);
 }
 
-// Where the piece ends; `start_mm` is where the one before it does.
+// The end of a piece that starts at `start_mm`.
 double ReadPieceEnd(const YamlMap& yaml, bool last, double start_mm,
                     double length_mm) {
   constexpr double kSlack_mm = 1e-6;
@@ -171,7 +171,7 @@ void ReadBeams(const YamlMap& yaml, Finger* finger) {
   finger->back_pieces = back.pieces;
 }
 
-// Where the rib meets the back beam, known to be strictly inside it.
+// The place where the rib meets the back beam, strictly inside it.
 double ReadBackHinge(const YamlMap& yaml, const Finger& finger,
                      double front_mm) {
   const bool by_angle = yaml.Has("angle_deg");
@@ -263,9 +263,9 @@ Gauge ReadGauge(const YamlMap& yaml, const Finger& finger) {
   return gauge;
 }
 
-// Radians of an angle in degrees, rounded once. In long double, as a double in
-// degrees may be coarser than one in radians: one angle in ten could not be
-// written so that it reads back.
+// Radians of an angle in degrees, rounded once. A double in degrees may be
+// coarser than one in radians: without long double one angle in ten would not
+// read back.
 double RadFromDegrees(std::string_view text) {
   return static_cast<double>(LongNumber(text) * kLongDegree);
 }
@@ -290,7 +290,7 @@ std::string BeamToYaml(const Finger& finger, Side side) {
   }
   if (pieces.empty()) return yaml.str();
   yaml << "    pieces:\n";
-  // The file has no stiffness of the beam but that of its first piece.
+  // In the file the first piece stands for the stiffness of the beam.
   const double first_ratio = pieces[0].stiffness_ratio;
   const std::string first = NumberText(stiffness * first_ratio);
   const long double reference = LongNumber(first);
@@ -312,7 +312,7 @@ std::string BeamToYaml(const Finger& finger, Side side) {
 
 Finger ReadFinger(const std::string& path) {
   const YamlMap yaml = YamlMap::FromFile(path);
-  // First, as another version has other keys.
+  // Checked first, as another version has other keys.
   const int version = yaml.Integer("schema_version");
   if (version != 1) {
     yaml.Fail("schema_version",

@@ -7,16 +7,16 @@
 
 namespace finray {
 
-/// Reads a finger description (schema_version 1). Throws InputError naming
-/// file, line and column for anything that is not a buildable finger: unknown
-/// keys, missing or non-positive dimensions, pieces that do not fill their
-/// beam, a rib that misses the back beam, ribs that cross, a gauge off its
-/// beam, a `calibration` that is none of this finger.
+/// Reads a finger YAML, schema_version 1 (docs/reference/formats.md). Throws
+/// InputError (file:line:column) if it describes no finger that can be built:
+/// unknown keys, missing or non-positive dimensions, pieces that do not fill
+/// their beam, a rib that misses the back beam, ribs that cross, a gauge off
+/// its beam, a `calibration` of another finger.
 Finger ReadFinger(const std::string& path);
 
-/// The YAML text of a finger; ReadFinger returns the same doubles, with
-/// stiffness ratios relative to the first piece of a beam. `comment` (may span
-/// lines) is written at the top behind '#'.
+/// The YAML text of a finger. ReadFinger returns the same doubles from it, with
+/// stiffness ratios relative to the first piece of a beam. The lines of
+/// `comment` stand at the top, each after a '#'.
 std::string FingerToYaml(const Finger& finger, const std::string& comment = "");
 
 }  // namespace finray

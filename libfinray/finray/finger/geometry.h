@@ -2,10 +2,14 @@
 #define FINRAY_FINGER_GEOMETRY_H_
 
 #include <Eigen/Core>
+#include <cmath>
 
 #include "finray/finger/finger.h"
 
 namespace finray {
+
+/// A degree in rad.
+inline constexpr double kDegree = M_PI / 180;
 
 // The undeformed geometry in frame S: origin at the base of the front beam, +y
 // along it, +x towards the back beam. Lengths in mm, angles in rad from +x.

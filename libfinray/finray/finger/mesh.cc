@@ -18,37 +18,53 @@ BeamMesh MakeBeamMesh(const Finger& finger, Side side, int resolution) {
   const double longest =
       (BeamLength(finger, Side::kFront) + BeamLength(finger, Side::kBack)) /
       resolution;
-  const auto& pieces = Pieces(finger, side);
+  std::vector<double> ends;
+  for (const Rib& rib : finger.ribs) {
+    ends.push_back(side == Side::kFront ? rib.front_mm : rib.back_mm);
+  }
+  for (const StiffnessPiece& piece : Pieces(finger, side)) {
+    ends.push_back(piece.end_mm);
+  }
+  // The last piece ends at the tip, up to rounding.
+  if (!Pieces(finger, side).empty()) ends.pop_back();
+  ends.push_back(BeamLength(finger, side));
+  std::sort(ends.begin(), ends.end());
 
-  BeamMesh mesh;
-  mesh.nodes_mm.push_back(0);
-  std::size_t piece = 0;
-  const auto add_bay = [&](double end) {
-    const double start = mesh.nodes_mm.back();
-    // A hair of slack keeps a bay that is a whole number of elements so.
+  std::vector<double> nodes_mm = {0};
+  for (const double end : ends) {
+    const double start = nodes_mm.back();
+    if (!(end > start)) continue;
+    // A little slack, so that rounding adds no element to a bay that is a whole
+    // number of elements long.
     const int count = std::max(
         1, static_cast<int>(std::ceil((end - start) / longest - 1e-9)));
     for (int k = 1; k < count; ++k) {
-      mesh.nodes_mm.push_back(start + (end - start) * k / count);
+      nodes_mm.push_back(start + (end - start) * k / count);
     }
-    mesh.nodes_mm.push_back(end);
-    mesh.stiffness_ratio.resize(
-        mesh.nodes_mm.size() - 1,
-        piece < pieces.size() ? pieces[piece].stiffness_ratio : 1.0);
-  };
-  const auto add_to = [&](double end) {
-    for (; piece + 1 < pieces.size() && pieces[piece].end_mm <= end; ++piece) {
-      if (pieces[piece].end_mm > mesh.nodes_mm.back()) {
-        add_bay(pieces[piece].end_mm);
-      }
-    }
-    if (end > mesh.nodes_mm.back()) add_bay(end);
-  };
-  for (const Rib& rib : finger.ribs) {
-    add_to(side == Side::kFront ? rib.front_mm : rib.back_mm);
-    mesh.rib_node.push_back(mesh.elements());
+    nodes_mm.push_back(end);
   }
-  add_to(BeamLength(finger, side));
+  return MakeBeamMesh(finger, side, std::move(nodes_mm));
+}
+
+BeamMesh MakeBeamMesh(const Finger& finger, Side side,
+                      std::vector<double> nodes_mm) {
+  BeamMesh mesh;
+  mesh.nodes_mm = std::move(nodes_mm);
+  const std::vector<double>& nodes = mesh.nodes_mm;
+  for (const Rib& rib : finger.ribs) {
+    const double hinge = side == Side::kFront ? rib.front_mm : rib.back_mm;
+    const auto at = std::lower_bound(nodes.begin(), nodes.end(), hinge);
+    mesh.rib_node.push_back(static_cast<int>(at - nodes.begin()));
+  }
+  const std::vector<StiffnessPiece>& pieces = Pieces(finger, side);
+  std::size_t piece = 0;
+  for (int k = 0; k < mesh.elements(); ++k) {
+    while (piece + 1 < pieces.size() && pieces[piece].end_mm <= nodes[k]) {
+      ++piece;
+    }
+    mesh.stiffness_ratio.push_back(
+        pieces.empty() ? 1.0 : pieces[piece].stiffness_ratio);
+  }
   return mesh;
 }
 

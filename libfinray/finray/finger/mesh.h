@@ -7,28 +7,33 @@
 
 namespace finray {
 
-/// Where a point of a beam lies in its mesh.
+/// The place of a point of a beam in its mesh.
 struct MeshPoint {
   int element;
   double offset_mm;  ///< from the start of the element.
 };
 
 /// The elements of one beam. Every rib hinge and every end of a stiffness piece
-/// is a node; nothing else is, so that the mesh does not move with a contact.
+/// is a node. A contact is not, so the mesh does not move with it.
 struct BeamMesh {
-  std::vector<double> nodes_mm;  ///< element boundaries, base (0) to tip.
-  std::vector<int> rib_node;     ///< index into nodes_mm of each rib's hinge.
+  std::vector<double> nodes_mm;  ///< Element boundaries, base (0) to tip.
+  std::vector<int> rib_node;     ///< Index into nodes_mm of each rib's hinge.
   std::vector<double> stiffness_ratio;  ///< EI of each element over the beam's.
 
   int elements() const { return static_cast<int>(nodes_mm.size()) - 1; }
-  /// The element that holds an arc length; its end only at the tip.
+  /// The element that holds an arc length. A node belongs to the element that
+  /// starts there, the tip to the last one.
   MeshPoint Locate(double arc_mm) const;
 };
 
-/// Divides one beam into bays at its ribs and stiffness pieces and each bay
-/// into equal elements, `resolution` over both beams together; no bay has less
-/// than one.
+/// Divides one beam into bays at its ribs and stiffness pieces, and each bay
+/// into equal elements, at least one. Both beams together have about
+/// `resolution` elements.
 BeamMesh MakeBeamMesh(const Finger& finger, Side side, int resolution);
+
+/// The mesh with given nodes, which must include those of the ribs and pieces.
+BeamMesh MakeBeamMesh(const Finger& finger, Side side,
+                      std::vector<double> nodes_mm);
 
 }  // namespace finray
 

@@ -8,21 +8,24 @@
 
 namespace finray {
 
-/// How well a calibration knows the parameters of a finger,
+/// The covariance of a finger's parameters after a calibration,
 ///
 ///   C_ij = std_i std_j correlation_ij,
 ///
-/// in the units of their names. What is not listed counts as known.
+/// in the units of their names. A parameter that is not listed counts as
+/// exactly known.
 struct ParameterCovariance {
-  /// Correlations written with six digits are taken for a covariance.
+  /// An eigenvalue may be this far below 0, as rounding correlations to six
+  /// digits can make it.
   static constexpr double kRounding = 1e-6;
 
   std::vector<FingerParameter> parameters;
   Eigen::VectorXd std;
-  Eigen::MatrixXd correlations;  ///< symmetric, 1 on the diagonal
+  Eigen::MatrixXd correlations;  ///< Symmetric, 1 on the diagonal.
 
-  double SmallestEigenvalue() const;  ///< of the correlations
-  /// F with F F' = C, an eigenvalue that rounding has made negative being 0.
+  /// The smallest eigenvalue of the correlations.
+  double SmallestEigenvalue() const;
+  /// F with F F' = C. Negative eigenvalues count as 0.
   Eigen::MatrixXd Factor() const;
 };
 

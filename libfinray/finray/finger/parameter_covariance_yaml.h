@@ -14,14 +14,14 @@ namespace finray {
 //   std: [95.5, 0.004]
 //   correlations: [[1], [0.2, 1]]      # lower triangle; left out: all 0
 
-/// Reads it for a finger whose ribs and gauges are known. Throws InputError for
-/// a parameter that the finger has not, twice the same one, a wrong number of
-/// numbers, and what is no covariance.
+/// Reads the block for a finger whose ribs and gauges are known. Throws
+/// InputError for a parameter that the finger does not have or that appears
+/// twice, a wrong number of numbers, and numbers that are no covariance.
 ParameterCovariance ReadParameterCovariance(const YamlMap& yaml,
                                             const Finger& finger);
 
-/// The text of the block, from `calibration:` on; it reads back as the same
-/// doubles.
+/// The text of the block, which begins with `calibration:`. It reads back as
+/// the same doubles.
 std::string ParameterCovarianceToYaml(const ParameterCovariance& covariance);
 
 }  // namespace finray

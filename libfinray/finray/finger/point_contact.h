@@ -9,17 +9,18 @@
 namespace finray {
 
 /// A point force on a beam: normal_N along the local normal into the finger,
+/// and friction * normal_N along the tangent, towards the tip. The normal is
 /// (sin(theta), -cos(theta)) on the front beam and its opposite on the back
-/// one, plus friction * normal_N along the tangent, towards the tip.
+/// beam.
 struct PointContact {
-  double arc_mm = 0;
-  double normal_N = 0;
-  double friction = 0;
+  double arc_mm = 0;    ///< l_c, from the base of its beam.
+  double normal_N = 0;  ///< f_c.
+  double friction = 0;  ///< mu; the paper has none.
   Side side = Side::kFront;
 };
 
-/// The force of a contact on the finger in frame S, f (n + mu t), where the
-/// tangent of its beam has the angle theta.
+/// The force of a contact on the finger in frame S, f (n + mu t), at a point
+/// whose tangent angle is theta.
 inline Eigen::Vector2d ContactForce(const PointContact& contact,
                                     double theta_rad) {
   const Eigen::Vector2d t(std::cos(theta_rad), std::sin(theta_rad));

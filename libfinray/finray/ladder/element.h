@@ -3,8 +3,9 @@
 
 namespace finray {
 
-// The beam equation of a bay. Between ribs, contacts and the ends of a beam the
-// internal force N is constant, so the state (x, y, theta, M) obeys
+// The beam equation and what an element of it computes. Between ribs, contacts
+// and the ends of a beam the internal force N is constant, so the state
+// (x, y, theta, M) obeys
 //
 //   x' = (1 + e) cos(theta),  y' = (1 + e) sin(theta),  theta' = M / EI,
 //   M' = -(1 + e) (t x N) = (1 + e) (N_x sin(theta) - N_y cos(theta)),
@@ -13,20 +14,19 @@ namespace finray {
 // with M and N the moment and force that the part towards the tip exerts on the
 // part towards the base, t the tangent and s the arc length of the unstretched
 // beam. A beam that does not stretch has 1 / EA = 0. An element carries the
-// state over a length h. Each scheme is a class with the members of
-// TaylorElement and RigidLinkElement, for a value V (lanes.h) of any width:
+// state over a length h. The schemes TaylorElement and RigidLinkElement have
+// the same members, for a value V (lanes.h) of any width:
 //
 //   void Solve(start, stiffness, axial_flexibility, length);
 //   void SolveAndDifferentiate(the same);   // by the start of the element
-//   void DifferentiateByStiffness();        // after that
-//   void DifferentiateByLength();           // likewise
+//   void DifferentiateByStiffness();        // after SolveAndDifferentiate
+//   void DifferentiateByLength();           // after SolveAndDifferentiate
 //   const BasicElementMap<V>& map() const;
-//   BasicAngleReadout<V> AngleAt(V offset) const;   // inside, after the second
-//   BasicBeamPoint<V> PointAt(V offset) const;
-//   void DenseOutput(V (*coefficients)[4]) const;   // kDegree + 1 of them
-//   V Truncation() const;                      // of the angle at the end, rad
+//   BasicAngleReadout<V> AngleAt(V offset) const;  // after the same; inside
+//   void DenseOutput(V (*coefficients)[4]) const;  // kDegree + 1 rows
+//   V Truncation() const;                     // of the angle at the end, rad
 
-/// What an element starts from; position does not matter.
+/// The state at the start of an element. Its position does not matter.
 template <class V>
 struct BasicElementStart {
   V theta_rad;
@@ -35,8 +35,8 @@ struct BasicElementStart {
   V force_y_N;
 };
 
-/// The state at the end of an element: (x - x_start, y - y_start, theta, M),
-/// and its derivatives. These are exact derivatives of the discrete scheme.
+/// The state at the end of an element, (x - x_start, y - y_start, theta, M),
+/// and the exact derivatives of the discrete scheme.
 template <class V>
 struct BasicElementMap {
   V end[4];
@@ -45,7 +45,7 @@ struct BasicElementMap {
   V d_length[4];     ///< by h.
 };
 
-/// Tangent angle inside an element with its derivatives.
+/// The tangent angle inside an element with its derivatives.
 template <class V>
 struct BasicAngleReadout {
   V theta_rad;
@@ -55,19 +55,9 @@ struct BasicAngleReadout {
   V d_length;  ///< by h at a fixed offset.
 };
 
-/// A point of a deformed beam.
-template <class V>
-struct BasicBeamPoint {
-  V x_mm;
-  V y_mm;
-  V theta_rad;
-  V moment_N_mm;
-};
-
 using ElementStart = BasicElementStart<double>;
 using ElementMap = BasicElementMap<double>;
 using AngleReadout = BasicAngleReadout<double>;
-using BeamPoint = BasicBeamPoint<double>;
 
 }  // namespace finray
 

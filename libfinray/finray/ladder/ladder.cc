@@ -1,8 +1,6 @@
 #include "finray/ladder/ladder.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "finray/finger/geometry.h"
@@ -11,7 +9,8 @@
 namespace finray {
 namespace {
 
-// The march meets ribs in one order on both beams, inside of them.
+// Ribs must lie inside both beams and in the same order on them, as the march
+// meets them.
 void CheckRibs(const Finger& finger) {
   const double front_length = BeamLength(finger, Side::kFront);
   const double back_length = BeamLength(finger, Side::kBack);
@@ -45,11 +44,7 @@ void CheckRibs(const Finger& finger) {
 LadderModel::LadderModel(const Finger& finger,
                          const Discretization& discretization)
     : finger_(finger) {
-  if (discretization.scheme == Scheme::kRigidChain &&
-      (AxialStiffness(finger, Side::kFront) <
-           std::numeric_limits<double>::infinity() ||
-       AxialStiffness(finger, Side::kBack) <
-           std::numeric_limits<double>::infinity())) {
+  if (discretization.scheme == Scheme::kRigidChain && Stretches(finger)) {
     throw InputError(
         "--scheme rigid_chain: rigid links do not stretch, but the finger has "
         "an axial_stiffness_N of its beams; use a taylor scheme");
@@ -60,29 +55,18 @@ LadderModel::LadderModel(const Finger& finger,
             MakeBeamMesh(finger, Side::kBack, resolution)});
 }
 
-bool Stretches(const Finger& finger) {
-  return std::isfinite(AxialStiffness(finger, Side::kFront)) ||
-         std::isfinite(AxialStiffness(finger, Side::kBack));
-}
-
-void LadderModel::set_mesh(const std::array<BeamMesh, 2>& mesh) {
-  mesh_ = mesh;
+bool LadderState::IsOnMeshOf(const LadderModel& model) const {
   for (const Side side : {Side::kFront, Side::kBack}) {
-    auto& ends = gauge_ends_[Index(side)];
-    ends.clear();
-    for (int j = 0; j < gauges(); ++j) {
-      const Gauge& gauge = finger_.gauges[j];
-      if (gauge.beam != side) continue;
-      const double start = gauge.start_mm;
-      ends.push_back({j, -1, this->mesh(side).Locate(start)});
-      ends.push_back({j, 1, this->mesh(side).Locate(start + gauge.length_mm)});
+    const Nodes& saved = nodes[LadderModel::Index(side)];
+    const std::vector<double>& mesh = model.mesh(side).nodes_mm;
+    if (saved.cols() + 1 != static_cast<Eigen::Index>(mesh.size())) {
+      return false;
     }
-    std::sort(ends.begin(), ends.end(),
-              [](const GaugeEnd& a, const GaugeEnd& b) {
-                return std::make_pair(a.point.element, a.point.offset_mm) <
-                       std::make_pair(b.point.element, b.point.offset_mm);
-              });
+    for (Eigen::Index k = 0; k < saved.cols(); ++k) {
+      if (saved(0, k) != mesh[k]) return false;
+    }
   }
+  return true;
 }
 
 LadderState LadderState::Undeformed(const LadderModel& model) {

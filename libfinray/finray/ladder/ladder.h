@@ -14,27 +14,25 @@
 namespace finray {
 
 // The finger as a ladder: both beams are marched from base to tip, rung by
-// rung. At a rib both hinges are known, so its direction u = (r_R - r_L) / |r_R
-// - r_L| is explicit and its tension T makes the internal forces jump,
+// rung. At a rib both hinges are known, so its direction is explicit,
+// u = (r_R - r_L) / |r_R - r_L|, and its tension T makes the internal forces
+// jump:
 //
-//   N_front+ = N_front- - T u,    N_back+ = N_back- + T u,
+//   N_front+ = N_front- - T u,    N_back+ = N_back- + T u.
 //
-// as a contact force F makes N+ = N- - F on its beam. What remains to be solved
-// are the 6 + r unknowns
+// A contact force F makes N jump to N+ = N- - F on its beam. The march leaves
+// 6 + r unknowns,
 //
 //   q = (M, N_x, N_y at the front base; the same at the back base; T_1 .. T_r)
 //
-// from as many closure equations: r rib lengths, |r_R - r_L| = L (1 + T / EA),
-// which is (7) of the paper, and at the tip position, angle, moment and force
-// of one beam against the other.
+// and as many closure equations: r rib lengths, |r_R - r_L| = L (1 + T / EA),
+// equation (7) of the paper, and six at the tip, where position, angle, moment
+// and force of both beams must agree.
 //
-// The state at every mesh node is an unknown too ("lifted", multiple shooting):
-// a Newton step then starts each element from a state near the truth, where
-// shooting from the base would be a cantilever under the full load.
-// ladder_kernel.h has the step.
-
-/// Whether a beam has axial flexibility.
-bool Stretches(const Finger& finger);
+// The state at every mesh node is an unknown too (multiple shooting): a Newton
+// step then starts each element near its true state. A march from the base
+// alone would be a cantilever under the full load. ladder_kernel.h has the
+// step.
 
 /// A finger cut into elements. Stiffness and rib lengths may be changed between
 /// solves (calibration does).
@@ -57,40 +55,31 @@ class LadderModel {
   void set_rib_length(int rib, double length_mm) {
     finger_.ribs[rib].length_mm = length_mm;
   }
-  /// Other nodes for the same ribs and pieces.
-  void set_mesh(const std::array<BeamMesh, 2>& mesh);
-
-  /// Where a gauge ends: its angle is the sum of sign * theta over both ends.
-  struct GaugeEnd {
-    int gauge;
-    int sign;
-    MeshPoint point;
-  };
-  /// The gauge ends on a beam in order of their arc lengths.
-  const std::vector<GaugeEnd>& gauge_ends(Side side) const {
-    return gauge_ends_[Index(side)];
-  }
+  /// Takes other nodes for the same ribs and pieces.
+  void set_mesh(const std::array<BeamMesh, 2>& mesh) { mesh_ = mesh; }
 
   static int Index(Side side) { return side == Side::kFront ? 0 : 1; }
 
  private:
   Finger finger_;
   std::array<BeamMesh, 2> mesh_;
-  std::array<std::vector<GaugeEnd>, 2> gauge_ends_;
 };
 
 /// The unknowns of an equilibrium.
 struct LadderState {
   Eigen::VectorXd q;  ///< base moments and forces, rib tensions (6 + r).
-  /// (s, x, y, theta, M) at the start of each element, front and back.
+  /// (s, x, y, theta, M) at the start of each element, front and back, in mm,
+  /// rad and N mm.
   using Nodes = Eigen::Matrix<double, 5, Eigen::Dynamic>;
   std::array<Nodes, 2> nodes;
 
   /// The undeformed, unloaded finger.
   static LadderState Undeformed(const LadderModel& model);
+  /// Whether the state was saved on the model's mesh.
+  bool IsOnMeshOf(const LadderModel& model) const;
 };
 
-/// A piece of a beam between stations, from which any point of it follows.
+/// A smooth piece of a deformed beam. Its element gives any point of it.
 struct BeamSpan {
   double arc_mm;
   double length_mm;

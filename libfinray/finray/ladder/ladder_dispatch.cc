@@ -2,7 +2,7 @@
 
 namespace finray {
 
-// One of these a compilation of ladder_kernel.cc.
+// Each compilation of ladder_kernel.cc has one of these.
 inline namespace generic {
 const LadderKernel& KernelOf(Scheme scheme, bool stretch);
 }

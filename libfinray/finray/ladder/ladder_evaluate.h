@@ -7,8 +7,8 @@
 namespace finray {
 inline namespace FINRAY_ISA {
 
-// The force of a contact for f = 1, normal into the finger plus friction along
-// the tangent, n + mu t, and its derivative by theta.
+// The force of a contact with f = 1, n + mu t (n points into the finger), and
+// its derivative by theta.
 template <class T>
 inline void ContactDirection(const LadderContact<T>& contact, const T& theta,
                              T* unit, T* turned) {
@@ -23,10 +23,10 @@ inline void ContactDirection(const LadderContact<T>& contact, const T& theta,
   turned[1] = into * s + mu * c;
 }
 
-// The first half of a Newton step (ladder_kernel.h). Wide is the scheme's
-// element over vector lanes, Single the same over one T. Where lanes are
-// elements, starts are collected first and then solved vector by vector; where
-// they are frames (kWidth 1), each element is solved when the walk meets it.
+// Evaluate, the first half of a Newton step (ladder_kernel.h). Wide is the
+// scheme's element over vector lanes, Single the same over one T. If lanes are
+// elements, starts are collected first and then solved vector by vector. If
+// lanes are frames (kWidth 1), each element is solved when the walk meets it.
 template <class T, class Wide, class Single>
 class LadderEvaluator {
  public:
@@ -63,7 +63,8 @@ class LadderEvaluator {
     return slot;
   }
 
-  // Forces by walking both beams together, rung by rung; contacts on the way.
+  // Walks both beams together, rung by rung, and puts start and internal force
+  // of every element and contact into the slots.
   void FillSlots(bool propagate) {
     const LadderNodes<T>& z = f_.state;
     T force[2][2] = {{z.q[1], z.q[2]}, {z.q[4], z.q[5]}};
@@ -87,7 +88,7 @@ class LadderEvaluator {
     for (int i = 0; i < 2; ++i) {
       f_.closure[first + 4 + i] = force[0][i] + force[1][i];
     }
-    // What fills the last lanes must be harmless.
+    // The slots that fill up the last vector must not divide by zero.
     for (int slot = f_.slots(); slot % kWidth != 0; ++slot) {
       PutSlot(slot, {T{}, T{}, T{}, T{}}, 0, T{});
       f_.slot_fx[slot] = f_.slot_fy[slot] = T{};
@@ -219,7 +220,7 @@ class LadderEvaluator {
     for (int k = 0; k < readouts; ++k) ReadGauges(element, slot, k);
   }
 
-  // Whether the slot's length changes as a contact moves.
+  // Whether the slot's length changes when a contact moves.
   bool IsAtContact(int slot) const {
     if (slot >= f_.elements) return true;
     for (int c = 0; c < f_.contact_count; ++c) {
@@ -295,7 +296,8 @@ class LadderEvaluator {
     f_.residual = largest;
   }
 
-  // The slot that holds each readout: past the last contact at or before it.
+  // Finds the slot that holds each readout: behind the last contact at or
+  // before it.
   void AssignReadouts() {
     const int slots = (f_.slots() + kWidth - 1) / kWidth * kWidth;
     for (int slot = 0; slot < slots; ++slot) {

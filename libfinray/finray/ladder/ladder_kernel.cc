@@ -21,7 +21,8 @@ void EvaluateScheme(LadderFrame<T>& frame, SweepColumns columns,
 
 bool SweepColumnsOf(Frame& frame, SweepColumns columns, bool open,
                     bool readouts) {
-  // The lengths that a step and one contact's derivatives need.
+  // Fixed lengths for the common cases: a step, and up to one contact's
+  // derivatives.
   switch (frame.stride) {
     case 8:
       return LadderSweeper<double, 2>(&frame, columns, open).Run(readouts);
@@ -38,7 +39,7 @@ bool Sweep(Frame& frame, SweepColumns columns, bool readouts) {
   return SweepColumnsOf(frame, columns, false, readouts);
 }
 
-// One contact's derivatives and nothing else.
+// Six parameters, the step and one contact's derivatives.
 constexpr int kFourColumns = 9;
 
 template <class Element>
@@ -56,7 +57,7 @@ bool SweepFour(LadderFrame<FourFrames>& frame) {
 void StepFour(LadderFrame<FourFrames>& frame) {
   LadderWalkBack<FourFrames, kFourColumns>(&frame, SweepColumns::kContacts)
       .Combine(2);
-  // The five fields of a state lie one behind the other.
+  // The five arrays of a state lie one behind the other.
   const int count = 6 + frame.ribs + 4 * frame.elements;
   for (int i = 0; i < count; ++i) frame.state.q[i] += frame.step.q[i];
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/finger/geometry.h"
+
 namespace finray {
 
 LadderLanes::LadderLanes(const Finger& finger,
@@ -11,7 +13,7 @@ LadderLanes::LadderLanes(const Finger& finger,
       workspace_(model_),
       kernel_(&FindLadderKernel(discretization.scheme, Stretches(finger))),
       friction_(friction) {
-  // Memory for as many contacts, and columns for one.
+  // Takes memory for kMostContacts contacts and for the columns of one.
   const std::vector<PointContact> contacts(kMostContacts);
   workspace_.SetContacts(model_, contacts);
   do {
@@ -21,16 +23,7 @@ LadderLanes::LadderLanes(const Finger& finger,
 }
 
 bool LadderLanes::Load(const LadderState& state, int lane) {
-  for (const Side side : {Side::kFront, Side::kBack}) {
-    const auto& nodes = state.nodes[LadderModel::Index(side)];
-    const std::vector<double>& mesh = model_.mesh(side).nodes_mm;
-    if (nodes.cols() + 1 != static_cast<Eigen::Index>(mesh.size())) {
-      return false;
-    }
-    for (Eigen::Index k = 0; k < nodes.cols(); ++k) {
-      if (nodes(0, k) != mesh[k]) return false;
-    }
-  }
+  if (!state.IsOnMeshOf(model_)) return false;
   workspace_.Load(state, lane);
   return true;
 }
@@ -68,7 +61,7 @@ LaneSet LadderLanes::Place(const std::array<double, kFrameLanes>& arc_mm,
       return std::clamp(arc_mm[lane] - start, 0.0, length) /
              workspace_.length_unit();
     };
-    // Readings are taken on the same side of the contact in all lanes.
+    // All lanes must read a gauge on the same side of the contact.
     for (int i = 0; i < f.readout_count; ++i) {
       if (f.readouts[i].element != contact.element) continue;
       const double at = f.readouts[i].offset[0];

@@ -14,13 +14,16 @@ using LaneSet = unsigned;
 constexpr LaneSet kAllFrameLanes = (1u << kFrameLanes) - 1;
 inline bool Has(LaneSet set, int lane) { return (set >> lane & 1u) != 0; }
 
-/// LadderNewton's linearisations for four frames side by side, each with one
-/// contact on the front beam, on the mesh that a discretization begins with.
+/// Linearises four frames side by side as LadderNewton does one. Each frame has
+/// one contact on the front beam; the mesh is the one that the discretization
+/// begins with.
 ///
-/// The lanes share mesh, pivots and the order of what lies on a beam. So that
-/// contacts may lie in two different elements, both of these have a contact,
-/// and a lane whose own is in the other one has none (`present`) where the
-/// element begins or ends: a piece of no length, which changes nothing.
+/// The lanes share the mesh, the pivots and the order of contacts and gauge
+/// ends on a beam. The contacts of the lanes may lie in two different elements.
+/// Then every lane has a contact in both; the one that is not its own has no
+/// force
+/// (`present` is 0) and lies at the start or end of its element, where it cuts
+/// off a piece of no length and changes nothing.
 class LadderLanes {
  public:
   /// Throws InputError as LadderModel.
@@ -31,30 +34,30 @@ class LadderLanes {
   const LadderWorkspace<FourFrames>& workspace() const { return workspace_; }
   const LadderFrame<FourFrames>& frame() const { return workspace_.frame(); }
 
-  /// Of one lane. Load returns false if the state has another mesh.
+  /// Loads and saves one lane. Load returns false if the state has another
+  /// mesh.
   bool Load(const LadderState& state, int lane);
   void Save(LadderState* state, int lane) const {
     workspace_.Save(model_, state, lane);
   }
 
-  /// Takes up a contact for each of the lanes `wanted` and returns those lanes
-  /// that can be solved together, `first` ones before others. The rest rides
-  /// along without a contact.
+  /// Places a contact for each of the lanes `wanted` and returns the lanes that
+  /// can be solved together. Lanes in `first` are chosen before others. The
+  /// other lanes are computed without a contact.
   LaneSet Place(const std::array<double, kFrameLanes>& arc_mm,
                 const std::array<double, kFrameLanes>& normal_N, LaneSet wanted,
                 LaneSet first);
-  /// The number of the contact that is lane's own.
+  /// The number of the contact that is the lane's own.
   int contact_of(int lane) const { return contact_of_[lane]; }
 
-  /// Linearises with derivatives by (l_c, f_c) and readings. False if singular
-  /// or not finite in any lane.
+  /// Linearises with derivatives by (l_c, f_c) and reads the gauges. False if
+  /// any lane is singular or not finite.
   bool Linearize();
-  /// After that: adds to the state `newton` times Newton's step (0 or 1, lane
-  /// by lane) with the contacts moved by `change` of (l_c, f_c) in units of the
-  /// workspace.
+  /// After Linearize: adds `newton` times Newton's step (0 or 1 in each lane)
+  /// to the state, with (l_c, f_c) moved by `change` in units of the workspace.
   void Step(const FourFrames& newton, const FourFrames change[2]);
 
-  /// Number of values that make up a state, which begin at frame().state.q.
+  /// The number of values of a state. They begin at frame().state.q.
   int state_size() const { return 6 + frame().ribs + 4 * frame().elements; }
 
  private:

@@ -15,16 +15,18 @@ constexpr int kMaxIterations = 30;
 constexpr int kMostRefinements = 8;
 // A node that turns further than this in one step has left the linear range.
 constexpr double kMaxTurn_rad = 0.7;
-// Only a step from a residual below this, or from where a small one led, may be
-// the last and needs to carry gauges and derivatives.
+// A step may be the last if it starts from a residual below kNearlyThere or
+// follows a change below kSmallChange. Only such a step needs to carry gauges
+// and derivatives.
 constexpr double kNearlyThere = 1e-7;
 constexpr double kSmallChange = 3e-2;
 // Rounding may keep changes below this from shrinking further.
 constexpr double kFloor = 1e-6;
-// The same of the shape. Stiff ladders without load turn rounding of the shape
-// into loads that are nothing but noise.
+// The same for the shape. Stiff ladders without load turn rounding of the shape
+// into loads that are pure noise.
 constexpr double kShapeFloor = 1e-12;
-// A start from another load, whose change says nothing of Newton's constant.
+// A larger change comes from a start at another load and says nothing about the
+// constant of Newton's convergence.
 constexpr double kFarChange = 0.1;
 
 }  // namespace
@@ -33,33 +35,10 @@ LadderNewton::LadderNewton(const Finger& finger,
                            const Discretization& discretization)
     : discretization_(discretization),
       model_(finger, discretization),
-      first_mesh_{model_.mesh(Side::kFront), model_.mesh(Side::kBack)},
+      undeformed_(LadderState::Undeformed(model_)),
       workspace_(model_),
       kernel_(&FindLadderKernel(discretization.scheme, Stretches(finger))) {
   Reset();
-}
-
-void LadderNewton::Reset() {
-  if (refined_) {
-    model_.set_mesh(first_mesh_);
-    workspace_.SetMesh(model_);
-    refined_ = false;
-  }
-  const LadderFrame<double>& f = frame();
-  std::fill_n(f.state.q, 6 + f.ribs, 0.0);
-  std::fill_n(f.state.moment, f.elements, 0.0);
-  for (const Side side : {Side::kFront, Side::kBack}) {
-    const int i = LadderModel::Index(side);
-    const BeamMesh& mesh = model_.mesh(side);
-    const double unit = workspace_.length_unit();
-    const double c = std::cos(f.base_angle[i]), s = std::sin(f.base_angle[i]);
-    for (int k = 0; k < mesh.elements(); ++k) {
-      const int e = (i == 0 ? 0 : f.front_elements) + k;
-      f.state.x[e] = f.base_x[i] + mesh.nodes_mm[k] / unit * c;
-      f.state.y[e] = mesh.nodes_mm[k] / unit * s;
-      f.state.theta[e] = f.base_angle[i];
-    }
-  }
 }
 
 void LadderNewton::Load(const LadderState& state) {
@@ -68,19 +47,9 @@ void LadderNewton::Load(const LadderState& state) {
     throw InputError("the state is not one of finger '" + model_.finger().name +
                      "'");
   }
-  bool same = true;
-  for (const Side side : {Side::kFront, Side::kBack}) {
-    const auto& nodes = state.nodes[LadderModel::Index(side)];
-    const std::vector<double>& mesh = model_.mesh(side).nodes_mm;
-    same &= nodes.cols() + 1 == static_cast<Eigen::Index>(mesh.size());
-    for (Eigen::Index k = 0; same && k < nodes.cols(); ++k) {
-      same = nodes(0, k) == mesh[k];
-    }
-  }
-  if (!same) {
+  if (!state.IsOnMeshOf(model_)) {
     model_.set_mesh(MeshOfState(model_, state));
     workspace_.SetMesh(model_);
-    refined_ = true;
   }
   workspace_.Load(state);
 }
@@ -89,7 +58,8 @@ bool LadderNewton::SetLoad(const std::vector<PointContact>& contacts,
                            double fraction, SweepColumns columns, bool open) {
   do {
     if (!workspace_.SetContacts(model_, contacts, fraction)) return false;
-    // More memory may have to be taken once.
+    // The first call with more columns takes more memory and loses the
+    // contacts.
   } while (workspace_.SetColumns(model_, columns, open));
   workspace_.SetFinger(model_, fraction);
   return true;
@@ -137,7 +107,8 @@ bool LadderNewton::ConvergeOnMesh(const std::vector<PointContact>& contacts,
     if (!kernel_->sweep(f, now, maybe_last)) return false;
     const double size = Size(1, 0);
     if (!std::isfinite(size)) return false;
-    // Newton may climb for a while; it does not come back from far above.
+    // The residual may grow for a while, but from far above Newton does not
+    // come back.
     best = std::min(best, residual);
     if (i > 8 && residual > 1e3 * best && size > kFloor) return false;
     Move(std::min(1.0, kMaxTurn_rad / size), 0);
@@ -148,8 +119,8 @@ bool LadderNewton::ConvergeOnMesh(const std::vector<PointContact>& contacts,
   return false;
 }
 
-// Newton squares errors: what the change promises for the next one, or what the
-// last two do, is to be below the tolerance.
+// Newton squares errors. It has converged if the next change, as predicted from
+// this one or from the last two, is below the tolerance.
 bool LadderNewton::IsConverged(int iteration, double size, double change,
                                double last_change) const {
   if (1e4 * change * change < tolerance_) return true;
@@ -160,8 +131,8 @@ bool LadderNewton::IsConverged(int iteration, double size, double change,
   return next < tolerance_ || (rounding && ratio > 0.5);
 }
 
-// The step in base loads and tensions over the largest of them. The finger
-// without load has none but rounding.
+// The largest change of a base load or tension over the largest of them. In a
+// finger without load they are pure rounding, so kNoLoad is added.
 double LadderNewton::LoadChange() const {
   const LadderFrame<double>& f = frame();
   double step = 0, load = 0;
@@ -181,24 +152,24 @@ bool LadderNewton::Evaluate(const std::vector<PointContact>& contacts) {
 
 bool LadderNewton::Linearize(const std::vector<PointContact>& contacts,
                              double fraction) {
-  if (!SetLoad(contacts, fraction, SweepColumns::kLoad, false)) return false;
-  LadderFrame<double>& f = workspace_.frame();
-  ++iterations_;
-  kernel_->evaluate(f, SweepColumns::kLoad, false);
-  if (!std::isfinite(f.residual)) return false;
-  return kernel_->sweep(f, SweepColumns::kLoad, false);
+  return Linearize(contacts, fraction, SweepColumns::kLoad, false);
 }
 
 bool LadderNewton::LinearizeByContacts(
     const std::vector<PointContact>& contacts) {
   static_assert(7 + 2 * kFittedContacts <= kMostNodeColumns);
-  if (contacts.size() > kFittedContacts) return false;
-  if (!SetLoad(contacts, 1, SweepColumns::kContacts, false)) return false;
+  return contacts.size() <= kFittedContacts &&
+         Linearize(contacts, 1, SweepColumns::kContacts, true);
+}
+
+bool LadderNewton::Linearize(const std::vector<PointContact>& contacts,
+                             double fraction, SweepColumns columns,
+                             bool readouts) {
+  if (!SetLoad(contacts, fraction, columns, false)) return false;
   LadderFrame<double>& f = workspace_.frame();
   ++iterations_;
-  kernel_->evaluate(f, SweepColumns::kContacts, false);
-  if (!std::isfinite(f.residual)) return false;
-  return kernel_->sweep(f, SweepColumns::kContacts, true);
+  kernel_->evaluate(f, columns, false);
+  return std::isfinite(f.residual) && kernel_->sweep(f, columns, readouts);
 }
 
 void LadderNewton::StepWithContacts(double newton, const double* change) {
@@ -210,7 +181,7 @@ void LadderNewton::StepWithContacts(double newton, const double* change) {
 
 void LadderNewton::Move(double a, double b) {
   const LadderFrame<double>& f = frame();
-  // The five fields of a state lie one behind the other.
+  // The five arrays of a state lie one behind the other.
   const int count = 6 + f.ribs + 4 * f.elements;
   double* z = f.state.q;
   const double* step = f.step.q;
@@ -251,7 +222,6 @@ MeshChange LadderNewton::RefineMesh() {
   model_.set_mesh(finer);
   workspace_.SetMesh(model_);
   workspace_.Load(state);
-  refined_ = true;
   return MeshChange::kRefined;
 }
 

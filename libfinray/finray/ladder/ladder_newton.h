@@ -11,14 +11,14 @@ namespace finray {
 
 enum class MeshChange {
   kNone,
-  kRefined,  ///< The state is interpolated and to be converged anew.
-  kTooFine,  ///< Would be finer than any load that a finger bears asks for.
+  kRefined,  ///< The state is interpolated and must be converged again.
+  kTooFine,  ///< The mesh would be finer than any bearable load needs.
 };
 
-/// Newton's method on the lifted ladder from wherever it stands, at a share of
-/// a load. Where the discretization is adaptive the mesh is refined until the
-/// series converge. Nothing is allocated but by the first call, by more
-/// contacts than before and by refinement.
+/// Newton's method on the ladder (ladder.h) from its present state, at a share
+/// of a load. If the discretization is adaptive, the mesh is refined until the
+/// series converge. Only the first call, more contacts than ever before and
+/// refinement allocate memory.
 class LadderNewton {
  public:
   LadderNewton(const Finger& finger, const Discretization& discretization);
@@ -28,57 +28,66 @@ class LadderNewton {
   const LadderWorkspace<double>& workspace() const { return workspace_; }
   const LadderFrame<double>& frame() const { return workspace_.frame(); }
 
-  /// Convergence of loads and shape, relative; see EquilibriumSolver.
+  /// The relative error of loads and shape; see EquilibriumSolver.
   void set_tolerance(double relative) { tolerance_ = relative; }
 
-  /// Back to the undeformed finger and the mesh of the beginning.
-  void Reset();
+  /// Goes back to the undeformed finger and the first mesh.
+  void Reset() { Load(undeformed_); }
+  /// Takes up a state and its mesh. Throws InputError if the state belongs to a
+  /// finger with another number of ribs.
   void Load(const LadderState& state);
   void Save(LadderState* state) const { workspace_.Save(model_, state); }
 
-  /// Solves at `fraction` of the load (forces and prestress). False if there is
-  /// no convergence; the state is then anything. `columns` are the derivatives
-  /// that taps and q_step of the frame shall hold afterwards; the state is
-  /// Newton's last, and `step` what was added to it.
+  /// Solves at `fraction` of the load (forces and prestress). Returns false if
+  /// it does not converge; the state is then undefined. Afterwards taps and
+  /// q_step of the frame hold the derivatives `columns`, and `step` holds the
+  /// last step, which is already added to the state.
   bool Converge(const std::vector<PointContact>& contacts, double fraction,
                 SweepColumns columns);
 
   /// Fills the slots of the frame at the present state under the whole load.
+  /// False if a number is not finite.
   bool Evaluate(const std::vector<PointContact>& contacts);
-  /// Of the last Converge: how far the node that turned most has turned, rad,
-  /// and the most iterations that a mesh took.
+  /// After Converge: the angle by which the node that turned most has turned,
+  /// in rad, and the most iterations that one mesh took.
   double turn() const { return turn_; }
   int longest_run() const { return longest_run_; }
 
-  /// One linearisation at the present state, without a step; kLoad. False if
-  /// the system is singular or a number is not finite.
+  /// Linearises at the present state with the derivative by the load (kLoad)
+  /// and takes no step. False if the system is singular or a number is not
+  /// finite.
   bool Linearize(const std::vector<PointContact>& contacts, double fraction);
-  /// As Linearize at the whole load, with derivatives by l_c and f_c of each
-  /// contact (at most kFittedContacts) and the gauges read: taps are filled, no
-  /// step is. False as above.
+  /// Linearises under the whole load with derivatives by l_c and f_c of each
+  /// contact (at most kFittedContacts) and reads the gauges. It fills the taps
+  /// and no step. False as above.
   bool LinearizeByContacts(const std::vector<PointContact>& contacts);
-  /// Fills `step` after that: `newton` times Newton's step, with each contact's
-  /// (l_c, f_c) moved by `change` in units of the workspace.
+  /// After LinearizeByContacts: fills `step` with `newton` times Newton's step,
+  /// each contact's (l_c, f_c) being moved by `change` in units of the
+  /// workspace.
   void StepWithContacts(double newton, const double* change);
 
   /// state += a * step + b * by_load.
   void Move(double a, double b);
-  /// Largest change of a node in a * step + b * by_load: angles in rad,
+  /// The largest change of a node in a * step + b * by_load: angles in rad,
   /// positions in l_0.
   double Size(double a, double b) const;
 
-  /// Refines where the last evaluation's series had not converged.
+  /// Refines the elements whose series had not converged at the last
+  /// evaluation.
   MeshChange RefineMesh();
 
-  /// All of q as unknowns and no gaps: fills the taps at base loads and
-  /// tensions `q`, as FindLadderKernel's open_sweep. False if not finite.
+  /// Marches from base to tip with the base loads and tensions `q` and fills
+  /// the taps with all of q as unknowns (LadderKernel::open_sweep). False if a
+  /// number is not finite.
   bool Shoot(const Eigen::VectorXd& q,
              const std::vector<PointContact>& contacts);
 
-  /// Iterations since the last call.
+  /// The iterations since the last call of this function.
   int TakeIterations();
 
  private:
+  bool Linearize(const std::vector<PointContact>& contacts, double fraction,
+                 SweepColumns columns, bool readouts);
   bool SetLoad(const std::vector<PointContact>& contacts, double fraction,
                SweepColumns columns, bool open);
   double LoadChange() const;
@@ -89,8 +98,7 @@ class LadderNewton {
 
   Discretization discretization_;
   LadderModel model_;
-  std::array<BeamMesh, 2> first_mesh_;
-  bool refined_ = false;
+  const LadderState undeformed_;
   LadderWorkspace<double> workspace_;
   const LadderKernel* kernel_;
   double tolerance_ = 1e-14;

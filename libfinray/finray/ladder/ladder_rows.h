@@ -7,9 +7,9 @@
 namespace finray {
 inline namespace FINRAY_ISA {
 
-// What a sweep (ladder_sweep.h) and its walk back work on: rows that hold the
-// change of one quantity as [parameters | constant | derivatives], kVectors
-// vectors long (0: as many as the frame says).
+// The rows of a sweep (ladder_sweep.h) and its walk back. A row holds the
+// change of one quantity as [parameters | constant | derivatives] and is
+// kVectors vectors long (0: as long as the frame says).
 template <class T, int kVectors>
 class LadderRows {
  protected:
@@ -17,7 +17,7 @@ class LadderRows {
   using V = typename Lanes<T>::Vector;
   using U = typename Lanes<T>::Unaligned;
   static constexpr int kWidth = Lanes<T>::kWidth;
-  // What happens on the way: the frame's events are 4 * index + one of these.
+  // The frame logs the events of the walk as 4 * index + one of these.
   enum Event { kNode, kTap, kPivot };
 
   explicit LadderRows(LadderFrame<T>* frame) : f_(*frame) {}

@@ -7,35 +7,22 @@
 namespace finray {
 inline namespace FINRAY_ISA {
 
-// The second half of a Newton step (ladder_kernel.h): both beams are walked
-// from base to tip, and back (ladder_walk_back.h) if the tip is not left open.
+// Sweep, the second half of a Newton step (ladder_kernel.h): walks both beams
+// from base to tip, and back (ladder_walk_back.h) unless the tip stays open.
 template <class T, int kVectors>
 class LadderSweeper : private LadderRows<T, kVectors> {
   using Rows = LadderRows<T, kVectors>;
-  using Rows::Add;
-  using Rows::Broadcast;
-  using Rows::Clear;
-  using Rows::Copy;
-  using Rows::f_;
-  using Rows::kNode;
-  using Rows::kPivot;
-  using Rows::kTap;
-  using Rows::kWidth;
-  using Rows::Node;
-  using Rows::stride;
-  using Rows::Tap;
-  using Rows::vectors;
-  using Rows::Wide;
-  using typename Rows::Event;
-  using typename Rows::Scalar;
-  using typename Rows::U;
-  using typename Rows::V;
+  using Rows::Add, Rows::Broadcast, Rows::Clear, Rows::Copy, Rows::f_,
+      Rows::kNode, Rows::kPivot, Rows::kTap, Rows::kWidth, Rows::Node,
+      Rows::stride, Rows::Tap, Rows::vectors, Rows::Wide;
+  using typename Rows::Event, typename Rows::Scalar, typename Rows::U,
+      typename Rows::V;
 
  public:
   LadderSweeper(LadderFrame<T>* frame, SweepColumns columns, bool open)
       : Rows(frame), columns_(columns), open_(open) {}
 
-  // Without readouts their taps keep what they held.
+  // Without `readouts` the taps of the gauges keep their old values.
   bool Run(bool readouts) {
     Begin();
     int at[2] = {0, f_.front_elements};
@@ -61,14 +48,14 @@ class LadderSweeper : private LadderRows<T, kVectors> {
 
  private:
   enum Row { kX, kY, kTheta, kMoment, kForceX, kForceY, kRows };
-  // Beyond this the parameters are exchanged: it costs as many digits of a
-  // step, which Newton's next one corrects.
+  // Growth beyond this exchanges the parameters. Growth up to it costs three
+  // digits of a step, which Newton's next step corrects.
   static constexpr Scalar kLargestGrowth = 1000;
   static constexpr int kParameterVectors = (6 + kWidth - 1) / kWidth;
 
   int affine() const { return open_ ? f_.affine : 6; }
-  // The rows of a node's position, angle and moment lie where they are kept;
-  // behind the nodes come both tips and, on either side, a contact.
+  // The rows of a node's position, angle and moment are computed where they are
+  // kept. Behind the nodes come the tip and a contact of each side.
   T* TipNode(int side) const { return Node(f_.elements + side); }
   T* ContactNode(int side) const { return Node(f_.elements + 2 + side); }
   T* RowOf(int side, int row) const {
@@ -110,8 +97,8 @@ class LadderSweeper : private LadderRows<T, kVectors> {
     }
   }
 
-  // The node at the start of element e: its stored state is off by the gap. At
-  // a rib that happens before the rib is passed.
+  // Adds the gap at the node where element e starts. At a rib this happens
+  // before the rib is passed.
   void TakeUpGap(int side, int e) {
     if (gap_taken_[side] || e == (side == 0 ? 0 : f_.front_elements)) return;
     gap_taken_[side] = true;
@@ -136,8 +123,8 @@ class LadderSweeper : private LadderRows<T, kVectors> {
     if (!open_ && ++since_check_ >= kGrowthCheckEvery) CheckGrowth();
   }
 
-  // A slot that begins (ends) at a contact becomes shorter (longer) when that
-  // contact moves towards the tip.
+  // When a contact moves towards the tip, the slot that ends at it becomes
+  // longer and the slot that begins at it shorter.
   void PassSlot(int side, int e, int slot, int begins_at, int ends_at,
                 bool readouts, T* end) {
     for (int i = f_.first_readout[slot]; readouts && i < f_.end_readout[slot];
@@ -215,7 +202,7 @@ class LadderSweeper : private LadderRows<T, kVectors> {
     }
   }
 
-  // N+ = N- - f (n + mu t).
+  // N jumps to N+ = N- - f (n + mu t).
   void PassContact(int side, int c) {
     TapPose(side, f_.contact_tap(f_.contacts[c].index));
     const LadderContact<T>& contact = f_.contacts[c];
@@ -247,7 +234,7 @@ class LadderSweeper : private LadderRows<T, kVectors> {
       const V dx = Wide(RowOf(1, kX))[v] - Wide(RowOf(0, kX))[v];
       const V dy = Wide(RowOf(1, kY))[v] - Wide(RowOf(0, kY))[v];
       Wide(length)[v] = wide_x * dx + wide_y * dy;
-      // T du = T / |r| (-u_y, u_x) times the motion across the rib
+      // T du = T / |r| (-u_y, u_x) times the motion across the rib.
       const V across = swing * (wide_x * dy - wide_y * dx);
       front_x[v] += across * wide_y;
       front_y[v] -= across * wide_x;
@@ -271,7 +258,7 @@ class LadderSweeper : private LadderRows<T, kVectors> {
     RowOf(1, kForceY)[column] += uy;
   }
 
-  // By the lane in which it is smallest: all lanes share their pivots.
+  // All lanes share a pivot, so an entry counts as much as its smallest lane.
   static int LargestColumn(const T* row) {
     int column = 0;
     Scalar largest = SmallestLane(Magnitude(row[0]));
@@ -285,8 +272,8 @@ class LadderSweeper : private LadderRows<T, kVectors> {
     return column;
   }
 
-  // Exchanges parameter `column` for the quantity whose row is the next of
-  // pivots, in the rows of both beams.
+  // Exchanges parameter `column`, in the rows of both beams, for the quantity
+  // whose row is the next one of `pivots`.
   void Exchange(int column, const T& kappa, int rib) {
     for (int side = 0; side < 2; ++side) {
       ExchangeIn(column, kappa, node_[side], 4);
@@ -334,7 +321,7 @@ class LadderSweeper : private LadderRows<T, kVectors> {
       for (int i = 0; i < 2 * kRows; ++i) {
         for (int j = 0; j < 6; ++j) {
           const Scalar size = SmallestLane(Magnitude(RowOf(i)[j]));
-          // A row that was chosen is one in its own column, zero elsewhere.
+          // A row that was chosen is 1 in its own column and 0 elsewhere.
           if (!used[j] && size > largest) {
             largest = size;
             pivot_row = i;
@@ -349,7 +336,7 @@ class LadderSweeper : private LadderRows<T, kVectors> {
     }
   }
 
-  // Geometry must agree; moments and forces must cancel.
+  // At the tip positions and angles must agree; moments and forces must cancel.
   void CloseTip() {
     TapPose(0, f_.tip_tap());
     T* rows = open_ ? Tap(f_.closure_tap() + f_.ribs) : f_.tip_rows;
@@ -379,7 +366,7 @@ class LadderSweeper : private LadderRows<T, kVectors> {
   int events_ = 0, pivots_ = 0, since_check_ = 0;
   int next_contact_[2] = {0, 0};
   bool gap_taken_[2] = {false, false};
-  T* node_[2] = {};  // the rows where either walk is
+  T* node_[2] = {};  // the present rows of each beam
 };
 
 }  // namespace FINRAY_ISA

@@ -6,32 +6,21 @@
 namespace finray {
 inline namespace FINRAY_ISA {
 
-// The end of a sweep (ladder_kernel.h): back through its exchanges.
+// The end of a sweep (ladder_kernel.h): the walk back through its exchanges.
 template <class T, int kVectors>
 class LadderWalkBack : private LadderRows<T, kVectors> {
   using Rows = LadderRows<T, kVectors>;
-  using Rows::Broadcast;
-  using Rows::Clear;
-  using Rows::Copy;
-  using Rows::f_;
-  using Rows::kNode;
-  using Rows::kPivot;
-  using Rows::kTap;
-  using Rows::kWidth;
-  using Rows::Node;
-  using Rows::stride;
-  using Rows::Tap;
-  using Rows::vectors;
-  using Rows::Wide;
-  using typename Rows::Scalar;
-  using typename Rows::V;
+  using Rows::Broadcast, Rows::Clear, Rows::Copy, Rows::f_, Rows::kNode,
+      Rows::kPivot, Rows::kTap, Rows::kWidth, Rows::Node, Rows::stride,
+      Rows::Tap, Rows::vectors, Rows::Wide;
+  using typename Rows::Scalar, typename Rows::V;
 
  public:
   LadderWalkBack(LadderFrame<T>* frame, SweepColumns columns)
       : Rows(frame), columns_(columns) {}
 
-  // From the tip, where no parameter is left, back to the base; `p` holds their
-  // values [constant | derivatives] in columns from `affine` on.
+  // Walks from the tip, where no parameter is left, back to the base. The rows
+  // of `parameters` hold their values in the columns [constant | derivatives].
   void Run() {
     const bool nodes = columns_ != SweepColumns::kContacts;
     for (int j = 0; j < 6; ++j) Clear(f_.parameters + j * stride());
@@ -68,9 +57,10 @@ class LadderWalkBack : private LadderRows<T, kVectors> {
     }
   }
 
-  // Once more, for the frame's `newton` and `change`.
+  // The same for one combination of the columns, the frame's `newton` and
+  // `change`.
   void Combine(int derivatives) {
-    T with[kMostNodeColumns] = {};  // parameters, 1, change
+    T with[kMostNodeColumns] = {};  // parameters, newton, change
     with[kAffine] = f_.newton;
     for (int k = 0; k < derivatives; ++k) with[kAffine + 1 + k] = f_.change[k];
     LadderNodes<T>& step = f_.step;
@@ -113,7 +103,7 @@ class LadderWalkBack : private LadderRows<T, kVectors> {
     }
   }
 
-  // The change of node e where columns are taken times `with`.
+  // The change of node e: its columns times `with`.
   void FinishNodeWith(const T* with, LadderNodes<T>* z, int e) const {
     const T* kept = Node(e);
     T change[4];

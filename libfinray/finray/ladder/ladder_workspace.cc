@@ -70,7 +70,8 @@ LadderWorkspace<T>::LadderWorkspace(const LadderWorkspace& other)
   std::copy(other.contacts_.begin(), other.contacts_.end(), contacts_.begin());
 }
 
-// Names every array with its length, once to count and once to hand out memory.
+// Names every array with its length. It runs once to count and once to hand out
+// memory.
 template <class T>
 template <class Take>
 void LadderWorkspace<T>::LayOut(Take&& take) {
@@ -103,7 +104,7 @@ void LadderWorkspace<T>::LayOut(Take&& take) {
   take(&f.closure, q);
   take(&f.readout_map, kReadoutValues * f.readout_count);
   const int taps = 3 * contact_capacity_ + 3 + f.readout_count + q;
-  // Every so many elements all six parameters may be exchanged.
+  // All six parameters may be exchanged after every kGrowthCheckEvery elements.
   const int pivots = 6 * (elements / kGrowthCheckEvery) + ribs + 6;
   take(&f.taps, taps * stride);
   take(&f.q_step, q * stride);
@@ -158,14 +159,22 @@ void LadderWorkspace<T>::SetMesh(const LadderModel& model) {
   frame_.front_elements = model.mesh(Side::kFront).elements();
   frame_.elements = frame_.front_elements + model.mesh(Side::kBack).elements();
   readouts_.clear();
-  for (const Side side : {Side::kFront, Side::kBack}) {
-    const int first = side == Side::kFront ? 0 : frame_.front_elements;
-    for (const LadderModel::GaugeEnd& end : model.gauge_ends(side)) {
-      readouts_.push_back(
-          {end.gauge, end.sign, first + end.point.element, T{}});
-      Put(end.point.offset_mm / length_unit_, &readouts_.back().offset);
+  for (int j = 0; j < model.gauges(); ++j) {
+    const Gauge& gauge = model.finger().gauges[j];
+    const int first = gauge.beam == Side::kFront ? 0 : frame_.front_elements;
+    for (const int sign : {-1, 1}) {
+      const MeshPoint at =
+          model.mesh(gauge.beam)
+              .Locate(gauge.start_mm + (sign > 0 ? gauge.length_mm : 0));
+      readouts_.push_back({j, sign, first + at.element, T{}});
+      Put(at.offset_mm / length_unit_, &readouts_.back().offset);
     }
   }
+  std::sort(readouts_.begin(), readouts_.end(),
+            [](const LadderReadout<T>& a, const LadderReadout<T>& b) {
+              return std::make_pair(a.element, Get(a.offset, 0)) <
+                     std::make_pair(b.element, Get(b.offset, 0));
+            });
   frame_.readout_count = static_cast<int>(readouts_.size());
   Allocate();
 
@@ -240,7 +249,7 @@ bool LadderWorkspace<T>::SetContacts(const LadderModel& model,
     Put(contact.friction, &placed.friction);
     Put(normal, &placed.d_normal);
     Put(1, &placed.present);
-    // Insertion keeps contacts of one place in the order given.
+    // Insertion keeps the order of contacts at one place.
     int k = i;
     for (; k > 0; --k) {
       const LadderContact<T>& before = contacts_[k - 1];
@@ -276,7 +285,7 @@ bool LadderWorkspace<T>::SetColumns(const LadderModel& model,
   return true;
 }
 
-// Takes more memory for the same mesh and keeps the state.
+// Takes memory anew for the same mesh and keeps the state.
 template <class T>
 void LadderWorkspace<T>::SetMeshMemory(const LadderModel& model) {
   const std::vector<T> kept(

@@ -8,10 +8,10 @@
 
 namespace finray {
 
-/// The memory of a ladder frame and the way into and out of its units. Memory
-/// is taken when the mesh changes or more contacts or columns than ever before
-/// are asked for; otherwise no call allocates. T is double, float or
-/// FourFrames, all of which then take the same numbers unless a lane is named.
+/// The memory of a LadderFrame and the conversion to and from its units. A call
+/// allocates only when the mesh changes or when it asks for more contacts or
+/// columns than ever before. T is double, float or FourFrames; values go to all
+/// lanes of FourFrames unless a lane is named.
 template <class T>
 class LadderWorkspace {
  public:
@@ -22,7 +22,7 @@ class LadderWorkspace {
   LadderFrame<T>& frame() { return frame_; }
   const LadderFrame<T>& frame() const { return frame_; }
 
-  // Units: l_0, EI_0 / l_0^2 with EI_0 of ForceUnit() at construction.
+  // Units: l_0 and F_0 = ForceUnit() at construction.
   double length_unit() const { return length_unit_; }
   double force_unit() const { return force_unit_; }
   double moment_unit() const { return force_unit_ * length_unit_; }
@@ -30,17 +30,18 @@ class LadderWorkspace {
 
   /// Takes up a changed mesh; the state is undefined after it.
   void SetMesh(const LadderModel& model);
-  /// Takes up stiffness and rib lengths, these `fraction` of the way from
-  /// nominal to those given.
+  /// Takes up stiffness and rib lengths. The lengths are `fraction` of the way
+  /// from nominal to those of the finger.
   void SetFinger(const LadderModel& model, double fraction = 1);
-  /// Takes up `fraction` of the load. False if a contact is not on its beam or
-  /// a number is not finite.
+  /// Takes up `fraction` of the contact forces. False if a contact is not on
+  /// its beam or a number is not finite.
   bool SetContacts(const LadderModel& model,
                    const std::vector<PointContact>& contacts,
                    double fraction = 1);
-  /// Lays out the columns of the next sweep; kLoad and kNone are as wide as
-  /// each other. `open`: all of q as parameters. True if that took more memory:
-  /// what was evaluated or set since SetMesh is lost then, but for the state.
+  /// Lays out the columns of the next sweep; those of kLoad and kNone have the
+  /// same width. `open` is for all of q as parameters. True if that took more
+  /// memory: everything evaluated or set since SetMesh is then lost, except the
+  /// state.
   bool SetColumns(const LadderModel& model, SweepColumns columns, bool open);
 
   void Load(const LadderState& state, int lane = kAllLanes);
@@ -56,7 +57,7 @@ class LadderWorkspace {
   double length_unit_, force_unit_;
   LadderFrame<T> frame_;
   int contact_capacity_ = 0, stride_capacity_ = 8;
-  // 32 bytes, of that alignment.
+  // 32 bytes with that alignment.
   struct alignas(32) Cell {
     T numbers[32 / sizeof(T)];
   };
@@ -64,7 +65,7 @@ class LadderWorkspace {
   std::vector<int> integers_;
   std::vector<LadderReadout<T>> readouts_;
   std::vector<LadderContact<T>> contacts_;
-  std::vector<double> nominal_mm_;  // rib lengths without prestress
+  std::vector<double> nominal_mm_;  // Rib lengths without prestress.
 };
 
 }  // namespace finray

@@ -4,34 +4,34 @@
 #include <cmath>
 #include <cstring>
 
-// Numbers side by side, so that one instruction serves several elements or
-// several frames. The arithmetic is written once for a "value" V: a plain
-// double or float, or a vector of them. What is compiled for another
-// instruction set lives in a namespace of that name, so that the linker keeps
-// both.
+// Vector lanes: numbers side by side, so that one instruction serves several
+// elements or several frames. Lanes<T>::kWidth and kFrameLanes are the numbers
+// of lanes. The arithmetic is written once for a value V, which is a double or
+// float or a vector of them. Code for another instruction set is compiled in a
+// namespace of that name, so that the linker keeps both versions.
 #ifndef FINRAY_ISA
 #define FINRAY_ISA generic
 #endif
 
 namespace finray {
 
-/// One number of each of four frames; see LadderFrame.
+/// One number of each of four frames (LadderFrame).
 typedef double FourFrames __attribute__((vector_size(32)));
 constexpr int kFrameLanes = 4;
 
 inline namespace FINRAY_ISA {
 
-/// 32 bytes of T: one AVX register, two of SSE or NEON.
+/// 32 bytes of T: one AVX register, or two of SSE or NEON.
 template <class T>
 struct Lanes {
   typedef T Vector __attribute__((vector_size(32)));
-  /// The same in memory of any alignment.
+  /// The same in memory, aligned to T only.
   typedef T Unaligned
       __attribute__((vector_size(32), aligned(sizeof(T)), may_alias));
   static constexpr int kWidth = 32 / sizeof(T);
 };
 
-/// Where lanes are frames a "vector" is one number of each.
+/// If lanes are frames, a vector is one number of each.
 template <>
 struct Lanes<FourFrames> {
   using Vector = FourFrames;
@@ -39,7 +39,7 @@ struct Lanes<FourFrames> {
   static constexpr int kWidth = 1;
 };
 
-/// The number type of a value, integers of its size and how many it holds.
+/// The number type of a value, integers of the same size, and its width.
 template <class V>
 struct ValueTraits {
   using Scalar = V;
@@ -63,12 +63,12 @@ inline V Magnitude(const V& a) {
   return a < V{} ? -a : a;
 }
 
-/// The smaller one; NaN if either is.
+/// The smaller one; NaN if either is NaN.
 template <class V>
 inline V Smaller(const V& a, const V& b) {
   return ((a < b) | (a != a)) ? a : b;
 }
-/// The larger one; NaN if either is.
+/// The larger one; NaN if either is NaN.
 template <class V>
 inline V Larger(const V& a, const V& b) {
   return ((a < b) | (b != b)) ? b : a;
@@ -84,7 +84,7 @@ inline V SquareRoot(V a) {
   }
 }
 
-/// Over all lanes.
+/// The smallest and the largest number of all lanes.
 template <class V>
 inline typename ValueTraits<V>::Scalar SmallestLane(const V& a) {
   if constexpr (ValueTraits<V>::kWidth == 1) {
@@ -109,17 +109,16 @@ inline To BitsOf(const From& from) {
   return to;
 }
 
-/// To about one unit in the last place for |angle| < 1e5; less beyond.
-///
-/// angle = n pi / 2 + r with |r| <= pi / 4: pi / 2 is taken in three parts, the
-/// first of 33 bits, so that n times it is exact. The polynomials are those of
-/// Sun's fdlibm.
+/// Sine and cosine to about one unit in the last place for |angle| < 1e5, less
+/// exact beyond. angle = n pi / 2 + r with |r| <= pi / 4; pi / 2 is split into
+/// three parts, the first of 33 bits, so that n times the first is exact. The
+/// polynomials are those of Sun's fdlibm.
 template <class V>
 inline void SinCos(const V& angle, V* sine, V* cosine) {
   using Scalar = typename ValueTraits<V>::Scalar;
   if constexpr (sizeof(Scalar) == sizeof(double)) {
     using Integers = typename ValueTraits<V>::Integers;
-    // Added, this leaves the nearest integer in the last bits.
+    // Adding this leaves the nearest integer in the last bits.
     constexpr double kRound = 6755399441055744.0;
     const V rounded = angle * 6.36619772367581382433e-01 + kRound;
     const Integers quarters = BitsOf<Integers>(rounded);

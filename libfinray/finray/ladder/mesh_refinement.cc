@@ -9,49 +9,35 @@
 namespace finray {
 namespace {
 
-// Of both beams, beside their pieces. Loads to 300 000 EI / l_0^2 take 400; a
-// path that asks for more than this leads to forces no finger bears.
+// The most elements of both beams, not counting their pieces. Loads to 300 000
+// EI / l_0^2 take 400; a path that asks for more leads to forces that no finger
+// bears.
 constexpr int kMostElements = 1000;
-constexpr int kMostParts = 8;  // of an element in one refinement
+// The most parts that one refinement makes of an element.
+constexpr int kMostParts = 8;
 
-// Of the schemes that are refined.
+// The order of a scheme that is refined.
 int Order(Scheme scheme) { return scheme == Scheme::kTaylor12 ? 12 : 16; }
 
-// The mesh with other nodes, which include those of the ribs and pieces.
-BeamMesh WithNodes(const Finger& finger, Side side,
-                   const std::vector<double>& nodes_mm) {
-  BeamMesh mesh;
-  mesh.nodes_mm = nodes_mm;
-  for (const Rib& rib : finger.ribs) {
-    const double hinge = side == Side::kFront ? rib.front_mm : rib.back_mm;
-    mesh.rib_node.push_back(static_cast<int>(
-        std::lower_bound(nodes_mm.begin(), nodes_mm.end(), hinge) -
-        nodes_mm.begin()));
-  }
-  const std::vector<StiffnessPiece>& pieces = Pieces(finger, side);
-  std::size_t piece = 0;
-  for (int k = 0; k < mesh.elements(); ++k) {
-    while (piece + 1 < pieces.size() && pieces[piece].end_mm <= nodes_mm[k]) {
-      ++piece;
-    }
-    mesh.stiffness_ratio.push_back(
-        pieces.empty() ? 1.0 : pieces[piece].stiffness_ratio);
-  }
-  return mesh;
-}
-
-// A point inside a slot, in the workspace's units, from its series.
+// (x, y, theta, M) at a point inside a slot, in the workspace's units, from the
+// slot's series.
 Eigen::Vector4d PointInSlot(const LadderFrame<double>& f, Scheme scheme,
                             int slot, double offset) {
-  const BeamPoint at = VisitElement(scheme, [&](auto element) {
+  return VisitElement(scheme, [&](auto element) -> Eigen::Vector4d {
     element.Solve({f.slot_theta[slot], f.slot_moment[slot], f.slot_fx[slot],
                    f.slot_fy[slot]},
                   f.slot_stiffness[slot], f.slot_axial[slot],
                   f.slot_length[slot]);
-    return element.PointAt(offset);
+    constexpr int kDegree = decltype(element)::kDegree;
+    double series[kDegree + 1][4];
+    element.DenseOutput(series);
+    Eigen::Vector4d at = Eigen::Vector4d::Zero();
+    for (int i = kDegree; i >= 0; --i) {
+      at = at * offset + Eigen::Map<const Eigen::Vector4d>(series[i]);
+    }
+    at.head<2>() += Eigen::Vector2d(f.slot_x[slot], f.slot_y[slot]);
+    return at;
   });
-  return {f.slot_x[slot] + at.x_mm, f.slot_y[slot] + at.y_mm, at.theta_rad,
-          at.moment_N_mm};
 }
 
 }  // namespace
@@ -75,7 +61,8 @@ bool RefineToSeries(const LadderModel& model,
           truncation = std::max(truncation, f.truncation[f.elements + c]);
         }
       }
-      // The smaller of the two terms counted goes as h to the order less one.
+      // The truncation counts two terms; the lower one falls as h to the power
+      // order - 1.
       const double parts = 1.05 * std::pow(truncation / kRefinedTruncation_rad,
                                            1.0 / (Order(scheme) - 1));
       const int count =
@@ -110,7 +97,7 @@ bool RefineToSeries(const LadderModel& model,
       state->nodes[i].col(static_cast<Eigen::Index>(k)) = states[k];
     }
     nodes_mm.push_back(mesh.nodes_mm.back());
-    (*finer)[i] = WithNodes(model.finger(), side, nodes_mm);
+    (*finer)[i] = MakeBeamMesh(model.finger(), side, std::move(nodes_mm));
   }
   return true;
 }
@@ -123,7 +110,8 @@ std::array<BeamMesh, 2> MeshOfState(const LadderModel& model,
     std::vector<double> nodes_mm(nodes.cols());
     for (Eigen::Index k = 0; k < nodes.cols(); ++k) nodes_mm[k] = nodes(0, k);
     nodes_mm.push_back(model.mesh(side).nodes_mm.back());
-    mesh[LadderModel::Index(side)] = WithNodes(model.finger(), side, nodes_mm);
+    mesh[LadderModel::Index(side)] =
+        MakeBeamMesh(model.finger(), side, std::move(nodes_mm));
   }
   return mesh;
 }

@@ -8,15 +8,15 @@
 
 namespace finray {
 
-/// Divides every element whose series, as last evaluated in `workspace`, leaves
-/// out about kRefinedTruncation_rad or more, into as many as its order promises
-/// to need, and reads the state at the new nodes from the series. False if the
-/// mesh would become unreasonably fine.
+/// Divides every element whose series leaves out about kRefinedTruncation_rad
+/// or more at the last evaluation in `workspace`. The order of the scheme tells
+/// how many parts are needed. The state at the new nodes is read from the
+/// series. False if the mesh would become unreasonably fine.
 bool RefineToSeries(const LadderModel& model,
                     const LadderWorkspace<double>& workspace, Scheme scheme,
                     std::array<BeamMesh, 2>* finer, LadderState* state);
 
-/// The mesh on whose nodes a state was saved.
+/// The mesh that a state was saved on.
 std::array<BeamMesh, 2> MeshOfState(const LadderModel& model,
                                     const LadderState& state);
 

@@ -14,9 +14,9 @@ inline namespace FINRAY_ISA {
 ///   M_1     = M_j - h/2 (t_1 x N),    r_1 = r_0 + h/2 (t_0 + t_1),
 ///
 /// which is the leapfrog integrator of the beam equation (order 2). An angle
-/// inside the segment takes the share of the joint that lies before it, so that
-/// a gauge which covers part of a segment reads part of its joint. Rigid links
-/// do not stretch: the axial flexibility is ignored.
+/// inside the segment includes the share of the joint's turn that lies before
+/// it, so a gauge that covers part of a segment reads that part of its joint.
+/// Rigid links do not stretch: the axial flexibility is ignored.
 template <class V = double>
 class RigidLinkElement {
  public:
@@ -89,14 +89,6 @@ class RigidLinkElement {
     return readout;
   }
 
-  BasicBeamPoint<V> PointAt(const V& offset) const {
-    const V safe = length_ > V{} ? length_ : V{} + Scalar(1);
-    const V share = offset / safe;
-    return {share * map_.end[0], share * map_.end[1],
-            start_.theta_rad + share * (map_.end[2] - start_.theta_rad),
-            joint_moment_};
-  }
-
   /// Coefficients of (x, y, theta, M) as polynomials of the offset.
   static constexpr int kDegree = 1;
   void DenseOutput(V (*coefficients)[4]) const {
@@ -111,15 +103,15 @@ class RigidLinkElement {
     coefficients[0][3] = joint_moment_;
   }
 
-  /// Order 2 is what it is; nothing is estimated.
+  /// The scheme has no estimate of its error.
   V Truncation() const { return V{}; }
 
  private:
   V TurnByLength() const {
     return (joint_moment_ - half_ * cross0_) / stiffness_;
   }
-  // The end's derivatives by what turns link 1 by d_theta and changes the
-  // joint's moment by d_moment.
+  // The end's derivatives by a quantity that turns link 1 by d_theta and
+  // changes the joint's moment by d_moment.
   void Spread(const V& d_theta, const V& d_moment, V* column) const {
     column[0] = -half_ * s1_ * d_theta;
     column[1] = half_ * c1_ * d_theta;

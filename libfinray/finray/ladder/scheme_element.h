@@ -7,8 +7,9 @@
 
 namespace finray {
 
-/// Calls `visitor` with an element of the scheme's class. It allows for
-/// stretching, which costs more: this is for drawing, not for solving.
+/// Calls `visitor` with an element of the scheme's class. The element allows
+/// for stretching, which costs time: this is for drawing and for new meshes,
+/// not for solving.
 template <class Visitor>
 auto VisitElement(Scheme scheme, Visitor&& visitor) {
   switch (scheme) {

@@ -9,8 +9,7 @@
 namespace finray {
 inline namespace FINRAY_ISA {
 
-/// Taylor series of order K of the beam equation (element.h) in arc length.
-///
+/// The beam equation (element.h) by a Taylor series of order K in arc length.
 /// With m = M / EI, n = N / EI and k = EI / EA the coefficients follow by
 /// recurrence:
 ///
@@ -21,14 +20,14 @@ inline namespace FINRAY_ISA {
 ///   x_{i+1} = X_i / (i+1),
 ///   y_{i+1} = Y_i / (i+1),
 ///
-/// where (X, Y) = (c, s) + e (c, s), e = k (n_x c + n_y s), of which the second
-/// term is there only if the beam stretches. Their derivatives by p in (m_0,
-/// n_x, n_y, k) follow in the same way, because dc/dp = -s dtheta/dp and ds/dp
-/// = c dtheta/dp hold between the series. The derivative by theta_0 follows
-/// from turning the frame, the one by EI from the shape depending on M / EI, N
-/// / EI and EI / EA only, the moment from its balance, M + (r - r_0) x N = M_0.
-/// The series is its own dense output. The only trigonometric call is at the
-/// start.
+/// where (X, Y) = (c, s) + e (c, s), e = k (n_x c + n_y s). The term in e
+/// exists only if the beam stretches. The derivatives by p in (m_0, n_x, n_y,
+/// k) follow from the same recurrence, as dc/dp = -s dtheta/dp and ds/dp = c
+/// dtheta/dp hold between the series. Turning the frame gives the derivative by
+/// theta_0. The shape depends on M / EI, N / EI and EI / EA only, which gives
+/// the derivative by EI. The moment follows from its balance, M + (r - r_0) x N
+/// = M_0. The series is its own dense output; sin and cos are called at the
+/// start only.
 template <int K, class V = double, bool kStretch = false>
 class TaylorElement {
  public:
@@ -100,11 +99,6 @@ class TaylorElement {
     return readout;
   }
 
-  BasicBeamPoint<V> PointAt(const V& offset) const {
-    return {Evaluate(x_, offset), Evaluate(y_, offset),
-            Evaluate(theta_, offset), stiffness_ * Evaluate(m_, offset)};
-  }
-
   /// Coefficients of (x, y, theta, M) as polynomials of the offset.
   static constexpr int kDegree = K;
   void DenseOutput(V (*coefficients)[4]) const {
@@ -116,7 +110,7 @@ class TaylorElement {
     }
   }
 
-  /// The last two terms of the angle's series.
+  /// The size of the last two terms of the angle's series.
   V Truncation() const {
     return Power<K - 1>(length_) *
            (Magnitude(theta_[K]) * length_ + Magnitude(theta_[K - 1]));
@@ -127,8 +121,8 @@ class TaylorElement {
   using Series = V[K + 1];
   using SeriesBy = V[K + 1][kBy];
 
-  // The series and, in the same loops so that their sums overlap, those of
-  // their derivatives.
+  // Computes the series, and their derivatives in the same loops so that the
+  // sums overlap.
   template <bool kDerivatives>
   void Expand(const BasicElementStart<V>& start, const V& stiffness,
               const V& axial_flexibility, const V& length) {
@@ -151,7 +145,8 @@ class TaylorElement {
       }
       dm[0] += Scalar(1);
     }
-    // The last term of the series leaves nothing to go on with.
+    // Adds term i + 1. After the last one no further term needs its c, s and
+    // dm.
     const auto term = [&](int i, auto last) __attribute__((always_inline)) {
       constexpr bool kLast = decltype(last)::value;
       V ms = m_[0] * s_[i], mc = m_[0] * c_[i];
@@ -261,7 +256,7 @@ class TaylorElement {
     for (int i = K - 1; i >= 1; --i) {
       for (int p = 0; p < kBy; ++p) sum[p] = sum[p] * h + a[i][p];
     }
-    // Nothing of the start itself.
+    // The series of derivatives have no constant term.
     for (int p = 0; p < kBy; ++p) sum[p] *= h;
   }
   static V Slope(const Series& a, const V& h) {
@@ -269,7 +264,8 @@ class TaylorElement {
     for (int i = K - 1; i >= 1; --i) sum = sum * h + a[i] * Scalar(i);
     return sum;
   }
-  // Turning the start by d is turning N by -d and the result by d.
+  // The part of the derivative by theta_0 that comes through N: turning the
+  // start by d is turning N by -d and the result by d.
   V ByTheta(const V* d) const {
     return d[2] * start_.force_y_N - d[3] * start_.force_x_N;
   }
@@ -284,7 +280,7 @@ class TaylorElement {
   Series c_, s_, theta_, m_, x_, y_;
   SeriesBy dtheta_, dx_, dy_;
   BasicElementMap<V> map_;
-  // Of a beam that stretches only.
+  // For a beam that stretches.
   struct Nothing {};
   std::conditional_t<kStretch, V, Nothing> ratio_;
   std::conditional_t<kStretch, V[K], Nothing> e_;

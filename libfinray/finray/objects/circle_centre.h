@@ -19,7 +19,7 @@ inline Eigen::Vector2d CircleCentre(const Eigen::Vector3d& contact_pose,
          radius_mm * Eigen::Vector2d(std::sin(theta), -std::cos(theta));
 }
 
-/// Its derivative by theta.
+/// The derivative of CircleCentre by theta.
 inline Eigen::Vector2d CircleCentreByAngle(double theta, double radius_mm) {
   return -radius_mm * Eigen::Vector2d(std::cos(theta), std::sin(theta));
 }

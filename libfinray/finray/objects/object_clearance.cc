@@ -52,7 +52,7 @@ std::vector<Approach> FindApproaches(const Shape& shape, double length_mm,
     samples.push_back(sample(arc));
     least = std::min(least, samples.back().distance);
   }
-  // A minimum lies at most one spacing below a sample beside it.
+  // A minimum is at most one spacing lower than the samples beside it.
   const double cut = std::max(least, below_mm + length_mm / kSamples);
   std::vector<Approach> approaches;
   const std::size_t last = samples.size() - 1;
@@ -61,7 +61,7 @@ std::vector<Approach> FindApproaches(const Shape& shape, double length_mm,
     const Sample& before = samples[i > 0 ? i - 1 : 0];
     const Sample& after = samples[std::min(i + 1, last)];
     if (here.distance > cut) continue;
-    // Of equal neighbours the first counts.
+    // Among equal neighbours the first one counts.
     if (i > 0 && before.distance <= here.distance) continue;
     if (after.distance < here.distance) continue;
     if ((i == 0 && here.slope >= 0) || (i == last && here.slope <= 0)) {
@@ -77,8 +77,8 @@ std::vector<Approach> FindApproaches(const Shape& shape, double length_mm,
       }
       arc = 0.5 * (low + high);
     }
-    // A chain's points lie on chords but its angles turn evenly, so that the
-    // slope's root need not be the lowest point.
+    // In a rigid chain points lie on chords while angles turn evenly, so the
+    // root of the slope may not be the lowest point.
     const double refined = sample(arc).distance;
     if (refined > here.distance) arc = here.arc;
     approaches.push_back({arc, std::min(refined, here.distance), false});

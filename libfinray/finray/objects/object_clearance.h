@@ -8,17 +8,17 @@
 
 namespace finray {
 
-/// A place where the front beam comes nearest to an object, or ends.
+/// A local minimum of the front beam's distance from an object.
 struct Approach {
   double arc_mm;
   double distance_mm;  ///< < 0 inside the object.
-  bool at_end;         ///< The beam ends before the distance grows again.
+  bool at_end;         ///< The distance still falls at this end of the beam.
 };
 
 /// The local minima of the front beam's distance d from an object, base to tip,
-/// of those that lie below `below_mm` or are the least of all. Sampled densely,
-/// also at and midway between `contacts`; between samples the minimum is where
-/// d' = t . n_o passes through zero.
+/// that lie below `below_mm`, and the least of all. The beam is sampled
+/// densely, also at `contacts` and midway between them. Between samples the
+/// minimum is where d' = t . n_o passes through zero.
 std::vector<Approach> FindApproaches(const Shape& shape, double length_mm,
                                      const std::vector<PointContact>& contacts,
                                      const Outline& outline,

@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 
 constexpr double kTolerance = 1e-12;  // of l_0
 constexpr double kSmallestRampStep = 1e-3;
-// Of l_0. Longer steps find other equilibria than those on the way.
+// In l_0. Longer steps may jump to another equilibrium.
 constexpr double kLongestStep = 0.025;
 constexpr double kNearEnd = 0.02;  // of l_0
 constexpr int kMostEquilibria = 4000;
@@ -44,7 +44,7 @@ class ObjectContactSolver {
                    std::vector<PointContact>* contacts) const;
   bool EndsAreInside(const ObjectPose& pose,
                      const std::vector<PointContact>& contacts);
-  // Looks at the solver's equilibrium once more, ends included.
+  // Checks the solver's equilibrium, ends of the beam included.
   ObjectContactStatus Verified(const ObjectPose& pose,
                                const std::vector<PointContact>& contacts);
   bool CoversBase(const ObjectPose& pose) const;
@@ -69,9 +69,10 @@ std::vector<Approach> ObjectContactSolver::Approaches(
                         object_.outline, tangency_.Displaced(pose), below_mm);
 }
 
-// Finds the set of contacts: those that pull are dropped, places that are
-// inside the object are added. Contacts keep their places where Newton cannot
-// tell them (the beam follows the outline); enough of them then keep it out.
+// Finds the set of contacts: drops those that pull and adds places that are
+// inside the object. Where the beam follows the outline, Newton cannot
+// determine the places of contacts; they are then held, and enough of them keep
+// the beam out of the object.
 bool ObjectContactSolver::Settle(const ObjectPose& pose,
                                  std::vector<PointContact>* contacts) {
   for (int round = 0; round < kMaxRounds; ++round) {
@@ -111,8 +112,8 @@ bool ObjectContactSolver::Settle(const ObjectPose& pose,
   return false;
 }
 
-// A contact held at a wrong place has a neighbour that is inside the object: it
-// is moved there, unless there is one on either side.
+// A contact held at a wrong place has a neighbour that is inside the object. It
+// is moved there, unless there is one on each side.
 void ObjectContactSolver::AddContacts(
     const std::vector<double>& places, bool may_move,
     std::vector<PointContact>* contacts) const {
@@ -143,13 +144,13 @@ void ObjectContactSolver::AddContacts(
   }
 }
 
-// The base does not yield.
+// Whether the object covers the clamped base, which cannot yield.
 bool ObjectContactSolver::CoversBase(const ObjectPose& pose) const {
   return object_.outline.DistanceOf(Vector2d::Zero(), pose).distance_mm <
          -kContactDepthTolerance * length_;
 }
 
-// Whether the object has reached an end of the beam, or is about to.
+// Whether the object has reached an end of the beam or nearly so.
 bool ObjectContactSolver::EndsAreInside(
     const ObjectPose& pose, const std::vector<PointContact>& contacts) {
   const double margin = kNearEnd * length_;
@@ -183,9 +184,10 @@ ObjectContactStatus ObjectContactSolver::Verified(
   return status;
 }
 
-// An object that lies between the beams has come there from outside and pushes
-// the front beam before it. The way from where the beam, which it is nearest to
-// at `near`, runs through its middle; zero if it is not between the beams.
+// An object between the beams has come from outside and pushes the front beam
+// ahead of it. Returns how far it lies behind the place where the free front
+// beam, nearest at `near`, runs through its middle; zero if it is not between
+// the beams.
 Vector2d ObjectContactSolver::InnerWay(const Section& near,
                                        const ObjectPose& pose) const {
   const Vector2d into(std::sin(near.theta_rad), -std::cos(near.theta_rad));
@@ -194,7 +196,7 @@ Vector2d ObjectContactSolver::InnerWay(const Section& near,
   const Finger& finger = solver_->model().finger();
   const double angle = BeamAngle(finger, Side::kBack);
   const Vector2d behind(std::sin(angle), -std::cos(angle));
-  // The object's point nearest to the beam.
+  // The point of the object nearest to the beam.
   const Vector2d face = beam - nearest.distance_mm * nearest.normal;
   if (behind.dot(face - BeamBase(finger, Side::kBack)) > 0 ||
       nearest.normal.dot(into) > -0.5) {
@@ -208,7 +210,7 @@ Vector2d ObjectContactSolver::InnerWay(const Section& near,
   return (nearest.distance_mm + 0.5 * width) * into;
 }
 
-// The object withdrawn until it only touches the free finger, then moved in.
+// Withdraws the object until it only touches the free finger, then moves it in.
 ObjectContactStatus ObjectContactSolver::MoveIn(
     const ObjectPose& pose, std::vector<PointContact>* contacts) {
   if (!solver_->Solve({})) return ObjectContactStatus::kNotConverged;
@@ -238,7 +240,7 @@ ObjectContactStatus ObjectContactSolver::MoveIn(
   const Vector2d outward(-std::sin(theta), std::cos(theta));
   for (int i = 0; i < kMaxWithdrawals; ++i) {
     if (touch.distance_mm >= -kTolerance * length_) break;
-    // Never further than to first touch, as no point moves faster.
+    // This cannot pass first touch, as the distance of no point grows faster.
     withdrawn.position_mm -= touch.distance_mm * outward;
     touch = deepest(withdrawn);
   }
@@ -296,7 +298,7 @@ ObjectContact ObjectContactSolver::Solve(
             [](const PointContact& a, const PointContact& b) {
               return a.arc_mm < b.arc_mm;
             });
-  // Once more, so that the solver's results are in the order of the contacts.
+  // Solves again, so that the solver's results are in the order of contacts.
   result.status = solver_->SolveWithSensitivities(contacts)
                       ? Verified(pose, contacts)
                       : ObjectContactStatus::kNotConverged;

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Turns of a polygon's boundary, as sines, that still count as straight.
+// The sine of a polygon's corner that still counts as straight.
 constexpr double kStraight = 1e-9;
 
 double Cross(const Vector2d& a, const Vector2d& b) {
@@ -27,7 +27,7 @@ void CheckLength(double length, const char* what) {
   }
 }
 
-// Makes vertices counter-clockwise and refuses polygons that are not convex.
+// Orders vertices counter-clockwise and throws if the polygon is not convex.
 void Normalize(std::vector<Vector2d>* vertices) {
   const std::size_t n = vertices->size();
   if (n == 0) throw std::invalid_argument("a polygon needs vertices");
@@ -57,7 +57,7 @@ void Normalize(std::vector<Vector2d>* vertices) {
     }
     turn += std::atan2(Cross(a, b), a.dot(b));
   }
-  // A star turns the same way at all corners, but more than once around.
+  // A star turns the same way at all corners, but by more than one full turn.
   if (turn > 3 * M_PI) {
     throw std::invalid_argument("the polygon's edges cross");
   }
@@ -122,61 +122,56 @@ void CheckConvex(const SupportOutline& outline) {
   }
 }
 
-// The nearest boundary point q lies in the quadrant of the point p, where
-// t(a) . (p - q(a)) falls through zero once; its slope by a is -(d + rho).
-Outline::Distance DistanceFrom(const EllipseOutline& ellipse,
-                               const Vector2d& point) {
-  const Vector2d p = point.cwiseAbs();
-  double low = 0, high = M_PI / 2;
-  // Exact at the axes and for a circle.
-  double angle = std::atan2(p.y(), p.x());
+// The boundary point q(a) nearest to the point p, where t(a) . (p - q(a)) falls
+// through zero; its slope by a is -(d + rho). Newton's method from `angle`,
+// bisection where it leaves low .. high.
+template <class Shape>
+Outline::Distance NearestPoint(const Shape& shape, const Vector2d& p,
+                               double angle, double low, double high) {
+  const double start = low;
   Outline::Distance nearest;
   for (int i = 0; i < 100; ++i) {
     const Vector2d normal(std::cos(angle), std::sin(angle));
     const Vector2d tangent(-normal.y(), normal.x());
-    const Outline::Point q = PointOf(ellipse, normal);
+    const Outline::Point q = PointOf(shape, normal);
     const Vector2d offset = p - q.position_mm;
     nearest = {offset.dot(normal), normal, q.curvature_radius_mm};
     const double ahead = offset.dot(tangent);
     const double fall = nearest.distance_mm + q.curvature_radius_mm;
     if (fall > 0 && std::abs(ahead) <= 1e-15 * fall) break;
-    (ahead > 0 || (ahead == 0 && angle == 0) ? low : high) = angle;
+    // On an axis of an ellipse `ahead` is zero at its start too.
+    (ahead > 0 || (ahead == 0 && angle == start) ? low : high) = angle;
     double next = angle + ahead / fall;
     if (!(fall > 0 && next > low && next < high)) next = 0.5 * (low + high);
     if (next == angle) break;
     angle = next;
   }
+  return nearest;
+}
+
+// The nearest point of an ellipse lies in the quadrant of the point.
+Outline::Distance DistanceFrom(const EllipseOutline& ellipse,
+                               const Vector2d& point) {
+  const Vector2d p = point.cwiseAbs();
+  // The first guess is exact on the axes and for a circle.
+  Outline::Distance nearest =
+      NearestPoint(ellipse, p, std::atan2(p.y(), p.x()), 0, M_PI / 2);
   nearest.normal = {std::copysign(nearest.normal.x(), point.x()),
                     std::copysign(nearest.normal.y(), point.y())};
   return nearest;
 }
 
-// As for an ellipse, by t(a) . (p - q(a)), which from outside falls through
-// zero within a right angle of the direction in which the point lies. The first
-// harmonic only shifts the outline; where it shifts it to is always inside.
+// From outside, the nearest point's normal is within a right angle of the
+// direction of the point. The first harmonic only shifts the outline; the
+// shifted centre is always inside.
 Outline::Distance DistanceFrom(const SupportOutline& outline,
                                const Vector2d& point) {
   const auto& harmonics = outline.harmonics_mm;
   const Vector2d centre = harmonics.empty() ? Vector2d(0, 0) : harmonics[0];
-  double angle = std::atan2(point.y() - centre.y(), point.x() - centre.x());
-  double low = angle - M_PI / 2, high = angle + M_PI / 2;
-  Outline::Distance nearest;
-  for (int i = 0; i < 100; ++i) {
-    const Vector2d normal(std::cos(angle), std::sin(angle));
-    const Vector2d tangent(-normal.y(), normal.x());
-    const Outline::Point q = PointOf(outline, normal);
-    const Vector2d offset = point - q.position_mm;
-    nearest = {offset.dot(normal), normal, q.curvature_radius_mm};
-    const double ahead = offset.dot(tangent);
-    const double fall = nearest.distance_mm + q.curvature_radius_mm;
-    if (fall > 0 && std::abs(ahead) <= 1e-15 * fall) break;
-    (ahead > 0 ? low : high) = angle;
-    double next = angle + ahead / fall;
-    if (!(fall > 0 && next > low && next < high)) next = 0.5 * (low + high);
-    if (next == angle) break;
-    angle = next;
-  }
-  return nearest;
+  const double angle =
+      std::atan2(point.y() - centre.y(), point.x() - centre.x());
+  return NearestPoint(outline, point, angle, angle - M_PI / 2,
+                      angle + M_PI / 2);
 }
 
 Outline::Distance DistanceFrom(const RoundedPolygonOutline& polygon,
@@ -206,7 +201,7 @@ Outline::Distance DistanceFrom(const RoundedPolygonOutline& polygon,
     }
   }
   Outline::Distance result = inside ? edge : nearest;
-  // The centre of a circle, which is as near to all of it.
+  // At the centre of a circle all boundary points are equally near.
   if (result.distance_mm == kInfinity) {
     result = {0, {1, 0}, polygon.fillet_radius_mm};
   }

@@ -8,7 +8,7 @@
 
 namespace finray {
 
-/// Where an object's own frame lies in frame S.
+/// The pose of an object's own frame in frame S.
 struct ObjectPose {
   Eigen::Vector2d position_mm = Eigen::Vector2d::Zero();
   double angle_rad = 0;
@@ -18,72 +18,75 @@ struct CircleOutline {
   double radius_mm;
 };
 
-/// (x / a)^2 + (y / b)^2 = 1 in its own frame.
+/// The ellipse (x / a)^2 + (y / b)^2 = 1.
 struct EllipseOutline {
   double semi_axis_x_mm, semi_axis_y_mm;
 };
 
-/// All points within `fillet_radius_mm` of a convex polygon: straight edges,
-/// parallel to the polygon's, and an arc of that radius about every vertex.
-/// One vertex makes a circle, two a stadium.
+/// All points within `fillet_radius_mm` of a convex polygon: straight edges
+/// parallel to the polygon's, and an arc of that radius about every vertex. One
+/// vertex makes a circle, two make a stadium.
 struct RoundedPolygonOutline {
   std::vector<Eigen::Vector2d> vertices_mm;
   double fillet_radius_mm;
 };
 
-/// A smooth outline by its support function: the tangent whose outward normal
-/// has the angle a lies at the distance
+/// A smooth outline given by its support function: the tangent whose outward
+/// normal has the angle a lies at the distance
 ///
 ///   h(a) = r + sum_k a_k cos(k a) + b_k sin(k a),   k = 1, 2, ...
 ///
-/// from the origin. The outline is convex as its radius of curvature h + h'' is
-/// above 0 all around.
+/// from the origin. The outline is convex if its radius of curvature h + h'' is
+/// above 0 everywhere.
 struct SupportOutline {
   double radius_mm;                             ///< r
   std::vector<Eigen::Vector2d> harmonics_mm{};  ///< (a_k, b_k) from k = 1
 };
 
 /// The closed convex boundary of a rigid object, in its own frame. It has a
-/// tangent everywhere; its curvature may jump (where an edge meets an arc).
+/// tangent everywhere; its curvature may jump, as where an edge meets an arc.
+///
+/// A new shape needs a struct above, an entry in Shape, and in outline.cc a
+/// check in the constructor and overloads of PointOf and DistanceFrom; scene.cc
+/// reads it.
 class Outline {
  public:
   using Shape = std::variant<CircleOutline, EllipseOutline,
                              RoundedPolygonOutline, SupportOutline>;
 
-  /// Vertices in either sense; they are stored counter-clockwise. Throws
-  /// std::invalid_argument, saying why, for lengths that are not positive,
-  /// vertices that are not those of a strictly convex polygon, and a support
-  /// function that is not that of a convex outline.
+  /// Vertices may run either way; they are stored counter-clockwise. Throws
+  /// std::invalid_argument with the reason if a length is not positive or if
+  /// the polygon or the support function is not convex.
   explicit Outline(const Shape& shape);
 
   const Shape& shape() const { return shape_; }
   /// The radius of a circle; nothing for other shapes.
   std::optional<double> circle_radius_mm() const;
 
-  /// The boundary point p with outward normal n = (cos a, sin a), and the
-  /// radius of curvature rho there: dp/da = rho (-sin a, cos a). The normal of
-  /// a polygon's edge belongs to one of the arcs beside it.
+  /// The boundary point p with the outward normal (cos a, sin a) and the radius
+  /// of curvature rho there: dp/da = rho (-sin a, cos a). For the normal of a
+  /// polygon's edge it is a point of one of the arcs beside the edge.
   struct Point {
     Eigen::Vector2d position_mm;
     double curvature_radius_mm;
   };
   Point PointAt(double normal_angle_rad) const;
 
-  /// Distance d of a point from the boundary, negative inside, with the outward
-  /// normal n at the nearest boundary point and the radius of curvature rho
-  /// there (infinite on an edge). Its derivatives by the point are
+  /// The distance d of a point from the boundary, negative inside, with the
+  /// outward normal n at the nearest boundary point and the radius of curvature
+  /// rho there (infinite on an edge). The derivatives by the point are
   ///
   ///   grad d = n,    grad n = t t' / (rho + d),    t = (-n_y, n_x).
   ///
-  /// Deep inside, where several boundary points are nearest, one of them is
-  /// taken.
+  /// Deep inside, where several boundary points are nearest, it takes one of
+  /// them.
   struct Distance {
     double distance_mm;
     Eigen::Vector2d normal;
     double curvature_radius_mm;
   };
   Distance DistanceOf(const Eigen::Vector2d& point_mm) const;
-  /// The same for an object at a pose, point and normal in frame S.
+  /// The same for an object at a pose, with point and normal in frame S.
   Distance DistanceOf(const Eigen::Vector2d& point_mm,
                       const ObjectPose& pose) const;
 

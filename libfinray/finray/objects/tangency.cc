@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr int kMaxIterations = 30;
-constexpr double kTangencyTolerance = 1e-12;  // of l_0, and in rad
+constexpr double kTangencyTolerance = 1e-12;  // in l_0 and rad
 
 }  // namespace
 
@@ -97,7 +97,7 @@ void Tangency::Linearize(const ObjectPose& pose,
   }
 }
 
-// How far the contact points would go, to first order, with other forces.
+// How far, to first order, a change of the forces moves the contact points.
 double Tangency::Way(const Eigen::VectorXd& forces) const {
   const Eigen::Index count = forces.size();
   const Eigen::VectorXd moves = d_pose_.rightCols(count) * forces;
@@ -108,9 +108,9 @@ double Tangency::Way(const Eigen::VectorXd& forces) const {
   return way;
 }
 
-// Newton on the contact equations, each evaluation an equilibrium; with places
-// held only the gaps are closed. Steps along the beam are limited: beyond a bay
-// the tangent is worthless.
+// Newton's method on the contact equations. With places held it closes the gaps
+// only. Steps along the beam are limited, as the tangent is useless beyond a
+// bay.
 bool Tangency::Solve(const ObjectPose& pose, TangencyUnknowns unknowns,
                      std::vector<PointContact>* contacts) {
   const int count = static_cast<int>(contacts->size());
@@ -130,13 +130,15 @@ bool Tangency::Solve(const ObjectPose& pose, TangencyUnknowns unknowns,
     const Eigen::VectorXd step = -jacobian_.topRightCorner(equations, equations)
                                       .partialPivLu()
                                       .solve(residual_.head(equations));
-    // Where the outline's normal runs along the beam the equations are singular
-    // and the forces rounding: 1e17 N and more, which no finger bears.
+    // Where the outline's normal runs along the beam, the equations are
+    // singular and rounding makes forces of 1e17 N and more, which no finger
+    // bears.
     if (!step.allFinite() || Way(step.tail(count)) > length_) return false;
     double fraction = 1;
     if (sliding) {
       const double move = step.head(count).lpNorm<Eigen::Infinity>();
-      // Off the beam: the beam follows the outline, so places are not told.
+      // A step off the beam: the beam follows the outline, so the equations do
+      // not determine the places.
       if (move > length_) return false;
       fraction = std::min(1.0, longest_move / std::max(move, 1e-300));
     }

@@ -8,22 +8,22 @@
 
 namespace finray {
 
-/// What may be varied so that a set of contacts touches an object.
+/// The unknowns that make a set of contacts touch an object.
 enum class TangencyUnknowns {
   kPlacesAndForces,  ///< l_c and f_c; the object is touched tangentially.
   kForces,           ///< f_c; the contact points lie on the outline.
 };
 
-/// The equations of object_contact.h for a given set of contacts, whatever the
-/// signs of their forces, solved by Newton's method with exact derivatives.
-/// Each evaluation is an equilibrium of the finger.
+/// Solves the equations of object_contact.h for a given set of contacts, whose
+/// forces may have any sign, by Newton's method with exact derivatives. Each
+/// evaluation is an equilibrium of the finger.
 class Tangency {
  public:
   Tangency(const RigidObject& object, double friction,
            EquilibriumSolver* solver);
 
-  /// From the solver's present state and `*contacts`. False if it does not
-  /// converge, or to a place where the object lies on the finger's side.
+  /// Solves from the solver's present state and `*contacts`. False if it does
+  /// not converge or if the object ends up on the finger's side of the beam.
   bool Solve(const ObjectPose& pose, TangencyUnknowns unknowns,
              std::vector<PointContact>* contacts);
 
@@ -32,14 +32,14 @@ class Tangency {
   void Linearize(const ObjectPose& pose,
                  const std::vector<PointContact>& contacts);
 
-  // At the last evaluation.
+  // Results of the last evaluation.
 
   /// The largest distance of a contact point from the outline.
   double largest_gap_mm() const;
-  /// Way of the object along its spring's direction.
+  /// Displacement of the object along its spring.
   double displacement_mm() const { return displacement_mm_; }
   void ResetDisplacement() { displacement_mm_ = 0; }
-  /// Where the object is that was given at `pose`.
+  /// The displaced pose of an object that was given at `pose`.
   ObjectPose Displaced(ObjectPose pose) const;
 
   /// Equilibria solved so far.
@@ -63,7 +63,7 @@ class Tangency {
   Eigen::MatrixXd jacobian_;
   Eigen::MatrixXd d_pose_;  // of (x, y, theta) of each contact
   Eigen::RowVectorXd d_displacement_;
-  bool outside_ = false;  // The beam's normals point out of the object.
+  bool outside_ = false;  // the beam's normals point out of the object
 };
 
 }  // namespace finray

@@ -11,16 +11,17 @@
 namespace finray {
 namespace {
 
-// sum of |f_c| l_0^2 / EI, times the root of what the wedge of the beams makes
-// of it, beyond which Newton's method may arrive at another equilibrium than
-// the one that grows out of the unloaded finger (docs/reference/statics.md):
-// only the path, or a start this near, is trusted then. Fingers of less than
-// three ribs sway.
+// A load is heavy if sum |f_c| l_0^2 / EI sqrt(wedge) is larger than this
+// (docs/reference/statics.md). Newton's method may then find another
+// equilibrium than the one that grows out of the unloaded finger, so only the
+// path or a start within kNear_rad is trusted. Fingers with fewer than three
+// ribs sway.
 constexpr double kHeavyLoad = 60, kHeavyLoadOfFewRibs = 15;
 constexpr int kFewRibs = 2;
-// Newton's method that takes longer on one mesh has wandered: the same holds.
-constexpr int kStraightIterations = 7;
 constexpr double kNear_rad = 0.3;
+// If Newton's method takes more iterations on one mesh, it has wandered and its
+// result is not trusted either.
+constexpr int kStraightIterations = 7;
 
 }  // namespace
 
@@ -72,7 +73,7 @@ bool EquilibriumSolver::SolveFor(const std::vector<PointContact>& contacts,
     return false;
   }
   undeformed_ = false;
-  CollectValues();
+  CollectValues(true, &outputs_);
   if (columns == SweepColumns::kParameters) CollectDerivatives();
   return true;
 }
@@ -173,7 +174,7 @@ int EquilibriumSolver::unknowns() const {
   return 6 + f.ribs + 4 * (f.elements - 2);
 }
 
-// Units of outputs, of the parameters they are derived by, and of q.
+// The units of outputs, of the parameters they are derived by, and of q.
 void EquilibriumSolver::OutputUnits() {
   const LadderWorkspace<double>& w = newton_.workspace();
   const int contacts = newton_.frame().contact_count;
@@ -192,17 +193,18 @@ void EquilibriumSolver::OutputUnits() {
   q_unit_[0] = q_unit_[3] = w.moment_unit();
 }
 
-void EquilibriumSolver::CollectValues() {
+// The outputs at the state of the last evaluation, in units of the ladder. With
+// `stepped` the changes by Newton's last step, which the taps hold, are added.
+void EquilibriumSolver::CollectValues(bool stepped, Eigen::VectorXd* outputs) {
   const LadderFrame<double>& f = newton_.frame();
   OutputUnits();
   const int m = model().gauges();
-  outputs_.setZero(output_unit_.size());
-  const auto change = [&f](int tap) {
-    return f.taps[tap * f.stride + f.affine];
+  outputs->setZero(output_unit_.size());
+  const auto change = [&f, stepped](int tap) {
+    return stepped ? f.taps[tap * f.stride + f.affine] : 0;
   };
-  // Values are of the state before Newton's last step, taps change them.
   for (int i = 0; i < f.readout_count; ++i) {
-    outputs_[f.readouts[i].gauge] +=
+    (*outputs)[f.readouts[i].gauge] +=
         f.readouts[i].sign *
         (f.readout_map[kReadoutValues * i] + change(f.readout_tap(i)));
   }
@@ -211,13 +213,14 @@ void EquilibriumSolver::CollectValues() {
     const double value[3] = {f.slot_x[slot], f.slot_y[slot],
                              f.slot_theta[slot]};
     for (int i = 0; i < 3; ++i) {
-      outputs_[m + 3 * index + i] = value[i] + change(f.contact_tap(index) + i);
+      (*outputs)[m + 3 * index + i] =
+          value[i] + change(f.contact_tap(index) + i);
     }
   }
   for (int i = 0; i < 3; ++i) {
-    outputs_[outputs_.size() - 3 + i] = f.tip[i] + change(f.tip_tap() + i);
+    (*outputs)[outputs->size() - 3 + i] = f.tip[i] + change(f.tip_tap() + i);
   }
-  outputs_.array() *= output_unit_.array();
+  outputs->array() *= output_unit_.array();
 }
 
 void EquilibriumSolver::CollectDerivatives() {
@@ -236,7 +239,7 @@ void EquilibriumSolver::CollectDerivatives() {
   d_outputs_.array().rowwise() /= parameter_unit_.transpose().array();
 }
 
-// Columns of the taps: gauges by their ends, then contacts and tip.
+// Adds columns of the taps to the rows [gauges, contacts, tip] of `target`.
 void EquilibriumSolver::AddTaps(int first, int count, Matrix* target) const {
   const LadderFrame<double>& f = newton_.frame();
   const auto row = [&](int tap) {
@@ -255,30 +258,16 @@ void EquilibriumSolver::AddTaps(int first, int count, Matrix* target) const {
 bool EquilibriumSolver::Shoot(const Eigen::VectorXd& q,
                               const std::vector<PointContact>& contacts,
                               LadderShot* shot) {
-  // The state is the shot's, which is no equilibrium.
   status_ = SolveStatus::kNotConverged;
   undeformed_ = false;
   if (!newton_.Shoot(q, contacts)) {
     Reset();
     return false;
   }
+  CollectValues(false, &shot->outputs);
   const LadderFrame<double>& f = newton_.frame();
-  OutputUnits();
-  const int m = model().gauges(), r = model().ribs(), n = 6 + r;
+  const int r = model().ribs(), n = 6 + r;
   const int p = static_cast<int>(parameter_unit_.size());
-  shot->outputs.setZero(output_unit_.size());
-  for (int i = 0; i < f.readout_count; ++i) {
-    shot->outputs[f.readouts[i].gauge] +=
-        f.readouts[i].sign * f.readout_map[kReadoutValues * i];
-  }
-  for (int c = 0; c < f.contact_count; ++c) {
-    const int slot = f.elements + c;
-    shot->outputs.segment<3>(m + 3 * f.contacts[c].index) << f.slot_x[slot],
-        f.slot_y[slot], f.slot_theta[slot];
-  }
-  shot->outputs.tail<3>() << f.tip[0], f.tip[1], f.tip[2];
-  shot->outputs.array() *= output_unit_.array();
-
   Eigen::VectorXd closure_unit(n);
   closure_unit.head(r + 2).setConstant(newton_.workspace().length_unit());
   closure_unit[r + 2] = 1;
@@ -286,7 +275,7 @@ bool EquilibriumSolver::Shoot(const Eigen::VectorXd& q,
   closure_unit.tail<2>().setConstant(newton_.workspace().force_unit());
   shot->closure = Eigen::Map<const Eigen::VectorXd>(f.closure, n)
                       .cwiseProduct(closure_unit);
-  // Column n, the gaps, is empty here.
+  // Column n belongs to the gaps, which are zero here.
   Matrix outputs = Matrix::Zero(shot->outputs.size(), n + 1 + p);
   AddTaps(0, n + 1 + p, &outputs);
   shot->d_outputs.resize(outputs.rows(), n + p);

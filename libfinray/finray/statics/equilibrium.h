@@ -19,65 +19,69 @@ enum class SolveStatus {
   kNotConverged,
 };
 
-/// Closure equations of the ladder at base loads and tensions that need not be
-/// in equilibrium, every node being where the march from the base puts it.
+/// The result of one march of the ladder from base to tip with given base loads
+/// and rib tensions, which need not be in equilibrium.
 struct LadderShot {
   using Matrix =
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  /// Rib lengths (r), then tip x, y, theta, M, N_x, N_y of front against back.
+  /// How far the closure equations (ladder.h) are from zero: rib lengths (r),
+  /// then x, y, theta, M, N_x, N_y of front against back beam at the tip.
   Eigen::VectorXd closure;
   /// [gauge angles (m); contact (x, y, theta) each; tip (x, y, theta)].
   Eigen::VectorXd outputs;
-  /// By [q (6 + r); l_c, f_c of each contact; EI front; EI back; rib lengths].
+  /// Their derivatives by [q (6 + r); l_c, f_c of each contact; EI front; EI
+  /// back; rib lengths (r)].
   Matrix d_closure, d_outputs;
 };
 
-/// Finds the equilibrium of a finger under point contacts: full Newton steps
-/// from the present state, from the undeformed finger if that fails, and along
-/// the path of growing loads and assembly prestress if that fails too. Under
-/// loads so high that several equilibria may exist only the path is trusted, or
-/// a state that is near already.
+/// Start here: the face of the physics. Finds the equilibrium of a finger under
+/// point contacts, and the derivatives of gauge angles, contact poses and tip.
 ///
-/// The solver keeps its state between calls, so a log is solved warm; a warm
-/// solve allocates nothing.
+/// Newton's method (ladder.h has the equations) starts from the present state.
+/// If it fails it starts from the undeformed finger, and then it follows the
+/// path of growing loads and assembly prestress (load_path.h). High loads may
+/// have several equilibria; then only the path or a near start is trusted.
+///
+/// The solver keeps its state between calls, so each frame of a log starts near
+/// its solution. Such a warm solve allocates nothing.
 class EquilibriumSolver {
  public:
   using Matrix = LadderShot::Matrix;
 
-  /// Throws InputError if the scheme cannot model the finger or its ribs cross,
-  /// have no length or are at a base or the tip.
+  /// Throws InputError if the scheme cannot model the finger, or if ribs cross,
+  /// have no length or lie at a base or the tip.
   EquilibriumSolver(const Finger& finger, const Discretization& discretization);
 
   LadderModel& model() { return newton_.model(); }
   const LadderModel& model() const { return newton_.model(); }
   Scheme scheme() const { return scheme_; }
 
-  /// How far Newton's method goes: an estimate of the error that is left, of
-  /// base loads and tensions relative to the largest, of angles in rad. By
-  /// default 1e-14, that is to rounding; 1e-6 saves an iteration or two.
+  /// The error at which Newton's method stops: of base loads and tensions
+  /// relative to the largest one, of angles in rad. The default 1e-14 means to
+  /// rounding; 1e-6 saves an iteration or two.
   void set_tolerance(double relative) { newton_.set_tolerance(relative); }
 
   LadderState state() const;
-  /// The same without an allocation.
+  /// The same without allocating.
   void SaveState(LadderState* state) const;
   void set_state(const LadderState& state);
-  /// Back to the undeformed finger: the next solve is a cold one.
+  /// Goes back to the undeformed finger: the next solve starts cold.
   void Reset();
 
-  /// Finds the equilibrium under `contacts`. If false, status() and Why() say
-  /// why not; the state is then the undeformed finger's and the results are not
-  /// to be used.
+  /// Finds the equilibrium under `contacts`. If it returns false, status() and
+  /// Why() say why; the state is then the undeformed finger and the results are
+  /// undefined.
   bool Solve(const std::vector<PointContact>& contacts);
-  /// As Solve, and fills the derivatives below.
+  /// As Solve, and fills d_outputs() and d_q().
   bool SolveWithSensitivities(const std::vector<PointContact>& contacts);
 
   SolveStatus status() const { return status_; }
-  /// One clause for people; empty if solved.
+  /// Why the last solve failed, one clause; empty if it did not.
   std::string Why() const;
-  /// The share of the load at which the path ended, if it did.
+  /// The share of the load at which the load path ended.
   double path_fraction() const { return path_fraction_; }
 
-  // Results of the last successful solve.
+  // Results of the last successful solve. A gauge angle is in rad.
 
   double gauge_angle(int gauge) const { return outputs_[gauge]; }
   /// (x, y, theta) of a contact in mm and rad.
@@ -85,32 +89,35 @@ class EquilibriumSolver {
     return outputs_.segment<3>(model().gauges() + 3 * contact);
   }
   Eigen::Vector3d tip_pose() const { return outputs_.tail<3>(); }
+  /// In N; tension > 0.
   double rib_tension(int rib) const;
-  /// Moment and force that the clamp exerts on a base, (M, F_x, F_y).
+  /// (M, F_x, F_y) in N mm and N that the clamp exerts on a beam's base.
   Eigen::Vector3d base_reaction(Side side) const;
 
   /// [gauge angles (m); contact (x, y, theta) each; tip (x, y, theta)].
   const Eigen::VectorXd& outputs() const { return outputs_; }
-  /// Their derivatives at equilibrium, by the implicit function theorem.
-  /// Columns [l_c, f_c of each contact; EI front; EI back; rib lengths (r)].
+  /// Derivatives of outputs() at equilibrium by the implicit function theorem,
+  /// columns [l_c, f_c of each contact; EI front; EI back; rib lengths (r)].
   const Matrix& d_outputs() const { return d_outputs_; }
-  /// The same for the unknowns q of ladder.h (base reactions are their
-  /// negatives).
+  /// The same derivatives of the unknowns q of ladder.h, whose first six are
+  /// the negative base reactions.
   const Matrix& d_q() const { return d_q_; }
 
   /// Newton iterations of the last solve, all attempts together.
   int iterations() const { return iterations_; }
 
-  /// Unknowns of the last solve: six base loads, rib tensions and four a node.
+  /// The number of unknowns of the last solve: six base loads, rib tensions and
+  /// four a node.
   int unknowns() const;
 
-  /// The pieces of both beams at the present state, for drawing and integrals.
-  /// It uses the solver's scratch memory: not from two threads at once.
+  /// The pieces of both beams at the present state, for Shape. Two threads must
+  /// not call it at once: it uses the solver's scratch memory.
   std::array<std::vector<BeamSpan>, 2> Spans(
       const std::vector<PointContact>& contacts) const;
 
-  /// Evaluates the closure equations at `q`. False if they are not finite. The
-  /// solver is left at the shot, so that status() is no longer kSolved.
+  /// Marches from base to tip with the base loads and tensions `q`. False if
+  /// the result is not finite. It changes the state, which is then no
+  /// equilibrium.
   bool Shoot(const Eigen::VectorXd& q,
              const std::vector<PointContact>& contacts, LadderShot* shot);
 
@@ -120,7 +127,7 @@ class EquilibriumSolver {
   bool Attempt(const std::vector<PointContact>& contacts, SweepColumns columns);
   bool IsBadLoad(const std::vector<PointContact>& contacts) const;
   bool IsHeavy(const std::vector<PointContact>& contacts) const;
-  void CollectValues();
+  void CollectValues(bool stepped, Eigen::VectorXd* outputs);
   void CollectDerivatives();
   void OutputUnits();
   void AddTaps(int first, int count, Matrix* target) const;

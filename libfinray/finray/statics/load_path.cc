@@ -6,23 +6,24 @@
 namespace finray {
 namespace {
 
-// Arc lengths are in rad and l_0, root mean square over the nodes.
+// Arc lengths of the path are in rad and l_0, root mean square over the nodes.
 constexpr double kLargestStep = 0.15;
 constexpr double kSmallestStep = 1e-7;
 constexpr int kMaxCorrections = 8;
 constexpr double kTolerance = 1e-9;
 constexpr int kMostSteps = 2000;
-// A correction longer than this has left the step it belongs to.
+// A longer correction has left the step that it belongs to.
 constexpr double kLargestCorrection = 6 * kLargestStep;
-// Between the tangents of neighbouring points.
+// The least cosine between the tangents of neighbouring points.
 constexpr double kLeastCosine = 0.5;
-// Between a step and what the tangents at its ends promise, over the step; and
-// what Newton's method leaves of it.
+// The largest gap between a step and the mean of the tangents at its ends, over
+// the step, and the gap that Newton's tolerance explains.
 constexpr double kLargestGap = 0.05;
 constexpr double kNoGap = 1e-5;
-// A step to the goal aims so far past it, as lambda' mostly falls.
+// A step to the goal aims this far past it, as lambda' mostly falls.
 constexpr double kBeyond = 1.2;
-// lambda' at a limit point, over its change within the step.
+// A limit point is found if lambda' is below this share of its change within
+// the step.
 constexpr double kTurned = 1e-3;
 
 }  // namespace
@@ -55,8 +56,8 @@ double LoadPath::Dot(const double* a, const double* b) const {
   return sum / f.elements;
 }
 
-// The unit tangent at the present point, at `fraction` of the load, pointing
-// onwards; `slope` is its component along the load.
+// Finds the unit tangent at the present point, at `fraction` of the load, in
+// the direction of travel. `slope` is its component along the load.
 bool LoadPath::FindTangent(double fraction, Eigen::VectorXd* tangent,
                            double* slope) {
   if (!newton_->Linearize(contacts_, fraction)) return false;
@@ -67,8 +68,7 @@ bool LoadPath::FindTangent(double fraction, Eigen::VectorXd* tangent,
   if (has_tangent_ && tangent_.size() == Size()) {
     sign = Dot(tangent_.data(), by_load) + tangent_fraction_ < 0 ? -1 : 1;
   } else if (has_tangent_) {
-    // On another mesh; between two steps lambda' keeps its sign but where the
-    // path turns, and the mesh is not changed there.
+    // The mesh has changed. It does so only where lambda' keeps its sign.
     sign = tangent_fraction_ < 0 ? -1 : 1;
   }
   *tangent = sign / norm * Eigen::Map<const Eigen::VectorXd>(by_load, Size());
@@ -84,7 +84,7 @@ bool LoadPath::Tangent() {
   return true;
 }
 
-// Newton on equilibrium and the arc length equation together.
+// Solves equilibrium and the arc length equation together by Newton's method.
 bool LoadPath::Correct(double arc) {
   const LadderFrame<double>& f = newton_->frame();
   Eigen::VectorXd moved(Size());
@@ -111,9 +111,9 @@ bool LoadPath::GoTo(double arc) {
   return Correct(arc);
 }
 
-// The largest share of the load within a step of length `arc` at whose end
-// lambda' is `end_slope`: regula falsi on lambda', which falls about linearly
-// through zero.
+// The largest share of the load within a step of length `arc` that ends with
+// lambda' = `end_slope`. Regula falsi finds the zero of lambda', which falls
+// about linearly.
 double LoadPath::LimitFraction(double arc, double end_slope) {
   double limit = std::max(fraction_, trial_fraction_);
   double from = 0, from_slope = tangent_fraction_;
@@ -132,10 +132,11 @@ double LoadPath::LimitFraction(double arc, double end_slope) {
   return limit;
 }
 
-// Whether one smooth path leads here: the step is what the tangents at its ends
-// promise on average. Beside a bifurcation another path runs on with much the
-// same tangent where the finger's own bends off sharply, and only this gap
-// between the two tells. The load is left out of it as it hides the shape.
+// Whether the point reached lies on the same smooth path: the step must agree
+// with the mean of the tangents at its ends. Near a bifurcation another path
+// runs on with nearly the same tangent where the finger's own path bends off
+// sharply; only this gap tells them apart. The load is left out, as it would
+// hide the shape.
 bool LoadPath::Joins(const Eigen::VectorXd& reached,
                      const Eigen::VectorXd& tangent, double slope) const {
   if (Dot(tangent.data(), tangent_.data()) + slope * tangent_fraction_ <
@@ -148,8 +149,8 @@ bool LoadPath::Joins(const Eigen::VectorXd& reached,
          kLargestGap * std::sqrt(Dot(chord.data(), chord.data())) + kNoGap;
 }
 
-// False if the path cannot be followed any further: on another mesh there is no
-// way back to where the step began.
+// Refines the mesh if needed. If it returns false the path is lost, as the step
+// began on another mesh and cannot be repeated.
 bool LoadPath::Refine() {
   switch (newton_->RefineMesh()) {
     case MeshChange::kNone:

@@ -9,29 +9,29 @@
 
 namespace finray {
 
-/// Follows the equilibria of a finger from the unloaded one as contact forces
-/// and assembly prestress grow together, each to a share lambda of what is
-/// given, by pseudo-arclength continuation: with z the shape and (z', lambda')
-/// the unit tangent of the path, every point solves equilibrium together with
+/// Follows the equilibria of a finger from the unloaded one while contact
+/// forces and assembly prestress grow together, both at a share lambda of their
+/// given values. This is pseudo-arclength continuation: with z the shape and
+/// (z', lambda') the unit tangent of the path, every point solves equilibrium
+/// together with
 ///
 ///   z' . (z - z_0) + lambda' (lambda - lambda_0) = ds,
 ///
-/// so that the path goes on where lambda turns back, at a limit point.
+/// so the path goes on at a limit point, where lambda turns back.
 class LoadPath {
  public:
   /// `newton` must stand at an equilibrium at share `fraction` of the load.
   LoadPath(LadderNewton* newton, const std::vector<PointContact>& contacts,
            double fraction);
 
-  /// Goes one step on. False if no point was found however small the step; the
-  /// path stays where it was, or can no longer be followed. A step that reaches
-  /// `goal`, a share of the load, ends before any limit point above it, so that
-  /// the point reached lies on this side of that.
+  /// Goes one step on. Returns false if no step is short enough; the path then
+  /// stays where it was or is lost. A step that reaches `goal`, a share of the
+  /// load, ends before any limit point above `goal`.
   bool Advance(double goal = std::numeric_limits<double>::infinity());
 
   double fraction() const { return fraction_; }
-  /// Whether the last step passed a limit point at which the load is largest,
-  /// and at which share of it (to about 1e-7 of the load).
+  /// Whether the last step passed a limit point where the load is largest, and
+  /// the share of the load there (to about 1e-7).
   bool passed_limit_point() const { return passed_limit_point_; }
   double limit_fraction() const { return limit_fraction_; }
 
@@ -60,12 +60,12 @@ class LoadPath {
   double tangent_fraction_ = 0;
 };
 
-/// How a walk along the path to the whole load ended.
+/// How a walk along the path ended.
 enum class LoadPathEnd { kReached, kLimitPoint, kStuck };
 
-/// Walks from the undeformed finger to the whole load. On kReached `newton`
-/// stands near the equilibrium there, to be converged; *fraction is the share
-/// of the load that was reached, at which the path turns back or was lost.
+/// Walks from the undeformed finger to the whole load. On kReached `newton` is
+/// near the equilibrium there and must be converged. *fraction is the share of
+/// the load that was reached, at which the path turned back or was lost.
 LoadPathEnd WalkLoadPath(const std::vector<PointContact>& contacts,
                          LadderNewton* newton, double* fraction);
 

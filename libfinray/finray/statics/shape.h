@@ -8,8 +8,8 @@
 
 namespace finray {
 
-/// Geometry and internal loads at one section of a deformed beam. Moment and
-/// force are what the part towards the tip exerts on the part towards the base.
+/// Geometry and internal loads at one section of a deformed beam. The part
+/// towards the tip exerts the moment and force on the part towards the base.
 struct Section {
   double x_mm;
   double y_mm;
@@ -19,24 +19,25 @@ struct Section {
   double force_y_N;
 };
 
-/// The deformed finger after a solve, readable at any arc length. It is a
-/// snapshot: later solves do not change it.
+/// The deformed finger after a solve, readable at any arc length. Later solves
+/// do not change it.
 class Shape {
  public:
-  /// `contacts` are those of the solver's last solve. Throws std::logic_error
-  /// if that found no equilibrium.
+  /// `contacts` must be those of the solver's last solve. Throws
+  /// std::logic_error if that solve found no equilibrium.
   Shape(const EquilibriumSolver& solver,
         const std::vector<PointContact>& contacts);
 
-  /// Where internal forces jump (ribs, contacts) the side towards the tip is
-  /// given, at the tip itself the one before it.
+  /// At a rib or contact, where internal forces jump, it gives the values on
+  /// the side towards the tip, and at the tip itself those before it.
   Section At(Side side, double arc_mm) const;
 
-  /// Arc lengths between which the beam is smooth, base to tip.
+  /// The arc lengths of ends, nodes and contacts, base to tip; the beam is
+  /// smooth between them.
   std::vector<double> Stations(Side side) const;
 
  private:
-  // A piece of a beam, its (x, y, theta, M) polynomials of the arc length from
+  // A piece of a beam. (x, y, theta, M) are polynomials of the arc length from
   // its start.
   struct Piece {
     double arc_mm, length_mm;
@@ -46,7 +47,7 @@ class Shape {
 
   int degree_ = 0;
   std::array<std::vector<Piece>, 2> pieces_;
-  std::vector<double> coefficients_;  // four a power, rising powers
+  std::vector<double> coefficients_;  // four a power, lowest power first
 };
 
 }  // namespace finray
