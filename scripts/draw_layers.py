@@ -3,7 +3,8 @@
 
 draw_layers.py [OUT.svg]
 
-Exit code 1 if a room includes one that is not below it, or is not drawn.
+Exit code 1 if a room includes one that is not below it, or is not drawn, or looks into ladder/ where
+statics/equilibrium.h would do.
 """
 
 import pathlib
@@ -61,6 +62,15 @@ def faults(rooms):
                 yield f"{path.relative_to(ROOT)}: {room} includes {name}, which is not below it"
 
 
+def peeks():
+    """Files that include the fast kernel and are neither part of it nor of the code written for its speed."""
+    for folder in ("libfinray/finray", "calib/finray", "apps"):
+        for path in sorted((ROOT / folder).rglob("*")):
+            inside = re.search(r"/finray/(ladder|statics|sensing/fast|benchmark)/", str(path))
+            if path.suffix in (".h", ".cc") and not inside and '"finray/ladder/' in path.read_text(encoding="utf-8"):
+                yield f"{path.relative_to(ROOT)}: looks into ladder; statics/equilibrium.h is the face of the physics"
+
+
 def box(x, y, width, name, words, ceres):
     fill = HEART if name == "residuals" else BOX
     mark = (f'<text x="{x + width - 10}" y="{y + 37}" text-anchor="end" font-size="12" fill="{CERES}">Ceres</text>'
@@ -90,7 +100,7 @@ def picture(ceres):
 
 def main():
     rooms, ceres = includes()
-    found = list(faults(rooms))
+    found = [*faults(rooms), *peeks()]
     print("\n".join(found), end="\n" if found else "")
     target = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "docs/pictures/layers.svg")
     target.write_text(picture(ceres), encoding="utf-8")
