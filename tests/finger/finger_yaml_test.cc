@@ -183,7 +183,7 @@ TEST(FingerYamlTest, RefusesPiecesThatDoNotFillTheBeam) {
         "one before ends at 60 mm, this one at 60 mm");
   error("pieces: [{end_mm: 60" + ei + ", {end_mm: 100" + ei + "]",
         "f.yaml:5:71: end_mm: the last piece must end at the tip, 140 mm, "
-        "found 100; left out, it does");
+        "found 100; without end_mm it does");
   error("pieces: [{end_mm: 140" + ei + ", {end_mm: 150" + ei + "]",
         "f.yaml:5:29: end_mm: expected an end before the tip, which is at 140 "
         "mm, as this is not the last piece");
@@ -202,10 +202,10 @@ TEST(FingerYamlTest, RefusesPiecesThatDoNotFillTheBeam) {
   error("pieces: [{width_mm: 3, bending_stiffness_N_mm2: 3}]",
         "either bending_stiffness_N_mm2 or the plate");
   error("bending_stiffness_N_mm2: 3, pieces: [{bending_stiffness_N_mm2: 3}]",
-        "f.yaml:5:36: bending_stiffness_N_mm2: give either the beam's or "
-        "pieces");
+        "f.yaml:5:36: bending_stiffness_N_mm2: give either the "
+        "stiffness of the beam or pieces");
   error("pieces: [{bending_stiffness_N_mm2: 3}], thickness_mm: 3",
-        "thickness_mm: give either the beam's or pieces");
+        "thickness_mm: give either the stiffness of the beam or pieces");
   error("pieces: [{bending_stiffness_N_mm2: 1e-200}]",
         "expected a number of at least 1e-30, found '1e-200'");
   error("pieces: [{bending_stiffness_N_mm2: 1e200}]",

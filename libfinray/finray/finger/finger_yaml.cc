@@ -100,7 +100,7 @@ double ReadPieceEnd(const YamlMap& yaml, bool last, double start_mm,
     if (std::abs(end_mm - length_mm) <= kSlack_mm) return length_mm;
     yaml.Fail("end_mm", "end_mm: the last piece must end at the tip, " +
                             NumberText(length_mm) + " mm, found " +
-                            Short(end_mm) + "; left out, it does");
+                            Short(end_mm) + "; without end_mm it does");
   }
   if (end_mm >= length_mm - kSlack_mm) {
     yaml.Fail("end_mm", "end_mm: expected an end before the tip, which is at " +
@@ -119,7 +119,8 @@ struct BeamStiffness {
 void ReadPieces(const YamlMap& yaml, double length_mm, BeamStiffness* beam) {
   for (const char* key : {kBendingStiffness, kPlate[0], kPlate[1], kPlate[2]}) {
     if (yaml.Has(key)) {
-      yaml.Fail(key, std::string(key) + ": give either the beam's or pieces");
+      yaml.Fail(key, std::string(key) +
+                         ": give either the stiffness of the beam or pieces");
     }
   }
   const std::vector<YamlMap> entries = yaml.Maps("pieces");

@@ -27,8 +27,9 @@ std::vector<std::string> Renamed(
     const std::string& to = reversed ? key : value;
     if (!IsFrameColumn(to) && to != "status") {
       throw InputError(path + ": column " + ShownText(from) +
-                       " is to be renamed to " + ShownText(to) +
-                       ", which no tool knows" + DidYouMeanFrameColumn(to));
+                       " is renamed to " + ShownText(to) +
+                       ", which is no known column" +
+                       DidYouMeanFrameColumn(to));
     }
     const auto at = std::find(found.begin(), found.end(), from);
     if (at == found.end()) {
