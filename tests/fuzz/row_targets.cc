@@ -57,7 +57,6 @@ void ReadEstimateInputs(std::string_view bytes) {
       rows.Clear();
       parser.Parse(lines.line(), &rows);
       layout.Read(rows, 0, &readings);
-      layout.ReferenceForce(rows, 0);
     }
   });
 }
