@@ -26,10 +26,11 @@ struct SimulationSummary {
 ///   (default 0). The simulation then also fills in contact_<c> and normal_<c>,
 ///   as many as the row with most contacts has, and object_displacement_mm if
 ///   the object stands on a spring;
-/// - no load. If `shapes` is given it receives both beams of every row in the
-///   columns row, beam, arc_mm, x_mm, y_mm, angle_rad, moment_N_mm. Throws
-///   InputError with the line of a load that is incomplete, negative or off the
-///   beam.
+/// - no load.
+///
+/// If `shapes` is given it receives both beams of every row in the columns row,
+/// beam, arc_mm, x_mm, y_mm, angle_rad, moment_N_mm. Throws InputError with the
+/// line of a load that is incomplete, negative or off the beam.
 SimulationSummary Simulate(const Finger& finger, const Scene& scene,
                            const Discretization& discretization,
                            FrameTable* frames, FrameTable* shapes = nullptr);

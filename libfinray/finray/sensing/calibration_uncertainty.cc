@@ -47,7 +47,7 @@ ContactMatrix CalibrationUncertainty::Of(
   FillByParameter(unknowns, readings_V, weights);
   m.by_factor.noalias() = m.by_parameter.lazyProduct(m.factor);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    // From ln f_c to f_c.
+    // Converts the row from ln f_c to f_c.
     m.by_factor.row(2 * static_cast<int>(c) + 1) *= contacts[c].normal_N;
   }
   covariance.noalias() = m.by_factor.lazyProduct(m.by_factor.transpose());
@@ -62,7 +62,7 @@ bool CalibrationUncertainty::FindDerivatives(
                           &m.derivatives)) {
     return true;
   }
-  // A cold solve: the result must not depend on the frame before.
+  // A cold start, so that the result does not depend on the frame before.
   m.solver.Reset();
   if (!m.solver.SolveWithSensitivities(contacts)) return false;
   ReadSensitivities(m.solver, contacts, m.circle_radius_mm, &m.derivatives);

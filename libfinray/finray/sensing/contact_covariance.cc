@@ -7,8 +7,8 @@
 namespace finray {
 namespace {
 
-// Of a Cholesky pivot of the information scaled to a unit diagonal: below it is
-// rounding of derivatives.
+// The least Cholesky pivot of the information matrix scaled to a unit diagonal.
+// Smaller pivots are rounding errors of the derivatives.
 constexpr double kLeastPivot = 1e-7;
 
 }  // namespace

@@ -7,12 +7,13 @@
 
 namespace finray {
 
-/// Of (l_c, f_c) of each contact, mm and N.
+/// A covariance or information matrix of (l_c, f_c) of each contact, in mm and
+/// N.
 using ContactMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
                                     2 * kFittedContacts, 2 * kFittedContacts>;
 
-/// The inverse of a Fisher information, the Cramer-Rao bound. Where the data
-/// leave a direction open to rounding, all variances are infinite.
+/// The inverse of a Fisher information, the Cramer-Rao bound. All variances are
+/// infinite if the data leave a direction undetermined up to rounding.
 ContactMatrix CovarianceOf(const ContactMatrix& information);
 
 }  // namespace finray

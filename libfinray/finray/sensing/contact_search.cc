@@ -8,14 +8,15 @@
 namespace finray {
 namespace {
 
-// Noise makes chi2 this large in one frame of a hundred: then other starts are
-// tried; and without degrees of freedom from this on.
+// The search tries other starts if the p-value of chi2 is below kWellExplained.
+// Without degrees of freedom it does so if chi2 is at least kNearlyNothing.
 constexpr double kWellExplained = 0.01, kNearlyNothing = 4;
-// The table knows the chi2 of a start that might lead to a rival to a factor.
+// A fit may end at this fraction of the chi2 that the table predicts for a
+// start.
 constexpr double kTableFactor = 0.25;
 constexpr std::size_t kMostStarts = 4, kMostPairStarts = 12, kMostFallbacks = 4;
-// A rival lies outside the region that holds 99 % of the estimates: chi2 of two
-// and of four parameters.
+// A rival lies outside the region that holds 99 % of the estimates. These are
+// the quantiles of chi-squared for two and for four parameters.
 constexpr double kDistinct[] = {9.21, 13.28};
 
 }  // namespace
@@ -60,8 +61,9 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
                            const PackedReadings& packed) {
   FindStarts(contacts, packed);
   const int dof = packed.all - 2 * contacts;
-  // As many readings as unknowns: a minimum leaves nothing, however far the
-  // table's nodes are from it, and no chi2 tells the right one.
+  // With as many readings as unknowns, every minimum has a chi2 of zero,
+  // however far the table's nodes are from it. Then chi2 cannot tell which
+  // minimum is right, and all starts are tried.
   const bool exact = contacts == 1 && dof < 1;
   found_ = iterations_ = 0;
   std::size_t fallbacks = 0;
@@ -98,7 +100,8 @@ double ContactSearch::FreeChi2(const Measurements& row,
 
 void ContactSearch::FindStarts(int contacts, const PackedReadings& packed) {
   if (packed.weights.isZero(0)) {
-    // Only a camera tells of this frame: starts spread over the finger.
+    // This frame has camera measurements only, so the starts are spread over
+    // the finger.
     starts_.clear();
     const auto& rows = table_.rows();
     for (std::size_t k = 0; k < kMostStarts; ++k) {

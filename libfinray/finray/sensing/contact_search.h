@@ -15,25 +15,25 @@
 
 namespace finray {
 
-/// What minimises chi2 from a start.
+/// The solver that minimises chi2 from a start.
 enum class FrameMethod {
-  kFast,           ///< ContactFit: tested to be equal to the reduced form.
+  kFast,           ///< ContactFit; tests prove it equal to kCeresReduced.
   kCeresReduced,   ///< FrameProblem, equilibrium eliminated.
   kCeresWeighted,  ///< FrameProblem, equilibrium as residual blocks.
 };
-/// "fast", "ceres reduced" or "ceres weighted".
+/// Returns "fast", "ceres reduced" or "ceres weighted".
 const char* FrameMethodName(FrameMethod method);
 
-/// Finds the contacts that explain a frame without a guess: it minimises chi2
-/// from the best starts of a table, and from all others that might lead to a
-/// rival, another solution that explains the frame about as well. Where
-/// ContactFit does not converge, FrameProblem takes its place.
+/// Finds the contacts that explain a frame, without a guess. It minimises chi2
+/// from the best starts of a table, and from all further starts that might lead
+/// to a rival. A rival is another solution that explains the frame about as
+/// well. Where ContactFit does not converge, FrameProblem solves the frame.
 class ContactSearch {
  public:
   /// Two solutions explain a frame equally well if their chi2 differ by less
-  /// than 99 % of what noise does to the chi2 of two parameters.
+  /// than this, the 99 % quantile of chi-squared with two degrees of freedom.
   static constexpr double kWithinNoise = 9.21;
-  static constexpr double kMostForce = 4;  ///< over the table's heaviest
+  static constexpr double kMostForce = 4;  ///< times table().heaviest_N()
 
   /// Throws InputError for a finger without an unloaded equilibrium.
   ContactSearch(const Finger& finger, const Scene& scene,
@@ -42,38 +42,38 @@ class ContactSearch {
   ContactSearch(const ContactSearch&) = delete;
   ContactSearch& operator=(const ContactSearch&) = delete;
 
-  /// Searches with one or two contacts. False if no start converged.
+  /// Searches with one or two contacts. Returns false if no start converged.
   bool Search(int contacts, const Measurements& row,
               const PackedReadings& packed);
 
   /// chi2 of the finger without a contact.
   double FreeChi2(const Measurements& row, const PackedReadings& packed);
 
-  // Of the last search that came to something.
+  // Results of the last successful search.
 
   const ContactSolution& best() const { return solutions_[best_]; }
-  /// The best solution that is not `best` within its uncertainty but explains
-  /// the frame as well; null if there is none.
+  /// The best solution that is distinct from best() beyond its uncertainty and
+  /// explains the frame as well; null if there is none.
   const ContactSolution* rival() const;
-  /// Of all fits together.
+  /// Number of iterations of all fits of the last search.
   int iterations() const { return iterations_; }
 
-  /// Whether noise is likely to make chi2 this large; without degrees of
-  /// freedom, whether it is next to nothing.
+  /// Says whether noise plausibly makes chi2 this large. Without degrees of
+  /// freedom, says whether chi2 is nearly zero.
   static bool IsExplained(double chi2, int dof);
 
-  /// Whether a contact is where the search ends: at an end of the beam or at
-  /// the largest force.
+  /// Says whether a contact is on a bound of the search: at an end of the beam
+  /// or at the largest force.
   bool OnBound(double arc_mm, double normal_N) const;
 
   const GaugeTable& table() const { return table_; }
 
  private:
   void FindStarts(int contacts, const PackedReadings& packed);
-  // Both fill in the next solution from a start.
+  // Both fit from a start and fill in the next solution.
   bool FitFast(const ContactStart& start, const PackedReadings& packed);
   bool FitByCeres(const ContactStart& start, const Measurements& row);
-  // Keeps the next solution, its contacts put in order from base to tip.
+  // Keeps the next solution, with its contacts sorted from base to tip.
   void Keep();
   double least_chi2() const;
   bool IsDistinct(const ContactSolution& other) const;
@@ -88,7 +88,7 @@ class ContactSearch {
   FrameProblem problem_;
   std::vector<ContactStart> starts_;
   std::vector<PointContact> contacts_;
-  std::vector<ContactSolution> solutions_;  // memory for the most
+  std::vector<ContactSolution> solutions_;  // allocated for the largest search
   int found_ = 0, best_ = 0, iterations_ = 0;
 };
 

@@ -10,7 +10,7 @@
 
 namespace finray {
 
-/// A minimum of chi2 over contacts, base to tip.
+/// A minimum of chi2 over contacts, which are sorted from base to tip.
 struct ContactSolution {
   int count = 0;
   std::array<PointContact, kFittedContacts> contacts;
@@ -20,7 +20,7 @@ struct ContactSolution {
   Eigen::Vector3d tip_pose;
   std::vector<double> rib_tension_N;
   LadderState state;  ///< In equilibrium with the contacts.
-  /// The covariance of (l_c, f_c) that the finger's calibration leaves; only
+  /// Covariance of (l_c, f_c) due to the finger's calibration. Only
   /// FrameProblem fills it in.
   ContactMatrix systematic;
 };

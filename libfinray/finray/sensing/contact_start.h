@@ -7,8 +7,8 @@
 
 namespace finray {
 
-/// A place for ContactFit to start from: contacts, base to tip, an equilibrium
-/// near theirs, and about what chi2 a fit from there would come to.
+/// A start for ContactFit: contacts from base to tip, a nearby equilibrium, and
+/// the approximate chi2 of a fit from there.
 struct ContactStart {
   int count = 0;
   std::array<PointContact, kFittedContacts> contacts;

@@ -8,7 +8,7 @@ namespace finray {
 
 double EstimatedForce(const FrameEstimate& estimate,
                       double friction_coefficient) {
-  // The direction of a single force does not matter.
+  // The magnitude of a single force does not depend on its direction.
   if (estimate.contacts < 2) {
     return std::hypot(1, friction_coefficient) * estimate.contact[0].normal_N;
   }

@@ -5,8 +5,8 @@
 
 namespace finray {
 
-/// Magnitude of the force of all contacts together, to be compared with a
-/// reference sensor; NaN if the frame is not solved.
+/// Magnitude of the total force of all contacts, for comparison with a
+/// reference sensor. NaN if the frame is not solved.
 double EstimatedForce(const FrameEstimate& estimate,
                       double friction_coefficient);
 

@@ -10,7 +10,7 @@
 
 namespace finray {
 
-/// The `status` column of a frame table.
+/// The `status` column of a frame table. FrameEstimator decides it.
 enum class FrameStatus {
   kOk,
   kNoContact,
@@ -26,42 +26,43 @@ struct ContactEstimate {
   double arc_std_mm = std::numeric_limits<double>::quiet_NaN();
   double normal_N = std::numeric_limits<double>::quiet_NaN();  ///< f_c
   double normal_std_N = std::numeric_limits<double>::quiet_NaN();
-  /// x, y (mm), theta (rad) of the front beam there.
+  /// x, y (mm) and theta (rad) of the front beam at the contact.
   Eigen::Vector3d pose =
       Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 };
 using ContactEstimates = std::array<ContactEstimate, kFittedContacts>;
 
-/// What the readings of one frame say.
+/// The estimate of one frame.
 struct FrameEstimate {
   FrameStatus status = FrameStatus::kBadInput;
   int contacts = 0;
-  /// Base to tip. Without a contact the first one's force is 0, or NaN if the
-  /// frame is not solved.
+  /// The contacts from base to tip. Without a contact, the force of the first
+  /// one is 0, or NaN if the frame is not solved.
   ContactEstimates contact;
-  /// Covariance of (l_c, f_c) of each contact that the std given in the finger
-  /// and the scene make, without noise_scale() and calibration errors.
+  /// Covariance of (l_c, f_c) of each contact due to the std given in the
+  /// finger and the scene. It contains neither noise_scale() nor calibration
+  /// errors.
   ContactMatrix noise_covariance;
   Eigen::Vector3d tip_pose =
       Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   std::vector<double> rib_tension_N;
-  /// Sum of squared whitened residuals, and what is left of the measurements
-  /// when the unknowns are taken off.
+  /// Sum of squared whitened residuals, and the number of measurements minus
+  /// the number of unknowns.
   double chi2 = std::numeric_limits<double>::quiet_NaN();
   int dof = 0;
   int iterations = 0;
-  /// Another, distinct solution with as many contacts that explains the frame
-  /// within its noise, and its chi2; NaN where there is none.
+  /// A distinct solution with as many contacts that explains the frame within
+  /// its noise, and its chi2. NaN if there is none.
   ContactEstimates alternative;
   double alternative_chi2 = std::numeric_limits<double>::quiet_NaN();
 
-  /// The probability that noise alone makes chi2 as large or larger; NaN
+  /// The probability that noise alone makes chi2 as large or larger. NaN
   /// without degrees of freedom.
   double p_value() const;
 
-  /// Noise over what the finger says it is, as this frame has it: 1, or
-  /// sqrt(chi2 / dof) where the p-value is below kUnexplained, as then it is
-  /// something else, of about that size, that explains the frame.
+  /// Factor on the noise that the finger declares: sqrt(chi2 / dof) if the
+  /// p-value is below kUnexplained, else 1. Below it the declared noise does
+  /// not explain the frame, and an unknown error of about this size is assumed.
   double noise_scale() const;
   static constexpr double kUnexplained = 0.001;
 };

@@ -125,7 +125,7 @@ FrameEstimate FrameEstimator::Follow(const Measurements& readings) {
   return estimate;
 }
 
-// Whether the frame that was searched last is one to follow others from.
+// Says whether later frames can be followed from the frame searched last.
 bool FrameEstimator::CanFollow(const FrameEstimate& estimate) {
   return follower_ && estimate.contacts == 1 &&
          estimate.status == FrameStatus::kOk &&
@@ -145,7 +145,8 @@ std::size_t FrameEstimator::FollowOn(const Measurements* readings,
   return frames;
 }
 
-// Fits as many of the next frames as have all gauges and a contact.
+// Fits the next frames up to the first that lacks a gauge or a contact. Returns
+// their number.
 std::size_t FrameEstimator::FitRun(const Measurements* readings,
                                    std::size_t count) {
   if (measurements_.size() < count) measurements_.resize(count);
@@ -206,9 +207,9 @@ void FrameEstimator::Smooth(
   }
 }
 
-// One contact more for as long as it makes a significant difference. The free
-// finger says nothing of a measured object, so that its place counts for one
-// contact against another only.
+// Adds a contact as long as it makes a significant difference. The free finger
+// predicts no place of a measured object, so that place only distinguishes one
+// contact from another.
 FrameEstimate FrameEstimator::Automatic(const Measurements& readings) {
   if (free_chi2_ < kSignificance) return Free();
   FrameEstimate one = Unsolved(FrameStatus::kNotConverged);

@@ -12,54 +12,60 @@
 
 namespace finray {
 
-/// Estimates frames: as many contacts as the scene says, or as few as explain
-/// the readings, l_c and f_c of each by ContactSearch, without a guess.
+/// Estimates the contacts of frames without a guess, and decides each frame's
+/// status. ContactSearch finds l_c and f_c. The scene gives the number of
+/// contacts; `contacts: auto` takes the fewest that explain the readings.
 ///
-/// `contacts: auto` takes a contact if that lowers chi2 by kSignificance or
-/// more, and with four gauges or more a second one if that lowers it by another
-/// kSecondSignificance or more.
+/// `contacts: auto` takes a contact if it lowers chi2 by kSignificance or more.
+/// With four gauges or more it takes a second one if that lowers chi2 by
+/// another kSecondSignificance or more.
 ///
-/// A frame that is not what the model says with this noise has the std of a
-/// noise that would explain it (FrameEstimate::noise_scale).
+/// If the model with the declared noise does not explain a frame, its std are
+/// those of a noise that would (FrameEstimate::noise_scale).
 ///
-/// Statuses (docs/reference/estimation.md):
-///  - no_contact: no contact, by that criterion or, with the number given, as
-///    all forces are below kLeastForce_N, of soft fingers kLeastForce.
-///  - unobservable: solved, but std of l_c above kLargestArcStd of l_0 or std
-///    of f_c above kLargestForceStd of f_c, or l_c at an end of the beam, or
-///    another solution explains the frame as well.
-///  - bad_input: fewer measurements than unknowns.
+/// A frame's status is decided in this class and nowhere else
+/// (docs/reference/estimation.md):
+/// - bad_input (Estimate): fewer measurements than unknowns.
+/// - no_contact (Automatic): no contact is significant by the criterion above.
+///   With a fixed number of contacts (WithContacts): all forces are below
+///   kLeastForce_N, for soft fingers below kLeastForce.
+/// - not_converged (Automatic, WithContacts): no start of the search led to a
+///   solution.
+/// - unobservable (Judge): solved, but the std of l_c is above kLargestArcStd
+///   of l_0, the std of f_c is above kLargestForceStd of f_c, l_c or f_c is on
+///   a bound of the search, or another solution explains the frame as well.
+/// - ok (Judge): everything else.
 class FrameEstimator {
  public:
   static constexpr double kSignificance = 13.8;  // chi2, 2 dof, p = 0.001
-  /// A second contact explains almost anything: it takes p = 1e-6.
+  /// A second contact can explain almost any reading, so it needs p = 1e-6.
   static constexpr double kSecondSignificance = 27.6;
   static constexpr double kLeastForce_N = 0.03;
   static constexpr double kLeastForce = 0.05;  ///< In units of EI / l_0^2.
   static constexpr double kLargestArcStd = 0.05;
   static constexpr double kLargestForceStd = 0.25;
 
-  /// Throws InputError for a scene of more than two contacts or with contacts
-  /// on the back beam, a finger without gauges or with fewer than the contacts
-  /// need, and a finger without an unloaded equilibrium.
+  /// Throws InputError for a scene with more than two contacts or with contacts
+  /// on the back beam, for a finger without gauges or with fewer than the
+  /// contacts need, and for a finger without an unloaded equilibrium.
   FrameEstimator(const Finger& finger, const Scene& scene,
                  const Discretization& discretization,
                  FrameMethod method = FrameMethod::kFast);
   FrameEstimator(const FrameEstimator&) = delete;
   FrameEstimator& operator=(const FrameEstimator&) = delete;
 
-  /// The frame alone.
+  /// Estimates one frame by itself.
   FrameEstimate Estimate(const Measurements& readings);
 
-  /// Frames that follow each other, smoothed if the scene says so. The result
-  /// depends on these readings and on nothing else.
+  /// Estimates consecutive frames, smoothed if the scene says so. The result
+  /// depends only on these readings.
   void EstimateBlock(const Measurements* readings, std::size_t count,
                      FrameEstimate* estimates);
 
-  /// The frame that follows the one of the last call, smoothed by those before
-  /// it if the scene says so.
+  /// Estimates the frame after that of the last call. If the scene asks for
+  /// smoothing, the frames before smooth it.
   FrameEstimate Follow(const Measurements& readings);
-  /// The next frame that is followed is the first one of its log.
+  /// The next call of Follow() starts a new log.
   void StopFollowing() {
     following_ = false;
     followed_.reset();
@@ -79,7 +85,8 @@ class FrameEstimator {
   FrameEstimate Free() const;
   FrameEstimate Unsolved(FrameStatus status) const;
   FrameEstimate Found(const Measurements& readings);
-  // Adds what the calibration leaves uncertain to the std, and sets the status.
+  // Adds the uncertainty of the calibration to the std, and sets the status to
+  // ok or unobservable.
   void Judge(const Measurements& readings, const Eigen::VectorXd& weights,
              FrameEstimate* estimate);
   void Smooth(const Measurements* readings, std::size_t count,
@@ -91,14 +98,14 @@ class FrameEstimator {
   FrameMethod method_;
   double least_force_N_;
   ContactSearch search_;
-  std::optional<FrameFollower> follower_;  // where it serves the scene
+  std::optional<FrameFollower> follower_;  // if it serves the scene
   bool following_ = false;                 // by Follow
   CalibrationUncertainty systematic_;
   std::vector<PointContact> contacts_;
   std::optional<ContactSmoother> smoother_;
   std::optional<ContactSmoother::Belief> followed_;  // by Follow
   FrameEstimate free_;
-  // Of the frame under way.
+  // State of the frame being estimated.
   PackedReadings measurement_;
   std::vector<PackedReadings> measurements_;  // of a run of frames
   double free_chi2_ = 0;

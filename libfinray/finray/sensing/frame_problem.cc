@@ -13,13 +13,13 @@ namespace finray {
 namespace {
 
 constexpr int kMostIterations = 200;
-// The minimum is found to 1e-5 of a std and better. The residuals are whitened,
-// so a small trust region would only creep along weak directions.
+// These tolerances find the minimum to within 1e-5 of a std. The residuals are
+// whitened, so a small trust region would only creep along weak directions.
 constexpr double kParameterTolerance = 1e-11, kFunctionTolerance = 1e-15,
                  kTrustRegion = 1e12;
-// The minimum under a small weight is near the one under a larger weight. From
-// further away the solver would creep along the curved valley in which
-// equilibrium holds.
+// The minimum under a small weight is near the one under a larger weight, so
+// the weighted form is solved with rising weights. From further away the solver
+// would creep along the curved valley in which equilibrium holds.
 constexpr double kWeights[] = {1e3, 1e4, 1e5, 1e6, kEquilibriumWeight};
 
 }  // namespace
@@ -58,8 +58,8 @@ FrameEvaluation& FrameProblem::Prepare(const Measurements& row, int contacts,
   return frame;
 }
 
-// In the weighted form base loads and tensions begin in equilibrium with the
-// contacts of the start.
+// In the weighted form, base loads and tensions start in equilibrium with the
+// contacts of the start. Returns false if there is no such equilibrium.
 bool FrameProblem::SetUnknowns(const ContactStart& start) {
   unknowns_.clear();
   if (form_ == EquilibriumForm::kWeighted) {
@@ -136,7 +136,8 @@ bool FrameProblem::Solve() {
 
 bool FrameProblem::Read(const ContactStart& start, const FrameEvaluation& frame,
                         ContactSolution* solution) {
-  // The last step that Ceres tried may have been rejected.
+  // The last step that Ceres tried may have been rejected, so the frame is
+  // evaluated at the solution again.
   frames_.PrepareForEvaluation(true, true);
   const int size = frame.frame_size();
   BlockRows rows;
@@ -155,8 +156,9 @@ bool FrameProblem::Read(const ContactStart& start, const FrameEvaluation& frame,
   solution->tip_pose = frame.outputs().segment<3>(frame.tip_row());
   const Eigen::VectorXd& q = frame.state().q;
   solution->rib_tension_N.assign(q.data() + 6, q.data() + 6 + frame.ribs());
-  // R of [base loads and tensions | contacts] = Q R holds at its lower right
-  // the root of the contacts' information with all else eliminated.
+  // Let [base loads and tensions | contacts] = Q R. The lower right block of R
+  // is then a square root of the contacts' information with all other unknowns
+  // eliminated.
   const Eigen::MatrixXd r =
       Eigen::HouseholderQR<Eigen::MatrixXd>(rows.jacobian)
           .matrixQR()
@@ -171,8 +173,9 @@ bool FrameProblem::Read(const ContactStart& start, const FrameEvaluation& frame,
   return true;
 }
 
-// dx/dp = -(E'E)^-1 E'C by unknowns E and parameters C of all blocks, then
-// (dx/dp) C_pp (dx/dp)' as in CalibrationUncertainty.
+// dx/dp = -(E'E)^-1 E'C, with E the derivatives of all blocks by the unknowns
+// and C those by the parameters. Then C_sys = (dx/dp) C_pp (dx/dp)' as in
+// CalibrationUncertainty.
 ContactMatrix FrameProblem::Systematic(const Eigen::MatrixXd& by_unknown,
                                        int contacts) {
   SharedParameters& shared = *parameters_.shared();
@@ -180,7 +183,7 @@ ContactMatrix FrameProblem::Systematic(const Eigen::MatrixXd& by_unknown,
   const auto count = static_cast<Eigen::Index>(parameters.size());
   const auto ribs = static_cast<Eigen::Index>(shared.rib_lengths_mm.size());
   const auto gauges = static_cast<Eigen::Index>(finger_.gauges.size());
-  // Columns: stiffness, rib lengths, gains, offsets.
+  // Columns of C: stiffness, rib lengths, gains, offsets.
   std::unordered_map<const double*, int> column_of = {
       {&shared.ln_front_stiffness, 0}, {&shared.ln_back_stiffness, 1}};
   if (ribs > 0) column_of.emplace(shared.rib_lengths_mm.data(), 2);

@@ -10,16 +10,16 @@
 
 namespace finray {
 
-/// The contacts of one frame by ceres::Solve on the residual blocks that
-/// calibration uses too (residuals/frame_blocks.h), all parameters of the
-/// finger constant: minimises
+/// Solves for the contacts of one frame by ceres::Solve, on the residual blocks
+/// that calibration uses too (residuals/frame_blocks.h). All parameters of the
+/// finger are constant. It minimises
 ///
-///   chi2(x) = sum_k |r_k(x)|^2,   0 <= l_c <= l_0, 0 <= f_c <= its bound,
+///   chi2(x) = sum_k |r_k(x)|^2,   0 <= l_c <= l_0, 0 <= f_c <= its bound.
 ///
-/// over x = (l_c, f_c) of each contact in the reduced form, and over
-/// x = (base loads, rib tensions, l_c, f_c) in the weighted one. This is the
-/// reference that the fast solver (ContactFit) is tested against, and the only
-/// one that takes every kind of measurement.
+/// x is (l_c, f_c) of each contact in the reduced form, and (base loads, rib
+/// tensions, l_c, f_c of each contact) in the weighted one. FrameProblem is the
+/// reference against which the fast solver (ContactFit) is tested. It alone
+/// takes every kind of measurement.
 class FrameProblem {
  public:
   /// Throws InputError as LadderModel does.
@@ -27,19 +27,19 @@ class FrameProblem {
                const Discretization& discretization, EquilibriumForm form,
                double most_force_N);
 
-  /// Solves from a start. Returns false if no equilibrium is near it or Ceres
-  /// does not converge; `solution` is then of no use.
+  /// Solves from a start. Returns false if there is no equilibrium near the
+  /// start or Ceres does not converge; `solution` is then undefined.
   bool Fit(const ContactStart& start, const Measurements& row,
            ContactSolution* solution);
 
-  /// chi2 of the finger without a contact; infinite without an equilibrium.
+  /// chi2 of the finger without a contact; infinite if it has no equilibrium.
   double FreeChi2(const Measurements& row);
 
-  /// Ceres iterations of the last Fit.
+  /// Number of Ceres iterations of the last Fit.
   int iterations() const { return iterations_; }
 
  private:
-  // The frame's evaluation and its blocks at `unknowns_`.
+  // Adds the frame and makes its blocks at `unknowns_`.
   FrameEvaluation& Prepare(const Measurements& row, int contacts,
                            const LadderState& state, double weight);
   bool SetUnknowns(const ContactStart& start);
@@ -56,7 +56,7 @@ class FrameProblem {
   FingerParameters parameters_;
   FrameSet frames_;
   EquilibriumSolver
-      solver_;  // finds the base loads that weighted fits begin at
+      solver_;  // finds the base loads that weighted fits start from
   Eigen::MatrixXd calibration_factor_;  // of the finger's covariance, or empty
   std::vector<double> unknowns_;
   std::vector<FrameBlock> blocks_;

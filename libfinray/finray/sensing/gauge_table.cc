@@ -16,17 +16,18 @@
 namespace finray {
 namespace {
 
-// Forces in units of EI / l_0^2: 0.64 N for the paper's finger, so to 26 N.
+// Forces in units of EI / l_0^2, which is 0.64 N for the paper's finger. The
+// table thus reaches 26 N.
 constexpr double kForces[] = {0.5, 1, 2, 4, 7, 11, 16, 22, 30, 40};
 
-// Gauss-Newton on a cubic, from the nearest point of its chord.
+// Gauss-Newton steps on a cubic, from the nearest point of its chord.
 constexpr int kRefinements = 4;
 
-// Of those that BestStart looks into.
+// Number of valleys that BestStart refines.
 constexpr int kValleys = 3;
 
-// Of the parabola through three equally spaced values with the least in the
-// middle.
+// The minimum of the parabola through three equally spaced values of which the
+// middle one is the least.
 double LeastOfParabola(double left, double middle, double right) {
   const double curvature = left - 2 * middle + right;
   if (!(curvature > 0) || std::isinf(curvature)) return middle;
@@ -42,7 +43,7 @@ Eigen::ArrayXXd Values(const std::vector<GaugeTable::Node>& nodes) {
   return values;
 }
 
-// Of the parabola through a node and its neighbours.
+// Sets each node's slope to that of the parabola through it and its neighbours.
 void SetSlopes(std::vector<GaugeTable::Node>* nodes) {
   const std::size_t count = nodes->size();
   for (std::size_t k = 0; k < count; ++k) {
@@ -61,7 +62,8 @@ void SetSlopes(std::vector<GaugeTable::Node>* nodes) {
   }
 }
 
-// From the state of the free finger, which the solver has.
+// Solves the nodes of one row. The solver must hold the state of the free
+// finger.
 GaugeTable::Row MakeRow(double arc_mm, double friction,
                         const std::optional<double>& circle_radius_mm,
                         EquilibriumSolver* solver) {
@@ -86,13 +88,13 @@ GaugeTable::Row MakeRow(double arc_mm, double friction,
   return row;
 }
 
-// Values between two nodes, whitened residuals against what was measured.
+// The cubic between two nodes, and its misfit to the measured values.
 struct Hermite {
   const GaugeTable::Node &from, &to;
   const Eigen::VectorXd &values, &weights;
 
-  // chi2 at a share of the way, with half its first derivative by the share
-  // and Gauss-Newton's half of the second one.
+  // chi2 at a share of the way, half its first derivative by the share, and
+  // half its second derivative in Gauss-Newton's approximation.
   struct Misfit {
     double chi2 = 0, slope = 0, curvature = 0;
   };
@@ -156,11 +158,11 @@ GaugeTable::GaugeTable(EquilibriumSolver* solver, double friction,
   solver->Reset();
 }
 
-// The nearest point of a row's chords.
+// Finds the point of a row's chords that is nearest to the measured values.
 GaugeTable::OnChord GaugeTable::NearestChord(
     const Row& row, const Eigen::VectorXd& values,
     const Eigen::VectorXd& weights) const {
-  // All chords at once.
+  // The arrays hold all chords of the row.
   using Chords = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor,
                               std::size(kForces), 1>;
   const auto chords = static_cast<Eigen::Index>(row.nodes.size()) - 1;
@@ -188,8 +190,8 @@ GaugeTable::OnChord GaugeTable::NearestChord(
   return nearest;
 }
 
-// The nearest point of the curve of values over force: of the cubic over the
-// nearest chord.
+// Finds the nearest point of the row's curve of values over force, on the cubic
+// above the nearest chord.
 ContactStart GaugeTable::Refined(const Row& row, const OnChord& chord,
                                  const Eigen::VectorXd& values,
                                  const Eigen::VectorXd& weights) const {
@@ -212,7 +214,7 @@ ContactStart GaugeTable::Refined(const Row& row, const OnChord& chord,
   best.contacts[0] = {
       row.arc_mm, from.normal_N + share_of_way * (to.normal_N - from.normal_N),
       friction_};
-  // A state without load says nothing of how it bends here.
+  // The unloaded state does not show how the finger bends under this contact.
   best.state = share_of_way > 0.5 || chord.to == 1 ? &to.state : &from.state;
   return best;
 }
@@ -224,7 +226,8 @@ ContactStart GaugeTable::BestStart(const Eigen::VectorXd& values,
   for (int i = 0; i < rows; ++i) {
     chords[i] = NearestChord(rows_[i], values, weights);
   }
-  // Valleys of the misfit, of which chords hide no deep one.
+  // Valleys of the misfit to the chords. Chords show every deep valley of the
+  // cubics.
   std::array<int, kMostRows> valleys;
   int count = 0;
   for (int i = 0; i < rows; ++i) {

@@ -11,64 +11,65 @@
 
 namespace finray {
 
-/// What would be measured, over a coarse grid of one contact's l_c and f_c,
-/// with the equilibria: a frame's estimate is started from it without a guess.
-/// Built once for a finger.
+/// A coarse grid over l_c and f_c of one contact, with the values that would be
+/// measured and the equilibrium at each node. A frame's estimate starts from
+/// this table without a guess. It is built once for a finger.
 ///
-/// Between forces the values are cubics (Hermite's), so that a start's chi2 is
-/// that of its row to a small part of a usual std; a chord would leave 10 std.
+/// Between forces the table interpolates values by cubic Hermite polynomials. A
+/// start's chi2 then deviates from that of its row by a small part of a typical
+/// std; a linear interpolation would deviate by 10 std.
 ///
-/// Measured values are the gauges' angles in rad and, if the object is a
-/// measured circle, its centre (x, y) in mm behind them (circle_centre.h).
+/// The values are the gauges' angles in rad. If the object is a measured
+/// circle, its centre (x, y) in mm follows them (circle_centre.h).
 class GaugeTable {
  public:
   static constexpr int kMostRows = 56;
-  /// Equilibria are as exact as the solver's tolerance, contacts `rows` places
-  /// from base to tip, at most kMostRows. Built by so many threads, whose
-  /// number does not change it.
+  /// Builds the table with contacts at `rows` places from base to tip, at most
+  /// kMostRows, on `threads` threads. The equilibria are as exact as the
+  /// solver's tolerance. The result does not depend on `threads`.
   GaugeTable(EquilibriumSolver* solver, double friction,
              std::optional<double> circle_radius_mm, int threads = 1,
              int rows = kMostRows);
 
-  /// The local minima over l_c of the misfit to `values`, whitened by `weights`
-  /// (0: not measured), best first; f_c is interpolated.
+  /// Finds the local minima over l_c of the misfit to `values`, best first.
+  /// `weights` whiten the misfit (0: not measured). f_c is interpolated.
   void FindStarts(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
                   std::vector<ContactStart>* starts) const;
 
-  /// The best of them, to a row's spacing, in less time; `state` is null if
-  /// there is none.
+  /// The best start to within a row's spacing, in less time than FindStarts.
+  /// Its `state` is null if there is no start.
   ContactStart BestStart(const Eigen::VectorXd& values,
                          const Eigen::VectorXd& weights) const;
 
-  /// An equilibrium of the grid near that under one contact.
+  /// The equilibrium of the grid node near that contact.
   const LadderState& StateNear(double arc_mm, double normal_N) const;
 
-  /// The heaviest force of the grid, 40 EI / l_0^2.
+  /// The largest force of the grid, 40 EI / l_0^2.
   double heaviest_N() const { return heaviest_N_; }
 
   struct Node {
     double normal_N;
     Eigen::VectorXd values;
-    Eigen::VectorXd by_force;  ///< Slope of the values, per N, from neighbours.
+    Eigen::VectorXd by_force;  ///< Slope of the values per N, from neighbours.
     LadderState state;
   };
   struct Row {
     double arc_mm;
-    std::vector<Node> nodes;  ///< Rising force, the first one without load.
-    Eigen::ArrayXXd values;   ///< The nodes' again, nodes x values.
+    std::vector<Node> nodes;  ///< By rising force; the first has no load.
+    Eigen::ArrayXXd values;   ///< The nodes' values as nodes x values.
   };
-  /// Base to tip.
+  /// Rows from base to tip.
   const std::vector<Row>& rows() const { return rows_; }
   double row_spacing_mm() const { return row_spacing_mm_; }
 
-  /// Angles of the finger under no load.
+  /// Gauge angles of the unloaded finger.
   const Eigen::VectorXd& free_angles() const { return free_angles_; }
 
  private:
   struct OnChord {
     double chi2 = std::numeric_limits<double>::infinity();
-    std::size_t to = 0;  // the node at its end; 0: none
-    double share = 0;    // of the way there
+    std::size_t to = 0;  // index of the node at its end; 0: none
+    double share = 0;    // of the way to that node
   };
   OnChord NearestChord(const Row& row, const Eigen::VectorXd& values,
                        const Eigen::VectorXd& weights) const;

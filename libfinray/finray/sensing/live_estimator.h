@@ -5,20 +5,20 @@
 
 namespace finray {
 
-/// Frames as they come, each estimated before the next one is there. For
-/// control loops and displays (docs/guides/sense_live.md); one thread at
-/// a time.
+/// Estimates frames as they arrive, each before the next one, for control loops
+/// and displays (docs/guides/sense_live.md). Use it from one thread at a time.
 class LiveEstimator {
  public:
-  /// Throws what FrameEstimator throws. Takes some milliseconds.
+  /// Throws the errors of FrameEstimator. Takes some milliseconds.
   LiveEstimator(const Finger& finger, const Scene& scene,
                 const Discretization& discretization = {},
                 FrameMethod method = FrameMethod::kFast);
 
-  /// The contact of these readings; it lives until the next call.
+  /// Estimates the contact from these readings. The result is valid until the
+  /// next call.
   const FrameEstimate& Next(const Measurements& readings);
 
-  /// The next frame is the first one of another log.
+  /// The next frame starts another log.
   void Restart() { estimator_.StopFollowing(); }
 
  private:

@@ -10,22 +10,23 @@
 
 namespace finray {
 
-/// A row as tables and the fast solver take it: angles of the gauges in rad
-/// and, if the scene measures it, the circle's centre in mm behind them, with
-/// weights 1 / std, 0 where there is no reading or a saturated one.
+/// A row in the form that the tables and the fast solver take: the gauges'
+/// angles in rad and, if the scene measures it, the circle's centre in mm
+/// behind them. Weights are 1 / std, or 0 for missing and saturated readings.
 struct PackedReadings {
   Eigen::VectorXd values, weights;
-  int gauges = 0;  ///< Gauges with a reading.
-  int camera = 0;  ///< Coordinates of pins and of the tip.
-  int all = 0;     ///< Both, and the coordinates of the circle's centre.
+  int gauges = 0;  ///< Number of gauges with a reading.
+  int camera = 0;  ///< Number of coordinates of pins and tip.
+  int all = 0;     ///< Both, plus the coordinates of the circle's centre.
 };
 
-/// Fills `packed`, whose memory is used again. Throws
-/// std::invalid_argument unless there is a reading (or NaN) for every gauge.
+/// Fills `packed`, whose memory is reused. Throws std::invalid_argument unless
+/// the row has a reading (or NaN) for every gauge.
 void Pack(const Finger& finger, const Scene& scene, const Measurements& row,
           PackedReadings* packed);
 
-/// The radius of the circle whose centre the scene measures, if it does.
+/// The radius of the circle whose centre the scene measures; empty if there is
+/// none.
 std::optional<double> MeasuredRadius(const Scene& scene);
 
 }  // namespace finray

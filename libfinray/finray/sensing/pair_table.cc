@@ -10,10 +10,10 @@ namespace finray {
 namespace {
 
 constexpr int kPlaces = 12;
-// In units of EI / l_0^2: 1 to 16 N for the paper's finger.
+// Forces in units of EI / l_0^2; for the paper's finger 1 to 16 N.
 constexpr double kPairForces[] = {1.5, 5, 12, 25};
-constexpr double kForceStep = 0.6;  // of the force
-constexpr double kFarthest = 3;     // steps
+constexpr double kForceStep = 0.6;  // spacing over force
+constexpr double kFarthest = 3;     // from a node, in spacings
 
 }  // namespace
 

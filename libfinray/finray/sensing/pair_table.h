@@ -10,20 +10,20 @@
 namespace finray {
 
 /// Gauge angles, their slopes and equilibria over a coarse grid of two
-/// contacts, from which a frame with two contacts is started without a guess.
-/// Built once for a finger, where a scene allows two contacts.
+/// contacts. A frame with two contacts starts from this table without a guess.
+/// It is built once for a finger whose scene allows two contacts.
 ///
-/// How well a node explains a frame is judged by the least of
+/// A node's rating for a frame is the minimum over x of
 ///
-///   chi2(x) + |(x - node) / spacing|^2,
+///   chi2(x) + |(x - node) / spacing|^2
 ///
-/// the slopes being taken as constant: nodes that would have to be left far
-/// behind are no start.
+/// with constant slopes. The second term rejects nodes that a fit would have to
+/// leave far behind.
 class PairTable {
  public:
   PairTable(EquilibriumSolver* solver, double friction);
 
-  /// The best `most` starts of different pairs of places, best first.
+  /// Finds the best `most` starts at different pairs of places, best first.
   void FindStarts(const Eigen::VectorXd& angles_rad,
                   const Eigen::VectorXd& weight_per_rad, std::size_t most,
                   std::vector<ContactStart>* starts) const;
@@ -32,7 +32,7 @@ class PairTable {
   static constexpr int kUnknowns = 2 * kFittedContacts;
   struct Node {
     std::array<double, kUnknowns> at;       // l_1, f_1, l_2, f_2
-    std::array<double, kUnknowns> spacing;  // their size of a step
+    std::array<double, kUnknowns> spacing;  // step of each
     Eigen::VectorXd angles_rad;
     Eigen::Matrix<double, Eigen::Dynamic, kUnknowns> slopes;  // per spacing
     LadderState state;
@@ -42,7 +42,7 @@ class PairTable {
 
   double friction_;
   double length_mm_;
-  std::vector<std::vector<Node>> pairs_;  // by place
+  std::vector<std::vector<Node>> pairs_;  // by pair of places
 };
 
 }  // namespace finray

@@ -12,16 +12,18 @@ namespace {
 constexpr int kStencil = 6;  // nodes of a polynomial
 using StencilVector = Eigen::Matrix<double, kStencil, 1>;
 constexpr double kSpacing = 0.025;  // of l_0, at most
-// Forces in units of EI / l_0^2, to where GaugeTable ends.
+// Forces in units of EI / l_0^2, up to the end of GaugeTable.
 constexpr double kGridForces[] = {0, 0.5, 1,  2,  3.5, 5,  7,
                                   9, 12,  16, 20, 25,  32, 40};
-// Nodes of a segment lie so much closer at its ends, where a polynomial of one
-// side only has to do: 0 is evenly, 1 as the extrema of Chebyshev's.
+// Crowds the nodes of a segment towards its ends, where a polynomial has nodes
+// on one side only. 0 spaces them evenly, 1 as the extrema of a Chebyshev
+// polynomial.
 constexpr double kCrowding = 0.7;
 // Nodes at the end of a segment belong to it, not to the next one.
 constexpr double kInside = 1e-9;  // of l_0
 
-// Where derivatives of the gauges by l_c have kinks, and both ends.
+// Returns both ends of the front beam and the places where derivatives of the
+// gauges by l_c have kinks.
 std::vector<double> Lines(const Finger& finger) {
   std::vector<double> lines = {0, finger.front_length_mm};
   for (const Rib& rib : finger.ribs) lines.push_back(rib.front_mm);
@@ -42,14 +44,15 @@ std::vector<double> Lines(const Finger& finger) {
   return lines;
 }
 
-// Where the k-th of `steps` + 1 nodes lies between the ends, 0 and 1.
+// Place of the k-th of `steps` + 1 nodes between the ends, 0 and 1.
 double Crowded(int k, int steps) {
   const double even = static_cast<double>(k) / steps;
   return even + kCrowding * ((1 - std::cos(M_PI * even)) / 2 - even);
 }
 
-// The weights at `x` of kStencil neighbouring nodes of `count` rising ones, of
-// which the i-th is node(i); returns the first of them.
+// Finds kStencil neighbouring nodes around `x` and their weights in the
+// interpolating polynomial. node(i) is the i-th of `count` rising nodes.
+// Returns the index of the first one used.
 template <class Node>
 int StencilWeights(double x, int count, const Node& node,
                    StencilVector* weights) {

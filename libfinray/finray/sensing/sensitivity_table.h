@@ -9,33 +9,35 @@
 
 namespace finray {
 
-/// Derivatives of what is measured in a frame, gauge angles and, with
+/// Reads the derivatives of a frame's measured values after the solver's
+/// SolveWithSensitivities(contacts). The rows are the gauge angles and, with
 /// `circle_radius_mm`, the centre of a circle at the one contact
-/// (circle_centre.h), after a solver's SolveWithSensitivities(contacts).
-/// Columns
+/// (circle_centre.h). The columns are
 ///
-///   l_c, ln f_c of each contact, EI front, EI back, rib lengths;
+///   l_c, ln f_c of each contact, EI front, EI back, rib lengths.
 ///
-/// by ln f_c, as then all of gauges is in proportion to f_c near 0.
+/// Derivatives are by ln f_c because all gauge rows are then proportional to
+/// f_c near 0.
 void ReadSensitivities(const EquilibriumSolver& solver,
                        const std::vector<PointContact>& contacts,
                        std::optional<double> circle_radius_mm,
                        Eigen::MatrixXd* derivatives);
 
-/// The same for one contact, from a grid of l_c and f_c with polynomials of
-/// fifth degree between its nodes. Derivatives are smooth in l_c but for ribs,
-/// ends of gauges and of stiffness pieces on the front beam, so there the grid
-/// has lines, and no polynomial reaches across. Linear relations that hold at
-/// the nodes, as that all stiffnesses and the force scale together, hold
-/// between them.
+/// The same derivatives for one contact, from a grid over l_c and f_c with
+/// polynomials of degree five between its nodes. The derivatives are smooth in
+/// l_c except at ribs, gauge ends and ends of stiffness pieces on the front
+/// beam. The grid has lines at these places, and no polynomial crosses them. A
+/// linear relation that holds at the nodes also holds between them, for example
+/// that all stiffnesses and the force scale together.
 class SensitivityTable {
  public:
-  /// With `friction` at the contact. The solver is left as after Reset().
+  /// Builds the table for contacts with `friction`. `solver` is then as after
+  /// Reset().
   SensitivityTable(double friction, std::optional<double> circle_radius_mm,
                    EquilibriumSolver* solver);
 
-  /// Fills `derivatives`, rows() x columns(). False off the grid: beyond
-  /// 40 EI / l_0^2, or where the finger folds over before.
+  /// Fills `derivatives`, rows() x columns(). Returns false outside the grid:
+  /// beyond 40 EI / l_0^2, or where the finger folds over before.
   bool Interpolate(double arc_mm, double normal_N,
                    Eigen::MatrixXd* derivatives) const;
 
@@ -43,7 +45,8 @@ class SensitivityTable {
   int columns() const { return static_cast<int>(node_.cols()); }
 
  private:
-  // Nodes of one l_c by rising force, columns of values_ from `first` on.
+  // Nodes of one l_c by rising force. They are columns of values_ from `first`
+  // on.
   struct Row {
     double arc_mm;
     int first, count;
