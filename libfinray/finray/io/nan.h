@@ -5,7 +5,7 @@
 
 namespace finray {
 
-/// Stands for a value that nobody measured or that cannot be told.
+/// A value that was not measured or is unknown.
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace finray
