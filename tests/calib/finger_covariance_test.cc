@@ -15,8 +15,8 @@ namespace finray {
 namespace {
 
 // What a calibration makes of `start`, its covariance included.
-Finger Calibrated(const Finger& start, const Plan& plan, const std::string& log,
-                  double* chi2_per_dof = nullptr) {
+Finger CalibrateOn(const Finger& start, const Plan& plan,
+                   const std::string& log, double* chi2_per_dof = nullptr) {
   CalibrationProblem problem(start, plan,
                              ReadCalibrationLogs({log}, start, plan), {}, 2);
   EXPECT_TRUE(problem.Solve().converged);
@@ -70,12 +70,12 @@ TEST(FingerCovarianceTest, BlockSaysWhatCalibrationYamlSays) {
 TEST(FingerCovarianceTest, ALaterCalibrationReplacesIt) {
   const TempFolder folder;
   const std::string log = StandardLog(folder, HiddenFinger(), 12);
-  const Finger first = Calibrated(Nominal(), StandardPlan(), log);
+  const Finger first = CalibrateOn(Nominal(), StandardPlan(), log);
   ASSERT_EQ(first.calibration->parameters.size(), 15u);
   Plan offsets;
   offsets.scene = StandardPlan().scene;
   offsets.families[static_cast<int>(ParameterFamily::kGaugeOffset)].free = true;
-  const Finger second = Calibrated(first, offsets, log);
+  const Finger second = CalibrateOn(first, offsets, log);
   ASSERT_EQ(second.calibration->parameters.size(), 4u);
   EXPECT_EQ(ParameterName(second.calibration->parameters[3]),
             "gauge_4_offset_V");
@@ -85,7 +85,7 @@ TEST(FingerCovarianceTest, ALaterCalibrationReplacesIt) {
   Plan origin;
   origin.scene = StandardPlan().scene;
   origin.families[static_cast<int>(ParameterFamily::kObjectOrigin)].free = true;
-  EXPECT_EQ(Calibrated(first, origin, log).calibration->std,
+  EXPECT_EQ(CalibrateOn(first, origin, log).calibration->std,
             first.calibration->std);
 }
 
@@ -98,7 +98,7 @@ TEST(FingerCovarianceTest, WithoutAForceSensorForcesAreUnknownPlacesAreNot) {
   for (FamilyPlan& family : plan.families) family.prior_std.reset();
   const Finger finger = ReadFinger(folder.Write(
       "finger.yaml",
-      FingerToYaml(Calibrated(Nominal(), plan, folder.Path("blind.csv")))));
+      FingerToYaml(CalibrateOn(Nominal(), plan, folder.Path("blind.csv")))));
   EquilibriumSolver solver(finger, {});
   CalibrationUncertainty uncertainty(finger, 0, &solver);
   ASSERT_TRUE(solver.Solve({{71, 3, 0}}));
@@ -128,8 +128,8 @@ void CheckMeans(unsigned calibrations, double tolerance) {
     const TempFolder folder;
     double chi2_per_dof = 0;
     const Finger finger =
-        Calibrated(Nominal(), StandardPlan(),
-                   StandardLog(folder, HiddenFinger(), seed), &chi2_per_dof);
+        CalibrateOn(Nominal(), StandardPlan(),
+                    StandardLog(folder, HiddenFinger(), seed), &chi2_per_dof);
     // A wrong minimum, which calibration.yaml warns of.
     if (chi2_per_dof > 2) {
       ++wrong;
