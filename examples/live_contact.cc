@@ -1,4 +1,4 @@
-// Contact from the gauges of a finger, frame by frame.
+// Prints the contact that a finger's gauges sense, frame by frame.
 
 #include <cstdio>
 
@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   finray::Measurements readings;
   readings.gauges_V.resize(finger.gauges.size());
   while (true) {
-    // Instead of your sensor: a line of volts, one for each gauge.
+    // Replace this by your sensor. It reads the volts of all gauges.
     for (double& volts : readings.gauges_V) {
       if (std::scanf("%lf", &volts) != 1) return 0;
     }

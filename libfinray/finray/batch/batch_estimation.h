@@ -10,8 +10,8 @@
 
 namespace finray {
 
-/// Estimates all frames, in blocks at fixed places
-/// (FrameSolverPool), so that the results do not depend on `threads`.
+/// Estimates all frames. Blocks lie at fixed places (FrameSolverPool), so the
+/// results do not depend on `threads`.
 std::vector<FrameEstimate> EstimateFrames(
     const Finger& finger, const Scene& scene,
     const Discretization& discretization,

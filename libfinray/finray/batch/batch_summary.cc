@@ -50,7 +50,7 @@ std::string BatchYaml(const BatchSettings& settings,
 
 FrameTable BatchTable(const std::vector<LogJob>& jobs) {
   FrameTable table(jobs.size());
-  // Of no log at all too.
+  // The table has its columns even without any log.
   for (const char* name : {"log", "result", "frames"}) table.MutableText(name);
   for (const FrameStatus status : EstimationSummary::kStatuses) {
     table.MutableText(StatusName(status));

@@ -9,20 +9,21 @@
 
 namespace finray {
 
-/// A log that is left out, as it is bad input.
+/// A log that is left out because it is bad input.
 struct BadLog {
   std::string log, reason;
 };
 
-/// Of all frames of all logs.
+/// The summary of all frames of all logs.
 EstimationSummary Total(const std::vector<LogJob>& jobs);
 
-/// summary.yaml: what was in force, each log, all of them and bad ones, if any.
+/// The text of summary.yaml: the settings, each log, the total, and bad logs if
+/// there are any.
 std::string BatchYaml(const BatchSettings& settings,
                       const std::vector<LogJob>& jobs,
                       const std::vector<BadLog>& bad_logs);
 
-/// summary.csv: a row for each log.
+/// The table of summary.csv, with a row for each log.
 FrameTable BatchTable(const std::vector<LogJob>& jobs);
 
 }  // namespace finray

@@ -11,8 +11,8 @@
 
 namespace finray {
 
-/// How a log, or several, came out. Sums are kept as they are added up, so that
-/// a summary that was written and read back goes on to the same result.
+/// Counts and force errors of one or more logs. It holds plain sums, so that a
+/// summary that was written and read back continues to the same result.
 struct EstimationSummary {
   static constexpr FrameStatus kStatuses[] = {
       FrameStatus::kOk, FrameStatus::kNoContact, FrameStatus::kUnobservable,
@@ -20,11 +20,11 @@ struct EstimationSummary {
 
   std::size_t frames = 0;
   std::array<std::size_t, 5> by_status{};  ///< indexed by FrameStatus
-  /// Solved, but neither the finger as described nor its noise makes such
-  /// readings: p-value of chi2 below FrameEstimate::kUnexplained.
+  /// Solved frames that neither the described finger nor its noise explains:
+  /// the p-value of chi2 is below FrameEstimate::kUnexplained.
   std::size_t unexplained = 0;
-  /// Against the log's own force_N, where it has one and the frame is ok or
-  /// no_contact.
+  /// Comparison with the log's own force_N, over the frames that have it and
+  /// are ok or no_contact.
   std::size_t force_compared = 0;
   double force_squares_N2 = 0;
   double force_max_N = 0;
@@ -32,23 +32,25 @@ struct EstimationSummary {
   std::size_t count(FrameStatus status) const {
     return by_status[static_cast<std::size_t>(status)];
   }
-  /// Frames that are not_converged or bad_input.
+  /// Number of frames that are not_converged or bad_input.
   std::size_t unsolved() const;
-  /// 0 if no force was compared.
+  /// Rms of the force error; 0 if no force was compared.
   double force_rms_N() const;
 
-  /// Counts one frame; `force_N` is the reference, NaN if there is none.
+  /// Counts one frame. `force_N` is the reference force, NaN if there is none;
   /// `friction` is the scene's mu.
   void Add(const FrameEstimate& estimate, double friction, double force_N);
-  /// Adds the frames of another one.
+  /// Adds the frames of another summary.
   void Add(const EstimationSummary& other);
 };
 
-/// On one line, and back; nothing if it is none.
+/// Writes a summary as one line of text, and reads it back. Reading returns
+/// nothing if the text is not a summary.
 std::string SummaryToText(const EstimationSummary& summary);
 std::optional<EstimationSummary> SummaryFromText(const std::string& text);
 
-/// The keys of a summary.yaml, into a mapping that has been begun.
+/// Writes the summary's keys of a summary.yaml into the mapping that `yaml` is
+/// in.
 void EmitSummary(const EstimationSummary& summary, YamlEmitter* yaml);
 
 }  // namespace finray

@@ -10,38 +10,38 @@
 
 namespace finray {
 
-/// What the batch code knows of an estimator: readings in, estimates out.
+/// The interface through which the batch code uses an estimator.
 class FrameSolver {
  public:
   virtual ~FrameSolver() = default;
 
-  /// Estimates `count` frames that follow each other. The result depends on
-  /// these readings and on nothing else.
+  /// Estimates `count` consecutive frames. The result depends only on these
+  /// readings.
   virtual void SolveBlock(const Measurements* readings, std::size_t count,
                           FrameEstimate* estimates) = 0;
 };
 
 using FrameSolverFactory = std::function<std::unique_ptr<FrameSolver>()>;
 
-/// Makes solvers by FrameEstimator, whose errors they throw.
+/// Returns a factory of solvers that use FrameEstimator and throw its errors.
 FrameSolverFactory FrameSolvers(const Finger& finger, const Scene& scene,
                                 const Discretization& discretization,
                                 FrameMethod method = FrameMethod::kFast);
 
-/// Frames that are solved together, the first of them from a cold start. Blocks
-/// lie at fixed places of a log: frame i is in block i / kBlockFrames. So the
-/// results depend neither on threads nor on how a log is read.
+/// Number of frames that are solved together. The first of them starts cold.
+/// Blocks lie at fixed places of a log: frame i is in block i / kBlockFrames.
+/// The results therefore depend neither on threads nor on how a log is read.
 constexpr std::size_t kBlockFrames = 64;
 
-/// A solver for each thread, made when the thread first needs it.
+/// One solver per thread, made when the thread first needs it.
 class FrameSolverPool {
  public:
-  /// Makes one solver, so that a bad finger or scene is reported here.
+  /// Makes one solver at once, so that a bad finger or scene is reported here.
   explicit FrameSolverPool(FrameSolverFactory make);
   ~FrameSolverPool();
 
-  /// Estimates a block (of `count` frames, fewer at the end of a log), from any
-  /// thread.
+  /// Estimates a block from any thread. `count` is kBlockFrames, or less at the
+  /// end of a log.
   void SolveBlock(const Measurements* readings, std::size_t count,
                   FrameEstimate* estimates);
 

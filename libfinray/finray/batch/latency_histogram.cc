@@ -8,8 +8,9 @@ namespace finray {
 void LatencyHistogram::Add(std::uint64_t nanoseconds) {
   ++count_;
   max_ = std::max(max_, nanoseconds);
-  // The leading bit and the kBits behind it: value >> shift, in [2^kBits,
-  // 2^(kBits + 1)) for shift > 0. Smaller values have a bucket each.
+  // A bucket is the leading bit and the kBits bits behind it: value >> shift,
+  // in [2^kBits, 2^(kBits + 1)) for shift > 0. Smaller values have a bucket
+  // each.
   std::uint64_t value = nanoseconds;
   std::size_t shift = 0;
   while (value >= std::uint64_t{2} << kBits) {

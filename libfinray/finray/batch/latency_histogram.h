@@ -7,21 +7,21 @@
 
 namespace finray {
 
-/// Quantiles of any number of times in fixed memory: each power of two of
-/// nanoseconds has 64 buckets, so that a quantile is off by 0.8 % at most.
+/// Quantiles of any number of times in fixed memory. Each power of two of
+/// nanoseconds has 64 buckets, so a quantile is off by at most 0.8 %.
 class LatencyHistogram {
  public:
   void Add(std::uint64_t nanoseconds);
 
   std::uint64_t count() const { return count_; }
-  /// The time that a share of all, between 0 and 1, does not exceed: the
-  /// middle of its bucket; 0 if there is none.
+  /// The time in ns that a share (0 to 1) of all times does not exceed, as the
+  /// middle of its bucket; 0 if there are none.
   double Quantile(double share) const;
-  /// Exact.
+  /// The largest time in ns; exact.
   std::uint64_t max() const { return max_; }
 
  private:
-  static constexpr int kBits = 6;  // of buckets in a power of two
+  static constexpr int kBits = 6;  // 2^kBits buckets in a power of two
   static constexpr std::size_t kBuckets = (64 - kBits + 1) << kBits;
 
   std::array<std::uint64_t, kBuckets> buckets_{};

@@ -9,23 +9,24 @@
 
 namespace finray {
 
-/// Lines of a log as they come, each turned into its row of the result before
-/// the next one is there. Columns are those of a batch.
+/// Turns each line of a log into its row of the result before the next line
+/// arrives. The columns are those of a batch.
 class LiveRows {
  public:
-  /// `header` is the line of a log from `source`, which messages name. Throws
-  /// InputError for a bad one. The estimator, of this finger and scene, must
-  /// stay in place; it is restarted, and serves one log at a time.
+  /// `header` is the header line of a log from `source`, the name that messages
+  /// show. Throws InputError for a bad header. The estimator must be made for
+  /// this finger and scene and stay in place. It is restarted, and serves one
+  /// log at a time.
   LiveRows(const Finger& finger, const Scene& scene, const std::string& source,
            const CsvLine& header, LiveEstimator* estimator);
 
   std::string HeaderCsv() const { return layout_.HeaderCsv(); }
 
-  /// The row of a line, with its line end; it lives until the next call. A line
-  /// that cannot be read has the status bad_input and keeps the cells before
-  /// its fault.
+  /// Returns the row of a line with its line end; the result is valid until the
+  /// next call. A line that cannot be read has the status bad_input and keeps
+  /// the cells before its fault.
   const std::string& Next(const CsvLine& line);
-  /// What was wrong with it (source:line:column), or "".
+  /// What was wrong with the last line (source:line:column), or "".
   const std::string& error() const { return error_; }
   FrameStatus status() const { return status_; }
 

@@ -78,7 +78,7 @@ bool LogJob::Check() {
   }
   bytes_ = fs::file_size(log_, unknown);
   written_ = fs::last_write_time(log_, unknown);
-  // Beside the check where there is a thread for it.
+  // Hashes the log in parallel to the check if there is a thread for it.
   auto hash = std::async(
       settings_->threads > 1 ? std::launch::async : std::launch::deferred,
       Sha256OfFile, log_);
@@ -116,7 +116,7 @@ bool LogJob::ReadFinished() {
     }
     summary_ = SummaryFromYaml(yaml);
   } catch (const InputError&) {
-    return false;  // not ours, or changed by hand: the log is done again
+    return false;  // not ours, or edited by hand: the log is estimated again
   }
   frames_ = summary_.frames;
   return true;
@@ -134,7 +134,8 @@ void LogJob::ReportProgress(std::size_t frames, bool kept) const {
 
 bool LogJob::Run(FrameSolverPool* pool) {
   if (finished_before_) {
-    // Of a run that set out to do it again.
+    // A later run may have begun to estimate the log again; its partial file is
+    // of no use.
     if (ResumableFile::IsUnderWay(result_)) {
       ResumableFile(result_, key_, true).Discard();
     }
@@ -177,7 +178,8 @@ bool LogJob::Estimate(FrameSolverPool* pool, ResumableFile* out) {
     out->Checkpoint(SummaryToText(summary_));
     return false;
   }
-  // The summary of an older result must not stand beside the new one.
+  // Removes the summary of an older result, which must not stand beside the new
+  // one.
   std::error_code missing;
   fs::remove(summary_path_, missing);
   out->Finish(SummaryToText(summary_));

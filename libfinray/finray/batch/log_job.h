@@ -12,7 +12,7 @@
 
 namespace finray {
 
-/// What the logs of a batch have in common.
+/// The settings that all logs of a batch share.
 struct BatchSettings {
   BatchSettings(const std::string& finger_path, const std::string& scene_path,
                 const Discretization& discretization);
@@ -23,54 +23,56 @@ struct BatchSettings {
   FrameMethod method = FrameMethod::kFast;
   std::string finger_sha256, scene_sha256;  ///< "" without a scene file.
   int threads = 1;
-  /// Go on with what an earlier run has left, and keep what it has finished.
+  /// Continue what an earlier run has left unfinished, and keep what it has
+  /// finished.
   bool resume = false;
-  /// Blocks of kBlockFrames from one checkpoint to the next: what a crash can
-  /// lose at most.
+  /// Number of blocks of kBlockFrames between two checkpoints. A crash loses at
+  /// most this many.
   std::size_t chunk_blocks = 64;
-  /// Asked now and then; true makes an end with everything saved. May be empty.
+  /// Polled now and then. If it returns true, the job saves everything and
+  /// ends. May be empty.
   std::function<bool()> stop;
-  /// Told the number of frames that have been written since it was told last,
-  /// and whether they are kept from an earlier run. May be empty.
+  /// Called with the number of frames written since the last call, and whether
+  /// they are kept from an earlier run. May be empty.
   std::function<void(std::size_t frames, bool kept)> progress;
 };
 
-/// Estimates one log into its result, D/<log>.frames.csv, with its own summary
-/// beside it, D/<log>.summary.yaml. Results carry a key there: a SHA-256 over
-/// the contents of the log, the finger and the scene file, over scheme,
-/// resolution, version, kBlockFrames and the number of the results' format.
-/// Whatever has the same key has the same bytes.
+/// Estimates one log into its result, D/<log>.frames.csv, with a summary beside
+/// it, D/<log>.summary.yaml. The summary holds a key: a SHA-256 over the
+/// contents of the log, the finger and the scene file, and over scheme,
+/// resolution, solver, version, kBlockFrames and the number of the results'
+/// format. Results with the same key have the same bytes.
 ///
-/// All functions throw InputError, for a bad log or a result that cannot be
+/// All functions throw InputError for a bad log or a result that cannot be
 /// written.
 class LogJob {
  public:
   LogJob(const BatchSettings* settings, std::string log, std::string result);
 
-  /// Finds the key and whether an earlier run has finished this log; if not,
-  /// reads it to its end, so that a bad cell is found before any work is done.
-  /// Returns false if it was told to stop.
+  /// Finds the key, and whether an earlier run has finished this log. If not,
+  /// reads the log to its end, so that a bad cell is found before any work is
+  /// done. Returns false if told to stop.
   bool Check();
   /// Estimates what is left to do, and writes result and summary. The folder
-  /// must be there. Returns false if it was told to stop, all being ready to be
-  /// resumed.
+  /// must exist. Returns false if told to stop; the job can then be resumed.
   bool Run(FrameSolverPool* pool);
 
   const std::string& log() const { return log_; }
   const std::string& result() const { return result_; }
   const std::string& key() const { return key_; }
-  /// Frames of the log, as soon as it has been checked.
+  /// Number of frames of the log, known after Check().
   std::size_t frames() const { return frames_; }
-  /// Of all frames written so far, by this run or an earlier one.
+  /// Summary of all frames written so far, by this run or an earlier one.
   const EstimationSummary& summary() const { return summary_; }
 
  private:
   bool ReadFinished();
-  // Fills the result and gives it its name; false if told to stop.
+  // Fills the result file and gives it its final name. Returns false if told to
+  // stop.
   bool Estimate(FrameSolverPool* pool, ResumableFile* out);
   void ReportProgress(std::size_t frames, bool kept) const;
   void WriteSummary(std::uint64_t bytes) const;
-  // Whether the log is no longer the one that was checked.
+  // Says whether the log has changed since it was checked.
   bool Changed() const;
 
   const BatchSettings* settings_;

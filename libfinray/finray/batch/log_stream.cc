@@ -12,13 +12,13 @@
 namespace finray {
 namespace {
 
-// Blocks under way for each thread: enough to keep all busy while one of them
-// writes to the disk.
+// Blocks in progress for each thread: enough to keep all threads busy while one
+// of them writes to the disk.
 constexpr int kBlocksPerThread = 8;
-// Rows of a block that is only checked.
+// Number of rows in a block that is only checked.
 constexpr std::size_t kCheckedRows = 512;
 
-// What a block goes through, in memory that later ones use again.
+// The data of a block at all stages. Later blocks reuse its memory.
 struct Block {
   LineBlock lines;
   FrameRows rows;
@@ -29,8 +29,8 @@ struct Block {
   StreamedBlock result;
 };
 
-// Parses the lines. What is wrong with one of them comes before what is wrong
-// behind them.
+// Parses the lines up to the first bad one. An error in an earlier line
+// replaces the reader's error, which lies behind these lines.
 void Parse(const FrameParser& parser, Block* block) {
   block->rows.Clear();
   try {
@@ -64,14 +64,16 @@ void Estimate(const ResultLayout& layout, double friction,
   }
 }
 
-// `work` is done on blocks of `rows` lines on all threads, `finish` on one by
-// one in their order; the first that is bad makes an end.
+// Runs `work` on blocks of `rows` lines in parallel, and `finish` on one block
+// at a time in order. Throws InputError at the first bad block. Returns false
+// if told to stop.
 bool ForEachBlock(int threads, std::size_t rows,
                   const std::function<bool()>& stop, FrameReader* reader,
                   const std::function<void(Block*)>& work,
                   const std::function<void(const Block&)>& finish) {
   threads = std::max(1, threads);
-  // A block comes to its end before the one that far behind it is read.
+  // The pipeline holds at most ring.size() blocks, so a block is finished
+  // before its place in the ring is used again.
   std::vector<Block> ring(static_cast<std::size_t>(threads * kBlocksPerThread));
   std::size_t next = 0;
   bool stopped = false;
@@ -92,7 +94,7 @@ bool ForEachBlock(int threads, std::size_t rows,
     finish(*block);
   };
   using tbb::filter_mode;
-  // As many as asked for, also if the machine has fewer.
+  // Uses as many threads as asked for, even if the machine has fewer cores.
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   tbb::task_arena(threads).execute([&] {

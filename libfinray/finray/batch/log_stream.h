@@ -11,26 +11,26 @@
 
 namespace finray {
 
-/// What a block of kBlockFrames frames came to.
+/// The result of a block of kBlockFrames frames.
 struct StreamedBlock {
-  std::string csv;  ///< Its rows; the header is before those of the first.
+  std::string csv;  ///< Its rows; the first block begins with the header.
   EstimationSummary summary;
 };
 
-// Both functions go through a log from where the reader is (the begin of a
-// block) to its end. Few blocks are under way at a time, so that memory does
-// not grow with the log; lines are read one after the other, all else is done
-// on `threads` threads. `stop` (may be empty) is asked before each block is
-// read; false is returned if it made an end.
+// Both functions process a log from the reader's position (the start of a
+// block) to its end. Lines are read one after the other; everything else is
+// done on `threads` threads. Only a few blocks are in memory at a time, so
+// memory does not grow with the log. `stop` (may be empty) is asked before each
+// block is read. If it returns true, the function ends and returns false.
 
-/// Estimates; `write` gets all blocks that were read one by one in their order.
-/// Throws InputError for a bad log, and what `write` throws.
+/// Estimates a log. `write` receives all blocks that were read, one by one and
+/// in order. Throws InputError for a bad log, and what `write` throws.
 bool EstimateStream(const Finger& finger, const Scene& scene,
                     FrameSolverPool* pool, int threads,
                     const std::function<bool()>& stop, FrameReader* reader,
                     const std::function<void(const StreamedBlock&)>& write);
 
-/// Reads and parses only. Throws InputError at the first bad place of the log.
+/// Only reads and parses a log. Throws InputError at the first bad place.
 bool CheckStream(const Finger& finger, int threads,
                  const std::function<bool()>& stop, FrameReader* reader);
 

@@ -6,8 +6,8 @@
 
 namespace finray {
 
-// Calls column(name, value), where name() makes the name. The one place that
-// says which columns there are.
+// Calls column(name, value) for each column, where name() makes the name. Only
+// this function knows which columns there are.
 template <class Column>
 void ResultColumns::ForEach(const Measurements& readings,
                             const FrameEstimate& estimate,

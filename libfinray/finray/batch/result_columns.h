@@ -8,17 +8,18 @@
 
 namespace finray {
 
-/// The numeric columns that an estimate fills in, in their order:
-/// contact_<c>_*, normal_<c>_*, friction_<c>, gauge angles, ribs, tip, chi2,
-/// chi2_p_value, iterations, alternative_*. They depend on the finger and the
-/// scene only; the second contact has columns if FrameEstimator may find one:
-/// contacts 2, or auto with four gauges or more and no object_std_mm.
+/// The numeric columns that an estimate fills in, in this order: contact_<c>_*,
+/// normal_<c>_*, friction_<c>, gauge angles, ribs, tip, chi2, chi2_p_value,
+/// iterations, alternative_*. They depend only on the finger and the scene. The
+/// second contact has columns if FrameEstimator may find one: contacts 2, or
+/// auto with at least four gauges and no object_std_mm.
 class ResultColumns {
  public:
   ResultColumns(const Finger& finger, const Scene& scene);
 
   const std::vector<std::string>& names() const { return names_; }
-  /// Their values, NaN where there is none, to values[0 .. names().size() - 1].
+  /// Writes their values to values[0 .. names().size() - 1], NaN where there is
+  /// none.
   void Values(const Measurements& readings, const FrameEstimate& estimate,
               double* values) const;
 

@@ -10,19 +10,19 @@
 
 namespace finray {
 
-/// What the scene needs of a log.
+/// Returns what the reader must look for in a log of this scene.
 MeasurementColumns::Options ReaderOptions(const Scene& scene);
 
-/// From the columns of a log to those of its result: those of the log as they
-/// are, ResultColumns and `status` in their old places or behind. Any number of
-/// threads may use one.
+/// Maps the columns of a log to those of its result. Columns of the log stay as
+/// they are; ResultColumns and `status` replace columns of the same name or
+/// follow at the end. Any number of threads may use one layout.
 class ResultLayout {
  public:
   /// Throws InputError if a gauge of the finger has no column.
   ResultLayout(const Finger& finger, const Scene& scene,
                const FrameParser& log);
 
-  /// The first line of the result.
+  /// Returns the header line of the result.
   std::string HeaderCsv() const;
   void Read(const FrameRows& rows, std::size_t row,
             Measurements* readings) const;
@@ -30,8 +30,8 @@ class ResultLayout {
  private:
   friend class ResultWriter;
 
-  // Where a cell of the result comes from: a number of the estimate, its
-  // status, or a column of the log.
+  // The source of a result's cell: a number of the estimate, its status, or a
+  // column of the log.
   enum class Source { kEstimate, kStatus, kNumber, kText };
   struct Output {
     std::string name;
@@ -44,9 +44,9 @@ class ResultLayout {
   std::vector<Output> outputs_;
 };
 
-/// Writes rows of a result. Numbers of the estimate are the shortest that read
-/// back as the same double, those of the log stay as they were; what is not
-/// finite is an empty cell.
+/// Writes rows of a result. Numbers of the estimate have the fewest digits that
+/// read back as the same double, numbers of the log stay as they were. A value
+/// that is not finite becomes an empty cell.
 class ResultWriter {
  public:
   /// Appends a row with its line end.
@@ -55,7 +55,7 @@ class ResultWriter {
               std::string* csv);
 
  private:
-  std::vector<double> values_;  // kept for the next row's
+  std::vector<double> values_;  // memory, reused by the next row
 };
 
 }  // namespace finray

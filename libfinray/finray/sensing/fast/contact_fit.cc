@@ -10,9 +10,9 @@ namespace finray {
 namespace {
 
 constexpr int kMaxIterations = 60;
-// Where the data hardly tell, Gauss-Newton converges slowly. After this many
-// iterations a change that makes no difference to chi2 is enough, in standard
-// deviations and, for the shape, rad and l_0.
+// Gauss-Newton converges slowly where the data hardly determine the contacts.
+// After kPatience iterations the fit ends when a change is below kNoDifference:
+// in std for the contacts, in rad and l_0 for the shape.
 constexpr int kPatience = 8;
 constexpr double kNoDifference = 1e-5;
 
@@ -30,7 +30,8 @@ ContactFit::ContactFit(const Finger& finger,
   slope_.resize(rows, 2 * kFittedContacts);
 }
 
-// Values of the state before the step, brought to its end by the taps.
+// Reads the gauges' angles and slopes. The readout maps hold the values before
+// the step; the taps add the change that the step makes.
 void ContactFit::ReadGauges(int unknowns) {
   const LadderFrame<double>& f = newton_.frame();
   d_reading_before_.swap(d_reading_);
@@ -86,7 +87,7 @@ void ContactFit::Whiten(const Eigen::VectorXd& measured,
   equations_.chi2 = residual_.squaredNorm();
 }
 
-// CurvatureRate over the step between the last two linearisations.
+// CurvatureRate for the step between the last two linearisations.
 double ContactFit::Rate(const Eigen::VectorXd& weights, double damping,
                         const ContactVector& step,
                         const ContactVector& x) const {
@@ -101,7 +102,7 @@ double ContactFit::Rate(const Eigen::VectorXd& weights, double damping,
   return CurvatureRate(equations_, damping, by_residual, step, x);
 }
 
-// Poses of contacts and tip, brought to the end of the step likewise.
+// Reads the poses of contacts and tip at the end of the step, as in ReadGauges.
 void ContactFit::ReadPoses(int contacts, const ContactVector& change) {
   const LadderFrame<double>& f = newton_.frame();
   const double length = newton_.workspace().length_unit();
@@ -161,12 +162,12 @@ bool ContactFit::Run(const Eigen::VectorXd& measured,
   double last_cost = std::numeric_limits<double>::infinity();
   double damping = 0, last_change = kUnknownChange;
   ContactVector x(unknowns), step;
-  // Whether step_ leads from one linearisation to the next.
+  // True if step_ leads from one linearisation to the next.
   bool comparable = predict;
   for (iterations_ = predict ? 0 : 1; iterations_ <= kMaxIterations;
        ++iterations_) {
-    // The prediction goes on from the last linearisation of the frame before,
-    // whose Newton step has been taken.
+    // The prediction uses the last linearisation of the frame before, whose
+    // Newton step has already been taken.
     const bool predicts = iterations_ == 0;
     if (!predicts) {
       if (!newton_.LinearizeByContacts(*contacts)) return false;

@@ -12,32 +12,35 @@
 
 namespace finray {
 
-/// Contacts that explain gauge angles s_j: minimises
+/// Fits contacts to gauge angles s_j. It minimises
 ///
 ///   chi2(l_c, f_c) = sum_j w_j^2 (s_j(l_c, f_c) - measured_j)^2
 ///
-/// over equilibria, 0 <= l_c <= l_0, f_c >= 0, which is (17), (18) of the paper
-/// with equilibrium eliminated: each iteration is one linearisation of the
-/// ladder, whose gauge rows, derivatives by (l_c, f_c) included, give the
-/// change of the contacts by least squares and with it the step of all nodes.
-/// So equilibrium and contacts converge together, in a handful of iterations,
-/// and no weight between them is left to choose. A warm fit allocates nothing.
+/// over equilibria, with 0 <= l_c <= l_0 and f_c >= 0. These are equations
+/// (17), (18) of the paper with equilibrium eliminated. Each iteration
+/// linearises the ladder once. Its gauge rows, with their derivatives by (l_c,
+/// f_c), give the change of the contacts by least squares, and that change
+/// gives the step of all nodes. Equilibrium and contacts thus converge together
+/// in a few iterations, and need no weight between them. A warm fit allocates
+/// nothing.
 class ContactFit {
  public:
-  /// Throws InputError as LadderModel. With `circle_radius_mm` the centre of a
-  /// circle that touches at the one contact (circle_centre.h) is measured too:
-  /// its x and y in mm follow the gauges' angles in all that is measured.
+  /// Throws InputError as LadderModel does. With `circle_radius_mm`, the centre
+  /// of a circle that touches the finger at the one contact (circle_centre.h)
+  /// is measured too. Its x and y in mm follow the gauges' angles in `measured`
+  /// and `weights`.
   ContactFit(const Finger& finger, const Discretization& discretization,
              std::optional<double> circle_radius_mm = std::nullopt);
 
-  /// Where Gauss-Newton ends: the next change of l_c over l_0 and of f_c over
-  /// its size is expected below this.
+  /// A fit ends when the next change of l_c over l_0 and of f_c over its size
+  /// is expected to be below `relative`.
   void set_tolerance(double relative) { tolerance_ = relative; }
 
   /// Upper bound of f_c.
   void set_most_force(double force_N) { most_force_N_ = force_N; }
 
-  /// The equilibrium to start from, near the contacts given to Fit.
+  /// Sets the equilibrium to start from. It must be near the contacts given to
+  /// Fit.
   void set_state(const LadderState& state) {
     newton_.Load(state);
     linearised_contacts_ = 0;
@@ -46,29 +49,29 @@ class ContactFit {
 
   /// Starts from the present equilibrium and from `*contacts` (one or two, on
   /// the front beam; their friction is kept) and leaves both at the solution.
-  /// `weights` (1 / std) are 0 where nothing was measured. False if it does not
-  /// converge; state and contacts are then of no use.
+  /// `weights` are 1 / std, and 0 where nothing was measured. Returns false if
+  /// the fit does not converge; state and contacts are then undefined.
   bool Fit(const Eigen::VectorXd& measured, const Eigen::VectorXd& weights,
            std::vector<PointContact>* contacts);
 
-  /// As Fit, for a frame like the one that the last call came to, in which
-  /// state and `*contacts` must be as that call left them: what that frame's
-  /// last linearisation makes of the new readings is where this one starts, so
-  /// that one iteration mostly is enough. It may be the last by the same rule
-  /// as any: the prediction's change counts as the one before. As Fit if there
-  /// was no such call.
+  /// Like Fit, for a frame similar to that of the last call. State and
+  /// `*contacts` must be as that call left them. The fit starts from the
+  /// solution that the last linearisation predicts for the new readings, so one
+  /// iteration is usually enough. The stopping rule is that of Fit, with the
+  /// predicted change counted as the change before. Without a successful last
+  /// call, Follow does the same as Fit.
   bool Follow(const Eigen::VectorXd& measured, const Eigen::VectorXd& weights,
               std::vector<PointContact>* contacts);
 
-  // Of the last successful fit.
+  // Results of the last successful fit.
 
   double chi2() const { return chi2_; }
-  /// Linearisations that it took.
+  /// Number of linearisations.
   int iterations() const { return iterations_; }
   /// Fisher information of (l_c, f_c) of each contact, per mm and N.
   using Information = ContactMatrix;
   const Information& information() const { return information_; }
-  /// (x, y, theta) of a contact and of the tip, mm and rad.
+  /// (x, y, theta) of a contact and of the tip, in mm and rad.
   const Eigen::Vector3d& contact_pose(int contact) const {
     return poses_[contact];
   }
@@ -98,14 +101,15 @@ class ContactFit {
   int iterations_ = 0;
   Information information_;
   std::array<Eigen::Vector3d, kFittedContacts + 1> poses_;
-  // Gauge angles and slopes by (l_c, f_c) in the ladder's units; the slopes of
-  // the linearisation before; the same whitened, as residuals.
+  // Gauge angles and their slopes by (l_c, f_c) in the ladder's units; the
+  // slopes of the linearisation before; the whitened residuals and slopes.
   Eigen::VectorXd reading_, residual_;
   Eigen::Matrix<double, Eigen::Dynamic, 2 * kFittedContacts> d_reading_,
       d_reading_before_, slope_;
   ContactVector step_;  // since the last linearisation
   ContactEquations equations_;
-  // Of how many contacts the frame holds the last linearisation of a fit.
+  // Number of contacts of the last fit whose linearisation the frame still
+  // holds; 0 if it holds none.
   int linearised_contacts_ = 0;
   std::vector<double> kept_state_;
   std::vector<PointContact> kept_contacts_;

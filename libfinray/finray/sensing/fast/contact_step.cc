@@ -6,9 +6,9 @@
 namespace finray {
 namespace {
 
-// Levenberg's damping of l_c as of a prior of 30 mm about where it is, which
-// keeps a contact of no force from wandering; it vanishes with chi2, so that
-// convergence to data without noise stays quadratic.
+// Damping of l_c, equal to a prior of 30 mm about its present place. It keeps a
+// contact without force from wandering. It is scaled by min(1, chi2), so that
+// convergence on noise-free data stays quadratic.
 constexpr double kArcDamping = 22;
 constexpr double kForceDamping = 1e-9;
 constexpr double kLeastForce = 0.02;  // in units of EI / l_0^2
@@ -25,7 +25,7 @@ ContactMatrix Damped(const ContactEquations& equations, double damping) {
   return system;
 }
 
-// x of a x = b for a symmetric and positive a, by L D L'.
+// Solves a x = b in place for a symmetric positive `a`, by L D L'.
 void SolvePositive(ContactMatrix* a, ContactVector* b) {
   ContactMatrix& l = *a;
   ContactVector& x = *b;

@@ -5,7 +5,8 @@
 namespace finray {
 namespace {
 
-// Of l_0 and of a force: what is left is far below any gauge's noise.
+// Relative to l_0 and to the force. The remaining error is far below any
+// gauge's noise.
 constexpr double kTolerance = 5e-9;
 
 Eigen::VectorXd AllWeights(const Finger& finger) {

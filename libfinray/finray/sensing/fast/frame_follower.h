@@ -9,30 +9,32 @@
 
 namespace finray {
 
-/// Frames of one contact without a search: each is fitted from where the one
-/// before it ended (FrameGroupFit), and what comes of it is taken only where a
-/// search could find nothing else: a minimum inside all bounds where no other
-/// contact explains the frame as well (RivalMap). All other frames are to be
-/// searched.
+/// Fits frames with one contact without a search. Each fit starts where the one
+/// before ended (FrameGroupFit). Its result is accepted only where a search
+/// would find the same: a minimum inside all bounds, where no other contact
+/// explains the frame as well (RivalMap). The caller must search all other
+/// frames.
 class FrameFollower {
  public:
-  /// For scenes that may have one contact and measure nothing but gauges.
+  /// Says whether the follower can be used: the scene must allow one contact
+  /// and measure no object place.
   static bool Serves(const Scene& scene);
 
   FrameFollower(const Finger& finger, const Scene& scene,
                 const Discretization& discretization,
                 const ContactSearch& search);
 
-  /// Whether frames may be followed from a solution with all gauges, the std of
-  /// whose l_c is given; if so, that is where the next ones start.
+  /// Says whether frames may be followed from a solution with all gauges; if
+  /// so, the next frames start there. `arc_std_mm` is the std of the solution's
+  /// l_c.
   bool Start(const ContactSolution& solution, double arc_std_mm, int gauges);
 
-  /// Fits frames that follow each other, all with all gauges measured.
+  /// Fits consecutive frames. All gauges of all frames must have a reading.
   void Fit(const std::vector<PackedReadings>& frames, std::size_t count);
 
-  /// Of the last call, frame by frame.
+  /// The result of the last call for a frame.
   const FrameFit& fit(std::size_t frame) const { return fits_[frame]; }
-  /// Whether a search would find just that. `arc_std_mm` as above.
+  /// Says whether a search would find the same contact. `arc_std_mm` as above.
   bool IsCertain(std::size_t frame, double arc_std_mm) const;
 
  private:

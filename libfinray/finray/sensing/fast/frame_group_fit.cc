@@ -6,11 +6,12 @@
 namespace finray {
 namespace {
 
-// Frames that take longer, or begin with a larger change, are fitted alone.
+// Frames that take more iterations, or begin with a larger change, are fitted
+// alone.
 constexpr int kMostIterations = 10;
 constexpr double kLargestChange = 0.5;
-// A lane does not begin a frame that is further ahead of another lane's: their
-// contacts would lie in too many elements.
+// A lane waits before a frame that is further ahead of another lane's.
+// Otherwise the contacts would lie in too many elements.
 constexpr int kMostLead = 4 * kFrameLanes;
 
 }  // namespace
@@ -95,7 +96,8 @@ void FrameGroupFit::TakeFrame(int lane, int frame) {
   to_keep_ |= 1u << lane;
 }
 
-// Predicts where the lane's frame is, if there is a linearisation to tell.
+// Predicts the contact of the lane's frame if there is a linearisation to
+// predict from.
 void FrameGroupFit::Begin(const Frames& frames, int lane) {
   Lane& l = lane_[lane];
   if (one_by_one_ || !frames.Busy(l)) return;
@@ -108,7 +110,8 @@ void FrameGroupFit::Begin(const Frames& frames, int lane) {
   }
 }
 
-// Lanes without a frame come along, so that they are where the next one starts.
+// Linearises all lanes. Lanes without a frame move along, so that they are near
+// the start of their next one.
 void FrameGroupFit::Linearize() {
   std::array<double, kFrameLanes> arc_mm, normal_N;
   LaneSet first = 0;
@@ -120,7 +123,8 @@ void FrameGroupFit::Linearize() {
   comparable_ = linearised_;
   linearised_ = lanes_.Place(arc_mm, normal_N, kAllFrameLanes, first);
   if (!lanes_.Linearize()) {
-    // One lane spoils all; idle ones must not do so again.
+    // One bad lane spoils the linearisation of all. The states are restored so
+    // that idle lanes do not spoil the next one too.
     linearised_ = 0;
     FourFrames* state = lanes_.frame().state.q;
     std::copy(kept_state_.begin(), kept_state_.end(), state);
@@ -136,7 +140,7 @@ void FrameGroupFit::Linearize() {
   ReadGauges();
 }
 
-// At the end of Newton's step, in all lanes.
+// Reads the gauges of all lanes at the end of Newton's step.
 void FrameGroupFit::ReadGauges() {
   const LadderFrame<FourFrames>& f = lanes_.frame();
   for (std::vector<FourFrames>* of : {&reading_, &slope_[0], &slope_[1]}) {
@@ -151,8 +155,8 @@ void FrameGroupFit::ReadGauges() {
   }
 }
 
-// After a linearisation: ends the lane's frame, if it converges, and predicts
-// the next one.
+// Called after a linearisation. If the lane's frame has converged, records it
+// and predicts the next one.
 void FrameGroupFit::Advance(const Frames& frames, int lane) {
   Lane& l = lane_[lane];
   if (one_by_one_) return;
@@ -167,14 +171,14 @@ void FrameGroupFit::Advance(const Frames& frames, int lane) {
   Begin(frames, lane);
 }
 
-// Moves the contact to where the linearisation has the least squares. False if
-// the frame is better fitted alone.
+// Moves the contact to the least squares of the linearisation. Returns false if
+// the frame should be fitted alone.
 bool FrameGroupFit::Improve(const Frames& frames, int lane, bool predict) {
   Lane& l = lane_[lane];
   const double length = lanes_.workspace().length_unit();
   const double force = lanes_.workspace().force_unit();
   const ContactEquations equations = EquationsOf(frames, lane);
-  // Written so that a NaN fails, here and below.
+  // This comparison and those below are written so that a NaN fails them.
   if (!(equations.chi2 <= kMostRise * l.last_cost + 1)) return false;
   l.last_cost = equations.chi2;
   l.normal = equations.normal;
@@ -226,7 +230,7 @@ ContactEquations FrameGroupFit::EquationsOf(const Frames& frames,
   return equations;
 }
 
-// CurvatureRate over the step between the last two linearisations.
+// CurvatureRate for the step between the last two linearisations.
 double FrameGroupFit::Rate(const Frames& frames, int lane,
                            const ContactEquations& equations,
                            const ContactVector& x) const {
@@ -246,7 +250,7 @@ double FrameGroupFit::Rate(const Frames& frames, int lane,
   return CurvatureRate(equations, 0, by_residual, step, x);
 }
 
-// What stands for a change of the whole shape: gaps between its elements, and
+// The change of the whole shape, judged by the gaps between its elements and by
 // the poses of tip and contact.
 double FrameGroupFit::ShapeChange(int lane, bool newton,
                                   const ContactVector& change) const {
@@ -264,7 +268,7 @@ double FrameGroupFit::ShapeChange(int lane, bool newton,
   return largest;
 }
 
-// Whether the series of the last linearisation had converged.
+// Says whether the series of the last linearisation had converged.
 bool FrameGroupFit::IsResolved(int lane) const {
   if (!adaptive_) return true;
   const LadderFrame<FourFrames>& f = lanes_.frame();
@@ -275,7 +279,8 @@ bool FrameGroupFit::IsResolved(int lane) const {
   return worst < kRefinedTruncation_rad;
 }
 
-// What is linear in the last change is brought to its end.
+// Writes a converged lane's result to its frame. Poses and rib tensions are
+// those of the last linearisation plus their linear change in the last step.
 void FrameGroupFit::Record(const Frames& frames, int lane) const {
   const LadderFrame<FourFrames>& f = lanes_.frame();
   const Lane& l = lane_[lane];
@@ -333,7 +338,7 @@ void FrameGroupFit::Keep(LaneSet lanes) {
   to_keep_ &= ~lanes;
 }
 
-// A lane's frame without the others, from where it started.
+// Fits a lane's frame without the other lanes, from where the frame started.
 void FrameGroupFit::FitLane(const Frames& frames, int lane) {
   Lane& l = lane_[lane];
   Keep(to_keep_ & 1u << lane);
@@ -359,7 +364,7 @@ void FrameGroupFit::FitLane(const Frames& frames, int lane) {
   TakeFrame(lane, l.frame + kFrameLanes);
 }
 
-// From the last frame that was fitted so.
+// Fits a frame by ContactFit, starting from state_ and contact_.
 void FrameGroupFit::FitAlone(const Frames& frames, int frame) {
   FrameFit& fit = frames.fits[frame];
   const PointContact before = contact_[0];

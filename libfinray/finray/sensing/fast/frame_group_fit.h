@@ -11,11 +11,11 @@
 
 namespace finray {
 
-/// What a fit of one contact to one frame came to.
+/// The result of fitting one contact to one frame.
 struct FrameFit {
   bool converged = false;
   bool in_lanes = false;
-  int iterations = 0;  ///< linearisations.
+  int iterations = 0;  ///< Number of linearisations.
   double arc_mm = 0, normal_N = 0;
   double chi2 = 0;
   Eigen::Matrix2d information;  ///< Fisher's, of (l_c, f_c) per mm and N.
@@ -23,40 +23,45 @@ struct FrameFit {
   Eigen::VectorXd rib_tension_N;
 };
 
-/// ContactFit of one contact for the frames of a log, four at a time in vector
-/// lanes. Lane k takes frames k, k + 4, k + 8 .. as fast as they converge, and
-/// starts each from what the last linearisation makes of its readings, as
-/// ContactFit::Follow does; none runs far ahead. As the end of one frame and
-/// the prediction of the next are changes of the same linearisation, they are
-/// one step: a frame that converges at once costs a quarter of one
-/// linearisation and one step.
+/// Fits one contact to each frame of a log, four frames at a time in vector
+/// lanes, with the equations of ContactFit. Lane k takes frames k, k + 4, k + 8
+/// .. as fast as they converge, but no lane runs far ahead. Like
+/// ContactFit::Follow, each frame starts from what the last linearisation
+/// predicts for its readings. The last change of one frame and the prediction
+/// of the next use the same linearisation and are combined into one step. A
+/// frame that converges at once therefore costs a quarter of one linearisation
+/// and one step.
 ///
-/// Lanes have their own residuals, weights, changes, bounds and convergence.
-/// What does not fit in is fitted alone by ContactFit, from where its lane
-/// stood: a frame that changes a lot, does not lower its chi2 or does not
-/// converge in a few iterations, and a contact in a third element or beyond
-/// the end of a gauge that other lanes' have not reached.
+/// Each lane has its own residuals, weights, changes, bounds and convergence.
+/// Some frames do not suit the lanes. ContactFit fits them alone, from where
+/// their lane stood:
+/// - a frame that changes a lot, does not lower its chi2, or does not converge
+///   in a few iterations;
+/// - a frame whose contact lies in a third element, or beyond a gauge end that
+///   the contacts of the other lanes have not reached.
 ///
-/// Results depend on the state given to Start, the frames since, and the calls
-/// they came in. After the first calls nothing is allocated.
+/// Results depend on the state given to Start, the frames since then, and how
+/// the frames were divided into calls. After the first calls nothing is
+/// allocated.
 class FrameGroupFit {
  public:
-  /// Throws InputError as LadderModel.
+  /// Throws InputError as LadderModel does.
   FrameGroupFit(const Finger& finger, const Discretization& discretization,
                 double friction = 0);
 
-  /// As ContactFit's.
+  /// The same as in ContactFit.
   void set_tolerance(double relative);
   void set_most_force(double force_N);
 
-  /// Where the next frames start: an equilibrium with a contact near theirs.
+  /// Sets the start of the next frames: an equilibrium with a contact near
+  /// theirs.
   void Start(const LadderState& state, const PointContact& contact);
 
-  /// Fits frames that follow each other, the first one the last that was
-  /// fitted (or Start). A column of angles and weights (per rad, 0: not
-  /// measured) is a frame. Lanes end together, so calls of many frames are
-  /// faster. Where a frame does not converge the next one of its lane starts
-  /// from before it.
+  /// Fits consecutive frames that follow the last one fitted, or Start. Each
+  /// column of angles and weights is a frame; weights are per rad, 0 where not
+  /// measured. All lanes finish before the call returns, so calls with many
+  /// frames are faster. If a frame does not converge, the next one of its lane
+  /// starts from the same place.
   void Fit(const Eigen::Ref<const Eigen::MatrixXd>& angles_rad,
            const Eigen::Ref<const Eigen::MatrixXd>& weights_per_rad,
            FrameFit* fits);
@@ -65,16 +70,16 @@ class FrameGroupFit {
   using Columns = Eigen::Ref<const Eigen::MatrixXd>;
 
   struct Lane {
-    int frame;  // its column; the lane is idle if that is beyond the last
+    int frame;  // its column; the lane is idle beyond the last one
     int iteration;
-    bool waiting;  // for the others, before it begins
+    bool waiting;  // until the other lanes catch up
     bool converged;
     double arc_mm, normal_N;
     double last_cost, last_change;
-    ContactMatrix normal;  // of the last equations
+    ContactMatrix normal;  // ContactEquations::normal, the last one
     double kept_arc_mm, kept_normal_N;
   };
-  // The frames of a call.
+  // The arguments of one call of Fit.
   struct Frames {
     const Columns& angles_rad;
     const Columns& weights_per_rad;
@@ -107,24 +112,25 @@ class FrameGroupFit {
   bool adaptive_;
 
   std::array<Lane, kFrameLanes> lane_{};
-  // The lanes whose linearisation is of use, each of which then has Newton's
-  // step ahead of it (1, else 0) and has moved its contact since, by (l_c, f_c)
-  // in units of the ladder.
+  // The lanes with a valid linearisation. For each of them Newton's step is
+  // still to be taken (newton_ is 1, else 0), and the contact has moved since
+  // by change_ = (l_c, f_c) in the ladder's units.
   LaneSet linearised_ = 0;
   FourFrames newton_{}, change_[2] = {};
-  // Gauge angles after that step and change; slopes by (l_c, f_c).
+  // Gauge angles after that step and change; their slopes by (l_c, f_c).
   std::vector<FourFrames> reading_, slope_[2];
-  // The slopes of the linearisation before, the change that led from there, and
-  // the lanes in which it did.
+  // The slopes of the linearisation before, the change between the two, and the
+  // lanes in which both linearisations are valid.
   std::vector<FourFrames> slope_before_[2];
   FourFrames step_[2] = {};
   LaneSet comparable_ = 0;
-  // Where each lane's frame started, for a fit alone; lanes yet to be copied.
+  // The state from which each lane's frame started, used when the frame is
+  // fitted alone; and the lanes whose state is still to be copied.
   std::vector<FourFrames> kept_state_;
   LaneSet to_keep_ = 0;
 
-  // A load that asks for a finer mesh than the lanes have: from there on to the
-  // next Start frames are fitted one by one.
+  // Set when a load needs a finer mesh than the lanes have. Frames are then
+  // fitted one by one until the next Start.
   bool one_by_one_ = false;
   LadderState state_;
   std::vector<PointContact> contact_;

@@ -7,14 +7,14 @@
 namespace finray {
 namespace {
 
-// Between nodes d is known to this factor (RivalMapTest).
+// Between nodes d may be smaller by this factor (RivalMapTest).
 constexpr double kBetweenNodes = 0.8;
-// Without a fit, the table knows chi2 to this factor; and what that leaves far
-// above anything that noise may do is not fitted.
+// Without a fit, the true chi2 may be this fraction of the table's. A start is
+// not fitted if that is far above anything that noise can do.
 constexpr double kTableFactor = 0.25, kFarAbove = 400;
-// A valley's std in rows.
+// The largest std of l_c, in row spacings.
 constexpr double kWidest = 0.5;
-// Starts this many rows from the node's own are the same contact.
+// Starts within this many rows of the node's own are the same contact.
 constexpr double kSameRows = 1.5;
 
 }  // namespace
