@@ -4,10 +4,10 @@
 #include <gflags/gflags.h>
 #include <glog/logging.h>
 
-#include <exception>
 #include <functional>
 #include <iostream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -28,87 +28,36 @@ enum ExitCode {
   kInterrupted = 130,
 };
 
-/// A flag that the user must give, for exit code 1.
+/// Wrong use of a flag; RunApp returns kUsage for it.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-inline const std::string& Required(const char* flag, const std::string& value) {
-  if (value.empty()) throw UsageError(std::string("--") + flag + " is missing");
-  return value;
-}
+/// Returns the value of a flag. Throws UsageError if it is empty.
+const std::string& Required(const char* flag, const std::string& value);
 
-/// Comma-separated names.
-inline std::vector<std::string> SplitList(const std::string& list) {
-  std::vector<std::string> items;
-  std::istringstream stream(list);
-  for (std::string item; std::getline(stream, item, ',');) {
-    if (!item.empty()) items.push_back(item);
-  }
-  return items;
-}
+/// Returns true if the user gave the flag.
+bool IsGiven(const char* flag);
 
-/// What is in force after all files and defaults, as YAML, for --dump_config.
-inline void DumpConfig(const Finger& finger, const Scene& scene,
-                       const Discretization& discretization) {
-  std::cout << "scheme: " << SchemeName(discretization.scheme) << "\n"
-            << "resolution: " << EffectiveResolution(discretization) << "\n"
-            << "contacts: "
-            << (scene.contacts ? std::to_string(*scene.contacts) : "auto")
-            << "\n";
-  if (!scene.contact_beams.empty()) {
-    std::cout << "contact_beams: " << ContactBeamsToYaml(scene) << "\n";
-  }
-  std::cout << "friction_coefficient: " << scene.friction_coefficient << "\n";
-  if (scene.object) {
-    std::cout << "object: " << ObjectToYaml(*scene.object) << "\n";
-  }
-  if (scene.object_std_mm) {
-    std::cout << "measurements: {object_std_mm: " << *scene.object_std_mm
-              << "}\n";
-  }
-  if (scene.smoothing) {
-    std::cout << "smoothing: {contact_std_mm: " << scene.smoothing->contact_mm
-              << ", normal_std_N: " << scene.smoothing->normal_N << "}\n";
-  }
-  std::istringstream lines(FingerToYaml(finger));
-  std::cout << "finger:\n";
-  for (std::string line; std::getline(lines, line);) {
-    std::cout << "  " << line << "\n";
-  }
-}
+/// Splits a comma-separated list; empty items are left out.
+std::vector<std::string> SplitList(const std::string& list);
 
-/// Parses flags, runs, and turns what is thrown into one line and an exit code.
-/// What is not a flag goes to `arguments`, or is an error without it.
-inline int RunApp(int argc, char** argv, const std::string& usage,
-                  const std::function<int()>& run,
-                  std::vector<std::string>* arguments = nullptr) {
-  gflags::SetUsageMessage(usage);
-  gflags::SetVersionString(FINRAY_VERSION);
-  FLAGS_logtostderr = true;
-  google::InitGoogleLogging(argv[0]);
-  gflags::ParseCommandLineFlags(&argc, &argv, true);
-  const std::string name = gflags::ProgramInvocationShortName();
-  try {
-    if (arguments != nullptr) {
-      arguments->assign(argv + 1, argv + argc);
-    } else if (argc > 1) {
-      throw UsageError(std::string("'") + argv[1] +
-                       "' is not a flag; flags start with --");
-    }
-    return run();
-  } catch (const UsageError& error) {
-    std::cerr << name << ": " << error.what() << "; see --help\n";
-    return kUsage;
-  } catch (const InputError& error) {
-    std::cerr << name << ": " << error.what() << "\n";
-    return kBadInput;
-  } catch (const std::exception& error) {
-    std::cerr << name << ": " << error.what() << "\n";
-    return kSolveFailed;
-  }
-}
+/// Returns the command with those of `flags` that differ from their defaults,
+/// for result files.
+std::string CommandWith(const std::vector<const char*>& flags);
+
+/// Prints the configuration after all files and defaults, as YAML, for
+/// --dump_config.
+void DumpConfig(const Finger& finger, const Scene& scene,
+                const Discretization& discretization);
+
+/// Parses flags, calls `run` and returns its exit code. An exception becomes
+/// one line on stderr and an exit code. Arguments that are no flags go to
+/// `arguments`; without it they are an error.
+int RunApp(int argc, char** argv, const std::string& usage,
+           const std::function<int()>& run,
+           std::vector<std::string>* arguments = nullptr);
 
 }  // namespace finray
 

@@ -13,7 +13,7 @@ void Count(std::size_t bytes) {
 }
 }  // namespace
 
-// What operator new, Eigen and the C++ library end up in.
+// operator new, Eigen and the C++ library all call these.
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);

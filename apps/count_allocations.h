@@ -3,8 +3,9 @@
 
 #include <atomic>
 
-// Calls of malloc and its like, and the bytes they asked for, by an executable
-// that is linked with count_allocations.cc, where they can be counted.
+// Counts calls of malloc and its like, and the bytes they ask for, in an
+// executable that is linked with count_allocations.cc. Other C libraries than
+// glibc and AddressSanitizer do not allow it.
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
 #define FINRAY_COUNTS_ALLOCATIONS
 #endif

@@ -1,38 +1,31 @@
-// Calibrates a finger from logs with a reference: force, object place, or both.
+// Calibrates a finger from logs with a reference force, object place, or both.
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <stdexcept>
 
 #include "app.h"
 #include "finray/calib/analysis/plausibility.h"
 #include "finray/calib/report/calibration_result.h"
 #include "finray/calib/report/report.h"
 #include "finray/io/atomic_file.h"
+#include "outputs.h"
+#include "shared_flags.h"
 
 DEFINE_string(finger, "", "finger YAML to start from");
-DEFINE_string(plan, "", "plan YAML: what is free, priors, noise");
+DEFINE_string(plan, "", "plan YAML: free parameters, priors, noise");
 DEFINE_string(logs, "", "CSV logs, separated by commas");
 DEFINE_string(out_dir, "", "folder for finger.yaml, calibration.yaml, report");
 DEFINE_int32(threads, 2, "threads over frames");
-DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
-DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
-DEFINE_bool(dump_config, false, "print what is in force, and stop");
 DEFINE_bool(report, true, "render report.html");
-DEFINE_bool(
-    leave_one_log_out, true,
-    "with several logs: repeat without each, to see whether they agree");
+DEFINE_bool(leave_one_log_out, true,
+            "with several logs: repeat without each, to see if they agree");
 
 namespace {
 
-std::string InFolder(const char* name) {
-  return (std::filesystem::path(FLAGS_out_dir) / name).string();
-}
+using namespace finray;
 
-void PrintSummary(finray::CalibrationProblem& problem,
-                  const finray::CalibrationResult& result) {
-  using namespace finray;
+void PrintSummary(CalibrationProblem& problem,
+                  const CalibrationResult& result) {
   int counts[4] = {};
   for (const ParameterStatus status : result.identifiability.status) {
     ++counts[static_cast<int>(status)];
@@ -46,7 +39,7 @@ void PrintSummary(finray::CalibrationProblem& problem,
        : frame.contact   ? contact
                          : free);
   }
-  std::printf("%s\n", InFolder("finger.yaml").c_str());
+  std::printf("%s\n", OutPath("finger.yaml").c_str());
   const RobustSolution& solution = result.solution;
   const auto agree =
       std::count_if(solution.starts.begin(), solution.starts.end(),
@@ -107,17 +100,12 @@ void PrintSummary(finray::CalibrationProblem& problem,
 }
 
 int Run() {
-  using namespace finray;
   const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
   const Plan plan = ReadPlan(Required("plan", FLAGS_plan));
   const auto paths = SplitList(Required("logs", FLAGS_logs));
   Required("out_dir", FLAGS_out_dir);
-  const Discretization discretization =
-      ParseDiscretization(FLAGS_scheme, FLAGS_resolution);
-  if (FLAGS_dump_config) {
-    DumpConfig(finger, plan.scene, discretization);
-    return kGood;
-  }
+  const Discretization discretization = DiscretizationFlags();
+  if (DumpConfigFlag(finger, plan.scene, discretization)) return kGood;
   CalibrationProblem problem(finger, plan,
                              ReadCalibrationLogs(paths, finger, plan),
                              discretization, FLAGS_threads);
@@ -125,33 +113,29 @@ int Run() {
   CalibrationResult result = Calibrate(&problem, discretization, FLAGS_threads,
                                        FLAGS_leave_one_log_out);
 
-  std::string command =
-      "finray_calibrate --finger " + FLAGS_finger + " --plan " + FLAGS_plan +
-      " --logs " + FLAGS_logs + " --out_dir " + FLAGS_out_dir + " --scheme " +
-      FLAGS_scheme + " --resolution " + std::to_string(FLAGS_resolution) +
-      (FLAGS_leave_one_log_out ? "" : " --leave_one_log_out=false");
+  const std::string command =
+      CommandWith({"finger", "plan", "logs", "out_dir", "scheme", "resolution",
+                   "leave_one_log_out"});
   MakeFolder(FLAGS_out_dir);
   WriteFileAtomically(
-      InFolder("calibration.yaml"),
+      OutPath("calibration.yaml"),
       CalibrationYaml(problem, result,
                       {FLAGS_finger, FLAGS_plan, paths, FLAGS_scheme,
                        FLAGS_resolution, command}));
-  WriteFileAtomically(InFolder("calibration.frames.csv"),
+  WriteFileAtomically(OutPath("calibration.frames.csv"),
                       CalibrationFramesCsv(problem, result));
   CalibrationShape(problem, result, discretization)
-      .Write(InFolder("calibration.shape.csv"));
+      .Write(OutPath("calibration.shape.csv"));
   std::string origin = "Calibrated from";
   for (const std::string& path : paths) origin += " " + path;
   WriteFileAtomically(
-      InFolder("finger.yaml"),
+      OutPath("finger.yaml"),
       FingerToYaml(result.finger, origin +
                                       "\nStandard deviations and checks: "
                                       "calibration.yaml beside this file."));
   if (FLAGS_report) {
-    const std::string problem_with_it = RenderReport(FLAGS_out_dir);
-    if (!problem_with_it.empty()) {
-      LOG(WARNING) << "no report.html: " << problem_with_it;
-    }
+    const std::string why_not = RenderReport(FLAGS_out_dir);
+    if (!why_not.empty()) LOG(WARNING) << "no report.html: " << why_not;
   }
   PrintSummary(problem, result);
   const std::string verdict = result.Verdict();

@@ -1,17 +1,15 @@
-// Two calibrations of one finger: do they agree, and does it matter?
+// Compares two calibrations of one finger, and what they do to estimates.
 
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 
 #include "app.h"
 #include "finray/calib/analysis/calibration_comparison.h"
 #include "finray/io/atomic_file.h"
+#include "outputs.h"
+#include "shared_flags.h"
 
 DEFINE_string(out_dir, "", "folder for comparison.yaml and comparison.csv");
-DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
-DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
-
 DEFINE_double(most_sigma, 0,
               "gate: a parameter's difference over its std; default: none");
 DEFINE_double(least_p_value, 0,
@@ -29,10 +27,6 @@ using namespace finray;
 
 std::vector<std::string> folders;
 
-std::string InFolder(const char* name) {
-  return (std::filesystem::path(FLAGS_out_dir) / name).string();
-}
-
 std::vector<ComparisonGate> Gates(const Comparison& comparison) {
   const Comparison::Largest most = comparison.largest();
   const Comparison::Parameter* worst = comparison.LargestSigma();
@@ -49,7 +43,7 @@ std::vector<ComparisonGate> Gates(const Comparison& comparison) {
     gates.push_back(
         {"least_p_value", FLAGS_least_p_value, p, p >= FLAGS_least_p_value});
   }
-  // A contact that only a tells is no small difference.
+  // A point at which only A senses a contact fails the gate.
   const auto in_field = [&](const char* name, double bound, double value) {
     if (bound == 0) return;
     gates.push_back({name, bound, any ? value : nan,
@@ -73,7 +67,7 @@ void PrintNames(const char* what, const std::vector<std::string>& names) {
 
 void PrintSummary(const Comparison& comparison,
                   const std::vector<ComparisonGate>& gates) {
-  std::printf("%s\n", InFolder("comparison.yaml").c_str());
+  std::printf("%s\n", OutPath("comparison.yaml").c_str());
   const Comparison::Parameter* worst = comparison.LargestSigma();
   std::printf("parameters     %zu, largest difference %.2f std (%s, %.4g %s)\n",
               comparison.parameters.size(), std::abs(worst->sigma()),
@@ -85,13 +79,13 @@ void PrintSummary(const Comparison& comparison,
               comparison.chi2 / comparison.dof, comparison.dof,
               comparison.p_value());
   if (comparison.shared_logs > 0) {
-    std::printf("; %d log%s in common, so that std are too large",
+    std::printf("; %d log%s in common, which makes std too large",
                 comparison.shared_logs, comparison.shared_logs == 1 ? "" : "s");
   }
   const Comparison::Largest most = comparison.largest();
   std::printf("\nforce          ");
   if (most.points == 0) {
-    std::printf("not comparable: b tells no contact of the grid\n");
+    std::printf("not comparable: B senses no contact of the grid\n");
     std::printf("contact        not comparable\n");
   } else {
     std::printf(
@@ -99,7 +93,7 @@ void PrintSummary(const Comparison& comparison,
         "%zu points",
         most.force_rms_N, most.force_N, most.force_over_std, most.points,
         comparison.grid.size());
-    if (most.lost > 0) std::printf("; %d that A tells B does not", most.lost);
+    if (most.lost > 0) std::printf("; %d more that only A senses", most.lost);
     std::printf("\n");
     std::printf("contact        %.3g mm rms, %.3g mm at most (%.2f std)\n",
                 most.contact_rms_mm, most.contact_mm, most.contact_over_std);
@@ -127,22 +121,20 @@ int Run() {
       {"most_force_difference_N", FLAGS_most_force_difference_N},
       {"most_contact_difference_mm", FLAGS_most_contact_difference_mm}};
   for (const auto& [name, bound] : bounds) {
-    const bool given = !gflags::GetCommandLineFlagInfoOrDie(name).is_default;
-    if (given && (!(bound > 0) || std::isinf(bound))) {
+    if (IsGiven(name) && (!(bound > 0) || std::isinf(bound))) {
       throw UsageError(std::string("--") + name +
                        ": expected a number above 0");
     }
   }
-  const Discretization discretization =
-      ParseDiscretization(FLAGS_scheme, FLAGS_resolution);
+  const Discretization discretization = DiscretizationFlags();
   const CalibrationFile a = ReadCalibration(folders[0]);
   const CalibrationFile b = ReadCalibration(folders[1]);
   const Comparison comparison = Compare(a, b, discretization);
   const std::vector<ComparisonGate> gates = Gates(comparison);
   MakeFolder(FLAGS_out_dir);
-  WriteFileAtomically(InFolder("comparison.yaml"),
+  WriteFileAtomically(OutPath("comparison.yaml"),
                       ComparisonYaml(comparison, a, b, gates));
-  ComparisonGrid(comparison).Write(InFolder("comparison.csv"));
+  ComparisonGrid(comparison).Write(OutPath("comparison.csv"));
   PrintSummary(comparison, gates);
   for (const ComparisonGate& gate : gates) {
     if (!gate.passed) return kGateFailed;

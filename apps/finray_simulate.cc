@@ -2,6 +2,7 @@
 
 #include "app.h"
 #include "finray/scene/simulation.h"
+#include "shared_flags.h"
 
 DEFINE_string(finger, "", "finger YAML");
 DEFINE_string(scene, "", "scene YAML; needed for rows with an object");
@@ -9,15 +10,11 @@ DEFINE_string(frames, "", "CSV with contact_<c>_mm, normal_<c>_N or object_*");
 DEFINE_string(out, "", "CSV to write: the frames with everything filled in");
 DEFINE_string(shape_out, "", "CSV to write: both beams of every row");
 DEFINE_string(log_out, "",
-              "CSV to write: what a lab would have recorded, with noise");
+              "CSV to write: a log as a lab would record it, with noise");
 DEFINE_double(force_std_N, 0.02, "noise of force_N in --log_out");
 DEFINE_double(object_std_mm, 0.05, "noise of object_* in --log_out");
-DEFINE_double(pin_std_mm, 0,
-              "noise of rib pins in --log_out; 0: it has no pins");
-DEFINE_uint64(seed, 1, "of the noise in --log_out");
-DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
-DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
-DEFINE_bool(dump_config, false, "print what is in force, and stop");
+DEFINE_double(pin_std_mm, 0, "noise of rib pins in --log_out; 0: no pins");
+DEFINE_uint64(seed, 1, "seed of the noise in --log_out");
 DEFINE_bool(strict, false, "fail if any row has no solution");
 
 namespace {
@@ -28,12 +25,8 @@ int Run() {
   const Scene scene = FLAGS_scene.empty() ? Scene() : ReadScene(FLAGS_scene);
   const std::string& in = Required("frames", FLAGS_frames);
   const std::string& out = Required("out", FLAGS_out);
-  const Discretization discretization =
-      ParseDiscretization(FLAGS_scheme, FLAGS_resolution);
-  if (FLAGS_dump_config) {
-    DumpConfig(finger, scene, discretization);
-    return kGood;
-  }
+  const Discretization discretization = DiscretizationFlags();
+  if (DumpConfigFlag(finger, scene, discretization)) return kGood;
   if (!(FLAGS_force_std_N >= 0 && FLAGS_object_std_mm >= 0 &&
         FLAGS_pin_std_mm >= 0)) {
     throw InputError(

@@ -1,13 +1,14 @@
-// Holds a calibrated finger against logs that it has not seen: a gate for CI.
+// Compares a calibrated finger with logs that it was not calibrated from.
 
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 
 #include "app.h"
 #include "finray/calib/analysis/validation.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/number_text.h"
+#include "outputs.h"
+#include "shared_flags.h"
 
 DEFINE_string(finger, "", "calibrated finger YAML");
 DEFINE_string(scene, "", "scene YAML; neither this nor a plan: contacts: auto");
@@ -18,9 +19,6 @@ DEFINE_string(logs, "",
 DEFINE_string(out_dir, "", "folder for validation.yaml, validation.frames.csv");
 DEFINE_string(baseline, "", "finger YAML to compare with, e.g. uncalibrated");
 DEFINE_int32(threads, 2, "threads over frames");
-DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
-DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
-DEFINE_bool(dump_config, false, "print what is in force, and stop");
 
 DEFINE_double(most_force_rms_N, 0,
               "gate: rms error of the force; default: none");
@@ -37,10 +35,6 @@ DEFINE_double(least_usable_percent, 0,
 namespace {
 
 using namespace finray;
-
-std::string InFolder(const char* name) {
-  return (std::filesystem::path(FLAGS_out_dir) / name).string();
-}
 
 Plan PlanOrScene() {
   if (!FLAGS_plan.empty() && !FLAGS_scene.empty()) {
@@ -80,16 +74,16 @@ std::vector<Gate> Gates() {
   std::vector<Gate> gates;
   for (const auto& [quantity, bound] : all) {
     const char* name = GateName(quantity);
-    if (gflags::GetCommandLineFlagInfoOrDie(name).is_default) continue;
+    if (!IsGiven(name)) continue;
     CheckBound(name, bound);
     gates.push_back({quantity, bound});
   }
   return gates;
 }
 
-// What a calibration finds of these is in its calibration.yaml, of which
-// nothing is read here.
-void WarnOfWhatIsNotApplied(const Plan& plan) {
+// These parameters belong to the calibration's own logs. The finger YAML does
+// not hold them, so the errors found here contain their effect.
+void WarnOfParametersOfLogs(const Plan& plan) {
   const std::pair<ParameterFamily, const char*> of_logs[] = {
       {ParameterFamily::kObjectOrigin, "object_origin"},
       {ParameterFamily::kForceScale, "force_scale"},
@@ -103,9 +97,9 @@ void WarnOfWhatIsNotApplied(const Plan& plan) {
   }
   if (names.empty()) return;
   LOG(WARNING) << "the plan frees " << names
-               << ": what the calibration found of it is not applied to these "
-                  "logs, so that errors have it in them; correct the logs, or "
-                  "use `holdout` in the plan";
+               << ": its value from the calibration is not applied to these "
+                  "logs, so the errors contain it; correct the logs, or use "
+                  "`holdout` in the plan";
 }
 
 void PrintErrors(const char* name, const ErrorStatistics& errors,
@@ -129,7 +123,7 @@ void PrintSummary(const CalibrationLogs& logs, const Validation& validation,
   const ErrorRow* baseline = validation.baseline_errors
                                  ? &validation.baseline_errors->contact
                                  : nullptr;
-  std::printf("%s\n", InFolder("validation.yaml").c_str());
+  std::printf("%s\n", OutPath("validation.yaml").c_str());
   std::printf(
       "frames         %zu with contact (%zu usable, %zu missed), %zu free (%zu "
       "untrue), in %zu log%s\n",
@@ -179,39 +173,29 @@ int Run() {
                        std::to_string(finger.gauges.size()));
     }
   }
-  const Discretization discretization =
-      ParseDiscretization(FLAGS_scheme, FLAGS_resolution);
-  if (FLAGS_dump_config) {
-    DumpConfig(finger, plan.scene, discretization);
-    return kGood;
-  }
-  WarnOfWhatIsNotApplied(plan);
+  const Discretization discretization = DiscretizationFlags();
+  if (DumpConfigFlag(finger, plan.scene, discretization)) return kGood;
+  WarnOfParametersOfLogs(plan);
   Plan whole = plan;
-  whole.holdout_by = HoldoutBy::kNothing;  // all of these logs are held out
+  whole.holdout_by = HoldoutBy::kNothing;  // these logs are held out already
   const CalibrationLogs logs = ReadCalibrationLogs(paths, finger, whole);
   const Validation validation =
       Validate(finger, baseline, whole, logs, discretization, FLAGS_threads);
   const std::vector<GateResult> results = CheckGates(validation, gates);
 
-  std::string command = "finray_validate --finger " + FLAGS_finger;
-  if (!FLAGS_plan.empty()) command += " --plan " + FLAGS_plan;
-  if (!FLAGS_scene.empty()) command += " --scene " + FLAGS_scene;
-  if (!FLAGS_baseline.empty()) command += " --baseline " + FLAGS_baseline;
-  command += " --logs " + FLAGS_logs + " --out_dir " + FLAGS_out_dir +
-             " --scheme " + FLAGS_scheme + " --resolution " +
-             std::to_string(FLAGS_resolution);
-  for (const GateResult& result : results) {
-    command += std::string(" --") + GateName(result.gate.quantity) + " " +
-               NumberText(result.gate.bound);
-  }
+  std::vector<const char*> flags = {"finger",   "plan",      "scene",
+                                    "baseline", "logs",      "out_dir",
+                                    "scheme",   "resolution"};
+  for (const Gate& gate : gates) flags.push_back(GateName(gate.quantity));
   MakeFolder(FLAGS_out_dir);
   WriteFileAtomically(
-      InFolder("validation.yaml"),
-      ValidationYaml(logs, validation, results,
-                     {FLAGS_finger, FLAGS_baseline,
-                      FLAGS_plan.empty() ? FLAGS_scene : FLAGS_plan, command}));
+      OutPath("validation.yaml"),
+      ValidationYaml(
+          logs, validation, results,
+          {FLAGS_finger, FLAGS_baseline,
+           FLAGS_plan.empty() ? FLAGS_scene : FLAGS_plan, CommandWith(flags)}));
   ValidationFrames(logs, validation, plan.scene.friction_coefficient)
-      .Write(InFolder("validation.frames.csv"));
+      .Write(OutPath("validation.frames.csv"));
   PrintSummary(logs, validation, results);
   for (const GateResult& result : results) {
     if (!result.passed) return kGateFailed;

@@ -1,0 +1,103 @@
+#include "app.h"
+
+#include <exception>
+
+#include "finray/io/number_text.h"
+
+namespace finray {
+
+const std::string& Required(const char* flag, const std::string& value) {
+  if (value.empty()) throw UsageError(std::string("--") + flag + " is missing");
+  return value;
+}
+
+bool IsGiven(const char* flag) {
+  return !gflags::GetCommandLineFlagInfoOrDie(flag).is_default;
+}
+
+std::vector<std::string> SplitList(const std::string& list) {
+  std::vector<std::string> items;
+  std::istringstream stream(list);
+  for (std::string item; std::getline(stream, item, ',');) {
+    if (!item.empty()) items.push_back(item);
+  }
+  return items;
+}
+
+std::string CommandWith(const std::vector<const char*>& flags) {
+  std::string command = gflags::ProgramInvocationShortName();
+  for (const char* flag : flags) {
+    const auto info = gflags::GetCommandLineFlagInfoOrDie(flag);
+    if (info.current_value == info.default_value) continue;
+    command += " --" + info.name;
+    if (info.type == "double") {
+      command += " " + NumberText(*static_cast<const double*>(info.flag_ptr));
+    } else if (info.type != "bool") {
+      command += " " + info.current_value;
+    } else if (info.current_value == "false") {
+      command += "=false";
+    }
+  }
+  return command;
+}
+
+void DumpConfig(const Finger& finger, const Scene& scene,
+                const Discretization& discretization) {
+  std::cout << "scheme: " << SchemeName(discretization.scheme) << "\n"
+            << "resolution: " << EffectiveResolution(discretization) << "\n"
+            << "contacts: "
+            << (scene.contacts ? std::to_string(*scene.contacts) : "auto")
+            << "\n";
+  if (!scene.contact_beams.empty()) {
+    std::cout << "contact_beams: " << ContactBeamsToYaml(scene) << "\n";
+  }
+  std::cout << "friction_coefficient: " << scene.friction_coefficient << "\n";
+  if (scene.object) {
+    std::cout << "object: " << ObjectToYaml(*scene.object) << "\n";
+  }
+  if (scene.object_std_mm) {
+    std::cout << "measurements: {object_std_mm: " << *scene.object_std_mm
+              << "}\n";
+  }
+  if (scene.smoothing) {
+    std::cout << "smoothing: {contact_std_mm: " << scene.smoothing->contact_mm
+              << ", normal_std_N: " << scene.smoothing->normal_N << "}\n";
+  }
+  std::istringstream lines(FingerToYaml(finger));
+  std::cout << "finger:\n";
+  for (std::string line; std::getline(lines, line);) {
+    std::cout << "  " << line << "\n";
+  }
+}
+
+int RunApp(int argc, char** argv, const std::string& usage,
+           const std::function<int()>& run,
+           std::vector<std::string>* arguments) {
+  gflags::SetUsageMessage(usage);
+  gflags::SetVersionString(FINRAY_VERSION);
+  FLAGS_logtostderr = true;
+  google::InitGoogleLogging(argv[0]);
+  gflags::ParseCommandLineFlags(&argc, &argv, true);
+  const auto fail = [](const std::string& message, ExitCode code) {
+    std::cerr << gflags::ProgramInvocationShortName() << ": " << message
+              << "\n";
+    return code;
+  };
+  try {
+    if (arguments != nullptr) {
+      arguments->assign(argv + 1, argv + argc);
+    } else if (argc > 1) {
+      throw UsageError(std::string("'") + argv[1] +
+                       "' is not a flag; flags start with --");
+    }
+    return run();
+  } catch (const UsageError& error) {
+    return fail(std::string(error.what()) + "; see --help", kUsage);
+  } catch (const InputError& error) {
+    return fail(error.what(), kBadInput);
+  } catch (const std::exception& error) {
+    return fail(error.what(), kSolveFailed);
+  }
+}
+
+}  // namespace finray
