@@ -1,23 +1,22 @@
-// Speed and accuracy of every solver on this machine, and whether a build is
-// slower than another.
+// Measures speed and accuracy of every solver on this machine, and compares two
+// such runs.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
-#include <filesystem>
 #include <set>
 
 #include "app.h"
 #include "count_allocations.h"
 #include "finray/benchmark/benchmark_files.h"
-#include "finray/benchmark/pareto.h"
 #include "finray/benchmark/peers.h"
 #include "finray/benchmark/recommendation.h"
 #include "finray/benchmark/run_comparison.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/python_script.h"
 #include "finray/io/sha256.h"
+#include "outputs.h"
 #include "progress_bar.h"
 
 DEFINE_string(finger, FINRAY_SOURCE_DIR "/configs/fingers/paper_140mm.yaml",
@@ -26,27 +25,22 @@ DEFINE_string(out_dir, "",
               "folder for benchmark.json, benchmark.csv, report.html");
 DEFINE_bool(quick, false, "less than a minute: part of the log, few rounds");
 DEFINE_string(only, "",
-              "settings whose id holds one of these, separated by commas; left "
-              "out: all");
-DEFINE_int32(threads, 0,
-             "most threads of the scaling with threads; 0: all cores");
+              "settings whose id contains one of these, separated by commas; "
+              "without it all");
+DEFINE_int32(threads, 0, "batches run on 1 .. this many; 0: all cores");
 DEFINE_int32(rounds, 0, "repeats of every setting; 0: 9 if quick, else 15");
 DEFINE_string(peers, "none",
-              "other programs to ask too: none, auto (all that are installed), "
-              "or of scipy, octave, calculix, separated by commas");
+              "other programs to measure too: none, auto (all that are "
+              "installed), or some of scipy,octave,calculix");
 DEFINE_string(compare, "",
-              "A,B: compares two runs (folders or benchmark.json) instead");
+              "A,B: compare two runs (folders or benchmark.json) instead");
 DEFINE_double(most_slowdown_percent, 15,
-              "--compare: what is slower than this fails the gate");
+              "--compare: a setting slower than this fails the gate");
 DEFINE_bool(report, true, "render report.html");
 
 namespace {
 
 using namespace finray;
-
-std::string InFolder(const char* name) {
-  return (std::filesystem::path(FLAGS_out_dir) / name).string();
-}
 
 int Compare() {
   const std::vector<std::string> paths = SplitList(FLAGS_compare);
@@ -69,7 +63,7 @@ int Compare() {
         one.worse.empty() ? "" : "; less accurate: ", one.worse.c_str());
   }
   if (comparison.settings.empty()) {
-    throw InputError(paths[1] + ": has no setting of " + paths[0]);
+    throw InputError(paths[1] + ": has no setting in common with " + paths[0]);
   }
   for (const std::string& id : comparison.only_a) {
     std::printf("%-62s only in A\n", id.c_str());
@@ -77,25 +71,23 @@ int Compare() {
   for (const std::string& id : comparison.only_b) {
     std::printf("%-62s only in B\n", id.c_str());
   }
+  const double percent = FLAGS_most_slowdown_percent, band = 1 + percent / 100;
   std::vector<double> ratios;
+  int within = 0;
   for (const SettingComparison& one : comparison.settings) {
     ratios.push_back(one.ratio);
+    within += one.ratio <= band && one.ratio >= 1 / band;
   }
   std::printf(
       "settings       %zu in both: %d faster, %d slower, %d same (within %g "
-      "%%), "
-      "%d undecided; %d less accurate\n",
-      comparison.settings.size(), comparison.Count(SpeedVerdict::kFaster),
+      "%%), %d undecided; %d less accurate\n",
+      ratios.size(), comparison.Count(SpeedVerdict::kFaster),
       comparison.Count(SpeedVerdict::kSlower),
-      comparison.Count(SpeedVerdict::kSame), FLAGS_most_slowdown_percent,
+      comparison.Count(SpeedVerdict::kSame), percent,
       comparison.Count(SpeedVerdict::kUndecided), comparison.CountWorse());
-  const double band = 1 + FLAGS_most_slowdown_percent / 100;
-  const auto within = std::count_if(
-      ratios.begin(), ratios.end(),
-      [band](double ratio) { return ratio <= band && ratio >= 1 / band; });
-  std::printf("ratios         %.3f .. %.3f, median %.3f; %ld within %g %%\n",
+  std::printf("ratios         %.3f .. %.3f, median %.3f; %d within %g %%\n",
               Quantile(ratios, 0), Quantile(ratios, 1), Median(ratios), within,
-              FLAGS_most_slowdown_percent);
+              percent);
   std::printf("gate           %s\n", comparison.passes() ? "pass" : "FAIL");
   return comparison.passes() ? kGood : kGateFailed;
 }
@@ -121,7 +113,7 @@ std::vector<BenchmarkSetting> ChosenSettings(const Finger& finger) {
     }
   }
   if (chosen.empty()) {
-    throw InputError("--only: no setting's id holds '" + FLAGS_only +
+    throw InputError("--only: no setting's id contains '" + FLAGS_only +
                      "'; ids are like " + grid.front().name.id());
   }
   return chosen;
@@ -142,29 +134,54 @@ MeasuringOptions Options(ProgressBar* bar) {
   return options;
 }
 
+// Prints the times of ceres::Solve and of the paper's chain over that of the
+// fast solver, which does the same for a frame with one contact.
+void PrintRatios(const std::vector<Measurement>& all, const std::string& task,
+                 const std::string& fast) {
+  const auto find = [&](const std::string& setting) -> const Measurement* {
+    for (const Measurement& m : all) {
+      if (m.name.id() == task + "/one_contact/" + setting) return &m;
+    }
+    return nullptr;
+  };
+  const Measurement* ours = find(fast);
+  if (ours == nullptr) return;
+  const std::string how = "/" + ours->name.how;
+  for (const char* solver : {"ceres_reduced", "ceres_weighted", "paper100"}) {
+    const Measurement* other = find(solver + how);
+    if (other == nullptr) continue;
+    std::printf(
+        "ratio          %s: %.3g us, %.3g times %s; l_c off by %.1e mm\n",
+        other->name.id().c_str(), other->median_us(),
+        other->ratio() / ours->ratio(), fast.c_str(), other->errors.contact_mm);
+  }
+}
+
 void PrintSummary(const BenchmarkRun& run) {
-  std::printf("%s\n", InFolder("benchmark.json").c_str());
+  std::printf("%s\n", OutPath("benchmark.json").c_str());
   std::printf("settings       %zu, %d rounds; %s, %s\n", run.settings.size(),
-              run.rounds, run.machine.cpu.c_str(),
-              run.machine.instruction_set.c_str());
+              run.rounds, run.machine.at("cpu").c_str(),
+              run.machine.at("instruction_set").c_str());
   for (const Recommendation& r : Recommend(run.settings)) {
     std::printf("%-14s %s", r.use.c_str(),
                 r.id.empty() ? "nothing serves" : r.id.c_str());
     if (!r.id.empty()) {
       std::printf(", %.3g us, l_c off by %.1e mm", r.time_us, r.error_mm);
     }
-    if (std::isfinite(r.margin)) std::printf(", margin %.0f", r.margin);
+    if (std::isfinite(r.margin())) std::printf(", margin %.0f", r.margin());
     std::printf("\n");
   }
+  PrintRatios(run.settings, "sensing", "default/alone");
+  PrintRatios(run.settings, "estimation", "default/search");
   for (const DefaultCheck& check : CheckDefaults(run.settings)) {
     std::printf(
         "default        %s: %s; fastest with l_c as good: %s, %.2f of its time "
         "(%.2f .. %.2f)\n",
         check.id.c_str(),
-        check.holds()     ? "on the Pareto front, none is 20 % faster and more "
-                            "accurate"
-        : !check.on_front ? "NOT on the Pareto front"
-                          : "BEATEN",
+        check.holds() ? "on the Pareto front, none is 20 % faster and more "
+                        "accurate"
+        : !check.on_front() ? "NOT on the Pareto front"
+                            : "BEATEN",
         check.rival.c_str(), check.rival_time, check.rival_interval.low,
         check.rival_interval.high);
     for (const std::string& id : check.dominated_by) {
@@ -190,7 +207,7 @@ int Measure() {
   const std::vector<std::string> peers = ParsePeers(FLAGS_peers);
   if (finger.gauges.size() < 4) {
     throw InputError(FLAGS_finger +
-                     ": the benchmark senses up to two contacts, which takes 4 "
+                     ": the benchmark senses up to two contacts and needs 4 "
                      "gauges; '" +
                      finger.name + "' has " +
                      std::to_string(finger.gauges.size()));
@@ -201,13 +218,8 @@ int Measure() {
   BenchmarkRun run;
   run.quick = FLAGS_quick;
   run.date = UtcNow();
-  run.command =
-      "finray_benchmark --finger " + FLAGS_finger + " --out_dir " +
-      FLAGS_out_dir + (FLAGS_quick ? " --quick" : "") +
-      (FLAGS_only.empty() ? "" : " --only " + FLAGS_only) +
-      (FLAGS_rounds > 0 ? " --rounds " + std::to_string(FLAGS_rounds) : "") +
-      (FLAGS_threads > 0 ? " --threads " + std::to_string(FLAGS_threads) : "") +
-      " --peers " + FLAGS_peers;
+  run.command = CommandWith(
+      {"finger", "out_dir", "quick", "only", "rounds", "threads", "peers"});
   run.finger_name = finger.name;
   run.finger_path = FLAGS_finger;
   run.finger_sha256 = Sha256OfFile(FLAGS_finger);
@@ -217,7 +229,7 @@ int Measure() {
   run.reference = SchemeName(finest.scheme) + ", order 16, " +
                   std::to_string(finest.resolution) + " elements";
 
-  // Batches are of one contact, peers are asked for that and for friction.
+  // Batches need one contact; peers need that and friction.
   std::set<std::string> scenes = {"one_contact"};
   if (!peers.empty()) scenes.insert("friction");
   for (const BenchmarkSetting& one : grid) scenes.insert(one.name.scene);
@@ -225,27 +237,23 @@ int Measure() {
   for (const std::string& scene : scenes) {
     cases.push_back(MakeBenchmarkCase(finger, scene));
   }
-  const auto one_contact = std::find_if(
-      cases.begin(), cases.end(),
-      [](const BenchmarkCase& c) { return c.scene_name == "one_contact"; });
   {
     ProgressBar bar(grid.size() * static_cast<std::size_t>(Rounds() + 1));
     const MeasuringOptions options = Options(&bar);
     run.rounds = options.rounds;
     run.settings = MeasureSettings(grid, cases, options);
   }
-  const int threads =
-      FLAGS_threads > 0 ? FLAGS_threads : std::max(1, run.machine.cores);
-  run.scaling = MeasureBatches(*one_contact, FLAGS_quick ? 4096 : 65536,
-                               threads, FLAGS_quick ? 3 : 7);
-  run.scaling.links = ScalingWithLinks(run.settings);
+  const int threads = FLAGS_threads > 0 ? FLAGS_threads : UsableCores();
+  run.scaling =
+      MeasureBatches(CaseOf(cases, "one_contact"), FLAGS_quick ? 4096 : 65536,
+                     threads, FLAGS_quick ? 3 : 7);
   for (const std::string& peer : peers) {
     MeasurePeer(peer, FINRAY_SOURCE_DIR "/scripts/peers", FLAGS_out_dir, finger,
                 cases, FLAGS_quick, &run);
   }
 
-  WriteFileAtomically(InFolder("benchmark.json"), BenchmarkJson(run));
-  WriteFileAtomically(InFolder("benchmark.csv"), BenchmarkCsv(run));
+  WriteFileAtomically(OutPath("benchmark.json"), BenchmarkJson(run));
+  WriteFileAtomically(OutPath("benchmark.csv"), BenchmarkCsv(run));
   if (FLAGS_report) {
     const std::string problem = RunPythonScript(
         FINRAY_SOURCE_DIR "/scripts/benchmark/render.py", {FLAGS_out_dir},

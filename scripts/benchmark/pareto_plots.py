@@ -1,4 +1,4 @@
-"""Time against error, a plot a task and scene, with the Pareto front."""
+"""Plots error over time with the Pareto front, one for each task and scene."""
 
 import matplotlib.pyplot as plt
 

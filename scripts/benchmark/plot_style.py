@@ -11,7 +11,7 @@ FAMILIES = {
     "taylor": (theme.AFTER, "series of order 4 to 16"),
     "chain": (theme.HELD, "linear-time chain"),
     "paper": (theme.BEFORE, "the paper’s dense Newton"),
-    "ceres": (CERES, "ceres::Solve on the chain"),
+    "ceres": (CERES, "ceres::Solve"),
     "scipy": (theme.INK, "SciPy"),
     "octave": (theme.INK, "Octave"),
     "calculix": (theme.INK, "CalculiX"),

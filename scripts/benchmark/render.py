@@ -140,7 +140,7 @@ def main():
     page = environment.get_template("benchmark.html.jinja").render(
         run=run, headline=headline, meaning=meaning, good=good, tiles=tiles(run, by_id),
         uses=USES, yardstick_us=yardstick_us, by_id=by_id, scenes=scenes, groups=groups(run),
-        key=pareto_plots.key(run["settings"]), links=scaling_plots.links(run["scaling"]["links"]),
+        key=pareto_plots.key(run["settings"]), links=scaling_plots.links(run["settings"]),
         frames=scaling_plots.frames(run["scaling"]["frames"]),
         threads=scaling_plots.threads(run["scaling"]["threads"]))
     temporary = folder / "report.html.part"

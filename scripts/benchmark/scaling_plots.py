@@ -1,21 +1,32 @@
-"""How time grows with links, frames and threads."""
+"""Plots of time by links, frames and threads."""
 
 import matplotlib.pyplot as plt
+import numpy as np
 
 from plot_style import FAMILIES
 from theme import AFTER, LINE, QUIET, svg
 
 
-def links(solvers):
-    if not solvers:
+def links(settings):
+    """Time by n of the chains on one contact, with the exponent of time ~ n^e."""
+    solvers = {}
+    for s in settings:
+        if s["scene"] == "one_contact" and s["task"] != "estimation" and \
+                s["family"] in ("paper", "chain"):
+            solvers.setdefault((s["task"], s["family"]), []).append((s["links"], s["median_us"]))
+    # From n = 50 on the time that does not depend on n is small.
+    long = {key: np.log([p for p in points if p[0] >= 50]) for key, points in solvers.items()}
+    if not any(len(points) > 1 for points in long.values()):
         return None
     figure, axes = plt.subplots(figsize=(4.7, 3.4))
-    for one in solvers:
-        task, family = one["solver"].split()
-        axes.plot(one["links"], one["time_us"], color=FAMILIES[family][0],
+    for (task, family), points in solvers.items():
+        if len(long[task, family]) < 2:
+            continue
+        exponent = np.polyfit(*long[task, family].T, 1)[0]
+        axes.plot(*zip(*points), color=FAMILIES[family][0],
                   marker="o" if task == "forward" else "s", ms=4, lw=1.2,
                   ls="-" if task == "forward" else "--",
-                  label=f"{one['solver']}, n to the {one['exponent']:.2f}")
+                  label=f"{task} {family}, n to the {exponent:.2f}")
     axes.set(xscale="log", yscale="log", xlabel="links n", ylabel="time a frame (µs)")
     axes.grid(True, which="major", color=LINE, lw=0.5)
     axes.minorticks_off()

@@ -112,7 +112,7 @@ TEST_F(BenchmarkCommandTest, BadInput) {
   ExpectBadInput("finray_benchmark", finger + " --out_dir %out --peers scypi",
                  "did you mean 'scipy'?");
   ExpectBadInput("finray_benchmark", finger + " --out_dir %out --only nothing",
-                 "no setting's id holds 'nothing'");
+                 "no setting's id contains 'nothing'");
   Write("bad.json", "{\"tool\": \"finray_benchmark\", \"schema_version\": 2}");
   ExpectBadInput("finray_benchmark", "--compare %bad.json,%bad.json",
                  "bad.json:1:48: schema_version: expected 1");

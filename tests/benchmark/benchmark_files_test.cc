@@ -23,8 +23,8 @@ TEST(BenchmarkFilesTest, ReadsBackWhatItWrites) {
   EXPECT_TRUE(read.quick);
   EXPECT_EQ(read.rounds, 25);
   EXPECT_EQ(read.finger_name, run.finger_name);
-  EXPECT_EQ(read.machine.cpu, "a CPU");
-  EXPECT_EQ(read.build.flags, "RELEASE: -O3");
+  EXPECT_EQ(read.machine.at("cpu"), "a CPU");
+  EXPECT_EQ(read.build.at("flags"), "RELEASE: -O3");
   ASSERT_EQ(read.settings.size(), 1u);
   const Measurement &a = run.settings[0], &b = read.settings[0];
   EXPECT_EQ(b.name.id(), "sensing/one_contact/taylor8x1/alone");

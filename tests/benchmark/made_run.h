@@ -34,9 +34,9 @@ inline BenchmarkRun MadeRun(double time_us, double noise, unsigned seed) {
   BenchmarkRun run;
   run.rounds = 25;
   run.date = "2020-01-01T00:00:00Z";
-  run.machine.cpu = "a CPU";
-  run.machine.instruction_set = "AVX2";
-  run.build = {"0.1.0", "abc", "GNU 12", "RELEASE: -O3", "2.1.0", "3.4.0"};
+  run.machine = {{"cpu", "a CPU"}, {"instruction_set", "AVX2"}};
+  run.build = {
+      {"version", "0.1.0"}, {"compiler", "GNU 12"}, {"flags", "RELEASE: -O3"}};
   run.settings = {MadeSetting("taylor8x1", time_us, noise, seed)};
   return run;
 }

@@ -35,9 +35,9 @@ TEST(RecommendationTest, EachUseGetsItsOwn) {
   const std::vector<Recommendation> found = Recommend(all);
   ASSERT_EQ(found.size(), 4u);
   EXPECT_EQ(found[0].id, "estimation/one_contact/slow_and_exact/live");
-  EXPECT_NEAR(found[0].margin, 1e6 / 30 / 500, 1e-9);
+  EXPECT_NEAR(found[0].margin(), 1e6 / 30 / 500, 1e-9);
   EXPECT_EQ(found[1].id, "estimation/one_contact/exact/live");
-  EXPECT_NEAR(found[1].margin, 1000. / 90, 1e-9);
+  EXPECT_NEAR(found[1].margin(), 1000. / 90, 1e-9);
   EXPECT_EQ(found[2].id, "estimation/one_contact/good/block");
   EXPECT_EQ(found[3].id, "sensing/one_contact/as_fine/to_rounding");
 }

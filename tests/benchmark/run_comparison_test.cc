@@ -90,7 +90,7 @@ TEST(ComparisonTest, OtherMachinesAndSettingsAreNamed) {
   const BenchmarkRun a = MadeRun(10, 0.01, 1);
   BenchmarkRun b = MadeRun(10, 0.01, 2);
   EXPECT_THAT(CompareRuns(a, b, 0.15).differences, IsEmpty());
-  b.machine.cpu = "another";
+  b.machine["cpu"] = "another";
   b.settings.push_back(MadeSetting("taylor12x1", 10, 0.01, 3));
   const BenchmarkComparison found = CompareRuns(a, b, 0.15);
   EXPECT_THAT(found.differences, ElementsAre("machine: a CPU against another"));

@@ -17,11 +17,6 @@ TEST(StatisticsTest, QuantilesAreLinearBetweenValues) {
   EXPECT_TRUE(std::isnan(Median({})));
 }
 
-TEST(StatisticsTest, SlopeOfAPower) {
-  EXPECT_NEAR(LogLogSlope({10, 20, 40, 80}, {3e3, 24e3, 192e3, 1536e3}), 3,
-              1e-12);
-}
-
 // The interval of a ratio of quantiles holds the truth about as often as it
 // says.
 TEST(StatisticsTest, BootstrapCoversTheRatio) {

@@ -12,17 +12,16 @@ namespace finray {
 namespace {
 
 constexpr double kNoise_rad = 1e-4;
-// Four gauges hardly tell two contacts: with 1e-4 rad many frames have several
-// answers.
+// With 1e-4 rad four gauges cannot tell two contacts apart: many frames have
+// several answers.
 constexpr double kNoiseOfTwo_rad = 1e-5;
 constexpr double kObjectStd_mm = 0.05;
 constexpr double kFriction = 0.3;
-constexpr int kFramesApart = 260;  // stretch from stretch
+constexpr int kFramesApart = 260;  // from stretch to stretch
 constexpr double kPaperLength_mm = 140;
 constexpr double kPaperForceUnit_N = 12500. / (140 * 140);
 
-// The place of frame `i` of the whole way, lengths and forces of the paper's
-// finger.
+// Returns the contacts at step `i` of the path on the paper's finger.
 std::vector<PointContact> ContactsAt(const std::string& scene, int i) {
   if (scene == "no_contact") return {};
   const double swing = std::sin(0.0015 * i), swell = std::cos(0.006 * i);
@@ -87,7 +86,7 @@ BenchmarkCase MakeBenchmarkCase(const Finger& finger, const std::string& scene,
   BenchmarkCase c;
   c.scene_name = scene;
   c.finger = finger;
-  c.finger.calibration.reset();  // its uncertainty is no part of the solvers
+  c.finger.calibration.reset();  // its uncertainty would only add to std
   const double noise = scene == "two_contacts" ? kNoiseOfTwo_rad : kNoise_rad;
   for (Gauge& gauge : c.finger.gauges) {
     gauge.noise_V = noise * std::abs(gauge.gain_V_per_rad);
@@ -151,7 +150,7 @@ BenchmarkCase MakeBenchmarkCase(const Finger& finger, const std::string& scene,
       }
       c.sensed.push_back(AnswerOf(model, contacts));
     } else {
-      // Without a contact there is nothing to fit: the free finger.
+      // Without a contact the free finger is the answer.
       c.sensed.push_back(c.forward.back());
     }
     c.frames.push_back(std::move(frame));

@@ -11,19 +11,20 @@
 
 namespace finray {
 
-// A case is a log along which a contact wanders and its force swells,
+// A case is a simulated log. Along it a contact wanders and its force swells,
 //
 //   l_c = l_0 (1/2 + 2/7 sin(0.0015 i)),   f_c = F (4 + 3 cos(0.006 i)),
 //
-// F = 1 N on the paper's finger: up to 0.06 mm and 0.018 N from frame to frame.
-// It is cut into stretches spread over the whole way, so that a solver too slow
-// for all of it still sees all of the beam. Each begins with a lead-in frame,
-// from which solvers start and which is not measured.
+// with F = 1 N on the paper's finger, so that frames differ by up to 0.06 mm
+// and 0.018 N from the one before. The log consists of stretches from all of
+// this path, so that a slow solver, which gets a few frames of each, meets the
+// whole beam too. Each stretch begins with a lead-in frame. Solvers start from
+// it, and it is not measured.
 
 constexpr int kStretches = 16;
 constexpr int kStretchFrames = 64;
 
-/// What a solver says of a frame.
+/// A solver's answer to a frame.
 struct FrameAnswer {
   bool solved = false;
   std::vector<PointContact> contacts;
@@ -33,34 +34,34 @@ struct FrameAnswer {
 };
 
 struct BenchmarkFrame {
-  std::vector<PointContact> contacts;  ///< The load; with an object its answer.
+  std::vector<PointContact> contacts;  ///< The true ones.
   ObjectPose object;
   Measurements readings;       ///< With noise, in V.
-  PackedReadings measurement;  ///< The same as ContactFit takes it.
+  PackedReadings measurement;  ///< The same, as ContactFit takes them.
 };
 
 struct BenchmarkCase {
   std::string scene_name;
-  Finger finger;  ///< Its gauges have the noise of the case.
+  Finger finger;  ///< With the gauge noise of the case.
   Scene scene;
   std::vector<BenchmarkFrame> frames;
-  /// What the finest discretization says of load and of readings.
+  /// The answers of the finest discretization: to the load, and to the
+  /// readings.
   std::vector<FrameAnswer> forward, sensed;
 
-  /// The lead-in of a stretch; its frames are those behind it.
+  /// Index of the lead-in of a stretch; the frames of the stretch follow it.
   static int LeadIn(int stretch) { return stretch * (kStretchFrames + 1); }
 };
 
-/// The names of all scenes: no_contact, one_contact, two_contacts, friction,
-/// circle.
+/// Returns the names of all scenes: no_contact, one_contact, two_contacts,
+/// friction, circle.
 const std::vector<std::string>& BenchmarkScenes();
 
-/// Elements over both beams that make `a_bay` of them in each bay of equal
-/// stiffness between ribs.
+/// Returns the number of elements over both beams that puts `a_bay` of them
+/// into every bay.
 int ElementsFor(const Finger& finger, double a_bay);
 
-/// The discretization that answers are compared with: order 16, eight elements
-/// a bay.
+/// Returns the discretization of the reference: order 16, eight elements a bay.
 Discretization ReferenceDiscretization(const Finger& finger);
 
 /// Makes a case of `stretches` stretches. Throws std::runtime_error if the
@@ -68,7 +69,7 @@ Discretization ReferenceDiscretization(const Finger& finger);
 BenchmarkCase MakeBenchmarkCase(const Finger& finger, const std::string& scene,
                                 int stretches = kStretches);
 
-/// The case of a scene. Throws std::logic_error if there is none.
+/// Returns the case of a scene. Throws std::logic_error if there is none.
 const BenchmarkCase& CaseOf(const std::vector<BenchmarkCase>& cases,
                             std::string_view scene);
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "finray/benchmark/json_writer.h"
+#include "finray/benchmark/json_emitter.h"
 #include "finray/benchmark/pareto.h"
 #include "finray/benchmark/recommendation.h"
 #include "finray/benchmark/statistics.h"
@@ -15,7 +15,7 @@
 namespace finray {
 namespace {
 
-// The numbers of a setting by the names they have in both files.
+// The numbers of a setting under their names in both files.
 struct NamedNumber {
   const char* name;
   double (*of)(const Measurement&);
@@ -51,117 +51,118 @@ constexpr NamedNumber kNumbers[] = {
     {"setup_bytes", [](const Measurement& m) { return m.setup_bytes; }},
 };
 
-void WriteMachine(const BenchmarkRun& run, JsonWriter* json) {
-  const Machine& machine = run.machine;
-  json->Open("machine", '{').Text("cpu", machine.cpu);
-  json->Number("cores", machine.cores).Text("caches", machine.caches);
-  json->Text("governor", machine.governor);
-  json->Text("instruction_set", machine.instruction_set);
-  json->Text("system", machine.system).Close();
-  const Build& build = run.build;
-  json->Open("build", '{').Text("version", build.version);
-  json->Text("git", build.git).Text("compiler", build.compiler);
-  json->Text("flags", build.flags).Text("ceres", build.ceres);
-  json->Text("eigen", build.eigen).Close();
+void WriteFacts(const char* key, const Facts& facts, JsonEmitter* json) {
+  *json << YAML::Newline;
+  json->Key(key);
+  *json << YAML::BeginMap;
+  for (const auto& [name, value] : facts) json->Pair(name.c_str(), value);
+  *json << YAML::EndMap;
 }
 
-void WriteSetting(const Measurement& m, JsonWriter* json) {
-  json->Open('{').Text("id", m.name.id()).Text("task", m.name.task);
-  json->Text("scene", m.name.scene).Text("solver", m.name.solver);
-  json->Text("how", m.name.how).Text("words", m.words);
-  json->Text("family", m.family);
-  if (!m.scheme.empty()) json->Text("scheme", m.scheme);
-  for (const NamedNumber& number : kNumbers) {
-    json->Number(number.name, number.of(m));
-  }
-  json->Numbers("time_us", m.time_us).Numbers("yardstick_us", m.yardstick_us);
-  json->Close();
+Facts ReadFacts(const YamlMap& map) {
+  Facts facts;
+  for (const std::string& name : map.Keys()) facts[name] = map.Text(name);
+  return facts;
 }
 
-void WriteScaling(const Scaling& scaling, JsonWriter* json) {
-  json->Open("scaling", '{');
-  json->Open("links", '[');
-  for (const LinkScaling& one : scaling.links) {
-    json->Open('{').Text("solver", one.solver).Numbers("links", one.links);
-    json->Numbers("time_us", one.time_us).Number("exponent", one.exponent);
-    json->Close();
-  }
-  json->Close();
-  const auto batches = [&](const char* key,
-                           const std::vector<BatchScaling>& all) {
-    json->Open(key, '[');
-    for (const BatchScaling& batch : all) {
-      const double median = Median(batch.seconds);
-      json->Open('{').Number("frames", batch.frames);
-      json->Number("threads", batch.threads).Number("median_s", median);
-      json->Number("frames_per_s", batch.frames / median);
-      json->Numbers("seconds", batch.seconds).Close();
+void WriteSettings(const std::vector<Measurement>& settings,
+                   JsonEmitter* json) {
+  json->Maps("settings", settings, [&](const Measurement& m) {
+    json->Pair("id", m.name.id());
+    json->Pair("task", m.name.task);
+    json->Pair("scene", m.name.scene);
+    json->Pair("solver", m.name.solver);
+    json->Pair("how", m.name.how);
+    json->Pair("words", m.words);
+    json->Pair("family", m.family);
+    if (!m.scheme.empty()) json->Pair("scheme", m.scheme);
+    for (const NamedNumber& number : kNumbers) {
+      json->Pair(number.name, number.of(m));
     }
-    json->Close();
+    json->Pair("time_us", m.time_us);
+    json->Pair("yardstick_us", m.yardstick_us);
+  });
+}
+
+void WriteScaling(const Scaling& scaling, JsonEmitter* json) {
+  *json << YAML::Newline;
+  json->Key("scaling");
+  *json << YAML::BeginMap;
+  const auto batch = [&](const BatchScaling& one) {
+    const double median = Median(one.seconds);
+    json->Pair("frames", one.frames);
+    json->Pair("threads", one.threads);
+    json->Pair("median_s", median);
+    json->Pair("frames_per_s", one.frames / median);
+    json->Pair("seconds", one.seconds);
   };
-  batches("frames", scaling.frames);
-  batches("threads", scaling.threads);
-  json->Close();
+  json->Maps("frames", scaling.frames, batch);
+  json->Maps("threads", scaling.threads, batch);
+  *json << YAML::EndMap;
 }
 
 void WriteConclusions(const std::vector<Measurement>& settings,
-                      JsonWriter* json) {
-  json->Open("pareto", '[');
-  for (const SceneFront& front : ParetoFronts(settings)) {
+                      JsonEmitter* json) {
+  json->Maps("pareto", ParetoFronts(settings), [&](const SceneFront& front) {
     std::vector<std::string> ids;
     for (const std::size_t i : front.front) {
       ids.push_back(settings[i].name.id());
     }
-    json->Open('{').Text("task", front.task).Text("scene", front.scene);
-    json->Texts("front", ids).Close();
-  }
-  json->Close();
-  json->Open("recommended", '[');
-  for (const Recommendation& r : Recommend(settings)) {
-    json->Open('{').Text("use", r.use).Text("id", r.id).Text("why", r.why);
-    json->Number("limit_us", r.limit_us).Number("time_us", r.time_us);
-    json->Number("margin", r.margin).Number("contact_error_mm", r.error_mm);
-    json->Close();
-  }
-  json->Close();
-  json->Open("defaults", '[');
-  for (const DefaultCheck& check : CheckDefaults(settings)) {
-    json->Open('{').Text("id", check.id).Boolean("holds", check.holds());
-    json->Boolean("on_front", check.on_front);
-    json->Texts("dominated_by", check.dominated_by);
-    json->Texts("faster_and_more_accurate", check.better);
-    json->Text("rival", check.rival).Number("rival_time", check.rival_time);
-    json->Numbers("rival_interval",
-                  {check.rival_interval.low, check.rival_interval.high});
-    json->Close();
-  }
-  json->Close();
+    json->Pair("task", front.task);
+    json->Pair("scene", front.scene);
+    json->Pair("front", ids);
+  });
+  json->Maps("recommended", Recommend(settings), [&](const Recommendation& r) {
+    json->Pair("use", r.use);
+    json->Pair("id", r.id);
+    json->Pair("why", r.why);
+    json->Pair("limit_us", r.limit_us);
+    json->Pair("time_us", r.time_us);
+    json->Pair("margin", r.margin());
+    json->Pair("contact_error_mm", r.error_mm);
+  });
+  json->Maps("defaults", CheckDefaults(settings), [&](const DefaultCheck& c) {
+    json->Pair("id", c.id);
+    json->Pair("holds", c.holds());
+    json->Pair("on_front", c.on_front());
+    json->Pair("dominated_by", c.dominated_by);
+    json->Pair("faster_and_more_accurate", c.better);
+    json->Pair("rival", c.rival);
+    json->Pair("rival_time", c.rival_time);
+    json->Pair("rival_interval", std::vector<double>{c.rival_interval.low,
+                                                     c.rival_interval.high});
+  });
 }
 
 }  // namespace
 
 std::string BenchmarkJson(const BenchmarkRun& run) {
-  JsonWriter json;
-  json.Open('{').Number("schema_version", 1).Text("tool", "finray_benchmark");
-  json.Boolean("quick", run.quick).Number("rounds", run.rounds);
-  json.Text("date", run.date).Text("command", run.command);
-  json.Open("finger", '{').Text("name", run.finger_name);
-  json.Text("path", run.finger_path).Text("sha256", run.finger_sha256).Close();
-  json.Text("reference", run.reference);
-  WriteMachine(run, &json);
-  json.Open("settings", '[');
-  for (const Measurement& m : run.settings) WriteSetting(m, &json);
-  json.Close();
-  json.Open("peers", '[');
-  for (const PeerStatus& peer : run.peers) {
-    json.Open('{').Text("name", peer.name).Text("version", peer.version);
-    json.Text("skipped", peer.skipped).Close();
-  }
-  json.Close();
+  JsonEmitter json;
+  json << YAML::BeginMap;
+  json.Pair("schema_version", 1);
+  json.Pair("tool", "finray_benchmark");
+  json.Pair("quick", run.quick);
+  json.Pair("rounds", run.rounds);
+  json.Pair("date", run.date);
+  json.Pair("command", run.command);
+  WriteFacts("finger",
+             {{"name", run.finger_name},
+              {"path", run.finger_path},
+              {"sha256", run.finger_sha256}},
+             &json);
+  json.Pair("reference", run.reference);
+  WriteFacts("machine", run.machine, &json);
+  WriteFacts("build", run.build, &json);
+  WriteSettings(run.settings, &json);
+  json.Maps("peers", run.peers, [&](const PeerStatus& peer) {
+    json.Pair("name", peer.name);
+    json.Pair("version", peer.version);
+    json.Pair("skipped", peer.skipped);
+  });
   WriteScaling(run.scaling, &json);
   WriteConclusions(run.settings, &json);
-  json.Close();
-  return json.text();
+  json << YAML::EndMap;
+  return std::string(json.c_str()) + "\n";
 }
 
 std::string BenchmarkCsv(const BenchmarkRun& run) {
@@ -194,7 +195,7 @@ std::string BenchmarkCsv(const BenchmarkRun& run) {
 BenchmarkRun ReadBenchmark(const std::string& path) {
   std::string file = path;
   if (std::filesystem::is_directory(path)) file += "/benchmark.json";
-  // JSON is YAML, and messages have their places.
+  // JSON is YAML, and the YAML reader names the place of an error.
   const YamlMap top = YamlMap::FromFile(file);
   top.Choice("tool", {"finray_benchmark"});
   if (top.Integer("schema_version") != 1) {
@@ -207,14 +208,8 @@ BenchmarkRun ReadBenchmark(const std::string& path) {
   const YamlMap finger = top.Map("finger");
   run.finger_name = finger.Text("name");
   run.finger_sha256 = finger.Text("sha256");
-  const YamlMap machine = top.Map("machine");
-  run.machine.cpu = machine.Text("cpu");
-  run.machine.instruction_set = machine.Text("instruction_set");
-  const YamlMap build = top.Map("build");
-  run.build.version = build.Text("version");
-  run.build.git = build.Text("git");
-  run.build.compiler = build.Text("compiler");
-  run.build.flags = build.Text("flags");
+  run.machine = ReadFacts(top.Map("machine"));
+  run.build = ReadFacts(top.Map("build"));
   for (const YamlMap& map : top.Maps("settings")) {
     Measurement m;
     m.name = {map.Text("task"), map.Text("scene"), map.Text("solver"),

@@ -7,15 +7,15 @@
 
 namespace finray {
 
-/// benchmark.json: the run, and what follows from it (fronts, recommendations,
-/// checks of the defaults).
+/// Returns benchmark.json: the run and its conclusions, that is Pareto fronts,
+/// recommendations and checks of the defaults.
 std::string BenchmarkJson(const BenchmarkRun& run);
 
-/// benchmark.csv: a row a setting.
+/// Returns benchmark.csv, one row for each setting.
 std::string BenchmarkCsv(const BenchmarkRun& run);
 
-/// Reads back what a comparison needs: settings, machine, build. `path` is a
-/// benchmark.json or a folder that holds one. Throws InputError with the place.
+/// Reads what a comparison needs: settings, machine and build. `path` is a
+/// benchmark.json or the folder of one. Throws InputError with the place.
 BenchmarkRun ReadBenchmark(const std::string& path);
 
 }  // namespace finray

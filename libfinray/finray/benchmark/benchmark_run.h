@@ -13,21 +13,20 @@ namespace finray {
 /// Another program that was asked for the same answers.
 struct PeerStatus {
   std::string name;     ///< scipy, octave, calculix
-  std::string version;  ///< Empty if it was not run.
-  std::string skipped;  ///< Why not; empty if it was.
+  std::string version;  ///< Empty if it did not run.
+  std::string skipped;  ///< The reason why it did not run; else empty.
 };
 
-/// All that a run of finray_benchmark measured.
+/// The results of one run of finray_benchmark.
 struct BenchmarkRun {
   bool quick = false;
   int rounds = 0;
   std::string date;  ///< UTC, ISO 8601.
   std::string command;
   std::string finger_name, finger_path, finger_sha256;
-  std::string reference;  ///< What errors are against, in words.
-  Machine machine;
-  Build build;
-  std::vector<Measurement> settings;  ///< Peers behind finray's.
+  std::string reference;  ///< The discretization of the reference, in words.
+  Facts machine, build;
+  std::vector<Measurement> settings;  ///< Those of peers come last.
   std::vector<PeerStatus> peers;
   Scaling scaling;
 };

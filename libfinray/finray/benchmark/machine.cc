@@ -46,38 +46,37 @@ std::string Caches() {
   return words.empty() ? "unknown" : words;
 }
 
-int Cores() {
+}  // namespace
+
+int UsableCores() {
   cpu_set_t set;
   return sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : 1;
 }
 
-}  // namespace
-
-Machine ThisMachine() {
-  Machine machine;
-  machine.cpu = CpuModel();
-  machine.cores = Cores();
-  machine.caches = Caches();
-  machine.governor =
+Facts ThisMachine() {
+  const std::string governor =
       FirstLineOf("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
-  if (machine.governor.empty()) machine.governor = "unknown";
-  machine.instruction_set = LadderInstructionSetName(0);
   utsname name;
-  machine.system = uname(&name) == 0 ? std::string(name.sysname) + " " +
-                                           name.release + " " + name.machine
-                                     : "unknown";
-  return machine;
+  const bool named = uname(&name) == 0;
+  return {{"cpu", CpuModel()},
+          {"cores", std::to_string(UsableCores())},
+          {"caches", Caches()},
+          {"governor", governor.empty() ? "unknown" : governor},
+          {"instruction_set", LadderInstructionSetName(0)},
+          {"system", named ? std::string(name.sysname) + " " + name.release +
+                                 " " + name.machine
+                           : "unknown"}};
 }
 
-Build ThisBuild() {
-  return {FINRAY_VERSION,
-          FINRAY_GIT,
-          FINRAY_COMPILER,
-          FINRAY_FLAGS,
-          CERES_VERSION_STRING,
-          std::to_string(EIGEN_WORLD_VERSION) + "." +
-              std::to_string(EIGEN_MAJOR_VERSION) + "." +
-              std::to_string(EIGEN_MINOR_VERSION)};
+Facts ThisBuild() {
+  return {{"version", FINRAY_VERSION},
+          {"git", FINRAY_GIT},
+          {"compiler", FINRAY_COMPILER},
+          {"flags", FINRAY_FLAGS},
+          {"ceres", CERES_VERSION_STRING},
+          {"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." +
+                        std::to_string(EIGEN_MAJOR_VERSION) + "." +
+                        std::to_string(EIGEN_MINOR_VERSION)}};
 }
 
 }  // namespace finray

@@ -1,30 +1,26 @@
 #ifndef FINRAY_BENCHMARK_MACHINE_H_
 #define FINRAY_BENCHMARK_MACHINE_H_
 
+#include <map>
 #include <string>
 
 namespace finray {
 
-/// What measured times belong to. "unknown" where the system does not tell.
-struct Machine {
-  std::string cpu;              ///< Model name.
-  int cores = 0;                ///< That this process may use.
-  std::string caches;           ///< "L1d 32K, L2 1024K, L3 33M".
-  std::string governor;         ///< Of the clock of core 0.
-  std::string instruction_set;  ///< Of the ladder kernel: AVX2 or baseline.
-  std::string system;           ///< Kernel and architecture.
-};
-Machine ThisMachine();
+/// Facts under their names in benchmark.json; "unknown" where the system does
+/// not tell.
+using Facts = std::map<std::string, std::string>;
 
-/// What was compiled, and with what.
-struct Build {
-  std::string version;  ///< finray's.
-  std::string git;      ///< Commit when CMake last ran.
-  std::string compiler;
-  std::string flags;  ///< Build type and options.
-  std::string ceres, eigen;
-};
-Build ThisBuild();
+/// Returns the number of cores that this process may use.
+int UsableCores();
+
+/// Returns the facts of this machine that times depend on: cpu, cores, caches,
+/// governor (of the frequency of core 0), instruction_set (of the ladder
+/// kernel) and system.
+Facts ThisMachine();
+
+/// Returns the facts of this build: version, git (commit when CMake last ran),
+/// compiler, flags, ceres and eigen.
+Facts ThisBuild();
 
 }  // namespace finray
 

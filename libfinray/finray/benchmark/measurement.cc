@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numeric>
 #include <random>
-#include <stdexcept>
 
 #include "finray/benchmark/statistics.h"
 #include "finray/benchmark/yardstick.h"
@@ -14,7 +13,7 @@ namespace finray {
 namespace {
 
 void Raise(double* largest, double value) {
-  // NaN is the start.
+  // The comparison is true for the NaN at the start too.
   if (!(*largest >= value)) *largest = value;
 }
 
@@ -24,7 +23,7 @@ double WallUs() {
       .count();
 }
 
-// A setting under way.
+// Measures one setting.
 class Bench {
  public:
   Bench(const BenchmarkSetting& setting, const BenchmarkCase& c,
@@ -32,18 +31,11 @@ class Bench {
       : setting_(setting), case_(c), allocations_(allocations) {
     const double before = allocations_ ? allocations_().bytes : 0;
     runner_ = setting.make(c);
-    result_.name = setting.name;
-    result_.words = setting.words;
-    result_.family = setting.family;
-    result_.links = setting.links;
-    if (setting.family == "taylor" || setting.family == "chain") {
-      result_.scheme = SchemeName(setting.discretization.scheme);
-      result_.resolution = setting.discretization.resolution;
-    }
+    static_cast<SettingLabel&>(result_) = setting;
     if (allocations_) result_.setup_bytes = allocations_().bytes - before;
   }
 
-  // Not timed as a whole: errors, iterations, memory, slow frames.
+  // Finds errors, iterations, memory and slow frames, outside the rounds.
   void Judge() {
     const bool forward = setting_.name.task == "forward";
     const auto& truth = forward ? case_.forward : case_.sensed;
@@ -111,7 +103,7 @@ class Bench {
   template <class Work>
   void ForStretches(Work work) {
     for (int k = 0; k < setting_.budget.stretches; ++k) {
-      // Of few stretches, some from everywhere.
+      // Few stretches are spread over the whole log.
       const int all =
           static_cast<int>(case_.frames.size()) / BenchmarkCase::LeadIn(1);
       const int stretch = k * all / setting_.budget.stretches;
@@ -161,11 +153,9 @@ std::vector<double> Measurement::ratios() const {
 double Measurement::ratio() const { return Quantile(ratios(), kUndisturbed); }
 
 double Measurement::error() const {
-  return std::isnan(errors.contact_mm) ? errors.gauges_rad : errors.contact_mm;
-}
-
-const char* Measurement::error_unit() const {
-  return std::isnan(errors.contact_mm) ? "rad" : "mm";
+  const double error =
+      std::isnan(errors.contact_mm) ? errors.gauges_rad : errors.contact_mm;
+  return std::max(error, kLeastError);  // NaN stays
 }
 
 std::vector<Measurement> MeasureSettings(

@@ -10,52 +10,61 @@
 
 namespace finray {
 
-/// Largest errors over the frames that were solved; NaN where a task has none.
+/// Largest errors over the solved frames. An error that a task does not have is
+/// NaN.
 struct BenchmarkErrors {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   double contact_mm = kNone, normal_N = kNone, normal_percent = kNone,
          tip_mm = kNone, gauges_rad = kNone;
 
-  /// Takes up a frame. False, and nothing is taken up, if the answer has
-  /// another number of contacts.
+  /// Adds a frame. `is_load`: the contacts were given, so they have no error.
+  /// Returns false and adds nothing if the answer has another number of
+  /// contacts than the truth.
   bool Add(const FrameAnswer& answer, const FrameAnswer& truth, bool is_load);
 };
 
-/// What a setting came to.
-struct Measurement {
-  SettingName name;
-  std::string words, family;
-  int links = 0;
-  std::string scheme;  ///< Of the ladder, for --scheme; empty for others.
-  int resolution = 0;
+/// The errors by which settings are compared, with their names in messages.
+struct ComparedError {
+  const char* name;
+  double BenchmarkErrors::*value;
+};
+inline constexpr ComparedError kComparedErrors[] = {
+    {"contact_mm", &BenchmarkErrors::contact_mm},
+    {"normal_N", &BenchmarkErrors::normal_N},
+    {"tip_mm", &BenchmarkErrors::tip_mm},
+    {"gauges_rad", &BenchmarkErrors::gauges_rad}};
+
+/// The results of a setting.
+struct Measurement : SettingLabel {
   BenchmarkErrors errors;
   double solved_percent = 0;
-  double iterations = 0;  ///< Mean a frame.
+  double iterations = 0;  ///< Mean of a frame.
   int unknowns = 0;
-  int frames = 0;  ///< Measured in each round.
-  /// A round each: CPU time a frame, and that of the yardstick beside it.
+  int frames = 0;  ///< Frames of each round.
+  /// CPU time of a frame and of the yardstick beside it, one of each a round.
   std::vector<double> time_us, yardstick_us;
-  /// The slowest hundredth of frames that are timed one by one takes longer;
-  /// by the clock.
+  /// The 99 % quantile of the time of single frames, by the clock.
   double slow_frame_us = BenchmarkErrors::kNone;
   /// Calls of malloc and its like, and bytes asked for; NaN if not counted.
   double allocations = BenchmarkErrors::kNone, bytes = BenchmarkErrors::kNone;
   double setup_bytes = BenchmarkErrors::kNone;
 
   double median_us() const;
-  /// time_us over yardstick_us, round by round.
+  /// Returns time_us over yardstick_us, round by round.
   std::vector<double> ratios() const;
-  /// Their lower quartile: what settings and runs are compared by. Others on
-  /// the machine disturb some rounds and only ever lengthen them; of two runs
-  /// it differs half as much as the median.
-  static constexpr double kUndisturbed = 0.25;
+  /// Returns the kUndisturbed quantile of the ratios, by which settings and
+  /// runs are compared. Other processes can only lengthen a round, so this
+  /// quantile differs half as much between two runs as the median does.
   double ratio() const;
-  /// The error that the scene is about: l_c if it is found, else gauges.
+  static constexpr double kUndisturbed = 0.25;
+  /// Returns the error that the scene is about: that of l_c where it is found,
+  /// else that of the gauges. It is kLeastError or more, as the reference is no
+  /// better.
   double error() const;
-  const char* error_unit() const;
+  static constexpr double kLeastError = 1e-11;  ///< mm or rad
 };
 
-/// Calls and bytes so far, where the program counts them.
+/// Calls and bytes so far, if the program counts them.
 struct AllocationCount {
   double calls, bytes;
 };
@@ -66,9 +75,9 @@ struct MeasuringOptions {
   std::function<void(int done, int all)> progress;
 };
 
-/// Measures all settings round by round, in a different order every time, so
-/// that a slow drift of the machine hits all alike. Cases must hold every scene
-/// of the grid.
+/// Measures all settings round by round, in another order each time, so that a
+/// slow drift of the machine disturbs all of them alike. `cases` must hold
+/// every scene of the grid.
 std::vector<Measurement> MeasureSettings(
     const std::vector<BenchmarkSetting>& grid,
     const std::vector<BenchmarkCase>& cases, const MeasuringOptions& options);

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "finray/benchmark/json_writer.h"
+#include "finray/benchmark/json_emitter.h"
 #include "finray/benchmark/yardstick.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/atomic_file.h"
@@ -19,7 +19,8 @@ namespace {
 const std::vector<std::string> kPeers = {"scipy", "octave", "calculix"};
 const char* const kScenes[] = {"one_contact", "friction"};
 
-// The frames of a scene that peers are given: the first of some stretches.
+// Returns the frames of a scene that peers are asked for: the first of some
+// stretches.
 std::vector<int> PeerFrames(const BenchmarkCase& c, bool quick) {
   const int all = static_cast<int>(c.frames.size()) / BenchmarkCase::LeadIn(1);
   const int stretches = std::min(all, quick ? 2 : 6);
@@ -30,31 +31,27 @@ std::vector<int> PeerFrames(const BenchmarkCase& c, bool quick) {
   return frames;
 }
 
-void WriteFinger(const Finger& finger, JsonWriter* json) {
-  json->Open("finger", '{').Number("front_length_mm", finger.front_length_mm);
-  json->Number("back_angle_rad", finger.back_angle_rad);
-  json->Number("front_stiffness_N_mm2", finger.front_stiffness_N_mm2);
-  json->Number("back_stiffness_N_mm2", finger.back_stiffness_N_mm2);
-  json->Open("ribs", '[');
-  for (const Rib& rib : finger.ribs) {
-    json->Open('{').Number("front_mm", rib.front_mm);
-    json->Number("back_mm", rib.back_mm).Number("length_mm", rib.length_mm);
-    json->Close();
-  }
-  json->Close().Open("gauges", '[');
-  for (const Gauge& gauge : finger.gauges) {
-    json->Open('{').Text("beam", SideName(gauge.beam));
-    json->Number("start_mm", gauge.start_mm);
-    json->Number("length_mm", gauge.length_mm).Close();
-  }
-  json->Close().Close();
+void WriteFinger(const Finger& finger, JsonEmitter* json) {
+  json->Key("finger");
+  *json << YAML::BeginMap;
+  json->Pair("front_length_mm", finger.front_length_mm);
+  json->Pair("back_angle_rad", finger.back_angle_rad);
+  json->Pair("front_stiffness_N_mm2", finger.front_stiffness_N_mm2);
+  json->Pair("back_stiffness_N_mm2", finger.back_stiffness_N_mm2);
+  json->Maps("ribs", finger.ribs, [&](const Rib& rib) {
+    json->Pair("front_mm", rib.front_mm);
+    json->Pair("back_mm", rib.back_mm);
+    json->Pair("length_mm", rib.length_mm);
+  });
+  json->Maps("gauges", finger.gauges, [&](const Gauge& gauge) {
+    json->Pair("beam", SideName(gauge.beam));
+    json->Pair("start_mm", gauge.start_mm);
+    json->Pair("length_mm", gauge.length_mm);
+  });
+  *json << YAML::EndMap;
 }
 
-std::vector<double> Doubles(const Eigen::VectorXd& values) {
-  return {values.begin(), values.end()};
-}
-
-// One setting of the answer file.
+// Reads one setting of the answer file.
 Measurement ReadPeerSetting(const YamlMap& map, const std::string& peer,
                             const std::vector<BenchmarkCase>& cases, bool quick,
                             double yardstick_us) {
@@ -120,30 +117,33 @@ std::vector<std::string> ParsePeers(const std::string& words) {
 
 std::string PeerJob(const Finger& finger,
                     const std::vector<BenchmarkCase>& cases, bool quick) {
-  JsonWriter json;
-  json.Open('{').Boolean("quick", quick);
+  JsonEmitter json;
+  json << YAML::BeginMap;
+  json.Pair("quick", quick);
   WriteFinger(finger, &json);
-  json.Open("scenes", '[');
-  for (const char* scene : kScenes) {
+  json.Maps("scenes", kScenes, [&](const char* scene) {
     const BenchmarkCase& c = CaseOf(cases, scene);
     EquilibriumSolver solver(c.finger, ReferenceDiscretization(c.finger));
-    json.Open('{').Text("scene", scene).Open("frames", '[');
-    for (const int frame : PeerFrames(c, quick)) {
+    json.Pair("scene", scene);
+    json.Maps("frames", PeerFrames(c, quick), [&](int frame) {
       const PointContact& load = c.frames[frame].contacts[0];
       const PointContact& before = c.frames[frame - 1].contacts[0];
       solver.Solve({load});
-      json.Open('{').Number("contact_mm", load.arc_mm);
-      json.Number("normal_N", load.normal_N).Number("friction", load.friction);
+      json.Pair("contact_mm", load.arc_mm);
+      json.Pair("normal_N", load.normal_N);
+      json.Pair("friction", load.friction);
       // Sensing starts from the frame before, as on a log.
-      json.Number("start_mm", before.arc_mm).Number("start_N", before.normal_N);
-      json.Numbers("measured_rad", Doubles(c.frames[frame].measurement.values));
-      // Where the force points, for programs that know no follower loads.
-      json.Number("contact_angle_rad", solver.contact_pose(0)[2]).Close();
-    }
-    json.Close().Close();
-  }
-  json.Close().Close();
-  return json.text();
+      json.Pair("start_mm", before.arc_mm);
+      json.Pair("start_N", before.normal_N);
+      const Eigen::VectorXd& measured = c.frames[frame].measurement.values;
+      json.Pair("measured_rad",
+                std::vector<double>(measured.begin(), measured.end()));
+      // The direction of the force, for programs without follower loads.
+      json.Pair("contact_angle_rad", solver.contact_pose(0)[2]);
+    });
+  });
+  json << YAML::EndMap;
+  return json.c_str();
 }
 
 void MeasurePeer(const std::string& peer, const std::string& scripts,

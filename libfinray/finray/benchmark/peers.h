@@ -8,23 +8,24 @@
 
 namespace finray {
 
-// Programs that a lab might use instead, asked for the same answers: the
-// paper's equations in SciPy and in Octave as a user's script would have them,
-// and CalculiX, which bends solids. scripts/peers/ has one file for each and
-// the driver run.py, which is given a job and leaves its answers, both JSON.
+// Peers are programs that a lab might use instead of finray. They solve the
+// same frames: the paper's equations in SciPy and in Octave, as a user's script
+// would have them, and CalculiX, which bends solids. scripts/peers/ has one
+// file for each, and run.py, which reads a job and writes the answers, both as
+// JSON.
 
-/// From the value of --peers: "none", "auto" or a list. Throws InputError for
-/// an unknown one.
+/// Parses the value of --peers: "none", "auto" or a list. Throws InputError for
+/// an unknown name.
 std::vector<std::string> ParsePeers(const std::string& words);
 
-/// What run.py is asked: the finger in plain numbers and, for scenes with one
-/// contact and with friction, the frames that slow solvers are measured on.
+/// Returns the job for run.py: the finger in plain numbers and some frames of
+/// the scenes one_contact and friction, of which `cases` must have both.
 std::string PeerJob(const Finger& finger,
                     const std::vector<BenchmarkCase>& cases, bool quick);
 
-/// Runs one peer, once, with `folder` for its files, and adds its settings and
-/// what became of it to `run`. Times are by the clock, the yardstick is that
-/// before and after.
+/// Runs one peer once, with its files in `folder`, and adds its settings and
+/// its status to `run`. Times are by the clock; the yardstick is the mean of
+/// one before and one after.
 void MeasurePeer(const std::string& peer, const std::string& scripts,
                  const std::string& folder, const Finger& finger,
                  const std::vector<BenchmarkCase>& cases, bool quick,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "finray/benchmark/pareto.h"
 
@@ -9,18 +10,21 @@ namespace finray {
 namespace {
 
 constexpr double kShareOfPeriod = 0.1;
-// A hundredth of the std of l_c by noise of 1e-4 rad, 0.15 .. 0.33 mm.
+// A hundredth of the std of l_c with noise of 1e-4 rad, 0.15 .. 0.33 mm.
 constexpr double kBatchError_mm = 1e-3;
-// What ends of iterations differ by is no accuracy.
+// Iterations end at different places, so errors within this factor are equal.
 constexpr double kSame = 2;
 constexpr double kAsFast = 1.25;
-// Below this, in mm, N or rad, all is equally accurate.
+constexpr double kMuchFaster = 0.8;
+constexpr double kConfidence = 0.95;
+// Errors below this, in mm, N or rad, are equal.
 constexpr double kNoError = 1e-9;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 using Candidates = std::vector<const Measurement*>;
 
-Candidates Of(const std::vector<Measurement>& all, const std::string& task,
-              const std::string& how) {
+Candidates CandidatesFor(const std::vector<Measurement>& all,
+                         const std::string& task, const std::string& how) {
   Candidates found;
   for (const Measurement& m : all) {
     if (m.name.task == task && m.name.scene == "one_contact" &&
@@ -35,60 +39,55 @@ double TimeOf(const Measurement& m) {
   return std::isnan(m.slow_frame_us) ? m.median_us() : m.slow_frame_us;
 }
 
-// The least of each error among candidates.
-BenchmarkErrors Least(const Candidates& candidates) {
-  BenchmarkErrors least;
-  const auto lower = [](double* value, double other) {
-    other = std::max(other, kNoError);
-    if (!(*value <= other)) *value = other;
-  };
-  for (const Measurement* m : candidates) {
-    lower(&least.contact_mm, m->errors.contact_mm);
-    lower(&least.normal_N, m->errors.normal_N);
-    lower(&least.tip_mm, m->errors.tip_mm);
-    lower(&least.gauges_rad, m->errors.gauges_rad);
-  }
-  return least;
+const Measurement* Fastest(const Candidates& candidates) {
+  const auto found = std::min_element(
+      candidates.begin(), candidates.end(),
+      [](const auto* a, const auto* b) { return a->ratio() < b->ratio(); });
+  return found == candidates.end() ? nullptr : *found;
 }
 
-// The fastest of those with no error above twice the least, or the default if
-// it is one of them and about as fast: measured times are noisy, and the
-// default refines its mesh under loads that no other scheme was measured with.
+const Measurement* DefaultOf(const Candidates& candidates) {
+  const auto found =
+      std::find_if(candidates.begin(), candidates.end(),
+                   [](const auto* m) { return m->name.solver == "default"; });
+  return found == candidates.end() ? nullptr : *found;
+}
+
+// Returns the fastest candidate with no error above kSame times the least, or
+// the default if it is one of them and about as fast: measured times are noisy,
+// and the default refines its mesh under high loads, which no other scheme
+// does.
 const Measurement* MostAccurate(const Candidates& candidates) {
-  const BenchmarkErrors least = Least(candidates);
-  const Measurement *best = nullptr, *ours = nullptr;
-  for (const Measurement* m : candidates) {
-    const BenchmarkErrors& e = m->errors;
-    if (e.contact_mm > kSame * least.contact_mm ||
-        e.normal_N > kSame * least.normal_N ||
-        e.tip_mm > kSame * least.tip_mm ||
-        e.gauges_rad > kSame * least.gauges_rad) {
-      continue;
+  Candidates best = candidates;
+  for (const ComparedError& compared : kComparedErrors) {
+    const auto error = [&](const Measurement* m) {
+      return m->errors.*compared.value;
+    };
+    double least = std::numeric_limits<double>::infinity();
+    for (const Measurement* m : candidates) {
+      least = std::min(least, std::max(error(m), kNoError));
     }
-    if (best == nullptr || m->ratio() < best->ratio()) best = m;
-    if (m->name.solver == "default") ours = m;
+    best.erase(
+        std::remove_if(best.begin(), best.end(),
+                       [&](const auto* m) { return error(m) > kSame * least; }),
+        best.end());
   }
-  if (ours != nullptr && ours->ratio() < kAsFast * best->ratio()) return ours;
-  return best;
+  const Measurement *fastest = Fastest(best), *ours = DefaultOf(best);
+  return ours != nullptr && ours->ratio() < kAsFast * fastest->ratio()
+             ? ours
+             : fastest;
 }
 
 Recommendation Made(const char* use, const char* why, double limit_us,
                     const Measurement* m) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  if (m == nullptr) return {use, "", why, limit_us, nan, nan, nan};
-  return {use,
-          m->name.id(),
-          why,
-          limit_us,
-          TimeOf(*m),
-          limit_us / TimeOf(*m),
-          m->errors.contact_mm};
+  if (m == nullptr) return {use, why, limit_us, "", kNone, kNone};
+  return {use, why, limit_us, m->name.id(), TimeOf(*m), m->errors.contact_mm};
 }
 
 Recommendation ForRate(const char* use, double period_us,
                        const std::vector<Measurement>& all) {
   Candidates fast;
-  for (const Measurement* m : Of(all, "estimation", "live")) {
+  for (const Measurement* m : CandidatesFor(all, "estimation", "live")) {
     if (TimeOf(*m) <= kShareOfPeriod * period_us) fast.push_back(m);
   }
   return Made(use,
@@ -97,69 +96,59 @@ Recommendation ForRate(const char* use, double period_us,
               period_us, MostAccurate(fast));
 }
 
+DefaultCheck CheckDefault(const Measurement& ours,
+                          const Candidates& candidates) {
+  DefaultCheck check;
+  check.id = ours.name.id();
+  for (const Measurement* other : candidates) {
+    if (other == &ours) continue;
+    const std::string id = other->name.id();
+    const double ratio = other->ratio() / ours.ratio();
+    const Interval interval = RatioOfQuantiles(
+        ours.ratios(), other->ratios(), Measurement::kUndisturbed, kConfidence);
+    // The longest time that the interval leaves must dominate too.
+    if (Dominates(*other, ours, interval.high)) {
+      check.dominated_by.push_back(id);
+    }
+    if (interval.high < kMuchFaster &&
+        kSameError * other->error() < ours.error()) {
+      check.better.push_back(id);
+    }
+    if (other->error() <= kSame * ours.error() &&
+        (check.rival.empty() || ratio < check.rival_time)) {
+      check.rival = id;
+      check.rival_time = ratio;
+      check.rival_interval = interval;
+    }
+  }
+  return check;
+}
+
 }  // namespace
 
 std::vector<Recommendation> Recommend(const std::vector<Measurement>& all) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const Measurement* batch = nullptr;
-  for (const Measurement* m : Of(all, "estimation", "block")) {
-    if (m->errors.contact_mm <= kBatchError_mm &&
-        (batch == nullptr || m->ratio() < batch->ratio())) {
-      batch = m;
-    }
+  Candidates batch;
+  for (const Measurement* m : CandidatesFor(all, "estimation", "block")) {
+    if (m->errors.contact_mm <= kBatchError_mm) batch.push_back(m);
   }
   return {ForRate("30_Hz", 1e6 / 30, all), ForRate("1_kHz", 1e3, all),
           Made("batch",
                "the fastest estimate of logs with l_c off by 1e-3 mm at most",
-               nan, batch),
-          Made("reference", "the most accurate, of equal ones the fastest", nan,
-               MostAccurate(Of(all, "sensing", "")))};
+               kNone, Fastest(batch)),
+          Made("reference", "the most accurate, of equal ones the fastest",
+               kNone, MostAccurate(CandidatesFor(all, "sensing", "")))};
 }
 
 std::vector<DefaultCheck> CheckDefaults(const std::vector<Measurement>& all) {
-  constexpr double kConfidence = 0.95;
-  constexpr double kMuchFaster = 0.8;
-  static const struct {
-    const char *task, *how;
-  } kUses[] = {{"estimation", "block"},
-               {"estimation", "live"},
-               {"sensing", "lanes"},
-               {"sensing", "alone"}};
+  const std::pair<const char*, const char*> uses[] = {{"estimation", "block"},
+                                                      {"estimation", "live"},
+                                                      {"sensing", "lanes"},
+                                                      {"sensing", "alone"}};
   std::vector<DefaultCheck> checks;
-  for (const auto& [task, how] : kUses) {
-    const Candidates candidates = Of(all, task, how);
-    const auto found =
-        std::find_if(candidates.begin(), candidates.end(),
-                     [](const auto* m) { return m->name.solver == "default"; });
-    if (found == candidates.end()) continue;
-    const Measurement& ours = **found;
-    DefaultCheck check;
-    check.id = ours.name.id();
-    for (const Measurement* other : candidates) {
-      if (other == &ours) continue;
-      const std::string id = other->name.id();
-      const double ratio = other->ratio() / ours.ratio();
-      const Interval interval =
-          RatioOfQuantiles(ours.ratios(), other->ratios(),
-                           Measurement::kUndisturbed, kConfidence);
-      const double our_error = PointOf(ours).error;
-      const double error = PointOf(*other).error;
-      // The longest that its time may be.
-      if (DominatesSetting(*other, ours, interval.high)) {
-        check.dominated_by.push_back(id);
-      }
-      if (interval.high < kMuchFaster && kSameError * error < our_error) {
-        check.better.push_back(id);
-      }
-      if (error <= kSame * our_error &&
-          (check.rival.empty() || ratio < check.rival_time)) {
-        check.rival = id;
-        check.rival_time = ratio;
-        check.rival_interval = interval;
-      }
-    }
-    check.on_front = check.dominated_by.empty();
-    checks.push_back(check);
+  for (const auto& [task, how] : uses) {
+    const Candidates candidates = CandidatesFor(all, task, how);
+    const Measurement* ours = DefaultOf(candidates);
+    if (ours != nullptr) checks.push_back(CheckDefault(*ours, candidates));
   }
   return checks;
 }

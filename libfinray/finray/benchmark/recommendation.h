@@ -9,40 +9,42 @@
 
 namespace finray {
 
-/// A use and the setting for it, out of what was measured with one contact.
+/// The best setting for one use, out of those measured with one contact.
 struct Recommendation {
   std::string use;  ///< 30_Hz, 1_kHz, batch, reference
-  std::string id;   ///< Empty if none serves.
   std::string why;  ///< The rule, in words.
-  double limit_us;  ///< Time a frame that the use leaves; NaN: any.
-  double time_us;   ///< The slow frames' where there are such, else median.
-  double margin;    ///< limit_us / time_us
-  double error_mm;  ///< of l_c
+  double limit_us;  ///< Period of the use; NaN: none.
+  std::string id;   ///< Empty if no setting serves.
+  double time_us;   ///< slow_frame_us where it is known, else the median.
+  double error_mm;  ///< Of l_c.
+  double margin() const { return limit_us / time_us; }
 };
 
-/// 30 Hz and 1 kHz: the most accurate live estimate whose slowest hundredth
-/// takes a tenth of the period at most. Of those about as accurate (no error
-/// above twice the least) the fastest, or the default if that is as fast to
-/// 25 %. Batch: the fastest estimate of a log whose l_c is off by no more than
-/// a hundredth of what noise does to it (1e-3 mm). Reference: the most accurate
-/// of all that sense.
+/// Recommends a setting for each use:
+///  - 30_Hz and 1_kHz: the most accurate live estimate whose slow frames take a
+///    tenth of the period at most. Settings with no error above twice the least
+///    count as equally accurate; of these the fastest is taken, or the default
+///    if it takes at most 1.25 times as long.
+///  - batch: the fastest estimate of a log with l_c off by at most 1e-3 mm, a
+///    hundredth of the std that noise causes.
+///  - reference: the most accurate setting of all that sense.
 std::vector<Recommendation> Recommend(const std::vector<Measurement>& all);
 
-/// Whether what finray uses by default is a good choice: in each way of use it
-/// lies on the Pareto front (pareto.h) of the settings used in that way, and no
-/// other of them is both 20 % faster and more accurate. A time is faster if the
-/// 95 % interval of its ratio over the rounds says so.
+/// Tells whether the default is a good choice for one way of use. It is, if it
+/// lies on the Pareto front (pareto.h) of the settings for that use and none of
+/// them is both 20 % faster and more accurate. A setting is faster if the 95 %
+/// interval of the ratio of times over the rounds lies below 1.
 struct DefaultCheck {
   std::string id;
-  bool on_front = true;
   std::vector<std::string> dominated_by;  ///< Ids.
   std::vector<std::string> better;        ///< 20 % faster and more accurate.
-  /// The fastest of those whose error of l_c is no more than twice the
-  /// default's, and its time over the default's.
+  /// The fastest setting whose error() is at most twice that of the default,
+  /// and its time over that of the default.
   std::string rival;
   double rival_time = 1;
   Interval rival_interval = {1, 1};
-  bool holds() const { return on_front && better.empty(); }
+  bool on_front() const { return dominated_by.empty(); }
+  bool holds() const { return on_front() && better.empty(); }
 };
 std::vector<DefaultCheck> CheckDefaults(const std::vector<Measurement>& all);
 

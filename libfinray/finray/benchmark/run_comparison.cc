@@ -8,58 +8,69 @@
 namespace finray {
 namespace {
 
-constexpr double kConfidence = 0.99;
+constexpr double kVerdictConfidence = 0.99;
 constexpr double kWorse = 1.5;
-// With less rounds an interval says nothing.
+// With fewer rounds an interval says nothing.
 constexpr std::size_t kLeastRounds = 3;
-// What another order of summation may change, in mm, N, % and rad.
+// Errors, in mm, N and rad, up to which rounding explains a change.
 constexpr double kRoundingSpread = 1e-8;
 
-void AddIfWorse(const char* what, double a, double b, std::string* words) {
-  if (!(b > kWorse * a && b > kRoundingSpread) && !(std::isnan(b) && a >= 0))
-    return;
-  *words += std::string(words->empty() ? "" : ", ") + what + " " +
-            NumberText(a) + " -> " + NumberText(b);
-}
-
 std::string WhatIsWorse(const Measurement& a, const Measurement& b) {
-  std::string words;
-  AddIfWorse("contact_mm", a.errors.contact_mm, b.errors.contact_mm, &words);
-  AddIfWorse("normal_N", a.errors.normal_N, b.errors.normal_N, &words);
-  AddIfWorse("tip_mm", a.errors.tip_mm, b.errors.tip_mm, &words);
-  AddIfWorse("gauges_rad", a.errors.gauges_rad, b.errors.gauges_rad, &words);
+  std::vector<std::string> worse;
+  for (const ComparedError& error : kComparedErrors) {
+    const double of_a = a.errors.*error.value, of_b = b.errors.*error.value;
+    if ((of_b > kWorse * of_a && of_b > kRoundingSpread) ||
+        (std::isnan(of_b) && of_a >= 0)) {
+      worse.push_back(std::string(error.name) + " " + NumberText(of_a) +
+                      " -> " + NumberText(of_b));
+    }
+  }
   if (b.solved_percent < a.solved_percent) {
-    words += (words.empty() ? "" : ", ") + std::string("solved ") +
-             NumberText(a.solved_percent) + " % -> " +
-             NumberText(b.solved_percent) + " %";
+    worse.push_back("solved " + NumberText(a.solved_percent) + " % -> " +
+                    NumberText(b.solved_percent) + " %");
+  }
+  std::string words;
+  for (const std::string& one : worse) {
+    words += (words.empty() ? "" : ", ") + one;
   }
   return words;
 }
 
-// Other programs are no business of this gate.
+// The gate leaves other programs out.
 bool IsPeer(const Measurement& m) { return m.name.how == "peer"; }
 
-void AddDifference(const char* what, const std::string& a, const std::string& b,
-                   std::vector<std::string>* differences) {
-  if (a != b) {
-    differences->push_back(std::string(what) + ": " + a + " against " + b);
+std::vector<std::string> Differences(const BenchmarkRun& a,
+                                     const BenchmarkRun& b) {
+  std::vector<std::string> differences;
+  const auto compare = [&](const char* what, const std::string& of_a,
+                           const std::string& of_b) {
+    if (of_a == of_b) return;
+    differences.push_back(std::string(what) + ": " + of_a + " against " + of_b);
+  };
+  const auto facts = [&](const char* what, const char* name, Facts of_a,
+                         Facts of_b) { compare(what, of_a[name], of_b[name]); };
+  facts("machine", "cpu", a.machine, b.machine);
+  facts("instruction set", "instruction_set", a.machine, b.machine);
+  facts("compiler", "compiler", a.build, b.build);
+  facts("flags", "flags", a.build, b.build);
+  facts("version", "version", a.build, b.build);
+  compare("finger sha256", a.finger_sha256, b.finger_sha256);
+  compare("depth", a.quick ? "quick" : "full", b.quick ? "quick" : "full");
+  return differences;
+}
+
+const Measurement* Find(const BenchmarkRun& run, const std::string& id) {
+  for (const Measurement& m : run.settings) {
+    if (m.name.id() == id) return &m;
   }
+  return nullptr;
 }
 
 }  // namespace
 
 const char* SpeedVerdictName(SpeedVerdict verdict) {
-  switch (verdict) {
-    case SpeedVerdict::kFaster:
-      return "faster";
-    case SpeedVerdict::kSlower:
-      return "slower";
-    case SpeedVerdict::kSame:
-      return "same";
-    case SpeedVerdict::kUndecided:
-      break;
-  }
-  return "undecided";
+  const char* names[] = {"faster", "slower", "same", "undecided"};
+  return names[static_cast<int>(verdict)];
 }
 
 SpeedVerdict JudgeSpeed(const Interval& ratio, double band) {
@@ -83,31 +94,14 @@ int BenchmarkComparison::CountWorse() const {
 }
 
 BenchmarkComparison CompareRuns(const BenchmarkRun& a, const BenchmarkRun& b,
-                                double most_slowdown) {
+                                double band) {
   BenchmarkComparison comparison;
-  AddDifference("machine", a.machine.cpu, b.machine.cpu,
-                &comparison.differences);
-  AddDifference("instruction set", a.machine.instruction_set,
-                b.machine.instruction_set, &comparison.differences);
-  AddDifference("compiler", a.build.compiler, b.build.compiler,
-                &comparison.differences);
-  AddDifference("flags", a.build.flags, b.build.flags, &comparison.differences);
-  AddDifference("version", a.build.version, b.build.version,
-                &comparison.differences);
-  AddDifference("finger sha256", a.finger_sha256, b.finger_sha256,
-                &comparison.differences);
-  AddDifference("depth", a.quick ? "quick" : "full", b.quick ? "quick" : "full",
-                &comparison.differences);
-  const auto find = [](const BenchmarkRun& run, const std::string& id) {
-    return std::find_if(
-        run.settings.begin(), run.settings.end(),
-        [&](const Measurement& m) { return m.name.id() == id; });
-  };
+  comparison.differences = Differences(a, b);
   for (const Measurement& of_a : a.settings) {
     if (IsPeer(of_a)) continue;
     const std::string id = of_a.name.id();
-    const auto of_b = find(b, id);
-    if (of_b == b.settings.end()) {
+    const Measurement* of_b = Find(b, id);
+    if (of_b == nullptr) {
       comparison.only_a.push_back(id);
       continue;
     }
@@ -115,17 +109,19 @@ BenchmarkComparison CompareRuns(const BenchmarkRun& a, const BenchmarkRun& b,
     one.id = id;
     one.ratio = of_b->ratio() / of_a.ratio();
     if (std::min(of_a.time_us.size(), of_b->time_us.size()) >= kLeastRounds) {
-      one.interval = RatioOfQuantiles(of_a.ratios(), of_b->ratios(),
-                                      Measurement::kUndisturbed, kConfidence);
+      one.interval =
+          RatioOfQuantiles(of_a.ratios(), of_b->ratios(),
+                           Measurement::kUndisturbed, kVerdictConfidence);
     }
-    one.speed = JudgeSpeed(one.interval, most_slowdown);
+    one.speed = JudgeSpeed(one.interval, band);
     one.worse = WhatIsWorse(of_a, *of_b);
     comparison.settings.push_back(one);
   }
   for (const Measurement& of_b : b.settings) {
-    if (IsPeer(of_b)) continue;
     const std::string id = of_b.name.id();
-    if (find(a, id) == a.settings.end()) comparison.only_b.push_back(id);
+    if (!IsPeer(of_b) && Find(a, id) == nullptr) {
+      comparison.only_b.push_back(id);
+    }
   }
   return comparison;
 }

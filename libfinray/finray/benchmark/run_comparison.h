@@ -10,14 +10,15 @@
 
 namespace finray {
 
-// One setting in two runs. Times are those over the yardstick's beside them;
-// the ratio b / a of their lower quartiles has an interval by the bootstrap
-// over rounds. With a band of +- `band` about 1,
+// Compares a setting in two runs, a and b. Its time is that over the yardstick
+// beside it. The ratio b / a of the lower quartiles gets an interval by the
+// bootstrap over rounds, and with a tolerated change of `band` a verdict:
 //
-//   slower     all of the interval is above 1 + band
-//   faster     all of it is below 1 / (1 + band)
-//   same       all of it is inside
-//   undecided  it is not told: more rounds or a quieter machine
+//   slower     the whole interval is above 1 + band
+//   faster     the whole interval is below 1 / (1 + band)
+//   same       the whole interval lies between these bounds
+//   undecided  the interval crosses a bound; it takes more rounds or a quieter
+//              machine
 
 enum class SpeedVerdict { kFaster, kSlower, kSame, kUndecided };
 const char* SpeedVerdictName(SpeedVerdict verdict);
@@ -29,28 +30,28 @@ struct SettingComparison {
   double ratio;
   Interval interval{std::nan(""), std::nan("")};  ///< NaN: too few rounds.
   SpeedVerdict speed;
-  /// Errors in b above 1.5 times those of a and above rounding, or fewer frames
-  /// solved, in words; empty if it is as accurate.
+  /// Says which errors of b are above 1.5 times those of a and above rounding,
+  /// and whether b solves fewer frames. Empty if b is as accurate as a.
   std::string worse;
 };
 
 struct BenchmarkComparison {
-  std::vector<SettingComparison> settings;  ///< In both runs, without peers.
+  std::vector<SettingComparison> settings;  ///< Of both runs, without peers.
   std::vector<std::string> only_a, only_b;
-  /// Other machine, build, finger or depth: what makes the runs differ.
+  /// Differences in machine, build, finger or depth, in words.
   std::vector<std::string> differences;
 
   int Count(SpeedVerdict verdict) const;
   int CountWorse() const;
-  /// Nothing slower, nothing less accurate.
+  /// True if no setting is slower or less accurate.
   bool passes() const {
     return Count(SpeedVerdict::kSlower) == 0 && CountWorse() == 0;
   }
 };
 
-/// `most_slowdown` is the band, 0.15 for 15 %.
+/// Compares the settings of two runs; `band` is 0.15 for 15 %.
 BenchmarkComparison CompareRuns(const BenchmarkRun& a, const BenchmarkRun& b,
-                                double most_slowdown);
+                                double band);
 
 }  // namespace finray
 

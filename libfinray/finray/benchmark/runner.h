@@ -1,72 +1,101 @@
 #ifndef FINRAY_BENCHMARK_RUNNER_H_
 #define FINRAY_BENCHMARK_RUNNER_H_
 
+#include <ceres/types.h>
+
+#include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "finray/benchmark/benchmark_case.h"
+#include "finray/residuals/frame_evaluation.h"
+#include "finray/sensing/contact_search.h"
+#include "finray/statics/equilibrium.h"
 
 namespace finray {
 
-/// A solver at work on a case: what the benchmark knows of any.
+/// Runs one solver on the frames of a case. The benchmark knows solvers by this
+/// interface alone.
 class Runner {
  public:
+  explicit Runner(const BenchmarkCase& c);
   virtual ~Runner() = default;
 
-  /// Not timed: to where a lead-in frame leaves the solver.
+  /// Brings the solver to the solution of a lead-in frame. Not timed.
   virtual void Start(int lead_in) = 0;
-  /// Timed: frames first .. first + count - 1, at most kStretchFrames, which
-  /// follow the lead-in or the last ones.
+  /// Solves frames first .. first + count - 1, at most kStretchFrames, which
+  /// follow the lead-in or the frames of the last Run. Timed.
   virtual void Run(int first, int count) = 0;
-  /// Not timed: the answer to the k-th frame of the last Run.
-  virtual FrameAnswer Answer(int k) = 0;
-  /// Unknowns of a frame.
+  /// Returns the answer to the k-th frame of the last Run. Not timed.
+  virtual FrameAnswer Answer(int k) { return answers_[k]; }
+  /// Returns the number of unknowns of a frame.
   virtual int unknowns() const = 0;
+
+ protected:
+  const BenchmarkCase& case_;
+  std::vector<FrameAnswer> answers_;  ///< kStretchFrames, allocated.
 };
 
-// Each file of these has one family of solvers. `links` is the n of the paper's
-// chain.
+/// A runner whose solver finds contacts on a ladder. Answer adds the gauge
+/// angles that these contacts cause in the same discretization.
+class SensingRunner : public Runner {
+ public:
+  SensingRunner(const BenchmarkCase& c, const Discretization& discretization)
+      : Runner(c), model_(c.finger, discretization) {}
+  FrameAnswer Answer(int k) override;
 
-/// Forward: the paper's Newton on the dense chain (chain/forward.h).
-std::unique_ptr<Runner> MakePaperForward(const BenchmarkCase& c, int links);
-/// Sensing: the paper's (18) (chain/sensing.h).
-std::unique_ptr<Runner> MakePaperSensing(const BenchmarkCase& c, int links);
-
-/// The linear solvers that ceres::Solve is run with on the chain.
-enum class CeresLinearSolver {
-  kDenseQr,
-  kDenseNormalCholesky,
-  kSparseNormalCholesky
+ protected:
+  EquilibriumSolver model_;
 };
-std::unique_ptr<Runner> MakeCeresForward(const BenchmarkCase& c, int links,
-                                         CeresLinearSolver linear_solver);
-std::unique_ptr<Runner> MakeCeresSensing(const BenchmarkCase& c, int links,
-                                         CeresLinearSolver linear_solver);
 
-/// Forward on the ladder of any scheme, to a tolerance; `cold`: every frame
-/// from the undeformed finger. With an object its contact is found.
-std::unique_ptr<Runner> MakeLadderForward(const BenchmarkCase& c,
-                                          const Discretization& discretization,
-                                          double tolerance, bool cold);
+// Each function below returns a maker of runners for one family of solvers.
 
-/// Sensing by ContactFit, frame by frame, each from the one before.
-std::unique_ptr<Runner> MakeFit(const BenchmarkCase& c,
-                                const Discretization& discretization,
-                                double tolerance);
-/// Sensing by FrameGroupFit, four frames in vector lanes.
-std::unique_ptr<Runner> MakeLanes(const BenchmarkCase& c,
-                                  const Discretization& discretization,
-                                  double tolerance);
+using RunnerMaker =
+    std::function<std::unique_ptr<Runner>(const BenchmarkCase&)>;
 
-/// All that finray_estimate does with a frame, by FrameEstimator.
+/// Solves the paper's dense chain of `links` links for a known load, with the
+/// Newton method of chain/forward.h or with ceres::Solve and `linear_solver`.
+RunnerMaker ChainForwardRunner(
+    int links, std::optional<ceres::LinearSolverType> linear_solver);
+/// Senses a contact on the same chain, with the paper's Newton method (18) of
+/// chain/sensing.h or with ceres::Solve.
+RunnerMaker ChainSensingRunner(
+    int links, std::optional<ceres::LinearSolverType> linear_solver);
+
+/// Solves the ladder for a known load, or for a known object, to a tolerance.
+/// `cold`: every frame starts from the undeformed finger.
+RunnerMaker LadderForwardRunner(const Discretization& discretization,
+                                double tolerance, bool cold);
+/// Senses contacts frame by frame with ContactFit; each frame starts from the
+/// one before.
+RunnerMaker ContactFitRunner(const Discretization& discretization,
+                             double tolerance);
+/// Senses one contact with FrameGroupFit, four frames in vector lanes.
+RunnerMaker FrameGroupRunner(const Discretization& discretization,
+                             double tolerance);
+
+/// Senses contacts frame by frame with FrameProblem, that is with ceres::Solve
+/// on the residual blocks; each frame starts from the one before.
+RunnerMaker CeresFrameRunner(const Discretization& discretization,
+                             EquilibriumForm form);
+
 enum class EstimatorUse {
-  kBlock,   ///< As for logs: blocks of kBlockFrames, the first one searched.
-  kLive,    ///< As for --follow: frame by frame.
-  kSearch,  ///< Every frame on its own.
+  kBlock,   ///< Blocks of frames, as for logs; only the first is searched.
+  kLive,    ///< Frame by frame, as for --follow.
+  kSearch,  ///< Every frame is searched on its own.
 };
-std::unique_ptr<Runner> MakeEstimator(const BenchmarkCase& c,
-                                      const Discretization& discretization,
-                                      EstimatorUse use);
+/// Does all that finray_estimate does with a frame, with FrameEstimator.
+RunnerMaker EstimatorRunner(const Discretization& discretization,
+                            EstimatorUse use,
+                            FrameMethod method = FrameMethod::kFast);
+
+/// Makes runners of type R with the arguments that follow the case.
+template <class R, class... Args>
+RunnerMaker MakerOf(Args... args) {
+  return
+      [=](const BenchmarkCase& c) { return std::make_unique<R>(c, args...); };
+}
 
 }  // namespace finray
 

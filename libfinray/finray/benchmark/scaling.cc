@@ -1,10 +1,9 @@
 #include "finray/benchmark/scaling.h"
 
+#include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include "finray/batch/batch_estimation.h"
-#include "finray/benchmark/statistics.h"
 
 namespace finray {
 namespace {
@@ -16,34 +15,6 @@ double Seconds() {
 }
 
 }  // namespace
-
-std::vector<LinkScaling> ScalingWithLinks(const std::vector<Measurement>& all) {
-  constexpr double kLeastLinks = 50;
-  std::vector<LinkScaling> found;
-  for (const char* task : {"forward", "sensing"}) {
-    for (const char* family : {"paper", "chain"}) {
-      LinkScaling one;
-      one.solver = std::string(task) + " " + family;
-      std::vector<double> links, time_us;
-      for (const Measurement& m : all) {
-        if (m.name.task != task || m.family != family ||
-            m.name.scene != "one_contact") {
-          continue;
-        }
-        one.links.push_back(m.links);
-        one.time_us.push_back(m.median_us());
-        if (m.links >= kLeastLinks) {
-          links.push_back(m.links);
-          time_us.push_back(m.median_us());
-        }
-      }
-      if (links.size() < 2) continue;
-      one.exponent = LogLogSlope(links, time_us);
-      found.push_back(one);
-    }
-  }
-  return found;
-}
 
 Scaling MeasureBatches(const BenchmarkCase& one_contact, int most_frames,
                        int most_threads, int rounds) {

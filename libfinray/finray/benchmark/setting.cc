@@ -5,256 +5,244 @@
 namespace finray {
 namespace {
 
-// As FrameFollower, so that settings differ in scheme alone.
+// Equal to the tolerance of FrameFollower, so that settings differ in the
+// scheme alone.
 constexpr double kSensingTolerance = 1e-8;
 constexpr double kForwardTolerance = 1e-6;
-constexpr double kRounding = 1e-14;
+constexpr double kForwardRounding = 1e-14;
 constexpr double kSensingRounding = 1e-12;
 
 constexpr FrameBudget kFast = {16, 64}, kMedium = {16, 8}, kSlow = {16, 1},
                       kVerySlow = {4, 1};
 
+// A discretization of the ladder, under its name in settings.
+struct Ladder {
+  std::string solver, words;
+  Discretization discretization;
+  FrameBudget budget;
+
+  bool IsChain() const { return discretization.scheme == Scheme::kRigidChain; }
+};
+
 class Grid {
  public:
-  Grid(const Finger& finger, bool quick) : finger_(finger), quick_(quick) {}
-
-  std::vector<BenchmarkSetting> Make() {
+  Grid(const Finger& finger, bool quick) : quick_(quick) {
+    MakeLadders(finger);
     for (const std::string& scene : BenchmarkScenes()) {
       Forward(scene);
       Sensing(scene);
       Estimation(scene);
     }
-    return std::move(settings_);
   }
 
- private:
-  struct Ladder {
-    std::string solver, words;
-    Discretization discretization;
-    FrameBudget budget;
-  };
+  std::vector<BenchmarkSetting> settings;
 
-  // The fast path: orders by elements a bay, and the default.
-  std::vector<Ladder> Taylors() const {
-    static const struct {
-      Scheme scheme;
-      int order;
-    } kSchemes[] = {{Scheme::kTaylor4, 4},
-                    {Scheme::kTaylor8, 8},
-                    {Scheme::kTaylor12, 12},
-                    {Scheme::kTaylor, 16}};
-    static const char* kCounts[] = {"", "one element", "two elements", "",
-                                    "four elements"};
-    std::vector<Ladder> all = {
-        {"default", "default: order 16, refined by load", {}, kFast}};
-    for (const auto& [scheme, order] : kSchemes) {
-      for (const int a_bay : {1, 2, 4}) {
-        if (order == 16 && a_bay == 4) continue;  // rounding since two
-        all.push_back(
+ private:
+  void MakeLadders(const Finger& finger) {
+    const std::pair<Scheme, int> schemes[] = {{Scheme::kTaylor4, 4},
+                                              {Scheme::kTaylor8, 8},
+                                              {Scheme::kTaylor12, 12},
+                                              {Scheme::kTaylor, 16}};
+    const std::pair<int, const char*> counts[] = {
+        {1, "one element"}, {2, "two elements"}, {4, "four elements"}};
+    ladders_ = {default_};
+    for (const auto& [scheme, order] : schemes) {
+      for (const auto& [a_bay, count] : counts) {
+        // Order 16 reaches rounding with two elements.
+        if (order == 16 && a_bay == 4) continue;
+        ladders_.push_back(
             {"taylor" + std::to_string(order) + "x" + std::to_string(a_bay),
-             "order " + std::to_string(order) + ", " + kCounts[a_bay] +
-                 " a bay",
-             {scheme, ElementsFor(finger_, a_bay)},
+             "order " + std::to_string(order) + ", " + count + " a bay",
+             {scheme, ElementsFor(finger, a_bay)},
              kFast});
       }
     }
-    return all;
-  }
-
-  std::vector<Ladder> Chains() const {
-    std::vector<Ladder> all;
+    series_ = ladders_;
     for (const int n : {50, 100, 200, 400, 800, 1600}) {
       if (quick_ && n > 400) continue;
-      all.push_back({"chain" + std::to_string(n),
-                     "linear-time chain, n = " + std::to_string(n),
-                     {Scheme::kRigidChain, n},
-                     n > 200 ? kMedium : FrameBudget{16, 32}});
+      ladders_.push_back({"chain" + std::to_string(n),
+                          "linear-time chain, n = " + std::to_string(n),
+                          {Scheme::kRigidChain, n},
+                          n > 200 ? kMedium : FrameBudget{16, 32}});
     }
-    return all;
+    check_ = {"taylor12x8",
+              "order 12, eight elements a bay",
+              {Scheme::kTaylor12, ElementsFor(finger, 8)},
+              kMedium};
   }
 
   void Forward(const std::string& scene) {
-    const auto add = [&](const Ladder& one, const char* how, double tolerance,
-                         bool cold, const char* words) {
-      const bool chain = one.discretization.scheme == Scheme::kRigidChain;
-      FrameBudget budget = one.budget;
+    const auto add = [&](const Ladder& ladder, const char* how,
+                         const char* words, double tolerance,
+                         bool cold = false) {
+      FrameBudget budget = ladder.budget;
       if (scene == "circle" || cold) budget.frames = std::min(budget.frames, 8);
-      if (scene == "circle" && chain) budget = kVerySlow;
-      Add({{"forward", scene, one.solver, how},
-           one.words + words,
-           chain ? "chain" : "taylor",
-           0,
-           one.discretization,
-           budget,
-           [=](const BenchmarkCase& c) {
-             return MakeLadderForward(c, one.discretization, tolerance, cold);
-           }});
+      if (scene == "circle" && ladder.IsChain()) budget = kVerySlow;
+      AddLadder("forward", scene, ladder, how, words, budget,
+                LadderForwardRunner(ladder.discretization, tolerance, cold));
     };
-    for (const Ladder& one : Taylors()) {
-      add(one, "warm", kForwardTolerance, false, "");
-    }
-    for (const Ladder& one : Chains()) {
-      // A chain's kinks touch an object too, which costs 0.1 s a frame
+    for (const Ladder& ladder : ladders_) {
+      // The joints of a chain touch an object too, which takes 0.1 s a frame
       // (docs/evidence/statics_accuracy.md).
-      if (scene == "circle" && one.discretization.resolution != 200) continue;
-      add(one, "warm", kForwardTolerance, false, "");
+      if (scene == "circle" && ladder.IsChain() &&
+          ladder.solver != "chain200") {
+        continue;
+      }
+      add(ladder, "warm", "", kForwardTolerance);
     }
-    add(Taylors()[0], "cold", kForwardTolerance, true, ", cold");
-    add(Taylors()[0], "to_rounding", kRounding, false, ", to rounding");
-    // Another scheme beside the reference.
-    add({"taylor12x8",
-         "order 12, eight elements a bay",
-         {Scheme::kTaylor12, ElementsFor(finger_, 8)},
-         kMedium},
-        "to_rounding", kRounding, false, ", to rounding");
-    if (scene == "circle" || scene == "two_contacts") return;
-    for (const int n : {25, 50, 100, 200}) {
-      if (quick_ && n > 100) continue;
-      AddChain({"forward", scene, "paper" + std::to_string(n), "warm"},
-               "the paper's dense Newton", "paper", n,
-               n > 100 ? kVerySlow : kSlow,
-               [n](const BenchmarkCase& c) { return MakePaperForward(c, n); });
+    add(default_, "cold", ", cold", kForwardTolerance, true);
+    add(default_, "to_rounding", ", to rounding", kForwardRounding);
+    add(check_, "to_rounding", ", to rounding", kForwardRounding);
+    if (scene != "circle" && scene != "two_contacts") {
+      DenseChains("forward", scene);
     }
-    AddCeres("forward", scene, MakeCeresForward);
   }
 
   void Sensing(const std::string& scene) {
     if (scene == "no_contact") return;
-    const auto add = [&](const Ladder& one, const char* how, const char* words,
-                         auto make) {
-      Add({{"sensing", scene, one.solver, how},
-           one.words + words,
-           one.discretization.scheme == Scheme::kRigidChain ? "chain"
-                                                            : "taylor",
-           0,
-           one.discretization,
-           one.budget,
-           make});
+    const auto add = [&](const Ladder& ladder, const char* how,
+                         const char* words, RunnerMaker make) {
+      AddLadder("sensing", scene, ladder, how, words, ladder.budget,
+                std::move(make));
     };
-    const auto fit = [](const Ladder& one, double tolerance) {
-      return [=](const BenchmarkCase& c) {
-        return MakeFit(c, one.discretization, tolerance);
-      };
-    };
-    for (const Ladder& one : Taylors()) {
-      add(one, "alone", ", one by one", fit(one, kSensingTolerance));
+    for (const Ladder& ladder : ladders_) {
+      add(ladder, "alone", ", one by one",
+          ContactFitRunner(ladder.discretization, kSensingTolerance));
     }
-    for (const Ladder& one : Chains()) {
-      add(one, "alone", ", one by one", fit(one, kSensingTolerance));
+    for (const Ladder& ladder : {default_, check_}) {
+      add(ladder, "to_rounding", ", to rounding",
+          ContactFitRunner(ladder.discretization, kSensingRounding));
     }
-    add(Taylors()[0], "to_rounding", ", to rounding",
-        fit(Taylors()[0], kSensingRounding));
-    const Ladder check = {"taylor12x8",
-                          "order 12, eight elements a bay",
-                          {Scheme::kTaylor12, ElementsFor(finger_, 8)},
-                          kMedium};
-    add(check, "to_rounding", ", to rounding", fit(check, kSensingRounding));
     if (scene != "one_contact" && scene != "friction") return;
-    for (const Ladder& one : Taylors()) {
-      add(one, "lanes", ", four frames in lanes", [=](const BenchmarkCase& c) {
-        return MakeLanes(c, one.discretization, kSensingTolerance);
-      });
+    for (const Ladder& ladder : series_) {
+      add(ladder, "lanes", ", four frames in lanes",
+          FrameGroupRunner(ladder.discretization, kSensingTolerance));
     }
-    for (const int n : {50, 100, 200}) {
-      if (quick_ && n > 100) continue;
-      AddChain({"sensing", scene, "paper" + std::to_string(n), "alone"},
-               "the paper's dense Newton", "paper", n,
-               n > 50 ? kVerySlow : kSlow,
-               [n](const BenchmarkCase& c) { return MakePaperSensing(c, n); });
-    }
-    AddCeres("sensing", scene, MakeCeresSensing);
+    const auto by_ceres = [&](const char* solver, const char* words,
+                              EquilibriumForm form) {
+      Ceres("sensing", scene, solver, "alone", words, kMedium,
+            CeresFrameRunner({}, form));
+    };
+    by_ceres("ceres_reduced", "equilibrium reduced", EquilibriumForm::kReduced);
+    by_ceres("ceres_weighted", "equilibrium weighted",
+             EquilibriumForm::kWeighted);
+    DenseChains("sensing", scene);
   }
 
   void Estimation(const std::string& scene) {
-    std::vector<Ladder> all = Taylors();
-    for (const Ladder& chain : Chains()) {
-      if (chain.discretization.resolution == 100) all.push_back(chain);
-    }
-    for (const Ladder& one : all) {
+    for (const Ladder& ladder : ladders_) {
+      const bool plain = ladder.solver == "default";
+      const bool whole = scene == "one_contact" &&
+                         (!ladder.IsChain() || ladder.solver == "chain100");
       const auto add = [&](const char* how, const char* words,
                            EstimatorUse use) {
-        FrameBudget budget = one.budget;
-        // Where every frame is searched.
+        FrameBudget budget = ladder.budget;
+        // In these every frame is searched.
         if (scene == "two_contacts" || scene == "circle" ||
             use == EstimatorUse::kSearch) {
           budget = {4, scene == "two_contacts" ? 4 : 16};
         }
-        Add({{"estimation", scene, one.solver, how},
-             one.words + words,
-             one.discretization.scheme == Scheme::kRigidChain ? "chain"
-                                                              : "taylor",
-             0,
-             one.discretization,
-             budget,
-             [=](const BenchmarkCase& c) {
-               return MakeEstimator(c, one.discretization, use);
-             }});
+        AddLadder("estimation", scene, ladder, how, words, budget,
+                  EstimatorRunner(ladder.discretization, use));
       };
-      const bool plain = one.solver == "default";
-      const bool whole = scene == "one_contact";
       if (whole || plain) add("block", ", log", EstimatorUse::kBlock);
       if (whole || plain) add("live", ", live", EstimatorUse::kLive);
       if (plain) add("search", ", every frame searched", EstimatorUse::kSearch);
     }
+    if (scene != "one_contact" && scene != "friction") return;
+    Ceres(
+        "estimation", scene, "ceres_reduced", "search", "equilibrium reduced",
+        kSlow,
+        EstimatorRunner({}, EstimatorUse::kSearch, FrameMethod::kCeresReduced));
+    Ceres("estimation", scene, "ceres_weighted", "search",
+          "equilibrium weighted", kSlow,
+          EstimatorRunner({}, EstimatorUse::kSearch,
+                          FrameMethod::kCeresWeighted));
   }
 
-  template <class Make>
-  void AddCeres(const char* task, const std::string& scene, Make make) {
-    static const struct {
-      CeresLinearSolver linear_solver;
-      const char *name, *words;
-    } kSolvers[] = {{CeresLinearSolver::kDenseQr, "ceres_dense_qr", "DENSE_QR"},
-                    {CeresLinearSolver::kDenseNormalCholesky,
-                     "ceres_dense_normal_cholesky", "DENSE_NORMAL_CHOLESKY"},
-                    {CeresLinearSolver::kSparseNormalCholesky,
-                     "ceres_sparse_normal_cholesky", "SPARSE_NORMAL_CHOLESKY"}};
-    const bool sensing = std::string(task) == "sensing";
-    for (const auto& [linear_solver, name, words] : kSolvers) {
+  // The residual blocks of a frame in ceres::Solve, on the default mesh.
+  void Ceres(const char* task, const std::string& scene, const char* solver,
+             const char* how, const std::string& words, FrameBudget budget,
+             RunnerMaker make) {
+    Add({{{task, scene, solver, how},
+          std::string("ceres::Solve on the residual blocks, ") + words,
+          "ceres",
+          0,
+          SchemeName(Scheme::kTaylor),
+          0},
+         budget,
+         std::move(make)});
+  }
+
+  // The paper's dense chain, with its own Newton method and with ceres::Solve.
+  void DenseChains(const std::string& task, const std::string& scene) {
+    const bool sensing = task == "sensing";
+    const auto add = [&](const std::string& solver, const std::string& words,
+                         const char* family, int n, FrameBudget budget,
+                         std::optional<ceres::LinearSolverType> type) {
+      Add({{{task, scene, solver + std::to_string(n),
+             sensing ? "alone" : "warm"},
+            words + ", n = " + std::to_string(n),
+            family,
+            n,
+            "",
+            0},
+           budget,
+           sensing ? ChainSensingRunner(n, type)
+                   : ChainForwardRunner(n, type)});
+    };
+    for (const int n : {25, 50, 100, 200}) {
+      if ((sensing && n == 25) || (quick_ && n > 100)) continue;
+      add("paper", "the paper's dense Newton", "paper", n,
+          n > (sensing ? 50 : 100) ? kVerySlow : kSlow, std::nullopt);
+    }
+    for (const auto type : {ceres::DENSE_QR, ceres::DENSE_NORMAL_CHOLESKY,
+                            ceres::SPARSE_NORMAL_CHOLESKY}) {
+      const std::string words = ceres::LinearSolverTypeToString(type);
+      std::string solver = "ceres_" + words;
+      std::transform(solver.begin(), solver.end(), solver.begin(),
+                     [](unsigned char c) { return std::tolower(c); });
       for (const int n : {40, 100}) {
         if (n > 40 && (quick_ || (sensing && scene != "one_contact"))) continue;
-        AddChain(
-            {task, scene, name + std::to_string(n), sensing ? "alone" : "warm"},
-            "ceres::Solve on the chain, " + std::string(words), "ceres", n,
-            sensing ? kVerySlow : kSlow,
-            [=, solver = linear_solver](const BenchmarkCase& c) {
-              return make(c, n, solver);
-            });
+        add(solver, "ceres::Solve on the chain, " + words, "ceres", n,
+            sensing ? kVerySlow : kSlow, type);
       }
     }
   }
 
-  void AddChain(
-      const SettingName& name, const std::string& words, const char* family,
-      int links, FrameBudget budget,
-      std::function<std::unique_ptr<Runner>(const BenchmarkCase&)> make) {
-    Add({name,
-         words + ", n = " + std::to_string(links),
-         family,
-         links,
-         {},
+  void AddLadder(const char* task, const std::string& scene,
+                 const Ladder& ladder, const char* how, const char* words,
+                 FrameBudget budget, RunnerMaker make) {
+    const Discretization& discretization = ladder.discretization;
+    Add({{{task, scene, ladder.solver, how},
+          ladder.words + words,
+          ladder.IsChain() ? "chain" : "taylor",
+          ladder.IsChain() ? discretization.resolution : 0,
+          SchemeName(discretization.scheme),
+          discretization.resolution},
          budget,
          std::move(make)});
   }
 
   void Add(BenchmarkSetting setting) {
-    if (setting.discretization.scheme == Scheme::kRigidChain) {
-      setting.links = setting.discretization.resolution;
-    }
     if (quick_) {
       setting.budget.stretches = std::min(setting.budget.stretches, 4);
     }
-    settings_.push_back(std::move(setting));
+    settings.push_back(std::move(setting));
   }
 
-  const Finger& finger_;
   bool quick_;
-  std::vector<BenchmarkSetting> settings_;
+  const Ladder default_ = {
+      "default", "default: order 16, refined by load", {}, kFast};
+  Ladder check_;  // another scheme, which confirms the reference
+  // Orders by elements a bay and the default; the same and the chains.
+  std::vector<Ladder> series_, ladders_;
 };
 
 }  // namespace
 
 std::vector<BenchmarkSetting> BenchmarkGrid(const Finger& finger, bool quick) {
-  return Grid(finger, quick).Make();
+  return Grid(finger, quick).settings;
 }
 
 }  // namespace finray

@@ -1,34 +1,50 @@
 #ifndef FINRAY_BENCHMARK_SETTING_H_
 #define FINRAY_BENCHMARK_SETTING_H_
 
-#include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "finray/benchmark/runner.h"
-#include "finray/benchmark/setting_name.h"
 
 namespace finray {
 
-/// How much of the log a setting is measured on, by what it costs: the same in
-/// every run, so that runs are comparable.
-struct FrameBudget {
-  int stretches, frames;  ///< of each stretch
+/// Names one line of the report, the same in every run, for example
+/// `sensing/one_contact/taylor8x1/lanes`.
+struct SettingName {
+  /// forward, sensing or estimation (docs/evidence/benchmark.md).
+  std::string task;
+  std::string scene;   ///< no_contact, one_contact, ...
+  std::string solver;  ///< Scheme and elements a bay, or solver and links.
+  std::string how;     ///< warm, cold, alone, lanes, block, live, ...
+
+  std::string id() const {
+    return task + "/" + scene + "/" + solver + "/" + how;
+  }
 };
 
-struct BenchmarkSetting {
+/// Describes a setting in the result files.
+struct SettingLabel {
   SettingName name;
   std::string words;   ///< For people: "order 8, one element a bay, lanes".
   std::string family;  ///< paper, ceres, chain, taylor: a colour of the plots.
-  int links = 0;       ///< n of a chain.
-  Discretization discretization;  ///< Of the ladder.
-  FrameBudget budget;
-  std::function<std::unique_ptr<Runner>(const BenchmarkCase&)> make;
+  int links = 0;       ///< n of a chain; 0 without one.
+  std::string scheme;  ///< Value of --scheme; empty for the dense chain.
+  int resolution = 0;  ///< Value of --resolution.
 };
 
-/// Everything that is measured, scene by scene. `quick`: less of the log, and
-/// chains of few links only.
+/// The part of the log that a setting is measured on. It depends on the cost of
+/// the setting alone, so that runs are comparable.
+struct FrameBudget {
+  int stretches, frames;  ///< Frames of each stretch.
+};
+
+struct BenchmarkSetting : SettingLabel {
+  FrameBudget budget;
+  RunnerMaker make;
+};
+
+/// Returns everything that is measured, scene by scene. `quick` takes less of
+/// the log and leaves long chains out.
 std::vector<BenchmarkSetting> BenchmarkGrid(const Finger& finger, bool quick);
 
 }  // namespace finray

@@ -1,7 +1,6 @@
 #include "finray/benchmark/statistics.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <random>
 
@@ -39,19 +38,6 @@ Interval RatioOfQuantiles(const std::vector<double>& a,
   }
   const double tail = (1 - confidence) / 2;
   return {Quantile(ratios, tail), Quantile(ratios, 1 - tail)};
-}
-
-double LogLogSlope(const std::vector<double>& x, const std::vector<double>& y) {
-  const auto n = static_cast<double>(x.size());
-  double sx = 0, sy = 0, sxx = 0, sxy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double u = std::log(x[i]), v = std::log(y[i]);
-    sx += u;
-    sy += v;
-    sxx += u * u;
-    sxy += u * v;
-  }
-  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
 }  // namespace finray

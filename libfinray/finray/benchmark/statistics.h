@@ -5,8 +5,8 @@
 
 namespace finray {
 
-/// The q-quantile (0 .. 1) of values, linear between order statistics; NaN of
-/// none.
+/// Returns the q-quantile (0 .. 1), linear between sorted values; NaN of no
+/// values.
 double Quantile(std::vector<double> values, double q);
 inline double Median(const std::vector<double>& values) {
   return Quantile(values, 0.5);
@@ -16,15 +16,12 @@ struct Interval {
   double low, high;
 };
 
-/// What the q-quantile of b over that of a may be, by the bootstrap: both
-/// samples are drawn anew, with replacement, 2000 times, and the tails of
-/// `confidence` are cut off. The same samples always give the same interval.
+/// Returns a bootstrap interval of the ratio of q-quantiles, b over a: 2000
+/// times both samples are drawn again with replacement, and the tails beyond
+/// `confidence` are cut off. The same samples give the same interval.
 Interval RatioOfQuantiles(const std::vector<double>& a,
                           const std::vector<double>& b, double q,
                           double confidence);
-
-/// The slope of log(y) over log(x) by least squares; NaN of less than two.
-double LogLogSlope(const std::vector<double>& x, const std::vector<double>& y);
 
 }  // namespace finray
 

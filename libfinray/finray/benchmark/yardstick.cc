@@ -10,9 +10,10 @@ constexpr int kSize = 48;
 constexpr int kRow = 56;  // whole cache lines
 constexpr int kTimes = 2;
 
-// The sum of the solution, so that no compiler leaves the work out.
+// Returns the sum of the solution, so that no compiler leaves the work out.
 [[gnu::noinline]] double Eliminate(double shift) {
-  // As code and data lie in cache lines the same in every build, so does time.
+  // Aligned data, like aligned code (CMakeLists.txt), takes the same time in
+  // every build.
   alignas(64) static thread_local std::array<std::array<double, kRow>, kSize> a;
   for (int i = 0; i < kSize; ++i) {
     for (int j = 0; j <= kSize; ++j) {

@@ -3,14 +3,14 @@
 
 namespace finray {
 
-/// CPU time of this thread, s.
+/// Returns the CPU time of this thread in s.
 double ThreadSeconds();
 
-/// The time, us, that this thread takes for a fixed piece of work which no
-/// change of the library touches: elimination of a dense 48 x 48 system, a
-/// tenth of a millisecond or so. What other processes and the clock of the core
-/// do to a measurement they do to this beside it, so the ratio of both is
-/// comparable over a noisy hour and between builds.
+/// Returns the time in us that this thread takes for a fixed piece of work, the
+/// elimination of a dense 48 x 48 system, about a tenth of a millisecond. No
+/// change of the library touches this work, and other processes and the clock
+/// of the core slow it down as they do a measurement beside it. The ratio of
+/// both is therefore comparable over a noisy hour and between builds.
 double YardstickUs();
 
 }  // namespace finray
