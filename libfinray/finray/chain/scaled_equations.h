@@ -9,9 +9,9 @@ namespace finray {
 
 /// C(theta, F_t, f, l_c, f_c) of (17) with scaled rows:
 ///
-///   model rows   w (y, tau, d) / (their units)    n + 3 + r,
-///   finger_equations.h gauge rows   (S_e theta - s_0) / sigma        m,
-///   equation (16)
+///   w (y, tau, d) / (their units)   n + 3 + r rows of the model,
+///                                   see finger_equations.h;
+///   (S_e theta - s_0) / sigma       m rows of the gauges, (16).
 ///
 /// Without gauges and with w = 1 these are the rows of (12). The units make
 /// rows and columns comparable whatever the size and stiffness of the finger:
