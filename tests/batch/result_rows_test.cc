@@ -145,7 +145,7 @@ TEST(MeasurementColumnsTest, ReadsVoltsAnglesAndTheObjectsPlace) {
   EXPECT_EQ(readings.object_mm.y(), -3);
   EXPECT_NEAR(readings.object_angle_rad, M_PI / 2, 1e-15);
   EXPECT_EQ(readings.force_N, 2);
-  // What was not measured is not that of the frame before.
+  // A row without measurements keeps none of the row before.
   row.assign(row.size(), std::nan(""));
   columns.Read(cell, &readings);
   EXPECT_TRUE(std::isnan(readings.gauges_V[1]));

@@ -41,7 +41,8 @@ TEST_P(GaugeReadingResidualTest, AnalyticalVersusFiniteDifferences) {
   }
 }
 
-// Offset, a drift rate after 0.4 h, a temperature coefficient 7 degrees below.
+// The terms are an offset, a drift rate after 0.4 h and a temperature
+// coefficient 7 degrees below the reference.
 TEST_P(GaugeReadingResidualTest, TermsBesideTheOffset) {
   double gain = 1.7, volts = 0.31, term[] = {0.2, -0.03, 0.004};
   std::vector<double*> blocks = Blocks();

@@ -26,7 +26,7 @@ TEST_P(ObjectContactResidualTest, AnalyticalVersusFiniteDifferences) {
   CheckDerivatives(*location, {unknowns_.data()}, 1e-7);
 }
 
-// Only the reduced form is at equilibrium without being solved for.
+// Only the reduced form is in equilibrium without a solve.
 class ObjectContactEquilibriumTest : public ResidualsFixture {};
 INSTANTIATE_TEST_SUITE_P(Forms, ObjectContactEquilibriumTest,
                          testing::Values(EquilibriumForm::kReduced), FormName);

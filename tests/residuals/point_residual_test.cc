@@ -41,7 +41,7 @@ TEST_P(PointResidualTest, AnalyticalVersusFiniteDifferences) {
   CheckDerivatives(*tip, blocks_, 1e-6);
 }
 
-// Only the reduced form is at equilibrium without being solved for.
+// Only the reduced form is in equilibrium without a solve.
 class PointEquilibriumTest : public ResidualsFixture {};
 INSTANTIATE_TEST_SUITE_P(Forms, PointEquilibriumTest,
                          testing::Values(EquilibriumForm::kReduced), FormName);
@@ -55,7 +55,7 @@ TEST_P(PointEquilibriumTest, PinsAreWhereTheShapeHasThem) {
   const FrameEvaluation& frame =
       frames.Add(1, kFriction, unknowns_.data(), true);
   frames.PrepareForEvaluation(true, true);
-  // What is there without pins stays as it is.
+  // Adding pins leaves the other outputs as they are.
   for (int i = 0; i < frame.gauges() + 3; ++i) {
     EXPECT_NEAR(frame.outputs()[i], frame_->outputs()[i], 1e-10);
     EXPECT_LT((frame.d_outputs().row(i) - frame_->d_outputs().row(i)).norm(),

@@ -52,7 +52,7 @@ TEST_P(ReferenceForceResidualTest, AnalyticalVersusFiniteDifferences) {
   CheckDerivatives(*vector, VectorBlocks(), 1e-6);
 }
 
-// A free frame: the sensor's offset is all it reads.
+// In a free frame the sensor reads only its offset.
 TEST_P(ReferenceForceResidualTest, WithoutContact) {
   FrameSet frames(finger_, {}, EquilibriumForm::kReduced, &shared_, 1);
   const FrameEvaluation& free = frames.Add(0, 0, nullptr);

@@ -39,8 +39,9 @@ Finger FrontGauges() {
   return finger;
 }
 
-// The formula, written down once more with the statics' own derivatives, and
-// the noise's covariance. A circle's centre is measured if the weights say so.
+// The formula, computed independently from the derivatives of the statics, and
+// the covariance of the noise. A circle's centre is measured if the weights say
+// so.
 struct Exact {
   Eigen::MatrixXd system, noise;
 };
@@ -116,7 +117,8 @@ Worst WorstOfTable(const Finger& finger, double friction,
     if (!solver.SolveWithSensitivities({contact})) continue;
     const Exact exact = ExactCovariance(solver, 1, weights);
     if (!(std::sqrt(exact.noise(0, 0)) < 7)) continue;
-    // A circle tells the place of a contact even where nothing tells its force.
+    // A circle determines the place of a contact even where nothing determines
+    // its force.
     if (!(std::sqrt(exact.noise(1, 1)) < 0.25 * contact.normal_N) && circle) {
       continue;
     }
@@ -192,7 +194,7 @@ TEST(CalibrationUncertaintyTest, TwoContactsAreExact) {
   ASSERT_EQ(found.rows(), 4);
   EXPECT_LT((found - exact).cwiseAbs().maxCoeff(),
             1e-6 * exact.cwiseAbs().maxCoeff());
-  // And so is one contact beyond the table.
+  // One contact beyond the table is computed in the same way.
   const std::vector<PointContact> heavy = {{70, 30, 0}};
   ASSERT_TRUE(solver.SolveWithSensitivities(heavy));
   const Eigen::MatrixXd beyond =
@@ -203,11 +205,11 @@ TEST(CalibrationUncertaintyTest, TwoContactsAreExact) {
             1e-8 * beyond.cwiseAbs().maxCoeff());
 }
 
-// Fingers drawn from the covariance, their noise-free volts read with the
-// nominal finger.
+// Fingers are drawn from the covariance; their noise-free volts are read with
+// the nominal finger.
 TEST(CalibrationUncertaintyTest, EstimatesOfWrongFingersSpreadAsItSays) {
   Finger nominal = UncertainFinger();
-  // So small that contacts move in proportion.
+  // The errors are small, so that contacts move in proportion to them.
   nominal.calibration->std *= 0.4;
   const Eigen::MatrixXd factor = nominal.calibration->Factor();
   for (const double friction : {0.0, 0.3}) {
@@ -275,7 +277,8 @@ TEST(CalibrationUncertaintyTest, NothingKnownWronglyGivesZero) {
 }
 
 TEST(CalibrationUncertaintyTest, StiffnessAndForceScaleTogether) {
-  // Both stiffnesses wrong by the same 20 %: the force is, the place is not.
+  // Both stiffnesses are wrong by the same 20 %. Then the force is wrong too,
+  // but the place is right.
   Finger finger = UncertainFinger();
   ParameterCovariance& known = *finger.calibration;
   known.parameters.resize(2);
@@ -301,7 +304,8 @@ TEST(CalibrationUncertaintyTest, WithoutForceNothingIsDetermined) {
   ASSERT_TRUE(solver.Solve({}));
   std::vector<double> volts = Volts(solver);
   EXPECT_TRUE(std::isinf(uncertainty.Of({{70, 0, 0}}, volts, weights)(0, 0)));
-  // One gauge does not determine two unknowns; unused ones are not looked at.
+  // One gauge does not determine two unknowns. Readings of unused gauges are
+  // ignored.
   weights.tail(3).setZero();
   for (int j = 1; j < 4; ++j) volts[j] = std::nan("");
   EXPECT_TRUE(std::isinf(uncertainty.Of({{70, 3, 0}}, volts, weights)(1, 1)));

@@ -14,7 +14,7 @@ void ExpectSound(const SensingOutcome& outcome) {
   EXPECT_EQ(outcome.explained_over_6_std, 0);
 }
 
-// From another mesh, so that no error of either is common to both.
+// The data come from another mesh, so that an error of one mesh is not in both.
 TEST(ExtremesTest, WithoutNoiseElevenDigits) {
   SensingCase c;
   c.disturb = NoNoise;
@@ -73,7 +73,7 @@ TEST(ExtremesTest, GainsAndUnitsChangeNothing) {
     c.told = c.truth;
     expect_same(RunSensing(c, kFrames), 1, 1);
   }
-  // Softer ones too: 0.03 N is much for them.
+  // Softer fingers too, for which 0.03 N is a large force.
   for (const double force : {1e-6, 1e6}) {
     for (const double length : {1e-3, 1.0, 1e3}) {
       SCOPED_TRACE(testing::Message() << length << ", " << force);
@@ -89,9 +89,9 @@ TEST(ExtremesTest, GainsAndUnitsChangeNothing) {
   }
 }
 
-// Of independent noise that halves the variance. Where they read the same,
-// noise and all, nothing is gained, but the std say so still: 1 / sqrt(2) of a
-// std holds 52 %.
+// Doubling every gauge halves the variance if their noise is independent. If
+// both copies carry the same noise, nothing is gained, but the reported std
+// still shrink to 1 / sqrt(2): they then hold 52 %.
 TEST(ExtremesTest, GaugesGivenTwice) {
   const auto layouts = GaugeLayouts();
   const auto std_of = [](const Finger& finger) {
@@ -143,9 +143,9 @@ TEST(ExtremesTest, GaugesAtOnePlaceTellNothing) {
   EXPECT_GE(tried, 3);
 }
 
-// Two gauges leave nothing to tell a wrong contact by: all that explain the
-// readings have to be found. Of the frames that were ok 30 % (the first pair)
-// were elsewhere when a search ended at the first one.
+// Two gauges cannot tell a wrong contact from the right one, so the search has
+// to find all contacts that explain the readings. When it stopped at the first
+// one, 30 % of the frames that were ok (the first pair) were elsewhere.
 TEST(ExtremesTest, TwoGaugesFindTheirRivals) {
   for (const std::vector<int>& gauges : {std::vector<int>{0, 3}, {2, 3}}) {
     const Finger paper = PaperFinger();

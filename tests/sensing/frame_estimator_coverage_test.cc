@@ -15,7 +15,7 @@ struct Pooled {
   int cells = 0, not_ok = 0;
 };
 
-// Of all cells that are local, by height; the last one is of all heights.
+// Pools all cells that are local by height. The last element pools all heights.
 std::vector<Pooled> ByHeight(double noise_rad, const std::vector<double>& arcs,
                              int repeats) {
   const Finger finger = PaperFingerWithNoise(noise_rad);
@@ -56,7 +56,7 @@ TEST(FrameEstimatorCoverageTest, ErrorsFollowTheStdAtEveryHeight) {
 }
 
 TEST(FrameEstimatorCoverageTest, WrongNoiseIsSeen) {
-  // What the test above must not pass: half the std, or chi2 of twice the
+  // The test above must fail for half the std, and for the chi2 of twice the
   // noise.
   EXPECT_GT(KolmogorovSmirnov(std::vector<double>(100, 0.9)), 5);
   const Finger finger = PaperFingerWithNoise(1e-4);

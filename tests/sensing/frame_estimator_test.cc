@@ -51,7 +51,8 @@ TEST(FrameEstimatorTest, NoiseFreeGridFromACold) {
 }
 
 TEST(FrameEstimatorTest, StdIsWhatNoiseDoes) {
-  // Spread over noisy repeats against the reported std, at a good place.
+  // Compares the spread over noisy repeats with the reported std, at a good
+  // place.
   const Finger finger = PaperFinger();
   FrameEstimator estimator(finger, OneContact(), {});
   EquilibriumSolver solver(finger, {});
@@ -85,7 +86,7 @@ TEST(FrameEstimatorTest, SaysWhatItCannotSee) {
   ASSERT_TRUE(solver.Solve({}));
   EXPECT_EQ(automatic.Estimate(CleanReadings(solver)).status,
             FrameStatus::kNoContact);
-  // Near the tip and light: no gauge tells place from force.
+  // Under a light contact near the tip no gauge tells place from force.
   ASSERT_TRUE(solver.Solve({{128, 0.5, 0}}));
   FrameEstimator one(finger, OneContact(), {});
   const FrameEstimate tip = one.Estimate(CleanReadings(solver));
@@ -94,7 +95,8 @@ TEST(FrameEstimatorTest, SaysWhatItCannotSee) {
   Measurements readings = CleanReadings(solver);
   const FrameEstimate whole = one.Estimate(readings);
   EXPECT_EQ(whole.status, FrameStatus::kOk);
-  // One gauge less still does, with less certainty; three less do not.
+  // Three gauges still determine the contact, with less certainty. One gauge
+  // does not.
   readings.gauges_V[0] = std::nan("");
   const FrameEstimate less = one.Estimate(readings);
   EXPECT_NEAR(less.contact[0].arc_mm, 70, 1e-6);
@@ -175,7 +177,7 @@ TEST(FrameEstimatorTest, AMeasuredCircleTellsPlaceFromForce) {
   EXPECT_LT(placed.contact[0].arc_std_mm, 0.1);
   EXPECT_LT(placed.contact[0].normal_std_N,
             0.5 * alone.contact[0].normal_std_N);
-  // With one gauge left and one coordinate of the stage.
+  // One gauge and one coordinate of the stage remain.
   for (int j = 1; j < 4; ++j) readings.gauges_V[j] = std::nan("");
   readings.object_mm.x() = std::nan("");
   const FrameEstimate least = measured.Estimate(readings);
@@ -278,8 +280,8 @@ TEST(FrameEstimatorTest, ReportsBothSolutionsThatExplainAFrame) {
 }
 
 TEST(FrameEstimatorTest, ArrivesWhereGaussNewtonCircles) {
-  // A light contact in the last bay: what noise leaves unexplained, times the
-  // curvature, outweighs the information.
+  // For a light contact in the last bay, the unexplained noise times the
+  // curvature outweighs the information.
   const Finger finger = PaperFinger();
   FrameEstimator estimator(finger, OneContact(), {});
   EquilibriumSolver solver(finger, {});

@@ -44,8 +44,9 @@ std::vector<Measurements> NoisyRows(const Finger& finger, int rows,
   return all;
 }
 
-// Frames with a solution where the two differ in status, and the difference of
-// l_c and f_c in std over the frames that are ok, sorted.
+// Counts the solved frames in which the two methods differ in status. `in_std`
+// holds the sorted differences of l_c and f_c, in std, over the frames that are
+// ok.
 struct Difference {
   int other_status = 0;
   std::vector<double> in_std;
@@ -115,8 +116,8 @@ TEST(FrameProblemTest, TheFastSolverEqualsTheReducedBlocks) {
                       NoisyRows(finger, 2000, {20, 110}, {0.5, 8}, false)));
 }
 
-// Where another solution explains a frame about as well, the weighted form may
-// miss it from a start that is far away: here none does.
+// If another solution explains a frame about as well, the weighted form may
+// miss it from a far start. It misses none in these frames.
 TEST(FrameProblemTest, TheFastSolverEqualsTheWeightedBlocks) {
   const Finger finger = PaperFinger();
   Scene scene;
@@ -151,7 +152,8 @@ TEST(FrameProblemTest, CalibrationErrorsAsInTheTable) {
 
 class CameraTest : public testing::Test {
  protected:
-  // What a camera sees of the solver's finger, with its noise.
+  // Returns the measurements of a camera that looks at the solver's finger,
+  // with noise.
   Measurements See(double std_mm, std::mt19937_64* generator) {
     Measurements row = CleanReadings(solver_);
     std::normal_distribution<double> noise(0, 1);
@@ -208,7 +210,7 @@ TEST_F(CameraTest, PinsAndTipAreMeasurements) {
   EXPECT_NEAR(squares / (2 * kFrames), 1, 4 * std::sqrt(2.0 / (2 * kFrames)));
 }
 
-// Without any gauge too: a camera alone.
+// Frames without any gauge: a camera alone.
 TEST_F(CameraTest, ACameraAlone) {
   Scene scene;
   scene.pin_std_mm = 0.05;

@@ -33,7 +33,7 @@ struct GaugeLog {
     }
   }
 
-  /// The least squares of every frame, to rounding.
+  /// Returns the least-squares contact of every frame, exact to rounding.
   std::vector<PointContact> LeastSquares(
       const Discretization& discretization) const {
     ContactFit fit(PaperFinger(), discretization);
@@ -46,7 +46,7 @@ struct GaugeLog {
     return best;
   }
 
-  /// The equilibrium under a frame's true contact.
+  /// Returns the equilibrium under a frame's true contact.
   LadderState StateAt(const Discretization& discretization, int frame) const {
     EquilibriumSolver solver(PaperFinger(), discretization);
     solver.Solve({truth[frame]});

@@ -23,7 +23,8 @@ class GaugeTableTest : public testing::Test {
     weights_.tail<2>().setConstant(1 / kObject_mm);
   }
 
-  // Somewhere between nodes, where a contact is well seen.
+  // Returns noisy measurements of a contact that lies between nodes, where the
+  // finger senses it well.
   Eigen::VectorXd Measured(double arc_mm, double normal_N) {
     EXPECT_TRUE(solver_.Solve({{arc_mm, normal_N}}));
     Eigen::VectorXd values(6);
@@ -70,7 +71,7 @@ TEST_F(GaugeTableTest, ThreadsDoNotChangeIt) {
   }
 }
 
-// As calibrations have it.
+// Calibrations use this coarser table.
 TEST_F(GaugeTableTest, HalfTheRowsLessExact) {
   EquilibriumSolver rough = solver_;
   rough.set_tolerance(1e-6);

@@ -8,7 +8,7 @@
 
 namespace finray {
 
-/// What the gauges of a solved finger read without noise.
+/// Returns the noise-free volts that the gauges of a solved finger read.
 inline std::vector<double> Volts(const EquilibriumSolver& solver) {
   std::vector<double> volts;
   for (int j = 0; j < solver.model().gauges(); ++j) {

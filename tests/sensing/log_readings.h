@@ -9,7 +9,7 @@
 
 namespace finray {
 
-/// What each row of a table has measured.
+/// Reads the measurements of each row of a table.
 inline std::vector<Measurements> ReadReadings(const Finger& finger,
                                               const FrameTable& log) {
   const std::vector<std::string> names = log.headers();

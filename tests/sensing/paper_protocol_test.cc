@@ -29,7 +29,7 @@ TEST(PaperProtocolTest, GridOfCirclesWithCalibratedFingers) {
           ProtocolErrors(frames, &lab.finger(), &estimator, &generator);
       all.insert(all.end(), errors.begin(), errors.end());
     }
-    // Without noise what is left is the calibration's error.
+    // Without noise, only the calibration's error remains.
     const auto errors = ProtocolErrors(frames, nullptr, &estimator, &generator);
     exact.insert(exact.end(), errors.begin(), errors.end());
   }
@@ -82,10 +82,10 @@ TEST(PaperProtocolTest, CyclesOfContactAndSeparation) {
     squares += std::pow(found - force, 2);
     largest = std::max(largest, std::abs(found - force));
   }
-  // The paper's, against its force sensor.
+  // The paper's errors, against its force sensor.
   EXPECT_LT(std::sqrt(squares / used), 0.18);
   EXPECT_LT(largest, 0.61);
-  // What gauges of 3e-4 rad allow at 70 mm.
+  // The limit that gauges of 3e-4 rad allow at 70 mm.
   EXPECT_LT(std::sqrt(squares / used), 0.03);
   EXPECT_GT(free, 90);
   EXPECT_EQ(false_contacts, 0);

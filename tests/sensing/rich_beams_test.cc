@@ -80,7 +80,8 @@ TEST(RichBeamsTest, EqualPiecesAreTheUniformBeam) {
   const std::string pieces =
       "pieces: [{end_mm: 61, bending_stiffness_N_mm2: 12500}, "
       "{bending_stiffness_N_mm2: 12500}]";
-  // At a rib, so that the mesh is the same and nothing but the pieces differs.
+  // The pieces meet at a rib, so the mesh is the same and only the pieces
+  // differ.
   const Finger uniform = WithBeams(kUniform, kUniform);
   const Finger equal = WithBeams(pieces, kUniform);
   for (const Scheme scheme : {Scheme::kTaylor, Scheme::kRigidChain}) {
@@ -191,8 +192,8 @@ TEST(RichBeamsTest, FrontAndBackContactsAreReciprocal) {
   }
 }
 
-// With beams that all but coincide, front and back change places in a mirror.
-// They stretch, as two inextensible ones side by side could not bend.
+// With two nearly coincident beams, a mirror swaps front and back. The beams
+// stretch: two inextensible beams side by side could not bend.
 TEST(RichBeamsTest, BackContactMirrorsTheFrontOne) {
   const std::string beam = std::string(kStepped) + kSoft;
   Finger finger = WithBeams(beam, beam, "90.00001", false);

@@ -73,8 +73,8 @@ bool LogJob::Check() {
   std::error_code unknown;
   if (fs::is_fifo(log_, unknown) || fs::is_character_file(log_, unknown)) {
     throw InputError(log_ +
-                     ": expected a file; a log is read more than once, which "
-                     "a pipe cannot be");
+                     ": expected a file; a log is read more than once, but a "
+                     "pipe can be read only once");
   }
   bytes_ = fs::file_size(log_, unknown);
   written_ = fs::last_write_time(log_, unknown);

@@ -70,7 +70,7 @@ class ContactSearch {
 
  private:
   void FindStarts(int contacts, const PackedReadings& packed);
-  // Both fit from a start and fill in the next solution.
+  // FitFast and FitByCeres fit from a start and fill in the next solution.
   bool FitFast(const ContactStart& start, const PackedReadings& packed);
   bool FitByCeres(const ContactStart& start, const Measurements& row);
   // Keeps the next solution, with its contacts sorted from base to tip.

@@ -23,8 +23,7 @@ namespace finray {
 /// If the model with the declared noise does not explain a frame, its std are
 /// those of a noise that would (FrameEstimate::noise_scale).
 ///
-/// A frame's status is decided in this class and nowhere else
-/// (docs/reference/estimation.md):
+/// A frame's status is decided in this class (docs/reference/estimation.md):
 /// - bad_input (Estimate): fewer measurements than unknowns.
 /// - no_contact (Automatic): no contact is significant by the criterion above.
 ///   With a fixed number of contacts (WithContacts): all forces are below

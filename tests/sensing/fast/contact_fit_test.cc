@@ -172,7 +172,8 @@ TEST(ContactFitTest, FollowsALogToTheLeastSquares) {
   }
 }
 
-// Jumps over several elements, to and from light forces and the ends.
+// The contact jumps over several elements, to and from light forces and the
+// ends.
 TEST(ContactFitTest, FollowsJumps) {
   const Finger finger = PaperFinger();
   ContactFit fit(finger, {});
@@ -186,7 +187,8 @@ TEST(ContactFitTest, FollowsJumps) {
     const Eigen::VectorXd angles = Angles(finger, {truth});
     const PointContact before = contacts[0];
     if (!fit.Follow(angles, Weights(finger), &contacts) || fit.chi2() > 1) {
-      // Gauss-Newton from far away may end elsewhere, and says so.
+      // Gauss-Newton from far away may end elsewhere; it then reports failure
+      // or a large chi2.
       ++lost;
       contacts = {truth};
       StartAt(finger, contacts, &fit);

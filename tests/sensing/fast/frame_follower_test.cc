@@ -39,7 +39,7 @@ void ExpectSame(const FrameEstimate& one, const FrameEstimate& other, int i) {
   EXPECT_EQ(one.dof, other.dof) << i;
   if (one.contacts == 0) return;
   const ContactEstimate &a = one.contact[0], &b = other.contact[0];
-  // Both are minima, found to a hundredth of a std.
+  // Both estimates are minima, found to a hundredth of a std.
   EXPECT_NEAR(a.arc_mm, b.arc_mm, 1e-2 * b.arc_std_mm + 1e-4) << i;
   EXPECT_NEAR(a.normal_N, b.normal_N, 1e-2 * b.normal_std_N + 1e-5) << i;
   EXPECT_NEAR(a.arc_std_mm / b.arc_std_mm, 1, 2e-2) << i;

@@ -92,9 +92,11 @@ double ExpectAsAlone(const Finger& finger, const Discretization& discretization,
                   (fit.tip_pose - alone.tip_pose()).norm() / length,
                   std::abs(fit.chi2 - alone.chi2()) / (1 + alone.chi2()),
                   tension / largest});
-    // That of the last linearisation, a small change before the end.
+    // The information is that of the last linearisation, a small change before
+    // the end.
     EXPECT_LT(information, 1e-6) << "frame " << i;
-    // Alone where data hardly tell it may end at 1e-4 standard deviations.
+    // Where the data hardly determine the contact, a fit alone may end 1e-4 std
+    // away.
     EXPECT_LT(off, fit.in_lanes ? 1e-9 : 1e-7)
         << "frame " << i << ", " << fit.arc_mm << " mm, " << fit.normal_N
         << " N, in lanes " << fit.in_lanes;
@@ -141,8 +143,8 @@ TEST(FrameGroupFitTest, EveryFrameIsAsFittedAlone) {
       0.9);
 }
 
-// Gauges on the beam that is touched: those lanes go alone that have another
-// side of a gauge's end.
+// With gauges on the touched beam, a lane whose contact is on another side of a
+// gauge's end is fitted alone.
 TEST(FrameGroupFitTest, GaugesBesideTheContact) {
   Finger finger = PaperFinger();
   finger.gauges[0].beam = Side::kFront;
@@ -153,8 +155,8 @@ TEST(FrameGroupFitTest, GaugesBesideTheContact) {
   EXPECT_LT(share, 1);
 }
 
-// Contacts that lie apart, light ones and jumps; where the data do not tell
-// well enough, Gauss-Newton from elsewhere may come to another minimum.
+// Contacts far apart, light contacts and jumps. Where the data hardly determine
+// the contact, Gauss-Newton from another start may reach another minimum.
 TEST(FrameGroupFitTest, MixedContacts) {
   const Finger finger = PaperFinger();
   std::mt19937_64 generator(8);
@@ -188,7 +190,7 @@ TEST(FrameGroupFitTest, StaysWithinItsBounds) {
   EXPECT_GE(converged, 16);
 }
 
-// A gauge that is not measured in one lane, others weighed differently.
+// One lane lacks a gauge, and others have different weights.
 TEST(FrameGroupFitTest, LanesHaveTheirOwnWeights) {
   const Finger finger = PaperFinger();
   Frames frames(finger, Sweep(200, 40, 100, 3));
@@ -202,7 +204,7 @@ TEST(FrameGroupFitTest, LanesHaveTheirOwnWeights) {
   EXPECT_GT(Compare(finger, {Scheme::kTaylor8, 12}, frames), 0.8);
 }
 
-// Frames that nothing explains trouble no other frame.
+// Frames that no contact explains disturb no other frame.
 TEST(FrameGroupFitTest, AFrameThatDoesNotConvergeIsLeftOut) {
   const Finger finger = PaperFinger();
   const Discretization discretization{Scheme::kTaylor8, 12};
@@ -229,7 +231,7 @@ TEST(FrameGroupFitTest, AFrameThatDoesNotConvergeIsLeftOut) {
   ExpectAsAlone(finger, discretization, good, good_fits);
 }
 
-// From where the mesh has to be refined on frames are fitted one by one.
+// Once the mesh has to be refined, frames are fitted one by one.
 TEST(FrameGroupFitTest, AMeshThatIsTooCoarseIsRefined) {
   const Finger finger = PaperFinger();
   std::vector<PointContact> contacts;
@@ -264,7 +266,7 @@ TEST(FrameGroupFitTest, TheSameCallsGiveTheSameBits) {
   }
 }
 
-// Other calls cut the frames differently: the same to rounding.
+// Dividing the frames into other calls gives the same results to rounding.
 TEST(FrameGroupFitTest, CallsOfAnyLength) {
   const Finger finger = PaperFinger();
   const Discretization discretization{Scheme::kTaylor8, 12};

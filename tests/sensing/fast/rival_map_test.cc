@@ -52,7 +52,7 @@ TEST(RivalMapTest, WhatItCallsUniqueHasNoRival) {
       ++unique;
       usual_unique += usual;
       EXPECT_EQ(search.rival(), nullptr);
-      // From every row of the table: no other minimum is as good.
+      // No fit from any row of the table finds another minimum that is as good.
       ContactFit fit(finger, {});
       for (const GaugeTable::Row& row : table.rows()) {
         std::vector<PointContact> contacts = {

@@ -61,7 +61,7 @@ class FrameGroupFit {
   /// column of angles and weights is a frame; weights are per rad, 0 where not
   /// measured. All lanes finish before the call returns, so calls with many
   /// frames are faster. If a frame does not converge, the next one of its lane
-  /// starts from the same place.
+  /// starts from where that frame started.
   void Fit(const Eigen::Ref<const Eigen::MatrixXd>& angles_rad,
            const Eigen::Ref<const Eigen::MatrixXd>& weights_per_rad,
            FrameFit* fits);
