@@ -28,7 +28,8 @@ void EstimationSummary::Add(const FrameEstimate& estimate, double friction,
                       estimate.status == FrameStatus::kNoContact;
   if (!solved) return;
   if (estimate.p_value() < FrameEstimate::kUnexplained) ++unexplained;
-  // The numbers of unobservable frames are not to be used.
+  // The contacts of unobservable frames are unreliable, so they are not
+  // compared.
   if (estimate.status == FrameStatus::kUnobservable) return;
   if (std::isnan(force_N)) return;
   const double error = EstimatedForce(estimate, friction) - force_N;

@@ -31,8 +31,8 @@ class FrameSet : public ceres::EvaluationCallback {
   FrameSet(const Finger& finger, const Discretization& discretization,
            EquilibriumForm form, const SharedParameters* shared, int threads);
 
-  /// Adds a frame with its unknowns at `frame` (null if it has none), which
-  /// must stay in place. With `pins`, the rib pins are among its outputs. The
+  /// Adds a frame with its unknowns at `frame`, which must stay in place; null
+  /// if it has none. With `pins`, the rib pins are among its outputs. The
   /// returned reference stays valid.
   FrameEvaluation& Add(int contacts, double friction, const double* frame,
                        bool pins = false);

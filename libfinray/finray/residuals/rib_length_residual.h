@@ -5,11 +5,13 @@
 
 namespace finray {
 
-/// The rib lengths (7) as soft residuals, for the weighted form:
+/// The rib lengths, equation (7), as soft residuals for the weighted form:
 ///
 ///   r_k = w (|r_Rk - r_Lk| - L_k (1 + T_k / EA_k)) / l_0,   k = 1 .. r.
 ///
-/// Parameter blocks: those of FrameResidual.
+/// r_Lk and r_Rk are the ends of rib k on the two beams, L_k its length, T_k
+/// its tension and EA_k its axial stiffness. Parameter blocks: those of
+/// FrameResidual.
 class RibLengthResidual : public FrameResidual {
  public:
   static ceres::CostFunction* Create(const FrameEvaluation* frame,

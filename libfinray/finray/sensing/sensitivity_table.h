@@ -61,12 +61,12 @@ class SensitivityTable {
               std::optional<double> circle_radius_mm,
               EquilibriumSolver* solver);
 
-  Eigen::MatrixXd node_;  // the derivatives at the last node made
+  Eigen::MatrixXd node_;  // the derivatives at the last node computed
   std::vector<double> forces_N_;
   std::vector<Row> rows_;
   std::vector<Segment> segments_;
   Eigen::MatrixXd
-      values_;  // a column a node: the derivatives, column by column
+      values_;  // one column per node: its derivatives, column by column
 };
 
 }  // namespace finray
