@@ -1,4 +1,4 @@
-// Stiffness of yielding objects from what fingers sense, sorted.
+// Measures the stiffness of yielding objects with fingers and sorts them.
 
 #include <cmath>
 #include <cstdio>
@@ -7,41 +7,44 @@
 #include "app.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/log_list.h"
+#include "finray/io/parse_number.h"
 #include "finray/io/python_script.h"
 #include "finray/perception/compliance_files.h"
 #include "outputs.h"
 
-DEFINE_string(finger, "", "finger YAML, best a calibrated one");
+DEFINE_string(finger, "", "finger YAML, preferably calibrated");
 DEFINE_string(scene, "",
-              "scene YAML: a circle's radius_mm is the pulley's, its spring's "
-              "direction_deg the slider's");
+              "scene YAML: its circle is the pulley, its spring has the "
+              "direction of the slider");
 DEFINE_string(logs, "",
-              "CSV logs with gauge_<j>_V, object_x_mm, object_y_mm and, if one "
-              "holds several, text columns object and trial; separated by "
-              "commas: files, patterns, lists");
+              "CSV logs with gauge_<j>_V, object_x_mm, object_y_mm and, for "
+              "several trials in one log, the text columns object and trial; "
+              "files, patterns or lists, separated by commas");
 DEFINE_string(second_finger, "",
-              "finger YAML of the other finger; without it the same");
+              "finger YAML of the second finger; default: --finger");
 DEFINE_string(second_logs, "",
-              "the other finger's logs, one for each of --logs, if objects "
-              "are squeezed between two fingers");
+              "logs of the second finger, one for each of --logs, for objects "
+              "that are squeezed between two fingers");
 DEFINE_string(out_dir, "",
               "folder for compliance.yaml, stiffness.csv, points.csv, "
               "compliance.svg");
 DEFINE_string(direction_deg, "",
               "direction in which objects are pushed, from +x of frame S; "
-              "without it the scene's spring's, else estimated");
+              "default: that of the scene's spring, else estimated");
 DEFINE_double(stage_std_mm, 0.02, "std of object_x_mm and object_y_mm");
 DEFINE_int32(most_degree, 3,
-             "of the force law in the displacement; 1: straight lines");
+             "highest degree of the force law; 1: straight lines");
 DEFINE_string(from_N, "",
-              "stiffness is compared from this force on; without it 20 % of "
-              "the largest that all trials reach");
-DEFINE_string(to_N, "", "up to this force; without it 80 %");
+              "stiffness is compared from this force on; default: 20 % of the "
+              "largest force that all trials reach");
+DEFINE_string(to_N, "",
+              "stiffness is compared up to this force; default: 80 %");
 DEFINE_double(least_order_confidence, 0,
-              "gate: probability that the whole order is right; default: none");
+              "exit with code 4 if the whole order is right with a lower "
+              "probability");
 DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
 DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
-DEFINE_bool(dump_config, false, "print what is in force, and stop");
+DEFINE_bool(dump_config, false, "print the settings in force and stop");
 DEFINE_bool(plots, true, "draw compliance.svg and compliance.png");
 
 namespace {
@@ -55,9 +58,8 @@ std::string InFolder(const char* name) {
 std::optional<double> NumberOrNothing(const char* flag,
                                       const std::string& text) {
   if (text.empty()) return std::nullopt;
-  std::istringstream stream(text);
-  double value = 0;
-  if (!(stream >> value) || !stream.eof() || !std::isfinite(value)) {
+  const std::optional<double> value = ParseNumber(text);
+  if (!value) {
     throw UsageError(std::string("--") + flag + ": expected a number, found '" +
                      text + "'");
   }
@@ -101,18 +103,18 @@ std::vector<ComplianceLog> ReadLogs(const Scene& scene,
     if (second.size() != first.size()) {
       throw InputError("--second_logs: has " + std::to_string(second.size()) +
                        " logs, --logs " + std::to_string(first.size()) +
-                       "; each needs the other finger's");
+                       "; each log of one finger needs one of the other");
     }
   }
   std::vector<ComplianceLog> logs;
   for (std::size_t i = 0; i < first.size(); ++i) {
     ComplianceLog& log = logs.emplace_back();
-    // Up to the first dot: cup.left.csv is of a cup.
+    // The name ends at the first dot: cup.left.csv is the log of a cup.
     log.name = std::filesystem::path(first[i]).filename().string();
     log.name = log.name.substr(0, log.name.find('.', 1));
-    log.first = FrameTable::Read(first[i], scene.columns);
+    log.tables.push_back(FrameTable::Read(first[i], scene.columns));
     if (!second.empty()) {
-      log.second = FrameTable::Read(second[i], scene.columns);
+      log.tables.push_back(FrameTable::Read(second[i], scene.columns));
     }
   }
   return logs;
@@ -128,8 +130,8 @@ void PrintSummary(const Compliance& found) {
     rows += trial.rows;
   }
   std::printf(
-      "points         %zu of %zu rows in %zu trials; %zu left out as "
-      "the slider stood, %zu as they contradict the others\n",
+      "points         %zu of %zu rows in %zu trials; left out: %zu because "
+      "the slider stood, %zu because they contradict the others\n",
       points, rows, found.trials.size(), standing, left_out);
   std::printf("compared       from %.3g to %.3g N\n", found.from_N, found.to_N);
   for (std::size_t i = 0; i < found.objects.size(); ++i) {
@@ -150,37 +152,37 @@ void PrintSummary(const Compliance& found) {
 }
 
 int Run() {
-  const ComplianceFinger first{
-      ReadFinger(Required("finger", FLAGS_finger)),
-      FLAGS_scene.empty() ? Scene() : ReadScene(FLAGS_scene)};
+  std::vector<ComplianceFinger> fingers = {
+      {ReadFinger(Required("finger", FLAGS_finger)),
+       FLAGS_scene.empty() ? Scene() : ReadScene(FLAGS_scene)}};
+  const Scene scene = fingers[0].scene;
   const Discretization discretization =
       ParseDiscretization(FLAGS_scheme, FLAGS_resolution);
   if (FLAGS_dump_config) {
-    DumpConfig(first.finger, first.scene, discretization);
+    DumpConfig(fingers[0].finger, scene, discretization);
     return kGood;
   }
   Required("logs", FLAGS_logs);
   Required("out_dir", FLAGS_out_dir);
   if (FLAGS_second_logs.empty() && !FLAGS_second_finger.empty()) {
-    throw UsageError("--second_finger does not go without --second_logs");
+    throw UsageError("--second_finger needs --second_logs");
   }
   const ComplianceSettings settings = Settings();
   std::vector<std::string> inputs = {FLAGS_finger};
   if (!FLAGS_scene.empty()) inputs.push_back(FLAGS_scene);
-  std::optional<ComplianceFinger> second;
   if (!FLAGS_second_logs.empty()) {
-    second = first;
+    fingers.push_back(ComplianceFinger(fingers[0]));
     if (!FLAGS_second_finger.empty()) {
-      second->finger = ReadFinger(FLAGS_second_finger);
+      fingers[1].finger = ReadFinger(FLAGS_second_finger);
       inputs.push_back(FLAGS_second_finger);
     }
   }
-  const std::vector<ComplianceLog> logs = ReadLogs(first.scene, &inputs);
+  const std::vector<ComplianceLog> logs = ReadLogs(scene, &inputs);
   RefuseToOverwrite(inputs,
                     {InFolder("points.csv"), InFolder("stiffness.csv"),
                      InFolder("laws.csv"), InFolder("compliance.yaml")});
-  const Compliance found = MeasureCompliance(
-      logs, first, second ? &*second : nullptr, discretization, settings);
+  const Compliance found =
+      MeasureCompliance(logs, fingers, discretization, settings);
 
   MakeFolder(FLAGS_out_dir);
   PointTable(found).Write(InFolder("points.csv"));
@@ -204,7 +206,7 @@ int Run() {
 int main(int argc, char** argv) {
   return finray::RunApp(
       argc, argv,
-      "Stiffness of yielding objects, from stiff to soft.\n"
+      "Measures the stiffness of yielding objects and sorts them.\n"
       "finray_compliance --finger F.yaml --scene S.yaml --logs 'runs/*.csv' "
       "--out_dir D [--second_logs 'other/*.csv']",
       Run);

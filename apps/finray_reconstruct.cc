@@ -1,4 +1,4 @@
-// The outline of an object from touches of a finger.
+// Reconstructs the outline of an object from touches of a finger.
 
 #include <cmath>
 #include <cstdio>
@@ -7,12 +7,12 @@
 #include "app.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/python_script.h"
-#include "finray/perception/interior_envelope.h"
+#include "finray/perception/paper_outline.h"
 #include "finray/perception/reconstruction_files.h"
 #include "outputs.h"
 
-DEFINE_string(finger, "", "finger YAML, best a calibrated one");
-DEFINE_string(scene, "", "scene YAML; without it contacts: auto");
+DEFINE_string(finger, "", "finger YAML, preferably calibrated");
+DEFINE_string(scene, "", "scene YAML; default: contacts: auto");
 DEFINE_string(logs, "",
               "CSV of touches: gauge_<j>_V, object_x_mm, object_y_mm, "
               "object_angle_deg, one row a touch");
@@ -20,13 +20,13 @@ DEFINE_string(out_dir, "",
               "folder for outline.csv, reconstruction.yaml, outline.svg");
 DEFINE_string(truth, "", "CSV with x_mm, y_mm of the true outline");
 DEFINE_double(stage_std_mm, 0.02, "std of object_x_mm and object_y_mm");
-DEFINE_int32(descriptors, 19, "number of Fourier descriptors, odd");
+DEFINE_int32(descriptors, 19, "odd number of Fourier descriptors");
 DEFINE_double(envelope_mm, 10,
-              "length of beam on either side of a contact in the paper's "
+              "length of beam on each side of a contact in the paper's "
               "interior envelope");
 DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
 DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
-DEFINE_bool(dump_config, false, "print what is in force, and stop");
+DEFINE_bool(dump_config, false, "print the settings in force and stop");
 DEFINE_bool(plots, true, "draw outline.svg and outline.png");
 
 namespace {
@@ -67,18 +67,18 @@ void PrintSummary(const Reconstruction& found, const RadialError* error,
     std += point.std_mm / static_cast<double>(found.outline.size());
   }
   std::printf(
-      "outline        %.4g mm around, mean std %.2g mm, noise %.2f of "
-      "what was expected\n",
+      "outline        %.4g mm around, mean std %.2g mm, noise %.2f of the "
+      "expected\n",
       found.fit.curve.perimeter_mm(), std, found.fit.noise_scale);
   std::printf("supported      %.0f %%; no touch lies on %zu stretch%s",
               100 * found.supported_share, found.gaps.size(),
               found.gaps.size() == 1 ? "" : "es");
   std::printf("%s\n", found.gaps.empty()
                           ? ""
-                          : ": straight edges or dents, which look the same "
-                            "to a finger");
+                          : ": straight edges or dents, which a finger "
+                            "cannot tell apart");
   if (error == nullptr) {
-    std::printf("radial error   not known: no --truth\n");
+    std::printf("radial error   unknown without --truth\n");
     return;
   }
   std::printf(
@@ -161,7 +161,7 @@ int Run() {
 int main(int argc, char** argv) {
   return finray::RunApp(
       argc, argv,
-      "Outline of an object from touches of a finger.\n"
+      "Reconstructs the outline of an object from touches of a finger.\n"
       "finray_reconstruct --finger F.yaml --logs touches.csv --out_dir D "
       "[--scene S.yaml] [--truth outline.csv]",
       Run);

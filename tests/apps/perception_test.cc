@@ -2,8 +2,8 @@
 
 #include "apps/command_line.h"
 #include "finray/io/frame_table.h"
-#include "finray/perception/compliant_contact.h"
-#include "finray/perception/touch_simulation.h"
+#include "perception/simulated_slider.h"
+#include "perception/simulated_touches.h"
 #include "test_finger.h"
 
 namespace finray {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "finray/io/error.h"
-#include "finray/perception/compliant_contact.h"
+#include "perception/simulated_slider.h"
 #include "test_finger.h"
 
 namespace finray {
@@ -19,7 +19,7 @@ ComplianceFinger Estimator() {
   return estimator;
 }
 
-ForceLaw Spring(double stiffness) {
+ForceFunction Spring(double stiffness) {
   return [=](double u) { return stiffness * u; };
 }
 
@@ -30,19 +30,19 @@ TEST(ComplianceTest, SpringAndFrictionWithoutNoise) {
       SimulateSlider(PaperFinger(), Spring(1.5), {}, protocol, {false, 0, 1});
   ComplianceSettings settings;
   settings.direction_rad = M_PI;
-  const Compliance found = MeasureCompliance({{"spring", log, {}}}, Estimator(),
-                                             nullptr, {}, settings);
+  const Compliance found =
+      MeasureCompliance({{"spring", {log}}}, {Estimator()}, {}, settings);
   ASSERT_EQ(found.trials.size(), 1u);
   EXPECT_NEAR(found.objects[0].mean.N_per_mm, 1.5, 2e-4);
   EXPECT_NEAR(found.trials[0].fit.friction_N(), 0.4, 2e-4);
   EXPECT_GT(found.trials[0].fit.standing, 0u);
-  // The sensed force is that along the slider.
+  // The sensed force is the component along the slider.
   for (const ForcePoint& point : found.trials[0].points) {
     EXPECT_NEAR(point.force_N, log.Numbers("force_N")[point.row], 1e-4);
   }
 }
 
-// An exact path shows its direction, however the slider lies.
+// An exact path gives the direction of the slider.
 TEST(ComplianceTest, DirectionFromThePath) {
   const FrameTable log =
       SimulateSlider(PaperFinger(), Spring(0.5), {}, {}, {false, 0, 1});
@@ -62,12 +62,13 @@ TEST(ComplianceTest, SqueezeBetweenTwoFingers) {
   other.finger = second;
   ComplianceSettings settings;
   settings.direction_rad = M_PI;
-  const Compliance found = MeasureCompliance(
-      {{"object", logs.first, logs.second}}, Estimator(), &other, {}, settings);
+  const Compliance found =
+      MeasureCompliance({{"object", {logs.first, logs.second}}},
+                        {Estimator(), other}, {}, settings);
   EXPECT_NEAR(found.objects[0].mean.N_per_mm, 2, 2e-3);
 }
 
-// A back beam 2 % stiffer than thought, and one known to no better.
+// The back beam is 2 % stiffer than its model, and its std is 2 %.
 TEST(ComplianceTest, CalibrationWidensTheStd) {
   Finger plant = PaperFinger();
   plant.back_stiffness_N_mm2 *= 1.02;
@@ -83,8 +84,8 @@ TEST(ComplianceTest, CalibrationWidensTheStd) {
   ComplianceSettings settings;
   settings.direction_rad = M_PI;
   settings.most_degree = 1;
-  const Compliance found = MeasureCompliance({{"spring", log, {}}}, estimator,
-                                             nullptr, {}, settings);
+  const Compliance found =
+      MeasureCompliance({{"spring", {log}}}, {estimator}, {}, settings);
   const ObjectStiffness& spring = found.objects[0];
   EXPECT_GT(std::abs(spring.mean.N_per_mm - 1), 1e-3);
   EXPECT_NEAR(spring.calibration_std, std::abs(spring.mean.N_per_mm - 1),
@@ -117,7 +118,7 @@ TEST(ComplianceTest, TooFewPointsNameTheTrial) {
       SimulateSlider(PaperFinger(), Spring(1), {}, protocol, {false, 0, 1});
   EXPECT_THAT(
       [&] {
-        MeasureCompliance({{"spring", log, {}}}, Estimator(), nullptr, {}, {});
+        MeasureCompliance({{"spring", {log}}}, {Estimator()}, {}, {});
       },
       testing::ThrowsMessage<InputError>(testing::HasSubstr(
           "object 'spring', trial '1': too few force-displacement points")));

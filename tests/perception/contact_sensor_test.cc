@@ -20,7 +20,8 @@ Measurements Readings(EquilibriumSolver* solver, const PointContact& contact) {
   return readings;
 }
 
-// Scatter of pose and force over draws of noise against the covariance.
+// Compares the scatter of pose and force over draws of noise with the
+// covariance.
 TEST(ContactSensorTest, CovarianceIsThatOfTheScatter) {
   const Finger finger = PaperFinger();
   Scene scene;
@@ -64,7 +65,7 @@ TEST(ContactSensorTest, GivenEstimatesKeepTheirStd) {
   ASSERT_EQ(frame.contacts.size(), 1u);
   const Eigen::Matrix4d& covariance = frame.contacts[0].covariance;
   EXPECT_NEAR(std::sqrt(covariance(3, 3)), 0.02, 1e-12);
-  // Along the beam the place moves with l_c.
+  // Along the beam the place moves as far as l_c.
   EXPECT_NEAR(std::sqrt(covariance(1, 1)), 0.5, 0.05);
 }
 

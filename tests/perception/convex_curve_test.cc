@@ -29,7 +29,8 @@ TEST(ConvexCurveTest, CircleIsExact) {
   }
 }
 
-// Midpoint radii: second order in the width of a cell.
+// With radii from the middle of each cell the error is of second order in its
+// width.
 TEST(ConvexCurveTest, EllipseConvergesWithTheCells) {
   const Outline ellipse(EllipseOutline{12, 5});
   double before = 0;

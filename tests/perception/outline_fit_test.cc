@@ -33,8 +33,8 @@ TEST(OutlineFitTest, EllipseFromExactTouches) {
   EXPECT_LT(LargestError(fit, ellipse), 2e-3);
 }
 
-// Four edges and one radius of curvature: the chain of log rho would have to
-// swing by factors of a hundred.
+// A smooth log rho would have to swing by a factor of a hundred between the
+// edges and the corners.
 TEST(OutlineFitTest, SquareHasStraightEdges) {
   const Outline square(
       RoundedPolygonOutline{{{-14, -14}, {14, -14}, {14, 14}, {-14, 14}}, 4});
@@ -56,7 +56,7 @@ TEST(OutlineFitTest, OneTouchAstrayDoesNotBendTheRest) {
   EXPECT_LT(LargestError(fit, circle), 0.1);
 }
 
-// Errors over the std that is claimed, over draws and places.
+// The rms of error / std over draws and places is 1.
 TEST(OutlineFitTest, StdIsThatOfTheErrors) {
   const Outline ellipse(EllipseOutline{22, 15});
   std::mt19937_64 generator(3);

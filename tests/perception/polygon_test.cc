@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-#include "finray/perception/fourier_descriptors.h"
-#include "finray/perception/radial_error.h"
+#include "finray/perception/paper_outline.h"
 
 namespace finray {
 namespace {
@@ -21,8 +20,7 @@ Polygon Ellipse(double a, double b, int count) {
   return polygon;
 }
 
-TEST(PolygonTest, AreaCentroidAndRadius) {
-  EXPECT_EQ(AreaOf(kSquare), 4);
+TEST(PolygonTest, CentroidAndRadius) {
   EXPECT_EQ(CentroidOf(kSquare), Eigen::Vector2d(3, 2));
   EXPECT_NEAR(*RadiusAt(kSquare, {3, 2}, 0), 1, 1e-15);
   EXPECT_NEAR(*RadiusAt(kSquare, {3, 2}, M_PI / 6), 1 / std::cos(M_PI / 6),
@@ -37,7 +35,7 @@ TEST(PolygonTest, EqualArcLengths) {
   }
 }
 
-// A circle is c_0 and c_1; any curve of 2 K + 1 descriptors is its own.
+// The descriptors of a circle are zero except for c_0 and c_1.
 TEST(FourierDescriptorsTest, CircleHasTwo) {
   Polygon circle = Ellipse(5, 5, 4096);
   for (auto& point : circle) point += Eigen::Vector2d(1, -2);

@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "finray/perception/fourier_descriptors.h"
-#include "finray/perception/interior_envelope.h"
-#include "finray/perception/radial_error.h"
+#include "finray/perception/paper_outline.h"
+#include "finray/perception/polygon.h"
 #include "studies/ten_objects.h"
 #include "test_finger.h"
 
@@ -13,7 +12,7 @@ namespace {
 
 Reconstruction Touched(const NamedObject& object, bool noisy,
                        const Finger& finger = PaperFinger()) {
-  const TouchNoise noise{noisy, noisy ? 0.02 : 0.0, 1};
+  const LogNoise noise{noisy, noisy ? 0.02 : 0.0, 1};
   return Reconstruct(
       SimulateTouches(PaperFinger(), object.touched, {}, {}, noise), finger,
       Scene(), {}, {});
@@ -25,7 +24,7 @@ TEST(ReconstructionTest, EllipseWithoutNoise) {
   EXPECT_EQ(found.touches.usable.size(), 36u);
   EXPECT_TRUE(found.gaps.empty());
   EXPECT_LT(CompareRadii(found.polygon(), ellipse.truth).Largest(), 0.01);
-  // The paper's method, on the same touches.
+  // The paper's method with the same touches.
   const RadialError envelope = CompareRadii(
       FourierDescriptors(InteriorEnvelope(found.touches.usable, 10), 19)
           .Sampled(720),
@@ -42,7 +41,7 @@ TEST(ReconstructionTest, SquareWithNoise) {
   EXPECT_LT(CompareRadii(found.polygon(), square.truth).Largest(), 2);
 }
 
-// A dumbbell's waist: touched on its hull only, and marked.
+// The finger touches only the hull of a dumbbell; its waist is marked.
 TEST(ReconstructionTest, DentIsMarkedAsNotTouched) {
   const NamedObject dumbbell = StudyObjects()[10];
   const Reconstruction found = Touched(dumbbell, true);
@@ -56,7 +55,7 @@ TEST(ReconstructionTest, DentIsMarkedAsNotTouched) {
   }
 }
 
-// A stiffness that is 1 % uncertain moves forces, and so all beams.
+// An error of the stiffness moves forces and beams, hence the outline.
 TEST(ReconstructionTest, CalibrationWidensTheBand) {
   const NamedObject circle = StudyObjects()[0];
   Finger finger = PaperFinger();

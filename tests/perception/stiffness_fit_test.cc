@@ -42,11 +42,11 @@ TEST(StiffnessFitTest, IsYorksLine) {
   EXPECT_NEAR(fit.chi2, 11.8663532, 1e-5);
   EXPECT_EQ(fit.dof, 8);
   EXPECT_NEAR(std::sqrt(fit.covariance(1, 1)), 0.0580, 2e-4);
-  EXPECT_FALSE(fit.has_friction);
+  EXPECT_FALSE(fit.law.has_friction);
 }
 
-// Errors of both, correlated as those of one contact are: no bias, and the std
-// is that of the errors.
+// With correlated errors in u and F, as one contact has them, the fit has no
+// bias and an honest std.
 TEST(StiffnessFitTest, StdAndFrictionOverDraws) {
   constexpr double kStiffness = 2, kFriction = 0.15, kStd = 0.05;
   constexpr double kCorrelation = -0.6;
@@ -88,13 +88,13 @@ TEST(StiffnessFitTest, BentLawsTakeHigherDegrees) {
     straight.push_back(PointOf(u, 0.5 * u, 0.01, 0.01));
   }
   const StiffnessFit fit = FitStiffness(points, 3);
-  EXPECT_EQ(fit.degree, 2);
-  EXPECT_EQ(FitStiffness(straight, 3).degree, 1);
+  EXPECT_EQ(fit.law.degree, 2);
+  EXPECT_EQ(FitStiffness(straight, 3).law.degree, 1);
   // From F = 0.7 at u = 1 to F = 1.8 at u = 2.
   EXPECT_NEAR(StiffnessBetween(fit, 0.7, 1.8).N_per_mm, 1.1, 1e-4);
 }
 
-// Light touches that read as 50 N, with std as small as any.
+// Light touches that read like 50 N, with a std as small as the others.
 TEST(StiffnessFitTest, LeavesOutWhatContradictsTheOthers) {
   constexpr double kStiffness = 2, kStd = 0.03;
   std::mt19937_64 generator(8);
@@ -134,7 +134,7 @@ TEST(StiffnessFitTest, FewPointsAreKept) {
   EXPECT_TRUE(fit.left_out.empty());
 }
 
-// Points with large std say little, also of what the others are.
+// Points with a large std hardly influence which others are left out.
 TEST(StiffnessFitTest, UnsurePointsDoNotJudge) {
   std::mt19937_64 generator(9);
   std::normal_distribution<double> normal;

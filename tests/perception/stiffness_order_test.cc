@@ -1,8 +1,8 @@
-#include "finray/perception/stiffness_order.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "finray/perception/compliance.h"
 
 namespace finray {
 namespace {
@@ -11,8 +11,7 @@ TEST(StiffnessOrderTest, MeanOfTrials) {
   const Stiffness equal = MeanStiffness({{1.0, 0.1}, {1.1, 0.1}});
   EXPECT_NEAR(equal.N_per_mm, 1.05, 1e-12);
   EXPECT_NEAR(equal.std, 0.1 / std::sqrt(2.0), 1e-12);
-  // Trials that scatter by 1 each way, chi2 = 200, make their mean uncertain
-  // by that.
+  // Two trials that differ by 2 have chi2 = 200, which scales the std.
   const Stiffness apart = MeanStiffness({{0.0, 0.1}, {2.0, 0.1}});
   EXPECT_NEAR(apart.std, 0.1 / std::sqrt(2.0) * std::sqrt(200.0), 1e-9);
 }

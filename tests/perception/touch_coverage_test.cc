@@ -41,7 +41,8 @@ TEST(TouchCoverageTest, RefusesTouchesFromOneSide) {
                   "frame, a gap of 142 deg")));
 }
 
-// A circle without the touches from 60 deg: open but for R / 20 on either side.
+// No touch lies within 60 deg of a circle. That part is open, except for R / 20
+// at each end.
 TEST(TouchCoverageTest, SaysWhereNoTouchLies) {
   const Outline circle(CircleOutline{20});
   const ConvexCurve curve(NormalGrid(90), {20, 0},

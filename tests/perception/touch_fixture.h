@@ -9,8 +9,8 @@
 
 namespace finray {
 
-/// A touch as a beam bent round the outline with a radius of 600 mm would make
-/// it, exact, with the given errors claimed.
+/// An exact touch of a beam that is bent around the outline with a radius of
+/// 600 mm. Its covariance has the given std.
 inline Touch ExactTouch(const Outline& outline, double normal_angle_rad,
                         double std_mm = 0.02, double std_rad = 5e-4) {
   constexpr double kBeamRadius_mm = 600, kHalf_mm = 40;
@@ -22,7 +22,7 @@ inline Touch ExactTouch(const Outline& outline, double normal_angle_rad,
       Eigen::Vector3d(std_mm * std_mm, std_mm * std_mm, std_rad * std_rad)
           .asDiagonal();
   const Eigen::Vector2d n = touch.Normal();
-  // Base to tip: the finger, on the side of n, is on its right.
+  // From base to tip, with the finger (the side of n) on the right.
   const Eigen::Vector2d t(-n.y(), n.x());
   for (int i = 0; i <= 160; ++i) {
     const double s = -kHalf_mm + 2 * kHalf_mm * i / 160;

@@ -21,7 +21,7 @@
 #include "finray/io/atomic_file.h"
 #include "finray/io/error.h"
 #include "finray/perception/compliance.h"
-#include "finray/perception/compliant_contact.h"
+#include "perception/simulated_slider.h"
 #include "test_finger.h"
 
 namespace finray {
@@ -96,14 +96,14 @@ void Springs(const ModelError& error, int draws) {
         FrameTable log = SpringLog(stiffness, error, &generator);
         log.MutableText("object").assign(log.rows(), "spring");
         log.MutableText("trial").assign(log.rows(), std::to_string(trial + 1));
-        logs.push_back({"spring", log, {}});
+        logs.push_back({"spring", {log}});
       }
       ComplianceSettings settings;
       settings.most_degree = 1;
       settings.direction_rad = M_PI;
       Compliance found;
       try {
-        found = MeasureCompliance(logs, estimator, nullptr, {}, settings);
+        found = MeasureCompliance(logs, {estimator}, {}, settings);
       } catch (const InputError&) {
         ++refused;
         continue;
@@ -182,7 +182,7 @@ void Squeeze(const ModelError& error, int draws) {
     std::vector<ComplianceLog> logs;
     for (const SoftObject& object : kObjects) {
       SqueezeLogs both = ObjectLogs(object, error, &generator);
-      logs.push_back({object.name, both.first, both.second});
+      logs.push_back({object.name, {both.first, both.second}});
     }
     ComplianceSettings settings;
     settings.from_N = kFrom_N;
@@ -191,7 +191,7 @@ void Squeeze(const ModelError& error, int draws) {
     settings.direction_rad = M_PI;
     Compliance found;
     try {
-      found = MeasureCompliance(logs, estimator, &estimator, {}, settings);
+      found = MeasureCompliance(logs, {estimator, estimator}, {}, settings);
     } catch (const InputError&) {
       ++refused;
       continue;
@@ -205,7 +205,7 @@ void Squeeze(const ModelError& error, int draws) {
         const double off = trial.stiffness.N_per_mm / truth[i] - 1;
         sum[i] += trial.stiffness.N_per_mm;
         squares[i] += off * off;
-        degrees[i] += trial.fit.degree;
+        degrees[i] += trial.fit.law.degree;
       }
       if (i + 1 < kCount) pair[i] += found.pair_confidence[i];
     }

@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "finray/control/control_statistics.h"
 #include "finray/control/push_model.h"
+#include "finray/control/run_experiment.h"
 #include "test_finger.h"
 
 namespace finray {

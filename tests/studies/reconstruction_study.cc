@@ -20,9 +20,8 @@
 
 #include "finray/control/model_error.h"
 #include "finray/io/atomic_file.h"
-#include "finray/perception/fourier_descriptors.h"
-#include "finray/perception/interior_envelope.h"
-#include "finray/perception/radial_error.h"
+#include "finray/perception/paper_outline.h"
+#include "finray/perception/polygon.h"
 #include "finray/perception/reconstruction.h"
 #include "studies/ten_objects.h"
 #include "test_finger.h"
@@ -61,7 +60,7 @@ void Run(int seeds, const char* only) {
       double within_1 = 0, within_2 = 0, supported = 0, lambda = 0, scale = 0;
       double touches = 0, bounds = 0;
       for (int seed = 1; seed <= (noisy ? seeds : 1); ++seed) {
-        TouchNoise noise;
+        LogNoise noise;
         noise.gauges = noisy;
         noise.stage_std_mm = noisy ? 0.02 : 0;
         noise.seed = static_cast<std::uint64_t>(seed);

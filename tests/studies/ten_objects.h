@@ -7,7 +7,7 @@
 
 #include "finray/objects/outline.h"
 #include "finray/perception/polygon.h"
-#include "finray/perception/touch_simulation.h"
+#include "perception/simulated_touches.h"
 
 namespace finray {
 

@@ -53,6 +53,22 @@ void YamlPair(YamlEmitter* yaml, const Key& key, const Value& value) {
   *yaml << YAML::Key << key << YAML::Value << value;
 }
 
+/// Several keys and values, in turn.
+template <class Key, class Value, class... More>
+void YamlPairs(YamlEmitter* yaml, const Key& key, const Value& value,
+               const More&... more) {
+  YamlPair(yaml, key, value);
+  if constexpr (sizeof...(more) > 0) YamlPairs(yaml, more...);
+}
+
+/// A mapping of these keys and values, on one line.
+template <class... Pairs>
+void YamlLine(YamlEmitter* yaml, const Pairs&... pairs) {
+  *yaml << YAML::Flow << YAML::BeginMap;
+  YamlPairs(yaml, pairs...);
+  *yaml << YAML::EndMap;
+}
+
 }  // namespace finray
 
 #endif  // FINRAY_IO_YAML_EMITTER_H_

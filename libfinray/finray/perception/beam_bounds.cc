@@ -8,20 +8,21 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Nearer to the contact, along the tangent, the beam says nothing new.
+// Closer to the contact, along the tangent, the beam says nothing new.
 constexpr double kNearContact_mm = 2;
-// Normals of points that may lie at the beam, from that of the contact.
+// Largest angle between the normals of the contact and of a point at its beam.
 constexpr double kSector_rad = 1.2;
-constexpr double kDeepest_mm = 10;  // beyond the beam: another side's point
-constexpr double kNear = 3;         // std
+// A point farther beyond the beam lies on another side of the object.
+constexpr double kDeepest_mm = 10;
+constexpr double kNear = 3;  // std
 
 struct Nearest {
   Vector2d point, normal;
   double beyond_mm = -std::numeric_limits<double>::infinity();
 };
 
-// The nearest point of a polyline whose foot is within it, base to tip; the
-// finger is on its right.
+// The foot of the shortest perpendicular to a polyline, which runs from base to
+// tip with the finger on its right.
 Nearest NearestOf(const std::vector<Vector2d>& beam, const Vector2d& point) {
   Nearest nearest;
   double least = std::numeric_limits<double>::infinity();

@@ -8,18 +8,19 @@
 
 namespace finray {
 
-/// A point of an outline that comes near a touch's beam, away from the contact:
-/// n . (b - r(normal angle)) >= 0 keeps it on the object's side, b being the
-/// nearest point of the beam and n its normal into the finger.
+/// A touch's beam keeps a point r of the outline on the object's side:
+/// n . (b - r(normal angle)) >= 0, where b is the nearest point of the beam and
+/// n its normal into the finger.
 struct BeamBound {
   double normal_angle_rad;
   Eigen::Vector2d beam_point_mm, beam_normal;
-  double std_mm;  ///< of the beam's place along n
+  double std_mm;  ///< of b along n
 };
 
-/// The points of `curve` that are beyond a beam or as near to it as its error
-/// is large, of all touches. Those near the contact are left out: that the
-/// outline is tangent there says more.
+/// The bounds of all touches for those points of `curve` that are beyond a beam
+/// or within its error of it. Points near a contact get none: the touch itself,
+/// where the outline is tangent to the beam, says more. Beams count within
+/// `reach_mm` of their contact.
 std::vector<BeamBound> FindBeamBounds(const std::vector<Touch>& touches,
                                       const ConvexCurve& curve,
                                       double stage_std_mm, double reach_mm);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
+#include <random>
 
 #include "finray/io/error.h"
 #include "finray/perception/finger_variations.h"
@@ -10,28 +12,8 @@
 namespace finray {
 namespace {
 
+// Defaults of the forces to compare between, over the largest common force.
 constexpr double kFrom = 0.2, kTo = 0.8;
-
-// Loads of one finger in one log, and the text that says whose they are.
-struct LogLoads {
-  SensedLoads loads;
-  std::vector<std::string> object, trial;  // of each row
-};
-
-std::vector<std::string> TextOr(const FrameTable& table, const char* column,
-                                const std::string& otherwise) {
-  if (!table.Has(column)) {
-    return std::vector<std::string>(table.rows(), otherwise);
-  }
-  FrameTable copy = table;
-  return copy.MutableText(column);
-}
-
-LogLoads Sense(const FrameTable& table, const std::string& name,
-               const ComplianceFinger& finger, ContactSensor* sensor) {
-  return {SenseLoads(table, sensor, finger.finger),
-          TextOr(table, "object", name), TextOr(table, "trial", "1")};
-}
 
 double RadiusOf(const Scene& scene) {
   return scene.circle_radius_mm().value_or(0);
@@ -46,84 +28,95 @@ SliderDirection DirectionOf(const SensedLoads& loads, const Scene& scene,
   return EstimateDirection(loads, RadiusOf(scene));
 }
 
-SensedLoads RowsOf(const LogLoads& log, const std::string& object,
-                   const std::string& trial) {
-  SensedLoads part;
-  for (std::size_t row = 0; row < log.object.size(); ++row) {
-    part.rows += log.object[row] == object && log.trial[row] == trial;
+// A text column, or one with the same text in all rows.
+std::vector<std::string> TextOr(const FrameTable& table, const char* column,
+                                const std::string& otherwise) {
+  if (!table.Has(column)) {
+    return std::vector<std::string>(table.rows(), otherwise);
   }
-  for (const SensedLoads::Load& load : log.loads.loads) {
-    if (log.object[load.row] == object && log.trial[load.row] == trial) {
-      part.loads.push_back(load);
-    }
-  }
-  return part;
+  FrameTable copy = table;
+  return copy.MutableText(column);
 }
 
-// Trials of a log in the order of their first rows.
-std::vector<std::pair<std::string, std::string>> TrialsOf(const LogLoads& log) {
-  std::vector<std::pair<std::string, std::string>> trials;
-  for (std::size_t row = 0; row < log.object.size(); ++row) {
-    const std::pair<std::string, std::string> key(log.object[row],
-                                                  log.trial[row]);
-    if (std::find(trials.begin(), trials.end(), key) == trials.end()) {
-      trials.push_back(key);
+// The trials of a log with their loads, in the order of their first rows.
+struct TrialLoads {
+  std::string object, name;
+  SensedLoads loads;
+};
+std::vector<TrialLoads> SplitByTrial(const ComplianceLog& log,
+                                     const SensedLoads& all) {
+  const auto object = TextOr(log.tables[0], "object", log.name);
+  const auto name = TextOr(log.tables[0], "trial", "1");
+  std::vector<TrialLoads> trials;
+  const auto trial_of = [&](std::size_t row) -> SensedLoads& {
+    for (TrialLoads& trial : trials) {
+      if (trial.object == object[row] && trial.name == name[row]) {
+        return trial.loads;
+      }
     }
+    return trials.emplace_back(TrialLoads{object[row], name[row], {}}).loads;
+  };
+  for (std::size_t row = 0; row < all.rows; ++row) ++trial_of(row).rows;
+  for (const SensedLoads::Load& load : all.loads) {
+    trial_of(load.row).loads.push_back(load);
   }
   return trials;
 }
 
-std::vector<ComplianceTrial> Trials(const std::vector<ComplianceLog>& logs,
-                                    const ComplianceFinger& first,
-                                    const ComplianceFinger* second,
-                                    const Discretization& discretization,
-                                    const ComplianceSettings& settings) {
-  ContactSensor sensor(first.finger, first.scene, discretization);
-  std::optional<ContactSensor> other;
-  if (second != nullptr) {
-    other.emplace(second->finger, second->scene, discretization);
+// What each finger senses of a log.
+std::vector<SensedLoads> SenseLog(const ComplianceLog& log,
+                                  const std::vector<ComplianceFinger>& fingers,
+                                  std::deque<ContactSensor>* sensors) {
+  std::vector<SensedLoads> sensed;
+  for (std::size_t f = 0; f < fingers.size(); ++f) {
+    const FrameTable &table = log.tables[f], &first = log.tables[0];
+    if (table.rows() != first.rows()) {
+      throw InputError(table.path() + ": has " + std::to_string(table.rows()) +
+                       " rows, " + first.path() + " has " +
+                       std::to_string(first.rows()) +
+                       "; both fingers need the same rows");
+    }
+    sensed.push_back(SenseLoads(table, &(*sensors)[f], fingers[f].finger));
   }
+  return sensed;
+}
+
+std::vector<ComplianceTrial> Trials(
+    const std::vector<ComplianceLog>& logs,
+    const std::vector<ComplianceFinger>& fingers,
+    const Discretization& discretization, const ComplianceSettings& settings) {
+  std::deque<ContactSensor> sensors;
+  for (const ComplianceFinger& f : fingers) {
+    sensors.emplace_back(f.finger, f.scene, discretization);
+  }
+  const auto points_of = [&](const SensedLoads& loads, const Scene& scene,
+                             const SliderDirection& direction) {
+    return ForcePoints(loads, direction.angle_rad, RadiusOf(scene),
+                       settings.stage_std_mm);
+  };
   std::vector<ComplianceTrial> trials;
   for (const ComplianceLog& log : logs) {
-    const LogLoads loads = Sense(log.first, log.name, first, &sensor);
-    std::optional<LogLoads> opposite;
-    if (log.second) {
-      if (log.second->rows() != log.first.rows()) {
-        throw InputError(log.second->path() + ": has " +
-                         std::to_string(log.second->rows()) + " rows, " +
-                         log.first.path() + " has " +
-                         std::to_string(log.first.rows()) +
-                         "; both fingers need the same rows");
-      }
-      opposite = Sense(*log.second, log.name, *second, &*other);
-    }
-    for (const auto& [object, name] : TrialsOf(loads)) {
-      ComplianceTrial trial;
+    const std::vector<SensedLoads> sensed = SenseLog(log, fingers, &sensors);
+    for (const auto& [object, name, loads] : SplitByTrial(log, sensed[0])) {
+      ComplianceTrial& trial = trials.emplace_back();
       trial.object = object;
       trial.name = name;
-      const SensedLoads part = RowsOf(loads, object, name);
-      trial.rows = part.rows;
+      trial.rows = loads.rows;
       try {
-        trial.direction = DirectionOf(part, first.scene, settings);
-        trial.points =
-            ForcePoints(part, trial.direction.angle_rad, RadiusOf(first.scene),
-                        settings.stage_std_mm);
-        if (opposite) {
-          SensedLoads facing = opposite->loads;
+        trial.direction = DirectionOf(loads, fingers[0].scene, settings);
+        trial.points = points_of(loads, fingers[0].scene, trial.direction);
+        for (std::size_t f = 1; f < fingers.size(); ++f) {
+          const Scene& scene = fingers[f].scene;
           trial.points = SqueezePoints(
-              trial.points,
-              ForcePoints(
-                  facing,
-                  DirectionOf(facing, second->scene, settings).angle_rad,
-                  RadiusOf(second->scene), settings.stage_std_mm));
+              trial.points, points_of(sensed[f], scene,
+                                      DirectionOf(sensed[f], scene, settings)));
         }
         MarkDirections(settings.stage_std_mm, &trial.points);
         trial.fit = FitStiffness(trial.points, settings.most_degree);
       } catch (const InputError& error) {
-        throw InputError(log.first.path() + ": object '" + object +
+        throw InputError(log.tables[0].path() + ": object '" + object +
                          "', trial '" + name + "': " + error.what());
       }
-      trials.push_back(trial);
     }
   }
   return trials;
@@ -151,39 +144,65 @@ void Compare(double from_N, double to_N, Compliance* result) {
   result->order_confidence = OrderConfidence(result->objects);
 }
 
-// The change of every object's stiffness, finger by finger.
-void AddCalibration(const std::vector<ComplianceLog>& logs,
-                    const ComplianceFinger& first,
-                    const ComplianceFinger* second, bool vary_second,
-                    const Discretization& discretization,
-                    const ComplianceSettings& settings, Compliance* result) {
-  const ComplianceFinger& varying = vary_second ? *second : first;
-  for (const Finger& finger : FingerVariations(varying.finger)) {
-    const ComplianceFinger varied{finger, varying.scene};
-    Compliance other;
-    other.trials = vary_second
-                       ? Trials(logs, first, &varied, discretization, settings)
-                       : Trials(logs, varied, second, discretization, settings);
-    Compare(result->from_N, result->to_N, &other);
-    for (ObjectStiffness& object : result->objects) {
-      for (const ObjectStiffness& moved : other.objects) {
-        if (moved.name != object.name) continue;
-        object.calibration_std = std::hypot(
-            object.calibration_std, moved.mean.N_per_mm - object.mean.N_per_mm);
-      }
-    }
-  }
-}
-
 }  // namespace
 
+Stiffness MeanStiffness(const std::vector<Stiffness>& trials) {
+  double weights = 0, sum = 0;
+  for (const Stiffness& trial : trials) {
+    const double weight = 1 / (trial.std * trial.std);
+    weights += weight;
+    sum += weight * trial.N_per_mm;
+  }
+  const double mean = sum / weights;
+  double scatter = 0;
+  for (const Stiffness& trial : trials) {
+    const double off = (trial.N_per_mm - mean) / trial.std;
+    scatter += off * off;
+  }
+  const auto count = static_cast<double>(trials.size());
+  const double enlarged = count > 1 ? scatter / (count - 1) : 1;
+  return {mean, std::sqrt(std::max(1.0, enlarged) / weights)};
+}
+
+std::vector<double> SortByStiffness(std::vector<ObjectStiffness>* objects) {
+  std::stable_sort(objects->begin(), objects->end(),
+                   [](const ObjectStiffness& a, const ObjectStiffness& b) {
+                     return a.mean.N_per_mm > b.mean.N_per_mm;
+                   });
+  std::vector<double> confidence;
+  for (std::size_t i = 0; i + 1 < objects->size(); ++i) {
+    const Stiffness &a = (*objects)[i].mean, &b = (*objects)[i + 1].mean;
+    const double off = (a.N_per_mm - b.N_per_mm) / std::hypot(a.std, b.std);
+    confidence.push_back(0.5 * std::erfc(-off / std::sqrt(2.0)));
+  }
+  return confidence;
+}
+
+double OrderConfidence(const std::vector<ObjectStiffness>& objects,
+                       std::uint64_t seed, int draws) {
+  std::mt19937_64 generator(seed);
+  std::normal_distribution<double> normal;
+  int right = 0;
+  for (int draw = 0; draw < draws; ++draw) {
+    double before = 0;
+    bool sorted = true;
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+      const Stiffness& mean = objects[i].mean;
+      const double drawn = mean.N_per_mm + mean.std * normal(generator);
+      sorted = sorted && (i == 0 || drawn < before);
+      before = drawn;
+    }
+    right += sorted;
+  }
+  return static_cast<double>(right) / draws;
+}
+
 Compliance MeasureCompliance(const std::vector<ComplianceLog>& logs,
-                             const ComplianceFinger& first,
-                             const ComplianceFinger* second,
+                             const std::vector<ComplianceFinger>& fingers,
                              const Discretization& discretization,
                              const ComplianceSettings& settings) {
   Compliance result;
-  result.trials = Trials(logs, first, second, discretization, settings);
+  result.trials = Trials(logs, fingers, discretization, settings);
   double common = result.trials.front().fit.largest_force_N;
   for (const ComplianceTrial& trial : result.trials) {
     common = std::min(common, trial.fit.largest_force_N);
@@ -196,10 +215,24 @@ Compliance MeasureCompliance(const std::vector<ComplianceLog>& logs,
                      " N; the second must be larger");
   }
   Compare(from, to, &result);
-  AddCalibration(logs, first, second, false, discretization, settings, &result);
-  if (second != nullptr) {
-    AddCalibration(logs, first, second, true, discretization, settings,
-                   &result);
+  // The changes of each object's stiffness add up over the variations of each
+  // finger.
+  for (std::size_t f = 0; f < fingers.size(); ++f) {
+    std::vector<ComplianceFinger> varied = fingers;
+    for (const Finger& finger : FingerVariations(fingers[f].finger)) {
+      varied[f].finger = finger;
+      Compliance other;
+      other.trials = Trials(logs, varied, discretization, settings);
+      Compare(from, to, &other);
+      for (ObjectStiffness& object : result.objects) {
+        for (const ObjectStiffness& moved : other.objects) {
+          if (moved.name != object.name) continue;
+          object.calibration_std =
+              std::hypot(object.calibration_std,
+                         moved.mean.N_per_mm - object.mean.N_per_mm);
+        }
+      }
+    }
   }
   return result;
 }

@@ -1,11 +1,12 @@
 #ifndef FINRAY_PERCEPTION_COMPLIANCE_H_
 #define FINRAY_PERCEPTION_COMPLIANCE_H_
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "finray/perception/stiffness_order.h"
+#include "finray/perception/stiffness_fit.h"
 
 namespace finray {
 
@@ -17,16 +18,16 @@ struct ComplianceFinger {
 
 struct ComplianceSettings {
   double stage_std_mm = 0.02;
-  /// From +x of frame S, where the object is pushed to; not given: the scene's
-  /// spring has it, else it is estimated.
+  /// Direction in which the object is pushed, from +x of frame S. By default it
+  /// is that of the scene's spring; without a spring it is estimated.
   std::optional<double> direction_rad;
   int most_degree = 3;
-  /// Forces between which stiffness is compared; not given: 20 and 80 % of the
+  /// Stiffness is compared between these forces. Defaults: 20 and 80 % of the
   /// largest force that all trials reach.
   std::optional<double> from_N, to_N;
 };
 
-/// One object pushed in (and withdrawn) once.
+/// One object, pushed in (and withdrawn) once.
 struct ComplianceTrial {
   std::string object, name;
   std::vector<ForcePoint> points;
@@ -36,29 +37,52 @@ struct ComplianceTrial {
   std::size_t rows = 0;
 };
 
+/// The stiffness of one object, from all its trials.
+struct ObjectStiffness {
+  std::string name;
+  std::vector<Stiffness> trials;
+  Stiffness mean;  ///< MeanStiffness of the trials
+  /// Std from the finger's calibration. All objects share this error.
+  double calibration_std = 0;
+};
+
 struct Compliance {
   std::vector<ComplianceTrial> trials;
   std::vector<ObjectStiffness> objects;  ///< from stiff to soft
-  std::vector<double> pair_confidence;   ///< of neighbours' order
+  /// Of the order of neighbours, and of the whole order.
+  std::vector<double> pair_confidence;
   double order_confidence = 1;
   double from_N = 0, to_N = 0;
 };
 
-/// The table of a trial, or of several: rows with the same text in the columns
-/// `object` and `trial`, where it has them, belong together. `second` is the
-/// other finger's, row by row, if the object is squeezed between two.
+/// The log of one trial or of several: rows with the same text in the columns
+/// `object` and `trial` of the first table belong together.
 struct ComplianceLog {
-  std::string name;  ///< of the object, where there is no such column
-  FrameTable first;
-  std::optional<FrameTable> second;
+  std::string name;  ///< of the object, for a table without that column
+  std::vector<FrameTable> tables;  ///< one for each finger, with the same rows
 };
 
-/// Throws InputError naming the log for what cannot be used.
+/// Senses all logs, fits a force law to every trial and sorts the objects by
+/// stiffness. Takes one finger, or two that squeeze the objects. Throws
+/// InputError, which names the log and the trial.
 Compliance MeasureCompliance(const std::vector<ComplianceLog>& logs,
-                             const ComplianceFinger& first,
-                             const ComplianceFinger* second,
+                             const std::vector<ComplianceFinger>& fingers,
                              const Discretization& discretization,
                              const ComplianceSettings& settings);
+
+/// The mean of independent trials, weighted by their std. If the trials scatter
+/// more than their std, the std of the mean grows with the scatter.
+Stiffness MeanStiffness(const std::vector<Stiffness>& trials);
+
+/// Sorts objects from stiff to soft. Entry i of the result is the probability
+/// that object i is stiffer than object i + 1, for independent normal errors.
+/// The calibration's error is left out: it hardly changes the order.
+std::vector<double> SortByStiffness(std::vector<ObjectStiffness>* objects);
+
+/// The probability, from random draws, that sorted objects are in their true
+/// order.
+double OrderConfidence(const std::vector<ObjectStiffness>& objects,
+                       std::uint64_t seed = 1, int draws = 20000);
 
 }  // namespace finray
 

@@ -10,28 +10,22 @@
 namespace finray {
 namespace {
 
-void EmitTrial(const ComplianceTrial& trial, YamlEmitter* emitter) {
-  YamlEmitter& yaml = *emitter;
+void EmitTrial(const ComplianceTrial& trial, YamlEmitter* yaml) {
   const StiffnessFit& fit = trial.fit;
-  yaml << YAML::BeginMap << YAML::Key << "object" << YAML::Value << trial.object
-       << YAML::Key << "trial" << YAML::Value << trial.name << YAML::Key
-       << "rows" << YAML::Value << trial.rows << YAML::Key << "points"
-       << YAML::Value << fit.points << YAML::Key << "standing" << YAML::Value
-       << fit.standing << YAML::Key << "left_out" << YAML::Value
-       << fit.left_out.size();
-  yaml << YAML::Key << "direction_deg" << YAML::Value
-       << trial.direction.angle_rad / kDegree << YAML::Key
-       << "direction_std_deg" << YAML::Value
-       << trial.direction.std_rad / kDegree;
-  yaml << YAML::Key << "stiffness_N_per_mm" << YAML::Value
-       << trial.stiffness.N_per_mm << YAML::Key << "std_N_per_mm" << YAML::Value
-       << trial.stiffness.std;
-  yaml << YAML::Key << "friction_N" << YAML::Value << fit.friction_N()
-       << YAML::Key << "friction_std_N" << YAML::Value << fit.friction_std_N();
-  yaml << YAML::Key << "law" << YAML::Value << YAML::Flow << YAML::BeginSeq;
-  for (int m = 0; m <= fit.degree; ++m) yaml << fit.coefficients[m];
-  yaml << YAML::EndSeq << YAML::Key << "chi2" << YAML::Value << fit.chi2
-       << YAML::Key << "dof" << YAML::Value << fit.dof << YAML::EndMap;
+  *yaml << YAML::BeginMap;
+  YamlPairs(yaml, "object", trial.object, "trial", trial.name, "rows",
+            trial.rows, "points", fit.points, "standing", fit.standing,
+            "left_out", fit.left_out.size(), "direction_deg",
+            trial.direction.angle_rad / kDegree, "direction_std_deg",
+            trial.direction.std_rad / kDegree, "stiffness_N_per_mm",
+            trial.stiffness.N_per_mm, "std_N_per_mm", trial.stiffness.std,
+            "friction_N", fit.friction_N(), "friction_std_N",
+            fit.friction_std_N());
+  *yaml << YAML::Key << "law" << YAML::Value << YAML::Flow << YAML::BeginSeq;
+  for (int m = 0; m <= fit.law.degree; ++m) *yaml << fit.coefficients[m];
+  *yaml << YAML::EndSeq;
+  YamlPairs(yaml, "chi2", fit.chi2, "dof", fit.dof);
+  *yaml << YAML::EndMap;
 }
 
 }  // namespace
@@ -107,22 +101,19 @@ std::string ComplianceYaml(const Compliance& found,
                            const std::vector<std::string>& inputs) {
   YamlEmitter yaml;
   yaml << YAML::BeginMap << YAML::Key << "compared_between_N" << YAML::Value
-       << YAML::Flow << YAML::BeginSeq << found.from_N << found.to_N
-       << YAML::EndSeq;
-  yaml << YAML::Key << "order_confidence" << YAML::Value
-       << found.order_confidence;
+       << YAML::Flow << std::vector<double>{found.from_N, found.to_N};
+  YamlPair(&yaml, "order_confidence", found.order_confidence);
   yaml << YAML::Key << "objects" << YAML::Value << YAML::BeginSeq;
   for (std::size_t i = 0; i < found.objects.size(); ++i) {
     const ObjectStiffness& object = found.objects[i];
-    yaml << YAML::BeginMap << YAML::Key << "object" << YAML::Value
-         << object.name << YAML::Key << "trials" << YAML::Value
-         << object.trials.size() << YAML::Key << "stiffness_N_per_mm"
-         << YAML::Value << object.mean.N_per_mm << YAML::Key << "std_N_per_mm"
-         << YAML::Value << object.mean.std << YAML::Key
-         << "calibration_std_N_per_mm" << YAML::Value << object.calibration_std;
+    yaml << YAML::BeginMap;
+    YamlPairs(&yaml, "object", object.name, "trials", object.trials.size(),
+              "stiffness_N_per_mm", object.mean.N_per_mm, "std_N_per_mm",
+              object.mean.std, "calibration_std_N_per_mm",
+              object.calibration_std);
     if (i < found.pair_confidence.size()) {
-      yaml << YAML::Key << "probability_stiffer_than_next" << YAML::Value
-           << found.pair_confidence[i];
+      YamlPair(&yaml, "probability_stiffer_than_next",
+               found.pair_confidence[i]);
     }
     yaml << YAML::EndMap;
   }

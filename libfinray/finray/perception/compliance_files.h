@@ -9,15 +9,16 @@
 
 namespace finray {
 
-/// object, trial, row, displacement_mm, displacement_std_mm, force_N,
-/// force_std_N, direction, slides; one row a point.
+/// points.csv, one row a point: object, trial, row, displacement_mm,
+/// displacement_std_mm, force_N, force_std_N, direction, slides, left_out.
 FrameTable PointTable(const Compliance& found);
 
-/// object, trials, stiffness_N_per_mm, std_N_per_mm, calibration_std_N_per_mm,
-/// probability_stiffer_than_next; from stiff to soft.
+/// stiffness.csv, from stiff to soft: object, trials, stiffness_N_per_mm,
+/// std_N_per_mm, calibration_std_N_per_mm, probability_stiffer_than_next.
 FrameTable StiffnessTable(const Compliance& found);
 
-/// Force laws as drawn: object, trial, displacement_mm, force_N, friction_N.
+/// laws.csv, the fitted laws for a plot: object, trial, displacement_mm,
+/// force_N, friction_N.
 FrameTable LawTable(const Compliance& found);
 
 /// compliance.yaml.

@@ -1,11 +1,12 @@
 #include "finray/perception/contact_sensor.h"
 
+#include "finray/io/error.h"
+
 namespace finray {
 
 ContactSensor::ContactSensor(const Finger& finger, const Scene& scene,
                              const Discretization& discretization)
-    : finger_(finger),
-      scene_(scene),
+    : scene_(scene),
       estimator_(finger, scene, discretization),
       solver_(finger, discretization) {}
 
@@ -59,6 +60,21 @@ SensedFrame ContactSensor::At(const std::vector<PointContact>& contacts,
                               slope * covariance * slope.transpose()});
   }
   return frame;
+}
+
+std::vector<Measurements> ReadWithPlaces(
+    const FrameTable& table, const Finger& finger,
+    const MeasurementColumns::Options& options) {
+  for (const char* name : {"object_x_mm", "object_y_mm"}) table.Numbers(name);
+  const std::vector<Measurements> rows =
+      ReadMeasurements(table, finger, options);
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    if (rows[row].object_mm.allFinite()) continue;
+    throw InputError(table.path() + ":" + std::to_string(table.line(row)) +
+                     ": no object_x_mm, object_y_mm; every row needs the "
+                     "place of the object");
+  }
+  return rows;
 }
 
 }  // namespace finray

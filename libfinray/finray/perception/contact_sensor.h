@@ -5,19 +5,21 @@
 #include <optional>
 #include <vector>
 
+#include "finray/scene/measurement_columns.h"
 #include "finray/sensing/frame_estimator.h"
 #include "finray/statics/shape.h"
 
 namespace finray {
 
-/// One contact of a frame with what its noise leaves uncertain of z = (x, y,
-/// theta, f_c), pose in frame S and normal force. From the covariance C of
-/// (l_c, f_c) of all contacts of the frame,
+/// One contact of a frame: its pose z_1..3 = (x, y, theta) in frame S (mm,
+/// rad), its normal force z_4 (N) and their covariance. With C the covariance
+/// of (l_c, f_c) of all contacts of the frame and s =
+/// FrameEstimate::noise_scale(),
 ///
-///   cov z = s^2 (dz/d(l_c, f_c)) C (dz/d(l_c, f_c))',
+///   cov z = s^2 (dz/d(l_c, f_c)) C (dz/d(l_c, f_c))'.
 ///
-/// s being FrameEstimate::noise_scale(). The calibration's part is not in it:
-/// it is the same in all frames (finger_variations.h).
+/// It leaves out the error of the calibration, which all frames share
+/// (finger_variations.h).
 struct SensedContact {
   PointContact contact;
   Eigen::Vector3d pose;
@@ -26,14 +28,14 @@ struct SensedContact {
 
 struct SensedFrame {
   FrameStatus status = FrameStatus::kBadInput;
-  /// Base to tip; empty unless the status is ok.
+  /// From base to tip; empty unless the status is ok.
   std::vector<SensedContact> contacts;
-  /// Of both beams; with contacts.
+  /// Both beams; set together with the contacts.
   std::optional<Shape> shape;
 };
 
-/// FrameEstimator, and at its solution the equilibrium once more for the shape
-/// and the covariance of what follows from the contact.
+/// Estimates the contacts of a frame, then solves the equilibrium there once
+/// more for the shape of the finger and for the covariance of pose and force.
 class ContactSensor {
  public:
   /// Throws InputError as FrameEstimator does.
@@ -41,7 +43,7 @@ class ContactSensor {
                 const Discretization& discretization);
 
   SensedFrame Sense(const Measurements& readings);
-  /// The same for contacts that are estimated already, with std of l_c and f_c.
+  /// For contacts that have been estimated before, with the std of (l_c, f_c).
   SensedFrame FromEstimate(const std::vector<PointContact>& contacts,
                            const std::vector<Eigen::Vector2d>& std);
 
@@ -49,11 +51,16 @@ class ContactSensor {
   SensedFrame At(const std::vector<PointContact>& contacts,
                  const ContactMatrix& covariance);
 
-  Finger finger_;
   Scene scene_;
   FrameEstimator estimator_;
   EquilibriumSolver solver_;
 };
+
+/// Reads all rows of a table that records the object's place in each. Throws
+/// InputError if a column is missing, and at the line of a row without a place.
+std::vector<Measurements> ReadWithPlaces(
+    const FrameTable& table, const Finger& finger,
+    const MeasurementColumns::Options& options = {});
 
 }  // namespace finray
 

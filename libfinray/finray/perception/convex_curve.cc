@@ -1,18 +1,22 @@
 #include "finray/perception/convex_curve.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace finray {
 namespace {
 
 using Eigen::Index;
 using Eigen::Vector2d;
+using Eigen::VectorXd;
 
 Vector2d Normal(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
-// An angle as whole turns from the origin and the angle within the first one.
-struct Turned {
-  Turned(double angle, const NormalGrid& grid)
+// Splits an angle into whole turns from the origin and an angle within the
+// first turn.
+struct Wrapped {
+  Wrapped(double angle, const NormalGrid& grid)
       : turns(std::floor((angle - grid.origin_rad()) / (2 * M_PI))),
         within(angle - turns * 2 * M_PI) {}
   double turns, within;
@@ -20,9 +24,70 @@ struct Turned {
 
 }  // namespace
 
+AngleGap WidestGap(std::vector<double> angles_rad) {
+  if (angles_rad.empty()) return {-M_PI, M_PI};
+  for (double& angle : angles_rad) {
+    angle -= std::floor(angle / (2 * M_PI)) * 2 * M_PI;
+  }
+  std::sort(angles_rad.begin(), angles_rad.end());
+  angles_rad.push_back(angles_rad[0] + 2 * M_PI);
+  AngleGap widest{0, 0};
+  for (std::size_t i = 0; i + 1 < angles_rad.size(); ++i) {
+    if (angles_rad[i + 1] - angles_rad[i] > widest.to_rad - widest.from_rad) {
+      widest = {angles_rad[i], angles_rad[i + 1]};
+    }
+  }
+  return widest;
+}
+
+// The bounds of the edge cells come first. Bounds of equal cells that are too
+// close to them are left out.
+NormalGrid::NormalGrid(int cells, const std::vector<double>& edge_angles_rad) {
+  const AngleGap gap = WidestGap(edge_angles_rad);
+  const double origin = std::fmod(0.5 * (gap.from_rad + gap.to_rad), 2 * M_PI);
+  const double half = 0.5 * kEdgeCells * kEdgeCell_rad;
+  std::vector<std::pair<double, bool>> starts;  // of cells; edge?
+  for (const double angle : edge_angles_rad) {
+    const double turns = std::floor((angle - origin) / (2 * M_PI));
+    for (int k = 0; k <= kEdgeCells; ++k) {
+      starts.emplace_back(angle - turns * 2 * M_PI - half + k * kEdgeCell_rad,
+                          k < kEdgeCells);
+    }
+  }
+  for (int j = 0; j < cells; ++j) {
+    const double start = origin + 2 * M_PI * j / cells;
+    const bool clear = std::none_of(
+        edge_angles_rad.begin(), edge_angles_rad.end(), [&](double angle) {
+          return std::abs(std::remainder(start - angle, 2 * M_PI)) <
+                 half + kEdgeCell_rad / 2;
+        });
+    if (clear) starts.emplace_back(start, false);
+  }
+  std::sort(starts.begin(), starts.end());
+  bounds_.resize(static_cast<Eigen::Index>(starts.size()) + 1);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    bounds_[static_cast<Eigen::Index>(i)] = starts[i].first;
+    edge_.push_back(starts[i].second);
+  }
+  bounds_[bounds_.size() - 1] = origin + 2 * M_PI;
+}
+
+Eigen::Index NormalGrid::CellOf(double angle_rad) const {
+  const double* end = bounds_.data() + cells();
+  const double* after = std::upper_bound(bounds_.data(), end, angle_rad);
+  return std::max<Eigen::Index>(after - bounds_.data() - 1, 0);
+}
+
 ConvexCurve::ConvexCurve(const NormalGrid& grid, const Vector2d& start_mm,
                          const Radii& radii_mm)
-    : grid_(grid), start_(start_mm), radii_(radii_mm) {}
+    : grid_(grid),
+      start_(start_mm),
+      radii_(radii_mm),
+      arcs_(VectorXd::Zero(grid.cells() + 1)) {
+  for (Index j = 0; j < grid_.cells(); ++j) {
+    arcs_[j + 1] = arcs_[j] + radii_[j] * grid_.Width(j);
+  }
+}
 
 Vector2d ConvexCurve::At(double normal_angle_rad) const {
   return start_ + SlopeAt(normal_angle_rad, grid_) * radii_;
@@ -32,7 +97,7 @@ Vector2d ConvexCurve::At(double normal_angle_rad) const {
 ConvexCurve::PointSlope ConvexCurve::SlopeAt(double normal_angle_rad,
                                              const NormalGrid& grid) {
   PointSlope slope = PointSlope::Zero(2, grid.cells());
-  const double within = Turned(normal_angle_rad, grid).within;
+  const double within = Wrapped(normal_angle_rad, grid).within;
   const Index last = grid.CellOf(within);
   Vector2d before = Normal(grid.origin_rad());
   for (Index j = 0; j < last; ++j) {
@@ -55,33 +120,21 @@ double ConvexCurve::MeanRadius(double normal_angle_rad,
          (2 * reach_rad);
 }
 
-double ConvexCurve::perimeter_mm() const {
-  double perimeter = 0;
-  for (Index j = 0; j < grid_.cells(); ++j) {
-    perimeter += radii_[j] * grid_.Width(j);
-  }
-  return perimeter;
-}
-
 double ConvexCurve::ArcAt(double normal_angle_rad) const {
-  const Turned turned(normal_angle_rad, grid_);
+  const Wrapped turned(normal_angle_rad, grid_);
   const Index cell = grid_.CellOf(turned.within);
-  double arc = turned.turns * perimeter_mm();
-  for (Index j = 0; j < cell; ++j) arc += radii_[j] * grid_.Width(j);
-  return arc + radii_[cell] * (turned.within - grid_.Start(cell));
+  return turned.turns * perimeter_mm() + arcs_[cell] +
+         radii_[cell] * (turned.within - grid_.Start(cell));
 }
 
 double ConvexCurve::NormalAngleAt(double arc_mm) const {
-  const double perimeter = perimeter_mm();
-  const double turns = std::floor(arc_mm / perimeter);
-  double left = arc_mm - turns * perimeter;
-  Index cell = 0;
-  for (; cell + 1 < grid_.cells(); ++cell) {
-    const double length = radii_[cell] * grid_.Width(cell);
-    if (left <= length) break;
-    left -= length;
-  }
-  return turns * 2 * M_PI + grid_.Start(cell) + left / radii_[cell];
+  const double turns = std::floor(arc_mm / perimeter_mm());
+  const double left = arc_mm - turns * perimeter_mm();
+  const double* end = arcs_.data() + grid_.cells();
+  const Index cell =
+      std::lower_bound(arcs_.data() + 1, end, left) - arcs_.data() - 1;
+  return turns * 2 * M_PI + grid_.Start(cell) +
+         (left - arcs_[cell]) / radii_[cell];
 }
 
 }  // namespace finray

@@ -7,16 +7,33 @@
 
 namespace finray {
 
-/// The finger as its calibration leaves it uncertain: with C_pp = F F', one
-/// finger for each column of F, its parameters p moved by that column. What a
-/// result y(p) of many frames owes to the calibration is, to first order,
+/// The finger moved by each principal error of its calibration: with
+/// C_pp = F F' the covariance of its parameters p, one finger for each column
+/// of F that is not zero. Empty if the finger has no calibration. The
+/// calibration's share in the error of any result y(p) is, to first order,
 ///
-///   cov y = sum_k (y(p + F_k) - y(p)) (y(p + F_k) - y(p))',
+///   cov y = sum_k (y(p + F_k) - y(p)) (y(p + F_k) - y(p))'.
 ///
-/// which holds however the frames go into y, as the errors of the parameters
-/// are the same in all of them. Columns that change nothing are left out; no
-/// finger at all if there is no calibration.
-std::vector<Finger> FingerVariations(const Finger& finger);
+/// All frames share these errors, so y may be computed from any number of them.
+inline std::vector<Finger> FingerVariations(const Finger& finger) {
+  std::vector<Finger> fingers;
+  if (!finger.calibration) return fingers;
+  const ParameterCovariance& calibration = *finger.calibration;
+  const Eigen::MatrixXd factor = calibration.Factor();
+  for (Eigen::Index k = 0; k < factor.cols(); ++k) {
+    if (factor.col(k).isZero(0)) continue;
+    Finger varied = finger;
+    for (std::size_t i = 0; i < calibration.parameters.size(); ++i) {
+      const FingerParameter& parameter = calibration.parameters[i];
+      SetParameter(parameter,
+                   ParameterValue(finger, parameter) +
+                       factor(static_cast<Eigen::Index>(i), k),
+                   &varied);
+    }
+    fingers.push_back(varied);
+  }
+  return fingers;
+}
 
 }  // namespace finray
 

@@ -5,7 +5,6 @@
 
 #include "finray/io/error.h"
 #include "finray/objects/circle_centre.h"
-#include "finray/scene/measurement_columns.h"
 
 namespace finray {
 namespace {
@@ -14,30 +13,17 @@ using Eigen::Vector2d;
 
 constexpr double kMoved = 3;  // std
 
-Vector2d Direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
-
 }  // namespace
 
 SensedLoads SenseLoads(const FrameTable& table, ContactSensor* sensor,
                        const Finger& finger) {
-  for (const char* place : {"object_x_mm", "object_y_mm"}) {
-    table.Numbers(place);  // Throws if there is none.
-  }
-  const std::vector<Measurements> rows = ReadMeasurements(table, finger);
+  const std::vector<Measurements> rows = ReadWithPlaces(table, finger);
   SensedLoads sensed;
   sensed.rows = rows.size();
   for (std::size_t row = 0; row < rows.size(); ++row) {
-    const Eigen::Vector2d& place = rows[row].object_mm;
-    if (!place.allFinite()) {
-      throw InputError(table.path() + ":" + std::to_string(table.line(row)) +
-                       ": no object_x_mm, object_y_mm; every row needs the "
-                       "unloaded place of the object");
-    }
     const SensedFrame frame = sensor->Sense(rows[row]);
-    if (frame.status != FrameStatus::kOk || frame.contacts.size() != 1) {
-      continue;
-    }
-    sensed.loads.push_back({row, frame.contacts[0], place});
+    if (frame.contacts.size() != 1) continue;
+    sensed.loads.push_back({row, frame.contacts[0], rows[row].object_mm});
   }
   return sensed;
 }
@@ -45,7 +31,7 @@ SensedLoads SenseLoads(const FrameTable& table, ContactSensor* sensor,
 SliderDirection EstimateDirection(const SensedLoads& loads, double radius_mm) {
   if (loads.loads.size() < 3) {
     throw InputError(
-        "the direction of the slider: needs 3 rows with one contact, found " +
+        "the slider's direction needs 3 rows with one contact, found " +
         std::to_string(loads.loads.size()));
   }
   const auto count = static_cast<double>(loads.loads.size());
@@ -73,12 +59,12 @@ SliderDirection EstimateDirection(const SensedLoads& loads, double radius_mm) {
 std::vector<ForcePoint> ForcePoints(const SensedLoads& loads,
                                     double direction_rad, double radius_mm,
                                     double stage_std_mm) {
-  const Vector2d e = Direction(direction_rad);
+  const Vector2d e(std::cos(direction_rad), std::sin(direction_rad));
   std::vector<ForcePoint> points;
   for (const SensedLoads::Load& load : loads.loads) {
     const Eigen::Vector3d& pose = load.contact.pose;
     const Vector2d n(std::sin(pose[2]), -std::cos(pose[2]));
-    const Vector2d n_slope(std::cos(pose[2]), std::sin(pose[2]));
+    const Vector2d t(std::cos(pose[2]), std::sin(pose[2]));  // dn/dtheta
     const double force = load.contact.contact.normal_N;
     ForcePoint& point = points.emplace_back();
     point.row = load.row;
@@ -87,8 +73,8 @@ std::vector<ForcePoint> ForcePoints(const SensedLoads& loads,
     point.force_N = -force * n.dot(e);
     point.approach_mm = -e.dot(load.place_mm);
     Eigen::Matrix<double, 2, 4> slope;
-    slope << e.x(), e.y(), -radius_mm * e.dot(n_slope), 0, 0, 0,
-        -force * e.dot(n_slope), -e.dot(n);
+    slope << e.x(), e.y(), -radius_mm * e.dot(t), 0, 0, 0, -force * e.dot(t),
+        -e.dot(n);
     point.covariance = slope * load.contact.covariance * slope.transpose();
     point.covariance(0, 0) += stage_std_mm * stage_std_mm;
   }
@@ -125,7 +111,7 @@ void MarkDirections(double stage_std_mm, std::vector<ForcePoint>* points) {
     p[i].direction = direction;
     if (i == 1) p[0].direction = direction;
   }
-  // From a reversal on the slider stands until it has left the turning point.
+  // After a reversal the slider stands until it has left the turning point.
   std::size_t turn = 0;
   bool slides = true;
   for (std::size_t i = 1; i < p.size(); ++i) {

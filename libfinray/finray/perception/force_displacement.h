@@ -2,72 +2,71 @@
 #define FINRAY_PERCEPTION_FORCE_DISPLACEMENT_H_
 
 #include <Eigen/Core>
-#include <optional>
-#include <string>
+#include <cstddef>
 #include <vector>
 
 #include "finray/io/frame_table.h"
-#include "finray/objects/outline.h"
 #include "finray/perception/contact_sensor.h"
 
 namespace finray {
 
-/// An object that yields along a line, as a finger pressed against it senses
-/// it. With e the direction in which it is pushed, p its unloaded place (the
+/// Force and displacement of an object that yields along a line, sensed by the
+/// finger that presses it, (20) of the paper:
+///
+///   u = (r - R n - p) . e,    F = -f_c n . e      (mm, N).
+///
+/// e is the direction in which the object is pushed, p its unloaded place (the
 /// stage's object_x_mm, object_y_mm), n the beam's normal into the finger at
-/// the contact r, R the radius of the pulley that the finger touches:
-///
-///   u = (r - R n - p) . e,    F = -f_c n . e,
-///
-/// (20) of the paper. Both come from one estimate, so that their errors are
-/// correlated.
+/// the contact r, and R the radius of the pulley that the finger touches. The
+/// errors of u and F are correlated, as both come from one estimate.
 struct ForcePoint {
   std::size_t row;  ///< of its table, from 0
   double displacement_mm, force_N;
-  Eigen::Matrix2d covariance;  ///< of (u, F), the stage's error included
-  double approach_mm;          ///< -p . e: how far the object has been moved in
-  /// +1 while it is moved in, -1 while it is withdrawn.
+  Eigen::Matrix2d covariance;  ///< of (u, F), with the error of the stage
+  double approach_mm;          ///< -p . e, how far the object has been moved in
+  /// +1 while the object is moved in, -1 while it is withdrawn.
   int direction = 1;
-  /// Whether the slider has moved since the last reversal; before that its
+  /// False from a reversal until the slider moves again. Until then its
   /// friction may have any value between both limits.
   bool slides = true;
 };
 
-/// What one finger senses of each row of a table.
+/// What one finger senses of a table.
 struct SensedLoads {
   struct Load {
     std::size_t row;
     SensedContact contact;
     Eigen::Vector2d place_mm;  ///< p
   };
-  std::vector<Load> loads;  ///< of rows with one contact
-  std::size_t rows = 0;
+  std::vector<Load> loads;  ///< of the rows with one contact
+  std::size_t rows = 0;     ///< all rows
 };
 
 /// Throws InputError for a row without object_x_mm, object_y_mm.
 SensedLoads SenseLoads(const FrameTable& table, ContactSensor* sensor,
                        const Finger& finger);
 
-/// Direction of an object's line: the way of its centre against the stage,
-/// where the scatter off it is least, pointing away from the finger.
+/// The direction in which an object is pushed, from +x of frame S.
 struct SliderDirection {
   double angle_rad;
-  double std_rad;  ///< NaN if it was given.
+  double std_rad;  ///< NaN for a given direction
 };
+/// Estimates it as the line about which the path of the object's centre against
+/// the stage scatters least. Throws InputError for fewer than three loads.
 SliderDirection EstimateDirection(const SensedLoads& loads, double radius_mm);
 
-/// Points of one trial along a direction. `stage_std_mm` is that of the place.
+/// The points of one trial. `stage_std_mm` is the std of the place.
 std::vector<ForcePoint> ForcePoints(const SensedLoads& loads,
                                     double direction_rad, double radius_mm,
                                     double stage_std_mm);
 
-/// Of an object squeezed between two fingers: rows that both have, u the sum of
-/// both (the object's compression), F their mean, which is how balance has
-/// them. The directions are those of either finger's own frame S.
+/// The points of an object squeezed between two fingers, for the rows that both
+/// have: u is the sum of both displacements, F the mean of both forces. Each
+/// finger's points use the direction in its own frame S.
 std::vector<ForcePoint> SqueezePoints(const std::vector<ForcePoint>& first,
                                       const std::vector<ForcePoint>& second);
 
-/// Sets direction and slides, from the approach, row by row.
+/// Sets `direction` and `slides` of each point from the approaches.
 void MarkDirections(double stage_std_mm, std::vector<ForcePoint>* points);
 
 }  // namespace finray

@@ -9,18 +9,16 @@
 
 namespace finray {
 
-/// The files that a result was made from, with their hashes, and the version:
-/// the last keys of a mapping that has been begun.
+/// Writes the keys `inputs`, the files that a result was made from with their
+/// hashes, and `version` to a mapping that has been begun.
 inline void EmitInputs(const std::vector<std::string>& paths,
                        YamlEmitter* yaml) {
   *yaml << YAML::Key << "inputs" << YAML::Value << YAML::BeginSeq;
   for (const std::string& path : paths) {
-    *yaml << YAML::Flow << YAML::BeginMap << YAML::Key << "path" << YAML::Value
-          << path << YAML::Key << "sha256" << YAML::Value << Sha256OfFile(path)
-          << YAML::EndMap;
+    YamlLine(yaml, "path", path, "sha256", Sha256OfFile(path));
   }
-  *yaml << YAML::EndSeq << YAML::Key << "version" << YAML::Value
-        << FINRAY_VERSION;
+  *yaml << YAML::EndSeq;
+  YamlPair(yaml, "version", FINRAY_VERSION);
 }
 
 }  // namespace finray

@@ -1,5 +1,7 @@
 #include "finray/perception/outline_fit.h"
 
+#include <ceres/normal_prior.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -8,7 +10,6 @@
 #include <stdexcept>
 
 #include "finray/perception/beam_bounds.h"
-#include "finray/perception/edge_cells.h"
 #include "finray/perception/outline_cost.h"
 
 namespace finray {
@@ -20,20 +21,21 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
+// Far smaller than the error of a touch.
 constexpr double kClosureStd_mm = 5e-3;
 constexpr double kHuberScale = 3;
 constexpr double kEdgeLengthStd = 3;  // of its logarithm
-// Over which the radius of curvature is averaged at least.
+// The radius of curvature is averaged over this angle at least.
 constexpr double kLeastReach_rad = 0.026;
 // Rounds in which weights, bounds and lambda follow the outline.
 constexpr int kSmoothRounds = 2, kLastRounds = 2;
-// log10 of lambda: the first round's grid, then steps about the best.
+// log10 of lambda: the grid of the first rounds, then steps about the best.
 constexpr double kLeastPower = -4, kMostPower = 5;
 constexpr double kFirstStep = 1, kLaterStep = 0.25;
-// Touches do not agree better than this share of what they claim.
+// Lower limit of the noise scale.
 constexpr double kLeastScale = 0.1;
 
-// Circle through the tangents: h_i = centre . n_i + radius.
+// The circle that fits the tangents best: h_i = centre . n_i + radius.
 ConvexCurve Circle(const std::vector<Touch>& touches, const NormalGrid& grid) {
   MatrixXd rows(static_cast<Index>(touches.size()), 3);
   VectorXd support(rows.rows());
@@ -45,12 +47,12 @@ ConvexCurve Circle(const std::vector<Touch>& touches, const NormalGrid& grid) {
   const Eigen::Vector3d found =
       (rows.transpose() * rows).ldlt().solve(rows.transpose() * support);
   const double radius = std::max(found[2], 1e-3);
-  return {grid, found.head<2>() + Vector2d(radius, 0),  // its origin is 0
+  return {grid, found.head<2>() + Vector2d(radius, 0),  // at the normal angle 0
           VectorXd::Constant(grid.cells(), radius)};
 }
 
-// Whitening of point - r(normal angle), the point's error and what the angle's
-// moves r by.
+// Whitening of point - r(normal angle). The error of the angle counts by how
+// far it moves r.
 Matrix2d Whitening(const Touch& touch, const ConvexCurve& curve,
                    double stage_std_mm) {
   const double reach =
@@ -65,16 +67,21 @@ Matrix2d Whitening(const Touch& touch, const ConvexCurve& curve,
   return covariance.llt().matrixL().solve(Matrix2d::Identity());
 }
 
-// The problem at given weights and bounds.
+// The fit with fixed weights and bounds. Bounds are added before the first call
+// of Solve.
 class Fit {
  public:
-  // `along[i]`: touch i lies along an edge.
+  // Leaves out each touch i with along[i], which lies along an edge.
   Fit(const std::vector<Touch>& touches, const std::vector<bool>& along,
       const ConvexCurve& about, const OutlineFitSettings& settings)
-      : grid_(about.grid()), cells_(grid_.cells()), along_(along) {
+      : grid_(about.grid()),
+        cells_(grid_.cells()),
+        along_(along),
+        roughness_(RoughnessMatrix(grid_)),
+        closure_(OutlineCost::Closure(grid_, kClosureStd_mm)) {
     for (std::size_t i = 0; i < touches.size(); ++i) {
       if (along[i]) continue;
-      costs_.push_back(std::make_unique<OutlinePointCost>(
+      costs_.push_back(OutlineCost::Point(
           touches[i].point_mm, touches[i].normal_angle_rad,
           Whitening(touches[i], about, settings.stage_std_mm), false, grid_));
     }
@@ -84,7 +91,7 @@ class Fit {
 
   void AddBounds(const std::vector<BeamBound>& bounds) {
     for (const BeamBound& bound : bounds) {
-      costs_.push_back(std::make_unique<OutlinePointCost>(
+      costs_.push_back(OutlineCost::Point(
           bound.beam_point_mm, bound.normal_angle_rad,
           bound.beam_normal.transpose() / bound.std_mm, true, grid_));
     }
@@ -96,9 +103,21 @@ class Fit {
   }
   ConvexCurve curve() const { return {grid_, start_, u_.array().exp()}; }
 
-  // False if Ceres finds no minimum.
+  // Returns false if Ceres finds no minimum.
   bool Solve(double lambda) {
-    ceres::Problem problem = MakeProblem(lambda);
+    ceres::NormalPrior roughness(roughness_, VectorXd::Zero(cells_));
+    ceres::Problem::Options ownership;
+    ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ceres::Problem problem(ownership);
+    for (const auto& cost : costs_) {
+      problem.AddResidualBlock(cost.get(), new ceres::HuberLoss(kHuberScale),
+                               u_.data(), start_.data());
+    }
+    problem.AddResidualBlock(
+        &roughness,
+        new ceres::ScaledLoss(nullptr, lambda, ceres::TAKE_OWNERSHIP),
+        u_.data());
+    problem.AddResidualBlock(closure_.get(), nullptr, u_.data(), start_.data());
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     options.max_num_iterations = 40;
@@ -111,7 +130,7 @@ class Fit {
     return summary.IsSolutionUsable();
   }
 
-  // The criterion that lambda minimises, at the last solution.
+  // The criterion that chooses lambda, at the last solution.
   double Improbability(double lambda) const {
     const double n = 2 * static_cast<double>(touches_);
     const MatrixXd information = Information(lambda);
@@ -126,10 +145,10 @@ class Fit {
            2 * edges() * std::log(kEdgeLengthStd);
   }
 
-  // Its null space: the level of the outline, and that of each edge.
+  // The null space, which has no part in it, is the level of the outline and
+  // that of each edge.
   double LogDeterminantOfRoughness(double lambda) const {
-    const Dense slope = Slope(OutlineRoughnessCost(grid_));
-    MatrixXd roughness = slope.transpose() * slope;
+    MatrixXd roughness = roughness_.transpose() * roughness_;
     VectorXd level = VectorXd::Zero(cells_);
     for (Index j = 0; j < cells_; ++j) {
       if (!grid_.IsEdge(j)) {
@@ -156,7 +175,7 @@ class Fit {
                     std::sqrt(cost_ / (2 * static_cast<double>(touches_))));
   }
 
-  // Of u and the start: J'J of everything, touches weighted by their loss.
+  // J'J for u and start. Huber's loss weighs the touches.
   MatrixXd Information(double lambda) const {
     MatrixXd information = MatrixXd::Zero(cells_ + 2, cells_ + 2);
     for (const auto& cost : costs_) {
@@ -167,11 +186,10 @@ class Fit {
                                 : 1;
       information.noalias() += weight * linear.slope.transpose() * linear.slope;
     }
-    const Dense roughness = Slope(OutlineRoughnessCost(grid_));
-    const Dense closure = Slope(OutlineClosureCost(grid_, kClosureStd_mm));
+    const MatrixXd closure = Linearize(*closure_).slope;
+    information += closure.transpose() * closure;
     information.topLeftCorner(cells_, cells_) +=
-        lambda * roughness.transpose() * roughness +
-        closure.transpose() * closure;
+        lambda * roughness_.transpose() * roughness_;
     return information;
   }
 
@@ -194,51 +212,20 @@ class Fit {
   }
 
  private:
-  using Dense =
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   struct Linear {
     VectorXd residual;
-    Dense slope;
+    MatrixXd slope;  // by u and start
   };
 
-  ceres::Problem MakeProblem(double lambda) {
-    ceres::Problem::Options options;
-    options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    ceres::Problem problem(options);
-    problem.AddParameterBlock(u_.data(), static_cast<int>(cells_));
-    problem.AddParameterBlock(start_.data(), 2);
-    for (const auto& cost : costs_) {
-      problem.AddResidualBlock(cost.get(), new ceres::HuberLoss(kHuberScale),
-                               u_.data(), start_.data());
-    }
-    roughness_ = std::make_unique<OutlineRoughnessCost>(grid_);
-    closure_ = std::make_unique<OutlineClosureCost>(grid_, kClosureStd_mm);
-    problem.AddResidualBlock(
-        roughness_.get(),
-        new ceres::ScaledLoss(nullptr, lambda, ceres::TAKE_OWNERSHIP),
-        u_.data());
-    problem.AddResidualBlock(closure_.get(), nullptr, u_.data());
-    return problem;
-  }
-
-  // Of a cost that has u alone.
-  Dense Slope(const ceres::CostFunction& cost) const {
-    VectorXd residual(cost.num_residuals());
-    Dense slope(cost.num_residuals(), cells_);
-    const double* parameters[] = {u_.data()};
-    double* jacobians[] = {slope.data()};
-    cost.Evaluate(parameters, residual.data(), jacobians);
-    return slope;
-  }
-
-  Linear Linearize(const OutlinePointCost& cost) const {
+  Linear Linearize(const OutlineCost& cost) const {
     const Index rows = cost.num_residuals();
-    Linear linear{VectorXd(rows), {}};
-    Dense by_u(rows, cells_), by_start(rows, 2);
+    Linear linear{VectorXd(rows), MatrixXd(rows, cells_ + 2)};
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_u(
+        rows, cells_),
+        by_start(rows, 2);
     const double* parameters[] = {u_.data(), start_.data()};
     double* jacobians[] = {by_u.data(), by_start.data()};
     cost.Evaluate(parameters, linear.residual.data(), jacobians);
-    linear.slope.resize(rows, cells_ + 2);
     linear.slope << by_u, by_start;
     return linear;
   }
@@ -247,15 +234,15 @@ class Fit {
   Index cells_;
   std::vector<bool> along_;
   std::size_t touches_ = 0;
-  std::vector<std::unique_ptr<OutlinePointCost>> costs_;  // touches, bounds
-  std::unique_ptr<OutlineRoughnessCost> roughness_;
-  std::unique_ptr<OutlineClosureCost> closure_;
+  std::vector<std::unique_ptr<OutlineCost>> costs_;  // touches, then bounds
+  MatrixXd roughness_;
+  std::unique_ptr<OutlineCost> closure_;
   VectorXd u_;
   Vector2d start_;
   double cost_ = 0;
 };
 
-// Goes through lambda from smooth to rough and leaves the fit at the best.
+// Tries values of lambda, from smooth to rough, and leaves the fit at the best.
 struct Best {
   double lambda, improbability;
 };
@@ -291,8 +278,8 @@ std::vector<BeamBound> Bounds(const std::vector<Touch>& touches,
                         settings.beam_reach_mm);
 }
 
-// Flat stretches as straight edges, if that makes the touches away from them
-// more probable than a smooth outline does.
+// Turns flat stretches into straight edges if the touches away from them are
+// then more probable than with a smooth outline.
 void TakeEdges(const std::vector<Touch>& touches,
                const OutlineFitSettings& settings, OutlineFit* result,
                std::vector<bool>* along) {
@@ -340,7 +327,7 @@ OutlineFit FitOutline(const std::vector<Touch>& touches,
   OutlineFit result;
   result.curve = Circle(touches, NormalGrid(settings.cells));
   std::vector<bool> along(touches.size(), false);
-  // Smooth first: weights of the first round are those of a circle.
+  // Smooth first; the first round has the weights of a circle.
   for (int round = 0; round < kSmoothRounds; ++round) {
     Fit fit(touches, along, result.curve, settings);
     if (round > 0) fit.AddBounds(Bounds(touches, result.curve, settings));
@@ -350,9 +337,7 @@ OutlineFit FitOutline(const std::vector<Touch>& touches,
   }
   TakeEdges(touches, settings, &result, &along);
   for (int round = 0; round < kLastRounds; ++round) {
-    if (!result.edges.empty()) {
-      result.curve = WithEdges(result.curve, result.edges, settings.cells);
-    }
+    result.curve = WithEdges(result.curve, result.edges, settings.cells);
     Fit fit(touches, along, result.curve, settings);
     fit.AddBounds(Bounds(touches, result.curve, settings));
     const double power = std::log10(result.smoothing);
@@ -374,21 +359,16 @@ OutlineFit FitOutline(const std::vector<Touch>& touches,
   return result;
 }
 
-OutlineFit RefitOutline(const std::vector<Touch>& touches,
-                        const OutlineFit& start,
-                        const OutlineFitSettings& settings) {
+ConvexCurve RefitOutline(const std::vector<Touch>& touches,
+                         const OutlineFit& start,
+                         const OutlineFitSettings& settings) {
   Fit fit(touches, Along(touches, start.edges, start.curve), start.curve,
           settings);
   fit.AddBounds(Bounds(touches, start.curve, settings));
   if (!fit.Solve(start.smoothing)) {
     throw std::runtime_error("no outline fits the touches of a varied finger");
   }
-  OutlineFit result;
-  result.curve = fit.curve();
-  result.smoothing = start.smoothing;
-  result.noise_scale = fit.noise_scale();
-  result.distances = fit.Distances();
-  return result;
+  return fit.curve();
 }
 
 }  // namespace finray

@@ -1,25 +1,28 @@
 #include "finray/perception/polygon.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "finray/chain/se2.h"
 
 namespace finray {
 
+namespace {
+
 using Eigen::Vector2d;
 
-double Cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
+std::vector<double> Magnitudes(const std::vector<double>& percent) {
+  std::vector<double> magnitudes;
+  for (const double error : percent) {
+    if (std::isfinite(error)) magnitudes.push_back(std::abs(error));
+  }
+  return magnitudes;
 }
 
-double AreaOf(const Polygon& polygon) {
-  double twice = 0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    twice += Cross(polygon[i], polygon[(i + 1) % polygon.size()]);
-  }
-  return twice / 2;
-}
+}  // namespace
 
 Vector2d CentroidOf(const Polygon& polygon) {
-  // About the first point, so that a far-off origin costs no digits.
+  // Relative to the first point: a distant origin would cost digits.
   Vector2d moment(0, 0);
   double twice = 0;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
@@ -49,20 +52,61 @@ Polygon EvenlySpaced(const Polygon& polygon, int count) {
   return even;
 }
 
+std::optional<double> Crossing(const Vector2d& direction, const Vector2d& a,
+                               const Vector2d& b) {
+  const double above_a = Cross(direction, a), above_b = Cross(direction, b);
+  if ((above_a > 0) == (above_b > 0)) return std::nullopt;
+  const double share = above_a / (above_a - above_b);
+  return direction.dot((1 - share) * a + share * b);
+}
+
 std::optional<double> RadiusAt(const Polygon& polygon, const Vector2d& centre,
                                double angle_rad) {
   const Vector2d ray(std::cos(angle_rad), std::sin(angle_rad));
   std::optional<double> radius;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vector2d a = polygon[i] - centre;
-    const Vector2d b = polygon[(i + 1) % polygon.size()] - centre;
-    const double above_a = Cross(ray, a), above_b = Cross(ray, b);
-    if (above_a == above_b || (above_a > 0) == (above_b > 0)) continue;
-    const double share = above_a / (above_a - above_b);
-    const double along = ray.dot((1 - share) * a + share * b);
-    if (along >= 0 && along > radius.value_or(0)) radius = along;
+    const auto at = Crossing(ray, polygon[i] - centre,
+                             polygon[(i + 1) % polygon.size()] - centre);
+    if (at && *at > radius.value_or(0)) radius = at;
   }
   return radius;
+}
+
+double RadialError::Mean() const {
+  const std::vector<double> errors = Magnitudes(percent);
+  double sum = 0;
+  for (const double error : errors) sum += error;
+  return sum / static_cast<double>(errors.size());
+}
+
+double RadialError::Rms() const {
+  const std::vector<double> errors = Magnitudes(percent);
+  double sum = 0;
+  for (const double error : errors) sum += error * error;
+  return std::sqrt(sum / static_cast<double>(errors.size()));
+}
+
+double RadialError::Quantile(double share) const {
+  std::vector<double> errors = Magnitudes(percent);
+  if (errors.empty()) return std::nan("");
+  std::sort(errors.begin(), errors.end());
+  const double at = share * static_cast<double>(errors.size() - 1);
+  return errors[static_cast<std::size_t>(std::lround(at))];
+}
+
+RadialError CompareRadii(const Polygon& outline, const Polygon& truth,
+                         int count) {
+  const Vector2d centre = CentroidOf(truth);
+  RadialError error;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * M_PI * i / count;
+    const auto found = RadiusAt(outline, centre, angle);
+    const auto actual = RadiusAt(truth, centre, angle);
+    error.percent.push_back(found && actual && *actual > 0
+                                ? 100 * (*found - *actual) / *actual
+                                : std::nan(""));
+  }
+  return error;
 }
 
 }  // namespace finray

@@ -7,23 +7,42 @@
 
 namespace finray {
 
-/// A closed curve as the points along it; the last one joins the first.
+/// A closed curve given by points along it, in mm. The last point joins the
+/// first.
 using Polygon = std::vector<Eigen::Vector2d>;
 
-/// a_x b_y - a_y b_x.
-double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
-
-/// Of the area, which is taken as above 0 for a counter-clockwise curve.
+/// The centroid of the enclosed area.
 Eigen::Vector2d CentroidOf(const Polygon& polygon);
-double AreaOf(const Polygon& polygon);
 
-/// `count` points at equal arc lengths, from the first one on.
+/// `count` points at equal arc lengths, starting at the first point.
 Polygon EvenlySpaced(const Polygon& polygon, int count);
 
-/// Distance from `centre` to where the ray at an angle leaves the curve last;
-/// nothing if it misses.
+/// Where the segment from a to b crosses the line through the origin along the
+/// unit vector `direction`: the position on that line, which may be negative.
+/// Nothing if both ends are on one side of the line.
+std::optional<double> Crossing(const Eigen::Vector2d& direction,
+                               const Eigen::Vector2d& a,
+                               const Eigen::Vector2d& b);
+
+/// Distance from `centre` to the last point where the ray at an angle crosses
+/// the curve; nothing if it does not.
 std::optional<double> RadiusAt(const Polygon& polygon,
                                const Eigen::Vector2d& centre, double angle_rad);
+
+/// Radial error of an outline in percent, 100 (r - r_true) / r_true, in polar
+/// coordinates about the true outline's centroid, at equally spaced angles from
+/// 0. The statistics are those of its magnitude.
+struct RadialError {
+  std::vector<double> percent;  ///< NaN where either outline has no radius
+
+  double Mean() const;
+  double Rms() const;
+  double Quantile(double share) const;
+  double Largest() const { return Quantile(1); }
+};
+
+RadialError CompareRadii(const Polygon& outline, const Polygon& truth,
+                         int count = 360);
 
 }  // namespace finray
 

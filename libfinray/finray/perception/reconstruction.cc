@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Points at equal arc lengths, for areas and rays.
+// The curve at equal arc lengths.
 Polygon Sampled(const ConvexCurve& curve) {
   constexpr int kPoints = 2880;
   Polygon polygon;
@@ -21,15 +21,15 @@ Polygon Sampled(const ConvexCurve& curve) {
   return polygon;
 }
 
-// The normal angle at which a ray from inside leaves the curve. The direction
-// of the curve's points turns with their arc lengths.
+// The normal angle where a ray from inside leaves the curve. It is found by
+// bisection, because the direction to a point turns with its arc length.
 double NormalAngleOfRay(const ConvexCurve& curve, const Vector2d& centre,
                         double angle_rad) {
   const auto ahead = [&](double arc) {
     const Vector2d r = curve.At(curve.NormalAngleAt(arc)) - centre;
     return std::remainder(std::atan2(r.y(), r.x()) - angle_rad, 2 * M_PI);
   };
-  // Within half a turn of the point whose normal has that angle.
+  // The bracket grows from the point whose normal has that angle.
   const double about = curve.ArcAt(angle_rad), turn = curve.perimeter_mm();
   double low = about, high = about;
   for (const double step : {0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3}) {
@@ -43,29 +43,26 @@ double NormalAngleOfRay(const ConvexCurve& curve, const Vector2d& centre,
   return curve.NormalAngleAt(0.5 * (low + high));
 }
 
-// How far beyond a point the nearest beam lies, along the outline's normal.
+// The distance from a point to the nearest beam along the outline's normal, at
+// most kFarthest_mm.
 double Clearance(const Vector2d& point, double normal_angle_rad,
                  const std::vector<Touch>& touches) {
   constexpr double kFarthest_mm = 10;
   const Vector2d normal(std::cos(normal_angle_rad), std::sin(normal_angle_rad));
-  const Vector2d tangent(-normal.y(), normal.x());
   double least = kFarthest_mm;
   for (const Touch& touch : touches) {
     for (std::size_t i = 0; i + 1 < touch.beam_mm.size(); ++i) {
-      const Vector2d a = touch.beam_mm[i] - point;
-      const Vector2d b = touch.beam_mm[i + 1] - point;
-      const double aside_a = tangent.dot(a), aside_b = tangent.dot(b);
-      if ((aside_a > 0) == (aside_b > 0)) continue;
-      const double share = aside_a / (aside_a - aside_b);
-      const double height = normal.dot((1 - share) * a + share * b);
-      if (height > -1) least = std::min(least, std::max(height, 0.0));
+      const auto height = Crossing(normal, touch.beam_mm[i] - point,
+                                   touch.beam_mm[i + 1] - point);
+      if (height && *height > -1) {
+        least = std::min(least, std::max(*height, 0.0));
+      }
     }
   }
   return least;
 }
 
-// What the calibration leaves uncertain of the radii: their changes, finger by
-// finger.
+// The variance of each radius from the finger's calibration.
 Eigen::VectorXd CalibrationVariance(const FrameTable& table,
                                     const Finger& finger, const Scene& scene,
                                     const Discretization& discretization,
@@ -77,7 +74,7 @@ Eigen::VectorXd CalibrationVariance(const FrameTable& table,
     const Touches touches = SenseTouches(table, varied, scene, discretization);
     if (touches.usable.size() < kLeastTouches) continue;
     const Polygon moved =
-        Sampled(RefitOutline(touches.usable, found.fit, settings).curve);
+        Sampled(RefitOutline(touches.usable, found.fit, settings));
     for (Eigen::Index i = 0; i < points; ++i) {
       const OutlinePoint& point = found.outline[static_cast<std::size_t>(i)];
       const auto radius = RadiusAt(moved, found.centroid_mm, point.angle_rad);
@@ -121,7 +118,7 @@ Reconstruction Reconstruct(const FrameTable& table, const Finger& finger,
     point.supported = coverage.Supports(normal);
     double normal_std = result.fit.NormalStd(normal);
     if (!point.supported) {
-      // Anywhere between there and the beams is as likely.
+      // Every place up to the nearest beam is equally likely.
       normal_std = std::hypot(normal_std, Clearance(point.position_mm, normal,
                                                     result.touches.usable) /
                                               std::sqrt(3.0));

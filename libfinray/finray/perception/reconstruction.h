@@ -30,12 +30,14 @@ struct Reconstruction {
   Polygon polygon() const;
 };
 
-/// Senses the touches of a table, checks that they go round the object, fits
-/// the outline and puts a std to it: of noise and stage; of the finger's
-/// calibration, by fitting once more for each of FingerVariations; and where no
-/// touch supports the outline, of what the beams leave open, as a convex
-/// outline may lie anywhere between the fitted one and the nearest beam. Throws
-/// InputError and SpreadError as CheckSpread does.
+/// Senses the touches of a table, checks that they surround the object and fits
+/// the outline. The std of a radius combines three errors:
+///  - the noise of gauges and stage, from the fit;
+///  - the finger's calibration, by a fit for each of its FingerVariations;
+///  - where no touch supports the outline, d / sqrt(3), with d the distance to
+///  the
+///    nearest beam: a convex outline may lie anywhere up to there.
+/// Throws InputError and SpreadError as CheckSpread does.
 Reconstruction Reconstruct(const FrameTable& table, const Finger& finger,
                            const Scene& scene,
                            const Discretization& discretization,

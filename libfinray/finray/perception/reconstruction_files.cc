@@ -15,11 +15,9 @@ namespace finray {
 namespace {
 
 void EmitError(const char* key, const RadialError& error, YamlEmitter* yaml) {
-  *yaml << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginMap
-        << YAML::Key << "mean" << YAML::Value << error.Mean() << YAML::Key
-        << "rms" << YAML::Value << error.Rms() << YAML::Key << "quantile_95"
-        << YAML::Value << error.Quantile(0.95) << YAML::Key << "largest"
-        << YAML::Value << error.Largest() << YAML::EndMap;
+  *yaml << YAML::Key << key << YAML::Value;
+  YamlLine(yaml, "mean", error.Mean(), "rms", error.Rms(), "quantile_95",
+           error.Quantile(0.95), "largest", error.Largest());
 }
 
 void EmitDescriptors(const char* key, const FourierDescriptors& descriptors,
@@ -29,17 +27,14 @@ void EmitDescriptors(const char* key, const FourierDescriptors& descriptors,
   *yaml << YAML::Key << key << YAML::Value << YAML::BeginSeq;
   for (int k = -most; k <= most; ++k) {
     const auto& value = c[static_cast<std::size_t>(k + most)];
-    *yaml << YAML::Flow << YAML::BeginMap << YAML::Key << "k" << YAML::Value
-          << k << YAML::Key << "real_mm" << YAML::Value << value.real()
-          << YAML::Key << "imaginary_mm" << YAML::Value << value.imag()
-          << YAML::EndMap;
+    YamlLine(yaml, "k", k, "real_mm", value.real(), "imaginary_mm",
+             value.imag());
   }
   *yaml << YAML::EndSeq;
 }
 
-void EmitPoint(const Eigen::Vector2d& point, YamlEmitter* yaml) {
-  *yaml << YAML::Flow << YAML::BeginSeq << point.x() << point.y()
-        << YAML::EndSeq;
+std::vector<double> Coordinates(const Eigen::Vector2d& point) {
+  return {point.x(), point.y()};
 }
 
 }  // namespace
@@ -114,47 +109,36 @@ std::string ReconstructionYaml(const Reconstruction& found,
                                const RadialError* envelope_error,
                                const std::vector<std::string>& inputs) {
   YamlEmitter yaml;
-  yaml << YAML::BeginMap;
-  yaml << YAML::Key << "touches" << YAML::Value << YAML::BeginMap << YAML::Key
-       << "rows" << YAML::Value << found.touches.all_rows();
+  yaml << YAML::BeginMap << YAML::Key << "touches" << YAML::Value
+       << YAML::BeginMap;
+  YamlPair(&yaml, "rows", found.touches.all_rows());
   for (const auto& [status, count] : found.touches.rows) {
-    yaml << YAML::Key << StatusName(status) << YAML::Value << count;
+    YamlPair(&yaml, StatusName(status), count);
   }
-  const auto along =
-      std::count_if(found.fit.distances.begin(), found.fit.distances.end(),
-                    [](double distance) { return std::isnan(distance); });
-  const auto astray =
-      std::count_if(found.fit.distances.begin(), found.fit.distances.end(),
-                    [](double distance) { return distance > 4; });
-  yaml << YAML::Key << "contacts" << YAML::Value << found.touches.usable.size()
-       << YAML::Key << "along_edges" << YAML::Value << along << YAML::Key
-       << "astray" << YAML::Value << astray << YAML::EndMap;
-  yaml << YAML::Key << "fit" << YAML::Value << YAML::Flow << YAML::BeginMap
-       << YAML::Key << "smoothing" << YAML::Value << found.fit.smoothing
-       << YAML::Key << "noise_scale" << YAML::Value << found.fit.noise_scale
-       << YAML::Key << "beam_bounds" << YAML::Value << found.fit.beam_bounds
-       << YAML::EndMap;
-  yaml << YAML::Key << "centroid_mm" << YAML::Value;
-  EmitPoint(found.centroid_mm, &yaml);
-  yaml << YAML::Key << "straight_edges" << YAML::Value << YAML::BeginSeq;
+  const std::vector<double>& distances = found.fit.distances;
+  YamlPairs(&yaml, "contacts", distances.size(), "along_edges",
+            std::count_if(distances.begin(), distances.end(),
+                          [](double distance) { return std::isnan(distance); }),
+            "astray",
+            std::count_if(distances.begin(), distances.end(),
+                          [](double distance) { return distance > 4; }));
+  yaml << YAML::EndMap << YAML::Key << "fit" << YAML::Value;
+  YamlLine(&yaml, "smoothing", found.fit.smoothing, "noise_scale",
+           found.fit.noise_scale, "beam_bounds", found.fit.beam_bounds);
+  yaml << YAML::Key << "centroid_mm" << YAML::Value << YAML::Flow
+       << Coordinates(found.centroid_mm) << YAML::Key << "straight_edges"
+       << YAML::Value << YAML::BeginSeq;
   for (const StraightEdge& edge : found.fit.edges) {
-    yaml << YAML::Flow << YAML::BeginMap << YAML::Key << "normal_deg"
-         << YAML::Value << std::remainder(edge.middle_rad, 2 * M_PI) / kDegree
-         << YAML::Key << "length_mm" << YAML::Value << edge.length_mm
-         << YAML::EndMap;
+    YamlLine(&yaml, "normal_deg",
+             std::remainder(edge.middle_rad, 2 * M_PI) / kDegree, "length_mm",
+             edge.length_mm);
   }
   yaml << YAML::EndSeq;
-  yaml << YAML::Key << "supported_percent" << YAML::Value
-       << 100 * found.supported_share;
+  YamlPair(&yaml, "supported_percent", 100 * found.supported_share);
   yaml << YAML::Key << "unsupported" << YAML::Value << YAML::BeginSeq;
   for (const TouchCoverage::Gap& gap : found.gaps) {
-    yaml << YAML::Flow << YAML::BeginMap << YAML::Key << "from_mm"
-         << YAML::Value;
-    EmitPoint(gap.from_mm, &yaml);
-    yaml << YAML::Key << "to_mm" << YAML::Value;
-    EmitPoint(gap.to_mm, &yaml);
-    yaml << YAML::Key << "length_mm" << YAML::Value << gap.length_mm
-         << YAML::EndMap;
+    YamlLine(&yaml, "from_mm", Coordinates(gap.from_mm), "to_mm",
+             Coordinates(gap.to_mm), "length_mm", gap.length_mm);
   }
   yaml << YAML::EndSeq;
   EmitDescriptors("descriptors", descriptors, &yaml);
@@ -173,7 +157,7 @@ Polygon ReadOutline(const std::string& path) {
   Polygon polygon(table.rows());
   const char* names[] = {"x_mm", "y_mm"};
   for (int k = 0; k < 2; ++k) {
-    if (!table.Has(names[k])) table.Numbers(names[k]);  // says what it has
+    if (!table.Has(names[k])) table.Numbers(names[k]);  // names its columns
     const auto& cells = table.MutableText(names[k]);
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const auto number = ParseNumber(cells[i]);

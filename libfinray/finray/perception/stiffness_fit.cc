@@ -5,12 +5,12 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <iterator>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "finray/io/error.h"
-#include "finray/perception/contradicting_points.h"
-#include "finray/perception/force_law.h"
 #include "finray/sensing/chi_squared.h"
 
 namespace finray {
@@ -22,87 +22,130 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 constexpr double kUnexplained = 0.001;
+// Expected number of good points that are left out of a trial.
+constexpr double kFalseAlarms = 0.01;
+// With a larger share of contradicting points, the law or the std is wrong.
+constexpr double kMostLeftOut = 0.25;
+constexpr double kMedianOfChi2 = 0.4549;  // with one degree of freedom
+constexpr int kAnnealingSteps = 20;
 
-// Whitened (u_i - v, F_i - F(v)); blocks: the law's parameters, v.
-class PointCost : public ceres::CostFunction {
+// W (u_i - v, F_i - F(v, s_i)), W whitening C_i. Parameter blocks: the law's
+// parameters a, and v.
+class ForcePointCost : public ceres::CostFunction {
  public:
-  PointCost(const ForcePoint& point, int degree, bool friction)
+  ForcePointCost(const ForcePoint& point, const ForceLaw& law)
       : point_(point),
-        degree_(degree),
-        friction_(friction),
+        law_(law),
         whitening_(point.covariance.llt().matrixL().solve(
             Eigen::Matrix2d::Identity())) {
     set_num_residuals(2);
-    mutable_parameter_block_sizes()->assign({degree + 1 + friction, 1});
+    mutable_parameter_block_sizes()->assign({law.parameters(), 1});
   }
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
-    const int size = degree_ + 1 + friction_;
+    const int size = law_.parameters();
     const VectorXd a = Eigen::Map<const VectorXd>(parameters[0], size);
     const double v = *parameters[1];
-    const double friction = friction_ ? point_.direction * a[degree_ + 1] : 0;
+    const Eigen::RowVectorXd row = law_.Row(v, point_.direction);
     Eigen::Map<Vector2d> residual(residuals);
-    residual = whitening_ *
-               Vector2d(point_.displacement_mm - v,
-                        point_.force_N - ForceOf(a, degree_, v) - friction);
+    residual = whitening_ * Vector2d(point_.displacement_mm - v,
+                                     point_.force_N - row.dot(a));
     if (jacobians == nullptr) return true;
     if (jacobians[0] != nullptr) {
-      Eigen::RowVectorXd by_law(size);
-      double power = 1;
-      for (int m = 0; m <= degree_; ++m, power *= v) by_law[m] = -power;
-      if (friction_) by_law[degree_ + 1] = -point_.direction;
       Eigen::Map<Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor>>(
-          jacobians[0], 2, size) = whitening_.col(1) * by_law;
+          jacobians[0], 2, size) = -whitening_.col(1) * row;
     }
     if (jacobians[1] != nullptr) {
       Eigen::Map<Vector2d>{jacobians[1]} =
-          whitening_ * Vector2d(-1, -SlopeOf(a, degree_, v));
+          whitening_ * Vector2d(-1, -law_.Slope(a, v));
     }
     return true;
   }
 
  private:
   ForcePoint point_;
-  int degree_;
-  bool friction_;
+  ForceLaw law_;
   Eigen::Matrix2d whitening_;
 };
 
-// Of the law's parameters, each v eliminated: the error across the law.
-MatrixXd Information(const std::vector<ForcePoint>& points, int degree,
-                     bool friction, const VectorXd& a,
-                     const std::vector<double>& v) {
-  MatrixXd information = MatrixXd::Zero(a.size(), a.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    VectorXd row(a.size());
-    for (int m = 0; m <= degree; ++m) row[m] = std::pow(v[i], m);
-    if (friction) row[degree + 1] = points[i].direction;
-    const Vector2d across(-SlopeOf(a, degree, v[i]), 1);
-    information +=
-        row * row.transpose() / across.dot(points[i].covariance * across);
+// Squared distances of points across a law over the scale s^2, and the variance
+// of each distance.
+struct Distances {
+  VectorXd variance, chi2;
+};
+Distances DistancesFrom(const VectorXd& a, const ForceLaw& law,
+                        const std::vector<ForcePoint>& points) {
+  const auto count = static_cast<Index>(points.size());
+  Distances from{VectorXd(count), VectorXd(count)};
+  for (Index i = 0; i < count; ++i) {
+    const ForcePoint& point = points[static_cast<std::size_t>(i)];
+    const double u = point.displacement_mm;
+    const double off = point.force_N - law.Row(u, point.direction).dot(a);
+    from.variance[i] = law.VarianceAcross(a, point, u);
+    from.chi2[i] = off * off / from.variance[i];
   }
-  return information;
+  VectorXd sorted = from.chi2;
+  double* middle = sorted.data() + count / 2;
+  std::nth_element(sorted.data(), middle, sorted.data() + count);
+  from.chi2 /= std::max(1.0, *middle / kMedianOfChi2);
+  return from;
 }
 
-// One spare point more than the law has parameters, and one for chi2.
-int LeastPoints(int degree, bool friction) { return degree + 3 + friction; }
+// Squared distances from the law that most points follow. It is fitted with
+// Cauchy weights whose scale shrinks with the distances, as F on u: a line with
+// errors in both might rise steeply through wild points.
+VectorXd DistancesFromMost(const ForceLaw& law,
+                           const std::vector<ForcePoint>& points) {
+  VectorXd weights = VectorXd::Ones(static_cast<Index>(points.size()));
+  Distances from = DistancesFrom(law.Fit(points, weights), law, points);
+  for (int step = 0; step < kAnnealingSteps; ++step) {
+    weights = (from.variance.array() * (1 + from.chi2.array())).rsqrt();
+    from = DistancesFrom(law.Fit(points, weights), law, points);
+  }
+  return from.chi2;
+}
 
-StiffnessFit FitDegree(const std::vector<ForcePoint>& points, int degree,
-                       bool friction) {
+// Removes the points that contradict the others and returns their rows; keeps
+// all points if too many do.
+std::vector<std::size_t> TakeOutContradicting(const ForceLaw& law,
+                                              std::vector<ForcePoint>* points) {
+  const VectorXd chi2 = DistancesFromMost(law, *points);
+  const auto count = static_cast<double>(points->size());
+  std::vector<ForcePoint> kept;
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < points->size(); ++i) {
+    const ForcePoint& point = (*points)[i];
+    if (ChiSquaredTail(chi2[static_cast<Index>(i)], 1) > kFalseAlarms / count) {
+      kept.push_back(point);
+    } else {
+      rows.push_back(point.row);
+    }
+  }
+  if (kept.size() <= kLeastPoints ||
+      static_cast<double>(rows.size()) > kMostLeftOut * count) {
+    return {};
+  }
+  *points = std::move(kept);
+  return rows;
+}
+
+// The fit of a law needs two points more than it has parameters.
+int LeastPoints(const ForceLaw& law) { return law.parameters() + 2; }
+
+StiffnessFit FitLaw(const std::vector<ForcePoint>& points,
+                    const ForceLaw& law) {
   StiffnessFit fit;
-  fit.degree = degree;
-  fit.has_friction = friction;
-  // Least squares of F on u to start from.
-  const LawRows rows = LawRowsOf(points, degree, friction);
-  VectorXd a = rows.left.colPivHouseholderQr().solve(rows.right);
+  fit.law = law;
+  VectorXd a =
+      law.Fit(points, VectorXd::Ones(static_cast<Index>(points.size())));
   std::vector<double> v;
   for (const ForcePoint& point : points) v.push_back(point.displacement_mm);
   ceres::Problem problem;
   auto* ordering = new ceres::ParameterBlockOrdering;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    problem.AddResidualBlock(new PointCost(points[i], degree, friction),
-                             nullptr, a.data(), &v[i]);
+    problem.AddResidualBlock(new ForcePointCost(points[i], law), nullptr,
+                             a.data(), &v[i]);
     ordering->AddElementToGroup(&v[i], 0);
   }
   ordering->AddElementToGroup(a.data(), 1);
@@ -119,19 +162,19 @@ StiffnessFit FitDegree(const std::vector<ForcePoint>& points, int degree,
   }
   fit.coefficients = a;
   fit.chi2 = 2 * summary.final_cost;
-  fit.dof = static_cast<int>(points.size()) - static_cast<int>(a.size());
+  fit.dof = static_cast<int>(points.size()) - law.parameters();
+  // With each v_i eliminated, a point weighs by its error across the law.
+  MatrixXd information = MatrixXd::Zero(a.size(), a.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::RowVectorXd row = law.Row(v[i], points[i].direction);
+    information +=
+        row.transpose() * row / law.VarianceAcross(a, points[i], v[i]);
+    fit.largest_force_N = std::max(fit.largest_force_N, points[i].force_N);
+  }
   const double scale = fit.noise_scale();
-  fit.covariance = scale * scale *
-                   Information(points, degree, friction, a, v)
-                       .completeOrthogonalDecomposition()
-                       .pseudoInverse();
-  const auto by_force = [](const ForcePoint& x, const ForcePoint& y) {
-    return x.force_N < y.force_N;
-  };
-  const auto [low, high] =
-      std::minmax_element(points.begin(), points.end(), by_force);
-  fit.least_force_N = low->force_N;
-  fit.largest_force_N = high->force_N;
+  fit.covariance =
+      scale * scale *
+      information.completeOrthogonalDecomposition().pseudoInverse();
   const auto [near, far] = std::minmax_element(v.begin(), v.end());
   fit.least_mm = *near;
   fit.largest_mm = *far;
@@ -139,24 +182,41 @@ StiffnessFit FitDegree(const std::vector<ForcePoint>& points, int degree,
   return fit;
 }
 
+bool Rises(const StiffnessFit& fit) {
+  for (int k = 0; k <= 20; ++k) {
+    const double u = fit.least_mm + (fit.largest_mm - fit.least_mm) * k / 20;
+    if (!(fit.law.Slope(fit.coefficients, u) > 0)) return false;
+  }
+  return true;
+}
+
+bool BothDirections(const std::vector<ForcePoint>& points) {
+  const auto forward =
+      std::count_if(points.begin(), points.end(),
+                    [](const ForcePoint& p) { return p.direction > 0; });
+  return forward >= 2 &&
+         static_cast<std::ptrdiff_t>(points.size()) - forward >= 2;
+}
+
 }  // namespace
 
 double StiffnessFit::friction_N() const {
-  return has_friction ? coefficients[degree + 1] : std::nan("");
+  return law.has_friction ? coefficients[law.degree + 1] : std::nan("");
 }
 
 double StiffnessFit::friction_std_N() const {
-  return has_friction ? std::sqrt(covariance(degree + 1, degree + 1))
-                      : std::nan("");
+  return law.has_friction
+             ? std::sqrt(covariance(law.degree + 1, law.degree + 1))
+             : std::nan("");
 }
 
 double StiffnessFit::ForceAt(double displacement_mm) const {
-  return ForceOf(coefficients, degree, displacement_mm);
+  return law.Force(coefficients, displacement_mm);
 }
 
 double StiffnessFit::DisplacementAt(double force_N) const {
-  if (degree == 1) return (force_N - coefficients[0]) / coefficients[1];
-  // Little beyond the points, where the law still rises.
+  if (law.degree == 1) return (force_N - coefficients[0]) / coefficients[1];
+  // Not far beyond the points, where the law still rises.
   const double beyond = 0.05 * (largest_mm - least_mm);
   double low = least_mm - beyond, high = largest_mm + beyond;
   for (int i = 0; i < 100; ++i) {
@@ -180,46 +240,32 @@ StiffnessFit FitStiffness(const std::vector<ForcePoint>& points,
   if (sliding.size() < kLeastPoints) {
     throw InputError(
         "too few force-displacement points: " + std::to_string(sliding.size()) +
-        " with one contact and a slider that moves; expected at "
-        "least " +
+        " with one contact and a moving slider; expected at least " +
         std::to_string(kLeastPoints));
   }
-  const auto both_ways = [](const std::vector<ForcePoint>& some) {
-    const auto forward =
-        std::count_if(some.begin(), some.end(),
-                      [](const ForcePoint& p) { return p.direction > 0; });
-    return forward >= 2 &&
-           static_cast<std::ptrdiff_t>(some.size()) - forward >= 2;
-  };
   const std::size_t standing = points.size() - sliding.size();
-  // Judged by the law that can follow most.
-  const int judge =
-      std::min(most_degree, static_cast<int>(sliding.size()) -
-                                LeastPoints(0, both_ways(sliding)));
-  const std::vector<std::size_t> left_out = TakeOutContradicting(
-      std::max(1, judge), both_ways(sliding), kLeastPoints + 1, &sliding);
-  const bool friction = both_ways(sliding);
+  // The most flexible law decides which points contradict the others.
+  const ForceLaw constant{0, BothDirections(sliding)};
+  const ForceLaw judge{
+      std::max(1, std::min(most_degree, static_cast<int>(sliding.size()) -
+                                            LeastPoints(constant))),
+      constant.has_friction};
+  const std::vector<std::size_t> left_out =
+      TakeOutContradicting(judge, &sliding);
+  const auto count = static_cast<int>(sliding.size());
   std::optional<StiffnessFit> best;
   double least = 0;
   for (int degree = 1; degree <= most_degree; ++degree) {
-    if (degree > 1 &&
-        static_cast<int>(sliding.size()) < LeastPoints(degree, friction)) {
-      break;
-    }
-    StiffnessFit fit = FitDegree(sliding, degree, friction);
-    const double price = static_cast<double>(fit.coefficients.size()) *
-                         std::log(static_cast<double>(sliding.size()));
-    // A law that turns back is none.
-    bool rises = true;
-    for (int k = 0; k <= 20; ++k) {
-      const double u = fit.least_mm + (fit.largest_mm - fit.least_mm) * k / 20;
-      rises = rises && SlopeOf(fit.coefficients, degree, u) > 0;
-    }
-    if (best && (!rises || fit.chi2 + price >= least)) continue;
-    least = fit.chi2 + price;
+    const ForceLaw law{degree, BothDirections(sliding)};
+    if (degree > 1 && count < LeastPoints(law)) break;
+    StiffnessFit fit = FitLaw(sliding, law);
+    const double price = fit.chi2 + law.parameters() * std::log(count);
+    // A curved law must rise with the displacement everywhere.
+    if (best && (!Rises(fit) || price >= least)) continue;
+    least = price;
     best = fit;
   }
-  if (!(best->coefficients[1] > 0) && best->degree == 1) {
+  if (!(best->coefficients[1] > 0) && best->law.degree == 1) {
     throw InputError("the force does not grow with the displacement");
   }
   best->standing = standing;

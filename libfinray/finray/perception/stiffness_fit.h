@@ -2,56 +2,61 @@
 #define FINRAY_PERCEPTION_STIFFNESS_FIT_H_
 
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
-#include "finray/perception/force_displacement.h"
+#include "finray/perception/force_law.h"
 
 namespace finray {
 
-/// Force law of an object, with Coulomb friction of its slider:
+/// An object's force law fitted to points whose u and F both have errors, of
+/// covariance C_i. The true displacements v_i are unknowns too, and
 ///
-///   F = sum_m a_m u^m + s F_c,   m = 0 .. degree,   s = +-1 the direction.
+///   sum_i |C_i^-1/2 (u_i - v_i, F_i - F(v_i, s_i))|^2  -> min
 ///
-/// Both u and F of each point have errors, of covariance C_i. The true
-/// displacements v_i are unknowns too, and
-///
-///   sum_i |C_i^-1/2 (u_i - v_i, F_i - F(v_i))|^2  -> min
-///
-/// is the maximum likelihood fit, for a straight line York's. F_c is an unknown
-/// if the points have both directions; else it is within a_0.
+/// is the maximum-likelihood fit (for a straight line, York's). If all points
+/// have the same direction, a_0 includes the friction.
 struct StiffnessFit {
-  Eigen::VectorXd coefficients;  ///< a_0 .. a_degree, then F_c if fitted
-  Eigen::MatrixXd covariance;    ///< of these, of the points' errors
-  int degree = 1;
-  bool has_friction = false;
+  ForceLaw law;
+  Eigen::VectorXd coefficients;  ///< a_0 .. a_degree, then F_c if it is fitted
+  Eigen::MatrixXd covariance;    ///< of the coefficients
   double chi2 = 0;
   int dof = 0;
-  double least_force_N = 0, largest_force_N = 0;  ///< of the points
-  double least_mm = 0, largest_mm = 0;
-  std::size_t points = 0, standing = 0;  ///< used; not, as the slider stood
-  std::vector<std::size_t> left_out;     ///< rows that contradict the others
+  double largest_force_N = 0;           ///< of the points
+  double least_mm = 0, largest_mm = 0;  ///< range of the displacements v_i
+  std::size_t points = 0;               ///< used by the fit
+  std::size_t standing = 0;             ///< left out: the slider stood
+  std::vector<std::size_t> left_out;    ///< rows that contradict the others
 
   double friction_N() const;  ///< NaN if it is not fitted
   double friction_std_N() const;
-  /// Without friction.
+  /// The force without friction, and its inverse.
   double ForceAt(double displacement_mm) const;
   double DisplacementAt(double force_N) const;
-  /// 1, or sqrt(chi2 / dof) where noise alone hardly makes chi2 as large.
+  /// sqrt(chi2 / dof) if noise alone is unlikely to cause that chi2, else 1.
   double noise_scale() const;
 };
 
 constexpr std::size_t kLeastPoints = 5;
 
-/// Fits the points that slide, less those that contradict most others
-/// (contradicting_points.h). The degree is the one from 1 to `most_degree` with
-/// the least chi2 + p log(n), p parameters from n points. Throws InputError for
-/// fewer than kLeastPoints of them.
+/// Fits the points where the slider moves. Chooses the degree, from 1 to
+/// `most_degree`, with the least chi2 + p log(n) for p parameters and n points.
+///
+/// Points that contradict the law which most points follow are left out (a
+/// light touch may read like a heavy one). With c_i the squared distance of
+/// point i across that law, in units of its variance, and
+///
+///   s^2 = max(1, median(c) / median of chi2 with one degree of freedom),
+///
+/// a point contradicts the law if P(chi2 > c_i / s^2) < 0.01 / n. All points
+/// stay if more than a quarter would go or no more than kLeastPoints would be
+/// left.
+///
+/// Throws InputError for fewer than kLeastPoints points and for a force that
+/// does not grow with the displacement.
 StiffnessFit FitStiffness(const std::vector<ForcePoint>& points,
                           int most_degree);
 
-/// Stiffness between two forces, (F_2 - F_1) / (u(F_2) - u(F_1)), whatever the
-/// law; for a straight line its slope.
+/// Secant stiffness between two forces, (F_2 - F_1) / (u(F_2) - u(F_1)).
 struct Stiffness {
   double N_per_mm, std;
 };

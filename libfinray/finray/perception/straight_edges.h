@@ -8,11 +8,12 @@
 
 namespace finray {
 
-// Where an outline is about as flat as the beam that touches it, the beam lies
-// along it or rests on both ends of an edge, and the gauges hardly tell which:
-// one contact in the middle explains readings of two at the ends, at a place
-// that is too far out by the beam's sag, L^2 kappa / 8. Such a stretch is drawn
-// as a straight edge between its ends, which touches from either side tell.
+// Where an outline is about as flat as the beam that touches it, the beam
+// either lies along the outline or rests on both ends of an edge. The gauges
+// hardly tell which: one contact in the middle explains the readings of two
+// contacts at the ends, but its place is too far out by the beam's sag, L^2
+// kappa / 8. Such a stretch becomes a straight edge. Touches on either side
+// determine its ends.
 
 /// A stretch of the outline from one normal angle to another.
 struct StraightEdge {
@@ -21,19 +22,28 @@ struct StraightEdge {
   double length_mm;
 };
 
-/// Stretches whose radius of curvature exceeds kFlat of the beam's, and that
-/// are longer than kShortestEdge of the mean radius. Touches that lie along one
-/// are against it unless its mean radius of curvature exceeds kAlong of the
-/// beam's, where they are not to be trusted.
+/// The stretches whose radius of curvature is above kFlat of the beam's and
+/// whose length is above kShortestEdge of the mean radius. A touch that lies
+/// along a stretch speaks against an edge, unless the stretch's mean radius of
+/// curvature is above kAlong of the beam's, where such touches are not
+/// reliable.
 constexpr double kFlat = 0.15;
 constexpr double kAlong = 0.4;
 constexpr double kShortestEdge = 0.3;
 std::vector<StraightEdge> FindStraightEdges(const ConvexCurve& curve,
                                             const std::vector<Touch>& touches);
 
-/// Whether a touch lies along an edge and not at one of its ends.
-bool LiesAlong(const Touch& touch, const StraightEdge& edge,
-               const ConvexCurve& curve);
+/// For each touch, whether it lies along one of the edges and not at its ends.
+std::vector<bool> Along(const std::vector<Touch>& touches,
+                        const std::vector<StraightEdge>& edges,
+                        const ConvexCurve& curve);
+
+/// The outline on a grid in which narrow cells hold the lengths of the edges.
+ConvexCurve WithEdges(const ConvexCurve& curve,
+                      const std::vector<StraightEdge>& edges, int cells);
+
+/// The edge with the length and the mean normal that its cells have in a fit.
+StraightEdge Settled(StraightEdge edge, const ConvexCurve& curve);
 
 }  // namespace finray
 

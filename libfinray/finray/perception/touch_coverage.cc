@@ -18,12 +18,14 @@ std::string StatusCounts(const Touches& touches) {
   return text;
 }
 
-int Degrees(double angle_rad) {
-  return static_cast<int>(std::lround(angle_rad * 180 / M_PI));
+// The angle in whole degrees from -180 to 180.
+std::string Degrees(double angle_rad) {
+  return std::to_string(
+      std::lround(std::remainder(angle_rad, 2 * M_PI) * 180 / M_PI));
 }
 
-// Where the outline comes nearest to the contact point: on an edge the normal
-// does not tell the place.
+// The arc length where the outline is nearest to the contact point. On a
+// straight edge the normal does not say where that is.
 double NearestArc(const ConvexCurve& curve, const Touch& touch) {
   constexpr int kSteps = 200;
   const double perimeter = curve.perimeter_mm();
@@ -55,24 +57,15 @@ void CheckSpread(const Touches& touches, const std::string& path) {
   for (const Touch& touch : touches.usable) {
     normals.push_back(touch.normal_angle_rad);
   }
-  std::sort(normals.begin(), normals.end());
-  double widest = 0, from = 0, to = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double next = i + 1 < count ? normals[i + 1] : normals[0] + 2 * M_PI;
-    if (next - normals[i] <= widest) continue;
-    widest = next - normals[i];
-    from = normals[i];
-    to = next;
-  }
-  if (widest <= kWidestGap_rad) return;
-  throw SpreadError(path +
-                    ": badly spread touches: none has a normal between " +
-                    std::to_string(Degrees(from)) + " and " +
-                    std::to_string(Degrees(std::remainder(to, 2 * M_PI))) +
-                    " deg of the object's frame, a gap of " +
-                    std::to_string(Degrees(widest)) + " deg; at most " +
-                    std::to_string(Degrees(kWidestGap_rad)) +
-                    " deg; turn the object there and touch it");
+  const AngleGap gap = WidestGap(normals);
+  const double width = gap.to_rad - gap.from_rad;
+  if (width <= kWidestGap_rad) return;
+  throw SpreadError(
+      path + ": badly spread touches: none has a normal between " +
+      Degrees(gap.from_rad) + " and " + Degrees(gap.to_rad) +
+      " deg of the object's frame, a gap of " +
+      std::to_string(std::lround(width * 180 / M_PI)) + " deg; at most " +
+      Degrees(kWidestGap_rad) + " deg; turn the object there and touch it");
 }
 
 TouchCoverage::TouchCoverage(const ConvexCurve& curve,

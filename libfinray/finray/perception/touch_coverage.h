@@ -1,7 +1,9 @@
 #ifndef FINRAY_PERCEPTION_TOUCH_COVERAGE_H_
 #define FINRAY_PERCEPTION_TOUCH_COVERAGE_H_
 
+#include <cmath>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "finray/perception/convex_curve.h"
@@ -9,19 +11,19 @@
 
 namespace finray {
 
-/// Touches that leave too much of the object open. what() says how much.
+/// The touches leave too much of the object open; what() says how much.
 class SpreadError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 constexpr std::size_t kLeastTouches = 8;
-/// Between neighbouring normals. An outline closes over a gap of 180 deg in any
-/// way.
+/// Widest gap between neighbouring normals. At 180 deg an outline could close
+/// in any way.
 constexpr double kWidestGap_rad = M_PI / 2;
-/// Of the mean radius, perimeter / (2 pi): neighbouring contact points so far
-/// apart along the outline leave it without support between them, but for a
-/// little beside each.
+/// In units of the mean radius, perimeter / (2 pi): where neighbouring contact
+/// points are farther apart along the outline than kWidestSpacing, the outline
+/// between them is not supported, except within kBesideContact of each.
 constexpr double kWidestSpacing = 0.5;
 constexpr double kBesideContact = 0.05;
 
@@ -29,16 +31,15 @@ constexpr double kBesideContact = 0.05;
 /// SpreadError for normals with a gap wider than kWidestGap_rad.
 void CheckSpread(const Touches& touches, const std::string& path);
 
-/// Where along an outline touches lie. What they say of the rest is that a
-/// convex outline passes between the chord and the beams: a straight edge, or
-/// the opening of a dent, which no touch can tell from one, as a finger bends
-/// round what it touches.
+/// Which part of an outline the touches support. Elsewhere they only say that a
+/// convex outline passes between the chord and the beams. It may be a straight
+/// edge or the opening of a dent: a finger bends around both alike.
 class TouchCoverage {
  public:
   TouchCoverage(const ConvexCurve& curve, const std::vector<Touch>& touches);
 
   bool Supports(double normal_angle_rad) const;
-  /// The share of the outline, by length, that is supported.
+  /// The supported share of the outline's length.
   double SupportedShare() const;
   /// Stretches without support, counter-clockwise.
   struct Gap {
@@ -49,7 +50,7 @@ class TouchCoverage {
 
  private:
   struct Stretch {
-    double from_mm, to_mm;  // arc lengths; may pass the perimeter
+    double from_mm, to_mm;  // arc lengths; to_mm may exceed the perimeter
   };
 
   const ConvexCurve& curve_;

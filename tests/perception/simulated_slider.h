@@ -1,19 +1,35 @@
-#include "finray/perception/compliant_contact.h"
+#ifndef FINRAY_TESTS_PERCEPTION_SIMULATED_SLIDER_H_
+#define FINRAY_TESTS_PERCEPTION_SIMULATED_SLIDER_H_
 
+#include <algorithm>
 #include <cmath>
-#include <random>
+#include <functional>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "finray/objects/object_contact.h"
-#include "finray/scene/frame_columns.h"
+#include "perception/noisy_log.h"
 
 namespace finray {
-namespace {
 
-constexpr double kTolerance_mm = 1e-7;
+// Simulated compliance experiments: a finger against a circular pulley on a
+// slider, which yields along -x of frame S by any force law.
 
-// The finger against a pulley held so far in that its rim would reach a depth
-// behind the front beam at rest.
+/// The force of an object at a displacement. It grows with the displacement.
+using ForceFunction = std::function<double(double)>;
+
+struct SliderProtocol {
+  double radius_mm = 10;  ///< of the pulley
+  double height_mm = 65;
+  int steps = 20;
+  double step_mm = 1;
+  bool unloading = true;  ///< go back as well, step by step
+  double friction_N = 0;  ///< Coulomb friction of the slider
+};
+
+/// The finger against a pulley that is held in place. The depth says how far
+/// its rim would reach behind the front beam at rest.
 class HeldPulley {
  public:
   HeldPulley(const Finger& plant, const Discretization& discretization,
@@ -22,11 +38,11 @@ class HeldPulley {
         object_{Outline(CircleOutline{protocol.radius_mm}), {}},
         solver_(plant, discretization) {}
 
-  /// The force on the pulley along -x. The solver is left there.
+  /// The force on the pulley along -x. Leaves the solver at the equilibrium;
+  /// throws std::runtime_error if there is none.
   double Force(double depth_mm) {
-    const ObjectPose pose{{Centre(depth_mm), protocol_.height_mm}, 0};
-    const ObjectContact found =
-        SolveObjectContact(object_, pose, 0, &solver_, contacts_);
+    const ObjectContact found = SolveObjectContact(
+        object_, {Centre(depth_mm), 0}, 0, &solver_, contacts_);
     if (found.status == ObjectContactStatus::kNoContact) return 0;
     if (found.status != ObjectContactStatus::kContact) {
       throw std::runtime_error("no equilibrium against the pulley");
@@ -40,9 +56,10 @@ class HeldPulley {
     return force;
   }
 
-  /// The depth at which a rising function of it is 0, from 0 to `deepest`.
+  /// The root of a rising function of the depth, from 0 to `deepest`.
   template <class Function>
-  double Depth(double deepest, Function excess) {
+  static double Depth(double deepest, Function excess) {
+    constexpr double kTolerance_mm = 1e-7;
     double low = 0, high = deepest;
     double at_low = excess(low), at_high = excess(high);
     if (at_low >= 0) return low;
@@ -59,8 +76,8 @@ class HeldPulley {
     return 0.5 * (low + high);
   }
 
-  double Centre(double depth_mm) const {
-    return depth_mm - protocol_.radius_mm;
+  Eigen::Vector2d Centre(double depth_mm) const {
+    return {depth_mm - protocol_.radius_mm, protocol_.height_mm};
   }
   const EquilibriumSolver& solver() const { return solver_; }
 
@@ -71,55 +88,24 @@ class HeldPulley {
   std::vector<PointContact> contacts_;
 };
 
-class NoisyLog {
- public:
-  NoisyLog(std::size_t rows, const SliderNoise& noise, std::uint64_t stream)
-      : table_(rows), noise_(noise), generator_(noise.seed * 1000 + stream) {}
-
-  void Write(std::size_t row, const EquilibriumSolver& solver, double x_mm,
-             double y_mm, double force_N) {
-    const Finger& finger = solver.model().finger();
-    for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
-      const Gauge& gauge = finger.gauges[j];
-      const int index = static_cast<int>(j);
-      table_.MutableNumbers(GaugeVolts(index))[row] =
-          gauge.Volts(solver.gauge_angle(index)) +
-          Error(noise_.gauges ? gauge.noise_V : 0);
-    }
-    table_.MutableNumbers("object_x_mm")[row] =
-        x_mm + Error(noise_.stage_std_mm);
-    table_.MutableNumbers("object_y_mm")[row] =
-        y_mm + Error(noise_.stage_std_mm);
-    table_.MutableNumbers("force_N")[row] = force_N;
-  }
-
-  FrameTable& table() { return table_; }
-
- private:
-  double Error(double std) { return std > 0 ? std * normal_(generator_) : 0.0; }
-
-  FrameTable table_;
-  SliderNoise noise_;
-  std::mt19937_64 generator_;
-  std::normal_distribution<double> normal_;
-};
-
-}  // namespace
-
-FrameTable SimulateSlider(const Finger& plant, const ForceLaw& law,
-                          const Discretization& discretization,
-                          const SliderProtocol& protocol,
-                          const SliderNoise& noise) {
+/// The log of pushing a finger against the slider, step by step: gauge_<j>_V,
+/// object_x_mm and object_y_mm (the slider's unloaded place), force_N along the
+/// slider. While the slider stands, its friction balances the rest of the
+/// force.
+inline FrameTable SimulateSlider(const Finger& plant, const ForceFunction& law,
+                                 const Discretization& discretization,
+                                 const SliderProtocol& protocol,
+                                 const LogNoise& noise) {
   HeldPulley pulley(plant, discretization, protocol);
   const int rows = protocol.steps * (protocol.unloading ? 2 : 1);
-  NoisyLog log(static_cast<std::size_t>(rows), noise, 1);
+  NoisyLog log(rows, noise, noise.seed * 1000 + 1);
   double displacement = 0;
   for (int row = 0; row < rows; ++row) {
     const int step =
         row < protocol.steps ? row + 1 : 2 * protocol.steps - 1 - row;
     const double approach = protocol.step_mm * step;
+    // The slider's displacement if it slides against this friction.
     const auto sliding = [&](double friction) {
-      // In depth; the way of the slider is the rest of the approach.
       return approach - pulley.Depth(approach, [&](double depth) {
         return pulley.Force(depth) - law(approach - depth) - friction;
       });
@@ -131,27 +117,30 @@ FrameTable SimulateSlider(const Finger& plant, const ForceLaw& law,
     } else if (backward < displacement) {
       displacement = backward;
     }
-    const double depth = approach - displacement;
-    const double force = pulley.Force(depth);
-    log.Write(static_cast<std::size_t>(row), pulley.solver(),
-              pulley.Centre(approach), protocol.height_mm, force);
+    const double force = pulley.Force(approach - displacement);
+    log.Write(row, pulley.solver(), pulley.Centre(approach), force);
   }
   return std::move(log.table());
 }
 
-SqueezeLogs SimulateSqueeze(const Finger& first, const Finger& second,
-                            const ForceLaw& displacement,
-                            const Discretization& discretization,
-                            const SliderProtocol& protocol, double largest_N,
-                            const SliderNoise& noise) {
+/// Logs of two fingers that squeeze an object, which is free to shift, with
+/// forces that rise to `largest_N` in `steps`. In each log the object is a
+/// pulley of half its size, whose place is the middle between both palms.
+/// `displacement` is the inverse of the force law.
+struct SqueezeLogs {
+  FrameTable first, second;
+};
+inline SqueezeLogs SimulateSqueeze(const Finger& first, const Finger& second,
+                                   const ForceFunction& displacement,
+                                   const Discretization& discretization,
+                                   const SliderProtocol& protocol,
+                                   double largest_N, const LogNoise& noise) {
   const Finger* fingers[] = {&first, &second};
   std::vector<NoisyLog> logs;
-  for (std::uint64_t k = 0; k < 2; ++k) {
-    logs.emplace_back(static_cast<std::size_t>(protocol.steps), noise, k + 2);
-  }
   std::vector<HeldPulley> pulleys;
-  for (const Finger* finger : fingers) {
-    pulleys.emplace_back(*finger, discretization, protocol);
+  for (std::uint64_t k = 0; k < 2; ++k) {
+    logs.emplace_back(protocol.steps, noise, noise.seed * 1000 + k + 2);
+    pulleys.emplace_back(*fingers[k], discretization, protocol);
   }
   constexpr double kDeepest_mm = 40;
   for (int row = 0; row < protocol.steps; ++row) {
@@ -162,14 +151,16 @@ SqueezeLogs SimulateSqueeze(const Finger& first, const Finger& second,
           kDeepest_mm, [&](double d) { return pulleys[k].Force(d) - force; });
       pulleys[k].Force(depth[k]);
     }
-    // Both palms have come as near to the middle.
+    // Both palms are equally far from the middle.
     const double closing = 0.5 * (depth[0] + depth[1] + displacement(force));
     for (std::size_t k = 0; k < 2; ++k) {
-      logs[k].Write(static_cast<std::size_t>(row), pulleys[k].solver(),
-                    pulleys[k].Centre(closing), protocol.height_mm, force);
+      logs[k].Write(row, pulleys[k].solver(), pulleys[k].Centre(closing),
+                    force);
     }
   }
   return {std::move(logs[0].table()), std::move(logs[1].table())};
 }
 
 }  // namespace finray
+
+#endif  // FINRAY_TESTS_PERCEPTION_SIMULATED_SLIDER_H_
