@@ -1,4 +1,4 @@
-// Force control simulated: a finger on a drive against an object, with the
+// Simulates force control: a drive presses a finger against an object, with the
 // estimator in the loop.
 
 #include <cstdio>
@@ -6,9 +6,7 @@
 #include <set>
 
 #include "app.h"
-#include "finray/control/control_log.h"
-#include "finray/control/control_summary.h"
-#include "finray/control/experiment_settings.h"
+#include "finray/control/control_files.h"
 #include "finray/control/experiment_yaml.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/sha256.h"
@@ -16,25 +14,28 @@
 #include "progress_bar.h"
 
 DEFINE_string(finger, "",
-              "finger YAML: what estimator and controllers know; the simulated "
-              "one differs by the experiment's model_error");
+              "finger YAML, the model of estimator and controllers; the "
+              "simulated finger differs by the experiment's model_error");
 DEFINE_string(experiment, "", "experiment YAMLs, separated by commas");
 DEFINE_string(out_dir, "", "folder for logs and summary.yaml");
-DEFINE_int32(draws, 0, "of finger and noise; 0: as the experiment says");
-DEFINE_uint64(seed, 1, "of the first draw");
+DEFINE_int32(draws, 0,
+             "number of draws of finger and noise; 0: that of the experiment");
+DEFINE_uint64(seed, 1, "seed of the first draw");
 DEFINE_int32(threads, 1, "threads over draws and controllers");
-DEFINE_string(scheme, "taylor", "of the estimator: rigid_chain or taylor");
+DEFINE_string(scheme, "taylor",
+              "scheme of the estimator: rigid_chain or taylor");
 DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
-DEFINE_bool(dump_config, false, "print what is in force, and stop");
-DEFINE_bool(strict, false,
-            "fail a gate, exit code 4, if any run of a controller is stopped, "
-            "or the first controller's rms error is not below the paper's");
+DEFINE_bool(dump_config, false, "print the settings in force and stop");
+DEFINE_bool(
+    strict, false,
+    "exit with code 4 if a run was stopped or if the first controller's "
+    "rms error is not below the paper's");
 
 namespace {
 
 using namespace finray;
 
-constexpr int kDigits = 12;  // 0.3 is 0.3
+constexpr int kDigits = 12;  // writes 0.1 + 0.2 as 0.3
 
 struct Job {
   std::string path;
@@ -46,7 +47,7 @@ std::string InFolder(const std::string& name) {
   return (std::filesystem::path(FLAGS_out_dir) / name).string();
 }
 
-// All of them, before anything runs.
+// Reads all experiments, so that an error shows before anything runs.
 std::vector<Job> ReadJobs(const Finger& finger) {
   std::vector<Job> jobs;
   std::set<std::string> names;
@@ -56,7 +57,7 @@ std::vector<Job> ReadJobs(const Finger& finger) {
     Experiment& experiment = jobs.back().experiment;
     if (!names.insert(experiment.name).second) {
       throw InputError(path + ": another experiment is called '" +
-                       experiment.name + "' too; results would be the same");
+                       experiment.name + "'; both would write the same files");
     }
     if (FLAGS_draws > 0) experiment.draws = FLAGS_draws;
   }
@@ -64,7 +65,7 @@ std::vector<Job> ReadJobs(const Finger& finger) {
   return jobs;
 }
 
-// Of all runs.
+// The number of periods in all runs.
 std::size_t Periods(const std::vector<Job>& jobs) {
   double periods = 0;
   for (const Job& job : jobs) {
@@ -88,15 +89,14 @@ void WriteLogs(const Finger& finger, const Job& job) {
 void WriteSummary(const std::vector<Job>& jobs,
                   const Discretization& discretization) {
   YamlEmitter yaml(kDigits);
-  yaml << YAML::BeginMap << YAML::Key << "finger" << YAML::Value << FLAGS_finger
-       << YAML::Key << "scheme" << YAML::Value
-       << SchemeName(discretization.scheme) << YAML::Key << "seed"
-       << YAML::Value << FLAGS_seed << YAML::Key << "version" << YAML::Value
-       << FINRAY_VERSION << YAML::Key << "inputs" << YAML::Value
-       << YAML::BeginMap << YAML::Key << FLAGS_finger << YAML::Value
-       << Sha256OfFile(FLAGS_finger);
+  yaml << YAML::BeginMap;
+  YamlPairs(&yaml, "finger", FLAGS_finger, "scheme",
+            SchemeName(discretization.scheme), "seed", FLAGS_seed, "version",
+            FINRAY_VERSION);
+  yaml << YAML::Key << "inputs" << YAML::Value << YAML::BeginMap;
+  YamlPair(&yaml, FLAGS_finger, Sha256OfFile(FLAGS_finger));
   for (const Job& job : jobs) {
-    yaml << YAML::Key << job.path << YAML::Value << Sha256OfFile(job.path);
+    YamlPair(&yaml, job.path, Sha256OfFile(job.path));
   }
   yaml << YAML::EndMap << YAML::Key << "experiments" << YAML::Value
        << YAML::BeginSeq;
@@ -135,7 +135,7 @@ void PrintTable(const std::vector<Job>& jobs) {
   }
 }
 
-// What did not go on to its end.
+// Returns whether any run ended early.
 bool WarnOfFailures(const std::vector<Job>& jobs) {
   bool failed = false;
   for (const Job& job : jobs) {
@@ -201,7 +201,7 @@ int Run() {
 int main(int argc, char** argv) {
   return finray::RunApp(
       argc, argv,
-      "Force control with the estimator in the loop, simulated.\n"
+      "Simulates force control with the estimator in the loop.\n"
       "finray_control --finger F.yaml --experiment E.yaml[,E2.yaml] "
       "--out_dir D [--seed 1] [--draws 10]",
       Run);

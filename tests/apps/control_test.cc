@@ -1,4 +1,4 @@
-// finray_control as a user meets it.
+// finray_control on the command line.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -81,7 +81,7 @@ TEST_F(ControlAppTest, ResultsDoNotDependOnThreads) {
   EXPECT_EQ(folder_.Read("out/summary.yaml"), one);
 }
 
-// Gauges that are lost stop the loop: a gate for --strict.
+// Lost gauges stop the loop, which --strict reports.
 TEST_F(ControlAppTest, AStoppedRunFailsTheGate) {
   folder_.Write("e.yaml",
                 std::string(kExperiment) +

@@ -26,7 +26,7 @@ TEST(ActuatorTest, IsLimitedInSpeed) {
               1e-12);
 }
 
-// The course does not depend on when one looks.
+// The motion does not depend on the times at which it is read.
 TEST(ActuatorTest, IsIntegratedExactly) {
   Actuator coarse(kSettings, 0), fine(kSettings, 0);
   for (int k = 0; k < 20; ++k) {
@@ -47,7 +47,7 @@ TEST(ActuatorTest, PredictionLooksAheadOnly) {
   EXPECT_NEAR(drive.AdvanceTo(0.2), later, 1e-12);
 }
 
-// The command is right with others still in flight.
+// The command is right although others are still in flight.
 TEST(ActuatorTest, CommandForArrivesInTime) {
   Actuator drive(kSettings, 0);
   drive.Command(0, 0.5);
@@ -62,7 +62,7 @@ TEST(ActuatorTest, MeasuredPositionReplacesItsOwn) {
   drive.AdvanceTo(1);
   drive.CorrectTo(1);
   EXPECT_DOUBLE_EQ(drive.PredictAt(1), 1);
-  // The command in force takes it back.
+  // The command in force moves it back.
   EXPECT_NEAR(drive.AdvanceTo(1.03), std::exp(-1), 1e-12);
 }
 

@@ -41,7 +41,7 @@ TEST(ContactWatchTest, LightTouches) {
   EXPECT_EQ(Judge(light, kBent, kSafety), Sight::kLight);
   light.alternative[0].normal_N = 30;
   EXPECT_EQ(Judge(light, kBent, kSafety), Sight::kBlind);
-  // Gauges that hardly bend: 50 N at the tip are not believed.
+  // The gauges hardly bend, so 50 N at the tip cannot be true.
   EXPECT_EQ(Judge(Estimate(FrameStatus::kOk, 50, 8), 0.5, kSafety),
             Sight::kLight);
 }
@@ -58,7 +58,7 @@ TEST(ContactWatchTest, HoldsThenStopsForGood) {
   ContactWatch watch(kSafety, 0.04);
   EXPECT_EQ(watch.Next({kFreeFinger}, {0}), LoopMode::kApproach);
   Take(&watch, {kGood});
-  // 0.1 s are two periods and a half.
+  // 0.1 s is two and a half periods.
   EXPECT_EQ(watch.Next({kLost}, {kBent}), LoopMode::kHold);
   EXPECT_EQ(watch.Next({kLost}, {kBent}), LoopMode::kHold);
   Take(&watch, {kGood});
@@ -69,7 +69,7 @@ TEST(ContactWatchTest, HoldsThenStopsForGood) {
   EXPECT_EQ(watch.Next({kGood}, {kBent}), LoopMode::kStopped);
 }
 
-// Here and there a frame looks sure: nobody acts on it.
+// Single frames that look sure do not start the control.
 TEST(ContactWatchTest, SingleSureFramesAreNotBelieved) {
   ContactWatch watch({0.3, 10, 1.5, 5}, 0.04);
   for (int i = 0; i < 50; ++i) {
@@ -78,7 +78,7 @@ TEST(ContactWatchTest, SingleSureFramesAreNotBelieved) {
   }
 }
 
-// A light touch that is seen does not keep the finger from going on.
+// The finger moves on although it sees a light touch.
 TEST(ContactWatchTest, GoesOnFromALightTouch) {
   ContactWatch watch(kSafety, 0.04);
   const FrameEstimate light = Estimate(FrameStatus::kOk, 0.8, 0.1);

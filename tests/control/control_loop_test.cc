@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "finray/control/control_statistics.h"
+#include "finray/control/run_experiment.h"
 #include "test_finger.h"
 
 namespace finray {
 namespace {
 
-// Steps of 3 to 5 N at 80 mm, with the noise of the gauges and a model error of
-// the size that a calibration leaves.
+// A step from 3 to 5 N at 80 mm, with noisy gauges and the model error of a
+// calibrated finger.
 Experiment StepExperiment() {
   Experiment experiment;
   experiment.scene.most_contacts = 1;
@@ -39,8 +39,8 @@ double LargestForce(const LoopRun& run) {
   return largest;
 }
 
-// From no contact to the force that is wanted, by either controller. Errors are
-// those of the estimator: 1 % of EI is 0.05 N.
+// Both controllers go from no contact to the wanted force. The error that
+// remains is the estimator's: 1 % of EI is 0.05 N.
 TEST(ControlLoopTest, ApproachesTouchesAndRegulates) {
   const Experiment experiment = StepExperiment();
   for (const ControllerSettings& controller : {ControllerSettings(), Pi()}) {
@@ -57,7 +57,7 @@ TEST(ControlLoopTest, ApproachesTouchesAndRegulates) {
   }
 }
 
-// What a perfect model without noise would do, but for the loop's own limits.
+// With a perfect model and without noise only the limits of the loop remain.
 TEST(ControlLoopTest, NoModelErrorNoError) {
   Experiment experiment = StepExperiment();
   experiment.model_error = {};
@@ -79,7 +79,7 @@ TEST(ControlLoopTest, EqualSeedsGiveEqualRuns) {
   EXPECT_NE(last(4).force_N, last(5).force_N);
 }
 
-// Two fingers that differ, one motor.
+// One motor drives two different fingers.
 TEST(ControlLoopTest, TwoFingersGrasp) {
   Experiment experiment = StepExperiment();
   experiment.mechanism = Mechanism(
@@ -94,8 +94,8 @@ TEST(ControlLoopTest, TwoFingersGrasp) {
   EXPECT_LT(StatisticsOf(run, experiment, true).settled.rms(), 0.15);
 }
 
-// Gauges drop out in the middle: the drive stays where it is, and if they do
-// not come back it goes back to the start and the force goes to 0.
+// When gauges drop out, the drive stays. If they do not return, the drive goes
+// back to its start and the force to 0.
 TEST(ControlLoopTest, HoldsAndStopsWithoutGauges) {
   for (const ControllerSettings& controller : {ControllerSettings(), Pi()}) {
     Experiment experiment = StepExperiment();
@@ -114,7 +114,7 @@ TEST(ControlLoopTest, HoldsAndStopsWithoutGauges) {
   }
 }
 
-// They are away for less than hold_s: the loop goes on.
+// The gauges return within hold_s, and the loop goes on.
 TEST(ControlLoopTest, GoesOnAfterAShortLoss) {
   Experiment experiment = StepExperiment();
   experiment.gauge_loss = GaugeLoss{3, 3.3, {0, 1, 2}};
@@ -124,9 +124,9 @@ TEST(ControlLoopTest, GoesOnAfterAShortLoss) {
   EXPECT_LT(StatisticsOf(run, experiment, true).settled.rms(), 0.15);
 }
 
-// Above the last rib gauges tell a contact badly, and the finger is so stiff
-// that the delay alone costs newtons: what the loop cannot see it must not
-// push.
+// Above the last rib the gauges hardly determine a contact, and the finger is
+// so stiff that it gains newtons during the delay. The loop must not push a
+// contact that it cannot see.
 TEST(ControlLoopTest, DoesNotPushWhatItCannotSee) {
   Experiment experiment = StepExperiment();
   experiment.start.y_mm = 128;
@@ -145,7 +145,7 @@ TEST(ControlLoopTest, DoesNotPushWhatItCannotSee) {
   }
 }
 
-// The same, forced: the limit of the std is below what gauges can do.
+// No contact is seen, because the gauges cannot reach the limit of the std.
 TEST(ControlLoopTest, StopsAboveTheStdLimit) {
   Experiment experiment = StepExperiment();
   experiment.safety.force_std_limit_N = 0.01;
@@ -155,7 +155,7 @@ TEST(ControlLoopTest, StopsAboveTheStdLimit) {
   for (const LoopRow& row : run.rows) EXPECT_NE(row.mode, LoopMode::kControl);
 }
 
-// A stage that is slower than it says: the measured drive makes up for it.
+// The stage is slower than assumed; measuring the drive makes up for it.
 TEST(ControlLoopTest, WrongDelay) {
   Experiment experiment = StepExperiment();
   experiment.true_delay_s = 0.2;

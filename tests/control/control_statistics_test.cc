@@ -1,8 +1,8 @@
-#include "finray/control/control_statistics.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "finray/control/run_experiment.h"
 
 namespace finray {
 namespace {
@@ -38,7 +38,7 @@ TEST(ControlStatisticsTest, OffsetAndLag) {
   EXPECT_NEAR(LagSeconds(Follow(experiment, 0, 0.13), experiment), 0.13, 1e-9);
 }
 
-// 2 N for 0.1 s behind each step, nothing else.
+// The error is 2 N for 0.1 s after each step and 0 otherwise.
 TEST(ControlStatisticsTest, SettledIsBehindTheSteps) {
   Experiment experiment;
   experiment.set_point = Trajectory(StepTrajectory{{4, 6, 4}, 3});

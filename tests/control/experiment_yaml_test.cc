@@ -33,7 +33,7 @@ class ExperimentYamlTest : public testing::Test {
     return ReadExperiment(folder_.Write("e.yaml", text), PaperFinger());
   }
 
-  // `from` replaced by `to` gives this message.
+  // Expects this message if `to` replaces `from`.
   void ExpectError(const std::string& from, const std::string& to,
                    const std::string& message) {
     std::string text = kGoodYaml;

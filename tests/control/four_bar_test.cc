@@ -1,9 +1,9 @@
-#include "finray/control/four_bar.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
+
+#include "finray/control/mechanism.h"
 
 namespace finray {
 namespace {
@@ -24,7 +24,7 @@ TEST(FourBarTest, Parallelogram) {
   }
 }
 
-// A general linkage keeps all lengths, whatever the angle.
+// A general linkage keeps its lengths at every angle.
 TEST(FourBarTest, LinksKeepTheirLengths) {
   const FourBarJoints joints = {{0, 0}, {5, 30}, {45, -4}, {62, 41}};
   const FourBar linkage(joints);

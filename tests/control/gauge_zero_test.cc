@@ -19,7 +19,7 @@ Measurements Readings(const Finger& finger,
   return readings;
 }
 
-// Offsets that the model does not know, on a finger that its ribs bend.
+// The finger is bent by its ribs and has offsets that the model does not know.
 TEST(GaugeZeroTest, TakesUnknownOffsetsOff) {
   Finger model = PaperFinger();
   model.ribs[2].length_mm += 0.3;

@@ -17,7 +17,7 @@ TEST(MechanismTest, StageMovesTowardsTheObject) {
   EXPECT_NEAR(stage.ApproachPerDrive(5, 80), 1, 1e-9);
 }
 
-// Whichever way the crank has to turn, a growing drive closes.
+// A growing drive closes the gripper, in whichever direction its crank turns.
 TEST(MechanismTest, GripperCloses) {
   for (const double up : {60.0, -60.0}) {
     const Mechanism gripper(FourBar(

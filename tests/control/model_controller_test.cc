@@ -14,7 +14,7 @@ namespace {
 constexpr ActuatorSettings kActuation = {1.0 / 30, 0.13, 0.03, 50};
 const RigidObject kCircle{Outline(CircleOutline{15}), {}};
 
-// The loop without estimator and noise: contacts as they truly are.
+// The loop without estimator and noise: the controller sees the true contacts.
 class ModelControllerTest : public testing::Test {
  protected:
   static std::vector<PushModel> Models(int fingers) {
@@ -25,7 +25,7 @@ class ModelControllerTest : public testing::Test {
     return models;
   }
 
-  // The forces at each period, from a touch on.
+  // The forces at each period, starting in contact.
   static std::vector<double> Run(ModelController* controller, Plant* plant,
                                  Actuator* drive, const Trajectory& set_point,
                                  int periods, double speed_mm_s = 0) {
@@ -36,11 +36,11 @@ class ModelControllerTest : public testing::Test {
           plant->At(drive->AdvanceTo(time), speed_mm_s * time);
       EXPECT_EQ(state.failure, "");
       forces.push_back(state.force_N);
-      std::vector<SeenContact> seen;
+      std::vector<ContactEstimate> seen;
       for (const PlantFinger& finger : state.fingers) {
         EXPECT_EQ(finger.contacts.size(), 1u);
         seen.push_back(
-            {finger.contacts[0].arc_mm, finger.contacts[0].normal_N, 0.02});
+            {finger.contacts[0].arc_mm, 0, finger.contacts[0].normal_N, 0.02});
       }
       drive->Command(time, controller->Next(time, seen, set_point, *drive));
     }
@@ -48,8 +48,8 @@ class ModelControllerTest : public testing::Test {
   }
 };
 
-// A step is followed as soon as delay and drive allow: 2 N are 2.3 mm, 46 ms at
-// 50 mm/s and some time constants behind the delay. No overshoot.
+// The force follows a step as soon as delay and drive allow, without overshoot:
+// 2 N are 2.3 mm, which take 46 ms at 50 mm/s and some time constants.
 TEST_F(ModelControllerTest, StepIsFollowedAtOnce) {
   ModelController controller(Models(1), Mechanism(), {10, 0, 0},
                              kActuation.period_s, false);
@@ -64,7 +64,7 @@ TEST_F(ModelControllerTest, StepIsFollowedAtOnce) {
   EXPECT_LT(*std::max_element(forces.begin(), forces.end()), 6.02);
 }
 
-// Near the tip the finger is more than twice as stiff: nothing to tune.
+// Near the tip the finger is more than twice as stiff; nothing needs tuning.
 TEST_F(ModelControllerTest, StiffPartsAreNoMatter) {
   ModelController controller(Models(1), Mechanism(), {10, 0, 0},
                              kActuation.period_s, false);
@@ -78,7 +78,7 @@ TEST_F(ModelControllerTest, StiffPartsAreNoMatter) {
   EXPECT_LT(*std::max_element(forces.begin() + 30, forces.end()), 6.02);
 }
 
-// With a preview a harmonic course has no lag.
+// With a preview the force follows a harmonic set-point without lag.
 TEST_F(ModelControllerTest, PreviewTakesTheLag) {
   double errors[2];
   for (const bool preview : {false, true}) {
@@ -112,7 +112,7 @@ TEST_F(ModelControllerTest, FollowsAMovingObject) {
   EXPECT_NEAR(controller.filter().velocity_mm_s(), 3, 0.02);
 }
 
-// An object on a spring of 0.5 N/mm: the second step knows it.
+// The first step teaches the controller a spring of 0.5 N/mm.
 TEST_F(ModelControllerTest, LearnsASpring) {
   const RigidObject sprung{Outline(CircleOutline{15}), ObjectSpring{0.5, M_PI}};
   ModelController controller(Models(1), Mechanism(), {10, 0.5, 0.01},

@@ -21,7 +21,7 @@ TEST(ObjectFilterTest, FollowsAConstantSpeed) {
   EXPECT_EQ(filter.compliance_mm_per_N(), 0);
 }
 
-// z = o - c F: the force varies, and o and c come apart.
+// A varying force separates o and c in z = o - c F.
 TEST(ObjectFilterTest, LearnsTheCompliance) {
   ObjectFilter filter({10, 0.5, 0}, kPeriod_s);
   std::mt19937_64 generator(1);
@@ -45,8 +45,8 @@ TEST(ObjectFilterTest, ComplianceIsNotNegative) {
   }
 }
 
-// Errors of the place are as large as the covariance says: 200 motions whose
-// acceleration is what the prior says.
+// The errors of the place agree with the covariance, over 200 motions with the
+// acceleration of the prior.
 TEST(ObjectFilterTest, CovarianceIsHonest) {
   std::mt19937_64 generator(2);
   std::normal_distribution<double> unit;
@@ -67,7 +67,7 @@ TEST(ObjectFilterTest, CovarianceIsHonest) {
     const double error = filter.PlaceIn(0) - place;
     sum += error * error / filter.covariance()(0, 0);
   }
-  // chi2 of 200 degrees of freedom over 200: std 0.1.
+  // chi2 with 200 degrees of freedom, over 200, has the std 0.1.
   EXPECT_NEAR(sum / kMotions, 1, 0.3);
 }
 

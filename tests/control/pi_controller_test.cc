@@ -19,8 +19,8 @@ TEST(PiControllerTest, GainsFollowTheRule) {
   EXPECT_NEAR(lazy.integral_gain_per_s(), 0.4 / (0.9 * 0.04) / 0.16, 1e-12);
 }
 
-// On the plant that it is tuned for it settles without steady error, and
-// overshoots as little as the rule promises (4 %).
+// On the plant for which it is tuned the PI settles without a steady error and
+// overshoots by about the 4 % of the rule.
 TEST(PiControllerTest, SettlesOnALinearPlant) {
   const ActuatorSettings settings = {1.0 / 30, 0.13, 0.03, 50};
   PiController controller(0.9, settings, false);
@@ -31,14 +31,14 @@ TEST(PiControllerTest, SettlesOnALinearPlant) {
     const double time = k * settings.period_s;
     force = 0.9 * drive.AdvanceTo(time);
     highest = std::max(highest, force);
-    drive.Command(time,
-                  controller.Next(time, {{80, force, 0.1}}, set_point, drive));
+    drive.Command(
+        time, controller.Next(time, {{80, 0, force, 0.1}}, set_point, drive));
   }
   EXPECT_NEAR(force, 3, 1e-4);
   EXPECT_LT(highest, 3 * 1.08);
 }
 
-// Against a drive at its speed limit the command does not run away.
+// The command does not run away from a drive at its speed limit.
 TEST(PiControllerTest, DoesNotWindUp) {
   const ActuatorSettings settings = {1.0 / 30, 0.13, 0.03, 2};
   PiController controller(0.9, settings, false);
@@ -48,7 +48,7 @@ TEST(PiControllerTest, DoesNotWindUp) {
     const double time = k * settings.period_s;
     drive.AdvanceTo(time);
     const double command =
-        controller.Next(time, {{80, 0, 0.1}}, set_point, drive);
+        controller.Next(time, {{80, 0, 0, 0.1}}, set_point, drive);
     EXPECT_LT(command - drive.PredictAt(time), 2 * (0.13 + 0.034 + 0.03));
     drive.Command(time, command);
   }

@@ -21,8 +21,8 @@ Mechanism Gripper() {
       FourBar(FourBarJoints{{10, -75}, {10, -15}, {50, -75}, {50, -15}}));
 }
 
-// The gap is what the stage has to go before it touches; from there on the
-// force is what the model of push_model.h says.
+// The stage touches after the gap. From there on the force is that of
+// PushModel.
 TEST(PlantTest, StageAgainstAFixedObject) {
   const Finger finger = PaperFinger();
   Plant plant({finger}, Mechanism(), kPlantCircle, 0, 80, 0, 2);
@@ -35,12 +35,12 @@ TEST(PlantTest, StageAgainstAFixedObject) {
     ASSERT_TRUE(push);
     const double depth = push->object_x_mm + 15;
     EXPECT_NEAR(plant.At(2 + depth, 0).force_N, force, 1e-6);
-    // The object moves by as much instead of the stage.
+    // The object may move by as much instead of the stage.
     EXPECT_NEAR(plant.At(0, 2 + depth).force_N, force, 1e-6);
   }
 }
 
-// An object on a spring gives: F = k u, and the finger's way is shorter by u.
+// An object on a spring yields by u with F = k u, so the finger bends less.
 TEST(PlantTest, ObjectOnASpring) {
   const Finger finger = PaperFinger();
   const RigidObject sprung{Outline(CircleOutline{15}), ObjectSpring{0.5, M_PI}};
@@ -54,7 +54,7 @@ TEST(PlantTest, ObjectOnASpring) {
               1e-6);
 }
 
-// Unlike fingers shift the object until their forces along x are the same.
+// Different fingers shift the object until their forces along x are equal.
 TEST(PlantTest, TwoFingersBalance) {
   const Finger finger = PaperFinger();
   std::mt19937_64 generator(3);
@@ -69,14 +69,14 @@ TEST(PlantTest, TwoFingersBalance) {
     EXPECT_GT(state.force_N, 0.5);
     EXPECT_NEAR(state.fingers[0].force_N.x(), state.fingers[1].force_N.x(),
                 1e-6);
-    // The object is the same: both gaps together do not depend on its shift.
+    // The sum of both gaps does not depend on the shift of the object.
     const double sum = state.fingers[0].object.position_mm.x() +
                        state.fingers[1].object.position_mm.x();
     EXPECT_NEAR(sum, 2 * (-16 + 60 * std::sin(motor)), 1e-9);
   }
 }
 
-// Two equal fingers are each like one against a wall.
+// Each of two equal fingers acts like one finger against a wall.
 TEST(PlantTest, EqualFingersDoNotShiftTheObject) {
   const Finger finger = PaperFinger();
   Plant two({finger, finger}, Gripper(), kPlantCircle, 0, 80, 0, 1);

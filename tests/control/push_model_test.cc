@@ -12,8 +12,8 @@ using Eigen::Vector2d;
 
 const Pose<double> kHere = MakePose<double>(0, Vector2d::Zero());
 
-// Where the model says that a circle must be for a force, contact statics find
-// that force; at three heights, with and without friction.
+// Contact statics find the force at the place that the model gives for it, at
+// three heights, with and without friction.
 TEST(PushModelTest, AgreesWithObjectContact) {
   const Finger finger = PaperFinger();
   const RigidObject circle{Outline(CircleOutline{15}), {}};
@@ -35,7 +35,7 @@ TEST(PushModelTest, AgreesWithObjectContact) {
   }
 }
 
-// df/dx against differences of forces.
+// Compares df/dx with a difference of places.
 TEST(PushModelTest, StiffnessIsTheSlopeOfTheForce) {
   PushModel model(PaperFinger(), 15, 0, {});
   for (const double y : {50.0, 80.0, 110.0}) {
@@ -48,8 +48,7 @@ TEST(PushModelTest, StiffnessIsTheSlopeOfTheForce) {
   }
 }
 
-// The finger is nearly four times as stiff near its tip: what one number for
-// all contacts cannot know.
+// Near its tip the finger is more than twice as stiff as in its middle.
 TEST(PushModelTest, StiffnessDependsOnTheHeight) {
   PushModel model(PaperFinger(), 15, 0, {});
   const double middle = model.At(kHere, 80, 6, 80)->stiffness_N_per_mm;
@@ -58,7 +57,7 @@ TEST(PushModelTest, StiffnessDependsOnTheHeight) {
   EXPECT_GT(top, 2 * middle);
 }
 
-// A finger that has moved and turned feels the same circle the same.
+// The push does not depend on where the finger's base is.
 TEST(PushModelTest, BaseMayBeAnywhere) {
   PushModel model(PaperFinger(), 15, 0, {});
   const Pose<double> moved = MakePose<double>(0.2, Vector2d(-7, 3));

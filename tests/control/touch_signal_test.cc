@@ -21,7 +21,7 @@ Measurements Readings(const Finger& finger, double arc_mm, double force_N) {
   return readings;
 }
 
-// No contact of touch_N within 0.2 and 0.8 of the length is called lighter.
+// A contact of touch_N between 0.2 and 0.8 of the length gives 1 or more.
 TEST(TouchSignalTest, IsOneOrMoreForTheTouchItself) {
   const Finger finger = PaperFinger();
   const TouchSignal signal(finger, 1.5, {});

@@ -22,7 +22,7 @@ TEST(TrajectoryTest, StepsJumpAtTheirTime) {
   const Trajectory steps(StepTrajectory{{4, 6, 10}, 1});
   EXPECT_DOUBLE_EQ(steps.At(-1), 4);
   EXPECT_DOUBLE_EQ(steps.At(0.999), 4);
-  // 30 periods of 1 / 30 s are a second but for rounding.
+  // 30 periods of 1 / 30 s are a second, apart from rounding.
   double second = 0;
   for (int i = 0; i < 30; ++i) second += 1.0 / 30;
   EXPECT_DOUBLE_EQ(steps.At(second), 6);

@@ -42,7 +42,7 @@ void Actuator::Move(double seconds) {
   if (!(seconds > 0)) return;
   time_s_ += seconds;
   const double tau = settings_.time_constant_s, limit = settings_.speed_limit;
-  // At the speed limit until the servo asks for less.
+  // The drive moves at the speed limit until the servo asks for less.
   const double way = command_ - position_;
   const double beyond = std::abs(way) - limit * tau;
   if (beyond > 0) {

@@ -5,40 +5,39 @@
 
 namespace finray {
 
-/// A drive's position is in mm (stage) or rad (motor).
+/// Positions of a drive are in mm (stage) or rad (motor).
 struct ActuatorSettings {
   double period_s = 1.0 / 30;  ///< between commands
-  double delay_s = 0.13;       ///< from a command until the drive knows of it
-  double time_constant_s = 0;  ///< tau of its position servo; 0: none
-  double speed_limit = 1e9;    ///< per s
+  double delay_s = 0.13;       ///< between a command and its effect
+  double time_constant_s = 0;  ///< tau of the position servo; 0: none
+  double speed_limit = 1e9;    ///< per second
 };
 
-/// A position drive behind a delay: with c(t) the last command that is older
+/// A position drive behind a delay. With c(t) the last command that is older
 /// than the delay,
 ///
-///   du/dt = (c - u) / tau, at most the speed limit either way,
+///   du/dt = (c - u) / tau, limited to the speed limit in both directions,
 ///
-/// integrated exactly. The plant has one, and a controller another one, which
-/// tells it where its own commands in flight will take the drive.
+/// integrated exactly. The plant has one. A controller has a copy, which
+/// predicts where the commands in flight will take the drive.
 class Actuator {
  public:
   Actuator(const ActuatorSettings& settings, double start);
 
   const ActuatorSettings& settings() const { return settings_; }
 
-  /// A command, not older than the one before.
+  /// Gives a command. Times do not decrease.
   void Command(double time_s, double position);
-  /// The last one given.
   double last_command() const { return last_command_; }
 
-  /// Goes on to a time and returns the position there. Times do not decrease.
+  /// Advances to a time and returns the position there. Times do not decrease.
   double AdvanceTo(double time_s);
-  /// Where the drive is, as it has been measured.
+  /// Replaces the position by a measured one.
   void CorrectTo(double position) { position_ = position; }
-  /// The position at a later time, if no further command comes.
+  /// The position at a later time without further commands.
   double PredictAt(double time_s) const;
-  /// The command that, given at `time_s` and replaced a period later, takes the
-  /// drive to `position` at time_s + delay + period, if its speed allows it.
+  /// The command at `time_s`, to be replaced a period later, that takes the
+  /// drive to `position` at time_s + delay + period if its speed allows that.
   double CommandFor(double time_s, double position) const;
 
  private:
@@ -51,7 +50,7 @@ class Actuator {
   ActuatorSettings settings_;
   double time_s_ = 0;
   double position_;
-  double command_;  // the one in force
+  double command_;  // in force
   double last_command_;
   std::deque<InFlight> in_flight_;
 };

@@ -5,24 +5,14 @@
 namespace finray {
 
 const char* LoopModeName(LoopMode mode) {
-  switch (mode) {
-    case LoopMode::kZero:
-      return "zero";
-    case LoopMode::kApproach:
-      return "approach";
-    case LoopMode::kControl:
-      return "control";
-    case LoopMode::kHold:
-      return "hold";
-    case LoopMode::kStopped:
-      return "stopped";
-  }
-  return "";
+  constexpr const char* kNames[] = {"zero", "approach", "control", "hold",
+                                    "stopped"};
+  return kNames[static_cast<int>(mode)];
 }
 
 bool IsLight(const FrameEstimate& estimate, double signal,
              const Safety& safety) {
-  // NaN, where there is no number, is not below.
+  // NaN, an unknown force or signal, is not light.
   if (signal < 1) return true;
   const ContactEstimate& contact = estimate.contact[0];
   const ContactEstimate& other = estimate.alternative[0];

@@ -7,56 +7,56 @@
 
 namespace finray {
 
-/// When the loop may trust what it sees.
+/// Limits that decide when the loop trusts an estimate.
 struct Safety {
-  /// A contact whose force has a larger std is not seen.
+  /// A contact is seen if the std of its force is at most this.
   double force_std_limit_N = 0.3;
-  /// So long the drive waits for an unseen contact to come back.
+  /// How long the drive waits for a contact that is no longer seen.
   double hold_s = 0.5;
-  /// Below it a contact that is not determined is a light touch, towards which
-  /// the finger may move on; above it, one that is not seen.
+  /// A contact that is not determined counts as a light touch below this force,
+  /// and the finger may move on. Above it, the contact counts as not seen.
   double touch_N = 1.5;
-  /// Of drive towards an untouched object, mm/s or rad/s.
+  /// Speed of the drive towards an object without contact, mm/s or rad/s.
   double approach_speed = 5;
 };
 
 /// What the drive does.
 enum class LoopMode {
-  kZero,      ///< The gauges are being zeroed: the drive waits.
-  kApproach,  ///< No contact, or a light touch: on towards the object.
-  kControl,   ///< The contact is seen: the controller drives.
-  kHold,      ///< It is not: the drive stays.
-  kStopped,   ///< It was not for hold_s: back to the start, for good.
+  kZero,      ///< It waits while the gauges are zeroed.
+  kApproach,  ///< It moves towards the object: no contact or a light touch.
+  kControl,   ///< It follows the controller: the contact is seen.
+  kHold,      ///< It stays: the contact is not seen.
+  kStopped,   ///< It returns to its start for good: not seen for hold_s.
 };
 const char* LoopModeName(LoopMode mode);
 
 /// What one estimate is good for.
 enum class Sight {
-  kSeen,   ///< Status ok and a std of the force below the limit.
-  kFree,   ///< No contact.
-  kLight,  ///< Neither, but IsLight.
-  kBlind,  ///< All else, bad input included.
+  kSeen,   ///< The status is ok and the std of the force within the limit.
+  kFree,   ///< There is no contact.
+  kLight,  ///< It is not seen, but IsLight.
+  kBlind,  ///< Anything else, such as bad input.
 };
 Sight Judge(const FrameEstimate& estimate, double signal, const Safety& safety);
 
-/// A light touch, if any: gauges that bend less than under touch_N anywhere on
-/// the finger but at its ends (`signal`, see TouchSignal, below 1); or an
-/// estimate that with twice its std does not reach touch_N, nor does its
-/// alternative.
+/// Whether a contact can only be a light touch. Either the gauges bend less
+/// than touch_N would bend them anywhere but at the finger's ends (`signal` of
+/// TouchSignal below 1), or the estimate and its alternative both stay below
+/// touch_N with twice their std.
 bool IsLight(const FrameEstimate& estimate, double signal,
              const Safety& safety);
 
-/// Follows what the fingers see, frame by frame, and decides who drives: nobody
-/// if any finger is blind; the controller if all see, and have seen for
-/// kSureFrames when it takes over, as among many unobservable frames a few look
-/// sure; otherwise the approach.
+/// Follows the estimates of all fingers and decides what the drive does. If any
+/// finger is blind, it holds. If all fingers see their contact, the controller
+/// drives; it takes over after kSureFrames such frames in a row, because a few
+/// of many unobservable frames look sure. Otherwise the approach goes on.
 class ContactWatch {
  public:
   static constexpr int kSureFrames = 3;
 
   ContactWatch(const Safety& safety, double period_s);
 
-  /// With the TouchSignal of each finger.
+  /// Takes the estimate and the TouchSignal of each finger, once a period.
   LoopMode Next(const std::vector<FrameEstimate>& estimates,
                 const std::vector<double>& signals);
 

@@ -7,8 +7,10 @@
 #include <random>
 
 #include "finray/control/gauge_zero.h"
-#include "finray/control/make_controller.h"
+#include "finray/control/model_controller.h"
+#include "finray/control/pi_controller.h"
 #include "finray/control/touch_signal.h"
+#include "finray/io/error.h"
 #include "finray/sensing/live_estimator.h"
 
 namespace finray {
@@ -22,6 +24,37 @@ std::vector<Finger> TrueFingers(const Finger& finger,
     fingers.push_back(Perturbed(finger, experiment.model_error, generator));
   }
   return fingers;
+}
+
+// Null for kNone. The PI's stiffness is that of the model under the middle
+// force of the set-point, at the height for which it is tuned.
+std::unique_ptr<Controller> MakeController(
+    const Finger& finger, const Experiment& experiment,
+    const ControllerSettings& settings, const Discretization& discretization) {
+  if (settings.kind == ControllerKind::kNone) return nullptr;
+  const Mechanism& mechanism = experiment.mechanism;
+  std::vector<PushModel> models;
+  for (int i = 0; i < mechanism.fingers(); ++i) {
+    models.emplace_back(finger, experiment.scene.circle_radius_mm().value_or(0),
+                        experiment.scene.friction_coefficient, discretization);
+  }
+  if (settings.kind == ControllerKind::kModel) {
+    return std::make_unique<ModelController>(
+        std::move(models), mechanism, settings.prior,
+        experiment.actuation.period_s, settings.preview);
+  }
+  const double y_mm = settings.tuned_at_mm;
+  const auto push =
+      models.front().At(MakePose<double>(0, Eigen::Vector2d::Zero()), y_mm,
+                        experiment.set_point.Middle(), y_mm);
+  if (!push) {
+    throw InputError("the finger's model has no contact of " +
+                     std::to_string(experiment.set_point.Middle()) +
+                     " N at the height that the PI is tuned for");
+  }
+  return std::make_unique<PiController>(
+      push->stiffness_N_per_mm * mechanism.ApproachPerDrive(0, y_mm),
+      experiment.actuation, settings.preview);
 }
 
 class Loop {
@@ -95,14 +128,16 @@ class Loop {
       row->estimates.push_back(estimators_[i]->Next(readings));
       row->readings.push_back(std::move(readings));
     }
-    std::vector<SeenContact> seen;
-    for (const FrameEstimate& estimate : row->estimates) {
-      seen.push_back(Seen(estimate));
-      // No contact is no force, and has no std.
-      if (estimate.status == FrameStatus::kNoContact) seen.back().normal_N = 0;
-    }
-    row->seen = MeanForce(seen);
+    row->seen = MeanForceOf(Contacts(*row));
     return true;
+  }
+
+  static std::vector<ContactEstimate> Contacts(const LoopRow& row) {
+    std::vector<ContactEstimate> contacts;
+    for (const FrameEstimate& estimate : row.estimates) {
+      contacts.push_back(estimate.contact[0]);
+    }
+    return contacts;
   }
 
   void LoseGauges(double time_s, Measurements* readings) const {
@@ -143,12 +178,9 @@ class Loop {
     switch (row.mode) {
       case LoopMode::kZero:
         return last;
-      case LoopMode::kControl: {
-        std::vector<SeenContact> seen;
-        for (const FrameEstimate& e : row.estimates) seen.push_back(Seen(e));
-        return controller_->Next(row.time_s, seen, experiment_.set_point,
-                                 known_drive_);
-      }
+      case LoopMode::kControl:
+        return controller_->Next(row.time_s, Contacts(row),
+                                 experiment_.set_point, known_drive_);
       case LoopMode::kApproach:
         controller_->Lost();
         return last + step;

@@ -6,24 +6,25 @@
 #include <vector>
 
 #include "finray/control/contact_watch.h"
+#include "finray/control/controller.h"
 #include "finray/control/experiment.h"
-#include "finray/control/observation.h"
 #include "finray/control/plant.h"
 #include "finray/sensing/frame_estimate.h"
 
 namespace finray {
 
-/// One period of the loop, at its beginning.
+/// The state of the loop at the start of a period.
 struct LoopRow {
   double time_s = 0;
   double set_point_N = 0;
   double object_motion_mm = 0;
-  double drive = 0;    ///< truly
+  double drive = 0;    ///< true position
   double command = 0;  ///< given at this time
-  double force_N = 0;  ///< truly
-  SeenForce seen;      ///< by the estimators; NaN where they see nothing
+  double force_N = 0;  ///< true force
+  MeanForce seen;      ///< estimated; NaN without an estimate
   LoopMode mode = LoopMode::kApproach;
-  bool sure = false;  ///< All fingers see their contact, or that there is none.
+  bool sure =
+      false;  ///< Every finger sees its contact or sees that it is free.
   std::vector<PlantFinger> fingers;
   std::vector<Measurements> readings;  ///< with noise, zeroed
   std::vector<FrameEstimate> estimates;
@@ -31,16 +32,19 @@ struct LoopRow {
 
 struct LoopRun {
   std::vector<LoopRow> rows;
-  /// Why the plant has no equilibrium behind the last row; empty if it has.
+  /// Why the plant has no equilibrium after the last row; empty if it has one.
   std::string failure;
 };
 
-/// A closed loop at the rate of the actuation: plant, gauges with their noise,
-/// zeroed before the approach (GaugeZero), a LiveEstimator for each finger,
-/// ContactWatch, controller, delay and drive, plant. `finger` is what
-/// estimators and controllers know; the plant's fingers differ from it by the
-/// experiment's model error. Equal seeds give equal fingers and noise to all
-/// controllers.
+/// Simulates a closed loop at the rate of the actuation: plant, noisy gauges
+/// (zeroed before the approach, GaugeZero), a LiveEstimator for each finger,
+/// ContactWatch, controller, drive with delay, plant. Estimators and
+/// controllers know `finger`; the plant's fingers differ from it by the
+/// experiment's model error. The seed determines fingers and noise for any
+/// controller. A controller knows the finger's model, the mechanism, the
+/// actuation, the friction and, if the object is a circle, its radius; other
+/// objects count as points. Throws InputError if the model has no contact for
+/// which the PI can be tuned.
 LoopRun RunLoop(const Finger& finger, const Experiment& experiment,
                 const ControllerSettings& controller,
                 const Discretization& discretization, std::uint64_t seed);

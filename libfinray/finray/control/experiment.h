@@ -15,7 +15,7 @@
 
 namespace finray {
 
-/// Where the object is before the loop starts.
+/// The place of the object before the loop starts.
 struct ObjectStart {
   double y_mm = 0;
   double angle_rad = 0;
@@ -25,51 +25,52 @@ struct ObjectStart {
 enum class ControllerKind {
   kModel,  ///< ModelController
   kPi,     ///< PiController
-  kNone,   ///< The drive stays at its start: sensing only.
+  kNone,   ///< none: the drive stays at its start
 };
 
 struct ControllerSettings {
   ControllerKind kind = ControllerKind::kModel;
-  std::string name;      ///< of its log and its summary
-  bool preview = false;  ///< Does it know the set-point beforehand?
-  ObjectPrior prior;     ///< of the model controller
-  /// The height of a contact that the PI is tuned for.
+  std::string name;      ///< in its log and in the summary
+  bool preview = false;  ///< It knows the set-point in advance.
+  ObjectPrior prior;     ///< for the model controller
+  /// The height of the contact for which the PI is tuned.
   double tuned_at_mm = 0;
 };
 
-/// Gauges that read nothing for some time.
+/// Gauges of the first finger that read nothing for some time.
 struct GaugeLoss {
   double from_s, to_s;
-  std::vector<int> gauges;  ///< from 0; of the first finger
+  std::vector<int> gauges;  ///< from 0
 };
 
-/// What a paper reports of the same experiment, to stand beside ours.
+/// What the paper reports for the same experiment.
 struct PaperFigure {
   int figure = 0;
   double rms_N = 0, max_N = 0;
 };
 
-/// A force-control experiment, all of it.
+/// A force-control experiment.
 struct Experiment {
   std::string name;
   std::optional<PaperFigure> paper;
   Scene scene;  ///< with the object
   ObjectStart start;
-  Trajectory motion;  ///< of the object towards the finger, mm; nobody knows it
+  /// Of the object towards the finger, mm. No controller knows it.
+  Trajectory motion;
   Mechanism mechanism;
-  ActuatorSettings actuation;  ///< as the controllers believe it
+  ActuatorSettings actuation;  ///< as the controllers assume it
   double true_delay_s = 0.13;
-  bool drive_is_measured = true;  ///< as by a stage's encoder, without error
-  double delay_std_s = 0;         ///< of an error of the true delay, drawn anew
+  bool drive_is_measured = true;  ///< without error, as by a stage's encoder
+  double delay_std_s = 0;         ///< of the true delay, over the draws
   Trajectory set_point;           ///< N
   std::vector<ControllerSettings> controllers;
   Safety safety;
   ModelError model_error;
   std::optional<GaugeLoss> gauge_loss;
-  double zero_s = 0.5;  ///< at the start, for zeroing the gauges; 0: not
+  double zero_s = 0.5;  ///< time to zero the gauges in; 0: they are not zeroed
   double duration_s = 20;
   double measure_from_s = 4;
-  double settled_after_s = 1;  ///< of a step of the set-point
+  double settled_after_s = 1;  ///< after a step of the set-point
   int draws = 10;
 };
 

@@ -13,6 +13,105 @@ namespace {
 
 using Eigen::Vector2d;
 
+enum Range { kAny, kNonNegative, kPositive };
+
+// A number of an experiment: its key in the YAML and its unit there, in the
+// units of the program (1e-3 for a key in ms).
+struct Field {
+  std::string key;
+  double* value;
+  Range range = kNonNegative;
+  double unit = 1;
+  bool required = false;
+};
+using Fields = std::vector<Field>;
+
+// Reads the fields of a mapping, which may have `other` keys too.
+void Read(const YamlMap& map, const Fields& fields,
+          std::vector<std::string> other = {}) {
+  for (const Field& field : fields) other.push_back(field.key);
+  map.AllowOnly(other);
+  for (const Field& field : fields) {
+    if (!field.required && !map.Has(field.key)) continue;
+    const double number = field.range == kAny ? map.Number(field.key)
+                          : field.range == kPositive
+                              ? map.PositiveNumber(field.key)
+                              : map.NonNegativeNumber(field.key);
+    *field.value = field.unit * number;
+  }
+}
+
+void Emit(const Fields& fields, YamlEmitter* yaml) {
+  for (const Field& field : fields) {
+    YamlPair(yaml, field.key, *field.value / field.unit);
+  }
+}
+
+// Speeds of a stage are in mm/s, those of a gripper's motor in deg/s.
+Field Speed(const std::string& key, const Experiment& experiment, double* value,
+            bool required) {
+  const bool gripper = experiment.mechanism.is_gripper();
+  return {key + (gripper ? "_deg_s" : "_mm_s"), value, kPositive,
+          gripper ? kDegree : 1, required};
+}
+
+Fields StartFields(Experiment* e) {
+  return {{"y_mm", &e->start.y_mm, kAny, 1, true},
+          {"gap_mm", &e->start.gap_mm},
+          {"angle_deg", &e->start.angle_rad, kAny, kDegree}};
+}
+
+Fields ActuationFields(Experiment* e, double* rate_Hz) {
+  ActuatorSettings& actuation = e->actuation;
+  return {{"rate_Hz", rate_Hz, kPositive, 1, true},
+          {"delay_ms", &actuation.delay_s, kNonNegative, 1e-3, true},
+          {"true_delay_ms", &e->true_delay_s, kNonNegative, 1e-3},
+          {"time_constant_ms", &actuation.time_constant_s, kNonNegative, 1e-3},
+          Speed("speed_limit", *e, &actuation.speed_limit, true)};
+}
+
+Fields SafetyFields(Experiment* e) {
+  Safety& safety = e->safety;
+  return {{"force_std_limit_N", &safety.force_std_limit_N, kPositive},
+          {"hold_s", &safety.hold_s},
+          {"touch_N", &safety.touch_N, kPositive},
+          Speed("approach_speed", *e, &safety.approach_speed, false)};
+}
+
+Fields ModelErrorFields(Experiment* e) {
+  ModelError& error = e->model_error;
+  return {{"stiffness_std_percent", &error.stiffness_percent},
+          {"gauge_gain_std_percent", &error.gauge_gain_percent},
+          {"gauge_offset_std_V", &error.gauge_offset_V},
+          {"rib_length_std_mm", &error.rib_length_mm},
+          {"delay_std_ms", &e->delay_std_s, kNonNegative, 1e-3}};
+}
+
+Fields RunFields(Experiment* e) {
+  return {{"zero_s", &e->zero_s},
+          {"duration_s", &e->duration_s, kPositive, 1, true},
+          {"measure_from_s", &e->measure_from_s},
+          {"settled_after_s", &e->settled_after_s}};
+}
+
+Fields ControllerFields(ControllerSettings* controller) {
+  switch (controller->kind) {
+    case ControllerKind::kModel:
+      return {{"object_acceleration_mm_s2",
+               &controller->prior.acceleration_mm_s2, kPositive},
+              {"object_compliance_mm_per_N",
+               &controller->prior.compliance_mm_per_N}};
+    case ControllerKind::kPi:
+      return {{"tuned_at_mm", &controller->tuned_at_mm, kPositive}};
+    case ControllerKind::kNone:
+      break;
+  }
+  return {};
+}
+
+// In the order of ControllerKind.
+constexpr const char* kControllerTypes[] = {"model", "pi", "none"};
+
 Scene ReadLoopScene(const YamlMap& yaml) {
   const auto file = [&] {
     const auto folder = std::filesystem::path(yaml.path()).parent_path();
@@ -21,8 +120,8 @@ Scene ReadLoopScene(const YamlMap& yaml) {
   Scene scene = yaml.IsMap("scene") ? ReadScene(yaml.Map("scene")) : file();
   const char* missing = nullptr;
   if (!scene.object) missing = "an object";
-  if (scene.contacts) missing = "contacts: auto, one or none being decided";
-  if (scene.object_std_mm) missing = "no measurements: nobody sees the object";
+  if (scene.contacts) missing = "contacts: auto";
+  if (scene.object_std_mm) missing = "no measurements of the object";
   if (missing != nullptr) {
     yaml.Fail("scene", std::string("scene: a control loop needs ") + missing);
   }
@@ -91,63 +190,39 @@ Mechanism ReadMechanism(const YamlMap& yaml) {
   }
 }
 
-// Speeds of a stage are in mm/s, those of a gripper's motor in deg/s.
-double Speed(const YamlMap& yaml, const std::string& key, bool gripper) {
-  return gripper ? kDegree * yaml.PositiveNumber(key + "_deg_s")
-                 : yaml.PositiveNumber(key + "_mm_s");
-}
-std::string SpeedKey(const std::string& key, bool gripper) {
-  return key + (gripper ? "_deg_s" : "_mm_s");
-}
-
 void ReadActuation(const YamlMap& map, Experiment* experiment) {
-  const bool gripper = experiment->mechanism.is_gripper();
-  map.AllowOnly({"rate_Hz", "delay_ms", "true_delay_ms", "time_constant_ms",
-                 "drive_is_measured", SpeedKey("speed_limit", gripper)});
-  ActuatorSettings& actuation = experiment->actuation;
-  actuation.period_s = 1 / map.PositiveNumber("rate_Hz");
-  actuation.delay_s = 1e-3 * map.NonNegativeNumber("delay_ms");
-  actuation.time_constant_s =
-      1e-3 * map.NonNegativeNumber("time_constant_ms", 0);
+  double rate_Hz = 0;
+  Read(map, ActuationFields(experiment, &rate_Hz), {"drive_is_measured"});
+  experiment->actuation.period_s = 1 / rate_Hz;
+  if (!map.Has("true_delay_ms")) {
+    experiment->true_delay_s = experiment->actuation.delay_s;
+  }
   experiment->drive_is_measured =
       map.Boolean("drive_is_measured", experiment->drive_is_measured);
-  actuation.speed_limit = Speed(map, "speed_limit", gripper);
-  experiment->true_delay_s =
-      1e-3 * map.NonNegativeNumber("true_delay_ms", 1e3 * actuation.delay_s);
 }
 
 ControllerSettings ReadController(const YamlMap& map, const Finger& finger) {
   ControllerSettings settings;
-  const std::string type = map.Choice("type", {"model", "pi", "none"});
+  const std::vector<std::string> types(std::begin(kControllerTypes),
+                                       std::end(kControllerTypes));
+  const std::string type = map.Choice("type", types);
+  settings.kind = static_cast<ControllerKind>(
+      std::find(types.begin(), types.end(), type) - types.begin());
   settings.name = map.Text("name", type);
   if (settings.name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMN"
                                       "OPQRSTUVWXYZ0123456789_-") !=
       std::string::npos) {
-    map.Fail("name", "name: expected letters, digits, _ and -: files get it");
+    map.Fail("name",
+             "name: expected letters, digits, _ and -; files are named so");
   }
-  if (type == "none") {
-    map.AllowOnly({"type", "name"});
-    settings.kind = ControllerKind::kNone;
-    return settings;
-  }
+  settings.tuned_at_mm = 0.5 * finger.front_length_mm;
+  std::vector<std::string> keys = {"type", "name"};
+  if (settings.kind != ControllerKind::kNone) keys.push_back("preview");
+  Read(map, ControllerFields(&settings), keys);
   settings.preview = map.Boolean("preview", false);
-  if (type == "pi") {
-    map.AllowOnly({"type", "name", "preview", "tuned_at_mm"});
-    settings.kind = ControllerKind::kPi;
-    settings.tuned_at_mm =
-        map.PositiveNumber("tuned_at_mm", 0.5 * finger.front_length_mm);
-    if (!(settings.tuned_at_mm < finger.front_length_mm)) {
-      map.Fail("tuned_at_mm", "tuned_at_mm: expected a height on the finger");
-    }
-    return settings;
+  if (!(settings.tuned_at_mm < finger.front_length_mm)) {
+    map.Fail("tuned_at_mm", "tuned_at_mm: expected a height on the finger");
   }
-  map.AllowOnly({"type", "name", "preview", "object_acceleration_mm_s2",
-                 "object_compliance_mm_per_N"});
-  ObjectPrior& prior = settings.prior;
-  prior.acceleration_mm_s2 =
-      map.PositiveNumber("object_acceleration_mm_s2", prior.acceleration_mm_s2);
-  prior.compliance_mm_per_N = map.NonNegativeNumber(
-      "object_compliance_mm_per_N", prior.compliance_mm_per_N);
   return settings;
 }
 
@@ -165,35 +240,6 @@ void ReadControllers(const YamlMap& yaml, const Finger& finger,
   if (experiment->controllers.empty()) {
     yaml.Fail("controllers", "controllers: expected one or more");
   }
-}
-
-void ReadSafety(const YamlMap& yaml, Experiment* experiment) {
-  const bool gripper = experiment->mechanism.is_gripper();
-  Safety& safety = experiment->safety;
-  if (gripper) safety.approach_speed = 4 * kDegree;
-  if (!yaml.Has("safety")) return;
-  const YamlMap map = yaml.Map("safety");
-  const std::string speed = SpeedKey("approach_speed", gripper);
-  map.AllowOnly({"force_std_limit_N", "hold_s", "touch_N", speed});
-  safety.force_std_limit_N =
-      map.PositiveNumber("force_std_limit_N", safety.force_std_limit_N);
-  safety.hold_s = map.NonNegativeNumber("hold_s", safety.hold_s);
-  safety.touch_N = map.PositiveNumber("touch_N", safety.touch_N);
-  if (map.Has(speed)) {
-    safety.approach_speed = Speed(map, "approach_speed", gripper);
-  }
-}
-
-void ReadModelError(const YamlMap& yaml, Experiment* experiment) {
-  if (!yaml.Has("model_error")) return;
-  const YamlMap map = yaml.Map("model_error");
-  map.AllowOnly({"stiffness_std_percent", "gauge_gain_std_percent",
-                 "gauge_offset_std_V", "rib_length_std_mm", "delay_std_ms"});
-  experiment->model_error = {map.NonNegativeNumber("stiffness_std_percent", 0),
-                             map.NonNegativeNumber("gauge_gain_std_percent", 0),
-                             map.NonNegativeNumber("gauge_offset_std_V", 0),
-                             map.NonNegativeNumber("rib_length_std_mm", 0)};
-  experiment->delay_std_s = 1e-3 * map.NonNegativeNumber("delay_std_ms", 0);
 }
 
 void ReadGaugeLoss(const YamlMap& yaml, const Finger& finger,
@@ -219,11 +265,9 @@ void ReadGaugeLoss(const YamlMap& yaml, const Finger& finger,
 void ReadStart(const YamlMap& yaml, const Finger& finger,
                Experiment* experiment) {
   const YamlMap map = yaml.Map("object_start");
-  map.AllowOnly({"y_mm", "gap_mm", "angle_deg"});
-  ObjectStart& start = experiment->start;
-  start = {map.Number("y_mm"), kDegree * map.Number("angle_deg", 0),
-           map.NonNegativeNumber("gap_mm", start.gap_mm)};
-  if (!(start.y_mm > 0 && start.y_mm < finger.front_length_mm)) {
+  Read(map, StartFields(experiment));
+  const double y_mm = experiment->start.y_mm;
+  if (!(y_mm > 0 && y_mm < finger.front_length_mm)) {
     map.Fail("y_mm", "y_mm: expected a height between the front beam's ends");
   }
   if (experiment->mechanism.is_gripper()) {
@@ -243,14 +287,7 @@ void ReadStart(const YamlMap& yaml, const Finger& finger,
 
 void ReadRun(const YamlMap& yaml, Experiment* experiment) {
   const YamlMap map = yaml.Map("run");
-  map.AllowOnly(
-      {"zero_s", "duration_s", "measure_from_s", "settled_after_s", "draws"});
-  experiment->zero_s = map.NonNegativeNumber("zero_s", experiment->zero_s);
-  experiment->duration_s = map.PositiveNumber("duration_s");
-  experiment->measure_from_s =
-      map.NonNegativeNumber("measure_from_s", experiment->measure_from_s);
-  experiment->settled_after_s =
-      map.NonNegativeNumber("settled_after_s", experiment->settled_after_s);
+  Read(map, RunFields(experiment), {"draws"});
   if (map.Has("draws")) experiment->draws = map.Integer("draws");
   if (experiment->draws < 1) map.Fail("draws", "draws: expected 1 or more");
   if (!(experiment->measure_from_s < experiment->duration_s)) {
@@ -300,10 +337,51 @@ Experiment ReadExperiment(const std::string& path, const Finger& finger) {
       map.Fail("type", "set_point: expected forces above 0 all the time");
     }
   }
-  ReadSafety(yaml, &experiment);
-  ReadModelError(yaml, &experiment);
+  if (experiment.mechanism.is_gripper()) {
+    experiment.safety.approach_speed = 4 * kDegree;
+  }
+  if (yaml.Has("safety")) Read(yaml.Map("safety"), SafetyFields(&experiment));
+  if (yaml.Has("model_error")) {
+    Read(yaml.Map("model_error"), ModelErrorFields(&experiment));
+  }
   ReadGaugeLoss(yaml, finger, &experiment);
   return experiment;
+}
+
+void EmitSettings(Experiment experiment, YamlEmitter* yaml) {
+  const auto begin = [yaml](const char* key) {
+    *yaml << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginMap;
+  };
+  const auto line = [&](const char* key, const Fields& fields) {
+    begin(key);
+    Emit(fields, yaml);
+    *yaml << YAML::EndMap;
+  };
+  *yaml << YAML::BeginMap;
+  line("object_start", StartFields(&experiment));
+  double rate_Hz = 1 / experiment.actuation.period_s;
+  begin("actuation");
+  Emit(ActuationFields(&experiment, &rate_Hz), yaml);
+  YamlPair(yaml, "drive_is_measured", experiment.drive_is_measured);
+  *yaml << YAML::EndMap << YAML::Key << "controllers" << YAML::Value
+        << YAML::BeginSeq;
+  for (ControllerSettings& controller : experiment.controllers) {
+    *yaml << YAML::Flow << YAML::BeginMap;
+    YamlPairs(yaml, "type", kControllerTypes[static_cast<int>(controller.kind)],
+              "name", controller.name);
+    if (controller.kind != ControllerKind::kNone) {
+      YamlPair(yaml, "preview", controller.preview);
+    }
+    Emit(ControllerFields(&controller), yaml);
+    *yaml << YAML::EndMap;
+  }
+  *yaml << YAML::EndSeq;
+  line("safety", SafetyFields(&experiment));
+  line("model_error", ModelErrorFields(&experiment));
+  begin("run");
+  Emit(RunFields(&experiment), yaml);
+  YamlPair(yaml, "draws", experiment.draws);
+  *yaml << YAML::EndMap << YAML::EndMap;
 }
 
 }  // namespace finray

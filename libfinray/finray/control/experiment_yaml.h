@@ -4,13 +4,17 @@
 #include <string>
 
 #include "finray/control/experiment.h"
+#include "finray/io/yaml_emitter.h"
 
 namespace finray {
 
-/// Reads an experiment YAML (docs/reference/formats.md). `finger` is the one
-/// that it is for. Throws InputError at the place of what is unknown, missing
-/// or impossible.
+/// Reads an experiment YAML (docs/reference/formats.md) for `finger`. Throws
+/// InputError at the place of a key that is unknown, missing or impossible.
 Experiment ReadExperiment(const std::string& path, const Finger& finger);
+
+/// Writes the settings in force, with all defaults, as a mapping with the keys
+/// of that YAML.
+void EmitSettings(Experiment experiment, YamlEmitter* yaml);
 
 }  // namespace finray
 

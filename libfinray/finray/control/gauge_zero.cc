@@ -1,7 +1,7 @@
 #include "finray/control/gauge_zero.h"
 
 #include "finray/io/error.h"
-#include "finray/statics/equilibrium.h"
+#include "finray/scene/clean_readings.h"
 
 namespace finray {
 
@@ -11,9 +11,7 @@ GaugeZero::GaugeZero(const Finger& finger,
   if (!solver.Solve({})) {
     throw InputError("the free finger has no equilibrium: " + solver.Why());
   }
-  for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
-    free_V_.push_back(finger.gauges[j].Volts(solver.gauge_angle(j)));
-  }
+  free_V_ = CleanReadings(solver).gauges_V;
   sum_V_.assign(free_V_.size(), 0);
 }
 

@@ -9,17 +9,18 @@
 
 namespace finray {
 
-/// Zeroes a finger's gauges while nothing touches it: what their mean differs
-/// from what the model of the free finger says is taken off every later
-/// reading. Errors of the offsets, and what wrong rib lengths bend a free
-/// finger, are gone but for the noise of the mean.
+/// Zeroes the gauges of a free finger. It subtracts from every later reading
+/// the difference between the mean free reading and the model's. This removes
+/// errors of offsets, and of rib lengths as far as they bend the free finger;
+/// the noise of the mean remains.
 class GaugeZero {
  public:
+  /// Throws InputError if the free finger has no equilibrium.
   GaugeZero(const Finger& finger, const Discretization& discretization);
 
-  /// A reading of the free finger.
+  /// Adds a reading of the free finger.
   void Add(const Measurements& readings);
-  /// Takes the zero off; without a free reading before, nothing.
+  /// Corrects a reading; without any free reading it stays as it is.
   void Apply(Measurements* readings) const;
 
  private:

@@ -4,8 +4,52 @@
 #include <stdexcept>
 
 namespace finray {
+namespace {
 
 using Eigen::Vector2d;
+
+Pose<double> Displacement(const Vector2d& from_a, const Vector2d& from_b,
+                          const Vector2d& to_a, const Vector2d& to_b) {
+  const Vector2d before = from_b - from_a, after = to_b - to_a;
+  const double angle = std::atan2(Cross(before, after), before.dot(after));
+  Pose<double> pose = MakePose<double>(angle, Vector2d::Zero());
+  pose.t = to_a - pose.Rotate(from_a);
+  return pose;
+}
+
+}  // namespace
+
+FourBar::FourBar(const FourBarJoints& joints)
+    : joints_(joints),
+      coupler_mm_((joints.rocker_joint_mm - joints.crank_joint_mm).norm()),
+      rocker_mm_((joints.rocker_joint_mm - joints.rocker_pivot_mm).norm()) {
+  const double crank = (joints.crank_joint_mm - joints.crank_pivot_mm).norm();
+  if (!(crank > 0 && coupler_mm_ > 0 && rocker_mm_ > 0)) {
+    throw std::invalid_argument("joints of one link coincide");
+  }
+  side_ = Cross(Vector2d(joints.rocker_pivot_mm - joints.crank_joint_mm),
+                Vector2d(joints.rocker_joint_mm - joints.crank_joint_mm));
+  if (std::abs(side_) < 1e-6 * coupler_mm_ * rocker_mm_) {
+    throw std::invalid_argument("coupler and rocker lie in one line");
+  }
+}
+
+std::optional<Pose<double>> FourBar::Coupler(double crank_rad) const {
+  const Pose<double> turn = MakePose<double>(crank_rad, Vector2d::Zero());
+  const Vector2d crank = joints_.crank_joint_mm - joints_.crank_pivot_mm;
+  const Vector2d b = joints_.crank_pivot_mm + turn.Rotate(crank);
+  const Vector2d way = joints_.rocker_pivot_mm - b;
+  const double distance = way.norm();
+  const double along = (distance * distance + coupler_mm_ * coupler_mm_ -
+                        rocker_mm_ * rocker_mm_) /
+                       (2 * distance);
+  const double square = coupler_mm_ * coupler_mm_ - along * along;
+  if (!(square > 0)) return std::nullopt;
+  const double across = std::copysign(std::sqrt(square), side_);
+  const Vector2d unit = way / distance;
+  const Vector2d c = b + along * unit + across * Turned<double>(unit);
+  return Displacement(joints_.crank_joint_mm, joints_.rocker_joint_mm, b, c);
+}
 
 Mechanism::Mechanism(const FourBar& four_bar) : four_bar_(four_bar) {
   const double approach = ApproachPerDrive(0, 0);

@@ -6,12 +6,12 @@
 namespace finray {
 namespace {
 
-// Estimates that the object's height is a mean of, at most: the older ones
-// fade, as the object may slide along the finger.
+// The height is a mean of so many estimates. Older ones fade, because the
+// object may slide along the finger.
 constexpr int kHeightMemory = 30;
 constexpr int kMostDriveSteps = 20;
 constexpr double kTolerance_mm = 1e-6;
-// A force's std is hardly known better than this.
+// Lower limit of the std of a force.
 constexpr double kLeastStd_N = 1e-4;
 
 }  // namespace
@@ -36,7 +36,7 @@ void ModelController::Lost() {
 }
 
 bool ModelController::SeeHeights(double drive,
-                                 const std::vector<SeenContact>& contacts) {
+                                 const std::vector<ContactEstimate>& contacts) {
   const auto base = mechanism_.FingerPose(drive);
   if (!base) return false;
   std::vector<double> heights;
@@ -55,7 +55,7 @@ bool ModelController::SeeHeights(double drive,
 }
 
 std::optional<ModelController::MeanPush> ModelController::PushAt(
-    double drive, const std::vector<SeenContact>& contacts) {
+    double drive, const std::vector<ContactEstimate>& contacts) {
   const auto base = mechanism_.FingerPose(drive);
   if (!base) return std::nullopt;
   MeanPush mean;
@@ -73,7 +73,7 @@ std::optional<ModelController::MeanPush> ModelController::PushAt(
   return mean;
 }
 
-// Of the place that a push says, the drive having moved by `way` in the period.
+// Std of the object's place after a period in which the drive moved by `way`.
 double ModelController::PlaceStd(const MeanPush& push, double drive,
                                  double way) const {
   const double approach =
@@ -83,10 +83,13 @@ double ModelController::PlaceStd(const MeanPush& push, double drive,
                     approach / period_s_ * timing_std_s_);
 }
 
-// X(F; u) = place, by Newton's method with the mechanism's slope.
+// Solves X(F; u) = place for u by Newton's method with the mechanism's slope.
 std::optional<double> ModelController::DriveFor(double force_N, double place_mm,
                                                 double drive) {
-  const std::vector<SeenContact> wanted(models_.size(), {0, force_N, 0});
+  ContactEstimate contact;
+  contact.normal_N = force_N;
+  contact.normal_std_N = 0;
+  const std::vector<ContactEstimate> wanted(models_.size(), contact);
   for (int i = 0; i < kMostDriveSteps; ++i) {
     const auto push = PushAt(drive, wanted);
     if (!push) return std::nullopt;
@@ -100,7 +103,7 @@ std::optional<double> ModelController::DriveFor(double force_N, double place_mm,
 }
 
 double ModelController::Next(double time_s,
-                             const std::vector<SeenContact>& contacts,
+                             const std::vector<ContactEstimate>& contacts,
                              const Trajectory& set_point,
                              const Actuator& drive) {
   const double now = drive.PredictAt(time_s);
@@ -108,7 +111,7 @@ double ModelController::Next(double time_s,
   const auto push = SeeHeights(now, contacts) ? PushAt(now, contacts)
                                               : std::optional<MeanPush>();
   if (push) {
-    filter_.Update(push->object_x_mm, MeanForce(contacts).force_N,
+    filter_.Update(push->object_x_mm, MeanForceOf(contacts).force_N,
                    PlaceStd(*push, now, now - last_drive_.value_or(now)));
   }
   last_drive_ = now;

@@ -11,32 +11,31 @@
 
 namespace finray {
 
-/// Force control by the finger's own model. In each period, T long,
+/// Force control with the finger's own model. In each period of length T
 ///
-///  1. where the drive is now, u, is measured or follows from the commands so
-///     far;
-///  2. the estimated force tells where the object is: z = X(F; u), the mean of
-///     PushModel over the fingers, at the object's y (a mean of what estimates
-///     say);
-///  3. ObjectFilter predicts the object to the time h = delay + T at which this
+///  1. the present drive u is measured or follows from the commands so far;
+///  2. the estimated force F tells the place of the object, z = X(F; u): the
+///  mean
+///     of PushModel over the fingers, at the mean of the estimated heights;
+///  3. ObjectFilter predicts the object at the time h = delay + T, when this
 ///     period's command will have had its effect;
-///  4. the drive has to be where the set-point's force is felt there,
+///  4. the wanted drive u* gives the force of the set-point there,
 ///     X(F_ref; u*) = o(h) - c F_ref;
-///  5. the command is the one that takes the drive there (Actuator::
-///     CommandFor), commands in flight included.
+///  5. the command takes the drive to u* (Actuator::CommandFor), with the
+///  commands
+///     in flight taken into account.
 ///
-/// So the loop acts on predicted errors, like Smith's predictor, and no delay
-/// is left in it as far as the model is right. There is no gain to tune; what
-/// is assumed of the object (ObjectPrior) and the estimator's std decide how
-/// far it trusts one reading. `preview`: F_ref is that at the time h from now,
-/// for a set-point that is known beforehand; else that of now.
+/// Like Smith's predictor the loop acts on predicted errors, so with a right
+/// model it contains no delay. It has no gain to tune: ObjectPrior and the
+/// estimator's std decide how much one reading counts. With `preview` F_ref is
+/// the set-point at the time h from now, otherwise the present one.
 class ModelController : public Controller {
  public:
-  /// `models`: one for each finger.
+  /// `models` has one entry for each finger.
   ModelController(std::vector<PushModel> models, const Mechanism& mechanism,
                   const ObjectPrior& prior, double period_s, bool preview);
 
-  double Next(double time_s, const std::vector<SeenContact>& contacts,
+  double Next(double time_s, const std::vector<ContactEstimate>& contacts,
               const Trajectory& set_point, const Actuator& drive) override;
   void Skip() override { filter_.Predict(); }
   void Lost() override;
@@ -49,10 +48,10 @@ class ModelController : public Controller {
     double variance_mm2 = 0;  // of object_x_mm, from those of the forces
   };
 
-  bool SeeHeights(double drive, const std::vector<SeenContact>& contacts);
-  // Of all fingers, under the force of each; std may be empty.
+  bool SeeHeights(double drive, const std::vector<ContactEstimate>& contacts);
+  // The mean push of all fingers under these forces.
   std::optional<MeanPush> PushAt(double drive,
-                                 const std::vector<SeenContact>& contacts);
+                                 const std::vector<ContactEstimate>& contacts);
   double PlaceStd(const MeanPush& push, double drive, double way) const;
   std::optional<double> DriveFor(double force_N, double place_mm, double drive);
 
@@ -61,9 +60,9 @@ class ModelController : public Controller {
   ObjectFilter filter_;
   double period_s_, timing_std_s_;
   bool preview_;
-  // Of the object in each finger's world, and how many estimates are in it.
+  // Height of the object in each finger's world and the last contact there.
   std::vector<double> y_mm_, arc_mm_;
-  int seen_ = 0;
+  int seen_ = 0;  // number of estimates in the mean height
   std::optional<double> last_drive_;
 };
 

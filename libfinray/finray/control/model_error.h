@@ -7,8 +7,8 @@
 
 namespace finray {
 
-/// By how much a finger differs from what its model says: independent normal
-/// errors with these std, in the size of what a calibration leaves.
+/// The std by which a finger differs from its model. The errors are normal and
+/// independent.
 struct ModelError {
   double stiffness_percent = 0;  ///< of each beam's EI
   double gauge_gain_percent = 0;
@@ -16,7 +16,7 @@ struct ModelError {
   double rib_length_mm = 0;
 };
 
-/// A finger that differs from `finger` by errors drawn from `generator`.
+/// `finger` with errors drawn from `generator`.
 Finger Perturbed(const Finger& finger, const ModelError& error,
                  std::mt19937_64* generator);
 

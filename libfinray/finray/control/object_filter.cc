@@ -28,7 +28,7 @@ void ObjectFilter::Predict() {
 void ObjectFilter::Update(double place_mm, double force_N, double std_mm) {
   const double variance = std_mm * std_mm;
   if (!started_) {
-    // The place, given the compliance so far.
+    // The first place, with the compliance known so far.
     const double compliance_variance = covariance_(2, 2);
     covariance_.setZero();
     covariance_(0, 0) = variance + force_N * force_N * compliance_variance;

@@ -5,44 +5,43 @@
 
 namespace finray {
 
-/// What is assumed of an unknown object.
+/// Assumptions about an unknown object.
 struct ObjectPrior {
-  /// Std of the acceleration of its motion, in mm/s^2, anew in every period.
+  /// Std of the acceleration of its motion, independent in every period.
   double acceleration_mm_s2 = 10;
-  /// Std of its compliance, mm/N; 0: held rigidly.
+  /// Std of its compliance; 0 for an object that is held rigidly.
   double compliance_mm_per_N = 0.5;
-  /// Std of the time of a reading against the drive: what it says of the place
-  /// is as uncertain as the drive's way in that time.
+  /// Std of the time between a reading and the drive's position. The drive's
+  /// motion in that time adds to the std of the place.
   double timing_std_s = 0.01;
 };
 
-/// Where an object is that nobody measures but the finger. The finger's model
-/// turns an estimated force into the object's place z along x (PushModel). An
-/// object on a spring of compliance c yields to the force F, so that
+/// Tracks an object that only the finger senses. PushModel turns an estimated
+/// force F into the object's place z along x. An object on a spring of
+/// compliance c yields to the force,
 ///
 ///   z = o - c F + noise,
 ///
-/// o being where it would be without the force, v its velocity: a Kalman filter
-/// for x = (o, v, c),
+/// with o its place without the force. A Kalman filter estimates x = (o, v, c),
 ///
-///   o += v T + a T^2 / 2,    v += a T,    a ~ N(0, acceleration^2),
+///   o += v T + a T^2 / 2,    v += a T,    a ~ N(0, acceleration^2),    c >= 0.
 ///
-/// linear, as F is known but for noise. c >= 0. With F constant c is not told
-/// apart from o, and need not be.
+/// It is linear, because F is known apart from its noise. A constant force does
+/// not separate c from o; the control does not need it then.
 class ObjectFilter {
  public:
   ObjectFilter(const ObjectPrior& prior, double period_s);
 
   bool started() const { return started_; }
-  /// Forgets all but the compliance: the next place begins anew.
+  /// Forgets everything but the compliance.
   void Restart() { started_ = false; }
 
-  /// A period goes by.
+  /// Advances by a period.
   void Predict();
-  /// A place seen under a force, with its std.
+  /// Takes a place seen under a force, with its std.
   void Update(double place_mm, double force_N, double std_mm);
 
-  /// o in `seconds` from now.
+  /// o after `seconds` from now.
   double PlaceIn(double seconds) const { return x_[0] + seconds * x_[1]; }
   double velocity_mm_s() const { return x_[1]; }
   double compliance_mm_per_N() const { return x_[2]; }

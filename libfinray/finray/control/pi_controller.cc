@@ -15,12 +15,12 @@ PiController::PiController(double stiffness, const ActuatorSettings& settings,
 }
 
 double PiController::Next(double time_s,
-                          const std::vector<SeenContact>& contacts,
+                          const std::vector<ContactEstimate>& contacts,
                           const Trajectory& set_point, const Actuator& drive) {
   const ActuatorSettings& settings = drive.settings();
   const double lead = settings.delay_s + settings.period_s;
   const double wanted = set_point.At(preview_ ? time_s + lead : time_s);
-  const double error = wanted - MeanForce(contacts).force_N;
+  const double error = wanted - MeanForceOf(contacts).force_N;
   const double change = started_ ? error - last_error_N_ : 0;
   started_ = true;
   last_error_N_ = error;

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Finer than what an estimator has by default.
+// Finer than an estimator's default.
 constexpr Discretization kPlantDiscretization{Scheme::kTaylor, 64};
 constexpr double kBalanced_N = 1e-6;
 constexpr int kMostShifts = 60;
@@ -57,8 +57,9 @@ bool Plant::Solve(std::size_t i, double drive, double x_mm, PlantState* state) {
   result.object = {base->Inverse() * Vector2d(x_mm, start_.position_mm.y()),
                    start_.angle_rad - turn};
   if (i == 1) {
-    // In the mirrored world the object stands turned by (pi - angle), its
-    // outline mirrored: the same for outlines that are symmetric about y.
+    // In the mirrored world the object is turned by (pi - angle) and its
+    // outline is mirrored, which is the same for outlines that are symmetric
+    // about y.
     result.object.angle_rad = -start_.angle_rad - turn;
   }
   const ObjectContact found = SolveObjectContact(
@@ -81,8 +82,8 @@ bool Plant::Solve(std::size_t i, double drive, double x_mm, PlantState* state) {
   return true;
 }
 
-// A root of the difference of forces over the shift, which does not decrease:
-// secant steps, kept in the bracket once there is one.
+// Finds the root of the difference of forces, which grows with the shift, by
+// secant steps. They stay within the bracket once there is one.
 bool Plant::Balance(double drive, double motion_mm, PlantState* state) {
   const double middle = start_.position_mm.x(), here = middle + motion_mm;
   double low = -std::numeric_limits<double>::infinity();

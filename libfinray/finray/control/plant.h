@@ -15,47 +15,48 @@ namespace finray {
 /// One finger of the plant at an equilibrium.
 struct PlantFinger {
   Measurements readings;       ///< of its gauges, without noise
-  ObjectPose object;           ///< where the object is given, in its frame S
+  ObjectPose object;           ///< in its frame S, without the spring's way
   double displacement_mm = 0;  ///< of an object on a spring
   std::vector<PointContact> contacts;
-  Eigen::Vector2d force_N = Eigen::Vector2d::Zero();  ///< on it, in the world
+  Eigen::Vector2d force_N = Eigen::Vector2d::Zero();  ///< in the world
 };
 
 struct PlantState {
   std::string failure;  ///< Why there is no equilibrium; empty if there is one.
   std::vector<PlantFinger> fingers;
-  /// What a sensor in the object reads: the magnitude of the force of a
-  /// finger, of two the mean.
+  /// The magnitude of a finger's force, as a sensor in the object reads it; the
+  /// mean of two fingers.
   double force_N = 0;
 };
 
-/// The true world of a control loop: a mechanism's drive and the object's place
-/// to contact forces and gauges, by equilibria of the true fingers.
+/// The true world of a control loop. It turns the position of the drive and the
+/// place of the object into contact forces and gauge readings, by equilibria of
+/// the true fingers.
 ///
-/// Between two fingers the object is free to shift along x by d, by which both
-/// forces along x balance,
+/// Between two fingers the object shifts along x by the d that balances the
+/// forces,
 ///
 ///   F_1x(x + d) = F_2x(x - d),
 ///
-/// and held in y and turn. Nobody else holds it: it stays where it is while no
-/// finger touches.
+/// while its y and its angle are held. It does not shift while no finger
+/// touches.
 class Plant {
  public:
-  /// One finger for each that the mechanism has. The object's shape is that
-  /// where `gap_mm` is left to the undeformed front beam at drive 0, its origin
-  /// at y_mm. Throws std::invalid_argument for an object on a spring between
-  /// two fingers.
+  /// Takes as many fingers as the mechanism has. At drive 0 the object's origin
+  /// is at the height y_mm and its outline has the distance `gap_mm` from the
+  /// undeformed front beam. Throws std::invalid_argument for an object on a
+  /// spring between two fingers.
   Plant(const std::vector<Finger>& fingers, const Mechanism& mechanism,
         const RigidObject& object, double friction, double y_mm,
         double angle_rad, double gap_mm);
 
-  /// With the object moved by `motion_mm` towards the (first) finger.
+  /// The state with the object moved by `motion_mm` towards the (first) finger.
   PlantState At(double drive, double motion_mm);
 
  private:
   struct TrueFinger {
     EquilibriumSolver solver;
-    std::vector<PointContact> contacts;  // the last ones
+    std::vector<PointContact> contacts;  // at the last equilibrium
   };
 
   bool Solve(std::size_t finger, double drive, double x_mm, PlantState* state);
@@ -67,7 +68,7 @@ class Plant {
   double friction_;
   ObjectPose start_;  // of the object in the world
   double shift_mm_ = 0;
-  double slope_N_per_mm_ = 1;  // of the difference of forces, by the shift
+  double slope_N_per_mm_ = 1;  // of the difference of forces over the shift
 };
 
 }  // namespace finray

@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 constexpr int kMostIterations = 30;
 constexpr double kGapTolerance_mm = 1e-7;
 constexpr double kLongestStep_mm = 10;
-constexpr double kEnd_mm = 0.5;  // no contact nearer to an end of the beam
+constexpr double kEnd_mm = 0.5;  // least distance of a contact from the ends
 
 }  // namespace
 

@@ -9,27 +9,27 @@
 
 namespace finray {
 
-/// A circle pressed against a finger, by the finger's model.
+/// A circle pressed against a finger.
 struct Push {
   double object_x_mm;         ///< of the circle's centre, in the world
   double arc_mm;              ///< l_c
   double stiffness_N_per_mm;  ///< df/dx of the contact, the circle's y held
 };
 
-/// The finger's own contact stiffness: where a circle of radius R has to be
-/// along x so that the finger feels a given force. Touched at l_c with force f
-/// its centre is, in frame S,
+/// The contact stiffness of a finger: the x at which a circle of radius R
+/// causes a given force f. In frame S the circle that touches at l_c has the
+/// centre
 ///
 ///   c(l_c, f) = r - R n,    n = (sin(theta), -cos(theta)),
 ///
-/// r and theta being the front beam's there. With the finger's base at T and
-/// the circle's y given, l_c follows from [T c(l_c, f)]_y = y by Newton's
-/// method; x = [T c]_x, and along that line
+/// with r and theta of the front beam at l_c. For a finger whose base is at T
+/// and a circle at the height y, Newton's method solves [T c(l_c, f)]_y = y for
+/// l_c. Then x = [T c]_x and, at constant y,
 ///
-///   dx/df = x_f - x_l y_f / y_l,
+///   dx/df = x_f - x_l y_f / y_l
 ///
-/// with the sensitivities of the statics. A radius of 0 is a point that slides
-/// along the finger: for an object of unknown shape.
+/// with the sensitivities of the statics. An object of unknown shape has the
+/// radius 0, a point that slides along the finger.
 class PushModel {
  public:
   PushModel(const Finger& finger, double radius_mm, double friction,
@@ -40,7 +40,8 @@ class PushModel {
   std::optional<Eigen::Vector2d> Centre(const Pose<double>& base, double arc_mm,
                                         double normal_N);
 
-  /// Nothing if there is no such contact on the beam. Starts from `arc_mm`.
+  /// The push with a given force at the height y, found from `arc_mm` on;
+  /// nothing if the beam has no such contact.
   std::optional<Push> At(const Pose<double>& base, double y_mm, double normal_N,
                          double arc_mm);
 

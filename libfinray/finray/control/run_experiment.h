@@ -3,26 +3,61 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "finray/control/control_statistics.h"
+#include "finray/control/control_loop.h"
 
 namespace finray {
 
-/// What one controller made of an experiment.
+/// Sums of errors. Sums of several draws can be added.
+struct ErrorSums {
+  std::size_t count = 0;
+  double sum = 0, squares = 0, most = 0;
+
+  void Add(double error);
+  void Add(const ErrorSums& other);
+  double mean() const { return sum / static_cast<double>(count); }
+  double rms() const;
+};
+
+/// Statistics of the runs of one controller, over the rows from measure_from_s.
+struct ControlStatistics {
+  std::size_t runs = 0, failed_runs = 0, stopped_runs = 0;
+  std::size_t periods = 0;     ///< number of rows counted
+  std::size_t controlled = 0;  ///< number of these in mode control
+  ErrorSums control;           ///< true force minus set-point
+  ErrorSums settled;           ///< the same, from settled_after_s after a step
+  /// Estimated minus true force, in the rows where every finger is sure.
+  ErrorSums estimate;
+  double worst_rms_N = 0;  ///< of the control errors of one run
+  double best_rms_N = std::numeric_limits<double>::infinity();
+
+  void Add(const ControlStatistics& other);
+};
+
+/// Statistics of one run. A run without a controller has no control error.
+ControlStatistics StatisticsOf(const LoopRun& run, const Experiment& experiment,
+                               bool controlled);
+
+/// The lag of the force behind the set-point: the shift, from -0.2 to 0.6 s in
+/// steps of 1 ms, with the least sum of squared errors from measure_from_s.
+double LagSeconds(const LoopRun& run, const Experiment& experiment);
+
+/// The result of one controller in an experiment.
 struct ControllerResult {
   ControllerSettings controller;
   LoopRun first;                 ///< the run of the first draw
   ControlStatistics statistics;  ///< over all draws
   std::string failure;           ///< of the first run that ended early
-  std::optional<double> lag_s;   ///< of the first, behind a harmonic set-point
+  std::optional<double> lag_s;   ///< of `first`, for a harmonic set-point
 };
 
-/// Runs all controllers over all draws; draw d has the seed seed + d, so that
-/// results do not depend on threads. `progress`, if given, hears of the periods
-/// of every run that is done, one call at a time.
+/// Runs all controllers over all draws. Draw d has the seed `seed` + d, so
+/// results do not depend on the threads. After every run `progress` gets its
+/// number of periods; calls do not overlap.
 std::vector<ControllerResult> RunExperiment(
     const Finger& finger, const Experiment& experiment,
     const Discretization& discretization, std::uint64_t seed, int threads,

@@ -9,16 +9,16 @@
 
 namespace finray {
 
-/// How far a finger's gauges are bent, against a touch.
+/// The bending of a finger's gauges in units of a given touch.
 class TouchSignal {
  public:
-  /// The least that touch_N does to the gauges, over contacts from 0.2 to 0.8
-  /// of the front beam's length.
+  /// The unit is the least angle that a force of touch_N causes in the most
+  /// bent gauge, over contacts from 0.2 to 0.8 of the front beam's length.
   TouchSignal(const Finger& finger, double touch_N,
               const Discretization& discretization);
 
-  /// Largest bending angle of the gauges that read, over that least one; NaN
-  /// if one does not read.
+  /// The largest bending angle of the gauges, in that unit; NaN if a gauge
+  /// reads nothing or is saturated.
   double Of(const Measurements& readings) const;
 
  private:

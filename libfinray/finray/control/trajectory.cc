@@ -6,7 +6,8 @@
 namespace finray {
 namespace {
 
-// Rows of a log lie on k / rate, jumps on k hold_s: both meet but for rounding.
+// Rows of a log are at k / rate and jumps at k hold_s; where both coincide they
+// may differ by rounding.
 constexpr double kRounding_s = 1e-9;
 
 std::size_t Level(const StepTrajectory& steps, double time_s) {
@@ -36,17 +37,6 @@ struct ValueAt {
   }
 };
 
-struct MiddleOf {
-  double operator()(const ConstantTrajectory& t) const { return t.value; }
-  double operator()(const HarmonicTrajectory& t) const { return t.mean; }
-  double operator()(const TriangularTrajectory& t) const { return t.mean; }
-  double operator()(const StepTrajectory& t) const {
-    const auto [least, most] =
-        std::minmax_element(t.levels.begin(), t.levels.end());
-    return 0.5 * (*least + *most);
-  }
-};
-
 }  // namespace
 
 double Trajectory::At(double time_s) const {
@@ -61,6 +51,12 @@ double Trajectory::SinceStep(double time_s) const {
                     : time_s - static_cast<double>(level) * steps->hold_s;
 }
 
-double Trajectory::Middle() const { return std::visit(MiddleOf{}, shape_); }
+double Trajectory::Middle() const {
+  const auto* steps = std::get_if<StepTrajectory>(&shape_);
+  if (steps == nullptr) return At(0);  // which is the mean
+  const auto [least, most] =
+      std::minmax_element(steps->levels.begin(), steps->levels.end());
+  return 0.5 * (*least + *most);
+}
 
 }  // namespace finray

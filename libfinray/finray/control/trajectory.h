@@ -8,7 +8,7 @@
 
 namespace finray {
 
-/// value
+/// A constant value.
 struct ConstantTrajectory {
   double value = 0;
 };
@@ -18,21 +18,21 @@ struct HarmonicTrajectory {
   double mean, amplitude, period_s;
 };
 
-/// The same with straight lines: mean at t = 0, mean + amplitude at a quarter
-/// of the period, mean - amplitude at three quarters.
+/// Straight lines: mean at t = 0, mean + amplitude after a quarter of the
+/// period, mean - amplitude after three quarters.
 struct TriangularTrajectory {
   double mean, amplitude, period_s;
 };
 
-/// Each level for `hold_s`, the last one for ever. A step takes `ramp_s`,
-/// at most hold_s, from when the level before ends; 0: it is a jump.
+/// Holds each level for `hold_s` and the last one for ever. A step starts when
+/// the previous level ends and takes `ramp_s`, at most hold_s; 0 is a jump.
 struct StepTrajectory {
   std::vector<double> levels;
   double hold_s;
   double ramp_s = 0;
 };
 
-/// A prescribed course of a force (N) or a position (mm) over time.
+/// A prescribed force (N) or position (mm) over time.
 class Trajectory {
  public:
   using Shape = std::variant<ConstantTrajectory, HarmonicTrajectory,
@@ -43,11 +43,11 @@ class Trajectory {
 
   const Shape& shape() const { return shape_; }
 
-  /// The value at a time; before 0 that at 0.
+  /// The value at a time; before 0 it is that at 0.
   double At(double time_s) const;
   /// Time since the last step began; infinite before the first one.
   double SinceStep(double time_s) const;
-  /// The middle of the values that it takes.
+  /// The middle between the least and the largest value.
   double Middle() const;
 
  private:
