@@ -10,7 +10,7 @@ import math
 import pathlib
 import sys
 
-from plot_style import QUIET, plt, save
+from perception_style import QUIET, plt, save
 
 # The colours of Okabe and Ito, which colour-blind readers can tell apart.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#8a7a00", "#555b66")

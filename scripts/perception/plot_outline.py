@@ -10,7 +10,7 @@ import math
 import pathlib
 import sys
 
-from plot_style import BLUE, ORANGE, PALE, QUIET, plt, save
+from perception_style import BLUE, ORANGE, PALE, QUIET, plt, save
 
 
 def read(path):
