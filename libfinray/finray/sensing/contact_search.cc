@@ -80,7 +80,7 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
       Keep();
       continue;
     }
-    if (fallbacks++ == kMostFallbacks) continue;
+    if ((explained && !exact) || fallbacks++ == kMostFallbacks) continue;
     if (FitByCeres(start, row)) Keep();
   }
   return found_ > 0;
