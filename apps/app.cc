@@ -63,6 +63,11 @@ void DumpConfig(const Finger& finger, const Scene& scene,
     std::cout << "smoothing: {contact_std_mm: " << scene.smoothing->contact_mm
               << ", normal_std_N: " << scene.smoothing->normal_N << "}\n";
   }
+  if (scene.gauge_offset_walk) {
+    std::cout << "gauge_offset_walk: {start_std_V: "
+              << scene.gauge_offset_walk->start_std_V << ", std_V_per_sqrt_s: "
+              << scene.gauge_offset_walk->std_V_per_sqrt_s << "}\n";
+  }
   std::istringstream lines(FingerToYaml(finger));
   std::cout << "finger:\n";
   for (std::string line; std::getline(lines, line);) {

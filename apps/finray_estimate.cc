@@ -30,6 +30,10 @@ DEFINE_string(solver, "fast",
 DEFINE_string(equilibrium, "reduced",
               "with --solver ceres: reduced (eliminated) or weighted (residual "
               "blocks)");
+DEFINE_bool(
+    joint, false,
+    "solve all frames of a log together, with the gauge_offset_walk and "
+    "the smoothing of the scene");
 DEFINE_bool(dump_config, false, "print what is in force, and stop");
 DEFINE_bool(strict, false, "fail if any frame is not_converged or bad_input");
 DEFINE_bool(keep_going, false,
@@ -154,10 +158,21 @@ FrameMethod ChosenMethod() {
                     : FrameMethod::kCeresReduced;
 }
 
+// What a scene says of a whole log needs the frames to come.
+void CheckJoint(BatchSettings* settings) {
+  if (settings->joint && settings->method != FrameMethod::kFast) {
+    throw UsageError("--solver does not go with --joint, which uses Ceres");
+  }
+  if (settings->joint || !settings->scene.gauge_offset_walk) return;
+  std::cerr << "finray_estimate: gauge_offset_walk is for --joint; without it "
+               "the offsets are the finger's\n";
+  settings->scene.gauge_offset_walk.reset();
+}
+
 // Live rows go from one pipe to the other, one by one.
 void RefuseBatchFlags() {
-  for (const char* flag :
-       {"logs", "logs_root", "out_dir", "resume", "threads", "keep_going"}) {
+  for (const char* flag : {"logs", "logs_root", "out_dir", "resume", "threads",
+                           "keep_going", "joint"}) {
     if (!gflags::GetCommandLineFlagInfoOrDie(flag).is_default) {
       throw UsageError(std::string("--") + flag + " does not go with --follow");
     }
@@ -169,6 +184,8 @@ int Run() {
   BatchSettings settings(Required("finger", FLAGS_finger), FLAGS_scene,
                          ParseDiscretization(FLAGS_scheme, FLAGS_resolution));
   settings.method = ChosenMethod();
+  settings.joint = FLAGS_joint;
+  CheckJoint(&settings);
   if (!FLAGS_follow) {
     Required("logs", FLAGS_logs);
     Required("out_dir", FLAGS_out_dir);
@@ -223,7 +240,7 @@ int main(int argc, char** argv) {
       argc, argv,
       "Contact location and force from the gauges of every frame.\n"
       "finray_estimate --finger F.yaml --logs 'runs/*.csv' --out_dir D "
-      "[--scene S.yaml] [--resume]\n"
+      "[--scene S.yaml] [--resume] [--joint]\n"
       "sensor | finray_estimate --follow --finger F.yaml [--scene S.yaml] | "
       "consumer",
       Run);

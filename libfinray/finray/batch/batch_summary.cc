@@ -19,7 +19,8 @@ std::string BatchYaml(const BatchSettings& settings,
   YamlPair(&yaml, "finger", settings.finger.name);
   YamlPair(&yaml, "scheme", SchemeName(settings.discretization.scheme));
   if (settings.method != FrameMethod::kFast) {
-    YamlPair(&yaml, "solver", FrameMethodName(settings.method));
+    YamlPair(&yaml, "solver",
+             settings.joint ? "joint" : FrameMethodName(settings.method));
   }
   YamlPair(&yaml, "version", FINRAY_VERSION);
   yaml << YAML::Key << "logs" << YAML::Value << YAML::BeginSeq;

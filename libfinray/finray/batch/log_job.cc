@@ -3,6 +3,7 @@
 #include <future>
 #include <utility>
 
+#include "finray/batch/joint_stream.h"
 #include "finray/batch/log_stream.h"
 #include "finray/finger/finger_yaml.h"
 #include "finray/io/atomic_file.h"
@@ -24,8 +25,9 @@ std::string Key(const BatchSettings& settings, const std::string& log_sha256) {
       settings.finger_sha256 + "\nscene " + settings.scene_sha256 +
       "\nscheme " + SchemeName(settings.discretization.scheme) +
       "\nresolution " + std::to_string(settings.discretization.resolution) +
-      "\nsolver " + FrameMethodName(settings.method) + "\nblock_frames " +
-      std::to_string(kBlockFrames) + "\n");
+      "\nsolver " +
+      (settings.joint ? "joint" : FrameMethodName(settings.method)) +
+      "\nblock_frames " + std::to_string(kBlockFrames) + "\n");
 }
 
 std::size_t Count(const YamlMap& yaml, const std::string& key) {
@@ -142,7 +144,7 @@ bool LogJob::Run(FrameSolverPool* pool) {
     ReportProgress(frames_, true);
     return true;
   }
-  ResumableFile out(result_, key_, settings_->resume);
+  ResumableFile out(result_, key_, settings_->resume && !settings_->joint);
   summary_ = SummaryFromText(out.note()).value_or(EstimationSummary());
   ReportProgress(summary_.frames, true);
   if (!out.finished() && !Estimate(pool, &out)) return false;
@@ -165,8 +167,13 @@ bool LogJob::Estimate(FrameSolverPool* pool, ResumableFile* out) {
   try {
     FrameReader reader(log_, settings_->scene.columns);
     reader.Skip(summary_.frames);
-    whole = EstimateStream(settings_->finger, settings_->scene, pool,
-                           settings_->threads, settings_->stop, &reader, write);
+    whole = settings_->joint
+                ? EstimateJointly(settings_->finger, settings_->scene,
+                                  settings_->discretization, settings_->threads,
+                                  settings_->stop, &reader, write)
+                : EstimateStream(settings_->finger, settings_->scene, pool,
+                                 settings_->threads, settings_->stop, &reader,
+                                 write);
   } catch (const InputError&) {
     if (!Changed()) throw;  // the result cannot be written
   }

@@ -21,6 +21,9 @@ struct BatchSettings {
   Scene scene;
   Discretization discretization;
   FrameMethod method = FrameMethod::kFast;
+  /// Solve all frames of a log together (EstimateJointly) instead of one by
+  /// one. A log that was interrupted then begins anew.
+  bool joint = false;
   std::string finger_sha256, scene_sha256;  ///< "" without a scene file.
   int threads = 1;
   /// Continue what an earlier run has left unfinished, and keep what it has
@@ -55,6 +58,7 @@ class LogJob {
   bool Check();
   /// Estimates what is left to do, and writes result and summary. The folder
   /// must exist. Returns false if told to stop; the job can then be resumed.
+  /// `pool` solves the frames one by one; it is not used with `joint`.
   bool Run(FrameSolverPool* pool);
 
   const std::string& log() const { return log_; }

@@ -30,12 +30,22 @@ void ResultColumns::ForEach(const Measurements& readings,
     column([c] { return ContactAngle(c); }, contact.pose.z());
   }
   for (std::size_t j = 0; j < gauges_.size(); ++j) {
+    Gauge gauge = gauges_[j];
+    if (!estimate.gauge_offset_V.empty()) {
+      gauge.offset_V = estimate.gauge_offset_V[j];
+    }
     column([j] { return GaugeAngle(static_cast<int>(j)); },
-           gauges_[j].Angle(readings.gauges_V[j]));
+           gauge.Angle(readings.gauges_V[j]));
   }
   for (std::size_t i = 0; i < ribs_; ++i) {
     column([i] { return RibForce(static_cast<int>(i)); },
            estimate.rib_tension_N[i]);
+  }
+  for (std::size_t j = 0; j < estimate.gauge_offset_V.size(); ++j) {
+    column([j] { return GaugeOffset(static_cast<int>(j)); },
+           estimate.gauge_offset_V[j]);
+    column([j] { return GaugeOffsetStd(static_cast<int>(j)); },
+           estimate.gauge_offset_std_V[j]);
   }
   named("tip_x_mm", estimate.tip_pose.x());
   named("tip_y_mm", estimate.tip_pose.y());
@@ -66,6 +76,10 @@ ResultColumns::ResultColumns(const Finger& finger, const Scene& scene)
   readings.gauges_V.resize(gauges_.size());
   FrameEstimate estimate;
   estimate.rib_tension_N.resize(ribs_);
+  if (scene.gauge_offset_walk) {
+    estimate.gauge_offset_V.resize(gauges_.size());
+    estimate.gauge_offset_std_V.resize(gauges_.size());
+  }
   ForEach(readings, estimate,
           [this](auto name, double) { names_.push_back(name()); });
 }

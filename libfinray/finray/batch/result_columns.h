@@ -9,10 +9,11 @@
 namespace finray {
 
 /// The numeric columns that an estimate fills in, in this order: contact_<c>_*,
-/// normal_<c>_*, friction_<c>, gauge angles, ribs, tip, chi2, chi2_p_value,
-/// iterations, alternative_*. They depend only on the finger and the scene. The
-/// second contact has columns if FrameEstimator may find one: contacts 2, or
-/// auto with at least four gauges and no object_std_mm.
+/// normal_<c>_*, friction_<c>, gauge angles, ribs, gauge offsets where
+/// they wander, tip, chi2, chi2_p_value, iterations, alternative_*. They depend
+/// only on the finger and the scene. The second contact has columns if
+/// FrameEstimator may find one: contacts 2, or auto with at least four gauges
+/// and no object_std_mm.
 class ResultColumns {
  public:
   ResultColumns(const Finger& finger, const Scene& scene);

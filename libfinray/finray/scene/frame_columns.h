@@ -17,6 +17,12 @@ inline std::string GaugeVolts(int j) {
 inline std::string GaugeAngle(int j) {
   return IndexedColumn("gauge_", j, "_rad");
 }
+inline std::string GaugeOffset(int j) {
+  return IndexedColumn("gauge_", j, "_offset_V");
+}
+inline std::string GaugeOffsetStd(int j) {
+  return IndexedColumn("gauge_", j, "_offset_std_V");
+}
 inline std::string ContactArc(int c) {
   return IndexedColumn("contact_", c, "_mm");
 }

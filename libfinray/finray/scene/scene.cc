@@ -208,7 +208,7 @@ std::map<std::string, std::string> ReadColumns(const YamlMap& yaml) {
 Scene ReadScene(const YamlMap& yaml) {
   yaml.AllowOnly({"schema_version", "contacts", "contact_beams",
                   "friction_coefficient", "object", "measurements", "smoothing",
-                  "columns"});
+                  "gauge_offset_walk", "columns"});
   if (yaml.Has("schema_version") && yaml.Integer("schema_version") != 1) {
     yaml.Fail("schema_version", "expected 1");
   }
@@ -229,6 +229,12 @@ Scene ReadScene(const YamlMap& yaml) {
     }
     scene.smoothing = {map.PositiveNumber("contact_std_mm"),
                        map.PositiveNumber("normal_std_N")};
+  }
+  if (yaml.Has("gauge_offset_walk")) {
+    const YamlMap map = yaml.Map("gauge_offset_walk");
+    map.AllowOnly({"start_std_V", "std_V_per_sqrt_s"});
+    scene.gauge_offset_walk = {map.PositiveNumber("start_std_V"),
+                               map.PositiveNumber("std_V_per_sqrt_s")};
   }
   scene.columns = ReadColumns(yaml);
   return scene;

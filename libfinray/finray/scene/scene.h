@@ -17,6 +17,13 @@ struct Smoothing {
   double normal_N;
 };
 
+/// Offsets of the gauges that wander: each starts within start_std_V of the
+/// finger's and is a random walk from there.
+struct GaugeOffsetWalk {
+  double start_std_V;
+  double std_V_per_sqrt_s;  ///< Std of its change in a second.
+};
+
 /// The contents of a scene. Only these are modelled.
 struct Scene {
   /// Number of contacts. Empty for "auto": the estimator decides frame by
@@ -40,6 +47,8 @@ struct Scene {
   /// How much l_c and f_c change between frames. Empty: neighbouring frames are
   /// not smoothed.
   std::optional<Smoothing> smoothing;
+  /// Empty: the offsets are the finger's.
+  std::optional<GaugeOffsetWalk> gauge_offset_walk;
   /// Maps a lab's own headers to columns of the frame table.
   std::map<std::string, std::string> columns;
 

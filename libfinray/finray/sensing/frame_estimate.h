@@ -55,6 +55,8 @@ struct FrameEstimate {
   /// its noise, and its chi2. NaN if there is none.
   ContactEstimates alternative;
   double alternative_chi2 = std::numeric_limits<double>::quiet_NaN();
+  /// By gauge, where they are estimated too (LogEstimator); else empty.
+  std::vector<double> gauge_offset_V, gauge_offset_std_V;
 
   /// The probability that noise alone makes chi2 as large or larger. NaN
   /// without degrees of freedom.

@@ -1,0 +1,26 @@
+#include "finray/residuals/contact_change_residual.h"
+
+namespace finray {
+
+ceres::CostFunction* ContactChangeResidual::Create(double contact_std_mm,
+                                                   double normal_std_N) {
+  return new ContactChangeResidual(contact_std_mm, normal_std_N);
+}
+
+bool ContactChangeResidual::Evaluate(double const* const* parameters,
+                                     double* residuals,
+                                     double** jacobians) const {
+  for (int i = 0; i < 2; ++i) {
+    residuals[i] = weight_[i] * (parameters[1][i] - parameters[0][i]);
+    if (jacobians == nullptr) continue;
+    for (int block = 0; block < 2; ++block) {
+      if (jacobians[block] == nullptr) continue;
+      // 2 x 2, row by row.
+      jacobians[block][2 * i + i] = block == 0 ? -weight_[i] : weight_[i];
+      jacobians[block][2 * i + 1 - i] = 0;
+    }
+  }
+  return true;
+}
+
+}  // namespace finray

@@ -1,0 +1,56 @@
+#ifndef FINRAY_SENSING_BLOCK_TRIDIAGONAL_H_
+#define FINRAY_SENSING_BLOCK_TRIDIAGONAL_H_
+
+#include <ceres/crs_matrix.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace finray {
+
+/// The normal equations A = J'J, g = J'r of a chain of unknowns, where each row
+/// of J reaches over one block of unknowns or over two that follow each other.
+/// With D_t the diagonal blocks and U_t = A_{t, t+1},
+///
+///   F_t = D_t - U_{t-1}' F_{t-1}^-1 U_{t-1}     (all blocks before t
+///   eliminated) B_t = D_t - U_t B_{t+1}^-1 U_t'             (all blocks behind
+///   t eliminated) (A^-1)_tt = (F_t + B_t - D_t)^-1,
+///
+/// in a time that grows with the number of blocks.
+class BlockTridiagonal {
+ public:
+  /// The number of unknowns of each block; it may be 0.
+  explicit BlockTridiagonal(const std::vector<int>& sizes);
+
+  /// Adds the rows [begin, end) of J and r. Throws std::invalid_argument if a
+  /// row reaches farther.
+  void Add(const ceres::CRSMatrix& jacobian,
+           const std::vector<double>& residuals, int begin, int end);
+
+  /// F_t + B_t - D_t of every block: what all rows tell about it.
+  std::vector<Eigen::MatrixXd> Marginals() const;
+
+  struct Marginal {
+    Eigen::MatrixXd information;
+    Eigen::VectorXd gradient;
+  };
+  /// What is left for the last block when all before it are eliminated.
+  Marginal Last() const;
+
+  const Eigen::MatrixXd& diagonal(std::size_t t) const { return diagonal_[t]; }
+  const Eigen::VectorXd& gradient(std::size_t t) const { return gradient_[t]; }
+
+ private:
+  std::vector<int> block_of_, first_;  // by column; the first column by block
+  std::vector<Eigen::MatrixXd> diagonal_, upper_;
+  std::vector<Eigen::VectorXd> gradient_;
+};
+
+/// The inverse of a small information matrix whose units may differ by orders
+/// of magnitude. A direction that it leaves open has a variance of 1e12 in
+/// units of what its own diagonal says.
+Eigen::MatrixXd InverseInformation(const Eigen::MatrixXd& information);
+
+}  // namespace finray
+
+#endif  // FINRAY_SENSING_BLOCK_TRIDIAGONAL_H_

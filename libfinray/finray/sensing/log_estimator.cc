@@ -1,0 +1,317 @@
+#include "finray/sensing/log_estimator.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "finray/finger/geometry.h"
+#include "finray/io/error.h"
+#include "finray/io/number_text.h"
+#include "finray/sensing/block_tridiagonal.h"
+#include "finray/sensing/frame_estimator.h"
+
+namespace finray {
+namespace {
+
+// Each free frame tells the filter to forget what was before it, by about the
+// ratio of the walk since the last frame to the noise of a reading. After a sum
+// of so much of that, e^-8 of an old error is left.
+constexpr double kForgotten = 8;
+
+const Finger& Checked(const Finger& finger, const Scene& scene) {
+  RefuseBackContacts(scene);
+  if (scene.contacts.value_or(1) > 1) {
+    throw InputError("scene: contacts: " + std::to_string(*scene.contacts) +
+                     " cannot be estimated with the whole log; 0, 1 and auto "
+                     "can");
+  }
+  if (scene.UsesCamera()) {
+    throw InputError(
+        "scene: pin_std_mm and tip_std_mm cannot be used with the whole log");
+  }
+  if (finger.gauges.size() < 2) {
+    throw InputError("finger '" + finger.name +
+                     "': a contact needs at least 2 gauges");
+  }
+  return finger;
+}
+
+}  // namespace
+
+LogEstimator::LogEstimator(const Finger& finger, const Scene& scene,
+                           const Discretization& discretization, int threads,
+                           Take take)
+    : finger_(Checked(finger, scene)),
+      scene_(scene),
+      discretization_(discretization),
+      threads_(threads),
+      take_(std::move(take)),
+      detection_(finger, scene, discretization),
+      solver_(finger, discretization),
+      systematic_(finger, scene.friction_coefficient, &solver_,
+                  MeasuredRadius(scene)),
+      least_force_N_(std::min(FrameEstimator::kLeastForce_N,
+                              FrameEstimator::kLeastForce * ForceUnit(finger))),
+      prior_(FirstPrior()) {
+  solver_.Reset();
+  solver_.Solve({});
+  free_.status = FrameStatus::kNoContact;
+  free_.contact[0].normal_N = 0;
+  free_.tip_pose = solver_.tip_pose();
+  for (int i = 0; i < solver_.model().ribs(); ++i) {
+    free_.rib_tension_N.push_back(solver_.rib_tension(i));
+  }
+}
+
+LogPrior LogEstimator::FirstPrior() const {
+  LogPrior prior;
+  if (!scene_.gauge_offset_walk) return prior;
+  const auto gauges = static_cast<Eigen::Index>(finger_.gauges.size());
+  prior.mean.resize(gauges);
+  for (Eigen::Index j = 0; j < gauges; ++j) {
+    prior.mean[j] = finger_.gauges[j].offset_V;
+  }
+  const double std_V = scene_.gauge_offset_walk->start_std_V;
+  prior.information =
+      Eigen::MatrixXd::Identity(gauges, gauges) / (std_V * std_V);
+  return prior;
+}
+
+OffsetBelief LogEstimator::BeliefBefore() const {
+  const auto gauges = static_cast<Eigen::Index>(finger_.gauges.size());
+  OffsetBelief belief;
+  belief.time_s = frames_.front().row.time_s;
+  if (!scene_.gauge_offset_walk) {
+    belief.mean_V.resize(gauges);
+    for (Eigen::Index j = 0; j < gauges; ++j) {
+      belief.mean_V[j] = finger_.gauges[j].offset_V;
+    }
+    belief.variance_V2 = Eigen::VectorXd::Zero(gauges);
+    return belief;
+  }
+  belief.mean_V = prior_.mean.head(gauges);
+  belief.variance_V2 =
+      InverseInformation(prior_.information).diagonal().head(gauges);
+  return belief;
+}
+
+void LogEstimator::Add(const Measurements& row) {
+  if (scene_.gauge_offset_walk) {
+    const bool later = frames_.empty() ? std::isfinite(row.time_s)
+                                       : row.time_s > frames_.back().row.time_s;
+    if (!later) {
+      throw InputError(
+          "time_s: expected a time after that of the row before, "
+          "as gauge_offset_walk needs, found " +
+          NumberText(row.time_s));
+    }
+  }
+  LogFrame frame;
+  frame.row = row;
+  frames_.push_back(std::move(frame));
+  if (frames_.size() < next_look_) return;
+  detection_.Decide(BeliefBefore(), &frames_);
+  next_look_ = frames_.size() + kWindow;
+  if (const std::optional<Gap> gap = FindGap()) {
+    SolveWindow(gap->end, gap->middle);
+  } else if (frames_.size() >= kLongestWindow) {
+    SolveWindow(frames_.size(), frames_.size() / 2);
+  }
+}
+
+void LogEstimator::Finish() {
+  if (frames_.empty()) return;
+  detection_.Decide(BeliefBefore(), &frames_);
+  SolveWindow(frames_.size(), frames_.size());
+}
+
+std::optional<LogEstimator::Gap> LogEstimator::FindGap() const {
+  // What a frame forgets.
+  const auto forgets = [this](std::size_t t) {
+    if (!scene_.gauge_offset_walk) return kForgotten;
+    const double dt = frames_[t].row.time_s - frames_[t - 1].row.time_s;
+    double least = 1;
+    for (const Gauge& gauge : finger_.gauges) {
+      least = std::min(least, scene_.gauge_offset_walk->std_V_per_sqrt_s *
+                                  std::sqrt(dt) / gauge.noise_V);
+    }
+    return least;
+  };
+  const auto is_free = [this](std::size_t t) {
+    return frames_[t].role == LogFrame::Role::kFree;
+  };
+  std::size_t end = frames_.size();
+  while (end > 1) {
+    if (!is_free(end - 1)) {
+      --end;
+      continue;
+    }
+    double forgotten = 0;
+    std::size_t begin = end, middle = 0;
+    for (; begin > 1 && is_free(begin - 1); --begin) {
+      forgotten += forgets(begin - 1);
+      if (forgotten >= kForgotten && middle == 0) middle = begin - 1;
+      if (forgotten >= 2 * kForgotten) return Gap{middle, end};
+    }
+    end = begin - 1;
+  }
+  return std::nullopt;
+}
+
+void LogEstimator::SolveWindow(std::size_t window, std::size_t settled) {
+  std::vector<LogFrame> frames(frames_.begin(),
+                               frames_.begin() + static_cast<long>(window));
+  std::vector<bool> dropped(window, false);
+  iterations_ = 0;
+  for (int round = 1;; ++round) {
+    LogProblem problem(finger_, scene_, discretization_, threads_, &frames,
+                       prior_);
+    iterations_ += problem.Solve();
+    const std::vector<LogMarginal> marginals = problem.Marginals();
+    if (round < kMostRounds && Reconsider(marginals, &frames, &dropped)) {
+      continue;
+    }
+    for (std::size_t t = 0; t < settled; ++t) {
+      take_(Judge(frames[t], marginals[t], problem.converged()));
+    }
+    if (settled < window) prior_ = problem.PriorOf(settled);
+    break;
+  }
+  frames_.erase(frames_.begin(), frames_.begin() + static_cast<long>(settled));
+}
+
+// chi2 of the free finger where all other frames put the offsets.
+double LogEstimator::FreeChi2(const LogFrame& frame,
+                              const LogMarginal& marginal) const {
+  std::vector<int> measured;
+  for (std::size_t j = 0; j < finger_.gauges.size(); ++j) {
+    if (finger_.gauges[j].IsMeasured(frame.row.gauges_V[j])) {
+      measured.push_back(static_cast<int>(j));
+    }
+  }
+  const auto count = static_cast<Eigen::Index>(measured.size());
+  Eigen::VectorXd off(count);
+  Eigen::MatrixXd covariance(count, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const int j = measured[i];
+    const Gauge& gauge = finger_.gauges[j];
+    off[i] =
+        frame.row.gauges_V[j] - marginal.mean_without[j] -
+        gauge.gain_V_per_rad * detection_.search().table().free_angles()[j];
+    for (Eigen::Index k = 0; k < count; ++k) {
+      covariance(i, k) = marginal.offsets_without(j, measured[k]);
+    }
+    covariance(i, i) += gauge.noise_V * gauge.noise_V;
+  }
+  return off.dot(covariance.ldlt().solve(off));
+}
+
+bool LogEstimator::Reconsider(const std::vector<LogMarginal>& marginals,
+                              std::vector<LogFrame>* frames,
+                              std::vector<bool>* dropped) {
+  if (scene_.contacts) return false;
+  bool changed = false;
+  for (std::size_t t = 0; t < frames->size(); ++t) {
+    LogFrame& frame = (*frames)[t];
+    const LogMarginal& marginal = marginals[t];
+    const double free_chi2 = FreeChi2(frame, marginal);
+    if (frame.role == LogFrame::Role::kTouching) {
+      if (free_chi2 - marginal.chi2 >= FrameEstimator::kSignificance &&
+          frame.normal_N > 0) {
+        continue;
+      }
+      frame.role = LogFrame::Role::kUnused;
+      (*dropped)[t] = changed = true;
+    } else if (!(*dropped)[t] && free_chi2 >= FrameEstimator::kSignificance &&
+               detection_.FindContact(frame, marginal.mean_without,
+                                      marginal.offsets_without.diagonal())) {
+      detection_.StartTouch(&frame);
+      changed = true;
+    }
+  }
+  return changed;
+}
+
+FrameEstimate LogEstimator::Judge(const LogFrame& frame,
+                                  const LogMarginal& marginal, bool converged) {
+  FrameEstimate estimate = free_;
+  PackedReadings packed;
+  Pack(finger_, scene_, frame.row, &packed);
+  if (packed.gauges < 1 || packed.all < 2 * scene_.contacts.value_or(1)) {
+    estimate = FrameEstimate();
+    estimate.rib_tension_N.assign(finger_.ribs.size(), std::nan(""));
+  } else if (frame.role == LogFrame::Role::kTouching &&
+             frame.normal_N >= least_force_N_) {
+    estimate.chi2 = marginal.chi2;
+    estimate.dof = packed.all - 2;
+    JudgeContact(frame, marginal, &estimate);
+    if (!converged) estimate.status = FrameStatus::kNotConverged;
+  } else {
+    estimate.chi2 = FreeChi2(frame, marginal);
+    estimate.dof = packed.gauges;
+  }
+  estimate.iterations = iterations_;
+  if (!scene_.gauge_offset_walk) return estimate;
+  for (std::size_t j = 0; j < finger_.gauges.size(); ++j) {
+    const auto i = static_cast<Eigen::Index>(j);
+    estimate.gauge_offset_V.push_back(frame.offset_V[i]);
+    estimate.gauge_offset_std_V.push_back(std::sqrt(marginal.covariance(i, i)));
+  }
+  return estimate;
+}
+
+void LogEstimator::JudgeContact(const LogFrame& frame,
+                                const LogMarginal& marginal,
+                                FrameEstimate* estimate) {
+  const std::vector<PointContact> contacts = {
+      {frame.arc_mm, frame.normal_N, scene_.friction_coefficient}};
+  solver_.set_state(frame.state);
+  solver_.Solve(contacts);
+  estimate->contacts = 1;
+  ContactEstimate& contact = estimate->contact[0];
+  contact.arc_mm = frame.arc_mm;
+  contact.normal_N = frame.normal_N;
+  contact.pose = solver_.contact_pose(0);
+  estimate->tip_pose = solver_.tip_pose();
+  for (std::size_t i = 0; i < estimate->rib_tension_N.size(); ++i) {
+    estimate->rib_tension_N[i] = solver_.rib_tension(static_cast<int>(i));
+  }
+  const Eigen::Index at = marginal.covariance.rows() - 2;
+  const double scale = estimate->noise_scale();
+  contact.arc_std_mm = scale * std::sqrt(marginal.covariance(at, at));
+  contact.normal_std_N = scale * std::sqrt(marginal.covariance(at + 1, at + 1));
+  if (!systematic_.empty()) {
+    PackedReadings packed;
+    Pack(finger_, scene_, frame.row, &packed);
+    std::vector<double> readings_V = frame.row.gauges_V;
+    for (std::size_t j = 0; j < readings_V.size(); ++j) {
+      readings_V[j] += finger_.gauges[j].offset_V -
+                       frame.offset_V[static_cast<Eigen::Index>(j)];
+    }
+    const ContactMatrix covariance =
+        systematic_.Of(contacts, readings_V, packed.weights);
+    contact.arc_std_mm =
+        std::hypot(contact.arc_std_mm, std::sqrt(covariance(0, 0)));
+    contact.normal_std_N =
+        std::hypot(contact.normal_std_N, std::sqrt(covariance(1, 1)));
+  }
+  if (frame.rival) {
+    const ContactSolution& rival = frame.rival->contact;
+    estimate->alternative[0].arc_mm = rival.contacts[0].arc_mm;
+    estimate->alternative[0].normal_N = rival.contacts[0].normal_N;
+    estimate->alternative[0].pose = rival.poses[0];
+    estimate->alternative_chi2 = estimate->chi2 + frame.rival->more_chi2;
+  }
+  const bool determined =
+      !frame.rival &&
+      contact.arc_std_mm <=
+          FrameEstimator::kLargestArcStd * finger_.front_length_mm &&
+      contact.normal_std_N <=
+          FrameEstimator::kLargestForceStd * contact.normal_N &&
+      !detection_.search().OnBound(contact.arc_mm, contact.normal_N);
+  estimate->status = determined ? FrameStatus::kOk : FrameStatus::kUnobservable;
+}
+
+}  // namespace finray

@@ -1,0 +1,279 @@
+#include "finray/sensing/log_problem.h"
+
+#include <ceres/solver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "finray/finger/geometry.h"
+#include "finray/io/number_text.h"
+#include "finray/residuals/contact_change_residual.h"
+#include "finray/residuals/gauge_offset_change_residual.h"
+#include "finray/residuals/gaussian_prior_residual.h"
+#include "finray/residuals/parameter_prior_residual.h"
+#include "finray/sensing/block_tridiagonal.h"
+
+namespace finray {
+namespace {
+
+// In std: one reading in 400 is beyond it by noise alone.
+constexpr double kHuberScale = 3;
+constexpr int kMostIterations = 50;
+// The solve ends when the cost, about one a frame, falls by less than this.
+constexpr double kLeastChange = 1e-4;
+// What is known of a contact beforehand: std of l_c about its start in l_0, and
+// of f_c about 0 in EI / l_0^2. They tell nothing beside readings that
+// determine the contact, and keep others from the far end of the beam and of
+// the scale.
+constexpr double kArcPrior = 0.25, kForcePrior = 16;
+
+}  // namespace
+
+LogProblem::LogProblem(const Finger& finger, const Scene& scene,
+                       const Discretization& discretization, int threads,
+                       std::vector<LogFrame>* frames, const LogPrior& prior)
+    : finger_(finger),
+      scene_(scene),
+      frames_(frames),
+      threads_(threads),
+      gauges_(finger.gauges.size()),
+      stride_(gauges_ + 2),
+      values_(frames->size() * stride_),
+      model_(MeasurementModel::OfScene(finger, scene)),
+      parameters_(finger),
+      evaluations_(finger, discretization, EquilibriumForm::kReduced,
+                   parameters_.shared(), threads),
+      free_(&evaluations_.Add(0, scene.friction_coefficient, nullptr)),
+      evaluation_of_(frames->size(), free_),
+      loss_(std::make_unique<ceres::HuberLoss>(kHuberScale)),
+      readings_(frames->size()),
+      links_(frames->size()),
+      contact_priors_(frames->size()) {
+  ceres::Problem::Options options;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.evaluation_callback = &evaluations_;
+  problem_ = std::make_unique<ceres::Problem>(options);
+  for (std::size_t t = 0; t < frames->size(); ++t) {
+    const LogFrame& frame = (*frames)[t];
+    std::copy_n(frame.offset_V.data(), gauges_, offsets(t));
+    for (std::size_t j = 0; j < gauges_; ++j) {
+      problem_->AddParameterBlock(offsets(t) + j, 1);
+    }
+    if (!Touches(t)) continue;
+    contact(t)[0] = frame.arc_mm;
+    contact(t)[1] = frame.normal_N;
+    problem_->AddParameterBlock(contact(t), 2);
+    evaluation_of_[t] =
+        &evaluations_.Add(1, scene.friction_coefficient, contact(t));
+    if (frame.state.q.size() > 0) evaluation_of_[t]->set_state(frame.state);
+  }
+  for (std::size_t t = 0; t < frames->size(); ++t) {
+    AddReadings(t);
+    if (t > 0) AddLink(t);
+  }
+  AddPrior(prior);
+  FixWhatIsNotFree();
+}
+
+bool LogProblem::Linked(std::size_t t) const {
+  return (scene_.smoothing || scene_.gauge_offset_walk) && t > 0 &&
+         Touches(t) && Touches(t - 1);
+}
+
+void LogProblem::AddReadings(std::size_t t) {
+  const LogFrame& frame = (*frames_)[t];
+  if (frame.role == LogFrame::Role::kUnused) return;
+  FrameParameters parameters = parameters_.frame();
+  for (std::size_t j = 0; j < gauges_; ++j) {
+    parameters.readings[j] = {{offsets(t) + j, 1}};
+  }
+  for (FrameBlock& block :
+       MeasurementBlocks(frame.row, model_, parameters, finger_.gauges,
+                         evaluation_of_[t], contact(t))) {
+    readings_[t].push_back(problem_->AddResidualBlock(
+        block.cost.release(), loss_.get(), block.parameters));
+  }
+  if (!Touches(t)) return;
+  const Eigen::Vector2d mean(frame.arc_mm, 0);
+  const Eigen::Vector2d std(kArcPrior * finger_.front_length_mm,
+                            kForcePrior * ForceUnit(finger_));
+  contact_priors_[t].push_back(problem_->AddResidualBlock(
+      ParameterPriorResidual::Create(mean, std), nullptr, contact(t)));
+}
+
+void LogProblem::AddLink(std::size_t t) {
+  const double dt = (*frames_)[t].row.time_s - (*frames_)[t - 1].row.time_s;
+  if (scene_.gauge_offset_walk) {
+    for (std::size_t j = 0; j < gauges_; ++j) {
+      links_[t].push_back(problem_->AddResidualBlock(
+          GaugeOffsetChangeResidual::Create(
+              scene_.gauge_offset_walk->std_V_per_sqrt_s, dt),
+          nullptr, offsets(t - 1) + j, offsets(t) + j));
+    }
+  }
+  if (!Linked(t)) return;
+  const Smoothing change = scene_.smoothing.value_or(
+      Smoothing{kContactWalk_mm * std::sqrt(dt),
+                std::numeric_limits<double>::infinity()});
+  links_[t].push_back(problem_->AddResidualBlock(
+      ContactChangeResidual::Create(change.contact_mm, change.normal_N),
+      nullptr, contact(t - 1), contact(t)));
+}
+
+void LogProblem::AddPrior(const LogPrior& prior) {
+  LogPrior known = prior;
+  std::vector<double*> blocks;
+  std::vector<int> sizes;
+  for (int j = 0; j < FreeOffsets(); ++j) {
+    blocks.push_back(offsets(0) + j);
+    sizes.push_back(1);
+  }
+  if (prior.mean.size() > FreeOffsets()) {
+    if (Touches(0)) {
+      blocks.push_back(contact(0));
+      sizes.push_back(2);
+    } else {  // the contact that it tells about is gone
+      known.mean = prior.mean.head(FreeOffsets());
+      known.information =
+          InverseInformation(InverseInformation(prior.information)
+                                 .topLeftCorner(FreeOffsets(), FreeOffsets()));
+    }
+  }
+  if (blocks.empty()) return;
+  prior_.push_back(problem_->AddResidualBlock(
+      GaussianPriorResidual::Create(known.mean, known.information, sizes),
+      nullptr, blocks));
+}
+
+// The finger stays as it is; only offsets and contacts vary.
+void LogProblem::FixWhatIsNotFree() {
+  std::vector<double*> blocks;
+  problem_->GetParameterBlocks(&blocks);
+  for (double* block : blocks) {
+    const bool of_finger =
+        block < values_.data() || block >= values_.data() + values_.size();
+    if (of_finger) problem_->SetParameterBlockConstant(block);
+  }
+  if (scene_.gauge_offset_walk) return;
+  for (std::size_t t = 0; t < frames_->size(); ++t) {
+    for (std::size_t j = 0; j < gauges_; ++j) {
+      problem_->SetParameterBlockConstant(offsets(t) + j);
+    }
+  }
+}
+
+int LogProblem::Solve() {
+  ceres::Solver::Options options;
+  options.logging_type = ceres::SILENT;
+  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  options.num_threads = threads_;
+  options.max_num_iterations = kMostIterations;
+  // The residuals are whitened. The information about an offset under a long
+  // touch is 1e-3 of its diagonal: with this radius it is hardly damped.
+  options.initial_trust_region_radius = 1e6;
+  options.max_trust_region_radius = 1e16;
+  // One frame in a flat direction must not hold up thousands: a change of 1e-4
+  // in the cost of a frame is 0.01 std.
+  options.function_tolerance =
+      kLeastChange / static_cast<double>(frames_->size());
+  options.parameter_tolerance = 1e-10;
+  ceres::Solver::Summary summary;
+  const ClassicNumbers in_messages;
+  ceres::Solve(options, problem_.get(), &summary);
+  // The last trial step may have been rejected; the evaluations then still hold
+  // the results of that trial.
+  evaluations_.PrepareForEvaluation(true, true);
+  converged_ = summary.termination_type == ceres::CONVERGENCE;
+  for (std::size_t t = 0; t < frames_->size(); ++t) {
+    LogFrame& frame = (*frames_)[t];
+    std::copy_n(offsets(t), gauges_, frame.offset_V.data());
+    if (!Touches(t)) continue;
+    frame.arc_mm = contact(t)[0];
+    frame.normal_N = contact(t)[1];
+    frame.state = evaluation_of_[t]->state();
+  }
+  Linearize();
+  return std::max(0, static_cast<int>(summary.iterations.size()) - 1);
+}
+
+void LogProblem::Linearize() {
+  ceres::Problem::EvaluateOptions options;
+  options.num_threads = threads_;
+  std::vector<ceres::ResidualBlockId>& rows = options.residual_blocks;
+  links_end_.clear();
+  readings_end_.clear();
+  int count = 0;
+  const auto add = [&](const std::vector<ceres::ResidualBlockId>& blocks) {
+    for (const ceres::ResidualBlockId block : blocks) {
+      rows.push_back(block);
+      count +=
+          problem_->GetCostFunctionForResidualBlock(block)->num_residuals();
+    }
+    return count;
+  };
+  add(prior_);
+  for (std::size_t t = 0; t < frames_->size(); ++t) {
+    links_end_.push_back(add(links_[t]));
+    readings_end_.push_back(add(readings_[t]));
+    add(contact_priors_[t]);
+    for (int j = 0; j < FreeOffsets(); ++j) {
+      options.parameter_blocks.push_back(offsets(t) + j);
+    }
+    if (Touches(t)) options.parameter_blocks.push_back(contact(t));
+  }
+  jacobian_ = {};
+  residuals_.clear();
+  if (!rows.empty() && !options.parameter_blocks.empty()) {
+    problem_->Evaluate(options, nullptr, &residuals_, nullptr, &jacobian_);
+  }
+}
+
+std::vector<LogMarginal> LogProblem::Marginals() const {
+  const std::size_t count = frames_->size();
+  std::vector<int> sizes;
+  for (std::size_t t = 0; t < count; ++t) sizes.push_back(Unknowns(t));
+  BlockTridiagonal all(sizes), own(sizes);
+  all.Add(jacobian_, residuals_, 0, jacobian_.num_rows);
+  const std::vector<Eigen::MatrixXd> known = all.Marginals();
+  std::vector<LogMarginal> marginals(count);
+  const int offsets = FreeOffsets();
+  for (std::size_t t = 0; t < count && jacobian_.num_rows > 0; ++t) {
+    LogMarginal& marginal = marginals[t];
+    const int begin = links_end_[t], end = readings_end_[t];
+    own.Add(jacobian_, residuals_, begin, end);
+    for (int row = begin; row < end; ++row) {
+      marginal.chi2 += residuals_[row] * residuals_[row];
+    }
+    marginal.covariance = InverseInformation(known[t]);
+    if (offsets == 0) continue;
+    Eigen::MatrixXd others = known[t] - own.diagonal(t);
+    const bool linked = Linked(t) || (t + 1 < count && Linked(t + 1));
+    if (!linked) others = others.topLeftCorner(offsets, offsets).eval();
+    marginal.offsets_without =
+        InverseInformation(others).topLeftCorner(offsets, offsets);
+    const Eigen::VectorXd pull = own.gradient(t).head(offsets);
+    marginal.mean_without =
+        (*frames_)[t].offset_V + marginal.offsets_without * pull;
+    marginal.chi2 += pull.dot(marginal.offsets_without * pull);
+  }
+  return marginals;
+}
+
+LogPrior LogProblem::PriorOf(std::size_t frame) const {
+  std::vector<int> sizes;
+  for (std::size_t t = 0; t <= frame; ++t) sizes.push_back(Unknowns(t));
+  BlockTridiagonal past(sizes);
+  past.Add(jacobian_, residuals_, 0,
+           jacobian_.num_rows > 0 ? links_end_[frame] : 0);
+  const BlockTridiagonal::Marginal last = past.Last();
+  const int size = FreeOffsets() + (Linked(frame) ? 2 : 0);
+  LogPrior prior;
+  prior.information = last.information.topLeftCorner(size, size);
+  const double* solution = &values_[frame * stride_ + gauges_ - FreeOffsets()];
+  prior.mean = Eigen::Map<const Eigen::VectorXd>(solution, size) -
+               InverseInformation(prior.information) * last.gradient.head(size);
+  return prior;
+}
+
+}  // namespace finray

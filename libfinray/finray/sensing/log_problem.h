@@ -1,0 +1,146 @@
+#ifndef FINRAY_SENSING_LOG_PROBLEM_H_
+#define FINRAY_SENSING_LOG_PROBLEM_H_
+
+#include <ceres/crs_matrix.h>
+#include <ceres/loss_function.h>
+#include <ceres/problem.h>
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "finray/residuals/frame_blocks.h"
+#include "finray/scene/scene.h"
+#include "finray/sensing/contact_search.h"
+
+namespace finray {
+
+/// What a frame of a log brings into LogProblem, and its solution.
+struct LogFrame {
+  enum class Role {
+    kFree,      ///< Its readings are those of the free finger.
+    kTouching,  ///< It has a contact.
+    kUnused,    ///< Nobody knows: its readings are left out.
+  };
+
+  Measurements row;
+  Role role = Role::kUnused;
+  double arc_mm = 0, normal_N = 0;  ///< Start, then solution, if it touches.
+  Eigen::VectorXd offset_V;         ///< Start, then solution.
+  LadderState state;                ///< An equilibrium near the contact.
+  /// Another contact that explains the frame within its noise, as
+  /// ContactSearch::rival, and its chi2 above that of the first.
+  struct Rival {
+    ContactSolution contact;
+    double more_chi2;
+  };
+  std::optional<Rival> rival;
+};
+
+/// What the frames before the first one tell about its offsets and, where its
+/// contact is linked to the one before, about (l_c, f_c) behind them.
+struct LogPrior {
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd information;
+};
+
+/// What a solution is worth, frame by frame.
+struct LogMarginal {
+  /// Of [offsets; l_c, f_c if it touches] given the whole problem.
+  Eigen::MatrixXd covariance;
+  /// Of the offsets given all but the frame's own readings.
+  Eigen::MatrixXd offsets_without;
+  /// Where these put the offsets: b + C A'r, with the frame's whitened
+  /// residuals r and A = dr/db.
+  Eigen::VectorXd mean_without;
+  /// The frame's readings against those offsets: r'r + (A'r)'C(A'r). Degrees of
+  /// freedom: as many as gauges, less two for a contact.
+  double chi2 = 0;
+};
+
+/// Contacts and gauge offsets of a stretch of a log in one sparse problem:
+///
+///   MeasurementBlocks            each free or touching frame, with a Huber
+///   loss GaugeOffsetChangeResidual    each gauge, from frame to frame
+///   ContactChangeResidual        from a contact to that of the next frame: as
+///                                the scene's smoothing says, or else l_c by
+///                                kContactWalk_mm where the offsets wander
+///   ParameterPriorResidual       each contact, weak
+///   GaussianPriorResidual        on the first frame
+///
+/// Unknowns of a frame: an offset in V for each gauge, in blocks of size 1, if
+/// the scene has a gauge_offset_walk, and (l_c, f_c) if it touches.
+class LogProblem {
+ public:
+  /// Std of l_c in mm after a second of a touch. Where offsets wander, a light
+  /// frame may look like a heavy touch near the tip; its neighbours tell. This
+  /// is far more than what the readings leave open elsewhere.
+  static constexpr double kContactWalk_mm = 5;
+
+  /// `frames` must stay in place, one at least, times ascending.
+  LogProblem(const Finger& finger, const Scene& scene,
+             const Discretization& discretization, int threads,
+             std::vector<LogFrame>* frames, const LogPrior& prior);
+  LogProblem(const LogProblem&) = delete;
+  LogProblem& operator=(const LogProblem&) = delete;
+
+  /// Solves, and writes the solution to the frames. Returns the number of
+  /// iterations.
+  int Solve();
+
+  bool converged() const { return converged_; }
+
+  /// At the solution.
+  std::vector<LogMarginal> Marginals() const;
+
+  /// What the frames before `frame` tell about it, at the solution; `frame` is
+  /// above 0. As the prior of a problem that begins there it stands for them.
+  LogPrior PriorOf(std::size_t frame) const;
+
+ private:
+  double* offsets(std::size_t t) { return &values_[t * stride_]; }
+  double* contact(std::size_t t) { return offsets(t) + gauges_; }
+  bool Touches(std::size_t t) const {
+    return (*frames_)[t].role == LogFrame::Role::kTouching;
+  }
+  bool Linked(std::size_t t) const;
+  void AddReadings(std::size_t t);
+  void AddLink(std::size_t t);
+  void AddPrior(const LogPrior& prior);
+  void FixWhatIsNotFree();
+  void Linearize();
+  int FreeOffsets() const {
+    return scene_.gauge_offset_walk ? static_cast<int>(gauges_) : 0;
+  }
+  int Unknowns(std::size_t t) const {
+    return FreeOffsets() + (Touches(t) ? 2 : 0);
+  }
+
+  Finger finger_;
+  Scene scene_;
+  std::vector<LogFrame>* frames_;
+  int threads_;
+  std::size_t gauges_, stride_;
+  std::vector<double> values_;  // offsets and contact of each frame, in order
+  MeasurementModel model_;
+  FingerParameters parameters_;
+  FrameSet evaluations_;
+  FrameEvaluation* free_;
+  std::vector<FrameEvaluation*> evaluation_of_;
+  std::unique_ptr<ceres::LossFunction> loss_;
+  std::unique_ptr<ceres::Problem> problem_;
+  std::vector<ceres::ResidualBlockId> prior_;
+  std::vector<std::vector<ceres::ResidualBlockId>> readings_, links_,
+      contact_priors_;
+  bool converged_ = false;
+  // At the solution. Rows: the prior, then of each frame its links to the one
+  // before, its readings and the prior of its contact.
+  ceres::CRSMatrix jacobian_;
+  std::vector<double> residuals_;
+  std::vector<int> links_end_, readings_end_;
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_SENSING_LOG_PROBLEM_H_

@@ -1,0 +1,229 @@
+#include "finray/sensing/touch_detection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "finray/sensing/chi_squared.h"
+#include "finray/sensing/frame_estimator.h"
+
+namespace finray {
+namespace {
+
+// The free finger could have given readings of this p-value or more, a contact
+// has given those of this one.
+constexpr double kCouldBeFree = 1e-3, kExplained = 1e-4;
+// A contact also explains what it leaves so small a share of. Fingers differ
+// from their model by a percent, which is many std of a reading under load.
+constexpr double kLeftOver = 0.2;
+// The guard has this many frames at least.
+constexpr std::size_t kLeastGuard = 2;
+
+std::size_t At(std::size_t i, std::size_t count, bool forward) {
+  return forward ? i : count - 1 - i;
+}
+
+}  // namespace
+
+TouchDetection::TouchDetection(const Finger& finger, const Scene& scene,
+                               const Discretization& discretization)
+    : finger_(finger),
+      scene_(scene),
+      walk_(scene.gauge_offset_walk
+                ? std::pow(scene.gauge_offset_walk->std_V_per_sqrt_s, 2)
+                : 0),
+      search_(finger, scene, discretization) {
+  if (walk_ == 0) return;
+  guard_s_ = kLongestGuard_s;
+  for (const Gauge& gauge : finger.gauges) {
+    guard_s_ = std::min(guard_s_, std::pow(kGuard * gauge.noise_V, 2) / walk_);
+  }
+}
+
+void TouchDetection::Decide(const OffsetBelief& before,
+                            std::vector<LogFrame>* frames) {
+  std::vector<LogFrame>& all = *frames;
+  const std::vector<Verdict> there = Pass(all, before, true);
+  std::vector<Verdict> back = there;
+  if (walk_ > 0) {
+    back = Pass(all, Behind(before, all), false);
+  }
+  for (std::size_t t = 0; t < all.size(); ++t) {
+    const auto either = [&](Verdict verdict) {
+      return there[t] == verdict || back[t] == verdict;
+    };
+    all[t].role = either(Verdict::kTouching) ? LogFrame::Role::kTouching
+                  : either(Verdict::kGuard)  ? LogFrame::Role::kUnused
+                  : either(Verdict::kFree)   ? LogFrame::Role::kFree
+                                             : LogFrame::Role::kUnused;
+  }
+  Start(before, &all);
+}
+
+// What is known of the offsets of the last frame before any is looked at.
+OffsetBelief TouchDetection::Behind(const OffsetBelief& before,
+                                    const std::vector<LogFrame>& frames) const {
+  OffsetBelief behind = before;
+  Wander(frames.back().row.time_s, &behind);
+  return behind;
+}
+
+std::vector<TouchDetection::Verdict> TouchDetection::Pass(
+    const std::vector<LogFrame>& frames, OffsetBelief belief, bool forward) {
+  std::vector<Verdict> verdicts(frames.size());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const std::size_t t = At(i, frames.size(), forward);
+    const LogFrame& frame = frames[t];
+    OffsetBelief here = belief;
+    Wander(frame.row.time_s, &here);
+    if (FindContact(frame, here.mean_V, here.variance_V2)) {
+      const double chi2 = search_.best().chi2;
+      const bool explained =
+          chi2 < kLeftOver * free_chi2_ || measurement_.all < 3 ||
+          ChiSquaredTail(chi2, measurement_.all - 2) > kExplained;
+      verdicts[t] = explained ? Verdict::kTouching : Verdict::kUnexplained;
+      continue;
+    }
+    Absorb(frame, &here);
+    if (CouldStayFree(frames, i, here, forward)) {
+      belief = here;
+      verdicts[t] = Verdict::kFree;
+    } else {
+      verdicts[t] = Verdict::kGuard;
+    }
+  }
+  return verdicts;
+}
+
+bool TouchDetection::CouldStayFree(const std::vector<LogFrame>& frames,
+                                   std::size_t first,
+                                   const OffsetBelief& belief,
+                                   bool forward) const {
+  for (std::size_t i = first + 1; i < frames.size(); ++i) {
+    const LogFrame& frame = frames[At(i, frames.size(), forward)];
+    const bool close = std::abs(frame.row.time_s - belief.time_s) <= guard_s_;
+    if (walk_ == 0 || (!close && i > first + kLeastGuard)) break;
+    OffsetBelief here = belief;
+    Wander(frame.row.time_s, &here);
+    const double chi2 = FreeChi2(frame, here.mean_V, here.variance_V2);
+    const auto gauges = static_cast<int>(finger_.gauges.size());
+    if (ChiSquaredTail(chi2, gauges) < kCouldBeFree) return false;
+  }
+  return true;
+}
+
+// Starts: offsets from the free frames on both sides, contacts from a search
+// with these.
+void TouchDetection::Start(const OffsetBelief& before,
+                           std::vector<LogFrame>* frames) {
+  const std::vector<OffsetBelief> there = FromOneSide(*frames, before, true);
+  const std::vector<OffsetBelief> back =
+      FromOneSide(*frames, Behind(before, *frames), false);
+  for (std::size_t t = 0; t < frames->size(); ++t) {
+    LogFrame& frame = (*frames)[t];
+    OffsetBelief here = there[t];
+    if (walk_ > 0) {
+      const Eigen::ArrayXd share =
+          there[t].variance_V2.array() /
+          (there[t].variance_V2 + back[t].variance_V2).array();
+      here.mean_V.array() += share * (back[t].mean_V - there[t].mean_V).array();
+      here.variance_V2.array() = share * back[t].variance_V2.array();
+    }
+    frame.offset_V = here.mean_V;
+    if (frame.role != LogFrame::Role::kTouching) continue;
+    if (FindContact(frame, here.mean_V, here.variance_V2)) {
+      StartTouch(&frame);
+    } else {
+      frame.role = LogFrame::Role::kUnused;
+    }
+  }
+}
+
+void TouchDetection::StartTouch(LogFrame* frame) const {
+  const ContactSolution* first = &search_.best();
+  const ContactSolution* second = search_.rival();
+  if (second != nullptr &&
+      first->contacts[0].normal_N > kHeavier * second->contacts[0].normal_N) {
+    std::swap(first, second);
+  }
+  frame->role = LogFrame::Role::kTouching;
+  frame->arc_mm = first->contacts[0].arc_mm;
+  frame->normal_N = first->contacts[0].normal_N;
+  frame->state = first->state;
+  frame->rival.reset();
+  if (second == nullptr) return;
+  frame->rival = {*second, second->chi2 - first->chi2};
+}
+
+// The offsets of each frame as the free frames on one side of it tell them.
+std::vector<OffsetBelief> TouchDetection::FromOneSide(
+    const std::vector<LogFrame>& frames, OffsetBelief belief,
+    bool forward) const {
+  std::vector<OffsetBelief> beliefs(frames.size());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const std::size_t t = At(i, frames.size(), forward);
+    Wander(frames[t].row.time_s, &belief);
+    beliefs[t] = belief;
+    if (frames[t].role == LogFrame::Role::kFree) Absorb(frames[t], &belief);
+  }
+  return beliefs;
+}
+
+bool TouchDetection::FindContact(const LogFrame& frame,
+                                 const Eigen::VectorXd& mean_V,
+                                 const Eigen::VectorXd& variance_V2) {
+  Pack(finger_, scene_, frame.row, &measurement_);
+  for (std::size_t j = 0; j < finger_.gauges.size(); ++j) {
+    const Gauge& gauge = finger_.gauges[j];
+    if (!gauge.IsMeasured(frame.row.gauges_V[j])) continue;
+    measurement_.values[j] =
+        (frame.row.gauges_V[j] - mean_V[j]) / gauge.gain_V_per_rad;
+    measurement_.weights[j] =
+        std::abs(gauge.gain_V_per_rad) /
+        std::sqrt(variance_V2[j] + gauge.noise_V * gauge.noise_V);
+  }
+  free_chi2_ = FreeChi2(frame, mean_V, variance_V2);
+  if (measurement_.all < 2) return false;
+  if (scene_.contacts) return search_.Search(1, frame.row, measurement_);
+  return free_chi2_ >= FrameEstimator::kSignificance &&
+         search_.Search(1, frame.row, measurement_) &&
+         free_chi2_ - search_.best().chi2 >= FrameEstimator::kSignificance;
+}
+
+double TouchDetection::FreeChi2(const LogFrame& frame,
+                                const Eigen::VectorXd& mean_V,
+                                const Eigen::VectorXd& variance_V2) const {
+  const Eigen::VectorXd& free = search_.table().free_angles();
+  double chi2 = 0;
+  for (std::size_t j = 0; j < finger_.gauges.size(); ++j) {
+    if (!finger_.gauges[j].IsMeasured(frame.row.gauges_V[j])) continue;
+    const Gauge& gauge = finger_.gauges[j];
+    const double off =
+        frame.row.gauges_V[j] - gauge.gain_V_per_rad * free[j] - mean_V[j];
+    chi2 += off * off / (variance_V2[j] + gauge.noise_V * gauge.noise_V);
+  }
+  return chi2;
+}
+
+void TouchDetection::Wander(double time_s, OffsetBelief* belief) const {
+  belief->variance_V2.array() += walk_ * std::abs(time_s - belief->time_s);
+  belief->time_s = time_s;
+}
+
+// The readings of a free frame are its offsets, but for the noise and what the
+// unloaded finger reads.
+void TouchDetection::Absorb(const LogFrame& frame, OffsetBelief* belief) const {
+  const Eigen::VectorXd& free = search_.table().free_angles();
+  for (std::size_t j = 0; j < finger_.gauges.size(); ++j) {
+    if (!finger_.gauges[j].IsMeasured(frame.row.gauges_V[j])) continue;
+    const Gauge& gauge = finger_.gauges[j];
+    double& mean = belief->mean_V[j];
+    double& variance = belief->variance_V2[j];
+    const double weight = variance / (variance + gauge.noise_V * gauge.noise_V);
+    mean += weight *
+            (frame.row.gauges_V[j] - gauge.gain_V_per_rad * free[j] - mean);
+    variance *= 1 - weight;
+  }
+}
+
+}  // namespace finray

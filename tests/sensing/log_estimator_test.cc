@@ -1,0 +1,133 @@
+#include "finray/sensing/log_estimator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "finray/io/error.h"
+#include "sensing/wandering_log.h"
+#include "test_finger.h"
+
+namespace finray {
+namespace {
+
+Scene WalkingScene() {
+  Scene scene;
+  scene.gauge_offset_walk = {0.05, 0.001};
+  return scene;
+}
+
+WanderingLog Log(double duration_s, unsigned seed = 1) {
+  WanderingLogSettings settings;
+  settings.duration_s = duration_s;
+  settings.seed = seed;
+  return WanderingLog(PaperFinger(), {Scheme::kTaylor12, 96}, settings);
+}
+
+std::vector<FrameEstimate> Estimate(const Scene& scene,
+                                    const std::vector<Measurements>& rows,
+                                    int threads = 1) {
+  std::vector<FrameEstimate> estimates;
+  LogEstimator estimator(
+      PaperFinger(), scene, {}, threads,
+      [&](const FrameEstimate& e) { estimates.push_back(e); });
+  for (const Measurements& row : rows) estimator.Add(row);
+  estimator.Finish();
+  return estimates;
+}
+
+TEST(LogEstimatorTest, FindsForcesUnderOffsetsThatWander) {
+  const WanderingLog log = Log(300);
+  const std::vector<FrameEstimate> estimates =
+      Estimate(WalkingScene(), log.rows);
+  ASSERT_EQ(estimates.size(), log.rows.size());
+  double squares = 0;
+  int touching = 0, missed = 0, imagined = 0, within = 0, ok = 0;
+  for (std::size_t t = 0; t < estimates.size(); ++t) {
+    const double truth = log.truth[t].normal_N;
+    const ContactEstimate& contact = estimates[t].contact[0];
+    if (truth <= 0) {
+      imagined += estimates[t].contacts > 0;
+      continue;
+    }
+    ++touching;
+    missed += estimates[t].contacts == 0;
+    squares += std::pow(contact.normal_N - truth, 2);
+    if (estimates[t].status != FrameStatus::kOk) continue;
+    ++ok;
+    within += std::abs(contact.normal_N - truth) < 1.96 * contact.normal_std_N;
+  }
+  EXPECT_LT(std::sqrt(squares / touching), 0.4);
+  EXPECT_LT(missed, 0.03 * touching);
+  EXPECT_LE(imagined, 3);
+  // Frames of one touch err together.
+  EXPECT_GT(within, 0.85 * ok);
+  for (std::size_t j = 0; j < 4; ++j) {
+    for (const std::size_t t : {500, 2000}) {
+      EXPECT_NEAR(estimates[t].gauge_offset_V[j], log.offsets_V[t][j],
+                  4 * estimates[t].gauge_offset_std_V[j]);
+    }
+  }
+}
+
+TEST(LogEstimatorTest, WindowsTellWhatOneProblemTells) {
+  // Over kWindow frames with a gap: two windows against one.
+  const WanderingLog log = Log(240, 2);
+  ASSERT_GT(log.rows.size(), LogEstimator::kWindow);
+  const std::vector<FrameEstimate> windows = Estimate(WalkingScene(), log.rows);
+  // The last 150 s of the log need not be there for its first frames.
+  const std::vector<Measurements> begin(
+      log.rows.begin(), log.rows.begin() + LogEstimator::kWindow - 1);
+  const std::vector<FrameEstimate> one = Estimate(WalkingScene(), begin);
+  int compared = 0;
+  for (std::size_t t = 0; t < 1500; ++t) {
+    if (windows[t].contacts == 0 || one[t].contacts == 0) continue;
+    ++compared;
+    const ContactEstimate& a = windows[t].contact[0];
+    const ContactEstimate& b = one[t].contact[0];
+    EXPECT_NEAR(a.normal_N, b.normal_N, 0.2 * b.normal_std_N) << t;
+    EXPECT_NEAR(a.normal_std_N / b.normal_std_N, 1, 0.05) << t;
+  }
+  EXPECT_GT(compared, 500);
+}
+
+TEST(LogEstimatorTest, WithoutAWalkFramesAreThoseOfTheFrameEstimator) {
+  WanderingLogSettings settings;
+  settings.duration_s = 30;
+  settings.walk_V_per_sqrt_s = settings.start_std_V = 0;
+  const WanderingLog log(PaperFinger(), {Scheme::kTaylor12, 96}, settings);
+  const std::vector<FrameEstimate> estimates = Estimate(Scene(), log.rows);
+  int close = 0, ok = 0;
+  for (std::size_t t = 0; t < estimates.size(); ++t) {
+    if (estimates[t].status != FrameStatus::kOk) continue;
+    const ContactEstimate& contact = estimates[t].contact[0];
+    ++ok;
+    close += std::abs(contact.normal_N - log.truth[t].normal_N) <
+             2 * contact.normal_std_N;
+    EXPECT_TRUE(estimates[t].gauge_offset_V.empty());
+  }
+  EXPECT_GT(ok, 150);
+  EXPECT_GT(close, 0.9 * ok);
+}
+
+TEST(LogEstimatorTest, RefusesTimesThatDoNotAscend) {
+  LogEstimator estimator(PaperFinger(), WalkingScene(), {}, 1,
+                         [](const FrameEstimate&) {});
+  Measurements row;
+  row.gauges_V = {0, 0, 0, 0};
+  EXPECT_THROW(estimator.Add(row), InputError);
+  row.time_s = 1;
+  estimator.Add(row);
+  EXPECT_THROW(estimator.Add(row), InputError);
+}
+
+TEST(LogEstimatorTest, RefusesTwoContacts) {
+  Scene scene = WalkingScene();
+  scene.contacts = 2;
+  EXPECT_THROW(
+      LogEstimator(PaperFinger(), scene, {}, 1, [](const FrameEstimate&) {}),
+      InputError);
+}
+
+}  // namespace
+}  // namespace finray
