@@ -19,7 +19,7 @@ namespace {
 
 // In std: one reading in 400 is beyond it by noise alone.
 constexpr double kHuberScale = 3;
-constexpr int kMostIterations = 50;
+constexpr int kMostSolverIterations = 50;
 // The solve ends when the cost, about one a frame, falls by less than this.
 constexpr double kLeastChange = 1e-4;
 // What is known of a contact beforehand: std of l_c about its start in l_0, and
@@ -168,7 +168,7 @@ int LogProblem::Solve() {
   options.logging_type = ceres::SILENT;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   options.num_threads = threads_;
-  options.max_num_iterations = kMostIterations;
+  options.max_num_iterations = kMostSolverIterations;
   // The residuals are whitened. The information about an offset under a long
   // touch is 1e-3 of its diagonal: with this radius it is hardly damped.
   options.initial_trust_region_radius = 1e6;
