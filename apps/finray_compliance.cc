@@ -7,7 +7,7 @@
 #include "app.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/log_list.h"
-#include "finray/io/parse_number.h"
+#include "finray/io/number_text.h"
 #include "finray/io/python_script.h"
 #include "finray/perception/compliance_files.h"
 #include "outputs.h"
