@@ -86,7 +86,7 @@ TEST(LogEstimatorTest, WindowsTellWhatOneProblemTells) {
     const ContactEstimate& a = windows[t].contact[0];
     const ContactEstimate& b = one[t].contact[0];
     EXPECT_NEAR(a.normal_N, b.normal_N, 0.2 * b.normal_std_N) << t;
-    EXPECT_NEAR(a.normal_std_N / b.normal_std_N, 1, 0.05) << t;
+    EXPECT_NEAR(a.normal_std_N / b.normal_std_N, 1, 0.1) << t;
   }
   EXPECT_GT(compared, 500);
 }

@@ -238,8 +238,13 @@ std::vector<LogMarginal> LogProblem::Marginals() const {
   const std::vector<Eigen::MatrixXd> known = all.Marginals();
   std::vector<LogMarginal> marginals(count);
   const int offsets = FreeOffsets();
-  for (std::size_t t = 0; t < count && jacobian_.num_rows > 0; ++t) {
+  const auto gauges = static_cast<Eigen::Index>(gauges_);
+  for (std::size_t t = 0; t < count; ++t) {
     LogMarginal& marginal = marginals[t];
+    // Offsets that do not wander are known.
+    marginal.mean_without = (*frames_)[t].offset_V;
+    marginal.offsets_without = Eigen::MatrixXd::Zero(gauges, gauges);
+    if (jacobian_.num_rows == 0) continue;
     const int begin = links_end_[t], end = readings_end_[t];
     own.Add(jacobian_, residuals_, begin, end);
     for (int row = begin; row < end; ++row) {
@@ -253,8 +258,7 @@ std::vector<LogMarginal> LogProblem::Marginals() const {
     marginal.offsets_without =
         InverseInformation(others).topLeftCorner(offsets, offsets);
     const Eigen::VectorXd pull = own.gradient(t).head(offsets);
-    marginal.mean_without =
-        (*frames_)[t].offset_V + marginal.offsets_without * pull;
+    marginal.mean_without += marginal.offsets_without * pull;
     marginal.chi2 += pull.dot(marginal.offsets_without * pull);
   }
   return marginals;
