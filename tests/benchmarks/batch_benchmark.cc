@@ -180,17 +180,16 @@ class BatchBenchmark {
     std::vector<std::string> csv(rows.size());
     ResultWriter writer;
     EstimationSummary summary;
-    sum +=
-        print("format and sum up", Cost(frames_, [&] {
-                for (std::string& block : csv) block.clear();
-                for_each([&](const FrameRows& block, std::size_t row,
-                             std::size_t frame) {
-                  const FrameEstimate& estimate = estimates_[frame];
-                  writer.Append(layout, block, row, readings[frame], estimate,
-                                &csv[frame / kBlockFrames]);
-                  summary.Add(estimate, 0, layout.ReferenceForce(block, row));
-                });
-              }));
+    sum += print("format and sum up", Cost(frames_, [&] {
+                   for (std::string& block : csv) block.clear();
+                   for_each([&](const FrameRows& block, std::size_t row,
+                                std::size_t frame) {
+                     const FrameEstimate& estimate = estimates_[frame];
+                     writer.Append(layout, block, row, readings[frame],
+                                   estimate, &csv[frame / kBlockFrames]);
+                     summary.Add(estimate, 0, readings[frame].force_N);
+                   });
+                 }));
     sum += print("write", Cost(frames_, [&] {
                    ResumableFile out(Result(), "key", false);
                    for (const std::string& block : csv) out.Append(block);
