@@ -40,7 +40,7 @@ void PrintSummary(CalibrationProblem& problem,
                          : free);
   }
   std::printf("%s\n", OutPath("finger.yaml").c_str());
-  const RobustSolution& solution = result.solution;
+  const CalibrationSolution& solution = result.solution;
   const auto agree =
       std::count_if(solution.starts.begin(), solution.starts.end(),
                     [](const StartReport& start) { return start.agrees; });
@@ -110,8 +110,7 @@ int Run() {
                              ReadCalibrationLogs(paths, finger, plan),
                              discretization, FLAGS_threads);
   RefuseImplausible(&problem);
-  CalibrationResult result = Calibrate(&problem, discretization, FLAGS_threads,
-                                       FLAGS_leave_one_log_out);
+  CalibrationResult result = Calibrate(&problem, FLAGS_leave_one_log_out);
 
   const std::string command =
       CommandWith({"finger", "plan", "logs", "out_dir", "scheme", "resolution",

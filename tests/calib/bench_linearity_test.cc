@@ -137,7 +137,7 @@ TEST(BenchLinearityTest, PlanOfItsOwn) {
   }
   CalibrationProblem problem(finger, plan,
                              ReadCalibrationLogs({path}, finger, plan), {}, 1);
-  const CalibrationResult result = Calibrate(&problem, {}, 1);
+  const CalibrationResult result = Calibrate(&problem);
   EXPECT_TRUE(result.solution.solve.converged);
   EXPECT_TRUE(result.AllIdentified());
   const auto& std = result.identifiability.std;
@@ -153,7 +153,7 @@ TEST(BenchLinearityTest, PlanOfItsOwn) {
   finger.gauges.push_back(PaperFinger().gauges[2]);
   CalibrationProblem more(finger, plan,
                           ReadCalibrationLogs({path}, finger, plan), {}, 1);
-  EXPECT_FALSE(Calibrate(&more, {}, 1).AllIdentified());
+  EXPECT_FALSE(Calibrate(&more).AllIdentified());
 }
 
 // Real gauges, 38 mm long, where the measurements are at hand. Each was bent
@@ -195,7 +195,7 @@ TEST(BenchLinearityTest, RealGaugesAreNotLinear) {
     ASSERT_EQ(logs.size(), 2u);
     CalibrationProblem problem(finger, plan,
                                ReadCalibrationLogs(logs, finger, plan), {}, 1);
-    const CalibrationResult result = Calibrate(&problem, {}, 1);
+    const CalibrationResult result = Calibrate(&problem);
     ASSERT_EQ(result.bench.size(), 1u);
     const BenchLinearity& bench = result.bench[0];
     const auto& noise =

@@ -6,6 +6,7 @@
 #include "calib/standard_log.h"
 #include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/problem/calibration_problem.h"
+#include "finray/calib/solve/robust_solve.h"
 
 namespace finray {
 
@@ -16,9 +17,10 @@ struct Calibrated {
              const Finger& start = Nominal())
       : problem(std::make_unique<CalibrationProblem>(
             start, plan, ReadCalibrationLogs(logs, start, plan),
-            Discretization(), 2)) {
-    EXPECT_TRUE(problem->Solve().converged);
-    found = AnalyzeIdentifiability(problem.get());
+            Discretization(), 2)),
+        solution(SolveOnce(problem.get())) {
+    EXPECT_TRUE(solution.solve.converged);
+    found = AnalyzeIdentifiability(problem.get(), solution.at);
   }
 
   /// Index into free() of a name.
@@ -39,6 +41,7 @@ struct Calibrated {
   double Std(const std::string& name) const { return found.std[Free(name)]; }
 
   std::unique_ptr<CalibrationProblem> problem;
+  CalibrationSolution solution;
   Identifiability found;
 };
 

@@ -28,7 +28,7 @@ TEST(CalibrationTest, StandardLogIsWithinItsStd) {
     const Plan plan = StandardPlan();
     CalibrationProblem problem(
         Nominal(), plan, ReadCalibrationLogs({log}, Nominal(), plan), {}, 2);
-    const CalibrationResult result = Calibrate(&problem, {}, 2);
+    const CalibrationResult result = Calibrate(&problem);
     EXPECT_TRUE(result.solution.solve.converged);
     EXPECT_TRUE(result.AllIdentified());
     const CalibrationParameters& parameters = problem.parameters();
@@ -81,7 +81,7 @@ TEST(CalibrationTest, StartsFarAwayAndArrives) {
     }
     CalibrationProblem problem(start, free,
                                ReadCalibrationLogs({log}, start, free), {}, 2);
-    EXPECT_TRUE(problem.Solve().converged);
+    EXPECT_TRUE(SolveOnce(&problem).solve.converged);
     for (const int i : problem.parameters().free()) {
       found[far].push_back(*problem.parameters().all()[i].variable);
     }
@@ -99,7 +99,7 @@ TEST(CalibrationTest, WithoutAForceSensorStiffnessIsFree) {
   CalibrationProblem problem(
       Nominal(), plan,
       ReadCalibrationLogs({folder.Path("blind.csv")}, Nominal(), plan), {}, 2);
-  const CalibrationResult result = Calibrate(&problem, {}, 2);
+  const CalibrationResult result = Calibrate(&problem);
   EXPECT_FALSE(result.AllIdentified());
   EXPECT_EQ(result.identifiability.status[0], ParameterStatus::kUnidentifiable);
   EXPECT_EQ(result.identifiability.status[1], ParameterStatus::kUnidentifiable);
@@ -121,9 +121,9 @@ TEST(CalibrationTest, WithForceButNoPlaceGainsRideOnStiffness) {
       Nominal(), plan,
       ReadCalibrationLogs({folder.Path("placeless.csv")}, Nominal(), plan), {},
       2);
-  const auto solved = problem.Solve();
-  EXPECT_TRUE(solved.converged);
-  const Identifiability found = AnalyzeIdentifiability(&problem);
+  const CalibrationSolution solution = SolveOnce(&problem);
+  EXPECT_TRUE(solution.solve.converged);
+  const Identifiability found = AnalyzeIdentifiability(&problem, solution.at);
   // gains of gauges 2 and 3
   EXPECT_GT(found.correlation(3, 4), 0.9);
 }
@@ -137,7 +137,7 @@ TEST(CalibrationTest, ThreadsDoNotChangeTheResult) {
     CalibrationProblem problem(Nominal(), plan,
                                ReadCalibrationLogs({log}, Nominal(), plan), {},
                                threads);
-    EXPECT_TRUE(problem.Solve().converged);
+    EXPECT_TRUE(SolveOnce(&problem).solve.converged);
     for (const int i : problem.parameters().free()) {
       value[threads - 1].push_back(*problem.parameters().all()[i].variable);
     }
@@ -160,7 +160,7 @@ TEST(CalibrationTest, SteelFingerAgainstItsForceSensor) {
       ReadCalibrationLogs({data + "steel_finger_contact_circle_r20.csv"},
                           finger, plan),
       {}, 2);
-  const CalibrationResult result = Calibrate(&problem, {}, 2);
+  const CalibrationResult result = Calibrate(&problem);
   EXPECT_TRUE(result.solution.solve.converged);
   EXPECT_TRUE(result.AllIdentified());
   std::printf("steel finger: force %.2f N rms before, %.2f N after\n",

@@ -86,7 +86,7 @@ class DegenerateLogsTest : public testing::Test {
     CalibrationProblem problem(
         start, plan,
         ReadCalibrationLogs({folder_.Path("log.csv")}, start, plan), {}, 2);
-    const CalibrationResult result = Calibrate(&problem, {}, 2);
+    const CalibrationResult result = Calibrate(&problem);
     EXPECT_TRUE(result.solution.solve.converged);
     Outcome outcome;
     outcome.all_identified = result.AllIdentified();

@@ -19,8 +19,9 @@ Finger CalibrateOn(const Finger& start, const Plan& plan,
                    const std::string& log, double* chi2_per_dof = nullptr) {
   CalibrationProblem problem(start, plan,
                              ReadCalibrationLogs({log}, start, plan), {}, 2);
-  EXPECT_TRUE(problem.Solve().converged);
-  const Identifiability found = AnalyzeIdentifiability(&problem);
+  const CalibrationSolution solution = SolveOnce(&problem);
+  EXPECT_TRUE(solution.solve.converged);
+  const Identifiability found = AnalyzeIdentifiability(&problem, solution.at);
   Finger finger = problem.parameters().Apply(start);
   KeepCovariance(problem.parameters(), found, &finger);
   double chi2 = 0, dof = 0;
@@ -43,7 +44,7 @@ TEST(FingerCovarianceTest, BlockSaysWhatCalibrationYamlSays) {
   origin.prior_std = 0.3;
   CalibrationProblem problem(
       Nominal(), plan, ReadCalibrationLogs({log}, Nominal(), plan), {}, 2);
-  const CalibrationResult result = Calibrate(&problem, {}, 2);
+  const CalibrationResult result = Calibrate(&problem);
   const Finger finger =
       ReadFinger(folder.Write("finger.yaml", FingerToYaml(result.finger)));
   const YAML::Node yaml = YAML::Load(

@@ -10,7 +10,7 @@
 namespace finray {
 namespace {
 
-constexpr double kSmallDecrease = 1e-4;
+constexpr double kSmallDecrease = FrameLinearizer::kSmallDecrease;
 
 class FrameLinearizerTest : public testing::Test {
  protected:
@@ -27,9 +27,9 @@ class FrameLinearizerTest : public testing::Test {
         std::make_unique<CalibrationParameters>(HiddenFinger(), plan_, logs_);
     blocks_ =
         std::make_unique<CalibrationBlocks>(finger_, plan_, parameters_.get());
-    linearizer_ = std::make_unique<FrameLinearizer>(
-        EquilibriumSolver(finger_, {}), plan_, blocks_.get(), parameters_.get(),
-        kSmallDecrease);
+    linearizer_ =
+        std::make_unique<FrameLinearizer>(EquilibriumSolver(finger_, {}), plan_,
+                                          blocks_.get(), parameters_.get());
   }
 
   double Cost(int frame, const std::array<double, 2>& contact) {

@@ -23,7 +23,8 @@ LeaveOneLogOut FiveLogs(double step_V) {
     log.Write(logs.back());
   }
   Calibrated calibrated(StandardPlan(), logs);
-  return LeaveLogsOut(*calibrated.problem, calibrated.found, {}, 2);
+  return LeaveLogsOut(calibrated.problem.get(), calibrated.solution,
+                      calibrated.found);
 }
 
 TEST(LeaveOneLogOutTest, EqualLogsSpreadAsTheStdSays) {
@@ -75,7 +76,8 @@ LeaveOneLogOut Unequal(unsigned seed, double step_V) {
     part.Write(logs[small]);
   }
   Calibrated calibrated(StandardPlan(), logs);
-  return LeaveLogsOut(*calibrated.problem, calibrated.found, {}, 2);
+  return LeaveLogsOut(calibrated.problem.get(), calibrated.solution,
+                      calibrated.found);
 }
 
 // What a small log alone says is far from what all say, and may be.
@@ -104,7 +106,9 @@ TEST(LeaveOneLogOutTest, ALogWithNothingToFitIsNoLog) {
   }
   blind.Write(folder.Path("blind.csv"));
   Calibrated calibrated(StandardPlan(), {log, folder.Path("blind.csv")});
-  EXPECT_EQ(LeaveLogsOut(*calibrated.problem, calibrated.found, {}, 1).groups,
+  EXPECT_EQ(LeaveLogsOut(calibrated.problem.get(), calibrated.solution,
+                         calibrated.found)
+                .groups,
             0);
 }
 
@@ -112,7 +116,9 @@ TEST(LeaveOneLogOutTest, OneLogIsNotLeftOut) {
   const TempFolder folder;
   Calibrated calibrated(StandardPlan(),
                         {StandardLog(folder, HiddenFinger(), 70)});
-  EXPECT_EQ(LeaveLogsOut(*calibrated.problem, calibrated.found, {}, 1).groups,
+  EXPECT_EQ(LeaveLogsOut(calibrated.problem.get(), calibrated.solution,
+                         calibrated.found)
+                .groups,
             0);
 }
 

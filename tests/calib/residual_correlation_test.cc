@@ -78,8 +78,8 @@ Wander CalibrateWandering(const Plan& plan, const Finger& start, double phi,
     }
     log.Write(folder.Path("wander.csv"));
     Calibrated calibrated(plan, {folder.Path("wander.csv")}, start);
-    const ResidualCorrelation found =
-        AnalyzeResidualCorrelation(calibrated.problem.get(), calibrated.found);
+    const ResidualCorrelation found = AnalyzeResidualCorrelation(
+        calibrated.problem->logs(), calibrated.solution.at, calibrated.found);
     const int offset = calibrated.Free("gauge_2_offset_V");
     all.correlated += found.correlated();
     all.enlargement += std::pow(found.enlargement[offset], 2) / repeats;
@@ -130,8 +130,8 @@ TEST(ResidualCorrelationTest, LoudResidualsEnlarge) {
   Plan plan = StandardPlan();
   plan.object_std_mm /= 2;
   Calibrated calibrated(plan, {StandardLog(folder, HiddenFinger(), 31)}, start);
-  const ResidualCorrelation found =
-      AnalyzeResidualCorrelation(calibrated.problem.get(), calibrated.found);
+  const ResidualCorrelation found = AnalyzeResidualCorrelation(
+      calibrated.problem->logs(), calibrated.solution.at, calibrated.found);
   EXPECT_FALSE(found.correlated());
   EXPECT_TRUE(found.loud);
   double mean = 0;
@@ -173,8 +173,9 @@ TEST(ResidualCorrelationTest, SeriesAreOfPinsWhereverTheyStand) {
     logs.frames.push_back(frame);
   }
   CalibrationProblem problem(PaperFinger(), plan, logs, {}, 1);
-  const ResidualCorrelation found =
-      AnalyzeResidualCorrelation(&problem, AnalyzeIdentifiability(&problem));
+  const Linearization at = SolveOnce(&problem).at;
+  const ResidualCorrelation found = AnalyzeResidualCorrelation(
+      problem.logs(), at, AnalyzeIdentifiability(&problem, at));
   std::map<int, int> rows;  // by component
   for (const auto& series : found.series) {
     if (series.family == ResidualFamily::kPin) {

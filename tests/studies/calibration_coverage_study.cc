@@ -28,9 +28,11 @@ Solved Solve(const FrameTable& log, std::vector<std::string>* names) {
       Nominal(), plan,
       ReadCalibrationLogs({folder.Path("log.csv")}, Nominal(), plan), {}, 2);
   Solved solved;
-  solved.converged = SolveRobustly(&problem).solve.converged;
-  Identifiability found = AnalyzeIdentifiability(&problem);
-  EnlargeStd(AnalyzeResidualCorrelation(&problem, found), &found);
+  const CalibrationSolution solution = SolveRobustly(&problem);
+  solved.converged = solution.solve.converged;
+  Identifiability found = AnalyzeIdentifiability(&problem, solution.at);
+  EnlargeStd(AnalyzeResidualCorrelation(problem.logs(), solution.at, found),
+             &found);
   names->clear();
   for (std::size_t i = 0; i < found.std.size(); ++i) {
     const CalibrationParameters& parameters = problem.parameters();

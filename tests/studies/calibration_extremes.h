@@ -125,7 +125,7 @@ inline void CalibrateOnce(const CalibrationCase& c, unsigned seed,
         c.start, c.plan,
         ReadCalibrationLogs({folder.Path("log.csv")}, c.start, c.plan), {}, 2);
     RefuseImplausible(&problem);
-    const CalibrationResult result = Calibrate(&problem, {}, 2);
+    const CalibrationResult result = Calibrate(&problem);
     const Identifiability& found = result.identifiability;
     AddParameters(c, problem, found, outcome);
     if (outcome->said.empty()) {

@@ -28,7 +28,7 @@ void Calibrate(const HardLogKind& kind, unsigned seed, Worst* worst) {
   CalibrationProblem problem(
       start, plan, ReadCalibrationLogs({folder.Path("log.csv")}, start, plan),
       {}, 2);
-  const CalibrationResult result = Calibrate(&problem, {}, 2);
+  const CalibrationResult result = Calibrate(&problem);
   bool bad = !result.solution.solve.converged;
   const CalibrationParameters& parameters = problem.parameters();
   std::string where;

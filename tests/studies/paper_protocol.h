@@ -80,7 +80,7 @@ class SimulatedLab {
     CalibrationProblem problem(nominal_, plan_,
                                ReadCalibrationLogs({path}, nominal_, plan_), {},
                                threads);
-    return Calibrate(&problem, {}, threads).finger;
+    return Calibrate(&problem).finger;
   }
 
   /// The circle pressed in at each height until it takes each force. Left out

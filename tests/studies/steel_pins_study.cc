@@ -58,7 +58,7 @@ void Run(const Case& which, const Finger& finger, const std::string& log) {
   if (which.ribs) free(ParameterFamily::kRibLength, 0.5);
   CalibrationProblem problem(finger, plan,
                              ReadCalibrationLogs({log}, finger, plan), {}, 2);
-  const CalibrationResult result = Calibrate(&problem, {}, 2);
+  const CalibrationResult result = Calibrate(&problem);
   std::printf("\n%s%s\n chi2/dof", which.name,
               result.solution.solve.converged ? "" : " (not converged)");
   for (int i = 0; i < kResidualFamilies; ++i) {
@@ -80,7 +80,7 @@ void Run(const Case& which, const Finger& finger, const std::string& log) {
   }
   if (!which.pins) return;
   // Model less camera, by advance and pin.
-  const auto& at = problem.AtSolution();
+  const auto& at = result.solution.at;
   const auto& frames = problem.logs().frames;
   std::printf(" model - camera, mm (x, y) of pins front 1-4, back 1-4\n");
   for (std::size_t row = 0; row < at.rows.size();) {

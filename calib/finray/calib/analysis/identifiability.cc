@@ -107,8 +107,8 @@ void AddCommonGain(CalibrationProblem* problem,
 
 }  // namespace
 
-Identifiability AnalyzeIdentifiability(CalibrationProblem* problem) {
-  const Linearization& at = problem->AtSolution();
+Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
+                                       const Linearization& at) {
   const CalibrationParameters& parameters = problem->parameters();
   const int n = static_cast<int>(parameters.free().size());
 
@@ -184,7 +184,7 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem) {
   for (int f = 0; f < kResidualFamilies; ++f) {
     result.noise[f].dof =
         result.noise[f].residuals - at.contact_leverage[f] -
-        covariance.cwiseProduct(scaled(at.information_by_family[f])).sum();
+        covariance.cwiseProduct(scaled(at.InformationOfFamily(f))).sum();
   }
   return result;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "finray/calib/problem/calibration_problem.h"
+#include "finray/calib/solve/linearization.h"
 
 namespace finray {
 
@@ -73,7 +74,8 @@ struct Identifiability {
 /// 1 / kNull of its unit.
 Eigen::MatrixXd BoundedCovariance(const Eigen::MatrixXd& information);
 
-Identifiability AnalyzeIdentifiability(CalibrationProblem* problem);
+Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
+                                       const Linearization& at_solution);
 
 }  // namespace finray
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
+#include <vector>
+
+#include "finray/calib/solve/summed_solve.h"
 
 namespace finray {
 
@@ -18,19 +20,6 @@ const LeaveOneLogOut::Row* LeaveOneLogOut::Worst() const {
 
 namespace {
 
-// What a parameter is without some logs; empty if these do not determine it.
-std::optional<double> EstimateWithout(const CalibrationParameters& without,
-                                      const Identifiability& found,
-                                      const std::string& name) {
-  for (std::size_t i = 0; i < without.free().size(); ++i) {
-    const CalibrationParameter& p = without.FreeParameter(i);
-    if (p.name != name) continue;
-    if (found.status[i] != ParameterStatus::kEstimated) return {};
-    return *p.variable;
-  }
-  return {};
-}
-
 // Probability that any of `tests` standard normal numbers is beyond +-z.
 double Bonferroni(double z, int tests) {
   return std::min(1.0, tests * std::erfc(z / std::sqrt(2.0)));
@@ -38,12 +27,11 @@ double Bonferroni(double z, int tests) {
 
 }  // namespace
 
-LeaveOneLogOut LeaveLogsOut(CalibrationProblem& problem,
-                            const Identifiability& found,
-                            const Discretization& discretization, int threads) {
+LeaveOneLogOut LeaveLogsOut(CalibrationProblem* problem,
+                            const CalibrationSolution& solution,
+                            const Identifiability& found) {
   LeaveOneLogOut result;
-  // A log without a frame to fit tells nothing, and may be all that is left.
-  const auto& by_log = problem.AtSolution().information_by_log;
+  const auto& by_log = solution.at.information;
   if (by_log.size() < 2) return result;
   result.groups =
       std::min(LeaveOneLogOut::kMostGroups, static_cast<int>(by_log.size()));
@@ -52,41 +40,40 @@ LeaveOneLogOut LeaveLogsOut(CalibrationProblem& problem,
     group_of.emplace(log, static_cast<int>(group_of.size()) % result.groups);
   }
 
-  CalibrationParameters& all = problem.parameters();
+  CalibrationParameters& all = problem->parameters();
   const Eigen::VectorXd variance =
       BoundedCovariance(found.information + found.prior).diagonal();
   std::vector<int> tests(all.free().size(), 0);
   std::vector<double> largest_z(all.free().size(), 0);
   for (int group = 0; group < result.groups; ++group) {
-    CalibrationLogs rest = problem.logs();
-    for (CalibrationFrame& frame : rest.frames) {
-      const auto place = group_of.find(frame.log);
-      if (place != group_of.end() && place->second == group) {
-        frame.held_out = true;
-      }
+    std::vector<int> rest;
+    for (const int i : solution.at.frames) {
+      if (group_of.at(problem->frame(i).log) != group) rest.push_back(i);
     }
-    CalibrationProblem without(problem.finger(), problem.plan(), rest,
-                               discretization, threads);
-    // What was no part of the solution is none of this one.
-    without.SetRejected(problem.rejected());
-    if (!without.Solve().converged) {
+    const auto without = problem->Part(rest, problem->threads());
+    ContactStore contacts(without.get(), solution.contacts);
+    const SummedSolution solved =
+        SolveSummed(rest, {}, without.get(), &contacts);
+    if (!solved.report.converged) {
       result.all_converged = false;
       continue;  // no estimate
     }
-    const Identifiability known = AnalyzeIdentifiability(&without);
+    const Identifiability known =
+        AnalyzeIdentifiability(without.get(), solved.at);
     Eigen::MatrixXd information = found.prior;
     for (const auto& [log, its] : by_log) {
       if (group_of[log] == group) continue;
-      information += found.unit.asDiagonal() * its * found.unit.asDiagonal();
+      information += found.unit.asDiagonal() *
+                     solution.at.InformationOfLog(log) *
+                     found.unit.asDiagonal();
     }
     const Eigen::VectorXd variance_without =
         BoundedCovariance(information).diagonal();
     for (std::size_t i = 0; i < all.free().size(); ++i) {
       const CalibrationParameter& p = all.FreeParameter(i);
       if (!p.of_finger || !std::isfinite(found.std[i])) continue;
-      const auto estimate =
-          EstimateWithout(without.parameters(), known, p.name);
-      if (!estimate) continue;
+      if (known.status[i] != ParameterStatus::kEstimated) continue;
+      const double estimate = *without->parameters().FreeParameter(i).variable;
       const auto at = static_cast<Eigen::Index>(i);
       const double more =
           std::max(0.0, variance_without[at] / variance[at] - 1);
@@ -94,7 +81,7 @@ LeaveOneLogOut LeaveLogsOut(CalibrationProblem& problem,
                                                    LeaveOneLogOut::kNegligible);
       ++tests[i];
       largest_z[i] =
-          std::max(largest_z[i], std::abs(*estimate - *p.variable) / std);
+          std::max(largest_z[i], std::abs(estimate - *p.variable) / std);
     }
   }
   for (std::size_t i = 0; i < all.free().size(); ++i) {

@@ -5,6 +5,7 @@
 
 #include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/problem/calibration_problem.h"
+#include "finray/calib/solve/robust_solve.h"
 
 namespace finray {
 
@@ -48,10 +49,11 @@ struct LeaveOneLogOut {
   const Row* Worst() const;
 };
 
-/// Nothing for fewer than two logs with frames that could be fitted.
-LeaveOneLogOut LeaveLogsOut(CalibrationProblem& problem,
-                            const Identifiability& found,
-                            const Discretization& discretization, int threads);
+/// Repeats the solve from the solution, without the frames of each group.
+/// Nothing for fewer than two logs with frames that are fitted.
+LeaveOneLogOut LeaveLogsOut(CalibrationProblem* problem,
+                            const CalibrationSolution& solution,
+                            const Identifiability& found);
 
 }  // namespace finray
 

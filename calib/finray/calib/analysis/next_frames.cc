@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "finray/calib/analysis/next_frames_words.h"
+#include "finray/calib/solve/frame_pass.h"
 #include "finray/calib/solve/information_spectrum.h"
 #include "finray/calib/solve/linearized_frame.h"
 #include "finray/finger/geometry.h"
@@ -53,12 +54,11 @@ CalibrationFrame Template(const CalibrationProblem& problem, bool contact) {
 }
 
 // What the logs show that the finger bears; a few wild frames do not count.
-double LargestLoad(const CalibrationProblem& problem) {
-  const double unit = ForceUnit(problem.finger());
+double LargestLoad(const Finger& finger, const Contacts& contacts) {
+  const double unit = ForceUnit(finger);
   std::vector<double> forces;
-  for (std::size_t i = 0; i < problem.logs().frames.size(); ++i) {
-    const double force = problem.contact(static_cast<int>(i))[1];
-    if (force > 0) forces.push_back(force);
+  for (const auto& [arc_mm, normal_N] : contacts) {
+    if (normal_N > 0) forces.push_back(normal_N);
   }
   if (forces.empty()) return kUsualLoad * unit;
   const auto high =
@@ -117,16 +117,17 @@ bool Measure(const PointContact* contact, const std::vector<bool>& works,
 }  // namespace
 
 NextFrames::NextFrames(CalibrationProblem* problem,
-                       const Identifiability& found,
-                       const Discretization& discretization)
+                       const CalibrationSolution& solution,
+                       const Identifiability& found)
     : problem_(problem), found_(found) {
-  Predict(discretization);
+  Predict(solution.contacts);
+  ChooseMeasurements(solution.at);
 }
 
-void NextFrames::Predict(const Discretization& discretization) {
+void NextFrames::Predict(const Contacts& contacts) {
   const Finger finger = problem_->parameters().Apply(problem_->finger());
   const Plan& plan = problem_->plan();
-  const double largest_N = LargestLoad(*problem_);
+  const double largest_N = LargestLoad(problem_->finger(), contacts);
   for (int i = 1; i <= kHeights; ++i) {
     arcs_mm_.push_back(std::round(finger.front_length_mm * i / (kHeights + 1)));
   }
@@ -139,7 +140,7 @@ void NextFrames::Predict(const Discretization& discretization) {
   CalibrationLogs logs = problem_->logs();
   logs.frames = FirstFrames(*problem_);
   const int recorded = static_cast<int>(logs.frames.size());
-  EquilibriumSolver solver(finger, discretization);
+  EquilibriumSolver solver(finger, problem_->discretization());
   const std::vector<bool> works = WorkingGauges(*problem_);
   CalibrationFrame frame = Template(*problem_, false);
   if (Measure(nullptr, works, plan, &solver, &frame)) {
@@ -158,7 +159,8 @@ void NextFrames::Predict(const Discretization& discretization) {
       }
     }
   }
-  CalibrationProblem predicted(finger, plan, logs, discretization, 1);
+  CalibrationProblem predicted(finger, plan, logs, problem_->discretization(),
+                               1);
   // By their names: other frames may have other steps of a drift, and other
   // sensors.
   const CalibrationParameters& known = problem_->parameters();
@@ -177,7 +179,8 @@ void NextFrames::Predict(const Discretization& discretization) {
       *p.variable = *value->second;
     }
   }
-  predicted.VisitFrames([&](int frame, const LinearizedFrame& at) {
+  ContactStore places(&predicted);
+  const auto keep = [&](int frame, const LinearizedFrame& at) {
     const int index = frame - recorded;
     if (index < 0) return;
     Candidate& candidate = candidates_[index];
@@ -191,21 +194,21 @@ void NextFrames::Predict(const Discretization& discretization) {
           found_.unit[column->second];
     }
     candidate.by_contact = at.by_contact;
-  });
+  };
+  LinearizeFrames(predicted.candidates(), &predicted, &places, keep);
   // With what can be proposed, some would have too little to be a frame.
   candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(),
                                    [](const Candidate& candidate) {
                                      return candidate.families.empty();
                                    }),
                     candidates_.end());
-  ChooseMeasurements();
 }
 
 // What contact frames of the logs have, and that with what can be added.
-void NextFrames::ChooseMeasurements() {
+void NextFrames::ChooseMeasurements(const Linearization& at_solution) {
   Families recorded, missing;
-  for (const ResidualInfo& row : problem_->AtSolution().rows) {
-    const bool contact = problem_->logs().frames[row.frame].contact;
+  for (const ResidualInfo& row : at_solution.rows) {
+    const bool contact = problem_->frame(row.frame).contact;
     if (contact && !Has(recorded, row.family)) recorded.push_back(row.family);
   }
   if (!Has(recorded, ResidualFamily::kGauge)) {
@@ -386,9 +389,9 @@ Eigen::VectorXd NextFrames::WorstDirection() const {
 }
 
 std::vector<FrameAdvice> AdviseNextFrames(CalibrationProblem* problem,
-                                          const Discretization& discretization,
+                                          const CalibrationSolution& solution,
                                           Identifiability* found) {
-  const NextFrames next(problem, *found, discretization);
+  const NextFrames next(problem, solution, *found);
   for (WeakDirection& weak : found->weak) {
     const std::vector<FrameAdvice> best = next.Best(weak.direction);
     weak.remedy = best.empty() ? "no 20 frames at one place or spread over "

@@ -7,6 +7,7 @@
 
 #include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/problem/calibration_problem.h"
+#include "finray/calib/solve/robust_solve.h"
 
 namespace finray {
 
@@ -48,8 +49,8 @@ struct FrameAdvice {
 /// The frames that were predicted, for advice on one direction after the other.
 class NextFrames {
  public:
-  NextFrames(CalibrationProblem* problem, const Identifiability& found,
-             const Discretization& discretization);
+  NextFrames(CalibrationProblem* problem, const CalibrationSolution& solution,
+             const Identifiability& found);
 
   /// The best few, best first: for each set of measurements the best place and
   /// load, as far as they shrink the std along `direction` (a unit vector over
@@ -76,8 +77,8 @@ class NextFrames {
     Families all, added;
   };
 
-  void Predict(const Discretization& discretization);
-  void ChooseMeasurements();
+  void Predict(const Contacts& contacts);
+  void ChooseMeasurements(const Linearization& at_solution);
   Eigen::MatrixXd Information(const Candidate& candidate,
                               const Families& measured) const;
   FrameAdvice BestWith(const Measured& measured,
@@ -99,7 +100,7 @@ class NextFrames {
 /// Advice on the worst direction; and the remedy of each weak direction, which
 /// is the first line of the advice on it.
 std::vector<FrameAdvice> AdviseNextFrames(CalibrationProblem* problem,
-                                          const Discretization& discretization,
+                                          const CalibrationSolution& solution,
                                           Identifiability* found);
 
 }  // namespace finray

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "finray/calib/analysis/force_check.h"
+#include "finray/calib/solve/contact_guess.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 #include "finray/io/number_text.h"
@@ -147,7 +148,7 @@ void RefuseImplausible(CalibrationProblem* problem) {
       plan.family(ParameterFamily::kObjectOrigin).free) {
     return;
   }
-  ContactGuess guess = problem->MakeGuess();
+  ContactGuess guess(problem);
   std::vector<double> ratios;
   int objects = 0, met = 0;
   for (const CalibrationFrame* frame : frames) {

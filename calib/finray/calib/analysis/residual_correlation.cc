@@ -66,11 +66,11 @@ const ResidualCorrelation::Series* ResidualCorrelation::Slowest() const {
   return slowest == series.end() ? nullptr : &*slowest;
 }
 
-ResidualCorrelation AnalyzeResidualCorrelation(CalibrationProblem* problem,
+ResidualCorrelation AnalyzeResidualCorrelation(const CalibrationLogs& all,
+                                               const Linearization& at,
                                                const Identifiability& found) {
-  const Linearization& at = problem->AtSolution();
-  const auto& frames = problem->logs().frames;
-  const auto logs = problem->logs().paths.size();
+  const auto& frames = all.frames;
+  const auto logs = all.paths.size();
   const auto n = static_cast<int>(found.std.size());
   ResidualCorrelation result;
   result.enlargement.assign(n, 1);

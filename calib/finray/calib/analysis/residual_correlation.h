@@ -73,7 +73,8 @@ struct ResidualCorrelation {
   const Series* Slowest() const;
 };
 
-ResidualCorrelation AnalyzeResidualCorrelation(CalibrationProblem* problem,
+ResidualCorrelation AnalyzeResidualCorrelation(const CalibrationLogs& logs,
+                                               const Linearization& at_solution,
                                                const Identifiability& found);
 
 /// Multiplies the std; correlations stay.

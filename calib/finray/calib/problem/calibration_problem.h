@@ -1,161 +1,81 @@
 #ifndef FINRAY_CALIB_PROBLEM_CALIBRATION_PROBLEM_H_
 #define FINRAY_CALIB_PROBLEM_CALIBRATION_PROBLEM_H_
 
-#include <array>
-#include <functional>
+#include <Eigen/Core>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "finray/calib/problem/calibration_blocks.h"
 #include "finray/calib/problem/calibration_log.h"
+#include "finray/calib/problem/calibration_blocks.h"
 #include "finray/calib/problem/parameters.h"
 #include "finray/calib/problem/plan.h"
-#include "finray/calib/solve/contact_guess.h"
-#include "finray/calib/solve/frame_linearizer.h"
-#include "finray/calib/solve/frame_sums.h"
-#include "finray/calib/solve/joint_solve.h"
-#include "finray/calib/solve/linearization.h"
+#include "finray/statics/equilibrium.h"
 
 namespace finray {
 
-/// The least-squares problem of a calibration, in the reduced form: over all
-/// frames that are not held out or rejected, what CalibrationBlocks makes of
-/// them, in units of their std, plus the priors. Unknowns: the free parameters,
-/// and l_c and f_c of each contact frame.
+/// The least-squares problem of a calibration: the logs, the parameters at
+/// their present values, and which frames are fitted. Its cost is, over the
+/// fitted frames, what CalibrationBlocks makes of them in units of their std,
+/// plus the priors. Unknowns are the free parameters here and the contacts of
+/// the frames in a ContactStore; solve/ finds them.
 class CalibrationProblem {
  public:
+  /// Throws InputError where no parameter is free or no frame can be fitted.
   CalibrationProblem(const Finger& finger, const Plan& plan,
                      CalibrationLogs logs, const Discretization& discretization,
                      int threads);
   CalibrationProblem(const CalibrationProblem&) = delete;
 
-  /// From the present values, by JointSolve of all frames, or if there are more
-  /// than kMostJoint, of some kJoint, evenly spread; from where that leads to,
-  /// by SolveOn. The result does not depend on the number of threads.
-  SolveReport Solve();
-  /// From near the solution: of all frames by FrameSumResidual.
-  SolveReport SolveOn();
-  /// By JointSolve of all frames, however many.
-  SolveReport SolveJointly(const JointSolve::Limits& limits);
-  static constexpr std::size_t kMostJoint = 1000, kJoint = 500;
-  bool few() const { return candidates_.size() <= kMostJoint; }
+  /// The problem of these frames alone, at the present values. It shares the
+  /// logs and has parameters of its own, so that several parts can be solved at
+  /// the same time.
+  std::unique_ptr<CalibrationProblem> Part(const std::vector<int>& frames,
+                                           int threads) const;
 
-  /// Of very many frames some kMany, evenly spread, else none: from the
-  /// solution of a few, that of these leaves one or two steps for all of them.
-  std::vector<int> ManyFrames() const;
-  SolveReport SolveMany();
-  static constexpr std::size_t kMany = 20000;
-
-  /// Some kSome frames, evenly spread; the joint solve of these alone, and
-  /// what they and the priors say of the free parameters.
-  std::vector<int> SomeFrames() const;
-  SolveReport SolveSome(const JointSolve::Limits& limits);
-  Eigen::MatrixXd InformationOfSome();
-  static constexpr std::size_t kSome = 250;
-  /// The problem of these frames alone, from the present values and contacts,
-  /// for one thread: several can be solved at the same time.
-  std::unique_ptr<CalibrationProblem> Part(
-      const std::vector<int>& frames) const;
-  /// All that could be fitted, rejected or not, if not impossible.
+  /// The frames that the model and the plan allow to fit; the fitted ones are
+  /// those that are not rejected.
   const std::vector<int>& candidates() const { return candidates_; }
+  std::vector<int> FittedFrames() const;
+  /// Some `most` fitted frames, evenly from every log; contact frames, free
+  /// frames and rows of the bench apart, at least 50 of each where there are.
+  std::vector<int> SpreadFrames(std::size_t most) const;
 
-  /// Values and contacts, to come back to.
-  struct Point {
-    Eigen::VectorXd values;
-    std::vector<std::array<double, 2>> contacts;
-  };
-  Point Save() const;
-  void Restore(const Point& point);
-
-  /// Of contacts by the finger as it is now.
-  ContactGuess MakeGuess();
-
-  /// Where to start from: stiffness, gains and rib lengths of `start`, contacts
-  /// as they are with that finger. Offsets, unless fixed, are what free frames
-  /// show. Priors stay.
-  void StartFrom(const Finger& start);
-
-  /// Where offsets or origins are per log, gives those logs that are held out
-  /// as a whole the ones of the last log that was fitted, and then the offsets
-  /// that their free frames show of the finger as it is now: a lab zeroes its
-  /// gauges too. To be called after Solve.
-  void ZeroHeldOutLogs();
-
-  using Visitor = std::function<void(int frame, const LinearizedFrame&)>;
-  /// Calls `visit` for each fitted frame in order, linearised at the present
-  /// values. Throws std::runtime_error if one cannot be.
-  void VisitFrames(const Visitor& visit);
-  /// All of them. Computed once, and again after the parameters were changed
-  /// through this class.
-  const Linearization& AtSolution();
-
-  /// Makes a first guess of these frames' contacts, where there is none yet.
-  void GuessContacts(const std::vector<int>& frames, ContactGuess::From from);
-  /// Calls `judge` for each of these frames in order, fitted or not, its
-  /// contact put where it explains the frame best. No rows: it cannot be
-  /// evaluated. What it says is good is summed up: if these are the frames that
-  /// a solve by FrameSumResidual is of, that need not begin by doing so.
-  using Judge = std::function<bool(int frame, const LinearizedFrame&)>;
-  void FitContacts(const std::vector<int>& frames, const Judge& judge);
-  /// The same where it explains most of the frame, by Cauchy's loss. What is
-  /// kept of contacts is a new guess, from all but the force.
-  void FitContactsRobustly(const std::vector<int>& frames,
-                           const Visitor& visit);
-
-  /// Frames to be left out, and why, beside those that are impossible; others
-  /// that were come back.
+  /// Leaves these frames out, and the impossible ones; all others are fitted.
   void SetRejected(std::map<int, std::string> reasons);
   const std::map<int, std::string>& rejected() const { return rejected_; }
-  /// Frames with a force above kImpossibleForce, in EI / l_0^2: no finger bends
-  /// so far and no start is so wrong. To solve for them would take minutes.
+  /// Frames with a force above kImpossibleForce, in EI / l_0^2. No finger bends
+  /// so far, and no start is so wrong; a solve with them would take minutes.
   const std::map<int, std::string>& impossible() const { return impossible_; }
   static constexpr double kImpossibleForce = 2000;
 
-  /// Contact frames have no reference at all; they are then not fitted.
+  /// Contact frames have no reference at all, and are therefore not fitted.
   bool gauges_only() const { return gauges_only_; }
 
-  /// l_c and f_c of a frame; NaN for those without, and those not fitted.
-  std::array<double, 2> contact(int frame) const;
+  /// The free parameters.
+  Eigen::VectorXd Values() const;
+  void SetValues(const Eigen::VectorXd& values);
+  /// Takes stiffness, gains and rib lengths from `start`, and offsets, unless
+  /// they are fixed, from the free frames. Priors stay.
+  void StartFrom(const Finger& start);
 
   CalibrationParameters& parameters() { return parameters_; }
+  const CalibrationParameters& parameters() const { return parameters_; }
+  const CalibrationBlocks& blocks() const { return blocks_; }
   const CalibrationLogs& logs() const { return *logs_; }
+  const CalibrationFrame& frame(int i) const { return logs_->frames[i]; }
   const Plan& plan() const { return plan_; }
   const Finger& finger() const { return finger_; }
   const Discretization& discretization() const { return discretization_; }
   int threads() const { return threads_; }
-  double gauge_std_V(int gauge) const { return blocks_.gauge_std_V(gauge); }
 
  private:
   // Without candidates.
   CalibrationProblem(const Finger& finger, const Plan& plan,
                      std::shared_ptr<const CalibrationLogs> logs,
                      const Discretization& discretization, int threads);
-  void FitAllCandidates();
-  // Of the free parameters.
-  Eigen::VectorXd Values() const;
-  void SetValues(const Eigen::VectorXd& values);
-  std::vector<int> SpreadFrames(std::size_t most) const;
-  SolveReport SolveJointly(const std::vector<int>& frames,
-                           const JointSolve::Limits& limits);
-  SolveReport SolveSummed(const std::vector<int>& frames,
-                          double gradient_tolerance);
-  void BeginSum(std::size_t most_frames, FrameSums* sums);
-  void AddToSum(int frame, const LinearizedFrame& at, FrameSums* sums);
-  bool Sum(const std::vector<int>& frames, const Eigen::VectorXd& at,
-           FrameSums* sums);
-  void MoveContacts(const Eigen::VectorXd& change);
-  void MoveContact(int frame, const Eigen::Vector2d& move);
-  // Calls `visit(frame, linearised)` in order after `prepare` has worked on the
-  // frames in parallel; false if that fails for one.
-  using Prepare = std::function<bool(int frame, FrameLinearizer* linearizer,
-                                     LinearizedFrame* out)>;
-  bool InParallel(const std::vector<int>& frames, const Plan& plan,
-                  const Prepare& prepare, const Visitor& visit);
-  LadderState* StateOf(int frame, LadderState* scratch);
-  void GuessOffsets();
+  void FindCandidates();
 
   Finger finger_;
   Plan plan_;
@@ -164,24 +84,9 @@ class CalibrationProblem {
   Discretization discretization_;
   int threads_;
   CalibrationBlocks blocks_;
-  EquilibriumSolver solver_;  // copied for each thread
   bool gauges_only_ = false;
-  // Indices of frames that could be fitted, and those that are.
-  std::vector<int> candidates_, fitted_;
-  // By frame; the joint solve has them by their addresses.
-  std::vector<std::array<double, 2>> contacts_;
-  std::vector<LadderState> states_;            // empty if there are too many
-  std::unique_ptr<const ContactGuess> guess_;  // then, for what is near
-  // Of the last sum: its frames; by these, how contacts go with the parameters
-  // (2 x free); where it was; and what it is in full, if over all frames.
-  std::vector<int> summed_frames_;
-  Eigen::MatrixXf contact_slopes_;
-  Eigen::VectorXd summed_at_;
-  std::unique_ptr<Linearization> summed_;
-  // Of FitContacts over summed_frames_, at the present values.
-  std::optional<FrameSums> start_;
+  std::vector<int> candidates_;
   std::map<int, std::string> rejected_, impossible_;
-  std::unique_ptr<Linearization> at_solution_;
 };
 
 }  // namespace finray

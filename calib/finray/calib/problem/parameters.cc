@@ -3,14 +3,39 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "finray/io/error.h"
 
 namespace finray {
 namespace {
 
-std::string GaugeName(int gauge, const char* rest) {
+std::string GaugeName(int gauge, const std::string& rest) {
   return "gauge_" + std::to_string(gauge + 1) + "_" + rest;
+}
+
+// A parameter that belongs to the logs, in a block of its own.
+CalibrationParameter OfLogs(ParameterFamily family, std::string name,
+                            const char* unit, double* variable,
+                            double scale = 1) {
+  CalibrationParameter parameter;
+  parameter.family = family;
+  parameter.name = std::move(name);
+  parameter.unit = unit;
+  parameter.variable = parameter.block = variable;
+  parameter.scale = scale;
+  return parameter;
+}
+
+// The x or y of a pair that is one block.
+CalibrationParameter OfAxis(ParameterFamily family, const std::string& name,
+                            const std::string& unit, double* pair, int axis,
+                            double scale) {
+  CalibrationParameter parameter =
+      OfLogs(family, name + (axis == 0 ? "_x_" : "_y_") + unit, unit.c_str(),
+             pair + axis, scale);
+  parameter.block = pair;
+  return parameter;
 }
 
 // The last log with rows of the finger that are not held out; the last on the
@@ -149,34 +174,24 @@ void CalibrationParameters::AddOfFinger(const Plan& plan,
 void CalibrationParameters::AddOrigins(const Plan& plan,
                                        const CalibrationLogs& logs) {
   for (int log = 0; log < static_cast<int>(origins_mm_.size()); ++log) {
+    if (origin_per_log_ && !HasObject(logs, log)) continue;
     for (int axis = 0; axis < 2; ++axis) {
-      CalibrationParameter parameter;
-      parameter.name = axis == 0 ? "object_origin_x_mm" : "object_origin_y_mm";
-      parameter.unit = "mm";
-      parameter.family = ParameterFamily::kObjectOrigin;
-      parameter.variable = &origins_mm_[log][axis];
-      parameter.block = origins_mm_[log].data();
-      parameter.scale = 10;
-      if (origin_per_log_) {
-        if (!HasObject(logs, log)) continue;
-        AddOfLog(plan, logs, log, std::move(parameter));
-      } else {
-        Add(plan, std::move(parameter));
-      }
+      CalibrationParameter parameter =
+          OfAxis(ParameterFamily::kObjectOrigin, "object_origin", "mm",
+                 origins_mm_[log].data(), axis, 10);
+      origin_per_log_ ? AddOfLog(plan, logs, log, std::move(parameter))
+                      : Add(plan, std::move(parameter));
     }
   }
 }
 
 void CalibrationParameters::AddForceSensor(const Plan& plan,
                                            const CalibrationLogs& logs) {
-  CalibrationParameter parameter;
   if (plan.family(ParameterFamily::kForceScale).free) {
-    parameter.name = "force_scale";
-    parameter.unit = "1";
-    parameter.family = ParameterFamily::kForceScale;
-    parameter.variable = parameter.block = &ln_force_scale;
-    parameter.is_log = true;
-    Add(plan, parameter);
+    CalibrationParameter scale = OfLogs(ParameterFamily::kForceScale,
+                                        "force_scale", "1", &ln_force_scale);
+    scale.is_log = true;
+    Add(plan, std::move(scale));
   }
   if (!plan.family(ParameterFamily::kForceOffset).free) return;
   bool magnitude = false, components = false;
@@ -185,64 +200,48 @@ void CalibrationParameters::AddForceSensor(const Plan& plan,
     components |= both;
     magnitude |= !both && std::isfinite(frame.force_N);
   }
-  parameter.unit = "N";
-  parameter.family = ParameterFamily::kForceOffset;
-  parameter.is_log = false;
   if (magnitude) {
-    parameter.name = "force_offset_N";
-    parameter.variable = parameter.block = &force_offset_N;
-    Add(plan, parameter);
+    Add(plan, OfLogs(ParameterFamily::kForceOffset, "force_offset_N", "N",
+                     &force_offset_N));
   }
   for (int axis = 0; components && axis < 2; ++axis) {
-    parameter.name = axis == 0 ? "force_offset_x_N" : "force_offset_y_N";
-    parameter.variable = &force_offset_xy_N[axis];
-    parameter.block = force_offset_xy_N;
-    Add(plan, parameter);
+    Add(plan, OfAxis(ParameterFamily::kForceOffset, "force_offset", "N",
+                     force_offset_xy_N, axis, 1));
   }
 }
 
 void CalibrationParameters::AddTemperature(const Plan& plan) {
   if (!plan.family(ParameterFamily::kTemperatureCoefficient).free) return;
   for (int j = 0; j < static_cast<int>(gains_V_per_rad.size()); ++j) {
-    CalibrationParameter parameter;
-    parameter.name = GaugeName(j, "temperature_coefficient_V_per_C");
-    parameter.unit = "V/C";
-    parameter.family = ParameterFamily::kTemperatureCoefficient;
-    parameter.variable = parameter.block =
-        readings.temperature_coefficient_V_per_C(j);
-    parameter.scale = 0.1;
-    Add(plan, std::move(parameter));
+    Add(plan, OfLogs(ParameterFamily::kTemperatureCoefficient,
+                     GaugeName(j, "temperature_coefficient_V_per_C"), "V/C",
+                     readings.temperature_coefficient_V_per_C(j), 0.1));
   }
 }
 
 void CalibrationParameters::AddDrift(const Plan& plan,
                                      const CalibrationLogs& logs) {
-  if (!plan.family(ParameterFamily::kGaugeDrift).free) return;
+  constexpr ParameterFamily kDrift = ParameterFamily::kGaugeDrift;
+  if (!plan.family(kDrift).free) return;
   if (std::all_of(logs.frames.begin(), logs.frames.end(),
                   [](const CalibrationFrame& f) { return f.IsBench(); })) {
     throw InputError(
         "plan: gauge_drift is free, but no log is of the finger; gauges on the "
         "bench have no time_s");
   }
-  CalibrationParameter parameter;
-  parameter.family = ParameterFamily::kGaugeDrift;
   const int gauges = static_cast<int>(gains_V_per_rad.size());
   for (int j = 0; !plan.gauge_walk && j < gauges; ++j) {
-    parameter.name = GaugeName(j, "drift_V_per_h");
-    parameter.unit = "V/h";
-    parameter.variable = parameter.block = readings.drift_V_per_h(j);
-    Add(plan, parameter);
+    Add(plan, OfLogs(kDrift, GaugeName(j, "drift_V_per_h"), "V/h",
+                     readings.drift_V_per_h(j)));
   }
-  parameter.unit = "V";
   for (int log = 0; log < static_cast<int>(logs.paths.size()); ++log) {
     for (int j = 0; j < gauges; ++j) {
       for (int step = 0; step < readings.walk_steps(log); ++step) {
-        parameter.name =
-            GaugeName(j, ("drift_" + std::to_string(step + 1) + "_V").c_str());
-        parameter.variable = parameter.block =
-            readings.walk_step_V(j, log, step);
+        CalibrationParameter parameter = OfLogs(
+            kDrift, GaugeName(j, "drift_" + std::to_string(step + 1) + "_V"),
+            "V", readings.walk_step_V(j, log, step));
         parameter.prior_std = readings.walk_step_std_V(log);
-        AddOfLog(plan, logs, log, parameter);
+        AddOfLog(plan, logs, log, std::move(parameter));
       }
     }
   }
@@ -251,14 +250,8 @@ void CalibrationParameters::AddDrift(const Plan& plan,
 void CalibrationParameters::AddCamera(const Plan& plan) {
   if (!plan.family(ParameterFamily::kCameraOrigin).free) return;
   for (int axis = 0; axis < 2; ++axis) {
-    CalibrationParameter parameter;
-    parameter.name = axis == 0 ? "camera_origin_x_mm" : "camera_origin_y_mm";
-    parameter.unit = "mm";
-    parameter.family = ParameterFamily::kCameraOrigin;
-    parameter.variable = &camera_origin_mm[axis];
-    parameter.block = camera_origin_mm;
-    parameter.scale = 10;
-    Add(plan, std::move(parameter));
+    Add(plan, OfAxis(ParameterFamily::kCameraOrigin, "camera_origin", "mm",
+                     camera_origin_mm, axis, 10));
   }
 }
 

@@ -1,6 +1,6 @@
 #include "finray/calib/report/calibration_checks_yaml.h"
 
-#include "finray/io/yaml_emitter.h"
+#include "finray/calib/report/yaml_rows.h"
 
 namespace finray {
 namespace {
@@ -24,19 +24,16 @@ void EmitErrors(const CalibrationResult& result, YamlEmitter* yaml) {
 void EmitCorrelation(CalibrationProblem& problem,
                      const ResidualCorrelation& found, YamlEmitter* yaml) {
   *yaml << YAML::Key << "residual_correlation" << YAML::Value << YAML::BeginMap;
-  YamlPair(yaml, "correlated", found.correlated());
-  YamlPair(yaml, "p_value", found.p_value);
+  EmitPairs(yaml, "correlated", found.correlated(), "p_value", found.p_value);
   *yaml << YAML::Key << "series" << YAML::Value << YAML::BeginSeq;
   for (const ResidualCorrelation::Series& series : found.series) {
     *yaml << YAML::Flow << YAML::BeginMap;
-    YamlPair(yaml, "log", problem.logs().paths[series.log]);
-    YamlPair(yaml, "family", ResidualFamilyName(series.family));
+    EmitPairs(yaml, "log", problem.logs().paths[series.log], "family",
+              ResidualFamilyName(series.family));
     if (series.gauge >= 0) YamlPair(yaml, "gauge", series.gauge + 1);
-    YamlPair(yaml, "component", series.component + 1);
-    YamlPair(yaml, "residuals", series.time.n);
-    YamlPair(yaml, "lag_1", series.time.lag_1);
-    YamlPair(yaml, "integrated_time_rows", series.time.tau);
-    YamlPair(yaml, "effective_residuals", series.time.effective());
+    EmitPairs(yaml, "component", series.component + 1, "residuals",
+              series.time.n, "lag_1", series.time.lag_1, "integrated_time_rows",
+              series.time.tau, "effective_residuals", series.time.effective());
     *yaml << YAML::EndMap;
   }
   *yaml << YAML::EndSeq << YAML::Key << "std_enlarged_by" << YAML::Value
@@ -53,17 +50,12 @@ void EmitLeaveOneLogOut(CalibrationProblem& problem,
                         const LeaveOneLogOut& found, YamlEmitter* yaml) {
   if (found.groups == 0) return;
   *yaml << YAML::Key << "leave_one_log_out" << YAML::Value << YAML::BeginMap;
-  YamlPair(yaml, "groups", found.groups);
-  YamlPair(yaml, "all_converged", found.all_converged);
+  EmitPairs(yaml, "groups", found.groups, "all_converged", found.all_converged);
   *yaml << YAML::Key << "parameters" << YAML::Value << YAML::BeginSeq;
   for (const LeaveOneLogOut::Row& row : found.rows) {
-    *yaml << YAML::Flow << YAML::BeginMap;
-    YamlPair(yaml, "name", problem.parameters().all()[row.parameter].name);
-    YamlPair(yaml, "spread", row.spread);
-    YamlPair(yaml, "std", row.std);
-    YamlPair(yaml, "spread_over_std", row.ratio());
-    YamlPair(yaml, "p_value", row.p_value);
-    *yaml << YAML::EndMap;
+    EmitRow(yaml, "name", problem.parameters().all()[row.parameter].name,
+            "spread", row.spread, "std", row.std, "spread_over_std",
+            row.ratio(), "p_value", row.p_value);
   }
   *yaml << YAML::EndSeq << YAML::EndMap;
 }
@@ -73,27 +65,25 @@ void EmitNext(CalibrationProblem& problem,
   *yaml << YAML::Key << "next" << YAML::Value << YAML::BeginSeq;
   for (const FrameAdvice& advice : advised) {
     *yaml << YAML::BeginMap;
-    YamlPair(yaml, "words", advice.words);
-    YamlPair(yaml, "kind",
-             advice.known_gains ? "known_gains"
-             : advice.free      ? "free_frames"
-                                : "contact_frames");
+    EmitPairs(yaml, "words", advice.words, "kind",
+              advice.known_gains ? "known_gains"
+              : advice.free      ? "free_frames"
+                                 : "contact_frames");
     if (!advice.known_gains) YamlPair(yaml, "frames", FrameAdvice::kFrames);
     if (!advice.known_gains && !advice.free) {
       // Not a number: spread over the finger.
-      YamlPair(yaml, "contact_mm", advice.contact_mm);
-      YamlPair(yaml, "normal_N", advice.normal_N);
+      EmitPairs(yaml, "contact_mm", advice.contact_mm, "normal_N",
+                advice.normal_N);
     }
     *yaml << YAML::Key << "add" << YAML::Value << YAML::Flow << YAML::BeginSeq;
     for (const ResidualFamily family : advice.added) {
       *yaml << ResidualFamilyName(family);
     }
     *yaml << YAML::EndSeq;
-    YamlPair(yaml, "parameter",
-             problem.parameters().all()[advice.parameter].name);
-    YamlPair(yaml, "std_before", advice.parameter_std_before);
-    YamlPair(yaml, "std_after", advice.parameter_std_after);
-    YamlPair(yaml, "direction_std_ratio", advice.ratio());
+    EmitPairs(
+        yaml, "parameter", problem.parameters().all()[advice.parameter].name,
+        "std_before", advice.parameter_std_before, "std_after",
+        advice.parameter_std_after, "direction_std_ratio", advice.ratio());
     *yaml << YAML::EndMap;
   }
   *yaml << YAML::EndSeq;
@@ -102,14 +92,9 @@ void EmitNext(CalibrationProblem& problem,
 void EmitStarts(const std::vector<StartReport>& starts, YamlEmitter* yaml) {
   *yaml << YAML::Key << "starts" << YAML::Value << YAML::BeginSeq;
   for (const StartReport& start : starts) {
-    *yaml << YAML::Flow << YAML::BeginMap;
-    YamlPair(yaml, "start", start.name);
-    YamlPair(yaml, "converged", start.converged);
-    YamlPair(yaml, "iterations", start.iterations);
-    YamlPair(yaml, "cost", start.cost);
-    YamlPair(yaml, "distance_std", start.distance_std);
-    YamlPair(yaml, "agrees", start.agrees);
-    *yaml << YAML::EndMap;
+    EmitRow(yaml, "start", start.name, "converged", start.converged,
+            "iterations", start.iterations, "cost", start.cost, "distance_std",
+            start.distance_std, "agrees", start.agrees);
   }
   *yaml << YAML::EndSeq;
 }
@@ -118,11 +103,8 @@ void EmitRejected(const CalibrationProblem& problem, YamlEmitter* yaml) {
   *yaml << YAML::Key << "rejected_frames" << YAML::Value << YAML::BeginSeq;
   for (const auto& [index, reason] : problem.rejected()) {
     const CalibrationFrame& frame = problem.logs().frames[index];
-    *yaml << YAML::Flow << YAML::BeginMap;
-    YamlPair(yaml, "log", problem.logs().paths[frame.log]);
-    YamlPair(yaml, "row", frame.row + 1);
-    YamlPair(yaml, "reason", reason);
-    *yaml << YAML::EndMap;
+    EmitRow(yaml, "log", problem.logs().paths[frame.log], "row", frame.row + 1,
+            "reason", reason);
   }
   *yaml << YAML::EndSeq;
 }

@@ -8,6 +8,7 @@
 
 #include "finray/calib/analysis/finger_covariance.h"
 #include "finray/calib/analysis/validation.h"
+#include "finray/calib/problem/offset_guess.h"
 #include "finray/io/number_text.h"
 
 namespace finray {
@@ -49,7 +50,7 @@ void WarnOfNoise(const Identifiability& found,
   }
 }
 
-void WarnOfStarts(const RobustSolution& solution,
+void WarnOfStarts(const CalibrationSolution& solution,
                   std::vector<CalibrationWarning>* warnings) {
   const auto& starts = solution.starts;
   if (starts.empty()) return;
@@ -73,7 +74,7 @@ void WarnOfStarts(const RobustSolution& solution,
 }
 
 void WarnOfOutliers(const CalibrationProblem& problem,
-                    const RobustSolution& solution,
+                    const CalibrationSolution& solution,
                     std::vector<CalibrationWarning>* warnings) {
   if (solution.outliers_too_many) {
     warnings->push_back(
@@ -305,17 +306,17 @@ std::string CalibrationResult::Verdict() const {
   return AllIdentified() ? "good" : "unidentifiable";
 }
 
-CalibrationResult Calibrate(CalibrationProblem* problem,
-                            const Discretization& discretization, int threads,
-                            bool leave_logs_out) {
+CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
   CalibrationResult result;
+  const Discretization& discretization = problem->discretization();
+  const int threads = problem->threads();
   Stopwatch watch;
   result.solution = SolveRobustly(problem);
   watch.Lap("solve");
-  problem->ZeroHeldOutLogs();
-  result.identifiability = AnalyzeIdentifiability(problem);
-  result.residual_correlation =
-      AnalyzeResidualCorrelation(problem, result.identifiability);
+  ZeroHeldOutLogs(problem);
+  result.identifiability = AnalyzeIdentifiability(problem, result.solution.at);
+  result.residual_correlation = AnalyzeResidualCorrelation(
+      problem->logs(), result.solution.at, result.identifiability);
   EnlargeStd(result.residual_correlation, &result.identifiability);
   watch.Lap("uncertainty");
   result.unsupported = FindUnsupported(*problem, result.identifiability);
@@ -325,11 +326,11 @@ CalibrationResult Calibrate(CalibrationProblem* problem,
     }
   }
   result.next =
-      AdviseNextFrames(problem, discretization, &result.identifiability);
+      AdviseNextFrames(problem, result.solution, &result.identifiability);
   watch.Lap("what to record next");
   if (leave_logs_out) {
     result.leave_one_log_out =
-        LeaveLogsOut(*problem, result.identifiability, discretization, threads);
+        LeaveLogsOut(problem, result.solution, result.identifiability);
   }
   watch.Lap("leave one log out");
   result.finger = problem->parameters().Apply(problem->finger());

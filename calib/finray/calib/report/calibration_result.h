@@ -28,7 +28,7 @@ struct CalibrationWarning {
 
 /// All that a calibration yields.
 struct CalibrationResult {
-  RobustSolution solution;
+  CalibrationSolution solution;
   Identifiability identifiability;
   /// The frames that were held against the references, indices into the logs'
   /// frames: all, or if there are many, kMostChecked of the fitted ones and as
@@ -59,7 +59,6 @@ struct CalibrationResult {
 /// Solves the problem, analyses it and checks it against the references.
 /// `leave_logs_out`: repeats it without each log, if there are several.
 CalibrationResult Calibrate(CalibrationProblem* problem,
-                            const Discretization& discretization, int threads,
                             bool leave_logs_out = false);
 
 /// What went in, for the record.

@@ -19,7 +19,7 @@ class FrameRows {
   FrameRows(CalibrationProblem& problem, const CalibrationResult& result)
       : problem_(problem),
         result_(result),
-        at_(problem.AtSolution()),
+        at_(result.solution.at),
         per_normal_(std::hypot(1, problem.plan().scene.friction_coefficient)) {}
 
   FrameTable Next(std::size_t first, std::size_t last) {
@@ -38,7 +38,7 @@ class FrameRows {
       set("time_s", frame.time_s);
       set("held_out", frame.held_out);
       set("force_N", ReferenceForce(frame));
-      const auto contact = problem_.contact(static_cast<int>(i));
+      const auto contact = result_.solution.contacts[i];
       set("fit_contact_mm", contact[0]);
       set("fit_normal_N", contact[1]);
     }
@@ -129,8 +129,7 @@ FrameTable CalibrationShape(CalibrationProblem& problem,
                             const Discretization& discretization) {
   constexpr int kPoints = 80;
   std::array<double, 2> heaviest = {std::nan(""), 0};
-  for (std::size_t i = 0; i < problem.logs().frames.size(); ++i) {
-    const auto contact = problem.contact(static_cast<int>(i));
+  for (const auto& contact : result.solution.contacts) {
     if (contact[1] > heaviest[1]) heaviest = contact;
   }
   struct Point {

@@ -1,8 +1,7 @@
 #include <cmath>
 
 #include "finray/calib/analysis/calibration_comparison.h"
-#include "finray/io/sha256.h"
-#include "finray/io/yaml_emitter.h"
+#include "finray/calib/report/yaml_rows.h"
 
 namespace finray {
 
@@ -33,34 +32,15 @@ std::string ComparisonYaml(const Comparison& comparison,
   YamlEmitter yaml;
   yaml << YAML::BeginMap;
   YamlPair(&yaml, "schema_version", 1);
-  bool passed = true;
-  for (const ComparisonGate& gate : gates) passed &= gate.passed;
-  YamlPair(&yaml, "verdict",
-           gates.empty() ? "no_gates"
-           : passed      ? "passed"
-                         : "failed");
-  const std::pair<const char*, const CalibrationFile*> files[] = {{"a", &a},
-                                                                  {"b", &b}};
-  for (const auto& [key, file] : files) {
-    yaml << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginMap;
-    YamlPair(&yaml, "path", file->path);
-    YamlPair(&yaml, "sha256", Sha256OfFile(file->path));
-    yaml << YAML::EndMap;
-  }
+  EmitVerdict(&yaml, gates);
+  EmitFile(&yaml, "a", a.path);
+  EmitFile(&yaml, "b", b.path);
   YamlPair(&yaml, "shared_logs", comparison.shared_logs);
-  yaml << YAML::Key << "parameters" << YAML::Value << YAML::BeginSeq;
-  for (const Comparison::Parameter& p : comparison.parameters) {
-    yaml << YAML::Flow << YAML::BeginMap;
-    YamlPair(&yaml, "name", p.name);
-    YamlPair(&yaml, "unit", p.unit);
-    YamlPair(&yaml, "a", p.a);
-    YamlPair(&yaml, "b", p.b);
-    YamlPair(&yaml, "difference", p.b - p.a);
-    YamlPair(&yaml, "std", p.std);
-    YamlPair(&yaml, "difference_over_std", p.sigma());
-    yaml << YAML::EndMap;
-  }
-  yaml << YAML::EndSeq;
+  EmitSeq(&yaml, "parameters", comparison.parameters, [&](const auto& p) {
+    EmitRow(&yaml, "name", p.name, "unit", p.unit, "a", p.a, "b", p.b,
+            "difference", p.b - p.a, "std", p.std, "difference_over_std",
+            p.sigma());
+  });
   const std::pair<const char*, const std::vector<std::string>&> unmatched[] = {
       {"only_in_a", comparison.only_a},
       {"only_in_b", comparison.only_b},
@@ -68,34 +48,26 @@ std::string ComparisonYaml(const Comparison& comparison,
   for (const auto& [key, names] : unmatched) {
     yaml << YAML::Key << key << YAML::Value << YAML::Flow << names;
   }
-  yaml << YAML::Key << "all" << YAML::Value << YAML::Flow << YAML::BeginMap;
-  YamlPair(&yaml, "chi2", comparison.chi2);
-  YamlPair(&yaml, "dof", comparison.dof);
-  YamlPair(&yaml, "p_value", comparison.p_value());
-  yaml << YAML::EndMap;
+  yaml << YAML::Key << "all" << YAML::Value;
+  EmitRow(&yaml, "chi2", comparison.chi2, "dof", comparison.dof, "p_value",
+          comparison.p_value());
   const Comparison::Largest most = comparison.largest();
   yaml << YAML::Key << "predicted" << YAML::Value << YAML::BeginMap;
-  YamlPair(&yaml, "points", comparison.grid.size());
-  YamlPair(&yaml, "compared_points", most.points);
-  YamlPair(&yaml, "lost_points", most.lost);
+  EmitPairs(&yaml, "points", comparison.grid.size(), "compared_points",
+            most.points, "lost_points", most.lost);
   if (most.points > 0) {
-    YamlPair(&yaml, "force_rms_difference_N", most.force_rms_N);
-    YamlPair(&yaml, "force_max_difference_N", most.force_N);
-    YamlPair(&yaml, "force_max_difference_over_std", most.force_over_std);
-    YamlPair(&yaml, "contact_rms_difference_mm", most.contact_rms_mm);
-    YamlPair(&yaml, "contact_max_difference_mm", most.contact_mm);
-    YamlPair(&yaml, "contact_max_difference_over_std", most.contact_over_std);
+    EmitPairs(&yaml, "force_rms_difference_N", most.force_rms_N,
+              "force_max_difference_N", most.force_N,
+              "force_max_difference_over_std", most.force_over_std,
+              "contact_rms_difference_mm", most.contact_rms_mm,
+              "contact_max_difference_mm", most.contact_mm,
+              "contact_max_difference_over_std", most.contact_over_std);
   }
-  yaml << YAML::EndMap << YAML::Key << "gates" << YAML::Value << YAML::BeginSeq;
-  for (const ComparisonGate& gate : gates) {
-    yaml << YAML::Flow << YAML::BeginMap;
-    YamlPair(&yaml, "name", gate.name);
-    YamlPair(&yaml, "bound", gate.bound);
-    YamlPair(&yaml, "value", gate.value);
-    YamlPair(&yaml, "passed", gate.passed);
-    yaml << YAML::EndMap;
-  }
-  yaml << YAML::EndSeq;
+  yaml << YAML::EndMap;
+  EmitSeq(&yaml, "gates", gates, [&](const ComparisonGate& gate) {
+    EmitRow(&yaml, "name", gate.name, "bound", gate.bound, "value", gate.value,
+            "passed", gate.passed);
+  });
   YamlPair(&yaml, "version", FINRAY_VERSION);
   yaml << YAML::EndMap;
   return std::string(yaml.c_str()) + "\n";

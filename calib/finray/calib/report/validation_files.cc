@@ -2,8 +2,7 @@
 #include <vector>
 
 #include "finray/calib/analysis/validation.h"
-#include "finray/io/sha256.h"
-#include "finray/io/yaml_emitter.h"
+#include "finray/calib/report/yaml_rows.h"
 #include "finray/sensing/estimated_force.h"
 
 namespace finray {
@@ -73,48 +72,29 @@ std::string ValidationYaml(const CalibrationLogs& logs,
   YamlEmitter yaml;
   yaml << YAML::BeginMap;
   YamlPair(&yaml, "schema_version", 1);
-  bool passed = true;
-  for (const GateResult& result : gates) passed &= result.passed;
-  YamlPair(&yaml, "verdict",
-           gates.empty() ? "no_gates"
-           : passed      ? "passed"
-                         : "failed");
-  yaml << YAML::Key << "gates" << YAML::Value << YAML::BeginSeq;
-  for (const GateResult& result : gates) {
-    yaml << YAML::Flow << YAML::BeginMap;
-    YamlPair(&yaml, "name", GateName(result.gate.quantity));
-    YamlPair(&yaml, "bound", result.gate.bound);
-    YamlPair(&yaml, "value", result.value);
-    YamlPair(&yaml, "passed", result.passed);
-    yaml << YAML::EndMap;
-  }
-  yaml << YAML::EndSeq << YAML::Key << "errors" << YAML::Value;
+  EmitVerdict(&yaml, gates);
+  EmitSeq(&yaml, "gates", gates, [&](const GateResult& result) {
+    EmitRow(&yaml, "name", GateName(result.gate.quantity), "bound",
+            result.gate.bound, "value", result.value, "passed", result.passed);
+  });
+  yaml << YAML::Key << "errors" << YAML::Value;
   EmitErrorTable(validation.errors, &yaml);
   if (validation.baseline_errors) {
     yaml << YAML::Key << "baseline" << YAML::Value;
     EmitErrorTable(*validation.baseline_errors, &yaml);
   }
-  const auto file = [&yaml](const std::string& path) {
-    yaml << YAML::Flow << YAML::BeginMap;
-    YamlPair(&yaml, "path", path);
-    YamlPair(&yaml, "sha256", Sha256OfFile(path));
-    yaml << YAML::EndMap;
-  };
   yaml << YAML::Key << "inputs" << YAML::Value << YAML::BeginMap;
   const std::pair<const char*, const std::string*> named[] = {
       {"finger", &inputs.finger_path},
       {"baseline", &inputs.baseline_path},
       {"plan_or_scene", &inputs.plan_path}};
   for (const auto& [key, path] : named) {
-    if (path->empty()) continue;
-    yaml << YAML::Key << key << YAML::Value;
-    file(*path);
+    if (!path->empty()) EmitFile(&yaml, key, *path);
   }
-  yaml << YAML::Key << "logs" << YAML::Value << YAML::BeginSeq;
-  for (const std::string& path : logs.paths) file(path);
-  yaml << YAML::EndSeq << YAML::EndMap;
-  YamlPair(&yaml, "command", inputs.command);
-  YamlPair(&yaml, "version", FINRAY_VERSION);
+  EmitSeq(&yaml, "logs", logs.paths,
+          [&](const std::string& path) { EmitFile(&yaml, path); });
+  yaml << YAML::EndMap;
+  EmitPairs(&yaml, "command", inputs.command, "version", FINRAY_VERSION);
   yaml << YAML::EndMap;
   return std::string(yaml.c_str()) + "\n";
 }

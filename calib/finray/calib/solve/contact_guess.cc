@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/calib/analysis/force_check.h"
 #include "finray/finger/geometry.h"
 
 namespace finray {
@@ -23,20 +24,18 @@ EquilibriumSolver SolverFor(const Finger& finger,
 
 }  // namespace
 
-ContactGuess::ContactGuess(const Finger& finger, const Plan& plan,
-                           const Discretization& discretization,
-                           const CalibrationBlocks* blocks,
-                           CalibrationParameters* parameters, int threads)
-    : blocks_(*blocks),
-      parameters_(*parameters),
-      length_mm_(finger.front_length_mm),
-      force_unit_N_(ForceUnit(finger)),
-      object_std_mm_(plan.object_std_mm),
-      solver_(SolverFor(finger, discretization)),
-      table_(&solver_, plan.scene.friction_coefficient,
-             plan.scene.circle_radius_mm(), threads, kRows),
-      fit_(finger, discretization, plan.scene.circle_radius_mm()),
-      circle_(plan.scene.circle_radius_mm().has_value()) {
+ContactGuess::ContactGuess(CalibrationProblem* problem)
+    : ContactGuess(problem, problem->parameters().Apply(problem->finger())) {}
+
+ContactGuess::ContactGuess(CalibrationProblem* problem, const Finger& finger)
+    : problem_(*problem),
+      solver_(SolverFor(finger, problem->discretization())),
+      table_(&solver_, problem->plan().scene.friction_coefficient,
+             problem->plan().scene.circle_radius_mm(), problem->threads(),
+             kRows),
+      fit_(finger, problem->discretization(),
+           problem->plan().scene.circle_radius_mm()),
+      circle_(problem->plan().scene.circle_radius_mm().has_value()) {
   const auto size =
       static_cast<Eigen::Index>(finger.gauges.size() + (circle_ ? 2 : 0));
   values_.resize(size);
@@ -56,10 +55,10 @@ ContactGuess::Place ContactGuess::Of(const CalibrationFrame& frame, From from) {
   // solution. Gauges of unknown gains would be met at any price.
   Place place = FromTable(by_object || from == From::kAll);
   if (std::isfinite(frame.contact_mm)) {
-    place.arc_mm = std::clamp(frame.contact_mm, 0.0, length_mm_);
+    place.arc_mm =
+        std::clamp(frame.contact_mm, 0.0, problem_.finger().front_length_mm);
   }
-  const double force =
-      frame.force_xy_N.allFinite() ? frame.force_xy_N.norm() : frame.force_N;
+  const double force = ReferenceForce(frame);
   // A wild one may be more than the finger can carry.
   if (from == From::kObjectFirst && force <= table_.heaviest_N()) {
     place.normal_N = std::max(force, 0.0);
@@ -69,34 +68,34 @@ ContactGuess::Place ContactGuess::Of(const CalibrationFrame& frame, From from) {
 
 void ContactGuess::AddCircle(const CalibrationFrame& frame) {
   const Eigen::Map<const Eigen::Vector2d> origin(
-      parameters_.object_origin_mm(frame.log));
+      problem_.parameters().object_origin_mm(frame.log));
   values_.tail<2>() = frame.object_mm + origin;
-  weights_.tail<2>().setConstant(1 / object_std_mm_);
+  weights_.tail<2>().setConstant(1 / problem_.plan().object_std_mm);
 }
 
 void ContactGuess::AddGauges(const CalibrationFrame& frame) {
+  CalibrationParameters& parameters = problem_.parameters();
   for (int j = 0; j < static_cast<int>(frame.gauges_V.size()); ++j) {
-    const double gain = parameters_.gains_V_per_rad[j];
+    const double gain = parameters.gains_V_per_rad[j];
     if (!std::isfinite(frame.gauges_V[j]) || gain == 0) continue;
-    values_[j] =
-        (frame.gauges_V[j] - parameters_.readings.Sum(frame, j)) / gain;
-    weights_[j] = std::abs(gain) / blocks_.gauge_std_V(j);
+    values_[j] = (frame.gauges_V[j] - parameters.readings.Sum(frame, j)) / gain;
+    weights_[j] = std::abs(gain) / problem_.blocks().gauge_std_V(j);
   }
 }
 
 ContactGuess::Place ContactGuess::FromTable(bool fit) {
   const ContactStart start = table_.BestStart(values_, weights_);
   if (start.state == nullptr) {
-    return {length_mm_ / 2, force_unit_N_, {}, false};
+    return {problem_.finger().front_length_mm / 2,
+            ForceUnit(solver_.model().finger()), false};
   }
   std::vector<PointContact> contact = {start.contacts[0]};
-  Place place{contact[0].arc_mm, contact[0].normal_N, *start.state, false};
+  Place place{contact[0].arc_mm, contact[0].normal_N, false};
   if (!fit) return place;
   fit_.set_state(*start.state);
   if (!fit_.Fit(values_, weights_, &contact)) return place;
   place.arc_mm = contact[0].arc_mm;
   place.normal_N = contact[0].normal_N;
-  fit_.SaveState(&place.state);
   place.met = true;
   return place;
 }

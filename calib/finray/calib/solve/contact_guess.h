@@ -3,9 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "finray/calib/problem/calibration_blocks.h"
-#include "finray/calib/problem/calibration_log.h"
-#include "finray/calib/problem/parameters.h"
+#include "finray/calib/problem/calibration_problem.h"
 #include "finray/sensing/fast/contact_fit.h"
 #include "finray/sensing/gauge_table.h"
 
@@ -17,17 +15,13 @@ namespace finray {
 /// contact location and a force that were measured themselves come first.
 class ContactGuess {
  public:
-  /// `blocks` and `parameters` must stay in place. Throws InputError for a
-  /// finger without an unloaded equilibrium.
-  ContactGuess(const Finger& finger, const Plan& plan,
-               const Discretization& discretization,
-               const CalibrationBlocks* blocks,
-               CalibrationParameters* parameters, int threads);
+  /// `problem` must stay in place. Throws InputError for a finger without an
+  /// unloaded equilibrium.
+  explicit ContactGuess(CalibrationProblem* problem);
 
   struct Place {
     double arc_mm = 0, normal_N = 0;
-    LadderState state;  ///< An equilibrium near it; may be empty.
-    bool met = false;   ///< What it was looked for by is met, not only near.
+    bool met = false;  ///< what it was looked for by is met, not only near
   };
   /// Whether gauges count beside the object's place: once their gains are
   /// known.
@@ -37,13 +31,12 @@ class ContactGuess {
   const GaugeTable& table() const { return table_; }
 
  private:
+  ContactGuess(CalibrationProblem* problem, const Finger& finger);
   void AddCircle(const CalibrationFrame& frame);
   void AddGauges(const CalibrationFrame& frame);
   Place FromTable(bool fit);
 
-  const CalibrationBlocks& blocks_;
-  CalibrationParameters& parameters_;
-  double length_mm_, force_unit_N_, object_std_mm_;
+  CalibrationProblem& problem_;
   EquilibriumSolver solver_;
   GaugeTable table_;
   ContactFit fit_;

@@ -27,11 +27,9 @@ struct FrameLinearizer::Model {
 FrameLinearizer::FrameLinearizer(const EquilibriumSolver& solver,
                                  const Plan& plan,
                                  const CalibrationBlocks* blocks,
-                                 const CalibrationParameters* parameters,
-                                 double small_decrease)
+                                 const CalibrationParameters* parameters)
     : solver_(solver),
       friction_(plan.scene.friction_coefficient),
-      small_decrease_(small_decrease),
       blocks_(*blocks),
       parameters_(*parameters),
       loss_(MakeLoss(plan)) {
@@ -150,7 +148,10 @@ void FrameLinearizer::AddBlock(const FrameBlock& block, const double* contact,
 bool FrameLinearizer::FitContact(const CalibrationFrame& frame,
                                  std::array<double, 2>* contact,
                                  LadderState* state, LinearizedFrame* out) {
-  if (!FindContact(frame, contact, state, out)) return false;
+  if (!FindContact(frame, contact, state, out)) {
+    out->rows.clear();
+    return false;
+  }
   out->Eliminate();
   return true;
 }
@@ -178,7 +179,7 @@ bool FrameLinearizer::FindContact(const CalibrationFrame& frame,
     const double expected =
         -equations.gradient.dot(change) -
         0.5 * change.dot(ContactVector(equations.normal * change));
-    if (!(expected > small_decrease_)) return true;
+    if (!(expected > kSmallDecrease)) return true;
     const std::array<double, 2> moved = {
         std::clamp(unit[0] * (x[0] + change[0]), 0.0, unit[0]),
         std::max(0.0, unit[1] * (x[1] + change[1]))};

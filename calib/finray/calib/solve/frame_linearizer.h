@@ -16,12 +16,10 @@ namespace finray {
 /// values of the parameters, which it only reads. One for each thread.
 class FrameLinearizer {
  public:
-  /// `blocks` and `parameters` must stay in place. `small_decrease` is where
-  /// FitContact ends, in units of chi2 / 2.
+  /// `blocks` and `parameters` must stay in place.
   FrameLinearizer(const EquilibriumSolver& solver, const Plan& plan,
                   const CalibrationBlocks* blocks,
-                  const CalibrationParameters* parameters,
-                  double small_decrease);
+                  const CalibrationParameters* parameters);
 
   /// The frame with its contact at (l_c, f_c) = `contact` (of no account for a
   /// frame without). Equilibrium is sought from `*state` and left there. False
@@ -32,8 +30,10 @@ class FrameLinearizer {
 
   /// Moves the contact to where it explains the frame best, the parameters
   /// being what they are: Gauss-Newton on l_c and f_c within their bounds,
-  /// until a further step would lower the cost by less than small_decrease.
-  /// What is left of the way LinearizedFrame::move knows well enough.
+  /// until a further step would lower chi2 / 2 by less than kSmallDecrease.
+  /// LinearizedFrame::move knows the rest of the way well enough. Where the
+  /// model cannot be evaluated it returns false and leaves `out` without rows.
+  static constexpr double kSmallDecrease = 1e-5;
   bool FitContact(const CalibrationFrame& frame, std::array<double, 2>* contact,
                   LadderState* state, LinearizedFrame* out);
 
@@ -52,7 +52,7 @@ class FrameLinearizer {
                 LinearizedFrame* out);
 
   EquilibriumSolver solver_;
-  double friction_, small_decrease_;
+  double friction_;
   const CalibrationBlocks& blocks_;
   const CalibrationParameters& parameters_;
   std::unique_ptr<ceres::LossFunction> loss_;

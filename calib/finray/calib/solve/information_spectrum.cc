@@ -50,7 +50,7 @@ Eigen::MatrixXd DeterminedUnits(const Eigen::MatrixXd& information,
                                      unit.asDiagonal());
   const auto weak =
       std::count_if(spectrum.values.begin(), spectrum.values.end(),
-                    [](double value) { return value < kLeastInformation; });
+                    [](double value) { return value < kLeastMoved; });
   const Eigen::Index kept = unit.size() - weak;
   return unit.asDiagonal() * spectrum.vectors.rightCols(kept) *
          spectrum.values.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();

@@ -25,10 +25,12 @@ struct InformationSpectrum {
 };
 
 /// Columns are changes of one std along the directions that S of variables in
-/// these units determines. Along what it says less of than kLeastInformation
-/// nothing is moved: that would be rounding.
+/// these units determines. Directions with less than kLeastMoved are left out:
+/// derivatives are exact to some 1e-8, and S along them may be rounding.
 Eigen::MatrixXd DeterminedUnits(const Eigen::MatrixXd& information,
                                 const Eigen::VectorXd& unit);
+constexpr double kLeastMoved = 1e-6;
+/// The information that a covariance is bounded by.
 constexpr double kLeastInformation = 1e-8;
 
 }  // namespace finray

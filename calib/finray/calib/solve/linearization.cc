@@ -3,26 +3,26 @@
 namespace finray {
 
 Linearization::Linearization(int parameters, std::size_t most_frames)
-    : pulls(parameters, static_cast<Eigen::Index>(most_frames)) {
-  for (auto& information : information_by_family) {
-    information.setZero(parameters, parameters);
-  }
+    : pulls(parameters, static_cast<Eigen::Index>(most_frames)),
+      gradient(Eigen::VectorXd::Zero(parameters)) {
   contact_leverage.fill(0);
 }
 
 void Linearization::Add(int frame, int log, const LinearizedFrame& at) {
   const Eigen::VectorXd weighted = at.WeightedResiduals();
   const Eigen::MatrixXd& c = at.reduced;
-  pulls.col(static_cast<Eigen::Index>(frames.size())) =
-      (c.transpose() * weighted).cast<float>();
+  const Eigen::VectorXd pull = c.transpose() * weighted;
+  pulls.col(static_cast<Eigen::Index>(frames.size())) = pull.cast<float>();
+  gradient += pull;
+  cost += at.cost - at.move.decrease;
   frames.push_back(frame);
+  auto [of_log, is_new] = information.try_emplace(log);
+  if (is_new) {
+    of_log->second.fill(Eigen::MatrixXd::Zero(c.cols(), c.cols()));
+  }
   const Eigen::Matrix2d contact =
       PseudoInverse(at.by_contact.transpose() * at.by_contact);
   const auto count = static_cast<Eigen::Index>(at.rows.size());
-  const Eigen::Index n = c.cols();
-  const auto of_log =
-      information_by_log.try_emplace(log, Eigen::MatrixXd::Zero(n, n));
-  AddSquare(c, &of_log.first->second);
   for (Eigen::Index i = 0; i < count;) {
     const ResidualFamily family = at.rows[i].family;
     Eigen::Index end = i;
@@ -35,8 +35,11 @@ void Linearization::Add(int frame, int log, const LinearizedFrame& at) {
       residuals.push_back(at.residuals[end]);
       weighted_residuals.push_back(weighted[end]);
     }
+    // Of few rows; Eigen's product of large matrices takes several times as
+    // long.
     const auto of_family = c.middleRows(i, end - i);
-    AddSquare(of_family, &information_by_family[static_cast<int>(family)]);
+    of_log->second[static_cast<int>(family)].noalias() +=
+        of_family.transpose().lazyProduct(of_family);
     i = end;
   }
 }
@@ -47,8 +50,20 @@ void Linearization::Finish() {
 }
 
 Eigen::MatrixXd Linearization::Information() const {
-  Eigen::MatrixXd sum = information_by_family[0];
-  for (int i = 1; i < kResidualFamilies; ++i) sum += information_by_family[i];
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(gradient.size(), gradient.size());
+  for (int i = 0; i < kResidualFamilies; ++i) sum += InformationOfFamily(i);
+  return sum;
+}
+
+Eigen::MatrixXd Linearization::InformationOfLog(int log) const {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(gradient.size(), gradient.size());
+  for (const Eigen::MatrixXd& part : information.at(log)) sum += part;
+  return sum;
+}
+
+Eigen::MatrixXd Linearization::InformationOfFamily(int family) const {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(gradient.size(), gradient.size());
+  for (const auto& [log, of_log] : information) sum += of_log[family];
   return sum;
 }
 

@@ -18,10 +18,15 @@ struct ResidualInfo {
   std::int16_t gauge;  ///< for kGauge and kBench, else -1
 };
 
-/// What all fitted frames say at the present values: all that the analyses
-/// need, gathered in one pass and in memory that a million frames fit into.
-/// Informations are of the free parameters, frames weighted as by the robust
-/// loss and their contacts eliminated.
+/// What some frames say of the free parameters x about the present values, the
+/// contacts following: without priors,
+///
+///   cost(x + dx) = cost + g' dx + dx' S dx / 2,
+///   S = sum C'C - C'E (E'E)^-1 E'C,   g = sum (C - E (E'E)^-1 E'C)' r,
+///
+/// frames weighted as by the robust loss. The solver and all analyses need no
+/// more; it is gathered in one pass and in memory that a million frames fit
+/// into.
 struct Linearization {
   // By row, those of a frame following each other.
   std::vector<ResidualInfo> rows;
@@ -33,17 +38,22 @@ struct Linearization {
   /// J'r of each: which way it pulls the parameters (free x frames).
   Eigen::MatrixXf pulls;
 
-  std::map<int, Eigen::MatrixXd> information_by_log;
-  std::array<Eigen::MatrixXd, kResidualFamilies> information_by_family;
+  double cost = 0;
+  Eigen::VectorXd gradient;  ///< g
+  /// The parts of S, by log and family.
+  std::map<int, std::array<Eigen::MatrixXd, kResidualFamilies>> information;
   /// Sum of the leverages of the contacts, e_i (E'E)^-1 e_i'.
   std::array<double, kResidualFamilies> contact_leverage;
 
   /// `most_frames`: how many will be added at most.
-  Linearization(int parameters, std::size_t most_frames);
+  explicit Linearization(int parameters = 0, std::size_t most_frames = 0);
   void Add(int frame, int log, const LinearizedFrame& at);
   /// To be called after the last.
   void Finish();
-  Eigen::MatrixXd Information() const;
+
+  Eigen::MatrixXd Information() const;  ///< S
+  Eigen::MatrixXd InformationOfLog(int log) const;
+  Eigen::MatrixXd InformationOfFamily(int family) const;
 };
 
 }  // namespace finray

@@ -46,13 +46,6 @@ struct LinearizedFrame {
   void Eliminate();
 };
 
-/// sum += C'C of few rows, for which Eigen's product of large matrices takes
-/// several times as long.
-template <typename Rows>
-void AddSquare(const Eigen::MatrixBase<Rows>& c, Eigen::MatrixXd* sum) {
-  sum->noalias() += c.transpose().lazyProduct(c.derived());
-}
-
 /// The part of a 2 x 2 information matrix that is not noise, inverted; a
 /// contact without force, say, says nothing of its place.
 Eigen::Matrix2d PseudoInverse(const Eigen::Matrix2d& information);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "finray/calib/solve/frame_pass.h"
 #include "finray/io/number_text.h"
 #include "finray/sensing/chi_squared.h"
 
@@ -20,12 +21,11 @@ struct FrameChi2 {
 double MedianOfChi2(int dof) { return dof * std::pow(1 - 2.0 / (9 * dof), 3); }
 
 int Dof(const CalibrationProblem& problem, int frame, std::size_t rows) {
-  return static_cast<int>(rows) -
-         (problem.logs().frames[frame].contact ? 2 : 0);
+  return static_cast<int>(rows) - (problem.frame(frame).contact ? 2 : 0);
 }
 
-std::vector<FrameChi2> OfFittedFrames(CalibrationProblem* problem) {
-  const Linearization& at = problem->AtSolution();
+std::vector<FrameChi2> OfFittedFrames(const Linearization& at,
+                                      const CalibrationProblem& problem) {
   std::vector<FrameChi2> frames;
   for (std::size_t i = 0; i < at.rows.size();) {
     const int frame = at.rows[i].frame;
@@ -34,7 +34,7 @@ std::vector<FrameChi2> OfFittedFrames(CalibrationProblem* problem) {
     for (; i < at.rows.size() && at.rows[i].frame == frame; ++i) {
       chi2 += at.residuals[i] * at.residuals[i];
     }
-    frames.push_back({frame, chi2, Dof(*problem, frame, i - first)});
+    frames.push_back({frame, chi2, Dof(problem, frame, i - first)});
   }
   return frames;
 }
@@ -94,22 +94,30 @@ bool IsOutlier(const FrameChi2& frame, double scale, double threshold) {
          ChiSquaredTail(frame.chi2 / (scale * scale), frame.dof) <= threshold;
 }
 
-// Of each frame with its contact where it explains it best; those that cannot
-// be evaluated go to `reasons`. The scale is what is known of it so far.
+// Fits the contact of each frame. Those that cannot be evaluated go to
+// `reasons`; the scale is what is known of it so far.
 std::vector<FrameChi2> Refit(const std::vector<int>& frames,
-                             CalibrationProblem* problem, Outliers* found) {
+                             CalibrationProblem* problem,
+                             ContactStore* contacts, Outliers* found) {
   const double threshold =
       Outliers::kFalseAlarms / static_cast<double>(frames.size());
   std::vector<FrameChi2> refitted;
-  problem->FitContacts(frames, [&](int frame, const LinearizedFrame& at) {
-    if (at.rows.empty()) {
-      found->reasons.emplace(frame, "the finger cannot carry what it shows");
-      return false;
-    }
-    refitted.push_back({frame, at.residuals.squaredNorm(),
-                        Dof(*problem, frame, at.rows.size())});
-    return !IsOutlier(refitted.back(), found->scale, threshold);
-  });
+  found->rest.emplace(static_cast<int>(problem->parameters().free().size()),
+                      frames.size());
+  FitContacts(frames, problem, contacts,
+              [&](int frame, const LinearizedFrame& at) {
+                if (at.rows.empty()) {
+                  found->reasons.emplace(
+                      frame, "the finger cannot carry what it shows");
+                  return;
+                }
+                refitted.push_back({frame, at.residuals.squaredNorm(),
+                                    Dof(*problem, frame, at.rows.size())});
+                if (IsOutlier(refitted.back(), found->scale, threshold)) return;
+                found->rest->Add(frame, problem->frame(frame).log, at);
+                contacts->Move(frame, at.move.now);
+              });
+  found->rest->Finish();
   return refitted;
 }
 
@@ -125,7 +133,7 @@ void SetScale(const std::vector<FrameChi2>& frames, Outliers* found) {
 }
 
 void Judge(const std::vector<FrameChi2>& frames, CalibrationProblem* problem,
-           Outliers* found) {
+           ContactStore* contacts, Outliers* found) {
   const auto count = static_cast<double>(frames.size() + found->reasons.size());
   const double threshold = Outliers::kFalseAlarms / count;
   std::vector<int> unexplained;
@@ -142,8 +150,9 @@ void Judge(const std::vector<FrameChi2>& frames, CalibrationProblem* problem,
     found->reasons.clear();
     return;
   }
-  problem->FitContactsRobustly(
-      unexplained, [&](int frame, const LinearizedFrame& at) {
+  FitContactsRobustly(
+      unexplained, problem, contacts,
+      [&](int frame, const LinearizedFrame& at) {
         if (at.rows.empty()) return;
         const FrameChi2& its = chi2_of.at(frame);
         found->reasons.emplace(
@@ -153,30 +162,33 @@ void Judge(const std::vector<FrameChi2>& frames, CalibrationProblem* problem,
 
 }  // namespace
 
-Outliers FindOutliers(CalibrationProblem* problem) {
+Outliers FindOutliers(const Linearization& at_solution,
+                      CalibrationProblem* problem, ContactStore* contacts) {
   Outliers found;
-  std::vector<FrameChi2> frames = OfFittedFrames(problem);
+  std::vector<FrameChi2> frames = OfFittedFrames(at_solution, *problem);
   SetScale(frames, &found);
   std::vector<int> rejected;
   for (const auto& [frame, reason] : problem->rejected()) {
     if (problem->impossible().count(frame) == 0) rejected.push_back(frame);
   }
-  for (const FrameChi2& frame : Refit(rejected, problem, &found)) {
+  for (const FrameChi2& frame : Refit(rejected, problem, contacts, &found)) {
     frames.push_back(frame);
   }
-  Judge(frames, problem, &found);
+  Judge(frames, problem, contacts, &found);
   found.reasons.insert(problem->impossible().begin(),
                        problem->impossible().end());
   return found;
 }
 
 Outliers FindOutliersAmong(const std::vector<int>& frames,
-                           double expected_scale, CalibrationProblem* problem) {
+                           double expected_scale, CalibrationProblem* problem,
+                           ContactStore* contacts) {
   Outliers found;
   found.scale = expected_scale;
-  const std::vector<FrameChi2> refitted = Refit(frames, problem, &found);
+  const std::vector<FrameChi2> refitted =
+      Refit(frames, problem, contacts, &found);
   SetScale(refitted, &found);
-  Judge(refitted, problem, &found);
+  Judge(refitted, problem, contacts, &found);
   return found;
 }
 

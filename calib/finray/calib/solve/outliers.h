@@ -2,10 +2,13 @@
 #define FINRAY_CALIB_SOLVE_OUTLIERS_H_
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "finray/calib/problem/calibration_problem.h"
+#include "finray/calib/solve/contact_store.h"
+#include "finray/calib/solve/linearization.h"
 
 namespace finray {
 
@@ -26,15 +29,18 @@ struct Outliers {
   std::map<int, std::string> reasons;
   bool too_many = false;  ///< reasons are then empty
   double scale = 1;       ///< s
+  /// What the frames say that FindOutliersAmong has not found to be outliers by
+  /// the scale it expected.
+  std::optional<Linearization> rest;
 };
 
-/// Of all frames, at the solution; those that are rejected already are judged
-/// anew.
-Outliers FindOutliers(CalibrationProblem* problem);
-/// Of these frames, on the way to it. The others are summed up on the way, as
-/// far as they can be told by the scale that is expected.
+/// Judges all frames at the solution; rejected ones are judged anew.
+Outliers FindOutliers(const Linearization& at_solution,
+                      CalibrationProblem* problem, ContactStore* contacts);
+/// Judges these frames on the way to the solution.
 Outliers FindOutliersAmong(const std::vector<int>& frames,
-                           double expected_scale, CalibrationProblem* problem);
+                           double expected_scale, CalibrationProblem* problem,
+                           ContactStore* contacts);
 
 }  // namespace finray
 

@@ -5,12 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <memory>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "finray/calib/solve/outliers.h"
+#include "finray/calib/solve/summed_solve.h"
 
 namespace finray {
 namespace {
@@ -18,7 +22,7 @@ namespace {
 constexpr int kMostRounds = 6;
 // To see which frames are far out; and to tell a start's solution to a small
 // part of a std, also where chi2 is some 10^5 times what it should be.
-constexpr JointSolve::Limits kFirst = {15, 1e-4}, kStart = {80, 1e-10};
+constexpr JointLimits kFirst = {15, 1e-4}, kStart = {80, 1e-10};
 
 struct Start {
   const char* name;
@@ -41,40 +45,15 @@ Finger Changed(const CalibrationProblem& problem, const Start& start) {
   return finger;
 }
 
-const StartReport& BestOf(const std::vector<StartReport>& starts) {
-  return *std::min_element(starts.begin(), starts.end(),
-                           [](const StartReport& a, const StartReport& b) {
-                             return a.distance_std < b.distance_std;
-                           });
-}
+struct StartSolution {
+  StartReport report;
+  Eigen::VectorXd values;
+  Contacts contacts;
+};
 
-// Each start's solution, that with the least cost being left in the problem.
-// The first one goes on from where it is. Each is solved in one thread, so that
-// their results do not depend on how many there are.
-std::vector<StartReport> SolveFromStarts(CalibrationProblem* problem,
-                                         int iterations_so_far) {
-  struct Solution {
-    StartReport report;
-    CalibrationProblem::Point point;
-  };
-  std::vector<Solution> solutions(std::size(kStarts));
-  const std::vector<int> frames = problem->SomeFrames();
-  const auto solve = [&](std::size_t k) {
-    const std::unique_ptr<CalibrationProblem> part = problem->Part(frames);
-    if (k > 0) part->StartFrom(Changed(*problem, kStarts[k]));
-    const SolveReport joint = part->SolveJointly(kStart);
-    StartReport& report = solutions[k].report;
-    report.name = kStarts[k].name;
-    report.converged = joint.converged;
-    report.iterations = joint.iterations + (k == 0 ? iterations_so_far : 0);
-    report.cost = joint.final_cost;
-    solutions[k].point = part->Save();
-  };
-  tbb::task_arena(problem->threads()).execute([&] {
-    tbb::parallel_for(std::size_t{0}, solutions.size(), solve);
-  });
-  const Solution* best = nullptr;
-  for (const Solution& solution : solutions) {
+const StartSolution& LeastCost(const std::vector<StartSolution>& solutions) {
+  const StartSolution* best = nullptr;
+  for (const StartSolution& solution : solutions) {
     const StartReport& report = solution.report;
     if (best == nullptr || (report.converged && !best->report.converged) ||
         (report.converged == best->report.converged &&
@@ -82,72 +61,162 @@ std::vector<StartReport> SolveFromStarts(CalibrationProblem* problem,
       best = &solution;
     }
   }
-  problem->Restore(best->point);
-  const Eigen::MatrixXd information = problem->InformationOfSome();
-  std::vector<StartReport> reports;
-  for (Solution& solution : solutions) {
-    const Eigen::VectorXd off = solution.point.values - best->point.values;
-    solution.report.distance_std =
-        std::sqrt(std::max(0.0, off.dot(information * off)));
-    solution.report.agrees =
-        solution.report.converged &&
-        solution.report.distance_std < StartReport::kSameSolution;
-    reports.push_back(solution.report);
-  }
-  return reports;
+  return *best;
 }
+
+// The schedule of SolveRobustly.
+class RobustSolve {
+ public:
+  explicit RobustSolve(CalibrationProblem* problem)
+      : problem_(*problem), contacts_(problem) {}
+
+  CalibrationSolution Run() {
+    const SolveReport first = SolveJointly(problem_.SpreadFrames(kStartFrames),
+                                           kFirst, &problem_, &contacts_);
+    RejectAmong(problem_.SpreadFrames(kStartFrames));
+    std::vector<StartReport> starts = SolveFromStarts(first.iterations);
+    int iterations =
+        std::min_element(starts.begin(), starts.end(),
+                         [](const StartReport& a, const StartReport& b) {
+                           return a.distance_std < b.distance_std;
+                         })
+            ->iterations;
+    if (problem_.candidates().size() > 4 * kStageFrames) {
+      iterations +=
+          RejectAndSolve(problem_.SpreadFrames(kStageFrames)).report.iterations;
+    }
+    SummedSolution solved = RejectAndSolve(problem_.candidates());
+    CalibrationSolution result{{}, std::move(solved.at), {}, std::move(starts)};
+    for (; result.rounds < kMostRounds; ++result.rounds) {
+      const Outliers outliers = FindOutliers(result.at, &problem_, &contacts_);
+      const auto same_frame = [](const auto& a, const auto& b) {
+        return a.first == b.first;
+      };
+      if (std::equal(outliers.reasons.begin(), outliers.reasons.end(),
+                     problem_.rejected().begin(), problem_.rejected().end(),
+                     same_frame)) {
+        result.settled = true;
+        result.outliers_too_many = outliers.too_many;
+        break;
+      }
+      Reject(outliers.reasons);
+      iterations += solved.report.iterations;
+      solved = SolveSummed(problem_.FittedFrames(), {}, &problem_, &contacts_);
+      result.at = std::move(solved.at);
+    }
+    result.solve = solved.report;
+    result.solve.iterations += iterations;
+    for (const auto& [frame, reason] : problem_.rejected()) {
+      contacts_.Forget(frame);
+    }
+    result.contacts = contacts_.all();
+    return result;
+  }
+
+ private:
+  // Solves by what is left of these frames.
+  SummedSolution RejectAndSolve(const std::vector<int>& frames) {
+    std::optional<Linearization> start = RejectAmong(frames);
+    std::vector<int> rest;
+    std::copy_if(frames.begin(), frames.end(), std::back_inserter(rest),
+                 [&](int i) { return problem_.rejected().count(i) == 0; });
+    return SolveSummed(rest, std::move(start), &problem_, &contacts_);
+  }
+
+  void Reject(std::map<int, std::string> reasons) {
+    problem_.SetRejected(std::move(reasons));
+    for (const auto& [frame, reason] : problem_.rejected()) {
+      contacts_.Forget(frame);
+    }
+  }
+
+  // Judges these frames; what is known of others stays. Returns what the rest
+  // of them say, for a solve to start with.
+  std::optional<Linearization> RejectAmong(const std::vector<int>& frames) {
+    std::map<int, std::string> reasons = problem_.rejected();
+    for (const int frame : frames) reasons.erase(frame);
+    Outliers outliers =
+        FindOutliersAmong(frames, scale_, &problem_, &contacts_);
+    scale_ = outliers.scale;
+    reasons.merge(std::move(outliers.reasons));
+    Reject(std::move(reasons));
+    return std::move(outliers.rest);
+  }
+
+  // Leaves the problem at the solution with the least cost. The first start
+  // goes on from where it is. Each is solved in one thread, so that results do
+  // not depend on how many there are.
+  std::vector<StartReport> SolveFromStarts(int iterations_so_far) {
+    std::vector<StartSolution> solutions(std::size(kStarts));
+    const std::vector<int> frames = problem_.SpreadFrames(kStartFrames);
+    const auto solve = [&](std::size_t k) {
+      const std::unique_ptr<CalibrationProblem> part = problem_.Part(frames, 1);
+      ContactStore contacts(part.get());
+      if (k == 0) {
+        contacts.Set(contacts_.all());
+      } else {
+        part->StartFrom(Changed(problem_, kStarts[k]));
+      }
+      const SolveReport joint =
+          SolveJointly(frames, kStart, part.get(), &contacts);
+      StartReport& report = solutions[k].report;
+      report.name = kStarts[k].name;
+      report.converged = joint.converged;
+      report.iterations = joint.iterations + (k == 0 ? iterations_so_far : 0);
+      report.cost = joint.final_cost;
+      solutions[k].values = part->Values();
+      solutions[k].contacts = contacts.all();
+    };
+    tbb::task_arena(problem_.threads()).execute([&] {
+      tbb::parallel_for(std::size_t{0}, solutions.size(), solve);
+    });
+    const StartSolution& best = LeastCost(solutions);
+    problem_.SetValues(best.values);
+    contacts_.Set(best.contacts);
+    contacts_.RenewStates();
+    const auto at = FitFrames(frames, &problem_, &contacts_);
+    if (!at) {
+      throw std::runtime_error("the model cannot be evaluated at the solution");
+    }
+    const Eigen::MatrixXd information =
+        SumsWithPriors(*at, problem_.parameters()).information;
+    std::vector<StartReport> reports;
+    for (StartSolution& solution : solutions) {
+      const Eigen::VectorXd off = solution.values - best.values;
+      StartReport& report = solution.report;
+      report.distance_std =
+          std::sqrt(std::max(0.0, off.dot(information * off)));
+      report.agrees =
+          report.converged && report.distance_std < StartReport::kSameSolution;
+      reports.push_back(report);
+    }
+    return reports;
+  }
+
+  CalibrationProblem& problem_;
+  ContactStore contacts_;
+  double scale_ = 1;  // of the noise, as far as it is known
+};
 
 }  // namespace
 
-RobustSolution SolveRobustly(CalibrationProblem* problem) {
-  RobustSolution result;
-  if (problem->SomeFrames().empty()) {  // nothing but priors
-    result.solve = problem->Solve();
-    result.settled = true;
-    return result;
+CalibrationSolution SolveRobustly(CalibrationProblem* problem) {
+  if (problem->candidates().empty()) {  // nothing but priors
+    CalibrationSolution solution = SolveOnce(problem);
+    solution.settled = true;
+    return solution;
   }
-  const auto solve = [&] {
-    return problem->few() ? problem->Solve() : problem->SolveOn();
-  };
-  // Those of other frames stay rejected.
-  double scale = 1;
-  const auto reject_among = [&](const std::vector<int>& frames) {
-    std::map<int, std::string> reasons = problem->rejected();
-    for (const int frame : frames) reasons.erase(frame);
-    Outliers outliers = FindOutliersAmong(frames, scale, problem);
-    scale = outliers.scale;
-    reasons.merge(std::move(outliers.reasons));
-    problem->SetRejected(std::move(reasons));
-  };
-  const SolveReport first = problem->SolveSome(kFirst);
-  reject_among(problem->SomeFrames());
-  result.starts = SolveFromStarts(problem, first.iterations);
-  int iterations = BestOf(result.starts).iterations;
-  // More and more frames, each time spared their outliers.
-  if (const std::vector<int> many = problem->ManyFrames(); !many.empty()) {
-    reject_among(many);
-    iterations += problem->SolveMany().iterations;
-  }
-  reject_among(problem->candidates());
-  result.solve = solve();
-  for (; result.rounds < kMostRounds; ++result.rounds) {
-    const Outliers outliers = FindOutliers(problem);
-    const auto same_frame = [](const auto& a, const auto& b) {
-      return a.first == b.first;
-    };
-    if (outliers.reasons.size() == problem->rejected().size() &&
-        std::equal(outliers.reasons.begin(), outliers.reasons.end(),
-                   problem->rejected().begin(), same_frame)) {
-      result.settled = true;
-      result.outliers_too_many = outliers.too_many;
-      break;
-    }
-    problem->SetRejected(outliers.reasons);
-    iterations += result.solve.iterations;
-    result.solve = solve();
-  }
-  result.solve.iterations += iterations;
-  return result;
+  return RobustSolve(problem).Run();
+}
+
+CalibrationSolution SolveOnce(CalibrationProblem* problem) {
+  ContactStore contacts(problem);
+  const SolveReport joint = SolveJointly(problem->SpreadFrames(kStartFrames),
+                                         kStart, problem, &contacts);
+  SummedSolution solved =
+      SolveSummed(problem->FittedFrames(), {}, problem, &contacts);
+  solved.report.iterations += joint.iterations;
+  return {solved.report, std::move(solved.at), contacts.all(), {}};
 }
 
 }  // namespace finray

@@ -1,30 +1,10 @@
-#include "finray/calib/solve/frame_sums.h"
+#include "finray/calib/solve/frame_sum_residual.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <utility>
 
 namespace finray {
-
-void FrameSums::SetZero(int parameters) {
-  information.setZero(parameters, parameters);
-  gradient.setZero(parameters);
-  cost = 0;
-}
-
-void FrameSums::Add(const LinearizedFrame& frame) {
-  const Eigen::MatrixXd& c = frame.reduced;
-  AddSquare(c, &information);
-  gradient.noalias() += c.transpose() * frame.WeightedResiduals();
-  cost += frame.cost - frame.move.decrease;
-}
-
-void FrameSums::AddPrior(int parameter, double x, double mean, double std) {
-  const double residual = (x - mean) / std;
-  information(parameter, parameter) += 1 / (std * std);
-  gradient[parameter] += residual / std;
-  cost += residual * residual / 2;
-}
 
 FrameSumResidual::FrameSumResidual(const Eigen::VectorXd& start,
                                    const Eigen::MatrixXd& units,

@@ -1,29 +1,21 @@
-#ifndef FINRAY_CALIB_SOLVE_FRAME_SUMS_H_
-#define FINRAY_CALIB_SOLVE_FRAME_SUMS_H_
+#ifndef FINRAY_CALIB_SOLVE_FRAME_SUM_RESIDUAL_H_
+#define FINRAY_CALIB_SOLVE_FRAME_SUM_RESIDUAL_H_
 
 #include <ceres/cost_function.h>
 
 #include <Eigen/Core>
 #include <functional>
 
-#include "finray/calib/solve/linearized_frame.h"
-
 namespace finray {
 
 /// What frames and priors say of the free parameters x about where they are,
-/// the contacts following:
+/// the contacts following (Linearization):
 ///
-///   cost(x + dx) = cost + g' dx + dx' S dx / 2,
-///   S = sum C'C - C'E (E'E)^-1 E'C,   g = sum (C - E (E'E)^-1 E'C)' r.
+///   cost(x + dx) = cost + g' dx + dx' S dx / 2.
 struct FrameSums {
   Eigen::MatrixXd information;  ///< S
   Eigen::VectorXd gradient;     ///< g
   double cost = 0;
-
-  void SetZero(int parameters);
-  void Add(const LinearizedFrame& frame);
-  /// (x - mean)^2 / (2 std^2) of one parameter.
-  void AddPrior(int parameter, double x, double mean, double std);
 };
 
 /// Any number of frames as one residual block over z, x = x_0 + T z, with T
@@ -65,4 +57,4 @@ class FrameSumResidual : public ceres::CostFunction {
 
 }  // namespace finray
 
-#endif  // FINRAY_CALIB_SOLVE_FRAME_SUMS_H_
+#endif  // FINRAY_CALIB_SOLVE_FRAME_SUM_RESIDUAL_H_

@@ -1,0 +1,60 @@
+#ifndef FINRAY_CALIB_REPORT_YAML_ROWS_H_
+#define FINRAY_CALIB_REPORT_YAML_ROWS_H_
+
+#include <string>
+#include <vector>
+
+#include "finray/io/sha256.h"
+#include "finray/io/yaml_emitter.h"
+
+namespace finray {
+
+/// Emits keys and values, which come in turn, into a mapping that has begun.
+template <class Value, class... Rest>
+void EmitPairs(YamlEmitter* yaml, const char* key, const Value& value,
+               const Rest&... rest) {
+  YamlPair(yaml, key, value);
+  if constexpr (sizeof...(rest) > 0) EmitPairs(yaml, rest...);
+}
+
+/// Emits a mapping of them in one line.
+template <class... KeysAndValues>
+void EmitRow(YamlEmitter* yaml, const KeysAndValues&... all) {
+  *yaml << YAML::Flow << YAML::BeginMap;
+  EmitPairs(yaml, all...);
+  *yaml << YAML::EndMap;
+}
+
+/// Emits a key and a sequence, whose elements `emit(element)` emits.
+template <class Elements, class Emit>
+void EmitSeq(YamlEmitter* yaml, const char* key, const Elements& elements,
+             const Emit& emit) {
+  *yaml << YAML::Key << key << YAML::Value << YAML::BeginSeq;
+  for (const auto& element : elements) emit(element);
+  *yaml << YAML::EndSeq;
+}
+
+/// Emits {path, sha256}, with or without a key.
+inline void EmitFile(YamlEmitter* yaml, const std::string& path) {
+  EmitRow(yaml, "path", path, "sha256", Sha256OfFile(path));
+}
+inline void EmitFile(YamlEmitter* yaml, const char* key,
+                     const std::string& path) {
+  *yaml << YAML::Key << key << YAML::Value;
+  EmitFile(yaml, path);
+}
+
+/// Emits the verdict over gates, each with a `passed`.
+template <class Gates>
+void EmitVerdict(YamlEmitter* yaml, const Gates& gates) {
+  bool passed = true;
+  for (const auto& gate : gates) passed &= gate.passed;
+  YamlPair(yaml, "verdict",
+           gates.empty() ? "no_gates"
+           : passed      ? "passed"
+                         : "failed");
+}
+
+}  // namespace finray
+
+#endif  // FINRAY_CALIB_REPORT_YAML_ROWS_H_

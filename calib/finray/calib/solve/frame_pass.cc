@@ -1,0 +1,120 @@
+#include "finray/calib/solve/frame_pass.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "finray/calib/solve/frame_linearizer.h"
+
+namespace finray {
+namespace {
+
+// Frames that a thread works on in one go.
+constexpr std::size_t kChunk = 32;
+
+using Evaluate = std::function<void(int frame, FrameLinearizer* linearizer,
+                                    LinearizedFrame* out)>;
+
+void VisitInOrder(const std::vector<int>& frames, const Plan& plan,
+                  CalibrationProblem* problem, const Evaluate& evaluate,
+                  const FrameVisitor& visit) {
+  struct Chunk {
+    std::size_t first, count;
+    std::array<LinearizedFrame, kChunk> frames;
+  };
+  const EquilibriumSolver solver(problem->finger(), problem->discretization());
+  tbb::enumerable_thread_specific<FrameLinearizer> linearizers([&] {
+    return FrameLinearizer(solver, plan, &problem->blocks(),
+                           &problem->parameters());
+  });
+  const int threads = problem->threads();
+  // As many chunks are under way at most, and they end in order.
+  std::vector<Chunk> ring(4 * static_cast<std::size_t>(threads));
+  std::size_t begun = 0;
+  const auto begin = [&](tbb::flow_control& control) -> Chunk* {
+    const std::size_t first = begun * kChunk;
+    if (first >= frames.size()) {
+      control.stop();
+      return nullptr;
+    }
+    Chunk& chunk = ring[begun++ % ring.size()];
+    chunk.first = first;
+    chunk.count = std::min(kChunk, frames.size() - first);
+    return &chunk;
+  };
+  const auto evaluate_all = [&](Chunk* chunk) {
+    FrameLinearizer& linearizer = linearizers.local();
+    for (std::size_t k = 0; k < chunk->count; ++k) {
+      evaluate(frames[chunk->first + k], &linearizer, &chunk->frames[k]);
+    }
+    return chunk;
+  };
+  const auto visit_all = [&](Chunk* chunk) {
+    for (std::size_t k = 0; k < chunk->count; ++k) {
+      visit(frames[chunk->first + k], chunk->frames[k]);
+    }
+  };
+  using Mode = tbb::filter_mode;
+  tbb::task_arena(threads).execute([&] {
+    tbb::parallel_pipeline(
+        ring.size(),
+        tbb::make_filter<void, Chunk*>(Mode::serial_in_order, begin) &
+            tbb::make_filter<Chunk*, Chunk*>(Mode::parallel, evaluate_all) &
+            tbb::make_filter<Chunk*, void>(Mode::serial_in_order, visit_all));
+  });
+}
+
+}  // namespace
+
+void LinearizeFrames(const std::vector<int>& frames,
+                     CalibrationProblem* problem, ContactStore* contacts,
+                     const FrameVisitor& visit) {
+  contacts->Guess(frames, ContactGuess::From::kObjectFirst);
+  VisitInOrder(
+      frames, problem->plan(), problem,
+      [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
+        LadderState state = contacts->StateNear(i);
+        if (!linearizer->Linearize(problem->frame(i), (*contacts)[i], &state,
+                                   out)) {
+          throw std::runtime_error(
+              "the model cannot be evaluated at the solution");
+        }
+      },
+      visit);
+}
+
+void FitContacts(const std::vector<int>& frames, CalibrationProblem* problem,
+                 ContactStore* contacts, const FrameVisitor& visit) {
+  contacts->Guess(frames, ContactGuess::From::kAll);
+  VisitInOrder(
+      frames, problem->plan(), problem,
+      [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
+        LadderState state = contacts->StateNear(i);
+        linearizer->FitContact(problem->frame(i), &(*contacts)[i], &state, out);
+      },
+      visit);
+}
+
+void FitContactsRobustly(const std::vector<int>& frames,
+                         CalibrationProblem* problem, ContactStore* contacts,
+                         const FrameVisitor& visit) {
+  for (const int i : frames) contacts->Forget(i);
+  contacts->Guess(frames, ContactGuess::From::kAll);
+  Plan robust = problem->plan();
+  robust.loss = RobustLoss::kCauchy;
+  robust.loss_scale = 1;
+  VisitInOrder(
+      frames, robust, problem,
+      [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
+        LadderState state = contacts->StateNear(i);
+        std::array<double, 2> contact = (*contacts)[i];
+        linearizer->FitContact(problem->frame(i), &contact, &state, out);
+      },
+      visit);
+}
+
+}  // namespace finray

@@ -1,0 +1,112 @@
+#include "finray/calib/solve/summed_solve.h"
+
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "finray/calib/solve/frame_pass.h"
+#include "finray/calib/solve/information_spectrum.h"
+#include "finray/io/number_text.h"
+
+namespace finray {
+namespace {
+
+// The solve ends at a gradient, per std, from which the minimum is so much of a
+// std away.
+constexpr double kNear = 1e-2;
+
+}  // namespace
+
+std::optional<Linearization> FitFrames(const std::vector<int>& frames,
+                                       CalibrationProblem* problem,
+                                       ContactStore* contacts) {
+  const Contacts before = contacts->all();
+  Linearization at(static_cast<int>(problem->parameters().free().size()),
+                   frames.size());
+  bool good = true;
+  FitContacts(frames, problem, contacts,
+              [&](int i, const LinearizedFrame& frame) {
+                good = good && !frame.rows.empty();
+                if (!good) return;
+                at.Add(i, problem->frame(i).log, frame);
+                contacts->Move(i, frame.move.now);
+              });
+  if (!good) {
+    contacts->Set(before);
+    return {};
+  }
+  at.Finish();
+  return at;
+}
+
+FrameSums SumsWithPriors(const Linearization& at,
+                         const CalibrationParameters& parameters) {
+  FrameSums sums = {at.Information(), at.gradient, at.cost};
+  for (Eigen::Index k = 0; k < sums.gradient.size(); ++k) {
+    const CalibrationParameter& p = parameters.FreeParameter(k);
+    if (!p.prior_std) continue;
+    const double residual = (*p.variable - p.initial) / *p.prior_std;
+    sums.information(k, k) += 1 / (*p.prior_std * *p.prior_std);
+    sums.gradient[k] += residual / *p.prior_std;
+    sums.cost += residual * residual / 2;
+  }
+  return sums;
+}
+
+SummedSolution SolveSummed(const std::vector<int>& frames,
+                           std::optional<Linearization> start,
+                           CalibrationProblem* problem,
+                           ContactStore* contacts) {
+  contacts->RenewStates();
+  const Eigen::VectorXd first = problem->Values();
+  Eigen::VectorXd tried = first;
+  std::optional<Linearization> at;  // where it was tried last
+  const auto evaluate = [&](const Eigen::VectorXd& x, FrameSums* sums) {
+    problem->SetValues(tried = x);
+    at.reset();
+    at = FitFrames(frames, problem, contacts);
+    if (at) *sums = SumsWithPriors(*at, problem->parameters());
+    return at.has_value();
+  };
+  FrameSums sums;
+  if (start && start->frames == frames) {
+    at = std::move(start);
+    sums = SumsWithPriors(*at, problem->parameters());
+  } else if (!evaluate(first, &sums)) {
+    throw std::runtime_error("the model cannot be evaluated at the start");
+  }
+  const Eigen::MatrixXd units =
+      DeterminedUnits(sums.information, problem->parameters().Units());
+  if (units.cols() == 0) {
+    return {{true, 0, sums.cost, sums.cost, "nothing is determined"},
+            std::move(*at)};
+  }
+
+  ceres::Problem residuals;
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(units.cols());
+  residuals.AddResidualBlock(new FrameSumResidual(first, units, sums, evaluate),
+                             nullptr, z.data());
+  ceres::Solver::Options options;
+  options.logging_type = ceres::SILENT;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.initial_trust_region_radius = 1e10;
+  options.max_trust_region_radius = 1e16;
+  // z counts in standard deviations.
+  options.gradient_tolerance = kNear;
+  options.function_tolerance = 0;
+  options.parameter_tolerance = 0;
+  ceres::Solver::Summary summary;
+  const ClassicNumbers in_messages;
+  ceres::Solve(options, &residuals, &summary);
+  // The last trial step may have been rejected; contacts are then of that step.
+  const Eigen::VectorXd end = first + units * z;
+  if ((end != tried || !at) && !evaluate(end, &sums)) {
+    throw std::runtime_error("the model cannot be evaluated at the solution");
+  }
+  return {ReportOf(summary), std::move(*at)};
+}
+
+}  // namespace finray
