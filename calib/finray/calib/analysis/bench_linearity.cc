@@ -17,7 +17,7 @@ struct Reading {
   int offset;  // which one
 };
 
-// What is left of the volts by a model's columns.
+// The least-squares fit of a model's columns to the volts.
 struct Fit {
   Eigen::VectorXd x;
   double squares;
@@ -35,7 +35,7 @@ struct Fit {
     dof = static_cast<int>(volts.size() - qr.rank());
     inverse = qr.pseudoInverse();
   }
-  // Of a reading, at least `least`: readings that are rounded may agree by
+  // The variance of a reading, at least `least`: rounded readings may agree by
   // more than they are known.
   double Variance(double least) const { return std::max(squares / dof, least); }
 };

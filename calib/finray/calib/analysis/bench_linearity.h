@@ -10,7 +10,7 @@
 
 namespace finray {
 
-/// Whether a gauge is linear, from its readings on the bench (angle a = w / R):
+/// Tests a gauge's readings on the bench (angle a = w / R) for linearity:
 ///
 ///   V = offset + gain a + q a^2,
 ///
@@ -27,7 +27,7 @@ struct BenchLinearity {
   double largest_angle_rad = 0;  ///< by magnitude
   double quadratic_V_per_rad2 = 0, quadratic_std = 0;
   double quadratic_p_value = 1;
-  /// Of the quadratic fit, at the smallest and at the largest angle.
+  /// Gains of the quadratic fit at the smallest and at the largest angle.
   double first_gain_V_per_rad = 0, last_gain_V_per_rad = 0;
   /// How far that fit's curve is from the line through its ends, at most.
   double bow_V = 0;

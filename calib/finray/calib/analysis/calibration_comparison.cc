@@ -17,12 +17,12 @@ namespace {
 
 constexpr int kComparisonHeights = 9;
 constexpr double kComparisonLoads[] = {1, 3, 6, 10};  // EI / l_0^2
-// Below this share of the largest eigenvalue, of correlations written with six
+// An eigenvalue below this share of the largest one, of correlations with six
 // digits, is rounding.
 constexpr double kRank = 1e-6;
 
 // The log that a parameter belongs to, as its name says behind the bracket of
-// `gauge_1_offset_V[a.csv]`; empty if to none.
+// `gauge_1_offset_V[a.csv]`; empty if it belongs to none.
 std::string LogOf(const std::string& parameter) {
   const auto open = parameter.find('[');
   if (open == std::string::npos || parameter.back() != ']') return "";
@@ -102,7 +102,7 @@ void CompareParameters(const CalibrationFile& a, const CalibrationFile& b,
   }
 }
 
-// What one finger makes of readings, and what its covariance leaves open.
+// Senses readings with one finger and gives the std from its covariance.
 class Sensor {
  public:
   Sensor(const Finger& finger, const Discretization& discretization)

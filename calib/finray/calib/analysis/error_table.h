@@ -10,7 +10,7 @@
 
 namespace finray {
 
-/// What is known of a frame without its gauges; NaN where nothing is.
+/// Force and place of a frame from its references; NaN where there is none.
 struct FrameReference {
   bool contact = false;  ///< the finger touches
   double force_N = std::numeric_limits<double>::quiet_NaN();

@@ -22,7 +22,7 @@ void KeepCovariance(const CalibrationParameters& parameters,
   covariance.correlations = Eigen::MatrixXd::Identity(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
-      // Rounding may have gone beyond 1.
+      // Rounding may give more than 1.
       covariance.correlations(i, j) = covariance.correlations(j, i) =
           std::clamp(found.correlation(kept[i], kept[j]), -1.0, 1.0);
     }

@@ -8,15 +8,15 @@
 
 namespace finray {
 
-/// What the gauges alone say of every frame, with the finger as it was and as
-/// calibrated: the comparison with the force sensor that a user asks for first.
-/// Before, with the gauges as they were read; after, with what the calibration
-/// knows of drift and temperature taken out of them. The reference is the
-/// sensor's true force by what the calibration knows of it.
+/// Compares the force sensor with the force from the gauges alone, before and
+/// after the calibration. Before, the readings are taken as they are; after,
+/// the drift and temperature that the calibration has found are taken out of
+/// them. The reference is the sensor's force, corrected by the scale and offset
+/// that the calibration has found.
 struct ForceCheck {
   std::vector<FrameEstimate> before, after;  ///< one per frame
-  /// Whether the frame was estimated with the finger as it was, which takes
-  /// long if that makes no sense of the gauges: kMostBefore, evenly spread.
+  /// True for the frames that were estimated with the finger as it was:
+  /// kMostBefore, evenly spread. A finger far from the truth makes that slow.
   std::vector<bool> has_before;
   static constexpr std::size_t kMostBefore = 200;
 

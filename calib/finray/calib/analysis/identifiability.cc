@@ -141,7 +141,8 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
     }
   }
   for (int i = 0; i < n; ++i) {
-    // Variance from the data alone; a real share in a null direction is fatal.
+    // The variance from the data alone. With a share of more than 1 % in a null
+    // direction it is infinite.
     double variance = 0;
     bool null = false, held_by_prior = prior(i, i) > 0;
     for (int k = 0; k < n; ++k) {
@@ -165,7 +166,7 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
   }
   for (int k = 0; k < n && value[k] < 1; ++k) {
     const bool null = value[k] < Identifiability::kNull;
-    // Less is as good as nothing.
+    // The data say nothing along it.
     result.weak.push_back(Describe(problem, vector.col(k),
                                    null
                                        ? std::numeric_limits<double>::infinity()

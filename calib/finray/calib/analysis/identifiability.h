@@ -14,8 +14,8 @@ namespace finray {
 enum class ParameterStatus {
   kEstimated,       ///< the data say more than the prior
   kPriorDominated,  ///< the prior says more than the data
-  kUnidentifiable,  ///< the data say nothing of it, alone or in a combination,
-                    ///< or less than a prior that is but a guess
+  kUnidentifiable,  ///< the data say nothing about it, alone or in a
+                    ///< combination, or less than a prior that is only a guess
   kFixed,
 };
 const char* ParameterStatusName(ParameterStatus status);
@@ -37,16 +37,16 @@ struct WeakDirection {
   std::string remedy;   ///< by AdviseNextFrames
 };
 
-/// What the data determine, from the reduced information matrix
+/// Tells what the data determine, from the reduced information matrix
 ///
 ///   S = sum over frames of C'C - C'E (E'E)^-1 E'C,
 ///
 /// in which the contacts have been eliminated, scaled by the prior std.
-/// Its eigenvectors with eigenvalues below 1 are weaker than the priors; those
-/// below kNull are not determined at all. Gains that are known among each
-/// other, but together only as well as stiffness is, are a weak direction as
-/// well, whatever the priors. The covariance is (S + P)^-1 with P the priors'
-/// information, a pseudo-inverse where even that is singular.
+/// Along eigenvectors with eigenvalues below 1 the data say less than the
+/// priors; along those below kNull they say nothing. If the gains' ratios are
+/// known, but all gains together only as well as stiffness is, that is a weak
+/// direction too, whatever the priors. The covariance is (S + P)^-1 with P the
+/// priors' information, a pseudo-inverse where even that is singular.
 struct Identifiability {
   static constexpr double kNull = 1e-4;
 

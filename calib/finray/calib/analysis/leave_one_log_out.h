@@ -50,7 +50,7 @@ struct LeaveOneLogOut {
 };
 
 /// Repeats the solve from the solution, without the frames of each group.
-/// Nothing for fewer than two logs with frames that are fitted.
+/// Does nothing for fewer than two logs with fitted frames.
 LeaveOneLogOut LeaveLogsOut(CalibrationProblem* problem,
                             const CalibrationSolution& solution,
                             const Identifiability& found);

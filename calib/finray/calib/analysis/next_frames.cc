@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kHeights = 9;
 constexpr double kLoads[] = {0.1, 0.3, 0.6, 1};  // of the largest
-// In units of EI / l_0^2: what a finger carries with ease, and what it may.
+// Loads in EI / l_0^2 that a finger carries with ease, and at most.
 constexpr double kUsualLoad = 10, kLargestLoad = 40;
 constexpr double kWorthwhile = 0.9;
 constexpr std::size_t kMostAdvice = 4;
@@ -35,7 +35,7 @@ bool Has(const std::vector<ResidualFamily>& families, ResidualFamily family) {
   return std::find(families.begin(), families.end(), family) != families.end();
 }
 
-// A frame as the logs have them, without its measurements.
+// A frame like those of the logs, without its measurements.
 CalibrationFrame Template(const CalibrationProblem& problem, bool contact) {
   CalibrationFrame frame;
   for (const CalibrationFrame& recorded : problem.logs().frames) {
@@ -53,7 +53,7 @@ CalibrationFrame Template(const CalibrationProblem& problem, bool contact) {
   return frame;
 }
 
-// What the logs show that the finger bears; a few wild frames do not count.
+// A load that the logs show the finger to bear; a few wild frames do not count.
 double LargestLoad(const Finger& finger, const Contacts& contacts) {
   const double unit = ForceUnit(finger);
   std::vector<double> forces;
@@ -79,7 +79,7 @@ std::vector<CalibrationFrame> FirstFrames(const CalibrationProblem& problem) {
   return frames;
 }
 
-// Gauges that no frame has read do not read in the next one either.
+// Gauges that some frame has read; the others will not read next time either.
 std::vector<bool> WorkingGauges(const CalibrationProblem& problem) {
   std::vector<bool> works(problem.finger().gauges.size(), false);
   for (const CalibrationFrame& frame : problem.logs().frames) {
@@ -90,7 +90,7 @@ std::vector<bool> WorkingGauges(const CalibrationProblem& problem) {
   return works;
 }
 
-// What all sensors would say; false if the finger cannot carry the load.
+// Fills in the readings of all sensors. False if the finger cannot carry it.
 bool Measure(const PointContact* contact, const std::vector<bool>& works,
              const Plan& plan, EquilibriumSolver* solver,
              CalibrationFrame* frame) {
@@ -135,8 +135,8 @@ void NextFrames::Predict(const Contacts& contacts) {
     forces_N_.push_back(TwoDigits(share * largest_N));
   }
 
-  // All of them as further frames of a log, linearised where they would be,
-  // behind a frame of each log, so that there are the parameters of all logs.
+  // The candidates follow a frame of each log, so that the parameters of all
+  // logs exist, and are linearised like any frame.
   CalibrationLogs logs = problem_->logs();
   logs.frames = FirstFrames(*problem_);
   const int recorded = static_cast<int>(logs.frames.size());
@@ -161,8 +161,8 @@ void NextFrames::Predict(const Contacts& contacts) {
   }
   CalibrationProblem predicted(finger, plan, logs, problem_->discretization(),
                                1);
-  // By their names: other frames may have other steps of a drift, and other
-  // sensors.
+  // Parameters are found by name: the candidates may have other steps of a
+  // drift, and other sensors.
   const CalibrationParameters& known = problem_->parameters();
   std::unordered_map<std::string, int> column_of;  // among the free ones
   std::unordered_map<std::string, const double*> value_of;
@@ -196,7 +196,7 @@ void NextFrames::Predict(const Contacts& contacts) {
     candidate.by_contact = at.by_contact;
   };
   LinearizeFrames(predicted.candidates(), &predicted, &places, keep);
-  // With what can be proposed, some would have too little to be a frame.
+  // Some candidates have too few measurements to be a frame.
   candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(),
                                    [](const Candidate& candidate) {
                                      return candidate.families.empty();
@@ -204,7 +204,7 @@ void NextFrames::Predict(const Contacts& contacts) {
                     candidates_.end());
 }
 
-// What contact frames of the logs have, and that with what can be added.
+// The measurements of the logs' contact frames, and these with one or two more.
 void NextFrames::ChooseMeasurements(const Linearization& at_solution) {
   Families recorded, missing;
   for (const ResidualInfo& row : at_solution.rows) {
@@ -228,7 +228,7 @@ void NextFrames::ChooseMeasurements(const Linearization& at_solution) {
     measured_.push_back({all, added});
   };
   for (const ResidualFamily family : missing) add({family});
-  // Neither force nor place: one of them alone may not do.
+  // If the logs have neither force nor place, one of them may not be enough.
   const bool placed = Has(recorded, ResidualFamily::kObject) ||
                       Has(recorded, ResidualFamily::kContact);
   for (const ResidualFamily place :
@@ -265,7 +265,7 @@ void NextFrames::Judge(const Eigen::MatrixXd& information,
          direction, all, advice);
 }
 
-// `parameters` are those, of the free ones, that the matrices are over.
+// The matrices are over these `parameters` of the free ones.
 void NextFrames::Spread(const Eigen::MatrixXd& before,
                         const Eigen::MatrixXd& after,
                         const Eigen::VectorXd& direction,
@@ -279,12 +279,12 @@ void NextFrames::Spread(const Eigen::MatrixXd& before,
   advice->parameter = problem_->parameters().free()[free];
   const CalibrationParameter& p =
       problem_->parameters().all()[advice->parameter];
-  // By what goes from row to row in the residuals; in new frames likewise.
+  // Correlated residuals enlarge the std, those of new frames likewise.
   const double enlarged =
       found_.bounded_std[free] /
       (found_.unit[free] * std::sqrt(before(largest, largest)));
   const auto std = [&](double variance) {
-    // What is bounded for want of data is not known.
+    // A variance that is only bounded, for want of data, is not known.
     if (variance > 0.01 / std::pow(Identifiability::kNull, 2)) {
       return std::numeric_limits<double>::infinity();
     }
@@ -347,7 +347,7 @@ std::vector<FrameAdvice> NextFrames::Best(
     Judge(Information(candidate, advice.measured), direction, &advice);
     if (advice.ratio() <= kWorthwhile) all.push_back(advice);
   }
-  // Equal in effect, the one that asks for less comes first.
+  // Of two with the same effect, the one that asks for less comes first.
   std::stable_sort(all.begin(), all.end(),
                    [](const FrameAdvice& a, const FrameAdvice& b) {
                      return a.std_after < 0.98 * b.std_after;
@@ -360,7 +360,7 @@ std::vector<FrameAdvice> NextFrames::Best(
   return all;
 }
 
-// The same data with the gains given: their rows and columns are left out.
+// The same data with the gains known: their rows and columns are left out.
 std::optional<FrameAdvice> NextFrames::KnownGains(
     const Eigen::VectorXd& direction) const {
   const CalibrationParameters& parameters = problem_->parameters();

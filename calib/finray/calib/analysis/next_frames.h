@@ -11,7 +11,7 @@
 
 namespace finray {
 
-/// What to record next, from predicted information. With S and P of the logs
+/// Predicts what to record next. With S and P of the logs
 /// (Identifiability) and J the derivatives of the residuals of one more frame,
 /// predicted by the calibrated finger, its contact eliminated, n such frames
 /// leave
@@ -32,13 +32,13 @@ struct FrameAdvice {
   bool known_gains = false;
   double contact_mm = 0;  ///< NaN: spread over heights
   double normal_N = 0;
-  /// What is measured besides the gauges.
+  /// The measurements besides the gauges.
   std::vector<ResidualFamily> measured;
-  /// Those of them that the logs do not have.
+  /// The ones that the logs do not have.
   std::vector<ResidualFamily> added;
   double std_before = 0, std_after = 0;  ///< along v, in units of the priors
-  /// Of the parameter with the largest share in v, in its unit. Infinite where
-  /// the data say nothing and there is no prior.
+  /// The std of the parameter with the largest share in v, in its unit.
+  /// Infinite where the data say nothing and there is no prior.
   int parameter = 0;  ///< index into CalibrationParameters::all()
   double parameter_std_before = 0, parameter_std_after = 0;
   std::string words;

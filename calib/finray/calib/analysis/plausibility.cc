@@ -57,7 +57,7 @@ std::vector<Press> Presses(const std::vector<const CalibrationFrame*>& frames) {
   return presses;
 }
 
-// From the 10th to the 90th of a hundred.
+// The range from the 10th to the 90th percentile.
 double Range(const std::vector<Press>& presses, double Press::*quantity) {
   std::vector<double> values;
   for (const Press& press : presses) values.push_back(press.*quantity);
@@ -65,8 +65,8 @@ double Range(const std::vector<Press>& presses, double Press::*quantity) {
   return values[values.size() * 9 / 10] - values[values.size() / 10];
 }
 
-// Of force and x, about their means in each tenth of the finger's height of
-// each log; 0 if x varies there by no more than a few std.
+// The correlation of force and x, about their means in each tenth of the height
+// of each log; 0 if x varies there by no more than a few std.
 double CorrelationOfForceAndX(const std::vector<Press>& presses,
                               double height_mm, double object_std_mm) {
   constexpr double kMove = 5;  // std
@@ -95,7 +95,7 @@ double CorrelationOfForceAndX(const std::vector<Press>& presses,
              : 0;
 }
 
-// What holds wherever the object's origin is.
+// These checks hold wherever the object's origin is.
 void RefuseImplausibleMotion(const std::vector<Press>& presses,
                              const Finger& finger, const Plan& plan) {
   constexpr double kNoise = 10;  // in std: changes of force that mean something

@@ -5,8 +5,8 @@
 
 namespace finray {
 
-/// Refuses logs that cannot be of the given finger, before a solver wears
-/// itself out on them: wrong units, signs, columns or radii. Throws InputError
+/// Refuses logs that cannot be of the given finger, before a solver spends
+/// minutes on them: wrong units, signs, columns or radii. Throws InputError
 /// where, over frames with contact,
 ///  - the median force is not between kLeastForce and kMostForce, in EI /
 ///    l_0^2;
@@ -17,7 +17,8 @@ namespace finray {
 ///    tenth of the finger's height, is below kLeastCorrelation;
 ///  - fewer than half of the objects can touch the finger where they are, the
 ///    object's origin being fixed;
-///  - what these need of force, the median force is off by more than kFactor.
+///  - the median force differs by more than kFactor from the force that these
+///    objects need.
 void RefuseImplausible(CalibrationProblem* problem);
 constexpr double kLeastForce = 1e-3, kMostForce = 400, kFactor = 50,
                  kMostStiffness = 5e3, kLeastCorrelation = -0.5;

@@ -22,8 +22,8 @@ double Gamma(const std::vector<std::vector<double>>& logs, int lag) {
   return sum;
 }
 
-// Which of a family's residuals in a frame the k-th is: of pins, which may be
-// hidden in some rows, by rib, side and coordinate.
+// The component of the k-th residual of a family in a frame. Pins may be hidden
+// in some rows, and are counted by rib, side and coordinate.
 int Component(ResidualFamily family, const CalibrationFrame& frame, int k) {
   if (family != ResidualFamily::kPin) return k;
   const SeenPin& pin = frame.pins[k / 2];

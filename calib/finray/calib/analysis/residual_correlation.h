@@ -8,7 +8,7 @@
 
 namespace finray {
 
-/// How much the sum of a series is worth, from
+/// Tells how many independent numbers a series is worth, from
 ///
 ///   Gamma_k = sum_t r_t r_{t+k},   rho_k = Gamma_k / Gamma_0,
 ///   tau = (1 + 2 sum_{k=1}^{M} rho_k) / (1 - (2 M + 1) / n),
@@ -25,11 +25,11 @@ struct IntegratedTime {
 
   double effective() const { return n / tau; }
 };
-/// Of one series over several logs; neighbours are neighbours within a log.
+/// For one series over several logs; only rows of a log are neighbours.
 IntegratedTime IntegrateTime(const std::vector<std::vector<double>>& logs);
 
-/// Whether what is left of the logs goes up and down slowly, and what that does
-/// to the std. The influence of frame t on parameter i is
+/// Tells if the residuals of a log rise and fall slowly, and what that does to
+/// the std. The influence of frame t on parameter i is
 ///
 ///   psi_t = C J_t' r_t,   J_t = its rows with the contact eliminated,
 ///
@@ -50,8 +50,8 @@ struct ResidualCorrelation {
     int log;
     ResidualFamily family;
     int gauge;  ///< for kGauge
-    /// Of several residuals of one family in a frame; of pins x, y of rib 1
-    /// front, rib 1 back, rib 2 front, ...
+    /// Counts the residuals of one family in a frame. Pins count as x, y of rib
+    /// 1 front, rib 1 back, rib 2 front, ...
     int component;
     IntegratedTime time;
   };

@@ -9,7 +9,7 @@
 namespace finray {
 namespace {
 
-// Whether a frame that is fitted shows this offset without a load.
+// True if a fitted frame shows this offset without a load.
 bool HasUnloadedReading(CalibrationProblem& problem, const double* offset,
                         int gauge) {
   const auto& frames = problem.logs().frames;
@@ -27,7 +27,7 @@ bool HasUnloadedReading(CalibrationProblem& problem, const double* offset,
   return false;
 }
 
-// Median of the gains over what they were expected to be.
+// The median ratio of the gains to their initial values.
 double UsualGain(const CalibrationParameters& parameters) {
   std::vector<double> ratios;
   for (const int i : parameters.free()) {
@@ -52,7 +52,7 @@ bool IsContradicted(double off, double share) {
          std::abs(off) * std::sqrt(share) > rest;
 }
 
-// One more parameter of the same fault.
+// Adds a parameter with the same fault.
 void List(std::size_t free, const std::string& words, Unsupported* listed) {
   listed->free.push_back(static_cast<int>(free));
   listed->text += (listed->text.empty() ? "" : ", ") + words;

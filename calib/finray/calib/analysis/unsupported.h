@@ -9,7 +9,7 @@
 
 namespace finray {
 
-/// Parameters whose std look good, and which still nobody should trust.
+/// Parameters whose std look good and that nobody should trust all the same.
 struct Unsupported {
   std::vector<int> free;  ///< indices into CalibrationParameters::free()
   std::string code, text, remedy;

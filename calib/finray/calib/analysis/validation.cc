@@ -109,7 +109,7 @@ std::vector<FrameEstimate> EstimateLogs(const Finger& finger, const Plan& plan,
                                         const Discretization& discretization,
                                         int threads) {
   Scene scene = plan.scene;
-  // Whatever else was measured is the reference.
+  // The other measurements are the reference.
   scene.object_std_mm = scene.pin_std_mm = scene.tip_std_mm = std::nullopt;
   std::vector<FrameEstimate> all;
   for (std::size_t i = 0; i < logs.frames.size();) {
@@ -180,7 +180,7 @@ std::vector<GateResult> CheckGates(const Validation& validation,
                        "object_y_mm and a circle in the scene");
     }
     const double value = GateValue(validation.errors.contact, gate.quantity);
-    // NaN passes nothing.
+    // NaN passes no gate.
     const bool passed =
         IsUpperBound(gate.quantity) ? value <= gate.bound : value >= gate.bound;
     results.push_back({gate, value, passed});

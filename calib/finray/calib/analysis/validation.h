@@ -12,7 +12,7 @@
 
 namespace finray {
 
-/// What the logs themselves say of every frame, without gauges:
+/// The references of every frame, without its gauges:
 ///  - force: the reference sensor, with the plan's force_std_N;
 ///  - contact: `contact_1_mm`, or else where the front beam of `finger` touches
 ///    the plan's circle held at the measured centre, if that is one place. A

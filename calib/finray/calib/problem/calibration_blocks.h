@@ -22,10 +22,10 @@ class CalibrationBlocks {
   CalibrationBlocks(const Finger& finger, const Plan& plan,
                     CalibrationParameters* parameters);
 
-  /// Whether the frame can be fitted at all: without a gauge, a contact's place
+  /// True if the frame can be fitted at all: without a gauge, a contact's place
   /// and force take two other measurements.
   bool HasEnough(const CalibrationFrame& frame) const;
-  /// Whether anything but gauges tells of the contact.
+  /// True if anything but the gauges measures the contact.
   bool HasReference(const CalibrationFrame& frame) const;
 
   /// The blocks of a frame, which must stay in place, as must `evaluation` and

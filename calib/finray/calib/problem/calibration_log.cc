@@ -17,12 +17,11 @@ namespace finray {
 namespace {
 
 constexpr double kSignificant = 3;  // standard deviations
-// A block of neighbouring frames is held out as one, as neighbours share
-// errors.
+// Blocks of neighbouring frames are held out, because neighbours share errors.
 constexpr int kHoldoutBlock = 10;
 constexpr double kLargest = 1e15;
 
-// Whether the object reaches into the undeformed finger.
+// True if the object reaches into the undeformed finger.
 bool Reaches(const CalibrationFrame& frame, const Finger& finger,
              const Plan& plan) {
   // Depth past the undeformed front beam, which lies on x = 0.
@@ -55,8 +54,7 @@ bool Touches(const CalibrationFrame& frame, const Finger& finger,
 
 void MarkHoldout(const Plan& plan, CalibrationLogs* logs) {
   if (plan.holdout_by == HoldoutBy::kNothing) return;
-  // Of n things those that are held out: spread evenly, as many as the
-  // fraction says, to the nearest.
+  // Chooses the fraction of n logs or blocks, rounded, evenly spread.
   const auto chosen = [&](int i, int n) {
     const int count = std::clamp(
         static_cast<int>(std::lround(plan.holdout_fraction * n)), 1, n - 1);
@@ -101,7 +99,7 @@ void MarkHoldout(const Plan& plan, CalibrationLogs* logs) {
   }
 }
 
-// As little of each path as tells it from the others.
+// The shortest part of each path that differs from all others.
 std::vector<std::string> NamesOf(const std::vector<std::string>& paths) {
   std::vector<std::string> names;
   for (const std::string& path : paths) {
@@ -120,7 +118,7 @@ std::vector<std::string> NamesOf(const std::vector<std::string>& paths) {
   return names;
 }
 
-// Beyond what any sensor reads; a least-squares sum would not hold the square.
+// Refuses numbers that no sensor reads: the sum of squares would overflow.
 void RefuseHuge(const FrameTable& table, const std::string& column,
                 const std::vector<double>& values) {
   for (std::size_t row = 0; row < values.size(); ++row) {

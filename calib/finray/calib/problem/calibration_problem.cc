@@ -84,8 +84,8 @@ std::vector<int> CalibrationProblem::FittedFrames() const {
   return fitted;
 }
 
-// A stride of the log's own misses none of them. Those that are rejected are
-// left out, not replaced by others that nobody judged.
+// Kinds are apart so that none is missed by a stride that agrees with the log's
+// own. Rejected frames are left out, not replaced by others that nobody judged.
 std::vector<int> CalibrationProblem::SpreadFrames(std::size_t most) const {
   constexpr std::size_t kLeastOfKind = 50;
   std::map<std::pair<int, int>, std::vector<int>> kinds;

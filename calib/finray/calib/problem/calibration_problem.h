@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "finray/calib/problem/calibration_log.h"
 #include "finray/calib/problem/calibration_blocks.h"
+#include "finray/calib/problem/calibration_log.h"
 #include "finray/calib/problem/parameters.h"
 #include "finray/calib/problem/plan.h"
 #include "finray/statics/equilibrium.h"

@@ -50,7 +50,7 @@ int LastFitted(const CalibrationLogs& logs) {
   return finger >= 0 ? finger : bench;
 }
 
-// Whether a log that is fitted says anything of a gauge's offset, or of where
+// True if a fitted log has readings of a gauge, or (below) shows where
 // object positions are counted from.
 bool Reads(const CalibrationLogs& logs, int log, int gauge) {
   return std::any_of(logs.frames.begin(), logs.frames.end(),
@@ -68,7 +68,7 @@ bool HasObject(const CalibrationLogs& logs, int log) {
                      });
 }
 
-// What a lab would not call knowledge, of the variable. Drift and temperature
+// A prior's std that a lab would call a guess. Drift and temperature
 // are small, and zero is a good guess.
 double VagueStd(const CalibrationParameter& parameter) {
   switch (parameter.family) {

@@ -14,23 +14,23 @@
 
 namespace finray {
 
-/// One number that a calibration may vary. What is positive by nature,
-/// stiffness and the force sensor's scale, is varied as its logarithm; `is_log`
-/// says so. Gains are not: readings are linear in them, so that a start wrong
-/// by any factor is one step away, their sign is a matter of wiring, and the
-/// gain of a dead gauge is zero.
+/// One number that a calibration may vary. Stiffness and the force sensor's
+/// scale are positive, and their logarithms are varied (`is_log`). Gains are
+/// varied as they are: readings are linear in them, so that a start wrong by
+/// any factor is one step away; their sign depends on the wiring, and the gain
+/// of a dead gauge is zero.
 struct CalibrationParameter {
   std::string name;  ///< as in calibration.yaml, e.g. "rib_2_length_mm"
   std::string unit;
   ParameterFamily family;
-  /// What of the finger it is; empty for what belongs to logs.
+  /// The parameter of the finger that it is; empty if it belongs to logs.
   std::optional<FingerParameter> of_finger;
   double* variable;  ///< where the solver finds it
   double* block;     ///< the first of the variables that the solver has as one
   bool is_log = false;
   bool free = false;
   int gauge = -1;                   ///< of gains and offsets
-  double initial = 0;               ///< of the variable
+  double initial = 0;               ///< where the variable starts
   std::optional<double> prior_std;  ///< of the variable
   /// A change that would matter, for scaling where there is no prior.
   double scale = 1;
@@ -53,8 +53,8 @@ class CalibrationParameters {
   SharedParameters shared;
   std::vector<double> gains_V_per_rad;
   ReadingTerms readings;
-  /// Of the force sensor, F = scale f + offset; offsets of the magnitude and of
-  /// the components.
+  /// The force sensor reads F = scale f + offset; offsets of the magnitude and
+  /// of the components.
   double ln_force_scale = 0;
   double force_offset_N = 0, force_offset_xy_N[2] = {0, 0};
   /// Where positions of rib pins and the tip are counted from.
@@ -105,7 +105,7 @@ class CalibrationParameters {
   void AddTemperature(const Plan& plan);
   void AddCamera(const Plan& plan);
   void AddDrift(const Plan& plan, const CalibrationLogs& logs);
-  // The parameter's name is to be followed by the log's.
+  // Appends the log's name to the parameter's.
   void AddOfLog(const Plan& plan, const CalibrationLogs& logs, int log,
                 CalibrationParameter parameter);
   void Add(const Plan& plan, CalibrationParameter parameter,

@@ -27,7 +27,7 @@ constexpr FamilyKey kFamilyKeys[kParameterFamilies] = {
 };
 constexpr char kWalk[] = "walk_std_V_per_sqrt_h", kKnots[] = "knot_every_s";
 
-// What a family has beside `fixed` and its prior.
+// The keys of a family beside `fixed` and its prior.
 std::vector<std::string> OwnKeys(ParameterFamily family) {
   if (kFamilyKeys[static_cast<int>(family)].may_be_per_log) {
     return {"per_log"};
@@ -91,7 +91,7 @@ void ReadParameters(const YamlMap& yaml, Plan* plan) {
 Scene ReadPlanScene(const YamlMap& yaml) {
   if (!yaml.Has("scene")) return {};
   if (yaml.IsMap("scene")) return ReadScene(yaml.Map("scene"));
-  // Relative to the plan, so that a folder of both can be moved.
+  // The path is relative to the plan, so that a folder of both can be moved.
   const std::filesystem::path scene = yaml.Text("scene");
   return ReadScene(
       (std::filesystem::path(yaml.path()).parent_path() / scene).string());

@@ -30,7 +30,7 @@ enum class ParameterFamily {
 };
 constexpr int kParameterFamilies = kFingerParameterKinds + 6;
 
-/// Whether a family is varied, and what is known of it before.
+/// Says if a family is varied, and its prior.
 struct FamilyPlan {
   bool free = false;
   /// In percent of the initial value for stiffness, gains and the force scale,
@@ -50,7 +50,7 @@ struct GaugeWalk {
 enum class RobustLoss { kNone, kHuber, kCauchy };
 enum class HoldoutBy { kNothing, kLog, kBlock };
 
-/// What to calibrate from which measurements (the plan YAML).
+/// A plan YAML: what to calibrate, from which measurements.
 struct Plan {
   Scene scene;
   std::array<FamilyPlan, kParameterFamilies> families;

@@ -10,7 +10,7 @@ namespace finray {
 namespace {
 
 constexpr double kSecondsPerHour = 3600;
-// Of one gauge in one log. More would be a parameter for every few frames.
+// Steps of one gauge in one log. More would mean a parameter for a few frames.
 constexpr int kMostSteps = 100;
 
 }  // namespace

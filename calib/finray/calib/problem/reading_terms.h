@@ -12,7 +12,7 @@
 
 namespace finray {
 
-/// What gauges read beside gain * angle, with what the plan frees:
+/// The terms of a reading beside gain * angle, with what the plan frees:
 ///
 ///   offset + drift + kappa (T - T_ref).
 ///
@@ -54,7 +54,7 @@ class ReadingTerms {
   double walk_step_std_V(int log) const;
 
  private:
-  // Of a log's time.
+  // The time that a log spans.
   struct Span {
     double first_s = 0, last_s = 0;
     int steps = 0;

@@ -11,7 +11,7 @@
 namespace finray {
 namespace {
 
-// A number that may be .inf, where nothing determines it.
+// A std; .inf where nothing determines the parameter.
 double StdOf(const YamlMap& yaml) {
   const std::string text = yaml.Text("std");
   if (text == ".inf") return std::numeric_limits<double>::infinity();

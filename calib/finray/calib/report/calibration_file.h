@@ -9,7 +9,7 @@
 
 namespace finray {
 
-/// What calibration.yaml says of the parameters, and the finger beside it.
+/// The parameters of a calibration.yaml and the finger beside it.
 struct CalibrationFile {
   struct Parameter {
     std::string name, unit;

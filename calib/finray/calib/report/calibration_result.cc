@@ -14,7 +14,7 @@
 namespace finray {
 namespace {
 
-// A chi2 / dof beyond these says that a std in the plan is not what it is.
+// With a chi2 / dof beyond these, a std in the plan is wrong.
 constexpr double kTooNoisy = 2;
 constexpr double kTooQuiet = 0.5;
 constexpr double kEnoughDof = 5;
@@ -238,7 +238,7 @@ CalibrationLogs Chosen(const CalibrationLogs& logs,
   return chosen;
 }
 
-// Errors by region of the frames that were fitted, or held out.
+// Tabulates errors by region, of fitted and of held-out frames.
 void TabulateRegions(CalibrationProblem& problem, const CalibrationLogs& logs,
                      const Discretization& discretization, int threads,
                      CalibrationResult* result) {
@@ -296,7 +296,7 @@ std::string CalibrationResult::Verdict() const {
   }
   for (int i = 0; i < kResidualFamilies; ++i) {
     const Identifiability::Noise& noise = identifiability.noise[i];
-    // Gauges that are not linear on the bench have words of their own.
+    // Gauges that are not linear on the bench have a warning of their own.
     if (i == static_cast<int>(ResidualFamily::kBench)) continue;
     if (noise.dof >= kEnoughDof &&
         noise.chi2 > kUnexplained * kUnexplained * noise.dof) {

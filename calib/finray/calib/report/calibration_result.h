@@ -26,7 +26,7 @@ struct CalibrationWarning {
   std::string remedy;
 };
 
-/// All that a calibration yields.
+/// Everything that a calibration yields.
 struct CalibrationResult {
   CalibrationSolution solution;
   Identifiability identifiability;
@@ -61,7 +61,7 @@ struct CalibrationResult {
 CalibrationResult Calibrate(CalibrationProblem* problem,
                             bool leave_logs_out = false);
 
-/// What went in, for the record.
+/// The inputs of a calibration, for its record.
 struct CalibrationInputs {
   std::string finger_path, plan_path;
   std::vector<std::string> log_paths;

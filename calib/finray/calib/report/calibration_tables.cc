@@ -10,10 +10,10 @@ namespace finray {
 
 namespace {
 
-// Rows that are a table at a time: of a million frames the text alone is large.
+// Rows of a table at a time; the text of a million frames alone is large.
 constexpr std::size_t kChunk = 20000;
 
-// Writes the rows of frames [first, last), called from the first on.
+// Makes the rows of frames [first, last), in calls from the first frame on.
 class FrameRows {
  public:
   FrameRows(CalibrationProblem& problem, const CalibrationResult& result)

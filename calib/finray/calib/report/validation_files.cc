@@ -46,7 +46,7 @@ FrameTable ValidationFrames(const CalibrationLogs& logs,
     set("reference_force_N", reference.force_N);
     set("reference_contact_mm", reference.contact_mm);
     set("force_N", force);
-    // Of the sum of two it is not known.
+    // The std of the sum of two contacts is not known.
     set("force_std_N", found.contacts == 1 ? std::hypot(1, friction) *
                                                  found.contact[0].normal_std_N
                                            : std::nan(""));

@@ -9,10 +9,10 @@
 
 namespace finray {
 
-/// Where a frame's contact is according to the finger as the parameters
-/// describe it now, for a solve to start from: from the object's place, else
-/// from the gauges, by a table that knows it to a few bays (gauge_table.h); a
-/// contact location and a force that were measured themselves come first.
+/// Guesses a frame's contact for a solve to start from, by the finger that the
+/// parameters describe now. A measured contact location and force come first,
+/// then the object's place, then the gauges; a table of contacts
+/// (gauge_table.h) has the start of that search.
 class ContactGuess {
  public:
   /// `problem` must stay in place. Throws InputError for a finger without an
@@ -23,7 +23,7 @@ class ContactGuess {
     double arc_mm = 0, normal_N = 0;
     bool met = false;  ///< what it was looked for by is met, not only near
   };
-  /// Whether gauges count beside the object's place: once their gains are
+  /// kAll takes the gauges beside the object's place, for gains that are
   /// known.
   enum class From { kObjectFirst, kAll };
   Place Of(const CalibrationFrame& frame, From from);

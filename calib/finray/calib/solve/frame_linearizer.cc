@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMostSteps = 30;
 constexpr double kMostDamping = 1e8;
-// Where a Jacobian goes, if not to a parameter's columns.
+// Targets of a Jacobian that belongs to no parameter.
 constexpr int kContact = -1, kNowhere = -2;
 
 }  // namespace
@@ -41,7 +41,7 @@ FrameLinearizer::FrameLinearizer(const EquilibriumSolver& solver,
 void FrameLinearizer::Prepare(const CalibrationFrame& frame,
                               const LadderState& start, Model* model) {
   if (!frame.IsBench()) {
-    // Not from the mesh that another frame has refined: results would depend
+    // The mesh that another frame has refined is dropped: results would depend
     // on which thread had which frame.
     if (start.q.size() == 0) solver_.Reset();
     model->evaluation.emplace(solver_.model(), EquilibriumForm::kReduced,

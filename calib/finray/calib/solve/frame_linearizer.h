@@ -21,9 +21,9 @@ class FrameLinearizer {
                   const CalibrationBlocks* blocks,
                   const CalibrationParameters* parameters);
 
-  /// The frame with its contact at (l_c, f_c) = `contact` (of no account for a
-  /// frame without). Equilibrium is sought from `*state` and left there. False
-  /// if the model cannot be evaluated.
+  /// Linearises the frame with its contact at (l_c, f_c) = `contact`, which a
+  /// free frame does not use. Equilibrium starts from `*state` and is left
+  /// there. Returns false if the model cannot be evaluated.
   bool Linearize(const CalibrationFrame& frame,
                  const std::array<double, 2>& contact, LadderState* state,
                  LinearizedFrame* out);
@@ -38,7 +38,7 @@ class FrameLinearizer {
                   LadderState* state, LinearizedFrame* out);
 
  private:
-  // A frame's blocks about an evaluation at a contact.
+  // A frame's blocks and the evaluation at a contact that they read.
   struct Model;
 
   void Prepare(const CalibrationFrame& frame, const LadderState& start,
@@ -57,7 +57,7 @@ class FrameLinearizer {
   const CalibrationParameters& parameters_;
   std::unique_ptr<ceres::LossFunction> loss_;
   std::unordered_map<const double*, int> column_of_;  // first one of a block
-  // Of a block's parameters: a Jacobian each, and where that goes.
+  // By parameter of a block: its Jacobian, and the column that this goes to.
   std::vector<std::vector<double>> scratch_;
   std::vector<double*> jacobians_;
   std::vector<int> columns_;

@@ -32,7 +32,7 @@ void VisitInOrder(const std::vector<int>& frames, const Plan& plan,
                            &problem->parameters());
   });
   const int threads = problem->threads();
-  // As many chunks are under way at most, and they end in order.
+  // At most so many chunks are under way, and they end in order.
   std::vector<Chunk> ring(4 * static_cast<std::size_t>(threads));
   std::size_t begun = 0;
   const auto begin = [&](tbb::flow_control& control) -> Chunk* {

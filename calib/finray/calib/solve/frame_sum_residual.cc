@@ -34,7 +34,7 @@ void FrameSumResidual::Compress(const FrameSums& sums) const {
   const Eigen::Index n = units_.cols();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
       units_.transpose() * sums.information * units_);
-  // Along what the frames do not say there is no gradient, but rounding.
+  // Along directions that the frames do not determine the gradient is rounding.
   const double least = 1e-14 * eigen.eigenvalues()[n - 1];
   const Eigen::VectorXd root = eigen.eigenvalues().cwiseMax(0).cwiseSqrt();
   residuals_ =

@@ -8,8 +8,8 @@
 
 namespace finray {
 
-/// What frames and priors say of the free parameters x about where they are,
-/// the contacts following (Linearization):
+/// The cost of frames and priors near the present values of the free
+/// parameters x, with the best contacts for each x (Linearization):
 ///
 ///   cost(x + dx) = cost + g' dx + dx' S dx / 2.
 struct FrameSums {

@@ -9,7 +9,7 @@
 namespace finray {
 namespace {
 
-// Less of a matrix with a unit diagonal is rounding, of either sign.
+// Smaller eigenvalues of a matrix with a unit diagonal are rounding.
 constexpr double kRounding = 1e-13;
 
 }  // namespace
@@ -39,7 +39,7 @@ InformationSpectrum::InformationSpectrum(const Eigen::MatrixXd& information) {
                      right.data(), n, stat, rank) != 0) {
     throw std::runtime_error("the information of the data has no eigenvalues");
   }
-  // They come multiplied by a factor, lest they overflow.
+  // LAPACK has scaled them, so that they do not overflow.
   values = (stat[0] / stat[1] * singular).reverse().cwiseAbs2();
   vectors = right.rowwise().reverse();
 }

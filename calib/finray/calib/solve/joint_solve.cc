@@ -37,8 +37,8 @@ class JointProblem {
     ceres::Solver::Options options;
     options.logging_type = ceres::SILENT;
     options.max_num_iterations = limits.iterations;
-    // The residuals are whitened, and the weak directions of a calibration are
-    // what it is about: a small radius would creep along them.
+    // The residuals are whitened, so that Gauss-Newton steps have the right
+    // size. A small radius would creep along the weak directions.
     options.initial_trust_region_radius = 1e10;
     options.max_trust_region_radius = 1e16;
     options.function_tolerance = limits.function_tolerance;

@@ -18,8 +18,8 @@ struct ResidualInfo {
   std::int16_t gauge;  ///< for kGauge and kBench, else -1
 };
 
-/// What some frames say of the free parameters x about the present values, the
-/// contacts following: without priors,
+/// The cost of some frames near the present values of the free parameters x,
+/// with the best contacts for each x and without priors:
 ///
 ///   cost(x + dx) = cost + g' dx + dx' S dx / 2,
 ///   S = sum C'C - C'E (E'E)^-1 E'C,   g = sum (C - E (E'E)^-1 E'C)' r,
@@ -28,7 +28,7 @@ struct ResidualInfo {
 /// more; it is gathered in one pass and in memory that a million frames fit
 /// into.
 struct Linearization {
-  // By row, those of a frame following each other.
+  // By row; the rows of a frame follow each other.
   std::vector<ResidualInfo> rows;
   std::vector<double> residuals;           ///< in units of their std
   std::vector<double> weighted_residuals;  ///< as the robust loss weights them

@@ -29,7 +29,7 @@ struct LinearizedFrame {
   Eigen::VectorXd WeightedResiduals() const {
     return weights.cwiseProduct(residuals);
   }
-  /// Where the contact should go when the parameters go by dx: A + B dx of
+  /// The contact should move by A + B dx when the parameters move by dx:
   /// (A | B) = -(E'E)^-1 E'(r | C).
   struct ContactMove {
     Eigen::Vector2d now = Eigen::Vector2d::Zero();
@@ -46,8 +46,8 @@ struct LinearizedFrame {
   void Eliminate();
 };
 
-/// The part of a 2 x 2 information matrix that is not noise, inverted; a
-/// contact without force, say, says nothing of its place.
+/// Inverts the part of a 2 x 2 information matrix that is not rounding. A
+/// contact without force, for example, says nothing about its place.
 Eigen::Matrix2d PseudoInverse(const Eigen::Matrix2d& information);
 
 /// C - E (E'E)^-1 E'C.

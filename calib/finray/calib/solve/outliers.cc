@@ -17,7 +17,7 @@ struct FrameChi2 {
   int dof;
 };
 
-// Wilson and Hilferty.
+// By Wilson and Hilferty.
 double MedianOfChi2(int dof) { return dof * std::pow(1 - 2.0 / (9 * dof), 3); }
 
 int Dof(const CalibrationProblem& problem, int frame, std::size_t rows) {
@@ -60,7 +60,7 @@ std::string Name(const LinearizedFrame::Row& row) {
   return "";
 }
 
-// One measurement, if the others agree with each other.
+// Names one measurement if the others agree with each other.
 std::string Reason(const LinearizedFrame& robust, double chi2, int dof,
                    double scale, double threshold) {
   std::map<std::string, std::pair<double, int>> parts;  // chi2, rows

@@ -12,7 +12,7 @@
 
 namespace finray {
 
-/// Frames that the solution does not explain, by index, and what does not fit.
+/// Frames that the solution does not explain, by index, and the reason.
 /// With c_t the chi2 of frame t, without the weights of the robust loss, over
 /// its n_t measurements, two of which a contact takes,
 ///
@@ -23,14 +23,14 @@ namespace finray {
 /// nowhere well rejects nothing for it.
 struct Outliers {
   static constexpr double kFalseAlarms = 0.01;  ///< expected in a log
-  /// Of the frames. More are no outliers: the model or the std are wrong.
+  /// A share of the frames. If more stand out, the model or the std are wrong.
   static constexpr double kMostShare = 0.25;
 
   std::map<int, std::string> reasons;
   bool too_many = false;  ///< reasons are then empty
   double scale = 1;       ///< s
-  /// What the frames say that FindOutliersAmong has not found to be outliers by
-  /// the scale it expected.
+  /// The linearization of the frames that FindOutliersAmong does not reject by
+  /// the scale it was given.
   std::optional<Linearization> rest;
 };
 

@@ -20,8 +20,8 @@ namespace finray {
 namespace {
 
 constexpr int kMostRounds = 6;
-// To see which frames are far out; and to tell a start's solution to a small
-// part of a std, also where chi2 is some 10^5 times what it should be.
+// kFirst shows which frames are far out. kStart finds a start's solution to a
+// small part of a std, even if chi2 is 10^5 times what it should be.
 constexpr JointLimits kFirst = {15, 1e-4}, kStart = {80, 1e-10};
 
 struct Start {
@@ -114,7 +114,7 @@ class RobustSolve {
   }
 
  private:
-  // Solves by what is left of these frames.
+  // Rejects outliers among these frames and solves by the rest of them.
   SummedSolution RejectAndSolve(const std::vector<int>& frames) {
     std::optional<Linearization> start = RejectAmong(frames);
     std::vector<int> rest;
@@ -130,8 +130,8 @@ class RobustSolve {
     }
   }
 
-  // Judges these frames; what is known of others stays. Returns what the rest
-  // of them say, for a solve to start with.
+  // Judges these frames; other frames stay rejected or not. Returns the
+  // linearization of the good ones, for a solve to start with.
   std::optional<Linearization> RejectAmong(const std::vector<int>& frames) {
     std::map<int, std::string> reasons = problem_.rejected();
     for (const int frame : frames) reasons.erase(frame);
