@@ -59,8 +59,8 @@ void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
 void FrameEvaluation::UpdateReduced(EquilibriumSolver* solver) {
   solver->set_state(state_);
   valid_ = solver->SolveWithSensitivities(loads_);
+  if (!valid_) return;  // the next trial starts from the last equilibrium
   solver->SaveState(&state_);
-  if (!valid_) return;
   outputs_ = solver->outputs();
   SetWithoutPins(solver->d_outputs(), &d_outputs_);
 }

@@ -37,6 +37,9 @@ class FrameSet : public ceres::EvaluationCallback {
   FrameEvaluation& Add(int contacts, double friction, const double* frame,
                        bool pins = false);
 
+  /// See EquilibriumSolver::set_near_only.
+  void set_near_only(bool near_only) { solver_.set_near_only(near_only); }
+
   /// Removes all frames.
   void Clear() {
     frames_.clear();

@@ -82,6 +82,7 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
     }
     if ((explained && !exact) || fallbacks++ == kMostFallbacks) continue;
     if (FitByCeres(start, row)) Keep();
+    if (least_chi2() > FrameProblem::kHopelessChi2) fallbacks = kMostFallbacks;
   }
   return found_ > 0;
 }

@@ -22,6 +22,21 @@ constexpr double kParameterTolerance = 1e-11, kFunctionTolerance = 1e-15,
 // would creep along the curved valley in which equilibrium holds.
 constexpr double kWeights[] = {1e3, 1e4, 1e5, 1e6, kEquilibriumWeight};
 
+// A decrease of a hopeless chi2 by less than this share of it ends the solve.
+constexpr double kLeastShare = 1e-3;
+
+class StopIfHopeless final : public ceres::IterationCallback {
+ public:
+  ceres::CallbackReturnType operator()(
+      const ceres::IterationSummary& step) override {
+    const bool hopeless = 2 * step.cost > FrameProblem::kHopelessChi2;
+    return hopeless && step.iteration > 0 && step.step_is_successful &&
+                   step.cost_change < kLeastShare * step.cost
+               ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+               : ceres::SOLVER_CONTINUE;
+  }
+};
+
 }  // namespace
 
 FrameProblem::FrameProblem(const Finger& finger, const Scene& scene,
@@ -36,6 +51,7 @@ FrameProblem::FrameProblem(const Finger& finger, const Scene& scene,
       parameters_(finger),
       frames_(finger, discretization, form, parameters_.shared(), 1),
       solver_(finger, discretization) {
+  frames_.set_near_only(true);
   if (finger.calibration) calibration_factor_ = finger.calibration->Factor();
 }
 
@@ -122,16 +138,21 @@ bool FrameProblem::Solve() {
   ceres::Solver::Options solve;
   solve.logging_type = ceres::SILENT;
   solve.linear_solver_type = ceres::DENSE_QR;
+  // Each trial without an equilibrium counts as an invalid step.
+  solve.max_num_consecutive_invalid_steps = kMostIterations;
   solve.max_num_iterations = kMostIterations;
   solve.initial_trust_region_radius = kTrustRegion;
   solve.max_trust_region_radius = 1e16;
   solve.function_tolerance = kFunctionTolerance;
   solve.parameter_tolerance = kParameterTolerance;
   solve.gradient_tolerance = 0;
+  StopIfHopeless stop_if_hopeless;
+  solve.callbacks.push_back(&stop_if_hopeless);
   ceres::Solver::Summary summary;
   ceres::Solve(solve, &problem, &summary);
   iterations_ += static_cast<int>(summary.iterations.size());
-  return summary.termination_type == ceres::CONVERGENCE;
+  return summary.termination_type == ceres::CONVERGENCE ||
+         summary.termination_type == ceres::USER_SUCCESS;
 }
 
 bool FrameProblem::Read(const ContactStart& start, const FrameEvaluation& frame,

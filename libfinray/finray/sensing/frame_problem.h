@@ -22,6 +22,10 @@ namespace finray {
 /// takes every kind of measurement.
 class FrameProblem {
  public:
+  /// Far above the chi2 that noise or a slightly wrong finger leaves. The solve
+  /// of such a frame ends as soon as it makes little progress.
+  static constexpr double kHopelessChi2 = 1e3;
+
   /// Throws InputError as LadderModel does.
   FrameProblem(const Finger& finger, const Scene& scene,
                const Discretization& discretization, EquilibriumForm form,

@@ -87,6 +87,7 @@ bool EquilibriumSolver::Attempt(const std::vector<PointContact>& contacts,
                   : newton_.longest_run() <= kStraightIterations);
   };
   if (!undeformed_ && converges()) return true;
+  if (near_only_) return false;
   if (!heavy) {
     newton_.Reset();
     if (converges()) return true;

@@ -61,6 +61,10 @@ class EquilibriumSolver {
   /// rounding; 1e-6 saves an iteration or two.
   void set_tolerance(double relative) { newton_.set_tolerance(relative); }
 
+  /// With this, a solve only looks for an equilibrium near the present state. A
+  /// missing equilibrium is then found out a hundred times faster.
+  void set_near_only(bool near_only) { near_only_ = near_only; }
+
   LadderState state() const;
   /// The same without allocating.
   void SaveState(LadderState* state) const;
@@ -134,7 +138,7 @@ class EquilibriumSolver {
 
   Scheme scheme_;
   mutable LadderNewton newton_;  // Spans() uses its scratch memory
-  bool undeformed_ = true;
+  bool undeformed_ = true, near_only_ = false;
   SolveStatus status_ = SolveStatus::kSolved;
   double path_fraction_ = 0;
   int iterations_ = 0;
