@@ -15,7 +15,7 @@
 
 namespace finray {
 
-/// One number of each of four frames (LadderFrame).
+/// One number of each of four frames (LadderFrame); 32 bytes hold four.
 typedef double FourFrames __attribute__((vector_size(32)));
 constexpr int kFrameLanes = 4;
 

@@ -47,8 +47,8 @@ struct SupportOutline {
 /// tangent everywhere; its curvature may jump, as where an edge meets an arc.
 ///
 /// A new shape needs a struct above, an entry in Shape, and in outline.cc a
-/// check in the constructor and overloads of PointOf and DistanceFrom; scene.cc
-/// reads it.
+/// check in the constructor and overloads of PointOf and DistanceFrom.
+/// scene/scene.cc reads and writes its YAML.
 class Outline {
  public:
   using Shape = std::variant<CircleOutline, EllipseOutline,
