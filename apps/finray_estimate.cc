@@ -1,4 +1,5 @@
-// Contact location and force of every frame of many logs, from their gauges.
+// Estimates contact location and force in every frame of many logs, from their
+// gauges.
 
 #include <cstdio>
 #include <filesystem>
@@ -60,8 +61,8 @@ std::vector<LogJob> MakeJobs(const BatchSettings& settings) {
   return jobs;
 }
 
-// All logs, before anything is written. Bad ones are an error, or moved to
-// `bad`. False if told to stop.
+// Checks all logs before anything is written. A bad log is an error, or goes to
+// `bad` with --keep_going. Returns false if told to stop.
 bool CheckAll(std::vector<LogJob>* jobs, std::vector<BadLog>* bad) {
   std::vector<LogJob> good;
   for (LogJob& job : *jobs) {
@@ -86,7 +87,7 @@ void MakeFolders(const std::vector<LogJob>& jobs) {
   }
 }
 
-// What an earlier run has summed up would no longer be true of the folder.
+// The summaries of an earlier run would no longer be true of the folder.
 void RemoveOldSummaries() {
   for (const char* name : {"summary.yaml", "summary.csv"}) {
     std::error_code missing;
@@ -158,7 +159,7 @@ FrameMethod ChosenMethod() {
                     : FrameMethod::kCeresReduced;
 }
 
-// What a scene says of a whole log needs the frames to come.
+// A scene can describe the offsets of a whole log. Only --joint can use that.
 void CheckJoint(BatchSettings* settings) {
   if (settings->joint && settings->method != FrameMethod::kFast) {
     throw UsageError("--solver does not go with --joint, which uses Ceres");
@@ -169,7 +170,7 @@ void CheckJoint(BatchSettings* settings) {
   settings->scene.gauge_offset_walk.reset();
 }
 
-// Live rows go from one pipe to the other, one by one.
+// Live rows go from one pipe to the other, so flags of batches mean nothing.
 void RefuseBatchFlags() {
   for (const char* flag : {"logs", "logs_root", "out_dir", "resume", "threads",
                            "keep_going", "joint"}) {

@@ -20,10 +20,10 @@
 
 namespace finray {
 
-/// `finray_estimate --follow`: a log from standard input, row by row to
-/// standard output. Ends with its input, with a stop signal or when nobody
-/// reads its output any more, and then says how long the rows have taken: from
-/// having a line as a whole to having written its row.
+/// Runs `finray_estimate --follow`: it reads a log from standard input and
+/// writes each row to standard output at once. It ends with its input, with a
+/// stop signal, or when nobody reads its output any more. Then it says how long
+/// the rows have taken, from having the whole line to having written its row.
 class Follow {
  public:
   Follow(const Finger& finger, const Scene& scene,
@@ -76,7 +76,8 @@ class Follow {
                      ": is empty, expected a header and rows");
   }
 
-  // False if nobody reads it, or if told to stop while it waits for a reader.
+  // Returns false if nobody reads the output, or if told to stop while it waits
+  // for a reader.
   static bool Write(std::string_view text) {
     while (!text.empty()) {
       const ssize_t count = write(STDOUT_FILENO, text.data(), text.size());

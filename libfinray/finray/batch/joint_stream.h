@@ -5,9 +5,9 @@
 
 namespace finray {
 
-/// As EstimateStream, but the frames of the log are solved together
-/// (LogEstimator): the reader is at the begin of the log. Rows wait in memory
-/// until their window is solved; windows do not grow with the log.
+/// Estimates a log like EstimateStream, but solves its frames together
+/// (LogEstimator). The reader must be at the begin of the log. Rows wait in
+/// memory until their window is solved. Windows do not grow with the log.
 bool EstimateJointly(const Finger& finger, const Scene& scene,
                      const Discretization& discretization, int threads,
                      const std::function<bool()>& stop, FrameReader* reader,

@@ -19,7 +19,7 @@ std::optional<double> ParseNumber(std::string_view text);
 /// if it is not finite.
 std::string NumberText(double value);
 
-/// As std::snprintf, but returns a string of any length.
+/// Formats like std::snprintf, but returns a string of any length.
 std::string FormatText(const char* format, ...)
     __attribute__((format(printf, 1, 2)));
 

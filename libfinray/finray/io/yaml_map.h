@@ -72,8 +72,8 @@ class YamlMap {
   /// is missing.
   [[noreturn]] void Fail(const std::string& key,
                          const std::string& message) const;
-  /// As Fail, at an element of the sequence at `key`. The element's name begins
-  /// the message: "key[2][1]: " for {1, 0}.
+  /// Fails like Fail, at an element of the sequence at `key`. The element's
+  /// name begins the message: "key[2][1]: " for {1, 0}.
   [[noreturn]] void FailIn(const std::string& key,
                            const std::vector<std::size_t>& element,
                            const std::string& message) const;
@@ -86,7 +86,7 @@ class YamlMap {
 
   // The value of a key, which must be there.
   YAML::Node Value(const std::string& key) const;
-  // The same, which must be a sequence `of` something.
+  // The value of a key, which must be there and be a sequence `of` something.
   YAML::Node Sequence(const std::string& key, const std::string& of) const;
   // Throws at the value of `key`, which is not `what`.
   [[noreturn]] void FailExpecting(const std::string& key,

@@ -14,10 +14,10 @@ namespace {
 
 struct Reading {
   double angle_rad, volts;
-  int offset;  // which one
+  int offset;  // index of the offset
 };
 
-// The least-squares fit of a model's columns to the volts.
+// The least-squares fit of the columns of a model to the volts.
 struct Fit {
   Eigen::VectorXd x;
   double squares;
@@ -25,7 +25,7 @@ struct Fit {
   Eigen::MatrixXd inverse;  // x = inverse volts
 
   Fit(const Eigen::MatrixXd& columns, const Eigen::VectorXd& volts) {
-    // Columns are of order one, and one may be a sum of others.
+    // The columns are of order one, and one may be a sum of others.
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr(columns.rows(),
                                                                columns.cols());
     qr.setThreshold(1e-9);
@@ -35,8 +35,8 @@ struct Fit {
     dof = static_cast<int>(volts.size() - qr.rank());
     inverse = qr.pseudoInverse();
   }
-  // The variance of a reading, at least `least`: rounded readings may agree by
-  // more than they are known.
+  // Returns the variance of a reading, but at least `least`: rounded readings
+  // may agree better than they are known.
   double Variance(double least) const { return std::max(squares / dof, least); }
 };
 
@@ -117,7 +117,7 @@ std::vector<BenchLinearity> TestBenchLinearity(const Finger& finger,
   for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
     std::vector<Reading> readings;
     std::set<double> angles;
-    std::set<double> offsets;  // logs, if these have their own
+    std::set<double> offsets;  // the logs, if each has an offset
     for (const CalibrationFrame& frame : logs.frames) {
       if (!frame.IsBench() || frame.held_out) continue;
       if (!std::isfinite(frame.gauges_V[j])) continue;

@@ -10,42 +10,43 @@
 
 namespace finray {
 
-/// Tests a gauge's readings on the bench (angle a = w / R) for linearity:
+/// Tests whether a gauge is linear, by its readings on the bench at angles a =
+/// w / R. Least squares fit
 ///
-///   V = offset + gain a + q a^2,
+///   V = offset + gain a + q a^2.
 ///
-/// fitted by least squares with the scatter taken from the readings themselves,
-/// tells whether q is there (Student's t). The scatter counts as no less than
-/// the std of a reading (the plan's, else the gauge's noise): repeats that a
-/// coarse converter has rounded to the same number are not that good. Where
-/// radii were repeated, a line is also compared with a value of its own for
-/// each radius (lack of fit, F), which sees any other shape. Where the plan has
-/// offsets per log there is one for each log here too.
+/// Student's t says whether q is there, with the scatter of the readings
+/// themselves. The scatter counts as at least the std of a reading (that of the
+/// plan, else the noise of the gauge), because a coarse converter may have
+/// rounded repeats to the same number. If radii were repeated, the test of the
+/// lack of fit (F) also compares a line with a value for each radius, and so
+/// sees any other shape. If the plan has an offset for each log, this fit has
+/// one too.
 struct BenchLinearity {
   int gauge = 0;
   int readings = 0;
-  double largest_angle_rad = 0;  ///< by magnitude
+  double largest_angle_rad = 0;  ///< The largest magnitude.
   double quadratic_V_per_rad2 = 0, quadratic_std = 0;
   double quadratic_p_value = 1;
-  /// Gains of the quadratic fit at the smallest and at the largest angle.
+  /// The gains of the quadratic fit at the smallest and at the largest angle.
   double first_gain_V_per_rad = 0, last_gain_V_per_rad = 0;
-  /// How far that fit's curve is from the line through its ends, at most.
+  /// The largest distance of that fit from the line through its ends.
   double bow_V = 0;
-  double lack_of_fit_F = 0;        ///< NaN where no radius was repeated
-  double lack_of_fit_p_value = 1;  ///< NaN likewise
+  double lack_of_fit_F = 0;        ///< NaN if no radius was repeated.
+  double lack_of_fit_p_value = 1;  ///< NaN if no radius was repeated.
 
-  /// Below this it is no accident.
+  /// A p-value below this is no accident.
   static constexpr double kSignificant = 0.01;
   bool IsCurved() const { return quadratic_p_value < kSignificant; }
   bool IsLinear() const {
     return !IsCurved() && !(lack_of_fit_p_value < kSignificant);
   }
-  /// One clause for people, if it is not linear.
+  /// One clause for people, if the gauge is not linear.
   std::string Words() const;
 };
 
-/// For every gauge with at least four bench readings at three angles that are
-/// not held out.
+/// Tests every gauge that has at least four bench readings at three angles that
+/// are not held out.
 std::vector<BenchLinearity> TestBenchLinearity(const Finger& finger,
                                                const Plan& plan,
                                                const CalibrationLogs& logs);

@@ -16,21 +16,21 @@ namespace finray {
 namespace {
 
 constexpr int kComparisonHeights = 9;
-constexpr double kComparisonLoads[] = {1, 3, 6, 10};  // EI / l_0^2
-// An eigenvalue below this share of the largest one, of correlations with six
-// digits, is rounding.
+constexpr double kComparisonLoads[] = {1, 3, 6, 10};  // in EI / l_0^2
+// An eigenvalue below this share of the largest one is rounding, because the
+// correlations have six digits.
 constexpr double kRank = 1e-6;
 
-// The log that a parameter belongs to, as its name says behind the bracket of
-// `gauge_1_offset_V[a.csv]`; empty if it belongs to none.
+// Returns the log that a parameter belongs to, which its name has in brackets:
+// `gauge_1_offset_V[a.csv]`. Empty if it belongs to none.
 std::string LogOf(const std::string& parameter) {
   const auto open = parameter.find('[');
   if (open == std::string::npos || parameter.back() != ']') return "";
   return parameter.substr(open + 1, parameter.size() - open - 2);
 }
 
-// The SHA-256 of a log that is named by the end of its path; empty if it is not
-// there.
+// Returns the SHA-256 of the log whose path ends in this name, or an empty text
+// if there is none.
 std::string HashOfLog(const CalibrationFile& file, const std::string& log) {
   const YamlMap yaml = YamlMap::FromFile(file.path);
   for (const YamlMap& map : yaml.Map("inputs").Maps("logs")) {
@@ -43,7 +43,8 @@ std::string HashOfLog(const CalibrationFile& file, const std::string& log) {
   return "";
 }
 
-// Logs of one name may be of different days, with other offsets.
+// Says whether a parameter belongs to the same log in both. Logs with the same
+// name may be of different days and have other offsets.
 bool IsOfOneLog(const CalibrationFile& a, const CalibrationFile& b,
                 const std::string& parameter) {
   const std::string log = LogOf(parameter);
@@ -102,7 +103,8 @@ void CompareParameters(const CalibrationFile& a, const CalibrationFile& b,
   }
 }
 
-// Senses readings with one finger and gives the std from its covariance.
+// Senses readings with one finger, and gives the std that follows from its
+// covariance.
 class Sensor {
  public:
   Sensor(const Finger& finger, const Discretization& discretization)
@@ -116,7 +118,8 @@ class Sensor {
     }
   }
 
-  // Readings under a contact; empty if the finger cannot carry it.
+  // Returns the readings under a contact, or none if the finger cannot carry
+  // it.
   std::vector<double> Read(const PointContact& contact) {
     solver_.Reset();
     std::vector<double> volts;
@@ -134,7 +137,7 @@ class Sensor {
     return estimator_.Estimate(readings);
   }
 
-  // Variances of l_c and f_c.
+  // Returns the variances of l_c and f_c.
   Eigen::Vector2d Variance(double arc, double force,
                            const std::vector<double>& volts) {
     if (systematic_.empty()) return {0, 0};
@@ -243,7 +246,7 @@ Comparison Compare(const CalibrationFile& a, const CalibrationFile& b,
         std::find(b.log_hashes.begin(), b.log_hashes.end(), hash) !=
         b.log_hashes.end();
   }
-  // Without gauges nothing is sensed.
+  // A finger without gauges senses nothing.
   if (!a.finger.gauges.empty()) {
     CompareGrid(a.finger, b.finger, discretization, &comparison);
   }

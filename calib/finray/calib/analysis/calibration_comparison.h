@@ -10,31 +10,33 @@
 
 namespace finray {
 
-/// Two calibrations of a finger, a and b, and whether they agree.
+/// Two calibrations a and b of a finger, and whether they agree.
 ///
-/// Per parameter the difference d = b - a is held against the std that it has
-/// if the data of both are independent, s^2 = s_a^2 + s_b^2; over all that
-/// either has determined,
+/// For each parameter the difference d = b - a is compared with its std. If the
+/// data of both are independent, that is s^2 = s_a^2 + s_b^2. All parameters
+/// that either calibration has determined are compared together by
 ///
 ///   chi2 = d' (C_a + C_b)^-1 d.
 ///
-/// Data, or priors, that both share make d smaller than that: the comparison
-/// is then conservative, finding less than there is.
+/// Data or priors that both share make d smaller than that. The comparison is
+/// then conservative and finds less than there is.
 ///
-/// In the field: what the gauges of a would read of a contact (l_c, f_c) is
-/// sensed by both. a finds the contact itself, b is off by the differences; the
-/// std of those is what the covariances of both say (CalibrationUncertainty),
-/// without the noise of the readings, which both share.
+/// In the field, both calibrations sense what the gauges of a would read under
+/// a contact (l_c, f_c). a finds that contact itself, and b is off by the
+/// differences. The std of the differences follows from the covariances of both
+/// (CalibrationUncertainty). It leaves out the noise of the readings, which
+/// both share.
 struct Comparison {
   struct Parameter {
     std::string name, unit;
     double a, b;
-    double std;  ///< of the difference; NaN if fixed in both or not determined
+    double std;  ///< Of the difference; NaN if fixed in both or not determined.
     double sigma() const { return (b - a) / std; }
   };
   std::vector<Parameter> parameters;
-  /// Names that only one has, and those of one log, by its name, that are of
-  /// different ones by SHA-256: none of them is compared.
+  /// The names of parameters that are not compared: those that only one
+  /// calibration has, and those of logs that have the same name and another
+  /// SHA-256.
   std::vector<std::string> only_a, only_b, of_other_logs;
   double chi2 = 0;
   int dof = 0;
@@ -43,23 +45,24 @@ struct Comparison {
 
   struct Point {
     double contact_mm, normal_N;
-    /// NaN where b cannot tell the contact.
+    /// NaN if b cannot tell the contact.
     double force_difference_N, contact_difference_mm;
-    double force_std_N, contact_std_mm;  ///< NaN without covariances
-    bool told_by_a;  ///< a itself can tell the contact from its readings
+    double force_std_N, contact_std_mm;  ///< NaN without covariances.
+    bool told_by_a;  ///< a can tell the contact from its own readings.
   };
   std::vector<Point> grid;
 
-  /// Over the grid; NaN, or 0 for count, where nothing is known.
+  /// The largest magnitudes over the grid; NaN (0 for counts) where nothing is
+  /// known.
   struct Largest {
     double force_N = 0, contact_mm = 0, force_over_std = 0,
            contact_over_std = 0;
     double force_rms_N = 0, contact_rms_mm = 0;
-    int points = 0;  ///< that b tells
-    int lost = 0;    ///< that a tells, but b does not
+    int points = 0;  ///< Points that b can tell.
+    int lost = 0;    ///< Points that a can tell and b cannot.
   };
   Largest largest() const;
-  /// The parameter with the largest |sigma|; nullptr if none has one.
+  /// The parameter with the largest |sigma|; null if none has one.
   const Parameter* LargestSigma() const;
 };
 
@@ -67,13 +70,14 @@ struct Comparison {
 Comparison Compare(const CalibrationFile& a, const CalibrationFile& b,
                    const Discretization& discretization);
 
-/// The grid as rows, and all as the text of comparison.yaml.
+/// Returns the table of comparison.csv, with a row for each point of the grid.
 FrameTable ComparisonGrid(const Comparison& comparison);
 struct ComparisonGate {
   std::string name;
   double bound, value;
   bool passed;
 };
+/// Returns the text of comparison.yaml.
 std::string ComparisonYaml(const Comparison& comparison,
                            const CalibrationFile& a, const CalibrationFile& b,
                            const std::vector<ComparisonGate>& gates);

@@ -25,7 +25,7 @@ void EmitStatistics(const ErrorStatistics& errors, const char* quantity,
   YamlPair(yaml, name + "_rms" + suffix, errors.rms());
   YamlPair(yaml, name + "_bias" + suffix, errors.bias());
   YamlPair(yaml, name + "_max" + suffix, errors.largest);
-  // For free frames it would be a percentage of noise.
+  // A free frame has no percentage: it would be a percentage of noise.
   if (touching && name == "force") {
     YamlPair(yaml, name + "_rms_percent", errors.percent());
   }
@@ -34,7 +34,7 @@ void EmitStatistics(const ErrorStatistics& errors, const char* quantity,
   YamlPair(yaml, name + "_coverage_95_percent", errors.coverage_95_percent());
 }
 
-// Emits into a mapping that has begun.
+// Emits the keys of a row into a mapping that has begun.
 void EmitRow(const ErrorRow& row, bool touching, YamlEmitter* yaml) {
   YamlPair(yaml, "frames", row.frames);
   YamlPair(yaml, "usable", row.usable);
@@ -92,8 +92,8 @@ void ErrorRow::Add(const FrameReference& reference,
   ++usable;
   missed += reference.contact && !touches;
   untrue += !reference.contact && touches;
-  // With two contacts neither is the reference's, and the std of their sum is
-  // not known.
+  // If the estimate has two contacts, neither is the reference's, and the std
+  // of the sum of their forces is not known.
   const bool one = estimate.contacts == 1;
   const ContactEstimate& found = estimate.contact[0];
   force_N.Add(EstimatedForce(estimate, friction) - reference.force_N,

@@ -6,7 +6,7 @@
 namespace finray {
 namespace {
 
-// Converges fast for x < (a + 1) / (a + b + 2).
+// Computes I_x(a, b). It converges fast for x < (a + 1) / (a + b + 2).
 double IncompleteBeta(double a, double b, double x) {
   if (x <= 0) return 0;
   if (x >= 1) return 1;
@@ -15,7 +15,7 @@ double IncompleteBeta(double a, double b, double x) {
       std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) +
                a * std::log(x) + b * std::log1p(-x)) /
       a;
-  // Lentz's method for 1 / (1 + d_1 / (1 + d_2 / (1 + ...))).
+  // This is Lentz's method for 1 / (1 + d_1 / (1 + d_2 / (1 + ...))).
   constexpr double kTiny = 1e-300, kEnough = 1e-15;
   double value = 1, c = 1, d = 0;
   for (int i = 0; i < 1000; ++i) {

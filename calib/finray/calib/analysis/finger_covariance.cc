@@ -7,7 +7,7 @@ namespace finray {
 void KeepCovariance(const CalibrationParameters& parameters,
                     const Identifiability& found, Finger* finger) {
   ParameterCovariance covariance;
-  std::vector<int> kept;  // indices into free()
+  std::vector<int> kept;  // indices into parameters.free()
   std::vector<double> std;
   for (std::size_t i = 0; i < parameters.free().size(); ++i) {
     const CalibrationParameter& p = parameters.FreeParameter(i);
@@ -22,7 +22,7 @@ void KeepCovariance(const CalibrationParameters& parameters,
   covariance.correlations = Eigen::MatrixXd::Identity(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
-      // Rounding may give more than 1.
+      // Rounding may give a correlation above 1.
       covariance.correlations(i, j) = covariance.correlations(j, i) =
           std::clamp(found.correlation(kept[i], kept[j]), -1.0, 1.0);
     }

@@ -6,10 +6,10 @@
 
 namespace finray {
 
-/// Hands the covariance of a calibration's free parameters to the calibrated
-/// finger: the part that belongs to it, which is their marginal covariance
-/// where the object's origin is free too. It replaces what an earlier
-/// calibration has left, unless nothing of the finger was free.
+/// Gives the calibrated finger the part of the covariance that belongs to its
+/// own parameters. If the origin of the object is free too, that is their
+/// marginal covariance. It replaces what an earlier calibration has left,
+/// unless no parameter of the finger was free.
 void KeepCovariance(const CalibrationParameters& parameters,
                     const Identifiability& found, Finger* finger);
 

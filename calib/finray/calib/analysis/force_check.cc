@@ -24,7 +24,7 @@ ForceCheck CheckForces(const Finger& before, const Finger& after,
     for (const CalibrationFrame& frame : of.frames) {
       readings.emplace_back();
       readings.back().gauges_V = frame.gauges_V;
-      if (frame.IsBench()) {  // the finger has nothing to do with it
+      if (frame.IsBench()) {  // the finger does not bend
         readings.back().gauges_V.assign(frame.gauges_V.size(), std::nan(""));
       }
     }
@@ -33,7 +33,7 @@ ForceCheck CheckForces(const Finger& before, const Finger& after,
   ForceCheck check;
   check.before.resize(logs.frames.size());
   check.has_before.assign(logs.frames.size(), false);
-  // A contact has two unknowns; without as many gauges there is no estimate.
+  // A contact has two unknowns, so fewer than two gauges give no estimate.
   if (before.gauges.size() < 2) {
     check.after.resize(logs.frames.size());
     return check;

@@ -9,14 +9,16 @@
 namespace finray {
 
 /// Compares the force sensor with the force from the gauges alone, before and
-/// after the calibration. Before, the readings are taken as they are; after,
-/// the drift and temperature that the calibration has found are taken out of
-/// them. The reference is the sensor's force, corrected by the scale and offset
-/// that the calibration has found.
+/// after the calibration. The estimate before the calibration takes the
+/// readings as they are. For the estimate after it, the drift and temperature
+/// that the calibration has found are removed from the readings. The reference
+/// is the force of the sensor, corrected by the scale and offset that the
+/// calibration has found.
 struct ForceCheck {
-  std::vector<FrameEstimate> before, after;  ///< one per frame
+  std::vector<FrameEstimate> before, after;  ///< One for each frame.
   /// True for the frames that were estimated with the finger as it was:
-  /// kMostBefore, evenly spread. A finger far from the truth makes that slow.
+  /// kMostBefore of them, evenly spread. A finger far from the truth makes that
+  /// slow.
   std::vector<bool> has_before;
   static constexpr std::size_t kMostBefore = 200;
 
@@ -26,7 +28,8 @@ struct ForceCheck {
     double after_max_N = 0;
     double reference_mean_N = 0;
   };
-  /// Over frames with a reference force that were fitted, and held out.
+  /// The errors over the fitted and over the held-out frames with a reference
+  /// force.
   Error fitted, held_out;
 };
 
@@ -35,7 +38,8 @@ ForceCheck CheckForces(const Finger& before, const Finger& after,
                        const CalibrationLogs& corrected,
                        const Discretization& discretization, int threads);
 
-/// The magnitude of the reference force of a frame; NaN if not measured.
+/// Returns the magnitude of the reference force of a frame, NaN if it was not
+/// measured.
 double ReferenceForce(const CalibrationFrame& frame);
 
 }  // namespace finray

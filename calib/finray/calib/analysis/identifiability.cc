@@ -53,11 +53,14 @@ WeakDirection Describe(CalibrationProblem* problem,
   return direction;
 }
 
-constexpr double kRides = 0.9;   // correlation
-constexpr double kTogether = 3;  // std of all gains over that of their ratios
+// The least correlation of gains and stiffness.
+constexpr double kRides = 0.9;
+// The least std of all gains over that of their ratios.
+constexpr double kTogether = 3;
 
-// With a force sensor alone, gauges tell how the finger bends, but not how far:
-// a finger that is stiffer, with gains as much higher, reads the same.
+// Adds the weak direction of the common gain. With a force sensor alone, gauges
+// tell how the finger bends, but not how far: a stiffer finger with higher
+// gains reads the same.
 void AddCommonGain(CalibrationProblem* problem,
                    const Eigen::MatrixXd& covariance, Identifiability* found) {
   const CalibrationParameters& parameters = problem->parameters();
@@ -141,8 +144,8 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
     }
   }
   for (int i = 0; i < n; ++i) {
-    // The variance from the data alone. With a share of more than 1 % in a null
-    // direction it is infinite.
+    // This is the variance from the data alone. It is infinite if the parameter
+    // has a share of more than 1 % in a null direction.
     double variance = 0;
     bool null = false, held_by_prior = prior(i, i) > 0;
     for (int k = 0; k < n; ++k) {
@@ -166,7 +169,7 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
   }
   for (int k = 0; k < n && value[k] < 1; ++k) {
     const bool null = value[k] < Identifiability::kNull;
-    // The data say nothing along it.
+    // The std is infinite if the data say nothing along the direction.
     result.weak.push_back(Describe(problem, vector.col(k),
                                    null
                                        ? std::numeric_limits<double>::infinity()
@@ -174,8 +177,9 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
   }
   AddCommonGain(problem, covariance, &result);
 
-  // Degrees of freedom by family: each residual counts one less its leverage,
-  // c cov c' by the parameters and that by its contact.
+  // The degrees of freedom of a family: each residual counts 1 less its
+  // leverage, which is c cov c' by the parameters plus the leverage of its
+  // contact.
   for (std::size_t i = 0; i < at.rows.size(); ++i) {
     Identifiability::Noise& noise =
         result.noise[static_cast<int>(at.rows[i].family)];

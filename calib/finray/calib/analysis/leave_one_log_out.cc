@@ -20,7 +20,8 @@ const LeaveOneLogOut::Row* LeaveOneLogOut::Worst() const {
 
 namespace {
 
-// Probability that any of `tests` standard normal numbers is beyond +-z.
+// Returns the bound on the probability that any of `tests` standard normal
+// numbers is beyond +-z.
 double Bonferroni(double z, int tests) {
   return std::min(1.0, tests * std::erfc(z / std::sqrt(2.0)));
 }
@@ -35,7 +36,7 @@ LeaveOneLogOut LeaveLogsOut(CalibrationProblem* problem,
   if (by_log.size() < 2) return result;
   result.groups =
       std::min(LeaveOneLogOut::kMostGroups, static_cast<int>(by_log.size()));
-  std::map<int, int> group_of;  // log
+  std::map<int, int> group_of;  // by log
   for (const auto& [log, information] : by_log) {
     group_of.emplace(log, static_cast<int>(group_of.size()) % result.groups);
   }
@@ -56,7 +57,7 @@ LeaveOneLogOut LeaveLogsOut(CalibrationProblem* problem,
         SolveSummed(rest, {}, without.get(), &contacts);
     if (!solved.report.converged) {
       result.all_converged = false;
-      continue;  // no estimate
+      continue;  // there is no estimate
     }
     const Identifiability known =
         AnalyzeIdentifiability(without.get(), solved.at);

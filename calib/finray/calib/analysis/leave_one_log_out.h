@@ -9,43 +9,44 @@
 
 namespace finray {
 
-/// Do the logs agree? The calibration is repeated without each log (without
-/// each of kMostGroups groups of them, if there are more). The data without a
-/// group are part of all data, so that its estimate theta_k differs from that
-/// of all, theta, by what the group adds:
+/// Says whether the logs agree. The calibration is repeated without each log,
+/// or, if there are more than kMostGroups logs, without each of kMostGroups
+/// groups of them. The data without a group are part of all data. So their
+/// estimate theta_k differs from the estimate theta of all data by what the
+/// group adds:
 ///
 ///   var(theta_k - theta) = s_k^2 - s^2,
-///   z_k = (theta_k - theta) / sqrt(s_k^2 - s^2),
+///   z_k = (theta_k - theta) / sqrt(s_k^2 - s^2).
 ///
-/// however much or little the group knows: logs need not be alike. s_k and s
-/// are of the same linearization, that of all data, with s enlarged where
-/// residuals are correlated and s_k as much. What a group changes by less than
-/// kNegligible s is no matter (and not linear): that is added to the std. The
-/// z_k of a parameter depend on each other; the largest is held against
+/// This holds however much or little the group knows, so logs need not be
+/// alike. s_k and s come from the linearization of all data. If residuals are
+/// correlated, both are enlarged alike. A change of less than kNegligible s
+/// does not matter and is not linear either, so that much is added to the std.
+/// The z_k of a parameter depend on each other, so the largest is compared with
 /// Bonferroni's bound.
 struct LeaveOneLogOut {
   static constexpr int kMostGroups = 10;
   static constexpr double kNegligible = 0.03;
-  /// A parameter whose logs agree so badly by chance in one calibration of a
-  /// hundred, all parameters together.
+  /// If nothing is wrong, one calibration of a hundred has a parameter whose
+  /// logs agree so badly.
   static constexpr double kSignificant = 0.01;
 
   struct Row {
     int parameter;  ///< index into CalibrationParameters::all()
-    /// std is that of all data; spread = std max_k |z_k| is what it would have
-    /// to be for the largest change to be one of one std. In the parameter's
-    /// unit.
+    /// `std` is that of all data. With a std of `spread` = std max_k |z_k| the
+    /// largest change would be one of one std. Both are in the unit of the
+    /// parameter.
     double spread, std;
-    double p_value;  ///< that noise alone makes a z_k so large
+    double p_value;  ///< Of a z_k so large by noise alone.
     double ratio() const { return spread / std; }
   };
-  int groups = 0;  ///< 0: not done
+  int groups = 0;  ///< 0 if it was not done.
   bool all_converged = true;
-  /// Free parameters of the finger, not of one log, that some of the groups can
-  /// be spared for: the others determine them.
+  /// The free parameters of the finger that do not belong to one log and that
+  /// the data without some group determine.
   std::vector<Row> rows;
 
-  /// The row whose logs disagree most, if they do significantly.
+  /// The row whose logs disagree most; null if none disagree significantly.
   const Row* Worst() const;
 };
 

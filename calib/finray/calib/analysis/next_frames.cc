@@ -20,8 +20,8 @@ namespace finray {
 namespace {
 
 constexpr int kHeights = 9;
-constexpr double kLoads[] = {0.1, 0.3, 0.6, 1};  // of the largest
-// Loads in EI / l_0^2 that a finger carries with ease, and at most.
+constexpr double kLoads[] = {0.1, 0.3, 0.6, 1};  // shares of the largest
+// Loads in EI / l_0^2: one that a finger carries with ease, and the largest.
 constexpr double kUsualLoad = 10, kLargestLoad = 40;
 constexpr double kWorthwhile = 0.9;
 constexpr std::size_t kMostAdvice = 4;
@@ -35,7 +35,7 @@ bool Has(const std::vector<ResidualFamily>& families, ResidualFamily family) {
   return std::find(families.begin(), families.end(), family) != families.end();
 }
 
-// A frame like those of the logs, without its measurements.
+// Returns a frame like those of the logs, without its measurements.
 CalibrationFrame Template(const CalibrationProblem& problem, bool contact) {
   CalibrationFrame frame;
   for (const CalibrationFrame& recorded : problem.logs().frames) {
@@ -53,7 +53,8 @@ CalibrationFrame Template(const CalibrationProblem& problem, bool contact) {
   return frame;
 }
 
-// A load that the logs show the finger to bear; a few wild frames do not count.
+// Returns a load that the logs show the finger to bear. A few wild frames do
+// not count.
 double LargestLoad(const Finger& finger, const Contacts& contacts) {
   const double unit = ForceUnit(finger);
   std::vector<double> forces;
@@ -67,7 +68,7 @@ double LargestLoad(const Finger& finger, const Contacts& contacts) {
   return std::clamp(*high, kUsualLoad * unit, kLargestLoad * unit);
 }
 
-// The first fitted frame of each log.
+// Returns the first fitted frame of each log.
 std::vector<CalibrationFrame> FirstFrames(const CalibrationProblem& problem) {
   std::vector<CalibrationFrame> frames;
   std::set<int> seen;
@@ -79,7 +80,8 @@ std::vector<CalibrationFrame> FirstFrames(const CalibrationProblem& problem) {
   return frames;
 }
 
-// Gauges that some frame has read; the others will not read next time either.
+// Says which gauges some frame has read. The others will not read next time
+// either.
 std::vector<bool> WorkingGauges(const CalibrationProblem& problem) {
   std::vector<bool> works(problem.finger().gauges.size(), false);
   for (const CalibrationFrame& frame : problem.logs().frames) {
@@ -90,7 +92,8 @@ std::vector<bool> WorkingGauges(const CalibrationProblem& problem) {
   return works;
 }
 
-// Fills in the readings of all sensors. False if the finger cannot carry it.
+// Fills in the readings of all sensors. Returns false if the finger cannot
+// carry the contact.
 bool Measure(const PointContact* contact, const std::vector<bool>& works,
              const Plan& plan, EquilibriumSolver* solver,
              CalibrationFrame* frame) {
@@ -135,8 +138,8 @@ void NextFrames::Predict(const Contacts& contacts) {
     forces_N_.push_back(TwoDigits(share * largest_N));
   }
 
-  // The candidates follow a frame of each log, so that the parameters of all
-  // logs exist, and are linearised like any frame.
+  // The candidates stand behind a frame of each log, so that the parameters of
+  // all logs exist. They are linearised like any frame.
   CalibrationLogs logs = problem_->logs();
   logs.frames = FirstFrames(*problem_);
   const int recorded = static_cast<int>(logs.frames.size());
@@ -161,10 +164,10 @@ void NextFrames::Predict(const Contacts& contacts) {
   }
   CalibrationProblem predicted(finger, plan, logs, problem_->discretization(),
                                1);
-  // Parameters are found by name: the candidates may have other steps of a
-  // drift, and other sensors.
+  // Parameters are found by name, because the candidates may have other steps
+  // of a drift and other sensors.
   const CalibrationParameters& known = problem_->parameters();
-  std::unordered_map<std::string, int> column_of;  // among the free ones
+  std::unordered_map<std::string, int> column_of;  // by name
   std::unordered_map<std::string, const double*> value_of;
   for (const CalibrationParameter& p : known.all()) {
     value_of[p.name] = p.variable;
@@ -204,7 +207,8 @@ void NextFrames::Predict(const Contacts& contacts) {
                     candidates_.end());
 }
 
-// The measurements of the logs' contact frames, and these with one or two more.
+// Chooses the sets of measurements: those of the contact frames in the logs,
+// and these with one or two more.
 void NextFrames::ChooseMeasurements(const Linearization& at_solution) {
   Families recorded, missing;
   for (const ResidualInfo& row : at_solution.rows) {
@@ -228,7 +232,7 @@ void NextFrames::ChooseMeasurements(const Linearization& at_solution) {
     measured_.push_back({all, added});
   };
   for (const ResidualFamily family : missing) add({family});
-  // If the logs have neither force nor place, one of them may not be enough.
+  // If the logs have neither force nor place, one of the two may not be enough.
   const bool placed = Has(recorded, ResidualFamily::kObject) ||
                       Has(recorded, ResidualFamily::kContact);
   for (const ResidualFamily place :
@@ -265,7 +269,8 @@ void NextFrames::Judge(const Eigen::MatrixXd& information,
          direction, all, advice);
 }
 
-// The matrices are over these `parameters` of the free ones.
+// Sets the std of the advice. The covariances have a row for each of these
+// `parameters`, which are indices of free parameters.
 void NextFrames::Spread(const Eigen::MatrixXd& before,
                         const Eigen::MatrixXd& after,
                         const Eigen::VectorXd& direction,
@@ -279,12 +284,13 @@ void NextFrames::Spread(const Eigen::MatrixXd& before,
   advice->parameter = problem_->parameters().free()[free];
   const CalibrationParameter& p =
       problem_->parameters().all()[advice->parameter];
-  // Correlated residuals enlarge the std, those of new frames likewise.
+  // Correlated residuals enlarge the std, and they will enlarge that of new
+  // frames likewise.
   const double enlarged =
       found_.bounded_std[free] /
       (found_.unit[free] * std::sqrt(before(largest, largest)));
   const auto std = [&](double variance) {
-    // A variance that is only bounded, for want of data, is not known.
+    // A variance that has only the bound of BoundedCovariance is not known.
     if (variance > 0.01 / std::pow(Identifiability::kNull, 2)) {
       return std::numeric_limits<double>::infinity();
     }
@@ -330,7 +336,7 @@ std::vector<FrameAdvice> NextFrames::Best(
   std::vector<FrameAdvice> all;
   for (const Measured& measured : measured_) {
     const FrameAdvice best = BestWith(measured, direction);
-    double bar = 1;  // what fewer measurements do
+    double bar = 1;  // the ratio that fewer measurements reach
     for (const FrameAdvice& other : all) {
       const bool fewer =
           std::all_of(other.added.begin(), other.added.end(),
@@ -347,7 +353,7 @@ std::vector<FrameAdvice> NextFrames::Best(
     Judge(Information(candidate, advice.measured), direction, &advice);
     if (advice.ratio() <= kWorthwhile) all.push_back(advice);
   }
-  // Of two with the same effect, the one that asks for less comes first.
+  // If two have the same effect, the one that asks for less comes first.
   std::stable_sort(all.begin(), all.end(),
                    [](const FrameAdvice& a, const FrameAdvice& b) {
                      return a.std_after < 0.98 * b.std_after;
@@ -360,7 +366,8 @@ std::vector<FrameAdvice> NextFrames::Best(
   return all;
 }
 
-// The same data with the gains known: their rows and columns are left out.
+// Predicts the same data with known gains: the rows and columns of the gains
+// are left out.
 std::optional<FrameAdvice> NextFrames::KnownGains(
     const Eigen::VectorXd& direction) const {
   const CalibrationParameters& parameters = problem_->parameters();

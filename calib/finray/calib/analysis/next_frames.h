@@ -11,63 +11,63 @@
 
 namespace finray {
 
-/// Predicts what to record next. With S and P of the logs
-/// (Identifiability) and J the derivatives of the residuals of one more frame,
-/// predicted by the calibrated finger, its contact eliminated, n such frames
-/// leave
+/// Predicts what to record next. S and P are those of the logs
+/// (Identifiability). J holds the derivatives of the residuals of one more
+/// frame, which the calibrated finger predicts, with its contact eliminated. n
+/// such frames leave the covariance
 ///
 ///   C' = (S + P + n J'J)^-1.
 ///
-/// Candidates are frames at several heights and loads, at one height or spread
-/// over all, each with the measurements that the logs have and with those that
-/// they lack (force, object's centre, contact location), and free frames. They
-/// are judged by the std along a weak direction v, sqrt(v' C' v) against
-/// sqrt(v' C v).
+/// The candidates are free frames and contact frames at several heights and
+/// loads, all at one height or spread over all heights. Contact frames have the
+/// measurements of the logs, alone or with those that the logs lack (force,
+/// centre of the object, contact location). A candidate is judged by the std
+/// along a weak direction v: sqrt(v' C' v) against sqrt(v' C v).
 struct FrameAdvice {
   static constexpr int kFrames = 20;
 
   bool free = false;
-  /// No frames: the same logs with the gains known from elsewhere, where gains
-  /// and others move together.
+  /// The advice is not to record frames but to find the gains elsewhere, where
+  /// gains and other parameters move together.
   bool known_gains = false;
-  double contact_mm = 0;  ///< NaN: spread over heights
+  double contact_mm = 0;  ///< NaN if the frames spread over all heights.
   double normal_N = 0;
-  /// The measurements besides the gauges.
+  /// The measurements beside the gauges.
   std::vector<ResidualFamily> measured;
-  /// The ones that the logs do not have.
+  /// Those of them that the logs do not have.
   std::vector<ResidualFamily> added;
-  double std_before = 0, std_after = 0;  ///< along v, in units of the priors
-  /// The std of the parameter with the largest share in v, in its unit.
-  /// Infinite where the data say nothing and there is no prior.
-  int parameter = 0;  ///< index into CalibrationParameters::all()
+  double std_before = 0, std_after = 0;  ///< Along v, in units of the priors.
+  /// The std of the parameter with the largest share in v, in its unit. It is
+  /// infinite if the data say nothing and there is no prior.
+  int parameter = 0;  ///< Index into CalibrationParameters::all().
   double parameter_std_before = 0, parameter_std_after = 0;
   std::string words;
 
   double ratio() const { return std_after / std_before; }
 };
 
-/// The frames that were predicted, for advice on one direction after the other.
+/// Holds the predicted frames, for advice on one direction after the other.
 class NextFrames {
  public:
   NextFrames(CalibrationProblem* problem, const CalibrationSolution& solution,
              const Identifiability& found);
 
-  /// The best few, best first: for each set of measurements the best place and
-  /// load, as far as they shrink the std along `direction` (a unit vector over
-  /// the free parameters, in units of Identifiability) to 90 % or less. An
-  /// added measurement is named only if it helps more than the same frames
-  /// without it.
+  /// Returns the best few pieces of advice, the best one first. Each set of
+  /// measurements has its best place and load, if these shrink the std along
+  /// `direction` to 90 % or less. `direction` is a unit vector over the free
+  /// parameters, in units of Identifiability. An added measurement is named
+  /// only if it helps more than the same frames without it.
   std::vector<FrameAdvice> Best(const Eigen::VectorXd& direction) const;
 
   /// The direction that the data determine worst.
   Eigen::VectorXd WorstDirection() const;
 
  private:
-  // Rows of one predicted frame, by family.
+  // One predicted frame, with a row for each residual.
   struct Candidate {
     bool free;
     double contact_mm, normal_N;
-    std::vector<ResidualFamily> families;  // a row each
+    std::vector<ResidualFamily> families;  // one for each row
     Eigen::MatrixXd by_parameter;          // in units of Identifiability
     Eigen::Matrix<double, Eigen::Dynamic, 2> by_contact;
   };
@@ -97,8 +97,8 @@ class NextFrames {
   std::vector<Measured> measured_;
 };
 
-/// Advice on the worst direction; and the remedy of each weak direction, which
-/// is the first line of the advice on it.
+/// Returns the advice on the worst direction. Sets the remedy of each weak
+/// direction to the first line of the advice on it.
 std::vector<FrameAdvice> AdviseNextFrames(CalibrationProblem* problem,
                                           const CalibrationSolution& solution,
                                           Identifiability* found);

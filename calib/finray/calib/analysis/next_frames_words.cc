@@ -21,7 +21,7 @@ constexpr Measurement kMeasurements[] = {
     {ResidualFamily::kTip, "the tip", "tip_x_mm, tip_y_mm"},
 };
 
-// "the reference force (force_N)"
+// Returns words like "the reference force (force_N)".
 std::string Spoken(ResidualFamily family) {
   for (const Measurement& measurement : kMeasurements) {
     if (measurement.family != family) continue;
@@ -30,7 +30,8 @@ std::string Spoken(ResidualFamily family) {
   return ResidualFamilyName(family);
 }
 
-// "front stiffness": the name without its unit, which stands behind the number.
+// Returns words like "front stiffness": the name without its unit, which stands
+// behind the number.
 std::string Spoken(const CalibrationParameter& parameter) {
   std::string name = parameter.name;
   for (const char* suffix : {"_N_mm2", "_V_per_rad", "_V", "_mm"}) {

@@ -7,8 +7,8 @@
 
 namespace finray {
 
-/// E.g. "20 frames at 98 mm with 6 N would shrink the std of front stiffness
-/// from 12 % to 4 %".
+/// Says the advice in words, e.g. "20 frames at 98 mm with 6 N would shrink the
+/// std of front stiffness from 12 % to 4 %".
 std::string DescribeNextFrames(CalibrationProblem& problem,
                                const FrameAdvice& advice);
 

@@ -14,7 +14,8 @@
 namespace finray {
 namespace {
 
-constexpr std::size_t kLooked = 100;  // at so many frames
+// At most so many frames are looked at.
+constexpr std::size_t kLooked = 100;
 
 double Median(std::vector<double>* values) {
   const auto middle = values->begin() + static_cast<long>(values->size() / 2);
@@ -57,7 +58,7 @@ std::vector<Press> Presses(const std::vector<const CalibrationFrame*>& frames) {
   return presses;
 }
 
-// The range from the 10th to the 90th percentile.
+// Returns the range from the 10th to the 90th percentile.
 double Range(const std::vector<Press>& presses, double Press::*quantity) {
   std::vector<double> values;
   for (const Press& press : presses) values.push_back(press.*quantity);
@@ -65,11 +66,11 @@ double Range(const std::vector<Press>& presses, double Press::*quantity) {
   return values[values.size() * 9 / 10] - values[values.size() / 10];
 }
 
-// The correlation of force and x, about their means in each tenth of the height
-// of each log; 0 if x varies there by no more than a few std.
+// Returns the correlation of force and x about their means in each tenth of the
+// height of each log. Returns 0 if x varies there by no more than a few std.
 double CorrelationOfForceAndX(const std::vector<Press>& presses,
                               double height_mm, double object_std_mm) {
-  constexpr double kMove = 5;  // std
+  constexpr double kMove = 5;  // in std
   std::map<std::pair<int, int>, std::vector<Press>> tenths;
   for (const Press& press : presses) {
     const double tenth =
@@ -95,10 +96,11 @@ double CorrelationOfForceAndX(const std::vector<Press>& presses,
              : 0;
 }
 
-// These checks hold wherever the object's origin is.
+// Makes the checks that hold wherever the object's origin is.
 void RefuseImplausibleMotion(const std::vector<Press>& presses,
                              const Finger& finger, const Plan& plan) {
-  constexpr double kNoise = 10;  // in std: changes of force that mean something
+  // A smaller change of force, in std, means nothing.
+  constexpr double kNoise = 10;
   if (presses.size() < 10) return;
   const double change = Range(presses, &Press::force_N);
   if (change < kNoise * plan.force_std_N) return;

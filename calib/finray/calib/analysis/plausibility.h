@@ -5,18 +5,18 @@
 
 namespace finray {
 
-/// Refuses logs that cannot be of the given finger, before a solver spends
-/// minutes on them: wrong units, signs, columns or radii. Throws InputError
-/// where, over frames with contact,
+/// Refuses logs that cannot belong to the given finger, before a solver spends
+/// minutes on them. Such logs have wrong units, signs, columns or radii. Throws
+/// InputError if, over the frames with contact,
 ///  - the median force is not between kLeastForce and kMostForce, in EI /
 ///    l_0^2;
-///  - the object hardly moves while forces change: 10 to 90 % of them by more
-///    than kMostStiffness, in EI / l_0^3;
-///  - the force falls as the object moves in: their correlation, in each log
-///  and
-///    tenth of the finger's height, is below kLeastCorrelation;
-///  - fewer than half of the objects can touch the finger where they are, the
-///    object's origin being fixed;
+///  - the object hardly moves while forces change: the ratio of their ranges,
+///    from the 10th to the 90th percentile, is above kMostStiffness, in EI /
+///    l_0^3;
+///  - the force falls as the object moves in: their correlation in each log and
+///    tenth of the finger's height is below kLeastCorrelation;
+///  - fewer than half of the objects can touch the finger where they are, and
+///    the plan fixes the object's origin;
 ///  - the median force differs by more than kFactor from the force that these
 ///    objects need.
 void RefuseImplausible(CalibrationProblem* problem);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kLeastRows = 20;
 constexpr int kTestedLags = 10;
-constexpr double kWindow = 5;  // in units of tau
+constexpr double kWindow = 5;  // the window in units of tau
 
 double Gamma(const std::vector<std::vector<double>>& logs, int lag) {
   double sum = 0;
@@ -22,8 +22,8 @@ double Gamma(const std::vector<std::vector<double>>& logs, int lag) {
   return sum;
 }
 
-// The component of the k-th residual of a family in a frame. Pins may be hidden
-// in some rows, and are counted by rib, side and coordinate.
+// Returns the component of the k-th residual of a family in a frame. Pins may
+// be hidden in some rows, so they are counted by rib, side and coordinate.
 int Component(ResidualFamily family, const CalibrationFrame& frame, int k) {
   if (family != ResidualFamily::kPin) return k;
   const SeenPin& pin = frame.pins[k / 2];
@@ -76,11 +76,12 @@ ResidualCorrelation AnalyzeResidualCorrelation(const CalibrationLogs& all,
   result.enlargement.assign(n, 1);
   result.tau.assign(n, 1);
 
-  using Key = std::tuple<int, int, int, int>;  // of Series
+  using Key = std::tuple<int, int, int, int>;  // the fields of Series
   std::map<Key, std::vector<double>> series;
   const Eigen::MatrixXd covariance =
       BoundedCovariance(found.information + found.prior);
-  std::map<std::pair<int, int>, int> components;  // of a frame
+  // The number of residuals so far in the frame, by family and gauge.
+  std::map<std::pair<int, int>, int> components;
   for (std::size_t i = 0; i < at.rows.size(); ++i) {
     const ResidualInfo& row = at.rows[i];
     if (i == 0 || row.frame != at.rows[i - 1].frame) components.clear();

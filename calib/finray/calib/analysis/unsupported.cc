@@ -9,7 +9,7 @@
 namespace finray {
 namespace {
 
-// True if a fitted frame shows this offset without a load.
+// Says whether a fitted frame shows this offset without a load.
 bool HasUnloadedReading(CalibrationProblem& problem, const double* offset,
                         int gauge) {
   const auto& frames = problem.logs().frames;
@@ -27,7 +27,7 @@ bool HasUnloadedReading(CalibrationProblem& problem, const double* offset,
   return false;
 }
 
-// The median ratio of the gains to their initial values.
+// Returns the median ratio of the gains to their initial values.
 double UsualGain(const CalibrationParameters& parameters) {
   std::vector<double> ratios;
   for (const int i : parameters.free()) {
@@ -42,9 +42,9 @@ double UsualGain(const CalibrationParameters& parameters) {
   return *middle;
 }
 
-// `off`: x - m, `share`: s^2, both in units of s_p. Values scatter about a true
-// prior's mean by s_p^2 - s^2, and without it they would be further off by
-// (x - m) s^2 / (s_p^2 - s^2).
+// `off` is x - m and `share` is s^2, both in units of s_p. If the prior is
+// true, values scatter about its mean by s_p^2 - s^2. Without the prior they
+// would be further off by (x - m) s^2 / (s_p^2 - s^2).
 bool IsContradicted(double off, double share) {
   const double rest = 1 - share;
   if (rest < 1e-6) return false;  // the data say nothing

@@ -109,7 +109,8 @@ std::vector<FrameEstimate> EstimateLogs(const Finger& finger, const Plan& plan,
                                         const Discretization& discretization,
                                         int threads) {
   Scene scene = plan.scene;
-  // The other measurements are the reference.
+  // The other measurements are the reference, so the estimate does not use
+  // them.
   scene.object_std_mm = scene.pin_std_mm = scene.tip_std_mm = std::nullopt;
   std::vector<FrameEstimate> all;
   for (std::size_t i = 0; i < logs.frames.size();) {
@@ -118,7 +119,7 @@ std::vector<FrameEstimate> EstimateLogs(const Finger& finger, const Plan& plan,
          i < logs.frames.size() && logs.frames[i].log == log; ++i) {
       readings.emplace_back();
       readings.back().gauges_V = logs.frames[i].gauges_V;
-      if (logs.frames[i].IsBench()) {  // the finger has nothing to do with it
+      if (logs.frames[i].IsBench()) {  // the finger does not bend
         readings.back().gauges_V.assign(readings.back().gauges_V.size(), kNaN);
       }
     }
@@ -180,7 +181,7 @@ std::vector<GateResult> CheckGates(const Validation& validation,
                        "object_y_mm and a circle in the scene");
     }
     const double value = GateValue(validation.errors.contact, gate.quantity);
-    // NaN passes no gate.
+    // A value of NaN passes no gate.
     const bool passed =
         IsUpperBound(gate.quantity) ? value <= gate.bound : value >= gate.bound;
     results.push_back({gate, value, passed});

@@ -12,24 +12,27 @@
 
 namespace finray {
 
-/// The references of every frame, without its gauges:
-///  - force: the reference sensor, with the plan's force_std_N;
-///  - contact: `contact_1_mm`, or else where the front beam of `finger` touches
-///    the plan's circle held at the measured centre, if that is one place. A
-///    centre tells the place along the beam almost whatever the stiffness.
+/// Returns the references of every frame, without its gauges:
+///  - the force is that of the reference sensor, with the force_std_N of the
+///    plan;
+///  - the contact is `contact_1_mm`. If that is not measured, it is the place
+///    where the front beam of `finger` touches the circle of the plan, held at
+///    the measured centre, if there is one such place only. The centre tells
+///    the place along the beam almost whatever the stiffness.
 std::vector<FrameReference> ReferencesOf(const CalibrationLogs& logs,
                                          const Finger& finger, const Plan& plan,
                                          const Discretization& discretization,
                                          int threads);
 
-/// Estimates from the gauges alone, log by log.
+/// Estimates all frames from the gauges alone, log by log.
 std::vector<FrameEstimate> EstimateLogs(const Finger& finger, const Plan& plan,
                                         const CalibrationLogs& logs,
                                         const Discretization& discretization,
                                         int threads);
 
-/// Errors of the frames that `chosen` says; a frame's region is that of the
-/// reference contact, else of the contact in `placed`.
+/// Tabulates the errors of the frames for which `chosen` is true. The region of
+/// a frame is that of the reference contact, or else that of the contact in
+/// `placed`.
 template <class Chosen>
 ErrorTable TabulateErrors(const std::vector<FrameReference>& references,
                           const std::vector<FrameEstimate>& estimates,
@@ -47,15 +50,15 @@ ErrorTable TabulateErrors(const std::vector<FrameReference>& references,
   return table;
 }
 
-/// A finger held against logs that it was not calibrated from.
+/// Compares a finger with logs that it was not calibrated from.
 struct Validation {
   std::vector<FrameReference> references;
-  std::vector<FrameEstimate> estimates, baseline;  ///< baseline may be empty
+  std::vector<FrameEstimate> estimates, baseline;  ///< `baseline` may be empty.
   ErrorTable errors;
   std::optional<ErrorTable> baseline_errors;
 };
 
-/// Throws InputError if the logs have nothing to compare with.
+/// Throws InputError if the logs have no reference.
 Validation Validate(const Finger& finger, const std::optional<Finger>& baseline,
                     const Plan& plan, const CalibrationLogs& logs,
                     const Discretization& discretization, int threads);
@@ -73,29 +76,31 @@ struct Gate {
   Quantity quantity;
   double bound;
 };
-/// The name of its flag, e.g. "most_force_rms_N"; least_... are lower bounds.
+/// Returns the name of the flag of a gate, e.g. "most_force_rms_N". A name that
+/// begins with "least" is that of a lower bound.
 const char* GateName(Gate::Quantity quantity);
 
 struct GateResult {
   Gate gate;
-  double value;  ///< NaN, which fails, if no frame can be used
+  double value;  ///< NaN if no frame can be used; then it fails.
   bool passed;
 };
-/// Coverage is the lower one of force and contact. Throws InputError for a gate
-/// whose quantity the logs have no reference for.
+/// Checks the gates. Coverage is the lower one of force and contact. Throws
+/// InputError for a gate whose quantity has no reference in the logs.
 std::vector<GateResult> CheckGates(const Validation& validation,
                                    const std::vector<Gate>& gates);
 
-/// A row a frame of the finger, not of the bench: log, row, time, kind,
-/// reference, estimate with std, status, errors, and the baseline's.
+/// Returns a table with a row for each frame of the finger, without the bench:
+/// log, row, time, kind, reference, estimate with std, status, errors, and
+/// those of the baseline.
 FrameTable ValidationFrames(const CalibrationLogs& logs,
                             const Validation& validation, double friction);
 
 struct ValidationInputs {
-  std::string finger_path, baseline_path, plan_path;  ///< of plan or scene
+  std::string finger_path, baseline_path, plan_path;  ///< Plan or scene.
   std::string command;
 };
-/// The text of validation.yaml (docs/reference/formats.md).
+/// Returns the text of validation.yaml (docs/reference/formats.md).
 std::string ValidationYaml(const CalibrationLogs& logs,
                            const Validation& validation,
                            const std::vector<GateResult>& gates,

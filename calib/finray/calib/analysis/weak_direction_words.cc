@@ -10,7 +10,7 @@ namespace finray {
 
 void DescribeWeakDirection(CalibrationProblem& problem,
                            WeakDirection* direction) {
-  double by_family[kParameterFamilies] = {};  // sum of squared shares
+  double by_family[kParameterFamilies] = {};  // sums of squared shares
   double sign[kParameterFamilies] = {};
   bool one_sign[kParameterFamilies];
   std::fill(std::begin(one_sign), std::end(one_sign), true);

@@ -6,7 +6,7 @@ namespace finray {
 class CalibrationProblem;
 struct WeakDirection;
 
-/// A direction that is looked for by itself.
+/// The words of the direction that AddCommonGain looks for.
 constexpr char kGainsAgainstStiffness[] =
     "all gauge gains scale together against front and back stiffness";
 

@@ -18,19 +18,19 @@ namespace finray {
 /// that the plan frees.
 class CalibrationBlocks {
  public:
-  /// All three must stay in place.
+  /// All three arguments must stay in place.
   CalibrationBlocks(const Finger& finger, const Plan& plan,
                     CalibrationParameters* parameters);
 
-  /// True if the frame can be fitted at all: without a gauge, a contact's place
-  /// and force take two other measurements.
+  /// Says whether the frame can be fitted at all. Without a gauge, the place
+  /// and force of a contact need two other measurements.
   bool HasEnough(const CalibrationFrame& frame) const;
-  /// True if anything but the gauges measures the contact.
+  /// Says whether anything but the gauges measures the contact.
   bool HasReference(const CalibrationFrame& frame) const;
 
-  /// The blocks of a frame, which must stay in place, as must `evaluation` and
-  /// `unknowns` (of FrameEvaluation; null if there are none). On the bench
-  /// there is no evaluation.
+  /// Returns the blocks of a frame. The frame, `evaluation` and `unknowns`
+  /// (those of FrameEvaluation, null if there are none) must stay in place. A
+  /// row of the bench has no evaluation.
   std::vector<FrameBlock> Of(const CalibrationFrame& frame,
                              const FrameEvaluation* evaluation,
                              double* unknowns) const;
@@ -41,11 +41,12 @@ class CalibrationBlocks {
   const Finger& finger_;
   CalibrationParameters& parameters_;
   MeasurementModel model_;
-  // A free frame's force tells the sensor's offset and nothing else.
+  // The force of a free frame tells the offset of the sensor and nothing else.
   MeasurementModel free_model_;
 };
 
-/// The plan's robust loss, which acts on measurements only; null for none.
+/// Makes the plan's robust loss, which acts on measurements only. Returns null
+/// if the plan has none.
 std::unique_ptr<ceres::LossFunction> MakeLoss(const Plan& plan);
 
 }  // namespace finray

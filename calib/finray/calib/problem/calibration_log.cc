@@ -17,14 +17,15 @@ namespace finray {
 namespace {
 
 constexpr double kSignificant = 3;  // standard deviations
-// Blocks of neighbouring frames are held out, because neighbours share errors.
+// Whole blocks of neighbouring frames are held out, because neighbours share
+// errors.
 constexpr int kHoldoutBlock = 10;
 constexpr double kLargest = 1e15;
 
-// True if the object reaches into the undeformed finger.
+// Says whether the object reaches into the undeformed finger.
 bool Reaches(const CalibrationFrame& frame, const Finger& finger,
              const Plan& plan) {
-  // Depth past the undeformed front beam, which lies on x = 0.
+  // The depth counts from the undeformed front beam, which lies on x = 0.
   const double nearest_y =
       std::clamp(frame.object_mm.y(), 0.0, finger.front_length_mm);
   const double over = frame.object_mm.y() - nearest_y;
@@ -54,13 +55,14 @@ bool Touches(const CalibrationFrame& frame, const Finger& finger,
 
 void MarkHoldout(const Plan& plan, CalibrationLogs* logs) {
   if (plan.holdout_by == HoldoutBy::kNothing) return;
-  // Chooses the fraction of n logs or blocks, rounded, evenly spread.
+  // Says whether log or block i of n is held out. The chosen ones are the
+  // plan's fraction of n, rounded and evenly spread.
   const auto chosen = [&](int i, int n) {
     const int count = std::clamp(
         static_cast<int>(std::lround(plan.holdout_fraction * n)), 1, n - 1);
     return (i + 1) * count / n > i * count / n;
   };
-  // Logs of gauges on the bench are always fitted.
+  // Logs of the bench are always fitted.
   if (plan.holdout_by == HoldoutBy::kLog) {
     std::map<int, int> of_finger;  // their place among the logs of the finger
     for (const CalibrationFrame& frame : logs->frames) {
@@ -99,7 +101,7 @@ void MarkHoldout(const Plan& plan, CalibrationLogs* logs) {
   }
 }
 
-// The shortest part of each path that differs from all others.
+// Returns the shortest part of each path that differs from all others.
 std::vector<std::string> NamesOf(const std::vector<std::string>& paths) {
   std::vector<std::string> names;
   for (const std::string& path : paths) {
@@ -131,8 +133,8 @@ void RefuseHuge(const FrameTable& table, const std::string& column,
   }
 }
 
-// A column that a free parameter needs; cells without a number have that of
-// the row before, leading ones that of the first with one.
+// Reads a column that a free parameter needs. A cell without a number gets the
+// number of the row before. Cells before the first number get that one.
 std::vector<double> Needed(const FrameTable& table, const char* column,
                            const char* parameter) {
   if (!table.Has(column)) {
@@ -192,7 +194,7 @@ void RefuseWithoutPoints(const Plan& plan, const CalibrationLogs& logs) {
   }
 }
 
-// On the bench every row has a cylinder.
+// Every row of a bench log has a cylinder.
 bool IsBenchLog(const FrameTable& table) {
   const std::vector<double> radii = table.NumbersOrNan("cylinder_radius_mm");
   for (std::size_t row = 0; row < radii.size(); ++row) {
@@ -218,8 +220,8 @@ void RefuseHugeCells(const FrameTable& table, int gauges) {
   }
 }
 
-// The rows of one log. A log of pins may do without gauges, but not without one
-// of them; on the bench gauges are bent one by one.
+// Reads the rows of one log. A log with pins may lack all gauges, but not only
+// some. A bench log may lack some, because its gauges are bent one by one.
 std::vector<CalibrationFrame> ReadLog(const FrameTable& table,
                                       const Finger& finger, const Plan& plan) {
   const bool bench = IsBenchLog(table);

@@ -12,43 +12,47 @@
 
 namespace finray {
 
-/// One row of a log. A saturated gauge reads NaN; pins and tip are there only
-/// where the plan gives their std.
+/// One row of a log. A saturated gauge reads NaN. Pins and tip are filled in
+/// only if the plan gives their std.
 struct CalibrationFrame : Measurements {
-  int log = 0;            ///< which log
-  int row = 0;            ///< which of its rows, from 0
-  bool contact = false;   ///< The finger touches the object. If not, this is a
-                          ///< free frame or a row of the bench.
-  bool held_out = false;  ///< kept from the fit
+  int log = 0;  ///< Index of the log.
+  int row = 0;  ///< Index of the row in its log.
+  /// The finger touches the object. If not, this is a free frame or a row of
+  /// the bench.
+  bool contact = false;
+  bool held_out = false;  ///< The fit does not use the frame.
 };
 
 /// All logs of a calibration.
 struct CalibrationLogs {
   std::vector<std::string> paths;
-  /// Their file names, or as much more of the paths as tells them apart.
+  /// File names of the logs. If two are the same, they get as much more of
+  /// their paths as tells them apart.
   std::vector<std::string> names;
   std::vector<CalibrationFrame> frames;
 
-  /// By log, whether every row of it is held out.
+  /// Says for each log whether all its rows are held out.
   std::vector<bool> HeldOut() const;
 };
 
-/// Reads the logs and decides, row by row, whether the finger touches:
-///  - where a reference force was measured, by its being above 3 std;
-///  - else where the object's centre was, by its reaching into the undeformed
-///    finger by more than 3 std;
-///  - else by a contact location being there;
-///  - else yes.
-/// With an unknown offset of the force sensor the object comes first, and the
-/// force counts from 3 times what its std and the offset's prior leave
-/// together. The scene's `contacts: 0` or `1` overrides all that.
+/// Reads the logs and decides row by row whether the finger touches. The first
+/// of these measurements that the row has decides:
+///  - a reference force: the finger touches if the force is above 3 std;
+///  - the centre of the object: it touches if the object reaches into the
+///    undeformed finger by more than 3 std;
+///  - a contact location: it touches.
 ///
-/// Rows with a cylinder_radius_mm are of the bench. A row without time or
-/// temperature, where the plan needs it, has that of the row before: both are
-/// slow. Marks the held-out frames. Throws InputError for a missing gauge
-/// column (a log with none at all may have pins instead), for a parameter that
-/// is free without the column that it needs, and for logs with too little in
-/// them to hold anything out.
+/// A row with none of them counts as touching. If the offset of the force
+/// sensor is unknown, the object comes first, and the force must exceed 3 times
+/// the std that its noise and the prior of the offset have together. The
+/// scene's `contacts: 0` or `1` overrides all that.
+///
+/// A row with a cylinder_radius_mm belongs to the bench. If the plan needs a
+/// time or a temperature that a row lacks, the row gets that of the row before;
+/// both change slowly. The function marks the held-out frames. It throws
+/// InputError for a missing gauge column (a log without any may have pins
+/// instead), for a free parameter whose column is missing, and for logs that
+/// are too short to hold anything out.
 CalibrationLogs ReadCalibrationLogs(const std::vector<std::string>& paths,
                                     const Finger& finger, const Plan& plan);
 

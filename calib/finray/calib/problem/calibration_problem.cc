@@ -40,8 +40,8 @@ CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
 }
 
 void CalibrationProblem::FindCandidates() {
-  // Without any reference, contacts can be anywhere that suits the gauges, and
-  // the solver finds nothing but that.
+  // Without any reference, contacts go wherever they suit the gauges, and the
+  // solver finds nothing else.
   const bool reference = std::any_of(
       logs().frames.begin(), logs().frames.end(), [&](const auto& frame) {
         return frame.contact && !frame.held_out && blocks_.HasReference(frame);
@@ -84,8 +84,9 @@ std::vector<int> CalibrationProblem::FittedFrames() const {
   return fitted;
 }
 
-// Kinds are apart so that none is missed by a stride that agrees with the log's
-// own. Rejected frames are left out, not replaced by others that nobody judged.
+// Each kind of frame has a stride of its own. One stride over all could agree
+// with a period of the log and miss a kind. A rejected frame is left out. No
+// other frame replaces it, because nobody has judged that one.
 std::vector<int> CalibrationProblem::SpreadFrames(std::size_t most) const {
   constexpr std::size_t kLeastOfKind = 50;
   std::map<std::pair<int, int>, std::vector<int>> kinds;

@@ -15,49 +15,54 @@
 
 namespace finray {
 
-/// The least-squares problem of a calibration: the logs, the parameters at
-/// their present values, and which frames are fitted. Its cost is, over the
-/// fitted frames, what CalibrationBlocks makes of them in units of their std,
-/// plus the priors. Unknowns are the free parameters here and the contacts of
-/// the frames in a ContactStore; solve/ finds them.
+/// The least-squares problem of a calibration: the logs, the present values of
+/// the parameters, and which frames are fitted. Its cost is the cost of the
+/// residual blocks that CalibrationBlocks makes for the fitted frames, plus
+/// that of the priors. The unknowns are the free parameters, which are here,
+/// and the contacts of the frames, which a ContactStore holds. The code in
+/// solve/ finds both.
 class CalibrationProblem {
  public:
-  /// Throws InputError where no parameter is free or no frame can be fitted.
+  /// Throws InputError if no parameter is free or no frame can be fitted.
   CalibrationProblem(const Finger& finger, const Plan& plan,
                      CalibrationLogs logs, const Discretization& discretization,
                      int threads);
   CalibrationProblem(const CalibrationProblem&) = delete;
 
-  /// The problem of these frames alone, at the present values. It shares the
-  /// logs and has parameters of its own, so that several parts can be solved at
-  /// the same time.
+  /// Returns the problem of these frames alone, at the present values. It
+  /// shares the logs and has parameters of its own, so several parts can be
+  /// solved at the same time.
   std::unique_ptr<CalibrationProblem> Part(const std::vector<int>& frames,
                                            int threads) const;
 
-  /// The frames that the model and the plan allow to fit; the fitted ones are
-  /// those that are not rejected.
+  /// The frames that the model and the plan allow to fit. The fitted frames are
+  /// those of them that are not rejected.
   const std::vector<int>& candidates() const { return candidates_; }
   std::vector<int> FittedFrames() const;
-  /// Some `most` fitted frames, evenly from every log; contact frames, free
-  /// frames and rows of the bench apart, at least 50 of each where there are.
+  /// Chooses about `most` fitted frames, evenly from every log. It chooses
+  /// contact frames, free frames and rows of the bench separately, at least 50
+  /// of each kind if there are so many.
   std::vector<int> SpreadFrames(std::size_t most) const;
 
-  /// Leaves these frames out, and the impossible ones; all others are fitted.
+  /// Rejects these frames and the impossible ones. All other candidates are
+  /// fitted.
   void SetRejected(std::map<int, std::string> reasons);
   const std::map<int, std::string>& rejected() const { return rejected_; }
-  /// Frames with a force above kImpossibleForce, in EI / l_0^2. No finger bends
-  /// so far, and no start is so wrong; a solve with them would take minutes.
+  /// Frames with a force above kImpossibleForce, in units of EI / l_0^2. No
+  /// finger bends so far, and no start is so wrong. A solve with them would
+  /// take minutes.
   const std::map<int, std::string>& impossible() const { return impossible_; }
   static constexpr double kImpossibleForce = 2000;
 
-  /// Contact frames have no reference at all, and are therefore not fitted.
+  /// Says that no contact frame has a reference. Contact frames are then not
+  /// fitted.
   bool gauges_only() const { return gauges_only_; }
 
-  /// The free parameters.
+  /// The values of the free parameters.
   Eigen::VectorXd Values() const;
   void SetValues(const Eigen::VectorXd& values);
-  /// Takes stiffness, gains and rib lengths from `start`, and offsets, unless
-  /// they are fixed, from the free frames. Priors stay.
+  /// Sets stiffness, gains and rib lengths to those of `start`, and offsets to
+  /// the readings of the free frames unless the plan fixes them. Priors stay.
   void StartFrom(const Finger& start);
 
   CalibrationParameters& parameters() { return parameters_; }
@@ -71,7 +76,7 @@ class CalibrationProblem {
   int threads() const { return threads_; }
 
  private:
-  // Without candidates.
+  // Makes a problem without candidates.
   CalibrationProblem(const Finger& finger, const Plan& plan,
                      std::shared_ptr<const CalibrationLogs> logs,
                      const Discretization& discretization, int threads);

@@ -47,7 +47,7 @@ void ZeroHeldOutLogs(CalibrationProblem* problem) {
   for (int log = 0; last >= 0 && log < static_cast<int>(held_out.size());
        ++log) {
     if (!held_out[log]) continue;
-    // Without a free frame nothing better is known.
+    // A log without a free frame keeps these values.
     for (int j = 0; j < static_cast<int>(problem->finger().gauges.size());
          ++j) {
       *parameters.readings.offset_V(j, log) =
@@ -57,7 +57,7 @@ void ZeroHeldOutLogs(CalibrationProblem* problem) {
                 parameters.object_origin_mm(log));
   }
   if (!problem->plan().family(ParameterFamily::kGaugeOffset).per_log) return;
-  // Ribs that are not as drawn bend the finger without load.
+  // Ribs of other than nominal length bend the finger without load.
   EquilibriumSolver free(parameters.Apply(problem->finger()),
                          problem->discretization());
   if (!free.Solve({})) return;

@@ -8,14 +8,14 @@ namespace finray {
 
 class CalibrationProblem;
 
-/// Sets each offset to the mean of what its gauge reads in free frames.
+/// Sets each offset to the mean reading of its gauge in free frames.
 void GuessOffsets(const CalibrationLogs& logs,
                   CalibrationParameters* parameters);
 
-/// Where offsets or origins are per log, gives the logs that are held out as a
-/// whole those of the last log that was fitted, and then the offsets that their
-/// free frames show of the finger as it is now: a lab zeroes its gauges too. To
-/// be called after a solve.
+/// Gives parameters of their own to logs that are held out as a whole, if
+/// offsets or origins are per log. They get the values of the last log that was
+/// fitted. Their free frames then correct the offsets, with the finger as it is
+/// now: a lab zeroes its gauges too. Call it after a solve.
 void ZeroHeldOutLogs(CalibrationProblem* problem);
 
 }  // namespace finray

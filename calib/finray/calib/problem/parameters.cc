@@ -14,7 +14,7 @@ std::string GaugeName(int gauge, const std::string& rest) {
   return "gauge_" + std::to_string(gauge + 1) + "_" + rest;
 }
 
-// A parameter that belongs to the logs, in a block of its own.
+// Makes a parameter that belongs to the logs, in a block of its own.
 CalibrationParameter OfLogs(ParameterFamily family, std::string name,
                             const char* unit, double* variable,
                             double scale = 1) {
@@ -27,7 +27,7 @@ CalibrationParameter OfLogs(ParameterFamily family, std::string name,
   return parameter;
 }
 
-// The x or y of a pair that is one block.
+// Makes the x or y parameter of a pair that is one block.
 CalibrationParameter OfAxis(ParameterFamily family, const std::string& name,
                             const std::string& unit, double* pair, int axis,
                             double scale) {
@@ -38,8 +38,8 @@ CalibrationParameter OfAxis(ParameterFamily family, const std::string& name,
   return parameter;
 }
 
-// The last log with rows of the finger that are not held out; the last on the
-// bench if there is none.
+// Returns the last log in which a row of the finger is not held out, or the
+// last one of the bench if there is none.
 int LastFitted(const CalibrationLogs& logs) {
   int finger = -1, bench = -1;
   for (const CalibrationFrame& frame : logs.frames) {
@@ -50,8 +50,7 @@ int LastFitted(const CalibrationLogs& logs) {
   return finger >= 0 ? finger : bench;
 }
 
-// True if a fitted log has readings of a gauge, or (below) shows where
-// object positions are counted from.
+// Says whether a fitted frame of the log has a reading of the gauge.
 bool Reads(const CalibrationLogs& logs, int log, int gauge) {
   return std::any_of(logs.frames.begin(), logs.frames.end(),
                      [&](const CalibrationFrame& frame) {
@@ -60,6 +59,8 @@ bool Reads(const CalibrationLogs& logs, int log, int gauge) {
                      });
 }
 
+// Says whether a fitted frame of the log has the place of the object, which
+// shows the origin of object positions.
 bool HasObject(const CalibrationLogs& logs, int log) {
   return std::any_of(logs.frames.begin(), logs.frames.end(),
                      [&](const CalibrationFrame& frame) {
@@ -68,8 +69,8 @@ bool HasObject(const CalibrationLogs& logs, int log) {
                      });
 }
 
-// A prior's std that a lab would call a guess. Drift and temperature
-// are small, and zero is a good guess.
+// Returns the std at which a lab would call a prior a guess. Drift and
+// temperature coefficients are small, so that zero is a good guess for them.
 double VagueStd(const CalibrationParameter& parameter) {
   switch (parameter.family) {
     case ParameterFamily::kFrontStiffness:
@@ -314,7 +315,8 @@ Eigen::VectorXd CalibrationParameters::PriorInformation() const {
 
 Finger CalibrationParameters::Apply(const Finger& finger) const {
   Finger calibrated = finger;
-  // exp(ln x) is not x: what was not varied keeps its digits.
+  // exp(ln x) is not exactly x, so a fixed parameter keeps the digits that it
+  // has.
   for (const int i : free_) {
     const CalibrationParameter& parameter = all_[i];
     if (!parameter.of_finger) continue;

@@ -14,31 +14,32 @@
 
 namespace finray {
 
-/// One number that a calibration may vary. Stiffness and the force sensor's
-/// scale are positive, and their logarithms are varied (`is_log`). Gains are
-/// varied as they are: readings are linear in them, so that a start wrong by
-/// any factor is one step away; their sign depends on the wiring, and the gain
-/// of a dead gauge is zero.
+/// One number that a calibration may vary. Stiffness and the scale of the force
+/// sensor are positive, so their logarithms are varied (`is_log`). Gains are
+/// varied as they are. Readings are linear in gains, so a start that is wrong
+/// by any factor is one step away. The sign of a gain depends on the wiring,
+/// and the gain of a dead gauge is zero.
 struct CalibrationParameter {
-  std::string name;  ///< as in calibration.yaml, e.g. "rib_2_length_mm"
+  std::string name;  ///< As in calibration.yaml, e.g. "rib_2_length_mm".
   std::string unit;
   ParameterFamily family;
-  /// The parameter of the finger that it is; empty if it belongs to logs.
+  /// The parameter of the finger that this is; empty if it belongs to logs.
   std::optional<FingerParameter> of_finger;
-  double* variable;  ///< where the solver finds it
-  double* block;     ///< the first of the variables that the solver has as one
+  double* variable;  ///< The solver finds the variable here.
+  double* block;     ///< The first variable of the solver's parameter block.
   bool is_log = false;
   bool free = false;
-  int gauge = -1;                   ///< of gains and offsets
-  double initial = 0;               ///< where the variable starts
-  std::optional<double> prior_std;  ///< of the variable
-  /// A change that would matter, for scaling where there is no prior.
+  int gauge = -1;      ///< The gauge of a gain or an offset.
+  double initial = 0;  ///< The start of the variable, and the prior's mean.
+  std::optional<double> prior_std;  ///< Std of the variable in the prior.
+  /// A change of the variable that matters. It is the unit where there is no
+  /// prior.
   double scale = 1;
-  /// A prior wider than this is a guess: where the data say less than such a
-  /// one, the parameter is not known.
+  /// A prior with a larger std is only a guess. If the data say less than such
+  /// a prior, the parameter is not known.
   double vague_std = 0;
 
-  /// The user's number for a variable and the other way round.
+  /// Convert a variable and its std to the number that the user sees.
   double Value(double at) const;
   double ValueStd(double at, double std) const;
 };
@@ -53,14 +54,14 @@ class CalibrationParameters {
   SharedParameters shared;
   std::vector<double> gains_V_per_rad;
   ReadingTerms readings;
-  /// The force sensor reads F = scale f + offset; offsets of the magnitude and
-  /// of the components.
+  /// The force sensor reads F = scale f + offset. The magnitude has one offset,
+  /// and each component has one.
   double ln_force_scale = 0;
   double force_offset_N = 0, force_offset_xy_N[2] = {0, 0};
-  /// Where positions of rib pins and the tip are counted from.
+  /// Positions of rib pins and the tip count from here.
   double camera_origin_mm[2] = {0, 0};
 
-  /// Where a log's object positions are counted from.
+  /// Object positions of a log count from here.
   double* object_origin_mm(int log) {
     return origins_mm_[origin_per_log_ ? log : 0].data();
   }
@@ -68,32 +69,33 @@ class CalibrationParameters {
   /// The parameters that a frame's blocks depend on.
   FrameParameters Of(const CalibrationFrame& frame);
 
-  /// The log whose offsets the finger has where they are per log.
+  /// The log whose offsets the finger gets if offsets are per log: the last
+  /// fitted log with rows of the finger, or of the bench if there is none.
   int last_fitted_log() const { return last_fitted_; }
 
-  /// In the order of calibration.yaml: those of the finger and the origin, free
-  /// or not, then others that are free.
+  /// All parameters in the order of calibration.yaml: first those of the finger
+  /// and the origin, free or not, then all others that are free.
   const std::vector<CalibrationParameter>& all() const { return all_; }
-  /// Indices into all() of the free ones.
+  /// Indices of the free parameters in all().
   const std::vector<int>& free() const { return free_; }
-  /// The k-th free one.
+  /// The k-th free parameter.
   const CalibrationParameter& FreeParameter(std::size_t k) const {
     return all_[free_[k]];
   }
 
-  /// By free one: the prior's std, or the scale where there is none.
+  /// The unit of each free parameter: the std of its prior, or its scale if it
+  /// has none.
   Eigen::VectorXd Units() const;
-  /// By free one: 1 / std^2 of the prior, 0 where there is none.
+  /// 1 / std^2 of the prior of each free parameter, 0 if it has none.
   Eigen::VectorXd PriorInformation() const;
 
-  /// The finger that the present values describe. Where offsets are per log it
-  /// has those of the last log that was fitted, of the finger if there is one,
-  /// else of the bench.
+  /// Returns the finger with the present values. If offsets are per log, it
+  /// gets those of last_fitted_log().
   Finger Apply(const Finger& finger) const;
 
-  /// The logs as they would be of a finger with `calibrated`'s offsets, without
-  /// drift, at the reference temperature, with a true force sensor and all
-  /// positions in frame S.
+  /// Returns the logs as a perfect setup would have recorded them: with the
+  /// offsets of `calibrated`, without drift, at the reference temperature, with
+  /// a true force sensor, and with all positions in frame S.
   CalibrationLogs Corrected(const CalibrationLogs& logs,
                             const Finger& calibrated);
 
@@ -111,8 +113,8 @@ class CalibrationParameters {
   void Add(const Plan& plan, CalibrationParameter parameter,
            bool held_out = false);
 
-  std::vector<bool> held_out_;  // by log: every row is
-  int last_fitted_;             // the log whose offsets the finger has
+  std::vector<bool> held_out_;  // by log: whether all its rows are held out
+  int last_fitted_;
   bool origin_per_log_;
   std::vector<std::array<double, 2>> origins_mm_;
   std::vector<CalibrationParameter> all_;

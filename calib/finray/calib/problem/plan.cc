@@ -11,7 +11,7 @@ struct FamilyKey {
   const char* prior_key;
   bool may_be_per_log = false;
 };
-// In the order of ParameterFamily.
+// The keys stand in the order of ParameterFamily.
 constexpr FamilyKey kFamilyKeys[kParameterFamilies] = {
     {"front_stiffness", "prior_std_percent"},
     {"back_stiffness", "prior_std_percent"},
@@ -27,7 +27,7 @@ constexpr FamilyKey kFamilyKeys[kParameterFamilies] = {
 };
 constexpr char kWalk[] = "walk_std_V_per_sqrt_h", kKnots[] = "knot_every_s";
 
-// The keys of a family beside `fixed` and its prior.
+// Returns the keys of a family beside `fixed` and its prior.
 std::vector<std::string> OwnKeys(ParameterFamily family) {
   if (kFamilyKeys[static_cast<int>(family)].may_be_per_log) {
     return {"per_log"};
@@ -91,7 +91,8 @@ void ReadParameters(const YamlMap& yaml, Plan* plan) {
 Scene ReadPlanScene(const YamlMap& yaml) {
   if (!yaml.Has("scene")) return {};
   if (yaml.IsMap("scene")) return ReadScene(yaml.Map("scene"));
-  // The path is relative to the plan, so that a folder of both can be moved.
+  // The path counts from the folder of the plan, so that a folder with both
+  // files can be moved.
   const std::filesystem::path scene = yaml.Text("scene");
   return ReadScene(
       (std::filesystem::path(yaml.path()).parent_path() / scene).string());

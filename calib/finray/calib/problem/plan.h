@@ -11,10 +11,10 @@
 
 namespace finray {
 
-/// Kinds of parameters a calibration may vary: a finger's, by their own
-/// numbers, and those of the logs: where the object's positions are counted
-/// from, what the force sensor and the gauges add, where the camera counts
-/// from.
+/// The kinds of parameters that a calibration may vary. The first ones belong
+/// to the finger and have the numbers of FingerParameterKind. The others belong
+/// to the logs: the origin of object positions, the terms that the force sensor
+/// and the gauges add, and the origin of camera positions.
 enum class ParameterFamily {
   kFrontStiffness = static_cast<int>(FingerParameterKind::kFrontStiffness),
   kBackStiffness = static_cast<int>(FingerParameterKind::kBackStiffness),
@@ -30,18 +30,19 @@ enum class ParameterFamily {
 };
 constexpr int kParameterFamilies = kFingerParameterKinds + 6;
 
-/// Says if a family is varied, and its prior.
+/// Says whether a family is varied, and its prior.
 struct FamilyPlan {
   bool free = false;
-  /// In percent of the initial value for stiffness, gains and the force scale,
-  /// else in the unit that the plan's key names; empty: no prior.
+  /// Std of the prior; empty if there is none. It is in percent of the initial
+  /// value for stiffness, gains and the force scale, else in the unit that the
+  /// key of the plan names.
   std::optional<double> prior_std;
-  /// A value for each log instead of one for all.
+  /// Each log has a value of its own.
   bool per_log = false;
 };
 
-/// An offset that wanders: linear between knots, each log beginning with one,
-/// and from knot to knot a change of this std.
+/// An offset that wanders. It is linear between knots, and each log begins with
+/// a knot. The change from knot to knot has this std.
 struct GaugeWalk {
   double std_V_per_sqrt_h;
   double knot_every_s;
@@ -50,23 +51,23 @@ struct GaugeWalk {
 enum class RobustLoss { kNone, kHuber, kCauchy };
 enum class HoldoutBy { kNothing, kLog, kBlock };
 
-/// A plan YAML: what to calibrate, from which measurements.
+/// A plan YAML: what to calibrate, and from which measurements.
 struct Plan {
   Scene scene;
   std::array<FamilyPlan, kParameterFamilies> families;
-  /// How gauges drift if they do; empty: at a constant rate.
+  /// How gauges drift if the plan says that they do; empty: at a constant rate.
   std::optional<GaugeWalk> gauge_walk;
-  /// Where the temperature coefficient counts from.
+  /// The temperature coefficient counts from here.
   double reference_temperature_C = 20;
   double force_std_N = 0.02;
-  std::optional<double> gauge_std_V;  ///< else each gauge's noise_V.
+  std::optional<double> gauge_std_V;  ///< Empty: noise_V of each gauge.
   double object_std_mm = 0.05;
   double contact_std_mm = 0.3;
-  /// Empty: columns of rib pins, or of the tip, are no measurements. Simulated
-  /// and estimated tables have them computed.
+  /// If empty, the columns of rib pins, or of the tip, are no measurements:
+  /// simulated and estimated tables hold computed ones.
   std::optional<double> pin_std_mm, tip_std_mm;
   RobustLoss loss = RobustLoss::kNone;
-  double loss_scale = 2;  ///< in standard deviations.
+  double loss_scale = 2;  ///< In standard deviations.
   HoldoutBy holdout_by = HoldoutBy::kNothing;
   double holdout_fraction = 0.2;
   std::map<std::string, std::string> columns;

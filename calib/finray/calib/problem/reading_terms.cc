@@ -10,7 +10,8 @@ namespace finray {
 namespace {
 
 constexpr double kSecondsPerHour = 3600;
-// Steps of one gauge in one log. More would mean a parameter for a few frames.
+// The largest number of steps of a gauge in a log. More would mean a parameter
+// for a few frames.
 constexpr int kMostSteps = 100;
 
 }  // namespace

@@ -12,32 +12,35 @@
 
 namespace finray {
 
-/// The terms of a reading beside gain * angle, with what the plan frees:
+/// The terms that a reading has beside gain * angle, as far as the plan frees
+/// them:
 ///
 ///   offset + drift + kappa (T - T_ref).
 ///
-/// The offset is one for all logs, or one for each. The drift is either a rate
-/// times the time since t_0, the log's first row if it has an offset of its own
-/// and else the earliest row of all logs; or a walk, linear between knots that
-/// are equally far apart from the log's first row to its last:
+/// There is one offset for all logs or one for each. The offset is the reading
+/// of an unbent gauge at t_0 and T_ref. The drift is either a rate or a walk. A
+/// rate multiplies the time since t_0. t_0 is the first row of the log if each
+/// log has an offset, else the earliest row of all logs. A walk is linear
+/// between knots, which are equally far apart from the first row of the log to
+/// its last:
 ///
 ///   sum_k z_k clamp((t - t_(k-1)) / (t_k - t_(k-1)), 0, 1).
 ///
-/// The offset is what an unbent gauge reads at t_0 and T_ref. Rows on the bench
-/// do not drift, and count as at T_ref if no temperature was recorded there.
+/// Rows of the bench do not drift. They count as recorded at T_ref if they have
+/// no temperature.
 class ReadingTerms {
  public:
-  /// Throws InputError for a walk of too many knots.
+  /// Throws InputError if a walk has too many knots.
   ReadingTerms(const Finger& finger, const Plan& plan,
                const CalibrationLogs& logs);
   ReadingTerms(const ReadingTerms&) = delete;
 
-  /// The offset first, then what else there is in this frame.
+  /// Returns the terms of a frame, the offset first.
   std::vector<ReadingTerm> Of(const CalibrationFrame& frame, int gauge);
-  /// Their sum at the present values.
+  /// Returns the sum of these terms at the present values.
   double Sum(const CalibrationFrame& frame, int gauge);
 
-  /// `log` counts only where offsets are per log.
+  /// `log` matters only if offsets are per log.
   double* offset_V(int gauge, int log) {
     return &offsets_V_[per_log_ ? log * gauges_ + gauge : gauge];
   }
@@ -45,12 +48,13 @@ class ReadingTerms {
   double* temperature_coefficient_V_per_C(int gauge) {
     return &temperature_V_per_C_[gauge];
   }
-  /// Changes from knot to knot; none in logs that are held out as a whole.
+  /// The number of changes from knot to knot. A log that is held out as a whole
+  /// has none.
   int walk_steps(int log) const { return spans_[log].steps; }
   double* walk_step_V(int gauge, int log, int step) {
     return &walks_V_[log][gauge * spans_[log].steps + step];
   }
-  /// The prior's std of these.
+  /// The std of such a change in the prior.
   double walk_step_std_V(int log) const;
 
  private:

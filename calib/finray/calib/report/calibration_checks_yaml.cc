@@ -71,7 +71,7 @@ void EmitNext(CalibrationProblem& problem,
                                  : "contact_frames");
     if (!advice.known_gains) YamlPair(yaml, "frames", FrameAdvice::kFrames);
     if (!advice.known_gains && !advice.free) {
-      // NaN: spread over the finger.
+      // NaN means that the frames spread over the finger.
       EmitPairs(yaml, "contact_mm", advice.contact_mm, "normal_N",
                 advice.normal_N);
     }

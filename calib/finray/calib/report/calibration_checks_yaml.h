@@ -6,8 +6,8 @@
 
 namespace finray {
 
-/// The keys errors, residual_correlation, leave_one_log_out and next of
-/// calibration.yaml, into a mapping that has been begun.
+/// Emits the keys errors, residual_correlation, leave_one_log_out and next of
+/// calibration.yaml into a mapping that has begun.
 void EmitChecks(CalibrationProblem& problem, const CalibrationResult& result,
                 YamlEmitter* yaml);
 

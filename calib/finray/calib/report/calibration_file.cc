@@ -11,7 +11,7 @@
 namespace finray {
 namespace {
 
-// A std; .inf where nothing determines the parameter.
+// Reads a std, which is .inf if nothing determines the parameter.
 double StdOf(const YamlMap& yaml) {
   const std::string text = yaml.Text("std");
   if (text == ".inf") return std::numeric_limits<double>::infinity();

@@ -9,33 +9,33 @@
 
 namespace finray {
 
-/// The parameters of a calibration.yaml and the finger beside it.
+/// The parameters of a calibration.yaml, and the finger beside it.
 struct CalibrationFile {
   struct Parameter {
     std::string name, unit;
     double value;
-    double std;  ///< infinite: not determined; 0: fixed
+    double std;  ///< Infinite if not determined, 0 if fixed.
     bool fixed;
   };
-  std::string path;  ///< of calibration.yaml
+  std::string path;  ///< The path of calibration.yaml.
   std::vector<Parameter> parameters;
-  std::vector<std::string> log_hashes;  ///< SHA-256 of its logs
+  std::vector<std::string> log_hashes;  ///< SHA-256 of the logs.
   Finger finger;
 
-  /// nullptr if there is no such parameter.
+  /// Returns null if there is no such parameter.
   const Parameter* Find(const std::string& name) const;
-  /// std_i std_j correlation_ij over these names; 0 for those that are fixed or
-  /// that it does not have.
+  /// Returns std_i std_j correlation_ij for these names. The rows of parameters
+  /// that are fixed or missing are 0.
   Eigen::MatrixXd Covariance(const std::vector<std::string>& names) const;
 
  private:
   friend CalibrationFile ReadCalibration(const std::string& path);
-  std::vector<std::string> correlated_;  // of the matrix
+  std::vector<std::string> correlated_;  // the names of the matrix's rows
   Eigen::MatrixXd correlations_;
 };
 
 /// Reads a result folder of finray_calibrate, or the calibration.yaml in it.
-/// Throws InputError.
+/// Throws InputError if that fails.
 CalibrationFile ReadCalibration(const std::string& path);
 
 }  // namespace finray

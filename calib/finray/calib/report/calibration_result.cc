@@ -14,7 +14,7 @@
 namespace finray {
 namespace {
 
-// With a chi2 / dof beyond these, a std in the plan is wrong.
+// If chi2 / dof is beyond these, a std in the plan is wrong.
 constexpr double kTooNoisy = 2;
 constexpr double kTooQuiet = 0.5;
 constexpr double kEnoughDof = 5;
@@ -238,7 +238,7 @@ CalibrationLogs Chosen(const CalibrationLogs& logs,
   return chosen;
 }
 
-// Tabulates errors by region, of fitted and of held-out frames.
+// Tabulates errors by region, for fitted and for held-out frames.
 void TabulateRegions(CalibrationProblem& problem, const CalibrationLogs& logs,
                      const Discretization& discretization, int threads,
                      CalibrationResult* result) {
@@ -265,7 +265,7 @@ void TabulateRegions(CalibrationProblem& problem, const CalibrationLogs& logs,
 
 }  // namespace
 
-// Says with --v=1 how long each part took.
+// Logs with --v=1 how long each part took.
 class Stopwatch {
  public:
   void Lap(const char* part) {

@@ -19,45 +19,45 @@
 
 namespace finray {
 
-/// Something the user should know, and what to do about it.
+/// A fact that the user should know, and what to do about it.
 struct CalibrationWarning {
   std::string code;
   std::string text;
   std::string remedy;
 };
 
-/// Everything that a calibration yields.
+/// The whole result of a calibration.
 struct CalibrationResult {
   CalibrationSolution solution;
   Identifiability identifiability;
-  /// The frames that were held against the references, indices into the logs'
-  /// frames: all, or if there are many, kMostChecked of the fitted ones and as
-  /// many of those held out, evenly spread.
+  /// The frames that were compared with the references, as indices into the
+  /// frames of the logs. If there are many, these are kMostChecked of the
+  /// fitted ones and kMostChecked of those held out, evenly spread.
   std::vector<int> checked;
   static constexpr std::size_t kMostChecked = 1000;
-  ForceCheck forces;  ///< of these frames
-  /// By region of the finger, from the gauges alone.
+  ForceCheck forces;  ///< The errors of these frames.
+  /// The errors by region of the finger, from the gauges alone.
   struct Errors {
     ErrorTable before, after;
   } fitted, held_out;
   ResidualCorrelation residual_correlation;
   std::vector<Unsupported> unsupported;
   LeaveOneLogOut leave_one_log_out;
-  std::vector<FrameAdvice> next;      ///< what to record next
-  std::vector<BenchLinearity> bench;  ///< by gauge, where there are readings
-  Finger finger;                      ///< calibrated
+  std::vector<FrameAdvice> next;      ///< What to record next.
+  std::vector<BenchLinearity> bench;  ///< Of gauges with bench readings.
+  Finger finger;                      ///< The calibrated finger.
   std::vector<CalibrationWarning> warnings;
 
   bool AllIdentified() const;
-  /// `not_converged`; `starts_disagree`, no two of several; `unexplained`,
-  /// residuals of some kind are kUnexplained times their std and more;
-  /// `unidentifiable`; or `good`.
+  /// Returns one of these: `not_converged`; `starts_disagree`, if fewer than
+  /// two of the starts agree; `unexplained`, if residuals of a family are at
+  /// least kUnexplained times their std; `unidentifiable`; `good`.
   std::string Verdict() const;
   static constexpr double kUnexplained = 5;
 };
 
 /// Solves the problem, analyses it and checks it against the references.
-/// `leave_logs_out`: repeats it without each log, if there are several.
+/// `leave_logs_out` repeats the solve without each log, if there are several.
 CalibrationResult Calibrate(CalibrationProblem* problem,
                             bool leave_logs_out = false);
 
@@ -70,22 +70,22 @@ struct CalibrationInputs {
   std::string command;
 };
 
-/// The text of calibration.yaml (docs/reference/formats.md).
+/// Returns the text of calibration.yaml (docs/reference/formats.md).
 std::string CalibrationYaml(CalibrationProblem& problem,
                             const CalibrationResult& result,
                             const CalibrationInputs& inputs);
 
-/// A CSV of one row a frame: log, time, kind (contact, free, bench), held_out,
-/// reference force, force and place from the gauges before and after, l_c and
-/// f_c of the fit, gauge residuals in std (empty where held out or rejected),
-/// and why a frame was rejected.
+/// Returns a CSV with a row for each frame: log, time, kind (contact, free,
+/// bench), held_out, reference force, force and place from the gauges before
+/// and after, l_c and f_c of the fit, gauge residuals in std (empty if held out
+/// or rejected), and why the frame was rejected.
 std::string CalibrationFramesCsv(CalibrationProblem& problem,
                                  const CalibrationResult& result);
 
-/// Both beams, undeformed and in the heaviest fitted frame, for drawing:
-/// columns state (undeformed, deformed), part (front, back, rib_<i>, contact),
-/// x_mm, y_mm. Of the contact: its point, then the tip of an arrow against the
-/// normal.
+/// Returns both beams for drawing, undeformed and in the heaviest fitted frame.
+/// The columns are state (undeformed, deformed), part (front, back, rib_<i>,
+/// contact), x_mm, y_mm. The contact has two rows: its point, and the tip of an
+/// arrow against the normal.
 FrameTable CalibrationShape(CalibrationProblem& problem,
                             const CalibrationResult& result,
                             const Discretization& discretization);

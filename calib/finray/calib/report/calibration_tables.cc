@@ -10,10 +10,12 @@ namespace finray {
 
 namespace {
 
-// Rows of a table at a time; the text of a million frames alone is large.
+// So many rows are made at a time, because the text of a million frames alone
+// is large.
 constexpr std::size_t kChunk = 20000;
 
-// Makes the rows of frames [first, last), in calls from the first frame on.
+// Makes the rows of frames [first, last). Calls go on from the first frame to
+// the last.
 class FrameRows {
  public:
   FrameRows(CalibrationProblem& problem, const CalibrationResult& result)
@@ -106,7 +108,7 @@ class FrameRows {
   const CalibrationResult& result_;
   const Linearization& at_;
   double per_normal_;
-  std::size_t residual_ = 0, checked_ = 0;  // the next ones
+  std::size_t residual_ = 0, checked_ = 0;  // the next indices
 };
 
 }  // namespace

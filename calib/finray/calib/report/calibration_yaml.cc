@@ -77,7 +77,7 @@ void EmitNoise(const Identifiability& found, YamlEmitter* yaml) {
           << YAML::Value << YAML::Flow << YAML::BeginMap;
     EmitPairs(yaml, "residuals", noise.residuals, "dof", noise.dof, "chi2",
               noise.chi2);
-    // Without spare measurements the ratio means nothing.
+    // The ratio means nothing without spare measurements.
     YamlPair(yaml, "chi2_per_dof",
              noise.dof > 0.5 ? noise.chi2 / noise.dof : std::nan(""));
     *yaml << YAML::EndMap;

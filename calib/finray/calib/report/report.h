@@ -6,8 +6,8 @@
 namespace finray {
 
 /// Renders report.html from calibration.yaml, calibration.frames.csv and
-/// calibration.shape.csv of a result folder, with calib/report/render.py under
-/// /usr/bin/python3. Returns an empty string, or why there is no report.
+/// calibration.shape.csv of a result folder. It runs calib/report/render.py
+/// with /usr/bin/python3. Returns an empty string, or why there is no report.
 std::string RenderReport(const std::string& out_dir);
 
 }  // namespace finray

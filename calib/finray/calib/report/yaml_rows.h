@@ -9,7 +9,7 @@
 
 namespace finray {
 
-/// Emits keys and values, which come in turn, into a mapping that has begun.
+/// Emits keys and values, which alternate, into a mapping that has begun.
 template <class Value, class... Rest>
 void EmitPairs(YamlEmitter* yaml, const char* key, const Value& value,
                const Rest&... rest) {
@@ -17,7 +17,7 @@ void EmitPairs(YamlEmitter* yaml, const char* key, const Value& value,
   if constexpr (sizeof...(rest) > 0) EmitPairs(yaml, rest...);
 }
 
-/// Emits a mapping of them in one line.
+/// Emits a mapping of alternating keys and values in one line.
 template <class... KeysAndValues>
 void EmitRow(YamlEmitter* yaml, const KeysAndValues&... all) {
   *yaml << YAML::Flow << YAML::BeginMap;
@@ -25,7 +25,7 @@ void EmitRow(YamlEmitter* yaml, const KeysAndValues&... all) {
   *yaml << YAML::EndMap;
 }
 
-/// Emits a key and a sequence, whose elements `emit(element)` emits.
+/// Emits a key and a sequence. `emit(element)` emits each element.
 template <class Elements, class Emit>
 void EmitSeq(YamlEmitter* yaml, const char* key, const Elements& elements,
              const Emit& emit) {

@@ -9,9 +9,9 @@
 namespace finray {
 namespace {
 
-// The table has half as many rows as for estimates, and is as exact as the fit
-// and the solve that start from it need. The fit's tolerance is relative to l_0
-// and EI / l_0^2.
+// The table has half as many rows as the table of an estimate. Its tolerance
+// and that of the fit are as small as the solve that starts from them needs.
+// The tolerance of the fit is relative to l_0 and EI / l_0^2.
 constexpr int kRows = GaugeTable::kMostRows / 2;
 constexpr double kTableTolerance = 1e-6, kFitTolerance = 1e-3;
 
@@ -50,16 +50,17 @@ ContactGuess::Place ContactGuess::Of(const CalibrationFrame& frame, From from) {
   const bool by_object = circle_ && frame.object_mm.allFinite();
   if (by_object) AddCircle(frame);
   if (!by_object || from == From::kAll) AddGauges(frame);
-  // The circle is met exactly: the data may not tell the common scale of all
-  // stiffnesses and forces, and it stays as given only from a start near a
-  // solution. Gauges of unknown gains would pull the contact anywhere.
+  // A fit makes the finger meet the circle exactly. The data may not tell the
+  // common scale of all stiffnesses and forces, which then stays as given only
+  // if the start is near a solution. kObjectFirst does not fit gauges alone:
+  // unknown gains would pull the contact anywhere.
   Place place = FromTable(by_object || from == From::kAll);
   if (std::isfinite(frame.contact_mm)) {
     place.arc_mm =
         std::clamp(frame.contact_mm, 0.0, problem_.finger().front_length_mm);
   }
   const double force = ReferenceForce(frame);
-  // A wild force may be more than the finger can carry.
+  // A wild force may be larger than the finger can carry.
   if (from == From::kObjectFirst && force <= table_.heaviest_N()) {
     place.normal_N = std::max(force, 0.0);
   }

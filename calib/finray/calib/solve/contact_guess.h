@@ -9,10 +9,10 @@
 
 namespace finray {
 
-/// Guesses a frame's contact for a solve to start from, by the finger that the
-/// parameters describe now. A measured contact location and force come first,
-/// then the object's place, then the gauges; a table of contacts
-/// (gauge_table.h) has the start of that search.
+/// Guesses the contact of a frame, for a solve to start from. The finger is
+/// that of the present parameters. A measured contact location is taken as it
+/// is. Otherwise the contact is searched for, by the place of the object or by
+/// the gauges. The search starts from a table of contacts (gauge_table.h).
 class ContactGuess {
  public:
   /// `problem` must stay in place. Throws InputError for a finger without an
@@ -21,10 +21,13 @@ class ContactGuess {
 
   struct Place {
     double arc_mm = 0, normal_N = 0;
-    bool met = false;  ///< what it was looked for by is met, not only near
+    /// The fit converged, so the contact meets the object or the gauges. If
+    /// not, the contact is only a node of the table.
+    bool met = false;
   };
-  /// kAll takes the gauges beside the object's place, for gains that are
-  /// known.
+  /// kObjectFirst takes a measured force as it is, and uses the gauges only if
+  /// the place of the object is not measured. kAll searches by object and
+  /// gauges together, for gains that are known.
   enum class From { kObjectFirst, kAll };
   Place Of(const CalibrationFrame& frame, From from);
 

@@ -11,36 +11,39 @@
 
 namespace finray {
 
-/// l_c (mm) and f_c (N) by frame of the logs; NaN where there is none, or none
-/// yet.
+/// l_c (mm) and f_c (N) of each frame of the logs. They are NaN if the frame
+/// has no contact or none has been guessed yet.
 using Contacts = std::vector<std::array<double, 2>>;
 
-/// The contacts of a problem, which are unknowns beside its parameters, and
-/// where they are first looked for.
+/// Holds the contacts of a problem, which are unknowns beside its parameters,
+/// and guesses where they start.
 class ContactStore {
  public:
   /// `problem` must stay in place.
   explicit ContactStore(CalibrationProblem* problem);
   ContactStore(CalibrationProblem* problem, Contacts contacts);
 
-  /// At a fixed address.
+  /// The contact of a frame. Its address does not change.
   std::array<double, 2>& operator[](int frame) { return contacts_[frame]; }
   const Contacts& all() const { return contacts_; }
   void Set(Contacts contacts) { contacts_ = std::move(contacts); }
 
-  /// Guesses the contacts of these frames where there is none yet, by the
-  /// finger as it is now. To be called before StateNear.
+  /// Guesses the contacts of those of the frames that have none yet, with the
+  /// finger as it is now. Call it before StateNear.
   void Guess(const std::vector<int>& frames, ContactGuess::From from);
-  /// Has the next Guess make a new table for StateNear if the stiffness has
-  /// changed by a tenth since the last: loads in equilibrium go with it.
+  /// Makes the next Guess build a new table for StateNear if the stiffness has
+  /// changed by a tenth since the last one. Loads in equilibrium change with
+  /// the stiffness.
   void RenewStates();
+  /// Removes the contact of a frame, so that the next Guess makes a new one.
   void Forget(int frame);
   /// Moves a contact within its bounds.
   void Move(int frame, const Eigen::Vector2d& by);
 
-  /// A state of equilibrium near the frame's contact, from the table of the
-  /// last guess; empty without contact. The table is small, and so memory for
-  /// states does not grow with the number of frames.
+  /// Returns a state of equilibrium near the contact of the frame, from the
+  /// table of the last guess. The state is empty for a frame without contact.
+  /// The table is small, so memory for states does not grow with the number of
+  /// frames.
   LadderState StateNear(int frame) const;
 
  private:

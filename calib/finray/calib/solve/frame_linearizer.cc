@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMostSteps = 30;
 constexpr double kMostDamping = 1e8;
-// Targets of a Jacobian that belongs to no parameter.
+// Columns for a Jacobian that belongs to no parameter.
 constexpr int kContact = -1, kNowhere = -2;
 
 }  // namespace
@@ -41,8 +41,8 @@ FrameLinearizer::FrameLinearizer(const EquilibriumSolver& solver,
 void FrameLinearizer::Prepare(const CalibrationFrame& frame,
                               const LadderState& start, Model* model) {
   if (!frame.IsBench()) {
-    // The mesh that another frame has refined is dropped: results would depend
-    // on which thread had which frame.
+    // The solver drops the mesh that another frame has refined. Otherwise
+    // results would depend on which thread had which frame.
     if (start.q.size() == 0) solver_.Reset();
     model->evaluation.emplace(solver_.model(), EquilibriumForm::kReduced,
                               frame.contact ? 1 : 0, friction_,

@@ -13,7 +13,8 @@
 namespace finray {
 
 /// Evaluates frames one by one through their residual blocks, at the present
-/// values of the parameters, which it only reads. One for each thread.
+/// values of the parameters. It does not change the parameters. Each thread has
+/// one.
 class FrameLinearizer {
  public:
   /// `blocks` and `parameters` must stay in place.
@@ -21,24 +22,27 @@ class FrameLinearizer {
                   const CalibrationBlocks* blocks,
                   const CalibrationParameters* parameters);
 
-  /// Linearises the frame with its contact at (l_c, f_c) = `contact`, which a
-  /// free frame does not use. Equilibrium starts from `*state` and is left
-  /// there. Returns false if the model cannot be evaluated.
+  /// Linearises the frame with its contact at (l_c, f_c) = `contact`. A free
+  /// frame does not use `contact`. The solve of equilibrium starts from
+  /// `*state`, which then holds the equilibrium. Returns false if the model
+  /// cannot be evaluated.
   bool Linearize(const CalibrationFrame& frame,
                  const std::array<double, 2>& contact, LadderState* state,
                  LinearizedFrame* out);
 
-  /// Moves the contact to where it explains the frame best, the parameters
-  /// being what they are: Gauss-Newton on l_c and f_c within their bounds,
-  /// until a further step would lower chi2 / 2 by less than kSmallDecrease.
-  /// LinearizedFrame::move knows the rest of the way well enough. Where the
-  /// model cannot be evaluated it returns false and leaves `out` without rows.
+  /// Moves the contact to where it explains the frame best with the present
+  /// parameters, and linearises the frame there. It takes Gauss-Newton steps of
+  /// l_c and f_c within their bounds, until a further step would lower chi2 / 2
+  /// by less than kSmallDecrease. LinearizedFrame::move tells the rest of the
+  /// way well enough. If the model cannot be evaluated, it returns false and
+  /// leaves `out` without rows.
   static constexpr double kSmallDecrease = 1e-5;
   bool FitContact(const CalibrationFrame& frame, std::array<double, 2>* contact,
                   LadderState* state, LinearizedFrame* out);
 
  private:
-  // A frame's blocks and the evaluation at a contact that they read.
+  // The blocks of a frame, and the evaluation at a contact from which they
+  // read.
   struct Model;
 
   void Prepare(const CalibrationFrame& frame, const LadderState& start,
@@ -56,8 +60,9 @@ class FrameLinearizer {
   const CalibrationBlocks& blocks_;
   const CalibrationParameters& parameters_;
   std::unique_ptr<ceres::LossFunction> loss_;
-  std::unordered_map<const double*, int> column_of_;  // first one of a block
-  // By parameter of a block: its Jacobian, and the column that this goes to.
+  // The first column of a parameter block.
+  std::unordered_map<const double*, int> column_of_;
+  // For each parameter of a residual block: its Jacobian and its first column.
   std::vector<std::vector<double>> scratch_;
   std::vector<double*> jacobians_;
   std::vector<int> columns_;

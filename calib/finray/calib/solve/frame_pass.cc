@@ -13,7 +13,7 @@
 namespace finray {
 namespace {
 
-// Frames that a thread works on in one go.
+// A thread evaluates so many frames at a time.
 constexpr std::size_t kChunk = 32;
 
 using Evaluate = std::function<void(int frame, FrameLinearizer* linearizer,
@@ -32,7 +32,7 @@ void VisitInOrder(const std::vector<int>& frames, const Plan& plan,
                            &problem->parameters());
   });
   const int threads = problem->threads();
-  // At most so many chunks are under way, and they end in order.
+  // The pipeline holds at most ring.size() chunks and finishes them in order.
   std::vector<Chunk> ring(4 * static_cast<std::size_t>(threads));
   std::size_t begun = 0;
   const auto begin = [&](tbb::flow_control& control) -> Chunk* {

@@ -34,7 +34,8 @@ void FrameSumResidual::Compress(const FrameSums& sums) const {
   const Eigen::Index n = units_.cols();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
       units_.transpose() * sums.information * units_);
-  // Along directions that the frames do not determine the gradient is rounding.
+  // If the frames do not determine a direction, the gradient along it is
+  // rounding.
   const double least = 1e-14 * eigen.eigenvalues()[n - 1];
   const Eigen::VectorXd root = eigen.eigenvalues().cwiseMax(0).cwiseSqrt();
   residuals_ =

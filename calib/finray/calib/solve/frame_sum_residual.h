@@ -8,8 +8,8 @@
 
 namespace finray {
 
-/// The cost of frames and priors near the present values of the free
-/// parameters x, with the best contacts for each x (Linearization):
+/// The cost of frames and priors near the present values of the free parameters
+/// x. Each x has its best contacts (Linearization):
 ///
 ///   cost(x + dx) = cost + g' dx + dx' S dx / 2.
 struct FrameSums {
@@ -18,22 +18,23 @@ struct FrameSums {
   double cost = 0;
 };
 
-/// Any number of frames as one residual block over z, x = x_0 + T z, with T
-/// such that the information at x_0 is that of z of std 1:
+/// One residual block for any number of frames. Its unknowns are z, with x =
+/// x_0 + T z. T is such that the information about z at x_0 is the identity:
 ///
 ///   r = (D^-1/2 V' T'g, sqrt(2 cost - |D^-1/2 V' T'g|^2)),
-///   J = (D^1/2 V', 0),                V D V' = T'S T,
+///   J = (D^1/2 V', 0),                V D V' = T'S T.
 ///
-/// so that |r|^2 / 2, J'r and J'J are the frames' cost, gradient and
-/// information. Ceres needs no more to find the minimum, and memory does not go
+/// So |r|^2 / 2, J'r and J'J are the cost, gradient and information of the
+/// frames. Ceres needs no more to find the minimum, and memory does not grow
 /// with the number of frames.
 class FrameSumResidual : public ceres::CostFunction {
  public:
-  /// Sums at x; false if the model cannot be evaluated there.
+  /// Computes the sums at x. Returns false if the model cannot be evaluated
+  /// there.
   using Evaluator =
       std::function<bool(const Eigen::VectorXd& x, FrameSums* sums)>;
 
-  /// `at_start`: the sums there.
+  /// `at_start` holds the sums at `start`.
   FrameSumResidual(const Eigen::VectorXd& start, const Eigen::MatrixXd& units,
                    const FrameSums& at_start, Evaluator evaluator);
 
@@ -47,7 +48,8 @@ class FrameSumResidual : public ceres::CostFunction {
   Eigen::VectorXd start_;
   Eigen::MatrixXd units_;  // T
   Evaluator evaluator_;
-  // Ceres asks for values and derivatives of a point one after the other.
+  // Ceres asks for the values and the derivatives at a point in two calls, so
+  // the last point is kept.
   mutable Eigen::VectorXd at_;
   mutable bool valid_;
   mutable Eigen::VectorXd residuals_;

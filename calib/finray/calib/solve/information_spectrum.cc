@@ -9,7 +9,7 @@
 namespace finray {
 namespace {
 
-// Smaller eigenvalues of a matrix with a unit diagonal are rounding.
+// Eigenvalues below this are rounding if the diagonal of the matrix is 1.
 constexpr double kRounding = 1e-13;
 
 }  // namespace
@@ -39,7 +39,8 @@ InformationSpectrum::InformationSpectrum(const Eigen::MatrixXd& information) {
                      right.data(), n, stat, rank) != 0) {
     throw std::runtime_error("the information of the data has no eigenvalues");
   }
-  // LAPACK has scaled them, so that they do not overflow.
+  // LAPACK scales the singular values so that they do not overflow; this takes
+  // the scale out.
   values = (stat[0] / stat[1] * singular).reverse().cwiseAbs2();
   vectors = right.rowwise().reverse();
 }

@@ -79,7 +79,8 @@ class JointProblem {
     residuals_->SetParameterLowerBound(contact, 1, 0);
   }
 
-  // One block at a time; several parameters may share one (rib lengths).
+  // Adds a prior for each parameter block. Several parameters may share a block
+  // (rib lengths).
   void AddPriors() {
     const auto& all = problem_.parameters().all();
     for (std::size_t i = 0; i < all.size();) {
@@ -113,9 +114,9 @@ class JointProblem {
     }
   }
 
-  // Contacts first. Each shared block has a group of its own: within a group
-  // Ceres orders by address, and results would depend on where the heap put
-  // things.
+  // Eliminates the contacts first. Each shared block has a group of its own:
+  // within a group Ceres orders blocks by address, and results would depend on
+  // where the heap has put them.
   std::shared_ptr<ceres::ParameterBlockOrdering> Ordering() const {
     auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
     for (double* contact : contact_blocks_) {
@@ -130,7 +131,7 @@ class JointProblem {
     }
     std::vector<double*> all;
     residuals_->GetParameterBlocks(&all);
-    for (double* block : all) {  // those that stay as they are
+    for (double* block : all) {  // constant blocks come last
       if (!ordering->IsMember(block)) ordering->AddElementToGroup(block, group);
     }
     return ordering;

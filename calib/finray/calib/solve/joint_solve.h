@@ -11,7 +11,7 @@
 
 namespace finray {
 
-/// How a solve went.
+/// Says how a solve went.
 struct SolveReport {
   bool converged = false;
   int iterations = 0;
@@ -23,15 +23,15 @@ SolveReport ReportOf(const ceres::Solver::Summary& summary);
 
 struct JointLimits {
   int iterations;
-  /// A step that lowers the cost by less than this share is the last.
+  /// The solve ends after a step that lowers the cost by less than this share.
   double function_tolerance;
 };
 
 /// Solves for the parameters and the contacts of these frames in one
-/// ceres::Problem, from which Ceres eliminates the contacts (DENSE_SCHUR). It
-/// finds its way from far: contacts need not be where they explain their frame
-/// best before the gains are known. Memory and time grow with the frames, and
-/// some hundred come near enough to the solution for SolveSummed.
+/// ceres::Problem. Ceres eliminates the contacts (DENSE_SCHUR). The solve finds
+/// its way from far, because no contact has to be where it explains its frame
+/// best before the gains are known. Memory and time grow with the frames. Some
+/// hundred frames come near enough to the solution for SolveSummed.
 SolveReport SolveJointly(const std::vector<int>& frames,
                          const JointLimits& limits, CalibrationProblem* problem,
                          ContactStore* contacts);

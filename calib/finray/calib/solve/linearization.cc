@@ -35,8 +35,8 @@ void Linearization::Add(int frame, int log, const LinearizedFrame& at) {
       residuals.push_back(at.residuals[end]);
       weighted_residuals.push_back(weighted[end]);
     }
-    // There are few rows; Eigen's product of large matrices would take several
-    // times as long.
+    // The matrix has few rows, and for these Eigen's product of large matrices
+    // takes several times as long.
     const auto of_family = c.middleRows(i, end - i);
     of_log->second[static_cast<int>(family)].noalias() +=
         of_family.transpose().lazyProduct(of_family);

@@ -11,44 +11,44 @@
 
 namespace finray {
 
-/// One measurement residual and where it belongs.
+/// Says where a residual of a measurement belongs.
 struct ResidualInfo {
-  std::int32_t frame;  ///< index into the logs' frames
+  std::int32_t frame;  ///< Index into the frames of the logs.
   ResidualFamily family;
-  std::int16_t gauge;  ///< for kGauge and kBench, else -1
+  std::int16_t gauge;  ///< The gauge of kGauge and kBench, else -1.
 };
 
 /// The cost of some frames near the present values of the free parameters x,
-/// with the best contacts for each x and without priors:
+/// without priors. Each x has its best contacts:
 ///
 ///   cost(x + dx) = cost + g' dx + dx' S dx / 2,
-///   S = sum C'C - C'E (E'E)^-1 E'C,   g = sum (C - E (E'E)^-1 E'C)' r,
+///   S = sum C'C - C'E (E'E)^-1 E'C,   g = sum (C - E (E'E)^-1 E'C)' r.
 ///
-/// frames weighted as by the robust loss. The solver and all analyses need no
-/// more; it is gathered in one pass and in memory that a million frames fit
-/// into.
+/// The robust loss weights the rows. The solver and all analyses need no more.
+/// One pass over the frames gathers it, and a million frames fit into memory.
 struct Linearization {
-  // By row; the rows of a frame follow each other.
+  // These have an entry for each row. The rows of a frame follow each other.
   std::vector<ResidualInfo> rows;
-  std::vector<double> residuals;           ///< in units of their std
-  std::vector<double> weighted_residuals;  ///< as the robust loss weights them
+  std::vector<double> residuals;           ///< In units of their std.
+  std::vector<double> weighted_residuals;  ///< Weighted by the robust loss.
 
-  // By frame.
+  // These have an entry for each frame.
   std::vector<int> frames;
-  /// J'r of each: which way it pulls the parameters (free x frames).
+  /// J'r of each frame, free parameters x frames: how the frame pulls the
+  /// parameters.
   Eigen::MatrixXf pulls;
 
   double cost = 0;
   Eigen::VectorXd gradient;  ///< g
-  /// The parts of S, by log and family.
+  /// The parts of S, by log and residual family.
   std::map<int, std::array<Eigen::MatrixXd, kResidualFamilies>> information;
-  /// Sum of the leverages of the contacts, e_i (E'E)^-1 e_i'.
+  /// The sum of the leverages of the contacts, e_i (E'E)^-1 e_i', by family.
   std::array<double, kResidualFamilies> contact_leverage;
 
-  /// `most_frames`: how many will be added at most.
+  /// At most `most_frames` frames can be added.
   explicit Linearization(int parameters = 0, std::size_t most_frames = 0);
   void Add(int frame, int log, const LinearizedFrame& at);
-  /// To be called after the last.
+  /// Call it after the last frame is added.
   void Finish();
 
   Eigen::MatrixXd Information() const;  ///< S

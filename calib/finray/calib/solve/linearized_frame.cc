@@ -5,20 +5,21 @@
 namespace finray {
 
 Eigen::Matrix2d PseudoInverse(const Eigen::Matrix2d& a) {
-  // Eigenvalues of [p, q; q, s] in closed form.
+  // The eigenvalues of [p, q; q, s] have a closed form.
   const double mean = (a(0, 0) + a(1, 1)) / 2;
   const double half = (a(0, 0) - a(1, 1)) / 2, q = a(1, 0);
   const double radius = std::hypot(half, q);
   const double large = mean + radius;
   if (!(large > 0)) return Eigen::Matrix2d::Zero();
-  // Without the cancellation of mean - radius.
+  // This form avoids the cancellation of mean - radius.
   const double small = (a(0, 0) * a(1, 1) - q * q) / large;
   if (small > 1e-12 * large) {
     Eigen::Matrix2d inverse;
     inverse << a(1, 1), -q, -q, a(0, 0);
     return inverse / (small * large);
   }
-  // The eigenvector v of the large one: v v' = (a - small) / (large - small).
+  // The eigenvector v of the large eigenvalue has v v' = (a - small) / (large -
+  // small).
   return (a - small * Eigen::Matrix2d::Identity()) / (large - small) / large;
 }
 

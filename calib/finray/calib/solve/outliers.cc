@@ -17,7 +17,7 @@ struct FrameChi2 {
   int dof;
 };
 
-// By Wilson and Hilferty.
+// Wilson and Hilferty's approximation.
 double MedianOfChi2(int dof) { return dof * std::pow(1 - 2.0 / (9 * dof), 3); }
 
 int Dof(const CalibrationProblem& problem, int frame, std::size_t rows) {
@@ -60,7 +60,8 @@ std::string Name(const LinearizedFrame::Row& row) {
   return "";
 }
 
-// Names one measurement if the others agree with each other.
+// Says why a frame is an outlier. It blames one measurement if the others agree
+// with each other.
 std::string Reason(const LinearizedFrame& robust, double chi2, int dof,
                    double scale, double threshold) {
   std::map<std::string, std::pair<double, int>> parts;  // chi2, rows
@@ -94,8 +95,8 @@ bool IsOutlier(const FrameChi2& frame, double scale, double threshold) {
          ChiSquaredTail(frame.chi2 / (scale * scale), frame.dof) <= threshold;
 }
 
-// Fits the contact of each frame. Those that cannot be evaluated go to
-// `reasons`; the scale is what is known of it so far.
+// Fits the contact of each frame. Frames that cannot be evaluated go to
+// `reasons`. `found->scale` is the scale as far as it is known.
 std::vector<FrameChi2> Refit(const std::vector<int>& frames,
                              CalibrationProblem* problem,
                              ContactStore* contacts, Outliers* found) {

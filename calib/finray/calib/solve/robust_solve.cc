@@ -20,15 +20,16 @@ namespace finray {
 namespace {
 
 constexpr int kMostRounds = 6;
-// kFirst shows which frames are far out. kStart finds a start's solution to a
-// small part of a std, even if chi2 is 10^5 times what it should be.
+// The limits kFirst are enough to show which frames are far out. The limits
+// kStart find the solution of a start to a small part of a std, even if chi2 is
+// 10^5 times what it should be.
 constexpr JointLimits kFirst = {15, 1e-4}, kStart = {80, 1e-10};
 
 struct Start {
   const char* name;
-  double front, back, gains;  // factors on the given finger
+  double front, back, gains;  // factors that multiply the given finger's
 };
-// Far enough to reach another basin if there is one.
+// The starts are far enough apart to reach another basin if there is one.
 constexpr Start kStarts[] = {
     {"as given", 1, 1, 1},
     {"three times as stiff", 3, 3, 1},
@@ -64,7 +65,7 @@ const StartSolution& LeastCost(const std::vector<StartSolution>& solutions) {
   return *best;
 }
 
-// The schedule of SolveRobustly.
+// Holds the schedule of SolveRobustly.
 class RobustSolve {
  public:
   explicit RobustSolve(CalibrationProblem* problem)
@@ -114,7 +115,8 @@ class RobustSolve {
   }
 
  private:
-  // Rejects outliers among these frames and solves by the rest of them.
+  // Rejects the outliers among these frames and solves by the other ones of
+  // them.
   SummedSolution RejectAndSolve(const std::vector<int>& frames) {
     std::optional<Linearization> start = RejectAmong(frames);
     std::vector<int> rest;
@@ -130,8 +132,8 @@ class RobustSolve {
     }
   }
 
-  // Judges these frames; other frames stay rejected or not. Returns the
-  // linearization of the good ones, for a solve to start with.
+  // Judges these frames. All other frames stay as they are, rejected or not.
+  // Returns the linearization of the good frames, for a solve to start with.
   std::optional<Linearization> RejectAmong(const std::vector<int>& frames) {
     std::map<int, std::string> reasons = problem_.rejected();
     for (const int frame : frames) reasons.erase(frame);
@@ -143,9 +145,9 @@ class RobustSolve {
     return std::move(outliers.rest);
   }
 
-  // Leaves the problem at the solution with the least cost. The first start
-  // goes on from where it is. Each is solved in one thread, so that results do
-  // not depend on how many there are.
+  // Solves from all starts and sets the problem to the solution with the least
+  // cost. The first start goes on from where it is. One thread solves each
+  // start, so results do not depend on the number of threads.
   std::vector<StartReport> SolveFromStarts(int iterations_so_far) {
     std::vector<StartSolution> solutions(std::size(kStarts));
     const std::vector<int> frames = problem_.SpreadFrames(kStartFrames);
@@ -195,13 +197,13 @@ class RobustSolve {
 
   CalibrationProblem& problem_;
   ContactStore contacts_;
-  double scale_ = 1;  // of the noise, as far as it is known
+  double scale_ = 1;  // the last Outliers::scale
 };
 
 }  // namespace
 
 CalibrationSolution SolveRobustly(CalibrationProblem* problem) {
-  if (problem->candidates().empty()) {  // nothing but priors
+  if (problem->candidates().empty()) {  // there are only priors
     CalibrationSolution solution = SolveOnce(problem);
     solution.settled = true;
     return solution;

@@ -11,43 +11,48 @@
 
 namespace finray {
 
-/// Where one start led to.
+/// Says where one start ended.
 struct StartReport {
   std::string name;
   bool converged = false;
   int iterations = 0;
   double cost = 0;
-  /// To the best one: sqrt(dx' (S + P) dx), in standard deviations.
+  /// The distance to the best solution in standard deviations, sqrt(dx' (S + P)
+  /// dx).
   double distance_std = 0;
-  bool agrees = false;  ///< converged, and nearer than kSameSolution
+  bool agrees = false;  ///< It converged, nearer than kSameSolution.
   static constexpr double kSameSolution = 0.1;
 };
 
-/// The problem has the values of the solution and its rejected frames.
+/// The solution of a calibration. Its values and rejected frames are in the
+/// CalibrationProblem.
 struct CalibrationSolution {
   SolveReport solve;
-  Linearization at;                 ///< of the fitted frames
-  Contacts contacts;                ///< NaN for frames that are not fitted
-  std::vector<StartReport> starts;  ///< the given one first
-  int rounds = 0;                   ///< of rejection
-  bool settled = false;  ///< the rejected frames are what the solution says
+  Linearization at;                 ///< The fitted frames at the solution.
+  Contacts contacts;                ///< NaN for frames that are not fitted.
+  std::vector<StartReport> starts;  ///< The given finger comes first.
+  int rounds = 0;                   ///< Number of rounds of rejection.
+  bool settled = false;  ///< The last round has rejected the same frames.
   bool outliers_too_many = false;
 };
 
-/// Solves from several starts, goes on from the best, and solves again without
-/// the frames that are outliers, until these stay the same.
+/// Solves from several starts, goes on from the best one, and solves again
+/// without the outliers until these stay the same.
 ///
-///   1. kStartFrames frames, evenly spread, from each start: SolveJointly. A
-///      few iterations from the given start show first which of them are far
-///      out; these would make the starts long, and basins of their own.
-///   2. All frames, from the start with the least cost: SolveSummed. A log of
-///      more than 4 kStageFrames first has kStageFrames of them, which spares
-///      the others a step or two.
-///   3. FindOutliers; while they change, 2 again.
+///   1. SolveJointly solves kStartFrames evenly spread frames from each start.
+///      Before that, a few iterations from the given start show which frames
+///      are far out. With them the starts would take long and end in basins of
+///      their own.
+///   2. SolveSummed solves all frames, from the start with the least cost. If
+///      there are more than 4 kStageFrames, it first solves kStageFrames of
+///      them, which saves the others a step or two.
+///   3. FindOutliers judges the frames. While the outliers change, step 2 is
+///      repeated.
 CalibrationSolution SolveRobustly(CalibrationProblem* problem);
 constexpr std::size_t kStartFrames = 250, kStageFrames = 20000;
 
-/// Solves once from the present values, by 1 and 2, and rejects nothing.
+/// Solves once from the present values, with steps 1 and 2, and rejects
+/// nothing.
 CalibrationSolution SolveOnce(CalibrationProblem* problem);
 
 }  // namespace finray

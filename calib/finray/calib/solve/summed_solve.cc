@@ -14,8 +14,8 @@
 namespace finray {
 namespace {
 
-// The solve ends at a gradient, per std, from which the minimum is so much of a
-// std away.
+// The solve ends if the gradient per std is below this. The minimum is then
+// about this far away, in std.
 constexpr double kNear = 1e-2;
 
 }  // namespace
@@ -63,7 +63,7 @@ SummedSolution SolveSummed(const std::vector<int>& frames,
   contacts->RenewStates();
   const Eigen::VectorXd first = problem->Values();
   Eigen::VectorXd tried = first;
-  std::optional<Linearization> at;  // where it was tried last
+  std::optional<Linearization> at;  // at the values `tried`
   const auto evaluate = [&](const Eigen::VectorXd& x, FrameSums* sums) {
     problem->SetValues(tried = x);
     at.reset();
@@ -94,14 +94,15 @@ SummedSolution SolveSummed(const std::vector<int>& frames,
   options.linear_solver_type = ceres::DENSE_QR;
   options.initial_trust_region_radius = 1e10;
   options.max_trust_region_radius = 1e16;
-  // z counts in standard deviations.
+  // A unit of z is one standard deviation.
   options.gradient_tolerance = kNear;
   options.function_tolerance = 0;
   options.parameter_tolerance = 0;
   ceres::Solver::Summary summary;
   const ClassicNumbers in_messages;
   ceres::Solve(options, &residuals, &summary);
-  // The last trial step may have been rejected; contacts are then of that step.
+  // Ceres may have rejected the last trial step. The contacts are then those of
+  // that step.
   const Eigen::VectorXd end = first + units * z;
   if ((end != tried || !at) && !evaluate(end, &sums)) {
     throw std::runtime_error("the model cannot be evaluated at the solution");

@@ -12,27 +12,28 @@
 
 namespace finray {
 
-/// Fits the contacts of the frames at the present values and gathers what they
-/// say of the parameters. Empty if the model cannot be evaluated at one; the
-/// contacts then stay where they were.
+/// Fits the contacts of the frames at the present values and gathers what the
+/// frames say about the parameters. Returns nothing if the model cannot be
+/// evaluated at one of them; the contacts then stay where they were.
 std::optional<Linearization> FitFrames(const std::vector<int>& frames,
                                        CalibrationProblem* problem,
                                        ContactStore* contacts);
 
-/// Adds what the priors say, at the present values.
+/// Adds the priors at the present values.
 FrameSums SumsWithPriors(const Linearization& at,
                          const CalibrationParameters& parameters);
 
 struct SummedSolution {
   SolveReport report;
-  Linearization at;  ///< at the solution
+  Linearization at;  ///< The frames at the solution.
 };
 
-/// Solves for the parameters by these frames through FrameSumResidual, from
-/// near the solution; each contact is fitted by itself in every pass. Time is
-/// linear in the number of frames, and memory is that of a Linearization.
-/// `start` saves the first pass if it is of these frames at the present values.
-/// Throws std::runtime_error if the model cannot be evaluated.
+/// Solves for the parameters by these frames, through FrameSumResidual. The
+/// present values must be near the solution. Every pass fits the contact of
+/// each frame by itself. Time is linear in the number of frames, and memory is
+/// that of a Linearization. `start` saves the first pass if it is the
+/// linearization of these frames at the present values. Throws
+/// std::runtime_error if the model cannot be evaluated.
 SummedSolution SolveSummed(const std::vector<int>& frames,
                            std::optional<Linearization> start,
                            CalibrationProblem* problem, ContactStore* contacts);
