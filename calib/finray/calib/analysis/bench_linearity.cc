@@ -105,7 +105,7 @@ std::string BenchLinearity::Words() const {
   return FormatText(
       "gauge %d is not linear on the bench: a line misses the "
       "repeated radii by more than they scatter (F = %.3g, p = "
-      "%.1g), though not by a curve",
+      "%.1g), and a quadratic curve does not explain it",
       gauge + 1, lack_of_fit_F, lack_of_fit_p_value);
 }
 

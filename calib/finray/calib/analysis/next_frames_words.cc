@@ -72,10 +72,10 @@ std::string DescribeNextFrames(CalibrationProblem& problem,
   const std::string after =
       FormatText("%.2g ", advice.parameter_std_after / per);
   if (std::isinf(advice.parameter_std_after)) {
-    return words + " would tell more of " + Spoken(p) + ", though not all";
+    return words + " would tell more about " + Spoken(p) + ", but not all";
   }
   if (std::isinf(advice.parameter_std_before)) {
-    return words + " would determine " + Spoken(p) + ", which is not yet, to " +
+    return words + " would determine " + Spoken(p) + ", now unknown, to " +
            after + unit;
   }
   return words + " would shrink the std of " + Spoken(p) + " from " +

@@ -178,8 +178,9 @@ void RefuseImplausible(CalibrationProblem* problem) {
   const double ratio = Median(&ratios);
   if (ratio > kFactor || ratio < 1 / kFactor) {
     Refuse(
-        "logs: forces are %.3g times what the finger would need to give way to "
-        "the object like that: check the units of force and positions, and the "
+        "logs: forces are %.3g times those that would press the finger to "
+        "where "
+        "the objects are: check the units of force and positions, and the "
         "finger's stiffness",
         ratio);
   }

@@ -112,8 +112,8 @@ std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,
   if (!contradicted.free.empty()) {
     contradicted.code = "prior_contradicted";
     contradicted.text =
-        "the data contradict priors, and what comes out lies between the two, "
-        "others being drawn with it: " +
+        "the data contradict the priors of these parameters; the results lie "
+        "between the two and shift other parameters: " +
         contradicted.text;
     contradicted.remedy =
         "start from a finger closer to the truth, or leave these priors out of "

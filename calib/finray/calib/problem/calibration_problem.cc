@@ -62,7 +62,7 @@ void CalibrationProblem::FindCandidates() {
     }
   }
   if (candidates_.empty() && !gauges_only_) {
-    throw InputError("logs: no frame has anything to fit");
+    throw InputError("logs: no frame has measurements that can be fitted");
   }
   rejected_ = impossible_;
 }

@@ -85,11 +85,10 @@ void WarnOfOutliers(const CalibrationProblem& problem,
          "plan's measurements"});
   }
   if (!solution.settled) {
-    warnings->push_back(
-        {"outliers_unsettled",
-         "which frames are outliers changes from round to round",
-         "look for what differs between the frames; raise the "
-         "std in the plan's measurements"});
+    warnings->push_back({"outliers_unsettled",
+                         "the outliers are other frames from round to round",
+                         "look for what differs between the frames; raise the "
+                         "std in the plan's measurements"});
   }
   if (problem.rejected().empty()) return;
   const auto& [index, reason] = *problem.rejected().begin();

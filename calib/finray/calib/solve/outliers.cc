@@ -109,7 +109,7 @@ std::vector<FrameChi2> Refit(const std::vector<int>& frames,
               [&](int frame, const LinearizedFrame& at) {
                 if (at.rows.empty()) {
                   found->reasons.emplace(
-                      frame, "the finger cannot carry what it shows");
+                      frame, "the finger cannot carry what the frame shows");
                   return;
                 }
                 refitted.push_back({frame, at.residuals.squaredNorm(),
