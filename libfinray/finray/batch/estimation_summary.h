@@ -23,8 +23,8 @@ struct EstimationSummary {
   /// Solved frames that neither the described finger nor its noise explains:
   /// the p-value of chi2 is below FrameEstimate::kUnexplained.
   std::size_t unexplained = 0;
-  /// Comparison with the log's own force_N, over the frames that have it and
-  /// are ok or no_contact.
+  /// The comparison with the log's own force_N, over the frames that have it
+  /// and are ok or no_contact.
   std::size_t force_compared = 0;
   double force_squares_N2 = 0;
   double force_max_N = 0;

@@ -14,8 +14,8 @@ class LatencyHistogram {
   void Add(std::uint64_t nanoseconds);
 
   std::uint64_t count() const { return count_; }
-  /// The time in ns that a share (0 to 1) of all times does not exceed, as the
-  /// middle of its bucket; 0 if there are none.
+  /// Returns the time in ns that a share (0 to 1) of all times does not exceed:
+  /// the middle of its bucket, or 0 if there are none.
   double Quantile(double share) const;
   /// The largest time in ns; exact.
   std::uint64_t max() const { return max_; }

@@ -26,7 +26,7 @@ class LiveRows {
   /// next call. A line that cannot be read has the status bad_input and keeps
   /// the cells before its fault.
   const std::string& Next(const CsvLine& line);
-  /// The error of the last line (source:line:column), or "".
+  /// The error of the last line (source:line:column), or "" if it has none.
   const std::string& error() const { return error_; }
   FrameStatus status() const { return status_; }
 

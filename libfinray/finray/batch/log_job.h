@@ -21,12 +21,12 @@ struct BatchSettings {
   Scene scene;
   Discretization discretization;
   FrameMethod method = FrameMethod::kFast;
-  /// Solve all frames of a log together (EstimateJointly) instead of one by
-  /// one. A log that was interrupted then begins anew.
+  /// Solves all frames of a log together (EstimateJointly) instead of one by
+  /// one. An interrupted log then begins anew.
   bool joint = false;
   std::string finger_sha256, scene_sha256;  ///< "" without a scene file.
   int threads = 1;
-  /// Continue what an earlier run has left unfinished, and keep what it has
+  /// Continues what an earlier run has left unfinished, and keeps what it has
   /// finished.
   bool resume = false;
   /// Number of blocks of kBlockFrames between two checkpoints. A crash loses at

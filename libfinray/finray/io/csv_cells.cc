@@ -3,9 +3,9 @@
 namespace finray {
 namespace {
 
-// Removes a quoted cell, whose first quote is already gone, from the front of
-// `line`. Doubled quotes become single ones. False if the closing quote is
-// missing.
+// Removes a quoted cell from the front of `line`. The first quote of the cell
+// is already gone. Doubled quotes become single ones. Returns false if the
+// closing quote is missing.
 bool TakeQuoted(std::string_view* line, std::string* cell) {
   for (;;) {
     const auto quote = line->find('"');

@@ -8,7 +8,7 @@
 
 namespace finray {
 
-/// The text without spaces and tabs at both ends.
+/// Returns the text without spaces and tabs at both ends.
 inline std::string_view Trimmed(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t'; };
   while (!text.empty() && blank(text.front())) text.remove_prefix(1);
@@ -16,10 +16,10 @@ inline std::string_view Trimmed(std::string_view text) {
   return text;
 }
 
-/// Splits one line of RFC 4180 CSV into `cells`. Spaces around cells are
-/// removed, those inside quotes are kept. The cells refer to the line, quoted
-/// ones to strings that are added to `unquoted`. Returns "" or the error in the
-/// last cell.
+/// Splits one line of RFC 4180 CSV into `cells`. Spaces around a cell are
+/// removed, spaces inside quotes are kept. Cells refer to the line. A quoted
+/// cell refers to a string that is added to `unquoted`. Returns "" or the error
+/// in the last cell.
 const char* SplitCsvLine(std::string_view line,
                          std::vector<std::string_view>* cells,
                          std::deque<std::string>* unquoted);

@@ -19,7 +19,7 @@ class FileDescriptor {
   /// `flags` are those of open(2). All users may read a new file, within the
   /// umask.
   int Open(const std::string& path, int flags);
-  /// Writes all bytes behind those written before.
+  /// Writes all bytes behind those that were written before.
   int Write(std::string_view bytes);
   /// Reads the rest of the file.
   int ReadAll(std::string* bytes);

@@ -21,7 +21,7 @@ std::vector<std::string> Renamed(
     const std::map<std::string, std::string>& renames) {
   std::vector<std::string> headers = found;
   for (const auto& [key, value] : renames) {
-    // {lab's header: our name}, or the other way round.
+    // The entry is {lab's header: our name}, or the other way round.
     const bool reversed = IsFrameColumn(key) && !IsFrameColumn(value);
     const std::string& from = reversed ? value : key;
     const std::string& to = reversed ? key : value;
@@ -51,7 +51,7 @@ bool IsNan(std::string_view text) {
          (text[1] | 0x20) == 'a' && (text[2] | 0x20) == 'n';
 }
 
-// The number in a cell; NaN for an empty cell or "nan".
+// Returns the number in a cell, NaN for an empty cell or "nan".
 std::optional<double> CellNumber(std::string_view text) {
   if (text.empty() || IsNan(text)) {
     return std::numeric_limits<double>::quiet_NaN();
@@ -59,7 +59,7 @@ std::optional<double> CellNumber(std::string_view text) {
   return ParseNumber(text);
 }
 
-// Control characters except tabs.
+// Says whether a character is a control character other than a tab.
 bool IsControl(char c) {
   return c != '\t' && (static_cast<unsigned char>(c) < 0x20 || c == '\x7f');
 }
@@ -88,7 +88,7 @@ FrameParser::FrameParser(const std::string& path, const CsvLine& header,
            "the header holds a NUL byte, expected UTF-8 text");
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    // Names hold no control characters. Zip files that are not recognised do.
+    // Names hold no control characters, but unrecognised zip files do.
     const auto bad = std::find_if(cells[i].begin(), cells[i].end(), IsControl);
     if (bad == cells[i].end()) continue;
     FailAt(header.number, i,

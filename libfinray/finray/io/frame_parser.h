@@ -13,38 +13,39 @@
 
 namespace finray {
 
-/// Whether a line is the header of a frame table rather than a '#' comment or
-/// blank. Removes byte order marks from its front; files that were put together
-/// from others have them behind comments too.
+/// Says whether a line is the header of a frame table, not a '#' comment or
+/// blank. Removes byte order marks from the front of the line. Files that were
+/// put together from others have such marks behind comments too.
 bool IsHeaderLine(CsvLine* line);
 
 /// Parses the rows of a frame table by its header. Several threads may use one.
 class FrameParser {
  public:
   /// `renames` maps a lab's own headers to vocabulary names, or the other way
-  /// round if only the key is a vocabulary name. InputError (path:line:column)
-  /// for a bad header.
+  /// round if only the key is a vocabulary name. Throws InputError
+  /// (path:line:column) for a bad header.
   FrameParser(const std::string& path, const CsvLine& header,
               const std::map<std::string, std::string>& renames);
 
   const std::string& path() const { return path_; }
   const std::vector<std::string>& names() const { return names_; }
-  /// Whether a column holds numbers; other columns hold text.
+  /// Says whether a column holds numbers. Other columns hold text.
   bool IsNumeric(std::size_t column) const { return numeric_[column]; }
   std::optional<std::size_t> Find(const std::string& name) const;
   /// Throws InputError with the nearest name if there is no such column.
   std::size_t Require(const std::string& name) const;
 
-  /// Appends a line as a row. InputError (path:line:column) for a wrong number
-  /// of cells or a cell that is no number; the row then holds the cells before
-  /// it.
+  /// Appends a line as a row. Throws InputError (path:line:column) for a wrong
+  /// number of cells or a cell that is no number. The row then holds the cells
+  /// before it.
   void Parse(const CsvLine& line, FrameRows* rows) const;
 
  private:
   [[noreturn]] void Fail(int line, const std::string& message) const;
   [[noreturn]] void FailAt(int line, std::size_t cell,
                            const std::string& message) const;
-  // The first cell that holds a NUL byte, or the number of cells.
+  // Returns the index of the first cell that holds a NUL byte, or the number of
+  // cells if there is none.
   static std::size_t FirstNul(const std::vector<std::string_view>& cells);
 
   std::string path_;

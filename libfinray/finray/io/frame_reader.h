@@ -21,13 +21,14 @@ class FrameReader {
   explicit FrameReader(const std::string& path,
                        const std::map<std::string, std::string>& renames = {});
 
-  /// Makes `table` the next rows of the file, at most `rows`. False if none is
-  /// left; the table is then empty. InputError (file:line:column) for a bad
-  /// row.
+  /// Sets `table` to the next rows of the file, at most `rows`. Returns false
+  /// if no row is left; the table is then empty. Throws InputError
+  /// (file:line:column) for a bad row.
   bool Read(std::size_t rows, FrameTable* table);
 
-  /// The same as lines, for parser() to parse. It does not throw: the block
-  /// holds the good lines and then the error. False if it holds neither.
+  /// Reads the next rows as lines, which parser() parses. It does not throw:
+  /// the block holds the good lines and then the error. Returns false if the
+  /// block holds neither.
   bool ReadLines(std::size_t rows, LineBlock* block);
 
   /// Skips rows without parsing them. Returns their number, which is less than
@@ -35,7 +36,7 @@ class FrameReader {
   std::size_t Skip(std::size_t rows);
 
   const FrameParser& parser() const { return parser_; }
-  /// Rows read or skipped so far.
+  /// The number of rows that were read or skipped so far.
   std::size_t position() const { return position_; }
 
  private:

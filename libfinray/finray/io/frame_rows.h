@@ -14,9 +14,9 @@ namespace finray {
 class FrameRows {
  public:
   struct Cell {
-    /// NaN for text and for a cell that was not measured.
+    /// The number is NaN for text and for a cell that was not measured.
     double number = std::numeric_limits<double>::quiet_NaN();
-    /// Without quotes. It refers to the line that was parsed.
+    /// The text has no quotes. It refers to the line that was parsed.
     std::string_view text;
   };
 

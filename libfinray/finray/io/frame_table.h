@@ -29,35 +29,36 @@ class FrameTable {
 
   std::size_t rows() const { return rows_; }
   const std::string& path() const { return path_; }
-  /// The line of the file that a row came from, from 1; 0 in a table that was
-  /// not read.
+  /// Returns the line of the file that a row came from, counted from 1. It is 0
+  /// in a table that was not read.
   int line(std::size_t row) const {
     return row < lines_.size() ? lines_[row] : 0;
   }
 
   std::vector<std::string> headers() const;
   bool Has(const std::string& name) const;
-  /// A numeric column. InputError if it is missing (with the nearest name) or
-  /// holds text.
+  /// Returns a numeric column. Throws InputError if it is missing (with the
+  /// nearest name) or holds text.
   const std::vector<double>& Numbers(const std::string& name) const;
-  /// The same, but all NaN if the column is missing.
+  /// Returns a numeric column like Numbers, but all NaN if it is missing.
   std::vector<double> NumbersOrNan(const std::string& name) const;
-  /// A numeric column to write to, filled with NaN if it is new. InputError if
-  /// it exists and holds text.
+  /// Returns a numeric column to write to, filled with NaN if it is new. Throws
+  /// InputError if it exists and holds text.
   std::vector<double>& MutableNumbers(const std::string& name);
-  /// A text column to write to, filled with "" if it is new. InputError if it
-  /// exists and holds numbers.
+  /// Returns a text column to write to, filled with "" if it is new. Throws
+  /// InputError if it exists and holds numbers.
   std::vector<std::string>& MutableText(const std::string& name);
   /// Keeps the first rows only.
   void Truncate(std::size_t rows);
 
-  /// CSV text that reads back as the same doubles. A number that is not finite
-  /// becomes an empty cell ("nan" if the line would be blank).
+  /// Returns CSV text that reads back as the same doubles. A number that is not
+  /// finite becomes an empty cell ("nan" if the line would be blank).
   std::string ToCsv() const { return HeaderCsv() + RowsCsv(); }
-  /// The first line of ToCsv(), and the other ones.
+  /// Return the first line of ToCsv(), and its other lines.
   std::string HeaderCsv() const;
   std::string RowsCsv() const;
-  /// Writes ToCsv(), gzipped if the name ends in .gz, by WriteFileAtomically.
+  /// Writes ToCsv() by WriteFileAtomically. The file is gzipped if its name
+  /// ends in .gz.
   void Write(const std::string& path) const;
 
  private:
@@ -69,10 +70,11 @@ class FrameTable {
   };
 
   const Column* Find(const std::string& name) const;
-  // The cells of a column; InputError if they have another type.
+  // Returns the cells of a column. Throws InputError if they have another type.
   template <typename Cells>
   const Cells& CellsAs(const Column& column) const;
-  // The cells of a column to write to; a new one is filled with `missing`.
+  // Returns the cells of a column to write to. A new column is filled with
+  // `missing`.
   template <typename Cells>
   Cells& MutableCells(const std::string& name,
                       const typename Cells::value_type& missing);

@@ -7,18 +7,20 @@
 
 namespace finray {
 
-/// Whether a name belongs to the vocabulary of numeric columns, such as
+/// Says whether a name belongs to the vocabulary of numeric columns, such as
 /// gauge_<j>_V with j = 1, 2, ... (no leading zeros).
 bool IsFrameColumn(std::string_view name);
 
-/// Whether a column may hold "inf": a cylinder of infinite radius is a plane.
+/// Says whether a column may hold "inf": a cylinder of infinite radius is a
+/// plane.
 bool MayBeInfinite(std::string_view name);
 
-/// " (did you mean 'x'?)" with the nearest name of the vocabulary, or "".
+/// Returns " (did you mean 'x'?)" with the nearest name of the vocabulary, or
+/// "".
 std::string DidYouMeanFrameColumn(const std::string& name);
 
-/// "no column 'x'" and the nearest of `columns`, or all of them if none is
-/// near.
+/// Returns "no column 'x'" and the nearest of `columns`, or all of them if none
+/// is near.
 std::string NoColumn(const std::string& name,
                      const std::vector<std::string>& columns);
 

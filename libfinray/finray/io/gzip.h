@@ -27,7 +27,7 @@ class GzipFile : public ByteSource {
   gzFile file_;
 };
 
-/// The gzipped content.
+/// Returns the gzipped content.
 std::string Gzipped(const std::string& content);
 
 }  // namespace finray

@@ -10,8 +10,8 @@ namespace finray {
 /// YAML file"). It does not check whether the file can be opened.
 void RefuseFolderOrPipe(const std::string& path, const std::string& expected);
 
-/// The bytes of a file. Throws InputError if it cannot be read, is a folder or
-/// a pipe, or is longer than `most_MiB`.
+/// Returns the bytes of a file. Throws InputError if it cannot be read, is a
+/// folder or a pipe, or is longer than `most_MiB`.
 std::string ReadWholeFile(const std::string& path, const std::string& expected,
                           int most_MiB);
 

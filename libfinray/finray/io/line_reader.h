@@ -32,17 +32,18 @@ class LineReader {
   /// `name` is the name of the source in messages.
   LineReader(std::unique_ptr<ByteSource> bytes, const std::string& name);
 
-  /// Goes to the next line. False at the end, and as soon as the source was
-  /// told to stop. Throws InputError if the source cannot be read or a line is
-  /// longer than 16 MiB.
+  /// Goes to the next line. Returns false at the end, and as soon as the source
+  /// was told to stop. Throws InputError if the source cannot be read or a line
+  /// is longer than 16 MiB.
   bool Next();
   /// The current line. Its text is valid until the next call of Next().
   const CsvLine& line() const { return line_; }
 
  private:
-  // Reads more bytes; false if there will be none.
+  // Reads more bytes. Returns false if there will be none.
   bool Fill();
-  // Moves the next line to line_; false if its end has not been read yet.
+  // Moves the next line to line_. Returns false if its end has not been read
+  // yet.
   bool Take();
 
   std::unique_ptr<ByteSource> bytes_;

@@ -34,7 +34,7 @@ bool IsResult(const fs::path& path, const std::string& results_folder) {
   return fs::equivalent(folder, results_folder, unknown);
 }
 
-// The files that match a pattern, sorted byte by byte.
+// Returns the files that match a pattern, sorted byte by byte.
 std::vector<std::string> Matches(const std::string& pattern,
                                  const std::string& results_folder) {
   glob_t found = {};
@@ -111,7 +111,7 @@ void AddList(const std::string& path, const std::string& results_folder,
   }
 }
 
-// The folder of `log` relative to `root`.
+// Returns the folder of `log` relative to `root`.
 fs::path FolderBelow(const std::string& root, const std::string& log) {
   const fs::path below =
       fs::absolute(log).lexically_normal().lexically_relative(

@@ -19,13 +19,14 @@ namespace finray {
 std::vector<std::string> ExpandLogs(const std::vector<std::string>& items,
                                     const std::string& results_folder = "");
 
-/// The name of a log in its results: "a" for a.csv and a.csv.gz.
+/// Returns the name of a log in its results: "a" for a.csv and a.csv.gz.
 std::string LogName(const std::string& path);
 
-/// folder/<LogName>.frames.csv for each log. With `root`, a folder above all
-/// logs, `folder` gets the subfolders of `root`, and logs of different folders
-/// may share a name. Throws InputError if two logs have the same result, if a
-/// result would overwrite a log, or if a log is not below `root`.
+/// Returns folder/<LogName>.frames.csv for each log. With `root`, a folder
+/// above all logs, `folder` gets the subfolders of `root`, and logs of
+/// different folders may share a name. Throws InputError if two logs have the
+/// same result, if a result would overwrite a log, or if a log is not below
+/// `root`.
 std::vector<std::string> ResultPaths(const std::vector<std::string>& logs,
                                      const std::string& folder,
                                      const std::string& root = "");

@@ -16,8 +16,8 @@ std::string Lower(std::string text) {
   return text;
 }
 
-// The letters and digits of a name: gauge4_V means gauge_4_V rather than
-// gauge_1_V, which is equally near.
+// Returns the letters and digits of a name. By these gauge4_V means gauge_4_V
+// rather than gauge_1_V, which is equally near.
 std::string Bare(const std::string& text) {
   std::string bare;
   for (const char c : Lower(text)) {
@@ -26,7 +26,7 @@ std::string Bare(const std::string& text) {
   return bare;
 }
 
-// Levenshtein distance.
+// Returns the Levenshtein distance.
 std::size_t EditDistance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});

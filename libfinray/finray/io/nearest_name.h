@@ -6,8 +6,8 @@
 
 namespace finray {
 
-/// " (did you mean 'x'?)" with the candidate x nearest to `name` by edit
-/// distance (case-insensitive), or "" if none is near enough.
+/// Returns " (did you mean 'x'?)" with the candidate x nearest to `name` by
+/// edit distance (case-insensitive), or "" if none is near enough.
 std::string DidYouMean(const std::string& name,
                        const std::vector<std::string>& candidates);
 

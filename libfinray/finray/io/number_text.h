@@ -11,12 +11,12 @@ namespace finray {
 
 // Numbers as text and back, with a decimal point in every locale.
 
-/// The finite decimal number that the whole of `text` stands for ("12", "+1.5",
-/// "-2e-3"), or nothing.
+/// Returns the finite decimal number that the whole of `text` stands for ("12",
+/// "+1.5", "-2e-3"), or nothing.
 std::optional<double> ParseNumber(std::string_view text);
 
-/// The shortest text that reads back as the same double; "nan", "inf" or "-inf"
-/// if it is not finite.
+/// Returns the shortest text that reads back as the same double, or "nan",
+/// "inf" or "-inf".
 std::string NumberText(double value);
 
 /// Formats like std::snprintf, but returns a string of any length.

@@ -60,7 +60,7 @@ std::optional<State> ParseLine(std::string_view line) {
   return state;
 }
 
-// The file behind a link.
+// Returns the file behind a link.
 fs::path Target(const std::string& path) {
   std::error_code missing;
   const fs::path target = fs::canonical(path, missing);

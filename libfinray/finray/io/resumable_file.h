@@ -22,26 +22,28 @@ namespace finray {
 /// or if another process is writing it.
 class ResumableFile {
  public:
-  /// Whether a run is writing this file or was interrupted while writing it.
+  /// Says whether a run is writing this file or was interrupted while it wrote
+  /// it.
   static bool IsUnderWay(const std::string& path);
 
   /// With `resume`, goes on behind the last checkpoint of an interrupted file
-  /// with the same key (one line of text). Otherwise, or if there is none,
+  /// that has the same key (one line of text). Otherwise, or if there is none,
   /// starts over.
   ResumableFile(const std::string& path, const std::string& key, bool resume);
 
   /// The note of the checkpoint where it went on; "" if it started over.
   const std::string& note() const { return note_; }
-  /// Whether the file is complete under its own name; only Forget() is left to
-  /// do.
+  /// Says whether the file is complete under its own name. Only Forget() is
+  /// then left to do.
   bool finished() const { return finished_; }
   std::uint64_t bytes() const { return bytes_; }
 
   void Append(const std::string& text);
-  /// Returns once all appended bytes are on the disk, with a note of one line.
+  /// Makes a checkpoint with a note of one line. Returns once all appended
+  /// bytes are on the disk.
   void Checkpoint(const std::string& note);
-  /// The same without waiting for the disk. Does nothing while the checkpoint
-  /// before it is still being written.
+  /// Makes a checkpoint without waiting for the disk. Does nothing while the
+  /// checkpoint before it is still being written.
   void CheckpointSoon(const std::string& note);
   /// Makes the last checkpoint and gives the file its own name.
   void Finish(const std::string& note);

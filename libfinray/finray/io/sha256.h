@@ -5,11 +5,11 @@
 
 namespace finray {
 
-/// SHA-256 of a file's bytes in hexadecimal. Throws InputError if the file
-/// cannot be read.
+/// Returns the SHA-256 of a file's bytes in hexadecimal. Throws InputError if
+/// the file cannot be read.
 std::string Sha256OfFile(const std::string& path);
 
-/// SHA-256 of a text's bytes in hexadecimal.
+/// Returns the SHA-256 of a text's bytes in hexadecimal.
 std::string Sha256OfText(const std::string& text);
 
 }  // namespace finray

@@ -6,11 +6,12 @@
 
 namespace finray {
 
-/// Text for a message of one line: control characters and line ends become
-/// spaces, and text beyond 1000 bytes is cut off.
+/// Returns text for a message of one line. Control characters and line ends
+/// become spaces, and text beyond 1000 bytes is cut off.
 std::string ShownLine(std::string_view text);
 
-/// Text from a user's file for a message: in quotes, and cut after 40 bytes.
+/// Returns text from a user's file for a message: in quotes, and cut after 40
+/// bytes.
 std::string ShownText(std::string_view text);
 
 }  // namespace finray

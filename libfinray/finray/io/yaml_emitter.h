@@ -9,9 +9,9 @@
 
 namespace finray {
 
-/// A number in YAML that reads back as the same double: .nan, .inf, and with a
-/// point before an exponent, without which YAML 1.1 reads text. With `digits`
-/// it is rounded to that many (0.1 + 0.2 is 0.3 with 12).
+/// Returns a number in YAML that reads back as the same double: .nan, .inf, and
+/// a point before an exponent, without which YAML 1.1 reads text. With `digits`
+/// the number is rounded to that many (0.1 + 0.2 is 0.3 with 12).
 std::string YamlNumber(double value, int digits = 0);
 
 /// A YAML::Emitter that writes numbers the same way in every locale. yaml-cpp
@@ -53,7 +53,7 @@ void YamlPair(YamlEmitter* yaml, const Key& key, const Value& value) {
   *yaml << YAML::Key << key << YAML::Value << value;
 }
 
-/// Several keys and values, in turn.
+/// Writes several keys and values into an open mapping. They alternate.
 template <class Key, class Value, class... More>
 void YamlPairs(YamlEmitter* yaml, const Key& key, const Value& value,
                const More&... more) {
@@ -61,7 +61,7 @@ void YamlPairs(YamlEmitter* yaml, const Key& key, const Value& value,
   if constexpr (sizeof...(more) > 0) YamlPairs(yaml, more...);
 }
 
-/// A mapping of these keys and values, on one line.
+/// Writes a mapping of alternating keys and values on one line.
 template <class... Pairs>
 void YamlLine(YamlEmitter* yaml, const Pairs&... pairs) {
   *yaml << YAML::Flow << YAML::BeginMap;

@@ -14,7 +14,8 @@ namespace finray {
 // tree.
 
 constexpr int kMostYaml_MiB = 16;
-/// Values and keys; those behind an alias count each time.
+/// The largest number of values and keys. Those behind an alias count each
+/// time.
 constexpr std::size_t kMostYamlNodes = 1000000;
 constexpr std::size_t kMostYamlDepth = 50;
 
@@ -26,7 +27,8 @@ constexpr double kLargestYamlNumber = 1e30;
 /// these limits, or has an alias inside the value that it refers to.
 void CheckYamlLimits(const std::string& path, const std::string& text);
 
-/// "path:line:column: ", which begins a message; line and column count from 0.
+/// Returns "path:line:column: ", which begins a message. `line` and `column`
+/// count from 0.
 std::string YamlPlace(const std::string& path, int line, int column);
 std::string YamlPlace(const std::string& path, const YAML::Mark& mark);
 

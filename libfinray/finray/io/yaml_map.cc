@@ -14,7 +14,7 @@
 namespace finray {
 namespace {
 
-// A value for a message, in one short line.
+// Returns a value for a message, in one short line.
 std::string Shown(const YAML::Node& node) {
   if (node.IsMap()) return "a mapping";
   if (node.IsSequence()) return "a sequence";
@@ -72,7 +72,7 @@ std::vector<double> NumbersIn(const std::string& path, const YAML::Node& value,
   return numbers;
 }
 
-// The message for a value that is none of `words`.
+// Returns the message for a value that is none of `words`.
 std::string NotOneOf(const std::string& name,
                      const std::vector<std::string>& words,
                      const YAML::Node& value) {

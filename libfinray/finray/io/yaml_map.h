@@ -42,7 +42,8 @@ class YamlMap {
   std::string Text(const std::string& key, const std::string& fallback) const {
     return Has(key) ? Text(key) : fallback;
   }
-  /// One of the listed words. The error names all of them and the nearest.
+  /// Returns one of the listed words. The error names all of them and the
+  /// nearest.
   std::string Choice(const std::string& key,
                      const std::vector<std::string>& words) const;
   std::string Choice(const std::string& key,
@@ -51,21 +52,22 @@ class YamlMap {
     return Has(key) ? Choice(key, words) : fallback;
   }
 
-  /// Whether the value of `key` is a mapping.
+  /// Says whether the value of `key` is a mapping.
   bool IsMap(const std::string& key) const;
   YamlMap Map(const std::string& key) const;
-  /// A sequence of mappings; empty if the key is missing or has no value.
+  /// Returns a sequence of mappings, which is empty if the key is missing or
+  /// has no value.
   std::vector<YamlMap> Maps(const std::string& key) const;
 
-  /// A sequence of the listed words.
+  /// Returns a sequence of the listed words.
   std::vector<std::string> Choices(const std::string& key,
                                    const std::vector<std::string>& words) const;
 
-  /// A sequence of numbers, and a sequence of such sequences.
+  /// Return a sequence of numbers, and a sequence of such sequences.
   std::vector<double> Numbers(const std::string& key) const;
   std::vector<std::vector<double>> NumberRows(const std::string& key) const;
 
-  /// A sequence of pairs of numbers, [[x, y], ...].
+  /// Returns a sequence of pairs of numbers, [[x, y], ...].
   std::vector<std::array<double, 2>> Pairs(const std::string& key) const;
 
   /// Throws InputError at the position of `key`, or of the mapping if the key
@@ -77,7 +79,8 @@ class YamlMap {
   [[noreturn]] void FailIn(const std::string& key,
                            const std::vector<std::size_t>& element,
                            const std::string& message) const;
-  /// "path:line:column: " of a key's value, for errors that are found later.
+  /// Returns "path:line:column: " of a key's value, for errors that are found
+  /// later.
   std::string PlaceOf(const std::string& key) const;
   const std::string& path() const { return path_; }
 
