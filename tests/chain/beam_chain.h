@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
-#include "finray/chain/chain_state.h"
+#include "finray/chain/forward.h"
 
 namespace finray {
 

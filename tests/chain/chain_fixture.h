@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "finray/chain/chain_state.h"
+#include "finray/chain/forward.h"
 #include "test_finger.h"
 
 namespace finray {

@@ -9,7 +9,7 @@
 #include "chain/beam_chain.h"
 #include "chain/chain_fixture.h"
 #include "chain/jet_jacobian.h"
-#include "finray/chain/finger_jacobian.h"
+#include "finray/chain/finger_equations.h"
 #include "finray/chain/scaled_equations.h"
 
 namespace finray {

@@ -19,7 +19,7 @@ Experiment StepExperiment() {
   experiment.scene.object = RigidObject{Outline(CircleOutline{15}), {}};
   experiment.start = {80, 0, 1};
   experiment.actuation = {1.0 / 30, 0.13, 0.03, 50};
-  experiment.set_point = Trajectory(StepTrajectory{{3, 5}, 4});
+  experiment.set_point = Trajectory{{3, 5}, 4};
   experiment.model_error = {1, 0.3, 5e-4, 0.03};
   experiment.duration_s = 8;
   experiment.measure_from_s = 3;
@@ -86,7 +86,7 @@ TEST(ControlLoopTest, TwoFingersGrasp) {
       FourBar(FourBarJoints{{10, -75}, {10, -15}, {50, -75}, {50, -15}}));
   experiment.actuation.speed_limit = 0.8;
   experiment.safety.approach_speed = 0.07;
-  experiment.set_point = Trajectory(StepTrajectory{{4, 6}, 4});
+  experiment.set_point = Trajectory{{4, 6}, 4};
   const LoopRun run = RunLoop(PaperFinger(), experiment, {}, {}, 2);
   ASSERT_EQ(run.failure, "");
   ASSERT_EQ(run.rows.back().fingers.size(), 2u);
@@ -166,7 +166,7 @@ TEST(ControlLoopTest, WrongDelay) {
 TEST(ControlLoopTest, WithoutAControllerTheDriveStays) {
   Experiment experiment = StepExperiment();
   experiment.start.gap_mm = 5;
-  experiment.motion = Trajectory(HarmonicTrajectory{0, 9, 8});
+  experiment.motion = Trajectory::Wave(0, 9, 8);
   ControllerSettings none;
   none.kind = ControllerKind::kNone;
   const LoopRun run = RunLoop(PaperFinger(), experiment, none, {}, 1);

@@ -25,7 +25,7 @@ LoopRun Follow(const Experiment& experiment, double offset_N, double lag_s) {
 
 TEST(ControlStatisticsTest, OffsetAndLag) {
   Experiment experiment;
-  experiment.set_point = Trajectory(HarmonicTrajectory{4, 2, 3});
+  experiment.set_point = Trajectory::Wave(4, 2, 3);
   experiment.measure_from_s = 1;
   const ControlStatistics s =
       StatisticsOf(Follow(experiment, 0.3, 0), experiment, true);
@@ -41,7 +41,7 @@ TEST(ControlStatisticsTest, OffsetAndLag) {
 // The error is 2 N for 0.1 s after each step and 0 otherwise.
 TEST(ControlStatisticsTest, SettledIsBehindTheSteps) {
   Experiment experiment;
-  experiment.set_point = Trajectory(StepTrajectory{{4, 6, 4}, 3});
+  experiment.set_point = Trajectory{{4, 6, 4}, 3};
   experiment.measure_from_s = 0;
   experiment.settled_after_s = 0.2;
   const ControlStatistics s =
@@ -54,7 +54,7 @@ TEST(ControlStatisticsTest, SettledIsBehindTheSteps) {
 
 TEST(ControlStatisticsTest, RunsAddUp) {
   Experiment experiment;
-  experiment.set_point = Trajectory(ConstantTrajectory{4});
+  experiment.set_point = Trajectory{{4}};
   experiment.measure_from_s = 0;
   ControlStatistics all =
       StatisticsOf(Follow(experiment, 0.3, 0), experiment, true);

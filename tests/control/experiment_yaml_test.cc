@@ -1,4 +1,4 @@
-#include "finray/control/experiment_yaml.h"
+#include "finray/control/experiment.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
-#include "finray/control/gauge_zero.h"
-
 #include <gtest/gtest.h>
 
+#include "finray/control/control_loop.h"
 #include "finray/statics/equilibrium.h"
 #include "test_finger.h"
 

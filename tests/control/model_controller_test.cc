@@ -55,7 +55,7 @@ TEST_F(ModelControllerTest, StepIsFollowedAtOnce) {
                              kActuation.period_s, false);
   Plant plant({PaperFinger()}, Mechanism(), kCircle, 0, 80, 0, -4);
   Actuator drive(kActuation, 0);
-  const Trajectory set_point(StepTrajectory{{4, 6}, 1});
+  const Trajectory set_point{{4, 6}, 1};
   const std::vector<double> forces =
       Run(&controller, &plant, &drive, set_point, 60);
   EXPECT_NEAR(forces[30], 4, 1e-3);
@@ -71,8 +71,7 @@ TEST_F(ModelControllerTest, StiffPartsAreNoMatter) {
   Plant plant({PaperFinger()}, Mechanism(), kCircle, 0, 110, 0, -2);
   Actuator drive(kActuation, 0);
   const std::vector<double> forces =
-      Run(&controller, &plant, &drive, Trajectory(StepTrajectory{{4, 6, 4}, 1}),
-          90);
+      Run(&controller, &plant, &drive, Trajectory{{4, 6, 4}, 1}, 90);
   EXPECT_NEAR(forces[55], 6, 0.01);
   EXPECT_NEAR(forces[85], 4, 0.01);
   EXPECT_LT(*std::max_element(forces.begin() + 30, forces.end()), 6.02);
@@ -86,7 +85,7 @@ TEST_F(ModelControllerTest, PreviewTakesTheLag) {
                                kActuation.period_s, preview);
     Plant plant({PaperFinger()}, Mechanism(), kCircle, 0, 80, 0, -4);
     Actuator drive(kActuation, 0);
-    const Trajectory set_point(HarmonicTrajectory{4, 2, 3});
+    const Trajectory set_point = Trajectory::Wave(4, 2, 3);
     const std::vector<double> forces =
         Run(&controller, &plant, &drive, set_point, 180);
     double squares = 0;
@@ -106,8 +105,8 @@ TEST_F(ModelControllerTest, FollowsAMovingObject) {
                              kActuation.period_s, false);
   Plant plant({PaperFinger()}, Mechanism(), kCircle, 0, 80, 0, -4);
   Actuator drive(kActuation, 0);
-  const std::vector<double> forces = Run(
-      &controller, &plant, &drive, Trajectory(ConstantTrajectory{6}), 120, 3);
+  const std::vector<double> forces =
+      Run(&controller, &plant, &drive, Trajectory{{6}}, 120, 3);
   EXPECT_NEAR(forces[119], 6, 0.005);
   EXPECT_NEAR(controller.filter().velocity_mm_s(), 3, 0.02);
 }
@@ -120,8 +119,7 @@ TEST_F(ModelControllerTest, LearnsASpring) {
   Plant plant({PaperFinger()}, Mechanism(), sprung, 0, 80, 0, -6);
   Actuator drive(kActuation, 0);
   const std::vector<double> forces =
-      Run(&controller, &plant, &drive,
-          Trajectory(StepTrajectory{{3, 5, 3, 5}, 3}), 360);
+      Run(&controller, &plant, &drive, Trajectory{{3, 5, 3, 5}, 3}, 360);
   EXPECT_NEAR(controller.filter().compliance_mm_per_N(), 2, 0.1);
   EXPECT_NEAR(forces[359], 5, 0.02);
   EXPECT_LT(*std::max_element(forces.begin() + 270, forces.end()), 5.1);
@@ -139,8 +137,8 @@ TEST_F(ModelControllerTest, TwoUnlikeFingers) {
   ActuatorSettings motor = kActuation;
   motor.speed_limit = 0.8;
   Actuator drive(motor, 0);
-  const std::vector<double> forces = Run(
-      &controller, &plant, &drive, Trajectory(StepTrajectory{{4, 10}, 1}), 75);
+  const std::vector<double> forces =
+      Run(&controller, &plant, &drive, Trajectory{{4, 10}, 1}, 75);
   EXPECT_NEAR(forces[29], 4, 0.05);
   EXPECT_NEAR(forces[74], 10, 0.05);
 }

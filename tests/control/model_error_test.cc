@@ -1,9 +1,8 @@
-#include "finray/control/model_error.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "finray/control/plant.h"
 #include "test_finger.h"
 
 namespace finray {

@@ -1,9 +1,9 @@
-#include "finray/control/object_filter.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
+
+#include "finray/control/model_controller.h"
 
 namespace finray {
 namespace {

@@ -1,9 +1,9 @@
-#include "finray/control/pi_controller.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "finray/control/controller.h"
 
 namespace finray {
 namespace {
@@ -25,7 +25,7 @@ TEST(PiControllerTest, SettlesOnALinearPlant) {
   const ActuatorSettings settings = {1.0 / 30, 0.13, 0.03, 50};
   PiController controller(0.9, settings, false);
   Actuator drive(settings, 0);
-  const Trajectory set_point(ConstantTrajectory{3});
+  const Trajectory set_point{{3}};
   double highest = 0, force = 0;
   for (int k = 0; k < 150; ++k) {
     const double time = k * settings.period_s;
@@ -43,7 +43,7 @@ TEST(PiControllerTest, DoesNotWindUp) {
   const ActuatorSettings settings = {1.0 / 30, 0.13, 0.03, 2};
   PiController controller(0.9, settings, false);
   Actuator drive(settings, 0);
-  const Trajectory set_point(ConstantTrajectory{50});
+  const Trajectory set_point{{50}};
   for (int k = 0; k < 100; ++k) {
     const double time = k * settings.period_s;
     drive.AdvanceTo(time);

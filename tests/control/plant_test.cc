@@ -5,7 +5,6 @@
 #include <random>
 #include <stdexcept>
 
-#include "finray/control/model_error.h"
 #include "finray/control/push_model.h"
 #include "test_finger.h"
 

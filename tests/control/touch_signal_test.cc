@@ -1,10 +1,9 @@
-#include "finray/control/touch_signal.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "finray/control/contact_watch.h"
 #include "finray/statics/equilibrium.h"
 #include "test_finger.h"
 

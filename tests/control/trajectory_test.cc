@@ -8,10 +8,10 @@ namespace finray {
 namespace {
 
 TEST(TrajectoryTest, HarmonicAndTriangular) {
-  const Trajectory harmonic(HarmonicTrajectory{4, 2, 3});
+  const Trajectory harmonic = Trajectory::Wave(4, 2, 3);
   EXPECT_DOUBLE_EQ(harmonic.At(0.75), 6);
   EXPECT_NEAR(harmonic.At(0.25), 5, 1e-12);
-  const Trajectory triangular(TriangularTrajectory{4, 2, 4});
+  const Trajectory triangular = Trajectory::Wave(4, 2, 4, true);
   EXPECT_NEAR(triangular.At(0.25), 4.5, 1e-12);
   EXPECT_NEAR(triangular.At(1.5), 5, 1e-12);
   EXPECT_NEAR(triangular.At(3), 2, 1e-12);
@@ -19,7 +19,7 @@ TEST(TrajectoryTest, HarmonicAndTriangular) {
 }
 
 TEST(TrajectoryTest, StepsJumpAtTheirTime) {
-  const Trajectory steps(StepTrajectory{{4, 6, 10}, 1});
+  const Trajectory steps{{4, 6, 10}, 1};
   EXPECT_DOUBLE_EQ(steps.At(-1), 4);
   EXPECT_DOUBLE_EQ(steps.At(0.999), 4);
   // 30 periods of 1 / 30 s are a second, apart from rounding.
@@ -33,7 +33,7 @@ TEST(TrajectoryTest, StepsJumpAtTheirTime) {
 }
 
 TEST(TrajectoryTest, RampsLeadFromLevelToLevel) {
-  const Trajectory steps(StepTrajectory{{4, 6}, 1, 0.5});
+  const Trajectory steps{{4, 6}, 1, 0.5};
   EXPECT_DOUBLE_EQ(steps.At(1), 4);
   EXPECT_DOUBLE_EQ(steps.At(1.25), 5);
   EXPECT_DOUBLE_EQ(steps.At(1.5), 6);

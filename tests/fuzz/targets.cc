@@ -6,7 +6,7 @@
 
 #include "finray/calib/problem/plan.h"
 #include "finray/calib/report/calibration_file.h"
-#include "finray/control/experiment_yaml.h"
+#include "finray/control/experiment.h"
 #include "finray/io/frame_table.h"
 #include "fuzz/feeding.h"
 

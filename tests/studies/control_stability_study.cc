@@ -45,7 +45,7 @@ Experiment MakeExperiment(double stiffness, double believed_ms,
   experiment.start = {80, 0, 1};
   experiment.actuation = {1.0 / 30, 1e-3 * believed_ms, 0.03, 50};
   experiment.true_delay_s = 1e-3 * true_ms;
-  experiment.set_point = Trajectory(StepTrajectory{{3, 5, 3}, 8});
+  experiment.set_point = Trajectory{{3, 5, 3}, 8};
   experiment.model_error = {1, 0.3, 5e-4, 0.03};
   experiment.duration_s = 24;
   experiment.measure_from_s = 8;

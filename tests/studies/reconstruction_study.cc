@@ -18,7 +18,7 @@
 #include <fstream>
 #include <random>
 
-#include "finray/control/model_error.h"
+#include "finray/control/plant.h"
 #include "finray/io/atomic_file.h"
 #include "finray/perception/paper_outline.h"
 #include "finray/perception/polygon.h"

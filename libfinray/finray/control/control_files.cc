@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "finray/batch/result_columns.h"
-#include "finray/control/experiment_yaml.h"
+#include "finray/control/experiment.h"
 #include "finray/scene/frame_columns.h"
 
 namespace finray {

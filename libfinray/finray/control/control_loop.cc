@@ -6,11 +6,11 @@
 #include <memory>
 #include <random>
 
-#include "finray/control/gauge_zero.h"
+#include "finray/control/contact_watch.h"
+#include "finray/control/controller.h"
 #include "finray/control/model_controller.h"
-#include "finray/control/pi_controller.h"
-#include "finray/control/touch_signal.h"
 #include "finray/io/error.h"
+#include "finray/scene/clean_readings.h"
 #include "finray/sensing/live_estimator.h"
 
 namespace finray {
@@ -207,6 +207,30 @@ class Loop {
 };
 
 }  // namespace
+
+GaugeZero::GaugeZero(const Finger& finger,
+                     const Discretization& discretization) {
+  EquilibriumSolver solver(finger, discretization);
+  if (!solver.Solve({})) {
+    throw InputError("the free finger has no equilibrium: " + solver.Why());
+  }
+  free_V_ = CleanReadings(solver).gauges_V;
+  sum_V_.assign(free_V_.size(), 0);
+}
+
+void GaugeZero::Add(const Measurements& readings) {
+  for (std::size_t j = 0; j < sum_V_.size(); ++j) {
+    sum_V_[j] += readings.gauges_V[j] - free_V_[j];
+  }
+  ++count_;
+}
+
+void GaugeZero::Apply(Measurements* readings) const {
+  if (count_ == 0) return;
+  for (std::size_t j = 0; j < sum_V_.size(); ++j) {
+    readings->gauges_V[j] -= sum_V_[j] / count_;
+  }
+}
 
 LoopRun RunLoop(const Finger& finger, const Experiment& experiment,
                 const ControllerSettings& controller,

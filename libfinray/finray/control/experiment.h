@@ -8,9 +8,10 @@
 #include "finray/control/actuator.h"
 #include "finray/control/contact_watch.h"
 #include "finray/control/mechanism.h"
-#include "finray/control/model_error.h"
-#include "finray/control/object_filter.h"
+#include "finray/control/model_controller.h"
+#include "finray/control/plant.h"
 #include "finray/control/trajectory.h"
+#include "finray/io/yaml_emitter.h"
 #include "finray/scene/scene.h"
 
 namespace finray {
@@ -73,6 +74,14 @@ struct Experiment {
   double settled_after_s = 1;  ///< after a step of the set-point
   int draws = 10;
 };
+
+/// Reads an experiment YAML (docs/reference/formats.md) for `finger`. Throws
+/// InputError at the place of a key that is unknown, missing or impossible.
+Experiment ReadExperiment(const std::string& path, const Finger& finger);
+
+/// Writes the settings in force, with all defaults, as a mapping with the keys
+/// of that YAML.
+void EmitSettings(Experiment experiment, YamlEmitter* yaml);
 
 }  // namespace finray
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "finray/finger/discretization.h"
+#include "finray/finger/finger_parameter.h"
 #include "finray/finger/point_contact.h"
 #include "finray/scene/clean_readings.h"
 
@@ -27,6 +28,33 @@ const char* Reason(ObjectContactStatus status) {
 }
 
 }  // namespace
+
+Finger Perturbed(const Finger& finger, const ModelError& error,
+                 std::mt19937_64* generator) {
+  Finger perturbed = finger;
+  std::normal_distribution<double> unit;
+  for (const FingerParameter& parameter : ParametersOf(finger)) {
+    const double value = ParameterValue(finger, parameter);
+    double std = 0;
+    switch (parameter.kind) {
+      case FingerParameterKind::kFrontStiffness:
+      case FingerParameterKind::kBackStiffness:
+        std = 0.01 * error.stiffness_percent * value;
+        break;
+      case FingerParameterKind::kGaugeGain:
+        std = 0.01 * error.gauge_gain_percent * value;
+        break;
+      case FingerParameterKind::kGaugeOffset:
+        std = error.gauge_offset_V;
+        break;
+      case FingerParameterKind::kRibLength:
+        std = error.rib_length_mm;
+        break;
+    }
+    SetParameter(parameter, value + std * unit(*generator), &perturbed);
+  }
+  return perturbed;
+}
 
 Plant::Plant(const std::vector<Finger>& fingers, const Mechanism& mechanism,
              const RigidObject& object, double friction, double y_mm,

@@ -2,6 +2,7 @@
 #define FINRAY_CONTROL_PLANT_H_
 
 #include <deque>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,19 @@
 #include "finray/scene/measurements.h"
 
 namespace finray {
+
+/// The std by which a finger differs from its model. The errors are normal and
+/// independent.
+struct ModelError {
+  double stiffness_percent = 0;  ///< of each beam's EI
+  double gauge_gain_percent = 0;
+  double gauge_offset_V = 0;
+  double rib_length_mm = 0;
+};
+
+/// `finger` with errors drawn from `generator`.
+Finger Perturbed(const Finger& finger, const ModelError& error,
+                 std::mt19937_64* generator);
 
 /// One finger of the plant at an equilibrium.
 struct PlantFinger {

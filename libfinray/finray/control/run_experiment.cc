@@ -120,8 +120,8 @@ std::vector<ControllerResult> RunExperiment(
       if (result.failure.empty()) result.failure = failures[c * draws + d];
     }
     if (result.controller.kind != ControllerKind::kNone &&
-        std::holds_alternative<HarmonicTrajectory>(
-            experiment.set_point.shape())) {
+        experiment.set_point.amplitude != 0 &&
+        !experiment.set_point.triangular) {
       result.lag_s = LagSeconds(result.first, experiment);
     }
   }

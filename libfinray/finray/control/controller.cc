@@ -1,4 +1,4 @@
-#include "finray/control/pi_controller.h"
+#include "finray/control/controller.h"
 
 #include <algorithm>
 

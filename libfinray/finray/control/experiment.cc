@@ -1,10 +1,12 @@
-#include "finray/control/experiment_yaml.h"
+#include "finray/control/experiment.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <stdexcept>
+#include <variant>
 
 #include "finray/finger/geometry.h"
 
@@ -15,14 +17,16 @@ using Eigen::Vector2d;
 
 enum Range { kAny, kNonNegative, kPositive };
 
-// A number of an experiment: its key in the YAML and its unit there, in the
-// units of the program (1e-3 for a key in ms).
+// A value of an experiment with its key in the YAML. A number has a unit there,
+// in the units of the program (1e-3 for a key in ms); a rate is stored as its
+// period.
 struct Field {
   std::string key;
-  double* value;
+  std::variant<double*, int*, bool*> value;
   Range range = kNonNegative;
   double unit = 1;
   bool required = false;
+  bool is_rate = false;
 };
 using Fields = std::vector<Field>;
 
@@ -32,92 +36,103 @@ void Read(const YamlMap& map, const Fields& fields,
   for (const Field& field : fields) other.push_back(field.key);
   map.AllowOnly(other);
   for (const Field& field : fields) {
-    if (!field.required && !map.Has(field.key)) continue;
-    const double number = field.range == kAny ? map.Number(field.key)
-                          : field.range == kPositive
-                              ? map.PositiveNumber(field.key)
-                              : map.NonNegativeNumber(field.key);
-    *field.value = field.unit * number;
+    const std::string& key = field.key;
+    if (!field.required && !map.Has(key)) continue;
+    if (auto* flag = std::get_if<bool*>(&field.value)) {
+      **flag = map.Boolean(key, false);
+    } else if (auto* count = std::get_if<int*>(&field.value)) {
+      **count = map.Integer(key);
+    } else {
+      const double number = field.unit * (field.range == kAny ? map.Number(key)
+                                          : field.range == kPositive
+                                              ? map.PositiveNumber(key)
+                                              : map.NonNegativeNumber(key));
+      *std::get<double*>(field.value) = field.is_rate ? 1 / number : number;
+    }
   }
 }
 
 void Emit(const Fields& fields, YamlEmitter* yaml) {
   for (const Field& field : fields) {
-    YamlPair(yaml, field.key, *field.value / field.unit);
+    if (auto* flag = std::get_if<bool*>(&field.value)) {
+      YamlPair(yaml, field.key, **flag);
+    } else if (auto* count = std::get_if<int*>(&field.value)) {
+      YamlPair(yaml, field.key, **count);
+    } else {
+      const double number = *std::get<double*>(field.value);
+      YamlPair(yaml, field.key,
+               field.is_rate ? 1 / number : number / field.unit);
+    }
   }
 }
 
-// Speeds of a stage are in mm/s, those of a gripper's motor in deg/s.
-Field Speed(const std::string& key, const Experiment& experiment, double* value,
-            bool required) {
-  const bool gripper = experiment.mechanism.is_gripper();
-  return {key + (gripper ? "_deg_s" : "_mm_s"), value, kPositive,
-          gripper ? kDegree : 1, required};
-}
-
-Fields StartFields(Experiment* e) {
-  return {{"y_mm", &e->start.y_mm, kAny, 1, true},
-          {"gap_mm", &e->start.gap_mm},
-          {"angle_deg", &e->start.angle_rad, kAny, kDegree}};
-}
-
-Fields ActuationFields(Experiment* e, double* rate_Hz) {
+// Mappings of values by their keys. Speeds of a stage are in mm/s, those of a
+// gripper's motor in deg/s.
+std::map<std::string, Fields> Mappings(Experiment* e) {
+  const std::string per_s = e->mechanism.is_gripper() ? "_deg_s" : "_mm_s";
+  const double speed = e->mechanism.is_gripper() ? kDegree : 1;
   ActuatorSettings& actuation = e->actuation;
-  return {{"rate_Hz", rate_Hz, kPositive, 1, true},
-          {"delay_ms", &actuation.delay_s, kNonNegative, 1e-3, true},
-          {"true_delay_ms", &e->true_delay_s, kNonNegative, 1e-3},
-          {"time_constant_ms", &actuation.time_constant_s, kNonNegative, 1e-3},
-          Speed("speed_limit", *e, &actuation.speed_limit, true)};
-}
-
-Fields SafetyFields(Experiment* e) {
   Safety& safety = e->safety;
-  return {{"force_std_limit_N", &safety.force_std_limit_N, kPositive},
-          {"hold_s", &safety.hold_s},
-          {"touch_N", &safety.touch_N, kPositive},
-          Speed("approach_speed", *e, &safety.approach_speed, false)};
-}
-
-Fields ModelErrorFields(Experiment* e) {
   ModelError& error = e->model_error;
-  return {{"stiffness_std_percent", &error.stiffness_percent},
-          {"gauge_gain_std_percent", &error.gauge_gain_percent},
-          {"gauge_offset_std_V", &error.gauge_offset_V},
-          {"rib_length_std_mm", &error.rib_length_mm},
-          {"delay_std_ms", &e->delay_std_s, kNonNegative, 1e-3}};
+  return {
+      {"object_start",
+       {{"y_mm", &e->start.y_mm, kAny, 1, true},
+        {"gap_mm", &e->start.gap_mm},
+        {"angle_deg", &e->start.angle_rad, kAny, kDegree}}},
+      {"actuation",
+       {{"rate_Hz", &actuation.period_s, kPositive, 1, true, true},
+        {"delay_ms", &actuation.delay_s, kNonNegative, 1e-3, true},
+        {"true_delay_ms", &e->true_delay_s, kNonNegative, 1e-3},
+        {"time_constant_ms", &actuation.time_constant_s, kNonNegative, 1e-3},
+        {"speed_limit" + per_s, &actuation.speed_limit, kPositive, speed, true},
+        {"drive_is_measured", &e->drive_is_measured}}},
+      {"safety",
+       {{"force_std_limit_N", &safety.force_std_limit_N, kPositive},
+        {"hold_s", &safety.hold_s},
+        {"touch_N", &safety.touch_N, kPositive},
+        {"approach_speed" + per_s, &safety.approach_speed, kPositive, speed}}},
+      {"model_error",
+       {{"stiffness_std_percent", &error.stiffness_percent},
+        {"gauge_gain_std_percent", &error.gauge_gain_percent},
+        {"gauge_offset_std_V", &error.gauge_offset_V},
+        {"rib_length_std_mm", &error.rib_length_mm},
+        {"delay_std_ms", &e->delay_std_s, kNonNegative, 1e-3}}},
+      {"run",
+       {{"zero_s", &e->zero_s},
+        {"duration_s", &e->duration_s, kPositive, 1, true},
+        {"measure_from_s", &e->measure_from_s},
+        {"settled_after_s", &e->settled_after_s},
+        {"draws", &e->draws}}}};
 }
 
-Fields RunFields(Experiment* e) {
-  return {{"zero_s", &e->zero_s},
-          {"duration_s", &e->duration_s, kPositive, 1, true},
-          {"measure_from_s", &e->measure_from_s},
-          {"settled_after_s", &e->settled_after_s}};
+// Reads one of these mappings.
+YamlMap ReadMapping(const YamlMap& yaml, const std::string& key,
+                    Experiment* experiment) {
+  YamlMap map = yaml.Map(key);
+  Read(map, Mappings(experiment)[key]);
+  return map;
 }
 
 Fields ControllerFields(ControllerSettings* controller) {
-  switch (controller->kind) {
-    case ControllerKind::kModel:
-      return {{"object_acceleration_mm_s2",
-               &controller->prior.acceleration_mm_s2, kPositive},
-              {"object_compliance_mm_per_N",
-               &controller->prior.compliance_mm_per_N}};
-    case ControllerKind::kPi:
-      return {{"tuned_at_mm", &controller->tuned_at_mm, kPositive}};
-    case ControllerKind::kNone:
-      break;
+  if (controller->kind == ControllerKind::kNone) return {};
+  const Field preview{"preview", &controller->preview};
+  if (controller->kind == ControllerKind::kPi) {
+    return {preview, {"tuned_at_mm", &controller->tuned_at_mm, kPositive}};
   }
-  return {};
+  ObjectPrior& prior = controller->prior;
+  return {preview,
+          {"object_acceleration_mm_s2", &prior.acceleration_mm_s2, kPositive},
+          {"object_compliance_mm_per_N", &prior.compliance_mm_per_N}};
 }
 
 // In the order of ControllerKind.
 constexpr const char* kControllerTypes[] = {"model", "pi", "none"};
 
 Scene ReadLoopScene(const YamlMap& yaml) {
-  const auto file = [&] {
-    const auto folder = std::filesystem::path(yaml.path()).parent_path();
-    return ReadScene((folder / yaml.Text("scene")).string());
-  };
-  Scene scene = yaml.IsMap("scene") ? ReadScene(yaml.Map("scene")) : file();
+  const auto folder = std::filesystem::path(yaml.path()).parent_path();
+  Scene scene = yaml.IsMap("scene")
+                    ? ReadScene(yaml.Map("scene"))
+                    : ReadScene((folder / yaml.Text("scene")).string());
   const char* missing = nullptr;
   if (!scene.object) missing = "an object";
   if (scene.contacts) missing = "contacts: auto";
@@ -130,19 +145,19 @@ Scene ReadLoopScene(const YamlMap& yaml) {
   return scene;
 }
 
-Trajectory::Shape ReadTrajectory(const YamlMap& yaml, const std::string& unit,
-                                 bool with_mean) {
+Trajectory ReadTrajectory(const YamlMap& yaml, const std::string& unit,
+                          bool with_mean) {
   const std::string type =
       yaml.Choice("type", {"constant", "harmonic", "triangular", "steps"});
   if (type == "constant") {
     yaml.AllowOnly({"type", "value_" + unit});
-    return ConstantTrajectory{yaml.Number("value_" + unit)};
+    return {{yaml.Number("value_" + unit)}};
   }
   if (type == "steps") {
     yaml.AllowOnly({"type", "levels_" + unit, "hold_s", "ramp_s"});
-    StepTrajectory steps{yaml.Numbers("levels_" + unit),
-                         yaml.PositiveNumber("hold_s"),
-                         yaml.NonNegativeNumber("ramp_s", 0)};
+    Trajectory steps{yaml.Numbers("levels_" + unit),
+                     yaml.PositiveNumber("hold_s"),
+                     yaml.NonNegativeNumber("ramp_s", 0)};
     if (steps.ramp_s > steps.hold_s) {
       yaml.Fail("ramp_s", "ramp_s: expected hold_s at most");
     }
@@ -156,9 +171,8 @@ Trajectory::Shape ReadTrajectory(const YamlMap& yaml, const std::string& unit,
   yaml.AllowOnly(keys);
   const double mean = with_mean ? yaml.Number("mean_" + unit) : 0;
   const double amplitude = yaml.Number("amplitude_" + unit);
-  const double period = yaml.PositiveNumber("period_s");
-  if (type == "harmonic") return HarmonicTrajectory{mean, amplitude, period};
-  return TriangularTrajectory{mean, amplitude, period};
+  return Trajectory::Wave(mean, amplitude, yaml.PositiveNumber("period_s"),
+                          type == "triangular");
 }
 
 double Least(const Trajectory& trajectory, double duration_s) {
@@ -190,17 +204,6 @@ Mechanism ReadMechanism(const YamlMap& yaml) {
   }
 }
 
-void ReadActuation(const YamlMap& map, Experiment* experiment) {
-  double rate_Hz = 0;
-  Read(map, ActuationFields(experiment, &rate_Hz), {"drive_is_measured"});
-  experiment->actuation.period_s = 1 / rate_Hz;
-  if (!map.Has("true_delay_ms")) {
-    experiment->true_delay_s = experiment->actuation.delay_s;
-  }
-  experiment->drive_is_measured =
-      map.Boolean("drive_is_measured", experiment->drive_is_measured);
-}
-
 ControllerSettings ReadController(const YamlMap& map, const Finger& finger) {
   ControllerSettings settings;
   const std::vector<std::string> types(std::begin(kControllerTypes),
@@ -216,10 +219,7 @@ ControllerSettings ReadController(const YamlMap& map, const Finger& finger) {
              "name: expected letters, digits, _ and -; files are named so");
   }
   settings.tuned_at_mm = 0.5 * finger.front_length_mm;
-  std::vector<std::string> keys = {"type", "name"};
-  if (settings.kind != ControllerKind::kNone) keys.push_back("preview");
-  Read(map, ControllerFields(&settings), keys);
-  settings.preview = map.Boolean("preview", false);
+  Read(map, ControllerFields(&settings), {"type", "name"});
   if (!(settings.tuned_at_mm < finger.front_length_mm)) {
     map.Fail("tuned_at_mm", "tuned_at_mm: expected a height on the finger");
   }
@@ -264,8 +264,7 @@ void ReadGaugeLoss(const YamlMap& yaml, const Finger& finger,
 
 void ReadStart(const YamlMap& yaml, const Finger& finger,
                Experiment* experiment) {
-  const YamlMap map = yaml.Map("object_start");
-  Read(map, StartFields(experiment));
+  const YamlMap map = ReadMapping(yaml, "object_start", experiment);
   const double y_mm = experiment->start.y_mm;
   if (!(y_mm > 0 && y_mm < finger.front_length_mm)) {
     map.Fail("y_mm", "y_mm: expected a height between the front beam's ends");
@@ -286,9 +285,7 @@ void ReadStart(const YamlMap& yaml, const Finger& finger,
 }
 
 void ReadRun(const YamlMap& yaml, Experiment* experiment) {
-  const YamlMap map = yaml.Map("run");
-  Read(map, RunFields(experiment), {"draws"});
-  if (map.Has("draws")) experiment->draws = map.Integer("draws");
+  const YamlMap map = ReadMapping(yaml, "run", experiment);
   if (experiment->draws < 1) map.Fail("draws", "draws: expected 1 or more");
   if (!(experiment->measure_from_s < experiment->duration_s)) {
     map.Fail("measure_from_s", "measure_from_s: expected less than duration_s");
@@ -322,7 +319,9 @@ Experiment ReadExperiment(const std::string& path, const Finger& finger) {
   if (yaml.Has("object_motion")) {
     experiment.motion = ReadTrajectory(yaml.Map("object_motion"), "mm", false);
   }
-  ReadActuation(yaml.Map("actuation"), &experiment);
+  if (!ReadMapping(yaml, "actuation", &experiment).Has("true_delay_ms")) {
+    experiment.true_delay_s = experiment.actuation.delay_s;
+  }
   ReadControllers(yaml, finger, &experiment);
   ReadRun(yaml, &experiment);
   const auto& all = experiment.controllers;
@@ -340,48 +339,36 @@ Experiment ReadExperiment(const std::string& path, const Finger& finger) {
   if (experiment.mechanism.is_gripper()) {
     experiment.safety.approach_speed = 4 * kDegree;
   }
-  if (yaml.Has("safety")) Read(yaml.Map("safety"), SafetyFields(&experiment));
-  if (yaml.Has("model_error")) {
-    Read(yaml.Map("model_error"), ModelErrorFields(&experiment));
+  for (const char* key : {"safety", "model_error"}) {
+    if (yaml.Has(key)) ReadMapping(yaml, key, &experiment);
   }
   ReadGaugeLoss(yaml, finger, &experiment);
   return experiment;
 }
 
 void EmitSettings(Experiment experiment, YamlEmitter* yaml) {
-  const auto begin = [yaml](const char* key) {
+  std::map<std::string, Fields> mappings = Mappings(&experiment);
+  const auto emit = [&](const char* key) {
     *yaml << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginMap;
-  };
-  const auto line = [&](const char* key, const Fields& fields) {
-    begin(key);
-    Emit(fields, yaml);
+    Emit(mappings[key], yaml);
     *yaml << YAML::EndMap;
   };
   *yaml << YAML::BeginMap;
-  line("object_start", StartFields(&experiment));
-  double rate_Hz = 1 / experiment.actuation.period_s;
-  begin("actuation");
-  Emit(ActuationFields(&experiment, &rate_Hz), yaml);
-  YamlPair(yaml, "drive_is_measured", experiment.drive_is_measured);
-  *yaml << YAML::EndMap << YAML::Key << "controllers" << YAML::Value
-        << YAML::BeginSeq;
+  emit("object_start");
+  emit("actuation");
+  *yaml << YAML::Key << "controllers" << YAML::Value << YAML::BeginSeq;
   for (ControllerSettings& controller : experiment.controllers) {
     *yaml << YAML::Flow << YAML::BeginMap;
     YamlPairs(yaml, "type", kControllerTypes[static_cast<int>(controller.kind)],
               "name", controller.name);
-    if (controller.kind != ControllerKind::kNone) {
-      YamlPair(yaml, "preview", controller.preview);
-    }
     Emit(ControllerFields(&controller), yaml);
     *yaml << YAML::EndMap;
   }
   *yaml << YAML::EndSeq;
-  line("safety", SafetyFields(&experiment));
-  line("model_error", ModelErrorFields(&experiment));
-  begin("run");
-  Emit(RunFields(&experiment), yaml);
-  YamlPair(yaml, "draws", experiment.draws);
-  *yaml << YAML::EndMap << YAML::EndMap;
+  emit("safety");
+  emit("model_error");
+  emit("run");
+  *yaml << YAML::EndMap;
 }
 
 }  // namespace finray
