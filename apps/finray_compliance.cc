@@ -9,8 +9,9 @@
 #include "finray/io/log_list.h"
 #include "finray/io/number_text.h"
 #include "finray/io/python_script.h"
-#include "finray/perception/compliance_files.h"
+#include "finray/perception/perception_files.h"
 #include "outputs.h"
+#include "shared_flags.h"
 
 DEFINE_string(finger, "", "finger YAML, preferably calibrated");
 DEFINE_string(scene, "",
@@ -42,18 +43,11 @@ DEFINE_string(to_N, "",
 DEFINE_double(least_order_confidence, 0,
               "exit with code 4 if the whole order is right with a lower "
               "probability");
-DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
-DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
-DEFINE_bool(dump_config, false, "print the settings in force and stop");
 DEFINE_bool(plots, true, "draw compliance.svg and compliance.png");
 
 namespace {
 
 using namespace finray;
-
-std::string InFolder(const char* name) {
-  return (std::filesystem::path(FLAGS_out_dir) / name).string();
-}
 
 std::optional<double> NumberOrNothing(const char* flag,
                                       const std::string& text) {
@@ -121,7 +115,7 @@ std::vector<ComplianceLog> ReadLogs(const Scene& scene,
 }
 
 void PrintSummary(const Compliance& found) {
-  std::printf("%s\n", InFolder("compliance.yaml").c_str());
+  std::printf("%s\n", OutPath("compliance.yaml").c_str());
   std::size_t points = 0, rows = 0, standing = 0, left_out = 0;
   for (const ComplianceTrial& trial : found.trials) {
     points += trial.fit.points;
@@ -156,12 +150,8 @@ int Run() {
       {ReadFinger(Required("finger", FLAGS_finger)),
        FLAGS_scene.empty() ? Scene() : ReadScene(FLAGS_scene)}};
   const Scene scene = fingers[0].scene;
-  const Discretization discretization =
-      ParseDiscretization(FLAGS_scheme, FLAGS_resolution);
-  if (FLAGS_dump_config) {
-    DumpConfig(fingers[0].finger, scene, discretization);
-    return kGood;
-  }
+  const Discretization discretization = DiscretizationFlags();
+  if (DumpConfigFlag(fingers[0].finger, scene, discretization)) return kGood;
   Required("logs", FLAGS_logs);
   Required("out_dir", FLAGS_out_dir);
   if (FLAGS_second_logs.empty() && !FLAGS_second_finger.empty()) {
@@ -178,17 +168,16 @@ int Run() {
     }
   }
   const std::vector<ComplianceLog> logs = ReadLogs(scene, &inputs);
-  RefuseToOverwrite(inputs,
-                    {InFolder("points.csv"), InFolder("stiffness.csv"),
-                     InFolder("laws.csv"), InFolder("compliance.yaml")});
+  RefuseToOverwrite(inputs, {OutPath("points.csv"), OutPath("stiffness.csv"),
+                             OutPath("laws.csv"), OutPath("compliance.yaml")});
   const Compliance found =
       MeasureCompliance(logs, fingers, discretization, settings);
 
   MakeFolder(FLAGS_out_dir);
-  PointTable(found).Write(InFolder("points.csv"));
-  StiffnessTable(found).Write(InFolder("stiffness.csv"));
-  LawTable(found).Write(InFolder("laws.csv"));
-  WriteFileAtomically(InFolder("compliance.yaml"),
+  WriteFileAtomically(OutPath("points.csv"), PointCsv(found));
+  WriteFileAtomically(OutPath("stiffness.csv"), StiffnessCsv(found));
+  WriteFileAtomically(OutPath("laws.csv"), LawCsv(found));
+  WriteFileAtomically(OutPath("compliance.yaml"),
                       ComplianceYaml(found, inputs));
   PrintSummary(found);
   if (FLAGS_plots) {

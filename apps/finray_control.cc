@@ -2,16 +2,17 @@
 // estimator in the loop.
 
 #include <cstdio>
-#include <filesystem>
 #include <set>
 
 #include "app.h"
 #include "finray/control/control_files.h"
-#include "finray/control/experiment_yaml.h"
+#include "finray/control/experiment.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/sha256.h"
 #include "finray/io/yaml_emitter.h"
+#include "outputs.h"
 #include "progress_bar.h"
+#include "shared_flags.h"
 
 DEFINE_string(finger, "",
               "finger YAML, the model of estimator and controllers; the "
@@ -22,9 +23,6 @@ DEFINE_int32(draws, 0,
              "number of draws of finger and noise; 0: that of the experiment");
 DEFINE_uint64(seed, 1, "seed of the first draw");
 DEFINE_int32(threads, 1, "threads over draws and controllers");
-DEFINE_string(scheme, "taylor",
-              "scheme of the estimator: rigid_chain or taylor");
-DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
 DEFINE_bool(dump_config, false, "print the settings in force and stop");
 DEFINE_bool(
     strict, false,
@@ -42,10 +40,6 @@ struct Job {
   Experiment experiment;
   std::vector<ControllerResult> results;
 };
-
-std::string InFolder(const std::string& name) {
-  return (std::filesystem::path(FLAGS_out_dir) / name).string();
-}
 
 // Reads all experiments, so that an error shows before anything runs.
 std::vector<Job> ReadJobs(const Finger& finger) {
@@ -81,7 +75,7 @@ void WriteLogs(const Finger& finger, const Job& job) {
     const auto names = ControlLogNames(job.experiment, result.controller);
     for (std::size_t i = 0; i < names.size(); ++i) {
       ControlLog(finger, job.experiment, result.first, static_cast<int>(i))
-          .Write(InFolder(names[i]));
+          .Write(OutPath(names[i]));
     }
   }
 }
@@ -104,12 +98,12 @@ void WriteSummary(const std::vector<Job>& jobs,
     EmitExperiment(job.path, job.experiment, job.results, &yaml);
   }
   yaml << YAML::EndSeq << YAML::EndMap;
-  WriteFileAtomically(InFolder("summary.yaml"),
+  WriteFileAtomically(OutPath("summary.yaml"),
                       std::string(yaml.c_str()) + "\n");
 }
 
 void PrintTable(const std::vector<Job>& jobs) {
-  std::printf("%s\n", InFolder("summary.yaml").c_str());
+  std::printf("%s\n", OutPath("summary.yaml").c_str());
   std::printf("%-20s %-16s %8s %8s %8s %9s %9s %s\n", "experiment",
               "controller", "rms N", "max N", "paper N", "estimate", "settled",
               "stopped");
@@ -167,8 +161,7 @@ bool FailsGate(const std::vector<Job>& jobs) {
 
 int Run() {
   const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
-  const Discretization discretization =
-      ParseDiscretization(FLAGS_scheme, FLAGS_resolution);
+  const Discretization discretization = DiscretizationFlags();
   if (FLAGS_draws < 0) throw InputError("--draws: expected 0 or more");
   std::vector<Job> jobs = ReadJobs(finger);
   Required("out_dir", FLAGS_out_dir);

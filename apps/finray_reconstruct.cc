@@ -2,14 +2,14 @@
 
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 
 #include "app.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/python_script.h"
-#include "finray/perception/paper_outline.h"
-#include "finray/perception/reconstruction_files.h"
+#include "finray/perception/perception_files.h"
+#include "finray/perception/polygon.h"
 #include "outputs.h"
+#include "shared_flags.h"
 
 DEFINE_string(finger, "", "finger YAML, preferably calibrated");
 DEFINE_string(scene, "", "scene YAML; default: contacts: auto");
@@ -24,9 +24,6 @@ DEFINE_int32(descriptors, 19, "odd number of Fourier descriptors");
 DEFINE_double(envelope_mm, 10,
               "length of beam on each side of a contact in the paper's "
               "interior envelope");
-DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
-DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
-DEFINE_bool(dump_config, false, "print the settings in force and stop");
 DEFINE_bool(plots, true, "draw outline.svg and outline.png");
 
 namespace {
@@ -34,10 +31,6 @@ namespace {
 using namespace finray;
 
 constexpr int kDrawnPoints = 1440;
-
-std::string InFolder(const char* name) {
-  return (std::filesystem::path(FLAGS_out_dir) / name).string();
-}
 
 void CheckFlags() {
   if (!(FLAGS_stage_std_mm > 0) || !std::isfinite(FLAGS_stage_std_mm)) {
@@ -54,7 +47,7 @@ void CheckFlags() {
 
 void PrintSummary(const Reconstruction& found, const RadialError* error,
                   const RadialError* envelope_error) {
-  std::printf("%s\n", InFolder("outline.csv").c_str());
+  std::printf("%s\n", OutPath("outline.csv").c_str());
   std::printf(
       "touches        %zu of %zu rows usable, %zu contacts\n",
       [&] {
@@ -92,12 +85,8 @@ void PrintSummary(const Reconstruction& found, const RadialError* error,
 int Run() {
   const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
   const Scene scene = FLAGS_scene.empty() ? Scene() : ReadScene(FLAGS_scene);
-  const Discretization discretization =
-      ParseDiscretization(FLAGS_scheme, FLAGS_resolution);
-  if (FLAGS_dump_config) {
-    DumpConfig(finger, scene, discretization);
-    return kGood;
-  }
+  const Discretization discretization = DiscretizationFlags();
+  if (DumpConfigFlag(finger, scene, discretization)) return kGood;
   const std::string& log = Required("logs", FLAGS_logs);
   Required("out_dir", FLAGS_out_dir);
   CheckFlags();
@@ -109,8 +98,8 @@ int Run() {
     if (!path.empty()) inputs.push_back(path);
   }
   RefuseToOverwrite(inputs,
-                    {InFolder("outline.csv"), InFolder("touches.csv"),
-                     InFolder("beams.csv"), InFolder("reconstruction.yaml")});
+                    {OutPath("outline.csv"), OutPath("touches.csv"),
+                     OutPath("beams.csv"), OutPath("reconstruction.yaml")});
   const FrameTable table = FrameTable::Read(log, scene.columns);
   std::optional<Polygon> truth;
   if (!FLAGS_truth.empty()) truth = ReadOutline(FLAGS_truth);
@@ -135,11 +124,12 @@ int Run() {
   }
 
   MakeFolder(FLAGS_out_dir);
-  OutlineTable(found, truth ? &*truth : nullptr).Write(InFolder("outline.csv"));
-  TouchTable(found).Write(InFolder("touches.csv"));
-  BeamTable(found, FLAGS_envelope_mm).Write(InFolder("beams.csv"));
+  WriteFileAtomically(OutPath("outline.csv"),
+                      OutlineCsv(found, truth ? &*truth : nullptr));
+  WriteFileAtomically(OutPath("touches.csv"), TouchCsv(found));
+  WriteFileAtomically(OutPath("beams.csv"), BeamCsv(found, FLAGS_envelope_mm));
   WriteFileAtomically(
-      InFolder("reconstruction.yaml"),
+      OutPath("reconstruction.yaml"),
       ReconstructionYaml(found, descriptors, envelope,
                          error ? &*error : nullptr,
                          envelope_error ? &*envelope_error : nullptr, inputs));

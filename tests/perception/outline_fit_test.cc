@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "finray/perception/beam_bounds.h"
+#include "finray/perception/outline_cost.h"
 #include "perception/touch_fixture.h"
 
 namespace finray {

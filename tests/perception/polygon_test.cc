@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "finray/perception/paper_outline.h"
-
 namespace finray {
 namespace {
 

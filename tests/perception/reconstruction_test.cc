@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "finray/perception/paper_outline.h"
 #include "finray/perception/polygon.h"
 #include "studies/ten_objects.h"
 #include "test_finger.h"

@@ -1,9 +1,8 @@
-#include "finray/perception/touch_coverage.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "finray/io/error.h"
+#include "finray/perception/reconstruction.h"
 #include "perception/touch_fixture.h"
 
 namespace finray {

@@ -20,7 +20,6 @@
 
 #include "finray/control/plant.h"
 #include "finray/io/atomic_file.h"
-#include "finray/perception/paper_outline.h"
 #include "finray/perception/polygon.h"
 #include "finray/perception/reconstruction.h"
 #include "studies/ten_objects.h"

@@ -1,6 +1,6 @@
 #include "finray/chain/scaled_equations.h"
 
-#include "finray/chain/finger_jacobian.h"
+#include "finray/chain/finger_equations.h"
 
 namespace finray {
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "finray/chain/chain_state.h"
+#include "finray/chain/forward.h"
 #include "finray/finger/point_contact.h"
 
 namespace finray {

@@ -109,10 +109,6 @@ ConvexCurve::PointSlope ConvexCurve::SlopeAt(double normal_angle_rad,
   return slope;
 }
 
-ConvexCurve::PointSlope ConvexCurve::ClosureSlope(const NormalGrid& grid) {
-  return SlopeAt(std::nextafter(grid.origin_rad() + 2 * M_PI, 0), grid);
-}
-
 double ConvexCurve::MeanRadius(double normal_angle_rad,
                                double reach_rad) const {
   return (ArcAt(normal_angle_rad + reach_rad) -

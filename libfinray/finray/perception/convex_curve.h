@@ -66,8 +66,6 @@ class ConvexCurve {
   Eigen::Vector2d At(double normal_angle_rad) const;
   /// Its derivative by the radii.
   static PointSlope SlopeAt(double normal_angle_rad, const NormalGrid& grid);
-  /// Derivative by the radii of the gap between the ends of a turn.
-  static PointSlope ClosureSlope(const NormalGrid& grid);
 
   /// The mean radius of curvature over the normals within `reach_rad`.
   double MeanRadius(double normal_angle_rad, double reach_rad) const;

@@ -4,18 +4,19 @@
 #include <ceres/ceres.h>
 
 #include <Eigen/Core>
-#include <memory>
+#include <vector>
 
 #include "finray/perception/convex_curve.h"
+#include "finray/perception/touch.h"
 
 namespace finray {
 
-/// A residual of outline_fit.h, linear in start and radii of a ConvexCurve:
+/// A residual of outline_fit.h, linear in radii and start of a ConvexCurve:
 ///
-///   e = d - A start - B exp(u).
+///   e = d - A (exp(u), start).
 ///
-/// Parameter blocks: u, the logarithms of the M radii in mm, and start in mm
-/// (2).
+/// Its parameter block is (u, start): the logarithms of the M radii in mm, then
+/// the start in mm.
 class OutlineCost : public ceres::CostFunction {
  public:
   /// Whitening by rows, 1 or 2 of them.
@@ -23,25 +24,18 @@ class OutlineCost : public ceres::CostFunction {
 
   /// W (point - r(normal angle)). If it is one-sided, a residual above 0 counts
   /// as 0.
-  static std::unique_ptr<OutlineCost> Point(const Eigen::Vector2d& point_mm,
-                                            double normal_angle_rad,
-                                            const Whitening& whitening,
-                                            bool one_sided,
-                                            const NormalGrid& grid);
+  OutlineCost(const Eigen::Vector2d& point_mm, double normal_angle_rad,
+              const Whitening& whitening, bool one_sided,
+              const NormalGrid& grid);
   /// The gap between the curve's ends over `std_mm`.
-  static std::unique_ptr<OutlineCost> Closure(const NormalGrid& grid,
-                                              double std_mm);
+  OutlineCost(const NormalGrid& grid, double std_mm);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  OutlineCost(const Eigen::VectorXd& offset, const Whitening& by_start,
-              const Eigen::MatrixXd& by_radii, bool one_sided);
-
   Eigen::VectorXd offset_;
-  Whitening by_start_;
-  Eigen::MatrixXd by_radii_;
+  Eigen::MatrixXd rows_;
   bool one_sided_;
 };
 
@@ -49,6 +43,23 @@ class OutlineCost : public ceres::CostFunction {
 /// the cells' middles) for neighbours j, k around. Straight edges are skipped;
 /// their cells are linked to each other only.
 Eigen::MatrixXd RoughnessMatrix(const NormalGrid& grid);
+
+/// A touch's beam keeps a point r of the outline on the object's side:
+/// n . (b - r(normal angle)) >= 0, where b is the nearest point of the beam and
+/// n its normal into the finger.
+struct BeamBound {
+  double normal_angle_rad;
+  Eigen::Vector2d beam_point_mm, beam_normal;
+  double std_mm;  ///< of b along n
+};
+
+/// The bounds of all touches for those points of `curve` that are beyond a beam
+/// or within its error of it. Points near a contact get none: the touch itself,
+/// where the outline is tangent to the beam, says more. Beams count within
+/// `reach_mm` of their contact.
+std::vector<BeamBound> FindBeamBounds(const std::vector<Touch>& touches,
+                                      const ConvexCurve& curve,
+                                      double stage_std_mm, double reach_mm);
 
 }  // namespace finray
 

@@ -5,11 +5,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
-#include <memory>
 #include <stdexcept>
 
-#include "finray/perception/beam_bounds.h"
 #include "finray/perception/outline_cost.h"
 
 namespace finray {
@@ -78,12 +77,12 @@ class Fit {
         cells_(grid_.cells()),
         along_(along),
         roughness_(RoughnessMatrix(grid_)),
-        closure_(OutlineCost::Closure(grid_, kClosureStd_mm)) {
+        closure_(grid_, kClosureStd_mm) {
     for (std::size_t i = 0; i < touches.size(); ++i) {
       if (along[i]) continue;
-      costs_.push_back(OutlineCost::Point(
-          touches[i].point_mm, touches[i].normal_angle_rad,
-          Whitening(touches[i], about, settings.stage_std_mm), false, grid_));
+      costs_.emplace_back(touches[i].point_mm, touches[i].normal_angle_rad,
+                          Whitening(touches[i], about, settings.stage_std_mm),
+                          false, grid_);
     }
     touches_ = costs_.size();
     Take(about);
@@ -91,33 +90,37 @@ class Fit {
 
   void AddBounds(const std::vector<BeamBound>& bounds) {
     for (const BeamBound& bound : bounds) {
-      costs_.push_back(OutlineCost::Point(
-          bound.beam_point_mm, bound.normal_angle_rad,
-          bound.beam_normal.transpose() / bound.std_mm, true, grid_));
+      costs_.emplace_back(bound.beam_point_mm, bound.normal_angle_rad,
+                          bound.beam_normal.transpose() / bound.std_mm, true,
+                          grid_);
     }
   }
 
   void Take(const ConvexCurve& curve) {
-    u_ = curve.radii_mm().array().log();
-    start_ = curve.start_mm();
+    x_.resize(cells_ + 2);
+    x_ << curve.radii_mm().array().log().matrix(), curve.start_mm();
   }
-  ConvexCurve curve() const { return {grid_, start_, u_.array().exp()}; }
+  ConvexCurve curve() const {
+    return {grid_, x_.tail<2>(), x_.head(cells_).array().exp()};
+  }
 
   // Returns false if Ceres finds no minimum.
   bool Solve(double lambda) {
-    ceres::NormalPrior roughness(roughness_, VectorXd::Zero(cells_));
+    MatrixXd by_x = MatrixXd::Zero(roughness_.rows(), cells_ + 2);
+    by_x.leftCols(cells_) = roughness_;
+    ceres::NormalPrior roughness(by_x, VectorXd::Zero(cells_ + 2));
     ceres::Problem::Options ownership;
     ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     ceres::Problem problem(ownership);
-    for (const auto& cost : costs_) {
-      problem.AddResidualBlock(cost.get(), new ceres::HuberLoss(kHuberScale),
-                               u_.data(), start_.data());
+    for (OutlineCost& cost : costs_) {
+      problem.AddResidualBlock(&cost, new ceres::HuberLoss(kHuberScale),
+                               x_.data());
     }
     problem.AddResidualBlock(
         &roughness,
         new ceres::ScaledLoss(nullptr, lambda, ceres::TAKE_OWNERSHIP),
-        u_.data());
-    problem.AddResidualBlock(closure_.get(), nullptr, u_.data(), start_.data());
+        x_.data());
+    problem.AddResidualBlock(&closure_, nullptr, x_.data());
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     options.max_num_iterations = 40;
@@ -133,8 +136,7 @@ class Fit {
   // The criterion that chooses lambda, at the last solution.
   double Improbability(double lambda) const {
     const double n = 2 * static_cast<double>(touches_);
-    const MatrixXd information = Information(lambda);
-    const Eigen::LLT<MatrixXd> factor(information);
+    const Eigen::LLT<MatrixXd> factor(Information(lambda));
     const double log_det =
         2 * factor.matrixLLT().diagonal().array().log().sum();
     if (factor.info() != Eigen::Success || !std::isfinite(log_det)) {
@@ -178,67 +180,59 @@ class Fit {
   // J'J for u and start. Huber's loss weighs the touches.
   MatrixXd Information(double lambda) const {
     MatrixXd information = MatrixXd::Zero(cells_ + 2, cells_ + 2);
-    for (const auto& cost : costs_) {
-      const Linear linear = Linearize(*cost);
-      const double squared = linear.residual.squaredNorm();
-      const double weight = squared > kHuberScale * kHuberScale
-                                ? kHuberScale / std::sqrt(squared)
-                                : 1;
-      information.noalias() += weight * linear.slope.transpose() * linear.slope;
-    }
-    const MatrixXd closure = Linearize(*closure_).slope;
-    information += closure.transpose() * closure;
-    information.topLeftCorner(cells_, cells_) +=
+    information.topLeftCorner(cells_, cells_) =
         lambda * roughness_.transpose() * roughness_;
+    Slope slope;
+    Linearize(closure_, &slope);
+    information += slope.transpose() * slope;
+    for (const OutlineCost& cost : costs_) {
+      const double distance = Linearize(cost, &slope);
+      const double weight = kHuberScale / std::max(kHuberScale, distance);
+      information.noalias() += weight * slope.transpose() * slope;
+    }
     return information;
   }
 
   std::vector<double> Distances() const {
     std::vector<double> distances;
-    std::size_t next = 0;
+    auto next = costs_.begin();
     for (const bool along : along_) {
-      distances.push_back(along ? std::nan("")
-                                : Linearize(*costs_[next++]).residual.norm());
+      distances.push_back(along ? std::nan("") : Linearize(*next++));
     }
     return distances;
   }
 
   int ActiveBounds() const {
-    int active = 0;
-    for (std::size_t i = touches_; i < costs_.size(); ++i) {
-      active += Linearize(*costs_[i]).residual[0] != 0;
-    }
-    return active;
+    return static_cast<int>(std::count_if(
+        costs_.begin() + static_cast<std::ptrdiff_t>(touches_), costs_.end(),
+        [this](const OutlineCost& cost) { return Linearize(cost) != 0; }));
   }
 
  private:
-  struct Linear {
-    VectorXd residual;
-    MatrixXd slope;  // by u and start
-  };
+  using Slope =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  Linear Linearize(const OutlineCost& cost) const {
-    const Index rows = cost.num_residuals();
-    Linear linear{VectorXd(rows), MatrixXd(rows, cells_ + 2)};
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_u(
-        rows, cells_),
-        by_start(rows, 2);
-    const double* parameters[] = {u_.data(), start_.data()};
-    double* jacobians[] = {by_u.data(), by_start.data()};
-    cost.Evaluate(parameters, linear.residual.data(), jacobians);
-    linear.slope << by_u, by_start;
-    return linear;
+  // Returns the length of the residual.
+  double Linearize(const OutlineCost& cost, Slope* slope = nullptr) const {
+    VectorXd residual(cost.num_residuals());
+    const double* parameters[] = {x_.data()};
+    double* jacobians[] = {nullptr};
+    if (slope != nullptr) {
+      slope->resize(residual.size(), x_.size());
+      jacobians[0] = slope->data();
+    }
+    cost.Evaluate(parameters, residual.data(), jacobians);
+    return residual.norm();
   }
 
   NormalGrid grid_;
   Index cells_;
   std::vector<bool> along_;
   std::size_t touches_ = 0;
-  std::vector<std::unique_ptr<OutlineCost>> costs_;  // touches, then bounds
+  std::deque<OutlineCost> costs_;  // touches, then bounds
   MatrixXd roughness_;
-  std::unique_ptr<OutlineCost> closure_;
-  VectorXd u_;
-  Vector2d start_;
+  OutlineCost closure_;
+  VectorXd x_;  // u and start
   double cost_ = 0;
 };
 

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <stdexcept>
 
 #include "finray/chain/se2.h"
 
 namespace finray {
-
 namespace {
 
 using Eigen::Vector2d;
@@ -17,6 +18,12 @@ std::vector<double> Magnitudes(const std::vector<double>& percent) {
     if (std::isfinite(error)) magnitudes.push_back(std::abs(error));
   }
   return magnitudes;
+}
+
+constexpr int kSamples = 1024;
+
+std::complex<double> Wave(int k, double t) {
+  return std::polar(1.0, 2 * M_PI * k * t);
 }
 
 }  // namespace
@@ -74,16 +81,15 @@ std::optional<double> RadiusAt(const Polygon& polygon, const Vector2d& centre,
 
 double RadialError::Mean() const {
   const std::vector<double> errors = Magnitudes(percent);
-  double sum = 0;
-  for (const double error : errors) sum += error;
-  return sum / static_cast<double>(errors.size());
+  return std::accumulate(errors.begin(), errors.end(), 0.0) /
+         static_cast<double>(errors.size());
 }
 
 double RadialError::Rms() const {
   const std::vector<double> errors = Magnitudes(percent);
-  double sum = 0;
-  for (const double error : errors) sum += error * error;
-  return std::sqrt(sum / static_cast<double>(errors.size()));
+  return std::sqrt(
+      std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0) /
+      static_cast<double>(errors.size()));
 }
 
 double RadialError::Quantile(double share) const {
@@ -107,6 +113,40 @@ RadialError CompareRadii(const Polygon& outline, const Polygon& truth,
                                 : std::nan(""));
   }
   return error;
+}
+
+FourierDescriptors::FourierDescriptors(const Polygon& polygon, int count)
+    : coefficients_(static_cast<std::size_t>(count)) {
+  if (count < 3 || count % 2 == 0 || count >= kSamples) {
+    throw std::invalid_argument("expected an odd number of descriptors");
+  }
+  const Polygon points = EvenlySpaced(polygon, kSamples);
+  for (int k = 0; k < count; ++k) {
+    std::complex<double>& c = coefficients_[static_cast<std::size_t>(k)];
+    for (int n = 0; n < kSamples; ++n) {
+      const Vector2d& r = points[static_cast<std::size_t>(n)];
+      c += Wave(-(k - count / 2), static_cast<double>(n) / kSamples) *
+           std::complex<double>(r.x(), r.y());
+    }
+    c /= kSamples;
+  }
+}
+
+Vector2d FourierDescriptors::At(double t) const {
+  const int most = static_cast<int>(coefficients_.size()) / 2;
+  std::complex<double> value = 0;
+  for (int k = -most; k <= most; ++k) {
+    value += coefficients_[static_cast<std::size_t>(k + most)] * Wave(k, t);
+  }
+  return {value.real(), value.imag()};
+}
+
+Polygon FourierDescriptors::Sampled(int count) const {
+  Polygon polygon;
+  for (int i = 0; i < count; ++i) {
+    polygon.push_back(At(static_cast<double>(i) / count));
+  }
+  return polygon;
 }
 
 }  // namespace finray

@@ -2,6 +2,7 @@
 #define FINRAY_PERCEPTION_POLYGON_H_
 
 #include <Eigen/Core>
+#include <complex>
 #include <optional>
 #include <vector>
 
@@ -43,6 +44,30 @@ struct RadialError {
 
 RadialError CompareRadii(const Polygon& outline, const Polygon& truth,
                          int count = 360);
+
+/// A closed curve as a complex function of its arc length t from 0 to 1, (19)
+/// of the paper:
+///
+///   x + i y = f(t) = sum_k c_k exp(2 pi i k t),   k = -K .. K,
+///   c_k = sum_n exp(-2 pi i k t_n) r(n) / N.
+///
+/// There are 2 K + 1 complex coefficients in mm, c_-K first (19 in the paper).
+/// c_0 is the centre and c_1 a circle; c_-1 turns the circle into an ellipse.
+class FourierDescriptors {
+ public:
+  /// Samples the curve at N = 1024 equal arc lengths. `count` = 2 K + 1; throws
+  /// std::invalid_argument if it is even, below 3 or not below N.
+  FourierDescriptors(const Polygon& polygon, int count);
+
+  const std::vector<std::complex<double>>& coefficients() const {
+    return coefficients_;
+  }
+  Eigen::Vector2d At(double t) const;
+  Polygon Sampled(int count) const;
+
+ private:
+  std::vector<std::complex<double>> coefficients_;
+};
 
 }  // namespace finray
 

@@ -1,14 +1,63 @@
 #ifndef FINRAY_PERCEPTION_RECONSTRUCTION_H_
 #define FINRAY_PERCEPTION_RECONSTRUCTION_H_
 
+#include <cmath>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
+#include "finray/perception/convex_curve.h"
 #include "finray/perception/outline_fit.h"
 #include "finray/perception/polygon.h"
 #include "finray/perception/touch.h"
-#include "finray/perception/touch_coverage.h"
 
 namespace finray {
+
+/// The touches leave too much of the object open; what() says how much.
+class SpreadError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+constexpr std::size_t kLeastTouches = 8;
+/// Widest gap between neighbouring normals. At 180 deg an outline could close
+/// in any way.
+constexpr double kWidestGap_rad = M_PI / 2;
+/// In units of the mean radius, perimeter / (2 pi): where neighbouring contact
+/// points are farther apart along the outline than kWidestSpacing, the outline
+/// between them is not supported, except within kBesideContact of each.
+constexpr double kWidestSpacing = 0.5;
+constexpr double kBesideContact = 0.05;
+
+/// Throws InputError for fewer than kLeastTouches usable touches and
+/// SpreadError for normals with a gap wider than kWidestGap_rad.
+void CheckSpread(const Touches& touches, const std::string& path);
+
+/// Which part of an outline the touches support. Elsewhere they only say that a
+/// convex outline passes between the chord and the beams. It may be a straight
+/// edge or the opening of a dent: a finger bends around both alike.
+class TouchCoverage {
+ public:
+  TouchCoverage(const ConvexCurve& curve, const std::vector<Touch>& touches);
+
+  bool Supports(double normal_angle_rad) const;
+  /// The supported share of the outline's length.
+  double SupportedShare() const;
+  /// Stretches without support, counter-clockwise.
+  struct Gap {
+    Eigen::Vector2d from_mm, to_mm;
+    double length_mm;
+  };
+  std::vector<Gap> Gaps() const;
+
+ private:
+  struct Stretch {
+    double from_mm, to_mm;  // arc lengths; to_mm may exceed the perimeter
+  };
+
+  const ConvexCurve& curve_;
+  std::vector<Stretch> open_;
+};
 
 /// A point of a reconstructed outline, seen from its centroid.
 struct OutlinePoint {
@@ -41,8 +90,15 @@ struct Reconstruction {
 Reconstruction Reconstruct(const FrameTable& table, const Finger& finger,
                            const Scene& scene,
                            const Discretization& discretization,
-                           const OutlineFitSettings& settings,
-                           int points = 360);
+                           const OutlineFitSettings& settings);
+
+/// The outline by the paper's method (IV-B): the contour of the blank area that
+/// the pieces of beam near the contacts enclose. Rays replace the paper's
+/// image: from the mean of the contact points, at `count` equally spaced
+/// angles, each goes to its first crossing with any piece. A ray that meets no
+/// piece gives no point; the contour is straight there.
+Polygon InteriorEnvelope(const std::vector<Touch>& touches, double reach_mm,
+                         int count = 1440);
 
 }  // namespace finray
 
