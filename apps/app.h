@@ -16,6 +16,9 @@
 #include "finray/io/error.h"
 #include "finray/scene/scene.h"
 
+DECLARE_string(scheme);
+DECLARE_int32(resolution);
+
 namespace finray {
 
 /// Exit codes of all executables.
@@ -51,6 +54,24 @@ std::string CommandWith(const std::vector<const char*>& flags);
 /// --dump_config.
 void DumpConfig(const Finger& finger, const Scene& scene,
                 const Discretization& discretization);
+
+// Each of these stands in a source of its own with the flags that it reads or
+// defines, so that an executable has the flags only if it calls the function.
+
+/// Returns the discretization of --scheme and --resolution.
+Discretization DiscretizationFlags();
+
+/// With --dump_config, prints the configuration and returns true.
+bool DumpConfigFlag(const Finger& finger, const Scene& scene,
+                    const Discretization& discretization);
+
+/// Returns the path of a file in the folder of --out_dir, which the executable
+/// defines.
+std::string OutPath(const std::string& name);
+
+/// Throws InputError if one of the outputs is a file that was read.
+void RefuseToOverwrite(const std::vector<std::string>& inputs,
+                       const std::vector<std::string>& outputs);
 
 /// Parses flags, calls `run` and returns its exit code. An exception becomes
 /// one line on stderr and an exit code. Arguments that are no flags go to

@@ -1,4 +1,4 @@
-#include "shared_flags.h"
+#include "app.h"
 
 DEFINE_bool(dump_config, false, "print the configuration and stop");
 

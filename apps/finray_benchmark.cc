@@ -16,7 +16,6 @@
 #include "finray/io/atomic_file.h"
 #include "finray/io/python_script.h"
 #include "finray/io/sha256.h"
-#include "outputs.h"
 #include "progress_bar.h"
 
 DEFINE_string(finger, FINRAY_SOURCE_DIR "/configs/fingers/paper_140mm.yaml",

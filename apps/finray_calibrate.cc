@@ -8,8 +8,6 @@
 #include "finray/calib/report/calibration_result.h"
 #include "finray/calib/report/report.h"
 #include "finray/io/atomic_file.h"
-#include "outputs.h"
-#include "shared_flags.h"
 
 DEFINE_string(finger, "", "finger YAML to start from");
 DEFINE_string(plan, "", "plan YAML: free parameters, priors, noise");

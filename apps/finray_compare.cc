@@ -6,8 +6,6 @@
 #include "app.h"
 #include "finray/calib/analysis/calibration_comparison.h"
 #include "finray/io/atomic_file.h"
-#include "outputs.h"
-#include "shared_flags.h"
 
 DEFINE_string(out_dir, "", "folder for comparison.yaml and comparison.csv");
 DEFINE_double(most_sigma, 0,

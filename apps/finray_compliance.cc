@@ -10,8 +10,6 @@
 #include "finray/io/number_text.h"
 #include "finray/io/python_script.h"
 #include "finray/perception/perception_files.h"
-#include "outputs.h"
-#include "shared_flags.h"
 
 DEFINE_string(finger, "", "finger YAML, preferably calibrated");
 DEFINE_string(scene, "",

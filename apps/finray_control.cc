@@ -5,14 +5,12 @@
 #include <set>
 
 #include "app.h"
-#include "finray/control/control_files.h"
 #include "finray/control/experiment.h"
+#include "finray/control/run_experiment.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/sha256.h"
 #include "finray/io/yaml_emitter.h"
-#include "outputs.h"
 #include "progress_bar.h"
-#include "shared_flags.h"
 
 DEFINE_string(finger, "",
               "finger YAML, the model of estimator and controllers; the "

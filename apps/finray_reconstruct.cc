@@ -8,8 +8,6 @@
 #include "finray/io/python_script.h"
 #include "finray/perception/perception_files.h"
 #include "finray/perception/polygon.h"
-#include "outputs.h"
-#include "shared_flags.h"
 
 DEFINE_string(finger, "", "finger YAML, preferably calibrated");
 DEFINE_string(scene, "", "scene YAML; default: contacts: auto");
@@ -104,11 +102,10 @@ int Run() {
   std::optional<Polygon> truth;
   if (!FLAGS_truth.empty()) truth = ReadOutline(FLAGS_truth);
 
-  OutlineFitSettings settings;
-  settings.stage_std_mm = FLAGS_stage_std_mm;
   Reconstruction found;
   try {
-    found = Reconstruct(table, finger, scene, discretization, settings);
+    found =
+        Reconstruct(table, finger, scene, discretization, FLAGS_stage_std_mm);
   } catch (const SpreadError& error) {
     std::cerr << "finray_reconstruct: " << error.what() << "\n";
     return kGateFailed;

@@ -2,7 +2,6 @@
 
 #include "app.h"
 #include "finray/scene/simulation.h"
-#include "shared_flags.h"
 
 DEFINE_string(finger, "", "finger YAML");
 DEFINE_string(scene, "", "scene YAML; needed for rows with an object");

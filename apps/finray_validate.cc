@@ -7,8 +7,6 @@
 #include "finray/calib/analysis/validation.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/number_text.h"
-#include "outputs.h"
-#include "shared_flags.h"
 
 DEFINE_string(finger, "", "calibrated finger YAML");
 DEFINE_string(scene, "", "scene YAML; neither this nor a plan: contacts: auto");

@@ -1,9 +1,8 @@
-#include "finray/chain/ceres_chain.h"
-
 #include <gtest/gtest.h>
 
 #include "chain/chain_fixture.h"
 #include "finray/chain/forward.h"
+#include "finray/chain/sensing.h"
 
 namespace finray {
 namespace {

@@ -10,7 +10,6 @@
 #include "chain/chain_fixture.h"
 #include "chain/jet_jacobian.h"
 #include "finray/chain/finger_equations.h"
-#include "finray/chain/scaled_equations.h"
 
 namespace finray {
 namespace {
@@ -115,7 +114,6 @@ TEST(ChainJacobianTest, SingleTermsMatchAutoDiff) {
       MakeChainLayout(RichFinger(), 24, GaugeRule::kOverlap);
   const int n = layout.joints(), loads = layout.loads();
   const Eigen::VectorXd theta = Random(n, 0.15, &random);
-  const auto poses = Kinematics(layout.chain, theta.data());
   for (int which = 0; which < loads + 1; ++which) {
     Eigen::VectorXd load = Eigen::VectorXd::Zero(loads);
     Eigen::Vector2d contact(83.7, 0);
@@ -124,13 +122,14 @@ TEST(ChainJacobianTest, SingleTermsMatchAutoDiff) {
         [&](const JetVector& z) -> JetVector {
           const JetVector f = load.cast<Jet1>();
           const JetVector c = contact.cast<Jet1>();
-          return JointTorques(layout, Kinematics(layout.chain, z.data()),
-                              z.data(), f.data(), c.data(), 0.2);
+          return FingerEquations<Jet1>(layout, z.data(), f.data(), c.data(),
+                                       0.2)
+              .segment(3, n);
         },
         theta);
     Eigen::MatrixXd jacobian =
-        MakeTorqueJacobian(layout, poses, load.data(), contact.data(), 0.2)
-            .theta;
+        FingerJacobian(layout, theta.data(), load.data(), contact.data(), 0.2)
+            .block(3, 0, n, n);
     // Without K, which would hide the rest.
     jacobian.diagonal() -= layout.chain.stiffness;
     Eigen::MatrixXd rest = expected;

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "chain/chain_fixture.h"
-#include "finray/chain/ceres_chain.h"
 #include "finray/chain/forward.h"
+#include "finray/chain/sensing.h"
 
 namespace finray {
 namespace {

@@ -1,8 +1,8 @@
-#include "finray/control/actuator.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "finray/control/drive.h"
 
 namespace finray {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "finray/control/mechanism.h"
+#include "finray/control/drive.h"
 
 namespace finray {
 namespace {

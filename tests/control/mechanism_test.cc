@@ -1,9 +1,9 @@
-#include "finray/control/mechanism.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
+
+#include "finray/control/drive.h"
 
 namespace finray {
 namespace {

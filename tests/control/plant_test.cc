@@ -5,7 +5,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "finray/control/push_model.h"
+#include "finray/control/model_controller.h"
 #include "test_finger.h"
 
 namespace finray {

@@ -1,7 +1,6 @@
-#include "finray/control/push_model.h"
-
 #include <gtest/gtest.h>
 
+#include "finray/control/model_controller.h"
 #include "finray/objects/object_contact.h"
 #include "test_finger.h"
 

@@ -1,8 +1,8 @@
-#include "finray/control/trajectory.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "finray/control/controller.h"
 
 namespace finray {
 namespace {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <random>
 
-#include "finray/perception/finger_variations.h"
 #include "test_finger.h"
 
 namespace finray {

@@ -70,9 +70,7 @@ TEST(OutlineFitTest, StdIsThatOfTheErrors) {
       touch.point_mm += 0.04 * Vector2d(normal(generator), normal(generator));
       touch.normal_angle_rad += 5e-4 * normal(generator);
     }
-    OutlineFitSettings settings;
-    settings.stage_std_mm = 1e-3;
-    const OutlineFit fit = FitOutline(touches, settings);
+    const OutlineFit fit = FitOutline(touches, 1e-3);
     for (double a = 0; a < 6.2; a += 0.4) {
       const double error =
           ellipse.DistanceOf(fit.curve.At(a)).distance_mm / fit.NormalStd(a);

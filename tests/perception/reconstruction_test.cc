@@ -14,7 +14,7 @@ Reconstruction Touched(const NamedObject& object, bool noisy,
   const LogNoise noise{noisy, noisy ? 0.02 : 0.0, 1};
   return Reconstruct(
       SimulateTouches(PaperFinger(), object.touched, {}, {}, noise), finger,
-      Scene(), {}, {});
+      Scene(), {}, kStageStd_mm);
 }
 
 TEST(ReconstructionTest, EllipseWithoutNoise) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "finray/objects/outline.h"
-#include "finray/perception/touch.h"
+#include "finray/perception/contact_sensor.h"
 
 namespace finray {
 

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "finray/control/push_model.h"
+#include "finray/control/model_controller.h"
 #include "finray/control/run_experiment.h"
 #include "test_finger.h"
 

@@ -66,7 +66,7 @@ void Run(int seeds, const char* only) {
         const FrameTable table =
             SimulateTouches(finger, object.touched, {}, {}, noise);
         const Reconstruction found =
-            Reconstruct(table, finger, Scene(), {}, {});
+            Reconstruct(table, finger, Scene(), {}, kStageStd_mm);
         const RadialError error = CompareRadii(found.polygon(), object.truth);
         fit.Add(error);
         RadialError touched;

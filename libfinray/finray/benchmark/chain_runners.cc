@@ -1,5 +1,5 @@
 #include "finray/benchmark/runner.h"
-#include "finray/chain/ceres_chain.h"
+#include "finray/chain/sensing.h"
 #include "finray/chain/forward.h"
 
 namespace finray {

@@ -19,7 +19,13 @@ struct ElasticChain {
 
   int joints() const { return static_cast<int>(stiffness.size()); }
   /// Appends a joint at a point of the rest shape (mm).
-  void Add(const Eigen::Vector2d& point, double joint_stiffness);
+  void Add(const Eigen::Vector2d& point, double joint_stiffness) {
+    const int n = joints();
+    twists.conservativeResize(3, n + 1);
+    stiffness.conservativeResize(n + 1);
+    twists.col(n) = RevoluteTwist<double>(point);
+    stiffness[n] = joint_stiffness;
+  }
 };
 
 /// The poses of a chain in one configuration.
@@ -66,17 +72,27 @@ Twist<T> TipDeviation(const ElasticChain& chain, const ChainPoses<T>& poses,
 /// dy/dtheta, 3 x n. (5) has J_t here, which is exact only where y = 0. This
 /// derivative is exact everywhere, as minimisers and tests need it. Newton
 /// converges to the same point.
-Eigen::Matrix3Xd TipDeviationJacobian(const ElasticChain& chain,
-                                      const ChainPoses<double>& poses,
-                                      const Pose<double>& target);
+inline Eigen::Matrix3Xd TipDeviationJacobian(const ElasticChain& chain,
+                                             const ChainPoses<double>& poses,
+                                             const Pose<double>& target) {
+  return LogJacobian(TipPose(chain, poses) * target.Inverse()) * poses.xi;
+}
 
 /// Subtracts K_J, the first term of (22), from `out` (n x n) for wrenches that
 /// are constant in S. Column i of `beyond` (3 x n) is the sum of the wrenches
 /// that act beyond joint i. K_J(i, j) = [xi_j, xi_i] . beyond_i for j < i and 0
 /// elsewhere, as a joint turns only the axes behind it.
-void SubtractWrenchStiffness(const ChainPoses<double>& poses,
-                             const Eigen::Matrix3Xd& beyond,
-                             Eigen::Ref<Eigen::MatrixXd> out);
+inline void SubtractWrenchStiffness(const ChainPoses<double>& poses,
+                                    const Eigen::Matrix3Xd& beyond,
+                                    Eigen::Ref<Eigen::MatrixXd> out) {
+  const int n = static_cast<int>(poses.xi.cols());
+  for (int j = 0; j < n; ++j) {
+    const Twist<double> xi_j = poses.xi.col(j);
+    for (int i = j + 1; i < n; ++i) {
+      out(i, j) -= Bracket<double>(xi_j, poses.xi.col(i)).dot(beyond.col(i));
+    }
+  }
+}
 
 }  // namespace finray
 

@@ -1,6 +1,9 @@
 #ifndef FINRAY_CHAIN_FINGER_EQUATIONS_H_
 #define FINRAY_CHAIN_FINGER_EQUATIONS_H_
 
+#include <ceres/cost_function.h>
+#include <ceres/solver.h>
+
 #include <Eigen/Core>
 
 #include "finray/chain/chain_layout.h"
@@ -103,37 +106,7 @@ Eigen::Matrix<T, 3, Eigen::Dynamic> WrenchesBeyond(const ChainLayout& layout,
   return beyond;
 }
 
-/// tau of (14), n entries in N mm.
-template <typename T>
-Eigen::Matrix<T, Eigen::Dynamic, 1> JointTorques(const ChainLayout& layout,
-                                                 const ChainPoses<T>& poses,
-                                                 const T* theta, const T* loads,
-                                                 const T* contact,
-                                                 double friction) {
-  const auto beyond = WrenchesBeyond(layout, poses, loads, contact, friction);
-  Eigen::Matrix<T, Eigen::Dynamic, 1> tau(layout.joints());
-  for (int i = 0; i < layout.joints(); ++i) {
-    tau[i] = layout.chain.stiffness[i] * theta[i] -
-             poses.xi.col(i).dot(beyond.col(i));
-  }
-  return tau;
-}
-
-/// d of (12), r entries in mm.
-template <typename T>
-Eigen::Matrix<T, Eigen::Dynamic, 1> RibDeviations(const ChainLayout& layout,
-                                                  const ChainPoses<T>& poses,
-                                                  const T* loads) {
-  Eigen::Matrix<T, Eigen::Dynamic, 1> d(layout.ribs.size());
-  for (std::size_t k = 0; k < layout.ribs.size(); ++k) {
-    const ChainRib& rib = layout.ribs[k];
-    d[k] = MakeRibFrame(rib, poses).distance - rib.length_mm +
-           rib.compliance_mm_per_N * loads[3 + k];
-  }
-  return d;
-}
-
-/// C of (12): y (3), tau (n), d (r).
+/// C of (12): y (3), tau (n entries in N mm), d (r entries in mm).
 template <typename T>
 Eigen::Matrix<T, Eigen::Dynamic, 1> FingerEquations(const ChainLayout& layout,
                                                     const T* theta,
@@ -144,33 +117,79 @@ Eigen::Matrix<T, Eigen::Dynamic, 1> FingerEquations(const ChainLayout& layout,
   const int n = layout.joints();
   Eigen::Matrix<T, Eigen::Dynamic, 1> c(n + layout.loads());
   c.template head<3>() = TipDeviation(layout.chain, poses, layout.target);
-  c.segment(3, n) =
-      JointTorques(layout, poses, theta, loads, contact, friction);
-  c.tail(layout.ribs.size()) = RibDeviations(layout, poses, loads);
+  const auto beyond = WrenchesBeyond(layout, poses, loads, contact, friction);
+  for (int i = 0; i < n; ++i) {
+    c[3 + i] = layout.chain.stiffness[i] * theta[i] -
+               poses.xi.col(i).dot(beyond.col(i));
+  }
+  for (std::size_t k = 0; k < layout.ribs.size(); ++k) {
+    const ChainRib& rib = layout.ribs[k];
+    c[3 + n + k] = MakeRibFrame(rib, poses).distance - rib.length_mm +
+                   rib.compliance_mm_per_N * loads[3 + k];
+  }
   return c;
 }
 
-/// The derivatives of tau of (14) by all unknowns: the middle rows of (13) and
-/// (24).
-struct TorqueJacobian {
-  Eigen::MatrixXd theta;    ///< K - K_J - d(J_c^T F_c)/d theta, n x n.
-  Eigen::MatrixXd loads;    ///< [-J_t^T | d tau / d f], n x (3 + r).
-  Eigen::MatrixXd contact;  ///< [d tau / d l_c | -J_c^T W_c], n x 2.
-};
-
-/// (22), (23), (26) to (28). The derivative by l_c is the one on the link that
-/// holds l_c.
-TorqueJacobian MakeTorqueJacobian(const ChainLayout& layout,
-                                  const ChainPoses<double>& poses,
-                                  const double* loads, const double* contact,
-                                  double friction);
-
 /// The Jacobian of FingerEquations by (theta, loads, contact),
 /// (n + 3 + r) x (n + 3 + r + 2). Without its last two columns it is (13); its
-/// rows of d are those of (21). S_e of (24) is ChainLayout::gauges.
+/// rows of tau are (22), (23) and (26) to (28), its rows of d those of (21).
+/// S_e of (24) is ChainLayout::gauges. The derivative by l_c is the one on the
+/// link that holds l_c.
 Eigen::MatrixXd FingerJacobian(const ChainLayout& layout, const double* theta,
                                const double* loads, const double* contact,
                                double friction);
+
+/// C(theta, F_t, f, l_c, f_c) of (17) with scaled rows:
+///
+///   w (y, tau, d) / (their units)   n + 3 + r rows of the model;
+///   (S_e theta - s_0) / sigma       m rows of the gauges, (16).
+///
+/// Without gauges and with w = 1 these are the rows of (12). The units make
+/// rows and columns comparable whatever the size and stiffness of the finger:
+/// lengths in l_0, forces in F_0 = ForceUnit(), moments in F_0 l_0 (the moment
+/// that bends a beam by about a radian), angles in rad.
+struct ScaledEquations {
+  const ChainLayout& layout;  ///< Must outlive this.
+  double friction = 0;
+  double model_weight = 1;   ///< w.
+  Eigen::VectorXd s0 = {};   ///< m gauge angles in rad, or none.
+  double gauge_std_rad = 1;  ///< sigma.
+
+  int rows() const {
+    return layout.joints() + layout.loads() + static_cast<int>(s0.size());
+  }
+  /// Units of the columns (theta, F_t, f, l_c, f_c): n + 3 + r + 2.
+  Eigen::VectorXd ColumnUnits() const;
+
+  /// `contact` holds (l_c, f_c) in mm and N.
+  Eigen::VectorXd Residual(const double* theta, const double* loads,
+                           const double* contact) const;
+  /// Derivatives of Residual by (theta, F_t, f, l_c, f_c) in rad, N mm, N and
+  /// mm, rows() x (n + 3 + r + 2).
+  Eigen::MatrixXd Jacobian(const double* theta, const double* loads,
+                           const double* contact) const;
+
+ private:
+  Eigen::VectorXd ModelWeights() const;
+};
+
+/// The rows of ScaledEquations as one residual block over the parameter blocks
+/// theta (n), (F_t, f) (3 + r) and (l_c, f_c) (2).
+class ChainCost : public ceres::CostFunction {
+ public:
+  explicit ChainCost(const ScaledEquations& equations);
+
+  /// Fails for values that are not finite, so that Ceres takes a smaller step.
+  bool Evaluate(double const* const* x, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  const ScaledEquations equations_;
+};
+
+/// Options for a problem with such a block.
+ceres::Solver::Options ChainSolverOptions(
+    ceres::LinearSolverType linear_solver);
 
 }  // namespace finray
 

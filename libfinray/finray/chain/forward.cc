@@ -1,10 +1,12 @@
 #include "finray/chain/forward.h"
 
+#include <ceres/problem.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "finray/chain/scaled_equations.h"
+#include "finray/chain/finger_equations.h"
 
 namespace finray {
 namespace {
@@ -101,6 +103,34 @@ bool ContinueForward(const ChainLayout& layout, const PointContact& contact,
                      double last_step, ChainState* state, int* iterations) {
   return !IsBadContact(layout, contact) &&
          Newton(layout, contact, last_step, state, iterations);
+}
+
+bool ContinueForwardWithCeres(const ChainLayout& layout,
+                              const PointContact& contact,
+                              ceres::LinearSolverType linear_solver,
+                              ChainState* state, int* iterations) {
+  // For scaled rows; Newton's last step leaves less.
+  constexpr double kSolved = 1e-9;
+  ChainState now = *state;
+  double at[2] = {contact.arc_mm, contact.normal_N};
+  ceres::Problem problem;
+  problem.AddResidualBlock(
+      new ChainCost(ScaledEquations{layout, contact.friction}), nullptr,
+      now.theta.data(), now.loads.data(), at);
+  problem.SetParameterBlockConstant(at);
+  ceres::Solver::Options options = ChainSolverOptions(linear_solver);
+  options.gradient_tolerance = 1e-12;
+  options.parameter_tolerance = 1e-12;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (iterations != nullptr)
+    *iterations = static_cast<int>(summary.iterations.size()) - 1;
+  if (!summary.IsSolutionUsable() || !now.AllFinite() ||
+      !(summary.final_cost < 0.5 * kSolved * kSolved)) {
+    return false;
+  }
+  *state = now;
+  return true;
 }
 
 }  // namespace finray

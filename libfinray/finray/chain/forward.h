@@ -1,6 +1,8 @@
 #ifndef FINRAY_CHAIN_FORWARD_H_
 #define FINRAY_CHAIN_FORWARD_H_
 
+#include <ceres/types.h>
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -55,6 +57,15 @@ bool SolveForward(const ChainLayout& layout, const PointContact& contact,
 bool ContinueForward(const ChainLayout& layout, const PointContact& contact,
                      double last_step, ChainState* state,
                      int* iterations = nullptr);
+
+/// ContinueForward with ceres::Solve in place of Newton (6). There
+/// are as many equations as unknowns, so the cost falls to rounding. Returns
+/// false and leaves `state` unchanged if it does not. Sets `iterations` if it
+/// is given.
+bool ContinueForwardWithCeres(const ChainLayout& layout,
+                              const PointContact& contact,
+                              ceres::LinearSolverType linear_solver,
+                              ChainState* state, int* iterations = nullptr);
 
 }  // namespace finray
 

@@ -1,11 +1,13 @@
 #include "finray/chain/sensing.h"
 
+#include <ceres/problem.h>
+
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "finray/chain/finger_equations.h"
 #include "finray/chain/forward.h"
-#include "finray/chain/scaled_equations.h"
 
 namespace finray {
 namespace {
@@ -32,8 +34,8 @@ Eigen::VectorXd Step(const ScaledEquations& equations,
   return -jacobian.colPivHouseholderQr().solve(c);
 }
 
-}  // namespace
-
+// Fills `result` with the start of both ways of sensing: the equilibrium under
+// `start` and its misfit. False if there is none or s0 is not finite.
 bool StartSensing(const ChainLayout& layout, const Eigen::VectorXd& s0,
                   const PointContact& start, ChainSensing* result) {
   result->contact = start;
@@ -41,6 +43,42 @@ bool StartSensing(const ChainLayout& layout, const Eigen::VectorXd& s0,
   result->misfit = layout.gauges * result->state.theta - s0;
   return started && s0.allFinite();
 }
+
+// One minimisation with one weight of the model. True if Ceres says that it
+// converged.
+bool Minimise(const ScaledEquations& equations, int max_iterations,
+              ceres::LinearSolverType linear_solver, ChainState* state,
+              double* contact, int* iterations) {
+  ceres::Problem problem;
+  problem.AddResidualBlock(new ChainCost(equations), nullptr,
+                           state->theta.data(), state->loads.data(), contact);
+  problem.SetParameterLowerBound(contact, 0, 0);
+  problem.SetParameterUpperBound(contact, 0, equations.layout.length_unit_mm);
+  problem.SetParameterLowerBound(contact, 1, 0);
+  ceres::Solver::Options options = ChainSolverOptions(linear_solver);
+  options.gradient_tolerance = 1e-20;
+  options.parameter_tolerance = 1e-13;
+  // Near the minimum rounding of the model's rows hides what a step gains.
+  options.use_nonmonotonic_steps = true;
+  options.max_num_iterations = max_iterations;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  *iterations += static_cast<int>(summary.iterations.size()) - 1;
+  return summary.termination_type == ceres::CONVERGENCE && state->AllFinite();
+}
+
+// Whether l_c and f_c are where Ceres stops without a minimum: on a bound or at
+// a joint.
+bool IsParked(const ChainLayout& layout, const double* contact) {
+  const double hair = 1e-6 * layout.length_unit_mm;
+  for (const double joint : layout.front_joint_mm) {
+    if (std::abs(contact[0] - joint) < hair) return true;
+  }
+  return contact[0] < hair || contact[0] > layout.length_unit_mm - hair ||
+         contact[1] <= 0;
+}
+
+}  // namespace
 
 ChainSensing SenseContact(const ChainLayout& layout, const Eigen::VectorXd& s0,
                           const PointContact& start,
@@ -83,6 +121,38 @@ ChainSensing SenseContact(const ChainLayout& layout, const Eigen::VectorXd& s0,
     result.contact = contact;
     result.misfit = layout.gauges * state.theta - s0;
   }
+  return result;
+}
+
+ChainSensing SenseContactWithCeres(const ChainLayout& layout,
+                                   const Eigen::VectorXd& s0,
+                                   const PointContact& start,
+                                   double gauge_std_rad,
+                                   const ChainSensingOptions& options,
+                                   ceres::LinearSolverType linear_solver) {
+  ChainSensing result;
+  if (!StartSensing(layout, s0, start, &result)) return result;
+
+  ChainState state = result.state;
+  double contact[2] = {start.arc_mm, start.normal_N};
+  // With heavy model rows the second-order error of a long step outweighs all
+  // that the gauges gain, and Ceres rejects the step. So the weight grows by
+  // stages, and the last one has little left to do.
+  bool converged = false;
+  for (double weight = std::min(1.0, options.model_weight);;) {
+    const ScaledEquations equations{layout, start.friction,
+                                    weight / gauge_std_rad, s0, gauge_std_rad};
+    converged = Minimise(equations, options.max_iterations, linear_solver,
+                         &state, contact, &result.iterations);
+    if (weight == options.model_weight || !state.AllFinite()) break;
+    weight = std::min(100 * weight, options.model_weight);
+  }
+  if (!state.AllFinite()) return result;
+  result.state = state;
+  result.contact.arc_mm = contact[0];
+  result.contact.normal_N = contact[1];
+  result.misfit = layout.gauges * state.theta - s0;
+  result.converged = converged && !IsParked(layout, contact);
   return result;
 }
 

@@ -1,6 +1,8 @@
 #ifndef FINRAY_CHAIN_SENSING_H_
 #define FINRAY_CHAIN_SENSING_H_
 
+#include <ceres/types.h>
+
 #include <Eigen/Core>
 
 #include "finray/chain/forward.h"
@@ -24,11 +26,6 @@ struct ChainSensing {
   Eigen::VectorXd misfit;  ///< s of (16), rad.
 };
 
-/// Fills `result` with the start of both ways of sensing: the equilibrium under
-/// `start` and its misfit. False if there is none or s0 is not finite.
-bool StartSensing(const ChainLayout& layout, const Eigen::VectorXd& s0,
-                  const PointContact& start, ChainSensing* result);
-
 /// Finds the contact from gauge angles s_0 (m, rad) by the overdetermined
 /// Newton (18) on C(theta, F_t, f, l_c, f_c) of (17), n + 3 + r + m rows for n
 /// + 3 + r + 2 unknowns. A column-pivoted QR of the weighted rows serves as the
@@ -43,6 +40,25 @@ bool StartSensing(const ChainLayout& layout, const Eigen::VectorXd& s0,
 ChainSensing SenseContact(const ChainLayout& layout, const Eigen::VectorXd& s0,
                           const PointContact& start,
                           const ChainSensingOptions& options = {});
+
+/// SenseContact with ceres::Solve in place of Newton (18), from the
+/// equilibrium under `start` and with the same bounds. Both kinds of rows are
+/// divided by `gauge_std_rad`, which leaves the minimum where it is.
+///
+/// Two things differ from SenseContact. Ceres wants the cost to fall with every
+/// step, but the cost jumps where l_c passes a joint (x_c turns by theta_i
+/// there): Ceres stops at the joint where Newton passes it. So `start` should
+/// lie on the link of the solution; a result at a joint or on a bound has not
+/// converged. And Ceres compares costs, which resolve a minimum to the root of
+/// rounding: exact gauges give Newton's l_c to 1e-11 mm, noisy ones to 1e-6 mm.
+///
+/// Normal equations square the ratio of the model's weight to the gauges', so
+/// they keep fewer digits than QR does.
+ChainSensing SenseContactWithCeres(
+    const ChainLayout& layout, const Eigen::VectorXd& s0,
+    const PointContact& start, double gauge_std_rad = 3e-4,
+    const ChainSensingOptions& options = {},
+    ceres::LinearSolverType linear_solver = ceres::DENSE_QR);
 
 }  // namespace finray
 

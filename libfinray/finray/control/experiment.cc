@@ -284,14 +284,6 @@ void ReadStart(const YamlMap& yaml, const Finger& finger,
   }
 }
 
-void ReadRun(const YamlMap& yaml, Experiment* experiment) {
-  const YamlMap map = ReadMapping(yaml, "run", experiment);
-  if (experiment->draws < 1) map.Fail("draws", "draws: expected 1 or more");
-  if (!(experiment->measure_from_s < experiment->duration_s)) {
-    map.Fail("measure_from_s", "measure_from_s: expected less than duration_s");
-  }
-}
-
 std::optional<PaperFigure> ReadPaper(const YamlMap& yaml) {
   if (!yaml.Has("paper")) return std::nullopt;
   const YamlMap map = yaml.Map("paper");
@@ -323,7 +315,11 @@ Experiment ReadExperiment(const std::string& path, const Finger& finger) {
     experiment.true_delay_s = experiment.actuation.delay_s;
   }
   ReadControllers(yaml, finger, &experiment);
-  ReadRun(yaml, &experiment);
+  const YamlMap run = ReadMapping(yaml, "run", &experiment);
+  if (experiment.draws < 1) run.Fail("draws", "draws: expected 1 or more");
+  if (!(experiment.measure_from_s < experiment.duration_s)) {
+    run.Fail("measure_from_s", "measure_from_s: expected less than duration_s");
+  }
   const auto& all = experiment.controllers;
   const bool sensing_only =
       std::all_of(all.begin(), all.end(), [](const ControllerSettings& c) {

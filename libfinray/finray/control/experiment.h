@@ -5,12 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "finray/control/actuator.h"
 #include "finray/control/contact_watch.h"
-#include "finray/control/mechanism.h"
+#include "finray/control/controller.h"
+#include "finray/control/drive.h"
 #include "finray/control/model_controller.h"
 #include "finray/control/plant.h"
-#include "finray/control/trajectory.h"
 #include "finray/io/yaml_emitter.h"
 #include "finray/scene/scene.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "finray/control/mechanism.h"
+#include "finray/control/drive.h"
 #include "finray/finger/finger.h"
 #include "finray/objects/object_contact.h"
 #include "finray/scene/measurements.h"

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <map>
 #include <random>
 
 #include "finray/io/error.h"
-#include "finray/perception/finger_variations.h"
+#include "finray/perception/contact_sensor.h"
 
 namespace finray {
 namespace {
@@ -122,26 +121,24 @@ std::vector<ComplianceTrial> Trials(
   return trials;
 }
 
-void Compare(double from_N, double to_N, Compliance* result) {
-  result->from_N = from_N;
-  result->to_N = to_N;
-  std::vector<std::string> names;
-  std::map<std::string, std::vector<Stiffness>> by_object;
-  for (ComplianceTrial& trial : result->trials) {
+// The objects in the order of their first trials, compared between two forces.
+std::vector<ObjectStiffness> Compare(double from_N, double to_N,
+                                     std::vector<ComplianceTrial>* trials) {
+  std::vector<ObjectStiffness> objects;
+  for (ComplianceTrial& trial : *trials) {
     trial.stiffness = StiffnessBetween(trial.fit, from_N, to_N);
-    auto& of_object = by_object[trial.object];
-    if (of_object.empty()) names.push_back(trial.object);
-    of_object.push_back(trial.stiffness);
+    auto object = std::find_if(
+        objects.begin(), objects.end(),
+        [&](const ObjectStiffness& o) { return o.name == trial.object; });
+    if (object == objects.end()) {
+      object = objects.insert(object, {trial.object, {}, {}, 0});
+    }
+    object->trials.push_back(trial.stiffness);
   }
-  for (const std::string& name : names) {
-    ObjectStiffness object;
-    object.name = name;
-    object.trials = by_object[name];
+  for (ObjectStiffness& object : objects) {
     object.mean = MeanStiffness(object.trials);
-    result->objects.push_back(object);
   }
-  result->pair_confidence = SortByStiffness(&result->objects);
-  result->order_confidence = OrderConfidence(result->objects);
+  return objects;
 }
 
 }  // namespace
@@ -214,26 +211,27 @@ Compliance MeasureCompliance(const std::vector<ComplianceLog>& logs,
                      std::to_string(from) + " and " + std::to_string(to) +
                      " N; the second must be larger");
   }
-  Compare(from, to, &result);
+  result.from_N = from;
+  result.to_N = to;
+  result.objects = Compare(from, to, &result.trials);
   // The changes of each object's stiffness add up over the variations of each
   // finger.
   for (std::size_t f = 0; f < fingers.size(); ++f) {
     std::vector<ComplianceFinger> varied = fingers;
     for (const Finger& finger : FingerVariations(fingers[f].finger)) {
       varied[f].finger = finger;
-      Compliance other;
-      other.trials = Trials(logs, varied, discretization, settings);
-      Compare(from, to, &other);
-      for (ObjectStiffness& object : result.objects) {
-        for (const ObjectStiffness& moved : other.objects) {
-          if (moved.name != object.name) continue;
-          object.calibration_std =
-              std::hypot(object.calibration_std,
-                         moved.mean.N_per_mm - object.mean.N_per_mm);
-        }
+      auto trials = Trials(logs, varied, discretization, settings);
+      const auto moved = Compare(from, to, &trials);
+      for (std::size_t i = 0; i < moved.size(); ++i) {
+        ObjectStiffness& object = result.objects[i];
+        object.calibration_std =
+            std::hypot(object.calibration_std,
+                       moved[i].mean.N_per_mm - object.mean.N_per_mm);
       }
     }
   }
+  result.pair_confidence = SortByStiffness(&result.objects);
+  result.order_confidence = OrderConfidence(result.objects);
   return result;
 }
 

@@ -1,8 +1,71 @@
 #include "finray/perception/contact_sensor.h"
 
+#include <Eigen/Geometry>
+#include <cmath>
+
 #include "finray/io/error.h"
+#include "finray/scene/frame_columns.h"
 
 namespace finray {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int kBeamPoints = 281;
+
+// The frame of a row that holds estimated contacts.
+SensedFrame FromColumns(const FrameTable& table, std::size_t row,
+                        double friction, ContactSensor* sensor) {
+  const auto cell = [&](const std::string& name) {
+    return table.Numbers(name)[row];
+  };
+  std::vector<PointContact> contacts;
+  std::vector<Vector2d> std;
+  for (int c = 0; c < kFittedContacts && table.Has(ContactArc(c)); ++c) {
+    const double arc = cell(ContactArc(c)), normal = cell(NormalForce(c));
+    if (std::isnan(arc) || !(normal > 0)) continue;
+    contacts.push_back({arc, normal, friction});
+    std.emplace_back(cell(ContactArcStd(c)), cell(NormalForceStd(c)));
+    if (!std.back().allFinite()) {
+      throw InputError(table.path() + ":" + std::to_string(table.line(row)) +
+                       ": contact " + std::to_string(c + 1) + " has no std");
+    }
+  }
+  if (!contacts.empty()) return sensor->FromEstimate(contacts, std);
+  SensedFrame frame;
+  frame.status = FrameStatus::kNoContact;
+  return frame;
+}
+
+void AddTouches(std::size_t row, const SensedFrame& frame,
+                const Measurements& measured, double length,
+                std::vector<Touch>* touches) {
+  const Vector2d& origin = measured.object_mm;
+  const Eigen::Rotation2Dd back(-measured.object_angle_rad);
+  std::vector<Vector2d> beam;
+  for (int i = 0; i < kBeamPoints; ++i) {
+    const Section at =
+        frame.shape->At(Side::kFront, length * i / (kBeamPoints - 1));
+    beam.push_back(back * (Vector2d(at.x_mm, at.y_mm) - origin));
+  }
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() = back.toRotationMatrix();
+  for (const SensedContact& sensed : frame.contacts) {
+    Touch& touch = touches->emplace_back();
+    touch.row = row;
+    touch.point_mm = back * (sensed.pose.head<2>() - origin);
+    touch.normal_angle_rad = std::remainder(
+        sensed.pose[2] - M_PI / 2 - measured.object_angle_rad, 2 * M_PI);
+    touch.normal_N = sensed.contact.normal_N;
+    touch.covariance =
+        turn * sensed.covariance.topLeftCorner<3, 3>() * turn.transpose();
+    touch.beam_mm = beam;
+    touch.contact_arc_mm = sensed.contact.arc_mm;
+    touch.beam_length_mm = length;
+  }
+}
+
+}  // namespace
 
 ContactSensor::ContactSensor(const Finger& finger, const Scene& scene,
                              const Discretization& discretization)
@@ -75,6 +138,48 @@ std::vector<Measurements> ReadWithPlaces(
                      "place of the object");
   }
   return rows;
+}
+
+Vector2d Touch::Normal() const {
+  return {std::cos(normal_angle_rad), std::sin(normal_angle_rad)};
+}
+
+std::vector<Vector2d> Touch::BeamNear(double reach_mm) const {
+  std::vector<Vector2d> near;
+  const double step = beam_length_mm / static_cast<double>(beam_mm.size() - 1);
+  for (std::size_t i = 0; i < beam_mm.size(); ++i) {
+    const double arc = step * static_cast<double>(i);
+    if (std::abs(arc - contact_arc_mm) <= reach_mm) near.push_back(beam_mm[i]);
+  }
+  return near;
+}
+
+std::size_t Touches::all_rows() const {
+  std::size_t all = 0;
+  for (const auto& [status, count] : rows) all += count;
+  return all;
+}
+
+Touches SenseTouches(const FrameTable& table, const Finger& finger,
+                     const Scene& scene, const Discretization& discretization) {
+  const bool estimated = !table.Has(GaugeVolts(0)) &&
+                         !table.Has(GaugeAngle(0)) && table.Has(ContactArc(0));
+  MeasurementColumns::Options options;
+  options.gauges_may_lack = estimated;
+  const std::vector<Measurements> rows = ReadWithPlaces(table, finger, options);
+  ContactSensor sensor(finger, scene, discretization);
+  Touches touches;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const SensedFrame frame =
+        estimated ? FromColumns(table, row, scene.friction_coefficient, &sensor)
+                  : sensor.Sense(rows[row]);
+    ++touches.rows[frame.status];
+    if (frame.status == FrameStatus::kOk) {
+      AddTouches(row, frame, rows[row], finger.front_length_mm,
+                 &touches.usable);
+    }
+  }
+  return touches;
 }
 
 }  // namespace finray

@@ -2,9 +2,13 @@
 #define FINRAY_PERCEPTION_CONTACT_SENSOR_H_
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <map>
 #include <optional>
 #include <vector>
 
+#include "finray/finger/finger.h"
+#include "finray/io/frame_table.h"
 #include "finray/scene/measurement_columns.h"
 #include "finray/sensing/frame_estimator.h"
 #include "finray/statics/shape.h"
@@ -19,7 +23,7 @@ namespace finray {
 ///   cov z = s^2 (dz/d(l_c, f_c)) C (dz/d(l_c, f_c))'.
 ///
 /// It leaves out the error of the calibration, which all frames share
-/// (finger_variations.h).
+/// (FingerVariations).
 struct SensedContact {
   PointContact contact;
   Eigen::Vector3d pose;
@@ -61,6 +65,73 @@ class ContactSensor {
 std::vector<Measurements> ReadWithPlaces(
     const FrameTable& table, const Finger& finger,
     const MeasurementColumns::Options& options = {});
+
+/// The finger moved by each principal error of its calibration: with
+/// C_pp = F F' the covariance of its parameters p, one finger for each column
+/// of F that is not zero. Empty if the finger has no calibration. The
+/// calibration's share in the error of any result y(p) is, to first order,
+///
+///   cov y = sum_k (y(p + F_k) - y(p)) (y(p + F_k) - y(p))'.
+///
+/// All frames share these errors, so y may be computed from any number of them.
+inline std::vector<Finger> FingerVariations(const Finger& finger) {
+  std::vector<Finger> fingers;
+  if (!finger.calibration) return fingers;
+  const ParameterCovariance& calibration = *finger.calibration;
+  const Eigen::MatrixXd factor = calibration.Factor();
+  for (Eigen::Index k = 0; k < factor.cols(); ++k) {
+    if (factor.col(k).isZero(0)) continue;
+    Finger varied = finger;
+    for (std::size_t i = 0; i < calibration.parameters.size(); ++i) {
+      const FingerParameter& parameter = calibration.parameters[i];
+      SetParameter(parameter,
+                   ParameterValue(finger, parameter) +
+                       factor(static_cast<Eigen::Index>(i), k),
+                   &varied);
+    }
+    fingers.push_back(varied);
+  }
+  return fingers;
+}
+
+/// What one contact tells about an object, in the object's own frame (mm, rad):
+///
+///   point = R(-a) (r - p),   normal angle = theta - pi/2 - a.
+///
+/// r and theta are those of the front beam at the contact; p and a are position
+/// and angle of the object in frame S. The outline passes through the point,
+/// its outward normal there has that angle and points into the finger, and the
+/// whole outline lies on one side of the beam.
+struct Touch {
+  std::size_t row;  ///< of the table, from 0
+  Eigen::Vector2d point_mm;
+  double normal_angle_rad;
+  double normal_N;
+  Eigen::Matrix3d covariance;  ///< of (x, y, normal angle)
+  /// The front beam from base to tip, and the arc length of the contact on it.
+  std::vector<Eigen::Vector2d> beam_mm;
+  double contact_arc_mm;
+  double beam_length_mm;
+
+  Eigen::Vector2d Normal() const;
+  /// The part of the beam within `reach_mm` of the contact.
+  std::vector<Eigen::Vector2d> BeamNear(double reach_mm) const;
+};
+
+/// All touches of a table, and how many of its rows had which status.
+struct Touches {
+  std::vector<Touch> usable;
+  std::map<FrameStatus, std::size_t> rows;
+
+  std::size_t all_rows() const;
+};
+
+/// Senses every row of a table. A row needs object_x_mm and object_y_mm
+/// (object_angle_deg defaults to 0), and its gauges. A table without gauge
+/// columns needs contact_<c>_mm and normal_<c>_N with their std instead. Throws
+/// InputError at the line of a row that lacks the object's place or a std.
+Touches SenseTouches(const FrameTable& table, const Finger& finger,
+                     const Scene& scene, const Discretization& discretization);
 
 }  // namespace finray
 

@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "finray/perception/contact_sensor.h"
 #include "finray/perception/convex_curve.h"
-#include "finray/perception/touch.h"
 
 namespace finray {
 

@@ -20,6 +20,9 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
+constexpr int kCells = 180;
+// A beam bounds the outline within this distance of its contact.
+constexpr double kBeamReach_mm = 140;
 // Far smaller than the error of a touch.
 constexpr double kClosureStd_mm = 5e-3;
 constexpr double kHuberScale = 3;
@@ -66,13 +69,13 @@ Matrix2d Whitening(const Touch& touch, const ConvexCurve& curve,
   return covariance.llt().matrixL().solve(Matrix2d::Identity());
 }
 
-// The fit with fixed weights and bounds. Bounds are added before the first call
-// of Solve.
+// The fit with fixed weights and bounds.
 class Fit {
  public:
-  // Leaves out each touch i with along[i], which lies along an edge.
+  // Leaves out each touch i with along[i], which lies along an edge. Beams
+  // bound the points of `bounded`, or none if it is null.
   Fit(const std::vector<Touch>& touches, const std::vector<bool>& along,
-      const ConvexCurve& about, const OutlineFitSettings& settings)
+      const ConvexCurve& about, const ConvexCurve* bounded, double stage_std_mm)
       : grid_(about.grid()),
         cells_(grid_.cells()),
         along_(along),
@@ -81,15 +84,14 @@ class Fit {
     for (std::size_t i = 0; i < touches.size(); ++i) {
       if (along[i]) continue;
       costs_.emplace_back(touches[i].point_mm, touches[i].normal_angle_rad,
-                          Whitening(touches[i], about, settings.stage_std_mm),
-                          false, grid_);
+                          Whitening(touches[i], about, stage_std_mm), false,
+                          grid_);
     }
     touches_ = costs_.size();
     Take(about);
-  }
-
-  void AddBounds(const std::vector<BeamBound>& bounds) {
-    for (const BeamBound& bound : bounds) {
+    if (bounded == nullptr) return;
+    for (const BeamBound& bound :
+         FindBeamBounds(touches, *bounded, stage_std_mm, kBeamReach_mm)) {
       costs_.emplace_back(bound.beam_point_mm, bound.normal_angle_rad,
                           bound.beam_normal.transpose() / bound.std_mm, true,
                           grid_);
@@ -265,28 +267,17 @@ Best BestLambda(double from_power, double to_power, double step, Fit* fit) {
   return {best_lambda, best};
 }
 
-std::vector<BeamBound> Bounds(const std::vector<Touch>& touches,
-                              const ConvexCurve& curve,
-                              const OutlineFitSettings& settings) {
-  return FindBeamBounds(touches, curve, settings.stage_std_mm,
-                        settings.beam_reach_mm);
-}
-
 // Turns flat stretches into straight edges if the touches away from them are
 // then more probable than with a smooth outline.
-void TakeEdges(const std::vector<Touch>& touches,
-               const OutlineFitSettings& settings, OutlineFit* result,
-               std::vector<bool>* along) {
+void TakeEdges(const std::vector<Touch>& touches, double stage_std_mm,
+               OutlineFit* result, std::vector<bool>* along) {
   const auto edges = FindStraightEdges(result->curve, touches);
   if (edges.empty()) return;
   const std::vector<bool> apart = Along(touches, edges, result->curve);
   if (std::count(apart.begin(), apart.end(), false) < 3) return;
-  const auto bounds = Bounds(touches, result->curve, settings);
-  Fit smooth(touches, apart, result->curve, settings);
-  smooth.AddBounds(bounds);
-  Fit straight(touches, apart, WithEdges(result->curve, edges, settings.cells),
-               settings);
-  straight.AddBounds(bounds);
+  Fit smooth(touches, apart, result->curve, &result->curve, stage_std_mm);
+  Fit straight(touches, apart, WithEdges(result->curve, edges, kCells),
+               &result->curve, stage_std_mm);
   const Best of_smooth =
       BestLambda(kLeastPower, kMostPower, kFirstStep, &smooth);
   const Best of_straight =
@@ -313,27 +304,25 @@ double OutlineFit::NormalStd(double normal_angle_rad) const {
   return std::sqrt(std::max(0.0, slope.dot(covariance * slope)));
 }
 
-OutlineFit FitOutline(const std::vector<Touch>& touches,
-                      const OutlineFitSettings& settings) {
+OutlineFit FitOutline(const std::vector<Touch>& touches, double stage_std_mm) {
   if (touches.size() < 3) {
     throw std::invalid_argument("an outline needs three touches");
   }
   OutlineFit result;
-  result.curve = Circle(touches, NormalGrid(settings.cells));
+  result.curve = Circle(touches, NormalGrid(kCells));
   std::vector<bool> along(touches.size(), false);
   // Smooth first; the first round has the weights of a circle.
   for (int round = 0; round < kSmoothRounds; ++round) {
-    Fit fit(touches, along, result.curve, settings);
-    if (round > 0) fit.AddBounds(Bounds(touches, result.curve, settings));
+    Fit fit(touches, along, result.curve, round > 0 ? &result.curve : nullptr,
+            stage_std_mm);
     result.smoothing =
         BestLambda(kLeastPower, kMostPower, kFirstStep, &fit).lambda;
     result.curve = fit.curve();
   }
-  TakeEdges(touches, settings, &result, &along);
+  TakeEdges(touches, stage_std_mm, &result, &along);
   for (int round = 0; round < kLastRounds; ++round) {
-    result.curve = WithEdges(result.curve, result.edges, settings.cells);
-    Fit fit(touches, along, result.curve, settings);
-    fit.AddBounds(Bounds(touches, result.curve, settings));
+    result.curve = WithEdges(result.curve, result.edges, kCells);
+    Fit fit(touches, along, result.curve, &result.curve, stage_std_mm);
     const double power = std::log10(result.smoothing);
     result.smoothing =
         BestLambda(power - kFirstStep, power + kFirstStep, kLaterStep, &fit)
@@ -354,11 +343,9 @@ OutlineFit FitOutline(const std::vector<Touch>& touches,
 }
 
 ConvexCurve RefitOutline(const std::vector<Touch>& touches,
-                         const OutlineFit& start,
-                         const OutlineFitSettings& settings) {
+                         const OutlineFit& start, double stage_std_mm) {
   Fit fit(touches, Along(touches, start.edges, start.curve), start.curve,
-          settings);
-  fit.AddBounds(Bounds(touches, start.curve, settings));
+          &start.curve, stage_std_mm);
   if (!fit.Solve(start.smoothing)) {
     throw std::runtime_error("no outline fits the touches of a varied finger");
   }

@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "finray/perception/contact_sensor.h"
 #include "finray/perception/convex_curve.h"
 #include "finray/perception/straight_edges.h"
-#include "finray/perception/touch.h"
 
 namespace finray {
 
@@ -39,12 +39,8 @@ namespace finray {
 // touches and beams, the information R of the roughness, det+ without its null
 // space, e edges, and s_e the std of the logarithm of an edge's length.
 
-struct OutlineFitSettings {
-  int cells = 180;
-  double stage_std_mm = 0.02;  ///< of object_x_mm and of object_y_mm
-  /// A beam bounds the outline within this distance of its contact.
-  double beam_reach_mm = 140;
-};
+/// The std of object_x_mm and of object_y_mm.
+constexpr double kStageStd_mm = 0.02;
 
 struct OutlineFit {
   ConvexCurve curve{NormalGrid(1), {0, 0}, Eigen::VectorXd::Ones(1)};
@@ -65,13 +61,12 @@ struct OutlineFit {
 /// Throws std::invalid_argument for fewer than three touches and
 /// std::runtime_error if there is no minimum.
 OutlineFit FitOutline(const std::vector<Touch>& touches,
-                      const OutlineFitSettings& settings = {});
+                      double stage_std_mm = kStageStd_mm);
 
-/// Fits slightly different touches (finger_variations.h), starting from `start`
+/// Fits slightly different touches (FingerVariations), starting from `start`
 /// and with its lambda and edges. Throws std::runtime_error without a minimum.
 ConvexCurve RefitOutline(const std::vector<Touch>& touches,
-                         const OutlineFit& start,
-                         const OutlineFitSettings& settings);
+                         const OutlineFit& start, double stage_std_mm);
 
 }  // namespace finray
 

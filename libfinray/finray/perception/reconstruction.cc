@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "finray/io/error.h"
-#include "finray/perception/finger_variations.h"
+#include "finray/perception/contact_sensor.h"
 
 namespace finray {
 namespace {
@@ -104,7 +104,7 @@ double Clearance(const Vector2d& point, double normal_angle_rad,
 Eigen::VectorXd CalibrationVariance(const FrameTable& table,
                                     const Finger& finger, const Scene& scene,
                                     const Discretization& discretization,
-                                    const OutlineFitSettings& settings,
+                                    double stage_std_mm,
                                     const Reconstruction& found) {
   const auto points = static_cast<Eigen::Index>(found.outline.size());
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(points);
@@ -112,7 +112,7 @@ Eigen::VectorXd CalibrationVariance(const FrameTable& table,
     const Touches touches = SenseTouches(table, varied, scene, discretization);
     if (touches.usable.size() < kLeastTouches) continue;
     const Polygon moved =
-        Sampled(RefitOutline(touches.usable, found.fit, settings));
+        Sampled(RefitOutline(touches.usable, found.fit, stage_std_mm));
     for (Eigen::Index i = 0; i < points; ++i) {
       const OutlinePoint& point = found.outline[static_cast<std::size_t>(i)];
       const auto radius = RadiusAt(moved, found.centroid_mm, point.angle_rad);
@@ -203,11 +203,11 @@ Polygon Reconstruction::polygon() const {
 Reconstruction Reconstruct(const FrameTable& table, const Finger& finger,
                            const Scene& scene,
                            const Discretization& discretization,
-                           const OutlineFitSettings& settings) {
+                           double stage_std_mm) {
   Reconstruction result;
   result.touches = SenseTouches(table, finger, scene, discretization);
   CheckSpread(result.touches, table.path());
-  result.fit = FitOutline(result.touches.usable, settings);
+  result.fit = FitOutline(result.touches.usable, stage_std_mm);
   const ConvexCurve& curve = result.fit.curve;
   result.centroid_mm = CentroidOf(Sampled(curve));
   const TouchCoverage coverage(curve, result.touches.usable);
@@ -232,7 +232,7 @@ Reconstruction Reconstruct(const FrameTable& table, const Finger& finger,
     result.outline.push_back(point);
   }
   const Eigen::VectorXd variance = CalibrationVariance(
-      table, finger, scene, discretization, settings, result);
+      table, finger, scene, discretization, stage_std_mm, result);
   for (int i = 0; i < kOutlinePoints; ++i) {
     OutlinePoint& point = result.outline[static_cast<std::size_t>(i)];
     point.std_mm = std::hypot(point.std_mm, std::sqrt(variance[i]));

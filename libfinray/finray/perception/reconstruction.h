@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "finray/perception/contact_sensor.h"
 #include "finray/perception/convex_curve.h"
 #include "finray/perception/outline_fit.h"
 #include "finray/perception/polygon.h"
-#include "finray/perception/touch.h"
 
 namespace finray {
 
@@ -90,7 +90,7 @@ struct Reconstruction {
 Reconstruction Reconstruct(const FrameTable& table, const Finger& finger,
                            const Scene& scene,
                            const Discretization& discretization,
-                           const OutlineFitSettings& settings);
+                           double stage_std_mm);
 
 /// The outline by the paper's method (IV-B): the contour of the blank area that
 /// the pieces of beam near the contacts enclose. Rays replace the paper's

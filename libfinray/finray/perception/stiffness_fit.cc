@@ -31,42 +31,20 @@ constexpr int kAnnealingSteps = 20;
 
 // W (u_i - v, F_i - F(v, s_i)), W whitening C_i. Parameter blocks: the law's
 // parameters a, and v.
-class ForcePointCost : public ceres::CostFunction {
- public:
-  ForcePointCost(const ForcePoint& point, const ForceLaw& law)
-      : point_(point),
-        law_(law),
-        whitening_(point.covariance.llt().matrixL().solve(
-            Eigen::Matrix2d::Identity())) {
-    set_num_residuals(2);
-    mutable_parameter_block_sizes()->assign({law.parameters(), 1});
-  }
-
-  bool Evaluate(double const* const* parameters, double* residuals,
-                double** jacobians) const override {
-    const int size = law_.parameters();
-    const VectorXd a = Eigen::Map<const VectorXd>(parameters[0], size);
-    const double v = *parameters[1];
-    const Eigen::RowVectorXd row = law_.Row(v, point_.direction);
-    Eigen::Map<Vector2d> residual(residuals);
-    residual = whitening_ * Vector2d(point_.displacement_mm - v,
-                                     point_.force_N - row.dot(a));
-    if (jacobians == nullptr) return true;
-    if (jacobians[0] != nullptr) {
-      Eigen::Map<Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor>>(
-          jacobians[0], 2, size) = -whitening_.col(1) * row;
-    }
-    if (jacobians[1] != nullptr) {
-      Eigen::Map<Vector2d>{jacobians[1]} =
-          whitening_ * Vector2d(-1, -law_.Slope(a, v));
-    }
+struct ForcePointCost {
+  template <typename T>
+  bool operator()(T const* const* parameters, T* residuals) const {
+    const T& v = *parameters[1];
+    const Eigen::Matrix<T, 2, 1> off(
+        point.displacement_mm - v,
+        point.force_N - law.Force(parameters[0], v, point.direction));
+    Eigen::Map<Eigen::Matrix<T, 2, 1>>{residuals} = whitening.cast<T>() * off;
     return true;
   }
 
- private:
-  ForcePoint point_;
-  ForceLaw law_;
-  Eigen::Matrix2d whitening_;
+  ForcePoint point;
+  ForceLaw law;
+  Eigen::Matrix2d whitening;
 };
 
 // Squared distances of points across a law over the scale s^2, and the variance
@@ -144,8 +122,14 @@ StiffnessFit FitLaw(const std::vector<ForcePoint>& points,
   ceres::Problem problem;
   auto* ordering = new ceres::ParameterBlockOrdering;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    problem.AddResidualBlock(new ForcePointCost(points[i], law), nullptr,
-                             a.data(), &v[i]);
+    auto* cost = new ceres::DynamicAutoDiffCostFunction<ForcePointCost, 6>(
+        new ForcePointCost{points[i], law,
+                           points[i].covariance.llt().matrixL().solve(
+                               Eigen::Matrix2d::Identity())});
+    cost->AddParameterBlock(law.parameters());
+    cost->AddParameterBlock(1);
+    cost->SetNumResiduals(2);
+    problem.AddResidualBlock(cost, nullptr, a.data(), &v[i]);
     ordering->AddElementToGroup(&v[i], 0);
   }
   ordering->AddElementToGroup(a.data(), 1);
@@ -211,7 +195,7 @@ double StiffnessFit::friction_std_N() const {
 }
 
 double StiffnessFit::ForceAt(double displacement_mm) const {
-  return law.Force(coefficients, displacement_mm);
+  return law.Force(coefficients.data(), displacement_mm, 0);
 }
 
 double StiffnessFit::DisplacementAt(double force_N) const {

@@ -29,9 +29,13 @@ struct ForceLaw {
     if (has_friction) row[degree + 1] = direction;
     return row;
   }
-  /// F without friction.
-  double Force(const Eigen::VectorXd& a, double u) const {
-    return Row(u, 0).dot(a);
+  /// F(u, s), without friction for s = 0.
+  template <typename T>
+  T Force(const T* a, const T& u, int direction) const {
+    T force = has_friction ? a[degree + 1] * T(direction) : T(0);
+    T power(1);
+    for (int m = 0; m <= degree; ++m, power *= u) force += a[m] * power;
+    return force;
   }
   /// dF/du.
   double Slope(const Eigen::VectorXd& a, double u) const {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "finray/perception/contact_sensor.h"
 #include "finray/perception/convex_curve.h"
-#include "finray/perception/touch.h"
 
 namespace finray {
 

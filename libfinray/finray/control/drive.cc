@@ -1,5 +1,6 @@
-#include "finray/control/mechanism.h"
+#include "finray/control/drive.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -8,16 +9,57 @@ namespace {
 
 using Eigen::Vector2d;
 
-Pose<double> Displacement(const Vector2d& from_a, const Vector2d& from_b,
-                          const Vector2d& to_a, const Vector2d& to_b) {
-  const Vector2d before = from_b - from_a, after = to_b - to_a;
-  const double angle = std::atan2(Cross(before, after), before.dot(after));
-  Pose<double> pose = MakePose<double>(angle, Vector2d::Zero());
-  pose.t = to_a - pose.Rotate(from_a);
-  return pose;
+}  // namespace
+
+Actuator::Actuator(const ActuatorSettings& settings, double start)
+    : settings_(settings),
+      position_(start),
+      command_(start),
+      last_command_(start) {}
+
+void Actuator::Command(double time_s, double position) {
+  in_flight_.push_back({time_s + settings_.delay_s, position});
+  last_command_ = position;
 }
 
-}  // namespace
+double Actuator::AdvanceTo(double time_s) {
+  while (!in_flight_.empty() && in_flight_.front().arrives_s <= time_s) {
+    Move(in_flight_.front().arrives_s - time_s_);
+    command_ = in_flight_.front().position;
+    in_flight_.pop_front();
+  }
+  Move(time_s - time_s_);
+  return position_;
+}
+
+double Actuator::PredictAt(double time_s) const {
+  return Actuator(*this).AdvanceTo(time_s);
+}
+
+double Actuator::CommandFor(double time_s, double position) const {
+  const double start = PredictAt(time_s + settings_.delay_s);
+  if (!(settings_.time_constant_s > 0)) return position;
+  const double share =
+      -std::expm1(-settings_.period_s / settings_.time_constant_s);
+  return start + (position - start) / share;
+}
+
+void Actuator::Move(double seconds) {
+  if (!(seconds > 0)) return;
+  time_s_ += seconds;
+  const double tau = settings_.time_constant_s, limit = settings_.speed_limit;
+  // The drive moves at the speed limit until the servo asks for less.
+  const double way = command_ - position_;
+  const double beyond = std::abs(way) - limit * tau;
+  if (beyond > 0) {
+    const double ramp_s = std::min(seconds, beyond / limit);
+    position_ += std::copysign(limit * ramp_s, way);
+    seconds -= ramp_s;
+  }
+  if (tau > 0) {
+    position_ -= (command_ - position_) * std::expm1(-seconds / tau);
+  }
+}
 
 FourBar::FourBar(const FourBarJoints& joints)
     : joints_(joints),
@@ -48,7 +90,12 @@ std::optional<Pose<double>> FourBar::Coupler(double crank_rad) const {
   const double across = std::copysign(std::sqrt(square), side_);
   const Vector2d unit = way / distance;
   const Vector2d c = b + along * unit + across * Turned<double>(unit);
-  return Displacement(joints_.crank_joint_mm, joints_.rocker_joint_mm, b, c);
+  const Vector2d before = joints_.rocker_joint_mm - joints_.crank_joint_mm;
+  const Vector2d after = c - b;
+  Pose<double> pose = MakePose<double>(
+      std::atan2(Cross(before, after), before.dot(after)), Vector2d::Zero());
+  pose.t = b - pose.Rotate(joints_.crank_joint_mm);
+  return pose;
 }
 
 Mechanism::Mechanism(const FourBar& four_bar) : four_bar_(four_bar) {
