@@ -1,6 +1,6 @@
 #include "finray/benchmark/runner.h"
-#include "finray/chain/sensing.h"
 #include "finray/chain/forward.h"
+#include "finray/chain/sensing.h"
 
 namespace finray {
 namespace {
