@@ -9,7 +9,7 @@
 
 #include "app.h"
 #include "count_allocations.h"
-#include "finray/benchmark/benchmark_files.h"
+#include "finray/benchmark/benchmark_run.h"
 #include "finray/benchmark/peers.h"
 #include "finray/benchmark/recommendation.h"
 #include "finray/benchmark/run_comparison.h"
@@ -129,7 +129,7 @@ MeasuringOptions Options(ProgressBar* bar) {
                            static_cast<double>(allocated_bytes)};
   };
 #endif
-  options.progress = [bar](int, int) { bar->Add(1, false); };
+  options.progress = [bar] { bar->Add(1, false); };
   return options;
 }
 

@@ -6,6 +6,8 @@
 #include "app.h"
 #include "finray/calib/analysis/calibration_comparison.h"
 #include "finray/io/atomic_file.h"
+#include "finray/io/message_text.h"
+#include "finray/io/number_text.h"
 
 DEFINE_string(out_dir, "", "folder for comparison.yaml and comparison.csv");
 DEFINE_double(most_sigma, 0,
@@ -55,12 +57,7 @@ std::vector<ComparisonGate> Gates(const Comparison& comparison) {
 }
 
 void PrintNames(const char* what, const std::vector<std::string>& names) {
-  if (names.empty()) return;
-  std::printf("%s", what);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    std::printf("%s%s", i == 0 ? " " : ", ", names[i].c_str());
-  }
-  std::printf("\n");
+  if (!names.empty()) std::printf("%s %s\n", what, Joined(names).c_str());
 }
 
 void PrintSummary(const Comparison& comparison,
@@ -96,15 +93,14 @@ void PrintSummary(const Comparison& comparison,
     std::printf("contact        %.3g mm rms, %.3g mm at most (%.2f std)\n",
                 most.contact_rms_mm, most.contact_mm, most.contact_over_std);
   }
-  std::printf("gates         ");
-  if (gates.empty()) std::printf(" none given");
-  const char* separator = " ";
+  std::vector<std::string> words;
   for (const ComparisonGate& gate : gates) {
-    std::printf("%s%s %.3g (%.3g) %s", separator, gate.name.c_str(), gate.bound,
-                gate.value, gate.passed ? "passed" : "FAILED");
-    separator = ", ";
+    words.push_back(FormatText("%s %.3g (%.3g) %s", gate.name.c_str(),
+                               gate.bound, gate.value,
+                               gate.passed ? "passed" : "FAILED"));
   }
-  std::printf("\n");
+  PrintNames("gates         ",
+             words.empty() ? std::vector<std::string>{"none given"} : words);
 }
 
 int Run() {

@@ -1,16 +1,23 @@
 // Estimates contact location and force in every frame of many logs, from their
 // gauges.
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 
 #include "app.h"
-#include "finray/batch/batch_summary.h"
+#include "finray/batch/live_rows.h"
+#include "finray/batch/log_job.h"
 #include "finray/io/atomic_file.h"
+#include "finray/io/line_reader.h"
 #include "finray/io/log_list.h"
-#include "follow.h"
 #include "progress_bar.h"
-#include "stop_signal.h"
 
 DEFINE_string(finger, "", "finger YAML, best a calibrated one");
 DEFINE_string(scene, "", "scene YAML; without it contacts: auto");
@@ -23,8 +30,6 @@ DEFINE_string(logs_root, "",
               "it; without it all lie in --out_dir itself");
 DEFINE_int32(threads, 1, "threads over frames");
 DEFINE_bool(resume, false, "keep finished logs, go on with interrupted ones");
-DEFINE_string(scheme, "taylor", "rigid_chain or taylor");
-DEFINE_int32(resolution, 0, "elements over both beams; 0: default");
 DEFINE_string(solver, "fast",
               "fast, or ceres: the residual blocks of the calibration, which "
               "take every kind of measurement");
@@ -35,7 +40,6 @@ DEFINE_bool(
     joint, false,
     "solve all frames of a log together, with the gauge_offset_walk and "
     "the smoothing of the scene");
-DEFINE_bool(dump_config, false, "print what is in force, and stop");
 DEFINE_bool(strict, false, "fail if any frame is not_converged or bad_input");
 DEFINE_bool(keep_going, false,
             "leave out logs that are bad input, list them in summary.yaml");
@@ -46,8 +50,22 @@ namespace {
 
 using namespace finray;
 
-std::string InFolder(const char* name) {
-  return (std::filesystem::path(FLAGS_out_dir) / name).string();
+// SIGINT and SIGTERM ask to finish; a second signal ends the process at once.
+volatile std::sig_atomic_t stop_requested = 0, stop_pipe = -1;
+
+bool IsStopRequested() { return stop_requested != 0; }
+
+// System calls go on after a signal with `flags` SA_RESTART.
+void CatchStopSignals(int flags) {
+  struct sigaction action = {};
+  action.sa_handler = [](int) {
+    stop_requested = 1;
+    const int error = errno;
+    if (stop_pipe >= 0 && write(stop_pipe, "", 1) < 0) errno = error;
+  };
+  action.sa_flags = flags | static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
 }
 
 std::vector<LogJob> MakeJobs(const BatchSettings& settings) {
@@ -91,7 +109,7 @@ void MakeFolders(const std::vector<LogJob>& jobs) {
 void RemoveOldSummaries() {
   for (const char* name : {"summary.yaml", "summary.csv"}) {
     std::error_code missing;
-    std::filesystem::remove(InFolder(name), missing);
+    std::filesystem::remove(OutPath(name), missing);
   }
 }
 
@@ -117,7 +135,7 @@ int Interrupted(const std::string& when) {
 void PrintSummary(const std::vector<LogJob>& jobs, const ProgressBar& bar) {
   const EstimationSummary all = Total(jobs);
   const double seconds = bar.seconds();
-  std::printf("%s\n", InFolder("summary.yaml").c_str());
+  std::printf("%s\n", OutPath("summary.yaml").c_str());
   std::printf("frames         %zu in %zu log%s, %.3g s", all.frames,
               jobs.size(), jobs.size() == 1 ? "" : "s", seconds);
   if (bar.done() > 0) {
@@ -174,16 +192,90 @@ void CheckJoint(BatchSettings* settings) {
 void RefuseBatchFlags() {
   for (const char* flag : {"logs", "logs_root", "out_dir", "resume", "threads",
                            "keep_going", "joint"}) {
-    if (!gflags::GetCommandLineFlagInfoOrDie(flag).is_default) {
+    if (IsGiven(flag)) {
       throw UsageError(std::string("--") + flag + " does not go with --follow");
     }
   }
 }
 
+// Writes to standard output. Returns false if nobody reads the output, or if
+// told to stop while it waits for a reader.
+bool WriteLive(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = write(STDOUT_FILENO, text.data(), text.size());
+    if (count >= 0) {
+      text.remove_prefix(static_cast<std::size_t>(count));
+    } else if (errno == EPIPE || (errno == EINTR && IsStopRequested())) {
+      return false;
+    } else if (errno != EINTR) {
+      throw InputError(std::string("stdout: cannot be written: ") +
+                       std::strerror(errno));
+    }
+  }
+  return true;
+}
+
+void PrintLatency(const LatencyHistogram& latency) {
+  const auto us = [&](double share) { return 1e-3 * latency.Quantile(share); };
+  std::fprintf(stderr,
+               "latency        p50 %.1f us, p99 %.1f us, p99.9 %.1f us, max "
+               "%.1f us, over %llu frames\n",
+               us(0.5), us(0.99), us(0.999),
+               1e-3 * static_cast<double>(latency.max()),
+               static_cast<unsigned long long>(latency.count()));
+}
+
+// Runs `finray_estimate --follow`: it reads a log from standard input and
+// writes each row to standard output at once. It ends with its input, with a
+// stop signal, or when nobody reads its output any more. Then it says how long
+// the rows have taken, from having the whole line to having written its row.
+int FollowInput(const BatchSettings& settings) {
+  using Clock = std::chrono::steady_clock;
+  constexpr char kSource[] = "stdin";
+  std::signal(SIGPIPE, SIG_IGN);
+  // A poll() on this pipe cannot miss the request to stop.
+  int ends[2] = {-1, -1};
+  if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) == 0) stop_pipe = ends[1];
+  CatchStopSignals(0);
+  LineReader lines = ReadPipe(STDIN_FILENO, ends[0], kSource);
+  LiveEstimator estimator(settings.finger, settings.scene,
+                          settings.discretization, settings.method);
+  CsvLine header;
+  do {
+    if (!lines.Next()) {
+      if (IsStopRequested()) return kGood;
+      throw InputError(std::string(kSource) +
+                       ": is empty, expected a header and rows");
+    }
+    header = lines.line();
+  } while (!IsHeaderLine(&header));
+  LiveRows rows(settings.finger, settings.scene, kSource, header, &estimator);
+  LatencyHistogram latency;
+  std::size_t unsolved = 0;
+  bool open = WriteLive(rows.HeaderCsv());
+  while (open && !IsStopRequested() && lines.Next()) {
+    const Clock::time_point start = Clock::now();
+    const std::string& row = rows.Next(lines.line());
+    if (!rows.error().empty()) {
+      if (FLAGS_strict) throw InputError(rows.error());
+      std::cerr << "finray_estimate: " << rows.error() << "\n";
+    }
+    open = WriteLive(row);
+    if (open) {
+      const std::chrono::nanoseconds time = Clock::now() - start;
+      latency.Add(static_cast<std::uint64_t>(time.count()));
+    }
+    unsolved += rows.status() == FrameStatus::kNotConverged ||
+                rows.status() == FrameStatus::kBadInput;
+  }
+  PrintLatency(latency);
+  return FLAGS_strict && unsolved > 0 ? kSolveFailed : kGood;
+}
+
 int Run() {
   if (FLAGS_follow) RefuseBatchFlags();
   BatchSettings settings(Required("finger", FLAGS_finger), FLAGS_scene,
-                         ParseDiscretization(FLAGS_scheme, FLAGS_resolution));
+                         DiscretizationFlags());
   settings.method = ChosenMethod();
   settings.joint = FLAGS_joint;
   CheckJoint(&settings);
@@ -191,19 +283,15 @@ int Run() {
     Required("logs", FLAGS_logs);
     Required("out_dir", FLAGS_out_dir);
   }
-  if (FLAGS_dump_config) {
-    DumpConfig(settings.finger, settings.scene, settings.discretization);
+  if (DumpConfigFlag(settings.finger, settings.scene,
+                     settings.discretization)) {
     return kGood;
   }
-  if (FLAGS_follow) {
-    return Follow(settings.finger, settings.scene, settings.discretization,
-                  settings.method, FLAGS_strict)
-        .Run();
-  }
+  if (FLAGS_follow) return FollowInput(settings);
   settings.threads = FLAGS_threads;
   settings.resume = FLAGS_resume;
-  settings.stop = StopSignal::Requested;
-  StopSignal::Install();
+  settings.stop = IsStopRequested;
+  CatchStopSignals(SA_RESTART);
 
   std::vector<LogJob> jobs = MakeJobs(settings);
   std::vector<BadLog> bad_logs;
@@ -223,8 +311,8 @@ int Run() {
                        " of " + std::to_string(Frames(jobs)) + " frames");
   }
 
-  BatchTable(jobs).Write(InFolder("summary.csv"));
-  WriteFileAtomically(InFolder("summary.yaml"),
+  BatchTable(jobs).Write(OutPath("summary.csv"));
+  WriteFileAtomically(OutPath("summary.yaml"),
                       BatchYaml(settings, jobs, bad_logs));
   PrintSummary(jobs, bar);
   if (!bad_logs.empty()) return kBadInput;

@@ -6,6 +6,7 @@
 #include "app.h"
 #include "finray/calib/analysis/validation.h"
 #include "finray/io/atomic_file.h"
+#include "finray/io/message_text.h"
 #include "finray/io/number_text.h"
 
 DEFINE_string(finger, "", "calibrated finger YAML");
@@ -88,13 +89,12 @@ void WarnOfParametersOfLogs(const Plan& plan) {
       {ParameterFamily::kForceOffset, "force_offset"},
       {ParameterFamily::kTemperatureCoefficient, "temperature_coefficient"},
       {ParameterFamily::kGaugeDrift, "gauge_drift"}};
-  std::string names;
+  std::vector<std::string> names;
   for (const auto& [family, name] : of_logs) {
-    if (!plan.family(family).free) continue;
-    names += (names.empty() ? "" : ", ") + std::string(name);
+    if (plan.family(family).free) names.push_back(name);
   }
   if (names.empty()) return;
-  LOG(WARNING) << "the plan frees " << names
+  LOG(WARNING) << "the plan frees " << Joined(names)
                << ": its value from the calibration is not applied to these "
                   "logs, so the errors contain it; correct the logs, or use "
                   "`holdout` in the plan";
@@ -132,27 +132,25 @@ void PrintSummary(const CalibrationLogs& logs, const Validation& validation,
               baseline ? &baseline->force_N : nullptr, "N");
   PrintErrors("contact error ", errors.contact_mm,
               baseline ? &baseline->contact_mm : nullptr, "mm");
-  std::printf("coverage      ");
   const std::pair<const char*, const ErrorStatistics*> quantities[] = {
       {"force", &errors.force_N}, {"contact", &errors.contact_mm}};
-  const char* separator = " ";
+  std::vector<std::string> words;
   for (const auto& [name, statistics] : quantities) {
     if (statistics->judged == 0) continue;
-    std::printf("%s%s %.1f and %.1f %%", separator, name,
-                statistics->coverage_68_percent(),
-                statistics->coverage_95_percent());
-    separator = ", ";
+    words.push_back(FormatText(" %s %.1f and %.1f %%", name,
+                               statistics->coverage_68_percent(),
+                               statistics->coverage_95_percent()));
   }
-  std::printf(" (68 and 95 %% predicted)\ngates         ");
-  if (gates.empty()) std::printf(" none given");
-  separator = " ";
+  std::printf("coverage      %s (68 and 95 %% predicted)\n",
+              Joined(words, ",").c_str());
+  words.clear();
   for (const GateResult& result : gates) {
-    std::printf("%s%s %.3g (%.3g) %s", separator,
-                GateName(result.gate.quantity), result.gate.bound, result.value,
-                result.passed ? "passed" : "FAILED");
-    separator = ", ";
+    words.push_back(FormatText(
+        "%s %.3g (%.3g) %s", GateName(result.gate.quantity), result.gate.bound,
+        result.value, result.passed ? "passed" : "FAILED"));
   }
-  std::printf("\n");
+  std::printf("gates          %s\n",
+              words.empty() ? "none given" : Joined(words).c_str());
 }
 
 int Run() {

@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "apps/command_line.h"
-#include "finray/benchmark/benchmark_files.h"
+#include "finray/benchmark/benchmark_run.h"
 
 namespace finray {
 namespace {

@@ -20,7 +20,6 @@
 #include <memory>
 #include <random>
 
-#include "finray/batch/latency_histogram.h"
 #include "finray/batch/live_rows.h"
 #include "finray/batch/log_job.h"
 #include "finray/batch/result_rows.h"
@@ -88,23 +87,6 @@ void WriteLog(const std::string& path, const Finger& finger, int frames) {
   }
   log.Write(path);
 }
-
-// Hands out estimates made before, at no cost but that of copying them.
-class MadeBefore : public FrameSolver {
- public:
-  explicit MadeBefore(const std::vector<FrameEstimate>* estimates)
-      : estimates_(*estimates) {}
-  void SolveBlock(const Measurements* /*readings*/, std::size_t count,
-                  FrameEstimate* estimates) override {
-    for (std::size_t i = 0; i < count; ++i) {
-      estimates[i] = estimates_[next_++ % estimates_.size()];
-    }
-  }
-
- private:
-  const std::vector<FrameEstimate>& estimates_;
-  std::size_t next_ = 0;
-};
 
 class BatchBenchmark {
  public:
@@ -225,8 +207,15 @@ class BatchBenchmark {
   }
 
   void WholeRuns() {
+    // Hands out estimates made before, at no cost but that of copying them.
     const FrameSolverFactory free = [this] {
-      return std::make_unique<MadeBefore>(&estimates_);
+      return [this, next = std::size_t{0}](const Measurements* /*readings*/,
+                                           std::size_t count,
+                                           FrameEstimate* estimates) mutable {
+        for (std::size_t i = 0; i < count; ++i) {
+          estimates[i] = estimates_[next++ % estimates_.size()];
+        }
+      };
     };
     std::printf("frames/s                      1 thread  2 threads  ratio\n");
     for (const bool estimator : {false, true}) {

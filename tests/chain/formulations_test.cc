@@ -10,6 +10,7 @@
 #include "chain/chain_fixture.h"
 #include "finray/chain/forward.h"
 #include "finray/statics/equilibrium.h"
+#include "statics/equilibrium_values.h"
 #include "statics/special_cases.h"
 
 namespace finray {
@@ -73,7 +74,7 @@ void Compare(const Finger& finger, const PointContact& contact, int resolution,
   }
   EXPECT_LT(gauge, 1e-9);
   // The reaction at {T} is the clamp's.
-  const Eigen::Vector3d reaction = ladder.base_reaction(Side::kBack);
+  const Eigen::Vector3d reaction = BaseReaction(ladder, Side::kBack);
   const double base = 140 / std::tan(68 * M_PI / 180);
   EXPECT_NEAR(state.loads[1], reaction[1], 1e-8 * (1 + contact.normal_N));
   EXPECT_NEAR(state.loads[2], reaction[2], 1e-8 * (1 + contact.normal_N));

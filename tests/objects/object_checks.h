@@ -9,6 +9,7 @@
 
 #include "finray/objects/object_contact.h"
 #include "finray/statics/shape.h"
+#include "statics/equilibrium_values.h"
 #include "statics/strain_energy.h"
 
 namespace finray {
@@ -66,7 +67,7 @@ inline void ExpectContact(const RigidObject& object, const ObjectPose& pose,
   }
   EXPECT_GT(Clearance(object, pose, found, solver), -1e-6);
   const Eigen::Vector3d reaction =
-      solver.base_reaction(Side::kFront) + solver.base_reaction(Side::kBack);
+      BaseReaction(solver, Side::kFront) + BaseReaction(solver, Side::kBack);
   const Eigen::Vector2d force = TotalForce(found, solver);
   EXPECT_LT((reaction.tail<2>() + force).norm(), 1e-7 * (1 + force.norm()));
 }

@@ -9,7 +9,6 @@
 #include <limits>
 #include <numeric>
 
-#include "finray/objects/object_clearance.h"
 #include "objects/object_checks.h"
 #include "test_finger.h"
 

@@ -13,7 +13,7 @@ namespace finray {
 inline std::vector<Measurements> ReadReadings(const Finger& finger,
                                               const FrameTable& log) {
   const std::vector<std::string> names = log.headers();
-  const MeasurementColumns columns(finger, names, log.path());
+  const MeasurementColumns columns(finger, names, log.path(), {});
   std::vector<Measurements> readings(log.rows());
   for (std::size_t row = 0; row < log.rows(); ++row) {
     columns.Read([&](std::size_t i) { return log.Numbers(names[i])[row]; },

@@ -10,6 +10,7 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/statics/shape.h"
+#include "statics/equilibrium_values.h"
 
 namespace finray {
 
@@ -37,7 +38,7 @@ class EquilibriumCheck {
     }
     Eigen::Vector3d outside = Eigen::Vector3d::Zero();
     for (const Side side : {Side::kFront, Side::kBack}) {
-      const Eigen::Vector3d reaction = solver.base_reaction(side);
+      const Eigen::Vector3d reaction = BaseReaction(solver, side);
       const double base = shape_.At(side, 0).x_mm;
       outside += reaction;
       outside[0] += base * reaction[2];
@@ -130,7 +131,7 @@ class EquilibriumCheck {
              Eigen::Vector3d* outside) {
     const bool front = side == Side::kFront;
     const std::string name = front ? "front" : "back";
-    const Eigen::Vector3d reaction = solver.base_reaction(side);
+    const Eigen::Vector3d reaction = BaseReaction(solver, side);
     // Loads at their arc lengths, as external forces on this beam.
     struct Load {
       double arc;
@@ -162,7 +163,7 @@ class EquilibriumCheck {
           {front ? finger_.ribs[i].front_mm : finger_.ribs[i].back_mm,
            front ? pull : Eigen::Vector2d(-pull)});
     }
-    const std::vector<double> stations = shape_.Stations(side);
+    const std::vector<double> stations = Stations(solver, contacts, side);
     const Section base = shape_.At(side, 0);
     Worst(std::abs(base.moment_N_mm + reaction[0]) / (force_ * length_),
           name + " moment at the base");
@@ -220,7 +221,7 @@ class EquilibriumCheck {
   void CheckTip(const EquilibriumSolver& solver) {
     const Section front = shape_.At(Side::kFront, length_);
     const Section back =
-        shape_.At(Side::kBack, shape_.Stations(Side::kBack).back());
+        shape_.At(Side::kBack, BeamLength(finger_, Side::kBack));
     Worst(std::hypot(front.x_mm - back.x_mm, front.y_mm - back.y_mm) / length_,
           "tip closure");
     Worst(std::abs(front.theta_rad - back.theta_rad - M_PI / 2 +

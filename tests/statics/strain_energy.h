@@ -7,6 +7,7 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/statics/shape.h"
+#include "statics/equilibrium_values.h"
 #include "statics/gauss_legendre.h"
 
 namespace finray {
@@ -20,7 +21,7 @@ inline double StrainEnergy(const EquilibriumSolver& solver,
   double energy = 0;
   for (const Side side : {Side::kFront, Side::kBack}) {
     const std::vector<StiffnessPiece>& pieces = Pieces(finger, side);
-    const std::vector<double> stations = shape.Stations(side);
+    const std::vector<double> stations = Stations(solver, contacts, side);
     for (std::size_t k = 0; k + 1 < stations.size(); ++k) {
       for (const QuadraturePoint& q :
            GaussLegendre(8, stations[k], stations[k + 1])) {

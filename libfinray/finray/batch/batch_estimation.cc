@@ -1,13 +1,42 @@
 #include "finray/batch/batch_estimation.h"
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 
-#include "finray/batch/frame_solver.h"
-
 namespace finray {
+
+FrameSolverFactory FrameSolvers(const Finger& finger, const Scene& scene,
+                                const Discretization& discretization,
+                                FrameMethod method) {
+  return [=] {
+    const auto estimator =
+        std::make_shared<FrameEstimator>(finger, scene, discretization, method);
+    return [estimator](const Measurements* readings, std::size_t count,
+                       FrameEstimate* estimates) {
+      estimator->EstimateBlock(readings, count, estimates);
+    };
+  };
+}
+
+struct FrameSolverPool::Solvers {
+  tbb::enumerable_thread_specific<FrameSolver> of_thread;
+};
+
+FrameSolverPool::FrameSolverPool(const FrameSolverFactory& make)
+    : solvers_(
+          new Solvers{tbb::enumerable_thread_specific<FrameSolver>(make)}) {
+  solvers_->of_thread.local();
+}
+
+FrameSolverPool::~FrameSolverPool() = default;
+
+void FrameSolverPool::SolveBlock(const Measurements* readings,
+                                 std::size_t count, FrameEstimate* estimates) {
+  solvers_->of_thread.local()(readings, count, estimates);
+}
 
 std::vector<FrameEstimate> EstimateFrames(
     const Finger& finger, const Scene& scene,

@@ -88,10 +88,10 @@ void EmitSummary(const EstimationSummary& summary, YamlEmitter* yaml) {
   *yaml << YAML::EndMap;
   YamlPair(yaml, "unexplained_frames", summary.unexplained);
   if (summary.force_compared > 0) {
-    YamlPair(yaml, "force_compared_frames", summary.force_compared);
-    YamlPair(yaml, "force_rms_error_N", summary.force_rms_N());
-    YamlPair(yaml, "force_max_error_N", summary.force_max_N);
-    YamlPair(yaml, "force_squares_N2", summary.force_squares_N2);
+    YamlPairs(yaml, "force_compared_frames", summary.force_compared,
+              "force_rms_error_N", summary.force_rms_N(), "force_max_error_N",
+              summary.force_max_N, "force_squares_N2",
+              summary.force_squares_N2);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "finray/batch/live_rows.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "finray/io/error.h"
@@ -31,6 +32,37 @@ const std::string& LiveRows::Next(const CsvLine& line) {
   status_ = estimate.status;
   writer_.Append(layout_, rows_, 0, readings_, estimate, &row_);
   return row_;
+}
+
+void LatencyHistogram::Add(std::uint64_t nanoseconds) {
+  ++count_;
+  max_ = std::max(max_, nanoseconds);
+  // A bucket is the leading bit and the kBits bits behind it: value >> shift,
+  // in [2^kBits, 2^(kBits + 1)) for shift > 0. Smaller values have a bucket
+  // each.
+  std::uint64_t value = nanoseconds;
+  std::size_t shift = 0;
+  while (value >= std::uint64_t{2} << kBits) {
+    value >>= 1;
+    ++shift;
+  }
+  ++buckets_[(shift << kBits) + value];
+}
+
+double LatencyHistogram::Quantile(double share) const {
+  if (count_ == 0) return 0;
+  const auto rank = std::max<std::uint64_t>(
+      1, static_cast<std::uint64_t>(
+             std::ceil(share * static_cast<double>(count_))));
+  std::uint64_t seen = 0;
+  std::size_t bucket = 0;
+  while ((seen += buckets_[bucket]) < rank) ++bucket;
+  constexpr std::size_t kFirst = std::size_t{1} << kBits;
+  const std::size_t shift = bucket < 2 * kFirst ? 0 : (bucket >> kBits) - 1;
+  const auto low = static_cast<double>(bucket - (shift << kBits));
+  const double middle = shift == 0 ? low : low + 0.5;
+  return std::min(std::ldexp(middle, static_cast<int>(shift)),
+                  static_cast<double>(max_));
 }
 
 }  // namespace finray

@@ -10,6 +10,7 @@
 #include "finray/io/error.h"
 #include "finray/io/frame_reader.h"
 #include "finray/io/log_list.h"
+#include "finray/io/number_text.h"
 #include "finray/io/sha256.h"
 #include "finray/io/yaml_emitter.h"
 #include "finray/io/yaml_map.h"
@@ -49,6 +50,26 @@ EstimationSummary SummaryFromYaml(const YamlMap& yaml) {
     summary.force_max_N = yaml.NonNegativeNumber("force_max_error_N");
   }
   return summary;
+}
+
+// Calls set(name, text) for each cell of a row of summary.csv.
+template <class Set>
+void AddCells(const std::string& log, const std::string& result,
+              const std::string& key, const EstimationSummary& summary,
+              Set set) {
+  set("log", log);
+  set("result", result);
+  set("frames", std::to_string(summary.frames));
+  for (const FrameStatus status : EstimationSummary::kStatuses) {
+    set(StatusName(status), std::to_string(summary.count(status)));
+  }
+  const bool compared = summary.force_compared > 0;
+  set("force_compared_frames", std::to_string(summary.force_compared));
+  set("force_rms_error_N", compared ? NumberText(summary.force_rms_N()) : "");
+  set("force_max_error_N", compared ? NumberText(summary.force_max_N) : "");
+  set("force_squares_N2", compared ? NumberText(summary.force_squares_N2) : "");
+  set("unexplained_frames", std::to_string(summary.unexplained));
+  set("key", key);
 }
 
 }  // namespace
@@ -196,14 +217,13 @@ bool LogJob::Estimate(FrameSolverPool* pool, ResumableFile* out) {
 void LogJob::WriteSummary(std::uint64_t bytes) const {
   YamlEmitter yaml;
   yaml << YAML::BeginMap;
-  YamlPair(&yaml, "key", key_);
-  YamlPair(&yaml, "version", FINRAY_VERSION);
-  YamlPair(&yaml, "scheme", SchemeName(settings_->discretization.scheme));
-  YamlPair(&yaml, "resolution", settings_->discretization.resolution);
-  YamlPair(&yaml, "solver", FrameMethodName(settings_->method));
+  YamlPairs(&yaml, "key", key_, "version", FINRAY_VERSION, "scheme",
+            SchemeName(settings_->discretization.scheme), "resolution",
+            settings_->discretization.resolution, "solver",
+            FrameMethodName(settings_->method));
   yaml << YAML::Key << "inputs" << YAML::Value << YAML::BeginMap;
-  YamlPair(&yaml, "log_sha256", log_sha256_);
-  YamlPair(&yaml, "finger_sha256", settings_->finger_sha256);
+  YamlPairs(&yaml, "log_sha256", log_sha256_, "finger_sha256",
+            settings_->finger_sha256);
   if (!settings_->scene_sha256.empty()) {
     YamlPair(&yaml, "scene_sha256", settings_->scene_sha256);
   }
@@ -212,6 +232,65 @@ void LogJob::WriteSummary(std::uint64_t bytes) const {
   EmitSummary(summary_, &yaml);
   yaml << YAML::EndMap;
   WriteFileAtomically(summary_path_, std::string(yaml.c_str()) + "\n");
+}
+
+EstimationSummary Total(const std::vector<LogJob>& jobs) {
+  EstimationSummary all;
+  for (const LogJob& job : jobs) all.Add(job.summary());
+  return all;
+}
+
+std::string BatchYaml(const BatchSettings& settings,
+                      const std::vector<LogJob>& jobs,
+                      const std::vector<BadLog>& bad_logs) {
+  YamlEmitter yaml;
+  yaml << YAML::BeginMap;
+  YamlPairs(&yaml, "finger", settings.finger.name, "scheme",
+            SchemeName(settings.discretization.scheme));
+  if (settings.method != FrameMethod::kFast) {
+    YamlPair(&yaml, "solver",
+             settings.joint ? "joint" : FrameMethodName(settings.method));
+  }
+  YamlPair(&yaml, "version", FINRAY_VERSION);
+  yaml << YAML::Key << "logs" << YAML::Value << YAML::BeginSeq;
+  for (const LogJob& job : jobs) {
+    yaml << YAML::BeginMap;
+    YamlPairs(&yaml, "log", job.log(), "result", job.result(), "key",
+              job.key());
+    EmitSummary(job.summary(), &yaml);
+    yaml << YAML::EndMap;
+  }
+  yaml << YAML::EndSeq << YAML::Key << "all" << YAML::Value << YAML::BeginMap;
+  EmitSummary(Total(jobs), &yaml);
+  yaml << YAML::EndMap;
+  if (!bad_logs.empty()) {
+    yaml << YAML::Key << "bad_logs" << YAML::Value << YAML::BeginSeq;
+    for (const BadLog& bad : bad_logs) {
+      yaml << YAML::BeginMap;
+      YamlPairs(&yaml, "log", bad.log, "reason", bad.reason);
+      yaml << YAML::EndMap;
+    }
+    yaml << YAML::EndSeq;
+  }
+  yaml << YAML::EndMap;
+  return std::string(yaml.c_str()) + "\n";
+}
+
+FrameTable BatchTable(const std::vector<LogJob>& jobs) {
+  FrameTable table(jobs.size());
+  // The table has its columns even without any log.
+  AddCells("", "", "", EstimationSummary(),
+           [&](const std::string& name, const std::string&) {
+             table.MutableText(name);
+           });
+  for (std::size_t row = 0; row < jobs.size(); ++row) {
+    const LogJob& job = jobs[row];
+    AddCells(job.log(), job.result(), job.key(), job.summary(),
+             [&](const std::string& name, const std::string& text) {
+               table.MutableText(name)[row] = text;
+             });
+  }
+  return table;
 }
 
 }  // namespace finray

@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
+#include "finray/batch/batch_estimation.h"
 #include "finray/batch/estimation_summary.h"
-#include "finray/batch/frame_solver.h"
+#include "finray/io/frame_table.h"
 #include "finray/io/resumable_file.h"
 
 namespace finray {
@@ -87,6 +89,23 @@ class LogJob {
   bool finished_before_ = false;
   EstimationSummary summary_;
 };
+
+/// A log that is left out because it is bad input.
+struct BadLog {
+  std::string log, reason;
+};
+
+/// The summary of all frames of all logs.
+EstimationSummary Total(const std::vector<LogJob>& jobs);
+
+/// The text of summary.yaml: the settings, each log, the total, and bad logs if
+/// there are any.
+std::string BatchYaml(const BatchSettings& settings,
+                      const std::vector<LogJob>& jobs,
+                      const std::vector<BadLog>& bad_logs);
+
+/// The table of summary.csv, with a row for each log.
+FrameTable BatchTable(const std::vector<LogJob>& jobs);
 
 }  // namespace finray
 

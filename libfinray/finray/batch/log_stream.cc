@@ -126,7 +126,7 @@ bool EstimateStream(const Finger& finger, const Scene& scene,
 bool CheckStream(const Finger& finger, int threads,
                  const std::function<bool()>& stop, FrameReader* reader) {
   const FrameParser& parser = reader->parser();
-  MeasurementColumns(finger, parser.names(), parser.path());
+  MeasurementColumns(finger, parser.names(), parser.path(), {});
   return ForEachBlock(
       threads, kCheckedRows, stop, reader, [](Block*) {}, [](const Block&) {});
 }

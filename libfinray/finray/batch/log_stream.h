@@ -5,8 +5,8 @@
 #include <functional>
 #include <string>
 
+#include "finray/batch/batch_estimation.h"
 #include "finray/batch/estimation_summary.h"
-#include "finray/batch/frame_solver.h"
 #include "finray/io/frame_reader.h"
 
 namespace finray {

@@ -5,8 +5,95 @@
 #include <cmath>
 
 #include "finray/io/csv_cells.h"
+#include "finray/scene/frame_columns.h"
 
 namespace finray {
+
+// Calls column(name, value) for each column, where name() makes the name. Only
+// this function knows which columns there are.
+template <class Column>
+void ResultColumns::ForEach(const Measurements& readings,
+                            const FrameEstimate& estimate,
+                            Column column) const {
+  const auto named = [&column](const char* name, double value) {
+    column([name] { return std::string(name); }, value);
+  };
+  for (int c = 0; c < contacts_; ++c) {
+    const ContactEstimate& contact = estimate.contact[c];
+    column([c] { return ContactArc(c); }, contact.arc_mm);
+    column([c] { return ContactArcStd(c); }, contact.arc_std_mm);
+    column([c] { return NormalForce(c); }, contact.normal_N);
+    column([c] { return NormalForceStd(c); }, contact.normal_std_N);
+    if (friction_ != 0) {
+      column([c] { return Friction(c); },
+             std::isfinite(contact.arc_mm) ? friction_ : std::nan(""));
+    }
+    column([c] { return ContactX(c); }, contact.pose.x());
+    column([c] { return ContactY(c); }, contact.pose.y());
+    column([c] { return ContactAngle(c); }, contact.pose.z());
+  }
+  for (std::size_t j = 0; j < gauges_.size(); ++j) {
+    Gauge gauge = gauges_[j];
+    if (!estimate.gauge_offset_V.empty()) {
+      gauge.offset_V = estimate.gauge_offset_V[j];
+    }
+    column([j] { return GaugeAngle(static_cast<int>(j)); },
+           gauge.Angle(readings.gauges_V[j]));
+  }
+  for (std::size_t i = 0; i < ribs_; ++i) {
+    column([i] { return RibForce(static_cast<int>(i)); },
+           estimate.rib_tension_N[i]);
+  }
+  for (std::size_t j = 0; j < estimate.gauge_offset_V.size(); ++j) {
+    column([j] { return GaugeOffset(static_cast<int>(j)); },
+           estimate.gauge_offset_V[j]);
+    column([j] { return GaugeOffsetStd(static_cast<int>(j)); },
+           estimate.gauge_offset_std_V[j]);
+  }
+  named("tip_x_mm", estimate.tip_pose.x());
+  named("tip_y_mm", estimate.tip_pose.y());
+  named("tip_angle_rad", estimate.tip_pose.z());
+  named("chi2", estimate.chi2);
+  named("chi2_p_value", estimate.p_value());
+  named("iterations", estimate.iterations);
+  if (!alternative_) return;
+  for (int c = 0; c < contacts_; ++c) {
+    const ContactEstimate& contact = estimate.alternative[c];
+    column([c] { return AlternativeContactArc(c); }, contact.arc_mm);
+    column([c] { return AlternativeNormalForce(c); }, contact.normal_N);
+  }
+  named("alternative_chi2", estimate.alternative_chi2);
+}
+
+ResultColumns::ResultColumns(const Finger& finger, const Scene& scene)
+    : gauges_(finger.gauges),
+      ribs_(finger.ribs.size()),
+      alternative_(scene.contacts != 0),
+      friction_(scene.friction_coefficient) {
+  constexpr std::size_t kGaugesForTwo = 4;  // as many as unknowns
+  const bool automatic =
+      gauges_.size() >= kGaugesForTwo && !scene.object_std_mm;
+  const bool two = scene.contacts ? *scene.contacts == 2 : automatic;
+  if (two) contacts_ = 2;
+  Measurements readings;
+  readings.gauges_V.resize(gauges_.size());
+  FrameEstimate estimate;
+  estimate.rib_tension_N.resize(ribs_);
+  if (scene.gauge_offset_walk) {
+    estimate.gauge_offset_V.resize(gauges_.size());
+    estimate.gauge_offset_std_V.resize(gauges_.size());
+  }
+  ForEach(readings, estimate,
+          [this](auto name, double) { names_.push_back(name()); });
+}
+
+void ResultColumns::Values(const Measurements& readings,
+                           const FrameEstimate& estimate,
+                           double* values) const {
+  ForEach(readings, estimate, [&values](auto, double value) {
+    *values++ = std::isfinite(value) ? value : std::nan("");
+  });
+}
 
 MeasurementColumns::Options ReaderOptions(const Scene& scene) {
   MeasurementColumns::Options options;

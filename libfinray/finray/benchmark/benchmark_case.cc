@@ -65,12 +65,6 @@ FrameAnswer AnswerOf(const EquilibriumSolver& solver,
 
 }  // namespace
 
-const std::vector<std::string>& BenchmarkScenes() {
-  static const std::vector<std::string> names = {
-      "no_contact", "one_contact", "two_contacts", "friction", "circle"};
-  return names;
-}
-
 int ElementsFor(const Finger& finger, double a_bay) {
   const int bays = MakeBeamMesh(finger, Side::kFront, 1).elements() +
                    MakeBeamMesh(finger, Side::kBack, 1).elements();

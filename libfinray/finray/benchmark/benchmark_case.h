@@ -53,9 +53,8 @@ struct BenchmarkCase {
   static int LeadIn(int stretch) { return stretch * (kStretchFrames + 1); }
 };
 
-/// Returns the names of all scenes: no_contact, one_contact, two_contacts,
-/// friction, circle.
-const std::vector<std::string>& BenchmarkScenes();
+constexpr const char* kBenchmarkScenes[] = {
+    "no_contact", "one_contact", "two_contacts", "friction", "circle"};
 
 /// Returns the number of elements over both beams that puts `a_bay` of them
 /// into every bay.

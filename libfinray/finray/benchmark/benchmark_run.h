@@ -1,14 +1,29 @@
 #ifndef FINRAY_BENCHMARK_BENCHMARK_RUN_H_
 #define FINRAY_BENCHMARK_BENCHMARK_RUN_H_
 
+#include <map>
 #include <string>
 #include <vector>
 
-#include "finray/benchmark/machine.h"
 #include "finray/benchmark/measurement.h"
-#include "finray/benchmark/scaling.h"
 
 namespace finray {
+
+/// Facts under their names in benchmark.json; "unknown" where the system does
+/// not tell.
+using Facts = std::map<std::string, std::string>;
+
+/// Returns the number of cores that this process may use.
+int UsableCores();
+
+/// Returns the facts of this machine that times depend on: cpu, cores, caches,
+/// governor (of the frequency of core 0), instruction_set (of the ladder
+/// kernel) and system.
+Facts ThisMachine();
+
+/// Returns the facts of this build: version, git (commit when CMake last ran),
+/// compiler, flags, ceres and eigen.
+Facts ThisBuild();
 
 /// Another program that was asked for the same answers.
 struct PeerStatus {
@@ -30,6 +45,17 @@ struct BenchmarkRun {
   std::vector<PeerStatus> peers;
   Scaling scaling;
 };
+
+/// Returns benchmark.json: the run and its conclusions, that is Pareto fronts,
+/// recommendations and checks of the defaults.
+std::string BenchmarkJson(const BenchmarkRun& run);
+
+/// Returns benchmark.csv, one row for each setting.
+std::string BenchmarkCsv(const BenchmarkRun& run);
+
+/// Reads what a comparison needs: settings, machine and build. `path` is a
+/// benchmark.json or the folder of one. Throws InputError with the place.
+BenchmarkRun ReadBenchmark(const std::string& path);
 
 }  // namespace finray
 

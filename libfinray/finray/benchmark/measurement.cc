@@ -6,8 +6,8 @@
 #include <numeric>
 #include <random>
 
+#include "finray/batch/batch_estimation.h"
 #include "finray/benchmark/statistics.h"
-#include "finray/benchmark/yardstick.h"
 
 namespace finray {
 namespace {
@@ -162,11 +162,8 @@ std::vector<Measurement> MeasureSettings(
     const std::vector<BenchmarkSetting>& grid,
     const std::vector<BenchmarkCase>& cases, const MeasuringOptions& options) {
   std::vector<std::unique_ptr<Bench>> benches;
-  const int all = static_cast<int>(grid.size()) * (options.rounds + 1);
-  int done = 0;
   const auto advance = [&] {
-    ++done;
-    if (options.progress) options.progress(done, all);
+    if (options.progress) options.progress();
   };
   for (const BenchmarkSetting& setting : grid) {
     benches.push_back(std::make_unique<Bench>(
@@ -187,6 +184,36 @@ std::vector<Measurement> MeasureSettings(
   std::vector<Measurement> results;
   for (const auto& bench : benches) results.push_back(bench->result());
   return results;
+}
+
+Scaling MeasureBatches(const BenchmarkCase& one_contact, int most_frames,
+                       int most_threads, int rounds) {
+  std::vector<Measurements> log;
+  while (static_cast<int>(log.size()) < most_frames) {
+    for (const BenchmarkFrame& frame : one_contact.frames) {
+      log.push_back(frame.readings);
+    }
+  }
+  Scaling scaling;
+  for (int frames = 64; frames < 2 * most_frames; frames *= 4) {
+    scaling.frames.push_back({std::min(frames, most_frames), 1, {}});
+  }
+  for (int threads = 1; threads <= most_threads; ++threads) {
+    scaling.threads.push_back({most_frames, threads, {}});
+  }
+  const auto measure = [&](BatchScaling* batch) {
+    const std::vector<Measurements> readings(log.begin(),
+                                             log.begin() + batch->frames);
+    const double start = WallUs();
+    EstimateFrames(one_contact.finger, one_contact.scene, {}, readings,
+                   batch->threads);
+    batch->seconds.push_back(1e-6 * (WallUs() - start));
+  };
+  for (int round = 0; round < rounds; ++round) {
+    for (BatchScaling& batch : scaling.frames) measure(&batch);
+    for (BatchScaling& batch : scaling.threads) measure(&batch);
+  }
+  return scaling;
 }
 
 }  // namespace finray

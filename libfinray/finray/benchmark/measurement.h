@@ -72,7 +72,8 @@ struct AllocationCount {
 struct MeasuringOptions {
   int rounds = 15;
   std::function<AllocationCount()> allocations;  ///< May be empty.
-  std::function<void(int done, int all)> progress;
+  /// Called rounds + 1 times for each setting; may be empty.
+  std::function<void()> progress;
 };
 
 /// Measures all settings round by round, in another order each time, so that a
@@ -81,6 +82,22 @@ struct MeasuringOptions {
 std::vector<Measurement> MeasureSettings(
     const std::vector<BenchmarkSetting>& grid,
     const std::vector<BenchmarkCase>& cases, const MeasuringOptions& options);
+
+/// Time of a whole batch of frames, tables of the finger included.
+struct BatchScaling {
+  int frames, threads;
+  std::vector<double> seconds;  ///< By the clock, one a round.
+};
+
+struct Scaling {
+  std::vector<BatchScaling> frames;   ///< On one thread.
+  std::vector<BatchScaling> threads;  ///< With the most frames.
+};
+
+/// Times EstimateFrames on the case with one contact, repeated until there are
+/// enough frames. Each round measures all sizes and all thread counts.
+Scaling MeasureBatches(const BenchmarkCase& one_contact, int most_frames,
+                       int most_threads, int rounds);
 
 }  // namespace finray
 

@@ -5,11 +5,11 @@
 #include <sstream>
 
 #include "finray/benchmark/json_emitter.h"
-#include "finray/benchmark/yardstick.h"
+#include "finray/benchmark/statistics.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/error.h"
-#include "finray/io/nearest_name.h"
+#include "finray/io/message_text.h"
 #include "finray/io/python_script.h"
 #include "finray/io/yaml_map.h"
 
@@ -32,21 +32,18 @@ std::vector<int> PeerFrames(const BenchmarkCase& c, bool quick) {
 }
 
 void WriteFinger(const Finger& finger, JsonEmitter* json) {
-  json->Key("finger");
-  *json << YAML::BeginMap;
-  json->Pair("front_length_mm", finger.front_length_mm);
-  json->Pair("back_angle_rad", finger.back_angle_rad);
-  json->Pair("front_stiffness_N_mm2", finger.front_stiffness_N_mm2);
-  json->Pair("back_stiffness_N_mm2", finger.back_stiffness_N_mm2);
+  *json << YAML::Key << "finger" << YAML::Value << YAML::BeginMap;
+  json->Pairs("front_length_mm", finger.front_length_mm, "back_angle_rad",
+              finger.back_angle_rad, "front_stiffness_N_mm2",
+              finger.front_stiffness_N_mm2, "back_stiffness_N_mm2",
+              finger.back_stiffness_N_mm2);
   json->Maps("ribs", finger.ribs, [&](const Rib& rib) {
-    json->Pair("front_mm", rib.front_mm);
-    json->Pair("back_mm", rib.back_mm);
-    json->Pair("length_mm", rib.length_mm);
+    json->Pairs("front_mm", rib.front_mm, "back_mm", rib.back_mm, "length_mm",
+                rib.length_mm);
   });
   json->Maps("gauges", finger.gauges, [&](const Gauge& gauge) {
-    json->Pair("beam", SideName(gauge.beam));
-    json->Pair("start_mm", gauge.start_mm);
-    json->Pair("length_mm", gauge.length_mm);
+    json->Pairs("beam", SideName(gauge.beam), "start_mm", gauge.start_mm,
+                "length_mm", gauge.length_mm);
   });
   *json << YAML::EndMap;
 }
@@ -119,27 +116,24 @@ std::string PeerJob(const Finger& finger,
                     const std::vector<BenchmarkCase>& cases, bool quick) {
   JsonEmitter json;
   json << YAML::BeginMap;
-  json.Pair("quick", quick);
+  json.Pairs("quick", quick);
   WriteFinger(finger, &json);
   json.Maps("scenes", kScenes, [&](const char* scene) {
     const BenchmarkCase& c = CaseOf(cases, scene);
     EquilibriumSolver solver(c.finger, ReferenceDiscretization(c.finger));
-    json.Pair("scene", scene);
+    json.Pairs("scene", scene);
     json.Maps("frames", PeerFrames(c, quick), [&](int frame) {
       const PointContact& load = c.frames[frame].contacts[0];
       const PointContact& before = c.frames[frame - 1].contacts[0];
       solver.Solve({load});
-      json.Pair("contact_mm", load.arc_mm);
-      json.Pair("normal_N", load.normal_N);
-      json.Pair("friction", load.friction);
-      // Sensing starts from the frame before, as on a log.
-      json.Pair("start_mm", before.arc_mm);
-      json.Pair("start_N", before.normal_N);
       const Eigen::VectorXd& measured = c.frames[frame].measurement.values;
-      json.Pair("measured_rad",
-                std::vector<double>(measured.begin(), measured.end()));
-      // The direction of the force, for programs without follower loads.
-      json.Pair("contact_angle_rad", solver.contact_pose(0)[2]);
+      // Sensing starts from the frame before, as on a log. Programs without
+      // follower loads need the direction of the force.
+      json.Pairs("contact_mm", load.arc_mm, "normal_N", load.normal_N,
+                 "friction", load.friction, "start_mm", before.arc_mm,
+                 "start_N", before.normal_N, "measured_rad",
+                 std::vector<double>(measured.begin(), measured.end()),
+                 "contact_angle_rad", solver.contact_pose(0)[2]);
     });
   });
   json << YAML::EndMap;

@@ -9,6 +9,22 @@
 
 namespace finray {
 
+/// Returns true if `a`, which takes `time_ratio` times the time of `b`, is a
+/// better choice than `b`. It then
+///  - is 15 % faster, more than two runs on one machine differ by, or has at
+///    most two thirds of the error();
+///  - is no worse in the other of the two, to 5 % in time and 2 % in error();
+///  - has no other error (l_c, f_c, tip, gauges) above twice that of `b`.
+bool Dominates(const Measurement& a, const Measurement& b, double time_ratio);
+
+/// The Pareto front of one task and scene: the settings that solve every frame
+/// and that no other such setting dominates.
+struct SceneFront {
+  std::string task, scene;
+  std::vector<std::size_t> front;  ///< Indices, by increasing time.
+};
+std::vector<SceneFront> ParetoFronts(const std::vector<Measurement>& all);
+
 /// The best setting for one use, out of those measured with one contact.
 struct Recommendation {
   std::string use;  ///< 30_Hz, 1_kHz, batch, reference
@@ -31,7 +47,7 @@ struct Recommendation {
 std::vector<Recommendation> Recommend(const std::vector<Measurement>& all);
 
 /// Tells whether the default is a good choice for one way of use. It is, if it
-/// lies on the Pareto front (pareto.h) of the settings for that use and none of
+/// lies on the Pareto front of the settings for that use and none of
 /// them is both 20 % faster and more accurate. A setting is faster if the 95 %
 /// interval of the ratio of times over the rounds lies below 1.
 struct DefaultCheck {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/io/message_text.h"
 #include "finray/io/number_text.h"
 
 namespace finray {
@@ -29,11 +30,7 @@ std::string WhatIsWorse(const Measurement& a, const Measurement& b) {
     worse.push_back("solved " + NumberText(a.solved_percent) + " % -> " +
                     NumberText(b.solved_percent) + " %");
   }
-  std::string words;
-  for (const std::string& one : worse) {
-    words += (words.empty() ? "" : ", ") + one;
-  }
-  return words;
+  return Joined(worse);
 }
 
 // The gate leaves other programs out.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "finray/benchmark/runners.h"
+
 namespace finray {
 namespace {
 
@@ -14,6 +16,13 @@ constexpr double kSensingRounding = 1e-12;
 
 constexpr FrameBudget kFast = {16, 64}, kMedium = {16, 8}, kSlow = {16, 1},
                       kVerySlow = {4, 1};
+
+// Makes runners of type R with the arguments that follow the case.
+template <class R, class... Args>
+RunnerMaker MakerOf(Args... args) {
+  return
+      [=](const BenchmarkCase& c) { return std::make_unique<R>(c, args...); };
+}
 
 // A discretization of the ladder, under its name in settings.
 struct Ladder {
@@ -28,7 +37,7 @@ class Grid {
  public:
   Grid(const Finger& finger, bool quick) : quick_(quick) {
     MakeLadders(finger);
-    for (const std::string& scene : BenchmarkScenes()) {
+    for (const std::string scene : kBenchmarkScenes) {
       Forward(scene);
       Sensing(scene);
       Estimation(scene);
@@ -79,7 +88,7 @@ class Grid {
       if (scene == "circle" || cold) budget.frames = std::min(budget.frames, 8);
       if (scene == "circle" && ladder.IsChain()) budget = kVerySlow;
       AddLadder("forward", scene, ladder, how, words, budget,
-                LadderForwardRunner(ladder.discretization, tolerance, cold));
+                MakerOf<LadderForward>(ladder.discretization, tolerance, cold));
     };
     for (const Ladder& ladder : ladders_) {
       // The joints of a chain touch an object too, which takes 0.1 s a frame
@@ -107,25 +116,21 @@ class Grid {
     };
     for (const Ladder& ladder : ladders_) {
       add(ladder, "alone", ", one by one",
-          ContactFitRunner(ladder.discretization, kSensingTolerance));
+          MakerOf<FrameByFrame>(ladder.discretization, kSensingTolerance));
     }
     for (const Ladder& ladder : {default_, check_}) {
       add(ladder, "to_rounding", ", to rounding",
-          ContactFitRunner(ladder.discretization, kSensingRounding));
+          MakerOf<FrameByFrame>(ladder.discretization, kSensingRounding));
     }
     if (scene != "one_contact" && scene != "friction") return;
     for (const Ladder& ladder : series_) {
       add(ladder, "lanes", ", four frames in lanes",
-          FrameGroupRunner(ladder.discretization, kSensingTolerance));
+          MakerOf<InLanes>(ladder.discretization, kSensingTolerance));
     }
-    const auto by_ceres = [&](const char* solver, const char* words,
-                              EquilibriumForm form) {
-      Ceres("sensing", scene, solver, "alone", words, kMedium,
-            CeresFrameRunner({}, form));
-    };
-    by_ceres("ceres_reduced", "equilibrium reduced", EquilibriumForm::kReduced);
-    by_ceres("ceres_weighted", "equilibrium weighted",
-             EquilibriumForm::kWeighted);
+    Ceres("sensing", scene, "reduced", "alone", kMedium,
+          MakerOf<CeresFrames>(EquilibriumForm::kReduced));
+    Ceres("sensing", scene, "weighted", "alone", kMedium,
+          MakerOf<CeresFrames>(EquilibriumForm::kWeighted));
     DenseChains("sensing", scene);
   }
 
@@ -142,30 +147,30 @@ class Grid {
             use == EstimatorUse::kSearch) {
           budget = {4, scene == "two_contacts" ? 4 : 16};
         }
-        AddLadder("estimation", scene, ladder, how, words, budget,
-                  EstimatorRunner(ladder.discretization, use));
+        AddLadder(
+            "estimation", scene, ladder, how, words, budget,
+            MakerOf<Estimator>(ladder.discretization, use, FrameMethod::kFast));
       };
       if (whole || plain) add("block", ", log", EstimatorUse::kBlock);
       if (whole || plain) add("live", ", live", EstimatorUse::kLive);
       if (plain) add("search", ", every frame searched", EstimatorUse::kSearch);
     }
     if (scene != "one_contact" && scene != "friction") return;
-    Ceres(
-        "estimation", scene, "ceres_reduced", "search", "equilibrium reduced",
-        kSlow,
-        EstimatorRunner({}, EstimatorUse::kSearch, FrameMethod::kCeresReduced));
-    Ceres("estimation", scene, "ceres_weighted", "search",
-          "equilibrium weighted", kSlow,
-          EstimatorRunner({}, EstimatorUse::kSearch,
-                          FrameMethod::kCeresWeighted));
+    for (const auto& [form, method] :
+         {std::pair("reduced", FrameMethod::kCeresReduced),
+          std::pair("weighted", FrameMethod::kCeresWeighted)}) {
+      Ceres(
+          "estimation", scene, form, "search", kSlow,
+          MakerOf<Estimator>(Discretization(), EstimatorUse::kSearch, method));
+    }
   }
 
   // The residual blocks of a frame in ceres::Solve, on the default mesh.
-  void Ceres(const char* task, const std::string& scene, const char* solver,
-             const char* how, const std::string& words, FrameBudget budget,
+  void Ceres(const char* task, const std::string& scene,
+             const std::string& form, const char* how, FrameBudget budget,
              RunnerMaker make) {
-    Add({{{task, scene, solver, how},
-          std::string("ceres::Solve on the residual blocks, ") + words,
+    Add({{{task, scene, "ceres_" + form, how},
+          "ceres::Solve on the residual blocks, equilibrium " + form,
           "ceres",
           0,
           SchemeName(Scheme::kTaylor),
@@ -188,8 +193,8 @@ class Grid {
             "",
             0},
            budget,
-           sensing ? ChainSensingRunner(n, type)
-                   : ChainForwardRunner(n, type)});
+           sensing ? MakerOf<ChainSenses>(n, type)
+                   : MakerOf<ChainForward>(n, type)});
     };
     for (const int n : {25, 50, 100, 200}) {
       if ((sensing && n == 25) || (quick_ && n > 100)) continue;

@@ -1,12 +1,51 @@
 #ifndef FINRAY_BENCHMARK_SETTING_H_
 #define FINRAY_BENCHMARK_SETTING_H_
 
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "finray/benchmark/runner.h"
+#include "finray/benchmark/benchmark_case.h"
 
 namespace finray {
+
+/// Runs one solver on the frames of a case. The benchmark knows solvers by this
+/// interface alone.
+class Runner {
+ public:
+  explicit Runner(const BenchmarkCase& c) : case_(c), answers_(kStretchFrames) {
+    for (FrameAnswer& answer : answers_) {
+      answer.contacts.resize(2);
+      answer.gauges_rad.resize(
+          static_cast<Eigen::Index>(c.finger.gauges.size()));
+    }
+  }
+  virtual ~Runner() = default;
+
+  /// Brings the solver to the solution of a lead-in frame. Not timed.
+  virtual void Start(int lead_in) = 0;
+  /// Solves frames first .. first + count - 1, at most kStretchFrames, which
+  /// follow the lead-in or the frames of the last Run. Timed.
+  virtual void Run(int first, int count) {
+    for (int k = 0; k < count; ++k) Solve(first + k, &answers_[k]);
+  }
+  /// Returns the answer to the k-th frame of the last Run. Not timed.
+  virtual FrameAnswer Answer(int k) { return answers_[k]; }
+  /// Returns the number of unknowns of a frame.
+  virtual int unknowns() const = 0;
+
+ protected:
+  /// Solves one frame, for solvers that take frames one by one.
+  virtual void Solve(int /*frame*/, FrameAnswer* /*answer*/) {}
+
+  const BenchmarkCase& case_;
+  std::vector<FrameAnswer> answers_;  ///< kStretchFrames, allocated.
+};
+
+/// Returns a new runner for a case.
+using RunnerMaker =
+    std::function<std::unique_ptr<Runner>(const BenchmarkCase&)>;
 
 /// Names one line of the report, the same in every run, for example
 /// `sensing/one_contact/taylor8x1/lanes`.

@@ -1,7 +1,7 @@
-#include "finray/benchmark/yardstick.h"
-
 #include <array>
 #include <ctime>
+
+#include "finray/benchmark/statistics.h"
 
 namespace finray {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <mutex>
 
-#include "finray/batch/result_columns.h"
+#include "finray/batch/result_rows.h"
 #include "finray/control/experiment.h"
 #include "finray/scene/frame_columns.h"
 

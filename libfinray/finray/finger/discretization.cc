@@ -1,7 +1,7 @@
 #include "finray/finger/discretization.h"
 
 #include "finray/io/error.h"
-#include "finray/io/nearest_name.h"
+#include "finray/io/message_text.h"
 
 namespace finray {
 
@@ -33,10 +33,9 @@ Discretization ParseDiscretization(const std::string& scheme, int resolution) {
       return {static_cast<Scheme>(i), resolution};
     }
   }
-  std::string known;
-  for (const std::string& name : SchemeNames()) known += " " + name;
   throw InputError("--scheme: unknown scheme '" + scheme + "'" +
-                   DidYouMean(scheme, SchemeNames()) + "; known:" + known);
+                   DidYouMean(scheme, SchemeNames()) +
+                   "; known: " + Joined(SchemeNames(), " "));
 }
 
 }  // namespace finray

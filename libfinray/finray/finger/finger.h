@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "finray/finger/parameter_covariance.h"
+#include "finray/finger/finger_parameter.h"
 
 namespace finray {
 

@@ -1,5 +1,7 @@
 #include "finray/finger/finger_parameter.h"
 
+#include <Eigen/Eigenvalues>
+
 #include "finray/finger/finger.h"
 
 namespace finray {
@@ -40,20 +42,16 @@ std::vector<FingerParameter> ParametersOf(const Finger& finger) {
 }
 
 std::string ParameterName(const FingerParameter& parameter) {
-  const std::string number = std::to_string(parameter.index + 1);
-  switch (parameter.kind) {
-    case FingerParameterKind::kFrontStiffness:
-      return "front_stiffness_N_mm2";
-    case FingerParameterKind::kBackStiffness:
-      return "back_stiffness_N_mm2";
-    case FingerParameterKind::kGaugeGain:
-      return "gauge_" + number + "_gain_V_per_rad";
-    case FingerParameterKind::kGaugeOffset:
-      return "gauge_" + number + "_offset_V";
-    case FingerParameterKind::kRibLength:
-      break;
+  // '#' stands for the number of the gauge or rib.
+  constexpr const char* kNames[kFingerParameterKinds] = {
+      "front_stiffness_N_mm2", "back_stiffness_N_mm2", "gauge_#_gain_V_per_rad",
+      "gauge_#_offset_V", "rib_#_length_mm"};
+  std::string name = kNames[static_cast<int>(parameter.kind)];
+  const auto number = name.find('#');
+  if (number != std::string::npos) {
+    name.replace(number, 1, std::to_string(parameter.index + 1));
   }
-  return "rib_" + number + "_length_mm";
+  return name;
 }
 
 const char* ParameterUnit(FingerParameterKind kind) {
@@ -69,6 +67,18 @@ double ParameterValue(const Finger& finger, const FingerParameter& parameter) {
 void SetParameter(const FingerParameter& parameter, double value,
                   Finger* finger) {
   Variable(*finger, parameter) = value;
+}
+
+double ParameterCovariance::SmallestEigenvalue() const {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(correlations,
+                                                        Eigen::EigenvaluesOnly)
+      .eigenvalues()[0];
+}
+
+Eigen::MatrixXd ParameterCovariance::Factor() const {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlations);
+  return std.asDiagonal() * eigen.eigenvectors() *
+         eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
 }  // namespace finray

@@ -1,5 +1,6 @@
 #include "finray/finger/finger_yaml.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -7,9 +8,8 @@
 #include <string_view>
 
 #include "finray/finger/geometry.h"
-#include "finray/finger/parameter_covariance_yaml.h"
+#include "finray/io/message_text.h"
 #include "finray/io/number_text.h"
-#include "finray/io/yaml_limits.h"
 #include "finray/io/yaml_map.h"
 
 namespace finray {
@@ -110,13 +110,9 @@ double ReadPieceEnd(const YamlMap& yaml, bool last, double start_mm,
   return end_mm;
 }
 
-struct BeamStiffness {
-  double bending_N_mm2 = 0;
-  double axial_N = std::numeric_limits<double>::infinity();
-  std::vector<StiffnessPiece> pieces;
-};
-
-void ReadPieces(const YamlMap& yaml, double length_mm, BeamStiffness* beam) {
+// Returns the stiffness of the first piece.
+double ReadPieces(const YamlMap& yaml, double length_mm,
+                  std::vector<StiffnessPiece>* pieces) {
   for (const char* key : {kBendingStiffness, kPlate[0], kPlate[1], kPlate[2]}) {
     if (yaml.Has(key)) {
       yaml.Fail(key, std::string(key) +
@@ -126,7 +122,7 @@ void ReadPieces(const YamlMap& yaml, double length_mm, BeamStiffness* beam) {
   const std::vector<YamlMap> entries = yaml.Maps("pieces");
   if (entries.empty()) yaml.Fail("pieces", "pieces: expected at least one");
   long double reference = 0;
-  double end_mm = 0;
+  double first = 0, end_mm = 0;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const YamlMap& entry = entries[i];
     entry.AllowOnly(
@@ -137,39 +133,31 @@ void ReadPieces(const YamlMap& yaml, double length_mm, BeamStiffness* beam) {
         entry.Has(kBendingStiffness) ? LongNumber(entry.Text(kBendingStiffness))
                                      : rounded;
     if (i == 0) {
-      beam->bending_N_mm2 = rounded;
+      first = rounded;
       reference = stiffness;
     }
-    const double ratio = StiffnessRatio(stiffness, reference);
-    beam->pieces.push_back({end_mm, ratio});
+    pieces->push_back({end_mm, StiffnessRatio(stiffness, reference)});
   }
+  return first;
 }
 
-BeamStiffness ReadBeam(const YamlMap& yaml, double length_mm) {
+void ReadBeam(const YamlMap& yaml, double length_mm, double* bending_N_mm2,
+              double* axial_N, std::vector<StiffnessPiece>* pieces) {
   yaml.AllowOnly({kBendingStiffness, kPlate[0], kPlate[1], kPlate[2],
                   "axial_stiffness_N", "pieces"});
-  BeamStiffness beam;
-  if (yaml.Has("pieces")) {
-    ReadPieces(yaml, length_mm, &beam);
-  } else {
-    beam.bending_N_mm2 = ReadStiffness(yaml);
-  }
-  beam.axial_N = yaml.PositiveNumber("axial_stiffness_N", beam.axial_N);
-  return beam;
+  *bending_N_mm2 = yaml.Has("pieces") ? ReadPieces(yaml, length_mm, pieces)
+                                      : ReadStiffness(yaml);
+  *axial_N = yaml.PositiveNumber("axial_stiffness_N", *axial_N);
 }
 
 void ReadBeams(const YamlMap& yaml, Finger* finger) {
   yaml.AllowOnly({"front", "back"});
-  const BeamStiffness front =
-      ReadBeam(yaml.Map("front"), BeamLength(*finger, Side::kFront));
-  const BeamStiffness back =
-      ReadBeam(yaml.Map("back"), BeamLength(*finger, Side::kBack));
-  finger->front_stiffness_N_mm2 = front.bending_N_mm2;
-  finger->back_stiffness_N_mm2 = back.bending_N_mm2;
-  finger->front_axial_stiffness_N = front.axial_N;
-  finger->back_axial_stiffness_N = back.axial_N;
-  finger->front_pieces = front.pieces;
-  finger->back_pieces = back.pieces;
+  ReadBeam(yaml.Map("front"), BeamLength(*finger, Side::kFront),
+           &finger->front_stiffness_N_mm2, &finger->front_axial_stiffness_N,
+           &finger->front_pieces);
+  ReadBeam(yaml.Map("back"), BeamLength(*finger, Side::kBack),
+           &finger->back_stiffness_N_mm2, &finger->back_axial_stiffness_N,
+           &finger->back_pieces);
 }
 
 // The place where the rib meets the back beam, strictly inside it.
@@ -309,6 +297,139 @@ std::string BeamToYaml(const Finger& finger, Side side) {
   return yaml.str();
 }
 
+// The `calibration` block (docs/reference/formats.md):
+//
+//   parameters: [front_stiffness_N_mm2, gauge_1_gain_V_per_rad]
+//   std: [95.5, 0.004]
+//   correlations: [[1], [0.2, 1]]      # lower triangle; left out: all 0
+
+std::vector<FingerParameter> ReadParameters(const YamlMap& yaml,
+                                            const Finger& finger) {
+  const std::vector<FingerParameter> known = ParametersOf(finger);
+  std::vector<std::string> names;
+  for (const FingerParameter& one : known) names.push_back(ParameterName(one));
+  std::vector<FingerParameter> parameters;
+  for (const std::string& word : yaml.Choices("parameters", names)) {
+    const auto at = std::find(names.begin(), names.end(), word);
+    parameters.push_back(known[at - names.begin()]);
+    const auto same =
+        std::find(parameters.begin(), parameters.end() - 1, parameters.back());
+    if (same != parameters.end() - 1) {
+      yaml.FailIn("parameters", {parameters.size() - 1},
+                  "'" + word + "' appears twice");
+    }
+  }
+  if (parameters.empty()) {
+    yaml.Fail("parameters", "parameters: expected at least one");
+  }
+  return parameters;
+}
+
+Eigen::VectorXd ReadStd(const YamlMap& yaml, std::size_t count) {
+  const std::vector<double> std = yaml.Numbers("std");
+  if (std.size() != count) {
+    yaml.Fail("std", "std: expected " + std::to_string(count) +
+                         " numbers, one a parameter, found " +
+                         std::to_string(std.size()));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (std[i] < 0) {
+      yaml.FailIn(
+          "std", {i},
+          "expected a number of at least 0, found " + NumberText(std[i]));
+    }
+  }
+  return Eigen::Map<const Eigen::VectorXd>(std.data(),
+                                           static_cast<Eigen::Index>(count));
+}
+
+// The lower triangle, diagonal included.
+Eigen::MatrixXd ReadCorrelations(const YamlMap& yaml, std::size_t count) {
+  const auto n = static_cast<Eigen::Index>(count);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(n, n);
+  if (!yaml.Has("correlations")) return matrix;
+  const auto rows = yaml.NumberRows("correlations");
+  if (rows.size() != count) {
+    yaml.Fail("correlations", "correlations: expected " +
+                                  std::to_string(count) +
+                                  " rows, one a parameter, found " +
+                                  std::to_string(rows.size()));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (rows[i].size() != i + 1) {
+      yaml.FailIn("correlations", {i},
+                  "expected " + std::to_string(i + 1) +
+                      " numbers, the lower triangle up to its 1, found " +
+                      std::to_string(rows[i].size()));
+    }
+    for (std::size_t j = 0; j <= i; ++j) {
+      const double value = rows[i][j];
+      if (i == j && value != 1) {
+        yaml.FailIn("correlations", {i, j},
+                    "expected 1 on the diagonal, found " + NumberText(value));
+      }
+      if (!(value >= -1 && value <= 1)) {
+        yaml.FailIn(
+            "correlations", {i, j},
+            "expected a number from -1 to 1, found " + NumberText(value));
+      }
+      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          matrix(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(i)) =
+              value;
+    }
+  }
+  return matrix;
+}
+
+// Reads the block for a finger whose ribs and gauges are known.
+ParameterCovariance ReadParameterCovariance(const YamlMap& yaml,
+                                            const Finger& finger) {
+  yaml.AllowOnly({"parameters", "std", "correlations"});
+  ParameterCovariance covariance;
+  covariance.parameters = ReadParameters(yaml, finger);
+  covariance.std = ReadStd(yaml, covariance.parameters.size());
+  covariance.correlations =
+      ReadCorrelations(yaml, covariance.parameters.size());
+  const double smallest = covariance.SmallestEigenvalue();
+  if (smallest < -ParameterCovariance::kRounding) {
+    yaml.Fail("correlations",
+              "correlations: contradict each other: expected no eigenvalue "
+              "below 0, found " +
+                  NumberText(smallest));
+  }
+  return covariance;
+}
+
+// [a, b, ...]
+std::string List(const std::vector<std::string>& items) {
+  return "[" + Joined(items) + "]";
+}
+
+template <class Numbers>
+std::string NumberList(const Numbers& numbers) {
+  std::vector<std::string> texts;
+  for (const double number : numbers) texts.push_back(NumberText(number));
+  return List(texts);
+}
+
+// The text of the block, which reads back as the same doubles.
+std::string ParameterCovarianceToYaml(const ParameterCovariance& covariance) {
+  std::vector<std::string> names;
+  for (const FingerParameter& one : covariance.parameters) {
+    names.push_back(ParameterName(one));
+  }
+  std::ostringstream yaml;
+  yaml << "calibration:\n"
+       << "  parameters: " << List(names) << "\n"
+       << "  std: " << NumberList(covariance.std) << "\n"
+       << "  correlations:\n";
+  for (Eigen::Index i = 0; i < covariance.std.size(); ++i) {
+    yaml << "    - " << NumberList(covariance.correlations.row(i).head(i + 1))
+         << "\n";
+  }
+  return yaml.str();
+}
+
 }  // namespace
 
 Finger ReadFinger(const std::string& path) {
@@ -361,30 +482,29 @@ std::string FingerToYaml(const Finger& finger, const std::string& comment) {
        << "  front:\n"
        << BeamToYaml(finger, Side::kFront) << "  back:\n"
        << BeamToYaml(finger, Side::kBack);
+  const auto add = [&](const char* key, double value) {
+    if (std::isfinite(value)) {
+      yaml << ", " << key << ": " << NumberText(value);
+    }
+  };
   if (!finger.ribs.empty()) yaml << "ribs:\n";
   for (const Rib& rib : finger.ribs) {
-    yaml << "  - {front_mm: " << NumberText(rib.front_mm)
-         << ", back_mm: " << NumberText(rib.back_mm)
-         << ", length_mm: " << NumberText(rib.length_mm);
-    if (std::isfinite(rib.axial_stiffness_N)) {
-      yaml << ", axial_stiffness_N: " << NumberText(rib.axial_stiffness_N);
-    }
+    yaml << "  - {front_mm: " << NumberText(rib.front_mm);
+    add("back_mm", rib.back_mm);
+    add("length_mm", rib.length_mm);
+    add("axial_stiffness_N", rib.axial_stiffness_N);
     yaml << "}\n";
   }
   if (!finger.gauges.empty()) yaml << "gauges:\n";
   for (const Gauge& gauge : finger.gauges) {
-    yaml << "  - {beam: " << SideName(gauge.beam)
-         << ", start_mm: " << NumberText(gauge.start_mm)
-         << ", length_mm: " << NumberText(gauge.length_mm)
-         << ", gain_V_per_rad: " << NumberText(gauge.gain_V_per_rad)
-         << ", offset_V: " << NumberText(gauge.offset_V)
-         << ", noise_V: " << NumberText(gauge.noise_V);
-    if (std::isfinite(gauge.min_V)) {
-      yaml << ", min_V: " << NumberText(gauge.min_V);
-    }
-    if (std::isfinite(gauge.max_V)) {
-      yaml << ", max_V: " << NumberText(gauge.max_V);
-    }
+    yaml << "  - {beam: " << SideName(gauge.beam);
+    add("start_mm", gauge.start_mm);
+    add("length_mm", gauge.length_mm);
+    add("gain_V_per_rad", gauge.gain_V_per_rad);
+    add("offset_V", gauge.offset_V);
+    add("noise_V", gauge.noise_V);
+    add("min_V", gauge.min_V);
+    add("max_V", gauge.max_V);
     yaml << "}\n";
   }
   if (finger.calibration)

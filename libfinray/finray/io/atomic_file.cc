@@ -8,9 +8,9 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include "finray/io/error.h"
-#include "finray/io/file_descriptor.h"
 
 namespace finray {
 namespace {
@@ -79,11 +79,92 @@ void WriteFileAtomically(const std::string& path, const std::string& content) {
 
 void MakeFolder(const std::string& path) {
   std::error_code error;
-  std::filesystem::create_directories(path, error);
-  if (error || !std::filesystem::is_directory(path)) {
+  fs::create_directories(path, error);
+  if (error || !fs::is_directory(path)) {
     throw InputError(path + ": cannot be made a folder: " +
                      (error ? error.message() : "a file has that name"));
   }
+}
+
+void RefuseFolderOrPipe(const std::string& path, const std::string& expected) {
+  std::error_code unknown;
+  const fs::file_status status = fs::status(path, unknown);
+  if (fs::is_directory(status)) {
+    throw InputError(path + ": is a folder, expected " + expected);
+  }
+  if (fs::is_fifo(status)) {
+    throw InputError(path + ": is a pipe, expected " + expected +
+                     "; inputs are read more than once");
+  }
+}
+
+std::string ReadWholeFile(const std::string& path, const std::string& expected,
+                          int most_MiB) {
+  RefuseFolderOrPipe(path, expected);
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes;
+  char buffer[1 << 14];
+  while (file.read(buffer, sizeof buffer), file.gcount() > 0) {
+    bytes.append(buffer, static_cast<std::size_t>(file.gcount()));
+    if (bytes.size() > static_cast<std::size_t>(most_MiB) << 20) {
+      throw InputError(path + ": is too long, expected " + expected +
+                       " of at most " + std::to_string(most_MiB) + " MiB");
+    }
+  }
+  if (!file.is_open() || file.bad()) {
+    throw InputError(path + ": cannot be read: " + std::strerror(errno));
+  }
+  return bytes;
+}
+
+int FileDescriptor::Open(const std::string& path, int flags) {
+  Close();
+  file_ = open(path.c_str(), flags | O_CLOEXEC, 0666);
+  return file_ < 0 ? errno : 0;
+}
+
+int FileDescriptor::Write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = write(file_, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return errno;
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+  return 0;
+}
+
+int FileDescriptor::ReadAll(std::string* bytes) {
+  bytes->clear();
+  char buffer[1 << 14];
+  for (;;) {
+    const ssize_t n = read(file_, buffer, sizeof buffer);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return errno;
+    if (n == 0) return 0;
+    bytes->append(buffer, static_cast<std::size_t>(n));
+  }
+}
+
+int FileDescriptor::Truncate(std::uint64_t bytes) {
+  const auto offset = static_cast<off_t>(bytes);
+  if (ftruncate(file_, offset) != 0) return errno;
+  return lseek(file_, offset, SEEK_SET) < 0 ? errno : 0;
+}
+
+int FileDescriptor::Sync() { return fsync(file_) == 0 ? 0 : errno; }
+
+int FileDescriptor::Close() {
+  if (file_ < 0) return 0;
+  const int result = close(file_);
+  file_ = -1;
+  return result == 0 ? 0 : errno;
+}
+
+int SyncFolder(const std::string& path) {
+  FileDescriptor folder;
+  const int error = folder.Open(path.empty() ? "." : path, O_RDONLY);
+  return error != 0 ? error : folder.Sync();
 }
 
 }  // namespace finray

@@ -1,7 +1,9 @@
 #ifndef FINRAY_IO_ATOMIC_FILE_H_
 #define FINRAY_IO_ATOMIC_FILE_H_
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace finray {
 
@@ -13,6 +15,48 @@ void WriteFileAtomically(const std::string& path, const std::string& content);
 
 /// Creates a folder and its parents. Throws InputError if that fails.
 void MakeFolder(const std::string& path);
+
+/// Throws InputError for a folder and for a pipe. A pipe could block for ever
+/// and cannot be read twice. `expected` is the kind of file in the message ("a
+/// YAML file"). It does not check whether the file can be opened.
+void RefuseFolderOrPipe(const std::string& path, const std::string& expected);
+
+/// Returns the bytes of a file. Throws InputError if it cannot be read, is a
+/// folder or a pipe, or is longer than `most_MiB`.
+std::string ReadWholeFile(const std::string& path, const std::string& expected,
+                          int most_MiB);
+
+/// An open file that its destructor closes. The functions return 0 or an errno
+/// value.
+class FileDescriptor {
+ public:
+  FileDescriptor() = default;
+  ~FileDescriptor() { Close(); }
+  FileDescriptor(const FileDescriptor&) = delete;
+  FileDescriptor& operator=(const FileDescriptor&) = delete;
+
+  /// `flags` are those of open(2). All users may read a new file, within the
+  /// umask.
+  int Open(const std::string& path, int flags);
+  /// Writes all bytes behind those that were written before.
+  int Write(std::string_view bytes);
+  /// Reads the rest of the file.
+  int ReadAll(std::string* bytes);
+  /// Cuts the file to its first `bytes`; the next write goes behind them.
+  int Truncate(std::uint64_t bytes);
+  /// Returns once the bytes are on the disk.
+  int Sync();
+  int Close();
+
+  /// The descriptor for system calls; -1 if no file is open.
+  int get() const { return file_; }
+
+ private:
+  int file_ = -1;
+};
+
+/// Returns once renames and removals in a folder are on the disk.
+int SyncFolder(const std::string& path);
 
 }  // namespace finray
 

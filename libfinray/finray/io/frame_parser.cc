@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "finray/io/csv_cells.h"
 #include "finray/io/error.h"
 #include "finray/io/frame_vocabulary.h"
-#include "finray/io/nearest_name.h"
+#include "finray/io/message_text.h"
 #include "finray/io/number_text.h"
-#include "finray/io/shown_text.h"
 
 namespace finray {
 namespace {
@@ -113,18 +113,6 @@ FrameParser::FrameParser(const std::string& path, const CsvLine& header,
     }
     numeric_.push_back(IsFrameColumn(names_[i]));
   }
-}
-
-std::optional<std::size_t> FrameParser::Find(const std::string& name) const {
-  const auto at = std::find(names_.begin(), names_.end(), name);
-  if (at == names_.end()) return std::nullopt;
-  return static_cast<std::size_t>(at - names_.begin());
-}
-
-std::size_t FrameParser::Require(const std::string& name) const {
-  const auto column = Find(name);
-  if (!column) throw InputError(path_ + ": " + NoColumn(name, names_));
-  return *column;
 }
 
 void FrameParser::Parse(const CsvLine& line, FrameRows* rows) const {

@@ -2,16 +2,53 @@
 #define FINRAY_IO_FRAME_PARSER_H_
 
 #include <cstddef>
+#include <deque>
+#include <limits>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "finray/io/frame_rows.h"
 #include "finray/io/line_reader.h"
 
 namespace finray {
+
+/// Rows of a frame table, cell by cell. Clear() keeps the memory.
+class FrameRows {
+ public:
+  struct Cell {
+    /// The number is NaN for text and for a cell that was not measured.
+    double number = std::numeric_limits<double>::quiet_NaN();
+    /// The text has no quotes. It refers to the line that was parsed.
+    std::string_view text;
+  };
+
+  void Clear() {
+    rows_ = 0;
+    cells_.clear();
+    unquoted_.clear();
+  }
+  std::size_t rows() const { return rows_; }
+  const Cell& at(std::size_t row, std::size_t column) const {
+    return cells_[row * columns_ + column];
+  }
+
+ private:
+  friend class FrameParser;
+
+  // Appends an empty row and returns its first cell.
+  Cell* AddRow(std::size_t columns) {
+    columns_ = columns;
+    ++rows_;
+    cells_.resize(rows_ * columns);
+    return &cells_[(rows_ - 1) * columns];
+  }
+
+  std::size_t rows_ = 0, columns_ = 0;
+  std::vector<Cell> cells_;
+  std::vector<std::string_view> split_;  // the line that is being read
+  std::deque<std::string> unquoted_;     // a deque does not move its strings
+};
 
 /// Says whether a line is the header of a frame table, not a '#' comment or
 /// blank. Removes byte order marks from the front of the line. Files that were
@@ -31,9 +68,6 @@ class FrameParser {
   const std::vector<std::string>& names() const { return names_; }
   /// Says whether a column holds numbers. Other columns hold text.
   bool IsNumeric(std::size_t column) const { return numeric_[column]; }
-  std::optional<std::size_t> Find(const std::string& name) const;
-  /// Throws InputError with the nearest name if there is no such column.
-  std::size_t Require(const std::string& name) const;
 
   /// Appends a line as a row. Throws InputError (path:line:column) for a wrong
   /// number of cells or a cell that is no number. The row then holds the cells

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "finray/io/error.h"
-#include "finray/io/gzip.h"
 
 namespace finray {
 namespace {
@@ -23,7 +22,7 @@ CsvLine NextHeader(const std::string& path, LineReader* reader) {
 
 FrameReader::FrameReader(const std::string& path,
                          const std::map<std::string, std::string>& renames)
-    : reader_(std::make_unique<GzipFile>(path), path),
+    : reader_(ReadFile(path)),
       parser_(path, NextHeader(path, &reader_), renames) {
   looked_ahead_ = reader_.Next();
   if (!looked_ahead_) {

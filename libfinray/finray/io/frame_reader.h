@@ -4,13 +4,49 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "finray/io/frame_parser.h"
 #include "finray/io/frame_table.h"
-#include "finray/io/line_block.h"
 #include "finray/io/line_reader.h"
 
 namespace finray {
+
+/// Consecutive lines of a file, copied so that another thread can parse them
+/// while the reader goes on. Clear() keeps the memory.
+class LineBlock {
+ public:
+  void Clear() {
+    text_.clear();
+    lines_.clear();
+    error.clear();
+  }
+  void Add(const CsvLine& line) {
+    text_ += line.text;
+    lines_.push_back({text_.size(), line.number, line.nul});
+  }
+
+  std::size_t size() const { return lines_.size(); }
+  CsvLine at(std::size_t i) const {
+    const std::size_t begin = i == 0 ? 0 : lines_[i - 1].end;
+    const Line& line = lines_[i];
+    return {std::string_view(text_).substr(begin, line.end - begin),
+            line.number, line.nul};
+  }
+
+  /// The error in the file behind these lines, or "".
+  std::string error;
+
+ private:
+  struct Line {
+    std::size_t end;
+    int number;
+    bool nul;
+  };
+
+  std::string text_;
+  std::vector<Line> lines_;
+};
 
 /// Reads a frame table piece by piece, so that its memory does not grow with
 /// the length of the file.

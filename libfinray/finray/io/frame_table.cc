@@ -1,20 +1,53 @@
 #include "finray/io/frame_table.h"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 #include <type_traits>
 
 #include "finray/io/atomic_file.h"
 #include "finray/io/csv_cells.h"
 #include "finray/io/error.h"
 #include "finray/io/frame_vocabulary.h"
-#include "finray/io/gzip.h"
+#include "finray/io/message_text.h"
 #include "finray/io/nan.h"
 #include "finray/io/number_text.h"
-#include "finray/io/shown_text.h"
 
 namespace finray {
 namespace {
+
+// Returns the gzipped content.
+std::string Gzipped(const std::string& content) {
+  z_stream stream = {};
+  // 15 + 16: the largest window, with a gzip header.
+  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, 15 + 16, 8,
+                   Z_DEFAULT_STRATEGY) != Z_OK) {
+    throw std::runtime_error("zlib cannot be started");
+  }
+  std::string zipped;
+  std::string chunk(1 << 18, '\0');
+  std::size_t done = 0;
+  int state = Z_OK;
+  while (state != Z_STREAM_END) {
+    // zlib counts in 32 bits, and tables may be longer than that.
+    constexpr std::size_t kMost = std::numeric_limits<uInt>::max();
+    const std::size_t piece = std::min(content.size() - done, kMost);
+    stream.next_in =
+        reinterpret_cast<Bytef*>(const_cast<char*>(content.data() + done));
+    stream.avail_in = static_cast<uInt>(piece);
+    stream.next_out = reinterpret_cast<Bytef*>(chunk.data());
+    stream.avail_out = static_cast<uInt>(chunk.size());
+    state = deflate(&stream,
+                    done + piece == content.size() ? Z_FINISH : Z_NO_FLUSH);
+    done += piece - stream.avail_in;
+    zipped.append(chunk, 0, chunk.size() - stream.avail_out);
+  }
+  deflateEnd(&stream);
+  return zipped;
+}
 
 using Numeric = std::vector<double>;
 using Texts = std::vector<std::string>;

@@ -2,11 +2,13 @@
 
 #include <poll.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 
+#include "finray/io/atomic_file.h"
 #include "finray/io/csv_cells.h"
 #include "finray/io/error.h"
 
@@ -15,6 +17,40 @@ namespace {
 
 constexpr std::size_t kFirstBuffer = 1 << 17;
 constexpr std::size_t kLongestLine = 1 << 24;
+
+// The bytes of a file, unzipped if the file is gzipped.
+class FileSource : public ByteSource {
+ public:
+  explicit FileSource(const std::string& path) : path_(path) {
+    RefuseFolderOrPipe(path, "a file");
+    errno = 0;
+    file_ = gzopen(path.c_str(), "rb");
+    if (file_ == nullptr) {
+      throw InputError(path + ": cannot be read: " + std::strerror(errno));
+    }
+    gzbuffer(file_, 1 << 17);
+  }
+  ~FileSource() override { gzclose(file_); }
+  FileSource(const FileSource&) = delete;
+  FileSource& operator=(const FileSource&) = delete;
+
+  int Read(char* buffer, int size) override {
+    const int n = gzread(file_, buffer, static_cast<unsigned>(size));
+    // A file that was cut short yields its bytes together with an error.
+    int error = Z_OK;
+    const char* message = gzerror(file_, &error);
+    if (n < 0 || (error != Z_OK && error != Z_STREAM_END)) {
+      const std::string reason =
+          error == Z_ERRNO ? std::strerror(errno) : std::string(message);
+      throw InputError(path_ + ": cannot be read to its end: " + reason);
+    }
+    return n;
+  }
+
+ private:
+  std::string path_;
+  gzFile file_;
+};
 
 class PipeSource : public ByteSource {
  public:
@@ -98,6 +134,10 @@ bool LineReader::Fill() {
   ended_ = count == 0;
   end_ += static_cast<std::size_t>(count);
   return true;
+}
+
+LineReader ReadFile(const std::string& path) {
+  return LineReader(std::make_unique<FileSource>(path), path);
 }
 
 LineReader ReadPipe(int file, int wake, const std::string& name) {

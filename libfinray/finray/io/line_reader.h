@@ -56,6 +56,10 @@ class LineReader {
   CsvLine line_;
 };
 
+/// Reads the lines of a file, which may be gzipped. Throws InputError if the
+/// file cannot be read, is a folder or pipe, or is damaged or cut short.
+LineReader ReadFile(const std::string& path);
+
 /// Reads lines as soon as they arrive at `file`, an open descriptor, which the
 /// caller keeps and closes. It stops as soon as the descriptor `wake` (-1:
 /// none) can be read. `name` is the name of the pipe in messages.

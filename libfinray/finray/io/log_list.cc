@@ -6,12 +6,13 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <sstream>
 #include <string_view>
 
+#include "finray/io/atomic_file.h"
 #include "finray/io/csv_cells.h"
 #include "finray/io/error.h"
-#include "finray/io/input_file.h"
-#include "finray/io/shown_text.h"
+#include "finray/io/message_text.h"
 
 namespace finray {
 namespace {
@@ -88,10 +89,9 @@ void AddList(const std::string& path, const std::string& results_folder,
   const fs::path folder = fs::path(path).parent_path();
   const std::size_t before = logs->size();
   int number = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    std::string_view line(text.data() + begin, end - begin);
-    begin = end + 1;
+  std::istringstream lines(text);
+  for (std::string whole; std::getline(lines, whole);) {
+    std::string_view line = whole;
     ++number;
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     line = Trimmed(WithoutComment(line));
@@ -151,12 +151,13 @@ std::string LogName(const std::string& path) {
 std::vector<std::string> ResultPaths(const std::vector<std::string>& logs,
                                      const std::string& folder,
                                      const std::string& root) {
+  const auto place = [&](const std::string& log) {
+    return root.empty() ? fs::path(folder) : folder / FolderBelow(root, log);
+  };
   std::vector<std::string> results;
   std::map<std::string, std::string> log_of;
   for (const std::string& log : logs) {
-    fs::path place = folder;
-    if (!root.empty()) place /= FolderBelow(root, log);
-    results.push_back((place / (LogName(log) + kResult)).string());
+    results.push_back((place(log) / (LogName(log) + kResult)).string());
     const auto [at, is_new] = log_of.insert({results.back(), log});
     if (!is_new) {
       throw InputError("--logs: '" + at->second + "' and '" + log +
@@ -164,9 +165,8 @@ std::vector<std::string> ResultPaths(const std::vector<std::string>& logs,
     }
   }
   for (const std::string& log : logs) {
-    fs::path place = folder;
-    if (!root.empty()) place /= FolderBelow(root, log);
-    const auto at = log_of.find((place / fs::path(log).filename()).string());
+    const auto at =
+        log_of.find((place(log) / fs::path(log).filename()).string());
     std::error_code unknown;
     if (at != log_of.end() && fs::equivalent(at->first, log, unknown)) {
       throw InputError("--logs: the result of '" + at->second +

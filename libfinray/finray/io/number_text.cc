@@ -37,6 +37,18 @@ std::string NumberText(double value) {
   return std::string(text, end);
 }
 
+std::string YamlNumber(double value, int digits) {
+  if (std::isnan(value)) return ".nan";
+  if (std::isinf(value)) return value > 0 ? ".inf" : "-.inf";
+  std::string text =
+      digits > 0 ? FormatText("%.*g", digits, value) : NumberText(value);
+  const std::size_t exponent = text.find('e');
+  if (exponent != std::string::npos && text.find('.') == std::string::npos) {
+    text.insert(exponent, ".0");
+  }
+  return text;
+}
+
 std::string FormatText(const char* format, ...) {
   const ClassicNumbers classic;
   std::string text;

@@ -19,6 +19,11 @@ std::optional<double> ParseNumber(std::string_view text);
 /// "inf" or "-inf".
 std::string NumberText(double value);
 
+/// Returns a number in YAML that reads back as the same double: .nan, .inf, and
+/// a point before an exponent, without which YAML 1.1 reads text. With `digits`
+/// the number is rounded to that many (0.1 + 0.2 is 0.3 with 12).
+std::string YamlNumber(double value, int digits = 0);
+
 /// Formats like std::snprintf, but returns a string of any length.
 std::string FormatText(const char* format, ...)
     __attribute__((format(printf, 1, 2)));

@@ -5,15 +5,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <optional>
-#include <string_view>
+#include <regex>
 
 #include "finray/io/error.h"
 
@@ -24,41 +21,8 @@ namespace fs = std::filesystem;
 
 // The lines of a journal are "checkpoint <bytes> <note> end", the last one
 // "finished <bytes> <note> end". A line that was cut short does not match.
-constexpr std::string_view kKey = "finray journal 1 ";
-constexpr std::string_view kCheckpoint = "checkpoint ";
-constexpr std::string_view kFinished = "finished ";
+const std::regex kLine("(checkpoint|finished) ([0-9]{1,18}) (.*) end\n");
 constexpr char kJournal[] = ".journal";
-constexpr std::string_view kEnd = " end\n";
-
-struct State {
-  std::uint64_t bytes = 0;
-  std::string note;
-  bool finished = false;
-};
-
-bool TakeFront(std::string_view front, std::string_view* text) {
-  if (text->substr(0, front.size()) != front) return false;
-  text->remove_prefix(front.size());
-  return true;
-}
-
-// `line` includes its line end.
-std::optional<State> ParseLine(std::string_view line) {
-  State state;
-  state.finished = TakeFront(kFinished, &line);
-  if (!state.finished && !TakeFront(kCheckpoint, &line)) return std::nullopt;
-  if (line.size() < kEnd.size() ||
-      line.substr(line.size() - kEnd.size()) != kEnd) {
-    return std::nullopt;
-  }
-  line.remove_suffix(kEnd.size());
-  const auto number =
-      std::from_chars(line.data(), line.data() + line.size(), state.bytes);
-  line.remove_prefix(static_cast<std::size_t>(number.ptr - line.data()));
-  if (number.ec != std::errc() || !TakeFront(" ", &line)) return std::nullopt;
-  state.note = line;
-  return state;
-}
 
 // Returns the file behind a link.
 fs::path Target(const std::string& path) {
@@ -72,13 +36,14 @@ std::string Hidden(const fs::path& target, const char* ending) {
   return (target.parent_path() / name).string();
 }
 
-std::string JournalLine(std::string_view kind, std::uint64_t bytes,
+std::string Header(const std::string& key) {
+  return "finray journal 1 " + key + "\n";
+}
+
+std::string JournalLine(const char* kind, std::uint64_t bytes,
                         const std::string& note) {
-  std::string line(kind);
-  return line.append(std::to_string(bytes))
-      .append(" ")
-      .append(note)
-      .append(kEnd);
+  return std::string(kind) + " " + std::to_string(bytes) + " " + note +
+         " end\n";
 }
 
 }  // namespace
@@ -117,35 +82,36 @@ void ResumableFile::Lock() {
 bool ResumableFile::Restore(const std::string& key) {
   std::string journal;
   Check(journal_.ReadAll(&journal));
-  std::string_view rest = journal;
-  if (!TakeFront(kKey, &rest) || !TakeFront(key, &rest) ||
-      !TakeFront("\n", &rest)) {
-    return false;
+  if (journal.rfind(Header(key), 0) != 0) return false;
+  auto rest = journal.cbegin() + static_cast<long>(Header(key).size());
+  bool any = false, finished = false;
+  std::uint64_t bytes = 0;
+  std::string note;
+  std::smatch line;
+  while (std::regex_search(rest, journal.cend(), line, kLine,
+                           std::regex_constants::match_continuous)) {
+    any = true;
+    finished = line[1] == "finished";
+    bytes = std::stoull(line[2]);
+    note = line[3];
+    rest = line[0].second;
   }
-  std::optional<State> last;
-  while (!rest.empty()) {
-    const auto length = std::min(rest.find('\n'), rest.size() - 1) + 1;
-    auto state = ParseLine(rest.substr(0, length));
-    if (!state) break;
-    last = std::move(state);
-    rest.remove_prefix(length);
-  }
-  if (!last) return false;
+  if (!any) return false;
   std::error_code unknown;
   const bool part = fs::exists(part_path_, unknown);
   if (part) {
-    if (fs::file_size(part_path_, unknown) < last->bytes || unknown) {
+    if (fs::file_size(part_path_, unknown) < bytes || unknown) {
       return false;
     }
     Check(part_.Open(part_path_, O_RDWR));
-    Check(part_.Truncate(last->bytes));
-  } else if (!last->finished || !fs::exists(path_, unknown) ||
-             fs::file_size(path_, unknown) != last->bytes) {
+    Check(part_.Truncate(bytes));
+  } else if (!finished || !fs::exists(path_, unknown) ||
+             fs::file_size(path_, unknown) != bytes) {
     return false;
   }
-  Check(journal_.Truncate(journal.size() - rest.size()));
-  bytes_ = last->bytes;
-  note_ = last->note;
+  Check(journal_.Truncate(rest - journal.cbegin()));
+  bytes_ = bytes;
+  note_ = note;
   finished_ = !part;
   return true;
 }
@@ -153,7 +119,7 @@ bool ResumableFile::Restore(const std::string& key) {
 void ResumableFile::StartOver(const std::string& key) {
   // The old checkpoints must be gone before the bytes that they count.
   Check(journal_.Truncate(0));
-  Check(journal_.Write(std::string(kKey).append(key).append("\n")));
+  Check(journal_.Write(Header(key)));
   Check(journal_.Sync());
   Check(part_.Open(part_path_, O_RDWR | O_CREAT | O_TRUNC));
   SyncFolder(folder_);  // for both new files; some file systems cannot do it
@@ -176,7 +142,7 @@ void ResumableFile::Append(const std::string& text) {
 
 void ResumableFile::Checkpoint(const std::string& note) {
   Settle();
-  Check(Save(JournalLine(kCheckpoint, bytes_, note)));
+  Check(Save(JournalLine("checkpoint", bytes_, note)));
 }
 
 void ResumableFile::CheckpointSoon(const std::string& note) {
@@ -186,12 +152,12 @@ void ResumableFile::CheckpointSoon(const std::string& note) {
   }
   Settle();
   saving_ = std::async(std::launch::async, &ResumableFile::Save, this,
-                       JournalLine(kCheckpoint, bytes_, note));
+                       JournalLine("checkpoint", bytes_, note));
 }
 
 void ResumableFile::Finish(const std::string& note) {
   Settle();
-  Check(Save(JournalLine(kFinished, bytes_, note)));
+  Check(Save(JournalLine("finished", bytes_, note)));
   Check(part_.Close());
   if (std::rename(part_path_.c_str(), path_.c_str()) != 0) Check(errno);
   SyncFolder(folder_);

@@ -5,7 +5,7 @@
 #include <future>
 #include <string>
 
-#include "finray/io/file_descriptor.h"
+#include "finray/io/atomic_file.h"
 
 namespace finray {
 

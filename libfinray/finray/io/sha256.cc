@@ -3,42 +3,33 @@
 #include <openssl/evp.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <sstream>
 
 #include "finray/io/error.h"
+#include "finray/io/number_text.h"
 
 namespace finray {
 namespace {
 
-class Sha256 {
- public:
-  Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
-    EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr);
+std::string Sha256Of(std::istream* stream) {
+  const std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context(
+      EVP_MD_CTX_new(), EVP_MD_CTX_free);
+  EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr);
+  char buffer[1 << 16];
+  while (stream->read(buffer, sizeof buffer), stream->gcount() > 0) {
+    EVP_DigestUpdate(context.get(), buffer,
+                     static_cast<std::size_t>(stream->gcount()));
   }
-
-  void Update(const char* bytes, std::size_t count) {
-    EVP_DigestUpdate(context_.get(), bytes, count);
-  }
-
-  std::string Hex() {
-    unsigned char digest[EVP_MAX_MD_SIZE];
-    unsigned size = 0;
-    EVP_DigestFinal_ex(context_.get(), digest, &size);
-    std::string hex;
-    for (unsigned i = 0; i < size; ++i) {
-      char two[3];
-      std::snprintf(two, sizeof two, "%02x", digest[i]);
-      hex += two;
-    }
-    return hex;
-  }
-
- private:
-  std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context_;
-};
+  unsigned char digest[EVP_MAX_MD_SIZE];
+  unsigned size = 0;
+  EVP_DigestFinal_ex(context.get(), digest, &size);
+  std::string hex;
+  for (unsigned i = 0; i < size; ++i) hex += FormatText("%02x", digest[i]);
+  return hex;
+}
 
 }  // namespace
 
@@ -47,18 +38,12 @@ std::string Sha256OfFile(const std::string& path) {
   if (!file) {
     throw InputError(path + ": cannot be read: " + std::strerror(errno));
   }
-  Sha256 sha;
-  char buffer[1 << 16];
-  while (file.read(buffer, sizeof buffer), file.gcount() > 0) {
-    sha.Update(buffer, static_cast<std::size_t>(file.gcount()));
-  }
-  return sha.Hex();
+  return Sha256Of(&file);
 }
 
 std::string Sha256OfText(const std::string& text) {
-  Sha256 sha;
-  sha.Update(text.data(), text.size());
-  return sha.Hex();
+  std::istringstream stream(text);
+  return Sha256Of(&stream);
 }
 
 }  // namespace finray

@@ -7,12 +7,9 @@
 #include <type_traits>
 #include <vector>
 
-namespace finray {
+#include "finray/io/number_text.h"
 
-/// Returns a number in YAML that reads back as the same double: .nan, .inf, and
-/// a point before an exponent, without which YAML 1.1 reads text. With `digits`
-/// the number is rounded to that many (0.1 + 0.2 is 0.3 with 12).
-std::string YamlNumber(double value, int digits = 0);
+namespace finray {
 
 /// A YAML::Emitter that writes numbers the same way in every locale. yaml-cpp
 /// follows the locale: in a German one it writes "1,5", and "2.577" for 2577.
@@ -26,14 +23,15 @@ class YamlEmitter : public YAML::Emitter {
   int digits_;
 };
 
+// Numbers have no quotes, whatever texts have.
 template <class T>
 YamlEmitter& operator<<(YamlEmitter& yaml, const T& value) {
   YAML::Emitter& base = yaml;
   if constexpr (std::is_floating_point_v<T>) {
-    base << YamlNumber(value, yaml.digits());
+    base << YAML::Auto << YamlNumber(value, yaml.digits());
   } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool> &&
                        !std::is_same_v<T, char>) {
-    base << std::to_string(value);
+    base << YAML::Auto << std::to_string(value);
   } else {
     base << value;
   }

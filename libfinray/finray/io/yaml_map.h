@@ -9,6 +9,10 @@
 
 namespace finray {
 
+/// The largest number. A number that must be above 0 must be at least 1 / this,
+/// so that products and ratios of a few numbers neither overflow nor vanish.
+constexpr double kLargestYamlNumber = 1e30;
+
 /// A YAML mapping that is read strictly: every getter throws InputError with
 /// "path:line:column: ..." if a value is missing or of the wrong kind. Numbers
 /// must be finite and within kLargestYamlNumber. Duplicate keys are errors. A

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "finray/finger/geometry.h"
-#include "finray/objects/object_clearance.h"
 #include "finray/objects/tangency.h"
 
 namespace finray {
@@ -36,24 +35,251 @@ class ObjectContactSolver {
         tangency_(object, friction, solver) {}
 
   ObjectContact Solve(const ObjectPose& pose,
-                      const std::vector<PointContact>& guess);
+                      const std::vector<PointContact>& guess) {
+    ObjectContact result;
+    result.status = ObjectContactStatus::kNotConverged;
+    if (!pose.position_mm.allFinite() || !std::isfinite(pose.angle_rad)) {
+      return result;
+    }
+    std::vector<PointContact>& contacts = result.contacts;
+    contacts = guess;
+    for (PointContact& contact : contacts) contact.friction = friction_;
+    result.status = ObjectContactStatus::kContact;
+    if (contacts.empty() || !Settle(pose, &contacts)) {
+      contacts.clear();
+      result.status = MoveIn(pose, &contacts);
+    }
+    if (result.status != ObjectContactStatus::kContact) return result;
+
+    std::sort(contacts.begin(), contacts.end(),
+              [](const PointContact& a, const PointContact& b) {
+                return a.arc_mm < b.arc_mm;
+              });
+    // Solves again, so that the solver's results are in the order of contacts.
+    result.status = solver_->SolveWithSensitivities(contacts)
+                        ? Verified(pose, contacts)
+                        : ObjectContactStatus::kNotConverged;
+    if (result.status != ObjectContactStatus::kContact) {
+      contacts.clear();
+      return result;
+    }
+    result.displacement_mm = tangency_.displacement_mm();
+    return result;
+  }
 
  private:
-  bool Settle(const ObjectPose& pose, std::vector<PointContact>* contacts);
-  void AddContacts(const std::vector<double>& places, bool may_move,
-                   std::vector<PointContact>* contacts) const;
-  bool EndsAreInside(const ObjectPose& pose,
-                     const std::vector<PointContact>& contacts);
-  // Checks the solver's equilibrium, ends of the beam included.
-  ObjectContactStatus Verified(const ObjectPose& pose,
-                               const std::vector<PointContact>& contacts);
-  bool CoversBase(const ObjectPose& pose) const;
-  ObjectContactStatus MoveIn(const ObjectPose& pose,
-                             std::vector<PointContact>* contacts);
-  Vector2d InnerWay(const Section& near, const ObjectPose& pose) const;
   std::vector<Approach> Approaches(const ObjectPose& pose,
                                    const std::vector<PointContact>& contacts,
-                                   double below_mm) const;
+                                   double below_mm) const {
+    return FindApproaches(Shape(*solver_, contacts), length_, contacts,
+                          object_.outline, tangency_.Displaced(pose), below_mm);
+  }
+
+  // Finds the set of contacts: drops those that pull and adds places that are
+  // inside the object. Where the beam follows the outline, Newton cannot
+  // determine the places of contacts; they are then held, and enough of them
+  // keep the beam out of the object.
+  bool Settle(const ObjectPose& pose, std::vector<PointContact>* contacts) {
+    for (int round = 0; round < kMaxRounds; ++round) {
+      if (contacts->empty() || contacts->size() > kMostContacts) return false;
+      const LadderState start = solver_->state();
+      std::vector<PointContact> slid = *contacts;
+      const bool tangent =
+          tangency_.Solve(pose, TangencyUnknowns::kPlacesAndForces, &slid);
+      if (tangent) {
+        *contacts = slid;
+      } else {
+        solver_->set_state(start);
+        if (!tangency_.Solve(pose, TangencyUnknowns::kForces, contacts)) {
+          return false;
+        }
+      }
+      const auto weakest =
+          std::min_element(contacts->begin(), contacts->end(),
+                           [](const PointContact& a, const PointContact& b) {
+                             return a.normal_N < b.normal_N;
+                           });
+      if (!(weakest->normal_N > 0)) {
+        contacts->erase(weakest);
+        continue;
+      }
+      std::vector<double> inside;
+      for (const Approach& approach :
+           Approaches(pose, *contacts, -kContactDepthTolerance * length_)) {
+        if (!approach.at_end &&
+            approach.distance_mm < -kContactDepthTolerance * length_) {
+          inside.push_back(approach.arc_mm);
+        }
+      }
+      if (inside.empty()) return true;
+      AddContacts(inside, !tangent && round < kMovingRounds, contacts);
+    }
+    return false;
+  }
+
+  // A contact held at a wrong place has a neighbour that is inside the object.
+  // It is moved there, unless there is one on each side.
+  void AddContacts(const std::vector<double>& places, bool may_move,
+                   std::vector<PointContact>* contacts) const {
+    const std::vector<PointContact> before = *contacts;
+    std::vector<int> neighbours(before.size(), 0);
+    const auto nearest = [&](double arc) {
+      std::size_t best = 0;
+      for (std::size_t c = 1; c < before.size(); ++c) {
+        if (std::abs(before[c].arc_mm - arc) <
+            std::abs(before[best].arc_mm - arc)) {
+          best = c;
+        }
+      }
+      return best;
+    };
+    const auto beside = [&](double arc) {
+      return std::abs(before[nearest(arc)].arc_mm - arc) < length_ / 20;
+    };
+    for (const double arc : places) {
+      if (beside(arc)) ++neighbours[nearest(arc)];
+    }
+    for (const double arc : places) {
+      if (may_move && beside(arc) && neighbours[nearest(arc)] == 1) {
+        (*contacts)[nearest(arc)].arc_mm = arc;
+      } else {
+        contacts->push_back({arc, 0, friction_});
+      }
+    }
+  }
+
+  // Whether the object covers the clamped base, which cannot yield.
+  bool CoversBase(const ObjectPose& pose) const {
+    return object_.outline.DistanceOf(Vector2d::Zero(), pose).distance_mm <
+           -kContactDepthTolerance * length_;
+  }
+
+  // Whether the object has reached an end of the beam or nearly so.
+  bool EndsAreInside(const ObjectPose& pose,
+                     const std::vector<PointContact>& contacts) {
+    const double margin = kNearEnd * length_;
+    for (const PointContact& contact : contacts) {
+      if (contact.arc_mm < margin || contact.arc_mm > length_ - margin) {
+        return true;
+      }
+    }
+    if (!solver_->SolveWithSensitivities(contacts)) return false;
+    return Verified(pose, contacts) == ObjectContactStatus::kNoTangency;
+  }
+
+  ObjectContactStatus Verified(const ObjectPose& pose,
+                               const std::vector<PointContact>& contacts) {
+    const double deepest = -kContactDepthTolerance * length_;
+    ObjectContactStatus status = ObjectContactStatus::kContact;
+    for (const PointContact& contact : contacts) {
+      if (contact.arc_mm <= 0 || contact.arc_mm >= length_) {
+        return ObjectContactStatus::kNoTangency;
+      }
+    }
+    tangency_.Linearize(pose, contacts);
+    for (const Approach& approach : Approaches(pose, contacts, deepest)) {
+      if (approach.distance_mm >= deepest) continue;
+      if (approach.at_end) return ObjectContactStatus::kNoTangency;
+      status = ObjectContactStatus::kNotConverged;
+    }
+    if (tangency_.largest_gap_mm() > -deepest) {
+      return ObjectContactStatus::kNotConverged;
+    }
+    return status;
+  }
+
+  // An object between the beams has come from outside and pushes the front beam
+  // ahead of it. Returns how far it lies behind the place where the free front
+  // beam, nearest at `near`, runs through its middle; zero if it is not between
+  // the beams.
+  Vector2d InnerWay(const Section& near, const ObjectPose& pose) const {
+    const Vector2d into(std::sin(near.theta_rad), -std::cos(near.theta_rad));
+    const Vector2d beam(near.x_mm, near.y_mm);
+    const Outline::Distance nearest = object_.outline.DistanceOf(beam, pose);
+    const Finger& finger = solver_->model().finger();
+    const double angle = BeamAngle(finger, Side::kBack);
+    const Vector2d behind(std::sin(angle), -std::cos(angle));
+    // The point of the object nearest to the beam.
+    const Vector2d face = beam - nearest.distance_mm * nearest.normal;
+    if (behind.dot(face - BeamBase(finger, Side::kBack)) > 0 ||
+        nearest.normal.dot(into) > -0.5) {
+      return Vector2d::Zero();
+    }
+    const double angle_into = std::atan2(into.y(), into.x()) - pose.angle_rad;
+    const double width =
+        (object_.outline.PointAt(angle_into).position_mm -
+         object_.outline.PointAt(angle_into + M_PI).position_mm)
+            .dot(Vector2d(std::cos(angle_into), std::sin(angle_into)));
+    return (nearest.distance_mm + 0.5 * width) * into;
+  }
+
+  // Withdraws the object until it only touches the free finger, then moves it
+  // in.
+  ObjectContactStatus MoveIn(const ObjectPose& pose,
+                             std::vector<PointContact>* contacts) {
+    if (!solver_->Solve({})) return ObjectContactStatus::kNotConverged;
+    tangency_.ResetDisplacement();
+    const Shape free(*solver_, {});
+    const auto deepest = [&](const ObjectPose& at) {
+      const std::vector<Approach> all =
+          FindApproaches(free, length_, {}, object_.outline, at, 0);
+      return *std::min_element(all.begin(), all.end(),
+                               [](const Approach& a, const Approach& b) {
+                                 return a.distance_mm < b.distance_mm;
+                               });
+    };
+    Approach touch = deepest(pose);
+    ObjectPose withdrawn = pose;
+    if (touch.distance_mm >= -kContactDepthTolerance * length_) {
+      const Vector2d inwards =
+          InnerWay(free.At(Side::kFront, touch.arc_mm), pose);
+      if (inwards.isZero()) return ObjectContactStatus::kNoContact;
+      withdrawn.position_mm -= inwards;
+      touch = deepest(withdrawn);
+    }
+    if (!object_.spring && CoversBase(pose)) {
+      return ObjectContactStatus::kNoTangency;
+    }
+    const double theta = free.At(Side::kFront, touch.arc_mm).theta_rad;
+    const Vector2d outward(-std::sin(theta), std::cos(theta));
+    for (int i = 0; i < kMaxWithdrawals; ++i) {
+      if (touch.distance_mm >= -kTolerance * length_) break;
+      // This cannot pass first touch, as the distance of no point grows faster.
+      withdrawn.position_mm -= touch.distance_mm * outward;
+      touch = deepest(withdrawn);
+    }
+    if (touch.at_end) return ObjectContactStatus::kNoTangency;
+
+    const Vector2d way = pose.position_mm - withdrawn.position_mm;
+    std::vector<PointContact> reached = {{touch.arc_mm, 0, friction_}};
+    LadderState reached_state = solver_->state();
+    const double longest_step = kLongestStep * length_ / way.norm();
+    double fraction = 0, step = 1;
+    while (fraction < 1) {
+      step = std::min(step, longest_step);
+      const double next = std::min(1.0, fraction + step);
+      ObjectPose moved = pose;
+      moved.position_mm -= (1 - next) * way;
+      std::vector<PointContact> guess = reached;
+      if (Settle(moved, &guess)) {
+        fraction = next;
+        reached = guess;
+        reached_state = solver_->state();
+        step *= 1.5;
+      } else {
+        solver_->set_state(reached_state);
+        step *= 0.5;
+        if (step < kSmallestRampStep ||
+            tangency_.equilibria() > kMostEquilibria) {
+          return EndsAreInside(moved, reached)
+                     ? ObjectContactStatus::kNoTangency
+                     : ObjectContactStatus::kNotConverged;
+        }
+      }
+    }
+    *contacts = reached;
+    return ObjectContactStatus::kContact;
+  }
 
   const RigidObject& object_;
   const double friction_;
@@ -62,252 +288,30 @@ class ObjectContactSolver {
   Tangency tangency_;
 };
 
-std::vector<Approach> ObjectContactSolver::Approaches(
-    const ObjectPose& pose, const std::vector<PointContact>& contacts,
-    double below_mm) const {
-  return FindApproaches(Shape(*solver_, contacts), length_, contacts,
-                        object_.outline, tangency_.Displaced(pose), below_mm);
-}
+// At this density a bend of the front beam spans tens of samples.
+constexpr int kSamples = 280;
+constexpr int kBisections = 50;
 
-// Finds the set of contacts: drops those that pull and adds places that are
-// inside the object. Where the beam follows the outline, Newton cannot
-// determine the places of contacts; they are then held, and enough of them keep
-// the beam out of the object.
-bool ObjectContactSolver::Settle(const ObjectPose& pose,
-                                 std::vector<PointContact>* contacts) {
-  for (int round = 0; round < kMaxRounds; ++round) {
-    if (contacts->empty() || contacts->size() > kMostContacts) return false;
-    const LadderState start = solver_->state();
-    std::vector<PointContact> slid = *contacts;
-    const bool tangent =
-        tangency_.Solve(pose, TangencyUnknowns::kPlacesAndForces, &slid);
-    if (tangent) {
-      *contacts = slid;
-    } else {
-      solver_->set_state(start);
-      if (!tangency_.Solve(pose, TangencyUnknowns::kForces, contacts)) {
-        return false;
-      }
-    }
-    const auto weakest =
-        std::min_element(contacts->begin(), contacts->end(),
-                         [](const PointContact& a, const PointContact& b) {
-                           return a.normal_N < b.normal_N;
-                         });
-    if (!(weakest->normal_N > 0)) {
-      contacts->erase(weakest);
-      continue;
-    }
-    std::vector<double> inside;
-    for (const Approach& approach :
-         Approaches(pose, *contacts, -kContactDepthTolerance * length_)) {
-      if (!approach.at_end &&
-          approach.distance_mm < -kContactDepthTolerance * length_) {
-        inside.push_back(approach.arc_mm);
-      }
-    }
-    if (inside.empty()) return true;
-    AddContacts(inside, !tangent && round < kMovingRounds, contacts);
-  }
-  return false;
-}
+struct Sample {
+  double arc;
+  double distance;
+  double slope;  // by arc length
+};
 
-// A contact held at a wrong place has a neighbour that is inside the object. It
-// is moved there, unless there is one on each side.
-void ObjectContactSolver::AddContacts(
-    const std::vector<double>& places, bool may_move,
-    std::vector<PointContact>* contacts) const {
-  const std::vector<PointContact> before = *contacts;
-  std::vector<int> neighbours(before.size(), 0);
-  const auto nearest = [&](double arc) {
-    std::size_t best = 0;
-    for (std::size_t c = 1; c < before.size(); ++c) {
-      if (std::abs(before[c].arc_mm - arc) <
-          std::abs(before[best].arc_mm - arc)) {
-        best = c;
-      }
-    }
-    return best;
-  };
-  const auto beside = [&](double arc) {
-    return std::abs(before[nearest(arc)].arc_mm - arc) < length_ / 20;
-  };
-  for (const double arc : places) {
-    if (beside(arc)) ++neighbours[nearest(arc)];
+std::vector<double> SampleArcs(double length_mm,
+                               const std::vector<PointContact>& contacts) {
+  std::vector<double> arcs;
+  for (const PointContact& contact : contacts) arcs.push_back(contact.arc_mm);
+  std::sort(arcs.begin(), arcs.end());
+  for (std::size_t c = 1; c < contacts.size(); ++c) {
+    arcs.push_back(0.5 * (arcs[c - 1] + arcs[c]));
   }
-  for (const double arc : places) {
-    if (may_move && beside(arc) && neighbours[nearest(arc)] == 1) {
-      (*contacts)[nearest(arc)].arc_mm = arc;
-    } else {
-      contacts->push_back({arc, 0, friction_});
-    }
+  for (int i = 0; i <= kSamples; ++i) {
+    arcs.push_back(length_mm * i / kSamples);
   }
-}
-
-// Whether the object covers the clamped base, which cannot yield.
-bool ObjectContactSolver::CoversBase(const ObjectPose& pose) const {
-  return object_.outline.DistanceOf(Vector2d::Zero(), pose).distance_mm <
-         -kContactDepthTolerance * length_;
-}
-
-// Whether the object has reached an end of the beam or nearly so.
-bool ObjectContactSolver::EndsAreInside(
-    const ObjectPose& pose, const std::vector<PointContact>& contacts) {
-  const double margin = kNearEnd * length_;
-  for (const PointContact& contact : contacts) {
-    if (contact.arc_mm < margin || contact.arc_mm > length_ - margin) {
-      return true;
-    }
-  }
-  if (!solver_->SolveWithSensitivities(contacts)) return false;
-  return Verified(pose, contacts) == ObjectContactStatus::kNoTangency;
-}
-
-ObjectContactStatus ObjectContactSolver::Verified(
-    const ObjectPose& pose, const std::vector<PointContact>& contacts) {
-  const double deepest = -kContactDepthTolerance * length_;
-  ObjectContactStatus status = ObjectContactStatus::kContact;
-  for (const PointContact& contact : contacts) {
-    if (contact.arc_mm <= 0 || contact.arc_mm >= length_) {
-      return ObjectContactStatus::kNoTangency;
-    }
-  }
-  tangency_.Linearize(pose, contacts);
-  for (const Approach& approach : Approaches(pose, contacts, deepest)) {
-    if (approach.distance_mm >= deepest) continue;
-    if (approach.at_end) return ObjectContactStatus::kNoTangency;
-    status = ObjectContactStatus::kNotConverged;
-  }
-  if (tangency_.largest_gap_mm() > -deepest) {
-    return ObjectContactStatus::kNotConverged;
-  }
-  return status;
-}
-
-// An object between the beams has come from outside and pushes the front beam
-// ahead of it. Returns how far it lies behind the place where the free front
-// beam, nearest at `near`, runs through its middle; zero if it is not between
-// the beams.
-Vector2d ObjectContactSolver::InnerWay(const Section& near,
-                                       const ObjectPose& pose) const {
-  const Vector2d into(std::sin(near.theta_rad), -std::cos(near.theta_rad));
-  const Vector2d beam(near.x_mm, near.y_mm);
-  const Outline::Distance nearest = object_.outline.DistanceOf(beam, pose);
-  const Finger& finger = solver_->model().finger();
-  const double angle = BeamAngle(finger, Side::kBack);
-  const Vector2d behind(std::sin(angle), -std::cos(angle));
-  // The point of the object nearest to the beam.
-  const Vector2d face = beam - nearest.distance_mm * nearest.normal;
-  if (behind.dot(face - BeamBase(finger, Side::kBack)) > 0 ||
-      nearest.normal.dot(into) > -0.5) {
-    return Vector2d::Zero();
-  }
-  const double angle_into = std::atan2(into.y(), into.x()) - pose.angle_rad;
-  const double width =
-      (object_.outline.PointAt(angle_into).position_mm -
-       object_.outline.PointAt(angle_into + M_PI).position_mm)
-          .dot(Vector2d(std::cos(angle_into), std::sin(angle_into)));
-  return (nearest.distance_mm + 0.5 * width) * into;
-}
-
-// Withdraws the object until it only touches the free finger, then moves it in.
-ObjectContactStatus ObjectContactSolver::MoveIn(
-    const ObjectPose& pose, std::vector<PointContact>* contacts) {
-  if (!solver_->Solve({})) return ObjectContactStatus::kNotConverged;
-  tangency_.ResetDisplacement();
-  const Shape free(*solver_, {});
-  const auto deepest = [&](const ObjectPose& at) {
-    const std::vector<Approach> all =
-        FindApproaches(free, length_, {}, object_.outline, at, 0);
-    return *std::min_element(all.begin(), all.end(),
-                             [](const Approach& a, const Approach& b) {
-                               return a.distance_mm < b.distance_mm;
-                             });
-  };
-  Approach touch = deepest(pose);
-  ObjectPose withdrawn = pose;
-  if (touch.distance_mm >= -kContactDepthTolerance * length_) {
-    const Vector2d inwards =
-        InnerWay(free.At(Side::kFront, touch.arc_mm), pose);
-    if (inwards.isZero()) return ObjectContactStatus::kNoContact;
-    withdrawn.position_mm -= inwards;
-    touch = deepest(withdrawn);
-  }
-  if (!object_.spring && CoversBase(pose)) {
-    return ObjectContactStatus::kNoTangency;
-  }
-  const double theta = free.At(Side::kFront, touch.arc_mm).theta_rad;
-  const Vector2d outward(-std::sin(theta), std::cos(theta));
-  for (int i = 0; i < kMaxWithdrawals; ++i) {
-    if (touch.distance_mm >= -kTolerance * length_) break;
-    // This cannot pass first touch, as the distance of no point grows faster.
-    withdrawn.position_mm -= touch.distance_mm * outward;
-    touch = deepest(withdrawn);
-  }
-  if (touch.at_end) return ObjectContactStatus::kNoTangency;
-
-  const Vector2d way = pose.position_mm - withdrawn.position_mm;
-  std::vector<PointContact> reached = {{touch.arc_mm, 0, friction_}};
-  LadderState reached_state = solver_->state();
-  const double longest_step = kLongestStep * length_ / way.norm();
-  double fraction = 0, step = 1;
-  while (fraction < 1) {
-    step = std::min(step, longest_step);
-    const double next = std::min(1.0, fraction + step);
-    ObjectPose moved = pose;
-    moved.position_mm -= (1 - next) * way;
-    std::vector<PointContact> guess = reached;
-    if (Settle(moved, &guess)) {
-      fraction = next;
-      reached = guess;
-      reached_state = solver_->state();
-      step *= 1.5;
-    } else {
-      solver_->set_state(reached_state);
-      step *= 0.5;
-      if (step < kSmallestRampStep ||
-          tangency_.equilibria() > kMostEquilibria) {
-        return EndsAreInside(moved, reached)
-                   ? ObjectContactStatus::kNoTangency
-                   : ObjectContactStatus::kNotConverged;
-      }
-    }
-  }
-  *contacts = reached;
-  return ObjectContactStatus::kContact;
-}
-
-ObjectContact ObjectContactSolver::Solve(
-    const ObjectPose& pose, const std::vector<PointContact>& guess) {
-  ObjectContact result;
-  result.status = ObjectContactStatus::kNotConverged;
-  if (!pose.position_mm.allFinite() || !std::isfinite(pose.angle_rad)) {
-    return result;
-  }
-  std::vector<PointContact>& contacts = result.contacts;
-  contacts = guess;
-  for (PointContact& contact : contacts) contact.friction = friction_;
-  result.status = ObjectContactStatus::kContact;
-  if (contacts.empty() || !Settle(pose, &contacts)) {
-    contacts.clear();
-    result.status = MoveIn(pose, &contacts);
-  }
-  if (result.status != ObjectContactStatus::kContact) return result;
-
-  std::sort(contacts.begin(), contacts.end(),
-            [](const PointContact& a, const PointContact& b) {
-              return a.arc_mm < b.arc_mm;
-            });
-  // Solves again, so that the solver's results are in the order of contacts.
-  result.status = solver_->SolveWithSensitivities(contacts)
-                      ? Verified(pose, contacts)
-                      : ObjectContactStatus::kNotConverged;
-  if (result.status != ObjectContactStatus::kContact) {
-    contacts.clear();
-    return result;
-  }
-  result.displacement_mm = tangency_.displacement_mm();
-  return result;
+  std::sort(arcs.begin(), arcs.end());
+  arcs.erase(std::unique(arcs.begin(), arcs.end()), arcs.end());
+  return arcs;
 }
 
 }  // namespace
@@ -317,6 +321,65 @@ ObjectContact SolveObjectContact(const RigidObject& object,
                                  EquilibriumSolver* solver,
                                  const std::vector<PointContact>& guess) {
   return ObjectContactSolver(object, friction, solver).Solve(pose, guess);
+}
+
+std::vector<Approach> FindApproaches(const Shape& shape, double length_mm,
+                                     const std::vector<PointContact>& contacts,
+                                     const Outline& outline,
+                                     const ObjectPose& pose, double below_mm) {
+  const auto sample = [&](double arc) -> Sample {
+    const Section at = shape.At(Side::kFront, arc);
+    const Outline::Distance distance =
+        outline.DistanceOf({at.x_mm, at.y_mm}, pose);
+    return {arc, distance.distance_mm,
+            distance.normal.x() * std::cos(at.theta_rad) +
+                distance.normal.y() * std::sin(at.theta_rad)};
+  };
+  std::vector<Sample> samples;
+  double least = HUGE_VAL;
+  for (const double arc : SampleArcs(length_mm, contacts)) {
+    samples.push_back(sample(arc));
+    least = std::min(least, samples.back().distance);
+  }
+  // A minimum is at most one spacing lower than the samples beside it.
+  const double cut = std::max(least, below_mm + length_mm / kSamples);
+  std::vector<Approach> approaches;
+  const std::size_t last = samples.size() - 1;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const Sample& here = samples[i];
+    const Sample& before = samples[i > 0 ? i - 1 : 0];
+    const Sample& after = samples[std::min(i + 1, last)];
+    if (here.distance > cut) continue;
+    // Among equal neighbours the first one counts.
+    if (i > 0 && before.distance <= here.distance) continue;
+    if (after.distance < here.distance) continue;
+    if ((i == 0 && here.slope >= 0) || (i == last && here.slope <= 0)) {
+      approaches.push_back({here.arc, here.distance, true});
+      continue;
+    }
+    double arc = here.arc;
+    if (before.slope < 0 && after.slope > 0) {
+      double low = before.arc, high = after.arc;
+      for (int k = 0; k < kBisections; ++k) {
+        const double middle = 0.5 * (low + high);
+        (sample(middle).slope < 0 ? low : high) = middle;
+      }
+      arc = 0.5 * (low + high);
+    }
+    // In a rigid chain points lie on chords while angles turn evenly, so the
+    // root of the slope may not be the lowest point.
+    const double refined = sample(arc).distance;
+    if (refined > here.distance) arc = here.arc;
+    approaches.push_back({arc, std::min(refined, here.distance), false});
+    least = std::min(least, refined);
+  }
+  approaches.erase(std::remove_if(approaches.begin(), approaches.end(),
+                                  [&](const Approach& a) {
+                                    return a.distance_mm > below_mm &&
+                                           a.distance_mm > least;
+                                  }),
+                   approaches.end());
+  return approaches;
 }
 
 }  // namespace finray

@@ -9,7 +9,7 @@
 #include "finray/io/error.h"
 #include "finray/io/number_text.h"
 #include "finray/io/sha256.h"
-#include "finray/io/shown_text.h"
+#include "finray/io/message_text.h"
 #include "finray/io/yaml_emitter.h"
 
 namespace finray {

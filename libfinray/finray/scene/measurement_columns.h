@@ -31,10 +31,6 @@ class MeasurementColumns {
   MeasurementColumns(const Finger& finger,
                      const std::vector<std::string>& names,
                      const std::string& path, const Options& options);
-  MeasurementColumns(const Finger& finger,
-                     const std::vector<std::string>& names,
-                     const std::string& path)
-      : MeasurementColumns(finger, names, path, Options()) {}
 
   /// Reads one row into `row`, whose memory is reused. number(i) returns the
   /// row's cell in column i.

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "finray/io/error.h"
+#include "finray/io/message_text.h"
 #include "finray/io/yaml_emitter.h"
 
 namespace finray {
@@ -131,37 +132,31 @@ void ReadMeasurements(const YamlMap& yaml, Scene* scene) {
   }
 }
 
-YamlEmitter& operator<<(YamlEmitter& yaml, const CircleOutline& circle) {
-  return yaml << "circle" << YAML::Key << "radius_mm" << YAML::Value
-              << circle.radius_mm;
+std::vector<std::vector<double>> Pairs(
+    const std::vector<Eigen::Vector2d>& points) {
+  std::vector<std::vector<double>> pairs;
+  for (const auto& point : points) pairs.push_back({point.x(), point.y()});
+  return pairs;
 }
 
-YamlEmitter& operator<<(YamlEmitter& yaml, const EllipseOutline& ellipse) {
-  return yaml << "ellipse" << YAML::Key << "semi_axis_x_mm" << YAML::Value
-              << ellipse.semi_axis_x_mm << YAML::Key << "semi_axis_y_mm"
-              << YAML::Value << ellipse.semi_axis_y_mm;
+void EmitShape(const CircleOutline& circle, YamlEmitter* yaml) {
+  YamlPairs(yaml, "shape", "circle", "radius_mm", circle.radius_mm);
 }
 
-YamlEmitter& operator<<(YamlEmitter& yaml,
-                        const std::vector<Eigen::Vector2d>& pairs) {
-  yaml << YAML::BeginSeq;
-  for (const Eigen::Vector2d& pair : pairs) {
-    yaml << YAML::BeginSeq << pair.x() << pair.y() << YAML::EndSeq;
-  }
-  return yaml << YAML::EndSeq;
+void EmitShape(const EllipseOutline& ellipse, YamlEmitter* yaml) {
+  YamlPairs(yaml, "shape", "ellipse", "semi_axis_x_mm", ellipse.semi_axis_x_mm,
+            "semi_axis_y_mm", ellipse.semi_axis_y_mm);
 }
 
-YamlEmitter& operator<<(YamlEmitter& yaml, const SupportOutline& outline) {
-  return yaml << "support_series" << YAML::Key << "radius_mm" << YAML::Value
-              << outline.radius_mm << YAML::Key << "harmonics_mm" << YAML::Value
-              << outline.harmonics_mm;
+void EmitShape(const SupportOutline& outline, YamlEmitter* yaml) {
+  YamlPairs(yaml, "shape", "support_series", "radius_mm", outline.radius_mm,
+            "harmonics_mm", Pairs(outline.harmonics_mm));
 }
 
-YamlEmitter& operator<<(YamlEmitter& yaml,
-                        const RoundedPolygonOutline& polygon) {
-  return yaml << "rounded_polygon" << YAML::Key << "vertices_mm" << YAML::Value
-              << polygon.vertices_mm << YAML::Key << "fillet_radius_mm"
-              << YAML::Value << polygon.fillet_radius_mm;
+void EmitShape(const RoundedPolygonOutline& polygon, YamlEmitter* yaml) {
+  YamlPairs(yaml, "shape", "rounded_polygon", "vertices_mm",
+            Pairs(polygon.vertices_mm), "fillet_radius_mm",
+            polygon.fillet_radius_mm);
 }
 
 }  // namespace
@@ -175,23 +170,20 @@ void RefuseBackContacts(const Scene& scene) {
 }
 
 std::string ContactBeamsToYaml(const Scene& scene) {
-  std::string words;
-  for (const Side side : scene.contact_beams) {
-    words += (words.empty() ? "" : ", ") + std::string(SideName(side));
-  }
-  return "[" + words + "]";
+  std::vector<std::string> words;
+  for (const Side side : scene.contact_beams) words.push_back(SideName(side));
+  return "[" + Joined(words) + "]";
 }
 
 std::string ObjectToYaml(const RigidObject& object) {
   YamlEmitter yaml;
-  yaml << YAML::Flow << YAML::BeginMap << YAML::Key << "shape" << YAML::Value;
-  std::visit([&](const auto& shape) { yaml << shape; }, object.outline.shape());
+  yaml << YAML::Flow << YAML::BeginMap;
+  std::visit([&](const auto& shape) { EmitShape(shape, &yaml); },
+             object.outline.shape());
   if (object.spring) {
-    yaml << YAML::Key << "spring" << YAML::Value << YAML::BeginMap << YAML::Key
-         << "stiffness_N_per_mm" << YAML::Value
-         << object.spring->stiffness_N_per_mm << YAML::Key << "direction_deg"
-         << YAML::Value << object.spring->direction_rad * 180 / M_PI
-         << YAML::EndMap;
+    yaml << YAML::Key << "spring" << YAML::Value;
+    YamlLine(&yaml, "stiffness_N_per_mm", object.spring->stiffness_N_per_mm,
+             "direction_deg", object.spring->direction_rad * 180 / M_PI);
   }
   yaml << YAML::EndMap;
   return yaml.c_str();

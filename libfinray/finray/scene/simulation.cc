@@ -6,15 +6,85 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/finger/point_contact.h"
+#include "finray/io/error.h"
 #include "finray/objects/object_contact.h"
 #include "finray/scene/frame_columns.h"
-#include "finray/scene/load_reader.h"
 #include "finray/statics/shape.h"
 
 namespace finray {
 namespace {
 
 constexpr char kDisplacement[] = "object_displacement_mm";
+
+// The load on the finger in one row of a frame table.
+struct RowLoad {
+  std::vector<PointContact> contacts;
+  std::optional<ObjectPose> object;  // Set only if there are no contacts.
+};
+
+// Reads the loads of all rows. Throws InputError with the line of a load that
+// is incomplete, negative or off the beam. `contacts` is the number of point
+// contacts that the columns can hold.
+std::vector<RowLoad> ReadLoads(const Finger& finger, const Scene& scene,
+                               const FrameTable& table, int* contacts) {
+  std::vector<std::vector<double>> arcs, normals, frictions;
+  for (int c = 0; table.Has(ContactArc(c)); ++c) {
+    arcs.push_back(table.Numbers(ContactArc(c)));
+    normals.push_back(table.Numbers(NormalForce(c)));
+    frictions.push_back(table.NumbersOrNan(Friction(c)));
+  }
+  *contacts = static_cast<int>(arcs.size());
+  const std::vector<Side>& beams = scene.contact_beams;
+  if (!beams.empty() && arcs.size() > beams.size()) {
+    throw InputError(scene.contact_beams_place +
+                     "contact_beams: expected a word for each "
+                     "of the " +
+                     std::to_string(arcs.size()) + " contacts in " +
+                     table.path() + ", found " + std::to_string(beams.size()));
+  }
+  if (table.Has("object_x_mm") && arcs.empty() && !scene.object) {
+    throw InputError(table.path() +
+                     ": has the object's place, but the scene has no object; "
+                     "give one with --scene");
+  }
+  const std::vector<double> x = table.NumbersOrNan("object_x_mm");
+  const std::vector<double> y = table.NumbersOrNan("object_y_mm");
+  const std::vector<double> angle_deg = table.NumbersOrNan("object_angle_deg");
+  std::vector<RowLoad> loads(table.rows());
+  for (std::size_t row = 0; row < loads.size(); ++row) {
+    RowLoad& load = loads[row];
+    const auto fail = [&](const std::string& message) {
+      throw InputError(table.path() + ":" + std::to_string(table.line(row)) +
+                       ": " + message);
+    };
+    for (int c = 0; c < *contacts; ++c) {
+      const double arc = arcs[c][row], normal = normals[c][row];
+      if (std::isnan(arc) && (std::isnan(normal) || normal == 0)) continue;
+      const Side side = beams.empty() ? Side::kFront : beams[c];
+      const double length = BeamLength(finger, side);
+      if (!(arc >= 0 && arc <= length)) {
+        fail(ContactArc(c) + ": expected an arc length on the " +
+             SideName(side) + " beam, 0 to " + std::to_string(length) + " mm");
+      }
+      if (!(normal >= 0)) {
+        fail(NormalForce(c) + ": expected a force of at least 0 N with " +
+             ContactArc(c));
+      }
+      const double mu = frictions[c][row];
+      load.contacts.push_back({arc, normal,
+                               std::isnan(mu) ? scene.friction_coefficient : mu,
+                               side});
+    }
+    if (std::isnan(x[row]) != std::isnan(y[row])) {
+      fail("object_x_mm and object_y_mm: expected both or neither");
+    }
+    if (load.contacts.empty() && std::isfinite(x[row]) && scene.object) {
+      const double turn = std::isnan(angle_deg[row]) ? 0 : angle_deg[row];
+      load.object = {{x[row], y[row]}, turn * M_PI / 180};
+    }
+  }
+  return loads;
+}
 
 // The solution of one row.
 struct SolvedRow {
@@ -96,81 +166,62 @@ SolvedRow SolveRow(const RowLoad& load, const Scene& scene,
   return row;
 }
 
-// Creates the columns to fill, empty, in the order of the output.
-void AddColumns(const Finger& finger, int contacts, int object_contacts,
-                bool displacement, FrameTable* frames) {
-  std::vector<std::string> names;
-  for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
-    names.insert(names.end(), {GaugeVolts(j), GaugeAngle(j)});
-  }
-  for (int c = 0; c < contacts; ++c) {
-    names.insert(names.end(), {ContactX(c), ContactY(c), ContactAngle(c)});
-  }
-  if (displacement) names.push_back(kDisplacement);
-  for (int i = 0; i < static_cast<int>(finger.ribs.size()); ++i) {
-    names.push_back(RibForce(i));
-  }
-  for (int i = 0; i < static_cast<int>(finger.ribs.size()); ++i) {
-    for (const Side side : {Side::kFront, Side::kBack}) {
-      for (const char* axis : {"x", "y"}) {
-        names.push_back(RibPin(i, SideName(side), axis));
-      }
-    }
-  }
-  names.insert(names.end(),
-               {"force_N", "tip_x_mm", "tip_y_mm", "tip_angle_rad"});
-  for (int c = 0; c < object_contacts; ++c) {
-    // Other rows may give their loads in these columns, so they are kept.
-    frames->MutableNumbers(ContactArc(c));
-    frames->MutableNumbers(NormalForce(c));
-  }
-  for (const std::string& name : names) {
-    frames->MutableNumbers(name).assign(frames->rows(), std::nan(""));
-  }
-  frames->MutableText("status").assign(frames->rows(), "");
-}
-
-// Fills in one solved row. Returns the force on the finger.
-double FillRow(const Finger& finger, const SolvedRow& solved, bool displacement,
-               std::size_t row, FrameTable* frames) {
+// Fills in a row: NaN where there is no solution. Returns the force on the
+// finger.
+double FillRow(const Finger& finger, const SolvedRow& solved, int contacts,
+               bool displacement, std::size_t row, FrameTable* frames) {
   const auto set = [&](const std::string& name, double value) {
     frames->MutableNumbers(name)[row] = value;
   };
+  const bool is_solved = IsSolved(solved);
+  const auto output = [&](Eigen::Index i) {
+    return is_solved ? solved.outputs[i] : std::nan("");
+  };
   const int gauges = static_cast<int>(finger.gauges.size());
   for (int j = 0; j < gauges; ++j) {
-    const double angle = solved.outputs[j];
-    set(GaugeAngle(j), angle);
-    set(GaugeVolts(j), finger.gauges[j].Volts(angle));
+    set(GaugeVolts(j), finger.gauges[j].Volts(output(j)));
+    set(GaugeAngle(j), output(j));
   }
-  if (solved.object && solved.contacts.empty()) set(NormalForce(0), 0);
   Eigen::Vector2d force(0, 0);
-  for (int c = 0; c < static_cast<int>(solved.contacts.size()); ++c) {
-    const PointContact& contact = solved.contacts[c];
-    const Eigen::Vector3d pose = solved.outputs.segment<3>(gauges + 3 * c);
-    if (solved.object) {
-      set(ContactArc(c), contact.arc_mm);
-      set(NormalForce(c), contact.normal_N);
+  const int touching = static_cast<int>(solved.contacts.size());
+  for (int c = 0; c < contacts; ++c) {
+    Eigen::Vector3d pose = Eigen::Vector3d::Constant(std::nan(""));
+    if (is_solved && c < touching) {
+      pose = solved.outputs.segment<3>(gauges + 3 * c);
+      force += ContactForce(solved.contacts[c], pose.z());
     }
     set(ContactX(c), pose.x());
     set(ContactY(c), pose.y());
     set(ContactAngle(c), pose.z());
-    force += ContactForce(contact, pose.z());
   }
-  set("force_N", force.norm());
-  if (displacement && solved.object) set(kDisplacement, solved.displacement_mm);
-  for (int i = 0; i < solved.rib_tensions.size(); ++i) {
-    set(RibForce(i), solved.rib_tensions[i]);
+  if (displacement) {
+    set(kDisplacement,
+        is_solved && solved.object ? solved.displacement_mm : std::nan(""));
+  }
+  const int ribs = static_cast<int>(finger.ribs.size());
+  for (int i = 0; i < ribs; ++i) {
+    set(RibForce(i), is_solved ? solved.rib_tensions[i] : std::nan(""));
+  }
+  for (int i = 0; i < ribs; ++i) {
     for (const Side side : {Side::kFront, Side::kBack}) {
-      const Eigen::Vector2d& pin =
-          solved.pins[2 * i + LadderModel::Index(side)];
+      Eigen::Vector2d pin = Eigen::Vector2d::Constant(std::nan(""));
+      if (is_solved) pin = solved.pins[2 * i + LadderModel::Index(side)];
       set(RibPin(i, SideName(side), "x"), pin.x());
       set(RibPin(i, SideName(side), "y"), pin.y());
     }
   }
-  const Eigen::Vector3d tip = solved.outputs.tail<3>();
-  set("tip_x_mm", tip.x());
-  set("tip_y_mm", tip.y());
-  set("tip_angle_rad", tip.z());
+  set("force_N", is_solved ? force.norm() : std::nan(""));
+  const Eigen::Index tip = solved.outputs.size() - 3;
+  set("tip_x_mm", output(tip));
+  set("tip_y_mm", output(tip + 1));
+  set("tip_angle_rad", output(tip + 2));
+  // Other rows may give their loads in these columns, so they are kept there.
+  if (!is_solved || !solved.object) return force.norm();
+  if (touching == 0) set(NormalForce(0), 0);
+  for (int c = 0; c < touching; ++c) {
+    set(ContactArc(c), solved.contacts[c].arc_mm);
+    set(NormalForce(c), solved.contacts[c].normal_N);
+  }
   return force.norm();
 }
 
@@ -179,12 +230,11 @@ double FillRow(const Finger& finger, const SolvedRow& solved, bool displacement,
 SimulationSummary Simulate(const Finger& finger, const Scene& scene,
                            const Discretization& discretization,
                            FrameTable* frames, FrameTable* shapes) {
-  const LoadReader loads(finger, scene, *frames);
   const std::size_t rows = frames->rows();
   // All loads are read first, so that a bad row is reported before any is
   // solved.
-  std::vector<RowLoad> all;
-  for (std::size_t row = 0; row < rows; ++row) all.push_back(loads.Read(row));
+  int contacts = 0;
+  const std::vector<RowLoad> all = ReadLoads(finger, scene, *frames, &contacts);
   if (shapes != nullptr) *shapes = FrameTable(rows * 202);
   std::size_t next_shape = 0;
 
@@ -206,9 +256,14 @@ SimulationSummary Simulate(const Finger& finger, const Scene& scene,
 
   SimulationSummary summary;
   const bool displacement = object_contacts > 0 && scene.object->spring;
-  AddColumns(finger, std::max(loads.contacts(), object_contacts),
-             object_contacts, displacement, frames);
+  for (int c = 0; c < object_contacts; ++c) {
+    frames->MutableNumbers(ContactArc(c));
+    frames->MutableNumbers(NormalForce(c));
+  }
+  contacts = std::max(contacts, object_contacts);
   for (std::size_t row = 0; row < rows; ++row) {
+    const bool touches =
+        FillRow(finger, solved[row], contacts, displacement, row, frames) > 0;
     std::string& status = frames->MutableText("status")[row];
     if (!IsSolved(solved[row])) {
       ++summary.not_converged;
@@ -220,8 +275,6 @@ SimulationSummary Simulate(const Finger& finger, const Scene& scene,
       }
       continue;
     }
-    const bool touches =
-        FillRow(finger, solved[row], displacement, row, frames) > 0;
     ++(touches ? summary.contact : summary.free);
     status = touches ? "ok" : "no_contact";
   }

@@ -163,13 +163,6 @@ double EquilibriumSolver::rib_tension(int rib) const {
   return newton_.frame().state.q[6 + rib] * newton_.workspace().force_unit();
 }
 
-Eigen::Vector3d EquilibriumSolver::base_reaction(Side side) const {
-  const double* q = newton_.frame().state.q + 3 * LadderModel::Index(side);
-  const double force = newton_.workspace().force_unit();
-  return -Eigen::Vector3d(q[0] * newton_.workspace().moment_unit(),
-                          q[1] * force, q[2] * force);
-}
-
 int EquilibriumSolver::unknowns() const {
   const LadderFrame<double>& f = newton_.frame();
   return 6 + f.ribs + 4 * (f.elements - 2);
@@ -228,14 +221,7 @@ void EquilibriumSolver::CollectDerivatives() {
   const LadderFrame<double>& f = newton_.frame();
   const int p = static_cast<int>(parameter_unit_.size());
   d_outputs_.setZero(outputs_.size(), p);
-  d_q_.resize(q_unit_.size(), p);
   AddTaps(f.affine + 1, p, &d_outputs_);
-  for (int i = 0; i < q_unit_.size(); ++i) {
-    for (int j = 0; j < p; ++j) {
-      d_q_(i, j) = f.q_step[i * f.stride + f.affine + 1 + j] * q_unit_[i] /
-                   parameter_unit_[j];
-    }
-  }
   d_outputs_.array().colwise() *= output_unit_.array();
   d_outputs_.array().rowwise() /= parameter_unit_.transpose().array();
 }

@@ -76,7 +76,7 @@ class EquilibriumSolver {
   /// Why() say why; the state is then the undeformed finger and the results are
   /// undefined.
   bool Solve(const std::vector<PointContact>& contacts);
-  /// As Solve, and fills d_outputs() and d_q().
+  /// As Solve, and fills d_outputs().
   bool SolveWithSensitivities(const std::vector<PointContact>& contacts);
 
   SolveStatus status() const { return status_; }
@@ -95,17 +95,12 @@ class EquilibriumSolver {
   Eigen::Vector3d tip_pose() const { return outputs_.tail<3>(); }
   /// In N; tension > 0.
   double rib_tension(int rib) const;
-  /// (M, F_x, F_y) in N mm and N that the clamp exerts on a beam's base.
-  Eigen::Vector3d base_reaction(Side side) const;
 
   /// [gauge angles (m); contact (x, y, theta) each; tip (x, y, theta)].
   const Eigen::VectorXd& outputs() const { return outputs_; }
   /// Derivatives of outputs() at equilibrium by the implicit function theorem,
   /// columns [l_c, f_c of each contact; EI front; EI back; rib lengths (r)].
   const Matrix& d_outputs() const { return d_outputs_; }
-  /// The same derivatives of the unknowns q of ladder.h, whose first six are
-  /// the negative base reactions.
-  const Matrix& d_q() const { return d_q_; }
 
   /// Newton iterations of the last solve, all attempts together.
   int iterations() const { return iterations_; }
@@ -144,7 +139,7 @@ class EquilibriumSolver {
   int iterations_ = 0;
   Eigen::VectorXd outputs_;
   Eigen::VectorXd output_unit_, parameter_unit_, q_unit_;
-  Matrix d_outputs_, d_q_;
+  Matrix d_outputs_;
 };
 
 }  // namespace finray

@@ -50,12 +50,4 @@ Section Shape::At(Side side, double arc_mm) const {
           value[3], after->force_x_N, after->force_y_N};
 }
 
-std::vector<double> Shape::Stations(Side side) const {
-  const auto& pieces = pieces_[LadderModel::Index(side)];
-  std::vector<double> stations;
-  for (const Piece& piece : pieces) stations.push_back(piece.arc_mm);
-  stations.push_back(pieces.back().arc_mm + pieces.back().length_mm);
-  return stations;
-}
-
 }  // namespace finray

@@ -32,10 +32,6 @@ class Shape {
   /// the side towards the tip, and at the tip itself those before it.
   Section At(Side side, double arc_mm) const;
 
-  /// The arc lengths of ends, nodes and contacts, base to tip; the beam is
-  /// smooth between them.
-  std::vector<double> Stations(Side side) const;
-
  private:
   // A piece of a beam. (x, y, theta, M) are polynomials of the arc length from
   // its start.

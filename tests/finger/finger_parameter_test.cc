@@ -1,4 +1,4 @@
-#include "finray/finger/parameter_covariance.h"
+#include "finray/finger/finger_parameter.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

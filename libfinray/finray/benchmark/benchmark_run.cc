@@ -1,19 +1,57 @@
-#include "finray/benchmark/benchmark_files.h"
+#include "finray/benchmark/benchmark_run.h"
 
-#include <algorithm>
+#include <ceres/version.h>
+#include <sched.h>
+#include <sys/utsname.h>
+
+#include <Eigen/Core>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
+#include "finray/benchmark/build.h"
 #include "finray/benchmark/json_emitter.h"
-#include "finray/benchmark/pareto.h"
 #include "finray/benchmark/recommendation.h"
 #include "finray/benchmark/statistics.h"
-#include "finray/io/csv_cells.h"
-#include "finray/io/number_text.h"
+#include "finray/io/frame_table.h"
 #include "finray/io/yaml_map.h"
+#include "finray/ladder/ladder_kernel.h"
 
 namespace finray {
 namespace {
+
+std::string FirstLineOf(const std::string& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  return line;
+}
+
+std::string CpuModel() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind("model name", 0) == 0 || line.rfind("CPU part", 0) == 0) {
+      const auto colon = line.find(": ");
+      if (colon != std::string::npos) return line.substr(colon + 2);
+    }
+  }
+  return "unknown";
+}
+
+std::string Caches() {
+  std::string words;
+  for (int i = 0; i < 8; ++i) {
+    const std::string folder =
+        "/sys/devices/system/cpu/cpu0/cache/index" + std::to_string(i) + "/";
+    const std::string level = FirstLineOf(folder + "level");
+    const std::string type = FirstLineOf(folder + "type");
+    if (level.empty()) break;
+    if (type == "Instruction") continue;
+    words += (words.empty() ? "L" : ", L") + level +
+             (type == "Data" ? "d " : " ") + FirstLineOf(folder + "size");
+  }
+  return words.empty() ? "unknown" : words;
+}
 
 // The numbers of a setting under their names in both files.
 struct NamedNumber {
@@ -52,10 +90,8 @@ constexpr NamedNumber kNumbers[] = {
 };
 
 void WriteFacts(const char* key, const Facts& facts, JsonEmitter* json) {
-  *json << YAML::Newline;
-  json->Key(key);
-  *json << YAML::BeginMap;
-  for (const auto& [name, value] : facts) json->Pair(name.c_str(), value);
+  *json << YAML::Newline << YAML::Key << key << YAML::Value << YAML::BeginMap;
+  for (const auto& [name, value] : facts) json->Pairs(name.c_str(), value);
   *json << YAML::EndMap;
 }
 
@@ -68,33 +104,25 @@ Facts ReadFacts(const YamlMap& map) {
 void WriteSettings(const std::vector<Measurement>& settings,
                    JsonEmitter* json) {
   json->Maps("settings", settings, [&](const Measurement& m) {
-    json->Pair("id", m.name.id());
-    json->Pair("task", m.name.task);
-    json->Pair("scene", m.name.scene);
-    json->Pair("solver", m.name.solver);
-    json->Pair("how", m.name.how);
-    json->Pair("words", m.words);
-    json->Pair("family", m.family);
-    if (!m.scheme.empty()) json->Pair("scheme", m.scheme);
+    json->Pairs("id", m.name.id(), "task", m.name.task, "scene", m.name.scene,
+                "solver", m.name.solver, "how", m.name.how, "words", m.words,
+                "family", m.family);
+    if (!m.scheme.empty()) json->Pairs("scheme", m.scheme);
     for (const NamedNumber& number : kNumbers) {
-      json->Pair(number.name, number.of(m));
+      json->Pairs(number.name, number.of(m));
     }
-    json->Pair("time_us", m.time_us);
-    json->Pair("yardstick_us", m.yardstick_us);
+    json->Pairs("time_us", m.time_us, "yardstick_us", m.yardstick_us);
   });
 }
 
 void WriteScaling(const Scaling& scaling, JsonEmitter* json) {
-  *json << YAML::Newline;
-  json->Key("scaling");
-  *json << YAML::BeginMap;
+  *json << YAML::Newline << YAML::Key << "scaling" << YAML::Value
+        << YAML::BeginMap;
   const auto batch = [&](const BatchScaling& one) {
     const double median = Median(one.seconds);
-    json->Pair("frames", one.frames);
-    json->Pair("threads", one.threads);
-    json->Pair("median_s", median);
-    json->Pair("frames_per_s", one.frames / median);
-    json->Pair("seconds", one.seconds);
+    json->Pairs("frames", one.frames, "threads", one.threads, "median_s",
+                median, "frames_per_s", one.frames / median, "seconds",
+                one.seconds);
   };
   json->Maps("frames", scaling.frames, batch);
   json->Maps("threads", scaling.threads, batch);
@@ -108,56 +136,73 @@ void WriteConclusions(const std::vector<Measurement>& settings,
     for (const std::size_t i : front.front) {
       ids.push_back(settings[i].name.id());
     }
-    json->Pair("task", front.task);
-    json->Pair("scene", front.scene);
-    json->Pair("front", ids);
+    json->Pairs("task", front.task, "scene", front.scene, "front", ids);
   });
   json->Maps("recommended", Recommend(settings), [&](const Recommendation& r) {
-    json->Pair("use", r.use);
-    json->Pair("id", r.id);
-    json->Pair("why", r.why);
-    json->Pair("limit_us", r.limit_us);
-    json->Pair("time_us", r.time_us);
-    json->Pair("margin", r.margin());
-    json->Pair("contact_error_mm", r.error_mm);
+    json->Pairs("use", r.use, "id", r.id, "why", r.why, "limit_us", r.limit_us,
+                "time_us", r.time_us, "margin", r.margin(), "contact_error_mm",
+                r.error_mm);
   });
   json->Maps("defaults", CheckDefaults(settings), [&](const DefaultCheck& c) {
-    json->Pair("id", c.id);
-    json->Pair("holds", c.holds());
-    json->Pair("on_front", c.on_front());
-    json->Pair("dominated_by", c.dominated_by);
-    json->Pair("faster_and_more_accurate", c.better);
-    json->Pair("rival", c.rival);
-    json->Pair("rival_time", c.rival_time);
-    json->Pair("rival_interval", std::vector<double>{c.rival_interval.low,
-                                                     c.rival_interval.high});
+    json->Pairs(
+        "id", c.id, "holds", c.holds(), "on_front", c.on_front(),
+        "dominated_by", c.dominated_by, "faster_and_more_accurate", c.better,
+        "rival", c.rival, "rival_time", c.rival_time, "rival_interval",
+        std::vector<double>{c.rival_interval.low, c.rival_interval.high});
   });
 }
 
 }  // namespace
 
+int UsableCores() {
+  cpu_set_t set;
+  return sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : 1;
+}
+
+Facts ThisMachine() {
+  const std::string governor =
+      FirstLineOf("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
+  utsname name;
+  const bool named = uname(&name) == 0;
+  return {{"cpu", CpuModel()},
+          {"cores", std::to_string(UsableCores())},
+          {"caches", Caches()},
+          {"governor", governor.empty() ? "unknown" : governor},
+          {"instruction_set", LadderInstructionSetName(0)},
+          {"system", named ? std::string(name.sysname) + " " + name.release +
+                                 " " + name.machine
+                           : "unknown"}};
+}
+
+Facts ThisBuild() {
+  return {{"version", FINRAY_VERSION},
+          {"git", FINRAY_GIT},
+          {"compiler", FINRAY_COMPILER},
+          {"flags", FINRAY_FLAGS},
+          {"ceres", CERES_VERSION_STRING},
+          {"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." +
+                        std::to_string(EIGEN_MAJOR_VERSION) + "." +
+                        std::to_string(EIGEN_MINOR_VERSION)}};
+}
+
 std::string BenchmarkJson(const BenchmarkRun& run) {
   JsonEmitter json;
   json << YAML::BeginMap;
-  json.Pair("schema_version", 1);
-  json.Pair("tool", "finray_benchmark");
-  json.Pair("quick", run.quick);
-  json.Pair("rounds", run.rounds);
-  json.Pair("date", run.date);
-  json.Pair("command", run.command);
+  json.Pairs("schema_version", 1, "tool", "finray_benchmark", "quick",
+             run.quick, "rounds", run.rounds, "date", run.date, "command",
+             run.command);
   WriteFacts("finger",
              {{"name", run.finger_name},
               {"path", run.finger_path},
               {"sha256", run.finger_sha256}},
              &json);
-  json.Pair("reference", run.reference);
+  json.Pairs("reference", run.reference);
   WriteFacts("machine", run.machine, &json);
   WriteFacts("build", run.build, &json);
   WriteSettings(run.settings, &json);
   json.Maps("peers", run.peers, [&](const PeerStatus& peer) {
-    json.Pair("name", peer.name);
-    json.Pair("version", peer.version);
-    json.Pair("skipped", peer.skipped);
+    json.Pairs("name", peer.name, "version", peer.version, "skipped",
+               peer.skipped);
   });
   WriteScaling(run.scaling, &json);
   WriteConclusions(run.settings, &json);
@@ -166,30 +211,25 @@ std::string BenchmarkJson(const BenchmarkRun& run) {
 }
 
 std::string BenchmarkCsv(const BenchmarkRun& run) {
-  std::string csv = "id,task,scene,solver,how,words";
-  for (const NamedNumber& number : kNumbers) {
-    csv += std::string(",") + number.name;
-  }
-  csv += ",pareto\n";
-  std::vector<bool> on_front(run.settings.size());
-  for (const SceneFront& front : ParetoFronts(run.settings)) {
-    for (const std::size_t i : front.front) on_front[i] = true;
-  }
+  FrameTable table(run.settings.size());
   for (std::size_t i = 0; i < run.settings.size(); ++i) {
     const Measurement& m = run.settings[i];
-    for (const std::string& text : {m.name.id(), m.name.task, m.name.scene,
-                                    m.name.solver, m.name.how, m.words}) {
-      AppendCsvText(text, &csv);
-      csv += ',';
-    }
+    const std::pair<const char*, std::string> texts[] = {
+        {"id", m.name.id()},     {"task", m.name.task},
+        {"scene", m.name.scene}, {"solver", m.name.solver},
+        {"how", m.name.how},     {"words", m.words}};
+    for (const auto& [name, text] : texts) table.MutableText(name)[i] = text;
     for (const NamedNumber& number : kNumbers) {
-      const double value = number.of(m);
-      if (std::isfinite(value)) csv += NumberText(value);
-      csv += ',';
+      table.MutableNumbers(number.name)[i] = number.of(m);
     }
-    csv += on_front[i] ? "1\n" : "0\n";
+    table.MutableNumbers("pareto")[i] = 0;
   }
-  return csv;
+  for (const SceneFront& front : ParetoFronts(run.settings)) {
+    for (const std::size_t i : front.front) {
+      table.MutableNumbers("pareto")[i] = 1;
+    }
+  }
+  return table.ToCsv();
 }
 
 BenchmarkRun ReadBenchmark(const std::string& path) {

@@ -1,4 +1,4 @@
-#include "finray/benchmark/benchmark_files.h"
+#include "finray/benchmark/benchmark_run.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "finray/batch/latency_histogram.h"
+#include "finray/batch/live_rows.h"
 
 #include <gtest/gtest.h>
 

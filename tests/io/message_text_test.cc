@@ -1,4 +1,4 @@
-#include "finray/io/nearest_name.h"
+#include "finray/io/message_text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,8 @@
-#include "finray/io/nearest_name.h"
+#include "finray/io/message_text.h"
 
 #include <algorithm>
 #include <cctype>
 #include <numeric>
-
-#include "finray/io/shown_text.h"
 
 namespace finray {
 namespace {
@@ -66,6 +64,31 @@ std::string NearestName(const std::string& name,
 }
 
 }  // namespace
+
+std::string ShownLine(std::string_view text) {
+  constexpr std::size_t kLongest = 1000;
+  std::string shown(text.substr(0, kLongest));
+  for (char& c : shown) {
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';
+  }
+  if (text.size() > kLongest) shown += "...";
+  return shown;
+}
+
+std::string ShownText(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  const bool cut = text.size() > kLongest;
+  return "'" + ShownLine(text.substr(0, kLongest)) + (cut ? "..." : "") + "'";
+}
+
+std::string Joined(const std::vector<std::string>& words,
+                   const char* separator) {
+  std::string row;
+  for (const std::string& word : words) {
+    row += (&word == &words.front() ? "" : separator) + word;
+  }
+  return row;
+}
 
 std::string DidYouMean(const std::string& name,
                        const std::vector<std::string>& candidates) {
