@@ -7,9 +7,9 @@
 #include "finray/finger/geometry.h"
 #include "finray/io/csv_cells.h"
 #include "finray/io/error.h"
+#include "finray/io/message_text.h"
 #include "finray/io/number_text.h"
 #include "finray/io/sha256.h"
-#include "finray/io/message_text.h"
 #include "finray/io/yaml_emitter.h"
 
 namespace finray {
