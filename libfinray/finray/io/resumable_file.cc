@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <regex>
+#include <sstream>
 
 #include "finray/io/error.h"
 
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 // The lines of a journal are "checkpoint <bytes> <note> end", the last one
 // "finished <bytes> <note> end". A line that was cut short does not match.
-const std::regex kLine("(checkpoint|finished) ([0-9]{1,18}) (.*) end\n");
+constexpr char kEnd[] = " end";
 constexpr char kJournal[] = ".journal";
 
 // Returns the file behind a link.
@@ -42,8 +42,8 @@ std::string Header(const std::string& key) {
 
 std::string JournalLine(const char* kind, std::uint64_t bytes,
                         const std::string& note) {
-  return std::string(kind) + " " + std::to_string(bytes) + " " + note +
-         " end\n";
+  return std::string(kind) + " " + std::to_string(bytes) + " " + note + kEnd +
+         "\n";
 }
 
 }  // namespace
@@ -83,18 +83,24 @@ bool ResumableFile::Restore(const std::string& key) {
   std::string journal;
   Check(journal_.ReadAll(&journal));
   if (journal.rfind(Header(key), 0) != 0) return false;
-  auto rest = journal.cbegin() + static_cast<long>(Header(key).size());
+  std::size_t at = Header(key).size();
   bool any = false, finished = false;
   std::uint64_t bytes = 0;
   std::string note;
-  std::smatch line;
-  while (std::regex_search(rest, journal.cend(), line, kLine,
-                           std::regex_constants::match_continuous)) {
+  for (std::size_t end; (end = journal.find('\n', at)) != std::string::npos;
+       at = end + 1) {
+    std::istringstream line(journal.substr(at, end - at));
+    std::string kind, rest;
+    std::uint64_t covered;
+    if (!(line >> kind >> covered && line.get() == ' ')) break;
+    if (kind != "checkpoint" && kind != "finished") break;
+    std::getline(line, rest);
+    const std::size_t length = rest.size() - std::strlen(kEnd);
+    if (rest.size() < std::strlen(kEnd) || rest.substr(length) != kEnd) break;
     any = true;
-    finished = line[1] == "finished";
-    bytes = std::stoull(line[2]);
-    note = line[3];
-    rest = line[0].second;
+    finished = kind == "finished";
+    bytes = covered;
+    note = rest.substr(0, length);
   }
   if (!any) return false;
   std::error_code unknown;
@@ -109,7 +115,7 @@ bool ResumableFile::Restore(const std::string& key) {
              fs::file_size(path_, unknown) != bytes) {
     return false;
   }
-  Check(journal_.Truncate(rest - journal.cbegin()));
+  Check(journal_.Truncate(at));
   bytes_ = bytes;
   note_ = note;
   finished_ = !part;
