@@ -6,8 +6,8 @@
 #include "app.h"
 #include "finray/calib/analysis/plausibility.h"
 #include "finray/calib/report/calibration_result.h"
-#include "finray/calib/report/report.h"
 #include "finray/io/atomic_file.h"
+#include "finray/io/python_script.h"
 
 DEFINE_string(finger, "", "finger YAML to start from");
 DEFINE_string(plan, "", "plan YAML: free parameters, priors, noise");
@@ -131,7 +131,9 @@ int Run() {
                                       "\nStandard deviations and checks: "
                                       "calibration.yaml beside this file."));
   if (FLAGS_report) {
-    const std::string why_not = RenderReport(FLAGS_out_dir);
+    const std::string why_not =
+        RunPythonScript(FINRAY_REPORT_DIR "/render.py", {FLAGS_out_dir},
+                        "python3-matplotlib, python3-jinja2 and python3-yaml");
     if (!why_not.empty()) LOG(WARNING) << "no report.html: " << why_not;
   }
   PrintSummary(problem, result);

@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "calib/calibrated.h"
-#include "finray/calib/analysis/finger_covariance.h"
+#include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/report/calibration_result.h"
 #include "finray/finger/finger_yaml.h"
 #include "finray/finger/geometry.h"
@@ -150,7 +150,7 @@ TEST(ComparisonTest, OffsetsOfDifferentLogsAreNotCompared) {
   EXPECT_TRUE(same.of_other_logs.empty());
 
   std::filesystem::copy(a, folder.Path("b"));
-  text = Replaced(text, first.log_hashes[0], std::string(64, '0'));
+  text = Replaced(text, first.logs[0].sha256, std::string(64, '0'));
   text = Replaced(text, "gauge_2_offset_V", "gauge_9_offset_V");
   folder.Write("b/calibration.yaml", text);
   const Comparison other =

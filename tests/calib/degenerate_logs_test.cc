@@ -15,7 +15,7 @@
 
 #include "calib/log_rows.h"
 #include "calib/standard_log.h"
-#include "finray/calib/analysis/weak_direction_words.h"
+#include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/report/calibration_result.h"
 
 namespace finray {

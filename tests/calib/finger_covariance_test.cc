@@ -1,5 +1,3 @@
-#include "finray/calib/analysis/finger_covariance.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <random>
 
 #include "calib/standard_log.h"
+#include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/report/calibration_result.h"
 #include "finray/sensing/calibration_uncertainty.h"
 #include "sensing/gauge_volts.h"

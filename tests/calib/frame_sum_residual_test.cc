@@ -53,9 +53,7 @@ TEST(FrameSumResidualTest, ResidualBlockHasTheirCostAndDerivatives) {
     sums->cost = at.squaredNorm() / 2;
     return x[0] < 100;
   };
-  FrameSums at_start;
-  ASSERT_TRUE(sums_at(start, &at_start));
-  const FrameSumResidual block(start, units, at_start, sums_at);
+  const FrameSumResidual block(start, units, sums_at);
   for (const Eigen::VectorXd& z :
        {Eigen::VectorXd::Zero(4).eval(), Eigen::VectorXd::Ones(4).eval()}) {
     Eigen::VectorXd residuals(5);

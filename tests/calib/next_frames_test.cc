@@ -8,7 +8,7 @@
 
 #include "calib/calibrated.h"
 #include "calib/log_rows.h"
-#include "finray/calib/analysis/weak_direction_words.h"
+#include "finray/calib/analysis/identifiability.h"
 #include "finray/objects/circle_centre.h"
 
 namespace finray {

@@ -6,10 +6,8 @@
 #include <map>
 
 #include "calib/standard_log.h"
-#include "finray/calib/analysis/finger_covariance.h"
 #include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/problem/calibration_problem.h"
-#include "finray/calib/problem/offset_guess.h"
 #include "finray/calib/solve/robust_solve.h"
 
 namespace finray {

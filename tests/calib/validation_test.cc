@@ -8,7 +8,7 @@
 #include <random>
 
 #include "calib/calibrated.h"
-#include "finray/calib/analysis/finger_covariance.h"
+#include "finray/calib/analysis/identifiability.h"
 #include "finray/io/error.h"
 
 namespace finray {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "finray/calib/analysis/calibration_file.h"
 #include "finray/calib/problem/plan.h"
-#include "finray/calib/report/calibration_file.h"
 #include "finray/control/experiment.h"
 #include "finray/io/frame_table.h"
 #include "fuzz/feeding.h"

@@ -1,13 +1,10 @@
 #include "finray/residuals/frame_set.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <atomic>
 #include <cmath>
 #include <utility>
+
+#include "finray/residuals/parallel_frames.h"
 
 namespace finray {
 
@@ -76,17 +73,10 @@ void FrameSet::PrepareForEvaluation(bool /*evaluate_jacobians*/,
     for (Frame& frame : frames_) update(frame, &solver_);
     return;
   }
-  tbb::enumerable_thread_specific<EquilibriumSolver> solvers(solver_);
-  tbb::task_arena(threads_).execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, frames_.size(), 16),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        EquilibriumSolver& solver = solvers.local();
-                        for (std::size_t i = range.begin(); i < range.end();
-                             ++i) {
-                          update(frames_[i], &solver);
-                        }
-                      });
-  });
+  VisitInParallel(frames_.size(), threads_, solver_,
+                  [&](std::size_t i, EquilibriumSolver* solver) {
+                    update(frames_[i], solver);
+                  });
 }
 
 }  // namespace finray

@@ -3,10 +3,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
+#include <unsupported/Eigen/SpecialFunctions>
 
-#include "finray/calib/analysis/f_distribution.h"
+#include "finray/io/nan.h"
 #include "finray/io/number_text.h"
 
 namespace finray {
@@ -47,7 +47,6 @@ int LevelOf(const std::set<double>& levels, double value) {
 BenchLinearity Test(const std::vector<Reading>& readings,
                     const std::set<double>& angles, int offsets,
                     double reading_std_V) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   const auto n = static_cast<Eigen::Index>(readings.size());
   const auto levels = static_cast<int>(angles.size());
   Eigen::VectorXd volts(n);
@@ -136,6 +135,12 @@ std::vector<BenchLinearity> TestBenchLinearity(const Finger& finger,
     all.back().gauge = j;
   }
   return all;
+}
+
+double FTail(double f, int d1, int d2) {
+  if (d1 < 1 || d2 < 1 || std::isnan(f)) return kNaN;
+  if (f <= 0) return 1;
+  return Eigen::numext::betainc(0.5 * d2, 0.5 * d1, d2 / (d2 + d1 * f));
 }
 
 }  // namespace finray

@@ -7,7 +7,6 @@
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 #include "finray/io/nan.h"
-#include "finray/io/yaml_map.h"
 #include "finray/sensing/calibration_uncertainty.h"
 #include "finray/sensing/chi_squared.h"
 #include "finray/sensing/frame_estimator.h"
@@ -32,12 +31,12 @@ std::string LogOf(const std::string& parameter) {
 // Returns the SHA-256 of the log whose path ends in this name, or an empty text
 // if there is none.
 std::string HashOfLog(const CalibrationFile& file, const std::string& log) {
-  const YamlMap yaml = YamlMap::FromFile(file.path);
-  for (const YamlMap& map : yaml.Map("inputs").Maps("logs")) {
-    const std::string path = "/" + map.Text("path"), end = "/" + log;
+  const std::string end = "/" + log;
+  for (const CalibrationFile::Log& its : file.logs) {
+    const std::string path = "/" + its.path;
     if (path.size() >= end.size() &&
         path.compare(path.size() - end.size(), end.size(), end) == 0) {
-      return map.Text("sha256");
+      return its.sha256;
     }
   }
   return "";
@@ -241,10 +240,10 @@ Comparison Compare(const CalibrationFile& a, const CalibrationFile& b,
   }
   Comparison comparison;
   CompareParameters(a, b, &comparison);
-  for (const std::string& hash : a.log_hashes) {
-    comparison.shared_logs +=
-        std::find(b.log_hashes.begin(), b.log_hashes.end(), hash) !=
-        b.log_hashes.end();
+  for (const CalibrationFile::Log& log : a.logs) {
+    comparison.shared_logs += std::any_of(
+        b.logs.begin(), b.logs.end(),
+        [&](const auto& other) { return other.sha256 == log.sha256; });
   }
   // A finger without gauges senses nothing.
   if (!a.finger.gauges.empty()) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "finray/calib/report/calibration_file.h"
+#include "finray/calib/analysis/calibration_file.h"
 #include "finray/finger/discretization.h"
 #include "finray/io/frame_table.h"
 

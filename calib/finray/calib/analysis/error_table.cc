@@ -21,10 +21,9 @@ void EmitStatistics(const ErrorStatistics& errors, const char* quantity,
                     const char* unit, bool touching, YamlEmitter* yaml) {
   if (errors.frames + errors.judged == 0) return;
   const std::string name(quantity), suffix = std::string("_") + unit;
-  YamlPair(yaml, name + "_frames", errors.frames);
-  YamlPair(yaml, name + "_rms" + suffix, errors.rms());
-  YamlPair(yaml, name + "_bias" + suffix, errors.bias());
-  YamlPair(yaml, name + "_max" + suffix, errors.largest);
+  YamlPairs(yaml, name + "_frames", errors.frames, name + "_rms" + suffix,
+            errors.rms(), name + "_bias" + suffix, errors.bias(),
+            name + "_max" + suffix, errors.largest);
   // A free frame has no percentage: it would be a percentage of noise.
   if (touching && name == "force") {
     YamlPair(yaml, name + "_rms_percent", errors.percent());

@@ -7,8 +7,13 @@
 
 namespace finray {
 
-double ReferenceForce(const CalibrationFrame& frame) {
-  return frame.force_xy_N.allFinite() ? frame.force_xy_N.norm() : frame.force_N;
+Measurements GaugesOnly(const CalibrationFrame& frame) {
+  Measurements readings;
+  readings.gauges_V = frame.gauges_V;
+  if (frame.IsBench()) {
+    readings.gauges_V.assign(frame.gauges_V.size(), std::nan(""));
+  }
+  return readings;
 }
 
 ForceCheck CheckForces(const Finger& before, const Finger& after,
@@ -22,11 +27,7 @@ ForceCheck CheckForces(const Finger& before, const Finger& after,
   const auto estimate = [&](const Finger& finger, const CalibrationLogs& of) {
     std::vector<Measurements> readings;
     for (const CalibrationFrame& frame : of.frames) {
-      readings.emplace_back();
-      readings.back().gauges_V = frame.gauges_V;
-      if (frame.IsBench()) {  // the finger does not bend
-        readings.back().gauges_V.assign(frame.gauges_V.size(), std::nan(""));
-      }
+      readings.push_back(GaugesOnly(frame));
     }
     return EstimateFrames(finger, scene, discretization, readings, threads);
   };

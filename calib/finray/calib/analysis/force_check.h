@@ -33,14 +33,14 @@ struct ForceCheck {
   Error fitted, held_out;
 };
 
+/// Returns the readings of the gauges alone. Those of the bench are left out,
+/// because the finger does not bend there.
+Measurements GaugesOnly(const CalibrationFrame& frame);
+
 ForceCheck CheckForces(const Finger& before, const Finger& after,
                        const Plan& plan, const CalibrationLogs& logs,
                        const CalibrationLogs& corrected,
                        const Discretization& discretization, int threads);
-
-/// Returns the magnitude of the reference force of a frame, NaN if it was not
-/// measured.
-double ReferenceForce(const CalibrationFrame& frame);
 
 }  // namespace finray
 

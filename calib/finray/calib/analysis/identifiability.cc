@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "finray/calib/analysis/weak_direction_words.h"
 #include "finray/calib/solve/information_spectrum.h"
 #include "finray/io/number_text.h"
 
@@ -32,6 +31,54 @@ Eigen::MatrixXd BoundedCovariance(const Eigen::MatrixXd& information) {
 
 namespace {
 
+// Says in words which parameters move together along a weak direction.
+void DescribeInWords(CalibrationProblem& problem, WeakDirection* direction) {
+  double by_family[kParameterFamilies] = {};  // sums of squared shares
+  double sign[kParameterFamilies] = {};
+  bool one_sign[kParameterFamilies];
+  std::fill(std::begin(one_sign), std::end(one_sign), true);
+  const auto& all = problem.parameters().all();
+  for (const auto& component : direction->components) {
+    const int family = static_cast<int>(all[component.parameter].family);
+    by_family[family] += component.share * component.share;
+    if (sign[family] * component.share < 0) one_sign[family] = false;
+    sign[family] = component.share;
+  }
+  const auto share = [&](ParameterFamily family) {
+    return by_family[static_cast<int>(family)];
+  };
+  const auto same_sign = [&](ParameterFamily family) {
+    return one_sign[static_cast<int>(family)];
+  };
+  const bool both_beams = share(ParameterFamily::kFrontStiffness) > 0.1 &&
+                          share(ParameterFamily::kBackStiffness) > 0.1 &&
+                          sign[0] * sign[1] > 0;
+  const double beams = share(ParameterFamily::kFrontStiffness) +
+                       share(ParameterFamily::kBackStiffness);
+  const double gains = share(ParameterFamily::kGaugeGain);
+  std::string words;
+  if (both_beams && beams > 0.9) {
+    words = "front and back stiffness and all forces scale together";
+  } else if (both_beams && gains > 0.1 && beams + gains > 0.8 &&
+             same_sign(ParameterFamily::kGaugeGain)) {
+    words = kGainsAgainstStiffness;
+  } else {
+    for (const auto& component : direction->components) {
+      words +=
+          FormatText("%s%s (%+.2f)", words.empty() ? "" : ", ",
+                     all[component.parameter].name.c_str(), component.share);
+    }
+    words =
+        (direction->components.size() == 1 ? "alone: " : "together: ") + words;
+  }
+  direction->words = words;
+  direction->how_far =
+      direction->null
+          ? "the data do not say how far"
+          : FormatText("the data leave a std of %.3g times the prior's",
+                       direction->std_over_prior);
+}
+
 WeakDirection Describe(CalibrationProblem* problem,
                        const Eigen::VectorXd& vector, double std_over_prior) {
   WeakDirection direction;
@@ -49,7 +96,7 @@ WeakDirection Describe(CalibrationProblem* problem,
             [](const auto& a, const auto& b) {
               return std::abs(a.share) > std::abs(b.share);
             });
-  DescribeWeakDirection(*problem, &direction);
+  DescribeInWords(*problem, &direction);
   return direction;
 }
 
@@ -192,6 +239,32 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
         covariance.cwiseProduct(scaled(at.InformationOfFamily(f))).sum();
   }
   return result;
+}
+
+void KeepCovariance(const CalibrationParameters& parameters,
+                    const Identifiability& found, Finger* finger) {
+  ParameterCovariance covariance;
+  std::vector<int> kept;  // indices into parameters.free()
+  std::vector<double> std;
+  for (std::size_t i = 0; i < parameters.free().size(); ++i) {
+    const CalibrationParameter& p = parameters.FreeParameter(i);
+    if (!p.of_finger) continue;
+    kept.push_back(static_cast<int>(i));
+    covariance.parameters.push_back(*p.of_finger);
+    std.push_back(p.ValueStd(*p.variable, found.bounded_std[i]));
+  }
+  if (kept.empty()) return;
+  const auto n = static_cast<Eigen::Index>(kept.size());
+  covariance.std = Eigen::Map<const Eigen::VectorXd>(std.data(), n);
+  covariance.correlations = Eigen::MatrixXd::Identity(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      // Rounding may give a correlation above 1.
+      covariance.correlations(i, j) = covariance.correlations(j, i) =
+          std::clamp(found.correlation(kept[i], kept[j]), -1.0, 1.0);
+    }
+  }
+  finger->calibration = std::move(covariance);
 }
 
 }  // namespace finray

@@ -38,6 +38,10 @@ struct WeakDirection {
   std::string remedy;   ///< AdviseNextFrames sets it.
 };
 
+/// The words of the weak direction in which all gains are the unknown.
+constexpr char kGainsAgainstStiffness[] =
+    "all gauge gains scale together against front and back stiffness";
+
 /// Tells what the data determine. It comes from the reduced information matrix
 ///
 ///   S = sum over frames of C'C - C'E (E'E)^-1 E'C,
@@ -77,6 +81,13 @@ Eigen::MatrixXd BoundedCovariance(const Eigen::MatrixXd& information);
 
 Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
                                        const Linearization& at_solution);
+
+/// Gives the calibrated finger the part of the covariance that belongs to its
+/// own parameters. If the origin of the object is free too, that is their
+/// marginal covariance. It replaces what an earlier calibration has left,
+/// unless no parameter of the finger was free.
+void KeepCovariance(const CalibrationParameters& parameters,
+                    const Identifiability& found, Finger* finger);
 
 }  // namespace finray
 

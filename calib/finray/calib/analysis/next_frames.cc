@@ -8,7 +8,6 @@
 #include <string>
 #include <unordered_map>
 
-#include "finray/calib/analysis/next_frames_words.h"
 #include "finray/calib/solve/frame_pass.h"
 #include "finray/calib/solve/information_spectrum.h"
 #include "finray/calib/solve/linearized_frame.h"
@@ -35,21 +34,18 @@ bool Has(const std::vector<ResidualFamily>& families, ResidualFamily family) {
   return std::find(families.begin(), families.end(), family) != families.end();
 }
 
-// Returns a frame like those of the logs, without its measurements.
+// Returns a frame of the time and place of one in the logs, without its
+// measurements.
 CalibrationFrame Template(const CalibrationProblem& problem, bool contact) {
   CalibrationFrame frame;
   for (const CalibrationFrame& recorded : problem.logs().frames) {
     if (recorded.held_out || recorded.IsBench()) continue;
-    frame = recorded;
+    frame.log = recorded.log;
+    frame.time_s = recorded.time_s;
+    frame.temperature_C = recorded.temperature_C;
     if (recorded.contact == contact) break;
   }
   frame.contact = contact;
-  frame.held_out = false;
-  frame.force_N = frame.contact_mm = kNaN;
-  frame.force_xy_N.setConstant(kNaN);
-  frame.object_mm.setConstant(kNaN);
-  frame.pins.clear();
-  frame.tip_mm.setConstant(kNaN);
   return frame;
 }
 
@@ -310,7 +306,6 @@ FrameAdvice NextFrames::BestWith(const Measured& measured,
     FrameAdvice advice;
     advice.contact_mm = arc;
     advice.normal_N = force;
-    advice.measured = measured.all;
     advice.added = measured.added;
     Judge(information, direction, &advice);
     if (advice.ratio() < best.ratio()) best = advice;
@@ -349,8 +344,7 @@ std::vector<FrameAdvice> NextFrames::Best(
     if (!candidate.free) continue;
     FrameAdvice advice;
     advice.free = true;
-    advice.measured = {ResidualFamily::kGauge};
-    Judge(Information(candidate, advice.measured), direction, &advice);
+    Judge(Information(candidate, {ResidualFamily::kGauge}), direction, &advice);
     if (advice.ratio() <= kWorthwhile) all.push_back(advice);
   }
   // If two have the same effect, the one that asks for less comes first.

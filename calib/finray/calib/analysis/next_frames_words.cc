@@ -1,7 +1,6 @@
-#include "finray/calib/analysis/next_frames_words.h"
-
 #include <cmath>
 
+#include "finray/calib/analysis/next_frames.h"
 #include "finray/io/number_text.h"
 
 namespace finray {

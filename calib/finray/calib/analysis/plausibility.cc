@@ -5,7 +5,6 @@
 #include <map>
 #include <vector>
 
-#include "finray/calib/analysis/force_check.h"
 #include "finray/calib/solve/contact_guess.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"

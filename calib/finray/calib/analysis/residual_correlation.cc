@@ -74,7 +74,6 @@ ResidualCorrelation AnalyzeResidualCorrelation(const CalibrationLogs& all,
   const auto n = static_cast<int>(found.std.size());
   ResidualCorrelation result;
   result.enlargement.assign(n, 1);
-  result.tau.assign(n, 1);
 
   using Key = std::tuple<int, int, int, int>;  // the fields of Series
   std::map<Key, std::vector<double>> series;
@@ -119,13 +118,10 @@ ResidualCorrelation AnalyzeResidualCorrelation(const CalibrationLogs& all,
       influence[frames[at.frames[k]].log].push_back(by_pull.row(i).dot(
           at.pulls.col(static_cast<Eigen::Index>(k)).cast<double>()));
     }
-    IntegratedTime time = IntegrateTime(influence);
-    if (!result.correlated()) time.tau = 1;
-    result.tau[i] = time.tau;
+    const double tau = result.correlated() ? IntegrateTime(influence).tau : 1;
     const double share = of_data(i, i) / covariance(i, i);
     if (!(share > 1e-6)) continue;
-    const double v =
-        std::max(1.0, time.tau * Gamma(influence, 0) / of_data(i, i));
+    const double v = std::max(1.0, tau * Gamma(influence, 0) / of_data(i, i));
     result.enlargement[i] = std::sqrt(1 + (v - 1) * share);
   }
   return result;

@@ -61,9 +61,9 @@ struct ResidualCorrelation {
   };
   std::vector<Series> series;  ///< Series of 20 rows or more.
   double p_value = 1;
-  /// sqrt(var_i / C_ii) and tau_i of each free parameter. All are 1 if
-  /// residuals are white and have the stated std.
-  std::vector<double> enlargement, tau;
+  /// sqrt(var_i / C_ii) of each free parameter. All are 1 if residuals are
+  /// white and have the stated std.
+  std::vector<double> enlargement;
 
   /// Residuals of a family are larger than their std say if chi2 exceeds its
   /// degrees of freedom by kLoud std of chi2 and by the share kLoudShare. The

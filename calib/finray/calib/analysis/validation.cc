@@ -1,10 +1,5 @@
 #include "finray/calib/analysis/validation.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -12,6 +7,7 @@
 #include "finray/calib/analysis/force_check.h"
 #include "finray/io/error.h"
 #include "finray/io/nan.h"
+#include "finray/residuals/parallel_frames.h"
 
 namespace finray {
 namespace {
@@ -89,18 +85,11 @@ std::vector<FrameReference> ReferencesOf(const CalibrationLogs& logs,
     return reference;
   };
   std::vector<FrameReference> references(logs.frames.size());
-  tbb::enumerable_thread_specific<EquilibriumSolver> solvers(
-      EquilibriumSolver(finger, discretization));
-  tbb::task_arena(threads).execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, references.size(), 16),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        EquilibriumSolver& solver = solvers.local();
-                        for (std::size_t i = range.begin(); i < range.end();
-                             ++i) {
-                          references[i] = reference_of(logs.frames[i], &solver);
-                        }
-                      });
-  });
+  VisitInParallel(references.size(), threads,
+                  EquilibriumSolver(finger, discretization),
+                  [&](std::size_t i, EquilibriumSolver* solver) {
+                    references[i] = reference_of(logs.frames[i], solver);
+                  });
   return references;
 }
 
@@ -117,11 +106,7 @@ std::vector<FrameEstimate> EstimateLogs(const Finger& finger, const Plan& plan,
     std::vector<Measurements> readings;
     for (const int log = logs.frames[i].log;
          i < logs.frames.size() && logs.frames[i].log == log; ++i) {
-      readings.emplace_back();
-      readings.back().gauges_V = logs.frames[i].gauges_V;
-      if (logs.frames[i].IsBench()) {  // the finger does not bend
-        readings.back().gauges_V.assign(readings.back().gauges_V.size(), kNaN);
-      }
+      readings.push_back(GaugesOnly(logs.frames[i]));
     }
     const auto some =
         EstimateFrames(finger, scene, discretization, readings, threads);

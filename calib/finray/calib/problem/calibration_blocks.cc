@@ -11,10 +11,6 @@ bool AnyGauge(const CalibrationFrame& frame) {
                      [](double volts) { return std::isfinite(volts); });
 }
 
-bool HasForce(const CalibrationFrame& frame) {
-  return std::isfinite(frame.force_N) || frame.force_xy_N.allFinite();
-}
-
 MeasurementModel ModelOf(const Finger& finger, const Plan& plan) {
   MeasurementModel model;
   for (const Gauge& gauge : finger.gauges) {
@@ -48,15 +44,16 @@ bool CalibrationBlocks::HasEnough(const CalibrationFrame& frame) const {
   const bool object = frame.object_mm.allFinite() && model_.circle;
   const auto points = frame.pins.size() + frame.tip_mm.allFinite();
   if (!frame.contact) return points > 0;
-  return 2 * (points + object) + HasForce(frame) +
+  return 2 * (points + object) + std::isfinite(ReferenceForce(frame)) +
              std::isfinite(frame.contact_mm) >
          2;
 }
 
 bool CalibrationBlocks::HasReference(const CalibrationFrame& frame) const {
   const bool object = frame.object_mm.allFinite() && model_.circle;
-  return object || std::isfinite(frame.contact_mm) || HasForce(frame) ||
-         !frame.pins.empty() || frame.tip_mm.allFinite();
+  return object || std::isfinite(frame.contact_mm) ||
+         std::isfinite(ReferenceForce(frame)) || !frame.pins.empty() ||
+         frame.tip_mm.allFinite();
 }
 
 std::vector<FrameBlock> CalibrationBlocks::Of(const CalibrationFrame& frame,

@@ -44,8 +44,7 @@ bool Touches(const CalibrationFrame& frame, const Finger& finger,
       frame.object_mm.allFinite() && plan.scene.circle_radius_mm();
   const FamilyPlan& offset = plan.family(ParameterFamily::kForceOffset);
   if (object && offset.free) return Reaches(frame, finger, plan);
-  const double force =
-      frame.force_xy_N.allFinite() ? frame.force_xy_N.norm() : frame.force_N;
+  const double force = ReferenceForce(frame);
   if (std::isfinite(force)) {
     return force > kSignificant * std::hypot(plan.force_std_N,
                                              offset.prior_std.value_or(0));
@@ -62,42 +61,31 @@ void MarkHoldout(const Plan& plan, CalibrationLogs* logs) {
         static_cast<int>(std::lround(plan.holdout_fraction * n)), 1, n - 1);
     return (i + 1) * count / n > i * count / n;
   };
-  // Logs of the bench are always fitted.
-  if (plan.holdout_by == HoldoutBy::kLog) {
-    std::map<int, int> of_finger;  // their place among the logs of the finger
-    for (const CalibrationFrame& frame : logs->frames) {
-      if (!frame.IsBench()) of_finger.emplace(frame.log, 0);
-    }
-    int n = 0;
-    for (auto& [log, place] : of_finger) place = n++;
-    if (n < 2) {
-      throw InputError(
-          "holdout by log needs at least 2 logs of the finger, got " +
-          std::to_string(n) + "; use {by: block}");
-    }
-    for (CalibrationFrame& frame : logs->frames) {
-      if (frame.IsBench()) continue;
-      frame.held_out = chosen(of_finger.at(frame.log), n);
-    }
-    return;
-  }
-  std::map<std::pair<int, int>, int> blocks;  // (log, block): its place
+  const bool by_log = plan.holdout_by == HoldoutBy::kLog;
+  const auto block_of = [&](const CalibrationFrame& frame) {
+    return std::pair(frame.log, by_log ? 0 : frame.row / kHoldoutBlock);
+  };
+  // The place of each log or block. Logs of the bench are always fitted.
+  std::map<std::pair<int, int>, int> places;
   for (const CalibrationFrame& frame : logs->frames) {
-    if (!frame.IsBench()) blocks[{frame.log, frame.row / kHoldoutBlock}] = 0;
+    if (!frame.IsBench()) places[block_of(frame)] = 0;
   }
-  const int n = static_cast<int>(blocks.size());
+  int n = 0;
+  for (auto& [block, place] : places) place = n++;
+  if (n < 2 && by_log) {
+    throw InputError(
+        "holdout by log needs at least 2 logs of the finger, got " +
+        std::to_string(n) + "; use {by: block}");
+  }
   if (n < 2) {
     throw InputError("holdout by block: the logs are too short, " +
                      std::to_string(logs->frames.size()) +
                      " frames in all; blocks have " +
                      std::to_string(kHoldoutBlock));
   }
-  int i = 0;
-  for (auto& [block, place] : blocks) place = i++;
   for (CalibrationFrame& frame : logs->frames) {
-    if (frame.IsBench()) continue;
-    frame.held_out =
-        chosen(blocks.at({frame.log, frame.row / kHoldoutBlock}), n);
+    if (!frame.IsBench())
+      frame.held_out = chosen(places.at(block_of(frame)), n);
   }
 }
 
@@ -118,19 +106,6 @@ std::vector<std::string> NamesOf(const std::vector<std::string>& paths) {
     }
   }
   return names;
-}
-
-// Refuses numbers that no sensor reads: the sum of squares would overflow.
-void RefuseHuge(const FrameTable& table, const std::string& column,
-                const std::vector<double>& values) {
-  for (std::size_t row = 0; row < values.size(); ++row) {
-    if (std::isinf(values[row]) || !(std::abs(values[row]) > kLargest)) {
-      continue;
-    }
-    throw InputError(table.path() + ":" + std::to_string(table.line(row)) +
-                     ": " + column + ": expected a magnitude of " +
-                     FormatText("at most %g, found %g", kLargest, values[row]));
-  }
 }
 
 // Reads a column that a free parameter needs. A cell without a number gets the
@@ -160,8 +135,7 @@ void RefuseWithoutForces(const Plan& plan, const CalibrationLogs& logs) {
     if (!plan.family(family).free) continue;
     if (std::none_of(logs.frames.begin(), logs.frames.end(),
                      [](const CalibrationFrame& frame) {
-                       return std::isfinite(frame.force_N) ||
-                              frame.force_xy_N.allFinite();
+                       return std::isfinite(ReferenceForce(frame));
                      })) {
       throw InputError(std::string("plan: ") + name +
                        " is free, but no log has a force_N, or a force_x_N "
@@ -209,6 +183,7 @@ bool IsBenchLog(const FrameTable& table) {
                       [](double radius) { return std::isnan(radius); });
 }
 
+// Refuses numbers that no sensor reads: the sum of squares would overflow.
 void RefuseHugeCells(const FrameTable& table, int gauges) {
   std::vector<std::string> names = {
       "cylinder_radius_mm", "time_s",    "temperature_C", "force_N",
@@ -216,7 +191,16 @@ void RefuseHugeCells(const FrameTable& table, int gauges) {
       "contact_1_mm",       "tip_x_mm",  "tip_y_mm"};
   for (int j = 0; j < gauges; ++j) names.push_back(GaugeVolts(j));
   for (const std::string& name : names) {
-    RefuseHuge(table, name, table.NumbersOrNan(name));
+    const std::vector<double> values = table.NumbersOrNan(name);
+    for (std::size_t row = 0; row < values.size(); ++row) {
+      if (!std::isfinite(values[row]) || std::abs(values[row]) <= kLargest) {
+        continue;
+      }
+      throw InputError(
+          table.path() + ":" + std::to_string(table.line(row)) + ": " + name +
+          ": expected a magnitude of " +
+          FormatText("at most %g, found %g", kLargest, values[row]));
+    }
   }
 }
 
@@ -265,6 +249,10 @@ std::vector<CalibrationFrame> ReadLog(const FrameTable& table,
 }
 
 }  // namespace
+
+double ReferenceForce(const CalibrationFrame& frame) {
+  return frame.force_xy_N.allFinite() ? frame.force_xy_N.norm() : frame.force_N;
+}
 
 std::vector<bool> CalibrationLogs::HeldOut() const {
   std::vector<bool> held_out(paths.size(), true);

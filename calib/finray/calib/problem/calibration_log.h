@@ -1,9 +1,6 @@
 #ifndef FINRAY_CALIB_PROBLEM_CALIBRATION_LOG_H_
 #define FINRAY_CALIB_PROBLEM_CALIBRATION_LOG_H_
 
-#include <Eigen/Core>
-#include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -22,6 +19,10 @@ struct CalibrationFrame : Measurements {
   bool contact = false;
   bool held_out = false;  ///< The fit does not use the frame.
 };
+
+/// Returns the magnitude of the reference force of a frame, NaN if it was not
+/// measured.
+double ReferenceForce(const CalibrationFrame& frame);
 
 /// All logs of a calibration.
 struct CalibrationLogs {

@@ -94,6 +94,12 @@ class CalibrationProblem {
   std::map<int, std::string> rejected_, impossible_;
 };
 
+/// Gives parameters of their own to logs that are held out as a whole, if
+/// offsets or origins are per log. They get the values of the last log that was
+/// fitted. Their free frames then correct the offsets, with the finger as it is
+/// now: a lab zeroes its gauges too. Call it after a solve.
+void ZeroHeldOutLogs(CalibrationProblem* problem);
+
 }  // namespace finray
 
 #endif  // FINRAY_CALIB_PROBLEM_CALIBRATION_PROBLEM_H_

@@ -73,26 +73,19 @@ bool HasObject(const CalibrationLogs& logs, int log) {
 // temperature coefficients are small, so that zero is a good guess for them.
 double VagueStd(const CalibrationParameter& parameter) {
   switch (parameter.family) {
-    case ParameterFamily::kFrontStiffness:
-    case ParameterFamily::kBackStiffness:
-    case ParameterFamily::kForceScale:
-      return 0.2;
     case ParameterFamily::kGaugeGain:
       return 0.2 * parameter.scale;
     case ParameterFamily::kGaugeOffset:
       return 0.01;
-    case ParameterFamily::kRibLength:
-      return 0.2;
     case ParameterFamily::kObjectOrigin:
     case ParameterFamily::kCameraOrigin:
       return 1;
-    case ParameterFamily::kForceOffset:
-      return 0.2;
     case ParameterFamily::kTemperatureCoefficient:
     case ParameterFamily::kGaugeDrift:
-      break;
+      return std::numeric_limits<double>::infinity();
+    default:
+      return 0.2;
   }
-  return std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -302,15 +295,6 @@ Eigen::VectorXd CalibrationParameters::Units() const {
     units[static_cast<Eigen::Index>(k)] = p.prior_std.value_or(p.scale);
   }
   return units;
-}
-
-Eigen::VectorXd CalibrationParameters::PriorInformation() const {
-  Eigen::VectorXd information(static_cast<Eigen::Index>(free_.size()));
-  for (std::size_t k = 0; k < free_.size(); ++k) {
-    const std::optional<double>& std = all_[free_[k]].prior_std;
-    information[static_cast<Eigen::Index>(k)] = std ? 1 / (*std * *std) : 0;
-  }
-  return information;
 }
 
 Finger CalibrationParameters::Apply(const Finger& finger) const {

@@ -86,8 +86,6 @@ class CalibrationParameters {
   /// The unit of each free parameter: the std of its prior, or its scale if it
   /// has none.
   Eigen::VectorXd Units() const;
-  /// 1 / std^2 of the prior of each free parameter, 0 if it has none.
-  Eigen::VectorXd PriorInformation() const;
 
   /// Returns the finger with the present values. If offsets are per log, it
   /// gets those of last_fitted_log().

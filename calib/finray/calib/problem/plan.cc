@@ -130,17 +130,16 @@ Plan ReadPlan(const std::string& path) {
     map.AllowOnly({"force_std_N", "gauge_std_V", "object_std_mm",
                    "contact_std_mm", "pin_std_mm", "tip_std_mm"});
     plan.force_std_N = map.PositiveNumber("force_std_N", plan.force_std_N);
-    if (map.Has("gauge_std_V")) {
-      plan.gauge_std_V = map.PositiveNumber("gauge_std_V");
-    }
+    const auto read = [&](const char* key, std::optional<double>* std) {
+      if (map.Has(key)) *std = map.PositiveNumber(key);
+    };
+    read("gauge_std_V", &plan.gauge_std_V);
+    read("pin_std_mm", &plan.pin_std_mm);
+    read("tip_std_mm", &plan.tip_std_mm);
     plan.object_std_mm =
         map.PositiveNumber("object_std_mm", plan.object_std_mm);
     plan.contact_std_mm =
         map.PositiveNumber("contact_std_mm", plan.contact_std_mm);
-    if (map.Has("pin_std_mm"))
-      plan.pin_std_mm = map.PositiveNumber("pin_std_mm");
-    if (map.Has("tip_std_mm"))
-      plan.tip_std_mm = map.PositiveNumber("tip_std_mm");
   }
   if (yaml.Has("robust_loss")) {
     const YamlMap map = yaml.Map("robust_loss");

@@ -6,9 +6,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "finray/calib/analysis/finger_covariance.h"
 #include "finray/calib/analysis/validation.h"
-#include "finray/calib/problem/offset_guess.h"
 #include "finray/io/number_text.h"
 
 namespace finray {

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "finray/calib/report/calibration_checks_yaml.h"
 #include "finray/calib/report/calibration_result.h"
 #include "finray/calib/report/yaml_rows.h"
 
@@ -11,32 +10,25 @@ namespace {
 
 void EmitParameters(CalibrationProblem& problem, const Identifiability& found,
                     YamlEmitter* yaml) {
-  *yaml << YAML::Key << "parameters" << YAML::Value << YAML::BeginSeq;
-  const CalibrationParameters& parameters = problem.parameters();
   std::size_t free = 0;
-  for (std::size_t i = 0; i < parameters.all().size(); ++i) {
-    const CalibrationParameter& p = parameters.all()[i];
-    const bool is_free = free < parameters.free().size() &&
-                         parameters.free()[free] == static_cast<int>(i);
-    EmitRow(yaml, "name", p.name, "unit", p.unit, "initial", p.Value(p.initial),
-            "value", p.Value(*p.variable), "std",
-            is_free ? p.ValueStd(*p.variable, found.std[free]) : 0.0,
-            "prior_std",
-            p.prior_std ? p.ValueStd(p.initial, *p.prior_std) : std::nan(""),
-            "status",
-            ParameterStatusName(is_free ? found.status[free]
+  EmitSeq(yaml, "parameters", problem.parameters().all(), [&](const auto& p) {
+    YamlLine(yaml, "name", p.name, "unit", p.unit, "initial",
+             p.Value(p.initial), "value", p.Value(*p.variable), "std",
+             p.free ? p.ValueStd(*p.variable, found.std[free]) : 0.0,
+             "prior_std",
+             p.prior_std ? p.ValueStd(p.initial, *p.prior_std) : std::nan(""),
+             "status",
+             ParameterStatusName(p.free ? found.status[free]
                                         : ParameterStatus::kFixed));
-    free += is_free;
-  }
-  *yaml << YAML::EndSeq;
+    free += p.free;
+  });
 }
 
 void EmitWeakDirections(CalibrationProblem& problem,
                         const Identifiability& found, YamlEmitter* yaml) {
-  *yaml << YAML::Key << "weak_directions" << YAML::Value << YAML::BeginSeq;
-  for (const WeakDirection& weak : found.weak) {
+  EmitSeq(yaml, "weak_directions", found.weak, [&](const WeakDirection& weak) {
     *yaml << YAML::BeginMap;
-    EmitPairs(yaml, "words", weak.words, "how_far", weak.how_far, "remedy",
+    YamlPairs(yaml, "words", weak.words, "how_far", weak.how_far, "remedy",
               weak.remedy, "std_over_prior", weak.std_over_prior);
     *yaml << YAML::Key << "components" << YAML::Value << YAML::Flow
           << YAML::BeginMap;
@@ -46,14 +38,13 @@ void EmitWeakDirections(CalibrationProblem& problem,
                component.share);
     }
     *yaml << YAML::EndMap << YAML::EndMap;
-  }
-  *yaml << YAML::EndSeq;
+  });
 }
 
 void EmitCorrelations(CalibrationProblem& problem, const Identifiability& found,
                       YamlEmitter* yaml) {
   const CalibrationParameters& parameters = problem.parameters();
-  *yaml << YAML::Key << "correlations" << YAML::Value << YAML::BeginMap;
+  BeginMap(yaml, "correlations");
   *yaml << YAML::Key << "names" << YAML::Value << YAML::Flow << YAML::BeginSeq;
   for (const int i : parameters.free()) *yaml << parameters.all()[i].name;
   *yaml << YAML::EndSeq << YAML::Key << "matrix" << YAML::Value
@@ -69,13 +60,13 @@ void EmitCorrelations(CalibrationProblem& problem, const Identifiability& found,
 }
 
 void EmitNoise(const Identifiability& found, YamlEmitter* yaml) {
-  *yaml << YAML::Key << "noise" << YAML::Value << YAML::BeginMap;
+  BeginMap(yaml, "noise");
   for (int i = 0; i < kResidualFamilies; ++i) {
     const Identifiability::Noise& noise = found.noise[i];
     if (noise.residuals == 0) continue;
     *yaml << YAML::Key << ResidualFamilyName(static_cast<ResidualFamily>(i))
           << YAML::Value << YAML::Flow << YAML::BeginMap;
-    EmitPairs(yaml, "residuals", noise.residuals, "dof", noise.dof, "chi2",
+    YamlPairs(yaml, "residuals", noise.residuals, "dof", noise.dof, "chi2",
               noise.chi2);
     // The ratio means nothing without spare measurements.
     YamlPair(yaml, "chi2_per_dof",
@@ -89,7 +80,7 @@ void EmitBench(const std::vector<BenchLinearity>& bench, YamlEmitter* yaml) {
   if (bench.empty()) return;
   EmitSeq(yaml, "bench", bench, [&](const BenchLinearity& of_gauge) {
     *yaml << YAML::BeginMap;
-    EmitPairs(yaml, "gauge", of_gauge.gauge + 1, "readings", of_gauge.readings,
+    YamlPairs(yaml, "gauge", of_gauge.gauge + 1, "readings", of_gauge.readings,
               "linear", of_gauge.IsLinear(), "largest_angle_rad",
               of_gauge.largest_angle_rad, "quadratic_V_per_rad2",
               of_gauge.quadratic_V_per_rad2, "quadratic_std",
@@ -106,10 +97,10 @@ void EmitForceError(const ForceCheck::Error& error, YamlEmitter* yaml) {
   YamlPair(yaml, "frames", error.frames);
   if (error.frames > 0) {
     if (error.frames_before > 0) {
-      EmitPairs(yaml, "force_rms_error_before_N", error.before_rms_N,
+      YamlPairs(yaml, "force_rms_error_before_N", error.before_rms_N,
                 "frames_before", error.frames_before);
     }
-    EmitPairs(yaml, "force_rms_error_after_N", error.after_rms_N,
+    YamlPairs(yaml, "force_rms_error_after_N", error.after_rms_N,
               "force_max_error_after_N", error.after_max_N, "force_mean_N",
               error.reference_mean_N);
   }
@@ -117,7 +108,7 @@ void EmitForceError(const ForceCheck::Error& error, YamlEmitter* yaml) {
 }
 
 void EmitInputs(const CalibrationInputs& inputs, YamlEmitter* yaml) {
-  *yaml << YAML::Key << "inputs" << YAML::Value << YAML::BeginMap;
+  BeginMap(yaml, "inputs");
   EmitFile(yaml, "finger", inputs.finger_path);
   EmitFile(yaml, "plan", inputs.plan_path);
   EmitSeq(yaml, "logs", inputs.log_paths,
@@ -128,8 +119,8 @@ void EmitInputs(const CalibrationInputs& inputs, YamlEmitter* yaml) {
 void EmitConfig(const Plan& plan, const CalibrationInputs& inputs,
                 YamlEmitter* yaml) {
   constexpr const char* kLosses[] = {"none", "huber", "cauchy"};
-  *yaml << YAML::Key << "config" << YAML::Value << YAML::BeginMap;
-  EmitPairs(
+  BeginMap(yaml, "config");
+  YamlPairs(
       yaml, "command", inputs.command, "scheme", inputs.scheme, "resolution",
       inputs.resolution, "contacts",
       plan.scene.contacts ? std::to_string(*plan.scene.contacts) : "auto");
@@ -142,7 +133,7 @@ void EmitConfig(const Plan& plan, const CalibrationInputs& inputs,
   }
   YamlPair(yaml, "force_std_N", plan.force_std_N);
   if (plan.gauge_std_V) YamlPair(yaml, "gauge_std_V", *plan.gauge_std_V);
-  EmitPairs(yaml, "object_std_mm", plan.object_std_mm, "contact_std_mm",
+  YamlPairs(yaml, "object_std_mm", plan.object_std_mm, "contact_std_mm",
             plan.contact_std_mm);
   if (plan.pin_std_mm) YamlPair(yaml, "pin_std_mm", *plan.pin_std_mm);
   if (plan.tip_std_mm) YamlPair(yaml, "tip_std_mm", *plan.tip_std_mm);
@@ -150,12 +141,92 @@ void EmitConfig(const Plan& plan, const CalibrationInputs& inputs,
     YamlPair(yaml, "reference_C", plan.reference_temperature_C);
   }
   if (plan.gauge_walk) {
-    EmitPairs(yaml, "walk_std_V_per_sqrt_h", plan.gauge_walk->std_V_per_sqrt_h,
+    YamlPairs(yaml, "walk_std_V_per_sqrt_h", plan.gauge_walk->std_V_per_sqrt_h,
               "knot_every_s", plan.gauge_walk->knot_every_s);
   }
-  EmitPairs(yaml, "robust_loss", kLosses[static_cast<int>(plan.loss)],
+  YamlPairs(yaml, "robust_loss", kLosses[static_cast<int>(plan.loss)],
             "robust_scale", plan.loss_scale);
   *yaml << YAML::EndMap;
+}
+
+void EmitErrors(const CalibrationResult& result, YamlEmitter* yaml) {
+  BeginMap(yaml, "errors");
+  const std::pair<const char*, const CalibrationResult::Errors*> parts[] = {
+      {"fitted", &result.fitted}, {"held_out", &result.held_out}};
+  for (const auto& [name, errors] : parts) {
+    if (errors->after.contact.frames + errors->after.free.frames == 0) continue;
+    BeginMap(yaml, name);
+    *yaml << YAML::Key << "before" << YAML::Value;
+    EmitErrorTable(errors->before, yaml);
+    *yaml << YAML::Key << "after" << YAML::Value;
+    EmitErrorTable(errors->after, yaml);
+    *yaml << YAML::EndMap;
+  }
+  *yaml << YAML::EndMap;
+}
+
+void EmitCorrelation(CalibrationProblem& problem,
+                     const ResidualCorrelation& found, YamlEmitter* yaml) {
+  BeginMap(yaml, "residual_correlation");
+  YamlPairs(yaml, "correlated", found.correlated(), "p_value", found.p_value);
+  EmitSeq(yaml, "series", found.series, [&](const auto& series) {
+    *yaml << YAML::Flow << YAML::BeginMap;
+    YamlPairs(yaml, "log", problem.logs().paths[series.log], "family",
+              ResidualFamilyName(series.family));
+    if (series.gauge >= 0) YamlPair(yaml, "gauge", series.gauge + 1);
+    YamlPairs(yaml, "component", series.component + 1, "residuals",
+              series.time.n, "lag_1", series.time.lag_1, "integrated_time_rows",
+              series.time.tau, "effective_residuals", series.time.effective());
+    *yaml << YAML::EndMap;
+  });
+  *yaml << YAML::Key << "std_enlarged_by" << YAML::Value << YAML::Flow
+        << YAML::BeginMap;
+  const CalibrationParameters& parameters = problem.parameters();
+  for (std::size_t i = 0; found.enlarges() && i < found.enlargement.size();
+       ++i) {
+    YamlPair(yaml, parameters.FreeParameter(i).name, found.enlargement[i]);
+  }
+  *yaml << YAML::EndMap << YAML::EndMap;
+}
+
+void EmitLeaveOneLogOut(CalibrationProblem& problem,
+                        const LeaveOneLogOut& found, YamlEmitter* yaml) {
+  if (found.groups == 0) return;
+  BeginMap(yaml, "leave_one_log_out");
+  YamlPairs(yaml, "groups", found.groups, "all_converged", found.all_converged);
+  EmitSeq(yaml, "parameters", found.rows, [&](const auto& row) {
+    YamlLine(yaml, "name", problem.parameters().all()[row.parameter].name,
+             "spread", row.spread, "std", row.std, "spread_over_std",
+             row.ratio(), "p_value", row.p_value);
+  });
+  *yaml << YAML::EndMap;
+}
+
+void EmitNext(CalibrationProblem& problem,
+              const std::vector<FrameAdvice>& advised, YamlEmitter* yaml) {
+  EmitSeq(yaml, "next", advised, [&](const FrameAdvice& advice) {
+    *yaml << YAML::BeginMap;
+    YamlPairs(yaml, "words", advice.words, "kind",
+              advice.known_gains ? "known_gains"
+              : advice.free      ? "free_frames"
+                                 : "contact_frames");
+    if (!advice.known_gains) YamlPair(yaml, "frames", FrameAdvice::kFrames);
+    if (!advice.known_gains && !advice.free) {
+      // NaN means that the frames spread over the finger.
+      YamlPairs(yaml, "contact_mm", advice.contact_mm, "normal_N",
+                advice.normal_N);
+    }
+    *yaml << YAML::Key << "add" << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (const ResidualFamily family : advice.added) {
+      *yaml << ResidualFamilyName(family);
+    }
+    *yaml << YAML::EndSeq;
+    YamlPairs(
+        yaml, "parameter", problem.parameters().all()[advice.parameter].name,
+        "std_before", advice.parameter_std_before, "std_after",
+        advice.parameter_std_after, "direction_std_ratio", advice.ratio());
+    *yaml << YAML::EndMap;
+  });
 }
 
 }  // namespace
@@ -165,7 +236,7 @@ std::string CalibrationYaml(CalibrationProblem& problem,
                             const CalibrationInputs& inputs) {
   YamlEmitter yaml;
   yaml << YAML::BeginMap;
-  EmitPairs(&yaml, "schema_version", 1, "finger", problem.finger().name,
+  YamlPairs(&yaml, "schema_version", 1, "finger", problem.finger().name,
             "verdict", result.Verdict());
   EmitParameters(problem, result.identifiability, &yaml);
   EmitWeakDirections(problem, result.identifiability, &yaml);
@@ -176,22 +247,35 @@ std::string CalibrationYaml(CalibrationProblem& problem,
   EmitForceError(result.forces.fitted, &yaml);
   yaml << YAML::Key << "holdout" << YAML::Value;
   EmitForceError(result.forces.held_out, &yaml);
-  EmitChecks(problem, result, &yaml);
+  EmitSeq(&yaml, "starts", result.solution.starts, [&](const auto& start) {
+    YamlLine(&yaml, "start", start.name, "converged", start.converged,
+             "iterations", start.iterations, "cost", start.cost, "distance_std",
+             start.distance_std, "agrees", start.agrees);
+  });
+  EmitSeq(&yaml, "rejected_frames", problem.rejected(), [&](const auto& its) {
+    const CalibrationFrame& frame = problem.frame(its.first);
+    YamlLine(&yaml, "log", problem.logs().paths[frame.log], "row",
+             frame.row + 1, "reason", its.second);
+  });
+  EmitErrors(result, &yaml);
+  EmitCorrelation(problem, result.residual_correlation, &yaml);
+  EmitLeaveOneLogOut(problem, result.leave_one_log_out, &yaml);
+  EmitNext(problem, result.next, &yaml);
   EmitSeq(&yaml, "warnings", result.warnings, [&](const auto& warning) {
     yaml << YAML::BeginMap;
-    EmitPairs(&yaml, "code", warning.code, "text", warning.text, "remedy",
+    YamlPairs(&yaml, "code", warning.code, "text", warning.text, "remedy",
               warning.remedy);
     yaml << YAML::EndMap;
   });
   yaml << YAML::Key << "solver" << YAML::Value;
-  EmitRow(&yaml, "converged", result.solution.solve.converged, "iterations",
-          result.solution.solve.iterations, "initial_cost",
-          result.solution.solve.initial_cost, "final_cost",
-          result.solution.solve.final_cost);
+  YamlLine(&yaml, "converged", result.solution.solve.converged, "iterations",
+           result.solution.solve.iterations, "initial_cost",
+           result.solution.solve.initial_cost, "final_cost",
+           result.solution.solve.final_cost);
   EmitInputs(inputs, &yaml);
   EmitConfig(problem.plan(), inputs, &yaml);
   yaml << YAML::Key << "versions" << YAML::Value;
-  EmitRow(&yaml, "finray", FINRAY_VERSION, "ceres", CERES_VERSION_STRING);
+  YamlLine(&yaml, "finray", FINRAY_VERSION, "ceres", CERES_VERSION_STRING);
   yaml << YAML::EndMap;
   return std::string(yaml.c_str()) + "\n";
 }

@@ -37,9 +37,9 @@ std::string ComparisonYaml(const Comparison& comparison,
   EmitFile(&yaml, "b", b.path);
   YamlPair(&yaml, "shared_logs", comparison.shared_logs);
   EmitSeq(&yaml, "parameters", comparison.parameters, [&](const auto& p) {
-    EmitRow(&yaml, "name", p.name, "unit", p.unit, "a", p.a, "b", p.b,
-            "difference", p.b - p.a, "std", p.std, "difference_over_std",
-            p.sigma());
+    YamlLine(&yaml, "name", p.name, "unit", p.unit, "a", p.a, "b", p.b,
+             "difference", p.b - p.a, "std", p.std, "difference_over_std",
+             p.sigma());
   });
   const std::pair<const char*, const std::vector<std::string>&> unmatched[] = {
       {"only_in_a", comparison.only_a},
@@ -49,14 +49,14 @@ std::string ComparisonYaml(const Comparison& comparison,
     yaml << YAML::Key << key << YAML::Value << YAML::Flow << names;
   }
   yaml << YAML::Key << "all" << YAML::Value;
-  EmitRow(&yaml, "chi2", comparison.chi2, "dof", comparison.dof, "p_value",
-          comparison.p_value());
+  YamlLine(&yaml, "chi2", comparison.chi2, "dof", comparison.dof, "p_value",
+           comparison.p_value());
   const Comparison::Largest most = comparison.largest();
-  yaml << YAML::Key << "predicted" << YAML::Value << YAML::BeginMap;
-  EmitPairs(&yaml, "points", comparison.grid.size(), "compared_points",
+  BeginMap(&yaml, "predicted");
+  YamlPairs(&yaml, "points", comparison.grid.size(), "compared_points",
             most.points, "lost_points", most.lost);
   if (most.points > 0) {
-    EmitPairs(&yaml, "force_rms_difference_N", most.force_rms_N,
+    YamlPairs(&yaml, "force_rms_difference_N", most.force_rms_N,
               "force_max_difference_N", most.force_N,
               "force_max_difference_over_std", most.force_over_std,
               "contact_rms_difference_mm", most.contact_rms_mm,
@@ -65,8 +65,8 @@ std::string ComparisonYaml(const Comparison& comparison,
   }
   yaml << YAML::EndMap;
   EmitSeq(&yaml, "gates", gates, [&](const ComparisonGate& gate) {
-    EmitRow(&yaml, "name", gate.name, "bound", gate.bound, "value", gate.value,
-            "passed", gate.passed);
+    YamlLine(&yaml, "name", gate.name, "bound", gate.bound, "value", gate.value,
+             "passed", gate.passed);
   });
   YamlPair(&yaml, "version", FINRAY_VERSION);
   yaml << YAML::EndMap;

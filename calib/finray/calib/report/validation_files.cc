@@ -74,8 +74,8 @@ std::string ValidationYaml(const CalibrationLogs& logs,
   YamlPair(&yaml, "schema_version", 1);
   EmitVerdict(&yaml, gates);
   EmitSeq(&yaml, "gates", gates, [&](const GateResult& result) {
-    EmitRow(&yaml, "name", GateName(result.gate.quantity), "bound",
-            result.gate.bound, "value", result.value, "passed", result.passed);
+    YamlLine(&yaml, "name", GateName(result.gate.quantity), "bound",
+             result.gate.bound, "value", result.value, "passed", result.passed);
   });
   yaml << YAML::Key << "errors" << YAML::Value;
   EmitErrorTable(validation.errors, &yaml);
@@ -83,7 +83,7 @@ std::string ValidationYaml(const CalibrationLogs& logs,
     yaml << YAML::Key << "baseline" << YAML::Value;
     EmitErrorTable(*validation.baseline_errors, &yaml);
   }
-  yaml << YAML::Key << "inputs" << YAML::Value << YAML::BeginMap;
+  BeginMap(&yaml, "inputs");
   const std::pair<const char*, const std::string*> named[] = {
       {"finger", &inputs.finger_path},
       {"baseline", &inputs.baseline_path},
@@ -94,7 +94,7 @@ std::string ValidationYaml(const CalibrationLogs& logs,
   EmitSeq(&yaml, "logs", logs.paths,
           [&](const std::string& path) { EmitFile(&yaml, path); });
   yaml << YAML::EndMap;
-  EmitPairs(&yaml, "command", inputs.command, "version", FINRAY_VERSION);
+  YamlPairs(&yaml, "command", inputs.command, "version", FINRAY_VERSION);
   yaml << YAML::EndMap;
   return std::string(yaml.c_str()) + "\n";
 }

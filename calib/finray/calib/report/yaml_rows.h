@@ -9,20 +9,9 @@
 
 namespace finray {
 
-/// Emits keys and values, which alternate, into a mapping that has begun.
-template <class Value, class... Rest>
-void EmitPairs(YamlEmitter* yaml, const char* key, const Value& value,
-               const Rest&... rest) {
-  YamlPair(yaml, key, value);
-  if constexpr (sizeof...(rest) > 0) EmitPairs(yaml, rest...);
-}
-
-/// Emits a mapping of alternating keys and values in one line.
-template <class... KeysAndValues>
-void EmitRow(YamlEmitter* yaml, const KeysAndValues&... all) {
-  *yaml << YAML::Flow << YAML::BeginMap;
-  EmitPairs(yaml, all...);
-  *yaml << YAML::EndMap;
+/// Emits a key and begins its mapping.
+inline void BeginMap(YamlEmitter* yaml, const char* key) {
+  *yaml << YAML::Key << key << YAML::Value << YAML::BeginMap;
 }
 
 /// Emits a key and a sequence. `emit(element)` emits each element.
@@ -36,7 +25,7 @@ void EmitSeq(YamlEmitter* yaml, const char* key, const Elements& elements,
 
 /// Emits {path, sha256}, with or without a key.
 inline void EmitFile(YamlEmitter* yaml, const std::string& path) {
-  EmitRow(yaml, "path", path, "sha256", Sha256OfFile(path));
+  YamlLine(yaml, "path", path, "sha256", Sha256OfFile(path));
 }
 inline void EmitFile(YamlEmitter* yaml, const char* key,
                      const std::string& path) {

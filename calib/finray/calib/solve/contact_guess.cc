@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "finray/calib/analysis/force_check.h"
 #include "finray/finger/geometry.h"
 
 namespace finray {

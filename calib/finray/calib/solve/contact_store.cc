@@ -1,15 +1,11 @@
 #include "finray/calib/solve/contact_store.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "finray/io/nan.h"
+#include "finray/residuals/parallel_frames.h"
 
 namespace finray {
 
@@ -30,18 +26,12 @@ void ContactStore::Guess(const std::vector<int>& frames,
   }
   if (wanted.empty() && guess_) return;
   auto guess = std::make_unique<const ContactGuess>(&problem_);
-  tbb::enumerable_thread_specific<ContactGuess> guesses(*guess);
-  tbb::task_arena(problem_.threads()).execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, wanted.size(), 16),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-          ContactGuess& local = guesses.local();
-          for (std::size_t k = range.begin(); k < range.end(); ++k) {
-            const auto place = local.Of(problem_.frame(wanted[k]), from);
-            contacts_[wanted[k]] = {place.arc_mm, place.normal_N};
-          }
-        });
-  });
+  VisitInParallel(wanted.size(), problem_.threads(), *guess,
+                  [&](std::size_t k, ContactGuess* local) {
+                    const auto place =
+                        local->Of(problem_.frame(wanted[k]), from);
+                    contacts_[wanted[k]] = {place.arc_mm, place.normal_N};
+                  });
   guess_ = std::move(guess);
   guessed_at_ = Stiffness();
 }

@@ -30,31 +30,21 @@ struct FrameSums {
 class FrameSumResidual : public ceres::CostFunction {
  public:
   /// Computes the sums at x. Returns false if the model cannot be evaluated
-  /// there.
+  /// there. Ceres asks for the values and the derivatives at a point in two
+  /// calls, so the evaluator should remember the last point.
   using Evaluator =
       std::function<bool(const Eigen::VectorXd& x, FrameSums* sums)>;
 
-  /// `at_start` holds the sums at `start`.
   FrameSumResidual(const Eigen::VectorXd& start, const Eigen::MatrixXd& units,
-                   const FrameSums& at_start, Evaluator evaluator);
+                   Evaluator evaluator);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  bool EvaluateAt(const Eigen::VectorXd& z) const;
-  void Compress(const FrameSums& sums) const;
-
   Eigen::VectorXd start_;
   Eigen::MatrixXd units_;  // T
   Evaluator evaluator_;
-  // Ceres asks for the values and the derivatives at a point in two calls, so
-  // the last point is kept.
-  mutable Eigen::VectorXd at_;
-  mutable bool valid_;
-  mutable Eigen::VectorXd residuals_;
-  mutable Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>
-      jacobian_;
 };
 
 }  // namespace finray

@@ -64,18 +64,18 @@ SummedSolution SolveSummed(const std::vector<int>& frames,
   const Eigen::VectorXd first = problem->Values();
   Eigen::VectorXd tried = first;
   std::optional<Linearization> at;  // at the values `tried`
+  if (start && start->frames == frames) at = std::move(start);
   const auto evaluate = [&](const Eigen::VectorXd& x, FrameSums* sums) {
-    problem->SetValues(tried = x);
-    at.reset();
-    at = FitFrames(frames, problem, contacts);
+    if (!at || x != tried) {
+      problem->SetValues(tried = x);
+      at.reset();
+      at = FitFrames(frames, problem, contacts);
+    }
     if (at) *sums = SumsWithPriors(*at, problem->parameters());
     return at.has_value();
   };
   FrameSums sums;
-  if (start && start->frames == frames) {
-    at = std::move(start);
-    sums = SumsWithPriors(*at, problem->parameters());
-  } else if (!evaluate(first, &sums)) {
+  if (!evaluate(first, &sums)) {
     throw std::runtime_error("the model cannot be evaluated at the start");
   }
   const Eigen::MatrixXd units =
@@ -87,7 +87,7 @@ SummedSolution SolveSummed(const std::vector<int>& frames,
 
   ceres::Problem residuals;
   Eigen::VectorXd z = Eigen::VectorXd::Zero(units.cols());
-  residuals.AddResidualBlock(new FrameSumResidual(first, units, sums, evaluate),
+  residuals.AddResidualBlock(new FrameSumResidual(first, units, evaluate),
                              nullptr, z.data());
   ceres::Solver::Options options;
   options.logging_type = ceres::SILENT;
@@ -103,8 +103,7 @@ SummedSolution SolveSummed(const std::vector<int>& frames,
   ceres::Solve(options, &residuals, &summary);
   // Ceres may have rejected the last trial step. The contacts are then those of
   // that step.
-  const Eigen::VectorXd end = first + units * z;
-  if ((end != tried || !at) && !evaluate(end, &sums)) {
+  if (!evaluate(first + units * z, &sums)) {
     throw std::runtime_error("the model cannot be evaluated at the solution");
   }
   return {ReportOf(summary), std::move(*at)};

@@ -1,4 +1,4 @@
-#include "finray/calib/report/calibration_file.h"
+#include "finray/calib/analysis/calibration_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,11 +60,10 @@ CalibrationFile ReadCalibration(const std::string& path) {
   }
   std::vector<std::string> names;
   for (const YamlMap& map : yaml.Maps("parameters")) {
-    const std::string status = map.Choice(
-        "status", {"estimated", "prior_dominated", "unidentifiable", "fixed"});
-    file.parameters.push_back({map.Text("name"), map.Text("unit"),
-                               map.Number("value"), StdOf(map),
-                               status == "fixed"});
+    map.Choice("status",
+               {"estimated", "prior_dominated", "unidentifiable", "fixed"});
+    file.parameters.push_back(
+        {map.Text("name"), map.Text("unit"), map.Number("value"), StdOf(map)});
     names.push_back(file.parameters.back().name);
   }
   if (names.empty()) {
@@ -88,7 +87,7 @@ CalibrationFile ReadCalibration(const std::string& path) {
     }
   }
   for (const YamlMap& log : yaml.Map("inputs").Maps("logs")) {
-    file.log_hashes.push_back(log.Text("sha256"));
+    file.logs.push_back({log.Text("path"), log.Text("sha256")});
   }
   file.finger =
       ReadFinger((fs::path(file.path).parent_path() / "finger.yaml").string());

@@ -1,5 +1,5 @@
-#ifndef FINRAY_CALIB_REPORT_CALIBRATION_FILE_H_
-#define FINRAY_CALIB_REPORT_CALIBRATION_FILE_H_
+#ifndef FINRAY_CALIB_ANALYSIS_CALIBRATION_FILE_H_
+#define FINRAY_CALIB_ANALYSIS_CALIBRATION_FILE_H_
 
 #include <Eigen/Core>
 #include <string>
@@ -15,11 +15,13 @@ struct CalibrationFile {
     std::string name, unit;
     double value;
     double std;  ///< Infinite if not determined, 0 if fixed.
-    bool fixed;
   };
   std::string path;  ///< The path of calibration.yaml.
   std::vector<Parameter> parameters;
-  std::vector<std::string> log_hashes;  ///< SHA-256 of the logs.
+  struct Log {
+    std::string path, sha256;
+  };
+  std::vector<Log> logs;
   Finger finger;
 
   /// Returns null if there is no such parameter.
@@ -40,4 +42,4 @@ CalibrationFile ReadCalibration(const std::string& path);
 
 }  // namespace finray
 
-#endif  // FINRAY_CALIB_REPORT_CALIBRATION_FILE_H_
+#endif  // FINRAY_CALIB_ANALYSIS_CALIBRATION_FILE_H_
