@@ -1,6 +1,5 @@
 // Calibrates a finger from logs with a reference force, object place, or both.
 
-#include <algorithm>
 #include <cstdio>
 
 #include "app.h"
@@ -39,14 +38,12 @@ void PrintSummary(CalibrationProblem& problem,
   }
   std::printf("%s\n", OutPath("finger.yaml").c_str());
   const CalibrationSolution& solution = result.solution;
-  const auto agree =
-      std::count_if(solution.starts.begin(), solution.starts.end(),
-                    [](const StartReport& start) { return start.agrees; });
   std::printf("solver         %s after %d iterations",
               solution.solve.converged ? "converged" : "did not converge",
               solution.solve.iterations);
   if (!solution.starts.empty()) {
-    std::printf(", %ld of %zu starts agree", agree, solution.starts.size());
+    std::printf(", %d of %zu starts agree", solution.agreeing(),
+                solution.starts.size());
   }
   if (result.Verdict() != "good") {
     std::printf("; verdict: %s", result.Verdict().c_str());

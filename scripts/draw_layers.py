@@ -4,7 +4,7 @@
 draw_layers.py [OUT.svg]
 
 Exit code 1 if a room includes one that is not below it, or is not drawn, or looks into ladder/ where
-statics/equilibrium.h would do.
+statics/equilibrium.h would do, or if a folder of the calibration includes one that comes later.
 """
 
 import pathlib
@@ -29,6 +29,8 @@ ROWS = [
     [("finger", "description, geometry, gauges, covariance of a calibration")],
     [("io", "tables, YAML with places, files that survive")],
 ]
+# The folders of the calibration; each may include itself and those before it.
+STAGES = ["problem", "solve", "analysis", "report"]
 
 WIDTH, ROW, GAP, EDGE = 900, 46, 10, 16
 INK, QUIET, PAPER = "#22272e", "#5b6572", "#ffffff"
@@ -60,6 +62,15 @@ def faults(rooms):
         for name, path in used.items():
             if name not in level or level[name] <= level[room]:
                 yield f"{path.relative_to(ROOT)}: {room} includes {name}, which is not below it"
+
+
+def late_stages():
+    """Files of the calibration that include a later folder of it."""
+    for i, stage in enumerate(STAGES):
+        later = re.compile(f'#include "finray/calib/({"|".join(STAGES[i + 1:]) or "$"})/')
+        for path in sorted((ROOT / "calib/finray/calib" / stage).iterdir()):
+            if found := later.search(path.read_text(encoding="utf-8")):
+                yield f"{path.relative_to(ROOT)}: {stage} includes {found[1]}, which comes later"
 
 
 def peeks():
@@ -100,7 +111,7 @@ def picture(ceres):
 
 def main():
     rooms, ceres = includes()
-    found = [*faults(rooms), *peeks()]
+    found = [*faults(rooms), *late_stages(), *peeks()]
     print("\n".join(found), end="\n" if found else "")
     target = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "docs/pictures/layers.svg")
     target.write_text(picture(ceres), encoding="utf-8")

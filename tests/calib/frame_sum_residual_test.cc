@@ -1,10 +1,9 @@
-#include "finray/calib/solve/frame_sum_residual.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 
 #include "finray/calib/solve/linearization.h"
+#include "finray/calib/solve/summed_solve.h"
 
 namespace finray {
 namespace {

@@ -108,8 +108,8 @@ constexpr double kTogether = 3;
 // Adds the weak direction of the common gain. With a force sensor alone, gauges
 // tell how the finger bends, but not how far: a stiffer finger with higher
 // gains reads the same.
-void AddCommonGain(CalibrationProblem* problem,
-                   const Eigen::MatrixXd& covariance, Identifiability* found) {
+void AddCommonGain(CalibrationProblem* problem, Identifiability* found) {
+  const Eigen::MatrixXd& covariance = found->covariance;
   const CalibrationParameters& parameters = problem->parameters();
   const auto n = covariance.rows();
   std::vector<Eigen::VectorXd>
@@ -182,7 +182,8 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
   const Eigen::VectorXd& value = spectrum.values;
   const Eigen::MatrixXd& vector = spectrum.vectors;
 
-  const Eigen::MatrixXd covariance = BoundedCovariance(information + prior);
+  result.covariance = BoundedCovariance(information + prior);
+  const Eigen::MatrixXd& covariance = result.covariance;
   result.correlation.resize(n, n);
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
@@ -222,7 +223,7 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
                                        ? std::numeric_limits<double>::infinity()
                                        : 1 / std::sqrt(value[k])));
   }
-  AddCommonGain(problem, covariance, &result);
+  AddCommonGain(problem, &result);
 
   // The degrees of freedom of a family: each residual counts 1 less its
   // leverage, which is c cov c' by the parameters plus the leverage of its

@@ -61,6 +61,8 @@ struct Identifiability {
   std::vector<double> bounded_std;
   std::vector<ParameterStatus> status;  ///< One for each free parameter.
   Eigen::MatrixXd correlation;          ///< Free x free parameters.
+  /// (S + P)^-1 in the units of S and P, by BoundedCovariance.
+  Eigen::MatrixXd covariance;
   /// S and P of the variables in these units: the std of the prior, or the
   /// scale if there is none.
   Eigen::MatrixXd information, prior;

@@ -42,8 +42,7 @@ LeaveOneLogOut LeaveLogsOut(CalibrationProblem* problem,
   }
 
   CalibrationParameters& all = problem->parameters();
-  const Eigen::VectorXd variance =
-      BoundedCovariance(found.information + found.prior).diagonal();
+  const Eigen::VectorXd variance = found.covariance.diagonal();
   std::vector<int> tests(all.free().size(), 0);
   std::vector<double> largest_z(all.free().size(), 0);
   for (int group = 0; group < result.groups; ++group) {

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
 
 #include "finray/calib/solve/frame_pass.h"
 #include "finray/calib/solve/information_spectrum.h"
-#include "finray/calib/solve/linearized_frame.h"
+#include "finray/calib/solve/linearization.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/nan.h"
 #include "finray/objects/circle_centre.h"
@@ -113,281 +114,305 @@ bool Measure(const PointContact* contact, const std::vector<bool>& works,
   return true;
 }
 
-}  // namespace
-
-NextFrames::NextFrames(CalibrationProblem* problem,
-                       const CalibrationSolution& solution,
-                       const Identifiability& found)
-    : problem_(problem), found_(found) {
-  Predict(solution.contacts);
-  ChooseMeasurements(solution.at);
-}
-
-void NextFrames::Predict(const Contacts& contacts) {
-  const Finger finger = problem_->parameters().Apply(problem_->finger());
-  const Plan& plan = problem_->plan();
-  const double largest_N = LargestLoad(problem_->finger(), contacts);
-  for (int i = 1; i <= kHeights; ++i) {
-    arcs_mm_.push_back(std::round(finger.front_length_mm * i / (kHeights + 1)));
-  }
-  for (const double share : kLoads) {
-    forces_N_.push_back(TwoDigits(share * largest_N));
+// Holds the predicted frames, for advice on one direction after the other.
+class NextFrames {
+ public:
+  NextFrames(CalibrationProblem* problem, const CalibrationSolution& solution,
+             const Identifiability& found)
+      : problem_(problem), found_(found) {
+    Predict(solution.contacts);
+    ChooseMeasurements(solution.at);
   }
 
-  // The candidates stand behind a frame of each log, so that the parameters of
-  // all logs exist. They are linearised like any frame.
-  CalibrationLogs logs = problem_->logs();
-  logs.frames = FirstFrames(*problem_);
-  const int recorded = static_cast<int>(logs.frames.size());
-  EquilibriumSolver solver(finger, problem_->discretization());
-  const std::vector<bool> works = WorkingGauges(*problem_);
-  CalibrationFrame frame = Template(*problem_, false);
-  if (Measure(nullptr, works, plan, &solver, &frame)) {
-    logs.frames.push_back(frame);
-    candidates_.push_back({true, kNaN, 0, {}, {}, {}});
-  }
-  if (plan.scene.contacts.value_or(1) > 0) {
-    for (const double arc : arcs_mm_) {
-      for (const double force : forces_N_) {
-        frame = Template(*problem_, true);
-        const PointContact contact = {arc, force,
-                                      plan.scene.friction_coefficient};
-        if (!Measure(&contact, works, plan, &solver, &frame)) continue;
-        logs.frames.push_back(frame);
-        candidates_.push_back({false, arc, force, {}, {}, {}});
+  // Returns the best few pieces of advice, the best one first. Each set of
+  // measurements has its best place and load, if these shrink the std along
+  // `direction` to 90 % or less. `direction` is a unit vector over the free
+  // parameters, in units of Identifiability. An added measurement is named only
+  // if it helps more than the same frames without it.
+  std::vector<FrameAdvice> Best(const Eigen::VectorXd& direction) const {
+    std::vector<FrameAdvice> all;
+    for (const Measured& measured : measured_) {
+      const FrameAdvice best = BestWith(measured, direction);
+      double bar = 1;  // the ratio that fewer measurements reach
+      for (const FrameAdvice& other : all) {
+        const bool fewer = std::all_of(
+            other.added.begin(), other.added.end(),
+            [&](ResidualFamily f) { return Has(measured.added, f); });
+        if (fewer) bar = std::min(bar, other.ratio());
       }
+      if (best.ratio() <= kWorthwhile * bar) all.push_back(best);
     }
-  }
-  CalibrationProblem predicted(finger, plan, logs, problem_->discretization(),
-                               1);
-  // Parameters are found by name, because the candidates may have other steps
-  // of a drift and other sensors.
-  const CalibrationParameters& known = problem_->parameters();
-  std::unordered_map<std::string, int> column_of;  // by name
-  std::unordered_map<std::string, const double*> value_of;
-  for (const CalibrationParameter& p : known.all()) {
-    value_of[p.name] = p.variable;
-  }
-  const int columns = static_cast<int>(known.free().size());
-  for (int k = 0; k < columns; ++k) {
-    column_of[known.FreeParameter(k).name] = k;
-  }
-  const CalibrationParameters& of_predicted = predicted.parameters();
-  for (const CalibrationParameter& p : of_predicted.all()) {
-    if (const auto value = value_of.find(p.name); value != value_of.end()) {
-      *p.variable = *value->second;
-    }
-  }
-  ContactStore places(&predicted);
-  const auto keep = [&](int frame, const LinearizedFrame& at) {
-    const int index = frame - recorded;
-    if (index < 0) return;
-    Candidate& candidate = candidates_[index];
-    for (const auto& row : at.rows) candidate.families.push_back(row.family);
-    candidate.by_parameter.setZero(at.by_parameter.rows(), columns);
-    for (std::size_t k = 0; k < of_predicted.free().size(); ++k) {
-      const auto column = column_of.find(of_predicted.FreeParameter(k).name);
-      if (column == column_of.end()) continue;
-      candidate.by_parameter.col(column->second) =
-          at.by_parameter.col(static_cast<Eigen::Index>(k)) *
-          found_.unit[column->second];
-    }
-    candidate.by_contact = at.by_contact;
-  };
-  LinearizeFrames(predicted.candidates(), &predicted, &places, keep);
-  // Some candidates have too few measurements to be a frame.
-  candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(),
-                                   [](const Candidate& candidate) {
-                                     return candidate.families.empty();
-                                   }),
-                    candidates_.end());
-}
-
-// Chooses the sets of measurements: those of the contact frames in the logs,
-// and these with one or two more.
-void NextFrames::ChooseMeasurements(const Linearization& at_solution) {
-  Families recorded, missing;
-  for (const ResidualInfo& row : at_solution.rows) {
-    const bool contact = problem_->frame(row.frame).contact;
-    if (contact && !Has(recorded, row.family)) recorded.push_back(row.family);
-  }
-  if (!Has(recorded, ResidualFamily::kGauge)) {
-    recorded.push_back(ResidualFamily::kGauge);
-  }
-  for (const Candidate& candidate : candidates_) {
-    for (const ResidualFamily family : candidate.families) {
-      if (!Has(recorded, family) && !Has(missing, family)) {
-        missing.push_back(family);
-      }
-    }
-  }
-  measured_.push_back({recorded, {}});
-  const auto add = [&](const Families& added) {
-    Families all = recorded;
-    all.insert(all.end(), added.begin(), added.end());
-    measured_.push_back({all, added});
-  };
-  for (const ResidualFamily family : missing) add({family});
-  // If the logs have neither force nor place, one of the two may not be enough.
-  const bool placed = Has(recorded, ResidualFamily::kObject) ||
-                      Has(recorded, ResidualFamily::kContact);
-  for (const ResidualFamily place :
-       {ResidualFamily::kObject, ResidualFamily::kContact}) {
-    if (Has(missing, ResidualFamily::kForce) && Has(missing, place) &&
-        !placed) {
-      add({ResidualFamily::kForce, place});
-    }
-  }
-}
-
-Eigen::MatrixXd NextFrames::Information(const Candidate& candidate,
-                                        const Families& measured) const {
-  std::vector<int> rows;
-  for (std::size_t i = 0; i < candidate.families.size(); ++i) {
-    if (Has(measured, candidate.families[i])) {
-      rows.push_back(static_cast<int>(i));
-    }
-  }
-  const Eigen::MatrixXd j =
-      EliminateContact(candidate.by_parameter(rows, Eigen::all),
-                       candidate.by_contact(rows, Eigen::all));
-  return j.transpose() * j;
-}
-
-void NextFrames::Judge(const Eigen::MatrixXd& information,
-                       const Eigen::VectorXd& direction,
-                       FrameAdvice* advice) const {
-  const Eigen::MatrixXd known = found_.information + found_.prior;
-  std::vector<int> all(direction.size());
-  std::iota(all.begin(), all.end(), 0);
-  Spread(BoundedCovariance(known),
-         BoundedCovariance(known + FrameAdvice::kFrames * information),
-         direction, all, advice);
-}
-
-// Sets the std of the advice. The covariances have a row for each of these
-// `parameters`, which are indices of free parameters.
-void NextFrames::Spread(const Eigen::MatrixXd& before,
-                        const Eigen::MatrixXd& after,
-                        const Eigen::VectorXd& direction,
-                        const std::vector<int>& parameters,
-                        FrameAdvice* advice) const {
-  advice->std_before = std::sqrt(direction.dot(before * direction));
-  advice->std_after = std::sqrt(direction.dot(after * direction));
-  Eigen::Index largest;
-  direction.cwiseAbs().maxCoeff(&largest);
-  const int free = parameters[static_cast<std::size_t>(largest)];
-  advice->parameter = problem_->parameters().free()[free];
-  const CalibrationParameter& p =
-      problem_->parameters().all()[advice->parameter];
-  // Correlated residuals enlarge the std, and they will enlarge that of new
-  // frames likewise.
-  const double enlarged =
-      found_.bounded_std[free] /
-      (found_.unit[free] * std::sqrt(before(largest, largest)));
-  const auto std = [&](double variance) {
-    // A variance that has only the bound of BoundedCovariance is not known.
-    if (variance > 0.01 / std::pow(Identifiability::kNull, 2)) {
-      return std::numeric_limits<double>::infinity();
-    }
-    return p.ValueStd(*p.variable, found_.unit[free] * std::sqrt(variance)) *
-           enlarged;
-  };
-  advice->parameter_std_before = std(before(largest, largest));
-  advice->parameter_std_after = std(after(largest, largest));
-}
-
-FrameAdvice NextFrames::BestWith(const Measured& measured,
-                                 const Eigen::VectorXd& direction) const {
-  FrameAdvice best;
-  best.std_before = best.std_after = 1;
-  const auto consider = [&](const Eigen::MatrixXd& information, double arc,
-                            double force) {
-    FrameAdvice advice;
-    advice.contact_mm = arc;
-    advice.normal_N = force;
-    advice.added = measured.added;
-    Judge(information, direction, &advice);
-    if (advice.ratio() < best.ratio()) best = advice;
-  };
-  for (const double force : forces_N_) {
-    Eigen::MatrixXd spread =
-        Eigen::MatrixXd::Zero(direction.size(), direction.size());
-    int heights = 0;
     for (const Candidate& candidate : candidates_) {
-      if (candidate.free || candidate.normal_N != force) continue;
-      const Eigen::MatrixXd one = Information(candidate, measured.all);
-      consider(one, candidate.contact_mm, force);
-      spread += one;
-      ++heights;
+      if (!candidate.free) continue;
+      FrameAdvice advice;
+      advice.free = true;
+      Judge(Information(candidate, {ResidualFamily::kGauge}), direction,
+            &advice);
+      if (advice.ratio() <= kWorthwhile) all.push_back(advice);
     }
-    if (heights > 1) consider(spread / heights, kNaN, force);
+    // If two have the same effect, the one that asks for less comes first.
+    std::stable_sort(all.begin(), all.end(),
+                     [](const FrameAdvice& a, const FrameAdvice& b) {
+                       return a.std_after < 0.98 * b.std_after;
+                     });
+    if (all.size() > kMostAdvice) all.resize(kMostAdvice);
+    if (const auto known = KnownGains(direction)) all.push_back(*known);
+    for (FrameAdvice& advice : all) {
+      advice.words = DescribeNextFrames(*problem_, advice);
+    }
+    return all;
   }
-  return best;
-}
 
-std::vector<FrameAdvice> NextFrames::Best(
-    const Eigen::VectorXd& direction) const {
-  std::vector<FrameAdvice> all;
-  for (const Measured& measured : measured_) {
-    const FrameAdvice best = BestWith(measured, direction);
-    double bar = 1;  // the ratio that fewer measurements reach
-    for (const FrameAdvice& other : all) {
-      const bool fewer =
-          std::all_of(other.added.begin(), other.added.end(),
-                      [&](ResidualFamily f) { return Has(measured.added, f); });
-      if (fewer) bar = std::min(bar, other.ratio());
+ private:
+  // One predicted frame, with a row for each residual.
+  struct Candidate {
+    bool free;
+    double contact_mm, normal_N;
+    std::vector<ResidualFamily> families;  // one for each row
+    Eigen::MatrixXd by_parameter;          // in units of Identifiability
+    Eigen::Matrix<double, Eigen::Dynamic, 2> by_contact;
+  };
+  using Families = std::vector<ResidualFamily>;
+  // A set of measurements of contact frames.
+  struct Measured {
+    Families all, added;
+  };
+
+  void Predict(const Contacts& contacts) {
+    const Finger finger = problem_->parameters().Apply(problem_->finger());
+    const Plan& plan = problem_->plan();
+    const double largest_N = LargestLoad(problem_->finger(), contacts);
+    for (int i = 1; i <= kHeights; ++i) {
+      arcs_mm_.push_back(
+          std::round(finger.front_length_mm * i / (kHeights + 1)));
     }
-    if (best.ratio() <= kWorthwhile * bar) all.push_back(best);
+    for (const double share : kLoads) {
+      forces_N_.push_back(TwoDigits(share * largest_N));
+    }
+
+    // The candidates stand behind a frame of each log, so that the parameters
+    // of all logs exist. They are linearised like any frame.
+    CalibrationLogs logs = problem_->logs();
+    logs.frames = FirstFrames(*problem_);
+    const int recorded = static_cast<int>(logs.frames.size());
+    EquilibriumSolver solver(finger, problem_->discretization());
+    const std::vector<bool> works = WorkingGauges(*problem_);
+    CalibrationFrame frame = Template(*problem_, false);
+    if (Measure(nullptr, works, plan, &solver, &frame)) {
+      logs.frames.push_back(frame);
+      candidates_.push_back({true, kNaN, 0, {}, {}, {}});
+    }
+    if (plan.scene.contacts.value_or(1) > 0) {
+      for (const double arc : arcs_mm_) {
+        for (const double force : forces_N_) {
+          frame = Template(*problem_, true);
+          const PointContact contact = {arc, force,
+                                        plan.scene.friction_coefficient};
+          if (!Measure(&contact, works, plan, &solver, &frame)) continue;
+          logs.frames.push_back(frame);
+          candidates_.push_back({false, arc, force, {}, {}, {}});
+        }
+      }
+    }
+    CalibrationProblem predicted(finger, plan, logs, problem_->discretization(),
+                                 1);
+    // Parameters are found by name, because the candidates may have other steps
+    // of a drift and other sensors.
+    const CalibrationParameters& known = problem_->parameters();
+    std::unordered_map<std::string, int> column_of;  // by name
+    std::unordered_map<std::string, const double*> value_of;
+    for (const CalibrationParameter& p : known.all()) {
+      value_of[p.name] = p.variable;
+    }
+    const int columns = static_cast<int>(known.free().size());
+    for (int k = 0; k < columns; ++k) {
+      column_of[known.FreeParameter(k).name] = k;
+    }
+    const CalibrationParameters& of_predicted = predicted.parameters();
+    for (const CalibrationParameter& p : of_predicted.all()) {
+      if (const auto value = value_of.find(p.name); value != value_of.end()) {
+        *p.variable = *value->second;
+      }
+    }
+    ContactStore places(&predicted);
+    const auto keep = [&](int frame, const LinearizedFrame& at) {
+      const int index = frame - recorded;
+      if (index < 0) return;
+      Candidate& candidate = candidates_[index];
+      for (const auto& row : at.rows) candidate.families.push_back(row.family);
+      candidate.by_parameter.setZero(at.by_parameter.rows(), columns);
+      for (std::size_t k = 0; k < of_predicted.free().size(); ++k) {
+        const auto column = column_of.find(of_predicted.FreeParameter(k).name);
+        if (column == column_of.end()) continue;
+        candidate.by_parameter.col(column->second) =
+            at.by_parameter.col(static_cast<Eigen::Index>(k)) *
+            found_.unit[column->second];
+      }
+      candidate.by_contact = at.by_contact;
+    };
+    LinearizeFrames(predicted.candidates(), &predicted, &places, keep);
+    // Some candidates have too few measurements to be a frame.
+    candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(),
+                                     [](const Candidate& candidate) {
+                                       return candidate.families.empty();
+                                     }),
+                      candidates_.end());
   }
-  for (const Candidate& candidate : candidates_) {
-    if (!candidate.free) continue;
+
+  // Chooses the sets of measurements: those of the contact frames in the logs,
+  // and these with one or two more.
+  void ChooseMeasurements(const Linearization& at_solution) {
+    Families recorded, missing;
+    for (const ResidualInfo& row : at_solution.rows) {
+      const bool contact = problem_->frame(row.frame).contact;
+      if (contact && !Has(recorded, row.family)) recorded.push_back(row.family);
+    }
+    if (!Has(recorded, ResidualFamily::kGauge)) {
+      recorded.push_back(ResidualFamily::kGauge);
+    }
+    for (const Candidate& candidate : candidates_) {
+      for (const ResidualFamily family : candidate.families) {
+        if (!Has(recorded, family) && !Has(missing, family)) {
+          missing.push_back(family);
+        }
+      }
+    }
+    measured_.push_back({recorded, {}});
+    const auto add = [&](const Families& added) {
+      Families all = recorded;
+      all.insert(all.end(), added.begin(), added.end());
+      measured_.push_back({all, added});
+    };
+    for (const ResidualFamily family : missing) add({family});
+    // If the logs have neither force nor place, one of the two may not be
+    // enough.
+    const bool placed = Has(recorded, ResidualFamily::kObject) ||
+                        Has(recorded, ResidualFamily::kContact);
+    for (const ResidualFamily place :
+         {ResidualFamily::kObject, ResidualFamily::kContact}) {
+      if (Has(missing, ResidualFamily::kForce) && Has(missing, place) &&
+          !placed) {
+        add({ResidualFamily::kForce, place});
+      }
+    }
+  }
+
+  Eigen::MatrixXd Information(const Candidate& candidate,
+                              const Families& measured) const {
+    std::vector<int> rows;
+    for (std::size_t i = 0; i < candidate.families.size(); ++i) {
+      if (Has(measured, candidate.families[i])) {
+        rows.push_back(static_cast<int>(i));
+      }
+    }
+    const Eigen::MatrixXd j =
+        EliminateContact(candidate.by_parameter(rows, Eigen::all),
+                         candidate.by_contact(rows, Eigen::all));
+    return j.transpose() * j;
+  }
+
+  void Judge(const Eigen::MatrixXd& information,
+             const Eigen::VectorXd& direction, FrameAdvice* advice) const {
+    const Eigen::MatrixXd known = found_.information + found_.prior;
+    std::vector<int> all(direction.size());
+    std::iota(all.begin(), all.end(), 0);
+    Spread(found_.covariance,
+           BoundedCovariance(known + FrameAdvice::kFrames * information),
+           direction, all, advice);
+  }
+
+  // Sets the std of the advice. The covariances have a row for each of these
+  // `parameters`, which are indices of free parameters.
+  void Spread(const Eigen::MatrixXd& before, const Eigen::MatrixXd& after,
+              const Eigen::VectorXd& direction,
+              const std::vector<int>& parameters, FrameAdvice* advice) const {
+    advice->std_before = std::sqrt(direction.dot(before * direction));
+    advice->std_after = std::sqrt(direction.dot(after * direction));
+    Eigen::Index largest;
+    direction.cwiseAbs().maxCoeff(&largest);
+    const int free = parameters[static_cast<std::size_t>(largest)];
+    advice->parameter = problem_->parameters().free()[free];
+    const CalibrationParameter& p =
+        problem_->parameters().all()[advice->parameter];
+    // Correlated residuals enlarge the std, and they will enlarge that of new
+    // frames likewise.
+    const double enlarged =
+        found_.bounded_std[free] /
+        (found_.unit[free] * std::sqrt(before(largest, largest)));
+    const auto std = [&](double variance) {
+      // A variance that has only the bound of BoundedCovariance is not known.
+      if (variance > 0.01 / std::pow(Identifiability::kNull, 2)) {
+        return std::numeric_limits<double>::infinity();
+      }
+      return p.ValueStd(*p.variable, found_.unit[free] * std::sqrt(variance)) *
+             enlarged;
+    };
+    advice->parameter_std_before = std(before(largest, largest));
+    advice->parameter_std_after = std(after(largest, largest));
+  }
+
+  FrameAdvice BestWith(const Measured& measured,
+                       const Eigen::VectorXd& direction) const {
+    FrameAdvice best;
+    best.std_before = best.std_after = 1;
+    const auto consider = [&](const Eigen::MatrixXd& information, double arc,
+                              double force) {
+      FrameAdvice advice;
+      advice.contact_mm = arc;
+      advice.normal_N = force;
+      advice.added = measured.added;
+      Judge(information, direction, &advice);
+      if (advice.ratio() < best.ratio()) best = advice;
+    };
+    for (const double force : forces_N_) {
+      Eigen::MatrixXd spread =
+          Eigen::MatrixXd::Zero(direction.size(), direction.size());
+      int heights = 0;
+      for (const Candidate& candidate : candidates_) {
+        if (candidate.free || candidate.normal_N != force) continue;
+        const Eigen::MatrixXd one = Information(candidate, measured.all);
+        consider(one, candidate.contact_mm, force);
+        spread += one;
+        ++heights;
+      }
+      if (heights > 1) consider(spread / heights, kNaN, force);
+    }
+    return best;
+  }
+
+  // Predicts the same data with known gains: the rows and columns of the gains
+  // are left out.
+  std::optional<FrameAdvice> KnownGains(
+      const Eigen::VectorXd& direction) const {
+    const CalibrationParameters& parameters = problem_->parameters();
+    std::vector<int> others;
+    for (int i = 0; i < direction.size(); ++i) {
+      if (parameters.FreeParameter(i).family != ParameterFamily::kGaugeGain) {
+        others.push_back(i);
+      }
+    }
+    if (others.empty()) return {};
+    Eigen::VectorXd rest = direction(others);
+    const double share = rest.squaredNorm();
+    if (share < 0.05 || share > 0.95) return {};
+    rest /= std::sqrt(share);
+    const Eigen::MatrixXd known = found_.information + found_.prior;
     FrameAdvice advice;
-    advice.free = true;
-    Judge(Information(candidate, {ResidualFamily::kGauge}), direction, &advice);
-    if (advice.ratio() <= kWorthwhile) all.push_back(advice);
+    advice.known_gains = true;
+    Spread(found_.covariance(others, others),
+           BoundedCovariance(known(others, others)), rest, others, &advice);
+    if (advice.ratio() > 0.5) return {};
+    return advice;
   }
-  // If two have the same effect, the one that asks for less comes first.
-  std::stable_sort(all.begin(), all.end(),
-                   [](const FrameAdvice& a, const FrameAdvice& b) {
-                     return a.std_after < 0.98 * b.std_after;
-                   });
-  if (all.size() > kMostAdvice) all.resize(kMostAdvice);
-  if (const auto known = KnownGains(direction)) all.push_back(*known);
-  for (FrameAdvice& advice : all) {
-    advice.words = DescribeNextFrames(*problem_, advice);
-  }
-  return all;
-}
 
-// Predicts the same data with known gains: the rows and columns of the gains
-// are left out.
-std::optional<FrameAdvice> NextFrames::KnownGains(
-    const Eigen::VectorXd& direction) const {
-  const CalibrationParameters& parameters = problem_->parameters();
-  std::vector<int> others;
-  for (int i = 0; i < direction.size(); ++i) {
-    if (parameters.FreeParameter(i).family != ParameterFamily::kGaugeGain) {
-      others.push_back(i);
-    }
-  }
-  if (others.empty()) return {};
-  Eigen::VectorXd rest = direction(others);
-  const double share = rest.squaredNorm();
-  if (share < 0.05 || share > 0.95) return {};
-  rest /= std::sqrt(share);
-  const Eigen::MatrixXd known = found_.information + found_.prior;
-  FrameAdvice advice;
-  advice.known_gains = true;
-  Spread(BoundedCovariance(known)(others, others),
-         BoundedCovariance(known(others, others)), rest, others, &advice);
-  if (advice.ratio() > 0.5) return {};
-  return advice;
-}
+  CalibrationProblem* problem_;
+  const Identifiability& found_;
+  std::vector<double> arcs_mm_, forces_N_;
+  std::vector<Candidate> candidates_;
+  std::vector<Measured> measured_;
+};
 
-Eigen::VectorXd NextFrames::WorstDirection() const {
-  return InformationSpectrum(found_.information).vectors.col(0);
-}
+}  // namespace
 
 std::vector<FrameAdvice> AdviseNextFrames(CalibrationProblem* problem,
                                           const CalibrationSolution& solution,
@@ -399,7 +424,8 @@ std::vector<FrameAdvice> AdviseNextFrames(CalibrationProblem* problem,
                                  "the finger would help much; give a prior"
                                : best[0].words;
   }
-  return next.Best(next.WorstDirection());
+  // The direction that the data determine worst.
+  return next.Best(InformationSpectrum(found->information).vectors.col(0));
 }
 
 }  // namespace finray

@@ -1,7 +1,6 @@
 #ifndef FINRAY_CALIB_ANALYSIS_NEXT_FRAMES_H_
 #define FINRAY_CALIB_ANALYSIS_NEXT_FRAMES_H_
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,57 +41,6 @@ struct FrameAdvice {
   std::string words;
 
   double ratio() const { return std_after / std_before; }
-};
-
-/// Holds the predicted frames, for advice on one direction after the other.
-class NextFrames {
- public:
-  NextFrames(CalibrationProblem* problem, const CalibrationSolution& solution,
-             const Identifiability& found);
-
-  /// Returns the best few pieces of advice, the best one first. Each set of
-  /// measurements has its best place and load, if these shrink the std along
-  /// `direction` to 90 % or less. `direction` is a unit vector over the free
-  /// parameters, in units of Identifiability. An added measurement is named
-  /// only if it helps more than the same frames without it.
-  std::vector<FrameAdvice> Best(const Eigen::VectorXd& direction) const;
-
-  /// The direction that the data determine worst.
-  Eigen::VectorXd WorstDirection() const;
-
- private:
-  // One predicted frame, with a row for each residual.
-  struct Candidate {
-    bool free;
-    double contact_mm, normal_N;
-    std::vector<ResidualFamily> families;  // one for each row
-    Eigen::MatrixXd by_parameter;          // in units of Identifiability
-    Eigen::Matrix<double, Eigen::Dynamic, 2> by_contact;
-  };
-  using Families = std::vector<ResidualFamily>;
-  // A set of measurements of contact frames.
-  struct Measured {
-    Families all, added;
-  };
-
-  void Predict(const Contacts& contacts);
-  void ChooseMeasurements(const Linearization& at_solution);
-  Eigen::MatrixXd Information(const Candidate& candidate,
-                              const Families& measured) const;
-  FrameAdvice BestWith(const Measured& measured,
-                       const Eigen::VectorXd& direction) const;
-  std::optional<FrameAdvice> KnownGains(const Eigen::VectorXd& direction) const;
-  void Judge(const Eigen::MatrixXd& information,
-             const Eigen::VectorXd& direction, FrameAdvice* advice) const;
-  void Spread(const Eigen::MatrixXd& before, const Eigen::MatrixXd& after,
-              const Eigen::VectorXd& direction,
-              const std::vector<int>& parameters, FrameAdvice* advice) const;
-
-  CalibrationProblem* problem_;
-  const Identifiability& found_;
-  std::vector<double> arcs_mm_, forces_N_;
-  std::vector<Candidate> candidates_;
-  std::vector<Measured> measured_;
 };
 
 /// Says the advice in words, e.g. "20 frames at 98 mm with 6 N would shrink the

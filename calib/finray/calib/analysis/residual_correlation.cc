@@ -77,8 +77,6 @@ ResidualCorrelation AnalyzeResidualCorrelation(const CalibrationLogs& all,
 
   using Key = std::tuple<int, int, int, int>;  // the fields of Series
   std::map<Key, std::vector<double>> series;
-  const Eigen::MatrixXd covariance =
-      BoundedCovariance(found.information + found.prior);
   // The number of residuals so far in the frame, by family and gauge.
   std::map<std::pair<int, int>, int> components;
   for (std::size_t i = 0; i < at.rows.size(); ++i) {
@@ -110,6 +108,7 @@ ResidualCorrelation AnalyzeResidualCorrelation(const CalibrationLogs& all,
   }
   if (!result.enlarges()) return result;
 
+  const Eigen::MatrixXd& covariance = found.covariance;
   const Eigen::MatrixXd by_pull = covariance * found.unit.asDiagonal();
   const Eigen::MatrixXd of_data = covariance * found.information * covariance;
   for (int i = 0; i < n; ++i) {

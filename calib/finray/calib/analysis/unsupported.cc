@@ -66,8 +66,7 @@ std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,
   std::vector<Unsupported> unsupported;
   Unsupported offsets, contradicted;
   const double usual = UsualGain(parameters);
-  const Eigen::VectorXd shares =
-      BoundedCovariance(found.information + found.prior).diagonal();
+  const Eigen::VectorXd shares = found.covariance.diagonal();
   for (std::size_t k = 0; k < parameters.free().size(); ++k) {
     if (found.status[k] == ParameterStatus::kUnidentifiable) continue;
     const CalibrationParameter& p = parameters.FreeParameter(k);

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "finray/batch/batch_estimation.h"
-#include "finray/calib/analysis/force_check.h"
 #include "finray/io/error.h"
 #include "finray/io/nan.h"
 #include "finray/residuals/parallel_frames.h"
@@ -23,6 +22,40 @@ double TouchedAt(const CalibrationFrame& frame, const Plan& plan,
   return one ? found.contacts[0].arc_mm : kNaN;
 }
 
+// Returns the readings of the gauges alone. Those of the bench are left out,
+// because the finger does not bend there.
+Measurements GaugesOnly(const CalibrationFrame& frame) {
+  Measurements readings;
+  readings.gauges_V = frame.gauges_V;
+  if (frame.IsBench()) {
+    readings.gauges_V.assign(frame.gauges_V.size(), kNaN);
+  }
+  return readings;
+}
+
+// Estimates all frames from the gauges alone, log by log.
+std::vector<FrameEstimate> EstimateLogs(const Finger& finger, const Plan& plan,
+                                        const CalibrationLogs& logs,
+                                        const Discretization& discretization,
+                                        int threads) {
+  Scene scene = plan.scene;
+  // The other measurements are the reference, so the estimate does not use
+  // them.
+  scene.object_std_mm = scene.pin_std_mm = scene.tip_std_mm = std::nullopt;
+  std::vector<FrameEstimate> all;
+  for (std::size_t i = 0; i < logs.frames.size();) {
+    std::vector<Measurements> readings;
+    for (const int log = logs.frames[i].log;
+         i < logs.frames.size() && logs.frames[i].log == log; ++i) {
+      readings.push_back(GaugesOnly(logs.frames[i]));
+    }
+    const auto some =
+        EstimateFrames(finger, scene, discretization, readings, threads);
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
 bool HasForce(const Validation& validation) {
   return std::any_of(
       validation.references.begin(), validation.references.end(),
@@ -34,8 +67,6 @@ bool HasPlace(const Validation& validation) {
       [](const auto& r) { return r.contact && std::isfinite(r.contact_mm); });
 }
 
-double Lower(double a, double b) { return std::fmin(a, b); }
-
 double GateValue(const ErrorRow& errors, Gate::Quantity quantity) {
   switch (quantity) {
     case Gate::Quantity::kForceRms:
@@ -45,21 +76,15 @@ double GateValue(const ErrorRow& errors, Gate::Quantity quantity) {
     case Gate::Quantity::kContactRms:
       return errors.contact_mm.rms();
     case Gate::Quantity::kCoverage68:
-      return Lower(errors.force_N.coverage_68_percent(),
-                   errors.contact_mm.coverage_68_percent());
+      return std::fmin(errors.force_N.coverage_68_percent(),
+                       errors.contact_mm.coverage_68_percent());
     case Gate::Quantity::kCoverage95:
-      return Lower(errors.force_N.coverage_95_percent(),
-                   errors.contact_mm.coverage_95_percent());
+      return std::fmin(errors.force_N.coverage_95_percent(),
+                       errors.contact_mm.coverage_95_percent());
     case Gate::Quantity::kUsable:
       return errors.usable_percent();
   }
   return kNaN;
-}
-
-bool IsUpperBound(Gate::Quantity quantity) {
-  return quantity == Gate::Quantity::kForceRms ||
-         quantity == Gate::Quantity::kForcePercent ||
-         quantity == Gate::Quantity::kContactRms;
 }
 
 }  // namespace
@@ -93,26 +118,66 @@ std::vector<FrameReference> ReferencesOf(const CalibrationLogs& logs,
   return references;
 }
 
-std::vector<FrameEstimate> EstimateLogs(const Finger& finger, const Plan& plan,
-                                        const CalibrationLogs& logs,
-                                        const Discretization& discretization,
-                                        int threads) {
+ForceCheck CheckForces(const Finger& before, const Finger& after,
+                       const Plan& plan, const CalibrationLogs& logs,
+                       const CalibrationLogs& corrected,
+                       const Discretization& discretization, int threads) {
+  // A calibration's frames have one contact or none.
   Scene scene = plan.scene;
-  // The other measurements are the reference, so the estimate does not use
-  // them.
-  scene.object_std_mm = scene.pin_std_mm = scene.tip_std_mm = std::nullopt;
-  std::vector<FrameEstimate> all;
-  for (std::size_t i = 0; i < logs.frames.size();) {
-    std::vector<Measurements> readings;
-    for (const int log = logs.frames[i].log;
-         i < logs.frames.size() && logs.frames[i].log == log; ++i) {
-      readings.push_back(GaugesOnly(logs.frames[i]));
-    }
-    const auto some =
-        EstimateFrames(finger, scene, discretization, readings, threads);
-    all.insert(all.end(), some.begin(), some.end());
+  scene.most_contacts = 1;
+  scene.pin_std_mm = scene.tip_std_mm = std::nullopt;
+  ForceCheck check;
+  check.before.resize(logs.frames.size());
+  check.has_before.assign(logs.frames.size(), false);
+  // A contact has two unknowns, so fewer than two gauges give no estimate.
+  if (before.gauges.size() < 2) {
+    check.after.resize(logs.frames.size());
+    return check;
   }
-  return all;
+  const std::size_t frames = logs.frames.size();
+  const std::size_t some = std::min(frames, ForceCheck::kMostBefore);
+  std::vector<Measurements> spread, all;
+  for (std::size_t k = 0; k < some; ++k) {
+    spread.push_back(GaugesOnly(logs.frames[k * frames / some]));
+  }
+  for (const CalibrationFrame& frame : corrected.frames) {
+    all.push_back(GaugesOnly(frame));
+  }
+  const std::vector<FrameEstimate> were =
+      EstimateFrames(before, scene, discretization, spread, threads);
+  for (std::size_t k = 0; k < some; ++k) {
+    check.has_before[k * frames / some] = true;
+    check.before[k * frames / some] = were[k];
+  }
+  check.after = EstimateFrames(after, scene, discretization, all, threads);
+  const double per_normal = std::hypot(1, plan.scene.friction_coefficient);
+  for (std::size_t i = 0; i < logs.frames.size(); ++i) {
+    const double force = ReferenceForce(corrected.frames[i]);
+    const double was = per_normal * check.before[i].contact[0].normal_N - force;
+    const double is = per_normal * check.after[i].contact[0].normal_N - force;
+    ForceCheck::Error& error =
+        logs.frames[i].held_out ? check.held_out : check.fitted;
+    if (!std::isnan(was)) {
+      ++error.frames_before;
+      error.before_rms_N += was * was;
+    }
+    if (std::isnan(is)) continue;
+    ++error.frames;
+    error.after_rms_N += is * is;
+    error.after_max_N = std::max(error.after_max_N, std::abs(is));
+    error.reference_mean_N += force;
+  }
+  for (ForceCheck::Error* error : {&check.fitted, &check.held_out}) {
+    if (error->frames_before > 0) {
+      error->before_rms_N = std::sqrt(
+          error->before_rms_N / static_cast<double>(error->frames_before));
+    }
+    if (error->frames == 0) continue;
+    const auto n = static_cast<double>(error->frames);
+    error->after_rms_N = std::sqrt(error->after_rms_N / n);
+    error->reference_mean_N /= n;
+  }
+  return check;
 }
 
 Validation Validate(const Finger& finger, const std::optional<Finger>& baseline,
@@ -167,8 +232,8 @@ std::vector<GateResult> CheckGates(const Validation& validation,
     }
     const double value = GateValue(validation.errors.contact, gate.quantity);
     // A value of NaN passes no gate.
-    const bool passed =
-        IsUpperBound(gate.quantity) ? value <= gate.bound : value >= gate.bound;
+    const bool upper = std::string(GateName(gate.quantity)).find("most") == 0;
+    const bool passed = upper ? value <= gate.bound : value >= gate.bound;
     results.push_back({gate, value, passed});
   }
   return results;

@@ -9,6 +9,7 @@
 #include "finray/calib/problem/calibration_log.h"
 #include "finray/finger/discretization.h"
 #include "finray/io/frame_table.h"
+#include "finray/sensing/frame_estimator.h"
 
 namespace finray {
 
@@ -23,12 +24,6 @@ std::vector<FrameReference> ReferencesOf(const CalibrationLogs& logs,
                                          const Finger& finger, const Plan& plan,
                                          const Discretization& discretization,
                                          int threads);
-
-/// Estimates all frames from the gauges alone, log by log.
-std::vector<FrameEstimate> EstimateLogs(const Finger& finger, const Plan& plan,
-                                        const CalibrationLogs& logs,
-                                        const Discretization& discretization,
-                                        int threads);
 
 /// Tabulates the errors of the frames for which `chosen` is true. The region of
 /// a frame is that of the reference contact, or else that of the contact in
@@ -49,6 +44,36 @@ ErrorTable TabulateErrors(const std::vector<FrameReference>& references,
   }
   return table;
 }
+
+/// Compares the force sensor with the force from the gauges alone, before and
+/// after the calibration. The estimate before the calibration takes the
+/// readings as they are. For the estimate after it, the drift and temperature
+/// that the calibration has found are removed from the readings. The reference
+/// is the force of the sensor, corrected by the scale and offset that the
+/// calibration has found.
+struct ForceCheck {
+  std::vector<FrameEstimate> before, after;  ///< One for each frame.
+  /// True for the frames that were estimated with the finger as it was:
+  /// kMostBefore of them, evenly spread. A finger far from the truth makes that
+  /// slow.
+  std::vector<bool> has_before;
+  static constexpr std::size_t kMostBefore = 200;
+
+  struct Error {
+    std::size_t frames = 0, frames_before = 0;
+    double before_rms_N = 0, after_rms_N = 0;
+    double after_max_N = 0;
+    double reference_mean_N = 0;
+  };
+  /// The errors over the fitted and over the held-out frames with a reference
+  /// force.
+  Error fitted, held_out;
+};
+
+ForceCheck CheckForces(const Finger& before, const Finger& after,
+                       const Plan& plan, const CalibrationLogs& logs,
+                       const CalibrationLogs& corrected,
+                       const Discretization& discretization, int threads);
 
 /// Compares a finger with logs that it was not calibrated from.
 struct Validation {

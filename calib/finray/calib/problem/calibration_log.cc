@@ -128,32 +128,27 @@ std::vector<double> Needed(const FrameTable& table, const char* column,
   return values;
 }
 
-void RefuseWithoutForces(const Plan& plan, const CalibrationLogs& logs) {
+void RefuseWithoutMeasurements(const Plan& plan, const CalibrationLogs& logs) {
+  const auto none = [&](auto&& has) {
+    return std::none_of(logs.frames.begin(), logs.frames.end(), has);
+  };
   for (const auto& [family, name] :
        {std::pair(ParameterFamily::kForceScale, "force_scale"),
         std::pair(ParameterFamily::kForceOffset, "force_offset")}) {
-    if (!plan.family(family).free) continue;
-    if (std::none_of(logs.frames.begin(), logs.frames.end(),
-                     [](const CalibrationFrame& frame) {
-                       return std::isfinite(ReferenceForce(frame));
-                     })) {
+    if (plan.family(family).free && none([](const CalibrationFrame& frame) {
+          return std::isfinite(ReferenceForce(frame));
+        })) {
       throw InputError(std::string("plan: ") + name +
                        " is free, but no log has a force_N, or a force_x_N "
                        "and force_y_N");
     }
   }
-}
-
-void RefuseWithoutPoints(const Plan& plan, const CalibrationLogs& logs) {
   if (plan.family(ParameterFamily::kCameraOrigin).free && !plan.pin_std_mm &&
       !plan.tip_std_mm) {
     throw InputError(
         "plan: camera_origin is free, but measurements have no pin_std_mm and "
         "no tip_std_mm, so that nothing a camera saw is used");
   }
-  const auto none = [&](auto&& has) {
-    return std::none_of(logs.frames.begin(), logs.frames.end(), has);
-  };
   if (plan.pin_std_mm &&
       none([](const CalibrationFrame& frame) { return !frame.pins.empty(); })) {
     throw InputError(
@@ -275,8 +270,7 @@ CalibrationLogs ReadCalibrationLogs(const std::vector<std::string>& paths,
       logs.frames.push_back(std::move(frame));
     }
   }
-  RefuseWithoutForces(plan, logs);
-  RefuseWithoutPoints(plan, logs);
+  RefuseWithoutMeasurements(plan, logs);
   MarkHoldout(plan, &logs);
   return logs;
 }

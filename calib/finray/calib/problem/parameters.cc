@@ -50,22 +50,12 @@ int LastFitted(const CalibrationLogs& logs) {
   return finger >= 0 ? finger : bench;
 }
 
-// Says whether a fitted frame of the log has a reading of the gauge.
-bool Reads(const CalibrationLogs& logs, int log, int gauge) {
+// Says whether `has` is true for a fitted frame of the log.
+template <class Has>
+bool AnyFitted(const CalibrationLogs& logs, int log, const Has& has) {
   return std::any_of(logs.frames.begin(), logs.frames.end(),
                      [&](const CalibrationFrame& frame) {
-                       return frame.log == log && !frame.held_out &&
-                              std::isfinite(frame.gauges_V[gauge]);
-                     });
-}
-
-// Says whether a fitted frame of the log has the place of the object, which
-// shows the origin of object positions.
-bool HasObject(const CalibrationLogs& logs, int log) {
-  return std::any_of(logs.frames.begin(), logs.frames.end(),
-                     [&](const CalibrationFrame& frame) {
-                       return frame.log == log && !frame.held_out &&
-                              frame.contact && frame.object_mm.allFinite();
+                       return frame.log == log && !frame.held_out && has(frame);
                      });
 }
 
@@ -131,16 +121,16 @@ void CalibrationParameters::AddOfFinger(const Plan& plan,
   const int index = of_finger.index;
   switch (of_finger.kind) {
     case FingerParameterKind::kFrontStiffness:
-      parameter.variable = parameter.block = &shared.ln_front_stiffness;
+      parameter.variable = &shared.ln_front_stiffness;
       parameter.is_log = true;
       break;
     case FingerParameterKind::kBackStiffness:
-      parameter.variable = parameter.block = &shared.ln_back_stiffness;
+      parameter.variable = &shared.ln_back_stiffness;
       parameter.is_log = true;
       break;
     case FingerParameterKind::kGaugeGain:
       parameter.gauge = index;
-      parameter.variable = parameter.block = &gains_V_per_rad[index];
+      parameter.variable = &gains_V_per_rad[index];
       parameter.scale = std::abs(*parameter.variable);
       break;
     case FingerParameterKind::kGaugeOffset:
@@ -150,25 +140,35 @@ void CalibrationParameters::AddOfFinger(const Plan& plan,
           CalibrationParameter of_log = parameter;
           of_log.variable = of_log.block = readings.offset_V(index, log);
           if (log != last_fitted_) of_log.of_finger.reset();
-          if (!Reads(logs, log, index) && !of_log.of_finger) continue;
+          const bool read = AnyFitted(logs, log, [&](const auto& frame) {
+            return std::isfinite(frame.gauges_V[index]);
+          });
+          if (!read && !of_log.of_finger) continue;
           AddOfLog(plan, logs, log, std::move(of_log));
         }
         return;
       }
-      parameter.variable = parameter.block = readings.offset_V(index, 0);
+      parameter.variable = readings.offset_V(index, 0);
       break;
     case FingerParameterKind::kRibLength:
       parameter.variable = &shared.rib_lengths_mm[index];
-      parameter.block = shared.rib_lengths_mm.data();
       break;
   }
+  parameter.block = of_finger.kind == FingerParameterKind::kRibLength
+                        ? shared.rib_lengths_mm.data()
+                        : parameter.variable;
   Add(plan, std::move(parameter));
 }
 
 void CalibrationParameters::AddOrigins(const Plan& plan,
                                        const CalibrationLogs& logs) {
   for (int log = 0; log < static_cast<int>(origins_mm_.size()); ++log) {
-    if (origin_per_log_ && !HasObject(logs, log)) continue;
+    // Without the place of an object nothing shows the origin.
+    if (origin_per_log_ && !AnyFitted(logs, log, [](const auto& frame) {
+          return frame.contact && frame.object_mm.allFinite();
+        })) {
+      continue;
+    }
     for (int axis = 0; axis < 2; ++axis) {
       CalibrationParameter parameter =
           OfAxis(ParameterFamily::kObjectOrigin, "object_origin", "mm",

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "finray/calib/analysis/validation.h"
 #include "finray/io/number_text.h"
 
 namespace finray {
@@ -52,8 +51,6 @@ void WarnOfStarts(const CalibrationSolution& solution,
                   std::vector<CalibrationWarning>* warnings) {
   const auto& starts = solution.starts;
   if (starts.empty()) return;
-  const auto agree = std::count_if(starts.begin(), starts.end(),
-                                   [](const auto& s) { return s.agrees; });
   if (starts[0].distance_std >= StartReport::kSameSolution) {
     warnings->push_back(
         {"given_start_misleads",
@@ -62,11 +59,11 @@ void WarnOfStarts(const CalibrationSolution& solution,
              FormatText(" ends %.3g std away; the result is from another start",
                         starts[0].distance_std),
          "compare the result with what you know of the finger"});
-  } else if (2 * agree <= static_cast<long>(starts.size())) {
+  } else if (2 * solution.agreeing() <= static_cast<int>(starts.size())) {
     warnings->push_back(
         {"starts_disagree",
-         FormatText("only %ld of %zu starts come to this solution", agree,
-                    starts.size()),
+         FormatText("only %d of %zu starts come to this solution",
+                    solution.agreeing(), starts.size()),
          "give priors, or start from a finger closer to the truth"});
   }
 }
@@ -260,8 +257,6 @@ void TabulateRegions(CalibrationProblem& problem, const CalibrationLogs& logs,
   }
 }
 
-}  // namespace
-
 // Logs with --v=1 how long each part took.
 class Stopwatch {
  public:
@@ -277,6 +272,8 @@ class Stopwatch {
       std::chrono::steady_clock::now();
 };
 
+}  // namespace
+
 bool CalibrationResult::AllIdentified() const {
   return std::none_of(
       identifiability.status.begin(), identifiability.status.end(),
@@ -285,10 +282,7 @@ bool CalibrationResult::AllIdentified() const {
 
 std::string CalibrationResult::Verdict() const {
   if (!solution.solve.converged) return "not_converged";
-  const auto& starts = solution.starts;
-  if (!starts.empty() &&
-      std::count_if(starts.begin(), starts.end(),
-                    [](const auto& start) { return start.agrees; }) < 2) {
+  if (!solution.starts.empty() && solution.agreeing() < 2) {
     return "starts_disagree";
   }
   for (int i = 0; i < kResidualFamilies; ++i) {

@@ -7,12 +7,12 @@
 
 #include "finray/calib/analysis/bench_linearity.h"
 #include "finray/calib/analysis/error_table.h"
-#include "finray/calib/analysis/force_check.h"
 #include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/analysis/leave_one_log_out.h"
 #include "finray/calib/analysis/next_frames.h"
 #include "finray/calib/analysis/residual_correlation.h"
 #include "finray/calib/analysis/unsupported.h"
+#include "finray/calib/analysis/validation.h"
 #include "finray/calib/problem/calibration_problem.h"
 #include "finray/calib/solve/robust_solve.h"
 #include "finray/io/frame_table.h"

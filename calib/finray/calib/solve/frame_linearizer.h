@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "finray/calib/problem/calibration_blocks.h"
-#include "finray/calib/solve/linearized_frame.h"
+#include "finray/calib/solve/linearization.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {

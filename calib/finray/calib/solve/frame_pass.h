@@ -6,7 +6,7 @@
 
 #include "finray/calib/problem/calibration_problem.h"
 #include "finray/calib/solve/contact_store.h"
-#include "finray/calib/solve/linearized_frame.h"
+#include "finray/calib/solve/linearization.h"
 
 namespace finray {
 

@@ -202,6 +202,12 @@ class RobustSolve {
 
 }  // namespace
 
+int CalibrationSolution::agreeing() const {
+  return static_cast<int>(
+      std::count_if(starts.begin(), starts.end(),
+                    [](const StartReport& start) { return start.agrees; }));
+}
+
 CalibrationSolution SolveRobustly(CalibrationProblem* problem) {
   if (problem->candidates().empty()) {  // there are only priors
     CalibrationSolution solution = SolveOnce(problem);

@@ -34,6 +34,9 @@ struct CalibrationSolution {
   int rounds = 0;                   ///< Number of rounds of rejection.
   bool settled = false;  ///< The last round has rejected the same frames.
   bool outliers_too_many = false;
+
+  /// The number of starts that agree.
+  int agreeing() const;
 };
 
 /// Solves from several starts, goes on from the best one, and solves again
