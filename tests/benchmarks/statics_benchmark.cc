@@ -157,9 +157,7 @@ void PassOfFour(benchmark::State& state, int set, bool evaluate) {
   LadderState equilibrium;
   newton.Save(&equilibrium);
   LadderWorkspace<FourFrames> workspace(newton.model());
-  while (!workspace.SetContacts(newton.model(), {Frame(0)}) ||
-         workspace.SetColumns(newton.model(), SweepColumns::kContacts, false)) {
-  }
+  workspace.SetContacts(newton.model(), {Frame(0)}, 1, SweepColumns::kContacts);
   workspace.Load(equilibrium);
   LadderFrame<FourFrames>& frame = workspace.frame();
   const LadderKernel& kernel = FindLadderKernel(Scheme::kTaylor8, false, set);

@@ -35,8 +35,6 @@ class Fixture {
     }
     state.q *= 1 + off;
     workspace_.SetContacts(model_, contacts);
-    workspace_.SetColumns(model_, SweepColumns::kNone, false);
-    workspace_.SetContacts(model_, contacts);
     workspace_.Load(state);
   }
 
@@ -148,9 +146,9 @@ TEST(LadderKernelTest, DerivativesByManyContactsAreRefused) {
   std::vector<PointContact> contacts;
   for (int c = 0; c < 6; ++c) contacts.push_back({20.0 + 15 * c, 0.5, 0});
   ASSERT_TRUE(newton.Converge(contacts, 1, SweepColumns::kNone));
-  EXPECT_FALSE(newton.LinearizeByContacts(contacts));
+  EXPECT_FALSE(newton.Linearize(contacts, 1, SweepColumns::kContacts));
   contacts.resize(kFittedContacts);
-  EXPECT_TRUE(newton.LinearizeByContacts(contacts));
+  EXPECT_TRUE(newton.Linearize(contacts, 1, SweepColumns::kContacts));
 }
 
 // Four frames in lanes in one set against another.
@@ -163,9 +161,7 @@ TEST(LadderKernelTest, InstructionSetsAgreeInLanes) {
       const PointContact contact = {70, 3, 0.1};
       ASSERT_TRUE(solver.Solve({contact}));
       LadderWorkspace<FourFrames> workspace(model);
-      do {
-        workspace.SetContacts(model, {contact});
-      } while (workspace.SetColumns(model, SweepColumns::kContacts, false));
+      workspace.SetContacts(model, {contact}, 1, SweepColumns::kContacts);
       LadderFrame<FourFrames>& f = workspace.frame();
       f.contacts[0].normal[2] *= 1.3;
       std::vector<Eigen::VectorXd> ends;

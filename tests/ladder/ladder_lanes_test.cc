@@ -44,11 +44,11 @@ double WorstLane(const Finger& finger, const Discretization& mesh,
     EXPECT_TRUE(lanes.Load(state, lane));
     LadderNewton newton(finger, mesh);
     newton.Load(state);
-    EXPECT_TRUE(newton.LinearizeByContacts({contact}));
+    EXPECT_TRUE(newton.Linearize({contact}, 1, SweepColumns::kContacts));
     newton.StepWithContacts(1, change);
     newton.Move(1, 0);
     const LadderFrame<double>& f = newton.frame();
-    alone.emplace_back(f.state.q, f.state.q + lanes.state_size());
+    alone.emplace_back(f.state.q, f.state.q + lanes.frame().state_size());
   }
   EXPECT_EQ(lanes.Place(arc_mm, normal_N, kAllFrameLanes, 0), kAllFrameLanes);
   EXPECT_TRUE(lanes.Linearize());
@@ -61,7 +61,7 @@ double WorstLane(const Finger& finger, const Discretization& mesh,
   double worst = 0;
   for (int lane = 0; lane < kFrameLanes; ++lane) {
     double largest = 0, difference = 0;
-    for (int i = 0; i < lanes.state_size(); ++i) {
+    for (int i = 0; i < lanes.frame().state_size(); ++i) {
       const double value = lanes.frame().state.q[i][lane];
       largest = std::max(largest, std::abs(value));
       difference = std::max(difference, std::abs(value - alone[lane][i]));

@@ -26,10 +26,7 @@ Outcome SolveIn(const Finger& finger, const PointContact& contact) {
   using Wide = TaylorElement<16, typename Lanes<T>::Vector>;
   const LadderModel model(finger, {Scheme::kTaylor, 24});
   LadderWorkspace<T> workspace(model);
-  const std::vector<PointContact> contacts = {contact};
-  workspace.SetContacts(model, contacts);
-  workspace.SetColumns(model, SweepColumns::kNone, false);
-  workspace.SetContacts(model, contacts);
+  workspace.SetContacts(model, {contact});
   workspace.Load(LadderState::Undeformed(model));
   LadderFrame<T>& f = workspace.frame();
   LadderEvaluator<T, Wide, TaylorElement<16, T>> evaluator(&f,

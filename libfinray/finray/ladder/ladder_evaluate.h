@@ -52,9 +52,6 @@ class LadderEvaluator {
     T x, y, theta, moment;
   };
 
-  int SideEnd(int side) const {
-    return side == 0 ? f_.front_elements : f_.elements;
-  }
   int LastSlot(int element) const {
     int slot = element;
     for (int c = 0; c < f_.contact_count; ++c) {
@@ -76,10 +73,10 @@ class LadderEvaluator {
     for (int rib = 0; rib <= f_.ribs; ++rib) {
       for (int side = 0; side < 2; ++side) {
         const int end =
-            rib < f_.ribs ? f_.rib_element[side][rib] : SideEnd(side);
+            rib < f_.ribs ? f_.rib_element[side][rib] : f_.end(side);
         for (; at[side] < end; ++at[side]) {
           FillElement(at[side], force[side], &contact[side],
-                      propagate && at[side] + 1 < SideEnd(side));
+                      propagate && at[side] + 1 < f_.end(side));
         }
       }
       if (rib < f_.ribs) PassRib(rib, at, force);
@@ -265,9 +262,9 @@ class LadderEvaluator {
     End tip[2];
     T largest{};
     for (int side = 0; side < 2; ++side) {
-      for (int e = side == 0 ? 0 : f_.front_elements; e < SideEnd(side); ++e) {
+      for (int e = f_.first(side); e < f_.end(side); ++e) {
         const End end = SlotEnd(f_.contact_count == 0 ? e : LastSlot(e));
-        if (e + 1 == SideEnd(side)) {
+        if (e + 1 == f_.end(side)) {
           tip[side] = end;
           break;
         }

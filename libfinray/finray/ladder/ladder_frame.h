@@ -125,6 +125,12 @@ struct LadderFrame {
   int *pivot_column, *pivot_rib, *events;
   T *pivot_flexibility;
 
+  /// The elements of a beam, from `first` to before `end`.
+  int first(int side) const { return side == 0 ? 0 : front_elements; }
+  int end(int side) const { return side == 0 ? front_elements : elements; }
+  /// The number of values of a state, which lie one behind the other from its
+  /// `q` on.
+  int state_size() const { return 6 + ribs + 4 * elements; }
   int slots() const { return elements + contact_count; }
   int contact_tap(int c) const { return 3 * c; }
   int tip_tap() const { return 3 * contact_count; }

@@ -57,8 +57,7 @@ bool SweepFour(LadderFrame<FourFrames>& frame) {
 void StepFour(LadderFrame<FourFrames>& frame) {
   LadderWalkBack<FourFrames, kFourColumns>(&frame, SweepColumns::kContacts)
       .Combine(2);
-  // The five arrays of a state lie one behind the other.
-  const int count = 6 + frame.ribs + 4 * frame.elements;
+  const int count = frame.state_size();
   for (int i = 0; i < count; ++i) frame.state.q[i] += frame.step.q[i];
 }
 

@@ -14,11 +14,8 @@ LadderLanes::LadderLanes(const Finger& finger,
       kernel_(&FindLadderKernel(discretization.scheme, Stretches(finger))),
       friction_(friction) {
   // Takes memory for kMostContacts contacts and for the columns of one.
-  const std::vector<PointContact> contacts(kMostContacts);
-  workspace_.SetContacts(model_, contacts);
-  do {
-    workspace_.SetContacts(model_, {contacts[0]});
-  } while (workspace_.SetColumns(model_, SweepColumns::kContacts, false));
+  workspace_.SetContacts(model_, std::vector<PointContact>(kMostContacts));
+  workspace_.SetContacts(model_, {PointContact()}, 1, SweepColumns::kContacts);
   workspace_.Load(LadderState::Undeformed(model_));
 }
 

@@ -57,9 +57,6 @@ class LadderLanes {
   /// to the state, with (l_c, f_c) moved by `change` in units of the workspace.
   void Step(const FourFrames& newton, const FourFrames change[2]);
 
-  /// The number of values of a state. They begin at frame().state.q.
-  int state_size() const { return 6 + frame().ribs + 4 * frame().elements; }
-
  private:
   static constexpr int kMostContacts = 2;
 

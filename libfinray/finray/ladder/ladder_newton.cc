@@ -56,11 +56,9 @@ void LadderNewton::Load(const LadderState& state) {
 
 bool LadderNewton::SetLoad(const std::vector<PointContact>& contacts,
                            double fraction, SweepColumns columns, bool open) {
-  do {
-    if (!workspace_.SetContacts(model_, contacts, fraction)) return false;
-    // The first call with more columns takes more memory and loses the
-    // contacts.
-  } while (workspace_.SetColumns(model_, columns, open));
+  if (!workspace_.SetContacts(model_, contacts, fraction, columns, open)) {
+    return false;
+  }
   workspace_.SetFinger(model_, fraction);
   return true;
 }
@@ -88,7 +86,7 @@ bool LadderNewton::Converge(const std::vector<PointContact>& contacts,
 
 bool LadderNewton::ConvergeOnMesh(const std::vector<PointContact>& contacts,
                                   double fraction, SweepColumns columns) {
-  if (!SetLoad(contacts, fraction, columns, false)) return false;
+  if (!SetLoad(contacts, fraction, columns)) return false;
   LadderFrame<double>& f = workspace_.frame();
   double load = 1;
   for (int c = 0; c < f.contact_count; ++c) {
@@ -103,7 +101,7 @@ bool LadderNewton::ConvergeOnMesh(const std::vector<PointContact>& contacts,
     const bool maybe_last =
         residual < kNearlyThere * load || (i > 0 && last_change < kSmallChange);
     const SweepColumns now = maybe_last ? columns : SweepColumns::kNone;
-    workspace_.SetColumns(model_, now, false);
+    workspace_.SetColumns(now, false);
     if (!kernel_->sweep(f, now, maybe_last)) return false;
     const double size = Size(1, 0);
     if (!std::isfinite(size)) return false;
@@ -145,31 +143,21 @@ double LadderNewton::LoadChange() const {
 }
 
 bool LadderNewton::Evaluate(const std::vector<PointContact>& contacts) {
-  if (!SetLoad(contacts, 1, SweepColumns::kNone, false)) return false;
+  if (!SetLoad(contacts, 1, SweepColumns::kNone)) return false;
   kernel_->evaluate(workspace_.frame(), SweepColumns::kNone, false);
   return std::isfinite(frame().residual);
 }
 
 bool LadderNewton::Linearize(const std::vector<PointContact>& contacts,
-                             double fraction) {
-  return Linearize(contacts, fraction, SweepColumns::kLoad, false);
-}
-
-bool LadderNewton::LinearizeByContacts(
-    const std::vector<PointContact>& contacts) {
+                             double fraction, SweepColumns columns) {
   static_assert(7 + 2 * kFittedContacts <= kMostNodeColumns);
-  return contacts.size() <= kFittedContacts &&
-         Linearize(contacts, 1, SweepColumns::kContacts, true);
-}
-
-bool LadderNewton::Linearize(const std::vector<PointContact>& contacts,
-                             double fraction, SweepColumns columns,
-                             bool readouts) {
-  if (!SetLoad(contacts, fraction, columns, false)) return false;
+  const bool by_contacts = columns == SweepColumns::kContacts;
+  if (by_contacts && contacts.size() > kFittedContacts) return false;
+  if (!SetLoad(contacts, fraction, columns)) return false;
   LadderFrame<double>& f = workspace_.frame();
   ++iterations_;
   kernel_->evaluate(f, columns, false);
-  return std::isfinite(f.residual) && kernel_->sweep(f, columns, readouts);
+  return std::isfinite(f.residual) && kernel_->sweep(f, columns, by_contacts);
 }
 
 void LadderNewton::StepWithContacts(double newton, const double* change) {
@@ -181,8 +169,7 @@ void LadderNewton::StepWithContacts(double newton, const double* change) {
 
 void LadderNewton::Move(double a, double b) {
   const LadderFrame<double>& f = frame();
-  // The five arrays of a state lie one behind the other.
-  const int count = 6 + f.ribs + 4 * f.elements;
+  const int count = f.state_size();
   double* z = f.state.q;
   const double* step = f.step.q;
   for (int i = 0; i < count; ++i) z[i] += a * step[i];
@@ -206,13 +193,9 @@ double LadderNewton::Size(double a, double b) const {
 }
 
 MeshChange LadderNewton::RefineMesh() {
-  if (!discretization_.adaptive()) return MeshChange::kNone;
-  const LadderFrame<double>& f = frame();
-  double worst = 0;
-  for (int slot = 0; slot < f.slots(); ++slot) {
-    worst = std::max(worst, f.truncation[slot]);
+  if (!discretization_.adaptive() || IsResolved(frame(), 0)) {
+    return MeshChange::kNone;
   }
-  if (worst < kRefinedTruncation_rad) return MeshChange::kNone;
   std::array<BeamMesh, 2> finer;
   LadderState state;
   if (!RefineToSeries(model_, workspace_, discretization_.scheme, &finer,

@@ -53,16 +53,14 @@ class LadderNewton {
   double turn() const { return turn_; }
   int longest_run() const { return longest_run_; }
 
-  /// Linearises at the present state with the derivative by the load (kLoad)
-  /// and takes no step. False if the system is singular or a number is not
-  /// finite.
-  bool Linearize(const std::vector<PointContact>& contacts, double fraction);
-  /// Linearises under the whole load with derivatives by l_c and f_c of each
-  /// contact (at most kFittedContacts) and reads the gauges. It fills the taps
-  /// and no step. False as above.
-  bool LinearizeByContacts(const std::vector<PointContact>& contacts);
-  /// After LinearizeByContacts: fills `step` with `newton` times Newton's step,
-  /// each contact's (l_c, f_c) being moved by `change` in units of the
+  /// Linearises at the present state and takes no step. With kLoad, `step` and
+  /// `by_load` are filled. With kContacts, for at most kFittedContacts, the
+  /// taps are filled instead and the gauges are read. False if the system is
+  /// singular or a number is not finite.
+  bool Linearize(const std::vector<PointContact>& contacts, double fraction,
+                 SweepColumns columns);
+  /// After Linearize with kContacts: fills `step` with `newton` times Newton's
+  /// step, each contact's (l_c, f_c) being moved by `change` in units of the
   /// workspace.
   void StepWithContacts(double newton, const double* change);
 
@@ -86,10 +84,8 @@ class LadderNewton {
   int TakeIterations();
 
  private:
-  bool Linearize(const std::vector<PointContact>& contacts, double fraction,
-                 SweepColumns columns, bool readouts);
   bool SetLoad(const std::vector<PointContact>& contacts, double fraction,
-               SweepColumns columns, bool open);
+               SweepColumns columns, bool open = false);
   double LoadChange() const;
   bool IsConverged(int iteration, double size, double change,
                    double last_change) const;

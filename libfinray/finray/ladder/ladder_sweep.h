@@ -10,17 +10,17 @@ inline namespace FINRAY_ISA {
 // Sweep, the second half of a Newton step (ladder_kernel.h): walks both beams
 // from base to tip, and back (ladder_walk_back.h) unless the tip stays open.
 template <class T, int kVectors>
-class LadderSweeper : private LadderRows<T, kVectors> {
-  using Rows = LadderRows<T, kVectors>;
-  using Rows::Add, Rows::Broadcast, Rows::Clear, Rows::Copy, Rows::f_,
-      Rows::kNode, Rows::kPivot, Rows::kTap, Rows::kWidth, Rows::Node,
-      Rows::stride, Rows::Tap, Rows::vectors, Rows::Wide;
-  using typename Rows::Event, typename Rows::Scalar, typename Rows::U,
-      typename Rows::V;
+class LadderSweeper : private LadderWalkBack<T, kVectors> {
+  using Base = LadderWalkBack<T, kVectors>;
+  using Base::Add, Base::Broadcast, Base::by_load, Base::Clear, Base::columns_,
+      Base::Copy, Base::f_, Base::kNode, Base::kPivot, Base::kTap, Base::kWidth,
+      Base::Node, Base::stride, Base::Tap, Base::vectors, Base::Wide;
+  using typename Base::Event, typename Base::Scalar, typename Base::U,
+      typename Base::V;
 
  public:
   LadderSweeper(LadderFrame<T>* frame, SweepColumns columns, bool open)
-      : Rows(frame), columns_(columns), open_(open) {}
+      : Base(frame, columns), open_(open) {}
 
   // Without `readouts` the taps of the gauges keep their old values.
   bool Run(bool readouts) {
@@ -28,9 +28,8 @@ class LadderSweeper : private LadderRows<T, kVectors> {
     int at[2] = {0, f_.front_elements};
     for (int rib = 0; rib <= f_.ribs; ++rib) {
       for (int side = 0; side < 2; ++side) {
-        const int end = rib < f_.ribs
-                            ? f_.rib_element[side][rib]
-                            : (side == 0 ? f_.front_elements : f_.elements);
+        const int end =
+            rib < f_.ribs ? f_.rib_element[side][rib] : f_.end(side);
         for (; at[side] < end; ++at[side]) {
           PassElement(side, at[side], readouts);
         }
@@ -42,7 +41,7 @@ class LadderSweeper : private LadderRows<T, kVectors> {
     if (open_) return true;
     if (!EliminateTip()) return false;
     f_.event_count = events_;
-    LadderWalkBack<T, kVectors>(&f_, columns_).Run();
+    Base::Run();
     return true;
   }
 
@@ -70,7 +69,6 @@ class LadderSweeper : private LadderRows<T, kVectors> {
   bool by_contacts() const {
     return parameters() || columns_ == SweepColumns::kContacts;
   }
-  bool by_load() const { return columns_ == SweepColumns::kLoad; }
   int ContactColumn(int c) const {
     return affine() + 1 + 2 * f_.contacts[c].columns;
   }
@@ -100,7 +98,7 @@ class LadderSweeper : private LadderRows<T, kVectors> {
   // Adds the gap at the node where element e starts. At a rib this happens
   // before the rib is passed.
   void TakeUpGap(int side, int e) {
-    if (gap_taken_[side] || e == (side == 0 ? 0 : f_.front_elements)) return;
+    if (gap_taken_[side] || e == f_.first(side)) return;
     gap_taken_[side] = true;
     for (int i = 0; i < 4; ++i) RowOf(side, i)[affine()] += f_.gap[4 * e + i];
   }
@@ -109,7 +107,7 @@ class LadderSweeper : private LadderRows<T, kVectors> {
     TakeUpGap(side, e);
     if (gap_taken_[side] && !open_) Log(kNode, e);
     gap_taken_[side] = false;
-    const bool last = e + 1 == (side == 0 ? f_.front_elements : f_.elements);
+    const bool last = e + 1 == f_.end(side);
     int slot = e, begins_at = -1;
     for (int& c = next_contact_[side];
          c < f_.contact_count && f_.contacts[c].element == e; ++c) {
@@ -361,7 +359,6 @@ class LadderSweeper : private LadderRows<T, kVectors> {
     return true;
   }
 
-  const SweepColumns columns_;
   const bool open_;
   int events_ = 0, pivots_ = 0, since_check_ = 0;
   int next_contact_[2] = {0, 0};

@@ -1,23 +1,20 @@
 #ifndef FINRAY_LADDER_LADDER_WALK_BACK_H_
 #define FINRAY_LADDER_LADDER_WALK_BACK_H_
 
-#include "finray/ladder/ladder_rows.h"
+#include "finray/ladder/ladder_frame.h"
+#include "finray/ladder/lanes.h"
 
 namespace finray {
 inline namespace FINRAY_ISA {
 
-// The end of a sweep (ladder_kernel.h): the walk back through its exchanges.
+// The rows of a sweep (ladder_kernel.h) and its end, the walk back through its
+// exchanges. A row holds the change of one quantity as [parameters | constant |
+// derivatives] and is kVectors vectors long (0: as long as the frame says).
 template <class T, int kVectors>
-class LadderWalkBack : private LadderRows<T, kVectors> {
-  using Rows = LadderRows<T, kVectors>;
-  using Rows::Broadcast, Rows::Clear, Rows::Copy, Rows::f_, Rows::kNode,
-      Rows::kPivot, Rows::kTap, Rows::kWidth, Rows::Node, Rows::stride,
-      Rows::Tap, Rows::vectors, Rows::Wide;
-  using typename Rows::Scalar, typename Rows::V;
-
+class LadderWalkBack {
  public:
   LadderWalkBack(LadderFrame<T>* frame, SweepColumns columns)
-      : Rows(frame), columns_(columns) {}
+      : f_(*frame), columns_(columns) {}
 
   // Walks from the tip, where no parameter is left, back to the base. The rows
   // of `parameters` hold their values in the columns [constant | derivatives].
@@ -47,14 +44,8 @@ class LadderWalkBack : private LadderRows<T, kVectors> {
       f_.step.q[i] = f_.q_step[i * stride() + kAffine];
       if (by_load()) f_.by_load.q[i] = f_.q_step[i * stride() + load];
     }
-    for (int side = 0; side < 2; ++side) {
-      const int base = side == 0 ? 0 : f_.front_elements;
-      for (const LadderNodes<T>* z : {&f_.step, &f_.by_load}) {
-        if (z == &f_.by_load && !by_load()) break;
-        z->x[base] = z->y[base] = z->theta[base] = T{};
-        z->moment[base] = z->q[3 * side];
-      }
-    }
+    FinishBases(&f_.step);
+    if (by_load()) FinishBases(&f_.by_load);
   }
 
   // The same for one combination of the columns, the frame's `newton` and
@@ -78,18 +69,55 @@ class LadderWalkBack : private LadderRows<T, kVectors> {
       with[column] = sum / g[column];
     }
     for (int j = 0; j < 6; ++j) step.q[j] = with[j];
-    for (int side = 0; side < 2; ++side) {
-      const int base = side == 0 ? 0 : f_.front_elements;
-      step.x[base] = step.y[base] = step.theta[base] = T{};
-      step.moment[base] = step.q[3 * side];
-    }
+    FinishBases(&step);
   }
+
+ protected:
+  using Scalar = typename ValueTraits<T>::Scalar;
+  using V = typename Lanes<T>::Vector;
+  using U = typename Lanes<T>::Unaligned;
+  static constexpr int kWidth = Lanes<T>::kWidth;
+  // The frame logs the events of the walk as 4 * index + one of these.
+  enum Event { kNode, kTap, kPivot };
+
+  int vectors() const { return kVectors > 0 ? kVectors : f_.stride / kWidth; }
+  int stride() const { return vectors() * kWidth; }
+  // Four rows of a node: position, angle and moment.
+  T* Node(int e) const { return f_.node_rows + 4 * stride() * e; }
+  T* Tap(int tap) const { return f_.taps + tap * stride(); }
+
+  static V Broadcast(const T& value) { return value - V{}; }
+  static U* Wide(T* row) { return reinterpret_cast<U*>(row); }
+  static const U* Wide(const T* row) { return reinterpret_cast<const U*>(row); }
+  void Clear(T* row) const {
+    for (int v = 0; v < vectors(); ++v) Wide(row)[v] = V{};
+  }
+  void Copy(const T* from, T* to) const {
+    for (int v = 0; v < vectors(); ++v) Wide(to)[v] = Wide(from)[v];
+  }
+  // to += a from
+  void Add(const T& a, const T* from, T* to) const {
+    const V wide = Broadcast(a);
+    for (int v = 0; v < vectors(); ++v) Wide(to)[v] += wide * Wide(from)[v];
+  }
+
+  bool by_load() const { return columns_ == SweepColumns::kLoad; }
+
+  LadderFrame<T>& f_;
+  const SweepColumns columns_;
 
  private:
   // The column of the constant, and the first vector that has values.
   static constexpr int kAffine = 6;
   static constexpr int first_value() { return kAffine / kWidth; }
-  bool by_load() const { return columns_ == SweepColumns::kLoad; }
+
+  void FinishBases(LadderNodes<T>* z) const {
+    for (int side = 0; side < 2; ++side) {
+      const int base = f_.first(side);
+      z->x[base] = z->y[base] = z->theta[base] = T{};
+      z->moment[base] = z->q[3 * side];
+    }
+  }
 
   void FinishNode(int e) {
     T with[kMostNodeColumns] = {};
@@ -152,8 +180,6 @@ class LadderWalkBack : private LadderRows<T, kVectors> {
       Wide(exchanged)[v] = sum * inverse;
     }
   }
-
-  const SweepColumns columns_;
 };
 
 }  // namespace FINRAY_ISA

@@ -13,24 +13,18 @@ int RoundUp(int value, int multiple) {
   return (value + multiple - 1) / multiple * multiple;
 }
 
-void Put(double value, int /*lane*/, double* to) { *to = value; }
-void Put(double value, int /*lane*/, float* to) {
-  *to = static_cast<float>(value);
-}
-void Put(double value, int lane, FourFrames* to) {
-  for (int i = 0; i < kFrameLanes; ++i) {
-    if (lane < 0 || lane == i) (*to)[i] = value;
+// Puts a value into one lane, or into all if `lane` is negative.
+template <class T>
+void Put(double value, int lane, T* to) {
+  constexpr int kLanes = sizeof(T) / sizeof(Number<T>);
+  for (int i = 0; i < kLanes; ++i) {
+    if (lane < 0 || lane == i) LaneOf(*to, i) = static_cast<Number<T>>(value);
   }
 }
 template <class T>
 void Put(double value, T* to) {
   Put(value, -1, to);
 }
-template <class T>
-double Get(const T& from, int /*lane*/) {
-  return from;
-}
-double Get(const FourFrames& from, int lane) { return from[lane]; }
 
 double ScaledFlexibility(double axial_stiffness_N, double force_unit) {
   return force_unit / axial_stiffness_N;  // 0 for an infinite one
@@ -161,7 +155,7 @@ void LadderWorkspace<T>::SetMesh(const LadderModel& model) {
   readouts_.clear();
   for (int j = 0; j < model.gauges(); ++j) {
     const Gauge& gauge = model.finger().gauges[j];
-    const int first = gauge.beam == Side::kFront ? 0 : frame_.front_elements;
+    const int first = frame_.first(LadderModel::Index(gauge.beam));
     for (const int sign : {-1, 1}) {
       const MeshPoint at =
           model.mesh(gauge.beam)
@@ -172,15 +166,15 @@ void LadderWorkspace<T>::SetMesh(const LadderModel& model) {
   }
   std::sort(readouts_.begin(), readouts_.end(),
             [](const LadderReadout<T>& a, const LadderReadout<T>& b) {
-              return std::make_pair(a.element, Get(a.offset, 0)) <
-                     std::make_pair(b.element, Get(b.offset, 0));
+              return std::make_pair(a.element, LaneOf(a.offset, 0)) <
+                     std::make_pair(b.element, LaneOf(b.offset, 0));
             });
   frame_.readout_count = static_cast<int>(readouts_.size());
   Allocate();
 
   for (const Side side : {Side::kFront, Side::kBack}) {
     const BeamMesh& mesh = model.mesh(side);
-    const int first = side == Side::kFront ? 0 : frame_.front_elements;
+    const int beam = LadderModel::Index(side), first = frame_.first(beam);
     const double flexibility =
         ScaledFlexibility(AxialStiffness(model.finger(), side), force_unit_);
     for (int k = 0; k < mesh.elements(); ++k) {
@@ -190,8 +184,7 @@ void LadderWorkspace<T>::SetMesh(const LadderModel& model) {
       Put(flexibility, &frame_.axial_flexibility[first + k]);
     }
     for (int i = 0; i < frame_.ribs; ++i) {
-      frame_.rib_element[LadderModel::Index(side)][i] =
-          first + mesh.rib_node[i];
+      frame_.rib_element[beam][i] = first + mesh.rib_node[i];
     }
   }
   SetFinger(model);
@@ -200,11 +193,10 @@ void LadderWorkspace<T>::SetMesh(const LadderModel& model) {
 template <class T>
 void LadderWorkspace<T>::SetFinger(const LadderModel& model, double fraction) {
   for (const Side side : {Side::kFront, Side::kBack}) {
-    const bool front = side == Side::kFront;
+    const int i = LadderModel::Index(side);
     T stiffness;
     Put(BendingStiffness(model.finger(), side) / stiffness_unit(), &stiffness);
-    const int end = front ? frame_.front_elements : frame_.elements;
-    for (int e = front ? 0 : frame_.front_elements; e < end; ++e) {
+    for (int e = frame_.first(i); e < frame_.end(i); ++e) {
       frame_.stiffness[e] = stiffness * frame_.stiffness_ratio[e];
     }
   }
@@ -222,13 +214,20 @@ void LadderWorkspace<T>::SetFinger(const LadderModel& model, double fraction) {
 template <class T>
 bool LadderWorkspace<T>::SetContacts(const LadderModel& model,
                                      const std::vector<PointContact>& contacts,
-                                     double fraction) {
+                                     double fraction, SweepColumns columns,
+                                     bool open) {
   const int count = static_cast<int>(contacts.size());
-  if (count > contact_capacity_) {
-    contact_capacity_ = count;
-    SetMeshMemory(model);
-  }
   frame_.contact_count = count;
+  SetColumns(columns, open);
+  if (count > contact_capacity_ || frame_.stride > stride_capacity_) {
+    contact_capacity_ = std::max(contact_capacity_, count);
+    stride_capacity_ = std::max(stride_capacity_, frame_.stride);
+    // Takes memory anew for the same mesh and keeps the state.
+    const std::vector<T> kept(frame_.state.q,
+                              frame_.state.q + frame_.state_size());
+    SetMesh(model);
+    std::copy(kept.begin(), kept.end(), frame_.state.q);
+  }
   for (int i = 0; i < count; ++i) {
     const PointContact& contact = contacts[i];
     const BeamMesh& mesh = model.mesh(contact.side);
@@ -237,12 +236,11 @@ bool LadderWorkspace<T>::SetContacts(const LadderModel& model,
         !std::isfinite(contact.normal_N) || !std::isfinite(contact.friction)) {
       return false;
     }
-    const bool front = contact.side == Side::kFront;
     const MeshPoint at = mesh.Locate(contact.arc_mm);
     const double normal = contact.normal_N / force_unit_;
     LadderContact<T> placed{};
-    placed.side = front ? 0 : 1;
-    placed.element = at.element + (front ? 0 : frame_.front_elements);
+    placed.side = LadderModel::Index(contact.side);
+    placed.element = frame_.first(placed.side) + at.element;
     placed.index = placed.columns = i;
     Put(at.offset_mm / length_unit_, &placed.offset);
     Put(fraction * normal, &placed.normal);
@@ -255,7 +253,7 @@ bool LadderWorkspace<T>::SetContacts(const LadderModel& model,
       const LadderContact<T>& before = contacts_[k - 1];
       if (before.element < placed.element ||
           (before.element == placed.element &&
-           Get(before.offset, 0) <= Get(placed.offset, 0))) {
+           LaneOf(before.offset, 0) <= LaneOf(placed.offset, 0))) {
         break;
       }
       contacts_[k] = before;
@@ -266,8 +264,7 @@ bool LadderWorkspace<T>::SetContacts(const LadderModel& model,
 }
 
 template <class T>
-bool LadderWorkspace<T>::SetColumns(const LadderModel& model,
-                                    SweepColumns columns, bool open) {
+void LadderWorkspace<T>::SetColumns(SweepColumns columns, bool open) {
   const int contacts = 2 * frame_.contact_count;
   const int derivatives = columns == SweepColumns::kParameters
                               ? contacts + 2 + frame_.ribs
@@ -279,19 +276,6 @@ bool LadderWorkspace<T>::SetColumns(const LadderModel& model,
   frame_.node_columns = columns == SweepColumns::kContacts && !open
                             ? frame_.stride
                             : kNodeColumns;
-  if (frame_.stride <= stride_capacity_) return false;
-  stride_capacity_ = frame_.stride;
-  SetMeshMemory(model);
-  return true;
-}
-
-// Takes memory anew for the same mesh and keeps the state.
-template <class T>
-void LadderWorkspace<T>::SetMeshMemory(const LadderModel& model) {
-  const std::vector<T> kept(
-      frame_.state.q, frame_.state.q + 6 + frame_.ribs + 4 * frame_.elements);
-  SetMesh(model);
-  std::copy(kept.begin(), kept.end(), frame_.state.q);
 }
 
 template <class T>
@@ -301,11 +285,9 @@ void LadderWorkspace<T>::Load(const LadderState& state, int lane) {
     const bool moment = i == 0 || i == 3;
     Put(state.q[i] / (moment ? moment_unit() : force_unit_), lane, &z.q[i]);
   }
-  const int counts[2] = {frame_.front_elements,
-                         frame_.elements - frame_.front_elements};
   for (int side = 0; side < 2; ++side) {
-    const int first = side == 0 ? 0 : frame_.front_elements;
-    for (int k = 0; k < counts[side]; ++k) {
+    const int first = frame_.first(side);
+    for (int k = 0; k < frame_.end(side) - first; ++k) {
       const auto node = state.nodes[side].col(k);
       Put(node[1] / length_unit_, lane, &z.x[first + k]);
       Put(node[2] / length_unit_, lane, &z.y[first + k]);
@@ -323,19 +305,19 @@ void LadderWorkspace<T>::Save(const LadderModel& model, LadderState* state,
   state->q.resize(6 + frame_.ribs);
   for (int i = 0; i < 6 + frame_.ribs; ++i) {
     const bool moment = i == 0 || i == 3;
-    state->q[i] = Get(z.q[i], lane) * (moment ? moment_unit() : force_unit_);
+    state->q[i] = LaneOf(z.q[i], lane) * (moment ? moment_unit() : force_unit_);
   }
   for (const Side side : {Side::kFront, Side::kBack}) {
     const BeamMesh& mesh = model.mesh(side);
-    const int first = side == Side::kFront ? 0 : frame_.front_elements;
-    LadderState::Nodes& nodes = state->nodes[LadderModel::Index(side)];
+    const int i = LadderModel::Index(side), first = frame_.first(i);
+    LadderState::Nodes& nodes = state->nodes[i];
     nodes.resize(5, mesh.elements());
     for (int k = 0; k < mesh.elements(); ++k) {
       nodes.col(k) << mesh.nodes_mm[k],
-          Get(z.x[first + k], lane) * length_unit_,
-          Get(z.y[first + k], lane) * length_unit_,
-          Get(z.theta[first + k], lane),
-          Get(z.moment[first + k], lane) * moment_unit();
+          LaneOf(z.x[first + k], lane) * length_unit_,
+          LaneOf(z.y[first + k], lane) * length_unit_,
+          LaneOf(z.theta[first + k], lane),
+          LaneOf(z.moment[first + k], lane) * moment_unit();
     }
   }
 }

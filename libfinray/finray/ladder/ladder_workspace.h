@@ -33,16 +33,17 @@ class LadderWorkspace {
   /// Takes up stiffness and rib lengths. The lengths are `fraction` of the way
   /// from nominal to those of the finger.
   void SetFinger(const LadderModel& model, double fraction = 1);
-  /// Takes up `fraction` of the contact forces. False if a contact is not on
-  /// its beam or a number is not finite.
+  /// Takes up `fraction` of the contact forces and lays out the columns of the
+  /// next sweep (SetColumns). False if a contact is not on its beam or a number
+  /// is not finite. More memory loses everything evaluated, except the state.
   bool SetContacts(const LadderModel& model,
                    const std::vector<PointContact>& contacts,
-                   double fraction = 1);
-  /// Lays out the columns of the next sweep; those of kLoad and kNone have the
-  /// same width. `open` is for all of q as parameters. True if that took more
-  /// memory: everything evaluated or set since SetMesh is then lost, except the
-  /// state.
-  bool SetColumns(const LadderModel& model, SweepColumns columns, bool open);
+                   double fraction = 1,
+                   SweepColumns columns = SweepColumns::kNone,
+                   bool open = false);
+  /// Lays out columns, no more than those of the last SetContacts; those of
+  /// kLoad and kNone have the same width. `open` is for all of q as parameters.
+  void SetColumns(SweepColumns columns, bool open);
 
   void Load(const LadderState& state, int lane = kAllLanes);
   void Save(const LadderModel& model, LadderState* state, int lane = 0) const;
@@ -50,7 +51,6 @@ class LadderWorkspace {
 
  private:
   void Allocate();
-  void SetMeshMemory(const LadderModel& model);
   template <class Take>
   void LayOut(Take&& take);
 

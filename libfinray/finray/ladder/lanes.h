@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 // Vector lanes: numbers side by side, so that one instruction serves several
 // elements or several frames. Lanes<T>::kWidth and kFrameLanes are the numbers
@@ -20,6 +21,18 @@ typedef double FourFrames __attribute__((vector_size(32)));
 constexpr int kFrameLanes = 4;
 
 inline namespace FINRAY_ISA {
+
+/// One number of a value T, which is a number itself or FourFrames.
+template <class T>
+using Number = std::conditional_t<std::is_same_v<T, float>, float, double>;
+template <class T>
+inline Number<T>& LaneOf(T& value, int lane) {
+  return reinterpret_cast<Number<T>*>(&value)[lane];
+}
+template <class T>
+inline Number<T> LaneOf(const T& value, int lane) {
+  return reinterpret_cast<const Number<T>*>(&value)[lane];
+}
 
 /// 32 bytes of T: one AVX register, or two of SSE or NEON.
 template <class T>

@@ -54,7 +54,7 @@ bool RefineToSeries(const LadderModel& model,
     std::vector<double> nodes_mm;
     std::vector<Eigen::Matrix<double, 5, 1>> states;
     for (int k = 0; k < mesh.elements(); ++k) {
-      const int e = (i == 0 ? 0 : f.front_elements) + k;
+      const int e = f.first(i) + k;
       double truncation = f.truncation[e];
       for (int c = 0; c < f.contact_count; ++c) {
         if (f.contacts[c].element == e) {

@@ -34,10 +34,7 @@ LoadPath::LoadPath(LadderNewton* newton,
   Keep(&start_);
 }
 
-Eigen::Index LoadPath::Size() const {
-  const LadderFrame<double>& f = newton_->frame();
-  return 6 + f.ribs + 4 * f.elements;
-}
+Eigen::Index LoadPath::Size() const { return newton_->frame().state_size(); }
 
 void LoadPath::Keep(Eigen::VectorXd* state) const {
   *state = Eigen::Map<const Eigen::VectorXd>(newton_->frame().state.q, Size());
@@ -60,7 +57,8 @@ double LoadPath::Dot(const double* a, const double* b) const {
 // the direction of travel. `slope` is its component along the load.
 bool LoadPath::FindTangent(double fraction, Eigen::VectorXd* tangent,
                            double* slope) {
-  if (!newton_->Linearize(contacts_, fraction)) return false;
+  if (!newton_->Linearize(contacts_, fraction, SweepColumns::kLoad))
+    return false;
   const double* by_load = newton_->frame().by_load.q;
   const double norm = std::sqrt(Dot(by_load, by_load) + 1);
   if (!std::isfinite(norm)) return false;
@@ -89,7 +87,8 @@ bool LoadPath::Correct(double arc) {
   const LadderFrame<double>& f = newton_->frame();
   Eigen::VectorXd moved(Size());
   for (corrections_ = 0; corrections_ < kMaxCorrections; ++corrections_) {
-    if (!newton_->Linearize(contacts_, trial_fraction_)) return false;
+    if (!newton_->Linearize(contacts_, trial_fraction_, SweepColumns::kLoad))
+      return false;
     moved = Eigen::Map<const Eigen::VectorXd>(f.state.q, Size()) - start_ +
             Eigen::Map<const Eigen::VectorXd>(f.step.q, Size());
     const double slope = Dot(tangent_.data(), f.by_load.q) + tangent_fraction_;

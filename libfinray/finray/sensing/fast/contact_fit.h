@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "finray/ladder/ladder_newton.h"
-#include "finray/sensing/fast/contact_step.h"
+#include "finray/sensing/fast/gauge_reading.h"
 
 namespace finray {
 
@@ -25,6 +25,8 @@ namespace finray {
 /// nothing.
 class ContactFit {
  public:
+  using Readings = Eigen::Ref<const Eigen::VectorXd>;
+
   /// Throws InputError as LadderModel does. With `circle_radius_mm`, the centre
   /// of a circle that touches the finger at the one contact (circle_centre.h)
   /// is measured too. Its x and y in mm follow the gauges' angles in `measured`
@@ -51,7 +53,7 @@ class ContactFit {
   /// the front beam; their friction is kept) and leaves both at the solution.
   /// `weights` are 1 / std, and 0 where nothing was measured. Returns false if
   /// the fit does not converge; state and contacts are then undefined.
-  bool Fit(const Eigen::VectorXd& measured, const Eigen::VectorXd& weights,
+  bool Fit(const Readings& measured, const Readings& weights,
            std::vector<PointContact>* contacts);
 
   /// Like Fit, for a frame similar to that of the last call. State and
@@ -60,7 +62,7 @@ class ContactFit {
   /// iteration is usually enough. The stopping rule is that of Fit, with the
   /// predicted change counted as the change before. Without a successful last
   /// call, Follow does the same as Fit.
-  bool Follow(const Eigen::VectorXd& measured, const Eigen::VectorXd& weights,
+  bool Follow(const Readings& measured, const Readings& weights,
               std::vector<PointContact>* contacts);
 
   // Results of the last successful fit.
@@ -81,15 +83,7 @@ class ContactFit {
   }
 
  private:
-  bool Run(const Eigen::VectorXd& measured, const Eigen::VectorXd& weights,
-           bool predict, std::vector<PointContact>* contacts);
-  void ReadGauges(int unknowns);
   void ReadCentre(double radius_mm, int unknowns);
-  void Whiten(const Eigen::VectorXd& measured, const Eigen::VectorXd& weights,
-              int unknowns);
-  double Rate(const Eigen::VectorXd& weights, double damping,
-              const ContactVector& step, const ContactVector& x) const;
-  void ReadPoses(int contacts, const ContactVector& change);
   void Keep(const std::vector<PointContact>& contacts);
   void Restore(std::vector<PointContact>* contacts);
 
@@ -101,13 +95,8 @@ class ContactFit {
   int iterations_ = 0;
   Information information_;
   std::array<Eigen::Vector3d, kFittedContacts + 1> poses_;
-  // Gauge angles and their slopes by (l_c, f_c) in the ladder's units; the
-  // slopes of the linearisation before; the whitened residuals and slopes.
-  Eigen::VectorXd reading_, residual_;
-  Eigen::Matrix<double, Eigen::Dynamic, 2 * kFittedContacts> d_reading_,
-      d_reading_before_, slope_;
+  GaugeReading<double, 2 * kFittedContacts> gauges_;
   ContactVector step_;  // since the last linearisation
-  ContactEquations equations_;
   // Number of contacts of the last fit whose linearisation the frame still
   // holds; 0 if it holds none.
   int linearised_contacts_ = 0;

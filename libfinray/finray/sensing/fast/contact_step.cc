@@ -92,6 +92,24 @@ ContactVector BoundedChange(const ContactEquations& equations,
   return change;
 }
 
+bool MoveContact(const BeamMesh& mesh, const double* change, double length_unit,
+                 double force_unit, double* arc_mm, double* normal_N) {
+  const int before = mesh.Locate(*arc_mm).element;
+  *arc_mm = std::clamp(*arc_mm + change[0] * length_unit, 0.0, length_unit);
+  *normal_N = std::max(0.0, *normal_N + change[1] * force_unit);
+  return mesh.Locate(*arc_mm).element != before;
+}
+
+ContactMatrix InformationOf(ContactMatrix normal, double length_unit,
+                            double force_unit) {
+  for (Eigen::Index k = 0; k < normal.rows(); ++k) {
+    const double unit = k % 2 == 0 ? length_unit : force_unit;
+    normal.row(k) /= unit;
+    normal.col(k) /= unit;
+  }
+  return normal;
+}
+
 double LargestChange(const ContactVector& change, const ContactVector& x,
                      double shape) {
   double largest = shape;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "finray/finger/mesh.h"
 #include "finray/ladder/ladder_frame.h"
 #include "finray/sensing/contact_covariance.h"
 
@@ -40,6 +41,15 @@ struct ContactEquations {
 ContactVector BoundedChange(const ContactEquations& equations,
                             const ContactVector& x, double most_force,
                             double damping);
+
+/// Moves a contact by `change` = (l_c, f_c) of x, within 0 <= l_c <= l_0 and 0
+/// <= f_c. Returns whether it has passed to another element of the mesh.
+bool MoveContact(const BeamMesh& mesh, const double* change, double length_unit,
+                 double force_unit, double* arc_mm, double* normal_N);
+
+/// The Fisher information of (l_c, f_c) per mm and N from that of x.
+ContactMatrix InformationOf(ContactMatrix normal, double length_unit,
+                            double force_unit);
 
 /// The largest of the changes of l_c over l_0, of f_c over its size, and
 /// `shape`, the change of positions over l_0 and of angles.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/ladder/mesh_refinement.h"
+
 namespace finray {
 namespace {
 
@@ -14,6 +16,10 @@ constexpr double kLargestChange = 0.5;
 // Otherwise the contacts would lie in too many elements.
 constexpr int kMostLead = 4 * kFrameLanes;
 
+ContactVector OfLane(const FourFrames values[2], int lane) {
+  return Eigen::Vector2d(values[0][lane], values[1][lane]);
+}
+
 }  // namespace
 
 FrameGroupFit::FrameGroupFit(const Finger& finger,
@@ -23,15 +29,9 @@ FrameGroupFit::FrameGroupFit(const Finger& finger,
       alone_(finger, discretization),
       friction_(friction),
       adaptive_(discretization.adaptive()),
-      contact_(1) {
-  const int gauges = lanes_.model().gauges();
-  reading_.resize(gauges);
-  for (auto& slope : slope_) slope.resize(gauges);
-  for (auto& slope : slope_before_) slope.resize(gauges);
-  kept_state_.resize(lanes_.state_size());
-  angles_.resize(gauges);
-  weights_.resize(gauges);
-}
+      gauges_(lanes_.model().gauges()),
+      kept_state_(lanes_.frame().state_size()),
+      contact_(1) {}
 
 void FrameGroupFit::set_tolerance(double relative) {
   tolerance_ = relative;
@@ -132,27 +132,11 @@ void FrameGroupFit::Linearize() {
   for (int k = 0; k < 2; ++k) {
     step_[k] = change_[k];
     change_[k] = FourFrames{};
-    slope_before_[k].swap(slope_[k]);
   }
   for (int lane = 0; lane < kFrameLanes; ++lane) {
     newton_[lane] = Has(linearised_, lane);
   }
-  ReadGauges();
-}
-
-// Reads the gauges of all lanes at the end of Newton's step.
-void FrameGroupFit::ReadGauges() {
-  const LadderFrame<FourFrames>& f = lanes_.frame();
-  for (std::vector<FourFrames>* of : {&reading_, &slope_[0], &slope_[1]}) {
-    std::fill(of->begin(), of->end(), FourFrames{});
-  }
-  for (int i = 0; i < f.readout_count; ++i) {
-    const int j = f.readouts[i].gauge;
-    const double sign = f.readouts[i].sign;
-    const FourFrames* tap = f.taps + f.readout_tap(i) * f.stride + f.affine;
-    reading_[j] += sign * (f.readout_map[kReadoutValues * i] + tap[0]);
-    for (int k = 0; k < 2; ++k) slope_[k][j] += sign * tap[1 + k];
-  }
+  gauges_.Read(lanes_.frame(), 2);
 }
 
 // Called after a linearisation. If the lane's frame has converged, records it
@@ -161,7 +145,8 @@ void FrameGroupFit::Advance(const Frames& frames, int lane) {
   Lane& l = lane_[lane];
   if (one_by_one_) return;
   if (!Has(linearised_, lane) || ++l.iteration > kMostIterations ||
-      !Improve(frames, lane, false) || (l.converged && !IsResolved(lane))) {
+      !Improve(frames, lane, false) ||
+      (l.converged && adaptive_ && !IsResolved(lanes_.frame(), lane))) {
     FitLane(frames, lane);
     return;
   }
@@ -177,7 +162,10 @@ bool FrameGroupFit::Improve(const Frames& frames, int lane, bool predict) {
   Lane& l = lane_[lane];
   const double length = lanes_.workspace().length_unit();
   const double force = lanes_.workspace().force_unit();
-  const ContactEquations equations = EquationsOf(frames, lane);
+  const Column measured = frames.angles_rad.col(l.frame);
+  const Column weights = frames.weights_per_rad.col(l.frame);
+  const ContactEquations equations =
+      gauges_.Equations(measured, weights, 2, lane);
   // This comparison and those below are written so that a NaN fails them.
   if (!(equations.chi2 <= kMostRise * l.last_cost + 1)) return false;
   l.last_cost = equations.chi2;
@@ -189,65 +177,22 @@ bool FrameGroupFit::Improve(const Frames& frames, int lane, bool predict) {
   const double moved =
       LargestChange(change, x, ShapeChange(lane, !predict, change));
   if (!(moved <= kLargestChange)) return false;
-  const BeamMesh& mesh = lanes_.model().mesh(Side::kFront);
-  const int before = mesh.Locate(l.arc_mm).element;
-  l.arc_mm = std::clamp(l.arc_mm + change[0] * length, 0.0, length);
-  l.normal_N = std::max(0.0, l.normal_N + change[1] * force);
-  const bool crossed = mesh.Locate(l.arc_mm).element != before;
-  for (int k = 0; k < 2; ++k) {
-    change_[k][lane] += change[k];
-    for (std::size_t j = 0; j < reading_.size(); ++j) {
-      reading_[j][lane] += slope_[k][j][lane] * change[k];
-    }
+  const bool crossed =
+      MoveContact(lanes_.model().mesh(Side::kFront), change.data(), length,
+                  force, &l.arc_mm, &l.normal_N);
+  for (int k = 0; k < 2; ++k) change_[k][lane] += change[k];
+  gauges_.Move(change, lane);
+  if (predict) {
+    l.converged = false;
+  } else {
+    const double rate = Has(comparable_, lane)
+                            ? gauges_.Rate(measured, weights, equations, 0,
+                                           OfLane(step_, lane), x, lane)
+                            : 0;
+    l.converged = IsLastChange(moved, l.last_change, rate, crossed, tolerance_);
   }
-  l.converged = !predict && IsLastChange(moved, l.last_change,
-                                         Rate(frames, lane, equations, x),
-                                         crossed, tolerance_);
   l.last_change = moved;
   return true;
-}
-
-ContactEquations FrameGroupFit::EquationsOf(const Frames& frames,
-                                            int lane) const {
-  const int frame = lane_[lane].frame;
-  double normal[3] = {}, gradient[2] = {}, chi2 = 0;
-  for (std::size_t j = 0; j < reading_.size(); ++j) {
-    const double weight = frames.weights_per_rad(j, frame);
-    const double residual =
-        weight * (reading_[j][lane] - frames.angles_rad(j, frame));
-    const double by_arc = weight * slope_[0][j][lane];
-    const double by_force = weight * slope_[1][j][lane];
-    chi2 += residual * residual;
-    gradient[0] += by_arc * residual;
-    gradient[1] += by_force * residual;
-    normal[0] += by_arc * by_arc;
-    normal[1] += by_arc * by_force;
-    normal[2] += by_force * by_force;
-  }
-  ContactEquations equations{ContactMatrix(2, 2), ContactVector(2), chi2};
-  equations.normal << normal[0], normal[1], normal[1], normal[2];
-  equations.gradient << gradient[0], gradient[1];
-  return equations;
-}
-
-// CurvatureRate for the step between the last two linearisations.
-double FrameGroupFit::Rate(const Frames& frames, int lane,
-                           const ContactEquations& equations,
-                           const ContactVector& x) const {
-  if (!Has(comparable_, lane)) return 0;
-  const int frame = lane_[lane].frame;
-  ContactVector by_residual = ContactVector::Zero(2), step(2);
-  for (std::size_t j = 0; j < reading_.size(); ++j) {
-    const double weight = frames.weights_per_rad(j, frame);
-    const double residual =
-        weight * weight * (reading_[j][lane] - frames.angles_rad(j, frame));
-    for (int k = 0; k < 2; ++k) {
-      by_residual[k] +=
-          residual * (slope_[k][j][lane] - slope_before_[k][j][lane]);
-    }
-  }
-  step << step_[0][lane], step_[1][lane];
-  return CurvatureRate(equations, 0, by_residual, step, x);
 }
 
 // The change of the whole shape, judged by the gaps between its elements and by
@@ -268,17 +213,6 @@ double FrameGroupFit::ShapeChange(int lane, bool newton,
   return largest;
 }
 
-// Says whether the series of the last linearisation had converged.
-bool FrameGroupFit::IsResolved(int lane) const {
-  if (!adaptive_) return true;
-  const LadderFrame<FourFrames>& f = lanes_.frame();
-  double worst = 0;
-  for (int slot = 0; slot < f.slots(); ++slot) {
-    worst = std::max(worst, f.truncation[slot][lane]);
-  }
-  return worst < kRefinedTruncation_rad;
-}
-
 // Writes a converged lane's result to its frame. Poses and rib tensions are
 // those of the last linearisation plus their linear change in the last step.
 void FrameGroupFit::Record(const Frames& frames, int lane) const {
@@ -291,35 +225,18 @@ void FrameGroupFit::Record(const Frames& frames, int lane) const {
   fit.iterations = l.iteration;
   fit.arc_mm = l.arc_mm;
   fit.normal_N = l.normal_N;
-  const double mixed = l.normal(0, 1) / (length * force);
-  fit.information << l.normal(0, 0) / (length * length), mixed, mixed,
-      l.normal(1, 1) / (force * force);
-  fit.chi2 = 0;
-  for (std::size_t j = 0; j < reading_.size(); ++j) {
-    const double residual = frames.weights_per_rad(j, l.frame) *
-                            (reading_[j][lane] - frames.angles_rad(j, l.frame));
-    fit.chi2 += residual * residual;
-  }
-  const auto moved = [&](const FourFrames& from, const FourFrames* row) {
-    row += f.affine;
-    return from[lane] + row[0][lane] + row[1][lane] * change_[0][lane] +
-           row[2][lane] * change_[1][lane];
-  };
-  const auto pose = [&](const FourFrames& x, const FourFrames& y,
-                        const FourFrames& theta, int tap) {
-    const FourFrames* rows = f.taps + tap * f.stride;
-    return Eigen::Vector3d(length * moved(x, rows),
-                           length * moved(y, rows + f.stride),
-                           moved(theta, rows + 2 * f.stride));
-  };
-  const int contact = lanes_.contact_of(lane), slot = f.elements + contact;
-  fit.contact_pose = pose(f.slot_x[slot], f.slot_y[slot], f.slot_theta[slot],
-                          f.contact_tap(contact));
-  fit.tip_pose = pose(f.tip[0], f.tip[1], f.tip[2], f.tip_tap());
+  fit.information = InformationOf(l.normal, length, force);
+  fit.chi2 = gauges_.Chi2(frames.angles_rad.col(l.frame),
+                          frames.weights_per_rad.col(l.frame), lane);
+  const ContactVector change = OfLane(change_, lane);
+  fit.contact_pose =
+      PoseAfter(f, lanes_.contact_of(lane), length, change, lane);
+  fit.tip_pose = PoseAfter(f, f.contact_count, length, change, lane);
   fit.rib_tension_N.resize(f.ribs);
   for (int i = 0; i < f.ribs; ++i) {
     fit.rib_tension_N[i] =
-        force * moved(f.state.q[6 + i], f.q_step + (6 + i) * f.stride);
+        force * (f.state.q[6 + i][lane] +
+                 ChangeOf(f, f.q_step + (6 + i) * f.stride, change, lane));
   }
 }
 
@@ -368,10 +285,9 @@ void FrameGroupFit::FitLane(const Frames& frames, int lane) {
 void FrameGroupFit::FitAlone(const Frames& frames, int frame) {
   FrameFit& fit = frames.fits[frame];
   const PointContact before = contact_[0];
-  angles_ = frames.angles_rad.col(frame);
-  weights_ = frames.weights_per_rad.col(frame);
   fit.in_lanes = false;
-  fit.converged = alone_.Follow(angles_, weights_, &contact_);
+  fit.converged = alone_.Follow(frames.angles_rad.col(frame),
+                                frames.weights_per_rad.col(frame), &contact_);
   fit.iterations = alone_.iterations();
   if (!fit.converged) {
     alone_.set_state(state_);

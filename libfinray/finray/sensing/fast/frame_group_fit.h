@@ -68,6 +68,7 @@ class FrameGroupFit {
 
  private:
   using Columns = Eigen::Ref<const Eigen::MatrixXd>;
+  using Column = ContactFit::Readings;
 
   struct Lane {
     int frame;  // its column; the lane is idle beyond the last one
@@ -91,14 +92,9 @@ class FrameGroupFit {
   void TakeFrame(int lane, int frame);
   void Begin(const Frames& frames, int lane);
   void Linearize();
-  void ReadGauges();
   void Advance(const Frames& frames, int lane);
   bool Improve(const Frames& frames, int lane, bool predict);
-  ContactEquations EquationsOf(const Frames& frames, int lane) const;
-  double Rate(const Frames& frames, int lane, const ContactEquations& equations,
-              const ContactVector& x) const;
   double ShapeChange(int lane, bool newton, const ContactVector& change) const;
-  bool IsResolved(int lane) const;
   void Record(const Frames& frames, int lane) const;
   void Keep(LaneSet lanes);
   void FitLane(const Frames& frames, int lane);
@@ -117,11 +113,9 @@ class FrameGroupFit {
   // by change_ = (l_c, f_c) in the ladder's units.
   LaneSet linearised_ = 0;
   FourFrames newton_{}, change_[2] = {};
-  // Gauge angles after that step and change; their slopes by (l_c, f_c).
-  std::vector<FourFrames> reading_, slope_[2];
-  // The slopes of the linearisation before, the change between the two, and the
-  // lanes in which both linearisations are valid.
-  std::vector<FourFrames> slope_before_[2];
+  GaugeReading<FourFrames, 2> gauges_;  // after that step and change
+  // The change between the last two linearisations, and the lanes in which both
+  // are valid.
   FourFrames step_[2] = {};
   LaneSet comparable_ = 0;
   // The state from which each lane's frame started, used when the frame is
@@ -134,7 +128,6 @@ class FrameGroupFit {
   bool one_by_one_ = false;
   LadderState state_;
   std::vector<PointContact> contact_;
-  Eigen::VectorXd angles_, weights_;
 };
 
 }  // namespace finray
