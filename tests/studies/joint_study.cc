@@ -5,10 +5,14 @@
 // and with frames by themselves.
 //
 //   build/test/tests/joint_study [logs] [rate_Hz] [first seed]
+//   build/test/tests/joint_study write <frames> <log.csv>
+//
+// The second form writes one such log, of any length, for finray_estimate.
 
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <string>
 
 #include "finray/sensing/frame_estimator.h"
@@ -214,11 +218,29 @@ void Run(const char* plant_name, const Finger& plant,
   alone.Print("the finger's");
 }
 
+int Write(int frames, const char* path) {
+  WanderingLogSettings settings;
+  settings.duration_s = frames / settings.rate_Hz;
+  const WanderingLog log(PaperFinger(), {Scheme::kTaylor12, 96}, settings);
+  std::ofstream out(path);
+  out.precision(9);
+  out << "time_s,gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V,force_N\n";
+  for (const Measurements& row : log.rows) {
+    out << row.time_s;
+    for (const double volts : row.gauges_V) out << ',' << volts;
+    out << ',' << row.force_N << '\n';
+  }
+  return out.good() ? 0 : 1;
+}
+
 }  // namespace
 }  // namespace finray
 
 int main(int argc, char** argv) {
   using namespace finray;
+  if (argc == 4 && std::string(argv[1]) == "write") {
+    return Write(std::atoi(argv[2]), argv[3]);
+  }
   const int logs = argc > 1 ? std::atoi(argv[1]) : 20;
   const double rate_Hz = argc > 2 ? std::atof(argv[2]) : 10;
   const unsigned seed =

@@ -23,9 +23,8 @@ constexpr int kMostSolverIterations = 50;
 // The solve ends when the cost, about one a frame, falls by less than this.
 constexpr double kLeastChange = 1e-4;
 // What is known of a contact beforehand: std of l_c about its start in l_0, and
-// of f_c about 0 in EI / l_0^2. They tell nothing beside readings that
-// determine the contact, and keep others from the far end of the beam and of
-// the scale.
+// of f_c about what was known of it in EI / l_0^2. They keep contacts that the
+// readings leave open from the far end of the beam and of the scale.
 constexpr double kArcPrior = 0.25, kForcePrior = 16;
 
 }  // namespace
@@ -95,7 +94,7 @@ void LogProblem::AddReadings(std::size_t t) {
         block.cost.release(), loss_.get(), block.parameters));
   }
   if (!Touches(t)) return;
-  const Eigen::Vector2d mean(frame.arc_mm, 0);
+  const Eigen::Vector2d mean(frame.arc_mm, frame.expected_N);
   const Eigen::Vector2d std(kArcPrior * finger_.front_length_mm,
                             kForcePrior * ForceUnit(finger_));
   contact_priors_[t].push_back(problem_->AddResidualBlock(
@@ -190,7 +189,7 @@ int LogProblem::Solve() {
     std::copy_n(offsets(t), gauges_, frame.offset_V.data());
     if (!Touches(t)) continue;
     frame.arc_mm = contact(t)[0];
-    frame.normal_N = contact(t)[1];
+    frame.normal_N = frame.expected_N = contact(t)[1];
     frame.state = evaluation_of_[t]->state();
   }
   Linearize();

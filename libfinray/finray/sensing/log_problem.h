@@ -27,7 +27,11 @@ struct LogFrame {
   Measurements row;
   Role role = Role::kUnused;
   double arc_mm = 0, normal_N = 0;  ///< Start, then solution, if it touches.
-  Eigen::VectorXd offset_V;         ///< Start, then solution.
+  /// What is known of the force beforehand: 0, then the solution. So the weak
+  /// prior of a second problem does not draw the force of a touch to 0, which
+  /// all its frames together would do.
+  double expected_N = 0;
+  Eigen::VectorXd offset_V;  ///< Start, then solution.
   LadderState state;                ///< An equilibrium near the contact.
   /// Another contact that explains the frame within its noise, as
   /// ContactSearch::rival, and its chi2 above that of the first.
