@@ -16,11 +16,14 @@
 
 #include "apps/command_line.h"
 #include "finray/io/frame_table.h"
+#include "sensing/wandering_log.h"
+#include "test_finger.h"
 
 namespace finray {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 class BatchTest : public CommandLineTest {
  protected:
@@ -181,6 +184,57 @@ TEST_F(BatchTest, ResultsLieAsTheLogsLieInTheirRoot) {
   EXPECT_EQ(all["force_squares_N2"].as<double>(), squares[0] + squares[1]);
   EXPECT_EQ(all["force_rms_error_N"].as<double>(),
             std::sqrt((squares[0] + squares[1]) / 500));
+}
+
+TEST_F(BatchTest, WholeLogsWithWanderingOffsets) {
+  folder_.Write("scene.yaml",
+                "contacts: auto\n"
+                "gauge_offset_walk: {start_std_V: 0.05, std_V_per_sqrt_s: "
+                "0.001}\n");
+  WanderingLogSettings settings;
+  settings.duration_s = 40;
+  const WanderingLog log(PaperFinger(), {Scheme::kTaylor12, 96}, settings);
+  std::ofstream rows(folder_.Path("runs/a.csv"));
+  rows << "time_s,gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V,force_N\n";
+  rows.precision(9);
+  for (const Measurements& row : log.rows) {
+    rows << row.time_s;
+    for (const double volts : row.gauges_V) rows << ',' << volts;
+    rows << ',' << row.force_N << '\n';
+  }
+  rows.close();
+  const auto run = [&](const std::string& more) {
+    return Run("finray_estimate", Arguments("%runs/a.csv", "--joint " + more));
+  };
+  const Outcome outcome = run("--out_dir %out");
+  ASSERT_EQ(outcome.code, 0) << outcome.output;
+  const YAML::Node all =
+      YAML::LoadFile(folder_.Path("out/summary.yaml"))["all"];
+  EXPECT_EQ(all["frames"].as<int>(), 400);
+  EXPECT_LT(all["force_rms_error_N"].as<double>(), 0.4);
+  EXPECT_GT(all["status"]["ok"].as<int>(), 150);
+  FrameTable table = FrameTable::Read(folder_.Path("out/a.frames.csv"));
+  const std::string offset = table.MutableText("gauge_2_offset_V")[300];
+  EXPECT_NEAR(std::stod(offset), log.offsets_V[300][1], 0.01);
+
+  // The number of threads changes nothing. A finished log is kept; a frame by
+  // frame result is none of it.
+  ASSERT_EQ(run("--out_dir %two --threads 1").code, 0);
+  EXPECT_EQ(folder_.Read("two/a.frames.csv"), folder_.Read("out/a.frames.csv"));
+  EXPECT_THAT(run("--out_dir %two --resume").output, HasSubstr(", 400 kept"));
+  const Outcome alone = Run(
+      "finray_estimate", Arguments("%runs/a.csv", "--out_dir %two --resume"));
+  ASSERT_EQ(alone.code, 0) << alone.output;
+  EXPECT_THAT(alone.output, Not(HasSubstr("kept")));
+  EXPECT_THAT(alone.output, HasSubstr("gauge_offset_walk is for --joint"));
+  EXPECT_THAT(run("--out_dir %two --solver ceres").output,
+              HasSubstr("--solver does not go with --joint"));
+
+  // Offsets wander in time.
+  std::ofstream(folder_.Path("runs/a.csv"), std::ios::app) << "1,0,0,0,0,0\n";
+  ExpectBadInput("finray_estimate",
+                 Arguments("%runs/a.csv", "--joint --out_dir %bad"),
+                 "expected a time after that of the row before");
 }
 
 TEST_F(BatchTest, BadListsAndLogsAreFoundBeforeAnythingIsWritten) {

@@ -77,8 +77,7 @@ struct Tally {
     }
     const double share = within / frames;
     for (const Touch& touch : touches) {
-      squares +=
-          std::pow(touch.within[unknown][level] - share * touch.ok, 2);
+      squares += std::pow(touch.within[unknown][level] - share * touch.ok, 2);
     }
     char text[40];
     std::snprintf(text, sizeof(text), "%.1f +- %.1f", 100 * share,

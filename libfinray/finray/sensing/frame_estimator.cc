@@ -6,6 +6,7 @@
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 #include "finray/io/nan.h"
+#include "finray/sensing/block_tridiagonal.h"
 
 namespace finray {
 namespace {
@@ -56,12 +57,6 @@ void CheckScene(const Finger& finger, const Scene& scene, FrameMethod method) {
   }
 }
 
-CalibrationUncertainty SystematicOf(const Finger& finger, const Scene& scene,
-                                    const Discretization& discretization) {
-  EquilibriumSolver solver(finger, discretization);
-  return {finger, scene.friction_coefficient, &solver, MeasuredRadius(scene)};
-}
-
 }  // namespace
 
 FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
@@ -69,22 +64,40 @@ FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
                                FrameMethod method)
     : finger_((CheckScene(finger, scene, method), finger)),
       scene_(scene),
+      discretization_(discretization),
       method_(method),
-      least_force_N_(std::min(kLeastForce_N, kLeastForce * ForceUnit(finger))),
+      least_force_N_(LeastForce_N(finger)),
       search_(finger, scene, discretization, method),
-      systematic_(SystematicOf(finger, scene, discretization)) {
+      systematic_(SystematicOf(finger, scene, discretization)),
+      free_(FreeEstimate(finger, discretization)) {
   if (method == FrameMethod::kFast && FrameFollower::Serves(scene)) {
     follower_.emplace(finger, scene, discretization, search_);
   }
-  if (scene.smoothing) smoother_.emplace(finger, scene, discretization);
+}
+
+double FrameEstimator::LeastForce_N(const Finger& finger) {
+  return std::min(kLeastForce_N, kLeastForce * ForceUnit(finger));
+}
+
+FrameEstimate FrameEstimator::FreeEstimate(
+    const Finger& finger, const Discretization& discretization) {
   EquilibriumSolver solver(finger, discretization);
   solver.Solve({});
-  free_.status = FrameStatus::kNoContact;
-  free_.contact[0].normal_N = 0;
-  free_.tip_pose = solver.tip_pose();
+  FrameEstimate free;
+  free.status = FrameStatus::kNoContact;
+  free.contact[0].normal_N = 0;
+  free.tip_pose = solver.tip_pose();
   for (int i = 0; i < solver.model().ribs(); ++i) {
-    free_.rib_tension_N.push_back(solver.rib_tension(i));
+    free.rib_tension_N.push_back(solver.rib_tension(i));
   }
+  return free;
+}
+
+CalibrationUncertainty FrameEstimator::SystematicOf(
+    const Finger& finger, const Scene& scene,
+    const Discretization& discretization) {
+  EquilibriumSolver solver(finger, discretization);
+  return {finger, scene.friction_coefficient, &solver, MeasuredRadius(scene)};
 }
 
 FrameEstimate FrameEstimator::Estimate(const Measurements& readings) {
@@ -108,7 +121,7 @@ void FrameEstimator::EstimateBlock(const Measurements* readings,
     ++i;
     if (follow) i += FollowOn(readings + i, count - i, estimates + i);
   }
-  if (smoother_) Smooth(readings, count, std::nullopt, estimates);
+  if (scene_.smoothing) Smooth(readings, count, {}, estimates);
 }
 
 FrameEstimate FrameEstimator::Follow(const Measurements& readings) {
@@ -118,9 +131,8 @@ FrameEstimate FrameEstimator::Follow(const Measurements& readings) {
     estimate = Estimate(readings);
     following_ = CanFollow(estimate);
   }
-  if (smoother_) {
-    Smooth(&readings, 1, followed_, &estimate);
-    followed_ = smoother_->last();
+  if (scene_.smoothing) {
+    followed_ = Smooth(&readings, 1, followed_, &estimate);
   }
   return estimate;
 }
@@ -195,16 +207,56 @@ bool FrameEstimator::TakeFollowed(const Measurements& readings,
   return true;
 }
 
-void FrameEstimator::Smooth(
-    const Measurements* readings, std::size_t count,
-    const std::optional<ContactSmoother::Belief>& before,
-    FrameEstimate* estimates) {
-  smoother_->Smooth(readings, count, before, estimates);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!smoother_->HasSmoothed(i)) continue;
-    Pack(finger_, scene_, readings[i], &measurement_);
-    Judge(readings[i], measurement_.weights, &estimates[i]);
+LogPrior FrameEstimator::Smooth(const Measurements* readings, std::size_t count,
+                                const LogPrior& before,
+                                FrameEstimate* estimates) {
+  LogPrior known = before;
+  for (std::size_t begin = 0; begin < count;) {
+    std::size_t end = begin;
+    while (end < count && estimates[end].contacts == 1) ++end;
+    if (end > begin) {
+      known =
+          SmoothRun(readings + begin, end - begin, known, estimates + begin);
+    }
+    if (end < count) known = {};
+    begin = std::max(end, begin + 1);
   }
+  return known;
+}
+
+LogPrior FrameEstimator::SmoothRun(const Measurements* readings,
+                                   std::size_t count, const LogPrior& before,
+                                   FrameEstimate* estimates) {
+  Eigen::VectorXd offsets_V(static_cast<Eigen::Index>(finger_.gauges.size()));
+  for (Eigen::Index j = 0; j < offsets_V.size(); ++j) {
+    offsets_V[j] = finger_.gauges[j].offset_V;
+  }
+  std::vector<LogFrame> frames(count);
+  for (std::size_t t = 0; t < count; ++t) {
+    LogFrame& frame = frames[t];
+    frame.row = readings[t];
+    frame.role = LogFrame::Role::kTouching;
+    frame.noise_scale = estimates[t].noise_scale();
+    frame.arc_mm = estimates[t].contact[0].arc_mm;
+    frame.normal_N = frame.expected_N = estimates[t].contact[0].normal_N;
+    frame.offset_V = offsets_V;
+  }
+  LogProblem problem(finger_, scene_, discretization_, 1, &frames, before);
+  problem.Solve();
+  if (!problem.converged()) return {};  // the frames remain what they are
+  const std::vector<LogMarginal> marginals = problem.Marginals();
+  // A frame alone has nothing to be smoothed with, but the next may have.
+  for (std::size_t t = 0; t < count && (count > 1 || before.mean.size() > 0);
+       ++t) {
+    frames[t].CopyTo(marginals[t].covariance, &estimates[t]);
+    Pack(finger_, scene_, readings[t], &measurement_);
+    Judge(readings[t], measurement_.weights, &estimates[t]);
+  }
+  Eigen::MatrixXd next = marginals.back().covariance;
+  next(0, 0) += std::pow(scene_.smoothing->contact_mm, 2);
+  next(1, 1) += std::pow(scene_.smoothing->normal_N, 2);
+  return {Eigen::Vector2d(frames.back().arc_mm, frames.back().normal_N),
+          InverseInformation(next)};
 }
 
 // Adds a contact as long as it makes a significant difference. The free finger
@@ -305,23 +357,34 @@ void FrameEstimator::Judge(const Measurements& readings,
         method_ == FrameMethod::kFast
             ? systematic_.Of(contacts_, readings.gauges_V, weights)
             : search_.best().systematic;
-    for (int c = 0; c < estimate->contacts; ++c) {
-      ContactEstimate& contact = estimate->contact[c];
-      contact.arc_std_mm =
-          std::hypot(contact.arc_std_mm, std::sqrt(covariance(2 * c, 2 * c)));
-      contact.normal_std_N = std::hypot(
-          contact.normal_std_N, std::sqrt(covariance(2 * c + 1, 2 * c + 1)));
-    }
+    AddCovariance(covariance, estimate);
   }
-  bool determined = std::isnan(estimate->alternative_chi2);
+  estimate->status = StatusOf(*estimate, finger_, search_);
+}
+
+void FrameEstimator::AddCovariance(const ContactMatrix& covariance,
+                                   FrameEstimate* estimate) {
   for (int c = 0; c < estimate->contacts; ++c) {
-    const ContactEstimate& contact = estimate->contact[c];
-    determined &=
-        contact.arc_std_mm <= kLargestArcStd * finger_.front_length_mm &&
-        contact.normal_std_N <= kLargestForceStd * contact.normal_N &&
-        !search_.OnBound(contact.arc_mm, contact.normal_N);
+    ContactEstimate& contact = estimate->contact[c];
+    contact.arc_std_mm =
+        std::hypot(contact.arc_std_mm, std::sqrt(covariance(2 * c, 2 * c)));
+    contact.normal_std_N = std::hypot(
+        contact.normal_std_N, std::sqrt(covariance(2 * c + 1, 2 * c + 1)));
   }
-  estimate->status = determined ? FrameStatus::kOk : FrameStatus::kUnobservable;
+}
+
+FrameStatus FrameEstimator::StatusOf(const FrameEstimate& estimate,
+                                     const Finger& finger,
+                                     const ContactSearch& search) {
+  bool determined = std::isnan(estimate.alternative_chi2);
+  for (int c = 0; c < estimate.contacts; ++c) {
+    const ContactEstimate& contact = estimate.contact[c];
+    determined &=
+        contact.arc_std_mm <= kLargestArcStd * finger.front_length_mm &&
+        contact.normal_std_N <= kLargestForceStd * contact.normal_N &&
+        !search.OnBound(contact.arc_mm, contact.normal_N);
+  }
+  return determined ? FrameStatus::kOk : FrameStatus::kUnobservable;
 }
 
 }  // namespace finray

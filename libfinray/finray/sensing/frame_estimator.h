@@ -6,9 +6,9 @@
 #include "finray/scene/scene.h"
 #include "finray/sensing/calibration_uncertainty.h"
 #include "finray/sensing/contact_search.h"
-#include "finray/sensing/contact_smoother.h"
 #include "finray/sensing/fast/frame_follower.h"
 #include "finray/sensing/frame_estimate.h"
+#include "finray/sensing/log_problem.h"
 
 namespace finray {
 
@@ -67,10 +67,28 @@ class FrameEstimator {
   /// The next call of Follow() starts a new log.
   void StopFollowing() {
     following_ = false;
-    followed_.reset();
+    followed_ = {};
   }
 
   const Finger& finger() const { return finger_; }
+
+  // What LogEstimator judges its frames by, too.
+
+  /// The lesser of kLeastForce_N and kLeastForce, in N.
+  static double LeastForce_N(const Finger& finger);
+  /// The estimate of a frame without a contact, but for chi2.
+  static FrameEstimate FreeEstimate(const Finger& finger,
+                                    const Discretization& discretization);
+  static CalibrationUncertainty SystematicOf(
+      const Finger& finger, const Scene& scene,
+      const Discretization& discretization);
+  /// Adds a covariance of (l_c, f_c) of each contact to the std.
+  static void AddCovariance(const ContactMatrix& covariance,
+                            FrameEstimate* estimate);
+  /// Whether its contacts are determined: ok, or else unobservable.
+  static FrameStatus StatusOf(const FrameEstimate& estimate,
+                              const Finger& finger,
+                              const ContactSearch& search);
 
  private:
   bool CanFollow(const FrameEstimate& estimate);
@@ -88,12 +106,18 @@ class FrameEstimator {
   // ok or unobservable.
   void Judge(const Measurements& readings, const Eigen::VectorXd& weights,
              FrameEstimate* estimate);
-  void Smooth(const Measurements* readings, std::size_t count,
-              const std::optional<ContactSmoother::Belief>& before,
-              FrameEstimate* estimates);
+  // Smooths the runs of frames with one contact (LogProblem). Changes l_c, f_c,
+  // their std, poses and rib tensions; chi2, dof and the alternative remain
+  // those of the frame alone. `before`: what is known of the first frame.
+  // Returns what is known of the frame that comes next.
+  LogPrior Smooth(const Measurements* readings, std::size_t count,
+                  const LogPrior& before, FrameEstimate* estimates);
+  LogPrior SmoothRun(const Measurements* readings, std::size_t count,
+                     const LogPrior& before, FrameEstimate* estimates);
 
   Finger finger_;
   Scene scene_;
+  Discretization discretization_;
   FrameMethod method_;
   double least_force_N_;
   ContactSearch search_;
@@ -101,8 +125,7 @@ class FrameEstimator {
   bool following_ = false;                 // by Follow
   CalibrationUncertainty systematic_;
   std::vector<PointContact> contacts_;
-  std::optional<ContactSmoother> smoother_;
-  std::optional<ContactSmoother::Belief> followed_;  // by Follow
+  LogPrior followed_;  // by Follow, if the scene has smoothing
   FrameEstimate free_;
   // State of the frame being estimated.
   PackedReadings measurement_;

@@ -49,21 +49,10 @@ LogEstimator::LogEstimator(const Finger& finger, const Scene& scene,
       threads_(threads),
       take_(std::move(take)),
       detection_(finger, scene, discretization),
-      solver_(finger, discretization),
-      systematic_(finger, scene.friction_coefficient, &solver_,
-                  MeasuredRadius(scene)),
-      least_force_N_(std::min(FrameEstimator::kLeastForce_N,
-                              FrameEstimator::kLeastForce * ForceUnit(finger))),
-      prior_(FirstPrior()) {
-  solver_.Reset();
-  solver_.Solve({});
-  free_.status = FrameStatus::kNoContact;
-  free_.contact[0].normal_N = 0;
-  free_.tip_pose = solver_.tip_pose();
-  for (int i = 0; i < solver_.model().ribs(); ++i) {
-    free_.rib_tension_N.push_back(solver_.rib_tension(i));
-  }
-}
+      systematic_(FrameEstimator::SystematicOf(finger, scene, discretization)),
+      free_(FrameEstimator::FreeEstimate(finger, discretization)),
+      least_force_N_(FrameEstimator::LeastForce_N(finger)),
+      prior_(FirstPrior()) {}
 
 LogPrior LogEstimator::FirstPrior() const {
   LogPrior prior;
@@ -267,21 +256,8 @@ void LogEstimator::JudgeContact(const LogFrame& frame,
                                 FrameEstimate* estimate) {
   const std::vector<PointContact> contacts = {
       {frame.arc_mm, frame.normal_N, scene_.friction_coefficient}};
-  solver_.set_state(frame.state);
-  solver_.Solve(contacts);
-  estimate->contacts = 1;
-  ContactEstimate& contact = estimate->contact[0];
-  contact.arc_mm = frame.arc_mm;
-  contact.normal_N = frame.normal_N;
-  contact.pose = solver_.contact_pose(0);
-  estimate->tip_pose = solver_.tip_pose();
-  for (std::size_t i = 0; i < estimate->rib_tension_N.size(); ++i) {
-    estimate->rib_tension_N[i] = solver_.rib_tension(static_cast<int>(i));
-  }
-  const Eigen::Index at = marginal.covariance.rows() - 2;
   const double scale = estimate->noise_scale();
-  contact.arc_std_mm = scale * std::sqrt(marginal.covariance(at, at));
-  contact.normal_std_N = scale * std::sqrt(marginal.covariance(at + 1, at + 1));
+  frame.CopyTo(scale * scale * marginal.covariance, estimate);
   if (!systematic_.empty()) {
     PackedReadings packed;
     Pack(finger_, scene_, frame.row, &packed);
@@ -290,12 +266,8 @@ void LogEstimator::JudgeContact(const LogFrame& frame,
       readings_V[j] += finger_.gauges[j].offset_V -
                        frame.offset_V[static_cast<Eigen::Index>(j)];
     }
-    const ContactMatrix covariance =
-        systematic_.Of(contacts, readings_V, packed.weights);
-    contact.arc_std_mm =
-        std::hypot(contact.arc_std_mm, std::sqrt(covariance(0, 0)));
-    contact.normal_std_N =
-        std::hypot(contact.normal_std_N, std::sqrt(covariance(1, 1)));
+    FrameEstimator::AddCovariance(
+        systematic_.Of(contacts, readings_V, packed.weights), estimate);
   }
   if (frame.rival) {
     const ContactSolution& rival = frame.rival->contact;
@@ -304,14 +276,8 @@ void LogEstimator::JudgeContact(const LogFrame& frame,
     estimate->alternative[0].pose = rival.poses[0];
     estimate->alternative_chi2 = estimate->chi2 + frame.rival->more_chi2;
   }
-  const bool determined =
-      !frame.rival &&
-      contact.arc_std_mm <=
-          FrameEstimator::kLargestArcStd * finger_.front_length_mm &&
-      contact.normal_std_N <=
-          FrameEstimator::kLargestForceStd * contact.normal_N &&
-      !detection_.search().OnBound(contact.arc_mm, contact.normal_N);
-  estimate->status = determined ? FrameStatus::kOk : FrameStatus::kUnobservable;
+  estimate->status =
+      FrameEstimator::StatusOf(*estimate, finger_, detection_.search());
 }
 
 }  // namespace finray

@@ -75,7 +75,6 @@ class LogEstimator {
   int threads_;
   Take take_;
   TouchDetection detection_;
-  EquilibriumSolver solver_;
   CalibrationUncertainty systematic_;
   FrameEstimate free_;
   int iterations_ = 0;  // of the window under way

@@ -29,6 +29,16 @@ constexpr double kArcPrior = 0.25, kForcePrior = 16;
 
 }  // namespace
 
+void LogFrame::CopyTo(const Eigen::MatrixXd& covariance,
+                      FrameEstimate* estimate) const {
+  const Eigen::Index at = covariance.rows() - 2;
+  estimate->contacts = 1;
+  estimate->contact[0] = {arc_mm, std::sqrt(covariance(at, at)), normal_N,
+                          std::sqrt(covariance(at + 1, at + 1)), pose};
+  estimate->tip_pose = tip_pose;
+  estimate->rib_tension_N = rib_tension_N;
+}
+
 LogProblem::LogProblem(const Finger& finger, const Scene& scene,
                        const Discretization& discretization, int threads,
                        std::vector<LogFrame>* frames, const LogPrior& prior)
@@ -87,8 +97,11 @@ void LogProblem::AddReadings(std::size_t t) {
   for (std::size_t j = 0; j < gauges_; ++j) {
     parameters.readings[j] = {{offsets(t) + j, 1}};
   }
+  MeasurementModel model = model_;
+  for (double& std : model.gauge_std_V) std *= frame.noise_scale;
+  if (model.circle) model.circle->std_mm *= frame.noise_scale;
   for (FrameBlock& block :
-       MeasurementBlocks(frame.row, model_, parameters, finger_.gauges,
+       MeasurementBlocks(frame.row, model, parameters, finger_.gauges,
                          evaluation_of_[t], contact(t))) {
     readings_[t].push_back(problem_->AddResidualBlock(
         block.cost.release(), loss_.get(), block.parameters));
@@ -188,9 +201,20 @@ int LogProblem::Solve() {
     LogFrame& frame = (*frames_)[t];
     std::copy_n(offsets(t), gauges_, frame.offset_V.data());
     if (!Touches(t)) continue;
-    frame.arc_mm = contact(t)[0];
+    const FrameEvaluation& at = *evaluation_of_[t];
+    frame.arc_mm = std::clamp(contact(t)[0], 0.0, finger_.front_length_mm);
     frame.normal_N = frame.expected_N = contact(t)[1];
-    frame.state = evaluation_of_[t]->state();
+    frame.state = at.state();
+    if (!at.valid()) {
+      converged_ = false;
+      frame.pose = frame.tip_pose = Eigen::Vector3d::Constant(std::nan(""));
+      frame.rib_tension_N.assign(finger_.ribs.size(), std::nan(""));
+      continue;
+    }
+    frame.pose = at.outputs().segment<3>(at.contact_row(0));
+    frame.tip_pose = at.outputs().segment<3>(at.tip_row());
+    const double* tensions = at.state().q.data() + 6;
+    frame.rib_tension_N.assign(tensions, tensions + at.ribs());
   }
   Linearize();
   return std::max(0, static_cast<int>(summary.iterations.size()) - 1);

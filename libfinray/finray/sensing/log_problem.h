@@ -13,6 +13,7 @@
 #include "finray/residuals/frame_blocks.h"
 #include "finray/scene/scene.h"
 #include "finray/sensing/contact_search.h"
+#include "finray/sensing/frame_estimate.h"
 
 namespace finray {
 
@@ -26,13 +27,17 @@ struct LogFrame {
 
   Measurements row;
   Role role = Role::kUnused;
+  double noise_scale = 1;           ///< Factor on the std of its measurements.
   double arc_mm = 0, normal_N = 0;  ///< Start, then solution, if it touches.
   /// What is known of the force beforehand: 0, then the solution. So the weak
   /// prior of a second problem does not draw the force of a touch to 0, which
   /// all its frames together would do.
   double expected_N = 0;
   Eigen::VectorXd offset_V;  ///< Start, then solution.
-  LadderState state;                ///< An equilibrium near the contact.
+  LadderState state;         ///< An equilibrium near the contact.
+  /// Of the solution: at the contact, at the tip, and of the ribs.
+  Eigen::Vector3d pose, tip_pose;
+  std::vector<double> rib_tension_N;
   /// Another contact that explains the frame within its noise, as
   /// ContactSearch::rival, and its chi2 above that of the first.
   struct Rival {
@@ -40,10 +45,15 @@ struct LogFrame {
     double more_chi2;
   };
   std::optional<Rival> rival;
+
+  /// Copies contact, poses and rib tensions of the solution, and the std of a
+  /// covariance that ends with (l_c, f_c).
+  void CopyTo(const Eigen::MatrixXd& covariance, FrameEstimate* estimate) const;
 };
 
 /// What the frames before the first one tell about its offsets and, where its
-/// contact is linked to the one before, about (l_c, f_c) behind them.
+/// contact is linked to the one before, about (l_c, f_c) behind them. Empty if
+/// nothing is known.
 struct LogPrior {
   Eigen::VectorXd mean;
   Eigen::MatrixXd information;
@@ -63,7 +73,8 @@ struct LogMarginal {
   double chi2 = 0;
 };
 
-/// Contacts and gauge offsets of a stretch of a log in one sparse problem:
+/// Contacts and gauge offsets of a stretch of a log in one sparse problem; for
+/// FrameEstimator, which smooths contacts, and for LogEstimator:
 ///
 ///   MeasurementBlocks            each free or touching frame, with a Huber
 ///   loss GaugeOffsetChangeResidual    each gauge, from frame to frame

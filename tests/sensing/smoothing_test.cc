@@ -1,5 +1,3 @@
-#include "finray/sensing/contact_smoother.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -47,7 +45,7 @@ struct Walk {
   std::vector<Measurements> readings;
 };
 
-TEST(ContactSmootherTest, IsTheLeastOfTheWholeCost) {
+TEST(SmoothingTest, IsTheLeastOfTheWholeCost) {
   // A dense Gauss-Newton over all frames at once, from finite differences.
   constexpr int kFrames = 6;
   const Walk walk(kFrames, 0.4, 0.1, 1);
@@ -99,7 +97,7 @@ TEST(ContactSmootherTest, IsTheLeastOfTheWholeCost) {
   }
 }
 
-TEST(ContactSmootherTest, AnotherLogBeginsAfresh) {
+TEST(SmoothingTest, AnotherLogBeginsAfresh) {
   const Walk walk(20, 0.2, 0.03, 3);
   const Scene scene = SmoothScene(0.2, 0.03);
   LiveEstimator used(PaperFinger(), scene), fresh(PaperFinger(), scene),
@@ -115,7 +113,7 @@ TEST(ContactSmootherTest, AnotherLogBeginsAfresh) {
   EXPECT_GT(std::abs(going_on.Next(first).contact[0].arc_mm - arc_mm), 1e-3);
 }
 
-TEST(ContactSmootherTest, HelpsAsMuchAsItsStdSays) {
+TEST(SmoothingTest, HelpsAsMuchAsItsStdSays) {
   constexpr int kFrames = 256;
   const Walk walk(kFrames, 0.2, 0.03, 2);
   FrameEstimator estimator(PaperFinger(), SmoothScene(0.2, 0.03), {});
@@ -151,7 +149,7 @@ TEST(ContactSmootherTest, HelpsAsMuchAsItsStdSays) {
   EXPECT_NEAR(follow_chi2 / kFrames, 1, 0.4);
 }
 
-TEST(ContactSmootherTest, AnUnexplainedFrameCountsForLittle) {
+TEST(SmoothingTest, AnUnexplainedFrameCountsForLittle) {
   Walk walk(9, 0.01, 0.01, 5);
   walk.readings[4].gauges_V[1] += 0.02;
   FrameEstimator smooth(PaperFinger(), SmoothScene(0.5, 0.1), {});
@@ -169,7 +167,7 @@ TEST(ContactSmootherTest, AnUnexplainedFrameCountsForLittle) {
   EXPECT_EQ(estimates[4].status, FrameStatus::kOk);
 }
 
-TEST(ContactSmootherTest, ARunEndsWhereTheContactDoes) {
+TEST(SmoothingTest, ARunEndsWhereTheContactDoes) {
   // Two contacts far apart with free frames between them: nothing drags one
   // towards the other.
   Walk walk(12, 0.01, 0.01, 3);
