@@ -102,12 +102,12 @@ void LogEstimator::Add(const Measurements& row) {
   frames_.push_back(std::move(frame));
   if (frames_.size() < next_look_) return;
   detection_.Decide(BeliefBefore(), &frames_);
-  next_look_ = frames_.size() + kWindow;
   if (const std::optional<Gap> gap = FindGap()) {
     SolveWindow(gap->end, gap->middle);
   } else if (frames_.size() >= kLongestWindow) {
     SolveWindow(frames_.size(), frames_.size() / 2);
   }
+  next_look_ = frames_.size() + kWindow;  // of those that are left
 }
 
 void LogEstimator::Finish() {
