@@ -159,9 +159,9 @@ void LogEstimator::SolveWindow(std::size_t window, std::size_t settled) {
                        prior_);
     iterations_ += problem.Solve();
     const std::vector<LogMarginal> marginals = problem.Marginals();
-    const bool changed =
-        round < kMostRounds && Reconsider(marginals, &frames, &dropped);
-    if (changed || round < kLeastRounds) continue;
+    if (round < kMostRounds && Reconsider(marginals, &frames, &dropped)) {
+      continue;
+    }
     for (std::size_t t = 0; t < settled; ++t) {
       take_(Judge(frames[t], marginals[t], problem.converged()));
     }

@@ -25,8 +25,8 @@ namespace finray {
 ///
 /// After a solve, frames are looked at once more with the offsets that all
 /// other frames give them: a contact that is not significant any more is taken
-/// away, one that has become so is added, and the window is solved again,
-/// kLeastRounds to kMostRounds times.
+/// away, one that has become so is added, and the window is solved again, up to
+/// kMostRounds times.
 ///
 /// It sets the statuses of FrameEstimator, by its criteria: no_contact for a
 /// frame without a contact or with one below kLeastForce, not_converged for a
@@ -35,7 +35,7 @@ namespace finray {
 class LogEstimator {
  public:
   static constexpr std::size_t kWindow = 2048, kLongestWindow = 16384;
-  static constexpr int kLeastRounds = 2, kMostRounds = 4;
+  static constexpr int kMostRounds = 4;
 
   /// Gets the frames one by one in their order.
   using Take = std::function<void(const FrameEstimate&)>;

@@ -23,8 +23,8 @@ constexpr int kMostSolverIterations = 50;
 // The solve ends when the cost, about one a frame, falls by less than this.
 constexpr double kLeastChange = 1e-4;
 // What is known of a contact beforehand: std of l_c about its start in l_0, and
-// of f_c about what was known of it in EI / l_0^2. They keep contacts that the
-// readings leave open from the far end of the beam and of the scale.
+// of f_c about what is expected of it in EI / l_0^2. They keep contacts that
+// the readings leave open from the far end of the beam and of the scale.
 constexpr double kArcPrior = 0.25, kForcePrior = 16;
 
 }  // namespace
@@ -203,7 +203,7 @@ int LogProblem::Solve() {
     if (!Touches(t)) continue;
     const FrameEvaluation& at = *evaluation_of_[t];
     frame.arc_mm = std::clamp(contact(t)[0], 0.0, finger_.front_length_mm);
-    frame.normal_N = frame.expected_N = contact(t)[1];
+    frame.normal_N = contact(t)[1];
     frame.state = at.state();
     if (!at.valid()) {
       converged_ = false;

@@ -29,9 +29,7 @@ struct LogFrame {
   Role role = Role::kUnused;
   double noise_scale = 1;           ///< Factor on the std of its measurements.
   double arc_mm = 0, normal_N = 0;  ///< Start, then solution, if it touches.
-  /// What is known of the force beforehand: 0, then the solution. So the weak
-  /// prior of a second problem does not draw the force of a touch to 0, which
-  /// all its frames together would do.
+  /// Mean of the weak prior of the force.
   double expected_N = 0;
   Eigen::VectorXd offset_V;  ///< Start, then solution.
   LadderState state;         ///< An equilibrium near the contact.

@@ -149,7 +149,6 @@ void TouchDetection::StartTouch(LogFrame* frame) const {
   frame->role = LogFrame::Role::kTouching;
   frame->arc_mm = first->contacts[0].arc_mm;
   frame->normal_N = first->contacts[0].normal_N;
-  frame->expected_N = 0;
   frame->state = first->state;
   frame->rival.reset();
   if (second == nullptr) return;
