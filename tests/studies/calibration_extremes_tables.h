@@ -59,11 +59,11 @@ inline void CalibrationNoiseTable(int seeds) {
         RunCalibration(c, seeds));
   }
   for (const double factor : {1e-9, 1e-6, 1e-3, 1.0, 10.0}) {
-    PrintCalibration(Number(factor) + " times the usual",
+    PrintCalibration(ShortNumber(factor) + " times the usual",
                      RunCalibration(WithNoiseTimes(factor), seeds));
   }
   for (const double share : {0.01, 0.03, 0.1, 0.3}) {
-    PrintCalibration(Number(100 * share) + " % of what is measured",
+    PrintCalibration(ShortNumber(100 * share) + " % of what is measured",
                      RunCalibration(WithNoiseOfReading(share), seeds));
   }
   for (const double lie : {1e-3, 0.1, 10.0, 1e3}) {
@@ -71,7 +71,7 @@ inline void CalibrationNoiseTable(int seeds) {
     for (Gauge& gauge : c.start.gauges) gauge.noise_V *= lie;
     c.plan.force_std_N *= lie;
     c.plan.object_std_mm *= lie;
-    PrintCalibration("usual, told " + Number(lie) + " times as much",
+    PrintCalibration("usual, told " + ShortNumber(lie) + " times as much",
                      RunCalibration(c, seeds));
   }
 }
@@ -110,11 +110,11 @@ inline CalibrationCase WithOffsets(double offset_V, bool priors) {
 inline void CalibrationOffsetTable(int seeds) {
   PrintCalibrationHeader("offsets of the truth");
   for (const double offset : {1.0, 1e3}) {
-    PrintCalibration(Number(offset) + " V, prior of 0 +- 1 V",
+    PrintCalibration(ShortNumber(offset) + " V, prior of 0 +- 1 V",
                      RunCalibration(WithOffsets(offset, true), seeds));
   }
   for (const double offset : {1.0, 1e3, 1e6, 1e9}) {
-    PrintCalibration(Number(offset) + " V, no priors",
+    PrintCalibration(ShortNumber(offset) + " V, no priors",
                      RunCalibration(WithOffsets(offset, false), seeds));
   }
 }
@@ -135,11 +135,11 @@ inline CalibrationCase WithGainsTimes(double factor, bool priors) {
 inline void CalibrationGainTable(int seeds) {
   PrintCalibrationHeader("gains of the truth, times");
   for (const double factor : {1e-9, 1e-6, 1e-3, 0.1, -1.0, 10.0, 100.0}) {
-    PrintCalibration(Number(factor) + ", prior of 1 +- 2 V/rad",
+    PrintCalibration(ShortNumber(factor) + ", prior of 1 +- 2 V/rad",
                      RunCalibration(WithGainsTimes(factor, true), seeds));
   }
   for (const double factor : {1e-9, 1e-6, 1e-3, -1.0, 10.0, 100.0}) {
-    PrintCalibration(Number(factor) + ", no priors",
+    PrintCalibration(ShortNumber(factor) + ", no priors",
                      RunCalibration(WithGainsTimes(factor, false), seeds));
   }
 }
@@ -175,7 +175,7 @@ inline void CalibrationLayoutTable(int seeds) {
     dead.disturb = [reading](FrameTable* log) {
       for (double& V : log->MutableNumbers("gauge_2_V")) V = reading;
     };
-    row("the second reads " + Number(reading) + " V", dead);
+    row("the second reads " + ShortNumber(reading) + " V", dead);
   }
 }
 
@@ -185,19 +185,21 @@ inline void CalibrationStartTable(int seeds) {
     CalibrationCase c;
     c.start.front_stiffness_N_mm2 *= factor;
     c.start.back_stiffness_N_mm2 *= factor;
-    PrintCalibration("both EI x " + Number(factor), RunCalibration(c, seeds));
+    PrintCalibration("both EI x " + ShortNumber(factor),
+                     RunCalibration(c, seeds));
   }
   for (const double factor : {-100.0, -1.0, 0.01, 0.1, 10.0, 100.0, 1e4}) {
     CalibrationCase c;
     for (Gauge& gauge : c.start.gauges) gauge.gain_V_per_rad *= factor;
-    PrintCalibration("gains x " + Number(factor), RunCalibration(c, seeds));
+    PrintCalibration("gains x " + ShortNumber(factor),
+                     RunCalibration(c, seeds));
   }
   for (const double off : {1.0, 3.0}) {
     CalibrationCase c;
     for (std::size_t i = 0; i < 5; ++i) {
       c.start.ribs[i].length_mm += i % 2 == 0 ? off : -off;
     }
-    PrintCalibration("ribs off by " + Number(off) + " mm, prior of 0.5 mm",
+    PrintCalibration("ribs off by " + ShortNumber(off) + " mm, prior of 0.5 mm",
                      RunCalibration(c, seeds));
   }
 }
@@ -209,9 +211,9 @@ inline void CalibrationSlowTable() {
     CalibrationCase c;
     c.start.front_stiffness_N_mm2 *= factor;
     c.start.back_stiffness_N_mm2 /= factor;
-    PrintCalibration(
-        "front EI x " + Number(factor) + ", back EI / " + Number(factor),
-        RunCalibration(c, 1));
+    PrintCalibration("front EI x " + ShortNumber(factor) + ", back EI / " +
+                         ShortNumber(factor),
+                     RunCalibration(c, 1));
   }
   PrintCalibration("gains times 1000, prior of 1 +- 2 V/rad",
                    RunCalibration(WithGainsTimes(1e3, true), 1));

@@ -25,13 +25,14 @@ inline void NoiseTable(int frames) {
     SensingCase c;
     c.told = WithGaugeNoise(c.truth, told);
     c.disturb = NoNoise;
-    PrintSensing("0, told " + Number(told) + " rad", RunSensing(c, frames));
+    PrintSensing("0, told " + ShortNumber(told) + " rad",
+                 RunSensing(c, frames));
   }
   for (const double noise :
        {1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0}) {
     SensingCase c;
     c.noise_of_reading = noise;
-    PrintSensing(Number(noise), RunSensing(c, frames));
+    PrintSensing(ShortNumber(noise), RunSensing(c, frames));
   }
   std::printf("\nTold %s as they are, of readings with 0.001.\n\n",
               "other std than");
@@ -45,7 +46,7 @@ inline void NoiseTable(int frames) {
       for (Gauge& gauge : noisy.gauges) gauge.noise_V /= lie;
       *readings = WithNoise(*readings, noisy, generator);
     };
-    PrintSensing(Number(lie), RunSensing(c, frames));
+    PrintSensing(ShortNumber(lie), RunSensing(c, frames));
   }
 }
 
@@ -79,10 +80,10 @@ inline void OffsetTable(int frames) {
     SensingCase c;
     c.truth = c.told = offset_by(c.truth, offset);
     c.disturb = NoNoise;
-    PrintSensing(Number(offset) + " V, removed, no noise",
+    PrintSensing(ShortNumber(offset) + " V, removed, no noise",
                  RunSensing(c, frames));
     c.disturb = SensingCase().disturb;
-    PrintSensing(Number(offset) + " V, removed, 3e-4 V of noise",
+    PrintSensing(ShortNumber(offset) + " V, removed, 3e-4 V of noise",
                  RunSensing(c, frames));
   }
   for (const double drift :
@@ -95,7 +96,7 @@ inline void OffsetTable(int frames) {
       double sign = 1;
       for (double& V : readings->gauges_V) V += (sign = -sign) * drift;
     };
-    PrintSensing("drift of " + Number(drift) + " V, not removed",
+    PrintSensing("drift of " + ShortNumber(drift) + " V, not removed",
                  RunSensing(c, frames));
   }
 }
@@ -249,9 +250,9 @@ inline void PlacesTable(int frames) {
     c.arc_spread_mm = 0;
     c.force_spread = 1e-3;
     c.automatic = automatic;
-    PrintSensing(
-        Number(arc) + "; " + Number(force) + (automatic ? "; auto" : "; 1"),
-        RunSensing(c, 8 * frames));
+    PrintSensing(ShortNumber(arc) + "; " + ShortNumber(force) +
+                     (automatic ? "; auto" : "; 1"),
+                 RunSensing(c, 8 * frames));
   };
   for (const double arc : {0.0, 1e-9, 1e-3, 1.0, 5.0, 10.0, 61.0, 66.0, 84.0,
                            115.0, 125.0, 135.0, 139.0, 139.999, 140.0}) {
@@ -269,7 +270,7 @@ inline void PlacesTable(int frames) {
     c.noise_of_reading = 1e-4;
     c.places = {{75, force}};
     c.automatic = true;
-    PrintSensing(Number(force), RunSensing(c, 8 * frames));
+    PrintSensing(ShortNumber(force), RunSensing(c, 8 * frames));
   }
 }
 

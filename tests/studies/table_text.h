@@ -7,7 +7,7 @@
 namespace finray {
 
 /// A number as in a table's first column.
-inline std::string Number(double value) {
+inline std::string ShortNumber(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%g", value);
   return text;

@@ -51,7 +51,6 @@ FrameProblem::FrameProblem(const Finger& finger, const Scene& scene,
       parameters_(finger),
       frames_(finger, discretization, form, parameters_.shared(), 1),
       solver_(finger, discretization) {
-  frames_.set_near_only(true);
   if (finger.calibration) calibration_factor_ = finger.calibration->Factor();
 }
 
@@ -127,7 +126,12 @@ bool FrameProblem::Solve() {
   for (double* block : all) {
     if (block != unknowns) problem.SetParameterBlockConstant(block);
   }
+  // The start may be far from the state that came with it. The trials behind it
+  // look near the last equilibrium only.
+  frames_.PrepareForEvaluation(true, true);
   const FrameEvaluation& frame = frames_[0];
+  if (!frame.valid()) return false;
+  frames_.set_near_only(true);
   for (int c = 0; c < frame.contacts(); ++c) {
     const int at = frame.contact_offset(c);
     problem.SetParameterLowerBound(unknowns, at, 0);
@@ -150,6 +154,7 @@ bool FrameProblem::Solve() {
   solve.callbacks.push_back(&stop_if_hopeless);
   ceres::Solver::Summary summary;
   ceres::Solve(solve, &problem, &summary);
+  frames_.set_near_only(false);
   iterations_ += static_cast<int>(summary.iterations.size());
   return summary.termination_type == ceres::CONVERGENCE ||
          summary.termination_type == ceres::USER_SUCCESS;
