@@ -45,7 +45,6 @@ LogProblem::LogProblem(const Finger& finger, const Scene& scene,
     : finger_(finger),
       scene_(scene),
       frames_(frames),
-      threads_(threads),
       gauges_(finger.gauges.size()),
       stride_(gauges_ + 2),
       values_(frames->size() * stride_),
@@ -179,7 +178,9 @@ int LogProblem::Solve() {
   ceres::Solver::Options options;
   options.logging_type = ceres::SILENT;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  options.num_threads = threads_;
+  // The frames are evaluated on all threads (FrameSet). Sums of Ceres over
+  // several threads would differ in their last digits from run to run.
+  options.num_threads = 1;
   options.max_num_iterations = kMostSolverIterations;
   // The residuals are whitened. The information about an offset under a long
   // touch is 1e-3 of its diagonal: with this radius it is hardly damped.
@@ -222,7 +223,6 @@ int LogProblem::Solve() {
 
 void LogProblem::Linearize() {
   ceres::Problem::EvaluateOptions options;
-  options.num_threads = threads_;
   std::vector<ceres::ResidualBlockId>& rows = options.residual_blocks;
   links_end_.clear();
   readings_end_.clear();

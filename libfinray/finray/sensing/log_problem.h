@@ -91,7 +91,8 @@ class LogProblem {
   /// is far more than what the readings leave open elsewhere.
   static constexpr double kContactWalk_mm = 5;
 
-  /// `frames` must stay in place, one at least, times ascending.
+  /// `frames` must stay in place, one at least, times ascending. The result
+  /// does not depend on `threads`.
   LogProblem(const Finger& finger, const Scene& scene,
              const Discretization& discretization, int threads,
              std::vector<LogFrame>* frames, const LogPrior& prior);
@@ -133,7 +134,6 @@ class LogProblem {
   Finger finger_;
   Scene scene_;
   std::vector<LogFrame>* frames_;
-  int threads_;
   std::size_t gauges_, stride_;
   std::vector<double> values_;  // offsets and contact of each frame, in order
   MeasurementModel model_;
