@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "finray/io/error.h"
@@ -89,6 +90,26 @@ TEST(LogEstimatorTest, WindowsTellWhatOneProblemTells) {
     EXPECT_NEAR(a.normal_std_N / b.normal_std_N, 1, 0.1) << t;
   }
   EXPECT_GT(compared, 500);
+}
+
+TEST(LogEstimatorTest, HoldsNoMoreFramesOfALongerLog) {
+  WanderingLogSettings settings;
+  settings.duration_s = 1600;
+  settings.shortest_touch_s = 1;
+  settings.longest_touch_s = 2;
+  settings.shortest_gap_s = 20;
+  settings.longest_gap_s = 60;
+  const WanderingLog log(PaperFinger(), {Scheme::kTaylor12, 96}, settings);
+  std::size_t taken = 0, added = 0, most = 0;
+  LogEstimator estimator(PaperFinger(), WalkingScene(), {}, 1,
+                         [&](const FrameEstimate&) { ++taken; });
+  for (const Measurements& row : log.rows) {
+    most = std::max(most, ++added - taken);
+    estimator.Add(row);
+  }
+  estimator.Finish();
+  EXPECT_EQ(taken, log.rows.size());
+  EXPECT_LT(most, 2 * LogEstimator::kWindow);
 }
 
 TEST(LogEstimatorTest, WithoutAWalkFramesAreThoseOfTheFrameEstimator) {
