@@ -22,18 +22,25 @@ constexpr double kParameterTolerance = 1e-11, kFunctionTolerance = 1e-15,
 // would creep along the curved valley in which equilibrium holds.
 constexpr double kWeights[] = {1e3, 1e4, 1e5, 1e6, kEquilibriumWeight};
 
-// A decrease of a hopeless chi2 by less than this share of it ends the solve.
-constexpr double kLeastShare = 1e-3;
+// A decrease of a hopeless chi2 by less than this share of it ends the solve,
+// and so does one by less than kNothing behind the first kPatience iterations:
+// in a flat valley the solver would creep on.
+constexpr double kLeastShare = 1e-3, kNothing = 1e-6;
+constexpr int kPatience = 60;
 
-class StopIfHopeless final : public ceres::IterationCallback {
+class StopIfSlow final : public ceres::IterationCallback {
  public:
   ceres::CallbackReturnType operator()(
       const ceres::IterationSummary& step) override {
-    const bool hopeless = 2 * step.cost > FrameProblem::kHopelessChi2;
-    return hopeless && step.iteration > 0 && step.step_is_successful &&
-                   step.cost_change < kLeastShare * step.cost
-               ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
-               : ceres::SOLVER_CONTINUE;
+    if (step.iteration == 0 || !step.step_is_successful) {
+      return ceres::SOLVER_CONTINUE;
+    }
+    const bool hopeless = 2 * step.cost > FrameProblem::kHopelessChi2 &&
+                          step.cost_change < kLeastShare * step.cost;
+    const bool creeps =
+        step.iteration >= kPatience && 2 * step.cost_change < kNothing;
+    return hopeless || creeps ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                              : ceres::SOLVER_CONTINUE;
   }
 };
 
@@ -150,8 +157,8 @@ bool FrameProblem::Solve() {
   solve.function_tolerance = kFunctionTolerance;
   solve.parameter_tolerance = kParameterTolerance;
   solve.gradient_tolerance = 0;
-  StopIfHopeless stop_if_hopeless;
-  solve.callbacks.push_back(&stop_if_hopeless);
+  StopIfSlow stop_if_slow;
+  solve.callbacks.push_back(&stop_if_slow);
   ceres::Solver::Summary summary;
   ceres::Solve(solve, &problem, &summary);
   frames_.set_near_only(false);
