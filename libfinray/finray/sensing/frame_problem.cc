@@ -28,10 +28,20 @@ constexpr double kWeights[] = {1e3, 1e4, 1e5, 1e6, kEquilibriumWeight};
 constexpr double kLeastShare = 1e-3, kNothing = 1e-6;
 constexpr int kPatience = 60;
 
+// Also keeps the equilibrium of the last point that Ceres accepted: the trials
+// behind it may have led away.
 class StopIfSlow final : public ceres::IterationCallback {
  public:
+  explicit StopIfSlow(FrameEvaluation& frame) : frame_(frame) {}
+  const LadderState& accepted() const { return accepted_; }
+
   ceres::CallbackReturnType operator()(
       const ceres::IterationSummary& step) override {
+    if (step.step_is_successful) {
+      accepted_ = frame_.state();
+    } else {
+      frame_.set_state(accepted_);
+    }
     if (step.iteration == 0 || !step.step_is_successful) {
       return ceres::SOLVER_CONTINUE;
     }
@@ -42,6 +52,10 @@ class StopIfSlow final : public ceres::IterationCallback {
     return hopeless || creeps ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
                               : ceres::SOLVER_CONTINUE;
   }
+
+ private:
+  FrameEvaluation& frame_;
+  LadderState accepted_ = frame_.state();
 };
 
 }  // namespace
@@ -157,11 +171,12 @@ bool FrameProblem::Solve() {
   solve.function_tolerance = kFunctionTolerance;
   solve.parameter_tolerance = kParameterTolerance;
   solve.gradient_tolerance = 0;
-  StopIfSlow stop_if_slow;
+  StopIfSlow stop_if_slow(frames_[0]);
   solve.callbacks.push_back(&stop_if_slow);
   ceres::Solver::Summary summary;
   ceres::Solve(solve, &problem, &summary);
   frames_.set_near_only(false);
+  frames_[0].set_state(stop_if_slow.accepted());
   iterations_ += static_cast<int>(summary.iterations.size());
   return summary.termination_type == ceres::CONVERGENCE ||
          summary.termination_type == ceres::USER_SUCCESS;
