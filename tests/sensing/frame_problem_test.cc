@@ -152,6 +152,33 @@ TEST(FrameProblemTest, CalibrationErrorsAsInTheTable) {
   }
 }
 
+// The smoothing is too loose to change anything but the order of the work: all
+// frames of a block are judged after the last search.
+TEST(FrameProblemTest, SmoothedFramesHaveTheirOwnCalibrationErrors) {
+  Finger finger = PaperFinger();
+  finger.calibration = TypicalCovariance(finger);
+  Scene scene;
+  scene.contacts = 1;
+  scene.smoothing = {1000, 1000};
+  EquilibriumSolver solver(finger, {});
+  std::vector<Measurements> rows;
+  for (const PointContact& contact :
+       {PointContact{45, 2}, PointContact{70, 4}, PointContact{95, 1}}) {
+    ASSERT_TRUE(solver.Solve({contact}));
+    rows.push_back(CleanReadings(solver));
+  }
+  std::vector<FrameEstimate> fast(rows.size()), reduced(rows.size());
+  FrameEstimator(finger, scene, {})
+      .EstimateBlock(rows.data(), rows.size(), fast.data());
+  FrameEstimator(finger, scene, {}, FrameMethod::kCeresReduced)
+      .EstimateBlock(rows.data(), rows.size(), reduced.data());
+  for (std::size_t t = 0; t < rows.size(); ++t) {
+    const ContactEstimate &a = fast[t].contact[0], &b = reduced[t].contact[0];
+    EXPECT_NEAR(b.arc_std_mm, a.arc_std_mm, 5e-3 * a.arc_std_mm);
+    EXPECT_NEAR(b.normal_std_N, a.normal_std_N, 5e-3 * a.normal_std_N);
+  }
+}
+
 class CameraTest : public testing::Test {
  protected:
   // Returns the measurements of a camera that looks at the solver's finger,

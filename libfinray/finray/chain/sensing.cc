@@ -67,8 +67,8 @@ bool Minimise(const ScaledEquations& equations, int max_iterations,
   return summary.termination_type == ceres::CONVERGENCE && state->AllFinite();
 }
 
-// Whether l_c and f_c are where Ceres stops without a minimum: on a bound or at
-// a joint.
+// Returns true if l_c or f_c is on a bound, or l_c at a joint. Ceres stops
+// there without a minimum.
 bool IsParked(const ChainLayout& layout, const double* contact) {
   const double hair = 1e-6 * layout.length_unit_mm;
   for (const double joint : layout.front_joint_mm) {

@@ -1,137 +1,17 @@
 #include "finray/io/yaml_map.h"
 
-#include <yaml-cpp/eventhandler.h>
-
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
-#include <sstream>
 
 #include "finray/io/atomic_file.h"
 #include "finray/io/error.h"
 #include "finray/io/message_text.h"
 #include "finray/io/number_text.h"
+#include "finray/io/yaml_limits.h"
 
 namespace finray {
 namespace {
-
-// The limits of YAML files. A few bytes of YAML can stand for any amount of
-// data by nested lists or aliases of aliases ("billion laughs"). So a file is
-// first checked event by event, which takes no memory, and then built as a
-// tree.
-constexpr int kMostYaml_MiB = 16;
-// The largest number of values and keys. Those behind an alias count each
-// time.
-constexpr std::size_t kMostYamlNodes = 1000000;
-constexpr std::size_t kMostYamlDepth = 50;
-
-// Returns "path:line:column: ", which begins a message. `line` and `column`
-// count from 0.
-std::string YamlPlace(const std::string& path, int line, int column) {
-  return path + ":" + std::to_string(line + 1) + ":" +
-         std::to_string(column + 1) + ": ";
-}
-
-std::string YamlPlace(const std::string& path, const YAML::Mark& mark) {
-  return mark.is_null() ? path + ": " : YamlPlace(path, mark.line, mark.column);
-}
-
-class Counter : public YAML::EventHandler {
- public:
-  explicit Counter(const std::string& path) : path_(path) {}
-
-  void OnDocumentStart(const YAML::Mark& mark) override {
-    // At a lone ',' ']' or '}' the parser starts documents for ever.
-    if (documents_++ > 0 && mark.pos == document_.pos) {
-      Fail(mark, "not valid YAML: a value was expected here");
-    }
-    document_ = mark;
-    sizes_.clear();
-  }
-  void OnDocumentEnd() override {}
-
-  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    Add(mark, anchor);
-  }
-  void OnScalar(const YAML::Mark& mark, const std::string&,
-                YAML::anchor_t anchor, const std::string&) override {
-    Add(mark, anchor);
-  }
-  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    const auto size = sizes_.find(anchor);
-    if (size == sizes_.end())
-      Fail(mark, "an alias refers to a value that contains it");
-    Count(mark, size->second);
-  }
-  void OnSequenceStart(const YAML::Mark& mark, const std::string&,
-                       YAML::anchor_t anchor,
-                       YAML::EmitterStyle::value) override {
-    Open(mark, anchor);
-  }
-  void OnSequenceEnd() override { Close(); }
-  void OnMapStart(const YAML::Mark& mark, const std::string&,
-                  YAML::anchor_t anchor, YAML::EmitterStyle::value) override {
-    Open(mark, anchor);
-  }
-  void OnMapEnd() override { Close(); }
-
- private:
-  struct Collection {
-    YAML::anchor_t anchor;
-    std::size_t before;  // the number of nodes before it
-  };
-
-  [[noreturn]] void Fail(const YAML::Mark& mark, const std::string& what) {
-    throw InputError(YamlPlace(path_, mark) + what);
-  }
-  void Count(const YAML::Mark& mark, std::size_t nodes) {
-    nodes_ += nodes;
-    if (nodes_ > kMostYamlNodes) {
-      Fail(mark, "expected at most " + std::to_string(kMostYamlNodes) +
-                     " values in a file, those behind aliases counted each "
-                     "time");
-    }
-  }
-  void Add(const YAML::Mark& mark, YAML::anchor_t anchor) {
-    Count(mark, 1);
-    if (anchor != 0) sizes_[anchor] = 1;
-  }
-  void Open(const YAML::Mark& mark, YAML::anchor_t anchor) {
-    open_.push_back({anchor, nodes_});
-    if (open_.size() > kMostYamlDepth) {
-      Fail(mark, "expected lists and mappings at most " +
-                     std::to_string(kMostYamlDepth) + " deep");
-    }
-    Count(mark, 1);
-  }
-  void Close() {
-    const Collection& closed = open_.back();
-    if (closed.anchor != 0) sizes_[closed.anchor] = nodes_ - closed.before;
-    open_.pop_back();
-  }
-
-  const std::string& path_;
-  std::size_t documents_ = 0, nodes_ = 0;
-  YAML::Mark document_;
-  std::vector<Collection> open_;
-  std::map<YAML::anchor_t, std::size_t> sizes_;  // of values with an anchor
-};
-
-// Throws InputError (path:line:column) for text that is no YAML, is beyond
-// these limits, or has an alias inside the value that it refers to.
-void CheckYamlLimits(const std::string& path, const std::string& text) {
-  Counter counter(path);
-  try {
-    std::istringstream stream(text);
-    YAML::Parser parser(stream);
-    while (parser.HandleNextDocument(counter)) {
-    }
-  } catch (const YAML::Exception& error) {
-    throw InputError(YamlPlace(path, error.mark) +
-                     "not valid YAML: " + ShownLine(error.msg));
-  }
-}
 
 // Returns a value for a message, in one short line.
 std::string Shown(const YAML::Node& node) {

@@ -10,7 +10,7 @@
 
 namespace finray {
 
-/// Whether the series of the last evaluation had converged.
+/// Returns true if the series of the last evaluation had converged.
 template <class T>
 bool IsResolved(const LadderFrame<T>& f, int lane) {
   double worst = 0;

@@ -148,13 +148,13 @@ class ObjectContactSolver {
     }
   }
 
-  // Whether the object covers the clamped base, which cannot yield.
+  // Returns true if the object covers the clamped base, which cannot yield.
   bool CoversBase(const ObjectPose& pose) const {
     return object_.outline.DistanceOf(Vector2d::Zero(), pose).distance_mm <
            -kContactDepthTolerance * length_;
   }
 
-  // Whether the object has reached an end of the beam or nearly so.
+  // Returns true if the object has nearly reached an end of the beam.
   bool EndsAreInside(const ObjectPose& pose,
                      const std::vector<PointContact>& contacts) {
     const double margin = kNearEnd * length_;

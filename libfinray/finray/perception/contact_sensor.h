@@ -94,7 +94,8 @@ inline std::vector<Finger> FingerVariations(const Finger& finger) {
   return fingers;
 }
 
-/// What one contact tells about an object, in the object's own frame (mm, rad):
+/// One contact as a constraint on an outline, in the object's own frame (mm,
+/// rad):
 ///
 ///   point = R(-a) (r - p),   normal angle = theta - pi/2 - a.
 ///

@@ -43,6 +43,9 @@ struct FrameEstimate {
   /// finger and the scene. It contains neither noise_scale() nor calibration
   /// errors.
   ContactMatrix noise_covariance;
+  /// The same due to the errors of the calibration; empty if the finger has no
+  /// covariance.
+  ContactMatrix calibration_covariance;
   Eigen::Vector3d tip_pose =
       Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   std::vector<double> rib_tension_N;

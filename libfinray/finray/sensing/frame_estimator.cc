@@ -7,6 +7,7 @@
 #include "finray/io/error.h"
 #include "finray/io/nan.h"
 #include "finray/sensing/block_tridiagonal.h"
+#include "finray/sensing/log_problem.h"
 
 namespace finray {
 namespace {
@@ -329,6 +330,7 @@ FrameEstimate FrameEstimator::Found(const Measurements& readings) {
 
   const ContactMatrix covariance = CovarianceOf(best.information);
   estimate.noise_covariance = covariance;
+  estimate.calibration_covariance = best.systematic;
   const double scale = estimate.noise_scale();
   for (int c = 0; c < best.count; ++c) {
     ContactEstimate& contact = estimate.contact[c];
@@ -353,11 +355,11 @@ void FrameEstimator::Judge(const Measurements& readings,
                            estimate->contact[c].normal_N,
                            scene_.friction_coefficient});
     }
-    const ContactMatrix covariance =
-        method_ == FrameMethod::kFast
-            ? systematic_.Of(contacts_, readings.gauges_V, weights)
-            : search_.best().systematic;
-    AddCovariance(covariance, estimate);
+    if (method_ == FrameMethod::kFast) {
+      estimate->calibration_covariance =
+          systematic_.Of(contacts_, readings.gauges_V, weights);
+    }
+    AddCovariance(estimate->calibration_covariance, estimate);
   }
   estimate->status = StatusOf(*estimate, finger_, search_);
 }

@@ -8,7 +8,7 @@
 #include "finray/sensing/contact_search.h"
 #include "finray/sensing/fast/frame_follower.h"
 #include "finray/sensing/frame_estimate.h"
-#include "finray/sensing/log_problem.h"
+#include "finray/sensing/log_prior.h"
 
 namespace finray {
 
@@ -72,7 +72,7 @@ class FrameEstimator {
 
   const Finger& finger() const { return finger_; }
 
-  // What LogEstimator judges its frames by, too.
+  // LogEstimator judges its frames by these, too.
 
   /// The lesser of kLeastForce_N and kLeastForce, in N.
   static double LeastForce_N(const Finger& finger);
@@ -85,7 +85,8 @@ class FrameEstimator {
   /// Adds a covariance of (l_c, f_c) of each contact to the std.
   static void AddCovariance(const ContactMatrix& covariance,
                             FrameEstimate* estimate);
-  /// Whether its contacts are determined: ok, or else unobservable.
+  /// Returns ok if the readings determine all contacts of the estimate, else
+  /// unobservable.
   static FrameStatus StatusOf(const FrameEstimate& estimate,
                               const Finger& finger,
                               const ContactSearch& search);

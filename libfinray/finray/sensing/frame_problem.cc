@@ -28,23 +28,21 @@ constexpr double kWeights[] = {1e3, 1e4, 1e5, 1e6, kEquilibriumWeight};
 constexpr double kLeastShare = 1e-3, kNothing = 1e-6;
 constexpr int kPatience = 60;
 
-// Also keeps the equilibrium of the last point that Ceres accepted: the trials
-// behind it may have led away.
-class StopIfSlow final : public ceres::IterationCallback {
+// Ends such solves. It also starts each trial from the equilibrium of the last
+// point that Ceres accepted: a rejected trial may have led far away.
+class AfterStep final : public ceres::IterationCallback {
  public:
-  explicit StopIfSlow(FrameEvaluation& frame) : frame_(frame) {}
+  explicit AfterStep(FrameEvaluation& frame) : frame_(frame) {}
   const LadderState& accepted() const { return accepted_; }
 
   ceres::CallbackReturnType operator()(
       const ceres::IterationSummary& step) override {
-    if (step.step_is_successful) {
-      accepted_ = frame_.state();
-    } else {
+    if (!step.step_is_successful) {
       frame_.set_state(accepted_);
-    }
-    if (step.iteration == 0 || !step.step_is_successful) {
       return ceres::SOLVER_CONTINUE;
     }
+    accepted_ = frame_.state();
+    if (step.iteration == 0) return ceres::SOLVER_CONTINUE;
     const bool hopeless = 2 * step.cost > FrameProblem::kHopelessChi2 &&
                           step.cost_change < kLeastShare * step.cost;
     const bool creeps =
@@ -171,12 +169,12 @@ bool FrameProblem::Solve() {
   solve.function_tolerance = kFunctionTolerance;
   solve.parameter_tolerance = kParameterTolerance;
   solve.gradient_tolerance = 0;
-  StopIfSlow stop_if_slow(frames_[0]);
-  solve.callbacks.push_back(&stop_if_slow);
+  AfterStep after_step(frames_[0]);
+  solve.callbacks.push_back(&after_step);
   ceres::Solver::Summary summary;
   ceres::Solve(solve, &problem, &summary);
   frames_.set_near_only(false);
-  frames_[0].set_state(stop_if_slow.accepted());
+  frames_[0].set_state(after_step.accepted());
   iterations_ += static_cast<int>(summary.iterations.size());
   return summary.termination_type == ceres::CONVERGENCE ||
          summary.termination_type == ceres::USER_SUCCESS;

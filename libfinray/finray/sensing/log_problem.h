@@ -14,6 +14,7 @@
 #include "finray/scene/scene.h"
 #include "finray/sensing/contact_search.h"
 #include "finray/sensing/frame_estimate.h"
+#include "finray/sensing/log_prior.h"
 
 namespace finray {
 
@@ -47,14 +48,6 @@ struct LogFrame {
   /// Copies contact, poses and rib tensions of the solution, and the std of a
   /// covariance that ends with (l_c, f_c).
   void CopyTo(const Eigen::MatrixXd& covariance, FrameEstimate* estimate) const;
-};
-
-/// What the frames before the first one tell about its offsets and, where its
-/// contact is linked to the one before, about (l_c, f_c) behind them. Empty if
-/// nothing is known.
-struct LogPrior {
-  Eigen::VectorXd mean;
-  Eigen::MatrixXd information;
 };
 
 /// What a solution is worth, frame by frame.

@@ -12,10 +12,10 @@
 
 namespace finray {
 
-/// What ContactFit and FrameGroupFit read from the taps of a linearisation: the
-/// gauges with their slopes by at most kMost entries of x (contact_step.h), and
-/// poses. T is double for one frame (lane 0) or FourFrames for one frame a
-/// lane.
+/// The readings that ContactFit and FrameGroupFit take from the taps of a
+/// linearisation: the gauges with their slopes by at most kMost entries of x
+/// (contact_step.h), and poses. T is double for one frame (lane 0) or
+/// FourFrames for one frame a lane.
 template <class T, int kMost>
 class GaugeReading {
  public:
