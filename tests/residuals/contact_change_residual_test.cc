@@ -9,7 +9,7 @@ namespace {
 
 TEST(ContactChangeResidualTest, Nominal) {
   const std::unique_ptr<ceres::CostFunction> cost(
-      ContactChangeResidual::Create(0.5, 0.2));
+      new ContactChangeResidual(0.5, 0.2));
   const double before[] = {70, 2}, after[] = {71, 1.9};
   const double* blocks[] = {before, after};
   double residuals[2], by_before[4], by_after[4];

@@ -14,13 +14,13 @@ TEST(CylinderGaugeResidualTest, AngleIsLengthOverRadius) {
   double residual, by[3];
   double* jacobians[] = {&by[0], &by[1], &by[2]};
   const std::unique_ptr<ceres::CostFunction> bent(
-      CylinderGaugeResidual::Create(36, 90, 1.8, 0.01, {1, -0.5}));
+      new CylinderGaugeResidual(36, 90, 1.8, 0.01, {1, -0.5}));
   ASSERT_TRUE(bent->Evaluate(blocks, &residual, jacobians));
   EXPECT_NEAR(residual, (0.8 * 0.4 + 1.5 - 0.05 - 1.8) / 0.01, 1e-12);
   EXPECT_NEAR(by[0], 0.4 / 0.01, 1e-12);
   EXPECT_NEAR(by[1], 1 / 0.01, 1e-12);
   EXPECT_NEAR(by[2], -0.5 / 0.01, 1e-12);
-  const std::unique_ptr<ceres::CostFunction> flat(CylinderGaugeResidual::Create(
+  const std::unique_ptr<ceres::CostFunction> flat(new CylinderGaugeResidual(
       36, std::numeric_limits<double>::infinity(), 1.8, 0.01));
   ASSERT_TRUE(flat->Evaluate(blocks, &residual, nullptr));
   EXPECT_NEAR(residual, (1.5 - 1.8) / 0.01, 1e-12);

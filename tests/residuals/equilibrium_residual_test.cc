@@ -18,10 +18,10 @@ INSTANTIATE_TEST_SUITE_P(Forms, EquilibriumResidualTest,
 
 TEST_P(EquilibriumResidualTest, AnalyticalVersusFiniteDifferences) {
   const std::unique_ptr<ceres::CostFunction> tip(
-      EquilibriumResidual::Create(frame_, finger_, 1));
+      new EquilibriumResidual(frame_, finger_, 1));
   CheckDerivatives(*tip, Blocks(), 1e-6);
   const std::unique_ptr<ceres::CostFunction> ribs(
-      RibLengthResidual::Create(frame_, finger_, 1));
+      new RibLengthResidual(frame_, finger_, 1));
   CheckDerivatives(*ribs, Blocks(), 1e-6);
 }
 
@@ -57,13 +57,12 @@ TEST_P(EquilibriumResidualTest, WeightedAgreesWithReduced) {
       std::vector<double*> all = blocks;
       all.insert(all.end(), {&gains[j], &offsets[j]});
       problem.AddResidualBlock(
-          GaugeReadingResidual::Create(&frame, j, &volts[j], 3e-4), nullptr,
-          all);
+          new GaugeReadingResidual(&frame, j, &volts[j], 3e-4), nullptr, all);
     }
     if (weighted) {
-      problem.AddResidualBlock(
-          EquilibriumResidual::Create(&frame, finger_, 1e6), nullptr, blocks);
-      problem.AddResidualBlock(RibLengthResidual::Create(&frame, finger_, 1e6),
+      problem.AddResidualBlock(new EquilibriumResidual(&frame, finger_, 1e6),
+                               nullptr, blocks);
+      problem.AddResidualBlock(new RibLengthResidual(&frame, finger_, 1e6),
                                nullptr, blocks);
     }
     std::vector<double*> all;

@@ -9,7 +9,7 @@ namespace {
 
 TEST(GaugeOffsetChangeResidualTest, Nominal) {
   const std::unique_ptr<ceres::CostFunction> cost(
-      GaugeOffsetChangeResidual::Create(0.001, 4));
+      new GaugeOffsetChangeResidual(0.001, 4));
   const double before = 0.010, after = 0.013;
   const double* blocks[] = {&before, &after};
   double residual, by_before, by_after;
@@ -23,7 +23,7 @@ TEST(GaugeOffsetChangeResidualTest, Nominal) {
 
 TEST(GaugeOffsetChangeResidualTest, LeavesOutWhatIsNotAskedFor) {
   const std::unique_ptr<ceres::CostFunction> cost(
-      GaugeOffsetChangeResidual::Create(0.001, 1));
+      new GaugeOffsetChangeResidual(0.001, 1));
   const double before = 0, after = 0;
   const double* blocks[] = {&before, &after};
   double residual, by_after;

@@ -19,7 +19,7 @@ TEST_P(GaugeReadingResidualTest, Nominal) {
   blocks.push_back(&gain);
   blocks.push_back(&offset);
   const std::unique_ptr<ceres::CostFunction> cost(
-      GaugeReadingResidual::Create(frame_, 2, &volts, 0.01));
+      new GaugeReadingResidual(frame_, 2, &volts, 0.01));
   double residual;
   ASSERT_TRUE(cost->Evaluate(blocks.data(), &residual, nullptr));
   EXPECT_NEAR(residual, (1.7 * frame_->outputs()[2] + 0.2 - 0.31) / 0.01,
@@ -36,7 +36,7 @@ TEST_P(GaugeReadingResidualTest, AnalyticalVersusFiniteDifferences) {
   blocks.push_back(&offset);
   for (int j = 0; j < 4; ++j) {
     const std::unique_ptr<ceres::CostFunction> cost(
-        GaugeReadingResidual::Create(frame_, j, &volts, 0.01));
+        new GaugeReadingResidual(frame_, j, &volts, 0.01));
     CheckDerivatives(*cost, blocks, 1e-6);
   }
 }
@@ -49,7 +49,7 @@ TEST_P(GaugeReadingResidualTest, TermsBesideTheOffset) {
   blocks.push_back(&gain);
   for (double& x : term) blocks.push_back(&x);
   const std::unique_ptr<ceres::CostFunction> cost(
-      GaugeReadingResidual::Create(frame_, 1, &volts, 0.01, {1, 0.4, -7}));
+      new GaugeReadingResidual(frame_, 1, &volts, 0.01, {1, 0.4, -7}));
   double residual;
   ASSERT_TRUE(cost->Evaluate(blocks.data(), &residual, nullptr));
   EXPECT_NEAR(residual,

@@ -13,7 +13,7 @@ TEST(GaussianPriorResidualTest, SquaresAddUpToTheMahalanobisDistance) {
   information << 4, 1, -0.5, 1, 3, 0.7, -0.5, 0.7, 2;
   const Eigen::Vector3d mean(1, -2, 0.5);
   const std::unique_ptr<ceres::CostFunction> cost(
-      GaussianPriorResidual::Create(mean, information, {1, 2}));
+      new GaussianPriorResidual(mean, information, {1, 2}));
   const double first = 1.3, second[] = {-2.5, 0.1};
   const double* blocks[] = {&first, second};
   Eigen::Vector3d r, by_first;
@@ -32,8 +32,8 @@ TEST(GaussianPriorResidualTest, SquaresAddUpToTheMahalanobisDistance) {
 TEST(GaussianPriorResidualTest, SingularInformationSaysNothingOfTheRest) {
   Eigen::Matrix2d information;
   information << 1, 1, 1, 1;
-  const std::unique_ptr<ceres::CostFunction> cost(GaussianPriorResidual::Create(
-      Eigen::Vector2d::Zero(), information, {1, 1}));
+  const std::unique_ptr<ceres::CostFunction> cost(
+      new GaussianPriorResidual(Eigen::Vector2d::Zero(), information, {1, 1}));
   const double x = 5, y = -5;
   const double* blocks[] = {&x, &y};
   Eigen::Vector2d r;

@@ -19,10 +19,10 @@ TEST_P(ObjectContactResidualTest, AnalyticalVersusFiniteDifferences) {
   std::vector<double*> blocks = Blocks();
   blocks.push_back(origin);
   const std::unique_ptr<ceres::CostFunction> cost(
-      ObjectContactResidual::Create(frame_, 0, {-11.5, 66}, 15, 0.05));
+      new ObjectContactResidual(frame_, 0, {-11.5, 66}, 15, 0.05));
   CheckDerivatives(*cost, blocks, 1e-6);
   const std::unique_ptr<ceres::CostFunction> location(
-      ContactLocationResidual::Create(frame_, 0, 66, 0.3));
+      new ContactLocationResidual(frame_, 0, 66, 0.3));
   CheckDerivatives(*location, {unknowns_.data()}, 1e-7);
 }
 
@@ -45,7 +45,7 @@ TEST_P(ObjectContactEquilibriumTest, VanishesWhereTheCircleTouches) {
   std::vector<double*> blocks = Blocks();
   blocks.push_back(origin);
   const std::unique_ptr<ceres::CostFunction> cost(
-      ObjectContactResidual::Create(&frame, 0, {-12, 66}, 15, 1));
+      new ObjectContactResidual(&frame, 0, {-12, 66}, 15, 1));
   ASSERT_TRUE(cost->Evaluate(blocks.data(), residuals, nullptr));
   EXPECT_LT(std::hypot(residuals[0], residuals[1]), 1e-9);
 }

@@ -32,12 +32,12 @@ TEST_P(PointResidualTest, AnalyticalVersusFiniteDifferences) {
   for (int rib = 0; rib < 5; ++rib) {
     for (const Side side : {Side::kFront, Side::kBack}) {
       const std::unique_ptr<ceres::CostFunction> pin(
-          PointResidual::CreatePin(frame_, rib, side, {3, 40}, 0.5));
+          new PointResidual(frame_, frame_->pin_row(rib, side), {3, 40}, 0.5));
       CheckDerivatives(*pin, blocks_, 1e-6);
     }
   }
   const std::unique_ptr<ceres::CostFunction> tip(
-      PointResidual::CreateTip(frame_, {3, 140}, 0.5));
+      new PointResidual(frame_, frame_->tip_row(), {3, 140}, 0.5));
   CheckDerivatives(*tip, blocks_, 1e-6);
 }
 
@@ -69,8 +69,8 @@ TEST_P(PointEquilibriumTest, PinsAreWhereTheShapeHasThem) {
       const Rib& hinge = finger_.ribs[rib];
       const Section at =
           shape.At(side, side == Side::kFront ? hinge.front_mm : hinge.back_mm);
-      const std::unique_ptr<ceres::CostFunction> pin(PointResidual::CreatePin(
-          &frame, rib, side, {at.x_mm + 0.1, at.y_mm}, 0.5));
+      const std::unique_ptr<ceres::CostFunction> pin(new PointResidual(
+          &frame, frame.pin_row(rib, side), {at.x_mm + 0.1, at.y_mm}, 0.5));
       ASSERT_TRUE(pin->Evaluate(blocks.data(), residuals, nullptr));
       EXPECT_NEAR(residuals[0], -0.2, 1e-8);
       EXPECT_NEAR(residuals[1], -0.1, 1e-8);

@@ -30,9 +30,9 @@ INSTANTIATE_TEST_SUITE_P(Forms, ReferenceForceResidualTest,
 TEST_P(ReferenceForceResidualTest, MagnitudeAndComponentsAgree) {
   double magnitude, components[2];
   const std::unique_ptr<ceres::CostFunction> norm(
-      ReferenceForceResidual::Create(frame_, 0, 1));
+      new ReferenceForceResidual(frame_, 0, 1));
   const std::unique_ptr<ceres::CostFunction> vector(
-      ReferenceForceVectorResidual::Create(frame_, {0, 0}, 1));
+      new ReferenceForceVectorResidual(frame_, {0, 0}, 1));
   ASSERT_TRUE(norm->Evaluate(MagnitudeBlocks().data(), &magnitude, nullptr));
   ASSERT_TRUE(vector->Evaluate(VectorBlocks().data(), components, nullptr));
   EXPECT_NEAR(magnitude - offset_[0],
@@ -45,10 +45,10 @@ TEST_P(ReferenceForceResidualTest, MagnitudeAndComponentsAgree) {
 
 TEST_P(ReferenceForceResidualTest, AnalyticalVersusFiniteDifferences) {
   const std::unique_ptr<ceres::CostFunction> norm(
-      ReferenceForceResidual::Create(frame_, 3.9, 0.02));
+      new ReferenceForceResidual(frame_, 3.9, 0.02));
   CheckDerivatives(*norm, MagnitudeBlocks(), 1e-7);
   const std::unique_ptr<ceres::CostFunction> vector(
-      ReferenceForceVectorResidual::Create(frame_, {3.9, 0.1}, 0.02));
+      new ReferenceForceVectorResidual(frame_, {3.9, 0.1}, 0.02));
   CheckDerivatives(*vector, VectorBlocks(), 1e-6);
 }
 
@@ -58,7 +58,7 @@ TEST_P(ReferenceForceResidualTest, WithoutContact) {
   const FrameEvaluation& free = frames.Add(0, 0, nullptr);
   frames.PrepareForEvaluation(true, true);
   const std::unique_ptr<ceres::CostFunction> norm(
-      ReferenceForceResidual::Create(&free, 0.3, 0.02));
+      new ReferenceForceResidual(&free, 0.3, 0.02));
   double residual;
   const std::vector<double*> blocks = {&ln_scale_, offset_};
   ASSERT_TRUE(norm->Evaluate(blocks.data(), &residual, nullptr));

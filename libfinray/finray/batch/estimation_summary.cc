@@ -6,7 +6,6 @@
 
 #include "finray/io/number_text.h"
 #include "finray/io/yaml_emitter.h"
-#include "finray/sensing/estimated_force.h"
 
 namespace finray {
 

@@ -2,11 +2,6 @@
 
 namespace finray {
 
-ceres::CostFunction* ContactChangeResidual::Create(double contact_std_mm,
-                                                   double normal_std_N) {
-  return new ContactChangeResidual(contact_std_mm, normal_std_N);
-}
-
 bool ContactChangeResidual::Evaluate(double const* const* parameters,
                                      double* residuals,
                                      double** jacobians) const {

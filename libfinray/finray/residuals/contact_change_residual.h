@@ -13,16 +13,13 @@ namespace finray {
 class ContactChangeResidual : public ceres::SizedCostFunction<2, 2, 2> {
  public:
   /// q_l and q_f, the std of the change from frame to frame, above 0.
-  static ceres::CostFunction* Create(double contact_std_mm,
-                                     double normal_std_N);
+  ContactChangeResidual(double contact_std_mm, double normal_std_N)
+      : weight_{1 / contact_std_mm, 1 / normal_std_N} {}
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  ContactChangeResidual(double contact_std_mm, double normal_std_N)
-      : weight_{1 / contact_std_mm, 1 / normal_std_N} {}
-
   double weight_[2];  // 1 / mm, 1 / N
 };
 

@@ -2,17 +2,10 @@
 
 namespace finray {
 
-ceres::CostFunction* CylinderGaugeResidual::Create(
-    double gauge_length_mm, double cylinder_radius_mm, double reading_V,
-    double std_V, const std::vector<double>& coefficients) {
-  return new CylinderGaugeResidual(gauge_length_mm / cylinder_radius_mm,
-                                   reading_V, std_V, coefficients);
-}
-
 CylinderGaugeResidual::CylinderGaugeResidual(
-    double angle_rad, double reading_V, double std_V,
-    const std::vector<double>& coefficients)
-    : angle_rad_(angle_rad),
+    double gauge_length_mm, double cylinder_radius_mm, double reading_V,
+    double std_V, const std::vector<double>& coefficients)
+    : angle_rad_(gauge_length_mm / cylinder_radius_mm),
       reading_V_(reading_V),
       std_V_(std_V),
       coefficients_(coefficients) {

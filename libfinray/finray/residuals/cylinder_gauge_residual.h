@@ -17,17 +17,14 @@ namespace finray {
 /// each x_k (1).
 class CylinderGaugeResidual : public ceres::CostFunction {
  public:
-  static ceres::CostFunction* Create(
-      double gauge_length_mm, double cylinder_radius_mm, double reading_V,
-      double std_V, const std::vector<double>& coefficients = {1});
+  CylinderGaugeResidual(double gauge_length_mm, double cylinder_radius_mm,
+                        double reading_V, double std_V,
+                        const std::vector<double>& coefficients = {1});
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  CylinderGaugeResidual(double angle_rad, double reading_V, double std_V,
-                        const std::vector<double>& coefficients);
-
   double angle_rad_, reading_V_, std_V_;
   std::vector<double> coefficients_;
 };

@@ -4,12 +4,6 @@
 
 namespace finray {
 
-ceres::CostFunction* EquilibriumResidual::Create(const FrameEvaluation* frame,
-                                                 const Finger& finger,
-                                                 double weight) {
-  return new EquilibriumResidual(frame, finger, weight);
-}
-
 EquilibriumResidual::EquilibriumResidual(const FrameEvaluation* frame,
                                          const Finger& finger, double weight)
     : FrameResidual(frame, 6) {

@@ -16,16 +16,13 @@ namespace finray {
 /// Parameter blocks: those of FrameResidual.
 class EquilibriumResidual : public FrameResidual {
  public:
-  static ceres::CostFunction* Create(const FrameEvaluation* frame,
-                                     const Finger& finger, double weight);
+  EquilibriumResidual(const FrameEvaluation* frame, const Finger& finger,
+                      double weight);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  EquilibriumResidual(const FrameEvaluation* frame, const Finger& finger,
-                      double weight);
-
   Eigen::Matrix<double, 6, 1> weight_;
 };
 

@@ -60,10 +60,9 @@ void AddReadings(const std::vector<Gauge>& gauges, Builder* out) {
     std::vector<double*> blocks =
         out->OfModelAnd(&out->parameters.gains_V_per_rad[j]);
     const auto coefficients = AddTerms(out->parameters.readings[j], &blocks);
-    out->Add(
-        GaugeReadingResidual::Create(out->evaluation, j, &out->row.gauges_V[j],
-                                     out->model.gauge_std_V[j], coefficients),
-        std::move(blocks), ResidualFamily::kGauge, j);
+    out->Add(new GaugeReadingResidual(out->evaluation, j, &out->row.gauges_V[j],
+                                      out->model.gauge_std_V[j], coefficients),
+             std::move(blocks), ResidualFamily::kGauge, j);
   }
 }
 
@@ -72,7 +71,7 @@ void AddBench(const std::vector<Gauge>& gauges, Builder* out) {
     if (!gauges[j].IsMeasured(out->row.gauges_V[j])) continue;
     std::vector<double*> blocks = {&out->parameters.gains_V_per_rad[j]};
     const auto coefficients = AddTerms(out->parameters.readings[j], &blocks);
-    out->Add(CylinderGaugeResidual::Create(
+    out->Add(new CylinderGaugeResidual(
                  gauges[j].length_mm, out->row.cylinder_radius_mm,
                  out->row.gauges_V[j], out->model.gauge_std_V[j], coefficients),
              std::move(blocks), ResidualFamily::kBench, j);
@@ -84,8 +83,8 @@ void AddForce(Builder* out) {
   const double std_N = *out->model.force_std_N;
   double* ln_scale = out->parameters.ln_force_scale;
   if (out->row.force_xy_N.allFinite()) {
-    out->Add(ReferenceForceVectorResidual::Create(out->evaluation,
-                                                  out->row.force_xy_N, std_N),
+    out->Add(new ReferenceForceVectorResidual(out->evaluation,
+                                              out->row.force_xy_N, std_N),
              out->OfModelAnd(ln_scale, out->parameters.force_offset_xy_N),
              ResidualFamily::kForce);
   } else if (std::isfinite(out->row.force_N)) {
@@ -93,9 +92,9 @@ void AddForce(Builder* out) {
     if (out->evaluation->contacts() > 0) blocks.push_back(out->unknowns);
     blocks.push_back(ln_scale);
     blocks.push_back(out->parameters.force_offset_N);
-    out->Add(ReferenceForceResidual::Create(out->evaluation, out->row.force_N,
-                                            std_N),
-             std::move(blocks), ResidualFamily::kForce);
+    out->Add(
+        new ReferenceForceResidual(out->evaluation, out->row.force_N, std_N),
+        std::move(blocks), ResidualFamily::kForce);
   }
 }
 
@@ -106,14 +105,14 @@ void AddPlace(Builder* out) {
   const bool any =
       std::isfinite(row.object_mm.x()) || std::isfinite(row.object_mm.y());
   if (circle && any) {
-    out->Add(ObjectContactResidual::Create(out->evaluation, 0, row.object_mm,
-                                           circle->radius_mm, circle->std_mm),
+    out->Add(new ObjectContactResidual(out->evaluation, 0, row.object_mm,
+                                       circle->radius_mm, circle->std_mm),
              out->OfModelAnd(out->parameters.object_origin_mm),
              ResidualFamily::kObject);
   }
   if (out->model.contact_std_mm && std::isfinite(row.contact_mm)) {
-    out->Add(ContactLocationResidual::Create(out->evaluation, 0, row.contact_mm,
-                                             *out->model.contact_std_mm),
+    out->Add(new ContactLocationResidual(out->evaluation, 0, row.contact_mm,
+                                         *out->model.contact_std_mm),
              {out->unknowns}, ResidualFamily::kContact);
   }
 }
@@ -122,14 +121,15 @@ void AddCamera(Builder* out) {
   double* origin = out->parameters.camera_origin_mm;
   if (out->model.pin_std_mm) {
     for (const SeenPin& pin : out->row.pins) {
-      out->Add(PointResidual::CreatePin(out->evaluation, pin.rib, pin.side,
-                                        pin.at_mm, *out->model.pin_std_mm),
+      const int at = out->evaluation->pin_row(pin.rib, pin.side);
+      out->Add(new PointResidual(out->evaluation, at, pin.at_mm,
+                                 *out->model.pin_std_mm),
                out->OfModelAnd(origin), ResidualFamily::kPin);
     }
   }
   if (out->model.tip_std_mm && out->row.tip_mm.allFinite()) {
-    out->Add(PointResidual::CreateTip(out->evaluation, out->row.tip_mm,
-                                      *out->model.tip_std_mm),
+    out->Add(new PointResidual(out->evaluation, out->evaluation->tip_row(),
+                               out->row.tip_mm, *out->model.tip_std_mm),
              out->OfModelAnd(origin), ResidualFamily::kTip);
   }
 }
@@ -186,10 +186,10 @@ std::vector<FrameBlock> EquilibriumBlocks(const Finger& finger, double weight,
   const MeasurementModel model;
   Builder out{none, model, parameters, &evaluation, unknowns, {}, {}};
   const auto blocks = ModelBlocks(parameters, evaluation, unknowns);
-  out.Add(EquilibriumResidual::Create(&evaluation, finger, weight), blocks,
+  out.Add(new EquilibriumResidual(&evaluation, finger, weight), blocks,
           ResidualFamily::kEquilibrium);
   if (evaluation.ribs() > 0) {
-    out.Add(RibLengthResidual::Create(&evaluation, finger, weight), blocks,
+    out.Add(new RibLengthResidual(&evaluation, finger, weight), blocks,
             ResidualFamily::kEquilibrium);
   }
   return std::move(out.blocks);

@@ -64,7 +64,7 @@ class FrameEvaluation {
     return contact_row(contacts() + 2 * rib + LadderModel::Index(side));
   }
   /// Row of x_tip (then y, theta) in outputs().
-  int tip_row() const { return static_cast<int>(outputs_.size()) - 3; }
+  int tip_row() const { return contact_row(static_cast<int>(loads_.size())); }
   const PointContact& contact(int i) const { return loads_[i]; }
 
   /// The outputs: [gauge angles (m, rad); contacts (x, y, theta each); pins (x,

@@ -4,11 +4,9 @@
 
 namespace finray {
 
-ceres::CostFunction* GaugeOffsetChangeResidual::Create(double std_V_per_sqrt_s,
-                                                       double dt_s) {
-  return new GaugeOffsetChangeResidual(1 /
-                                       (std_V_per_sqrt_s * std::sqrt(dt_s)));
-}
+GaugeOffsetChangeResidual::GaugeOffsetChangeResidual(double std_V_per_sqrt_s,
+                                                     double dt_s)
+    : weight_(1 / (std_V_per_sqrt_s * std::sqrt(dt_s))) {}
 
 bool GaugeOffsetChangeResidual::Evaluate(double const* const* parameters,
                                          double* residuals,

@@ -14,14 +14,12 @@ namespace finray {
 class GaugeOffsetChangeResidual : public ceres::SizedCostFunction<1, 1, 1> {
  public:
   /// `std_V_per_sqrt_s` is q; both must be above 0.
-  static ceres::CostFunction* Create(double std_V_per_sqrt_s, double dt_s);
+  GaugeOffsetChangeResidual(double std_V_per_sqrt_s, double dt_s);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  explicit GaugeOffsetChangeResidual(double weight) : weight_(weight) {}
-
   double weight_;  // 1 / V
 };
 

@@ -4,12 +4,6 @@
 
 namespace finray {
 
-ceres::CostFunction* GaugeReadingResidual::Create(
-    const FrameEvaluation* frame, int gauge, const double* reading_V,
-    double std_V, const std::vector<double>& coefficients) {
-  return new GaugeReadingResidual(frame, gauge, reading_V, std_V, coefficients);
-}
-
 GaugeReadingResidual::GaugeReadingResidual(
     const FrameEvaluation* frame, int gauge, const double* reading_V,
     double std_V, const std::vector<double>& coefficients)

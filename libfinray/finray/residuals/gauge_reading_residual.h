@@ -22,19 +22,14 @@ class GaugeReadingResidual : public FrameResidual {
  public:
   /// `reading_V` must stay in place; its value may change between solves.
   /// `coefficients` are the c_k; the default is an offset only.
-  static ceres::CostFunction* Create(const FrameEvaluation* frame, int gauge,
-                                     const double* reading_V, double std_V,
-                                     const std::vector<double>& coefficients = {
-                                         1});
+  GaugeReadingResidual(const FrameEvaluation* frame, int gauge,
+                       const double* reading_V, double std_V,
+                       const std::vector<double>& coefficients = {1});
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  GaugeReadingResidual(const FrameEvaluation* frame, int gauge,
-                       const double* reading_V, double std_V,
-                       const std::vector<double>& coefficients);
-
   int gauge_;
   const double* reading_V_;
   double std_V_;

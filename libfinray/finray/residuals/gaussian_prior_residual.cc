@@ -4,12 +4,6 @@
 
 namespace finray {
 
-ceres::CostFunction* GaussianPriorResidual::Create(
-    const Eigen::VectorXd& mean, const Eigen::MatrixXd& information,
-    const std::vector<int>& sizes) {
-  return new GaussianPriorResidual(mean, information, sizes);
-}
-
 GaussianPriorResidual::GaussianPriorResidual(const Eigen::VectorXd& mean,
                                              const Eigen::MatrixXd& information,
                                              const std::vector<int>& sizes)

@@ -18,18 +18,14 @@ class GaussianPriorResidual : public ceres::CostFunction {
  public:
   /// `information` is symmetric and may be singular; `sizes` are those of the
   /// blocks and add up to its rows.
-  static ceres::CostFunction* Create(const Eigen::VectorXd& mean,
-                                     const Eigen::MatrixXd& information,
-                                     const std::vector<int>& sizes);
+  GaussianPriorResidual(const Eigen::VectorXd& mean,
+                        const Eigen::MatrixXd& information,
+                        const std::vector<int>& sizes);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  GaussianPriorResidual(const Eigen::VectorXd& mean,
-                        const Eigen::MatrixXd& information,
-                        const std::vector<int>& sizes);
-
   Eigen::VectorXd mean_;
   Eigen::MatrixXd root_;  // R
 };

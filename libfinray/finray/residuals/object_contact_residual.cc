@@ -4,13 +4,6 @@
 
 namespace finray {
 
-ceres::CostFunction* ObjectContactResidual::Create(
-    const FrameEvaluation* frame, int contact, const Eigen::Vector2d& center_mm,
-    double radius_mm, double std_mm) {
-  return new ObjectContactResidual(frame, contact, center_mm, radius_mm,
-                                   std_mm);
-}
-
 ObjectContactResidual::ObjectContactResidual(const FrameEvaluation* frame,
                                              int contact,
                                              const Eigen::Vector2d& center_mm,
@@ -51,17 +44,14 @@ bool ObjectContactResidual::Evaluate(double const* const* parameters,
   return true;
 }
 
-ceres::CostFunction* ContactLocationResidual::Create(
-    const FrameEvaluation* frame, int contact, double arc_mm, double std_mm) {
-  return new ContactLocationResidual(
-      frame->frame_size(), frame->contact_offset(contact), arc_mm, std_mm);
-}
-
-ContactLocationResidual::ContactLocationResidual(int frame_size, int position,
-                                                 double arc_mm, double std_mm)
-    : position_(position), arc_mm_(arc_mm), std_mm_(std_mm) {
+ContactLocationResidual::ContactLocationResidual(const FrameEvaluation* frame,
+                                                 int contact, double arc_mm,
+                                                 double std_mm)
+    : position_(frame->contact_offset(contact)),
+      arc_mm_(arc_mm),
+      std_mm_(std_mm) {
   set_num_residuals(1);
-  mutable_parameter_block_sizes()->push_back(frame_size);
+  mutable_parameter_block_sizes()->push_back(frame->frame_size());
 }
 
 bool ContactLocationResidual::Evaluate(double const* const* parameters,

@@ -17,18 +17,14 @@ namespace finray {
 /// origin (2, mm).
 class ObjectContactResidual : public FrameResidual {
  public:
-  static ceres::CostFunction* Create(const FrameEvaluation* frame, int contact,
-                                     const Eigen::Vector2d& center_mm,
-                                     double radius_mm, double std_mm);
+  ObjectContactResidual(const FrameEvaluation* frame, int contact,
+                        const Eigen::Vector2d& center_mm, double radius_mm,
+                        double std_mm);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  ObjectContactResidual(const FrameEvaluation* frame, int contact,
-                        const Eigen::Vector2d& center_mm, double radius_mm,
-                        double std_mm);
-
   int contact_;
   Eigen::Vector2d center_mm_;
   double radius_mm_, std_mm_;
@@ -41,16 +37,13 @@ class ObjectContactResidual : public FrameResidual {
 /// Parameter block: frame unknowns.
 class ContactLocationResidual : public ceres::CostFunction {
  public:
-  static ceres::CostFunction* Create(const FrameEvaluation* frame, int contact,
-                                     double arc_mm, double std_mm);
+  ContactLocationResidual(const FrameEvaluation* frame, int contact,
+                          double arc_mm, double std_mm);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  ContactLocationResidual(int frame_size, int position, double arc_mm,
-                          double std_mm);
-
   int position_;  // of l_c among the frame unknowns
   double arc_mm_, std_mm_;
 };

@@ -1,7 +1,7 @@
 #ifndef FINRAY_RESIDUALS_PARAMETER_PRIOR_RESIDUAL_H_
 #define FINRAY_RESIDUALS_PARAMETER_PRIOR_RESIDUAL_H_
 
-#include <ceres/cost_function.h>
+#include <ceres/normal_prior.h>
 
 #include <Eigen/Core>
 
@@ -14,7 +14,9 @@ namespace finray {
 /// It is a ceres::NormalPrior with a diagonal matrix. Parameter block: x.
 struct ParameterPriorResidual {
   static ceres::CostFunction* Create(const Eigen::VectorXd& mean,
-                                     const Eigen::VectorXd& std);
+                                     const Eigen::VectorXd& std) {
+    return new ceres::NormalPrior(std.cwiseInverse().asDiagonal(), mean);
+  }
 };
 
 }  // namespace finray

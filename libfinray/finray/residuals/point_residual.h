@@ -15,23 +15,15 @@ namespace finray {
 /// origin (2, mm).
 class PointResidual : public FrameResidual {
  public:
-  /// `frame` must have been created with pins.
-  static ceres::CostFunction* CreatePin(const FrameEvaluation* frame, int rib,
-                                        Side side, const Eigen::Vector2d& at_mm,
-                                        double std_mm);
-  static ceres::CostFunction* CreateTip(const FrameEvaluation* frame,
-                                        const Eigen::Vector2d& at_mm,
-                                        double std_mm);
+  /// `row` is the pin_row() or tip_row() of `frame`.
+  PointResidual(const FrameEvaluation* frame, int row,
+                const Eigen::Vector2d& at_mm, double std_mm);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  static constexpr int kTip = -1;
-  PointResidual(const FrameEvaluation* frame, int row,
-                const Eigen::Vector2d& at_mm, double std_mm);
-
-  int row_;  // of x in the frame's outputs, or kTip
+  int row_;  // of x in the frame's outputs
   Eigen::Vector2d at_mm_;
   double std_mm_;
 };

@@ -4,11 +4,6 @@
 
 namespace finray {
 
-ceres::CostFunction* ReferenceForceResidual::Create(
-    const FrameEvaluation* frame, double force_N, double std_N) {
-  return new ReferenceForceResidual(frame, force_N, std_N);
-}
-
 ReferenceForceResidual::ReferenceForceResidual(const FrameEvaluation* frame,
                                                double force_N, double std_N)
     : frame_size_(frame->contacts() > 0 ? frame->frame_size() : 0),
@@ -40,12 +35,6 @@ bool ReferenceForceResidual::Evaluate(double const* const* parameters,
   if (double* by_scale = jacobians[sensor]) *by_scale = force / std_N_;
   if (double* by_offset = jacobians[sensor + 1]) *by_offset = 1 / std_N_;
   return true;
-}
-
-ceres::CostFunction* ReferenceForceVectorResidual::Create(
-    const FrameEvaluation* frame, const Eigen::Vector2d& force_N,
-    double std_N) {
-  return new ReferenceForceVectorResidual(frame, force_N, std_N);
 }
 
 ReferenceForceVectorResidual::ReferenceForceVectorResidual(

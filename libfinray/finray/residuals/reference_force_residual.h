@@ -17,16 +17,13 @@ namespace finray {
 /// a contact), ln s (1), o (1, N).
 class ReferenceForceResidual : public ceres::CostFunction {
  public:
-  static ceres::CostFunction* Create(const FrameEvaluation* frame,
-                                     double force_N, double std_N);
+  ReferenceForceResidual(const FrameEvaluation* frame, double force_N,
+                         double std_N);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  ReferenceForceResidual(const FrameEvaluation* frame, double force_N,
-                         double std_N);
-
   int frame_size_, normal_;  // position of f_c among the frame unknowns
   double per_normal_, force_N_, std_N_;
 };
@@ -39,17 +36,13 @@ class ReferenceForceResidual : public ceres::CostFunction {
 /// Parameter blocks: those of FrameResidual, ln s (1), o (2, N).
 class ReferenceForceVectorResidual : public FrameResidual {
  public:
-  static ceres::CostFunction* Create(const FrameEvaluation* frame,
-                                     const Eigen::Vector2d& force_N,
-                                     double std_N);
+  ReferenceForceVectorResidual(const FrameEvaluation* frame,
+                               const Eigen::Vector2d& force_N, double std_N);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  ReferenceForceVectorResidual(const FrameEvaluation* frame,
-                               const Eigen::Vector2d& force_N, double std_N);
-
   Eigen::Vector2d force_N_;
   double std_N_;
 };

@@ -2,15 +2,10 @@
 
 namespace finray {
 
-ceres::CostFunction* RibLengthResidual::Create(const FrameEvaluation* frame,
-                                               const Finger& finger,
-                                               double weight) {
-  return new RibLengthResidual(frame, weight / finger.front_length_mm);
-}
-
 RibLengthResidual::RibLengthResidual(const FrameEvaluation* frame,
-                                     double weight_per_mm)
-    : FrameResidual(frame, frame->ribs()), weight_per_mm_(weight_per_mm) {}
+                                     const Finger& finger, double weight)
+    : FrameResidual(frame, frame->ribs()),
+      weight_per_mm_(weight / finger.front_length_mm) {}
 
 bool RibLengthResidual::Evaluate(double const* const* /*parameters*/,
                                  double* residuals, double** jacobians) const {

@@ -14,15 +14,13 @@ namespace finray {
 /// FrameResidual.
 class RibLengthResidual : public FrameResidual {
  public:
-  static ceres::CostFunction* Create(const FrameEvaluation* frame,
-                                     const Finger& finger, double weight);
+  RibLengthResidual(const FrameEvaluation* frame, const Finger& finger,
+                    double weight);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  RibLengthResidual(const FrameEvaluation* frame, double weight_per_mm);
-
   double weight_per_mm_;
 };
 

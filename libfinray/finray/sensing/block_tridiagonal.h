@@ -12,11 +12,12 @@ namespace finray {
 /// of J reaches over one block of unknowns or over two that follow each other.
 /// With D_t the diagonal blocks and U_t = A_{t, t+1},
 ///
-///   F_t = D_t - U_{t-1}' F_{t-1}^-1 U_{t-1}     (all blocks before t
-///   eliminated) B_t = D_t - U_t B_{t+1}^-1 U_t'             (all blocks behind
-///   t eliminated) (A^-1)_tt = (F_t + B_t - D_t)^-1,
+///   F_t = D_t - U_{t-1}' F_{t-1}^-1 U_{t-1},
+///   B_t = D_t - U_t B_{t+1}^-1 U_t',
+///   (A^-1)_tt = (F_t + B_t - D_t)^-1.
 ///
-/// in a time that grows with the number of blocks.
+/// F_t is what remains of D_t after elimination of all blocks before t, and B_t
+/// of all behind t. Time grows with the number of blocks.
 class BlockTridiagonal {
  public:
   /// The number of unknowns of each block; it may be 0.

@@ -10,6 +10,15 @@
 
 namespace finray {
 
+/// A start for ContactFit: contacts from base to tip, a nearby equilibrium, and
+/// the approximate chi2 of a fit from there.
+struct ContactStart {
+  int count = 0;
+  std::array<PointContact, kFittedContacts> contacts;
+  double chi2 = 0;
+  const LadderState* state = nullptr;
+};
+
 /// A minimum of chi2 over contacts, which are sorted from base to tip.
 struct ContactSolution {
   int count = 0;

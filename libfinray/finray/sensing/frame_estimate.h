@@ -72,6 +72,11 @@ struct FrameEstimate {
   static constexpr double kUnexplained = 0.001;
 };
 
+/// Magnitude of the total force of all contacts in N, for comparison with a
+/// reference sensor. NaN if the frame is not solved.
+double EstimatedForce(const FrameEstimate& estimate,
+                      double friction_coefficient);
+
 }  // namespace finray
 
 #endif  // FINRAY_SENSING_FRAME_ESTIMATE_H_

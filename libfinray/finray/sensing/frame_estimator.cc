@@ -102,94 +102,102 @@ CalibrationUncertainty FrameEstimator::SystematicOf(
 }
 
 FrameEstimate FrameEstimator::Estimate(const Measurements& readings) {
-  Pack(finger_, scene_, readings, &measurement_);
-  free_chi2_ = search_.FreeChi2(readings, measurement_);
-  const int contacts = scene_.contacts.value_or(1);
-  if (measurement_.gauges + measurement_.camera < 1 ||
-      measurement_.all < kUnknowns * contacts) {
-    return Unsolved(FrameStatus::kBadInput);
-  }
-  if (!scene_.contacts) return Automatic(readings);
-  return WithContacts(readings, contacts);
+  PackAll(&readings, 1);
+  FrameEstimate estimate = Search(readings, packed_[0]);
+  Judge(readings, packed_[0], &estimate);
+  return estimate;
 }
 
 void FrameEstimator::EstimateBlock(const Measurements* readings,
                                    std::size_t count,
                                    FrameEstimate* estimates) {
+  PackAll(readings, count);
   for (std::size_t i = 0; i < count;) {
-    estimates[i] = Estimate(readings[i]);
-    const bool follow = CanFollow(estimates[i]);
+    estimates[i] = Search(readings[i], packed_[i]);
+    const bool follow = CanFollow(packed_[i], estimates[i]);
     ++i;
-    if (follow) i += FollowOn(readings + i, count - i, estimates + i);
+    if (!follow) continue;
+    const std::size_t fitted = FitRun(i, count);
+    for (std::size_t run = 0; run < fitted; ++run, ++i) {
+      if (!TakeFollowed(packed_[i], run, &estimates[i])) {
+        estimates[i] = Search(readings[i], packed_[i]);
+      }
+    }
   }
   if (scene_.smoothing) Smooth(readings, count, {}, estimates);
+  for (std::size_t i = 0; i < count; ++i) {
+    Judge(readings[i], packed_[i], &estimates[i]);
+  }
 }
 
 FrameEstimate FrameEstimator::Follow(const Measurements& readings) {
   FrameEstimate estimate;
-  if (!following_ || FitRun(&readings, 1) == 0 ||
-      !TakeFollowed(readings, 0, &estimate)) {
-    estimate = Estimate(readings);
-    following_ = CanFollow(estimate);
+  PackAll(&readings, 1);
+  if (!following_ || FitRun(0, 1) == 0 ||
+      !TakeFollowed(packed_[0], 0, &estimate)) {
+    estimate = Search(readings, packed_[0]);
+    following_ = CanFollow(packed_[0], estimate);
   }
   if (scene_.smoothing) {
     followed_ = Smooth(&readings, 1, followed_, &estimate);
   }
+  Judge(readings, packed_[0], &estimate);
   return estimate;
 }
 
+void FrameEstimator::PackAll(const Measurements* readings, std::size_t count) {
+  if (packed_.size() < count) packed_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    Pack(finger_, scene_, readings[i], &packed_[i]);
+    packed_[i].free_chi2 = search_.FreeChi2(readings[i], packed_[i]);
+  }
+}
+
+FrameEstimate FrameEstimator::Search(const Measurements& readings,
+                                     const PackedReadings& packed) {
+  const int contacts = scene_.contacts.value_or(1);
+  if (packed.gauges + packed.camera < 1 || packed.all < kUnknowns * contacts) {
+    return Unsolved(FrameStatus::kBadInput);
+  }
+  if (!scene_.contacts) return Automatic(readings, packed);
+  return WithContacts(readings, packed, contacts);
+}
+
 // Says whether later frames can be followed from the frame searched last.
-bool FrameEstimator::CanFollow(const FrameEstimate& estimate) {
+bool FrameEstimator::CanFollow(const PackedReadings& packed,
+                               const FrameEstimate& estimate) {
   return follower_ && estimate.contacts == 1 &&
-         estimate.status == FrameStatus::kOk &&
+         StatusOf(estimate, finger_, search_) == FrameStatus::kOk &&
          follower_->Start(search_.best(), ArcStd(search_.best().information),
-                          measurement_.gauges);
+                          packed.gauges);
 }
 
-std::size_t FrameEstimator::FollowOn(const Measurements* readings,
-                                     std::size_t count,
-                                     FrameEstimate* estimates) {
-  const std::size_t frames = FitRun(readings, count);
-  for (std::size_t i = 0; i < frames; ++i) {
-    if (!TakeFollowed(readings[i], i, &estimates[i])) {
-      estimates[i] = Estimate(readings[i]);
-    }
-  }
-  return frames;
-}
-
-// Fits the next frames up to the first that lacks a gauge or a contact. Returns
-// their number.
-std::size_t FrameEstimator::FitRun(const Measurements* readings,
-                                   std::size_t count) {
-  if (measurements_.size() < count) measurements_.resize(count);
+// Fits the packed frames [begin, end) up to the first that lacks a gauge or a
+// contact. Returns their number.
+std::size_t FrameEstimator::FitRun(std::size_t begin, std::size_t end) {
   const auto all = static_cast<int>(finger_.gauges.size());
-  std::size_t frames = 0;
-  for (; frames < count; ++frames) {
-    PackedReadings& measurement = measurements_[frames];
-    Pack(finger_, scene_, readings[frames], &measurement);
-    if (measurement.gauges < all ||
-        search_.FreeChi2(readings[frames], measurement) < kSignificance) {
-      break;
-    }
+  std::size_t stop = begin;
+  while (stop < end && packed_[stop].gauges == all &&
+         packed_[stop].free_chi2 >= kSignificance) {
+    ++stop;
   }
-  if (frames > 0) follower_->Fit(measurements_, frames);
-  return frames;
+  if (stop > begin) follower_->Fit(&packed_[begin], stop - begin);
+  return stop - begin;
 }
 
-bool FrameEstimator::TakeFollowed(const Measurements& readings,
-                                  std::size_t frame, FrameEstimate* estimate) {
-  const FrameFit& fit = follower_->fit(frame);
+// Takes the follower's fit for its frame number `run`, if a search would find
+// the same.
+bool FrameEstimator::TakeFollowed(const PackedReadings& packed, std::size_t run,
+                                  FrameEstimate* estimate) {
+  const FrameFit& fit = follower_->fit(run);
   if (!fit.converged) return false;
   const ContactMatrix covariance = CovarianceOf(fit.information);
   const double arc_std = std::sqrt(covariance(0, 0));
-  const bool touches =
-      scene_.contacts
-          ? fit.normal_N >= least_force_N_
-          : fit.chi2 < kSecondSignificance &&
-                search_.FreeChi2(readings, measurements_[frame]) - fit.chi2 >=
-                    kSignificance;
-  if (!touches || !follower_->IsCertain(frame, arc_std)) return false;
+  const bool touches = scene_.contacts
+                           ? fit.normal_N >= least_force_N_
+                           : fit.chi2 < kSecondSignificance &&
+                                 packed.free_chi2 - fit.chi2 >= kSignificance;
+  if (!touches || !follower_->IsCertain(run, arc_std)) return false;
   estimate->contacts = 1;
   estimate->contact[0] = {fit.arc_mm, arc_std, fit.normal_N,
                           std::sqrt(covariance(1, 1)), fit.contact_pose};
@@ -203,9 +211,7 @@ bool FrameEstimator::TakeFollowed(const Measurements& readings,
   estimate->chi2 = fit.chi2;
   estimate->dof = static_cast<int>(finger_.gauges.size()) - kUnknowns;
   estimate->iterations = fit.iterations;
-  if (estimate->p_value() < FrameEstimate::kUnexplained) return false;
-  Judge(readings, measurements_[frame].weights, estimate);
-  return true;
+  return estimate->p_value() >= FrameEstimate::kUnexplained;
 }
 
 LogPrior FrameEstimator::Smooth(const Measurements* readings, std::size_t count,
@@ -250,8 +256,6 @@ LogPrior FrameEstimator::SmoothRun(const Measurements* readings,
   for (std::size_t t = 0; t < count && (count > 1 || before.mean.size() > 0);
        ++t) {
     frames[t].CopyTo(marginals[t].covariance, &estimates[t]);
-    Pack(finger_, scene_, readings[t], &measurement_);
-    Judge(readings[t], measurement_.weights, &estimates[t]);
   }
   Eigen::MatrixXd next = marginals.back().covariance;
   next(0, 0) += std::pow(scene_.smoothing->contact_mm, 2);
@@ -263,50 +267,54 @@ LogPrior FrameEstimator::SmoothRun(const Measurements* readings,
 // Adds a contact as long as it makes a significant difference. The free finger
 // predicts no place of a measured object, so that place only distinguishes one
 // contact from another.
-FrameEstimate FrameEstimator::Automatic(const Measurements& readings) {
-  if (free_chi2_ < kSignificance) return Free();
+FrameEstimate FrameEstimator::Automatic(const Measurements& readings,
+                                        const PackedReadings& packed) {
+  if (packed.free_chi2 < kSignificance) return Free(packed);
   FrameEstimate one = Unsolved(FrameStatus::kNotConverged);
-  if (search_.Search(1, readings, measurement_)) {
-    if (free_chi2_ - search_.best().chi2 < kSignificance) return Free();
-    one = Found(readings);
+  if (search_.Search(1, readings, packed)) {
+    if (packed.free_chi2 - search_.best().chi2 < kSignificance) {
+      return Free(packed);
+    }
+    one = Found(packed);
     if (one.chi2 < kSecondSignificance) return one;
   }
   const int needed = 2 * kUnknowns;
-  if (scene_.most_contacts < 2 || measurement_.gauges < needed ||
+  if (scene_.most_contacts < 2 || packed.gauges < needed ||
       scene_.object_std_mm) {
     return one;
   }
   const int before = search_.iterations();
-  if (!search_.Search(2, readings, measurement_)) return one;
+  if (!search_.Search(2, readings, packed)) return one;
   const ContactSolution& two = search_.best();
   for (const PointContact& contact : two.contacts) {
     if (contact.normal_N < least_force_N_) return one;
   }
   if (one.chi2 - two.chi2 < kSecondSignificance) return one;
-  FrameEstimate estimate = Found(readings);
+  FrameEstimate estimate = Found(packed);
   estimate.iterations += before;
   return estimate;
 }
 
 FrameEstimate FrameEstimator::WithContacts(const Measurements& readings,
+                                           const PackedReadings& packed,
                                            int contacts) {
-  if (contacts == 0) return Free();
-  if (!search_.Search(contacts, readings, measurement_)) {
+  if (contacts == 0) return Free(packed);
+  if (!search_.Search(contacts, readings, packed)) {
     return Unsolved(FrameStatus::kNotConverged);
   }
   const ContactSolution& best = search_.best();
   for (int c = 0; c < best.count; ++c) {
     if (best.contacts[c].normal_N < least_force_N_) {
-      return WithContacts(readings, contacts - 1);
+      return WithContacts(readings, packed, contacts - 1);
     }
   }
-  return Found(readings);
+  return Found(packed);
 }
 
-FrameEstimate FrameEstimator::Free() const {
+FrameEstimate FrameEstimator::Free(const PackedReadings& packed) const {
   FrameEstimate estimate = free_;
-  estimate.chi2 = free_chi2_;
-  estimate.dof = measurement_.gauges + measurement_.camera;
+  estimate.chi2 = packed.free_chi2;
+  estimate.dof = packed.gauges + packed.camera;
   return estimate;
 }
 
@@ -317,7 +325,7 @@ FrameEstimate FrameEstimator::Unsolved(FrameStatus status) const {
   return estimate;
 }
 
-FrameEstimate FrameEstimator::Found(const Measurements& readings) {
+FrameEstimate FrameEstimator::Found(const PackedReadings& packed) const {
   const ContactSolution& best = search_.best();
   FrameEstimate estimate;
   estimate.contacts = best.count;
@@ -325,7 +333,7 @@ FrameEstimate FrameEstimator::Found(const Measurements& readings) {
   estimate.tip_pose = best.tip_pose;
   estimate.rib_tension_N = best.rib_tension_N;
   estimate.chi2 = best.chi2;
-  estimate.dof = measurement_.all - kUnknowns * best.count;
+  estimate.dof = packed.all - kUnknowns * best.count;
   estimate.iterations = search_.iterations();
 
   const ContactMatrix covariance = CovarianceOf(best.information);
@@ -341,13 +349,13 @@ FrameEstimate FrameEstimator::Found(const Measurements& readings) {
     CopyContacts(*rival, &estimate.alternative);
     estimate.alternative_chi2 = rival->chi2;
   }
-  Judge(readings, measurement_.weights, &estimate);
   return estimate;
 }
 
 void FrameEstimator::Judge(const Measurements& readings,
-                           const Eigen::VectorXd& weights,
+                           const PackedReadings& packed,
                            FrameEstimate* estimate) {
+  if (estimate->contacts == 0) return;
   if (!systematic_.empty()) {
     contacts_.clear();
     for (int c = 0; c < estimate->contacts; ++c) {
@@ -357,7 +365,7 @@ void FrameEstimator::Judge(const Measurements& readings,
     }
     if (method_ == FrameMethod::kFast) {
       estimate->calibration_covariance =
-          systematic_.Of(contacts_, readings.gauges_V, weights);
+          systematic_.Of(contacts_, readings.gauges_V, packed.weights);
     }
     AddCovariance(estimate->calibration_covariance, estimate);
   }

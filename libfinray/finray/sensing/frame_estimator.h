@@ -24,7 +24,7 @@ namespace finray {
 /// those of a noise that would (FrameEstimate::noise_scale).
 ///
 /// A frame's status is decided in this class (docs/reference/estimation.md):
-/// - bad_input (Estimate): fewer measurements than unknowns.
+/// - bad_input (Search): fewer measurements than unknowns.
 /// - no_contact (Automatic): no contact is significant by the criterion above.
 ///   With a fixed number of contacts (WithContacts): all forces are below
 ///   kLeastForce_N, for soft fingers below kLeastForce.
@@ -92,20 +92,24 @@ class FrameEstimator {
                               const ContactSearch& search);
 
  private:
-  bool CanFollow(const FrameEstimate& estimate);
-  std::size_t FollowOn(const Measurements* readings, std::size_t count,
-                       FrameEstimate* estimates);
-  std::size_t FitRun(const Measurements* readings, std::size_t count);
-  bool TakeFollowed(const Measurements& readings, std::size_t frame,
+  // Packs the readings and finds their chi2 without a contact.
+  void PackAll(const Measurements* readings, std::size_t count);
+  FrameEstimate Search(const Measurements& readings,
+                       const PackedReadings& packed);
+  bool CanFollow(const PackedReadings& packed, const FrameEstimate& estimate);
+  std::size_t FitRun(std::size_t begin, std::size_t end);
+  bool TakeFollowed(const PackedReadings& packed, std::size_t run,
                     FrameEstimate* estimate);
-  FrameEstimate Automatic(const Measurements& readings);
-  FrameEstimate WithContacts(const Measurements& readings, int contacts);
-  FrameEstimate Free() const;
+  FrameEstimate Automatic(const Measurements& readings,
+                          const PackedReadings& packed);
+  FrameEstimate WithContacts(const Measurements& readings,
+                             const PackedReadings& packed, int contacts);
+  FrameEstimate Free(const PackedReadings& packed) const;
   FrameEstimate Unsolved(FrameStatus status) const;
-  FrameEstimate Found(const Measurements& readings);
-  // Adds the uncertainty of the calibration to the std, and sets the status to
-  // ok or unobservable.
-  void Judge(const Measurements& readings, const Eigen::VectorXd& weights,
+  FrameEstimate Found(const PackedReadings& packed) const;
+  // Adds the uncertainty of the calibration to the std of an estimate with
+  // contacts, and sets its status to ok or unobservable.
+  void Judge(const Measurements& readings, const PackedReadings& packed,
              FrameEstimate* estimate);
   // Smooths the runs of frames with one contact (LogProblem). Changes l_c, f_c,
   // their std, poses and rib tensions; chi2, dof and the alternative remain
@@ -128,10 +132,7 @@ class FrameEstimator {
   std::vector<PointContact> contacts_;
   LogPrior followed_;  // by Follow, if the scene has smoothing
   FrameEstimate free_;
-  // State of the frame being estimated.
-  PackedReadings measurement_;
-  std::vector<PackedReadings> measurements_;  // of a run of frames
-  double free_chi2_ = 0;
+  std::vector<PackedReadings> packed_;  // of the frames under way
 };
 
 }  // namespace finray

@@ -6,7 +6,6 @@
 
 #include "finray/residuals/frame_blocks.h"
 #include "finray/sensing/contact_solution.h"
-#include "finray/sensing/contact_start.h"
 
 namespace finray {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "finray/sensing/contact_start.h"
+#include "finray/sensing/contact_solution.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {

@@ -118,7 +118,7 @@ void LogProblem::AddLink(std::size_t t) {
   if (scene_.gauge_offset_walk) {
     for (std::size_t j = 0; j < gauges_; ++j) {
       links_[t].push_back(problem_->AddResidualBlock(
-          GaugeOffsetChangeResidual::Create(
+          new GaugeOffsetChangeResidual(
               scene_.gauge_offset_walk->std_V_per_sqrt_s, dt),
           nullptr, offsets(t - 1) + j, offsets(t) + j));
     }
@@ -128,8 +128,8 @@ void LogProblem::AddLink(std::size_t t) {
       Smoothing{kContactWalk_mm * std::sqrt(dt),
                 std::numeric_limits<double>::infinity()});
   links_[t].push_back(problem_->AddResidualBlock(
-      ContactChangeResidual::Create(change.contact_mm, change.normal_N),
-      nullptr, contact(t - 1), contact(t)));
+      new ContactChangeResidual(change.contact_mm, change.normal_N), nullptr,
+      contact(t - 1), contact(t)));
 }
 
 void LogProblem::AddPrior(const LogPrior& prior) {
@@ -153,8 +153,8 @@ void LogProblem::AddPrior(const LogPrior& prior) {
   }
   if (blocks.empty()) return;
   prior_.push_back(problem_->AddResidualBlock(
-      GaussianPriorResidual::Create(known.mean, known.information, sizes),
-      nullptr, blocks));
+      new GaussianPriorResidual(known.mean, known.information, sizes), nullptr,
+      blocks));
 }
 
 // The finger stays as it is; only offsets and contacts vary.

@@ -67,13 +67,13 @@ struct LogMarginal {
 /// Contacts and gauge offsets of a stretch of a log in one sparse problem; for
 /// FrameEstimator, which smooths contacts, and for LogEstimator:
 ///
-///   MeasurementBlocks            each free or touching frame, with a Huber
-///   loss GaugeOffsetChangeResidual    each gauge, from frame to frame
-///   ContactChangeResidual        from a contact to that of the next frame: as
-///                                the scene's smoothing says, or else l_c by
-///                                kContactWalk_mm where the offsets wander
-///   ParameterPriorResidual       each contact, weak
-///   GaussianPriorResidual        on the first frame
+///   MeasurementBlocks          each free or touching frame (Huber loss)
+///   GaugeOffsetChangeResidual  each gauge, from frame to frame
+///   ContactChangeResidual      from a contact to that of the next frame: as
+///                              the scene's smoothing says, or else l_c by
+///                              kContactWalk_mm where the offsets wander
+///   ParameterPriorResidual     each contact, weak
+///   GaussianPriorResidual      on the first frame
 ///
 /// Unknowns of a frame: an offset in V for each gauge, in blocks of size 1, if
 /// the scene has a gauge_offset_walk, and (l_c, f_c) if it touches.

@@ -15,9 +15,10 @@ namespace finray {
 /// behind them. Weights are 1 / std, or 0 for missing and saturated readings.
 struct PackedReadings {
   Eigen::VectorXd values, weights;
-  int gauges = 0;  ///< Number of gauges with a reading.
-  int camera = 0;  ///< Number of coordinates of pins and tip.
-  int all = 0;     ///< Both, plus the coordinates of the circle's centre.
+  int gauges = 0;        ///< Number of gauges with a reading.
+  int camera = 0;        ///< Number of coordinates of pins and tip.
+  int all = 0;           ///< Both, plus the coordinates of the circle's centre.
+  double free_chi2 = 0;  ///< Of the free finger; the caller of Pack() sets it.
 };
 
 /// Fills `packed`, whose memory is reused. Throws std::invalid_argument unless

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "finray/sensing/contact_start.h"
+#include "finray/sensing/contact_solution.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {

@@ -79,7 +79,7 @@ std::vector<TouchDetection::Verdict> TouchDetection::Pass(
     if (FindContact(frame, here.mean_V, here.variance_V2)) {
       const double chi2 = search_.best().chi2;
       const bool explained =
-          chi2 < kLeftOver * free_chi2_ || measurement_.all < 3 ||
+          chi2 < kLeftOver * measurement_.free_chi2 || measurement_.all < 3 ||
           ChiSquaredTail(chi2, measurement_.all - 2) > kExplained;
       verdicts[t] = explained ? Verdict::kTouching : Verdict::kUnexplained;
       continue;
@@ -182,12 +182,13 @@ bool TouchDetection::FindContact(const LogFrame& frame,
         std::abs(gauge.gain_V_per_rad) /
         std::sqrt(variance_V2[j] + gauge.noise_V * gauge.noise_V);
   }
-  free_chi2_ = FreeChi2(frame, mean_V, variance_V2);
+  const double free_chi2 = FreeChi2(frame, mean_V, variance_V2);
+  measurement_.free_chi2 = free_chi2;
   if (measurement_.all < 2) return false;
   if (scene_.contacts) return search_.Search(1, frame.row, measurement_);
-  return free_chi2_ >= FrameEstimator::kSignificance &&
+  return free_chi2 >= FrameEstimator::kSignificance &&
          search_.Search(1, frame.row, measurement_) &&
-         free_chi2_ - search_.best().chi2 >= FrameEstimator::kSignificance;
+         free_chi2 - search_.best().chi2 >= FrameEstimator::kSignificance;
 }
 
 double TouchDetection::FreeChi2(const LogFrame& frame,

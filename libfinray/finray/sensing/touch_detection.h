@@ -20,13 +20,13 @@ struct OffsetBelief {
 ///
 /// A pass goes through the frames and holds the offsets as the free frames so
 /// far tell them, blurred by the walk since the last of them. A frame
-///  - touches if a contact explains it significantly better than the free
-///  finger
-///    does (FrameEstimator::kSignificance), and well enough;
+///  - touches if a contact explains it well, and significantly better than the
+///    free finger does (FrameEstimator::kSignificance);
 ///  - is free if it could be and the frames that follow within the guard time
 ///    could be too, should it be free: this keeps the begin and the end of a
 ///    touch, where the force is small, out of the belief;
 ///  - is left open otherwise.
+///
 /// One pass goes forward and one backward. What either calls touching touches,
 /// what either leaves open because of the frames behind it stays open
 /// (LogFrame::Role::kUnused), and the rest is free.
@@ -84,7 +84,6 @@ class TouchDetection {
   double guard_s_ = 0;
   ContactSearch search_;
   PackedReadings measurement_;  // of the last FindContact
-  double free_chi2_ = 0;
 };
 
 }  // namespace finray

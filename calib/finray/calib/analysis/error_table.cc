@@ -5,7 +5,6 @@
 
 #include "finray/io/nan.h"
 #include "finray/io/yaml_emitter.h"
-#include "finray/sensing/estimated_force.h"
 
 namespace finray {
 namespace {

@@ -3,7 +3,6 @@
 
 #include "finray/calib/analysis/validation.h"
 #include "finray/calib/report/yaml_rows.h"
-#include "finray/sensing/estimated_force.h"
 
 namespace finray {
 

@@ -56,8 +56,7 @@ bool FrameFollower::Start(const ContactSolution& solution, double arc_std_mm,
   return true;
 }
 
-void FrameFollower::Fit(const std::vector<PackedReadings>& frames,
-                        std::size_t count) {
+void FrameFollower::Fit(const PackedReadings* frames, std::size_t count) {
   if (fits_.size() < count) {
     fits_.resize(count);
     angles_rad_.resize(gauges_, static_cast<Eigen::Index>(count));
@@ -65,9 +64,8 @@ void FrameFollower::Fit(const std::vector<PackedReadings>& frames,
   }
   const auto columns = static_cast<Eigen::Index>(count);
   for (Eigen::Index i = 0; i < columns; ++i) {
-    const PackedReadings& frame = frames[static_cast<std::size_t>(i)];
-    angles_rad_.col(i) = frame.values;
-    weights_.col(i) = frame.weights;
+    angles_rad_.col(i) = frames[i].values;
+    weights_.col(i) = frames[i].weights;
   }
   group_.Fit(angles_rad_.leftCols(columns), weights_.leftCols(columns),
              fits_.data());

@@ -30,7 +30,7 @@ class FrameFollower {
   bool Start(const ContactSolution& solution, double arc_std_mm, int gauges);
 
   /// Fits consecutive frames. All gauges of all frames must have a reading.
-  void Fit(const std::vector<PackedReadings>& frames, std::size_t count);
+  void Fit(const PackedReadings* frames, std::size_t count);
 
   /// The result of the last call for a frame.
   const FrameFit& fit(std::size_t frame) const { return fits_[frame]; }

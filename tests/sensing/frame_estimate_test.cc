@@ -1,4 +1,4 @@
-#include "finray/sensing/estimated_force.h"
+#include "finray/sensing/frame_estimate.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace finray {
 namespace {
 
 // The reference force of a simulated frame of two contacts.
-TEST(EstimatedForceTest, IsWhatASensorUnderTheFingerMeasures) {
+TEST(FrameEstimateTest, IsWhatASensorUnderTheFingerMeasures) {
   Scene scene;
   scene.friction_coefficient = 0.3;
   FrameTable frames(1);
