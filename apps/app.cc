@@ -75,10 +75,11 @@ void DumpConfig(const Finger& finger, const Scene& scene,
   }
 }
 
-int RunApp(int argc, char** argv, const std::string& usage,
-           const std::function<int()>& run,
-           std::vector<std::string>* arguments) {
-  gflags::SetUsageMessage(usage);
+}  // namespace finray
+
+int main(int argc, char** argv) {
+  using namespace finray;
+  gflags::SetUsageMessage(kApp.usage);
   gflags::SetVersionString(FINRAY_VERSION);
   FLAGS_logtostderr = true;
   google::InitGoogleLogging(argv[0]);
@@ -89,13 +90,13 @@ int RunApp(int argc, char** argv, const std::string& usage,
     return code;
   };
   try {
-    if (arguments != nullptr) {
-      arguments->assign(argv + 1, argv + argc);
+    if (kApp.arguments != nullptr) {
+      kApp.arguments->assign(argv + 1, argv + argc);
     } else if (argc > 1) {
       throw UsageError(std::string("'") + argv[1] +
                        "' is not a flag; flags start with --");
     }
-    return run();
+    return kApp.run();
   } catch (const UsageError& error) {
     return fail(std::string(error.what()) + "; see --help", kUsage);
   } catch (const InputError& error) {
@@ -104,5 +105,3 @@ int RunApp(int argc, char** argv, const std::string& usage,
     return fail(error.what(), kSolveFailed);
   }
 }
-
-}  // namespace finray

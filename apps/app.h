@@ -4,7 +4,6 @@
 #include <gflags/gflags.h>
 #include <glog/logging.h>
 
-#include <functional>
 #include <iostream>
 #include <sstream>
 #include <stdexcept>
@@ -31,7 +30,7 @@ enum ExitCode {
   kInterrupted = 130,
 };
 
-/// Wrong use of a flag; RunApp returns kUsage for it.
+/// Wrong use of a flag; main() returns kUsage for it.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -73,12 +72,17 @@ std::string OutPath(const std::string& name);
 void RefuseToOverwrite(const std::vector<std::string>& inputs,
                        const std::vector<std::string>& outputs);
 
-/// Parses flags, calls `run` and returns its exit code. An exception becomes
-/// one line on stderr and an exit code. Arguments that are no flags go to
-/// `arguments`; without it they are an error.
-int RunApp(int argc, char** argv, const std::string& usage,
-           const std::function<int()>& run,
-           std::vector<std::string>* arguments = nullptr);
+/// An executable. app.cc has main(), which parses flags and calls `run`. An
+/// exception becomes one line on stderr and an exit code.
+struct App {
+  const char* usage;
+  int (*run)();  ///< Returns the exit code.
+  /// Where arguments go that are no flags. Without it they are an error.
+  std::vector<std::string>* arguments = nullptr;
+};
+
+/// Each executable defines it.
+extern const App kApp;
 
 }  // namespace finray
 

@@ -118,21 +118,6 @@ std::vector<BenchmarkSetting> ChosenSettings(const Finger& finger) {
   return chosen;
 }
 
-int Rounds() { return FLAGS_rounds > 0 ? FLAGS_rounds : FLAGS_quick ? 9 : 15; }
-
-MeasuringOptions Options(ProgressBar* bar) {
-  MeasuringOptions options;
-  options.rounds = Rounds();
-#ifdef FINRAY_COUNTS_ALLOCATIONS
-  options.allocations = [] {
-    return AllocationCount{static_cast<double>(allocations),
-                           static_cast<double>(allocated_bytes)};
-  };
-#endif
-  options.progress = [bar] { bar->Add(1, false); };
-  return options;
-}
-
 // Prints the times of ceres::Solve and of the paper's chain over that of the
 // fast solver, which does the same for a frame with one contact.
 void PrintRatios(const std::vector<Measurement>& all, const std::string& task,
@@ -219,9 +204,9 @@ int Measure() {
   run.date = UtcNow();
   run.command = CommandWith(
       {"finger", "out_dir", "quick", "only", "rounds", "threads", "peers"});
-  run.finger_name = finger.name;
-  run.finger_path = FLAGS_finger;
-  run.finger_sha256 = Sha256OfFile(FLAGS_finger);
+  run.finger = {{"name", finger.name},
+                {"path", FLAGS_finger},
+                {"sha256", Sha256OfFile(FLAGS_finger)}};
   run.machine = ThisMachine();
   run.build = ThisBuild();
   const Discretization finest = ReferenceDiscretization(finger);
@@ -237,8 +222,16 @@ int Measure() {
     cases.push_back(MakeBenchmarkCase(finger, scene));
   }
   {
-    ProgressBar bar(grid.size() * static_cast<std::size_t>(Rounds() + 1));
-    const MeasuringOptions options = Options(&bar);
+    MeasuringOptions options;
+    options.rounds = FLAGS_rounds > 0 ? FLAGS_rounds : FLAGS_quick ? 9 : 15;
+#ifdef FINRAY_COUNTS_ALLOCATIONS
+    options.allocations = [] {
+      return AllocationCount{static_cast<double>(allocations),
+                             static_cast<double>(allocated_bytes)};
+    };
+#endif
+    ProgressBar bar(grid.size() * static_cast<std::size_t>(options.rounds + 1));
+    options.progress = [&bar] { bar.Add(1, false); };
     run.rounds = options.rounds;
     run.settings = MeasureSettings(grid, cases, options);
   }
@@ -248,7 +241,7 @@ int Measure() {
                      threads, FLAGS_quick ? 3 : 7);
   for (const std::string& peer : peers) {
     MeasurePeer(peer, FINRAY_SOURCE_DIR "/scripts/peers", FLAGS_out_dir, finger,
-                cases, FLAGS_quick, &run);
+                cases, &run);
   }
 
   WriteFileAtomically(OutPath("benchmark.json"), BenchmarkJson(run));
@@ -267,13 +260,10 @@ int Run() { return FLAGS_compare.empty() ? Measure() : Compare(); }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  return RunApp(
-      argc, argv,
-      "Measures speed and accuracy of every solver, or compares two such "
-      "runs.\n"
-      "finray_benchmark --out_dir D [--finger F.yaml] [--quick] "
-      "[--peers auto]\n"
-      "finray_benchmark --compare A,B [--most_slowdown_percent 15]",
-      Run);
-}
+const finray::App finray::kApp = {
+    "Measures speed and accuracy of every solver, or compares two such "
+    "runs.\n"
+    "finray_benchmark --out_dir D [--finger F.yaml] [--quick] "
+    "[--peers auto]\n"
+    "finray_benchmark --compare A,B [--most_slowdown_percent 15]",
+    Run};

@@ -142,11 +142,8 @@ int Run() {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  return finray::RunApp(
-      argc, argv,
-      "Calibrates stiffness, gauges and rib lengths of a finger from logs.\n"
-      "finray_calibrate --finger F.yaml --plan P.yaml --logs a.csv,b.csv "
-      "--out_dir D",
-      Run);
-}
+const finray::App finray::kApp = {
+    "Calibrates stiffness, gauges and rib lengths of a finger from logs.\n"
+    "finray_calibrate --finger F.yaml --plan P.yaml --logs a.csv,b.csv "
+    "--out_dir D",
+    Run};

@@ -138,12 +138,9 @@ int Run() {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  return finray::RunApp(
-      argc, argv,
-      "Difference of two calibrations over its std, and what it does to "
-      "estimates.\n"
-      "finray_compare A B --out_dir D [--most_sigma 4]; A and B are result "
-      "folders of finray_calibrate",
-      Run, &folders);
-}
+const finray::App finray::kApp = {
+    "Difference of two calibrations over its std, and what it does to "
+    "estimates.\n"
+    "finray_compare A B --out_dir D [--most_sigma 4]; A and B are result "
+    "folders of finray_calibrate",
+    Run, &folders};

@@ -190,11 +190,8 @@ int Run() {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  return finray::RunApp(
-      argc, argv,
-      "Measures the stiffness of yielding objects and sorts them.\n"
-      "finray_compliance --finger F.yaml --scene S.yaml --logs 'runs/*.csv' "
-      "--out_dir D [--second_logs 'other/*.csv']",
-      Run);
-}
+const finray::App finray::kApp = {
+    "Measures the stiffness of yielding objects and sorts them.\n"
+    "finray_compliance --finger F.yaml --scene S.yaml --logs 'runs/*.csv' "
+    "--out_dir D [--second_logs 'other/*.csv']",
+    Run};

@@ -109,9 +109,9 @@ void PrintTable(const std::vector<Job>& jobs) {
     for (const ControllerResult& result : job.results) {
       const ControlStatistics& s = result.statistics;
       const bool controlled = s.control.count > 0;
-      const ErrorSums& errors = controlled ? s.control : s.estimate;
       std::printf("%-20s %-16s %8.3f %8.3f ", job.experiment.name.c_str(),
-                  result.controller.name.c_str(), errors.rms(), errors.most);
+                  result.controller.name.c_str(), s.errors().rms(),
+                  s.errors().most);
       if (job.experiment.paper) {
         std::printf("%8.2f ", job.experiment.paper->rms_N);
       } else {
@@ -127,34 +127,25 @@ void PrintTable(const std::vector<Job>& jobs) {
   }
 }
 
-// Returns whether any run ended early.
-bool WarnOfFailures(const std::vector<Job>& jobs) {
-  bool failed = false;
+// Warns of runs that ended early. Returns the exit code.
+int ExitCodeOf(const std::vector<Job>& jobs) {
+  bool failed = false, misses = false;
   for (const Job& job : jobs) {
     for (const ControllerResult& result : job.results) {
-      if (result.statistics.failed_runs == 0) continue;
+      const ControlStatistics& s = result.statistics;
+      misses |= s.stopped_runs > 0;
+      if (s.failed_runs == 0) continue;
       failed = true;
       LOG(WARNING) << job.experiment.name << ", " << result.controller.name
-                   << ": " << result.statistics.failed_runs << " of "
-                   << result.statistics.runs
-                   << " runs ended early: " << result.failure;
+                   << ": " << s.failed_runs << " of " << s.runs
+                   << " runs ended early: " << s.failure;
     }
+    const ErrorSums& first = job.results.front().statistics.errors();
+    misses |=
+        job.experiment.paper && !(first.rms() < job.experiment.paper->rms_N);
   }
-  return failed;
-}
-
-bool FailsGate(const std::vector<Job>& jobs) {
-  for (const Job& job : jobs) {
-    for (const ControllerResult& result : job.results) {
-      if (result.statistics.stopped_runs > 0) return true;
-    }
-    const ControlStatistics& s = job.results.front().statistics;
-    const ErrorSums& errors = s.control.count > 0 ? s.control : s.estimate;
-    if (job.experiment.paper && !(errors.rms() < job.experiment.paper->rms_N)) {
-      return true;
-    }
-  }
-  return false;
+  if (failed) return kSolveFailed;
+  return FLAGS_strict && misses ? kGateFailed : kGood;
 }
 
 int Run() {
@@ -183,17 +174,13 @@ int Run() {
   for (const Job& job : jobs) WriteLogs(finger, job);
   WriteSummary(jobs, discretization);
   PrintTable(jobs);
-  if (WarnOfFailures(jobs)) return kSolveFailed;
-  return FLAGS_strict && FailsGate(jobs) ? kGateFailed : kGood;
+  return ExitCodeOf(jobs);
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  return finray::RunApp(
-      argc, argv,
-      "Simulates force control with the estimator in the loop.\n"
-      "finray_control --finger F.yaml --experiment E.yaml[,E2.yaml] "
-      "--out_dir D [--seed 1] [--draws 10]",
-      Run);
-}
+const finray::App finray::kApp = {
+    "Simulates force control with the estimator in the loop.\n"
+    "finray_control --finger F.yaml --experiment E.yaml[,E2.yaml] "
+    "--out_dir D [--seed 1] [--draws 10]",
+    Run};

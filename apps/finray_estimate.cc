@@ -238,8 +238,8 @@ int FollowInput(const BatchSettings& settings) {
   if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) == 0) stop_pipe = ends[1];
   CatchStopSignals(0);
   LineReader lines = ReadPipe(STDIN_FILENO, ends[0], kSource);
-  LiveEstimator estimator(settings.finger, settings.scene,
-                          settings.discretization, settings.method);
+  FrameEstimator estimator(settings.finger, settings.scene,
+                           settings.discretization, settings.method);
   CsvLine header;
   do {
     if (!lines.Next()) {
@@ -324,13 +324,10 @@ int Run() {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  return finray::RunApp(
-      argc, argv,
-      "Contact location and force from the gauges of every frame.\n"
-      "finray_estimate --finger F.yaml --logs 'runs/*.csv' --out_dir D "
-      "[--scene S.yaml] [--resume] [--joint]\n"
-      "sensor | finray_estimate --follow --finger F.yaml [--scene S.yaml] | "
-      "consumer",
-      Run);
-}
+const finray::App finray::kApp = {
+    "Contact location and force from the gauges of every frame.\n"
+    "finray_estimate --finger F.yaml --logs 'runs/*.csv' --out_dir D "
+    "[--scene S.yaml] [--resume] [--joint]\n"
+    "sensor | finray_estimate --follow --finger F.yaml [--scene S.yaml] | "
+    "consumer",
+    Run};

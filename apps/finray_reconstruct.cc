@@ -43,16 +43,13 @@ void CheckFlags() {
   }
 }
 
-void PrintSummary(const Reconstruction& found, const RadialError* error,
-                  const RadialError* envelope_error) {
+void PrintSummary(const Reconstruction& found,
+                  const std::optional<RadialError>& error,
+                  const std::optional<RadialError>& envelope_error) {
   std::printf("%s\n", OutPath("outline.csv").c_str());
-  std::printf(
-      "touches        %zu of %zu rows usable, %zu contacts\n",
-      [&] {
-        const auto ok = found.touches.rows.find(FrameStatus::kOk);
-        return ok == found.touches.rows.end() ? 0 : ok->second;
-      }(),
-      found.touches.all_rows(), found.touches.usable.size());
+  std::printf("touches        %zu of %zu rows usable, %zu contacts\n",
+              found.touches.rows.at(FrameStatus::kOk), found.touches.all_rows(),
+              found.touches.usable.size());
   double std = 0;
   for (const OutlinePoint& point : found.outline) {
     std += point.std_mm / static_cast<double>(found.outline.size());
@@ -68,7 +65,7 @@ void PrintSummary(const Reconstruction& found, const RadialError* error,
                           ? ""
                           : ": straight edges or dents, which a finger "
                             "cannot tell apart");
-  if (error == nullptr) {
+  if (!error) {
     std::printf("radial error   unknown without --truth\n");
     return;
   }
@@ -121,17 +118,13 @@ int Run() {
   }
 
   MakeFolder(FLAGS_out_dir);
-  WriteFileAtomically(OutPath("outline.csv"),
-                      OutlineCsv(found, truth ? &*truth : nullptr));
+  WriteFileAtomically(OutPath("outline.csv"), OutlineCsv(found, error));
   WriteFileAtomically(OutPath("touches.csv"), TouchCsv(found));
   WriteFileAtomically(OutPath("beams.csv"), BeamCsv(found, FLAGS_envelope_mm));
-  WriteFileAtomically(
-      OutPath("reconstruction.yaml"),
-      ReconstructionYaml(found, descriptors, envelope,
-                         error ? &*error : nullptr,
-                         envelope_error ? &*envelope_error : nullptr, inputs));
-  PrintSummary(found, error ? &*error : nullptr,
-               envelope_error ? &*envelope_error : nullptr);
+  WriteFileAtomically(OutPath("reconstruction.yaml"),
+                      ReconstructionYaml(found, descriptors, envelope, error,
+                                         envelope_error, inputs));
+  PrintSummary(found, error, envelope_error);
   if (FLAGS_plots) {
     std::vector<std::string> arguments = {FLAGS_out_dir};
     if (truth) arguments.push_back(FLAGS_truth);
@@ -145,11 +138,8 @@ int Run() {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  return finray::RunApp(
-      argc, argv,
-      "Reconstructs the outline of an object from touches of a finger.\n"
-      "finray_reconstruct --finger F.yaml --logs touches.csv --out_dir D "
-      "[--scene S.yaml] [--truth outline.csv]",
-      Run);
-}
+const finray::App finray::kApp = {
+    "Reconstructs the outline of an object from touches of a finger.\n"
+    "finray_reconstruct --finger F.yaml --logs touches.csv --out_dir D "
+    "[--scene S.yaml] [--truth outline.csv]",
+    Run};

@@ -62,11 +62,8 @@ int Run() {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  return finray::RunApp(
-      argc, argv,
-      "Shape, gauges, rib forces and tip of a finger under given contacts.\n"
-      "finray_simulate --finger F.yaml --frames in.csv --out out.csv "
-      "[--scene S.yaml] [--shape_out shape.csv] [--log_out log.csv]",
-      Run);
-}
+const finray::App finray::kApp = {
+    "Shape, gauges, rib forces and tip of a finger under given contacts.\n"
+    "finray_simulate --finger F.yaml --frames in.csv --out out.csv "
+    "[--scene S.yaml] [--shape_out shape.csv] [--log_out log.csv]",
+    Run};

@@ -201,11 +201,8 @@ int Run() {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  return finray::RunApp(
-      argc, argv,
-      "Errors and coverage of a calibrated finger on logs with a reference.\n"
-      "finray_validate --finger D/finger.yaml --plan P.yaml --logs c.csv "
-      "--out_dir V [--baseline F.yaml] [--most_force_rms_N 0.1]",
-      Run);
-}
+const finray::App finray::kApp = {
+    "Errors and coverage of a calibrated finger on logs with a reference.\n"
+    "finray_validate --finger D/finger.yaml --plan P.yaml --logs c.csv "
+    "--out_dir V [--baseline F.yaml] [--most_force_rms_N 0.1]",
+    Run};

@@ -1,9 +1,6 @@
-#include <gflags/gflags.h>
-
 #include <filesystem>
 
 #include "app.h"
-#include "finray/io/error.h"
 
 DECLARE_string(out_dir);
 

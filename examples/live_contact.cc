@@ -3,14 +3,14 @@
 #include <cstdio>
 
 #include "finray/finger/finger_yaml.h"
-#include "finray/sensing/live_estimator.h"
+#include "finray/sensing/frame_estimator.h"
 
 int main(int argc, char** argv) {
   if (argc != 2) return 1;
   const finray::Finger finger = finray::ReadFinger(argv[1]);
   finray::Scene scene;
   scene.contacts = 1;
-  finray::LiveEstimator estimator(finger, scene);
+  finray::FrameEstimator estimator(finger, scene);
   finray::Measurements readings;
   readings.gauges_V.resize(finger.gauges.size());
   while (true) {
@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
     for (double& volts : readings.gauges_V) {
       if (std::scanf("%lf", &volts) != 1) return 0;
     }
-    const finray::FrameEstimate& estimate = estimator.Next(readings);
+    const finray::FrameEstimate estimate = estimator.Next(readings);
     const finray::ContactEstimate& contact = estimate.contact[0];
     std::printf("%s %.2f mm %.3f N\n", finray::StatusName(estimate.status),
                 contact.arc_mm, contact.normal_N);

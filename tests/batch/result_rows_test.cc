@@ -28,7 +28,8 @@ std::string Row(const FrameParser& log, const Scene& scene,
   Measurements readings;
   layout.Read(rows, 0, &readings);
   std::string csv;
-  ResultWriter().Append(layout, rows, 0, readings, estimate, &csv);
+  std::vector<double> values;
+  layout.Append(rows, 0, readings, estimate, &values, &csv);
   return csv;
 }
 

@@ -15,14 +15,14 @@ using testing::HasSubstr;
 TEST(BenchmarkFilesTest, ReadsBackWhatItWrites) {
   BenchmarkRun run = MadeRun(10, 0.1, 1);
   run.quick = true;
-  run.finger_name = "a \"finger\" \\ with signs";
+  run.finger = {{"name", "a \"finger\" \\ with signs"}};
   run.settings[0].errors.normal_N = std::nan("");
   TempFolder folder;
   WriteFileAtomically(folder.Path("benchmark.json"), BenchmarkJson(run));
   const BenchmarkRun read = ReadBenchmark(folder.Path(""));
   EXPECT_TRUE(read.quick);
   EXPECT_EQ(read.rounds, 25);
-  EXPECT_EQ(read.finger_name, run.finger_name);
+  EXPECT_EQ(read.finger, run.finger);
   EXPECT_EQ(read.machine.at("cpu"), "a CPU");
   EXPECT_EQ(read.build.at("flags"), "RELEASE: -O3");
   ASSERT_EQ(read.settings.size(), 1u);

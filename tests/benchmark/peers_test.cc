@@ -32,7 +32,7 @@ TEST(PeersTest, TheJobHasFingerLoadsAndReadings) {
   EXPECT_EQ(job["finger"]["ribs"].size(), 5u);
   ASSERT_EQ(job["scenes"].size(), 2u);
   const YAML::Node frame = job["scenes"][1]["frames"][1];
-  const int index = BenchmarkCase::LeadIn(1) + 1;
+  const int index = cases[1].LeadIn(1, 2) + 1;
   EXPECT_EQ(frame["contact_mm"].as<double>(),
             cases[1].frames[index].contacts[0].arc_mm);
   EXPECT_EQ(frame["friction"].as<double>(), 0.3);

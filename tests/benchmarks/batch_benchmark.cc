@@ -160,15 +160,15 @@ class BatchBenchmark {
       }
     });
     std::vector<std::string> csv(rows.size());
-    ResultWriter writer;
+    std::vector<double> values;
     EstimationSummary summary;
     sum += print("format and sum up", Cost(frames_, [&] {
                    for (std::string& block : csv) block.clear();
                    for_each([&](const FrameRows& block, std::size_t row,
                                 std::size_t frame) {
                      const FrameEstimate& estimate = estimates_[frame];
-                     writer.Append(layout, block, row, readings[frame],
-                                   estimate, &csv[frame / kBlockFrames]);
+                     layout.Append(block, row, readings[frame], estimate,
+                                   &values, &csv[frame / kBlockFrames]);
                      summary.Add(estimate, 0, readings[frame].force_N);
                    });
                  }));
@@ -191,7 +191,7 @@ class BatchBenchmark {
     for (const std::string& name : reader.parser().names()) {
       header += (header.empty() ? "" : ",") + name;
     }
-    LiveEstimator estimator(settings_->finger, settings_->scene);
+    FrameEstimator estimator(settings_->finger, settings_->scene);
     LiveRows rows(settings_->finger, settings_->scene, "log",
                   {header, 1, false}, &estimator);
     LatencyHistogram latency;

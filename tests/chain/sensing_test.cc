@@ -80,8 +80,7 @@ TEST(ChainSensingTest, CeresAgreesWithNewton) {
   const ChainLayout layout =
       MakeChainLayout(PaperFinger(), 40, GaugeRule::kOverlap);
   const double noise_rad[] = {2e-4, -3e-4, 1e-4, -1e-4};
-  ChainSensingOptions options;
-  options.model_weight = 1e3;
+  constexpr double kWeight = 1e3;
   double worst_arc[2] = {0, 0}, worst_force[2] = {0, 0};
   int most = 0;
   for (const double arc : {38.6, 61.4, 72.4, 97.9}) {
@@ -93,9 +92,9 @@ TEST(ChainSensingTest, CeresAgreesWithNewton) {
         Eigen::VectorXd s0 = GaugesOf(layout, truth);
         s0 += noise * Eigen::Map<const Eigen::VectorXd>(noise_rad, 4);
         const PointContact start = OnTheSameLink(layout, truth);
-        const ChainSensing newton = SenseContact(layout, s0, start, options);
+        const ChainSensing newton = SenseContact(layout, s0, start, kWeight);
         const ChainSensing ceres =
-            SenseContactWithCeres(layout, s0, start, 3e-4, options);
+            SenseContactWithCeres(layout, s0, start, 3e-4, kWeight);
         EXPECT_TRUE(newton.converged);
         EXPECT_TRUE(ceres.converged);
         const double arc_error =
@@ -163,10 +162,8 @@ TEST(ChainSensingTest, DefaultWeightHoldsTheModel) {
       MakeChainLayout(PaperFinger(), 40, GaugeRule::kOverlap);
   Eigen::VectorXd s0 = GaugesOf(layout, {72.4, 1, 0});
   s0 += Eigen::Vector4d(2e-4, -3e-4, 1e-4, -1e-4);
-  ChainSensingOptions heavy;
-  heavy.model_weight = 1e8;
   const ChainSensing sensed = SenseContact(layout, s0, {70, 1, 0});
-  const ChainSensing held = SenseContact(layout, s0, {70, 1, 0}, heavy);
+  const ChainSensing held = SenseContact(layout, s0, {70, 1, 0}, 1e8);
   ASSERT_TRUE(sensed.converged);
   ASSERT_TRUE(held.converged);
   EXPECT_NEAR(sensed.contact.arc_mm, held.contact.arc_mm, 1e-6);

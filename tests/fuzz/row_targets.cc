@@ -68,7 +68,7 @@ void FollowRows(std::string_view bytes) {
     one.contacts = 1;
     return one;
   }();
-  static LiveEstimator estimator(Paper(), scene);
+  static FrameEstimator estimator(Paper(), scene);
   const MemoryFile file(bytes);
   Tolerate([&] {
     LineReader lines = ReadPipe(file.descriptor(), -1, "stdin");

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "finray/io/error.h"
 #include "temp_file.h"
 
@@ -28,23 +30,33 @@ class FrameReaderTest : public testing::Test {
 TEST_F(FrameReaderTest, PiecesAreTheWhole) {
   const std::string path = Write(100);
   const FrameTable whole = FrameTable::Read(path, renames_);
+  const std::vector<double>& numbers = whole.Numbers("gauge_1_V");
   whole.Write(folder_.Path("log.csv.gz"));
   for (const std::size_t rows : {1, 7, 100, 1000}) {
     FrameReader reader(path, renames_);
     FrameReader zipped(folder_.Path("log.csv.gz"));
-    std::string text, unzipped;
-    FrameTable table;
-    for (std::size_t row = 0; reader.Read(rows, &table); ++row) {
-      EXPECT_EQ(table.line(0), whole.line(row * rows));
-      text += table.RowsCsv();
-      ASSERT_TRUE(zipped.Read(rows, &table));
-      unzipped += table.RowsCsv();
+    EXPECT_EQ(reader.parser().names(), whole.headers());
+    EXPECT_EQ(zipped.parser().names(), whole.headers());
+    LineBlock lines, unzipped;
+    std::size_t row = 0;
+    while (reader.ReadLines(rows, &lines)) {
+      EXPECT_EQ(lines.size(), std::min(rows, 100 - row));
+      ASSERT_TRUE(zipped.ReadLines(rows, &unzipped));
+      ASSERT_EQ(unzipped.size(), lines.size());
+      for (std::size_t i = 0; i < lines.size(); ++i, ++row) {
+        EXPECT_EQ(lines.at(i).number, whole.line(row));
+        for (const auto& [from, line] :
+             {std::pair(&reader, lines.at(i)), {&zipped, unzipped.at(i)}}) {
+          FrameRows cells;
+          from->parser().Parse(line, &cells);
+          EXPECT_EQ(cells.at(0, 0).number, numbers[row]);
+          EXPECT_EQ(cells.at(0, 1).text, row % 3 ? "a" : "b,c");
+        }
+      }
     }
-    EXPECT_EQ(table.headers(), whole.headers());
-    EXPECT_EQ(text, whole.RowsCsv());
-    EXPECT_EQ(unzipped, text);
+    EXPECT_EQ(row, 100u);
     EXPECT_EQ(reader.position(), 100u);
-    EXPECT_FALSE(reader.Read(rows, &table));
+    EXPECT_FALSE(reader.ReadLines(rows, &lines));
   }
 }
 
@@ -53,21 +65,20 @@ TEST_F(FrameReaderTest, GoesOnBehindWhatWasSkipped) {
   const FrameTable whole = FrameTable::Read(path, renames_);
   FrameReader reader(path, renames_);
   EXPECT_EQ(reader.Skip(8), 8u);
-  FrameTable table;
-  ASSERT_TRUE(reader.Read(8, &table));
-  EXPECT_EQ(table.rows(), 2u);
-  EXPECT_EQ(table.line(1), whole.line(9));
-  EXPECT_EQ(table.Numbers("gauge_1_V")[0], whole.Numbers("gauge_1_V")[8]);
+  LineBlock lines;
+  ASSERT_TRUE(reader.ReadLines(8, &lines));
+  EXPECT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines.at(1).number, whole.line(9));
+  FrameRows row;
+  reader.parser().Parse(lines.at(0), &row);
+  EXPECT_EQ(row.at(0, 0).number, whole.Numbers("gauge_1_V")[8]);
   EXPECT_EQ(reader.Skip(1), 0u);
 }
 
 TEST_F(FrameReaderTest, ErrorsNameThePlaceInTheFile) {
   const std::string path =
       folder_.Write("bad.csv", "force_N\n1\n2\n3\n4x\n5\n");
-  FrameReader reader(path);
-  FrameTable table;
-  ASSERT_TRUE(reader.Read(2, &table));
-  EXPECT_THAT([&] { reader.Read(2, &table); },
+  EXPECT_THAT([&] { FrameTable::Read(path); },
               ThrowsMessage<InputError>(HasSubstr("bad.csv:5:1: force_N: ")));
   const std::string empty = folder_.Write("empty.csv", "force_N\n");
   EXPECT_THAT([&] { FrameReader reader(empty); },

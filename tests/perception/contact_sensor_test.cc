@@ -60,7 +60,9 @@ TEST(ContactSensorTest, CovarianceIsThatOfTheScatter) {
 
 TEST(ContactSensorTest, GivenEstimatesKeepTheirStd) {
   ContactSensor sensor(PaperFinger(), Scene(), {});
-  const SensedFrame frame = sensor.FromEstimate({{70, 3}}, {{0.5, 0.02}});
+  const Eigen::Vector2d std(0.5, 0.02);
+  const Eigen::Matrix2d given = std.cwiseAbs2().asDiagonal();
+  const SensedFrame frame = sensor.At({{70, 3}}, given);
   ASSERT_EQ(frame.contacts.size(), 1u);
   const Eigen::Matrix4d& covariance = frame.contacts[0].covariance;
   EXPECT_NEAR(std::sqrt(covariance(3, 3)), 0.02, 1e-12);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <random>
 
-#include "finray/perception/outline_cost.h"
 #include "perception/touch_fixture.h"
 
 namespace finray {

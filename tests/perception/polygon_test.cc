@@ -64,8 +64,9 @@ TEST(RadialErrorTest, OfAScaledOutlineIsTheScale) {
   const Polygon truth = Ellipse(20, 10, 2000);
   Polygon larger = truth;
   for (auto& point : larger) point *= 1.02;
-  const RadialError error = CompareRadii(larger, truth, 180);
-  EXPECT_EQ(error.percent.size(), 180u);
+  const RadialError error = CompareRadii(larger, truth);
+  EXPECT_EQ(error.percent.size(), 360u);
+  EXPECT_NEAR(error.true_radius_mm[90], 10, 1e-4);
   EXPECT_NEAR(error.Mean(), 2, 1e-10);
   EXPECT_NEAR(error.Rms(), 2, 1e-10);
   EXPECT_NEAR(error.Largest(), 2, 1e-10);

@@ -260,6 +260,31 @@ TEST_F(CameraTest, ACameraAlone) {
   EXPECT_EQ(camera.Estimate(free).status, FrameStatus::kNoContact);
 }
 
+// The starts of two contacts have no gauge to go by.
+TEST_F(CameraTest, ACameraAloneSeesTwoContacts) {
+  Scene scene;
+  scene.contacts = 2;
+  scene.pin_std_mm = 0.01;
+  FrameEstimator camera(finger_, scene, {}, FrameMethod::kCeresReduced);
+  const std::vector<PointContact> contacts = {{35, 3}, {95, 2}};
+  ASSERT_TRUE(solver_.Solve(contacts));
+  Measurements row = CleanReadings(solver_);
+  const Shape shape(solver_, contacts);
+  for (int i = 0; i < static_cast<int>(finger_.ribs.size()); ++i) {
+    const Section front = shape.At(Side::kFront, finger_.ribs[i].front_mm);
+    const Section back = shape.At(Side::kBack, finger_.ribs[i].back_mm);
+    row.pins.push_back({i, Side::kFront, {front.x_mm, front.y_mm}});
+    row.pins.push_back({i, Side::kBack, {back.x_mm, back.y_mm}});
+  }
+  row.gauges_V.assign(4, std::nan(""));
+  const FrameEstimate estimate = camera.Estimate(row);
+  ASSERT_EQ(estimate.contacts, 2);
+  for (int c = 0; c < 2; ++c) {
+    EXPECT_NEAR(estimate.contact[c].arc_mm, contacts[c].arc_mm, 1e-3);
+    EXPECT_NEAR(estimate.contact[c].normal_N, contacts[c].normal_N, 1e-4);
+  }
+}
+
 TEST_F(CameraTest, TheFastSolverRefusesIt) {
   Scene scene;
   scene.tip_std_mm = 0.1;

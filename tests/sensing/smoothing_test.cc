@@ -5,7 +5,6 @@
 #include <random>
 
 #include "finray/sensing/frame_estimator.h"
-#include "finray/sensing/live_estimator.h"
 #include "test_finger.h"
 
 namespace finray {
@@ -100,7 +99,7 @@ TEST(SmoothingTest, IsTheLeastOfTheWholeCost) {
 TEST(SmoothingTest, AnotherLogBeginsAfresh) {
   const Walk walk(20, 0.2, 0.03, 3);
   const Scene scene = SmoothScene(0.2, 0.03);
-  LiveEstimator used(PaperFinger(), scene), fresh(PaperFinger(), scene),
+  FrameEstimator used(PaperFinger(), scene), fresh(PaperFinger(), scene),
       going_on(PaperFinger(), scene);
   for (const Measurements& readings : walk.readings) {
     used.Next(readings);
@@ -129,7 +128,7 @@ TEST(SmoothingTest, HelpsAsMuchAsItsStdSays) {
     const auto error = [&](const FrameEstimate& e) {
       return e.contact[0].arc_mm - walk.truth[t][0];
     };
-    const FrameEstimate followed = estimator.Follow(walk.readings[t]);
+    const FrameEstimate followed = estimator.Next(walk.readings[t]);
     square += std::pow(error(estimates[t]), 2);
     single += std::pow(error(each.Estimate(walk.readings[t])), 2);
     follow += std::pow(error(followed), 2);

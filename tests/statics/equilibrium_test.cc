@@ -11,6 +11,7 @@
 #include <limits>
 #include <string>
 
+#include "finray/chain/se2.h"
 #include "finray/io/error.h"
 #include "finray/statics/shape.h"
 #include "statics/equilibrium_values.h"
@@ -26,10 +27,6 @@ using Eigen::Vector3d;
 constexpr double kFrontLength = 140;
 const double kBackLength = 140 / std::sin(112 * M_PI / 180);
 const double kBackBase = 140 / std::tan(68 * M_PI / 180);
-
-double Cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 Vector2d Tangent(double theta) { return {std::cos(theta), std::sin(theta)}; }
 Vector2d NormalInward(double theta) {

@@ -101,7 +101,7 @@ TEST(RandomFingersTest, SolvesStayOnThePathOfGrowingLoads) {
     LadderNewton newton(random.finger(), {});
     double fraction = 0;
     ASSERT_EQ(WalkLoadPath(random.contacts(), &newton, &fraction),
-              LoadPathEnd::kReached);
+              SolveStatus::kSolved);
     ASSERT_TRUE(newton.Converge(random.contacts(), 1, SweepColumns::kNone));
     LadderState state;
     newton.Save(&state);

@@ -22,10 +22,10 @@ void EstimationSummary::Add(const FrameEstimate& estimate, double friction,
                             double force_N) {
   ++frames;
   ++by_status[static_cast<std::size_t>(estimate.status)];
-  const bool solved = estimate.status == FrameStatus::kOk ||
-                      estimate.status == FrameStatus::kUnobservable ||
-                      estimate.status == FrameStatus::kNoContact;
-  if (!solved) return;
+  if (estimate.status == FrameStatus::kNotConverged ||
+      estimate.status == FrameStatus::kBadInput) {
+    return;
+  }
   if (estimate.p_value() < FrameEstimate::kUnexplained) ++unexplained;
   // The contacts of unobservable frames are unreliable, so they are not
   // compared.

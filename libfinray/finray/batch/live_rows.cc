@@ -9,7 +9,7 @@ namespace finray {
 
 LiveRows::LiveRows(const Finger& finger, const Scene& scene,
                    const std::string& source, const CsvLine& header,
-                   LiveEstimator* estimator)
+                   FrameEstimator* estimator)
     : parser_(source, header, scene.columns),
       layout_(finger, scene, parser_),
       estimator_(*estimator) {
@@ -25,12 +25,12 @@ const std::string& LiveRows::Next(const CsvLine& line) {
     layout_.Read(rows_, 0, &readings_);
   } catch (const InputError& error) {
     error_ = error.what();
-    layout_.Read(rows_, 0, &readings_);
-    for (double& volts : readings_.gauges_V) volts = std::nan("");
+    readings_ = {};
+    readings_.gauges_V.assign(estimator_.finger().gauges.size(), std::nan(""));
   }
-  const FrameEstimate& estimate = estimator_.Next(readings_);
+  const FrameEstimate estimate = estimator_.Next(readings_);
   status_ = estimate.status;
-  writer_.Append(layout_, rows_, 0, readings_, estimate, &row_);
+  layout_.Append(rows_, 0, readings_, estimate, &values_, &row_);
   return row_;
 }
 

@@ -5,10 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "finray/batch/result_rows.h"
 #include "finray/io/frame_parser.h"
-#include "finray/sensing/live_estimator.h"
+#include "finray/sensing/frame_estimator.h"
 
 namespace finray {
 
@@ -21,7 +22,7 @@ class LiveRows {
   /// this finger and scene and stay in place. It is restarted, and serves one
   /// log at a time.
   LiveRows(const Finger& finger, const Scene& scene, const std::string& source,
-           const CsvLine& header, LiveEstimator* estimator);
+           const CsvLine& header, FrameEstimator* estimator);
 
   std::string HeaderCsv() const { return layout_.HeaderCsv(); }
 
@@ -36,10 +37,10 @@ class LiveRows {
  private:
   FrameParser parser_;
   ResultLayout layout_;
-  LiveEstimator& estimator_;
+  FrameEstimator& estimator_;
   FrameRows rows_;
   Measurements readings_;
-  ResultWriter writer_;
+  std::vector<double> values_;  // memory, reused by the next row
   std::string row_, error_;
   FrameStatus status_ = FrameStatus::kBadInput;
 };

@@ -3,7 +3,6 @@
 #include <future>
 #include <utility>
 
-#include "finray/batch/joint_stream.h"
 #include "finray/batch/log_stream.h"
 #include "finray/finger/finger_yaml.h"
 #include "finray/io/atomic_file.h"
@@ -20,15 +19,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string SolverName(const BatchSettings& settings) {
+  return settings.joint ? "joint" : FrameMethodName(settings.method);
+}
+
 std::string Key(const BatchSettings& settings, const std::string& log_sha256) {
   return Sha256OfText(
       "results 6\nversion " FINRAY_VERSION "\nlog " + log_sha256 + "\nfinger " +
       settings.finger_sha256 + "\nscene " + settings.scene_sha256 +
       "\nscheme " + SchemeName(settings.discretization.scheme) +
       "\nresolution " + std::to_string(settings.discretization.resolution) +
-      "\nsolver " +
-      (settings.joint ? "joint" : FrameMethodName(settings.method)) +
-      "\nblock_frames " + std::to_string(kBlockFrames) + "\n");
+      "\nsolver " + SolverName(settings) + "\nblock_frames " +
+      std::to_string(kBlockFrames) + "\n");
 }
 
 std::size_t Count(const YamlMap& yaml, const std::string& key) {
@@ -54,11 +56,10 @@ EstimationSummary SummaryFromYaml(const YamlMap& yaml) {
 
 // Calls set(name, text) for each cell of a row of summary.csv.
 template <class Set>
-void AddCells(const std::string& log, const std::string& result,
-              const std::string& key, const EstimationSummary& summary,
-              Set set) {
-  set("log", log);
-  set("result", result);
+void AddCells(const LogJob& job, Set set) {
+  const EstimationSummary& summary = job.summary();
+  set("log", job.log());
+  set("result", job.result());
   set("frames", std::to_string(summary.frames));
   for (const FrameStatus status : EstimationSummary::kStatuses) {
     set(StatusName(status), std::to_string(summary.count(status)));
@@ -69,7 +70,7 @@ void AddCells(const std::string& log, const std::string& result,
   set("force_max_error_N", compared ? NumberText(summary.force_max_N) : "");
   set("force_squares_N2", compared ? NumberText(summary.force_squares_N2) : "");
   set("unexplained_frames", std::to_string(summary.unexplained));
-  set("key", key);
+  set("key", job.key());
 }
 
 }  // namespace
@@ -128,7 +129,6 @@ bool LogJob::Check() {
 
 bool LogJob::ReadFinished() {
   std::error_code missing;
-  if (!fs::exists(summary_path_, missing)) return false;
   const std::uintmax_t bytes = fs::file_size(result_, missing);
   if (missing) return false;
   try {
@@ -220,7 +220,7 @@ void LogJob::WriteSummary(std::uint64_t bytes) const {
   YamlPairs(&yaml, "key", key_, "version", FINRAY_VERSION, "scheme",
             SchemeName(settings_->discretization.scheme), "resolution",
             settings_->discretization.resolution, "solver",
-            FrameMethodName(settings_->method));
+            SolverName(*settings_));
   yaml << YAML::Key << "inputs" << YAML::Value << YAML::BeginMap;
   YamlPairs(&yaml, "log_sha256", log_sha256_, "finger_sha256",
             settings_->finger_sha256);
@@ -247,9 +247,8 @@ std::string BatchYaml(const BatchSettings& settings,
   yaml << YAML::BeginMap;
   YamlPairs(&yaml, "finger", settings.finger.name, "scheme",
             SchemeName(settings.discretization.scheme));
-  if (settings.method != FrameMethod::kFast) {
-    YamlPair(&yaml, "solver",
-             settings.joint ? "joint" : FrameMethodName(settings.method));
+  if (settings.joint || settings.method != FrameMethod::kFast) {
+    YamlPair(&yaml, "solver", SolverName(settings));
   }
   YamlPair(&yaml, "version", FINRAY_VERSION);
   yaml << YAML::Key << "logs" << YAML::Value << YAML::BeginSeq;
@@ -279,16 +278,14 @@ std::string BatchYaml(const BatchSettings& settings,
 FrameTable BatchTable(const std::vector<LogJob>& jobs) {
   FrameTable table(jobs.size());
   // The table has its columns even without any log.
-  AddCells("", "", "", EstimationSummary(),
+  AddCells(LogJob(nullptr, "", ""),
            [&](const std::string& name, const std::string&) {
              table.MutableText(name);
            });
   for (std::size_t row = 0; row < jobs.size(); ++row) {
-    const LogJob& job = jobs[row];
-    AddCells(job.log(), job.result(), job.key(), job.summary(),
-             [&](const std::string& name, const std::string& text) {
-               table.MutableText(name)[row] = text;
-             });
+    AddCells(jobs[row], [&](const std::string& name, const std::string& text) {
+      table.MutableText(name)[row] = text;
+    });
   }
   return table;
 }

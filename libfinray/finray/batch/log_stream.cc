@@ -5,9 +5,11 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <deque>
 
 #include "finray/batch/result_rows.h"
 #include "finray/io/error.h"
+#include "finray/sensing/log_estimator.h"
 
 namespace finray {
 namespace {
@@ -25,9 +27,15 @@ struct Block {
   bool first = false;  // of the log
   std::vector<Measurements> readings;
   std::vector<FrameEstimate> estimates;
-  ResultWriter writer;
+  std::vector<double> values;
   StreamedBlock result;
 };
+
+// Reads lines into a block. Returns false if none is left.
+bool ReadBlock(std::size_t rows, FrameReader* reader, Block* block) {
+  block->first = reader->position() == 0;
+  return reader->ReadLines(rows, &block->lines);
+}
 
 // Parses the lines up to the first bad one. An error in an earlier line
 // replaces the reader's error, which lies behind these lines.
@@ -42,25 +50,25 @@ void Parse(const FrameParser& parser, Block* block) {
   }
 }
 
-void Estimate(const ResultLayout& layout, double friction,
-              FrameSolverPool* pool, Block* block) {
-  const FrameRows& rows = block->rows;
-  const std::size_t count = rows.rows();
-  block->readings.resize(count);
-  block->estimates.resize(count);
-  for (std::size_t row = 0; row < count; ++row) {
-    layout.Read(rows, row, &block->readings[row]);
+void ReadReadings(const ResultLayout& layout, Block* block) {
+  block->readings.resize(block->rows.rows());
+  for (std::size_t row = 0; row < block->readings.size(); ++row) {
+    layout.Read(block->rows, row, &block->readings[row]);
   }
-  pool->SolveBlock(block->readings.data(), count, block->estimates.data());
+}
+
+// Fills in the result from the estimates.
+void WriteResult(const ResultLayout& layout, double friction, Block* block) {
   StreamedBlock& result = block->result;
   result.summary = EstimationSummary();
   result.csv.clear();
   if (block->first) result.csv = layout.HeaderCsv();
-  for (std::size_t row = 0; row < count; ++row) {
+  for (std::size_t row = 0; row < block->readings.size(); ++row) {
+    const Measurements& readings = block->readings[row];
     const FrameEstimate& estimate = block->estimates[row];
-    block->writer.Append(layout, rows, row, block->readings[row], estimate,
-                         &result.csv);
-    result.summary.Add(estimate, friction, block->readings[row].force_N);
+    layout.Append(block->rows, row, readings, estimate, &block->values,
+                  &result.csv);
+    result.summary.Add(estimate, friction, readings.force_N);
   }
 }
 
@@ -79,9 +87,8 @@ bool ForEachBlock(int threads, std::size_t rows,
   bool stopped = false;
   const auto read = [&](tbb::flow_control& flow) -> Block* {
     Block* block = &ring[next++ % ring.size()];
-    block->first = reader->position() == 0;
     stopped = stop && stop();
-    if (stopped || !reader->ReadLines(rows, &block->lines)) flow.stop();
+    if (stopped || !ReadBlock(rows, reader, block)) flow.stop();
     return block;
   };
   const auto work_on = [&](Block* block) {
@@ -118,9 +125,56 @@ bool EstimateStream(const Finger& finger, const Scene& scene,
   return ForEachBlock(
       threads, kBlockFrames, stop, reader,
       [&](Block* block) {
-        Estimate(layout, scene.friction_coefficient, pool, block);
+        ReadReadings(layout, block);
+        block->estimates.resize(block->readings.size());
+        pool->SolveBlock(block->readings.data(), block->readings.size(),
+                         block->estimates.data());
+        WriteResult(layout, scene.friction_coefficient, block);
       },
       [&](const Block& block) { write(block.result); });
+}
+
+bool EstimateJointly(const Finger& finger, const Scene& scene,
+                     const Discretization& discretization, int threads,
+                     const std::function<bool()>& stop, FrameReader* reader,
+                     const std::function<void(const StreamedBlock&)>& write) {
+  const FrameParser& parser = reader->parser();
+  const ResultLayout layout(finger, scene, parser);
+  std::deque<Block> waiting;  // for their estimates
+  LogEstimator estimator(finger, scene, discretization, threads,
+                         [&](const FrameEstimate& estimate) {
+                           Block& block = waiting.front();
+                           block.estimates.push_back(estimate);
+                           if (block.estimates.size() < block.readings.size())
+                             return;
+                           WriteResult(layout, scene.friction_coefficient,
+                                       &block);
+                           write(block.result);
+                           waiting.pop_front();
+                         });
+  std::size_t row_of_log = 0;
+  while (!stop || !stop()) {
+    Block& block = waiting.emplace_back();
+    if (!ReadBlock(kBlockFrames, reader, &block)) {
+      estimator.Finish();
+      return true;
+    }
+    Parse(parser, &block);
+    if (!block.lines.error.empty()) throw InputError(block.lines.error);
+    ReadReadings(layout, &block);
+    // The estimator may give back frames of this block while it takes them.
+    const std::vector<Measurements> readings = block.readings;
+    for (const Measurements& row : readings) {
+      ++row_of_log;
+      try {
+        estimator.Add(row);
+      } catch (const InputError& error) {
+        throw InputError(parser.path() + ": row " + std::to_string(row_of_log) +
+                         ": " + error.what());
+      }
+    }
+  }
+  return false;
 }
 
 bool CheckStream(const Finger& finger, int threads,

@@ -17,18 +17,28 @@ struct StreamedBlock {
   EstimationSummary summary;
 };
 
-// Both functions process a log from the reader's position (the start of a
-// block) to its end. Lines are read one after the other; everything else is
-// done on `threads` threads. Only a few blocks are in memory at a time, so
-// memory does not grow with the log. `stop` (may be empty) is asked before each
-// block is read. If it returns true, the function ends and returns false.
+// These functions process a log from the reader's position (the start of a
+// block) to its end, on `threads` threads. Memory does not grow with the log.
+// `stop` (may be empty) is asked before each block is read. If it returns true,
+// the function ends and returns false. `write` receives blocks one by one and
+// in order. The functions throw InputError for a bad log, and what `write`
+// throws.
 
-/// Estimates a log. `write` receives all blocks that were read, one by one and
-/// in order. Throws InputError for a bad log, and what `write` throws.
+/// Estimates the frames of a log one by one. Only a few blocks are in memory at
+/// a time. `write` receives all blocks that were read, also after `stop`.
 bool EstimateStream(const Finger& finger, const Scene& scene,
                     FrameSolverPool* pool, int threads,
                     const std::function<bool()>& stop, FrameReader* reader,
                     const std::function<void(const StreamedBlock&)>& write);
+
+/// Solves the frames of a log together (LogEstimator). The reader must be at
+/// the begin of the log. Rows wait in memory until their window is solved, at
+/// most LogEstimator::kLongestWindow frames and the blocks about them. Rows
+/// that wait when `stop` says so are lost.
+bool EstimateJointly(const Finger& finger, const Scene& scene,
+                     const Discretization& discretization, int threads,
+                     const std::function<bool()>& stop, FrameReader* reader,
+                     const std::function<void(const StreamedBlock&)>& write);
 
 /// Only reads and parses a log. Throws InputError at the first bad place.
 bool CheckStream(const Finger& finger, int threads,

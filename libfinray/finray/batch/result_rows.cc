@@ -95,15 +95,11 @@ void ResultColumns::Values(const Measurements& readings,
   });
 }
 
-MeasurementColumns::Options ReaderOptions(const Scene& scene) {
-  MeasurementColumns::Options options;
-  options.camera = scene.UsesCamera();
-  return options;
-}
-
 ResultLayout::ResultLayout(const Finger& finger, const Scene& scene,
                            const FrameParser& log)
-    : readings_(finger, log.names(), log.path(), ReaderOptions(scene)),
+    : readings_(
+          finger, log.names(), log.path(),
+          {/*angles=*/true, /*gauges_may_lack=*/false, scene.UsesCamera()}),
       results_(finger, scene) {
   for (std::size_t i = 0; i < log.names().size(); ++i) {
     outputs_.push_back({log.names()[i],
@@ -140,29 +136,30 @@ void ResultLayout::Read(const FrameRows& rows, std::size_t row,
                  readings);
 }
 
-void ResultWriter::Append(const ResultLayout& layout, const FrameRows& log,
-                          std::size_t row, const Measurements& readings,
-                          const FrameEstimate& estimate, std::string* csv) {
-  values_.resize(layout.results_.names().size());
-  layout.results_.Values(readings, estimate, values_.data());
-  for (const ResultLayout::Output& output : layout.outputs_) {
+void ResultLayout::Append(const FrameRows& log, std::size_t row,
+                          const Measurements& readings,
+                          const FrameEstimate& estimate,
+                          std::vector<double>* values, std::string* csv) const {
+  values->resize(results_.names().size());
+  results_.Values(readings, estimate, values->data());
+  for (const Output& output : outputs_) {
     switch (output.source) {
-      case ResultLayout::Source::kEstimate: {
-        const double value = values_[output.index];
+      case Source::kEstimate: {
+        const double value = (*values)[output.index];
         if (std::isnan(value)) break;
         char text[32];
         csv->append(text, std::to_chars(text, text + sizeof text, value).ptr);
         break;
       }
-      case ResultLayout::Source::kStatus:
+      case Source::kStatus:
         *csv += StatusName(estimate.status);
         break;
-      case ResultLayout::Source::kNumber: {
+      case Source::kNumber: {
         const FrameRows::Cell& cell = log.at(row, output.index);
         if (!std::isnan(cell.number)) *csv += cell.text;
         break;
       }
-      case ResultLayout::Source::kText:
+      case Source::kText:
         AppendCsvText(log.at(row, output.index).text, csv);
         break;
     }

@@ -39,9 +39,6 @@ class ResultColumns {
   std::vector<std::string> names_;
 };
 
-/// Returns what the reader must look for in a log of this scene.
-MeasurementColumns::Options ReaderOptions(const Scene& scene);
-
 /// Maps the columns of a log to those of its result. Columns of the log stay as
 /// they are; ResultColumns and `status` replace columns of the same name or
 /// follow at the end. Any number of threads may use one layout.
@@ -55,10 +52,15 @@ class ResultLayout {
   std::string HeaderCsv() const;
   void Read(const FrameRows& rows, std::size_t row,
             Measurements* readings) const;
+  /// Appends a row of the result with its line end. Numbers of the estimate
+  /// have the fewest digits that read back as the same double, numbers of the
+  /// log stay as they were. A value that is not finite becomes an empty cell.
+  /// `values` is memory for the next rows.
+  void Append(const FrameRows& log, std::size_t row,
+              const Measurements& readings, const FrameEstimate& estimate,
+              std::vector<double>* values, std::string* csv) const;
 
  private:
-  friend class ResultWriter;
-
   // The source of a result's cell: a number of the estimate, its status, or a
   // column of the log.
   enum class Source { kEstimate, kStatus, kNumber, kText };
@@ -71,20 +73,6 @@ class ResultLayout {
   MeasurementColumns readings_;
   ResultColumns results_;
   std::vector<Output> outputs_;
-};
-
-/// Writes rows of a result. Numbers of the estimate have the fewest digits that
-/// read back as the same double, numbers of the log stay as they were. A value
-/// that is not finite becomes an empty cell.
-class ResultWriter {
- public:
-  /// Appends a row with its line end.
-  void Append(const ResultLayout& layout, const FrameRows& log, std::size_t row,
-              const Measurements& readings, const FrameEstimate& estimate,
-              std::string* csv);
-
- private:
-  std::vector<double> values_;  // memory, reused by the next row
 };
 
 }  // namespace finray

@@ -49,8 +49,14 @@ struct BenchmarkCase {
   /// readings.
   std::vector<FrameAnswer> forward, sensed;
 
-  /// Index of the lead-in of a stretch; the frames of the stretch follow it.
-  static int LeadIn(int stretch) { return stretch * (kStretchFrames + 1); }
+  int stretches() const {
+    return static_cast<int>(frames.size()) / (kStretchFrames + 1);
+  }
+  /// Index of the lead-in of the k-th of `some` stretches, which are spread
+  /// over the whole log. The frames of the stretch follow it.
+  int LeadIn(int k, int some) const {
+    return k * stretches() / some * (kStretchFrames + 1);
+  }
 };
 
 constexpr const char* kBenchmarkScenes[] = {

@@ -191,11 +191,7 @@ std::string BenchmarkJson(const BenchmarkRun& run) {
   json.Pairs("schema_version", 1, "tool", "finray_benchmark", "quick",
              run.quick, "rounds", run.rounds, "date", run.date, "command",
              run.command);
-  WriteFacts("finger",
-             {{"name", run.finger_name},
-              {"path", run.finger_path},
-              {"sha256", run.finger_sha256}},
-             &json);
+  WriteFacts("finger", run.finger, &json);
   json.Pairs("reference", run.reference);
   WriteFacts("machine", run.machine, &json);
   WriteFacts("build", run.build, &json);
@@ -245,9 +241,7 @@ BenchmarkRun ReadBenchmark(const std::string& path) {
   run.quick = top.Boolean("quick", false);
   run.rounds = top.Integer("rounds");
   run.date = top.Text("date");
-  const YamlMap finger = top.Map("finger");
-  run.finger_name = finger.Text("name");
-  run.finger_sha256 = finger.Text("sha256");
+  run.finger = ReadFacts(top.Map("finger"));
   run.machine = ReadFacts(top.Map("machine"));
   run.build = ReadFacts(top.Map("build"));
   for (const YamlMap& map : top.Maps("settings")) {
@@ -258,7 +252,7 @@ BenchmarkRun ReadBenchmark(const std::string& path) {
     m.family = map.Text("family");
     m.solved_percent = map.NonNegativeNumber("solved_percent");
     const auto error = [&](const char* key) {
-      return map.Has(key) ? map.NonNegativeNumber(key) : BenchmarkErrors::kNone;
+      return map.Has(key) ? map.NonNegativeNumber(key) : kNaN;
     };
     m.errors = {error("contact_error_mm"), error("normal_error_N"),
                 error("normal_error_percent"), error("tip_error_mm"),

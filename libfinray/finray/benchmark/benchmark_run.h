@@ -38,8 +38,8 @@ struct BenchmarkRun {
   int rounds = 0;
   std::string date;  ///< UTC, ISO 8601.
   std::string command;
-  std::string finger_name, finger_path, finger_sha256;
   std::string reference;  ///< The discretization of the reference, in words.
+  Facts finger;           ///< name, path, sha256
   Facts machine, build;
   std::vector<Measurement> settings;  ///< Those of peers come last.
   std::vector<PeerStatus> peers;

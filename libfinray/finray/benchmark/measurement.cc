@@ -103,11 +103,7 @@ class Bench {
   template <class Work>
   void ForStretches(Work work) {
     for (int k = 0; k < setting_.budget.stretches; ++k) {
-      // Few stretches are spread over the whole log.
-      const int all =
-          static_cast<int>(case_.frames.size()) / BenchmarkCase::LeadIn(1);
-      const int stretch = k * all / setting_.budget.stretches;
-      const int lead_in = BenchmarkCase::LeadIn(stretch);
+      const int lead_in = case_.LeadIn(k, setting_.budget.stretches);
       runner_->Start(lead_in);
       work(lead_in + 1, setting_.budget.frames);
     }

@@ -2,20 +2,19 @@
 #define FINRAY_BENCHMARK_MEASUREMENT_H_
 
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "finray/benchmark/setting.h"
+#include "finray/io/nan.h"
 
 namespace finray {
 
 /// Largest errors over the solved frames. An error that a task does not have is
 /// NaN.
 struct BenchmarkErrors {
-  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  double contact_mm = kNone, normal_N = kNone, normal_percent = kNone,
-         tip_mm = kNone, gauges_rad = kNone;
+  double contact_mm = kNaN, normal_N = kNaN, normal_percent = kNaN,
+         tip_mm = kNaN, gauges_rad = kNaN;
 
   /// Adds a frame. `is_load`: the contacts were given, so they have no error.
   /// Returns false and adds nothing if the answer has another number of
@@ -44,10 +43,9 @@ struct Measurement : SettingLabel {
   /// CPU time of a frame and of the yardstick beside it, one of each a round.
   std::vector<double> time_us, yardstick_us;
   /// The 99 % quantile of the time of single frames, by the clock.
-  double slow_frame_us = BenchmarkErrors::kNone;
+  double slow_frame_us = kNaN;
   /// Calls of malloc and its like, and bytes asked for; NaN if not counted.
-  double allocations = BenchmarkErrors::kNone, bytes = BenchmarkErrors::kNone;
-  double setup_bytes = BenchmarkErrors::kNone;
+  double allocations = kNaN, bytes = kNaN, setup_bytes = kNaN;
 
   double median_us() const;
   /// Returns time_us over yardstick_us, round by round.

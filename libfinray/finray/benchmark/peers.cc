@@ -22,11 +22,10 @@ const char* const kScenes[] = {"one_contact", "friction"};
 // Returns the frames of a scene that peers are asked for: the first of some
 // stretches.
 std::vector<int> PeerFrames(const BenchmarkCase& c, bool quick) {
-  const int all = static_cast<int>(c.frames.size()) / BenchmarkCase::LeadIn(1);
-  const int stretches = std::min(all, quick ? 2 : 6);
+  const int stretches = std::min(c.stretches(), quick ? 2 : 6);
   std::vector<int> frames;
   for (int k = 0; k < stretches; ++k) {
-    frames.push_back(BenchmarkCase::LeadIn(k * all / stretches) + 1);
+    frames.push_back(c.LeadIn(k, stretches) + 1);
   }
   return frames;
 }
@@ -142,12 +141,11 @@ std::string PeerJob(const Finger& finger,
 
 void MeasurePeer(const std::string& peer, const std::string& scripts,
                  const std::string& folder, const Finger& finger,
-                 const std::vector<BenchmarkCase>& cases, bool quick,
-                 BenchmarkRun* run) {
+                 const std::vector<BenchmarkCase>& cases, BenchmarkRun* run) {
   PeerStatus status{peer, "", ""};
   const std::string work = folder + "/peer_" + peer;
   MakeFolder(work);
-  WriteFileAtomically(work + "/job.json", PeerJob(finger, cases, quick));
+  WriteFileAtomically(work + "/job.json", PeerJob(finger, cases, run->quick));
   const double before = YardstickUs();
   status.skipped = RunPythonScript(scripts + "/run.py", {peer, work},
                                    "python3-numpy and python3-scipy");
@@ -158,7 +156,7 @@ void MeasurePeer(const std::string& peer, const std::string& scripts,
     status.skipped = answer.Text("skipped", "");
     for (const YamlMap& map : answer.Maps("settings")) {
       run->settings.push_back(
-          ReadPeerSetting(map, peer, cases, quick, yardstick_us));
+          ReadPeerSetting(map, peer, cases, run->quick, yardstick_us));
     }
   }
   std::filesystem::remove_all(work);

@@ -28,8 +28,7 @@ std::string PeerJob(const Finger& finger,
 /// one before and one after.
 void MeasurePeer(const std::string& peer, const std::string& scripts,
                  const std::string& folder, const Finger& finger,
-                 const std::vector<BenchmarkCase>& cases, bool quick,
-                 BenchmarkRun* run);
+                 const std::vector<BenchmarkCase>& cases, BenchmarkRun* run);
 
 }  // namespace finray
 

@@ -20,7 +20,6 @@ constexpr double kMuchFaster = 0.8;
 constexpr double kConfidence = 0.95;
 // Errors below this, in mm, N or rad, are equal.
 constexpr double kNoError = 1e-9;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 using Candidates = std::vector<const Measurement*>;
 
@@ -81,7 +80,7 @@ const Measurement* MostAccurate(const Candidates& candidates) {
 
 Recommendation Made(const char* use, const char* why, double limit_us,
                     const Measurement* m) {
-  if (m == nullptr) return {use, why, limit_us, "", kNone, kNone};
+  if (m == nullptr) return {use, why, limit_us, "", kNaN, kNaN};
   return {use, why, limit_us, m->name.id(), TimeOf(*m), m->errors.contact_mm};
 }
 
@@ -179,9 +178,9 @@ std::vector<Recommendation> Recommend(const std::vector<Measurement>& all) {
   return {ForRate("30_Hz", 1e6 / 30, all), ForRate("1_kHz", 1e3, all),
           Made("batch",
                "the fastest estimate of logs with l_c off by 1e-3 mm at most",
-               kNone, Fastest(batch)),
+               kNaN, Fastest(batch)),
           Made("reference", "the most accurate, of equal ones the fastest",
-               kNone, MostAccurate(CandidatesFor(all, "sensing", "")))};
+               kNaN, MostAccurate(CandidatesFor(all, "sensing", "")))};
 }
 
 std::vector<DefaultCheck> CheckDefaults(const std::vector<Measurement>& all) {

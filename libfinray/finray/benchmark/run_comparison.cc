@@ -51,7 +51,7 @@ std::vector<std::string> Differences(const BenchmarkRun& a,
   facts("compiler", "compiler", a.build, b.build);
   facts("flags", "flags", a.build, b.build);
   facts("version", "version", a.build, b.build);
-  compare("finger sha256", a.finger_sha256, b.finger_sha256);
+  facts("finger sha256", "sha256", a.finger, b.finger);
   compare("depth", a.quick ? "quick" : "full", b.quick ? "quick" : "full");
   return differences;
 }

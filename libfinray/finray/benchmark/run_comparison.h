@@ -1,7 +1,6 @@
 #ifndef FINRAY_BENCHMARK_RUN_COMPARISON_H_
 #define FINRAY_BENCHMARK_RUN_COMPARISON_H_
 
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -28,7 +27,7 @@ SpeedVerdict JudgeSpeed(const Interval& ratio, double band);
 struct SettingComparison {
   std::string id;
   double ratio;
-  Interval interval{std::nan(""), std::nan("")};  ///< NaN: too few rounds.
+  Interval interval{kNaN, kNaN};  ///< NaN: too few rounds.
   SpeedVerdict speed;
   /// Says which errors of b are above 1.5 times those of a and above rounding,
   /// and whether b solves fewer frames. Empty if b is as accurate as a.

@@ -26,17 +26,16 @@ class LadderForward : public Runner {
     solver_.set_tolerance(tolerance);
   }
 
-  void Start(int lead_in) override {
-    solver_.Reset();
-    touch_ = {};
-    Run(lead_in, 1);
-  }
-
   int unknowns() const override {
     return solver_.unknowns() + 2 * static_cast<int>(touch_.contacts.size());
   }
 
  private:
+  void StartAt(int /*frame*/) override {
+    solver_.Reset();
+    touch_ = {};
+  }
+
   void Solve(int frame, FrameAnswer* answer) override {
     const BenchmarkFrame& given = case_.frames[frame];
     if (cold_) solver_.Reset();
@@ -68,11 +67,6 @@ class SensingRunner : public Runner {
   SensingRunner(const BenchmarkCase& c, const Discretization& discretization)
       : Runner(c), model_(c.finger, discretization) {}
 
-  void Start(int lead_in) override {
-    StartAt(lead_in);
-    Run(lead_in, 1);
-  }
-
   FrameAnswer Answer(int k) override {
     FrameAnswer answer = answers_[k];
     answer.solved = answer.solved && model_.Solve(answer.contacts);
@@ -83,9 +77,6 @@ class SensingRunner : public Runner {
   }
 
  protected:
-  /// Brings the solver to the true contacts of a frame.
-  virtual void StartAt(int /*frame*/) {}
-
   EquilibriumSolver model_;
 };
 
@@ -238,7 +229,7 @@ class Estimator : public SensingRunner {
   }
 
   void Start(int lead_in) override {
-    if (use_ == EstimatorUse::kLive) estimator_.Follow(readings_[lead_in]);
+    if (use_ == EstimatorUse::kLive) estimator_.Next(readings_[lead_in]);
   }
 
   void Run(int first, int count) override {
@@ -251,7 +242,7 @@ class Estimator : public SensingRunner {
     for (int k = 0; k < count; ++k) {
       const Measurements& readings = readings_[first + k];
       estimates_[k] = use_ == EstimatorUse::kLive
-                          ? estimator_.Follow(readings)
+                          ? estimator_.Next(readings)
                           : estimator_.Estimate(readings);
     }
   }
@@ -351,9 +342,6 @@ class ChainSenses : public ChainRunner {
     for (const Gauge& gauge : c.finger.gauges) {
       least_std_rad_ = std::min(least_std_rad_, 1 / gauge.AngleWeight());
     }
-    // Ceres compares costs: under a model weight of 1e6 the share of the gauges
-    // has no digits left.
-    ceres_options_.model_weight = 1e3;
   }
 
   void Start(int lead_in) override { contact_ = LoadOf(lead_in); }
@@ -361,11 +349,14 @@ class ChainSenses : public ChainRunner {
 
  private:
   void Solve(int frame, FrameAnswer* answer) override {
+    // Ceres compares costs: under a model weight of 1e6 the share of the gauges
+    // has no digits left.
+    constexpr double kCeresWeight = 1e3;
     const Eigen::VectorXd& s0 = case_.frames[frame].measurement.values;
     const ChainSensing sensed =
         linear_solver_
             ? SenseContactWithCeres(layout_, s0, contact_, least_std_rad_,
-                                    ceres_options_, *linear_solver_)
+                                    kCeresWeight, *linear_solver_)
             : SenseContact(layout_, s0, contact_);
     answer->solved = sensed.converged;
     answer->iterations = sensed.iterations;
@@ -375,7 +366,6 @@ class ChainSenses : public ChainRunner {
   }
 
   double least_std_rad_ = std::numeric_limits<double>::infinity();
-  ChainSensingOptions ceres_options_;
   PointContact contact_;
 };
 

@@ -24,7 +24,10 @@ class Runner {
   virtual ~Runner() = default;
 
   /// Brings the solver to the solution of a lead-in frame. Not timed.
-  virtual void Start(int lead_in) = 0;
+  virtual void Start(int lead_in) {
+    StartAt(lead_in);
+    Run(lead_in, 1);
+  }
   /// Solves frames first .. first + count - 1, at most kStretchFrames, which
   /// follow the lead-in or the frames of the last Run. Timed.
   virtual void Run(int first, int count) {
@@ -36,6 +39,8 @@ class Runner {
   virtual int unknowns() const = 0;
 
  protected:
+  /// Brings the solver to where it can solve a lead-in frame.
+  virtual void StartAt(int /*frame*/) {}
   /// Solves one frame, for solvers that take frames one by one.
   virtual void Solve(int /*frame*/, FrameAnswer* /*answer*/) {}
 

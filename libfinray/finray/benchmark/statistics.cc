@@ -1,13 +1,14 @@
 #include "finray/benchmark/statistics.h"
 
 #include <algorithm>
-#include <limits>
 #include <random>
+
+#include "finray/io/nan.h"
 
 namespace finray {
 
 double Quantile(std::vector<double> values, double q) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (values.empty()) return kNaN;
   std::sort(values.begin(), values.end());
   const double at = q * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::size_t>(at);
@@ -20,10 +21,7 @@ Interval RatioOfQuantiles(const std::vector<double>& a,
                           const std::vector<double>& b, double q,
                           double confidence) {
   constexpr int kDraws = 2000;
-  if (a.empty() || b.empty()) {
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    return {nan, nan};
-  }
+  if (a.empty() || b.empty()) return {kNaN, kNaN};
   std::mt19937_64 generator(1);
   std::vector<double> drawn;
   const auto quantile = [&](const std::vector<double>& sample) {

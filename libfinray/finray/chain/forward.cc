@@ -18,8 +18,54 @@ constexpr double kMaxTurn = 0.5;
 constexpr double kSmallStep = 1e-9;
 constexpr double kSmallestRampStep = 1. / 512;
 
-bool Newton(const ChainLayout& layout, const PointContact& contact,
-            double last_step, ChainState* state, int* iterations = nullptr) {
+bool IsBadContact(const ChainLayout& layout, const PointContact& contact) {
+  // Written so that a NaN is bad.
+  return contact.side != Side::kFront ||
+         !(contact.arc_mm >= 0 && contact.arc_mm <= layout.length_unit_mm) ||
+         !std::isfinite(contact.normal_N) || !std::isfinite(contact.friction);
+}
+
+// Solves with a growing share of the prestress and of the contact force.
+bool SolveAlongRamp(const ChainLayout& layout, const PointContact& contact,
+                    ChainState* state) {
+  ChainLayout part = layout;
+  PointContact load = contact;
+  double reached = 0, step = 0.25;
+  while (reached < 1) {
+    const double share = std::min(1.0, reached + step);
+    for (std::size_t k = 0; k < part.ribs.size(); ++k) {
+      const double nominal = (part.ribs[k].left - part.ribs[k].right).norm();
+      part.ribs[k].length_mm =
+          nominal + share * (layout.ribs[k].length_mm - nominal);
+    }
+    load.normal_N = share * contact.normal_N;
+    if (ContinueForward(part, load, kSmallStep, state)) {
+      reached = share;
+      step *= 2;
+    } else {
+      step /= 2;
+      if (step < kSmallestRampStep) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool SolveForward(const ChainLayout& layout, const PointContact& contact,
+                  ChainState* state) {
+  *state = ChainState::Straight(layout);
+  if (ContinueForward(layout, contact, kSmallStep, state) ||
+      SolveAlongRamp(layout, contact, state)) {
+    return true;
+  }
+  *state = ChainState::Straight(layout);
+  return false;
+}
+
+bool ContinueForward(const ChainLayout& layout, const PointContact& contact,
+                     double last_step, ChainState* state, int* iterations) {
+  if (IsBadContact(layout, contact)) return false;
   const int n = layout.joints(), size = n + layout.loads();
   const ScaledEquations equations{layout, contact.friction};
   const Eigen::VectorXd units = equations.ColumnUnits().head(size);
@@ -53,56 +99,6 @@ bool Newton(const ChainLayout& layout, const PointContact& contact,
     }
   }
   return false;
-}
-
-// Solves with a growing share of the prestress and of the contact force.
-bool SolveAlongRamp(const ChainLayout& layout, const PointContact& contact,
-                    ChainState* state) {
-  ChainLayout part = layout;
-  PointContact load = contact;
-  double reached = 0, step = 0.25;
-  while (reached < 1) {
-    const double share = std::min(1.0, reached + step);
-    for (std::size_t k = 0; k < part.ribs.size(); ++k) {
-      const double nominal = (part.ribs[k].left - part.ribs[k].right).norm();
-      part.ribs[k].length_mm =
-          nominal + share * (layout.ribs[k].length_mm - nominal);
-    }
-    load.normal_N = share * contact.normal_N;
-    if (Newton(part, load, kSmallStep, state)) {
-      reached = share;
-      step *= 2;
-    } else {
-      step /= 2;
-      if (step < kSmallestRampStep) return false;
-    }
-  }
-  return true;
-}
-
-bool IsBadContact(const ChainLayout& layout, const PointContact& contact) {
-  // Written so that a NaN is bad.
-  return contact.side != Side::kFront ||
-         !(contact.arc_mm >= 0 && contact.arc_mm <= layout.length_unit_mm) ||
-         !std::isfinite(contact.normal_N) || !std::isfinite(contact.friction);
-}
-
-}  // namespace
-
-bool SolveForward(const ChainLayout& layout, const PointContact& contact,
-                  ChainState* state) {
-  *state = ChainState::Straight(layout);
-  if (IsBadContact(layout, contact)) return false;
-  if (Newton(layout, contact, kSmallStep, state)) return true;
-  if (SolveAlongRamp(layout, contact, state)) return true;
-  *state = ChainState::Straight(layout);
-  return false;
-}
-
-bool ContinueForward(const ChainLayout& layout, const PointContact& contact,
-                     double last_step, ChainState* state, int* iterations) {
-  return !IsBadContact(layout, contact) &&
-         Newton(layout, contact, last_step, state, iterations);
 }
 
 bool ContinueForwardWithCeres(const ChainLayout& layout,

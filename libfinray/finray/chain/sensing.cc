@@ -12,6 +12,7 @@
 namespace finray {
 namespace {
 
+constexpr int kMaxSensingIterations = 60;
 constexpr double kMaxSensingTurn = 0.5;
 constexpr double kMaxMove = 0.03;   // of l_0
 constexpr double kMaxChange = 0.3;  // of f_c + F_0
@@ -46,7 +47,7 @@ bool StartSensing(const ChainLayout& layout, const Eigen::VectorXd& s0,
 
 // One minimisation with one weight of the model. True if Ceres says that it
 // converged.
-bool Minimise(const ScaledEquations& equations, int max_iterations,
+bool Minimise(const ScaledEquations& equations,
               ceres::LinearSolverType linear_solver, ChainState* state,
               double* contact, int* iterations) {
   ceres::Problem problem;
@@ -60,7 +61,7 @@ bool Minimise(const ScaledEquations& equations, int max_iterations,
   options.parameter_tolerance = 1e-13;
   // Near the minimum rounding of the model's rows hides what a step gains.
   options.use_nonmonotonic_steps = true;
-  options.max_num_iterations = max_iterations;
+  options.max_num_iterations = kMaxSensingIterations;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   *iterations += static_cast<int>(summary.iterations.size()) - 1;
@@ -81,18 +82,16 @@ bool IsParked(const ChainLayout& layout, const double* contact) {
 }  // namespace
 
 ChainSensing SenseContact(const ChainLayout& layout, const Eigen::VectorXd& s0,
-                          const PointContact& start,
-                          const ChainSensingOptions& options) {
+                          const PointContact& start, double model_weight) {
   const int n = layout.joints(), loads = layout.loads();
-  const ScaledEquations equations{layout, start.friction, options.model_weight,
-                                  s0};
+  const ScaledEquations equations{layout, start.friction, model_weight, s0};
   const Eigen::VectorXd units = equations.ColumnUnits();
   ChainSensing result;
   if (!StartSensing(layout, s0, start, &result)) return result;
 
   ChainState state = result.state;
   PointContact contact = start;
-  while (result.iterations < options.max_iterations) {
+  while (result.iterations < kMaxSensingIterations) {
     ++result.iterations;
     const Eigen::VectorXd step = Step(equations, units, state, contact);
     if (!step.allFinite()) break;
@@ -127,8 +126,7 @@ ChainSensing SenseContact(const ChainLayout& layout, const Eigen::VectorXd& s0,
 ChainSensing SenseContactWithCeres(const ChainLayout& layout,
                                    const Eigen::VectorXd& s0,
                                    const PointContact& start,
-                                   double gauge_std_rad,
-                                   const ChainSensingOptions& options,
+                                   double gauge_std_rad, double model_weight,
                                    ceres::LinearSolverType linear_solver) {
   ChainSensing result;
   if (!StartSensing(layout, s0, start, &result)) return result;
@@ -139,13 +137,13 @@ ChainSensing SenseContactWithCeres(const ChainLayout& layout,
   // that the gauges gain, and Ceres rejects the step. So the weight grows by
   // stages, and the last one has little left to do.
   bool converged = false;
-  for (double weight = std::min(1.0, options.model_weight);;) {
+  for (double weight = std::min(1.0, model_weight);;) {
     const ScaledEquations equations{layout, start.friction,
                                     weight / gauge_std_rad, s0, gauge_std_rad};
-    converged = Minimise(equations, options.max_iterations, linear_solver,
-                         &state, contact, &result.iterations);
-    if (weight == options.model_weight || !state.AllFinite()) break;
-    weight = std::min(100 * weight, options.model_weight);
+    converged =
+        Minimise(equations, linear_solver, &state, contact, &result.iterations);
+    if (weight == model_weight || !state.AllFinite()) break;
+    weight = std::min(100 * weight, model_weight);
   }
   if (!state.AllFinite()) return result;
   result.state = state;

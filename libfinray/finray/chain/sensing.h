@@ -10,13 +10,10 @@
 
 namespace finray {
 
-struct ChainSensingOptions {
-  /// Weight of the model's rows (ScaledEquations) against gauge rows in rad.
-  /// With a large weight the model holds exactly and noise stays in the gauges.
-  /// The paper puts N mm, mm and rad side by side, which lets either give way.
-  double model_weight = 1e6;
-  int max_iterations = 60;
-};
+/// Weight of the model's rows (ScaledEquations) against gauge rows in rad. With
+/// a large weight the model holds exactly and noise stays in the gauges. The
+/// paper puts N mm, mm and rad side by side, which lets either give way.
+constexpr double kHeavyModel = 1e6;
 
 struct ChainSensing {
   bool converged = false;
@@ -39,7 +36,7 @@ struct ChainSensing {
 /// and no number is NaN.
 ChainSensing SenseContact(const ChainLayout& layout, const Eigen::VectorXd& s0,
                           const PointContact& start,
-                          const ChainSensingOptions& options = {});
+                          double model_weight = kHeavyModel);
 
 /// SenseContact with ceres::Solve in place of Newton (18), from the
 /// equilibrium under `start` and with the same bounds. Both kinds of rows are
@@ -57,7 +54,7 @@ ChainSensing SenseContact(const ChainLayout& layout, const Eigen::VectorXd& s0,
 ChainSensing SenseContactWithCeres(
     const ChainLayout& layout, const Eigen::VectorXd& s0,
     const PointContact& start, double gauge_std_rad = 3e-4,
-    const ChainSensingOptions& options = {},
+    double model_weight = kHeavyModel,
     ceres::LinearSolverType linear_solver = ceres::DENSE_QR);
 
 }  // namespace finray

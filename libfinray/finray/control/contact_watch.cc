@@ -20,42 +20,32 @@ const char* LoopModeName(LoopMode mode) {
   return kNames[static_cast<int>(mode)];
 }
 
-bool IsLight(const FrameEstimate& estimate, double signal,
-             const Safety& safety) {
-  // NaN, an unknown force or signal, is not light.
-  if (signal < 1) return true;
-  const ContactEstimate& contact = estimate.contact[0];
-  const ContactEstimate& other = estimate.alternative[0];
-  const double twice_std = 2 * contact.normal_std_N;
-  const bool alternative = std::isfinite(other.normal_N);
-  return contact.normal_N + twice_std < safety.touch_N &&
-         (!alternative || other.normal_N + twice_std < safety.touch_N);
-}
-
 Sight Judge(const FrameEstimate& estimate, double signal,
             const Safety& safety) {
-  if (estimate.status == FrameStatus::kNoContact) return Sight::kFree;
-  if (estimate.status == FrameStatus::kOk &&
-      estimate.contact[0].normal_std_N <= safety.force_std_limit_N) {
-    return Sight::kSeen;
-  }
-  return IsLight(estimate, signal, safety) ? Sight::kLight : Sight::kBlind;
+  const ContactEstimate& contact = estimate.contact[0];
+  const ContactEstimate& other = estimate.alternative[0];
+  // NaN, an unknown force or signal, is not light.
+  const double twice_std = 2 * contact.normal_std_N;
+  const bool light = contact.normal_N + twice_std < safety.touch_N &&
+                     (!std::isfinite(other.normal_N) ||
+                      other.normal_N + twice_std < safety.touch_N);
+  return {estimate.status == FrameStatus::kOk &&
+              contact.normal_std_N <= safety.force_std_limit_N,
+          estimate.status == FrameStatus::kNoContact, signal < 1 || light};
 }
 
 ContactWatch::ContactWatch(const Safety& safety, double period_s)
     : safety_(safety), period_s_(period_s) {}
 
-LoopMode ContactWatch::Next(const std::vector<FrameEstimate>& estimates,
-                            const std::vector<double>& signals) {
+LoopMode ContactWatch::Next(const std::vector<Sight>& sights) {
   if (mode_ == LoopMode::kStopped) return mode_;
   std::size_t seen = 0, blind = 0, light = 0;
-  for (std::size_t i = 0; i < estimates.size(); ++i) {
-    const Sight sight = Judge(estimates[i], signals[i], safety_);
-    if (sight == Sight::kSeen) ++seen;
-    if (sight == Sight::kBlind) ++blind;
-    if (IsLight(estimates[i], signals[i], safety_)) ++light;
+  for (const Sight& sight : sights) {
+    seen += sight.seen;
+    blind += sight.blind();
+    light += sight.light;
   }
-  const std::size_t all = estimates.size();
+  const std::size_t all = sights.size();
   blind_ = blind > 0 ? blind_ + 1 : 0;
   seen_ = seen == all ? seen_ + 1 : 0;
   if (blind > 0) {

@@ -33,23 +33,21 @@ enum class LoopMode {
 };
 const char* LoopModeName(LoopMode mode);
 
-/// What one estimate is good for.
-enum class Sight {
-  kSeen,   ///< The status is ok and the std of the force within the limit.
-  kFree,   ///< There is no contact.
-  kLight,  ///< It is not seen, but IsLight.
-  kBlind,  ///< Anything else, such as bad input.
+/// What one estimate is good for. Several of these may hold.
+struct Sight {
+  bool seen;  ///< The status is ok and the std of the force within the limit.
+  bool free;  ///< There is no contact.
+  /// A contact can only be a light touch. Either the gauges bend less than
+  /// touch_N would bend them anywhere but at the finger's ends (`signal` of
+  /// TouchSignal below 1), or the estimate and its alternative both stay below
+  /// touch_N with twice their std.
+  bool light;
+
+  bool blind() const { return !seen && !free && !light; }  ///< e.g. bad input
 };
 Sight Judge(const FrameEstimate& estimate, double signal, const Safety& safety);
 
-/// Whether a contact can only be a light touch. Either the gauges bend less
-/// than touch_N would bend them anywhere but at the finger's ends (`signal` of
-/// TouchSignal below 1), or the estimate and its alternative both stay below
-/// touch_N with twice their std.
-bool IsLight(const FrameEstimate& estimate, double signal,
-             const Safety& safety);
-
-/// Follows the estimates of all fingers and decides what the drive does. If any
+/// Follows the sights of all fingers and decides what the drive does. If any
 /// finger is blind, it holds. If all fingers see their contact, the controller
 /// drives; it takes over after kSureFrames such frames in a row, because a few
 /// of many unobservable frames look sure. Otherwise the approach goes on.
@@ -59,9 +57,8 @@ class ContactWatch {
 
   ContactWatch(const Safety& safety, double period_s);
 
-  /// Takes the estimate and the TouchSignal of each finger, once a period.
-  LoopMode Next(const std::vector<FrameEstimate>& estimates,
-                const std::vector<double>& signals);
+  /// Takes the sight of each finger, once a period.
+  LoopMode Next(const std::vector<Sight>& sights);
 
  private:
   Safety safety_;

@@ -11,7 +11,7 @@
 #include "finray/control/model_controller.h"
 #include "finray/io/error.h"
 #include "finray/scene/clean_readings.h"
-#include "finray/sensing/live_estimator.h"
+#include "finray/sensing/frame_estimator.h"
 
 namespace finray {
 namespace {
@@ -67,8 +67,7 @@ class Loop {
         generator_(seed),
         plant_(TrueFingers(finger, experiment, &generator_),
                experiment.mechanism, *experiment.scene.object,
-               experiment.scene.friction_coefficient, experiment.start.y_mm,
-               experiment.start.angle_rad, experiment.start.gap_mm),
+               experiment.scene.friction_coefficient, experiment.start),
         true_drive_(TrueActuation(), 0),
         known_drive_(experiment.actuation, 0),
         touch_(finger, experiment.safety.touch_N, discretization),
@@ -77,8 +76,7 @@ class Loop {
             MakeController(finger, experiment, settings, discretization)) {
     for (int i = 0; i < experiment.mechanism.fingers(); ++i) {
       zeros_.emplace_back(finger, discretization);
-      estimators_.push_back(std::make_unique<LiveEstimator>(
-          finger, experiment.scene, discretization));
+      estimators_.emplace_back(finger, experiment.scene, discretization);
     }
   }
 
@@ -125,7 +123,7 @@ class Loop {
       if (i == 0) LoseGauges(row->time_s, &readings);
       if (row->time_s < experiment_.zero_s) zeros_[i].Add(readings);
       zeros_[i].Apply(&readings);
-      row->estimates.push_back(estimators_[i]->Next(readings));
+      row->estimates.push_back(estimators_[i].Next(readings));
       row->readings.push_back(std::move(readings));
     }
     row->seen = MeanForceOf(Contacts(*row));
@@ -149,13 +147,12 @@ class Loop {
   }
 
   void Act(LoopRow* row) {
-    std::vector<double> signals;
+    std::vector<Sight> sights;
     row->sure = true;
     for (std::size_t i = 0; i < estimators_.size(); ++i) {
-      signals.push_back(touch_.Of(row->readings[i]));
-      const Sight sight =
-          Judge(row->estimates[i], signals.back(), experiment_.safety);
-      row->sure &= sight == Sight::kSeen || sight == Sight::kFree;
+      sights.push_back(Judge(row->estimates[i], touch_.Of(row->readings[i]),
+                             experiment_.safety));
+      row->sure &= sights[i].seen || sights[i].free;
     }
     if (controller_ == nullptr) {
       row->command = 0;
@@ -163,9 +160,8 @@ class Loop {
     }
     known_drive_.AdvanceTo(row->time_s);
     if (experiment_.drive_is_measured) known_drive_.CorrectTo(row->drive);
-    row->mode = row->time_s < experiment_.zero_s
-                    ? LoopMode::kZero
-                    : watch_.Next(row->estimates, signals);
+    row->mode = row->time_s < experiment_.zero_s ? LoopMode::kZero
+                                                 : watch_.Next(sights);
     row->command = CommandOf(*row);
     true_drive_.Command(row->time_s, row->command);
     known_drive_.Command(row->time_s, row->command);
@@ -177,7 +173,7 @@ class Loop {
     const double last = known_drive_.last_command();
     switch (row.mode) {
       case LoopMode::kZero:
-        return last;
+        break;
       case LoopMode::kControl:
         return controller_->Next(row.time_s, Contacts(row),
                                  experiment_.set_point, known_drive_);
@@ -186,7 +182,7 @@ class Loop {
         return last + step;
       case LoopMode::kHold:
         controller_->Skip();
-        return last;
+        break;
       case LoopMode::kStopped:
         return std::max(0.0, last - step);
     }
@@ -203,7 +199,7 @@ class Loop {
   ContactWatch watch_;
   std::vector<GaugeZero> zeros_;
   std::unique_ptr<Controller> controller_;
-  std::vector<std::unique_ptr<LiveEstimator>> estimators_;
+  std::deque<FrameEstimator> estimators_;
 };
 
 }  // namespace

@@ -59,7 +59,7 @@ struct LoopRun {
 };
 
 /// Simulates a closed loop at the rate of the actuation: plant, noisy gauges
-/// (zeroed before the approach, GaugeZero), a LiveEstimator for each finger,
+/// (zeroed before the approach, GaugeZero), a FrameEstimator for each finger,
 /// ContactWatch, controller, drive with delay, plant. Estimators and
 /// controllers know `finger`; the plant's fingers differ from it by the
 /// experiment's model error. The seed determines fingers and noise for any

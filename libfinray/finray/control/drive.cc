@@ -9,6 +9,13 @@ namespace {
 
 using Eigen::Vector2d;
 
+// Positive if the rocker's joint is on the left of the way from the crank's
+// joint to the rocker's pivot, at angle 0.
+double SideOfRocker(const FourBar& joints) {
+  return Cross(Vector2d(joints.rocker_pivot_mm - joints.crank_joint_mm),
+               Vector2d(joints.rocker_joint_mm - joints.crank_joint_mm));
+}
+
 }  // namespace
 
 Actuator::Actuator(const ActuatorSettings& settings, double start)
@@ -61,44 +68,41 @@ void Actuator::Move(double seconds) {
   }
 }
 
-FourBar::FourBar(const FourBarJoints& joints)
-    : joints_(joints),
-      coupler_mm_((joints.rocker_joint_mm - joints.crank_joint_mm).norm()),
-      rocker_mm_((joints.rocker_joint_mm - joints.rocker_pivot_mm).norm()) {
-  const double crank = (joints.crank_joint_mm - joints.crank_pivot_mm).norm();
-  if (!(crank > 0 && coupler_mm_ > 0 && rocker_mm_ > 0)) {
-    throw std::invalid_argument("joints of one link coincide");
-  }
-  side_ = Cross(Vector2d(joints.rocker_pivot_mm - joints.crank_joint_mm),
-                Vector2d(joints.rocker_joint_mm - joints.crank_joint_mm));
-  if (std::abs(side_) < 1e-6 * coupler_mm_ * rocker_mm_) {
-    throw std::invalid_argument("coupler and rocker lie in one line");
-  }
-}
-
 std::optional<Pose<double>> FourBar::Coupler(double crank_rad) const {
   const Pose<double> turn = MakePose<double>(crank_rad, Vector2d::Zero());
-  const Vector2d crank = joints_.crank_joint_mm - joints_.crank_pivot_mm;
-  const Vector2d b = joints_.crank_pivot_mm + turn.Rotate(crank);
-  const Vector2d way = joints_.rocker_pivot_mm - b;
-  const double distance = way.norm();
-  const double along = (distance * distance + coupler_mm_ * coupler_mm_ -
-                        rocker_mm_ * rocker_mm_) /
-                       (2 * distance);
-  const double square = coupler_mm_ * coupler_mm_ - along * along;
+  const Vector2d crank = crank_joint_mm - crank_pivot_mm;
+  const Vector2d before = rocker_joint_mm - crank_joint_mm;
+  const Vector2d b = crank_pivot_mm + turn.Rotate(crank);
+  const Vector2d way = rocker_pivot_mm - b;
+  const double distance = way.norm(), coupler = before.norm();
+  const double rocker = (rocker_joint_mm - rocker_pivot_mm).norm();
+  const double along =
+      (distance * distance + coupler * coupler - rocker * rocker) /
+      (2 * distance);
+  const double square = coupler * coupler - along * along;
   if (!(square > 0)) return std::nullopt;
-  const double across = std::copysign(std::sqrt(square), side_);
+  const double across = std::copysign(std::sqrt(square), SideOfRocker(*this));
   const Vector2d unit = way / distance;
   const Vector2d c = b + along * unit + across * Turned<double>(unit);
-  const Vector2d before = joints_.rocker_joint_mm - joints_.crank_joint_mm;
   const Vector2d after = c - b;
   Pose<double> pose = MakePose<double>(
       std::atan2(Cross(before, after), before.dot(after)), Vector2d::Zero());
-  pose.t = b - pose.Rotate(joints_.crank_joint_mm);
+  pose.t = b - pose.Rotate(crank_joint_mm);
   return pose;
 }
 
-Mechanism::Mechanism(const FourBar& four_bar) : four_bar_(four_bar) {
+Mechanism::Mechanism(const FourBar& joints) : four_bar_(joints) {
+  const double crank = (joints.crank_joint_mm - joints.crank_pivot_mm).norm();
+  const double coupler =
+      (joints.rocker_joint_mm - joints.crank_joint_mm).norm();
+  const double rocker =
+      (joints.rocker_joint_mm - joints.rocker_pivot_mm).norm();
+  if (!(crank > 0 && coupler > 0 && rocker > 0)) {
+    throw std::invalid_argument("joints of one link coincide");
+  }
+  if (std::abs(SideOfRocker(joints)) < 1e-6 * coupler * rocker) {
+    throw std::invalid_argument("coupler and rocker lie in one line");
+  }
   const double approach = ApproachPerDrive(0, 0);
   if (!(std::abs(approach) > 1e-6)) {
     throw std::invalid_argument(

@@ -194,11 +194,11 @@ Mechanism ReadMechanism(const YamlMap& yaml) {
   const YamlMap map = yaml.Map("gripper");
   map.AllowOnly({"crank_pivot_mm", "crank_joint_mm", "rocker_pivot_mm",
                  "rocker_joint_mm"});
-  const FourBarJoints joints = {
+  const FourBar joints = {
       Point(map, "crank_pivot_mm"), Point(map, "crank_joint_mm"),
       Point(map, "rocker_pivot_mm"), Point(map, "rocker_joint_mm")};
   try {
-    return Mechanism(FourBar(joints));
+    return Mechanism(joints);
   } catch (const std::invalid_argument& error) {
     yaml.Fail("gripper", std::string("gripper: ") + error.what());
   }
@@ -242,9 +242,9 @@ void ReadControllers(const YamlMap& yaml, const Finger& finger,
   }
 }
 
-void ReadGaugeLoss(const YamlMap& yaml, const Finger& finger,
-                   Experiment* experiment) {
-  if (!yaml.Has("gauge_loss")) return;
+std::optional<GaugeLoss> ReadGaugeLoss(const YamlMap& yaml,
+                                       const Finger& finger) {
+  if (!yaml.Has("gauge_loss")) return std::nullopt;
   const YamlMap map = yaml.Map("gauge_loss");
   map.AllowOnly({"from_s", "to_s", "gauges"});
   GaugeLoss loss{map.Number("from_s"), map.Number("to_s"), {}};
@@ -259,7 +259,7 @@ void ReadGaugeLoss(const YamlMap& yaml, const Finger& finger,
     }
     loss.gauges.push_back(static_cast<int>(gauge) - 1);
   }
-  experiment->gauge_loss = loss;
+  return loss;
 }
 
 void ReadStart(const YamlMap& yaml, const Finger& finger,
@@ -338,7 +338,7 @@ Experiment ReadExperiment(const std::string& path, const Finger& finger) {
   for (const char* key : {"safety", "model_error"}) {
     if (yaml.Has(key)) ReadMapping(yaml, key, &experiment);
   }
-  ReadGaugeLoss(yaml, finger, &experiment);
+  experiment.gauge_loss = ReadGaugeLoss(yaml, finger);
   return experiment;
 }
 

@@ -15,13 +15,6 @@
 
 namespace finray {
 
-/// The place of the object before the loop starts.
-struct ObjectStart {
-  double y_mm = 0;
-  double angle_rad = 0;
-  double gap_mm = 1;  ///< to the undeformed front beam
-};
-
 enum class ControllerKind {
   kModel,  ///< ModelController
   kPi,     ///< PiController

@@ -33,15 +33,14 @@ PushModel::PushModel(const Finger& finger, double radius_mm, double friction,
       radius_mm_(radius_mm),
       friction_(friction) {}
 
-bool PushModel::Solve(const Pose<double>& base, double arc_mm,
-                      double normal_N) {
+std::optional<Vector2d> PushModel::Centre(const Pose<double>& base,
+                                          double arc_mm, double normal_N) {
   if (!solver_.SolveWithSensitivities({{arc_mm, normal_N, friction_}})) {
-    return false;
+    return std::nullopt;
   }
   const Vector3d pose = solver_.contact_pose(0);
   const Vector2d tangent(std::cos(pose.z()), std::sin(pose.z()));
   const Vector2d normal = -Turned<double>(tangent);
-  centre_ = base * Vector2d(pose.head<2>() - radius_mm_ * normal);
   const int row = solver_.model().gauges();
   const auto derivative = [&](int column) {
     const Vector3d d = solver_.d_outputs().block<3, 1>(row, column);
@@ -50,13 +49,7 @@ bool PushModel::Solve(const Pose<double>& base, double arc_mm,
   };
   by_arc_ = derivative(0);
   by_force_ = derivative(1);
-  return true;
-}
-
-std::optional<Vector2d> PushModel::Centre(const Pose<double>& base,
-                                          double arc_mm, double normal_N) {
-  if (!Solve(base, arc_mm, normal_N)) return std::nullopt;
-  return centre_;
+  return base * Vector2d(pose.head<2>() - radius_mm_ * normal);
 }
 
 std::optional<Push> PushModel::At(const Pose<double>& base, double y_mm,
@@ -64,13 +57,14 @@ std::optional<Push> PushModel::At(const Pose<double>& base, double y_mm,
   const double end = solver_.model().finger().front_length_mm - kEnd_mm;
   arc_mm = std::clamp(arc_mm, kEnd_mm, end);
   for (int i = 0; i < kMostIterations; ++i) {
-    if (!Solve(base, arc_mm, normal_N)) return std::nullopt;
-    const double gap = y_mm - centre_.y();
+    const auto centre = Centre(base, arc_mm, normal_N);
+    if (!centre) return std::nullopt;
+    const double gap = y_mm - centre->y();
     const double step = gap / by_arc_.y();
     if (std::abs(gap) < kGapTolerance_mm) {
       const double compliance =
           by_force_.x() - by_arc_.x() * by_force_.y() / by_arc_.y();
-      return Push{centre_.x(), arc_mm, 1 / compliance};
+      return Push{centre->x(), arc_mm, 1 / compliance};
     }
     const double next =
         std::clamp(arc_mm + std::clamp(step, -kLongestStep_mm, kLongestStep_mm),
@@ -181,16 +175,6 @@ std::optional<ModelController::MeanPush> ModelController::PushAt(
   return mean;
 }
 
-// Std of the object's place after a period in which the drive moved by `way`.
-double ModelController::PlaceStd(const MeanPush& push, double drive,
-                                 double way) const {
-  const double approach =
-      way * mechanism_.ApproachPerDrive(drive, y_mm_.front());
-  return std::hypot(std::sqrt(push.variance_mm2),
-                    kLeastStd_N * push.compliance_mm_per_N,
-                    approach / period_s_ * timing_std_s_);
-}
-
 // Solves X(F; u) = place for u by Newton's method with the mechanism's slope.
 std::optional<double> ModelController::DriveFor(double force_N, double place_mm,
                                                 double drive) {
@@ -219,8 +203,12 @@ double ModelController::Next(double time_s,
   const auto push = SeeHeights(now, contacts) ? PushAt(now, contacts)
                                               : std::optional<MeanPush>();
   if (push) {
+    const double approach = (now - last_drive_.value_or(now)) *
+                            mechanism_.ApproachPerDrive(now, y_mm_.front());
     filter_.Update(push->object_x_mm, MeanForceOf(contacts).force_N,
-                   PlaceStd(*push, now, now - last_drive_.value_or(now)));
+                   std::hypot(std::sqrt(push->variance_mm2),
+                              kLeastStd_N * push->compliance_mm_per_N,
+                              approach / period_s_ * timing_std_s_));
   }
   last_drive_ = now;
   if (!filter_.started()) return drive.last_command();

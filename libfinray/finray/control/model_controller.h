@@ -49,12 +49,10 @@ class PushModel {
                          double arc_mm);
 
  private:
-  bool Solve(const Pose<double>& base, double arc_mm, double normal_N);
-
   EquilibriumSolver solver_;
   double radius_mm_, friction_;
-  // At the last equilibrium, in the world.
-  Eigen::Vector2d centre_, by_arc_, by_force_;
+  // Slopes of the last centre, in the world.
+  Eigen::Vector2d by_arc_, by_force_;
 };
 
 /// Assumptions about an unknown object.
@@ -111,15 +109,14 @@ class ObjectFilter {
 ///
 ///  1. the present drive u is measured or follows from the commands so far;
 ///  2. the estimated force F tells the place of the object, z = X(F; u): the
-///  mean
-///     of PushModel over the fingers, at the mean of the estimated heights;
+///     mean of PushModel over the fingers, at the mean of the estimated
+///     heights;
 ///  3. ObjectFilter predicts the object at the time h = delay + T, when this
 ///     period's command will have had its effect;
 ///  4. the wanted drive u* gives the force of the set-point there,
 ///     X(F_ref; u*) = o(h) - c F_ref;
 ///  5. the command takes the drive to u* (Actuator::CommandFor), with the
-///  commands
-///     in flight taken into account.
+///     commands in flight taken into account.
 ///
 /// Like Smith's predictor the loop acts on predicted errors, so with a right
 /// model it contains no delay. It has no gain to tune: ObjectPrior and the
@@ -148,7 +145,6 @@ class ModelController : public Controller {
   // The mean push of all fingers under these forces.
   std::optional<MeanPush> PushAt(double drive,
                                  const std::vector<ContactEstimate>& contacts);
-  double PlaceStd(const MeanPush& push, double drive, double way) const;
   std::optional<double> DriveFor(double force_N, double place_mm, double drive);
 
   std::vector<PushModel> models_;

@@ -57,8 +57,8 @@ Finger Perturbed(const Finger& finger, const ModelError& error,
 }
 
 Plant::Plant(const std::vector<Finger>& fingers, const Mechanism& mechanism,
-             const RigidObject& object, double friction, double y_mm,
-             double angle_rad, double gap_mm)
+             const RigidObject& object, double friction,
+             const ObjectStart& start)
     : mechanism_(mechanism), object_(object), friction_(friction) {
   if (mechanism.is_gripper() && object.spring) {
     throw std::invalid_argument(
@@ -67,10 +67,10 @@ Plant::Plant(const std::vector<Finger>& fingers, const Mechanism& mechanism,
   for (const Finger& finger : fingers) {
     fingers_.push_back({EquilibriumSolver(finger, kPlantDiscretization), {}});
   }
-  const Pose<double> turn = MakePose<double>(angle_rad, Vector2d::Zero());
+  const Pose<double> turn = MakePose<double>(start.angle_rad, Vector2d::Zero());
   const double reach =
-      turn.Rotate(object.outline.PointAt(-angle_rad).position_mm).x();
-  start_ = {Vector2d(-gap_mm - reach, y_mm), angle_rad};
+      turn.Rotate(object.outline.PointAt(-start.angle_rad).position_mm).x();
+  start_ = {Vector2d(-start.gap_mm - reach, start.y_mm), start.angle_rad};
 }
 
 bool Plant::Solve(std::size_t i, double drive, double x_mm, PlantState* state) {
@@ -82,14 +82,11 @@ bool Plant::Solve(std::size_t i, double drive, double x_mm, PlantState* state) {
   TrueFinger& finger = fingers_[i];
   PlantFinger& result = state->fingers[i];
   const double turn = std::atan2(base->s, base->c);
+  // In the mirrored world the object is turned by (pi - angle) and its outline
+  // is mirrored, which is the same for outlines that are symmetric about y.
+  const double angle = i == 1 ? -start_.angle_rad : start_.angle_rad;
   result.object = {base->Inverse() * Vector2d(x_mm, start_.position_mm.y()),
-                   start_.angle_rad - turn};
-  if (i == 1) {
-    // In the mirrored world the object is turned by (pi - angle) and its
-    // outline is mirrored, which is the same for outlines that are symmetric
-    // about y.
-    result.object.angle_rad = -start_.angle_rad - turn;
-  }
+                   angle - turn};
   const ObjectContact found = SolveObjectContact(
       object_, result.object, friction_, &finger.solver, finger.contacts);
   finger.contacts = found.contacts;

@@ -26,6 +26,14 @@ struct ModelError {
 Finger Perturbed(const Finger& finger, const ModelError& error,
                  std::mt19937_64* generator);
 
+/// The place of the object before the loop starts: its origin at the height
+/// y_mm, its outline at the distance gap_mm from the undeformed front beam.
+struct ObjectStart {
+  double y_mm = 0;
+  double angle_rad = 0;
+  double gap_mm = 1;
+};
+
 /// One finger of the plant at an equilibrium.
 struct PlantFinger {
   Measurements readings;       ///< of its gauges, without noise
@@ -56,13 +64,11 @@ struct PlantState {
 /// touches.
 class Plant {
  public:
-  /// Takes as many fingers as the mechanism has. At drive 0 the object's origin
-  /// is at the height y_mm and its outline has the distance `gap_mm` from the
-  /// undeformed front beam. Throws std::invalid_argument for an object on a
-  /// spring between two fingers.
+  /// Takes as many fingers as the mechanism has, and the object's place at
+  /// drive 0. Throws std::invalid_argument for an object on a spring between
+  /// two fingers.
   Plant(const std::vector<Finger>& fingers, const Mechanism& mechanism,
-        const RigidObject& object, double friction, double y_mm,
-        double angle_rad, double gap_mm);
+        const RigidObject& object, double friction, const ObjectStart& start);
 
   /// The state with the object moved by `motion_mm` towards the (first) finger.
   PlantState At(double drive, double motion_mm);

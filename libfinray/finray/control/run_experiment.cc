@@ -37,7 +37,7 @@ void EmitController(const Experiment& experiment,
         << ControlLogNames(experiment, result.controller);
   YamlPairs(yaml, "runs", s.runs, "failed_runs", s.failed_runs, "stopped_runs",
             s.stopped_runs);
-  if (!result.failure.empty()) YamlPair(yaml, "failure", result.failure);
+  if (!s.failure.empty()) YamlPair(yaml, "failure", s.failure);
   EmitErrors("control_error", s.control, yaml);
   if (s.settled.count != s.control.count) {
     EmitErrors("settled_error", s.settled, yaml);
@@ -52,30 +52,19 @@ void EmitController(const Experiment& experiment,
     YamlPair(yaml, "lag_ms", std::round(1e3 * *result.lag_s));
   }
   if (experiment.paper) {
-    const ErrorSums& errors = s.control.count > 0 ? s.control : s.estimate;
-    YamlPair(yaml, "beats_paper_rms", errors.rms() < experiment.paper->rms_N);
+    YamlPair(yaml, "beats_paper_rms",
+             s.errors().rms() < experiment.paper->rms_N);
   }
   *yaml << YAML::EndMap;
 }
 
 }  // namespace
 
-void ErrorSums::Add(double error) {
-  ++count;
-  sum += error;
-  squares += error * error;
-  most = std::max(most, std::abs(error));
-}
-
 void ErrorSums::Add(const ErrorSums& other) {
   count += other.count;
   sum += other.sum;
   squares += other.squares;
   most = std::max(most, other.most);
-}
-
-double ErrorSums::rms() const {
-  return std::sqrt(squares / static_cast<double>(count));
 }
 
 void ControlStatistics::Add(const ControlStatistics& other) {
@@ -89,12 +78,14 @@ void ControlStatistics::Add(const ControlStatistics& other) {
   estimate.Add(other.estimate);
   worst_rms_N = std::max(worst_rms_N, other.worst_rms_N);
   best_rms_N = std::min(best_rms_N, other.best_rms_N);
+  if (failure.empty()) failure = other.failure;
 }
 
 ControlStatistics StatisticsOf(const LoopRun& run, const Experiment& experiment,
                                bool controlled) {
   ControlStatistics statistics;
   statistics.runs = 1;
+  statistics.failure = run.failure;
   statistics.failed_runs = run.failure.empty() ? 0 : 1;
   if (!run.rows.empty() && run.rows.back().mode == LoopMode::kStopped) {
     statistics.stopped_runs = 1;
@@ -145,7 +136,6 @@ std::vector<ControllerResult> RunExperiment(
   const std::size_t draws = static_cast<std::size_t>(experiment.draws);
   std::vector<ControllerResult> results(experiment.controllers.size());
   std::vector<ControlStatistics> each(draws * results.size());
-  std::vector<std::string> failures(each.size());
   std::mutex progress_mutex;
   tbb::task_arena(std::max(1, threads)).execute([&] {
     tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t i) {
@@ -155,7 +145,6 @@ std::vector<ControllerResult> RunExperiment(
           RunLoop(finger, experiment, controller, discretization, seed + draw);
       each[i] = StatisticsOf(run, experiment,
                              controller.kind != ControllerKind::kNone);
-      failures[i] = run.failure;
       if (progress) {
         const std::lock_guard<std::mutex> lock(progress_mutex);
         progress(run.rows.size());
@@ -168,7 +157,6 @@ std::vector<ControllerResult> RunExperiment(
     result.controller = experiment.controllers[c];
     for (std::size_t d = 0; d < draws; ++d) {
       result.statistics.Add(each[c * draws + d]);
-      if (result.failure.empty()) result.failure = failures[c * draws + d];
     }
     if (result.controller.kind != ControllerKind::kNone &&
         experiment.set_point.amplitude != 0 &&

@@ -1,6 +1,7 @@
 #ifndef FINRAY_CONTROL_RUN_EXPERIMENT_H_
 #define FINRAY_CONTROL_RUN_EXPERIMENT_H_
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -19,10 +20,10 @@ struct ErrorSums {
   std::size_t count = 0;
   double sum = 0, squares = 0, most = 0;
 
-  void Add(double error);
+  void Add(double error) { Add({1, error, error * error, std::abs(error)}); }
   void Add(const ErrorSums& other);
   double mean() const { return sum / static_cast<double>(count); }
-  double rms() const;
+  double rms() const { return std::sqrt(squares / static_cast<double>(count)); }
 };
 
 /// Statistics of the runs of one controller, over the rows from measure_from_s.
@@ -36,7 +37,12 @@ struct ControlStatistics {
   ErrorSums estimate;
   double worst_rms_N = 0;  ///< of the control errors of one run
   double best_rms_N = std::numeric_limits<double>::infinity();
+  std::string failure;  ///< of the first run that ended early
 
+  /// Those of the control; those of the estimate without a controller.
+  const ErrorSums& errors() const {
+    return control.count > 0 ? control : estimate;
+  }
   void Add(const ControlStatistics& other);
 };
 
@@ -53,7 +59,6 @@ struct ControllerResult {
   ControllerSettings controller;
   LoopRun first;                 ///< the run of the first draw
   ControlStatistics statistics;  ///< over all draws
-  std::string failure;           ///< of the first run that ended early
   std::optional<double> lag_s;   ///< of `first`, for a harmonic set-point
 };
 

@@ -28,23 +28,16 @@ int WriteThrough(const fs::path& path, const std::string& content) {
   return error != 0 ? error : close_error;
 }
 
-// Creates a new file in the folder. mkstemp would let only the owner read it.
-int CreateTemporary(const fs::path& folder, fs::path* path,
-                    FileDescriptor* file) {
-  static std::atomic<unsigned> counter{0};
-  int error = 0;
-  do {
-    *path = folder / (".finray-" + std::to_string(getpid()) + "-" +
-                      std::to_string(counter++) + ".tmp");
-    error = file->Open(*path, O_WRONLY | O_CREAT | O_EXCL);
-  } while (error == EEXIST);
-  return error;
-}
-
 int WriteAndRename(const fs::path& path, const std::string& content) {
+  static std::atomic<unsigned> counter{0};
   fs::path temporary;
   FileDescriptor file;
-  int error = CreateTemporary(path.parent_path(), &temporary, &file);
+  int error = 0;
+  do {  // mkstemp would let only the owner read it
+    temporary = path.parent_path() / (".finray-" + std::to_string(getpid()) +
+                                      "-" + std::to_string(counter++) + ".tmp");
+    error = file.Open(temporary, O_WRONLY | O_CREAT | O_EXCL);
+  } while (error == EEXIST);
   if (error != 0) return error;
   error = file.Write(content);
   // A full disk may be reported only here.
@@ -132,18 +125,6 @@ int FileDescriptor::Write(std::string_view bytes) {
     bytes.remove_prefix(static_cast<std::size_t>(n));
   }
   return 0;
-}
-
-int FileDescriptor::ReadAll(std::string* bytes) {
-  bytes->clear();
-  char buffer[1 << 14];
-  for (;;) {
-    const ssize_t n = read(file_, buffer, sizeof buffer);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return errno;
-    if (n == 0) return 0;
-    bytes->append(buffer, static_cast<std::size_t>(n));
-  }
 }
 
 int FileDescriptor::Truncate(std::uint64_t bytes) {

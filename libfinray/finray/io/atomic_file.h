@@ -40,8 +40,6 @@ class FileDescriptor {
   int Open(const std::string& path, int flags);
   /// Writes all bytes behind those that were written before.
   int Write(std::string_view bytes);
-  /// Reads the rest of the file.
-  int ReadAll(std::string* bytes);
   /// Cuts the file to its first `bytes`; the next write goes behind them.
   int Truncate(std::uint64_t bytes);
   /// Returns once the bytes are on the disk.

@@ -53,15 +53,25 @@ bool IsNan(std::string_view text) {
 
 // Returns the number in a cell, NaN for an empty cell or "nan".
 std::optional<double> CellNumber(std::string_view text) {
-  if (text.empty() || IsNan(text)) {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
+  if (text.empty() || IsNan(text)) return kNaN;
   return ParseNumber(text);
 }
 
 // Says whether a character is a control character other than a tab.
 bool IsControl(char c) {
   return c != '\t' && (static_cast<unsigned char>(c) < 0x20 || c == '\x7f');
+}
+
+// Returns the index of the first cell of a line that holds a NUL byte, or the
+// number of cells if there is none.
+std::size_t FirstNul(const CsvLine& line,
+                     const std::vector<std::string_view>& cells) {
+  if (!line.nul) return cells.size();
+  const auto at =
+      std::find_if(cells.begin(), cells.end(), [](std::string_view cell) {
+        return cell.find('\0') != std::string_view::npos;
+      });
+  return static_cast<std::size_t>(at - cells.begin());
 }
 
 }  // namespace
@@ -82,7 +92,7 @@ FrameParser::FrameParser(const std::string& path, const CsvLine& header,
   std::deque<std::string> unquoted;
   const std::string error = SplitCsvLine(header.text, &cells, &unquoted);
   if (!error.empty()) FailAt(header.number, cells.size() - 1, error);
-  const std::size_t nul = header.nul ? FirstNul(cells) : cells.size();
+  const std::size_t nul = FirstNul(header, cells);
   if (nul < cells.size()) {
     FailAt(header.number, nul,
            "the header holds a NUL byte, expected UTF-8 text");
@@ -125,7 +135,7 @@ void FrameParser::Parse(const CsvLine& line, FrameRows* rows) const {
                           " cells as in the header, found " +
                           std::to_string(split.size()));
   }
-  const std::size_t nul = line.nul ? FirstNul(split) : split.size();
+  const std::size_t nul = FirstNul(line, split);
   if (nul < split.size()) {
     FailAt(
         line.number, nul,
@@ -138,7 +148,8 @@ void FrameParser::Parse(const CsvLine& line, FrameRows* rows) const {
     }
     const std::string_view text = Trimmed(split[i]);  // quotes keep spaces
     std::optional<double> number = CellNumber(text);
-    if (!number && text == "inf" && MayBeInfinite(names_[i])) {
+    // A cylinder of infinite radius is a plane.
+    if (!number && text == "inf" && names_[i] == "cylinder_radius_mm") {
       number = std::numeric_limits<double>::infinity();
     }
     if (!number) {
@@ -147,15 +158,6 @@ void FrameParser::Parse(const CsvLine& line, FrameRows* rows) const {
     }
     cells[i] = {*number, text};
   }
-}
-
-std::size_t FrameParser::FirstNul(const std::vector<std::string_view>& cells) {
-  std::size_t index = 0;
-  while (index < cells.size() &&
-         cells[index].find('\0') == std::string_view::npos) {
-    ++index;
-  }
-  return index;
 }
 
 void FrameParser::Fail(int line, const std::string& message) const {

@@ -3,13 +3,13 @@
 
 #include <cstddef>
 #include <deque>
-#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "finray/io/line_reader.h"
+#include "finray/io/nan.h"
 
 namespace finray {
 
@@ -18,7 +18,7 @@ class FrameRows {
  public:
   struct Cell {
     /// The number is NaN for text and for a cell that was not measured.
-    double number = std::numeric_limits<double>::quiet_NaN();
+    double number = kNaN;
     /// The text has no quotes. It refers to the line that was parsed.
     std::string_view text;
   };
@@ -78,9 +78,6 @@ class FrameParser {
   [[noreturn]] void Fail(int line, const std::string& message) const;
   [[noreturn]] void FailAt(int line, std::size_t cell,
                            const std::string& message) const;
-  // Returns the index of the first cell that holds a NUL byte, or the number of
-  // cells if there is none.
-  static std::size_t FirstNul(const std::vector<std::string_view>& cells);
 
   std::string path_;
   std::vector<std::string> names_;

@@ -1,7 +1,5 @@
 #include "finray/io/frame_reader.h"
 
-#include <limits>
-
 #include "finray/io/error.h"
 
 namespace finray {
@@ -37,36 +35,6 @@ bool FrameReader::NextRow() {
   return true;
 }
 
-bool FrameReader::Read(std::size_t rows, FrameTable* table) {
-  *table = FrameTable();
-  table->path_ = parser_.path();
-  const auto& names = parser_.names();
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (parser_.IsNumeric(i)) {
-      table->columns_.push_back({names[i], std::vector<double>()});
-    } else {
-      table->columns_.push_back({names[i], std::vector<std::string>()});
-    }
-  }
-  FrameRows row;
-  while (table->rows_ < rows && NextRow()) {
-    row.Clear();
-    parser_.Parse(reader_.line(), &row);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      auto& cells = table->columns_[i].cells;
-      if (auto* numbers = std::get_if<std::vector<double>>(&cells)) {
-        numbers->push_back(row.at(0, i).number);
-      } else {
-        std::get<std::vector<std::string>>(cells).emplace_back(
-            row.at(0, i).text);
-      }
-    }
-    table->lines_.push_back(reader_.line().number);
-    ++table->rows_;
-  }
-  return table->rows_ > 0;
-}
-
 bool FrameReader::ReadLines(std::size_t rows, LineBlock* block) {
   block->Clear();
   try {
@@ -85,9 +53,31 @@ std::size_t FrameReader::Skip(std::size_t rows) {
 
 FrameTable FrameTable::Read(const std::string& path,
                             const std::map<std::string, std::string>& renames) {
+  FrameReader reader(path, renames);
+  const FrameParser& parser = reader.parser();
   FrameTable table;
-  FrameReader(path, renames)
-      .Read(std::numeric_limits<std::size_t>::max(), &table);
+  table.path_ = path;
+  for (std::size_t i = 0; i < parser.names().size(); ++i) {
+    Column& column = table.columns_.emplace_back();
+    column.name = parser.names()[i];
+    if (!parser.IsNumeric(i)) column.cells = std::vector<std::string>();
+  }
+  FrameRows row;
+  while (reader.NextRow()) {
+    row.Clear();
+    parser.Parse(reader.reader_.line(), &row);
+    for (std::size_t i = 0; i < table.columns_.size(); ++i) {
+      auto& cells = table.columns_[i].cells;
+      if (auto* numbers = std::get_if<std::vector<double>>(&cells)) {
+        numbers->push_back(row.at(0, i).number);
+      } else {
+        std::get<std::vector<std::string>>(cells).emplace_back(
+            row.at(0, i).text);
+      }
+    }
+    table.lines_.push_back(reader.reader_.line().number);
+    ++table.rows_;
+  }
   return table;
 }
 

@@ -57,11 +57,6 @@ class FrameReader {
   explicit FrameReader(const std::string& path,
                        const std::map<std::string, std::string>& renames = {});
 
-  /// Sets `table` to the next rows of the file, at most `rows`. Returns false
-  /// if no row is left; the table is then empty. Throws InputError
-  /// (file:line:column) for a bad row.
-  bool Read(std::size_t rows, FrameTable* table);
-
   /// Reads the next rows as lines, which parser() parses. It does not throw:
   /// the block holds the good lines and then the error. Returns false if the
   /// block holds neither.
@@ -76,6 +71,8 @@ class FrameReader {
   std::size_t position() const { return position_; }
 
  private:
+  friend class FrameTable;  // its Read() needs no copies of the lines
+
   bool NextRow();
 
   LineReader reader_;

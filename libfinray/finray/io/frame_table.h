@@ -62,8 +62,6 @@ class FrameTable {
   void Write(const std::string& path) const;
 
  private:
-  friend class FrameReader;
-
   struct Column {
     std::string name;
     std::variant<std::vector<double>, std::vector<std::string>> cells;

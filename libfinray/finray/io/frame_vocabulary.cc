@@ -53,10 +53,6 @@ bool IsFrameColumn(std::string_view name) {
       [name](std::string_view pattern) { return Matches(name, pattern); });
 }
 
-bool MayBeInfinite(std::string_view name) {
-  return name == "cylinder_radius_mm";
-}
-
 std::string DidYouMeanFrameColumn(const std::string& name) {
   // The patterns get the index that the name has, if any.
   const auto digit = std::find_if(name.begin(), name.end(), IsDigit);

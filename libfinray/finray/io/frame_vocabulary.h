@@ -11,10 +11,6 @@ namespace finray {
 /// gauge_<j>_V with j = 1, 2, ... (no leading zeros).
 bool IsFrameColumn(std::string_view name);
 
-/// Says whether a column may hold "inf": a cylinder of infinite radius is a
-/// plane.
-bool MayBeInfinite(std::string_view name);
-
 /// Returns " (did you mean 'x'?)" with the nearest name of the vocabulary, or
 /// "".
 std::string DidYouMeanFrameColumn(const std::string& name);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <memory>
+#include <utility>
 
 #include "finray/io/atomic_file.h"
 #include "finray/io/csv_cells.h"
@@ -18,70 +20,9 @@ namespace {
 constexpr std::size_t kFirstBuffer = 1 << 17;
 constexpr std::size_t kLongestLine = 1 << 24;
 
-// The bytes of a file, unzipped if the file is gzipped.
-class FileSource : public ByteSource {
- public:
-  explicit FileSource(const std::string& path) : path_(path) {
-    RefuseFolderOrPipe(path, "a file");
-    errno = 0;
-    file_ = gzopen(path.c_str(), "rb");
-    if (file_ == nullptr) {
-      throw InputError(path + ": cannot be read: " + std::strerror(errno));
-    }
-    gzbuffer(file_, 1 << 17);
-  }
-  ~FileSource() override { gzclose(file_); }
-  FileSource(const FileSource&) = delete;
-  FileSource& operator=(const FileSource&) = delete;
-
-  int Read(char* buffer, int size) override {
-    const int n = gzread(file_, buffer, static_cast<unsigned>(size));
-    // A file that was cut short yields its bytes together with an error.
-    int error = Z_OK;
-    const char* message = gzerror(file_, &error);
-    if (n < 0 || (error != Z_OK && error != Z_STREAM_END)) {
-      const std::string reason =
-          error == Z_ERRNO ? std::strerror(errno) : std::string(message);
-      throw InputError(path_ + ": cannot be read to its end: " + reason);
-    }
-    return n;
-  }
-
- private:
-  std::string path_;
-  gzFile file_;
-};
-
-class PipeSource : public ByteSource {
- public:
-  PipeSource(int file, int wake, const std::string& name)
-      : file_(file), wake_(wake), name_(name) {}
-
-  int Read(char* buffer, int size) override {
-    pollfd waiting[2] = {{file_, POLLIN, 0}, {wake_, POLLIN, 0}};
-    while (poll(waiting, 2, -1) < 0) {
-      if (errno != EINTR) break;  // read() reports the error
-    }
-    if (wake_ >= 0 && waiting[1].revents != 0) return -1;
-    ssize_t count;
-    do {
-      count = read(file_, buffer, static_cast<std::size_t>(size));
-    } while (count < 0 && errno == EINTR);
-    if (count < 0) {
-      throw InputError(name_ + ": cannot be read: " + std::strerror(errno));
-    }
-    return static_cast<int>(count);
-  }
-
- private:
-  int file_, wake_;
-  std::string name_;
-};
-
 }  // namespace
 
-LineReader::LineReader(std::unique_ptr<ByteSource> bytes,
-                       const std::string& name)
+LineReader::LineReader(ByteSource bytes, const std::string& name)
     : bytes_(std::move(bytes)), name_(name), buffer_(kFirstBuffer) {}
 
 bool LineReader::Next() {
@@ -128,8 +69,8 @@ bool LineReader::Fill() {
     }
     buffer_.resize(2 * end_);
   }
-  const int count = bytes_->Read(buffer_.data() + end_,
-                                 static_cast<int>(buffer_.size() - end_));
+  const int count =
+      bytes_(buffer_.data() + end_, static_cast<int>(buffer_.size() - end_));
   if (count < 0) return false;
   ended_ = count == 0;
   end_ += static_cast<std::size_t>(count);
@@ -137,11 +78,46 @@ bool LineReader::Fill() {
 }
 
 LineReader ReadFile(const std::string& path) {
-  return LineReader(std::make_unique<FileSource>(path), path);
+  RefuseFolderOrPipe(path, "a file");
+  errno = 0;
+  const gzFile opened = gzopen(path.c_str(), "rb");
+  if (opened == nullptr) {
+    throw InputError(path + ": cannot be read: " + std::strerror(errno));
+  }
+  const std::shared_ptr<gzFile_s> file(opened, gzclose);
+  gzbuffer(opened, 1 << 17);
+  const auto read = [path, file](char* buffer, int size) {
+    const int n = gzread(file.get(), buffer, static_cast<unsigned>(size));
+    // A file that was cut short yields its bytes together with an error.
+    int error = Z_OK;
+    const char* message = gzerror(file.get(), &error);
+    if (n < 0 || (error != Z_OK && error != Z_STREAM_END)) {
+      const std::string reason =
+          error == Z_ERRNO ? std::strerror(errno) : std::string(message);
+      throw InputError(path + ": cannot be read to its end: " + reason);
+    }
+    return n;
+  };
+  return LineReader(read, path);
 }
 
 LineReader ReadPipe(int file, int wake, const std::string& name) {
-  return LineReader(std::make_unique<PipeSource>(file, wake, name), name);
+  const auto read_pipe = [file, wake, name](char* buffer, int size) {
+    pollfd waiting[2] = {{file, POLLIN, 0}, {wake, POLLIN, 0}};
+    while (poll(waiting, 2, -1) < 0) {
+      if (errno != EINTR) break;  // read() reports the error
+    }
+    if (wake >= 0 && waiting[1].revents != 0) return -1;
+    ssize_t count;
+    do {
+      count = read(file, buffer, static_cast<std::size_t>(size));
+    } while (count < 0 && errno == EINTR);
+    if (count < 0) {
+      throw InputError(name + ": cannot be read: " + std::strerror(errno));
+    }
+    return static_cast<int>(count);
+  };
+  return LineReader(read_pipe, name);
 }
 
 }  // namespace finray

@@ -2,7 +2,7 @@
 #define FINRAY_IO_LINE_READER_H_
 
 #include <cstddef>
-#include <memory>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,21 +16,17 @@ struct CsvLine {
   bool nul = false;  ///< Whether the text holds a NUL byte.
 };
 
-/// Where a LineReader gets its bytes.
-class ByteSource {
- public:
-  virtual ~ByteSource() = default;
-  /// Fills `buffer` with at most `size` bytes and returns their number: 0 at
-  /// the end, -1 if it was told to stop. Throws InputError if it cannot read.
-  virtual int Read(char* buffer, int size) = 0;
-};
+/// Where a LineReader gets its bytes. It fills `buffer` with at most `size`
+/// bytes and returns their number: 0 at the end, -1 if it was told to stop.
+/// Throws InputError if it cannot read.
+using ByteSource = std::function<int(char* buffer, int size)>;
 
 /// Reads a CSV file or a pipe line by line. It skips blank lines, accepts LF
 /// and CR LF as line ends, and the last line need not have one.
 class LineReader {
  public:
   /// `name` is the name of the source in messages.
-  LineReader(std::unique_ptr<ByteSource> bytes, const std::string& name);
+  LineReader(ByteSource bytes, const std::string& name);
 
   /// Goes to the next line. Returns false at the end, and as soon as the source
   /// was told to stop. Throws InputError if the source cannot be read or a line
@@ -46,7 +42,7 @@ class LineReader {
   // yet.
   bool Take();
 
-  std::unique_ptr<ByteSource> bytes_;
+  ByteSource bytes_;
   std::string name_;
   std::vector<char> buffer_;
   // The bytes from begin_ to end_ are not used yet. There is no line end

@@ -6,14 +6,6 @@
 #include <cstdio>
 
 namespace finray {
-namespace {
-
-locale_t Classic() {
-  static const locale_t classic = newlocale(LC_ALL_MASK, "C", nullptr);
-  return classic;
-}
-
-}  // namespace
 
 std::optional<double> ParseNumber(std::string_view text) {
   // from_chars accepts no plus sign; "+-5" must not pass either.
@@ -64,6 +56,9 @@ std::string FormatText(const char* format, ...) {
   return text;
 }
 
-ClassicNumbers::ClassicNumbers() : before_(uselocale(Classic())) {}
+ClassicNumbers::ClassicNumbers() {
+  static const locale_t classic = newlocale(LC_ALL_MASK, "C", nullptr);
+  before_ = uselocale(classic);
+}
 
 }  // namespace finray

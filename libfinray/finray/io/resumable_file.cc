@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 // "finished <bytes> <note> end". A line that was cut short does not match.
 constexpr char kEnd[] = " end";
 constexpr char kJournal[] = ".journal";
+constexpr int kLongestJournal_MiB = 1024;
 
 // Returns the file behind a link.
 fs::path Target(const std::string& path) {
@@ -80,8 +81,8 @@ void ResumableFile::Lock() {
 }
 
 bool ResumableFile::Restore(const std::string& key) {
-  std::string journal;
-  Check(journal_.ReadAll(&journal));
+  const std::string journal =
+      ReadWholeFile(journal_path_, "a journal", kLongestJournal_MiB);
   if (journal.rfind(Header(key), 0) != 0) return false;
   std::size_t at = Header(key).size();
   bool any = false, finished = false;
@@ -106,9 +107,7 @@ bool ResumableFile::Restore(const std::string& key) {
   std::error_code unknown;
   const bool part = fs::exists(part_path_, unknown);
   if (part) {
-    if (fs::file_size(part_path_, unknown) < bytes || unknown) {
-      return false;
-    }
+    if (fs::file_size(part_path_, unknown) < bytes || unknown) return false;
     Check(part_.Open(part_path_, O_RDWR));
     Check(part_.Truncate(bytes));
   } else if (!finished || !fs::exists(path_, unknown) ||

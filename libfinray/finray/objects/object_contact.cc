@@ -32,19 +32,17 @@ class ObjectContactSolver {
         friction_(friction),
         solver_(solver),
         length_(solver->model().finger().front_length_mm),
+        deepest_(-kContactDepthTolerance * length_),
         tangency_(object, friction, solver) {}
 
   ObjectContact Solve(const ObjectPose& pose,
                       const std::vector<PointContact>& guess) {
-    ObjectContact result;
-    result.status = ObjectContactStatus::kNotConverged;
     if (!pose.position_mm.allFinite() || !std::isfinite(pose.angle_rad)) {
-      return result;
+      return {ObjectContactStatus::kNotConverged, {}, 0};
     }
+    ObjectContact result{ObjectContactStatus::kContact, guess, 0};
     std::vector<PointContact>& contacts = result.contacts;
-    contacts = guess;
     for (PointContact& contact : contacts) contact.friction = friction_;
-    result.status = ObjectContactStatus::kContact;
     if (contacts.empty() || !Settle(pose, &contacts)) {
       contacts.clear();
       result.status = MoveIn(pose, &contacts);
@@ -68,11 +66,11 @@ class ObjectContactSolver {
   }
 
  private:
-  std::vector<Approach> Approaches(const ObjectPose& pose,
-                                   const std::vector<PointContact>& contacts,
-                                   double below_mm) const {
+  // The approaches to the displaced object, with all that are inside it.
+  std::vector<Approach> Approaches(
+      const ObjectPose& pose, const std::vector<PointContact>& contacts) const {
     return FindApproaches(Shape(*solver_, contacts), length_, contacts,
-                          object_.outline, tangency_.Displaced(pose), below_mm);
+                          object_.outline, tangency_.Displaced(pose), deepest_);
   }
 
   // Finds the set of contacts: drops those that pull and adds places that are
@@ -104,10 +102,8 @@ class ObjectContactSolver {
         continue;
       }
       std::vector<double> inside;
-      for (const Approach& approach :
-           Approaches(pose, *contacts, -kContactDepthTolerance * length_)) {
-        if (!approach.at_end &&
-            approach.distance_mm < -kContactDepthTolerance * length_) {
+      for (const Approach& approach : Approaches(pose, *contacts)) {
+        if (!approach.at_end && approach.distance_mm < deepest_) {
           inside.push_back(approach.arc_mm);
         }
       }
@@ -148,12 +144,6 @@ class ObjectContactSolver {
     }
   }
 
-  // Returns true if the object covers the clamped base, which cannot yield.
-  bool CoversBase(const ObjectPose& pose) const {
-    return object_.outline.DistanceOf(Vector2d::Zero(), pose).distance_mm <
-           -kContactDepthTolerance * length_;
-  }
-
   // Returns true if the object has nearly reached an end of the beam.
   bool EndsAreInside(const ObjectPose& pose,
                      const std::vector<PointContact>& contacts) {
@@ -169,7 +159,6 @@ class ObjectContactSolver {
 
   ObjectContactStatus Verified(const ObjectPose& pose,
                                const std::vector<PointContact>& contacts) {
-    const double deepest = -kContactDepthTolerance * length_;
     ObjectContactStatus status = ObjectContactStatus::kContact;
     for (const PointContact& contact : contacts) {
       if (contact.arc_mm <= 0 || contact.arc_mm >= length_) {
@@ -177,12 +166,12 @@ class ObjectContactSolver {
       }
     }
     tangency_.Linearize(pose, contacts);
-    for (const Approach& approach : Approaches(pose, contacts, deepest)) {
-      if (approach.distance_mm >= deepest) continue;
+    for (const Approach& approach : Approaches(pose, contacts)) {
+      if (approach.distance_mm >= deepest_) continue;
       if (approach.at_end) return ObjectContactStatus::kNoTangency;
       status = ObjectContactStatus::kNotConverged;
     }
-    if (tangency_.largest_gap_mm() > -deepest) {
+    if (tangency_.largest_gap_mm() > -deepest_) {
       return ObjectContactStatus::kNotConverged;
     }
     return status;
@@ -230,14 +219,17 @@ class ObjectContactSolver {
     };
     Approach touch = deepest(pose);
     ObjectPose withdrawn = pose;
-    if (touch.distance_mm >= -kContactDepthTolerance * length_) {
+    if (touch.distance_mm >= deepest_) {
       const Vector2d inwards =
           InnerWay(free.At(Side::kFront, touch.arc_mm), pose);
       if (inwards.isZero()) return ObjectContactStatus::kNoContact;
       withdrawn.position_mm -= inwards;
       touch = deepest(withdrawn);
     }
-    if (!object_.spring && CoversBase(pose)) {
+    // An object that is held and covers the clamped base cannot yield.
+    if (!object_.spring &&
+        object_.outline.DistanceOf(Vector2d::Zero(), pose).distance_mm <
+            deepest_) {
       return ObjectContactStatus::kNoTangency;
     }
     const double theta = free.At(Side::kFront, touch.arc_mm).theta_rad;
@@ -285,6 +277,7 @@ class ObjectContactSolver {
   const double friction_;
   EquilibriumSolver* const solver_;
   const double length_;
+  const double deepest_;  // A point at a smaller distance counts as inside.
   Tangency tangency_;
 };
 

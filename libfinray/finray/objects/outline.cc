@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "finray/chain/se2.h"
+
 namespace finray {
 namespace {
 
@@ -14,10 +16,6 @@ using Eigen::Vector2d;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // The sine of a polygon's corner that still counts as straight.
 constexpr double kStraight = 1e-9;
-
-double Cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 void CheckLength(double length, const char* what) {
   // Written so that a NaN fails.

@@ -97,17 +97,6 @@ void Tangency::Linearize(const ObjectPose& pose,
   }
 }
 
-// How far, to first order, a change of the forces moves the contact points.
-double Tangency::Way(const Eigen::VectorXd& forces) const {
-  const Eigen::Index count = forces.size();
-  const Eigen::VectorXd moves = d_pose_.rightCols(count) * forces;
-  double way = 0;
-  for (Eigen::Index c = 0; c < count; ++c) {
-    way = std::max(way, moves.segment<2>(3 * c).norm());
-  }
-  return way;
-}
-
 // Newton's method on the contact equations. With places held it closes the gaps
 // only. Steps along the beam are limited, as the tangent is useless beyond a
 // bay.
@@ -133,7 +122,13 @@ bool Tangency::Solve(const ObjectPose& pose, TangencyUnknowns unknowns,
     // Where the outline's normal runs along the beam, the equations are
     // singular and rounding makes forces of 1e17 N and more, which no finger
     // bears.
-    if (!step.allFinite() || Way(step.tail(count)) > length_) return false;
+    if (!step.allFinite()) return false;
+    // How far, to first order, the forces move the contact points.
+    const Eigen::VectorXd moves = d_pose_.rightCols(count) * step.tail(count);
+    if (moves.reshaped(3, count).topRows<2>().colwise().norm().maxCoeff() >
+        length_) {
+      return false;
+    }
     double fraction = 1;
     if (sliding) {
       const double move = step.head(count).lpNorm<Eigen::Infinity>();

@@ -47,7 +47,6 @@ class Tangency {
 
  private:
   void Push(const std::vector<PointContact>& contacts);
-  double Way(const Eigen::VectorXd& forces) const;
 
   const RigidObject& object_;
   const double friction_;

@@ -1,11 +1,12 @@
 #ifndef FINRAY_PERCEPTION_COMPLIANCE_H_
 #define FINRAY_PERCEPTION_COMPLIANCE_H_
 
-#include <cstdint>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "finray/perception/contact_sensor.h"
 #include "finray/perception/stiffness_fit.h"
 
 namespace finray {
@@ -27,9 +28,23 @@ struct ComplianceSettings {
   std::optional<double> from_N, to_N;
 };
 
+/// What one finger senses in a row with one contact.
+struct SensedLoad {
+  std::size_t row;  ///< of its table, from 0
+  SensedContact contact;
+  Eigen::Vector2d place_mm;  ///< p of ForcePoint
+};
+
+/// The direction in which an object is pushed, from +x of frame S.
+struct SliderDirection {
+  double angle_rad;
+  double std_rad;  ///< NaN for a given direction
+};
+
 /// One object, pushed in (and withdrawn) once.
 struct ComplianceTrial {
   std::string object, name;
+  std::vector<SensedLoad> loads;  ///< of the first finger
   std::vector<ForcePoint> points;
   SliderDirection direction;
   StiffnessFit fit;
@@ -70,6 +85,19 @@ Compliance MeasureCompliance(const std::vector<ComplianceLog>& logs,
                              const Discretization& discretization,
                              const ComplianceSettings& settings);
 
+/// Throws InputError for a row without object_x_mm, object_y_mm.
+std::vector<SensedLoad> SenseLoads(const FrameTable& table,
+                                   ContactSensor* sensor, const Finger& finger);
+
+/// Estimates the direction as the line about which the path of the object's
+/// centre against the stage scatters least. Throws InputError for fewer than
+/// three loads.
+SliderDirection EstimateDirection(const std::vector<SensedLoad>& loads,
+                                  double radius_mm);
+
+/// Sets `direction` and `slides` of each point from the approaches.
+void MarkDirections(double stage_std_mm, std::vector<ForcePoint>* points);
+
 /// The mean of independent trials, weighted by their std. If the trials scatter
 /// more than their std, the std of the mean grows with the scatter.
 Stiffness MeanStiffness(const std::vector<Stiffness>& trials);
@@ -81,8 +109,7 @@ std::vector<double> SortByStiffness(std::vector<ObjectStiffness>* objects);
 
 /// The probability, from random draws, that sorted objects are in their true
 /// order.
-double OrderConfidence(const std::vector<ObjectStiffness>& objects,
-                       std::uint64_t seed = 1, int draws = 20000);
+double OrderConfidence(const std::vector<ObjectStiffness>& objects);
 
 }  // namespace finray
 

@@ -20,21 +20,23 @@ SensedFrame FromColumns(const FrameTable& table, std::size_t row,
     return table.Numbers(name)[row];
   };
   std::vector<PointContact> contacts;
-  std::vector<Vector2d> std;
+  ContactMatrix covariance =
+      ContactMatrix::Zero(2 * kFittedContacts, 2 * kFittedContacts);
   for (int c = 0; c < kFittedContacts && table.Has(ContactArc(c)); ++c) {
     const double arc = cell(ContactArc(c)), normal = cell(NormalForce(c));
     if (std::isnan(arc) || !(normal > 0)) continue;
-    contacts.push_back({arc, normal, friction});
-    std.emplace_back(cell(ContactArcStd(c)), cell(NormalForceStd(c)));
-    if (!std.back().allFinite()) {
+    const Vector2d std(cell(ContactArcStd(c)), cell(NormalForceStd(c)));
+    if (!std.allFinite()) {
       throw InputError(table.path() + ":" + std::to_string(table.line(row)) +
                        ": contact " + std::to_string(c + 1) + " has no std");
     }
+    covariance.diagonal().segment<2>(
+        2 * static_cast<Eigen::Index>(contacts.size())) = std.cwiseAbs2();
+    contacts.push_back({arc, normal, friction});
   }
-  if (!contacts.empty()) return sensor->FromEstimate(contacts, std);
-  SensedFrame frame;
-  frame.status = FrameStatus::kNoContact;
-  return frame;
+  if (contacts.empty()) return {FrameStatus::kNoContact, {}, {}};
+  const auto unknowns = static_cast<Eigen::Index>(2 * contacts.size());
+  return sensor->At(contacts, covariance.topLeftCorner(unknowns, unknowns));
 }
 
 void AddTouches(std::size_t row, const SensedFrame& frame,
@@ -75,9 +77,7 @@ ContactSensor::ContactSensor(const Finger& finger, const Scene& scene,
 
 SensedFrame ContactSensor::Sense(const Measurements& readings) {
   const FrameEstimate estimate = estimator_.Estimate(readings);
-  SensedFrame frame;
-  frame.status = estimate.status;
-  if (estimate.status != FrameStatus::kOk) return frame;
+  if (estimate.status != FrameStatus::kOk) return {estimate.status, {}, {}};
   std::vector<PointContact> contacts;
   for (int c = 0; c < estimate.contacts; ++c) {
     contacts.push_back({estimate.contact[c].arc_mm,
@@ -88,29 +88,14 @@ SensedFrame ContactSensor::Sense(const Measurements& readings) {
   return At(contacts, scale * scale * estimate.noise_covariance);
 }
 
-SensedFrame ContactSensor::FromEstimate(
-    const std::vector<PointContact>& contacts,
-    const std::vector<Eigen::Vector2d>& std) {
-  const auto unknowns = static_cast<Eigen::Index>(2 * contacts.size());
-  ContactMatrix covariance = ContactMatrix::Zero(unknowns, unknowns);
-  for (std::size_t c = 0; c < std.size(); ++c) {
-    covariance.diagonal().segment<2>(2 * static_cast<Eigen::Index>(c)) =
-        std[c].cwiseAbs2();
-  }
-  return At(contacts, covariance);
-}
-
 SensedFrame ContactSensor::At(const std::vector<PointContact>& contacts,
                               const ContactMatrix& covariance) {
   const auto unknowns = static_cast<Eigen::Index>(2 * contacts.size());
-  SensedFrame frame;
   solver_.Reset();
   if (!solver_.SolveWithSensitivities(contacts)) {
-    frame.status = FrameStatus::kNotConverged;
-    return frame;
+    return {FrameStatus::kNotConverged, {}, {}};
   }
-  frame.status = FrameStatus::kOk;
-  frame.shape.emplace(solver_, contacts);
+  SensedFrame frame{FrameStatus::kOk, {}, Shape(solver_, contacts)};
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto first = static_cast<Eigen::Index>(c);
     Eigen::Matrix<double, 4, Eigen::Dynamic> slope(4, unknowns);

@@ -31,7 +31,7 @@ struct SensedContact {
 };
 
 struct SensedFrame {
-  FrameStatus status = FrameStatus::kBadInput;
+  FrameStatus status;
   /// From base to tip; empty unless the status is ok.
   std::vector<SensedContact> contacts;
   /// Both beams; set together with the contacts.
@@ -47,14 +47,12 @@ class ContactSensor {
                 const Discretization& discretization);
 
   SensedFrame Sense(const Measurements& readings);
-  /// For contacts that have been estimated before, with the std of (l_c, f_c).
-  SensedFrame FromEstimate(const std::vector<PointContact>& contacts,
-                           const std::vector<Eigen::Vector2d>& std);
-
- private:
+  /// For contacts that have been estimated before, with the covariance of
+  /// (l_c, f_c) of each.
   SensedFrame At(const std::vector<PointContact>& contacts,
                  const ContactMatrix& covariance);
 
+ private:
   Scene scene_;
   FrameEstimator estimator_;
   EquilibriumSolver solver_;

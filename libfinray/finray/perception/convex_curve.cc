@@ -8,8 +8,12 @@ namespace finray {
 namespace {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
+
+// Small, because the lengths of an edge's cells together set its direction.
+constexpr double kEdgeLink = 0.01;
 
 Vector2d Normal(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
@@ -109,6 +113,10 @@ ConvexCurve::PointSlope ConvexCurve::SlopeAt(double normal_angle_rad,
   return slope;
 }
 
+double ConvexCurve::RadiusAt(double normal_angle_rad) const {
+  return radii_[grid_.CellOf(Wrapped(normal_angle_rad, grid_).within)];
+}
+
 double ConvexCurve::MeanRadius(double normal_angle_rad,
                                double reach_rad) const {
   return (ArcAt(normal_angle_rad + reach_rad) -
@@ -131,6 +139,65 @@ double ConvexCurve::NormalAngleAt(double arc_mm) const {
       std::lower_bound(arcs_.data() + 1, end, left) - arcs_.data() - 1;
   return turns * 2 * M_PI + grid_.Start(cell) +
          (left - arcs_[cell]) / radii_[cell];
+}
+
+OutlineCost::OutlineCost(const Vector2d& point_mm, double normal_angle_rad,
+                         const Whitening& whitening, bool one_sided,
+                         const NormalGrid& grid)
+    : offset_(whitening * point_mm),
+      rows_(whitening.rows(), grid.cells() + 2),
+      one_sided_(one_sided) {
+  rows_ << whitening * ConvexCurve::SlopeAt(normal_angle_rad, grid), whitening;
+  set_num_residuals(static_cast<int>(rows_.rows()));
+  mutable_parameter_block_sizes()->assign({static_cast<int>(rows_.cols())});
+}
+
+OutlineCost::OutlineCost(const NormalGrid& grid, double std_mm)
+    : OutlineCost({0, 0}, std::nextafter(grid.origin_rad() + 2 * M_PI, 0),
+                  Eigen::Matrix2d::Identity() / std_mm, false, grid) {
+  rows_.rightCols<2>().setZero();
+}
+
+bool OutlineCost::Evaluate(double const* const* parameters, double* residuals,
+                           double** jacobians) const {
+  const Index cells = rows_.cols() - 2;
+  VectorXd factors = Eigen::Map<const VectorXd>(parameters[0], cells + 2);
+  factors.head(cells) = factors.head(cells).array().exp();
+  Eigen::Map<VectorXd> residual(residuals, rows_.rows());
+  residual = offset_ - rows_ * factors;
+  const bool idle = one_sided_ && residual[0] > 0;
+  if (idle) residual.setZero();
+  if (jacobians != nullptr && jacobians[0] != nullptr) {
+    factors.tail<2>().setOnes();
+    Eigen::Map<
+        Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+        jacobians[0], rows_.rows(), rows_.cols()) =
+        (idle ? 0 : -1) * rows_ * factors.asDiagonal();
+  }
+  return residual.allFinite();
+}
+
+MatrixXd RoughnessMatrix(const NormalGrid& grid) {
+  const Index cells = grid.cells();
+  MatrixXd rows = MatrixXd::Zero(cells, cells);
+  Index count = 0;
+  const auto link = [&](Index from, Index to, double weight) {
+    rows(count, from) = -weight;
+    rows(count++, to) = weight;
+  };
+  // The last cell belongs to no edge: the origin is far from all edges.
+  Index before = cells - 1;
+  for (Index j = 0; j < cells; ++j) {
+    if (grid.IsEdge(j)) {
+      if (grid.IsEdge(j + 1)) link(j, j + 1, kEdgeLink);
+      continue;
+    }
+    double distance = grid.Middle(j) - grid.Middle(before);
+    if (distance <= 0) distance += 2 * M_PI;
+    link(before, j, 1 / std::sqrt(distance));
+    before = j;
+  }
+  return rows.topRows(count);
 }
 
 }  // namespace finray

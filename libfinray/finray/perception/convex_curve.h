@@ -1,6 +1,8 @@
 #ifndef FINRAY_PERCEPTION_CONVEX_CURVE_H_
 #define FINRAY_PERCEPTION_CONVEX_CURVE_H_
 
+#include <ceres/ceres.h>
+
 #include <Eigen/Core>
 #include <vector>
 
@@ -33,6 +35,9 @@ class NormalGrid {
   double origin_rad() const { return bounds_[0]; }
   /// The cell of an angle within one turn from the origin.
   Eigen::Index CellOf(double angle_rad) const;
+  double Middle(Eigen::Index cell) const {
+    return bounds_[cell] + 0.5 * Width(cell);
+  }
   /// Whether the cell belongs to a straight edge.
   bool IsEdge(Eigen::Index cell) const {
     return edge_[static_cast<std::size_t>(cell)];
@@ -67,6 +72,8 @@ class ConvexCurve {
   /// Its derivative by the radii.
   static PointSlope SlopeAt(double normal_angle_rad, const NormalGrid& grid);
 
+  /// The radius of curvature there.
+  double RadiusAt(double normal_angle_rad) const;
   /// The mean radius of curvature over the normals within `reach_rad`.
   double MeanRadius(double normal_angle_rad, double reach_rad) const;
 
@@ -76,16 +83,52 @@ class ConvexCurve {
   double perimeter_mm() const { return arcs_[grid_.cells()]; }
   /// Arc length from the grid's origin, growing by the perimeter each turn.
   double ArcAt(double normal_angle_rad) const;
-  /// The normal angle at an arc length, its inverse.
+  /// The normal angle at an arc length, its inverse, and the point there.
   double NormalAngleAt(double arc_mm) const;
+  Eigen::Vector2d AtArc(double arc_mm) const {
+    return At(NormalAngleAt(arc_mm));
+  }
 
  private:
   NormalGrid grid_;
   Eigen::Vector2d start_;
   Radii radii_;
-  Eigen::VectorXd
-      arcs_;  // arc lengths where the cells start, and the perimeter
+  // Arc lengths where the cells start, and the perimeter.
+  Eigen::VectorXd arcs_;
 };
+
+/// A residual of outline_fit.h, linear in radii and start of a ConvexCurve:
+///
+///   e = d - A (exp(u), start).
+///
+/// Its parameter block is (u, start): the logarithms of the M radii in mm, then
+/// the start in mm.
+class OutlineCost : public ceres::CostFunction {
+ public:
+  /// Whitening by rows, 1 or 2 of them.
+  using Whitening = Eigen::Matrix<double, Eigen::Dynamic, 2>;
+
+  /// W (point - r(normal angle)). If it is one-sided, a residual above 0 counts
+  /// as 0.
+  OutlineCost(const Eigen::Vector2d& point_mm, double normal_angle_rad,
+              const Whitening& whitening, bool one_sided,
+              const NormalGrid& grid);
+  /// The gap between the curve's ends over `std_mm`.
+  OutlineCost(const NormalGrid& grid, double std_mm);
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  Eigen::VectorXd offset_;
+  Eigen::MatrixXd rows_;
+  bool one_sided_;
+};
+
+/// The matrix that turns u into its roughness, (u_k - u_j) / sqrt(distance of
+/// the cells' middles) for neighbours j, k around. Straight edges are skipped;
+/// their cells are linked to each other only.
+Eigen::MatrixXd RoughnessMatrix(const NormalGrid& grid);
 
 }  // namespace finray
 

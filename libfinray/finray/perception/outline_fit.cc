@@ -9,8 +9,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "finray/perception/outline_cost.h"
-
 namespace finray {
 namespace {
 
@@ -20,7 +18,6 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-constexpr int kCells = 180;
 // A beam bounds the outline within this distance of its contact.
 constexpr double kBeamReach_mm = 140;
 // Far smaller than the error of a touch.
@@ -36,6 +33,36 @@ constexpr double kLeastPower = -4, kMostPower = 5;
 constexpr double kFirstStep = 1, kLaterStep = 0.25;
 // Lower limit of the noise scale.
 constexpr double kLeastScale = 0.1;
+
+// Closer to the contact, along the tangent, the beam says nothing new.
+constexpr double kNearContact_mm = 2;
+// Largest angle between the normals of the contact and of a point at its beam.
+constexpr double kSector_rad = 1.2;
+// A point farther beyond the beam lies on another side of the object.
+constexpr double kDeepest_mm = 10;
+constexpr double kNear = 3;  // std
+
+struct Nearest {
+  Vector2d point, normal;
+  double beyond_mm = -std::numeric_limits<double>::infinity();
+};
+
+// The foot of the shortest perpendicular to a polyline, which runs from base to
+// tip with the finger on its right.
+Nearest NearestOf(const std::vector<Vector2d>& beam, const Vector2d& point) {
+  Nearest nearest;
+  for (std::size_t i = 0; i + 1 < beam.size(); ++i) {
+    const Vector2d span = beam[i + 1] - beam[i];
+    const double length = span.norm();
+    const double along = span.dot(point - beam[i]) / length;
+    if (along < 0 || along > length) continue;
+    const Vector2d normal(span.y() / length, -span.x() / length);
+    const double beyond = normal.dot(point - beam[i]);
+    if (std::abs(beyond) >= std::abs(nearest.beyond_mm)) continue;
+    nearest = {beam[i] + along / length * span, normal, beyond};
+  }
+  return nearest;
+}
 
 // The circle that fits the tangents best: h_i = centre . n_i + radius.
 ConvexCurve Circle(const std::vector<Touch>& touches, const NormalGrid& grid) {
@@ -244,7 +271,7 @@ struct Best {
 };
 Best BestLambda(double from_power, double to_power, double step, Fit* fit) {
   const ConvexCurve start = fit->curve();
-  double best = std::numeric_limits<double>::infinity(), best_lambda = 0;
+  Best best{0, std::numeric_limits<double>::infinity()};
   ConvexCurve best_curve = start;
   for (double power = to_power; power >= from_power - 1e-9; power -= step) {
     const double lambda = std::pow(10, power);
@@ -253,18 +280,17 @@ Best BestLambda(double from_power, double to_power, double step, Fit* fit) {
       continue;
     }
     const double improbability = fit->Improbability(lambda);
-    if (improbability < best) {
-      best = improbability;
-      best_lambda = lambda;
+    if (improbability < best.improbability) {
+      best = {lambda, improbability};
       best_curve = fit->curve();
     }
   }
-  if (best_lambda == 0) {
+  if (best.lambda == 0) {
     throw std::runtime_error("no outline fits the touches");
   }
   fit->Take(best_curve);
-  fit->Solve(best_lambda);
-  return {best_lambda, best};
+  fit->Solve(best.lambda);
+  return best;
 }
 
 // Turns flat stretches into straight edges if the touches away from them are
@@ -276,8 +302,8 @@ void TakeEdges(const std::vector<Touch>& touches, double stage_std_mm,
   const std::vector<bool> apart = Along(touches, edges, result->curve);
   if (std::count(apart.begin(), apart.end(), false) < 3) return;
   Fit smooth(touches, apart, result->curve, &result->curve, stage_std_mm);
-  Fit straight(touches, apart, WithEdges(result->curve, edges, kCells),
-               &result->curve, stage_std_mm);
+  Fit straight(touches, apart, WithEdges(result->curve, edges), &result->curve,
+               stage_std_mm);
   const Best of_smooth =
       BestLambda(kLeastPower, kMostPower, kFirstStep, &smooth);
   const Best of_straight =
@@ -286,11 +312,48 @@ void TakeEdges(const std::vector<Touch>& touches, double stage_std_mm,
   result->edges = edges;
   result->smoothing = of_straight.lambda;
   result->curve = straight.curve();
-  for (StraightEdge& edge : result->edges) edge = Settled(edge, result->curve);
+  Settle(result->curve, &result->edges);
   *along = apart;
 }
 
 }  // namespace
+
+std::vector<BeamBound> FindBeamBounds(const std::vector<Touch>& touches,
+                                      const ConvexCurve& curve,
+                                      double stage_std_mm, double reach_mm) {
+  std::vector<BeamBound> bounds;
+  const NormalGrid& grid = curve.grid();
+  std::vector<Vector2d> points;
+  for (Eigen::Index j = 0; j < grid.cells(); ++j) {
+    points.push_back(curve.At(grid.Start(j)));
+  }
+  for (const Touch& touch : touches) {
+    const std::vector<Vector2d> beam = touch.BeamNear(reach_mm);
+    const Vector2d normal = touch.Normal();
+    const Vector2d tangent(-normal.y(), normal.x());
+    const double normal_variance =
+        normal.dot(touch.covariance.topLeftCorner<2, 2>() * normal) +
+        stage_std_mm * stage_std_mm;
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      const double angle = grid.Start(static_cast<Eigen::Index>(j));
+      if (std::abs(std::remainder(angle - touch.normal_angle_rad, 2 * M_PI)) >
+          kSector_rad) {
+        continue;
+      }
+      const double aside = tangent.dot(points[j] - touch.point_mm);
+      if (std::abs(aside) < kNearContact_mm) continue;
+      const double std_mm =
+          std::sqrt(normal_variance + aside * aside * touch.covariance(2, 2));
+      const Nearest nearest = NearestOf(beam, points[j]);
+      if (nearest.beyond_mm < -kNear * std_mm ||
+          nearest.beyond_mm > kDeepest_mm) {
+        continue;
+      }
+      bounds.push_back({angle, nearest.point, nearest.normal, std_mm});
+    }
+  }
+  return bounds;
+}
 
 double OutlineFit::NormalStd(double normal_angle_rad) const {
   const Index cells = curve.grid().cells();
@@ -309,7 +372,7 @@ OutlineFit FitOutline(const std::vector<Touch>& touches, double stage_std_mm) {
     throw std::invalid_argument("an outline needs three touches");
   }
   OutlineFit result;
-  result.curve = Circle(touches, NormalGrid(kCells));
+  result.curve = Circle(touches, NormalGrid(kOutlineCells));
   std::vector<bool> along(touches.size(), false);
   // Smooth first; the first round has the weights of a circle.
   for (int round = 0; round < kSmoothRounds; ++round) {
@@ -321,14 +384,14 @@ OutlineFit FitOutline(const std::vector<Touch>& touches, double stage_std_mm) {
   }
   TakeEdges(touches, stage_std_mm, &result, &along);
   for (int round = 0; round < kLastRounds; ++round) {
-    result.curve = WithEdges(result.curve, result.edges, kCells);
+    result.curve = WithEdges(result.curve, result.edges);
     Fit fit(touches, along, result.curve, &result.curve, stage_std_mm);
     const double power = std::log10(result.smoothing);
     result.smoothing =
         BestLambda(power - kFirstStep, power + kFirstStep, kLaterStep, &fit)
             .lambda;
     result.curve = fit.curve();
-    for (StraightEdge& edge : result.edges) edge = Settled(edge, result.curve);
+    Settle(result.curve, &result.edges);
     if (round + 1 < kLastRounds) continue;
     result.noise_scale = fit.noise_scale();
     result.distances = fit.Distances();

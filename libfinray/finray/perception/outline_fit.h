@@ -20,9 +20,8 @@ namespace finray {
 //    both place and direction of the beam. Its covariance L L' is that of the
 //    touch (an error of the angle shifts r by rho t) plus that of the stage.
 //  - H is Huber's loss: a single wrong touch does not bend the outline.
-//  - The roughness of log rho prefers no size: the narrow peak of a polygon's
-//  edge
-//    costs no more than the flat side of an ellipse.
+//  - The roughness of log rho prefers no size: the narrow peak of an edge costs
+//    no more than the flat side of an ellipse.
 //  - d_k > 0 is the distance of an outline point beyond a touch's beam.
 //
 // A stretch that is nearly flat becomes a straight edge (straight_edges.h) if
@@ -67,6 +66,23 @@ OutlineFit FitOutline(const std::vector<Touch>& touches,
 /// and with its lambda and edges. Throws std::runtime_error without a minimum.
 ConvexCurve RefitOutline(const std::vector<Touch>& touches,
                          const OutlineFit& start, double stage_std_mm);
+
+/// A touch's beam keeps a point r of the outline on the object's side:
+/// n . (b - r(normal angle)) >= 0, where b is the nearest point of the beam and
+/// n its normal into the finger.
+struct BeamBound {
+  double normal_angle_rad;
+  Eigen::Vector2d beam_point_mm, beam_normal;
+  double std_mm;  ///< of b along n
+};
+
+/// The bounds of all touches for those points of `curve` that are beyond a beam
+/// or within its error of it. Points near a contact get none: the touch itself,
+/// where the outline is tangent to the beam, says more. Beams count within
+/// `reach_mm` of their contact.
+std::vector<BeamBound> FindBeamBounds(const std::vector<Touch>& touches,
+                                      const ConvexCurve& curve,
+                                      double stage_std_mm, double reach_mm);
 
 }  // namespace finray
 

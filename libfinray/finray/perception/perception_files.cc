@@ -31,13 +31,17 @@ void AppendRow(std::string* csv, const Cells&... cells) {
   csv->back() = '\n';
 }
 
-void EmitInputs(const std::vector<std::string>& paths, YamlEmitter* yaml) {
+// Adds the inputs to the mapping of a file and closes it.
+std::string WithInputs(const std::vector<std::string>& paths,
+                       YamlEmitter* yaml) {
   *yaml << YAML::Key << "inputs" << YAML::Value << YAML::BeginSeq;
   for (const std::string& path : paths) {
     YamlLine(yaml, "path", path, "sha256", Sha256OfFile(path));
   }
   *yaml << YAML::EndSeq;
   YamlPair(yaml, "version", FINRAY_VERSION);
+  *yaml << YAML::EndMap;
+  return std::string(yaml->c_str()) + "\n";
 }
 
 void EmitTrial(const ComplianceTrial& trial, YamlEmitter* yaml) {
@@ -153,27 +157,21 @@ std::string ComplianceYaml(const Compliance& found,
        << YAML::BeginSeq;
   for (const ComplianceTrial& trial : found.trials) EmitTrial(trial, &yaml);
   yaml << YAML::EndSeq;
-  EmitInputs(inputs, &yaml);
-  yaml << YAML::EndMap;
-  return std::string(yaml.c_str()) + "\n";
+  return WithInputs(inputs, &yaml);
 }
 
-std::string OutlineCsv(const Reconstruction& found, const Polygon* truth) {
+std::string OutlineCsv(const Reconstruction& found,
+                       const std::optional<RadialError>& error) {
   std::string csv = "angle_deg,x_mm,y_mm,radius_mm,std_mm,supported";
-  csv += truth == nullptr ? "\n" : ",true_radius_mm,radial_error_percent\n";
-  RadialError error;
-  if (truth != nullptr) error = CompareRadii(found.polygon(), *truth);
+  csv += error ? ",true_radius_mm,radial_error_percent\n" : "\n";
   for (std::size_t i = 0; i < found.outline.size(); ++i) {
     const OutlinePoint& point = found.outline[i];
     AppendRow(&csv, point.angle_rad / kDegree, point.position_mm.x(),
               point.position_mm.y(), point.radius_mm, point.std_mm,
               point.supported);
-    if (truth == nullptr) continue;
+    if (!error) continue;
     csv.back() = ',';
-    AppendRow(&csv,
-              RadiusAt(*truth, CentroidOf(*truth), point.angle_rad)
-                  .value_or(std::nan("")),
-              error.percent[i]);
+    AppendRow(&csv, error->true_radius_mm[i], error->percent[i]);
   }
   return csv;
 }
@@ -206,8 +204,8 @@ std::string BeamCsv(const Reconstruction& found, double reach_mm) {
 std::string ReconstructionYaml(const Reconstruction& found,
                                const FourierDescriptors& descriptors,
                                const FourierDescriptors& envelope,
-                               const RadialError* error,
-                               const RadialError* envelope_error,
+                               const std::optional<RadialError>& error,
+                               const std::optional<RadialError>& envelope_error,
                                const std::vector<std::string>& inputs) {
   YamlEmitter yaml;
   yaml << YAML::BeginMap << YAML::Key << "touches" << YAML::Value
@@ -244,13 +242,11 @@ std::string ReconstructionYaml(const Reconstruction& found,
   yaml << YAML::EndSeq;
   EmitDescriptors("descriptors", descriptors, &yaml);
   EmitDescriptors("envelope_descriptors", envelope, &yaml);
-  if (error != nullptr) {
+  if (error) {
     EmitError("radial_error_percent", *error, &yaml);
     EmitError("envelope_radial_error_percent", *envelope_error, &yaml);
   }
-  EmitInputs(inputs, &yaml);
-  yaml << YAML::EndMap;
-  return std::string(yaml.c_str()) + "\n";
+  return WithInputs(inputs, &yaml);
 }
 
 Polygon ReadOutline(const std::string& path) {

@@ -1,6 +1,7 @@
 #ifndef FINRAY_PERCEPTION_PERCEPTION_FILES_H_
 #define FINRAY_PERCEPTION_PERCEPTION_FILES_H_
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,10 @@ std::string ComplianceYaml(const Compliance& found,
                            const std::vector<std::string>& inputs);
 
 /// outline.csv, one row a point: angle_deg, x_mm, y_mm, radius_mm, std_mm,
-/// supported; with a true outline also true_radius_mm and radial_error_percent,
+/// supported; with an `error` also true_radius_mm and radial_error_percent,
 /// which are seen from the true centroid.
-std::string OutlineCsv(const Reconstruction& found, const Polygon* truth);
+std::string OutlineCsv(const Reconstruction& found,
+                       const std::optional<RadialError>& error);
 
 /// touches.csv, one row a usable touch: row, point_x_mm, point_y_mm,
 /// normal_deg, normal_N, normal_std_mm, distance_std (NaN along an edge).
@@ -40,12 +42,13 @@ std::string TouchCsv(const Reconstruction& found);
 std::string BeamCsv(const Reconstruction& found, double reach_mm);
 
 /// reconstruction.yaml. `envelope` is the outline of the paper's method;
-/// `error` and `envelope_error` are null without a true outline.
+/// Without a true outline there is neither
+/// `error` nor `envelope_error`.
 std::string ReconstructionYaml(const Reconstruction& found,
                                const FourierDescriptors& descriptors,
                                const FourierDescriptors& envelope,
-                               const RadialError* error,
-                               const RadialError* envelope_error,
+                               const std::optional<RadialError>& error,
+                               const std::optional<RadialError>& envelope_error,
                                const std::vector<std::string>& inputs);
 
 /// Reads a closed outline from a CSV with the columns x_mm and y_mm, in order

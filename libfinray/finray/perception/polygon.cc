@@ -100,14 +100,15 @@ double RadialError::Quantile(double share) const {
   return errors[static_cast<std::size_t>(std::lround(at))];
 }
 
-RadialError CompareRadii(const Polygon& outline, const Polygon& truth,
-                         int count) {
+RadialError CompareRadii(const Polygon& outline, const Polygon& truth) {
+  constexpr int kAngles = 360;
   const Vector2d centre = CentroidOf(truth);
   RadialError error;
-  for (int i = 0; i < count; ++i) {
-    const double angle = 2 * M_PI * i / count;
+  for (int i = 0; i < kAngles; ++i) {
+    const double angle = 2 * M_PI * i / kAngles;
     const auto found = RadiusAt(outline, centre, angle);
     const auto actual = RadiusAt(truth, centre, angle);
+    error.true_radius_mm.push_back(actual.value_or(std::nan("")));
     error.percent.push_back(found && actual && *actual > 0
                                 ? 100 * (*found - *actual) / *actual
                                 : std::nan(""));

@@ -31,10 +31,11 @@ std::optional<double> RadiusAt(const Polygon& polygon,
                                const Eigen::Vector2d& centre, double angle_rad);
 
 /// Radial error of an outline in percent, 100 (r - r_true) / r_true, in polar
-/// coordinates about the true outline's centroid, at equally spaced angles from
-/// 0. The statistics are those of its magnitude.
+/// coordinates about the true outline's centroid, at 360 equally spaced angles
+/// from 0. The statistics are those of its magnitude.
 struct RadialError {
   std::vector<double> percent;  ///< NaN where either outline has no radius
+  std::vector<double> true_radius_mm;  ///< NaN where it has none
 
   double Mean() const;
   double Rms() const;
@@ -42,8 +43,7 @@ struct RadialError {
   double Largest() const { return Quantile(1); }
 };
 
-RadialError CompareRadii(const Polygon& outline, const Polygon& truth,
-                         int count = 360);
+RadialError CompareRadii(const Polygon& outline, const Polygon& truth);
 
 /// A closed curve as a complex function of its arc length t from 0 to 1, (19)
 /// of the paper:

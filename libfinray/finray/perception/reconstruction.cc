@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "finray/io/error.h"
-#include "finray/perception/contact_sensor.h"
 
 namespace finray {
 namespace {
@@ -39,8 +38,7 @@ double NearestArc(const ConvexCurve& curve, const Touch& touch) {
   double least = std::numeric_limits<double>::infinity();
   for (int i = -kSteps; i <= kSteps; ++i) {
     const double arc = about + 0.25 * perimeter * i / kSteps;
-    const double distance =
-        (curve.At(curve.NormalAngleAt(arc)) - touch.point_mm).norm();
+    const double distance = (curve.AtArc(arc) - touch.point_mm).norm();
     if (distance >= least) continue;
     least = distance;
     best = arc;
@@ -53,8 +51,7 @@ Polygon Sampled(const ConvexCurve& curve) {
   constexpr int kPoints = 2880;
   Polygon polygon;
   for (int i = 0; i < kPoints; ++i) {
-    polygon.push_back(
-        curve.At(curve.NormalAngleAt(curve.perimeter_mm() * i / kPoints)));
+    polygon.push_back(curve.AtArc(curve.perimeter_mm() * i / kPoints));
   }
   return polygon;
 }
@@ -64,7 +61,7 @@ Polygon Sampled(const ConvexCurve& curve) {
 double NormalAngleOfRay(const ConvexCurve& curve, const Vector2d& centre,
                         double angle_rad) {
   const auto ahead = [&](double arc) {
-    const Vector2d r = curve.At(curve.NormalAngleAt(arc)) - centre;
+    const Vector2d r = curve.AtArc(arc) - centre;
     return std::remainder(std::atan2(r.y(), r.x()) - angle_rad, 2 * M_PI);
   };
   // The bracket grows from the point whose normal has that angle.
@@ -100,27 +97,28 @@ double Clearance(const Vector2d& point, double normal_angle_rad,
   return least;
 }
 
-// The variance of each radius from the finger's calibration.
-Eigen::VectorXd CalibrationVariance(const FrameTable& table,
-                                    const Finger& finger, const Scene& scene,
-                                    const Discretization& discretization,
-                                    double stage_std_mm,
-                                    const Reconstruction& found) {
-  const auto points = static_cast<Eigen::Index>(found.outline.size());
-  Eigen::VectorXd variance = Eigen::VectorXd::Zero(points);
+// Widens the std of each radius by the error of the finger's calibration.
+void AddCalibrationError(const FrameTable& table, const Finger& finger,
+                         const Scene& scene,
+                         const Discretization& discretization,
+                         double stage_std_mm, Reconstruction* found) {
+  std::vector<double> variance(found->outline.size(), 0);
   for (const Finger& varied : FingerVariations(finger)) {
     const Touches touches = SenseTouches(table, varied, scene, discretization);
     if (touches.usable.size() < kLeastTouches) continue;
     const Polygon moved =
-        Sampled(RefitOutline(touches.usable, found.fit, stage_std_mm));
-    for (Eigen::Index i = 0; i < points; ++i) {
-      const OutlinePoint& point = found.outline[static_cast<std::size_t>(i)];
-      const auto radius = RadiusAt(moved, found.centroid_mm, point.angle_rad);
+        Sampled(RefitOutline(touches.usable, found->fit, stage_std_mm));
+    for (std::size_t i = 0; i < variance.size(); ++i) {
+      const OutlinePoint& point = found->outline[i];
+      const auto radius = RadiusAt(moved, found->centroid_mm, point.angle_rad);
       if (!radius) continue;
       variance[i] += (*radius - point.radius_mm) * (*radius - point.radius_mm);
     }
   }
-  return variance;
+  for (std::size_t i = 0; i < variance.size(); ++i) {
+    double& std_mm = found->outline[i].std_mm;
+    std_mm = std::hypot(std_mm, std::sqrt(variance[i]));
+  }
 }
 
 }  // namespace
@@ -162,33 +160,23 @@ TouchCoverage::TouchCoverage(const ConvexCurve& curve,
     const double next =
         i + 1 < contacts.size() ? contacts[i + 1] : contacts[0] + perimeter;
     if (next - contacts[i] <= kWidestSpacing * radius) continue;
-    open_.push_back({contacts[i] + kBesideContact * radius,
-                     next - kBesideContact * radius});
+    const double from = contacts[i] + kBesideContact * radius;
+    const double to = next - kBesideContact * radius;
+    gaps_.push_back({from, to - from, curve.AtArc(from), curve.AtArc(to)});
   }
 }
 
 bool TouchCoverage::Supports(double normal_angle_rad) const {
   const double perimeter = curve_.perimeter_mm();
-  return std::none_of(open_.begin(), open_.end(), [&](const Stretch& open) {
-    const double from = curve_.ArcAt(normal_angle_rad) - open.from_mm;
-    return from - std::floor(from / perimeter) * perimeter <
-           open.to_mm - open.from_mm;
+  return std::none_of(gaps_.begin(), gaps_.end(), [&](const Gap& gap) {
+    const double from = curve_.ArcAt(normal_angle_rad) - gap.from_arc_mm;
+    return from - std::floor(from / perimeter) * perimeter < gap.length_mm;
   });
-}
-
-std::vector<TouchCoverage::Gap> TouchCoverage::Gaps() const {
-  std::vector<Gap> gaps;
-  for (const Stretch& open : open_) {
-    gaps.push_back({curve_.At(curve_.NormalAngleAt(open.from_mm)),
-                    curve_.At(curve_.NormalAngleAt(open.to_mm)),
-                    open.to_mm - open.from_mm});
-  }
-  return gaps;
 }
 
 double TouchCoverage::SupportedShare() const {
   double open = 0;
-  for (const Stretch& stretch : open_) open += stretch.to_mm - stretch.from_mm;
+  for (const Gap& gap : gaps_) open += gap.length_mm;
   return 1 - open / curve_.perimeter_mm();
 }
 
@@ -211,7 +199,7 @@ Reconstruction Reconstruct(const FrameTable& table, const Finger& finger,
   const ConvexCurve& curve = result.fit.curve;
   result.centroid_mm = CentroidOf(Sampled(curve));
   const TouchCoverage coverage(curve, result.touches.usable);
-  result.gaps = coverage.Gaps();
+  result.gaps = coverage.gaps();
   result.supported_share = coverage.SupportedShare();
   for (int i = 0; i < kOutlinePoints; ++i) {
     const double angle = 2 * M_PI * i / kOutlinePoints;
@@ -231,17 +219,13 @@ Reconstruction Reconstruct(const FrameTable& table, const Finger& finger,
     point.std_mm = normal_std / std::cos(normal - angle);
     result.outline.push_back(point);
   }
-  const Eigen::VectorXd variance = CalibrationVariance(
-      table, finger, scene, discretization, stage_std_mm, result);
-  for (int i = 0; i < kOutlinePoints; ++i) {
-    OutlinePoint& point = result.outline[static_cast<std::size_t>(i)];
-    point.std_mm = std::hypot(point.std_mm, std::sqrt(variance[i]));
-  }
+  AddCalibrationError(table, finger, scene, discretization, stage_std_mm,
+                      &result);
   return result;
 }
 
-Polygon InteriorEnvelope(const std::vector<Touch>& touches, double reach_mm,
-                         int count) {
+Polygon InteriorEnvelope(const std::vector<Touch>& touches, double reach_mm) {
+  constexpr int kRays = 1440;
   Vector2d centre(0, 0);
   std::vector<std::vector<Vector2d>> pieces;
   for (const Touch& touch : touches) {
@@ -249,8 +233,8 @@ Polygon InteriorEnvelope(const std::vector<Touch>& touches, double reach_mm,
     pieces.push_back(touch.BeamNear(reach_mm));
   }
   Polygon contour;
-  for (int i = 0; i < count; ++i) {
-    const double angle = 2 * M_PI * i / count;
+  for (int i = 0; i < kRays; ++i) {
+    const double angle = 2 * M_PI * i / kRays;
     const Vector2d ray(std::cos(angle), std::sin(angle));
     double first = std::numeric_limits<double>::infinity();
     for (const auto& piece : pieces) {

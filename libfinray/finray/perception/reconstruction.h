@@ -45,18 +45,14 @@ class TouchCoverage {
   double SupportedShare() const;
   /// Stretches without support, counter-clockwise.
   struct Gap {
+    double from_arc_mm, length_mm;
     Eigen::Vector2d from_mm, to_mm;
-    double length_mm;
   };
-  std::vector<Gap> Gaps() const;
+  const std::vector<Gap>& gaps() const { return gaps_; }
 
  private:
-  struct Stretch {
-    double from_mm, to_mm;  // arc lengths; to_mm may exceed the perimeter
-  };
-
   const ConvexCurve& curve_;
-  std::vector<Stretch> open_;
+  std::vector<Gap> gaps_;
 };
 
 /// A point of a reconstructed outline, seen from its centroid.
@@ -84,8 +80,7 @@ struct Reconstruction {
 ///  - the noise of gauges and stage, from the fit;
 ///  - the finger's calibration, by a fit for each of its FingerVariations;
 ///  - where no touch supports the outline, d / sqrt(3), with d the distance to
-///  the
-///    nearest beam: a convex outline may lie anywhere up to there.
+///    the nearest beam: a convex outline may lie anywhere up to there.
 /// Throws InputError and SpreadError as CheckSpread does.
 Reconstruction Reconstruct(const FrameTable& table, const Finger& finger,
                            const Scene& scene,
@@ -94,11 +89,10 @@ Reconstruction Reconstruct(const FrameTable& table, const Finger& finger,
 
 /// The outline by the paper's method (IV-B): the contour of the blank area that
 /// the pieces of beam near the contacts enclose. Rays replace the paper's
-/// image: from the mean of the contact points, at `count` equally spaced
+/// image: from the mean of the contact points, at 1440 equally spaced
 /// angles, each goes to its first crossing with any piece. A ray that meets no
 /// piece gives no point; the contour is straight there.
-Polygon InteriorEnvelope(const std::vector<Touch>& touches, double reach_mm,
-                         int count = 1440);
+Polygon InteriorEnvelope(const std::vector<Touch>& touches, double reach_mm);
 
 }  // namespace finray
 

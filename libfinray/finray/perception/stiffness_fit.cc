@@ -28,6 +28,7 @@ constexpr double kFalseAlarms = 0.01;
 constexpr double kMostLeftOut = 0.25;
 constexpr double kMedianOfChi2 = 0.4549;  // with one degree of freedom
 constexpr int kAnnealingSteps = 20;
+constexpr int kSparePoints = 2;  // of a fit, beyond its parameters
 
 // W (u_i - v, F_i - F(v, s_i)), W whitening C_i. Parameter blocks: the law's
 // parameters a, and v.
@@ -47,41 +48,30 @@ struct ForcePointCost {
   Eigen::Matrix2d whitening;
 };
 
-// Squared distances of points across a law over the scale s^2, and the variance
-// of each distance.
-struct Distances {
-  VectorXd variance, chi2;
-};
-Distances DistancesFrom(const VectorXd& a, const ForceLaw& law,
-                        const std::vector<ForcePoint>& points) {
-  const auto count = static_cast<Index>(points.size());
-  Distances from{VectorXd(count), VectorXd(count)};
-  for (Index i = 0; i < count; ++i) {
-    const ForcePoint& point = points[static_cast<std::size_t>(i)];
-    const double u = point.displacement_mm;
-    const double off = point.force_N - law.Row(u, point.direction).dot(a);
-    from.variance[i] = law.VarianceAcross(a, point, u);
-    from.chi2[i] = off * off / from.variance[i];
-  }
-  VectorXd sorted = from.chi2;
-  double* middle = sorted.data() + count / 2;
-  std::nth_element(sorted.data(), middle, sorted.data() + count);
-  from.chi2 /= std::max(1.0, *middle / kMedianOfChi2);
-  return from;
-}
-
-// Squared distances from the law that most points follow. It is fitted with
-// Cauchy weights whose scale shrinks with the distances, as F on u: a line with
-// errors in both might rise steeply through wild points.
+// Squared distances of points across the law that most points follow, over the
+// scale s^2. The law is fitted with Cauchy weights whose scale shrinks with the
+// distances, as F on u: a line with errors in both might rise steeply through
+// wild points.
 VectorXd DistancesFromMost(const ForceLaw& law,
                            const std::vector<ForcePoint>& points) {
-  VectorXd weights = VectorXd::Ones(static_cast<Index>(points.size()));
-  Distances from = DistancesFrom(law.Fit(points, weights), law, points);
-  for (int step = 0; step < kAnnealingSteps; ++step) {
-    weights = (from.variance.array() * (1 + from.chi2.array())).rsqrt();
-    from = DistancesFrom(law.Fit(points, weights), law, points);
+  const auto count = static_cast<Index>(points.size());
+  VectorXd weights = VectorXd::Ones(count), variance(count), chi2(count);
+  for (int step = 0; step <= kAnnealingSteps; ++step) {
+    const VectorXd a = law.Fit(points, weights);
+    for (Index i = 0; i < count; ++i) {
+      const ForcePoint& point = points[static_cast<std::size_t>(i)];
+      const double u = point.displacement_mm;
+      const double off = point.force_N - law.Row(u, point.direction).dot(a);
+      variance[i] = law.VarianceAcross(a, point, u);
+      chi2[i] = off * off / variance[i];
+    }
+    VectorXd sorted = chi2;
+    double* middle = sorted.data() + count / 2;
+    std::nth_element(sorted.data(), middle, sorted.data() + count);
+    chi2 /= std::max(1.0, *middle / kMedianOfChi2);
+    weights = (variance.array() * (1 + chi2.array())).rsqrt();
   }
-  return from.chi2;
+  return chi2;
 }
 
 // Removes the points that contradict the others and returns their rows; keeps
@@ -107,9 +97,6 @@ std::vector<std::size_t> TakeOutContradicting(const ForceLaw& law,
   *points = std::move(kept);
   return rows;
 }
-
-// The fit of a law needs two points more than it has parameters.
-int LeastPoints(const ForceLaw& law) { return law.parameters() + 2; }
 
 StiffnessFit FitLaw(const std::vector<ForcePoint>& points,
                     const ForceLaw& law) {
@@ -229,11 +216,10 @@ StiffnessFit FitStiffness(const std::vector<ForcePoint>& points,
   }
   const std::size_t standing = points.size() - sliding.size();
   // The most flexible law decides which points contradict the others.
-  const ForceLaw constant{0, BothDirections(sliding)};
-  const ForceLaw judge{
-      std::max(1, std::min(most_degree, static_cast<int>(sliding.size()) -
-                                            LeastPoints(constant))),
-      constant.has_friction};
+  ForceLaw judge{0, BothDirections(sliding)};
+  judge.degree = std::clamp(
+      static_cast<int>(sliding.size()) - judge.parameters() - kSparePoints, 1,
+      most_degree);
   const std::vector<std::size_t> left_out =
       TakeOutContradicting(judge, &sliding);
   const auto count = static_cast<int>(sliding.size());
@@ -241,7 +227,7 @@ StiffnessFit FitStiffness(const std::vector<ForcePoint>& points,
   double least = 0;
   for (int degree = 1; degree <= most_degree; ++degree) {
     const ForceLaw law{degree, BothDirections(sliding)};
-    if (degree > 1 && count < LeastPoints(law)) break;
+    if (degree > 1 && count < law.parameters() + kSparePoints) break;
     StiffnessFit fit = FitLaw(sliding, law);
     const double price = fit.chi2 + law.parameters() * std::log(count);
     // A curved law must rise with the displacement everywhere.

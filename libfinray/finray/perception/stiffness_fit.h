@@ -3,19 +3,39 @@
 
 #include <Eigen/Core>
 #include <Eigen/QR>
+#include <cstddef>
 #include <vector>
 
-#include "finray/perception/force_displacement.h"
-
 namespace finray {
+
+/// Force and displacement of an object that yields along a line, sensed by the
+/// finger that presses it, (20) of the paper:
+///
+///   u = (r - R n - p) . e,    F = -f_c n . e      (mm, N).
+///
+/// e is the direction in which the object is pushed, p its unloaded place (the
+/// stage's object_x_mm, object_y_mm), n the beam's normal into the finger at
+/// the contact r, and R the radius of the pulley that the finger touches. The
+/// errors of u and F are correlated, as both come from one estimate.
+struct ForcePoint {
+  std::size_t row;  ///< of its table, from 0
+  double displacement_mm, force_N;
+  Eigen::Matrix2d covariance;  ///< of (u, F), with the error of the stage
+  double approach_mm;          ///< -p . e, how far the object has been moved in
+  /// +1 while the object is moved in, -1 while it is withdrawn.
+  int direction = 1;
+  /// False from a reversal until the slider moves again. Until then its
+  /// friction may have any value between both limits.
+  bool slides = true;
+};
 
 /// Form of an object's force law (N over mm), with the friction F_c of its
 /// slider if both directions have been measured:
 ///
-///   F(u, s) = sum_m a_m u^m + s F_c,   m = 0 .. degree,   s = +-1 the
-///   direction.
+///   F(u, s) = sum_m a_m u^m + s F_c,   m = 0 .. degree,
 ///
-/// The law is linear in its parameters a = (a_0 .. a_degree[, F_c]).
+/// with the direction s = +-1. The law is linear in its parameters a = (a_0 ..
+/// a_degree[, F_c]).
 struct ForceLaw {
   int degree = 1;
   bool has_friction = false;

@@ -15,32 +15,21 @@ constexpr double kSagReach_mm = 10;
 // beside it.
 constexpr double kBeside_rad = 0.03;
 
-// The curvature of the beam from its sag about the contact.
-double BeamCurvature(const Touch& touch) {
-  const std::vector<Vector2d> beam = touch.BeamNear(kSagReach_mm);
-  const Vector2d chord = beam.back() - beam.front();
-  const Vector2d middle = beam[beam.size() / 2] - beam.front();
-  const double sag =
-      (chord.y() * middle.x() - chord.x() * middle.y()) / chord.norm();
-  return 8 * sag / chord.squaredNorm();
-}
-
+// The median curvature of the beams, each from its sag about the contact.
 double MedianBeamCurvature(const std::vector<Touch>& touches) {
   std::vector<double> curvatures;
   for (const Touch& touch : touches) {
-    curvatures.push_back(BeamCurvature(touch));
+    const std::vector<Vector2d> beam = touch.BeamNear(kSagReach_mm);
+    const Vector2d chord = beam.back() - beam.front();
+    const Vector2d middle = beam[beam.size() / 2] - beam.front();
+    const double sag =
+        (chord.y() * middle.x() - chord.x() * middle.y()) / chord.norm();
+    curvatures.push_back(8 * sag / chord.squaredNorm());
   }
   const auto middle =
       curvatures.begin() + static_cast<std::ptrdiff_t>(curvatures.size() / 2);
   std::nth_element(curvatures.begin(), middle, curvatures.end());
   return *middle;
-}
-
-double RadiusOf(const ConvexCurve& curve, double normal_angle_rad) {
-  const double from = normal_angle_rad - curve.grid().origin_rad();
-  const double turns = std::floor(from / (2 * M_PI));
-  return curve
-      .radii_mm()[curve.grid().CellOf(normal_angle_rad - turns * 2 * M_PI)];
 }
 
 // Whether a touch lies along an edge and not at one of its ends.
@@ -97,25 +86,24 @@ std::vector<StraightEdge> FindStraightEdges(const ConvexCurve& curve,
 }
 
 ConvexCurve WithEdges(const ConvexCurve& curve,
-                      const std::vector<StraightEdge>& edges, int cells) {
+                      const std::vector<StraightEdge>& edges) {
   if (edges.empty()) return curve;
   std::vector<double> angles;
   for (const StraightEdge& edge : edges) angles.push_back(edge.middle_rad);
-  const NormalGrid grid(cells, angles);
+  const NormalGrid grid(kOutlineCells, angles);
   Eigen::VectorXd radii(grid.cells());
-  const auto in = [](double angle, const StraightEdge& edge) {
-    const double middle = 0.5 * (edge.from_rad + edge.to_rad);
-    return std::abs(std::remainder(angle - middle, 2 * M_PI)) <=
-           0.5 * (edge.to_rad - edge.from_rad);
-  };
   for (Index j = 0; j < grid.cells(); ++j) {
-    const double middle = grid.Start(j) + 0.5 * grid.Width(j);
-    radii[j] = RadiusOf(curve, middle);
+    const double middle = grid.Middle(j);
+    radii[j] = curve.RadiusAt(middle);
     for (const StraightEdge& edge : edges) {
-      if (!in(middle, edge)) continue;
+      const double off = middle - 0.5 * (edge.from_rad + edge.to_rad);
+      if (std::abs(std::remainder(off, 2 * M_PI)) >
+          0.5 * (edge.to_rad - edge.from_rad)) {
+        continue;
+      }
       radii[j] = grid.IsEdge(j) ? edge.length_mm / (NormalGrid::kEdgeCells *
                                                     NormalGrid::kEdgeCell_rad)
-                                : RadiusOf(curve, edge.from_rad - kBeside_rad);
+                                : curve.RadiusAt(edge.from_rad - kBeside_rad);
     }
   }
   return {grid, curve.At(grid.origin_rad()), radii};
@@ -134,21 +122,22 @@ std::vector<bool> Along(const std::vector<Touch>& touches,
   return along;
 }
 
-StraightEdge Settled(StraightEdge edge, const ConvexCurve& curve) {
+void Settle(const ConvexCurve& curve, std::vector<StraightEdge>* edges) {
   const NormalGrid& grid = curve.grid();
-  double length = 0, moment = 0;
-  for (Index j = 0; j < grid.cells(); ++j) {
-    const double middle = grid.Start(j) + 0.5 * grid.Width(j);
-    const double off = std::remainder(middle - edge.middle_rad, 2 * M_PI);
-    if (!grid.IsEdge(j) || std::abs(off) > 3 * NormalGrid::kEdgeCell_rad) {
-      continue;
+  for (StraightEdge& edge : *edges) {
+    double length = 0, moment = 0;
+    for (Index j = 0; j < grid.cells(); ++j) {
+      const double off =
+          std::remainder(grid.Middle(j) - edge.middle_rad, 2 * M_PI);
+      if (!grid.IsEdge(j) || std::abs(off) > 3 * NormalGrid::kEdgeCell_rad) {
+        continue;
+      }
+      length += curve.radii_mm()[j] * grid.Width(j);
+      moment += curve.radii_mm()[j] * grid.Width(j) * off;
     }
-    length += curve.radii_mm()[j] * grid.Width(j);
-    moment += curve.radii_mm()[j] * grid.Width(j) * off;
+    if (length > 0) edge.middle_rad += moment / length;
+    edge.length_mm = length;
   }
-  if (length > 0) edge.middle_rad += moment / length;
-  edge.length_mm = length;
-  return edge;
 }
 
 }  // namespace finray

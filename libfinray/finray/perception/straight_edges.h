@@ -15,6 +15,8 @@ namespace finray {
 // kappa / 8. Such a stretch becomes a straight edge. Touches on either side
 // determine its ends.
 
+constexpr int kOutlineCells = 180;  ///< of the grid of an outline
+
 /// A stretch of the outline from one normal angle to another.
 struct StraightEdge {
   double from_rad, to_rad;
@@ -40,10 +42,10 @@ std::vector<bool> Along(const std::vector<Touch>& touches,
 
 /// The outline on a grid in which narrow cells hold the lengths of the edges.
 ConvexCurve WithEdges(const ConvexCurve& curve,
-                      const std::vector<StraightEdge>& edges, int cells);
+                      const std::vector<StraightEdge>& edges);
 
-/// The edge with the length and the mean normal that its cells have in a fit.
-StraightEdge Settled(StraightEdge edge, const ConvexCurve& curve);
+/// Gives each edge the length and the mean normal that its cells have in a fit.
+void Settle(const ConvexCurve& curve, std::vector<StraightEdge>* edges);
 
 }  // namespace finray
 

@@ -7,6 +7,7 @@
 #include "finray/finger/geometry.h"
 #include "finray/finger/point_contact.h"
 #include "finray/io/error.h"
+#include "finray/io/nan.h"
 #include "finray/objects/object_contact.h"
 #include "finray/scene/frame_columns.h"
 #include "finray/statics/shape.h"
@@ -16,17 +17,24 @@ namespace {
 
 constexpr char kDisplacement[] = "object_displacement_mm";
 
-// The load on the finger in one row of a frame table.
-struct RowLoad {
-  std::vector<PointContact> contacts;
-  std::optional<ObjectPose> object;  // Set only if there are no contacts.
+// One row of a frame table: the load on the finger and the solution. Numbers
+// are NaN if there is no solution.
+struct Row {
+  std::vector<PointContact> contacts;  // of the load, or found with the object
+  std::optional<ObjectPose> object;    // only if the load has no contacts
+  bool solved = false;
+  double displacement_mm = kNaN;
+  Eigen::VectorXd outputs;  // EquilibriumSolver::outputs
+  Eigen::VectorXd rib_tensions;
+  std::vector<Eigen::Vector2d> pins;  // front and back of each rib
+  std::string failure;                // why it is not solved
 };
 
 // Reads the loads of all rows. Throws InputError with the line of a load that
 // is incomplete, negative or off the beam. `contacts` is the number of point
 // contacts that the columns can hold.
-std::vector<RowLoad> ReadLoads(const Finger& finger, const Scene& scene,
-                               const FrameTable& table, int* contacts) {
+std::vector<Row> ReadLoads(const Finger& finger, const Scene& scene,
+                           const FrameTable& table, int* contacts) {
   std::vector<std::vector<double>> arcs, normals, frictions;
   for (int c = 0; table.Has(ContactArc(c)); ++c) {
     arcs.push_back(table.Numbers(ContactArc(c)));
@@ -50,9 +58,9 @@ std::vector<RowLoad> ReadLoads(const Finger& finger, const Scene& scene,
   const std::vector<double> x = table.NumbersOrNan("object_x_mm");
   const std::vector<double> y = table.NumbersOrNan("object_y_mm");
   const std::vector<double> angle_deg = table.NumbersOrNan("object_angle_deg");
-  std::vector<RowLoad> loads(table.rows());
+  std::vector<Row> loads(table.rows());
   for (std::size_t row = 0; row < loads.size(); ++row) {
-    RowLoad& load = loads[row];
+    Row& load = loads[row];
     const auto fail = [&](const std::string& message) {
       throw InputError(table.path() + ":" + std::to_string(table.line(row)) +
                        ": " + message);
@@ -86,25 +94,11 @@ std::vector<RowLoad> ReadLoads(const Finger& finger, const Scene& scene,
   return loads;
 }
 
-// The solution of one row.
-struct SolvedRow {
-  ObjectContactStatus status = ObjectContactStatus::kNotConverged;
-  bool object = false;
-  std::vector<PointContact> contacts;
-  double displacement_mm = 0;
-  Eigen::VectorXd outputs;  // EquilibriumSolver::outputs
-  Eigen::VectorXd rib_tensions;
-  std::vector<Eigen::Vector2d> pins;  // front and back of each rib
-  std::string failure;                // why it is not solved
-};
-
-void AddShape(const EquilibriumSolver& solver,
-              const std::vector<PointContact>& contacts, std::size_t row,
+void AddShape(const Finger& finger, const Shape& shape, std::size_t row,
               FrameTable* shapes, std::size_t* next) {
   constexpr int kPoints = 100;
-  const Shape shape(solver, contacts);
   for (const Side side : {Side::kFront, Side::kBack}) {
-    const double length = BeamLength(solver.model().finger(), side);
+    const double length = BeamLength(finger, side);
     for (int i = 0; i <= kPoints; ++i) {
       const double arc = length * i / kPoints;
       const Section at = shape.At(side, arc);
@@ -120,73 +114,64 @@ void AddShape(const EquilibriumSolver& solver,
   }
 }
 
-std::string Reason(ObjectContactStatus status) {
-  return status == ObjectContactStatus::kNoTangency
-             ? "the object meets an end of the front beam, not its side"
-             : "no equilibrium found against this object";
-}
-
-bool IsSolved(const SolvedRow& row) {
-  return row.status == ObjectContactStatus::kContact ||
-         row.status == ObjectContactStatus::kNoContact;
-}
-
-SolvedRow SolveRow(const RowLoad& load, const Scene& scene,
-                   EquilibriumSolver* solver) {
+void SolveRow(const Scene& scene, EquilibriumSolver* solver, Row* row) {
   // Every row starts from the unloaded finger, so that its result does not
   // depend on the rows before.
   solver->Reset();
-  SolvedRow row;
-  row.object = load.object.has_value();
-  row.contacts = load.contacts;
-  if (row.object) {
+  if (row->object) {
     const ObjectContact found = SolveObjectContact(
-        *scene.object, *load.object, scene.friction_coefficient, solver);
-    row.status = found.status;
-    row.contacts = found.contacts;
-    row.displacement_mm = found.displacement_mm;
-    if (!IsSolved(row)) row.failure = Reason(row.status);
-  } else if (solver->Solve(load.contacts)) {
-    row.status = ObjectContactStatus::kContact;
-  } else {
-    row.failure = solver->Why();
-  }
-  if (IsSolved(row)) {
-    row.outputs = solver->outputs();
-    row.rib_tensions = solver->state().q.tail(solver->model().ribs());
-    const Shape shape(*solver, row.contacts);
-    for (const Rib& rib : solver->model().finger().ribs) {
-      for (const Side side : {Side::kFront, Side::kBack}) {
-        const Section at =
-            shape.At(side, side == Side::kFront ? rib.front_mm : rib.back_mm);
-        row.pins.emplace_back(at.x_mm, at.y_mm);
-      }
+        *scene.object, *row->object, scene.friction_coefficient, solver);
+    row->solved = found.status == ObjectContactStatus::kContact ||
+                  found.status == ObjectContactStatus::kNoContact;
+    row->contacts = found.contacts;
+    row->displacement_mm = row->solved ? found.displacement_mm : kNaN;
+    if (found.status == ObjectContactStatus::kNoTangency) {
+      row->failure = "the object meets an end of the front beam, not its side";
+    } else if (!row->solved) {
+      row->failure = "no equilibrium found against this object";
     }
+  } else {
+    row->solved = solver->Solve(row->contacts);
+    row->failure = solver->Why();
   }
-  return row;
+  const LadderModel& model = solver->model();
+  row->outputs.setConstant(model.gauges() + 3, kNaN);
+  row->rib_tensions.setConstant(model.ribs(), kNaN);
+  row->pins.assign(2 * model.ribs(), {kNaN, kNaN});
+  if (!row->solved) return;
+  row->outputs = solver->outputs();
+  row->rib_tensions = solver->state().q.tail(model.ribs());
 }
 
-// Fills in a row: NaN where there is no solution. Returns the force on the
-// finger.
-double FillRow(const Finger& finger, const SolvedRow& solved, int contacts,
+// Front and back of each rib.
+std::vector<Eigen::Vector2d> Pins(const Finger& finger, const Shape& shape) {
+  std::vector<Eigen::Vector2d> pins;
+  for (const Rib& rib : finger.ribs) {
+    for (const Side side : {Side::kFront, Side::kBack}) {
+      const Section at =
+          shape.At(side, side == Side::kFront ? rib.front_mm : rib.back_mm);
+      pins.emplace_back(at.x_mm, at.y_mm);
+    }
+  }
+  return pins;
+}
+
+// Fills in a row. Returns the force on the finger.
+double FillRow(const Finger& finger, const Row& solved, int contacts,
                bool displacement, std::size_t row, FrameTable* frames) {
   const auto set = [&](const std::string& name, double value) {
     frames->MutableNumbers(name)[row] = value;
   };
-  const bool is_solved = IsSolved(solved);
-  const auto output = [&](Eigen::Index i) {
-    return is_solved ? solved.outputs[i] : std::nan("");
-  };
   const int gauges = static_cast<int>(finger.gauges.size());
   for (int j = 0; j < gauges; ++j) {
-    set(GaugeVolts(j), finger.gauges[j].Volts(output(j)));
-    set(GaugeAngle(j), output(j));
+    set(GaugeVolts(j), finger.gauges[j].Volts(solved.outputs[j]));
+    set(GaugeAngle(j), solved.outputs[j]);
   }
   Eigen::Vector2d force(0, 0);
   const int touching = static_cast<int>(solved.contacts.size());
   for (int c = 0; c < contacts; ++c) {
-    Eigen::Vector3d pose = Eigen::Vector3d::Constant(std::nan(""));
-    if (is_solved && c < touching) {
+    Eigen::Vector3d pose = Eigen::Vector3d::Constant(kNaN);
+    if (solved.solved && c < touching) {
       pose = solved.outputs.segment<3>(gauges + 3 * c);
       force += ContactForce(solved.contacts[c], pose.z());
     }
@@ -194,29 +179,23 @@ double FillRow(const Finger& finger, const SolvedRow& solved, int contacts,
     set(ContactY(c), pose.y());
     set(ContactAngle(c), pose.z());
   }
-  if (displacement) {
-    set(kDisplacement,
-        is_solved && solved.object ? solved.displacement_mm : std::nan(""));
-  }
+  if (displacement) set(kDisplacement, solved.displacement_mm);
   const int ribs = static_cast<int>(finger.ribs.size());
-  for (int i = 0; i < ribs; ++i) {
-    set(RibForce(i), is_solved ? solved.rib_tensions[i] : std::nan(""));
-  }
+  for (int i = 0; i < ribs; ++i) set(RibForce(i), solved.rib_tensions[i]);
   for (int i = 0; i < ribs; ++i) {
     for (const Side side : {Side::kFront, Side::kBack}) {
-      Eigen::Vector2d pin = Eigen::Vector2d::Constant(std::nan(""));
-      if (is_solved) pin = solved.pins[2 * i + LadderModel::Index(side)];
+      const auto& pin = solved.pins[2 * i + LadderModel::Index(side)];
       set(RibPin(i, SideName(side), "x"), pin.x());
       set(RibPin(i, SideName(side), "y"), pin.y());
     }
   }
-  set("force_N", is_solved ? force.norm() : std::nan(""));
-  const Eigen::Index tip = solved.outputs.size() - 3;
-  set("tip_x_mm", output(tip));
-  set("tip_y_mm", output(tip + 1));
-  set("tip_angle_rad", output(tip + 2));
+  set("force_N", solved.solved ? force.norm() : kNaN);
+  const Eigen::Vector3d tip = solved.outputs.tail<3>();
+  set("tip_x_mm", tip.x());
+  set("tip_y_mm", tip.y());
+  set("tip_angle_rad", tip.z());
   // Other rows may give their loads in these columns, so they are kept there.
-  if (!is_solved || !solved.object) return force.norm();
+  if (!solved.solved || !solved.object) return force.norm();
   if (touching == 0) set(NormalForce(0), 0);
   for (int c = 0; c < touching; ++c) {
     set(ContactArc(c), solved.contacts[c].arc_mm);
@@ -230,27 +209,26 @@ double FillRow(const Finger& finger, const SolvedRow& solved, int contacts,
 SimulationSummary Simulate(const Finger& finger, const Scene& scene,
                            const Discretization& discretization,
                            FrameTable* frames, FrameTable* shapes) {
-  const std::size_t rows = frames->rows();
   // All loads are read first, so that a bad row is reported before any is
   // solved.
   int contacts = 0;
-  const std::vector<RowLoad> all = ReadLoads(finger, scene, *frames, &contacts);
-  if (shapes != nullptr) *shapes = FrameTable(rows * 202);
+  std::vector<Row> rows = ReadLoads(finger, scene, *frames, &contacts);
+  if (shapes != nullptr) *shapes = FrameTable(rows.size() * 202);
   std::size_t next_shape = 0;
 
   EquilibriumSolver solver(finger, discretization);
-  std::vector<SolvedRow> solved;
   int object_contacts = 0;
-  for (std::size_t row = 0; row < rows; ++row) {
-    solved.push_back(SolveRow(all[row], scene, &solver));
-    const SolvedRow& now = solved.back();
-    if (now.object) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    Row& row = rows[i];
+    SolveRow(scene, &solver, &row);
+    if (row.object) {
       object_contacts =
-          std::max({object_contacts, 1, static_cast<int>(now.contacts.size())});
+          std::max({object_contacts, 1, static_cast<int>(row.contacts.size())});
     }
-    if (shapes != nullptr && IsSolved(now)) {
-      AddShape(solver, now.contacts, row, shapes, &next_shape);
-    }
+    if (!row.solved) continue;
+    const Shape shape(solver, row.contacts);
+    row.pins = Pins(finger, shape);
+    if (shapes != nullptr) AddShape(finger, shape, i, shapes, &next_shape);
   }
   if (shapes != nullptr) shapes->Truncate(next_shape);
 
@@ -261,17 +239,17 @@ SimulationSummary Simulate(const Finger& finger, const Scene& scene,
     frames->MutableNumbers(NormalForce(c));
   }
   contacts = std::max(contacts, object_contacts);
-  for (std::size_t row = 0; row < rows; ++row) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool touches =
-        FillRow(finger, solved[row], contacts, displacement, row, frames) > 0;
-    std::string& status = frames->MutableText("status")[row];
-    if (!IsSolved(solved[row])) {
+        FillRow(finger, rows[i], contacts, displacement, i, frames) > 0;
+    std::string& status = frames->MutableText("status")[i];
+    if (!rows[i].solved) {
       ++summary.not_converged;
       status = "not_converged";
       if (summary.first_failure.empty()) {
         summary.first_failure = frames->path() + ":" +
-                                std::to_string(frames->line(row)) + ": " +
-                                solved[row].failure;
+                                std::to_string(frames->line(i)) + ": " +
+                                rows[i].failure;
       }
       continue;
     }

@@ -80,9 +80,12 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
       Keep();
       continue;
     }
-    if ((explained && !exact) || fallbacks++ == kMostFallbacks) continue;
+    if ((explained && !exact) || fallbacks >= kMostFallbacks) continue;
+    ++fallbacks;
     if (FitByCeres(start, row)) Keep();
-    if (least_chi2() > FrameProblem::kHopelessChi2) fallbacks = kMostFallbacks;
+    if (found_ > 0 && least_chi2() > FrameProblem::kHopelessChi2) {
+      fallbacks = kMostFallbacks;
+    }
   }
   return found_ > 0;
 }
@@ -100,9 +103,10 @@ double ContactSearch::FreeChi2(const Measurements& row,
 }
 
 void ContactSearch::FindStarts(int contacts, const PackedReadings& packed) {
-  if (packed.weights.isZero(0)) {
-    // This frame has camera measurements only, so the starts are spread over
-    // the finger.
+  // A frame with camera measurements only has its starts spread over the
+  // finger.
+  const bool spread = packed.weights.isZero(0);
+  if (contacts == 1 && spread) {
     starts_.clear();
     const auto& rows = table_.rows();
     for (std::size_t k = 0; k < kMostStarts; ++k) {
@@ -127,8 +131,13 @@ void ContactSearch::FindStarts(int contacts, const PackedReadings& packed) {
     pair_table_ =
         std::make_unique<PairTable>(&solver_, scene_.friction_coefficient);
   }
-  pair_table_->FindStarts(packed.values, packed.weights, kMostPairStarts,
-                          &starts_);
+  pair_table_->FindStarts(packed.values, packed.weights, &starts_);
+  const std::size_t all = starts_.size();
+  if (all <= kMostPairStarts) return;
+  for (std::size_t k = 0; spread && k < kMostPairStarts; ++k) {
+    starts_[k] = starts_[(2 * k + 1) * all / (2 * kMostPairStarts)];
+  }
+  starts_.resize(kMostPairStarts);
 }
 
 bool ContactSearch::FitFast(const ContactStart& start,
@@ -143,6 +152,7 @@ bool ContactSearch::FitFast(const ContactStart& start,
   solution.count = start.count;
   solution.chi2 = fit_.chi2();
   solution.information = fit_.information();
+  solution.systematic.resize(0, 0);  // FrameEstimator finds it
   fit_.SaveState(&solution.state);
   solution.tip_pose = fit_.tip_pose();
   for (std::size_t i = 0; i < solution.rib_tension_N.size(); ++i) {

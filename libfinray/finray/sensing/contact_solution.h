@@ -10,7 +10,7 @@
 
 namespace finray {
 
-/// A start for ContactFit: contacts from base to tip, a nearby equilibrium, and
+/// A start for a fit: contacts from base to tip, a nearby equilibrium, and
 /// the approximate chi2 of a fit from there.
 struct ContactStart {
   int count = 0;

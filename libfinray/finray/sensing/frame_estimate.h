@@ -39,11 +39,13 @@ struct FrameEstimate {
   /// The contacts from base to tip. Without a contact, the force of the first
   /// one is 0, or NaN if the frame is not solved.
   ContactEstimates contact;
-  /// Covariance of (l_c, f_c) of each contact due to the std given in the
-  /// finger and the scene. It contains neither noise_scale() nor calibration
-  /// errors.
+  // The two parts of the covariance of (l_c, f_c) of each contact. LogEstimator
+  // leaves them empty.
+
+  /// Due to the std given in the finger and the scene, without noise_scale().
+  /// It is that of the frame alone, also if the frame is smoothed.
   ContactMatrix noise_covariance;
-  /// The same due to the errors of the calibration; empty if the finger has no
+  /// Due to the errors of the calibration. Empty if the finger has no
   /// covariance.
   ContactMatrix calibration_covariance;
   Eigen::Vector3d tip_pose =

@@ -71,6 +71,7 @@ FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
       search_(finger, scene, discretization, method),
       systematic_(SystematicOf(finger, scene, discretization)),
       free_(FreeEstimate(finger, discretization)) {
+  scene_.gauge_offset_walk.reset();
   if (method == FrameMethod::kFast && FrameFollower::Serves(scene)) {
     follower_.emplace(finger, scene, discretization, search_);
   }
@@ -103,7 +104,7 @@ CalibrationUncertainty FrameEstimator::SystematicOf(
 
 FrameEstimate FrameEstimator::Estimate(const Measurements& readings) {
   PackAll(&readings, 1);
-  FrameEstimate estimate = Search(readings, packed_[0]);
+  FrameEstimate estimate = SearchAlone(readings, packed_[0]);
   Judge(readings, packed_[0], &estimate);
   return estimate;
 }
@@ -112,15 +113,16 @@ void FrameEstimator::EstimateBlock(const Measurements* readings,
                                    std::size_t count,
                                    FrameEstimate* estimates) {
   PackAll(readings, count);
+  following_ = false;  // the follower leaves the frame of the last Next()
   for (std::size_t i = 0; i < count;) {
-    estimates[i] = Search(readings[i], packed_[i]);
+    estimates[i] = SearchAlone(readings[i], packed_[i]);
     const bool follow = CanFollow(packed_[i], estimates[i]);
     ++i;
     if (!follow) continue;
     const std::size_t fitted = FitRun(i, count);
     for (std::size_t run = 0; run < fitted; ++run, ++i) {
       if (!TakeFollowed(packed_[i], run, &estimates[i])) {
-        estimates[i] = Search(readings[i], packed_[i]);
+        estimates[i] = SearchAlone(readings[i], packed_[i]);
       }
     }
   }
@@ -130,12 +132,12 @@ void FrameEstimator::EstimateBlock(const Measurements* readings,
   }
 }
 
-FrameEstimate FrameEstimator::Follow(const Measurements& readings) {
+FrameEstimate FrameEstimator::Next(const Measurements& readings) {
   FrameEstimate estimate;
   PackAll(&readings, 1);
   if (!following_ || FitRun(0, 1) == 0 ||
       !TakeFollowed(packed_[0], 0, &estimate)) {
-    estimate = Search(readings, packed_[0]);
+    estimate = SearchAlone(readings, packed_[0]);
     following_ = CanFollow(packed_[0], estimate);
   }
   if (scene_.smoothing) {
@@ -153,8 +155,8 @@ void FrameEstimator::PackAll(const Measurements* readings, std::size_t count) {
   }
 }
 
-FrameEstimate FrameEstimator::Search(const Measurements& readings,
-                                     const PackedReadings& packed) {
+FrameEstimate FrameEstimator::SearchAlone(const Measurements& readings,
+                                          const PackedReadings& packed) {
   const int contacts = scene_.contacts.value_or(1);
   if (packed.gauges + packed.camera < 1 || packed.all < kUnknowns * contacts) {
     return Unsolved(FrameStatus::kBadInput);
@@ -211,7 +213,8 @@ bool FrameEstimator::TakeFollowed(const PackedReadings& packed, std::size_t run,
   estimate->chi2 = fit.chi2;
   estimate->dof = static_cast<int>(finger_.gauges.size()) - kUnknowns;
   estimate->iterations = fit.iterations;
-  return estimate->p_value() >= FrameEstimate::kUnexplained;
+  // A frame without degrees of freedom has no p-value.
+  return !(estimate->p_value() < FrameEstimate::kUnexplained);
 }
 
 LogPrior FrameEstimator::Smooth(const Measurements* readings, std::size_t count,
@@ -234,10 +237,6 @@ LogPrior FrameEstimator::Smooth(const Measurements* readings, std::size_t count,
 LogPrior FrameEstimator::SmoothRun(const Measurements* readings,
                                    std::size_t count, const LogPrior& before,
                                    FrameEstimate* estimates) {
-  Eigen::VectorXd offsets_V(static_cast<Eigen::Index>(finger_.gauges.size()));
-  for (Eigen::Index j = 0; j < offsets_V.size(); ++j) {
-    offsets_V[j] = finger_.gauges[j].offset_V;
-  }
   std::vector<LogFrame> frames(count);
   for (std::size_t t = 0; t < count; ++t) {
     LogFrame& frame = frames[t];
@@ -246,7 +245,7 @@ LogPrior FrameEstimator::SmoothRun(const Measurements* readings,
     frame.noise_scale = estimates[t].noise_scale();
     frame.arc_mm = estimates[t].contact[0].arc_mm;
     frame.normal_N = frame.expected_N = estimates[t].contact[0].normal_N;
-    frame.offset_V = offsets_V;
+    frame.offset_V = GaugeOffsets(finger_);
   }
   LogProblem problem(finger_, scene_, discretization_, 1, &frames, before);
   problem.Solve();
@@ -289,7 +288,11 @@ FrameEstimate FrameEstimator::Automatic(const Measurements& readings,
   for (const PointContact& contact : two.contacts) {
     if (contact.normal_N < least_force_N_) return one;
   }
-  if (one.chi2 - two.chi2 < kSecondSignificance) return one;
+  // If no search with one contact has converged, two contacts must do what the
+  // first and the second have to do.
+  const double without =
+      one.contacts == 1 ? one.chi2 : packed.free_chi2 - kSignificance;
+  if (without - two.chi2 < kSecondSignificance) return one;
   FrameEstimate estimate = Found(packed);
   estimate.iterations += before;
   return estimate;

@@ -14,17 +14,20 @@ namespace finray {
 
 /// Estimates the contacts of frames without a guess, and decides each frame's
 /// status. ContactSearch finds l_c and f_c. The scene gives the number of
-/// contacts; `contacts: auto` takes the fewest that explain the readings.
+/// contacts; `contacts: auto` takes the fewest that explain the readings. An
+/// estimator takes some milliseconds to make. Use it from one thread at a time.
 ///
 /// `contacts: auto` takes a contact if it lowers chi2 by kSignificance or more.
 /// With four gauges or more it takes a second one if that lowers chi2 by
 /// another kSecondSignificance or more.
 ///
+/// The scene's gauge_offset_walk is for LogEstimator and is ignored here.
+///
 /// If the model with the declared noise does not explain a frame, its std are
 /// those of a noise that would (FrameEstimate::noise_scale).
 ///
 /// A frame's status is decided in this class (docs/reference/estimation.md):
-/// - bad_input (Search): fewer measurements than unknowns.
+/// - bad_input (SearchAlone): fewer measurements than unknowns.
 /// - no_contact (Automatic): no contact is significant by the criterion above.
 ///   With a fixed number of contacts (WithContacts): all forces are below
 ///   kLeastForce_N, for soft fingers below kLeastForce.
@@ -48,7 +51,7 @@ class FrameEstimator {
   /// on the back beam, for a finger without gauges or with fewer than the
   /// contacts need, and for a finger without an unloaded equilibrium.
   FrameEstimator(const Finger& finger, const Scene& scene,
-                 const Discretization& discretization,
+                 const Discretization& discretization = {},
                  FrameMethod method = FrameMethod::kFast);
   FrameEstimator(const FrameEstimator&) = delete;
   FrameEstimator& operator=(const FrameEstimator&) = delete;
@@ -61,11 +64,14 @@ class FrameEstimator {
   void EstimateBlock(const Measurements* readings, std::size_t count,
                      FrameEstimate* estimates);
 
-  /// Estimates the frame after that of the last call. If the scene asks for
-  /// smoothing, the frames before smooth it.
-  FrameEstimate Follow(const Measurements& readings);
-  /// The next call of Follow() starts a new log.
-  void StopFollowing() {
+  // Frames that arrive one by one, for control loops and displays
+  // (docs/guides/sense_live.md):
+
+  /// Estimates the next frame of a log. If the scene asks for smoothing, the
+  /// frames before smooth it.
+  FrameEstimate Next(const Measurements& readings);
+  /// The next call of Next() starts a new log.
+  void Restart() {
     following_ = false;
     followed_ = {};
   }
@@ -76,7 +82,7 @@ class FrameEstimator {
 
   /// The lesser of kLeastForce_N and kLeastForce, in N.
   static double LeastForce_N(const Finger& finger);
-  /// The estimate of a frame without a contact, but for chi2.
+  /// The estimate of a frame without a contact, but for chi2 and dof.
   static FrameEstimate FreeEstimate(const Finger& finger,
                                     const Discretization& discretization);
   static CalibrationUncertainty SystematicOf(
@@ -94,8 +100,8 @@ class FrameEstimator {
  private:
   // Packs the readings and finds their chi2 without a contact.
   void PackAll(const Measurements* readings, std::size_t count);
-  FrameEstimate Search(const Measurements& readings,
-                       const PackedReadings& packed);
+  FrameEstimate SearchAlone(const Measurements& readings,
+                            const PackedReadings& packed);
   bool CanFollow(const PackedReadings& packed, const FrameEstimate& estimate);
   std::size_t FitRun(std::size_t begin, std::size_t end);
   bool TakeFollowed(const PackedReadings& packed, std::size_t run,
@@ -127,10 +133,10 @@ class FrameEstimator {
   double least_force_N_;
   ContactSearch search_;
   std::optional<FrameFollower> follower_;  // if it serves the scene
-  bool following_ = false;                 // by Follow
+  bool following_ = false;                 // by Next
   CalibrationUncertainty systematic_;
   std::vector<PointContact> contacts_;
-  LogPrior followed_;  // by Follow, if the scene has smoothing
+  LogPrior followed_;  // by Next, if the scene has smoothing
   FrameEstimate free_;
   std::vector<PackedReadings> packed_;  // of the frames under way
 };

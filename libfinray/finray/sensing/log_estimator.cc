@@ -57,11 +57,8 @@ LogEstimator::LogEstimator(const Finger& finger, const Scene& scene,
 LogPrior LogEstimator::FirstPrior() const {
   LogPrior prior;
   if (!scene_.gauge_offset_walk) return prior;
-  const auto gauges = static_cast<Eigen::Index>(finger_.gauges.size());
-  prior.mean.resize(gauges);
-  for (Eigen::Index j = 0; j < gauges; ++j) {
-    prior.mean[j] = finger_.gauges[j].offset_V;
-  }
+  prior.mean = GaugeOffsets(finger_);
+  const Eigen::Index gauges = prior.mean.size();
   const double std_V = scene_.gauge_offset_walk->start_std_V;
   prior.information =
       Eigen::MatrixXd::Identity(gauges, gauges) / (std_V * std_V);
@@ -73,10 +70,7 @@ OffsetBelief LogEstimator::BeliefBefore() const {
   OffsetBelief belief;
   belief.time_s = frames_.front().row.time_s;
   if (!scene_.gauge_offset_walk) {
-    belief.mean_V.resize(gauges);
-    for (Eigen::Index j = 0; j < gauges; ++j) {
-      belief.mean_V[j] = finger_.gauges[j].offset_V;
-    }
+    belief.mean_V = GaugeOffsets(finger_);
     belief.variance_V2 = Eigen::VectorXd::Zero(gauges);
     return belief;
   }
@@ -235,7 +229,7 @@ FrameEstimate LogEstimator::Judge(const LogFrame& frame,
              frame.normal_N >= least_force_N_) {
     estimate.chi2 = marginal.chi2;
     estimate.dof = packed.all - 2;
-    JudgeContact(frame, marginal, &estimate);
+    JudgeContact(frame, marginal, packed, &estimate);
     if (!converged) estimate.status = FrameStatus::kNotConverged;
   } else {
     estimate.chi2 = FreeChi2(frame, marginal);
@@ -253,14 +247,13 @@ FrameEstimate LogEstimator::Judge(const LogFrame& frame,
 
 void LogEstimator::JudgeContact(const LogFrame& frame,
                                 const LogMarginal& marginal,
+                                const PackedReadings& packed,
                                 FrameEstimate* estimate) {
   const std::vector<PointContact> contacts = {
       {frame.arc_mm, frame.normal_N, scene_.friction_coefficient}};
   const double scale = estimate->noise_scale();
   frame.CopyTo(scale * scale * marginal.covariance, estimate);
   if (!systematic_.empty()) {
-    PackedReadings packed;
-    Pack(finger_, scene_, frame.row, &packed);
     std::vector<double> readings_V = frame.row.gauges_V;
     for (std::size_t j = 0; j < readings_V.size(); ++j) {
       readings_V[j] += finger_.gauges[j].offset_V -

@@ -16,20 +16,20 @@ namespace finray {
 /// Estimates a whole log: the contacts of all frames and the wandering offsets
 /// of the gauges together (LogProblem), and which frames touch.
 ///
-/// The log passes through in windows. A window ends where the finger is free
-/// for long enough that the offsets behind that gap say nothing about those
-/// before it; half of the gap belongs to the next window too, which begins with
-/// the exact marginal of all frames before it as its prior. Without such a gap
-/// a window grows to kLongestWindow frames, and its first half is settled. So
+/// The log passes through in windows. A window ends in a gap: there the finger
+/// is free for so long that the offsets behind the gap say nothing about those
+/// before it. Half of the gap belongs to the next window too. The next window's
+/// prior is the exact marginal of all frames before it. Without such a gap a
+/// window grows to kLongestWindow frames, and its first half is settled. So
 /// time grows with the number of frames and memory does not.
 ///
-/// After a solve, frames are looked at once more with the offsets that all
-/// other frames give them: a contact that is not significant any more is taken
-/// away, one that has become so is added, and the window is solved again, up to
-/// kMostRounds times.
+/// After a solve, each frame is judged again with the offsets that all other
+/// frames give it. A contact that is no longer significant is taken away. A
+/// contact that has become significant is added. Then the window is solved
+/// again, up to kMostRounds times.
 ///
 /// It sets the statuses of FrameEstimator, by its criteria: no_contact for a
-/// frame without a contact or with one below kLeastForce, not_converged for a
+/// frame without a contact or with one below LeastForce_N, not_converged for a
 /// touching frame of a window that did not converge, ok or unobservable for any
 /// other contact, bad_input for too few measurements.
 class LogEstimator {
@@ -67,7 +67,7 @@ class LogEstimator {
   FrameEstimate Judge(const LogFrame& frame, const LogMarginal& marginal,
                       bool converged);
   void JudgeContact(const LogFrame& frame, const LogMarginal& marginal,
-                    FrameEstimate* estimate);
+                    const PackedReadings& packed, FrameEstimate* estimate);
 
   Finger finger_;
   Scene scene_;

@@ -39,6 +39,14 @@ void LogFrame::CopyTo(const Eigen::MatrixXd& covariance,
   estimate->rib_tension_N = rib_tension_N;
 }
 
+Eigen::VectorXd GaugeOffsets(const Finger& finger) {
+  Eigen::VectorXd offsets_V(finger.gauges.size());
+  for (Eigen::Index j = 0; j < offsets_V.size(); ++j) {
+    offsets_V[j] = finger.gauges[j].offset_V;
+  }
+  return offsets_V;
+}
+
 LogProblem::LogProblem(const Finger& finger, const Scene& scene,
                        const Discretization& discretization, int threads,
                        std::vector<LogFrame>* frames, const LogPrior& prior)

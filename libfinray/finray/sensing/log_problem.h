@@ -50,6 +50,9 @@ struct LogFrame {
   void CopyTo(const Eigen::MatrixXd& covariance, FrameEstimate* estimate) const;
 };
 
+/// The offsets of a finger's gauges in V.
+Eigen::VectorXd GaugeOffsets(const Finger& finger);
+
 /// What a solution is worth, frame by frame.
 struct LogMarginal {
   /// Of [offsets; l_c, f_c if it touches] given the whole problem.
@@ -85,7 +88,8 @@ class LogProblem {
   static constexpr double kContactWalk_mm = 5;
 
   /// `frames` must stay in place, one at least, times ascending. The result
-  /// does not depend on `threads`.
+  /// does not depend on `threads` as long as all frames have an equilibrium at
+  /// every trial (FrameSet).
   LogProblem(const Finger& finger, const Scene& scene,
              const Discretization& discretization, int threads,
              std::vector<LogFrame>* frames, const LogPrior& prior);

@@ -92,7 +92,6 @@ ContactStart PairTable::StartFrom(const Node& node,
 
 void PairTable::FindStarts(const Eigen::VectorXd& angles_rad,
                            const Eigen::VectorXd& weight_per_rad,
-                           std::size_t most,
                            std::vector<ContactStart>* starts) const {
   const auto better = [](const ContactStart& a, const ContactStart& b) {
     return a.chi2 < b.chi2;
@@ -107,7 +106,6 @@ void PairTable::FindStarts(const Eigen::VectorXd& angles_rad,
     starts->push_back(best);
   }
   std::sort(starts->begin(), starts->end(), better);
-  if (starts->size() > most) starts->resize(most);
 }
 
 }  // namespace finray

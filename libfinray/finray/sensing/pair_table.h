@@ -23,9 +23,9 @@ class PairTable {
  public:
   PairTable(EquilibriumSolver* solver, double friction);
 
-  /// Finds the best `most` starts at different pairs of places, best first.
+  /// Finds a start for each pair of places, best first.
   void FindStarts(const Eigen::VectorXd& angles_rad,
-                  const Eigen::VectorXd& weight_per_rad, std::size_t most,
+                  const Eigen::VectorXd& weight_per_rad,
                   std::vector<ContactStart>* starts) const;
 
  private:

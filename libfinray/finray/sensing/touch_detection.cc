@@ -184,7 +184,7 @@ bool TouchDetection::FindContact(const LogFrame& frame,
   }
   const double free_chi2 = FreeChi2(frame, mean_V, variance_V2);
   measurement_.free_chi2 = free_chi2;
-  if (measurement_.all < 2) return false;
+  if (measurement_.all < 2 || scene_.contacts == 0) return false;
   if (scene_.contacts) return search_.Search(1, frame.row, measurement_);
   return free_chi2 >= FrameEstimator::kSignificance &&
          search_.Search(1, frame.row, measurement_) &&

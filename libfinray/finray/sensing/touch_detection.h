@@ -22,14 +22,15 @@ struct OffsetBelief {
 /// far tell them, blurred by the walk since the last of them. A frame
 ///  - touches if a contact explains it well, and significantly better than the
 ///    free finger does (FrameEstimator::kSignificance);
-///  - is free if it could be and the frames that follow within the guard time
-///    could be too, should it be free: this keeps the begin and the end of a
-///    touch, where the force is small, out of the belief;
+///  - is free if the free finger explains it, and if the belief with its
+///    readings also explains the frames within the guard time: this keeps the
+///    begin and the end of a touch, where the force is small, out of the
+///    belief;
 ///  - is left open otherwise.
 ///
-/// One pass goes forward and one backward. What either calls touching touches,
-/// what either leaves open because of the frames behind it stays open
-/// (LogFrame::Role::kUnused), and the rest is free.
+/// One pass goes forward and one backward. A frame touches if one pass says so.
+/// It stays open (LogFrame::Role::kUnused) if one pass leaves it open because
+/// of the frames behind it. All other frames are free.
 class TouchDetection {
  public:
   /// The guard time is that in which offsets wander by so many std of a

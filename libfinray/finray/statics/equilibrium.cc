@@ -6,7 +6,6 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/io/number_text.h"
-#include "finray/statics/load_path.h"
 
 namespace finray {
 namespace {
@@ -35,10 +34,6 @@ LadderState EquilibriumSolver::state() const {
   return state;
 }
 
-void EquilibriumSolver::SaveState(LadderState* state) const {
-  newton_.Save(state);
-}
-
 void EquilibriumSolver::set_state(const LadderState& state) {
   newton_.Load(state);
   undeformed_ = false;
@@ -49,24 +44,12 @@ void EquilibriumSolver::Reset() {
   undeformed_ = true;
 }
 
-bool EquilibriumSolver::Solve(const std::vector<PointContact>& contacts) {
-  return SolveFor(contacts, SweepColumns::kNone);
-}
-
-bool EquilibriumSolver::SolveWithSensitivities(
-    const std::vector<PointContact>& contacts) {
-  return SolveFor(contacts, SweepColumns::kParameters);
-}
-
 bool EquilibriumSolver::SolveFor(const std::vector<PointContact>& contacts,
                                  SweepColumns columns) {
   newton_.TakeIterations();
   path_fraction_ = 0;
-  status_ = SolveStatus::kBadLoad;
-  if (!IsBadLoad(contacts)) {
-    status_ = SolveStatus::kNotConverged;
-    if (Attempt(contacts, columns)) status_ = SolveStatus::kSolved;
-  }
+  status_ =
+      IsBadLoad(contacts) ? SolveStatus::kBadLoad : Attempt(contacts, columns);
   iterations_ = newton_.TakeIterations();
   if (status_ != SolveStatus::kSolved) {
     Reset();
@@ -74,35 +57,35 @@ bool EquilibriumSolver::SolveFor(const std::vector<PointContact>& contacts,
   }
   undeformed_ = false;
   CollectValues(true, &outputs_);
-  if (columns == SweepColumns::kParameters) CollectDerivatives();
+  if (columns != SweepColumns::kParameters) return true;
+  const int p = static_cast<int>(parameter_unit_.size());
+  d_outputs_.setZero(outputs_.size(), p);
+  AddTaps(newton_.frame().affine + 1, p, &d_outputs_);
+  d_outputs_.array().colwise() *= output_unit_.array();
+  d_outputs_.array().rowwise() /= parameter_unit_.transpose().array();
   return true;
 }
 
-bool EquilibriumSolver::Attempt(const std::vector<PointContact>& contacts,
-                                SweepColumns columns) {
+SolveStatus EquilibriumSolver::Attempt(
+    const std::vector<PointContact>& contacts, SweepColumns columns) {
   const bool heavy = IsHeavy(contacts);
   const auto converges = [&] {
     return newton_.Converge(contacts, 1, columns) &&
            (heavy ? newton_.turn() < kNear_rad
                   : newton_.longest_run() <= kStraightIterations);
   };
-  if (!undeformed_ && converges()) return true;
-  if (near_only_) return false;
+  if (!undeformed_ && converges()) return SolveStatus::kSolved;
+  if (near_only_) return SolveStatus::kNotConverged;
   if (!heavy) {
     newton_.Reset();
-    if (converges()) return true;
+    if (converges()) return SolveStatus::kSolved;
   }
-  switch (WalkLoadPath(contacts, &newton_, &path_fraction_)) {
-    case LoadPathEnd::kReached:
-      return newton_.Converge(contacts, 1, columns) &&
-             newton_.turn() < kNear_rad;
-    case LoadPathEnd::kLimitPoint:
-      status_ = SolveStatus::kLimitPoint;
-      return false;
-    case LoadPathEnd::kStuck:
-      break;
+  const SolveStatus end = WalkLoadPath(contacts, &newton_, &path_fraction_);
+  if (end != SolveStatus::kSolved ||
+      (newton_.Converge(contacts, 1, columns) && newton_.turn() < kNear_rad)) {
+    return end;
   }
-  return false;
+  return SolveStatus::kNotConverged;
 }
 
 bool EquilibriumSolver::IsBadLoad(
@@ -140,23 +123,16 @@ bool EquilibriumSolver::IsHeavy(
 }
 
 std::string EquilibriumSolver::Why() const {
-  const double percent = 100 * path_fraction_;
-  switch (status_) {
-    case SolveStatus::kSolved:
-      break;
-    case SolveStatus::kBadLoad:
-      return "a contact lies off its beam or a number is not finite";
-    case SolveStatus::kLimitPoint:
-      return FormatText(
-          "the equilibrium ends at a limit point at %.3g %% of this load: the "
-          "finger would snap through",
-          percent);
-    case SolveStatus::kNotConverged:
-      return FormatText(
-          "no equilibrium found under this load (reached %.3g %% of it)",
-          percent);
+  if (status_ == SolveStatus::kSolved) return "";
+  if (status_ == SolveStatus::kBadLoad) {
+    return "a contact lies off its beam or a number is not finite";
   }
-  return "";
+  return FormatText(
+      status_ == SolveStatus::kLimitPoint
+          ? "the equilibrium ends at a limit point at %.3g %% of this load: "
+            "the finger would snap through"
+          : "no equilibrium found under this load (reached %.3g %% of it)",
+      100 * path_fraction_);
 }
 
 double EquilibriumSolver::rib_tension(int rib) const {
@@ -215,15 +191,6 @@ void EquilibriumSolver::CollectValues(bool stepped, Eigen::VectorXd* outputs) {
     (*outputs)[outputs->size() - 3 + i] = f.tip[i] + change(f.tip_tap() + i);
   }
   outputs->array() *= output_unit_.array();
-}
-
-void EquilibriumSolver::CollectDerivatives() {
-  const LadderFrame<double>& f = newton_.frame();
-  const int p = static_cast<int>(parameter_unit_.size());
-  d_outputs_.setZero(outputs_.size(), p);
-  AddTaps(f.affine + 1, p, &d_outputs_);
-  d_outputs_.array().colwise() *= output_unit_.array();
-  d_outputs_.array().rowwise() /= parameter_unit_.transpose().array();
 }
 
 // Adds columns of the taps to the rows [gauges, contacts, tip] of `target`.

@@ -6,18 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "finray/ladder/ladder_newton.h"
+#include "finray/statics/load_path.h"
 
 namespace finray {
-
-/// How a solve ended.
-enum class SolveStatus {
-  kSolved,
-  kBadLoad,     ///< A contact off its beam, or a number that is not finite.
-  kLimitPoint,  ///< The equilibrium that grows out of the unloaded finger ends
-                ///< (folds over) before the whole load is reached.
-  kNotConverged,
-};
 
 /// The result of one march of the ladder from base to tip with given base loads
 /// and rib tensions, which need not be in equilibrium.
@@ -67,7 +58,7 @@ class EquilibriumSolver {
 
   LadderState state() const;
   /// The same without allocating.
-  void SaveState(LadderState* state) const;
+  void SaveState(LadderState* state) const { newton_.Save(state); }
   void set_state(const LadderState& state);
   /// Goes back to the undeformed finger: the next solve starts cold.
   void Reset();
@@ -75,9 +66,13 @@ class EquilibriumSolver {
   /// Finds the equilibrium under `contacts`. If it returns false, status() and
   /// Why() say why; the state is then the undeformed finger and the results are
   /// undefined.
-  bool Solve(const std::vector<PointContact>& contacts);
+  bool Solve(const std::vector<PointContact>& contacts) {
+    return SolveFor(contacts, SweepColumns::kNone);
+  }
   /// As Solve, and fills d_outputs().
-  bool SolveWithSensitivities(const std::vector<PointContact>& contacts);
+  bool SolveWithSensitivities(const std::vector<PointContact>& contacts) {
+    return SolveFor(contacts, SweepColumns::kParameters);
+  }
 
   SolveStatus status() const { return status_; }
   /// Why the last solve failed, one clause; empty if it did not.
@@ -123,11 +118,11 @@ class EquilibriumSolver {
  private:
   bool SolveFor(const std::vector<PointContact>& contacts,
                 SweepColumns columns);
-  bool Attempt(const std::vector<PointContact>& contacts, SweepColumns columns);
+  SolveStatus Attempt(const std::vector<PointContact>& contacts,
+                      SweepColumns columns);
   bool IsBadLoad(const std::vector<PointContact>& contacts) const;
   bool IsHeavy(const std::vector<PointContact>& contacts) const;
   void CollectValues(bool stepped, Eigen::VectorXd* outputs);
-  void CollectDerivatives();
   void OutputUnits();
   void AddTaps(int first, int count, Matrix* target) const;
 

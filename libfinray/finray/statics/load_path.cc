@@ -63,9 +63,9 @@ bool LoadPath::FindTangent(double fraction, Eigen::VectorXd* tangent,
   const double norm = std::sqrt(Dot(by_load, by_load) + 1);
   if (!std::isfinite(norm)) return false;
   double sign = 1;
-  if (has_tangent_ && tangent_.size() == Size()) {
+  if (tangent_.size() == Size()) {
     sign = Dot(tangent_.data(), by_load) + tangent_fraction_ < 0 ? -1 : 1;
-  } else if (has_tangent_) {
+  } else if (tangent_.size() > 0) {
     // The mesh has changed. It does so only where lambda' keeps its sign.
     sign = tangent_fraction_ < 0 ? -1 : 1;
   }
@@ -78,12 +78,13 @@ bool LoadPath::Tangent() {
   Eigen::VectorXd tangent;
   if (!FindTangent(fraction_, &tangent, &tangent_fraction_)) return false;
   tangent_.swap(tangent);
-  has_tangent_ = true;
   return true;
 }
 
 // Solves equilibrium and the arc length equation together by Newton's method.
-bool LoadPath::Correct(double arc) {
+bool LoadPath::GoTo(double arc) {
+  Restore(start_ + arc * tangent_);
+  trial_fraction_ = fraction_ + arc * tangent_fraction_;
   const LadderFrame<double>& f = newton_->frame();
   Eigen::VectorXd moved(Size());
   for (corrections_ = 0; corrections_ < kMaxCorrections; ++corrections_) {
@@ -102,12 +103,6 @@ bool LoadPath::Correct(double arc) {
     if (size < kTolerance || (corrections_ > 0 && size < 1e-6)) return true;
   }
   return false;
-}
-
-bool LoadPath::GoTo(double arc) {
-  Restore(start_ + arc * tangent_);
-  trial_fraction_ = fraction_ + arc * tangent_fraction_;
-  return Correct(arc);
 }
 
 // The largest share of the load within a step of length `arc` that ends with
@@ -151,21 +146,15 @@ bool LoadPath::Joins(const Eigen::VectorXd& reached,
 // Refines the mesh if needed. If it returns false the path is lost, as the step
 // began on another mesh and cannot be repeated.
 bool LoadPath::Refine() {
-  switch (newton_->RefineMesh()) {
-    case MeshChange::kNone:
-      return true;
-    case MeshChange::kRefined:
-      return newton_->Converge(contacts_, fraction_, SweepColumns::kLoad) &&
-             Tangent();
-    case MeshChange::kTooFine:
-      break;
-  }
-  return false;
+  const MeshChange change = newton_->RefineMesh();
+  if (change != MeshChange::kRefined) return change == MeshChange::kNone;
+  return newton_->Converge(contacts_, fraction_, SweepColumns::kLoad) &&
+         Tangent();
 }
 
 bool LoadPath::Advance(double goal) {
   passed_limit_point_ = false;
-  if (lost_ || (!has_tangent_ && !Tangent())) return false;
+  if (lost_ || (tangent_.size() == 0 && !Tangent())) return false;
   if (tangent_fraction_ > 0 && goal > fraction_) {
     step_ = std::min(step_, kBeyond * (goal - fraction_) / tangent_fraction_ +
                                 10 * kSmallestStep);
@@ -205,30 +194,30 @@ bool LoadPath::Advance(double goal) {
   return false;
 }
 
-LoadPathEnd WalkLoadPath(const std::vector<PointContact>& contacts,
+SolveStatus WalkLoadPath(const std::vector<PointContact>& contacts,
                          LadderNewton* newton, double* fraction) {
   newton->Reset();
   *fraction = 0;
   if (!newton->Converge(contacts, 0, SweepColumns::kLoad)) {
-    return LoadPathEnd::kStuck;
+    return SolveStatus::kNotConverged;
   }
   LoadPath path(newton, contacts, 0);
   for (int i = 0; i < kMostSteps; ++i) {
     const bool advanced = path.Advance(1);
     *fraction = path.fraction();
-    if (!advanced) return LoadPathEnd::kStuck;
+    if (!advanced) break;
     if (path.passed_limit_point()) {
       *fraction = path.limit_fraction();
-      return LoadPathEnd::kLimitPoint;
+      return SolveStatus::kLimitPoint;
     }
     if (path.fraction() >= 1) {
       // Back along the tangent to the load itself.
       newton->Move(0, (1 - path.fraction()));
       *fraction = 1;
-      return LoadPathEnd::kReached;
+      return SolveStatus::kSolved;
     }
   }
-  return LoadPathEnd::kStuck;
+  return SolveStatus::kNotConverged;
 }
 
 }  // namespace finray

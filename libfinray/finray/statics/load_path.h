@@ -43,7 +43,6 @@ class LoadPath {
   bool Joins(const Eigen::VectorXd& reached, const Eigen::VectorXd& tangent,
              double slope) const;
   double LimitFraction(double arc, double end_slope);
-  bool Correct(double arc);
   double Dot(const double* a, const double* b) const;
   void Keep(Eigen::VectorXd* state) const;
   void Restore(const Eigen::VectorXd& state);
@@ -54,19 +53,26 @@ class LoadPath {
   double fraction_, trial_fraction_ = 0;
   double step_ = 0.05;
   double limit_fraction_ = 0;
-  bool has_tangent_ = false, passed_limit_point_ = false, lost_ = false;
+  bool passed_limit_point_ = false, lost_ = false;
   int corrections_ = 0;
-  Eigen::VectorXd start_, tangent_;  // in the order of LadderNodes
+  // In the order of LadderNodes. The tangent is empty at the start.
+  Eigen::VectorXd start_, tangent_;
   double tangent_fraction_ = 0;
 };
 
-/// How a walk along the path ended.
-enum class LoadPathEnd { kReached, kLimitPoint, kStuck };
+/// How a solve, or a walk along the path, ended.
+enum class SolveStatus {
+  kSolved,
+  kBadLoad,     ///< A contact off its beam, or a number that is not finite.
+  kLimitPoint,  ///< The equilibrium that grows out of the unloaded finger ends
+                ///< (folds over) before the whole load is reached.
+  kNotConverged,
+};
 
-/// Walks from the undeformed finger to the whole load. On kReached `newton` is
+/// Walks from the undeformed finger to the whole load. On kSolved `newton` is
 /// near the equilibrium there and must be converged. *fraction is the share of
 /// the load that was reached, at which the path turned back or was lost.
-LoadPathEnd WalkLoadPath(const std::vector<PointContact>& contacts,
+SolveStatus WalkLoadPath(const std::vector<PointContact>& contacts,
                          LadderNewton* newton, double* fraction);
 
 }  // namespace finray

@@ -24,9 +24,8 @@ Shape::Shape(const EquilibriumSolver& solver,
         coefficients[0][0] = span.x_mm;
         coefficients[0][1] = span.y_mm;
         degree_ = Element::kDegree;
-        pieces_[side].push_back({span.arc_mm, span.length_mm,
-                                 span.start.force_x_N, span.start.force_y_N,
-                                 coefficients_.size()});
+        pieces_[side].push_back({span.arc_mm, span.start.force_x_N,
+                                 span.start.force_y_N, coefficients_.size()});
         coefficients_.insert(coefficients_.end(), std::begin(coefficients[0]),
                              std::end(coefficients[Element::kDegree]));
       });

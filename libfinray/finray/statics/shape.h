@@ -36,7 +36,7 @@ class Shape {
   // A piece of a beam. (x, y, theta, M) are polynomials of the arc length from
   // its start.
   struct Piece {
-    double arc_mm, length_mm;
+    double arc_mm;
     double force_x_N, force_y_N;
     std::size_t first_coefficient;
   };

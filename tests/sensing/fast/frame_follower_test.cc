@@ -6,6 +6,7 @@
 #include <random>
 
 #include "finray/sensing/frame_estimator.h"
+#include "sensing/uncertain_finger.h"
 #include "test_finger.h"
 
 namespace finray {
@@ -55,6 +56,7 @@ TEST(FrameFollowerTest, BlocksAndLiveFramesAgreeWithSearches) {
   for (const double noise : {1e-4, 3e-4}) {
     Finger finger = PaperFinger();
     for (Gauge& gauge : finger.gauges) gauge.noise_V = noise;
+    if (noise == 3e-4) finger.calibration = TypicalCovariance(finger);
     const std::vector<Measurements> log = MixedLog(noise);
     FrameEstimator block(finger, {}, {}), live(finger, {}, {}),
         alone(finger, {}, {});
@@ -62,18 +64,47 @@ TEST(FrameFollowerTest, BlocksAndLiveFramesAgreeWithSearches) {
     for (std::size_t i = 0; i < log.size(); i += 64) {
       block.EstimateBlock(&log[i], 64, &estimates[i]);
     }
-    int followed = 0;
+    int followed = 0, shorter = 0;
     for (std::size_t i = 0; i < log.size(); ++i) {
       const int frame = static_cast<int>(i);
       const FrameEstimate searched = alone.Estimate(log[i]);
       ExpectSame(estimates[i], searched, frame);
-      ExpectSame(live.Follow(log[i]), searched, frame);
+      ExpectSame(live.Next(log[i]), searched, frame);
       followed += estimates[i].contacts == 1 && estimates[i].iterations <= 4;
+      shorter += estimates[i].iterations < searched.iterations;
     }
     std::printf("noise %g rad: %d of %zu frames in four iterations or fewer\n",
                 noise, followed, log.size());
     EXPECT_GT(followed, 150);
+    EXPECT_GT(shorter, 150);
   }
+}
+
+// Two gauges leave no degree of freedom and so no p-value.
+TEST(FrameFollowerTest, FollowsWithTwoGauges) {
+  Finger finger = PaperFinger();
+  finger.gauges.resize(2);
+  EquilibriumSolver solver(finger, {});
+  std::vector<Measurements> log(64);
+  for (int i = 0; i < 64; ++i) {
+    ASSERT_TRUE(solver.Solve({{60 + 0.1 * i, 3, 0}}));
+    for (int j = 0; j < 2; ++j) {
+      log[i].gauges_V.push_back(solver.gauge_angle(j));
+    }
+  }
+  FrameEstimator block(finger, {}, {}), alone(finger, {}, {});
+  std::vector<FrameEstimate> estimates(log.size());
+  block.EstimateBlock(log.data(), log.size(), estimates.data());
+  int shorter = 0, ok = 0;
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    const FrameEstimate searched = alone.Estimate(log[i]);
+    ExpectSame(estimates[i], searched, static_cast<int>(i));
+    ok += searched.status == FrameStatus::kOk;
+    shorter += estimates[i].iterations < searched.iterations;
+  }
+  std::printf("two gauges: %d ok, %d followed\n", ok, shorter);
+  EXPECT_GT(ok, 32);
+  EXPECT_GT(shorter, ok / 2);
 }
 
 }  // namespace

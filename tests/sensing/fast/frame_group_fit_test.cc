@@ -95,7 +95,7 @@ double ExpectAsAlone(const Finger& finger, const Discretization& discretization,
     // The information is that of the last linearisation, a small change before
     // the end.
     EXPECT_LT(information, 1e-6) << "frame " << i;
-    // Where the data hardly determine the contact, a fit alone may end 1e-4 std
+    // Where the data hardly determine the contact, a fit alone may end 1e-5 std
     // away.
     EXPECT_LT(off, fit.in_lanes ? 1e-9 : 1e-7)
         << "frame " << i << ", " << fit.arc_mm << " mm, " << fit.normal_N

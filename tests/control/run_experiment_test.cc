@@ -1,8 +1,8 @@
+#include "finray/control/run_experiment.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "finray/control/run_experiment.h"
 
 namespace finray {
 namespace {

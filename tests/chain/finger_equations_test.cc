@@ -1,5 +1,7 @@
 // Every block of (5), (13) and (21) to (28) against automatic differentiation.
 
+#include "finray/chain/finger_equations.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include "chain/beam_chain.h"
 #include "chain/chain_fixture.h"
 #include "chain/jet_jacobian.h"
-#include "finray/chain/finger_equations.h"
 
 namespace finray {
 namespace {

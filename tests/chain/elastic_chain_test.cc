@@ -1,9 +1,10 @@
-#include "chain/beam_chain.h"
+#include "finray/chain/elastic_chain.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "chain/beam_chain.h"
 #include "finray/ladder/rigid_link_element.h"
 #include "ladder/computed_element.h"
 

@@ -1,9 +1,10 @@
+#include "finray/control/experiment.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "finray/control/experiment.h"
 #include "finray/io/error.h"
 #include "temp_file.h"
 #include "test_finger.h"

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "finray/chain/se2.h"
 #include "finray/finger/geometry.h"
 #include "finray/statics/equilibrium.h"
 #include "finray/statics/shape.h"
@@ -67,10 +68,6 @@ Vector2d ContactForce(const Vector3d& pose, const PointContact& contact) {
   const Vector2d right(tangent.y(), -tangent.x());
   return contact.normal_N * ((contact.side == Side::kFront ? 1 : -1) * right +
                              contact.friction * tangent);
-}
-
-double Cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
 }
 
 double Distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {

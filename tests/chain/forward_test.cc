@@ -1,5 +1,7 @@
-// The paper's chain against the ladder of rigid links at equal resolution: one
-// set of equations in two ways of writing them.
+// The paper's chain against the ladder of rigid links at equal resolution (one
+// set of equations in two ways of writing them), and against ceres::Solve.
+
+#include "finray/chain/forward.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +10,6 @@
 #include <cstdio>
 
 #include "chain/chain_fixture.h"
-#include "finray/chain/forward.h"
 #include "finray/statics/equilibrium.h"
 #include "statics/equilibrium_values.h"
 #include "statics/special_cases.h"
@@ -157,6 +158,27 @@ TEST(FormulationsTest, RefusesWhatItCannotSolve) {
     EXPECT_EQ(state.loads, ChainState::Straight(layout).loads);
   }
   EXPECT_TRUE(SolveForward(layout, {70, 2, 0}, &state));
+}
+
+TEST(CeresChainTest, ForwardAgreesWithNewton) {
+  const ChainLayout layout =
+      MakeChainLayout(RichFinger(), 40, GaugeRule::kOverlap);
+  for (const ceres::LinearSolverType type :
+       {ceres::DENSE_QR, ceres::DENSE_NORMAL_CHOLESKY,
+        ceres::SPARSE_NORMAL_CHOLESKY}) {
+    SCOPED_TRACE(ceres::LinearSolverTypeToString(type));
+    ChainState newton, state;
+    ASSERT_TRUE(SolveForward(layout, {70, 2, 0.3}, &state));
+    const PointContact load = {72.4, 2.5, 0.3};
+    ASSERT_TRUE(SolveForward(layout, load, &newton));
+    int iterations = 0;
+    ASSERT_TRUE(
+        ContinueForwardWithCeres(layout, load, type, &state, &iterations));
+    EXPECT_GE(iterations, 2);
+    EXPECT_LT((state.theta - newton.theta).cwiseAbs().maxCoeff(), 1e-8);
+    EXPECT_LT((state.loads - newton.loads).cwiseAbs().maxCoeff(),
+              1e-7 * newton.loads.cwiseAbs().maxCoeff());
+  }
 }
 
 }  // namespace

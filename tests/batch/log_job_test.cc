@@ -1,6 +1,8 @@
 // Streams and jobs with a solver that would show any dependence on threads,
 // chunks or interruptions.
 
+#include "finray/batch/log_job.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -9,7 +11,6 @@
 #include <cmath>
 #include <thread>
 
-#include "finray/batch/log_job.h"
 #include "finray/batch/log_stream.h"
 #include "finray/io/error.h"
 #include "finray/io/number_text.h"
@@ -256,31 +257,6 @@ TEST_F(BatchStreamTest, TheEstimatorRemembersNothing) {
               NumberText(was.contact[0].normal_N));
     EXPECT_EQ(NumberText(is.chi2), NumberText(was.chi2));
   }
-}
-
-TEST(EstimationSummaryTest, ReadsBackTheSame) {
-  EstimationSummary summary;
-  FrameEstimate estimate;
-  for (int i = 0; i < 100; ++i) {
-    estimate.status = EstimationSummary::kStatuses[i % 5];
-    estimate.contact[0].normal_N = 0.1 * i;
-    estimate.dof = 2;
-    estimate.chi2 = i;  // p = exp(-chi2 / 2) < 0.001 from 13.8 on
-    summary.Add(estimate, 0.3, i % 7 ? 0.05 * i : std::nan(""));
-  }
-  const auto back = SummaryFromText(SummaryToText(summary));
-  ASSERT_TRUE(back);
-  EXPECT_EQ(back->frames, 100u);
-  EXPECT_EQ(back->by_status, summary.by_status);
-  // Three of five statuses are solved.
-  EXPECT_EQ(summary.unexplained, 17u * 3);
-  EXPECT_EQ(back->unexplained, summary.unexplained);
-  EXPECT_EQ(back->force_compared, summary.force_compared);
-  EXPECT_EQ(back->force_squares_N2, summary.force_squares_N2);
-  EXPECT_EQ(back->force_max_N, summary.force_max_N);
-  EXPECT_FALSE(SummaryFromText(""));
-  EXPECT_FALSE(SummaryFromText("1 2 3"));
-  EXPECT_FALSE(SummaryFromText(SummaryToText(summary) + " 1"));
 }
 
 }  // namespace
