@@ -65,15 +65,14 @@ void PrintSummary(CalibrationProblem& problem,
     std::printf(" %s %.2f", ResidualFamilyName(static_cast<ResidualFamily>(i)),
                 noise.chi2 / noise.dof);
   }
-  const ForceCheck::Error& fitted = result.forces.fitted;
-  const ForceCheck::Error& kept = result.forces.held_out;
+  const ErrorStatistics& before = result.forces.fitted.force_before_N;
+  const ErrorStatistics& after = result.forces.fitted.force_after_N;
+  const ErrorStatistics& kept = result.forces.held_out.force_after_N;
   std::printf("\nforce error    ");
-  if (fitted.frames > 0) {
-    if (fitted.frames_before > 0) {
-      std::printf("%.3g N rms before, ", fitted.before_rms_N);
-    }
-    std::printf("%.3g N after", fitted.after_rms_N);
-    if (kept.frames > 0) std::printf(", %.3g N held out", kept.after_rms_N);
+  if (after.frames > 0) {
+    if (before.frames > 0) std::printf("%.3g N rms before, ", before.rms());
+    std::printf("%.3g N after", after.rms());
+    if (kept.frames > 0) std::printf(", %.3g N held out", kept.rms());
     std::printf("\n");
   } else {
     std::printf("not known: it takes a reference force and two gauges\n");
@@ -111,15 +110,12 @@ int Run() {
       CommandWith({"finger", "plan", "logs", "out_dir", "scheme", "resolution",
                    "leave_one_log_out"});
   MakeFolder(FLAGS_out_dir);
-  WriteFileAtomically(
-      OutPath("calibration.yaml"),
-      CalibrationYaml(problem, result,
-                      {FLAGS_finger, FLAGS_plan, paths, FLAGS_scheme,
-                       FLAGS_resolution, command}));
-  WriteFileAtomically(OutPath("calibration.frames.csv"),
-                      CalibrationFramesCsv(problem, result));
-  CalibrationShape(problem, result, discretization)
-      .Write(OutPath("calibration.shape.csv"));
+  WriteFileAtomically(OutPath("calibration.yaml"),
+                      CalibrationYaml(problem, result,
+                                      {FLAGS_finger, FLAGS_plan, FLAGS_scheme,
+                                       FLAGS_resolution, command}));
+  CalibrationFrames(problem, result).Write(OutPath("calibration.frames.csv"));
+  CalibrationShape(problem, result).Write(OutPath("calibration.shape.csv"));
   std::string origin = "Calibrated from";
   for (const std::string& path : paths) origin += " " + path;
   WriteFileAtomically(

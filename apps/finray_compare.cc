@@ -7,7 +7,6 @@
 #include "finray/calib/analysis/calibration_comparison.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/message_text.h"
-#include "finray/io/number_text.h"
 
 DEFINE_string(out_dir, "", "folder for comparison.yaml and comparison.csv");
 DEFINE_double(most_sigma, 0,
@@ -27,12 +26,12 @@ using namespace finray;
 
 std::vector<std::string> folders;
 
-std::vector<ComparisonGate> Gates(const Comparison& comparison) {
+std::vector<Gate> Gates(const Comparison& comparison) {
   const Comparison::Largest most = comparison.largest();
   const Comparison::Parameter* worst = comparison.LargestSigma();
   const auto nan = std::nan("");
   const bool any = most.points > 0;
-  std::vector<ComparisonGate> gates;
+  std::vector<Gate> gates;
   const auto at_most = [&](const char* name, double bound, double value) {
     if (bound > 0) gates.push_back({name, bound, value, value <= bound});
   };
@@ -61,7 +60,7 @@ void PrintNames(const char* what, const std::vector<std::string>& names) {
 }
 
 void PrintSummary(const Comparison& comparison,
-                  const std::vector<ComparisonGate>& gates) {
+                  const std::vector<Gate>& gates) {
   std::printf("%s\n", OutPath("comparison.yaml").c_str());
   const Comparison::Parameter* worst = comparison.LargestSigma();
   std::printf("parameters     %zu, largest difference %.2f std (%s, %.4g %s)\n",
@@ -93,14 +92,7 @@ void PrintSummary(const Comparison& comparison,
     std::printf("contact        %.3g mm rms, %.3g mm at most (%.2f std)\n",
                 most.contact_rms_mm, most.contact_mm, most.contact_over_std);
   }
-  std::vector<std::string> words;
-  for (const ComparisonGate& gate : gates) {
-    words.push_back(FormatText("%s %.3g (%.3g) %s", gate.name.c_str(),
-                               gate.bound, gate.value,
-                               gate.passed ? "passed" : "FAILED"));
-  }
-  PrintNames("gates         ",
-             words.empty() ? std::vector<std::string>{"none given"} : words);
+  std::printf("gates          %s\n", GateWords(gates).c_str());
 }
 
 int Run() {
@@ -124,16 +116,13 @@ int Run() {
   const CalibrationFile a = ReadCalibration(folders[0]);
   const CalibrationFile b = ReadCalibration(folders[1]);
   const Comparison comparison = Compare(a, b, discretization);
-  const std::vector<ComparisonGate> gates = Gates(comparison);
+  const std::vector<Gate> gates = Gates(comparison);
   MakeFolder(FLAGS_out_dir);
   WriteFileAtomically(OutPath("comparison.yaml"),
                       ComparisonYaml(comparison, a, b, gates));
   ComparisonGrid(comparison).Write(OutPath("comparison.csv"));
   PrintSummary(comparison, gates);
-  for (const ComparisonGate& gate : gates) {
-    if (!gate.passed) return kGateFailed;
-  }
-  return kGood;
+  return AllPassed(gates) ? kGood : kGateFailed;
 }
 
 }  // namespace

@@ -61,23 +61,22 @@ void CheckBound(const std::string& name, double bound) {
   }
 }
 
-std::vector<Gate> Gates() {
-  using Quantity = Gate::Quantity;
-  const std::pair<Quantity, double> all[] = {
-      {Quantity::kForceRms, FLAGS_most_force_rms_N},
-      {Quantity::kForcePercent, FLAGS_most_force_percent},
-      {Quantity::kContactRms, FLAGS_most_contact_rms_mm},
-      {Quantity::kCoverage68, FLAGS_least_coverage_68_percent},
-      {Quantity::kCoverage95, FLAGS_least_coverage_95_percent},
-      {Quantity::kUsable, FLAGS_least_usable_percent}};
-  std::vector<Gate> gates;
-  for (const auto& [quantity, bound] : all) {
-    const char* name = GateName(quantity);
+// Returns the names and bounds of the gates that are given.
+std::vector<std::pair<std::string, double>> Bounds() {
+  const std::pair<const char*, double> all[] = {
+      {"most_force_rms_N", FLAGS_most_force_rms_N},
+      {"most_force_percent", FLAGS_most_force_percent},
+      {"most_contact_rms_mm", FLAGS_most_contact_rms_mm},
+      {"least_coverage_68_percent", FLAGS_least_coverage_68_percent},
+      {"least_coverage_95_percent", FLAGS_least_coverage_95_percent},
+      {"least_usable_percent", FLAGS_least_usable_percent}};
+  std::vector<std::pair<std::string, double>> given;
+  for (const auto& [name, bound] : all) {
     if (!IsGiven(name)) continue;
     CheckBound(name, bound);
-    gates.push_back({quantity, bound});
+    given.emplace_back(name, bound);
   }
-  return gates;
+  return given;
 }
 
 // These parameters belong to the calibration's own logs. The finger YAML does
@@ -116,7 +115,7 @@ void PrintErrors(const char* name, const ErrorStatistics& errors,
 }
 
 void PrintSummary(const CalibrationLogs& logs, const Validation& validation,
-                  const std::vector<GateResult>& gates) {
+                  const std::vector<Gate>& gates) {
   const ErrorRow& errors = validation.errors.contact;
   const ErrorRow* baseline = validation.baseline_errors
                                  ? &validation.baseline_errors->contact
@@ -143,14 +142,7 @@ void PrintSummary(const CalibrationLogs& logs, const Validation& validation,
   }
   std::printf("coverage      %s (68 and 95 %% predicted)\n",
               Joined(words, ",").c_str());
-  words.clear();
-  for (const GateResult& result : gates) {
-    words.push_back(FormatText(
-        "%s %.3g (%.3g) %s", GateName(result.gate.quantity), result.gate.bound,
-        result.value, result.passed ? "passed" : "FAILED"));
-  }
-  std::printf("gates          %s\n",
-              words.empty() ? "none given" : Joined(words).c_str());
+  std::printf("gates          %s\n", GateWords(gates).c_str());
 }
 
 int Run() {
@@ -158,7 +150,7 @@ int Run() {
   const Plan plan = PlanOrScene();
   const auto paths = SplitList(Required("logs", FLAGS_logs));
   Required("out_dir", FLAGS_out_dir);
-  const std::vector<Gate> gates = Gates();
+  const auto bounds = Bounds();
   std::optional<Finger> baseline;
   if (!FLAGS_baseline.empty()) {
     baseline = ReadFinger(FLAGS_baseline);
@@ -177,26 +169,23 @@ int Run() {
   const CalibrationLogs logs = ReadCalibrationLogs(paths, finger, whole);
   const Validation validation =
       Validate(finger, baseline, whole, logs, discretization, FLAGS_threads);
-  const std::vector<GateResult> results = CheckGates(validation, gates);
+  const std::vector<Gate> gates = CheckGates(validation, bounds);
 
   std::vector<const char*> flags = {"finger",   "plan",      "scene",
                                     "baseline", "logs",      "out_dir",
                                     "scheme",   "resolution"};
-  for (const Gate& gate : gates) flags.push_back(GateName(gate.quantity));
+  for (const Gate& gate : gates) flags.push_back(gate.name.c_str());
   MakeFolder(FLAGS_out_dir);
   WriteFileAtomically(
       OutPath("validation.yaml"),
       ValidationYaml(
-          logs, validation, results,
+          logs, validation, gates,
           {FLAGS_finger, FLAGS_baseline,
            FLAGS_plan.empty() ? FLAGS_scene : FLAGS_plan, CommandWith(flags)}));
   ValidationFrames(logs, validation, plan.scene.friction_coefficient)
       .Write(OutPath("validation.frames.csv"));
-  PrintSummary(logs, validation, results);
-  for (const GateResult& result : results) {
-    if (!result.passed) return kGateFailed;
-  }
-  return kGood;
+  PrintSummary(logs, validation, gates);
+  return AllPassed(gates) ? kGood : kGateFailed;
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ std::string Folder(const TempFolder& folder, const std::string& name,
   std::filesystem::create_directory(folder.Path(name));
   folder.Write(name + "/calibration.yaml",
                CalibrationYaml(*calibrated.problem, result,
-                               {log, log, {log}, "taylor", 0, ""}));
+                               {log, log, "taylor", 0, ""}));
   folder.Write(name + "/finger.yaml", FingerToYaml(result.finger));
   return folder.Path(name);
 }

@@ -46,8 +46,8 @@ TEST(FingerCovarianceTest, BlockSaysWhatCalibrationYamlSays) {
   const CalibrationResult result = Calibrate(&problem);
   const Finger finger =
       ReadFinger(folder.Write("finger.yaml", FingerToYaml(result.finger)));
-  const YAML::Node yaml = YAML::Load(
-      CalibrationYaml(problem, result, {log, log, {log}, "taylor", 0, ""}));
+  const YAML::Node yaml =
+      YAML::Load(CalibrationYaml(problem, result, {log, log, "taylor", 0, ""}));
   ASSERT_EQ(yaml["parameters"].size(), 17u);
   const ParameterCovariance& block = finger.calibration.value();
   ASSERT_EQ(block.parameters, ParametersOf(finger));

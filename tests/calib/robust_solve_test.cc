@@ -116,7 +116,7 @@ void ExpectSameCosts(const std::vector<StartReport>& a,
                      const std::vector<StartReport>& b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t k = 0; k < a.size(); ++k) {
-    EXPECT_EQ(a[k].cost, b[k].cost) << a[k].name;
+    EXPECT_EQ(a[k].solve.final_cost, b[k].solve.final_cost) << a[k].name;
   }
 }
 

@@ -173,12 +173,12 @@ TEST(ValidationTest, Gates) {
   const Plan plan = ValidationPlan();
   const Validation result =
       ValidateLog(truth, plan, PointLog(folder, truth, 30, 5));
-  using Quantity = Gate::Quantity;
   const double rms = result.errors.contact.force_N.rms();
-  const auto results = CheckGates(result, {{Quantity::kForceRms, 1.01 * rms},
-                                           {Quantity::kForceRms, 0.99 * rms},
-                                           {Quantity::kUsable, 90},
-                                           {Quantity::kCoverage95, 100.5}});
+  const std::vector<Gate> results =
+      CheckGates(result, {{"most_force_rms_N", 1.01 * rms},
+                          {"most_force_rms_N", 0.99 * rms},
+                          {"least_usable_percent", 90},
+                          {"least_coverage_95_percent", 100.5}});
   EXPECT_TRUE(results[0].passed);
   EXPECT_FALSE(results[1].passed);
   EXPECT_TRUE(results[2].passed);
@@ -187,7 +187,7 @@ TEST(ValidationTest, Gates) {
 
   const Validation placeless =
       ValidateLog(truth, plan, PointLog(folder, truth, 5, 5, false));
-  EXPECT_THROW(CheckGates(placeless, {{Quantity::kContactRms, 1}}), InputError);
+  EXPECT_THROW(CheckGates(placeless, {{"most_contact_rms_mm", 1}}), InputError);
   FrameTable blind = FrameTable::Read(PointLog(folder, truth, 5, 5, false));
   blind.MutableNumbers("force_N").assign(5, NAN);
   blind.Write(folder.Path("blind.csv"));

@@ -107,8 +107,7 @@ void CompareParameters(const CalibrationFile& a, const CalibrationFile& b,
 class Sensor {
  public:
   Sensor(const Finger& finger, const Discretization& discretization)
-      : finger_(finger),
-        solver_(finger, discretization),
+      : solver_(finger, discretization),
         systematic_(finger, 0, &solver_),
         estimator_(WithoutCovariance(finger), OneContact(), discretization),
         weights_(finger.gauges.size()) {
@@ -123,9 +122,10 @@ class Sensor {
     solver_.Reset();
     std::vector<double> volts;
     if (!solver_.Solve({contact})) return volts;
-    for (std::size_t j = 0; j < finger_.gauges.size(); ++j) {
+    const std::vector<Gauge>& gauges = solver_.model().finger().gauges;
+    for (std::size_t j = 0; j < gauges.size(); ++j) {
       volts.push_back(
-          finger_.gauges[j].Volts(solver_.gauge_angle(static_cast<int>(j))));
+          gauges[j].Volts(solver_.gauge_angle(static_cast<int>(j))));
     }
     return volts;
   }
@@ -155,7 +155,6 @@ class Sensor {
     return scene;
   }
 
-  Finger finger_;
   EquilibriumSolver solver_;
   CalibrationUncertainty systematic_;
   FrameEstimator estimator_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "finray/calib/analysis/calibration_file.h"
+#include "finray/calib/analysis/gate.h"
 #include "finray/finger/discretization.h"
 #include "finray/io/frame_table.h"
 
@@ -72,15 +73,10 @@ Comparison Compare(const CalibrationFile& a, const CalibrationFile& b,
 
 /// Returns the table of comparison.csv, with a row for each point of the grid.
 FrameTable ComparisonGrid(const Comparison& comparison);
-struct ComparisonGate {
-  std::string name;
-  double bound, value;
-  bool passed;
-};
 /// Returns the text of comparison.yaml.
 std::string ComparisonYaml(const Comparison& comparison,
                            const CalibrationFile& a, const CalibrationFile& b,
-                           const std::vector<ComparisonGate>& gates);
+                           const std::vector<Gate>& gates);
 
 }  // namespace finray
 

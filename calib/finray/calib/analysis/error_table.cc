@@ -51,6 +51,7 @@ void ErrorStatistics::Add(double error, double reference, double std) {
   sum += error;
   largest = std::max(largest, std::abs(error));
   reference_squares += reference * reference;
+  reference_sum += reference;
   if (!std::isfinite(std)) return;
   ++judged;
   within_68 += std::abs(error) <= std;
@@ -66,6 +67,9 @@ double ErrorStatistics::rms() const {
 }
 double ErrorStatistics::bias() const {
   return frames == 0 ? kNaN : sum / static_cast<double>(frames);
+}
+double ErrorStatistics::reference_mean() const {
+  return frames == 0 ? kNaN : reference_sum / static_cast<double>(frames);
 }
 double ErrorStatistics::percent() const {
   return frames == 0 ? kNaN : 100 * std::sqrt(squares / reference_squares);
@@ -126,14 +130,15 @@ void ErrorTable::Add(const FrameReference& reference,
   if (region >= 0) regions[region].Add(reference, estimate, friction);
 }
 
-void EmitErrorTable(const ErrorTable& table, YamlEmitter* yaml) {
+void EmitErrorTable(const char* key, const ErrorTable& table,
+                    YamlEmitter* yaml) {
   const auto row = [&](const char* name, const ErrorRow& errors) {
     if (errors.frames == 0) return;
     *yaml << YAML::Key << name << YAML::Value << YAML::Flow << YAML::BeginMap;
     EmitRow(errors, &errors != &table.free, yaml);
     *yaml << YAML::EndMap;
   };
-  *yaml << YAML::BeginMap;
+  *yaml << YAML::Key << key << YAML::Value << YAML::BeginMap;
   row("contact", table.contact);
   row("free", table.free);
   *yaml << YAML::Key << "regions" << YAML::Value << YAML::BeginSeq;

@@ -24,7 +24,7 @@ struct FrameReference {
 struct ErrorStatistics {
   std::size_t frames = 0;  ///< Number of frames with an error.
   double squares = 0, sum = 0, largest = 0;
-  double reference_squares = 0;
+  double reference_squares = 0, reference_sum = 0;
   /// The number of frames with a std s, and of those among them with |e| <= k
   /// s. s^2 is the variance of the estimate plus that of the reference. k is 1
   /// (68.3 %) and 1.96 (95 %). A quantity that the estimate misses has no std
@@ -37,6 +37,7 @@ struct ErrorStatistics {
   void Miss(double reference);
   double rms() const;
   double bias() const;
+  double reference_mean() const;
   /// The rms of the errors in percent of the rms of the reference.
   double percent() const;
   double coverage_68_percent() const;
@@ -78,8 +79,9 @@ struct ErrorTable {
            double place_mm, double friction);
 };
 
-/// Emits the table as a YAML mapping {contact, free, regions}.
-void EmitErrorTable(const ErrorTable& table, YamlEmitter* yaml);
+/// Emits a key and the table as a YAML mapping {contact, free, regions}.
+void EmitErrorTable(const char* key, const ErrorTable& table,
+                    YamlEmitter* yaml);
 
 }  // namespace finray
 

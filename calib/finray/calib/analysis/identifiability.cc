@@ -16,51 +16,30 @@ const char* ParameterStatusName(ParameterStatus status) {
   return kNames[static_cast<int>(status)];
 }
 
-static_assert(Identifiability::kNull * Identifiability::kNull ==
-              kLeastInformation);
-
-Eigen::MatrixXd BoundedCovariance(const Eigen::MatrixXd& information) {
-  const InformationSpectrum spectrum(information);
-  const Eigen::MatrixXd root =
-      spectrum.vectors * spectrum.values.cwiseMax(kLeastInformation)
-                             .cwiseSqrt()
-                             .cwiseInverse()
-                             .asDiagonal();
-  return root * root.transpose();
-}
-
 namespace {
 
 // Says in words which parameters move together along a weak direction.
 void DescribeInWords(CalibrationProblem& problem, WeakDirection* direction) {
-  double by_family[kParameterFamilies] = {};  // sums of squared shares
-  double sign[kParameterFamilies] = {};
-  bool one_sign[kParameterFamilies];
-  std::fill(std::begin(one_sign), std::end(one_sign), true);
+  double front = 0, back = 0;  // the shares of the beams' stiffness
+  double gains = 0;            // the sum of the squared shares of the gains
+  bool raised = false, lowered = false;  // whether some gain is
   const auto& all = problem.parameters().all();
-  for (const auto& component : direction->components) {
-    const int family = static_cast<int>(all[component.parameter].family);
-    by_family[family] += component.share * component.share;
-    if (sign[family] * component.share < 0) one_sign[family] = false;
-    sign[family] = component.share;
+  for (const auto& [parameter, share] : direction->components) {
+    const ParameterFamily family = all[parameter].family;
+    if (family == ParameterFamily::kFrontStiffness) front = share;
+    if (family == ParameterFamily::kBackStiffness) back = share;
+    if (family != ParameterFamily::kGaugeGain) continue;
+    gains += share * share;
+    (share > 0 ? raised : lowered) = true;
   }
-  const auto share = [&](ParameterFamily family) {
-    return by_family[static_cast<int>(family)];
-  };
-  const auto same_sign = [&](ParameterFamily family) {
-    return one_sign[static_cast<int>(family)];
-  };
-  const bool both_beams = share(ParameterFamily::kFrontStiffness) > 0.1 &&
-                          share(ParameterFamily::kBackStiffness) > 0.1 &&
-                          sign[0] * sign[1] > 0;
-  const double beams = share(ParameterFamily::kFrontStiffness) +
-                       share(ParameterFamily::kBackStiffness);
-  const double gains = share(ParameterFamily::kGaugeGain);
+  const double beams = front * front + back * back;
+  const bool both_beams =
+      front * front > 0.1 && back * back > 0.1 && front * back > 0;
   std::string words;
   if (both_beams && beams > 0.9) {
     words = "front and back stiffness and all forces scale together";
   } else if (both_beams && gains > 0.1 && beams + gains > 0.8 &&
-             same_sign(ParameterFamily::kGaugeGain)) {
+             !(raised && lowered)) {
     words = kGainsAgainstStiffness;
   } else {
     for (const auto& component : direction->components) {
@@ -73,7 +52,7 @@ void DescribeInWords(CalibrationProblem& problem, WeakDirection* direction) {
   }
   direction->words = words;
   direction->how_far =
-      direction->null
+      std::isinf(direction->std_over_prior)
           ? "the data do not say how far"
           : FormatText("the data leave a std of %.3g times the prior's",
                        direction->std_over_prior);
@@ -83,7 +62,6 @@ WeakDirection Describe(CalibrationProblem* problem,
                        const Eigen::VectorXd& vector, double std_over_prior) {
   WeakDirection direction;
   direction.direction = vector;
-  direction.null = std::isinf(std_over_prior);
   direction.std_over_prior = std_over_prior;
   for (Eigen::Index i = 0; i < vector.size(); ++i) {
     if (std::abs(vector[i]) > 0.15) {
@@ -162,40 +140,33 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
   const CalibrationParameters& parameters = problem->parameters();
   const int n = static_cast<int>(parameters.free().size());
 
-  const Eigen::VectorXd unit = parameters.Units();
-  Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(n, n);  // in those units
+  Identifiability result;
+  result.unit = parameters.Units();
+  const Eigen::VectorXd& unit = result.unit;
+  result.prior = Eigen::MatrixXd::Zero(n, n);
   for (int i = 0; i < n; ++i) {
-    const CalibrationParameter& p = parameters.FreeParameter(i);
-    if (p.prior_std) prior(i, i) = 1;
+    if (parameters.FreeParameter(i).prior_std) result.prior(i, i) = 1;
   }
   const auto scaled = [&](const Eigen::MatrixXd& of_variables) {
     return Eigen::MatrixXd(unit.asDiagonal() * of_variables *
                            unit.asDiagonal());
   };
-  const Eigen::MatrixXd information = scaled(at.Information());
-
-  Identifiability result;
-  result.unit = unit;
-  result.information = information;
-  result.prior = prior;
-  const InformationSpectrum spectrum(information);
+  result.information = scaled(at.Information());
+  const InformationSpectrum spectrum(result.information);
   const Eigen::VectorXd& value = spectrum.values;
   const Eigen::MatrixXd& vector = spectrum.vectors;
+  result.weakest = vector.col(0);
 
-  result.covariance = BoundedCovariance(information + prior);
+  result.covariance = BoundedCovariance(result.information + result.prior);
   const Eigen::MatrixXd& covariance = result.covariance;
-  result.correlation.resize(n, n);
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) {
-      result.correlation(i, j) =
-          covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
-    }
-  }
+  const Eigen::VectorXd std = covariance.diagonal().cwiseSqrt();
+  result.correlation = covariance.cwiseQuotient(std * std.transpose());
   for (int i = 0; i < n; ++i) {
     // This is the variance from the data alone. It is infinite if the parameter
     // has a share of more than 1 % in a null direction.
     double variance = 0;
-    bool null = false, held_by_prior = prior(i, i) > 0;
+    const CalibrationParameter& p = parameters.FreeParameter(i);
+    bool null = false;
     for (int k = 0; k < n; ++k) {
       const double share = vector(i, k) * vector(i, k);
       if (value[k] < Identifiability::kNull) {
@@ -204,14 +175,13 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
         variance += share / value[k];
       }
     }
-    const CalibrationParameter& p = parameters.FreeParameter(i);
-    const bool by_prior = held_by_prior && variance > 1;
+    const bool by_prior = p.prior_std && variance > 1;
     result.status.push_back(null || (by_prior && unit[i] > p.vague_std)
                                 ? ParameterStatus::kUnidentifiable
                             : by_prior ? ParameterStatus::kPriorDominated
                                        : ParameterStatus::kEstimated);
-    result.bounded_std.push_back(unit[i] * std::sqrt(covariance(i, i)));
-    result.std.push_back(null && !held_by_prior
+    result.bounded_std.push_back(unit[i] * std[i]);
+    result.std.push_back(null && !p.prior_std
                              ? std::numeric_limits<double>::infinity()
                              : result.bounded_std.back());
   }

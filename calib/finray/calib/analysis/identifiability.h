@@ -24,9 +24,9 @@ const char* ParameterStatusName(ParameterStatus status);
 /// A combination of parameters that the data determine badly.
 struct WeakDirection {
   /// The std that the data alone leave along the direction, in units of the
-  /// priors, or of the scales where there is none.
+  /// priors, or of the scales where there is none. It is infinite if the data
+  /// say nothing along it (Identifiability::kNull).
   double std_over_prior;
-  bool null;  ///< The data say nothing along it (Identifiability::kNull).
   struct Component {
     int parameter;  ///< Index into CalibrationParameters::all().
     double share;   ///< Its entry of the unit vector.
@@ -57,10 +57,12 @@ struct Identifiability {
 
   std::vector<double> std;  ///< Of the variable of each free parameter.
   /// The same, but finite: a parameter about which neither data nor prior say
-  /// anything has 1 / kNull of its scale.
+  /// anything has 1 / sqrt(kLeastInformation) of its scale.
   std::vector<double> bounded_std;
-  std::vector<ParameterStatus> status;  ///< One for each free parameter.
-  Eigen::MatrixXd correlation;          ///< Free x free parameters.
+  /// One for each free parameter, by these data. FindUnsupported withdraws that
+  /// of parameters which only look estimated.
+  std::vector<ParameterStatus> status;
+  Eigen::MatrixXd correlation;  ///< Free x free parameters.
   /// (S + P)^-1 in the units of S and P, by BoundedCovariance.
   Eigen::MatrixXd covariance;
   /// S and P of the variables in these units: the std of the prior, or the
@@ -68,6 +70,8 @@ struct Identifiability {
   Eigen::MatrixXd information, prior;
   Eigen::VectorXd unit;
   std::vector<WeakDirection> weak;
+  /// The unit vector along which the data say least.
+  Eigen::VectorXd weakest;
 
   struct Noise {
     int residuals = 0;
@@ -76,10 +80,6 @@ struct Identifiability {
   };
   std::array<Noise, kResidualFamilies> noise;
 };
-
-/// Returns (S + P)^-1 of a scaled information matrix. A direction that is not
-/// determined gets a std of 1 / kNull.
-Eigen::MatrixXd BoundedCovariance(const Eigen::MatrixXd& information);
 
 Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
                                        const Linearization& at_solution);

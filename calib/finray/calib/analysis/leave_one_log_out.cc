@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "finray/calib/solve/information_spectrum.h"
 #include "finray/calib/solve/summed_solve.h"
 
 namespace finray {
@@ -51,7 +52,8 @@ LeaveOneLogOut LeaveLogsOut(CalibrationProblem* problem,
       if (group_of.at(problem->frame(i).log) != group) rest.push_back(i);
     }
     const auto without = problem->Part(rest, problem->threads());
-    ContactStore contacts(without.get(), solution.contacts);
+    ContactStore contacts(without.get());
+    contacts.Set(solution.contacts);
     const SummedSolution solved =
         SolveSummed(rest, {}, without.get(), &contacts);
     if (!solved.report.converged) {

@@ -35,8 +35,8 @@ bool Has(const std::vector<ResidualFamily>& families, ResidualFamily family) {
   return std::find(families.begin(), families.end(), family) != families.end();
 }
 
-// Returns a frame of the time and place of one in the logs, without its
-// measurements.
+// Returns a frame of the log, time and temperature of one in the logs, without
+// its measurements.
 CalibrationFrame Template(const CalibrationProblem& problem, bool contact) {
   CalibrationFrame frame;
   for (const CalibrationFrame& recorded : problem.logs().frames) {
@@ -90,13 +90,11 @@ std::vector<bool> WorkingGauges(const CalibrationProblem& problem) {
 }
 
 // Fills in the readings of all sensors. Returns false if the finger cannot
-// carry the contact.
-bool Measure(const PointContact* contact, const std::vector<bool>& works,
-             const Plan& plan, EquilibriumSolver* solver,
-             CalibrationFrame* frame) {
+// carry the contact, if there is one.
+bool Measure(const std::vector<PointContact>& contacts,
+             const std::vector<bool>& works, const Plan& plan,
+             EquilibriumSolver* solver, CalibrationFrame* frame) {
   solver->Reset();
-  std::vector<PointContact> contacts;
-  if (contact != nullptr) contacts.push_back(*contact);
   if (!solver->Solve(contacts)) return false;
   const Finger& finger = solver->model().finger();
   frame->gauges_V.resize(works.size());
@@ -104,9 +102,9 @@ bool Measure(const PointContact* contact, const std::vector<bool>& works,
     const double angle = solver->gauge_angle(static_cast<int>(j));
     frame->gauges_V[j] = works[j] ? finger.gauges[j].Volts(angle) : kNaN;
   }
-  if (contact == nullptr) return true;
-  frame->force_N = contact->normal_N;
-  frame->contact_mm = contact->arc_mm;
+  if (contacts.empty()) return true;
+  frame->force_N = contacts[0].normal_N;
+  frame->contact_mm = contacts[0].arc_mm;
   if (plan.scene.circle_radius_mm()) {
     frame->object_mm =
         CircleCentre(solver->contact_pose(0), *plan.scene.circle_radius_mm());
@@ -131,13 +129,13 @@ class NextFrames {
   // if it helps more than the same frames without it.
   std::vector<FrameAdvice> Best(const Eigen::VectorXd& direction) const {
     std::vector<FrameAdvice> all;
-    for (const Measured& measured : measured_) {
-      const FrameAdvice best = BestWith(measured, direction);
+    for (const Families& added : added_) {
+      const FrameAdvice best = BestWith(added, direction);
       double bar = 1;  // the ratio that fewer measurements reach
       for (const FrameAdvice& other : all) {
-        const bool fewer = std::all_of(
-            other.added.begin(), other.added.end(),
-            [&](ResidualFamily f) { return Has(measured.added, f); });
+        const bool fewer =
+            std::all_of(other.added.begin(), other.added.end(),
+                        [&](ResidualFamily f) { return Has(added, f); });
         if (fewer) bar = std::min(bar, other.ratio());
       }
       if (best.ratio() <= kWorthwhile * bar) all.push_back(best);
@@ -164,28 +162,19 @@ class NextFrames {
   }
 
  private:
-  // One predicted frame, with a row for each residual.
+  // One predicted frame. Its parameters are those of Identifiability, in its
+  // units.
   struct Candidate {
     bool free;
     double contact_mm, normal_N;
-    std::vector<ResidualFamily> families;  // one for each row
-    Eigen::MatrixXd by_parameter;          // in units of Identifiability
-    Eigen::Matrix<double, Eigen::Dynamic, 2> by_contact;
+    LinearizedFrame at;
   };
   using Families = std::vector<ResidualFamily>;
-  // A set of measurements of contact frames.
-  struct Measured {
-    Families all, added;
-  };
 
   void Predict(const Contacts& contacts) {
     const Finger finger = problem_->parameters().Apply(problem_->finger());
     const Plan& plan = problem_->plan();
     const double largest_N = LargestLoad(problem_->finger(), contacts);
-    for (int i = 1; i <= kHeights; ++i) {
-      arcs_mm_.push_back(
-          std::round(finger.front_length_mm * i / (kHeights + 1)));
-    }
     for (const double share : kLoads) {
       forces_N_.push_back(TwoDigits(share * largest_N));
     }
@@ -198,20 +187,22 @@ class NextFrames {
     EquilibriumSolver solver(finger, problem_->discretization());
     const std::vector<bool> works = WorkingGauges(*problem_);
     CalibrationFrame frame = Template(*problem_, false);
-    if (Measure(nullptr, works, plan, &solver, &frame)) {
+    if (Measure({}, works, plan, &solver, &frame)) {
       logs.frames.push_back(frame);
-      candidates_.push_back({true, kNaN, 0, {}, {}, {}});
+      candidates_.push_back({true, kNaN, 0, {}});
     }
-    if (plan.scene.contacts.value_or(1) > 0) {
-      for (const double arc : arcs_mm_) {
-        for (const double force : forces_N_) {
-          frame = Template(*problem_, true);
-          const PointContact contact = {arc, force,
-                                        plan.scene.friction_coefficient};
-          if (!Measure(&contact, works, plan, &solver, &frame)) continue;
-          logs.frames.push_back(frame);
-          candidates_.push_back({false, arc, force, {}, {}, {}});
+    frame = Template(*problem_, true);
+    const bool may_touch = plan.scene.contacts.value_or(1) > 0;
+    for (int i = 1; may_touch && i <= kHeights; ++i) {
+      const double arc =
+          std::round(finger.front_length_mm * i / (kHeights + 1));
+      for (const double force : forces_N_) {
+        if (!Measure({{arc, force, plan.scene.friction_coefficient}}, works,
+                     plan, &solver, &frame)) {
+          continue;
         }
+        logs.frames.push_back(frame);
+        candidates_.push_back({false, arc, force, {}});
       }
     }
     CalibrationProblem predicted(finger, plan, logs, problem_->discretization(),
@@ -238,8 +229,8 @@ class NextFrames {
     const auto keep = [&](int frame, const LinearizedFrame& at) {
       const int index = frame - recorded;
       if (index < 0) return;
-      Candidate& candidate = candidates_[index];
-      for (const auto& row : at.rows) candidate.families.push_back(row.family);
+      LinearizedFrame& candidate = candidates_[index].at;
+      candidate = at;
       candidate.by_parameter.setZero(at.by_parameter.rows(), columns);
       for (std::size_t k = 0; k < of_predicted.free().size(); ++k) {
         const auto column = column_of.find(of_predicted.FreeParameter(k).name);
@@ -248,13 +239,12 @@ class NextFrames {
             at.by_parameter.col(static_cast<Eigen::Index>(k)) *
             found_.unit[column->second];
       }
-      candidate.by_contact = at.by_contact;
     };
     LinearizeFrames(predicted.candidates(), &predicted, &places, keep);
     // Some candidates have too few measurements to be a frame.
     candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(),
                                      [](const Candidate& candidate) {
-                                       return candidate.families.empty();
+                                       return candidate.at.rows.empty();
                                      }),
                       candidates_.end());
   }
@@ -262,52 +252,44 @@ class NextFrames {
   // Chooses the sets of measurements: those of the contact frames in the logs,
   // and these with one or two more.
   void ChooseMeasurements(const Linearization& at_solution) {
-    Families recorded, missing;
+    recorded_ = {ResidualFamily::kGauge};
     for (const ResidualInfo& row : at_solution.rows) {
-      const bool contact = problem_->frame(row.frame).contact;
-      if (contact && !Has(recorded, row.family)) recorded.push_back(row.family);
+      if (problem_->frame(row.frame).contact && !Has(recorded_, row.family)) {
+        recorded_.push_back(row.family);
+      }
     }
-    if (!Has(recorded, ResidualFamily::kGauge)) {
-      recorded.push_back(ResidualFamily::kGauge);
-    }
+    Families missing;
     for (const Candidate& candidate : candidates_) {
-      for (const ResidualFamily family : candidate.families) {
-        if (!Has(recorded, family) && !Has(missing, family)) {
-          missing.push_back(family);
+      for (const LinearizedFrame::Row& row : candidate.at.rows) {
+        if (!Has(recorded_, row.family) && !Has(missing, row.family)) {
+          missing.push_back(row.family);
         }
       }
     }
-    measured_.push_back({recorded, {}});
-    const auto add = [&](const Families& added) {
-      Families all = recorded;
-      all.insert(all.end(), added.begin(), added.end());
-      measured_.push_back({all, added});
-    };
-    for (const ResidualFamily family : missing) add({family});
+    added_.push_back({});
+    for (const ResidualFamily family : missing) added_.push_back({family});
     // If the logs have neither force nor place, one of the two may not be
     // enough.
-    const bool placed = Has(recorded, ResidualFamily::kObject) ||
-                        Has(recorded, ResidualFamily::kContact);
+    const bool placed = Has(recorded_, ResidualFamily::kObject) ||
+                        Has(recorded_, ResidualFamily::kContact);
     for (const ResidualFamily place :
          {ResidualFamily::kObject, ResidualFamily::kContact}) {
       if (Has(missing, ResidualFamily::kForce) && Has(missing, place) &&
           !placed) {
-        add({ResidualFamily::kForce, place});
+        added_.push_back({ResidualFamily::kForce, place});
       }
     }
   }
 
   Eigen::MatrixXd Information(const Candidate& candidate,
                               const Families& measured) const {
+    const LinearizedFrame& at = candidate.at;
     std::vector<int> rows;
-    for (std::size_t i = 0; i < candidate.families.size(); ++i) {
-      if (Has(measured, candidate.families[i])) {
-        rows.push_back(static_cast<int>(i));
-      }
+    for (std::size_t i = 0; i < at.rows.size(); ++i) {
+      if (Has(measured, at.rows[i].family)) rows.push_back(static_cast<int>(i));
     }
-    const Eigen::MatrixXd j =
-        EliminateContact(candidate.by_parameter(rows, Eigen::all),
-                         candidate.by_contact(rows, Eigen::all));
+    const Eigen::MatrixXd j = EliminateContact(
+        at.by_parameter(rows, Eigen::all), at.by_contact(rows, Eigen::all));
     return j.transpose() * j;
   }
 
@@ -341,7 +323,7 @@ class NextFrames {
         (found_.unit[free] * std::sqrt(before(largest, largest)));
     const auto std = [&](double variance) {
       // A variance that has only the bound of BoundedCovariance is not known.
-      if (variance > 0.01 / std::pow(Identifiability::kNull, 2)) {
+      if (variance > 0.01 / kLeastInformation) {
         return std::numeric_limits<double>::infinity();
       }
       return p.ValueStd(*p.variable, found_.unit[free] * std::sqrt(variance)) *
@@ -351,8 +333,12 @@ class NextFrames {
     advice->parameter_std_after = std(after(largest, largest));
   }
 
-  FrameAdvice BestWith(const Measured& measured,
+  // Returns the best advice on contact frames with the measurements of the logs
+  // and the added ones.
+  FrameAdvice BestWith(const Families& added,
                        const Eigen::VectorXd& direction) const {
+    Families measured = recorded_;
+    measured.insert(measured.end(), added.begin(), added.end());
     FrameAdvice best;
     best.std_before = best.std_after = 1;
     const auto consider = [&](const Eigen::MatrixXd& information, double arc,
@@ -360,7 +346,7 @@ class NextFrames {
       FrameAdvice advice;
       advice.contact_mm = arc;
       advice.normal_N = force;
-      advice.added = measured.added;
+      advice.added = added;
       Judge(information, direction, &advice);
       if (advice.ratio() < best.ratio()) best = advice;
     };
@@ -370,7 +356,7 @@ class NextFrames {
       int heights = 0;
       for (const Candidate& candidate : candidates_) {
         if (candidate.free || candidate.normal_N != force) continue;
-        const Eigen::MatrixXd one = Information(candidate, measured.all);
+        const Eigen::MatrixXd one = Information(candidate, measured);
         consider(one, candidate.contact_mm, force);
         spread += one;
         ++heights;
@@ -407,9 +393,10 @@ class NextFrames {
 
   CalibrationProblem* problem_;
   const Identifiability& found_;
-  std::vector<double> arcs_mm_, forces_N_;
+  std::vector<double> forces_N_;
   std::vector<Candidate> candidates_;
-  std::vector<Measured> measured_;
+  Families recorded_;            // in the contact frames of the logs
+  std::vector<Families> added_;  // sets that the next frames may add to them
 };
 
 }  // namespace
@@ -424,8 +411,7 @@ std::vector<FrameAdvice> AdviseNextFrames(CalibrationProblem* problem,
                                  "the finger would help much; give a prior"
                                : best[0].words;
   }
-  // The direction that the data determine worst.
-  return next.Best(InformationSpectrum(found->information).vectors.col(0));
+  return next.Best(found->weakest);
 }
 
 }  // namespace finray

@@ -52,74 +52,67 @@ bool IsContradicted(double off, double share) {
          std::abs(off) * std::sqrt(share) > rest;
 }
 
-// Adds a parameter with the same fault.
-void List(std::size_t free, const std::string& words, Unsupported* listed) {
-  listed->free.push_back(static_cast<int>(free));
-  listed->text += (listed->text.empty() ? "" : ", ") + words;
-}
-
 }  // namespace
 
-std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,
-                                         const Identifiability& found) {
+void FindUnsupported(CalibrationProblem& problem, Identifiability* found,
+                     std::vector<CalibrationWarning>* warnings) {
   const CalibrationParameters& parameters = problem.parameters();
-  std::vector<Unsupported> unsupported;
-  Unsupported offsets, contradicted;
+  std::string offsets, contradicted;  // the parameters with these faults
+  const auto list = [](const std::string& words, std::string* listed) {
+    *listed += (listed->empty() ? "" : ", ") + words;
+  };
   const double usual = UsualGain(parameters);
-  const Eigen::VectorXd shares = found.covariance.diagonal();
+  const Eigen::VectorXd shares = found->covariance.diagonal();
   for (std::size_t k = 0; k < parameters.free().size(); ++k) {
-    if (found.status[k] == ParameterStatus::kUnidentifiable) continue;
+    if (found->status[k] == ParameterStatus::kUnidentifiable) continue;
     const CalibrationParameter& p = parameters.FreeParameter(k);
-    const double value = *p.variable, std = found.std[k];
+    const double value = *p.variable, std = found->std[k];
+    const double off = p.prior_std ? (value - p.initial) / *p.prior_std : 0.0;
     const bool dead =
         p.family == ParameterFamily::kGaugeGain &&
         std::abs(value) < std::max(kInsignificant * std,
                                    kDeadShare * usual * std::abs(p.initial));
+    const bool contradicts =
+        !dead && IsContradicted(off, shares[static_cast<Eigen::Index>(k)]);
+    const bool guessed = !p.prior_std || *p.prior_std > p.vague_std;
+    const bool never_unloaded =
+        p.family == ParameterFamily::kGaugeOffset && guessed &&
+        !HasUnloadedReading(problem, p.variable, p.gauge);
     if (dead) {
-      const std::string words = FormatText(
-          "gauge %d does not respond to the load: its gain is %.2g "
-          "+- %.1g V/rad",
-          p.gauge + 1, value, std);
-      unsupported.push_back(
-          {{static_cast<int>(k)},
-           "dead_gauge",
-           words,
+      warnings->push_back(
+          {"dead_gauge",
+           FormatText("gauge %d does not respond to the load: its gain is %.2g "
+                      "+- %.1g V/rad",
+                      p.gauge + 1, value, std),
            "check its wiring and the column it is read from; a finger without "
            "this gauge can be calibrated"});
     }
-    const double off = p.prior_std ? (value - p.initial) / *p.prior_std : 0.0;
-    if (!dead && IsContradicted(off, shares[static_cast<Eigen::Index>(k)])) {
-      List(k, p.name + FormatText(" (%.3g prior std off)", off), &contradicted);
+    if (contradicts) {
+      list(p.name + FormatText(" (%.3g prior std off)", off), &contradicted);
     }
-    const bool guessed = !p.prior_std || *p.prior_std > p.vague_std;
-    if (p.family == ParameterFamily::kGaugeOffset && guessed &&
-        !HasUnloadedReading(problem, p.variable, p.gauge)) {
-      List(k, p.name, &offsets);
+    if (never_unloaded) list(p.name, &offsets);
+    if (dead || contradicts || never_unloaded) {
+      found->status[k] = ParameterStatus::kUnidentifiable;
     }
   }
-  if (!offsets.free.empty()) {
-    offsets.code = "no_free_frame";
-    offsets.text =
-        "no fitted frame shows the gauges without contact; only the model "
-        "tells " +
-        offsets.text;
-    offsets.remedy =
-        "record some ten frames without contact in every log, or fix "
-        "gauge_offset, or give it a prior_std_V of 0.01 or less";
-    unsupported.push_back(offsets);
+  if (!offsets.empty()) {
+    warnings->push_back(
+        {"no_free_frame",
+         "no fitted frame shows the gauges without contact; only the model "
+         "tells " +
+             offsets,
+         "record some ten frames without contact in every log, or fix "
+         "gauge_offset, or give it a prior_std_V of 0.01 or less"});
   }
-  if (!contradicted.free.empty()) {
-    contradicted.code = "prior_contradicted";
-    contradicted.text =
-        "the data contradict the priors of these parameters; the results lie "
-        "between the two and shift other parameters: " +
-        contradicted.text;
-    contradicted.remedy =
-        "start from a finger closer to the truth, or leave these priors out of "
-        "the plan";
-    unsupported.push_back(contradicted);
+  if (!contradicted.empty()) {
+    warnings->push_back(
+        {"prior_contradicted",
+         "the data contradict the priors of these parameters; the results lie "
+         "between the two and shift other parameters: " +
+             contradicted,
+         "start from a finger closer to the truth, or leave these priors out "
+         "of the plan"});
   }
-  return unsupported;
 }
 
 }  // namespace finray

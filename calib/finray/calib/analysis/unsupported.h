@@ -9,13 +9,16 @@
 
 namespace finray {
 
-/// Parameters with a good std that nobody should trust all the same.
-struct Unsupported {
-  std::vector<int> free;  ///< Indices into CalibrationParameters::free().
-  std::string code, text, remedy;
+/// A fact that the user should know, and what to do about it.
+struct CalibrationWarning {
+  std::string code;
+  std::string text;
+  std::string remedy;
 };
 
-/// Finds these parameters:
+/// Finds parameters with a good std that nobody should trust all the same.
+/// Their status becomes kUnidentifiable. There is a warning for each dead gauge
+/// and one for all parameters with the same other fault. Found are:
 ///  - The gain of a gauge that does not respond. Nothing is known of what such
 ///    a gauge would read. Its gain is zero within kInsignificant std, or its
 ///    ratio to the expected gain is below kDeadShare of that of the others.
@@ -26,8 +29,8 @@ struct Unsupported {
 ///    the prior has moved by more than s: |x - m| > kContradiction sqrt(s_p^2 -
 ///    s^2) and |x - m| s > s_p^2 - s^2. Here s is not enlarged for what
 ///    residuals show.
-std::vector<Unsupported> FindUnsupported(CalibrationProblem& problem,
-                                         const Identifiability& found);
+void FindUnsupported(CalibrationProblem& problem, Identifiability* found,
+                     std::vector<CalibrationWarning>* warnings);
 constexpr double kInsignificant = 4, kDeadShare = 0.01, kContradiction = 5;
 
 }  // namespace finray

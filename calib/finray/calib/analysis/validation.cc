@@ -56,35 +56,54 @@ std::vector<FrameEstimate> EstimateLogs(const Finger& finger, const Plan& plan,
   return all;
 }
 
-bool HasForce(const Validation& validation) {
-  return std::any_of(
-      validation.references.begin(), validation.references.end(),
-      [](const auto& r) { return r.contact && std::isfinite(r.force_N); });
-}
-bool HasPlace(const Validation& validation) {
-  return std::any_of(
-      validation.references.begin(), validation.references.end(),
-      [](const auto& r) { return r.contact && std::isfinite(r.contact_mm); });
+std::vector<int> FramesToCheck(const CalibrationProblem& problem) {
+  std::vector<int> chosen;
+  for (const bool held_out : {false, true}) {
+    std::vector<int> frames;
+    for (int i = 0; i < static_cast<int>(problem.logs().frames.size()); ++i) {
+      if (problem.frame(i).held_out == held_out &&
+          problem.rejected().count(i) == 0) {
+        frames.push_back(i);
+      }
+    }
+    const std::size_t count = std::min(frames.size(), ForceCheck::kMostChecked);
+    for (std::size_t k = 0; k < count; ++k) {
+      chosen.push_back(frames[k * frames.size() / count]);
+    }
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
 }
 
-double GateValue(const ErrorRow& errors, Gate::Quantity quantity) {
-  switch (quantity) {
-    case Gate::Quantity::kForceRms:
-      return errors.force_N.rms();
-    case Gate::Quantity::kForcePercent:
-      return errors.force_N.percent();
-    case Gate::Quantity::kContactRms:
-      return errors.contact_mm.rms();
-    case Gate::Quantity::kCoverage68:
-      return std::fmin(errors.force_N.coverage_68_percent(),
-                       errors.contact_mm.coverage_68_percent());
-    case Gate::Quantity::kCoverage95:
-      return std::fmin(errors.force_N.coverage_95_percent(),
-                       errors.contact_mm.coverage_95_percent());
-    case Gate::Quantity::kUsable:
-      return errors.usable_percent();
+// Returns the place that decides the region of a frame: that of the contact in
+// the reference, or else in the estimate.
+double PlaceOf(const FrameReference& reference, const FrameEstimate& estimate) {
+  return std::isnan(reference.contact_mm) ? estimate.contact[0].arc_mm
+                                          : reference.contact_mm;
+}
+
+// Says whether a frame with contact has this reference.
+bool HasReference(const Validation& validation,
+                  double FrameReference::*quantity) {
+  return std::any_of(
+      validation.references.begin(), validation.references.end(),
+      [&](const auto& r) { return r.contact && std::isfinite(r.*quantity); });
+}
+
+// Returns the figure that a gate bounds.
+double FigureOf(const std::string& gate, const ErrorRow& errors) {
+  if (gate == "most_force_rms_N") return errors.force_N.rms();
+  if (gate == "most_force_percent") return errors.force_N.percent();
+  if (gate == "most_contact_rms_mm") return errors.contact_mm.rms();
+  if (gate == "least_coverage_68_percent") {
+    return std::fmin(errors.force_N.coverage_68_percent(),
+                     errors.contact_mm.coverage_68_percent());
   }
-  return kNaN;
+  if (gate == "least_coverage_95_percent") {
+    return std::fmin(errors.force_N.coverage_95_percent(),
+                     errors.contact_mm.coverage_95_percent());
+  }
+  return errors.usable_percent();
 }
 
 }  // namespace
@@ -118,64 +137,66 @@ std::vector<FrameReference> ReferencesOf(const CalibrationLogs& logs,
   return references;
 }
 
-ForceCheck CheckForces(const Finger& before, const Finger& after,
-                       const Plan& plan, const CalibrationLogs& logs,
-                       const CalibrationLogs& corrected,
-                       const Discretization& discretization, int threads) {
-  // A calibration's frames have one contact or none.
-  Scene scene = plan.scene;
-  scene.most_contacts = 1;
-  scene.pin_std_mm = scene.tip_std_mm = std::nullopt;
+ForceCheck CheckForces(CalibrationProblem* problem, const Finger& calibrated) {
+  const Plan& plan = problem->plan();
+  const Discretization& discretization = problem->discretization();
+  const int threads = problem->threads();
   ForceCheck check;
-  check.before.resize(logs.frames.size());
-  check.has_before.assign(logs.frames.size(), false);
-  // A contact has two unknowns, so fewer than two gauges give no estimate.
-  if (before.gauges.size() < 2) {
-    check.after.resize(logs.frames.size());
-    return check;
-  }
+  check.frames = FramesToCheck(*problem);
+  CalibrationLogs logs{problem->logs().paths, problem->logs().names, {}};
+  for (const int i : check.frames) logs.frames.push_back(problem->frame(i));
+  const CalibrationLogs corrected =
+      problem->parameters().Corrected(logs, calibrated);
   const std::size_t frames = logs.frames.size();
-  const std::size_t some = std::min(frames, ForceCheck::kMostBefore);
-  std::vector<Measurements> spread, all;
-  for (std::size_t k = 0; k < some; ++k) {
-    spread.push_back(GaugesOnly(logs.frames[k * frames / some]));
+  check.before.resize(frames);
+  check.after.resize(frames);
+  std::vector<bool> has_before(frames, false);
+  // A contact has two unknowns, so fewer than two gauges give no estimate.
+  if (calibrated.gauges.size() >= 2) {
+    // A calibration's frames have one contact or none.
+    Scene scene = plan.scene;
+    scene.most_contacts = 1;
+    scene.pin_std_mm = scene.tip_std_mm = std::nullopt;
+    const std::size_t some = std::min(frames, ForceCheck::kMostBefore);
+    std::vector<Measurements> spread, all;
+    for (std::size_t k = 0; k < some; ++k) {
+      spread.push_back(GaugesOnly(logs.frames[k * frames / some]));
+    }
+    for (const CalibrationFrame& frame : corrected.frames) {
+      all.push_back(GaugesOnly(frame));
+    }
+    const std::vector<FrameEstimate> were = EstimateFrames(
+        problem->finger(), scene, discretization, spread, threads);
+    for (std::size_t k = 0; k < some; ++k) {
+      has_before[k * frames / some] = true;
+      check.before[k * frames / some] = were[k];
+    }
+    check.after =
+        EstimateFrames(calibrated, scene, discretization, all, threads);
   }
-  for (const CalibrationFrame& frame : corrected.frames) {
-    all.push_back(GaugesOnly(frame));
+  const std::vector<FrameReference> references =
+      ReferencesOf(corrected, calibrated, plan, discretization, threads);
+  for (ForceCheck::Errors* errors : {&check.fitted, &check.held_out}) {
+    errors->before.front_length_mm = errors->after.front_length_mm =
+        calibrated.front_length_mm;
   }
-  const std::vector<FrameEstimate> were =
-      EstimateFrames(before, scene, discretization, spread, threads);
-  for (std::size_t k = 0; k < some; ++k) {
-    check.has_before[k * frames / some] = true;
-    check.before[k * frames / some] = were[k];
-  }
-  check.after = EstimateFrames(after, scene, discretization, all, threads);
-  const double per_normal = std::hypot(1, plan.scene.friction_coefficient);
-  for (std::size_t i = 0; i < logs.frames.size(); ++i) {
-    const double force = ReferenceForce(corrected.frames[i]);
-    const double was = per_normal * check.before[i].contact[0].normal_N - force;
-    const double is = per_normal * check.after[i].contact[0].normal_N - force;
-    ForceCheck::Error& error =
+  const double friction = plan.scene.friction_coefficient;
+  for (std::size_t i = 0; i < frames; ++i) {
+    const FrameReference& reference = references[i];
+    const FrameEstimate& before = check.before[i];
+    const FrameEstimate& after = check.after[i];
+    const auto off = [&](const FrameEstimate& estimate) {
+      return std::hypot(1, friction) * estimate.contact[0].normal_N -
+             reference.force_N;
+    };
+    ForceCheck::Errors& errors =
         logs.frames[i].held_out ? check.held_out : check.fitted;
-    if (!std::isnan(was)) {
-      ++error.frames_before;
-      error.before_rms_N += was * was;
-    }
-    if (std::isnan(is)) continue;
-    ++error.frames;
-    error.after_rms_N += is * is;
-    error.after_max_N = std::max(error.after_max_N, std::abs(is));
-    error.reference_mean_N += force;
-  }
-  for (ForceCheck::Error* error : {&check.fitted, &check.held_out}) {
-    if (error->frames_before > 0) {
-      error->before_rms_N = std::sqrt(
-          error->before_rms_N / static_cast<double>(error->frames_before));
-    }
-    if (error->frames == 0) continue;
-    const auto n = static_cast<double>(error->frames);
-    error->after_rms_N = std::sqrt(error->after_rms_N / n);
-    error->reference_mean_N /= n;
+    errors.force_before_N.Add(off(before), reference.force_N, kNaN);
+    errors.force_after_N.Add(off(after), reference.force_N, kNaN);
+    if (logs.frames[i].IsBench()) continue;
+    const double place = PlaceOf(reference, after);
+    if (has_before[i]) errors.before.Add(reference, before, place, friction);
+    errors.after.Add(reference, after, place, friction);
   }
   return check;
 }
@@ -185,17 +206,23 @@ Validation Validate(const Finger& finger, const std::optional<Finger>& baseline,
                     const Discretization& discretization, int threads) {
   Validation result;
   result.references = ReferencesOf(logs, finger, plan, discretization, threads);
-  if (!HasForce(result) && !HasPlace(result)) {
+  if (!HasReference(result, &FrameReference::force_N) &&
+      !HasReference(result, &FrameReference::contact_mm)) {
     throw InputError(
         "logs: no frame with contact has a reference; expected force_N (or "
         "force_x_N, force_y_N), contact_1_mm, or object_x_mm, object_y_mm with "
         "a circle in the scene");
   }
   const auto table = [&](const std::vector<FrameEstimate>& estimates) {
-    return TabulateErrors(
-        result.references, estimates, result.estimates, finger.front_length_mm,
-        plan.scene.friction_coefficient,
-        [&](std::size_t i) { return !logs.frames[i].IsBench(); });
+    ErrorTable table;
+    table.front_length_mm = finger.front_length_mm;
+    for (std::size_t i = 0; i < logs.frames.size(); ++i) {
+      if (logs.frames[i].IsBench()) continue;
+      table.Add(result.references[i], estimates[i],
+                PlaceOf(result.references[i], result.estimates[i]),
+                plan.scene.friction_coefficient);
+    }
+    return table;
   };
   result.estimates = EstimateLogs(finger, plan, logs, discretization, threads);
   result.errors = table(result.estimates);
@@ -207,36 +234,28 @@ Validation Validate(const Finger& finger, const std::optional<Finger>& baseline,
   return result;
 }
 
-const char* GateName(Gate::Quantity quantity) {
-  constexpr const char* kNames[] = {
-      "most_force_rms_N",          "most_force_percent",
-      "most_contact_rms_mm",       "least_coverage_68_percent",
-      "least_coverage_95_percent", "least_usable_percent"};
-  return kNames[static_cast<int>(quantity)];
-}
-
-std::vector<GateResult> CheckGates(const Validation& validation,
-                                   const std::vector<Gate>& gates) {
-  std::vector<GateResult> results;
-  for (const Gate& gate : gates) {
-    const bool of_force = gate.quantity == Gate::Quantity::kForceRms ||
-                          gate.quantity == Gate::Quantity::kForcePercent;
-    if (of_force && !HasForce(validation)) {
-      throw InputError(std::string("--") + GateName(gate.quantity) +
-                       " needs force_N in the logs");
+std::vector<Gate> CheckGates(
+    const Validation& validation,
+    const std::vector<std::pair<std::string, double>>& bounds) {
+  std::vector<Gate> gates;
+  for (const auto& [name, bound] : bounds) {
+    if (name.find("most_force") == 0 &&
+        !HasReference(validation, &FrameReference::force_N)) {
+      throw InputError("--" + name + " needs force_N in the logs");
     }
-    if (gate.quantity == Gate::Quantity::kContactRms && !HasPlace(validation)) {
-      throw InputError(std::string("--") + GateName(gate.quantity) +
+    if (name == "most_contact_rms_mm" &&
+        !HasReference(validation, &FrameReference::contact_mm)) {
+      throw InputError("--" + name +
                        " needs contact_1_mm in the logs, or object_x_mm, "
                        "object_y_mm and a circle in the scene");
     }
-    const double value = GateValue(validation.errors.contact, gate.quantity);
+    const double value = FigureOf(name, validation.errors.contact);
     // A value of NaN passes no gate.
-    const bool upper = std::string(GateName(gate.quantity)).find("most") == 0;
-    const bool passed = upper ? value <= gate.bound : value >= gate.bound;
-    results.push_back({gate, value, passed});
+    const bool upper = name.find("most") == 0;
+    const bool passed = upper ? value <= bound : value >= bound;
+    gates.push_back({name, bound, value, passed});
   }
-  return results;
+  return gates;
 }
 
 }  // namespace finray

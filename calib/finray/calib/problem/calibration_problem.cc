@@ -12,33 +12,26 @@
 namespace finray {
 namespace {
 
-struct Mean {
-  double sum = 0;
-  int count = 0;
-};
-
-// Calls `visit(frame, gauge)` for each reading of the finger without contact.
-template <class Visit>
-void VisitFreeReadings(const CalibrationLogs& logs, const Visit& visit) {
+// Returns the mean of `value(frame, gauge)` for each offset, over the readings
+// of the finger without contact in the frames that `chosen(frame)` takes.
+template <class Chosen, class Value>
+std::unordered_map<double*, double> MeansByOffset(const CalibrationLogs& logs,
+                                                  const Chosen& chosen,
+                                                  const Value& value,
+                                                  ReadingTerms* readings) {
+  std::unordered_map<double*, double> means;
+  std::unordered_map<double*, int> counts;
   for (const CalibrationFrame& frame : logs.frames) {
-    if (frame.contact || frame.IsBench()) continue;
+    if (frame.contact || frame.IsBench() || !chosen(frame)) continue;
     for (int j = 0; j < static_cast<int>(frame.gauges_V.size()); ++j) {
-      if (std::isfinite(frame.gauges_V[j])) visit(frame, j);
+      if (!std::isfinite(frame.gauges_V[j])) continue;
+      double* offset = readings->offset_V(j, frame.log);
+      means[offset] += value(frame, j);
+      ++counts[offset];
     }
   }
-}
-
-// Sets each offset to the mean reading of its gauge in free frames.
-void GuessOffsets(const CalibrationLogs& logs,
-                  CalibrationParameters* parameters) {
-  std::unordered_map<double*, Mean> means;
-  VisitFreeReadings(logs, [&](const CalibrationFrame& frame, int j) {
-    if (frame.held_out) return;
-    Mean& mean = means[parameters->readings.offset_V(j, frame.log)];
-    mean.sum += frame.gauges_V[j];
-    ++mean.count;
-  });
-  for (const auto& [offset, mean] : means) *offset = mean.sum / mean.count;
+  for (auto& [offset, mean] : means) mean /= counts[offset];
+  return means;
 }
 
 }  // namespace
@@ -168,9 +161,12 @@ void CalibrationProblem::StartFrom(const Finger& start) {
       *p.variable = p.is_log ? std::log(value) : value;
     }
   }
-  if (plan_.family(ParameterFamily::kGaugeOffset).free) {
-    GuessOffsets(logs(), &parameters_);
-  }
+  if (!plan_.family(ParameterFamily::kGaugeOffset).free) return;
+  const auto means = MeansByOffset(
+      logs(), [](const auto& frame) { return !frame.held_out; },
+      [](const auto& frame, int j) { return frame.gauges_V[j]; },
+      &parameters_.readings);
+  for (const auto& [offset, mean] : means) *offset = mean;
 }
 
 void ZeroHeldOutLogs(CalibrationProblem* problem) {
@@ -194,18 +190,15 @@ void ZeroHeldOutLogs(CalibrationProblem* problem) {
   EquilibriumSolver free(parameters.Apply(problem->finger()),
                          problem->discretization());
   if (!free.Solve({})) return;
-  std::unordered_map<double*, Mean> errors;
-  VisitFreeReadings(problem->logs(), [&](const CalibrationFrame& frame, int j) {
-    if (!held_out[frame.log]) return;
-    Mean& error = errors[parameters.readings.offset_V(j, frame.log)];
-    error.sum += frame.gauges_V[j] -
-                 parameters.gains_V_per_rad[j] * free.gauge_angle(j) -
-                 parameters.readings.Sum(frame, j);
-    ++error.count;
-  });
-  for (const auto& [offset, error] : errors) {
-    *offset += error.sum / error.count;
-  }
+  const auto errors = MeansByOffset(
+      problem->logs(), [&](const auto& frame) { return held_out[frame.log]; },
+      [&](const auto& frame, int j) {
+        return frame.gauges_V[j] -
+               parameters.gains_V_per_rad[j] * free.gauge_angle(j) -
+               parameters.readings.Sum(frame, j);
+      },
+      &parameters.readings);
+  for (const auto& [offset, error] : errors) *offset += error;
 }
 
 }  // namespace finray

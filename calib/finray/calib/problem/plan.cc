@@ -9,38 +9,23 @@ namespace {
 struct FamilyKey {
   const char* key;
   const char* prior_key;
-  bool may_be_per_log = false;
+  const char* own_keys[2] = {};  // those beside `fixed` and its prior
 };
+constexpr char kWalk[] = "walk_std_V_per_sqrt_h", kKnots[] = "knot_every_s";
 // The keys stand in the order of ParameterFamily.
 constexpr FamilyKey kFamilyKeys[kParameterFamilies] = {
     {"front_stiffness", "prior_std_percent"},
     {"back_stiffness", "prior_std_percent"},
     {"gauge_gain", "prior_std_percent"},
-    {"gauge_offset", "prior_std_V", true},
+    {"gauge_offset", "prior_std_V", {"per_log"}},
     {"rib_length", "prior_std_mm"},
-    {"object_origin", "prior_std_mm", true},
+    {"object_origin", "prior_std_mm", {"per_log"}},
     {"force_scale", "prior_std_percent"},
     {"force_offset", "prior_std_N"},
-    {"temperature_coefficient", "prior_std_V_per_C"},
-    {"gauge_drift", "prior_std_V_per_h"},
+    {"temperature_coefficient", "prior_std_V_per_C", {"reference_C"}},
+    {"gauge_drift", "prior_std_V_per_h", {kWalk, kKnots}},
     {"camera_origin", "prior_std_mm"},
 };
-constexpr char kWalk[] = "walk_std_V_per_sqrt_h", kKnots[] = "knot_every_s";
-
-// Returns the keys of a family beside `fixed` and its prior.
-std::vector<std::string> OwnKeys(ParameterFamily family) {
-  if (kFamilyKeys[static_cast<int>(family)].may_be_per_log) {
-    return {"per_log"};
-  }
-  switch (family) {
-    case ParameterFamily::kTemperatureCoefficient:
-      return {"reference_C"};
-    case ParameterFamily::kGaugeDrift:
-      return {kWalk, kKnots};
-    default:
-      return {};
-  }
-}
 
 void ReadWalk(const YamlMap& map, Plan* plan) {
   if (!map.Has(kWalk) && !map.Has(kKnots)) return;
@@ -56,9 +41,10 @@ void ReadFamily(const YamlMap& yaml, int index, Plan* plan) {
   const FamilyKey& names = kFamilyKeys[index];
   const auto family = static_cast<ParameterFamily>(index);
   const YamlMap map = yaml.Map(names.key);
-  const std::vector<std::string> own = OwnKeys(family);
   std::vector<std::string> allowed = {"fixed", names.prior_key};
-  allowed.insert(allowed.end(), own.begin(), own.end());
+  for (const char* key : names.own_keys) {
+    if (key != nullptr) allowed.push_back(key);
+  }
   map.AllowOnly(allowed);
   FamilyPlan& read = plan->families[index];
   read.free = !map.Boolean("fixed", false);
@@ -71,7 +57,7 @@ void ReadFamily(const YamlMap& yaml, int index, Plan* plan) {
   if (map.Has(names.prior_key)) {
     read.prior_std = map.PositiveNumber(names.prior_key);
   }
-  read.per_log = names.may_be_per_log && map.Boolean("per_log", false);
+  read.per_log = map.Boolean("per_log", false);
   if (family == ParameterFamily::kTemperatureCoefficient) {
     plan->reference_temperature_C =
         map.Number("reference_C", plan->reference_temperature_C);

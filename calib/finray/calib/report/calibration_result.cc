@@ -99,22 +99,12 @@ void WarnOfOutliers(const CalibrationProblem& problem,
        "there"});
 }
 
-void WarnOfWeakness(CalibrationProblem& problem,
-                    const CalibrationResult& result,
+void WarnOfWeakness(CalibrationProblem& problem, const Identifiability& found,
                     std::vector<CalibrationWarning>* warnings) {
-  const Identifiability& found = result.identifiability;
   std::string unidentifiable;
   const CalibrationParameters& parameters = problem.parameters();
   for (std::size_t i = 0; i < found.status.size(); ++i) {
-    const bool has_words =
-        std::any_of(result.unsupported.begin(), result.unsupported.end(),
-                    [&](const Unsupported& u) {
-                      return std::count(u.free.begin(), u.free.end(),
-                                        static_cast<int>(i)) > 0;
-                    });
-    if (found.status[i] != ParameterStatus::kUnidentifiable || has_words) {
-      continue;
-    }
+    if (found.status[i] != ParameterStatus::kUnidentifiable) continue;
     unidentifiable +=
         (unidentifiable.empty() ? "" : ", ") + parameters.FreeParameter(i).name;
   }
@@ -133,26 +123,26 @@ void WarnOfWeakness(CalibrationProblem& problem,
 
 void WarnOfForces(const ForceCheck& forces, double force_std_N,
                   std::vector<CalibrationWarning>* warnings) {
-  const ForceCheck::Error& held_out = forces.held_out;
-  if (held_out.frames >= 10 &&
-      held_out.after_rms_N > 2 * forces.fitted.after_rms_N) {
+  const ErrorStatistics& was = forces.fitted.force_before_N;
+  const ErrorStatistics& fitted = forces.fitted.force_after_N;
+  const ErrorStatistics& held_out = forces.held_out.force_after_N;
+  if (held_out.frames >= 10 && held_out.rms() > 2 * fitted.rms()) {
     warnings->push_back(
         {"holdout_worse",
          FormatText(
              "held-out frames are off by %.3g N rms, fitted ones by %.3g N",
-             held_out.after_rms_N, forces.fitted.after_rms_N),
+             held_out.rms(), fitted.rms()),
          "look for outliers among them (held-out frames are never rejected); "
          "record logs that cover what the finger will meet: heights and "
          "loads"});
   }
-  if (forces.fitted.frames > 0 && forces.fitted.frames_before > 0 &&
-      forces.fitted.after_rms_N > forces.fitted.before_rms_N + force_std_N) {
+  if (fitted.rms() > was.rms() + force_std_N) {  // not if one is NaN
     warnings->push_back(
         {"no_better",
          FormatText(
              "force from the gauges is off by %.3g N rms after and %.3g N "
              "before",
-             forces.fitted.after_rms_N, forces.fitted.before_rms_N),
+             fitted.rms(), was.rms()),
          "check the columns and units of the logs and the finger's geometry"});
   }
 }
@@ -203,60 +193,6 @@ void WarnOfDisagreement(CalibrationProblem& problem,
        "take the spread in leave_one_log_out for the std until then"});
 }
 
-std::vector<int> FramesToCheck(const CalibrationProblem& problem) {
-  const CalibrationLogs& logs = problem.logs();
-  std::vector<int> chosen;
-  for (const bool held_out : {false, true}) {
-    std::vector<int> frames;
-    for (std::size_t i = 0; i < logs.frames.size(); ++i) {
-      const int index = static_cast<int>(i);
-      if (logs.frames[i].held_out == held_out &&
-          problem.rejected().count(index) == 0) {
-        frames.push_back(index);
-      }
-    }
-    const std::size_t count =
-        std::min(frames.size(), CalibrationResult::kMostChecked);
-    for (std::size_t k = 0; k < count; ++k) {
-      chosen.push_back(frames[k * frames.size() / count]);
-    }
-  }
-  std::sort(chosen.begin(), chosen.end());
-  return chosen;
-}
-
-CalibrationLogs Chosen(const CalibrationLogs& logs,
-                       const std::vector<int>& frames) {
-  CalibrationLogs chosen{logs.paths, logs.names, {}};
-  for (const int i : frames) chosen.frames.push_back(logs.frames[i]);
-  return chosen;
-}
-
-// Tabulates errors by region, for fitted and for held-out frames.
-void TabulateRegions(CalibrationProblem& problem, const CalibrationLogs& logs,
-                     const Discretization& discretization, int threads,
-                     CalibrationResult* result) {
-  const auto references = ReferencesOf(logs, result->finger, problem.plan(),
-                                       discretization, threads);
-  for (const bool held_out : {false, true}) {
-    CalibrationResult::Errors& errors =
-        held_out ? result->held_out : result->fitted;
-    const auto table = [&](const std::vector<FrameEstimate>& estimates,
-                           bool before) {
-      return TabulateErrors(references, estimates, result->forces.after,
-                            problem.finger().front_length_mm,
-                            problem.plan().scene.friction_coefficient,
-                            [&](std::size_t i) {
-                              return logs.frames[i].held_out == held_out &&
-                                     !logs.frames[i].IsBench() &&
-                                     (!before || result->forces.has_before[i]);
-                            });
-    };
-    errors.before = table(result->forces.before, true);
-    errors.after = table(result->forces.after, false);
-  }
-}
-
 // Logs with --v=1 how long each part took.
 class Stopwatch {
  public:
@@ -275,9 +211,9 @@ class Stopwatch {
 }  // namespace
 
 bool CalibrationResult::AllIdentified() const {
-  return std::none_of(
-      identifiability.status.begin(), identifiability.status.end(),
-      [](ParameterStatus s) { return s == ParameterStatus::kUnidentifiable; });
+  const auto& status = identifiability.status;
+  return std::count(status.begin(), status.end(),
+                    ParameterStatus::kUnidentifiable) == 0;
 }
 
 std::string CalibrationResult::Verdict() const {
@@ -299,8 +235,6 @@ std::string CalibrationResult::Verdict() const {
 
 CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
   CalibrationResult result;
-  const Discretization& discretization = problem->discretization();
-  const int threads = problem->threads();
   Stopwatch watch;
   result.solution = SolveRobustly(problem);
   watch.Lap("solve");
@@ -310,12 +244,6 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
       problem->logs(), result.solution.at, result.identifiability);
   EnlargeStd(result.residual_correlation, &result.identifiability);
   watch.Lap("uncertainty");
-  result.unsupported = FindUnsupported(*problem, result.identifiability);
-  for (const Unsupported& unsupported : result.unsupported) {
-    for (const int free : unsupported.free) {
-      result.identifiability.status[free] = ParameterStatus::kUnidentifiable;
-    }
-  }
   result.next =
       AdviseNextFrames(problem, result.solution, &result.identifiability);
   watch.Lap("what to record next");
@@ -326,15 +254,8 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
   watch.Lap("leave one log out");
   result.finger = problem->parameters().Apply(problem->finger());
   KeepCovariance(problem->parameters(), result.identifiability, &result.finger);
-  result.checked = FramesToCheck(*problem);
-  const CalibrationLogs checked = Chosen(problem->logs(), result.checked);
-  const CalibrationLogs corrected =
-      problem->parameters().Corrected(checked, result.finger);
-  result.forces = CheckForces(problem->finger(), result.finger, problem->plan(),
-                              checked, corrected, discretization, threads);
-  watch.Lap("check of forces");
-  TabulateRegions(*problem, corrected, discretization, threads, &result);
-  watch.Lap("check of contacts");
+  result.forces = CheckForces(problem, result.finger);
+  watch.Lap("check of forces and contacts");
   result.bench =
       TestBenchLinearity(problem->finger(), problem->plan(), problem->logs());
   if (!result.solution.solve.converged) {
@@ -353,11 +274,8 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
   }
   WarnOfStarts(result.solution, &result.warnings);
   WarnOfOutliers(*problem, result.solution, &result.warnings);
-  WarnOfWeakness(*problem, result, &result.warnings);
-  for (const Unsupported& parameter : result.unsupported) {
-    result.warnings.push_back(
-        {parameter.code, parameter.text, parameter.remedy});
-  }
+  WarnOfWeakness(*problem, result.identifiability, &result.warnings);
+  FindUnsupported(*problem, &result.identifiability, &result.warnings);
   WarnOfNoise(result.identifiability, &result.warnings);
   WarnOfCorrelation(*problem, result.residual_correlation, &result.warnings);
   WarnOfDisagreement(*problem, result.leave_one_log_out, &result.warnings);

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "finray/calib/analysis/bench_linearity.h"
-#include "finray/calib/analysis/error_table.h"
 #include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/analysis/leave_one_log_out.h"
 #include "finray/calib/analysis/next_frames.h"
@@ -19,29 +18,12 @@
 
 namespace finray {
 
-/// A fact that the user should know, and what to do about it.
-struct CalibrationWarning {
-  std::string code;
-  std::string text;
-  std::string remedy;
-};
-
 /// The whole result of a calibration.
 struct CalibrationResult {
   CalibrationSolution solution;
   Identifiability identifiability;
-  /// The frames that were compared with the references, as indices into the
-  /// frames of the logs. If there are many, these are kMostChecked of the
-  /// fitted ones and kMostChecked of those held out, evenly spread.
-  std::vector<int> checked;
-  static constexpr std::size_t kMostChecked = 1000;
-  ForceCheck forces;  ///< The errors of these frames.
-  /// The errors by region of the finger, from the gauges alone.
-  struct Errors {
-    ErrorTable before, after;
-  } fitted, held_out;
+  ForceCheck forces;
   ResidualCorrelation residual_correlation;
-  std::vector<Unsupported> unsupported;
   LeaveOneLogOut leave_one_log_out;
   std::vector<FrameAdvice> next;      ///< What to record next.
   std::vector<BenchLinearity> bench;  ///< Of gauges with bench readings.
@@ -64,7 +46,6 @@ CalibrationResult Calibrate(CalibrationProblem* problem,
 /// The inputs of a calibration, for its record.
 struct CalibrationInputs {
   std::string finger_path, plan_path;
-  std::vector<std::string> log_paths;
   std::string scheme;
   int resolution = 0;
   std::string command;
@@ -75,20 +56,19 @@ std::string CalibrationYaml(CalibrationProblem& problem,
                             const CalibrationResult& result,
                             const CalibrationInputs& inputs);
 
-/// Returns a CSV with a row for each frame: log, time, kind (contact, free,
+/// Returns a table with a row for each frame: log, time, kind (contact, free,
 /// bench), held_out, reference force, force and place from the gauges before
 /// and after, l_c and f_c of the fit, gauge residuals in std (empty if held out
 /// or rejected), and why the frame was rejected.
-std::string CalibrationFramesCsv(CalibrationProblem& problem,
-                                 const CalibrationResult& result);
+FrameTable CalibrationFrames(CalibrationProblem& problem,
+                             const CalibrationResult& result);
 
 /// Returns both beams for drawing, undeformed and in the heaviest fitted frame.
 /// The columns are state (undeformed, deformed), part (front, back, rib_<i>,
 /// contact), x_mm, y_mm. The contact has two rows: its point, and the tip of an
 /// arrow against the normal.
 FrameTable CalibrationShape(CalibrationProblem& problem,
-                            const CalibrationResult& result,
-                            const Discretization& discretization);
+                            const CalibrationResult& result);
 
 }  // namespace finray
 

@@ -1,5 +1,5 @@
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "finray/calib/report/calibration_result.h"
 #include "finray/finger/geometry.h"
@@ -8,141 +8,80 @@
 
 namespace finray {
 
-namespace {
-
-// So many rows are made at a time, because the text of a million frames alone
-// is large.
-constexpr std::size_t kChunk = 20000;
-
-// Makes the rows of frames [first, last). Calls go on from the first frame to
-// the last.
-class FrameRows {
- public:
-  FrameRows(CalibrationProblem& problem, const CalibrationResult& result)
-      : problem_(problem),
-        result_(result),
-        at_(result.solution.at),
-        per_normal_(std::hypot(1, problem.plan().scene.friction_coefficient)) {}
-
-  FrameTable Next(std::size_t first, std::size_t last) {
-    FrameTable table(last - first);
-    AddColumns(&table);
-    for (std::size_t i = first; i < last; ++i) {
-      const CalibrationFrame& frame = problem_.logs().frames[i];
-      const auto set = [&](const std::string& name, double value) {
-        table.MutableNumbers(name)[i - first] = value;
-      };
-      table.MutableText("log")[i - first] = problem_.logs().paths[frame.log];
-      table.MutableText("kind")[i - first] = frame.IsBench() ? "bench"
-                                             : frame.contact ? "contact"
-                                                             : "free";
-      set("row", frame.row + 1);
-      set("time_s", frame.time_s);
-      set("held_out", frame.held_out);
-      set("force_N", ReferenceForce(frame));
-      const auto contact = result_.solution.contacts[i];
-      set("fit_contact_mm", contact[0]);
-      set("fit_normal_N", contact[1]);
-    }
-    AddForces(first, last, &table);
-    for (; residual_ < at_.rows.size(); ++residual_) {
-      const ResidualInfo& row = at_.rows[residual_];
-      const auto frame = static_cast<std::size_t>(row.frame);
-      if (frame >= last) break;
-      if (row.family != ResidualFamily::kGauge) continue;
-      table.MutableNumbers(
-          IndexedColumn("gauge_", row.gauge, "_residual_std"))[frame - first] =
-          at_.residuals[residual_];
-    }
-    for (auto it = problem_.rejected().lower_bound(static_cast<int>(first));
-         it != problem_.rejected().end() &&
-         static_cast<std::size_t>(it->first) < last;
-         ++it) {
-      table.MutableText("rejected")[it->first - first] = it->second;
-    }
-    return table;
+FrameTable CalibrationFrames(CalibrationProblem& problem,
+                             const CalibrationResult& result) {
+  const CalibrationLogs& logs = problem.logs();
+  FrameTable table(logs.frames.size());
+  for (const char* name : {"log", "kind"}) table.MutableText(name);
+  for (const char* name :
+       {"row", "time_s", "held_out", "force_N", "force_before_N",
+        "force_after_N", "contact_before_mm", "contact_after_mm",
+        "force_after_std_N", "contact_after_std_mm", "fit_contact_mm",
+        "fit_normal_N"}) {
+    table.MutableNumbers(name);
   }
-
- private:
-  void AddColumns(FrameTable* table) const {
-    for (const char* name : {"log", "kind"}) table->MutableText(name);
-    for (const char* name :
-         {"row", "time_s", "held_out", "force_N", "force_before_N",
-          "force_after_N", "contact_before_mm", "contact_after_mm",
-          "force_after_std_N", "contact_after_std_mm", "fit_contact_mm",
-          "fit_normal_N"}) {
-      table->MutableNumbers(name);
-    }
-    const int gauges = static_cast<int>(problem_.finger().gauges.size());
-    for (int j = 0; j < gauges; ++j) {
-      table->MutableNumbers(IndexedColumn("gauge_", j, "_residual_std"));
-    }
-    table->MutableText("status_after");
-    table->MutableText("rejected");
+  for (int j = 0; j < static_cast<int>(problem.finger().gauges.size()); ++j) {
+    table.MutableNumbers(IndexedColumn("gauge_", j, "_residual_std"));
   }
-
-  void AddForces(std::size_t first, std::size_t last, FrameTable* table) {
-    const ForceCheck& forces = result_.forces;
-    for (; checked_ < result_.checked.size(); ++checked_) {
-      const auto frame = static_cast<std::size_t>(result_.checked[checked_]);
-      if (frame >= last) break;
-      const ContactEstimate& before = forces.before[checked_].contact[0];
-      const ContactEstimate& after = forces.after[checked_].contact[0];
-      const auto set = [&](const char* name, double value) {
-        table->MutableNumbers(name)[frame - first] = value;
-      };
-      table->MutableText("status_after")[frame - first] =
-          StatusName(forces.after[checked_].status);
-      if (forces.has_before[checked_]) {
-        set("force_before_N", per_normal_ * before.normal_N);
-        set("contact_before_mm", before.arc_mm);
-      }
-      set("force_after_N", per_normal_ * after.normal_N);
-      set("force_after_std_N", per_normal_ * after.normal_std_N);
-      set("contact_after_mm", after.arc_mm);
-      set("contact_after_std_mm", after.arc_std_mm);
-    }
+  for (const char* name : {"status_after", "rejected"}) table.MutableText(name);
+  const auto set = [&](int frame, const std::string& name, double value) {
+    table.MutableNumbers(name)[frame] = value;
+  };
+  for (int i = 0; i < static_cast<int>(logs.frames.size()); ++i) {
+    const CalibrationFrame& frame = logs.frames[i];
+    table.MutableText("log")[i] = logs.paths[frame.log];
+    table.MutableText("kind")[i] = frame.IsBench() ? "bench"
+                                   : frame.contact ? "contact"
+                                                   : "free";
+    set(i, "row", frame.row + 1);
+    set(i, "time_s", frame.time_s);
+    set(i, "held_out", frame.held_out);
+    set(i, "force_N", ReferenceForce(frame));
+    set(i, "fit_contact_mm", result.solution.contacts[i][0]);
+    set(i, "fit_normal_N", result.solution.contacts[i][1]);
   }
-
-  CalibrationProblem& problem_;
-  const CalibrationResult& result_;
-  const Linearization& at_;
-  double per_normal_;
-  std::size_t residual_ = 0, checked_ = 0;  // the next indices
-};
-
-}  // namespace
-
-std::string CalibrationFramesCsv(CalibrationProblem& problem,
-                                 const CalibrationResult& result) {
-  const std::size_t frames = problem.logs().frames.size();
-  FrameRows rows(problem, result);
-  std::string csv;
-  for (std::size_t first = 0; first < frames; first += kChunk) {
-    const FrameTable table = rows.Next(first, std::min(first + kChunk, frames));
-    if (first == 0) csv = table.HeaderCsv();
-    csv += table.RowsCsv();
+  const double per_normal =
+      std::hypot(1, problem.plan().scene.friction_coefficient);
+  const ForceCheck& forces = result.forces;
+  for (std::size_t k = 0; k < forces.frames.size(); ++k) {
+    const int frame = forces.frames[k];
+    const FrameEstimate& estimate = forces.after[k];
+    const ContactEstimate& before = forces.before[k].contact[0];
+    const ContactEstimate& after = estimate.contact[0];
+    table.MutableText("status_after")[frame] = StatusName(estimate.status);
+    set(frame, "force_before_N", per_normal * before.normal_N);
+    set(frame, "contact_before_mm", before.arc_mm);
+    set(frame, "force_after_N", per_normal * after.normal_N);
+    set(frame, "force_after_std_N", per_normal * after.normal_std_N);
+    set(frame, "contact_after_mm", after.arc_mm);
+    set(frame, "contact_after_std_mm", after.arc_std_mm);
   }
-  return csv;
+  const Linearization& at = result.solution.at;
+  for (std::size_t k = 0; k < at.rows.size(); ++k) {
+    if (at.rows[k].family != ResidualFamily::kGauge) continue;
+    set(at.rows[k].frame,
+        IndexedColumn("gauge_", at.rows[k].gauge, "_residual_std"),
+        at.residuals[k]);
+  }
+  for (const auto& [frame, reason] : problem.rejected()) {
+    table.MutableText("rejected")[frame] = reason;
+  }
+  return table;
 }
 
 FrameTable CalibrationShape(CalibrationProblem& problem,
-                            const CalibrationResult& result,
-                            const Discretization& discretization) {
+                            const CalibrationResult& result) {
   constexpr int kPoints = 80;
   std::array<double, 2> heaviest = {std::nan(""), 0};
   for (const auto& contact : result.solution.contacts) {
     if (contact[1] > heaviest[1]) heaviest = contact;
   }
-  struct Point {
-    std::string state, part;
-    double x, y;
-  };
-  std::vector<Point> points;
+  std::vector<std::string> states, parts;
+  std::vector<double> x_mm, y_mm;
   const auto draw = [&](const char* state, const Finger& finger,
                         const std::vector<PointContact>& contacts,
                         bool straight) {
-    EquilibriumSolver solver(finger, discretization);
+    EquilibriumSolver solver(finger, problem.discretization());
     if (!straight && !solver.Solve(contacts)) return;
     const Shape shape(solver, contacts);
     const auto point = [&](Side side, double arc) {
@@ -151,7 +90,10 @@ FrameTable CalibrationShape(CalibrationProblem& problem,
       return Eigen::Vector2d(at.x_mm, at.y_mm);
     };
     const auto add = [&](const std::string& part, const Eigen::Vector2d& at) {
-      points.push_back({state, part, at.x(), at.y()});
+      states.push_back(state);
+      parts.push_back(part);
+      x_mm.push_back(at.x());
+      y_mm.push_back(at.y());
     };
     for (const Side side : {Side::kFront, Side::kBack}) {
       for (int k = 0; k <= kPoints; ++k) {
@@ -180,13 +122,11 @@ FrameTable CalibrationShape(CalibrationProblem& problem,
         {{heaviest[0], heaviest[1], problem.plan().scene.friction_coefficient}},
         false);
   }
-  FrameTable table(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    table.MutableText("state")[i] = points[i].state;
-    table.MutableText("part")[i] = points[i].part;
-    table.MutableNumbers("x_mm")[i] = points[i].x;
-    table.MutableNumbers("y_mm")[i] = points[i].y;
-  }
+  FrameTable table(states.size());
+  table.MutableText("state") = std::move(states);
+  table.MutableText("part") = std::move(parts);
+  table.MutableNumbers("x_mm") = std::move(x_mm);
+  table.MutableNumbers("y_mm") = std::move(y_mm);
   return table;
 }
 

@@ -30,8 +30,7 @@ void EmitWeakDirections(CalibrationProblem& problem,
     *yaml << YAML::BeginMap;
     YamlPairs(yaml, "words", weak.words, "how_far", weak.how_far, "remedy",
               weak.remedy, "std_over_prior", weak.std_over_prior);
-    *yaml << YAML::Key << "components" << YAML::Value << YAML::Flow
-          << YAML::BeginMap;
+    BeginLine(yaml, "components");
     for (const auto& component : weak.components) {
       YamlPair(yaml,
                problem.parameters().all()[component.parameter].name.c_str(),
@@ -64,14 +63,11 @@ void EmitNoise(const Identifiability& found, YamlEmitter* yaml) {
   for (int i = 0; i < kResidualFamilies; ++i) {
     const Identifiability::Noise& noise = found.noise[i];
     if (noise.residuals == 0) continue;
-    *yaml << YAML::Key << ResidualFamilyName(static_cast<ResidualFamily>(i))
-          << YAML::Value << YAML::Flow << YAML::BeginMap;
-    YamlPairs(yaml, "residuals", noise.residuals, "dof", noise.dof, "chi2",
-              noise.chi2);
     // The ratio means nothing without spare measurements.
-    YamlPair(yaml, "chi2_per_dof",
+    EmitLine(yaml, ResidualFamilyName(static_cast<ResidualFamily>(i)),
+             "residuals", noise.residuals, "dof", noise.dof, "chi2", noise.chi2,
+             "chi2_per_dof",
              noise.dof > 0.5 ? noise.chi2 / noise.dof : std::nan(""));
-    *yaml << YAML::EndMap;
   }
   *yaml << YAML::EndMap;
 }
@@ -92,26 +88,30 @@ void EmitBench(const std::vector<BenchLinearity>& bench, YamlEmitter* yaml) {
   });
 }
 
-void EmitForceError(const ForceCheck::Error& error, YamlEmitter* yaml) {
-  *yaml << YAML::Flow << YAML::BeginMap;
-  YamlPair(yaml, "frames", error.frames);
-  if (error.frames > 0) {
-    if (error.frames_before > 0) {
-      YamlPairs(yaml, "force_rms_error_before_N", error.before_rms_N,
-                "frames_before", error.frames_before);
+void EmitForceErrors(const char* key, const ForceCheck::Errors& errors,
+                     YamlEmitter* yaml) {
+  const ErrorStatistics& before = errors.force_before_N;
+  const ErrorStatistics& after = errors.force_after_N;
+  BeginLine(yaml, key);
+  YamlPair(yaml, "frames", after.frames);
+  if (after.frames > 0) {
+    if (before.frames > 0) {
+      YamlPairs(yaml, "force_rms_error_before_N", before.rms(), "frames_before",
+                before.frames);
     }
-    YamlPairs(yaml, "force_rms_error_after_N", error.after_rms_N,
-              "force_max_error_after_N", error.after_max_N, "force_mean_N",
-              error.reference_mean_N);
+    YamlPairs(yaml, "force_rms_error_after_N", after.rms(),
+              "force_max_error_after_N", after.largest, "force_mean_N",
+              after.reference_mean());
   }
   *yaml << YAML::EndMap;
 }
 
-void EmitInputs(const CalibrationInputs& inputs, YamlEmitter* yaml) {
+void EmitInputs(const CalibrationLogs& logs, const CalibrationInputs& inputs,
+                YamlEmitter* yaml) {
   BeginMap(yaml, "inputs");
   EmitFile(yaml, "finger", inputs.finger_path);
   EmitFile(yaml, "plan", inputs.plan_path);
-  EmitSeq(yaml, "logs", inputs.log_paths,
+  EmitSeq(yaml, "logs", logs.paths,
           [&](const std::string& path) { EmitFile(yaml, path); });
   *yaml << YAML::EndMap;
 }
@@ -149,17 +149,15 @@ void EmitConfig(const Plan& plan, const CalibrationInputs& inputs,
   *yaml << YAML::EndMap;
 }
 
-void EmitErrors(const CalibrationResult& result, YamlEmitter* yaml) {
+void EmitErrors(const ForceCheck& forces, YamlEmitter* yaml) {
   BeginMap(yaml, "errors");
-  const std::pair<const char*, const CalibrationResult::Errors*> parts[] = {
-      {"fitted", &result.fitted}, {"held_out", &result.held_out}};
+  const std::pair<const char*, const ForceCheck::Errors*> parts[] = {
+      {"fitted", &forces.fitted}, {"held_out", &forces.held_out}};
   for (const auto& [name, errors] : parts) {
     if (errors->after.contact.frames + errors->after.free.frames == 0) continue;
     BeginMap(yaml, name);
-    *yaml << YAML::Key << "before" << YAML::Value;
-    EmitErrorTable(errors->before, yaml);
-    *yaml << YAML::Key << "after" << YAML::Value;
-    EmitErrorTable(errors->after, yaml);
+    EmitErrorTable("before", errors->before, yaml);
+    EmitErrorTable("after", errors->after, yaml);
     *yaml << YAML::EndMap;
   }
   *yaml << YAML::EndMap;
@@ -179,8 +177,7 @@ void EmitCorrelation(CalibrationProblem& problem,
               series.time.tau, "effective_residuals", series.time.effective());
     *yaml << YAML::EndMap;
   });
-  *yaml << YAML::Key << "std_enlarged_by" << YAML::Value << YAML::Flow
-        << YAML::BeginMap;
+  BeginLine(yaml, "std_enlarged_by");
   const CalibrationParameters& parameters = problem.parameters();
   for (std::size_t i = 0; found.enlarges() && i < found.enlargement.size();
        ++i) {
@@ -243,21 +240,20 @@ std::string CalibrationYaml(CalibrationProblem& problem,
   EmitCorrelations(problem, result.identifiability, &yaml);
   EmitNoise(result.identifiability, &yaml);
   EmitBench(result.bench, &yaml);
-  yaml << YAML::Key << "fit" << YAML::Value;
-  EmitForceError(result.forces.fitted, &yaml);
-  yaml << YAML::Key << "holdout" << YAML::Value;
-  EmitForceError(result.forces.held_out, &yaml);
+  EmitForceErrors("fit", result.forces.fitted, &yaml);
+  EmitForceErrors("holdout", result.forces.held_out, &yaml);
   EmitSeq(&yaml, "starts", result.solution.starts, [&](const auto& start) {
-    YamlLine(&yaml, "start", start.name, "converged", start.converged,
-             "iterations", start.iterations, "cost", start.cost, "distance_std",
-             start.distance_std, "agrees", start.agrees);
+    YamlLine(&yaml, "start", start.name, "converged", start.solve.converged,
+             "iterations", start.solve.iterations, "cost",
+             start.solve.final_cost, "distance_std", start.distance_std,
+             "agrees", start.agrees);
   });
   EmitSeq(&yaml, "rejected_frames", problem.rejected(), [&](const auto& its) {
     const CalibrationFrame& frame = problem.frame(its.first);
     YamlLine(&yaml, "log", problem.logs().paths[frame.log], "row",
              frame.row + 1, "reason", its.second);
   });
-  EmitErrors(result, &yaml);
+  EmitErrors(result.forces, &yaml);
   EmitCorrelation(problem, result.residual_correlation, &yaml);
   EmitLeaveOneLogOut(problem, result.leave_one_log_out, &yaml);
   EmitNext(problem, result.next, &yaml);
@@ -267,15 +263,14 @@ std::string CalibrationYaml(CalibrationProblem& problem,
               warning.remedy);
     yaml << YAML::EndMap;
   });
-  yaml << YAML::Key << "solver" << YAML::Value;
-  YamlLine(&yaml, "converged", result.solution.solve.converged, "iterations",
-           result.solution.solve.iterations, "initial_cost",
-           result.solution.solve.initial_cost, "final_cost",
-           result.solution.solve.final_cost);
-  EmitInputs(inputs, &yaml);
+  const SolveReport& solve = result.solution.solve;
+  EmitLine(&yaml, "solver", "converged", solve.converged, "iterations",
+           solve.iterations, "initial_cost", solve.initial_cost, "final_cost",
+           solve.final_cost);
+  EmitInputs(problem.logs(), inputs, &yaml);
   EmitConfig(problem.plan(), inputs, &yaml);
-  yaml << YAML::Key << "versions" << YAML::Value;
-  YamlLine(&yaml, "finray", FINRAY_VERSION, "ceres", CERES_VERSION_STRING);
+  EmitLine(&yaml, "versions", "finray", FINRAY_VERSION, "ceres",
+           CERES_VERSION_STRING);
   yaml << YAML::EndMap;
   return std::string(yaml.c_str()) + "\n";
 }

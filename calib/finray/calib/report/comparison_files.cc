@@ -28,7 +28,7 @@ FrameTable ComparisonGrid(const Comparison& comparison) {
 
 std::string ComparisonYaml(const Comparison& comparison,
                            const CalibrationFile& a, const CalibrationFile& b,
-                           const std::vector<ComparisonGate>& gates) {
+                           const std::vector<Gate>& gates) {
   YamlEmitter yaml;
   yaml << YAML::BeginMap;
   YamlPair(&yaml, "schema_version", 1);
@@ -48,9 +48,8 @@ std::string ComparisonYaml(const Comparison& comparison,
   for (const auto& [key, names] : unmatched) {
     yaml << YAML::Key << key << YAML::Value << YAML::Flow << names;
   }
-  yaml << YAML::Key << "all" << YAML::Value;
-  YamlLine(&yaml, "chi2", comparison.chi2, "dof", comparison.dof, "p_value",
-           comparison.p_value());
+  EmitLine(&yaml, "all", "chi2", comparison.chi2, "dof", comparison.dof,
+           "p_value", comparison.p_value());
   const Comparison::Largest most = comparison.largest();
   BeginMap(&yaml, "predicted");
   YamlPairs(&yaml, "points", comparison.grid.size(), "compared_points",
@@ -64,10 +63,7 @@ std::string ComparisonYaml(const Comparison& comparison,
               "contact_max_difference_over_std", most.contact_over_std);
   }
   yaml << YAML::EndMap;
-  EmitSeq(&yaml, "gates", gates, [&](const ComparisonGate& gate) {
-    YamlLine(&yaml, "name", gate.name, "bound", gate.bound, "value", gate.value,
-             "passed", gate.passed);
-  });
+  EmitGates(&yaml, gates);
   YamlPair(&yaml, "version", FINRAY_VERSION);
   yaml << YAML::EndMap;
   return std::string(yaml.c_str()) + "\n";

@@ -66,21 +66,16 @@ FrameTable ValidationFrames(const CalibrationLogs& logs,
 
 std::string ValidationYaml(const CalibrationLogs& logs,
                            const Validation& validation,
-                           const std::vector<GateResult>& gates,
+                           const std::vector<Gate>& gates,
                            const ValidationInputs& inputs) {
   YamlEmitter yaml;
   yaml << YAML::BeginMap;
   YamlPair(&yaml, "schema_version", 1);
   EmitVerdict(&yaml, gates);
-  EmitSeq(&yaml, "gates", gates, [&](const GateResult& result) {
-    YamlLine(&yaml, "name", GateName(result.gate.quantity), "bound",
-             result.gate.bound, "value", result.value, "passed", result.passed);
-  });
-  yaml << YAML::Key << "errors" << YAML::Value;
-  EmitErrorTable(validation.errors, &yaml);
+  EmitGates(&yaml, gates);
+  EmitErrorTable("errors", validation.errors, &yaml);
   if (validation.baseline_errors) {
-    yaml << YAML::Key << "baseline" << YAML::Value;
-    EmitErrorTable(*validation.baseline_errors, &yaml);
+    EmitErrorTable("baseline", *validation.baseline_errors, &yaml);
   }
   BeginMap(&yaml, "inputs");
   const std::pair<const char*, const std::string*> named[] = {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "finray/calib/analysis/gate.h"
 #include "finray/io/sha256.h"
 #include "finray/io/yaml_emitter.h"
 
@@ -12,6 +13,19 @@ namespace finray {
 /// Emits a key and begins its mapping.
 inline void BeginMap(YamlEmitter* yaml, const char* key) {
   *yaml << YAML::Key << key << YAML::Value << YAML::BeginMap;
+}
+
+/// The same for a mapping on one line.
+inline void BeginLine(YamlEmitter* yaml, const char* key) {
+  *yaml << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginMap;
+}
+
+/// Emits a key and its mapping of alternating keys and values, on one line.
+template <class... Pairs>
+void EmitLine(YamlEmitter* yaml, const char* key, const Pairs&... pairs) {
+  BeginLine(yaml, key);
+  YamlPairs(yaml, pairs...);
+  *yaml << YAML::EndMap;
 }
 
 /// Emits a key and a sequence. `emit(element)` emits each element.
@@ -29,19 +43,22 @@ inline void EmitFile(YamlEmitter* yaml, const std::string& path) {
 }
 inline void EmitFile(YamlEmitter* yaml, const char* key,
                      const std::string& path) {
-  *yaml << YAML::Key << key << YAML::Value;
-  EmitFile(yaml, path);
+  EmitLine(yaml, key, "path", path, "sha256", Sha256OfFile(path));
 }
 
-/// Emits the verdict over gates, each with a `passed`.
-template <class Gates>
-void EmitVerdict(YamlEmitter* yaml, const Gates& gates) {
-  bool passed = true;
-  for (const auto& gate : gates) passed &= gate.passed;
+/// Emits the verdict over all gates.
+inline void EmitVerdict(YamlEmitter* yaml, const std::vector<Gate>& gates) {
   YamlPair(yaml, "verdict",
-           gates.empty() ? "no_gates"
-           : passed      ? "passed"
-                         : "failed");
+           gates.empty()      ? "no_gates"
+           : AllPassed(gates) ? "passed"
+                              : "failed");
+}
+
+inline void EmitGates(YamlEmitter* yaml, const std::vector<Gate>& gates) {
+  EmitSeq(yaml, "gates", gates, [&](const Gate& gate) {
+    YamlLine(yaml, "name", gate.name, "bound", gate.bound, "value", gate.value,
+             "passed", gate.passed);
+  });
 }
 
 }  // namespace finray

@@ -14,9 +14,9 @@ namespace {
 constexpr int kRows = GaugeTable::kMostRows / 2;
 constexpr double kTableTolerance = 1e-6, kFitTolerance = 1e-3;
 
-EquilibriumSolver SolverFor(const Finger& finger,
-                            const Discretization& discretization) {
-  EquilibriumSolver solver(finger, discretization);
+EquilibriumSolver SolverFor(const CalibrationProblem& problem) {
+  EquilibriumSolver solver(problem.parameters().Apply(problem.finger()),
+                           problem.discretization());
   solver.set_tolerance(kTableTolerance);
   return solver;
 }
@@ -24,19 +24,16 @@ EquilibriumSolver SolverFor(const Finger& finger,
 }  // namespace
 
 ContactGuess::ContactGuess(CalibrationProblem* problem)
-    : ContactGuess(problem, problem->parameters().Apply(problem->finger())) {}
-
-ContactGuess::ContactGuess(CalibrationProblem* problem, const Finger& finger)
     : problem_(*problem),
-      solver_(SolverFor(finger, problem->discretization())),
+      solver_(SolverFor(*problem)),
       table_(&solver_, problem->plan().scene.friction_coefficient,
              problem->plan().scene.circle_radius_mm(), problem->threads(),
              kRows),
-      fit_(finger, problem->discretization(),
+      fit_(solver_.model().finger(), problem->discretization(),
            problem->plan().scene.circle_radius_mm()),
       circle_(problem->plan().scene.circle_radius_mm().has_value()) {
-  const auto size =
-      static_cast<Eigen::Index>(finger.gauges.size() + (circle_ ? 2 : 0));
+  const auto size = static_cast<Eigen::Index>(problem->finger().gauges.size()) +
+                    (circle_ ? 2 : 0);
   values_.resize(size);
   weights_.resize(size);
   fit_.set_most_force(table_.heaviest_N());

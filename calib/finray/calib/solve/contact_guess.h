@@ -34,7 +34,6 @@ class ContactGuess {
   const GaugeTable& table() const { return table_; }
 
  private:
-  ContactGuess(CalibrationProblem* problem, const Finger& finger);
   void AddCircle(const CalibrationFrame& frame);
   void AddGauges(const CalibrationFrame& frame);
   Place FromTable(bool fit);

@@ -10,11 +10,8 @@
 namespace finray {
 
 ContactStore::ContactStore(CalibrationProblem* problem)
-    : ContactStore(problem,
-                   Contacts(problem->logs().frames.size(), {kNaN, kNaN})) {}
-
-ContactStore::ContactStore(CalibrationProblem* problem, Contacts contacts)
-    : problem_(*problem), contacts_(std::move(contacts)) {}
+    : problem_(*problem),
+      contacts_(problem->logs().frames.size(), {kNaN, kNaN}) {}
 
 void ContactStore::Guess(const std::vector<int>& frames,
                          ContactGuess::From from) {

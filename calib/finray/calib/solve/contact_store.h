@@ -21,7 +21,6 @@ class ContactStore {
  public:
   /// `problem` must stay in place.
   explicit ContactStore(CalibrationProblem* problem);
-  ContactStore(CalibrationProblem* problem, Contacts contacts);
 
   /// The contact of a frame. Its address does not change.
   std::array<double, 2>& operator[](int frame) { return contacts_[frame]; }

@@ -148,25 +148,16 @@ void FrameLinearizer::AddBlock(const FrameBlock& block, const double* contact,
 bool FrameLinearizer::FitContact(const CalibrationFrame& frame,
                                  std::array<double, 2>* contact,
                                  LadderState* state, LinearizedFrame* out) {
-  if (!FindContact(frame, contact, state, out)) {
+  Model model;
+  Prepare(frame, *state, &model);
+  if (!Evaluate(*contact, &model, state, out)) {
     out->rows.clear();
     return false;
   }
-  out->Eliminate();
-  return true;
-}
-
-bool FrameLinearizer::FindContact(const CalibrationFrame& frame,
-                                  std::array<double, 2>* contact,
-                                  LadderState* state, LinearizedFrame* out) {
-  Model model;
-  Prepare(frame, *state, &model);
-  if (!Evaluate(*contact, &model, state, out)) return false;
-  if (!frame.contact) return true;
   const Finger& finger = solver_.model().finger();
   const Eigen::Vector2d unit(finger.front_length_mm, ForceUnit(finger));
   double damping = 0;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; frame.contact && step < kMostSteps; ++step) {
     const Eigen::Matrix<double, Eigen::Dynamic, 2> slopes =
         out->by_contact * unit.asDiagonal();
     const ContactEquations equations{
@@ -179,7 +170,7 @@ bool FrameLinearizer::FindContact(const CalibrationFrame& frame,
     const double expected =
         -equations.gradient.dot(change) -
         0.5 * change.dot(ContactVector(equations.normal * change));
-    if (!(expected > kSmallDecrease)) return true;
+    if (!(expected > kSmallDecrease)) break;
     const std::array<double, 2> moved = {
         std::clamp(unit[0] * (x[0] + change[0]), 0.0, unit[0]),
         std::max(0.0, unit[1] * (x[1] + change[1]))};
@@ -193,8 +184,9 @@ bool FrameLinearizer::FindContact(const CalibrationFrame& frame,
       continue;
     }
     damping = std::max(1e-3, 10 * damping);
-    if (damping > kMostDamping) return true;  // as good as rounding allows
+    if (damping > kMostDamping) break;  // as good as rounding allows
   }
+  out->Eliminate();
   return true;
 }
 

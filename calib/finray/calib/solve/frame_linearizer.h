@@ -49,9 +49,6 @@ class FrameLinearizer {
                Model* model);
   bool Evaluate(const std::array<double, 2>& contact, Model* model,
                 LadderState* state, LinearizedFrame* out);
-  bool FindContact(const CalibrationFrame& frame,
-                   std::array<double, 2>* contact, LadderState* state,
-                   LinearizedFrame* out);
   void AddBlock(const FrameBlock& block, const double* contact, int first_row,
                 LinearizedFrame* out);
 

@@ -57,4 +57,14 @@ Eigen::MatrixXd DeterminedUnits(const Eigen::MatrixXd& information,
          spectrum.values.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
+Eigen::MatrixXd BoundedCovariance(const Eigen::MatrixXd& information) {
+  const InformationSpectrum spectrum(information);
+  const Eigen::MatrixXd root =
+      spectrum.vectors * spectrum.values.cwiseMax(kLeastInformation)
+                             .cwiseSqrt()
+                             .cwiseInverse()
+                             .asDiagonal();
+  return root * root.transpose();
+}
+
 }  // namespace finray

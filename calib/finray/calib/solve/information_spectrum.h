@@ -32,7 +32,10 @@ struct InformationSpectrum {
 Eigen::MatrixXd DeterminedUnits(const Eigen::MatrixXd& information,
                                 const Eigen::VectorXd& unit);
 constexpr double kLeastMoved = 1e-6;
-/// A covariance counts no direction with less information than this.
+
+/// Returns the inverse of an information matrix. A direction with less
+/// information than kLeastInformation counts as one with so much.
+Eigen::MatrixXd BoundedCovariance(const Eigen::MatrixXd& information);
 constexpr double kLeastInformation = 1e-8;
 
 }  // namespace finray

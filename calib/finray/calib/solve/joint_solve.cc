@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <unordered_set>
 
 #include "finray/io/number_text.h"
 #include "finray/residuals/frame_set.h"
@@ -30,7 +29,6 @@ class JointProblem {
     residuals_ = std::make_unique<ceres::Problem>(options);
     for (const int i : frames) AddFrame(i);
     AddPriors();
-    FixWhatIsNotFree();
   }
 
   SolveReport Solve(const JointLimits& limits) {
@@ -45,9 +43,10 @@ class JointProblem {
     options.parameter_tolerance = 1e-11;
     options.gradient_tolerance = 1e-12;
     options.linear_solver_type = ceres::DENSE_QR;
+    const auto ordering = FixAndOrder();
     if (!contact_blocks_.empty()) {
       options.linear_solver_type = ceres::DENSE_SCHUR;
-      options.linear_solver_ordering = Ordering();
+      options.linear_solver_ordering = ordering;
     }
     ceres::Solver::Summary summary;
     const ClassicNumbers in_messages;
@@ -100,24 +99,11 @@ class JointProblem {
     }
   }
 
-  void FixWhatIsNotFree() {
-    std::unordered_set<const double*> varied(contact_blocks_.begin(),
-                                             contact_blocks_.end());
-    for (const int i : problem_.parameters().free()) {
-      varied.insert(problem_.parameters().all()[i].block);
-    }
-    std::vector<double*> blocks;
-    residuals_->GetParameterBlocks(&blocks);
-    for (double* block : blocks) {
-      if (varied.count(block) == 0)
-        residuals_->SetParameterBlockConstant(block);
-    }
-  }
-
-  // Eliminates the contacts first. Each shared block has a group of its own:
+  // Fixes the blocks that are not free, and returns the order of all. The
+  // contacts are eliminated first. Each shared block has a group of its own:
   // within a group Ceres orders blocks by address, and results would depend on
   // where the heap has put them.
-  std::shared_ptr<ceres::ParameterBlockOrdering> Ordering() const {
+  std::shared_ptr<ceres::ParameterBlockOrdering> FixAndOrder() {
     auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
     for (double* contact : contact_blocks_) {
       ordering->AddElementToGroup(contact, 0);
@@ -132,7 +118,9 @@ class JointProblem {
     std::vector<double*> all;
     residuals_->GetParameterBlocks(&all);
     for (double* block : all) {  // constant blocks come last
-      if (!ordering->IsMember(block)) ordering->AddElementToGroup(block, group);
+      if (ordering->IsMember(block)) continue;
+      residuals_->SetParameterBlockConstant(block);
+      ordering->AddElementToGroup(block, group);
     }
     return ordering;
   }

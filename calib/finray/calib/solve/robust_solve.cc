@@ -55,10 +55,12 @@ struct StartSolution {
 const StartSolution& LeastCost(const std::vector<StartSolution>& solutions) {
   const StartSolution* best = nullptr;
   for (const StartSolution& solution : solutions) {
-    const StartReport& report = solution.report;
-    if (best == nullptr || (report.converged && !best->report.converged) ||
-        (report.converged == best->report.converged &&
-         report.cost < best->report.cost * (1 - 1e-6))) {
+    const SolveReport& report = solution.report.solve;
+    if (best == nullptr) best = &solution;
+    const SolveReport& least = best->report.solve;
+    if ((report.converged && !least.converged) ||
+        (report.converged == least.converged &&
+         report.final_cost < least.final_cost * (1 - 1e-6))) {
       best = &solution;
     }
   }
@@ -81,7 +83,7 @@ class RobustSolve {
                          [](const StartReport& a, const StartReport& b) {
                            return a.distance_std < b.distance_std;
                          })
-            ->iterations;
+            ->solve.iterations;
     if (problem_.candidates().size() > 4 * kStageFrames) {
       iterations +=
           RejectAndSolve(problem_.SpreadFrames(kStageFrames)).report.iterations;
@@ -159,15 +161,10 @@ class RobustSolve {
       } else {
         part->StartFrom(Changed(problem_, kStarts[k]));
       }
-      const SolveReport joint =
-          SolveJointly(frames, kStart, part.get(), &contacts);
-      StartReport& report = solutions[k].report;
-      report.name = kStarts[k].name;
-      report.converged = joint.converged;
-      report.iterations = joint.iterations + (k == 0 ? iterations_so_far : 0);
-      report.cost = joint.final_cost;
-      solutions[k].values = part->Values();
-      solutions[k].contacts = contacts.all();
+      StartReport report = {
+          kStarts[k].name, SolveJointly(frames, kStart, part.get(), &contacts)};
+      if (k == 0) report.solve.iterations += iterations_so_far;
+      solutions[k] = {report, part->Values(), contacts.all()};
     };
     tbb::task_arena(problem_.threads()).execute([&] {
       tbb::parallel_for(std::size_t{0}, solutions.size(), solve);
@@ -188,8 +185,8 @@ class RobustSolve {
       StartReport& report = solution.report;
       report.distance_std =
           std::sqrt(std::max(0.0, off.dot(information * off)));
-      report.agrees =
-          report.converged && report.distance_std < StartReport::kSameSolution;
+      report.agrees = report.solve.converged &&
+                      report.distance_std < StartReport::kSameSolution;
       reports.push_back(report);
     }
     return reports;

@@ -14,9 +14,7 @@ namespace finray {
 /// Says where one start ended.
 struct StartReport {
   std::string name;
-  bool converged = false;
-  int iterations = 0;
-  double cost = 0;
+  SolveReport solve;
   /// The distance to the best solution in standard deviations, sqrt(dx' (S + P)
   /// dx).
   double distance_std = 0;
