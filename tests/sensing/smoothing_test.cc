@@ -1,3 +1,5 @@
+#include "finray/sensing/smoothing.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>

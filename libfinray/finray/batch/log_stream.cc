@@ -162,12 +162,13 @@ bool EstimateJointly(const Finger& finger, const Scene& scene,
     Parse(parser, &block);
     if (!block.lines.error.empty()) throw InputError(block.lines.error);
     ReadReadings(layout, &block);
-    // The estimator may give back frames of this block while it takes them.
-    const std::vector<Measurements> readings = block.readings;
-    for (const Measurements& row : readings) {
+    // The estimator may give back all frames with the last one that it takes.
+    // Then the block is gone.
+    const std::size_t rows = block.readings.size();
+    for (std::size_t row = 0; row < rows; ++row) {
       ++row_of_log;
       try {
-        estimator.Add(row);
+        estimator.Add(block.readings[row]);
       } catch (const InputError& error) {
         throw InputError(parser.path() + ": row " + std::to_string(row_of_log) +
                          ": " + error.what());

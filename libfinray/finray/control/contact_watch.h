@@ -33,7 +33,7 @@ enum class LoopMode {
 };
 const char* LoopModeName(LoopMode mode);
 
-/// What one estimate is good for. Several of these may hold.
+/// The uses that an estimate is good for. Several of them may hold.
 struct Sight {
   bool seen;  ///< The status is ok and the std of the force within the limit.
   bool free;  ///< There is no contact.

@@ -39,7 +39,8 @@ struct ControlStatistics {
   double best_rms_N = std::numeric_limits<double>::infinity();
   std::string failure;  ///< of the first run that ended early
 
-  /// Those of the control; those of the estimate without a controller.
+  /// Returns the errors of the control, or those of the estimate if there is no
+  /// controller.
   const ErrorSums& errors() const {
     return control.count > 0 ? control : estimate;
   }

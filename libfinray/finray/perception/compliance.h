@@ -28,7 +28,7 @@ struct ComplianceSettings {
   std::optional<double> from_N, to_N;
 };
 
-/// What one finger senses in a row with one contact.
+/// The load that one finger senses in a row with one contact.
 struct SensedLoad {
   std::size_t row;  ///< of its table, from 0
   SensedContact contact;

@@ -6,8 +6,7 @@
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 #include "finray/io/nan.h"
-#include "finray/sensing/block_tridiagonal.h"
-#include "finray/sensing/log_problem.h"
+#include "finray/sensing/smoothing.h"
 
 namespace finray {
 namespace {
@@ -126,7 +125,9 @@ void FrameEstimator::EstimateBlock(const Measurements* readings,
       }
     }
   }
-  if (scene_.smoothing) Smooth(readings, count, {}, estimates);
+  if (scene_.smoothing) {
+    Smooth(finger_, scene_, discretization_, readings, count, {}, estimates);
+  }
   for (std::size_t i = 0; i < count; ++i) {
     Judge(readings[i], packed_[i], &estimates[i]);
   }
@@ -141,7 +142,8 @@ FrameEstimate FrameEstimator::Next(const Measurements& readings) {
     following_ = CanFollow(packed_[0], estimate);
   }
   if (scene_.smoothing) {
-    followed_ = Smooth(&readings, 1, followed_, &estimate);
+    followed_ = Smooth(finger_, scene_, discretization_, &readings, 1,
+                       followed_, &estimate);
   }
   Judge(readings, packed_[0], &estimate);
   return estimate;
@@ -215,52 +217,6 @@ bool FrameEstimator::TakeFollowed(const PackedReadings& packed, std::size_t run,
   estimate->iterations = fit.iterations;
   // A frame without degrees of freedom has no p-value.
   return !(estimate->p_value() < FrameEstimate::kUnexplained);
-}
-
-LogPrior FrameEstimator::Smooth(const Measurements* readings, std::size_t count,
-                                const LogPrior& before,
-                                FrameEstimate* estimates) {
-  LogPrior known = before;
-  for (std::size_t begin = 0; begin < count;) {
-    std::size_t end = begin;
-    while (end < count && estimates[end].contacts == 1) ++end;
-    if (end > begin) {
-      known =
-          SmoothRun(readings + begin, end - begin, known, estimates + begin);
-    }
-    if (end < count) known = {};
-    begin = std::max(end, begin + 1);
-  }
-  return known;
-}
-
-LogPrior FrameEstimator::SmoothRun(const Measurements* readings,
-                                   std::size_t count, const LogPrior& before,
-                                   FrameEstimate* estimates) {
-  std::vector<LogFrame> frames(count);
-  for (std::size_t t = 0; t < count; ++t) {
-    LogFrame& frame = frames[t];
-    frame.row = readings[t];
-    frame.role = LogFrame::Role::kTouching;
-    frame.noise_scale = estimates[t].noise_scale();
-    frame.arc_mm = estimates[t].contact[0].arc_mm;
-    frame.normal_N = frame.expected_N = estimates[t].contact[0].normal_N;
-    frame.offset_V = GaugeOffsets(finger_);
-  }
-  LogProblem problem(finger_, scene_, discretization_, 1, &frames, before);
-  problem.Solve();
-  if (!problem.converged()) return {};  // the frames remain what they are
-  const std::vector<LogMarginal> marginals = problem.Marginals();
-  // A frame alone has nothing to be smoothed with, but the next may have.
-  for (std::size_t t = 0; t < count && (count > 1 || before.mean.size() > 0);
-       ++t) {
-    frames[t].CopyTo(marginals[t].covariance, &estimates[t]);
-  }
-  Eigen::MatrixXd next = marginals.back().covariance;
-  next(0, 0) += std::pow(scene_.smoothing->contact_mm, 2);
-  next(1, 1) += std::pow(scene_.smoothing->normal_N, 2);
-  return {Eigen::Vector2d(frames.back().arc_mm, frames.back().normal_N),
-          InverseInformation(next)};
 }
 
 // Adds a contact as long as it makes a significant difference. The free finger

@@ -117,14 +117,6 @@ class FrameEstimator {
   // contacts, and sets its status to ok or unobservable.
   void Judge(const Measurements& readings, const PackedReadings& packed,
              FrameEstimate* estimate);
-  // Smooths the runs of frames with one contact (LogProblem). Changes l_c, f_c,
-  // their std, poses and rib tensions; chi2, dof and the alternative remain
-  // those of the frame alone. `before`: what is known of the first frame.
-  // Returns what is known of the frame that comes next.
-  LogPrior Smooth(const Measurements* readings, std::size_t count,
-                  const LogPrior& before, FrameEstimate* estimates);
-  LogPrior SmoothRun(const Measurements* readings, std::size_t count,
-                     const LogPrior& before, FrameEstimate* estimates);
 
   Finger finger_;
   Scene scene_;
