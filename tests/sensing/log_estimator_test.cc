@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "finray/io/error.h"
+#include "finray/sensing/frame_estimator.h"
 #include "sensing/wandering_log.h"
 #include "test_finger.h"
 
