@@ -80,7 +80,10 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
       Keep();
       continue;
     }
-    if ((explained && !exact) || fallbacks >= kMostFallbacks) continue;
+    // The slow fallback pays only where the start may beat what is found.
+    if ((explained && !exact) || !may_be_rival || fallbacks >= kMostFallbacks) {
+      continue;
+    }
     ++fallbacks;
     if (FitByCeres(start, row)) Keep();
     if (found_ > 0 && least_chi2() > FrameProblem::kHopelessChi2) {
