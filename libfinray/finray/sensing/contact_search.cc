@@ -68,10 +68,10 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
   found_ = iterations_ = 0;
   std::size_t fallbacks = 0;
   for (const ContactStart& start : starts_) {
-    const bool explained = found_ > 0 && IsExplained(least_chi2(), dof);
-    const bool may_be_rival =
-        exact || kTableFactor * start.chi2 < least_chi2() + kWithinNoise;
-    if (explained && !may_be_rival) break;
+    // This start can neither win nor be a rival, and those behind it are worse.
+    if (!exact && kTableFactor * start.chi2 >= least_chi2() + kWithinNoise) {
+      break;
+    }
     if (method_ != FrameMethod::kFast) {
       if (FitByCeres(start, row)) Keep();
       continue;
@@ -80,10 +80,8 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
       Keep();
       continue;
     }
-    // The slow fallback pays only where the start may beat what is found.
-    if ((explained && !exact) || !may_be_rival || fallbacks >= kMostFallbacks) {
-      continue;
-    }
+    const bool explained = found_ > 0 && IsExplained(least_chi2(), dof);
+    if ((explained && !exact) || fallbacks >= kMostFallbacks) continue;
     ++fallbacks;
     if (FitByCeres(start, row)) Keep();
     if (found_ > 0 && least_chi2() > FrameProblem::kHopelessChi2) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "finray/batch/batch_estimation.h"
 #include "finray/io/error.h"
@@ -103,7 +104,8 @@ double FigureOf(const std::string& gate, const ErrorRow& errors) {
     return std::fmin(errors.force_N.coverage_95_percent(),
                      errors.contact_mm.coverage_95_percent());
   }
-  return errors.usable_percent();
+  if (gate == "least_usable_percent") return errors.usable_percent();
+  throw std::logic_error("no gate is called " + gate);
 }
 
 }  // namespace

@@ -275,6 +275,7 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
   WarnOfStarts(result.solution, &result.warnings);
   WarnOfOutliers(*problem, result.solution, &result.warnings);
   WarnOfWeakness(*problem, result.identifiability, &result.warnings);
+  // Behind the line before: these parameters have warnings of their own.
   FindUnsupported(*problem, &result.identifiability, &result.warnings);
   WarnOfNoise(result.identifiability, &result.warnings);
   WarnOfCorrelation(*problem, result.residual_correlation, &result.warnings);
