@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <random>
+#include <utility>
 
 #include "finray/sensing/contact_search.h"
 #include "test_finger.h"
@@ -13,17 +14,20 @@ namespace {
 
 // Wherever the map says so, an exhaustive search finds no rival.
 TEST(RivalMapTest, WhatItCallsUniqueHasNoRival) {
-  for (const double noise : {1e-4, 3e-4, 3e-3}) {
+  for (const auto& [noise, friction] :
+       {std::pair{1e-4, 0.}, {3e-4, 0.}, {3e-3, 0.}, {1e-4, 0.3}}) {
+    Scene scene;
+    scene.friction_coefficient = friction;
     Finger finger = PaperFinger();
     for (Gauge& gauge : finger.gauges) gauge.noise_V = noise;
     EquilibriumSolver solver(finger, {});
-    const GaugeTable table(&solver, 0, std::nullopt);
+    const GaugeTable table(&solver, friction, std::nullopt);
     PackedReadings measurement;
     measurement.weights = Eigen::VectorXd::Constant(4, 1 / noise);
     measurement.gauges = measurement.all = 4;
     ContactFit map_fit(finger, {});
     const RivalMap map(table, measurement.weights, &map_fit);
-    ContactSearch search(finger, Scene(), {});
+    ContactSearch search(finger, scene, {});
     std::mt19937_64 generator(11);
     std::uniform_real_distribution<double> place(10, 135), force(0, 2);
     std::normal_distribution<double> normal(0, noise);
@@ -31,7 +35,7 @@ TEST(RivalMapTest, WhatItCallsUniqueHasNoRival) {
     constexpr int kFrames = 400;
     for (int i = 0; i < kFrames; ++i) {
       const PointContact truth{place(generator),
-                               0.1 * std::pow(10, force(generator)), 0};
+                               0.1 * std::pow(10, force(generator)), friction};
       ASSERT_TRUE(solver.Solve({truth}));
       const bool usual = truth.arc_mm > 25 && truth.arc_mm < 108 &&
                          truth.normal_N > 1 && truth.normal_N < 8;
@@ -56,7 +60,7 @@ TEST(RivalMapTest, WhatItCallsUniqueHasNoRival) {
       ContactFit fit(finger, {});
       for (const GaugeTable::Row& row : table.rows()) {
         std::vector<PointContact> contacts = {
-            {row.arc_mm, best.contacts[0].normal_N, 0}};
+            {row.arc_mm, best.contacts[0].normal_N, friction}};
         fit.set_state(row.nodes[5].state);
         if (!fit.Fit(measurement.values, measurement.weights, &contacts)) {
           continue;
@@ -70,8 +74,10 @@ TEST(RivalMapTest, WhatItCallsUniqueHasNoRival) {
             << best.contacts[0].arc_mm;
       }
     }
-    std::printf("noise %g rad: %d of %d frames unique, %d of %d usual ones\n",
-                noise, unique, kFrames, usual_unique, usual_frames);
+    std::printf(
+        "noise %g rad, friction %g: %d of %d frames unique, %d of %d usual "
+        "ones\n",
+        noise, friction, unique, kFrames, usual_unique, usual_frames);
     if (noise < 2e-4) {
       EXPECT_GT(usual_unique, 0.8 * usual_frames);
     }

@@ -21,7 +21,6 @@ Eigen::VectorXd AllWeights(const Finger& finger) {
 RivalMap MapRivals(const Finger& finger, const Discretization& discretization,
                    const ContactSearch& search) {
   ContactFit fit(finger, discretization);
-  fit.set_tolerance(kTolerance);
   fit.set_most_force(ContactSearch::kMostForce * search.table().heaviest_N());
   return {search.table(), AllWeights(finger), &fit};
 }

@@ -12,6 +12,10 @@ constexpr double kBetweenNodes = 0.8;
 // Without a fit, the true chi2 may be this fraction of the table's. A start is
 // not fitted if that is far above anything that noise can do.
 constexpr double kTableFactor = 0.25, kFarAbove = 400;
+// The map needs a rival's chi2, but not its exact place. A fit that creeps and
+// ends without a result counts as a possible rival, and each frame near its node
+// would be searched.
+constexpr double kFitTolerance = 1e-5;
 // The largest std of l_c, in row spacings.
 constexpr double kWidest = 0.5;
 // Starts within this many rows of the node's own are the same contact.
@@ -22,6 +26,7 @@ constexpr double kSameRows = 1.5;
 RivalMap::RivalMap(const GaugeTable& table, const Eigen::VectorXd& weights,
                    ContactFit* fit)
     : table_(table) {
+  fit->set_tolerance(kFitTolerance);
   for (const GaugeTable::Row& row : table.rows()) {
     std::vector<double>& distances = distance_per_N_.emplace_back();
     for (std::size_t k = 1; k < row.nodes.size(); ++k) {

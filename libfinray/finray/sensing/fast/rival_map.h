@@ -19,7 +19,7 @@ namespace finray {
 class RivalMap {
  public:
   /// `weights` are those of a frame with all measurements. `fit` must be for
-  /// this finger, without a measured circle.
+  /// this finger, without a measured circle; its tolerance is set.
   RivalMap(const GaugeTable& table, const Eigen::VectorXd& weights,
            ContactFit* fit);
 
