@@ -13,8 +13,8 @@ constexpr double kBetweenNodes = 0.8;
 // not fitted if that is far above anything that noise can do.
 constexpr double kTableFactor = 0.25, kFarAbove = 400;
 // The map needs a rival's chi2, but not its exact place. A fit that creeps and
-// ends without a result counts as a possible rival, and each frame near its node
-// would be searched.
+// ends without a result counts as a possible rival, and each frame near its
+// node would be searched.
 constexpr double kFitTolerance = 1e-5;
 // The largest std of l_c, in row spacings.
 constexpr double kWidest = 0.5;
