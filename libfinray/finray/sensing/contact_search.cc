@@ -72,6 +72,10 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
     if (!exact && kTableFactor * start.chi2 >= least_chi2() + kWithinNoise) {
       break;
     }
+    // Wherever it is, a contact without force is the free finger.
+    if (contacts == 1 && found_ > 0 && start.contacts[0].normal_N == 0) {
+      continue;
+    }
     if (method_ != FrameMethod::kFast) {
       if (FitByCeres(start, row)) Keep();
       continue;

@@ -40,14 +40,15 @@ struct FrameEstimate {
   /// one is 0, or NaN if the frame is not solved.
   ContactEstimates contact;
   // The two parts of the covariance of (l_c, f_c) of each contact. LogEstimator
-  // leaves them empty.
+  // leaves them empty. They are on the heap: most frames of a log are free, and
+  // an estimate is mostly a copy of memory.
 
   /// Due to the std given in the finger and the scene, without noise_scale().
   /// It is that of the frame alone, also if the frame is smoothed.
-  ContactMatrix noise_covariance;
+  Eigen::MatrixXd noise_covariance;
   /// Due to the errors of the calibration. Empty if the finger has no
   /// covariance.
-  ContactMatrix calibration_covariance;
+  Eigen::MatrixXd calibration_covariance;
   Eigen::Vector3d tip_pose =
       Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   std::vector<double> rib_tension_N;

@@ -102,8 +102,9 @@ CalibrationUncertainty FrameEstimator::SystematicOf(
 }
 
 FrameEstimate FrameEstimator::Estimate(const Measurements& readings) {
+  FrameEstimate estimate;
   PackAll(&readings, 1);
-  FrameEstimate estimate = SearchAlone(readings, packed_[0]);
+  SearchAlone(readings, packed_[0], &estimate);
   Judge(readings, packed_[0], &estimate);
   return estimate;
 }
@@ -114,14 +115,14 @@ void FrameEstimator::EstimateBlock(const Measurements* readings,
   PackAll(readings, count);
   following_ = false;  // the follower leaves the frame of the last Next()
   for (std::size_t i = 0; i < count;) {
-    estimates[i] = SearchAlone(readings[i], packed_[i]);
+    SearchAlone(readings[i], packed_[i], &estimates[i]);
     const bool follow = CanFollow(packed_[i], estimates[i]);
     ++i;
     if (!follow) continue;
     const std::size_t fitted = FitRun(i, count);
     for (std::size_t run = 0; run < fitted; ++run, ++i) {
       if (!TakeFollowed(packed_[i], run, &estimates[i])) {
-        estimates[i] = SearchAlone(readings[i], packed_[i]);
+        SearchAlone(readings[i], packed_[i], &estimates[i]);
       }
     }
   }
@@ -138,7 +139,7 @@ FrameEstimate FrameEstimator::Next(const Measurements& readings) {
   PackAll(&readings, 1);
   if (!following_ || FitRun(0, 1) == 0 ||
       !TakeFollowed(packed_[0], 0, &estimate)) {
-    estimate = SearchAlone(readings, packed_[0]);
+    SearchAlone(readings, packed_[0], &estimate);
     following_ = CanFollow(packed_[0], estimate);
   }
   if (scene_.smoothing) {
@@ -157,14 +158,17 @@ void FrameEstimator::PackAll(const Measurements* readings, std::size_t count) {
   }
 }
 
-FrameEstimate FrameEstimator::SearchAlone(const Measurements& readings,
-                                          const PackedReadings& packed) {
+void FrameEstimator::SearchAlone(const Measurements& readings,
+                                 const PackedReadings& packed,
+                                 FrameEstimate* estimate) {
   const int contacts = scene_.contacts.value_or(1);
   if (packed.gauges + packed.camera < 1 || packed.all < kUnknowns * contacts) {
-    return Unsolved(FrameStatus::kBadInput);
+    *estimate = Unsolved(FrameStatus::kBadInput);
+  } else if (scene_.contacts) {
+    WithContacts(readings, packed, contacts, estimate);
+  } else {
+    Automatic(readings, packed, estimate);
   }
-  if (!scene_.contacts) return Automatic(readings, packed);
-  return WithContacts(readings, packed, contacts);
 }
 
 // Says whether later frames can be followed from the frame searched last.
@@ -222,59 +226,62 @@ bool FrameEstimator::TakeFollowed(const PackedReadings& packed, std::size_t run,
 // Adds a contact as long as it makes a significant difference. The free finger
 // predicts no place of a measured object, so that place only distinguishes one
 // contact from another.
-FrameEstimate FrameEstimator::Automatic(const Measurements& readings,
-                                        const PackedReadings& packed) {
-  if (packed.free_chi2 < kSignificance) return Free(packed);
-  FrameEstimate one = Unsolved(FrameStatus::kNotConverged);
+void FrameEstimator::Automatic(const Measurements& readings,
+                               const PackedReadings& packed,
+                               FrameEstimate* estimate) {
+  if (packed.free_chi2 < kSignificance) return Free(packed, estimate);
+  FrameEstimate& one = *estimate;
+  one = Unsolved(FrameStatus::kNotConverged);
   if (search_.Search(1, readings, packed)) {
     if (packed.free_chi2 - search_.best().chi2 < kSignificance) {
-      return Free(packed);
+      return Free(packed, estimate);
     }
     one = Found(packed);
-    if (one.chi2 < kSecondSignificance) return one;
+    if (one.chi2 < kSecondSignificance) return;
   }
   const int needed = 2 * kUnknowns;
   if (scene_.most_contacts < 2 || packed.gauges < needed ||
       scene_.object_std_mm) {
-    return one;
+    return;
   }
   const int before = search_.iterations();
-  if (!search_.Search(2, readings, packed)) return one;
+  if (!search_.Search(2, readings, packed)) return;
   const ContactSolution& two = search_.best();
   for (const PointContact& contact : two.contacts) {
-    if (contact.normal_N < least_force_N_) return one;
+    if (contact.normal_N < least_force_N_) return;
   }
   // If no search with one contact has converged, two contacts must do what the
   // first and the second have to do.
   const double without =
       one.contacts == 1 ? one.chi2 : packed.free_chi2 - kSignificance;
-  if (without - two.chi2 < kSecondSignificance) return one;
-  FrameEstimate estimate = Found(packed);
-  estimate.iterations += before;
-  return estimate;
+  if (without - two.chi2 < kSecondSignificance) return;
+  *estimate = Found(packed);
+  estimate->iterations += before;
 }
 
-FrameEstimate FrameEstimator::WithContacts(const Measurements& readings,
-                                           const PackedReadings& packed,
-                                           int contacts) {
-  if (contacts == 0) return Free(packed);
+void FrameEstimator::WithContacts(const Measurements& readings,
+                                  const PackedReadings& packed, int contacts,
+                                  FrameEstimate* estimate) {
+  if (contacts == 0) return Free(packed, estimate);
   if (!search_.Search(contacts, readings, packed)) {
-    return Unsolved(FrameStatus::kNotConverged);
+    *estimate = Unsolved(FrameStatus::kNotConverged);
+    return;
   }
   const ContactSolution& best = search_.best();
   for (int c = 0; c < best.count; ++c) {
     if (best.contacts[c].normal_N < least_force_N_) {
-      return WithContacts(readings, packed, contacts - 1);
+      return WithContacts(readings, packed, contacts - 1, estimate);
     }
   }
-  return Found(packed);
+  *estimate = Found(packed);
 }
 
-FrameEstimate FrameEstimator::Free(const PackedReadings& packed) const {
-  FrameEstimate estimate = free_;
-  estimate.chi2 = packed.free_chi2;
-  estimate.dof = packed.gauges + packed.camera;
-  return estimate;
+// Copies into the memory of the estimate: most frames of a log are free.
+void FrameEstimator::Free(const PackedReadings& packed,
+                          FrameEstimate* estimate) const {
+  *estimate = free_;
+  estimate->chi2 = packed.free_chi2;
+  estimate->dof = packed.gauges + packed.camera;
 }
 
 FrameEstimate FrameEstimator::Unsolved(FrameStatus status) const {

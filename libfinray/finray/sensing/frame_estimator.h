@@ -100,17 +100,17 @@ class FrameEstimator {
  private:
   // Packs the readings and finds their chi2 without a contact.
   void PackAll(const Measurements* readings, std::size_t count);
-  FrameEstimate SearchAlone(const Measurements& readings,
-                            const PackedReadings& packed);
+  void SearchAlone(const Measurements& readings, const PackedReadings& packed,
+                   FrameEstimate* estimate);
   bool CanFollow(const PackedReadings& packed, const FrameEstimate& estimate);
   std::size_t FitRun(std::size_t begin, std::size_t end);
   bool TakeFollowed(const PackedReadings& packed, std::size_t run,
                     FrameEstimate* estimate);
-  FrameEstimate Automatic(const Measurements& readings,
-                          const PackedReadings& packed);
-  FrameEstimate WithContacts(const Measurements& readings,
-                             const PackedReadings& packed, int contacts);
-  FrameEstimate Free(const PackedReadings& packed) const;
+  void Automatic(const Measurements& readings, const PackedReadings& packed,
+                 FrameEstimate* estimate);
+  void WithContacts(const Measurements& readings, const PackedReadings& packed,
+                    int contacts, FrameEstimate* estimate);
+  void Free(const PackedReadings& packed, FrameEstimate* estimate) const;
   FrameEstimate Unsolved(FrameStatus status) const;
   FrameEstimate Found(const PackedReadings& packed) const;
   // Adds the uncertainty of the calibration to the std of an estimate with

@@ -15,6 +15,9 @@ constexpr int kMaxIterations = 60;
 // in std for the contacts, in rad and l_0 for the shape.
 constexpr int kPatience = 8;
 constexpr double kNoDifference = 1e-5;
+// Where chi2 still rises then, Gauss-Newton overshoots and may go to and fro
+// for ever. The fit takes this share of such a change.
+constexpr double kPace = 0.5;
 
 }  // namespace
 
@@ -103,14 +106,22 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
       comparable = false;
       continue;
     }
+    const bool overshot = iterations_ > kPatience && equations.chi2 > last_cost;
+    const double pace = overshot ? kPace : 1;
     Keep(*contacts);
     last_cost = equations.chi2;
     for (int c = 0; c < count; ++c) {
       x[2 * c] = (*contacts)[c].arc_mm / length;
       x[2 * c + 1] = (*contacts)[c].normal_N / force;
     }
-    const ContactVector change =
+    ContactVector change =
         BoundedChange(equations, x, most_force_N_ / force, damping);
+    bool inside = true;
+    for (int k = 0; k < unknowns; ++k) {
+      const double to = x[k] + change[k];
+      inside &= to > 0 && to < (k % 2 == 0 ? 1 : most_force_N_ / force);
+    }
+    if (inside) change *= pace;
     newton_.StepWithContacts(predicts ? 0 : 1, change.data());
     const double size = newton_.Size(1, 0);
     if (!std::isfinite(size)) return false;
@@ -133,7 +144,7 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
     const double deviations = std::sqrt(change.dot(equations.normal * change));
     const bool last =
         IsLastChange(moved, last_change, rate, crossed, tolerance_) ||
-        (iterations_ >= kPatience && deviations < kNoDifference &&
+        (iterations_ >= kPatience && deviations < pace * kNoDifference &&
          size < kNoDifference);
     damping *= 0.1;
     last_change = moved;
