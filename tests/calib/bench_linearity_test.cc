@@ -86,9 +86,9 @@ TEST(BenchLinearityTest, RoundedRepeatsAreNoPureError) {
     const double volts = 1.5 + 0.8 * 18 / frame.cylinder_radius_mm;
     frame.gauges_V[0] = 0.01 * std::round(volts / 0.01);
   }
-  Plan plan;
-  plan.gauge_std_V = 0.01 / std::sqrt(12);
-  const auto found = TestBenchLinearity(PaperFinger(), plan, logs);
+  Finger finger = PaperFinger();
+  finger.gauges[0].noise_V = 0.01 / std::sqrt(12);
+  const auto found = TestBenchLinearity(finger, {}, logs);
   EXPECT_TRUE(found[0].IsLinear());
   EXPECT_GT(found[0].lack_of_fit_F, 0.1);
   EXPECT_LT(found[0].lack_of_fit_F, 4);
@@ -102,9 +102,9 @@ TEST(BenchLinearityTest, RoundedRepeatsAreNoPureError) {
     columns.row(i) << 1, angle, angle * angle;
   }
   const double variance = (columns.transpose() * columns).inverse()(2, 2);
-  const auto exact = TestBenchLinearity(PaperFinger(), plan, logs);
-  EXPECT_NEAR(exact[0].quadratic_std, *plan.gauge_std_V * std::sqrt(variance),
-              1e-9);
+  const auto exact = TestBenchLinearity(finger, {}, logs);
+  EXPECT_NEAR(exact[0].quadratic_std,
+              finger.gauges[0].noise_V * std::sqrt(variance), 1e-9);
   EXPECT_TRUE(exact[0].IsLinear());
 }
 

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "calib/standard_log.h"
@@ -66,6 +68,56 @@ TEST(PlausibilityTest, RefusesXOfTheWrongSign) {
     EXPECT_THAT(RefusalOf(
                     {"object_x_mm"}, [](double x) { return -x; }, origin_free),
                 HasSubstr("the force falls as object_x_mm rises"));
+  }
+}
+
+const std::vector<std::string> kGaugeColumns = {"gauge_1_V", "gauge_2_V",
+                                                "gauge_3_V", "gauge_4_V"};
+
+TEST(PlausibilityTest, RefusesGaugesInOtherUnits) {
+  EXPECT_THAT(RefusalOf(kGaugeColumns, [](double v) { return 1000 * v; }),
+              HasSubstr("are these mV or counts?"));
+  EXPECT_THAT(
+      RefusalOf(kGaugeColumns,
+                [](double v) { return std::round(32768 + 6553.6 * v); }),
+      HasSubstr("are these mV or counts?"));
+  // An amplifier is no other unit.
+  EXPECT_THAT(RefusalOf(kGaugeColumns, [](double v) { return 20 * v; }),
+              IsEmpty());
+}
+
+TEST(PlausibilityTest, RefusesDeadGauges) {
+  EXPECT_THAT(RefusalOf({"gauge_3_V"}, [](double) { return 0.1; }),
+              HasSubstr("gauge_3_V does not respond"));
+  int i = 0;
+  EXPECT_THAT(
+      RefusalOf({"gauge_2_V"}, [&](double) { return 1e-3 * (++i % 7); }),
+      HasSubstr("gauge_2_V does not respond"));
+  EXPECT_THAT(RefusalOf(kGaugeColumns, [](double) { return 0.1; }),
+              HasSubstr("gauge_1_V does not respond"));
+}
+
+TEST(PlausibilityTest, RefusesAGaugeOfTheWrongSign) {
+  EXPECT_THAT(RefusalOf({"gauge_4_V"}, [](double v) { return -v; }),
+              HasSubstr("gauge_4_V falls where the finger's gain"));
+}
+
+TEST(PlausibilityTest, RefusesSwappedGauges) {
+  for (const auto& [a, b] :
+       {std::pair(1, 2), std::pair(2, 3), std::pair(3, 4), std::pair(1, 4)}) {
+    std::vector<double> of_a, of_b;
+    const std::string name_a = "gauge_" + std::to_string(a) + "_V";
+    const std::string name_b = "gauge_" + std::to_string(b) + "_V";
+    RefusalOf({name_a}, [&](double v) { return of_a.emplace_back(v); });
+    RefusalOf({name_b}, [&](double v) { return of_b.emplace_back(v); });
+    std::size_t i = 0;
+    EXPECT_THAT(RefusalOf({name_a, name_b},
+                          [&](double) {
+                            const std::size_t k = i++;
+                            return k < of_b.size() ? of_b[k]
+                                                   : of_a[k - of_b.size()];
+                          }),
+                HasSubstr(name_a + " bends as gauge " + std::to_string(b)));
   }
 }
 

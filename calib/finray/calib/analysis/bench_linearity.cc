@@ -131,7 +131,7 @@ std::vector<BenchLinearity> TestBenchLinearity(const Finger& finger,
       reading.offset = LevelOf(offsets, reading.offset);
     }
     all.push_back(Test(readings, angles, static_cast<int>(offsets.size()),
-                       plan.gauge_std_V.value_or(finger.gauges[j].noise_V)));
+                       finger.gauges[j].noise_V));
     all.back().gauge = j;
   }
   return all;

@@ -3,24 +3,24 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 #include <vector>
 
+#include "finray/calib/analysis/gauge_plausibility.h"
+#include "finray/calib/problem/median.h"
 #include "finray/calib/solve/contact_guess.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 #include "finray/io/number_text.h"
+#include "finray/statics/equilibrium.h"
 
 namespace finray {
 namespace {
 
+using From = ContactGuess::From;
+
 // At most so many frames are looked at.
 constexpr std::size_t kLooked = 100;
-
-double Median(std::vector<double>* values) {
-  const auto middle = values->begin() + static_cast<long>(values->size() / 2);
-  std::nth_element(values->begin(), middle, values->end());
-  return *middle;
-}
 
 std::vector<const CalibrationFrame*> SomeTouching(
     const CalibrationProblem& problem) {
@@ -39,6 +39,14 @@ std::vector<const CalibrationFrame*> SomeTouching(
 template <class... Values>
 [[noreturn]] void Refuse(const char* format, Values... values) {
   throw InputError(FormatText(format, values...));
+}
+
+// Returns the frame with nothing but the object to tell its contact.
+CalibrationFrame WithoutForce(const CalibrationFrame& frame) {
+  CalibrationFrame object = frame;
+  object.force_N = object.contact_mm = CalibrationFrame::kNotMeasured;
+  object.force_xy_N.setConstant(CalibrationFrame::kNotMeasured);
+  return object;
 }
 
 struct Press {
@@ -123,6 +131,38 @@ void RefuseImplausibleMotion(const std::vector<Press>& presses,
   }
 }
 
+// Returns what the gauges would read at contacts that are known without them:
+// from the place of the object, which holds for any stiffness, or from the
+// place and force of the contact.
+std::vector<ExpectedGauges> ExpectGauges(
+    const std::vector<const CalibrationFrame*>& frames,
+    CalibrationProblem* problem, ContactGuess* guess) {
+  const bool object_known =
+      problem->plan().scene.circle_radius_mm() &&
+      !problem->plan().family(ParameterFamily::kObjectOrigin).free;
+  EquilibriumSolver solver(problem->finger(), problem->discretization());
+  std::vector<ExpectedGauges> expected;
+  for (const CalibrationFrame* frame : frames) {
+    const bool by_object = object_known && frame->object_mm.allFinite();
+    if (!by_object && (!std::isfinite(frame->contact_mm) ||
+                       !std::isfinite(ReferenceForce(*frame)))) {
+      continue;
+    }
+    const ContactGuess::Place place = guess->Of(
+        by_object ? WithoutForce(*frame) : *frame, From::kObjectFirst);
+    if ((by_object && !place.met) ||
+        !solver.Solve({{place.arc_mm, place.normal_N}})) {
+      continue;
+    }
+    ExpectedGauges gauges{frame->log, frame->gauges_V, {}};
+    for (int j = 0; j < static_cast<int>(gauges.read_V.size()); ++j) {
+      gauges.expected_rad.push_back(solver.gauge_angle(j));
+    }
+    expected.push_back(std::move(gauges));
+  }
+  return expected;
+}
+
 }  // namespace
 
 void RefuseImplausible(CalibrationProblem* problem) {
@@ -135,7 +175,7 @@ void RefuseImplausible(CalibrationProblem* problem) {
   }
   const double unit = ForceUnit(problem->finger());
   if (!forces.empty()) {
-    const double median = Median(&forces);
+    const double median = Median(forces);
     if (median < kLeastForce * unit || median > kMostForce * unit) {
       Refuse(
           "logs: the median force of frames with contact is %.3g N; of this "
@@ -145,20 +185,19 @@ void RefuseImplausible(CalibrationProblem* problem) {
     }
   }
   RefuseImplausibleMotion(Presses(frames), problem->finger(), plan);
+  ContactGuess guess(problem);
+  RefuseImplausibleGauges(ExpectGauges(frames, problem, &guess),
+                          problem->finger());
   if (!plan.scene.circle_radius_mm() ||
       plan.family(ParameterFamily::kObjectOrigin).free) {
     return;
   }
-  ContactGuess guess(problem);
   std::vector<double> ratios;
   int objects = 0, met = 0;
   for (const CalibrationFrame* frame : frames) {
     if (!frame->object_mm.allFinite()) continue;
-    CalibrationFrame object = *frame;
-    object.force_N = object.contact_mm = CalibrationFrame::kNotMeasured;
-    object.force_xy_N.setConstant(CalibrationFrame::kNotMeasured);
     const ContactGuess::Place place =
-        guess.Of(object, ContactGuess::From::kObjectFirst);
+        guess.Of(WithoutForce(*frame), From::kObjectFirst);
     ++objects;
     met += place.met;
     const double force = ReferenceForce(*frame);
@@ -174,7 +213,7 @@ void RefuseImplausible(CalibrationProblem* problem) {
         objects, *plan.scene.circle_radius_mm(), met);
   }
   if (ratios.size() < 4) return;
-  const double ratio = Median(&ratios);
+  const double ratio = Median(ratios);
   if (ratio > kFactor || ratio < 1 / kFactor) {
     Refuse(
         "logs: forces are %.3g times those that would press the finger to "

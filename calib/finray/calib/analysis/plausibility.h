@@ -18,7 +18,8 @@ namespace finray {
 ///  - fewer than half of the objects can touch the finger where they are, and
 ///    the plan fixes the object's origin;
 ///  - the median force differs by more than kFactor from the force that these
-///    objects need.
+///    objects need;
+///  - gauges cannot be those of the finger (gauge_plausibility.h).
 void RefuseImplausible(CalibrationProblem* problem);
 constexpr double kLeastForce = 1e-3, kMostForce = 400, kFactor = 50,
                  kMostStiffness = 5e3, kLeastCorrelation = -0.5;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "finray/calib/problem/median.h"
 #include "finray/io/number_text.h"
 
 namespace finray {
@@ -36,10 +37,7 @@ double UsualGain(const CalibrationParameters& parameters) {
       ratios.push_back(std::abs(*p.variable / p.initial));
     }
   }
-  if (ratios.empty()) return 0;
-  const auto middle = ratios.begin() + static_cast<long>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  return *middle;
+  return ratios.empty() ? 0 : Median(ratios);
 }
 
 // `off` is x - m and `share` is s^2, both in units of s_p. If the prior is

@@ -14,7 +14,7 @@ bool AnyGauge(const CalibrationFrame& frame) {
 MeasurementModel ModelOf(const Finger& finger, const Plan& plan) {
   MeasurementModel model;
   for (const Gauge& gauge : finger.gauges) {
-    model.gauge_std_V.push_back(plan.gauge_std_V.value_or(gauge.noise_V));
+    model.gauge_std_V.push_back(gauge.noise_V);
   }
   model.force_std_N = plan.force_std_N;
   model.contact_std_mm = plan.contact_std_mm;

@@ -12,6 +12,15 @@
 namespace finray {
 namespace {
 
+// The finger with the noise that the plan gives its gauges. What is fitted with
+// a noise must be sensed with it.
+Finger WithPlansNoise(Finger finger, const Plan& plan) {
+  for (Gauge& gauge : finger.gauges) {
+    gauge.noise_V = plan.gauge_std_V.value_or(gauge.noise_V);
+  }
+  return finger;
+}
+
 // Returns the mean of `value(frame, gauge)` for each offset, over the readings
 // of the finger without contact in the frames that `chosen(frame)` takes.
 template <class Chosen, class Value>
@@ -40,7 +49,7 @@ CalibrationProblem::CalibrationProblem(
     const Finger& finger, const Plan& plan,
     std::shared_ptr<const CalibrationLogs> logs,
     const Discretization& discretization, int threads)
-    : finger_(finger),
+    : finger_(WithPlansNoise(finger, plan)),
       plan_(plan),
       logs_(std::move(logs)),
       parameters_(finger, plan, *logs_),

@@ -60,7 +60,8 @@ struct Plan {
   /// The temperature coefficient counts from here.
   double reference_temperature_C = 20;
   double force_std_N = 0.02;
-  std::optional<double> gauge_std_V;  ///< Empty: noise_V of each gauge.
+  /// Replaces the noise_V of each gauge, in the calibrated finger too.
+  std::optional<double> gauge_std_V;
   double object_std_mm = 0.05;
   double contact_std_mm = 0.3;
   /// If empty, the columns of rib pins, or of the tip, are no measurements:

@@ -258,6 +258,9 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
   watch.Lap("check of forces and contacts");
   result.bench =
       TestBenchLinearity(problem->finger(), problem->plan(), problem->logs());
+  result.free_scatter = MeasureFreeScatter(
+      problem->logs(), static_cast<int>(problem->finger().gauges.size()));
+  WarnOfFreeScatter(result.free_scatter, problem->finger(), &result.warnings);
   if (!result.solution.solve.converged) {
     result.warnings.push_back(
         {"not_converged",

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "finray/calib/analysis/bench_linearity.h"
+#include "finray/calib/analysis/free_scatter.h"
 #include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/analysis/leave_one_log_out.h"
 #include "finray/calib/analysis/next_frames.h"
@@ -25,9 +26,10 @@ struct CalibrationResult {
   ForceCheck forces;
   ResidualCorrelation residual_correlation;
   LeaveOneLogOut leave_one_log_out;
-  std::vector<FrameAdvice> next;      ///< What to record next.
-  std::vector<BenchLinearity> bench;  ///< Of gauges with bench readings.
-  Finger finger;                      ///< The calibrated finger.
+  std::vector<FrameAdvice> next;          ///< What to record next.
+  std::vector<FreeScatter> free_scatter;  ///< Noise of gauges.
+  std::vector<BenchLinearity> bench;      ///< Of gauges with bench readings.
+  Finger finger;                          ///< The calibrated finger.
   std::vector<CalibrationWarning> warnings;
 
   bool AllIdentified() const;

@@ -72,6 +72,16 @@ void EmitNoise(const Identifiability& found, YamlEmitter* yaml) {
   *yaml << YAML::EndMap;
 }
 
+void EmitFreeScatter(const CalibrationProblem& problem,
+                     const std::vector<FreeScatter>& scatter,
+                     YamlEmitter* yaml) {
+  EmitSeq(yaml, "free_scatter", scatter, [&](const FreeScatter& of_gauge) {
+    YamlLine(yaml, "gauge", of_gauge.gauge + 1, "std_V", of_gauge.std_V,
+             "differences", of_gauge.differences, "noise_V",
+             problem.finger().gauges[of_gauge.gauge].noise_V);
+  });
+}
+
 void EmitBench(const std::vector<BenchLinearity>& bench, YamlEmitter* yaml) {
   if (bench.empty()) return;
   EmitSeq(yaml, "bench", bench, [&](const BenchLinearity& of_gauge) {
@@ -239,6 +249,7 @@ std::string CalibrationYaml(CalibrationProblem& problem,
   EmitWeakDirections(problem, result.identifiability, &yaml);
   EmitCorrelations(problem, result.identifiability, &yaml);
   EmitNoise(result.identifiability, &yaml);
+  EmitFreeScatter(problem, result.free_scatter, &yaml);
   EmitBench(result.bench, &yaml);
   EmitForceErrors("fit", result.forces.fitted, &yaml);
   EmitForceErrors("holdout", result.forces.held_out, &yaml);

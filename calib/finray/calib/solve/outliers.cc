@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "finray/calib/problem/median.h"
 #include "finray/calib/solve/frame_pass.h"
 #include "finray/io/number_text.h"
 #include "finray/sensing/chi_squared.h"
@@ -128,9 +129,7 @@ void SetScale(const std::vector<FrameChi2>& frames, Outliers* found) {
     if (frame.dof > 0) ratios.push_back(frame.chi2 / MedianOfChi2(frame.dof));
   }
   if (ratios.empty()) return;
-  const auto middle = ratios.begin() + static_cast<long>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  found->scale = std::sqrt(std::max(1.0, *middle));
+  found->scale = std::sqrt(std::max(1.0, Median(ratios)));
 }
 
 void Judge(const std::vector<FrameChi2>& frames, CalibrationProblem* problem,
