@@ -7,6 +7,7 @@
 #include "finray/calib/report/calibration_result.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/python_script.h"
+#include "heartbeat.h"
 
 DEFINE_string(finger, "", "finger YAML to start from");
 DEFINE_string(plan, "", "plan YAML: free parameters, priors, noise");
@@ -104,7 +105,12 @@ int Run() {
                              ReadCalibrationLogs(paths, finger, plan),
                              discretization, FLAGS_threads);
   RefuseImplausible(&problem);
-  CalibrationResult result = Calibrate(&problem, FLAGS_leave_one_log_out);
+  const CalibrationResult result = [&] {
+    Heartbeat heartbeat;
+    problem.TellProgress([&](const std::string& step) { heartbeat.Say(step); });
+    return Calibrate(&problem, FLAGS_leave_one_log_out);
+  }();
+  problem.TellProgress({});
 
   const std::string command =
       CommandWith({"finger", "plan", "logs", "out_dir", "scheme", "resolution",

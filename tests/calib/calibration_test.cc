@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -63,6 +64,24 @@ TEST(CalibrationTest, StandardLogIsWithinItsStd) {
     EXPECT_NEAR(chi2 / dof, 1, 0.15);
     EXPECT_LT(result.forces.fitted.force_after_N.rms(), 0.15);
   }
+}
+
+// Who waits for minutes reads which step the solver is at.
+TEST(CalibrationTest, TellsItsSteps) {
+  const TempFolder folder;
+  const std::string log = StandardLog(folder, HiddenFinger(), 4);
+  const Plan plan = StandardPlan();
+  CalibrationProblem problem(
+      Nominal(), plan, ReadCalibrationLogs({log}, Nominal(), plan), {}, 1);
+  std::vector<std::string> steps;
+  problem.TellProgress([&](const std::string& step) { steps.push_back(step); });
+  Calibrate(&problem);
+  using testing::Contains;
+  EXPECT_THAT(steps, Contains("210 frames, iteration 1"));
+  EXPECT_THAT(steps,
+              Contains("start 'a third as stiff', 210 frames, iteration 1"));
+  EXPECT_THAT(steps, Contains("210 frames, outliers"));
+  EXPECT_EQ(steps.back(), "check of forces and contacts");
 }
 
 TEST(CalibrationTest, StartsFarAwayAndArrives) {

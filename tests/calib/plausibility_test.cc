@@ -81,6 +81,10 @@ TEST(PlausibilityTest, RefusesGaugesInOtherUnits) {
       RefusalOf(kGaugeColumns,
                 [](double v) { return std::round(32768 + 6553.6 * v); }),
       HasSubstr("are these mV or counts?"));
+  // Wherever the object is.
+  EXPECT_THAT(RefusalOf(
+                  kGaugeColumns, [](double v) { return 1000 * v; }, true),
+              HasSubstr("are these mV or counts?"));
   // An amplifier is no other unit.
   EXPECT_THAT(RefusalOf(kGaugeColumns, [](double v) { return 20 * v; }),
               IsEmpty());

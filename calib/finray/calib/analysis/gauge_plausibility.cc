@@ -114,7 +114,7 @@ void RefuseImplausibleGauges(const std::vector<ExpectedGauges>& frames,
   }
   if (usual > kMostGain) {
     throw InputError(FormatText(
-        "logs: gauges respond %.3g times as much as gain_V_per_rad of the "
+        "logs: gauges respond %.0f times as much as gain_V_per_rad of the "
         "finger says: expected readings in V; are these mV or counts?",
         usual));
   }

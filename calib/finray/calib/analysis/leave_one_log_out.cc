@@ -52,6 +52,10 @@ LeaveOneLogOut LeaveLogsOut(CalibrationProblem* problem,
       if (group_of.at(problem->frame(i).log) != group) rest.push_back(i);
     }
     const auto without = problem->Part(rest, problem->threads());
+    without->TellProgress([&, group](const std::string& step) {
+      problem->Tell("without " + std::to_string(group + 1) + " of " +
+                    std::to_string(result.groups) + " groups of logs, " + step);
+    });
     ContactStore contacts(without.get());
     contacts.Set(solution.contacts);
     const SummedSolution solved =

@@ -12,6 +12,7 @@
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 #include "finray/io/number_text.h"
+#include "finray/scene/frame_columns.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {
@@ -66,11 +67,35 @@ std::vector<Press> Presses(const std::vector<const CalibrationFrame*>& frames) {
 }
 
 // Returns the range from the 10th to the 90th percentile.
+double Range(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() * 9 / 10] - values[values.size() / 10];
+}
+
 double Range(const std::vector<Press>& presses, double Press::*quantity) {
   std::vector<double> values;
   for (const Press& press : presses) values.push_back(press.*quantity);
-  std::sort(values.begin(), values.end());
-  return values[values.size() * 9 / 10] - values[values.size() / 10];
+  return Range(std::move(values));
+}
+
+// Makes the check that holds wherever the contacts are.
+void RefuseImpossibleBends(const std::vector<const CalibrationFrame*>& frames,
+                           const Finger& finger) {
+  for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
+    std::map<int, std::vector<double>> logs;
+    for (const CalibrationFrame* frame : frames) {
+      const double volts = frame->gauges_V[j];
+      if (std::isfinite(volts)) logs[frame->log].push_back(volts);
+    }
+    for (const auto& [log, volts] : logs) {
+      const double bend = Range(volts) / finger.gauges[j].gain_V_per_rad;
+      if (std::abs(bend) < kMostBend) continue;
+      Refuse(
+          "logs: %s varies by %.3g, which is a bend of %.3g rad by the "
+          "finger's gain: expected readings in V; are these mV or counts?",
+          GaugeVolts(j).c_str(), Range(volts), std::abs(bend));
+    }
+  }
 }
 
 // Returns the correlation of force and x about their means in each tenth of the
@@ -185,6 +210,7 @@ void RefuseImplausible(CalibrationProblem* problem) {
     }
   }
   RefuseImplausibleMotion(Presses(frames), problem->finger(), plan);
+  RefuseImpossibleBends(frames, problem->finger());
   ContactGuess guess(problem);
   RefuseImplausibleGauges(ExpectGauges(frames, problem, &guess),
                           problem->finger());

@@ -15,6 +15,8 @@ namespace finray {
 ///    l_0^3;
 ///  - the force falls as the object moves in: their correlation in each log and
 ///    tenth of the finger's height is below kLeastCorrelation;
+///  - a gauge varies in a log, from the 10th to the 90th percentile, by
+///    kMostBend or more over its gain, in rad;
 ///  - fewer than half of the objects can touch the finger where they are, and
 ///    the plan fixes the object's origin;
 ///  - the median force differs by more than kFactor from the force that these
@@ -22,7 +24,8 @@ namespace finray {
 ///  - gauges cannot be those of the finger (gauge_plausibility.h).
 void RefuseImplausible(CalibrationProblem* problem);
 constexpr double kLeastForce = 1e-3, kMostForce = 400, kFactor = 50,
-                 kMostStiffness = 5e3, kLeastCorrelation = -0.5;
+                 kMostStiffness = 5e3, kLeastCorrelation = -0.5,
+                 kMostBend = 100;
 
 }  // namespace finray
 

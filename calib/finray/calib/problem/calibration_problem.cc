@@ -106,6 +106,7 @@ std::unique_ptr<CalibrationProblem> CalibrationProblem::Part(
       new CalibrationProblem(finger_, plan_, logs_, discretization_, threads));
   part->candidates_ = frames;
   part->SetValues(Values());
+  part->progress_ = progress_;
   return part;
 }
 

@@ -2,9 +2,11 @@
 #define FINRAY_CALIB_PROBLEM_CALIBRATION_PROBLEM_H_
 
 #include <Eigen/Core>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "finray/calib/problem/calibration_blocks.h"
@@ -65,6 +67,13 @@ class CalibrationProblem {
   /// the readings of the free frames unless the plan fixes them. Priors stay.
   void StartFrom(const Finger& start);
 
+  /// Receives a line whenever a solve has made a step, from any thread.
+  using Progress = std::function<void(const std::string&)>;
+  void TellProgress(Progress progress) { progress_ = std::move(progress); }
+  void Tell(const std::string& step) const {
+    if (progress_) progress_(step);
+  }
+
   CalibrationParameters& parameters() { return parameters_; }
   const CalibrationParameters& parameters() const { return parameters_; }
   const CalibrationBlocks& blocks() const { return blocks_; }
@@ -92,6 +101,7 @@ class CalibrationProblem {
   bool gauges_only_ = false;
   std::vector<int> candidates_;
   std::map<int, std::string> rejected_, impossible_;
+  Progress progress_;
 };
 
 /// Gives parameters of their own to logs that are held out as a whole, if

@@ -1,9 +1,6 @@
 #include "finray/calib/report/calibration_result.h"
 
-#include <glog/logging.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "finray/io/number_text.h"
@@ -193,21 +190,6 @@ void WarnOfDisagreement(CalibrationProblem& problem,
        "take the spread in leave_one_log_out for the std until then"});
 }
 
-// Logs with --v=1 how long each part took.
-class Stopwatch {
- public:
-  void Lap(const char* part) {
-    const auto now = std::chrono::steady_clock::now();
-    VLOG(1) << part << ": "
-            << std::chrono::duration<double>(now - last_).count() << " s";
-    last_ = now;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ =
-      std::chrono::steady_clock::now();
-};
-
 }  // namespace
 
 bool CalibrationResult::AllIdentified() const {
@@ -235,27 +217,24 @@ std::string CalibrationResult::Verdict() const {
 
 CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
   CalibrationResult result;
-  Stopwatch watch;
   result.solution = SolveRobustly(problem);
-  watch.Lap("solve");
   ZeroHeldOutLogs(problem);
+  problem->Tell("uncertainty");
   result.identifiability = AnalyzeIdentifiability(problem, result.solution.at);
   result.residual_correlation = AnalyzeResidualCorrelation(
       problem->logs(), result.solution.at, result.identifiability);
   EnlargeStd(result.residual_correlation, &result.identifiability);
-  watch.Lap("uncertainty");
+  problem->Tell("what to record next");
   result.next =
       AdviseNextFrames(problem, result.solution, &result.identifiability);
-  watch.Lap("what to record next");
   if (leave_logs_out) {
     result.leave_one_log_out =
         LeaveLogsOut(problem, result.solution, result.identifiability);
   }
-  watch.Lap("leave one log out");
+  problem->Tell("check of forces and contacts");
   result.finger = problem->parameters().Apply(problem->finger());
   KeepCovariance(problem->parameters(), result.identifiability, &result.finger);
   result.forces = CheckForces(problem, result.finger);
-  watch.Lap("check of forces and contacts");
   result.bench =
       TestBenchLinearity(problem->finger(), problem->plan(), problem->logs());
   result.free_scatter = MeasureFreeScatter(

@@ -13,6 +13,23 @@
 namespace finray {
 namespace {
 
+// Tells each iteration to who waits.
+class TellIteration : public ceres::IterationCallback {
+ public:
+  TellIteration(const CalibrationProblem* problem, std::size_t frames)
+      : problem_(*problem), frames_(frames) {}
+  ceres::CallbackReturnType operator()(
+      const ceres::IterationSummary& iteration) override {
+    problem_.Tell(std::to_string(frames_) + " frames, iteration " +
+                  std::to_string(iteration.iteration));
+    return ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const CalibrationProblem& problem_;
+  std::size_t frames_;
+};
+
 class JointProblem {
  public:
   JointProblem(const std::vector<int>& frames, CalibrationProblem* problem,
@@ -29,6 +46,7 @@ class JointProblem {
     residuals_ = std::make_unique<ceres::Problem>(options);
     for (const int i : frames) AddFrame(i);
     AddPriors();
+    tell_ = std::make_unique<TellIteration>(&problem_, frames.size());
   }
 
   SolveReport Solve(const JointLimits& limits) {
@@ -42,6 +60,7 @@ class JointProblem {
     options.function_tolerance = limits.function_tolerance;
     options.parameter_tolerance = 1e-11;
     options.gradient_tolerance = 1e-12;
+    options.callbacks.push_back(tell_.get());
     options.linear_solver_type = ceres::DENSE_QR;
     const auto ordering = FixAndOrder();
     if (!contact_blocks_.empty()) {
@@ -131,6 +150,7 @@ class JointProblem {
   std::unique_ptr<ceres::LossFunction> loss_;
   std::unique_ptr<ceres::Problem> residuals_;
   std::vector<double*> contact_blocks_;
+  std::unique_ptr<TellIteration> tell_;
 };
 
 }  // namespace

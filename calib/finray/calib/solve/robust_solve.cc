@@ -137,6 +137,7 @@ class RobustSolve {
   // Judges these frames. All other frames stay as they are, rejected or not.
   // Returns the linearization of the good frames, for a solve to start with.
   std::optional<Linearization> RejectAmong(const std::vector<int>& frames) {
+    problem_.Tell(std::to_string(frames.size()) + " frames, outliers");
     std::map<int, std::string> reasons = problem_.rejected();
     for (const int frame : frames) reasons.erase(frame);
     Outliers outliers =
@@ -155,6 +156,9 @@ class RobustSolve {
     const std::vector<int> frames = problem_.SpreadFrames(kStartFrames);
     const auto solve = [&](std::size_t k) {
       const std::unique_ptr<CalibrationProblem> part = problem_.Part(frames, 1);
+      part->TellProgress([&, k](const std::string& step) {
+        problem_.Tell(std::string("start '") + kStarts[k].name + "', " + step);
+      });
       ContactStore contacts(part.get());
       if (k == 0) {
         contacts.Set(contacts_.all());

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "finray/calib/solve/frame_pass.h"
@@ -104,9 +105,12 @@ SummedSolution SolveSummed(const std::vector<int>& frames,
   Eigen::VectorXd tried = first;
   std::optional<Linearization> at;  // at the values `tried`
   if (start && start->frames == frames) at = std::move(start);
+  int steps = 0;
   const auto evaluate = [&](const Eigen::VectorXd& x, FrameSums* sums) {
     if (!at || x != tried) {
       problem->SetValues(tried = x);
+      problem->Tell(std::to_string(frames.size()) + " frames, step " +
+                    std::to_string(++steps));
       at.reset();
       at = FitFrames(frames, problem, contacts);
     }
