@@ -34,7 +34,11 @@ TEST(CalibrationLogTest, DecidesWhatTouches) {
   plan.scene.object = RigidObject{Outline(CircleOutline{15}), {}};
   const CalibrationLogs logs = ReadCalibrationLogs({path}, PaperFinger(), plan);
   const bool expected[] = {true, false, true, false, false, true};
-  for (int i = 0; i < 6; ++i) EXPECT_EQ(logs.frames[i].contact, expected[i]);
+  const bool undecided[] = {false, true, false, true, false, false};
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_EQ(logs.frames[i].contact, expected[i]) << i;
+    EXPECT_EQ(logs.frames[i].undecided, undecided[i]) << i;
+  }
   plan.scene.contacts = 1;
   EXPECT_TRUE(
       ReadCalibrationLogs({path}, PaperFinger(), plan).frames[1].contact);

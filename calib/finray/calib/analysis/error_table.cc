@@ -92,8 +92,9 @@ void ErrorRow::Add(const FrameReference& reference,
     return;
   }
   ++usable;
-  missed += reference.contact && !touches;
-  untrue += !reference.contact && touches;
+  const bool missing = reference.contact && !touches && !reference.undecided;
+  missed += missing;
+  untrue += !reference.contact && touches && !reference.undecided;
   // If the estimate has two contacts, neither is the reference's, and the std
   // of the sum of their forces is not known.
   const bool one = estimate.contacts == 1;
@@ -103,7 +104,7 @@ void ErrorRow::Add(const FrameReference& reference,
               one ? std::hypot(std::hypot(1, friction) * found.normal_std_N,
                                reference.force_std_N)
                   : kNaN);
-  if (reference.contact && !touches) {
+  if (missing) {
     force_N.Miss(reference.force_N);
     contact_mm.Miss(reference.contact_mm);
   }

@@ -17,6 +17,7 @@ struct FrameReference {
   double force_std_N = 0;
   double contact_mm = std::numeric_limits<double>::quiet_NaN();
   double contact_std_mm = 0;
+  bool undecided = false;  ///< Whether it touches is not certain.
 };
 
 /// The errors e = estimate - reference of one quantity, and how honest their

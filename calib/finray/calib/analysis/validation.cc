@@ -118,6 +118,7 @@ std::vector<FrameReference> ReferencesOf(const CalibrationLogs& logs,
                                 EquilibriumSolver* solver) {
     FrameReference reference;
     reference.contact = frame.contact;
+    reference.undecided = frame.undecided;
     reference.force_N = ReferenceForce(frame);
     reference.force_std_N = plan.force_std_N;
     if (std::isfinite(frame.contact_mm)) {

@@ -22,34 +22,43 @@ constexpr double kSignificant = 3;  // standard deviations
 constexpr int kHoldoutBlock = 10;
 constexpr double kLargest = 1e15;
 
-// Says whether the object reaches into the undeformed finger.
-bool Reaches(const CalibrationFrame& frame, const Finger& finger,
+// Returns how far the circle reaches into the undeformed finger, in mm.
+double Reach(const CalibrationFrame& frame, const Finger& finger,
              const Plan& plan) {
-  // The depth counts from the undeformed front beam, which lies on x = 0.
+  // The undeformed front beam lies on x = 0.
   const double nearest_y =
       std::clamp(frame.object_mm.y(), 0.0, finger.front_length_mm);
   const double over = frame.object_mm.y() - nearest_y;
-  const double reach =
-      frame.object_mm.x() +
-      std::sqrt(std::max(
-          0.0, std::pow(*plan.scene.circle_radius_mm(), 2) - over * over));
-  return reach > kSignificant * plan.object_std_mm;
+  return frame.object_mm.x() +
+         std::sqrt(std::max(
+             0.0, std::pow(*plan.scene.circle_radius_mm(), 2) - over * over));
 }
 
-bool Touches(const CalibrationFrame& frame, const Finger& finger,
-             const Plan& plan) {
-  if (frame.IsBench()) return false;
-  if (plan.scene.contacts) return *plan.scene.contacts > 0;
+struct Touch {
+  bool contact, undecided;
+};
+
+Touch TouchOf(const CalibrationFrame& frame, const Finger& finger,
+              const Plan& plan) {
+  if (frame.IsBench()) return {false, false};
+  if (plan.scene.contacts) return {*plan.scene.contacts > 0, false};
   const bool object =
       frame.object_mm.allFinite() && plan.scene.circle_radius_mm();
   const FamilyPlan& offset = plan.family(ParameterFamily::kForceOffset);
-  if (object && offset.free) return Reaches(frame, finger, plan);
+  const bool origin_known = !plan.family(ParameterFamily::kObjectOrigin).free;
   const double force = ReferenceForce(frame);
-  if (std::isfinite(force)) {
-    return force > kSignificant * std::hypot(plan.force_std_N,
-                                             offset.prior_std.value_or(0));
+  const double reach_std =
+      object ? Reach(frame, finger, plan) / plan.object_std_mm : 0;
+  if (std::isfinite(force) && !(object && offset.free)) {
+    const bool contact =
+        force > kSignificant *
+                    std::hypot(plan.force_std_N, offset.prior_std.value_or(0));
+    return {contact,
+            !contact && object && origin_known && reach_std > -kSignificant};
   }
-  return object ? Reaches(frame, finger, plan) : true;
+  if (!object) return {true, false};
+  return {reach_std > kSignificant,
+          origin_known && std::abs(reach_std) <= kSignificant};
 }
 
 void MarkHoldout(const Plan& plan, CalibrationLogs* logs) {
@@ -266,7 +275,13 @@ CalibrationLogs ReadCalibrationLogs(const std::vector<std::string>& paths,
     const FrameTable table = FrameTable::Read(paths[log], plan.columns);
     for (CalibrationFrame& frame : ReadLog(table, finger, plan)) {
       frame.log = static_cast<int>(log);
-      frame.contact = Touches(frame, finger, plan);
+      const Touch touch = TouchOf(frame, finger, plan);
+      frame.contact = touch.contact;
+      // Gauges decide.
+      frame.undecided =
+          touch.undecided &&
+          std::any_of(frame.gauges_V.begin(), frame.gauges_V.end(),
+                      [](double volts) { return std::isfinite(volts); });
       logs.frames.push_back(std::move(frame));
     }
   }

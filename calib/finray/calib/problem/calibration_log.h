@@ -17,6 +17,9 @@ struct CalibrationFrame : Measurements {
   /// The finger touches the object. If not, this is a free frame or a row of
   /// the bench.
   bool contact = false;
+  /// The force is too small to tell whether the finger touches, and so is the
+  /// depth to which the object reaches, or they contradict each other.
+  bool undecided = false;
   bool held_out = false;  ///< The fit does not use the frame.
 };
 
@@ -47,6 +50,10 @@ struct CalibrationLogs {
 /// sensor is unknown, the object comes first, and the force must exceed 3 times
 /// the std that its noise and the prior of the offset have together. The
 /// scene's `contacts: 0` or `1` overrides all that.
+///
+/// A row whose force is within 3 std of zero, or not known, is undecided if the
+/// object is where it might touch: it reaches in by more than -3 std, and by no
+/// more than 3 std if the force is not known.
 ///
 /// A row with a cylinder_radius_mm belongs to the bench. If the plan needs a
 /// time or a temperature that a row lacks, the row gets that of the row before;

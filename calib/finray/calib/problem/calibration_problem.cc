@@ -45,10 +45,10 @@ std::unordered_map<double*, double> MeansByOffset(const CalibrationLogs& logs,
 
 }  // namespace
 
-CalibrationProblem::CalibrationProblem(
-    const Finger& finger, const Plan& plan,
-    std::shared_ptr<const CalibrationLogs> logs,
-    const Discretization& discretization, int threads)
+CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
+                                       std::shared_ptr<CalibrationLogs> logs,
+                                       const Discretization& discretization,
+                                       int threads)
     : finger_(WithPlansNoise(finger, plan)),
       plan_(plan),
       logs_(std::move(logs)),
@@ -61,10 +61,9 @@ CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
                                        CalibrationLogs all_logs,
                                        const Discretization& discretization,
                                        int threads)
-    : CalibrationProblem(
-          finger, plan,
-          std::make_shared<const CalibrationLogs>(std::move(all_logs)),
-          discretization, threads) {
+    : CalibrationProblem(finger, plan,
+                         std::make_shared<CalibrationLogs>(std::move(all_logs)),
+                         discretization, threads) {
   if (parameters_.free().empty()) {
     throw InputError("plan: no parameter is free, so there is nothing to do");
   }

@@ -56,6 +56,11 @@ class CalibrationProblem {
   const std::map<int, std::string>& impossible() const { return impossible_; }
   static constexpr double kImpossibleForce = 2000;
 
+  /// Says whether a frame touches. No Part may be in use.
+  void Decide(int frame, bool contact) {
+    logs_->frames[frame].contact = contact;
+  }
+
   /// Says that no contact frame has a reference. Contact frames are then not
   /// fitted.
   bool gauges_only() const { return gauges_only_; }
@@ -87,13 +92,13 @@ class CalibrationProblem {
  private:
   // Makes a problem without candidates.
   CalibrationProblem(const Finger& finger, const Plan& plan,
-                     std::shared_ptr<const CalibrationLogs> logs,
+                     std::shared_ptr<CalibrationLogs> logs,
                      const Discretization& discretization, int threads);
   void FindCandidates();
 
   Finger finger_;
   Plan plan_;
-  std::shared_ptr<const CalibrationLogs> logs_;
+  std::shared_ptr<CalibrationLogs> logs_;
   CalibrationParameters parameters_;
   Discretization discretization_;
   int threads_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/calib/solve/undecided.h"
 #include "finray/io/number_text.h"
 
 namespace finray {
@@ -190,6 +191,16 @@ void WarnOfDisagreement(CalibrationProblem& problem,
        "take the spread in leave_one_log_out for the std until then"});
 }
 
+void DecideHeldOut(CalibrationProblem* problem) {
+  std::vector<int> held_out;
+  const auto& frames = problem->logs().frames;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (frames[i].held_out) held_out.push_back(static_cast<int>(i));
+  }
+  ContactStore contacts(problem);
+  DecideContacts(held_out, problem, &contacts);
+}
+
 }  // namespace
 
 bool CalibrationResult::AllIdentified() const {
@@ -219,6 +230,7 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
   CalibrationResult result;
   result.solution = SolveRobustly(problem);
   ZeroHeldOutLogs(problem);
+  DecideHeldOut(problem);
   problem->Tell("uncertainty");
   result.identifiability = AnalyzeIdentifiability(problem, result.solution.at);
   result.residual_correlation = AnalyzeResidualCorrelation(

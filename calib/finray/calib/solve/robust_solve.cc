@@ -15,6 +15,7 @@
 
 #include "finray/calib/solve/outliers.h"
 #include "finray/calib/solve/summed_solve.h"
+#include "finray/calib/solve/undecided.h"
 
 namespace finray {
 namespace {
@@ -78,6 +79,7 @@ class RobustSolve {
                                            kFirst, &problem_, &contacts_);
     RejectAmong(problem_.SpreadFrames(kStartFrames));
     std::vector<StartReport> starts = SolveFromStarts(first.iterations);
+    DecideContacts(problem_.candidates(), &problem_, &contacts_);
     int iterations =
         std::min_element(starts.begin(), starts.end(),
                          [](const StartReport& a, const StartReport& b) {

@@ -44,6 +44,7 @@ struct CalibrationSolution {
 ///      Before that, a few iterations from the given start show which frames
 ///      are far out. With them the starts would take long and end in basins of
 ///      their own.
+///      At their solution DecideContacts decides what was left open.
 ///   2. SolveSummed solves all frames, from the start with the least cost. If
 ///      there are more than 4 kStageFrames, it first solves kStageFrames of
 ///      them, which saves the others a step or two.
