@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "calib/calibrated.h"
+#include "calib/log_rows.h"
 
 namespace finray {
 namespace {
@@ -93,6 +94,41 @@ TEST(LeaveOneLogOutTest, UnequalLogsThatAgree) {
 
 TEST(LeaveOneLogOutTest, ASmallLogThatDiffersIsSeen) {
   EXPECT_NE(Unequal(80, 0.01).Worst(), nullptr);
+}
+
+// Gains of 18 to 25 V/rad are ten std off a prior of 1 +- 2 V/rad. The logs
+// agree all the same: one has the lower half of the finger, one the upper.
+TEST(LeaveOneLogOutTest, AContradictedPriorIsNoDisagreement) {
+  Finger amplified = HiddenFinger();
+  Finger start = Nominal();
+  for (std::size_t j = 0; j < amplified.gauges.size(); ++j) {
+    for (double* number :
+         {&amplified.gauges[j].gain_V_per_rad, &amplified.gauges[j].offset_V,
+          &amplified.gauges[j].noise_V, &start.gauges[j].noise_V}) {
+      *number *= 10;
+    }
+  }
+  int disagree = 0;
+  for (unsigned seed = 90; seed < 96; ++seed) {
+    const TempFolder folder;
+    const FrameTable whole =
+        FrameTable::Read(StandardLog(folder, amplified, seed));
+    const auto keep = [](double from, double to) {
+      return [=](const FrameTable& all, std::size_t row) {
+        const double y = all.Numbers("object_y_mm")[row];
+        return row % 5 == 0 && y >= from && y < to;
+      };
+    };
+    RowsWhere(whole, keep(0, 60)).Write(folder.Path("low.csv"));
+    RowsWhere(whole, keep(60, 200)).Write(folder.Path("high.csv"));
+    Calibrated calibrated(StandardPlan(),
+                          {folder.Path("low.csv"), folder.Path("high.csv")},
+                          start);
+    disagree += LeaveLogsOut(calibrated.problem.get(), calibrated.solution,
+                             calibrated.found)
+                    .Worst() != nullptr;
+  }
+  EXPECT_EQ(disagree, 0);
 }
 
 // Leaving the other out would leave nothing to fit.

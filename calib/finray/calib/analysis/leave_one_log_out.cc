@@ -27,6 +27,25 @@ double Bonferroni(double z, int tests) {
   return std::min(1.0, tests * std::erfc(z / std::sqrt(2.0)));
 }
 
+// The free parameters whose prior is contradicted by all data. If the prior is
+// true, values scatter about its mean by s_p^2 - s^2.
+std::vector<std::size_t> ContradictedPriors(
+    const CalibrationParameters& parameters, const Identifiability& found) {
+  std::vector<std::size_t> contradicted;
+  for (std::size_t k = 0; k < parameters.free().size(); ++k) {
+    const CalibrationParameter& p = parameters.FreeParameter(k);
+    if (!p.prior_std) continue;
+    const double off = (*p.variable - p.initial) / *p.prior_std;
+    const double share =
+        found.covariance.diagonal()[static_cast<Eigen::Index>(k)];
+    if (std::abs(off) >
+        LeaveOneLogOut::kContradicted * std::sqrt(std::max(0.0, 1 - share))) {
+      contradicted.push_back(k);
+    }
+  }
+  return contradicted;
+}
+
 }  // namespace
 
 LeaveOneLogOut LeaveLogsOut(CalibrationProblem* problem,
@@ -43,7 +62,23 @@ LeaveOneLogOut LeaveLogsOut(CalibrationProblem* problem,
   }
 
   CalibrationParameters& all = problem->parameters();
-  const Eigen::VectorXd variance = found.covariance.diagonal();
+  // A prior that is wrong pulls more the fewer data there are. The estimate and
+  // its covariance are therefore those without it, by one Gauss-Newton step.
+  const std::vector<std::size_t> contradicted = ContradictedPriors(all, found);
+  Eigen::MatrixXd prior = found.prior;
+  Eigen::VectorXd pull = Eigen::VectorXd::Zero(prior.rows());
+  for (const std::size_t k : contradicted) {
+    const auto at = static_cast<Eigen::Index>(k);
+    const CalibrationParameter& p = all.FreeParameter(k);
+    pull[at] = prior(at, at) * (*p.variable - p.initial) / found.unit[at];
+    prior(at, at) = 0;
+  }
+  const Eigen::MatrixXd covariance =
+      BoundedCovariance(found.information + prior);
+  const Eigen::VectorXd variance = covariance.diagonal();
+  const Eigen::VectorXd estimates =
+      problem->Values() +
+      found.unit.cwiseProduct(Eigen::VectorXd(covariance * pull));
   std::vector<int> tests(all.free().size(), 0);
   std::vector<double> largest_z(all.free().size(), 0);
   for (int group = 0; group < result.groups; ++group) {
@@ -56,6 +91,9 @@ LeaveOneLogOut LeaveLogsOut(CalibrationProblem* problem,
       problem->Tell("without " + std::to_string(group + 1) + " of " +
                     std::to_string(result.groups) + " groups of logs, " + step);
     });
+    for (const std::size_t k : contradicted) {
+      without->parameters().DropPrior(k);
+    }
     ContactStore contacts(without.get());
     contacts.Set(solution.contacts);
     const SummedSolution solved =
@@ -66,7 +104,7 @@ LeaveOneLogOut LeaveLogsOut(CalibrationProblem* problem,
     }
     const Identifiability known =
         AnalyzeIdentifiability(without.get(), solved.at);
-    Eigen::MatrixXd information = found.prior;
+    Eigen::MatrixXd information = prior;
     for (const auto& [log, its] : by_log) {
       if (group_of[log] == group) continue;
       information += found.unit.asDiagonal() *
@@ -87,7 +125,7 @@ LeaveOneLogOut LeaveLogsOut(CalibrationProblem* problem,
                                                    LeaveOneLogOut::kNegligible);
       ++tests[i];
       largest_z[i] =
-          std::max(largest_z[i], std::abs(estimate - *p.variable) / std);
+          std::max(largest_z[i], std::abs(estimate - estimates[at]) / std);
     }
   }
   for (std::size_t i = 0; i < all.free().size(); ++i) {

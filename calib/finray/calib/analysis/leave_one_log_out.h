@@ -24,9 +24,14 @@ namespace finray {
 /// does not matter and is not linear either, so that much is added to the std.
 /// The z_k of a parameter depend on each other, so the largest is compared with
 /// Bonferroni's bound.
+///
+/// A prior that all data contradict, by kContradicted std, is left out of both
+/// estimates: it pulls more the fewer data there are, and theta_k would differ
+/// though the logs agree.
 struct LeaveOneLogOut {
   static constexpr int kMostGroups = 10;
   static constexpr double kNegligible = 0.03;
+  static constexpr double kContradicted = 3;
   /// If nothing is wrong, one calibration of a hundred has a parameter whose
   /// logs agree so badly.
   static constexpr double kSignificant = 0.01;

@@ -83,6 +83,9 @@ class CalibrationParameters {
     return all_[free_[k]];
   }
 
+  /// Removes the prior of the k-th free parameter.
+  void DropPrior(std::size_t k) { all_[free_[k]].prior_std.reset(); }
+
   /// The unit of each free parameter: the std of its prior, or its scale if it
   /// has none.
   Eigen::VectorXd Units() const;
