@@ -197,17 +197,24 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
 
   // The degrees of freedom of a family: each residual counts 1 less its
   // leverage, which is c cov c' by the parameters plus the leverage of its
-  // contact.
+  // contact. A row that repeats others has less chi2 than 1 by as much as its
+  // std counts more often.
+  std::array<double, kResidualFamilies> told = {};
   for (std::size_t i = 0; i < at.rows.size(); ++i) {
-    Identifiability::Noise& noise =
-        result.noise[static_cast<int>(at.rows[i].family)];
+    const ResidualFamily family = at.rows[i].family;
+    const CalibrationFrame& frame = problem->frame(at.rows[i].frame);
+    Identifiability::Noise& noise = result.noise[static_cast<int>(family)];
     ++noise.residuals;
+    told[static_cast<int>(family)] += std::pow(frame.StdTimes(family), -2);
     noise.chi2 += at.weighted_residuals[i] * at.weighted_residuals[i];
   }
   for (int f = 0; f < kResidualFamilies; ++f) {
-    result.noise[f].dof =
-        result.noise[f].residuals - at.contact_leverage[f] -
+    Identifiability::Noise& noise = result.noise[f];
+    if (noise.residuals == 0) continue;
+    const double leverage =
+        at.contact_leverage[f] +
         covariance.cwiseProduct(scaled(at.InformationOfFamily(f))).sum();
+    noise.dof = told[f] * (1 - leverage / noise.residuals);
   }
   return result;
 }

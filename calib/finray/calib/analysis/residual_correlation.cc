@@ -82,6 +82,8 @@ ResidualCorrelation AnalyzeResidualCorrelation(const CalibrationLogs& all,
   for (std::size_t i = 0; i < at.rows.size(); ++i) {
     const ResidualInfo& row = at.rows[i];
     if (i == 0 || row.frame != at.rows[i - 1].frame) components.clear();
+    // Rows that repeat each other share an error, which their std allow for.
+    if (frames[row.frame].StdTimes(row.family) > 1) continue;
     const int family = static_cast<int>(row.family);
     const int component = Component(row.family, frames[row.frame],
                                     components[{family, row.gauge}]++);

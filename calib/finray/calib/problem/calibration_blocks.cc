@@ -26,6 +26,17 @@ MeasurementModel ModelOf(const Finger& finger, const Plan& plan) {
   return model;
 }
 
+MeasurementModel Repeated(MeasurementModel model,
+                          const CalibrationFrame& frame) {
+  for (double& std : model.gauge_std_V) std *= frame.readings_std_times;
+  for (auto* std : {&model.force_std_N, &model.pin_std_mm, &model.tip_std_mm}) {
+    if (*std) **std *= frame.readings_std_times;
+  }
+  if (model.contact_std_mm) *model.contact_std_mm *= frame.place_std_times;
+  if (model.circle) model.circle->std_mm *= frame.place_std_times;
+  return model;
+}
+
 }  // namespace
 
 CalibrationBlocks::CalibrationBlocks(const Finger& finger, const Plan& plan,
@@ -59,7 +70,10 @@ bool CalibrationBlocks::HasReference(const CalibrationFrame& frame) const {
 std::vector<FrameBlock> CalibrationBlocks::Of(const CalibrationFrame& frame,
                                               const FrameEvaluation* evaluation,
                                               double* unknowns) const {
-  return MeasurementBlocks(frame, frame.contact ? model_ : free_model_,
+  const MeasurementModel& model = frame.contact ? model_ : free_model_;
+  const bool repeats =
+      frame.place_std_times > 1 || frame.readings_std_times > 1;
+  return MeasurementBlocks(frame, repeats ? Repeated(model, frame) : model,
                            parameters_.Of(frame), finger_.gauges, evaluation,
                            unknowns);
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "finray/calib/problem/repeated_rows.h"
 #include "finray/io/error.h"
 #include "finray/io/frame_table.h"
 #include "finray/io/frame_vocabulary.h"
@@ -287,6 +288,7 @@ CalibrationLogs ReadCalibrationLogs(const std::vector<std::string>& paths,
   }
   RefuseWithoutMeasurements(plan, logs);
   MarkHoldout(plan, &logs);
+  MarkRepeatedRows(plan, &logs);
   return logs;
 }
 

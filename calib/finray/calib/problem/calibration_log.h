@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "finray/calib/problem/plan.h"
+#include "finray/residuals/residual_family.h"
 #include "finray/scene/measurements.h"
 
 namespace finray {
@@ -21,6 +22,17 @@ struct CalibrationFrame : Measurements {
   /// depth to which the object reaches, or they contradict each other.
   bool undecided = false;
   bool held_out = false;  ///< The fit does not use the frame.
+  /// The std of the place, of the object or the contact, and of everything else
+  /// count so many times, because the row repeats others (repeated_rows.h).
+  double place_std_times = 1, readings_std_times = 1;
+
+  /// How many times the std of a family counts.
+  double StdTimes(ResidualFamily family) const {
+    return family == ResidualFamily::kObject ||
+                   family == ResidualFamily::kContact
+               ? place_std_times
+               : readings_std_times;
+  }
 };
 
 /// Returns the magnitude of the reference force of a frame, NaN if it was not

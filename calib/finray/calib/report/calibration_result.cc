@@ -191,6 +191,29 @@ void WarnOfDisagreement(CalibrationProblem& problem,
        "take the spread in leave_one_log_out for the std until then"});
 }
 
+double EffectiveRows(const CalibrationProblem& problem,
+                     const std::vector<int>& fitted) {
+  double rows = 0;
+  for (const int i : fitted) {
+    const CalibrationFrame& frame = problem.frame(i);
+    rows +=
+        std::pow(std::max(frame.place_std_times, frame.readings_std_times), -2);
+  }
+  return rows;
+}
+
+void WarnOfFewRows(const CalibrationResult& result,
+                   std::vector<CalibrationWarning>* warnings) {
+  if (!result.TooFewRows()) return;
+  warnings->push_back(
+      {"too_few_rows",
+       FormatText("%zu fitted rows count as %.3g, those that repeat each other "
+                  "once; more parameters than that are estimated",
+                  result.solution.at.frames.size(), result.effective_rows),
+       "record the object at more places; many readings at one place share "
+       "the error of that place"});
+}
+
 void DecideHeldOut(CalibrationProblem* problem) {
   std::vector<int> held_out;
   const auto& frames = problem->logs().frames;
@@ -209,6 +232,13 @@ bool CalibrationResult::AllIdentified() const {
                     ParameterStatus::kUnidentifiable) == 0;
 }
 
+bool CalibrationResult::TooFewRows() const {
+  const auto& status = identifiability.status;
+  return effective_rows <
+         static_cast<double>(std::count(status.begin(), status.end(),
+                                        ParameterStatus::kEstimated));
+}
+
 std::string CalibrationResult::Verdict() const {
   if (!solution.solve.converged) return "not_converged";
   if (!solution.starts.empty() && solution.agreeing() < 2) {
@@ -223,7 +253,7 @@ std::string CalibrationResult::Verdict() const {
       return "unexplained";
     }
   }
-  return AllIdentified() ? "good" : "unidentifiable";
+  return AllIdentified() && !TooFewRows() ? "good" : "unidentifiable";
 }
 
 CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
@@ -251,6 +281,7 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
       TestBenchLinearity(problem->finger(), problem->plan(), problem->logs());
   result.free_scatter = MeasureFreeScatter(
       problem->logs(), static_cast<int>(problem->finger().gauges.size()));
+  result.effective_rows = EffectiveRows(*problem, result.solution.at.frames);
   WarnOfFreeScatter(result.free_scatter, problem->finger(), &result.warnings);
   if (!result.solution.solve.converged) {
     result.warnings.push_back(
@@ -271,6 +302,7 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
   WarnOfWeakness(*problem, result.identifiability, &result.warnings);
   // Behind the line before: these parameters have warnings of their own.
   FindUnsupported(*problem, &result.identifiability, &result.warnings);
+  WarnOfFewRows(result, &result.warnings);
   WarnOfNoise(result.identifiability, &result.warnings);
   WarnOfCorrelation(*problem, result.residual_correlation, &result.warnings);
   WarnOfDisagreement(*problem, result.leave_one_log_out, &result.warnings);

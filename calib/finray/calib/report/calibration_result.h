@@ -29,13 +29,19 @@ struct CalibrationResult {
   std::vector<FrameAdvice> next;          ///< What to record next.
   std::vector<FreeScatter> free_scatter;  ///< Noise of gauges.
   std::vector<BenchLinearity> bench;      ///< Of gauges with bench readings.
-  Finger finger;                          ///< The calibrated finger.
+  /// The number of fitted rows, those that repeat each other counted once.
+  double effective_rows = 0;
+  Finger finger;  ///< The calibrated finger.
   std::vector<CalibrationWarning> warnings;
 
   bool AllIdentified() const;
+  /// More parameters count as estimated than rows differ. Then no residual can
+  /// show what is wrong.
+  bool TooFewRows() const;
   /// Returns one of these: `not_converged`; `starts_disagree`, if fewer than
   /// two of the starts agree; `unexplained`, if residuals of a family are at
-  /// least kUnexplained times their std; `unidentifiable`; `good`.
+  /// least kUnexplained times their std; `unidentifiable`, also if
+  /// there are TooFewRows; `good`.
   std::string Verdict() const;
   static constexpr double kUnexplained = 5;
 };

@@ -248,6 +248,7 @@ std::string CalibrationYaml(CalibrationProblem& problem,
   EmitParameters(problem, result.identifiability, &yaml);
   EmitWeakDirections(problem, result.identifiability, &yaml);
   EmitCorrelations(problem, result.identifiability, &yaml);
+  YamlPair(&yaml, "effective_rows", result.effective_rows);
   EmitNoise(result.identifiability, &yaml);
   EmitFreeScatter(problem, result.free_scatter, &yaml);
   EmitBench(result.bench, &yaml);
