@@ -196,6 +196,31 @@ TEST(ValidationTest, Gates) {
                   testing::HasSubstr("no frame with contact has a reference")));
 }
 
+// 86 of 100 may well come from 90 %, 80 may not. A true share at an end of the
+// range makes such a sample, or a more extreme one, in 1 to 2 % of cases.
+TEST(ValidationTest, ACoverageIsJudgedByItsBinomialRange) {
+  for (const auto& [hits, passes] : {std::pair(86, true), {80, false}}) {
+    Validation found;
+    found.errors.contact.force_N.judged = 100;
+    found.errors.contact.force_N.within_95 = hits;
+    const std::vector<Gate> gates =
+        CheckGates(found, {{"least_coverage_95_percent", 90}});
+    EXPECT_EQ(gates[0].passed, passes) << hits;
+    EXPECT_EQ(gates[0].value, hits);
+    const auto tail = [](double share, int from, int to) {
+      double sum = 0;
+      for (int k = from; k <= to; ++k) {
+        sum += std::exp(std::lgamma(101) - std::lgamma(k + 1) -
+                        std::lgamma(101 - k) + k * std::log(share) +
+                        (100 - k) * std::log1p(-share));
+      }
+      return sum;
+    };
+    EXPECT_NEAR(tail(gates[0].range->second / 100, 0, hits), 0.015, 0.012);
+    EXPECT_NEAR(tail(gates[0].range->first / 100, hits, 100), 0.015, 0.012);
+  }
+}
+
 // Rows of the bench are no frames of the finger, and the std of one of two
 // contacts is not that of their sum.
 TEST(ValidationTest, BenchRowsAndTwoContacts) {

@@ -145,9 +145,10 @@ class Sensor {
   bool knows() const { return !systematic_.empty(); }
 
  private:
-  static Finger WithoutCovariance(Finger finger) {
-    finger.calibration.reset();
-    return finger;
+  static Finger WithoutCovariance(const Finger& finger) {
+    Finger without = finger;
+    without.calibration.reset();
+    return without;
   }
   static Scene OneContact() {
     Scene scene;

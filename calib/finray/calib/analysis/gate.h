@@ -2,7 +2,10 @@
 #define FINRAY_CALIB_ANALYSIS_GATE_H_
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "finray/io/message_text.h"
@@ -16,7 +19,22 @@ struct Gate {
   double bound;
   double value;  ///< NaN if it is not known; then it fails.
   bool passed;
+  /// The range of a share in percent that such a sample may come from.
+  std::optional<std::pair<double, double>> range = {};
 };
+
+/// Returns Wilson's 98 % interval, in percent, of the share behind `hits` of
+/// `trials`.
+inline std::pair<double, double> BinomialRange(std::size_t hits,
+                                               std::size_t trials) {
+  constexpr double z = 2.326;
+  const auto n = static_cast<double>(trials);
+  const double p = static_cast<double>(hits) / n;
+  const double middle = p + z * z / (2 * n);
+  const double half = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
+  const double scale = 100 / (1 + z * z / n);
+  return {scale * (middle - half), scale * (middle + half)};
+}
 
 inline bool AllPassed(const std::vector<Gate>& gates) {
   return std::all_of(gates.begin(), gates.end(),
@@ -27,8 +45,12 @@ inline bool AllPassed(const std::vector<Gate>& gates) {
 inline std::string GateWords(const std::vector<Gate>& gates) {
   std::vector<std::string> words;
   for (const Gate& gate : gates) {
-    words.push_back(FormatText("%s %.3g (%.3g) %s", gate.name.c_str(),
-                               gate.bound, gate.value,
+    const std::string range =
+        gate.range ? FormatText(", 98 %% range %.3g to %.3g", gate.range->first,
+                                gate.range->second)
+                   : "";
+    words.push_back(FormatText("%s %.3g (%.3g%s) %s", gate.name.c_str(),
+                               gate.bound, gate.value, range.c_str(),
                                gate.passed ? "passed" : "FAILED"));
   }
   return words.empty() ? "none given" : Joined(words);

@@ -91,19 +91,29 @@ bool HasReference(const Validation& validation,
       [&](const auto& r) { return r.contact && std::isfinite(r.*quantity); });
 }
 
+// Returns the gate of a coverage: the lower one of force and contact. It passes
+// if the sample may come from a share as large as the bound.
+Gate CoverageGate(const std::string& name, double bound,
+                  std::size_t ErrorStatistics::*within,
+                  const ErrorRow& errors) {
+  Gate lower{name, bound, kNaN, false};
+  for (const ErrorStatistics* of : {&errors.force_N, &errors.contact_mm}) {
+    if (of->judged == 0) continue;
+    const double value = 100 * static_cast<double>(of->*within) /
+                         static_cast<double>(of->judged);
+    if (value >= lower.value) continue;  // not if it is NaN
+    lower.value = value;
+    lower.range = BinomialRange(of->*within, of->judged);
+    lower.passed = lower.range->second >= bound - 1e-9;
+  }
+  return lower;
+}
+
 // Returns the figure that a gate bounds.
 double FigureOf(const std::string& gate, const ErrorRow& errors) {
   if (gate == "most_force_rms_N") return errors.force_N.rms();
   if (gate == "most_force_percent") return errors.force_N.percent();
   if (gate == "most_contact_rms_mm") return errors.contact_mm.rms();
-  if (gate == "least_coverage_68_percent") {
-    return std::fmin(errors.force_N.coverage_68_percent(),
-                     errors.contact_mm.coverage_68_percent());
-  }
-  if (gate == "least_coverage_95_percent") {
-    return std::fmin(errors.force_N.coverage_95_percent(),
-                     errors.contact_mm.coverage_95_percent());
-  }
   if (gate == "least_usable_percent") return errors.usable_percent();
   throw std::logic_error("no gate is called " + gate);
 }
@@ -252,7 +262,16 @@ std::vector<Gate> CheckGates(
                        " needs contact_1_mm in the logs, or object_x_mm, "
                        "object_y_mm and a circle in the scene");
     }
-    const double value = FigureOf(name, validation.errors.contact);
+    const ErrorRow& errors = validation.errors.contact;
+    if (name.find("least_coverage") == 0) {
+      gates.push_back(CoverageGate(name, bound,
+                                   name == "least_coverage_68_percent"
+                                       ? &ErrorStatistics::within_68
+                                       : &ErrorStatistics::within_95,
+                                   errors));
+      continue;
+    }
+    const double value = FigureOf(name, errors);
     // A value of NaN passes no gate.
     const bool upper = name.find("most") == 0;
     const bool passed = upper ? value <= bound : value >= bound;

@@ -69,7 +69,8 @@ Validation Validate(const Finger& finger, const std::optional<Finger>& baseline,
 /// Checks gates over all frames with contact, by their names and bounds. The
 /// names are most_force_rms_N, most_force_percent, most_contact_rms_mm,
 /// least_coverage_68_percent, least_coverage_95_percent (the lower one of force
-/// and contact) and least_usable_percent. Throws InputError for a gate whose
+/// and contact, and it fails only if BinomialRange lies below the bound) and
+/// least_usable_percent. Throws InputError for a gate whose
 /// quantity has no reference in the logs.
 std::vector<Gate> CheckGates(
     const Validation& validation,

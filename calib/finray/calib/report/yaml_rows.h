@@ -56,8 +56,13 @@ inline void EmitVerdict(YamlEmitter* yaml, const std::vector<Gate>& gates) {
 
 inline void EmitGates(YamlEmitter* yaml, const std::vector<Gate>& gates) {
   EmitSeq(yaml, "gates", gates, [&](const Gate& gate) {
-    YamlLine(yaml, "name", gate.name, "bound", gate.bound, "value", gate.value,
-             "passed", gate.passed);
+    *yaml << YAML::Flow << YAML::BeginMap;
+    YamlPairs(yaml, "name", gate.name, "bound", gate.bound, "value", gate.value,
+              "passed", gate.passed);
+    if (gate.range) {
+      YamlPairs(yaml, "low", gate.range->first, "high", gate.range->second);
+    }
+    *yaml << YAML::EndMap;
   });
 }
 
