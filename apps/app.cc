@@ -11,6 +11,14 @@ const std::string& Required(const char* flag, const std::string& value) {
   return value;
 }
 
+void Warn(const std::string& text, const std::string& remedy) {
+  std::cerr << "warning: " << text << "; " << remedy << "\n";
+}
+
+void Warn(const std::vector<Warning>& warnings) {
+  for (const Warning& warning : warnings) Warn(warning.text, warning.remedy);
+}
+
 bool IsGiven(const char* flag) {
   return !gflags::GetCommandLineFlagInfoOrDie(flag).is_default;
 }
@@ -82,6 +90,8 @@ int main(int argc, char** argv) {
   gflags::SetUsageMessage(kApp.usage);
   gflags::SetVersionString(FINRAY_VERSION);
   FLAGS_logtostderr = true;
+  // Solvers try steps that fail. Users read what the tools say instead.
+  FLAGS_minloglevel = google::GLOG_FATAL;
   google::InitGoogleLogging(argv[0]);
   gflags::ParseCommandLineFlags(&argc, &argv, true);
   const auto fail = [](const std::string& message, ExitCode code) {

@@ -13,6 +13,7 @@
 #include "finray/finger/discretization.h"
 #include "finray/finger/finger_yaml.h"
 #include "finray/io/error.h"
+#include "finray/io/warning.h"
 #include "finray/scene/scene.h"
 
 DECLARE_string(scheme);
@@ -38,6 +39,10 @@ class UsageError : public std::runtime_error {
 
 /// Returns the value of a flag. Throws UsageError if it is empty.
 const std::string& Required(const char* flag, const std::string& value);
+
+/// Prints "warning: text; remedy" on stderr.
+void Warn(const std::string& text, const std::string& remedy);
+void Warn(const std::vector<Warning>& warnings);
 
 /// Returns true if the user gave the flag.
 bool IsGiven(const char* flag);

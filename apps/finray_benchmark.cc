@@ -51,7 +51,7 @@ int Compare() {
   const BenchmarkComparison comparison =
       CompareRuns(a, b, FLAGS_most_slowdown_percent / 100);
   for (const std::string& difference : comparison.differences) {
-    LOG(WARNING) << "the runs differ in " << difference;
+    Warn("the runs differ in " + difference, "compare runs of the same kind");
   }
   std::printf("%-62s %6s %15s  %s\n", "time over the yardstick's, B / A",
               "ratio", "99 % interval", "verdict");
@@ -250,7 +250,7 @@ int Measure() {
     const std::string problem = RunPythonScript(
         FINRAY_SOURCE_DIR "/scripts/benchmark/render.py", {FLAGS_out_dir},
         "python3-matplotlib and python3-jinja2");
-    if (!problem.empty()) LOG(WARNING) << "no report.html: " << problem;
+    if (!problem.empty()) Warn("no report.html", problem);
   }
   PrintSummary(run);
   return kGood;

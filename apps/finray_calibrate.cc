@@ -22,6 +22,28 @@ namespace {
 
 using namespace finray;
 
+// Says how far forces from the gauges alone are off, over frames with contact
+// that have a usable estimate.
+std::string ForceWords(const ForceCheck& forces) {
+  const ErrorRow& after = forces.fitted.after.contact;
+  const ErrorStatistics& before = forces.fitted.before.contact.force_N;
+  const ErrorStatistics& kept = forces.held_out.after.contact.force_N;
+  if (after.force_N.frames == 0) {
+    return "not known: it takes a reference force and two gauges";
+  }
+  std::string words;
+  if (before.frames > 0)
+    words = FormatText("%.3g N rms before, ", before.rms());
+  words += FormatText("%.3g N rms", after.force_N.rms());
+  if (before.frames > 0) words += " after";
+  if (kept.frames > 0) words += FormatText(", %.3g N held out", kept.rms());
+  if (after.usable < after.frames) {
+    words += FormatText("; %zu of %zu frames without a usable estimate",
+                        after.frames - after.usable, after.frames);
+  }
+  return words;
+}
+
 void PrintSummary(CalibrationProblem& problem,
                   const CalibrationResult& result) {
   int counts[4] = {};
@@ -66,31 +88,20 @@ void PrintSummary(CalibrationProblem& problem,
     std::printf(" %s %.2f", ResidualFamilyName(static_cast<ResidualFamily>(i)),
                 noise.chi2 / noise.dof);
   }
-  const ErrorStatistics& before = result.forces.fitted.force_before_N;
-  const ErrorStatistics& after = result.forces.fitted.force_after_N;
-  const ErrorStatistics& kept = result.forces.held_out.force_after_N;
-  std::printf("\nforce error    ");
-  if (after.frames > 0) {
-    if (before.frames > 0) std::printf("%.3g N rms before, ", before.rms());
-    std::printf("%.3g N after", after.rms());
-    if (kept.frames > 0) std::printf(", %.3g N held out", kept.rms());
-    std::printf("\n");
-  } else {
-    std::printf("not known: it takes a reference force and two gauges\n");
-  }
+  std::printf("\nforce error    %s\n", ForceWords(result.forces).c_str());
   std::printf("next           %s\n",
               result.next.empty()
                   ? "no 20 frames would shrink the worst direction by a tenth"
                   : result.next[0].words.c_str());
   constexpr int kMostWeak = 3;  // all are in calibration.yaml
   int weak = 0;
-  for (const CalibrationWarning& warning : result.warnings) {
+  for (const Warning& warning : result.warnings) {
     if (warning.code == "weak_direction" && ++weak > kMostWeak) continue;
-    LOG(WARNING) << warning.text << "; " << warning.remedy;
+    Warn(warning.text, warning.remedy);
   }
   if (weak > kMostWeak) {
-    LOG(WARNING) << weak - kMostWeak
-                 << " more weak directions are in calibration.yaml";
+    Warn(std::to_string(weak - kMostWeak) + " more directions are weak",
+         "see weak_directions in calibration.yaml");
   }
 }
 
@@ -133,7 +144,7 @@ int Run() {
     const std::string why_not =
         RunPythonScript(FINRAY_REPORT_DIR "/render.py", {FLAGS_out_dir},
                         "python3-matplotlib, python3-jinja2 and python3-yaml");
-    if (!why_not.empty()) LOG(WARNING) << "no report.html: " << why_not;
+    if (!why_not.empty()) Warn("no report.html", why_not);
   }
   PrintSummary(problem, result);
   const std::string verdict = result.Verdict();

@@ -182,7 +182,7 @@ int Run() {
     const std::string problem =
         RunPythonScript(FINRAY_PLOT_DIR "/plot_compliance.py", {FLAGS_out_dir},
                         "python3-matplotlib");
-    if (!problem.empty()) LOG(WARNING) << "no plots: " << problem;
+    if (!problem.empty()) Warn("no plots", problem);
   }
   return found.order_confidence < FLAGS_least_order_confidence ? kGateFailed
                                                                : kGood;

@@ -136,9 +136,10 @@ int ExitCodeOf(const std::vector<Job>& jobs) {
       misses |= s.stopped_runs > 0;
       if (s.failed_runs == 0) continue;
       failed = true;
-      LOG(WARNING) << job.experiment.name << ", " << result.controller.name
-                   << ": " << s.failed_runs << " of " << s.runs
-                   << " runs ended early: " << s.failure;
+      Warn(job.experiment.name + ", " + result.controller.name + ": " +
+               std::to_string(s.failed_runs) + " of " + std::to_string(s.runs) +
+               " runs ended early",
+           s.failure);
     }
     const ErrorSums& first = job.results.front().statistics.errors();
     misses |=

@@ -40,7 +40,9 @@ DEFINE_bool(
     joint, false,
     "solve all frames of a log together, with the gauge_offset_walk and "
     "the smoothing of the scene");
-DEFINE_bool(strict, false, "fail if any frame is not_converged or bad_input");
+DEFINE_bool(strict, false,
+            "fail if any frame is not_converged or bad_input, or if more than "
+            "5 % are unexplained");
 DEFINE_bool(keep_going, false,
             "leave out logs that are bad input, list them in summary.yaml");
 DEFINE_bool(follow, false,
@@ -183,8 +185,8 @@ void CheckJoint(BatchSettings* settings) {
     throw UsageError("--solver does not go with --joint, which uses Ceres");
   }
   if (settings->joint || !settings->scene.gauge_offset_walk) return;
-  std::cerr << "finray_estimate: gauge_offset_walk is for --joint; without it "
-               "the offsets are the finger's\n";
+  Warn("the scene's gauge_offset_walk is for --joint",
+       "without it the offsets are the finger's");
   settings->scene.gauge_offset_walk.reset();
 }
 
@@ -315,11 +317,13 @@ int Run() {
   WriteFileAtomically(OutPath("summary.yaml"),
                       BatchYaml(settings, jobs, bad_logs));
   PrintSummary(jobs, bar);
-  if (!bad_logs.empty()) return kBadInput;
   const EstimationSummary all = Total(jobs);
-  return all.unsolved() == all.frames || (FLAGS_strict && all.unsolved() > 0)
-             ? kSolveFailed
-             : kGood;
+  Warn(WarningsOf(all, settings.finger));
+  if (!bad_logs.empty()) return kBadInput;
+  if (all.unsolved() == all.frames || (FLAGS_strict && all.unsolved() > 0)) {
+    return kSolveFailed;
+  }
+  return FLAGS_strict && all.unexplained_too_many() ? kGateFailed : kGood;
 }
 
 }  // namespace

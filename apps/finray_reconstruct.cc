@@ -131,7 +131,7 @@ int Run() {
     const std::string problem =
         RunPythonScript(FINRAY_PLOT_DIR "/plot_outline.py", arguments,
                         "python3-matplotlib and python3-yaml");
-    if (!problem.empty()) LOG(WARNING) << "no plots: " << problem;
+    if (!problem.empty()) Warn("no plots", problem);
   }
   return kGood;
 }

@@ -14,7 +14,7 @@ DEFINE_double(force_std_N, 0.02, "noise of force_N in --log_out");
 DEFINE_double(object_std_mm, 0.05, "noise of object_* in --log_out");
 DEFINE_double(pin_std_mm, 0, "noise of rib pins in --log_out; 0: no pins");
 DEFINE_uint64(seed, 1, "seed of the noise in --log_out");
-DEFINE_bool(strict, false, "fail if any row has no solution");
+DEFINE_bool(strict, true, "exit code 3 if any row has no solution");
 
 namespace {
 
@@ -52,8 +52,10 @@ int Run() {
             << "without        " << summary.free << "\n"
             << "not converged  " << summary.not_converged << "\n";
   if (summary.not_converged > 0) {
-    LOG(WARNING) << summary.not_converged << " of " << frames.rows()
-                 << " rows have no solution, first " << summary.first_failure;
+    Warn(std::to_string(summary.not_converged) + " of " +
+             std::to_string(frames.rows()) + " rows have no solution, first " +
+             summary.first_failure,
+         "their cells are empty; lower their loads");
   }
   const bool none = summary.contact + summary.free == 0;
   return none || (FLAGS_strict && summary.not_converged > 0) ? kSolveFailed

@@ -36,11 +36,8 @@ namespace {
 using namespace finray;
 
 Plan PlanOrScene() {
-  if (!FLAGS_plan.empty() && !FLAGS_scene.empty()) {
-    throw UsageError("--plan has a scene of its own; leave out --scene");
-  }
-  if (!FLAGS_plan.empty()) return ReadPlan(FLAGS_plan);
   Plan plan;
+  if (!FLAGS_plan.empty()) plan = ReadPlan(FLAGS_plan);
   if (FLAGS_scene.empty()) return plan;
   plan.scene = ReadScene(FLAGS_scene);
   RefuseBackContacts(plan.scene);
@@ -93,10 +90,30 @@ void WarnOfParametersOfLogs(const Plan& plan) {
     if (plan.family(family).free) names.push_back(name);
   }
   if (names.empty()) return;
-  LOG(WARNING) << "the plan frees " << Joined(names)
-               << ": its value from the calibration is not applied to these "
-                  "logs, so the errors contain it; correct the logs, or use "
-                  "`holdout` in the plan";
+  Warn("the plan frees " + Joined(names) +
+           ": its value from the calibration is not applied to these logs, so "
+           "the errors contain it",
+       "correct the logs, or use `holdout` in the plan");
+}
+
+// Says what a gate would have said, lest wrong estimates look good.
+void WarnOfErrors(const Finger& finger, const ErrorRow& errors) {
+  constexpr double kFarFrom95 = 80;
+  for (const auto& [name, of] : {std::pair("force", &errors.force_N),
+                                 std::pair("place", &errors.contact_mm)}) {
+    if (of->judged == 0) continue;
+    const auto [low, high] = BinomialRange(of->within_95, of->judged);
+    if (high >= kFarFrom95) continue;
+    Warn((finger.calibration ? "the finger has changed since its calibration, "
+                               "or the scene is another: "
+                             : "the finger is not calibrated: ") +
+             FormatText("%.0f %% of errors of %s lie within their 95 %% "
+                        "intervals",
+                        of->coverage_95_percent(), name),
+         finger.calibration ? "zero the gauges, then calibrate anew"
+                            : "calibrate it with finray_calibrate");
+    return;
+  }
 }
 
 void PrintErrors(const char* name, const ErrorStatistics& errors,
@@ -142,7 +159,9 @@ void PrintSummary(const CalibrationLogs& logs, const Validation& validation,
   }
   std::printf("coverage      %s (68 and 95 %% predicted)\n",
               Joined(words, ",").c_str());
-  std::printf("gates          %s\n", GateWords(gates).c_str());
+  std::printf("gates          %s\n", gates.empty()
+                                         ? "none given, so nothing is judged"
+                                         : GateWords(gates).c_str());
 }
 
 int Run() {
@@ -185,6 +204,7 @@ int Run() {
   ValidationFrames(logs, validation, plan.scene.friction_coefficient)
       .Write(OutPath("validation.frames.csv"));
   PrintSummary(logs, validation, gates);
+  WarnOfErrors(finger, validation.errors.contact);
   return AllPassed(gates) ? kGood : kGateFailed;
 }
 

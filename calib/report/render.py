@@ -143,7 +143,8 @@ def regions(c):
             table = errors[part][kind]
             for region in table["regions"]:
                 key = (region["from_mm"], region["to_mm"])
-                rows.setdefault(key, {}).setdefault(part, {})[kind] = region
+                cells = rows.setdefault(key, {}).setdefault(part, {"before": {}, "after": {}})
+                cells[kind] = region
     named = [(f"{a:.0f} to {b:.0f} mm", cells) for (a, b), cells in sorted(rows.items())]
     whole = {part: {kind: errors[part][kind].get("contact", {}) for kind in ("before", "after")}
              for part in parts}

@@ -64,7 +64,7 @@ TEST_F(ValidateCompareTest, AGateThatFailsIsExitCode4) {
 
 TEST_F(ValidateCompareTest, BadInputOfValidate) {
   EXPECT_EQ(Run("finray_validate", "--finger " + hidden_).code, 1);
-  EXPECT_EQ(Run("finray_validate", validate_ + " --scene x.yaml").code, 1);
+  EXPECT_EQ(Run("finray_validate", validate_ + " --scene x.yaml").code, 2);
   EXPECT_EQ(Run("finray_validate", validate_ + " --most_force_rms_N -1").code,
             1);
   // No gate that is silently none, or in the wrong unit.
@@ -189,10 +189,12 @@ TEST_F(ValidateCompareTest, CalibrateChecksItself) {
   const YAML::Node result =
       YAML::LoadFile(folder_.Path("cal/calibration.yaml"));
   const YAML::Node held = result["errors"]["held_out"]["after"]["contact"];
-  EXPECT_EQ(
-      held["frames"].as<int>() +
-          result["errors"]["held_out"]["after"]["free"]["frames"].as<int>(),
-      result["holdout"]["frames"].as<int>());
+  // One definition of the force error, over frames with a usable estimate.
+  EXPECT_EQ(held["force_rms_N"].as<double>(),
+            result["holdout"]["force_rms_error_after_N"].as<double>());
+  EXPECT_LE(result["holdout"]["frames"].as<int>(), held["frames"].as<int>());
+  // Nobody has known the gains.
+  EXPECT_FALSE(result["holdout"]["force_rms_error_before_N"]);
   EXPECT_LT(held["force_rms_percent"].as<double>(), 3);
   EXPECT_FALSE(result["residual_correlation"]["correlated"].as<bool>());
   // 4 gauges, force and two coordinates of two logs.

@@ -55,14 +55,14 @@ TEST(CalibrationTest, StandardLogIsWithinItsStd) {
         "seed %u: std of stiffness %.2f and %.2f %%, gain 1 %.2f %%, rib 3 "
         "%.3f mm; force %.3f N rms\n",
         seed, 100 * stds[0], 100 * stds[1], 100 * stds[2] / truth[2], stds[12],
-        result.forces.fitted.force_after_N.rms());
+        result.forces.fitted.force_after_N().rms());
     double chi2 = 0, dof = 0;
     for (const auto& noise : result.identifiability.noise) {
       chi2 += noise.chi2;
       dof += noise.dof;
     }
     EXPECT_NEAR(chi2 / dof, 1, 0.15);
-    EXPECT_LT(result.forces.fitted.force_after_N.rms(), 0.15);
+    EXPECT_LT(result.forces.fitted.force_after_N().rms(), 0.15);
   }
 }
 
@@ -183,10 +183,10 @@ TEST(CalibrationTest, SteelFingerAgainstItsForceSensor) {
   EXPECT_TRUE(result.solution.solve.converged);
   EXPECT_TRUE(result.AllIdentified());
   std::printf("steel finger: force %.2f N rms before, %.2f N after\n",
-              result.forces.fitted.force_before_N.rms(),
-              result.forces.fitted.force_after_N.rms());
-  EXPECT_GT(result.forces.fitted.force_before_N.rms(), 2);
-  EXPECT_LT(result.forces.fitted.force_after_N.rms(), 0.7);
+              result.forces.fitted.force_before_N().rms(),
+              result.forces.fitted.force_after_N().rms());
+  EXPECT_GT(result.forces.fitted.force_before_N().rms(), 2);
+  EXPECT_LT(result.forces.fitted.force_after_N().rms(), 0.7);
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ class DegenerateLogsTest : public testing::Test {
     for (const WeakDirection& weak : result.identifiability.weak) {
       outcome.directions.push_back(weak.words);
     }
-    for (const CalibrationWarning& warning : result.warnings) {
+    for (const Warning& warning : result.warnings) {
       outcome.codes.push_back(warning.code);
       outcome.texts += warning.text + "\n";
       outcome.remedies += warning.remedy + "\n";

@@ -57,7 +57,7 @@ TEST(FreeScatterTest, ACalibrationKeepsTheNoiseItUsedAndWarnsOfAnother) {
       EXPECT_EQ(gauge.noise_V, told ? 5e-3 : 3e-4);
     }
     if (told) {
-      for (const CalibrationWarning& warning : result.warnings) {
+      for (const Warning& warning : result.warnings) {
         EXPECT_NE(warning.code, "free_scatter");
       }
     } else {

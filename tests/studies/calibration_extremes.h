@@ -149,7 +149,7 @@ inline void CalibrateOnce(const CalibrationCase& c, unsigned seed,
     std::string said = verdict + (verdict == "good"            ? " 0"
                                   : verdict == "not_converged" ? " 3"
                                                                : " 4");
-    for (const CalibrationWarning& warning : result.warnings) {
+    for (const Warning& warning : result.warnings) {
       if (said.find(warning.code) == std::string::npos) {
         said += ", " + warning.code;
       }

@@ -68,8 +68,8 @@ void Run(const Case& which, const Finger& finger, const std::string& log) {
                 noise.chi2 / noise.dof);
   }
   std::printf("; force from gauges %.2f N rms before, %.2f after\n",
-              result.forces.fitted.force_before_N.rms(),
-              result.forces.fitted.force_after_N.rms());
+              result.forces.fitted.force_before_N().rms(),
+              result.forces.fitted.force_after_N().rms());
   const auto& parameters = problem.parameters();
   for (std::size_t i = 0; i < parameters.free().size(); ++i) {
     const CalibrationParameter& p = parameters.FreeParameter(i);

@@ -13,6 +13,11 @@ std::size_t EstimationSummary::unsolved() const {
   return count(FrameStatus::kNotConverged) + count(FrameStatus::kBadInput);
 }
 
+bool EstimationSummary::unexplained_too_many() const {
+  return static_cast<double>(unexplained) >
+         kMostUnexplained * static_cast<double>(frames - unsolved());
+}
+
 double EstimationSummary::force_rms_N() const {
   if (force_compared == 0) return 0;
   return std::sqrt(force_squares_N2 / static_cast<double>(force_compared));
@@ -76,6 +81,34 @@ std::optional<EstimationSummary> SummaryFromText(const std::string& text) {
   summary.force_squares_N2 = *sum;
   summary.force_max_N = *max;
   return summary;
+}
+
+std::vector<Warning> WarningsOf(const EstimationSummary& summary,
+                                const Finger& finger) {
+  std::vector<Warning> warnings;
+  if (!finger.calibration) {
+    warnings.push_back(
+        {"not_calibrated",
+         "the finger is not calibrated: its gains and stiffness are as drawn, "
+         "and so are the std of its forces",
+         "calibrate it with finray_calibrate"});
+  }
+  if (summary.unexplained_too_many()) {
+    warnings.push_back(
+        {"unexplained_frames",
+         std::string(finger.calibration
+                         ? "the gauges have probably moved since the "
+                           "calibration: "
+                         : "the gains are probably other ones: ") +
+             std::to_string(summary.unexplained) + " of " +
+             std::to_string(summary.frames - summary.unsolved()) +
+             " solved frames are not explained by the finger and its noise",
+         finger.calibration
+             ? "zero the gauges on free rows; then look for more contacts than "
+               "the scene has, a changed finger, a wrong noise_V"
+             : "calibrate it with finray_calibrate"});
+  }
+  return warnings;
 }
 
 void EmitSummary(const EstimationSummary& summary, YamlEmitter* yaml) {

@@ -5,7 +5,10 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "finray/finger/finger.h"
+#include "finray/io/warning.h"
 #include "finray/io/yaml_emitter.h"
 #include "finray/sensing/frame_estimator.h"
 
@@ -34,6 +37,9 @@ struct EstimationSummary {
   }
   /// Number of frames that are not_converged or bad_input.
   std::size_t unsolved() const;
+  /// More than kMostUnexplained of the solved frames are unexplained.
+  bool unexplained_too_many() const;
+  static constexpr double kMostUnexplained = 0.05;
   /// Rms of the force error; 0 if no force was compared.
   double force_rms_N() const;
 
@@ -43,6 +49,11 @@ struct EstimationSummary {
   /// Adds the frames of another summary.
   void Add(const EstimationSummary& other);
 };
+
+/// Says what makes the estimates doubtful: a finger that nobody has calibrated,
+/// or frames that it does not explain.
+std::vector<Warning> WarningsOf(const EstimationSummary& summary,
+                                const Finger& finger);
 
 /// Writes a summary as one line of text, and reads it back. Reading returns
 /// nothing if the text is not a summary.

@@ -260,8 +260,15 @@ std::string BatchYaml(const BatchSettings& settings,
     yaml << YAML::EndMap;
   }
   yaml << YAML::EndSeq << YAML::Key << "all" << YAML::Value << YAML::BeginMap;
-  EmitSummary(Total(jobs), &yaml);
-  yaml << YAML::EndMap;
+  const EstimationSummary all = Total(jobs);
+  EmitSummary(all, &yaml);
+  yaml << YAML::EndMap << YAML::Key << "warnings" << YAML::Value
+       << YAML::BeginSeq;
+  for (const Warning& warning : WarningsOf(all, settings.finger)) {
+    YamlLine(&yaml, "code", warning.code, "text", warning.text, "remedy",
+             warning.remedy);
+  }
+  yaml << YAML::EndSeq;
   if (!bad_logs.empty()) {
     yaml << YAML::Key << "bad_logs" << YAML::Value << YAML::BeginSeq;
     for (const BadLog& bad : bad_logs) {

@@ -35,8 +35,7 @@ std::vector<FreeScatter> MeasureFreeScatter(const CalibrationLogs& logs,
 }
 
 void WarnOfFreeScatter(const std::vector<FreeScatter>& scatter,
-                       const Finger& finger,
-                       std::vector<CalibrationWarning>* warnings) {
+                       const Finger& finger, std::vector<Warning>* warnings) {
   const FreeScatter* worst = nullptr;
   const auto noise_V = [&](const FreeScatter& of_gauge) {
     return finger.gauges[of_gauge.gauge].noise_V;

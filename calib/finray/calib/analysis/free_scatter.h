@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "finray/calib/analysis/unsupported.h"
 #include "finray/calib/problem/calibration_log.h"
 #include "finray/finger/finger.h"
+#include "finray/io/warning.h"
 
 namespace finray {
 
@@ -33,8 +33,7 @@ constexpr std::size_t kLeastDifferences = 5;
 /// Warns if a gauge scatters beyond doubt more than its noise_V. All estimates
 /// depend on that noise, so this warning comes before all others.
 void WarnOfFreeScatter(const std::vector<FreeScatter>& scatter,
-                       const Finger& finger,
-                       std::vector<CalibrationWarning>* warnings);
+                       const Finger& finger, std::vector<Warning>* warnings);
 
 }  // namespace finray
 

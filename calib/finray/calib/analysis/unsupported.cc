@@ -53,7 +53,7 @@ bool IsContradicted(double off, double share) {
 }  // namespace
 
 void FindUnsupported(CalibrationProblem& problem, Identifiability* found,
-                     std::vector<CalibrationWarning>* warnings) {
+                     std::vector<Warning>* warnings) {
   const CalibrationParameters& parameters = problem.parameters();
   std::string offsets, contradicted;  // the parameters with these faults
   const auto list = [](const std::string& words, std::string* listed) {

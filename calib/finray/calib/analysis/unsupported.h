@@ -1,20 +1,13 @@
 #ifndef FINRAY_CALIB_ANALYSIS_UNSUPPORTED_H_
 #define FINRAY_CALIB_ANALYSIS_UNSUPPORTED_H_
 
-#include <string>
 #include <vector>
 
 #include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/problem/calibration_problem.h"
+#include "finray/io/warning.h"
 
 namespace finray {
-
-/// A fact that the user should know, and what to do about it.
-struct CalibrationWarning {
-  std::string code;
-  std::string text;
-  std::string remedy;
-};
 
 /// Finds parameters with a good std that nobody should trust all the same.
 /// Their status becomes kUnidentifiable. There is a warning for each dead gauge
@@ -30,7 +23,7 @@ struct CalibrationWarning {
 ///    s^2) and |x - m| s > s_p^2 - s^2. Here s is not enlarged for what
 ///    residuals show.
 void FindUnsupported(CalibrationProblem& problem, Identifiability* found,
-                     std::vector<CalibrationWarning>* warnings);
+                     std::vector<Warning>* warnings);
 constexpr double kInsignificant = 4, kDeadShare = 0.01, kContradiction = 5;
 
 }  // namespace finray

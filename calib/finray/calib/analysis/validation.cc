@@ -170,7 +170,11 @@ ForceCheck CheckForces(CalibrationProblem* problem, const Finger& calibrated) {
     Scene scene = plan.scene;
     scene.most_contacts = 1;
     scene.pin_std_mm = scene.tip_std_mm = std::nullopt;
-    const std::size_t some = std::min(frames, ForceCheck::kMostBefore);
+    const FamilyPlan& gains = plan.family(ParameterFamily::kGaugeGain);
+    const bool sensed =
+        !gains.free || gains.prior_std || problem->finger().calibration;
+    const std::size_t some =
+        sensed ? std::min(frames, ForceCheck::kMostBefore) : 0;
     std::vector<Measurements> spread, all;
     for (std::size_t k = 0; k < some; ++k) {
       spread.push_back(GaugesOnly(logs.frames[k * frames / some]));
@@ -198,14 +202,8 @@ ForceCheck CheckForces(CalibrationProblem* problem, const Finger& calibrated) {
     const FrameReference& reference = references[i];
     const FrameEstimate& before = check.before[i];
     const FrameEstimate& after = check.after[i];
-    const auto off = [&](const FrameEstimate& estimate) {
-      return std::hypot(1, friction) * estimate.contact[0].normal_N -
-             reference.force_N;
-    };
     ForceCheck::Errors& errors =
         logs.frames[i].held_out ? check.held_out : check.fitted;
-    errors.force_before_N.Add(off(before), reference.force_N, kNaN);
-    errors.force_after_N.Add(off(after), reference.force_N, kNaN);
     if (logs.frames[i].IsBench()) continue;
     const double place = PlaceOf(reference, after);
     if (has_before[i]) errors.before.Add(reference, before, place, friction);

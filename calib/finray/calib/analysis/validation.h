@@ -39,14 +39,22 @@ struct ForceCheck {
   std::vector<int> frames;
   static constexpr std::size_t kMostChecked = 1000;
   /// An estimate for each of these frames. `before` is known for kMostBefore of
-  /// them, evenly spread. A finger far from the truth makes that slow.
+  /// them, evenly spread. A finger far from the truth makes that slow. It is
+  /// not known if gains are free without a prior and no calibration has found
+  /// them: such a finger cannot sense.
   std::vector<FrameEstimate> before, after;
   static constexpr std::size_t kMostBefore = 200;
 
+  /// The errors of force are those of the tables: over frames with contact that
+  /// have a usable estimate. `before` is empty if nobody knew the gains.
   struct Errors {
-    /// Over all frames with a reference force, whatever their status.
-    ErrorStatistics force_before_N, force_after_N;
     ErrorTable before, after;
+    const ErrorStatistics& force_before_N() const {
+      return before.contact.force_N;
+    }
+    const ErrorStatistics& force_after_N() const {
+      return after.contact.force_N;
+    }
   } fitted, held_out;
 };
 

@@ -14,8 +14,7 @@ constexpr double kTooNoisy = 2;
 constexpr double kTooQuiet = 0.5;
 constexpr double kEnoughDof = 5;
 
-void WarnOfNoise(const Identifiability& found,
-                 std::vector<CalibrationWarning>* warnings) {
+void WarnOfNoise(const Identifiability& found, std::vector<Warning>* warnings) {
   for (int i = 0; i < kResidualFamilies; ++i) {
     const Identifiability::Noise& noise = found.noise[i];
     if (noise.dof < kEnoughDof) continue;
@@ -46,7 +45,7 @@ void WarnOfNoise(const Identifiability& found,
 }
 
 void WarnOfStarts(const CalibrationSolution& solution,
-                  std::vector<CalibrationWarning>* warnings) {
+                  std::vector<Warning>* warnings) {
   const auto& starts = solution.starts;
   if (starts.empty()) return;
   if (starts[0].distance_std >= StartReport::kSameSolution) {
@@ -68,7 +67,7 @@ void WarnOfStarts(const CalibrationSolution& solution,
 
 void WarnOfOutliers(const CalibrationProblem& problem,
                     const CalibrationSolution& solution,
-                    std::vector<CalibrationWarning>* warnings) {
+                    std::vector<Warning>* warnings) {
   if (solution.outliers_too_many) {
     warnings->push_back(
         {"too_many_outliers",
@@ -98,7 +97,7 @@ void WarnOfOutliers(const CalibrationProblem& problem,
 }
 
 void WarnOfWeakness(CalibrationProblem& problem, const Identifiability& found,
-                    std::vector<CalibrationWarning>* warnings) {
+                    std::vector<Warning>* warnings) {
   std::string unidentifiable;
   const CalibrationParameters& parameters = problem.parameters();
   for (std::size_t i = 0; i < found.status.size(); ++i) {
@@ -120,10 +119,10 @@ void WarnOfWeakness(CalibrationProblem& problem, const Identifiability& found,
 }
 
 void WarnOfForces(const ForceCheck& forces, double force_std_N,
-                  std::vector<CalibrationWarning>* warnings) {
-  const ErrorStatistics& was = forces.fitted.force_before_N;
-  const ErrorStatistics& fitted = forces.fitted.force_after_N;
-  const ErrorStatistics& held_out = forces.held_out.force_after_N;
+                  std::vector<Warning>* warnings) {
+  const ErrorStatistics& was = forces.fitted.force_before_N();
+  const ErrorStatistics& fitted = forces.fitted.force_after_N();
+  const ErrorStatistics& held_out = forces.held_out.force_after_N();
   if (held_out.frames >= 10 && held_out.rms() > 2 * fitted.rms()) {
     warnings->push_back(
         {"holdout_worse",
@@ -147,7 +146,7 @@ void WarnOfForces(const ForceCheck& forces, double force_std_N,
 
 void WarnOfCorrelation(CalibrationProblem& problem,
                        const ResidualCorrelation& found,
-                       std::vector<CalibrationWarning>* warnings) {
+                       std::vector<Warning>* warnings) {
   const ResidualCorrelation::Series* slowest = found.Slowest();
   if (!found.correlated() || slowest == nullptr) return;
   const IntegratedTime& time = slowest->time;
@@ -172,7 +171,7 @@ void WarnOfCorrelation(CalibrationProblem& problem,
 
 void WarnOfDisagreement(CalibrationProblem& problem,
                         const LeaveOneLogOut& found,
-                        std::vector<CalibrationWarning>* warnings) {
+                        std::vector<Warning>* warnings) {
   if (!found.all_converged) {
     warnings->push_back({"leave_one_log_out_not_converged",
                          "without one of the logs the solver does not converge",
@@ -196,14 +195,19 @@ double EffectiveRows(const CalibrationProblem& problem,
   double rows = 0;
   for (const int i : fitted) {
     const CalibrationFrame& frame = problem.frame(i);
-    rows +=
+    const double told =
         std::pow(std::max(frame.place_std_times, frame.readings_std_times), -2);
+    // Each gauge is bent for itself.
+    const auto readings =
+        std::count_if(frame.gauges_V.begin(), frame.gauges_V.end(),
+                      [](double volts) { return std::isfinite(volts); });
+    rows += told * (frame.IsBench() ? static_cast<double>(readings) : 1);
   }
   return rows;
 }
 
 void WarnOfFewRows(const CalibrationResult& result,
-                   std::vector<CalibrationWarning>* warnings) {
+                   std::vector<Warning>* warnings) {
   if (!result.TooFewRows()) return;
   warnings->push_back(
       {"too_few_rows",

@@ -32,7 +32,7 @@ struct CalibrationResult {
   /// The number of fitted rows, those that repeat each other counted once.
   double effective_rows = 0;
   Finger finger;  ///< The calibrated finger.
-  std::vector<CalibrationWarning> warnings;
+  std::vector<Warning> warnings;
 
   bool AllIdentified() const;
   /// More parameters count as estimated than rows differ. Then no residual can

@@ -100,8 +100,8 @@ void EmitBench(const std::vector<BenchLinearity>& bench, YamlEmitter* yaml) {
 
 void EmitForceErrors(const char* key, const ForceCheck::Errors& errors,
                      YamlEmitter* yaml) {
-  const ErrorStatistics& before = errors.force_before_N;
-  const ErrorStatistics& after = errors.force_after_N;
+  const ErrorStatistics& before = errors.force_before_N();
+  const ErrorStatistics& after = errors.force_after_N();
   BeginLine(yaml, key);
   YamlPair(yaml, "frames", after.frames);
   if (after.frames > 0) {
