@@ -93,13 +93,13 @@ int main(int argc, char** argv) {
   // Solvers try steps that fail. Users read what the tools say instead.
   FLAGS_minloglevel = google::GLOG_FATAL;
   google::InitGoogleLogging(argv[0]);
-  gflags::ParseCommandLineFlags(&argc, &argv, true);
   const auto fail = [](const std::string& message, ExitCode code) {
     std::cerr << gflags::ProgramInvocationShortName() << ": " << message
               << "\n";
     return code;
   };
   try {
+    if (!ParseFlags(&argc, &argv)) return kGood;
     if (kApp.arguments != nullptr) {
       kApp.arguments->assign(argv + 1, argv + argc);
     } else if (argc > 1) {

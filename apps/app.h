@@ -44,6 +44,15 @@ const std::string& Required(const char* flag, const std::string& value);
 void Warn(const std::string& text, const std::string& remedy);
 void Warn(const std::vector<Warning>& warnings);
 
+/// Parses the flags and leaves the other arguments. With --help or -h it prints
+/// the flags of this executable, the required ones first, and returns false.
+/// Throws UsageError for an unknown flag, with the nearest name.
+bool ParseFlags(int* argc, char*** argv);
+
+/// Returns the number of threads for --threads: all cores that the process may
+/// use for 0. Throws UsageError if it is negative.
+int Threads(int flag);
+
 /// Returns true if the user gave the flag.
 bool IsGiven(const char* flag);
 

@@ -186,7 +186,6 @@ void PrintSummary(const BenchmarkRun& run) {
 int Measure() {
   const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
   Required("out_dir", FLAGS_out_dir);
-  if (FLAGS_threads < 0) throw UsageError("--threads: expected 0 or more");
   if (FLAGS_rounds < 0) throw UsageError("--rounds: expected 0 or more");
   const std::vector<std::string> peers = ParsePeers(FLAGS_peers);
   if (finger.gauges.size() < 4) {
@@ -235,7 +234,7 @@ int Measure() {
     run.rounds = options.rounds;
     run.settings = MeasureSettings(grid, cases, options);
   }
-  const int threads = FLAGS_threads > 0 ? FLAGS_threads : UsableCores();
+  const int threads = Threads(FLAGS_threads);
   run.scaling =
       MeasureBatches(CaseOf(cases, "one_contact"), FLAGS_quick ? 4096 : 65536,
                      threads, FLAGS_quick ? 3 : 7);

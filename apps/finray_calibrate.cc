@@ -6,14 +6,15 @@
 #include "finray/calib/analysis/plausibility.h"
 #include "finray/calib/report/calibration_result.h"
 #include "finray/io/atomic_file.h"
+#include "finray/io/log_list.h"
 #include "finray/io/python_script.h"
 #include "heartbeat.h"
 
 DEFINE_string(finger, "", "finger YAML to start from");
 DEFINE_string(plan, "", "plan YAML: free parameters, priors, noise");
-DEFINE_string(logs, "", "CSV logs, separated by commas");
+DEFINE_string(logs, "", "CSV logs, patterns and lists, separated by commas");
 DEFINE_string(out_dir, "", "folder for finger.yaml, calibration.yaml, report");
-DEFINE_int32(threads, 2, "threads over frames");
+DEFINE_int32(threads, 0, "threads over frames; 0: all cores");
 DEFINE_bool(report, true, "render report.html");
 DEFINE_bool(leave_one_log_out, true,
             "with several logs: repeat without each, to see if they agree");
@@ -108,13 +109,14 @@ void PrintSummary(CalibrationProblem& problem,
 int Run() {
   const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
   const Plan plan = ReadPlan(Required("plan", FLAGS_plan));
-  const auto paths = SplitList(Required("logs", FLAGS_logs));
   Required("out_dir", FLAGS_out_dir);
+  const auto paths =
+      ExpandLogs(SplitList(Required("logs", FLAGS_logs)), FLAGS_out_dir);
   const Discretization discretization = DiscretizationFlags();
   if (DumpConfigFlag(finger, plan.scene, discretization)) return kGood;
   CalibrationProblem problem(finger, plan,
                              ReadCalibrationLogs(paths, finger, plan),
-                             discretization, FLAGS_threads);
+                             discretization, Threads(FLAGS_threads));
   RefuseImplausible(&problem);
   const CalibrationResult result = [&] {
     Heartbeat heartbeat;

@@ -20,7 +20,7 @@ DEFINE_string(out_dir, "", "folder for logs and summary.yaml");
 DEFINE_int32(draws, 0,
              "number of draws of finger and noise; 0: that of the experiment");
 DEFINE_uint64(seed, 1, "seed of the first draw");
-DEFINE_int32(threads, 1, "threads over draws and controllers");
+DEFINE_int32(threads, 0, "threads over draws and controllers; 0: all cores");
 DEFINE_bool(dump_config, false, "print the settings in force and stop");
 DEFINE_bool(
     strict, false,
@@ -166,9 +166,10 @@ int Run() {
   }
   ProgressBar bar(Periods(jobs));
   for (Job& job : jobs) {
-    job.results = RunExperiment(
-        finger, job.experiment, discretization, FLAGS_seed, FLAGS_threads,
-        [&bar](std::size_t periods) { bar.Add(periods, false); });
+    job.results =
+        RunExperiment(finger, job.experiment, discretization, FLAGS_seed,
+                      Threads(FLAGS_threads),
+                      [&bar](std::size_t periods) { bar.Add(periods, false); });
   }
   bar.Clear();
   MakeFolder(FLAGS_out_dir);

@@ -28,7 +28,7 @@ DEFINE_string(out_dir, "", "folder for <log>.frames.csv and summary.yaml");
 DEFINE_string(logs_root, "",
               "folder above all logs: results lie in --out_dir as logs lie in "
               "it; without it all lie in --out_dir itself");
-DEFINE_int32(threads, 1, "threads over frames");
+DEFINE_int32(threads, 0, "threads over frames; 0: all cores");
 DEFINE_bool(resume, false, "keep finished logs, go on with interrupted ones");
 DEFINE_string(solver, "fast",
               "fast, or ceres: the residual blocks of the calibration, which "
@@ -290,7 +290,7 @@ int Run() {
     return kGood;
   }
   if (FLAGS_follow) return FollowInput(settings);
-  settings.threads = FLAGS_threads;
+  settings.threads = Threads(FLAGS_threads);
   settings.resume = FLAGS_resume;
   settings.stop = IsStopRequested;
   CatchStopSignals(SA_RESTART);

@@ -6,6 +6,7 @@
 #include "app.h"
 #include "finray/calib/analysis/validation.h"
 #include "finray/io/atomic_file.h"
+#include "finray/io/log_list.h"
 #include "finray/io/message_text.h"
 #include "finray/io/number_text.h"
 
@@ -17,7 +18,7 @@ DEFINE_string(logs, "",
               "by commas");
 DEFINE_string(out_dir, "", "folder for validation.yaml, validation.frames.csv");
 DEFINE_string(baseline, "", "finger YAML to compare with, e.g. uncalibrated");
-DEFINE_int32(threads, 2, "threads over frames");
+DEFINE_int32(threads, 0, "threads over frames; 0: all cores");
 
 DEFINE_double(most_force_rms_N, 0,
               "gate: rms error of the force; default: none");
@@ -167,8 +168,9 @@ void PrintSummary(const CalibrationLogs& logs, const Validation& validation,
 int Run() {
   const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
   const Plan plan = PlanOrScene();
-  const auto paths = SplitList(Required("logs", FLAGS_logs));
   Required("out_dir", FLAGS_out_dir);
+  const auto paths =
+      ExpandLogs(SplitList(Required("logs", FLAGS_logs)), FLAGS_out_dir);
   const auto bounds = Bounds();
   std::optional<Finger> baseline;
   if (!FLAGS_baseline.empty()) {
@@ -186,8 +188,8 @@ int Run() {
   Plan whole = plan;
   whole.holdout_by = HoldoutBy::kNothing;  // these logs are held out already
   const CalibrationLogs logs = ReadCalibrationLogs(paths, finger, whole);
-  const Validation validation =
-      Validate(finger, baseline, whole, logs, discretization, FLAGS_threads);
+  const Validation validation = Validate(
+      finger, baseline, whole, logs, discretization, Threads(FLAGS_threads));
   const std::vector<Gate> gates = CheckGates(validation, bounds);
 
   std::vector<const char*> flags = {"finger",   "plan",      "scene",

@@ -203,11 +203,39 @@ TEST_F(CommandLineTest, CalibrationKeepsPiecesAndStretch) {
   EXPECT_EQ(config["contact_beams"][0].as<std::string>(), "front");
 }
 
+// The tool's own flags, what is required first; nothing of the libraries.
+TEST_F(CommandLineTest, HelpIsShort) {
+  for (const char* flag : {"--help", "-h"}) {
+    const Outcome help = Run("finray_calibrate", flag);
+    EXPECT_EQ(help.code, 0);
+    EXPECT_THAT(help.output, testing::Not(HasSubstr("logtostderr")));
+    EXPECT_LT(help.output.find("--plan "), help.output.find("Optional"));
+    EXPECT_GT(help.output.find("--threads"), help.output.find("Optional"));
+  }
+  const Outcome version = Run("finray_calibrate", "--version");
+  EXPECT_EQ(version.code, 0);
+  EXPECT_THAT(version.output, HasSubstr(FINRAY_VERSION));
+}
+
 TEST_F(CommandLineTest, UsageErrorsAreOne) {
   const Outcome missing = Run("finray_simulate", "--out %out");
   EXPECT_EQ(missing.code, 1);
   EXPECT_THAT(missing.output, HasSubstr("--finger is missing; see --help"));
-  EXPECT_EQ(Run("finray_estimate", "--fingre x").code, 1);
+  const Outcome unknown = Run("finray_estimate", "--fingre x");
+  EXPECT_EQ(unknown.code, 1);
+  EXPECT_THAT(unknown.output,
+              HasSubstr("finray_estimate: --fingre is not a flag (did you mean "
+                        "'finger'?)"));
+  const Outcome scheme =
+      Run("finray_simulate",
+          "--finger " + paper_ + " --frames %in --out %out --scheme tailor");
+  EXPECT_EQ(scheme.code, 1);
+  EXPECT_THAT(scheme.output, HasSubstr("did you mean 'taylor'?"));
+  const Outcome threads =
+      Run("finray_estimate",
+          "--finger " + paper_ + " --logs %in --out_dir %out --threads -1");
+  EXPECT_EQ(threads.code, 1);
+  EXPECT_THAT(threads.output, HasSubstr("--threads: expected 0"));
   EXPECT_EQ(Run("finray_estimate", "stray").code, 1);
 }
 
@@ -258,11 +286,9 @@ TEST_F(CommandLineTest, BadInputIsTwoAndOneLine) {
   ExpectBadInput("finray_estimate",
                  "--finger %none.yaml --logs %in.csv --out_dir %out",
                  "none.yaml: cannot be read");
-  // load off the finger, unknown scheme, unwritable output
+  // load off the finger, unwritable output
   folder_.Write("in.csv", "contact_1_mm,normal_1_N\n150,2\n");
   ExpectBadInput("finray_simulate", simulate, "in.csv:2: contact_1_mm");
-  ExpectBadInput("finray_simulate", simulate + " --scheme tailor",
-                 "did you mean 'taylor'?");
   folder_.Write("in.csv", "contact_1_mm,normal_1_N\n50,2\n");
   ExpectBadInput("finray_simulate",
                  "--finger " + paper_ + " --frames %in.csv --out %no/out",

@@ -1,0 +1,117 @@
+// Flags as all executables print and check them, in place of gflags' own help:
+// that lists glog's flags too, and ends with exit code 1.
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <iterator>
+
+#include "app.h"
+#include "finray/benchmark/benchmark_run.h"
+#include "finray/io/message_text.h"
+
+namespace finray {
+namespace {
+
+// The flags of this executable in a source of apps/, sorted by name.
+std::vector<gflags::CommandLineFlagInfo> OwnFlags() {
+  std::vector<gflags::CommandLineFlagInfo> all, own;
+  gflags::GetAllFlags(&all);
+  std::copy_if(all.begin(), all.end(), std::back_inserter(own),
+               [](const auto& flag) {
+                 return flag.filename.find("apps/") != std::string::npos;
+               });
+  std::sort(own.begin(), own.end(),
+            [](const auto& a, const auto& b) { return a.name < b.name; });
+  return own;
+}
+
+// A flag is required if the example of the usage names it before any bracket.
+bool IsRequired(const std::string& name) {
+  const std::string usage = kApp.usage;
+  const std::size_t example = usage.find('\n');
+  const std::size_t at = usage.find(" --" + name + " ", example);
+  return at != std::string::npos && at < usage.find('[', example) &&
+         at < usage.find('\n', example + 1);
+}
+
+void PrintFlags(const std::vector<gflags::CommandLineFlagInfo>& flags,
+                bool required) {
+  for (const auto& flag : flags) {
+    if (IsRequired(flag.name) != required) continue;
+    std::printf("  --%-26s %s", flag.name.c_str(), flag.description.c_str());
+    if (!required && !flag.default_value.empty()) {
+      std::printf(" (default: %s)", flag.default_value.c_str());
+    }
+    std::printf("\n");
+  }
+}
+
+void PrintHelp() {
+  const auto flags = OwnFlags();
+  const std::string usage = kApp.usage;
+  const std::size_t end = usage.find('\n');
+  std::printf("%s\n\n  %s\n", usage.substr(0, end).c_str(),
+              usage.substr(end + 1).c_str());
+  if (std::any_of(flags.begin(), flags.end(),
+                  [](const auto& flag) { return IsRequired(flag.name); })) {
+    std::printf("\nRequired\n");
+    PrintFlags(flags, true);
+  }
+  std::printf("\nOptional\n");
+  PrintFlags(flags, false);
+  std::printf("  --%-26s %s\n", "version", "print the version and stop");
+  std::printf(
+      "\nExit code: 0 good, 1 wrong usage, 2 bad input, 3 no solution, "
+      "4 a check failed.\n");
+}
+
+// Throws UsageError with the nearest name if a flag is unknown.
+void RefuseUnknownFlags(int argc, char** argv) {
+  for (int i = 1; i < argc && std::strcmp(argv[i], "--") != 0; ++i) {
+    const std::string argument = argv[i];
+    if (argument.size() < 2 || argument[0] != '-') continue;
+    const std::size_t first = argument.find_first_not_of('-');
+    const std::size_t equals = argument.find('=');
+    const std::string name = argument.substr(first, equals - first);
+    gflags::CommandLineFlagInfo info;
+    if (gflags::GetCommandLineFlagInfo(name.c_str(), &info)) {
+      // The next argument is the value of this flag.
+      i += info.type != "bool" && equals == std::string::npos;
+      continue;
+    }
+    if (name.find("no") == 0 &&
+        gflags::GetCommandLineFlagInfo(name.substr(2).c_str(), &info)) {
+      continue;
+    }
+    std::vector<std::string> names;
+    for (const auto& flag : OwnFlags()) names.push_back(flag.name);
+    throw UsageError("--" + name + " is not a flag" + DidYouMean(name, names));
+  }
+}
+
+}  // namespace
+
+int Threads(int flag) {
+  if (flag < 0) {
+    throw UsageError("--threads: expected 0 (all cores) or more, found " +
+                     std::to_string(flag));
+  }
+  return flag > 0 ? flag : UsableCores();
+}
+
+bool ParseFlags(int* argc, char*** argv) {
+  gflags::SetArgv(*argc, const_cast<const char**>(*argv));
+  for (int i = 1; i < *argc; ++i) {
+    for (const char* help : {"-h", "-help", "--help"}) {
+      if (std::strcmp((*argv)[i], help) != 0) continue;
+      PrintHelp();
+      return false;
+    }
+  }
+  RefuseUnknownFlags(*argc, *argv);
+  gflags::ParseCommandLineFlags(argc, argv, true);
+  return true;
+}
+
+}  // namespace finray
