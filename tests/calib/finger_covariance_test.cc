@@ -32,6 +32,29 @@ Finger CalibrateOn(const Finger& start, const Plan& plan,
   return finger;
 }
 
+// A plan that frees the offsets alone leaves the std of all else.
+TEST(FingerCovarianceTest, FixedParametersKeepTheirStd) {
+  const TempFolder folder;
+  const std::string log = StandardLog(folder, HiddenFinger(), 11);
+  const Finger whole = CalibrateOn(Nominal(), StandardPlan(), log);
+  Plan plan;
+  plan.scene = StandardScene();
+  plan.families[static_cast<int>(ParameterFamily::kGaugeOffset)].free = true;
+  const Finger zeroed = CalibrateOn(whole, plan, log);
+  const ParameterCovariance& before = whole.calibration.value();
+  const ParameterCovariance& after = zeroed.calibration.value();
+  ASSERT_EQ(after.parameters, before.parameters);
+  for (std::size_t k = 0; k < after.parameters.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    if (after.parameters[k].kind == FingerParameterKind::kGaugeOffset) {
+      EXPECT_LT(after.std[at], before.std[at]);
+    } else {
+      EXPECT_EQ(after.std[at], before.std[at]);
+    }
+  }
+  EXPECT_EQ(after.correlations(1, 0), before.correlations(1, 0));
+}
+
 TEST(FingerCovarianceTest, BlockSaysWhatCalibrationYamlSays) {
   const TempFolder folder;
   const std::string log = StandardLog(folder, HiddenFinger(), 11);

@@ -1,6 +1,7 @@
 #include "finray/finger/finger_parameter.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 #include "finray/finger/finger.h"
 
@@ -79,6 +80,22 @@ Eigen::MatrixXd ParameterCovariance::Factor() const {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlations);
   return std.asDiagonal() * eigen.eigenvectors() *
          eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+}
+
+ParameterCovariance InOrderOf(const Finger& finger,
+                              const ParameterCovariance& covariance) {
+  ParameterCovariance ordered;
+  std::vector<Eigen::Index> order;
+  const auto& given = covariance.parameters;
+  for (const FingerParameter& parameter : ParametersOf(finger)) {
+    const auto at = std::find(given.begin(), given.end(), parameter);
+    if (at == given.end()) continue;
+    ordered.parameters.push_back(parameter);
+    order.push_back(at - given.begin());
+  }
+  ordered.std = covariance.std(order);
+  ordered.correlations = covariance.correlations(order, order);
+  return ordered;
 }
 
 }  // namespace finray

@@ -62,6 +62,10 @@ struct ParameterCovariance {
   Eigen::MatrixXd Factor() const;
 };
 
+/// Returns the covariance with its parameters in the order of ParametersOf.
+ParameterCovariance InOrderOf(const Finger& finger,
+                              const ParameterCovariance& covariance);
+
 }  // namespace finray
 
 #endif  // FINRAY_FINGER_FINGER_PARAMETER_H_

@@ -233,8 +233,28 @@ void KeepCovariance(const CalibrationParameters& parameters,
   }
   if (kept.empty()) return;
   const auto n = static_cast<Eigen::Index>(kept.size());
-  covariance.std = Eigen::Map<const Eigen::VectorXd>(std.data(), n);
-  covariance.correlations = Eigen::MatrixXd::Identity(n, n);
+  // What was fixed is as uncertain as it was.
+  std::vector<Eigen::Index> fixed;
+  for (std::size_t k = 0;
+       finger->calibration && k < finger->calibration->parameters.size(); ++k) {
+    const FingerParameter& p = finger->calibration->parameters[k];
+    const auto& found_ones = covariance.parameters;
+    if (std::find(found_ones.begin(), found_ones.end(), p) ==
+        found_ones.end()) {
+      fixed.push_back(static_cast<Eigen::Index>(k));
+    }
+  }
+  for (const Eigen::Index k : fixed) {
+    covariance.parameters.push_back(finger->calibration->parameters[k]);
+    std.push_back(finger->calibration->std[k]);
+  }
+  const auto all = static_cast<Eigen::Index>(std.size());
+  covariance.std = Eigen::Map<const Eigen::VectorXd>(std.data(), all);
+  covariance.correlations = Eigen::MatrixXd::Identity(all, all);
+  if (!fixed.empty()) {
+    covariance.correlations.bottomRightCorner(all - n, all - n) =
+        finger->calibration->correlations(fixed, fixed);
+  }
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
       // Rounding may give a correlation above 1.
@@ -242,7 +262,7 @@ void KeepCovariance(const CalibrationParameters& parameters,
           std::clamp(found.correlation(kept[i], kept[j]), -1.0, 1.0);
     }
   }
-  finger->calibration = std::move(covariance);
+  finger->calibration = InOrderOf(*finger, covariance);
 }
 
 }  // namespace finray

@@ -86,8 +86,9 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
 
 /// Gives the calibrated finger the part of the covariance that belongs to its
 /// own parameters. If the origin of the object is free too, that is their
-/// marginal covariance. It replaces what an earlier calibration has left,
-/// unless no parameter of the finger was free.
+/// marginal covariance. Parameters that were fixed keep the std and
+/// correlations that an earlier calibration has left; their correlations with
+/// the others are not known and count as 0.
 void KeepCovariance(const CalibrationParameters& parameters,
                     const Identifiability& found, Finger* finger);
 

@@ -1,0 +1,137 @@
+// Sets the offsets of a finger's gauges from rows in which it is free.
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "app.h"
+#include "finray/io/atomic_file.h"
+#include "finray/io/frame_parser.h"
+#include "finray/io/frame_table.h"
+#include "finray/io/line_reader.h"
+#include "finray/io/number_text.h"
+#include "finray/scene/measurement_columns.h"
+#include "finray/sensing/zeroed_finger.h"
+
+DEFINE_string(finger, "", "finger YAML to zero");
+DEFINE_string(logs, "", "CSV log with free rows");
+DEFINE_string(out, "", "finger YAML to write: all but the offsets stays");
+DEFINE_string(zero_rows, "",
+              "free rows, first:last, counted from 1; default: the rows whose "
+              "force_N is within 3 --force_std_N of zero, live 1:100");
+DEFINE_double(force_std_N, 0.02, "noise of force_N, to tell free rows");
+DEFINE_bool(follow, false,
+            "read a live log from standard input, up to the last row needed");
+
+namespace {
+
+using namespace finray;
+
+struct Range {
+  std::size_t first = 1, last = 100;
+};
+
+Range ZeroRows() {
+  Range range;
+  if (FLAGS_zero_rows.empty()) return range;
+  char rest = 0;
+  if (std::sscanf(FLAGS_zero_rows.c_str(), "%zu:%zu%c", &range.first,
+                  &range.last, &rest) != 2 ||
+      range.first < 1 || range.last < range.first) {
+    throw UsageError("--zero_rows: expected first:last, such as 1:100, found " +
+                     FLAGS_zero_rows);
+  }
+  return range;
+}
+
+std::vector<Measurements> FreeRows(const std::vector<Measurements>& rows,
+                                   const std::string& source) {
+  std::vector<Measurements> free;
+  if (!FLAGS_zero_rows.empty()) {
+    const Range range = ZeroRows();
+    if (range.last > rows.size()) {
+      throw InputError(source + ": --zero_rows " + FLAGS_zero_rows +
+                       ": the log has " + std::to_string(rows.size()) +
+                       " rows");
+    }
+    free.assign(rows.begin() + static_cast<long>(range.first) - 1,
+                rows.begin() + static_cast<long>(range.last));
+    return free;
+  }
+  bool any_force = false;
+  for (const Measurements& row : rows) {
+    const double force =
+        row.force_xy_N.allFinite() ? row.force_xy_N.norm() : row.force_N;
+    any_force |= std::isfinite(force);
+    if (std::abs(force) <= 3 * FLAGS_force_std_N) free.push_back(row);
+  }
+  if (!any_force) {
+    throw InputError(source +
+                     ": no force_N tells which rows are free; choose them with "
+                     "--zero_rows first:last");
+  }
+  return free;
+}
+
+// Copies standard input up to the last row that is needed to a table.
+std::vector<Measurements> LiveRows(const Finger& finger) {
+  LineReader lines = ReadPipe(STDIN_FILENO, -1, "stdin");
+  CsvLine header;
+  do {
+    if (!lines.Next()) {
+      throw InputError("stdin: is empty, expected a header and rows");
+    }
+    header = lines.line();
+  } while (!IsHeaderLine(&header));
+  const FrameParser parser("stdin", header, {});
+  const MeasurementColumns columns(finger, parser.names(), "stdin", {});
+  const Range range = ZeroRows();
+  std::vector<Measurements> rows;
+  FrameRows cells;
+  for (std::size_t row = 1; row <= range.last && lines.Next(); ++row) {
+    cells.Clear();
+    parser.Parse(lines.line(), &cells);
+    if (row < range.first) continue;
+    columns.Read([&](std::size_t column) { return cells.at(0, column).number; },
+                 &rows.emplace_back());
+  }
+  return rows;
+}
+
+int Run() {
+  const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
+  const std::string& out = Required("out", FLAGS_out);
+  const Discretization discretization = DiscretizationFlags();
+  std::vector<Measurements> free;
+  const std::string source =
+      FLAGS_follow ? "stdin" : Required("logs", FLAGS_logs);
+  if (FLAGS_follow) {
+    free = LiveRows(finger);
+  } else {
+    free = FreeRows(ReadMeasurements(FrameTable::Read(source), finger, {}),
+                    source);
+  }
+  const ZeroedFinger zeroed = ZeroGauges(finger, discretization, free, source);
+  WriteFileAtomically(
+      out, FingerToYaml(zeroed.finger,
+                        "Zeroed by " + source + " from " + FLAGS_finger));
+  std::printf("%s\nfree rows      %zu\n", out.c_str(), zeroed.rows);
+  for (std::size_t j = 0; j < zeroed.change_V.size(); ++j) {
+    std::printf(
+        "gauge %-2zu       offset %+.5g V, moved by %+.3g mV, std %.2g "
+        "mV\n",
+        j + 1, zeroed.finger.gauges[j].offset_V, 1e3 * zeroed.change_V[j],
+        1e3 * zeroed.std_V[j]);
+  }
+  return kGood;
+}
+
+}  // namespace
+
+const finray::App finray::kApp = {
+    "Zeroes the gauges of a finger by rows in which it is free.\n"
+    "finray_zero --finger F.yaml --logs free.csv --out F2.yaml [--zero_rows "
+    "1:100]\n"
+    "sensor | finray_zero --follow --finger F.yaml --out F2.yaml",
+    Run};

@@ -1,0 +1,151 @@
+#include "finray/sensing/zeroed_finger.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "finray/io/error.h"
+#include "finray/io/number_text.h"
+#include "finray/scene/frame_columns.h"
+#include "finray/statics/equilibrium.h"
+
+namespace finray {
+namespace {
+
+struct Mean {
+  double mean = 0, scatter = 0;
+  std::size_t count = 0;
+};
+
+Mean MeanOf(const std::vector<Measurements>& rows, int gauge,
+            const Gauge& its) {
+  Mean of;
+  double squares = 0;
+  for (const Measurements& row : rows) {
+    const double volts = row.gauges_V[gauge];
+    if (!its.IsMeasured(volts)) continue;
+    const double off = volts - of.mean;
+    of.mean += off / static_cast<double>(++of.count);
+    squares += off * (volts - of.mean);
+  }
+  if (of.count > 1) {
+    of.scatter = std::sqrt(squares / static_cast<double>(of.count - 1));
+  }
+  return of;
+}
+
+// Returns gain times angle of each gauge of the unloaded finger.
+Eigen::VectorXd FreeVolts(const Finger& finger,
+                          const Discretization& discretization) {
+  EquilibriumSolver solver(finger, discretization);
+  if (!solver.Solve({})) {
+    throw InputError("the free finger has no equilibrium: " + solver.Why());
+  }
+  Eigen::VectorXd volts(static_cast<Eigen::Index>(finger.gauges.size()));
+  for (Eigen::Index j = 0; j < volts.size(); ++j) {
+    volts[j] = finger.gauges[j].gain_V_per_rad *
+               solver.gauge_angle(static_cast<int>(j));
+  }
+  return volts;
+}
+
+// Returns dg/dx by central differences of a tenth of a std.
+Eigen::MatrixXd SlopesOf(const Finger& finger,
+                         const Discretization& discretization,
+                         const std::vector<FingerParameter>& parameters,
+                         const Eigen::VectorXd& std) {
+  Eigen::MatrixXd slopes(finger.gauges.size(), parameters.size());
+  for (Eigen::Index k = 0; k < slopes.cols(); ++k) {
+    const double value = ParameterValue(finger, parameters[k]);
+    const double step =
+        std::max(0.1 * std[k], 1e-6 * std::max(1.0, std::abs(value)));
+    Finger more = finger, less = finger;
+    SetParameter(parameters[k], value + step, &more);
+    SetParameter(parameters[k], value - step, &less);
+    slopes.col(k) =
+        (FreeVolts(more, discretization) - FreeVolts(less, discretization)) /
+        (2 * step);
+  }
+  return slopes;
+}
+
+// Replaces the part of the covariance that belongs to the offsets.
+void RenewCovariance(const Discretization& discretization,
+                     const std::vector<double>& noise_std_V, Finger* finger) {
+  const ParameterCovariance& old = *finger->calibration;
+  std::vector<FingerParameter> others;
+  std::vector<Eigen::Index> kept;
+  for (std::size_t k = 0; k < old.parameters.size(); ++k) {
+    if (old.parameters[k].kind == FingerParameterKind::kGaugeOffset) continue;
+    others.push_back(old.parameters[k]);
+    kept.push_back(static_cast<Eigen::Index>(k));
+  }
+  const auto n = static_cast<Eigen::Index>(kept.size());
+  const auto gauges = static_cast<Eigen::Index>(noise_std_V.size());
+  Eigen::VectorXd std(n);
+  for (Eigen::Index k = 0; k < n; ++k) std[k] = old.std[kept[k]];
+  Eigen::MatrixXd covariance(n + gauges, n + gauges);
+  covariance.topLeftCorner(n, n) =
+      std.asDiagonal() * old.correlations(kept, kept) * std.asDiagonal();
+  const Eigen::MatrixXd slopes = SlopesOf(*finger, discretization, others, std);
+  covariance.bottomLeftCorner(gauges, n) =
+      -slopes * covariance.topLeftCorner(n, n);
+  covariance.topRightCorner(n, gauges) =
+      covariance.bottomLeftCorner(gauges, n).transpose();
+  covariance.bottomRightCorner(gauges, gauges) =
+      -covariance.bottomLeftCorner(gauges, n) * slopes.transpose();
+  for (Eigen::Index j = 0; j < gauges; ++j) {
+    covariance(n + j, n + j) += noise_std_V[j] * noise_std_V[j];
+    others.push_back({FingerParameterKind::kGaugeOffset, static_cast<int>(j)});
+  }
+
+  ParameterCovariance renewed;
+  renewed.parameters = others;
+  renewed.std = covariance.diagonal().cwiseSqrt();
+  // A parameter may be known exactly.
+  const Eigen::VectorXd scale =
+      (renewed.std.array() > 0).select(renewed.std.cwiseInverse(), 0.0);
+  renewed.correlations = scale.asDiagonal() * covariance * scale.asDiagonal();
+  renewed.correlations.diagonal().setOnes();
+  finger->calibration = InOrderOf(*finger, renewed);
+}
+
+}  // namespace
+
+ZeroedFinger ZeroGauges(const Finger& finger,
+                        const Discretization& discretization,
+                        const std::vector<Measurements>& free_rows,
+                        const std::string& source) {
+  ZeroedFinger zeroed{finger, free_rows.size(), {}, {}};
+  const Eigen::VectorXd free_V = FreeVolts(finger, discretization);
+  for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
+    Gauge& gauge = zeroed.finger.gauges[j];
+    const Mean of = MeanOf(free_rows, j, gauge);
+    if (of.count < kLeastZeroRows) {
+      throw InputError(source + ": " + GaugeVolts(j) + " has " +
+                       std::to_string(of.count) +
+                       " readings in the free rows, expected at least " +
+                       std::to_string(kLeastZeroRows));
+    }
+    if (of.scatter > kSteady * gauge.noise_V) {
+      throw InputError(
+          source + ": " + GaugeVolts(j) +
+          FormatText(" varies by %.2g mV in the free rows, its noise_V is "
+                     "%.2g mV: the finger moves or touches there; choose rows "
+                     "of the resting finger with --zero_rows",
+                     1e3 * of.scatter, 1e3 * gauge.noise_V));
+    }
+    const double offset = of.mean - free_V[j];
+    zeroed.change_V.push_back(offset - gauge.offset_V);
+    zeroed.std_V.push_back(std::max(of.scatter, gauge.noise_V) /
+                           std::sqrt(static_cast<double>(of.count)));
+    gauge.offset_V = offset;
+  }
+  if (finger.calibration) {
+    RenewCovariance(discretization, zeroed.std_V, &zeroed.finger);
+  }
+  return zeroed;
+}
+
+}  // namespace finray

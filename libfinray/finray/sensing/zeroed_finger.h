@@ -1,0 +1,47 @@
+#ifndef FINRAY_SENSING_ZEROED_FINGER_H_
+#define FINRAY_SENSING_ZEROED_FINGER_H_
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "finray/finger/discretization.h"
+#include "finray/finger/finger.h"
+#include "finray/scene/measurements.h"
+
+namespace finray {
+
+/// A finger whose gauges were zeroed.
+struct ZeroedFinger {
+  Finger finger;
+  std::size_t rows = 0;          ///< The number of readings.
+  std::vector<double> change_V;  ///< New offset less the old one, by gauge.
+  std::vector<double> std_V;     ///< Of the mean reading, by gauge.
+};
+
+/// Sets the offsets by n readings of the free finger,
+///
+///   offset_j = mean V_j - g_j(x),   g_j = gain_j angle_j(x),
+///
+/// where angle_j is that of the unloaded finger: ribs of other than nominal
+/// length bend it. All other numbers stay, and so does the covariance C_x of
+/// the other calibrated parameters x. The new offsets forget the old ones:
+///
+///   cov(offset) = diag(s_j^2 / n) + G C_x G',  cov(offset, x) = -G C_x,
+///
+/// with G = dg/dx and s_j the scatter of the readings, no less than noise_V. A
+/// finger without a calibration stays without.
+///
+/// Throws InputError with `source` if there are fewer than kLeastZeroRows rows
+/// with readings of a gauge, if a gauge varies by more than kSteady times its
+/// noise, or if the finger has no equilibrium.
+ZeroedFinger ZeroGauges(const Finger& finger,
+                        const Discretization& discretization,
+                        const std::vector<Measurements>& free_rows,
+                        const std::string& source);
+constexpr std::size_t kLeastZeroRows = 10;
+constexpr double kSteady = 5;
+
+}  // namespace finray
+
+#endif  // FINRAY_SENSING_ZEROED_FINGER_H_

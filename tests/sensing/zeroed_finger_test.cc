@@ -1,0 +1,136 @@
+#include "finray/sensing/zeroed_finger.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "finray/io/error.h"
+#include "finray/statics/equilibrium.h"
+#include "test_finger.h"
+
+namespace finray {
+namespace {
+
+// A calibrated finger with bent beams at rest, whose offsets are uncertain.
+Finger Calibrated() {
+  Finger finger = PaperFinger();
+  finger.ribs[1].length_mm += 0.3;
+  ParameterCovariance covariance;
+  covariance.parameters = ParametersOf(finger);
+  const auto n = static_cast<Eigen::Index>(covariance.parameters.size());
+  covariance.std = Eigen::VectorXd::Constant(n, 0.01);
+  covariance.std.head<2>().setConstant(100);
+  covariance.correlations = Eigen::MatrixXd::Identity(n, n);
+  covariance.correlations(0, 1) = covariance.correlations(1, 0) = 0.5;
+  finger.calibration = covariance;
+  return finger;
+}
+
+std::vector<Measurements> Resting(const Finger& finger, int rows,
+                                  std::mt19937_64* generator) {
+  EquilibriumSolver solver(finger, {});
+  EXPECT_TRUE(solver.Solve({}));
+  std::vector<Measurements> readings(rows);
+  for (Measurements& row : readings) {
+    for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
+      const Gauge& gauge = finger.gauges[j];
+      std::normal_distribution<double> noise(0, gauge.noise_V);
+      row.gauges_V.push_back(
+          gauge.Volts(solver.gauge_angle(static_cast<int>(j))) +
+          noise(*generator));
+    }
+  }
+  return readings;
+}
+
+Finger Moved(Finger finger) {
+  const double by[] = {0.02, -0.015, 0.03, 0.001};
+  for (int j = 0; j < 4; ++j) finger.gauges[j].offset_V += by[j];
+  return finger;
+}
+
+TEST(ZeroedFingerTest, FindsOffsetsThatHaveMoved) {
+  std::mt19937_64 generator(1);
+  const Finger before = Calibrated(), now = Moved(before);
+  const ZeroedFinger zeroed =
+      ZeroGauges(before, {}, Resting(now, 100, &generator), "log");
+  EXPECT_EQ(zeroed.rows, 100u);
+  for (int j = 0; j < 4; ++j) {
+    EXPECT_NEAR(zeroed.std_V[j], now.gauges[j].noise_V / 10,
+                0.3 * now.gauges[j].noise_V / 10);
+    EXPECT_NEAR(zeroed.finger.gauges[j].offset_V, now.gauges[j].offset_V,
+                4 * zeroed.std_V[j]);
+    EXPECT_NEAR(zeroed.change_V[j],
+                now.gauges[j].offset_V - before.gauges[j].offset_V,
+                4 * zeroed.std_V[j]);
+  }
+  EXPECT_EQ(zeroed.finger.back_stiffness_N_mm2, before.back_stiffness_N_mm2);
+}
+
+// The covariance of what zeroing gives with fingers drawn from the covariance:
+// the truth draws its other parameters, the given finger has the mean.
+TEST(ZeroedFingerTest, CovarianceIsThatOfManyZeroings) {
+  std::mt19937_64 generator(2);
+  std::normal_distribution<double> normal;
+  const Finger given = Calibrated();
+  const ParameterCovariance& old = *given.calibration;
+  const Eigen::MatrixXd factor = old.Factor();
+  const auto n = static_cast<Eigen::Index>(old.parameters.size());
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n, n);
+  constexpr int kDraws = 400, kRows = 20;
+  ZeroedFinger zeroed;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Finger truth = given;
+    const Eigen::VectorXd off =
+        factor * Eigen::VectorXd::NullaryExpr(
+                     n, [&](Eigen::Index) { return normal(generator); });
+    for (Eigen::Index k = 0; k < n; ++k) {
+      SetParameter(old.parameters[k],
+                   ParameterValue(given, old.parameters[k]) + off[k], &truth);
+    }
+    zeroed = ZeroGauges(given, {}, Resting(truth, kRows, &generator), "log");
+    Eigen::VectorXd error(n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      error[k] = ParameterValue(zeroed.finger, old.parameters[k]) -
+                 ParameterValue(truth, old.parameters[k]);
+    }
+    sums += error * error.transpose() / kDraws;
+  }
+  const ParameterCovariance& found = *zeroed.finger.calibration;
+  ASSERT_EQ(found.parameters, old.parameters);
+  const Eigen::VectorXd scale = sums.diagonal().cwiseSqrt();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    EXPECT_NEAR(found.std[i], scale[i], 0.15 * scale[i]) << i;
+    for (Eigen::Index j = 0; j < i; ++j) {
+      EXPECT_NEAR(found.correlations(i, j), sums(i, j) / (scale[i] * scale[j]),
+                  0.2)
+          << i << " " << j;
+    }
+  }
+}
+
+TEST(ZeroedFingerTest, RefusesAFingerThatMoves) {
+  std::mt19937_64 generator(3);
+  const Finger finger = Calibrated();
+  std::vector<Measurements> rows = Resting(finger, 50, &generator);
+  for (int i = 40; i < 50; ++i) rows[i].gauges_V[2] += 0.02;
+  EXPECT_THAT([&] { ZeroGauges(finger, {}, rows, "log.csv"); },
+              testing::ThrowsMessage<InputError>(
+                  testing::HasSubstr("log.csv: gauge_3_V varies by")));
+  rows.resize(5);
+  EXPECT_THAT([&] { ZeroGauges(finger, {}, rows, "log.csv"); },
+              testing::ThrowsMessage<InputError>(
+                  testing::HasSubstr("gauge_1_V has 5 readings")));
+}
+
+TEST(ZeroedFingerTest, AnUncalibratedFingerStaysSo) {
+  std::mt19937_64 generator(4);
+  EXPECT_FALSE(ZeroGauges(PaperFinger(), {},
+                          Resting(PaperFinger(), 20, &generator), "log")
+                   .finger.calibration);
+}
+
+}  // namespace
+}  // namespace finray
