@@ -174,7 +174,7 @@ void FrameEstimator::SearchAlone(const Measurements& readings,
 // Says whether later frames can be followed from the frame searched last.
 bool FrameEstimator::CanFollow(const PackedReadings& packed,
                                const FrameEstimate& estimate) {
-  return follower_ && estimate.contacts == 1 &&
+  return follower_ && estimate.contacts == 1 && !estimate.valley &&
          StatusOf(estimate, finger_, search_) == FrameStatus::kOk &&
          follower_->Start(search_.best(), ArcStd(search_.best().information),
                           packed.gauges);
@@ -210,6 +210,7 @@ bool FrameEstimator::TakeFollowed(const PackedReadings& packed, std::size_t run,
   estimate->contact[0] = {fit.arc_mm, arc_std, fit.normal_N,
                           std::sqrt(covariance(1, 1)), fit.contact_pose};
   estimate->contact[1] = {};
+  estimate->valley.reset();
   estimate->noise_covariance = covariance;
   estimate->alternative = {};
   estimate->alternative_chi2 = kNaN;
@@ -311,6 +312,12 @@ FrameEstimate FrameEstimator::Found(const PackedReadings& packed) const {
     contact.arc_std_mm = scale * std::sqrt(covariance(2 * c, 2 * c));
     contact.normal_std_N = scale * std::sqrt(covariance(2 * c + 1, 2 * c + 1));
   }
+  // A camera's points are not in the table.
+  if (best.count == 1 && packed.camera == 0) {
+    estimate.valley = FindValley(
+        search_.profile(), best, estimate.contact[0].arc_std_mm,
+        estimate.contact[0].normal_std_N, scale, finger_.front_length_mm);
+  }
   if (const ContactSolution* rival = search_.rival()) {
     CopyContacts(*rival, &estimate.alternative);
     estimate.alternative_chi2 = rival->chi2;
@@ -322,6 +329,11 @@ void FrameEstimator::Judge(const Measurements& readings,
                            const PackedReadings& packed,
                            FrameEstimate* estimate) {
   if (estimate->contacts == 0) return;
+  if (estimate->valley) {
+    ContactEstimate& contact = estimate->contact[0];
+    contact.arc_std_mm *= estimate->valley->arc_factor;
+    contact.normal_std_N *= estimate->valley->normal_factor;
+  }
   if (!systematic_.empty()) {
     contacts_.clear();
     for (int c = 0; c < estimate->contacts; ++c) {
@@ -335,6 +347,7 @@ void FrameEstimator::Judge(const Measurements& readings,
     }
     AddCovariance(estimate->calibration_covariance, estimate);
   }
+  estimate->SetIntervals(finger_.front_length_mm);
   estimate->status = StatusOf(*estimate, finger_, search_);
 }
 

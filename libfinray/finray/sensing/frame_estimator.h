@@ -77,6 +77,8 @@ class FrameEstimator {
   }
 
   const Finger& finger() const { return finger_; }
+  /// No force of a contact is larger (Scene::force_max_N).
+  double most_force_N() const { return search_.most_force_N(); }
 
   // LogEstimator judges its frames by these, too.
 
