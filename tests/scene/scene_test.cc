@@ -29,8 +29,12 @@ TEST(SceneTest, Reads) {
   EXPECT_EQ(scene.circle_radius_mm(), 20);
   EXPECT_EQ(scene.columns.at("Fz [N]"), "force_N");
   EXPECT_FALSE(Load("contacts: auto\n").contacts.has_value());
-  EXPECT_TRUE(ReadScene(FINRAY_SOURCE_DIR "/configs/scenes/one_contact.yaml")
-                  .columns.empty());
+}
+
+TEST(SceneTest, BundledScenesAreWhatTheirNamesSay) {
+  const std::string folder = FINRAY_SOURCE_DIR "/configs/scenes/";
+  EXPECT_EQ(ReadScene(folder + "one_contact.yaml").contacts, 1);
+  EXPECT_FALSE(ReadScene(folder + "auto.yaml").contacts);
 }
 
 TEST(SceneTest, ReadsObjects) {

@@ -256,8 +256,26 @@ void FrameEstimator::Automatic(const Measurements& readings,
   const double without =
       one.contacts == 1 ? one.chi2 : packed.free_chi2 - kSignificance;
   if (without - two.chi2 < kSecondSignificance) return;
+  if (one.contacts == 1 && !IsSecondCertain(readings, packed, one)) return;
   *estimate = Found(packed);
   estimate->iterations += before;
+}
+
+// Errors of the calibration bend the readings of one contact too. A second one
+// must explain more than they do.
+bool FrameEstimator::IsSecondCertain(const Measurements& readings,
+                                     const PackedReadings& packed,
+                                     const FrameEstimate& one) {
+  if (systematic_.empty() || packed.camera > 0) return true;
+  const ContactSolution& two = search_.best();
+  const double friction = scene_.friction_coefficient;
+  const double without = systematic_.Chi2(
+      {{one.contact[0].arc_mm, one.contact[0].normal_N, friction}},
+      readings.gauges_V, packed.weights);
+  const double with =
+      systematic_.Chi2({two.contacts.begin(), two.contacts.end()},
+                       readings.gauges_V, packed.weights);
+  return without - with >= kSecondSignificance;
 }
 
 void FrameEstimator::WithContacts(const Measurements& readings,
