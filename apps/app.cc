@@ -60,6 +60,9 @@ void DumpConfig(const Finger& finger, const Scene& scene,
     std::cout << "contact_beams: " << ContactBeamsToYaml(scene) << "\n";
   }
   std::cout << "friction_coefficient: " << scene.friction_coefficient << "\n";
+  if (scene.force_max_N) {
+    std::cout << "force_max_N: " << *scene.force_max_N << "\n";
+  }
   if (scene.object) {
     std::cout << "object: " << ObjectToYaml(*scene.object) << "\n";
   }

@@ -63,7 +63,7 @@ def outlines(build, out, seed):
     single.write_text("schema_version: 1\ncontacts: 1\n")
     for log in sorted(folder.glob("*.touches.csv")):
         name = log.name[:-len(".touches.csv")]
-        for kind, scene in (("single", single), ("auto", SCENES / "one_contact.yaml")):
+        for kind, scene in (("single", single), ("auto", SCENES / "auto.yaml")):
             run(build / "finray_reconstruct",
                 *flags(finger=FINGER, scene=scene, logs=log, truth=folder / f"{name}.outline.csv",
                        plots="false", out_dir=folder / kind / name),

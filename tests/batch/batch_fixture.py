@@ -17,7 +17,7 @@ SCRIPTS = SOURCE / "scripts" / "batch"
 sys.path.insert(0, str(SCRIPTS))
 ESTIMATE = os.environ.get("FINRAY_ESTIMATE", "finray_estimate")
 FINGER = SOURCE / "datasets" / "simulated_r15" / "hidden_finger.yaml"
-SCENE = SOURCE / "configs" / "scenes" / "one_contact.yaml"
+SCENE = SOURCE / "configs" / "scenes" / "auto.yaml"
 DATASET = SOURCE / "datasets" / "simulated_r15" / "holdout.csv"
 FRAMES = "groups/**/[!.]*.frames.csv"  # results under their final names
 SKIPPED = 77

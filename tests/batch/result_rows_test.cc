@@ -74,10 +74,14 @@ TEST(ResultRowsTest, ColumnsFollowFromTheScene) {
                              "alternative_contact_1_mm,alternative_normal_1_N,"
                              "alternative_chi2,status\n"));
   EXPECT_THAT(one, Not(HasSubstr("_2_mm")));
-  EXPECT_THAT(two, HasSubstr(",contact_1_angle_rad,contact_2_mm,"
+  EXPECT_THAT(two, HasSubstr(",contact_1_angle_rad,contact_1_low_mm,"
+                             "contact_1_high_mm,normal_1_low_N,normal_1_high_N,"
+                             "contact_2_mm,"
                              "contact_2_std_mm,normal_2_N,normal_2_std_N,"
                              "contact_2_x_mm,contact_2_y_mm,"
-                             "contact_2_angle_rad,gauge_1_rad,"));
+                             "contact_2_angle_rad,contact_2_low_mm,"
+                             "contact_2_high_mm,normal_2_low_N,"
+                             "normal_2_high_N,gauge_1_rad,"));
   EXPECT_THAT(two, HasSubstr("alternative_contact_2_mm,alternative_normal_2_N,"
                              "alternative_chi2"));
   EXPECT_EQ(header(std::nullopt), two);
@@ -103,6 +107,8 @@ TEST(ResultRowsTest, ValuesStandUnderTheirNames) {
   FrameEstimate estimate = Estimate();
   estimate.contact[1].arc_mm = 90;
   estimate.contact[1].pose = {1, 2, 3};
+  estimate.contact[1].arc_low_mm = 80;
+  estimate.contact[1].normal_high_N = 9;
   estimate.alternative[1].normal_N = 0.5;
   estimate.alternative_chi2 = 7;
   const ResultLayout layout(PaperFinger(), scene, log);
@@ -122,6 +128,9 @@ TEST(ResultRowsTest, ValuesStandUnderTheirNames) {
   EXPECT_EQ(value("contact_1_mm"), 50.25);
   EXPECT_EQ(value("contact_2_mm"), 90);
   EXPECT_EQ(value("contact_2_angle_rad"), 3);
+  EXPECT_EQ(value("contact_2_low_mm"), 80);
+  EXPECT_EQ(value("normal_2_high_N"), 9);
+  EXPECT_TRUE(std::isnan(value("contact_2_high_mm")));
   EXPECT_EQ(value("friction_2"), 0.25);
   EXPECT_EQ(value("alternative_normal_2_N"), 0.5);
   EXPECT_TRUE(std::isnan(value("alternative_contact_2_mm")));

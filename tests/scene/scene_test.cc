@@ -29,8 +29,12 @@ TEST(SceneTest, Reads) {
   EXPECT_EQ(scene.circle_radius_mm(), 20);
   EXPECT_EQ(scene.columns.at("Fz [N]"), "force_N");
   EXPECT_FALSE(Load("contacts: auto\n").contacts.has_value());
-  EXPECT_TRUE(ReadScene(FINRAY_SOURCE_DIR "/configs/scenes/one_contact.yaml")
-                  .columns.empty());
+}
+
+TEST(SceneTest, BundledScenesAreWhatTheirNamesSay) {
+  const std::string folder = FINRAY_SOURCE_DIR "/configs/scenes/";
+  EXPECT_EQ(ReadScene(folder + "one_contact.yaml").contacts, 1);
+  EXPECT_FALSE(ReadScene(folder + "auto.yaml").contacts);
 }
 
 TEST(SceneTest, ReadsObjects) {
@@ -109,6 +113,8 @@ TEST(SceneTest, ReadsMeasurementsAndSmoothing) {
   EXPECT_EQ(scene.smoothing->contact_mm, 0.5);
   EXPECT_EQ(scene.smoothing->normal_N, 0.2);
   EXPECT_FALSE(Load("contacts: 1\n").smoothing);
+  EXPECT_FALSE(Load("contacts: 1\n").force_max_N);
+  EXPECT_EQ(Load("force_max_N: 12\n").force_max_N, 12);
   const auto error = [](const std::string& text, const std::string& message) {
     EXPECT_THAT([&] { Load(text); },
                 ThrowsMessage<InputError>(HasSubstr(message)));
@@ -121,6 +127,7 @@ TEST(SceneTest, ReadsMeasurementsAndSmoothing) {
   error("contacts: 2\nobject: {shape: circle, radius_mm: 20}\n" + measured,
         "needs contacts: 1 or auto");
   error("measurements: {object_std_mm: 0}\n", "object_std_mm");
+  error("force_max_N: 0\n", "force_max_N");
   error("smoothing: {contact_std_mm: 1}\n", "normal_std_N");
   error("smoothing: {contact_mm: 1, normal_std_N: 1}\n", "contact_std_mm");
 }

@@ -132,6 +132,8 @@ TEST(LogEstimatorTest, WithoutAWalkFramesAreThoseOfTheFrameEstimator) {
     // The whole log has weak priors and a robust loss.
     EXPECT_NEAR(a.arc_mm, b.arc_mm, 0.1 * b.arc_std_mm) << t;
     EXPECT_NEAR(a.normal_N, b.normal_N, 0.1 * b.normal_std_N) << t;
+    // Only frames by themselves look along the valley.
+    if (alone.valley) continue;
     EXPECT_NEAR(a.normal_std_N / b.normal_std_N, 1, 0.1) << t;
   }
   EXPECT_GT(ok, 150);

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "finray/finger/geometry.h"
 #include "finray/sensing/frame_estimator.h"
 #include "studies/gauge_frames.h"
 #include "test_finger.h"
@@ -120,6 +121,8 @@ inline SensingOutcome RunSensing(const SensingCase& c, int frames,
                                  unsigned seed = 1) {
   Scene scene;
   if (!c.automatic) scene.contacts = 1;
+  // Some cases press harder than is credible by default.
+  scene.force_max_N = 160 * ForceUnit(c.told);
   EquilibriumSolver solver(c.truth, {Scheme::kTaylor, 96});
   std::unique_ptr<FrameEstimator> estimator;
   std::mt19937_64 generator(seed);

@@ -31,6 +31,10 @@ void ResultColumns::ForEach(const Measurements& readings,
     column([c] { return ContactX(c); }, contact.pose.x());
     column([c] { return ContactY(c); }, contact.pose.y());
     column([c] { return ContactAngle(c); }, contact.pose.z());
+    column([c] { return ContactArcLow(c); }, contact.arc_low_mm);
+    column([c] { return ContactArcHigh(c); }, contact.arc_high_mm);
+    column([c] { return NormalForceLow(c); }, contact.normal_low_N);
+    column([c] { return NormalForceHigh(c); }, contact.normal_high_N);
   }
   for (std::size_t j = 0; j < gauges_.size(); ++j) {
     Gauge gauge = gauges_[j];

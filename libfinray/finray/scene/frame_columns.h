@@ -29,6 +29,12 @@ inline std::string ContactArc(int c) {
 inline std::string ContactArcStd(int c) {
   return IndexedColumn("contact_", c, "_std_mm");
 }
+inline std::string ContactArcLow(int c) {
+  return IndexedColumn("contact_", c, "_low_mm");
+}
+inline std::string ContactArcHigh(int c) {
+  return IndexedColumn("contact_", c, "_high_mm");
+}
 inline std::string ContactX(int c) {
   return IndexedColumn("contact_", c, "_x_mm");
 }
@@ -43,6 +49,12 @@ inline std::string NormalForce(int c) {
 }
 inline std::string NormalForceStd(int c) {
   return IndexedColumn("normal_", c, "_std_N");
+}
+inline std::string NormalForceLow(int c) {
+  return IndexedColumn("normal_", c, "_low_N");
+}
+inline std::string NormalForceHigh(int c) {
+  return IndexedColumn("normal_", c, "_high_N");
 }
 inline std::string AlternativeContactArc(int c) {
   return IndexedColumn("alternative_contact_", c, "_mm");

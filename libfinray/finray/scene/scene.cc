@@ -199,14 +199,17 @@ std::map<std::string, std::string> ReadColumns(const YamlMap& yaml) {
 
 Scene ReadScene(const YamlMap& yaml) {
   yaml.AllowOnly({"schema_version", "contacts", "contact_beams",
-                  "friction_coefficient", "object", "measurements", "smoothing",
-                  "gauge_offset_walk", "columns"});
+                  "friction_coefficient", "force_max_N", "object",
+                  "measurements", "smoothing", "gauge_offset_walk", "columns"});
   if (yaml.Has("schema_version") && yaml.Integer("schema_version") != 1) {
     yaml.Fail("schema_version", "expected 1");
   }
   Scene scene;
   scene.contacts = ReadContacts(yaml);
   scene.friction_coefficient = yaml.Number("friction_coefficient", 0);
+  if (yaml.Has("force_max_N")) {
+    scene.force_max_N = yaml.PositiveNumber("force_max_N");
+  }
   if (yaml.Has("object")) scene.object = ReadObject(yaml.Map("object"));
   ReadContactBeams(yaml, &scene);
   if (yaml.Has("measurements")) {

@@ -44,6 +44,9 @@ struct Scene {
   /// Std of the rib pins and of the tip seen by a camera. Empty: the estimate
   /// does not use them. Only --solver ceres does.
   std::optional<double> pin_std_mm, tip_std_mm;
+  /// The largest credible force of a contact. Empty: a multiple of EI / l_0^2
+  /// (ContactSearch::most_force_N).
+  std::optional<double> force_max_N;
   /// How much l_c and f_c change between frames. Empty: neighbouring frames are
   /// not smoothed.
   std::optional<Smoothing> smoothing;

@@ -1,5 +1,7 @@
 #include "finray/sensing/calibration_uncertainty.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 
@@ -52,6 +54,62 @@ ContactMatrix CalibrationUncertainty::Of(
   }
   covariance.noalias() = m.by_factor.lazyProduct(m.by_factor.transpose());
   return covariance;
+}
+
+double CalibrationUncertainty::Chi2(const std::vector<PointContact>& contacts,
+                                    const std::vector<double>& readings_V,
+                                    const Eigen::VectorXd& weights) {
+  Model& m = *model_;
+  const auto unknowns = 2 * static_cast<Eigen::Index>(contacts.size());
+  m.solver.Reset();
+  if (!m.solver.SolveWithSensitivities(contacts)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  ReadSensitivities(m.solver, contacts, std::nullopt, &m.derivatives);
+  const Eigen::Index gauges = m.derivatives.rows();
+  const std::vector<FingerParameter>& parameters =
+      m.finger.calibration->parameters;
+  Eigen::VectorXd residuals = Eigen::VectorXd::Zero(gauges);
+  Eigen::MatrixXd by_parameter = Eigen::MatrixXd::Zero(
+      gauges, static_cast<Eigen::Index>(parameters.size()));
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const int index = parameters[k].index;
+    auto column = by_parameter.col(static_cast<Eigen::Index>(k));
+    switch (parameters[k].kind) {
+      case FingerParameterKind::kFrontStiffness:
+        column = m.derivatives.col(unknowns);
+        break;
+      case FingerParameterKind::kBackStiffness:
+        column = m.derivatives.col(unknowns + 1);
+        break;
+      case FingerParameterKind::kRibLength:
+        column = m.derivatives.col(unknowns + 2 + index);
+        break;
+      case FingerParameterKind::kGaugeGain:
+        if (weights[index] == 0) break;  // it may have no reading
+        column[index] = m.finger.gauges[index].Angle(readings_V[index]) /
+                        m.finger.gauges[index].gain_V_per_rad;
+        break;
+      case FingerParameterKind::kGaugeOffset:
+        column[index] = 1 / m.finger.gauges[index].gain_V_per_rad;
+        break;
+    }
+  }
+  for (Eigen::Index j = 0; j < gauges; ++j) {
+    if (weights[j] == 0) continue;
+    const auto i = static_cast<std::size_t>(j);
+    residuals[j] = weights[j] * (m.solver.outputs()[j] -
+                                 m.finger.gauges[i].Angle(readings_V[i]));
+  }
+  const Eigen::MatrixXd error =
+      weights.head(gauges).asDiagonal() * by_parameter * m.factor;
+  const Eigen::LLT<Eigen::MatrixXd> covariance(
+      Eigen::MatrixXd::Identity(gauges, gauges) + error * error.transpose());
+  const Eigen::MatrixXd slope = covariance.matrixL().solve(
+      weights.head(gauges).asDiagonal() * m.derivatives.leftCols(unknowns));
+  const Eigen::VectorXd whitened = covariance.matrixL().solve(residuals);
+  return (whitened - slope * slope.colPivHouseholderQr().solve(whitened))
+      .squaredNorm();
 }
 
 bool CalibrationUncertainty::FindDerivatives(

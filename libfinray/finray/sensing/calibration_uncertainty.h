@@ -54,6 +54,18 @@ class CalibrationUncertainty {
                    const std::vector<double>& readings_V,
                    const Eigen::VectorXd& weights);
 
+  /// The least chi2 of as many contacts near a solution, with parameters that
+  /// may be off as the calibration says. Linear in both,
+  ///
+  ///   min over x of (r + J x)' (W^-1 + D C_pp D')^-1 (r + J x),   D = dr/dp,
+  ///
+  /// where r are the residuals of the gauge angles in rad. Infinite without an
+  /// equilibrium. It solves one and allocates; use it for rare frames only, and
+  /// not with a measured circle.
+  double Chi2(const std::vector<PointContact>& contacts,
+              const std::vector<double>& readings_V,
+              const Eigen::VectorXd& weights);
+
  private:
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
                              2 * kFittedContacts, Eigen::Dynamic>;

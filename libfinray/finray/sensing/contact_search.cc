@@ -33,15 +33,16 @@ ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
       length_mm_(finger.front_length_mm),
       solver_(finger, discretization),
       table_(&solver_, scene.friction_coefficient, MeasuredRadius(scene)),
+      most_force_N_(scene.force_max_N.value_or(table_.heaviest_N())),
       method_(method),
       fit_(finger, discretization, MeasuredRadius(scene)),
       problem_(finger, scene, discretization,
                method == FrameMethod::kCeresWeighted
                    ? EquilibriumForm::kWeighted
                    : EquilibriumForm::kReduced,
-               kMostForce * table_.heaviest_N()),
+               most_force_N_),
       solutions_(kMostPairStarts) {
-  fit_.set_most_force(kMostForce * table_.heaviest_N());
+  fit_.set_most_force(most_force_N_);
   for (ContactSolution& solution : solutions_) {
     solution.rib_tension_N.resize(finger.ribs.size());
   }
@@ -111,6 +112,7 @@ void ContactSearch::FindStarts(int contacts, const PackedReadings& packed) {
   // A frame with camera measurements only has its starts spread over the
   // finger.
   const bool spread = packed.weights.isZero(0);
+  profile_.clear();
   if (contacts == 1 && spread) {
     starts_.clear();
     const auto& rows = table_.rows();
@@ -128,7 +130,8 @@ void ContactSearch::FindStarts(int contacts, const PackedReadings& packed) {
     return;
   }
   if (contacts == 1) {
-    table_.FindStarts(packed.values, packed.weights, &starts_);
+    table_.Profile(packed.values, packed.weights, &profile_);
+    GaugeTable::FindStarts(profile_, &starts_);
     if (starts_.size() > kMostStarts) starts_.resize(kMostStarts);
     return;
   }
@@ -194,7 +197,12 @@ void ContactSearch::Keep() {
       }
     }
   }
-  if (found_ == 0 || solution.chi2 < least_chi2()) best_ = found_;
+  // A force on its bound is not credible and wins only where nothing else
+  // explains the frame.
+  const auto chi2 = [this](const ContactSolution& of) {
+    return of.chi2 + (HasMostForce(of) ? kWithinNoise : 0);
+  };
+  if (found_ == 0 || chi2(solution) < chi2(best())) best_ = found_;
   ++found_;
 }
 
@@ -214,15 +222,22 @@ const ContactSolution* ContactSearch::rival() const {
   for (int i = 0; i < found_; ++i) {
     const ContactSolution& other = solutions_[i];
     if (i == best_ || other.chi2 > best().chi2 + kWithinNoise) continue;
+    if (HasMostForce(other) && !HasMostForce(best())) continue;
     if (!IsDistinct(other)) continue;
     if (rival == nullptr || other.chi2 < rival->chi2) rival = &other;
   }
   return rival;
 }
 
+bool ContactSearch::HasMostForce(const ContactSolution& solution) const {
+  for (int c = 0; c < solution.count; ++c) {
+    if (solution.contacts[c].normal_N >= most_force_N_) return true;
+  }
+  return false;
+}
+
 bool ContactSearch::OnBound(double arc_mm, double normal_N) const {
-  return arc_mm <= 0 || arc_mm >= length_mm_ ||
-         normal_N >= kMostForce * table_.heaviest_N();
+  return arc_mm <= 0 || arc_mm >= length_mm_ || normal_N >= most_force_N_;
 }
 
 }  // namespace finray

@@ -33,7 +33,6 @@ class ContactSearch {
   /// Two solutions explain a frame equally well if their chi2 differ by less
   /// than this, the 99 % quantile of chi-squared with two degrees of freedom.
   static constexpr double kWithinNoise = 9.21;
-  static constexpr double kMostForce = 4;  ///< times table().heaviest_N()
 
   /// Throws InputError for a finger without an unloaded equilibrium.
   ContactSearch(const Finger& finger, const Scene& scene,
@@ -55,6 +54,9 @@ class ContactSearch {
   /// The best solution that is distinct from best() beyond its uncertainty and
   /// explains the frame as well; null if there is none.
   const ContactSolution* rival() const;
+  /// The best contact at each place of the table (GaugeTable::Profile). Empty
+  /// after a search for two contacts or without gauges.
+  const std::vector<ContactStart>& profile() const { return profile_; }
   /// Number of iterations of all fits of the last search.
   int iterations() const { return iterations_; }
 
@@ -67,6 +69,9 @@ class ContactSearch {
   bool OnBound(double arc_mm, double normal_N) const;
 
   const GaugeTable& table() const { return table_; }
+  /// The largest credible force: the scene's force_max_N, by default
+  /// table().heaviest_N().
+  double most_force_N() const { return most_force_N_; }
 
  private:
   void FindStarts(int contacts, const PackedReadings& packed);
@@ -76,17 +81,20 @@ class ContactSearch {
   // Keeps the next solution, with its contacts sorted from base to tip.
   void Keep();
   double least_chi2() const;
+  // Says whether a force is on its bound.
+  bool HasMostForce(const ContactSolution& solution) const;
   bool IsDistinct(const ContactSolution& other) const;
 
   Scene scene_;
   double length_mm_;
   EquilibriumSolver solver_;
   GaugeTable table_;
+  double most_force_N_;
   std::unique_ptr<PairTable> pair_table_;  // made when needed
   FrameMethod method_;
   ContactFit fit_;
   FrameProblem problem_;
-  std::vector<ContactStart> starts_;
+  std::vector<ContactStart> profile_, starts_;
   std::vector<PointContact> contacts_;
   std::vector<ContactSolution> solutions_;  // allocated for the largest search
   int found_ = 0, best_ = 0, iterations_ = 0;

@@ -1,5 +1,6 @@
 #include "finray/sensing/frame_estimate.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "finray/finger/point_contact.h"
@@ -27,6 +28,31 @@ double FrameEstimate::p_value() const { return ChiSquaredTail(chi2, dof); }
 
 double FrameEstimate::noise_scale() const {
   return p_value() < kUnexplained ? std::sqrt(chi2 / dof) : 1;
+}
+
+void FrameEstimate::SetIntervals(double length_mm) {
+  for (int c = 0; c < contacts; ++c) {
+    ContactEstimate& of = contact[c];
+    double arc_below = 2 * of.arc_std_mm, arc_above = arc_below;
+    double normal_below = 2 * of.normal_std_N, normal_above = normal_below;
+    if (c == 0 && valley) {
+      const bool known = calibration_covariance.size() == 0;
+      const double arc_more =
+          known ? 0 : 2 * std::sqrt(calibration_covariance(0, 0));
+      const double normal_more =
+          known ? 0 : 2 * std::sqrt(calibration_covariance(1, 1));
+      arc_below = std::hypot(of.arc_mm - valley->arc_low_mm, arc_more);
+      arc_above = std::hypot(valley->arc_high_mm - of.arc_mm, arc_more);
+      normal_below =
+          std::hypot(of.normal_N - valley->normal_low_N, normal_more);
+      normal_above =
+          std::hypot(valley->normal_high_N - of.normal_N, normal_more);
+    }
+    of.arc_low_mm = std::max(0.0, of.arc_mm - arc_below);
+    of.arc_high_mm = std::min(length_mm, of.arc_mm + arc_above);
+    of.normal_low_N = std::max(0.0, of.normal_N - normal_below);
+    of.normal_high_N = of.normal_N + normal_above;
+  }
 }
 
 double EstimatedForce(const FrameEstimate& estimate,

@@ -4,9 +4,11 @@
 #include <Eigen/Core>
 #include <array>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "finray/sensing/contact_covariance.h"
+#include "finray/sensing/valley.h"
 
 namespace finray {
 
@@ -29,6 +31,12 @@ struct ContactEstimate {
   /// x, y (mm) and theta (rad) of the front beam at the contact.
   Eigen::Vector3d pose =
       Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  /// The interval of two std; where the valley of chi2 is curved, what its
+  /// profile says (Valley).
+  double arc_low_mm = std::numeric_limits<double>::quiet_NaN();
+  double arc_high_mm = std::numeric_limits<double>::quiet_NaN();
+  double normal_low_N = std::numeric_limits<double>::quiet_NaN();
+  double normal_high_N = std::numeric_limits<double>::quiet_NaN();
 };
 using ContactEstimates = std::array<ContactEstimate, kFittedContacts>;
 
@@ -49,6 +57,8 @@ struct FrameEstimate {
   /// Due to the errors of the calibration. Empty if the finger has no
   /// covariance.
   Eigen::MatrixXd calibration_covariance;
+  /// Of the one contact of the frame alone, where it is curved.
+  std::optional<Valley> valley;
   Eigen::Vector3d tip_pose =
       Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   std::vector<double> rib_tension_N;
@@ -73,6 +83,9 @@ struct FrameEstimate {
   /// not explain the frame, and an unknown error of about this size is assumed.
   double noise_scale() const;
   static constexpr double kUnexplained = 0.001;
+
+  /// Sets the intervals of all contacts from their std and the valley.
+  void SetIntervals(double length_mm);
 };
 
 /// Magnitude of the total force of all contacts in N, for comparison with a

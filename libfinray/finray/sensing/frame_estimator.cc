@@ -174,7 +174,7 @@ void FrameEstimator::SearchAlone(const Measurements& readings,
 // Says whether later frames can be followed from the frame searched last.
 bool FrameEstimator::CanFollow(const PackedReadings& packed,
                                const FrameEstimate& estimate) {
-  return follower_ && estimate.contacts == 1 &&
+  return follower_ && estimate.contacts == 1 && !estimate.valley &&
          StatusOf(estimate, finger_, search_) == FrameStatus::kOk &&
          follower_->Start(search_.best(), ArcStd(search_.best().information),
                           packed.gauges);
@@ -210,6 +210,7 @@ bool FrameEstimator::TakeFollowed(const PackedReadings& packed, std::size_t run,
   estimate->contact[0] = {fit.arc_mm, arc_std, fit.normal_N,
                           std::sqrt(covariance(1, 1)), fit.contact_pose};
   estimate->contact[1] = {};
+  estimate->valley.reset();
   estimate->noise_covariance = covariance;
   estimate->alternative = {};
   estimate->alternative_chi2 = kNaN;
@@ -255,8 +256,26 @@ void FrameEstimator::Automatic(const Measurements& readings,
   const double without =
       one.contacts == 1 ? one.chi2 : packed.free_chi2 - kSignificance;
   if (without - two.chi2 < kSecondSignificance) return;
+  if (one.contacts == 1 && !IsSecondCertain(readings, packed, one)) return;
   *estimate = Found(packed);
   estimate->iterations += before;
+}
+
+// Errors of the calibration bend the readings of one contact too. A second one
+// must explain more than they do.
+bool FrameEstimator::IsSecondCertain(const Measurements& readings,
+                                     const PackedReadings& packed,
+                                     const FrameEstimate& one) {
+  if (systematic_.empty() || packed.camera > 0) return true;
+  const ContactSolution& two = search_.best();
+  const double friction = scene_.friction_coefficient;
+  const double without = systematic_.Chi2(
+      {{one.contact[0].arc_mm, one.contact[0].normal_N, friction}},
+      readings.gauges_V, packed.weights);
+  const double with =
+      systematic_.Chi2({two.contacts.begin(), two.contacts.end()},
+                       readings.gauges_V, packed.weights);
+  return without - with >= kSecondSignificance;
 }
 
 void FrameEstimator::WithContacts(const Measurements& readings,
@@ -311,6 +330,12 @@ FrameEstimate FrameEstimator::Found(const PackedReadings& packed) const {
     contact.arc_std_mm = scale * std::sqrt(covariance(2 * c, 2 * c));
     contact.normal_std_N = scale * std::sqrt(covariance(2 * c + 1, 2 * c + 1));
   }
+  // A camera's points are not in the table.
+  if (best.count == 1 && packed.camera == 0) {
+    estimate.valley = FindValley(
+        search_.profile(), best, estimate.contact[0].arc_std_mm,
+        estimate.contact[0].normal_std_N, scale, finger_.front_length_mm);
+  }
   if (const ContactSolution* rival = search_.rival()) {
     CopyContacts(*rival, &estimate.alternative);
     estimate.alternative_chi2 = rival->chi2;
@@ -322,6 +347,11 @@ void FrameEstimator::Judge(const Measurements& readings,
                            const PackedReadings& packed,
                            FrameEstimate* estimate) {
   if (estimate->contacts == 0) return;
+  if (estimate->valley) {
+    ContactEstimate& contact = estimate->contact[0];
+    contact.arc_std_mm *= estimate->valley->arc_factor;
+    contact.normal_std_N *= estimate->valley->normal_factor;
+  }
   if (!systematic_.empty()) {
     contacts_.clear();
     for (int c = 0; c < estimate->contacts; ++c) {
@@ -335,6 +365,7 @@ void FrameEstimator::Judge(const Measurements& readings,
     }
     AddCovariance(estimate->calibration_covariance, estimate);
   }
+  estimate->SetIntervals(finger_.front_length_mm);
   estimate->status = StatusOf(*estimate, finger_, search_);
 }
 

@@ -19,7 +19,8 @@ namespace finray {
 ///
 /// `contacts: auto` takes a contact if it lowers chi2 by kSignificance or more.
 /// With four gauges or more it takes a second one if that lowers chi2 by
-/// another kSecondSignificance or more.
+/// another kSecondSignificance or more, also with the errors that the finger's
+/// calibration may have (CalibrationUncertainty::Chi2).
 ///
 /// The scene's gauge_offset_walk is for LogEstimator and is ignored here.
 ///
@@ -77,6 +78,8 @@ class FrameEstimator {
   }
 
   const Finger& finger() const { return finger_; }
+  /// No force of a contact is larger (Scene::force_max_N).
+  double most_force_N() const { return search_.most_force_N(); }
 
   // LogEstimator judges its frames by these, too.
 
@@ -108,6 +111,8 @@ class FrameEstimator {
                     FrameEstimate* estimate);
   void Automatic(const Measurements& readings, const PackedReadings& packed,
                  FrameEstimate* estimate);
+  bool IsSecondCertain(const Measurements& readings,
+                       const PackedReadings& packed, const FrameEstimate& one);
   void WithContacts(const Measurements& readings, const PackedReadings& packed,
                     int contacts, FrameEstimate* estimate);
   void Free(const PackedReadings& packed, FrameEstimate* estimate) const;

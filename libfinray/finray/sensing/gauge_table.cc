@@ -263,25 +263,30 @@ const LadderState& GaugeTable::StateNear(double arc_mm, double normal_N) const {
       ->state;
 }
 
-void GaugeTable::FindStarts(const Eigen::VectorXd& values,
-                            const Eigen::VectorXd& weights,
-                            std::vector<ContactStart>* starts) const {
-  std::array<ContactStart, kMostRows> best;
-  const int rows = static_cast<int>(rows_.size());
-  for (int i = 0; i < rows; ++i) {
-    best[i] = Refined(rows_[i], NearestChord(rows_[i], values, weights), values,
-                      weights);
+void GaugeTable::Profile(const Eigen::VectorXd& values,
+                         const Eigen::VectorXd& weights,
+                         std::vector<ContactStart>* profile) const {
+  profile->resize(rows_.size());
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    (*profile)[i] = Refined(rows_[i], NearestChord(rows_[i], values, weights),
+                            values, weights);
   }
+}
+
+void GaugeTable::FindStarts(const std::vector<ContactStart>& profile,
+                            std::vector<ContactStart>* starts) {
+  const std::size_t rows = profile.size();
   starts->clear();
-  for (int i = 0; i < rows; ++i) {
-    if (best[i].state == nullptr) continue;
-    const bool below_left = i == 0 || best[i].chi2 <= best[i - 1].chi2;
-    const bool below_right = i + 1 == rows || best[i].chi2 < best[i + 1].chi2;
+  for (std::size_t i = 0; i < rows; ++i) {
+    if (profile[i].state == nullptr) continue;
+    const bool below_left = i == 0 || profile[i].chi2 <= profile[i - 1].chi2;
+    const bool below_right =
+        i + 1 == rows || profile[i].chi2 < profile[i + 1].chi2;
     if (!below_left || !below_right) continue;
-    starts->push_back(best[i]);
+    starts->push_back(profile[i]);
     if (i > 0 && i + 1 < rows) {
-      starts->back().chi2 =
-          LeastOfParabola(best[i - 1].chi2, best[i].chi2, best[i + 1].chi2);
+      starts->back().chi2 = LeastOfParabola(
+          profile[i - 1].chi2, profile[i].chi2, profile[i + 1].chi2);
     }
   }
   std::sort(starts->begin(), starts->end(),

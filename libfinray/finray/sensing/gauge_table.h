@@ -31,10 +31,15 @@ class GaugeTable {
              std::optional<double> circle_radius_mm, int threads = 1,
              int rows = kMostRows);
 
-  /// Finds the local minima over l_c of the misfit to `values`, best first.
-  /// `weights` whiten the misfit (0: not measured). f_c is interpolated.
-  void FindStarts(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
-                  std::vector<ContactStart>* starts) const;
+  /// Finds the best contact of each row, from base to tip. `weights` whiten the
+  /// misfit to `values` (0: not measured). f_c is interpolated. A row without
+  /// load has an infinite chi2.
+  void Profile(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
+               std::vector<ContactStart>* profile) const;
+
+  /// Finds the local minima of a profile, best first.
+  static void FindStarts(const std::vector<ContactStart>& profile,
+                         std::vector<ContactStart>* starts);
 
   /// The best start to within a row's spacing, in less time than FindStarts.
   /// Its `state` is null if there is no start.
@@ -46,6 +51,9 @@ class GaugeTable {
 
   /// The largest force of the grid, 40 EI / l_0^2.
   double heaviest_N() const { return heaviest_N_; }
+
+  /// The friction coefficient of all its contacts.
+  double friction() const { return friction_; }
 
   struct Node {
     double normal_N;

@@ -269,6 +269,7 @@ void LogEstimator::JudgeContact(const LogFrame& frame,
     estimate->alternative[0].pose = rival.poses[0];
     estimate->alternative_chi2 = estimate->chi2 + frame.rival->more_chi2;
   }
+  estimate->SetIntervals(finger_.front_length_mm);
   estimate->status =
       FrameEstimator::StatusOf(*estimate, finger_, detection_.search());
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "finray/finger/geometry.h"
 #include "finray/sensing/chi_squared.h"
 #include "finray/sensing/frame_estimator.h"
 
@@ -16,11 +17,21 @@ constexpr double kCouldBeFree = 1e-3, kExplained = 1e-4;
 // A contact also explains what it leaves so small a share of. Fingers differ
 // from their model by a percent, which is many std of a reading under load.
 constexpr double kLeftOver = 0.2;
+// The largest force unless the scene says so, in EI / l_0^2. A fit that needs
+// more than is credible still says that something touches.
+constexpr double kDetectedForce = 160;
 // The guard has this many frames at least.
 constexpr std::size_t kLeastGuard = 2;
 
 std::size_t At(std::size_t i, std::size_t count, bool forward) {
   return forward ? i : count - 1 - i;
+}
+
+Scene WithAnyForce(Scene scene, const Finger& finger) {
+  if (!scene.force_max_N) {
+    scene.force_max_N = kDetectedForce * ForceUnit(finger);
+  }
+  return scene;
 }
 
 }  // namespace
@@ -32,7 +43,7 @@ TouchDetection::TouchDetection(const Finger& finger, const Scene& scene,
       walk_(scene.gauge_offset_walk
                 ? std::pow(scene.gauge_offset_walk->std_V_per_sqrt_s, 2)
                 : 0),
-      search_(finger, scene, discretization) {
+      search_(finger, WithAnyForce(scene, finger), discretization) {
   if (walk_ == 0) return;
   guard_s_ = kLongestGuard_s;
   for (const Gauge& gauge : finger.gauges) {

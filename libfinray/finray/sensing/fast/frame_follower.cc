@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "finray/sensing/valley.h"
+
 namespace finray {
 namespace {
 
@@ -21,7 +23,7 @@ Eigen::VectorXd AllWeights(const Finger& finger) {
 RivalMap MapRivals(const Finger& finger, const Discretization& discretization,
                    const ContactSearch& search) {
   ContactFit fit(finger, discretization);
-  fit.set_most_force(ContactSearch::kMostForce * search.table().heaviest_N());
+  fit.set_most_force(search.most_force_N());
   return {search.table(), AllWeights(finger), &fit};
 }
 
@@ -39,8 +41,7 @@ FrameFollower::FrameFollower(const Finger& finger, const Scene& scene,
       rivals_(MapRivals(finger, discretization, search)),
       group_(finger, discretization, scene.friction_coefficient) {
   group_.set_tolerance(kTolerance);
-  group_.set_most_force(ContactSearch::kMostForce *
-                        search.table().heaviest_N());
+  group_.set_most_force(search.most_force_N());
 }
 
 bool FrameFollower::Start(const ContactSolution& solution, double arc_std_mm,
@@ -48,7 +49,7 @@ bool FrameFollower::Start(const ContactSolution& solution, double arc_std_mm,
   const PointContact& contact = solution.contacts[0];
   if (solution.count != 1 || gauges != gauges_ ||
       !rivals_.IsUnique(contact.arc_mm, arc_std_mm, contact.normal_N,
-                        solution.chi2, ContactSearch::kWithinNoise)) {
+                        solution.chi2, Valley::kFarthest * Valley::kFarthest)) {
     return false;
   }
   group_.Start(solution.state, contact);
@@ -74,7 +75,7 @@ bool FrameFollower::IsCertain(std::size_t frame, double arc_std_mm) const {
   const FrameFit& fit = fits_[frame];
   return fit.converged && !search_.OnBound(fit.arc_mm, fit.normal_N) &&
          rivals_.IsUnique(fit.arc_mm, arc_std_mm, fit.normal_N, fit.chi2,
-                          ContactSearch::kWithinNoise);
+                          Valley::kFarthest * Valley::kFarthest);
 }
 
 }  // namespace finray

@@ -18,6 +18,8 @@ constexpr double kTableFactor = 0.25, kFarAbove = 400;
 constexpr double kFitTolerance = 1e-5;
 // The largest std of l_c, in row spacings.
 constexpr double kWidest = 0.5;
+// A valley is straight to within this factor, with a margin to that of Valley.
+constexpr double kStraight = 1.1;
 // Starts within this many rows of the node's own are the same contact.
 constexpr double kSameRows = 1.5;
 
@@ -40,7 +42,8 @@ double RivalMap::DistancePerN(const GaugeTable::Node& node, double arc_mm,
   const double same_mm = kSameRows * table_.row_spacing_mm();
   double least = std::numeric_limits<double>::infinity();
   std::vector<PointContact> contact(1);
-  table_.FindStarts(node.values, weights, &starts_);
+  table_.Profile(node.values, weights, &profile_);
+  GaugeTable::FindStarts(profile_, &starts_);
   for (const ContactStart& start : starts_) {
     contact[0] = start.contacts[0];
     if (std::abs(contact[0].arc_mm - arc_mm) <= same_mm) continue;
@@ -53,6 +56,23 @@ double RivalMap::DistancePerN(const GaugeTable::Node& node, double arc_mm,
       }
     }
     least = std::min(least, chi2);
+  }
+  // Places that the node's std puts farther away than their chi2 does
+  // (Valley).
+  contact[0] = {arc_mm, node.normal_N, table_.friction()};
+  fit->set_state(node.state);
+  if (!fit->Fit(node.values, weights, &contact)) return 0;
+  const ContactMatrix covariance = CovarianceOf(fit->information());
+  for (const ContactStart& place : profile_) {
+    const double arc_away = std::abs(place.contacts[0].arc_mm - arc_mm);
+    const double normal_away =
+        std::abs(place.contacts[0].normal_N - node.normal_N);
+    const double d = std::sqrt(place.chi2);
+    if (arc_away <= same_mm) continue;
+    if (arc_away > kStraight * d * std::sqrt(covariance(0, 0)) ||
+        normal_away > kStraight * d * std::sqrt(covariance(1, 1))) {
+      least = std::min(least, place.chi2);
+    }
   }
   return std::sqrt(least) / node.normal_N;
 }
