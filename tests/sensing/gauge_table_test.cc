@@ -48,7 +48,8 @@ TEST_F(GaugeTableTest, BestStartIsTheBestOfAll) {
   for (double arc_mm = 30; arc_mm < 110; arc_mm += 2.3) {
     for (const double normal_N : {0.9, 2.0, 4.1, 7.3}) {
       const Eigen::VectorXd values = Measured(arc_mm, normal_N);
-      table_.FindStarts(values, weights_, &starts);
+      std::vector<ContactStart> rows;
+      table_.FindStarts(values, weights_, &starts, &rows);
       ASSERT_FALSE(starts.empty());
       const ContactStart best = table_.BestStart(values, weights_);
       ASSERT_NE(best.state, nullptr);

@@ -70,6 +70,14 @@ class ContactSearch {
 
  private:
   void FindStarts(int contacts, const PackedReadings& packed);
+  // Fits from rows of the table that the solutions found do not account for.
+  void SearchRows(const PackedReadings& packed);
+  // Whether a minimum within noise, other than those found, may lie near a row.
+  bool Hides(std::size_t row) const;
+  // The least chi2 that the solutions found expect of a contact at that place.
+  double ExpectedChi2(double arc_mm) const;
+  // Whether the next solution is one of those found.
+  bool IsKnown() const;
   // FitFast and FitByCeres fit from a start and fill in the next solution.
   bool FitFast(const ContactStart& start, const PackedReadings& packed);
   bool FitByCeres(const ContactStart& start, const Measurements& row);
@@ -86,7 +94,7 @@ class ContactSearch {
   FrameMethod method_;
   ContactFit fit_;
   FrameProblem problem_;
-  std::vector<ContactStart> starts_;
+  std::vector<ContactStart> starts_, rows_;
   std::vector<PointContact> contacts_;
   std::vector<ContactSolution> solutions_;  // allocated for the largest search
   int found_ = 0, best_ = 0, iterations_ = 0;

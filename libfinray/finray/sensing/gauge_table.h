@@ -32,9 +32,12 @@ class GaugeTable {
              int rows = kMostRows);
 
   /// Finds the local minima over l_c of the misfit to `values`, best first.
-  /// `weights` whiten the misfit (0: not measured). f_c is interpolated.
+  /// `weights` whiten the misfit (0: not measured). f_c is interpolated. `rows`
+  /// gets the best start of each row from base to tip; its state is null if it
+  /// has none.
   void FindStarts(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
-                  std::vector<ContactStart>* starts) const;
+                  std::vector<ContactStart>* starts,
+                  std::vector<ContactStart>* rows) const;
 
   /// The best start to within a row's spacing, in less time than FindStarts.
   /// Its `state` is null if there is no start.
@@ -71,6 +74,8 @@ class GaugeTable {
     std::size_t to = 0;  // index of the node at its end; 0: none
     double share = 0;    // of the way to that node
   };
+  void FindErrors(EquilibriumSolver* solver,
+                  const std::optional<double>& circle_radius_mm);
   OnChord NearestChord(const Row& row, const Eigen::VectorXd& values,
                        const Eigen::VectorXd& weights) const;
   ContactStart Refined(const Row& row, const OnChord& chord,
@@ -81,6 +86,7 @@ class GaugeTable {
   double heaviest_N_, row_spacing_mm_;
   Eigen::VectorXd free_angles_;
   std::vector<Row> rows_;
+  Eigen::ArrayXXd errors_;  // of interpolated values, values x chords
 };
 
 }  // namespace finray

@@ -40,7 +40,7 @@ double RivalMap::DistancePerN(const GaugeTable::Node& node, double arc_mm,
   const double same_mm = kSameRows * table_.row_spacing_mm();
   double least = std::numeric_limits<double>::infinity();
   std::vector<PointContact> contact(1);
-  table_.FindStarts(node.values, weights, &starts_);
+  table_.FindStarts(node.values, weights, &starts_, &rows_);
   for (const ContactStart& start : starts_) {
     contact[0] = start.contacts[0];
     if (std::abs(contact[0].arc_mm - arc_mm) <= same_mm) continue;

@@ -37,7 +37,7 @@ class RivalMap {
   const GaugeTable& table_;
   // d / f_c of the table's nodes, without the unloaded one.
   std::vector<std::vector<double>> distance_per_N_;
-  std::vector<ContactStart> starts_;
+  std::vector<ContactStart> starts_, rows_;
 };
 
 }  // namespace finray
