@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/finger/geometry.h"
 #include "finray/sensing/chi_squared.h"
 
 namespace finray {
@@ -15,9 +16,25 @@ constexpr double kWellExplained = 0.01, kNearlyNothing = 4;
 // start.
 constexpr double kTableFactor = 0.25;
 constexpr std::size_t kMostStarts = 4, kMostPairStarts = 12, kMostFallbacks = 4;
+// A row of the table hides a minimum if its chi2 is below this fraction of what
+// the solutions found expect there.
+constexpr double kHides = 0.5;
+constexpr int kMostSolutions = 16;
+constexpr double kSame = 0.01;  // chi2 between fits of one minimum
 // A rival lies outside the region that holds 99 % of the estimates. These are
 // the quantiles of chi-squared for two and for four parameters.
 constexpr double kDistinct[] = {9.21, 13.28};
+
+// The table is too coarse where its values are wrong by more std than this.
+constexpr double kCoarse = 1;
+// An upright finger bends alike wherever it is touched, and each bay between
+// ribs may hold a minimum.
+constexpr double kUpright_rad = 93 * kDegree;
+constexpr std::size_t kCrowded = 13;
+
+bool HasCloseMinima(const Finger& finger) {
+  return finger.back_angle_rad < kUpright_rad || finger.ribs.size() >= kCrowded;
+}
 
 }  // namespace
 
@@ -41,7 +58,7 @@ ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
                    ? EquilibriumForm::kWeighted
                    : EquilibriumForm::kReduced,
                most_force_N_),
-      solutions_(kMostPairStarts) {
+      solutions_(kMostSolutions) {
   fit_.set_most_force(most_force_N_);
   for (ContactSolution& solution : solutions_) {
     solution.rib_tension_N.resize(finger.ribs.size());
@@ -93,7 +110,70 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
       fallbacks = kMostFallbacks;
     }
   }
+  if (contacts == 1 && found_ > 0 && method_ == FrameMethod::kFast &&
+      (exact || HasCloseMinima(solver_.model().finger()) ||
+       (!starts_.empty() && starts_[0].error > kCoarse))) {
+    SearchRows(packed);
+  }
   return found_ > 0;
+}
+
+// Minima lie close together where a finger is upright or has many ribs, and the
+// table may rank them wrongly where the noise is less than its own error.
+void ContactSearch::SearchRows(const PackedReadings& packed) {
+  while (found_ < kMostSolutions) {
+    std::size_t next = profile_.size();
+    for (std::size_t i = 0; i < profile_.size(); ++i) {
+      if (next < profile_.size() && profile_[i].chi2 >= profile_[next].chi2)
+        continue;
+      if (profile_[i].count > 0 && Hides(i)) next = i;
+    }
+    if (next == profile_.size()) return;
+    if (FitFast(profile_[next], packed) && !IsKnown()) Keep();
+    profile_[next].count = 0;  // tried
+  }
+}
+
+bool ContactSearch::Hides(std::size_t i) const {
+  const ContactStart& row = profile_[i];
+  if (row.state == nullptr || row.contacts[0].normal_N == 0) return false;
+  const double distance = std::sqrt(row.chi2);
+  const double at_row = std::max(0.0, distance - row.error);
+  if (at_row * at_row > kHides * ExpectedChi2(row.contacts[0].arc_mm)) {
+    return false;
+  }
+  // Towards a minimum between two rows the distance falls by no more than it
+  // rises on the other side.
+  double rise = 0;
+  if (i > 0) rise = std::abs(distance - std::sqrt(profile_[i - 1].chi2));
+  if (i + 1 < profile_.size()) {
+    rise = std::max(rise, std::abs(distance - std::sqrt(profile_[i + 1].chi2)));
+  }
+  const double between = std::max(0.0, at_row - rise);
+  return between * between < least_chi2() + kWithinNoise;
+}
+
+double ContactSearch::ExpectedChi2(double arc_mm) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < found_; ++i) {
+    const ContactSolution& one = solutions_[i];
+    const ContactMatrix& a = one.information;
+    const double apart = arc_mm - one.contacts[0].arc_mm;
+    const double given_force = a(0, 0) - a(0, 1) * a(1, 0) / a(1, 1);
+    least = std::min(least, one.chi2 + given_force * apart * apart);
+  }
+  return least;
+}
+
+bool ContactSearch::IsKnown() const {
+  const PointContact& next = solutions_[found_].contacts[0];
+  for (int i = 0; i < found_; ++i) {
+    const ContactSolution& one = solutions_[i];
+    const Eigen::Vector2d apart(next.arc_mm - one.contacts[0].arc_mm,
+                                next.normal_N - one.contacts[0].normal_N);
+    if (apart.dot(one.information * apart) < kSame) return true;
+  }
+  return false;
 }
 
 double ContactSearch::FreeChi2(const Measurements& row,

@@ -75,6 +75,14 @@ class ContactSearch {
 
  private:
   void FindStarts(int contacts, const PackedReadings& packed);
+  // Fits from rows of the table that the solutions found do not account for.
+  void SearchRows(const PackedReadings& packed);
+  // Whether a minimum within noise, other than those found, may lie near a row.
+  bool Hides(std::size_t row) const;
+  // The least chi2 that the solutions found expect of a contact at that place.
+  double ExpectedChi2(double arc_mm) const;
+  // Whether the next solution is one of those found.
+  bool IsKnown() const;
   // FitFast and FitByCeres fit from a start and fill in the next solution.
   bool FitFast(const ContactStart& start, const PackedReadings& packed);
   bool FitByCeres(const ContactStart& start, const Measurements& row);

@@ -17,6 +17,7 @@ struct ContactStart {
   std::array<PointContact, kFittedContacts> contacts;
   double chi2 = 0;
   const LadderState* state = nullptr;
+  double error = 0;  ///< How far sqrt(chi2) may be wrong, in std.
 };
 
 /// A minimum of chi2 over contacts, which are sorted from base to tip.

@@ -23,6 +23,9 @@ constexpr double kForces[] = {0.5, 1, 2, 4, 7, 11, 16, 22, 30, 40};
 // Gauss-Newton steps on a cubic, from the nearest point of its chord.
 constexpr int kRefinements = 4;
 
+// Every such row shows how wrong its cubics are half way between forces.
+constexpr std::size_t kErrorRows = 7;
+
 // Number of valleys that BestStart refines.
 constexpr int kValleys = 3;
 
@@ -62,25 +65,31 @@ void SetSlopes(std::vector<GaugeTable::Node>* nodes) {
   }
 }
 
+// The values of a contact that the solver holds in equilibrium.
+Eigen::VectorXd ValuesOf(const EquilibriumSolver& solver,
+                         const std::optional<double>& circle_radius_mm) {
+  const int gauges = solver.model().gauges();
+  Eigen::VectorXd values(gauges + (circle_radius_mm ? 2 : 0));
+  values.head(gauges) = solver.outputs().head(gauges);
+  if (circle_radius_mm) {
+    values.tail<2>() = CircleCentre(solver.contact_pose(0), *circle_radius_mm);
+  }
+  return values;
+}
+
 // Solves the nodes of one row. The solver must hold the state of the free
 // finger.
 GaugeTable::Row MakeRow(double arc_mm, double friction,
                         const std::optional<double>& circle_radius_mm,
                         EquilibriumSolver* solver) {
-  const int gauges = solver->model().gauges();
   const double unit = ForceUnit(solver->model().finger());
   GaugeTable::Row row{arc_mm, {}, {}};
   for (int k = -1; k < static_cast<int>(std::size(kForces)); ++k) {
     const double force = k < 0 ? 0 : kForces[k] * unit;
     // Soft fingers fold over at the heavy end; the table ends there.
     if (!solver->Solve({{arc_mm, force, friction}})) break;
-    Eigen::VectorXd values(gauges + (circle_radius_mm ? 2 : 0));
-    values.head(gauges) = solver->outputs().head(gauges);
-    if (circle_radius_mm) {
-      values.tail<2>() =
-          CircleCentre(solver->contact_pose(0), *circle_radius_mm);
-    }
-    row.nodes.push_back({force, values, {}, solver->state()});
+    row.nodes.push_back(
+        {force, ValuesOf(*solver, circle_radius_mm), {}, solver->state()});
   }
   if (row.nodes.empty()) return row;
   SetSlopes(&row.nodes);
@@ -155,7 +164,32 @@ GaugeTable::GaugeTable(EquilibriumSolver* solver, double friction,
   rows_.erase(std::remove_if(rows_.begin(), rows_.end(),
                              [](const Row& row) { return row.nodes.empty(); }),
               rows_.end());
+  FindErrors(solver, circle_radius_mm);
   solver->Reset();
+}
+
+void GaugeTable::FindErrors(EquilibriumSolver* solver,
+                            const std::optional<double>& circle_radius_mm) {
+  errors_.setZero(free_angles_.size() + (circle_radius_mm ? 2 : 0),
+                  std::size(kForces));
+  for (std::size_t i = kErrorRows / 2; i < rows_.size(); i += kErrorRows) {
+    const std::vector<Node>& nodes = rows_[i].nodes;
+    for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+      const Node &from = nodes[k], &to = nodes[k + 1];
+      solver->set_state(from.state);
+      const double width = to.normal_N - from.normal_N;
+      if (!solver->Solve(
+              {{rows_[i].arc_mm, from.normal_N + 0.5 * width, friction_}})) {
+        continue;
+      }
+      const Eigen::VectorXd middle =
+          0.5 * (from.values + to.values) +
+          0.125 * width * (from.by_force - to.by_force);
+      const auto chord = static_cast<Eigen::Index>(k);
+      errors_.col(chord) = errors_.col(chord).max(
+          (middle - ValuesOf(*solver, circle_radius_mm)).array().abs());
+    }
+  }
 }
 
 // Finds the point of a row's chords that is nearest to the measured values.
@@ -214,6 +248,10 @@ ContactStart GaugeTable::Refined(const Row& row, const OnChord& chord,
   best.contacts[0] = {
       row.arc_mm, from.normal_N + share_of_way * (to.normal_N - from.normal_N),
       friction_};
+  best.error =
+      (errors_.col(static_cast<Eigen::Index>(chord.to) - 1) * weights.array())
+          .matrix()
+          .norm();
   // The unloaded state does not show how the finger bends under this contact.
   best.state = share_of_way > 0.5 || chord.to == 1 ? &to.state : &from.state;
   return best;

@@ -79,6 +79,8 @@ class GaugeTable {
     std::size_t to = 0;  // index of the node at its end; 0: none
     double share = 0;    // of the way to that node
   };
+  void FindErrors(EquilibriumSolver* solver,
+                  const std::optional<double>& circle_radius_mm);
   OnChord NearestChord(const Row& row, const Eigen::VectorXd& values,
                        const Eigen::VectorXd& weights) const;
   ContactStart Refined(const Row& row, const OnChord& chord,
@@ -89,6 +91,7 @@ class GaugeTable {
   double heaviest_N_, row_spacing_mm_;
   Eigen::VectorXd free_angles_;
   std::vector<Row> rows_;
+  Eigen::ArrayXXd errors_;  // of interpolated values, values x chords
 };
 
 }  // namespace finray
