@@ -2,14 +2,16 @@
 
 #include <cmath>
 
-#include "finray/sensing/valley.h"
-
 namespace finray {
 namespace {
 
 // Relative to l_0 and to the force. The remaining error is far below any
 // gauge's noise.
 constexpr double kTolerance = 5e-9;
+
+// A frame is searched if another place may have a chi2 that is larger by less
+// than this. The map's margins reach to Valley::kFarthest then (ramp_study).
+constexpr double kOtherPlaces = 13.8;
 
 Eigen::VectorXd AllWeights(const Finger& finger) {
   const auto gauges = static_cast<Eigen::Index>(finger.gauges.size());
@@ -49,7 +51,7 @@ bool FrameFollower::Start(const ContactSolution& solution, double arc_std_mm,
   const PointContact& contact = solution.contacts[0];
   if (solution.count != 1 || gauges != gauges_ ||
       !rivals_.IsUnique(contact.arc_mm, arc_std_mm, contact.normal_N,
-                        solution.chi2, Valley::kFarthest * Valley::kFarthest)) {
+                        solution.chi2, kOtherPlaces)) {
     return false;
   }
   group_.Start(solution.state, contact);
@@ -75,7 +77,7 @@ bool FrameFollower::IsCertain(std::size_t frame, double arc_std_mm) const {
   const FrameFit& fit = fits_[frame];
   return fit.converged && !search_.OnBound(fit.arc_mm, fit.normal_N) &&
          rivals_.IsUnique(fit.arc_mm, arc_std_mm, fit.normal_N, fit.chi2,
-                          Valley::kFarthest * Valley::kFarthest);
+                          kOtherPlaces);
 }
 
 }  // namespace finray

@@ -18,8 +18,8 @@ constexpr double kTableFactor = 0.25, kFarAbove = 400;
 constexpr double kFitTolerance = 1e-5;
 // The largest std of l_c, in row spacings.
 constexpr double kWidest = 0.5;
-// A valley is straight to within this factor, with a margin to that of Valley.
-constexpr double kStraight = 1.1;
+// A valley is straight to within this factor (Valley::kSlack).
+constexpr double kStraight = 1.25;
 // Starts within this many rows of the node's own are the same contact.
 constexpr double kSameRows = 1.5;
 
