@@ -157,7 +157,8 @@ void PrintSummary(const std::vector<LogJob>& jobs, const ProgressBar& bar) {
     std::printf("force error    %g N rms, %g N at most, over %zu frames\n",
                 all.force_rms_N(), all.force_max_N, all.force_compared);
   } else {
-    std::printf("force error    not known: no force_N in the logs\n");
+    std::printf(
+        "force error    not known: no ok or no_contact frame with a force_N\n");
   }
 }
 

@@ -137,6 +137,8 @@ TEST_F(BatchTest, OneLogWithMovedOffsetsIsLoudAndStrictCountsIt) {
   const Outcome good = Run("finray_estimate", arguments);
   EXPECT_EQ(good.code, 0) << good.output;
   EXPECT_THAT(good.output, Not(HasSubstr("warning")));
+  EXPECT_THAT(good.output, HasSubstr("force error    not known: no ok or "
+                                     "no_contact frame with a force_N\n"));
   write("runs/b.csv", 80, 0.015);
   const Outcome moved = Run("finray_estimate", arguments);
   EXPECT_EQ(moved.code, 4) << moved.output;
