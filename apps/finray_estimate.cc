@@ -4,8 +4,10 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -42,7 +44,7 @@ DEFINE_bool(
     "the smoothing of the scene");
 DEFINE_bool(strict, false,
             "fail if any frame is not_converged or bad_input, or if more than "
-            "5 % are unexplained");
+            "5 % of a log are unexplained");
 DEFINE_bool(keep_going, false,
             "leave out logs that are bad input, list them in summary.yaml");
 DEFINE_bool(follow, false,
@@ -155,7 +157,8 @@ void PrintSummary(const std::vector<LogJob>& jobs, const ProgressBar& bar) {
     std::printf("force error    %g N rms, %g N at most, over %zu frames\n",
                 all.force_rms_N(), all.force_max_N, all.force_compared);
   } else {
-    std::printf("force error    not known: no force_N in the logs\n");
+    std::printf(
+        "force error    not known: no ok or no_contact frame with a force_N\n");
   }
 }
 
@@ -253,7 +256,8 @@ int FollowInput(const BatchSettings& settings) {
   } while (!IsHeaderLine(&header));
   LiveRows rows(settings.finger, settings.scene, kSource, header, &estimator);
   LatencyHistogram latency;
-  std::size_t unsolved = 0;
+  EstimationSummary summary;
+  Warn(WarningsOf(settings.finger));
   bool open = WriteLive(rows.HeaderCsv());
   while (open && !IsStopRequested() && lines.Next()) {
     const Clock::time_point start = Clock::now();
@@ -267,11 +271,16 @@ int FollowInput(const BatchSettings& settings) {
       const std::chrono::nanoseconds time = Clock::now() - start;
       latency.Add(static_cast<std::uint64_t>(time.count()));
     }
-    unsolved += rows.status() == FrameStatus::kNotConverged ||
-                rows.status() == FrameStatus::kBadInput;
+    summary.Add(rows.estimate(), settings.scene.friction_coefficient,
+                std::nan(""));
   }
   PrintLatency(latency);
-  return FLAGS_strict && unsolved > 0 ? kSolveFailed : kGood;
+  const bool unexplained = summary.unexplained_too_many();
+  if (unexplained) {
+    Warn({UnexplainedWarning(summary, settings.finger, kSource)});
+  }
+  if (FLAGS_strict && summary.unsolved() > 0) return kSolveFailed;
+  return FLAGS_strict && unexplained ? kGateFailed : kGood;
 }
 
 int Run() {
@@ -318,12 +327,17 @@ int Run() {
                       BatchYaml(settings, jobs, bad_logs));
   PrintSummary(jobs, bar);
   const EstimationSummary all = Total(jobs);
-  Warn(WarningsOf(all, settings.finger));
+  const std::vector<Warning> warnings = WarningsOf(jobs, settings.finger);
+  Warn(warnings);
   if (!bad_logs.empty()) return kBadInput;
   if (all.unsolved() == all.frames || (FLAGS_strict && all.unsolved() > 0)) {
     return kSolveFailed;
   }
-  return FLAGS_strict && all.unexplained_too_many() ? kGateFailed : kGood;
+  const bool unexplained =
+      std::any_of(warnings.begin(), warnings.end(), [](const Warning& warning) {
+        return warning.code == "unexplained_frames";
+      });
+  return FLAGS_strict && unexplained ? kGateFailed : kGood;
 }
 
 }  // namespace

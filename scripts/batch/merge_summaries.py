@@ -97,7 +97,7 @@ class Totals:
         status = self.status
         force = (f"{self.rms_N():g} N rms, {self.max_N:g} N at most, over "
                  f"{self.compared} frames" if self.compared > 0
-                 else "not known: no force_N in the logs")
+                 else "not known: no ok or no_contact frame with a force_N")
         return (f"ok             {status['ok']}, no_contact {status['no_contact']}\n"
                 f"unobservable   {status['unobservable']}, unexplained {self.unexplained}\n"
                 f"not solved     {status['not_converged']} not_converged, "

@@ -16,6 +16,7 @@
 
 #include "apps/command_line.h"
 #include "finray/io/frame_table.h"
+#include "sensing/uncertain_finger.h"
 #include "sensing/wandering_log.h"
 #include "test_finger.h"
 
@@ -110,6 +111,44 @@ class BatchTest : public CommandLineTest {
   }
 };
 
+// One log whose offsets have moved is 4 % of all frames and loud all the same.
+TEST_F(BatchTest, OneLogWithMovedOffsetsIsLoudAndStrictCountsIt) {
+  Finger finger = ReadFinger(paper_);
+  for (auto& gauge : finger.gauges) gauge.noise_V = 3e-4;
+  finger.calibration = TypicalCovariance(finger);
+  finger.calibration->correlations.diagonal().setOnes();
+  folder_.Write("finger.yaml", FingerToYaml(finger, ""));
+  const auto write = [&](const std::string& name, int frames, double moved_V) {
+    std::mt19937 random(5);
+    std::normal_distribution<> noise(moved_V, 3e-4);
+    std::ofstream log(folder_.Path(name));
+    log << "gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V\n";
+    for (int i = 0; i < frames; ++i) {
+      for (std::size_t j = 0; j < 4; ++j) {
+        log << finger.gauges[j].offset_V + noise(random)
+            << (j < 3 ? "," : "\n");
+      }
+    }
+  };
+  write("runs/a.csv", 2000, 0);
+  const std::string arguments =
+      "--finger %finger.yaml --scene %scene.yaml --logs '%runs/*.csv' "
+      "--out_dir %out --threads 2 --strict";
+  const Outcome good = Run("finray_estimate", arguments);
+  EXPECT_EQ(good.code, 0) << good.output;
+  EXPECT_THAT(good.output, Not(HasSubstr("warning")));
+  EXPECT_THAT(good.output, HasSubstr("force error    not known: no ok or "
+                                     "no_contact frame with a force_N\n"));
+  write("runs/b.csv", 80, 0.015);
+  const Outcome moved = Run("finray_estimate", arguments);
+  EXPECT_EQ(moved.code, 4) << moved.output;
+  EXPECT_THAT(
+      moved.output,
+      HasSubstr("\nwarning: the gauges' offsets have probably moved since the "
+                "calibration: 80 of 80 solved frames of " +
+                folder_.Path("runs/b.csv") + " are not explained"));
+}
+
 TEST_F(BatchTest, PatternsListsAndTables) {
   WriteLog("runs/a.csv", 300, 1);
   WriteLog("runs/b.csv", 200, 2);
@@ -121,6 +160,11 @@ TEST_F(BatchTest, PatternsListsAndTables) {
   EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 8);
   EXPECT_THAT(outcome.output,
               HasSubstr("\nwarning: the finger is not calibrated"));
+  EXPECT_THAT(outcome.output,
+              HasSubstr("\nwarning: the gains are probably other ones: 300 of "
+                        "300 solved frames of " +
+                        folder_.Path("runs/a.csv") +
+                        " (and too many in 1 other log) are not explained"));
   EXPECT_THAT(outcome.output, HasSubstr("frames         500 in 2 logs, "));
   const FrameTable table = FrameTable::Read(folder_.Path("out/summary.csv"));
   EXPECT_EQ(table.rows(), 2u);
@@ -137,6 +181,9 @@ TEST_F(BatchTest, PatternsListsAndTables) {
             YAML::LoadFile(folder_.Path("out/b.summary.yaml"))["key"]
                 .as<std::string>());
   EXPECT_EQ(yaml["all"]["force_compared_frames"].as<int>(), 500);
+  EXPECT_EQ(yaml["warnings"][0]["code"].as<std::string>(), "not_calibrated");
+  EXPECT_EQ(yaml["logs"][1]["warnings"][0]["code"].as<std::string>(),
+            "unexplained_frames");
   // Readings of many mrad and no contact allowed.
   const int unexplained = yaml["all"]["unexplained_frames"].as<int>();
   EXPECT_EQ(unexplained, 500);

@@ -20,6 +20,11 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
+constexpr char kNotCalibrated[] =
+    "warning: the finger is not calibrated: its gains and stiffness are as "
+    "drawn, and so are the std of its forces; calibrate it with "
+    "finray_calibrate\n";
+
 // The executable between two pipes.
 class Follower {
  public:
@@ -131,9 +136,10 @@ TEST_F(FollowTest, RowsAreThoseOfABatchAndComeOneByOne) {
   follower.CloseInput();
   EXPECT_EQ(follower.Read(), "");
   EXPECT_EQ(follower.Wait(), 0);
-  EXPECT_THAT(follower.Errors(), StartsWith("latency        p50 "));
+  EXPECT_THAT(follower.Errors(), StartsWith(kNotCalibrated));
+  EXPECT_THAT(follower.Errors(), HasSubstr("\nlatency        p50 "));
   EXPECT_THAT(follower.Errors(),
-              EndsWith(" us, over " + std::to_string(count) + " frames\n"));
+              HasSubstr(" us, over " + std::to_string(count) + " frames\n"));
 
   ASSERT_EQ(Run("finray_estimate", "--finger " + paper_ +
                                        " --scene %scene.yaml --logs " + log +
@@ -206,7 +212,8 @@ TEST_F(FollowTest, AMalformedLineIsARowAndAMessage) {
   std::istringstream errors(follower.Errors());
   std::string line;
   for (const char* expected :
-       {"stdin:2:3: gauge_2_V: expected a number, found 'oops'",
+       {"warning: the finger is not calibrated",
+        "stdin:2:3: gauge_2_V: expected a number, found 'oops'",
         "stdin:3: expected 5 cells as in the header, found 4",
         "stdin:4:4: a quoted cell does not end on its line",
         "stdin:5:3: gauge_2_V: the cell holds a NUL byte", "over 5 frames"}) {
@@ -223,8 +230,21 @@ TEST_F(FollowTest, StrictEndsAtAMalformedLine) {
   EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 2);
   EXPECT_EQ(follower.Wait(), 2);
   EXPECT_EQ(follower.Errors(),
-            "finray_estimate: stdin:3:2: gauge_1_V: expected a number, found "
-            "'x'\n");
+            std::string(kNotCalibrated) +
+                "finray_estimate: stdin:3:2: gauge_1_V: expected a number, "
+                "found 'x'\n");
+}
+
+TEST_F(FollowTest, UnexplainedRowsAreLoudAtTheEnd) {
+  folder_.Write("scene.yaml", "contacts: 0\n");
+  Follower follower = Start({"--strict"});
+  follower.Write(header_ + "1" + good_ + "2" + good_ + "3" + good_);
+  follower.CloseInput();
+  follower.ReadAll();
+  EXPECT_EQ(follower.Wait(), 4);
+  EXPECT_THAT(follower.Errors(),
+              HasSubstr("\nwarning: the gains are probably other ones: 3 of 3 "
+                        "solved frames of stdin are not explained"));
 }
 
 TEST_F(FollowTest, ABadHeaderIsBadInput) {

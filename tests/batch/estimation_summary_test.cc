@@ -32,5 +32,19 @@ TEST(EstimationSummaryTest, ReadsBackTheSame) {
   EXPECT_FALSE(SummaryFromText(SummaryToText(summary) + " 1"));
 }
 
+TEST(EstimationSummaryTest, TooManyUnexplainedFramesAreNoChance) {
+  EstimationSummary summary;
+  summary.frames = 10;
+  summary.unexplained = 2;
+  EXPECT_FALSE(summary.unexplained_too_many());
+  summary.unexplained = 3;
+  EXPECT_TRUE(summary.unexplained_too_many());
+  summary.frames = 60;
+  EXPECT_FALSE(summary.unexplained_too_many());
+  // Frames without a solution do not dilute the share.
+  summary.by_status[static_cast<int>(FrameStatus::kBadInput)] = 1;
+  EXPECT_TRUE(summary.unexplained_too_many());
+}
+
 }  // namespace
 }  // namespace finray

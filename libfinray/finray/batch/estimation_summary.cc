@@ -14,8 +14,9 @@ std::size_t EstimationSummary::unsolved() const {
 }
 
 bool EstimationSummary::unexplained_too_many() const {
-  return static_cast<double>(unexplained) >
-         kMostUnexplained * static_cast<double>(frames - unsolved());
+  return unexplained >= kFewestUnexplained &&
+         static_cast<double>(unexplained) >
+             kMostUnexplained * static_cast<double>(frames - unsolved());
 }
 
 double EstimationSummary::force_rms_N() const {
@@ -83,32 +84,30 @@ std::optional<EstimationSummary> SummaryFromText(const std::string& text) {
   return summary;
 }
 
-std::vector<Warning> WarningsOf(const EstimationSummary& summary,
-                                const Finger& finger) {
-  std::vector<Warning> warnings;
-  if (!finger.calibration) {
-    warnings.push_back(
-        {"not_calibrated",
-         "the finger is not calibrated: its gains and stiffness are as drawn, "
-         "and so are the std of its forces",
-         "calibrate it with finray_calibrate"});
-  }
-  if (summary.unexplained_too_many()) {
-    warnings.push_back(
-        {"unexplained_frames",
-         std::string(finger.calibration
-                         ? "the gauges have probably moved since the "
-                           "calibration: "
-                         : "the gains are probably other ones: ") +
-             std::to_string(summary.unexplained) + " of " +
-             std::to_string(summary.frames - summary.unsolved()) +
-             " solved frames are not explained by the finger and its noise",
-         finger.calibration
-             ? "zero the gauges on free rows; then look for more contacts than "
-               "the scene has, a changed finger, a wrong noise_V"
-             : "calibrate it with finray_calibrate"});
-  }
-  return warnings;
+std::vector<Warning> WarningsOf(const Finger& finger) {
+  if (finger.calibration) return {};
+  return {
+      {"not_calibrated",
+       "the finger is not calibrated: its gains and stiffness are as drawn, "
+       "and so are the std of its forces",
+       "calibrate it with finray_calibrate"}};
+}
+
+Warning UnexplainedWarning(const EstimationSummary& summary,
+                           const Finger& finger, const std::string& source) {
+  return {"unexplained_frames",
+          std::string(finger.calibration
+                          ? "the gauges' offsets have probably moved since the "
+                            "calibration: "
+                          : "the gains are probably other ones: ") +
+              std::to_string(summary.unexplained) + " of " +
+              std::to_string(summary.frames - summary.unsolved()) +
+              " solved frames of " + source +
+              " are not explained by the finger and its noise",
+          finger.calibration
+              ? "zero the gauges with finray_zero; then look for more contacts "
+                "than the scene has, a changed finger, a wrong noise_V"
+              : "calibrate it with finray_calibrate"};
 }
 
 void EmitSummary(const EstimationSummary& summary, YamlEmitter* yaml) {

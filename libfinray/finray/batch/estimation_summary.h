@@ -37,9 +37,12 @@ struct EstimationSummary {
   }
   /// Number of frames that are not_converged or bad_input.
   std::size_t unsolved() const;
-  /// More than kMostUnexplained of the solved frames are unexplained.
+  /// More than kMostUnexplained of the solved frames are unexplained, and at
+  /// least kFewestUnexplained of them: fewer are chance in some of many short
+  /// logs.
   bool unexplained_too_many() const;
   static constexpr double kMostUnexplained = 0.05;
+  static constexpr std::size_t kFewestUnexplained = 3;
   /// Rms of the force error; 0 if no force was compared.
   double force_rms_N() const;
 
@@ -50,10 +53,12 @@ struct EstimationSummary {
   void Add(const EstimationSummary& other);
 };
 
-/// Says what makes the estimates doubtful: a finger that nobody has calibrated,
-/// or frames that it does not explain.
-std::vector<Warning> WarningsOf(const EstimationSummary& summary,
-                                const Finger& finger);
+/// Warns of a finger that nobody has calibrated.
+std::vector<Warning> WarningsOf(const Finger& finger);
+/// Warns of too many frames of `source` that the finger does not explain. The
+/// text begins with the likeliest cause.
+Warning UnexplainedWarning(const EstimationSummary& summary,
+                           const Finger& finger, const std::string& source);
 
 /// Writes a summary as one line of text, and reads it back. Reading returns
 /// nothing if the text is not a summary.

@@ -28,9 +28,8 @@ const std::string& LiveRows::Next(const CsvLine& line) {
     readings_ = {};
     readings_.gauges_V.assign(estimator_.finger().gauges.size(), std::nan(""));
   }
-  const FrameEstimate estimate = estimator_.Next(readings_);
-  status_ = estimate.status;
-  layout_.Append(rows_, 0, readings_, estimate, &values_, &row_);
+  estimate_ = estimator_.Next(readings_);
+  layout_.Append(rows_, 0, readings_, estimate_, &values_, &row_);
   return row_;
 }
 

@@ -32,7 +32,8 @@ class LiveRows {
   const std::string& Next(const CsvLine& line);
   /// The error of the last line (source:line:column), or "" if it has none.
   const std::string& error() const { return error_; }
-  FrameStatus status() const { return status_; }
+  /// The estimate of the last line.
+  const FrameEstimate& estimate() const { return estimate_; }
 
  private:
   FrameParser parser_;
@@ -42,7 +43,7 @@ class LiveRows {
   Measurements readings_;
   std::vector<double> values_;  // memory, reused by the next row
   std::string row_, error_;
-  FrameStatus status_ = FrameStatus::kBadInput;
+  FrameEstimate estimate_;
 };
 
 /// Quantiles of any number of times in fixed memory. Each power of two of

@@ -240,6 +240,43 @@ EstimationSummary Total(const std::vector<LogJob>& jobs) {
   return all;
 }
 
+std::vector<Warning> WarningsOf(const std::vector<LogJob>& jobs,
+                                const Finger& finger) {
+  std::vector<Warning> warnings = WarningsOf(finger);
+  const LogJob* worst = nullptr;
+  std::size_t count = 0;
+  for (const LogJob& job : jobs) {
+    const EstimationSummary& summary = job.summary();
+    if (!summary.unexplained_too_many()) continue;
+    ++count;
+    if (!worst || summary.unexplained > worst->summary().unexplained) {
+      worst = &job;
+    }
+  }
+  if (!worst) return warnings;
+  std::string source = worst->log();
+  if (count > 1) {
+    source += " (and too many in " + std::to_string(count - 1) + " other log" +
+              (count > 2 ? "s)" : ")");
+  }
+  warnings.push_back(UnexplainedWarning(worst->summary(), finger, source));
+  return warnings;
+}
+
+namespace {
+
+void EmitWarnings(const std::vector<Warning>& warnings, YamlEmitter* yaml) {
+  if (warnings.empty()) return;
+  *yaml << YAML::Key << "warnings" << YAML::Value << YAML::BeginSeq;
+  for (const Warning& warning : warnings) {
+    YamlLine(yaml, "code", warning.code, "text", warning.text, "remedy",
+             warning.remedy);
+  }
+  *yaml << YAML::EndSeq;
+}
+
+}  // namespace
+
 std::string BatchYaml(const BatchSettings& settings,
                       const std::vector<LogJob>& jobs,
                       const std::vector<BadLog>& bad_logs) {
@@ -251,24 +288,23 @@ std::string BatchYaml(const BatchSettings& settings,
     YamlPair(&yaml, "solver", SolverName(settings));
   }
   YamlPair(&yaml, "version", FINRAY_VERSION);
+  EmitWarnings(WarningsOf(settings.finger), &yaml);
   yaml << YAML::Key << "logs" << YAML::Value << YAML::BeginSeq;
   for (const LogJob& job : jobs) {
     yaml << YAML::BeginMap;
     YamlPairs(&yaml, "log", job.log(), "result", job.result(), "key",
               job.key());
     EmitSummary(job.summary(), &yaml);
+    if (job.summary().unexplained_too_many()) {
+      EmitWarnings(
+          {UnexplainedWarning(job.summary(), settings.finger, job.log())},
+          &yaml);
+    }
     yaml << YAML::EndMap;
   }
   yaml << YAML::EndSeq << YAML::Key << "all" << YAML::Value << YAML::BeginMap;
-  const EstimationSummary all = Total(jobs);
-  EmitSummary(all, &yaml);
-  yaml << YAML::EndMap << YAML::Key << "warnings" << YAML::Value
-       << YAML::BeginSeq;
-  for (const Warning& warning : WarningsOf(all, settings.finger)) {
-    YamlLine(&yaml, "code", warning.code, "text", warning.text, "remedy",
-             warning.remedy);
-  }
-  yaml << YAML::EndSeq;
+  EmitSummary(Total(jobs), &yaml);
+  yaml << YAML::EndMap;
   if (!bad_logs.empty()) {
     yaml << YAML::Key << "bad_logs" << YAML::Value << YAML::BeginSeq;
     for (const BadLog& bad : bad_logs) {

@@ -98,6 +98,11 @@ struct BadLog {
 /// The summary of all frames of all logs.
 EstimationSummary Total(const std::vector<LogJob>& jobs);
 
+/// Says what makes the estimates doubtful: a finger that nobody has calibrated,
+/// and logs with too many unexplained frames, the worst by name.
+std::vector<Warning> WarningsOf(const std::vector<LogJob>& jobs,
+                                const Finger& finger);
+
 /// The text of summary.yaml: the settings, each log, the total, and bad logs if
 /// there are any.
 std::string BatchYaml(const BatchSettings& settings,
