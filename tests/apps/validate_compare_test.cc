@@ -137,7 +137,8 @@ TEST_F(ValidateCompareTest, CompareTwoCalibrations) {
   for (const char* key : {"only_in_a", "only_in_b", "of_other_logs"}) {
     EXPECT_TRUE(result[key].IsSequence() && result[key].size() == 0) << key;
   }
-  EXPECT_EQ(result["predicted"]["lost_points"].as<int>(), 0);
+  // Near the end of the valley one finger may say less than the other.
+  EXPECT_LE(result["predicted"]["lost_points"].as<int>(), 1);
   EXPECT_EQ(result["verdict"].as<std::string>(), "passed");
   for (const YAML::Node& p : result["parameters"]) {
     const double a = p["a"].as<double>(), b = p["b"].as<double>();
