@@ -71,6 +71,20 @@ TEST(PlausibilityTest, RefusesXOfTheWrongSign) {
   }
 }
 
+// Swapped x and y let the circle touch near the base, with hardly a force.
+TEST(PlausibilityTest, RefusesSwappedCoordinates) {
+  std::vector<double> x, y;
+  RefusalOf({"object_x_mm"}, [&](double mm) { return x.emplace_back(mm); });
+  RefusalOf({"object_y_mm"}, [&](double mm) { return y.emplace_back(mm); });
+  std::size_t i = 0;
+  EXPECT_THAT(RefusalOf({"object_x_mm", "object_y_mm"},
+                        [&](double) {
+                          const std::size_t k = i++;
+                          return k < y.size() ? y[k] : x[k - y.size()];
+                        }),
+              HasSubstr("whether x and y are swapped"));
+}
+
 const std::vector<std::string> kGaugeColumns = {"gauge_1_V", "gauge_2_V",
                                                 "gauge_3_V", "gauge_4_V"};
 

@@ -85,7 +85,11 @@ void RefuseImplausibleGauges(const std::vector<ExpectedGauges>& frames,
   };
   for (int j = 0; j < gauges; ++j) {
     const Regression sums = Regress(frames, j, j);
-    if (sums.frames < kLeastFrames || sums.aa == 0) continue;
+    const auto count = static_cast<double>(sums.frames);
+    if (sums.frames < kLeastFrames ||
+        sums.aa < kLeastBend * kLeastBend * count) {
+      continue;
+    }
     own[j] = sums;
     ratios.push_back(std::abs(ratio(j)));
   }

@@ -188,6 +188,49 @@ std::vector<ExpectedGauges> ExpectGauges(
   return expected;
 }
 
+// Makes the checks of objects whose places are known.
+void RefuseImplausibleObjects(
+    const std::vector<const CalibrationFrame*>& frames,
+    const CalibrationProblem& problem, ContactGuess* guess) {
+  const Plan& plan = problem.plan();
+  if (!plan.scene.circle_radius_mm() ||
+      plan.family(ParameterFamily::kObjectOrigin).free) {
+    return;
+  }
+  std::vector<double> ratios;
+  int objects = 0, met = 0;
+  for (const CalibrationFrame* frame : frames) {
+    if (!frame->object_mm.allFinite()) continue;
+    const ContactGuess::Place place =
+        guess->Of(WithoutForce(*frame), From::kObjectFirst);
+    ++objects;
+    met += place.met;
+    const double force = ReferenceForce(*frame);
+    // An object may be where it presses with no force at all.
+    const double least = 1e-6 * ForceUnit(problem.finger());
+    if (place.met && force > 0) {
+      ratios.push_back(force / std::max(place.normal_N, least));
+    }
+  }
+  if (objects >= 4 && 2 * met < objects) {
+    Refuse(
+        "logs: of %d frames with contact the circle of radius %g mm can touch "
+        "the finger in %d: check units, signs and columns of object_x_mm and "
+        "object_y_mm, the radius, or free object_origin",
+        objects, *plan.scene.circle_radius_mm(), met);
+  }
+  if (ratios.size() < 4) return;
+  const double ratio = Median(ratios);
+  if (ratio > kFactor || ratio < 1 / kFactor) {
+    Refuse(
+        "logs: forces are %.3g times those that would press the finger to "
+        "where the objects are: check the units of force and positions, and "
+        "the "
+        "finger's stiffness",
+        ratio);
+  }
+}
+
 }  // namespace
 
 void RefuseImplausible(CalibrationProblem* problem) {
@@ -212,42 +255,10 @@ void RefuseImplausible(CalibrationProblem* problem) {
   RefuseImplausibleMotion(Presses(frames), problem->finger(), plan);
   RefuseImpossibleBends(frames, problem->finger());
   ContactGuess guess(problem);
+  RefuseImplausibleObjects(frames, *problem, &guess);
+  // Last: what is expected of the gauges follows from the objects.
   RefuseImplausibleGauges(ExpectGauges(frames, problem, &guess),
                           problem->finger());
-  if (!plan.scene.circle_radius_mm() ||
-      plan.family(ParameterFamily::kObjectOrigin).free) {
-    return;
-  }
-  std::vector<double> ratios;
-  int objects = 0, met = 0;
-  for (const CalibrationFrame* frame : frames) {
-    if (!frame->object_mm.allFinite()) continue;
-    const ContactGuess::Place place =
-        guess.Of(WithoutForce(*frame), From::kObjectFirst);
-    ++objects;
-    met += place.met;
-    const double force = ReferenceForce(*frame);
-    if (place.met && place.normal_N > 0 && force > 0) {
-      ratios.push_back(force / place.normal_N);
-    }
-  }
-  if (objects >= 4 && 2 * met < objects) {
-    Refuse(
-        "logs: of %d frames with contact the circle of radius %g mm can touch "
-        "the finger in %d: check units, signs and columns of object_x_mm and "
-        "object_y_mm, the radius, or free object_origin",
-        objects, *plan.scene.circle_radius_mm(), met);
-  }
-  if (ratios.size() < 4) return;
-  const double ratio = Median(ratios);
-  if (ratio > kFactor || ratio < 1 / kFactor) {
-    Refuse(
-        "logs: forces are %.3g times those that would press the finger to "
-        "where "
-        "the objects are: check the units of force and positions, and the "
-        "finger's stiffness",
-        ratio);
-  }
 }
 
 }  // namespace finray
