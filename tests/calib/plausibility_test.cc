@@ -82,7 +82,7 @@ TEST(PlausibilityTest, RefusesSwappedCoordinates) {
                           const std::size_t k = i++;
                           return k < y.size() ? y[k] : x[k - y.size()];
                         }),
-              HasSubstr("whether x and y are swapped"));
+              HasSubstr("are object_x_mm and object_y_mm swapped?"));
 }
 
 const std::vector<std::string> kGaugeColumns = {"gauge_1_V", "gauge_2_V",

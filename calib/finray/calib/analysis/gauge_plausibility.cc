@@ -80,18 +80,27 @@ void RefuseImplausibleGauges(const std::vector<ExpectedGauges>& frames,
   const auto gauges = static_cast<int>(finger.gauges.size());
   std::map<int, Regression> own;
   std::vector<double> ratios;
+  bool unexpected = false;
   const auto ratio = [&](int j) {
     return own.at(j).slope() / finger.gauges[j].gain_V_per_rad;
   };
   for (int j = 0; j < gauges; ++j) {
     const Regression sums = Regress(frames, j, j);
     const auto count = static_cast<double>(sums.frames);
-    if (sums.frames < kLeastFrames ||
-        sums.aa < kLeastBend * kLeastBend * count) {
+    if (sums.frames < kLeastFrames) continue;
+    if (sums.aa < kLeastBend * kLeastBend * count) {
+      unexpected |=
+          std::sqrt(sums.vv / count) > kUnexpected * finger.gauges[j].noise_V;
       continue;
     }
     own[j] = sums;
     ratios.push_back(std::abs(ratio(j)));
+  }
+  if (ratios.empty() && unexpected) {
+    throw InputError(
+        "logs: gauges respond, but objects or contacts where the logs have "
+        "them hardly bend the finger: are object_x_mm and object_y_mm "
+        "swapped?");
   }
   if (ratios.empty()) return;
   // First, because a swapped gauge may seem dead or of the wrong sign.

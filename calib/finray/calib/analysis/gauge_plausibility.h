@@ -25,13 +25,14 @@ struct ExpectedGauges {
 ///  - a gauge does not respond: |b_j| <= kDeadShare median |b|;
 ///  - the unit is wrong: median |b| > kMostGain;
 ///  - a gauge has the wrong sign: r_jj gain_j / |gain_j| < kWrongSign.
-/// Says nothing of a gauge with fewer than kLeastFrames frames, or if the
-/// expected angles scatter by less than kLeastBend rad: the objects then hardly
-/// touch the finger where they are said to be.
+/// Says nothing of a gauge with fewer than kLeastFrames frames, or where the
+/// expected angle scatters by less than kLeastBend rad. If all do, readings
+/// that scatter by more than kUnexpected noise_V are an error as well: the
+/// objects are elsewhere.
 void RefuseImplausibleGauges(const std::vector<ExpectedGauges>& frames,
                              const Finger& finger);
 constexpr double kMostGain = 200, kSwapped = 3, kWrongSign = -0.8;
-constexpr double kLeastBend = 1e-4;
+constexpr double kLeastBend = 1e-4, kUnexpected = 20;
 constexpr std::size_t kLeastFrames = 10;
 
 }  // namespace finray
