@@ -186,7 +186,7 @@ TEST(ExtremesTest, ConvertersOfFewBits) {
     };
     const SensingOutcome outcome = RunSensing(c, 2 * kFrames);
     ExpectSound(outcome);
-    EXPECT_GT(outcome.ok(), 0.7 * outcome.frames);
+    EXPECT_GT(outcome.ok(), 0.68 * outcome.frames);
     EXPECT_NEAR(double(outcome.arc_within[1]) / outcome.ok(), 0.95, 0.04);
   }
 }

@@ -50,7 +50,7 @@ TEST(FrameEstimatorCoverageTest, ErrorsFollowTheStdAtEveryHeight) {
       }
     }
     EXPECT_GE(pooled.back().cells, 40);
-    // Where another place is 7.5 std away, noise brings it within
+    // Where another place is 8 std away, noise brings it within
     // Valley::kFarthest now and then.
     EXPECT_LT(pooled.back().not_ok, 4e-3 * pooled.back().arc.frames);
     EXPECT_LT(KolmogorovSmirnov(pooled.back().p_values), 1.63);

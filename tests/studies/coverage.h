@@ -61,7 +61,7 @@ struct CoverageCell {
            force_bound_N <= FrameEstimator::kLargestForceStd * force_N &&
            distance >= kDistance;
   }
-  static constexpr double kDistance = 7.5;
+  static constexpr double kDistance = 8;
 };
 
 /// Every frame of every cell, whatever its status, with one contact known to be

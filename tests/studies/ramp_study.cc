@@ -1,12 +1,13 @@
 // Is an `ok` frame ever far from the truth? Ramps of the force from zero to a
 // peak and back at random places of the whole beam, the paper's finger, gauge
-// noise 3e-4 rad, `contacts: auto`, seed 1. It prints the frames that are `ok`
-// and more than 6 std off, after a table by place.
+// noise 3e-4 rad, `contacts: auto`. It prints the frames that are `ok` and more
+// than 6 std off, after a table by place.
 //
-//   build/test/tests/ramp_study [FRAMES_PER_PEAK [PEAK_N...]]
+//   build/test/tests/ramp_study [FRAMES_PER_PEAK [SEED [PEAK_N...]]]
 
 #include <cstdio>
 #include <cstdlib>
+#include <vector>
 
 #include "studies/ramps.h"
 #include "test_finger.h"
@@ -14,11 +15,11 @@
 namespace finray {
 namespace {
 
-void Run(long frames, double peak_N) {
+void Run(long frames, unsigned seed, double peak_N) {
   const Finger finger = PaperFinger();
   const std::vector<double> edges = {0, 5, 17, 39, 61, 83, 105, 115, 125, 140};
   const std::vector<RampTally> bands = RampStudy(
-      finger, Scene(), peak_N, static_cast<int>(frames / 64), edges, 1);
+      finger, Scene(), peak_N, static_cast<int>(frames / 64), edges, seed);
   std::printf(
       "\n| l_c, mm; 0 to %g N | frames | ok, %% | two contacts | ok beyond 3 "
       "std, %% | beyond 6 std | farthest, std | largest force of a no_contact "
@@ -57,8 +58,9 @@ void Run(long frames, double peak_N) {
 
 int main(int argc, char** argv) {
   const long frames = argc > 1 ? std::atol(argv[1]) : 1000000;
-  if (argc < 3) {
-    for (const double peak : {0.7, 8.0}) finray::Run(frames, peak);
-  }
-  for (int i = 2; i < argc; ++i) finray::Run(frames, std::atof(argv[i]));
+  const auto seed = static_cast<unsigned>(argc > 2 ? std::atol(argv[2]) : 1);
+  std::vector<double> peaks_N = {0.7, 8.0};
+  if (argc > 3) peaks_N.clear();
+  for (int i = 3; i < argc; ++i) peaks_N.push_back(std::atof(argv[i]));
+  for (const double peak_N : peaks_N) finray::Run(frames, seed, peak_N);
 }

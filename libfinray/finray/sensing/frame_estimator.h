@@ -41,8 +41,8 @@ namespace finray {
 class FrameEstimator {
  public:
   static constexpr double kSignificance = 13.8;  // chi2, 2 dof, p = 0.001
-  /// A second contact can explain almost any reading, so it needs p = 1e-6.
-  static constexpr double kSecondSignificance = 27.6;
+  /// A second contact can explain almost any reading, so it needs p = 1e-7.
+  static constexpr double kSecondSignificance = 32.2;
   static constexpr double kLeastForce_N = 0.03;
   static constexpr double kLeastForce = 0.05;  ///< In units of EI / l_0^2.
   static constexpr double kLargestArcStd = 0.05;

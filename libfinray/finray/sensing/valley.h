@@ -21,17 +21,19 @@ namespace finray {
 /// the std of l is proportional to 1 / f, so a heavy contact at the tip
 /// explains a frame over a narrow range of places only. The std are at least
 ///
-///   max |l - l_c| / (kSlack d(l)),   max |f(l) - f_c| / (kSlack d(l))
+///   max |l - l_c| / s(l),   max |f(l) - f_c| / s(l),
+///   s(l) = min(kSlack d(l), kMostStd)
 ///
-/// over all places with d(l) < kFarthest. An ordinary valley is so straight
-/// that these are smaller than its std.
+/// over all places with d(l) < kFarthest, which noise reaches once in a million
+/// frames. An ordinary valley is so straight that these are smaller than its
+/// std.
 struct Valley {
   /// These std over those of the minimum, 1 or more.
   double arc_factor, normal_factor;
   /// Where p(l) is less than 4 above the minimum: two std.
   double arc_low_mm, arc_high_mm, normal_low_N, normal_high_N;
 
-  static constexpr double kFarthest = 4.75, kSlack = 1.25;
+  static constexpr double kFarthest = 5.3, kSlack = 1.25, kMostStd = 6;
 };
 
 /// Compares a solution with the best contact at each place of a table

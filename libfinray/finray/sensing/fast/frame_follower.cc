@@ -11,7 +11,7 @@ constexpr double kTolerance = 5e-9;
 
 // A frame is searched if another place may have a chi2 that is larger by less
 // than this. The map's margins reach to Valley::kFarthest then (ramp_study).
-constexpr double kOtherPlaces = 13.8;
+constexpr double kOtherPlaces = 17;
 
 Eigen::VectorXd AllWeights(const Finger& finger) {
   const auto gauges = static_cast<Eigen::Index>(finger.gauges.size());
