@@ -141,12 +141,33 @@ void PrintRatios(const std::vector<Measurement>& all, const std::string& task,
   }
 }
 
+// Says what is exact enough for the finger's own gauges.
+void PrintNoise(const BenchmarkRun& run) {
+  const NoiseFloor floor = FloorOf(run.noise, "one_contact");
+  std::printf(
+      "noise          %.2g rad of the gauges leaves %.2g mm of l_c and %.2g N "
+      "of f_c (std, one contact)\n",
+      floor.gauge_rad, floor.contact_mm, floor.normal_N);
+  for (const EnoughSetting& one : EnoughAgainstNoise(run.settings, floor)) {
+    if (one.id == one.default_id) {
+      std::printf("enough         %s: nothing faster is\n", one.id.c_str());
+      continue;
+    }
+    std::printf(
+        "enough         %s: at your noise (%.2g rad) %s, is enough and %.2g "
+        "times faster than the default (%.2f .. %.2f)\n",
+        one.id.c_str(), floor.gauge_rad, one.words.c_str(), one.times_faster,
+        one.interval.low, one.interval.high);
+  }
+}
+
 void PrintSummary(const BenchmarkRun& run) {
   std::printf("%s\n", OutPath("benchmark.json").c_str());
   std::printf("settings       %zu, %d rounds; %s, %s\n", run.settings.size(),
               run.rounds, run.machine.at("cpu").c_str(),
               run.machine.at("instruction_set").c_str());
-  for (const Recommendation& r : Recommend(run.settings)) {
+  for (const Recommendation& r :
+       Recommend(run.settings, FloorOf(run.noise, "one_contact"))) {
     std::printf("%-14s %s", r.use.c_str(),
                 r.id.empty() ? "nothing serves" : r.id.c_str());
     if (!r.id.empty()) {
@@ -155,6 +176,7 @@ void PrintSummary(const BenchmarkRun& run) {
     if (std::isfinite(r.margin())) std::printf(", margin %.0f", r.margin());
     std::printf("\n");
   }
+  PrintNoise(run);
   PrintRatios(run.settings, "sensing", "default/alone");
   PrintRatios(run.settings, "estimation", "default/search");
   for (const DefaultCheck& check : CheckDefaults(run.settings)) {
@@ -219,6 +241,7 @@ int Measure() {
   std::vector<BenchmarkCase> cases;
   for (const std::string& scene : scenes) {
     cases.push_back(MakeBenchmarkCase(finger, scene));
+    run.noise.push_back(NoiseFloorOf(finger, cases.back()));
   }
   {
     MeasuringOptions options;

@@ -103,6 +103,13 @@ def verdict(run):
             "See the table of defaults: " + ", ".join(c["id"] for c in failing) + ".", False)
 
 
+def enough(run):
+    """What is exact enough for the noise of the finger's gauges, with that noise added."""
+    floor = next((n for n in run["noise"] if n["scene"] == "one_contact"), {})
+    return [dict(e, together_mm=math.hypot(e["contact_rms_mm"], floor["contact_mm"]))
+            for e in run["enough"]]
+
+
 def groups(run):
     """Settings by task and scene, in the order they were measured."""
     out = {}
@@ -125,6 +132,7 @@ def main():
     headline, meaning, good = verdict(run)
     yardstick_us = statistics.median(
         y for s in run["settings"] for y in s["yardstick_us"])
+    noise = {n["scene"]: n for n in run["noise"]}
     scenes = []
     for task in TASKS:
         plots = []
@@ -133,13 +141,13 @@ def main():
                 continue
             plot = pareto_plots.pareto([s for s in run["settings"] if s["task"] == task and
                                         s["scene"] == front["scene"]], front["front"],
-                                       yardstick_us)
+                                       yardstick_us, noise.get(front["scene"], {}))
             if plot:
                 plots.append((front["scene"].replace("_", " "), plot))
         scenes.append((TASKS[task], plots))
     page = environment.get_template("benchmark.html.jinja").render(
         run=run, headline=headline, meaning=meaning, good=good, tiles=tiles(run, by_id),
-        uses=USES, yardstick_us=yardstick_us, by_id=by_id, scenes=scenes, groups=groups(run),
+        uses=USES, noise=noise.get("one_contact"), enough=enough(run), yardstick_us=yardstick_us, by_id=by_id, scenes=scenes, groups=groups(run),
         key=pareto_plots.key(run["settings"]), links=scaling_plots.links(run["settings"]),
         frames=scaling_plots.frames(run["scaling"]["frames"]),
         threads=scaling_plots.threads(run["scaling"]["threads"]))

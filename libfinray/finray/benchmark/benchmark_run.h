@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "finray/benchmark/measurement.h"
+#include "finray/benchmark/noise_floor.h"
 
 namespace finray {
 
@@ -41,6 +42,7 @@ struct BenchmarkRun {
   std::string reference;  ///< The discretization of the reference, in words.
   Facts finger;           ///< name, path, sha256
   Facts machine, build;
+  std::vector<NoiseFloor> noise;      ///< Of each scene.
   std::vector<Measurement> settings;  ///< Those of peers come last.
   std::vector<PeerStatus> peers;
   Scaling scaling;
