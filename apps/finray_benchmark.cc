@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <filesystem>
 #include <set>
 
 #include "app.h"
@@ -31,6 +32,8 @@ DEFINE_int32(rounds, 0, "repeats of every setting; 0: 9 if quick, else 15");
 DEFINE_string(peers, "none",
               "other programs to measure too: none, auto (all that are "
               "installed), or some of scipy,octave,calculix");
+DEFINE_bool(calibration, false,
+            "measure calibrations too: minutes, less with --quick");
 DEFINE_string(compare, "",
               "A,B: compare two runs (folders or benchmark.json) instead");
 DEFINE_double(most_slowdown_percent, 15,
@@ -177,6 +180,18 @@ void PrintSummary(const BenchmarkRun& run) {
     std::printf("\n");
   }
   PrintNoise(run);
+  for (const Latency& one : run.latencies) {
+    std::printf(
+        "live           finger %s, contacts: %s%s: p50 %.0f us, p99 %.0f us, "
+        "p99.9 %.0f us, max %.0f us; %d of %d ok, %d ended\n",
+        one.finger.c_str(), one.contacts.c_str(),
+        one.iteration_limit ? (", search_iteration_limit: " +
+                               std::to_string(*one.iteration_limit))
+                                  .c_str()
+                            : "",
+        one.p50_us, one.p99_us, one.p999_us, one.max_us, one.ok, one.frames,
+        one.ended);
+  }
   PrintRatios(run.settings, "sensing", "default/alone");
   PrintRatios(run.settings, "estimation", "default/search");
   for (const DefaultCheck& check : CheckDefaults(run.settings)) {
@@ -205,6 +220,18 @@ void PrintSummary(const BenchmarkRun& run) {
   }
 }
 
+// Calibrates with the finray_calibrate beside this program.
+void MeasureCalibrations() {
+  std::vector<std::string> arguments = {
+      std::filesystem::read_symlink("/proc/self/exe").parent_path().string(),
+      OutPath("calibration.json")};
+  if (FLAGS_quick) arguments.push_back("210");
+  const std::string problem = RunPythonScript(
+      FINRAY_SOURCE_DIR "/scripts/studies/calibration_speed.py", arguments,
+      "finray_calibrate, finray_simulate and python3-yaml");
+  if (!problem.empty()) Warn("no calibration.json", problem);
+}
+
 int Measure() {
   const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
   Required("out_dir", FLAGS_out_dir);
@@ -223,8 +250,8 @@ int Measure() {
   BenchmarkRun run;
   run.quick = FLAGS_quick;
   run.date = UtcNow();
-  run.command = CommandWith(
-      {"finger", "out_dir", "quick", "only", "rounds", "threads", "peers"});
+  run.command = CommandWith({"finger", "out_dir", "quick", "only", "rounds",
+                             "threads", "peers", "calibration"});
   run.finger = {{"name", finger.name},
                 {"path", FLAGS_finger},
                 {"sha256", Sha256OfFile(FLAGS_finger)}};
@@ -261,11 +288,15 @@ int Measure() {
   run.scaling =
       MeasureBatches(CaseOf(cases, "one_contact"), FLAGS_quick ? 4096 : 65536,
                      threads, FLAGS_quick ? 3 : 7);
+  run.latencies =
+      MeasureLatencies(finger, FLAGS_quick ? 1000 : 20000, FLAGS_quick ? 1 : 2);
   for (const std::string& peer : peers) {
     MeasurePeer(peer, FINRAY_SOURCE_DIR "/scripts/peers", FLAGS_out_dir, finger,
                 cases, &run);
   }
 
+  std::filesystem::remove(OutPath("calibration.json"));  // of another run
+  if (FLAGS_calibration) MeasureCalibrations();
   WriteFileAtomically(OutPath("benchmark.json"), BenchmarkJson(run));
   WriteFileAtomically(OutPath("benchmark.csv"), BenchmarkCsv(run));
   if (FLAGS_report) {

@@ -13,8 +13,10 @@ sys.dont_write_bytecode = True
 sys.path += [str(ROOT / folder) for folder in ("scripts/benchmark", "scripts/perception", "calib/report")]
 
 try:
+    import calibration_plots
     import pareto_plots
     import plot_style
+    import render
     import matplotlib.pyplot as plt
 except ImportError as missing:
     print(missing)
@@ -63,6 +65,29 @@ class NoiseTest(unittest.TestCase):
             plot = pareto_plots.pareto(SETTINGS, ["s0"], 100, noise)
             return [float(y) for y in re.findall(r'<path d="M [\d.]+ ([\d.]+) \nL [\d.]+ \1 \n" clip-path', plot)]
         self.assertGreater(len(line(dict(NOISE, contact_mm=50))), len(line({})))
+
+
+class CalibrationTest(unittest.TestCase):
+    ROWS = [{"frames": n, "setting": setting, "kind": kind, "cpu_s": seconds * n / 1000, "clock_s": seconds * n / 1000,
+             "error_std": error, "stiffness_std_percent": 10 / n**0.5, "memory_MB": 30}
+            for n in (210, 1000)
+            for setting, kind, seconds, error in (
+                ("default", "default", 2, 1e-3), ("2 threads", "threads", 1, 1e-3),
+                ("order 4", "scheme", 1.2, 0.3), ("order 8", "scheme", 1.5, 0.1))]
+
+    def test_the_fastest_that_is_enough(self):
+        found = render.calibration_enough(self.ROWS, 0.25)
+        self.assertEqual([(e["frames"], e["setting"]) for e in found], [(210, "order 8"), (1000, "order 8")])
+        self.assertAlmostEqual(found[0]["times_faster"], 2 / 1.5)
+        # Hardly faster is no faster.
+        close = [dict(r, cpu_s=1.8 * r["frames"] / 1000) if r["setting"] == "order 8" else r for r in self.ROWS]
+        self.assertEqual(render.calibration_enough(close, 0.25)[0]["setting"], "default")
+
+    def test_the_plots_have_noise_and_frames(self):
+        plot = calibration_plots.error(self.ROWS)
+        self.assertIn("noise of the log", plot)
+        self.assertIn("1000 frames", plot)
+        self.assertIn("two threads", calibration_plots.frames(self.ROWS))
 
 
 class ComplianceTest(unittest.TestCase):

@@ -92,8 +92,12 @@ TEST(RecommendationTest, EnoughAgainstTheNoise) {
   EXPECT_NEAR(found.times_faster, 2, 1e-12);
   EXPECT_NEAR(found.interval.low, 2, 1e-12);
   EXPECT_NEAR(found.contact_rms_mm, 4e-2, 1e-12);
-  // Nothing is known without a floor, and nothing is enough if the default is
-  // not.
+  // A coarser one that is hardly faster is not worth it.
+  std::vector<Measurement> close = all;
+  close[1].time_us.assign(9, 5.1);
+  EXPECT_EQ(EnoughAgainstNoise(close, Floor(0.5, 1)).at(0).id,
+            "estimation/one_contact/taylor8x1/block");
+  // Without a floor nothing is known.
   EXPECT_TRUE(EnoughAgainstNoise(all, {}).empty());
   EXPECT_TRUE(EnoughAgainstNoise(all, Floor(1e-7, 1)).empty());
 }

@@ -220,6 +220,15 @@ std::string BenchmarkJson(const BenchmarkRun& run) {
                peer.skipped);
   });
   WriteScaling(run.scaling, &json);
+  json.Maps("latency", run.latencies, [&](const Latency& one) {
+    json.Pairs("finger", one.finger, "contacts", one.contacts, "frames",
+               one.frames, "p50_us", one.p50_us, "p99_us", one.p99_us,
+               "p999_us", one.p999_us, "max_us", one.max_us, "ok", one.ok,
+               "ended", one.ended, "most_iterations", one.most_iterations);
+    if (one.iteration_limit) {
+      json.Pairs("iteration_limit", *one.iteration_limit);
+    }
+  });
   WriteConclusions(run, &json);
   json << YAML::EndMap;
   return std::string(json.c_str()) + "\n";

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "finray/benchmark/latency.h"
 #include "finray/benchmark/measurement.h"
 #include "finray/benchmark/noise_floor.h"
 
@@ -46,6 +47,7 @@ struct BenchmarkRun {
   std::vector<Measurement> settings;  ///< Those of peers come last.
   std::vector<PeerStatus> peers;
   Scaling scaling;
+  std::vector<Latency> latencies;
 };
 
 /// Returns benchmark.json: the run and its conclusions, that is Pareto fronts,

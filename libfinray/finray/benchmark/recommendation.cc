@@ -82,7 +82,8 @@ const Measurement* MostAccurate(const Candidates& candidates) {
              : fastest;
 }
 
-// Returns those whose errors are small against the noise.
+// Returns those whose errors are small against the noise, but for those that
+// another one dominates: a coarser one that is hardly faster.
 Candidates Enough(const Candidates& candidates, const NoiseFloor& floor) {
   Candidates enough;
   for (const Measurement* m : candidates) {
@@ -91,7 +92,15 @@ Candidates Enough(const Candidates& candidates, const NoiseFloor& floor) {
       enough.push_back(m);
     }
   }
-  return enough;
+  Candidates best;
+  for (const Measurement* m : enough) {
+    if (std::none_of(enough.begin(), enough.end(), [m](const auto* other) {
+          return Dominates(*other, *m, other->ratio() / m->ratio());
+        })) {
+      best.push_back(m);
+    }
+  }
+  return best;
 }
 
 Recommendation Made(const char* use, const char* why, double limit_us,
@@ -206,8 +215,9 @@ std::vector<EnoughSetting> EnoughAgainstNoise(
   for (const auto& [task, how] : kUses) {
     const Candidates enough =
         Enough(CandidatesFor(all, task, how), one_contact);
-    const Measurement *ours = DefaultOf(enough), *fastest = Fastest(enough);
-    if (ours == nullptr) continue;
+    const Measurement *ours = DefaultOf(CandidatesFor(all, task, how)),
+                      *fastest = Fastest(enough);
+    if (ours == nullptr || fastest == nullptr) continue;
     found.push_back({ours->name.id(), fastest->name.id(), fastest->words,
                      fastest->errors.contact_rms_mm(),
                      fastest->errors.normal_rms_N(),

@@ -52,7 +52,8 @@ std::vector<Recommendation> Recommend(const std::vector<Measurement>& all,
 /// at most 3 % larger than the noise alone: sqrt(1 + 0.25^2).
 constexpr double kShareOfNoise = 0.25;
 
-/// The fastest setting that is enough, for one way of use of one contact.
+/// The fastest setting that is enough and that none of these dominates, for one
+/// way of use of one contact.
 struct EnoughSetting {
   std::string default_id;
   std::string id;     ///< That of the default if nothing else is as fast.
@@ -62,7 +63,8 @@ struct EnoughSetting {
   double times_faster;
   Interval interval;
 };
-/// Returns one for each way of use whose default was measured and is enough.
+/// Returns one for each way of use whose default was measured, where something
+/// is enough.
 std::vector<EnoughSetting> EnoughAgainstNoise(
     const std::vector<Measurement>& all, const NoiseFloor& one_contact);
 
