@@ -63,6 +63,10 @@ void DumpConfig(const Finger& finger, const Scene& scene,
   if (scene.force_max_N) {
     std::cout << "force_max_N: " << *scene.force_max_N << "\n";
   }
+  if (scene.search_iteration_limit) {
+    std::cout << "search_iteration_limit: " << *scene.search_iteration_limit
+              << "\n";
+  }
   if (scene.object) {
     std::cout << "object: " << ObjectToYaml(*scene.object) << "\n";
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <filesystem>
 #include <set>
 
 #include "app.h"
@@ -31,6 +32,8 @@ DEFINE_int32(rounds, 0, "repeats of every setting; 0: 9 if quick, else 15");
 DEFINE_string(peers, "none",
               "other programs to measure too: none, auto (all that are "
               "installed), or some of scipy,octave,calculix");
+DEFINE_bool(calibration, false,
+            "measure calibrations too: minutes, less with --quick");
 DEFINE_string(compare, "",
               "A,B: compare two runs (folders or benchmark.json) instead");
 DEFINE_double(most_slowdown_percent, 15,
@@ -141,12 +144,33 @@ void PrintRatios(const std::vector<Measurement>& all, const std::string& task,
   }
 }
 
+// Says what is exact enough for the finger's own gauges.
+void PrintNoise(const BenchmarkRun& run) {
+  const NoiseFloor floor = FloorOf(run.noise, "one_contact");
+  std::printf(
+      "noise          %.2g rad of the gauges leaves %.2g mm of l_c and %.2g N "
+      "of f_c (std, one contact)\n",
+      floor.gauge_rad, floor.contact_mm, floor.normal_N);
+  for (const EnoughSetting& one : EnoughAgainstNoise(run.settings, floor)) {
+    if (one.id == one.default_id) {
+      std::printf("enough         %s: nothing faster is\n", one.id.c_str());
+      continue;
+    }
+    std::printf(
+        "enough         %s: at your noise (%.2g rad) %s, is enough and %.2g "
+        "times faster than the default (%.2f .. %.2f)\n",
+        one.id.c_str(), floor.gauge_rad, one.words.c_str(), one.times_faster,
+        one.interval.low, one.interval.high);
+  }
+}
+
 void PrintSummary(const BenchmarkRun& run) {
   std::printf("%s\n", OutPath("benchmark.json").c_str());
   std::printf("settings       %zu, %d rounds; %s, %s\n", run.settings.size(),
               run.rounds, run.machine.at("cpu").c_str(),
               run.machine.at("instruction_set").c_str());
-  for (const Recommendation& r : Recommend(run.settings)) {
+  for (const Recommendation& r :
+       Recommend(run.settings, FloorOf(run.noise, "one_contact"))) {
     std::printf("%-14s %s", r.use.c_str(),
                 r.id.empty() ? "nothing serves" : r.id.c_str());
     if (!r.id.empty()) {
@@ -154,6 +178,19 @@ void PrintSummary(const BenchmarkRun& run) {
     }
     if (std::isfinite(r.margin())) std::printf(", margin %.0f", r.margin());
     std::printf("\n");
+  }
+  PrintNoise(run);
+  for (const Latency& one : run.latencies) {
+    std::printf(
+        "live           finger %s, contacts: %s%s: p50 %.0f us, p99 %.0f us, "
+        "p99.9 %.0f us, max %.0f us; %d of %d ok, %d ended\n",
+        one.finger.c_str(), one.contacts.c_str(),
+        one.iteration_limit ? (", search_iteration_limit: " +
+                               std::to_string(*one.iteration_limit))
+                                  .c_str()
+                            : "",
+        one.p50_us, one.p99_us, one.p999_us, one.max_us, one.ok, one.frames,
+        one.ended);
   }
   PrintRatios(run.settings, "sensing", "default/alone");
   PrintRatios(run.settings, "estimation", "default/search");
@@ -183,6 +220,18 @@ void PrintSummary(const BenchmarkRun& run) {
   }
 }
 
+// Calibrates with the finray_calibrate beside this program.
+void MeasureCalibrations() {
+  std::vector<std::string> arguments = {
+      std::filesystem::read_symlink("/proc/self/exe").parent_path().string(),
+      OutPath("calibration.json")};
+  if (FLAGS_quick) arguments.push_back("210");
+  const std::string problem = RunPythonScript(
+      FINRAY_SOURCE_DIR "/scripts/studies/calibration_speed.py", arguments,
+      "finray_calibrate, finray_simulate and python3-yaml");
+  if (!problem.empty()) Warn("no calibration.json", problem);
+}
+
 int Measure() {
   const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
   Required("out_dir", FLAGS_out_dir);
@@ -201,8 +250,8 @@ int Measure() {
   BenchmarkRun run;
   run.quick = FLAGS_quick;
   run.date = UtcNow();
-  run.command = CommandWith(
-      {"finger", "out_dir", "quick", "only", "rounds", "threads", "peers"});
+  run.command = CommandWith({"finger", "out_dir", "quick", "only", "rounds",
+                             "threads", "peers", "calibration"});
   run.finger = {{"name", finger.name},
                 {"path", FLAGS_finger},
                 {"sha256", Sha256OfFile(FLAGS_finger)}};
@@ -219,6 +268,7 @@ int Measure() {
   std::vector<BenchmarkCase> cases;
   for (const std::string& scene : scenes) {
     cases.push_back(MakeBenchmarkCase(finger, scene));
+    run.noise.push_back(NoiseFloorOf(finger, cases.back()));
   }
   {
     MeasuringOptions options;
@@ -238,11 +288,15 @@ int Measure() {
   run.scaling =
       MeasureBatches(CaseOf(cases, "one_contact"), FLAGS_quick ? 4096 : 65536,
                      threads, FLAGS_quick ? 3 : 7);
+  run.latencies =
+      MeasureLatencies(finger, FLAGS_quick ? 1000 : 20000, FLAGS_quick ? 1 : 2);
   for (const std::string& peer : peers) {
     MeasurePeer(peer, FINRAY_SOURCE_DIR "/scripts/peers", FLAGS_out_dir, finger,
                 cases, &run);
   }
 
+  std::filesystem::remove(OutPath("calibration.json"));  // of another run
+  if (FLAGS_calibration) MeasureCalibrations();
   WriteFileAtomically(OutPath("benchmark.json"), BenchmarkJson(run));
   WriteFileAtomically(OutPath("benchmark.csv"), BenchmarkCsv(run));
   if (FLAGS_report) {

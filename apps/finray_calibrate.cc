@@ -15,6 +15,8 @@ DEFINE_string(plan, "", "plan YAML: free parameters, priors, noise");
 DEFINE_string(logs, "", "CSV logs, patterns and lists, separated by commas");
 DEFINE_string(out_dir, "", "folder for finger.yaml, calibration.yaml, report");
 DEFINE_int32(threads, 0, "threads over frames; 0: all cores");
+DEFINE_double(tolerance_std, 0.01,
+              "parameters move until their gradient is below this, in std");
 DEFINE_bool(report, true, "render report.html");
 DEFINE_bool(leave_one_log_out, true,
             "with several logs: repeat without each, to see if they agree");
@@ -112,11 +114,15 @@ int Run() {
   Required("out_dir", FLAGS_out_dir);
   const auto paths =
       ExpandLogs(SplitList(Required("logs", FLAGS_logs)), FLAGS_out_dir);
+  if (!(FLAGS_tolerance_std > 0)) {
+    throw UsageError("--tolerance_std: expected a number above 0");
+  }
   const Discretization discretization = DiscretizationFlags();
   if (DumpConfigFlag(finger, plan.scene, discretization)) return kGood;
   CalibrationProblem problem(finger, plan,
                              ReadCalibrationLogs(paths, finger, plan),
                              discretization, Threads(FLAGS_threads));
+  problem.set_tolerance_std(FLAGS_tolerance_std);
   RefuseImplausible(&problem);
   const CalibrationResult result = [&] {
     Heartbeat heartbeat;
@@ -127,7 +133,7 @@ int Run() {
 
   const std::string command =
       CommandWith({"finger", "plan", "logs", "out_dir", "scheme", "resolution",
-                   "leave_one_log_out"});
+                   "leave_one_log_out", "tolerance_std"});
   MakeFolder(FLAGS_out_dir);
   WriteFileAtomically(OutPath("calibration.yaml"),
                       CalibrationYaml(problem, result,

@@ -257,6 +257,7 @@ int FollowInput(const BatchSettings& settings) {
   LiveRows rows(settings.finger, settings.scene, kSource, header, &estimator);
   LatencyHistogram latency;
   EstimationSummary summary;
+  std::size_t ended = 0;
   Warn(WarningsOf(settings.finger));
   bool open = WriteLive(rows.HeaderCsv());
   while (open && !IsStopRequested() && lines.Next()) {
@@ -273,8 +274,14 @@ int FollowInput(const BatchSettings& settings) {
     }
     summary.Add(rows.estimate(), settings.scene.friction_coefficient,
                 std::nan(""));
+    ended += rows.estimate().search_ended;
   }
   PrintLatency(latency);
+  if (settings.scene.search_iteration_limit) {
+    std::fprintf(stderr,
+                 "searches       %zu ended by the scene's limit of %d\n", ended,
+                 *settings.scene.search_iteration_limit);
+  }
   const bool unexplained = summary.unexplained_too_many();
   if (unexplained) {
     Warn({UnexplainedWarning(summary, settings.finger, kSource)});

@@ -2,8 +2,8 @@
 
 import matplotlib.pyplot as plt
 
-from plot_style import FAMILIES, HOW_MARKERS, MARKERS, look
-from theme import LINE, QUIET, svg
+from plot_style import FAMILIES, HOW_MARKERS, MARKERS, log_axis, look
+from theme import INK, LINE, QUIET, svg
 
 LEAST_ERROR = 1e-13
 HOWS = {"s": "lanes, blocks of a log", "^": "to rounding", "v": "cold, every frame searched"}
@@ -16,7 +16,17 @@ def error_of(setting):
     return setting.get("gauges_error_rad"), "largest error of a gauge angle (rad)"
 
 
-def pareto(settings, front, yardstick_us):
+def floor_of(settings, noise):
+    """What the finger's own gauge noise leaves of the error of a plot, and its words."""
+    place = any("contact_error_mm" in s for s in settings)
+    if place:
+        floor = noise.get("contact_mm")
+        return floor, f"noise of {noise['gauge_rad']:.1g} rad: {floor:.2g} mm" if floor else ""
+    floor = noise.get("gauge_rad")
+    return floor, f"noise of the gauges: {floor:.1g} rad" if floor else ""
+
+
+def pareto(settings, front, yardstick_us, noise):
     """Times are ratios to the yardstick, as for the front, times its usual time."""
     points = []
     for s in settings:
@@ -37,13 +47,19 @@ def pareto(settings, front, yardstick_us):
         axes.scatter([t], [e], s=34 if on else 20, marker=marker, zorder=3 if on else 2,
                      facecolors=colour if solved else "none", edgecolors=colour,
                      linewidths=0 if solved else 1, alpha=1 if on else 0.55)
+    floor, words = floor_of(settings, noise)
+    if floor:
+        axes.axhline(floor, color=INK, lw=1, ls="--", zorder=1)
+        axes.annotate(words, (1, floor), xycoords=("axes fraction", "data"), xytext=(-2, 3),
+                      textcoords="offset points", ha="right", fontsize=7.5, color=INK)
     axes.set(xscale="log", yscale="log", xlabel="time a frame (µs)", ylabel=label)
     # Leave room for the names.
     left, right = axes.get_xlim()
     axes.set_xlim(left, right * (right / left)**0.2)
+    log_axis(axes.xaxis)
+    log_axis(axes.yaxis)
     name(axes, [p for p in points if p[0]["id"] in front])
     axes.grid(True, which="major", color=LINE, lw=0.5)
-    axes.minorticks_off()
     return svg(figure, f"{settings[0]['task']}, {settings[0]['scene']}: time against error")
 
 

@@ -13,9 +13,11 @@ sys.path.append(str(LOOK))
 
 import jinja2
 
+import calibration_plots
 import pareto_plots
 import scaling_plots
 
+CLEARLY_FASTER = 1.15  # as for the front
 MINUS = "\u2212"
 USES = {"30_Hz": "30 Hz control", "1_kHz": "1 kHz control", "batch": "batch of logs",
         "reference": "reference"}
@@ -103,6 +105,29 @@ def verdict(run):
             "See the table of defaults: " + ", ".join(c["id"] for c in failing) + ".", False)
 
 
+def enough(run):
+    """What is exact enough for the noise of the finger's gauges, with that noise added."""
+    floor = next((n for n in run["noise"] if n["scene"] == "one_contact"), {})
+    return [dict(e, together_mm=math.hypot(e["contact_rms_mm"], floor["contact_mm"]))
+            for e in run["enough"]]
+
+
+def calibration_enough(rows, share):
+    """By number of frames, the fastest setting on one thread whose error is small against the
+    noise of the log, with the default's time over its own."""
+    out = []
+    for count in sorted({r["frames"] for r in rows}):
+        mine = [r for r in rows if r["frames"] == count and r["kind"] != "threads"]
+        good = [r for r in mine if r["error_std"] <= share]
+        if good:
+            best = min(good, key=lambda r: r["cpu_s"])
+            default = next(r for r in mine if r["kind"] == "default")
+            if default["cpu_s"] < CLEARLY_FASTER * best["cpu_s"]:
+                best = default
+            out.append(dict(best, times_faster=default["cpu_s"] / best["cpu_s"]))
+    return out
+
+
 def groups(run):
     """Settings by task and scene, in the order they were measured."""
     out = {}
@@ -125,6 +150,7 @@ def main():
     headline, meaning, good = verdict(run)
     yardstick_us = statistics.median(
         y for s in run["settings"] for y in s["yardstick_us"])
+    noise = {n["scene"]: n for n in run["noise"]}
     scenes = []
     for task in TASKS:
         plots = []
@@ -133,15 +159,22 @@ def main():
                 continue
             plot = pareto_plots.pareto([s for s in run["settings"] if s["task"] == task and
                                         s["scene"] == front["scene"]], front["front"],
-                                       yardstick_us)
+                                       yardstick_us, noise.get(front["scene"], {}))
             if plot:
                 plots.append((front["scene"].replace("_", " "), plot))
         scenes.append((TASKS[task], plots))
+    calibration = None
+    if (folder / "calibration.json").exists():
+        calibration = json.loads((folder / "calibration.json").read_text("utf-8"))
     page = environment.get_template("benchmark.html.jinja").render(
         run=run, headline=headline, meaning=meaning, good=good, tiles=tiles(run, by_id),
-        uses=USES, yardstick_us=yardstick_us, by_id=by_id, scenes=scenes, groups=groups(run),
+        uses=USES, noise=noise.get("one_contact"), enough=enough(run), yardstick_us=yardstick_us, by_id=by_id, scenes=scenes, groups=groups(run),
         key=pareto_plots.key(run["settings"]), links=scaling_plots.links(run["settings"]),
         frames=scaling_plots.frames(run["scaling"]["frames"]),
+        calibration=calibration, calibration_enough=calibration and calibration_enough(
+            calibration, run["share_of_noise"]),
+        calibration_plots=calibration and [calibration_plots.error(calibration),
+                                           calibration_plots.frames(calibration)],
         threads=scaling_plots.threads(run["scaling"]["threads"]))
     temporary = folder / "report.html.part"
     temporary.write_text(page, "utf-8")

@@ -3,7 +3,7 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from plot_style import FAMILIES
+from plot_style import FAMILIES, log_axis
 from theme import AFTER, LINE, QUIET, svg
 
 
@@ -27,7 +27,8 @@ def links(settings):
                   marker="o" if task == "forward" else "s", ms=4, lw=1.2,
                   ls="-" if task == "forward" else "--",
                   label=f"{task} {family}, n to the {exponent:.2f}")
-    axes.set(xscale="log", yscale="log", xlabel="links n", ylabel="time a frame (µs)")
+    axes.set(xscale="log", xlabel="links n", ylabel="time a frame (µs)")
+    log_axis(axes.yaxis)
     axes.grid(True, which="major", color=LINE, lw=0.5)
     axes.minorticks_off()
     axes.set_xticks([25, 50, 100, 200, 400, 800, 1600],
@@ -44,10 +45,10 @@ def frames(batches):
               [1e6 * b["median_s"] / b["frames"] for b in batches], color=AFTER, marker="o",
               ms=4, lw=1.2)
     axes.axhline(1e6 * batches[-1]["median_s"] / batches[-1]["frames"], color=QUIET, lw=1, ls=":")
-    axes.set(xscale="log", yscale="log", xlabel="frames of a batch",
-             ylabel="time a frame, all told (µs)")
+    axes.set(xlabel="frames of a batch", ylabel="time a frame, all told (µs)")
+    log_axis(axes.xaxis)
+    log_axis(axes.yaxis)
     axes.grid(True, which="major", color=LINE, lw=0.5)
-    axes.minorticks_off()
     return svg(figure, "Time a frame by the number of frames")
 
 

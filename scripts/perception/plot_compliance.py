@@ -47,6 +47,7 @@ def main(folder):
         right.barh(k, number(item["stiffness_N_per_mm"]), color=colour, alpha=0.6, height=0.6)
         right.errorbar(number(item["stiffness_N_per_mm"]), k, xerr=1.96 * std, color=QUIET, capsize=3, lw=1)
     left.set(xlabel="displacement (mm)", ylabel="force (N)")
+    left.legend()
     right.set(xlabel="stiffness (N/mm), with 1.96 std")
     right.set_yticks(range(len(objects)), [item["object"] for item in objects])
     right.invert_yaxis()

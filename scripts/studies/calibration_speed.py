@@ -1,22 +1,27 @@
 #!/usr/bin/python3
-"""Measures how long a calibration takes, by the number of frames.
+"""Measures time and error of a calibration: frames, scheme, tolerance, threads.
 
-calibration_speed.py BUILD_DIR [FRAMES ...]
+calibration_speed.py BUILD_DIR OUT.json [FRAMES ...]
 
-Simulates logs of the bundled hidden finger (by default 1000, 10 000 and 100 000
-frames; a million take some minutes to simulate), calibrates the 15 parameters
-of configs/plans/force_and_circle.yaml with one and two threads, and prints
-seconds of the solve (five starts and outliers included), of the whole command
-without its HTML page, and the peak memory.
+Simulates logs of the bundled hidden finger (by default 210, 1000 and 10 000
+frames; a million take some minutes to simulate) and calibrates the 15
+parameters of configs/plans/force_and_circle.yaml. For each setting it prints
+seconds of the CPU and by the clock, of the whole command without its HTML page
+(five starts and outliers included, the least of three runs each, as other work
+only lengthens them), the peak memory, and the error: how far the
+worst parameter is from its value under a tolerance of 1e-6 std, in the std that
+the noise of the log leaves it. OUT.json is for the page of finray_benchmark.
 """
 
+import json
 import os
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
 import time
+
+import yaml
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from make_dataset import RADIUS_MM, places
@@ -26,6 +31,21 @@ HIDDEN = ROOT / "datasets" / "simulated_r15" / "hidden_finger.yaml"
 PLAN = ROOT / "configs" / "plans" / "force_and_circle.yaml"
 START = ROOT / "configs" / "fingers" / "paper_140mm.yaml"
 REPEATS = 3
+MOST_FRAMES_OF_LINKS = 300  # more take minutes
+# Name, what the plots tell apart, flags. The first is the default.
+SETTINGS = (
+    ("default", "default", ()),
+    ("2 threads", "threads", ("--threads", "2")),
+    ("tolerance 10 std", "tolerance", ("--tolerance_std", "10")),
+    ("tolerance 1 std", "tolerance", ("--tolerance_std", "1")),
+    ("tolerance 0.1 std", "tolerance", ("--tolerance_std", "0.1")),
+    ("tolerance 1e-4 std", "tolerance", ("--tolerance_std", "1e-4")),
+    ("order 4, one element a bay", "scheme", ("--scheme", "taylor4", "--resolution", "12")),
+    ("order 8, one element a bay", "scheme", ("--scheme", "taylor8", "--resolution", "12")),
+    ("order 12, one element a bay", "scheme", ("--scheme", "taylor12", "--resolution", "12")),
+    ("100 rigid links", "scheme", ("--scheme", "rigid_chain", "--resolution", "100")),
+)
+REFERENCE = ("--tolerance_std", "1e-6")
 
 
 def simulate(build, folder, frames):
@@ -44,37 +64,57 @@ def simulate(build, folder, frames):
     return log
 
 
-def calibrate(build, folder, log, threads):
-    """Seconds of the solve and of the whole command, and megabytes."""
+def calibrate(build, folder, log, flags):
+    """Seconds of the command by CPU and clock, megabytes, and the parameters: name to value and
+    std."""
+    threads = () if "--threads" in flags else ("--threads", "1")
     start = time.perf_counter()
     process = subprocess.Popen([build / "finray_calibrate", "--finger", START, "--plan", PLAN,
                                 "--logs", log, "--out_dir", folder / "out", "--noreport",
-                                "--threads", str(threads), "--v", "1"],
+                                *threads, *flags],
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     text = process.stderr.read()
     _, status, usage = os.wait4(process.pid, 0)
     seconds = time.perf_counter() - start
     if status != 0:
-        sys.exit(text)
-    solve = float(re.search(r"\] solve: ([\d.e+-]+) s", text).group(1))
-    return solve, seconds, usage.ru_maxrss / 1000
+        sys.exit(f"{' '.join(flags)}: {text}")
+    result = yaml.safe_load((folder / "out" / "calibration.yaml").read_text())
+    return usage.ru_utime + usage.ru_stime, seconds, usage.ru_maxrss / 1000, {
+        p["name"]: (p["value"], p["std"]) for p in result["parameters"] if p["status"] != "fixed"}
+
+
+def distance_std(found, reference):
+    """The largest difference of a parameter in its std."""
+    return max(abs(found[name][0] - value) / std for name, (value, std) in reference.items())
 
 
 def main():
-    if len(sys.argv) < 2:
+    if len(sys.argv) < 3:
         sys.exit(__doc__.strip())
-    build = pathlib.Path(sys.argv[1]).resolve()
-    print(f"{'frames':>8} {'threads':>7} {'solve, s':>9} {'all, s':>8} {'us/frame':>9} {'MB':>6}")
-    for frames in [int(a) for a in sys.argv[2:]] or [1000, 10000, 100000]:
+    build, out = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
+    rows = []
+    print(f"{'frames':>7} {'setting':28} {'CPU, s':>7} {'clock, s':>8} {'error, std':>10} {'stiffness std, %':>16} {'MB':>5}")
+    for frames in [int(a) for a in sys.argv[3:]] or [210, 1000, 10000]:
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             log = simulate(build, folder, frames)
-            for threads in (1, 2):
-                runs = [calibrate(build, folder, log, threads)
-                        for _ in range(REPEATS if frames <= 100000 else 1)]
-                solve, seconds, memory = sorted(runs)[len(runs) // 2]
-                print(f"{frames:8} {threads:7} {solve:9.2f} {seconds:8.2f}"
-                      f" {1e6 * seconds / frames:9.1f} {memory:6.0f}", flush=True)
+            *_, reference = calibrate(build, folder, log, REFERENCE)
+            value, std = reference["front_stiffness_N_mm2"]
+            for setting, kind, flags in SETTINGS:
+                if "rigid_chain" in flags and frames > MOST_FRAMES_OF_LINKS:
+                    continue
+                runs = [calibrate(build, folder, log, flags)
+                        for _ in range(REPEATS if frames <= 10000 else 1)]
+                cpu, seconds, memory = (min(run[k] for run in runs) for k in range(3))
+                found = runs[0][3]  # all runs find the same
+                rows.append({"frames": frames, "setting": setting, "kind": kind,
+                             "cpu_s": cpu, "clock_s": seconds, "error_std": distance_std(found, reference),
+                             "stiffness_std_percent": 100 * std / value, "memory_MB": memory})
+                print(f"{frames:7} {setting:28} {cpu:7.2f} {seconds:8.2f} {rows[-1]['error_std']:10.1e}"
+                      f" {100 * std / value:16.2f} {memory:5.0f}", flush=True)
+    partial = out.with_name(out.name + ".part")
+    partial.write_text(json.dumps(rows, indent=1) + "\n")
+    partial.rename(out)
 
 
 if __name__ == "__main__":

@@ -33,11 +33,17 @@ TEST_F(BenchmarkCommandTest, WritesFilesThatCompare) {
   EXPECT_THAT(measured.output, HasSubstr("out/benchmark.json\n"));
   EXPECT_THAT(measured.output,
               HasSubstr("\ndefault        sensing/one_contact/default/lanes"));
+  EXPECT_THAT(measured.output,
+              HasSubstr("\nnoise          0.0003 rad of the gauges leaves"));
+  EXPECT_THAT(measured.output,
+              HasSubstr(": at your noise (0.0003 rad) order "));
   EXPECT_THAT(Content("out/benchmark.csv"),
               HasSubstr("\nsensing/one_contact/taylor8x1/lanes,"));
   const std::string page = Content("out/report.html");
   EXPECT_THAT(page, HasSubstr("Benchmark of paper_140mm"));
   EXPECT_THAT(page, HasSubstr("<svg"));
+  EXPECT_THAT(page, HasSubstr("noise of 0.0003 rad: 0."));
+  EXPECT_THAT(page, HasSubstr("At your noise (3.0e\u221204 rad) "));
   EXPECT_THAT(page, testing::Not(HasSubstr("src=\"http")));
   // A run against itself; where noise is large it may be undecided.
   const Outcome same =

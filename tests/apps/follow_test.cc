@@ -222,6 +222,20 @@ TEST_F(FollowTest, AMalformedLineIsARowAndAMessage) {
   }
 }
 
+TEST_F(FollowTest, ASearchThatIsEndedSaysSo) {
+  folder_.Write("scene.yaml", "contacts: 1\nsearch_iteration_limit: 1\n");
+  Follower follower = Start();
+  follower.Write(header_ + "1" + good_ + "2" + good_);
+  follower.CloseInput();
+  const FrameTable table =
+      FrameTable::Read(folder_.Write("live.csv", follower.ReadAll()));
+  EXPECT_EQ(follower.Wait(), 0);
+  EXPECT_THAT(table.Numbers("search_ended"), testing::ElementsAre(1, 1));
+  EXPECT_THAT(
+      follower.Errors(),
+      HasSubstr("\nsearches       2 ended by the scene's limit of 1\n"));
+}
+
 TEST_F(FollowTest, StrictEndsAtAMalformedLine) {
   Follower follower = Start({"--strict"});
   follower.Write(header_ + "1" + good_ + "2,x,1,1,1\n3" + good_);

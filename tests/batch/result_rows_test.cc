@@ -90,6 +90,11 @@ TEST(ResultRowsTest, ColumnsFollowFromTheScene) {
   measured.object_std_mm = 0.1;
   EXPECT_EQ(ResultLayout(PaperFinger(), measured, log).HeaderCsv(), one);
   EXPECT_THAT(header(0), Not(HasSubstr("alternative")));
+  EXPECT_THAT(two, Not(HasSubstr("search_ended")));
+  Scene limited;
+  limited.search_iteration_limit = 50;
+  EXPECT_THAT(ResultLayout(PaperFinger(), limited, log).HeaderCsv(),
+              HasSubstr("chi2_p_value,iterations,search_ended,alternative_"));
   // All of them read back as numbers.
   const FrameParser back(
       "b.csv", {std::string_view(two).substr(0, two.size() - 1), 1, false}, {});

@@ -15,9 +15,16 @@ Measurement Made(const char* task, const char* solver, const char* how,
   m.time_us.assign(9, time_us);
   m.yardstick_us.assign(9, 100);
   m.errors.contact_mm = contact_mm;
+  m.errors.contacts = 1;
+  m.errors.contact_squares_mm2 = contact_mm * contact_mm;
+  m.errors.normal_squares_N2 = 0.01 * contact_mm * contact_mm;
   m.slow_frame_us = slow_us;
   m.solved_percent = 100;
   return m;
+}
+
+NoiseFloor Floor(double contact_mm, double normal_N) {
+  return {"one_contact", 3e-4, contact_mm, normal_N};
 }
 
 TEST(RecommendationTest, EachUseGetsItsOwn) {
@@ -32,7 +39,7 @@ TEST(RecommendationTest, EachUseGetsItsOwn) {
       Made("sensing", "rough", "to_rounding", 10, 1e-3),
       Made("sensing", "finest", "to_rounding", 1000, 1e-12),
       Made("sensing", "as_fine", "to_rounding", 900, 5e-10)};
-  const std::vector<Recommendation> found = Recommend(all);
+  const std::vector<Recommendation> found = Recommend(all, Floor(0.02, 0.01));
   ASSERT_EQ(found.size(), 4u);
   EXPECT_EQ(found[0].id, "estimation/one_contact/slow_and_exact/live");
   EXPECT_NEAR(found[0].margin(), 1e6 / 30 / 500, 1e-9);
@@ -50,16 +57,49 @@ TEST(RecommendationTest, AccuracyIsThatOfAllErrors) {
       Made("estimation", "as_good", "live", 45, 1e-6, 80)};
   for (Measurement& m : all) m.errors.tip_mm = 1e-8;
   all[1].errors.tip_mm = 1e-7;
-  EXPECT_EQ(Recommend(all)[1].id, "estimation/one_contact/default/live");
+  EXPECT_EQ(Recommend(all, Floor(0.02, 0.01))[1].id,
+            "estimation/one_contact/default/live");
   all[2].time_us.assign(9, 35);
-  EXPECT_EQ(Recommend(all)[1].id, "estimation/one_contact/as_good/live");
+  EXPECT_EQ(Recommend(all, Floor(0.02, 0.01))[1].id,
+            "estimation/one_contact/as_good/live");
 }
 
 TEST(RecommendationTest, NothingServes) {
-  const std::vector<Recommendation> found =
-      Recommend({Made("estimation", "slow", "live", 5e3, 1e-6, 9e3)});
+  const std::vector<Recommendation> found = Recommend(
+      {Made("estimation", "slow", "live", 5e3, 1e-6, 9e3)}, Floor(0.02, 0.01));
   EXPECT_EQ(found[0].id, "");
   EXPECT_EQ(found[1].id, "");
+}
+
+// What is enough depends on the noise: of coarse gauges more is.
+TEST(RecommendationTest, EnoughAgainstTheNoise) {
+  const std::vector<Measurement> all = {
+      Made("estimation", "default", "block", 10, 1e-6),
+      Made("estimation", "taylor8x1", "block", 8, 1e-4),
+      Made("estimation", "taylor4x2", "block", 5, 4e-2),
+      Made("estimation", "taylor4x1", "block", 4, 0.2)};
+  const auto id = [&](const NoiseFloor& floor) {
+    return EnoughAgainstNoise(all, floor).at(0).id;
+  };
+  EXPECT_EQ(id(Floor(0.81, 1)), "estimation/one_contact/taylor4x1/block");
+  EXPECT_EQ(id(Floor(0.5, 1)), "estimation/one_contact/taylor4x2/block");
+  EXPECT_EQ(id(Floor(0.15, 1)), "estimation/one_contact/taylor8x1/block");
+  // The force has a noise of its own.
+  EXPECT_EQ(id(Floor(0.5, 0.015)), "estimation/one_contact/taylor8x1/block");
+  EXPECT_EQ(id(Floor(1e-4, 1)), "estimation/one_contact/default/block");
+  const EnoughSetting found = EnoughAgainstNoise(all, Floor(0.5, 1)).at(0);
+  EXPECT_EQ(found.default_id, "estimation/one_contact/default/block");
+  EXPECT_NEAR(found.times_faster, 2, 1e-12);
+  EXPECT_NEAR(found.interval.low, 2, 1e-12);
+  EXPECT_NEAR(found.contact_rms_mm, 4e-2, 1e-12);
+  // A coarser one that is hardly faster is not worth it.
+  std::vector<Measurement> close = all;
+  close[1].time_us.assign(9, 5.1);
+  EXPECT_EQ(EnoughAgainstNoise(close, Floor(0.5, 1)).at(0).id,
+            "estimation/one_contact/taylor8x1/block");
+  // Without a floor nothing is known.
+  EXPECT_TRUE(EnoughAgainstNoise(all, {}).empty());
+  EXPECT_TRUE(EnoughAgainstNoise(all, Floor(1e-7, 1)).empty());
 }
 
 TEST(RecommendationTest, TheDefaultIsChecked) {

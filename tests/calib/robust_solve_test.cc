@@ -13,6 +13,7 @@
 #include "calib/standard_log.h"
 #include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/solve/outliers.h"
+#include "finray/calib/solve/summed_solve.h"
 
 namespace finray {
 namespace {
@@ -150,6 +151,38 @@ TEST(RobustSolveTest, ThreadsDoNotChangeTheResult) {
     EXPECT_EQ(rejected[k], rejected[0]);
     ExpectSameCosts(starts[k], starts[0]);
   }
+}
+
+// More frames than the starts take, so that the last solve moves.
+TEST(RobustSolveTest, TheToleranceIsTheDistanceToTheMinimum) {
+  const TempFolder folders[5];
+  std::vector<std::string> paths;
+  for (unsigned i = 0; i < 5; ++i) {
+    paths.push_back(StandardLog(folders[i], HiddenFinger(), 60 + i));
+  }
+  const Finger start = Nominal();
+  const Plan plan = StandardPlan();
+  Eigen::VectorXd minimum;
+  Eigen::MatrixXd information;
+  const auto distance_std = [&](double tolerance_std) {
+    CalibrationProblem problem(start, plan,
+                               ReadCalibrationLogs(paths, start, plan), {}, 2);
+    problem.set_tolerance_std(tolerance_std);
+    const CalibrationSolution solution = SolveRobustly(&problem);
+    const Eigen::VectorXd values = problem.Values();
+    if (minimum.size() == 0) {
+      minimum = values;
+      information =
+          SumsWithPriors(solution.at, problem.parameters()).information;
+    }
+    const Eigen::VectorXd off = values - minimum;
+    return std::sqrt(std::max(0.0, off.dot(information * off)));
+  };
+  distance_std(1e-7);
+  const double usual = distance_std(1e-2), coarse = distance_std(10);
+  EXPECT_LT(usual, 1e-2);
+  EXPECT_LT(usual, coarse);
+  EXPECT_LT(coarse, 10);
 }
 
 // Ceres orders blocks by address; ours are to be in their own order.

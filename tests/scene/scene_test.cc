@@ -115,6 +115,8 @@ TEST(SceneTest, ReadsMeasurementsAndSmoothing) {
   EXPECT_FALSE(Load("contacts: 1\n").smoothing);
   EXPECT_FALSE(Load("contacts: 1\n").force_max_N);
   EXPECT_EQ(Load("force_max_N: 12\n").force_max_N, 12);
+  EXPECT_FALSE(Load("contacts: 1\n").search_iteration_limit);
+  EXPECT_EQ(Load("search_iteration_limit: 50\n").search_iteration_limit, 50);
   const auto error = [](const std::string& text, const std::string& message) {
     EXPECT_THAT([&] { Load(text); },
                 ThrowsMessage<InputError>(HasSubstr(message)));
@@ -128,6 +130,9 @@ TEST(SceneTest, ReadsMeasurementsAndSmoothing) {
         "needs contacts: 1 or auto");
   error("measurements: {object_std_mm: 0}\n", "object_std_mm");
   error("force_max_N: 0\n", "force_max_N");
+  error("search_iteration_limit: 0\n",
+        ":1:25: search_iteration_limit: expected");
+  error("search_iteration_limit: 1.5\n", "search_iteration_limit");
   error("smoothing: {contact_std_mm: 1}\n", "normal_std_N");
   error("smoothing: {contact_mm: 1, normal_std_N: 1}\n", "contact_std_mm");
 }

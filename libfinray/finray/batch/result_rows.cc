@@ -60,6 +60,7 @@ void ResultColumns::ForEach(const Measurements& readings,
   named("chi2", estimate.chi2);
   named("chi2_p_value", estimate.p_value());
   named("iterations", estimate.iterations);
+  if (limited_) named("search_ended", estimate.search_ended);
   if (!alternative_) return;
   for (int c = 0; c < contacts_; ++c) {
     const ContactEstimate& contact = estimate.alternative[c];
@@ -73,6 +74,7 @@ ResultColumns::ResultColumns(const Finger& finger, const Scene& scene)
     : gauges_(finger.gauges),
       ribs_(finger.ribs.size()),
       alternative_(scene.contacts != 0),
+      limited_(scene.search_iteration_limit.has_value()),
       friction_(scene.friction_coefficient) {
   constexpr std::size_t kGaugesForTwo = 4;  // as many as unknowns
   const bool automatic =

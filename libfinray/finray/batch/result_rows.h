@@ -12,10 +12,10 @@ namespace finray {
 
 /// The numeric columns that an estimate fills in, in this order: contact_<c>_*,
 /// normal_<c>_*, friction_<c>, gauge angles, ribs, gauge offsets where
-/// they wander, tip, chi2, chi2_p_value, iterations, alternative_*. They depend
-/// only on the finger and the scene. The second contact has columns if
-/// FrameEstimator may find one: contacts 2, or auto with at least four gauges
-/// and no object_std_mm.
+/// they wander, tip, chi2, chi2_p_value, iterations, search_ended,
+/// alternative_*. They depend only on the finger and the scene. The second
+/// contact has columns if FrameEstimator may find one: contacts 2, or auto with
+/// at least four gauges and no object_std_mm.
 class ResultColumns {
  public:
   ResultColumns(const Finger& finger, const Scene& scene);
@@ -34,7 +34,7 @@ class ResultColumns {
   std::vector<Gauge> gauges_;
   std::size_t ribs_;
   int contacts_ = 1;
-  bool alternative_;
+  bool alternative_, limited_;
   double friction_;
   std::vector<std::string> names_;
 };

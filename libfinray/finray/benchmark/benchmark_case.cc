@@ -75,6 +75,13 @@ Discretization ReferenceDiscretization(const Finger& finger) {
   return {Scheme::kTaylor, ElementsFor(finger, 8)};
 }
 
+PointContact WanderingContact(const Finger& finger, int i) {
+  PointContact contact = ContactsAt("one_contact", i)[0];
+  contact.arc_mm *= finger.front_length_mm / kPaperLength_mm;
+  contact.normal_N *= ForceUnit(finger) / kPaperForceUnit_N;
+  return contact;
+}
+
 BenchmarkCase MakeBenchmarkCase(const Finger& finger, const std::string& scene,
                                 int stretches) {
   BenchmarkCase c;

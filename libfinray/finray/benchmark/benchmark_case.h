@@ -69,6 +69,9 @@ int ElementsFor(const Finger& finger, double a_bay);
 /// Returns the discretization of the reference: order 16, eight elements a bay.
 Discretization ReferenceDiscretization(const Finger& finger);
 
+/// Returns the contact of `one_contact` at step `i` of the path above.
+PointContact WanderingContact(const Finger& finger, int i);
+
 /// Makes a case of `stretches` stretches. Throws std::runtime_error if the
 /// finger has no equilibrium somewhere along the log.
 BenchmarkCase MakeBenchmarkCase(const Finger& finger, const std::string& scene,

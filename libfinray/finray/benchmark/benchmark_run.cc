@@ -71,6 +71,10 @@ constexpr NamedNumber kNumbers[] = {
     {"normal_error_N", [](const Measurement& m) { return m.errors.normal_N; }},
     {"normal_error_percent",
      [](const Measurement& m) { return m.errors.normal_percent; }},
+    {"contact_rms_mm",
+     [](const Measurement& m) { return m.errors.contact_rms_mm(); }},
+    {"normal_rms_N",
+     [](const Measurement& m) { return m.errors.normal_rms_N(); }},
     {"tip_error_mm", [](const Measurement& m) { return m.errors.tip_mm; }},
     {"gauges_error_rad",
      [](const Measurement& m) { return m.errors.gauges_rad; }},
@@ -129,8 +133,9 @@ void WriteScaling(const Scaling& scaling, JsonEmitter* json) {
   *json << YAML::EndMap;
 }
 
-void WriteConclusions(const std::vector<Measurement>& settings,
-                      JsonEmitter* json) {
+void WriteConclusions(const BenchmarkRun& run, JsonEmitter* json) {
+  const std::vector<Measurement>& settings = run.settings;
+  const NoiseFloor floor = FloorOf(run.noise, "one_contact");
   json->Maps("pareto", ParetoFronts(settings), [&](const SceneFront& front) {
     std::vector<std::string> ids;
     for (const std::size_t i : front.front) {
@@ -138,11 +143,21 @@ void WriteConclusions(const std::vector<Measurement>& settings,
     }
     json->Pairs("task", front.task, "scene", front.scene, "front", ids);
   });
-  json->Maps("recommended", Recommend(settings), [&](const Recommendation& r) {
-    json->Pairs("use", r.use, "id", r.id, "why", r.why, "limit_us", r.limit_us,
-                "time_us", r.time_us, "margin", r.margin(), "contact_error_mm",
-                r.error_mm);
-  });
+  json->Maps("recommended", Recommend(settings, floor),
+             [&](const Recommendation& r) {
+               json->Pairs("use", r.use, "id", r.id, "why", r.why, "limit_us",
+                           r.limit_us, "time_us", r.time_us, "margin",
+                           r.margin(), "contact_error_mm", r.error_mm);
+             });
+  json->Pairs("share_of_noise", kShareOfNoise);
+  json->Maps("enough", EnoughAgainstNoise(settings, floor),
+             [&](const EnoughSetting& e) {
+               json->Pairs(
+                   "default", e.default_id, "id", e.id, "words", e.words,
+                   "contact_rms_mm", e.contact_rms_mm, "normal_rms_N",
+                   e.normal_rms_N, "times_faster", e.times_faster, "interval",
+                   std::vector<double>{e.interval.low, e.interval.high});
+             });
   json->Maps("defaults", CheckDefaults(settings), [&](const DefaultCheck& c) {
     json->Pairs(
         "id", c.id, "holds", c.holds(), "on_front", c.on_front(),
@@ -195,13 +210,26 @@ std::string BenchmarkJson(const BenchmarkRun& run) {
   json.Pairs("reference", run.reference);
   WriteFacts("machine", run.machine, &json);
   WriteFacts("build", run.build, &json);
+  json.Maps("noise", run.noise, [&](const NoiseFloor& floor) {
+    json.Pairs("scene", floor.scene, "gauge_rad", floor.gauge_rad, "contact_mm",
+               floor.contact_mm, "normal_N", floor.normal_N);
+  });
   WriteSettings(run.settings, &json);
   json.Maps("peers", run.peers, [&](const PeerStatus& peer) {
     json.Pairs("name", peer.name, "version", peer.version, "skipped",
                peer.skipped);
   });
   WriteScaling(run.scaling, &json);
-  WriteConclusions(run.settings, &json);
+  json.Maps("latency", run.latencies, [&](const Latency& one) {
+    json.Pairs("finger", one.finger, "contacts", one.contacts, "frames",
+               one.frames, "p50_us", one.p50_us, "p99_us", one.p99_us,
+               "p999_us", one.p999_us, "max_us", one.max_us, "ok", one.ok,
+               "ended", one.ended, "most_iterations", one.most_iterations);
+    if (one.iteration_limit) {
+      json.Pairs("iteration_limit", *one.iteration_limit);
+    }
+  });
+  WriteConclusions(run, &json);
   json << YAML::EndMap;
   return std::string(json.c_str()) + "\n";
 }

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "finray/benchmark/latency.h"
 #include "finray/benchmark/measurement.h"
+#include "finray/benchmark/noise_floor.h"
 
 namespace finray {
 
@@ -41,9 +43,11 @@ struct BenchmarkRun {
   std::string reference;  ///< The discretization of the reference, in words.
   Facts finger;           ///< name, path, sha256
   Facts machine, build;
+  std::vector<NoiseFloor> noise;      ///< Of each scene.
   std::vector<Measurement> settings;  ///< Those of peers come last.
   std::vector<PeerStatus> peers;
   Scaling scaling;
+  std::vector<Latency> latencies;
 };
 
 /// Returns benchmark.json: the run and its conclusions, that is Pareto fronts,

@@ -124,8 +124,12 @@ bool BenchmarkErrors::Add(const FrameAnswer& answer, const FrameAnswer& truth,
   for (std::size_t i = 0; !is_load && i < truth.contacts.size(); ++i) {
     const PointContact &a = answer.contacts[i], &b = truth.contacts[i];
     const double force = std::abs(a.normal_N - b.normal_N);
-    Raise(&contact_mm, std::abs(a.arc_mm - b.arc_mm));
+    const double arc = std::abs(a.arc_mm - b.arc_mm);
+    Raise(&contact_mm, arc);
     Raise(&normal_N, force);
+    contact_squares_mm2 += arc * arc;
+    normal_squares_N2 += force * force;
+    ++contacts;
     Raise(&normal_percent, 100 * force / b.normal_N);
   }
   Raise(&tip_mm, (answer.tip_pose - truth.tip_pose).head<2>().norm());
@@ -134,6 +138,14 @@ bool BenchmarkErrors::Add(const FrameAnswer& answer, const FrameAnswer& truth,
           (answer.gauges_rad - truth.gauges_rad).cwiseAbs().maxCoeff());
   }
   return true;
+}
+
+double BenchmarkErrors::contact_rms_mm() const {
+  return contacts > 0 ? std::sqrt(contact_squares_mm2 / contacts) : kNaN;
+}
+
+double BenchmarkErrors::normal_rms_N() const {
+  return contacts > 0 ? std::sqrt(normal_squares_N2 / contacts) : kNaN;
 }
 
 double Measurement::median_us() const { return Median(time_us); }

@@ -16,6 +16,14 @@ struct BenchmarkErrors {
   double contact_mm = kNaN, normal_N = kNaN, normal_percent = kNaN,
          tip_mm = kNaN, gauges_rad = kNaN;
 
+  /// Sums over the contacts that were found, for the rms.
+  double contact_squares_mm2 = 0, normal_squares_N2 = 0;
+  int contacts = 0;
+
+  /// Rms of the errors of l_c and f_c; NaN without a contact.
+  double contact_rms_mm() const;
+  double normal_rms_N() const;
+
   /// Adds a frame. `is_load`: the contacts were given, so they have no error.
   /// Returns false and adds nothing if the answer has another number of
   /// contacts than the truth.

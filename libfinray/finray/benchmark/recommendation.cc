@@ -11,13 +11,17 @@ namespace {
 constexpr double kSameError = 1.02;
 constexpr double kSameTime = 1.05, kFaster = 1.15, kExacter = 1.5, kCoarser = 2;
 constexpr double kShareOfPeriod = 0.1;
-// A hundredth of the std of l_c with noise of 1e-4 rad, 0.15 .. 0.33 mm.
-constexpr double kBatchError_mm = 1e-3;
 // Iterations end at different places, so errors within this factor are equal.
 constexpr double kSame = 2;
 constexpr double kAsFast = 1.25;
 constexpr double kMuchFaster = 0.8;
 constexpr double kConfidence = 0.95;
+// The ways of use in which the default is compared with the rest.
+constexpr std::pair<const char*, const char*> kUses[] = {
+    {"estimation", "block"},
+    {"estimation", "live"},
+    {"sensing", "lanes"},
+    {"sensing", "alone"}};
 // Errors below this, in mm, N or rad, are equal.
 constexpr double kNoError = 1e-9;
 
@@ -76,6 +80,27 @@ const Measurement* MostAccurate(const Candidates& candidates) {
   return ours != nullptr && ours->ratio() < kAsFast * fastest->ratio()
              ? ours
              : fastest;
+}
+
+// Returns those whose errors are small against the noise, but for those that
+// another one dominates: a coarser one that is hardly faster.
+Candidates Enough(const Candidates& candidates, const NoiseFloor& floor) {
+  Candidates enough;
+  for (const Measurement* m : candidates) {
+    if (m->errors.contact_rms_mm() <= kShareOfNoise * floor.contact_mm &&
+        m->errors.normal_rms_N() <= kShareOfNoise * floor.normal_N) {
+      enough.push_back(m);
+    }
+  }
+  Candidates best;
+  for (const Measurement* m : enough) {
+    if (std::none_of(enough.begin(), enough.end(), [m](const auto* other) {
+          return Dominates(*other, *m, other->ratio() / m->ratio());
+        })) {
+      best.push_back(m);
+    }
+  }
+  return best;
 }
 
 Recommendation Made(const char* use, const char* why, double limit_us,
@@ -170,26 +195,42 @@ std::vector<SceneFront> ParetoFronts(const std::vector<Measurement>& all) {
   return fronts;
 }
 
-std::vector<Recommendation> Recommend(const std::vector<Measurement>& all) {
-  Candidates batch;
-  for (const Measurement* m : CandidatesFor(all, "estimation", "block")) {
-    if (m->errors.contact_mm <= kBatchError_mm) batch.push_back(m);
+std::vector<Recommendation> Recommend(const std::vector<Measurement>& all,
+                                      const NoiseFloor& one_contact) {
+  const Candidates batch =
+      Enough(CandidatesFor(all, "estimation", "block"), one_contact);
+  return {
+      ForRate("30_Hz", 1e6 / 30, all), ForRate("1_kHz", 1e3, all),
+      Made("batch",
+           "the fastest estimate of logs whose errors of l_c and f_c (rms) are "
+           "at most a quarter of the noise's",
+           kNaN, Fastest(batch)),
+      Made("reference", "the most accurate, of equal ones the fastest", kNaN,
+           MostAccurate(CandidatesFor(all, "sensing", "")))};
+}
+
+std::vector<EnoughSetting> EnoughAgainstNoise(
+    const std::vector<Measurement>& all, const NoiseFloor& one_contact) {
+  std::vector<EnoughSetting> found;
+  for (const auto& [task, how] : kUses) {
+    const Candidates enough =
+        Enough(CandidatesFor(all, task, how), one_contact);
+    const Measurement *ours = DefaultOf(CandidatesFor(all, task, how)),
+                      *fastest = Fastest(enough);
+    if (ours == nullptr || fastest == nullptr) continue;
+    found.push_back({ours->name.id(), fastest->name.id(), fastest->words,
+                     fastest->errors.contact_rms_mm(),
+                     fastest->errors.normal_rms_N(),
+                     ours->ratio() / fastest->ratio(),
+                     RatioOfQuantiles(fastest->ratios(), ours->ratios(),
+                                      Measurement::kUndisturbed, kConfidence)});
   }
-  return {ForRate("30_Hz", 1e6 / 30, all), ForRate("1_kHz", 1e3, all),
-          Made("batch",
-               "the fastest estimate of logs with l_c off by 1e-3 mm at most",
-               kNaN, Fastest(batch)),
-          Made("reference", "the most accurate, of equal ones the fastest",
-               kNaN, MostAccurate(CandidatesFor(all, "sensing", "")))};
+  return found;
 }
 
 std::vector<DefaultCheck> CheckDefaults(const std::vector<Measurement>& all) {
-  const std::pair<const char*, const char*> uses[] = {{"estimation", "block"},
-                                                      {"estimation", "live"},
-                                                      {"sensing", "lanes"},
-                                                      {"sensing", "alone"}};
   std::vector<DefaultCheck> checks;
-  for (const auto& [task, how] : uses) {
+  for (const auto& [task, how] : kUses) {
     const Candidates candidates = CandidatesFor(all, task, how);
     const Measurement* ours = DefaultOf(candidates);
     if (ours != nullptr) checks.push_back(CheckDefault(*ours, candidates));

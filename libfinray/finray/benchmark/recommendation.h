@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "finray/benchmark/measurement.h"
+#include "finray/benchmark/noise_floor.h"
 #include "finray/benchmark/statistics.h"
 
 namespace finray {
@@ -41,10 +42,31 @@ struct Recommendation {
 ///    tenth of the period at most. Settings with no error above twice the least
 ///    count as equally accurate; of these the fastest is taken, or the default
 ///    if it takes at most 1.25 times as long.
-///  - batch: the fastest estimate of a log with l_c off by at most 1e-3 mm, a
-///    hundredth of the std that noise causes.
+///  - batch: the fastest estimate of a log that is enough against the noise.
 ///  - reference: the most accurate setting of all that sense.
-std::vector<Recommendation> Recommend(const std::vector<Measurement>& all);
+std::vector<Recommendation> Recommend(const std::vector<Measurement>& all,
+                                      const NoiseFloor& one_contact);
+
+/// A setting is enough against the noise if its errors of l_c and f_c (rms) are
+/// at most this share of what the gauges' noise leaves. Both together are then
+/// at most 3 % larger than the noise alone: sqrt(1 + 0.25^2).
+constexpr double kShareOfNoise = 0.25;
+
+/// The fastest setting that is enough and that none of these dominates, for one
+/// way of use of one contact.
+struct EnoughSetting {
+  std::string default_id;
+  std::string id;     ///< That of the default if nothing else is as fast.
+  std::string words;  ///< Its SettingLabel::words.
+  double contact_rms_mm, normal_rms_N;
+  /// The time of the default over its own, and the 95 % interval.
+  double times_faster;
+  Interval interval;
+};
+/// Returns one for each way of use whose default was measured, where something
+/// is enough.
+std::vector<EnoughSetting> EnoughAgainstNoise(
+    const std::vector<Measurement>& all, const NoiseFloor& one_contact);
 
 /// Tells whether the default is a good choice for one way of use. It is, if it
 /// lies on the Pareto front of the settings for that use and none of

@@ -21,7 +21,7 @@ const std::vector<std::string>& Patterns() {
         "object_displacement_mm force_N force_x_N force_y_N rib_#_N "
         "rib_#_front_x_mm rib_#_front_y_mm rib_#_back_x_mm rib_#_back_y_mm "
         "cylinder_radius_mm tip_x_mm tip_y_mm tip_angle_rad chi2 chi2_p_value "
-        "alternative_chi2 iterations temperature_C");
+        "alternative_chi2 iterations search_ended temperature_C");
     return std::vector<std::string>(std::istream_iterator<std::string>(words),
                                     {});
   }();

@@ -200,7 +200,8 @@ std::map<std::string, std::string> ReadColumns(const YamlMap& yaml) {
 Scene ReadScene(const YamlMap& yaml) {
   yaml.AllowOnly({"schema_version", "contacts", "contact_beams",
                   "friction_coefficient", "force_max_N", "object",
-                  "measurements", "smoothing", "gauge_offset_walk", "columns"});
+                  "measurements", "smoothing", "gauge_offset_walk", "columns",
+                  "search_iteration_limit"});
   if (yaml.Has("schema_version") && yaml.Integer("schema_version") != 1) {
     yaml.Fail("schema_version", "expected 1");
   }
@@ -209,6 +210,13 @@ Scene ReadScene(const YamlMap& yaml) {
   scene.friction_coefficient = yaml.Number("friction_coefficient", 0);
   if (yaml.Has("force_max_N")) {
     scene.force_max_N = yaml.PositiveNumber("force_max_N");
+  }
+  if (yaml.Has("search_iteration_limit")) {
+    scene.search_iteration_limit = yaml.Integer("search_iteration_limit");
+    if (*scene.search_iteration_limit < 1) {
+      yaml.Fail("search_iteration_limit",
+                "search_iteration_limit: expected at least 1");
+    }
   }
   if (yaml.Has("object")) scene.object = ReadObject(yaml.Map("object"));
   ReadContactBeams(yaml, &scene);

@@ -47,6 +47,9 @@ struct Scene {
   /// The largest credible force of a contact. Empty: a multiple of EI / l_0^2
   /// (ContactSearch::most_force_N).
   std::optional<double> force_max_N;
+  /// The most iterations that the searches of one frame take together. Empty:
+  /// no limit.
+  std::optional<int> search_iteration_limit;
   /// How much l_c and f_c change between frames. Empty: neighbouring frames are
   /// not smoothed.
   std::optional<Smoothing> smoothing;

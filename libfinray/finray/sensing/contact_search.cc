@@ -63,6 +63,29 @@ ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
   for (ContactSolution& solution : solutions_) {
     solution.rib_tension_N.resize(finger.ribs.size());
   }
+  // With a limit no frame waits for the table.
+  if (scene.search_iteration_limit && !scene.object_std_mm &&
+      scene.contacts.value_or(scene.most_contacts) == 2 &&
+      finger.gauges.size() >= 2 * kFittedContacts) {
+    pair_table_ =
+        std::make_unique<PairTable>(&solver_, scene_.friction_coefficient);
+  }
+}
+
+void ContactSearch::Spend(int iterations, bool converged) {
+  iterations_ += iterations;
+  spent_ += iterations;
+  const auto& limit = scene_.search_iteration_limit;
+  ended_ |= limit && spent_ >= *limit && !converged;
+}
+
+bool ContactSearch::MayGoOn() {
+  if (!scene_.search_iteration_limit) return true;
+  const int left = *scene_.search_iteration_limit - spent_;
+  ended_ |= left < 1;
+  fit_.set_most_iterations(std::min(left, ContactFit::kMostIterations));
+  problem_.set_most_iterations(left);
+  return left > 0;
 }
 
 bool ContactSearch::IsExplained(double chi2, int dof) {
@@ -94,6 +117,7 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
     if (contacts == 1 && found_ > 0 && start.contacts[0].normal_N == 0) {
       continue;
     }
+    if (!MayGoOn()) break;
     if (method_ != FrameMethod::kFast) {
       if (FitByCeres(start, row)) Keep();
       continue;
@@ -105,6 +129,7 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
     const bool explained = found_ > 0 && IsExplained(least_chi2(), dof);
     if ((explained && !exact) || fallbacks >= kMostFallbacks) continue;
     ++fallbacks;
+    if (!MayGoOn()) break;
     if (FitByCeres(start, row)) Keep();
     if (found_ > 0 && least_chi2() > FrameProblem::kHopelessChi2) {
       fallbacks = kMostFallbacks;
@@ -128,7 +153,7 @@ void ContactSearch::SearchRows(const PackedReadings& packed) {
         continue;
       if (profile_[i].count > 0 && Hides(i)) next = i;
     }
-    if (next == profile_.size()) return;
+    if (next == profile_.size() || !MayGoOn()) return;
     if (FitFast(profile_[next], packed) && !IsKnown()) Keep();
     profile_[next].count = 0;  // tried
   }
@@ -234,7 +259,7 @@ bool ContactSearch::FitFast(const ContactStart& start,
                    start.contacts.begin() + start.count);
   fit_.set_state(*start.state);
   const bool converged = fit_.Fit(packed.values, packed.weights, &contacts_);
-  iterations_ += fit_.iterations();
+  Spend(fit_.iterations(), converged);
   if (!converged) return false;
   ContactSolution& solution = solutions_[found_];
   solution.count = start.count;
@@ -256,7 +281,7 @@ bool ContactSearch::FitFast(const ContactStart& start,
 bool ContactSearch::FitByCeres(const ContactStart& start,
                                const Measurements& row) {
   const bool converged = problem_.Fit(start, row, &solutions_[found_]);
-  iterations_ += problem_.iterations();
+  Spend(problem_.iterations(), converged);
   return converged;
 }
 

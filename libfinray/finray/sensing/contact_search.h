@@ -41,12 +41,20 @@ class ContactSearch {
   ContactSearch(const ContactSearch&) = delete;
   ContactSearch& operator=(const ContactSearch&) = delete;
 
+  /// Begins a frame. Its searches share Scene::search_iteration_limit.
+  void Begin() {
+    spent_ = 0;
+    ended_ = false;
+  }
   /// Searches with one or two contacts. Returns false if no start converged.
   bool Search(int contacts, const Measurements& row,
               const PackedReadings& packed);
 
   /// chi2 of the finger without a contact.
   double FreeChi2(const Measurements& row, const PackedReadings& packed);
+
+  /// A search of this frame was ended by the limit, with starts left to try.
+  bool ended() const { return ended_; }
 
   // Results of the last successful search.
 
@@ -74,6 +82,10 @@ class ContactSearch {
   double most_force_N() const { return most_force_N_; }
 
  private:
+  // Says whether another fit may begin. It then gets the iterations left.
+  bool MayGoOn();
+  // Counts the iterations of a fit.
+  void Spend(int iterations, bool converged);
   void FindStarts(int contacts, const PackedReadings& packed);
   // Fits from rows of the table that the solutions found do not account for.
   void SearchRows(const PackedReadings& packed);
@@ -106,6 +118,8 @@ class ContactSearch {
   std::vector<PointContact> contacts_;
   std::vector<ContactSolution> solutions_;  // allocated for the largest search
   int found_ = 0, best_ = 0, iterations_ = 0;
+  int spent_ = 0;  // by all searches of the frame
+  bool ended_ = false;
 };
 
 }  // namespace finray

@@ -67,6 +67,9 @@ struct FrameEstimate {
   double chi2 = std::numeric_limits<double>::quiet_NaN();
   int dof = 0;
   int iterations = 0;
+  /// The scene's search_iteration_limit has ended the search. The frame is then
+  /// neither ok nor no_contact: what was left to try may explain it better.
+  bool search_ended = false;
   /// A distinct solution with as many contacts that explains the frame within
   /// its noise, and its chi2. NaN if there is none.
   ContactEstimates alternative;

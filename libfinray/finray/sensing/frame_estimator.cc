@@ -162,6 +162,7 @@ void FrameEstimator::SearchAlone(const Measurements& readings,
                                  const PackedReadings& packed,
                                  FrameEstimate* estimate) {
   const int contacts = scene_.contacts.value_or(1);
+  search_.Begin();
   if (packed.gauges + packed.camera < 1 || packed.all < kUnknowns * contacts) {
     *estimate = Unsolved(FrameStatus::kBadInput);
   } else if (scene_.contacts) {
@@ -169,6 +170,9 @@ void FrameEstimator::SearchAlone(const Measurements& readings,
   } else {
     Automatic(readings, packed, estimate);
   }
+  if (!search_.ended()) return;
+  if (estimate->contacts == 0) *estimate = Unsolved(FrameStatus::kNotConverged);
+  estimate->search_ended = true;
 }
 
 // Says whether later frames can be followed from the frame searched last.
@@ -220,6 +224,7 @@ bool FrameEstimator::TakeFollowed(const PackedReadings& packed, std::size_t run,
   estimate->chi2 = fit.chi2;
   estimate->dof = static_cast<int>(finger_.gauges.size()) - kUnknowns;
   estimate->iterations = fit.iterations;
+  estimate->search_ended = false;
   // A frame without degrees of freedom has no p-value.
   return !(estimate->p_value() < FrameEstimate::kUnexplained);
 }
@@ -383,7 +388,8 @@ void FrameEstimator::AddCovariance(const ContactMatrix& covariance,
 FrameStatus FrameEstimator::StatusOf(const FrameEstimate& estimate,
                                      const Finger& finger,
                                      const ContactSearch& search) {
-  bool determined = std::isnan(estimate.alternative_chi2);
+  bool determined =
+      std::isnan(estimate.alternative_chi2) && !estimate.search_ended;
   for (int c = 0; c < estimate.contacts; ++c) {
     const ContactEstimate& contact = estimate.contact[c];
     determined &=

@@ -36,7 +36,9 @@ namespace finray {
 ///   solution.
 /// - unobservable (Judge): solved, but the std of l_c is above kLargestArcStd
 ///   of l_0, the std of f_c is above kLargestForceStd of f_c, l_c or f_c is on
-///   a bound of the search, or another solution explains the frame as well.
+///   a bound of the search, another solution explains the frame as well, or
+///   Scene::search_iteration_limit ended the search (search_ended). A frame
+///   without any solution by then is not_converged.
 /// - ok (Judge): everything else.
 class FrameEstimator {
  public:

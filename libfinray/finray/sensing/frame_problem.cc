@@ -4,6 +4,7 @@
 #include <ceres/solver.h>
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <limits>
 #include <unordered_map>
 
@@ -147,9 +148,13 @@ bool FrameProblem::Solve() {
   }
   // The start may be far from the state that came with it. The trials behind it
   // look near the last equilibrium only.
+  frames_.set_near_only(most_iterations_.has_value());
   frames_.PrepareForEvaluation(true, true);
   const FrameEvaluation& frame = frames_[0];
-  if (!frame.valid()) return false;
+  if (!frame.valid()) {
+    frames_.set_near_only(false);
+    return false;
+  }
   frames_.set_near_only(true);
   for (int c = 0; c < frame.contacts(); ++c) {
     const int at = frame.contact_offset(c);
@@ -164,6 +169,10 @@ bool FrameProblem::Solve() {
   // Each trial without an equilibrium counts as an invalid step.
   solve.max_num_consecutive_invalid_steps = kMostIterations;
   solve.max_num_iterations = kMostIterations;
+  if (most_iterations_) {
+    solve.max_num_iterations =
+        std::clamp(*most_iterations_ - iterations_, 0, kMostIterations);
+  }
   solve.initial_trust_region_radius = kTrustRegion;
   solve.max_trust_region_radius = 1e16;
   solve.function_tolerance = kFunctionTolerance;

@@ -35,6 +35,11 @@ class FrameProblem {
   bool Fit(const ContactStart& start, const Measurements& row,
            ContactSolution* solution);
 
+  /// A fit that takes more Ceres iterations does not converge, and neither does
+  /// one whose first equilibrium is far from that of its start: the way there
+  /// has no bound.
+  void set_most_iterations(int count) { most_iterations_ = count; }
+
   /// chi2 of the finger without a contact; infinite if it has no equilibrium.
   double FreeChi2(const Measurements& row);
 
@@ -63,6 +68,7 @@ class FrameProblem {
   Eigen::MatrixXd calibration_factor_;  // of the finger's covariance, or empty
   std::vector<double> unknowns_;
   std::vector<FrameBlock> blocks_;
+  std::optional<int> most_iterations_;
   int iterations_ = 0;
 };
 

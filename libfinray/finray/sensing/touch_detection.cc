@@ -31,6 +31,8 @@ Scene WithAnyForce(Scene scene, const Finger& finger) {
   if (!scene.force_max_N) {
     scene.force_max_N = kDetectedForce * ForceUnit(finger);
   }
+  // Whole logs are not live.
+  scene.search_iteration_limit.reset();
   return scene;
 }
 

@@ -106,6 +106,7 @@ std::unique_ptr<CalibrationProblem> CalibrationProblem::Part(
   part->candidates_ = frames;
   part->SetValues(Values());
   part->progress_ = progress_;
+  part->tolerance_std_ = tolerance_std_;
   return part;
 }
 

@@ -89,6 +89,12 @@ class CalibrationProblem {
   const Discretization& discretization() const { return discretization_; }
   int threads() const { return threads_; }
 
+  /// A solve by all frames ends when the gradient by every parameter is below
+  /// this, in standard deviations (SolveSummed). The minimum is then about as
+  /// far away.
+  double tolerance_std() const { return tolerance_std_; }
+  void set_tolerance_std(double std) { tolerance_std_ = std; }
+
  private:
   // Makes a problem without candidates.
   CalibrationProblem(const Finger& finger, const Plan& plan,
@@ -102,6 +108,7 @@ class CalibrationProblem {
   CalibrationParameters parameters_;
   Discretization discretization_;
   int threads_;
+  double tolerance_std_ = 1e-2;
   CalibrationBlocks blocks_;
   bool gauges_only_ = false;
   std::vector<int> candidates_;

@@ -14,13 +14,6 @@
 #include "finray/io/number_text.h"
 
 namespace finray {
-namespace {
-
-// The solve ends if the gradient per std is below this. The minimum is then
-// about this far away, in std.
-constexpr double kNear = 1e-2;
-
-}  // namespace
 
 std::optional<Linearization> FitFrames(const std::vector<int>& frames,
                                        CalibrationProblem* problem,
@@ -138,7 +131,7 @@ SummedSolution SolveSummed(const std::vector<int>& frames,
   options.initial_trust_region_radius = 1e10;
   options.max_trust_region_radius = 1e16;
   // A unit of z is one standard deviation.
-  options.gradient_tolerance = kNear;
+  options.gradient_tolerance = problem->tolerance_std();
   options.function_tolerance = 0;
   options.parameter_tolerance = 0;
   ceres::Solver::Summary summary;

@@ -9,7 +9,6 @@
 namespace finray {
 namespace {
 
-constexpr int kMaxIterations = 60;
 // Gauss-Newton converges slowly where the data hardly determine the contacts.
 // After kPatience iterations the fit ends when a change is below kNoDifference:
 // in std for the contacts, in rad and l_0 for the shape.
@@ -81,7 +80,7 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
   ContactVector x(unknowns), step;
   // True if step_ leads from one linearisation to the next.
   bool comparable = predict;
-  for (iterations_ = predict ? 0 : 1; iterations_ <= kMaxIterations;
+  for (iterations_ = predict ? 0 : 1; iterations_ <= most_iterations_;
        ++iterations_) {
     // The prediction uses the last linearisation of the frame before, whose
     // Newton step has already been taken.
@@ -170,6 +169,7 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
     last_change = kUnknownChange;
     comparable = false;
   }
+  iterations_ = most_iterations_;
   return false;
 }
 

@@ -41,6 +41,10 @@ class ContactFit {
   /// Upper bound of f_c.
   void set_most_force(double force_N) { most_force_N_ = force_N; }
 
+  /// A fit that takes more linearisations does not converge; 60 at most.
+  void set_most_iterations(int count) { most_iterations_ = count; }
+  static constexpr int kMostIterations = 60;
+
   /// Sets the equilibrium to start from. It must be near the contacts given to
   /// Fit.
   void set_state(const LadderState& state) {
@@ -91,6 +95,7 @@ class ContactFit {
   std::optional<double> circle_radius_mm_;
   double tolerance_ = 1e-12;
   double most_force_N_ = std::numeric_limits<double>::infinity();
+  int most_iterations_ = kMostIterations;
   double chi2_ = 0;
   int iterations_ = 0;
   Information information_;

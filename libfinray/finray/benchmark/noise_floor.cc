@@ -1,0 +1,70 @@
+#include "finray/benchmark/noise_floor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "finray/sensing/contact_covariance.h"
+#include "finray/sensing/fast/contact_fit.h"
+
+namespace finray {
+
+NoiseFloor NoiseFloorOf(const Finger& finger, const BenchmarkCase& c) {
+  NoiseFloor floor;
+  floor.scene = c.scene_name;
+  floor.gauge_rad = std::numeric_limits<double>::infinity();
+  for (const Gauge& gauge : finger.gauges) {
+    floor.gauge_rad = std::min(floor.gauge_rad, 1 / gauge.AngleWeight());
+  }
+  if (!c.scene.contacts) return floor;
+
+  ContactFit fit(finger, {}, MeasuredRadius(c.scene));
+  EquilibriumSolver solver(finger, {});
+  PackedReadings exact;
+  double arc = 0, normal = 0;
+  int contacts = 0;
+  for (std::size_t k = 0; k < c.frames.size(); ++k) {
+    const BenchmarkFrame& frame = c.frames[k];
+    Measurements readings;
+    for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
+      readings.gauges_V.push_back(finger.gauges[j].Volts(
+          c.forward[k].gauges_rad[static_cast<Eigen::Index>(j)]));
+    }
+    if (c.scene.object_std_mm) {
+      for (int i = 0; i < 2; ++i) {
+        readings.object_mm[i] = frame.object.position_mm[i];
+      }
+    }
+    Pack(finger, c.scene, readings, &exact);
+    std::vector<PointContact> found = frame.contacts;
+    bool solved = solver.Solve(found);
+    if (solved) {
+      fit.set_state(solver.state());
+      solved = fit.Fit(exact.values, exact.weights, &found);
+    }
+    if (!solved) {
+      throw std::runtime_error("noise floor: " + c.scene_name + ", frame " +
+                               std::to_string(k) + " has no fit");
+    }
+    const ContactMatrix covariance = CovarianceOf(fit.information());
+    for (Eigen::Index i = 0; i < covariance.rows(); i += 2) {
+      arc += covariance(i, i);
+      normal += covariance(i + 1, i + 1);
+      ++contacts;
+    }
+  }
+  floor.contact_mm = std::sqrt(arc / contacts);
+  floor.normal_N = std::sqrt(normal / contacts);
+  return floor;
+}
+
+NoiseFloor FloorOf(const std::vector<NoiseFloor>& floors,
+                   const std::string& scene) {
+  for (const NoiseFloor& floor : floors) {
+    if (floor.scene == scene) return floor;
+  }
+  return {};
+}
+
+}  // namespace finray
