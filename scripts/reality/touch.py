@@ -1,0 +1,61 @@
+"""A rigid circle pressed along a path: what CalculiX says at each place of it.
+
+The circle does not turn. A touch begins with it 0.01 mm off the undeformed front
+beam; friction has the whole path as its past.
+"""
+
+import dataclasses
+import math
+
+import ccx
+import gauges
+from circle import Circle
+from solid import Solid
+
+RADIUS_MM = 15.0
+GAP_MM = 0.01
+FINE_MM, REACH_MM, SPAN_MM = 0.4, 10.0, 14.0
+
+
+@dataclasses.dataclass
+class Frame:
+    object_mm: tuple  # centre of the circle, in frame S
+    force_N: tuple  # on the finger, in frame S
+    contact_mm: float  # arc length of the centre of pressure
+    normal_N: float
+    friction: float  # tangential over normal force, + towards the tip
+    point_mm: tuple  # of the contact, on the deformed surface
+    tangent_rad: float
+    gauges_rad: list
+
+
+def touch(plant, path, friction, folder, fine_mm=FINE_MM, step_mm=2.0, layers=2, increment=0.2):
+    """path: [(depth, height)]: how far the circle is pressed into the undeformed
+    outer surface, and its y. increment: the share of a way between two places that
+    CalculiX tries first. Returns a Frame each; raises ccx.NotSolved."""
+    middle = sum(height for _, height in path) / len(path)
+    solid = Solid(plant, middle, step_mm, fine_mm, REACH_MM, layers)
+    deck = ccx.Deck(solid)
+    surface = -RADIUS_MM - plant.thickness["front"] / 2
+    circle = Circle(deck, RADIUS_MM, (surface - GAP_MM, path[0][1]))
+    circle.contact(middle - SPAN_MM, middle + SPAN_MM, friction)
+    places = [(surface + depth, height) for depth, height in path]
+    steps = []
+    for place in places:
+        steps += circle.step(place, increment)
+    prints = ccx.run(deck.text(steps), folder)
+    if len(prints) != len(path):
+        raise ccx.NotSolved(f"{len(prints)} of {len(path)} places")
+    return [frame(solid, place, moved, contact) for place, (_, moved, contact) in zip(places, prints)]
+
+
+def frame(solid, place, moved, contact):
+    (fx, fy, *_), (x, y, _, nx, ny, _), moment = contact[0], contact[1], contact[2][2]
+    size = math.hypot(nx, ny)
+    nx, ny = nx / size, ny / size  # out of the beam
+    normal = -(fx * nx + fy * ny)
+    tangential = fx * ny - fy * nx
+    # The centre of pressure, from that of the area.
+    x, y = x - moment / normal * ny, y + moment / normal * nx
+    return Frame(place, (fx, fy), gauges.arc_of(solid, moved, (x, y)), normal, tangential / normal,
+                 (x, y), math.atan2(-nx, ny), gauges.angles(solid, moved))
