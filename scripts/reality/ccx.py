@@ -44,6 +44,8 @@ class Deck:
         self.clamps = [f"{n},1,2" for n in clamped]
 
     def add(self, name, elements, modulus, poisson, width):
+        # Plane strain, as a strip is far wider than thick. CalculiX's plane stress
+        # (CPS8R) is a brick of the full width that cannot curve across it either.
         self.lines.append(f"*ELEMENT, TYPE=CPE8R, ELSET={name}")
         self.numbers[name] = []
         for nodes in elements:

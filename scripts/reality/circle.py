@@ -4,13 +4,14 @@ nodes all move as prescribed, and contact by a penalty between both surfaces."""
 import math
 
 PENALTY_N_MM3 = 50.0  # pressure over overclosure
-STICK_N_MM3 = 500.0  # shear over slip, below the limit of friction
+SLIP_MM = 0.25  # along the beam in one increment, in which CalculiX keeps the contact's tangents
+STICK = 10.0  # shear over slip, below the limit of friction, over the penalty
 
 
 class Circle:
     def __init__(self, deck, radius_mm, centre, span_deg=50, step_mm=0.75):
         """Adds the ring, from -span to +span about +x, and both surfaces to the deck."""
-        self.deck, self.radius_mm, self.centre = deck, radius_mm, centre
+        self.deck, self.radius_mm, self.centre, self.at = deck, radius_mm, centre, centre
         count = math.ceil(2 * math.radians(span_deg) * radius_mm / step_mm)
         first = len(deck.nodes)
         grid = {}
@@ -30,7 +31,7 @@ class Circle:
         deck.lines.append("*NSET, NSET=RING, GENERATE")
         deck.lines.append(f"{first + 1},{len(deck.nodes)}")
 
-    def contact(self, arc_from, arc_to, friction):
+    def contact(self, arc_from, arc_to, friction, penalty_N_mm3):
         deck = self.deck
         lines = ["*SURFACE, NAME=BEAM, TYPE=ELEMENT"]
         lines += [f"{deck.numbers['FRONT'][index]},S3" for index, (a, b) in deck.solid.outer
@@ -38,16 +39,19 @@ class Circle:
         lines += ["*SURFACE, NAME=ROUND, TYPE=ELEMENT"]
         lines += [f"{n},S2" for n in deck.numbers["CIRCLE"]]
         lines += ["*SURFACE INTERACTION, NAME=TOUCH",
-                  "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", f"{PENALTY_N_MM3:.6g}"]
+                  "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", f"{penalty_N_mm3:.6g}"]
         if friction:
-            lines += ["*FRICTION", f"{friction:.6g},{STICK_N_MM3:.6g}"]
+            lines += ["*FRICTION", f"{friction:.6g},{STICK * penalty_N_mm3:.6g}"]
         lines += ["*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE", "BEAM,ROUND"]
         deck.lines += lines
 
     def step(self, place, increment):
-        """Moves the centre to this place, from where it is at the end of the last step."""
+        """Moves the centre to this place, from where the last step left it. increment:
+        the share of the way that CalculiX tries first."""
+        along, self.at = abs(place[1] - self.at[1]), place
+        most = min(1.0, SLIP_MM / along) if along else 1.0
         ux, uy = place[0] - self.centre[0], place[1] - self.centre[1]
-        return ["*STEP, NLGEOM, INC=400", "*STATIC", f"{increment:.4g},1.,1e-5,1.", "*BOUNDARY",
+        return ["*STEP, NLGEOM, INC=400", "*STATIC", f"{min(increment, most):.4g},1.,1e-5,{most:.4g}", "*BOUNDARY",
                 f"RING,1,1,{ux:.12g}", f"RING,2,2,{uy:.12g}",
                 "*NODE PRINT, NSET=ALL, FREQUENCY=1000", "U",
                 "*CONTACT PRINT, SLAVE=BEAM, MASTER=ROUND, FREQUENCY=1000", "CF", "*END STEP"]

@@ -83,12 +83,15 @@ def summary(pairs):
 
 
 def outcome(build, finger, plan, logs, plant, scene, out):
-    """logs: a folder with train.csv, holdout.csv and holdout_truth.csv."""
+    """logs: a folder with train.csv, holdout.csv and holdout_truth.csv. Of a log that is
+    refused only the reason."""
     shutil.rmtree(out, ignore_errors=True)
     out.mkdir(parents=True)
-    # 4: solved, but fails a gate.
+    # 2: the log is refused; 4: solved, but fails a gate.
     ended = run(build, "finray_calibrate", "--finger", finger, "--plan", plan, "--logs", logs / "train.csv",
-                "--out_dir", out, allowed=(0, 4))
+                "--out_dir", out, allowed=(0, 2, 4))
+    if ended.returncode == 2:
+        return {"exit": 2, "refused": ended.stderr.strip().splitlines()[-1]}
     calibration = yaml.safe_load((out / "calibration.yaml").read_text("utf-8"))
     run(build, "finray_estimate", "--finger", out / "finger.yaml", "--scene", scene,
         "--logs", logs / "holdout.csv", "--out_dir", out)

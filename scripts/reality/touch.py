@@ -9,7 +9,7 @@ import math
 
 import ccx
 import gauges
-from circle import Circle
+from circle import Circle, PENALTY_N_MM3
 from solid import Solid
 
 RADIUS_MM = 15.0
@@ -29,7 +29,8 @@ class Frame:
     gauges_rad: list
 
 
-def touch(plant, path, friction, folder, fine_mm=FINE_MM, step_mm=2.0, layers=2, increment=0.2):
+def touch(plant, path, friction, folder, fine_mm=FINE_MM, step_mm=2.0, layers=2, increment=0.2,
+          penalty_N_mm3=PENALTY_N_MM3):
     """path: [(depth, height)]: how far the circle is pressed into the undeformed
     outer surface, and its y. increment: the share of a way between two places that
     CalculiX tries first. Returns a Frame each; raises ccx.NotSolved."""
@@ -38,7 +39,7 @@ def touch(plant, path, friction, folder, fine_mm=FINE_MM, step_mm=2.0, layers=2,
     deck = ccx.Deck(solid)
     surface = -RADIUS_MM - plant.thickness["front"] / 2
     circle = Circle(deck, RADIUS_MM, (surface - GAP_MM, path[0][1]))
-    circle.contact(middle - SPAN_MM, middle + SPAN_MM, friction)
+    circle.contact(middle - SPAN_MM, middle + SPAN_MM, friction, penalty_N_mm3)
     places = [(surface + depth, height) for depth, height in path]
     steps = []
     for place in places:

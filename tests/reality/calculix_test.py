@@ -55,6 +55,13 @@ class CalculixTest(unittest.TestCase):
         (_, _, _, _, gauges_off, _), = verify.circles(BUILD, self.plant, "strip", self.path, 0.3, [(60.0, 3.0)])
         self.assertLess(gauges_off, 0.5)
 
+    def test_a_one_piece_finger_bends_lightly_as_a_frame_of_beams(self):
+        printed = plants.read(verify.DATA / "printed/plant.yaml")
+        pressed = verify.pressed(printed, self.path, [(54.0, 0.3)])
+        for _, _, _, way_off, gauges_off in verify.frames(printed, 0.7, pressed):
+            self.assertLess(way_off, 2)
+            self.assertLess(gauges_off, 2)
+
     def test_a_deck_that_ccx_refuses_is_one_clear_line(self):
         with self.assertRaisesRegex(ccx.NotSolved, r"^\*ERROR"):
             ccx.run("*NODE\n1,0,0,0\n*NONSENSE\n*STEP\n*STATIC\n*CLOAD\n1,1,x\n*END STEP\n", self.path)
