@@ -6,6 +6,7 @@ nothing else, and OUT_DIR/tables.md.
 """
 
 import json
+import math
 import pathlib
 import sys
 
@@ -40,19 +41,20 @@ def fits(outcomes):
              str(o["rejected"]), ", ".join(sorted(set(o["warnings"]))) or "none") for o in outcomes]
 
 
-def short(value):
-    return f"{value:.0f}" if abs(value) >= 100 else f"{value:.3f}"
+def short(value, std):
+    """With two digits of the std."""
+    return f"{value:.{max(0, 1 - math.floor(math.log10(std))) if std > 0 else 3}f}"
 
 
 def parameters(outcomes):
     """A row a parameter: its true value, then value, std and error over std of each case."""
     body = []
     for k, first in enumerate(outcomes[0]["parameters"]):
-        row = [f"`{first['name']}`", "" if first["true"] is None else short(first["true"])]
+        row = [f"`{first['name']}`", "" if first["true"] is None else f"{first['true']:.6g}"]
         for o in outcomes:
             p = o["parameters"][k]
             off = "" if p["true"] is None or not p["std"] > 0 else f", {(p['value'] - p['true']) / p['std']:+.1f} std"
-            row.append(f"{short(p['value'])} ± {short(p['std'])}{off}")
+            row.append(f"{short(p['value'], p['std'])} ± {short(p['std'], p['std'])}{off}")
         body.append(row)
     return body
 
@@ -102,9 +104,9 @@ def page(outcomes):
         loader=jinja2.FileSystemLoader([pathlib.Path(__file__).parent, REPORT]), autoescape=True,
         trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     plots = []
-    outcomes = [o for o in outcomes if "refused" not in o]
-    for finger in dict.fromkeys(o["finger"] for o in outcomes):
-        last = [o for o in outcomes if o["finger"] == finger]
+    solved = [o for o in outcomes if "refused" not in o]
+    for finger in dict.fromkeys(o["finger"] for o in solved):
+        last = [o for o in solved if o["finger"] == finger]
         last = [o for o in last if o["plan"] == last[-1]["plan"] and o["errors"]["force"]]
         plots += [(plot(last, kind, unit), f"{finger}: {kind} of the held-out frames, plan `{last[-1]['plan']}`")
                   for kind, unit in (("force", "N"), ("place", "mm")) if last]

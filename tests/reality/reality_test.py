@@ -153,9 +153,14 @@ class OutcomeTest(unittest.TestCase):
         self.assertGreater(found["force"]["covered_95"], 80)
         for entry in found["parameters"]:
             self.assertLess(abs(entry["value"] - entry["true"]), 4 * entry["std"], entry["name"])
-        text = report.markdown([{"finger": "strip", "world": "smooth", "plan": "thickness", **found}])
+        solved = {"finger": "strip", "world": "smooth", "plan": "thickness", **found}
+        refused = {"finger": "printed", "world": "rough", "plan": "bundled", "exit": 2, "refused": "no such log"}
+        text = report.markdown([solved, refused])
+        page = report.page([solved, refused])
+        self.assertIn("| printed | rough | bundled | no such log |", text)
+        self.assertIn("<td>no such log</td>", page)
         self.assertIn(f"| strip | smooth | thickness | good, exit 0 | {found['ok']} of {found['touched']} |", text)
-        self.assertIn("| `rib_5_longer_by_mm` | 0.000 |", text)
+        self.assertIn("| `rib_5_longer_by_mm` | 0 |", text)
 
 
 if __name__ == "__main__":
