@@ -4,6 +4,7 @@ import csv
 import math
 import pathlib
 import shutil
+import statistics
 import subprocess
 
 import yaml
@@ -55,8 +56,9 @@ def parameters(calibration, plant):
 
 
 def errors(estimates, truth):
-    """Of the frames with status ok: error and std of force and place."""
-    found = {"force": [], "place": []}
+    """Of the frames with status ok: error and std of force and place; the error of the
+    tangent angle in deg and that of force in percent."""
+    found = {"force": [], "place": [], "angle": [], "percent": []}
     for row, true in zip(estimates, truth):
         if row["status"] != "ok" or not number(true["normal_1_N"]) > 0:
             continue
@@ -67,7 +69,16 @@ def errors(estimates, truth):
         found["force"].append((normal - number(true["normal_1_N"]), number(row["normal_1_std_N"])))
         found["place"].append((number(row["contact_1_mm"]) - number(true["contact_1_mm"]),
                                number(row["contact_1_std_mm"])))
+        found["angle"].append(math.degrees(number(row["contact_1_angle_rad"]) - number(true["contact_1_angle_rad"])))
+        found["percent"].append(100 * found["force"][-1][0] / number(true["normal_1_N"]))
     return found
+
+
+def means(found):
+    """Mean sizes of the errors, as the paper gives them."""
+    sizes = {"place_mm": [abs(e) for e, _ in found["place"]], "angle_deg": [abs(e) for e in found["angle"]],
+             "force_N": [abs(e) for e, _ in found["force"]], "force_percent": [abs(e) for e in found["percent"]]}
+    return {name: statistics.fmean(values) if values else math.nan for name, values in sizes.items()}
 
 
 def summary(pairs):
@@ -106,4 +117,4 @@ def outcome(build, finger, plan, logs, plant, scene, out):
             "rejected": len(calibration["rejected_frames"]), "fitted": calibration["fit"]["frames"],
             "touched": len(touched), "ok": len(compared["force"]), "unexplained": unexplained,
             "second": sum(number(row.get("normal_2_N", "")) > 0 for row in touched if row["status"] == "ok"),
-            "errors": compared, "force": summary(compared["force"]), "place": summary(compared["place"])}
+            "errors": compared, "means": means(compared), "force": summary(compared["force"]), "place": summary(compared["place"])}

@@ -36,6 +36,15 @@ def held_out(outcomes):
              coverage(o["force"]), coverage(o["place"]), str(o["unexplained"]), str(o["second"])) for o in outcomes]
 
 
+# The paper's finger, measured: sections V-B, Figs. 11 and 12.
+PAPER = ("the paper's", "measured", "", "0.58", "1.24", "0.15", "5")
+
+
+def beside_the_paper(outcomes):
+    return [PAPER] + [(o["finger"], o["world"], o["plan"], f"{o['means']['place_mm']:.2f}", f"{o['means']['angle_deg']:.2f}",
+                       f"{o['means']['force_N']:.3f}", f"{o['means']['force_percent']:.1f}") for o in outcomes]
+
+
 def fits(outcomes):
     return [(o["finger"], o["world"], o["plan"], *(f"{o['chi2_per_dof'][name]:.2f}" for name in ("gauge", "force", "object")),
              str(o["rejected"]), ", ".join(sorted(set(o["warnings"]))) or "none") for o in outcomes]
@@ -68,6 +77,8 @@ def tables(every):
     outcomes = [o for o in every if "refused" not in o]
     found = [("Refused with exit code 2", ("finger", "world", "plan", "message"), refusals(every))] if refusals(every) else []
     found += [("The held-out log, from its gauges alone", HELD_OUT, held_out(outcomes)),
+             ("Mean errors of the same frames, beside the paper's", ("finger", "world", "plan", "place, mm", "angle, deg",
+                                                                     "force, N", "force, %"), beside_the_paper(outcomes)),
              ("The calibration", ("finger", "world", "plan", "chi2/dof gauges", "force", "object", "rejected frames",
                                   "warnings"), fits(outcomes))]
     for finger in dict.fromkeys(o["finger"] for o in outcomes):

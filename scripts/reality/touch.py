@@ -15,6 +15,7 @@ from solid import Solid
 RADIUS_MM = 15.0
 GAP_MM = 0.01
 FINE_MM, REACH_MM, SPAN_MM = 0.4, 10.0, 14.0
+SETTLE_MM = 0.01
 
 
 @dataclasses.dataclass
@@ -41,22 +42,37 @@ def touch(plant, path, friction, folder, fine_mm=FINE_MM, step_mm=2.0, layers=2,
     circle = Circle(deck, RADIUS_MM, (surface - GAP_MM, path[0][1]))
     circle.contact(middle - SPAN_MM, middle + SPAN_MM, friction, penalty_N_mm3)
     places = [(surface + depth, height) for depth, height in path]
+    stops = []  # (place, whether a row is read there)
+    for last, place in zip(places[:1] + places, places):
+        along = place[1] - last[1]
+        if along:
+            # The last increment of a slide is short, as tangents lag behind by one.
+            stops.append(((place[0], place[1] - math.copysign(SETTLE_MM, along)), False))
+        stops.append((place, True))
     steps = []
-    for place in places:
+    for place, _ in stops:
         steps += circle.step(place, increment)
     prints = ccx.run(deck.text(steps), folder)
-    if len(prints) != len(path):
-        raise ccx.NotSolved(f"{len(prints)} of {len(path)} places")
-    return [frame(solid, place, moved, contact) for place, (_, moved, contact) in zip(places, prints)]
+    if len(prints) != len(stops):
+        raise ccx.NotSolved(f"{len(prints)} of {len(stops)} places")
+    return [frame(solid, place, moved, contact)
+            for (place, is_read), (_, moved, contact) in zip(stops, prints) if is_read]
 
 
 def frame(solid, place, moved, contact):
-    (fx, fy, *_), (x, y, _, nx, ny, _), moment = contact[0], contact[1], contact[2][2]
-    size = math.hypot(nx, ny)
-    nx, ny = nx / size, ny / size  # out of the beam
-    normal = -(fx * nx + fy * ny)
-    tangential = fx * ny - fy * nx
-    # The centre of pressure, from that of the area.
-    x, y = x - moment / normal * ny, y + moment / normal * nx
+    """contact: of ccx.run. The normal is the circle's at the centre of pressure."""
+    (fx, fy, *_), (x, y, *_), moment = contact[0], contact[1], contact[2][2]
+    # The centre of pressure, from that of the area: both are on the same tangent.
+    nx, ny = normal_at(place, (x, y))
+    shift = -moment / (fx * nx + fy * ny)
+    x, y = x - shift * ny, y + shift * nx
+    nx, ny = normal_at(place, (x, y))
+    normal, tangential = -(fx * nx + fy * ny), fx * ny - fy * nx
     return Frame(place, (fx, fy), gauges.arc_of(solid, moved, (x, y)), normal, tangential / normal,
                  (x, y), math.atan2(-nx, ny), gauges.angles(solid, moved))
+
+
+def normal_at(centre, point):
+    """Out of the beam, towards the centre of the circle."""
+    size = math.dist(centre, point)
+    return (centre[0] - point[0]) / size, (centre[1] - point[1]) / size

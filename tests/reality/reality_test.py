@@ -118,7 +118,7 @@ class BundledLogsTest(unittest.TestCase):
                     touched = [row for row in truth if row["normal_1_N"]]
                     self.assertGreater(len(touched), 50)
                     rubbing = [abs(float(row["friction_1"])) for row in touched]
-                    # The penalty lets the normals of both surfaces differ a little.
+                    # Penalty and increments let the normals of both surfaces differ a little.
                     self.assertLess(max(rubbing), friction + 0.01)
                     if friction:
                         self.assertGreater(max(rubbing), 0.29)
@@ -134,12 +134,13 @@ class BundledLogsTest(unittest.TestCase):
 
 class OutcomeTest(unittest.TestCase):
     def test_only_frames_that_are_ok_and_touch_count(self):
-        truth = [{"normal_1_N": "2", "contact_1_mm": "50"}, {"normal_1_N": "", "contact_1_mm": ""},
-                 {"normal_1_N": "3", "contact_1_mm": "60"}]
+        truth = [{"normal_1_N": "2", "contact_1_mm": "50", "contact_1_angle_rad": "1.5"}, {"normal_1_N": ""},
+                 {"normal_1_N": "3", "contact_1_mm": "60", "contact_1_angle_rad": "1.5"}]
         row = {"status": "ok", "normal_1_N": "2.5", "normal_1_std_N": "0.4", "contact_1_mm": "49",
-               "contact_1_std_mm": "2"}
+               "contact_1_std_mm": "2", "contact_1_angle_rad": "1.5"}
         found = outcome.errors([row, row, {**row, "status": "unobservable"}], truth)
-        self.assertEqual(found, {"force": [(0.5, 0.4)], "place": [(-1.0, 2.0)]})
+        self.assertEqual(found, {"force": [(0.5, 0.4)], "place": [(-1.0, 2.0)], "angle": [0.0], "percent": [25.0]})
+        self.assertEqual(outcome.means(found), {"place_mm": 1, "angle_deg": 0, "force_N": 0.5, "force_percent": 25})
         self.assertEqual(outcome.summary(found["force"]), {"rms": 0.5, "max": 0.5, "covered_68": 0, "covered_95": 100})
 
     def test_the_strip_without_friction_is_calibrated_and_covered(self):
