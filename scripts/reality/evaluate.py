@@ -1,0 +1,66 @@
+#!/usr/bin/python3
+"""Calibrates and estimates every log: evaluate.py BUILD_DIR LOGS_DIR OUT_DIR
+
+LOGS_DIR has <finger>/<world>/{train,holdout}.csv and their truth (make_logs.py).
+Writes OUT_DIR/outcomes.json. A finger is calibrated with the bundled plan and with
+each datasets/reality/<finger>/plan_*.yaml; the control has the last of them alone.
+"""
+
+import json
+import pathlib
+import sys
+
+sys.dont_write_bytecode = True
+
+import yaml
+
+import plant as plants
+import same_model
+from make_logs import BUNDLED, FRICTIONS, HEIGHTS, ROOT
+from outcome import Failed, outcome
+
+SCENE = ROOT / "configs" / "scenes" / "auto.yaml"
+BUNDLED_PLAN = ROOT / "configs" / "plans" / "force_and_circle.yaml"
+# Whose model has an equal plant in finray: rigid ribs on hinges.
+CONTROLS = ("strip",)
+
+
+def cases(build, logs, out):
+    """(finger, world, folder of its logs, name of the plan, plan)."""
+    for finger in HEIGHTS:
+        plans = [("bundled", BUNDLED_PLAN)] + [(path.stem.removeprefix("plan_"), path)
+                                               for path in sorted((BUNDLED / finger).glob("plan_*.yaml"))]
+        if finger in CONTROLS:
+            drawing = yaml.safe_load((BUNDLED / finger / "finger.yaml").read_text("utf-8"))
+            control = out / finger / "same_model"
+            same_model.make(build, plants.read(BUNDLED / finger / "plant.yaml"), drawing,
+                            logs / finger / "smooth", control)
+            yield finger, "same model", control, *plans[-1]
+        for world in FRICTIONS:
+            for name, plan in plans:
+                yield finger, world, logs / finger / world, name, plan
+
+
+def main():
+    if len(sys.argv) != 4:
+        sys.exit(__doc__)
+    build, logs, out = (pathlib.Path(argument).resolve() for argument in sys.argv[1:])
+    found = []
+    try:
+        for finger, world, folder, name, plan in cases(build, logs, out):
+            result = outcome(build, BUNDLED / finger / "finger.yaml", plan, folder,
+                             plants.read(BUNDLED / finger / "plant.yaml"), SCENE,
+                             out / finger / world.replace(" ", "_") / name)
+            found.append({"finger": finger, "world": world, "plan": name, **result})
+            words = result.get("refused") or f"{result['verdict']}, force {result['force']['rms']:.3f} N rms"
+            print(f"{finger}, {world}, {name}: {words}", flush=True)
+    except (OSError, Failed) as error:
+        print(f"evaluate.py: {error}", file=sys.stderr)
+        sys.exit(2)
+    path = out / "outcomes.json"
+    path.with_name(path.name + ".part").write_text(json.dumps(found, indent=1), "utf-8")
+    path.with_name(path.name + ".part").rename(path)
+
+
+if __name__ == "__main__":
+    main()
