@@ -23,6 +23,7 @@ from plots import known, number
 
 MINUS = "\u2212"
 WORST_FRAMES = 8
+FAR_FROM_PRIOR = 4  # prior std; kFarFromPrior of analysis/unsupported.h
 
 
 def read_csv(path):
@@ -53,7 +54,9 @@ def figures(value, count=3):
     """A number to so many significant figures, without an exponent where it can."""
     if missing(value):
         return "–"
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if not isinstance(value, (int, float)):
         return str(value)
     if math.isinf(value):
         return "∞" if value > 0 else MINUS + "∞"
@@ -85,6 +88,10 @@ def file_name(path):
 
 def plural(count, word):
     return f"{count} {word}" + ("" if count == 1 else "s")
+
+
+def far_from_prior(parameter):
+    return abs(parameter.get("prior_stds_off", 0)) > FAR_FROM_PRIOR
 
 
 def verdict(c):
@@ -202,7 +209,8 @@ def main():
         autoescape=True, trim_blocks=True, lstrip_blocks=True)
     environment.filters.update(figures=figures, two=two, whole=whole, short=short,
                                file_name=file_name)
-    environment.globals.update(digits=digits, plural=plural, tables=tables)
+    environment.globals.update(digits=digits, plural=plural, tables=tables,
+                               far_from_prior=far_from_prior)
     parts, region_rows = regions(c)
     headline, meaning, good = verdict(c)
     names = c["correlations"]["names"]

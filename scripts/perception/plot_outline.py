@@ -34,6 +34,17 @@ def stretches(rows, supported):
             yield [rows[i % len(rows)] for i in run + [run[-1] + 1]]
 
 
+def draw_touches(axes, touches):
+    """Contact points, and how far along the beam each may lie."""
+    x, y, std, normal = (column(touches, name) for name in
+                         ("point_x_mm", "point_y_mm", "along_std_mm", "normal_deg"))
+    axes.scatter(x, y, s=9, color=QUIET, zorder=6, lw=0, label="contact points")
+    for k, (px, py, s, a) in enumerate(zip(x, y, std, normal)):
+        dx, dy = -1.96 * s * math.sin(math.radians(a)), 1.96 * s * math.cos(math.radians(a))
+        axes.plot([px - dx, px + dx], [py - dy, py + dy], color=QUIET, lw=0.8, zorder=5,
+                  label="1.96 std along the beam" if k == 0 else None)
+
+
 def outline(axes, folder, truth):
     rows = read(folder / "outline.csv")
     touches = read(folder / "touches.csv")
@@ -56,8 +67,7 @@ def outline(axes, folder, truth):
             axes.plot(column(run, "x_mm"), column(run, "y_mm"), color=BLUE, lw=1.5, ls=style, zorder=4,
                       label=label)
             label = None
-    axes.scatter(column(touches, "point_x_mm"), column(touches, "point_y_mm"), s=9, color=QUIET,
-                 zorder=5, lw=0, label="contact points")
+    draw_touches(axes, touches)
     axes.set(aspect="equal", xlabel="x of the object (mm)", ylabel="y of the object (mm)")
     axes.grid(False)
 

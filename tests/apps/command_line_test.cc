@@ -86,6 +86,24 @@ TEST_F(CommandLineTest, CalibrateTheBundledLog) {
   const std::string report = folder_.Read("cal/report.html");
   EXPECT_THAT(report, HasSubstr("All 15 free parameters are determined"));
   EXPECT_THAT(report, testing::Not(HasSubstr("src=\"http")));
+  // The table of starts says yes or no, and on a phone the columns in front
+  // show.
+  EXPECT_THAT(report, HasSubstr("<td>yes</td>"));
+  EXPECT_THAT(report, testing::Not(HasSubstr(">True<")));
+  EXPECT_THAT(report, HasSubstr("<th>parameter</th><th class=\"text\">status"));
+  EXPECT_THAT(report, testing::Not(HasSubstr("prior std off</span>")));
+
+  // A rib that was cut to another length than drawn is marked.
+  Finger drawn = ReadFinger(paper_);
+  drawn.ribs[2].length_mm -= 5;
+  folder_.Write("drawn.yaml", FingerToYaml(drawn));
+  EXPECT_EQ(Run("finray_calibrate", "--finger %drawn.yaml --plan " + plan_ +
+                                        " --logs " + data_ +
+                                        "train.csv --out_dir %far")
+                .code,
+            0);
+  EXPECT_THAT(folder_.Read("far/report.html"),
+              HasSubstr("<span class=\"chip far\">10 prior std off</span>"));
 
   // The result is a finger that every other tool reads.
   const Outcome estimate =

@@ -49,6 +49,12 @@ TEST_F(PerceptionCommandTest, ReconstructsAnEllipse) {
                            "beams.csv", "reconstruction.yaml"}) {
     EXPECT_TRUE(std::filesystem::exists(folder_.Path("out/") + file)) << file;
   }
+  // A contact may slide along the beam more easily than leave it.
+  FrameTable touches = FrameTable::Read(folder_.Path("out/touches.csv"));
+  for (std::size_t i = 0; i < touches.rows(); ++i) {
+    EXPECT_GT(std::stod(touches.MutableText("along_std_mm")[i]),
+              std::stod(touches.MutableText("normal_std_mm")[i]));
+  }
 }
 
 TEST_F(PerceptionCommandTest, RefusesFewTouchesWithCode2) {

@@ -136,6 +136,10 @@ TEST_F(DegenerateLogsTest, APriorThatTheDataContradict) {
   gains.prior_std = 20;
   const Outcome overruled = Calibrated(Whole(), plan);
   EXPECT_THAT(overruled.codes, Not(Contains("prior_contradicted")));
+  // The values stand, but what was known of the gains is false.
+  EXPECT_TRUE(overruled.all_identified);
+  EXPECT_THAT(overruled.codes, Contains("far_from_prior"));
+  EXPECT_THAT(overruled.texts, HasSubstr("gauge_2_gain_V_per_rad (6"));
 }
 
 TEST_F(DegenerateLogsTest, NoForceSensor) {

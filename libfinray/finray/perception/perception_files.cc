@@ -179,14 +179,17 @@ std::string OutlineCsv(const Reconstruction& found,
 std::string TouchCsv(const Reconstruction& found) {
   std::string csv =
       "row,point_x_mm,point_y_mm,normal_deg,normal_N,normal_std_mm,"
-      "distance_std\n";
+      "along_std_mm,distance_std\n";
   for (std::size_t i = 0; i < found.touches.usable.size(); ++i) {
     const Touch& touch = found.touches.usable[i];
     const Eigen::Vector2d n = touch.Normal();
+    const auto std_mm = [&](const Eigen::Vector2d& direction) {
+      return std::sqrt(
+          direction.dot(touch.covariance.topLeftCorner<2, 2>() * direction));
+    };
     AppendRow(&csv, touch.row + 1, touch.point_mm.x(), touch.point_mm.y(),
-              touch.normal_angle_rad / kDegree, touch.normal_N,
-              std::sqrt(n.dot(touch.covariance.topLeftCorner<2, 2>() * n)),
-              found.fit.distances[i]);
+              touch.normal_angle_rad / kDegree, touch.normal_N, std_mm(n),
+              std_mm({-n.y(), n.x()}), found.fit.distances[i]);
   }
   return csv;
 }

@@ -34,7 +34,8 @@ std::string OutlineCsv(const Reconstruction& found,
                        const std::optional<RadialError>& error);
 
 /// touches.csv, one row a usable touch: row, point_x_mm, point_y_mm,
-/// normal_deg, normal_N, normal_std_mm, distance_std (NaN along an edge).
+/// normal_deg, normal_N, normal_std_mm, along_std_mm (across and along the
+/// beam), distance_std (NaN along an edge).
 std::string TouchCsv(const Reconstruction& found);
 
 /// beams.csv, the pieces of beam within `reach_mm` of each contact: row, x_mm,

@@ -55,7 +55,7 @@ bool IsContradicted(double off, double share) {
 void FindUnsupported(CalibrationProblem& problem, Identifiability* found,
                      std::vector<Warning>* warnings) {
   const CalibrationParameters& parameters = problem.parameters();
-  std::string offsets, contradicted;  // the parameters with these faults
+  std::string offsets, contradicted, far;  // the parameters with these faults
   const auto list = [](const std::string& words, std::string* listed) {
     *listed += (listed->empty() ? "" : ", ") + words;
   };
@@ -87,6 +87,8 @@ void FindUnsupported(CalibrationProblem& problem, Identifiability* found,
     }
     if (contradicts) {
       list(p.name + FormatText(" (%.3g prior std off)", off), &contradicted);
+    } else if (!dead && std::abs(off) > kFarFromPrior) {
+      list(p.name + FormatText(" (%.3g)", off), &far);
     }
     if (never_unloaded) list(p.name, &offsets);
     if (dead || contradicts || never_unloaded) {
@@ -110,6 +112,15 @@ void FindUnsupported(CalibrationProblem& problem, Identifiability* found,
              contradicted,
          "start from a finger closer to the truth, or leave these priors out "
          "of the plan"});
+  }
+  if (!far.empty()) {
+    warnings->push_back(
+        {"far_from_prior",
+         "the logs move these parameters far from where the finger's drawing "
+         "and the plan expect them, in std of their priors: " +
+             far,
+         "correct the finger's drawing or raise the prior's std; if both are "
+         "right, the model lacks something that these parameters take up"});
   }
 }
 

@@ -22,9 +22,12 @@ namespace finray {
 ///    the prior has moved by more than s: |x - m| > kContradiction sqrt(s_p^2 -
 ///    s^2) and |x - m| s > s_p^2 - s^2. Here s is not enlarged for what
 ///    residuals show.
+/// A parameter more than kFarFromPrior s_p from m that the data overrule keeps
+/// its status, with a warning: the value stands, and the prior is wrong.
 void FindUnsupported(CalibrationProblem& problem, Identifiability* found,
                      std::vector<Warning>* warnings);
-constexpr double kInsignificant = 4, kDeadShare = 0.01, kContradiction = 5;
+constexpr double kInsignificant = 4, kDeadShare = 0.01, kContradiction = 5,
+                 kFarFromPrior = 4;
 
 }  // namespace finray
 

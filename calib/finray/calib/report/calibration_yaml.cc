@@ -17,6 +17,9 @@ void EmitParameters(CalibrationProblem& problem, const Identifiability& found,
              p.free ? p.ValueStd(*p.variable, found.std[free]) : 0.0,
              "prior_std",
              p.prior_std ? p.ValueStd(p.initial, *p.prior_std) : std::nan(""),
+             "prior_stds_off",
+             p.prior_std && p.free ? (*p.variable - p.initial) / *p.prior_std
+                                   : std::nan(""),
              "status",
              ParameterStatusName(p.free ? found.status[free]
                                         : ParameterStatus::kFixed));
