@@ -42,8 +42,7 @@ std::optional<Valley> FindValley(const std::vector<ContactStart>& profile,
     const double distance =
         std::sqrt(std::max(kLeastDistance * kLeastDistance, more + evidence));
     if (!(distance < Valley::kFarthest)) continue;
-    const double least =
-        std::min(Valley::kSlack * distance, Valley::kMostStd);
+    const double least = std::min(Valley::kSlack * distance, Valley::kMostStd);
     arc_far_mm = std::max(arc_far_mm, away / least);
     normal_far_N =
         std::max(normal_far_N, std::abs(other.normal_N - normal) / least);
