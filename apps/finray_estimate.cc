@@ -44,7 +44,7 @@ DEFINE_bool(
     "the smoothing of the scene");
 DEFINE_bool(strict, false,
             "fail if any frame is not_converged or bad_input, or if more than "
-            "5 % of a log are unexplained");
+            "5 % of a log are unexplained or contradict its force_N");
 DEFINE_bool(keep_going, false,
             "leave out logs that are bad input, list them in summary.yaml");
 DEFINE_bool(follow, false,
@@ -273,7 +273,7 @@ int FollowInput(const BatchSettings& settings) {
       latency.Add(static_cast<std::uint64_t>(time.count()));
     }
     summary.Add(rows.estimate(), settings.scene.friction_coefficient,
-                std::nan(""));
+                rows.readings());
     ended += rows.estimate().search_ended;
   }
   PrintLatency(latency);
@@ -282,12 +282,11 @@ int FollowInput(const BatchSettings& settings) {
                  "searches       %zu ended by the scene's limit of %d\n", ended,
                  *settings.scene.search_iteration_limit);
   }
-  const bool unexplained = summary.unexplained_too_many();
-  if (unexplained) {
-    Warn({UnexplainedWarning(summary, settings.finger, kSource)});
-  }
+  const std::vector<Warning> warnings =
+      WarningsOf({{&summary, kSource}}, settings.finger);
+  Warn(warnings);
   if (FLAGS_strict && summary.unsolved() > 0) return kSolveFailed;
-  return FLAGS_strict && unexplained ? kGateFailed : kGood;
+  return FLAGS_strict && FailsStrict(warnings) ? kGateFailed : kGood;
 }
 
 int Run() {
@@ -334,17 +333,15 @@ int Run() {
                       BatchYaml(settings, jobs, bad_logs));
   PrintSummary(jobs, bar);
   const EstimationSummary all = Total(jobs);
-  const std::vector<Warning> warnings = WarningsOf(jobs, settings.finger);
+  const std::vector<Warning> warnings =
+      WarningsOf(SummariesOf(jobs), settings.finger);
+  Warn(WarningsOf(settings.finger));
   Warn(warnings);
   if (!bad_logs.empty()) return kBadInput;
   if (all.unsolved() == all.frames || (FLAGS_strict && all.unsolved() > 0)) {
     return kSolveFailed;
   }
-  const bool unexplained =
-      std::any_of(warnings.begin(), warnings.end(), [](const Warning& warning) {
-        return warning.code == "unexplained_frames";
-      });
-  return FLAGS_strict && unexplained ? kGateFailed : kGood;
+  return FLAGS_strict && FailsStrict(warnings) ? kGateFailed : kGood;
 }
 
 }  // namespace

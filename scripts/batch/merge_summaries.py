@@ -58,7 +58,7 @@ class Totals:
         self.frames, self.compared, self.squares_N2 = 0, 0, 0.0
         self.status = {status: 0 for status in columns[
             columns.index("frames") + 1:columns.index("force_compared_frames")]}
-        self.unexplained = 0
+        self.unexplained, self.judged, self.far, self.variances_N2 = 0, 0, 0, 0.0
         self.max_N, self.max_text = -1.0, ""
 
     def add(self, row):
@@ -70,6 +70,9 @@ class Totals:
         if compared == 0:
             return
         self.compared += compared
+        self.judged += int(row["force_judged_frames"])
+        self.far += int(row["force_far_frames"])
+        self.variances_N2 += float(row["force_variances_N2"])
         self.squares_N2 += float(row["force_squares_N2"])
         if float(row["force_max_error_N"]) > self.max_N:
             self.max_text = row["force_max_error_N"]
@@ -90,7 +93,11 @@ class Totals:
                      f"  force_rms_error_N: {yaml_number(number_text(self.rms_N()))}\n"
                      f"  force_max_error_N: {yaml_number(self.max_text)}\n"
                      f"  force_squares_N2: "
-                     f"{yaml_number(number_text(self.squares_N2))}\n")
+                     f"{yaml_number(number_text(self.squares_N2))}\n"
+                     f"  force_judged_frames: {self.judged}\n"
+                     f"  force_far_frames: {self.far}\n"
+                     f"  force_variances_N2: "
+                     f"{yaml_number(number_text(self.variances_N2))}\n")
         return text
 
     def lines(self):
@@ -145,6 +152,21 @@ def read_group(folder):
                  {yaml.safe_load(entry)[0]["log"]: entry for entry in bad})
 
 
+def warnings_of(yaml_head, yaml_entries):
+    """What is doubtful, a line for each code: the first log with it, and how many more
+    there are."""
+    texts = [yaml_head] + [entry for entry in yaml_entries if "\n    warnings:" in entry]
+    found = {}
+    for text in texts:
+        loaded = yaml.safe_load(text)
+        entry = loaded[0] if isinstance(loaded, list) else loaded
+        for warning in entry.get("warnings", []):
+            found.setdefault(warning["code"], []).append(warning)
+    others = {0: "", 1: " (and 1 more such log)"}
+    return [first["text"] + others.get(len(more), f" (and {len(more)} more such logs)")
+            + "; " + first["remedy"] for first, *more in found.values()]
+
+
 def add_row(row, group, totals):
     try:
         totals.add(row)
@@ -154,7 +176,8 @@ def add_row(row, group, totals):
 
 
 def merge(out_dir):
-    """Writes both summaries. Returns the totals and the reasons of bad logs."""
+    """Writes both summaries. Returns the totals, the lines of their warnings and the
+    reasons of bad logs."""
     order = csv.DictReader(read_text(os.path.join(out_dir, "plan", "order.csv"))
                            .splitlines())
     order = [(row["log"], row["group"]) for row in order]
@@ -187,4 +210,5 @@ def merge(out_dir):
     write_if_changed(os.path.join(out_dir, "summary.yaml"),
                      yaml_head + ("".join(yaml_entries) or NO_LOGS)
                      + totals.yaml() + bad_text)
-    return totals, [yaml.safe_load(entry)[0]["reason"] for entry in bad_entries]
+    return (totals, warnings_of(yaml_head, yaml_entries),
+            [yaml.safe_load(entry)[0]["reason"] for entry in bad_entries])

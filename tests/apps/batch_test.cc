@@ -149,6 +149,49 @@ TEST_F(BatchTest, OneLogWithMovedOffsetsIsLoudAndStrictCountsIt) {
                 folder_.Path("runs/b.csv") + " are not explained"));
 }
 
+// Gauges that have all moved by as much agree on contacts that are not there:
+// chi2 shows nothing, the force sensor does.
+TEST_F(BatchTest, EqualShiftsOfAllGaugesAreLoud) {
+  const std::string data = FINRAY_SOURCE_DIR "/datasets/simulated_r15/";
+  Finger finger = ReadFinger(data + "hidden_finger.yaml");
+  finger.calibration = TypicalCovariance(finger);
+  finger.calibration->correlations.diagonal().setOnes();
+  finger.calibration->std *= 0.1;  // a good calibration
+  folder_.Write("finger.yaml", FingerToYaml(finger, ""));
+  const FrameTable log = FrameTable::Read(data + "holdout.csv");
+  const auto run = [&](double shift_V, const std::string& out) {
+    FrameTable shifted = log;
+    for (const char* gauge :
+         {"gauge_1_V", "gauge_2_V", "gauge_3_V", "gauge_4_V"}) {
+      for (double& volts : shifted.MutableNumbers(gauge)) volts += shift_V;
+    }
+    shifted.Write(folder_.Path("shifted.csv"));
+    return Run(
+        "finray_estimate",
+        "--strict --finger %finger.yaml --logs %shifted.csv --out_dir " + out);
+  };
+  const Outcome good = run(0, "%good");
+  EXPECT_EQ(good.code, 0) << good.output;
+  EXPECT_THAT(good.output, Not(HasSubstr("warning")));
+  const Outcome moved = run(0.02, "%moved");
+  EXPECT_EQ(moved.code, 4) << moved.output;
+  EXPECT_THAT(moved.output, HasSubstr("unexplained 0\n"));
+  EXPECT_THAT(moved.output,
+              HasSubstr("\nwarning: estimated forces differ from the force_N"));
+  EXPECT_THAT(moved.output, HasSubstr("the gauges read +20, +20, +20, +20 mV"));
+  const YAML::Node log_entry =
+      YAML::LoadFile(folder_.Path("moved/summary.yaml"))["logs"][0];
+  EXPECT_EQ(log_entry["warnings"][0]["code"].as<std::string>(),
+            "forces_differ");
+  EXPECT_EQ(log_entry["free_rows"].as<int>(), 10);
+  // A finished log that is kept tells the same.
+  EXPECT_EQ(Run("finray_estimate",
+                "--strict --finger %finger.yaml --logs %shifted.csv "
+                "--out_dir %moved --resume")
+                .code,
+            4);
+}
+
 TEST_F(BatchTest, PatternsListsAndTables) {
   WriteLog("runs/a.csv", 300, 1);
   WriteLog("runs/b.csv", 200, 2);
@@ -164,7 +207,7 @@ TEST_F(BatchTest, PatternsListsAndTables) {
               HasSubstr("\nwarning: the gains are probably other ones: 300 of "
                         "300 solved frames of " +
                         folder_.Path("runs/a.csv") +
-                        " (and too many in 1 other log) are not explained"));
+                        " (the worst of 2 logs) are not explained"));
   EXPECT_THAT(outcome.output, HasSubstr("frames         500 in 2 logs, "));
   const FrameTable table = FrameTable::Read(folder_.Path("out/summary.csv"));
   EXPECT_EQ(table.rows(), 2u);

@@ -10,12 +10,17 @@ namespace {
 TEST(EstimationSummaryTest, ReadsBackTheSame) {
   EstimationSummary summary;
   FrameEstimate estimate;
+  Measurements readings;
   for (int i = 0; i < 100; ++i) {
     estimate.status = EstimationSummary::kStatuses[i % 5];
     estimate.contact[0].normal_N = 0.1 * i;
     estimate.dof = 2;
     estimate.chi2 = i;  // p = exp(-chi2 / 2) < 0.001 from 13.8 on
-    summary.Add(estimate, 0.3, i % 7 ? 0.05 * i : std::nan(""));
+    estimate.contacts = 1;
+    estimate.contact[0].normal_std_N = 0.01 * i;
+    readings.gauges_V = {0.1 * i, 1};
+    readings.force_N = i % 7 ? 0.05 * i : std::nan("");
+    summary.Add(estimate, 0.3, readings);
   }
   const auto back = SummaryFromText(SummaryToText(summary));
   ASSERT_TRUE(back);
@@ -27,6 +32,13 @@ TEST(EstimationSummaryTest, ReadsBackTheSame) {
   EXPECT_EQ(back->force_compared, summary.force_compared);
   EXPECT_EQ(back->force_squares_N2, summary.force_squares_N2);
   EXPECT_EQ(back->force_max_N, summary.force_max_N);
+  EXPECT_GT(summary.force_judged, 10u);
+  EXPECT_EQ(back->force_judged, summary.force_judged);
+  EXPECT_EQ(back->force_far, summary.force_far);
+  EXPECT_EQ(back->force_variances_N2, summary.force_variances_N2);
+  EXPECT_EQ(summary.free_rows, 1u);  // i = 1
+  EXPECT_EQ(back->free_rows, 1u);
+  EXPECT_EQ(back->free_sums_V, (std::vector<double>{0.1, 1}));
   EXPECT_FALSE(SummaryFromText(""));
   EXPECT_FALSE(SummaryFromText("1 2 3"));
   EXPECT_FALSE(SummaryFromText(SummaryToText(summary) + " 1"));

@@ -23,6 +23,20 @@ class RunTest(batch_fixture.BatchTestCase):
         self.run_batch("--logs_per_task", "4")
         self.assertEqual(self.changed("[!.]*/**/*", before), [])
 
+    def test_ends_with_the_warnings(self):
+        self.write_logs(LOGS[:3])
+        for name in LOGS[1:3]:
+            path = self.folder / "runs" / name
+            head, *rows = path.read_text().splitlines()
+            cells = [row.split(",") for row in rows]
+            path.write_text("\n".join([head] + [",".join(
+                [row[0], repr(float(row[1]) + 0.5), *row[2:]]) for row in cells]) + "\n")
+        output = self.run_batch("--logs_per_task", "2")
+        self.assertIn("\nwarning: the finger is not calibrated: ", output)
+        self.assertRegex(output, r"\nwarning: .* solved frames of \S*d1/b.csv are not .*"
+                         r"\(and 1 more such log\); calibrate it")
+        self.expect_equal_to_single()
+
     def test_does_again_what_depends_on_a_change(self):
         self.write_logs(LOGS)
         self.run_batch("--logs_per_task", "4")

@@ -169,7 +169,7 @@ class BatchBenchmark {
                      const FrameEstimate& estimate = estimates_[frame];
                      layout.Append(block, row, readings[frame], estimate,
                                    &values, &csv[frame / kBlockFrames]);
-                     summary.Add(estimate, 0, readings[frame].force_N);
+                     summary.Add(estimate, 0, readings[frame]);
                    });
                  }));
     sum += print("write", Cost(frames_, [&] {

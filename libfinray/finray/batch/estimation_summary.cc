@@ -13,10 +13,37 @@ std::size_t EstimationSummary::unsolved() const {
   return count(FrameStatus::kNotConverged) + count(FrameStatus::kBadInput);
 }
 
+namespace {
+
+bool TooMany(std::size_t some, std::size_t of) {
+  return some >= EstimationSummary::kFewestUnexplained &&
+         static_cast<double>(some) >
+             EstimationSummary::kMostUnexplained * static_cast<double>(of);
+}
+
+// The std of the total force is at most the sum of those of its parts.
+double ForceStd(const FrameEstimate& estimate, double friction) {
+  double std_N = 0;
+  for (int c = 0; c < estimate.contacts; ++c) {
+    std_N += std::hypot(1, friction) * estimate.contact[c].normal_std_N;
+  }
+  return std_N;
+}
+
+}  // namespace
+
 bool EstimationSummary::unexplained_too_many() const {
-  return unexplained >= kFewestUnexplained &&
-         static_cast<double>(unexplained) >
-             kMostUnexplained * static_cast<double>(frames - unsolved());
+  return TooMany(unexplained, frames - unsolved());
+}
+
+bool EstimationSummary::forces_differ() const {
+  return TooMany(force_far, force_judged);
+}
+
+bool EstimationSummary::never_free() const {
+  return frames - unsolved() >= kManyFrames &&
+         count(FrameStatus::kNoContact) == 0 &&
+         force_judged < kFewestUnexplained;
 }
 
 double EstimationSummary::force_rms_N() const {
@@ -24,8 +51,23 @@ double EstimationSummary::force_rms_N() const {
   return std::sqrt(force_squares_N2 / static_cast<double>(force_compared));
 }
 
+double EstimationSummary::force_std_N() const {
+  if (force_judged == 0) return 0;
+  return std::sqrt(force_variances_N2 / static_cast<double>(force_judged));
+}
+
 void EstimationSummary::Add(const FrameEstimate& estimate, double friction,
-                            double force_N) {
+                            const Measurements& readings) {
+  const double force_N = readings.force_N;
+  if (std::abs(force_N) <= kFreeForce_N &&
+      std::all_of(readings.gauges_V.begin(), readings.gauges_V.end(),
+                  [](double volts) { return std::isfinite(volts); })) {
+    ++free_rows;
+    free_sums_V.resize(readings.gauges_V.size());
+    for (std::size_t j = 0; j < free_sums_V.size(); ++j) {
+      free_sums_V[j] += readings.gauges_V[j];
+    }
+  }
   ++frames;
   ++by_status[static_cast<std::size_t>(estimate.status)];
   if (estimate.status == FrameStatus::kNotConverged ||
@@ -41,6 +83,14 @@ void EstimationSummary::Add(const FrameEstimate& estimate, double friction,
   force_squares_N2 += error * error;
   force_max_N = std::max(force_max_N, std::abs(error));
   ++force_compared;
+  if (estimate.status != FrameStatus::kOk) return;
+  const double std_N = ForceStd(estimate, friction);
+  if (!std::isfinite(std_N)) return;
+  ++force_judged;
+  force_variances_N2 += std_N * std_N;
+  force_far += std::abs(error) > kFarStd * std_N &&
+               std::abs(error) > kFarShare * std::abs(force_N) &&
+               std::abs(error) > kFreeForce_N;
 }
 
 void EstimationSummary::Add(const EstimationSummary& other) {
@@ -52,6 +102,14 @@ void EstimationSummary::Add(const EstimationSummary& other) {
   force_compared += other.force_compared;
   force_squares_N2 += other.force_squares_N2;
   force_max_N = std::max(force_max_N, other.force_max_N);
+  force_judged += other.force_judged;
+  force_far += other.force_far;
+  force_variances_N2 += other.force_variances_N2;
+  free_rows += other.free_rows;
+  free_sums_V.resize(std::max(free_sums_V.size(), other.free_sums_V.size()));
+  for (std::size_t j = 0; j < other.free_sums_V.size(); ++j) {
+    free_sums_V[j] += other.free_sums_V[j];
+  }
 }
 
 std::string SummaryToText(const EstimationSummary& summary) {
@@ -59,55 +117,44 @@ std::string SummaryToText(const EstimationSummary& summary) {
   for (const std::size_t count : summary.by_status) {
     text += " " + std::to_string(count);
   }
-  return text + " " + std::to_string(summary.unexplained) + " " +
-         std::to_string(summary.force_compared) + " " +
-         NumberText(summary.force_squares_N2) + " " +
-         NumberText(summary.force_max_N);
+  text += " " + std::to_string(summary.unexplained) + " " +
+          std::to_string(summary.force_compared) + " " +
+          NumberText(summary.force_squares_N2) + " " +
+          NumberText(summary.force_max_N) + " " +
+          std::to_string(summary.force_judged) + " " +
+          std::to_string(summary.force_far) + " " +
+          NumberText(summary.force_variances_N2) + " " +
+          std::to_string(summary.free_rows) + " " +
+          std::to_string(summary.free_sums_V.size());
+  for (const double sum : summary.free_sums_V) text += " " + NumberText(sum);
+  return text;
 }
 
 std::optional<EstimationSummary> SummaryFromText(const std::string& text) {
   std::istringstream stream(text);
   EstimationSummary summary;
+  const auto number = [&](double* value) {
+    std::string word;
+    stream >> word;
+    const std::optional<double> read = ParseNumber(word);
+    if (read) *value = *read;
+    if (!read) stream.setstate(std::ios::failbit);
+  };
   stream >> summary.frames;
   for (std::size_t& count : summary.by_status) stream >> count;
-  std::string squares, largest, rest;
-  if (!(stream >> summary.unexplained >> summary.force_compared >> squares >>
-        largest) ||
-      stream >> rest) {
-    return std::nullopt;
+  stream >> summary.unexplained >> summary.force_compared;
+  number(&summary.force_squares_N2);
+  number(&summary.force_max_N);
+  stream >> summary.force_judged >> summary.force_far;
+  number(&summary.force_variances_N2);
+  std::size_t gauges = 0;
+  stream >> summary.free_rows >> gauges;
+  for (std::size_t j = 0; stream && j < gauges; ++j) {
+    number(&summary.free_sums_V.emplace_back());
   }
-  const std::optional<double> sum = ParseNumber(squares);
-  const std::optional<double> max = ParseNumber(largest);
-  if (!sum || !max) return std::nullopt;
-  summary.force_squares_N2 = *sum;
-  summary.force_max_N = *max;
+  std::string rest;
+  if (!stream || stream >> rest) return std::nullopt;
   return summary;
-}
-
-std::vector<Warning> WarningsOf(const Finger& finger) {
-  if (finger.calibration) return {};
-  return {
-      {"not_calibrated",
-       "the finger is not calibrated: its gains and stiffness are as drawn, "
-       "and so are the std of its forces",
-       "calibrate it with finray_calibrate"}};
-}
-
-Warning UnexplainedWarning(const EstimationSummary& summary,
-                           const Finger& finger, const std::string& source) {
-  return {"unexplained_frames",
-          std::string(finger.calibration
-                          ? "the gauges' offsets have probably moved since the "
-                            "calibration: "
-                          : "the gains are probably other ones: ") +
-              std::to_string(summary.unexplained) + " of " +
-              std::to_string(summary.frames - summary.unsolved()) +
-              " solved frames of " + source +
-              " are not explained by the finger and its noise",
-          finger.calibration
-              ? "zero the gauges with finray_zero; then look for more contacts "
-                "than the scene has, a changed finger, a wrong noise_V"
-              : "calibrate it with finray_calibrate"};
 }
 
 void EmitSummary(const EstimationSummary& summary, YamlEmitter* yaml) {
@@ -121,9 +168,18 @@ void EmitSummary(const EstimationSummary& summary, YamlEmitter* yaml) {
   if (summary.force_compared > 0) {
     YamlPairs(yaml, "force_compared_frames", summary.force_compared,
               "force_rms_error_N", summary.force_rms_N(), "force_max_error_N",
-              summary.force_max_N, "force_squares_N2",
-              summary.force_squares_N2);
+              summary.force_max_N, "force_squares_N2", summary.force_squares_N2,
+              "force_judged_frames", summary.force_judged, "force_far_frames",
+              summary.force_far, "force_variances_N2",
+              summary.force_variances_N2);
   }
+}
+
+void EmitFreeRows(const EstimationSummary& summary, YamlEmitter* yaml) {
+  if (summary.free_rows == 0) return;
+  YamlPair(yaml, "free_rows", summary.free_rows);
+  *yaml << YAML::Key << "free_sums_V" << YAML::Value << YAML::Flow
+        << summary.free_sums_V;
 }
 
 }  // namespace finray

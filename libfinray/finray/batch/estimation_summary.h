@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "finray/finger/finger.h"
-#include "finray/io/warning.h"
 #include "finray/io/yaml_emitter.h"
+#include "finray/scene/measurements.h"
 #include "finray/sensing/frame_estimator.h"
 
 namespace finray {
@@ -31,6 +30,18 @@ struct EstimationSummary {
   std::size_t force_compared = 0;
   double force_squares_N2 = 0;
   double force_max_N = 0;
+  /// Of these the ok frames, the sum of the variances that they claim, and how
+  /// many of them force_N contradicts: they are off by more than kFarStd of
+  /// their std, by more than kFarShare of force_N, and by more than
+  /// kFreeForce_N. The std of two forces together is at most their sum.
+  std::size_t force_judged = 0, force_far = 0;
+  double force_variances_N2 = 0;
+  static constexpr double kFarStd = 5, kFarShare = 0.1;
+  /// Rows that force_N shows to be free of contact, |force_N| <= kFreeForce_N,
+  /// and the sums of their readings by gauge.
+  std::size_t free_rows = 0;
+  std::vector<double> free_sums_V;
+  static constexpr double kFreeForce_N = 0.06;  // 3 std of a usual sensor
 
   std::size_t count(FrameStatus status) const {
     return by_status[static_cast<std::size_t>(status)];
@@ -43,22 +54,23 @@ struct EstimationSummary {
   bool unexplained_too_many() const;
   static constexpr double kMostUnexplained = 0.05;
   static constexpr std::size_t kFewestUnexplained = 3;
+  /// The same of the frames that force_N contradicts.
+  bool forces_differ() const;
+  /// No frame of at least kManyFrames is without a contact, and hardly any
+  /// estimate can be compared with a force_N.
+  bool never_free() const;
+  static constexpr std::size_t kManyFrames = 50;
   /// Rms of the force error; 0 if no force was compared.
   double force_rms_N() const;
+  /// Rms of the std that the judged estimates claim.
+  double force_std_N() const;
 
-  /// Counts one frame. `force_N` is the reference force, NaN if there is none;
-  /// `friction` is the scene's mu.
-  void Add(const FrameEstimate& estimate, double friction, double force_N);
+  /// Counts one frame; `friction` is the scene's mu.
+  void Add(const FrameEstimate& estimate, double friction,
+           const Measurements& readings);
   /// Adds the frames of another summary.
   void Add(const EstimationSummary& other);
 };
-
-/// Warns of a finger that nobody has calibrated.
-std::vector<Warning> WarningsOf(const Finger& finger);
-/// Warns of too many frames of `source` that the finger does not explain. The
-/// text begins with the likeliest cause.
-Warning UnexplainedWarning(const EstimationSummary& summary,
-                           const Finger& finger, const std::string& source);
 
 /// Writes a summary as one line of text, and reads it back. Reading returns
 /// nothing if the text is not a summary.
@@ -66,8 +78,10 @@ std::string SummaryToText(const EstimationSummary& summary);
 std::optional<EstimationSummary> SummaryFromText(const std::string& text);
 
 /// Writes the summary's keys of a summary.yaml into the mapping that `yaml` is
-/// in.
+/// in, except those of free rows.
 void EmitSummary(const EstimationSummary& summary, YamlEmitter* yaml);
+/// Writes the keys of free rows, if there are any.
+void EmitFreeRows(const EstimationSummary& summary, YamlEmitter* yaml);
 
 }  // namespace finray
 

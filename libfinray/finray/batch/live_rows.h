@@ -34,6 +34,8 @@ class LiveRows {
   const std::string& error() const { return error_; }
   /// The estimate of the last line.
   const FrameEstimate& estimate() const { return estimate_; }
+  /// Its measurements; NaN if it has an error.
+  const Measurements& readings() const { return readings_; }
 
  private:
   FrameParser parser_;

@@ -25,7 +25,7 @@ std::string SolverName(const BatchSettings& settings) {
 
 std::string Key(const BatchSettings& settings, const std::string& log_sha256) {
   return Sha256OfText(
-      "results 6\nversion " FINRAY_VERSION "\nlog " + log_sha256 + "\nfinger " +
+      "results 7\nversion " FINRAY_VERSION "\nlog " + log_sha256 + "\nfinger " +
       settings.finger_sha256 + "\nscene " + settings.scene_sha256 +
       "\nscheme " + SchemeName(settings.discretization.scheme) +
       "\nresolution " + std::to_string(settings.discretization.resolution) +
@@ -50,6 +50,13 @@ EstimationSummary SummaryFromYaml(const YamlMap& yaml) {
     summary.force_compared = Count(yaml, "force_compared_frames");
     summary.force_squares_N2 = yaml.NonNegativeNumber("force_squares_N2");
     summary.force_max_N = yaml.NonNegativeNumber("force_max_error_N");
+    summary.force_judged = Count(yaml, "force_judged_frames");
+    summary.force_far = Count(yaml, "force_far_frames");
+    summary.force_variances_N2 = yaml.NonNegativeNumber("force_variances_N2");
+  }
+  if (yaml.Has("free_rows")) {
+    summary.free_rows = Count(yaml, "free_rows");
+    summary.free_sums_V = yaml.Numbers("free_sums_V");
   }
   return summary;
 }
@@ -69,6 +76,10 @@ void AddCells(const LogJob& job, Set set) {
   set("force_rms_error_N", compared ? NumberText(summary.force_rms_N()) : "");
   set("force_max_error_N", compared ? NumberText(summary.force_max_N) : "");
   set("force_squares_N2", compared ? NumberText(summary.force_squares_N2) : "");
+  set("force_judged_frames", std::to_string(summary.force_judged));
+  set("force_far_frames", std::to_string(summary.force_far));
+  set("force_variances_N2",
+      compared ? NumberText(summary.force_variances_N2) : "");
   set("unexplained_frames", std::to_string(summary.unexplained));
   set("key", job.key());
 }
@@ -230,6 +241,7 @@ void LogJob::WriteSummary(std::uint64_t bytes) const {
   yaml << YAML::EndMap;
   YamlPair(&yaml, "result_bytes", bytes);
   EmitSummary(summary_, &yaml);
+  EmitFreeRows(summary_, &yaml);
   yaml << YAML::EndMap;
   WriteFileAtomically(summary_path_, std::string(yaml.c_str()) + "\n");
 }
@@ -240,27 +252,10 @@ EstimationSummary Total(const std::vector<LogJob>& jobs) {
   return all;
 }
 
-std::vector<Warning> WarningsOf(const std::vector<LogJob>& jobs,
-                                const Finger& finger) {
-  std::vector<Warning> warnings = WarningsOf(finger);
-  const LogJob* worst = nullptr;
-  std::size_t count = 0;
-  for (const LogJob& job : jobs) {
-    const EstimationSummary& summary = job.summary();
-    if (!summary.unexplained_too_many()) continue;
-    ++count;
-    if (!worst || summary.unexplained > worst->summary().unexplained) {
-      worst = &job;
-    }
-  }
-  if (!worst) return warnings;
-  std::string source = worst->log();
-  if (count > 1) {
-    source += " (and too many in " + std::to_string(count - 1) + " other log" +
-              (count > 2 ? "s)" : ")");
-  }
-  warnings.push_back(UnexplainedWarning(worst->summary(), finger, source));
-  return warnings;
+std::vector<LogSummary> SummariesOf(const std::vector<LogJob>& jobs) {
+  std::vector<LogSummary> logs;
+  for (const LogJob& job : jobs) logs.push_back({&job.summary(), job.log()});
+  return logs;
 }
 
 namespace {
@@ -295,11 +290,9 @@ std::string BatchYaml(const BatchSettings& settings,
     YamlPairs(&yaml, "log", job.log(), "result", job.result(), "key",
               job.key());
     EmitSummary(job.summary(), &yaml);
-    if (job.summary().unexplained_too_many()) {
-      EmitWarnings(
-          {UnexplainedWarning(job.summary(), settings.finger, job.log())},
-          &yaml);
-    }
+    EmitFreeRows(job.summary(), &yaml);
+    EmitWarnings(WarningsOf({{&job.summary(), job.log()}}, settings.finger),
+                 &yaml);
     yaml << YAML::EndMap;
   }
   yaml << YAML::EndSeq << YAML::Key << "all" << YAML::Value << YAML::BeginMap;

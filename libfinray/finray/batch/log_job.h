@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "finray/batch/batch_estimation.h"
-#include "finray/batch/estimation_summary.h"
+#include "finray/batch/estimation_warnings.h"
 #include "finray/io/frame_table.h"
 #include "finray/io/resumable_file.h"
 
@@ -98,10 +98,8 @@ struct BadLog {
 /// The summary of all frames of all logs.
 EstimationSummary Total(const std::vector<LogJob>& jobs);
 
-/// Says what makes the estimates doubtful: a finger that nobody has calibrated,
-/// and logs with too many unexplained frames, the worst by name.
-std::vector<Warning> WarningsOf(const std::vector<LogJob>& jobs,
-                                const Finger& finger);
+/// Names and summaries of all logs, for WarningsOf.
+std::vector<LogSummary> SummariesOf(const std::vector<LogJob>& jobs);
 
 /// The text of summary.yaml: the settings, each log, the total, and bad logs if
 /// there are any.

@@ -68,7 +68,7 @@ void WriteResult(const ResultLayout& layout, double friction, Block* block) {
     const FrameEstimate& estimate = block->estimates[row];
     layout.Append(block->rows, row, readings, estimate, &block->values,
                   &result.csv);
-    result.summary.Add(estimate, friction, readings.force_N);
+    result.summary.Add(estimate, friction, readings);
   }
 }
 

@@ -1,6 +1,5 @@
 #include "finray/sensing/zeroed_finger.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -33,21 +32,6 @@ Mean MeanOf(const std::vector<Measurements>& rows, int gauge,
     of.scatter = std::sqrt(squares / static_cast<double>(of.count - 1));
   }
   return of;
-}
-
-// Returns gain times angle of each gauge of the unloaded finger.
-Eigen::VectorXd FreeVolts(const Finger& finger,
-                          const Discretization& discretization) {
-  EquilibriumSolver solver(finger, discretization);
-  if (!solver.Solve({})) {
-    throw InputError("the free finger has no equilibrium: " + solver.Why());
-  }
-  Eigen::VectorXd volts(static_cast<Eigen::Index>(finger.gauges.size()));
-  for (Eigen::Index j = 0; j < volts.size(); ++j) {
-    volts[j] = finger.gauges[j].gain_V_per_rad *
-               solver.gauge_angle(static_cast<int>(j));
-  }
-  return volts;
 }
 
 // Returns dg/dx by central differences of a tenth of a std.
@@ -112,6 +96,20 @@ void RenewCovariance(const Discretization& discretization,
 }
 
 }  // namespace
+
+Eigen::VectorXd FreeVolts(const Finger& finger,
+                          const Discretization& discretization) {
+  EquilibriumSolver solver(finger, discretization);
+  if (!solver.Solve({})) {
+    throw InputError("the free finger has no equilibrium: " + solver.Why());
+  }
+  Eigen::VectorXd volts(static_cast<Eigen::Index>(finger.gauges.size()));
+  for (Eigen::Index j = 0; j < volts.size(); ++j) {
+    volts[j] = finger.gauges[j].gain_V_per_rad *
+               solver.gauge_angle(static_cast<int>(j));
+  }
+  return volts;
+}
 
 ZeroedFinger ZeroGauges(const Finger& finger,
                         const Discretization& discretization,

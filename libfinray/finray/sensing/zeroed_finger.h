@@ -1,6 +1,7 @@
 #ifndef FINRAY_SENSING_ZEROED_FINGER_H_
 #define FINRAY_SENSING_ZEROED_FINGER_H_
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -39,6 +40,10 @@ ZeroedFinger ZeroGauges(const Finger& finger,
                         const Discretization& discretization,
                         const std::vector<Measurements>& free_rows,
                         const std::string& source);
+/// Returns gain times angle of each gauge of the unloaded finger. Throws
+/// InputError if it has no equilibrium.
+Eigen::VectorXd FreeVolts(const Finger& finger,
+                          const Discretization& discretization);
 constexpr std::size_t kLeastZeroRows = 10;
 constexpr double kSteady = 5;
 

@@ -1,0 +1,43 @@
+#ifndef FINRAY_BATCH_ESTIMATION_WARNINGS_H_
+#define FINRAY_BATCH_ESTIMATION_WARNINGS_H_
+
+#include <string>
+#include <vector>
+
+#include "finray/batch/estimation_summary.h"
+#include "finray/finger/finger.h"
+#include "finray/io/warning.h"
+
+namespace finray {
+
+/// The summary of a log and its name.
+struct LogSummary {
+  const EstimationSummary* summary;
+  std::string log;
+};
+
+/// Warns of a finger that nobody has calibrated.
+std::vector<Warning> WarningsOf(const Finger& finger);
+
+/// Says what makes the estimates of logs doubtful, one warning a code. It names
+/// the worst log and counts the others:
+///  - unexplained_frames: the finger and its noise do not explain too many
+///    frames;
+///  - forces_differ: force_N contradicts too many forces, or shows free rows
+///    where every frame has a contact;
+///  - never_free: every frame has a contact and no force_N says otherwise.
+/// Offsets that have moved alike make all gauges consistent with contacts that
+/// are not there, so chi2 does not show them. Where force_N marks free rows,
+/// the text has the shift of each gauge there,
+///
+///   mean V_j - (offset_j + gain_j angle_j(free finger)).
+std::vector<Warning> WarningsOf(const std::vector<LogSummary>& logs,
+                                const Finger& finger);
+
+/// Says whether --strict fails with one of these warnings: all but those of an
+/// uncalibrated finger and never_free, which may be meant.
+bool FailsStrict(const std::vector<Warning>& warnings);
+
+}  // namespace finray
+
+#endif  // FINRAY_BATCH_ESTIMATION_WARNINGS_H_

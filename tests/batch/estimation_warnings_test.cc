@@ -1,0 +1,140 @@
+#include "finray/batch/estimation_warnings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "finray/sensing/zeroed_finger.h"
+#include "test_finger.h"
+
+namespace finray {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::SizeIs;
+
+Finger CalibratedFinger() {
+  Finger finger = PaperFinger();
+  for (Gauge& gauge : finger.gauges) gauge.noise_V = 3e-4;
+  finger.calibration.emplace();
+  return finger;
+}
+
+FrameEstimate Contact(double normal_N, double std_N) {
+  FrameEstimate estimate;
+  estimate.status = FrameStatus::kOk;
+  estimate.contacts = 1;
+  estimate.contact[0].normal_N = normal_N;
+  estimate.contact[0].normal_std_N = std_N;
+  return estimate;
+}
+
+Measurements Row(const Finger& finger, double force_N, double shift_V) {
+  const Eigen::VectorXd bent_V = FreeVolts(finger, {});
+  Measurements row;
+  row.force_N = force_N;
+  for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
+    row.gauges_V.push_back(finger.gauges[j].offset_V + shift_V +
+                           bent_V[static_cast<Eigen::Index>(j)]);
+  }
+  return row;
+}
+
+std::vector<Warning> Of(const EstimationSummary& summary,
+                        const Finger& finger) {
+  return WarningsOf({{&summary, "a.csv"}}, finger);
+}
+
+// Gauges that have all moved by as much agree on a contact that is not there.
+TEST(EstimationWarningsTest, ForcesThatTheLogContradicts) {
+  const Finger finger = CalibratedFinger();
+  EstimationSummary summary;
+  for (int i = 0; i < 40; ++i) {
+    summary.Add(Contact(3, 0.02), 0, Row(finger, 3.01, 0.02));
+  }
+  EXPECT_THAT(Of(summary, finger), IsEmpty());
+  // Some are chance, and a light touch may be off by the sensor's noise.
+  summary.Add(Contact(0.08, 0.001), 0, Row(finger, 0.03, 0.02));
+  for (int i = 0; i < 2; ++i) {
+    summary.Add(Contact(30, 1), 0, Row(finger, 0.01, 0.02));
+  }
+  EXPECT_THAT(Of(summary, finger), IsEmpty());
+  summary.Add(Contact(30, 1), 0, Row(finger, 0, 0.02));
+  const std::vector<Warning> warnings = Of(summary, finger);
+  ASSERT_THAT(warnings, SizeIs(1));
+  EXPECT_EQ(warnings[0].code, "forces_differ");
+  EXPECT_EQ(warnings[0].text,
+            "estimated forces differ from the force_N of a.csv by 7.83 N rms, "
+            "29.9 times their stated std, and 3 of 44 are far off; likeliest "
+            "cause: the gauges' offsets have moved; in its 4 rows with a "
+            "force_N near zero the gauges read +20, +20, +20, +20 mV beside "
+            "their offsets");
+  EXPECT_THAT(warnings[0].remedy, HasSubstr("finray_zero"));
+  EXPECT_TRUE(FailsStrict(warnings));
+}
+
+TEST(EstimationWarningsTest, FreeRowsThatReadTheirOffsets) {
+  const Finger finger = CalibratedFinger();
+  EstimationSummary summary;
+  for (int i = 0; i < 10; ++i) {
+    summary.Add(Contact(3, 0.02), 0, Row(finger, 3000, 0));  // mN
+    FrameEstimate free = Contact(0, 0);
+    free.status = FrameStatus::kNoContact;
+    free.contacts = 0;
+    summary.Add(free, 0, Row(finger, 0.01, 1e-4));
+  }
+  const std::vector<Warning> warnings = Of(summary, finger);
+  ASSERT_THAT(warnings, SizeIs(1));
+  EXPECT_THAT(warnings[0].text, HasSubstr("read +0.1, +0.1, +0.1, +0.1 mV"));
+  EXPECT_THAT(warnings[0].text, Not(HasSubstr("offsets have moved")));
+  EXPECT_THAT(warnings[0].remedy,
+              HasSubstr("the offsets have not moved: look at the unit"));
+}
+
+TEST(EstimationWarningsTest, ALogWithoutForceThatIsNeverFree) {
+  const Finger finger = CalibratedFinger();
+  EstimationSummary summary;
+  for (int i = 0; i < 49; ++i) {
+    summary.Add(Contact(30, 1), 0, Row(finger, std::nan(""), 0.02));
+  }
+  EXPECT_THAT(Of(summary, finger), IsEmpty());
+  FrameEstimate estimate = Contact(30, 1);
+  estimate.status = FrameStatus::kUnobservable;
+  summary.Add(estimate, 0, Row(finger, std::nan(""), 0.02));
+  const std::vector<Warning> warnings = Of(summary, finger);
+  ASSERT_THAT(warnings, SizeIs(1));
+  EXPECT_EQ(warnings[0].text,
+            "all 50 solved frames of a.csv have a contact, 1 of them an "
+            "unobservable one, and no force_N says whether that is so");
+  EXPECT_FALSE(FailsStrict(warnings));  // it may be meant
+  // Some of the rows are free, and their forces cannot be compared.
+  EstimationSummary free = summary;
+  for (int i = 0; i < 3; ++i) free.Add(estimate, 0, Row(finger, 0, 0.02));
+  const std::vector<Warning> sure = Of(free, finger);
+  ASSERT_THAT(sure, SizeIs(1));
+  EXPECT_THAT(sure[0].text, HasSubstr("although some have a force_N near zero; "
+                                      "in its 3 rows"));
+  EXPECT_TRUE(FailsStrict(sure));
+  estimate.status = FrameStatus::kNoContact;
+  summary.Add(estimate, 0, Row(finger, std::nan(""), 0.02));
+  EXPECT_THAT(Of(summary, finger), IsEmpty());
+}
+
+TEST(EstimationWarningsTest, NamesTheWorstOfLogs) {
+  Finger finger = PaperFinger();
+  EXPECT_EQ(WarningsOf(finger)[0].code, "not_calibrated");
+  EstimationSummary good, bad, worse;
+  good.frames = bad.frames = worse.frames = 10;
+  bad.unexplained = 3;
+  worse.unexplained = 4;
+  const auto warnings =
+      WarningsOf({{&good, "a"}, {&bad, "b"}, {&worse, "c"}}, finger);
+  ASSERT_THAT(warnings, SizeIs(1));
+  EXPECT_THAT(warnings[0].text,
+              HasSubstr("4 of 10 solved frames of c (the worst of 2 logs)"));
+  EXPECT_THAT(WarningsOf({{&good, "a"}}, finger), IsEmpty());
+}
+
+}  // namespace
+}  // namespace finray
