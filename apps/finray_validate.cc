@@ -97,24 +97,15 @@ void WarnOfParametersOfLogs(const Plan& plan) {
        "correct the logs, or use `holdout` in the plan");
 }
 
-// Says what a gate would have said, lest wrong estimates look good.
 void WarnOfErrors(const Finger& finger, const ErrorRow& errors) {
-  constexpr double kFarFrom95 = 80;
-  for (const auto& [name, of] : {std::pair("force", &errors.force_N),
-                                 std::pair("place", &errors.contact_mm)}) {
-    if (of->judged == 0) continue;
-    const auto [low, high] = BinomialRange(of->within_95, of->judged);
-    if (high >= kFarFrom95) continue;
-    Warn((finger.calibration ? "the finger has changed since its calibration, "
-                               "or the scene is another: "
-                             : "the finger is not calibrated: ") +
-             FormatText("%.0f %% of errors of %s lie within their 95 %% "
-                        "intervals",
-                        of->coverage_95_percent(), name),
-         finger.calibration ? "zero the gauges, then calibrate anew"
-                            : "calibrate it with finray_calibrate");
-    return;
-  }
+  const std::vector<std::string> faults = FaultsOf(errors);
+  if (faults.empty()) return;
+  Warn((finger.calibration ? "the finger has changed since its calibration, "
+                             "or the scene is another: "
+                           : "the finger is not calibrated: ") +
+           Joined(faults),
+       finger.calibration ? "zero the gauges, then calibrate anew"
+                          : "calibrate it with finray_calibrate");
 }
 
 void PrintErrors(const char* name, const ErrorStatistics& errors,

@@ -244,5 +244,36 @@ TEST(ValidationTest, BenchRowsAndTwoContacts) {
   EXPECT_TRUE(std::isnan(table.Numbers("force_std_N")[2]));
 }
 
+// Without a gate too, wrong estimates are no good ones.
+TEST(FaultsTest, SaysWhatIsWrong) {
+  using testing::ElementsAre;
+  using testing::HasSubstr;
+  using testing::IsEmpty;
+  ErrorRow good;
+  std::mt19937_64 generator(3);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 50; ++i) {
+    good.force_N.Add(0.02 * normal(generator), 3, 0.02);
+  }
+  good.frames = good.usable = 50;
+  EXPECT_THAT(FaultsOf(good), IsEmpty());
+
+  // A twentieth of the frames is far off: the coverage is nearly right.
+  ErrorRow tail = good;
+  for (int i = 0; i < 3; ++i) tail.force_N.Add(0.3, 3, 0.02);
+  EXPECT_GT(tail.force_N.coverage_95_percent(), 88);
+  EXPECT_THAT(FaultsOf(tail),
+              ElementsAre(HasSubstr("errors of force are 3.7 times")));
+
+  // Std that are as wide as the errors.
+  ErrorRow vague;
+  vague.frames = 50;
+  vague.usable = 20;
+  for (int i = 0; i < 20; ++i) vague.force_N.Add(i % 2 ? 3 : -4, 3, 4);
+  EXPECT_THAT(FaultsOf(vague),
+              ElementsAre("forces are off by 118 % rms",
+                          "only 40 % of the frames with contact are usable"));
+}
+
 }  // namespace
 }  // namespace finray

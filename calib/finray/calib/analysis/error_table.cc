@@ -30,6 +30,7 @@ void EmitStatistics(const ErrorStatistics& errors, const char* quantity,
   if (errors.judged == 0) return;
   YamlPair(yaml, name + "_coverage_68_percent", errors.coverage_68_percent());
   YamlPair(yaml, name + "_coverage_95_percent", errors.coverage_95_percent());
+  if (errors.scored > 0) YamlPair(yaml, name + "_rms_z", errors.rms_z());
 }
 
 // Emits the keys of a row into a mapping that has begun.
@@ -54,6 +55,8 @@ void ErrorStatistics::Add(double error, double reference, double std) {
   reference_sum += reference;
   if (!std::isfinite(std)) return;
   ++judged;
+  ++scored;
+  z_squares += error * error / (std * std);
   within_68 += std::abs(error) <= std;
   within_95 += std::abs(error) <= k95 * std;
 }
@@ -73,6 +76,10 @@ double ErrorStatistics::reference_mean() const {
 }
 double ErrorStatistics::percent() const {
   return frames == 0 ? kNaN : 100 * std::sqrt(squares / reference_squares);
+}
+double ErrorStatistics::rms_z() const {
+  return scored == 0 ? kNaN
+                     : std::sqrt(z_squares / static_cast<double>(scored));
 }
 double ErrorStatistics::coverage_68_percent() const {
   return Percent(within_68, judged);

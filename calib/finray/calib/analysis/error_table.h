@@ -31,6 +31,9 @@ struct ErrorStatistics {
   /// (68.3 %) and 1.96 (95 %). A quantity that the estimate misses has no std
   /// and counts as outside of both.
   std::size_t judged = 0, within_68 = 0, within_95 = 0;
+  /// The number of frames with a std, and the sum of (e / s)^2 over them.
+  std::size_t scored = 0;
+  double z_squares = 0;
 
   void Add(double error, double reference, double std);
   /// Counts a quantity that is there, unless it is NaN, and that the estimate
@@ -41,6 +44,8 @@ struct ErrorStatistics {
   double reference_mean() const;
   /// The rms of the errors in percent of the rms of the reference.
   double percent() const;
+  /// The rms of e / s: 1 if the std are honest, NaN without any.
+  double rms_z() const;
   double coverage_68_percent() const;
   double coverage_95_percent() const;
 };

@@ -7,6 +7,7 @@
 #include "finray/batch/batch_estimation.h"
 #include "finray/io/error.h"
 #include "finray/io/nan.h"
+#include "finray/io/number_text.h"
 #include "finray/residuals/parallel_frames.h"
 
 namespace finray {
@@ -276,6 +277,36 @@ std::vector<Gate> CheckGates(
     gates.push_back({name, bound, value, passed});
   }
   return gates;
+}
+
+std::vector<std::string> FaultsOf(const ErrorRow& errors) {
+  constexpr double kFarFrom95 = 80;
+  constexpr std::size_t kEnough = 10;
+  std::vector<std::string> faults;
+  for (const auto& [name, of] : {std::pair("force", &errors.force_N),
+                                 std::pair("place", &errors.contact_mm)}) {
+    if (of->judged > 0 &&
+        BinomialRange(of->within_95, of->judged).second < kFarFrom95) {
+      faults.push_back(
+          FormatText("%.0f %% of errors of %s lie within their 95 %% intervals",
+                     of->coverage_95_percent(), name));
+    }
+    if (of->scored >= kEnough && of->rms_z() > kFarZ) {
+      faults.push_back(FormatText("errors of %s are %.3g times their std rms",
+                                  name, of->rms_z()));
+    }
+  }
+  if (errors.force_N.percent() > kLargePercent) {  // not if it is NaN
+    faults.push_back(
+        FormatText("forces are off by %.3g %% rms", errors.force_N.percent()));
+  }
+  if (errors.usable_percent() < kFewUsablePercent) {
+    faults.push_back(
+        FormatText("only %.0f %% of the frames with contact are "
+                   "usable",
+                   errors.usable_percent()));
+  }
+  return faults;
 }
 
 }  // namespace finray

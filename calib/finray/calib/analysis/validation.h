@@ -84,6 +84,12 @@ std::vector<Gate> CheckGates(
     const Validation& validation,
     const std::vector<std::pair<std::string, double>>& bounds);
 
+/// Says in words what a gate would have said, lest wrong estimates look good:
+/// coverage far below 95 %, errors of kFarZ std rms, forces that are off by
+/// kLargePercent rms, few usable frames. Empty if there is nothing to say.
+std::vector<std::string> FaultsOf(const ErrorRow& errors);
+constexpr double kFarZ = 2, kLargePercent = 25, kFewUsablePercent = 50;
+
 /// Returns a table with a row for each frame of the finger, without the bench:
 /// log, row, time, kind, reference, estimate with std, status, errors, and
 /// those of the baseline.
