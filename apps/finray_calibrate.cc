@@ -92,10 +92,7 @@ void PrintSummary(CalibrationProblem& problem,
                 noise.chi2 / noise.dof);
   }
   std::printf("\nforce error    %s\n", ForceWords(result.forces).c_str());
-  std::printf("next           %s\n",
-              result.next.empty()
-                  ? "no 20 frames would shrink the worst direction by a tenth"
-                  : result.next[0].words.c_str());
+  std::printf("next           %s\n", NextWords(result.next).c_str());
   constexpr int kMostWeak = 3;  // all are in calibration.yaml
   int weak = 0;
   for (const Warning& warning : result.warnings) {

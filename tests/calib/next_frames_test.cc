@@ -10,6 +10,7 @@
 #include "calib/log_rows.h"
 #include "finray/calib/analysis/identifiability.h"
 #include "finray/objects/circle_centre.h"
+#include "finray/sensing/frame_estimator.h"
 
 namespace finray {
 namespace {
@@ -53,7 +54,8 @@ TEST(NextFramesTest, WhatIsPromisedIsKept) {
   Calibrated before(StandardPlan(), {log});
   ASSERT_FALSE(before.found.weak.empty());
   const auto advised =
-      AdviseNextFrames(before.problem.get(), before.solution, &before.found);
+      AdviseNextFrames(before.problem.get(), before.solution, &before.found)
+          .advice;
   ASSERT_FALSE(advised.empty());
   const FrameAdvice& best = advised[0];
   EXPECT_TRUE(best.added.empty());
@@ -71,6 +73,86 @@ TEST(NextFramesTest, WhatIsPromisedIsKept) {
   EXPECT_GT(more.Std(p.name), 1.5 * after.Std(p.name));
 }
 
+// Of two dozen rows: what is promised of the force is what a calibration with
+// the advised frames predicts, and the errors of calibrated fingers are as
+// large as predicted.
+TEST(NextFramesTest, ThePredictedForceStdIsKept) {
+  const TempFolder folder;
+  double squares = 0, predicted_squares = 0;
+  for (const unsigned seed : {31u, 32u, 33u, 34u, 35u, 36u}) {
+    const std::string log = folder.Path("few.csv");
+    RowsWhere(FrameTable::Read(StandardLog(folder, HiddenFinger(), seed)),
+              [](const FrameTable&, std::size_t i) { return i % 7 == 0; })
+        .Write(log);
+    Calibrated few(StandardPlan(), {log});
+    const NextRecording next =
+        AdviseNextFrames(few.problem.get(), few.solution, &few.found);
+    ASSERT_GT(next.force_contacts, 10u);
+    predicted_squares += next.force_calibration_N * next.force_calibration_N;
+
+    // Exact readings of the true finger at the same contacts, by the calibrated
+    // one.
+    const PredictedForce at = PredictForce(
+        *few.problem, PredictFrames(few.problem.get(), few.solution.contacts,
+                                    few.found.unit));
+    const Finger found = few.problem->parameters().Apply(few.problem->finger());
+    Scene scene;
+    scene.contacts = 1;
+    FrameEstimator estimator(found, scene, {});
+    EquilibriumSolver truth(HiddenFinger(), {});
+    double of_seed = 0;
+    for (const auto& [arc_mm, normal_N] : at.contacts) {
+      truth.Reset();
+      ASSERT_TRUE(truth.Solve({{arc_mm, normal_N, 0}}));
+      Measurements row;
+      for (int j = 0; j < 4; ++j) {
+        row.gauges_V.push_back(
+            HiddenFinger().gauges[j].Volts(truth.gauge_angle(j)));
+      }
+      const double error =
+          estimator.Estimate(row).contact[0].normal_N - normal_N;
+      of_seed += error * error;
+    }
+    squares += of_seed / static_cast<double>(at.contacts.size());
+    if (seed != 31) continue;
+
+    ASSERT_FALSE(next.advice.empty());
+    const FrameAdvice& best = next.advice[0];
+    ASSERT_TRUE(best.force_std_after_N.has_value());
+    EXPECT_LT(best.std_after, 0.9 * best.std_before);
+    Calibrated after(StandardPlan(), {log, Record(folder, best, 15)});
+    const NextRecording then =
+        AdviseNextFrames(after.problem.get(), after.solution, &after.found);
+    std::printf("%s; found %.3f N\n", best.words.c_str(), then.force_std_N());
+    EXPECT_NEAR(*best.force_std_before_N, next.force_std_N(), 1e-12);
+    EXPECT_NEAR(best.std_after / then.force_calibration_N, 1, 0.12);
+    EXPECT_NEAR(*best.force_std_after_N / then.force_std_N(), 1, 0.12);
+  }
+  std::printf(
+      "force error of calibrated fingers %.4f N rms, predicted %.4f N\n",
+      std::sqrt(squares / 6), std::sqrt(predicted_squares / 6));
+  EXPECT_NEAR(std::sqrt(squares / predicted_squares), 1, 0.5);
+}
+
+TEST(NextFramesTest, SaysWhenEnoughIsRecorded) {
+  const TempFolder folder;
+  Calibrated much(StandardPlan(), {StandardLog(folder, HiddenFinger(), 26)});
+  const NextRecording next =
+      AdviseNextFrames(much.problem.get(), much.solution, &much.found);
+  EXPECT_TRUE(next.enough);
+  const std::string few = folder.Path("few.csv");
+  RowsWhere(FrameTable::Read(folder.Path("log.csv")), [](const FrameTable&,
+                                                         std::size_t i) {
+    return i % 15 == 0;
+  }).Write(few);
+  Calibrated little(StandardPlan(), {few});
+  EXPECT_FALSE(
+      AdviseNextFrames(little.problem.get(), little.solution, &little.found)
+          .enough);
+  EXPECT_LT(next.force_calibration_N, next.force_noise_N);
+  EXPECT_THAT(NextWords(next), HasSubstr("enough recorded: predicted force"));
+}
+
 TEST(NextFramesTest, AMissingForceIsAskedFor) {
   const TempFolder folder;
   FrameTable log = FrameTable::Read(StandardLog(folder, HiddenFinger(), 22));
@@ -80,7 +162,8 @@ TEST(NextFramesTest, AMissingForceIsAskedFor) {
   for (FamilyPlan& family : plan.families) family.prior_std.reset();
   Calibrated blind(plan, {folder.Path("blind.csv")});
   const auto advised =
-      AdviseNextFrames(blind.problem.get(), blind.solution, &blind.found);
+      AdviseNextFrames(blind.problem.get(), blind.solution, &blind.found)
+          .advice;
   ASSERT_FALSE(advised.empty());
   EXPECT_EQ(advised[0].added,
             std::vector<ResidualFamily>{ResidualFamily::kForce});
@@ -117,7 +200,8 @@ TEST(NextFramesTest, ParametersOfLogsAreMatchedByName) {
   plan.gauge_walk = {0.01, 300};
   Calibrated steps(plan, {path});
   for (const FrameAdvice& advice :
-       AdviseNextFrames(steps.problem.get(), steps.solution, &steps.found)) {
+       AdviseNextFrames(steps.problem.get(), steps.solution, &steps.found)
+           .advice) {
     EXPECT_LT(advice.std_after, advice.std_before);
   }
 
@@ -149,7 +233,7 @@ TEST(NextFramesTest, KnownGainsSettleStiffness) {
   const CalibrationSolution solution = SolveOnce(&problem);
   ASSERT_TRUE(solution.solve.converged);
   Identifiability found = AnalyzeIdentifiability(&problem, solution.at);
-  const auto advised = AdviseNextFrames(&problem, solution, &found);
+  const auto advised = AdviseNextFrames(&problem, solution, &found).advice;
   ASSERT_FALSE(advised.empty());
   const FrameAdvice& known = advised.back();
   std::printf("%s\n", known.words.c_str());

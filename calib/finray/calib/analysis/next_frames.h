@@ -1,10 +1,15 @@
 #ifndef FINRAY_CALIB_ANALYSIS_NEXT_FRAMES_H_
 #define FINRAY_CALIB_ANALYSIS_NEXT_FRAMES_H_
 
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "finray/calib/analysis/identifiability.h"
+#include "finray/calib/analysis/predicted_frames.h"
 #include "finray/calib/problem/calibration_problem.h"
 #include "finray/calib/solve/robust_solve.h"
 
@@ -20,8 +25,10 @@ namespace finray {
 /// The candidates are free frames and contact frames at several heights and
 /// loads, all at one height or spread over all heights. Contact frames have the
 /// measurements of the logs, alone or with those that the logs lack (force,
-/// centre of the object, contact location). A candidate is judged by the std
-/// along a weak direction v: sqrt(v' C' v) against sqrt(v' C v).
+/// centre of the object, contact location). If the data leave weak directions,
+/// a candidate is judged by the std along the weakest, v: sqrt(v' C' v) against
+/// sqrt(v' C v). Else it is judged by what the calibration adds to the std of
+/// the forces that the gauges sense (PredictedForce).
 struct FrameAdvice {
   static constexpr int kFrames = 20;
 
@@ -33,9 +40,14 @@ struct FrameAdvice {
   double normal_N = 0;
   /// The measurements that the logs do not have.
   std::vector<ResidualFamily> added;
-  double std_before = 0, std_after = 0;  ///< Along v, in units of the priors.
-  /// The std of the parameter with the largest share in v, in its unit. It is
-  /// infinite if the data say nothing and there is no prior.
+  /// Along v, in units of the priors; or what the calibration adds to the std
+  /// of a force, in N.
+  double std_before = 0, std_after = 0;
+  /// If the force decided, its predicted std with the noise of a frame.
+  std::optional<double> force_std_before_N, force_std_after_N;
+  /// The std of the parameter with the largest share in v, or in the std of the
+  /// force, in its unit. It is infinite if the data say nothing and there is no
+  /// prior.
   int parameter = 0;  ///< Index into CalibrationParameters::all().
   double parameter_std_before = 0, parameter_std_after = 0;
   std::string words;
@@ -48,11 +60,32 @@ struct FrameAdvice {
 std::string DescribeNextFrames(CalibrationProblem& problem,
                                const FrameAdvice& advice);
 
-/// Returns the advice on the worst direction. Sets the remedy of each weak
-/// direction to the first line of the advice on it.
-std::vector<FrameAdvice> AdviseNextFrames(CalibrationProblem* problem,
-                                          const CalibrationSolution& solution,
-                                          Identifiability* found);
+/// What to record next, and whether more is worth it.
+struct NextRecording {
+  std::vector<FrameAdvice> advice;  ///< The best one first.
+  /// The parts of the predicted std of a force (PredictedForce), and over how
+  /// many contacts. NaN if the gauges determine no contact, or if the data and
+  /// priors say nothing along a direction.
+  double force_calibration_N = std::numeric_limits<double>::quiet_NaN();
+  double force_noise_N = std::numeric_limits<double>::quiet_NaN();
+  std::size_t force_contacts = 0;
+  /// No direction is weak, and the calibration adds no more to the variance of
+  /// a force than the noise of one frame does.
+  bool enough = false;
+
+  double force_std_N() const {
+    return std::hypot(force_calibration_N, force_noise_N);
+  }
+};
+/// Says in words whether enough is recorded, or what to record.
+std::string NextWords(const NextRecording& next);
+
+/// Returns the advice on the worst direction, or on the force if none is weak.
+/// Sets the remedy of each weak direction to the first line of the advice on
+/// it.
+NextRecording AdviseNextFrames(CalibrationProblem* problem,
+                               const CalibrationSolution& solution,
+                               Identifiability* found);
 
 }  // namespace finray
 

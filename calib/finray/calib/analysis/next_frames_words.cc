@@ -64,6 +64,12 @@ std::string DescribeNextFrames(CalibrationProblem& problem,
     words += (i == 0 ? " and " : " and with ") + Spoken(advice.added[i]);
   }
   if (!advice.added.empty()) words += " recorded";
+  if (advice.force_std_after_N) {
+    return words + FormatText(
+                       " would shrink the predicted force std from %.2g N to "
+                       "%.2g N",
+                       *advice.force_std_before_N, *advice.force_std_after_N);
+  }
   const CalibrationParameter& p = problem.parameters().all()[advice.parameter];
   const bool percent = p.is_log || p.family == ParameterFamily::kGaugeGain;
   const double per = percent ? std::abs(p.Value(*p.variable)) / 100 : 1;
@@ -80,6 +86,18 @@ std::string DescribeNextFrames(CalibrationProblem& problem,
   return words + " would shrink the std of " + Spoken(p) + " from " +
          FormatText("%.2g ", advice.parameter_std_before / per) + unit +
          " to " + after + unit;
+}
+
+std::string NextWords(const NextRecording& next) {
+  if (next.enough) {
+    return FormatText(
+        "enough recorded: predicted force std %.2g N, of which the calibration "
+        "adds %.2g N and the noise of one frame %.2g N",
+        next.force_std_N(), next.force_calibration_N, next.force_noise_N);
+  }
+  return next.advice.empty()
+             ? "no 20 frames would shrink what is known worst by a tenth"
+             : next.advice[0].words;
 }
 
 }  // namespace finray

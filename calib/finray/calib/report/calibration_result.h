@@ -26,7 +26,7 @@ struct CalibrationResult {
   ForceCheck forces;
   ResidualCorrelation residual_correlation;
   LeaveOneLogOut leave_one_log_out;
-  std::vector<FrameAdvice> next;          ///< What to record next.
+  NextRecording next;                     ///< What to record next.
   std::vector<FreeScatter> free_scatter;  ///< Noise of gauges.
   std::vector<BenchLinearity> bench;      ///< Of gauges with bench readings.
   /// The number of fitted rows, those that repeat each other counted once.

@@ -235,6 +235,10 @@ void EmitNext(CalibrationProblem& problem,
         yaml, "parameter", problem.parameters().all()[advice.parameter].name,
         "std_before", advice.parameter_std_before, "std_after",
         advice.parameter_std_after, "direction_std_ratio", advice.ratio());
+    if (advice.force_std_after_N) {
+      YamlPairs(yaml, "force_std_before_N", *advice.force_std_before_N,
+                "force_std_after_N", *advice.force_std_after_N);
+    }
     *yaml << YAML::EndMap;
   });
 }
@@ -271,7 +275,12 @@ std::string CalibrationYaml(CalibrationProblem& problem,
   EmitErrors(result.forces, &yaml);
   EmitCorrelation(problem, result.residual_correlation, &yaml);
   EmitLeaveOneLogOut(problem, result.leave_one_log_out, &yaml);
-  EmitNext(problem, result.next, &yaml);
+  const NextRecording& next = result.next;
+  EmitLine(&yaml, "predicted_force", "std_N", next.force_std_N(),
+           "calibration_N", next.force_calibration_N, "noise_N",
+           next.force_noise_N, "contacts", next.force_contacts, "enough",
+           next.enough, "words", NextWords(next));
+  EmitNext(problem, next.advice, &yaml);
   EmitSeq(&yaml, "warnings", result.warnings, [&](const auto& warning) {
     yaml << YAML::BeginMap;
     YamlPairs(&yaml, "code", warning.code, "text", warning.text, "remedy",

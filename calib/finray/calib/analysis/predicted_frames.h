@@ -1,0 +1,59 @@
+#ifndef FINRAY_CALIB_ANALYSIS_PREDICTED_FRAMES_H_
+#define FINRAY_CALIB_ANALYSIS_PREDICTED_FRAMES_H_
+
+#include <Eigen/Core>
+#include <utility>
+#include <vector>
+
+#include "finray/calib/problem/calibration_problem.h"
+#include "finray/calib/solve/contact_store.h"
+#include "finray/calib/solve/linearization.h"
+
+namespace finray {
+
+/// A frame that nobody has recorded, as the calibrated finger predicts it, with
+/// all measurements that a log may have.
+struct PredictedFrame {
+  bool free;
+  double contact_mm, normal_N;  ///< NaN and 0 if free.
+  /// The derivatives are by the free parameters, in the given units.
+  LinearizedFrame at;
+};
+
+/// A free frame, and contacts at nine heights under four loads each, up to a
+/// load that the logs show the finger to bear. Gauges that never read in the
+/// logs do not read here.
+struct PredictedFrames {
+  std::vector<double> forces_N;
+  std::vector<PredictedFrame> frames;
+};
+PredictedFrames PredictFrames(CalibrationProblem* problem,
+                              const Contacts& contacts,
+                              const Eigen::VectorXd& unit);
+
+/// Predicts the std of a force that the gauges alone sense with the calibrated
+/// finger. Of a contact frame with the derivatives E of its gauges by (l_c,
+/// f_c) and C by the parameters, both over their std,
+///
+///   var f = g C_x g' + [(E'E)^-1]_ff,   g = -[(E'E)^-1 E'C]_f.
+///
+/// The first part is what errors of the calibration add, the second the noise
+/// of the frame. Both are means over the predicted contacts that the gauges
+/// sense well: noise leaves the place a std below kSensedPlace of l_0 and the
+/// force one below kSensedForce of it.
+struct PredictedForce {
+  static constexpr double kSensedPlace = 0.02, kSensedForce = 0.05;
+
+  std::vector<std::pair<double, double>> contacts;  ///< Their l_c and f_c.
+  /// The mean of g'g: the first part is the trace of weight C_x.
+  Eigen::MatrixXd weight;
+  double noise_N = 0;  ///< The root of the second part.
+
+  double calibration_N(const Eigen::MatrixXd& covariance) const;
+};
+PredictedForce PredictForce(const CalibrationProblem& problem,
+                            const PredictedFrames& predicted);
+
+}  // namespace finray
+
+#endif  // FINRAY_CALIB_ANALYSIS_PREDICTED_FRAMES_H_
