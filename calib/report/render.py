@@ -18,6 +18,7 @@ sys.dont_write_bytecode = True
 import jinja2
 import yaml
 
+import page
 import plots
 from plots import known, number
 
@@ -204,9 +205,7 @@ def main():
     c = yaml.safe_load((folder / "calibration.yaml").read_text("utf-8"))
     frames = read_csv(folder / "calibration.frames.csv")
     gauges = sum(1 for p in c["parameters"] if "_gain_" in p["name"])
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent),
-        autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    environment = page.environment(undefined=jinja2.Undefined)
     environment.filters.update(figures=figures, two=two, whole=whole, short=short,
                                file_name=file_name)
     environment.globals.update(digits=digits, plural=plural, tables=tables,
@@ -215,7 +214,7 @@ def main():
     headline, meaning, good = verdict(c)
     names = c["correlations"]["names"]
     forces, above = plots.forces(frames)
-    page = environment.get_template("report.html.jinja").render(
+    text = environment.get_template("report.html.jinja").render(
         c=c, headline=headline, meaning=meaning, good=good, tiles=tiles(c),
         parts=parts, regions=region_rows, worst=worst_frames(frames, gauges, c["config"]["force_std_N"]),
         weak=[(w, plots.weak_direction(w["components"], short)) for w in c["weak_directions"]],
@@ -229,9 +228,7 @@ def main():
         correlations=plots.correlations([short(n) for n in names], c["correlations"]["matrix"])
         if len(names) > 1 else None,
         date=datetime.date.today().isoformat())
-    temporary = folder / "report.html.part"
-    temporary.write_text(page, "utf-8")
-    temporary.rename(folder / "report.html")
+    page.write(folder / "report.html", text)
 
 
 if __name__ == "__main__":

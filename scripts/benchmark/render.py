@@ -14,6 +14,7 @@ sys.path.append(str(LOOK))
 import jinja2
 
 import calibration_plots
+import page
 import pareto_plots
 import scaling_plots
 
@@ -142,9 +143,7 @@ def main():
     folder = pathlib.Path(sys.argv[1])
     run = json.loads((folder / "benchmark.json").read_text("utf-8"))
     by_id = {s["id"]: s for s in run["settings"]}
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader([pathlib.Path(__file__).parent, LOOK]),
-        autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    environment = page.environment(pathlib.Path(__file__).parent, undefined=jinja2.Undefined)
     environment.filters.update(figures=figures, small=small, duration=duration, size=size,
                                quartiles=quartiles)
     headline, meaning, good = verdict(run)
@@ -166,7 +165,7 @@ def main():
     calibration = None
     if (folder / "calibration.json").exists():
         calibration = json.loads((folder / "calibration.json").read_text("utf-8"))
-    page = environment.get_template("benchmark.html.jinja").render(
+    text = environment.get_template("benchmark.html.jinja").render(
         run=run, headline=headline, meaning=meaning, good=good, tiles=tiles(run, by_id),
         uses=USES, noise=noise.get("one_contact"), enough=enough(run), yardstick_us=yardstick_us, by_id=by_id, scenes=scenes, groups=groups(run),
         key=pareto_plots.key(run["settings"]), links=scaling_plots.links(run["settings"]),
@@ -176,9 +175,7 @@ def main():
         calibration_plots=calibration and [calibration_plots.error(calibration),
                                            calibration_plots.frames(calibration)],
         threads=scaling_plots.threads(run["scaling"]["threads"]))
-    temporary = folder / "report.html.part"
-    temporary.write_text(page, "utf-8")
-    temporary.rename(folder / "report.html")
+    page.write(folder / "report.html", text)
 
 
 if __name__ == "__main__":

@@ -12,8 +12,6 @@ import sys
 
 sys.dont_write_bytecode = True
 
-import jinja2
-
 import contact_frames
 import force_control
 import force_sensing
@@ -21,7 +19,8 @@ import outlines
 import stiffness
 from comparison import Comparison, DIFFERS
 from inputs import BadInput
-from look import REPORT
+import look  # finds the modules of the calibration's report
+import page
 
 # In the paper's order; each module has sections(folder).
 EXPERIMENTS = (contact_frames, outlines, stiffness, force_sensing, force_control)
@@ -66,10 +65,8 @@ def markdown(sections):
     return "\n".join(lines) + "\n"
 
 
-def page(sections):
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader([pathlib.Path(__file__).parent, REPORT]), autoescape=True,
-        trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+def rendered(sections):
+    environment = page.environment(pathlib.Path(__file__).parent)
     environment.globals.update(fields=fields)
     environment.filters.update(minus=lambda text: text.replace(" -", " \u2212"))
     return environment.get_template("paper.html.jinja").render(
@@ -100,12 +97,6 @@ def sections_of(experiment, folder):
         raise BadInput(f"{of}: values not as expected: {' '.join(str(error).split())}") from None
 
 
-def write(path, text):
-    temporary = path.with_name(path.name + ".part")
-    temporary.write_text(text, "utf-8")
-    temporary.rename(path)
-
-
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
@@ -116,8 +107,8 @@ def main():
         print(f"paper_experiments: {error}", file=sys.stderr)
         sys.exit(2)
     table = f"{markdown(sections)}\n{tally_text(sections)}\n"
-    write(folder / "report.html", page(sections))
-    write(folder / "table.md", table)
+    page.write(folder / "report.html", rendered(sections))
+    page.write(folder / "table.md", table)
     print(table, end="")
     print(folder / "report.html")
 

@@ -19,6 +19,9 @@ import same_model
 from make_logs import BUNDLED, FRICTIONS, HEIGHTS, ROOT
 from outcome import Failed, outcome
 
+sys.path.append(str(ROOT / "calib" / "report"))
+import page
+
 SCENE = ROOT / "configs" / "scenes" / "auto.yaml"
 BUNDLED_PLAN = ROOT / "configs" / "plans" / "force_and_circle.yaml"
 # Whose model has an equal plant in finray: rigid ribs on hinges.
@@ -57,9 +60,7 @@ def main():
     except (OSError, Failed) as error:
         print(f"evaluate.py: {error}", file=sys.stderr)
         sys.exit(2)
-    path = out / "outcomes.json"
-    path.with_name(path.name + ".part").write_text(json.dumps(found, indent=1), "utf-8")
-    path.with_name(path.name + ".part").rename(path)
+    page.write(out / "outcomes.json", json.dumps(found, indent=1))
 
 
 if __name__ == "__main__":

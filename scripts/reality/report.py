@@ -14,8 +14,7 @@ sys.dont_write_bytecode = True
 REPORT = pathlib.Path(__file__).resolve().parents[2] / "calib" / "report"
 sys.path.append(str(REPORT))
 
-import jinja2
-
+import page
 from theme import AFTER, BEFORE, QUIET, plt, svg
 
 HELD_OUT = ("finger", "world", "plan", "verdict", "frames ok", "force rms (largest), N", "place rms (largest), mm",
@@ -110,10 +109,8 @@ def plot(outcomes, kind, unit):
     return svg(figure, f"Errors of {kind} of the held-out log")
 
 
-def page(outcomes):
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader([pathlib.Path(__file__).parent, REPORT]), autoescape=True,
-        trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+def rendered(outcomes):
+    environment = page.environment(pathlib.Path(__file__).parent)
     plots = []
     solved = [o for o in outcomes if "refused" not in o]
     for finger in dict.fromkeys(o["finger"] for o in solved):
@@ -122,12 +119,6 @@ def page(outcomes):
         plots += [(plot(last, kind, unit), f"{finger}: {kind} of the held-out frames, plan `{last[-1]['plan']}`")
                   for kind, unit in (("force", "N"), ("place", "mm")) if last]
     return environment.get_template("reality.html.jinja").render(tables=tables(outcomes), plots=plots)
-
-
-def write(path, text):
-    temporary = path.with_name(path.name + ".part")
-    temporary.write_text(text, "utf-8")
-    temporary.rename(path)
 
 
 def main():
@@ -139,8 +130,8 @@ def main():
     except (OSError, ValueError) as problem:
         print(f"report.py: {folder / 'outcomes.json'}: {problem}; evaluate.py writes it", file=sys.stderr)
         sys.exit(2)
-    write(folder / "tables.md", markdown(outcomes))
-    write(folder / "reality.html", page(outcomes))
+    page.write(folder / "tables.md", markdown(outcomes))
+    page.write(folder / "reality.html", rendered(outcomes))
 
 
 if __name__ == "__main__":

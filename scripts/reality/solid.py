@@ -140,18 +140,7 @@ class Solid:
         away = 0.5 * math.dist((ax, ay), (bx, by)) / math.dist(mid, self.corner) if \
             math.dist(mid, self.corner) > 1e-9 else 0
         top = (mid[0] + away * (mid[0] - self.corner[0]), mid[1] + away * (mid[1] - self.corner[1]))
-        # `layers` pieces along the sections, one shared grid.
-        n = self.layers
-        grid = {}
-        for i in range(2 * n + 1):
-            for j in range(2 * n + 1):
-                if i % 2 and j % 2:
-                    continue
-                u, v = i / (2 * n), j / (2 * n)
-                grid[i, j] = self.node(*(
-                    (1 - u) * (1 - v) * p + u * (1 - v) * q + u * v * r + (1 - u) * v * w
-                    for p, q, r, w in zip(self.corner, (bx, by), top, (ax, ay))))
-        self.elements["FRONT"] += [quadrilateral(grid, i, j) for i in range(0, 2 * n, 2) for j in range(0, 2 * n, 2)]
+        self._patch("FRONT", (self.corner, (bx, by), top, (ax, ay)), self.layers, self.layers)
 
     def _rib(self, edges, count):
         """Elements between the inner surfaces, `count` across, from front to back."""
@@ -160,20 +149,24 @@ class Solid:
             half = self.plant.thickness[side] / 2
             corners.append(self.point(side, edges[side][k], -half if side == "front" else half))
         length = math.dist(corners[0], corners[1])
-        n = max(4, math.ceil(length / min(self._step, 1.0)))
+        self._patch("RIBS", corners, max(4, math.ceil(length / min(self._step, 1.0))), count)
+
+    def _patch(self, elements, corners, along_first, along_last):
+        """A grid of elements in a quadrilateral: so many along its first edge, so many
+        along its last one."""
         grid = {}
-        for i in range(2 * n + 1):
-            for j in range(2 * count + 1):
+        for i in range(2 * along_first + 1):
+            for j in range(2 * along_last + 1):
                 if i % 2 and j % 2:
                     continue
-                u, v = i / (2 * n), j / (2 * count)
+                u, v = i / (2 * along_first), j / (2 * along_last)
                 grid[i, j] = self.node(*(
                     (1 - u) * (1 - v) * p + u * (1 - v) * q + u * v * r + (1 - u) * v * w
                     for p, q, r, w in zip(*corners)))
-        self.elements["RIBS"] += [quadrilateral(grid, i, j)
-                                  for i in range(0, 2 * n, 2) for j in range(0, 2 * count, 2)]
+        self.elements[elements] += [quadrilateral(grid, i, j) for i in range(0, 2 * along_first, 2)
+                                    for j in range(0, 2 * along_last, 2)]
 
-    # What is read from it
+    # Nodes for the readers of a solution
 
     def nearest(self, side, s):
         """The arc length of the column of nodes that is nearest to s."""

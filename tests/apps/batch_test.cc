@@ -144,8 +144,8 @@ TEST_F(BatchTest, OneLogWithMovedOffsetsIsLoudAndStrictCountsIt) {
   EXPECT_EQ(moved.code, 4) << moved.output;
   EXPECT_THAT(
       moved.output,
-      HasSubstr("\nwarning: the gauges' offsets have probably moved since the "
-                "calibration: 80 of 80 solved frames of " +
+      HasSubstr("\nwarning: likeliest cause: the gauges' offsets have moved; "
+                "80 of 80 solved frames of " +
                 folder_.Path("runs/b.csv") + " are not explained"));
 }
 
@@ -177,7 +177,8 @@ TEST_F(BatchTest, EqualShiftsOfAllGaugesAreLoud) {
   EXPECT_EQ(moved.code, 4) << moved.output;
   EXPECT_THAT(moved.output, HasSubstr("unexplained 0\n"));
   EXPECT_THAT(moved.output,
-              HasSubstr("\nwarning: estimated forces differ from the force_N"));
+              HasSubstr("\nwarning: likeliest cause: the gauges' offsets have "
+                        "moved; estimated forces differ from the force_N"));
   EXPECT_THAT(moved.output, HasSubstr("the gauges read +20, +20, +20, +20 mV"));
   const YAML::Node log_entry =
       YAML::LoadFile(folder_.Path("moved/summary.yaml"))["logs"][0];
@@ -204,8 +205,8 @@ TEST_F(BatchTest, PatternsListsAndTables) {
   EXPECT_THAT(outcome.output,
               HasSubstr("\nwarning: the finger is not calibrated"));
   EXPECT_THAT(outcome.output,
-              HasSubstr("\nwarning: the gains are probably other ones: 300 of "
-                        "300 solved frames of " +
+              HasSubstr("\nwarning: likeliest cause: the finger is not "
+                        "calibrated; 300 of 300 solved frames of " +
                         folder_.Path("runs/a.csv") +
                         " (the worst of 2 logs) are not explained"));
   EXPECT_THAT(outcome.output, HasSubstr("frames         500 in 2 logs, "));

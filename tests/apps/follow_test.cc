@@ -257,8 +257,9 @@ TEST_F(FollowTest, UnexplainedRowsAreLoudAtTheEnd) {
   follower.ReadAll();
   EXPECT_EQ(follower.Wait(), 4);
   EXPECT_THAT(follower.Errors(),
-              HasSubstr("\nwarning: the gains are probably other ones: 3 of 3 "
-                        "solved frames of stdin are not explained"));
+              HasSubstr("\nwarning: likeliest cause: the finger is not "
+                        "calibrated; 3 of 3 solved frames of stdin are not "
+                        "explained"));
 }
 
 TEST_F(FollowTest, ABadHeaderIsBadInput) {

@@ -65,9 +65,9 @@ TEST(EstimationWarningsTest, ForcesThatTheLogContradicts) {
   ASSERT_THAT(warnings, SizeIs(1));
   EXPECT_EQ(warnings[0].code, "forces_differ");
   EXPECT_EQ(warnings[0].text,
-            "estimated forces differ from the force_N of a.csv by 7.83 N rms, "
-            "29.9 times their stated std, and 3 of 44 are far off; likeliest "
-            "cause: the gauges' offsets have moved; in its 4 rows with a "
+            "likeliest cause: the gauges' offsets have moved; estimated forces "
+            "differ from the force_N of a.csv by 7.83 N rms, 29.9 times their "
+            "stated std, and 3 of 44 are far off; in its 4 rows with a "
             "force_N near zero the gauges read +20, +20, +20, +20 mV beside "
             "their offsets");
   EXPECT_THAT(warnings[0].remedy, HasSubstr("finray_zero"));

@@ -71,7 +71,7 @@ TEST(RecommendationTest, NothingServes) {
   EXPECT_EQ(found[1].id, "");
 }
 
-// What is enough depends on the noise: of coarse gauges more is.
+// Noise decides how coarse a solver may be. Coarse gauges allow more of them.
 TEST(RecommendationTest, EnoughAgainstTheNoise) {
   const std::vector<Measurement> all = {
       Made("estimation", "default", "block", 10, 1e-6),

@@ -73,9 +73,9 @@ TEST(NextFramesTest, WhatIsPromisedIsKept) {
   EXPECT_GT(more.Std(p.name), 1.5 * after.Std(p.name));
 }
 
-// Of two dozen rows: what is promised of the force is what a calibration with
-// the advised frames predicts, and the errors of calibrated fingers are as
-// large as predicted.
+// A calibration from two dozen rows promises a force std for the advised
+// frames. A calibration with these frames predicts the same std, and the errors
+// of calibrated fingers are as large.
 TEST(NextFramesTest, ThePredictedForceStdIsKept) {
   const TempFolder folder;
   double squares = 0, predicted_squares = 0;

@@ -64,7 +64,7 @@ TEST_F(GaugeTableTest, BestStartIsTheBestOfAll) {
 }
 
 TEST_F(GaugeTableTest, ThreadsDoNotChangeIt) {
-  const GaugeTable other(&solver_, 0, kRadius_mm, 3);
+  const GaugeTable other(&solver_, 0, kRadius_mm, {}, 3);
   ASSERT_EQ(other.rows().size(), table_.rows().size());
   for (std::size_t i = 0; i < other.rows().size(); ++i) {
     EXPECT_EQ(other.rows()[i].arc_mm, table_.rows()[i].arc_mm);
@@ -77,8 +77,8 @@ TEST_F(GaugeTableTest, HalfTheRowsLessExact) {
   EquilibriumSolver rough = solver_;
   rough.set_tolerance(1e-6);
   constexpr int kRows = GaugeTable::kMostRows / 2;
-  const GaugeTable one(&rough, 0, kRadius_mm, 1, kRows);
-  const GaugeTable three(&rough, 0, kRadius_mm, 3, kRows);
+  const GaugeTable one(&rough, 0, kRadius_mm, {}, 1, kRows);
+  const GaugeTable three(&rough, 0, kRadius_mm, {}, 3, kRows);
   ASSERT_EQ(one.rows().size(), kRows);
   EXPECT_DOUBLE_EQ(one.row_spacing_mm(), 2 * table_.row_spacing_mm());
   for (int i = 0; i < kRows; ++i) {

@@ -1,12 +1,14 @@
 // Is an `ok` frame ever far from the truth? Ramps of the force from zero to a
 // peak and back at random places of the whole beam, the paper's finger, gauge
 // noise 3e-4 rad, `contacts: auto`. It prints the frames that are `ok` and more
-// than 6 std off, after a table by place.
+// than 6 std off, after a table by place. With a second number behind a peak,
+// the scene has it as its force_max_N.
 //
-//   build/test/tests/ramp_study [FRAMES_PER_PEAK [SEED [PEAK_N...]]]
+//   build/test/tests/ramp_study [FRAMES_PER_PEAK [SEED [PEAK_N[:MAX_N]...]]]
 
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <vector>
 
 #include "studies/ramps.h"
@@ -15,16 +17,21 @@
 namespace finray {
 namespace {
 
-void Run(long frames, unsigned seed, double peak_N) {
+void Run(long frames, unsigned seed, const char* peak) {
+  const double peak_N = std::atof(peak);
+  Scene scene;
+  if (const char* limit = std::strchr(peak, ':')) {
+    scene.force_max_N = std::atof(limit + 1);
+  }
   const Finger finger = PaperFinger();
   const std::vector<double> edges = {0, 5, 17, 39, 61, 83, 105, 115, 125, 140};
   const std::vector<RampTally> bands = RampStudy(
-      finger, Scene(), peak_N, static_cast<int>(frames / 64), edges, seed);
+      finger, scene, peak_N, static_cast<int>(frames / 64), edges, seed);
   std::printf(
-      "\n| l_c, mm; 0 to %g N | frames | ok, %% | two contacts | ok beyond 3 "
+      "\n| l_c, mm; 0 to %g N%s | frames | ok, %% | two contacts | ok beyond 3 "
       "std, %% | beyond 6 std | farthest, std | largest force of a no_contact "
       "frame, N |\n|---|---|---|---|---|---|---|---|\n",
-      peak_N);
+      peak_N, scene.force_max_N ? ", force_max_N stated" : "");
   RampTally all;
   const auto print = [](const char* name, const RampTally& t) {
     std::printf("| %s | %ld | %.2f | %ld | %.2f | %ld | %.1f | %.2f |\n", name,
@@ -59,8 +66,7 @@ void Run(long frames, unsigned seed, double peak_N) {
 int main(int argc, char** argv) {
   const long frames = argc > 1 ? std::atol(argv[1]) : 1000000;
   const auto seed = static_cast<unsigned>(argc > 2 ? std::atol(argv[2]) : 1);
-  std::vector<double> peaks_N = {0.7, 8.0};
-  if (argc > 3) peaks_N.clear();
-  for (int i = 3; i < argc; ++i) peaks_N.push_back(std::atof(argv[i]));
-  for (const double peak_N : peaks_N) finray::Run(frames, seed, peak_N);
+  std::vector<const char*> peaks = {"0.7", "8"};
+  if (argc > 3) peaks.assign(argv + 3, argv + argc);
+  for (const char* peak : peaks) finray::Run(frames, seed, peak);
 }

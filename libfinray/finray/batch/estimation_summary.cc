@@ -9,10 +9,6 @@
 
 namespace finray {
 
-std::size_t EstimationSummary::unsolved() const {
-  return count(FrameStatus::kNotConverged) + count(FrameStatus::kBadInput);
-}
-
 namespace {
 
 bool TooMany(std::size_t some, std::size_t of) {
@@ -31,6 +27,10 @@ double ForceStd(const FrameEstimate& estimate, double friction) {
 }
 
 }  // namespace
+
+std::size_t EstimationSummary::unsolved() const {
+  return count(FrameStatus::kNotConverged) + count(FrameStatus::kBadInput);
+}
 
 bool EstimationSummary::unexplained_too_many() const {
   return TooMany(unexplained, frames - unsolved());

@@ -30,9 +30,9 @@ struct EstimationSummary {
   std::size_t force_compared = 0;
   double force_squares_N2 = 0;
   double force_max_N = 0;
-  /// Of these the ok frames, the sum of the variances that they claim, and how
-  /// many of them force_N contradicts: they are off by more than kFarStd of
-  /// their std, by more than kFarShare of force_N, and by more than
+  /// The number of ok frames among the compared ones, the sum of the variances
+  /// that they claim, and the number of them that force_N contradicts. An error
+  /// contradicts if it exceeds kFarStd of the std, kFarShare of force_N, and
   /// kFreeForce_N. The std of two forces together is at most their sum.
   std::size_t force_judged = 0, force_far = 0;
   double force_variances_N2 = 0;
@@ -54,7 +54,8 @@ struct EstimationSummary {
   bool unexplained_too_many() const;
   static constexpr double kMostUnexplained = 0.05;
   static constexpr std::size_t kFewestUnexplained = 3;
-  /// The same of the frames that force_N contradicts.
+  /// More than kMostUnexplained of the judged frames are contradicted by
+  /// force_N, and at least kFewestUnexplained of them.
   bool forces_differ() const;
   /// No frame of at least kManyFrames is without a contact, and hardly any
   /// estimate can be compared with a force_N.

@@ -45,8 +45,12 @@ std::string Measured(const std::optional<Shift>& shift) {
   return shift ? "; " + shift->words : "";
 }
 
+bool MayHaveMoved(const std::optional<Shift>& shift) {
+  return !shift || shift->moved;
+}
+
 const char* MovedOrNot(const std::optional<Shift>& shift) {
-  return !shift || shift->moved
+  return MayHaveMoved(shift)
              ? "zero the gauges with finray_zero; then look for more contacts "
                "than the scene has, a changed finger, a wrong noise_V"
              : "the offsets have not moved: look at the unit and the delay of "
@@ -54,42 +58,48 @@ const char* MovedOrNot(const std::optional<Shift>& shift) {
                "finger, a wrong noise_V";
 }
 
+// The likeliest reason why the finger does not fit a log; empty if there is
+// none.
+const char* LikeliestCause(const Finger& finger,
+                           const std::optional<Shift>& shift) {
+  if (!finger.calibration)
+    return "likeliest cause: the finger is not calibrated; ";
+  if (MayHaveMoved(shift))
+    return "likeliest cause: the gauges' offsets have moved; ";
+  return "";
+}
+
+const char* Remedy(const Finger& finger, const std::optional<Shift>& shift) {
+  return finger.calibration ? MovedOrNot(shift)
+                            : "calibrate it with finray_calibrate";
+}
+
 Warning Unexplained(const EstimationSummary& summary, const Finger& finger,
                     const std::string& log) {
   const auto shift = ShiftOf(summary, finger);
-  const std::string cause =
-      !finger.calibration ? "the gains are probably other ones: "
-      : !shift || shift->moved
-          ? "the gauges' offsets have probably moved since the calibration: "
-          : "";
   return {"unexplained_frames",
-          cause + std::to_string(summary.unexplained) + " of " +
-              std::to_string(summary.frames - summary.unsolved()) +
+          LikeliestCause(finger, shift) + std::to_string(summary.unexplained) +
+              " of " + std::to_string(summary.frames - summary.unsolved()) +
               " solved frames of " + log +
               " are not explained by the finger and its noise" +
               Measured(shift),
-          finger.calibration ? MovedOrNot(shift)
-                             : "calibrate it with finray_calibrate"};
+          Remedy(finger, shift)};
 }
 
 Warning ForcesDiffer(const EstimationSummary& summary, const Finger& finger,
                      const std::string& log) {
   const auto shift = ShiftOf(summary, finger);
-  const std::string cause =
-      !finger.calibration ? "; likeliest cause: the finger is not calibrated"
-      : !shift || shift->moved
-          ? "; likeliest cause: the gauges' offsets have moved"
-          : "";
   return {"forces_differ",
-          FormatText("estimated forces differ from the force_N of ") + log +
+          LikeliestCause(finger, shift) +
+              std::string("estimated forces differ from the force_N of ") +
+              log +
               FormatText(" by %.3g N rms, %.3g times their stated std, and "
                          "%zu of %zu are far off",
                          summary.force_rms_N(),
                          summary.force_rms_N() / summary.force_std_N(),
                          summary.force_far, summary.force_judged) +
-              cause + Measured(shift),
-          finger.calibration ? MovedOrNot(shift)
-                             : "calibrate it with finray_calibrate"};
+              Measured(shift),
+          Remedy(finger, shift)};
 }
 
 Warning NeverFree(const EstimationSummary& summary, const Finger& finger,

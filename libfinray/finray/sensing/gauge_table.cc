@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
@@ -19,6 +20,21 @@ namespace {
 // Forces in units of EI / l_0^2, which is 0.64 N for the paper's finger. The
 // table thus reaches 26 N.
 constexpr double kForces[] = {0.5, 1, 2, 4, 7, 11, 16, 22, 30, 40};
+
+// The forces of a row, rising from 0. They end at most_force_N if that is less.
+// A slope needs at least three of them.
+std::vector<double> Forces(const Finger& finger,
+                           const std::optional<double>& most_force_N) {
+  constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+  const double most = most_force_N.value_or(kUnlimited);
+  const double unit = std::min(ForceUnit(finger), most / kForces[2]);
+  std::vector<double> forces = {0};
+  for (const double force : kForces) {
+    forces.push_back(std::min(force * unit, most));
+    if (forces.back() == most) break;
+  }
+  return forces;
+}
 
 // Gauss-Newton steps on a cubic, from the nearest point of its chord.
 constexpr int kRefinements = 4;
@@ -79,13 +95,12 @@ Eigen::VectorXd ValuesOf(const EquilibriumSolver& solver,
 
 // Solves the nodes of one row. The solver must hold the state of the free
 // finger.
-GaugeTable::Row MakeRow(double arc_mm, double friction,
+GaugeTable::Row MakeRow(double arc_mm, const std::vector<double>& forces,
+                        double friction,
                         const std::optional<double>& circle_radius_mm,
                         EquilibriumSolver* solver) {
-  const double unit = ForceUnit(solver->model().finger());
   GaugeTable::Row row{arc_mm, {}, {}};
-  for (int k = -1; k < static_cast<int>(std::size(kForces)); ++k) {
-    const double force = k < 0 ? 0 : kForces[k] * unit;
+  for (const double force : forces) {
     // Soft fingers fold over at the heavy end; the table ends there.
     if (!solver->Solve({{arc_mm, force, friction}})) break;
     row.nodes.push_back(
@@ -134,15 +149,16 @@ struct Hermite {
 }  // namespace
 
 GaugeTable::GaugeTable(EquilibriumSolver* solver, double friction,
-                       std::optional<double> circle_radius_mm, int threads,
+                       std::optional<double> circle_radius_mm,
+                       std::optional<double> most_force_N, int threads,
                        int rows)
     : friction_(friction) {
   const Finger& finger = solver->model().finger();
   const double length = finger.front_length_mm;
-  const double unit = ForceUnit(finger);
+  const std::vector<double> forces = Forces(finger, most_force_N);
   const int gauges = solver->model().gauges();
   row_spacing_mm_ = length / rows;
-  heaviest_N_ = unit * *std::rbegin(kForces);
+  heaviest_N_ = forces.back();
   solver->Reset();
   if (!solver->Solve({})) {
     throw InputError("finger '" + finger.name +
@@ -157,8 +173,8 @@ GaugeTable::GaugeTable(EquilibriumSolver* solver, double friction,
     tbb::parallel_for(0, rows, [&](int i) {
       EquilibriumSolver& own = solvers.local();
       own.set_state(free_state);
-      rows_[i] =
-          MakeRow(length * (i + 0.5) / rows, friction, circle_radius_mm, &own);
+      rows_[i] = MakeRow(length * (i + 0.5) / rows, forces, friction,
+                         circle_radius_mm, &own);
     });
   });
   rows_.erase(std::remove_if(rows_.begin(), rows_.end(),

@@ -25,10 +25,12 @@ class GaugeTable {
  public:
   static constexpr int kMostRows = 56;
   /// Builds the table with contacts at `rows` places from base to tip, at most
-  /// kMostRows, on `threads` threads. The equilibria are as exact as the
-  /// solver's tolerance. The result does not depend on `threads`.
+  /// kMostRows, and forces up to most_force_N or 40 EI / l_0^2, on `threads`
+  /// threads. The equilibria are as exact as the solver's tolerance. The result
+  /// does not depend on `threads`.
   GaugeTable(EquilibriumSolver* solver, double friction,
-             std::optional<double> circle_radius_mm, int threads = 1,
+             std::optional<double> circle_radius_mm,
+             std::optional<double> most_force_N = {}, int threads = 1,
              int rows = kMostRows);
 
   /// Finds the best contact of each row, from base to tip. `weights` whiten the
@@ -49,7 +51,7 @@ class GaugeTable {
   /// The equilibrium of the grid node near that contact.
   const LadderState& StateNear(double arc_mm, double normal_N) const;
 
-  /// The largest force of the grid, 40 EI / l_0^2.
+  /// The largest force of the grid.
   double heaviest_N() const { return heaviest_N_; }
 
   /// The friction coefficient of all its contacts.

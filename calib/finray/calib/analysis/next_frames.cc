@@ -20,8 +20,8 @@ bool Has(const std::vector<ResidualFamily>& families, ResidualFamily family) {
   return std::find(families.begin(), families.end(), family) != families.end();
 }
 
-// What frames should shrink: the std sqrt(trace(weight C)) of the covariance C.
-// The parameter, an index of the free ones, speaks for it.
+// A goal of advice: frames should shrink the std sqrt(trace(weight C)) of the
+// covariance C. The goal is named after `parameter`, an index of the free ones.
 struct Goal {
   Eigen::MatrixXd weight;
   Eigen::Index parameter = 0;

@@ -60,7 +60,7 @@ struct FrameAdvice {
 std::string DescribeNextFrames(CalibrationProblem& problem,
                                const FrameAdvice& advice);
 
-/// What to record next, and whether more is worth it.
+/// Says which frames to record next, and whether more of them are worth it.
 struct NextRecording {
   std::vector<FrameAdvice> advice;  ///< The best one first.
   /// The parts of the predicted std of a force (PredictedForce), and over how
