@@ -13,7 +13,7 @@ TEST(ExactReadingsTest, OkFramesOfHardFingersAreRight) {
   Scene scene;
   scene.contacts = 1;
   ExactTally tally;
-  for (const unsigned seed : {3, 10, 19, 54}) {
+  for (const unsigned seed : {3, 10, 19, 54, 1105, 1109, 1143}) {
     GaugedFingers fingers(seed);
     const Finger finger = fingers.Draw();
     ExactReadings readings(finger, scene);

@@ -104,6 +104,20 @@ TEST(ValleyTest, AnOrdinaryFrameKeepsItsStdAndHasAnIntervalOfTwo) {
   EXPECT_EQ(contact.normal_high_N, contact.normal_N + 2 * contact.normal_std_N);
 }
 
+// No valley leads to forces beyond the scene's limit.
+TEST(ValleyTest, AStatedForceLimitMakesLightTouchesCertain) {
+  Scene limited;
+  limited.force_max_N = 1;
+  const auto ok = [](const Scene& scene) {
+    const RampTally band =
+        RampStudy(PaperFinger(), scene, 0.7, 60, {83, 105}, 2)[0];
+    EXPECT_EQ(band.beyond_6, 0);
+    EXPECT_LE(band.beyond_3, 0.01 * band.ok + 2);
+    return band.ok;
+  };
+  EXPECT_GT(ok(limited), 1.5 * ok(Scene()));
+}
+
 // No force beyond the scene's limit is a result.
 TEST(ValleyTest, ForceMaxBoundsTheForce) {
   Scene scene;

@@ -90,6 +90,7 @@ class ExactReadings {
   /// 6 std off, and also more than a thousandth of l_0 or a hundredth of f_c.
   /// Returns false for a wrong one.
   bool Add(const PointContact& contact, ExactTally* tally) {
+    solver_.Reset();
     if (!solver_.Solve({contact})) return true;
     ++tally->frames;
     estimate_ = estimator_.Estimate(CleanReadings(solver_));

@@ -36,6 +36,10 @@ bool HasCloseMinima(const Finger& finger) {
   return finger.back_angle_rad < kUpright_rad || finger.ribs.size() >= kCrowded;
 }
 
+bool IsLoaded(const ContactStart& row) {
+  return row.state != nullptr && row.contacts[0].normal_N > 0;
+}
+
 }  // namespace
 
 const char* FrameMethodName(FrameMethod method) {
@@ -140,6 +144,7 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
       (exact || HasCloseMinima(solver_.model().finger()) ||
        (!starts_.empty() && starts_[0].error > kCoarse))) {
     SearchRows(packed);
+    SearchBeside(packed);
   }
   return found_ > 0;
 }
@@ -152,7 +157,9 @@ void ContactSearch::SearchRows(const PackedReadings& packed) {
     for (std::size_t i = 0; i < profile_.size(); ++i) {
       if (next < profile_.size() && profile_[i].chi2 >= profile_[next].chi2)
         continue;
-      if (profile_[i].count > 0 && Hides(i)) next = i;
+      if (profile_[i].count > 0 && (IsBeside(i) || Hides(i))) {
+        next = i;
+      }
     }
     if (next == profile_.size() || !MayGoOn()) return;
     if (FitFast(profile_[next], packed) && !IsKnown()) Keep();
@@ -160,9 +167,42 @@ void ContactSearch::SearchRows(const PackedReadings& packed) {
   }
 }
 
+// Two minima may lie between the same two rows.
+void ContactSearch::SearchBeside(const PackedReadings& packed) {
+  // Keep() writes behind this one.
+  const ContactSolution& from = solutions_[best_];
+  for (const double rows : {-1.0, -0.5, 0.5, 1.0}) {
+    if (found_ == kMostSolutions || !MayGoOn()) return;
+    ContactStart start;
+    start.count = 1;
+    start.contacts[0] = from.contacts[0];
+    const double apart = rows * table_.row_spacing_mm();
+    const ContactMatrix& a = from.information;
+    start.contacts[0].arc_mm =
+        std::clamp(from.contacts[0].arc_mm + apart, 0.0, length_mm_);
+    start.contacts[0].normal_N =
+        std::clamp(from.contacts[0].normal_N - a(0, 1) / a(1, 1) * apart, 0.0,
+                   most_force_N_);
+    start.state = &from.state;
+    if (FitFast(start, packed) && !IsKnown()) Keep();
+  }
+}
+
+// Another minimum may be nearer to a solution than the rows are to each other.
+bool ContactSearch::IsBeside(std::size_t i) const {
+  const ContactStart& row = profile_[i];
+  if (!IsLoaded(row)) return false;
+  return std::any_of(
+      solutions_.begin(), solutions_.begin() + found_,
+      [&](const ContactSolution& one) {
+        return std::abs(row.contacts[0].arc_mm - one.contacts[0].arc_mm) <
+               table_.row_spacing_mm();
+      });
+}
+
 bool ContactSearch::Hides(std::size_t i) const {
   const ContactStart& row = profile_[i];
-  if (row.state == nullptr || row.contacts[0].normal_N == 0) return false;
+  if (!IsLoaded(row)) return false;
   const double distance = std::sqrt(row.chi2);
   const double at_row = std::max(0.0, distance - row.error);
   if (at_row * at_row > kHides * ExpectedChi2(row.contacts[0].arc_mm)) {

@@ -89,6 +89,10 @@ class ContactSearch {
   void FindStarts(int contacts, const PackedReadings& packed);
   // Fits from rows of the table that the solutions found do not account for.
   void SearchRows(const PackedReadings& packed);
+  // Fits from places up to a row's spacing away from the best solution.
+  void SearchBeside(const PackedReadings& packed);
+  // Says whether a solution is nearer to a row than its neighbours are.
+  bool IsBeside(std::size_t row) const;
   // Whether a minimum within noise, other than those found, may lie near a row.
   bool Hides(std::size_t row) const;
   // The least chi2 that the solutions found expect of a contact at that place.
