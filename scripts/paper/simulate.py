@@ -54,18 +54,31 @@ def force_sensing(build, out):
     run(ROOT / "scripts" / "studies" / "contact_cycles.py", build, out / "force_sensing")
 
 
+def calibrated(path):
+    """Writes the finger that the estimator has: the nominal one, with the std of the
+    errors that the studies draw, as finray_calibrate leaves a finger."""
+    ribs, gauges = range(1, 6), range(1, 5)
+    std = {"front_stiffness_N_mm2": 125, "back_stiffness_N_mm2": 125,
+           **{f"gauge_{j}_gain_V_per_rad": 0.003 for j in gauges},
+           **{f"rib_{i}_length_mm": 0.03 for i in ribs}}
+    path.write_text(f"{FINGER.read_text('utf-8')}calibration:\n  parameters: [{', '.join(std)}]\n"
+                    f"  std: [{', '.join(map(str, std.values()))}]\n")
+    return path
+
+
 def outlines(build, out, seed):
     """Reconstructs each object with one contact known to be there, as in the paper's
     model, and with `contacts: auto`. A refused one leaves no folder."""
     folder = out / "outlines" / f"seed_{seed}"
     run(build / "tests" / "reconstruction_study", "write", folder, seed)
+    finger = calibrated(folder / "calibrated_finger.yaml")
     single = folder / "single_contact.yaml"
     single.write_text("schema_version: 1\ncontacts: 1\n")
     for log in sorted(folder.glob("*.touches.csv")):
         name = log.name[:-len(".touches.csv")]
         for kind, scene in (("single", single), ("auto", SCENES / "auto.yaml")):
             run(build / "finray_reconstruct",
-                *flags(finger=FINGER, scene=scene, logs=log, truth=folder / f"{name}.outline.csv",
+                *flags(finger=finger, scene=scene, logs=log, truth=folder / f"{name}.outline.csv",
                        plots="false", out_dir=folder / kind / name),
                 refusals=REFUSALS if kind == "auto" else None)
 
@@ -73,7 +86,8 @@ def outlines(build, out, seed):
 def stiffness(build, out, seed):
     folder = out / "stiffness" / f"seed_{seed}"
     run(build / "tests" / "compliance_study", "write", folder, seed)
-    common = dict(finger=FINGER, scene=SCENES / "pulley.yaml", direction_deg=180, plots="false")
+    finger = calibrated(folder / "calibrated_finger.yaml")
+    common = dict(finger=finger, scene=SCENES / "pulley.yaml", direction_deg=180, plots="false")
     run(build / "finray_compliance",
         *flags(**common, logs=folder / "spring_*.csv", most_degree=1, out_dir=folder / "springs"))
     run(build / "finray_compliance",
