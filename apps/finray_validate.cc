@@ -82,6 +82,9 @@ std::vector<std::pair<std::string, double>> Bounds() {
 void WarnOfParametersOfLogs(const Plan& plan) {
   const std::pair<ParameterFamily, const char*> of_logs[] = {
       {ParameterFamily::kObjectOrigin, "object_origin"},
+      {ParameterFamily::kObjectRotation, "object_rotation"},
+      {ParameterFamily::kObjectScale, "object_scale"},
+      {ParameterFamily::kObjectRadius, "object_radius"},
       {ParameterFamily::kForceScale, "force_scale"},
       {ParameterFamily::kForceOffset, "force_offset"},
       {ParameterFamily::kTemperatureCoefficient, "temperature_coefficient"},

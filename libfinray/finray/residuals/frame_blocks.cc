@@ -101,14 +101,17 @@ void AddForce(Builder* out) {
 void AddPlace(Builder* out) {
   if (out->evaluation->contacts() == 0) return;
   const Measurements& row = out->row;
-  const auto& circle = out->model.circle;
+  const FrameParameters& parameters = out->parameters;
   const bool any =
       std::isfinite(row.object_mm.x()) || std::isfinite(row.object_mm.y());
-  if (circle && any) {
+  if (out->model.object_std_mm && any) {
+    std::vector<double*> blocks = out->OfModelAnd(parameters.object_origin_mm);
+    blocks.insert(blocks.end(),
+                  {parameters.object_rotation_deg, parameters.ln_object_scale,
+                   parameters.object_radius_mm});
     out->Add(new ObjectContactResidual(out->evaluation, 0, row.object_mm,
-                                       circle->radius_mm, circle->std_mm),
-             out->OfModelAnd(out->parameters.object_origin_mm),
-             ResidualFamily::kObject);
+                                       *out->model.object_std_mm),
+             std::move(blocks), ResidualFamily::kObject);
   }
   if (out->model.contact_std_mm && std::isfinite(row.contact_mm)) {
     out->Add(new ContactLocationResidual(out->evaluation, 0, row.contact_mm,
@@ -151,9 +154,7 @@ MeasurementModel MeasurementModel::OfScene(const Finger& finger,
   for (const Gauge& gauge : finger.gauges) {
     model.gauge_std_V.push_back(gauge.noise_V);
   }
-  if (scene.object_std_mm) {
-    model.circle = {*scene.circle_radius_mm(), *scene.object_std_mm};
-  }
+  model.object_std_mm = scene.object_std_mm;
   model.pin_std_mm = scene.pin_std_mm;
   model.tip_std_mm = scene.tip_std_mm;
   return model;
@@ -195,8 +196,10 @@ std::vector<FrameBlock> EquilibriumBlocks(const Finger& finger, double weight,
   return std::move(out.blocks);
 }
 
-FingerParameters::FingerParameters(const Finger& finger)
-    : shared_(SharedParameters::Of(finger)) {
+FingerParameters::FingerParameters(const Finger& finger,
+                                   std::optional<double> circle_radius_mm)
+    : shared_(SharedParameters::Of(finger)),
+      object_radius_mm_(circle_radius_mm.value_or(0)) {
   for (const Gauge& gauge : finger.gauges) {
     gains_.push_back(gauge.gain_V_per_rad);
     offsets_.push_back(gauge.offset_V);
@@ -208,6 +211,9 @@ FingerParameters::FingerParameters(const Finger& finger)
   frame_.force_offset_N = &force_offset_N_;
   frame_.force_offset_xy_N = force_offset_xy_N_;
   frame_.object_origin_mm = object_origin_mm_;
+  frame_.object_rotation_deg = &object_rotation_deg_;
+  frame_.ln_object_scale = &ln_object_scale_;
+  frame_.object_radius_mm = &object_radius_mm_;
   frame_.camera_origin_mm = camera_origin_mm_;
 }
 

@@ -24,10 +24,8 @@ namespace finray {
 struct MeasurementModel {
   std::vector<double> gauge_std_V;  ///< One per gauge.
   std::optional<double> force_std_N, contact_std_mm, pin_std_mm, tip_std_mm;
-  struct Circle {
-    double radius_mm, std_mm;  ///< std of each coordinate of the centre
-  };
-  std::optional<Circle> circle;
+  /// Of each coordinate of a circle's centre.
+  std::optional<double> object_std_mm;
 
   /// The model for estimation: gauges with the finger's noise, and the
   /// measurements that the scene gives a std for. Reference forces and measured
@@ -51,8 +49,11 @@ struct FrameParameters {
   double* ln_force_scale = nullptr;
   double* force_offset_N = nullptr;     ///< of the magnitude
   double* force_offset_xy_N = nullptr;  ///< of the components, 2
-  double* object_origin_mm = nullptr;   ///< 2
-  double* camera_origin_mm = nullptr;   ///< 2
+  double* object_origin_mm = nullptr;   ///< 2; these three as StageFrame says
+  double* object_rotation_deg = nullptr;
+  double* ln_object_scale = nullptr;
+  double* object_radius_mm = nullptr;  ///< of the circle
+  double* camera_origin_mm = nullptr;  ///< 2
 };
 
 /// One measurement of a frame as a residual block.
@@ -90,7 +91,9 @@ constexpr double kEquilibriumWeight = 1e7;
 /// parameters stay constant.
 class FingerParameters {
  public:
-  explicit FingerParameters(const Finger& finger);
+  /// The radius is that of the scene's circle, if there is one.
+  FingerParameters(const Finger& finger,
+                   std::optional<double> circle_radius_mm);
   FingerParameters(const FingerParameters&) = delete;
 
   const FrameParameters& frame() const { return frame_; }
@@ -104,6 +107,7 @@ class FingerParameters {
   double ln_force_scale_ = 0, force_offset_N_ = 0;
   double force_offset_xy_N_[2] = {}, object_origin_mm_[2] = {},
          camera_origin_mm_[2] = {};
+  double object_rotation_deg_ = 0, ln_object_scale_ = 0, object_radius_mm_;
   FrameParameters frame_;
 };
 

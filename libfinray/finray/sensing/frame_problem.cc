@@ -68,7 +68,7 @@ FrameProblem::FrameProblem(const Finger& finger, const Scene& scene,
       most_force_N_(most_force_N),
       camera_(scene.UsesCamera()),
       form_(form),
-      parameters_(finger),
+      parameters_(finger, scene.circle_radius_mm()),
       frames_(finger, discretization, form, parameters_.shared(), 1),
       solver_(finger, discretization) {
   if (finger.calibration) calibration_factor_ = finger.calibration->Factor();

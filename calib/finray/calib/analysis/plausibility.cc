@@ -162,9 +162,8 @@ void RefuseImplausibleMotion(const std::vector<Press>& presses,
 std::vector<ExpectedGauges> ExpectGauges(
     const std::vector<const CalibrationFrame*>& frames,
     CalibrationProblem* problem, ContactGuess* guess) {
-  const bool object_known =
-      problem->plan().scene.circle_radius_mm() &&
-      !problem->plan().family(ParameterFamily::kObjectOrigin).free;
+  const bool object_known = problem->plan().scene.circle_radius_mm() &&
+                            problem->plan().ObjectIsKnown();
   EquilibriumSolver solver(problem->finger(), problem->discretization());
   std::vector<ExpectedGauges> expected;
   for (const CalibrationFrame* frame : frames) {
@@ -193,10 +192,7 @@ void RefuseImplausibleObjects(
     const std::vector<const CalibrationFrame*>& frames,
     const CalibrationProblem& problem, ContactGuess* guess) {
   const Plan& plan = problem.plan();
-  if (!plan.scene.circle_radius_mm() ||
-      plan.family(ParameterFamily::kObjectOrigin).free) {
-    return;
-  }
+  if (!plan.scene.circle_radius_mm() || !plan.ObjectIsKnown()) return;
   std::vector<double> ratios;
   int objects = 0, met = 0;
   for (const CalibrationFrame* frame : frames) {

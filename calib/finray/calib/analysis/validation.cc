@@ -152,7 +152,7 @@ std::vector<FrameReference> ReferencesOf(const CalibrationLogs& logs,
 }
 
 ForceCheck CheckForces(CalibrationProblem* problem, const Finger& calibrated) {
-  const Plan& plan = problem->plan();
+  const Plan plan = problem->parameters().Corrected(problem->plan());
   const Discretization& discretization = problem->discretization();
   const int threads = problem->threads();
   ForceCheck check;

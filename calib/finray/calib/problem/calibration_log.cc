@@ -46,7 +46,7 @@ Touch TouchOf(const CalibrationFrame& frame, const Finger& finger,
   const bool object =
       frame.object_mm.allFinite() && plan.scene.circle_radius_mm();
   const FamilyPlan& offset = plan.family(ParameterFamily::kForceOffset);
-  const bool origin_known = !plan.family(ParameterFamily::kObjectOrigin).free;
+  const bool object_known = plan.ObjectIsKnown();
   const double force = ReferenceForce(frame);
   const double reach_std =
       object ? Reach(frame, finger, plan) / plan.object_std_mm : 0;
@@ -55,11 +55,11 @@ Touch TouchOf(const CalibrationFrame& frame, const Finger& finger,
         force > kSignificant *
                     std::hypot(plan.force_std_N, offset.prior_std.value_or(0));
     return {contact,
-            !contact && object && origin_known && reach_std > -kSignificant};
+            !contact && object && object_known && reach_std > -kSignificant};
   }
   if (!object) return {true, false};
   return {reach_std > kSignificant,
-          origin_known && std::abs(reach_std) <= kSignificant};
+          object_known && std::abs(reach_std) <= kSignificant};
 }
 
 void MarkHoldout(const Plan& plan, CalibrationLogs* logs) {

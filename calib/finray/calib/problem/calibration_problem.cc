@@ -194,6 +194,8 @@ void ZeroHeldOutLogs(CalibrationProblem* problem) {
     }
     std::copy_n(parameters.object_origin_mm(last), 2,
                 parameters.object_origin_mm(log));
+    *parameters.object_rotation_deg(log) =
+        *parameters.object_rotation_deg(last);
   }
   if (!problem->plan().family(ParameterFamily::kGaugeOffset).per_log) return;
   // Ribs of other than nominal length bend the finger without load.

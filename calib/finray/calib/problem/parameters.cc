@@ -50,6 +50,11 @@ int LastFitted(const CalibrationLogs& logs) {
   return finger >= 0 ? finger : bench;
 }
 
+// Without the place of an object nothing shows where its axes are.
+bool HasPlace(const CalibrationFrame& frame) {
+  return frame.contact && frame.object_mm.allFinite();
+}
+
 // Says whether `has` is true for a fitted frame of the log.
 template <class Has>
 bool AnyFitted(const CalibrationLogs& logs, int log, const Has& has) {
@@ -68,8 +73,13 @@ double VagueStd(const CalibrationParameter& parameter) {
     case ParameterFamily::kGaugeOffset:
       return 0.01;
     case ParameterFamily::kObjectOrigin:
+    case ParameterFamily::kObjectRadius:
     case ParameterFamily::kCameraOrigin:
       return 1;
+    case ParameterFamily::kObjectRotation:
+      return 2;
+    case ParameterFamily::kObjectScale:
+      return 0.05;
     case ParameterFamily::kTemperatureCoefficient:
     case ParameterFamily::kGaugeDrift:
       return std::numeric_limits<double>::infinity();
@@ -93,10 +103,13 @@ CalibrationParameters::CalibrationParameters(const Finger& finger,
                                              const CalibrationLogs& logs)
     : shared(SharedParameters::Of(finger)),
       readings(finger, plan, logs),
+      object_radius_mm(plan.scene.circle_radius_mm().value_or(0)),
       held_out_(logs.HeldOut()),
       last_fitted_(LastFitted(logs)),
       origin_per_log_(plan.family(ParameterFamily::kObjectOrigin).per_log),
-      origins_mm_(origin_per_log_ ? logs.paths.size() : 1, {0, 0}) {
+      rotation_per_log_(plan.family(ParameterFamily::kObjectRotation).per_log),
+      origins_mm_(origin_per_log_ ? logs.paths.size() : 1, {0, 0}),
+      rotations_deg_(rotation_per_log_ ? logs.paths.size() : 1, 0.0) {
   for (const Gauge& gauge : finger.gauges) {
     gains_V_per_rad.push_back(gauge.gain_V_per_rad);
   }
@@ -104,6 +117,7 @@ CalibrationParameters::CalibrationParameters(const Finger& finger,
     AddOfFinger(plan, logs, parameter);
   }
   AddOrigins(plan, logs);
+  AddStage(plan, logs);
   AddForceSensor(plan, logs);
   AddTemperature(plan);
   AddDrift(plan, logs);
@@ -163,12 +177,7 @@ void CalibrationParameters::AddOfFinger(const Plan& plan,
 void CalibrationParameters::AddOrigins(const Plan& plan,
                                        const CalibrationLogs& logs) {
   for (int log = 0; log < static_cast<int>(origins_mm_.size()); ++log) {
-    // Without the place of an object nothing shows the origin.
-    if (origin_per_log_ && !AnyFitted(logs, log, [](const auto& frame) {
-          return frame.contact && frame.object_mm.allFinite();
-        })) {
-      continue;
-    }
+    if (origin_per_log_ && !AnyFitted(logs, log, HasPlace)) continue;
     for (int axis = 0; axis < 2; ++axis) {
       CalibrationParameter parameter =
           OfAxis(ParameterFamily::kObjectOrigin, "object_origin", "mm",
@@ -176,6 +185,31 @@ void CalibrationParameters::AddOrigins(const Plan& plan,
       origin_per_log_ ? AddOfLog(plan, logs, log, std::move(parameter))
                       : Add(plan, std::move(parameter));
     }
+  }
+}
+
+void CalibrationParameters::AddStage(const Plan& plan,
+                                     const CalibrationLogs& logs) {
+  constexpr ParameterFamily kRotation = ParameterFamily::kObjectRotation;
+  for (int log = 0; log < static_cast<int>(rotations_deg_.size()); ++log) {
+    if (!plan.family(kRotation).free) break;
+    CalibrationParameter rotation = OfLogs(kRotation, "object_rotation_deg",
+                                           "deg", &rotations_deg_[log], 5);
+    if (!rotation_per_log_) {
+      Add(plan, std::move(rotation));
+    } else if (AnyFitted(logs, log, HasPlace)) {
+      AddOfLog(plan, logs, log, std::move(rotation));
+    }
+  }
+  if (plan.family(ParameterFamily::kObjectScale).free) {
+    CalibrationParameter scale = OfLogs(ParameterFamily::kObjectScale,
+                                        "object_scale", "1", &ln_object_scale);
+    scale.is_log = true;
+    Add(plan, std::move(scale));
+  }
+  if (plan.family(ParameterFamily::kObjectRadius).free) {
+    Add(plan, OfLogs(ParameterFamily::kObjectRadius, "object_radius_mm", "mm",
+                     &object_radius_mm));
   }
 }
 
@@ -284,6 +318,9 @@ FrameParameters CalibrationParameters::Of(const CalibrationFrame& frame) {
   of.force_offset_N = &force_offset_N;
   of.force_offset_xy_N = force_offset_xy_N;
   of.object_origin_mm = object_origin_mm(frame.log);
+  of.object_rotation_deg = object_rotation_deg(frame.log);
+  of.ln_object_scale = &ln_object_scale;
+  of.object_radius_mm = &object_radius_mm;
   of.camera_origin_mm = camera_origin_mm;
   return of;
 }
@@ -310,6 +347,14 @@ Finger CalibrationParameters::Apply(const Finger& finger) const {
   return calibrated;
 }
 
+Plan CalibrationParameters::Corrected(const Plan& plan) const {
+  Plan corrected = plan;
+  if (plan.scene.circle_radius_mm()) {
+    corrected.scene.object->outline = Outline(CircleOutline{object_radius_mm});
+  }
+  return corrected;
+}
+
 CalibrationLogs CalibrationParameters::Corrected(const CalibrationLogs& logs,
                                                  const Finger& calibrated) {
   CalibrationLogs corrected = logs;
@@ -322,8 +367,7 @@ CalibrationLogs CalibrationParameters::Corrected(const CalibrationLogs& logs,
     frame.force_N = (frame.force_N - force_offset_N) / scale;
     frame.force_xy_N -= Eigen::Map<const Eigen::Vector2d>(force_offset_xy_N);
     frame.force_xy_N /= scale;
-    frame.object_mm +=
-        Eigen::Map<const Eigen::Vector2d>(object_origin_mm(frame.log));
+    frame.object_mm = Stage(frame.log).InS(frame.object_mm);
     const Eigen::Map<const Eigen::Vector2d> camera(camera_origin_mm);
     for (SeenPin& pin : frame.pins) pin.at_mm += camera;
     frame.tip_mm += camera;

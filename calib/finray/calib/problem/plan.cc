@@ -20,6 +20,9 @@ constexpr FamilyKey kFamilyKeys[kParameterFamilies] = {
     {"gauge_offset", "prior_std_V", {"per_log"}},
     {"rib_length", "prior_std_mm"},
     {"object_origin", "prior_std_mm", {"per_log"}},
+    {"object_rotation", "prior_std_deg", {"per_log"}},
+    {"object_scale", "prior_std_percent"},
+    {"object_radius", "prior_std_mm"},
     {"force_scale", "prior_std_percent"},
     {"force_offset", "prior_std_N"},
     {"temperature_coefficient", "prior_std_V_per_C", {"reference_C"}},
@@ -85,6 +88,13 @@ Scene ReadPlanScene(const YamlMap& yaml) {
 }
 
 }  // namespace
+
+bool Plan::ObjectIsKnown() const {
+  return !family(ParameterFamily::kObjectOrigin).free &&
+         !family(ParameterFamily::kObjectRotation).free &&
+         !family(ParameterFamily::kObjectScale).free &&
+         !family(ParameterFamily::kObjectRadius).free;
+}
 
 Plan ReadPlan(const std::string& path) {
   const YamlMap yaml = YamlMap::FromFile(path);

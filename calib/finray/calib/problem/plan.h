@@ -13,8 +13,9 @@ namespace finray {
 
 /// The kinds of parameters that a calibration may vary. The first ones belong
 /// to the finger and have the numbers of FingerParameterKind. The others belong
-/// to the logs: the origin of object positions, the terms that the force sensor
-/// and the gauges add, and the origin of camera positions.
+/// to the logs: the frame of object positions and the radius of the object, the
+/// terms that the force sensor and the gauges add, and the origin of camera
+/// positions.
 enum class ParameterFamily {
   kFrontStiffness = static_cast<int>(FingerParameterKind::kFrontStiffness),
   kBackStiffness = static_cast<int>(FingerParameterKind::kBackStiffness),
@@ -22,20 +23,23 @@ enum class ParameterFamily {
   kGaugeOffset = static_cast<int>(FingerParameterKind::kGaugeOffset),
   kRibLength = static_cast<int>(FingerParameterKind::kRibLength),
   kObjectOrigin = kFingerParameterKinds,
+  kObjectRotation,
+  kObjectScale,
+  kObjectRadius,
   kForceScale,
   kForceOffset,
   kTemperatureCoefficient,
   kGaugeDrift,
   kCameraOrigin,
 };
-constexpr int kParameterFamilies = kFingerParameterKinds + 6;
+constexpr int kParameterFamilies = kFingerParameterKinds + 9;
 
 /// Says whether a family is varied, and its prior.
 struct FamilyPlan {
   bool free = false;
   /// Std of the prior; empty if there is none. It is in percent of the initial
-  /// value for stiffness, gains and the force scale, else in the unit that the
-  /// key of the plan names.
+  /// value for stiffness, gains and scales, else in the unit that the key of
+  /// the plan names.
   std::optional<double> prior_std;
   /// Each log has a value of its own.
   bool per_log = false;
@@ -76,6 +80,8 @@ struct Plan {
   const FamilyPlan& family(ParameterFamily which) const {
     return families[static_cast<int>(which)];
   }
+  /// Says that the plan takes the place and the radius of the object as given.
+  bool ObjectIsKnown() const;
 };
 
 /// Reads a plan. Throws InputError for unknown keys and wrong units in a key.
