@@ -33,7 +33,7 @@ struct Builder {
   // those of FrameResidual, then `a` and `b`.
   std::vector<double*> OfModelAnd(double* a, double* b = nullptr) const {
     std::vector<double*> all;
-    all.reserve(of_model.size() + 2);
+    all.reserve(of_model.size() + 7);
     all = of_model;
     all.push_back(a);
     if (b != nullptr) all.push_back(b);
@@ -57,11 +57,22 @@ std::vector<double> AddTerms(const std::vector<ReadingTerm>& terms,
 void AddReadings(const std::vector<Gauge>& gauges, Builder* out) {
   for (int j = 0; j < static_cast<int>(gauges.size()); ++j) {
     if (!gauges[j].IsMeasured(out->row.gauges_V[j])) continue;
+    const FrameParameters& of = out->parameters;
     std::vector<double*> blocks =
-        out->OfModelAnd(&out->parameters.gains_V_per_rad[j]);
-    const auto coefficients = AddTerms(out->parameters.readings[j], &blocks);
+        out->OfModelAnd(&of.gains_V_per_rad[j], &of.curvatures_per_rad[j]);
+    if (out->evaluation->movable_gauges()) {
+      blocks.push_back(&of.finger->gauge_starts_mm[j]);
+      blocks.push_back(&of.finger->gauge_lengths_mm[j]);
+    }
+    const CreepTerm creep = of.creep.empty() ? CreepTerm{} : of.creep[j];
+    if (creep.history != nullptr) {
+      blocks.push_back(creep.share);
+      blocks.push_back(creep.ln_time_constant);
+    }
+    const auto coefficients = AddTerms(of.readings[j], &blocks);
     out->Add(new GaugeReadingResidual(out->evaluation, j, &out->row.gauges_V[j],
-                                      out->model.gauge_std_V[j], coefficients),
+                                      out->model.gauge_std_V[j], coefficients,
+                                      creep),
              std::move(blocks), ResidualFamily::kGauge, j);
   }
 }
@@ -69,11 +80,14 @@ void AddReadings(const std::vector<Gauge>& gauges, Builder* out) {
 void AddBench(const std::vector<Gauge>& gauges, Builder* out) {
   for (int j = 0; j < static_cast<int>(gauges.size()); ++j) {
     if (!gauges[j].IsMeasured(out->row.gauges_V[j])) continue;
-    std::vector<double*> blocks = {&out->parameters.gains_V_per_rad[j]};
+    std::vector<double*> blocks = {
+        &out->parameters.gains_V_per_rad[j],
+        &out->parameters.curvatures_per_rad[j],
+        &out->parameters.finger->gauge_lengths_mm[j]};
     const auto coefficients = AddTerms(out->parameters.readings[j], &blocks);
-    out->Add(new CylinderGaugeResidual(
-                 gauges[j].length_mm, out->row.cylinder_radius_mm,
-                 out->row.gauges_V[j], out->model.gauge_std_V[j], coefficients),
+    out->Add(new CylinderGaugeResidual(out->row.cylinder_radius_mm,
+                                       out->row.gauges_V[j],
+                                       out->model.gauge_std_V[j], coefficients),
              std::move(blocks), ResidualFamily::kBench, j);
   }
 }
@@ -203,9 +217,11 @@ FingerParameters::FingerParameters(const Finger& finger,
   for (const Gauge& gauge : finger.gauges) {
     gains_.push_back(gauge.gain_V_per_rad);
     offsets_.push_back(gauge.offset_V);
+    curvatures_.push_back(gauge.curvature_per_rad);
   }
   frame_.finger = &shared_;
   frame_.gains_V_per_rad = gains_.data();
+  frame_.curvatures_per_rad = curvatures_.data();
   for (double& offset : offsets_) frame_.readings.push_back({{&offset, 1}});
   frame_.ln_force_scale = &ln_force_scale_;
   frame_.force_offset_N = &force_offset_N_;

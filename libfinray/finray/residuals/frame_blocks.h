@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "finray/residuals/creep_history.h"
 #include "finray/residuals/frame_set.h"
 #include "finray/residuals/residual_family.h"
 #include "finray/scene/measurements.h"
@@ -45,7 +46,9 @@ struct ReadingTerm {
 struct FrameParameters {
   SharedParameters* finger = nullptr;
   double* gains_V_per_rad = nullptr;               ///< One per gauge.
+  double* curvatures_per_rad = nullptr;            ///< One per gauge.
   std::vector<std::vector<ReadingTerm>> readings;  ///< One list per gauge.
+  std::vector<CreepTerm> creep;  ///< One per gauge, or none at all.
   double* ln_force_scale = nullptr;
   double* force_offset_N = nullptr;     ///< of the magnitude
   double* force_offset_xy_N = nullptr;  ///< of the components, 2
@@ -100,10 +103,11 @@ class FingerParameters {
   SharedParameters* shared() { return &shared_; }
   double* gain(int gauge) { return &gains_[gauge]; }
   double* offset(int gauge) { return &offsets_[gauge]; }
+  double* curvature(int gauge) { return &curvatures_[gauge]; }
 
  private:
   SharedParameters shared_;
-  std::vector<double> gains_, offsets_;
+  std::vector<double> gains_, offsets_, curvatures_;
   double ln_force_scale_ = 0, force_offset_N_ = 0;
   double force_offset_xy_N_[2] = {}, object_origin_mm_[2] = {},
          camera_origin_mm_[2] = {};

@@ -231,6 +231,8 @@ std::vector<CalibrationFrame> ReadLog(const FrameTable& table,
   std::vector<double> times, temperatures;
   if (!bench && plan.family(ParameterFamily::kGaugeDrift).free) {
     times = Needed(table, "time_s", "gauge_drift");
+  } else if (!bench && plan.HasCreep(finger)) {
+    times = Needed(table, "time_s", "creep of gauges");
   }
   if (!bench && plan.family(ParameterFamily::kTemperatureCoefficient).free) {
     temperatures = Needed(table, "temperature_C", "temperature_coefficient");

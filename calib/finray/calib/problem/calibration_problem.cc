@@ -206,8 +206,9 @@ void ZeroHeldOutLogs(CalibrationProblem* problem) {
       problem->logs(), [&](const auto& frame) { return held_out[frame.log]; },
       [&](const auto& frame, int j) {
         return frame.gauges_V[j] -
-               parameters.gains_V_per_rad[j] * free.gauge_angle(j) -
-               parameters.readings.Sum(frame, j);
+               parameters.Present(problem->finger(), j)
+                   .BendingVolts(free.gauge_angle(j)) -
+               parameters.readings.Sum(frame, j) - parameters.Creep(frame, j);
       },
       &parameters.readings);
   for (const auto& [offset, error] : errors) *offset += error;

@@ -72,6 +72,12 @@ double VagueStd(const CalibrationParameter& parameter) {
       return 0.2 * parameter.scale;
     case ParameterFamily::kGaugeOffset:
       return 0.01;
+    case ParameterFamily::kGaugeCurvature:
+    case ParameterFamily::kGaugeCreepTime:
+      return 1;
+    case ParameterFamily::kGaugeStart:
+    case ParameterFamily::kGaugeLength:
+      return 2;
     case ParameterFamily::kObjectOrigin:
     case ParameterFamily::kObjectRadius:
     case ParameterFamily::kCameraOrigin:
@@ -112,8 +118,14 @@ CalibrationParameters::CalibrationParameters(const Finger& finger,
       rotations_deg_(rotation_per_log_ ? logs.paths.size() : 1, 0.0) {
   for (const Gauge& gauge : finger.gauges) {
     gains_V_per_rad.push_back(gauge.gain_V_per_rad);
+    curvatures_per_rad.push_back(gauge.curvature_per_rad);
+    creep_shares.push_back(gauge.creep_share);
+    ln_creep_times.push_back(std::log(gauge.creep_time_constant_s));
   }
-  for (const FingerParameter& parameter : ParametersOf(finger)) {
+  if (plan.HasCreep(finger)) ReadCreep(logs);
+  for (const FingerParameter& parameter : AllParametersOf(finger)) {
+    const auto family = static_cast<ParameterFamily>(parameter.kind);
+    if (IsEffect(parameter.kind) && !plan.family(family).free) continue;
     AddOfFinger(plan, logs, parameter);
   }
   AddOrigins(plan, logs);
@@ -122,6 +134,41 @@ CalibrationParameters::CalibrationParameters(const Finger& finger,
   AddTemperature(plan);
   AddDrift(plan, logs);
   AddCamera(plan);
+}
+
+void CalibrationParameters::ReadCreep(const CalibrationLogs& logs) {
+  const std::size_t gauges = gains_V_per_rad.size();
+  for (std::size_t log = 0; log < logs.paths.size(); ++log) {
+    creep_.emplace_back(gauges);
+  }
+  for (const CalibrationFrame& frame : logs.frames) {
+    for (std::size_t j = 0; j < gauges; ++j) {
+      creep_[frame.log][j].Set(frame.row, frame.time_s, frame.gauges_V[j]);
+    }
+  }
+}
+
+CreepTerm CalibrationParameters::CreepOf(const CalibrationFrame& frame,
+                                         int gauge) {
+  if (creep_.empty() || frame.IsBench()) return {};
+  return {&creep_[frame.log][gauge], frame.row, &creep_shares[gauge],
+          &ln_creep_times[gauge]};
+}
+
+double CalibrationParameters::Creep(const CalibrationFrame& frame, int gauge) {
+  const CreepTerm creep = CreepOf(frame, gauge);
+  if (creep.history == nullptr) return 0;
+  return *creep.share *
+         (creep.history->At(creep.row, *creep.share, *creep.ln_time_constant)
+              .volts -
+          *readings.offset_V(gauge, frame.log) / (1 + *creep.share));
+}
+
+Gauge CalibrationParameters::Present(const Finger& finger, int gauge) const {
+  Gauge present = finger.gauges[gauge];
+  present.gain_V_per_rad = gains_V_per_rad[gauge];
+  present.curvature_per_rad = curvatures_per_rad[gauge];
+  return present;
 }
 
 void CalibrationParameters::AddOfFinger(const Plan& plan,
@@ -166,6 +213,23 @@ void CalibrationParameters::AddOfFinger(const Plan& plan,
       break;
     case FingerParameterKind::kRibLength:
       parameter.variable = &shared.rib_lengths_mm[index];
+      break;
+    case FingerParameterKind::kGaugeCurvature:
+      parameter.variable = &curvatures_per_rad[index];
+      break;
+    case FingerParameterKind::kGaugeStart:
+      parameter.variable = &shared.gauge_starts_mm[index];
+      break;
+    case FingerParameterKind::kGaugeLength:
+      parameter.variable = &shared.gauge_lengths_mm[index];
+      break;
+    case FingerParameterKind::kGaugeCreepShare:
+      parameter.variable = &creep_shares[index];
+      parameter.scale = 0.1;
+      break;
+    case FingerParameterKind::kGaugeCreepTime:
+      parameter.variable = &ln_creep_times[index];
+      parameter.is_log = true;
       break;
   }
   parameter.block = of_finger.kind == FingerParameterKind::kRibLength
@@ -310,9 +374,13 @@ FrameParameters CalibrationParameters::Of(const CalibrationFrame& frame) {
   FrameParameters of;
   of.finger = &shared;
   of.gains_V_per_rad = gains_V_per_rad.data();
+  of.curvatures_per_rad = curvatures_per_rad.data();
   of.readings.reserve(frame.gauges_V.size());
   for (std::size_t j = 0; j < frame.gauges_V.size(); ++j) {
     of.readings.push_back(readings.Of(frame, static_cast<int>(j)));
+    if (!creep_.empty()) {
+      of.creep.push_back(CreepOf(frame, static_cast<int>(j)));
+    }
   }
   of.ln_force_scale = &ln_force_scale;
   of.force_offset_N = &force_offset_N;
@@ -361,8 +429,9 @@ CalibrationLogs CalibrationParameters::Corrected(const CalibrationLogs& logs,
   const double scale = std::exp(ln_force_scale);
   for (CalibrationFrame& frame : corrected.frames) {
     for (std::size_t j = 0; j < frame.gauges_V.size(); ++j) {
+      const int gauge = static_cast<int>(j);
       frame.gauges_V[j] += calibrated.gauges[j].offset_V -
-                           readings.Sum(frame, static_cast<int>(j));
+                           readings.Sum(frame, gauge) - Creep(frame, gauge);
     }
     frame.force_N = (frame.force_N - force_offset_N) / scale;
     frame.force_xy_N -= Eigen::Map<const Eigen::Vector2d>(force_offset_xy_N);

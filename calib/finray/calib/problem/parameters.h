@@ -54,7 +54,8 @@ class CalibrationParameters {
   CalibrationParameters(const CalibrationParameters&) = delete;
 
   SharedParameters shared;
-  std::vector<double> gains_V_per_rad;
+  std::vector<double> gains_V_per_rad, curvatures_per_rad;
+  std::vector<double> creep_shares, ln_creep_times;
   ReadingTerms readings;
   /// The force sensor reads F = scale f + offset. The magnitude has one offset,
   /// and each component has one.
@@ -101,6 +102,10 @@ class CalibrationParameters {
   /// has none.
   Eigen::VectorXd Units() const;
 
+  /// What creep adds to the reading of a frame, V.
+  double Creep(const CalibrationFrame& frame, int gauge);
+  /// The gauge with the present gain and curvature.
+  Gauge Present(const Finger& finger, int gauge) const;
   /// Returns the finger with the present values. If offsets are per log, it
   /// gets those of last_fitted_log().
   Finger Apply(const Finger& finger) const;
@@ -109,12 +114,15 @@ class CalibrationParameters {
   /// Corrected.
   Plan Corrected(const Plan& plan) const;
   /// Returns the logs as a perfect setup would have recorded them: with the
-  /// offsets of `calibrated`, without drift, at the reference temperature, with
+  /// offsets of `calibrated`, without drift and creep, at the reference
+  /// temperature, with
   /// a true force sensor, and with all positions in frame S.
   CalibrationLogs Corrected(const CalibrationLogs& logs,
                             const Finger& calibrated);
 
  private:
+  void ReadCreep(const CalibrationLogs& logs);
+  CreepTerm CreepOf(const CalibrationFrame& frame, int gauge);
   void AddOfFinger(const Plan& plan, const CalibrationLogs& logs,
                    const FingerParameter& of_finger);
   void AddOrigins(const Plan& plan, const CalibrationLogs& logs);
@@ -129,6 +137,8 @@ class CalibrationParameters {
   void Add(const Plan& plan, CalibrationParameter parameter,
            bool held_out = false);
 
+  // By log and gauge; empty if no gauge creeps.
+  std::vector<std::vector<CreepHistory>> creep_;
   std::vector<bool> held_out_;  // by log: whether all its rows are held out
   int last_fitted_;
   bool origin_per_log_, rotation_per_log_;

@@ -1,5 +1,6 @@
 #include "finray/calib/problem/plan.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <vector>
 
@@ -19,6 +20,11 @@ constexpr FamilyKey kFamilyKeys[kParameterFamilies] = {
     {"gauge_gain", "prior_std_percent"},
     {"gauge_offset", "prior_std_V", {"per_log"}},
     {"rib_length", "prior_std_mm"},
+    {"gauge_curvature", "prior_std_per_rad"},
+    {"gauge_start", "prior_std_mm"},
+    {"gauge_length", "prior_std_mm"},
+    {"gauge_creep_share", "prior_std"},
+    {"gauge_creep_time", "prior_std_percent"},
     {"object_origin", "prior_std_mm", {"per_log"}},
     {"object_rotation", "prior_std_deg", {"per_log"}},
     {"object_scale", "prior_std_percent"},
@@ -88,6 +94,13 @@ Scene ReadPlanScene(const YamlMap& yaml) {
 }
 
 }  // namespace
+
+bool Plan::HasCreep(const Finger& finger) const {
+  return family(ParameterFamily::kGaugeCreepShare).free ||
+         family(ParameterFamily::kGaugeCreepTime).free ||
+         std::any_of(finger.gauges.begin(), finger.gauges.end(),
+                     [](const Gauge& gauge) { return gauge.creep_share != 0; });
+}
 
 bool Plan::ObjectIsKnown() const {
   return !family(ParameterFamily::kObjectOrigin).free &&

@@ -22,6 +22,11 @@ enum class ParameterFamily {
   kGaugeGain = static_cast<int>(FingerParameterKind::kGaugeGain),
   kGaugeOffset = static_cast<int>(FingerParameterKind::kGaugeOffset),
   kRibLength = static_cast<int>(FingerParameterKind::kRibLength),
+  kGaugeCurvature = static_cast<int>(FingerParameterKind::kGaugeCurvature),
+  kGaugeStart = static_cast<int>(FingerParameterKind::kGaugeStart),
+  kGaugeLength = static_cast<int>(FingerParameterKind::kGaugeLength),
+  kGaugeCreepShare = static_cast<int>(FingerParameterKind::kGaugeCreepShare),
+  kGaugeCreepTime = static_cast<int>(FingerParameterKind::kGaugeCreepTime),
   kObjectOrigin = kFingerParameterKinds,
   kObjectRotation,
   kObjectScale,
@@ -38,8 +43,8 @@ constexpr int kParameterFamilies = kFingerParameterKinds + 9;
 struct FamilyPlan {
   bool free = false;
   /// Std of the prior; empty if there is none. It is in percent of the initial
-  /// value for stiffness, gains and scales, else in the unit that the key of
-  /// the plan names.
+  /// value for stiffness, gains, scales and times, else in the unit that the
+  /// key of the plan names.
   std::optional<double> prior_std;
   /// Each log has a value of its own.
   bool per_log = false;
@@ -80,6 +85,13 @@ struct Plan {
   const FamilyPlan& family(ParameterFamily which) const {
     return families[static_cast<int>(which)];
   }
+  /// Says that the plan varies where gauges start or how long they are.
+  bool MovesGauges() const {
+    return family(ParameterFamily::kGaugeStart).free ||
+           family(ParameterFamily::kGaugeLength).free;
+  }
+  /// Says that the finger's gauges creep or the plan asks whether they do.
+  bool HasCreep(const Finger& finger) const;
   /// Says that the plan takes the place and the radius of the object as given.
   bool ObjectIsKnown() const;
 };

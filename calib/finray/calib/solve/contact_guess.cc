@@ -79,10 +79,14 @@ void ContactGuess::AddCircle(const CalibrationFrame& frame) {
 void ContactGuess::AddGauges(const CalibrationFrame& frame) {
   CalibrationParameters& parameters = problem_.parameters();
   for (int j = 0; j < static_cast<int>(frame.gauges_V.size()); ++j) {
-    const double gain = parameters.gains_V_per_rad[j];
-    if (!std::isfinite(frame.gauges_V[j]) || gain == 0) continue;
-    values_[j] = (frame.gauges_V[j] - parameters.readings.Sum(frame, j)) / gain;
-    weights_[j] = std::abs(gain) / problem_.blocks().gauge_std_V(j);
+    Gauge gauge = parameters.Present(problem_.finger(), j);
+    gauge.offset_V =
+        parameters.readings.Sum(frame, j) + parameters.Creep(frame, j);
+    const double angle = gauge.Angle(frame.gauges_V[j]);
+    if (!std::isfinite(angle)) continue;
+    values_[j] = angle;
+    weights_[j] =
+        std::abs(gauge.Slope(angle)) / problem_.blocks().gauge_std_V(j);
   }
 }
 
