@@ -87,6 +87,9 @@ void WarnOfParametersOfLogs(const Plan& plan) {
       {ParameterFamily::kObjectRadius, "object_radius"},
       {ParameterFamily::kForceScale, "force_scale"},
       {ParameterFamily::kForceOffset, "force_offset"},
+      {ParameterFamily::kForceTimeOffset, "force_time_offset"},
+      {ParameterFamily::kForceTilt, "force_tilt"},
+      {ParameterFamily::kForceWeight, "force_weight"},
       {ParameterFamily::kTemperatureCoefficient, "temperature_coefficient"},
       {ParameterFamily::kGaugeDrift, "gauge_drift"}};
   std::vector<std::string> names;

@@ -95,20 +95,34 @@ void AddBench(const std::vector<Gauge>& gauges, Builder* out) {
 void AddForce(Builder* out) {
   if (!out->model.force_std_N) return;
   const double std_N = *out->model.force_std_N;
-  double* ln_scale = out->parameters.ln_force_scale;
+  const FrameParameters& of = out->parameters;
+  double* ln_scale = of.ln_force_scale;
+  LateForce late;
+  late.time_s = out->row.time_s;
+  const bool may_be_late = of.forces_N != nullptr;
   if (out->row.force_xy_N.allFinite()) {
+    if (may_be_late) late.signals = of.forces_N->data();
+    std::vector<double*> blocks =
+        out->OfModelAnd(ln_scale, of.force_offset_xy_N);
+    blocks.push_back(of.force_tilt_deg);
+    blocks.push_back(of.force_weight_N);
+    if (may_be_late) blocks.push_back(of.force_time_offset_s);
     out->Add(new ReferenceForceVectorResidual(out->evaluation,
-                                              out->row.force_xy_N, std_N),
-             out->OfModelAnd(ln_scale, out->parameters.force_offset_xy_N),
-             ResidualFamily::kForce);
+                                              out->row.force_xy_N, std_N,
+                                              out->row.object_angle_rad, late),
+             std::move(blocks), ResidualFamily::kForce);
   } else if (std::isfinite(out->row.force_N)) {
     std::vector<double*> blocks;
     if (out->evaluation->contacts() > 0) blocks.push_back(out->unknowns);
     blocks.push_back(ln_scale);
-    blocks.push_back(out->parameters.force_offset_N);
-    out->Add(
-        new ReferenceForceResidual(out->evaluation, out->row.force_N, std_N),
-        std::move(blocks), ResidualFamily::kForce);
+    blocks.push_back(of.force_offset_N);
+    if (may_be_late) {
+      late.signals = &(*of.forces_N)[2];
+      blocks.push_back(of.force_time_offset_s);
+    }
+    out->Add(new ReferenceForceResidual(out->evaluation, out->row.force_N,
+                                        std_N, late),
+             std::move(blocks), ResidualFamily::kForce);
   }
 }
 
@@ -226,6 +240,8 @@ FingerParameters::FingerParameters(const Finger& finger,
   frame_.ln_force_scale = &ln_force_scale_;
   frame_.force_offset_N = &force_offset_N_;
   frame_.force_offset_xy_N = force_offset_xy_N_;
+  frame_.force_tilt_deg = &force_tilt_deg_;
+  frame_.force_weight_N = force_weight_N_;
   frame_.object_origin_mm = object_origin_mm_;
   frame_.object_rotation_deg = &object_rotation_deg_;
   frame_.ln_object_scale = &ln_object_scale_;

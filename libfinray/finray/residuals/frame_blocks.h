@@ -3,12 +3,14 @@
 
 #include <ceres/cost_function.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "finray/residuals/creep_history.h"
 #include "finray/residuals/frame_set.h"
+#include "finray/residuals/linear_signal.h"
 #include "finray/residuals/residual_family.h"
 #include "finray/scene/measurements.h"
 #include "finray/scene/scene.h"
@@ -52,7 +54,13 @@ struct FrameParameters {
   double* ln_force_scale = nullptr;
   double* force_offset_N = nullptr;     ///< of the magnitude
   double* force_offset_xy_N = nullptr;  ///< of the components, 2
-  double* object_origin_mm = nullptr;   ///< 2; these three as StageFrame says
+  double* force_tilt_deg = nullptr;     ///< these two: of the components
+  double* force_weight_N = nullptr;     ///< 2
+  /// x, y and magnitude of the log's forces, and the parameter; null if the
+  /// sensor is not late.
+  const std::array<LinearSignal, 3>* forces_N = nullptr;
+  double* force_time_offset_s = nullptr;
+  double* object_origin_mm = nullptr;  ///< 2; these three as StageFrame says
   double* object_rotation_deg = nullptr;
   double* ln_object_scale = nullptr;
   double* object_radius_mm = nullptr;  ///< of the circle
@@ -109,6 +117,7 @@ class FingerParameters {
   SharedParameters shared_;
   std::vector<double> gains_, offsets_, curvatures_;
   double ln_force_scale_ = 0, force_offset_N_ = 0;
+  double force_tilt_deg_ = 0, force_weight_N_[2] = {};
   double force_offset_xy_N_[2] = {}, object_origin_mm_[2] = {},
          camera_origin_mm_[2] = {};
   double object_rotation_deg_ = 0, ln_object_scale_ = 0, object_radius_mm_;

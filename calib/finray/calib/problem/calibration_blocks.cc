@@ -43,7 +43,7 @@ CalibrationBlocks::CalibrationBlocks(const Finger& finger, const Plan& plan,
       parameters_(*parameters),
       model_(ModelOf(finger, plan)),
       free_model_(model_) {
-  if (!plan.family(ParameterFamily::kForceOffset).free) {
+  if (plan.ForceZeroIsKnown()) {
     free_model_.force_std_N.reset();
   }
 }

@@ -46,14 +46,16 @@ Touch TouchOf(const CalibrationFrame& frame, const Finger& finger,
   const bool object =
       frame.object_mm.allFinite() && plan.scene.circle_radius_mm();
   const FamilyPlan& offset = plan.family(ParameterFamily::kForceOffset);
+  const FamilyPlan& weight = plan.family(ParameterFamily::kForceWeight);
   const bool object_known = plan.ObjectIsKnown();
   const double force = ReferenceForce(frame);
   const double reach_std =
       object ? Reach(frame, finger, plan) / plan.object_std_mm : 0;
-  if (std::isfinite(force) && !(object && offset.free)) {
+  if (std::isfinite(force) && !(object && !plan.ForceZeroIsKnown())) {
     const bool contact =
-        force > kSignificant *
-                    std::hypot(plan.force_std_N, offset.prior_std.value_or(0));
+        force > kSignificant * std::hypot(plan.force_std_N,
+                                          offset.prior_std.value_or(0),
+                                          weight.prior_std.value_or(0));
     return {contact,
             !contact && object && object_known && reach_std > -kSignificant};
   }
@@ -144,13 +146,24 @@ void RefuseWithoutMeasurements(const Plan& plan, const CalibrationLogs& logs) {
   };
   for (const auto& [family, name] :
        {std::pair(ParameterFamily::kForceScale, "force_scale"),
-        std::pair(ParameterFamily::kForceOffset, "force_offset")}) {
+        std::pair(ParameterFamily::kForceOffset, "force_offset"),
+        std::pair(ParameterFamily::kForceTimeOffset, "force_time_offset")}) {
     if (plan.family(family).free && none([](const CalibrationFrame& frame) {
           return std::isfinite(ReferenceForce(frame));
         })) {
       throw InputError(std::string("plan: ") + name +
                        " is free, but no log has a force_N, or a force_x_N "
                        "and force_y_N");
+    }
+  }
+  for (const auto& [family, name] :
+       {std::pair(ParameterFamily::kForceTilt, "force_tilt"),
+        std::pair(ParameterFamily::kForceWeight, "force_weight")}) {
+    if (plan.family(family).free && none([](const CalibrationFrame& frame) {
+          return frame.force_xy_N.allFinite();
+        })) {
+      throw InputError(std::string("plan: ") + name +
+                       " is free, but no log has a force_x_N and force_y_N");
     }
   }
   if (plan.family(ParameterFamily::kCameraOrigin).free && !plan.pin_std_mm &&
@@ -233,6 +246,8 @@ std::vector<CalibrationFrame> ReadLog(const FrameTable& table,
     times = Needed(table, "time_s", "gauge_drift");
   } else if (!bench && plan.HasCreep(finger)) {
     times = Needed(table, "time_s", "creep of gauges");
+  } else if (!bench && plan.family(ParameterFamily::kForceTimeOffset).free) {
+    times = Needed(table, "time_s", "force_time_offset");
   }
   if (!bench && plan.family(ParameterFamily::kTemperatureCoefficient).free) {
     temperatures = Needed(table, "temperature_C", "temperature_coefficient");

@@ -83,6 +83,7 @@ double VagueStd(const CalibrationParameter& parameter) {
     case ParameterFamily::kCameraOrigin:
       return 1;
     case ParameterFamily::kObjectRotation:
+    case ParameterFamily::kForceTilt:
       return 2;
     case ParameterFamily::kObjectScale:
       return 0.05;
@@ -123,6 +124,7 @@ CalibrationParameters::CalibrationParameters(const Finger& finger,
     ln_creep_times.push_back(std::log(gauge.creep_time_constant_s));
   }
   if (plan.HasCreep(finger)) ReadCreep(logs);
+  if (plan.family(ParameterFamily::kForceTimeOffset).free) ReadForces(logs);
   for (const FingerParameter& parameter : AllParametersOf(finger)) {
     const auto family = static_cast<ParameterFamily>(parameter.kind);
     if (IsEffect(parameter.kind) && !plan.family(family).free) continue;
@@ -145,6 +147,16 @@ void CalibrationParameters::ReadCreep(const CalibrationLogs& logs) {
     for (std::size_t j = 0; j < gauges; ++j) {
       creep_[frame.log][j].Set(frame.row, frame.time_s, frame.gauges_V[j]);
     }
+  }
+}
+
+void CalibrationParameters::ReadForces(const CalibrationLogs& logs) {
+  forces_N_.resize(logs.paths.size());
+  for (const CalibrationFrame& frame : logs.frames) {
+    std::array<LinearSignal, 3>& of_log = forces_N_[frame.log];
+    of_log[0].Add(frame.time_s, frame.force_xy_N.x());
+    of_log[1].Add(frame.time_s, frame.force_xy_N.y());
+    of_log[2].Add(frame.time_s, frame.force_N);
   }
 }
 
@@ -285,6 +297,19 @@ void CalibrationParameters::AddForceSensor(const Plan& plan,
     scale.is_log = true;
     Add(plan, std::move(scale));
   }
+  if (plan.family(ParameterFamily::kForceTimeOffset).free) {
+    Add(plan, OfLogs(ParameterFamily::kForceTimeOffset, "force_time_offset_s",
+                     "s", &force_time_offset_s));
+  }
+  if (plan.family(ParameterFamily::kForceTilt).free) {
+    Add(plan, OfLogs(ParameterFamily::kForceTilt, "force_tilt_deg", "deg",
+                     &force_tilt_deg, 5));
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    if (!plan.family(ParameterFamily::kForceWeight).free) break;
+    Add(plan, OfAxis(ParameterFamily::kForceWeight, "force_weight", "N",
+                     force_weight_N, axis, 1));
+  }
   if (!plan.family(ParameterFamily::kForceOffset).free) return;
   bool magnitude = false, components = false;
   for (const CalibrationFrame& frame : logs.frames) {
@@ -385,6 +410,12 @@ FrameParameters CalibrationParameters::Of(const CalibrationFrame& frame) {
   of.ln_force_scale = &ln_force_scale;
   of.force_offset_N = &force_offset_N;
   of.force_offset_xy_N = force_offset_xy_N;
+  of.force_tilt_deg = &force_tilt_deg;
+  of.force_weight_N = force_weight_N;
+  if (!forces_N_.empty()) {
+    of.forces_N = &forces_N_[frame.log];
+    of.force_time_offset_s = &force_time_offset_s;
+  }
   of.object_origin_mm = object_origin_mm(frame.log);
   of.object_rotation_deg = object_rotation_deg(frame.log);
   of.ln_object_scale = &ln_object_scale;
@@ -423,19 +454,36 @@ Plan CalibrationParameters::Corrected(const Plan& plan) const {
   return corrected;
 }
 
+void CalibrationParameters::CorrectForce(CalibrationFrame* frame) const {
+  if (!forces_N_.empty()) {
+    const std::array<LinearSignal, 3>& of_log = forces_N_[frame->log];
+    const double at_s = frame->time_s + force_time_offset_s;
+    for (int i = 0; i < 2 && frame->force_xy_N.allFinite(); ++i) {
+      frame->force_xy_N[i] = of_log[i].At(at_s).value;
+    }
+    if (std::isfinite(frame->force_N))
+      frame->force_N = of_log[2].At(at_s).value;
+  }
+  const double scale = std::exp(ln_force_scale);
+  frame->force_N = (frame->force_N - force_offset_N) / scale;
+  const Eigen::Map<const Eigen::Vector2d> offset(force_offset_xy_N),
+      weight(force_weight_N);
+  const Eigen::Rotation2Dd tilt(force_tilt_deg * M_PI / 180),
+      turn(frame->object_angle_rad);
+  frame->force_xy_N =
+      tilt.inverse() * (frame->force_xy_N - offset - turn * weight) / scale;
+}
+
 CalibrationLogs CalibrationParameters::Corrected(const CalibrationLogs& logs,
                                                  const Finger& calibrated) {
   CalibrationLogs corrected = logs;
-  const double scale = std::exp(ln_force_scale);
   for (CalibrationFrame& frame : corrected.frames) {
     for (std::size_t j = 0; j < frame.gauges_V.size(); ++j) {
       const int gauge = static_cast<int>(j);
       frame.gauges_V[j] += calibrated.gauges[j].offset_V -
                            readings.Sum(frame, gauge) - Creep(frame, gauge);
     }
-    frame.force_N = (frame.force_N - force_offset_N) / scale;
-    frame.force_xy_N -= Eigen::Map<const Eigen::Vector2d>(force_offset_xy_N);
-    frame.force_xy_N /= scale;
+    CorrectForce(&frame);
     frame.object_mm = Stage(frame.log).InS(frame.object_mm);
     const Eigen::Map<const Eigen::Vector2d> camera(camera_origin_mm);
     for (SeenPin& pin : frame.pins) pin.at_mm += camera;

@@ -61,6 +61,11 @@ class CalibrationParameters {
   /// and each component has one.
   double ln_force_scale = 0;
   double force_offset_N = 0, force_offset_xy_N[2] = {0, 0};
+  /// The force of a row is what its log reads so much later. Of the components
+  /// also: the turn of the sensor's axes, and the weight of what it carries,
+  /// which turns with the object (ReferenceForceVectorResidual).
+  double force_time_offset_s = 0, force_tilt_deg = 0,
+         force_weight_N[2] = {0, 0};
   /// Positions of rib pins and the tip count from here.
   double camera_origin_mm[2] = {0, 0};
 
@@ -122,6 +127,8 @@ class CalibrationParameters {
 
  private:
   void ReadCreep(const CalibrationLogs& logs);
+  void ReadForces(const CalibrationLogs& logs);
+  void CorrectForce(CalibrationFrame* frame) const;
   CreepTerm CreepOf(const CalibrationFrame& frame, int gauge);
   void AddOfFinger(const Plan& plan, const CalibrationLogs& logs,
                    const FingerParameter& of_finger);
@@ -139,6 +146,8 @@ class CalibrationParameters {
 
   // By log and gauge; empty if no gauge creeps.
   std::vector<std::vector<CreepHistory>> creep_;
+  // By log; empty if the force sensor is not late.
+  std::vector<std::array<LinearSignal, 3>> forces_N_;
   std::vector<bool> held_out_;  // by log: whether all its rows are held out
   int last_fitted_;
   bool origin_per_log_, rotation_per_log_;

@@ -33,11 +33,14 @@ enum class ParameterFamily {
   kObjectRadius,
   kForceScale,
   kForceOffset,
+  kForceTimeOffset,
+  kForceTilt,
+  kForceWeight,
   kTemperatureCoefficient,
   kGaugeDrift,
   kCameraOrigin,
 };
-constexpr int kParameterFamilies = kFingerParameterKinds + 9;
+constexpr int kParameterFamilies = kFingerParameterKinds + 12;
 
 /// Says whether a family is varied, and its prior.
 struct FamilyPlan {
@@ -92,6 +95,11 @@ struct Plan {
   }
   /// Says that the finger's gauges creep or the plan asks whether they do.
   bool HasCreep(const Finger& finger) const;
+  /// Says that the force sensor reads 0 where nothing touches.
+  bool ForceZeroIsKnown() const {
+    return !family(ParameterFamily::kForceOffset).free &&
+           !family(ParameterFamily::kForceWeight).free;
+  }
   /// Says that the plan takes the place and the radius of the object as given.
   bool ObjectIsKnown() const;
 };
