@@ -35,7 +35,7 @@ ContactGuess::ContactGuess(CalibrationProblem* problem)
     : problem_(*problem),
       solver_(SolverFor(*problem)),
       table_(&solver_, problem->plan().scene.friction_coefficient,
-             RadiusOf(*problem), problem->threads(), kRows),
+             RadiusOf(*problem), std::nullopt, problem->threads(), kRows),
       fit_(solver_.model().finger(), problem->discretization(),
            RadiusOf(*problem)),
       circle_(RadiusOf(*problem).has_value()) {
