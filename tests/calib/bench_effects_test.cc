@@ -66,6 +66,24 @@ TEST(BenchEffectsTest, AxesOfTheStage) {
   }
 }
 
+TEST(BenchEffectsTest, NothingIsFreeWithoutAPlace) {
+  const TempFolder folder;
+  FrameTable log = FrameTable::Read(StandardLog(folder, HiddenFinger(), 27));
+  log.MutableNumbers("object_x_mm").assign(log.rows(), std::nan(""));
+  log.Write(folder.Path("placeless.csv"));
+  Plan plan = StandardPlan();
+  for (const ParameterFamily family :
+       {ParameterFamily::kObjectOrigin, ParameterFamily::kObjectRotation,
+        ParameterFamily::kObjectScale, ParameterFamily::kObjectRadius}) {
+    Free(family, &plan).prior_std = 0.5;
+  }
+  const CalibrationProblem problem(
+      Nominal(), plan,
+      ReadCalibrationLogs({folder.Path("placeless.csv")}, Nominal(), plan), {},
+      1);
+  EXPECT_EQ(problem.parameters().free().size(), 15u);
+}
+
 TEST(BenchEffectsTest, RotationOfEachLog) {
   const TempFolder folder, first, second;
   const Finger truth = HiddenFinger();

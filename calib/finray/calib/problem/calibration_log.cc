@@ -47,10 +47,13 @@ Touch TouchOf(const CalibrationFrame& frame, const Finger& finger,
       frame.object_mm.allFinite() && plan.scene.circle_radius_mm();
   const FamilyPlan& offset = plan.family(ParameterFamily::kForceOffset);
   const FamilyPlan& weight = plan.family(ParameterFamily::kForceWeight);
-  const bool object_known = plan.ObjectIsKnown();
+  const double place_std_mm = plan.PlaceStd_mm(finger.front_length_mm);
+  const bool object_known = std::isfinite(place_std_mm);
   const double force = ReferenceForce(frame);
   const double reach_std =
-      object ? Reach(frame, finger, plan) / plan.object_std_mm : 0;
+      object ? Reach(frame, finger, plan) /
+                   (object_known ? place_std_mm : plan.object_std_mm)
+             : 0;
   if (std::isfinite(force) && !(object && !plan.ForceZeroIsKnown())) {
     const bool contact =
         force > kSignificant * std::hypot(plan.force_std_N,

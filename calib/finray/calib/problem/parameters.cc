@@ -55,6 +55,13 @@ bool HasPlace(const CalibrationFrame& frame) {
   return frame.contact && frame.object_mm.allFinite();
 }
 
+bool HasPlaces(const CalibrationLogs& logs) {
+  return std::any_of(logs.frames.begin(), logs.frames.end(),
+                     [](const CalibrationFrame& frame) {
+                       return !frame.held_out && HasPlace(frame);
+                     });
+}
+
 // Says whether `has` is true for a fitted frame of the log.
 template <class Has>
 bool AnyFitted(const CalibrationLogs& logs, int log, const Has& has) {
@@ -252,6 +259,7 @@ void CalibrationParameters::AddOfFinger(const Plan& plan,
 
 void CalibrationParameters::AddOrigins(const Plan& plan,
                                        const CalibrationLogs& logs) {
+  const bool placed = HasPlaces(logs);
   for (int log = 0; log < static_cast<int>(origins_mm_.size()); ++log) {
     if (origin_per_log_ && !AnyFitted(logs, log, HasPlace)) continue;
     for (int axis = 0; axis < 2; ++axis) {
@@ -259,13 +267,14 @@ void CalibrationParameters::AddOrigins(const Plan& plan,
           OfAxis(ParameterFamily::kObjectOrigin, "object_origin", "mm",
                  origins_mm_[log].data(), axis, 10);
       origin_per_log_ ? AddOfLog(plan, logs, log, std::move(parameter))
-                      : Add(plan, std::move(parameter));
+                      : Add(plan, std::move(parameter), !placed);
     }
   }
 }
 
 void CalibrationParameters::AddStage(const Plan& plan,
                                      const CalibrationLogs& logs) {
+  if (!HasPlaces(logs)) return;
   constexpr ParameterFamily kRotation = ParameterFamily::kObjectRotation;
   for (int log = 0; log < static_cast<int>(rotations_deg_.size()); ++log) {
     if (!plan.family(kRotation).free) break;

@@ -1,7 +1,10 @@
 #include "finray/calib/problem/plan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
+#include <utility>
 #include <vector>
 
 namespace finray {
@@ -105,11 +108,20 @@ bool Plan::HasCreep(const Finger& finger) const {
                      [](const Gauge& gauge) { return gauge.creep_share != 0; });
 }
 
-bool Plan::ObjectIsKnown() const {
-  return !family(ParameterFamily::kObjectOrigin).free &&
-         !family(ParameterFamily::kObjectRotation).free &&
-         !family(ParameterFamily::kObjectScale).free &&
-         !family(ParameterFamily::kObjectRadius).free;
+double Plan::PlaceStd_mm(double reach_mm) const {
+  double variance = object_std_mm * object_std_mm;
+  const std::pair<ParameterFamily, double> parts[] = {
+      {ParameterFamily::kObjectOrigin, 1},
+      {ParameterFamily::kObjectRotation, reach_mm * M_PI / 180},
+      {ParameterFamily::kObjectScale, reach_mm / 100},
+      {ParameterFamily::kObjectRadius, 1}};
+  for (const auto& [which, mm] : parts) {
+    if (!family(which).free) continue;
+    variance += std::pow(mm * family(which).prior_std.value_or(
+                                  std::numeric_limits<double>::infinity()),
+                         2);
+  }
+  return std::sqrt(variance);
 }
 
 Plan ReadPlan(const std::string& path) {

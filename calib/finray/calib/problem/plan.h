@@ -100,8 +100,11 @@ struct Plan {
     return !family(ParameterFamily::kForceOffset).free &&
            !family(ParameterFamily::kForceWeight).free;
   }
-  /// Says that the plan takes the place and the radius of the object as given.
-  bool ObjectIsKnown() const;
+  /// The std of an object's place against the finger, in mm: what its
+  /// measurement and the priors of stage and radius have together, at places up
+  /// to `reach_mm` from the origin. Infinite if one of these is free without a
+  /// prior.
+  double PlaceStd_mm(double reach_mm) const;
 };
 
 /// Reads a plan. Throws InputError for unknown keys and wrong units in a key.
