@@ -82,8 +82,14 @@ std::vector<std::pair<std::string, double>> Bounds() {
 void WarnOfParametersOfLogs(const Plan& plan) {
   const std::pair<ParameterFamily, const char*> of_logs[] = {
       {ParameterFamily::kObjectOrigin, "object_origin"},
+      {ParameterFamily::kObjectRotation, "object_rotation"},
+      {ParameterFamily::kObjectScale, "object_scale"},
+      {ParameterFamily::kObjectRadius, "object_radius"},
       {ParameterFamily::kForceScale, "force_scale"},
       {ParameterFamily::kForceOffset, "force_offset"},
+      {ParameterFamily::kForceTimeOffset, "force_time_offset"},
+      {ParameterFamily::kForceTilt, "force_tilt"},
+      {ParameterFamily::kForceWeight, "force_weight"},
       {ParameterFamily::kTemperatureCoefficient, "temperature_coefficient"},
       {ParameterFamily::kGaugeDrift, "gauge_drift"}};
   std::vector<std::string> names;

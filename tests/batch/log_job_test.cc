@@ -135,6 +135,42 @@ TEST_F(BatchStreamTest, StopAfterAnyBlockAndResume) {
   }
 }
 
+// What creeps depends on all rows before, on any number of threads and after
+// any interruption.
+TEST_F(BatchStreamTest, CreepIsTakenOutInOrder) {
+  std::string text = "time_s,gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V\n";
+  for (int i = 0; i < kFrames; ++i) {
+    text += std::to_string(0.5 * i) + "," + std::to_string(std::sin(0.1 * i)) +
+            ",0,0,0\n";
+  }
+  log_ = folder_.Write("log.csv", text);
+  settings_.threads = 1;
+  const std::string plain = Expected().first;
+  settings_.finger.gauges[0].creep_share = 0.1;
+  settings_.resume = false;
+  const std::string rows = Expected().first;
+  EXPECT_NE(rows, plain);
+  for (const int stop_at : {1, 7, 20}) {
+    settings_.threads = 3;
+    settings_.resume = false;
+    FrameSolverPool pool(chain_);
+    LogJob first = Job("out.csv");
+    int asked = 0;
+    settings_.stop = [&] { return asked++ == stop_at; };
+    EXPECT_EQ(first.Run(&pool), stop_at == 20);
+    settings_.stop = nullptr;
+    settings_.resume = true;
+    EXPECT_TRUE(Job("out.csv").Run(&pool));
+    EXPECT_EQ(folder_.Read("out.csv"), rows) << stop_at;
+  }
+  const std::string timeless = folder_.Write(
+      "timeless.csv", "gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V\n0,0,0,0\n");
+  LogJob job(&settings_, timeless, folder_.Path("timeless.out.csv"));
+  EXPECT_THAT([&] { job.Check(); },
+              testing::ThrowsMessage<InputError>(testing::HasSubstr(
+                  "the creep of the finger's gauges needs it")));
+}
+
 TEST_F(BatchStreamTest, AnythingThatMattersChangesTheKey) {
   const std::string key = Job("out.csv").key();
   EXPECT_EQ(key.size(), 64u);

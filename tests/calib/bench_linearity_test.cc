@@ -212,6 +212,25 @@ TEST(BenchLinearityTest, RealGaugesAreNotLinear) {
         bench.lack_of_fit_p_value);
     EXPECT_FALSE(bench.IsLinear());
     EXPECT_EQ(result.warnings.back().code, "gauge_not_linear");
+
+    Plan curved = plan;
+    curved.families[static_cast<int>(ParameterFamily::kGaugeCurvature)].free =
+        true;
+    CalibrationProblem with(finger, curved,
+                            ReadCalibrationLogs(logs, finger, curved), {}, 1);
+    const CalibrationResult bent = Calibrate(&with);
+    const auto& rest =
+        bent.identifiability.noise[static_cast<int>(ResidualFamily::kBench)];
+    const Gauge& gauge = bent.finger.gauges[0];
+    std::printf(
+        "  with a curve: %.3f per rad, chi2/dof %.1f, %zu instead of %zu rows "
+        "rejected\n",
+        gauge.curvature_per_rad, rest.chi2 / rest.dof, with.rejected().size(),
+        problem.rejected().size());
+    EXPECT_GT(gauge.gain_V_per_rad * gauge.curvature_per_rad, 0);
+    for (const Warning& warning : bent.warnings) {
+      EXPECT_NE(warning.code, "gauge_not_linear");
+    }
   }
 }
 

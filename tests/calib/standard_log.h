@@ -41,7 +41,8 @@ inline Scene StandardScene() {
 }
 
 /// 200 frames with a circle of R = 15 mm pressed in, 10 free ones, as they are.
-inline FrameTable StandardFrames(const Finger& finger, unsigned seed) {
+inline FrameTable StandardFrames(const Finger& finger, unsigned seed,
+                                 const Scene& scene = StandardScene()) {
   std::mt19937_64 generator(seed);
   std::uniform_real_distribution<double> uniform;
   FrameTable frames(210);
@@ -55,7 +56,7 @@ inline FrameTable StandardFrames(const Finger& finger, unsigned seed) {
     x[i] =
         i % 21 == 0 ? -25 : -15 + (0.5 + 6.5 * uniform(generator)) / stiffness;
   }
-  EXPECT_EQ(Simulate(finger, StandardScene(), {}, &frames).not_converged, 0);
+  EXPECT_EQ(Simulate(finger, scene, {}, &frames).not_converged, 0);
   return frames;
 }
 

@@ -114,6 +114,8 @@ TEST(ParameterCovarianceTest, RefusesWhatIsNoCovariance) {
               "f.yaml:11:28: parameters[1]: expected one of "
               "front_stiffness_N_mm2, back_stiffness_N_mm2, "
               "gauge_1_gain_V_per_rad, gauge_1_offset_V, rib_1_length_mm, "
+              "gauge_1_curvature_per_rad, ");
+  ExpectThrow("parameters: [rib_1_lenght_mm], std: [1]",
               "found 'rib_1_lenght_mm' (did you mean 'rib_1_length_mm'?)");
   ExpectThrow("parameters: [rib_2_length_mm], std: [1]",
               "found 'rib_2_length_mm' (did you mean 'rib_1_length_mm'?)");

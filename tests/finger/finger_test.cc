@@ -24,6 +24,36 @@ TEST(GaugeTest, AngleWeightIsPositiveForANegativeGain) {
   EXPECT_DOUBLE_EQ(gauge.AngleWeight(), 500);
 }
 
+TEST(GaugeTest, ACurveInvertsOnTheBranchThroughZero) {
+  for (const double gain : {2.0, -2.5}) {
+    for (const double curvature : {0.8, -0.8}) {
+      Gauge gauge;
+      gauge.gain_V_per_rad = gain;
+      gauge.offset_V = 0.1;
+      gauge.curvature_per_rad = curvature;
+      for (const double angle : {-0.6, -0.01, 0.0, 1e-9, 0.3, 0.6}) {
+        const double volts = gauge.Volts(angle);
+        EXPECT_NEAR(volts, 0.1 + gain * (angle + curvature * angle * angle),
+                    1e-15);
+        EXPECT_NEAR(gauge.Angle(volts), angle, 1e-14);
+        EXPECT_TRUE(gauge.IsMeasured(volts));
+        const double step = 1e-6;
+        EXPECT_NEAR(gauge.Slope(angle),
+                    (gauge.Volts(angle + step) - gauge.Volts(angle - step)) /
+                        (2 * step),
+                    1e-8);
+        EXPECT_NEAR(gauge.AngleWeight(angle),
+                    std::abs(gauge.Slope(angle)) / gauge.noise_V, 1e-9);
+      }
+      // No angle reads volts beyond the vertex.
+      const double beyond =
+          gauge.Volts(-0.5 / curvature) - 1e-3 * gain * curvature;
+      EXPECT_TRUE(std::isnan(gauge.Angle(beyond)));
+      EXPECT_FALSE(gauge.IsMeasured(beyond));
+    }
+  }
+}
+
 TEST(GaugeTest, MissingAndSaturatedReadingsAreNotMeasured) {
   Gauge gauge;
   EXPECT_TRUE(gauge.IsMeasured(1e300));

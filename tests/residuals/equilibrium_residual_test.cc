@@ -53,9 +53,10 @@ TEST_P(EquilibriumResidualTest, WeightedAgreesWithReduced) {
     const std::vector<double*> blocks = FrameParameterBlocks(
         frame, unknowns.data(), &shared_.ln_front_stiffness,
         &shared_.ln_back_stiffness, shared_.rib_lengths_mm.data());
+    double linear = 0;
     for (int j = 0; j < 4; ++j) {
       std::vector<double*> all = blocks;
-      all.insert(all.end(), {&gains[j], &offsets[j]});
+      all.insert(all.end(), {&gains[j], &linear, &offsets[j]});
       problem.AddResidualBlock(
           new GaugeReadingResidual(&frame, j, &volts[j], 3e-4), nullptr, all);
     }

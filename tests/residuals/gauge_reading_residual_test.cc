@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "finray/finger/gauge_lag.h"
 #include "residuals_fixture.h"
 
 namespace finray {
@@ -14,26 +15,25 @@ INSTANTIATE_TEST_SUITE_P(Forms, GaugeReadingResidualTest,
                          FormName);
 
 TEST_P(GaugeReadingResidualTest, Nominal) {
-  double gain = 1.7, offset = 0.2, volts = 0.31;
+  double gain = 1.7, curvature = 0.6, offset = 0.2, volts = 0.31;
   std::vector<double*> blocks = Blocks();
-  blocks.push_back(&gain);
-  blocks.push_back(&offset);
+  blocks.insert(blocks.end(), {&gain, &curvature, &offset});
   const std::unique_ptr<ceres::CostFunction> cost(
       new GaugeReadingResidual(frame_, 2, &volts, 0.01));
   double residual;
   ASSERT_TRUE(cost->Evaluate(blocks.data(), &residual, nullptr));
-  EXPECT_NEAR(residual, (1.7 * frame_->outputs()[2] + 0.2 - 0.31) / 0.01,
-              1e-12);
+  const double angle = frame_->outputs()[2];
+  EXPECT_NEAR(residual,
+              (1.7 * (angle + 0.6 * angle * angle) + 0.2 - 0.31) / 0.01, 1e-12);
   volts = std::nan("");
   ASSERT_TRUE(cost->Evaluate(blocks.data(), &residual, nullptr));
   EXPECT_EQ(residual, 0);
 }
 
 TEST_P(GaugeReadingResidualTest, AnalyticalVersusFiniteDifferences) {
-  double gain = 1.7, offset = 0.2, volts = 0.31;
+  double gain = 1.7, curvature = 0.6, offset = 0.2, volts = 0.31;
   std::vector<double*> blocks = Blocks();
-  blocks.push_back(&gain);
-  blocks.push_back(&offset);
+  blocks.insert(blocks.end(), {&gain, &curvature, &offset});
   for (int j = 0; j < 4; ++j) {
     const std::unique_ptr<ceres::CostFunction> cost(
         new GaugeReadingResidual(frame_, j, &volts, 0.01));
@@ -44,9 +44,10 @@ TEST_P(GaugeReadingResidualTest, AnalyticalVersusFiniteDifferences) {
 // The terms are an offset, a drift rate after 0.4 h and a temperature
 // coefficient 7 degrees below the reference.
 TEST_P(GaugeReadingResidualTest, TermsBesideTheOffset) {
-  double gain = 1.7, volts = 0.31, term[] = {0.2, -0.03, 0.004};
+  double gain = 1.7, curvature = 0, volts = 0.31, term[] = {0.2, -0.03, 0.004};
   std::vector<double*> blocks = Blocks();
   blocks.push_back(&gain);
+  blocks.push_back(&curvature);
   for (double& x : term) blocks.push_back(&x);
   const std::unique_ptr<ceres::CostFunction> cost(
       new GaugeReadingResidual(frame_, 1, &volts, 0.01, {1, 0.4, -7}));
@@ -56,6 +57,67 @@ TEST_P(GaugeReadingResidualTest, TermsBesideTheOffset) {
               (1.7 * frame_->outputs()[1] + 0.2 - 0.012 - 0.028 - 0.31) / 0.01,
               1e-12);
   CheckDerivatives(*cost, blocks, 1e-6);
+}
+
+// The reading is that of a gauge which has crept for a while.
+TEST_P(GaugeReadingResidualTest, Creep) {
+  CreepHistory history;
+  history.Set(0, 10, 0.25);
+  history.Set(2, 30, 0.5);
+  history.Set(3, 37, 0.31);
+  double gain = 1.7, curvature = 0.6, offset = 0.2, volts = 0.31;
+  double share = 0.2, ln_time = std::log(12), drift = 0.01;
+  std::vector<double*> blocks = Blocks();
+  blocks.insert(blocks.end(),
+                {&gain, &curvature, &share, &ln_time, &offset, &drift});
+  const std::unique_ptr<ceres::CostFunction> cost(new GaugeReadingResidual(
+      frame_, 1, &volts, 0.01, {1, 0.4}, {&history, 3, &share, &ln_time}));
+  CheckDerivatives(*cost, blocks, 1e-6);
+  GaugeLag<double> lag(share, 12);
+  lag.Next(10, 0.25 - offset);
+  lag.Next(30, 0.5 - offset);
+  const double z = lag.Next(37, 0.31 - offset);
+  Gauge gauge;
+  gauge.gain_V_per_rad = gain;
+  gauge.curvature_per_rad = curvature;
+  double residual;
+  ASSERT_TRUE(cost->Evaluate(blocks.data(), &residual, nullptr));
+  EXPECT_NEAR(residual,
+              (gauge.BendingVolts(frame_->outputs()[1]) + offset + 0.004 -
+               (volts - share * z)) /
+                  0.01,
+              1e-9);
+  share = -1;
+  EXPECT_FALSE(cost->Evaluate(blocks.data(), &residual, nullptr));
+}
+
+// A gauge that is moved reads the same as one that has always been there.
+TEST_P(GaugeReadingResidualTest, MovedGauges) {
+  shared_.gauge_starts_mm[1] += 1.5;
+  shared_.gauge_lengths_mm[1] -= 0.7;
+  FrameEvaluation& moved =
+      frames_->Add(1, kFriction, unknowns_.data(), true, true);
+  frames_->PrepareForEvaluation(true, true);
+  double gain = 1.7, curvature = 0.6, offset = 0.2, volts = 0.31;
+  std::vector<double*> blocks = Blocks();
+  blocks.insert(blocks.end(), {&gain, &curvature, &shared_.gauge_starts_mm[1],
+                               &shared_.gauge_lengths_mm[1], &offset});
+  const std::unique_ptr<ceres::CostFunction> cost(
+      new GaugeReadingResidual(&moved, 1, &volts, 0.01));
+  CheckDerivatives(*cost, blocks, 1e-6);
+  if (GetParam() == EquilibriumForm::kReduced) {
+    Finger there = finger_;
+    there.gauges[1].start_mm = shared_.gauge_starts_mm[1];
+    there.gauges[1].length_mm = shared_.gauge_lengths_mm[1];
+    EquilibriumSolver solver(there, {});
+    ASSERT_TRUE(solver.Solve({{67, 4, kFriction}}));
+    for (int j = 0; j < 4; ++j) {
+      EXPECT_NEAR(moved.outputs()[j], solver.gauge_angle(j), 1e-9);
+    }
+  }
+  shared_.gauge_starts_mm[1] = -1;
+  frames_->PrepareForEvaluation(true, true);
+  EXPECT_FALSE(moved.valid());
 }
 
 }  // namespace

@@ -16,10 +16,13 @@ INSTANTIATE_TEST_SUITE_P(Forms, ObjectContactResidualTest,
 
 TEST_P(ObjectContactResidualTest, AnalyticalVersusFiniteDifferences) {
   double origin[2] = {0.3, -0.2};
+  double rotation_deg = 1.5, ln_scale = 0.02, radius_mm = 14.8;
   std::vector<double*> blocks = Blocks();
-  blocks.push_back(origin);
+  for (double* own : {origin, &rotation_deg, &ln_scale, &radius_mm}) {
+    blocks.push_back(own);
+  }
   const std::unique_ptr<ceres::CostFunction> cost(
-      new ObjectContactResidual(frame_, 0, {-11.5, 66}, 15, 0.05));
+      new ObjectContactResidual(frame_, 0, {-11.5, 66}, 0.05));
   CheckDerivatives(*cost, blocks, 1e-6);
   const std::unique_ptr<ceres::CostFunction> location(
       new ContactLocationResidual(frame_, 0, 66, 0.3));
@@ -41,13 +44,19 @@ TEST_P(ObjectContactEquilibriumTest, VanishesWhereTheCircleTouches) {
   FrameSet frames(finger_, {}, GetParam(), &shared_, 1);
   FrameEvaluation& frame = frames.Add(1, kFriction, unknowns_.data());
   frames.PrepareForEvaluation(true, true);
-  double origin[2] = {0, 0}, residuals[2];
+  // The stage counts from (2, 3) and is turned by 90 degrees.
+  double origin[2] = {2, 3}, rotation_deg = 90, ln_scale = 0, radius_mm = 15;
+  double residuals[2];
   std::vector<double*> blocks = Blocks();
-  blocks.push_back(origin);
+  for (double* own : {origin, &rotation_deg, &ln_scale, &radius_mm}) {
+    blocks.push_back(own);
+  }
   const std::unique_ptr<ceres::CostFunction> cost(
-      new ObjectContactResidual(&frame, 0, {-12, 66}, 15, 1));
+      new ObjectContactResidual(&frame, 0, {63, 14}, 1));
   ASSERT_TRUE(cost->Evaluate(blocks.data(), residuals, nullptr));
   EXPECT_LT(std::hypot(residuals[0], residuals[1]), 1e-9);
+  radius_mm = -1;
+  EXPECT_FALSE(cost->Evaluate(blocks.data(), residuals, nullptr));
 }
 
 }  // namespace

@@ -82,6 +82,8 @@ Exact ExactCovariance(const EquilibriumSolver& solver, int contacts,
       case FingerParameterKind::kRibLength:
         dr.col(k) = ds.col(n + 2 + p.index);
         break;
+      default:
+        ADD_FAILURE() << "no plain parameter";
     }
   }
   Exact exact;

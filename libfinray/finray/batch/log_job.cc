@@ -198,14 +198,13 @@ bool LogJob::Estimate(FrameSolverPool* pool, ResumableFile* out) {
   bool whole = false;
   try {
     FrameReader reader(log_, settings_->scene.columns);
-    reader.Skip(summary_.frames);
     whole = settings_->joint
                 ? EstimateJointly(settings_->finger, settings_->scene,
                                   settings_->discretization, settings_->threads,
                                   settings_->stop, &reader, write)
                 : EstimateStream(settings_->finger, settings_->scene, pool,
                                  settings_->threads, settings_->stop, &reader,
-                                 write);
+                                 write, summary_.frames);
   } catch (const InputError&) {
     if (!Changed()) throw;  // the result cannot be written
   }

@@ -9,6 +9,7 @@
 
 #include "finray/batch/result_rows.h"
 #include "finray/io/error.h"
+#include "finray/scene/creep_filter.h"
 #include "finray/sensing/log_estimator.h"
 
 namespace finray {
@@ -57,6 +58,10 @@ void ReadReadings(const ResultLayout& layout, Block* block) {
   }
 }
 
+void RemoveCreep(CreepFilter* creep, Block* block) {
+  for (Measurements& row : block->readings) creep->Remove(&row);
+}
+
 // Fills in the result from the estimates.
 void WriteResult(const ResultLayout& layout, double friction, Block* block) {
   StreamedBlock& result = block->result;
@@ -72,11 +77,16 @@ void WriteResult(const ResultLayout& layout, double friction, Block* block) {
   }
 }
 
+// Says that all blocks of a log are independent of each other.
+const std::function<void(Block*)> kIndependent;
+
 // Runs `work` on blocks of `rows` lines in parallel, and `finish` on one block
-// at a time in order. Throws InputError at the first bad block. Returns false
-// if told to stop.
+// at a time in order. Before the work, `prepare` sees the blocks one at a time
+// in order, if they depend on each other. Throws InputError at the first bad
+// block. Returns false if told to stop.
 bool ForEachBlock(int threads, std::size_t rows,
                   const std::function<bool()>& stop, FrameReader* reader,
+                  const std::function<void(Block*)>& prepare,
                   const std::function<void(Block*)>& work,
                   const std::function<void(const Block&)>& finish) {
   threads = std::max(1, threads);
@@ -91,8 +101,15 @@ bool ForEachBlock(int threads, std::size_t rows,
     if (stopped || !ReadBlock(rows, reader, block)) flow.stop();
     return block;
   };
-  const auto work_on = [&](Block* block) {
+  const auto parse = [&](Block* block) {
     Parse(reader->parser(), block);
+    return block;
+  };
+  const auto prepare_one = [&](Block* block) {
+    if (block->lines.error.empty()) prepare(block);
+    return block;
+  };
+  const auto work_on = [&](Block* block) {
     if (block->lines.error.empty()) work(block);
     return block;
   };
@@ -101,6 +118,11 @@ bool ForEachBlock(int threads, std::size_t rows,
     finish(*block);
   };
   using tbb::filter_mode;
+  auto parsed = tbb::make_filter<Block*, Block*>(filter_mode::parallel, parse);
+  if (prepare) {
+    parsed = parsed & tbb::make_filter<Block*, Block*>(
+                          filter_mode::serial_in_order, prepare_one);
+  }
   // Uses as many threads as asked for, even if the machine has fewer cores.
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
@@ -108,6 +130,7 @@ bool ForEachBlock(int threads, std::size_t rows,
     tbb::parallel_pipeline(
         ring.size(),
         tbb::make_filter<void, Block*>(filter_mode::serial_in_order, read) &
+            parsed &
             tbb::make_filter<Block*, Block*>(filter_mode::parallel, work_on) &
             tbb::make_filter<Block*, void>(filter_mode::serial_in_order,
                                            hand_over));
@@ -120,12 +143,28 @@ bool ForEachBlock(int threads, std::size_t rows,
 bool EstimateStream(const Finger& finger, const Scene& scene,
                     FrameSolverPool* pool, int threads,
                     const std::function<bool()>& stop, FrameReader* reader,
-                    const std::function<void(const StreamedBlock&)>& write) {
+                    const std::function<void(const StreamedBlock&)>& write,
+                    std::size_t done) {
   const ResultLayout layout(finger, scene, reader->parser());
+  CreepFilter creep(finger);
+  if (creep.empty()) reader->Skip(done);
+  Block skipped;
+  while (reader->position() < done &&
+         ReadBlock(kBlockFrames, reader, &skipped)) {
+    Parse(reader->parser(), &skipped);
+    ReadReadings(layout, &skipped);
+    RemoveCreep(&creep, &skipped);
+  }
+  // Readings that creep depend on all rows before.
+  const auto read_in_order = [&](Block* block) {
+    ReadReadings(layout, block);
+    RemoveCreep(&creep, block);
+  };
   return ForEachBlock(
       threads, kBlockFrames, stop, reader,
+      creep.empty() ? kIndependent : read_in_order,
       [&](Block* block) {
-        ReadReadings(layout, block);
+        if (creep.empty()) ReadReadings(layout, block);
         block->estimates.resize(block->readings.size());
         pool->SolveBlock(block->readings.data(), block->readings.size(),
                          block->estimates.data());
@@ -140,6 +179,7 @@ bool EstimateJointly(const Finger& finger, const Scene& scene,
                      const std::function<void(const StreamedBlock&)>& write) {
   const FrameParser& parser = reader->parser();
   const ResultLayout layout(finger, scene, parser);
+  CreepFilter creep(finger);
   std::deque<Block> waiting;  // for their estimates
   LogEstimator estimator(finger, scene, discretization, threads,
                          [&](const FrameEstimate& estimate) {
@@ -162,6 +202,7 @@ bool EstimateJointly(const Finger& finger, const Scene& scene,
     Parse(parser, &block);
     if (!block.lines.error.empty()) throw InputError(block.lines.error);
     ReadReadings(layout, &block);
+    RemoveCreep(&creep, &block);
     // The estimator may give back all frames with the last one that it takes.
     // Then the block is gone.
     const std::size_t rows = block.readings.size();
@@ -182,8 +223,10 @@ bool CheckStream(const Finger& finger, int threads,
                  const std::function<bool()>& stop, FrameReader* reader) {
   const FrameParser& parser = reader->parser();
   MeasurementColumns(finger, parser.names(), parser.path(), {});
+  RequireTimeForCreep(finger, parser.names(), parser.path());
   return ForEachBlock(
-      threads, kCheckedRows, stop, reader, [](Block*) {}, [](const Block&) {});
+      threads, kCheckedRows, stop, reader, kIndependent, [](Block*) {},
+      [](const Block&) {});
 }
 
 }  // namespace finray

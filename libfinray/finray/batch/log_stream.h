@@ -25,11 +25,14 @@ struct StreamedBlock {
 // throws.
 
 /// Estimates the frames of a log one by one. Only a few blocks are in memory at
-/// a time. `write` receives all blocks that were read, also after `stop`.
+/// a time. `write` receives all blocks that were read, also after `stop`. The
+/// first `done` rows, whole blocks, are estimated already: the function only
+/// skips them, or reads what they say of the creep of gauges.
 bool EstimateStream(const Finger& finger, const Scene& scene,
                     FrameSolverPool* pool, int threads,
                     const std::function<bool()>& stop, FrameReader* reader,
-                    const std::function<void(const StreamedBlock&)>& write);
+                    const std::function<void(const StreamedBlock&)>& write,
+                    std::size_t done = 0);
 
 /// Solves the frames of a log together (LogEstimator). The reader must be at
 /// the begin of the log. Rows wait in memory until their window is solved, at

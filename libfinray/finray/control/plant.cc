@@ -50,6 +50,8 @@ Finger Perturbed(const Finger& finger, const ModelError& error,
       case FingerParameterKind::kRibLength:
         std = error.rib_length_mm;
         break;
+      default:  // effects are not among them
+        break;
     }
     SetParameter(parameter, value + std * unit(*generator), &perturbed);
   }

@@ -30,31 +30,57 @@ struct Rib {
 
 /// A strain gauge. It reads the bending angle of the piece of beam that it
 /// covers, less that of the undeformed finger:
-///   V = gain * angle + offset,
+///   V = gain * (angle + curvature * angle^2) + offset,
 ///   angle = [theta(start + length) - theta(start)] - undeformed.
+/// A gauge that creeps reads V + share * z after a while (GaugeLag,
+/// finger/gauge_lag.h); all functions below are without it.
 struct Gauge {
   Side beam = Side::kBack;
   double start_mm = 0;   ///< p_j, arc length from the base of its beam.
   double length_mm = 0;  ///< w_j.
   double gain_V_per_rad = 1;
   double offset_V = 0;
-  double noise_V = 3e-4;  ///< Standard deviation of one reading.
+  double noise_V = 3e-4;         ///< Standard deviation of one reading.
+  double curvature_per_rad = 0;  ///< 0: the gauge is linear.
+  double creep_share = 0;        ///< 0: the gauge does not creep.
+  double creep_time_constant_s = 30;
   /// The range of the electronics: a reading at or beyond either limit is
   /// saturated.
   double min_V = -std::numeric_limits<double>::infinity();
   double max_V = std::numeric_limits<double>::infinity();
 
   double Volts(double angle_rad) const {
-    return gain_V_per_rad * angle_rad + offset_V;
+    return BendingVolts(angle_rad) + offset_V;
   }
-  /// The inverse of Volts, in rad. NaN if `volts` is NaN.
+  /// Volts without the offset.
+  double BendingVolts(double angle_rad) const {
+    return gain_V_per_rad * angle_rad * (1 + curvature_per_rad * angle_rad);
+  }
+  /// dV/dangle, V per rad.
+  double Slope(double angle_rad) const {
+    return gain_V_per_rad * (1 + 2 * curvature_per_rad * angle_rad);
+  }
+  /// The inverse of Volts on the branch through angle 0, where the slope has
+  /// the sign of the gain. NaN if `volts` is NaN or beyond the vertex of the
+  /// curve.
   double Angle(double volts) const {
-    return (volts - offset_V) / gain_V_per_rad;
+    const double linear = (volts - offset_V) / gain_V_per_rad;
+    if (curvature_per_rad == 0) return linear;
+    return 2 * linear / (1 + std::sqrt(1 + 4 * curvature_per_rad * linear));
   }
-  /// 1 / standard deviation of the angle of one reading, per rad.
-  double AngleWeight() const { return std::abs(gain_V_per_rad) / noise_V; }
+  /// 1 / standard deviation of the angle of one reading there, per rad.
+  double AngleWeight(double angle_rad = 0) const {
+    return std::abs(Slope(angle_rad)) / noise_V;
+  }
   /// False for a missing (NaN) and for a saturated reading.
-  bool IsMeasured(double volts) const { return volts > min_V && volts < max_V; }
+  bool IsInRange(double volts) const { return volts > min_V && volts < max_V; }
+  /// False for a reading that tells no angle: missing, saturated, or beyond the
+  /// vertex of the curve.
+  bool IsMeasured(double volts) const {
+    return IsInRange(volts) &&
+           (curvature_per_rad == 0 ||
+            4 * curvature_per_rad * (volts - offset_V) / gain_V_per_rad > -1);
+  }
 };
 
 /// A piece of a beam with its own bending stiffness.

@@ -20,10 +20,27 @@ auto& Variable(AnyFinger& finger, const FingerParameter& parameter) {
       return finger.gauges[parameter.index].gain_V_per_rad;
     case FingerParameterKind::kGaugeOffset:
       return finger.gauges[parameter.index].offset_V;
+    case FingerParameterKind::kGaugeCurvature:
+      return finger.gauges[parameter.index].curvature_per_rad;
+    case FingerParameterKind::kGaugeStart:
+      return finger.gauges[parameter.index].start_mm;
+    case FingerParameterKind::kGaugeLength:
+      return finger.gauges[parameter.index].length_mm;
+    case FingerParameterKind::kGaugeCreepShare:
+      return finger.gauges[parameter.index].creep_share;
+    case FingerParameterKind::kGaugeCreepTime:
+      return finger.gauges[parameter.index].creep_time_constant_s;
     case FingerParameterKind::kRibLength:
       break;
   }
   return finger.ribs[parameter.index].length_mm;
+}
+
+void Add(FingerParameterKind kind, std::size_t count,
+         std::vector<FingerParameter>* all) {
+  for (std::size_t i = 0; i < count; ++i) {
+    all->push_back({kind, static_cast<int>(i)});
+  }
 }
 
 }  // namespace
@@ -31,22 +48,32 @@ auto& Variable(AnyFinger& finger, const FingerParameter& parameter) {
 std::vector<FingerParameter> ParametersOf(const Finger& finger) {
   std::vector<FingerParameter> all = {{FingerParameterKind::kFrontStiffness},
                                       {FingerParameterKind::kBackStiffness}};
-  const auto add = [&all](FingerParameterKind kind, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-      all.push_back({kind, static_cast<int>(i)});
-    }
-  };
-  add(FingerParameterKind::kGaugeGain, finger.gauges.size());
-  add(FingerParameterKind::kGaugeOffset, finger.gauges.size());
-  add(FingerParameterKind::kRibLength, finger.ribs.size());
+  Add(FingerParameterKind::kGaugeGain, finger.gauges.size(), &all);
+  Add(FingerParameterKind::kGaugeOffset, finger.gauges.size(), &all);
+  Add(FingerParameterKind::kRibLength, finger.ribs.size(), &all);
+  return all;
+}
+
+std::vector<FingerParameter> AllParametersOf(const Finger& finger) {
+  std::vector<FingerParameter> all = ParametersOf(finger);
+  for (const FingerParameterKind kind :
+       {FingerParameterKind::kGaugeCurvature, FingerParameterKind::kGaugeStart,
+        FingerParameterKind::kGaugeLength,
+        FingerParameterKind::kGaugeCreepShare,
+        FingerParameterKind::kGaugeCreepTime}) {
+    Add(kind, finger.gauges.size(), &all);
+  }
   return all;
 }
 
 std::string ParameterName(const FingerParameter& parameter) {
   // '#' stands for the number of the gauge or rib.
   constexpr const char* kNames[kFingerParameterKinds] = {
-      "front_stiffness_N_mm2", "back_stiffness_N_mm2", "gauge_#_gain_V_per_rad",
-      "gauge_#_offset_V", "rib_#_length_mm"};
+      "front_stiffness_N_mm2",  "back_stiffness_N_mm2",
+      "gauge_#_gain_V_per_rad", "gauge_#_offset_V",
+      "rib_#_length_mm",        "gauge_#_curvature_per_rad",
+      "gauge_#_start_mm",       "gauge_#_length_mm",
+      "gauge_#_creep_share",    "gauge_#_creep_time_constant_s"};
   std::string name = kNames[static_cast<int>(parameter.kind)];
   const auto number = name.find('#');
   if (number != std::string::npos) {
@@ -56,8 +83,8 @@ std::string ParameterName(const FingerParameter& parameter) {
 }
 
 const char* ParameterUnit(FingerParameterKind kind) {
-  constexpr const char* kUnits[kFingerParameterKinds] = {"N mm^2", "N mm^2",
-                                                         "V/rad", "V", "mm"};
+  constexpr const char* kUnits[kFingerParameterKinds] = {
+      "N mm^2", "N mm^2", "V/rad", "V", "mm", "1/rad", "mm", "mm", "1", "s"};
   return kUnits[static_cast<int>(kind)];
 }
 
@@ -68,6 +95,14 @@ double ParameterValue(const Finger& finger, const FingerParameter& parameter) {
 void SetParameter(const FingerParameter& parameter, double value,
                   Finger* finger) {
   Variable(*finger, parameter) = value;
+}
+
+bool ParameterCovariance::HasGaugePlaces() const {
+  return std::any_of(parameters.begin(), parameters.end(),
+                     [](const FingerParameter& p) {
+                       return p.kind == FingerParameterKind::kGaugeStart ||
+                              p.kind == FingerParameterKind::kGaugeLength;
+                     });
 }
 
 double ParameterCovariance::SmallestEigenvalue() const {
@@ -87,7 +122,7 @@ ParameterCovariance InOrderOf(const Finger& finger,
   ParameterCovariance ordered;
   std::vector<Eigen::Index> order;
   const auto& given = covariance.parameters;
-  for (const FingerParameter& parameter : ParametersOf(finger)) {
+  for (const FingerParameter& parameter : AllParametersOf(finger)) {
     const auto at = std::find(given.begin(), given.end(), parameter);
     if (at == given.end()) continue;
     ordered.parameters.push_back(parameter);

@@ -16,8 +16,19 @@ enum class FingerParameterKind {
   kGaugeGain,
   kGaugeOffset,
   kRibLength,
+  kGaugeCurvature,
+  kGaugeStart,
+  kGaugeLength,
+  kGaugeCreepShare,
+  kGaugeCreepTime,
 };
-constexpr int kFingerParameterKinds = 5;
+constexpr int kFingerParameterKinds = 10;
+
+/// Says that a plain finger goes without this kind. Reports list its parameters
+/// only where they are free.
+constexpr bool IsEffect(FingerParameterKind kind) {
+  return kind > FingerParameterKind::kRibLength;
+}
 
 /// One number of a finger that a calibration may determine.
 struct FingerParameter {
@@ -29,9 +40,11 @@ struct FingerParameter {
   }
 };
 
-/// All parameters of a finger: front and back stiffness, gains, offsets, rib
-/// lengths. Every list of parameters has this order.
+/// The parameters of a plain finger: front and back stiffness, gains, offsets,
+/// rib lengths.
 std::vector<FingerParameter> ParametersOf(const Finger& finger);
+/// These and the effects behind them. Every list of parameters has this order.
+std::vector<FingerParameter> AllParametersOf(const Finger& finger);
 
 /// The name in files, where indices count from 1: "gauge_1_gain_V_per_rad".
 std::string ParameterName(const FingerParameter& parameter);
@@ -56,6 +69,8 @@ struct ParameterCovariance {
   Eigen::VectorXd std;
   Eigen::MatrixXd correlations;  ///< Symmetric, 1 on the diagonal.
 
+  /// Says whether the start or the length of a gauge is among the parameters.
+  bool HasGaugePlaces() const;
   /// The smallest eigenvalue of the correlations.
   double SmallestEigenvalue() const;
   /// F with F F' = C. Negative eigenvalues count as 0.

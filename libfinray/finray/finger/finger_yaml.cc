@@ -224,7 +224,7 @@ void ReadRibs(const YamlMap& yaml, Finger* finger) {
 
 Gauge ReadGauge(const YamlMap& yaml, const Finger& finger) {
   yaml.AllowOnly({"beam", "start_mm", "length_mm", "gain_V_per_rad", "offset_V",
-                  "noise_V", "min_V", "max_V"});
+                  "noise_V", "min_V", "max_V", "curvature_per_rad", "creep"});
   Gauge gauge;
   gauge.beam = yaml.Choice("beam", {"front", "back"}) == "front" ? Side::kFront
                                                                  : Side::kBack;
@@ -244,6 +244,17 @@ Gauge ReadGauge(const YamlMap& yaml, const Finger& finger) {
   }
   gauge.offset_V = yaml.Number("offset_V", gauge.offset_V);
   gauge.noise_V = yaml.PositiveNumber("noise_V", gauge.noise_V);
+  gauge.curvature_per_rad =
+      yaml.Number("curvature_per_rad", gauge.curvature_per_rad);
+  if (yaml.Has("creep")) {
+    const YamlMap creep = yaml.Map("creep");
+    creep.AllowOnly({"share", "time_constant_s"});
+    gauge.creep_share = creep.Number("share");
+    if (!(gauge.creep_share > -1)) {
+      creep.Fail("share", "share: expected a share above -1");
+    }
+    gauge.creep_time_constant_s = creep.PositiveNumber("time_constant_s");
+  }
   gauge.min_V = yaml.Number("min_V", gauge.min_V);
   gauge.max_V = yaml.Number("max_V", gauge.max_V);
   if (!(gauge.min_V < gauge.max_V)) {
@@ -372,6 +383,14 @@ std::string FingerToYaml(const Finger& finger, const std::string& comment) {
     add("noise_V", gauge.noise_V);
     add("min_V", gauge.min_V);
     add("max_V", gauge.max_V);
+    if (gauge.curvature_per_rad != 0) {
+      add("curvature_per_rad", gauge.curvature_per_rad);
+    }
+    if (gauge.creep_share != 0) {
+      yaml << ", creep: {share: " << NumberText(gauge.creep_share)
+           << ", time_constant_s: " << NumberText(gauge.creep_time_constant_s)
+           << "}";
+    }
     yaml << "}\n";
   }
   if (finger.calibration)

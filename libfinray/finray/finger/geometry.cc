@@ -34,6 +34,15 @@ double BendingStiffness(const Finger& finger, Side side) {
                               : finger.back_stiffness_N_mm2;
 }
 
+double BendingStiffness(const Finger& finger, Side side, double arc_mm) {
+  double ratio = 1;
+  for (const StiffnessPiece& piece : Pieces(finger, side)) {
+    ratio = piece.stiffness_ratio;
+    if (arc_mm < piece.end_mm) break;
+  }
+  return ratio * BendingStiffness(finger, side);
+}
+
 double AxialStiffness(const Finger& finger, Side side) {
   return side == Side::kFront ? finger.front_axial_stiffness_N
                               : finger.back_axial_stiffness_N;

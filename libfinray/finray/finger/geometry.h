@@ -29,6 +29,8 @@ Eigen::Vector2d UndeformedPoint(const Finger& finger, Side side, double arc_mm);
 
 /// EI, EA and pieces of one beam of a Finger.
 double BendingStiffness(const Finger& finger, Side side);
+/// The bending stiffness there; at the end of a piece, that of the next one.
+double BendingStiffness(const Finger& finger, Side side, double arc_mm);
 double AxialStiffness(const Finger& finger, Side side);
 /// Whether a beam of the finger stretches, that is has a finite EA.
 bool Stretches(const Finger& finger);

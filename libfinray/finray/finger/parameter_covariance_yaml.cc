@@ -12,7 +12,7 @@ namespace {
 
 std::vector<FingerParameter> ReadParameters(const YamlMap& yaml,
                                             const Finger& finger) {
-  const std::vector<FingerParameter> known = ParametersOf(finger);
+  const std::vector<FingerParameter> known = AllParametersOf(finger);
   std::vector<std::string> names;
   for (const FingerParameter& one : known) names.push_back(ParameterName(one));
   std::vector<FingerParameter> parameters;

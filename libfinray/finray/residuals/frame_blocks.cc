@@ -33,7 +33,7 @@ struct Builder {
   // those of FrameResidual, then `a` and `b`.
   std::vector<double*> OfModelAnd(double* a, double* b = nullptr) const {
     std::vector<double*> all;
-    all.reserve(of_model.size() + 2);
+    all.reserve(of_model.size() + 7);
     all = of_model;
     all.push_back(a);
     if (b != nullptr) all.push_back(b);
@@ -57,11 +57,22 @@ std::vector<double> AddTerms(const std::vector<ReadingTerm>& terms,
 void AddReadings(const std::vector<Gauge>& gauges, Builder* out) {
   for (int j = 0; j < static_cast<int>(gauges.size()); ++j) {
     if (!gauges[j].IsMeasured(out->row.gauges_V[j])) continue;
+    const FrameParameters& of = out->parameters;
     std::vector<double*> blocks =
-        out->OfModelAnd(&out->parameters.gains_V_per_rad[j]);
-    const auto coefficients = AddTerms(out->parameters.readings[j], &blocks);
+        out->OfModelAnd(&of.gains_V_per_rad[j], &of.curvatures_per_rad[j]);
+    if (out->evaluation->movable_gauges()) {
+      blocks.push_back(&of.finger->gauge_starts_mm[j]);
+      blocks.push_back(&of.finger->gauge_lengths_mm[j]);
+    }
+    const CreepTerm creep = of.creep.empty() ? CreepTerm{} : of.creep[j];
+    if (creep.history != nullptr) {
+      blocks.push_back(creep.share);
+      blocks.push_back(creep.ln_time_constant);
+    }
+    const auto coefficients = AddTerms(of.readings[j], &blocks);
     out->Add(new GaugeReadingResidual(out->evaluation, j, &out->row.gauges_V[j],
-                                      out->model.gauge_std_V[j], coefficients),
+                                      out->model.gauge_std_V[j], coefficients,
+                                      creep),
              std::move(blocks), ResidualFamily::kGauge, j);
   }
 }
@@ -69,11 +80,14 @@ void AddReadings(const std::vector<Gauge>& gauges, Builder* out) {
 void AddBench(const std::vector<Gauge>& gauges, Builder* out) {
   for (int j = 0; j < static_cast<int>(gauges.size()); ++j) {
     if (!gauges[j].IsMeasured(out->row.gauges_V[j])) continue;
-    std::vector<double*> blocks = {&out->parameters.gains_V_per_rad[j]};
+    std::vector<double*> blocks = {
+        &out->parameters.gains_V_per_rad[j],
+        &out->parameters.curvatures_per_rad[j],
+        &out->parameters.finger->gauge_lengths_mm[j]};
     const auto coefficients = AddTerms(out->parameters.readings[j], &blocks);
-    out->Add(new CylinderGaugeResidual(
-                 gauges[j].length_mm, out->row.cylinder_radius_mm,
-                 out->row.gauges_V[j], out->model.gauge_std_V[j], coefficients),
+    out->Add(new CylinderGaugeResidual(out->row.cylinder_radius_mm,
+                                       out->row.gauges_V[j],
+                                       out->model.gauge_std_V[j], coefficients),
              std::move(blocks), ResidualFamily::kBench, j);
   }
 }
@@ -81,34 +95,51 @@ void AddBench(const std::vector<Gauge>& gauges, Builder* out) {
 void AddForce(Builder* out) {
   if (!out->model.force_std_N) return;
   const double std_N = *out->model.force_std_N;
-  double* ln_scale = out->parameters.ln_force_scale;
+  const FrameParameters& of = out->parameters;
+  double* ln_scale = of.ln_force_scale;
+  LateForce late;
+  late.time_s = out->row.time_s;
+  const bool may_be_late = of.forces_N != nullptr;
   if (out->row.force_xy_N.allFinite()) {
+    if (may_be_late) late.signals = of.forces_N->data();
+    std::vector<double*> blocks =
+        out->OfModelAnd(ln_scale, of.force_offset_xy_N);
+    blocks.push_back(of.force_tilt_deg);
+    blocks.push_back(of.force_weight_N);
+    if (may_be_late) blocks.push_back(of.force_time_offset_s);
     out->Add(new ReferenceForceVectorResidual(out->evaluation,
-                                              out->row.force_xy_N, std_N),
-             out->OfModelAnd(ln_scale, out->parameters.force_offset_xy_N),
-             ResidualFamily::kForce);
+                                              out->row.force_xy_N, std_N,
+                                              out->row.object_angle_rad, late),
+             std::move(blocks), ResidualFamily::kForce);
   } else if (std::isfinite(out->row.force_N)) {
     std::vector<double*> blocks;
     if (out->evaluation->contacts() > 0) blocks.push_back(out->unknowns);
     blocks.push_back(ln_scale);
-    blocks.push_back(out->parameters.force_offset_N);
-    out->Add(
-        new ReferenceForceResidual(out->evaluation, out->row.force_N, std_N),
-        std::move(blocks), ResidualFamily::kForce);
+    blocks.push_back(of.force_offset_N);
+    if (may_be_late) {
+      late.signals = &(*of.forces_N)[2];
+      blocks.push_back(of.force_time_offset_s);
+    }
+    out->Add(new ReferenceForceResidual(out->evaluation, out->row.force_N,
+                                        std_N, late),
+             std::move(blocks), ResidualFamily::kForce);
   }
 }
 
 void AddPlace(Builder* out) {
   if (out->evaluation->contacts() == 0) return;
   const Measurements& row = out->row;
-  const auto& circle = out->model.circle;
+  const FrameParameters& parameters = out->parameters;
   const bool any =
       std::isfinite(row.object_mm.x()) || std::isfinite(row.object_mm.y());
-  if (circle && any) {
+  if (out->model.object_std_mm && any) {
+    std::vector<double*> blocks = out->OfModelAnd(parameters.object_origin_mm);
+    blocks.insert(blocks.end(),
+                  {parameters.object_rotation_deg, parameters.ln_object_scale,
+                   parameters.object_radius_mm});
     out->Add(new ObjectContactResidual(out->evaluation, 0, row.object_mm,
-                                       circle->radius_mm, circle->std_mm),
-             out->OfModelAnd(out->parameters.object_origin_mm),
-             ResidualFamily::kObject);
+                                       *out->model.object_std_mm),
+             std::move(blocks), ResidualFamily::kObject);
   }
   if (out->model.contact_std_mm && std::isfinite(row.contact_mm)) {
     out->Add(new ContactLocationResidual(out->evaluation, 0, row.contact_mm,
@@ -151,9 +182,7 @@ MeasurementModel MeasurementModel::OfScene(const Finger& finger,
   for (const Gauge& gauge : finger.gauges) {
     model.gauge_std_V.push_back(gauge.noise_V);
   }
-  if (scene.object_std_mm) {
-    model.circle = {*scene.circle_radius_mm(), *scene.object_std_mm};
-  }
+  model.object_std_mm = scene.object_std_mm;
   model.pin_std_mm = scene.pin_std_mm;
   model.tip_std_mm = scene.tip_std_mm;
   return model;
@@ -195,19 +224,28 @@ std::vector<FrameBlock> EquilibriumBlocks(const Finger& finger, double weight,
   return std::move(out.blocks);
 }
 
-FingerParameters::FingerParameters(const Finger& finger)
-    : shared_(SharedParameters::Of(finger)) {
+FingerParameters::FingerParameters(const Finger& finger,
+                                   std::optional<double> circle_radius_mm)
+    : shared_(SharedParameters::Of(finger)),
+      object_radius_mm_(circle_radius_mm.value_or(0)) {
   for (const Gauge& gauge : finger.gauges) {
     gains_.push_back(gauge.gain_V_per_rad);
     offsets_.push_back(gauge.offset_V);
+    curvatures_.push_back(gauge.curvature_per_rad);
   }
   frame_.finger = &shared_;
   frame_.gains_V_per_rad = gains_.data();
+  frame_.curvatures_per_rad = curvatures_.data();
   for (double& offset : offsets_) frame_.readings.push_back({{&offset, 1}});
   frame_.ln_force_scale = &ln_force_scale_;
   frame_.force_offset_N = &force_offset_N_;
   frame_.force_offset_xy_N = force_offset_xy_N_;
+  frame_.force_tilt_deg = &force_tilt_deg_;
+  frame_.force_weight_N = force_weight_N_;
   frame_.object_origin_mm = object_origin_mm_;
+  frame_.object_rotation_deg = &object_rotation_deg_;
+  frame_.ln_object_scale = &ln_object_scale_;
+  frame_.object_radius_mm = &object_radius_mm_;
   frame_.camera_origin_mm = camera_origin_mm_;
 }
 

@@ -3,11 +3,14 @@
 
 #include <ceres/cost_function.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "finray/residuals/creep_history.h"
 #include "finray/residuals/frame_set.h"
+#include "finray/residuals/linear_signal.h"
 #include "finray/residuals/residual_family.h"
 #include "finray/scene/measurements.h"
 #include "finray/scene/scene.h"
@@ -24,10 +27,8 @@ namespace finray {
 struct MeasurementModel {
   std::vector<double> gauge_std_V;  ///< One per gauge.
   std::optional<double> force_std_N, contact_std_mm, pin_std_mm, tip_std_mm;
-  struct Circle {
-    double radius_mm, std_mm;  ///< std of each coordinate of the centre
-  };
-  std::optional<Circle> circle;
+  /// Of each coordinate of a circle's centre.
+  std::optional<double> object_std_mm;
 
   /// The model for estimation: gauges with the finger's noise, and the
   /// measurements that the scene gives a std for. Reference forces and measured
@@ -47,12 +48,23 @@ struct ReadingTerm {
 struct FrameParameters {
   SharedParameters* finger = nullptr;
   double* gains_V_per_rad = nullptr;               ///< One per gauge.
+  double* curvatures_per_rad = nullptr;            ///< One per gauge.
   std::vector<std::vector<ReadingTerm>> readings;  ///< One list per gauge.
+  std::vector<CreepTerm> creep;  ///< One per gauge, or none at all.
   double* ln_force_scale = nullptr;
   double* force_offset_N = nullptr;     ///< of the magnitude
   double* force_offset_xy_N = nullptr;  ///< of the components, 2
-  double* object_origin_mm = nullptr;   ///< 2
-  double* camera_origin_mm = nullptr;   ///< 2
+  double* force_tilt_deg = nullptr;     ///< these two: of the components
+  double* force_weight_N = nullptr;     ///< 2
+  /// x, y and magnitude of the log's forces, and the parameter; null if the
+  /// sensor is not late.
+  const std::array<LinearSignal, 3>* forces_N = nullptr;
+  double* force_time_offset_s = nullptr;
+  double* object_origin_mm = nullptr;  ///< 2; these three as StageFrame says
+  double* object_rotation_deg = nullptr;
+  double* ln_object_scale = nullptr;
+  double* object_radius_mm = nullptr;  ///< of the circle
+  double* camera_origin_mm = nullptr;  ///< 2
 };
 
 /// One measurement of a frame as a residual block.
@@ -90,20 +102,25 @@ constexpr double kEquilibriumWeight = 1e7;
 /// parameters stay constant.
 class FingerParameters {
  public:
-  explicit FingerParameters(const Finger& finger);
+  /// The radius is that of the scene's circle, if there is one.
+  FingerParameters(const Finger& finger,
+                   std::optional<double> circle_radius_mm);
   FingerParameters(const FingerParameters&) = delete;
 
   const FrameParameters& frame() const { return frame_; }
   SharedParameters* shared() { return &shared_; }
   double* gain(int gauge) { return &gains_[gauge]; }
   double* offset(int gauge) { return &offsets_[gauge]; }
+  double* curvature(int gauge) { return &curvatures_[gauge]; }
 
  private:
   SharedParameters shared_;
-  std::vector<double> gains_, offsets_;
+  std::vector<double> gains_, offsets_, curvatures_;
   double ln_force_scale_ = 0, force_offset_N_ = 0;
+  double force_tilt_deg_ = 0, force_weight_N_[2] = {};
   double force_offset_xy_N_[2] = {}, object_origin_mm_[2] = {},
          camera_origin_mm_[2] = {};
+  double object_rotation_deg_ = 0, ln_object_scale_ = 0, object_radius_mm_;
   FrameParameters frame_;
 };
 

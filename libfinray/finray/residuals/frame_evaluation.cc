@@ -3,22 +3,48 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/finger/geometry.h"
+
 namespace finray {
 
 FrameEvaluation::FrameEvaluation(const LadderModel& model, EquilibriumForm form,
-                                 int contacts, double friction, bool pins)
+                                 int contacts, double friction, bool pins,
+                                 bool movable_gauges)
     : form_(form),
       ribs_(model.ribs()),
       gauges_(model.gauges()),
       contact_count_(contacts),
       loads_(contacts),
       length_mm_(model.finger().front_length_mm),
+      back_length_mm_(BeamLength(model.finger(), Side::kBack)),
       state_(LadderState::Undeformed(model)) {
   for (PointContact& contact : loads_) contact.friction = friction;
-  if (!pins) return;
-  for (const Rib& rib : model.finger().ribs) {
-    loads_.push_back({rib.front_mm, 0, 0, Side::kFront});
-    loads_.push_back({rib.back_mm, 0, 0, Side::kBack});
+  if (pins) {
+    for (const Rib& rib : model.finger().ribs) {
+      loads_.push_back({rib.front_mm, 0, 0, Side::kFront});
+      loads_.push_back({rib.back_mm, 0, 0, Side::kBack});
+    }
+  }
+  if (!movable_gauges) return;
+  ends_ = 2 * gauges_;
+  by_place_.resize(gauges_);
+  for (const Gauge& gauge : model.finger().gauges) {
+    loads_.push_back({gauge.start_mm, 0, 0, gauge.beam});
+    loads_.push_back({gauge.start_mm + gauge.length_mm, 0, 0, gauge.beam});
+  }
+}
+
+void FrameEvaluation::PlaceGauges(const double* starts_mm,
+                                  const double* lengths_mm) {
+  on_beam_ = true;
+  for (int j = 0; j < ends_ / 2; ++j) {
+    PointContact* const ends = &loads_[loads_.size() - ends_ + 2 * j];
+    ends[0].arc_mm = starts_mm[j];
+    ends[1].arc_mm = starts_mm[j] + lengths_mm[j];
+    const double length =
+        ends[0].side == Side::kFront ? length_mm_ : back_length_mm_;
+    on_beam_ = on_beam_ && ends[0].arc_mm >= 0 && lengths_mm[j] > 0 &&
+               ends[1].arc_mm <= length;
   }
 }
 
@@ -27,6 +53,7 @@ void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
                              const double* rib_lengths_mm,
                              EquilibriumSolver* solver) {
   valid_ = false;
+  if (!on_beam_) return;
   const double front = std::exp(ln_front_stiffness);
   const double back = std::exp(ln_back_stiffness);
   if (!std::isnormal(front) || !std::isnormal(back)) return;
@@ -63,6 +90,7 @@ void FrameEvaluation::UpdateReduced(EquilibriumSolver* solver) {
   solver->SaveState(&state_);
   outputs_ = solver->outputs();
   SetWithoutPins(solver->d_outputs(), &d_outputs_);
+  ReadMovedGauges(solver->d_outputs());
 }
 
 void FrameEvaluation::UpdateWeighted(const double* frame,
@@ -74,8 +102,26 @@ void FrameEvaluation::UpdateWeighted(const double* frame,
   outputs_ = shot.outputs;
   closure_ = shot.closure;
   SetWithoutPins(shot.d_outputs, &d_outputs_);
+  ReadMovedGauges(shot.d_outputs);
   SetWithoutPins(shot.d_closure, &d_closure_);
   solver->SaveState(&state_);
+}
+
+// A gauge's angle is that between its ends.
+void FrameEvaluation::ReadMovedGauges(const Matrix& derivatives) {
+  const int loads = static_cast<int>(loads_.size());
+  for (int j = 0; j < ends_ / 2; ++j) {
+    const int start = loads - ends_ + 2 * j;
+    const int row = contact_row(start) + 2,
+              end_row = contact_row(start + 1) + 2;
+    outputs_[j] = outputs_[end_row] - outputs_[row];
+    d_outputs_.row(j) = d_outputs_.row(end_row) - d_outputs_.row(row);
+    // The column of the start's place, and the curvature at both ends.
+    const int column = frame_size() + 2 * (start - contacts());
+    const double at_start = derivatives(row, column),
+                 at_end = derivatives(end_row, column + 2);
+    by_place_[j] = {at_end - at_start, at_end};
+  }
 }
 
 // Drops the columns of the pins' places and forces from `derivatives`: both are

@@ -21,7 +21,8 @@ enum class EquilibriumForm {
 ///
 /// Rib pins are outputs only on request. A pin is then modelled as a contact
 /// without force at the rib's place. It bends nothing, and the equilibrium
-/// yields its pose with derivatives.
+/// yields its pose with derivatives. Where gauges can be moved, so are their
+/// ends: PlaceGauges puts them anywhere, and the gauges' angles are read there.
 ///
 /// The derivatives have one column for each parameter of FrameResidual, in its
 /// order: [frame unknowns | ln EI front | ln EI back | rib lengths (r)]. The
@@ -32,7 +33,12 @@ class FrameEvaluation {
   using Matrix = EquilibriumSolver::Matrix;
 
   FrameEvaluation(const LadderModel& model, EquilibriumForm form, int contacts,
-                  double friction, bool pins = false);
+                  double friction, bool pins = false,
+                  bool movable_gauges = false);
+
+  /// Moves the gauges, if they are movable, for the next Update(). That one
+  /// fails if a gauge is off its beam.
+  void PlaceGauges(const double* starts_mm, const double* lengths_mm);
 
   /// Evaluates the model at frame unknowns and shared parameters. A pointer may
   /// be null where its size is 0. `solver` is scratch memory: any solver of the
@@ -66,6 +72,10 @@ class FrameEvaluation {
   /// Row of x_tip (then y, theta) in outputs().
   int tip_row() const { return contact_row(static_cast<int>(loads_.size())); }
   const PointContact& contact(int i) const { return loads_[i]; }
+  bool movable_gauges() const { return ends_ > 0; }
+  /// The derivatives of a gauge's angle by its start and by its length, rad/mm;
+  /// only if gauges are movable.
+  const Eigen::Vector2d& by_place(int gauge) const { return by_place_[gauge]; }
 
   /// The outputs: [gauge angles (m, rad); contacts (x, y, theta each); pins (x,
   /// y, theta), front and back of each rib, on request; tip (x, y, theta)].
@@ -83,13 +93,18 @@ class FrameEvaluation {
   void UpdateReduced(EquilibriumSolver* solver);
   void UpdateWeighted(const double* frame, EquilibriumSolver* solver);
   void SetWithoutPins(const Matrix& derivatives, Matrix* target) const;
+  void ReadMovedGauges(const Matrix& derivatives);
 
   EquilibriumForm form_;
   int ribs_, gauges_, contact_count_;
-  std::vector<PointContact> loads_;  // contacts, then pins
-  double length_mm_;
+  int ends_ = 0;  // of movable gauges
+  // Contacts, then pins, then the start and the end of each movable gauge.
+  std::vector<PointContact> loads_;
+  bool on_beam_ = true;  // all gauges
+  double length_mm_, back_length_mm_;
   bool valid_ = false;
   LadderState state_;
+  std::vector<Eigen::Vector2d> by_place_;
   Eigen::VectorXd outputs_, closure_;
   Matrix d_outputs_, d_closure_;
 };

@@ -15,6 +15,10 @@ SharedParameters SharedParameters::Of(const Finger& finger) {
   for (const Rib& rib : finger.ribs) {
     shared.rib_lengths_mm.push_back(rib.length_mm);
   }
+  for (const Gauge& gauge : finger.gauges) {
+    shared.gauge_starts_mm.push_back(gauge.start_mm);
+    shared.gauge_lengths_mm.push_back(gauge.length_mm);
+  }
   return shared;
 }
 
@@ -27,10 +31,11 @@ FrameSet::FrameSet(const Finger& finger, const Discretization& discretization,
       threads_(threads) {}
 
 FrameEvaluation& FrameSet::Add(int contacts, double friction,
-                               const double* frame, bool pins) {
-  frames_.push_back(
-      {FrameEvaluation(solver_.model(), form_, contacts, friction, pins),
-       frame});
+                               const double* frame, bool pins,
+                               bool movable_gauges) {
+  frames_.push_back({FrameEvaluation(solver_.model(), form_, contacts, friction,
+                                     pins, movable_gauges),
+                     frame});
   return frames_.back().evaluation;
 }
 
@@ -40,8 +45,10 @@ FrameEvaluation& FrameSet::Add(int contacts, double friction,
 bool FrameSet::Moved() {
   std::vector<double> at = {shared_->ln_front_stiffness,
                             shared_->ln_back_stiffness};
-  at.insert(at.end(), shared_->rib_lengths_mm.begin(),
-            shared_->rib_lengths_mm.end());
+  for (const auto* all : {&shared_->rib_lengths_mm, &shared_->gauge_starts_mm,
+                          &shared_->gauge_lengths_mm}) {
+    at.insert(at.end(), all->begin(), all->end());
+  }
   for (const Frame& frame : frames_) {
     at.insert(at.end(), frame.unknowns,
               frame.unknowns + frame.evaluation.frame_size());
@@ -64,6 +71,8 @@ void FrameSet::PrepareForEvaluation(bool /*evaluate_jacobians*/,
       frame.evaluation.Invalidate();
       return;
     }
+    frame.evaluation.PlaceGauges(shared_->gauge_starts_mm.data(),
+                                 shared_->gauge_lengths_mm.data());
     frame.evaluation.Update(frame.unknowns, shared_->ln_front_stiffness,
                             shared_->ln_back_stiffness,
                             shared_->rib_lengths_mm.data(), solver);

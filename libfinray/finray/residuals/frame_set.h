@@ -16,6 +16,8 @@ struct SharedParameters {
   double ln_front_stiffness = 0;  ///< ln(EI / N mm^2)
   double ln_back_stiffness = 0;
   std::vector<double> rib_lengths_mm;
+  /// Places of the gauges. Only frames with movable gauges use them.
+  std::vector<double> gauge_starts_mm, gauge_lengths_mm;
 
   static SharedParameters Of(const Finger& finger);
 };
@@ -35,7 +37,7 @@ class FrameSet : public ceres::EvaluationCallback {
   /// if it has none. With `pins`, the rib pins are among its outputs. The
   /// returned reference stays valid.
   FrameEvaluation& Add(int contacts, double friction, const double* frame,
-                       bool pins = false);
+                       bool pins = false, bool movable_gauges = false);
 
   /// See EquilibriumSolver::set_near_only.
   void set_near_only(bool near_only) { solver_.set_near_only(near_only); }

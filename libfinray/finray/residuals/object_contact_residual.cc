@@ -2,23 +2,30 @@
 
 #include <cmath>
 
+#include "finray/scene/stage_frame.h"
+
 namespace finray {
 
 ObjectContactResidual::ObjectContactResidual(const FrameEvaluation* frame,
                                              int contact,
                                              const Eigen::Vector2d& center_mm,
-                                             double radius_mm, double std_mm)
-    : FrameResidual(frame, 2, {2}),
+                                             double std_mm)
+    : FrameResidual(frame, 2, {2, 1, 1, 1}),
       contact_(contact),
       center_mm_(center_mm),
-      radius_mm_(radius_mm),
       std_mm_(std_mm) {}
 
 bool ObjectContactResidual::Evaluate(double const* const* parameters,
                                      double* residuals,
                                      double** jacobians) const {
   if (!frame().valid()) return false;
-  const Eigen::Map<const Eigen::Vector2d> origin(parameters[extra_block()]);
+  const int extra = extra_block();
+  const StageFrame stage{Eigen::Map<const Eigen::Vector2d>(parameters[extra]),
+                         *parameters[extra + 1], *parameters[extra + 2]};
+  const double radius_mm = *parameters[extra + 3];
+  if (!(radius_mm > 0)) return false;
+  const Eigen::Vector2d turned = stage.Turned(
+      center_mm_.array().isNaN().select(Eigen::Vector2d::Zero(), center_mm_));
   const int row = frame().contact_row(contact_);
   const Eigen::Vector3d pose = frame().outputs().segment<3>(row);
   const Eigen::Vector2d t(std::cos(pose.z()), std::sin(pose.z()));
@@ -26,21 +33,27 @@ bool ObjectContactResidual::Evaluate(double const* const* parameters,
   Eigen::Vector2d weight;
   for (int i = 0; i < 2; ++i) {
     weight[i] = std::isnan(center_mm_[i]) ? 0 : 1 / std_mm_;
-    residuals[i] = weight[i] == 0 ? 0
-                                  : weight[i] * (pose[i] - radius_mm_ * n[i] -
-                                                 center_mm_[i] - origin[i]);
+    residuals[i] = weight[i] * (pose[i] - radius_mm * n[i] - turned[i] -
+                                stage.origin_mm[i]);
   }
   if (jacobians == nullptr) return true;
   const auto d_pose = frame().d_outputs().middleRows<3>(row);
   for (int i = 0; i < 2; ++i) {  // dn = t dtheta
-    SpreadRow(i,
-              weight[i] * (d_pose.row(i) - radius_mm_ * t[i] * d_pose.row(2)),
+    SpreadRow(i, weight[i] * (d_pose.row(i) - radius_mm * t[i] * d_pose.row(2)),
               jacobians);
   }
-  if (double* by_origin = jacobians[extra_block()]) {
+  if (double* by_origin = jacobians[extra]) {
     Eigen::Map<Eigen::Matrix2d> block(by_origin);
     block = -weight.asDiagonal().toDenseMatrix();
   }
+  const auto set = [&](int block, const Eigen::Vector2d& by_block) {
+    if (double* by = jacobians[extra + block]) {
+      Eigen::Map<Eigen::Vector2d>(by, 2) = -weight.cwiseProduct(by_block);
+    }
+  };
+  set(1, M_PI / 180 * Eigen::Vector2d(-turned.y(), turned.x()));
+  set(2, turned);
+  set(3, n);
   return true;
 }
 

@@ -7,19 +7,19 @@ namespace finray {
 
 /// Tangency of the front beam to a circular object whose centre was measured:
 ///
-///   r = (r_c - R n_c - (p + o)) / sigma,   two residuals.
+///   r = (r_c - R n_c - p_S) / sigma,   two residuals.
 ///
 /// r_c is the contact point, n_c the local normal into the finger, R the
-/// circle's radius, p the measured centre and o the origin of its coordinates
-/// in frame S (all mm). The component of r along the tangent determines l_c,
-/// the one along the normal the indentation. A NaN coordinate (not measured)
-/// gives a zero residual. Parameter blocks: those of FrameResidual, object
-/// origin (2, mm).
+/// circle's radius and p_S the measured centre p in frame S (StageFrame; all
+/// mm). The component of r along the tangent determines l_c, the one along the
+/// normal the indentation. A NaN coordinate (not measured) gives a zero
+/// residual; it counts as 0 where the other coordinate is turned. Parameter
+/// blocks: those of FrameResidual, object origin (2, mm), rotation (1, deg),
+/// ln of the scale (1), radius (1, mm).
 class ObjectContactResidual : public FrameResidual {
  public:
   ObjectContactResidual(const FrameEvaluation* frame, int contact,
-                        const Eigen::Vector2d& center_mm, double radius_mm,
-                        double std_mm);
+                        const Eigen::Vector2d& center_mm, double std_mm);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
@@ -27,7 +27,7 @@ class ObjectContactResidual : public FrameResidual {
  private:
   int contact_;
   Eigen::Vector2d center_mm_;
-  double radius_mm_, std_mm_;
+  double std_mm_;
 };
 
 /// A measured contact location l:

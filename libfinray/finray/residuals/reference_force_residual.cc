@@ -1,21 +1,26 @@
 #include "finray/residuals/reference_force_residual.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
+#include <vector>
 
 namespace finray {
 
 ReferenceForceResidual::ReferenceForceResidual(const FrameEvaluation* frame,
-                                               double force_N, double std_N)
+                                               double force_N, double std_N,
+                                               const LateForce& late)
     : frame_size_(frame->contacts() > 0 ? frame->frame_size() : 0),
       normal_(frame_size_ > 0 ? frame->contact_offset(0) + 1 : 0),
       per_normal_(frame_size_ > 0 ? std::hypot(1, frame->contact(0).friction)
                                   : 0),
       force_N_(force_N),
-      std_N_(std_N) {
+      std_N_(std_N),
+      late_(late) {
   set_num_residuals(1);
   if (frame_size_ > 0) mutable_parameter_block_sizes()->push_back(frame_size_);
   mutable_parameter_block_sizes()->push_back(1);
   mutable_parameter_block_sizes()->push_back(1);
+  if (late_.signals != nullptr) mutable_parameter_block_sizes()->push_back(1);
 }
 
 bool ReferenceForceResidual::Evaluate(double const* const* parameters,
@@ -25,7 +30,11 @@ bool ReferenceForceResidual::Evaluate(double const* const* parameters,
   const double scale = std::exp(*parameters[sensor]);
   const double force =
       frame_size_ > 0 ? scale * per_normal_ * parameters[0][normal_] : 0;
-  residuals[0] = (force + *parameters[sensor + 1] - force_N_) / std_N_;
+  LinearSignal::Point read{force_N_, 0};
+  if (late_.signals != nullptr) {
+    read = late_.signals[0].At(late_.time_s + *parameters[sensor + 2]);
+  }
+  residuals[0] = (force + *parameters[sensor + 1] - read.value) / std_N_;
   if (jacobians == nullptr) return true;
   if (frame_size_ > 0 && jacobians[0] != nullptr) {
     Eigen::Map<Eigen::VectorXd> by_frame(jacobians[0], frame_size_);
@@ -34,19 +43,40 @@ bool ReferenceForceResidual::Evaluate(double const* const* parameters,
   }
   if (double* by_scale = jacobians[sensor]) *by_scale = force / std_N_;
   if (double* by_offset = jacobians[sensor + 1]) *by_offset = 1 / std_N_;
+  if (late_.signals != nullptr && jacobians[sensor + 2] != nullptr) {
+    *jacobians[sensor + 2] = -read.slope / std_N_;
+  }
   return true;
 }
 
 ReferenceForceVectorResidual::ReferenceForceVectorResidual(
-    const FrameEvaluation* frame, const Eigen::Vector2d& force_N, double std_N)
-    : FrameResidual(frame, 2, {1, 2}), force_N_(force_N), std_N_(std_N) {}
+    const FrameEvaluation* frame, const Eigen::Vector2d& force_N, double std_N,
+    double object_angle_rad, const LateForce& late)
+    : FrameResidual(frame, 2,
+                    late.signals != nullptr ? std::vector<int>{1, 2, 1, 2, 1}
+                                            : std::vector<int>{1, 2, 1, 2}),
+      force_N_(force_N),
+      std_N_(std_N),
+      object_angle_rad_(object_angle_rad),
+      late_(late) {}
 
 bool ReferenceForceVectorResidual::Evaluate(double const* const* parameters,
                                             double* residuals,
                                             double** jacobians) const {
   if (!frame().valid()) return false;
-  const double scale = std::exp(*parameters[extra_block()]);
-  const Eigen::Map<const Eigen::Vector2d> offset(parameters[extra_block() + 1]);
+  double const* const* const own = parameters + extra_block();
+  const double scale = std::exp(*own[0]);
+  const Eigen::Map<const Eigen::Vector2d> offset(own[1]), weight(own[3]);
+  const Eigen::Matrix2d tilt =
+      Eigen::Rotation2Dd(*own[2] * M_PI / 180).toRotationMatrix();
+  const Eigen::Matrix2d turn =
+      Eigen::Rotation2Dd(object_angle_rad_).toRotationMatrix();
+  Eigen::Vector2d read = force_N_, read_slope(0, 0);
+  for (int i = 0; late_.signals != nullptr && i < 2; ++i) {
+    const auto point = late_.signals[i].At(late_.time_s + *own[4]);
+    read[i] = point.value;
+    read_slope[i] = point.slope;
+  }
   Eigen::Vector2d sum(0, 0);
   FrameEvaluation::Matrix d_sum =
       FrameEvaluation::Matrix::Zero(2, frame().columns());
@@ -62,18 +92,25 @@ bool ReferenceForceVectorResidual::Evaluate(double const* const* parameters,
     d_sum.col(frame().contact_offset(i) + 1) += n + mu * t;
   }
   Eigen::Map<Eigen::Vector2d>(residuals, 2) =
-      (scale * sum + offset - force_N_) / std_N_;
+      (scale * tilt * sum + offset + turn * weight - read) / std_N_;
   if (jacobians == nullptr) return true;
   for (int i = 0; i < 2; ++i) {
-    SpreadRow(i, scale / std_N_ * d_sum.row(i), jacobians);
+    SpreadRow(i, scale / std_N_ * tilt.row(i) * d_sum, jacobians);
   }
-  if (double* by_scale = jacobians[extra_block()]) {
-    Eigen::Map<Eigen::Vector2d>(by_scale, 2) = scale / std_N_ * sum;
+  using RowMajor = Eigen::Matrix<double, 2, 2, Eigen::RowMajor>;
+  const Eigen::Vector2d force = scale * tilt * sum;
+  double** const by = jacobians + extra_block();
+  const auto set = [&](int block, const Eigen::Vector2d& column) {
+    if (by[block] == nullptr) return;
+    Eigen::Map<Eigen::Vector2d>(by[block], 2) = column / std_N_;
+  };
+  set(0, force);
+  if (by[1] != nullptr) {
+    Eigen::Map<RowMajor>(by[1], 2, 2) = RowMajor::Identity() / std_N_;
   }
-  if (double* by_offset = jacobians[extra_block() + 1]) {
-    Eigen::Map<Eigen::Matrix2d>(by_offset, 2, 2) =
-        Eigen::Matrix2d::Identity() / std_N_;
-  }
+  set(2, M_PI / 180 * Eigen::Vector2d(-force.y(), force.x()));
+  if (by[3] != nullptr) Eigen::Map<RowMajor>(by[3], 2, 2) = turn / std_N_;
+  if (late_.signals != nullptr) set(4, -read_slope);
   return true;
 }
 

@@ -9,6 +9,7 @@
 #include "finray/io/error.h"
 #include "finray/io/nan.h"
 #include "finray/objects/object_contact.h"
+#include "finray/scene/creep_filter.h"
 #include "finray/scene/frame_columns.h"
 #include "finray/statics/shape.h"
 
@@ -204,6 +205,22 @@ double FillRow(const Finger& finger, const Row& solved, int contacts,
   return force.norm();
 }
 
+// Adds the creep to the volts of the rows.
+void AddCreep(const Finger& finger, FrameTable* frames) {
+  for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
+    const Gauge& gauge = finger.gauges[j];
+    if (gauge.creep_share == 0) continue;
+    GaugeLag<double> lag(0, gauge.creep_time_constant_s);
+    const std::vector<double>& times_s = frames->Numbers("time_s");
+    std::vector<double>& volts = frames->MutableNumbers(GaugeVolts(j));
+    for (std::size_t row = 0; row < volts.size(); ++row) {
+      if (std::isnan(volts[row])) continue;
+      volts[row] += gauge.creep_share *
+                    lag.Next(times_s[row], volts[row] - gauge.offset_V);
+    }
+  }
+}
+
 }  // namespace
 
 SimulationSummary Simulate(const Finger& finger, const Scene& scene,
@@ -211,6 +228,7 @@ SimulationSummary Simulate(const Finger& finger, const Scene& scene,
                            FrameTable* frames, FrameTable* shapes) {
   // All loads are read first, so that a bad row is reported before any is
   // solved.
+  RequireTimeForCreep(finger, frames->headers(), frames->path());
   int contacts = 0;
   std::vector<Row> rows = ReadLoads(finger, scene, *frames, &contacts);
   if (shapes != nullptr) *shapes = FrameTable(rows.size() * 202);
@@ -256,6 +274,7 @@ SimulationSummary Simulate(const Finger& finger, const Scene& scene,
     ++(touches ? summary.contact : summary.free);
     status = touches ? "ok" : "no_contact";
   }
+  AddCreep(finger, frames);
   return summary;
 }
 

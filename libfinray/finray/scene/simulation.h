@@ -28,9 +28,14 @@ struct SimulationSummary {
 ///   the object stands on a spring;
 /// - no load.
 ///
+/// Gauges that creep lag behind the angles of the rows before, which run
+/// linearly from time_s to time_s; the finger of the first row has been at
+/// rest.
+///
 /// If `shapes` is given it receives both beams of every row in the columns row,
 /// beam, arc_mm, x_mm, y_mm, angle_rad, moment_N_mm. Throws InputError with the
-/// line of a load that is incomplete, negative or off the beam.
+/// line of a load that is incomplete, negative or off the beam, and without
+/// time_s if a gauge creeps.
 SimulationSummary Simulate(const Finger& finger, const Scene& scene,
                            const Discretization& discretization,
                            FrameTable* frames, FrameTable* shapes = nullptr);

@@ -6,6 +6,33 @@
 #include <limits>
 
 namespace finray {
+namespace {
+
+// dr_j/dp of a parameter of gauge j's reading. The gauge may have none.
+double ByReading(FingerParameterKind kind, const Gauge& gauge, double volts,
+                 bool read) {
+  if (kind == FingerParameterKind::kGaugeOffset &&
+      gauge.curvature_per_rad == 0) {
+    return 1 / gauge.gain_V_per_rad;
+  }
+  if (!read) return 0;
+  const double angle = gauge.Angle(volts), slope = gauge.Slope(angle);
+  const double linear = angle * (1 + gauge.curvature_per_rad * angle);
+  switch (kind) {
+    case FingerParameterKind::kGaugeOffset:
+      return 1 / slope;
+    case FingerParameterKind::kGaugeGain:
+      return linear / slope;
+    case FingerParameterKind::kGaugeCurvature:
+      return gauge.gain_V_per_rad * angle * angle / slope;
+    case FingerParameterKind::kGaugeCreepShare:
+      return gauge.gain_V_per_rad * linear / (1 + gauge.creep_share) / slope;
+    default:
+      return 0;  // kGaugeCreepTime
+  }
+}
+
+}  // namespace
 
 CalibrationUncertainty::Model::Model(const Finger& finger, double friction,
                                      std::optional<double> circle_radius_mm,
@@ -13,7 +40,8 @@ CalibrationUncertainty::Model::Model(const Finger& finger, double friction,
     : finger(finger),
       circle_radius_mm(circle_radius_mm),
       solver(*solver),
-      table(friction, circle_radius_mm, solver),
+      gauge_places(finger.calibration->HasGaugePlaces()),
+      table(friction, circle_radius_mm, solver, gauge_places),
       factor(finger.calibration->Factor()),
       derivatives(table.rows(), table.columns()),
       slope(table.rows(), 2),
@@ -65,7 +93,8 @@ double CalibrationUncertainty::Chi2(const std::vector<PointContact>& contacts,
   if (!m.solver.SolveWithSensitivities(contacts)) {
     return std::numeric_limits<double>::infinity();
   }
-  ReadSensitivities(m.solver, contacts, std::nullopt, &m.derivatives);
+  ReadSensitivities(m.solver, contacts, std::nullopt, m.gauge_places,
+                    &m.derivatives);
   const Eigen::Index gauges = m.derivatives.rows();
   const std::vector<FingerParameter>& parameters =
       m.finger.calibration->parameters;
@@ -85,14 +114,19 @@ double CalibrationUncertainty::Chi2(const std::vector<PointContact>& contacts,
       case FingerParameterKind::kRibLength:
         column = m.derivatives.col(unknowns + 2 + index);
         break;
+      case FingerParameterKind::kGaugeStart:
+        column[index] = m.derivatives.rightCols<2>()(index, 0);
+        break;
+      case FingerParameterKind::kGaugeLength:
+        column[index] = m.derivatives.rightCols<2>()(index, 1);
+        break;
       case FingerParameterKind::kGaugeGain:
-        if (weights[index] == 0) break;  // it may have no reading
-        column[index] = m.finger.gauges[index].Angle(readings_V[index]) /
-                        m.finger.gauges[index].gain_V_per_rad;
-        break;
       case FingerParameterKind::kGaugeOffset:
-        column[index] = 1 / m.finger.gauges[index].gain_V_per_rad;
-        break;
+      case FingerParameterKind::kGaugeCurvature:
+      case FingerParameterKind::kGaugeCreepShare:
+      case FingerParameterKind::kGaugeCreepTime:
+        column[index] = ByReading(parameters[k].kind, m.finger.gauges[index],
+                                  readings_V[index], weights[index] != 0);
     }
   }
   for (Eigen::Index j = 0; j < gauges; ++j) {
@@ -123,7 +157,8 @@ bool CalibrationUncertainty::FindDerivatives(
   // A cold start, so that the result does not depend on the frame before.
   m.solver.Reset();
   if (!m.solver.SolveWithSensitivities(contacts)) return false;
-  ReadSensitivities(m.solver, contacts, m.circle_radius_mm, &m.derivatives);
+  ReadSensitivities(m.solver, contacts, m.circle_radius_mm, m.gauge_places,
+                    &m.derivatives);
   return true;
 }
 
@@ -137,7 +172,7 @@ void CalibrationUncertainty::FillByParameter(
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const int index = parameters[k].index;
     auto column = m.by_parameter.col(static_cast<int>(k));
-    const auto by_reading = [&](double slope) {
+    const auto by_gauge = [&](double slope) {
       column = -slope * m.by_measured.col(index);
     };
     const auto by_statics = [&](int which) {
@@ -154,17 +189,19 @@ void CalibrationUncertainty::FillByParameter(
       case FingerParameterKind::kRibLength:
         by_statics(2 + index);
         break;
-      case FingerParameterKind::kGaugeGain: {
-        const Gauge& gauge = m.finger.gauges[index];
-        // An unused gauge may have no reading.
-        by_reading(weights[index] == 0
-                       ? 0
-                       : gauge.Angle(readings_V[index]) / gauge.gain_V_per_rad);
+      case FingerParameterKind::kGaugeStart:
+        by_gauge(m.derivatives.rightCols<2>()(index, 0));
         break;
-      }
+      case FingerParameterKind::kGaugeLength:
+        by_gauge(m.derivatives.rightCols<2>()(index, 1));
+        break;
+      case FingerParameterKind::kGaugeGain:
       case FingerParameterKind::kGaugeOffset:
-        by_reading(1 / m.finger.gauges[index].gain_V_per_rad);
-        break;
+      case FingerParameterKind::kGaugeCurvature:
+      case FingerParameterKind::kGaugeCreepShare:
+      case FingerParameterKind::kGaugeCreepTime:
+        by_gauge(ByReading(parameters[k].kind, m.finger.gauges[index],
+                           readings_V[index], weights[index] != 0));
     }
   }
 }

@@ -20,9 +20,12 @@ namespace finray {
 ///   dx/dp = -(J'WJ)^-1 J'W dr/dp,   C_sys = (dx/dp) C_pp (dx/dp)',
 ///
 /// with J = ds/dx, W = diag(w_j^2) and C_pp the finger's `calibration`. dr_j/dp
-/// is ds_j/dp for stiffness and rib lengths, (V_j - o_j) / g_j^2 for gain j and
-/// 1 / g_j for offset j. A measured circle's centre adds two rows to r, which
-/// also depend on stiffness and rib lengths.
+/// is ds_j/dp for stiffness, rib lengths and places of gauges, (V_j - o_j) /
+/// g_j^2 for gain j and 1 / g_j for offset j. A gauge with a curve has its
+/// slope where these have g_j, and g_j a_j^2 / slope for the curvature. The
+/// share of creep counts as for a gauge that has come to rest; its time
+/// constant counts as known. A measured circle's centre adds two rows to r,
+/// which also depend on stiffness and rib lengths.
 ///
 /// An estimate's covariance is C_sys plus that of the noise, (J'WJ)^-1. Noise
 /// differs from frame to frame, while parameter errors are the same in all
@@ -76,6 +79,7 @@ class CalibrationUncertainty {
     Finger finger;
     std::optional<double> circle_radius_mm;
     EquilibriumSolver solver;  // for contacts beyond the table
+    bool gauge_places;         // among the parameters
     SensitivityTable table;
     Eigen::MatrixXd factor;  // of C_pp
     // Work space: the matrix of ReadSensitivities; J with weights; (J'WJ)^-1

@@ -68,7 +68,7 @@ FrameProblem::FrameProblem(const Finger& finger, const Scene& scene,
       most_force_N_(most_force_N),
       camera_(scene.UsesCamera()),
       form_(form),
-      parameters_(finger),
+      parameters_(finger, scene.circle_radius_mm()),
       frames_(finger, discretization, form, parameters_.shared(), 1),
       solver_(finger, discretization) {
   if (finger.calibration) calibration_factor_ = finger.calibration->Factor();
@@ -80,7 +80,8 @@ FrameEvaluation& FrameProblem::Prepare(const Measurements& row, int contacts,
   blocks_.clear();
   frames_.Clear();
   FrameEvaluation& frame =
-      frames_.Add(contacts, friction_, unknowns_.data(), camera_);
+      frames_.Add(contacts, friction_, unknowns_.data(), camera_,
+                  finger_.calibration && finger_.calibration->HasGaugePlaces());
   frame.set_state(state);
   blocks_ = MeasurementBlocks(row, model_, parameters_.frame(), finger_.gauges,
                               &frame, unknowns_.data());
@@ -238,16 +239,21 @@ ContactMatrix FrameProblem::Systematic(const Eigen::MatrixXd& by_unknown,
   const auto count = static_cast<Eigen::Index>(parameters.size());
   const auto ribs = static_cast<Eigen::Index>(shared.rib_lengths_mm.size());
   const auto gauges = static_cast<Eigen::Index>(finger_.gauges.size());
-  // Columns of C: stiffness, rib lengths, gains, offsets.
+  // Columns of C: stiffness, rib lengths, then five for each gauge.
+  const auto of_gauge = [ribs](int gauge, int which) {
+    return static_cast<int>(2 + ribs) + 5 * gauge + which;
+  };
   std::unordered_map<const double*, int> column_of = {
       {&shared.ln_front_stiffness, 0}, {&shared.ln_back_stiffness, 1}};
   if (ribs > 0) column_of.emplace(shared.rib_lengths_mm.data(), 2);
   for (int j = 0; j < gauges; ++j) {
-    column_of.emplace(parameters_.gain(j), 2 + ribs + j);
-    column_of.emplace(parameters_.offset(j), 2 + ribs + gauges + j);
+    double* const own[] = {parameters_.gain(j), parameters_.offset(j),
+                           parameters_.curvature(j), &shared.gauge_starts_mm[j],
+                           &shared.gauge_lengths_mm[j]};
+    for (int k = 0; k < 5; ++k) column_of.emplace(own[k], of_gauge(j, k));
   }
   BlockRows rows;
-  rows.Evaluate(blocks_, column_of, static_cast<int>(2 + ribs + 2 * gauges));
+  rows.Evaluate(blocks_, column_of, static_cast<int>(2 + ribs + 5 * gauges));
   Eigen::MatrixXd by_parameter(rows.jacobian.rows(), count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const FingerParameter& p = parameters[static_cast<std::size_t>(k)];
@@ -263,10 +269,29 @@ ContactMatrix FrameProblem::Systematic(const Eigen::MatrixXd& by_unknown,
         by_parameter.col(k) = column(2 + p.index);
         break;
       case FingerParameterKind::kGaugeGain:
-        by_parameter.col(k) = column(2 + ribs + p.index);
+        by_parameter.col(k) = column(of_gauge(p.index, 0));
         break;
       case FingerParameterKind::kGaugeOffset:
-        by_parameter.col(k) = column(2 + ribs + gauges + p.index);
+        by_parameter.col(k) = column(of_gauge(p.index, 1));
+        break;
+      case FingerParameterKind::kGaugeCurvature:
+        by_parameter.col(k) = column(of_gauge(p.index, 2));
+        break;
+      case FingerParameterKind::kGaugeStart:
+        by_parameter.col(k) = column(of_gauge(p.index, 3));
+        break;
+      case FingerParameterKind::kGaugeLength:
+        by_parameter.col(k) = column(of_gauge(p.index, 4));
+        break;
+      case FingerParameterKind::kGaugeCreepShare: {
+        // As in CalibrationUncertainty, for a gauge that has come to rest.
+        const Gauge& gauge = finger_.gauges[static_cast<std::size_t>(p.index)];
+        by_parameter.col(k) = gauge.gain_V_per_rad / (1 + gauge.creep_share) *
+                              column(of_gauge(p.index, 0));
+        break;
+      }
+      case FingerParameterKind::kGaugeCreepTime:
+        by_parameter.col(k).setZero();
         break;
     }
   }

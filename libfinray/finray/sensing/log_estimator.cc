@@ -180,9 +180,8 @@ double LogEstimator::FreeChi2(const LogFrame& frame,
   for (Eigen::Index i = 0; i < count; ++i) {
     const int j = measured[i];
     const Gauge& gauge = finger_.gauges[j];
-    off[i] =
-        frame.row.gauges_V[j] - marginal.mean_without[j] -
-        gauge.gain_V_per_rad * detection_.search().table().free_angles()[j];
+    off[i] = frame.row.gauges_V[j] - marginal.mean_without[j] -
+             gauge.BendingVolts(detection_.search().table().free_angles()[j]);
     for (Eigen::Index k = 0; k < count; ++k) {
       covariance(i, k) = marginal.offsets_without(j, measured[k]);
     }

@@ -57,7 +57,7 @@ LogProblem::LogProblem(const Finger& finger, const Scene& scene,
       stride_(gauges_ + 2),
       values_(frames->size() * stride_),
       model_(MeasurementModel::OfScene(finger, scene)),
-      parameters_(finger),
+      parameters_(finger, scene.circle_radius_mm()),
       evaluations_(finger, discretization, EquilibriumForm::kReduced,
                    parameters_.shared(), threads),
       free_(&evaluations_.Add(0, scene.friction_coefficient, nullptr)),
@@ -106,7 +106,7 @@ void LogProblem::AddReadings(std::size_t t) {
   }
   MeasurementModel model = model_;
   for (double& std : model.gauge_std_V) std *= frame.noise_scale;
-  if (model.circle) model.circle->std_mm *= frame.noise_scale;
+  if (model.object_std_mm) *model.object_std_mm *= frame.noise_scale;
   for (FrameBlock& block :
        MeasurementBlocks(frame.row, model, parameters, finger_.gauges,
                          evaluation_of_[t], contact(t))) {

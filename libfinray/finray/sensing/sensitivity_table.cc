@@ -5,6 +5,7 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/objects/circle_centre.h"
+#include "finray/statics/shape.h"
 
 namespace finray {
 namespace {
@@ -71,18 +72,40 @@ int StencilWeights(double x, int count, const Node& node,
   return first;
 }
 
+// The derivatives of each gauge's angle by its start and its length.
+Eigen::MatrixX2d GaugePlaceSlopes(const EquilibriumSolver& solver,
+                                  const std::vector<PointContact>& contacts) {
+  const Finger& finger = solver.model().finger();
+  const Shape shape(solver, contacts);
+  Eigen::MatrixX2d slopes(finger.gauges.size(), 2);
+  for (Eigen::Index j = 0; j < slopes.rows(); ++j) {
+    const Gauge& gauge = finger.gauges[j];
+    const auto curvature = [&](double arc_mm) {
+      return shape.At(gauge.beam, arc_mm).moment_N_mm /
+             BendingStiffness(finger, gauge.beam, arc_mm);
+    };
+    const double end = curvature(gauge.start_mm + gauge.length_mm);
+    slopes.row(j) << end - curvature(gauge.start_mm), end;
+  }
+  return slopes;
+}
+
 }  // namespace
 
 void ReadSensitivities(const EquilibriumSolver& solver,
                        const std::vector<PointContact>& contacts,
                        std::optional<double> circle_radius_mm,
-                       Eigen::MatrixXd* derivatives) {
+                       bool gauge_places, Eigen::MatrixXd* derivatives) {
   const EquilibriumSolver::Matrix& outputs = solver.d_outputs();
   const int gauges = solver.model().gauges();
-  derivatives->resize(gauges + (circle_radius_mm ? 2 : 0), outputs.cols());
-  derivatives->topRows(gauges) = outputs.topRows(gauges);
+  derivatives->setZero(gauges + (circle_radius_mm ? 2 : 0),
+                       outputs.cols() + (gauge_places ? 2 : 0));
+  derivatives->topLeftCorner(gauges, outputs.cols()) = outputs.topRows(gauges);
+  if (gauge_places) {
+    derivatives->topRightCorner(gauges, 2) = GaugePlaceSlopes(solver, contacts);
+  }
   if (circle_radius_mm) {
-    derivatives->bottomRows<2>() =
+    derivatives->bottomLeftCorner(2, outputs.cols()) =
         outputs.middleRows<2>(gauges) +
         CircleCentreByAngle(solver.contact_pose(0)[2], *circle_radius_mm) *
             outputs.row(gauges + 2);
@@ -94,9 +117,10 @@ void ReadSensitivities(const EquilibriumSolver& solver,
 
 SensitivityTable::SensitivityTable(double friction,
                                    std::optional<double> circle_radius_mm,
-                                   EquilibriumSolver* solver)
-    : node_(solver->model().gauges() + (circle_radius_mm ? 2 : 0),
-            4 + solver->model().ribs()) {
+                                   EquilibriumSolver* solver, bool gauge_places)
+    : gauge_places_(gauge_places),
+      node_(solver->model().gauges() + (circle_radius_mm ? 2 : 0),
+            4 + solver->model().ribs() + (gauge_places ? 2 : 0)) {
   const Finger& finger = solver->model().finger();
   const double length = finger.front_length_mm;
   for (const double force : kGridForces) {
@@ -134,7 +158,8 @@ void SensitivityTable::AddRow(double arc_mm, double friction,
     contacts[0].normal_N = force_N;
     // Soft fingers fold over at the heavy end; the row ends there.
     if (!solver->SolveWithSensitivities(contacts)) break;
-    ReadSensitivities(*solver, contacts, circle_radius_mm, &node_);
+    ReadSensitivities(*solver, contacts, circle_radius_mm, gauge_places_,
+                      &node_);
     values_.col(row.first + row.count) = node_.reshaped();
     ++row.count;
   }

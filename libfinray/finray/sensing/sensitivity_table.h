@@ -14,14 +14,18 @@ namespace finray {
 /// `circle_radius_mm`, the centre of a circle at the one contact
 /// (circle_centre.h). The columns are
 ///
-///   l_c, ln f_c of each contact, EI front, EI back, rib lengths.
+///   l_c, ln f_c of each contact, EI front, EI back, rib lengths,
+///
+/// and with `gauge_places` two more: for each gauge the derivatives by its own
+/// start and length, d(angle)/d(start) = kappa(end) - kappa(start) and
+/// d(angle)/d(length) = kappa(end).
 ///
 /// Derivatives are by ln f_c because all gauge rows are then proportional to
 /// f_c near 0.
 void ReadSensitivities(const EquilibriumSolver& solver,
                        const std::vector<PointContact>& contacts,
                        std::optional<double> circle_radius_mm,
-                       Eigen::MatrixXd* derivatives);
+                       bool gauge_places, Eigen::MatrixXd* derivatives);
 
 /// The same derivatives for one contact, from a grid over l_c and f_c with
 /// polynomials of degree five between its nodes. The derivatives are smooth in
@@ -34,7 +38,7 @@ class SensitivityTable {
   /// Builds the table for contacts with `friction`. `solver` is then as after
   /// Reset().
   SensitivityTable(double friction, std::optional<double> circle_radius_mm,
-                   EquilibriumSolver* solver);
+                   EquilibriumSolver* solver, bool gauge_places = false);
 
   /// Fills `derivatives`, rows() x columns(). Returns false outside the grid:
   /// beyond 40 EI / l_0^2, or where the finger folds over before.
@@ -61,6 +65,7 @@ class SensitivityTable {
               std::optional<double> circle_radius_mm,
               EquilibriumSolver* solver);
 
+  bool gauge_places_;
   Eigen::MatrixXd node_;  // the derivatives at the last node computed
   std::vector<double> forces_N_;
   std::vector<Row> rows_;

@@ -189,11 +189,15 @@ bool TouchDetection::FindContact(const LogFrame& frame,
   for (std::size_t j = 0; j < finger_.gauges.size(); ++j) {
     const Gauge& gauge = finger_.gauges[j];
     if (!gauge.IsMeasured(frame.row.gauges_V[j])) continue;
-    measurement_.values[j] =
-        (frame.row.gauges_V[j] - mean_V[j]) / gauge.gain_V_per_rad;
+    Gauge moved = gauge;
+    moved.offset_V = mean_V[j];
+    const double angle = moved.Angle(frame.row.gauges_V[j]);
+    const bool read = std::isfinite(angle);
+    measurement_.values[j] = read ? angle : 0;
     measurement_.weights[j] =
-        std::abs(gauge.gain_V_per_rad) /
-        std::sqrt(variance_V2[j] + gauge.noise_V * gauge.noise_V);
+        read ? std::abs(gauge.Slope(angle)) /
+                   std::sqrt(variance_V2[j] + gauge.noise_V * gauge.noise_V)
+             : 0;
   }
   const double free_chi2 = FreeChi2(frame, mean_V, variance_V2);
   measurement_.free_chi2 = free_chi2;
@@ -213,7 +217,7 @@ double TouchDetection::FreeChi2(const LogFrame& frame,
     if (!finger_.gauges[j].IsMeasured(frame.row.gauges_V[j])) continue;
     const Gauge& gauge = finger_.gauges[j];
     const double off =
-        frame.row.gauges_V[j] - gauge.gain_V_per_rad * free[j] - mean_V[j];
+        frame.row.gauges_V[j] - gauge.BendingVolts(free[j]) - mean_V[j];
     chi2 += off * off / (variance_V2[j] + gauge.noise_V * gauge.noise_V);
   }
   return chi2;
@@ -234,8 +238,8 @@ void TouchDetection::Absorb(const LogFrame& frame, OffsetBelief* belief) const {
     double& mean = belief->mean_V[j];
     double& variance = belief->variance_V2[j];
     const double weight = variance / (variance + gauge.noise_V * gauge.noise_V);
-    mean += weight *
-            (frame.row.gauges_V[j] - gauge.gain_V_per_rad * free[j] - mean);
+    mean +=
+        weight * (frame.row.gauges_V[j] - gauge.BendingVolts(free[j]) - mean);
     variance *= 1 - weight;
   }
 }

@@ -105,8 +105,8 @@ Eigen::VectorXd FreeVolts(const Finger& finger,
   }
   Eigen::VectorXd volts(static_cast<Eigen::Index>(finger.gauges.size()));
   for (Eigen::Index j = 0; j < volts.size(); ++j) {
-    volts[j] = finger.gauges[j].gain_V_per_rad *
-               solver.gauge_angle(static_cast<int>(j));
+    volts[j] =
+        finger.gauges[j].BendingVolts(solver.gauge_angle(static_cast<int>(j)));
   }
   return volts;
 }

@@ -156,6 +156,13 @@ void RefuseImplausibleMotion(const std::vector<Press>& presses,
   }
 }
 
+// Says that the place of the object is known well enough for these checks.
+bool ObjectIsKnown(const CalibrationProblem& problem) {
+  constexpr double kMost_mm = 2;
+  return problem.plan().PlaceStd_mm(problem.finger().front_length_mm) <
+         kMost_mm;
+}
+
 // Returns what the gauges would read at contacts that are known without them:
 // from the place of the object, which holds for any stiffness, or from the
 // place and force of the contact.
@@ -163,8 +170,7 @@ std::vector<ExpectedGauges> ExpectGauges(
     const std::vector<const CalibrationFrame*>& frames,
     CalibrationProblem* problem, ContactGuess* guess) {
   const bool object_known =
-      problem->plan().scene.circle_radius_mm() &&
-      !problem->plan().family(ParameterFamily::kObjectOrigin).free;
+      problem->plan().scene.circle_radius_mm() && ObjectIsKnown(*problem);
   EquilibriumSolver solver(problem->finger(), problem->discretization());
   std::vector<ExpectedGauges> expected;
   for (const CalibrationFrame* frame : frames) {
@@ -193,10 +199,7 @@ void RefuseImplausibleObjects(
     const std::vector<const CalibrationFrame*>& frames,
     const CalibrationProblem& problem, ContactGuess* guess) {
   const Plan& plan = problem.plan();
-  if (!plan.scene.circle_radius_mm() ||
-      plan.family(ParameterFamily::kObjectOrigin).free) {
-    return;
-  }
+  if (!plan.scene.circle_radius_mm() || !ObjectIsKnown(problem)) return;
   std::vector<double> ratios;
   int objects = 0, met = 0;
   for (const CalibrationFrame* frame : frames) {

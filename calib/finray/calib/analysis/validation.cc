@@ -9,6 +9,7 @@
 #include "finray/io/nan.h"
 #include "finray/io/number_text.h"
 #include "finray/residuals/parallel_frames.h"
+#include "finray/scene/creep_filter.h"
 
 namespace finray {
 namespace {
@@ -47,9 +48,12 @@ std::vector<FrameEstimate> EstimateLogs(const Finger& finger, const Plan& plan,
   std::vector<FrameEstimate> all;
   for (std::size_t i = 0; i < logs.frames.size();) {
     std::vector<Measurements> readings;
+    CreepFilter creep(finger);
     for (const int log = logs.frames[i].log;
          i < logs.frames.size() && logs.frames[i].log == log; ++i) {
       readings.push_back(GaugesOnly(logs.frames[i]));
+      readings.back().time_s = logs.frames[i].time_s;
+      creep.Remove(&readings.back());
     }
     const auto some =
         EstimateFrames(finger, scene, discretization, readings, threads);
@@ -152,7 +156,7 @@ std::vector<FrameReference> ReferencesOf(const CalibrationLogs& logs,
 }
 
 ForceCheck CheckForces(CalibrationProblem* problem, const Finger& calibrated) {
-  const Plan& plan = problem->plan();
+  const Plan plan = problem->parameters().Corrected(problem->plan());
   const Discretization& discretization = problem->discretization();
   const int threads = problem->threads();
   ForceCheck check;

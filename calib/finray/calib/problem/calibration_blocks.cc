@@ -18,9 +18,7 @@ MeasurementModel ModelOf(const Finger& finger, const Plan& plan) {
   }
   model.force_std_N = plan.force_std_N;
   model.contact_std_mm = plan.contact_std_mm;
-  if (const auto radius_mm = plan.scene.circle_radius_mm()) {
-    model.circle = {*radius_mm, plan.object_std_mm};
-  }
+  if (plan.scene.circle_radius_mm()) model.object_std_mm = plan.object_std_mm;
   model.pin_std_mm = plan.pin_std_mm;
   model.tip_std_mm = plan.tip_std_mm;
   return model;
@@ -33,7 +31,7 @@ MeasurementModel Repeated(MeasurementModel model,
     if (*std) **std *= frame.readings_std_times;
   }
   if (model.contact_std_mm) *model.contact_std_mm *= frame.place_std_times;
-  if (model.circle) model.circle->std_mm *= frame.place_std_times;
+  if (model.object_std_mm) *model.object_std_mm *= frame.place_std_times;
   return model;
 }
 
@@ -45,14 +43,14 @@ CalibrationBlocks::CalibrationBlocks(const Finger& finger, const Plan& plan,
       parameters_(*parameters),
       model_(ModelOf(finger, plan)),
       free_model_(model_) {
-  if (!plan.family(ParameterFamily::kForceOffset).free) {
+  if (plan.ForceZeroIsKnown()) {
     free_model_.force_std_N.reset();
   }
 }
 
 bool CalibrationBlocks::HasEnough(const CalibrationFrame& frame) const {
   if (frame.IsBench() || AnyGauge(frame)) return AnyGauge(frame);
-  const bool object = frame.object_mm.allFinite() && model_.circle;
+  const bool object = frame.object_mm.allFinite() && model_.object_std_mm;
   const auto points = frame.pins.size() + frame.tip_mm.allFinite();
   if (!frame.contact) return points > 0;
   return 2 * (points + object) + std::isfinite(ReferenceForce(frame)) +
@@ -61,7 +59,7 @@ bool CalibrationBlocks::HasEnough(const CalibrationFrame& frame) const {
 }
 
 bool CalibrationBlocks::HasReference(const CalibrationFrame& frame) const {
-  const bool object = frame.object_mm.allFinite() && model_.circle;
+  const bool object = frame.object_mm.allFinite() && model_.object_std_mm;
   return object || std::isfinite(frame.contact_mm) ||
          std::isfinite(ReferenceForce(frame)) || !frame.pins.empty() ||
          frame.tip_mm.allFinite();

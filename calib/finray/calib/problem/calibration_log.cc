@@ -46,20 +46,25 @@ Touch TouchOf(const CalibrationFrame& frame, const Finger& finger,
   const bool object =
       frame.object_mm.allFinite() && plan.scene.circle_radius_mm();
   const FamilyPlan& offset = plan.family(ParameterFamily::kForceOffset);
-  const bool origin_known = !plan.family(ParameterFamily::kObjectOrigin).free;
+  const FamilyPlan& weight = plan.family(ParameterFamily::kForceWeight);
+  const double place_std_mm = plan.PlaceStd_mm(finger.front_length_mm);
+  const bool object_known = std::isfinite(place_std_mm);
   const double force = ReferenceForce(frame);
   const double reach_std =
-      object ? Reach(frame, finger, plan) / plan.object_std_mm : 0;
-  if (std::isfinite(force) && !(object && offset.free)) {
+      object ? Reach(frame, finger, plan) /
+                   (object_known ? place_std_mm : plan.object_std_mm)
+             : 0;
+  if (std::isfinite(force) && !(object && !plan.ForceZeroIsKnown())) {
     const bool contact =
-        force > kSignificant *
-                    std::hypot(plan.force_std_N, offset.prior_std.value_or(0));
+        force > kSignificant * std::hypot(plan.force_std_N,
+                                          offset.prior_std.value_or(0),
+                                          weight.prior_std.value_or(0));
     return {contact,
-            !contact && object && origin_known && reach_std > -kSignificant};
+            !contact && object && object_known && reach_std > -kSignificant};
   }
   if (!object) return {true, false};
   return {reach_std > kSignificant,
-          origin_known && std::abs(reach_std) <= kSignificant};
+          object_known && std::abs(reach_std) <= kSignificant};
 }
 
 void MarkHoldout(const Plan& plan, CalibrationLogs* logs) {
@@ -144,13 +149,24 @@ void RefuseWithoutMeasurements(const Plan& plan, const CalibrationLogs& logs) {
   };
   for (const auto& [family, name] :
        {std::pair(ParameterFamily::kForceScale, "force_scale"),
-        std::pair(ParameterFamily::kForceOffset, "force_offset")}) {
+        std::pair(ParameterFamily::kForceOffset, "force_offset"),
+        std::pair(ParameterFamily::kForceTimeOffset, "force_time_offset")}) {
     if (plan.family(family).free && none([](const CalibrationFrame& frame) {
           return std::isfinite(ReferenceForce(frame));
         })) {
       throw InputError(std::string("plan: ") + name +
                        " is free, but no log has a force_N, or a force_x_N "
                        "and force_y_N");
+    }
+  }
+  for (const auto& [family, name] :
+       {std::pair(ParameterFamily::kForceTilt, "force_tilt"),
+        std::pair(ParameterFamily::kForceWeight, "force_weight")}) {
+    if (plan.family(family).free && none([](const CalibrationFrame& frame) {
+          return frame.force_xy_N.allFinite();
+        })) {
+      throw InputError(std::string("plan: ") + name +
+                       " is free, but no log has a force_x_N and force_y_N");
     }
   }
   if (plan.family(ParameterFamily::kCameraOrigin).free && !plan.pin_std_mm &&
@@ -231,6 +247,10 @@ std::vector<CalibrationFrame> ReadLog(const FrameTable& table,
   std::vector<double> times, temperatures;
   if (!bench && plan.family(ParameterFamily::kGaugeDrift).free) {
     times = Needed(table, "time_s", "gauge_drift");
+  } else if (!bench && plan.HasCreep(finger)) {
+    times = Needed(table, "time_s", "creep of gauges");
+  } else if (!bench && plan.family(ParameterFamily::kForceTimeOffset).free) {
+    times = Needed(table, "time_s", "force_time_offset");
   }
   if (!bench && plan.family(ParameterFamily::kTemperatureCoefficient).free) {
     temperatures = Needed(table, "temperature_C", "temperature_coefficient");

@@ -194,6 +194,8 @@ void ZeroHeldOutLogs(CalibrationProblem* problem) {
     }
     std::copy_n(parameters.object_origin_mm(last), 2,
                 parameters.object_origin_mm(log));
+    *parameters.object_rotation_deg(log) =
+        *parameters.object_rotation_deg(last);
   }
   if (!problem->plan().family(ParameterFamily::kGaugeOffset).per_log) return;
   // Ribs of other than nominal length bend the finger without load.
@@ -204,8 +206,9 @@ void ZeroHeldOutLogs(CalibrationProblem* problem) {
       problem->logs(), [&](const auto& frame) { return held_out[frame.log]; },
       [&](const auto& frame, int j) {
         return frame.gauges_V[j] -
-               parameters.gains_V_per_rad[j] * free.gauge_angle(j) -
-               parameters.readings.Sum(frame, j);
+               parameters.Present(problem->finger(), j)
+                   .BendingVolts(free.gauge_angle(j)) -
+               parameters.readings.Sum(frame, j) - parameters.Creep(frame, j);
       },
       &parameters.readings);
   for (const auto& [offset, error] : errors) *offset += error;

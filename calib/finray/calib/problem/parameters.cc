@@ -50,6 +50,18 @@ int LastFitted(const CalibrationLogs& logs) {
   return finger >= 0 ? finger : bench;
 }
 
+// Without the place of an object nothing shows where its axes are.
+bool HasPlace(const CalibrationFrame& frame) {
+  return frame.contact && frame.object_mm.allFinite();
+}
+
+bool HasPlaces(const CalibrationLogs& logs) {
+  return std::any_of(logs.frames.begin(), logs.frames.end(),
+                     [](const CalibrationFrame& frame) {
+                       return !frame.held_out && HasPlace(frame);
+                     });
+}
+
 // Says whether `has` is true for a fitted frame of the log.
 template <class Has>
 bool AnyFitted(const CalibrationLogs& logs, int log, const Has& has) {
@@ -67,9 +79,21 @@ double VagueStd(const CalibrationParameter& parameter) {
       return 0.2 * parameter.scale;
     case ParameterFamily::kGaugeOffset:
       return 0.01;
+    case ParameterFamily::kGaugeCurvature:
+    case ParameterFamily::kGaugeCreepTime:
+      return 1;
+    case ParameterFamily::kGaugeStart:
+    case ParameterFamily::kGaugeLength:
+      return 2;
     case ParameterFamily::kObjectOrigin:
+    case ParameterFamily::kObjectRadius:
     case ParameterFamily::kCameraOrigin:
       return 1;
+    case ParameterFamily::kObjectRotation:
+    case ParameterFamily::kForceTilt:
+      return 2;
+    case ParameterFamily::kObjectScale:
+      return 0.05;
     case ParameterFamily::kTemperatureCoefficient:
     case ParameterFamily::kGaugeDrift:
       return std::numeric_limits<double>::infinity();
@@ -93,21 +117,77 @@ CalibrationParameters::CalibrationParameters(const Finger& finger,
                                              const CalibrationLogs& logs)
     : shared(SharedParameters::Of(finger)),
       readings(finger, plan, logs),
+      object_radius_mm(plan.scene.circle_radius_mm().value_or(0)),
       held_out_(logs.HeldOut()),
       last_fitted_(LastFitted(logs)),
       origin_per_log_(plan.family(ParameterFamily::kObjectOrigin).per_log),
-      origins_mm_(origin_per_log_ ? logs.paths.size() : 1, {0, 0}) {
+      rotation_per_log_(plan.family(ParameterFamily::kObjectRotation).per_log),
+      origins_mm_(origin_per_log_ ? logs.paths.size() : 1, {0, 0}),
+      rotations_deg_(rotation_per_log_ ? logs.paths.size() : 1, 0.0) {
   for (const Gauge& gauge : finger.gauges) {
     gains_V_per_rad.push_back(gauge.gain_V_per_rad);
+    curvatures_per_rad.push_back(gauge.curvature_per_rad);
+    creep_shares.push_back(gauge.creep_share);
+    ln_creep_times.push_back(std::log(gauge.creep_time_constant_s));
   }
-  for (const FingerParameter& parameter : ParametersOf(finger)) {
+  if (plan.HasCreep(finger)) ReadCreep(logs);
+  if (plan.family(ParameterFamily::kForceTimeOffset).free) ReadForces(logs);
+  for (const FingerParameter& parameter : AllParametersOf(finger)) {
+    const auto family = static_cast<ParameterFamily>(parameter.kind);
+    if (IsEffect(parameter.kind) && !plan.family(family).free) continue;
     AddOfFinger(plan, logs, parameter);
   }
   AddOrigins(plan, logs);
+  AddStage(plan, logs);
   AddForceSensor(plan, logs);
   AddTemperature(plan);
   AddDrift(plan, logs);
   AddCamera(plan);
+}
+
+void CalibrationParameters::ReadCreep(const CalibrationLogs& logs) {
+  const std::size_t gauges = gains_V_per_rad.size();
+  for (std::size_t log = 0; log < logs.paths.size(); ++log) {
+    creep_.emplace_back(gauges);
+  }
+  for (const CalibrationFrame& frame : logs.frames) {
+    for (std::size_t j = 0; j < gauges; ++j) {
+      creep_[frame.log][j].Set(frame.row, frame.time_s, frame.gauges_V[j]);
+    }
+  }
+}
+
+void CalibrationParameters::ReadForces(const CalibrationLogs& logs) {
+  forces_N_.resize(logs.paths.size());
+  for (const CalibrationFrame& frame : logs.frames) {
+    std::array<LinearSignal, 3>& of_log = forces_N_[frame.log];
+    of_log[0].Add(frame.time_s, frame.force_xy_N.x());
+    of_log[1].Add(frame.time_s, frame.force_xy_N.y());
+    of_log[2].Add(frame.time_s, frame.force_N);
+  }
+}
+
+CreepTerm CalibrationParameters::CreepOf(const CalibrationFrame& frame,
+                                         int gauge) {
+  if (creep_.empty() || frame.IsBench()) return {};
+  return {&creep_[frame.log][gauge], frame.row, &creep_shares[gauge],
+          &ln_creep_times[gauge]};
+}
+
+double CalibrationParameters::Creep(const CalibrationFrame& frame, int gauge) {
+  const CreepTerm creep = CreepOf(frame, gauge);
+  if (creep.history == nullptr) return 0;
+  return *creep.share *
+         (creep.history->At(creep.row, *creep.share, *creep.ln_time_constant)
+              .volts -
+          *readings.offset_V(gauge, frame.log) / (1 + *creep.share));
+}
+
+Gauge CalibrationParameters::Present(const Finger& finger, int gauge) const {
+  Gauge present = finger.gauges[gauge];
+  present.gain_V_per_rad = gains_V_per_rad[gauge];
+  present.curvature_per_rad = curvatures_per_rad[gauge];
+  return present;
 }
 
 void CalibrationParameters::AddOfFinger(const Plan& plan,
@@ -153,6 +233,23 @@ void CalibrationParameters::AddOfFinger(const Plan& plan,
     case FingerParameterKind::kRibLength:
       parameter.variable = &shared.rib_lengths_mm[index];
       break;
+    case FingerParameterKind::kGaugeCurvature:
+      parameter.variable = &curvatures_per_rad[index];
+      break;
+    case FingerParameterKind::kGaugeStart:
+      parameter.variable = &shared.gauge_starts_mm[index];
+      break;
+    case FingerParameterKind::kGaugeLength:
+      parameter.variable = &shared.gauge_lengths_mm[index];
+      break;
+    case FingerParameterKind::kGaugeCreepShare:
+      parameter.variable = &creep_shares[index];
+      parameter.scale = 0.1;
+      break;
+    case FingerParameterKind::kGaugeCreepTime:
+      parameter.variable = &ln_creep_times[index];
+      parameter.is_log = true;
+      break;
   }
   parameter.block = of_finger.kind == FingerParameterKind::kRibLength
                         ? shared.rib_lengths_mm.data()
@@ -162,20 +259,42 @@ void CalibrationParameters::AddOfFinger(const Plan& plan,
 
 void CalibrationParameters::AddOrigins(const Plan& plan,
                                        const CalibrationLogs& logs) {
+  const bool placed = HasPlaces(logs);
   for (int log = 0; log < static_cast<int>(origins_mm_.size()); ++log) {
-    // Without the place of an object nothing shows the origin.
-    if (origin_per_log_ && !AnyFitted(logs, log, [](const auto& frame) {
-          return frame.contact && frame.object_mm.allFinite();
-        })) {
-      continue;
-    }
+    if (origin_per_log_ && !AnyFitted(logs, log, HasPlace)) continue;
     for (int axis = 0; axis < 2; ++axis) {
       CalibrationParameter parameter =
           OfAxis(ParameterFamily::kObjectOrigin, "object_origin", "mm",
                  origins_mm_[log].data(), axis, 10);
       origin_per_log_ ? AddOfLog(plan, logs, log, std::move(parameter))
-                      : Add(plan, std::move(parameter));
+                      : Add(plan, std::move(parameter), !placed);
     }
+  }
+}
+
+void CalibrationParameters::AddStage(const Plan& plan,
+                                     const CalibrationLogs& logs) {
+  if (!HasPlaces(logs)) return;
+  constexpr ParameterFamily kRotation = ParameterFamily::kObjectRotation;
+  for (int log = 0; log < static_cast<int>(rotations_deg_.size()); ++log) {
+    if (!plan.family(kRotation).free) break;
+    CalibrationParameter rotation = OfLogs(kRotation, "object_rotation_deg",
+                                           "deg", &rotations_deg_[log], 5);
+    if (!rotation_per_log_) {
+      Add(plan, std::move(rotation));
+    } else if (AnyFitted(logs, log, HasPlace)) {
+      AddOfLog(plan, logs, log, std::move(rotation));
+    }
+  }
+  if (plan.family(ParameterFamily::kObjectScale).free) {
+    CalibrationParameter scale = OfLogs(ParameterFamily::kObjectScale,
+                                        "object_scale", "1", &ln_object_scale);
+    scale.is_log = true;
+    Add(plan, std::move(scale));
+  }
+  if (plan.family(ParameterFamily::kObjectRadius).free) {
+    Add(plan, OfLogs(ParameterFamily::kObjectRadius, "object_radius_mm", "mm",
+                     &object_radius_mm));
   }
 }
 
@@ -186,6 +305,19 @@ void CalibrationParameters::AddForceSensor(const Plan& plan,
                                         "force_scale", "1", &ln_force_scale);
     scale.is_log = true;
     Add(plan, std::move(scale));
+  }
+  if (plan.family(ParameterFamily::kForceTimeOffset).free) {
+    Add(plan, OfLogs(ParameterFamily::kForceTimeOffset, "force_time_offset_s",
+                     "s", &force_time_offset_s));
+  }
+  if (plan.family(ParameterFamily::kForceTilt).free) {
+    Add(plan, OfLogs(ParameterFamily::kForceTilt, "force_tilt_deg", "deg",
+                     &force_tilt_deg, 5));
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    if (!plan.family(ParameterFamily::kForceWeight).free) break;
+    Add(plan, OfAxis(ParameterFamily::kForceWeight, "force_weight", "N",
+                     force_weight_N, axis, 1));
   }
   if (!plan.family(ParameterFamily::kForceOffset).free) return;
   bool magnitude = false, components = false;
@@ -276,14 +408,27 @@ FrameParameters CalibrationParameters::Of(const CalibrationFrame& frame) {
   FrameParameters of;
   of.finger = &shared;
   of.gains_V_per_rad = gains_V_per_rad.data();
+  of.curvatures_per_rad = curvatures_per_rad.data();
   of.readings.reserve(frame.gauges_V.size());
   for (std::size_t j = 0; j < frame.gauges_V.size(); ++j) {
     of.readings.push_back(readings.Of(frame, static_cast<int>(j)));
+    if (!creep_.empty()) {
+      of.creep.push_back(CreepOf(frame, static_cast<int>(j)));
+    }
   }
   of.ln_force_scale = &ln_force_scale;
   of.force_offset_N = &force_offset_N;
   of.force_offset_xy_N = force_offset_xy_N;
+  of.force_tilt_deg = &force_tilt_deg;
+  of.force_weight_N = force_weight_N;
+  if (!forces_N_.empty()) {
+    of.forces_N = &forces_N_[frame.log];
+    of.force_time_offset_s = &force_time_offset_s;
+  }
   of.object_origin_mm = object_origin_mm(frame.log);
+  of.object_rotation_deg = object_rotation_deg(frame.log);
+  of.ln_object_scale = &ln_object_scale;
+  of.object_radius_mm = &object_radius_mm;
   of.camera_origin_mm = camera_origin_mm;
   return of;
 }
@@ -310,20 +455,45 @@ Finger CalibrationParameters::Apply(const Finger& finger) const {
   return calibrated;
 }
 
+Plan CalibrationParameters::Corrected(const Plan& plan) const {
+  Plan corrected = plan;
+  if (plan.scene.circle_radius_mm()) {
+    corrected.scene.object->outline = Outline(CircleOutline{object_radius_mm});
+  }
+  return corrected;
+}
+
+void CalibrationParameters::CorrectForce(CalibrationFrame* frame) const {
+  if (!forces_N_.empty()) {
+    const std::array<LinearSignal, 3>& of_log = forces_N_[frame->log];
+    const double at_s = frame->time_s + force_time_offset_s;
+    for (int i = 0; i < 2 && frame->force_xy_N.allFinite(); ++i) {
+      frame->force_xy_N[i] = of_log[i].At(at_s).value;
+    }
+    if (std::isfinite(frame->force_N))
+      frame->force_N = of_log[2].At(at_s).value;
+  }
+  const double scale = std::exp(ln_force_scale);
+  frame->force_N = (frame->force_N - force_offset_N) / scale;
+  const Eigen::Map<const Eigen::Vector2d> offset(force_offset_xy_N),
+      weight(force_weight_N);
+  const Eigen::Rotation2Dd tilt(force_tilt_deg * M_PI / 180),
+      turn(frame->object_angle_rad);
+  frame->force_xy_N =
+      tilt.inverse() * (frame->force_xy_N - offset - turn * weight) / scale;
+}
+
 CalibrationLogs CalibrationParameters::Corrected(const CalibrationLogs& logs,
                                                  const Finger& calibrated) {
   CalibrationLogs corrected = logs;
-  const double scale = std::exp(ln_force_scale);
   for (CalibrationFrame& frame : corrected.frames) {
     for (std::size_t j = 0; j < frame.gauges_V.size(); ++j) {
+      const int gauge = static_cast<int>(j);
       frame.gauges_V[j] += calibrated.gauges[j].offset_V -
-                           readings.Sum(frame, static_cast<int>(j));
+                           readings.Sum(frame, gauge) - Creep(frame, gauge);
     }
-    frame.force_N = (frame.force_N - force_offset_N) / scale;
-    frame.force_xy_N -= Eigen::Map<const Eigen::Vector2d>(force_offset_xy_N);
-    frame.force_xy_N /= scale;
-    frame.object_mm +=
-        Eigen::Map<const Eigen::Vector2d>(object_origin_mm(frame.log));
+    CorrectForce(&frame);
+    frame.object_mm = Stage(frame.log).InS(frame.object_mm);
     const Eigen::Map<const Eigen::Vector2d> camera(camera_origin_mm);
     for (SeenPin& pin : frame.pins) pin.at_mm += camera;
     frame.tip_mm += camera;

@@ -11,11 +11,13 @@
 #include "finray/calib/problem/reading_terms.h"
 #include "finray/finger/finger.h"
 #include "finray/residuals/frame_set.h"
+#include "finray/scene/stage_frame.h"
 
 namespace finray {
 
-/// One number that a calibration may vary. Stiffness and the scale of the force
-/// sensor are positive, so their logarithms are varied (`is_log`). Gains are
+/// One number that a calibration may vary. Stiffness and the scales of force
+/// sensor and stage are positive, so their logarithms are varied (`is_log`).
+/// Gains are
 /// varied as they are. Readings are linear in gains, so a start that is wrong
 /// by any factor is one step away. The sign of a gain depends on the wiring,
 /// and the gain of a dead gauge is zero.
@@ -52,18 +54,33 @@ class CalibrationParameters {
   CalibrationParameters(const CalibrationParameters&) = delete;
 
   SharedParameters shared;
-  std::vector<double> gains_V_per_rad;
+  std::vector<double> gains_V_per_rad, curvatures_per_rad;
+  std::vector<double> creep_shares, ln_creep_times;
   ReadingTerms readings;
   /// The force sensor reads F = scale f + offset. The magnitude has one offset,
   /// and each component has one.
   double ln_force_scale = 0;
   double force_offset_N = 0, force_offset_xy_N[2] = {0, 0};
+  /// The force of a row is what its log reads so much later. Of the components
+  /// also: the turn of the sensor's axes, and the weight of what it carries,
+  /// which turns with the object (ReferenceForceVectorResidual).
+  double force_time_offset_s = 0, force_tilt_deg = 0,
+         force_weight_N[2] = {0, 0};
   /// Positions of rib pins and the tip count from here.
   double camera_origin_mm[2] = {0, 0};
 
-  /// Object positions of a log count from here.
+  /// The frame of a log's object positions, and the radius of the circle.
   double* object_origin_mm(int log) {
     return origins_mm_[origin_per_log_ ? log : 0].data();
+  }
+  double* object_rotation_deg(int log) {
+    return &rotations_deg_[rotation_per_log_ ? log : 0];
+  }
+  double ln_object_scale = 0;
+  double object_radius_mm = 0;
+  StageFrame Stage(int log) {
+    return {Eigen::Map<const Eigen::Vector2d>(object_origin_mm(log)),
+            *object_rotation_deg(log), ln_object_scale};
   }
 
   /// The parameters that a frame's blocks depend on.
@@ -90,20 +107,33 @@ class CalibrationParameters {
   /// has none.
   Eigen::VectorXd Units() const;
 
+  /// What creep adds to the reading of a frame, V.
+  double Creep(const CalibrationFrame& frame, int gauge);
+  /// The gauge with the present gain and curvature.
+  Gauge Present(const Finger& finger, int gauge) const;
   /// Returns the finger with the present values. If offsets are per log, it
   /// gets those of last_fitted_log().
   Finger Apply(const Finger& finger) const;
 
+  /// Returns the plan with the present radius of the circle, for logs that are
+  /// Corrected.
+  Plan Corrected(const Plan& plan) const;
   /// Returns the logs as a perfect setup would have recorded them: with the
-  /// offsets of `calibrated`, without drift, at the reference temperature, with
+  /// offsets of `calibrated`, without drift and creep, at the reference
+  /// temperature, with
   /// a true force sensor, and with all positions in frame S.
   CalibrationLogs Corrected(const CalibrationLogs& logs,
                             const Finger& calibrated);
 
  private:
+  void ReadCreep(const CalibrationLogs& logs);
+  void ReadForces(const CalibrationLogs& logs);
+  void CorrectForce(CalibrationFrame* frame) const;
+  CreepTerm CreepOf(const CalibrationFrame& frame, int gauge);
   void AddOfFinger(const Plan& plan, const CalibrationLogs& logs,
                    const FingerParameter& of_finger);
   void AddOrigins(const Plan& plan, const CalibrationLogs& logs);
+  void AddStage(const Plan& plan, const CalibrationLogs& logs);
   void AddForceSensor(const Plan& plan, const CalibrationLogs& logs);
   void AddTemperature(const Plan& plan);
   void AddCamera(const Plan& plan);
@@ -114,10 +144,15 @@ class CalibrationParameters {
   void Add(const Plan& plan, CalibrationParameter parameter,
            bool held_out = false);
 
+  // By log and gauge; empty if no gauge creeps.
+  std::vector<std::vector<CreepHistory>> creep_;
+  // By log; empty if the force sensor is not late.
+  std::vector<std::array<LinearSignal, 3>> forces_N_;
   std::vector<bool> held_out_;  // by log: whether all its rows are held out
   int last_fitted_;
-  bool origin_per_log_;
+  bool origin_per_log_, rotation_per_log_;
   std::vector<std::array<double, 2>> origins_mm_;
+  std::vector<double> rotations_deg_;
   std::vector<CalibrationParameter> all_;
   std::vector<int> free_;
 };

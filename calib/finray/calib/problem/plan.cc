@@ -1,6 +1,10 @@
 #include "finray/calib/problem/plan.h"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
+#include <utility>
 #include <vector>
 
 namespace finray {
@@ -19,9 +23,20 @@ constexpr FamilyKey kFamilyKeys[kParameterFamilies] = {
     {"gauge_gain", "prior_std_percent"},
     {"gauge_offset", "prior_std_V", {"per_log"}},
     {"rib_length", "prior_std_mm"},
+    {"gauge_curvature", "prior_std_per_rad"},
+    {"gauge_start", "prior_std_mm"},
+    {"gauge_length", "prior_std_mm"},
+    {"gauge_creep_share", "prior_std"},
+    {"gauge_creep_time", "prior_std_percent"},
     {"object_origin", "prior_std_mm", {"per_log"}},
+    {"object_rotation", "prior_std_deg", {"per_log"}},
+    {"object_scale", "prior_std_percent"},
+    {"object_radius", "prior_std_mm"},
     {"force_scale", "prior_std_percent"},
     {"force_offset", "prior_std_N"},
+    {"force_time_offset", "prior_std_s"},
+    {"force_tilt", "prior_std_deg"},
+    {"force_weight", "prior_std_N"},
     {"temperature_coefficient", "prior_std_V_per_C", {"reference_C"}},
     {"gauge_drift", "prior_std_V_per_h", {kWalk, kKnots}},
     {"camera_origin", "prior_std_mm"},
@@ -85,6 +100,29 @@ Scene ReadPlanScene(const YamlMap& yaml) {
 }
 
 }  // namespace
+
+bool Plan::HasCreep(const Finger& finger) const {
+  return family(ParameterFamily::kGaugeCreepShare).free ||
+         family(ParameterFamily::kGaugeCreepTime).free ||
+         std::any_of(finger.gauges.begin(), finger.gauges.end(),
+                     [](const Gauge& gauge) { return gauge.creep_share != 0; });
+}
+
+double Plan::PlaceStd_mm(double reach_mm) const {
+  double variance = object_std_mm * object_std_mm;
+  const std::pair<ParameterFamily, double> parts[] = {
+      {ParameterFamily::kObjectOrigin, 1},
+      {ParameterFamily::kObjectRotation, reach_mm * M_PI / 180},
+      {ParameterFamily::kObjectScale, reach_mm / 100},
+      {ParameterFamily::kObjectRadius, 1}};
+  for (const auto& [which, mm] : parts) {
+    if (!family(which).free) continue;
+    variance += std::pow(mm * family(which).prior_std.value_or(
+                                  std::numeric_limits<double>::infinity()),
+                         2);
+  }
+  return std::sqrt(variance);
+}
 
 Plan ReadPlan(const std::string& path) {
   const YamlMap yaml = YamlMap::FromFile(path);

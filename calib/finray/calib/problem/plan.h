@@ -13,28 +13,40 @@ namespace finray {
 
 /// The kinds of parameters that a calibration may vary. The first ones belong
 /// to the finger and have the numbers of FingerParameterKind. The others belong
-/// to the logs: the origin of object positions, the terms that the force sensor
-/// and the gauges add, and the origin of camera positions.
+/// to the logs: the frame of object positions and the radius of the object, the
+/// terms that the force sensor and the gauges add, and the origin of camera
+/// positions.
 enum class ParameterFamily {
   kFrontStiffness = static_cast<int>(FingerParameterKind::kFrontStiffness),
   kBackStiffness = static_cast<int>(FingerParameterKind::kBackStiffness),
   kGaugeGain = static_cast<int>(FingerParameterKind::kGaugeGain),
   kGaugeOffset = static_cast<int>(FingerParameterKind::kGaugeOffset),
   kRibLength = static_cast<int>(FingerParameterKind::kRibLength),
+  kGaugeCurvature = static_cast<int>(FingerParameterKind::kGaugeCurvature),
+  kGaugeStart = static_cast<int>(FingerParameterKind::kGaugeStart),
+  kGaugeLength = static_cast<int>(FingerParameterKind::kGaugeLength),
+  kGaugeCreepShare = static_cast<int>(FingerParameterKind::kGaugeCreepShare),
+  kGaugeCreepTime = static_cast<int>(FingerParameterKind::kGaugeCreepTime),
   kObjectOrigin = kFingerParameterKinds,
+  kObjectRotation,
+  kObjectScale,
+  kObjectRadius,
   kForceScale,
   kForceOffset,
+  kForceTimeOffset,
+  kForceTilt,
+  kForceWeight,
   kTemperatureCoefficient,
   kGaugeDrift,
   kCameraOrigin,
 };
-constexpr int kParameterFamilies = kFingerParameterKinds + 6;
+constexpr int kParameterFamilies = kFingerParameterKinds + 12;
 
 /// Says whether a family is varied, and its prior.
 struct FamilyPlan {
   bool free = false;
   /// Std of the prior; empty if there is none. It is in percent of the initial
-  /// value for stiffness, gains and the force scale, else in the unit that the
+  /// value for stiffness, gains, scales and times, else in the unit that the
   /// key of the plan names.
   std::optional<double> prior_std;
   /// Each log has a value of its own.
@@ -76,6 +88,23 @@ struct Plan {
   const FamilyPlan& family(ParameterFamily which) const {
     return families[static_cast<int>(which)];
   }
+  /// Says that the plan varies where gauges start or how long they are.
+  bool MovesGauges() const {
+    return family(ParameterFamily::kGaugeStart).free ||
+           family(ParameterFamily::kGaugeLength).free;
+  }
+  /// Says that the finger's gauges creep or the plan asks whether they do.
+  bool HasCreep(const Finger& finger) const;
+  /// Says that the force sensor reads 0 where nothing touches.
+  bool ForceZeroIsKnown() const {
+    return !family(ParameterFamily::kForceOffset).free &&
+           !family(ParameterFamily::kForceWeight).free;
+  }
+  /// The std of an object's place against the finger, in mm: what its
+  /// measurement and the priors of stage and radius have together, at places up
+  /// to `reach_mm` from the origin. Infinite if one of these is free without a
+  /// prior.
+  double PlaceStd_mm(double reach_mm) const;
 };
 
 /// Reads a plan. Throws InputError for unknown keys and wrong units in a key.

@@ -311,12 +311,14 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
   WarnOfCorrelation(*problem, result.residual_correlation, &result.warnings);
   WarnOfDisagreement(*problem, result.leave_one_log_out, &result.warnings);
   WarnOfForces(result.forces, problem->plan().force_std_N, &result.warnings);
+  const bool curves =
+      problem->plan().family(ParameterFamily::kGaugeCurvature).free;
   for (const BenchLinearity& gauge : result.bench) {
-    if (gauge.IsLinear()) continue;
+    if (gauge.IsLinear() || (curves && gauge.IsCurved())) continue;
     result.warnings.push_back(
         {"gauge_not_linear", gauge.Words(),
-         "bend the gauge only as far as the finger will, or calibrate its gain "
-         "on the finger against a force sensor"});
+         "free gauge_curvature in the plan, or bend the gauge only as far as "
+         "the finger will"});
   }
   return result;
 }

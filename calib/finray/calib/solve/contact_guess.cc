@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "finray/finger/geometry.h"
 
@@ -21,17 +22,23 @@ EquilibriumSolver SolverFor(const CalibrationProblem& problem) {
   return solver;
 }
 
+// The radius of the circle at the present parameters, if there is a circle.
+std::optional<double> RadiusOf(const CalibrationProblem& problem) {
+  return problem.plan().scene.circle_radius_mm()
+             ? std::optional(problem.parameters().object_radius_mm)
+             : std::nullopt;
+}
+
 }  // namespace
 
 ContactGuess::ContactGuess(CalibrationProblem* problem)
     : problem_(*problem),
       solver_(SolverFor(*problem)),
       table_(&solver_, problem->plan().scene.friction_coefficient,
-             problem->plan().scene.circle_radius_mm(), problem->threads(),
-             kRows),
+             RadiusOf(*problem), std::nullopt, problem->threads(), kRows),
       fit_(solver_.model().finger(), problem->discretization(),
-           problem->plan().scene.circle_radius_mm()),
-      circle_(problem->plan().scene.circle_radius_mm().has_value()) {
+           RadiusOf(*problem)),
+      circle_(RadiusOf(*problem).has_value()) {
   const auto size = static_cast<Eigen::Index>(problem->finger().gauges.size()) +
                     (circle_ ? 2 : 0);
   values_.resize(size);
@@ -64,19 +71,22 @@ ContactGuess::Place ContactGuess::Of(const CalibrationFrame& frame, From from) {
 }
 
 void ContactGuess::AddCircle(const CalibrationFrame& frame) {
-  const Eigen::Map<const Eigen::Vector2d> origin(
-      problem_.parameters().object_origin_mm(frame.log));
-  values_.tail<2>() = frame.object_mm + origin;
+  values_.tail<2>() =
+      problem_.parameters().Stage(frame.log).InS(frame.object_mm);
   weights_.tail<2>().setConstant(1 / problem_.plan().object_std_mm);
 }
 
 void ContactGuess::AddGauges(const CalibrationFrame& frame) {
   CalibrationParameters& parameters = problem_.parameters();
   for (int j = 0; j < static_cast<int>(frame.gauges_V.size()); ++j) {
-    const double gain = parameters.gains_V_per_rad[j];
-    if (!std::isfinite(frame.gauges_V[j]) || gain == 0) continue;
-    values_[j] = (frame.gauges_V[j] - parameters.readings.Sum(frame, j)) / gain;
-    weights_[j] = std::abs(gain) / problem_.blocks().gauge_std_V(j);
+    Gauge gauge = parameters.Present(problem_.finger(), j);
+    gauge.offset_V =
+        parameters.readings.Sum(frame, j) + parameters.Creep(frame, j);
+    const double angle = gauge.Angle(frame.gauges_V[j]);
+    if (!std::isfinite(angle)) continue;
+    values_[j] = angle;
+    weights_[j] =
+        std::abs(gauge.Slope(angle)) / problem_.blocks().gauge_std_V(j);
   }
 }
 

@@ -30,6 +30,7 @@ FrameLinearizer::FrameLinearizer(const EquilibriumSolver& solver,
                                  const CalibrationParameters* parameters)
     : solver_(solver),
       friction_(plan.scene.friction_coefficient),
+      movable_gauges_(plan.MovesGauges()),
       blocks_(*blocks),
       parameters_(*parameters),
       loss_(MakeLoss(plan)) {
@@ -46,7 +47,7 @@ void FrameLinearizer::Prepare(const CalibrationFrame& frame,
     if (start.q.size() == 0) solver_.Reset();
     model->evaluation.emplace(solver_.model(), EquilibriumForm::kReduced,
                               frame.contact ? 1 : 0, friction_,
-                              !frame.pins.empty());
+                              !frame.pins.empty(), movable_gauges_);
   }
   model->blocks =
       blocks_.Of(frame, model->evaluation ? &*model->evaluation : nullptr,
@@ -70,6 +71,8 @@ bool FrameLinearizer::Evaluate(const std::array<double, 2>& contact,
   if (model->evaluation) {
     if (state->q.size() > 0) model->evaluation->set_state(*state);
     const SharedParameters& shared = parameters_.shared;
+    model->evaluation->PlaceGauges(shared.gauge_starts_mm.data(),
+                                   shared.gauge_lengths_mm.data());
     model->evaluation->Update(contact.data(), shared.ln_front_stiffness,
                               shared.ln_back_stiffness,
                               shared.rib_lengths_mm.data(), &solver_);

@@ -54,6 +54,7 @@ class FrameLinearizer {
 
   EquilibriumSolver solver_;
   double friction_;
+  bool movable_gauges_;
   const CalibrationBlocks& blocks_;
   const CalibrationParameters& parameters_;
   std::unique_ptr<ceres::LossFunction> loss_;

@@ -79,9 +79,9 @@ class JointProblem {
     double* contact = frame.contact ? contacts_[i].data() : nullptr;
     FrameEvaluation* evaluation = nullptr;
     if (!frame.IsBench()) {
-      evaluation = &evaluations_.Add(frame.contact ? 1 : 0,
-                                     problem_.plan().scene.friction_coefficient,
-                                     contact, !frame.pins.empty());
+      evaluation = &evaluations_.Add(
+          frame.contact ? 1 : 0, problem_.plan().scene.friction_coefficient,
+          contact, !frame.pins.empty(), problem_.plan().MovesGauges());
       const LadderState state = contacts_.StateNear(i);
       if (state.q.size() > 0) evaluation->set_state(state);
     }

@@ -30,8 +30,7 @@ std::map<int, double> Chi2As(bool contact, const std::vector<int>& frames,
 double Chi2OfForce(const CalibrationProblem& problem, int i) {
   const Plan& plan = problem.plan();
   const double force = ReferenceForce(problem.frame(i));
-  if (!std::isfinite(force) ||
-      plan.family(ParameterFamily::kForceOffset).free) {
+  if (!std::isfinite(force) || !plan.ForceZeroIsKnown()) {
     return 0;
   }
   double rho[3] = {std::pow(force / plan.force_std_N, 2)};

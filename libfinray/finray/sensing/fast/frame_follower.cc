@@ -1,6 +1,6 @@
 #include "finray/sensing/fast/frame_follower.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace finray {
 namespace {
@@ -13,11 +13,20 @@ constexpr double kTolerance = 5e-9;
 // than this. The map's margins reach to Valley::kFarthest then (ramp_study).
 constexpr double kOtherPlaces = 17;
 
-Eigen::VectorXd AllWeights(const Finger& finger) {
+// Returns the least weight that each gauge has at any angle of the table: with
+// a curve, weights differ, and smaller ones let more places be rivals.
+Eigen::VectorXd LeastWeights(const Finger& finger, const GaugeTable& table) {
   const auto gauges = static_cast<Eigen::Index>(finger.gauges.size());
   Eigen::VectorXd weights(gauges);
   for (Eigen::Index j = 0; j < gauges; ++j) {
-    weights[j] = finger.gauges[j].AngleWeight();
+    const Gauge& gauge = finger.gauges[j];
+    weights[j] = gauge.AngleWeight();
+    if (gauge.curvature_per_rad == 0) continue;
+    for (const GaugeTable::Row& row : table.rows()) {
+      for (const double angle : row.values.col(j)) {
+        weights[j] = std::min(weights[j], gauge.AngleWeight(angle));
+      }
+    }
   }
   return weights;
 }
@@ -26,7 +35,7 @@ RivalMap MapRivals(const Finger& finger, const Discretization& discretization,
                    const ContactSearch& search) {
   ContactFit fit(finger, discretization);
   fit.set_most_force(search.most_force_N());
-  return {search.table(), AllWeights(finger), &fit};
+  return {search.table(), LeastWeights(finger, search.table()), &fit};
 }
 
 }  // namespace
