@@ -30,6 +30,8 @@ auto& Variable(AnyFinger& finger, const FingerParameter& parameter) {
       return finger.gauges[parameter.index].creep_share;
     case FingerParameterKind::kGaugeCreepTime:
       return finger.gauges[parameter.index].creep_time_constant_s;
+    case FingerParameterKind::kHingeStiffness:
+      return finger.ribs[0].front_hinge_N_mm_per_rad;
     case FingerParameterKind::kRibLength:
       break;
   }
@@ -63,17 +65,25 @@ std::vector<FingerParameter> AllParametersOf(const Finger& finger) {
         FingerParameterKind::kGaugeCreepTime}) {
     Add(kind, finger.gauges.size(), &all);
   }
+  if (!finger.ribs.empty())
+    all.push_back({FingerParameterKind::kHingeStiffness});
   return all;
 }
 
 std::string ParameterName(const FingerParameter& parameter) {
   // '#' stands for the number of the gauge or rib.
   constexpr const char* kNames[kFingerParameterKinds] = {
-      "front_stiffness_N_mm2",  "back_stiffness_N_mm2",
-      "gauge_#_gain_V_per_rad", "gauge_#_offset_V",
-      "rib_#_length_mm",        "gauge_#_curvature_per_rad",
-      "gauge_#_start_mm",       "gauge_#_length_mm",
-      "gauge_#_creep_share",    "gauge_#_creep_time_constant_s"};
+      "front_stiffness_N_mm2",
+      "back_stiffness_N_mm2",
+      "gauge_#_gain_V_per_rad",
+      "gauge_#_offset_V",
+      "rib_#_length_mm",
+      "gauge_#_curvature_per_rad",
+      "gauge_#_start_mm",
+      "gauge_#_length_mm",
+      "gauge_#_creep_share",
+      "gauge_#_creep_time_constant_s",
+      "hinge_stiffness_N_mm_per_rad"};
   std::string name = kNames[static_cast<int>(parameter.kind)];
   const auto number = name.find('#');
   if (number != std::string::npos) {
@@ -84,7 +94,8 @@ std::string ParameterName(const FingerParameter& parameter) {
 
 const char* ParameterUnit(FingerParameterKind kind) {
   constexpr const char* kUnits[kFingerParameterKinds] = {
-      "N mm^2", "N mm^2", "V/rad", "V", "mm", "1/rad", "mm", "mm", "1", "s"};
+      "N mm^2", "N mm^2", "V/rad", "V", "mm",      "1/rad",
+      "mm",     "mm",     "1",     "s", "N mm/rad"};
   return kUnits[static_cast<int>(kind)];
 }
 
@@ -94,7 +105,21 @@ double ParameterValue(const Finger& finger, const FingerParameter& parameter) {
 
 void SetParameter(const FingerParameter& parameter, double value,
                   Finger* finger) {
+  if (parameter.kind == FingerParameterKind::kHingeStiffness) {
+    for (Rib& rib : finger->ribs) {
+      rib.front_hinge_N_mm_per_rad = rib.back_hinge_N_mm_per_rad = value;
+    }
+    return;
+  }
   Variable(*finger, parameter) = value;
+}
+
+std::vector<FingerParameter> ParameterCovariance::StaticsEffects() const {
+  std::vector<FingerParameter> effects;
+  for (const FingerParameter& parameter : parameters) {
+    if (IsStaticsEffect(parameter.kind)) effects.push_back(parameter);
+  }
+  return effects;
 }
 
 bool ParameterCovariance::HasGaugePlaces() const {

@@ -79,6 +79,7 @@ class LadderSweeper : private LadderWalkBack<T, kVectors> {
   int RibColumn(int rib) const {
     return affine() + 1 + 2 * f_.contact_count + 2 + rib;
   }
+  int EffectColumn(int effect) const { return RibColumn(f_.ribs) + effect; }
 
   void Begin() {
     while (next_contact_[1] < f_.contact_count &&
@@ -239,6 +240,7 @@ class LadderSweeper : private LadderWalkBack<T, kVectors> {
       back_x[v] -= across * wide_y;
       back_y[v] += across * wide_x;
     }
+    if (f_.springs) PassSprings(rib);
     const T strained = Scalar(1) + tension * f_.rib_flexibility[rib];
     if (parameters()) length[RibColumn(rib)] -= strained;
     if (by_load()) length[affine() + 1] -= strained * f_.d_rib_length[rib];
@@ -254,6 +256,55 @@ class LadderSweeper : private LadderWalkBack<T, kVectors> {
     RowOf(0, kForceY)[column] -= uy;
     RowOf(1, kForceX)[column] += ux;
     RowOf(1, kForceY)[column] += uy;
+  }
+
+  // With the rib's turn dphi = across / d, where u and v are its directions
+  // along and across, dm = k (dtheta - dphi) and
+  //
+  //   dQ = (dm_F + dm_B - Q du) / d,   d(Q v) = dQ v - Q dphi u.
+  void PassSprings(int rib) {
+    const T ux = f_.rib_ux[rib], uy = f_.rib_uy[rib];
+    const T front = f_.hinge_stiffness[0][rib],
+            back = f_.hinge_stiffness[1][rib];
+    const T inverse = Scalar(1) / f_.rib_distance[rib];
+    const T angles[2] = {f_.hinge_angle[0][rib], f_.hinge_angle[1][rib]};
+    const T transverse = (front * angles[0] + back * angles[1]) * inverse;
+    const V wide_x = Broadcast(ux), wide_y = Broadcast(uy);
+    const V wide_front = Broadcast(front), wide_back = Broadcast(back);
+    const V wide_inverse = Broadcast(inverse);
+    const V wide_transverse = Broadcast(transverse);
+    for (int v = 0; v < vectors(); ++v) {
+      const V dx = Wide(RowOf(1, kX))[v] - Wide(RowOf(0, kX))[v];
+      const V dy = Wide(RowOf(1, kY))[v] - Wide(RowOf(0, kY))[v];
+      const V turn = wide_inverse * (wide_x * dy - wide_y * dx);
+      const V front_moment = wide_front * (Wide(RowOf(0, kTheta))[v] - turn);
+      const V back_moment = wide_back * (Wide(RowOf(1, kTheta))[v] - turn);
+      const V across =
+          wide_inverse * (front_moment + back_moment -
+                          wide_transverse * (wide_x * dx + wide_y * dy));
+      Wide(RowOf(0, kMoment))[v] += front_moment;
+      Wide(RowOf(1, kMoment))[v] += back_moment;
+      AddAcross(v, across, wide_transverse * turn, wide_x, wide_y);
+    }
+    if (!parameters() || f_.by_hinge_stiffness < 0) return;
+    const int column = EffectColumn(f_.by_hinge_stiffness);
+    for (int side = 0; side < 2; ++side) {
+      RowOf(side, kMoment)[column] += angles[side];
+    }
+    const T slope = (angles[0] + angles[1]) * inverse;
+    RowOf(0, kForceX)[column] -= slope * uy;
+    RowOf(0, kForceY)[column] += slope * ux;
+    RowOf(1, kForceX)[column] += slope * uy;
+    RowOf(1, kForceY)[column] -= slope * ux;
+  }
+  // N_front += across v - along u, N_back the opposite.
+  void AddAcross(int v, const V& across, const V& along, const V& ux,
+                 const V& uy) {
+    const V x = across * uy + along * ux, y = across * ux - along * uy;
+    Wide(RowOf(0, kForceX))[v] -= x;
+    Wide(RowOf(0, kForceY))[v] += y;
+    Wide(RowOf(1, kForceX))[v] += x;
+    Wide(RowOf(1, kForceY))[v] -= y;
   }
 
   // All lanes share a pivot, so an entry counts as much as its smallest lane.

@@ -50,6 +50,7 @@ class LadderWorkspace {
   static constexpr int kAllLanes = -1;
 
  private:
+  void SetEffects(const LadderModel& model);
   void Allocate();
   template <class Take>
   void LayOut(Take&& take);

@@ -12,6 +12,7 @@ FrameEvaluation::FrameEvaluation(const LadderModel& model, EquilibriumForm form,
                                  bool movable_gauges)
     : form_(form),
       ribs_(model.ribs()),
+      effects_(static_cast<int>(model.effects().size())),
       gauges_(model.gauges()),
       contact_count_(contacts),
       loads_(contacts),
@@ -51,7 +52,7 @@ void FrameEvaluation::PlaceGauges(const double* starts_mm,
 void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
                              double ln_back_stiffness,
                              const double* rib_lengths_mm,
-                             EquilibriumSolver* solver) {
+                             const double* effects, EquilibriumSolver* solver) {
   valid_ = false;
   if (!on_beam_) return;
   const double front = std::exp(ln_front_stiffness);
@@ -61,6 +62,10 @@ void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
   for (int i = 0; i < ribs_; ++i) {
     if (!(rib_lengths_mm[i] > 0)) return;
     solver->model().set_rib_length(i, rib_lengths_mm[i]);
+  }
+  for (int i = 0; i < effects_; ++i) {
+    if (!std::isfinite(effects[i])) return;
+    solver->model().set_effect(i, effects[i]);
   }
   for (int i = 0; i < contacts(); ++i) {
     const double* contact = frame + contact_offset(i);
@@ -134,7 +139,7 @@ void FrameEvaluation::SetWithoutPins(const Matrix& derivatives,
   }
   target->resize(derivatives.rows(), columns());
   *target << derivatives.leftCols(frame_size()),
-      derivatives.rightCols(2 + ribs_);
+      derivatives.rightCols(2 + ribs_ + effects_);
 }
 
 }  // namespace finray

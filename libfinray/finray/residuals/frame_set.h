@@ -19,7 +19,13 @@ struct SharedParameters {
   /// Places of the gauges. Only frames with movable gauges use them.
   std::vector<double> gauge_starts_mm, gauge_lengths_mm;
 
-  static SharedParameters Of(const Finger& finger);
+  /// Effects inside the equilibrium that are varied, and their values, which
+  /// are one parameter block.
+  std::vector<FingerParameter> effects;
+  std::vector<double> effect_values;
+
+  static SharedParameters Of(const Finger& finger,
+                             std::vector<FingerParameter> effects = {});
 };
 
 /// The frames of a ceres::Problem, and the problem's evaluation callback.
@@ -29,7 +35,8 @@ struct SharedParameters {
 /// of threads, as long as all frames can be evaluated.
 class FrameSet : public ceres::EvaluationCallback {
  public:
-  /// `shared` must stay in place; Ceres varies it.
+  /// `shared` must stay in place; Ceres varies it, but not what its effects
+  /// are.
   FrameSet(const Finger& finger, const Discretization& discretization,
            EquilibriumForm form, const SharedParameters* shared, int threads);
 

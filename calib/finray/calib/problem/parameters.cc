@@ -85,6 +85,8 @@ double VagueStd(const CalibrationParameter& parameter) {
     case ParameterFamily::kGaugeStart:
     case ParameterFamily::kGaugeLength:
       return 2;
+    case ParameterFamily::kHingeStiffness:
+      return 50;
     case ParameterFamily::kObjectOrigin:
     case ParameterFamily::kObjectRadius:
     case ParameterFamily::kCameraOrigin:
@@ -102,6 +104,20 @@ double VagueStd(const CalibrationParameter& parameter) {
   }
 }
 
+// A free hinge stiffness is one number for all hinges.
+void RefuseUnequalHinges(const Finger& finger) {
+  const double one = finger.ribs[0].front_hinge_N_mm_per_rad;
+  for (const Rib& rib : finger.ribs) {
+    if (rib.front_hinge_N_mm_per_rad != one ||
+        rib.back_hinge_N_mm_per_rad != one) {
+      throw InputError(
+          "plan: hinge_stiffness is free, so all hinges share one value, but "
+          "the finger's hinge_stiffness_N_mm_per_rad differ; give all ribs the "
+          "same one");
+    }
+  }
+}
+
 }  // namespace
 
 double CalibrationParameter::Value(double at) const {
@@ -115,7 +131,7 @@ double CalibrationParameter::ValueStd(double at, double std) const {
 CalibrationParameters::CalibrationParameters(const Finger& finger,
                                              const Plan& plan,
                                              const CalibrationLogs& logs)
-    : shared(SharedParameters::Of(finger)),
+    : shared(SharedParameters::Of(finger, plan.StaticsEffects(finger))),
       readings(finger, plan, logs),
       object_radius_mm(plan.scene.circle_radius_mm().value_or(0)),
       held_out_(logs.HeldOut()),
@@ -135,7 +151,7 @@ CalibrationParameters::CalibrationParameters(const Finger& finger,
   for (const FingerParameter& parameter : AllParametersOf(finger)) {
     const auto family = static_cast<ParameterFamily>(parameter.kind);
     if (IsEffect(parameter.kind) && !plan.family(family).free) continue;
-    AddOfFinger(plan, logs, parameter);
+    AddOfFinger(finger, plan, logs, parameter);
   }
   AddOrigins(plan, logs);
   AddStage(plan, logs);
@@ -190,7 +206,7 @@ Gauge CalibrationParameters::Present(const Finger& finger, int gauge) const {
   return present;
 }
 
-void CalibrationParameters::AddOfFinger(const Plan& plan,
+void CalibrationParameters::AddOfFinger(const Finger& finger, const Plan& plan,
                                         const CalibrationLogs& logs,
                                         const FingerParameter& of_finger) {
   CalibrationParameter parameter;
@@ -250,10 +266,20 @@ void CalibrationParameters::AddOfFinger(const Plan& plan,
       parameter.variable = &ln_creep_times[index];
       parameter.is_log = true;
       break;
+    case FingerParameterKind::kHingeStiffness:
+      RefuseUnequalHinges(finger);
+      parameter.scale = 10;
+      break;
   }
   parameter.block = of_finger.kind == FingerParameterKind::kRibLength
                         ? shared.rib_lengths_mm.data()
                         : parameter.variable;
+  if (IsStaticsEffect(of_finger.kind)) {
+    const auto at =
+        std::find(shared.effects.begin(), shared.effects.end(), of_finger);
+    parameter.block = shared.effect_values.data();
+    parameter.variable = parameter.block + (at - shared.effects.begin());
+  }
   Add(plan, std::move(parameter));
 }
 

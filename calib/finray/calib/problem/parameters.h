@@ -130,7 +130,8 @@ class CalibrationParameters {
   void ReadForces(const CalibrationLogs& logs);
   void CorrectForce(CalibrationFrame* frame) const;
   CreepTerm CreepOf(const CalibrationFrame& frame, int gauge);
-  void AddOfFinger(const Plan& plan, const CalibrationLogs& logs,
+  void AddOfFinger(const Finger& finger, const Plan& plan,
+                   const CalibrationLogs& logs,
                    const FingerParameter& of_finger);
   void AddOrigins(const Plan& plan, const CalibrationLogs& logs);
   void AddStage(const Plan& plan, const CalibrationLogs& logs);

@@ -28,6 +28,7 @@ constexpr FamilyKey kFamilyKeys[kParameterFamilies] = {
     {"gauge_length", "prior_std_mm"},
     {"gauge_creep_share", "prior_std"},
     {"gauge_creep_time", "prior_std_percent"},
+    {"hinge_stiffness", "prior_std_N_mm_per_rad"},
     {"object_origin", "prior_std_mm", {"per_log"}},
     {"object_rotation", "prior_std_deg", {"per_log"}},
     {"object_scale", "prior_std_percent"},
@@ -106,6 +107,17 @@ bool Plan::HasCreep(const Finger& finger) const {
          family(ParameterFamily::kGaugeCreepTime).free ||
          std::any_of(finger.gauges.begin(), finger.gauges.end(),
                      [](const Gauge& gauge) { return gauge.creep_share != 0; });
+}
+
+std::vector<FingerParameter> Plan::StaticsEffects(const Finger& finger) const {
+  std::vector<FingerParameter> effects;
+  for (const FingerParameter& parameter : AllParametersOf(finger)) {
+    if (IsStaticsEffect(parameter.kind) &&
+        family(static_cast<ParameterFamily>(parameter.kind)).free) {
+      effects.push_back(parameter);
+    }
+  }
+  return effects;
 }
 
 double Plan::PlaceStd_mm(double reach_mm) const {

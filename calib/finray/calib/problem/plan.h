@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "finray/finger/finger_parameter.h"
 #include "finray/scene/scene.h"
@@ -27,6 +28,7 @@ enum class ParameterFamily {
   kGaugeLength = static_cast<int>(FingerParameterKind::kGaugeLength),
   kGaugeCreepShare = static_cast<int>(FingerParameterKind::kGaugeCreepShare),
   kGaugeCreepTime = static_cast<int>(FingerParameterKind::kGaugeCreepTime),
+  kHingeStiffness = static_cast<int>(FingerParameterKind::kHingeStiffness),
   kObjectOrigin = kFingerParameterKinds,
   kObjectRotation,
   kObjectScale,
@@ -93,6 +95,8 @@ struct Plan {
     return family(ParameterFamily::kGaugeStart).free ||
            family(ParameterFamily::kGaugeLength).free;
   }
+  /// The effects inside the equilibrium that the plan varies.
+  std::vector<FingerParameter> StaticsEffects(const Finger& finger) const;
   /// Says that the finger's gauges creep or the plan asks whether they do.
   bool HasCreep(const Finger& finger) const;
   /// Says that the force sensor reads 0 where nothing touches.
