@@ -88,6 +88,36 @@ TEST(StaticsEffectsTest, NoHingeStiffness) {
   with.ExpectFinger(HiddenFinger());
 }
 
+// Frames pressed with friction, of which the scene knows nothing. A sensor of
+// components sees it.
+TEST(StaticsEffectsTest, Friction) {
+  const TempFolder folder;
+  Scene scene = StandardScene();
+  scene.friction_coefficient = 0.3;
+  const FrameTable frames = StandardFrames(HiddenFinger(), 45, scene);
+  MakeLog(HiddenFinger(), frames, {0.02, 0.05, 45}).Write(folder.Path("log.csv"));
+  const std::string log = folder.Path("log.csv");
+  Plan plan = StandardPlan();
+  const Recovery without(Nominal(), plan, {log});
+  Free(ParameterFamily::kFriction, &plan).prior_std = 0.3;
+  Recovery with(Nominal(), plan, {log});
+  with.ExpectFinger(HiddenFinger());
+  with.Expect("friction_coefficient", 0.3, 0.05);
+  EXPECT_GT(without.Chi2(), with.Chi2() + 100);
+  EXPECT_NEAR(with.Chi2PerDof(ResidualFamily::kGauge), 1, 0.2);
+  const CalibrationParameters& parameters = with.problem().parameters();
+  EXPECT_EQ(parameters.Corrected(plan).scene.friction_coefficient,
+            with.Value("friction_coefficient"));
+
+  // Together with an effect of the finger, in one block with it, where one has
+  // a prior and the other has none.
+  Free(ParameterFamily::kHingeStiffness, &plan);
+  Free(ParameterFamily::kFriction, &plan).prior_std.reset();
+  const Recovery both(Nominal(), plan, {log});
+  both.Expect("friction_coefficient", 0.3, 0.06);
+  both.Expect(kHinges, 0, 10);
+}
+
 TEST(StaticsEffectsTest, HingesThatShareAValueMustAgree) {
   const TempFolder folder;
   Finger finger = Nominal();

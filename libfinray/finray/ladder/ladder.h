@@ -58,9 +58,16 @@ class LadderModel {
     finger_.ribs[rib].length_mm = length_mm;
   }
   /// Derivatives are carried by these parameters of the finger too, in this
-  /// order. All are statics effects.
-  void set_effects(std::vector<FingerParameter> effects) {
+  /// order, and behind them by the friction coefficient of all contacts. All are
+  /// statics effects.
+  void set_effects(std::vector<FingerParameter> effects,
+                   bool by_friction = false) {
     effects_ = std::move(effects);
+    by_friction_ = by_friction;
+  }
+  bool by_friction() const { return by_friction_; }
+  int effect_columns() const {
+    return static_cast<int>(effects_.size()) + by_friction_;
   }
   const std::vector<FingerParameter>& effects() const { return effects_; }
   /// The place of the first effect of a kind among effects(); -1 if none is.
@@ -78,6 +85,7 @@ class LadderModel {
   Finger finger_;
   std::array<BeamMesh, 2> mesh_;
   std::vector<FingerParameter> effects_;
+  bool by_friction_ = false;
 };
 
 /// The unknowns of an equilibrium.

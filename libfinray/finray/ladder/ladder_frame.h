@@ -119,7 +119,7 @@ struct LadderFrame {
   int affine = 6, stride = 8, node_columns = kNodeColumns;
   /// With kParameters, columns of effects behind those of the rib lengths. Each
   /// effect begins at its number among them; a negative number means none.
-  int effects = 0, by_hinge_stiffness = -1;
+  int effects = 0, by_hinge_stiffness = -1, by_friction = -1;
   int event_count = 0;
   T *taps;
   T *q_step;  ///< Rows of the change of q.

@@ -215,6 +215,13 @@ class LadderSweeper : private LadderWalkBack<T, kVectors> {
       }
       if (by_load()) force[affine() + 1] -= contact.d_normal * unit[i];
     }
+    if (!parameters() || f_.by_friction < 0) return;
+    T along[2];
+    SinCos(f_.slot_theta[f_.elements + c], &along[1], &along[0]);
+    for (int i = 0; i < 2; ++i) {
+      RowOf(side, kForceX + i)[EffectColumn(f_.by_friction)] -=
+          contact.normal * along[i];
+    }
   }
 
   void PassRib(int rib) {

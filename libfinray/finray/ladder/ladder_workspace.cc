@@ -217,7 +217,8 @@ void LadderWorkspace<T>::SetFinger(const LadderModel& model, double fraction) {
 template <class T>
 void LadderWorkspace<T>::SetEffects(const LadderModel& model) {
   const Finger& finger = model.finger();
-  frame_.effects = static_cast<int>(model.effects().size());
+  frame_.by_friction =
+      model.by_friction() ? static_cast<int>(model.effects().size()) : -1;
   frame_.by_hinge_stiffness =
       model.EffectOf(FingerParameterKind::kHingeStiffness);
   frame_.springs = frame_.by_hinge_stiffness >= 0;
@@ -245,7 +246,7 @@ bool LadderWorkspace<T>::SetContacts(const LadderModel& model,
                                      bool open) {
   const int count = static_cast<int>(contacts.size());
   frame_.contact_count = count;
-  frame_.effects = static_cast<int>(model.effects().size());
+  frame_.effects = model.effect_columns();
   SetColumns(columns, open);
   if (count > contact_capacity_ || frame_.stride > stride_capacity_) {
     contact_capacity_ = std::max(contact_capacity_, count);

@@ -120,6 +120,10 @@ void AddForce(Builder* out) {
       late.signals = &(*of.forces_N)[2];
       blocks.push_back(of.force_time_offset_s);
     }
+    if (out->evaluation->contacts() > 0 &&
+        out->evaluation->friction_effect() >= 0) {
+      blocks.push_back(of.finger->effect_values.data());
+    }
     out->Add(new ReferenceForceResidual(out->evaluation, out->row.force_N,
                                         std_N, late),
              std::move(blocks), ResidualFamily::kForce);

@@ -12,9 +12,10 @@ FrameEvaluation::FrameEvaluation(const LadderModel& model, EquilibriumForm form,
                                  bool movable_gauges)
     : form_(form),
       ribs_(model.ribs()),
-      effects_(static_cast<int>(model.effects().size())),
+      effects_(model.effect_columns()),
       gauges_(model.gauges()),
       contact_count_(contacts),
+      by_friction_(model.by_friction()),
       loads_(contacts),
       length_mm_(model.finger().front_length_mm),
       back_length_mm_(BeamLength(model.finger(), Side::kBack)),
@@ -65,7 +66,11 @@ void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
   }
   for (int i = 0; i < effects_; ++i) {
     if (!std::isfinite(effects[i])) return;
-    solver->model().set_effect(i, effects[i]);
+    if (i == friction_effect()) {
+      for (int c = 0; c < contacts(); ++c) loads_[c].friction = effects[i];
+    } else {
+      solver->model().set_effect(i, effects[i]);
+    }
   }
   for (int i = 0; i < contacts(); ++i) {
     const double* contact = frame + contact_offset(i);

@@ -60,6 +60,11 @@ class FrameEvaluation {
   int ribs() const { return ribs_; }
   int gauges() const { return gauges_; }
   int effects() const { return effects_; }
+  /// The place of the friction coefficient among the effects; -1 if it is not
+  /// varied.
+  int friction_effect() const { return by_friction_ ? effects_ - 1 : -1; }
+  /// The column of the first effect.
+  int effect_column() const { return frame_size() + 2 + ribs_; }
   int columns() const { return frame_size() + 2 + ribs_ + effects_; }
   /// Position of (l_c, f_c) of a contact among the frame unknowns.
   int contact_offset(int contact) const {
@@ -99,6 +104,7 @@ class FrameEvaluation {
 
   EquilibriumForm form_;
   int ribs_, effects_, gauges_, contact_count_;
+  bool by_friction_;
   int ends_ = 0;  // of movable gauges
   // Contacts, then pins, then the start and the end of each movable gauge.
   std::vector<PointContact> loads_;

@@ -34,7 +34,7 @@ FrameSet::FrameSet(const Finger& finger, const Discretization& discretization,
       form_(form),
       shared_(shared),
       threads_(threads) {
-  solver_.model().set_effects(shared->effects);
+  solver_.model().set_effects(shared->effects, shared->friction_varies);
 }
 
 FrameEvaluation& FrameSet::Add(int contacts, double friction,

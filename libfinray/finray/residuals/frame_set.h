@@ -19,9 +19,10 @@ struct SharedParameters {
   /// Places of the gauges. Only frames with movable gauges use them.
   std::vector<double> gauge_starts_mm, gauge_lengths_mm;
 
-  /// Effects inside the equilibrium that are varied, and their values, which
-  /// are one parameter block.
+  /// Effects inside the equilibrium that are varied, and whether friction is.
   std::vector<FingerParameter> effects;
+  bool friction_varies = false;
+  /// Their values, one parameter block; friction is the last one.
   std::vector<double> effect_values;
 
   static SharedParameters Of(const Finger& finger,

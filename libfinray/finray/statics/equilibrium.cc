@@ -164,8 +164,8 @@ void EquilibriumSolver::OutputUnits() {
   output_unit_.head(m).setOnes();
   for (int c = 0; c <= contacts; ++c) output_unit_[m + 3 * c + 2] = 1;
   const auto& effects = model().effects();
-  parameter_unit_.resize(2 * contacts + 2 + r +
-                         static_cast<Eigen::Index>(effects.size()));
+  // The friction coefficient has no unit.
+  parameter_unit_.setOnes(2 * contacts + 2 + r + model().effect_columns());
   for (int c = 0; c < contacts; ++c) {
     parameter_unit_[2 * c] = w.length_unit();
     parameter_unit_[2 * c + 1] = w.force_unit();

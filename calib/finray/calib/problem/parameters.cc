@@ -134,6 +134,7 @@ CalibrationParameters::CalibrationParameters(const Finger& finger,
     : shared(SharedParameters::Of(finger, plan.StaticsEffects(finger))),
       readings(finger, plan, logs),
       object_radius_mm(plan.scene.circle_radius_mm().value_or(0)),
+      friction_(plan.scene.friction_coefficient),
       held_out_(logs.HeldOut()),
       last_fitted_(LastFitted(logs)),
       origin_per_log_(plan.family(ParameterFamily::kObjectOrigin).per_log),
@@ -146,6 +147,10 @@ CalibrationParameters::CalibrationParameters(const Finger& finger,
     creep_shares.push_back(gauge.creep_share);
     ln_creep_times.push_back(std::log(gauge.creep_time_constant_s));
   }
+  if (plan.family(ParameterFamily::kFriction).free) {
+    shared.friction_varies = true;
+    shared.effect_values.push_back(friction_);
+  }
   if (plan.HasCreep(finger)) ReadCreep(logs);
   if (plan.family(ParameterFamily::kForceTimeOffset).free) ReadForces(logs);
   for (const FingerParameter& parameter : AllParametersOf(finger)) {
@@ -153,6 +158,7 @@ CalibrationParameters::CalibrationParameters(const Finger& finger,
     if (IsEffect(parameter.kind) && !plan.family(family).free) continue;
     AddOfFinger(finger, plan, logs, parameter);
   }
+  AddFriction(plan);
   AddOrigins(plan, logs);
   AddStage(plan, logs);
   AddForceSensor(plan, logs);
@@ -281,6 +287,15 @@ void CalibrationParameters::AddOfFinger(const Finger& finger, const Plan& plan,
     parameter.variable = parameter.block + (at - shared.effects.begin());
   }
   Add(plan, std::move(parameter));
+}
+
+void CalibrationParameters::AddFriction(const Plan& plan) {
+  if (!shared.friction_varies) return;
+  CalibrationParameter friction =
+      OfLogs(ParameterFamily::kFriction, "friction_coefficient", "1",
+             &shared.effect_values.back(), 0.1);
+  friction.block = shared.effect_values.data();
+  Add(plan, std::move(friction));
 }
 
 void CalibrationParameters::AddOrigins(const Plan& plan,
@@ -483,6 +498,7 @@ Finger CalibrationParameters::Apply(const Finger& finger) const {
 
 Plan CalibrationParameters::Corrected(const Plan& plan) const {
   Plan corrected = plan;
+  corrected.scene.friction_coefficient = friction();
   if (plan.scene.circle_radius_mm()) {
     corrected.scene.object->outline = Outline(CircleOutline{object_radius_mm});
   }

@@ -33,6 +33,7 @@ constexpr FamilyKey kFamilyKeys[kParameterFamilies] = {
     {"object_rotation", "prior_std_deg", {"per_log"}},
     {"object_scale", "prior_std_percent"},
     {"object_radius", "prior_std_mm"},
+    {"friction", "prior_std"},
     {"force_scale", "prior_std_percent"},
     {"force_offset", "prior_std_N"},
     {"force_time_offset", "prior_std_s"},

@@ -33,6 +33,7 @@ enum class ParameterFamily {
   kObjectRotation,
   kObjectScale,
   kObjectRadius,
+  kFriction,
   kForceScale,
   kForceOffset,
   kForceTimeOffset,
@@ -42,7 +43,7 @@ enum class ParameterFamily {
   kGaugeDrift,
   kCameraOrigin,
 };
-constexpr int kParameterFamilies = kFingerParameterKinds + 12;
+constexpr int kParameterFamilies = kFingerParameterKinds + 13;
 
 /// Says whether a family is varied, and its prior.
 struct FamilyPlan {

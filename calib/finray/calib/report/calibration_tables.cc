@@ -41,7 +41,7 @@ FrameTable CalibrationFrames(CalibrationProblem& problem,
     set(i, "fit_normal_N", result.solution.contacts[i][1]);
   }
   const double per_normal =
-      std::hypot(1, problem.plan().scene.friction_coefficient);
+      std::hypot(1, problem.parameters().friction());
   const ForceCheck& forces = result.forces;
   for (std::size_t k = 0; k < forces.frames.size(); ++k) {
     const int frame = forces.frames[k];
@@ -119,7 +119,7 @@ FrameTable CalibrationShape(CalibrationProblem& problem,
   if (std::isfinite(heaviest[0])) {
     draw(
         "deformed", result.finger,
-        {{heaviest[0], heaviest[1], problem.plan().scene.friction_coefficient}},
+        {{heaviest[0], heaviest[1], problem.parameters().friction()}},
         false);
   }
   FrameTable table(states.size());

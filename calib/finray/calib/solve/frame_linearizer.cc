@@ -29,12 +29,13 @@ FrameLinearizer::FrameLinearizer(const EquilibriumSolver& solver,
                                  const CalibrationBlocks* blocks,
                                  const CalibrationParameters* parameters)
     : solver_(solver),
-      friction_(plan.scene.friction_coefficient),
+      friction_(parameters->friction()),
       movable_gauges_(plan.MovesGauges()),
       blocks_(*blocks),
       parameters_(*parameters),
       loss_(MakeLoss(plan)) {
-  solver_.model().set_effects(parameters_.shared.effects);
+  solver_.model().set_effects(parameters_.shared.effects,
+                              parameters_.shared.friction_varies);
   for (std::size_t k = 0; k < parameters_.free().size(); ++k) {
     column_of_.emplace(parameters_.FreeParameter(k).block, static_cast<int>(k));
   }
