@@ -97,9 +97,10 @@ void WarnOfParametersOfLogs(const Plan& plan) {
     if (plan.family(family).free) names.push_back(name);
   }
   if (plan.family(ParameterFamily::kFriction).free) {
-    Warn("the plan frees friction: these logs are read with the "
-         "friction_coefficient of its scene",
-         "write the calibrated value there");
+    Warn(
+        "the plan frees friction: these logs are read with the "
+        "friction_coefficient of its scene",
+        "write the calibrated value there");
   }
   if (names.empty()) return;
   Warn("the plan frees " + Joined(names) +

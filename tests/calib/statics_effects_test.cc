@@ -95,7 +95,8 @@ TEST(StaticsEffectsTest, Friction) {
   Scene scene = StandardScene();
   scene.friction_coefficient = 0.3;
   const FrameTable frames = StandardFrames(HiddenFinger(), 45, scene);
-  MakeLog(HiddenFinger(), frames, {0.02, 0.05, 45}).Write(folder.Path("log.csv"));
+  MakeLog(HiddenFinger(), frames, {0.02, 0.05, 45})
+      .Write(folder.Path("log.csv"));
   const std::string log = folder.Path("log.csv");
   Plan plan = StandardPlan();
   const Recovery without(Nominal(), plan, {log});
@@ -116,6 +117,38 @@ TEST(StaticsEffectsTest, Friction) {
   const Recovery both(Nominal(), plan, {log});
   both.Expect("friction_coefficient", 0.3, 0.06);
   both.Expect(kHinges, 0, 10);
+}
+
+// Beams that taper by 10 % from base to tip.
+TEST(StaticsEffectsTest, StiffnessPieces) {
+  const TempFolder folder;
+  Plan plan = StandardPlan();
+  Free(ParameterFamily::kFrontPiece, &plan).prior_std = 10;
+  Free(ParameterFamily::kBackPiece, &plan).prior_std = 10;
+  Finger truth = plan.CutIntoPieces(HiddenFinger());
+  ASSERT_EQ(truth.front_pieces.size(), 5u);
+  for (int i = 1; i < 5; ++i) {
+    truth.front_pieces[i].stiffness_ratio = 1 - 0.025 * i;
+    truth.back_pieces[i].stiffness_ratio = 1 - 0.025 * i;
+  }
+  const std::string log = StandardLog(folder, truth, 46);
+  const Recovery without(Nominal(), StandardPlan(), {log});
+  Recovery with(Nominal(), plan, {log});
+  for (int i = 1; i < 5; ++i) {
+    for (const auto kind :
+         {FingerParameterKind::kFrontPiece, FingerParameterKind::kBackPiece}) {
+      with.Expect(ParameterName({kind, i}), ParameterValue(truth, {kind, i}),
+                  0.11);
+    }
+  }
+  with.Expect("front_stiffness_N_mm2", truth.front_stiffness_N_mm2, 1500);
+  with.Expect("back_stiffness_N_mm2", truth.back_stiffness_N_mm2, 1500);
+  EXPECT_GT(without.Chi2(), with.Chi2() + 50);
+  EXPECT_NEAR(with.Chi2PerDof(ResidualFamily::kGauge), 1, 0.2);
+  Finger found =
+      with.problem().parameters().Apply(plan.CutIntoPieces(Nominal()));
+  KeepCovariance(with.problem().parameters(), with.found(), &found);
+  ExpectForces(truth, found, 47);
 }
 
 TEST(StaticsEffectsTest, HingesThatShareAValueMustAgree) {

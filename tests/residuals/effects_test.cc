@@ -15,8 +15,8 @@ class EffectsTest : public ResidualsFixture {
  protected:
   EffectsTest() {
     SetParameter({FingerParameterKind::kHingeStiffness}, 30, &finger_);
-    shared_ = SharedParameters::Of(finger_,
-                                   {{FingerParameterKind::kHingeStiffness}});
+    shared_ =
+        SharedParameters::Of(finger_, {{FingerParameterKind::kHingeStiffness}});
     shared_.friction_varies = true;
     shared_.effect_values.push_back(kFriction);
     frames_ = std::make_unique<FrameSet>(finger_, Discretization(), GetParam(),
@@ -46,14 +46,14 @@ TEST_P(EffectsTest, AnalyticalVersusFiniteDifferences) {
   const GaugeReadingResidual gauge(frame_, 1, &volts, 3e-4);
   CheckDerivatives(gauge, BlocksAnd({&gain_, &curvature_, offset_}), 1e-5);
   const ReferenceForceVectorResidual components(frame_, {3.9, 0.1}, 0.02);
-  CheckDerivatives(
-      components, BlocksAnd({&ln_scale_, offset_, &tilt_deg_, weight_N_}),
-      1e-5);
+  CheckDerivatives(components,
+                   BlocksAnd({&ln_scale_, offset_, &tilt_deg_, weight_N_}),
+                   1e-5);
   const ReferenceForceResidual magnitude(frame_, 3.9, 0.02);
-  CheckDerivatives(magnitude,
-                   {unknowns_.data(), &ln_scale_, offset_,
-                    shared_.effect_values.data()},
-                   1e-6);
+  CheckDerivatives(
+      magnitude,
+      {unknowns_.data(), &ln_scale_, offset_, shared_.effect_values.data()},
+      1e-6);
   if (GetParam() == EquilibriumForm::kReduced) return;
   const EquilibriumResidual equilibrium(frame_, finger_, 10);
   CheckDerivatives(equilibrium, BlocksAnd({}), 1e-5);

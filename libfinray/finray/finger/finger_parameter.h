@@ -22,8 +22,12 @@ enum class FingerParameterKind {
   kGaugeCreepShare,
   kGaugeCreepTime,
   kHingeStiffness,  ///< One for all hinges of the ribs.
+  // The stiffness of a piece, from the second one on, over that of the piece
+  // before it. All pieces behind it change with it.
+  kFrontPiece,
+  kBackPiece,
 };
-constexpr int kFingerParameterKinds = 11;
+constexpr int kFingerParameterKinds = 13;
 
 /// Says that a plain finger goes without this kind. Reports list its parameters
 /// only where they are free.
@@ -39,7 +43,7 @@ constexpr bool IsStaticsEffect(FingerParameterKind kind) {
 /// One number of a finger that a calibration may determine.
 struct FingerParameter {
   FingerParameterKind kind;
-  int index = 0;  ///< The gauge or rib, from 0; 0 for a beam's stiffness.
+  int index = 0;  ///< The gauge, rib or piece, from 0; else 0.
 
   bool operator==(const FingerParameter& other) const {
     return kind == other.kind && index == other.index;

@@ -66,6 +66,21 @@ int LadderModel::EffectOf(FingerParameterKind kind) const {
   return -1;
 }
 
+bool LadderModel::set_effect(int effect, double value) {
+  const FingerParameterKind kind = effects_[effect].kind;
+  const bool piece = kind == FingerParameterKind::kFrontPiece ||
+                     kind == FingerParameterKind::kBackPiece;
+  if (!std::isfinite(value) || (piece && !(value > 0))) return false;
+  SetParameter(effects_[effect], value, &finger_);
+  if (piece) {
+    const Side side =
+        kind == FingerParameterKind::kFrontPiece ? Side::kFront : Side::kBack;
+    BeamMesh& mesh = mesh_[Index(side)];
+    mesh = MakeBeamMesh(finger_, side, std::move(mesh.nodes_mm));
+  }
+  return true;
+}
+
 bool LadderState::IsOnMeshOf(const LadderModel& model) const {
   for (const Side side : {Side::kFront, Side::kBack}) {
     const Nodes& saved = nodes[LadderModel::Index(side)];

@@ -58,8 +58,8 @@ class LadderModel {
     finger_.ribs[rib].length_mm = length_mm;
   }
   /// Derivatives are carried by these parameters of the finger too, in this
-  /// order, and behind them by the friction coefficient of all contacts. All are
-  /// statics effects.
+  /// order, and behind them by the friction coefficient of all contacts. All
+  /// are statics effects.
   void set_effects(std::vector<FingerParameter> effects,
                    bool by_friction = false) {
     effects_ = std::move(effects);
@@ -72,10 +72,8 @@ class LadderModel {
   const std::vector<FingerParameter>& effects() const { return effects_; }
   /// The place of the first effect of a kind among effects(); -1 if none is.
   int EffectOf(FingerParameterKind kind) const;
-  /// Sets the value of an effect.
-  void set_effect(int effect, double value) {
-    SetParameter(effects_[effect], value, &finger_);
-  }
+  /// Sets the value of an effect. False if no finger can have it.
+  bool set_effect(int effect, double value);
   /// Takes other nodes for the same ribs and pieces.
   void set_mesh(const std::array<BeamMesh, 2>& mesh) { mesh_ = mesh; }
 

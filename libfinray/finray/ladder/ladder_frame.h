@@ -81,6 +81,10 @@ struct LadderFrame {
   alignas(sizeof(T)) T base_x[2] = {}, base_angle[2] = {};
   T *length, *stiffness, *stiffness_ratio, *axial_flexibility;
   int *rib_element[2];  ///< The element that starts at the hinge.
+  /// Only with by_piece: the piece of each element, from 0, and for each piece,
+  /// counted from the first element of its beam, its EI over that before it.
+  int *piece;
+  T *piece_step;
   T *rib_length, *rib_flexibility, *d_rib_length;
   /// Springs at the hinges: k, and the rib's direction in the undeformed
   /// finger.
@@ -119,7 +123,8 @@ struct LadderFrame {
   int affine = 6, stride = 8, node_columns = kNodeColumns;
   /// With kParameters, columns of effects behind those of the rib lengths. Each
   /// effect begins at its number among them; a negative number means none.
-  int effects = 0, by_hinge_stiffness = -1, by_friction = -1;
+  int effects = 0, by_hinge_stiffness = -1, by_friction = -1,
+      by_piece[2] = {-1, -1};
   int event_count = 0;
   T *taps;
   T *q_step;  ///< Rows of the change of q.

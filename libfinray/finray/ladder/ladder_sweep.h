@@ -155,8 +155,7 @@ class LadderSweeper : private LadderWalkBack<T, kVectors> {
     for (int i = 0; i < 4; ++i) {
       T* row = RowOf(side, i);
       if (parameters()) {
-        row[StiffnessColumn(side)] +=
-            f_.stiffness_ratio[e] * map[(kMapStiffness + i) * kWidth];
+        AddStiffness(side, e, map[(kMapStiffness + i) * kWidth], row);
       }
       const T& by_length = map[(kMapLength + i) * kWidth];
       if (begins_at >= 0) {
@@ -165,6 +164,16 @@ class LadderSweeper : private LadderWalkBack<T, kVectors> {
       if (ends_at >= 0) {
         row[ContactColumn(ends_at)] += Present(ends_at) * by_length;
       }
+    }
+  }
+
+  // `slope` is the derivative by the stiffness of element e.
+  void AddStiffness(int side, int e, const T& slope, T* row) const {
+    row[StiffnessColumn(side)] += f_.stiffness_ratio[e] * slope;
+    if (f_.by_piece[side] < 0) return;
+    for (int p = 1; p <= f_.piece[e]; ++p) {
+      row[EffectColumn(f_.by_piece[side] + p - 1)] +=
+          f_.stiffness[e] / f_.piece_step[f_.first(side) + p] * slope;
     }
   }
 
@@ -181,7 +190,7 @@ class LadderSweeper : private LadderWalkBack<T, kVectors> {
       Wide(tap)[v] = sum;
     }
     if (parameters()) {
-      tap[StiffnessColumn(side)] += f_.stiffness_ratio[e] * at[5];
+      AddStiffness(side, e, at[5], tap);
     }
     if (by_contacts()) {
       if (begins_at >= 0) {

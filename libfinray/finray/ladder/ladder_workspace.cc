@@ -80,8 +80,8 @@ void LadderWorkspace<T>::LayOut(Take&& take) {
       take(field, elements);
     }
   }
-  for (T** field :
-       {&f.length, &f.stiffness, &f.stiffness_ratio, &f.axial_flexibility}) {
+  for (T** field : {&f.length, &f.stiffness, &f.stiffness_ratio,
+                    &f.axial_flexibility, &f.piece_step}) {
     take(field, elements);
   }
   for (T** field : {&f.rib_length, &f.rib_flexibility, &f.d_rib_length,
@@ -110,6 +110,7 @@ void LadderWorkspace<T>::LayOut(Take&& take) {
   take(&f.pivots, pivots * stride);
   take(&f.parameters, 6 * stride);
   take(&f.pivot_flexibility, pivots);
+  take(&f.piece, elements);
   take(&f.rib_element[0], ribs);
   take(&f.rib_element[1], ribs);
   take(&f.first_readout, slots);
@@ -221,6 +222,7 @@ void LadderWorkspace<T>::SetEffects(const LadderModel& model) {
       model.by_friction() ? static_cast<int>(model.effects().size()) : -1;
   frame_.by_hinge_stiffness =
       model.EffectOf(FingerParameterKind::kHingeStiffness);
+  SetPieces(model);
   frame_.springs = frame_.by_hinge_stiffness >= 0;
   for (const Rib& rib : finger.ribs) frame_.springs |= rib.HasSprings();
   if (!frame_.springs) return;
@@ -236,6 +238,35 @@ void LadderWorkspace<T>::SetEffects(const LadderModel& model) {
             .normalized();
     Put(along.x(), &frame_.rest_ux[i]);
     Put(along.y(), &frame_.rest_uy[i]);
+  }
+}
+
+template <class T>
+void LadderWorkspace<T>::SetPieces(const LadderModel& model) {
+  const Finger& finger = model.finger();
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    const int i = LadderModel::Index(side), first = frame_.first(i);
+    const auto kind = i == 0 ? FingerParameterKind::kFrontPiece
+                             : FingerParameterKind::kBackPiece;
+    frame_.by_piece[i] = model.EffectOf(kind);
+    if (frame_.by_piece[i] < 0) continue;
+    const std::vector<StiffnessPiece>& pieces = Pieces(finger, side);
+    for (int p = 1; p < static_cast<int>(pieces.size()); ++p) {
+      Put(ParameterValue(finger, {kind, p}), &frame_.piece_step[first + p]);
+    }
+    const std::vector<double>& nodes_mm = model.mesh(side).nodes_mm;
+    int piece = 0;
+    for (int e = first; e < frame_.end(i); ++e) {
+      while (piece + 1 < static_cast<int>(pieces.size()) &&
+             pieces[piece].end_mm <= nodes_mm[e - first]) {
+        ++piece;
+      }
+      frame_.piece[e] = piece;
+      T ratio;
+      Put(pieces[piece].stiffness_ratio, &ratio);
+      frame_.stiffness[e] *= ratio / frame_.stiffness_ratio[e];
+      frame_.stiffness_ratio[e] = ratio;
+    }
   }
 }
 

@@ -51,6 +51,7 @@ class LadderWorkspace {
 
  private:
   void SetEffects(const LadderModel& model);
+  void SetPieces(const LadderModel& model);
   void Allocate();
   template <class Take>
   void LayOut(Take&& take);

@@ -68,8 +68,8 @@ void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
     if (!std::isfinite(effects[i])) return;
     if (i == friction_effect()) {
       for (int c = 0; c < contacts(); ++c) loads_[c].friction = effects[i];
-    } else {
-      solver->model().set_effect(i, effects[i]);
+    } else if (!solver->model().set_effect(i, effects[i])) {
+      return;
     }
   }
   for (int i = 0; i < contacts(); ++i) {

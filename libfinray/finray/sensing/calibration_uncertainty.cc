@@ -117,6 +117,8 @@ double CalibrationUncertainty::Chi2(const std::vector<PointContact>& contacts,
         column = m.derivatives.col(unknowns + 2 + index);
         break;
       case FingerParameterKind::kHingeStiffness:
+      case FingerParameterKind::kFrontPiece:
+      case FingerParameterKind::kBackPiece:
         column = m.derivatives.col(effect++);
         break;
       case FingerParameterKind::kGaugeStart:
@@ -196,6 +198,8 @@ void CalibrationUncertainty::FillByParameter(
         by_statics(2 + index);
         break;
       case FingerParameterKind::kHingeStiffness:
+      case FingerParameterKind::kFrontPiece:
+      case FingerParameterKind::kBackPiece:
         by_statics(effect++);
         break;
       case FingerParameterKind::kGaugeStart:

@@ -298,6 +298,8 @@ ContactMatrix FrameProblem::Systematic(const Eigen::MatrixXd& by_unknown,
         by_parameter.col(k).setZero();
         break;
       case FingerParameterKind::kHingeStiffness:
+      case FingerParameterKind::kFrontPiece:
+      case FingerParameterKind::kBackPiece:
         by_parameter.col(k) = column(effect++);
         break;
     }

@@ -276,6 +276,9 @@ void CalibrationParameters::AddOfFinger(const Finger& finger, const Plan& plan,
       RefuseUnequalHinges(finger);
       parameter.scale = 10;
       break;
+    case FingerParameterKind::kFrontPiece:
+    case FingerParameterKind::kBackPiece:
+      break;
   }
   parameter.block = of_finger.kind == FingerParameterKind::kRibLength
                         ? shared.rib_lengths_mm.data()
@@ -435,8 +438,10 @@ void CalibrationParameters::Add(const Plan& plan,
   parameter.free = family.free && !held_out;
   parameter.initial = *parameter.variable;
   if (family.prior_std) {
-    const bool percent =
-        parameter.is_log || parameter.family == ParameterFamily::kGaugeGain;
+    const bool percent = parameter.is_log ||
+                         parameter.family == ParameterFamily::kGaugeGain ||
+                         parameter.family == ParameterFamily::kFrontPiece ||
+                         parameter.family == ParameterFamily::kBackPiece;
     parameter.prior_std =
         percent ? *family.prior_std / 100 * parameter.scale : *family.prior_std;
   }

@@ -29,6 +29,8 @@ enum class ParameterFamily {
   kGaugeCreepShare = static_cast<int>(FingerParameterKind::kGaugeCreepShare),
   kGaugeCreepTime = static_cast<int>(FingerParameterKind::kGaugeCreepTime),
   kHingeStiffness = static_cast<int>(FingerParameterKind::kHingeStiffness),
+  kFrontPiece = static_cast<int>(FingerParameterKind::kFrontPiece),
+  kBackPiece = static_cast<int>(FingerParameterKind::kBackPiece),
   kObjectOrigin = kFingerParameterKinds,
   kObjectRotation,
   kObjectScale,
@@ -72,6 +74,9 @@ struct Plan {
   std::array<FamilyPlan, kParameterFamilies> families;
   /// How gauges drift if the plan says that they do; empty: at a constant rate.
   std::optional<GaugeWalk> gauge_walk;
+  /// The pieces of a beam whose stiffness the plan varies, unless the finger
+  /// has pieces.
+  int piece_count = 5;
   /// The temperature coefficient counts from here.
   double reference_temperature_C = 20;
   double force_std_N = 0.02;
@@ -96,6 +101,9 @@ struct Plan {
     return family(ParameterFamily::kGaugeStart).free ||
            family(ParameterFamily::kGaugeLength).free;
   }
+  /// Returns the finger with beams cut into equal pieces, if the plan says so
+  /// and a beam has none.
+  Finger CutIntoPieces(const Finger& finger) const;
   /// The effects inside the equilibrium that the plan varies.
   std::vector<FingerParameter> StaticsEffects(const Finger& finger) const;
   /// Says that the finger's gauges creep or the plan asks whether they do.

@@ -106,10 +106,10 @@ class JointProblem {
       std::size_t end = i + 1;
       while (end < all.size() && all[end].block == all[i].block) ++end;
       const auto size = static_cast<Eigen::Index>(end - i);
-      const bool any = std::any_of(
-          all.begin() + static_cast<std::ptrdiff_t>(i),
-          all.begin() + static_cast<std::ptrdiff_t>(end),
-          [](const auto& p) { return p.prior_std.has_value(); });
+      const bool any =
+          std::any_of(all.begin() + static_cast<std::ptrdiff_t>(i),
+                      all.begin() + static_cast<std::ptrdiff_t>(end),
+                      [](const auto& p) { return p.prior_std.has_value(); });
       if (all[i].free && any) {
         Eigen::VectorXd mean(size), std(size);
         for (Eigen::Index k = 0; k < size; ++k) {
