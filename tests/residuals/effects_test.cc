@@ -25,8 +25,10 @@ class EffectsTest : public ResidualsFixture {
     frames_->PrepareForEvaluation(true, true);
   }
   std::vector<double*> BlocksAnd(const std::vector<double*>& more) {
-    std::vector<double*> blocks = Blocks();
-    blocks.push_back(shared_.effect_values.data());
+    std::vector<double*> blocks = FrameParameterBlocks(
+        *frame_, unknowns_.data(), &shared_.ln_front_stiffness,
+        &shared_.ln_back_stiffness, shared_.rib_lengths_mm.data(),
+        shared_.effect_values.data());
     blocks.insert(blocks.end(), more.begin(), more.end());
     return blocks;
   }

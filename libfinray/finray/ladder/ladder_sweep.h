@@ -2,7 +2,7 @@
 #define FINRAY_LADDER_LADDER_SWEEP_H_
 
 #include "finray/ladder/ladder_evaluate.h"
-#include "finray/ladder/ladder_walk_back.h"
+#include "finray/ladder/ladder_rows.h"
 
 namespace finray {
 inline namespace FINRAY_ISA {
@@ -10,17 +10,23 @@ inline namespace FINRAY_ISA {
 // Sweep, the second half of a Newton step (ladder_kernel.h): walks both beams
 // from base to tip, and back (ladder_walk_back.h) unless the tip stays open.
 template <class T, int kVectors>
-class LadderSweeper : private LadderWalkBack<T, kVectors> {
-  using Base = LadderWalkBack<T, kVectors>;
-  using Base::Add, Base::Broadcast, Base::by_load, Base::Clear, Base::columns_,
-      Base::Copy, Base::f_, Base::kNode, Base::kPivot, Base::kTap, Base::kWidth,
-      Base::Node, Base::stride, Base::Tap, Base::vectors, Base::Wide;
-  using typename Base::Event, typename Base::Scalar, typename Base::U,
-      typename Base::V;
+class LadderSweeper : private LadderRows<T, kVectors> {
+  using Rows = LadderRows<T, kVectors>;
+  using Rows::Add, Rows::affine, Rows::Broadcast, Rows::by_contacts,
+      Rows::by_load, Rows::Clear, Rows::columns_, Rows::ContactColumn,
+      Rows::ContactNode, Rows::Copy, Rows::EffectColumn, Rows::f_, Rows::kNode,
+      Rows::kPivot, Rows::kTap, Rows::kWidth, Rows::Node, Rows::node_,
+      Rows::open_, Rows::parameters, Rows::PassSprings, Rows::Present,
+      Rows::RibColumn, Rows::RowOf, Rows::StiffnessColumn, Rows::stride,
+      Rows::Tap, Rows::TipNode, Rows::vectors, Rows::Wide;
+  using Rows::kX, Rows::kY, Rows::kTheta, Rows::kMoment, Rows::kForceX,
+      Rows::kForceY, Rows::kRows;
+  using typename Rows::Event, typename Rows::Scalar, typename Rows::U,
+      typename Rows::V;
 
  public:
   LadderSweeper(LadderFrame<T>* frame, SweepColumns columns, bool open)
-      : Base(frame, columns), open_(open) {}
+      : Rows(frame, columns, open) {}
 
   // Without `readouts` the taps of the gauges keep their old values.
   bool Run(bool readouts) {
@@ -41,45 +47,17 @@ class LadderSweeper : private LadderWalkBack<T, kVectors> {
     if (open_) return true;
     if (!EliminateTip()) return false;
     f_.event_count = events_;
-    Base::Run();
+    Rows::Run();
     return true;
   }
 
  private:
-  enum Row { kX, kY, kTheta, kMoment, kForceX, kForceY, kRows };
   // Growth beyond this exchanges the parameters. Growth up to it costs three
   // digits of a step, which Newton's next step corrects.
   static constexpr Scalar kLargestGrowth = 1000;
   static constexpr int kParameterVectors = (6 + kWidth - 1) / kWidth;
 
-  int affine() const { return open_ ? f_.affine : 6; }
-  // The rows of a node's position, angle and moment are computed where they are
-  // kept. Behind the nodes come the tip and a contact of each side.
-  T* TipNode(int side) const { return Node(f_.elements + side); }
-  T* ContactNode(int side) const { return Node(f_.elements + 2 + side); }
-  T* RowOf(int side, int row) const {
-    return row < kForceX ? node_[side] + row * stride()
-                         : f_.rows + (2 * side + row - kForceX) * stride();
-  }
-  T* RowOf(int i) const { return RowOf(i / kRows, i % kRows); }
-
   void Log(Event event, int index) { f_.events[events_++] = 4 * index + event; }
-
-  bool parameters() const { return columns_ == SweepColumns::kParameters; }
-  bool by_contacts() const {
-    return parameters() || columns_ == SweepColumns::kContacts;
-  }
-  int ContactColumn(int c) const {
-    return affine() + 1 + 2 * f_.contacts[c].columns;
-  }
-  const T& Present(int c) const { return f_.contacts[c].present; }
-  int StiffnessColumn(int side) const {
-    return affine() + 1 + 2 * f_.contact_count + side;
-  }
-  int RibColumn(int rib) const {
-    return affine() + 1 + 2 * f_.contact_count + 2 + rib;
-  }
-  int EffectColumn(int effect) const { return RibColumn(f_.ribs) + effect; }
 
   void Begin() {
     while (next_contact_[1] < f_.contact_count &&
@@ -274,55 +252,6 @@ class LadderSweeper : private LadderWalkBack<T, kVectors> {
     RowOf(1, kForceY)[column] += uy;
   }
 
-  // With the rib's turn dphi = across / d, where u and v are its directions
-  // along and across, dm = k (dtheta - dphi) and
-  //
-  //   dQ = (dm_F + dm_B - Q du) / d,   d(Q v) = dQ v - Q dphi u.
-  void PassSprings(int rib) {
-    const T ux = f_.rib_ux[rib], uy = f_.rib_uy[rib];
-    const T front = f_.hinge_stiffness[0][rib],
-            back = f_.hinge_stiffness[1][rib];
-    const T inverse = Scalar(1) / f_.rib_distance[rib];
-    const T angles[2] = {f_.hinge_angle[0][rib], f_.hinge_angle[1][rib]};
-    const T transverse = (front * angles[0] + back * angles[1]) * inverse;
-    const V wide_x = Broadcast(ux), wide_y = Broadcast(uy);
-    const V wide_front = Broadcast(front), wide_back = Broadcast(back);
-    const V wide_inverse = Broadcast(inverse);
-    const V wide_transverse = Broadcast(transverse);
-    for (int v = 0; v < vectors(); ++v) {
-      const V dx = Wide(RowOf(1, kX))[v] - Wide(RowOf(0, kX))[v];
-      const V dy = Wide(RowOf(1, kY))[v] - Wide(RowOf(0, kY))[v];
-      const V turn = wide_inverse * (wide_x * dy - wide_y * dx);
-      const V front_moment = wide_front * (Wide(RowOf(0, kTheta))[v] - turn);
-      const V back_moment = wide_back * (Wide(RowOf(1, kTheta))[v] - turn);
-      const V across =
-          wide_inverse * (front_moment + back_moment -
-                          wide_transverse * (wide_x * dx + wide_y * dy));
-      Wide(RowOf(0, kMoment))[v] += front_moment;
-      Wide(RowOf(1, kMoment))[v] += back_moment;
-      AddAcross(v, across, wide_transverse * turn, wide_x, wide_y);
-    }
-    if (!parameters() || f_.by_hinge_stiffness < 0) return;
-    const int column = EffectColumn(f_.by_hinge_stiffness);
-    for (int side = 0; side < 2; ++side) {
-      RowOf(side, kMoment)[column] += angles[side];
-    }
-    const T slope = (angles[0] + angles[1]) * inverse;
-    RowOf(0, kForceX)[column] -= slope * uy;
-    RowOf(0, kForceY)[column] += slope * ux;
-    RowOf(1, kForceX)[column] += slope * uy;
-    RowOf(1, kForceY)[column] -= slope * ux;
-  }
-  // N_front += across v - along u, N_back the opposite.
-  void AddAcross(int v, const V& across, const V& along, const V& ux,
-                 const V& uy) {
-    const V x = across * uy + along * ux, y = across * ux - along * uy;
-    Wide(RowOf(0, kForceX))[v] -= x;
-    Wide(RowOf(0, kForceY))[v] += y;
-    Wide(RowOf(1, kForceX))[v] += x;
-    Wide(RowOf(1, kForceY))[v] -= y;
-  }
-
   // All lanes share a pivot, so an entry counts as much as its smallest lane.
   static int LargestColumn(const T* row) {
     int column = 0;
@@ -426,11 +355,9 @@ class LadderSweeper : private LadderWalkBack<T, kVectors> {
     return true;
   }
 
-  const bool open_;
   int events_ = 0, pivots_ = 0, since_check_ = 0;
   int next_contact_[2] = {0, 0};
   bool gap_taken_[2] = {false, false};
-  T* node_[2] = {};  // the present rows of each beam
 };
 
 }  // namespace FINRAY_ISA
