@@ -92,6 +92,16 @@ void PrintSummary(CalibrationProblem& problem,
                 noise.chi2 / noise.dof);
   }
   std::printf("\nforce error    %s\n", ForceWords(result.forces).c_str());
+  for (std::size_t k = 0; k < problem.parameters().free().size(); ++k) {
+    // The finger's file does not keep it.
+    const CalibrationParameter& p = problem.parameters().FreeParameter(k);
+    if (p.family != ParameterFamily::kFriction) continue;
+    std::printf(
+        "friction       %.3f +- %.3f; scenes take it as friction_coefficient: "
+        "%.3f\n",
+        *p.variable, result.identifiability.std[static_cast<int>(k)],
+        *p.variable);
+  }
   std::printf("next           %s\n", NextWords(result.next).c_str());
   constexpr int kMostWeak = 3;  // all are in calibration.yaml
   int weak = 0;

@@ -96,6 +96,12 @@ void WarnOfParametersOfLogs(const Plan& plan) {
   for (const auto& [family, name] : of_logs) {
     if (plan.family(family).free) names.push_back(name);
   }
+  if (plan.family(ParameterFamily::kFriction).free) {
+    Warn(
+        "the plan frees friction: these logs are read with the "
+        "friction_coefficient of its scene",
+        "write the calibrated value there");
+  }
   if (names.empty()) return;
   Warn("the plan frees " + Joined(names) +
            ": its value from the calibration is not applied to these logs, so "

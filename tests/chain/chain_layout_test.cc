@@ -115,6 +115,12 @@ TEST(ChainLayoutTest, RefusesBadArguments) {
 }
 
 // Both gauge definitions against the exact beam.
+TEST(ChainLayoutTest, RefusesSpringsAtHinges) {
+  Finger finger = PaperFinger();
+  finger.ribs[2].back_hinge_N_mm_per_rad = 5;
+  EXPECT_THROW(MakeChainLayout(finger, 40), InputError);
+}
+
 TEST(ChainGaugeTest, WholeJointGaugeStalls) {
   double whole[4], overlap[4];
   std::printf("   n   whole joints   overlap    (largest error, rad)\n");

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <random>
+#include <string>
 
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
@@ -52,6 +53,9 @@ TEST(FingerYamlTest, RoundTripIsExact) {
   finger.back_angle_rad = 1.9547687622336491 + 1e-15;
   finger.ribs[1].length_mm = 38.1 + 1e-13;
   finger.ribs[2].axial_stiffness_N = 1e4 / 3;
+  finger.ribs[0].front_hinge_N_mm_per_rad = 40;
+  finger.ribs[0].back_hinge_N_mm_per_rad = 40;
+  finger.ribs[3].back_hinge_N_mm_per_rad = 10.0 / 3;
   finger.gauges[2].gain_V_per_rad = -2.0 / 3;
   const TempFolder folder;
   const Finger back = ReadFinger(
@@ -64,6 +68,10 @@ TEST(FingerYamlTest, RoundTripIsExact) {
     EXPECT_EQ(back.ribs[i].back_mm, finger.ribs[i].back_mm);
     EXPECT_EQ(back.ribs[i].length_mm, finger.ribs[i].length_mm);
     EXPECT_EQ(back.ribs[i].axial_stiffness_N, finger.ribs[i].axial_stiffness_N);
+    EXPECT_EQ(back.ribs[i].front_hinge_N_mm_per_rad,
+              finger.ribs[i].front_hinge_N_mm_per_rad);
+    EXPECT_EQ(back.ribs[i].back_hinge_N_mm_per_rad,
+              finger.ribs[i].back_hinge_N_mm_per_rad);
   }
   EXPECT_EQ(back.gauges[2].gain_V_per_rad, finger.gauges[2].gain_V_per_rad);
 }
@@ -215,6 +223,34 @@ TEST(FingerYamlTest, RefusesPiecesThatDoNotFillTheBeam) {
         "'-1'");
   error("bending_stiffness_N_mm2: 3, axial_stifness_N: 1",
         "(did you mean 'axial_stiffness_N'?)");
+}
+
+TEST(FingerYamlTest, HingeStiffnessIsOneNumberOrTwo) {
+  const TempFolder folder;
+  const auto read = [&](const std::string& hinge) {
+    return ReadFinger(folder.Write(
+        "f.yaml",
+        "schema_version: 1\nname: n\n"
+        "geometry: {front_length_mm: 140, back_angle_deg: 112}\n"
+        "beams: {front: {bending_stiffness_N_mm2: 3}, back: "
+        "{bending_stiffness_N_mm2: 3}}\n"
+        "ribs: [{front_mm: 17, angle_deg: 10, hinge_stiffness_N_mm_per_rad: " +
+            hinge + "}]\n"));
+  };
+  EXPECT_EQ(read("3").ribs[0].front_hinge_N_mm_per_rad, 3);
+  EXPECT_EQ(read("3").ribs[0].back_hinge_N_mm_per_rad, 3);
+  EXPECT_EQ(read("[3, 0]").ribs[0].front_hinge_N_mm_per_rad, 3);
+  EXPECT_EQ(read("[3, 0]").ribs[0].back_hinge_N_mm_per_rad, 0);
+  try {
+    read("[3]");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("f.yaml:5:68: hinge_stiffness_N_mm_per_rad: expected a "
+                        "number, or two: [front, back]"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(FingerYamlTest, EveryBundledFingerReads) {

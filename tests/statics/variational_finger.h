@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "finray/finger/geometry.h"
 #include "finray/ladder/ladder.h"
 #include "statics/gauss_legendre.h"
 
@@ -15,7 +16,7 @@ namespace finray {
 
 /// The finger by another formulation, for comparison: no internal forces, no
 /// marching. The curvature of each smooth piece of a beam is a Legendre series
-/// with coefficients a; virtual work gives
+/// with coefficients a; virtual work gives (springs of hinges add k a^2 / 2)
 ///
 ///   d/da sum (integral EI kappa^2 / 2) - F_c . dr_c/da + lambda . dg/da = 0,
 ///   g = [|r_R - r_L| - L - lambda L / EA of each rib; x, y, theta at the tip]
@@ -165,6 +166,28 @@ class VariationalFinger {
     }
   }
 
+  // The derivative of k_F a_F^2 / 2 + k_B a_B^2 / 2.
+  Eigen::VectorXd SpringWork(const Rib& rib, int front, int back,
+                             const Eigen::Vector2d& u, double length) const {
+    const Eigen::Vector2d rest =
+        UndeformedPoint(finger_, Side::kBack, rib.back_mm) -
+        UndeformedPoint(finger_, Side::kFront, rib.front_mm);
+    const double swing =
+        std::atan2(rest.x() * u.y() - rest.y() * u.x(), rest.dot(u));
+    const Eigen::RowVectorXd d_swing =
+        Eigen::RowVector2d(-u.y(), u.x()) / length *
+        (beams_[1].d_pose[back] - beams_[0].d_pose[front]).topRows<2>();
+    Eigen::VectorXd work = Eigen::VectorXd::Zero(dofs_);
+    for (int side = 0; side < 2; ++side) {
+      const int at = side == 0 ? front : back;
+      const double k = side == 0 ? rib.front_hinge_N_mm_per_rad
+                                 : rib.back_hinge_N_mm_per_rad;
+      work += k * (beams_[side].pose[at].z() - beams_[side].angle - swing) *
+              (beams_[side].d_pose[at].row(2) - d_swing).transpose();
+    }
+    return work;
+  }
+
   Eigen::VectorXd Residual(const Eigen::VectorXd& z, double fraction) {
     Eigen::VectorXd work;
     Trace(z, &work);
@@ -192,6 +215,7 @@ class VariationalFinger {
                   .topRows<2>()
                   .transpose() *
               across;
+      work += SpringWork(rib, front, back, across / length, length);
       ++row;
     }
     Eigen::Vector3d gap = beams_[0].pose.back() - beams_[1].pose.back();

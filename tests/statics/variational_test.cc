@@ -22,6 +22,14 @@ TEST(VariationalTest, VirtualWorkFindsTheSameEquilibria) {
           {"l_c " + std::to_string(arc), PaperFinger(), {{arc, force, 0}}});
     }
   }
+  Finger springs = SpecialCases()[0].finger;
+  for (std::size_t i = 0; i < springs.ribs.size(); ++i) {
+    springs.ribs[i].front_hinge_N_mm_per_rad = 20.0 + 30.0 * i;
+    springs.ribs[i].back_hinge_N_mm_per_rad = 150.0 - 30.0 * i;
+  }
+  springs.ribs[2].length_mm += 0.2;
+  cases.push_back({"springs at hinges", springs, {{52.3, 5, 0.2}}});
+  cases.push_back({"springs, tip", springs, {{125, 3, 0}}});
   double worst_mm = 0, worst_rad = 0, worst_N = 0;
   for (const Case& at : cases) {
     SCOPED_TRACE(at.name);

@@ -65,6 +65,12 @@ void CheckArguments(const Finger& finger, int resolution,
         "chain: rigid links do not stretch, but a beam has a finite "
         "axial_stiffness_N");
   }
+  for (const Rib& rib : finger.ribs) {
+    if (!rib.HasSprings()) continue;
+    throw InputError(
+        "chain: its hinges turn freely, but a rib has a "
+        "hinge_stiffness_N_mm_per_rad");
+  }
 }
 
 // Number of segments that end at or before an arc length.

@@ -26,6 +26,14 @@ struct Rib {
   double back_mm = 0;    ///< Hinge on the back beam.
   double length_mm = 0;  ///< Unloaded length.
   double axial_stiffness_N = std::numeric_limits<double>::infinity();  ///< EA.
+  /// Springs between beam and rib, k_F and k_B. Each turns with the beam
+  /// against the rib, a = (theta - theta_0) - (phi - phi_0), and is at rest in
+  /// the undeformed finger. Its moment k a acts on the rib, -k a on the beam.
+  double front_hinge_N_mm_per_rad = 0, back_hinge_N_mm_per_rad = 0;
+
+  bool HasSprings() const {
+    return front_hinge_N_mm_per_rad != 0 || back_hinge_N_mm_per_rad != 0;
+  }
 };
 
 /// A strain gauge. It reads the bending angle of the piece of beam that it

@@ -30,10 +30,21 @@ auto& Variable(AnyFinger& finger, const FingerParameter& parameter) {
       return finger.gauges[parameter.index].creep_share;
     case FingerParameterKind::kGaugeCreepTime:
       return finger.gauges[parameter.index].creep_time_constant_s;
+    case FingerParameterKind::kHingeStiffness:
+      return finger.ribs[0].front_hinge_N_mm_per_rad;
+    case FingerParameterKind::kFrontPiece:
+      return finger.front_pieces[parameter.index].stiffness_ratio;
+    case FingerParameterKind::kBackPiece:
+      return finger.back_pieces[parameter.index].stiffness_ratio;
     case FingerParameterKind::kRibLength:
       break;
   }
   return finger.ribs[parameter.index].length_mm;
+}
+
+bool IsPiece(FingerParameterKind kind) {
+  return kind == FingerParameterKind::kFrontPiece ||
+         kind == FingerParameterKind::kBackPiece;
 }
 
 void Add(FingerParameterKind kind, std::size_t count,
@@ -63,17 +74,35 @@ std::vector<FingerParameter> AllParametersOf(const Finger& finger) {
         FingerParameterKind::kGaugeCreepTime}) {
     Add(kind, finger.gauges.size(), &all);
   }
+  if (!finger.ribs.empty()) {
+    all.push_back({FingerParameterKind::kHingeStiffness});
+  }
+  const auto add_pieces = [&](FingerParameterKind kind, std::size_t count) {
+    for (std::size_t i = 1; i < count; ++i) {
+      all.push_back({kind, static_cast<int>(i)});
+    }
+  };
+  add_pieces(FingerParameterKind::kFrontPiece, finger.front_pieces.size());
+  add_pieces(FingerParameterKind::kBackPiece, finger.back_pieces.size());
   return all;
 }
 
 std::string ParameterName(const FingerParameter& parameter) {
   // '#' stands for the number of the gauge or rib.
   constexpr const char* kNames[kFingerParameterKinds] = {
-      "front_stiffness_N_mm2",  "back_stiffness_N_mm2",
-      "gauge_#_gain_V_per_rad", "gauge_#_offset_V",
-      "rib_#_length_mm",        "gauge_#_curvature_per_rad",
-      "gauge_#_start_mm",       "gauge_#_length_mm",
-      "gauge_#_creep_share",    "gauge_#_creep_time_constant_s"};
+      "front_stiffness_N_mm2",
+      "back_stiffness_N_mm2",
+      "gauge_#_gain_V_per_rad",
+      "gauge_#_offset_V",
+      "rib_#_length_mm",
+      "gauge_#_curvature_per_rad",
+      "gauge_#_start_mm",
+      "gauge_#_length_mm",
+      "gauge_#_creep_share",
+      "gauge_#_creep_time_constant_s",
+      "hinge_stiffness_N_mm_per_rad",
+      "front_piece_#_stiffness_step",
+      "back_piece_#_stiffness_step"};
   std::string name = kNames[static_cast<int>(parameter.kind)];
   const auto number = name.find('#');
   if (number != std::string::npos) {
@@ -84,17 +113,45 @@ std::string ParameterName(const FingerParameter& parameter) {
 
 const char* ParameterUnit(FingerParameterKind kind) {
   constexpr const char* kUnits[kFingerParameterKinds] = {
-      "N mm^2", "N mm^2", "V/rad", "V", "mm", "1/rad", "mm", "mm", "1", "s"};
+      "N mm^2", "N mm^2", "V/rad", "V",        "mm", "1/rad", "mm",
+      "mm",     "1",      "s",     "N mm/rad", "1",  "1"};
   return kUnits[static_cast<int>(kind)];
 }
 
 double ParameterValue(const Finger& finger, const FingerParameter& parameter) {
-  return Variable(finger, parameter);
+  const double value = Variable(finger, parameter);
+  if (!IsPiece(parameter.kind)) return value;
+  return value / Variable(finger, {parameter.kind, parameter.index - 1});
 }
 
 void SetParameter(const FingerParameter& parameter, double value,
                   Finger* finger) {
+  if (parameter.kind == FingerParameterKind::kHingeStiffness) {
+    for (Rib& rib : finger->ribs) {
+      rib.front_hinge_N_mm_per_rad = rib.back_hinge_N_mm_per_rad = value;
+    }
+    return;
+  }
+  if (IsPiece(parameter.kind)) {
+    const double factor = value / ParameterValue(*finger, parameter);
+    auto& pieces = parameter.kind == FingerParameterKind::kFrontPiece
+                       ? finger->front_pieces
+                       : finger->back_pieces;
+    for (std::size_t i = static_cast<std::size_t>(parameter.index);
+         i < pieces.size(); ++i) {
+      pieces[i].stiffness_ratio *= factor;
+    }
+    return;
+  }
   Variable(*finger, parameter) = value;
+}
+
+std::vector<FingerParameter> ParameterCovariance::StaticsEffects() const {
+  std::vector<FingerParameter> effects;
+  for (const FingerParameter& parameter : parameters) {
+    if (IsStaticsEffect(parameter.kind)) effects.push_back(parameter);
+  }
+  return effects;
 }
 
 bool ParameterCovariance::HasGaugePlaces() const {

@@ -21,19 +21,29 @@ enum class FingerParameterKind {
   kGaugeLength,
   kGaugeCreepShare,
   kGaugeCreepTime,
+  kHingeStiffness,  ///< One for all hinges of the ribs.
+  // The stiffness of a piece, from the second one on, over that of the piece
+  // before it. All pieces behind it change with it.
+  kFrontPiece,
+  kBackPiece,
 };
-constexpr int kFingerParameterKinds = 10;
+constexpr int kFingerParameterKinds = 13;
 
 /// Says that a plain finger goes without this kind. Reports list its parameters
 /// only where they are free.
 constexpr bool IsEffect(FingerParameterKind kind) {
   return kind > FingerParameterKind::kRibLength;
 }
+/// Says that the kind is an effect inside the equilibrium. Derivatives by it
+/// are carried on request only (LadderModel::set_effects).
+constexpr bool IsStaticsEffect(FingerParameterKind kind) {
+  return kind >= FingerParameterKind::kHingeStiffness;
+}
 
 /// One number of a finger that a calibration may determine.
 struct FingerParameter {
   FingerParameterKind kind;
-  int index = 0;  ///< The gauge or rib, from 0; 0 for a beam's stiffness.
+  int index = 0;  ///< The gauge, rib or piece, from 0; else 0.
 
   bool operator==(const FingerParameter& other) const {
     return kind == other.kind && index == other.index;
@@ -69,6 +79,8 @@ struct ParameterCovariance {
   Eigen::VectorXd std;
   Eigen::MatrixXd correlations;  ///< Symmetric, 1 on the diagonal.
 
+  /// The statics effects among the parameters, in their order.
+  std::vector<FingerParameter> StaticsEffects() const;
   /// Says whether the start or the length of a gauge is among the parameters.
   bool HasGaugePlaces() const;
   /// The smallest eigenvalue of the correlations.

@@ -47,6 +47,7 @@ std::string TextThat(const ReadsBack& reads_back, long double value) {
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
+constexpr const char* kHingeStiffness = "hinge_stiffness_N_mm_per_rad";
 constexpr const char* kBendingStiffness = "bending_stiffness_N_mm2";
 constexpr const char* kPlate[] = {"width_mm", "thickness_mm",
                                   "youngs_modulus_GPa"};
@@ -183,9 +184,28 @@ double ReadBackHinge(const YamlMap& yaml, const Finger& finger,
   return back_mm;
 }
 
+// Springs at both hinges: one number, or that in front and that behind. A
+// calibration of free hinges may end a little below 0.
+void ReadHinges(const YamlMap& yaml, Rib* rib) {
+  if (!yaml.Has(kHingeStiffness)) return;
+  if (yaml.IsSequence(kHingeStiffness)) {
+    const std::vector<double> both = yaml.Numbers(kHingeStiffness);
+    if (both.size() != 2) {
+      yaml.Fail(kHingeStiffness,
+                std::string(kHingeStiffness) +
+                    ": expected a number, or two: [front, back]");
+    }
+    rib->front_hinge_N_mm_per_rad = both[0];
+    rib->back_hinge_N_mm_per_rad = both[1];
+  } else {
+    rib->front_hinge_N_mm_per_rad = rib->back_hinge_N_mm_per_rad =
+        yaml.Number(kHingeStiffness);
+  }
+}
+
 Rib ReadRib(const YamlMap& yaml, const Finger& finger) {
-  yaml.AllowOnly(
-      {"front_mm", "angle_deg", "back_mm", "length_mm", "axial_stiffness_N"});
+  yaml.AllowOnly({"front_mm", "angle_deg", "back_mm", "length_mm",
+                  "axial_stiffness_N", kHingeStiffness});
   Rib rib;
   rib.front_mm = yaml.PositiveNumber("front_mm");
   if (rib.front_mm >= finger.front_length_mm) {
@@ -197,6 +217,7 @@ Rib ReadRib(const YamlMap& yaml, const Finger& finger) {
       yaml.PositiveNumber("length_mm", NominalRibLength(finger, rib));
   rib.axial_stiffness_N =
       yaml.PositiveNumber("axial_stiffness_N", rib.axial_stiffness_N);
+  ReadHinges(yaml, &rib);
   return rib;
 }
 
@@ -371,6 +392,12 @@ std::string FingerToYaml(const Finger& finger, const std::string& comment) {
     add("back_mm", rib.back_mm);
     add("length_mm", rib.length_mm);
     add("axial_stiffness_N", rib.axial_stiffness_N);
+    if (rib.HasSprings()) {
+      const std::string front = NumberText(rib.front_hinge_N_mm_per_rad),
+                        back = NumberText(rib.back_hinge_N_mm_per_rad);
+      yaml << ", " << kHingeStiffness << ": "
+           << (front == back ? front : "[" + front + ", " + back + "]");
+    }
     yaml << "}\n";
   }
   if (!finger.gauges.empty()) yaml << "gauges:\n";

@@ -234,6 +234,10 @@ bool YamlMap::IsMap(const std::string& key) const {
   return Has(key) && node_[key].IsMap();
 }
 
+bool YamlMap::IsSequence(const std::string& key) const {
+  return Has(key) && node_[key].IsSequence();
+}
+
 YamlMap YamlMap::Map(const std::string& key) const {
   const YAML::Node value = Value(key);
   if (!value.IsMap()) FailExpecting(key, "a mapping");

@@ -67,6 +67,8 @@ class YamlMap {
   std::vector<std::string> Choices(const std::string& key,
                                    const std::vector<std::string>& words) const;
 
+  /// Says whether the value of `key` is a sequence.
+  bool IsSequence(const std::string& key) const;
   /// Return a sequence of numbers, and a sequence of such sequences.
   std::vector<double> Numbers(const std::string& key) const;
   std::vector<std::vector<double>> NumberRows(const std::string& key) const;

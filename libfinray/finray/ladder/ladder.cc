@@ -34,6 +34,10 @@ void CheckRibs(const Finger& finger) {
     if (!(rib.axial_stiffness_N > 0)) {
       throw InputError(name + " has no axial stiffness");
     }
+    if (!std::isfinite(rib.front_hinge_N_mm_per_rad) ||
+        !std::isfinite(rib.back_hinge_N_mm_per_rad)) {
+      throw InputError(name + " has a hinge stiffness that is not finite");
+    }
     front = rib.front_mm;
     back = rib.back_mm;
   }
@@ -53,6 +57,28 @@ LadderModel::LadderModel(const Finger& finger,
   const int resolution = EffectiveResolution(discretization);
   set_mesh({MakeBeamMesh(finger, Side::kFront, resolution),
             MakeBeamMesh(finger, Side::kBack, resolution)});
+}
+
+int LadderModel::EffectOf(FingerParameterKind kind) const {
+  for (std::size_t i = 0; i < effects_.size(); ++i) {
+    if (effects_[i].kind == kind) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+bool LadderModel::set_effect(int effect, double value) {
+  const FingerParameterKind kind = effects_[effect].kind;
+  const bool piece = kind == FingerParameterKind::kFrontPiece ||
+                     kind == FingerParameterKind::kBackPiece;
+  if (!std::isfinite(value) || (piece && !(value > 0))) return false;
+  SetParameter(effects_[effect], value, &finger_);
+  if (piece) {
+    const Side side =
+        kind == FingerParameterKind::kFrontPiece ? Side::kFront : Side::kBack;
+    BeamMesh& mesh = mesh_[Index(side)];
+    mesh = MakeBeamMesh(finger_, side, std::move(mesh.nodes_mm));
+  }
+  return true;
 }
 
 bool LadderState::IsOnMeshOf(const LadderModel& model) const {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "finray/finger/discretization.h"
@@ -20,6 +21,7 @@ namespace finray {
 //
 //   N_front+ = N_front- - T u,    N_back+ = N_back- + T u.
 //
+// Springs at its hinges add jumps of moment and a transverse force (finger.h).
 // A contact force F makes N jump to N+ = N- - F on its beam. The march leaves
 // 6 + r unknowns,
 //
@@ -55,6 +57,23 @@ class LadderModel {
   void set_rib_length(int rib, double length_mm) {
     finger_.ribs[rib].length_mm = length_mm;
   }
+  /// Derivatives are carried by these parameters of the finger too, in this
+  /// order, and behind them by the friction coefficient of all contacts. All
+  /// are statics effects.
+  void set_effects(std::vector<FingerParameter> effects,
+                   bool by_friction = false) {
+    effects_ = std::move(effects);
+    by_friction_ = by_friction;
+  }
+  bool by_friction() const { return by_friction_; }
+  int effect_columns() const {
+    return static_cast<int>(effects_.size()) + by_friction_;
+  }
+  const std::vector<FingerParameter>& effects() const { return effects_; }
+  /// The place of the first effect of a kind among effects(); -1 if none is.
+  int EffectOf(FingerParameterKind kind) const;
+  /// Sets the value of an effect. False if no finger can have it.
+  bool set_effect(int effect, double value);
   /// Takes other nodes for the same ribs and pieces.
   void set_mesh(const std::array<BeamMesh, 2>& mesh) { mesh_ = mesh; }
 
@@ -63,6 +82,8 @@ class LadderModel {
  private:
   Finger finger_;
   std::array<BeamMesh, 2> mesh_;
+  std::vector<FingerParameter> effects_;
+  bool by_friction_ = false;
 };
 
 /// The unknowns of an equilibrium.

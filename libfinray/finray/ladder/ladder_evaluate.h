@@ -79,7 +79,7 @@ class LadderEvaluator {
                       propagate && at[side] + 1 < f_.end(side));
         }
       }
-      if (rib < f_.ribs) PassRib(rib, at, force);
+      if (rib < f_.ribs) PassRib(rib, at, force, propagate);
     }
     const int first = f_.ribs;
     for (int i = 0; i < 2; ++i) {
@@ -154,7 +154,7 @@ class LadderEvaluator {
     }
   }
 
-  void PassRib(int rib, const int at[2], T force[2][2]) {
+  void PassRib(int rib, const int at[2], T force[2][2], bool propagate) {
     const LadderNodes<T>& z = f_.state;
     const T dx = z.x[at[1]] - z.x[at[0]], dy = z.y[at[1]] - z.y[at[0]];
     const T distance = SquareRoot(T(dx * dx + dy * dy));
@@ -170,6 +170,30 @@ class LadderEvaluator {
     force[0][1] -= tension * uy;
     force[1][0] += tension * ux;
     force[1][1] += tension * uy;
+    if (f_.springs) PassSprings(rib, at, force, propagate);
+  }
+
+  // The springs turn the rib by m = k a at each hinge, and the rib turns the
+  // beams back: M jumps to M+ = M- + m. The couple Q d of the transverse forces
+  // balances the rib, Q = (m_F + m_B) / d with d the distance of the hinges.
+  void PassSprings(int rib, const int at[2], T force[2][2], bool propagate) {
+    const LadderNodes<T>& z = f_.state;
+    const T ux = f_.rib_ux[rib], uy = f_.rib_uy[rib];
+    const T swing = AngleOf(T(f_.rest_ux[rib] * uy - f_.rest_uy[rib] * ux),
+                            T(f_.rest_ux[rib] * ux + f_.rest_uy[rib] * uy));
+    T sum{};
+    for (int side = 0; side < 2; ++side) {
+      const T angle = z.theta[at[side]] - f_.base_angle[side] - swing;
+      const T moment = f_.hinge_stiffness[side][rib] * angle;
+      f_.hinge_angle[side][rib] = angle;
+      if (propagate) z.moment[at[side]] += moment;
+      sum += moment;
+    }
+    const T across = sum / f_.rib_distance[rib];
+    force[0][0] -= across * uy;
+    force[0][1] += across * ux;
+    force[1][0] += across * uy;
+    force[1][1] -= across * ux;
   }
 
   static V Load(const T* from) { return *reinterpret_cast<const U*>(from); }
@@ -273,11 +297,13 @@ class LadderEvaluator {
         gap[1] = end.y - z.y[e + 1];
         gap[2] = end.theta - z.theta[e + 1];
         gap[3] = end.moment - z.moment[e + 1];
+        if (f_.springs) continue;
         for (int i = 0; i < 4; ++i) {
           largest = Larger(largest, Magnitude(gap[i]));
         }
       }
     }
+    if (f_.springs) largest = AddSpringsToGaps();
     f_.tip[0] = tip[0].x;
     f_.tip[1] = tip[0].y;
     f_.tip[2] = tip[0].theta;
@@ -291,6 +317,23 @@ class LadderEvaluator {
       largest = Larger(largest, Magnitude(f_.closure[i]));
     }
     f_.residual = largest;
+  }
+
+  // Returns the largest gap.
+  T AddSpringsToGaps() {
+    for (int side = 0; side < 2; ++side) {
+      for (int rib = 0; rib < f_.ribs; ++rib) {
+        f_.gap[4 * f_.rib_element[side][rib] + 3] +=
+            f_.hinge_stiffness[side][rib] * f_.hinge_angle[side][rib];
+      }
+    }
+    T largest{};
+    for (int side = 0; side < 2; ++side) {
+      for (int i = 4 * (f_.first(side) + 1); i < 4 * f_.end(side); ++i) {
+        largest = Larger(largest, Magnitude(f_.gap[i]));
+      }
+    }
+    return largest;
   }
 
   // Finds the slot that holds each readout: behind the last contact at or

@@ -24,7 +24,8 @@ namespace finray {
 enum class SweepColumns {
   kNone,
   kContacts,    ///< By l_c, f_c of each contact.
-  kParameters,  ///< By l_c, f_c of each contact; EI front, back; rib lengths.
+  kParameters,  ///< By l_c, f_c of each contact; EI front, back; rib lengths;
+                ///< and the effects that the frame carries.
   kLoad,        ///< By the load factor of contact forces and prestress.
 };
 
@@ -80,7 +81,15 @@ struct LadderFrame {
   alignas(sizeof(T)) T base_x[2] = {}, base_angle[2] = {};
   T *length, *stiffness, *stiffness_ratio, *axial_flexibility;
   int *rib_element[2];  ///< The element that starts at the hinge.
+  /// Only with by_piece: the piece of each element, from 0, and for each piece,
+  /// counted from the first element of its beam, its EI over that before it.
+  int *piece;
+  T *piece_step;
   T *rib_length, *rib_flexibility, *d_rib_length;
+  /// Springs at the hinges: k, and the rib's direction in the undeformed
+  /// finger.
+  bool springs = false;
+  T *hinge_stiffness[2], *rest_ux, *rest_uy;
   int readout_count = 0;
   LadderReadout<T> *readouts;  ///< Sorted by element and offset.
 
@@ -102,6 +111,7 @@ struct LadderFrame {
   alignas(sizeof(T)) T tip[3];
   alignas(sizeof(T)) T residual;  ///< The largest one; NaN if any is NaN.
   T *rib_ux, *rib_uy, *rib_distance;
+  T *hinge_angle[2];  ///< The turn a of each spring; only with springs.
   int *first_readout, *end_readout;  ///< The readouts of each slot.
   T *readout_map;
 
@@ -111,6 +121,10 @@ struct LadderFrame {
   // and of the tip and of the readouts. After an open one rib lengths and the
   // six equations of the tip follow, all with their derivatives by q.
   int affine = 6, stride = 8, node_columns = kNodeColumns;
+  /// With kParameters, columns of effects behind those of the rib lengths. Each
+  /// effect begins at its number among them; a negative number means none.
+  int effects = 0, by_hinge_stiffness = -1, by_friction = -1,
+      by_piece[2] = {-1, -1};
   int event_count = 0;
   T *taps;
   T *q_step;  ///< Rows of the change of q.

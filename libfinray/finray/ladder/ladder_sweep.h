@@ -2,7 +2,7 @@
 #define FINRAY_LADDER_LADDER_SWEEP_H_
 
 #include "finray/ladder/ladder_evaluate.h"
-#include "finray/ladder/ladder_walk_back.h"
+#include "finray/ladder/ladder_rows.h"
 
 namespace finray {
 inline namespace FINRAY_ISA {
@@ -10,17 +10,23 @@ inline namespace FINRAY_ISA {
 // Sweep, the second half of a Newton step (ladder_kernel.h): walks both beams
 // from base to tip, and back (ladder_walk_back.h) unless the tip stays open.
 template <class T, int kVectors>
-class LadderSweeper : private LadderWalkBack<T, kVectors> {
-  using Base = LadderWalkBack<T, kVectors>;
-  using Base::Add, Base::Broadcast, Base::by_load, Base::Clear, Base::columns_,
-      Base::Copy, Base::f_, Base::kNode, Base::kPivot, Base::kTap, Base::kWidth,
-      Base::Node, Base::stride, Base::Tap, Base::vectors, Base::Wide;
-  using typename Base::Event, typename Base::Scalar, typename Base::U,
-      typename Base::V;
+class LadderSweeper : private LadderRows<T, kVectors> {
+  using Rows = LadderRows<T, kVectors>;
+  using Rows::Add, Rows::affine, Rows::Broadcast, Rows::by_contacts,
+      Rows::by_load, Rows::Clear, Rows::columns_, Rows::ContactColumn,
+      Rows::ContactNode, Rows::Copy, Rows::EffectColumn, Rows::f_, Rows::kNode,
+      Rows::kPivot, Rows::kTap, Rows::kWidth, Rows::Node, Rows::node_,
+      Rows::open_, Rows::parameters, Rows::PassSprings, Rows::Present,
+      Rows::RibColumn, Rows::RowOf, Rows::StiffnessColumn, Rows::stride,
+      Rows::Tap, Rows::TipNode, Rows::vectors, Rows::Wide;
+  using Rows::kX, Rows::kY, Rows::kTheta, Rows::kMoment, Rows::kForceX,
+      Rows::kForceY, Rows::kRows;
+  using typename Rows::Event, typename Rows::Scalar, typename Rows::U,
+      typename Rows::V;
 
  public:
   LadderSweeper(LadderFrame<T>* frame, SweepColumns columns, bool open)
-      : Base(frame, columns), open_(open) {}
+      : Rows(frame, columns, open) {}
 
   // Without `readouts` the taps of the gauges keep their old values.
   bool Run(bool readouts) {
@@ -41,44 +47,17 @@ class LadderSweeper : private LadderWalkBack<T, kVectors> {
     if (open_) return true;
     if (!EliminateTip()) return false;
     f_.event_count = events_;
-    Base::Run();
+    Rows::Run();
     return true;
   }
 
  private:
-  enum Row { kX, kY, kTheta, kMoment, kForceX, kForceY, kRows };
   // Growth beyond this exchanges the parameters. Growth up to it costs three
   // digits of a step, which Newton's next step corrects.
   static constexpr Scalar kLargestGrowth = 1000;
   static constexpr int kParameterVectors = (6 + kWidth - 1) / kWidth;
 
-  int affine() const { return open_ ? f_.affine : 6; }
-  // The rows of a node's position, angle and moment are computed where they are
-  // kept. Behind the nodes come the tip and a contact of each side.
-  T* TipNode(int side) const { return Node(f_.elements + side); }
-  T* ContactNode(int side) const { return Node(f_.elements + 2 + side); }
-  T* RowOf(int side, int row) const {
-    return row < kForceX ? node_[side] + row * stride()
-                         : f_.rows + (2 * side + row - kForceX) * stride();
-  }
-  T* RowOf(int i) const { return RowOf(i / kRows, i % kRows); }
-
   void Log(Event event, int index) { f_.events[events_++] = 4 * index + event; }
-
-  bool parameters() const { return columns_ == SweepColumns::kParameters; }
-  bool by_contacts() const {
-    return parameters() || columns_ == SweepColumns::kContacts;
-  }
-  int ContactColumn(int c) const {
-    return affine() + 1 + 2 * f_.contacts[c].columns;
-  }
-  const T& Present(int c) const { return f_.contacts[c].present; }
-  int StiffnessColumn(int side) const {
-    return affine() + 1 + 2 * f_.contact_count + side;
-  }
-  int RibColumn(int rib) const {
-    return affine() + 1 + 2 * f_.contact_count + 2 + rib;
-  }
 
   void Begin() {
     while (next_contact_[1] < f_.contact_count &&
@@ -154,8 +133,7 @@ class LadderSweeper : private LadderWalkBack<T, kVectors> {
     for (int i = 0; i < 4; ++i) {
       T* row = RowOf(side, i);
       if (parameters()) {
-        row[StiffnessColumn(side)] +=
-            f_.stiffness_ratio[e] * map[(kMapStiffness + i) * kWidth];
+        AddStiffness(side, e, map[(kMapStiffness + i) * kWidth], row);
       }
       const T& by_length = map[(kMapLength + i) * kWidth];
       if (begins_at >= 0) {
@@ -164,6 +142,16 @@ class LadderSweeper : private LadderWalkBack<T, kVectors> {
       if (ends_at >= 0) {
         row[ContactColumn(ends_at)] += Present(ends_at) * by_length;
       }
+    }
+  }
+
+  // `slope` is the derivative by the stiffness of element e.
+  void AddStiffness(int side, int e, const T& slope, T* row) const {
+    row[StiffnessColumn(side)] += f_.stiffness_ratio[e] * slope;
+    if (f_.by_piece[side] < 0) return;
+    for (int p = 1; p <= f_.piece[e]; ++p) {
+      row[EffectColumn(f_.by_piece[side] + p - 1)] +=
+          f_.stiffness[e] / f_.piece_step[f_.first(side) + p] * slope;
     }
   }
 
@@ -180,7 +168,7 @@ class LadderSweeper : private LadderWalkBack<T, kVectors> {
       Wide(tap)[v] = sum;
     }
     if (parameters()) {
-      tap[StiffnessColumn(side)] += f_.stiffness_ratio[e] * at[5];
+      AddStiffness(side, e, at[5], tap);
     }
     if (by_contacts()) {
       if (begins_at >= 0) {
@@ -214,6 +202,13 @@ class LadderSweeper : private LadderWalkBack<T, kVectors> {
       }
       if (by_load()) force[affine() + 1] -= contact.d_normal * unit[i];
     }
+    if (!parameters() || f_.by_friction < 0) return;
+    T along[2];
+    SinCos(f_.slot_theta[f_.elements + c], &along[1], &along[0]);
+    for (int i = 0; i < 2; ++i) {
+      RowOf(side, kForceX + i)[EffectColumn(f_.by_friction)] -=
+          contact.normal * along[i];
+    }
   }
 
   void PassRib(int rib) {
@@ -239,6 +234,7 @@ class LadderSweeper : private LadderWalkBack<T, kVectors> {
       back_x[v] -= across * wide_y;
       back_y[v] += across * wide_x;
     }
+    if (f_.springs) PassSprings(rib);
     const T strained = Scalar(1) + tension * f_.rib_flexibility[rib];
     if (parameters()) length[RibColumn(rib)] -= strained;
     if (by_load()) length[affine() + 1] -= strained * f_.d_rib_length[rib];
@@ -359,11 +355,9 @@ class LadderSweeper : private LadderWalkBack<T, kVectors> {
     return true;
   }
 
-  const bool open_;
   int events_ = 0, pivots_ = 0, since_check_ = 0;
   int next_contact_[2] = {0, 0};
   bool gap_taken_[2] = {false, false};
-  T* node_[2] = {};  // the present rows of each beam
 };
 
 }  // namespace FINRAY_ISA

@@ -80,12 +80,14 @@ void LadderWorkspace<T>::LayOut(Take&& take) {
       take(field, elements);
     }
   }
-  for (T** field :
-       {&f.length, &f.stiffness, &f.stiffness_ratio, &f.axial_flexibility}) {
+  for (T** field : {&f.length, &f.stiffness, &f.stiffness_ratio,
+                    &f.axial_flexibility, &f.piece_step}) {
     take(field, elements);
   }
   for (T** field : {&f.rib_length, &f.rib_flexibility, &f.d_rib_length,
-                    &f.rib_ux, &f.rib_uy, &f.rib_distance}) {
+                    &f.hinge_stiffness[0], &f.hinge_stiffness[1], &f.rest_ux,
+                    &f.rest_uy, &f.hinge_angle[0], &f.hinge_angle[1], &f.rib_ux,
+                    &f.rib_uy, &f.rib_distance}) {
     take(field, ribs);
   }
   for (T** field : {&f.slot_x, &f.slot_y, &f.slot_theta, &f.slot_moment,
@@ -108,6 +110,7 @@ void LadderWorkspace<T>::LayOut(Take&& take) {
   take(&f.pivots, pivots * stride);
   take(&f.parameters, 6 * stride);
   take(&f.pivot_flexibility, pivots);
+  take(&f.piece, elements);
   take(&f.rib_element[0], ribs);
   take(&f.rib_element[1], ribs);
   take(&f.first_readout, slots);
@@ -209,6 +212,62 @@ void LadderWorkspace<T>::SetFinger(const LadderModel& model, double fraction) {
     Put(ScaledFlexibility(rib.axial_stiffness_N, force_unit_),
         &frame_.rib_flexibility[i]);
   }
+  SetEffects(model);
+}
+
+template <class T>
+void LadderWorkspace<T>::SetEffects(const LadderModel& model) {
+  const Finger& finger = model.finger();
+  frame_.by_friction =
+      model.by_friction() ? static_cast<int>(model.effects().size()) : -1;
+  frame_.by_hinge_stiffness =
+      model.EffectOf(FingerParameterKind::kHingeStiffness);
+  SetPieces(model);
+  frame_.springs = frame_.by_hinge_stiffness >= 0;
+  for (const Rib& rib : finger.ribs) frame_.springs |= rib.HasSprings();
+  if (!frame_.springs) return;
+  for (int i = 0; i < frame_.ribs; ++i) {
+    const Rib& rib = finger.ribs[i];
+    Put(rib.front_hinge_N_mm_per_rad / moment_unit(),
+        &frame_.hinge_stiffness[0][i]);
+    Put(rib.back_hinge_N_mm_per_rad / moment_unit(),
+        &frame_.hinge_stiffness[1][i]);
+    const Eigen::Vector2d along =
+        (UndeformedPoint(finger, Side::kBack, rib.back_mm) -
+         UndeformedPoint(finger, Side::kFront, rib.front_mm))
+            .normalized();
+    Put(along.x(), &frame_.rest_ux[i]);
+    Put(along.y(), &frame_.rest_uy[i]);
+  }
+}
+
+template <class T>
+void LadderWorkspace<T>::SetPieces(const LadderModel& model) {
+  const Finger& finger = model.finger();
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    const int i = LadderModel::Index(side), first = frame_.first(i);
+    const auto kind = i == 0 ? FingerParameterKind::kFrontPiece
+                             : FingerParameterKind::kBackPiece;
+    frame_.by_piece[i] = model.EffectOf(kind);
+    if (frame_.by_piece[i] < 0) continue;
+    const std::vector<StiffnessPiece>& pieces = Pieces(finger, side);
+    for (int p = 1; p < static_cast<int>(pieces.size()); ++p) {
+      Put(ParameterValue(finger, {kind, p}), &frame_.piece_step[first + p]);
+    }
+    const std::vector<double>& nodes_mm = model.mesh(side).nodes_mm;
+    int piece = 0;
+    for (int e = first; e < frame_.end(i); ++e) {
+      while (piece + 1 < static_cast<int>(pieces.size()) &&
+             pieces[piece].end_mm <= nodes_mm[e - first]) {
+        ++piece;
+      }
+      frame_.piece[e] = piece;
+      T ratio;
+      Put(pieces[piece].stiffness_ratio, &ratio);
+      frame_.stiffness[e] *= ratio / frame_.stiffness_ratio[e];
+      frame_.stiffness_ratio[e] = ratio;
+    }
+  }
 }
 
 template <class T>
@@ -218,6 +277,7 @@ bool LadderWorkspace<T>::SetContacts(const LadderModel& model,
                                      bool open) {
   const int count = static_cast<int>(contacts.size());
   frame_.contact_count = count;
+  frame_.effects = model.effect_columns();
   SetColumns(columns, open);
   if (count > contact_capacity_ || frame_.stride > stride_capacity_) {
     contact_capacity_ = std::max(contact_capacity_, count);
@@ -267,7 +327,7 @@ template <class T>
 void LadderWorkspace<T>::SetColumns(SweepColumns columns, bool open) {
   const int contacts = 2 * frame_.contact_count;
   const int derivatives = columns == SweepColumns::kParameters
-                              ? contacts + 2 + frame_.ribs
+                              ? contacts + 2 + frame_.ribs + frame_.effects
                           : columns == SweepColumns::kContacts ? contacts
                                                                : 1;
   frame_.affine = open ? 6 + frame_.ribs : 6;

@@ -50,6 +50,8 @@ class LadderWorkspace {
   static constexpr int kAllLanes = -1;
 
  private:
+  void SetEffects(const LadderModel& model);
+  void SetPieces(const LadderModel& model);
   void Allocate();
   template <class Take>
   void LayOut(Take&& take);

@@ -114,6 +114,20 @@ inline typename ValueTraits<V>::Scalar LargestLane(const V& a) {
   return -SmallestLane(V(-a));
 }
 
+/// The angle of (x, y) from +x.
+template <class V>
+inline V AngleOf(const V& y, const V& x) {
+  if constexpr (ValueTraits<V>::kWidth == 1) {
+    return std::atan2(y, x);
+  } else {
+    V angle{};
+    for (int i = 0; i < ValueTraits<V>::kWidth; ++i) {
+      angle[i] = std::atan2(y[i], x[i]);
+    }
+    return angle;
+  }
+}
+
 template <class To, class From>
 inline To BitsOf(const From& from) {
   static_assert(sizeof(To) == sizeof(From));

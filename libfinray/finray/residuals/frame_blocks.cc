@@ -120,6 +120,10 @@ void AddForce(Builder* out) {
       late.signals = &(*of.forces_N)[2];
       blocks.push_back(of.force_time_offset_s);
     }
+    if (out->evaluation->contacts() > 0 &&
+        out->evaluation->friction_effect() >= 0) {
+      blocks.push_back(of.finger->effect_values.data());
+    }
     out->Add(new ReferenceForceResidual(out->evaluation, out->row.force_N,
                                         std_N, late),
              std::move(blocks), ResidualFamily::kForce);
@@ -171,7 +175,8 @@ std::vector<double*> ModelBlocks(const FrameParameters& parameters,
   SharedParameters& finger = *parameters.finger;
   return FrameParameterBlocks(evaluation, unknowns, &finger.ln_front_stiffness,
                               &finger.ln_back_stiffness,
-                              finger.rib_lengths_mm.data());
+                              finger.rib_lengths_mm.data(),
+                              finger.effect_values.data());
 }
 
 }  // namespace
@@ -226,7 +231,9 @@ std::vector<FrameBlock> EquilibriumBlocks(const Finger& finger, double weight,
 
 FingerParameters::FingerParameters(const Finger& finger,
                                    std::optional<double> circle_radius_mm)
-    : shared_(SharedParameters::Of(finger)),
+    : shared_(SharedParameters::Of(
+          finger, finger.calibration ? finger.calibration->StaticsEffects()
+                                     : std::vector<FingerParameter>())),
       object_radius_mm_(circle_radius_mm.value_or(0)) {
   for (const Gauge& gauge : finger.gauges) {
     gains_.push_back(gauge.gain_V_per_rad);

@@ -12,8 +12,10 @@ FrameEvaluation::FrameEvaluation(const LadderModel& model, EquilibriumForm form,
                                  bool movable_gauges)
     : form_(form),
       ribs_(model.ribs()),
+      effects_(model.effect_columns()),
       gauges_(model.gauges()),
       contact_count_(contacts),
+      by_friction_(model.by_friction()),
       loads_(contacts),
       length_mm_(model.finger().front_length_mm),
       back_length_mm_(BeamLength(model.finger(), Side::kBack)),
@@ -51,7 +53,7 @@ void FrameEvaluation::PlaceGauges(const double* starts_mm,
 void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
                              double ln_back_stiffness,
                              const double* rib_lengths_mm,
-                             EquilibriumSolver* solver) {
+                             const double* effects, EquilibriumSolver* solver) {
   valid_ = false;
   if (!on_beam_) return;
   const double front = std::exp(ln_front_stiffness);
@@ -61,6 +63,14 @@ void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
   for (int i = 0; i < ribs_; ++i) {
     if (!(rib_lengths_mm[i] > 0)) return;
     solver->model().set_rib_length(i, rib_lengths_mm[i]);
+  }
+  for (int i = 0; i < effects_; ++i) {
+    if (!std::isfinite(effects[i])) return;
+    if (i == friction_effect()) {
+      for (int c = 0; c < contacts(); ++c) loads_[c].friction = effects[i];
+    } else if (!solver->model().set_effect(i, effects[i])) {
+      return;
+    }
   }
   for (int i = 0; i < contacts(); ++i) {
     const double* contact = frame + contact_offset(i);
@@ -134,7 +144,7 @@ void FrameEvaluation::SetWithoutPins(const Matrix& derivatives,
   }
   target->resize(derivatives.rows(), columns());
   *target << derivatives.leftCols(frame_size()),
-      derivatives.rightCols(2 + ribs_);
+      derivatives.rightCols(2 + ribs_ + effects_);
 }
 
 }  // namespace finray

@@ -25,9 +25,10 @@ enum class EquilibriumForm {
 /// ends: PlaceGauges puts them anywhere, and the gauges' angles are read there.
 ///
 /// The derivatives have one column for each parameter of FrameResidual, in its
-/// order: [frame unknowns | ln EI front | ln EI back | rib lengths (r)]. The
-/// frame unknowns are [l_c, f_c of each contact] in the reduced form; the
-/// weighted form puts the 6 + r unknowns q of ladder.h before them.
+/// order: [frame unknowns | ln EI front | ln EI back | rib lengths (r) |
+/// effects of the model (LadderModel::effects)]. The frame unknowns are [l_c,
+/// f_c of each contact] in the reduced form; the weighted form puts the 6 + r
+/// unknowns q of ladder.h before them.
 class FrameEvaluation {
  public:
   using Matrix = EquilibriumSolver::Matrix;
@@ -42,11 +43,11 @@ class FrameEvaluation {
 
   /// Evaluates the model at frame unknowns and shared parameters. A pointer may
   /// be null where its size is 0. `solver` is scratch memory: any solver of the
-  /// same finger and discretization will do. Afterwards valid() says whether
-  /// the evaluation succeeded.
+  /// same finger, effects and discretization will do. Afterwards valid() says
+  /// whether the evaluation succeeded.
   void Update(const double* frame, double ln_front_stiffness,
               double ln_back_stiffness, const double* rib_lengths_mm,
-              EquilibriumSolver* solver);
+              const double* effects, EquilibriumSolver* solver);
 
   bool valid() const { return valid_; }
   /// Marks the model as not evaluated at the present values.
@@ -58,7 +59,13 @@ class FrameEvaluation {
   int contacts() const { return contact_count_; }
   int ribs() const { return ribs_; }
   int gauges() const { return gauges_; }
-  int columns() const { return frame_size() + 2 + ribs_; }
+  int effects() const { return effects_; }
+  /// The place of the friction coefficient among the effects; -1 if it is not
+  /// varied.
+  int friction_effect() const { return by_friction_ ? effects_ - 1 : -1; }
+  /// The column of the first effect.
+  int effect_column() const { return frame_size() + 2 + ribs_; }
+  int columns() const { return frame_size() + 2 + ribs_ + effects_; }
   /// Position of (l_c, f_c) of a contact among the frame unknowns.
   int contact_offset(int contact) const {
     return frame_size() - 2 * contacts() + 2 * contact;
@@ -96,7 +103,8 @@ class FrameEvaluation {
   void ReadMovedGauges(const Matrix& derivatives);
 
   EquilibriumForm form_;
-  int ribs_, gauges_, contact_count_;
+  int ribs_, effects_, gauges_, contact_count_;
+  bool by_friction_;
   int ends_ = 0;  // of movable gauges
   // Contacts, then pins, then the start and the end of each movable gauge.
   std::vector<PointContact> loads_;

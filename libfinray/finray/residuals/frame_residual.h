@@ -13,7 +13,7 @@ namespace finray {
 /// Parameter blocks, in this order (blocks of size 0 are left out):
 ///
 ///   [frame unknowns | ln EI front (1) | ln EI back (1) | rib lengths (r) |
-///    extra blocks of the derived class].
+///    effects of the model | extra blocks of the derived class].
 ///
 /// Evaluate() returns false if the frame has no equilibrium; Ceres then takes a
 /// smaller step.
@@ -54,7 +54,8 @@ std::vector<double*> FrameParameterBlocks(const FrameEvaluation& frame,
                                           double* unknowns,
                                           double* ln_front_stiffness,
                                           double* ln_back_stiffness,
-                                          double* rib_lengths_mm);
+                                          double* rib_lengths_mm,
+                                          double* effects = nullptr);
 
 }  // namespace finray
 

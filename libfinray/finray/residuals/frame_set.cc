@@ -8,7 +8,8 @@
 
 namespace finray {
 
-SharedParameters SharedParameters::Of(const Finger& finger) {
+SharedParameters SharedParameters::Of(const Finger& finger,
+                                      std::vector<FingerParameter> effects) {
   SharedParameters shared;
   shared.ln_front_stiffness = std::log(finger.front_stiffness_N_mm2);
   shared.ln_back_stiffness = std::log(finger.back_stiffness_N_mm2);
@@ -19,6 +20,10 @@ SharedParameters SharedParameters::Of(const Finger& finger) {
     shared.gauge_starts_mm.push_back(gauge.start_mm);
     shared.gauge_lengths_mm.push_back(gauge.length_mm);
   }
+  for (const FingerParameter& effect : effects) {
+    shared.effect_values.push_back(ParameterValue(finger, effect));
+  }
+  shared.effects = std::move(effects);
   return shared;
 }
 
@@ -28,7 +33,9 @@ FrameSet::FrameSet(const Finger& finger, const Discretization& discretization,
     : solver_(finger, discretization),
       form_(form),
       shared_(shared),
-      threads_(threads) {}
+      threads_(threads) {
+  solver_.model().set_effects(shared->effects, shared->friction_varies);
+}
 
 FrameEvaluation& FrameSet::Add(int contacts, double friction,
                                const double* frame, bool pins,
@@ -45,8 +52,9 @@ FrameEvaluation& FrameSet::Add(int contacts, double friction,
 bool FrameSet::Moved() {
   std::vector<double> at = {shared_->ln_front_stiffness,
                             shared_->ln_back_stiffness};
-  for (const auto* all : {&shared_->rib_lengths_mm, &shared_->gauge_starts_mm,
-                          &shared_->gauge_lengths_mm}) {
+  for (const auto* all :
+       {&shared_->rib_lengths_mm, &shared_->gauge_starts_mm,
+        &shared_->gauge_lengths_mm, &shared_->effect_values}) {
     at.insert(at.end(), all->begin(), all->end());
   }
   for (const Frame& frame : frames_) {
@@ -73,9 +81,9 @@ void FrameSet::PrepareForEvaluation(bool /*evaluate_jacobians*/,
     }
     frame.evaluation.PlaceGauges(shared_->gauge_starts_mm.data(),
                                  shared_->gauge_lengths_mm.data());
-    frame.evaluation.Update(frame.unknowns, shared_->ln_front_stiffness,
-                            shared_->ln_back_stiffness,
-                            shared_->rib_lengths_mm.data(), solver);
+    frame.evaluation.Update(
+        frame.unknowns, shared_->ln_front_stiffness, shared_->ln_back_stiffness,
+        shared_->rib_lengths_mm.data(), shared_->effect_values.data(), solver);
     if (!frame.evaluation.valid()) failed = true;
   };
   if (threads_ <= 1 || frames_.size() < 2) {

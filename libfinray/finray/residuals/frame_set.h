@@ -19,7 +19,14 @@ struct SharedParameters {
   /// Places of the gauges. Only frames with movable gauges use them.
   std::vector<double> gauge_starts_mm, gauge_lengths_mm;
 
-  static SharedParameters Of(const Finger& finger);
+  /// Effects inside the equilibrium that are varied, and whether friction is.
+  std::vector<FingerParameter> effects;
+  bool friction_varies = false;
+  /// Their values, one parameter block; friction is the last one.
+  std::vector<double> effect_values;
+
+  static SharedParameters Of(const Finger& finger,
+                             std::vector<FingerParameter> effects = {});
 };
 
 /// The frames of a ceres::Problem, and the problem's evaluation callback.
@@ -29,7 +36,8 @@ struct SharedParameters {
 /// of threads, as long as all frames can be evaluated.
 class FrameSet : public ceres::EvaluationCallback {
  public:
-  /// `shared` must stay in place; Ceres varies it.
+  /// `shared` must stay in place; Ceres varies it, but not what its effects
+  /// are.
   FrameSet(const Finger& finger, const Discretization& discretization,
            EquilibriumForm form, const SharedParameters* shared, int threads);
 

@@ -11,8 +11,9 @@ ReferenceForceResidual::ReferenceForceResidual(const FrameEvaluation* frame,
                                                const LateForce& late)
     : frame_size_(frame->contacts() > 0 ? frame->frame_size() : 0),
       normal_(frame_size_ > 0 ? frame->contact_offset(0) + 1 : 0),
-      per_normal_(frame_size_ > 0 ? std::hypot(1, frame->contact(0).friction)
-                                  : 0),
+      effects_(0),
+      friction_effect_(frame_size_ > 0 ? frame->friction_effect() : -1),
+      friction_(frame_size_ > 0 ? frame->contact(0).friction : 0),
       force_N_(force_N),
       std_N_(std_N),
       late_(late) {
@@ -21,6 +22,10 @@ ReferenceForceResidual::ReferenceForceResidual(const FrameEvaluation* frame,
   mutable_parameter_block_sizes()->push_back(1);
   mutable_parameter_block_sizes()->push_back(1);
   if (late_.signals != nullptr) mutable_parameter_block_sizes()->push_back(1);
+  if (friction_effect_ >= 0) {
+    effects_ = frame->effects();
+    mutable_parameter_block_sizes()->push_back(effects_);
+  }
 }
 
 bool ReferenceForceResidual::Evaluate(double const* const* parameters,
@@ -28,8 +33,12 @@ bool ReferenceForceResidual::Evaluate(double const* const* parameters,
                                       double** jacobians) const {
   const int sensor = frame_size_ > 0 ? 1 : 0;  // the block of ln s
   const double scale = std::exp(*parameters[sensor]);
+  const int effects = sensor + (late_.signals != nullptr ? 3 : 2);
+  const double friction =
+      effects_ > 0 ? parameters[effects][friction_effect_] : friction_;
+  const double per_normal = std::hypot(1, friction);
   const double force =
-      frame_size_ > 0 ? scale * per_normal_ * parameters[0][normal_] : 0;
+      frame_size_ > 0 ? scale * per_normal * parameters[0][normal_] : 0;
   LinearSignal::Point read{force_N_, 0};
   if (late_.signals != nullptr) {
     read = late_.signals[0].At(late_.time_s + *parameters[sensor + 2]);
@@ -39,12 +48,18 @@ bool ReferenceForceResidual::Evaluate(double const* const* parameters,
   if (frame_size_ > 0 && jacobians[0] != nullptr) {
     Eigen::Map<Eigen::VectorXd> by_frame(jacobians[0], frame_size_);
     by_frame.setZero();
-    by_frame[normal_] = scale * per_normal_ / std_N_;
+    by_frame[normal_] = scale * per_normal / std_N_;
   }
   if (double* by_scale = jacobians[sensor]) *by_scale = force / std_N_;
   if (double* by_offset = jacobians[sensor + 1]) *by_offset = 1 / std_N_;
   if (late_.signals != nullptr && jacobians[sensor + 2] != nullptr) {
     *jacobians[sensor + 2] = -read.slope / std_N_;
+  }
+  if (effects_ > 0 && jacobians[effects] != nullptr) {
+    Eigen::Map<Eigen::VectorXd> by_effect(jacobians[effects], effects_);
+    by_effect.setZero();
+    by_effect[friction_effect_] =
+        force * friction / (per_normal * per_normal) / std_N_;
   }
   return true;
 }
@@ -90,6 +105,9 @@ bool ReferenceForceVectorResidual::Evaluate(double const* const* parameters,
     sum += f * (n + mu * t);
     d_sum += f * (t - mu * n) * frame().d_outputs().row(row);
     d_sum.col(frame().contact_offset(i) + 1) += n + mu * t;
+    if (frame().friction_effect() >= 0) {
+      d_sum.col(frame().effect_column() + frame().friction_effect()) += f * t;
+    }
   }
   Eigen::Map<Eigen::Vector2d>(residuals, 2) =
       (scale * tilt * sum + offset + turn * weight - read) / std_N_;

@@ -25,8 +25,9 @@ struct LateForce {
 ///
 /// s is the sensor's scale and o its offset. The residual is linear in f_c and
 /// therefore smooth through zero. Parameter blocks: frame unknowns (if there is
-/// a contact), ln s (1), o (1, N), and the time offset (1, s) if the sensor may
-/// be late.
+/// a contact), ln s (1), o (1, N), the time offset (1, s) if the sensor may be
+/// late, and the effects of FrameResidual if friction is one of them and there
+/// is a contact.
 class ReferenceForceResidual : public ceres::CostFunction {
  public:
   /// `late` has one signal, the magnitude.
@@ -38,7 +39,9 @@ class ReferenceForceResidual : public ceres::CostFunction {
 
  private:
   int frame_size_, normal_;  // position of f_c among the frame unknowns
-  double per_normal_, force_N_, std_N_;
+  // The number of effects, if friction is one, and its place among them.
+  int effects_, friction_effect_;
+  double friction_, force_N_, std_N_;
   LateForce late_;
 };
 

@@ -52,9 +52,10 @@ CalibrationUncertainty::Model::Model(const Finger& finger, double friction,
 CalibrationUncertainty::CalibrationUncertainty(
     const Finger& finger, double friction, EquilibriumSolver* solver,
     std::optional<double> circle_radius_mm) {
-  if (finger.calibration) {
-    model_.emplace(finger, friction, circle_radius_mm, solver);
-  }
+  if (!finger.calibration) return;
+  solver->model().set_effects(finger.calibration->StaticsEffects());
+  model_.emplace(finger, friction, circle_radius_mm, solver);
+  solver->model().set_effects({});
 }
 
 ContactMatrix CalibrationUncertainty::Of(
@@ -101,6 +102,7 @@ double CalibrationUncertainty::Chi2(const std::vector<PointContact>& contacts,
   Eigen::VectorXd residuals = Eigen::VectorXd::Zero(gauges);
   Eigen::MatrixXd by_parameter = Eigen::MatrixXd::Zero(
       gauges, static_cast<Eigen::Index>(parameters.size()));
+  Eigen::Index effect = unknowns + 2 + m.solver.model().ribs();
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const int index = parameters[k].index;
     auto column = by_parameter.col(static_cast<Eigen::Index>(k));
@@ -113,6 +115,11 @@ double CalibrationUncertainty::Chi2(const std::vector<PointContact>& contacts,
         break;
       case FingerParameterKind::kRibLength:
         column = m.derivatives.col(unknowns + 2 + index);
+        break;
+      case FingerParameterKind::kHingeStiffness:
+      case FingerParameterKind::kFrontPiece:
+      case FingerParameterKind::kBackPiece:
+        column = m.derivatives.col(effect++);
         break;
       case FingerParameterKind::kGaugeStart:
         column[index] = m.derivatives.rightCols<2>()(index, 0);
@@ -169,6 +176,7 @@ void CalibrationUncertainty::FillByParameter(
   const std::vector<FingerParameter>& parameters =
       m.finger.calibration->parameters;
   m.by_parameter.resize(unknowns, static_cast<int>(parameters.size()));
+  int effect = 2 + m.solver.model().ribs();
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const int index = parameters[k].index;
     auto column = m.by_parameter.col(static_cast<int>(k));
@@ -188,6 +196,11 @@ void CalibrationUncertainty::FillByParameter(
         break;
       case FingerParameterKind::kRibLength:
         by_statics(2 + index);
+        break;
+      case FingerParameterKind::kHingeStiffness:
+      case FingerParameterKind::kFrontPiece:
+      case FingerParameterKind::kBackPiece:
+        by_statics(effect++);
         break;
       case FingerParameterKind::kGaugeStart:
         by_gauge(m.derivatives.rightCols<2>()(index, 0));

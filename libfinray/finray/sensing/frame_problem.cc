@@ -239,7 +239,8 @@ ContactMatrix FrameProblem::Systematic(const Eigen::MatrixXd& by_unknown,
   const auto count = static_cast<Eigen::Index>(parameters.size());
   const auto ribs = static_cast<Eigen::Index>(shared.rib_lengths_mm.size());
   const auto gauges = static_cast<Eigen::Index>(finger_.gauges.size());
-  // Columns of C: stiffness, rib lengths, then five for each gauge.
+  const auto effects = static_cast<Eigen::Index>(shared.effects.size());
+  // Columns of C: stiffness, rib lengths, five for each gauge, then effects.
   const auto of_gauge = [ribs](int gauge, int which) {
     return static_cast<int>(2 + ribs) + 5 * gauge + which;
   };
@@ -252,8 +253,11 @@ ContactMatrix FrameProblem::Systematic(const Eigen::MatrixXd& by_unknown,
                            &shared.gauge_lengths_mm[j]};
     for (int k = 0; k < 5; ++k) column_of.emplace(own[k], of_gauge(j, k));
   }
+  int effect = of_gauge(static_cast<int>(gauges), 0);
+  if (effects > 0) column_of.emplace(shared.effect_values.data(), effect);
   BlockRows rows;
-  rows.Evaluate(blocks_, column_of, static_cast<int>(2 + ribs + 5 * gauges));
+  rows.Evaluate(blocks_, column_of,
+                static_cast<int>(2 + ribs + 5 * gauges + effects));
   Eigen::MatrixXd by_parameter(rows.jacobian.rows(), count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const FingerParameter& p = parameters[static_cast<std::size_t>(k)];
@@ -292,6 +296,11 @@ ContactMatrix FrameProblem::Systematic(const Eigen::MatrixXd& by_unknown,
       }
       case FingerParameterKind::kGaugeCreepTime:
         by_parameter.col(k).setZero();
+        break;
+      case FingerParameterKind::kHingeStiffness:
+      case FingerParameterKind::kFrontPiece:
+      case FingerParameterKind::kBackPiece:
+        by_parameter.col(k) = column(effect++);
         break;
     }
   }

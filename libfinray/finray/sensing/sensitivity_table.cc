@@ -120,7 +120,9 @@ SensitivityTable::SensitivityTable(double friction,
                                    EquilibriumSolver* solver, bool gauge_places)
     : gauge_places_(gauge_places),
       node_(solver->model().gauges() + (circle_radius_mm ? 2 : 0),
-            4 + solver->model().ribs() + (gauge_places ? 2 : 0)) {
+            4 + solver->model().ribs() +
+                static_cast<int>(solver->model().effects().size()) +
+                (gauge_places ? 2 : 0)) {
   const Finger& finger = solver->model().finger();
   const double length = finger.front_length_mm;
   for (const double force : kGridForces) {

@@ -14,7 +14,8 @@ namespace finray {
 /// `circle_radius_mm`, the centre of a circle at the one contact
 /// (circle_centre.h). The columns are
 ///
-///   l_c, ln f_c of each contact, EI front, EI back, rib lengths,
+///   l_c, ln f_c of each contact, EI front, EI back, rib lengths, effects of
+///   the solver's model,
 ///
 /// and with `gauge_places` two more: for each gauge the derivatives by its own
 /// start and length, d(angle)/d(start) = kappa(end) - kappa(start) and

@@ -22,6 +22,17 @@ constexpr double kNear_rad = 0.3;
 // result is not trusted either.
 constexpr int kStraightIterations = 7;
 
+// The unit of an effect in the ladder.
+double EffectUnit(FingerParameterKind kind,
+                  const LadderWorkspace<double>& unit) {
+  switch (kind) {
+    case FingerParameterKind::kHingeStiffness:
+      return unit.moment_unit();
+    default:
+      return 1;
+  }
+}
+
 }  // namespace
 
 EquilibriumSolver::EquilibriumSolver(const Finger& finger,
@@ -152,13 +163,19 @@ void EquilibriumSolver::OutputUnits() {
   output_unit_.setConstant(m + 3 * contacts + 3, w.length_unit());
   output_unit_.head(m).setOnes();
   for (int c = 0; c <= contacts; ++c) output_unit_[m + 3 * c + 2] = 1;
-  parameter_unit_.resize(2 * contacts + 2 + r);
+  const auto& effects = model().effects();
+  // The friction coefficient has no unit.
+  parameter_unit_.setOnes(2 * contacts + 2 + r + model().effect_columns());
   for (int c = 0; c < contacts; ++c) {
     parameter_unit_[2 * c] = w.length_unit();
     parameter_unit_[2 * c + 1] = w.force_unit();
   }
   parameter_unit_.segment<2>(2 * contacts).setConstant(w.stiffness_unit());
-  parameter_unit_.tail(r).setConstant(w.length_unit());
+  parameter_unit_.segment(2 * contacts + 2, r).setConstant(w.length_unit());
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    parameter_unit_[2 * contacts + 2 + r + static_cast<int>(i)] =
+        EffectUnit(effects[i].kind, w);
+  }
   q_unit_.setConstant(6 + r, w.force_unit());
   q_unit_[0] = q_unit_[3] = w.moment_unit();
 }

@@ -21,7 +21,7 @@ struct LadderShot {
   /// [gauge angles (m); contact (x, y, theta) each; tip (x, y, theta)].
   Eigen::VectorXd outputs;
   /// Their derivatives by [q (6 + r); l_c, f_c of each contact; EI front; EI
-  /// back; rib lengths (r)].
+  /// back; rib lengths (r); effects of the model].
   Matrix d_closure, d_outputs;
 };
 
@@ -94,7 +94,8 @@ class EquilibriumSolver {
   /// [gauge angles (m); contact (x, y, theta) each; tip (x, y, theta)].
   const Eigen::VectorXd& outputs() const { return outputs_; }
   /// Derivatives of outputs() at equilibrium by the implicit function theorem,
-  /// columns [l_c, f_c of each contact; EI front; EI back; rib lengths (r)].
+  /// columns [l_c, f_c of each contact; EI front; EI back; rib lengths (r);
+  /// effects of the model].
   const Matrix& d_outputs() const { return d_outputs_; }
 
   /// Newton iterations of the last solve, all attempts together.

@@ -131,8 +131,8 @@ PredictedFrames PredictFrames(CalibrationProblem* problem,
   for (int i = 1; may_touch && i <= kHeights; ++i) {
     const double arc = std::round(finger.front_length_mm * i / (kHeights + 1));
     for (const double force : predicted.forces_N) {
-      if (!Measure({{arc, force, plan.scene.friction_coefficient}}, works, plan,
-                   &solver, &frame)) {
+      if (!Measure({{arc, force, problem->parameters().friction()}}, works,
+                   plan, &solver, &frame)) {
         continue;
       }
       logs.frames.push_back(frame);
@@ -193,8 +193,7 @@ PredictedForce PredictForce(const CalibrationProblem& problem,
   PredictedForce force;
   const auto n = static_cast<Eigen::Index>(problem.parameters().free().size());
   force.weight = Eigen::MatrixXd::Zero(n, n);
-  const double per_normal =
-      std::hypot(1, problem.plan().scene.friction_coefficient);
+  const double per_normal = std::hypot(1, problem.parameters().friction());
   double noise = 0;
   for (const PredictedFrame& frame : predicted.frames) {
     if (frame.free) continue;

@@ -49,10 +49,10 @@ CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
                                        std::shared_ptr<CalibrationLogs> logs,
                                        const Discretization& discretization,
                                        int threads)
-    : finger_(WithPlansNoise(finger, plan)),
+    : finger_(WithPlansNoise(plan.CutIntoPieces(finger), plan)),
       plan_(plan),
       logs_(std::move(logs)),
-      parameters_(finger, plan, *logs_),
+      parameters_(finger_, plan, *logs_),
       discretization_(discretization),
       threads_(std::max(1, threads)),
       blocks_(finger_, plan_, &parameters_) {}
@@ -68,7 +68,7 @@ CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
     throw InputError("plan: no parameter is free, so there is nothing to do");
   }
   FindCandidates();
-  StartFrom(finger);
+  StartFrom(finger_);
 }
 
 void CalibrationProblem::FindCandidates() {

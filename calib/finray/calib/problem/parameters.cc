@@ -85,6 +85,8 @@ double VagueStd(const CalibrationParameter& parameter) {
     case ParameterFamily::kGaugeStart:
     case ParameterFamily::kGaugeLength:
       return 2;
+    case ParameterFamily::kHingeStiffness:
+      return 50;
     case ParameterFamily::kObjectOrigin:
     case ParameterFamily::kObjectRadius:
     case ParameterFamily::kCameraOrigin:
@@ -102,6 +104,20 @@ double VagueStd(const CalibrationParameter& parameter) {
   }
 }
 
+// A free hinge stiffness is one number for all hinges.
+void RefuseUnequalHinges(const Finger& finger) {
+  const double one = finger.ribs[0].front_hinge_N_mm_per_rad;
+  for (const Rib& rib : finger.ribs) {
+    if (rib.front_hinge_N_mm_per_rad != one ||
+        rib.back_hinge_N_mm_per_rad != one) {
+      throw InputError(
+          "plan: hinge_stiffness is free, so all hinges share one value, but "
+          "the finger's hinge_stiffness_N_mm_per_rad differ; give all ribs the "
+          "same one");
+    }
+  }
+}
+
 }  // namespace
 
 double CalibrationParameter::Value(double at) const {
@@ -115,9 +131,10 @@ double CalibrationParameter::ValueStd(double at, double std) const {
 CalibrationParameters::CalibrationParameters(const Finger& finger,
                                              const Plan& plan,
                                              const CalibrationLogs& logs)
-    : shared(SharedParameters::Of(finger)),
+    : shared(SharedParameters::Of(finger, plan.StaticsEffects(finger))),
       readings(finger, plan, logs),
       object_radius_mm(plan.scene.circle_radius_mm().value_or(0)),
+      friction_(plan.scene.friction_coefficient),
       held_out_(logs.HeldOut()),
       last_fitted_(LastFitted(logs)),
       origin_per_log_(plan.family(ParameterFamily::kObjectOrigin).per_log),
@@ -130,13 +147,18 @@ CalibrationParameters::CalibrationParameters(const Finger& finger,
     creep_shares.push_back(gauge.creep_share);
     ln_creep_times.push_back(std::log(gauge.creep_time_constant_s));
   }
+  if (plan.family(ParameterFamily::kFriction).free) {
+    shared.friction_varies = true;
+    shared.effect_values.push_back(friction_);
+  }
   if (plan.HasCreep(finger)) ReadCreep(logs);
   if (plan.family(ParameterFamily::kForceTimeOffset).free) ReadForces(logs);
   for (const FingerParameter& parameter : AllParametersOf(finger)) {
     const auto family = static_cast<ParameterFamily>(parameter.kind);
     if (IsEffect(parameter.kind) && !plan.family(family).free) continue;
-    AddOfFinger(plan, logs, parameter);
+    AddOfFinger(finger, plan, logs, parameter);
   }
+  AddFriction(plan);
   AddOrigins(plan, logs);
   AddStage(plan, logs);
   AddForceSensor(plan, logs);
@@ -190,7 +212,7 @@ Gauge CalibrationParameters::Present(const Finger& finger, int gauge) const {
   return present;
 }
 
-void CalibrationParameters::AddOfFinger(const Plan& plan,
+void CalibrationParameters::AddOfFinger(const Finger& finger, const Plan& plan,
                                         const CalibrationLogs& logs,
                                         const FingerParameter& of_finger) {
   CalibrationParameter parameter;
@@ -250,11 +272,33 @@ void CalibrationParameters::AddOfFinger(const Plan& plan,
       parameter.variable = &ln_creep_times[index];
       parameter.is_log = true;
       break;
+    case FingerParameterKind::kHingeStiffness:
+      RefuseUnequalHinges(finger);
+      parameter.scale = 10;
+      break;
+    case FingerParameterKind::kFrontPiece:
+    case FingerParameterKind::kBackPiece:
+      break;
   }
   parameter.block = of_finger.kind == FingerParameterKind::kRibLength
                         ? shared.rib_lengths_mm.data()
                         : parameter.variable;
+  if (IsStaticsEffect(of_finger.kind)) {
+    const auto at =
+        std::find(shared.effects.begin(), shared.effects.end(), of_finger);
+    parameter.block = shared.effect_values.data();
+    parameter.variable = parameter.block + (at - shared.effects.begin());
+  }
   Add(plan, std::move(parameter));
+}
+
+void CalibrationParameters::AddFriction(const Plan& plan) {
+  if (!shared.friction_varies) return;
+  CalibrationParameter friction =
+      OfLogs(ParameterFamily::kFriction, "friction_coefficient", "1",
+             &shared.effect_values.back(), 0.1);
+  friction.block = shared.effect_values.data();
+  Add(plan, std::move(friction));
 }
 
 void CalibrationParameters::AddOrigins(const Plan& plan,
@@ -394,8 +438,10 @@ void CalibrationParameters::Add(const Plan& plan,
   parameter.free = family.free && !held_out;
   parameter.initial = *parameter.variable;
   if (family.prior_std) {
-    const bool percent =
-        parameter.is_log || parameter.family == ParameterFamily::kGaugeGain;
+    const bool percent = parameter.is_log ||
+                         parameter.family == ParameterFamily::kGaugeGain ||
+                         parameter.family == ParameterFamily::kFrontPiece ||
+                         parameter.family == ParameterFamily::kBackPiece;
     parameter.prior_std =
         percent ? *family.prior_std / 100 * parameter.scale : *family.prior_std;
   }
@@ -457,6 +503,7 @@ Finger CalibrationParameters::Apply(const Finger& finger) const {
 
 Plan CalibrationParameters::Corrected(const Plan& plan) const {
   Plan corrected = plan;
+  corrected.scene.friction_coefficient = friction();
   if (plan.scene.circle_radius_mm()) {
     corrected.scene.object->outline = Outline(CircleOutline{object_radius_mm});
   }

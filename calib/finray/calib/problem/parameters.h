@@ -76,6 +76,10 @@ class CalibrationParameters {
   double* object_rotation_deg(int log) {
     return &rotations_deg_[rotation_per_log_ ? log : 0];
   }
+  /// The friction coefficient of all contacts, free or not.
+  double friction() const {
+    return shared.friction_varies ? shared.effect_values.back() : friction_;
+  }
   double ln_object_scale = 0;
   double object_radius_mm = 0;
   StageFrame Stage(int log) {
@@ -115,8 +119,8 @@ class CalibrationParameters {
   /// gets those of last_fitted_log().
   Finger Apply(const Finger& finger) const;
 
-  /// Returns the plan with the present radius of the circle, for logs that are
-  /// Corrected.
+  /// Returns the plan with the present friction and radius of the circle, for
+  /// logs that are Corrected.
   Plan Corrected(const Plan& plan) const;
   /// Returns the logs as a perfect setup would have recorded them: with the
   /// offsets of `calibrated`, without drift and creep, at the reference
@@ -130,8 +134,10 @@ class CalibrationParameters {
   void ReadForces(const CalibrationLogs& logs);
   void CorrectForce(CalibrationFrame* frame) const;
   CreepTerm CreepOf(const CalibrationFrame& frame, int gauge);
-  void AddOfFinger(const Plan& plan, const CalibrationLogs& logs,
+  void AddOfFinger(const Finger& finger, const Plan& plan,
+                   const CalibrationLogs& logs,
                    const FingerParameter& of_finger);
+  void AddFriction(const Plan& plan);
   void AddOrigins(const Plan& plan, const CalibrationLogs& logs);
   void AddStage(const Plan& plan, const CalibrationLogs& logs);
   void AddForceSensor(const Plan& plan, const CalibrationLogs& logs);
@@ -148,6 +154,7 @@ class CalibrationParameters {
   std::vector<std::vector<CreepHistory>> creep_;
   // By log; empty if the force sensor is not late.
   std::vector<std::array<LinearSignal, 3>> forces_N_;
+  double friction_;             // of the plan's scene
   std::vector<bool> held_out_;  // by log: whether all its rows are held out
   int last_fitted_;
   bool origin_per_log_, rotation_per_log_;

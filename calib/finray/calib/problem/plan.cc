@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "finray/finger/geometry.h"
+
 namespace finray {
 namespace {
 
@@ -15,7 +17,8 @@ struct FamilyKey {
   const char* prior_key;
   const char* own_keys[2] = {};  // those beside `fixed` and its prior
 };
-constexpr char kWalk[] = "walk_std_V_per_sqrt_h", kKnots[] = "knot_every_s";
+constexpr char kWalk[] = "walk_std_V_per_sqrt_h", kKnots[] = "knot_every_s",
+               kCount[] = "count";
 // The keys stand in the order of ParameterFamily.
 constexpr FamilyKey kFamilyKeys[kParameterFamilies] = {
     {"front_stiffness", "prior_std_percent"},
@@ -28,10 +31,14 @@ constexpr FamilyKey kFamilyKeys[kParameterFamilies] = {
     {"gauge_length", "prior_std_mm"},
     {"gauge_creep_share", "prior_std"},
     {"gauge_creep_time", "prior_std_percent"},
+    {"hinge_stiffness", "prior_std_N_mm_per_rad"},
+    {"stiffness_pieces", "prior_std_percent", {kCount}},  // front
+    {"stiffness_pieces", "prior_std_percent", {kCount}},  // back
     {"object_origin", "prior_std_mm", {"per_log"}},
     {"object_rotation", "prior_std_deg", {"per_log"}},
     {"object_scale", "prior_std_percent"},
     {"object_radius", "prior_std_mm"},
+    {"friction", "prior_std"},
     {"force_scale", "prior_std_percent"},
     {"force_offset", "prior_std_N"},
     {"force_time_offset", "prior_std_s"},
@@ -78,6 +85,13 @@ void ReadFamily(const YamlMap& yaml, int index, Plan* plan) {
         map.Number("reference_C", plan->reference_temperature_C);
   }
   if (family == ParameterFamily::kGaugeDrift) ReadWalk(map, plan);
+  if (family == ParameterFamily::kFrontPiece && map.Has(kCount)) {
+    plan->piece_count = map.Integer(kCount);
+    constexpr int kMostPieces = 20;
+    if (plan->piece_count < 2 || plan->piece_count > kMostPieces) {
+      map.Fail(kCount, "count: expected 2 to 20 pieces");
+    }
+  }
 }
 
 void ReadParameters(const YamlMap& yaml, Plan* plan) {
@@ -106,6 +120,30 @@ bool Plan::HasCreep(const Finger& finger) const {
          family(ParameterFamily::kGaugeCreepTime).free ||
          std::any_of(finger.gauges.begin(), finger.gauges.end(),
                      [](const Gauge& gauge) { return gauge.creep_share != 0; });
+}
+
+Finger Plan::CutIntoPieces(const Finger& finger) const {
+  Finger cut = finger;
+  if (!family(ParameterFamily::kFrontPiece).free) return cut;
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    auto& pieces = side == Side::kFront ? cut.front_pieces : cut.back_pieces;
+    if (!pieces.empty()) continue;
+    for (int i = 1; i <= piece_count; ++i) {
+      pieces.push_back({BeamLength(finger, side) * i / piece_count, 1});
+    }
+  }
+  return cut;
+}
+
+std::vector<FingerParameter> Plan::StaticsEffects(const Finger& finger) const {
+  std::vector<FingerParameter> effects;
+  for (const FingerParameter& parameter : AllParametersOf(finger)) {
+    if (IsStaticsEffect(parameter.kind) &&
+        family(static_cast<ParameterFamily>(parameter.kind)).free) {
+      effects.push_back(parameter);
+    }
+  }
+  return effects;
 }
 
 double Plan::PlaceStd_mm(double reach_mm) const {

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "finray/finger/finger_parameter.h"
 #include "finray/scene/scene.h"
@@ -27,10 +28,14 @@ enum class ParameterFamily {
   kGaugeLength = static_cast<int>(FingerParameterKind::kGaugeLength),
   kGaugeCreepShare = static_cast<int>(FingerParameterKind::kGaugeCreepShare),
   kGaugeCreepTime = static_cast<int>(FingerParameterKind::kGaugeCreepTime),
+  kHingeStiffness = static_cast<int>(FingerParameterKind::kHingeStiffness),
+  kFrontPiece = static_cast<int>(FingerParameterKind::kFrontPiece),
+  kBackPiece = static_cast<int>(FingerParameterKind::kBackPiece),
   kObjectOrigin = kFingerParameterKinds,
   kObjectRotation,
   kObjectScale,
   kObjectRadius,
+  kFriction,
   kForceScale,
   kForceOffset,
   kForceTimeOffset,
@@ -40,7 +45,7 @@ enum class ParameterFamily {
   kGaugeDrift,
   kCameraOrigin,
 };
-constexpr int kParameterFamilies = kFingerParameterKinds + 12;
+constexpr int kParameterFamilies = kFingerParameterKinds + 13;
 
 /// Says whether a family is varied, and its prior.
 struct FamilyPlan {
@@ -69,6 +74,9 @@ struct Plan {
   std::array<FamilyPlan, kParameterFamilies> families;
   /// How gauges drift if the plan says that they do; empty: at a constant rate.
   std::optional<GaugeWalk> gauge_walk;
+  /// The pieces of a beam whose stiffness the plan varies, unless the finger
+  /// has pieces.
+  int piece_count = 5;
   /// The temperature coefficient counts from here.
   double reference_temperature_C = 20;
   double force_std_N = 0.02;
@@ -93,6 +101,11 @@ struct Plan {
     return family(ParameterFamily::kGaugeStart).free ||
            family(ParameterFamily::kGaugeLength).free;
   }
+  /// Returns the finger with beams cut into equal pieces, if the plan says so
+  /// and a beam has none.
+  Finger CutIntoPieces(const Finger& finger) const;
+  /// The effects inside the equilibrium that the plan varies.
+  std::vector<FingerParameter> StaticsEffects(const Finger& finger) const;
   /// Says that the finger's gauges creep or the plan asks whether they do.
   bool HasCreep(const Finger& finger) const;
   /// Says that the force sensor reads 0 where nothing touches.

@@ -40,8 +40,7 @@ FrameTable CalibrationFrames(CalibrationProblem& problem,
     set(i, "fit_contact_mm", result.solution.contacts[i][0]);
     set(i, "fit_normal_N", result.solution.contacts[i][1]);
   }
-  const double per_normal =
-      std::hypot(1, problem.plan().scene.friction_coefficient);
+  const double per_normal = std::hypot(1, problem.parameters().friction());
   const ForceCheck& forces = result.forces;
   for (std::size_t k = 0; k < forces.frames.size(); ++k) {
     const int frame = forces.frames[k];
@@ -117,10 +116,8 @@ FrameTable CalibrationShape(CalibrationProblem& problem,
   };
   draw("undeformed", problem.finger(), {}, true);
   if (std::isfinite(heaviest[0])) {
-    draw(
-        "deformed", result.finger,
-        {{heaviest[0], heaviest[1], problem.plan().scene.friction_coefficient}},
-        false);
+    draw("deformed", result.finger,
+         {{heaviest[0], heaviest[1], problem.parameters().friction()}}, false);
   }
   FrameTable table(states.size());
   table.MutableText("state") = std::move(states);

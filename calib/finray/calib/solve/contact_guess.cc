@@ -34,8 +34,8 @@ std::optional<double> RadiusOf(const CalibrationProblem& problem) {
 ContactGuess::ContactGuess(CalibrationProblem* problem)
     : problem_(*problem),
       solver_(SolverFor(*problem)),
-      table_(&solver_, problem->plan().scene.friction_coefficient,
-             RadiusOf(*problem), std::nullopt, problem->threads(), kRows),
+      table_(&solver_, problem->parameters().friction(), RadiusOf(*problem),
+             std::nullopt, problem->threads(), kRows),
       fit_(solver_.model().finger(), problem->discretization(),
            RadiusOf(*problem)),
       circle_(RadiusOf(*problem).has_value()) {

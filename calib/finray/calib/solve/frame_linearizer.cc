@@ -29,11 +29,13 @@ FrameLinearizer::FrameLinearizer(const EquilibriumSolver& solver,
                                  const CalibrationBlocks* blocks,
                                  const CalibrationParameters* parameters)
     : solver_(solver),
-      friction_(plan.scene.friction_coefficient),
+      friction_(parameters->friction()),
       movable_gauges_(plan.MovesGauges()),
       blocks_(*blocks),
       parameters_(*parameters),
       loss_(MakeLoss(plan)) {
+  solver_.model().set_effects(parameters_.shared.effects,
+                              parameters_.shared.friction_varies);
   for (std::size_t k = 0; k < parameters_.free().size(); ++k) {
     column_of_.emplace(parameters_.FreeParameter(k).block, static_cast<int>(k));
   }
@@ -73,9 +75,9 @@ bool FrameLinearizer::Evaluate(const std::array<double, 2>& contact,
     const SharedParameters& shared = parameters_.shared;
     model->evaluation->PlaceGauges(shared.gauge_starts_mm.data(),
                                    shared.gauge_lengths_mm.data());
-    model->evaluation->Update(contact.data(), shared.ln_front_stiffness,
-                              shared.ln_back_stiffness,
-                              shared.rib_lengths_mm.data(), &solver_);
+    model->evaluation->Update(
+        contact.data(), shared.ln_front_stiffness, shared.ln_back_stiffness,
+        shared.rib_lengths_mm.data(), shared.effect_values.data(), &solver_);
     if (!model->evaluation->valid()) return false;
     *state = model->evaluation->state();
   }

@@ -4,6 +4,7 @@
 #include <ceres/problem.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 
 #include "finray/io/number_text.h"
@@ -80,8 +81,8 @@ class JointProblem {
     FrameEvaluation* evaluation = nullptr;
     if (!frame.IsBench()) {
       evaluation = &evaluations_.Add(
-          frame.contact ? 1 : 0, problem_.plan().scene.friction_coefficient,
-          contact, !frame.pins.empty(), problem_.plan().MovesGauges());
+          frame.contact ? 1 : 0, problem_.parameters().friction(), contact,
+          !frame.pins.empty(), problem_.plan().MovesGauges());
       const LadderState state = contacts_.StateNear(i);
       if (state.q.size() > 0) evaluation->set_state(state);
     }
@@ -105,11 +106,16 @@ class JointProblem {
       std::size_t end = i + 1;
       while (end < all.size() && all[end].block == all[i].block) ++end;
       const auto size = static_cast<Eigen::Index>(end - i);
-      if (all[i].free && all[i].prior_std) {
+      const bool any =
+          std::any_of(all.begin() + static_cast<std::ptrdiff_t>(i),
+                      all.begin() + static_cast<std::ptrdiff_t>(end),
+                      [](const auto& p) { return p.prior_std.has_value(); });
+      if (all[i].free && any) {
         Eigen::VectorXd mean(size), std(size);
         for (Eigen::Index k = 0; k < size; ++k) {
           mean[k] = all[i + k].initial;
-          std[k] = *all[i + k].prior_std;
+          std[k] = all[i + k].prior_std.value_or(
+              std::numeric_limits<double>::infinity());
         }
         residuals_->AddResidualBlock(ParameterPriorResidual::Create(mean, std),
                                      nullptr, all[i].block);

@@ -1,0 +1,108 @@
+#ifndef FINRAY_LADDER_LADDER_ROWS_H_
+#define FINRAY_LADDER_LADDER_ROWS_H_
+
+#include "finray/ladder/ladder_walk_back.h"
+
+namespace finray {
+inline namespace FINRAY_ISA {
+
+// The rows of both beams during a sweep (ladder_kernel.h): where they are, what
+// their columns mean, and what springs at a rib do to them. `open` is for all
+// of q as parameters.
+template <class T, int kVectors>
+class LadderRows : protected LadderWalkBack<T, kVectors> {
+ protected:
+  using Base = LadderWalkBack<T, kVectors>;
+  using Base::Broadcast, Base::columns_, Base::f_, Base::Node, Base::stride,
+      Base::vectors, Base::Wide;
+  using typename Base::Scalar, typename Base::V;
+
+  LadderRows(LadderFrame<T>* frame, SweepColumns columns, bool open)
+      : Base(frame, columns), open_(open) {}
+
+  enum Row { kX, kY, kTheta, kMoment, kForceX, kForceY, kRows };
+
+  int affine() const { return open_ ? f_.affine : 6; }
+  // The rows of a node's position, angle and moment are computed where they are
+  // kept. Behind the nodes come the tip and a contact of each side.
+  T* TipNode(int side) const { return Node(f_.elements + side); }
+  T* ContactNode(int side) const { return Node(f_.elements + 2 + side); }
+  T* RowOf(int side, int row) const {
+    return row < kForceX ? node_[side] + row * stride()
+                         : f_.rows + (2 * side + row - kForceX) * stride();
+  }
+  T* RowOf(int i) const { return RowOf(i / kRows, i % kRows); }
+
+  bool parameters() const { return columns_ == SweepColumns::kParameters; }
+  bool by_contacts() const {
+    return parameters() || columns_ == SweepColumns::kContacts;
+  }
+  int ContactColumn(int c) const {
+    return affine() + 1 + 2 * f_.contacts[c].columns;
+  }
+  const T& Present(int c) const { return f_.contacts[c].present; }
+  int StiffnessColumn(int side) const {
+    return affine() + 1 + 2 * f_.contact_count + side;
+  }
+  int RibColumn(int rib) const {
+    return affine() + 1 + 2 * f_.contact_count + 2 + rib;
+  }
+  int EffectColumn(int effect) const { return RibColumn(f_.ribs) + effect; }
+
+  // With the rib's turn dphi = across / d, where u and v are its directions
+  // along and across, dm = k (dtheta - dphi) and
+  //
+  //   dQ = (dm_F + dm_B - Q du) / d,   d(Q v) = dQ v - Q dphi u.
+  void PassSprings(int rib) {
+    const T ux = f_.rib_ux[rib], uy = f_.rib_uy[rib];
+    const T front = f_.hinge_stiffness[0][rib],
+            back = f_.hinge_stiffness[1][rib];
+    const T inverse = Scalar(1) / f_.rib_distance[rib];
+    const T angles[2] = {f_.hinge_angle[0][rib], f_.hinge_angle[1][rib]};
+    const T transverse = (front * angles[0] + back * angles[1]) * inverse;
+    const V wide_x = Broadcast(ux), wide_y = Broadcast(uy);
+    const V wide_front = Broadcast(front), wide_back = Broadcast(back);
+    const V wide_inverse = Broadcast(inverse);
+    const V wide_transverse = Broadcast(transverse);
+    for (int v = 0; v < vectors(); ++v) {
+      const V dx = Wide(RowOf(1, kX))[v] - Wide(RowOf(0, kX))[v];
+      const V dy = Wide(RowOf(1, kY))[v] - Wide(RowOf(0, kY))[v];
+      const V turn = wide_inverse * (wide_x * dy - wide_y * dx);
+      const V front_moment = wide_front * (Wide(RowOf(0, kTheta))[v] - turn);
+      const V back_moment = wide_back * (Wide(RowOf(1, kTheta))[v] - turn);
+      const V across =
+          wide_inverse * (front_moment + back_moment -
+                          wide_transverse * (wide_x * dx + wide_y * dy));
+      Wide(RowOf(0, kMoment))[v] += front_moment;
+      Wide(RowOf(1, kMoment))[v] += back_moment;
+      AddAcross(v, across, wide_transverse * turn, wide_x, wide_y);
+    }
+    if (!parameters() || f_.by_hinge_stiffness < 0) return;
+    const int column = EffectColumn(f_.by_hinge_stiffness);
+    for (int side = 0; side < 2; ++side) {
+      RowOf(side, kMoment)[column] += angles[side];
+    }
+    const T slope = (angles[0] + angles[1]) * inverse;
+    RowOf(0, kForceX)[column] -= slope * uy;
+    RowOf(0, kForceY)[column] += slope * ux;
+    RowOf(1, kForceX)[column] += slope * uy;
+    RowOf(1, kForceY)[column] -= slope * ux;
+  }
+  // N_front += across v - along u, N_back the opposite.
+  void AddAcross(int v, const V& across, const V& along, const V& ux,
+                 const V& uy) {
+    const V x = across * uy + along * ux, y = across * ux - along * uy;
+    Wide(RowOf(0, kForceX))[v] -= x;
+    Wide(RowOf(0, kForceY))[v] += y;
+    Wide(RowOf(1, kForceX))[v] += x;
+    Wide(RowOf(1, kForceY))[v] -= y;
+  }
+
+  const bool open_;
+  T* node_[2] = {};  // the present rows of each beam
+};
+
+}  // namespace FINRAY_ISA
+}  // namespace finray
+
+#endif  // FINRAY_LADDER_LADDER_ROWS_H_
