@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "app.h"
+#include "finray/calib/analysis/explore.h"
 #include "finray/calib/analysis/plausibility.h"
 #include "finray/calib/report/calibration_result.h"
 #include "finray/io/atomic_file.h"
@@ -20,6 +21,9 @@ DEFINE_double(tolerance_std, 0.01,
 DEFINE_bool(report, true, "render report.html");
 DEFINE_bool(leave_one_log_out, true,
             "with several logs: repeat without each, to see if they agree");
+DEFINE_bool(explore, false,
+            "free effects that the plan leaves out while unseen frames are "
+            "predicted better; writes the plan beside the finger");
 
 namespace {
 
@@ -115,9 +119,39 @@ void PrintSummary(CalibrationProblem& problem,
   }
 }
 
+// Frees what the logs ask for and writes the plan. That plan is then the input,
+// and its command makes the same result.
+Plan ExplorePlan(const Finger& finger, const Plan& plan,
+                 const std::vector<std::string>& paths,
+                 const Discretization& discretization) {
+  CalibrationProblem problem(finger, plan,
+                             ReadCalibrationLogs(paths, finger, plan),
+                             discretization, Threads(FLAGS_threads));
+  problem.set_tolerance_std(FLAGS_tolerance_std);
+  RefuseImplausible(&problem);
+  const Exploration exploration = [&] {
+    Heartbeat heartbeat;
+    problem.TellProgress([&](const std::string& step) { heartbeat.Say(step); });
+    return Explore(&problem);
+  }();
+  for (const Exploration::Step& step : exploration.steps) {
+    std::printf("explored       %s\n", WordsOf(step).c_str());
+  }
+  if (exploration.steps.empty()) {
+    std::printf(
+        "explored       the logs show no effect that the plan leaves "
+        "out\n");
+  }
+  const std::string text = ExploredPlanYaml(FLAGS_plan, exploration);
+  FLAGS_plan = OutPath("plan.yaml");
+  MakeFolder(FLAGS_out_dir);
+  WriteFileAtomically(FLAGS_plan, text);
+  return ReadPlan(FLAGS_plan);
+}
+
 int Run() {
   const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
-  const Plan plan = ReadPlan(Required("plan", FLAGS_plan));
+  Plan plan = ReadPlan(Required("plan", FLAGS_plan));
   Required("out_dir", FLAGS_out_dir);
   const auto paths =
       ExpandLogs(SplitList(Required("logs", FLAGS_logs)), FLAGS_out_dir);
@@ -126,6 +160,7 @@ int Run() {
   }
   const Discretization discretization = DiscretizationFlags();
   if (DumpConfigFlag(finger, plan.scene, discretization)) return kGood;
+  if (FLAGS_explore) plan = ExplorePlan(finger, plan, paths, discretization);
   CalibrationProblem problem(finger, plan,
                              ReadCalibrationLogs(paths, finger, plan),
                              discretization, Threads(FLAGS_threads));

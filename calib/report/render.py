@@ -105,6 +105,8 @@ def verdict(c):
     if c["verdict"] == "unidentifiable":
         return (f"The logs do not determine {plural(len(unknown), 'parameter')}.",
                 "Not to be used: " + ", ".join(unknown) + ".", False)
+    if c["verdict"] == "doubtful":
+        return "Doubtful: the model lacks something, or a stated noise is wrong.", "See the first warning.", False
     if c["verdict"] != "good":
         return c["verdict"].replace("_", " ").capitalize() + ".", "See the warnings below.", False
     text = f"All {len(statuses)} free parameters are determined."

@@ -23,11 +23,11 @@ struct Gate {
   std::optional<std::pair<double, double>> range = {};
 };
 
-/// Returns Wilson's 98 % interval, in percent, of the share behind `hits` of
-/// `trials`.
+/// Returns Wilson's interval, in percent, of the share behind `hits` of
+/// `trials`: the 98 % interval, or that of z standard deviations.
 inline std::pair<double, double> BinomialRange(std::size_t hits,
-                                               std::size_t trials) {
-  constexpr double z = 2.326;
+                                               std::size_t trials,
+                                               double z = 2.326) {
   const auto n = static_cast<double>(trials);
   const double p = static_cast<double>(hits) / n;
   const double middle = p + z * z / (2 * n);

@@ -88,6 +88,14 @@ double PlaceOf(const FrameReference& reference, const FrameEstimate& estimate) {
                                           : reference.contact_mm;
 }
 
+// A calibration's frames have one contact or none.
+Scene SensedScene(const Plan& plan) {
+  Scene scene = plan.scene;
+  scene.most_contacts = 1;
+  scene.pin_std_mm = scene.tip_std_mm = std::nullopt;
+  return scene;
+}
+
 // Says whether a frame with contact has this reference.
 bool HasReference(const Validation& validation,
                   double FrameReference::*quantity) {
@@ -155,65 +163,83 @@ std::vector<FrameReference> ReferencesOf(const CalibrationLogs& logs,
   return references;
 }
 
-ForceCheck CheckForces(CalibrationProblem* problem, const Finger& calibrated) {
+void SensedFrames::AddTo(ErrorTable* table, std::size_t k,
+                         double friction) const {
+  table->Add(references[k], estimates[k], PlaceOf(references[k], estimates[k]),
+             friction);
+}
+
+SensedFrames SenseFrames(CalibrationProblem* problem, const Finger& calibrated,
+                         const std::vector<int>& frames) {
   const Plan plan = problem->parameters().Corrected(problem->plan());
-  const Discretization& discretization = problem->discretization();
-  const int threads = problem->threads();
-  ForceCheck check;
-  check.frames = FramesToCheck(*problem);
   CalibrationLogs logs{problem->logs().paths, problem->logs().names, {}};
-  for (const int i : check.frames) logs.frames.push_back(problem->frame(i));
+  for (const int i : frames) logs.frames.push_back(problem->frame(i));
   const CalibrationLogs corrected =
       problem->parameters().Corrected(logs, calibrated);
-  const std::size_t frames = logs.frames.size();
-  check.before.resize(frames);
-  check.after.resize(frames);
-  std::vector<bool> has_before(frames, false);
+  SensedFrames sensed;
+  sensed.estimates.resize(frames.size());
   // A contact has two unknowns, so fewer than two gauges give no estimate.
   if (calibrated.gauges.size() >= 2) {
-    // A calibration's frames have one contact or none.
-    Scene scene = plan.scene;
-    scene.most_contacts = 1;
-    scene.pin_std_mm = scene.tip_std_mm = std::nullopt;
-    const FamilyPlan& gains = plan.family(ParameterFamily::kGaugeGain);
-    const bool sensed =
-        !gains.free || gains.prior_std || problem->finger().calibration;
-    const std::size_t some =
-        sensed ? std::min(frames, ForceCheck::kMostBefore) : 0;
-    std::vector<Measurements> spread, all;
-    for (std::size_t k = 0; k < some; ++k) {
-      spread.push_back(GaugesOnly(logs.frames[k * frames / some]));
-    }
+    std::vector<Measurements> readings;
     for (const CalibrationFrame& frame : corrected.frames) {
-      all.push_back(GaugesOnly(frame));
+      readings.push_back(GaugesOnly(frame));
     }
-    const std::vector<FrameEstimate> were = EstimateFrames(
-        problem->finger(), scene, discretization, spread, threads);
-    for (std::size_t k = 0; k < some; ++k) {
-      has_before[k * frames / some] = true;
-      check.before[k * frames / some] = were[k];
-    }
-    check.after =
-        EstimateFrames(calibrated, scene, discretization, all, threads);
+    sensed.estimates =
+        EstimateFrames(calibrated, SensedScene(plan), problem->discretization(),
+                       readings, problem->threads());
   }
-  const std::vector<FrameReference> references =
-      ReferencesOf(corrected, calibrated, plan, discretization, threads);
+  sensed.references =
+      ReferencesOf(corrected, calibrated, plan, problem->discretization(),
+                   problem->threads());
+  return sensed;
+}
+
+ForceCheck CheckForces(CalibrationProblem* problem, const Finger& calibrated) {
+  const Plan plan = problem->parameters().Corrected(problem->plan());
+  ForceCheck check;
+  check.frames = FramesToCheck(*problem);
+  const std::size_t frames = check.frames.size();
+  check.before.resize(frames);
+  std::vector<bool> has_before(frames, false);
+  const FamilyPlan& gains = plan.family(ParameterFamily::kGaugeGain);
+  const bool sensed =
+      calibrated.gauges.size() >= 2 &&
+      (!gains.free || gains.prior_std || problem->finger().calibration);
+  const std::size_t some =
+      sensed ? std::min(frames, ForceCheck::kMostBefore) : 0;
+  std::vector<Measurements> spread;
+  for (std::size_t k = 0; k < some; ++k) {
+    spread.push_back(
+        GaugesOnly(problem->frame(check.frames[k * frames / some])));
+  }
+  std::vector<FrameEstimate> were;
+  if (some > 0) {
+    were =
+        EstimateFrames(problem->finger(), SensedScene(plan),
+                       problem->discretization(), spread, problem->threads());
+  }
+  for (std::size_t k = 0; k < some; ++k) {
+    has_before[k * frames / some] = true;
+    check.before[k * frames / some] = were[k];
+  }
+  SensedFrames after = SenseFrames(problem, calibrated, check.frames);
   for (ForceCheck::Errors* errors : {&check.fitted, &check.held_out}) {
     errors->before.front_length_mm = errors->after.front_length_mm =
         calibrated.front_length_mm;
   }
   const double friction = plan.scene.friction_coefficient;
   for (std::size_t i = 0; i < frames; ++i) {
-    const FrameReference& reference = references[i];
-    const FrameEstimate& before = check.before[i];
-    const FrameEstimate& after = check.after[i];
-    ForceCheck::Errors& errors =
-        logs.frames[i].held_out ? check.held_out : check.fitted;
-    if (logs.frames[i].IsBench()) continue;
-    const double place = PlaceOf(reference, after);
-    if (has_before[i]) errors.before.Add(reference, before, place, friction);
-    errors.after.Add(reference, after, place, friction);
+    const CalibrationFrame& frame = problem->frame(check.frames[i]);
+    if (frame.IsBench()) continue;
+    ForceCheck::Errors& errors = frame.held_out ? check.held_out : check.fitted;
+    after.AddTo(&errors.after, i, friction);
+    if (!has_before[i]) continue;
+    // The region is that of the frame, whichever finger senses it.
+    errors.before.Add(after.references[i], check.before[i],
+                      PlaceOf(after.references[i], after.estimates[i]),
+                      friction);
   }
+  check.after = std::move(after.estimates);
   return check;
 }
 

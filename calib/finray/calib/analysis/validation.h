@@ -26,6 +26,20 @@ std::vector<FrameReference> ReferencesOf(const CalibrationLogs& logs,
                                          const Discretization& discretization,
                                          int threads);
 
+/// What the gauges alone and the references say of some frames.
+struct SensedFrames {
+  std::vector<FrameReference> references;
+  std::vector<FrameEstimate> estimates;
+
+  /// Adds the k-th of them to a table.
+  void AddTo(ErrorTable* table, std::size_t k, double friction) const;
+};
+
+/// Senses frames with `calibrated`, which is the finger at the present values
+/// of the problem. Readings and references are corrected by these values.
+SensedFrames SenseFrames(CalibrationProblem* problem, const Finger& calibrated,
+                         const std::vector<int>& frames);
+
 /// Compares the references with the gauges alone, before and after a
 /// calibration. The estimate before the calibration takes the readings as they
 /// are. For the estimate after it, the drift and temperature that the

@@ -110,6 +110,26 @@ std::unique_ptr<CalibrationProblem> CalibrationProblem::Part(
   return part;
 }
 
+std::unique_ptr<CalibrationProblem> CalibrationProblem::WithPlan(
+    const Plan& plan) const {
+  std::unique_ptr<CalibrationProblem> other(
+      new CalibrationProblem(finger_, plan, logs_, discretization_, threads_));
+  other->candidates_ = candidates_;
+  other->rejected_ = rejected_;
+  other->impossible_ = impossible_;
+  other->progress_ = progress_;
+  other->tolerance_std_ = tolerance_std_;
+  std::unordered_map<std::string, double> values;
+  for (const CalibrationParameter& p : parameters_.all()) {
+    values.emplace(p.name, *p.variable);
+  }
+  for (const CalibrationParameter& p : other->parameters_.all()) {
+    const auto value = values.find(p.name);
+    if (value != values.end()) *p.variable = value->second;
+  }
+  return other;
+}
+
 std::vector<int> CalibrationProblem::FittedFrames() const {
   std::vector<int> fitted;
   for (const int i : candidates_) {

@@ -37,6 +37,11 @@ class CalibrationProblem {
   std::unique_ptr<CalibrationProblem> Part(const std::vector<int>& frames,
                                            int threads) const;
 
+  /// Returns the same frames under another plan, at the present values of all
+  /// parameters that both plans have. It shares the logs, so what the other
+  /// plan needs of them must be there. Frames that are rejected stay rejected.
+  std::unique_ptr<CalibrationProblem> WithPlan(const Plan& plan) const;
+
   /// The frames that the model and the plan allow to fit. The fitted frames are
   /// those of them that are not rejected.
   const std::vector<int>& candidates() const { return candidates_; }

@@ -115,6 +115,14 @@ Scene ReadPlanScene(const YamlMap& yaml) {
 
 }  // namespace
 
+const char* FamilyKeyOf(ParameterFamily family) {
+  return kFamilyKeys[static_cast<int>(family)].key;
+}
+
+const char* PriorKeyOf(ParameterFamily family) {
+  return kFamilyKeys[static_cast<int>(family)].prior_key;
+}
+
 bool Plan::HasCreep(const Finger& finger) const {
   return family(ParameterFamily::kGaugeCreepShare).free ||
          family(ParameterFamily::kGaugeCreepTime).free ||

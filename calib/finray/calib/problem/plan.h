@@ -120,6 +120,10 @@ struct Plan {
   double PlaceStd_mm(double reach_mm) const;
 };
 
+/// The key of a family in a plan's `parameters`, and that of its prior.
+const char* FamilyKeyOf(ParameterFamily family);
+const char* PriorKeyOf(ParameterFamily family);
+
 /// Reads a plan. Throws InputError for unknown keys and wrong units in a key.
 Plan ReadPlan(const std::string& path);
 

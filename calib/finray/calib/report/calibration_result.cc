@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/calib/report/doubts.h"
 #include "finray/calib/solve/undecided.h"
 #include "finray/io/number_text.h"
 
@@ -257,7 +258,8 @@ std::string CalibrationResult::Verdict() const {
       return "unexplained";
     }
   }
-  return AllIdentified() && !TooFewRows() ? "good" : "unidentifiable";
+  if (!AllIdentified() || TooFewRows()) return "unidentifiable";
+  return doubts.empty() ? "good" : "doubtful";
 }
 
 CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
@@ -276,6 +278,15 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
   if (leave_logs_out) {
     result.leave_one_log_out =
         LeaveLogsOut(problem, result.solution, result.identifiability);
+  }
+  if (result.solution.solve.converged && !result.solution.at.frames.empty()) {
+    problem->Tell("effects that the plan leaves out");
+    const WideLinearization wide = LinearizeWide(*problem, result.solution);
+    result.score = TestScores(*problem, result.identifiability, wide);
+    if (problem->plan().holdout_by == HoldoutBy::kNothing) {
+      result.cross_validation =
+          CrossValidate(*problem, result.identifiability, wide);
+    }
   }
   problem->Tell("check of forces and contacts");
   result.finger = problem->parameters().Apply(problem->finger());
@@ -320,6 +331,8 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
          "free gauge_curvature in the plan, or bend the gauge only as far as "
          "the finger will"});
   }
+  result.doubts = FindDoubts(*problem, result);
+  WarnOfDoubts(&result);
   return result;
 }
 

@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "finray/calib/analysis/bench_linearity.h"
+#include "finray/calib/analysis/cross_validation.h"
 #include "finray/calib/analysis/free_scatter.h"
 #include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/analysis/leave_one_log_out.h"
 #include "finray/calib/analysis/next_frames.h"
 #include "finray/calib/analysis/residual_correlation.h"
+#include "finray/calib/analysis/score_test.h"
 #include "finray/calib/analysis/unsupported.h"
 #include "finray/calib/analysis/validation.h"
 #include "finray/calib/problem/calibration_problem.h"
@@ -31,6 +33,11 @@ struct CalibrationResult {
   std::vector<BenchLinearity> bench;      ///< Of gauges with bench readings.
   /// The number of fitted rows, those that repeat each other counted once.
   double effective_rows = 0;
+  ScoreTest score;  ///< Which fixed effect the residuals look like.
+  /// Done if the plan holds nothing out.
+  CrossValidation cross_validation;
+  /// Why the result is doubtful, in words (doubts.h).
+  std::vector<std::string> doubts;
   Finger finger;  ///< The calibrated finger.
   std::vector<Warning> warnings;
 
@@ -41,7 +48,7 @@ struct CalibrationResult {
   /// Returns one of these: `not_converged`; `starts_disagree`, if fewer than
   /// two of the starts agree; `unexplained`, if residuals of a family are at
   /// least kUnexplained times their std; `unidentifiable`, also if
-  /// there are TooFewRows; `good`.
+  /// there are TooFewRows; `doubtful`, if there are `doubts`; `good`.
   std::string Verdict() const;
   static constexpr double kUnexplained = 5;
 };

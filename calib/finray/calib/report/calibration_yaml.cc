@@ -199,6 +199,33 @@ void EmitCorrelation(CalibrationProblem& problem,
   *yaml << YAML::EndMap << YAML::EndMap;
 }
 
+void EmitEffect(const ScoreTest::Effect& effect, YamlEmitter* yaml) {
+  *yaml << YAML::BeginMap;
+  YamlPairs(yaml, "family", FamilyKeyOf(effect.family), "words", effect.words,
+            "chi2_drop", effect.drop, "evidence", effect.evidence, "p_value",
+            effect.p_value, "significant", effect.significant);
+  EmitSeq(yaml, "values", effect.values, [&](const auto& value) {
+    YamlLine(yaml, "name", value.name, "unit", value.unit, "value", value.value,
+             "std", value.std, "change", value.change);
+  });
+  *yaml << YAML::EndMap;
+}
+
+void EmitScore(const ScoreTest& score, YamlEmitter* yaml) {
+  BeginMap(yaml, "score_test");
+  YamlPair(yaml, "words", score.Words());
+  const auto emit = [&](const auto& effect) { EmitEffect(effect, yaml); };
+  EmitSeq(yaml, "effects", score.effects, emit);
+  *yaml << YAML::Key << "alike" << YAML::Value << YAML::Flow << YAML::BeginSeq;
+  for (const auto& effect : score.alike) *yaml << FamilyKeyOf(effect.family);
+  *yaml << YAML::EndSeq;
+  if (score.next) {
+    *yaml << YAML::Key << "next" << YAML::Value;
+    emit(*score.next);
+  }
+  *yaml << YAML::EndMap;
+}
+
 void EmitLeaveOneLogOut(CalibrationProblem& problem,
                         const LeaveOneLogOut& found, YamlEmitter* yaml) {
   if (found.groups == 0) return;
@@ -252,6 +279,8 @@ std::string CalibrationYaml(CalibrationProblem& problem,
   yaml << YAML::BeginMap;
   YamlPairs(&yaml, "schema_version", 1, "finger", problem.finger().name,
             "verdict", result.Verdict());
+  yaml << YAML::Key << "doubts" << YAML::Value << result.doubts;
+  EmitScore(result.score, &yaml);
   EmitParameters(problem, result.identifiability, &yaml);
   EmitWeakDirections(problem, result.identifiability, &yaml);
   EmitCorrelations(problem, result.identifiability, &yaml);
@@ -273,6 +302,9 @@ std::string CalibrationYaml(CalibrationProblem& problem,
              frame.row + 1, "reason", its.second);
   });
   EmitErrors(result.forces, &yaml);
+  if (result.cross_validation.folds > 0) {
+    EmitErrorTable("cross_validation", result.cross_validation.errors, &yaml);
+  }
   EmitCorrelation(problem, result.residual_correlation, &yaml);
   EmitLeaveOneLogOut(problem, result.leave_one_log_out, &yaml);
   const NextRecording& next = result.next;

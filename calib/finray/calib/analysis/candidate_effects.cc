@@ -1,0 +1,98 @@
+#include "finray/calib/analysis/candidate_effects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace finray {
+namespace {
+
+// Says whether all rows of the finger have a number.
+template <class Number>
+bool AllHave(const CalibrationLogs& logs, const Number& number) {
+  return std::all_of(logs.frames.begin(), logs.frames.end(),
+                     [&](const CalibrationFrame& frame) {
+                       return frame.IsBench() || std::isfinite(number(frame));
+                     });
+}
+
+}  // namespace
+
+// A new family needs a line here, and the score test and --explore know it.
+const std::vector<CandidateEffect>& AllCandidateEffects() {
+  using Family = ParameterFamily;
+  static const std::vector<CandidateEffect> all = {
+      {Family::kFrontStiffness, 50, "another front stiffness"},
+      {Family::kBackStiffness, 50, "another back stiffness"},
+      {Family::kGaugeGain, 20, "other gains of gauges"},
+      {Family::kGaugeOffset, 0.02, "moved offsets of gauges"},
+      {Family::kRibLength, 0.5, "ribs of other lengths"},
+      {Family::kGaugeCurvature, 1, "gauges with a curved gain"},
+      {Family::kGaugeStart, 1, "gauges beside their drawn places"},
+      {Family::kGaugeLength, 1, "gauges of other lengths"},
+      {Family::kGaugeCreepShare, 0.1, "gauges that creep"},
+      {Family::kGaugeCreepTime, 50, "another time constant of creep"},
+      {Family::kObjectOrigin, 0.5, "a shifted stage"},
+      {Family::kObjectRotation, 1, "a turned stage"},
+      {Family::kObjectScale, 1, "a stage of another scale"},
+      {Family::kObjectRadius, 0.5, "another radius of the object"},
+      {Family::kForceScale, 3, "another scale of the force sensor"},
+      {Family::kForceOffset, 0.1, "an offset of the force sensor"},
+      {Family::kTemperatureCoefficient, 0.001, "gauges that feel temperature"},
+      {Family::kGaugeDrift, 0.01, "gauges that drift"},
+      {Family::kCameraOrigin, 1, "a shifted camera"},
+  };
+  return all;
+}
+
+const CandidateEffect& CandidateOf(ParameterFamily family) {
+  for (const CandidateEffect& effect : AllCandidateEffects()) {
+    if (effect.family == family) return effect;
+  }
+  throw std::out_of_range("no candidate effect of this family");
+}
+
+std::vector<CandidateEffect> CandidatesFor(const Finger& finger,
+                                           const Plan& plan,
+                                           const CalibrationLogs& logs) {
+  const bool timed =
+      AllHave(logs, [](const auto& frame) { return frame.time_s; });
+  const bool warm =
+      AllHave(logs, [](const auto& frame) { return frame.temperature_C; });
+  const bool circle = plan.scene.circle_radius_mm().has_value();
+  std::vector<CandidateEffect> candidates;
+  for (const CandidateEffect& effect : AllCandidateEffects()) {
+    using Family = ParameterFamily;
+    if (plan.family(effect.family).free) continue;
+    switch (effect.family) {
+      case Family::kTemperatureCoefficient:
+        if (!warm) continue;
+        break;
+      case Family::kGaugeDrift:
+      case Family::kGaugeCreepShare:
+        if (!timed) continue;
+        break;
+      case Family::kGaugeCreepTime:
+        if (!timed || !plan.HasCreep(finger)) continue;
+        break;
+      case Family::kObjectRadius:
+        if (!circle) continue;
+        break;
+      default:
+        break;
+    }
+    candidates.push_back(effect);
+  }
+  return candidates;
+}
+
+Plan Freed(const Plan& plan, const CandidateEffect& effect) {
+  Plan freed = plan;
+  FamilyPlan& family = freed.families[static_cast<int>(effect.family)];
+  family = {};
+  family.free = true;
+  family.prior_std = effect.prior_std;
+  return freed;
+}
+
+}  // namespace finray

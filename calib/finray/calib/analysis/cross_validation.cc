@@ -1,0 +1,132 @@
+#include "finray/calib/analysis/cross_validation.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "finray/calib/analysis/validation.h"
+#include "finray/calib/solve/information_spectrum.h"
+
+namespace finray {
+namespace {
+
+// What frames say about the free parameters, in their units.
+struct ScaledSums {
+  Eigen::MatrixXd information;
+  Eigen::VectorXd gradient;
+};
+
+ScaledSums OfFold(const WideLinearization& wide, int fold,
+                  const Eigen::VectorXd& unit) {
+  const Linearization& at = wide.folds[fold];
+  const Eigen::MatrixXd information = at.Information();
+  return {unit.asDiagonal() *
+              Eigen::MatrixXd(information(wide.free, wide.free)) *
+              unit.asDiagonal(),
+          Eigen::VectorXd(at.gradient(wide.free)).cwiseProduct(unit)};
+}
+
+ScaledSums OfAll(const CalibrationProblem& problem,
+                 const WideLinearization& wide, const Eigen::VectorXd& unit) {
+  ScaledSums sums = OfFold(wide, 0, unit);
+  for (int fold = 1; fold < WideLinearization::kFolds; ++fold) {
+    const ScaledSums of = OfFold(wide, fold, unit);
+    sums.information += of.information;
+    sums.gradient += of.gradient;
+  }
+  for (Eigen::Index k = 0; k < unit.size(); ++k) {
+    const CalibrationParameter& p =
+        problem.parameters().FreeParameter(static_cast<std::size_t>(k));
+    if (!p.prior_std) continue;
+    sums.information(k, k) += 1;
+    sums.gradient[k] += (*p.variable - p.initial) / *p.prior_std;
+  }
+  return sums;
+}
+
+}  // namespace
+
+LeftOut LeaveFoldOut(const CalibrationProblem& problem,
+                     const WideLinearization& wide, int fold) {
+  const Eigen::VectorXd unit = problem.parameters().Units();
+  const ScaledSums all = OfAll(problem, wide, unit);
+  const ScaledSums own = OfFold(wide, fold, unit);
+  const Eigen::MatrixXd rest = all.information - own.information;
+  LeftOut left;
+  left.covariance = BoundedCovariance(rest);
+  const Eigen::VectorXd move = -left.covariance * (all.gradient - own.gradient);
+  left.values = problem.Values() + unit.cwiseProduct(move);
+  const Eigen::VectorXd gradient = own.gradient + own.information * move;
+  const double chi2 =
+      2 * wide.folds[fold].cost + move.dot(own.gradient + gradient);
+  // det H / det H_k as det(I + F' S_k F) with F F' = H_k^-1.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(left.covariance);
+  const Eigen::MatrixXd factor =
+      eigen.eigenvectors() *
+      eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  Eigen::MatrixXd ratio = factor.transpose() * own.information * factor;
+  ratio.diagonal().array() += 1;
+  const Eigen::LLT<Eigen::MatrixXd> root(ratio);
+  const Eigen::MatrixXd l = root.matrixL();
+  // g'H^-1 g = |(I + F' S_k F)^-1/2 F'g|^2
+  const Eigen::VectorXd pulled =
+      root.matrixL().solve(Eigen::VectorXd(factor.transpose() * gradient));
+  left.log_likelihood =
+      -0.5 * (chi2 - pulled.squaredNorm()) - l.diagonal().array().log().sum();
+  return left;
+}
+
+double CrossValidatedLogLikelihood(const CalibrationProblem& problem,
+                                   const WideLinearization& wide) {
+  double sum = 0;
+  for (int fold = 0; fold < WideLinearization::kFolds; ++fold) {
+    if (wide.frames[fold].empty()) continue;
+    sum += LeaveFoldOut(problem, wide, fold).log_likelihood;
+  }
+  return sum;
+}
+
+CrossValidation CrossValidate(const CalibrationProblem& problem,
+                              const Identifiability& found,
+                              const WideLinearization& wide) {
+  CrossValidation result;
+  result.errors.front_length_mm = problem.finger().front_length_mm;
+  for (const std::vector<int>& frames : wide.frames) {
+    if (frames.empty()) return result;
+  }
+  for (int fold = 0; fold < WideLinearization::kFolds; ++fold) {
+    const std::vector<int>& all = wide.frames[fold];
+    const std::size_t count = std::min(
+        all.size(), CrossValidation::kMostChecked / WideLinearization::kFolds);
+    std::vector<int> frames;
+    for (std::size_t k = 0; k < count; ++k) {
+      const int i = all[k * all.size() / count];
+      if (!problem.frame(i).IsBench()) frames.push_back(i);
+    }
+    if (frames.empty()) continue;
+    const LeftOut left = LeaveFoldOut(problem, wide, fold);
+    const auto part = problem.Part(frames, problem.threads());
+    part->SetValues(left.values);
+    Identifiability known = found;
+    known.covariance = left.covariance;
+    const Eigen::VectorXd std = left.covariance.diagonal().cwiseSqrt();
+    known.correlation = left.covariance.cwiseQuotient(std * std.transpose());
+    for (std::size_t k = 0; k < known.bounded_std.size(); ++k) {
+      const auto at = static_cast<Eigen::Index>(k);
+      known.bounded_std[k] *= std[at] / std::sqrt(found.covariance(at, at));
+    }
+    Finger finger = part->parameters().Apply(problem.finger());
+    KeepCovariance(part->parameters(), known, &finger);
+    const SensedFrames sensed = SenseFrames(part.get(), finger, frames);
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+      sensed.AddTo(&result.errors, k,
+                   problem.plan().scene.friction_coefficient);
+    }
+    ++result.folds;
+  }
+  return result;
+}
+
+}  // namespace finray

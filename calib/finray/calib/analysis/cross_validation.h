@@ -1,0 +1,51 @@
+#ifndef FINRAY_CALIB_ANALYSIS_CROSS_VALIDATION_H_
+#define FINRAY_CALIB_ANALYSIS_CROSS_VALIDATION_H_
+
+#include <Eigen/Core>
+
+#include "finray/calib/analysis/error_table.h"
+#include "finray/calib/analysis/identifiability.h"
+#include "finray/calib/analysis/score_test.h"
+#include "finray/calib/problem/calibration_problem.h"
+
+namespace finray {
+
+/// What the fitted frames but those of one fold say about the free parameters,
+/// from the linearization of all. With the information H and the gradient g of
+/// all frames and priors at the solution, and S_k, g_k of the fold,
+///
+///   theta_k = theta - H_k^-1 (g - g_k),   H_k = H - S_k.
+///
+/// That is one step of Gauss and Newton; it needs no further pass.
+struct LeftOut {
+  Eigen::VectorXd values;      ///< theta_k
+  Eigen::MatrixXd covariance;  ///< H_k^-1, in Identifiability::unit.
+  /// The logarithm of the density that they predict for the fold's residuals,
+  /// their best contacts given, but for a constant:
+  ///   -(c - g'H^-1 g + ln det H - ln det H_k) / 2
+  /// with c = chi2 and g = J'r of the fold at theta_k.
+  double log_likelihood = 0;
+};
+LeftOut LeaveFoldOut(const CalibrationProblem& problem,
+                     const WideLinearization& wide, int fold);
+
+/// The sum of the folds' log_likelihood. Of two plans for the same frames the
+/// one with the larger sum predicts frames better that it has not seen.
+double CrossValidatedLogLikelihood(const CalibrationProblem& problem,
+                                   const WideLinearization& wide);
+
+/// Forces and places from the gauges alone, each fold with the finger that the
+/// other folds calibrate, against the references. It takes at most kMostChecked
+/// frames, evenly spread.
+struct CrossValidation {
+  static constexpr std::size_t kMostChecked = 1000;
+  int folds = 0;  ///< 0 if it was not done: too few frames, or held-out ones.
+  ErrorTable errors;
+};
+CrossValidation CrossValidate(const CalibrationProblem& problem,
+                              const Identifiability& found,
+                              const WideLinearization& wide);
+
+}  // namespace finray
+
+#endif  // FINRAY_CALIB_ANALYSIS_CROSS_VALIDATION_H_

@@ -1,0 +1,141 @@
+#include "finray/calib/analysis/explore.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "finray/calib/analysis/cross_validation.h"
+#include "finray/calib/analysis/score_test.h"
+#include "finray/calib/solve/outliers.h"
+#include "finray/calib/solve/robust_solve.h"
+#include "finray/calib/solve/summed_solve.h"
+#include "finray/io/number_text.h"
+
+namespace finray {
+namespace {
+
+// A problem at its solution.
+struct Solved {
+  CalibrationProblem* problem;
+  std::unique_ptr<CalibrationProblem> owned;  // null for the first
+  CalibrationSolution solution;
+};
+
+double CostOf(const Solved& at) {
+  return SumsWithPriors(at.solution.at, at.problem->parameters()).cost;
+}
+
+// Solves the same frames with the effect free as well. Returns nothing if the
+// solver does not get there.
+std::optional<Solved> SolveWith(const CandidateEffect& effect,
+                                const Solved& from) {
+  Solved with;
+  with.owned = from.problem->WithPlan(Freed(from.problem->plan(), effect));
+  with.problem = with.owned.get();
+  ContactStore contacts(with.problem);
+  contacts.Set(from.solution.contacts);
+  try {
+    SummedSolution solved =
+        SolveSummed(from.solution.at.frames, {}, with.problem, &contacts);
+    if (!solved.report.converged) return {};
+    with.solution.solve = solved.report;
+    with.solution.at = std::move(solved.at);
+  } catch (const std::runtime_error&) {
+    return {};  // the model cannot be evaluated there
+  }
+  with.solution.contacts = contacts.all();
+  return with;
+}
+
+// The effect may explain frames that were rejected.
+void JudgeAgain(Solved* at) {
+  ContactStore contacts(at->problem);
+  contacts.Set(at->solution.contacts);
+  const Outliers outliers =
+      FindOutliers(at->solution.at, at->problem, &contacts);
+  at->problem->SetRejected(outliers.reasons);
+  for (const auto& [frame, reason] : at->problem->rejected()) {
+    contacts.Forget(frame);
+  }
+  SummedSolution solved =
+      SolveSummed(at->problem->FittedFrames(), {}, at->problem, &contacts);
+  at->solution.solve = solved.report;
+  at->solution.at = std::move(solved.at);
+  at->solution.contacts = contacts.all();
+}
+
+}  // namespace
+
+Exploration Explore(CalibrationProblem* problem) {
+  Exploration result;
+  Solved now{problem, nullptr, SolveRobustly(problem)};
+  while (now.solution.solve.converged && !now.solution.at.frames.empty()) {
+    now.problem->Tell("effects that the plan leaves out");
+    const WideLinearization wide = LinearizeWide(*now.problem, now.solution);
+    const ScoreTest score =
+        TestScores(*now.problem,
+                   AnalyzeIdentifiability(now.problem, now.solution.at), wide);
+    if (score.Best() == nullptr) break;
+    const double before = CrossValidatedLogLikelihood(*now.problem, wide);
+    std::vector<ScoreTest::Effect> tried = {*score.Best()};
+    tried.insert(tried.end(), score.alike.begin(), score.alike.end());
+    std::optional<Solved> best;
+    std::optional<std::size_t> kept;
+    for (const ScoreTest::Effect& effect : tried) {
+      const CandidateEffect& candidate = CandidateOf(effect.family);
+      std::optional<Solved> with = SolveWith(candidate, now);
+      if (!with) continue;
+      Exploration::Step step{candidate, effect.words, 0, before, 0, false};
+      step.drop = 2 * (CostOf(now) - CostOf(*with));
+      step.after = CrossValidatedLogLikelihood(
+          *with->problem, LinearizeWide(*with->problem, with->solution));
+      result.steps.push_back(step);
+      const double bar = kept ? result.steps[*kept].after : before;
+      if (!(step.after > bar)) continue;
+      kept = result.steps.size() - 1;
+      best = std::move(with);
+    }
+    if (!kept) break;
+    result.steps[*kept].kept = true;
+    now = std::move(*best);
+    JudgeAgain(&now);
+  }
+  result.plan = now.problem->plan();
+  return result;
+}
+
+std::string WordsOf(const Exploration::Step& step) {
+  return std::string(step.kept ? "freed " : "left fixed ") +
+         FamilyKeyOf(step.effect.family) + ": " + step.words +
+         FormatText(
+             "; refit: chi2 %.0f, log-likelihood of unseen frames %.1f "
+             "instead of %.1f",
+             -step.drop, step.after, step.before);
+}
+
+std::string ExploredPlanYaml(const std::string& path,
+                             const Exploration& exploration) {
+  YAML::Node plan = YAML::LoadFile(path);
+  if (plan["scene"] && plan["scene"].IsScalar()) {
+    plan["scene"] = YAML::LoadFile((std::filesystem::path(path).parent_path() /
+                                    plan["scene"].as<std::string>())
+                                       .string());
+  }
+  std::string text = "# " + path +
+                     ", with what finray_calibrate --explore has"
+                     " freed.\n";
+  for (const Exploration::Step& step : exploration.steps) {
+    text += "# " + WordsOf(step) + "\n";
+    if (!step.kept) continue;
+    YAML::Node family;
+    family[PriorKeyOf(step.effect.family)] = step.effect.prior_std;
+    plan["parameters"][FamilyKeyOf(step.effect.family)] = family;
+  }
+  return text + YAML::Dump(plan) + "\n";
+}
+
+}  // namespace finray

@@ -1,0 +1,321 @@
+#include "finray/calib/analysis/score_test.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <unordered_set>
+#include <utility>
+
+#include "finray/calib/solve/frame_pass.h"
+#include "finray/calib/solve/information_spectrum.h"
+#include "finray/io/number_text.h"
+#include "finray/sensing/chi_squared.h"
+
+namespace finray {
+namespace {
+
+// Neighbouring rows share what drifts, so folds are made of blocks of them.
+constexpr std::size_t kMostBlockRows = 10;
+// A candidate of which the data say less than this, in units of its usual std,
+// is none of its family's degrees of freedom.
+constexpr double kTold = 1e-3;
+// Effects are alike if their evidence is as near as that of a 20-fold Bayes
+// factor, or as derivatives at one point can tell.
+constexpr double kNear = 6, kNearShare = 0.1;
+// Of the drop of an effect so much is left at most if another one explains it.
+constexpr double kExplained = 0.5;
+
+// What the frames say about the candidates once everything free has followed,
+// without and with the candidates' priors: -s and A = a'P a, in units of their
+// usual std.
+struct Scores {
+  Eigen::VectorXd s;
+  Eigen::MatrixXd a;
+
+  // Lets some candidates follow too.
+  Scores Given(const std::vector<int>& freed) const {
+    Eigen::MatrixXd own = a(freed, freed);
+    own.diagonal().array() += 1;
+    const Eigen::LDLT<Eigen::MatrixXd> factor(own);
+    const Eigen::MatrixXd across = a(freed, Eigen::all);
+    return {s - across.transpose() * factor.solve(Eigen::VectorXd(s(freed))),
+            a - across.transpose() * factor.solve(across)};
+  }
+};
+
+// A set of candidates that are tested together: a family or one of it.
+struct Candidates {
+  CandidateEffect effect;
+  std::vector<int> columns;
+};
+
+class ScoreRanking {
+ public:
+  ScoreRanking(const CalibrationProblem& problem, const Identifiability& found,
+               const WideLinearization& wide)
+      : wide_(wide) {
+    for (const Identifiability::Noise& noise : found.noise) {
+      if (noise.residuals == 0) continue;
+      chi2_ += noise.chi2;
+      dof_ += std::max(0.0, noise.dof);
+    }
+    FindScores(problem);
+    FindTests();
+  }
+
+  ScoreTest Rank() const {
+    ScoreTest result;
+    if (tests_.empty()) return result;
+    result.effects = BestOfEach(scores_, 0, {});
+    if (result.effects.empty() || !result.effects[0].significant) return result;
+    const ScoreTest::Effect& best = result.effects[0];
+    const std::vector<int> freed = ColumnsOf(best);
+    const Scores rest = scores_.Given(freed);
+    std::set<ParameterFamily> named = {best.family};
+    const std::vector<ScoreTest::Effect> left =
+        BestOfEach(rest, best.drop, named);
+    for (const ScoreTest::Effect& other : result.effects) {
+      if (other.family == best.family || !other.significant) continue;
+      if (other.evidence <
+          best.evidence - std::max(kNear, kNearShare * best.evidence)) {
+        continue;
+      }
+      const auto after = std::find_if(left.begin(), left.end(),
+                                      [&](const ScoreTest::Effect& effect) {
+                                        return effect.family == other.family;
+                                      });
+      if (after != left.end() && after->drop > kExplained * other.drop) {
+        continue;
+      }
+      result.alike.push_back(other);
+      named.insert(other.family);
+    }
+    for (const ScoreTest::Effect& other : left) {
+      if (named.count(other.family) == 0 && other.significant) {
+        result.next = other;
+        break;
+      }
+    }
+    return result;
+  }
+
+ private:
+  const CalibrationParameter& Parameter(int column) const {
+    return wide_.problem->parameters().FreeParameter(
+        static_cast<std::size_t>(wide_.candidates[column]));
+  }
+
+  void FindScores(const CalibrationProblem& problem) {
+    const auto all = wide_.folds[0].gradient.size();
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(all);
+    Eigen::MatrixXd information = Eigen::MatrixXd::Zero(all, all);
+    for (const Linearization& fold : wide_.folds) {
+      gradient += fold.gradient;
+      information += fold.Information();
+    }
+    unit_ = wide_.problem->parameters().Units();
+    gradient = gradient.cwiseProduct(unit_);
+    information = unit_.asDiagonal() * information * unit_.asDiagonal();
+    const CalibrationParameters& parameters = problem.parameters();
+    for (std::size_t k = 0; k < wide_.free.size(); ++k) {
+      const CalibrationParameter& p = parameters.FreeParameter(k);
+      if (!p.prior_std) continue;
+      const Eigen::Index i = wide_.free[k];
+      gradient[i] += (*p.variable - p.initial) / *p.prior_std;
+      information(i, i) += 1;
+    }
+    const auto& f = wide_.free;
+    const auto& c = wide_.candidates;
+    const Eigen::MatrixXd covariance =
+        BoundedCovariance(Eigen::MatrixXd(information(f, f)));
+    const Eigen::MatrixXd across = covariance * information(f, c);
+    scores_.s = gradient(c) - across.transpose() * gradient(f);
+    scores_.a = information(c, c) - Eigen::MatrixXd(information(c, f)) * across;
+  }
+
+  void FindTests() {
+    std::vector<Candidates> families;
+    for (int column = 0; column < static_cast<int>(wide_.candidates.size());
+         ++column) {
+      const ParameterFamily family = Parameter(column).family;
+      if (families.empty() || families.back().effect.family != family) {
+        families.push_back({CandidateOf(family), {}});
+      }
+      families.back().columns.push_back(column);
+    }
+    for (const Candidates& family : families) {
+      tests_.push_back(family);
+      if (family.columns.size() < 2) continue;
+      for (const int column : family.columns) {
+        tests_.push_back({family.effect, {column}});
+      }
+    }
+  }
+
+  // Returns the best test of each family but some, the best family first.
+  std::vector<ScoreTest::Effect> BestOfEach(
+      const Scores& scores, double dropped,
+      const std::set<ParameterFamily>& but) const {
+    std::vector<ScoreTest::Effect> best;
+    for (const Candidates& test : tests_) {
+      if (but.count(test.effect.family) > 0) continue;
+      ScoreTest::Effect effect = Evaluate(test, scores, dropped);
+      if (best.empty() || best.back().family != effect.family) {
+        best.push_back(std::move(effect));
+      } else if (effect.evidence > best.back().evidence) {
+        best.back() = std::move(effect);
+      }
+    }
+    std::stable_sort(
+        best.begin(), best.end(),
+        [](const auto& a, const auto& b) { return a.evidence > b.evidence; });
+    return best;
+  }
+
+  ScoreTest::Effect Evaluate(const Candidates& test, const Scores& scores,
+                             double dropped) const {
+    const std::vector<int>& columns = test.columns;
+    const auto k = static_cast<Eigen::Index>(columns.size());
+    const Eigen::VectorXd s = scores.s(columns);
+    const Eigen::MatrixXd a = scores.a(columns, columns);
+    const Eigen::MatrixXd information = a + Eigen::MatrixXd::Identity(k, k);
+    const Eigen::LLT<Eigen::MatrixXd> factor(information);
+    const Eigen::MatrixXd covariance =
+        factor.solve(Eigen::MatrixXd::Identity(k, k));
+    const Eigen::VectorXd e = -(covariance * s);
+    ScoreTest::Effect effect;
+    effect.family = test.effect.family;
+    effect.drop = std::max(0.0, -s.dot(e));
+    const double rest = chi2_ - dropped - effect.drop;
+    const double scale2 = dof_ > 0 ? std::max(1.0, rest / dof_) : 1.0;
+    const Eigen::MatrixXd l = factor.matrixL();
+    effect.evidence =
+        effect.drop / scale2 - 2 * l.diagonal().array().log().sum();
+    const auto told = static_cast<int>((a.diagonal().array() > kTold).count());
+    effect.p_value =
+        told > 0 ? ChiSquaredTail(effect.drop / scale2, told) : 1.0;
+    effect.significant = effect.evidence > 0 &&
+                         effect.p_value * static_cast<double>(tests_.size()) <
+                             ScoreTest::kSignificant;
+    for (Eigen::Index i = 0; i < k; ++i) {
+      const CalibrationParameter& p = Parameter(columns[i]);
+      const double unit = unit_[wide_.candidates[columns[i]]];
+      const double at = *p.variable + unit * e[i];
+      const double std = unit * std::sqrt(scale2 * covariance(i, i));
+      effect.values.push_back({p.name, p.unit, p.Value(at), p.ValueStd(at, std),
+                               p.Value(at) - p.Value(*p.variable),
+                               p.Value(*p.variable) == 0});
+    }
+    std::stable_sort(effect.values.begin(), effect.values.end(),
+                     [](const auto& x, const auto& y) {
+                       return std::abs(x.change / x.std) >
+                              std::abs(y.change / y.std);
+                     });
+    effect.words = WordsOf(test.effect, effect);
+    return effect;
+  }
+
+  static std::string WordsOf(const CandidateEffect& candidate,
+                             const ScoreTest::Effect& effect) {
+    const ScoreTest::Value& value = effect.values[0];
+    std::string words = candidate.words;
+    words += ", " + value.name;
+    words += value.from_zero
+                 ? FormatText(" %.3g", value.value)
+                 : FormatText(" %.4g, by %+.2g", value.value, value.change);
+    words += FormatText(" +- %.1g", value.std);
+    if (value.unit != "1") words += " " + value.unit;
+    if (effect.values.size() > 1) {
+      words += " and " + std::to_string(effect.values.size() - 1) + " more";
+    }
+    return words + FormatText(" (chi2 %.0f)", -effect.drop);
+  }
+
+  std::vector<int> ColumnsOf(const ScoreTest::Effect& effect) const {
+    std::unordered_set<std::string> names;
+    for (const ScoreTest::Value& value : effect.values) {
+      names.insert(value.name);
+    }
+    std::vector<int> columns;
+    for (int i = 0; i < static_cast<int>(wide_.candidates.size()); ++i) {
+      if (names.count(Parameter(i).name) > 0) columns.push_back(i);
+    }
+    return columns;
+  }
+
+  const WideLinearization& wide_;
+  double chi2_ = 0, dof_ = 0;
+  Eigen::VectorXd unit_;
+  Scores scores_;
+  std::vector<Candidates> tests_;
+};
+
+}  // namespace
+
+WideLinearization LinearizeWide(const CalibrationProblem& problem,
+                                const CalibrationSolution& solution) {
+  WideLinearization wide;
+  Plan plan = problem.plan();
+  for (const CandidateEffect& effect :
+       CandidatesFor(problem.finger(), plan, problem.logs())) {
+    plan = Freed(plan, effect);
+  }
+  wide.problem = problem.WithPlan(plan);
+  const CalibrationParameters& parameters = wide.problem->parameters();
+  std::unordered_set<std::string> free;
+  for (const int i : problem.parameters().free()) {
+    free.insert(problem.parameters().all()[i].name);
+  }
+  const auto columns = static_cast<Eigen::Index>(parameters.free().size());
+  for (Eigen::Index k = 0; k < columns; ++k) {
+    const CalibrationParameter& p =
+        parameters.FreeParameter(static_cast<std::size_t>(k));
+    (free.count(p.name) > 0 ? wide.free : wide.candidates).push_back(k);
+  }
+  const std::vector<int>& frames = solution.at.frames;
+  wide.frames.resize(WideLinearization::kFolds);
+  std::vector<int> fold_of(problem.logs().frames.size(), 0);
+  const std::size_t block = std::clamp<std::size_t>(
+      frames.size() / (2 * WideLinearization::kFolds), 1, kMostBlockRows);
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const auto fold = (k / block) % WideLinearization::kFolds;
+    fold_of[frames[k]] = static_cast<int>(fold);
+    wide.frames[fold].push_back(frames[k]);
+  }
+  for (const std::vector<int>& of_fold : wide.frames) {
+    wide.folds.emplace_back(static_cast<int>(columns), of_fold.size());
+  }
+  ContactStore contacts(wide.problem.get());
+  contacts.Set(solution.contacts);
+  LinearizeFrames(frames, wide.problem.get(), &contacts,
+                  [&](int i, const LinearizedFrame& frame) {
+                    wide.folds[fold_of[i]].Add(i, problem.frame(i).log, frame);
+                  });
+  for (Linearization& fold : wide.folds) fold.Finish();
+  return wide;
+}
+
+const ScoreTest::Effect* ScoreTest::Best() const {
+  return effects.empty() || !effects[0].significant ? nullptr : &effects[0];
+}
+
+std::string ScoreTest::Words() const {
+  const Effect* best = Best();
+  if (best == nullptr) return "";
+  std::string words = "residuals look like " + best->words;
+  for (const Effect& effect : alike) {
+    words += ", or as well like " + effect.words;
+  }
+  if (next) words += "; next: " + next->words;
+  return words;
+}
+
+ScoreTest TestScores(const CalibrationProblem& problem,
+                     const Identifiability& found,
+                     const WideLinearization& wide) {
+  return ScoreRanking(problem, found, wide).Rank();
+}
+
+}  // namespace finray

@@ -1,0 +1,94 @@
+#ifndef FINRAY_CALIB_ANALYSIS_SCORE_TEST_H_
+#define FINRAY_CALIB_ANALYSIS_SCORE_TEST_H_
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "finray/calib/analysis/candidate_effects.h"
+#include "finray/calib/analysis/identifiability.h"
+#include "finray/calib/problem/calibration_problem.h"
+#include "finray/calib/solve/robust_solve.h"
+
+namespace finray {
+
+/// The fitted frames at a solution, linearised once with all candidate effects
+/// free as well, in folds: blocks of neighbouring rows, dealt out in turn.
+struct WideLinearization {
+  static constexpr int kFolds = 5;
+  /// Its plan frees the candidates too. Its values are those of the solution.
+  std::unique_ptr<CalibrationProblem> problem;
+  std::vector<std::vector<int>> frames;  ///< Of each fold.
+  std::vector<Linearization> folds;
+  /// The columns of the free parameters of the solved problem, in their order,
+  /// and those of the candidates.
+  std::vector<Eigen::Index> free, candidates;
+};
+WideLinearization LinearizeWide(const CalibrationProblem& problem,
+                                const CalibrationSolution& solution);
+
+/// Asks which fixed effect the residuals look like. At the solution let r be
+/// the whitened residuals, J their derivative by everything free (priors
+/// included, contacts eliminated) and a that by fixed parameters e of one
+/// family, each in units of its usual std. With P = I - J (J'J)^-1 J' a refit
+/// would find, to first order,
+///
+///   e = -(a'P a + 1)^-1 a'P r,  covariance (a'P a + 1)^-1,
+///   drop of chi2 = r'P a (a'P a + 1)^-1 a'P r.
+///
+/// The 1 is the prior of e. Robust weights are those of the solution. Families
+/// of several parameters are tested together, and each parameter alone.
+///
+/// More parameters always lower chi2 more. So effects are ranked by twice the
+/// logarithm of their Bayes factor,
+///
+///   evidence = drop / s^2 - ln det(a'P a + 1),
+///
+/// which charges each parameter for how much the data narrow its prior (k ln N
+/// is its limit for many frames). s^2 = chi2 per degree of freedom without the
+/// drop, at least 1: where no effect explains the residuals, none counts more
+/// than the rest. An effect is significant if its evidence is above 0 and the
+/// probability of its drop / s^2 by chance, times the number of tests, is below
+/// kSignificant.
+struct ScoreTest {
+  static constexpr double kSignificant = 0.01;
+
+  struct Value {
+    std::string name, unit;
+    double value, std;  ///< As the user would see them after a refit.
+    double change;      ///< From the fixed value.
+    bool from_zero;     ///< The fixed value is 0.
+  };
+  struct Effect {
+    ParameterFamily family;
+    std::vector<Value> values;  ///< Largest change over its std first.
+    double drop = 0;            ///< Of chi2.
+    double evidence = 0;
+    double p_value = 1;  ///< Of one test.
+    bool significant = false;
+    /// "a turned stage, object_rotation_deg 0.98 +- 0.03 (chi2 -830)".
+    std::string words;
+  };
+  /// The best test of each family, the best family first.
+  std::vector<Effect> effects;
+  /// Families that explain what effects[0] explains about as well: their
+  /// evidence is near, and little of it is left once effects[0] is free.
+  std::vector<Effect> alike;
+  /// The best of the others once effects[0] is free, if it is significant.
+  std::optional<Effect> next;
+
+  /// The best effect if it is significant, else null.
+  const Effect* Best() const;
+  /// Says what residuals look like; empty if nothing is significant.
+  std::string Words() const;
+};
+
+ScoreTest TestScores(const CalibrationProblem& problem,
+                     const Identifiability& found,
+                     const WideLinearization& wide);
+
+}  // namespace finray
+
+#endif  // FINRAY_CALIB_ANALYSIS_SCORE_TEST_H_

@@ -1,0 +1,140 @@
+#include "finray/calib/report/doubts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "finray/calib/analysis/gate.h"
+#include "finray/calib/analysis/unsupported.h"
+#include "finray/io/number_text.h"
+
+namespace finray {
+namespace {
+
+void DoubtCoverage(const CalibrationResult& result,
+                   std::vector<std::string>* doubts) {
+  const bool held_out = result.forces.held_out.force_after_N().judged > 0;
+  const ErrorStatistics& forces =
+      held_out ? result.forces.held_out.force_after_N()
+               : result.cross_validation.errors.contact.force_N;
+  if (forces.judged == 0) return;
+  const std::pair<double, std::size_t> shares[] = {{68.3, forces.within_68},
+                                                   {95, forces.within_95}};
+  for (const auto& [stated, within] : shares) {
+    if (BinomialRange(within, forces.judged, kFewer).second >= stated) continue;
+    doubts->push_back(FormatText(
+        "the 68 and 95 %% intervals of force hold in %.0f and %.0f %% of %zu ",
+        forces.coverage_68_percent(), forces.coverage_95_percent(),
+        forces.judged));
+    doubts->back() += held_out ? "held-out frames" : "cross-validated frames";
+    return;
+  }
+}
+
+void DoubtChi2(const Identifiability& found, std::vector<std::string>* doubts) {
+  double chi2 = 0, dof = 0;
+  for (const Identifiability::Noise& noise : found.noise) {
+    if (noise.residuals == 0) continue;
+    chi2 += noise.chi2;
+    dof += noise.dof;
+  }
+  if (dof < 1 || chi2 - dof < kLoudStd * std::sqrt(2 * dof)) return;
+  doubts->push_back(
+      FormatText("chi2 is %.0f for %.0f degrees of freedom, %.0f "
+                 "std too much",
+                 chi2, dof, (chi2 - dof) / std::sqrt(2 * dof)));
+}
+
+void DoubtPriors(const CalibrationParameters& parameters,
+                 std::vector<std::string>* doubts) {
+  std::string far;
+  for (std::size_t k = 0; k < parameters.free().size(); ++k) {
+    const CalibrationParameter& p = parameters.FreeParameter(k);
+    if (!p.prior_std) continue;
+    const double off = (*p.variable - p.initial) / *p.prior_std;
+    if (std::abs(off) <= kFarFromPrior) continue;
+    far += (far.empty() ? "" : ", ") + p.name + FormatText(" (%+.2g)", off);
+  }
+  if (far.empty()) return;
+  doubts->push_back("values are far from their priors, in std of these: " +
+                    far);
+}
+
+// Returns how many std the rank sum of `some` is above that expected if they
+// are drawn from the same numbers as `others` (Mann and Whitney).
+double RanksApart(const std::vector<double>& some, std::vector<double> others) {
+  const auto m = static_cast<double>(some.size());
+  const auto n = static_cast<double>(others.size());
+  if (some.size() < kLeastRejected || others.empty()) return 0;
+  std::sort(others.begin(), others.end());
+  double above = 0;
+  for (const double x : some) {
+    const auto [low, high] = std::equal_range(others.begin(), others.end(), x);
+    above +=
+        static_cast<double>((low - others.begin()) + (high - others.begin())) /
+        2;
+  }
+  return (above - m * n / 2) / std::sqrt(m * n * (m + n + 1) / 12);
+}
+
+double HeightOf(const CalibrationFrame& frame) {
+  return std::isfinite(frame.contact_mm) ? frame.contact_mm
+                                         : frame.object_mm.y();
+}
+
+void DoubtRejected(const CalibrationProblem& problem,
+                   std::vector<std::string>* doubts) {
+  const std::pair<double (*)(const CalibrationFrame&),
+                  std::pair<const char*, const char*>>
+      kinds[] = {{ReferenceForce, {"low forces", "high forces"}},
+                 {HeightOf, {"places near the base", "places near the tip"}}};
+  for (const auto& [of, ends] : kinds) {
+    std::vector<double> rejected, fitted;
+    for (const int i : problem.candidates()) {
+      const CalibrationFrame& frame = problem.frame(i);
+      const double number = of(frame);
+      if (!frame.contact || !std::isfinite(number)) continue;
+      (problem.rejected().count(i) > 0 ? rejected : fitted).push_back(number);
+    }
+    const double apart = RanksApart(rejected, fitted);
+    if (std::abs(apart) < kRanksApart) continue;
+    doubts->push_back(
+        FormatText("the %zu rejected frames are of ", rejected.size()) +
+        (apart < 0 ? ends.first : ends.second));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> FindDoubts(const CalibrationProblem& problem,
+                                    const CalibrationResult& result) {
+  std::vector<std::string> doubts;
+  DoubtCoverage(result, &doubts);
+  DoubtChi2(result.identifiability, &doubts);
+  DoubtPriors(problem.parameters(), &doubts);
+  DoubtRejected(problem, &doubts);
+  if (result.score.Best() != nullptr) {
+    doubts.push_back("the plan leaves out an effect that the logs show");
+  }
+  return doubts;
+}
+
+void WarnOfDoubts(CalibrationResult* result) {
+  const bool effect = result->score.Best() != nullptr;
+  if (result->Verdict() == "good" || (!effect && result->doubts.empty())) {
+    return;
+  }
+  std::string text =
+      "likeliest cause: " + (effect ? result->score.Words()
+                                    : "none of the effects that finray knows");
+  for (const std::string& doubt : result->doubts) text += "; " + doubt;
+  result->warnings.insert(
+      result->warnings.begin(),
+      {"doubtful", text,
+       effect ? "check that part of the setup, or free it in the plan; "
+                "--explore frees it if frames are then predicted better"
+              : "look at the residuals by frame, and at the std in the plan's "
+                "measurements"});
+}
+
+}  // namespace finray

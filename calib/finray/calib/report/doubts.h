@@ -1,0 +1,35 @@
+#ifndef FINRAY_CALIB_REPORT_DOUBTS_H_
+#define FINRAY_CALIB_REPORT_DOUBTS_H_
+
+#include <string>
+#include <vector>
+
+#include "finray/calib/problem/calibration_problem.h"
+#include "finray/calib/report/calibration_result.h"
+
+namespace finray {
+
+/// Says why a converged result is not to be trusted as it stands. Empty if
+///  - the intervals of forces from the gauges hold: of the held-out frames, or
+///    of the cross-validated ones if there are none, the 68 and 95 % intervals
+///    contain as many as the stated shares, or kFewer std of a binomial number
+///    fewer;
+///  - total chi2 exceeds its degrees of freedom by less than kLoudStd std;
+///  - no value is further than kFarFromPrior std of its prior from it;
+///  - rejected frames are of the same forces and places as the fitted ones: the
+///    rank sums of Mann and Whitney differ by less than kRanksApart std;
+///  - the score test finds no effect that the plan leaves out.
+/// Too wide intervals and a chi2 below its degrees of freedom are warnings, not
+/// doubts: a plan's std that are too large are on the safe side.
+std::vector<std::string> FindDoubts(const CalibrationProblem& problem,
+                                    const CalibrationResult& result);
+constexpr double kFewer = 3, kLoudStd = 4, kRanksApart = 3.5;
+constexpr std::size_t kLeastRejected = 3;
+
+/// Puts a warning before all others if the verdict is not `good`: the likeliest
+/// cause first, by the score test, then the doubts.
+void WarnOfDoubts(CalibrationResult* result);
+
+}  // namespace finray
+
+#endif  // FINRAY_CALIB_REPORT_DOUBTS_H_

@@ -1,0 +1,66 @@
+#include "finray/calib/analysis/explore.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "calib/turned_stage.h"
+#include "finray/calib/report/calibration_result.h"
+
+namespace finray {
+namespace {
+
+CalibrationProblem ProblemOf(const Plan& plan, const std::string& log) {
+  return CalibrationProblem(Nominal(), plan,
+                            ReadCalibrationLogs({log}, Nominal(), plan), {}, 2);
+}
+
+TEST(ExploreTest, ATurnedStageIsFreedAndNothingElse) {
+  const TempFolder folder;
+  const std::string log = TurnedStageLog(folder, 71, 1);
+  CalibrationProblem problem = ProblemOf(StandardPlan(), log);
+  const Exploration found = Explore(&problem);
+  ASSERT_FALSE(found.steps.empty());
+  int kept = 0;
+  for (const auto& step : found.steps) {
+    kept += step.kept;
+    if (step.kept) EXPECT_GT(step.after, step.before);
+  }
+  EXPECT_EQ(kept, 1);
+  EXPECT_TRUE(found.plan.family(ParameterFamily::kObjectRotation).free);
+  CalibrationProblem freed = ProblemOf(found.plan, log);
+  EXPECT_EQ(Calibrate(&freed).Verdict(), "good");
+}
+
+TEST(ExploreTest, ACleanLogFreesNothing) {
+  const TempFolder folder;
+  CalibrationProblem problem =
+      ProblemOf(StandardPlan(), StandardLog(folder, HiddenFinger(), 72));
+  EXPECT_TRUE(Explore(&problem).steps.empty());
+}
+
+TEST(ExploreTest, ThePlanIsValidAnywhere) {
+  const TempFolder folder;
+  std::ofstream(folder.Path("scene.yaml"))
+      << "object: {shape: circle, radius_mm: 15}\n";
+  std::ofstream(folder.Path("plan.yaml"))
+      << "schema_version: 1\nscene: scene.yaml\nparameters:\n"
+         "  gauge_gain: {}\n  object_rotation: {fixed: true}\n";
+  Exploration found;
+  found.steps.push_back(
+      {CandidateOf(ParameterFamily::kObjectRotation), "", 1, 2, 3, true});
+  found.steps.push_back(
+      {CandidateOf(ParameterFamily::kObjectRadius), "", 1, 2, 1, false});
+  const TempFolder elsewhere;
+  std::ofstream(elsewhere.Path("plan.yaml"))
+      << ExploredPlanYaml(folder.Path("plan.yaml"), found);
+  const Plan plan = ReadPlan(elsewhere.Path("plan.yaml"));
+  EXPECT_EQ(plan.scene.circle_radius_mm(), 15);
+  EXPECT_TRUE(plan.family(ParameterFamily::kGaugeGain).free);
+  EXPECT_TRUE(plan.family(ParameterFamily::kObjectRotation).free);
+  EXPECT_EQ(plan.family(ParameterFamily::kObjectRotation).prior_std, 1);
+  EXPECT_FALSE(plan.family(ParameterFamily::kObjectRadius).free);
+}
+
+}  // namespace
+}  // namespace finray

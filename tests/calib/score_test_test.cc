@@ -1,0 +1,153 @@
+#include "finray/calib/analysis/score_test.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "calib/calibrated.h"
+#include "calib/turned_stage.h"
+#include "finray/calib/solve/summed_solve.h"
+
+namespace finray {
+namespace {
+
+ScoreTest ScoresOf(Calibrated* calibrated) {
+  return TestScores(*calibrated->problem, calibrated->found,
+                    LinearizeWide(*calibrated->problem, calibrated->solution));
+}
+
+const ScoreTest::Effect* Find(const ScoreTest& score, ParameterFamily family) {
+  for (const ScoreTest::Effect& effect : score.effects) {
+    if (effect.family == family) return &effect;
+  }
+  return nullptr;
+}
+
+double Cost(const Calibrated& at) {
+  return SumsWithPriors(at.solution.at, at.problem->parameters()).cost;
+}
+
+TEST(ScoreTestTest, EveryFamilyIsACandidate) {
+  for (int i = 0; i < kParameterFamilies; ++i) {
+    const CandidateEffect& effect =
+        CandidateOf(static_cast<ParameterFamily>(i));
+    EXPECT_GT(effect.prior_std, 0);
+  }
+  EXPECT_EQ(AllCandidateEffects().size(),
+            static_cast<std::size_t>(kParameterFamilies));
+}
+
+// Readings on cylinders are linear in offsets, so the first order is all.
+TEST(ScoreTestTest, IsExactWhereReadingsAreLinear) {
+  std::mt19937_64 generator(5);
+  std::normal_distribution<double> normal;
+  const Finger finger = Nominal();
+  FrameTable log(40);
+  for (int j = 0; j < 4; ++j) {
+    const Gauge& gauge = finger.gauges[j];
+    for (int i = 0; i < 40; ++i) {
+      const double radius = i % 5 == 0 ? std::numeric_limits<double>::infinity()
+                                       : 40 + 10 * (i % 5);
+      log.MutableNumbers("cylinder_radius_mm")[i] = radius;
+      log.MutableNumbers("gauge_" + std::to_string(j + 1) + "_V")[i] =
+          0.01 * (j == 2) + 1.02 * gauge.length_mm / radius +
+          0.5 * gauge.noise_V * normal(generator);
+    }
+  }
+  const TempFolder folder;
+  log.Write(folder.Path("bench.csv"));
+  Plan plan;
+  plan.families[static_cast<int>(ParameterFamily::kGaugeGain)] = {true, 50.0,
+                                                                  false};
+  Calibrated fixed(plan, {folder.Path("bench.csv")}, finger);
+  const ScoreTest score = ScoresOf(&fixed);
+  const ScoreTest::Effect* best = score.Best();
+  ASSERT_NE(best, nullptr);
+  EXPECT_EQ(best->family, ParameterFamily::kGaugeOffset);
+  EXPECT_EQ(best->values[0].name, "gauge_3_offset_V");
+  EXPECT_EQ(best->values.size(), 1u);  // one gauge explains all of it
+
+  Plan wide = Freed(plan, CandidateOf(ParameterFamily::kGaugeOffset));
+  const Calibrated free(wide, {folder.Path("bench.csv")}, finger);
+  const auto& value = best->values[0];
+  EXPECT_NEAR(value.value, free.Variable(value.name), 1e-9);
+  EXPECT_NEAR(value.std, free.Std(value.name), 1e-9);
+  // The other three offsets are free in the refit, of gauges of their own.
+  EXPECT_LT(best->drop, 2 * (Cost(fixed) - Cost(free)));
+  EXPECT_GT(best->drop, 2 * (Cost(fixed) - Cost(free)) - 20);
+}
+
+TEST(ScoreTestTest, AgreesWithARefit) {
+  const TempFolder folder;
+  const std::string log = TurnedStageLog(folder, 31, 0.3);
+  Calibrated fixed(StandardPlan(), {log});
+  const ScoreTest score = ScoresOf(&fixed);
+  for (const ParameterFamily family :
+       {ParameterFamily::kObjectRotation, ParameterFamily::kObjectRadius,
+        ParameterFamily::kForceScale}) {
+    const ScoreTest::Effect* effect = Find(score, family);
+    ASSERT_NE(effect, nullptr);
+    const Calibrated free(Freed(StandardPlan(), CandidateOf(family)), {log});
+    const auto& value = effect->values[0];
+    const std::string& name = value.name;
+    const double refit = free.problem->parameters()
+                             .FreeParameter(free.Free(name))
+                             .Value(free.Variable(name));
+    EXPECT_NEAR(value.value, refit,
+                0.2 * value.std + 0.03 * std::abs(refit - 1))
+        << name;
+    const double drop = 2 * (Cost(fixed) - Cost(free));
+    EXPECT_NEAR(effect->drop, drop, 0.05 * drop + 0.5) << name;
+  }
+}
+
+TEST(ScoreTestTest, ATurnedStageIsNamedFirst) {
+  int first = 0;
+  for (unsigned seed = 40; seed < 44; ++seed) {
+    const TempFolder folder;
+    Calibrated calibrated(StandardPlan(), {TurnedStageLog(folder, seed, 1)});
+    const ScoreTest score = ScoresOf(&calibrated);
+    const ScoreTest::Effect* best = score.Best();
+    ASSERT_NE(best, nullptr);
+    first += best->family == ParameterFamily::kObjectRotation;
+    EXPECT_NE(score.Words().find("residuals look like"), std::string::npos);
+  }
+  EXPECT_GE(first, 3);
+}
+
+// The plan's circle has the same normal at the same place whether it is larger
+// or further in: one log tells their sum only.
+TEST(ScoreTestTest, WhatALogCannotTellApartIsNamedTogether) {
+  const TempFolder folder;
+  FrameTable log = FrameTable::Read(StandardLog(folder, HiddenFinger(), 45));
+  for (double& x : log.MutableNumbers("object_x_mm")) x -= 0.5;
+  log.Write(folder.Path("shifted.csv"));
+  Calibrated calibrated(StandardPlan(), {folder.Path("shifted.csv")});
+  const ScoreTest score = ScoresOf(&calibrated);
+  ASSERT_NE(score.Best(), nullptr);
+  std::vector<ParameterFamily> named = {score.Best()->family};
+  for (const auto& effect : score.alike) named.push_back(effect.family);
+  EXPECT_NE(
+      std::count(named.begin(), named.end(), ParameterFamily::kObjectOrigin),
+      0);
+  EXPECT_NE(
+      std::count(named.begin(), named.end(), ParameterFamily::kObjectRadius),
+      0);
+}
+
+TEST(ScoreTestTest, CleanLogsNameNothing) {
+  int named = 0;
+  for (unsigned seed = 50; seed < 58; ++seed) {
+    const TempFolder folder;
+    Calibrated calibrated(StandardPlan(),
+                          {StandardLog(folder, HiddenFinger(), seed)});
+    named += ScoresOf(&calibrated).Best() != nullptr;
+  }
+  EXPECT_EQ(named, 0);
+}
+
+}  // namespace
+}  // namespace finray
