@@ -16,6 +16,7 @@
 #include "app.h"
 #include "finray/batch/live_rows.h"
 #include "finray/batch/log_job.h"
+#include "finray/calib/analysis/gate.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/line_reader.h"
 #include "finray/io/log_list.h"
@@ -45,6 +46,9 @@ DEFINE_bool(
 DEFINE_bool(strict, false,
             "fail if any frame is not_converged or bad_input, or if more than "
             "5 % of a log are unexplained or contradict its force_N");
+DEFINE_double(most_unexplained_percent, 0,
+              "gate: share of solved frames that the finger and its noise do "
+              "not explain; default: none");
 DEFINE_bool(keep_going, false,
             "leave out logs that are bad input, list them in summary.yaml");
 DEFINE_bool(follow, false,
@@ -230,6 +234,21 @@ void PrintLatency(const LatencyHistogram& latency) {
                static_cast<unsigned long long>(latency.count()));
 }
 
+// Says whether all frames together keep the gate, and prints it.
+bool KeepsGate(const EstimationSummary& all) {
+  if (!IsGiven("most_unexplained_percent")) return true;
+  const double percent =
+      all.frames > all.unsolved()
+          ? 100 * static_cast<double>(all.unexplained) /
+                static_cast<double>(all.frames - all.unsolved())
+          : std::nan("");
+  const Gate gate{"most_unexplained_percent", FLAGS_most_unexplained_percent,
+                  percent, percent <= FLAGS_most_unexplained_percent};
+  std::fprintf(FLAGS_follow ? stderr : stdout, "gates          %s\n",
+               GateWords({gate}).c_str());
+  return gate.passed;
+}
+
 // Runs `finray_estimate --follow`: it reads a log from standard input and
 // writes each row to standard output at once. It ends with its input, with a
 // stop signal, or when nobody reads its output any more. Then it says how long
@@ -286,7 +305,8 @@ int FollowInput(const BatchSettings& settings) {
       WarningsOf({{&summary, kSource}}, settings.finger);
   Warn(warnings);
   if (FLAGS_strict && summary.unsolved() > 0) return kSolveFailed;
-  return FLAGS_strict && FailsStrict(warnings) ? kGateFailed : kGood;
+  const bool kept = KeepsGate(summary);
+  return kept && !(FLAGS_strict && FailsStrict(warnings)) ? kGood : kGateFailed;
 }
 
 int Run() {
@@ -341,7 +361,8 @@ int Run() {
   if (all.unsolved() == all.frames || (FLAGS_strict && all.unsolved() > 0)) {
     return kSolveFailed;
   }
-  return FLAGS_strict && FailsStrict(warnings) ? kGateFailed : kGood;
+  const bool kept = KeepsGate(all);
+  return kept && !(FLAGS_strict && FailsStrict(warnings)) ? kGood : kGateFailed;
 }
 
 }  // namespace

@@ -151,6 +151,24 @@ TEST_F(BatchTest, OneLogWithMovedOffsetsIsLoudAndStrictCountsIt) {
 
 // Gauges that have all moved by as much agree on contacts that are not there:
 // chi2 shows nothing, the force sensor does.
+TEST_F(BatchTest, TheShareOfUnexplainedFramesIsAGate) {
+  const std::string data = FINRAY_SOURCE_DIR "/datasets/simulated_r15/";
+  FrameTable log = FrameTable::Read(data + "holdout.csv");
+  log.Write(folder_.Path("good.csv"));
+  for (double& volts : log.MutableNumbers("gauge_2_V")) volts += 0.1;
+  log.Write(folder_.Path("slipped.csv"));
+  const auto run = [&](const std::string& name) {
+    return Run("finray_estimate",
+               "--finger " + data + "hidden_finger.yaml --logs %" + name +
+                   ".csv --out_dir %" + name + " --most_unexplained_percent 2");
+  };
+  const Outcome good = run("good"), slipped = run("slipped");
+  EXPECT_EQ(good.code, 0) << good.output;
+  EXPECT_EQ(slipped.code, 4) << slipped.output;
+  EXPECT_THAT(slipped.output, HasSubstr("gates          most_unexplained_"
+                                        "percent 2 ("));
+}
+
 TEST_F(BatchTest, EqualShiftsOfAllGaugesAreLoud) {
   const std::string data = FINRAY_SOURCE_DIR "/datasets/simulated_r15/";
   Finger finger = ReadFinger(data + "hidden_finger.yaml");

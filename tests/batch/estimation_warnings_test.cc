@@ -121,6 +121,57 @@ TEST(EstimationWarningsTest, ALogWithoutForceThatIsNeverFree) {
   EXPECT_THAT(Of(summary, finger), IsEmpty());
 }
 
+// 100 frames with a contact of 1 N, explained, and `bad` of 4 N that are not.
+EstimationSummary SomeUnexplained(const Finger& finger, int bad, int still) {
+  EstimationSummary summary;
+  for (int i = 0; i < 100 + bad; ++i) {
+    FrameEstimate estimate = Contact(i < 100 ? 1 : 4, 0.02);
+    estimate.dof = 2;
+    estimate.chi2 = i < 100 ? 1 : 50;
+    Measurements row = Row(finger, std::nan(""), 0.01 * (i % 5));
+    if (still >= 0) row.gauges_V[still] = 0.1;
+    summary.Add(estimate, 0, row);
+  }
+  return summary;
+}
+
+TEST(EstimationWarningsTest, WhatGrowsWithLoadIsStiffness) {
+  const Finger finger = CalibratedFinger();
+  EXPECT_THAT(Of(SomeUnexplained(finger, 0, -1), finger),
+              testing::Each(testing::Field(&Warning::code, "never_free")));
+  const auto warnings = Of(SomeUnexplained(finger, 3, -1), finger);
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_EQ(warnings[0].code, "some_unexplained_frames");
+  EXPECT_THAT(warnings[0].text,
+              HasSubstr("likeliest cause: it grows with the load"));
+  EXPECT_FALSE(FailsStrict(warnings));
+}
+
+TEST(EstimationWarningsTest, AGaugeThatStandsStillIsDead) {
+  const Finger finger = CalibratedFinger();
+  const auto warnings = Of(SomeUnexplained(finger, 30, 2), finger);
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_EQ(warnings[0].code, "unexplained_frames");
+  EXPECT_THAT(warnings[0].text, HasSubstr("likeliest cause: gauge 3 is dead"));
+}
+
+TEST(EstimationWarningsTest, AGaugeThatMovedAloneHasSlipped) {
+  const Finger finger = CalibratedFinger();
+  EstimationSummary summary;
+  for (int i = 0; i < 20; ++i) {
+    FrameEstimate estimate = Contact(1, 0.02);
+    estimate.dof = 2;
+    estimate.chi2 = 50;
+    Measurements row = Row(finger, 0, 0);
+    row.gauges_V[1] += 0.02;
+    summary.Add(estimate, 0, row);
+  }
+  const auto warnings = Of(summary, finger);
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_THAT(warnings[0].text,
+              HasSubstr("likeliest cause: gauge 2 has slipped"));
+}
+
 TEST(EstimationWarningsTest, NamesTheWorstOfLogs) {
   Finger finger = PaperFinger();
   EXPECT_EQ(WarningsOf(finger)[0].code, "not_calibrated");

@@ -11,10 +11,16 @@ namespace finray {
 
 namespace {
 
-bool TooMany(std::size_t some, std::size_t of) {
+bool TooMany(std::size_t some, std::size_t of,
+             double most = EstimationSummary::kMostUnexplained) {
   return some >= EstimationSummary::kFewestUnexplained &&
-         static_cast<double>(some) >
-             EstimationSummary::kMostUnexplained * static_cast<double>(of);
+         static_cast<double>(some) > most * static_cast<double>(of);
+}
+
+// Adds to each sum, which grows with the first row.
+void AddAll(const std::vector<double>& more, std::vector<double>* sums) {
+  sums->resize(std::max(sums->size(), more.size()));
+  for (std::size_t j = 0; j < more.size(); ++j) (*sums)[j] += more[j];
 }
 
 // The std of the total force is at most the sum of those of its parts.
@@ -34,6 +40,11 @@ std::size_t EstimationSummary::unsolved() const {
 
 bool EstimationSummary::unexplained_too_many() const {
   return TooMany(unexplained, frames - unsolved());
+}
+
+bool EstimationSummary::unexplained_some() const {
+  return !unexplained_too_many() &&
+         TooMany(unexplained, frames - unsolved(), kSomeUnexplained);
 }
 
 bool EstimationSummary::forces_differ() const {
@@ -59,14 +70,12 @@ double EstimationSummary::force_std_N() const {
 void EstimationSummary::Add(const FrameEstimate& estimate, double friction,
                             const Measurements& readings) {
   const double force_N = readings.force_N;
-  if (std::abs(force_N) <= kFreeForce_N &&
+  const bool all_read =
       std::all_of(readings.gauges_V.begin(), readings.gauges_V.end(),
-                  [](double volts) { return std::isfinite(volts); })) {
+                  [](double volts) { return std::isfinite(volts); });
+  if (std::abs(force_N) <= kFreeForce_N && all_read) {
     ++free_rows;
-    free_sums_V.resize(readings.gauges_V.size());
-    for (std::size_t j = 0; j < free_sums_V.size(); ++j) {
-      free_sums_V[j] += readings.gauges_V[j];
-    }
+    AddAll(readings.gauges_V, &free_sums_V);
   }
   ++frames;
   ++by_status[static_cast<std::size_t>(estimate.status)];
@@ -74,7 +83,23 @@ void EstimationSummary::Add(const FrameEstimate& estimate, double friction,
       estimate.status == FrameStatus::kBadInput) {
     return;
   }
-  if (estimate.p_value() < FrameEstimate::kUnexplained) ++unexplained;
+  const bool is_explained = !(estimate.p_value() < FrameEstimate::kUnexplained);
+  unexplained += !is_explained;
+  if (all_read) {
+    ++read_rows;
+    AddAll(readings.gauges_V, &read_sums_V);
+    read_squares_V2.resize(read_sums_V.size());
+    for (std::size_t j = 0; j < readings.gauges_V.size(); ++j) {
+      read_squares_V2[j] += readings.gauges_V[j] * readings.gauges_V[j];
+    }
+  }
+  if (estimate.contacts > 0) {
+    ++(is_explained ? loads_explained : loads_unexplained);
+    double& load_N = is_explained ? load_explained_N : load_unexplained_N;
+    for (int c = 0; c < estimate.contacts; ++c) {
+      load_N += estimate.contact[c].normal_N;
+    }
+  }
   // The contacts of unobservable frames are unreliable, so they are not
   // compared.
   if (estimate.status == FrameStatus::kUnobservable) return;
@@ -106,10 +131,14 @@ void EstimationSummary::Add(const EstimationSummary& other) {
   force_far += other.force_far;
   force_variances_N2 += other.force_variances_N2;
   free_rows += other.free_rows;
-  free_sums_V.resize(std::max(free_sums_V.size(), other.free_sums_V.size()));
-  for (std::size_t j = 0; j < other.free_sums_V.size(); ++j) {
-    free_sums_V[j] += other.free_sums_V[j];
-  }
+  AddAll(other.free_sums_V, &free_sums_V);
+  read_rows += other.read_rows;
+  AddAll(other.read_sums_V, &read_sums_V);
+  AddAll(other.read_squares_V2, &read_squares_V2);
+  loads_explained += other.loads_explained;
+  loads_unexplained += other.loads_unexplained;
+  load_explained_N += other.load_explained_N;
+  load_unexplained_N += other.load_unexplained_N;
 }
 
 std::string SummaryToText(const EstimationSummary& summary) {
@@ -125,8 +154,16 @@ std::string SummaryToText(const EstimationSummary& summary) {
           std::to_string(summary.force_far) + " " +
           NumberText(summary.force_variances_N2) + " " +
           std::to_string(summary.free_rows) + " " +
-          std::to_string(summary.free_sums_V.size());
-  for (const double sum : summary.free_sums_V) text += " " + NumberText(sum);
+          std::to_string(summary.read_rows) + " " +
+          std::to_string(summary.loads_explained) + " " +
+          std::to_string(summary.loads_unexplained) + " " +
+          NumberText(summary.load_explained_N) + " " +
+          NumberText(summary.load_unexplained_N);
+  for (const auto* sums :
+       {&summary.free_sums_V, &summary.read_sums_V, &summary.read_squares_V2}) {
+    text += " " + std::to_string(sums->size());
+    for (const double sum : *sums) text += " " + NumberText(sum);
+  }
   return text;
 }
 
@@ -147,10 +184,17 @@ std::optional<EstimationSummary> SummaryFromText(const std::string& text) {
   number(&summary.force_max_N);
   stream >> summary.force_judged >> summary.force_far;
   number(&summary.force_variances_N2);
-  std::size_t gauges = 0;
-  stream >> summary.free_rows >> gauges;
-  for (std::size_t j = 0; stream && j < gauges; ++j) {
-    number(&summary.free_sums_V.emplace_back());
+  stream >> summary.free_rows >> summary.read_rows >> summary.loads_explained >>
+      summary.loads_unexplained;
+  number(&summary.load_explained_N);
+  number(&summary.load_unexplained_N);
+  for (auto* sums :
+       {&summary.free_sums_V, &summary.read_sums_V, &summary.read_squares_V2}) {
+    std::size_t gauges = 0;
+    stream >> gauges;
+    for (std::size_t j = 0; stream && j < gauges; ++j) {
+      number(&sums->emplace_back());
+    }
   }
   std::string rest;
   if (!stream || stream >> rest) return std::nullopt;

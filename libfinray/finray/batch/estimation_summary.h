@@ -42,6 +42,14 @@ struct EstimationSummary {
   std::size_t free_rows = 0;
   std::vector<double> free_sums_V;
   static constexpr double kFreeForce_N = 0.06;  // 3 std of a usual sensor
+  /// Solved rows with all readings and, by gauge, the sums of these and of
+  /// their squares.
+  std::size_t read_rows = 0;
+  std::vector<double> read_sums_V, read_squares_V2;
+  /// Solved frames with a contact, the explained ones and the others, and the
+  /// sums of their normal forces.
+  std::size_t loads_explained = 0, loads_unexplained = 0;
+  double load_explained_N = 0, load_unexplained_N = 0;
 
   std::size_t count(FrameStatus status) const {
     return by_status[static_cast<std::size_t>(status)];
@@ -53,6 +61,9 @@ struct EstimationSummary {
   /// logs.
   bool unexplained_too_many() const;
   static constexpr double kMostUnexplained = 0.05;
+  /// Not that many, but more than kSomeUnexplained of them.
+  bool unexplained_some() const;
+  static constexpr double kSomeUnexplained = 0.01;
   static constexpr std::size_t kFewestUnexplained = 3;
   /// More than kMostUnexplained of the judged frames are contradicted by
   /// force_N, and at least kFewestUnexplained of them.

@@ -18,6 +18,7 @@ constexpr double kMoved = 2;
 struct Shift {
   std::string words;
   bool moved = false;
+  int moved_gauges = 0, last_moved = -1;
 };
 
 std::optional<Shift> ShiftOf(const EstimationSummary& summary,
@@ -31,7 +32,11 @@ std::optional<Shift> ShiftOf(const EstimationSummary& summary,
     const double moved_V =
         summary.free_sums_V[j] / static_cast<double>(summary.free_rows) -
         gauge.offset_V - bent_V[static_cast<Eigen::Index>(j)];
-    shift.moved |= std::abs(moved_V) > kMoved * gauge.noise_V;
+    if (std::abs(moved_V) > kMoved * gauge.noise_V) {
+      shift.moved = true;
+      ++shift.moved_gauges;
+      shift.last_moved = static_cast<int>(j);
+    }
     list += FormatText("%s%+.2g", j > 0 ? ", " : "", 1e3 * moved_V);
   }
   shift.words = "in its " + std::to_string(summary.free_rows) +
@@ -58,14 +63,59 @@ const char* MovedOrNot(const std::optional<Shift>& shift) {
                "finger, a wrong noise_V";
 }
 
+// Returns the gauge that reads nothing but noise while the others move; -1 if
+// there is none.
+int DeadGauge(const EstimationSummary& summary, const Finger& finger) {
+  constexpr double kStill = 3, kMoves = 30;  // in noise_V
+  const auto rows = static_cast<double>(summary.read_rows);
+  if (summary.read_rows < EstimationSummary::kManyFrames) return -1;
+  int still = -1, moving = 0;
+  for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
+    const double mean = summary.read_sums_V[j] / rows;
+    const double variance = summary.read_squares_V2[j] / rows - mean * mean;
+    const double scatter =
+        std::sqrt(std::max(0.0, variance)) / finger.gauges[j].noise_V;
+    if (scatter < kStill) still = still < 0 ? static_cast<int>(j) : -2;
+    moving += scatter > kMoves;
+  }
+  return still >= 0 && moving + 1 == static_cast<int>(finger.gauges.size())
+             ? still
+             : -1;
+}
+
+// Says whether the frames that are not explained are those of high loads.
+bool GrowsWithLoad(const EstimationSummary& summary) {
+  constexpr double kHeavier = 1.5;
+  constexpr std::size_t kFewest = EstimationSummary::kFewestUnexplained;
+  return summary.loads_explained >= kFewest &&
+         summary.loads_unexplained >= kFewest &&
+         summary.load_unexplained_N /
+                 static_cast<double>(summary.loads_unexplained) >
+             kHeavier * summary.load_explained_N /
+                 static_cast<double>(summary.loads_explained);
+}
+
 // The likeliest reason why the finger does not fit a log; empty if there is
 // none.
-const char* LikeliestCause(const Finger& finger,
+std::string LikeliestCause(const EstimationSummary& summary,
+                           const Finger& finger,
                            const std::optional<Shift>& shift) {
-  if (!finger.calibration)
-    return "likeliest cause: the finger is not calibrated; ";
-  if (MayHaveMoved(shift))
-    return "likeliest cause: the gauges' offsets have moved; ";
+  const std::string cause = "likeliest cause: ";
+  if (!finger.calibration) return cause + "the finger is not calibrated; ";
+  if (const int dead = DeadGauge(summary, finger); dead >= 0) {
+    return cause + "gauge " + std::to_string(dead + 1) +
+           " is dead: it does not move while the others do; ";
+  }
+  if (shift && shift->moved_gauges == 1 && finger.gauges.size() > 2) {
+    return cause + "gauge " + std::to_string(shift->last_moved + 1) +
+           " has slipped: its offset alone has moved; ";
+  }
+  if (!(shift && shift->moved) && GrowsWithLoad(summary)) {
+    return cause +
+           "it grows with the load, so stiffness, gains or friction are not "
+           "the finger's; ";
+  }
+  if (MayHaveMoved(shift)) return cause + "the gauges' offsets have moved; ";
   return "";
 }
 
@@ -78,21 +128,28 @@ Warning Unexplained(const EstimationSummary& summary, const Finger& finger,
                     const std::string& log) {
   const auto shift = ShiftOf(summary, finger);
   return {"unexplained_frames",
-          LikeliestCause(finger, shift) + std::to_string(summary.unexplained) +
-              " of " + std::to_string(summary.frames - summary.unsolved()) +
+          LikeliestCause(summary, finger, shift) +
+              std::to_string(summary.unexplained) + " of " +
+              std::to_string(summary.frames - summary.unsolved()) +
               " solved frames of " + log +
               " are not explained by the finger and its noise" +
               Measured(shift),
           Remedy(finger, shift)};
 }
 
+Warning SomeUnexplained(const EstimationSummary& summary, const Finger& finger,
+                        const std::string& log) {
+  Warning warning = Unexplained(summary, finger, log);
+  warning.code = "some_unexplained_frames";
+  return warning;
+}
+
 Warning ForcesDiffer(const EstimationSummary& summary, const Finger& finger,
                      const std::string& log) {
   const auto shift = ShiftOf(summary, finger);
   return {"forces_differ",
-          LikeliestCause(finger, shift) +
-              std::string("estimated forces differ from the force_N of ") +
-              log +
+          LikeliestCause(summary, finger, shift) +
+              "estimated forces differ from the force_N of " + log +
               FormatText(" by %.3g N rms, %.3g times their stated std, and "
                          "%zu of %zu are far off",
                          summary.force_rms_N(),
@@ -131,6 +188,8 @@ struct Doubt {
 constexpr Doubt kDoubts[] = {
     {&EstimationSummary::unexplained_too_many, &EstimationSummary::unexplained,
      Unexplained},
+    {&EstimationSummary::unexplained_some, &EstimationSummary::unexplained,
+     SomeUnexplained},
     {&EstimationSummary::forces_differ, &EstimationSummary::force_far,
      ForcesDiffer},
     {&EstimationSummary::never_free, &EstimationSummary::frames, NeverFree}};

@@ -23,6 +23,7 @@ std::vector<Warning> WarningsOf(const Finger& finger);
 /// the worst log and counts the others:
 ///  - unexplained_frames: the finger and its noise do not explain too many
 ///    frames;
+///  - some_unexplained_frames: not so many, but more than chance makes;
 ///  - forces_differ: force_N contradicts too many forces, or shows free rows
 ///    where every frame has a contact;
 ///  - never_free: every frame has a contact and no force_N says otherwise.
@@ -31,11 +32,17 @@ std::vector<Warning> WarningsOf(const Finger& finger);
 /// the text has the shift of each gauge there,
 ///
 ///   mean V_j - (offset_j + gain_j angle_j(free finger)).
+///
+/// Each begins with the likeliest cause: a gauge that reads nothing but noise
+/// is dead; one whose offset alone has moved has slipped; where unexplained
+/// frames have 1.5 times the load of the others, it is stiffness, gains or
+/// friction; else offsets.
 std::vector<Warning> WarningsOf(const std::vector<LogSummary>& logs,
                                 const Finger& finger);
 
 /// Says whether --strict fails with one of these warnings: all but those of an
-/// uncalibrated finger and never_free, which may be meant.
+/// uncalibrated finger, of some unexplained frames, and never_free, which may
+/// be meant.
 bool FailsStrict(const std::vector<Warning>& warnings);
 
 }  // namespace finray

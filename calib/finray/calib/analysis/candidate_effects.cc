@@ -38,6 +38,9 @@ const std::vector<CandidateEffect>& AllCandidateEffects() {
       {Family::kObjectRadius, 0.5, "another radius of the object"},
       {Family::kForceScale, 3, "another scale of the force sensor"},
       {Family::kForceOffset, 0.1, "an offset of the force sensor"},
+      {Family::kForceTimeOffset, 0.1, "a force sensor that is late"},
+      {Family::kForceTilt, 1, "a turned force sensor"},
+      {Family::kForceWeight, 0.1, "a weight on the force sensor"},
       {Family::kTemperatureCoefficient, 0.001, "gauges that feel temperature"},
       {Family::kGaugeDrift, 0.01, "gauges that drift"},
       {Family::kCameraOrigin, 1, "a shifted camera"},
@@ -59,6 +62,9 @@ std::vector<CandidateEffect> CandidatesFor(const Finger& finger,
       AllHave(logs, [](const auto& frame) { return frame.time_s; });
   const bool warm =
       AllHave(logs, [](const auto& frame) { return frame.temperature_C; });
+  const bool components = std::any_of(
+      logs.frames.begin(), logs.frames.end(),
+      [](const auto& frame) { return frame.force_xy_N.allFinite(); });
   const bool circle = plan.scene.circle_radius_mm().has_value();
   std::vector<CandidateEffect> candidates;
   for (const CandidateEffect& effect : AllCandidateEffects()) {
@@ -70,10 +76,15 @@ std::vector<CandidateEffect> CandidatesFor(const Finger& finger,
         break;
       case Family::kGaugeDrift:
       case Family::kGaugeCreepShare:
+      case Family::kForceTimeOffset:
         if (!timed) continue;
         break;
       case Family::kGaugeCreepTime:
         if (!timed || !plan.HasCreep(finger)) continue;
+        break;
+      case Family::kForceTilt:
+      case Family::kForceWeight:
+        if (!components) continue;
         break;
       case Family::kObjectRadius:
         if (!circle) continue;

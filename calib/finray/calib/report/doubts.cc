@@ -18,10 +18,11 @@ void DoubtCoverage(const CalibrationResult& result,
       held_out ? result.forces.held_out.force_after_N()
                : result.cross_validation.errors.contact.force_N;
   if (forces.judged == 0) return;
-  const std::pair<double, std::size_t> shares[] = {{68.3, forces.within_68},
-                                                   {95, forces.within_95}};
-  for (const auto& [stated, within] : shares) {
-    if (BinomialRange(within, forces.judged, kFewer).second >= stated) continue;
+  const std::pair<double, std::size_t> shares[] = {
+      {68.3 - kFewerPercent, forces.within_68},
+      {95 - kFewerPercent, forces.within_95}};
+  for (const auto& [least, within] : shares) {
+    if (BinomialRange(within, forces.judged, kFewer).second >= least) continue;
     doubts->push_back(FormatText(
         "the 68 and 95 %% intervals of force hold in %.0f and %.0f %% of %zu ",
         forces.coverage_68_percent(), forces.coverage_95_percent(),

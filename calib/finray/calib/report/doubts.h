@@ -12,8 +12,9 @@ namespace finray {
 /// Says why a converged result is not to be trusted as it stands. Empty if
 ///  - the intervals of forces from the gauges hold: of the held-out frames, or
 ///    of the cross-validated ones if there are none, the 68 and 95 % intervals
-///    contain as many as the stated shares, or kFewer std of a binomial number
-///    fewer;
+///    contain as many as the stated shares less kFewerPercent, or kFewer std of
+///    a binomial number fewer: frames share the errors of the calibration that
+///    senses them, so they are not quite independent;
 ///  - total chi2 exceeds its degrees of freedom by less than kLoudStd std;
 ///  - no value is further than kFarFromPrior std of its prior from it;
 ///  - rejected frames are of the same forces and places as the fitted ones: the
@@ -23,7 +24,8 @@ namespace finray {
 /// doubts: a plan's std that are too large are on the safe side.
 std::vector<std::string> FindDoubts(const CalibrationProblem& problem,
                                     const CalibrationResult& result);
-constexpr double kFewer = 3, kLoudStd = 4, kRanksApart = 3.5;
+constexpr double kFewer = 3, kFewerPercent = 2.5, kLoudStd = 4,
+                 kRanksApart = 3.5;
 constexpr std::size_t kLeastRejected = 3;
 
 /// Puts a warning before all others if the verdict is not `good`: the likeliest
