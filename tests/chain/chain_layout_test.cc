@@ -118,7 +118,7 @@ TEST(ChainLayoutTest, RefusesBadArguments) {
 TEST(ChainLayoutTest, RefusesSpringsAtHinges) {
   Finger finger = PaperFinger();
   finger.ribs[2].back_hinge_N_mm_per_rad = 5;
-  EXPECT_THROW(MakeChainLayout(finger, 40), InputError);
+  EXPECT_THROW(MakeChainLayout(finger, 60, GaugeRule::kOverlap), InputError);
 }
 
 TEST(ChainGaugeTest, WholeJointGaugeStalls) {
