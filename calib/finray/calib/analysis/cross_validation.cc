@@ -119,7 +119,7 @@ CrossValidation CrossValidate(const CalibrationProblem& problem,
     }
     Finger finger = part->parameters().Apply(problem.finger());
     KeepCovariance(part->parameters(), known, &finger);
-    const SensedFrames sensed = SenseFrames(part.get(), finger, frames);
+    const SensedFrames sensed = SenseFrames(part.get(), finger, frames, false);
     for (std::size_t k = 0; k < frames.size(); ++k) {
       sensed.AddTo(&result.errors, k,
                    problem.plan().scene.friction_coefficient);

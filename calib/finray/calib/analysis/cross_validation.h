@@ -34,7 +34,7 @@ LeftOut LeaveFoldOut(const CalibrationProblem& problem,
 double CrossValidatedLogLikelihood(const CalibrationProblem& problem,
                                    const WideLinearization& wide);
 
-/// Forces and places from the gauges alone, each fold with the finger that the
+/// Forces from the gauges alone, each fold with the finger that the
 /// other folds calibrate, against the references. It takes at most kMostChecked
 /// frames, evenly spread.
 struct CrossValidation {

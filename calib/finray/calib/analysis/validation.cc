@@ -170,7 +170,7 @@ void SensedFrames::AddTo(ErrorTable* table, std::size_t k,
 }
 
 SensedFrames SenseFrames(CalibrationProblem* problem, const Finger& calibrated,
-                         const std::vector<int>& frames) {
+                         const std::vector<int>& frames, bool places) {
   const Plan plan = problem->parameters().Corrected(problem->plan());
   CalibrationLogs logs{problem->logs().paths, problem->logs().names, {}};
   for (const int i : frames) logs.frames.push_back(problem->frame(i));
@@ -188,8 +188,10 @@ SensedFrames SenseFrames(CalibrationProblem* problem, const Finger& calibrated,
         EstimateFrames(calibrated, SensedScene(plan), problem->discretization(),
                        readings, problem->threads());
   }
+  Plan referenced = plan;
+  if (!places) referenced.scene.object.reset();
   sensed.references =
-      ReferencesOf(corrected, calibrated, plan, problem->discretization(),
+      ReferencesOf(corrected, calibrated, referenced, problem->discretization(),
                    problem->threads());
   return sensed;
 }

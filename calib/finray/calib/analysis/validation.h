@@ -36,9 +36,11 @@ struct SensedFrames {
 };
 
 /// Senses frames with `calibrated`, which is the finger at the present values
-/// of the problem. Readings and references are corrected by these values.
+/// of the problem. Readings and references are corrected by these values. The
+/// place of a circle costs as much as an estimate, and is a reference only with
+/// `places`.
 SensedFrames SenseFrames(CalibrationProblem* problem, const Finger& calibrated,
-                         const std::vector<int>& frames);
+                         const std::vector<int>& frames, bool places = true);
 
 /// Compares the references with the gauges alone, before and after a
 /// calibration. The estimate before the calibration takes the readings as they

@@ -212,7 +212,7 @@ void EmitEffect(const ScoreTest::Effect& effect, YamlEmitter* yaml) {
 }
 
 void EmitScore(const ScoreTest& score, YamlEmitter* yaml) {
-  BeginMap(yaml, "score_test");
+  BeginMap(yaml, "effect_scores");
   YamlPair(yaml, "words", score.Words());
   const auto emit = [&](const auto& effect) { EmitEffect(effect, yaml); };
   EmitSeq(yaml, "effects", score.effects, emit);
