@@ -31,7 +31,8 @@ void AddMatches(const std::string& text, const std::regex& pattern,
 // A code begins a warning's braces.
 std::set<std::string> CodesOfSources() {
   const std::regex pushed(
-      "warnings(?:->|\\.)push_back\\(\\s*\\{\\s*\"(\\w+)\"");
+      "warnings(?:->|\\.)(?:push_back\\(|insert\\(\\s*first,)\\s*\\{\\s*\"(\\w+"
+      ")\"");
   std::set<std::string> codes;
   for (const auto& file : std::filesystem::recursive_directory_iterator(
            FINRAY_SOURCE_DIR "/calib/finray/calib")) {

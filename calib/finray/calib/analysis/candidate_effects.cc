@@ -7,18 +7,22 @@
 namespace finray {
 namespace {
 
-// Says whether all rows of the finger have a number.
+// Says whether there are rows of the finger, and all have a number.
 template <class Number>
 bool AllHave(const CalibrationLogs& logs, const Number& number) {
-  return std::all_of(logs.frames.begin(), logs.frames.end(),
-                     [&](const CalibrationFrame& frame) {
-                       return frame.IsBench() || std::isfinite(number(frame));
-                     });
+  bool any = false;
+  for (const CalibrationFrame& frame : logs.frames) {
+    if (frame.IsBench()) continue;
+    if (!std::isfinite(number(frame))) return false;
+    any = true;
+  }
+  return any;
 }
 
 }  // namespace
 
 // A new family needs a line here, and the score test and --explore know it.
+// Pieces of the beams have none: they cut the finger's mesh.
 const std::vector<CandidateEffect>& AllCandidateEffects() {
   using Family = ParameterFamily;
   static const std::vector<CandidateEffect> all = {
@@ -32,10 +36,12 @@ const std::vector<CandidateEffect>& AllCandidateEffects() {
       {Family::kGaugeLength, 1, "gauges of other lengths"},
       {Family::kGaugeCreepShare, 0.1, "gauges that creep"},
       {Family::kGaugeCreepTime, 50, "another time constant of creep"},
+      {Family::kHingeStiffness, 20, "hinges that resist"},
       {Family::kObjectOrigin, 0.5, "a shifted stage"},
       {Family::kObjectRotation, 1, "a turned stage"},
       {Family::kObjectScale, 1, "a stage of another scale"},
       {Family::kObjectRadius, 0.5, "another radius of the object"},
+      {Family::kFriction, 0.3, "friction"},
       {Family::kForceScale, 3, "another scale of the force sensor"},
       {Family::kForceOffset, 0.1, "an offset of the force sensor"},
       {Family::kForceTimeOffset, 0.1, "a force sensor that is late"},
@@ -85,6 +91,9 @@ std::vector<CandidateEffect> CandidatesFor(const Finger& finger,
       case Family::kForceTilt:
       case Family::kForceWeight:
         if (!components) continue;
+        break;
+      case Family::kHingeStiffness:
+        if (finger.ribs.empty()) continue;
         break;
       case Family::kObjectRadius:
         if (!circle) continue;

@@ -18,7 +18,7 @@ struct CandidateEffect {
   const char* words;  ///< What residuals look like if it is there.
 };
 
-/// All of them, in the order of ParameterFamily.
+/// All families but pieces of the beams, in the order of ParameterFamily.
 const std::vector<CandidateEffect>& AllCandidateEffects();
 /// Returns the one of a family. Throws std::out_of_range if there is none.
 const CandidateEffect& CandidateOf(ParameterFamily family);

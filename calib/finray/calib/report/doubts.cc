@@ -129,8 +129,11 @@ void WarnOfDoubts(CalibrationResult* result) {
       "likeliest cause: " + (effect ? result->score.Words()
                                     : "none of the effects that finray knows");
   for (const std::string& doubt : result->doubts) text += "; " + doubt;
+  // The scatter of free readings is measured, so it is likelier still.
+  auto first = result->warnings.begin();
+  if (first != result->warnings.end() && first->code == "free_scatter") ++first;
   result->warnings.insert(
-      result->warnings.begin(),
+      first,
       {"doubtful", text,
        effect ? "check that part of the setup, or free it in the plan; "
                 "--explore frees it if frames are then predicted better"

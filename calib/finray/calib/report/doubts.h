@@ -28,8 +28,8 @@ constexpr double kFewer = 3, kFewerPercent = 2.5, kLoudStd = 4,
                  kRanksApart = 3.5;
 constexpr std::size_t kLeastRejected = 3;
 
-/// Puts a warning before all others if the verdict is not `good`: the likeliest
-/// cause first, by the score test, then the doubts.
+/// Puts a warning before all others but `free_scatter` if the verdict is not
+/// `good`: the likeliest cause first, by the score test, then the doubts.
 void WarnOfDoubts(CalibrationResult* result);
 
 }  // namespace finray
