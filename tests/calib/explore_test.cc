@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "calib/turned_stage.h"
 #include "finray/calib/report/calibration_result.h"
+#include "finray/finger/finger_yaml.h"
 
 namespace finray {
 namespace {
@@ -37,6 +39,31 @@ TEST(ExploreTest, ACleanLogFreesNothing) {
   CalibrationProblem problem =
       ProblemOf(StandardPlan(), StandardLog(folder, HiddenFinger(), 72));
   EXPECT_TRUE(Explore(&problem).steps.empty());
+}
+
+// A strip that CalculiX bends, on an object with friction of 0.3.
+TEST(ExploreTest, FrictionOfAnotherPhysicsIsFound) {
+  const std::string strip = FINRAY_SOURCE_DIR "/datasets/reality/strip/";
+  const Finger drawn = ReadFinger(strip + "finger.yaml");
+  const Plan plan = ReadPlan(strip + "plan_thickness.yaml");
+  const auto calibrated = [&](const Plan& with, Exploration* explored) {
+    CalibrationProblem problem(
+        drawn, with,
+        ReadCalibrationLogs({strip + "rough/train.csv"}, drawn, with), {}, 2);
+    if (explored != nullptr) *explored = Explore(&problem);
+    return Calibrate(&problem);
+  };
+  Exploration found;
+  const CalibrationResult without = calibrated(plan, &found);
+  EXPECT_EQ(without.Verdict(), "doubtful");
+  ASSERT_FALSE(found.steps.empty());
+  EXPECT_EQ(found.steps[0].effect.family, ParameterFamily::kFriction);
+  EXPECT_TRUE(found.steps[0].kept);
+  const CalibrationResult with = calibrated(found.plan, nullptr);
+  const auto covered = [](const CalibrationResult& result) {
+    return result.cross_validation.errors.contact.force_N.coverage_95_percent();
+  };
+  EXPECT_GT(covered(with), std::max(90.0, covered(without)));
 }
 
 TEST(ExploreTest, ThePlanIsValidAnywhere) {

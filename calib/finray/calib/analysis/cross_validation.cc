@@ -121,8 +121,7 @@ CrossValidation CrossValidate(const CalibrationProblem& problem,
     KeepCovariance(part->parameters(), known, &finger);
     const SensedFrames sensed = SenseFrames(part.get(), finger, frames, false);
     for (std::size_t k = 0; k < frames.size(); ++k) {
-      sensed.AddTo(&result.errors, k,
-                   problem.plan().scene.friction_coefficient);
+      sensed.AddTo(&result.errors, k, part->parameters().friction());
     }
     ++result.folds;
   }

@@ -132,7 +132,7 @@ std::string ExploredPlanYaml(const std::string& path,
     text += "# " + WordsOf(step) + "\n";
     if (!step.kept) continue;
     YAML::Node family;
-    family[PriorKeyOf(step.effect.family)] = step.effect.prior_std;
+    family[PriorKeyOf(step.effect.family)] = NumberText(step.effect.prior_std);
     plan["parameters"][FamilyKeyOf(step.effect.family)] = family;
   }
   return text + YAML::Dump(plan) + "\n";
