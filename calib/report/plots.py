@@ -38,7 +38,8 @@ def scatter(axes, points, colour, marker, label=None, size=14):
 
 def legend(axes, columns):
     """Puts the legend above the axes, where it hides nothing."""
-    axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=columns, borderaxespad=0.2)
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=columns, borderaxespad=0.2)
 
 
 def forces(frames):

@@ -65,14 +65,14 @@ class VerdictTest(unittest.TestCase):
 
 class PageTest(unittest.TestCase):
     def test_a_worse_figure_says_so_and_why(self):
-        page = report.page([Section("Contact", "One sentence.", [figure(0.6)])])
+        page = report.rendered([Section("Contact", "One sentence.", [figure(0.6)])])
         self.assertIn("0 of 1 with a number are beaten", page)
         self.assertIn("does not beat", page)
         self.assertIn("too noisy", page)
         self.assertIn("These are simulations, not measurements of a real finger", page)
 
     def test_a_better_one_gives_no_reason(self):
-        page = report.page([Section("Contact", "One sentence.", [figure(0.4)])])
+        page = report.rendered([Section("Contact", "One sentence.", [figure(0.4)])])
         self.assertIn("1 of 1 with a number are beaten", page)
         self.assertNotIn("does not beat", page)
         self.assertNotIn("too noisy", page)
@@ -159,7 +159,7 @@ class InputTest(unittest.TestCase):
         self.assertEqual((model.verdict, sensed.verdict), ("beats", "does not beat"))
         self.assertAlmostEqual(rows["sensed force, mean error, of the force"].ours, 0.75)
         self.assertEqual(rows["force error near base and tip over that in the middle"].verdict, "same")
-        page = report.page([section])
+        page = report.rendered([section])
         for outside in ('src="', 'href="http', "url(http", "<link", "<script", "@import"):
             self.assertNotIn(outside, page)
 

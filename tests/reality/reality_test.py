@@ -157,7 +157,7 @@ class OutcomeTest(unittest.TestCase):
         solved = {"finger": "strip", "world": "smooth", "plan": "thickness", **found}
         refused = {"finger": "printed", "world": "rough", "plan": "bundled", "exit": 2, "refused": "no such log"}
         text = report.markdown([solved, refused])
-        page = report.page([solved, refused])
+        page = report.rendered([solved, refused])
         self.assertIn("| printed | rough | bundled | no such log |", text)
         self.assertIn("<td>no such log</td>", page)
         self.assertIn(f"| strip | smooth | thickness | good, exit 0 | {found['ok']} of {found['touched']} |", text)
