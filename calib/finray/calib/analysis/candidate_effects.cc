@@ -22,7 +22,6 @@ bool AllHave(const CalibrationLogs& logs, const Number& number) {
 }  // namespace
 
 // A new family needs a line here, and the score test and --explore know it.
-// Pieces of the beams have none: they cut the finger's mesh.
 const std::vector<CandidateEffect>& AllCandidateEffects() {
   using Family = ParameterFamily;
   static const std::vector<CandidateEffect> all = {
@@ -37,6 +36,7 @@ const std::vector<CandidateEffect>& AllCandidateEffects() {
       {Family::kGaugeCreepShare, 0.1, "gauges that creep"},
       {Family::kGaugeCreepTime, 50, "another time constant of creep"},
       {Family::kHingeStiffness, 20, "hinges that resist"},
+      {Family::kFrontPiece, 5, "a stiffness that changes along the beams"},
       {Family::kObjectOrigin, 0.5, "a shifted stage"},
       {Family::kObjectRotation, 1, "a turned stage"},
       {Family::kObjectScale, 1, "a stage of another scale"},
@@ -55,6 +55,10 @@ const std::vector<CandidateEffect>& AllCandidateEffects() {
 }
 
 const CandidateEffect& CandidateOf(ParameterFamily family) {
+  // One key of a plan frees the pieces of both beams.
+  if (family == ParameterFamily::kBackPiece) {
+    family = ParameterFamily::kFrontPiece;
+  }
   for (const CandidateEffect& effect : AllCandidateEffects()) {
     if (effect.family == family) return effect;
   }
@@ -112,6 +116,9 @@ Plan Freed(const Plan& plan, const CandidateEffect& effect) {
   family = {};
   family.free = true;
   family.prior_std = effect.prior_std;
+  if (effect.family == ParameterFamily::kFrontPiece) {
+    freed.families[static_cast<int>(ParameterFamily::kBackPiece)] = family;
+  }
   return freed;
 }
 

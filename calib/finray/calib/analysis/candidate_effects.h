@@ -18,7 +18,8 @@ struct CandidateEffect {
   const char* words;  ///< What residuals look like if it is there.
 };
 
-/// All families but pieces of the beams, in the order of ParameterFamily.
+/// All families, in the order of ParameterFamily. That of the front beam's
+/// pieces stands for the pieces of both beams.
 const std::vector<CandidateEffect>& AllCandidateEffects();
 /// Returns the one of a family. Throws std::out_of_range if there is none.
 const CandidateEffect& CandidateOf(ParameterFamily family);

@@ -139,9 +139,9 @@ class ScoreRanking {
     std::vector<Candidates> families;
     for (int column = 0; column < static_cast<int>(wide_.candidates.size());
          ++column) {
-      const ParameterFamily family = Parameter(column).family;
-      if (families.empty() || families.back().effect.family != family) {
-        families.push_back({CandidateOf(family), {}});
+      const CandidateEffect& effect = CandidateOf(Parameter(column).family);
+      if (families.empty() || families.back().effect.family != effect.family) {
+        families.push_back({effect, {}});
       }
       families.back().columns.push_back(column);
     }
