@@ -162,12 +162,6 @@ bool ParameterCovariance::HasGaugePlaces() const {
                      });
 }
 
-double ParameterCovariance::SmallestEigenvalue() const {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(correlations,
-                                                        Eigen::EigenvaluesOnly)
-      .eigenvalues()[0];
-}
-
 Eigen::MatrixXd ParameterCovariance::Factor() const {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlations);
   return std.asDiagonal() * eigen.eigenvectors() *
@@ -187,6 +181,7 @@ ParameterCovariance InOrderOf(const Finger& finger,
   }
   ordered.std = covariance.std(order);
   ordered.correlations = covariance.correlations(order, order);
+  ordered.discrepancy = covariance.discrepancy;
   return ordered;
 }
 

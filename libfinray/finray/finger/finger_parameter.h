@@ -2,8 +2,11 @@
 #define FINRAY_FINGER_FINGER_PARAMETER_H_
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "finray/finger/gauge_discrepancy.h"
 
 namespace finray {
 
@@ -71,20 +74,16 @@ void SetParameter(const FingerParameter& parameter, double value,
 /// in the units of their names. A parameter that is not listed counts as
 /// exactly known.
 struct ParameterCovariance {
-  /// An eigenvalue may be this far below 0, as rounding correlations to six
-  /// digits can make it.
-  static constexpr double kRounding = 1e-6;
-
   std::vector<FingerParameter> parameters;
   Eigen::VectorXd std;
   Eigen::MatrixXd correlations;  ///< Symmetric, 1 on the diagonal.
+  /// What the model misses whatever the parameters are, if it is known.
+  std::optional<GaugeDiscrepancy> discrepancy;
 
   /// The statics effects among the parameters, in their order.
   std::vector<FingerParameter> StaticsEffects() const;
   /// Says whether the start or the length of a gauge is among the parameters.
   bool HasGaugePlaces() const;
-  /// The smallest eigenvalue of the correlations.
-  double SmallestEigenvalue() const;
   /// F with F F' = C. Negative eigenvalues count as 0.
   Eigen::MatrixXd Factor() const;
 };

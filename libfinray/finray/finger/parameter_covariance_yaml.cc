@@ -1,9 +1,9 @@
 #include "finray/finger/parameter_covariance_yaml.h"
 
 #include <algorithm>
-#include <sstream>
 #include <vector>
 
+#include "finray/finger/correlations_yaml.h"
 #include "finray/io/message_text.h"
 #include "finray/io/number_text.h"
 
@@ -32,90 +32,62 @@ std::vector<FingerParameter> ReadParameters(const YamlMap& yaml,
   return parameters;
 }
 
-Eigen::VectorXd ReadStd(const YamlMap& yaml, std::size_t count) {
-  const std::vector<double> std = yaml.Numbers("std");
-  if (std.size() != count) {
-    yaml.Fail("std", "std: expected " + std::to_string(count) +
-                         " numbers, one a parameter, found " +
-                         std::to_string(std.size()));
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    if (std[i] < 0) {
-      yaml.FailIn(
-          "std", {i},
-          "expected a number of at least 0, found " + NumberText(std[i]));
+// Reads the discrepancy for a finger with so many gauges.
+GaugeDiscrepancy ReadDiscrepancy(const YamlMap& yaml, std::size_t gauges) {
+  yaml.AllowOnly({"load_N", "places"});
+  GaugeDiscrepancy discrepancy;
+  discrepancy.load_N = yaml.PositiveNumber("load_N");
+  for (const YamlMap& place : yaml.Maps("places")) {
+    place.AllowOnly({"place_mm", "std_rad", "correlations"});
+    const double at = place.Number("place_mm");
+    if (!discrepancy.places.empty() &&
+        !(at > discrepancy.places.back().place_mm)) {
+      place.Fail("place_mm", "place_mm: expected places from base to tip");
     }
+    const Eigen::VectorXd std = ReadStd(place, "std_rad", gauges, "a gauge");
+    discrepancy.places.push_back(
+        {at, std.asDiagonal() * ReadCorrelations(place, gauges, "a gauge") *
+                 std.asDiagonal()});
   }
-  return Eigen::Map<const Eigen::VectorXd>(std.data(),
-                                           static_cast<Eigen::Index>(count));
+  if (discrepancy.places.empty()) {
+    yaml.Fail("places", "places: expected at least one");
+  }
+  return discrepancy;
 }
 
-// The lower triangle, diagonal included.
-Eigen::MatrixXd ReadCorrelations(const YamlMap& yaml, std::size_t count) {
-  const auto n = static_cast<Eigen::Index>(count);
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(n, n);
-  if (!yaml.Has("correlations")) return matrix;
-  const auto rows = yaml.NumberRows("correlations");
-  if (rows.size() != count) {
-    yaml.Fail("correlations", "correlations: expected " +
-                                  std::to_string(count) +
-                                  " rows, one a parameter, found " +
-                                  std::to_string(rows.size()));
+std::string DiscrepancyToYaml(const GaugeDiscrepancy& discrepancy) {
+  std::string yaml = "  discrepancy:\n    load_N: " +
+                     NumberText(discrepancy.load_N) + "\n    places:\n";
+  for (const GaugeDiscrepancy::Place& place : discrepancy.places) {
+    const Eigen::VectorXd std =
+        place.covariance_rad2.diagonal().cwiseMax(0).cwiseSqrt();
+    const Eigen::VectorXd scale =
+        (std.array() > 0).select(std.cwiseInverse(), 0.0);
+    Eigen::MatrixXd correlations =
+        scale.asDiagonal() * place.covariance_rad2 * scale.asDiagonal();
+    correlations = correlations.cwiseMax(-1).cwiseMin(1);
+    correlations.diagonal().setOnes();
+    yaml += "      - place_mm: " + NumberText(place.place_mm) +
+            "\n        std_rad: " + NumberList(std) +
+            "\n        correlations:\n" +
+            CorrelationRows(correlations, "          ");
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    if (rows[i].size() != i + 1) {
-      yaml.FailIn("correlations", {i},
-                  "expected " + std::to_string(i + 1) +
-                      " numbers, the lower triangle up to its 1, found " +
-                      std::to_string(rows[i].size()));
-    }
-    for (std::size_t j = 0; j <= i; ++j) {
-      const double value = rows[i][j];
-      if (i == j && value != 1) {
-        yaml.FailIn("correlations", {i, j},
-                    "expected 1 on the diagonal, found " + NumberText(value));
-      }
-      if (!(value >= -1 && value <= 1)) {
-        yaml.FailIn(
-            "correlations", {i, j},
-            "expected a number from -1 to 1, found " + NumberText(value));
-      }
-      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          matrix(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(i)) =
-              value;
-    }
-  }
-  return matrix;
-}
-
-// [a, b, ...]
-std::string List(const std::vector<std::string>& items) {
-  return "[" + Joined(items) + "]";
-}
-
-template <class Numbers>
-std::string NumberList(const Numbers& numbers) {
-  std::vector<std::string> texts;
-  for (const double number : numbers) texts.push_back(NumberText(number));
-  return List(texts);
+  return yaml;
 }
 
 }  // namespace
 
 ParameterCovariance ReadParameterCovariance(const YamlMap& yaml,
                                             const Finger& finger) {
-  yaml.AllowOnly({"parameters", "std", "correlations"});
+  yaml.AllowOnly({"parameters", "std", "correlations", "discrepancy"});
   ParameterCovariance covariance;
   covariance.parameters = ReadParameters(yaml, finger);
-  covariance.std = ReadStd(yaml, covariance.parameters.size());
-  covariance.correlations =
-      ReadCorrelations(yaml, covariance.parameters.size());
-  const double smallest = covariance.SmallestEigenvalue();
-  if (smallest < -ParameterCovariance::kRounding) {
-    yaml.Fail("correlations",
-              "correlations: contradict each other: expected no eigenvalue "
-              "below 0, found " +
-                  NumberText(smallest));
+  const std::size_t count = covariance.parameters.size();
+  covariance.std = ReadStd(yaml, "std", count, "a parameter");
+  covariance.correlations = ReadCorrelations(yaml, count, "a parameter");
+  if (yaml.Has("discrepancy")) {
+    covariance.discrepancy =
+        ReadDiscrepancy(yaml.Map("discrepancy"), finger.gauges.size());
   }
   return covariance;
 }
@@ -125,16 +97,14 @@ std::string ParameterCovarianceToYaml(const ParameterCovariance& covariance) {
   for (const FingerParameter& one : covariance.parameters) {
     names.push_back(ParameterName(one));
   }
-  std::ostringstream yaml;
-  yaml << "calibration:\n"
-       << "  parameters: " << List(names) << "\n"
-       << "  std: " << NumberList(covariance.std) << "\n"
-       << "  correlations:\n";
-  for (Eigen::Index i = 0; i < covariance.std.size(); ++i) {
-    yaml << "    - " << NumberList(covariance.correlations.row(i).head(i + 1))
-         << "\n";
+  std::string yaml = "calibration:\n  parameters: [" + Joined(names) +
+                     "]\n  std: " + NumberList(covariance.std) +
+                     "\n  correlations:\n" +
+                     CorrelationRows(covariance.correlations, "    ");
+  if (covariance.discrepancy) {
+    yaml += DiscrepancyToYaml(*covariance.discrepancy);
   }
-  return yaml.str();
+  return yaml;
 }
 
 }  // namespace finray

@@ -13,6 +13,9 @@ namespace finray {
 //   parameters: [front_stiffness_N_mm2, gauge_1_gain_V_per_rad]
 //   std: [95.5, 0.004]
 //   correlations: [[1], [0.2, 1]]      # lower triangle; left out: all 0
+//   discrepancy:                       # may be left out
+//     load_N: 1
+//     places: [{place_mm: 70, std_rad: [2e-4], correlations: [[1]]}]
 
 /// Reads the block for a finger whose ribs and gauges are known. Throws
 /// InputError for a parameter that the finger does not have or that appears

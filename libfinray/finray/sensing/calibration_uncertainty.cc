@@ -47,7 +47,9 @@ CalibrationUncertainty::Model::Model(const Finger& finger, double friction,
       slope(table.rows(), 2),
       by_measured(2, table.rows()),
       by_parameter(2, factor.rows()),
-      by_factor(2, factor.cols()) {}
+      by_factor(2, factor.cols()),
+      discrepancy(finger.gauges.size(), finger.gauges.size()),
+      by_discrepancy(2, finger.gauges.size()) {}
 
 CalibrationUncertainty::CalibrationUncertainty(
     const Finger& finger, double friction, EquilibriumSolver* solver,
@@ -80,26 +82,56 @@ ContactMatrix CalibrationUncertainty::Of(
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     // Converts the row from ln f_c to f_c.
     m.by_factor.row(2 * static_cast<int>(c) + 1) *= contacts[c].normal_N;
+    m.by_measured.row(2 * static_cast<int>(c) + 1) *= contacts[c].normal_N;
   }
   covariance.noalias() = m.by_factor.lazyProduct(m.by_factor.transpose());
+  if (has_discrepancy()) {
+    FindDiscrepancy(contacts);
+    const auto by_angle = m.by_measured.leftCols(m.discrepancy.rows());
+    m.by_discrepancy.noalias() = by_angle.lazyProduct(m.discrepancy);
+    covariance.noalias() += m.by_discrepancy.lazyProduct(by_angle.transpose());
+  }
   return covariance;
 }
 
 double CalibrationUncertainty::Chi2(const std::vector<PointContact>& contacts,
                                     const std::vector<double>& readings_V,
                                     const Eigen::VectorXd& weights) {
+  const auto at = ErrorsAt(contacts, readings_V, weights);
+  if (!at) return std::numeric_limits<double>::infinity();
+  const Eigen::Index gauges = at->error.size();
+  const auto w = weights.head(gauges).asDiagonal();
+  const Eigen::MatrixXd error = w * at->by_factor;
+  Eigen::MatrixXd covariance =
+      Eigen::MatrixXd::Identity(gauges, gauges) + error * error.transpose();
+  if (has_discrepancy()) {
+    FindDiscrepancy(contacts);
+    covariance += w * model_->discrepancy * w;
+  }
+  const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+  const Eigen::MatrixXd slope =
+      root.matrixL().solve(Eigen::MatrixXd(w * at->by_contact));
+  const Eigen::VectorXd whitened =
+      root.matrixL().solve(Eigen::VectorXd(w * at->error));
+  return (whitened - slope * slope.colPivHouseholderQr().solve(whitened))
+      .squaredNorm();
+}
+
+std::optional<CalibrationUncertainty::GaugeErrors>
+CalibrationUncertainty::ErrorsAt(const std::vector<PointContact>& contacts,
+                                 const std::vector<double>& readings_V,
+                                 const Eigen::VectorXd& weights) {
   Model& m = *model_;
   const auto unknowns = 2 * static_cast<Eigen::Index>(contacts.size());
   m.solver.Reset();
-  if (!m.solver.SolveWithSensitivities(contacts)) {
-    return std::numeric_limits<double>::infinity();
-  }
+  if (!m.solver.SolveWithSensitivities(contacts)) return {};
   ReadSensitivities(m.solver, contacts, std::nullopt, m.gauge_places,
                     &m.derivatives);
   const Eigen::Index gauges = m.derivatives.rows();
   const std::vector<FingerParameter>& parameters =
       m.finger.calibration->parameters;
-  Eigen::VectorXd residuals = Eigen::VectorXd::Zero(gauges);
+  GaugeErrors at;
+  at.error = Eigen::VectorXd::Zero(gauges);
   Eigen::MatrixXd by_parameter = Eigen::MatrixXd::Zero(
       gauges, static_cast<Eigen::Index>(parameters.size()));
   Eigen::Index effect = unknowns + 2 + m.solver.model().ribs();
@@ -139,18 +171,27 @@ double CalibrationUncertainty::Chi2(const std::vector<PointContact>& contacts,
   for (Eigen::Index j = 0; j < gauges; ++j) {
     if (weights[j] == 0) continue;
     const auto i = static_cast<std::size_t>(j);
-    residuals[j] = weights[j] * (m.solver.outputs()[j] -
-                                 m.finger.gauges[i].Angle(readings_V[i]));
+    at.error[j] =
+        m.solver.outputs()[j] - m.finger.gauges[i].Angle(readings_V[i]);
   }
-  const Eigen::MatrixXd error =
-      weights.head(gauges).asDiagonal() * by_parameter * m.factor;
-  const Eigen::LLT<Eigen::MatrixXd> covariance(
-      Eigen::MatrixXd::Identity(gauges, gauges) + error * error.transpose());
-  const Eigen::MatrixXd slope = covariance.matrixL().solve(
-      weights.head(gauges).asDiagonal() * m.derivatives.leftCols(unknowns));
-  const Eigen::VectorXd whitened = covariance.matrixL().solve(residuals);
-  return (whitened - slope * slope.colPivHouseholderQr().solve(whitened))
-      .squaredNorm();
+  at.by_contact = m.derivatives.leftCols(unknowns);
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    // Converts the column from ln f_c to f_c.
+    if (contacts[c].normal_N == 0) continue;
+    at.by_contact.col(2 * static_cast<int>(c) + 1) /= contacts[c].normal_N;
+  }
+  at.by_factor = by_parameter * m.factor;
+  return at;
+}
+
+void CalibrationUncertainty::FindDiscrepancy(
+    const std::vector<PointContact>& contacts) {
+  Model& m = *model_;
+  m.discrepancy.setZero();
+  for (const PointContact& contact : contacts) {
+    m.finger.calibration->discrepancy->AddTo(contact.arc_mm, contact.normal_N,
+                                             &m.discrepancy);
+  }
 }
 
 bool CalibrationUncertainty::FindDerivatives(

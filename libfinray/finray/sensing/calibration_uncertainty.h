@@ -27,6 +27,9 @@ namespace finray {
 /// constant counts as known. A measured circle's centre adds two rows to r,
 /// which also depend on stiffness and rib lengths.
 ///
+/// What the model misses otherwise, the finger's `discrepancy` S of the gauge
+/// angles, adds (J'WJ)^-1 J'W S W J (J'WJ)^-1 to C_sys.
+///
 /// An estimate's covariance is C_sys plus that of the noise, (J'WJ)^-1. Noise
 /// differs from frame to frame, while parameter errors are the same in all
 /// frames. Averaging frames therefore does not reduce C_sys.
@@ -60,7 +63,8 @@ class CalibrationUncertainty {
   /// The least chi2 of as many contacts near a solution, with parameters that
   /// may be off as the calibration says. Linear in both,
   ///
-  ///   min over x of (r + J x)' (W^-1 + D C_pp D')^-1 (r + J x),   D = dr/dp,
+  ///   min over x of (r + J x)' (W^-1 + D C_pp D' + S)^-1 (r + J x),
+  ///   D = dr/dp,
   ///
   /// where r are the residuals of the gauge angles in rad. Infinite without an
   /// equilibrium. It solves one and allocates; use it for rare frames only, and
@@ -68,6 +72,21 @@ class CalibrationUncertainty {
   double Chi2(const std::vector<PointContact>& contacts,
               const std::vector<double>& readings_V,
               const Eigen::VectorXd& weights);
+
+  /// The gauge angles at a solution, in rad.
+  struct GaugeErrors {
+    Eigen::VectorXd error;       ///< r, predicted less read; 0 without reading.
+    Eigen::MatrixXd by_contact;  ///< J, by l_c and f_c of each contact.
+    Eigen::MatrixXd by_factor;   ///< D F with F F' = C_pp.
+  };
+  /// Empty without an equilibrium. As Chi2, for rare frames only.
+  std::optional<GaugeErrors> ErrorsAt(const std::vector<PointContact>& contacts,
+                                      const std::vector<double>& readings_V,
+                                      const Eigen::VectorXd& weights);
+  /// Says whether the finger has a discrepancy.
+  bool has_discrepancy() const {
+    return model_ && model_->finger.calibration->discrepancy.has_value();
+  }
 
  private:
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
@@ -86,9 +105,13 @@ class CalibrationUncertainty {
     // J'W; dx/dp; dx/dp times the factor.
     Eigen::MatrixXd derivatives, slope;
     Rows by_measured, by_parameter, by_factor;
+    // S at the contacts; dx/d(angles) times S.
+    Eigen::MatrixXd discrepancy;
+    Rows by_discrepancy;
   };
 
   bool FindDerivatives(const std::vector<PointContact>& contacts);
+  void FindDiscrepancy(const std::vector<PointContact>& contacts);
   void FillByParameter(int unknowns, const std::vector<double>& readings_V,
                        const Eigen::VectorXd& weights);
 

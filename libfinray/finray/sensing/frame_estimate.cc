@@ -24,10 +24,12 @@ const char* StatusName(FrameStatus status) {
   return "";
 }
 
-double FrameEstimate::p_value() const { return ChiSquaredTail(chi2, dof); }
+double FrameEstimate::p_value() const {
+  return ChiSquaredTail(explained_chi2(), dof);
+}
 
 double FrameEstimate::noise_scale() const {
-  return p_value() < kUnexplained ? std::sqrt(chi2 / dof) : 1;
+  return p_value() < kUnexplained ? std::sqrt(explained_chi2() / dof) : 1;
 }
 
 void FrameEstimate::SetIntervals(double length_mm) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -66,6 +67,10 @@ struct FrameEstimate {
   /// the number of unknowns.
   double chi2 = std::numeric_limits<double>::quiet_NaN();
   int dof = 0;
+  /// Where noise alone does not explain the frame and the finger has a
+  /// discrepancy: the chi2 that errors of the calibration and the discrepancy
+  /// leave (CalibrationUncertainty::Chi2). NaN elsewhere.
+  double model_chi2 = std::numeric_limits<double>::quiet_NaN();
   int iterations = 0;
   /// The scene's search_iteration_limit has ended the search. The frame is then
   /// neither ok nor no_contact: what was left to try may explain it better.
@@ -77,14 +82,19 @@ struct FrameEstimate {
   /// By gauge, where they are estimated too (LogEstimator); else empty.
   std::vector<double> gauge_offset_V, gauge_offset_std_V;
 
-  /// The probability that noise alone makes chi2 as large or larger. NaN
-  /// without degrees of freedom.
+  /// The probability that noise alone makes chi2 as large or larger, or where
+  /// there is a model_chi2, that noise and model errors do. NaN without degrees
+  /// of freedom.
   double p_value() const;
 
-  /// Factor on the noise that the finger declares: sqrt(chi2 / dof) if the
-  /// p-value is below kUnexplained, else 1. Below it the declared noise does
+  /// Factor on the noise that the finger declares: sqrt(chi2 / dof), or that of
+  /// model_chi2, if the p-value is below kUnexplained, else 1. Below it the declared noise does
   /// not explain the frame, and an unknown error of about this size is assumed.
   double noise_scale() const;
+  /// The chi2 of both.
+  double explained_chi2() const {
+    return std::isnan(model_chi2) ? chi2 : model_chi2;
+  }
   static constexpr double kUnexplained = 0.001;
 
   /// Sets the intervals of all contacts from their std and the valley.

@@ -222,6 +222,7 @@ bool FrameEstimator::TakeFollowed(const PackedReadings& packed, std::size_t run,
   estimate->rib_tension_N.assign(fit.rib_tension_N.begin(),
                                  fit.rib_tension_N.end());
   estimate->chi2 = fit.chi2;
+  estimate->model_chi2 = kNaN;
   estimate->dof = static_cast<int>(finger_.gauges.size()) - kUnknowns;
   estimate->iterations = fit.iterations;
   estimate->search_ended = false;
@@ -242,7 +243,7 @@ void FrameEstimator::Automatic(const Measurements& readings,
     if (packed.free_chi2 - search_.best().chi2 < kSignificance) {
       return Free(packed, estimate);
     }
-    one = Found(packed);
+    one = Found(readings, packed);
     if (one.chi2 < kSecondSignificance) return;
   }
   const int needed = 2 * kUnknowns;
@@ -262,7 +263,7 @@ void FrameEstimator::Automatic(const Measurements& readings,
       one.contacts == 1 ? one.chi2 : packed.free_chi2 - kSignificance;
   if (without - two.chi2 < kSecondSignificance) return;
   if (one.contacts == 1 && !IsSecondCertain(readings, packed, one)) return;
-  *estimate = Found(packed);
+  *estimate = Found(readings, packed);
   estimate->iterations += before;
 }
 
@@ -297,7 +298,7 @@ void FrameEstimator::WithContacts(const Measurements& readings,
       return WithContacts(readings, packed, contacts - 1, estimate);
     }
   }
-  *estimate = Found(packed);
+  *estimate = Found(readings, packed);
 }
 
 // Copies into the memory of the estimate: most frames of a log are free.
@@ -315,7 +316,8 @@ FrameEstimate FrameEstimator::Unsolved(FrameStatus status) const {
   return estimate;
 }
 
-FrameEstimate FrameEstimator::Found(const PackedReadings& packed) const {
+FrameEstimate FrameEstimator::Found(const Measurements& readings,
+                                    const PackedReadings& packed) {
   const ContactSolution& best = search_.best();
   FrameEstimate estimate;
   estimate.contacts = best.count;
@@ -329,6 +331,7 @@ FrameEstimate FrameEstimator::Found(const PackedReadings& packed) const {
   const ContactMatrix covariance = CovarianceOf(best.information);
   estimate.noise_covariance = covariance;
   estimate.calibration_covariance = best.systematic;
+  ExplainByModelErrors(readings, packed, &estimate);
   const double scale = estimate.noise_scale();
   for (int c = 0; c < best.count; ++c) {
     ContactEstimate& contact = estimate.contact[c];
@@ -346,6 +349,24 @@ FrameEstimate FrameEstimator::Found(const PackedReadings& packed) const {
     estimate.alternative_chi2 = rival->chi2;
   }
   return estimate;
+}
+
+// Rare only for a finger whose discrepancy is small: it solves an equilibrium.
+void FrameEstimator::ExplainByModelErrors(const Measurements& readings,
+                                          const PackedReadings& packed,
+                                          FrameEstimate* estimate) {
+  if (!systematic_.has_discrepancy() || packed.all > packed.gauges ||
+      !(estimate->p_value() < FrameEstimate::kUnexplained)) {
+    return;
+  }
+  contacts_.clear();
+  for (int c = 0; c < estimate->contacts; ++c) {
+    contacts_.push_back({estimate->contact[c].arc_mm,
+                         estimate->contact[c].normal_N,
+                         scene_.friction_coefficient});
+  }
+  estimate->model_chi2 =
+      systematic_.Chi2(contacts_, readings.gauges_V, packed.weights);
 }
 
 void FrameEstimator::Judge(const Measurements& readings,

@@ -119,7 +119,11 @@ class FrameEstimator {
                     int contacts, FrameEstimate* estimate);
   void Free(const PackedReadings& packed, FrameEstimate* estimate) const;
   FrameEstimate Unsolved(FrameStatus status) const;
-  FrameEstimate Found(const PackedReadings& packed) const;
+  FrameEstimate Found(const Measurements& readings,
+                      const PackedReadings& packed);
+  void ExplainByModelErrors(const Measurements& readings,
+                            const PackedReadings& packed,
+                            FrameEstimate* estimate);
   // Adds the uncertainty of the calibration to the std of an estimate with
   // contacts, and sets its status to ok or unobservable.
   void Judge(const Measurements& readings, const PackedReadings& packed,

@@ -224,7 +224,7 @@ bool FrameProblem::Read(const ContactStart& start, const FrameEvaluation& frame,
       std::max<Eigen::Index>(0, r.rows() - size + 2 * count), 2 * count);
   solution->information = root.transpose() * root;
   if (calibration_factor_.size() > 0) {
-    solution->systematic = Systematic(rows.jacobian, count);
+    solution->systematic = Systematic(rows.jacobian, *solution);
   }
   return true;
 }
@@ -232,8 +232,10 @@ bool FrameProblem::Read(const ContactStart& start, const FrameEvaluation& frame,
 // dx/dp = -(E'E)^-1 E'C, with E the derivatives of all blocks by the unknowns
 // and C those by the parameters. Then C_sys = (dx/dp) C_pp (dx/dp)' as in
 // CalibrationUncertainty.
+// The discrepancy acts as offsets do, as gauges with a slope see an angle.
 ContactMatrix FrameProblem::Systematic(const Eigen::MatrixXd& by_unknown,
-                                       int contacts) {
+                                       const ContactSolution& at) {
+  const int contacts = at.count;
   SharedParameters& shared = *parameters_.shared();
   const auto& parameters = finger_.calibration->parameters;
   const auto count = static_cast<Eigen::Index>(parameters.size());
@@ -304,11 +306,27 @@ ContactMatrix FrameProblem::Systematic(const Eigen::MatrixXd& by_unknown,
         break;
     }
   }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(by_unknown);
   const Eigen::MatrixXd by_factor =
-      Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(by_unknown)
-          .solve(by_parameter * calibration_factor_)
-          .bottomRows(2 * contacts);
-  return by_factor * by_factor.transpose();
+      qr.solve(by_parameter * calibration_factor_).bottomRows(2 * contacts);
+  ContactMatrix systematic = by_factor * by_factor.transpose();
+  if (finger_.calibration->discrepancy) {
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(gauges, gauges);
+    Eigen::MatrixXd by_angle(rows.jacobian.rows(), gauges);
+    for (int c = 0; c < contacts; ++c) {
+      finger_.calibration->discrepancy->AddTo(
+          at.contacts[c].arc_mm, at.contacts[c].normal_N, &covariance);
+    }
+    for (int j = 0; j < gauges; ++j) {
+      const Gauge& gauge = finger_.gauges[static_cast<std::size_t>(j)];
+      by_angle.col(j) = gauge.Slope(frames_[0].outputs()[j]) *
+                        rows.jacobian.col(of_gauge(j, 1));
+    }
+    const Eigen::MatrixXd by_error =
+        qr.solve(by_angle).bottomRows(2 * contacts);
+    systematic += by_error * covariance * by_error.transpose();
+  }
+  return systematic;
 }
 
 double FrameProblem::FreeChi2(const Measurements& row) {

@@ -54,7 +54,8 @@ class FrameProblem {
   bool Solve();
   bool Read(const ContactStart& start, const FrameEvaluation& frame,
             ContactSolution* solution);
-  ContactMatrix Systematic(const Eigen::MatrixXd& by_unknown, int contacts);
+  ContactMatrix Systematic(const Eigen::MatrixXd& by_unknown,
+                           const ContactSolution& at);
 
   Finger finger_;
   MeasurementModel model_;

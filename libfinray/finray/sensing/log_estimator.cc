@@ -250,14 +250,19 @@ void LogEstimator::JudgeContact(const LogFrame& frame,
                                 FrameEstimate* estimate) {
   const std::vector<PointContact> contacts = {
       {frame.arc_mm, frame.normal_N, scene_.friction_coefficient}};
+  std::vector<double> readings_V = frame.row.gauges_V;
+  for (std::size_t j = 0; j < readings_V.size(); ++j) {
+    readings_V[j] += finger_.gauges[j].offset_V -
+                     frame.offset_V[static_cast<Eigen::Index>(j)];
+  }
+  if (systematic_.has_discrepancy() && packed.all == packed.gauges &&
+      estimate->p_value() < FrameEstimate::kUnexplained) {
+    estimate->model_chi2 =
+        systematic_.Chi2(contacts, readings_V, packed.weights);
+  }
   const double scale = estimate->noise_scale();
   frame.CopyTo(scale * scale * marginal.covariance, estimate);
   if (!systematic_.empty()) {
-    std::vector<double> readings_V = frame.row.gauges_V;
-    for (std::size_t j = 0; j < readings_V.size(); ++j) {
-      readings_V[j] += finger_.gauges[j].offset_V -
-                       frame.offset_V[static_cast<Eigen::Index>(j)];
-    }
     FrameEstimator::AddCovariance(
         systematic_.Of(contacts, readings_V, packed.weights), estimate);
   }

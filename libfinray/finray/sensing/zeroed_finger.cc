@@ -92,6 +92,7 @@ void RenewCovariance(const Discretization& discretization,
       (renewed.std.array() > 0).select(renewed.std.cwiseInverse(), 0.0);
   renewed.correlations = scale.asDiagonal() * covariance * scale.asDiagonal();
   renewed.correlations.diagonal().setOnes();
+  renewed.discrepancy = old.discrepancy;
   finger->calibration = InOrderOf(*finger, renewed);
 }
 

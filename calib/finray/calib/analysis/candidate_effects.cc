@@ -36,7 +36,7 @@ const std::vector<CandidateEffect>& AllCandidateEffects() {
       {Family::kGaugeCreepShare, 0.1, "gauges that creep"},
       {Family::kGaugeCreepTime, 50, "another time constant of creep"},
       {Family::kHingeStiffness, 20, "hinges that resist"},
-      {Family::kFrontPiece, 5, "a stiffness that changes along the beams"},
+      {Family::kFrontPiece, 3, "a stiffness that changes along the beams"},
       {Family::kObjectOrigin, 0.5, "a shifted stage"},
       {Family::kObjectRotation, 1, "a turned stage"},
       {Family::kObjectScale, 1, "a stage of another scale"},

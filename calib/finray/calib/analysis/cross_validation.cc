@@ -78,6 +78,25 @@ LeftOut LeaveFoldOut(const CalibrationProblem& problem,
   return left;
 }
 
+LeftOutFinger::LeftOutFinger(const CalibrationProblem& problem,
+                             const Identifiability& found,
+                             const WideLinearization& wide, int fold,
+                             const std::vector<int>& frames)
+    : part(problem.Part(frames, problem.threads())) {
+  const LeftOut left = LeaveFoldOut(problem, wide, fold);
+  part->SetValues(left.values);
+  Identifiability known = found;
+  known.covariance = left.covariance;
+  const Eigen::VectorXd std = left.covariance.diagonal().cwiseSqrt();
+  known.correlation = left.covariance.cwiseQuotient(std * std.transpose());
+  for (std::size_t k = 0; k < known.bounded_std.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    known.bounded_std[k] *= std[at] / std::sqrt(found.covariance(at, at));
+  }
+  finger = part->parameters().Apply(problem.finger());
+  KeepCovariance(part->parameters(), known, &finger);
+}
+
 double CrossValidatedLogLikelihood(const CalibrationProblem& problem,
                                    const WideLinearization& wide) {
   double sum = 0;
@@ -106,22 +125,11 @@ CrossValidation CrossValidate(const CalibrationProblem& problem,
       if (!problem.frame(i).IsBench()) frames.push_back(i);
     }
     if (frames.empty()) continue;
-    const LeftOut left = LeaveFoldOut(problem, wide, fold);
-    const auto part = problem.Part(frames, problem.threads());
-    part->SetValues(left.values);
-    Identifiability known = found;
-    known.covariance = left.covariance;
-    const Eigen::VectorXd std = left.covariance.diagonal().cwiseSqrt();
-    known.correlation = left.covariance.cwiseQuotient(std * std.transpose());
-    for (std::size_t k = 0; k < known.bounded_std.size(); ++k) {
-      const auto at = static_cast<Eigen::Index>(k);
-      known.bounded_std[k] *= std[at] / std::sqrt(found.covariance(at, at));
-    }
-    Finger finger = part->parameters().Apply(problem.finger());
-    KeepCovariance(part->parameters(), known, &finger);
-    const SensedFrames sensed = SenseFrames(part.get(), finger, frames, false);
+    const LeftOutFinger without(problem, found, wide, fold, frames);
+    const SensedFrames sensed =
+        SenseFrames(without.part.get(), without.finger, frames, false);
     for (std::size_t k = 0; k < frames.size(); ++k) {
-      sensed.AddTo(&result.errors, k, part->parameters().friction());
+      sensed.AddTo(&result.errors, k, without.part->parameters().friction());
     }
     ++result.folds;
   }

@@ -2,6 +2,8 @@
 #define FINRAY_CALIB_ANALYSIS_CROSS_VALIDATION_H_
 
 #include <Eigen/Core>
+#include <memory>
+#include <vector>
 
 #include "finray/calib/analysis/error_table.h"
 #include "finray/calib/analysis/identifiability.h"
@@ -28,6 +30,17 @@ struct LeftOut {
 };
 LeftOut LeaveFoldOut(const CalibrationProblem& problem,
                      const WideLinearization& wide, int fold);
+
+/// The finger that all folds but one calibrate, with its covariance, and the
+/// problem of some frames of that fold at its values.
+struct LeftOutFinger {
+  LeftOutFinger(const CalibrationProblem& problem, const Identifiability& found,
+                const WideLinearization& wide, int fold,
+                const std::vector<int>& frames);
+
+  std::unique_ptr<CalibrationProblem> part;
+  Finger finger;
+};
 
 /// The sum of the folds' log_likelihood. Of two plans for the same frames the
 /// one with the larger sum predicts frames better that it has not seen.

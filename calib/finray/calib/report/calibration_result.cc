@@ -287,10 +287,15 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
       result.cross_validation =
           CrossValidate(*problem, result.identifiability, wide);
     }
+    result.discrepancy = FitDiscrepancy(HeldOutGaugeErrors(
+        *problem, result.solution, result.identifiability, wide));
   }
   problem->Tell("check of forces and contacts");
   result.finger = problem->parameters().Apply(problem->finger());
   KeepCovariance(problem->parameters(), result.identifiability, &result.finger);
+  if (result.finger.calibration) {
+    result.finger.calibration->discrepancy = result.discrepancy;
+  }
   result.forces = CheckForces(problem, result.finger);
   result.bench =
       TestBenchLinearity(problem->finger(), problem->plan(), problem->logs());

@@ -7,6 +7,7 @@
 
 #include "finray/calib/analysis/bench_linearity.h"
 #include "finray/calib/analysis/cross_validation.h"
+#include "finray/calib/analysis/discrepancy.h"
 #include "finray/calib/analysis/free_scatter.h"
 #include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/analysis/leave_one_log_out.h"
@@ -36,6 +37,8 @@ struct CalibrationResult {
   ScoreTest score;  ///< Which fixed effect the residuals look like.
   /// Done if the plan holds nothing out.
   CrossValidation cross_validation;
+  /// What the model still misses, also in `finger`; empty if it shows nothing.
+  std::optional<GaugeDiscrepancy> discrepancy;
   /// Why the result is doubtful, in words (doubts.h).
   std::vector<std::string> doubts;
   Finger finger;  ///< The calibrated finger.

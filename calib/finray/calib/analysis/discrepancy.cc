@@ -1,0 +1,206 @@
+#include "finray/calib/analysis/discrepancy.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "finray/calib/analysis/cross_validation.h"
+#include "finray/calib/analysis/validation.h"
+#include "finray/io/number_text.h"
+#include "finray/sensing/calibration_uncertainty.h"
+
+namespace finray {
+namespace {
+
+// The loads and the numbers of places that are tried.
+constexpr double kLoads_N[] = {0.3, 1, 3, 10, 100};
+constexpr int kPlaces[] = {1, 3, 5};
+// A model has as many numbers as its criterion charges; fewer errors than this
+// for each of them say nothing.
+constexpr double kLeastErrors = 2;
+constexpr int kRounds = 50;
+
+struct Model {
+  GaugeDiscrepancy discrepancy;
+  double log_likelihood = -std::numeric_limits<double>::infinity();
+};
+
+// -2 of it is ln det C + e' C^-1 e.
+double LogLikelihood(const GaugeError& at, const Eigen::MatrixXd& covariance) {
+  const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+  const Eigen::MatrixXd l = root.matrixL();
+  return -l.diagonal().array().log().sum() -
+         0.5 * root.matrixL().solve(at.error_rad).squaredNorm();
+}
+
+double LogLikelihood(const std::vector<GaugeError>& errors,
+                     const GaugeDiscrepancy* discrepancy) {
+  double sum = 0;
+  for (const GaugeError& at : errors) {
+    Eigen::MatrixXd covariance = at.expected;
+    if (discrepancy != nullptr) {
+      discrepancy->AddTo(at.place_mm, at.force_N, &covariance);
+    }
+    sum += LogLikelihood(at, covariance);
+  }
+  return sum;
+}
+
+// The places are the middles of as many lengths with equally many errors.
+Model Fit(const std::vector<GaugeError>& errors, double load_N, int places) {
+  Model model;
+  model.discrepancy.load_N = load_N;
+  const std::size_t n = errors.size();
+  for (int p = 0; p < places; ++p) {
+    const std::size_t first = n * p / places, last = n * (p + 1) / places;
+    const auto gauges = errors[0].error_rad.size();
+    const auto size = [&](const GaugeError& at) {
+      return 1 + at.force_N * at.force_N / (load_N * load_N);
+    };
+    double middle = 0;
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(gauges, gauges);
+    for (std::size_t i = first; i < last; ++i) {
+      const GaugeError& at = errors[i];
+      middle += at.place_mm;
+      a += at.error_rad * at.error_rad.transpose() / size(at);
+    }
+    const auto count = static_cast<double>(last - first);
+    a /= count;
+    for (int round = 0; round < kRounds; ++round) {
+      Eigen::MatrixXd next = Eigen::MatrixXd::Zero(gauges, gauges);
+      for (std::size_t i = first; i < last; ++i) {
+        const GaugeError& at = errors[i];
+        const Eigen::MatrixXd s = size(at) * a;
+        // The discrepancy of this frame, given its error.
+        const Eigen::MatrixXd share =
+            Eigen::LLT<Eigen::MatrixXd>(at.expected + s).solve(s).transpose();
+        const Eigen::VectorXd mean = share * at.error_rad;
+        next += (mean * mean.transpose() + s - share * s) / size(at);
+      }
+      a = 0.5 / count * (next + next.transpose());
+    }
+    model.discrepancy.places.push_back({middle / count, a});
+  }
+  model.log_likelihood = LogLikelihood(errors, &model.discrepancy);
+  return model;
+}
+
+}  // namespace
+
+std::vector<GaugeError> HeldOutGaugeErrors(const CalibrationProblem& problem,
+                                           const CalibrationSolution& solution,
+                                           const Identifiability& found,
+                                           const WideLinearization& wide) {
+  std::vector<GaugeError> errors;
+  for (const std::vector<int>& frames : wide.frames) {
+    if (frames.empty()) return errors;
+  }
+  const Plan& plan = problem.plan();
+  for (int fold = 0; fold < WideLinearization::kFolds; ++fold) {
+    std::vector<int> touching;
+    for (const int i : wide.frames[fold]) {
+      const CalibrationFrame& frame = problem.frame(i);
+      if (!frame.IsBench() && frame.contact) touching.push_back(i);
+    }
+    const std::size_t count =
+        std::min(touching.size(), kMostErrors / WideLinearization::kFolds);
+    if (count == 0) continue;
+    std::vector<int> frames;
+    for (std::size_t k = 0; k < count; ++k) {
+      frames.push_back(touching[k * touching.size() / count]);
+    }
+    const LeftOutFinger without(problem, found, wide, fold, frames);
+    if (!without.finger.calibration) return {};
+    CalibrationParameters& parameters = without.part->parameters();
+    CalibrationLogs logs{problem.logs().paths, problem.logs().names, {}};
+    for (const int i : frames) logs.frames.push_back(problem.frame(i));
+    logs = parameters.Corrected(logs, without.finger);
+    const double friction = parameters.friction();
+    EquilibriumSolver solver(without.finger, problem.discretization());
+    CalibrationUncertainty uncertainty(without.finger, friction, &solver);
+    const auto gauges =
+        static_cast<Eigen::Index>(without.finger.gauges.size());
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+      const CalibrationFrame& frame = logs.frames[k];
+      const auto [arc_mm, fitted_N] = solution.contacts[frames[k]];
+      const double measured_N =
+          ReferenceForce(frame) / std::hypot(1, friction);
+      const bool sensed = std::isfinite(measured_N);
+      const double normal_N = sensed ? measured_N : fitted_N;
+      if (!(normal_N > 0) || std::isnan(arc_mm)) continue;
+      Eigen::VectorXd noise(gauges), weights(gauges);
+      bool all = true;
+      for (Eigen::Index j = 0; j < gauges; ++j) {
+        const Gauge& gauge = without.finger.gauges[j];
+        all &= gauge.IsMeasured(frame.gauges_V[j]);
+        weights[j] = gauge.AngleWeight(gauge.Angle(frame.gauges_V[j]));
+        noise[j] = 1 / weights[j];
+      }
+      if (!all) continue;
+      const auto at = uncertainty.ErrorsAt({{arc_mm, normal_N, friction}},
+                                           frame.gauges_V, weights);
+      if (!at) continue;
+      Eigen::Vector2d reference(0, sensed ? plan.force_std_N : 0);
+      if (std::isfinite(frame.contact_mm)) {
+        reference[0] = plan.contact_std_mm;
+      } else if (frame.object_mm.allFinite()) {
+        reference[0] = plan.object_std_mm;
+      }
+      const Eigen::MatrixXd by_reference =
+          at->by_contact * reference.asDiagonal();
+      GaugeError error{arc_mm, normal_N, at->error,
+                       at->by_factor * at->by_factor.transpose() +
+                           by_reference * by_reference.transpose()};
+      error.expected.diagonal() += noise.cwiseAbs2();
+      errors.push_back(std::move(error));
+    }
+  }
+  return errors;
+}
+
+std::optional<GaugeDiscrepancy> FitDiscrepancy(
+    const std::vector<GaugeError>& all) {
+  std::vector<GaugeError> errors = all;
+  std::stable_sort(
+      errors.begin(), errors.end(),
+      [](const auto& a, const auto& b) { return a.place_mm < b.place_mm; });
+  if (errors.empty()) return {};
+  const auto gauges = static_cast<double>(errors[0].error_rad.size());
+  const auto n = static_cast<double>(errors.size());
+  std::optional<GaugeDiscrepancy> best;
+  double best_criterion = -2 * LogLikelihood(errors, nullptr);
+  for (const int places : kPlaces) {
+    const double numbers = 1 + places * gauges * (gauges + 1) / 2;
+    if (n * gauges < kLeastErrors * numbers) break;
+    // What depends on the place shows without it, too.
+    if (places > kPlaces[0] && !best) break;
+    for (const double load_N : kLoads_N) {
+      const Model model = Fit(errors, load_N, places);
+      const double criterion =
+          -2 * model.log_likelihood + numbers * std::log(n);
+      if (criterion >= best_criterion) continue;
+      best_criterion = criterion;
+      best = model.discrepancy;
+    }
+  }
+  return best;
+}
+
+std::string WordsOf(const GaugeDiscrepancy& discrepancy) {
+  constexpr double force_N = 5;  // as contacts usually have
+  double largest = 0, place = 0;
+  for (const GaugeDiscrepancy::Place& at : discrepancy.places) {
+    const double variance = at.covariance_rad2.diagonal().maxCoeff();
+    if (variance <= largest) continue;
+    largest = variance;
+    place = at.place_mm;
+  }
+  const double load = force_N / discrepancy.load_N;
+  return FormatText("gauges are off by up to %.2g mrad rms under %.2g N at %.0f "
+                    "mm",
+                    1e3 * std::sqrt(largest * (1 + load * load)), force_N,
+                    place);
+}
+
+}  // namespace finray
