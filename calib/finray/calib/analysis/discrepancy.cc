@@ -7,8 +7,11 @@
 
 #include "finray/calib/analysis/cross_validation.h"
 #include "finray/calib/analysis/validation.h"
+#include "finray/calib/solve/contact_store.h"
+#include "finray/calib/solve/frame_pass.h"
 #include "finray/io/number_text.h"
 #include "finray/sensing/calibration_uncertainty.h"
+#include "finray/sensing/chi_squared.h"
 
 namespace finray {
 namespace {
@@ -20,6 +23,9 @@ constexpr int kPlaces[] = {1, 3, 5};
 // for each of them say nothing.
 constexpr double kLeastErrors = 2;
 constexpr int kRounds = 50;
+// A rejected frame counts if errors so many times larger explain it with this
+// probability; else something else was wrong with it.
+constexpr double kWide = 3, kOutlier = 1e-3;
 
 struct Model {
   GaugeDiscrepancy discrepancy;
@@ -86,82 +92,63 @@ Model Fit(const std::vector<GaugeError>& errors, double load_N, int places) {
   return model;
 }
 
-}  // namespace
-
-std::vector<GaugeError> HeldOutGaugeErrors(const CalibrationProblem& problem,
-                                           const CalibrationSolution& solution,
-                                           const Identifiability& found,
-                                           const WideLinearization& wide) {
-  std::vector<GaugeError> errors;
-  for (const std::vector<int>& frames : wide.frames) {
-    if (frames.empty()) return errors;
+// The frames of a problem at its values, which have not seen them.
+void AddErrors(CalibrationProblem* problem, const Finger& finger,
+               const std::vector<int>& frames, const Contacts& contacts,
+               std::vector<GaugeError>* errors) {
+  const Plan& plan = problem->plan();
+  CalibrationLogs logs{problem->logs().paths, problem->logs().names, {}};
+  for (const int i : frames) logs.frames.push_back(problem->frame(i));
+  logs = problem->parameters().Corrected(logs, finger);
+  const double friction = problem->parameters().friction();
+  EquilibriumSolver solver(finger, problem->discretization());
+  CalibrationUncertainty uncertainty(finger, friction, &solver);
+  const auto gauges = static_cast<Eigen::Index>(finger.gauges.size());
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const CalibrationFrame& frame = logs.frames[k];
+    const auto [arc_mm, fitted_N] = contacts[frames[k]];
+    const double measured_N = ReferenceForce(frame) / std::hypot(1, friction);
+    const bool sensed = std::isfinite(measured_N);
+    const double normal_N = sensed ? measured_N : fitted_N;
+    if (!(normal_N > 0) || std::isnan(arc_mm)) continue;
+    Eigen::VectorXd weights(gauges);
+    bool all = true;
+    for (Eigen::Index j = 0; j < gauges; ++j) {
+      const Gauge& gauge = finger.gauges[j];
+      all &= gauge.IsMeasured(frame.gauges_V[j]);
+      weights[j] = gauge.AngleWeight(gauge.Angle(frame.gauges_V[j]));
+    }
+    if (!all) continue;
+    const auto at = uncertainty.ErrorsAt({{arc_mm, normal_N, friction}},
+                                         frame.gauges_V, weights);
+    if (!at) continue;
+    Eigen::Vector2d reference(0, sensed ? plan.force_std_N : 0);
+    if (std::isfinite(frame.contact_mm)) {
+      reference[0] = plan.contact_std_mm;
+    } else if (frame.object_mm.allFinite()) {
+      reference[0] = plan.object_std_mm;
+    }
+    const Eigen::MatrixXd by_reference =
+        at->by_contact * reference.asDiagonal();
+    GaugeError error{arc_mm, normal_N, at->error,
+                     at->by_factor * at->by_factor.transpose() +
+                         by_reference * by_reference.transpose()};
+    error.expected.diagonal() += weights.cwiseInverse().cwiseAbs2();
+    errors->push_back(std::move(error));
   }
-  const Plan& plan = problem.plan();
-  for (int fold = 0; fold < WideLinearization::kFolds; ++fold) {
-    std::vector<int> touching;
-    for (const int i : wide.frames[fold]) {
-      const CalibrationFrame& frame = problem.frame(i);
-      if (!frame.IsBench() && frame.contact) touching.push_back(i);
-    }
-    const std::size_t count =
-        std::min(touching.size(), kMostErrors / WideLinearization::kFolds);
-    if (count == 0) continue;
-    std::vector<int> frames;
-    for (std::size_t k = 0; k < count; ++k) {
-      frames.push_back(touching[k * touching.size() / count]);
-    }
-    const LeftOutFinger without(problem, found, wide, fold, frames);
-    if (!without.finger.calibration) return {};
-    CalibrationParameters& parameters = without.part->parameters();
-    CalibrationLogs logs{problem.logs().paths, problem.logs().names, {}};
-    for (const int i : frames) logs.frames.push_back(problem.frame(i));
-    logs = parameters.Corrected(logs, without.finger);
-    const double friction = parameters.friction();
-    EquilibriumSolver solver(without.finger, problem.discretization());
-    CalibrationUncertainty uncertainty(without.finger, friction, &solver);
-    const auto gauges =
-        static_cast<Eigen::Index>(without.finger.gauges.size());
-    for (std::size_t k = 0; k < frames.size(); ++k) {
-      const CalibrationFrame& frame = logs.frames[k];
-      const auto [arc_mm, fitted_N] = solution.contacts[frames[k]];
-      const double measured_N =
-          ReferenceForce(frame) / std::hypot(1, friction);
-      const bool sensed = std::isfinite(measured_N);
-      const double normal_N = sensed ? measured_N : fitted_N;
-      if (!(normal_N > 0) || std::isnan(arc_mm)) continue;
-      Eigen::VectorXd noise(gauges), weights(gauges);
-      bool all = true;
-      for (Eigen::Index j = 0; j < gauges; ++j) {
-        const Gauge& gauge = without.finger.gauges[j];
-        all &= gauge.IsMeasured(frame.gauges_V[j]);
-        weights[j] = gauge.AngleWeight(gauge.Angle(frame.gauges_V[j]));
-        noise[j] = 1 / weights[j];
-      }
-      if (!all) continue;
-      const auto at = uncertainty.ErrorsAt({{arc_mm, normal_N, friction}},
-                                           frame.gauges_V, weights);
-      if (!at) continue;
-      Eigen::Vector2d reference(0, sensed ? plan.force_std_N : 0);
-      if (std::isfinite(frame.contact_mm)) {
-        reference[0] = plan.contact_std_mm;
-      } else if (frame.object_mm.allFinite()) {
-        reference[0] = plan.object_std_mm;
-      }
-      const Eigen::MatrixXd by_reference =
-          at->by_contact * reference.asDiagonal();
-      GaugeError error{arc_mm, normal_N, at->error,
-                       at->by_factor * at->by_factor.transpose() +
-                           by_reference * by_reference.transpose()};
-      error.expected.diagonal() += noise.cwiseAbs2();
-      errors.push_back(std::move(error));
-    }
-  }
-  return errors;
 }
 
-std::optional<GaugeDiscrepancy> FitDiscrepancy(
-    const std::vector<GaugeError>& all) {
-  std::vector<GaugeError> errors = all;
+std::vector<int> Spread(const std::vector<int>& frames, std::size_t most) {
+  std::vector<int> spread;
+  const std::size_t count = std::min(frames.size(), most);
+  for (std::size_t k = 0; k < count; ++k) {
+    spread.push_back(frames[k * frames.size() / count]);
+  }
+  return spread;
+}
+
+// The model with the best criterion; nothing if that is better without one.
+std::optional<GaugeDiscrepancy> BestFit(std::vector<GaugeError> errors) {
   std::stable_sort(
       errors.begin(), errors.end(),
       [](const auto& a, const auto& b) { return a.place_mm < b.place_mm; });
@@ -185,6 +172,64 @@ std::optional<GaugeDiscrepancy> FitDiscrepancy(
     }
   }
   return best;
+}
+
+}  // namespace
+
+HeldOutErrors GaugeErrorsOf(const CalibrationProblem& problem,
+                            const CalibrationSolution& solution,
+                            const Identifiability& found,
+                            const WideLinearization& wide) {
+  HeldOutErrors errors;
+  for (const std::vector<int>& frames : wide.frames) {
+    if (frames.empty()) return errors;
+  }
+  const auto touches = [&](int i) {
+    return !problem.frame(i).IsBench() && problem.frame(i).contact;
+  };
+  for (int fold = 0; fold < WideLinearization::kFolds; ++fold) {
+    std::vector<int> frames;
+    for (const int i : wide.frames[fold]) {
+      if (touches(i)) frames.push_back(i);
+    }
+    frames = Spread(frames, kMostErrors / WideLinearization::kFolds);
+    if (frames.empty()) continue;
+    const LeftOutFinger without(problem, found, wide, fold, frames);
+    if (!without.finger.calibration) return {};
+    AddErrors(without.part.get(), without.finger, frames, solution.contacts,
+              &errors.fitted);
+  }
+  std::vector<int> rejected;
+  for (const auto& [i, reason] : problem.rejected()) {
+    if (touches(i)) rejected.push_back(i);
+  }
+  rejected = Spread(rejected, kMostErrors);
+  if (rejected.empty()) return errors;
+  const auto part = problem.Part(rejected, problem.threads());
+  Finger finger = part->parameters().Apply(problem.finger());
+  KeepCovariance(part->parameters(), found, &finger);
+  ContactStore contacts(part.get());
+  FitContacts(rejected, part.get(), &contacts,
+              [](int, const LinearizedFrame&) {});
+  AddErrors(part.get(), finger, rejected, contacts.all(), &errors.rejected);
+  return errors;
+}
+
+std::optional<GaugeDiscrepancy> FitDiscrepancy(const HeldOutErrors& errors) {
+  std::optional<GaugeDiscrepancy> found = BestFit(errors.fitted);
+  if (!found) return found;
+  std::vector<GaugeError> all = errors.fitted;
+  for (const GaugeError& at : errors.rejected) {
+    Eigen::MatrixXd wide = Eigen::MatrixXd::Zero(at.expected.rows(),
+                                                 at.expected.cols());
+    found->AddTo(at.place_mm, at.force_N, &wide);
+    wide = kWide * kWide * wide + at.expected;
+    const Eigen::LLT<Eigen::MatrixXd> root(wide);
+    const double chi2 = root.matrixL().solve(at.error_rad).squaredNorm();
+    const auto gauges = static_cast<int>(at.error_rad.size());
+    if (ChiSquaredTail(chi2, gauges) > kOutlier) all.push_back(at);
+  }
+  return all.size() > errors.fitted.size() ? BestFit(all) : found;
 }
 
 std::string WordsOf(const GaugeDiscrepancy& discrepancy) {

@@ -22,22 +22,26 @@ struct GaugeError {
 };
 
 /// The errors of the frames of each fold with the finger that the other folds
-/// calibrate (LeaveFoldOut). The place is that of the solution, which the
-/// object's place decides; the force is that of the sensor where there is one.
-/// It takes kMostErrors frames at most, evenly spread.
-std::vector<GaugeError> HeldOutGaugeErrors(const CalibrationProblem& problem,
-                                           const CalibrationSolution& solution,
-                                           const Identifiability& found,
-                                           const WideLinearization& wide);
+/// calibrate (LeaveFoldOut), and of rejected frames with that of the solution.
+/// The place is that of the solution, which the object's place decides; the
+/// force is that of the sensor where there is one. Of each kind there are
+/// kMostErrors at most, evenly spread.
+struct HeldOutErrors {
+  std::vector<GaugeError> fitted, rejected;
+};
 constexpr std::size_t kMostErrors = 500;
+HeldOutErrors GaugeErrorsOf(const CalibrationProblem& problem,
+                            const CalibrationSolution& solution,
+                            const Identifiability& found,
+                            const WideLinearization& wide);
 
 /// Fits the discrepancy S to errors e_i ~ N(0, N_i + S(l_i, f_i)), N_i the
 /// expected covariance, by expectation and maximisation for several loads and
 /// numbers of places. It returns the one with the best Bayesian information
-/// criterion, or nothing if it is better without. Chance has that effect in
-/// fewer than 1 of 100 clean logs.
-std::optional<GaugeDiscrepancy> FitDiscrepancy(
-    const std::vector<GaugeError>& errors);
+/// criterion, or nothing if it is better without. Where the model is wrong, the
+/// frames that show it most are rejected; so those join that are not far beyond
+/// what the fitted frames show.
+std::optional<GaugeDiscrepancy> FitDiscrepancy(const HeldOutErrors& errors);
 
 /// "gauges are off by up to 1.2 mrad rms under 5 N at 70 mm".
 std::string WordsOf(const GaugeDiscrepancy& discrepancy);

@@ -18,6 +18,10 @@
 namespace finray {
 namespace {
 
+// A solution far from the truth ranks effects by derivatives there, so some
+// more than the first are tried.
+constexpr std::size_t kTried = 4;
+
 // A problem at its solution.
 struct Solved {
   CalibrationProblem* problem;
@@ -81,8 +85,10 @@ Exploration Explore(CalibrationProblem* problem) {
                    AnalyzeIdentifiability(now.problem, now.solution.at), wide);
     if (score.Best() == nullptr) break;
     const double before = CrossValidatedLogLikelihood(*now.problem, wide);
-    std::vector<ScoreTest::Effect> tried = {*score.Best()};
-    tried.insert(tried.end(), score.alike.begin(), score.alike.end());
+    std::vector<ScoreTest::Effect> tried;
+    for (const ScoreTest::Effect& effect : score.effects) {
+      if (effect.significant && tried.size() < kTried) tried.push_back(effect);
+    }
     std::optional<Solved> best;
     std::optional<std::size_t> kept;
     for (const ScoreTest::Effect& effect : tried) {

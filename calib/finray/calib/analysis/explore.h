@@ -24,9 +24,9 @@ struct Exploration {
   Plan plan;  ///< With the kept effects free.
 };
 
-/// Solves, and frees effects one by one. Each time it tries the effect that the
-/// score test finds (ScoreTest::Best) and those that look alike, solves anew,
-/// and keeps the one that predicts unseen frames best, if any predicts them
+/// Solves, and frees effects one by one. Each time it tries the best few of
+/// those that the score test calls significant, solves anew, and keeps the
+/// one that predicts unseen frames best, if any predicts them
 /// better than the plan did. Outliers are judged again after each. It ends when
 /// no effect is significant or none is kept. A clean log frees nothing but by
 /// ScoreTest::kSignificant.
