@@ -10,6 +10,7 @@
 #include "calib/calibrated.h"
 #include "calib/turned_stage.h"
 #include "finray/calib/solve/summed_solve.h"
+#include "finray/finger/geometry.h"
 
 namespace finray {
 namespace {
@@ -30,20 +31,32 @@ double Cost(const Calibrated& at) {
   return SumsWithPriors(at.solution.at, at.problem->parameters()).cost;
 }
 
-// All but the pieces of both beams.
 TEST(ScoreTestTest, EveryFamilyIsACandidate) {
-  std::size_t pieces = 0;
   for (int i = 0; i < kParameterFamilies; ++i) {
-    const auto family = static_cast<ParameterFamily>(i);
-    if (family == ParameterFamily::kFrontPiece ||
-        family == ParameterFamily::kBackPiece) {
-      ++pieces;
-      continue;
-    }
-    EXPECT_GT(CandidateOf(family).prior_std, 0);
+    EXPECT_GT(CandidateOf(static_cast<ParameterFamily>(i)).prior_std, 0);
   }
-  EXPECT_EQ(AllCandidateEffects().size() + pieces,
+  // One key frees the pieces of both beams.
+  EXPECT_EQ(AllCandidateEffects().size() + 1,
             static_cast<std::size_t>(kParameterFamilies));
+}
+
+// 5 % stiffer than on average at the base of both beams, 5 % softer at the tip.
+TEST(ScoreTestTest, BeamsThatTaperAreNamedFirst) {
+  Finger tapered = HiddenFinger();
+  for (auto* pieces : {&tapered.front_pieces, &tapered.back_pieces}) {
+    const Side side =
+        pieces == &tapered.front_pieces ? Side::kFront : Side::kBack;
+    for (int k = 1; k <= 20; ++k) {
+      pieces->push_back(
+          {BeamLength(tapered, side) * k / 20, 1.05 - 0.1 * (k - 0.5) / 20});
+    }
+  }
+  const TempFolder folder;
+  Calibrated calibrated(StandardPlan(), {StandardLog(folder, tapered, 51)});
+  const ScoreTest score = ScoresOf(&calibrated);
+  ASSERT_NE(score.Best(), nullptr);
+  EXPECT_EQ(score.Best()->family, ParameterFamily::kFrontPiece);
+  EXPECT_EQ(score.Best()->values.size(), 8u);
 }
 
 // Readings on cylinders are linear in offsets, so the first order is all.

@@ -80,7 +80,8 @@ TEST(ComplianceTest, CalibrationWidensTheStd) {
   estimator.finger.calibration =
       ParameterCovariance{{{FingerParameterKind::kBackStiffness, 0}},
                           Eigen::VectorXd::Constant(1, 250),
-                          Eigen::MatrixXd::Identity(1, 1)};
+                          Eigen::MatrixXd::Identity(1, 1),
+                          std::nullopt};
   ComplianceSettings settings;
   settings.direction_rad = M_PI;
   settings.most_degree = 1;

@@ -64,7 +64,8 @@ TEST(ReconstructionTest, CalibrationWidensTheBand) {
   finger.calibration =
       ParameterCovariance{{{FingerParameterKind::kBackStiffness, 0}},
                           Eigen::VectorXd::Constant(1, 250),
-                          Eigen::MatrixXd::Identity(1, 1)};
+                          Eigen::MatrixXd::Identity(1, 1),
+                          std::nullopt};
   const Reconstruction known = Touched(circle, false);
   const Reconstruction uncertain = Touched(circle, false, finger);
   Finger moved = finger;

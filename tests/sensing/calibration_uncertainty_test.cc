@@ -46,10 +46,12 @@ struct Exact {
   Eigen::MatrixXd system, noise;
 };
 constexpr double kCircle_mm = 15;
-Exact ExactCovariance(const EquilibriumSolver& solver, int contacts,
+Exact ExactCovariance(const EquilibriumSolver& solver,
+                      const std::vector<PointContact>& contacts,
                       const Eigen::VectorXd& weights) {
   const Finger& finger = solver.model().finger();
-  const int m = solver.model().gauges(), n = 2 * contacts;
+  const int m = solver.model().gauges(),
+            n = 2 * static_cast<int>(contacts.size());
   const auto rows = static_cast<int>(weights.size());
   Eigen::MatrixXd ds = solver.d_outputs().topRows(rows);
   if (rows > m) {
@@ -91,6 +93,15 @@ Exact ExactCovariance(const EquilibriumSolver& solver, int contacts,
   const Eigen::MatrixXd dx = -exact.noise * j.transpose() * w * dr;
   exact.system = dx * known.std.asDiagonal() * known.correlations *
                  known.std.asDiagonal() * dx.transpose();
+  if (known.discrepancy) {
+    Eigen::MatrixXd s = Eigen::MatrixXd::Zero(m, m);
+    for (const PointContact& contact : contacts) {
+      known.discrepancy->AddTo(contact.arc_mm, contact.normal_N, &s);
+    }
+    const Eigen::MatrixXd by_angle =
+        (exact.noise * j.transpose() * w).leftCols(m);
+    exact.system += by_angle * s * by_angle.transpose();
+  }
   return exact;
 }
 
@@ -117,7 +128,7 @@ Worst WorstOfTable(const Finger& finger, double friction,
                                friction};
     solver.Reset();
     if (!solver.SolveWithSensitivities({contact})) continue;
-    const Exact exact = ExactCovariance(solver, 1, weights);
+    const Exact exact = ExactCovariance(solver, {contact}, weights);
     if (!(std::sqrt(exact.noise(0, 0)) < 7)) continue;
     // A circle determines the place of a contact even where nothing determines
     // its force.
@@ -179,19 +190,23 @@ TEST(CalibrationUncertaintyTest,
   Eigen::VectorXd circle(6);
   circle << weights, 20, 20;  // known to 0.05 mm
   check("with a circle's place", finger, 0, circle);
+  Finger discrepant = finger;
+  discrepant.calibration->discrepancy = TypicalDiscrepancy(4);
+  check("discrepancy", discrepant, 0, weights);
   check("front gauges, pieces", FrontGauges(), 0, Weights(FrontGauges()));
   check("front gauges, friction 0.3", FrontGauges(), 0.3,
         Weights(FrontGauges()));
 }
 
 TEST(CalibrationUncertaintyTest, TwoContactsAreExact) {
-  const Finger finger = UncertainFinger();
+  Finger finger = UncertainFinger();
+  finger.calibration->discrepancy = TypicalDiscrepancy(4);
   EquilibriumSolver solver(finger, {});
   CalibrationUncertainty uncertainty(finger, 0, &solver);
   const std::vector<PointContact> contacts = {{45, 3, 0}, {95, 2, 0}};
   ASSERT_TRUE(solver.SolveWithSensitivities(contacts));
   const Eigen::MatrixXd exact =
-      ExactCovariance(solver, 2, Weights(finger)).system;
+      ExactCovariance(solver, contacts, Weights(finger)).system;
   const auto found = uncertainty.Of(contacts, Volts(solver), Weights(finger));
   ASSERT_EQ(found.rows(), 4);
   EXPECT_LT((found - exact).cwiseAbs().maxCoeff(),
@@ -200,11 +215,34 @@ TEST(CalibrationUncertaintyTest, TwoContactsAreExact) {
   const std::vector<PointContact> heavy = {{70, 30, 0}};
   ASSERT_TRUE(solver.SolveWithSensitivities(heavy));
   const Eigen::MatrixXd beyond =
-      ExactCovariance(solver, 1, Weights(finger)).system;
+      ExactCovariance(solver, heavy, Weights(finger)).system;
   EXPECT_LT((uncertainty.Of(heavy, Volts(solver), Weights(finger)) - beyond)
                 .cwiseAbs()
                 .maxCoeff(),
             1e-8 * beyond.cwiseAbs().maxCoeff());
+}
+
+// It widens std, explains what noise does not, and moves nothing.
+TEST(CalibrationUncertaintyTest, ADiscrepancyNeverMovesAnEstimate) {
+  const Finger plain = UncertainFinger();
+  Finger discrepant = plain;
+  discrepant.calibration->discrepancy = TypicalDiscrepancy(4);
+  Scene scene;
+  scene.contacts = 1;
+  FrameEstimator without(plain, scene, {}), with(discrepant, scene, {});
+  EquilibriumSolver solver(plain, {});
+  ASSERT_TRUE(solver.Solve({{70, 5, 0}}));
+  Measurements row;
+  row.gauges_V = Volts(solver);
+  row.gauges_V[0] += 2e-3 * plain.gauges[0].gain_V_per_rad;
+  const FrameEstimate a = without.Estimate(row), b = with.Estimate(row);
+  EXPECT_LT(a.p_value(), FrameEstimate::kUnexplained);
+  EXPECT_GT(b.p_value(), 0.05);
+  EXPECT_EQ(a.contact[0].arc_mm, b.contact[0].arc_mm);
+  EXPECT_EQ(a.contact[0].normal_N, b.contact[0].normal_N);
+  EXPECT_EQ(a.chi2, b.chi2);
+  EXPECT_EQ(b.noise_scale(), 1);
+  EXPECT_GT(a.noise_scale(), 2);
 }
 
 // Fingers are drawn from the covariance; their noise-free volts are read with

@@ -132,7 +132,9 @@ TEST(FrameProblemTest, TheFastSolverEqualsTheWeightedBlocks) {
 // The covariance of a calibration, from the blocks and from the table.
 TEST(FrameProblemTest, CalibrationErrorsAsInTheTable) {
   Finger finger = PaperFinger();
+  finger.gauges[1].curvature_per_rad = 0.8;
   finger.calibration = TypicalCovariance(finger);
+  finger.calibration->discrepancy = TypicalDiscrepancy(4);
   Scene scene;
   scene.contacts = 1;
   FrameEstimator fast(finger, scene, {});

@@ -33,6 +33,16 @@ inline ParameterCovariance TypicalCovariance(const Finger& finger) {
   return covariance;
 }
 
+/// What a model may miss: errors that go together in all gauges, and more in
+/// the first; under 5 N some 0.5 mrad.
+inline GaugeDiscrepancy TypicalDiscrepancy(int gauges) {
+  Eigen::MatrixXd near = Eigen::MatrixXd::Constant(gauges, gauges, 4e-9);
+  near.diagonal().array() += 4e-9;
+  Eigen::MatrixXd far = 2 * near;
+  far(0, 0) *= 2;
+  return {1, {{40, near}, {100, far}}};
+}
+
 }  // namespace finray
 
 #endif  // FINRAY_TESTS_SENSING_UNCERTAIN_FINGER_H_

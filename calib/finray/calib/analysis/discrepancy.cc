@@ -154,18 +154,17 @@ std::optional<GaugeDiscrepancy> BestFit(std::vector<GaugeError> errors) {
       [](const auto& a, const auto& b) { return a.place_mm < b.place_mm; });
   if (errors.empty()) return {};
   const auto gauges = static_cast<double>(errors[0].error_rad.size());
-  const auto n = static_cast<double>(errors.size());
+  const auto values = gauges * static_cast<double>(errors.size());
   std::optional<GaugeDiscrepancy> best;
   double best_criterion = -2 * LogLikelihood(errors, nullptr);
   for (const int places : kPlaces) {
     const double numbers = 1 + places * gauges * (gauges + 1) / 2;
-    if (n * gauges < kLeastErrors * numbers) break;
+    if (values < kLeastErrors * numbers) break;
     // What depends on the place shows without it, too.
     if (places > kPlaces[0] && !best) break;
     for (const double load_N : kLoads_N) {
       const Model model = Fit(errors, load_N, places);
-      const double criterion =
-          -2 * model.log_likelihood + numbers * std::log(n);
+      const double criterion = -2 * model.log_likelihood + 2 * numbers;
       if (criterion >= best_criterion) continue;
       best_criterion = criterion;
       best = model.discrepancy;
@@ -220,8 +219,8 @@ std::optional<GaugeDiscrepancy> FitDiscrepancy(const HeldOutErrors& errors) {
   if (!found) return found;
   std::vector<GaugeError> all = errors.fitted;
   for (const GaugeError& at : errors.rejected) {
-    Eigen::MatrixXd wide = Eigen::MatrixXd::Zero(at.expected.rows(),
-                                                 at.expected.cols());
+    Eigen::MatrixXd wide =
+        Eigen::MatrixXd::Zero(at.expected.rows(), at.expected.cols());
     found->AddTo(at.place_mm, at.force_N, &wide);
     wide = kWide * kWide * wide + at.expected;
     const Eigen::LLT<Eigen::MatrixXd> root(wide);
@@ -242,10 +241,10 @@ std::string WordsOf(const GaugeDiscrepancy& discrepancy) {
     place = at.place_mm;
   }
   const double load = force_N / discrepancy.load_N;
-  return FormatText("gauges are off by up to %.2g mrad rms under %.2g N at %.0f "
-                    "mm",
-                    1e3 * std::sqrt(largest * (1 + load * load)), force_N,
-                    place);
+  return FormatText(
+      "gauges are off by up to %.2g mrad rms under %.2g N at %.0f "
+      "mm",
+      1e3 * std::sqrt(largest * (1 + load * load)), force_N, place);
 }
 
 }  // namespace finray

@@ -37,10 +37,11 @@ HeldOutErrors GaugeErrorsOf(const CalibrationProblem& problem,
 
 /// Fits the discrepancy S to errors e_i ~ N(0, N_i + S(l_i, f_i)), N_i the
 /// expected covariance, by expectation and maximisation for several loads and
-/// numbers of places. It returns the one with the best Bayesian information
-/// criterion, or nothing if it is better without. Where the model is wrong, the
-/// frames that show it most are rejected; so those join that are not far beyond
-/// what the fitted frames show.
+/// numbers of places. It returns the one with the best criterion of Akaike, or
+/// nothing if that is better without. Errors without a discrepancy gain less
+/// than half a unit of chi2 for each number, as S cannot be negative. Where the
+/// model is wrong, the frames that show it most are rejected; so those join
+/// that are not far beyond what the fitted frames show.
 std::optional<GaugeDiscrepancy> FitDiscrepancy(const HeldOutErrors& errors);
 
 /// "gauges are off by up to 1.2 mrad rms under 5 N at 70 mm".
