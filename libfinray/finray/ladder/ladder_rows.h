@@ -77,7 +77,9 @@ class LadderRows : protected LadderWalkBack<T, kVectors> {
       Wide(RowOf(1, kMoment))[v] += back_moment;
       AddAcross(v, across, wide_transverse * turn, wide_x, wide_y);
     }
-    if (!parameters() || f_.by_hinge_stiffness < 0) return;
+    if (!parameters()) return;
+    if (f_.moves) TurnRest(rib, inverse);
+    if (f_.by_hinge_stiffness < 0) return;
     const int column = EffectColumn(f_.by_hinge_stiffness);
     for (int side = 0; side < 2; ++side) {
       RowOf(side, kMoment)[column] += angles[side];
@@ -87,6 +89,34 @@ class LadderRows : protected LadderWalkBack<T, kVectors> {
     RowOf(0, kForceY)[column] += slope * ux;
     RowOf(1, kForceX)[column] += slope * uy;
     RowOf(1, kForceY)[column] -= slope * ux;
+  }
+  // The rest of the springs turns with the places of the hinges and with the
+  // back angle.
+  void TurnRest(int rib, const T& inverse) {
+    for (int side = 0; side < 2; ++side) {
+      const int effect = f_.hinge_effect[side][rib];
+      const T& turn = f_.rest_turn[side][rib];
+      if (effect >= 0) TurnSprings(rib, inverse, effect, turn, turn);
+    }
+    if (f_.by_back_angle < 0) return;
+    const T& turn = f_.rest_turn[2][rib];
+    TurnSprings(rib, inverse, f_.by_back_angle, turn, turn - Scalar(1));
+  }
+  // Adds to the column of an effect that turns both springs.
+  void TurnSprings(int rib, const T& inverse, int effect, const T& front,
+                   const T& back) {
+    const int column = EffectColumn(effect);
+    const T moments[2] = {f_.hinge_stiffness[0][rib] * front,
+                          f_.hinge_stiffness[1][rib] * back};
+    for (int side = 0; side < 2; ++side) {
+      RowOf(side, kMoment)[column] += moments[side];
+    }
+    const T across = (moments[0] + moments[1]) * inverse;
+    const T x = across * f_.rib_uy[rib], y = across * f_.rib_ux[rib];
+    RowOf(0, kForceX)[column] -= x;
+    RowOf(0, kForceY)[column] += y;
+    RowOf(1, kForceX)[column] += x;
+    RowOf(1, kForceY)[column] -= y;
   }
   // N_front += across v - along u, N_back the opposite.
   void AddAcross(int v, const V& across, const V& along, const V& ux,

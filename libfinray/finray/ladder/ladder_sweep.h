@@ -72,6 +72,22 @@ class LadderSweeper : private LadderRows<T, kVectors> {
         RowOf(side, kMoment + i)[3 * side + i] += Scalar(1);
       }
     }
+    if (f_.clamps) TurnClamps();
+    if (parameters() && f_.moves && f_.by_back_angle >= 0) {
+      const int column = EffectColumn(f_.by_back_angle);
+      RowOf(1, kX)[column] += f_.base_x_by_angle;
+      RowOf(1, kTheta)[column] += Scalar(1);
+    }
+  }
+
+  void TurnClamps() {
+    for (int side = 0; side < 2; ++side) {
+      T* turn = RowOf(side, kTheta);
+      turn[3 * side] += f_.clamp[side];
+      if (parameters() && f_.by_clamp[side] >= 0) {
+        turn[EffectColumn(f_.by_clamp[side])] += f_.state.q[3 * side];
+      }
+    }
   }
 
   // Adds the gap at the node where element e starts. At a rib this happens
@@ -143,6 +159,25 @@ class LadderSweeper : private LadderRows<T, kVectors> {
         row[ContactColumn(ends_at)] += Present(ends_at) * by_length;
       }
     }
+    if (!parameters() || !f_.moves) return;
+    for (int which = 0; which < 2; ++which) {
+      const int effect = f_.moved_by[which][e];
+      if (effect < 0) continue;
+      const T longer = Lengthening(which, e, begins_at, ends_at);
+      for (int i = 0; i < 4; ++i) {
+        RowOf(side, i)[EffectColumn(effect)] +=
+            longer * map[(kMapLength + i) * kWidth];
+      }
+    }
+  }
+
+  // How much longer a slot of element e becomes with an effect that moves its
+  // bay. Contacts stay.
+  T Lengthening(int which, int e, int begins_at, int ends_at) const {
+    T longer{};
+    if (ends_at < 0) longer += f_.end_moves[which][e];
+    if (begins_at < 0) longer -= f_.start_moves[which][e];
+    return longer;
   }
 
   // `slope` is the derivative by the stiffness of element e.
@@ -178,6 +213,14 @@ class LadderSweeper : private LadderRows<T, kVectors> {
         tap[ContactColumn(ends_at)] += Present(ends_at) * at[7];
       }
     }
+    for (int which = 0; parameters() && f_.moves && which < 2; ++which) {
+      const int effect = f_.moved_by[which][e];
+      if (effect < 0) continue;
+      T& by_effect = tap[EffectColumn(effect)];
+      by_effect += Lengthening(which, e, begins_at, ends_at) * at[7];
+      // The gauge stays.
+      if (begins_at < 0) by_effect -= f_.start_moves[which][e] * at[6];
+    }
     Log(kTap, f_.readout_tap(i));
   }
 
@@ -190,8 +233,9 @@ class LadderSweeper : private LadderRows<T, kVectors> {
 
   // N jumps to N+ = N- - f (n + mu t).
   void PassContact(int side, int c) {
-    TapPose(side, f_.contact_tap(f_.contacts[c].index));
     const LadderContact<T>& contact = f_.contacts[c];
+    TapPose(side, f_.contact_tap(contact.index));
+    if (f_.lifted) PassSurface(side, c);
     T unit[2], turned[2];
     ContactDirection(contact, f_.slot_theta[f_.elements + c], unit, turned);
     for (int i = 0; i < 2; ++i) {
@@ -209,6 +253,32 @@ class LadderSweeper : private LadderRows<T, kVectors> {
       RowOf(side, kForceX + i)[EffectColumn(f_.by_friction)] -=
           contact.normal * along[i];
     }
+  }
+
+  // The pose of a contact is that of the surface, r + h (-sin, cos)(theta), and
+  // friction makes M jump to M+ = M- + h mu f. Here h counts to the left.
+  void PassSurface(int side, int c) {
+    const LadderContact<T>& contact = f_.contacts[c];
+    T along[2];
+    SinCos(f_.slot_theta[f_.elements + c], &along[1], &along[0]);
+    T* pose[2] = {Tap(f_.contact_tap(contact.index)),
+                  Tap(f_.contact_tap(contact.index) + 1)};
+    T* moment = RowOf(side, kMoment);
+    for (int i = 0; i < 2; ++i) {
+      Add(-contact.lift * along[i], RowOf(side, kTheta), pose[i]);
+    }
+    const T lever = contact.lift * contact.friction;
+    if (by_contacts()) moment[ContactColumn(c) + 1] += contact.present * lever;
+    if (by_load()) moment[affine() + 1] += contact.d_normal * lever;
+    if (!parameters()) return;
+    if (f_.by_friction >= 0) {
+      moment[EffectColumn(f_.by_friction)] += contact.normal * contact.lift;
+    }
+    if (f_.by_surface < 0 || side != 0 || contact.is_mark) return;
+    const int column = EffectColumn(f_.by_surface);
+    pose[0][column] -= along[1];
+    pose[1][column] += along[0];
+    moment[column] += contact.normal * contact.friction;
   }
 
   void PassRib(int rib) {
@@ -339,6 +409,9 @@ class LadderSweeper : private LadderRows<T, kVectors> {
       Copy(RowOf(0, i), row);
       Add(T{} + Scalar(i < kMoment ? -1 : 1), RowOf(1, i), row);
       if (!open_) row[affine()] += f_.closure[f_.ribs + i];
+    }
+    if (parameters() && f_.moves && f_.by_back_angle >= 0) {
+      rows[kTheta * stride() + EffectColumn(f_.by_back_angle)] += Scalar(1);
     }
   }
 

@@ -36,16 +36,7 @@ template <class T>
 LadderWorkspace<T>::LadderWorkspace(const LadderModel& model)
     : length_unit_(model.finger().front_length_mm),
       force_unit_(ForceUnit(model.finger())) {
-  const Finger& finger = model.finger();
   frame_.ribs = model.ribs();
-  for (const Rib& rib : finger.ribs) {
-    nominal_mm_.push_back(NominalRibLength(finger, rib));
-  }
-  for (const Side side : {Side::kFront, Side::kBack}) {
-    const int i = LadderModel::Index(side);
-    Put(BeamBase(finger, side).x() / length_unit_, &frame_.base_x[i]);
-    Put(BeamAngle(finger, side), &frame_.base_angle[i]);
-  }
   SetMesh(model);
 }
 
@@ -110,6 +101,14 @@ void LadderWorkspace<T>::LayOut(Take&& take) {
   take(&f.pivots, pivots * stride);
   take(&f.parameters, 6 * stride);
   take(&f.pivot_flexibility, pivots);
+  const int moving = f.moves ? elements : 0, moving_ribs = f.moves ? ribs : 0;
+  for (int i = 0; i < 2; ++i) {
+    take(&f.start_moves[i], moving);
+    take(&f.end_moves[i], moving);
+    take(&f.moved_by[i], moving);
+    take(&f.hinge_effect[i], moving_ribs);
+  }
+  for (T*& turn : f.rest_turn) take(&turn, moving_ribs);
   take(&f.piece, elements);
   take(&f.rib_element[0], ribs);
   take(&f.rib_element[1], ribs);
@@ -155,6 +154,29 @@ template <class T>
 void LadderWorkspace<T>::SetMesh(const LadderModel& model) {
   frame_.front_elements = model.mesh(Side::kFront).elements();
   frame_.elements = frame_.front_elements + model.mesh(Side::kBack).elements();
+  frame_.moves = model.moves_nodes();
+  PlaceReadouts(model);
+  Allocate();
+
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    const int beam = LadderModel::Index(side), first = frame_.first(beam);
+    const BeamMesh& mesh = model.mesh(side);
+    const double flexibility =
+        ScaledFlexibility(AxialStiffness(model.finger(), side), force_unit_);
+    for (int k = 0; k < mesh.elements(); ++k) {
+      Put(mesh.stiffness_ratio[k], &frame_.stiffness_ratio[first + k]);
+      Put(flexibility, &frame_.axial_flexibility[first + k]);
+    }
+    for (int i = 0; i < frame_.ribs; ++i) {
+      frame_.rib_element[beam][i] = first + mesh.rib_node[i];
+    }
+  }
+  PlaceNodes(model);
+  SetFinger(model);
+}
+
+template <class T>
+void LadderWorkspace<T>::PlaceReadouts(const LadderModel& model) {
   readouts_.clear();
   for (int j = 0; j < model.gauges(); ++j) {
     const Gauge& gauge = model.finger().gauges[j];
@@ -173,28 +195,35 @@ void LadderWorkspace<T>::SetMesh(const LadderModel& model) {
                      std::make_pair(b.element, LaneOf(b.offset, 0));
             });
   frame_.readout_count = static_cast<int>(readouts_.size());
-  Allocate();
+}
 
+// The undeformed finger: lengths of elements and ribs, and the bases.
+template <class T>
+void LadderWorkspace<T>::PlaceNodes(const LadderModel& model) {
+  const Finger& finger = model.finger();
+  nominal_mm_.clear();
+  for (const Rib& rib : finger.ribs) {
+    nominal_mm_.push_back(NominalRibLength(finger, rib));
+  }
   for (const Side side : {Side::kFront, Side::kBack}) {
+    const int i = LadderModel::Index(side), first = frame_.first(i);
+    Put(BeamBase(finger, side).x() / length_unit_, &frame_.base_x[i]);
+    Put(BeamAngle(finger, side), &frame_.base_angle[i]);
     const BeamMesh& mesh = model.mesh(side);
-    const int beam = LadderModel::Index(side), first = frame_.first(beam);
-    const double flexibility =
-        ScaledFlexibility(AxialStiffness(model.finger(), side), force_unit_);
     for (int k = 0; k < mesh.elements(); ++k) {
       Put((mesh.nodes_mm[k + 1] - mesh.nodes_mm[k]) / length_unit_,
           &frame_.length[first + k]);
-      Put(mesh.stiffness_ratio[k], &frame_.stiffness_ratio[first + k]);
-      Put(flexibility, &frame_.axial_flexibility[first + k]);
-    }
-    for (int i = 0; i < frame_.ribs; ++i) {
-      frame_.rib_element[beam][i] = first + mesh.rib_node[i];
     }
   }
-  SetFinger(model);
 }
 
 template <class T>
 void LadderWorkspace<T>::SetFinger(const LadderModel& model, double fraction) {
+  if (frame_.moves) {
+    PlaceReadouts(model);
+    PlaceNodes(model);
+    SetMotion(model);
+  }
   for (const Side side : {Side::kFront, Side::kBack}) {
     const int i = LadderModel::Index(side);
     T stiffness;
@@ -223,6 +252,7 @@ void LadderWorkspace<T>::SetEffects(const LadderModel& model) {
   frame_.by_hinge_stiffness =
       model.EffectOf(FingerParameterKind::kHingeStiffness);
   SetPieces(model);
+  SetBeamEffects(model);
   frame_.springs = frame_.by_hinge_stiffness >= 0;
   for (const Rib& rib : finger.ribs) frame_.springs |= rib.HasSprings();
   if (!frame_.springs) return;
@@ -238,6 +268,109 @@ void LadderWorkspace<T>::SetEffects(const LadderModel& model) {
             .normalized();
     Put(along.x(), &frame_.rest_ux[i]);
     Put(along.y(), &frame_.rest_uy[i]);
+  }
+}
+
+// Clamps, surfaces and the bases.
+template <class T>
+void LadderWorkspace<T>::SetBeamEffects(const LadderModel& model) {
+  const Finger& finger = model.finger();
+  frame_.by_clamp[0] = model.EffectOf(FingerParameterKind::kFrontClamp);
+  frame_.by_clamp[1] = model.EffectOf(FingerParameterKind::kBackClamp);
+  frame_.by_surface = model.EffectOf(FingerParameterKind::kSurfaceOffset);
+  frame_.clamps = frame_.by_clamp[0] >= 0 || frame_.by_clamp[1] >= 0;
+  frame_.lifted = frame_.by_surface >= 0;
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    const int i = LadderModel::Index(side);
+    const double clamp = ClampCompliance(finger, side);
+    const double lift = SurfaceOffset(finger, side);
+    frame_.clamps |= clamp != 0;
+    frame_.lifted |= lift != 0;
+    Put(clamp * moment_unit(), &frame_.clamp[i]);
+    Put((i == 0 ? lift : -lift) / length_unit_, &frame_.lift[i]);
+  }
+  if (frame_.clamps || frame_.moves) SetBases();
+}
+
+template <class T>
+void LadderWorkspace<T>::SetBases() {
+  const LadderNodes<T>& z = frame_.state;
+  for (int side = 0; side < 2; ++side) {
+    const int base = frame_.first(side);
+    z.moment[base] = z.q[3 * side];
+    if (!frame_.clamps && !frame_.moves) continue;
+    z.x[base] = frame_.base_x[side];
+    z.theta[base] =
+        frame_.base_angle[side] + frame_.clamp[side] * z.q[3 * side];
+  }
+}
+
+// What moves with the places of hinges and with the back angle.
+template <class T>
+void LadderWorkspace<T>::SetMotion(const LadderModel& model) {
+  const Finger& finger = model.finger();
+  frame_.by_back_angle = model.EffectOf(FingerParameterKind::kBackAngle);
+  const double angle = finger.back_angle_rad;
+  const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
+  const double shift =
+      finger.front_length_mm / std::pow(std::sin(angle), 2);  // mm per rad
+  Put(shift / length_unit_, &frame_.base_x_by_angle);
+  for (int i = 0; i < frame_.ribs; ++i) {
+    const Rib& rib = finger.ribs[i];
+    frame_.hinge_effect[0][i] =
+        model.EffectOf({FingerParameterKind::kFrontHinge, i});
+    frame_.hinge_effect[1][i] =
+        model.EffectOf({FingerParameterKind::kBackHinge, i});
+    const Eigen::Vector2d from =
+        UndeformedPoint(finger, Side::kBack, rib.back_mm) -
+        UndeformedPoint(finger, Side::kFront, rib.front_mm);
+    const Eigen::Vector2d across =
+        Eigen::Vector2d(-from.y(), from.x()) / from.squaredNorm();
+    const Eigen::Vector2d swing =
+        Eigen::Vector2d(shift, 0) +
+        rib.back_mm * Eigen::Vector2d(-along.y(), along.x());
+    Put(-across.y() * length_unit_, &frame_.rest_turn[0][i]);
+    Put(across.dot(along) * length_unit_, &frame_.rest_turn[1][i]);
+    Put(across.dot(swing), &frame_.rest_turn[2][i]);
+  }
+  SetBayMotion(model, Side::kFront);
+  SetBayMotion(model, Side::kBack);
+}
+
+// Inner nodes move by their share of the motion of the ends of their bay.
+template <class T>
+void LadderWorkspace<T>::SetBayMotion(const LadderModel& model, Side side) {
+  const int i = LadderModel::Index(side), first = frame_.first(i);
+  const BeamMesh& mesh = model.mesh(side);
+  const double angle = model.finger().back_angle_rad;
+  const auto mover = [&](int node) {
+    const auto rib =
+        std::find(mesh.rib_node.begin(), mesh.rib_node.end(), node);
+    if (rib != mesh.rib_node.end()) {
+      return frame_.hinge_effect[i][rib - mesh.rib_node.begin()];
+    }
+    return node == mesh.elements() && i == 1 ? frame_.by_back_angle : -1;
+  };
+  for (std::size_t bay = 1; bay < mesh.bay_node.size(); ++bay) {
+    const int start = mesh.bay_node[bay - 1], end = mesh.bay_node[bay];
+    const double from = mesh.nodes_mm[start],
+                 length = mesh.nodes_mm[end] - from;
+    // The length of the back beam is l_0 / sin(phi_0).
+    const double rate =
+        end == mesh.elements()
+            ? -std::cos(angle) / std::pow(std::sin(angle), 2) *
+                  model.finger().front_length_mm / length_unit_
+            : 1;
+    for (int k = start; k < end; ++k) {
+      const double before = (mesh.nodes_mm[k] - from) / length,
+                   after = (mesh.nodes_mm[k + 1] - from) / length;
+      frame_.moved_by[0][first + k] = mover(start);
+      frame_.moved_by[1][first + k] = mover(end);
+      Put(1 - before, &frame_.start_moves[0][first + k]);
+      Put(1 - after, &frame_.end_moves[0][first + k]);
+      Put(rate * before, &frame_.start_moves[1][first + k]);
+      Put(rate * after, &frame_.end_moves[1][first + k]);
+    }
   }
 }
 
@@ -279,7 +412,8 @@ bool LadderWorkspace<T>::SetContacts(const LadderModel& model,
   frame_.contact_count = count;
   frame_.effects = model.effect_columns();
   SetColumns(columns, open);
-  if (count > contact_capacity_ || frame_.stride > stride_capacity_) {
+  if (count > contact_capacity_ || frame_.stride > stride_capacity_ ||
+      model.moves_nodes() != frame_.moves) {
     contact_capacity_ = std::max(contact_capacity_, count);
     stride_capacity_ = std::max(stride_capacity_, frame_.stride);
     // Takes memory anew for the same mesh and keeps the state.
@@ -302,11 +436,15 @@ bool LadderWorkspace<T>::SetContacts(const LadderModel& model,
     placed.side = LadderModel::Index(contact.side);
     placed.element = frame_.first(placed.side) + at.element;
     placed.index = placed.columns = i;
+    placed.is_mark = contact.is_mark;
     Put(at.offset_mm / length_unit_, &placed.offset);
     Put(fraction * normal, &placed.normal);
     Put(contact.friction, &placed.friction);
     Put(normal, &placed.d_normal);
     Put(1, &placed.present);
+    const double lift =
+        contact.is_mark ? 0 : SurfaceOffset(model.finger(), contact.side);
+    Put((placed.side == 0 ? lift : -lift) / length_unit_, &placed.lift);
     // Insertion keeps the order of contacts at one place.
     int k = i;
     for (; k > 0; --k) {
@@ -354,8 +492,8 @@ void LadderWorkspace<T>::Load(const LadderState& state, int lane) {
       Put(node[3], lane, &z.theta[first + k]);
       Put(node[4] / moment_unit(), lane, &z.moment[first + k]);
     }
-    z.moment[first] = z.q[3 * side];
   }
+  SetBases();
 }
 
 template <class T>
@@ -372,6 +510,8 @@ void LadderWorkspace<T>::Save(const LadderModel& model, LadderState* state,
     const int i = LadderModel::Index(side), first = frame_.first(i);
     LadderState::Nodes& nodes = state->nodes[i];
     nodes.resize(5, mesh.elements());
+    state->rib_node[i] = mesh.rib_node;
+    state->length_mm[i] = mesh.nodes_mm.back();
     for (int k = 0; k < mesh.elements(); ++k) {
       nodes.col(k) << mesh.nodes_mm[k],
           LaneOf(z.x[first + k], lane) * length_unit_,

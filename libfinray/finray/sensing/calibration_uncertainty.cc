@@ -119,6 +119,12 @@ double CalibrationUncertainty::Chi2(const std::vector<PointContact>& contacts,
       case FingerParameterKind::kHingeStiffness:
       case FingerParameterKind::kFrontPiece:
       case FingerParameterKind::kBackPiece:
+      case FingerParameterKind::kFrontHinge:
+      case FingerParameterKind::kBackHinge:
+      case FingerParameterKind::kFrontClamp:
+      case FingerParameterKind::kBackClamp:
+      case FingerParameterKind::kBackAngle:
+      case FingerParameterKind::kSurfaceOffset:
         column = m.derivatives.col(effect++);
         break;
       case FingerParameterKind::kGaugeStart:
@@ -200,6 +206,12 @@ void CalibrationUncertainty::FillByParameter(
       case FingerParameterKind::kHingeStiffness:
       case FingerParameterKind::kFrontPiece:
       case FingerParameterKind::kBackPiece:
+      case FingerParameterKind::kFrontHinge:
+      case FingerParameterKind::kBackHinge:
+      case FingerParameterKind::kFrontClamp:
+      case FingerParameterKind::kBackClamp:
+      case FingerParameterKind::kBackAngle:
+      case FingerParameterKind::kSurfaceOffset:
         by_statics(effect++);
         break;
       case FingerParameterKind::kGaugeStart:
