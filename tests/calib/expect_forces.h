@@ -32,7 +32,8 @@ inline void ExpectForces(const Finger& truth, const Finger& found,
       FrameSolvers(found, scene, {}, FrameMethod::kCeresWeighted)();
   int usable = 0, within = 0, compared = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double force = frames.Numbers("force_N")[i];
+    const double force = frames.Numbers("force_N")[i] /
+                         std::hypot(1, scene.friction_coefficient);
     if (fast[i].status != FrameStatus::kOk || force < 0.3) continue;
     const auto& contact = fast[i].contact[0];
     ++usable;
