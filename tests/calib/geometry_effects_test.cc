@@ -28,7 +28,8 @@ Finger WithMovedHinges() {
 void FreeWithPrior(ParameterFamily front, double prior_std, Plan* plan) {
   for (int i = 0; i < kParameterFamilies; ++i) {
     const auto family = static_cast<ParameterFamily>(i);
-    if (FrontFamilyOf(family) == front) Free(family, plan).prior_std = prior_std;
+    if (FrontFamilyOf(family) == front)
+      Free(family, plan).prior_std = prior_std;
   }
 }
 

@@ -18,11 +18,10 @@ class EffectsTest : public ResidualsFixture {
   EffectsTest() {
     SetParameter({FingerParameterKind::kHingeStiffness}, 30, &finger_);
     using Kind = FingerParameterKind;
-    shared_ = SharedParameters::Of(
-        finger_, {{Kind::kHingeStiffness},
-                  {Kind::kFrontHinge, 2},
-                  {Kind::kBackHinge, 1},
-                  {Kind::kBackAngle}});
+    shared_ = SharedParameters::Of(finger_, {{Kind::kHingeStiffness},
+                                             {Kind::kFrontHinge, 2},
+                                             {Kind::kBackHinge, 1},
+                                             {Kind::kBackAngle}});
     shared_.friction_varies = true;
     shared_.effect_values.push_back(kFriction);
     frames_ = std::make_unique<FrameSet>(finger_, Discretization(), GetParam(),
@@ -64,9 +63,8 @@ TEST_P(EffectsTest, AnalyticalVersusFiniteDifferences) {
       1e-6);
   // Pins move with their hinges.
   double origin[2] = {0, 0};
-  for (const auto& [rib, side] : {std::pair(2, Side::kFront),
-                                  {1, Side::kBack},
-                                  {1, Side::kFront}}) {
+  for (const auto& [rib, side] :
+       {std::pair(2, Side::kFront), {1, Side::kBack}, {1, Side::kFront}}) {
     const PointResidual pin(frame_, frame_->pin_row(rib, side), {3, 40}, 0.5);
     CheckDerivatives(pin, BlocksAnd({origin}), 1e-5);
   }

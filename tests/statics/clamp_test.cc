@@ -70,8 +70,8 @@ TEST(ClampTest, ASmallLoadTurnsRootsAsBeamTheorySays) {
     return f[i].turn_by_moment -
            f[i].turn_by_force * f[i].turn_by_force / f[i].across_by_force;
   };
-  const double moment = -own(0, across_by_load, turn_by_load) /
-                        (by_moment(0) + by_moment(1));
+  const double moment =
+      -own(0, across_by_load, turn_by_load) / (by_moment(0) + by_moment(1));
   const double turn = -by_moment(1) * moment;
   EXPECT_NEAR(solver.tip_pose().z() - BeamAngle(finger, Side::kFront), turn,
               1e-6 * std::abs(turn));

@@ -116,10 +116,9 @@ TEST_P(MovedFingerTest, SensitivitiesMatchCentralDifferences) {
       outputs[k] = other.outputs();
     }
     const Eigen::VectorXd slope = (outputs[1] - outputs[0]) / 2e-4;
-    EXPECT_LT((solver.d_outputs().col(first + 14) - slope)
-                  .cwiseAbs()
-                  .maxCoeff(),
-              2e-5 * slope.cwiseAbs().maxCoeff());
+    EXPECT_LT(
+        (solver.d_outputs().col(first + 14) - slope).cwiseAbs().maxCoeff(),
+        2e-5 * slope.cwiseAbs().maxCoeff());
   }
 }
 
@@ -127,8 +126,8 @@ TEST_P(MovedFingerTest, SensitivitiesMatchCentralDifferences) {
 TEST_P(MovedFingerTest, ASetEffectIsThatFinger) {
   const Finger finger = RichFinger(GetParam());
   const std::vector<FingerParameter> effects = AllEffects();
-  const double moves[] = {0.5,  -0.5, 0.4,  0.5,  -0.5, 0.5,    -0.3,
-                          0.5,  0.5,  -0.5, 1e-4, -2e-4, 0.7, -0.5};
+  const double moves[] = {0.5, -0.5, 0.4,  0.5,  -0.5,  0.5, -0.3,
+                          0.5, 0.5,  -0.5, 1e-4, -2e-4, 0.7, -0.5};
   Finger moved = finger;
   for (int p = 0; p < 14; ++p) {
     SetParameter(effects[p], ParameterValue(finger, effects[p]) + moves[p],
@@ -141,7 +140,8 @@ TEST_P(MovedFingerTest, ASetEffectIsThatFinger) {
     ASSERT_TRUE(solver.Solve(contacts));
     const LadderState before = solver.state();
     for (int p = 0; p < 14; ++p) {
-      ASSERT_TRUE(solver.model().set_effect(p, ParameterValue(moved, effects[p])))
+      ASSERT_TRUE(
+          solver.model().set_effect(p, ParameterValue(moved, effects[p])))
           << p;
     }
     ASSERT_TRUE(of_moved.Solve(contacts));
@@ -188,9 +188,9 @@ TEST(MovedFingerValuesTest, ShotMatchesCentralDifferences) {
     const double step = StepOf(effects[p].kind);
     for (int k = 0; k < 2; ++k) {
       Finger moved = finger;
-      SetParameter(
-          effects[p],
-          ParameterValue(finger, effects[p]) + (k == 0 ? -step : step), &moved);
+      SetParameter(effects[p],
+                   ParameterValue(finger, effects[p]) + (k == 0 ? -step : step),
+                   &moved);
       EquilibriumSolver other(moved, {});
       ASSERT_TRUE(other.Shoot(q, contacts, &shots[k]));
     }

@@ -28,8 +28,8 @@ TEST(SurfaceOffsetTest, ACircleActsLikeALargerOneWithout) {
   const double height = 1.2;
   const ObjectPose pose{{-9, 75}, 0};
   EquilibriumSolver thick(Thick(height, 0), {}), thin(PaperFinger(), {});
-  const ObjectContact on_surface = SolveObjectContact(
-      {Outline(CircleOutline{15}), {}}, pose, 0, &thick);
+  const ObjectContact on_surface =
+      SolveObjectContact({Outline(CircleOutline{15}), {}}, pose, 0, &thick);
   const ObjectContact on_beam = SolveObjectContact(
       {Outline(CircleOutline{15 + height}), {}}, pose, 0, &thin);
   ASSERT_EQ(on_surface.status, ObjectContactStatus::kContact);
@@ -51,7 +51,8 @@ TEST(SurfaceOffsetTest, ACircleActsLikeALargerOneWithout) {
 TEST(SurfaceOffsetTest, ReactionsBalanceForcesOnTheSurface) {
   const Finger finger = Thick(1.5, 0.7);
   const std::vector<std::vector<PointContact>> loads = {
-      {{52.3, 3, 0.4}, {90, 1, -0.3}}, {{45, 6, 0.3}, {80, 2, 0.5, Side::kBack}}};
+      {{52.3, 3, 0.4}, {90, 1, -0.3}},
+      {{45, 6, 0.3}, {80, 2, 0.5, Side::kBack}}};
   for (const auto& contacts : loads) {
     EquilibriumSolver solver(finger, {});
     ASSERT_TRUE(solver.Solve(contacts));
@@ -71,9 +72,9 @@ TEST(SurfaceOffsetTest, ReactionsBalanceForcesOnTheSurface) {
           into * Vector2d(-std::sin(pose.z()), std::cos(pose.z()));
       force += pushed;
       moment += Cross(pose.head<2>(), pushed);
-      on_beam += Cross(pose.head<2>() -
-                           SurfaceOffset(finger, contacts[c].side) * outwards,
-                       pushed);
+      on_beam += Cross(
+          pose.head<2>() - SurfaceOffset(finger, contacts[c].side) * outwards,
+          pushed);
     }
     EXPECT_LT(force.norm(), 1e-8);
     EXPECT_LT(std::abs(moment), 1e-6);
@@ -84,8 +85,8 @@ TEST(SurfaceOffsetTest, ReactionsBalanceForcesOnTheSurface) {
 // Without friction the beam bends alike, and marks lie on it.
 TEST(SurfaceOffsetTest, OnlyFrictionBendsOtherwise) {
   EquilibriumSolver thick(Thick(1.5, 0.7), {}), thin(PaperFinger(), {});
-  const std::vector<PointContact> contacts = {
-      {70, 5, 0}, {39, 0, 0, Side::kFront, true}};
+  const std::vector<PointContact> contacts = {{70, 5, 0},
+                                              {39, 0, 0, Side::kFront, true}};
   ASSERT_TRUE(thick.Solve(contacts));
   ASSERT_TRUE(thin.Solve(contacts));
   EXPECT_LT((thick.outputs().head(4) - thin.outputs().head(4)).norm(), 1e-12);

@@ -139,9 +139,9 @@ std::string ParameterName(const FingerParameter& parameter) {
 
 const char* ParameterUnit(FingerParameterKind kind) {
   constexpr const char* kUnits[kFingerParameterKinds] = {
-      "N mm^2", "N mm^2", "V/rad", "V",        "mm", "1/rad", "mm",
-      "mm",     "1",      "s",     "N mm/rad", "1",  "1",     "mm",
-      "mm",     "rad/(N mm)", "rad/(N mm)", "deg", "mm"};
+      "N mm^2", "N mm^2",     "V/rad",      "V",        "mm", "1/rad", "mm",
+      "mm",     "1",          "s",          "N mm/rad", "1",  "1",     "mm",
+      "mm",     "rad/(N mm)", "rad/(N mm)", "deg",      "mm"};
   return kUnits[static_cast<int>(kind)];
 }
 

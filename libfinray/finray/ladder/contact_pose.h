@@ -9,8 +9,8 @@
 
 namespace finray {
 
-/// (x, y, theta) of contact `c` of the frame after an evaluation, on the surface
-/// of its beam; x and y in l_0.
+/// (x, y, theta) of contact `c` of the frame after an evaluation, on the
+/// surface of its beam; x and y in l_0.
 template <class T>
 Eigen::Vector3d ContactPose(const LadderFrame<T>& f, int c, int lane) {
   const int slot = f.elements + c;

@@ -34,8 +34,8 @@ template <class T>
 struct LadderContact {
   int side;  ///< 0 front, 1 back.
   int element;
-  int index;    ///< The caller's number of the contact.
-  int columns;  ///< The number of its pair of derivatives by (l_c, f_c).
+  int index;     ///< The caller's number of the contact.
+  int columns;   ///< The number of its pair of derivatives by (l_c, f_c).
   bool is_mark;  ///< It lies on the beam, not on its surface.
   alignas(sizeof(T)) T offset;  ///< From the start of the element.
   T normal;

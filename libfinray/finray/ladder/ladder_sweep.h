@@ -16,9 +16,10 @@ class LadderSweeper : private LadderRows<T, kVectors> {
       Rows::by_load, Rows::Clear, Rows::columns_, Rows::ContactColumn,
       Rows::ContactNode, Rows::Copy, Rows::EffectColumn, Rows::f_, Rows::kNode,
       Rows::kPivot, Rows::kTap, Rows::kWidth, Rows::Node, Rows::node_,
-      Rows::open_, Rows::parameters, Rows::PassSprings, Rows::Present,
-      Rows::RibColumn, Rows::RowOf, Rows::StiffnessColumn, Rows::stride,
-      Rows::Tap, Rows::TipNode, Rows::vectors, Rows::Wide;
+      Rows::Lengthening, Rows::open_, Rows::parameters, Rows::PassSprings,
+      Rows::PassSurface, Rows::Present, Rows::TurnBases, Rows::RibColumn,
+      Rows::RowOf, Rows::StiffnessColumn, Rows::stride, Rows::Tap,
+      Rows::TipNode, Rows::vectors, Rows::Wide;
   using Rows::kX, Rows::kY, Rows::kTheta, Rows::kMoment, Rows::kForceX,
       Rows::kForceY, Rows::kRows;
   using typename Rows::Event, typename Rows::Scalar, typename Rows::U,
@@ -72,22 +73,7 @@ class LadderSweeper : private LadderRows<T, kVectors> {
         RowOf(side, kMoment + i)[3 * side + i] += Scalar(1);
       }
     }
-    if (f_.clamps) TurnClamps();
-    if (parameters() && f_.moves && f_.by_back_angle >= 0) {
-      const int column = EffectColumn(f_.by_back_angle);
-      RowOf(1, kX)[column] += f_.base_x_by_angle;
-      RowOf(1, kTheta)[column] += Scalar(1);
-    }
-  }
-
-  void TurnClamps() {
-    for (int side = 0; side < 2; ++side) {
-      T* turn = RowOf(side, kTheta);
-      turn[3 * side] += f_.clamp[side];
-      if (parameters() && f_.by_clamp[side] >= 0) {
-        turn[EffectColumn(f_.by_clamp[side])] += f_.state.q[3 * side];
-      }
-    }
+    TurnBases();
   }
 
   // Adds the gap at the node where element e starts. At a rib this happens
@@ -171,15 +157,6 @@ class LadderSweeper : private LadderRows<T, kVectors> {
     }
   }
 
-  // How much longer a slot of element e becomes with an effect that moves its
-  // bay. Contacts stay.
-  T Lengthening(int which, int e, int begins_at, int ends_at) const {
-    T longer{};
-    if (ends_at < 0) longer += f_.end_moves[which][e];
-    if (begins_at < 0) longer -= f_.start_moves[which][e];
-    return longer;
-  }
-
   // `slope` is the derivative by the stiffness of element e.
   void AddStiffness(int side, int e, const T& slope, T* row) const {
     row[StiffnessColumn(side)] += f_.stiffness_ratio[e] * slope;
@@ -253,32 +230,6 @@ class LadderSweeper : private LadderRows<T, kVectors> {
       RowOf(side, kForceX + i)[EffectColumn(f_.by_friction)] -=
           contact.normal * along[i];
     }
-  }
-
-  // The pose of a contact is that of the surface, r + h (-sin, cos)(theta), and
-  // friction makes M jump to M+ = M- + h mu f. Here h counts to the left.
-  void PassSurface(int side, int c) {
-    const LadderContact<T>& contact = f_.contacts[c];
-    T along[2];
-    SinCos(f_.slot_theta[f_.elements + c], &along[1], &along[0]);
-    T* pose[2] = {Tap(f_.contact_tap(contact.index)),
-                  Tap(f_.contact_tap(contact.index) + 1)};
-    T* moment = RowOf(side, kMoment);
-    for (int i = 0; i < 2; ++i) {
-      Add(-contact.lift * along[i], RowOf(side, kTheta), pose[i]);
-    }
-    const T lever = contact.lift * contact.friction;
-    if (by_contacts()) moment[ContactColumn(c) + 1] += contact.present * lever;
-    if (by_load()) moment[affine() + 1] += contact.d_normal * lever;
-    if (!parameters()) return;
-    if (f_.by_friction >= 0) {
-      moment[EffectColumn(f_.by_friction)] += contact.normal * contact.lift;
-    }
-    if (f_.by_surface < 0 || side != 0 || contact.is_mark) return;
-    const int column = EffectColumn(f_.by_surface);
-    pose[0][column] -= along[1];
-    pose[1][column] += along[0];
-    moment[column] += contact.normal * contact.friction;
   }
 
   void PassRib(int rib) {

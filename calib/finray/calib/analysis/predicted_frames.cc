@@ -209,8 +209,7 @@ PredictedForce PredictForce(const CalibrationProblem& problem,
   double noise = 0;
   for (const PredictedFrame& frame : predicted.frames) {
     if (frame.free) continue;
-    const Eigen::MatrixXd by_contact =
-        GaugeRows(frame.at, frame.at.by_contact);
+    const Eigen::MatrixXd by_contact = GaugeRows(frame.at, frame.at.by_contact);
     if (by_contact.rows() < 2) continue;
     const Eigen::Matrix2d covariance =
         PseudoInverse(by_contact.transpose() * by_contact);

@@ -148,8 +148,7 @@ Eigen::Vector3d PoseAfter(const LadderFrame<T>& f, int c, double length_unit,
                             LaneOf(f.tip[2], lane))
           : ContactPose(f, c, lane);
   for (int i = 0; i < 3; ++i) {
-    pose[i] +=
-              ChangeOf(f, f.taps + (tap + i) * f.stride, change, lane);
+    pose[i] += ChangeOf(f, f.taps + (tap + i) * f.stride, change, lane);
   }
   pose.head<2>() *= length_unit;
   return pose;
