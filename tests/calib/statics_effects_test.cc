@@ -5,53 +5,15 @@
 #include <cmath>
 #include <string>
 
+#include "calib/expect_forces.h"
 #include "calib/recovery.h"
 #include "calib/standard_log.h"
-#include "finray/batch/batch_estimation.h"
 #include "finray/io/error.h"
-#include "finray/scene/measurement_columns.h"
 
 namespace finray {
 namespace {
 
 constexpr char kHinges[] = "hinge_stiffness_N_mm_per_rad";
-
-// That a solver of its own finds the same forces and intervals in a log as the
-// fast one, and that these intervals hold about as often as they say.
-void ExpectForces(const Finger& truth, const Finger& found, unsigned seed) {
-  const FrameTable frames = StandardFrames(truth, seed);
-  const FrameTable log = MakeLog(truth, frames, {0, 0, seed});
-  const std::vector<Measurements> rows = ReadMeasurements(log, found);
-  Scene scene;
-  scene.contacts = 1;
-  const std::vector<FrameEstimate> fast =
-      EstimateFrames(found, scene, {}, rows, 2);
-  const FrameSolver ceres =
-      FrameSolvers(found, scene, {}, FrameMethod::kCeresReduced)();
-  const FrameSolver weighted =
-      FrameSolvers(found, scene, {}, FrameMethod::kCeresWeighted)();
-  int usable = 0, within = 0, compared = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double force = frames.Numbers("force_N")[i];
-    if (fast[i].status != FrameStatus::kOk || force < 0.3) continue;
-    const auto& contact = fast[i].contact[0];
-    ++usable;
-    within += std::abs(contact.normal_N - force) < 1.96 * contact.normal_std_N;
-    if (i % 40 != 1) continue;
-    ++compared;
-    for (const FrameSolver& solver : {ceres, weighted}) {
-      FrameEstimate slow;
-      solver(&rows[i], 1, &slow);
-      EXPECT_NEAR(slow.contact[0].normal_N, contact.normal_N,
-                  0.05 * contact.normal_std_N);
-      EXPECT_NEAR(slow.contact[0].normal_std_N, contact.normal_std_N,
-                  0.03 * contact.normal_std_N);
-    }
-  }
-  EXPECT_GT(usable, 100);
-  EXPECT_GT(compared, 1);
-  EXPECT_GT(within, 0.85 * usable);
-}
 
 TEST(StaticsEffectsTest, HingeStiffness) {
   const TempFolder folder;

@@ -253,6 +253,45 @@ TEST(FingerYamlTest, HingeStiffnessIsOneNumberOrTwo) {
   }
 }
 
+TEST(FingerYamlTest, ClampsAndSurfacesRoundTripExactly) {
+  const TempFolder folder;
+  const auto read = [&](const std::string& front) {
+    return ReadFinger(
+        folder.Write("f.yaml",
+                     "schema_version: 1\nname: n\n"
+                     "geometry: {front_length_mm: 140, back_angle_deg: 112}\n"
+                     "beams: {front: {bending_stiffness_N_mm2: 3" +
+                         front + "}, back: {bending_stiffness_N_mm2: 3}}\n"));
+  };
+  Finger finger =
+      read(", clamp_stiffness_N_mm_per_rad: 4000, surface_offset_mm: 0.235");
+  EXPECT_EQ(finger.front_clamp_rad_per_N_mm, 1 / 4000.0);
+  EXPECT_EQ(finger.front_surface_mm, 0.235);
+  EXPECT_EQ(finger.back_clamp_rad_per_N_mm, 0);
+  EXPECT_EQ(read("").front_clamp_rad_per_N_mm, 0);
+  std::mt19937_64 generator(8);
+  std::uniform_real_distribution<double> uniform(1e-6, 1e-2);
+  for (int i = 0; i < 200; ++i) {
+    finger.front_clamp_rad_per_N_mm = uniform(generator);
+    finger.back_clamp_rad_per_N_mm = uniform(generator);
+    finger.back_surface_mm = -uniform(generator);
+    const Finger again =
+        ReadFinger(folder.Write("g.yaml", FingerToYaml(finger, "")));
+    EXPECT_EQ(again.front_clamp_rad_per_N_mm, finger.front_clamp_rad_per_N_mm);
+    EXPECT_EQ(again.back_clamp_rad_per_N_mm, finger.back_clamp_rad_per_N_mm);
+    EXPECT_EQ(again.front_surface_mm, finger.front_surface_mm);
+    EXPECT_EQ(again.back_surface_mm, finger.back_surface_mm);
+  }
+  // No file holds a negative compliance.
+  finger.front_clamp_rad_per_N_mm = -1e-5;
+  EXPECT_EQ(ReadFinger(folder.Write("g.yaml", FingerToYaml(finger, "")))
+                .front_clamp_rad_per_N_mm,
+            0);
+  EXPECT_THROW(read(", clamp_stiffness_N_mm_per_rad: 0"), InputError);
+  EXPECT_THROW(read(", clamp_stiffness_N_mm_per_rad: -3"), InputError);
+  EXPECT_THROW(read(", surface_offset_mm: thick"), InputError);
+}
+
 TEST(FingerYamlTest, EveryBundledFingerReads) {
   EXPECT_EQ(PaperFinger().ribs.size(), 5u);
   const Finger printed =

@@ -1,9 +1,11 @@
 // Derivatives of the blocks by effects inside the equilibrium.
 
 #include <cmath>
+#include <utility>
 
 #include "finray/residuals/equilibrium_residual.h"
 #include "finray/residuals/gauge_reading_residual.h"
+#include "finray/residuals/point_residual.h"
 #include "finray/residuals/reference_force_residual.h"
 #include "finray/residuals/rib_length_residual.h"
 #include "residuals/residuals_fixture.h"
@@ -15,13 +17,16 @@ class EffectsTest : public ResidualsFixture {
  protected:
   EffectsTest() {
     SetParameter({FingerParameterKind::kHingeStiffness}, 30, &finger_);
-    shared_ =
-        SharedParameters::Of(finger_, {{FingerParameterKind::kHingeStiffness}});
+    using Kind = FingerParameterKind;
+    shared_ = SharedParameters::Of(finger_, {{Kind::kHingeStiffness},
+                                             {Kind::kFrontHinge, 2},
+                                             {Kind::kBackHinge, 1},
+                                             {Kind::kBackAngle}});
     shared_.friction_varies = true;
     shared_.effect_values.push_back(kFriction);
     frames_ = std::make_unique<FrameSet>(finger_, Discretization(), GetParam(),
                                          &shared_, 1);
-    frame_ = &frames_->Add(1, 0, unknowns_.data());
+    frame_ = &frames_->Add(1, 0, unknowns_.data(), true);
     frames_->PrepareForEvaluation(true, true);
   }
   std::vector<double*> BlocksAnd(const std::vector<double*>& more) {
@@ -43,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(Forms, EffectsTest,
 
 TEST_P(EffectsTest, AnalyticalVersusFiniteDifferences) {
   ASSERT_TRUE(frame_->valid());
-  ASSERT_EQ(frame_->effects(), 2);
+  ASSERT_EQ(frame_->effects(), 5);
   const double volts = 0.1;
   const GaugeReadingResidual gauge(frame_, 1, &volts, 3e-4);
   CheckDerivatives(gauge, BlocksAnd({&gain_, &curvature_, offset_}), 1e-5);
@@ -56,6 +61,13 @@ TEST_P(EffectsTest, AnalyticalVersusFiniteDifferences) {
       magnitude,
       {unknowns_.data(), &ln_scale_, offset_, shared_.effect_values.data()},
       1e-6);
+  // Pins move with their hinges.
+  double origin[2] = {0, 0};
+  for (const auto& [rib, side] :
+       {std::pair(2, Side::kFront), {1, Side::kBack}, {1, Side::kFront}}) {
+    const PointResidual pin(frame_, frame_->pin_row(rib, side), {3, 40}, 0.5);
+    CheckDerivatives(pin, BlocksAnd({origin}), 1e-5);
+  }
   if (GetParam() == EquilibriumForm::kReduced) return;
   const EquilibriumResidual equilibrium(frame_, finger_, 10);
   CheckDerivatives(equilibrium, BlocksAnd({}), 1e-5);

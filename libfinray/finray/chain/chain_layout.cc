@@ -65,6 +65,18 @@ void CheckArguments(const Finger& finger, int resolution,
         "chain: rigid links do not stretch, but a beam has a finite "
         "axial_stiffness_N");
   }
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    if (ClampCompliance(finger, side) != 0) {
+      throw InputError(
+          "chain: its clamps are rigid, but a beam has a "
+          "clamp_stiffness_N_mm_per_rad");
+    }
+    if (SurfaceOffset(finger, side) != 0) {
+      throw InputError(
+          "chain: contacts act on its beams, but a beam has a "
+          "surface_offset_mm");
+    }
+  }
   for (const Rib& rib : finger.ribs) {
     if (!rib.HasSprings()) continue;
     throw InputError(

@@ -112,6 +112,12 @@ struct Finger {
   /// From base to tip; the last piece ends at the tip. None means uniform
   /// stiffness.
   std::vector<StiffnessPiece> front_pieces, back_pieces;
+  /// A clamp turns by its compliance times the moment of the beam's base,
+  /// theta(0) = theta_0 + compliance M(0). 0: it is rigid.
+  double front_clamp_rad_per_N_mm = 0, back_clamp_rad_per_N_mm = 0;
+  /// How far the outer surface lies in front of the line that the beam's
+  /// equations describe. Contacts act on the surface.
+  double front_surface_mm = 0, back_surface_mm = 0;
   std::vector<Rib> ribs;
   std::vector<Gauge> gauges;
   /// How well a calibration knows these numbers, if there was one.

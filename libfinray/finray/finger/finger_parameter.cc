@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "finray/finger/finger.h"
+#include "finray/finger/geometry.h"
 
 namespace finray {
 namespace {
@@ -36,6 +37,18 @@ auto& Variable(AnyFinger& finger, const FingerParameter& parameter) {
       return finger.front_pieces[parameter.index].stiffness_ratio;
     case FingerParameterKind::kBackPiece:
       return finger.back_pieces[parameter.index].stiffness_ratio;
+    case FingerParameterKind::kFrontHinge:
+      return finger.ribs[parameter.index].front_mm;
+    case FingerParameterKind::kBackHinge:
+      return finger.ribs[parameter.index].back_mm;
+    case FingerParameterKind::kFrontClamp:
+      return finger.front_clamp_rad_per_N_mm;
+    case FingerParameterKind::kBackClamp:
+      return finger.back_clamp_rad_per_N_mm;
+    case FingerParameterKind::kBackAngle:
+      return finger.back_angle_rad;
+    case FingerParameterKind::kSurfaceOffset:
+      return finger.front_surface_mm;
     case FingerParameterKind::kRibLength:
       break;
   }
@@ -84,6 +97,13 @@ std::vector<FingerParameter> AllParametersOf(const Finger& finger) {
   };
   add_pieces(FingerParameterKind::kFrontPiece, finger.front_pieces.size());
   add_pieces(FingerParameterKind::kBackPiece, finger.back_pieces.size());
+  Add(FingerParameterKind::kFrontHinge, finger.ribs.size(), &all);
+  Add(FingerParameterKind::kBackHinge, finger.ribs.size(), &all);
+  for (const FingerParameterKind kind :
+       {FingerParameterKind::kFrontClamp, FingerParameterKind::kBackClamp,
+        FingerParameterKind::kBackAngle, FingerParameterKind::kSurfaceOffset}) {
+    all.push_back({kind});
+  }
   return all;
 }
 
@@ -102,7 +122,13 @@ std::string ParameterName(const FingerParameter& parameter) {
       "gauge_#_creep_time_constant_s",
       "hinge_stiffness_N_mm_per_rad",
       "front_piece_#_stiffness_step",
-      "back_piece_#_stiffness_step"};
+      "back_piece_#_stiffness_step",
+      "rib_#_front_mm",
+      "rib_#_back_mm",
+      "front_clamp_compliance_rad_per_N_mm",
+      "back_clamp_compliance_rad_per_N_mm",
+      "back_angle_deg",
+      "front_surface_offset_mm"};
   std::string name = kNames[static_cast<int>(parameter.kind)];
   const auto number = name.find('#');
   if (number != std::string::npos) {
@@ -113,13 +139,15 @@ std::string ParameterName(const FingerParameter& parameter) {
 
 const char* ParameterUnit(FingerParameterKind kind) {
   constexpr const char* kUnits[kFingerParameterKinds] = {
-      "N mm^2", "N mm^2", "V/rad", "V",        "mm", "1/rad", "mm",
-      "mm",     "1",      "s",     "N mm/rad", "1",  "1"};
+      "N mm^2", "N mm^2",     "V/rad",      "V",        "mm", "1/rad", "mm",
+      "mm",     "1",          "s",          "N mm/rad", "1",  "1",     "mm",
+      "mm",     "rad/(N mm)", "rad/(N mm)", "deg",      "mm"};
   return kUnits[static_cast<int>(kind)];
 }
 
 double ParameterValue(const Finger& finger, const FingerParameter& parameter) {
   const double value = Variable(finger, parameter);
+  if (parameter.kind == FingerParameterKind::kBackAngle) return value / kDegree;
   if (!IsPiece(parameter.kind)) return value;
   return value / Variable(finger, {parameter.kind, parameter.index - 1});
 }
@@ -129,6 +157,13 @@ void SetParameter(const FingerParameter& parameter, double value,
   if (parameter.kind == FingerParameterKind::kHingeStiffness) {
     for (Rib& rib : finger->ribs) {
       rib.front_hinge_N_mm_per_rad = rib.back_hinge_N_mm_per_rad = value;
+    }
+    return;
+  }
+  if (parameter.kind == FingerParameterKind::kBackAngle) {
+    finger->back_angle_rad = value * kDegree;
+    if (!finger->back_pieces.empty()) {
+      finger->back_pieces.back().end_mm = BeamLength(*finger, Side::kBack);
     }
     return;
   }

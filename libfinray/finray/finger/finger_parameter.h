@@ -29,8 +29,17 @@ enum class FingerParameterKind {
   // before it. All pieces behind it change with it.
   kFrontPiece,
   kBackPiece,
+  // The places of a rib's hinges. The rib keeps its length.
+  kFrontHinge,
+  kBackHinge,
+  // The compliance of a clamp; below 0 it is no finger's, but a solve may pass
+  // through it.
+  kFrontClamp,
+  kBackClamp,
+  kBackAngle,      ///< In degrees.
+  kSurfaceOffset,  ///< That of the front beam.
 };
-constexpr int kFingerParameterKinds = 13;
+constexpr int kFingerParameterKinds = 19;
 
 /// Says that a plain finger goes without this kind. Reports list its parameters
 /// only where they are free.
@@ -41,6 +50,18 @@ constexpr bool IsEffect(FingerParameterKind kind) {
 /// are carried on request only (LadderModel::set_effects).
 constexpr bool IsStaticsEffect(FingerParameterKind kind) {
   return kind >= FingerParameterKind::kHingeStiffness;
+}
+constexpr bool IsHingePlace(FingerParameterKind kind) {
+  return kind == FingerParameterKind::kFrontHinge ||
+         kind == FingerParameterKind::kBackHinge;
+}
+/// Says that nodes of the mesh move with the kind.
+constexpr bool MovesNodes(FingerParameterKind kind) {
+  return IsHingePlace(kind) || kind == FingerParameterKind::kBackAngle;
+}
+constexpr bool IsClamp(FingerParameterKind kind) {
+  return kind == FingerParameterKind::kFrontClamp ||
+         kind == FingerParameterKind::kBackClamp;
 }
 
 /// One number of a finger that a calibration may determine.

@@ -48,6 +48,8 @@ std::string TextThat(const ReadsBack& reads_back, long double value) {
 }
 
 constexpr const char* kHingeStiffness = "hinge_stiffness_N_mm_per_rad";
+constexpr const char* kClampStiffness = "clamp_stiffness_N_mm_per_rad";
+constexpr const char* kSurfaceOffset = "surface_offset_mm";
 constexpr const char* kBendingStiffness = "bending_stiffness_N_mm2";
 constexpr const char* kPlate[] = {"width_mm", "thickness_mm",
                                   "youngs_modulus_GPa"};
@@ -142,10 +144,22 @@ double ReadPieces(const YamlMap& yaml, double length_mm,
   return first;
 }
 
+// The compliance of a clamp whose stiffness is written so.
+double ComplianceOf(std::string_view stiffness) {
+  return static_cast<double>(1 / LongNumber(stiffness));
+}
+
 void ReadBeam(const YamlMap& yaml, double length_mm, double* bending_N_mm2,
-              double* axial_N, std::vector<StiffnessPiece>* pieces) {
+              double* axial_N, std::vector<StiffnessPiece>* pieces,
+              double* clamp_rad_per_N_mm, double* surface_mm) {
   yaml.AllowOnly({kBendingStiffness, kPlate[0], kPlate[1], kPlate[2],
-                  "axial_stiffness_N", "pieces"});
+                  "axial_stiffness_N", "pieces", kClampStiffness,
+                  kSurfaceOffset});
+  if (yaml.Has(kClampStiffness)) {
+    yaml.PositiveNumber(kClampStiffness);
+    *clamp_rad_per_N_mm = ComplianceOf(yaml.Text(kClampStiffness));
+  }
+  *surface_mm = yaml.Number(kSurfaceOffset, 0);
   *bending_N_mm2 = yaml.Has("pieces") ? ReadPieces(yaml, length_mm, pieces)
                                       : ReadStiffness(yaml);
   *axial_N = yaml.PositiveNumber("axial_stiffness_N", *axial_N);
@@ -155,10 +169,12 @@ void ReadBeams(const YamlMap& yaml, Finger* finger) {
   yaml.AllowOnly({"front", "back"});
   ReadBeam(yaml.Map("front"), BeamLength(*finger, Side::kFront),
            &finger->front_stiffness_N_mm2, &finger->front_axial_stiffness_N,
-           &finger->front_pieces);
+           &finger->front_pieces, &finger->front_clamp_rad_per_N_mm,
+           &finger->front_surface_mm);
   ReadBeam(yaml.Map("back"), BeamLength(*finger, Side::kBack),
            &finger->back_stiffness_N_mm2, &finger->back_axial_stiffness_N,
-           &finger->back_pieces);
+           &finger->back_pieces, &finger->back_clamp_rad_per_N_mm,
+           &finger->back_surface_mm);
 }
 
 // The place where the rib meets the back beam, strictly inside it.
@@ -308,6 +324,17 @@ std::string BeamToYaml(const Finger& finger, Side side) {
   }
   if (std::isfinite(axial)) {
     yaml << "    axial_stiffness_N: " << NumberText(axial) << "\n";
+  }
+  // No finger has a negative compliance.
+  if (const double clamp = ClampCompliance(finger, side); clamp > 0) {
+    const auto reads_back = [clamp](const std::string& text) {
+      return ComplianceOf(text) == clamp;
+    };
+    yaml << "    " << kClampStiffness << ": "
+         << TextThat(reads_back, 1 / static_cast<long double>(clamp)) << "\n";
+  }
+  if (const double surface = SurfaceOffset(finger, side); surface != 0) {
+    yaml << "    " << kSurfaceOffset << ": " << NumberText(surface) << "\n";
   }
   if (pieces.empty()) return yaml.str();
   yaml << "    pieces:\n";

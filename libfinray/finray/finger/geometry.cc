@@ -48,6 +48,16 @@ double AxialStiffness(const Finger& finger, Side side) {
                               : finger.back_axial_stiffness_N;
 }
 
+double ClampCompliance(const Finger& finger, Side side) {
+  return side == Side::kFront ? finger.front_clamp_rad_per_N_mm
+                              : finger.back_clamp_rad_per_N_mm;
+}
+
+double SurfaceOffset(const Finger& finger, Side side) {
+  return side == Side::kFront ? finger.front_surface_mm
+                              : finger.back_surface_mm;
+}
+
 bool Stretches(const Finger& finger) {
   return std::isfinite(finger.front_axial_stiffness_N) ||
          std::isfinite(finger.back_axial_stiffness_N);
@@ -74,6 +84,10 @@ double RibBackArc(const Finger& finger, double front_mm, double angle_rad) {
     return std::numeric_limits<double>::quiet_NaN();
   }
   return cross(to_base, rib) / divisor;
+}
+
+double HingePlace(const Rib& rib, Side side) {
+  return side == Side::kFront ? rib.front_mm : rib.back_mm;
 }
 
 double NominalRibLength(const Finger& finger, const Rib& rib) {

@@ -27,11 +27,13 @@ double BeamAngle(const Finger& finger, Side side);
 /// The point of the undeformed beam at an arc length from its base.
 Eigen::Vector2d UndeformedPoint(const Finger& finger, Side side, double arc_mm);
 
-/// EI, EA and pieces of one beam of a Finger.
+/// EI, EA, pieces, clamp and surface of one beam of a Finger.
 double BendingStiffness(const Finger& finger, Side side);
 /// The bending stiffness there; at the end of a piece, that of the next one.
 double BendingStiffness(const Finger& finger, Side side, double arc_mm);
 double AxialStiffness(const Finger& finger, Side side);
+double ClampCompliance(const Finger& finger, Side side);
+double SurfaceOffset(const Finger& finger, Side side);
 /// Whether a beam of the finger stretches, that is has a finite EA.
 bool Stretches(const Finger& finger);
 const std::vector<StiffnessPiece>& Pieces(const Finger& finger, Side side);
@@ -41,6 +43,9 @@ const std::vector<StiffnessPiece>& Pieces(const Finger& finger, Side side);
 /// measured on the straight line of the beam and may lie outside the beam. NaN
 /// if the rib runs along that line or away from it.
 double RibBackArc(const Finger& finger, double front_mm, double angle_rad);
+
+/// The arc length of a rib's hinge on one beam.
+double HingePlace(const Rib& rib, Side side);
 
 /// The distance of a rib's hinges in the undeformed finger, d_{k,0} of (7).
 double NominalRibLength(const Finger& finger, const Rib& rib);

@@ -19,6 +19,8 @@ struct BeamMesh {
   std::vector<double> nodes_mm;  ///< Element boundaries, base (0) to tip.
   std::vector<int> rib_node;     ///< Index into nodes_mm of each rib's hinge.
   std::vector<double> stiffness_ratio;  ///< EI of each element over the beam's.
+  /// The nodes that bound bays: base, hinges, piece ends and tip, in order.
+  std::vector<int> bay_node;
 
   int elements() const { return static_cast<int>(nodes_mm.size()) - 1; }
   /// The element that holds an arc length. A node belongs to the element that
@@ -34,6 +36,11 @@ BeamMesh MakeBeamMesh(const Finger& finger, Side side, int resolution);
 /// The mesh with given nodes, which must include those of the ribs and pieces.
 BeamMesh MakeBeamMesh(const Finger& finger, Side side,
                       std::vector<double> nodes_mm);
+
+/// Moves the nodes of a mesh of the same ribs and pieces to the finger's hinges
+/// and tip. Inner nodes keep their shares of their bays. False, and the mesh
+/// stays, if a hinge would leave its place between piece ends and other hinges.
+bool MoveNodes(const Finger& finger, Side side, BeamMesh* mesh);
 
 }  // namespace finray
 

@@ -17,6 +17,9 @@ struct PointContact {
   double normal_N = 0;  ///< f_c.
   double friction = 0;  ///< mu; the paper has none.
   Side side = Side::kFront;
+  /// A point of the beam itself that nothing touches, such as a pin; the others
+  /// lie on the beam's surface.
+  bool is_mark = false;
 };
 
 /// The force of a contact on the finger in frame S, f (n + mu t), at a point

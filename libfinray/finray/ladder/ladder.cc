@@ -1,5 +1,6 @@
 #include "finray/ladder/ladder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -66,8 +67,14 @@ int LadderModel::EffectOf(FingerParameterKind kind) const {
   return -1;
 }
 
+int LadderModel::EffectOf(const FingerParameter& effect) const {
+  const auto at = std::find(effects_.begin(), effects_.end(), effect);
+  return at == effects_.end() ? -1 : static_cast<int>(at - effects_.begin());
+}
+
 bool LadderModel::set_effect(int effect, double value) {
   const FingerParameterKind kind = effects_[effect].kind;
+  if (MovesNodes(kind)) return MoveTo(effects_[effect], value);
   const bool piece = kind == FingerParameterKind::kFrontPiece ||
                      kind == FingerParameterKind::kBackPiece;
   if (!std::isfinite(value) || (piece && !(value > 0))) return false;
@@ -81,11 +88,26 @@ bool LadderModel::set_effect(int effect, double value) {
   return true;
 }
 
+bool LadderModel::MoveTo(const FingerParameter& effect, double value) {
+  const double before = ParameterValue(finger_, effect);
+  if (value == before) return true;
+  const bool angle = effect.kind == FingerParameterKind::kBackAngle;
+  if (angle && !(value > 90 && value < 180)) return false;
+  SetParameter(effect, value, &finger_);
+  const Side side = effect.kind == FingerParameterKind::kFrontHinge
+                        ? Side::kFront
+                        : Side::kBack;
+  if (MoveNodes(finger_, side, &mesh_[Index(side)])) return true;
+  SetParameter(effect, before, &finger_);
+  return false;
+}
+
 bool LadderState::IsOnMeshOf(const LadderModel& model) const {
   for (const Side side : {Side::kFront, Side::kBack}) {
     const Nodes& saved = nodes[LadderModel::Index(side)];
     const std::vector<double>& mesh = model.mesh(side).nodes_mm;
-    if (saved.cols() + 1 != static_cast<Eigen::Index>(mesh.size())) {
+    if (saved.cols() + 1 != static_cast<Eigen::Index>(mesh.size()) ||
+        length_mm[LadderModel::Index(side)] != mesh.back()) {
       return false;
     }
     for (Eigen::Index k = 0; k < saved.cols(); ++k) {
@@ -102,6 +124,8 @@ LadderState LadderState::Undeformed(const LadderModel& model) {
     const BeamMesh& mesh = model.mesh(side);
     auto& nodes = state.nodes[LadderModel::Index(side)];
     nodes.setZero(5, mesh.elements());
+    state.rib_node[LadderModel::Index(side)] = mesh.rib_node;
+    state.length_mm[LadderModel::Index(side)] = mesh.nodes_mm.back();
     for (int k = 0; k < mesh.elements(); ++k) {
       nodes(0, k) = mesh.nodes_mm[k];
       nodes.col(k).segment<2>(1) =

@@ -22,8 +22,10 @@ namespace finray {
 //   N_front+ = N_front- - T u,    N_back+ = N_back- + T u.
 //
 // Springs at its hinges add jumps of moment and a transverse force (finger.h).
-// A contact force F makes N jump to N+ = N- - F on its beam. The march leaves
-// 6 + r unknowns,
+// A contact force F makes N jump to N+ = N- - F on its beam. If it acts on a
+// surface at a height h above the beam, the moment of its friction makes M jump
+// too. A clamp with compliance turns by it times M. The march leaves 6 + r
+// unknowns,
 //
 //   q = (M, N_x, N_y at the front base; the same at the back base; T_1 .. T_r)
 //
@@ -64,14 +66,22 @@ class LadderModel {
                    bool by_friction = false) {
     effects_ = std::move(effects);
     by_friction_ = by_friction;
+    moves_nodes_ = false;
+    for (const FingerParameter& effect : effects_) {
+      moves_nodes_ |= MovesNodes(effect.kind);
+    }
   }
   bool by_friction() const { return by_friction_; }
+  /// Says that nodes of the mesh move with an effect.
+  bool moves_nodes() const { return moves_nodes_; }
   int effect_columns() const {
     return static_cast<int>(effects_.size()) + by_friction_;
   }
   const std::vector<FingerParameter>& effects() const { return effects_; }
   /// The place of the first effect of a kind among effects(); -1 if none is.
   int EffectOf(FingerParameterKind kind) const;
+  /// The place of an effect among effects(); -1 if it is none of them.
+  int EffectOf(const FingerParameter& effect) const;
   /// Sets the value of an effect. False if no finger can have it.
   bool set_effect(int effect, double value);
   /// Takes other nodes for the same ribs and pieces.
@@ -80,10 +90,12 @@ class LadderModel {
   static int Index(Side side) { return side == Side::kFront ? 0 : 1; }
 
  private:
+  bool MoveTo(const FingerParameter& effect, double value);
+
   Finger finger_;
   std::array<BeamMesh, 2> mesh_;
   std::vector<FingerParameter> effects_;
-  bool by_friction_ = false;
+  bool by_friction_ = false, moves_nodes_ = false;
 };
 
 /// The unknowns of an equilibrium.
@@ -93,6 +105,8 @@ struct LadderState {
   /// rad and N mm.
   using Nodes = Eigen::Matrix<double, 5, Eigen::Dynamic>;
   std::array<Nodes, 2> nodes;
+  std::array<std::vector<int>, 2> rib_node;  ///< As in BeamMesh.
+  std::array<double, 2> length_mm = {};      ///< Of the beams.
 
   /// The undeformed, unloaded finger.
   static LadderState Undeformed(const LadderModel& model);

@@ -115,9 +115,10 @@ class LadderEvaluator {
          ++*contact) {
       const LadderContact<T>& c = f_.contacts[*contact];
       f_.slot_length[slot] = c.offset - from;
-      const End end = SolveSlot(slot);
+      End end = SolveSlot(slot);
       T unit[2], turned[2];
       ContactDirection(c, end.theta, unit, turned);
+      if (f_.lifted) end.moment += c.normal * (c.lift * c.friction);
       force[0] -= c.normal * unit[0];
       force[1] -= c.normal * unit[1];
       slot = f_.elements + *contact;
@@ -231,8 +232,9 @@ class LadderEvaluator {
       if (here > readouts) readouts = here;
       at_contact |= IsAtContact(slot + lane);
     }
-    if (at_contact && (columns_ == SweepColumns::kContacts ||
-                       columns_ == SweepColumns::kParameters)) {
+    const bool parameters = columns_ == SweepColumns::kParameters;
+    if ((at_contact && (columns_ == SweepColumns::kContacts || parameters)) ||
+        (f_.moves && parameters)) {
       element.DifferentiateByLength();
       for (int i = 0; i < 4; ++i) {
         Store(out + (kMapLength + i) * kWidth, map.d_length[i]);

@@ -34,13 +34,15 @@ template <class T>
 struct LadderContact {
   int side;  ///< 0 front, 1 back.
   int element;
-  int index;    ///< The caller's number of the contact.
-  int columns;  ///< The number of its pair of derivatives by (l_c, f_c).
+  int index;     ///< The caller's number of the contact.
+  int columns;   ///< The number of its pair of derivatives by (l_c, f_c).
+  bool is_mark;  ///< It lies on the beam, not on its surface.
   alignas(sizeof(T)) T offset;  ///< From the start of the element.
   T normal;
   T friction;
   T d_normal;  ///< Derivative of `normal` by the load factor.
   T present;   ///< 0 in frames that have no contact in this element, else 1.
+  T lift;      ///< Only with lifted: of a mark 0, else that of the beam.
 };
 
 /// One end of a gauge. The gauge's angle is the sum of sign * theta over both.
@@ -90,6 +92,25 @@ struct LadderFrame {
   /// finger.
   bool springs = false;
   T *hinge_stiffness[2], *rest_ux, *rest_uy;
+  /// Clamps that turn: their compliance.
+  bool clamps = false;
+  alignas(sizeof(T)) T clamp[2] = {};
+  /// Surfaces beside the beams: their height to the left of the beam, that is
+  /// outwards in front and inwards behind.
+  bool lifted = false;
+  alignas(sizeof(T)) T lift[2] = {};
+  /// Only if nodes move with effects: the effects, or -1, that move the start
+  /// [0] and the end [1] of an element's bay, and the motion of the element's
+  /// start and end with them.
+  bool moves = false;
+  int *moved_by[2];
+  T *start_moves[2], *end_moves[2];
+  /// The effects, or -1, that move a rib's hinges; the turn of the rib in the
+  /// undeformed finger with them and with the back angle; and the motion of
+  /// the back beam's base with the back angle.
+  int *hinge_effect[2];
+  T *rest_turn[3];
+  alignas(sizeof(T)) T base_x_by_angle = {};
   int readout_count = 0;
   LadderReadout<T> *readouts;  ///< Sorted by element and offset.
 
@@ -124,7 +145,8 @@ struct LadderFrame {
   /// With kParameters, columns of effects behind those of the rib lengths. Each
   /// effect begins at its number among them; a negative number means none.
   int effects = 0, by_hinge_stiffness = -1, by_friction = -1,
-      by_piece[2] = {-1, -1};
+      by_piece[2] = {-1, -1}, by_clamp[2] = {-1, -1}, by_back_angle = -1,
+      by_surface = -1;
   int event_count = 0;
   T *taps;
   T *q_step;  ///< Rows of the change of q.

@@ -72,6 +72,7 @@ LaneSet LadderLanes::Place(const std::array<double, kFrameLanes>& arc_mm,
     contact.index = c;
     contact.columns = 0;
     contact.d_normal = FourFrames{};
+    contact.lift = f.lift[0];
     for (int lane = 0; lane < kFrameLanes; ++lane) {
       const bool present =
           Has(placed, lane) && element[lane] == contact.element;

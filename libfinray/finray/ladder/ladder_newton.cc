@@ -41,6 +41,11 @@ LadderNewton::LadderNewton(const Finger& finger,
   Reset();
 }
 
+void LadderNewton::Reset() {
+  Load(undeformed_);
+  if (model_.moves_nodes()) workspace_.Load(LadderState::Undeformed(model_));
+}
+
 void LadderNewton::Load(const LadderState& state) {
   if (state.q.size() != model_.unknowns() || state.nodes[0].cols() == 0 ||
       state.nodes[1].cols() == 0) {
@@ -48,7 +53,13 @@ void LadderNewton::Load(const LadderState& state) {
                      "'");
   }
   if (!state.IsOnMeshOf(model_)) {
-    model_.set_mesh(MeshOfState(model_, state));
+    std::array<BeamMesh, 2> mesh;
+    if (!MeshOfState(model_, state, &mesh)) {
+      workspace_.SetMesh(model_);
+      workspace_.Load(LadderState::Undeformed(model_));
+      return;
+    }
+    model_.set_mesh(mesh);
     workspace_.SetMesh(model_);
   }
   workspace_.Load(state);
@@ -217,8 +228,7 @@ bool LadderNewton::Shoot(const Eigen::VectorXd& q,
     f.state.q[i] =
         q[i] / (moment ? workspace_.moment_unit() : workspace_.force_unit());
   }
-  f.state.moment[0] = f.state.q[0];
-  f.state.moment[f.front_elements] = f.state.q[3];
+  workspace_.SetBases();
   kernel_->evaluate(f, SweepColumns::kParameters, true);
   if (!std::isfinite(f.residual)) return false;
   kernel_->open_sweep(f, SweepColumns::kParameters);

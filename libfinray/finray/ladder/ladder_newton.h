@@ -32,7 +32,7 @@ class LadderNewton {
   void set_tolerance(double relative) { tolerance_ = relative; }
 
   /// Goes back to the undeformed finger and the first mesh.
-  void Reset() { Load(undeformed_); }
+  void Reset();
   /// Takes up a state and its mesh. Throws InputError if the state belongs to a
   /// finger with another number of ribs.
   void Load(const LadderState& state);

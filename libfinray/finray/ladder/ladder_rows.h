@@ -7,14 +7,15 @@ namespace finray {
 inline namespace FINRAY_ISA {
 
 // The rows of both beams during a sweep (ladder_kernel.h): where they are, what
-// their columns mean, and what springs at a rib do to them. `open` is for all
+// their columns mean, and what springs, clamps, surfaces and moved nodes do to
+// them. `open` is for all
 // of q as parameters.
 template <class T, int kVectors>
 class LadderRows : protected LadderWalkBack<T, kVectors> {
  protected:
   using Base = LadderWalkBack<T, kVectors>;
   using Base::Broadcast, Base::columns_, Base::f_, Base::Node, Base::stride,
-      Base::vectors, Base::Wide;
+      Base::Add, Base::by_load, Base::Tap, Base::vectors, Base::Wide;
   using typename Base::Scalar, typename Base::V;
 
   LadderRows(LadderFrame<T>* frame, SweepColumns columns, bool open)
@@ -77,7 +78,9 @@ class LadderRows : protected LadderWalkBack<T, kVectors> {
       Wide(RowOf(1, kMoment))[v] += back_moment;
       AddAcross(v, across, wide_transverse * turn, wide_x, wide_y);
     }
-    if (!parameters() || f_.by_hinge_stiffness < 0) return;
+    if (!parameters()) return;
+    if (f_.moves) TurnRest(rib, inverse);
+    if (f_.by_hinge_stiffness < 0) return;
     const int column = EffectColumn(f_.by_hinge_stiffness);
     for (int side = 0; side < 2; ++side) {
       RowOf(side, kMoment)[column] += angles[side];
@@ -88,6 +91,34 @@ class LadderRows : protected LadderWalkBack<T, kVectors> {
     RowOf(1, kForceX)[column] += slope * uy;
     RowOf(1, kForceY)[column] -= slope * ux;
   }
+  // The rest of the springs turns with the places of the hinges and with the
+  // back angle.
+  void TurnRest(int rib, const T& inverse) {
+    for (int side = 0; side < 2; ++side) {
+      const int effect = f_.hinge_effect[side][rib];
+      const T& turn = f_.rest_turn[side][rib];
+      if (effect >= 0) TurnSprings(rib, inverse, effect, turn, turn);
+    }
+    if (f_.by_back_angle < 0) return;
+    const T& turn = f_.rest_turn[2][rib];
+    TurnSprings(rib, inverse, f_.by_back_angle, turn, turn - Scalar(1));
+  }
+  // Adds to the column of an effect that turns both springs.
+  void TurnSprings(int rib, const T& inverse, int effect, const T& front,
+                   const T& back) {
+    const int column = EffectColumn(effect);
+    const T moments[2] = {f_.hinge_stiffness[0][rib] * front,
+                          f_.hinge_stiffness[1][rib] * back};
+    for (int side = 0; side < 2; ++side) {
+      RowOf(side, kMoment)[column] += moments[side];
+    }
+    const T across = (moments[0] + moments[1]) * inverse;
+    const T x = across * f_.rib_uy[rib], y = across * f_.rib_ux[rib];
+    RowOf(0, kForceX)[column] -= x;
+    RowOf(0, kForceY)[column] += y;
+    RowOf(1, kForceX)[column] += x;
+    RowOf(1, kForceY)[column] -= y;
+  }
   // N_front += across v - along u, N_back the opposite.
   void AddAcross(int v, const V& across, const V& along, const V& ux,
                  const V& uy) {
@@ -96,6 +127,58 @@ class LadderRows : protected LadderWalkBack<T, kVectors> {
     Wide(RowOf(0, kForceY))[v] += y;
     Wide(RowOf(1, kForceX))[v] += x;
     Wide(RowOf(1, kForceY))[v] -= y;
+  }
+
+  // What clamps and the back angle do to the bases.
+  void TurnBases() {
+    if (parameters() && f_.moves && f_.by_back_angle >= 0) {
+      const int column = EffectColumn(f_.by_back_angle);
+      RowOf(1, kX)[column] += f_.base_x_by_angle;
+      RowOf(1, kTheta)[column] += Scalar(1);
+    }
+    if (!f_.clamps) return;
+    for (int side = 0; side < 2; ++side) {
+      T* turn = RowOf(side, kTheta);
+      turn[3 * side] += f_.clamp[side];
+      if (parameters() && f_.by_clamp[side] >= 0) {
+        turn[EffectColumn(f_.by_clamp[side])] += f_.state.q[3 * side];
+      }
+    }
+  }
+
+  // How much longer a slot of element e becomes with an effect that moves its
+  // bay. Contacts stay.
+  T Lengthening(int which, int e, int begins_at, int ends_at) const {
+    T longer{};
+    if (ends_at < 0) longer += f_.end_moves[which][e];
+    if (begins_at < 0) longer -= f_.start_moves[which][e];
+    return longer;
+  }
+
+  // The pose of a contact is that of the surface, r + h (-sin, cos)(theta), and
+  // friction makes M jump to M+ = M- + h mu f. Here h counts to the left.
+  void PassSurface(int side, int c) {
+    const LadderContact<T>& contact = f_.contacts[c];
+    T along[2];
+    SinCos(f_.slot_theta[f_.elements + c], &along[1], &along[0]);
+    T* pose[2] = {Tap(f_.contact_tap(contact.index)),
+                  Tap(f_.contact_tap(contact.index) + 1)};
+    T* moment = RowOf(side, kMoment);
+    for (int i = 0; i < 2; ++i) {
+      Add(-contact.lift * along[i], RowOf(side, kTheta), pose[i]);
+    }
+    const T lever = contact.lift * contact.friction;
+    if (by_contacts()) moment[ContactColumn(c) + 1] += contact.present * lever;
+    if (by_load()) moment[affine() + 1] += contact.d_normal * lever;
+    if (!parameters()) return;
+    if (f_.by_friction >= 0) {
+      moment[EffectColumn(f_.by_friction)] += contact.normal * contact.lift;
+    }
+    if (f_.by_surface < 0 || side != 0 || contact.is_mark) return;
+    const int column = EffectColumn(f_.by_surface);
+    pose[0][column] -= along[1];
+    pose[1][column] += along[0];
+    moment[column] += contact.normal * contact.friction;
   }
 
   const bool open_;

@@ -16,9 +16,10 @@ class LadderSweeper : private LadderRows<T, kVectors> {
       Rows::by_load, Rows::Clear, Rows::columns_, Rows::ContactColumn,
       Rows::ContactNode, Rows::Copy, Rows::EffectColumn, Rows::f_, Rows::kNode,
       Rows::kPivot, Rows::kTap, Rows::kWidth, Rows::Node, Rows::node_,
-      Rows::open_, Rows::parameters, Rows::PassSprings, Rows::Present,
-      Rows::RibColumn, Rows::RowOf, Rows::StiffnessColumn, Rows::stride,
-      Rows::Tap, Rows::TipNode, Rows::vectors, Rows::Wide;
+      Rows::Lengthening, Rows::open_, Rows::parameters, Rows::PassSprings,
+      Rows::PassSurface, Rows::Present, Rows::TurnBases, Rows::RibColumn,
+      Rows::RowOf, Rows::StiffnessColumn, Rows::stride, Rows::Tap,
+      Rows::TipNode, Rows::vectors, Rows::Wide;
   using Rows::kX, Rows::kY, Rows::kTheta, Rows::kMoment, Rows::kForceX,
       Rows::kForceY, Rows::kRows;
   using typename Rows::Event, typename Rows::Scalar, typename Rows::U,
@@ -72,6 +73,7 @@ class LadderSweeper : private LadderRows<T, kVectors> {
         RowOf(side, kMoment + i)[3 * side + i] += Scalar(1);
       }
     }
+    TurnBases();
   }
 
   // Adds the gap at the node where element e starts. At a rib this happens
@@ -143,6 +145,16 @@ class LadderSweeper : private LadderRows<T, kVectors> {
         row[ContactColumn(ends_at)] += Present(ends_at) * by_length;
       }
     }
+    if (!parameters() || !f_.moves) return;
+    for (int which = 0; which < 2; ++which) {
+      const int effect = f_.moved_by[which][e];
+      if (effect < 0) continue;
+      const T longer = Lengthening(which, e, begins_at, ends_at);
+      for (int i = 0; i < 4; ++i) {
+        RowOf(side, i)[EffectColumn(effect)] +=
+            longer * map[(kMapLength + i) * kWidth];
+      }
+    }
   }
 
   // `slope` is the derivative by the stiffness of element e.
@@ -178,6 +190,14 @@ class LadderSweeper : private LadderRows<T, kVectors> {
         tap[ContactColumn(ends_at)] += Present(ends_at) * at[7];
       }
     }
+    for (int which = 0; parameters() && f_.moves && which < 2; ++which) {
+      const int effect = f_.moved_by[which][e];
+      if (effect < 0) continue;
+      T& by_effect = tap[EffectColumn(effect)];
+      by_effect += Lengthening(which, e, begins_at, ends_at) * at[7];
+      // The gauge stays.
+      if (begins_at < 0) by_effect -= f_.start_moves[which][e] * at[6];
+    }
     Log(kTap, f_.readout_tap(i));
   }
 
@@ -190,8 +210,9 @@ class LadderSweeper : private LadderRows<T, kVectors> {
 
   // N jumps to N+ = N- - f (n + mu t).
   void PassContact(int side, int c) {
-    TapPose(side, f_.contact_tap(f_.contacts[c].index));
     const LadderContact<T>& contact = f_.contacts[c];
+    TapPose(side, f_.contact_tap(contact.index));
+    if (f_.lifted) PassSurface(side, c);
     T unit[2], turned[2];
     ContactDirection(contact, f_.slot_theta[f_.elements + c], unit, turned);
     for (int i = 0; i < 2; ++i) {
@@ -339,6 +360,9 @@ class LadderSweeper : private LadderRows<T, kVectors> {
       Copy(RowOf(0, i), row);
       Add(T{} + Scalar(i < kMoment ? -1 : 1), RowOf(1, i), row);
       if (!open_) row[affine()] += f_.closure[f_.ribs + i];
+    }
+    if (parameters() && f_.moves && f_.by_back_angle >= 0) {
+      rows[kTheta * stride() + EffectColumn(f_.by_back_angle)] += Scalar(1);
     }
   }
 

@@ -116,6 +116,7 @@ class LadderWalkBack {
       const int base = f_.first(side);
       z->x[base] = z->y[base] = z->theta[base] = T{};
       z->moment[base] = z->q[3 * side];
+      if (f_.clamps) z->theta[base] = f_.clamp[side] * z->q[3 * side];
     }
   }
 

@@ -4,26 +4,13 @@
 #include <cmath>
 
 #include "finray/finger/geometry.h"
-#include "finray/ladder/lanes.h"
+#include "finray/ladder/put_lanes.h"
 
 namespace finray {
 namespace {
 
 int RoundUp(int value, int multiple) {
   return (value + multiple - 1) / multiple * multiple;
-}
-
-// Puts a value into one lane, or into all if `lane` is negative.
-template <class T>
-void Put(double value, int lane, T* to) {
-  constexpr int kLanes = sizeof(T) / sizeof(Number<T>);
-  for (int i = 0; i < kLanes; ++i) {
-    if (lane < 0 || lane == i) LaneOf(*to, i) = static_cast<Number<T>>(value);
-  }
-}
-template <class T>
-void Put(double value, T* to) {
-  Put(value, -1, to);
 }
 
 double ScaledFlexibility(double axial_stiffness_N, double force_unit) {
@@ -36,16 +23,7 @@ template <class T>
 LadderWorkspace<T>::LadderWorkspace(const LadderModel& model)
     : length_unit_(model.finger().front_length_mm),
       force_unit_(ForceUnit(model.finger())) {
-  const Finger& finger = model.finger();
   frame_.ribs = model.ribs();
-  for (const Rib& rib : finger.ribs) {
-    nominal_mm_.push_back(NominalRibLength(finger, rib));
-  }
-  for (const Side side : {Side::kFront, Side::kBack}) {
-    const int i = LadderModel::Index(side);
-    Put(BeamBase(finger, side).x() / length_unit_, &frame_.base_x[i]);
-    Put(BeamAngle(finger, side), &frame_.base_angle[i]);
-  }
   SetMesh(model);
 }
 
@@ -110,6 +88,14 @@ void LadderWorkspace<T>::LayOut(Take&& take) {
   take(&f.pivots, pivots * stride);
   take(&f.parameters, 6 * stride);
   take(&f.pivot_flexibility, pivots);
+  const int moving = f.moves ? elements : 0, moving_ribs = f.moves ? ribs : 0;
+  for (int i = 0; i < 2; ++i) {
+    take(&f.start_moves[i], moving);
+    take(&f.end_moves[i], moving);
+    take(&f.moved_by[i], moving);
+    take(&f.hinge_effect[i], moving_ribs);
+  }
+  for (T*& turn : f.rest_turn) take(&turn, moving_ribs);
   take(&f.piece, elements);
   take(&f.rib_element[0], ribs);
   take(&f.rib_element[1], ribs);
@@ -155,6 +141,29 @@ template <class T>
 void LadderWorkspace<T>::SetMesh(const LadderModel& model) {
   frame_.front_elements = model.mesh(Side::kFront).elements();
   frame_.elements = frame_.front_elements + model.mesh(Side::kBack).elements();
+  frame_.moves = model.moves_nodes();
+  PlaceReadouts(model);
+  Allocate();
+
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    const int beam = LadderModel::Index(side), first = frame_.first(beam);
+    const BeamMesh& mesh = model.mesh(side);
+    const double flexibility =
+        ScaledFlexibility(AxialStiffness(model.finger(), side), force_unit_);
+    for (int k = 0; k < mesh.elements(); ++k) {
+      Put(mesh.stiffness_ratio[k], &frame_.stiffness_ratio[first + k]);
+      Put(flexibility, &frame_.axial_flexibility[first + k]);
+    }
+    for (int i = 0; i < frame_.ribs; ++i) {
+      frame_.rib_element[beam][i] = first + mesh.rib_node[i];
+    }
+  }
+  PlaceNodes(model);
+  SetFinger(model);
+}
+
+template <class T>
+void LadderWorkspace<T>::PlaceReadouts(const LadderModel& model) {
   readouts_.clear();
   for (int j = 0; j < model.gauges(); ++j) {
     const Gauge& gauge = model.finger().gauges[j];
@@ -173,28 +182,35 @@ void LadderWorkspace<T>::SetMesh(const LadderModel& model) {
                      std::make_pair(b.element, LaneOf(b.offset, 0));
             });
   frame_.readout_count = static_cast<int>(readouts_.size());
-  Allocate();
+}
 
+// The undeformed finger: lengths of elements and ribs, and the bases.
+template <class T>
+void LadderWorkspace<T>::PlaceNodes(const LadderModel& model) {
+  const Finger& finger = model.finger();
+  nominal_mm_.clear();
+  for (const Rib& rib : finger.ribs) {
+    nominal_mm_.push_back(NominalRibLength(finger, rib));
+  }
   for (const Side side : {Side::kFront, Side::kBack}) {
+    const int i = LadderModel::Index(side), first = frame_.first(i);
+    Put(BeamBase(finger, side).x() / length_unit_, &frame_.base_x[i]);
+    Put(BeamAngle(finger, side), &frame_.base_angle[i]);
     const BeamMesh& mesh = model.mesh(side);
-    const int beam = LadderModel::Index(side), first = frame_.first(beam);
-    const double flexibility =
-        ScaledFlexibility(AxialStiffness(model.finger(), side), force_unit_);
     for (int k = 0; k < mesh.elements(); ++k) {
       Put((mesh.nodes_mm[k + 1] - mesh.nodes_mm[k]) / length_unit_,
           &frame_.length[first + k]);
-      Put(mesh.stiffness_ratio[k], &frame_.stiffness_ratio[first + k]);
-      Put(flexibility, &frame_.axial_flexibility[first + k]);
-    }
-    for (int i = 0; i < frame_.ribs; ++i) {
-      frame_.rib_element[beam][i] = first + mesh.rib_node[i];
     }
   }
-  SetFinger(model);
 }
 
 template <class T>
 void LadderWorkspace<T>::SetFinger(const LadderModel& model, double fraction) {
+  if (frame_.moves) {
+    PlaceReadouts(model);
+    PlaceNodes(model);
+    SetMotion(model);
+  }
   for (const Side side : {Side::kFront, Side::kBack}) {
     const int i = LadderModel::Index(side);
     T stiffness;
@@ -216,61 +232,6 @@ void LadderWorkspace<T>::SetFinger(const LadderModel& model, double fraction) {
 }
 
 template <class T>
-void LadderWorkspace<T>::SetEffects(const LadderModel& model) {
-  const Finger& finger = model.finger();
-  frame_.by_friction =
-      model.by_friction() ? static_cast<int>(model.effects().size()) : -1;
-  frame_.by_hinge_stiffness =
-      model.EffectOf(FingerParameterKind::kHingeStiffness);
-  SetPieces(model);
-  frame_.springs = frame_.by_hinge_stiffness >= 0;
-  for (const Rib& rib : finger.ribs) frame_.springs |= rib.HasSprings();
-  if (!frame_.springs) return;
-  for (int i = 0; i < frame_.ribs; ++i) {
-    const Rib& rib = finger.ribs[i];
-    Put(rib.front_hinge_N_mm_per_rad / moment_unit(),
-        &frame_.hinge_stiffness[0][i]);
-    Put(rib.back_hinge_N_mm_per_rad / moment_unit(),
-        &frame_.hinge_stiffness[1][i]);
-    const Eigen::Vector2d along =
-        (UndeformedPoint(finger, Side::kBack, rib.back_mm) -
-         UndeformedPoint(finger, Side::kFront, rib.front_mm))
-            .normalized();
-    Put(along.x(), &frame_.rest_ux[i]);
-    Put(along.y(), &frame_.rest_uy[i]);
-  }
-}
-
-template <class T>
-void LadderWorkspace<T>::SetPieces(const LadderModel& model) {
-  const Finger& finger = model.finger();
-  for (const Side side : {Side::kFront, Side::kBack}) {
-    const int i = LadderModel::Index(side), first = frame_.first(i);
-    const auto kind = i == 0 ? FingerParameterKind::kFrontPiece
-                             : FingerParameterKind::kBackPiece;
-    frame_.by_piece[i] = model.EffectOf(kind);
-    if (frame_.by_piece[i] < 0) continue;
-    const std::vector<StiffnessPiece>& pieces = Pieces(finger, side);
-    for (int p = 1; p < static_cast<int>(pieces.size()); ++p) {
-      Put(ParameterValue(finger, {kind, p}), &frame_.piece_step[first + p]);
-    }
-    const std::vector<double>& nodes_mm = model.mesh(side).nodes_mm;
-    int piece = 0;
-    for (int e = first; e < frame_.end(i); ++e) {
-      while (piece + 1 < static_cast<int>(pieces.size()) &&
-             pieces[piece].end_mm <= nodes_mm[e - first]) {
-        ++piece;
-      }
-      frame_.piece[e] = piece;
-      T ratio;
-      Put(pieces[piece].stiffness_ratio, &ratio);
-      frame_.stiffness[e] *= ratio / frame_.stiffness_ratio[e];
-      frame_.stiffness_ratio[e] = ratio;
-    }
-  }
-}
-
-template <class T>
 bool LadderWorkspace<T>::SetContacts(const LadderModel& model,
                                      const std::vector<PointContact>& contacts,
                                      double fraction, SweepColumns columns,
@@ -279,7 +240,8 @@ bool LadderWorkspace<T>::SetContacts(const LadderModel& model,
   frame_.contact_count = count;
   frame_.effects = model.effect_columns();
   SetColumns(columns, open);
-  if (count > contact_capacity_ || frame_.stride > stride_capacity_) {
+  if (count > contact_capacity_ || frame_.stride > stride_capacity_ ||
+      model.moves_nodes() != frame_.moves) {
     contact_capacity_ = std::max(contact_capacity_, count);
     stride_capacity_ = std::max(stride_capacity_, frame_.stride);
     // Takes memory anew for the same mesh and keeps the state.
@@ -302,11 +264,15 @@ bool LadderWorkspace<T>::SetContacts(const LadderModel& model,
     placed.side = LadderModel::Index(contact.side);
     placed.element = frame_.first(placed.side) + at.element;
     placed.index = placed.columns = i;
+    placed.is_mark = contact.is_mark;
     Put(at.offset_mm / length_unit_, &placed.offset);
     Put(fraction * normal, &placed.normal);
     Put(contact.friction, &placed.friction);
     Put(normal, &placed.d_normal);
     Put(1, &placed.present);
+    const double lift =
+        contact.is_mark ? 0 : SurfaceOffset(model.finger(), contact.side);
+    Put((placed.side == 0 ? lift : -lift) / length_unit_, &placed.lift);
     // Insertion keeps the order of contacts at one place.
     int k = i;
     for (; k > 0; --k) {
@@ -354,8 +320,8 @@ void LadderWorkspace<T>::Load(const LadderState& state, int lane) {
       Put(node[3], lane, &z.theta[first + k]);
       Put(node[4] / moment_unit(), lane, &z.moment[first + k]);
     }
-    z.moment[first] = z.q[3 * side];
   }
+  SetBases();
 }
 
 template <class T>
@@ -372,6 +338,8 @@ void LadderWorkspace<T>::Save(const LadderModel& model, LadderState* state,
     const int i = LadderModel::Index(side), first = frame_.first(i);
     LadderState::Nodes& nodes = state->nodes[i];
     nodes.resize(5, mesh.elements());
+    state->rib_node[i] = mesh.rib_node;
+    state->length_mm[i] = mesh.nodes_mm.back();
     for (int k = 0; k < mesh.elements(); ++k) {
       nodes.col(k) << mesh.nodes_mm[k],
           LaneOf(z.x[first + k], lane) * length_unit_,

@@ -45,6 +45,8 @@ class LadderWorkspace {
   /// kLoad and kNone have the same width. `open` is for all of q as parameters.
   void SetColumns(SweepColumns columns, bool open);
 
+  /// Puts the bases where base loads and clamps hold them.
+  void SetBases();
   void Load(const LadderState& state, int lane = kAllLanes);
   void Save(const LadderModel& model, LadderState* state, int lane = 0) const;
   static constexpr int kAllLanes = -1;
@@ -52,6 +54,11 @@ class LadderWorkspace {
  private:
   void SetEffects(const LadderModel& model);
   void SetPieces(const LadderModel& model);
+  void SetBeamEffects(const LadderModel& model);
+  void PlaceReadouts(const LadderModel& model);
+  void PlaceNodes(const LadderModel& model);
+  void SetMotion(const LadderModel& model);
+  void SetBayMotion(const LadderModel& model, Side side);
   void Allocate();
   template <class Take>
   void LayOut(Take&& take);

@@ -98,22 +98,31 @@ bool RefineToSeries(const LadderModel& model,
     }
     nodes_mm.push_back(mesh.nodes_mm.back());
     (*finer)[i] = MakeBeamMesh(model.finger(), side, std::move(nodes_mm));
+    state->rib_node[i] = (*finer)[i].rib_node;
   }
   return true;
 }
 
-std::array<BeamMesh, 2> MeshOfState(const LadderModel& model,
-                                    const LadderState& state) {
-  std::array<BeamMesh, 2> mesh;
+bool MeshOfState(const LadderModel& model, const LadderState& state,
+                 std::array<BeamMesh, 2>* mesh) {
+  const Finger& finger = model.finger();
   for (const Side side : {Side::kFront, Side::kBack}) {
-    const auto& nodes = state.nodes[LadderModel::Index(side)];
+    const int i = LadderModel::Index(side);
+    const auto& nodes = state.nodes[i];
     std::vector<double> nodes_mm(nodes.cols());
     for (Eigen::Index k = 0; k < nodes.cols(); ++k) nodes_mm[k] = nodes(0, k);
-    nodes_mm.push_back(model.mesh(side).nodes_mm.back());
-    mesh[LadderModel::Index(side)] =
-        MakeBeamMesh(model.finger(), side, std::move(nodes_mm));
+    nodes_mm.push_back(state.length_mm[i]);
+    const std::vector<int>& hinges = state.rib_node[i];
+    bool moved = state.length_mm[i] != model.mesh(side).nodes_mm.back();
+    for (std::size_t rib = 0; rib < hinges.size(); ++rib) {
+      moved |= nodes_mm[hinges[rib]] != HingePlace(finger.ribs[rib], side);
+    }
+    (*mesh)[i] = MakeBeamMesh(finger, side, std::move(nodes_mm));
+    if (!moved) continue;
+    (*mesh)[i].rib_node = hinges;
+    if (!MoveNodes(finger, side, &(*mesh)[i])) return false;
   }
-  return mesh;
+  return true;
 }
 
 }  // namespace finray

@@ -28,9 +28,10 @@ bool RefineToSeries(const LadderModel& model,
                     const LadderWorkspace<double>& workspace, Scheme scheme,
                     std::array<BeamMesh, 2>* finer, LadderState* state);
 
-/// The mesh that a state was saved on.
-std::array<BeamMesh, 2> MeshOfState(const LadderModel& model,
-                                    const LadderState& state);
+/// The mesh that a state was saved on. If hinges or the tip have moved since,
+/// its nodes move with them; false if they cannot.
+bool MeshOfState(const LadderModel& model, const LadderState& state,
+                 std::array<BeamMesh, 2>* mesh);
 
 }  // namespace finray
 

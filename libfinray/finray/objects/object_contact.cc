@@ -221,14 +221,15 @@ class ObjectContactSolver {
     ObjectPose withdrawn = pose;
     if (touch.distance_mm >= deepest_) {
       const Vector2d inwards =
-          InnerWay(free.At(Side::kFront, touch.arc_mm), pose);
+          InnerWay(free.SurfaceAt(Side::kFront, touch.arc_mm), pose);
       if (inwards.isZero()) return ObjectContactStatus::kNoContact;
       withdrawn.position_mm -= inwards;
       touch = deepest(withdrawn);
     }
     // An object that is held and covers the clamped base cannot yield.
+    const Section base = free.SurfaceAt(Side::kFront, 0);
     if (!object_.spring &&
-        object_.outline.DistanceOf(Vector2d::Zero(), pose).distance_mm <
+        object_.outline.DistanceOf({base.x_mm, base.y_mm}, pose).distance_mm <
             deepest_) {
       return ObjectContactStatus::kNoTangency;
     }
@@ -321,7 +322,7 @@ std::vector<Approach> FindApproaches(const Shape& shape, double length_mm,
                                      const Outline& outline,
                                      const ObjectPose& pose, double below_mm) {
   const auto sample = [&](double arc) -> Sample {
-    const Section at = shape.At(Side::kFront, arc);
+    const Section at = shape.SurfaceAt(Side::kFront, arc);
     const Outline::Distance distance =
         outline.DistanceOf({at.x_mm, at.y_mm}, pose);
     return {arc, distance.distance_mm,

@@ -23,16 +23,24 @@ FrameEvaluation::FrameEvaluation(const LadderModel& model, EquilibriumForm form,
   for (PointContact& contact : loads_) contact.friction = friction;
   if (pins) {
     for (const Rib& rib : model.finger().ribs) {
-      loads_.push_back({rib.front_mm, 0, 0, Side::kFront});
-      loads_.push_back({rib.back_mm, 0, 0, Side::kBack});
+      loads_.push_back({rib.front_mm, 0, 0, Side::kFront, true});
+      loads_.push_back({rib.back_mm, 0, 0, Side::kBack, true});
+    }
+    for (std::size_t e = 0; e < model.effects().size(); ++e) {
+      const FingerParameter& effect = model.effects()[e];
+      if (!IsHingePlace(effect.kind)) continue;
+      const int back = effect.kind == FingerParameterKind::kBackHinge;
+      moved_pins_.push_back(
+          {contacts + 2 * effect.index + back, static_cast<int>(e)});
     }
   }
   if (!movable_gauges) return;
   ends_ = 2 * gauges_;
   by_place_.resize(gauges_);
   for (const Gauge& gauge : model.finger().gauges) {
-    loads_.push_back({gauge.start_mm, 0, 0, gauge.beam});
-    loads_.push_back({gauge.start_mm + gauge.length_mm, 0, 0, gauge.beam});
+    loads_.push_back({gauge.start_mm, 0, 0, gauge.beam, true});
+    loads_.push_back(
+        {gauge.start_mm + gauge.length_mm, 0, 0, gauge.beam, true});
   }
 }
 
@@ -72,6 +80,7 @@ void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
       return;
     }
   }
+  MovePins(solver->model().finger());
   for (int i = 0; i < contacts(); ++i) {
     const double* contact = frame + contact_offset(i);
     if (!std::isfinite(contact[0]) || !std::isfinite(contact[1])) return;
@@ -145,6 +154,17 @@ void FrameEvaluation::SetWithoutPins(const Matrix& derivatives,
   target->resize(derivatives.rows(), columns());
   *target << derivatives.leftCols(frame_size()),
       derivatives.rightCols(2 + ribs_ + effects_);
+  for (const auto& [load, effect] : moved_pins_) {
+    target->col(effect_column() + effect) +=
+        derivatives.col(frame_size() + 2 * (load - contacts()));
+  }
+}
+
+void FrameEvaluation::MovePins(const Finger& finger) {
+  for (const auto& moved : moved_pins_) {
+    const Rib& rib = finger.ribs[(moved[0] - contacts()) / 2];
+    loads_[moved[0]].arc_mm = HingePlace(rib, loads_[moved[0]].side);
+  }
 }
 
 }  // namespace finray

@@ -2,6 +2,7 @@
 #define FINRAY_RESIDUALS_FRAME_EVALUATION_H_
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "finray/statics/equilibrium.h"
@@ -100,6 +101,7 @@ class FrameEvaluation {
   void UpdateReduced(EquilibriumSolver* solver);
   void UpdateWeighted(const double* frame, EquilibriumSolver* solver);
   void SetWithoutPins(const Matrix& derivatives, Matrix* target) const;
+  void MovePins(const Finger& finger);
   void ReadMovedGauges(const Matrix& derivatives);
 
   EquilibriumForm form_;
@@ -108,6 +110,8 @@ class FrameEvaluation {
   int ends_ = 0;  // of movable gauges
   // Contacts, then pins, then the start and the end of each movable gauge.
   std::vector<PointContact> loads_;
+  // Pins that move with an effect: the load and the effect.
+  std::vector<std::array<int, 2>> moved_pins_;
   bool on_beam_ = true;  // all gauges
   double length_mm_, back_length_mm_;
   bool valid_ = false;

@@ -151,6 +151,12 @@ CalibrationUncertainty::ErrorsAt(const std::vector<PointContact>& contacts,
       case FingerParameterKind::kHingeStiffness:
       case FingerParameterKind::kFrontPiece:
       case FingerParameterKind::kBackPiece:
+      case FingerParameterKind::kFrontHinge:
+      case FingerParameterKind::kBackHinge:
+      case FingerParameterKind::kFrontClamp:
+      case FingerParameterKind::kBackClamp:
+      case FingerParameterKind::kBackAngle:
+      case FingerParameterKind::kSurfaceOffset:
         column = m.derivatives.col(effect++);
         break;
       case FingerParameterKind::kGaugeStart:
@@ -241,6 +247,12 @@ void CalibrationUncertainty::FillByParameter(
       case FingerParameterKind::kHingeStiffness:
       case FingerParameterKind::kFrontPiece:
       case FingerParameterKind::kBackPiece:
+      case FingerParameterKind::kFrontHinge:
+      case FingerParameterKind::kBackHinge:
+      case FingerParameterKind::kFrontClamp:
+      case FingerParameterKind::kBackClamp:
+      case FingerParameterKind::kBackAngle:
+      case FingerParameterKind::kSurfaceOffset:
         by_statics(effect++);
         break;
       case FingerParameterKind::kGaugeStart:

@@ -302,6 +302,12 @@ ContactMatrix FrameProblem::Systematic(const Eigen::MatrixXd& by_unknown,
       case FingerParameterKind::kHingeStiffness:
       case FingerParameterKind::kFrontPiece:
       case FingerParameterKind::kBackPiece:
+      case FingerParameterKind::kFrontHinge:
+      case FingerParameterKind::kBackHinge:
+      case FingerParameterKind::kFrontClamp:
+      case FingerParameterKind::kBackClamp:
+      case FingerParameterKind::kBackAngle:
+      case FingerParameterKind::kSurfaceOffset:
         by_parameter.col(k) = column(effect++);
         break;
     }

@@ -6,6 +6,7 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/io/number_text.h"
+#include "finray/ladder/contact_pose.h"
 
 namespace finray {
 namespace {
@@ -28,6 +29,15 @@ double EffectUnit(FingerParameterKind kind,
   switch (kind) {
     case FingerParameterKind::kHingeStiffness:
       return unit.moment_unit();
+    case FingerParameterKind::kFrontHinge:
+    case FingerParameterKind::kBackHinge:
+    case FingerParameterKind::kSurfaceOffset:
+      return unit.length_unit();
+    case FingerParameterKind::kFrontClamp:
+    case FingerParameterKind::kBackClamp:
+      return 1 / unit.moment_unit();
+    case FingerParameterKind::kBackAngle:
+      return 1 / kDegree;  // the ladder counts in rad
     default:
       return 1;
   }
@@ -196,9 +206,8 @@ void EquilibriumSolver::CollectValues(bool stepped, Eigen::VectorXd* outputs) {
         (f.readout_map[kReadoutValues * i] + change(f.readout_tap(i)));
   }
   for (int c = 0; c < f.contact_count; ++c) {
-    const int index = f.contacts[c].index, slot = f.elements + c;
-    const double value[3] = {f.slot_x[slot], f.slot_y[slot],
-                             f.slot_theta[slot]};
+    const int index = f.contacts[c].index;
+    const Eigen::Vector3d value = ContactPose(f, c, 0);
     for (int i = 0; i < 3; ++i) {
       (*outputs)[m + 3 * index + i] =
           value[i] + change(f.contact_tap(index) + i);

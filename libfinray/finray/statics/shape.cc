@@ -1,6 +1,7 @@
 #include "finray/statics/shape.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "finray/ladder/scheme_element.h"
@@ -12,6 +13,8 @@ Shape::Shape(const EquilibriumSolver& solver,
   if (solver.status() != SolveStatus::kSolved) {
     throw std::logic_error("the shape of a finger without equilibrium");
   }
+  const Finger& finger = solver.model().finger();
+  lift_mm_ = {finger.front_surface_mm, -finger.back_surface_mm};
   const auto spans = solver.Spans(contacts);
   for (int side = 0; side < 2; ++side) {
     for (const BeamSpan& span : spans[side]) {
@@ -47,6 +50,15 @@ Section Shape::At(Side side, double arc_mm) const {
   }
   return {value[0], value[1],         value[2],
           value[3], after->force_x_N, after->force_y_N};
+}
+
+Section Shape::SurfaceAt(Side side, double arc_mm) const {
+  Section at = At(side, arc_mm);
+  const double lift = lift_mm_[LadderModel::Index(side)];
+  if (lift == 0) return at;
+  at.x_mm -= lift * std::sin(at.theta_rad);
+  at.y_mm += lift * std::cos(at.theta_rad);
+  return at;
 }
 
 }  // namespace finray

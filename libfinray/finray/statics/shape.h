@@ -31,6 +31,8 @@ class Shape {
   /// At a rib or contact, where internal forces jump, it gives the values on
   /// the side towards the tip, and at the tip itself those before it.
   Section At(Side side, double arc_mm) const;
+  /// The same with the place of the beam's surface (Finger::front_surface_mm).
+  Section SurfaceAt(Side side, double arc_mm) const;
 
  private:
   // A piece of a beam. (x, y, theta, M) are polynomials of the arc length from
@@ -42,6 +44,7 @@ class Shape {
   };
 
   int degree_ = 0;
+  std::array<double, 2> lift_mm_;  // of the surface, to the left
   std::array<std::vector<Piece>, 2> pieces_;
   std::vector<double> coefficients_;  // four a power, lowest power first
 };

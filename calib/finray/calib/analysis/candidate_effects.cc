@@ -37,6 +37,10 @@ const std::vector<CandidateEffect>& AllCandidateEffects() {
       {Family::kGaugeCreepTime, 50, "another time constant of creep"},
       {Family::kHingeStiffness, 20, "hinges that resist"},
       {Family::kFrontPiece, 3, "a stiffness that changes along the beams"},
+      {Family::kFrontHinge, 0.5, "hinges beside their drawn places"},
+      {Family::kFrontClamp, 2e-4, "clamps that give"},
+      {Family::kBackAngle, 0.5, "another angle of the back beam"},
+      {Family::kSurfaceOffset, 0.5, "a surface beside the beam"},
       {Family::kObjectOrigin, 0.5, "a shifted stage"},
       {Family::kObjectRotation, 1, "a turned stage"},
       {Family::kObjectScale, 1, "a stage of another scale"},
@@ -55,10 +59,7 @@ const std::vector<CandidateEffect>& AllCandidateEffects() {
 }
 
 const CandidateEffect& CandidateOf(ParameterFamily family) {
-  // One key of a plan frees the pieces of both beams.
-  if (family == ParameterFamily::kBackPiece) {
-    family = ParameterFamily::kFrontPiece;
-  }
+  family = FrontFamilyOf(family);
   for (const CandidateEffect& effect : AllCandidateEffects()) {
     if (effect.family == family) return effect;
   }
@@ -97,7 +98,15 @@ std::vector<CandidateEffect> CandidatesFor(const Finger& finger,
         if (!components) continue;
         break;
       case Family::kHingeStiffness:
+      case Family::kFrontHinge:
         if (finger.ribs.empty()) continue;
+        break;
+      case Family::kSurfaceOffset:
+        // Without friction it is the same as another radius.
+        if (!circle || (plan.scene.friction_coefficient == 0 &&
+                        !plan.family(Family::kFriction).free)) {
+          continue;
+        }
         break;
       case Family::kObjectRadius:
         if (!circle) continue;
@@ -116,8 +125,10 @@ Plan Freed(const Plan& plan, const CandidateEffect& effect) {
   family = {};
   family.free = true;
   family.prior_std = effect.prior_std;
-  if (effect.family == ParameterFamily::kFrontPiece) {
-    freed.families[static_cast<int>(ParameterFamily::kBackPiece)] = family;
+  for (int i = 0; i < kParameterFamilies; ++i) {
+    if (FrontFamilyOf(static_cast<ParameterFamily>(i)) == effect.family) {
+      freed.families[i] = family;
+    }
   }
   return freed;
 }

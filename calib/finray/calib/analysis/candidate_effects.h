@@ -18,8 +18,8 @@ struct CandidateEffect {
   const char* words;  ///< What residuals look like if it is there.
 };
 
-/// All families, in the order of ParameterFamily. That of the front beam's
-/// pieces stands for the pieces of both beams.
+/// All families, in the order of ParameterFamily. That of the front beam stands
+/// for both where they share a key (FrontFamilyOf).
 const std::vector<CandidateEffect>& AllCandidateEffects();
 /// Returns the one of a family. Throws std::out_of_range if there is none.
 const CandidateEffect& CandidateOf(ParameterFamily family);

@@ -101,6 +101,18 @@ bool Measure(const std::vector<PointContact>& contacts,
   return true;
 }
 
+// The rows of `all` that belong to gauges.
+Eigen::MatrixXd GaugeRows(const LinearizedFrame& at,
+                          const Eigen::MatrixXd& all) {
+  Eigen::MatrixXd rows(all.rows(), all.cols());
+  Eigen::Index count = 0;
+  for (std::size_t i = 0; i < at.rows.size(); ++i) {
+    if (at.rows[i].family != ResidualFamily::kGauge) continue;
+    rows.row(count++) = all.row(static_cast<Eigen::Index>(i));
+  }
+  return rows.topRows(count);
+}
+
 }  // namespace
 
 PredictedFrames PredictFrames(CalibrationProblem* problem,
@@ -197,15 +209,8 @@ PredictedForce PredictForce(const CalibrationProblem& problem,
   double noise = 0;
   for (const PredictedFrame& frame : predicted.frames) {
     if (frame.free) continue;
-    std::vector<int> gauges;
-    for (std::size_t i = 0; i < frame.at.rows.size(); ++i) {
-      if (frame.at.rows[i].family == ResidualFamily::kGauge) {
-        gauges.push_back(static_cast<int>(i));
-      }
-    }
-    if (gauges.size() < 2) continue;
-    const Eigen::Matrix<double, Eigen::Dynamic, 2> by_contact =
-        frame.at.by_contact(gauges, Eigen::all);
+    const Eigen::MatrixXd by_contact = GaugeRows(frame.at, frame.at.by_contact);
+    if (by_contact.rows() < 2) continue;
     const Eigen::Matrix2d covariance =
         PseudoInverse(by_contact.transpose() * by_contact);
     const double place_std = std::sqrt(covariance(0, 0));
@@ -217,7 +222,7 @@ PredictedForce PredictForce(const CalibrationProblem& problem,
     }
     const Eigen::RowVectorXd by_parameter =
         -per_normal * (covariance * by_contact.transpose() *
-                       frame.at.by_parameter(gauges, Eigen::all))
+                       GaugeRows(frame.at, frame.at.by_parameter))
                           .row(1);
     force.weight += by_parameter.transpose() * by_parameter;
     noise += per_normal * per_normal * covariance(1, 1);

@@ -87,6 +87,14 @@ double VagueStd(const CalibrationParameter& parameter) {
       return 2;
     case ParameterFamily::kHingeStiffness:
       return 50;
+    case ParameterFamily::kFrontHinge:
+    case ParameterFamily::kBackHinge:
+    case ParameterFamily::kBackAngle:
+    case ParameterFamily::kSurfaceOffset:
+      return 2;
+    case ParameterFamily::kFrontClamp:
+    case ParameterFamily::kBackClamp:
+      return 1e-3;
     case ParameterFamily::kObjectOrigin:
     case ParameterFamily::kObjectRadius:
     case ParameterFamily::kCameraOrigin:
@@ -276,8 +284,16 @@ void CalibrationParameters::AddOfFinger(const Finger& finger, const Plan& plan,
       RefuseUnequalHinges(finger);
       parameter.scale = 10;
       break;
+    case FingerParameterKind::kFrontClamp:
+    case FingerParameterKind::kBackClamp:
+      parameter.scale = 1e-4;
+      break;
     case FingerParameterKind::kFrontPiece:
     case FingerParameterKind::kBackPiece:
+    case FingerParameterKind::kFrontHinge:
+    case FingerParameterKind::kBackHinge:
+    case FingerParameterKind::kBackAngle:
+    case FingerParameterKind::kSurfaceOffset:
       break;
   }
   parameter.block = of_finger.kind == FingerParameterKind::kRibLength
@@ -495,8 +511,10 @@ Finger CalibrationParameters::Apply(const Finger& finger) const {
   for (const int i : free_) {
     const CalibrationParameter& parameter = all_[i];
     if (!parameter.of_finger) continue;
-    SetParameter(*parameter.of_finger, parameter.Value(*parameter.variable),
-                 &calibrated);
+    double value = parameter.Value(*parameter.variable);
+    // No clamp turns against its moment: such a one counts as rigid.
+    if (IsClamp(parameter.of_finger->kind)) value = std::max(0.0, value);
+    SetParameter(*parameter.of_finger, value, &calibrated);
   }
   return calibrated;
 }

@@ -34,6 +34,12 @@ constexpr FamilyKey kFamilyKeys[kParameterFamilies] = {
     {"hinge_stiffness", "prior_std_N_mm_per_rad"},
     {"stiffness_pieces", "prior_std_percent", {kCount}},  // front
     {"stiffness_pieces", "prior_std_percent", {kCount}},  // back
+    {"hinge_place", "prior_std_mm"},                      // front
+    {"hinge_place", "prior_std_mm"},                      // back
+    {"clamp_compliance", "prior_std_rad_per_N_mm"},       // front
+    {"clamp_compliance", "prior_std_rad_per_N_mm"},       // back
+    {"back_angle", "prior_std_deg"},
+    {"surface_offset", "prior_std_mm"},
     {"object_origin", "prior_std_mm", {"per_log"}},
     {"object_rotation", "prior_std_deg", {"per_log"}},
     {"object_scale", "prior_std_percent"},
@@ -115,6 +121,19 @@ Scene ReadPlanScene(const YamlMap& yaml) {
 
 }  // namespace
 
+ParameterFamily FrontFamilyOf(ParameterFamily family) {
+  switch (family) {
+    case ParameterFamily::kBackPiece:
+      return ParameterFamily::kFrontPiece;
+    case ParameterFamily::kBackHinge:
+      return ParameterFamily::kFrontHinge;
+    case ParameterFamily::kBackClamp:
+      return ParameterFamily::kFrontClamp;
+    default:
+      return family;
+  }
+}
+
 const char* FamilyKeyOf(ParameterFamily family) {
   return kFamilyKeys[static_cast<int>(family)].key;
 }
@@ -160,7 +179,8 @@ double Plan::PlaceStd_mm(double reach_mm) const {
       {ParameterFamily::kObjectOrigin, 1},
       {ParameterFamily::kObjectRotation, reach_mm * M_PI / 180},
       {ParameterFamily::kObjectScale, reach_mm / 100},
-      {ParameterFamily::kObjectRadius, 1}};
+      {ParameterFamily::kObjectRadius, 1},
+      {ParameterFamily::kSurfaceOffset, 1}};
   for (const auto& [which, mm] : parts) {
     if (!family(which).free) continue;
     variance += std::pow(mm * family(which).prior_std.value_or(

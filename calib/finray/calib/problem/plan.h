@@ -31,6 +31,12 @@ enum class ParameterFamily {
   kHingeStiffness = static_cast<int>(FingerParameterKind::kHingeStiffness),
   kFrontPiece = static_cast<int>(FingerParameterKind::kFrontPiece),
   kBackPiece = static_cast<int>(FingerParameterKind::kBackPiece),
+  kFrontHinge = static_cast<int>(FingerParameterKind::kFrontHinge),
+  kBackHinge = static_cast<int>(FingerParameterKind::kBackHinge),
+  kFrontClamp = static_cast<int>(FingerParameterKind::kFrontClamp),
+  kBackClamp = static_cast<int>(FingerParameterKind::kBackClamp),
+  kBackAngle = static_cast<int>(FingerParameterKind::kBackAngle),
+  kSurfaceOffset = static_cast<int>(FingerParameterKind::kSurfaceOffset),
   kObjectOrigin = kFingerParameterKinds,
   kObjectRotation,
   kObjectScale,
@@ -119,6 +125,10 @@ struct Plan {
   /// prior.
   double PlaceStd_mm(double reach_mm) const;
 };
+
+/// The family of the front beam where one key of a plan frees both beams, else
+/// the family itself.
+ParameterFamily FrontFamilyOf(ParameterFamily family);
 
 /// The key of a family in a plan's `parameters`, and that of its prior.
 const char* FamilyKeyOf(ParameterFamily family);

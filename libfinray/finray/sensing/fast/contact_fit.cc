@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "finray/ladder/contact_pose.h"
 #include "finray/objects/circle_centre.h"
 
 namespace finray {
@@ -30,10 +31,11 @@ ContactFit::ContactFit(const Finger& finger,
 void ContactFit::ReadCentre(double radius_mm, int unknowns) {
   const LadderFrame<double>& f = newton_.frame();
   const double length = newton_.workspace().length_unit();
-  const int slot = f.elements, gauges = newton_.model().gauges();
-  const double theta = f.slot_theta[slot];
-  const Eigen::Vector2d at = CircleCentre(
-      {length * f.slot_x[slot], length * f.slot_y[slot], theta}, radius_mm);
+  const int gauges = newton_.model().gauges();
+  Eigen::Vector3d contact = ContactPose(f, 0, 0);
+  contact.head<2>() *= length;
+  const double theta = contact.z();
+  const Eigen::Vector2d at = CircleCentre(contact, radius_mm);
   const Eigen::Vector2d by_angle = CircleCentreByAngle(theta, radius_mm);
   const double* pose = f.taps + f.contact_tap(0) * f.stride + f.affine;
   for (int i = 0; i < 2; ++i) {

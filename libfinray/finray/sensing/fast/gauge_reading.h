@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "finray/ladder/contact_pose.h"
 #include "finray/ladder/ladder_frame.h"
 #include "finray/ladder/lanes.h"
 #include "finray/sensing/fast/contact_step.h"
@@ -141,15 +142,13 @@ template <class T>
 Eigen::Vector3d PoseAfter(const LadderFrame<T>& f, int c, double length_unit,
                           const ContactVector& change, int lane) {
   const bool tip = c == f.contact_count;
-  const int slot = f.elements + c;
   const int tap = tip ? f.tip_tap() : f.contact_tap(f.contacts[c].index);
-  const T* const from[3] = {tip ? &f.tip[0] : &f.slot_x[slot],
-                            tip ? &f.tip[1] : &f.slot_y[slot],
-                            tip ? &f.tip[2] : &f.slot_theta[slot]};
-  Eigen::Vector3d pose;
+  Eigen::Vector3d pose =
+      tip ? Eigen::Vector3d(LaneOf(f.tip[0], lane), LaneOf(f.tip[1], lane),
+                            LaneOf(f.tip[2], lane))
+          : ContactPose(f, c, lane);
   for (int i = 0; i < 3; ++i) {
-    pose[i] = LaneOf(*from[i], lane) +
-              ChangeOf(f, f.taps + (tap + i) * f.stride, change, lane);
+    pose[i] += ChangeOf(f, f.taps + (tap + i) * f.stride, change, lane);
   }
   pose.head<2>() *= length_unit;
   return pose;
