@@ -27,6 +27,7 @@ struct Solved {
   CalibrationProblem* problem;
   std::unique_ptr<CalibrationProblem> owned;  // null for the first
   CalibrationSolution solution;
+  double log_likelihood = 0;  // CrossValidatedLogLikelihood of the frames
 };
 
 double CostOf(const Solved& at) {
@@ -34,7 +35,7 @@ double CostOf(const Solved& at) {
 }
 
 // Solves the same frames with the effect free as well. Returns nothing if the
-// solver does not get there.
+// solver does not get there, or to where the model cannot be evaluated.
 std::optional<Solved> SolveWith(const CandidateEffect& effect,
                                 const Solved& from) {
   Solved with;
@@ -48,25 +49,37 @@ std::optional<Solved> SolveWith(const CandidateEffect& effect,
     if (!solved.report.converged) return {};
     with.solution.solve = solved.report;
     with.solution.at = std::move(solved.at);
+    with.solution.contacts = contacts.all();
+    with.log_likelihood = CrossValidatedLogLikelihood(
+        *with.problem, LinearizeWide(*with.problem, with.solution));
   } catch (const std::runtime_error&) {
-    return {};  // the model cannot be evaluated there
+    return {};
   }
-  with.solution.contacts = contacts.all();
   return with;
 }
 
-// The effect may explain frames that were rejected.
+// The effect may explain frames that were rejected. Where the model cannot be
+// evaluated with other frames, these stay.
 void JudgeAgain(Solved* at) {
+  const auto rejected = at->problem->rejected();
+  const Eigen::VectorXd values = at->problem->Values();
   ContactStore contacts(at->problem);
   contacts.Set(at->solution.contacts);
-  const Outliers outliers =
-      FindOutliers(at->solution.at, at->problem, &contacts);
-  at->problem->SetRejected(outliers.reasons);
-  for (const auto& [frame, reason] : at->problem->rejected()) {
-    contacts.Forget(frame);
+  SummedSolution solved;
+  try {
+    const Outliers outliers =
+        FindOutliers(at->solution.at, at->problem, &contacts);
+    at->problem->SetRejected(outliers.reasons);
+    for (const auto& [frame, reason] : at->problem->rejected()) {
+      contacts.Forget(frame);
+    }
+    solved =
+        SolveSummed(at->problem->FittedFrames(), {}, at->problem, &contacts);
+  } catch (const std::runtime_error&) {
+    at->problem->SetRejected(rejected);
+    at->problem->SetValues(values);
+    return;
   }
-  SummedSolution solved =
-      SolveSummed(at->problem->FittedFrames(), {}, at->problem, &contacts);
   at->solution.solve = solved.report;
   at->solution.at = std::move(solved.at);
   at->solution.contacts = contacts.all();
@@ -97,8 +110,7 @@ Exploration Explore(CalibrationProblem* problem) {
       if (!with) continue;
       Exploration::Step step{candidate, effect.words, 0, before, 0, false};
       step.drop = 2 * (CostOf(now) - CostOf(*with));
-      step.after = CrossValidatedLogLikelihood(
-          *with->problem, LinearizeWide(*with->problem, with->solution));
+      step.after = with->log_likelihood;
       result.steps.push_back(step);
       const double bar = kept ? result.steps[*kept].after : before;
       if (!(step.after > bar)) continue;
