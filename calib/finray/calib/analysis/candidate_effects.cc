@@ -36,7 +36,7 @@ const std::vector<CandidateEffect>& AllCandidateEffects() {
       {Family::kGaugeCreepShare, 0.1, "gauges that creep"},
       {Family::kGaugeCreepTime, 50, "another time constant of creep"},
       {Family::kHingeStiffness, 20, "hinges that resist"},
-      {Family::kFrontPiece, 3, "a stiffness that changes along the beams"},
+      {Family::kFrontPiece, 1.5, "a stiffness that changes along the beams"},
       {Family::kFrontHinge, 0.5, "hinges beside their drawn places"},
       {Family::kFrontClamp, 2e-4, "clamps that give"},
       {Family::kBackAngle, 0.5, "another angle of the back beam"},

@@ -305,6 +305,8 @@ std::string CalibrationYaml(CalibrationProblem& problem,
   if (result.cross_validation.folds > 0) {
     EmitErrorTable("cross_validation", result.cross_validation.errors, &yaml);
   }
+  EmitLine(&yaml, "discrepancy", "words",
+           result.discrepancy ? WordsOf(*result.discrepancy) : "");
   EmitCorrelation(problem, result.residual_correlation, &yaml);
   EmitLeaveOneLogOut(problem, result.leave_one_log_out, &yaml);
   const NextRecording& next = result.next;
