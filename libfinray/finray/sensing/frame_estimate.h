@@ -88,8 +88,9 @@ struct FrameEstimate {
   double p_value() const;
 
   /// Factor on the noise that the finger declares: sqrt(chi2 / dof), or that of
-  /// model_chi2, if the p-value is below kUnexplained, else 1. Below it the declared noise does
-  /// not explain the frame, and an unknown error of about this size is assumed.
+  /// model_chi2, if the p-value is below kUnexplained, else 1. Below it the
+  /// declared noise does not explain the frame, and an unknown error of about
+  /// this size is assumed.
   double noise_scale() const;
   /// The chi2 of both.
   double explained_chi2() const {

@@ -54,7 +54,8 @@ double LogLikelihood(const std::vector<GaugeError>& errors,
 }
 
 // The places are the middles of as many lengths with equally many errors.
-Model Fit(const std::vector<GaugeError>& errors, double load_N, int places) {
+Model FitModel(const std::vector<GaugeError>& errors, double load_N,
+               int places) {
   Model model;
   model.discrepancy.load_N = load_N;
   const std::size_t n = errors.size();
@@ -163,7 +164,7 @@ std::optional<GaugeDiscrepancy> BestFit(std::vector<GaugeError> errors) {
     // What depends on the place shows without it, too.
     if (places > kPlaces[0] && !best) break;
     for (const double load_N : kLoads_N) {
-      const Model model = Fit(errors, load_N, places);
+      const Model model = FitModel(errors, load_N, places);
       const double criterion = -2 * model.log_likelihood + 2 * numbers;
       if (criterion >= best_criterion) continue;
       best_criterion = criterion;
