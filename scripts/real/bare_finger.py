@@ -3,9 +3,11 @@ another object calibrates."""
 
 import math
 
+import yaml
+
 import data
 from errors import rms
-from tools import number
+from tools import number, write_yaml
 
 # As finray_simulate takes them. A calibration takes circles: near the end of its short
 # axis the ellipse is the circle of its curvature, to 0.001 mm within 6 deg of the axis.
@@ -21,7 +23,9 @@ TRIALS = {
     "stiffness, places": {},
     "rib lengths": {"rib_length": {"prior_std_mm": 0.5}},
     "places of hinges": {"hinge_place": {"prior_std_mm": 0.5}},
-    "rib lengths, places of hinges": {"rib_length": {"prior_std_mm": 0.5}, "hinge_place": {"prior_std_mm": 0.5}},
+    "rib lengths, places of hinges": {"rib_length": {"prior_std_mm": 1}, "hinge_place": {"prior_std_mm": 1}},
+    "these and the back angle": {"rib_length": {"prior_std_mm": 1}, "hinge_place": {"prior_std_mm": 1},
+                                 "back_angle": {"prior_std_deg": 1}},
     "springs at hinges": {"hinge_stiffness": {"prior_std_N_mm_per_rad": 20}},
     "friction": {"friction": {"prior_std": 0.3}},
     "clamps that turn": {"clamp_compliance": {"prior_std_rad_per_N_mm": 1e-4}},
@@ -36,7 +40,6 @@ TRIALS = {
 
 def finger():
     """As drawn for the finger with gauges, without them."""
-    import yaml
     content = yaml.safe_load((data.FOLDER / "steel_finger.yaml").read_text("utf-8"))
     del content["schema_version"], content["gauges"]
     return {**content, "name": "steel_2021_without_gauges"}
@@ -145,8 +148,6 @@ def predict(tools, folder, finger_path, name, friction, pairs):
 
 
 def without_ribs(tools, folder, path):
-    import yaml
-    from tools import write_yaml
     content = yaml.safe_load(path.read_text("utf-8"))
     del content["ribs"], content["schema_version"]
     content.pop("calibration", None)
@@ -218,3 +219,27 @@ def score(entries):
 def line(entries):
     return rms(force_errors(entries, 1)), rms(force_errors(entries, 2)), rms(pin_errors(entries, 1)), rms(
         pin_errors(entries, 2)), rms(about_the_image(entries, 2))
+
+
+def leave_advance_out(tools, folder, effects, series, name):
+    """Rows of an object with ribs, each advance by what its other advances calibrate:
+    finger, camera and the place of each series. Entries as those of judge(), the
+    prediction twice."""
+    logs = {log: table for log, (of, ribs, table) in series.items() if of == name and ribs and not superseded(log)}
+    found = []
+    for advance in sorted({row["advance_mm"] for table in logs.values() for row in table}):
+        rest = {log: for_fit(name, [row for row in table if row["advance_mm"] != advance]) for log, table in logs.items()}
+        calibration = tools.calibrate(folder, finger(), plan(name, {**ALWAYS, **effects}, True), rest)
+        values = calibration.values
+        for log, table in logs.items():
+            place = Place([values[f"object_origin_{axis}_mm[{log}.csv]"] for axis in "xy"],
+                          [values[f"camera_origin_{axis}_mm"] for axis in "xy"])
+            for row in (row for row in table if row["advance_mm"] == advance):
+                force, pins = predict(tools, folder, calibration.finger, name, 0.0, [(row, place)])[0]
+                entry = {"log": log, "object": name, "ribs": 4, "advance_mm": advance, "place": place}
+                if is_pins(row):
+                    entry["pins"] = [(key, row[key], pin, pin) for key, pin in pins.items()]
+                else:
+                    entry["force"] = row["force_N"], force, force
+                found.append(entry)
+    return found

@@ -1,5 +1,7 @@
 """Gauges bent round cylinders: each cylinder's reading by what the others calibrate."""
 
+import yaml
+
 import data
 from errors import rms
 
@@ -9,7 +11,6 @@ CURVED = {**PLAIN, "gauge_curvature": {"prior_std_per_rad": 3}}
 
 
 def finger():
-    import yaml
     content = yaml.safe_load((data.FOLDER / "steel_finger.yaml").read_text("utf-8"))
     del content["schema_version"]
     return {**content, "gauges": [{**content["gauges"][0], "length_mm": LENGTH_MM, "gain_V_per_rad": 1.0}]}
@@ -56,11 +57,13 @@ def judged(tools, folder, key, series):
         float(r["gauge_1_V"]) for r in rows)}
     for name, parameters in (("plain", PLAIN), ("curved", CURVED)):
         found[name] = leave_one_out(tools, folder, parameters, rows)
-        found[f"{name}_transferred"] = [e for k in others for e in transferred(tools, folder, parameters, rows, series[k])]
+        for when, same in (("same_day", True), ("other_day", False)):
+            found[f"{name}_{when}"] = [e for k in others if (k[1] == key[1]) == same
+                                       for e in transferred(tools, folder, parameters, rows, series[k])]
     return found
 
 
 def totals(entries):
     """rms in V of all series together, by how the rows were held out."""
     return {name: (rms([e for entry in entries for e in entry[name]]), sum(len(entry[name]) for entry in entries))
-            for name in ("plain", "curved", "plain_transferred", "curved_transferred")}
+            for name in (kind + how for kind in ("plain", "curved") for how in ("", "_same_day", "_other_day"))}

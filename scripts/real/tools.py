@@ -54,6 +54,15 @@ class Tools:
             allowed=(0, 4))
         return Calibration(folder, yaml.safe_load((folder / "calibration.yaml").read_text("utf-8")))
 
+    def explored(self, name, finger, plan, logs):
+        """What --explore says of the logs, in a line."""
+        folder = self.folder(name)
+        paths = [write_table(folder / f"{log}.csv", table) for log, table in logs.items()]
+        ended = run(self.build, "finray_calibrate", "--explore", "--finger", finger, "--plan",
+                    write_yaml(folder / "plan_given.yaml", plan), "--logs", ",".join(map(str, paths)), "--out_dir", folder,
+                    "--noreport", allowed=(0, 4))
+        return "; ".join(line.removeprefix("explored").strip() for line in ended.stdout.splitlines() if line.startswith("explored"))
+
     def simulate(self, name, finger, scene, table):
         folder = self.folder(name)
         run(self.build, "finray_simulate", "--finger", finger, "--scene", write_yaml(folder / "scene.yaml", scene),
