@@ -164,6 +164,25 @@ TEST(CalibrationTest, ThreadsDoNotChangeTheResult) {
   EXPECT_EQ(value[0], value[1]);
 }
 
+// The same log says so below the limit, and nothing above its largest force.
+TEST(CalibrationTest, ForcesBeyondTheLimitOfEstimatesAreNamed) {
+  const TempFolder folder;
+  const std::string log = StandardLog(folder, HiddenFinger(), 4);
+  const auto codes = [&](double force_max_N) {
+    Plan plan = StandardPlan();
+    plan.scene.force_max_N = force_max_N;
+    CalibrationProblem problem(
+        Nominal(), plan, ReadCalibrationLogs({log}, Nominal(), plan), {}, 1);
+    std::vector<std::string> found;
+    for (const Warning& warning : Calibrate(&problem).warnings) {
+      found.push_back(warning.code);
+    }
+    return found;
+  };
+  EXPECT_THAT(codes(5), testing::Contains("forces_beyond_limit"));
+  EXPECT_THAT(codes(25), testing::Not(testing::Contains("forces_beyond_limit")));
+}
+
 // Real measurements, where they are at hand. Nothing of this finger was fitted
 // by its authors to these rows.
 TEST(CalibrationTest, SteelFingerAgainstItsForceSensor) {
@@ -187,6 +206,10 @@ TEST(CalibrationTest, SteelFingerAgainstItsForceSensor) {
               result.forces.fitted.force_after_N().rms());
   EXPECT_GT(result.forces.fitted.force_before_N().rms(), 2);
   EXPECT_LT(result.forces.fitted.force_after_N().rms(), 0.7);
+  // It carries 13.8 N, and 40 EI / l_0^2 is 9.4 N.
+  std::vector<std::string> codes;
+  for (const Warning& warning : result.warnings) codes.push_back(warning.code);
+  EXPECT_THAT(codes, testing::Contains("forces_beyond_limit"));
 }
 
 }  // namespace
