@@ -53,8 +53,7 @@ def judged(tools, folder, key, series):
     rows = series[key]
     gauge = calibrated(tools, folder, CURVED, rows)
     others = [k for k in series if k[0] == key[0] and k != key and any(r["cylinder_radius_mm"] == "inf" for r in series[k])]
-    found = {"key": key, "rows": len(rows), "gauge": gauge, "span": max(float(r["gauge_1_V"]) for r in rows) - min(
-        float(r["gauge_1_V"]) for r in rows)}
+    found = {"key": key, "rows": len(rows), "gauge": gauge, "plain_gain": calibrated(tools, folder, PLAIN, rows)[0]}
     for name, parameters in (("plain", PLAIN), ("curved", CURVED)):
         found[name] = leave_one_out(tools, folder, parameters, rows)
         for when, same in (("same_day", True), ("other_day", False)):

@@ -70,8 +70,9 @@ class Outline:
         self.round = rms([r - mean(own) for r in own])
 
 
-def judge(tools, finger):
-    """finger: calibrated on the circle of 20 mm."""
+def judge(tools, calibration):
+    """calibration: on the circle of 20 mm."""
+    finger = calibration.finger
     zero, *circle = data.touches("circle_r30")
     first, *irregular = data.touches("irregular")
     ready = zeroed(tools, "circle", finger, zero)
@@ -94,9 +95,15 @@ def judge(tools, finger):
                  for j in (1, 2)]
         same = zeroed(tools, f"{folder}/all/irregular", every.finger, first, moved)
         found["irregular"].append((name, Outline(tools, f"{folder}/all/irregular", same, irregular, place)))
+        if "gauge_gain" in parameters:
+            found["gains"] = [(every.values[key], calibration.values[key]) for key in
+                              ("gauge_1_gain_V_per_rad", "gauge_2_gain_V_per_rad")]
+        if "gauge_offset" in parameters:
+            found["offsets"] = moved
         if "object_origin" in parameters:
             found["irregular"].append((name + ", the other sense", Outline(
                 tools, f"{folder}/all/other_sense", same, irregular, place, sense=-1)))
+    found["repeat"] = [1e3 * abs(float(irregular[0][f"gauge_{j}_V"]) - float(irregular[-1][f"gauge_{j}_V"])) for j in (1, 2)]
     return found
 
 

@@ -28,9 +28,9 @@ def bare(trials, chosen, fingers, entries, rows_out):
     """trials: words -> entries of the circles; entries: all series with the chosen effects;
     rows_out: each advance held out."""
     text = ["## 1. The finger without gauges: shape and force from the place of an object", (
-        "The finger is `steel_finger.yaml` without its gauges. Nothing of it is known from these rows but by `finray_calibrate`: stiffness of both "
-        "beams (drawing, 30 %), the place of each series and of the camera, and what the trials add. `finray_simulate` predicts the rows that were "
-        "held out. The stated reference is 0.7 mm for a click of a pin. Two ways of holding out:\n\n"
+        "The finger is `steel_finger.yaml` without its gauges. `finray_calibrate` fits stiffness of both "
+        "beams (drawing, 30 %), the place of each series and of the camera, and what a trial adds. `finray_simulate` predicts the rows that were "
+        "held out. A click on a pin is good to 0.5 to 0.7 mm. Two ways of holding out:\n\n"
         "- **an advance**: all rows of an object at this advance, forces and pins, are predicted by what its other advances calibrate;\n"
         "- **an object**: all rows of an object are predicted by the finger that another object calibrates (R = 20 mm by R = 30 mm, all others by "
         "R = 20 mm). The place of the object is then either as written, beside the mean origin of the other object's series, or comes from the "
@@ -60,17 +60,18 @@ def bare(trials, chosen, fingers, entries, rows_out):
         ("series", "finger by", "rows", "largest force, N", "force, place as written, N rms", "force, place by the other rows", "pins, place as written, mm rms",
          "pins, place by the other images", "about the image"), rows))
     ribless = [e for e in entries if not e["ribs"]]
+    last = [e for e in by_object if e["log"] == "circle_r20_4_ribs_2021-05-20_3"]
+    slope = [(last[k + 1]["force"][0] - last[k]["force"][0]) / (last[k + 1]["advance_mm"] - last[k]["advance_mm"]) for k in (0, len(last) - 2)]
     light = [e for e in by_object if "force" in e and e["object"].startswith("ellipse") and e["advance_mm"] <= 20]
     heavy = [e for e in by_object if "force" in e and e["object"].startswith("ellipse") and e["advance_mm"] > 20]
     text.append(
         f"- Without ribs the same beams carry a circle: {len(ribless)} rows of two days, to 55 mm of advance, are predicted within "
         f"{rms(bare_finger.force_errors(ribless, 1)):.2f} N rms by stiffnesses that only the finger with ribs has shown. Nothing of them was fitted.\n"
-        f"- The place as written costs most: series were touched off by hand, about 1 mm apart, and 1 mm is 0.3 N at light and 0.8 N at deep touches.\n"
+        f"- The place as written costs most: series were touched off by hand, about 1 mm apart, and on R = 20 mm 1 mm is {slope[0]:.1f} N at light and {slope[1]:.1f} N at deep touches.\n"
         f"- The ellipse to 20 mm of advance: {rms(bare_finger.force_errors(light, 1)):.2f} N rms on {len(light)} rows, place as written; beyond, where the "
-        f"model has two contacts, {rms(bare_finger.force_errors(heavy, 1)):.2f} N on {len(heavy)} rows of up to 17.6 N. Its pins lie 1 to 2 mm behind its "
+        f"model has two contacts, {rms(bare_finger.force_errors(heavy, 1)):.2f} N on {len(heavy)} rows of up to {max(e['force'][0] for e in heavy):.1f} N. Its pins lie 1 to 2 mm behind its "
         "forces: the two series were touched off apart.\n"
-        "- The first ellipse's advances are moved by 5 mm, as its author's header is marked uncertain: so it agrees with the second within 0.1 N where they meet, "
-        "as written it is up to 8 N off.\n"
+        "- The first ellipse's advances are moved by 5 mm, as its author's header is marked uncertain: so it agrees with the second within 0.1 N at the advance that both have (repeatability, section 2).\n"
         "- The first series on R = 20 mm is marked superseded. It is predicted, but calibrates nothing.")
     text.append("![measured and predicted forces over the advance](../pictures/real_bare_forces.png)\n\n"
                 "![pins: camera and prediction](../pictures/real_bare_pins.png)")
@@ -93,9 +94,10 @@ def parameters(fingers, names):
         (f"`{name}`", *(f"{c.values[name]:.0f} +- {c.std[name]:.0f}" for c in fingers.values())) for name in names])
 
 
-def gauged(found, nine, repeats, explored, outliers):
+def gauged(found, nine, repeats, explored, outliers, limit, springs, by_cylinders):
     """found, nine: [(words, entries)] of all rows with contact, and without the heaviest."""
     best, best_place = (min((gauged_finger.summary(e, which)["rms"], words) for words, e in found) for which in (0, 1))
+    best_nine = min((gauged_finger.summary(e, 0)["rms"], words) for words, e in nine)
     plan, plan_nine = found[0][1], nine[0][1]
     s, p, s9, p9 = (gauged_finger.summary(e, which) for e in (plan, plan_nine) for which in (0, 1))
     force, (sensed, std, _), _ = plan[-1]
@@ -114,10 +116,13 @@ def gauged(found, nine, repeats, explored, outliers):
         f"({met(p9['rms'], 0.3)}) over {s9['rows']} rows; of these {s9['within_68']} and {s9['within_95']}, with the place {p9['within_68']} and {p9['within_95']} lie within 68 and 95 % intervals.",
         "Why the heaviest row counts apart, and what the data allow:\n\n"
         f"- The other nine rows sense {sensed:.2f} +- {std:.2f} N there; the sensor reads {force:.2f} N, {abs(sensed - force) / math.hypot(std, 0.1):.1f} std away. "
-        f"From row to row the force grew by {', '.join(f'{b - a:.2f}' for a, b in zip(steps[-5:], steps[-4:]))} N and the last time by {steps[-1] - steps[-2]:.2f} N, while the gauges went on as before. "
-        "A contact that slips, or a sensor near its end, does that; the row alone cannot tell. While it is in the calibration it pulls the two rows below it by 0.6 N.\n"
+        f"From row to row the force grew by {', '.join(f'{b - a:.2f}' for a, b in zip(steps[-5:-1], steps[-4:-1]))} N and the last time by {steps[-1] - steps[-2]:.2f} N, while the gauges went on as before. "
+        "A contact that slips, or a sensor near its end, does that; the row alone cannot tell. While it is in the calibration the two rows below it are "
+        f"{', '.join(f'{e:+.2f}' for e in gauged_finger.errors(plan, 0)[-3:-1])} N off, without it {', '.join(f'{e:+.2f}' for e in gauged_finger.errors(plan_nine, 0)[-2:])} N.\n"
         f"- No trial of the table brings all ten rows below {best[0]:.2f} N ({best[1]}) from gauges alone, or below {best_place[0]:.2f} N ({best_place[1]}) with the place.\n"
-        "- One gauge step of 5 to 10 mV is 0.1 to 0.3 N here. At light touches (the first four rows) the two gauges do not tell where the contact is: these rows are `unobservable` "
+        f"- Springs at hinges come out at {springs:.1f} N mm/rad. A negative spring is no spring, so that the smaller error is no reason to take them.\n"
+        f"- Of {len(nine)} trials without the heaviest row the best has {best_nine[0]:.2f} N from gauges alone ({best_nine[1]}); it was picked by looking, so that {s9['rms']:.2f} N of the plan that was there before is the figure to trust.\n"
+        "- At light touches (the first four rows) the two gauges do not tell where the contact is: these rows are `unobservable` "
         "from gauges alone and say so with std of 1 to 3 N, and the place settles them.",
         "Repeatability, from the data themselves: pairs of series of the finger without gauges at the same advance (standard deviation of one of the two; largest difference)\n\n" + table(
             ("object", "ribs", "pairs", "std of one, N", "largest difference, N"),
@@ -133,7 +138,10 @@ def gauged(found, nine, repeats, explored, outliers):
              for a, b in [(gauged_finger.summary(e, 0), gauged_finger.summary(e, 1))]]),
         f"`finray_calibrate --explore` on all rows: {explored}.",
         f"**Say `force_max_N`.** Every scene and plan of this section has `force_max_N: {gauged_finger.FORCE_MAX}`. Without it an estimate goes no further than 40 EI / l_0^2, "
-        "9.4 N of this finger, which carries 13.8 N: the three heaviest rows end at the bound, are `unobservable`, and a calibration judges its forces without them."]
+        f"{limit:.1f} N of this finger, which carries {force:.1f} N: {sum(step > limit for step in steps)} rows end at the bound, are `unobservable`, and a calibration judges its forces without them. "
+        "It warns of that now (`forces_beyond_limit`).",
+        "**Gains of the cylinders instead**: fin_I as gauge 1, fin_II as gauge 2, gains as fitted in section 3 without a curve and for the shorter gauge, stiffness of the bundled plan's calibration, offsets by the zero reading. "
+        "These ten forces calibrated no gain, though the stiffness has seen them.\n\n" + table(("day of the cylinders", "gain 1, V/rad", "gain 2", "rows", "force, N rms"), by_cylinders)]
     return "\n\n".join(text)
 
 
@@ -145,6 +153,7 @@ def benched(entries):
         return f"{1e3 * plain:.1f} mV with one gain, {1e3 * curved:.1f} mV with a curve ({count} readings)"
     rows = [(f"{e['key'][0]}, {e['key'][1]}, {e['key'][2]}", e["rows"], n(e["gauge"][0], 3), n(e["gauge"][1]), *(n(1e3 * rms(e[k]), 1) for k in (
         "plain", "curved", "plain_same_day", "curved_same_day", "plain_other_day", "curved_other_day"))) for e in entries]
+    days = {name: [e["gauge"][0] for e in entries if e["key"][0] == name] for name in ("fin_I", "fin_II")}
     better = sum(rms(e["curved"]) < rms(e["plain"]) for e in entries)
     return "\n\n".join([
         "## 3. Gauges on the bench: what a curve is worth",
@@ -153,8 +162,8 @@ def benched(entries):
         f"- one cylinder of a series by the others, ends included, which are extrapolated: {pair('')}; the curve is better in {better} of {len(entries)} series;\n"
         f"- the second series of a day by the first and back, offset by its flat reading: {pair('_same_day')};\n"
         f"- a series of another day, offset by its flat reading: {pair('_other_day')}.\n\n"
-        "So the curve belongs to the gauge: on the same day it removes most of the error. From day to day the gain itself changes, fin_I from 0.55 to 1.10 V/rad and fin_II from 0.60 to 1.14, with "
-        "mounting and amplifier, and the curve is small beside that. Gains of the bench cannot be taken to the finger of another day; this is why forces by gains of the cylinders are off by 2 N.",
+        "So the curve belongs to the gauge: on the same day it removes most of the error. From day to day the gain itself changes, " + " and ".join(f"{name} from {min(gains):.2f} to {max(gains):.2f} V/rad" for name, gains in days.items()) + ", with "
+        "mounting and amplifier, and the curve is small beside that. Gains of the bench cannot be taken to the finger of another day (last table of section 2).",
         table(("gauge, day, trial", "rows", "gain, V/rad", "curvature, 1/rad", "left out, one gain, mV rms", "curve", "same day, one gain", "curve", "other day, one gain", "curve"), rows)])
 
 
@@ -171,30 +180,33 @@ def touched(found):
     place = [(half, by, shape) for name, half, by, shape in corrected if name == "the place of the turning axis"]
     moved = [by.values[f"object_origin_{axis}_mm"] for axis in "xy" for _, by, _ in place]
     shapes = [shape for _, _, shape in place]
+    gains, offsets = found["gains"], found["offsets"]
     used = dict(found["irregular"])
     return "\n\n".join([
         "## 4. Real touches: outlines",
         "The finger is that of section 2, calibrated on all rows of R = 20 mm. Offsets are the zero reading of the log's first row. The circle of R = 30 mm (circumference 188.5 mm) calibrated nothing in the first table.",
         table(("circle, as written", *header), [row(words, shape) for words, shape in found["plain"]]),
-        f"**The outline is round but short**: {today.circumference:.1f} mm instead of 188.5. The gauges say why only in part. In all 18 touches the finger is bent as by an advance of 16 mm on the circle, "
-        f"not the 20 mm that are written, and 18 touches at one pose are two numbers, one a gauge. The known circle can therefore correct one pair of parameters. Half of the touches (every other one) "
+        f"**The outline is round but short**: {today.circumference:.1f} mm instead of 188.5. The gauges say why only in part. By the place that the circle asks for below the finger is bent as by 4 mm less of advance "
+        f"than is written, and 18 touches at one pose are two numbers, one a gauge. The known circle can therefore correct one pair of parameters. Half of the touches (every other one) "
         "calibrate that pair, with R known and no force; the other half is reconstructed:",
         table(("calibrated by half of the touches", "half", *header), [row(name, shape, half) for name, half, _, shape in corrected]),
         f"- Moving the turning axis by ({(moved[0] + moved[1]) / 2:.1f}, {(moved[2] + moved[3]) / 2:.1f}) mm gives {shapes[0].circumference:.1f} and {shapes[1].circumference:.1f} mm on the halves that were held out, "
-        f"{shapes[0].off:.2f} and {shapes[1].off:.2f} mm rms from the circle, and the noise is as expected.\n"
-        "- Other gains (10 and 23 % less) or other offsets (17 and 51 mV) do the same. The circle alone does not tell these apart, and all are as large as the data show elsewhere: "
-        "gains changed by more between days (section 3), zero readings of gauge 2 by 40 mV, and the place of the axis is inferred to 1 to 2 mm. Stiffness does not explain it: its calibration is `unexplained`.\n"
-        "- The irregular object, touched at two places of the axis, speaks for the place: with it the same touches stay usable as without; with gains or offsets most become `unobservable` "
-        "(table below). That is a hint, not a proof.\n"
-        f"- The centre of the outline is ({today.centre[0]:.1f}, {today.centre[1]:.1f}) mm from the axis; the first gauge follows the turn by 13 mV. The circle turned about a point 0.8 mm beside its centre.",
+        f"{shapes[0].off:.2f} and {shapes[1].off:.2f} mm rms from the circle, and the noise is no more than expected.\n"
+        f"- Other gains ({', '.join(f'{100 * (value / before - 1):+.0f}' for value, before in gains)} %) or other offsets ({', '.join(f'{1e3 * value:+.0f}' for value in offsets)} mV) do the same. "
+        "The circle alone does not tell these apart: gains changed by more between days (section 3), the zero reading of gauge 2 differs by 40 mV between the three logs, and the place of the axis is inferred, "
+        "though to 1 to 2 mm. Stiffness does not explain it: its calibration is `unexplained`.\n"
+        f"- The irregular object does not settle it. With gains or offsets of the circle most of its touches become `unobservable` (table below); with the place they stay, but the noise of its outline grows from "
+        f"{used['no correction'].noise:.2f} to {used['the place of the turning axis'].noise:.2f} times the expected one. So no correction of the circle is shown to hold for another log. What a user can do: touch a known circle in the same session, and let it "
+        "calibrate the place (`object_origin`) before the unknown object.\n"
+        f"- The centre of the outline is ({today.centre[0]:.1f}, {today.centre[1]:.1f}) mm from the axis; the circle turned about a point {math.hypot(*today.centre):.1f} mm beside its centre, or the readings drifted.",
         "**The irregular object**, by the correction that all touches of the circle give; offsets by its own zero reading\n\n" + table(("correction", *header[:3], *header[4:]), [
             (lambda r: (*r[:4], *r[5:]))(row(words, shape)) for words, shape in found["irregular"]]),
         f"Nobody measured this object, so that only the fit judges: the sense of turning that the notes infer leaves {n(used['the place of the turning axis'].noise)} times the expected noise, "
-        f"the other one {n(used['the place of the turning axis, the other sense'].noise)} times. Its last row repeats 0 degrees: gauges differ by 13 and 4 mV.",
+        f"the other one {n(used['the place of the turning axis, the other sense'].noise)} times. Its last row repeats 0 degrees: gauges differ by {found['repeat'][0]:.0f} and {found['repeat'][1]:.0f} mV.",
         "![outlines of the circle and of the irregular object](../pictures/real_outlines.png)"])
 
 
-def failures(trials, chosen, found, entries, repeats):
+def failures(trials, found, directions):
     score = {words: bare_finger.score([e for e in e_ if e["ribs"] and not bare_finger.superseded(e["log"])]) for words, e_ in trials.items()}
     first = score["stiffness, places"]
     useless = [f"{words} ({value:.0f})" for words, value in score.items() if value > first - 12 and words != "stiffness, places"]
@@ -205,7 +217,7 @@ def failures(trials, chosen, found, entries, repeats):
         f"- Finger without gauges, score of the held-out circle no better than {first:.0f} of stiffness and places by 12: {', '.join(useless)}.",
         f"- Finger with gauges, log-likelihood of held-out rows from gauges alone better than the bundled plan's by less than 2 ({n(plan['rms'])} N): {', '.join(worse)}.",
         "- Gains of the cylinders for the finger of another day (section 3).",
-        "- The direction of the force, by `sensor_axis_angle_deg`: for the same touches without ribs the two days differ by 20 deg at 40 mm of advance, so that it can tell neither friction nor normals. "
+        f"- The direction of the force, by `sensor_axis_angle_deg`: for the same touches without ribs the two days differ by {directions[0]:.0f} deg on average and {directions[1]:.0f} deg at most, so that it can tell neither friction nor normals. "
         "All forces of this page are norms.",
         "- A calibration of all objects at once: a plan has one circle. The ellipse calibrates as the circle of its curvature, R = 45 mm.",
         "- Telling place, gains and offsets apart by the turning circle (section 4)."])])

@@ -32,7 +32,7 @@ def bare_forces(path, entries):
             panel.scatter(x, [e["force"][0] for e in mine], s=12, color=BEFORE, lw=0, zorder=5)
         panel.set(xlabel="advance (mm)", title=title)
     axes[0].set(ylabel="force (N)")
-    axes[0].legend(["predicted, place by the series' other rows", "predicted, place as written", "measured"], fontsize=7,
+    axes[0].legend(["place by other rows", "place as written", "measured"], fontsize=7,
                    loc="upper left")
     save(figure, path)
 
@@ -66,13 +66,13 @@ def gauged_forces(path, entries):
     save(figure, path)
 
 
-def outlines(path, plain, corrected, irregular):
+def outlines(path, plain, corrected, plain_irregular, irregular):
     figure, axes = plt.subplots(1, 2, figsize=(8, 4))
     turn = [2 * math.pi * k / 180 for k in range(181)]
     axes[0].plot([30 * math.cos(a) for a in turn], [30 * math.sin(a) for a in turn], color=QUIET, lw=1, ls=(0, (4, 3)),
                  label="R = 30 mm")
     for panel, shapes in ((axes[0], ((plain, BEFORE, "as written"), (corrected, AFTER, "axis from the other half"))),
-                          (axes[1], ((irregular, AFTER, "axis from the circle"),))):
+                          (axes[1], ((plain_irregular, BEFORE, "as written"), (irregular, AFTER, "axis from the circle")))):
         for shape, color, label in shapes:
             if shape.refused:
                 continue

@@ -7,6 +7,7 @@ and the pictures that it shows."""
 import concurrent.futures
 import pathlib
 import sys
+import textwrap
 
 sys.dont_write_bytecode = True
 
@@ -30,6 +31,18 @@ TITLE = """# Real measurements against predictions
 Measured, not simulated: a steel finger (65Mn strips of 28 x 0.2 mm, 4 ribs, 2 gauges) of 2021. `scripts/real_data` writes this page and its pictures from
 the measurements in `../shared/data`, beside the repository, with the command line tools alone; where they are absent it says so and leaves the page as it is. No row is ever
 fitted and judged at once: each figure says which rows were held out, and on how many it stands. rms of pins is that of a coordinate."""
+
+
+def wrapped(text):
+    """Lines of at most 160 characters, but for those of tables."""
+    lines = []
+    for line in text.split("\n"):
+        if line.startswith(("|", "!", "#")):
+            lines.append(line)
+        else:
+            lines += textwrap.wrap(line, 160, subsequent_indent="  " if line.startswith("- ") else "", break_long_words=False,
+                                   break_on_hyphens=False) or [""]
+    return "\n".join(lines)
 
 
 def stem(words):
@@ -74,6 +87,40 @@ def gauged_part(tools, pool, bare):
     return found[:len(gauged_finger.TRIALS)], found[len(gauged_finger.TRIALS):], explored
 
 
+def limit(calibration):
+    """The largest force of an estimate whose scene does not say it, 40 EI / l_0^2."""
+    content = yaml.safe_load(calibration.finger.read_text("utf-8"))
+    stiffness = (calibration.values["front_stiffness_N_mm2"] * calibration.values["back_stiffness_N_mm2"]) ** 0.5
+    return 40 * stiffness / content["geometry"]["front_length_mm"] ** 2
+
+
+def by_cylinders(tools, calibration, bent):
+    """Rows of a table: forces of the finger whose gauges have the gains of a day's cylinders."""
+    zero, *touching = data.gauged()
+    gains = {entry["key"][:2]: entry["plain_gain"] for entry in bent}
+    lines = []
+    for day in sorted({day for name, day in gains if name == "fin_II"}):
+        content = yaml.safe_load(calibration.finger.read_text("utf-8"))
+        del content["schema_version"]
+        content.pop("calibration", None)
+        for j, (gauge, name) in enumerate(zip(content["gauges"], ("fin_I", "fin_II")), 1):
+            # The same strain makes a gauge of another length turn more by its length.
+            gauge.update(gain_V_per_rad=gains[name, day] * bench.LENGTH_MM / gauge["length_mm"], offset_V=float(zero[f"gauge_{j}_V"]))
+        finger = write_yaml(tools.folder(f"by_cylinders/{day}") / "finger.yaml", content)
+        log = [{key: cell for key, cell in row.items() if key.startswith("gauge_")} for row in touching]
+        found = tools.estimate(f"by_cylinders/{day}", finger, {"contacts": 1, "force_max_N": gauged_finger.FORCE_MAX}, log)
+        lines.append((day, *(f"{gauge['gain_V_per_rad']:.3f}" for gauge in content["gauges"]), len(log), f"{rms([float(at['normal_1_N']) - float(row['force_N']) for at, row in zip(found, touching)]):.2f}"))
+    return lines
+
+
+def directions(series):
+    """Mean and largest difference of the force's direction between the days without ribs, deg."""
+    first, second = ({row["advance_mm"]: row["sensor_deg"] for row in table}
+                     for log, (_, ribs, table) in series.items() if not ribs)
+    apart = [abs((first[at] - second[at] + 180) % 360 - 180) for at in first if at in second]
+    return sum(apart) / len(apart), max(apart)
+
+
 def main():
     if len(sys.argv) != 5:
         sys.exit(__doc__)
@@ -91,7 +138,12 @@ def main():
             cylinders = data.cylinders()
             bent = list(pool.map(lambda key: bench.judged(tools, "bench/" + stem(str(key)), key, cylinders), cylinders))
             print("bench done", flush=True)
-        shapes = outlines.judge(tools, outlines.calibrated(tools).finger)
+        fitted = outlines.calibrated(tools)
+        springs = tools.calibrate("springs", data.FOLDER / "steel_finger.yaml", gauged_finger.plan(
+            next(parameters for words, parameters, _ in gauged_finger.TRIALS if words == "+ springs at hinges"), {}),
+            {"r20": data.gauged()}).values["hinge_stiffness_N_mm_per_rad"]
+        shapes = outlines.judge(tools, fitted)
+        cylinders_on_finger = by_cylinders(tools, fitted, bent)
     except (Failed, OSError) as error:
         print(f"real_data: {error}", file=sys.stderr)
         sys.exit(2)
@@ -102,11 +154,13 @@ def main():
     pictures.bare_pins(shown / "real_bare_pins.png", out)
     pictures.gauged_forces(shown / "real_gauged_forces.png", found[0][1])
     pictures.outlines(shown / "real_outlines.png", dict(shapes["plain"])["zero reading of the day"],
-                      shapes["corrected"][0][3], dict(shapes["irregular"])["the place of the turning axis"])
-    page.write(target, "\n\n".join([
+                      shapes["corrected"][0][3], dict(shapes["irregular"])["no correction"],
+                      dict(shapes["irregular"])["the place of the turning axis"])
+    page.write(target, wrapped("\n\n".join([
         TITLE, page_text.bare(trials, chosen, fingers, entries, out),
-        page_text.gauged(found, nine, repeats, explored, f"{std:.2f} N and {most:.2f} N over {pairs} pairs"),
-        page_text.benched(bent), page_text.touched(shapes), page_text.failures(trials, chosen, found, entries, repeats)]) + "\n")
+        page_text.gauged(found, nine, repeats, explored, f"{std:.2f} N and {most:.2f} N over {pairs} pairs",
+                         limit(fitted), springs, cylinders_on_finger),
+        page_text.benched(bent), page_text.touched(shapes), page_text.failures(trials, found, directions(series))])) + "\n")
     print(target)
 
 

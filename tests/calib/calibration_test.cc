@@ -180,7 +180,8 @@ TEST(CalibrationTest, ForcesBeyondTheLimitOfEstimatesAreNamed) {
     return found;
   };
   EXPECT_THAT(codes(5), testing::Contains("forces_beyond_limit"));
-  EXPECT_THAT(codes(25), testing::Not(testing::Contains("forces_beyond_limit")));
+  EXPECT_THAT(codes(25),
+              testing::Not(testing::Contains("forces_beyond_limit")));
 }
 
 // Real measurements, where they are at hand. Nothing of this finger was fitted

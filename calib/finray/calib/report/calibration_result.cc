@@ -318,8 +318,8 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
       result.cross_validation =
           CrossValidate(*problem, result.identifiability, wide);
     }
-    result.discrepancy = FitDiscrepancy(GaugeErrorsOf(
-        *problem, result.solution, result.identifiability, wide));
+    result.discrepancy = FitDiscrepancy(
+        GaugeErrorsOf(*problem, result.solution, result.identifiability, wide));
   }
   problem->Tell("check of forces and contacts");
   result.finger = problem->parameters().Apply(problem->finger());
