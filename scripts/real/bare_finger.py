@@ -109,7 +109,7 @@ def written(calibration, name):
                  0.0 if radius is None else radius - trained, values.get("object_rotation_deg", 0.0))
 
 
-def located(tools, folder, calibration, name, table, start):
+def located(tools, folder, finger_path, name, table, start):
     """The place by some rows of the series itself; the finger is as calibrated."""
     with_pins = is_pins(table[0])
     rows = [{**row, **start.of(row)} for row in table]
@@ -120,7 +120,7 @@ def located(tools, folder, calibration, name, table, start):
     parameters = {"object_origin": {"prior_std_mm": 2}}
     if with_pins:
         parameters["camera_origin"] = {"prior_std_mm": 1}
-    found = tools.calibrate(folder, calibration.finger, plan(name, parameters, with_pins),
+    found = tools.calibrate(folder, finger_path, plan(name, parameters, with_pins),
                             {"some": for_fit(name, rows)}).values
     moved = [[start.object_mm, start.camera_mm][kind][k] + found.get(f"{word}_origin_{axis}_mm", 0.0)
              for kind, word in enumerate(("object", "camera")) for k, axis in enumerate("xy")]
@@ -165,7 +165,7 @@ def judge(tools, folder, calibration, series, log):
     places = []
     for k in range(len(table)):
         rest = table[:k] + table[k + 1:]
-        places.append(located(tools, folder, Bare(path), name, rest, start))
+        places.append(located(tools, folder, path, name, rest, start))
     as_written = predict(tools, folder, path, name, friction, [(row, start) for row in table])
     by_others = predict(tools, folder, path, name, friction, list(zip(table, places)))
     found = []
@@ -178,11 +178,6 @@ def judge(tools, folder, calibration, series, log):
             entry["force"] = row["force_N"], *(scale[0] * at[0] + scale[1] for at in (first, second))
         found.append(entry)
     return found
-
-
-class Bare:
-    def __init__(self, path):
-        self.finger = path
 
 
 def trial(tools, folder, effects, series, objects):

@@ -139,9 +139,10 @@ def main():
             bent = list(pool.map(lambda key: bench.judged(tools, "bench/" + stem(str(key)), key, cylinders), cylinders))
             print("bench done", flush=True)
         fitted = outlines.calibrated(tools)
-        springs = tools.calibrate("springs", data.FOLDER / "steel_finger.yaml", gauged_finger.plan(
+        sprung = tools.calibrate("springs", data.FOLDER / "steel_finger.yaml", gauged_finger.plan(
             next(parameters for words, parameters, _ in gauged_finger.TRIALS if words == "+ springs at hinges"), {}),
-            {"r20": data.gauged()}).values["hinge_stiffness_N_mm_per_rad"]
+            {"r20": data.gauged()})
+        springs = [of["hinge_stiffness_N_mm_per_rad"] for of in (sprung.values, sprung.std)]
         shapes = outlines.judge(tools, fitted)
         cylinders_on_finger = by_cylinders(tools, fitted, bent)
     except (Failed, OSError) as error:
