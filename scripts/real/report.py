@@ -29,8 +29,8 @@ import page
 TITLE = """# Real measurements against predictions
 
 Measured, not simulated: a steel finger (65Mn strips of 28 x 0.2 mm, 4 ribs, 2 gauges) of 2021. `scripts/real_data` writes this page and its pictures from
-the measurements in `../shared/data`, beside the repository, with the command line tools alone; where they are absent it says so and leaves the page as it is. No row is ever
-fitted and judged at once: each figure says which rows were held out, and on how many it stands. rms of pins is that of a coordinate."""
+the measurements in `../shared/data`, beside the repository, with the command line tools alone; where they are absent it says so and leaves the page as it is. No row is
+fitted and judged at once, but in the one table that says so: each figure says which rows were held out, and on how many it stands. rms of pins is that of a coordinate."""
 
 
 def wrapped(text):
