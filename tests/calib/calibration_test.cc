@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "calib/standard_log.h"
 #include "finray/calib/report/calibration_result.h"
@@ -19,6 +21,14 @@ std::vector<double> Truth(const Finger& finger) {
   for (const Gauge& gauge : finger.gauges) truth.push_back(gauge.offset_V);
   for (const Rib& rib : finger.ribs) truth.push_back(rib.length_mm);
   return truth;
+}
+
+constexpr char kBeyond[] = "forces_beyond_limit";
+
+std::vector<std::string> Codes(const CalibrationResult& result) {
+  std::vector<std::string> codes;
+  for (const Warning& warning : result.warnings) codes.push_back(warning.code);
+  return codes;
 }
 
 TEST(CalibrationTest, StandardLogIsWithinItsStd) {
@@ -164,6 +174,21 @@ TEST(CalibrationTest, ThreadsDoNotChangeTheResult) {
   EXPECT_EQ(value[0], value[1]);
 }
 
+// The same log says so below the limit, and nothing above its largest force.
+TEST(CalibrationTest, ForcesBeyondTheLimitOfEstimatesAreNamed) {
+  const TempFolder folder;
+  const std::string log = StandardLog(folder, HiddenFinger(), 4);
+  Plan plan = StandardPlan();
+  for (const double force_max_N : {5.0, 25.0}) {
+    plan.scene.force_max_N = force_max_N;
+    CalibrationProblem problem(
+        Nominal(), plan, ReadCalibrationLogs({log}, Nominal(), plan), {}, 1);
+    const std::vector<std::string> codes = Codes(Calibrate(&problem));
+    EXPECT_EQ(testing::Value(codes, testing::Contains(kBeyond)),
+              force_max_N < 7);
+  }
+}
+
 // Real measurements, where they are at hand. Nothing of this finger was fitted
 // by its authors to these rows.
 TEST(CalibrationTest, SteelFingerAgainstItsForceSensor) {
@@ -187,6 +212,16 @@ TEST(CalibrationTest, SteelFingerAgainstItsForceSensor) {
               result.forces.fitted.force_after_N().rms());
   EXPECT_GT(result.forces.fitted.force_before_N().rms(), 2);
   EXPECT_LT(result.forces.fitted.force_after_N().rms(), 0.7);
+  EXPECT_THAT(Codes(result), testing::Not(testing::Contains(kBeyond)));
+  // It carries 13.8 N, and 40 EI / l_0^2 is 9.4 N.
+  Plan unlimited = plan;
+  unlimited.scene.force_max_N.reset();
+  CalibrationProblem same(
+      finger, unlimited,
+      ReadCalibrationLogs({data + "steel_finger_contact_circle_r20.csv"},
+                          finger, unlimited),
+      {}, 2);
+  EXPECT_THAT(Codes(Calibrate(&same)), testing::Contains(kBeyond));
 }
 
 }  // namespace

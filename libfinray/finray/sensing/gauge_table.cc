@@ -148,6 +148,10 @@ struct Hermite {
 
 }  // namespace
 
+double GaugeTable::HeaviestForce_N(const Finger& finger) {
+  return Forces(finger, {}).back();
+}
+
 GaugeTable::GaugeTable(EquilibriumSolver* solver, double friction,
                        std::optional<double> circle_radius_mm,
                        std::optional<double> most_force_N, int threads,

@@ -51,6 +51,10 @@ class GaugeTable {
   /// The equilibrium of the grid node near that contact.
   const LadderState& StateNear(double arc_mm, double normal_N) const;
 
+  /// The largest force of the grid where nobody says most_force_N: 40 EI /
+  /// l_0^2.
+  static double HeaviestForce_N(const Finger& finger);
+
   /// The largest force of the grid.
   double heaviest_N() const { return heaviest_N_; }
 

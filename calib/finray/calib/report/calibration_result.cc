@@ -6,6 +6,7 @@
 #include "finray/calib/report/doubts.h"
 #include "finray/calib/solve/undecided.h"
 #include "finray/io/number_text.h"
+#include "finray/sensing/gauge_table.h"
 
 namespace finray {
 namespace {
@@ -143,6 +144,36 @@ void WarnOfForces(const ForceCheck& forces, double force_std_N,
              fitted.rms(), was.rms()),
          "check the columns and units of the logs and the finger's geometry"});
   }
+}
+
+// Estimates end at the largest force of the scene, so that no check of forces
+// sees how wrong they are beyond it.
+void WarnOfForceLimit(const CalibrationProblem& problem,
+                      const CalibrationResult& result,
+                      std::vector<Warning>* warnings) {
+  const double limit = problem.plan().scene.force_max_N.value_or(
+      GaugeTable::HeaviestForce_N(result.finger));
+  int beyond = 0;
+  double heaviest = 0;
+  for (const int i : result.solution.at.frames) {
+    const CalibrationFrame& frame = problem.frame(i);
+    const double force = frame.contact ? ReferenceForce(frame) : 0;
+    if (!(force > limit)) continue;  // nor if it is NaN
+    ++beyond;
+    heaviest = std::max(heaviest, force);
+  }
+  if (beyond == 0) return;
+  warnings->push_back(
+      {"forces_beyond_limit",
+       FormatText("forces of %d frames reach %.3g N, and estimates end at %.3g "
+                  "N%s",
+                  beyond, heaviest, limit,
+                  problem.plan().scene.force_max_N
+                      ? ", the plan's force_max_N"
+                      : ", 40 EI / l_0^2 unless the scene says otherwise"),
+       FormatText("set force_max_N above %.3g in the plan's scene and in the "
+                  "scenes of estimates",
+                  heaviest)});
 }
 
 void WarnOfCorrelation(CalibrationProblem& problem,
@@ -287,8 +318,8 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
       result.cross_validation =
           CrossValidate(*problem, result.identifiability, wide);
     }
-    result.discrepancy = FitDiscrepancy(GaugeErrorsOf(
-        *problem, result.solution, result.identifiability, wide));
+    result.discrepancy = FitDiscrepancy(
+        GaugeErrorsOf(*problem, result.solution, result.identifiability, wide));
   }
   problem->Tell("check of forces and contacts");
   result.finger = problem->parameters().Apply(problem->finger());
@@ -327,6 +358,7 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
   WarnOfCorrelation(*problem, result.residual_correlation, &result.warnings);
   WarnOfDisagreement(*problem, result.leave_one_log_out, &result.warnings);
   WarnOfForces(result.forces, problem->plan().force_std_N, &result.warnings);
+  WarnOfForceLimit(*problem, result, &result.warnings);
   const bool curves =
       problem->plan().family(ParameterFamily::kGaugeCurvature).free;
   for (const BenchLinearity& gauge : result.bench) {
