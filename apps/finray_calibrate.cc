@@ -97,8 +97,9 @@ void PrintSummary(CalibrationProblem& problem,
   }
   std::printf("\nforce error    %s\n", ForceWords(result.forces).c_str());
   if (result.discrepancy) {
-    std::printf("model error    %s; finger.yaml and the std of estimates have it\n",
-                WordsOf(*result.discrepancy).c_str());
+    std::printf(
+        "model error    %s; finger.yaml and the std of estimates have it\n",
+        WordsOf(*result.discrepancy).c_str());
   }
   for (std::size_t k = 0; k < problem.parameters().free().size(); ++k) {
     // The finger's file does not keep it.

@@ -35,9 +35,8 @@ Eigen::MatrixXd ReadCorrelations(const YamlMap& yaml, std::size_t count,
   const auto rows = yaml.NumberRows("correlations");
   if (rows.size() != count) {
     yaml.Fail("correlations", "correlations: expected " +
-                                  std::to_string(count) +
-                                  " rows, one " + what + ", found " +
-                                  std::to_string(rows.size()));
+                                  std::to_string(count) + " rows, one " + what +
+                                  ", found " + std::to_string(rows.size()));
   }
   for (std::size_t i = 0; i < count; ++i) {
     if (rows[i].size() != i + 1) {

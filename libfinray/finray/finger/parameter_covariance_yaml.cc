@@ -56,8 +56,9 @@ GaugeDiscrepancy ReadDiscrepancy(const YamlMap& yaml, std::size_t gauges) {
 }
 
 std::string DiscrepancyToYaml(const GaugeDiscrepancy& discrepancy) {
-  std::string yaml = "  discrepancy:\n    load_N: " +
-                     NumberText(discrepancy.load_N) + "\n    places:\n";
+  std::string yaml =
+      "  discrepancy:\n    load_N: " + NumberText(discrepancy.load_N) +
+      "\n    places:\n";
   for (const GaugeDiscrepancy::Place& place : discrepancy.places) {
     const Eigen::VectorXd std =
         place.covariance_rad2.diagonal().cwiseMax(0).cwiseSqrt();
