@@ -3,12 +3,12 @@
 #include <yaml-cpp/yaml.h>
 
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "finray/calib/analysis/cross_validation.h"
+#include "finray/calib/analysis/refit.h"
 #include "finray/calib/analysis/score_test.h"
 #include "finray/calib/solve/outliers.h"
 #include "finray/calib/solve/robust_solve.h"
@@ -21,42 +21,6 @@ namespace {
 // A solution far from the truth ranks effects by derivatives there, so some
 // more than the first are tried.
 constexpr std::size_t kTried = 4;
-
-// A problem at its solution.
-struct Solved {
-  CalibrationProblem* problem;
-  std::unique_ptr<CalibrationProblem> owned;  // null for the first
-  CalibrationSolution solution;
-  double log_likelihood = 0;  // CrossValidatedLogLikelihood of the frames
-};
-
-double CostOf(const Solved& at) {
-  return SumsWithPriors(at.solution.at, at.problem->parameters()).cost;
-}
-
-// Solves the same frames with the effect free as well. Returns nothing if the
-// solver does not get there, or to where the model cannot be evaluated.
-std::optional<Solved> SolveWith(const CandidateEffect& effect,
-                                const Solved& from) {
-  Solved with;
-  with.owned = from.problem->WithPlan(Freed(from.problem->plan(), effect));
-  with.problem = with.owned.get();
-  ContactStore contacts(with.problem);
-  contacts.Set(from.solution.contacts);
-  try {
-    SummedSolution solved =
-        SolveSummed(from.solution.at.frames, {}, with.problem, &contacts);
-    if (!solved.report.converged) return {};
-    with.solution.solve = solved.report;
-    with.solution.at = std::move(solved.at);
-    with.solution.contacts = contacts.all();
-    with.log_likelihood = CrossValidatedLogLikelihood(
-        *with.problem, LinearizeWide(*with.problem, with.solution));
-  } catch (const std::runtime_error&) {
-    return {};
-  }
-  return with;
-}
 
 // The effect may explain frames that were rejected. Where the model cannot be
 // evaluated with other frames, these stay.
@@ -109,7 +73,7 @@ Exploration Explore(CalibrationProblem* problem) {
       std::optional<Solved> with = SolveWith(candidate, now);
       if (!with) continue;
       Exploration::Step step{candidate, effect.words, 0, before, 0, false};
-      step.drop = 2 * (CostOf(now) - CostOf(*with));
+      step.drop = 2 * (now.Cost() - with->Cost());
       step.after = with->log_likelihood;
       result.steps.push_back(step);
       const double bar = kept ? result.steps[*kept].after : before;

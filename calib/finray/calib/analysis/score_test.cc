@@ -54,8 +54,8 @@ struct Candidates {
 class ScoreRanking {
  public:
   ScoreRanking(const CalibrationProblem& problem, const Identifiability& found,
-               const WideLinearization& wide)
-      : wide_(wide) {
+               const WideLinearization& wide, const std::vector<Refit>& refits)
+      : wide_(wide), refits_(refits) {
     for (const Identifiability::Noise& noise : found.noise) {
       if (noise.residuals == 0) continue;
       chi2_ += noise.chi2;
@@ -69,6 +69,7 @@ class ScoreRanking {
     ScoreTest result;
     if (tests_.empty()) return result;
     result.effects = BestOfEach(scores_, 0, {});
+    SetRefits(&result.effects);
     if (result.effects.empty() || !result.effects[0].significant) return result;
     const ScoreTest::Effect& best = result.effects[0];
     const std::vector<int> freed = ColumnsOf(best);
@@ -174,6 +175,33 @@ class ScoreRanking {
     return best;
   }
 
+  // Puts effects with a refit first.
+  void SetRefits(std::vector<ScoreTest::Effect>* effects) const {
+    for (const Refit& refit : refits_) {
+      for (ScoreTest::Effect& effect : *effects) {
+        if (effect.family != refit.family) continue;
+        effect.drop = refit.drop;
+        effect.evidence = refit.evidence;
+        for (ScoreTest::Value& value : effect.values) {
+          const double at = refit.values.at(value.name);
+          value.change += at - value.value;
+          value.value = at;
+        }
+        effect.words = WordsOf(CandidateOf(effect.family), effect);
+      }
+    }
+    const auto refitted = [&](const ScoreTest::Effect& effect) {
+      return std::any_of(
+          refits_.begin(), refits_.end(),
+          [&](const Refit& refit) { return refit.family == effect.family; });
+    };
+    std::stable_sort(effects->begin(), effects->end(),
+                     [&](const auto& a, const auto& b) {
+                       return std::pair(refitted(a), a.evidence) >
+                              std::pair(refitted(b), b.evidence);
+                     });
+  }
+
   ScoreTest::Effect Evaluate(const Candidates& test, const Scores& scores,
                              double dropped) const {
     const std::vector<int>& columns = test.columns;
@@ -246,6 +274,7 @@ class ScoreRanking {
   }
 
   const WideLinearization& wide_;
+  const std::vector<Refit>& refits_;
   double chi2_ = 0, dof_ = 0;
   Eigen::VectorXd unit_;
   Scores scores_;
@@ -314,8 +343,9 @@ std::string ScoreTest::Words() const {
 
 ScoreTest TestScores(const CalibrationProblem& problem,
                      const Identifiability& found,
-                     const WideLinearization& wide) {
-  return ScoreRanking(problem, found, wide).Rank();
+                     const WideLinearization& wide,
+                     const std::vector<Refit>& refits) {
+  return ScoreRanking(problem, found, wide, refits).Rank();
 }
 
 }  // namespace finray

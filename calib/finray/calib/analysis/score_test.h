@@ -2,6 +2,7 @@
 #define FINRAY_CALIB_ANALYSIS_SCORE_TEST_H_
 
 #include <Eigen/Core>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,15 @@ struct WideLinearization {
 };
 WideLinearization LinearizeWide(const CalibrationProblem& problem,
                                 const CalibrationSolution& solution);
+
+/// What solving with an effect free has found, where the score test may err.
+struct Refit {
+  ParameterFamily family;
+  double drop;  ///< Of chi2 and priors.
+  double
+      evidence;  ///< 2 ln of what it does to the likelihood of unseen frames.
+  std::map<std::string, double> values;  ///< Of free parameters, as users see.
+};
 
 /// Asks which fixed effect the residuals look like. At the solution let r be
 /// the whitened residuals, J their derivative by everything free (priors
@@ -85,9 +95,12 @@ struct ScoreTest {
   std::string Words() const;
 };
 
+/// Effects with a refit come before the others; its drop, evidence and values
+/// replace those of the test.
 ScoreTest TestScores(const CalibrationProblem& problem,
                      const Identifiability& found,
-                     const WideLinearization& wide);
+                     const WideLinearization& wide,
+                     const std::vector<Refit>& refits = {});
 
 }  // namespace finray
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/calib/analysis/refit.h"
 #include "finray/calib/report/doubts.h"
 #include "finray/calib/solve/undecided.h"
 #include "finray/io/number_text.h"
@@ -314,6 +315,12 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
     problem->Tell("effects that the plan leaves out");
     const WideLinearization wide = LinearizeWide(*problem, result.solution);
     result.score = TestScores(*problem, result.identifiability, wide);
+    if (result.score.Best() != nullptr) {
+      const Solved at{problem, nullptr, result.solution,
+                      CrossValidatedLogLikelihood(*problem, wide)};
+      result.score = TestScores(*problem, result.identifiability, wide,
+                                RefitRivals(at, result.score));
+    }
     if (problem->plan().holdout_by == HoldoutBy::kNothing) {
       result.cross_validation =
           CrossValidate(*problem, result.identifiability, wide);

@@ -1,0 +1,38 @@
+#ifndef FINRAY_CALIB_ANALYSIS_REFIT_H_
+#define FINRAY_CALIB_ANALYSIS_REFIT_H_
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "finray/calib/analysis/score_test.h"
+#include "finray/calib/problem/calibration_problem.h"
+#include "finray/calib/solve/robust_solve.h"
+
+namespace finray {
+
+/// A problem at its solution.
+struct Solved {
+  CalibrationProblem* problem = nullptr;
+  std::unique_ptr<CalibrationProblem> owned;  ///< Null if another owns it.
+  CalibrationSolution solution;
+  double log_likelihood = 0;  ///< CrossValidatedLogLikelihood of the frames.
+
+  /// Half of chi2, priors included.
+  double Cost() const;
+};
+
+/// Solves the same frames with the effect free as well. Returns nothing if the
+/// solver does not get there, or to where the model cannot be evaluated.
+std::optional<Solved> SolveWith(const CandidateEffect& effect,
+                                const Solved& from);
+
+/// The score test extrapolates from one point, and far from the truth it may
+/// rank a wrong effect first. Solves with each of the best few effects whose
+/// evidence is at least kRival of the best, if these are several, and returns
+/// what a refit says of them for TestScores.
+std::vector<Refit> RefitRivals(const Solved& from, const ScoreTest& score);
+
+}  // namespace finray
+
+#endif  // FINRAY_CALIB_ANALYSIS_REFIT_H_
