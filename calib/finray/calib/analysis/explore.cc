@@ -18,10 +18,6 @@
 namespace finray {
 namespace {
 
-// A solution far from the truth ranks effects by derivatives there, so some
-// more than the first are tried.
-constexpr std::size_t kTried = 4;
-
 // The effect may explain frames that were rejected. Where the model cannot be
 // evaluated with other frames, these stay.
 void JudgeAgain(Solved* at) {
@@ -64,7 +60,8 @@ Exploration Explore(CalibrationProblem* problem) {
     const double before = CrossValidatedLogLikelihood(*now.problem, wide);
     std::vector<ScoreTest::Effect> tried;
     for (const ScoreTest::Effect& effect : score.effects) {
-      if (effect.significant && tried.size() < kTried) tried.push_back(effect);
+      if (effect.significant && tried.size() < kMostRivals)
+        tried.push_back(effect);
     }
     std::optional<Solved> best;
     std::optional<std::size_t> kept;

@@ -1,6 +1,5 @@
 #include "finray/calib/analysis/refit.h"
 
-#include <cstddef>
 #include <stdexcept>
 #include <utility>
 
@@ -13,8 +12,7 @@ namespace {
 
 // A turned stage of 1 deg has shown 0.4 of the evidence of clamps that give,
 // and a refit with it explains everything.
-constexpr double kRival = 0.3;
-constexpr std::size_t kMostRivals = 4;
+constexpr double kRival = 0.2;
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 #ifndef FINRAY_CALIB_ANALYSIS_REFIT_H_
 #define FINRAY_CALIB_ANALYSIS_REFIT_H_
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -10,6 +11,10 @@
 #include "finray/calib/solve/robust_solve.h"
 
 namespace finray {
+
+/// So many effects are tried at most, the best by the score test first. With a
+/// turned stage the turn has been the sixth of them.
+inline constexpr std::size_t kMostRivals = 8;
 
 /// A problem at its solution.
 struct Solved {
@@ -28,8 +33,8 @@ std::optional<Solved> SolveWith(const CandidateEffect& effect,
                                 const Solved& from);
 
 /// The score test extrapolates from one point, and far from the truth it may
-/// rank a wrong effect first. Solves with each of the best few effects whose
-/// evidence is at least kRival of the best, if these are several, and returns
+/// rank a wrong effect first. Solves with each of the best effects
+/// whose evidence is not far below the best, if these are several, and returns
 /// what a refit says of them for TestScores.
 std::vector<Refit> RefitRivals(const Solved& from, const ScoreTest& score);
 
