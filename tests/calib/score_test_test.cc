@@ -136,8 +136,9 @@ TEST(ScoreTestTest, RefitsNameATurnedStageFirst) {
     Calibrated calibrated(StandardPlan(), {TurnedStageLog(folder, seed, 1)});
     const WideLinearization wide =
         LinearizeWide(*calibrated.problem, calibrated.solution);
-    const Solved at{calibrated.problem.get(), nullptr, calibrated.solution,
-                    CrossValidatedLogLikelihood(*calibrated.problem, wide)};
+    const SolvedProblem at{
+        calibrated.problem.get(), nullptr, calibrated.solution,
+        CrossValidatedLogLikelihood(*calibrated.problem, wide)};
     const ScoreTest score =
         TestScores(*calibrated.problem, calibrated.found, wide,
                    RefitRivals(at, ScoresOf(&calibrated)));

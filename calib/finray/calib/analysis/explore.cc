@@ -20,7 +20,7 @@ namespace {
 
 // The effect may explain frames that were rejected. Where the model cannot be
 // evaluated with other frames, these stay.
-void JudgeAgain(Solved* at) {
+void JudgeAgain(SolvedProblem* at) {
   const auto rejected = at->problem->rejected();
   const Eigen::VectorXd values = at->problem->Values();
   ContactStore contacts(at->problem);
@@ -49,7 +49,7 @@ void JudgeAgain(Solved* at) {
 
 Exploration Explore(CalibrationProblem* problem) {
   Exploration result;
-  Solved now{problem, nullptr, SolveRobustly(problem)};
+  SolvedProblem now{problem, nullptr, SolveRobustly(problem)};
   while (now.solution.solve.converged && !now.solution.at.frames.empty()) {
     now.problem->Tell("effects that the plan leaves out");
     const WideLinearization wide = LinearizeWide(*now.problem, now.solution);
@@ -63,11 +63,11 @@ Exploration Explore(CalibrationProblem* problem) {
       if (effect.significant && tried.size() < kMostRivals)
         tried.push_back(effect);
     }
-    std::optional<Solved> best;
+    std::optional<SolvedProblem> best;
     std::optional<std::size_t> kept;
     for (const ScoreTest::Effect& effect : tried) {
       const CandidateEffect& candidate = CandidateOf(effect.family);
-      std::optional<Solved> with = SolveWith(candidate, now);
+      std::optional<SolvedProblem> with = SolveWith(candidate, now);
       if (!with) continue;
       Exploration::Step step{candidate, effect.words, 0, before, 0, false};
       step.drop = 2 * (now.Cost() - with->Cost());

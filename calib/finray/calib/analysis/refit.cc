@@ -16,13 +16,13 @@ constexpr double kRival = 0.2;
 
 }  // namespace
 
-double Solved::Cost() const {
+double SolvedProblem::Cost() const {
   return SumsWithPriors(solution.at, problem->parameters()).cost;
 }
 
-std::optional<Solved> SolveWith(const CandidateEffect& effect,
-                                const Solved& from) {
-  Solved with;
+std::optional<SolvedProblem> SolveWith(const CandidateEffect& effect,
+                                       const SolvedProblem& from) {
+  SolvedProblem with;
   with.owned = from.problem->WithPlan(Freed(from.problem->plan(), effect));
   with.problem = with.owned.get();
   ContactStore contacts(with.problem);
@@ -42,7 +42,8 @@ std::optional<Solved> SolveWith(const CandidateEffect& effect,
   return with;
 }
 
-std::vector<Refit> RefitRivals(const Solved& from, const ScoreTest& score) {
+std::vector<Refit> RefitRivals(const SolvedProblem& from,
+                               const ScoreTest& score) {
   std::vector<ParameterFamily> rivals;
   for (const ScoreTest::Effect& effect : score.effects) {
     if (!effect.significant || rivals.size() == kMostRivals ||

@@ -17,7 +17,7 @@ namespace finray {
 inline constexpr std::size_t kMostRivals = 8;
 
 /// A problem at its solution.
-struct Solved {
+struct SolvedProblem {
   CalibrationProblem* problem = nullptr;
   std::unique_ptr<CalibrationProblem> owned;  ///< Null if another owns it.
   CalibrationSolution solution;
@@ -29,14 +29,15 @@ struct Solved {
 
 /// Solves the same frames with the effect free as well. Returns nothing if the
 /// solver does not get there, or to where the model cannot be evaluated.
-std::optional<Solved> SolveWith(const CandidateEffect& effect,
-                                const Solved& from);
+std::optional<SolvedProblem> SolveWith(const CandidateEffect& effect,
+                                       const SolvedProblem& from);
 
 /// The score test extrapolates from one point, and far from the truth it may
 /// rank a wrong effect first. Solves with each of the best effects
 /// whose evidence is not far below the best, if these are several, and returns
 /// what a refit says of them for TestScores.
-std::vector<Refit> RefitRivals(const Solved& from, const ScoreTest& score);
+std::vector<Refit> RefitRivals(const SolvedProblem& from,
+                               const ScoreTest& score);
 
 }  // namespace finray
 

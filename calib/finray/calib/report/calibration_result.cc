@@ -316,8 +316,8 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
     const WideLinearization wide = LinearizeWide(*problem, result.solution);
     result.score = TestScores(*problem, result.identifiability, wide);
     if (result.score.Best() != nullptr) {
-      const Solved at{problem, nullptr, result.solution,
-                      CrossValidatedLogLikelihood(*problem, wide)};
+      const SolvedProblem at{problem, nullptr, result.solution,
+                             CrossValidatedLogLikelihood(*problem, wide)};
       result.score = TestScores(*problem, result.identifiability, wide,
                                 RefitRivals(at, result.score));
     }
