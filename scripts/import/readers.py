@@ -1,0 +1,77 @@
+"""Which reader a file is for: by its first bytes, else by its name."""
+
+import importlib
+import os
+
+import csv_reader
+import event_log
+from errors import BadInput, shown
+
+# name of the format, its reader, the Debian package that the reader needs.
+FORMATS = {
+    "hdf5": ("an HDF5 file", "hdf5_reader", "python3-h5py"),
+    "mat": ("a MAT file", "mat_reader", "python3-scipy"),
+    "npz": ("an NPZ file", "npz_reader", "python3-numpy"),
+    "xlsx": ("an XLSX file", "xlsx_reader", "python3-openpyxl"),
+    "parquet": ("a Parquet file", "parquet_reader", "python3-pandas and pyarrow"),
+    "ros1": ("a ROS 1 bag", "ros1_reader", "python3-rosbag"),
+    "ros2": ("a ROS 2 bag", "ros2_reader", "python3"),
+    "mcap": ("an MCAP file", "mcap_reader", "python3-zstandard or python3-lz4"),
+}
+BY_NAME = {".mat": "mat", ".h5": "hdf5", ".hdf5": "hdf5", ".hdf": "hdf5", ".npz": "npz",
+           ".xlsx": "xlsx", ".xlsm": "xlsx", ".parquet": "parquet", ".bag": "ros1",
+           ".db3": "ros2", ".mcap": "mcap"}
+BY_BYTES = [(b"#ROSBAG V", "ros1"), (b"SQLite format 3\0", "ros2"), (b"\x89MCAP0\r\n", "mcap"),
+            (b"PAR1", "parquet"), (b"MATLAB", "mat"), (b"\x89HDF\r\n\x1a\n", "hdf5")]
+
+
+def format_of(path):
+    """A key of FORMATS, or None for text."""
+    with open(path, "rb") as file:
+        start = file.read(16)
+    for magic, form in BY_BYTES:
+        if start.startswith(magic):
+            return form
+    return BY_NAME.get(os.path.splitext(path)[1].lower())
+
+
+def read(path, mapping):
+    """The tables of a file. Whatever a library says of a broken file becomes one line."""
+    name = os.path.basename(path)
+    settings = {key: mapping.of(name, key) for key in ("delimiter", "decimal", "na_words")}
+    try:
+        if not os.path.exists(path):
+            raise BadInput(f"{path}: there is no such file")
+        if not os.path.isfile(path):
+            raise BadInput(f"{path}: is not a file; a ROS 2 bag is the .db3 or .mcap in its "
+                           "folder")
+        form = format_of(path)
+        if form is None:
+            tables = csv_reader.read(path, settings)
+        else:
+            tables = _read_binary(path, form)
+    except OSError as error:
+        raise BadInput(f"{path}: cannot be read: {error.strerror or shown(error)}") from error
+    tables = [table for table in tables if table.rows]
+    if not tables:
+        raise BadInput(f"{path}: has no rows of numbers")
+    kind = mapping.of(name, "row_type") or "row_type"
+    return [part for table in tables for part in event_log.split(table, kind)]
+
+
+def _read_binary(path, form):
+    words, module, package = FORMATS[form]
+    try:
+        reader = importlib.import_module(module)
+    except ImportError as error:
+        raise BadInput(f"{path}: {words} needs {package}, which is not installed "
+                       f"({shown(error)}); scripts/install_dependencies import") from error
+    try:
+        return reader.read(path)
+    except BadInput:
+        raise
+    except MemoryError as error:
+        raise BadInput(f"{path}: broken or cut, or too large: not readable as {words}") from error
+    except Exception as error:  # libraries raise whatever comes on broken files
+        said = shown(" ".join(str(error).split()) or type(error).__name__, 100)
+        raise BadInput(f"{path}: broken or cut: not readable as {words}: {said}") from error
