@@ -3,20 +3,13 @@
 import collections
 
 import units
-from errors import BadInput
-from raw_table import NA_WORDS, NUMBER
+from errors import BadInput, shown
+from raw_table import NA_WORDS, NUMBER, Column, RawTable
 from times import looks_iso
+from vocabulary import split_unit
 
 DELIMITERS = [";", "\t", ",", "|", " "]
 SAMPLE = 60  # lines
-
-
-class Dialect:
-    """delimiter, decimal; header and units: indices of lines or None; first: of the data."""
-
-    def __init__(self, delimiter, decimal, header, units_row, first):
-        self.delimiter, self.decimal = delimiter, decimal
-        self.header, self.units_row, self.first = header, units_row, first
 
 
 def cells_of(line, delimiter):
@@ -76,37 +69,67 @@ def _delimiter(lines, delimiter, decimal):
     return chosen
 
 
-def detect(path, lines, delimiter=None, decimal=None):
-    """The dialect of (number, text) lines; a delimiter or decimal mark that is stated holds."""
-    texts = [text for _, text in lines]
+def choose(texts, delimiter=None, decimal=None):
+    """(delimiter, decimal mark) of lines; what is stated holds."""
     tail = texts[len(texts) // 2:]
-    step = max(1, len(tail) // SAMPLE)
-    delimiter, mark = _delimiter(tail[::step], delimiter, decimal)
-    width = collections.Counter(len(cells_of(t, delimiter)) for t in tail[::step])
-    width = width.most_common(1)[0][0]
-
-    def is_data(text):
-        cells = cells_of(text, delimiter)
-        return len(cells) == width and any(
-            is_number(c, mark) or looks_iso(c) for c in cells) and \
-            sum(is_datum(c, mark) for c in cells) * 2 >= width and not _is_units(cells, mark)
-
-    # The data begin behind the last line that can only be a header or a preamble.
-    first = next((i for i, t in enumerate(texts) if is_data(t)), None)
-    if first is None:
-        raise BadInput(f"{path}: no rows of numbers found; state `delimiter` and `decimal` in the "
-                       "mapping if it is a table")
-    before = [i for i in range(first) if len(cells_of(texts[i], delimiter)) == width]
-    header = units_row = None
-    if before and before[-1] == first - 1:
-        header = before[-1]
-        if _is_units(cells_of(texts[header], delimiter), mark) and len(before) > 1 and \
-                before[-2] == header - 1:
-            units_row, header = header, before[-2]
-    return Dialect(delimiter, mark, header, units_row, first)
+    return _delimiter(tail[::max(1, len(tail) // SAMPLE)], delimiter, decimal)
 
 
-def _is_units(cells, mark):
+def _is_units(cells):
     """Whether all cells are units or nothing, and one is a unit."""
     known = [units.find(c) is not None for c in cells]
     return any(known) and all(k or c in units.NO_UNIT for k, c in zip(known, cells))
+
+
+def _layout(path, rows, mark):
+    """Indices of the header (or None), the row of units (or None) and the first row of data."""
+    # The preamble may be longer than the data, but few lines of it are in the second half.
+    widths = collections.Counter(len(cells) for _, cells in rows)
+    late = collections.Counter(len(cells) for _, cells in rows[len(rows) // 2:])
+    width = max(late, key=lambda w: (late[w], widths[w]))
+
+    def is_data(cells):
+        return len(cells) == width and any(
+            is_number(c, mark) or looks_iso(c) for c in cells) and \
+            sum(is_datum(c, mark) for c in cells) * 2 >= width and not _is_units(cells)
+
+    first = next((i for i, (_, cells) in enumerate(rows) if is_data(cells)), None)
+    if first is None:
+        raise BadInput(f"{path}: no rows of numbers found; state `delimiter` and `decimal` in the "
+                       "mapping if it is a table")
+    header = first - 1 if first > 0 and len(rows[first - 1][1]) == width else None
+    units_row = None
+    if header and _is_units(rows[header][1]) and len(rows[header - 1][1]) == width:
+        header, units_row = header - 1, header
+    return header, units_row, first
+
+
+def table_of(path, part, rows, mark, na_words=()):
+    """RawTable of (line, cells) rows with preamble, header and row of units, if any."""
+    header, units_row, first = _layout(path, rows, mark)
+    width = len(rows[first][1])
+    if header is None:
+        names, unit_of = [f"column_{i + 1}" for i in range(width)], [""] * width
+    else:
+        names = rows[header][1]
+        unit_of = [split_unit(cell)[1] for cell in names]
+        if units_row is not None:
+            unit_of = [c.strip("[]()") for c in rows[units_row][1]]
+        twice = next((n for n in names if n and names.count(n) > 1), None)
+        if twice:
+            raise BadInput(f"{path}:{rows[header][0]}: two columns are named '{shown(twice)}'")
+    for number, cells in rows[first:]:
+        if len(cells) != width:
+            raise BadInput(f"{path}:{number}: expected {width} cells, found {len(cells)}")
+    by_column = zip(*(cells for _, cells in rows[first:]))
+    # A column without a name is empty, as behind a delimiter at the end of every line.
+    columns = [Column(n, list(c), u) for n, c, u in zip(names, by_column, unit_of) if n]
+    table = RawTable(path, part, columns, mark, na_words, [number for number, _ in rows[first:]])
+    top = header if header is not None else first
+    if top:
+        table.notes.append(f"{top} preamble line{'s' if top > 1 else ''}")
+    if units_row is not None:
+        table.notes.append(f"units in line {rows[units_row][0]}")
+    if header is None:
+        table.notes.append("no header: columns are column_1, column_2, ...")
+    return table

@@ -16,9 +16,9 @@ class NoSolution(Exception):
 
 
 def did_you_mean(name, names):
-    """'; did you mean x?', or nothing if no name is near."""
+    """" (did you mean 'x'?)", or nothing if no name is near."""
     near = difflib.get_close_matches(name, list(names), 1, 0.6)
-    return f"; did you mean '{near[0]}'?" if near else ""
+    return f" (did you mean '{near[0]}'?)" if near else ""
 
 
 def shown(text, limit=60):

@@ -43,8 +43,10 @@ def help_text():
         lines += ["", title]
         for flag in FLAGS:
             if flag.required == required:
-                default = {True: "true", False: "false"}.get(flag.default, flag.default)
-                known = not required and default not in ("", 0.0)
+                default = str(flag.default)
+                if isinstance(flag.default, bool):
+                    default = default.lower()
+                known = default not in ("", "0.0")
                 lines.append(f"  --{flag.name:<26} {flag.text}" +
                              (f" (default: {default})" if known else ""))
     lines.append(f"  --{'version':<26} print the version and stop")
@@ -94,7 +96,7 @@ def parse(arguments):
         given.add(flag.name)
     for flag in FLAGS:
         if flag.required and not values[flag.name]:
-            raise UsageError(f"--{flag.name} is required: {flag.text}")
+            raise UsageError(f"--{flag.name} is missing")
     if values["join"] not in ("linear", "nearest", "previous"):
         raise UsageError("--join: expected linear, nearest or previous, found "
                          f"'{values['join']}'")

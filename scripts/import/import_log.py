@@ -1,6 +1,8 @@
 """finray_import from the command line to the files."""
 
 import os
+import pathlib
+import re
 import sys
 
 import numpy as np
@@ -16,9 +18,6 @@ import recording as recordings_of
 import report
 import time_offset
 from errors import BadInput, NoSolution, UsageError, shown
-
-VERSION = "0.1.0"
-
 
 class Import:
     """One run: recordings, and what is in force for them."""
@@ -268,7 +267,7 @@ class Import:
         self.said.append(("rows", f"{len(columns['time_s'])} places held for {shortest:g} s or "
                           "more"))
         texts = [f"{name} {row:.2g} ({one:.2g} a reading)" for name, one, row in noise
-                 if name.startswith(plateaus.FOLLOWED)]
+                 if name.startswith(("gauge_", "force_"))]
         if texts:
             self.said.append(("noise of rows", ", ".join(texts)))
         return columns, notes
@@ -290,6 +289,11 @@ class Import:
             print(f"warning: {text}", file=sys.stderr)
 
 
+def _version():
+    project = (pathlib.Path(__file__).resolve().parents[2] / "CMakeLists.txt").read_text()
+    return re.search(r"project\(finray VERSION ([\d.]+)", project)[1]
+
+
 def _plain(values):
     return [float(v) for v in values]
 
@@ -303,14 +307,14 @@ def main(arguments):
         print(flags.help_text())
         return 0
     if any(a in ("-version", "--version") for a in arguments):
-        print(f"finray_import {VERSION}")
+        print(f"finray_import version {_version()}")
         return 0
     try:
         values, given = flags.parse(arguments)
         Import(values, given).run()
         sys.stdout.flush()
     except UsageError as error:
-        print(f"finray_import: {error}\nfinray_import --help lists the flags", file=sys.stderr)
+        print(f"finray_import: {error}; see --help", file=sys.stderr)
         return 1
     except BadInput as error:
         print(f"finray_import: {error}", file=sys.stderr)

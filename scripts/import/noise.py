@@ -2,24 +2,26 @@
 
 import numpy as np
 
+# A fifth of a normal variable's magnitudes are below this many std.
+FIFTH = 0.2533
+
 
 def reading_std(values):
-    """Std of one reading: the median of third differences, over that of unit noise.
-
-    Motion that is smooth over four readings drops out, and so do a few jumps.
-    """
+    """Std of one reading, from the smallest fifth of the second differences: those of rest
+    and of slow motion. Not below what the steps of a converter bring."""
     values = values[np.isfinite(values)]
     if len(values) < 8:
         return 0.0
-    third = values[3:] - 3 * values[2:-1] + 3 * values[1:-2] - values[:-3]
-    return float(np.median(np.abs(third)) / 0.6745 / np.sqrt(20))
+    steps = np.abs(np.diff(values))
+    second = np.abs(values[2:] - 2 * values[1:-1] + values[:-2])
+    quantum = np.min(steps[steps > 0], initial=np.ptp(values)) / np.sqrt(12)
+    return float(max(np.quantile(second, 0.2) / FIFTH / np.sqrt(6), quantum))
 
 
 def mean_std_factor(runs):
     """Std of the mean of a run over std / sqrt(n), from the correlation of neighbours."""
     products = squares = 0.0
     for run in runs:
-        run = run[np.isfinite(run)]
         if len(run) < 3:
             continue
         run = run - run.mean()

@@ -66,9 +66,8 @@ def _table(recording, mapping):
     columns = {header: _column(target) for header, target in recording.used}
     columns.update({c.name: None for c in recording.table.columns if c.name not in columns})
     out = {}
-    dialect = getattr(recording.table, "dialect", None)
-    if dialect is not None:
-        out.update(delimiter=dialect.delimiter, decimal=dialect.decimal)
+    if recording.table.delimiter is not None:
+        out.update(delimiter=recording.table.delimiter, decimal=recording.table.decimal)
     if mapping.of(recording.name, "na_words"):
         out["na_words"] = mapping.of(recording.name, "na_words")
     if recording.offset_s or recording.offset_std_s is not None:

@@ -27,12 +27,12 @@ class Column:
 
 
 class RawTable:
-    """columns: Column in order, all of the same length; where(row) is a row's place."""
+    """columns: Column in order, all of the same length; lines: the line of each row of a text
+    file; delimiter: of a CSV; notes: what to tell the user of how it was read."""
 
-    def __init__(self, path, part, columns, first_line=None, decimal=".", na_words=(),
-                 lines=None):
+    def __init__(self, path, part, columns, decimal=".", na_words=(), lines=None):
         self.path, self.part, self.columns = path, part, columns
-        self.decimal, self.lines, self.first_line = decimal, lines, first_line
+        self.decimal, self.lines, self.delimiter = decimal, lines, None
         self.na_words = NA_WORDS | {word.lower() for word in na_words}
         self.notes = []
 
@@ -88,7 +88,7 @@ class RawTable:
         at = np.flatnonzero(keep)
         columns = [Column(c.name, [c.cells[i] for i in at] if c.is_text else c.cells[at], c.unit)
                    for c in self.columns]
-        out = RawTable(self.path, part, columns, self.first_line, self.decimal,
-                       self.na_words, [self.lines[i] for i in at] if self.lines else None)
-        out.notes = list(self.notes)
+        out = RawTable(self.path, part, columns, self.decimal, self.na_words,
+                       [self.lines[i] for i in at] if self.lines else None)
+        out.notes, out.delimiter = list(self.notes), self.delimiter
         return out

@@ -5,6 +5,7 @@ import os
 
 import csv_reader
 import event_log
+import isolated
 from errors import BadInput, shown
 
 # name of the format, its reader, the Debian package that the reader needs.
@@ -67,7 +68,7 @@ def _read_binary(path, form):
         raise BadInput(f"{path}: {words} needs {package}, which is not installed "
                        f"({shown(error)}); scripts/install_dependencies import") from error
     try:
-        return reader.read(path)
+        return isolated.call(reader.read, path, os.path.getsize(path))
     except BadInput:
         raise
     except MemoryError as error:

@@ -39,7 +39,7 @@ def _rows(recording):
 
 def understood(recordings):
     """The table, in text of columns that line up."""
-    rows = [("table", "column", "unit", "rate_Hz", "range_as_written", "becomes")]
+    rows = [("table", "column", "unit", "rate_Hz", "range_in_log", "becomes")]
     for recording in recordings:
         rows += _rows(recording)
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]

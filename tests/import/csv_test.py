@@ -1,0 +1,213 @@
+#!/usr/bin/python3
+"""CSV in the dialects of loggers, units, times and mappings; faults name line and column."""
+
+import gzip
+import unittest
+
+from fixture import ROOT, ImportCase
+
+import times
+import units
+import vocabulary
+
+PLAIN = "time_s,gauge_1_V,force_N\n0,0.125,1.5\n0.1,-0.25,2\n"
+LOG = {"time_s": ["0.0", "0.1"], "gauge_1_V": ["0.125", "-0.25"], "force_N": ["1.5", "2.0"]}
+MAPPING = "columns: {t: time_s, ch0: gauge_1_V, Fz: force_N}\n"
+
+
+class DialectTest(ImportCase):
+    def log_of_text(self, text, mapping=None, name="a.csv"):
+        path = self.write(name, text)
+        more = ["--mapping", self.write("m.yaml", mapping)] if mapping else []
+        return self.log_of("--logs", path, "--force_bias_N", "0", *more)
+
+    def test_all_dialects_give_the_same_log(self):
+        comma = PLAIN.replace(",", ";").replace(".", ",")
+        dialects = {
+            "plain": PLAIN,
+            "windows": PLAIN.replace("\n", "\r\n"),
+            "byte order mark": "\ufeff" + PLAIN,
+            "semicolon": PLAIN.replace(",", ";"),
+            "semicolon, decimal comma": comma,
+            "tab": PLAIN.replace(",", "\t"),
+            "tab, decimal comma": PLAIN.replace(",", "\t").replace(".", ","),
+            "spaces": PLAIN.replace(",", "   "),
+            "bars": PLAIN.replace(",", "|"),
+            "quotes": PLAIN.replace("gauge_1_V", '"gauge_1_V"').replace("0.125", '"0.125"'),
+            "units": PLAIN.replace("\n", "\ns,V,N\n", 1),
+            "units in brackets": PLAIN.replace("\n", "\n[s],[V],[N]\n", 1),
+            "preamble": "Logger 7\nserial;12,5\n\n" + comma,
+            "comments": "# by hand\n" + PLAIN,
+            "delimiter at the end": PLAIN.replace("\n", ",\n"),
+            "trailing blank lines": PLAIN + "\n\n",
+        }
+        for name, text in dialects.items():
+            with self.subTest(name):
+                self.assertEqual(self.log_of_text(text), LOG)
+
+    def test_utf_16_latin_1_and_gzip_are_read(self):
+        for data in (PLAIN.encode("utf-16"), ("# Größe in µm\n" + PLAIN).encode("latin-1"),
+                     gzip.compress(PLAIN.encode())):
+            self.assertEqual(self.log_of_text(data), LOG)
+
+    def test_a_header_that_is_absent_gives_numbers(self):
+        log = self.log_of_text(PLAIN.split("\n", 1)[1],
+                               "columns: {column_1: time_s, column_2: gauge_1_V, "
+                               "column_3: force_N}")
+        self.assertEqual(log, LOG)
+
+    def test_words_for_nothing_leave_cells_empty(self):
+        for word in ("NaN", "NA", "n/a", "", "-", "#NV", "null", "--"):
+            with self.subTest(word):
+                log = self.log_of_text(PLAIN.replace("-0.25", word))
+                self.assertEqual(log["gauge_1_V"], ["0.125", ""])
+        log = self.log_of_text(PLAIN.replace("-0.25", "OVER"), "na_words: [OVER]")
+        self.assertEqual(log["gauge_1_V"], ["0.125", ""])
+
+    def test_stated_dialect_holds(self):
+        log = self.log_of_text("gauge_1_V\n1,5\n2,5\n", 'delimiter: ";"\ndecimal: ","')
+        self.assertEqual(log, {"gauge_1_V": ["1.5", "2.5"]})
+
+    def test_units_of_the_file_are_converted(self):
+        for text, mapping in (
+                ("t [ms],ch0 [mV],Fz [gf]\n0,125,1000\n100,-250,500\n",
+                 "columns: {'ch0 [mV]': gauge_1_V, 'Fz [gf]': force_N}"),
+                ("t,ch0,Fz\nms,mV,gf\n0,125,1000\n100,-250,500\n",
+                 "columns: {ch0: gauge_1_V, Fz: force_N}"),
+                ("t,ch0,Fz\n0,125,1000\n100,-250,500\n",
+                 "columns: {t: {to: time_s, unit: ms}, ch0: {to: gauge_1_V, unit: mV}, "
+                 "Fz: {to: force_N, unit: gf}}"),
+                ("time_ms,gauge_1_mV,force_gf\n0,125,1000\n100,-250,500\n", None)):
+            with self.subTest(text):
+                log = self.log_of_text(text, mapping)
+                self.assertEqual(log["time_s"], ["0.0", "0.1"])
+                self.assertEqual(log["gauge_1_V"], ["0.125", "-0.25"])
+                self.assertEqual([float(v) for v in log["force_N"]], [9.80665, 9.80665 / 2])
+
+    def test_scale_and_offset_apply_behind_the_unit(self):
+        log = self.log_of_text(
+            "t,ch0,x\n0,0,0.15\n1,65535,0.16\n",
+            "columns: {t: time_s, ch0: {to: gauge_1_V, unit: counts, bits: 16, "
+            "range_V: [-5, 5]}, x: {to: object_x_mm, unit: m, scale: -1, offset: 150}}")
+        self.assertEqual(log["gauge_1_V"], ["-5.0", repr(-5 + 65535 * (10 / 65536))])
+        self.assertEqual(log["object_x_mm"], ["0.0", "-10.0"])
+        log = self.log_of_text("t,x\ns,m\n0,0.15\n", "columns: {x: {to: object_x_mm, "
+                               "scale: -1000, offset: 150}}")
+        self.assertEqual(log["object_x_mm"], ["0.0"])
+        log = self.log_of_text("t,ch0\n0,100\n", "columns: {ch0: {to: gauge_1_V, unit: counts, "
+                               "scale: 8.06e-4}}")
+        self.assertEqual(log["gauge_1_V"], [repr(100 * 8.06e-4)])
+
+    def test_a_scale_of_one_against_a_unit_of_the_file_is_said(self):
+        self.log_of_text("t,x\ns,m\n0,0.15\n", "columns: {x: {to: object_x_mm, scale: -1}}")
+        self.assertIn("state `unit: m`", self.result.err)
+
+    def test_times_of_every_kind_are_the_same(self):
+        for cells in (("2026-03-11T14:05:07", "2026-03-11T14:05:07.1"),
+                      ("2026-03-11 14:05:07Z", "2026-03-11 15:05:07.100+01:00"),
+                      ("2026-03-11T14:05:07,000", "2026-03-11T14:05:07,100"),
+                      ("1773237907", "1773237907.1"), ("1773237907000", "1773237907100"),
+                      ("1773237907000000000", "1773237907100000000")):
+            with self.subTest(cells):
+                delimiter = ";" if "," in cells[0] else ","
+                rows = [("time", "gauge_1_V"), (cells[0], "0"), (cells[1], "1")]
+                log = self.log_of_text("\n".join(delimiter.join(r) for r in rows) + "\n")
+                self.assertEqual(log["time_s"], ["0.0", "0.1"])
+                text = (self.folder / "log.mapping.yaml").read_text()
+                self.assertIn("2026-03-11T14:05:07Z", text)
+
+    def test_a_cut_last_cell_is_said(self):
+        self.log_of_text(PLAIN[:-1])
+        self.assertIn("its last cell may be cut", self.result.err)
+
+
+class FaultTest(ImportCase):
+    def fault(self, text, mapping=None):
+        path = self.write("bad.csv", text)
+        more = [] if mapping is None else ["--mapping", self.write("m.yaml", mapping)]
+        return self.refused("--logs", path, *more)
+
+    def test_faults_of_a_table_name_line_and_column(self):
+        for text, words in (
+                (PLAIN.replace("-0.25", "x7"), ["bad.csv:3", "gauge_1_V", "x7"]),
+                (PLAIN.replace("-0.25", "1e999"), ["bad.csv:3", "1e999"]),
+                (PLAIN.replace("-0.25", "0x10"), ["bad.csv:3", "0x10"]),
+                (PLAIN.replace("-0.25,2", "-0.25"), ["bad.csv:3", "expected 3 cells, found 2"]),
+                (PLAIN.replace("force_N", "gauge_1_V"), ["bad.csv:1", "two columns are named"]),
+                (PLAIN.replace("0.1,", "-0.1,"), ["bad.csv:3", "time_s", "goes back"]),
+                (PLAIN.replace("0.1,", "NA,"), ["bad.csv:3", "needs a time"]),
+                (PLAIN + "0.2,1.234,5,6\n", ["bad.csv:4", "4"]),
+                ("", ["bad.csv", "no rows"]), ("time_s,force_N\n", ["bad.csv", "no rows"]),
+                ("hello\n", ["bad.csv", "no rows"]), (PLAIN + "\0", ["bad.csv:4", "NUL"]),
+                (b"\x1f\x8b\x08\x00", ["bad.csv", "gzip"]),
+                ("a,b\n1,2\n", ["bad.csv", "no column is understood", "--mapping"])):
+            with self.subTest(text):
+                line = self.fault(text)
+                for word in words:
+                    self.assertIn(word, line)
+
+    def test_mixed_decimal_marks_are_a_fault(self):
+        line = self.fault("time_s;force_N\n0;1,5\n1;2,5\n2;3.5\n3;4,5\n")
+        self.assertIn("bad.csv:4", line)
+
+    def test_faults_of_a_mapping_name_the_line_and_the_nearest_name(self):
+        for mapping, words in (
+                ("columns: {a: force}", ["m.yaml:1", "force_N"]),
+                ("columns:\n  a: {to: force_N, unti: gf}", ["m.yaml:2", "'unit'"]),
+                ("columns:\n  a: {to: force_N,\n    unit: mm}", ["m.yaml:3", "length"]),
+                ("columns: {a: {to: force_N, unit: kgff}}", ["m.yaml:1", "kgf"]),
+                ("columns: {a: {scale: 2}}", ["m.yaml:1", "needs `to`"]),
+                ("columns: {a: {to: gauge_1_V, unit: counts}}", ["m.yaml:1", "bits"]),
+                ("columns: {a: {to: gauge_1_V, bits: 16, unit: gf, range_V: [0, 1]}}",
+                 ["m.yaml:1"]),
+                ("columns: {a: {to: force_N, scale: 0}}", ["m.yaml:1", "scale"]),
+                ("columns: {a: {to: force_N, scale: x}}", ["m.yaml:1", "number"]),
+                ("columns: {a: {to: time_s, format: iso}}", ["m.yaml:1", "iso8601"]),
+                ("columns: {a: {to: force_N, format: epoch}}", ["m.yaml:1", "time_s"]),
+                ("column: {}", ["m.yaml:1", "'columns'"]),
+                ("columns: {a: force_N, a: time_s}", ["m.yaml:1", "twice"]),
+                ("columns: {a: force_N, b: force_N}", ["'a'", "'b'", "force_N"]),
+                ("join: {method: cubic}", ["m.yaml:1", "linear"]),
+                ("a: [", ["m.yaml"]), ("", ["m.yaml", "empty"]), ("[]", ["m.yaml:1"]),
+                ("decimal: ';'", ["m.yaml:1", "';'"])):
+            with self.subTest(mapping):
+                line = self.fault("a,b\n1,2\n", mapping)
+                for word in words:
+                    self.assertIn(word, line)
+
+    def test_columns_that_nobody_knows_are_listed(self):
+        result = self.run_import("--logs", self.write("a.csv", PLAIN.replace("force_N", "Fz")))
+        self.assertEqual(result.code, 0)
+        self.assertIn("a.csv: left out: Fz", result.out)
+
+
+class NamesTest(unittest.TestCase):
+    def test_the_vocabulary_is_that_of_the_library(self):
+        source = (ROOT / "libfinray/finray/io/frame_vocabulary.cc").read_text()
+        start = source.index("words(") + len("words(")
+        words = "".join(source[start:source.index(");", start)].split('"')[1::2]).split()
+        self.assertEqual(vocabulary.PATTERNS, words)
+
+    def test_headers_are_guessed_only_where_they_are_certain(self):
+        self.assertEqual(vocabulary.guess("gauge_3_mV", ""), ("gauge_3_V", "mV", "seconds"))
+        self.assertEqual(vocabulary.guess("force [kgf]", "kgf"), ("force_N", "kgf", "seconds"))
+        self.assertEqual(vocabulary.guess("object_x", "m"), ("object_x_mm", "m", "seconds"))
+        self.assertEqual(vocabulary.guess("Time (s)", "s")[0], "time_s")
+        for header in ("Fz", "ch0", "stage_x", "force", "gauge_0_V"):
+            self.assertIsNone(vocabulary.guess(header, ""))
+
+    def test_units(self):
+        self.assertEqual(units.factor("kgf", "force_N"), (9.80665, ""))
+        self.assertEqual(units.factor("deg", "object_angle_deg"), (1.0, ""))
+        self.assertEqual(units.factor("m", "object_x_mm"), (1000.0, ""))
+        self.assertIsNone(units.factor("mm", "force_N")[0])
+
+    def test_iso_times(self):
+        self.assertEqual(times.iso_ns("1970-01-02T00:00:00.000000001"), 86400 * 10**9 + 1)
+        self.assertEqual(times.iso_ns("1970-01-01T02:00+0200"), 0)
+        for text in ("2026-13-01T00:00:00", "2026-01-01", "12:00:00", "2026-01-01T25:00:00"):
+            self.assertIsNone(times.iso_ns(text))
+
+
+if __name__ == "__main__":
+    unittest.main()
