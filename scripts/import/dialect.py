@@ -46,14 +46,16 @@ def is_datum(cell, decimal):
 
 
 def _score(lines, delimiter, decimal):
-    """(share of cells that are data, cells a line) of lines of the data."""
-    counts = collections.Counter(len(cells_of(line, delimiter)) for line in lines)
+    """(share of cells that are data in lines of one length, cells a line)."""
+    split = [cells_of(line, delimiter) for line in lines]
+    counts = collections.Counter(map(len, split))
     width = counts.most_common(1)[0][0]
-    cells = [cell for line in lines for cell in cells_of(line, delimiter)]
+    cells = [cell for row in split for cell in row]
     data = sum(is_datum(cell, decimal) for cell in cells)
-    numbers = any(is_number(cell, decimal) or looks_iso(cell) for cell in cells)
-    return (round(counts[width] / len(lines), 1), round(data / len(cells), 1) if numbers else 0,
-            width if delimiter != " " or width > 1 else 0)
+    if not any(is_number(cell, decimal) or looks_iso(cell) for cell in cells):
+        data = 0
+    share = counts[width] / len(lines) * data / len(cells)
+    return round(share, 1), 0 if delimiter == " " and width == 1 else width
 
 
 def _delimiter(lines, delimiter, decimal):

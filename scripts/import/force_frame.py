@@ -40,15 +40,22 @@ def free_rows(columns, gauge_noise, free_s):
         return np.zeros(len(next(iter(columns.values()))), dtype=bool)
     start = time <= time[0] + START_S
     start[:3] = True
-    free = np.ones(len(time), dtype=bool)
-    for name in gauges:
-        rest = np.nanmedian(columns[name][start])
-        free &= np.abs(columns[name] - rest) < FREE_STD * (gauge_noise[name] + 1e-12)
-    # A row beside one that is touched may be on its way.
-    touched = ~free
-    free[1:] &= ~touched[:-1]
-    free[:-1] &= ~touched[1:]
-    return free
+    values = np.stack([columns[name] for name in gauges], axis=1)
+    most = np.array([gauge_noise[name] for name in gauges]) + 1e-12
+    centre = np.nanmedian(values[start], axis=0)
+    known = np.isfinite(values).all(axis=1)
+    far = np.where(known, np.max(np.abs(values - centre) / most, axis=1, initial=0), np.inf)
+    # The nearest rows, and then all that are as near as the noise of those allows. The noise
+    # between neighbouring rows bounds it: it is too large where every row is another place.
+    free = far <= np.sort(far)[min(max(LEAST_FREE, len(far) // 50), len(far)) - 1]
+    for _ in range(50):
+        centre = values[free & known].mean(axis=0)
+        spread = np.minimum(values[free & known].std(axis=0), most) + 1e-12
+        grown = known & (np.abs(values - centre) < FREE_STD * spread).all(axis=1)
+        if not grown.any() or (grown == free).all():
+            break
+        free = grown
+    return free & known
 
 
 def gauge_noise(recordings):
@@ -63,8 +70,11 @@ def bias(columns, axes, free):
     if rows.sum() < LEAST_FREE:
         raise NoSolution(f"bias of the force sensor: {rows.sum()} free rows, {LEAST_FREE} are "
                          "needed; state when the finger is free with --free_s")
-    value = force[rows].mean(axis=0)
-    spread = force[rows].std(axis=0, ddof=1)
+    middle = np.median(force[rows], axis=0)
+    scale = np.median(np.abs(force[rows] - middle), axis=0) / 0.6745
+    # A light touch that the gauges do not feel is not free.
+    rows &= (np.abs(force - middle) <= FREE_STD * scale + 1e-12).all(axis=1)
+    value, spread = force[rows].mean(axis=0), force[rows].std(axis=0, ddof=1)
     if axes == ["force_N"]:
         below = np.sum(force[~free] < value - 5 * spread - 1e-9)
         if below > 0.2 * max(np.sum(~free), 1):

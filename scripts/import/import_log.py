@@ -193,10 +193,11 @@ class Import:
         if stated is not None:
             if len(stated) != len(axes):
                 raise BadInput(f"bias_N: expected {len(axes)} numbers, for {', '.join(axes)}")
-            weight = self.mapping.force.get("tool_weight_N") or [0.0, 0.0]
             self._keep(bias_N=[float(v) for v in stated])
-            if any(weight):
-                self._keep(tool_weight_N=weight, turns_with_object=True)
+            if wish == "estimate":
+                self._keep_stated("bias_std_N", "tool_weight_N", "tool_weight_std_N",
+                                  "turns_with_object")
+            weight = (self.in_force["force"].get("tool_weight_N") if turns else None) or [0.0, 0.0]
             return np.array(stated), np.array(weight)
         free = force_frame.free_rows(columns, force_frame.gauge_noise(self.used), self.free_s())
         try:
@@ -232,6 +233,7 @@ class Import:
         elif self.mapping.force.get("rotation_deg") is not None and \
                 "force_rotation_deg" not in self.given:
             degrees = self.mapping.force["rotation_deg"]
+            self._keep_stated("rotation_std_deg")
         else:
             try:
                 degrees, std = force_frame.rotation(columns, along)
@@ -248,6 +250,10 @@ class Import:
 
     def _keep(self, **values):
         self.in_force["force"] = {**(self.in_force["force"] or {}), **values}
+
+    def _keep_stated(self, *keys):
+        self._keep(**{key: self.mapping.force[key] for key in keys
+                      if self.mapping.force.get(key) is not None})
 
     def final_columns(self):
         wanted = self.flags["plateaus"] if "plateaus" in self.given else \

@@ -14,7 +14,8 @@
       rig.csv: {columns: {}, time_offset_s: -0.04, delimiter: ",", decimal: "."}
     join: {base: rig.csv, method: linear, longest_gap_s: 0.3}
     plateaus: {shortest_s: 0.3}
-    force: {bias_N: [0.06], rotation_deg: 0, tool_weight_N: [0, -0.5], free_s: [0, 1]}
+    force: {bias_N: [0.06], rotation_deg: 0, tool_weight_N: [0, -0.5], free_s: [0, 1],
+            turns_with_object: false}
 """
 
 import yaml
@@ -105,6 +106,12 @@ class _Node:
                 (count and len(value) != count):
             self.fail(key, f"expected a list of {count or 'some'} numbers, found {shown(value)}")
         return [float(v) for v in value]
+
+    def switch(self, key):
+        value = self.plain(key)
+        if value is not None and not isinstance(value, bool):
+            self.fail(key, f"expected true or false, found {shown(value)}")
+        return value
 
     def words(self, key):
         value = self.plain(key)
@@ -228,7 +235,11 @@ def read(path):
     force = top.child("force", FORCE)
     if force:
         mapping.force = {"bias_N": force.numbers("bias_N"),
+                         "bias_std_N": force.numbers("bias_std_N"),
                          "rotation_deg": force.number("rotation_deg"),
+                         "rotation_std_deg": force.number("rotation_std_deg"),
                          "tool_weight_N": force.numbers("tool_weight_N", 2),
+                         "tool_weight_std_N": force.numbers("tool_weight_std_N", 2),
+                         "turns_with_object": force.switch("turns_with_object"),
                          "free_s": force.numbers("free_s", 2)}
     return mapping

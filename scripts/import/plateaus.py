@@ -1,7 +1,7 @@
 """One row for each place at which everything stands still.
 
-A channel moves at time t if the means of half a plateau before and after t differ by more
-than noise and a thousandth of its range allow. A plateau is a stretch in which no channel
+A channel moves at time t if the means of parts of the shortest plateau about t (before and
+after, middle and ends) differ by more than noise and a thousandth of its range allow. A plateau is a stretch in which no channel
 moves. Each table's own readings are averaged there; nothing is interpolated.
 """
 
@@ -20,24 +20,42 @@ def scatter_name(column):
     return f"{stem}_scatter_{unit}"
 
 
+class _Means:
+    """Means of a channel between times, by sums up to each reading."""
+
+    def __init__(self, time, values):
+        self.time = time
+        self.total = np.concatenate(([0.0], np.cumsum(values - values[0])))
+
+    def between(self, begin, end):
+        """(mean, number of readings); the mean is 0 where there are none."""
+        low, high = (np.searchsorted(self.time, at, side="right") for at in (begin, end))
+        return (self.total[high] - self.total[low]) / np.maximum(high - low, 1), high - low
+
+
+def _differ(a, b, noise, allowed):
+    """Whether two means differ by more than noise and what is allowed."""
+    (a, count_a), (b, count_b) = a, b
+    both = (count_a > 0) & (count_b > 0)
+    limit = noise * np.sqrt(1 / np.maximum(count_a, 1) + 1 / np.maximum(count_b, 1)) + allowed
+    return both & (np.abs(a - b) > limit)
+
+
 def _moves(time, values, at, half_s):
     good = np.isfinite(values)
     t, v = time[good], values[good]
     if len(t) < 8:
         return np.zeros(len(at), dtype=bool)
-    total = np.concatenate(([0.0], np.cumsum(v - v[0])))
-    middle = np.searchsorted(t, at, side="right")
-    low = np.minimum(np.searchsorted(t, at - half_s, side="right"), np.maximum(middle - 1, 0))
-    high = np.maximum(np.searchsorted(t, at + half_s, side="right"),
-                      np.minimum(middle + 1, len(t)))
-    before, after = middle - low, high - middle
-    usable = (before > 0) & (after > 0)
-    before, after = np.maximum(before, 1), np.maximum(after, 1)
-    step = (total[high] - total[middle]) / after - (total[middle] - total[low]) / before
-    low_range, high_range = np.percentile(v, [1, 99])
-    limit = NOISE_STD * reading_std(v) * np.sqrt(1 / before + 1 / after) + \
-        RANGE_SHARE * (high_range - low_range)
-    return usable & (np.abs(step) > limit)
+    means, noise = _Means(t, v), NOISE_STD * reading_std(v)
+    low, high = np.percentile(v, [1, 99])
+    allowed = RANGE_SHARE * (high - low)
+    moves = _differ(means.between(at - half_s, at), means.between(at, at + half_s), noise, allowed)
+    # At a turning point both halves are alike, but the middle is not like the ends.
+    middle = means.between(at - half_s / 2, at + half_s / 2)
+    for end in (means.between(at - half_s, at - half_s / 2),
+                means.between(at + half_s / 2, at + half_s)):
+        moves |= _differ(middle, end, noise, allowed)
+    return moves
 
 
 def find(recordings, shortest_s):

@@ -4,8 +4,9 @@ At rest and slow motion the force is a function of the gauges alone: both follow
 same contact. F(t + tau) = c' phi(g(t)) with phi the monomials of the gauges up to a degree.
 The tau that leaves the least squares is sought on a grid (the largest multiple correlation
 between gauges and force) and refined by Gauss-Newton in tau and c together. Its std is the
-larger of that of the least squares and that of a jackknife over blocks of time, which
-also feels what phi cannot express.
+largest of three: that of the least squares; that of a jackknife over blocks of time, which
+also feels what phi cannot express; and half the stretch in which the squares are as good,
+which is wide where the force jumps between two readings.
 """
 
 import itertools
@@ -16,7 +17,7 @@ from errors import NoSolution
 from joining import interpolate
 
 LEAST_ROWS, ROWS_A_TERM, BLOCKS = 30, 8, 20
-LEAST_R2 = 0.5
+LEAST_R2, LEAST_CONTRAST = 0.9, 1.5
 
 
 class Offset:
@@ -117,6 +118,22 @@ class _Misfit:
         return -float(np.sum(slope * residual)) / information, np.sqrt(variance / information)
 
 
+def _half_stretch(misfit, tau, degree, std):
+    """Half the stretch about tau in which the sum of squares grows by less than one variance."""
+    residual, terms, _, _ = misfit.fit(tau, degree)
+    free = max(residual.size - terms.shape[1] * residual.shape[1] - 1, 1)
+    least = np.mean(residual**2)
+    allowed = least * (1 + 1 / free) + 1e-300
+    ends = []
+    for sign in (1, -1):
+        reach = max(std, 1e-6)
+        while reach < 2 * misfit.period and \
+                np.mean(misfit.fit(tau + sign * reach, degree)[0]**2) < allowed:
+            reach *= 1.3
+        ends.append(reach)
+    return sum(ends) / 2
+
+
 def _degree(misfit, offset_s, rows):
     """The degree by the Bayesian criterion."""
     best, chosen = np.inf, 1
@@ -159,14 +176,14 @@ def estimate(force, gauges, longest_s):
     if r2 < LEAST_R2:
         raise NoSolution(f"{why}: gauges explain only {100 * r2:.0f} % of the force")
     far = np.abs(grid - tau) > 2 * misfit.period
-    if far.any() and values[far].min() < 1.05 * values[k] + 1e-12:
+    if far.any() and values[far].min() < LEAST_CONTRAST * values[k] + 1e-12:
         other = grid[far][np.argmin(values[far])]
         raise NoSolution(f"{why}: {tau:.3g} s and {other:.3g} s explain it alike, as in a motion "
                          "that repeats")
     blocks = np.arange(rows) * BLOCKS // rows
     moves = np.array([misfit.step(tau, degree, blocks != b)[0] for b in range(BLOCKS)])
     jackknife = np.sqrt((BLOCKS - 1) * np.mean((moves - moves.mean())**2))
-    std = max(std, float(jackknife))
+    std = max(std, float(jackknife), _half_stretch(misfit, tau, degree, std))
     if not std < misfit.period / 4:
-        raise NoSolution(f"{why}: its std would be {std:.2g} s; record faster changes of force")
+        raise NoSolution(f"{why}: its std would be {std:.2g} s; record more slopes of force that last some readings")
     return Offset(tau, std, degree, r2, rows)
