@@ -43,7 +43,7 @@ def _lines(text):
 
 
 def read(path, settings):
-    """[RawTable]; settings: delimiter, decimal, na_words of the mapping, each optional."""
+    """[RawTable]; settings: what the mapping states of delimiter, decimal, header_line, ..."""
     text = _text(path)
     lines = list(_lines(text))
     if not lines:
@@ -51,7 +51,7 @@ def read(path, settings):
     delimiter, mark = dialects.choose([line for _, line in lines], settings.get("delimiter"),
                                       settings.get("decimal"))
     rows = [(number, dialects.cells_of(line, delimiter)) for number, line in lines]
-    table = dialects.table_of(path, "", rows, mark, settings.get("na_words") or ())
+    table = dialects.table_of(path, "", rows, mark, settings)
     table.delimiter = delimiter
     said = f"cells end at {NAMES.get(delimiter, delimiter)}"
     table.notes.insert(0, said + ("; decimal comma" if mark == "," else ""))

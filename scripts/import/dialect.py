@@ -79,12 +79,19 @@ def choose(texts, delimiter=None, decimal=None):
 
 def _is_units(cells):
     """Whether all cells are units or nothing, and one is a unit."""
-    known = [units.find(c) is not None for c in cells]
-    return any(known) and all(k or c in units.NO_UNIT for k, c in zip(known, cells))
+    known = [units.is_word_of_file(c) for c in cells]
+    return any(known) and all(k or c.strip("[]()") in units.NO_UNIT for k, c in zip(known, cells))
 
 
-def _layout(path, rows, mark):
+def _layout(path, rows, mark, header_line=None, units_row=None):
     """Indices of the header (or None), the row of units (or None) and the first row of data."""
+    if header_line is not None:
+        header = next((i for i, (line, _) in enumerate(rows) if line == header_line), None)
+        below = 1 if header is not None and header + 1 < len(rows) and (
+            units_row or units_row is None and _is_units(rows[header + 1][1])) else 0
+        if header is None or header + 1 + below >= len(rows):
+            raise BadInput(f"{path}: header_line {header_line} of the mapping has no rows below it")
+        return header, header + 1 if below else None, header + 1 + below
     # The preamble may be longer than the data, but few lines of it are in the second half.
     widths = collections.Counter(len(cells) for _, cells in rows)
     late = collections.Counter(len(cells) for _, cells in rows[len(rows) // 2:])
@@ -97,18 +104,22 @@ def _layout(path, rows, mark):
 
     first = next((i for i, (_, cells) in enumerate(rows) if is_data(cells)), None)
     if first is None:
-        raise BadInput(f"{path}: no rows of numbers found; state `delimiter` and `decimal` in the "
-                       "mapping if it is a table")
+        raise BadInput(f"{path}: no rows of numbers found; state delimiter, decimal and "
+                       "header_line in the mapping if it is a table")
     header = first - 1 if first > 0 and len(rows[first - 1][1]) == width else None
-    units_row = None
-    if header and _is_units(rows[header][1]) and len(rows[header - 1][1]) == width:
-        header, units_row = header - 1, header
-    return header, units_row, first
+    found = header and len(rows[header - 1][1]) == width and (
+        units_row or units_row is None and _is_units(rows[header][1]))
+    return (header - 1, header, first) if found else (header, None, first)
 
 
-def table_of(path, part, rows, mark, na_words=()):
-    """RawTable of (line, cells) rows with preamble, header and row of units, if any."""
-    header, units_row, first = _layout(path, rows, mark)
+def table_of(path, part, rows, mark, settings=None):
+    """RawTable of (line, cells) rows with preamble, header and row of units, if any.
+
+    settings: header_line, units_row, not_measured of the mapping, where it states them.
+    """
+    settings = settings or {}
+    header, units_row, first = _layout(path, rows, mark, settings.get("header_line"),
+                                       settings.get("units_row"))
     width = len(rows[first][1])
     if header is None:
         names, unit_of = [f"column_{i + 1}" for i in range(width)], [""] * width
@@ -126,7 +137,8 @@ def table_of(path, part, rows, mark, na_words=()):
     by_column = zip(*(cells for _, cells in rows[first:]))
     # A column without a name is empty, as behind a delimiter at the end of every line.
     columns = [Column(n, list(c), u) for n, c, u in zip(names, by_column, unit_of) if n]
-    table = RawTable(path, part, columns, mark, na_words, [number for number, _ in rows[first:]])
+    table = RawTable(path, part, columns, mark, settings.get("not_measured") or (),
+ [number for number, _ in rows[first:]])
     top = header if header is not None else first
     if top:
         table.notes.append(f"{top} preamble line{'s' if top > 1 else ''}")

@@ -95,8 +95,8 @@ class Import:
             force.shift(value)
             return
         if wish == "auto":
-            stated = force is not None and self.mapping.tables.get(
-                force.name, (0, 0, None))[2] is not None
+            stated = force is not None and self.mapping.time_offset(
+                force.name)[0] is not None
             if force is None or gauges is None or stated or force.time is None or \
                     force.table.path == gauges.table.path:
                 return

@@ -1,14 +1,21 @@
-"""The mapping YAML: which column becomes what, read strictly, with the line of an error.
+"""The mapping YAML: which column becomes what.
 
-    delimiter: ";"                  # of CSV; detected if left out
+`columns` and the keys of CSV are those of scenes and plans, so that all can name one file:
+
+    delimiter: ";"                  # of CSV; what is left out is detected
     decimal: ","
-    na_words: [ERR]                 # beside the usual ones
-    columns:                        # of every table; a table's own come first
-      ch0: {to: gauge_1_V, unit: counts, bits: 16, range_V: [-5, 5]}
+    header_line: 4                  # in the file, from 1
+    units_row: true                 # whether units stand below the header
+    not_measured: [ERR]             # beside the usual words
+    columns:                        # or the path of a YAML with these keys
+      ch0: {to: gauge_1_V, unit: {adc_bits: 16, range_V: [-5, 5], signed: false}}
       Fz: {to: force_N, unit: gf}
       stage_x: {to: object_x_mm, scale: -1000, offset: 150}
       t: {to: time_s, format: epoch}
       operator: null                # left out, and no word about it
+
+The rest is for finray_import:
+
     row_type: kind                  # column that tells kinds of rows apart; default row_type
     tables:                         # by file name, or file:part (sheet, topic, group, kind)
       rig.csv: {columns: {}, time_offset_s: -0.04, delimiter: ",", decimal: "."}
@@ -18,228 +25,178 @@
             turns_with_object: false}
 """
 
-import yaml
+import os
 
 import units
 import vocabulary
-from errors import BadInput, did_you_mean, shown
-from times import FORMATS
+from errors import BadInput, shown
+from yaml_node import Node, load
 
-TOP = ["schema_version", "delimiter", "decimal", "na_words", "columns", "row_type", "tables",
-       "join", "plateaus", "force", "time_origin"]
-TABLE = ["delimiter", "decimal", "na_words", "columns", "time_offset_s", "time_offset_std_s",
-         "row_type"]
-COLUMN = ["to", "scale", "offset", "unit", "format", "bits", "range_V"]
-JOIN = ["base", "method", "longest_gap_s"]
-PLATEAUS = ["shortest_s"]
+FORMAT_KEYS = ["delimiter", "decimal", "header_line", "units_row", "not_measured"]
+SETTINGS = FORMAT_KEYS + ["row_type"]
+TOP = ["schema_version", "columns", "tables", "join", "plateaus", "force", "time_origin"] + SETTINGS
+TABLE = ["columns", "time_offset_s", "time_offset_std_s"] + SETTINGS
 FORCE = ["bias_N", "bias_std_N", "rotation_deg", "rotation_std_deg", "tool_weight_N",
-           "tool_weight_std_N", "turns_with_object", "free_s"]
-MOST_BYTES = 16 << 20
+         "tool_weight_std_N", "turns_with_object", "free_s"]
+EPOCH_UNITS = {"epoch": "s", "epoch_s": "s", "epoch_ms": "ms"}
 
 
 class Target:
-    """What a column becomes: value = scale * (cell in finray's unit) + offset."""
+    """What a column becomes: value = scale * (cell in finray's unit) + offset.
 
-    def __init__(self, to, scale=1.0, offset=0.0, unit="", form=None, bits=None, range_V=None,
-                 stated_scale=False):
+    unit: a Unit or Counts or None; scale: None where none is stated; form: of times, `iso8601`,
+    `epoch` (since 1970, in the unit), `number`, or None where it is to be found out.
+    """
+
+    def __init__(self, to, scale=None, offset=0.0, unit=None, form=None):
         self.to, self.scale, self.offset, self.unit, self.form = to, scale, offset, unit, form
-        self.bits, self.range_V, self.stated_scale = bits, range_V, stated_scale
 
 
-class _Node:
-    """A mapping node of the YAML with the line of each key."""
-
-    def __init__(self, path, node, keys=None):
-        if not isinstance(node, yaml.MappingNode):
-            raise BadInput(f"{path}:{node.start_mark.line + 1}: expected a mapping (key: value)")
-        self.path, self.values = path, {}
-        for key, value in node.value:
-            name, line = str(key.value), key.start_mark.line + 1
-            if name in self.values:
-                raise BadInput(f"{path}:{line}: '{shown(name)}' is there twice")
-            if keys is not None and name not in keys:
-                raise BadInput(f"{path}:{line}: unknown key '{shown(name)}'"
-                               f"{did_you_mean(name, keys)}")
-            self.values[name] = value
-
-    def fail(self, key, text):
-        raise BadInput(f"{self.path}:{self.values[key].start_mark.line + 1}: {key}: {text}")
-
-    def plain(self, key):
-        if key not in self.values:
-            return None
-        try:
-            return yaml.SafeLoader("").construct_object(self.values[key], deep=True)
-        except (yaml.YAMLError, ValueError) as error:
-            self.fail(key, f"cannot be read: {shown(error)}")
-
-    def text(self, key, allowed=None):
-        value = self.plain(key)
+def _counts(node):
+    bits, volts = node.integer("adc_bits", 1, 32), node.numbers("range_V", 2)
+    for key, value in (("adc_bits", bits), ("range_V", volts)):
         if value is None:
-            return None
-        if isinstance(value, bool) or not isinstance(value, str) or not value:
-            self.fail(key, f"expected a text, found {shown(value)}")
-        if allowed is not None and value not in allowed:
-            self.fail(key, f"expected {', '.join(map(repr, allowed))}, found '{shown(value)}'")
-        return value
-
-    def is_number(self, value):
-        return isinstance(value, (int, float)) and not isinstance(value, bool) and \
-            abs(value) < 1e30
-
-    def number(self, key):
-        value = self.plain(key)
-        if isinstance(value, str):  # PyYAML takes 8e-4 for a text
-            try:
-                value = float(value)
-            except ValueError:
-                pass
-        if value is not None and not self.is_number(value):
-            self.fail(key, f"expected a number, found {shown(value)}")
-        return None if value is None else float(value)
-
-    def numbers(self, key, count=None):
-        value = self.plain(key)
-        if value is None:
-            return None
-        if not isinstance(value, list) or not all(map(self.is_number, value)) or \
-                (count and len(value) != count):
-            self.fail(key, f"expected a list of {count or 'some'} numbers, found {shown(value)}")
-        return [float(v) for v in value]
-
-    def switch(self, key):
-        value = self.plain(key)
-        if value is not None and not isinstance(value, bool):
-            self.fail(key, f"expected true or false, found {shown(value)}")
-        return value
-
-    def words(self, key):
-        value = self.plain(key)
-        if value is None:
-            return []
-        if not isinstance(value, list) or not all(isinstance(v, str) for v in value):
-            self.fail(key, f"expected a list of words, found {shown(value)}")
-        return value
-
-    def child(self, key, keys=None):
-        return _Node(self.path, self.values[key], keys) if key in self.values else None
+            raise BadInput(f"{node.path}:{_line(node)}: unit: counts need adc_bits and range_V")
+    if not volts[0] < volts[1]:
+        node.fail("range_V", "expected [from, to] in V, the first one smaller")
+    return units.Counts(bits, *volts, bool(node.switch("signed")))
 
 
-def _target(columns, header):
-    node = columns.values[header]
-    if isinstance(node, yaml.ScalarNode):
-        to = columns.plain(header)
+def _line(node):
+    return min(v.start_mark.line for v in node.values.values()) + 1 if node.values else 1
+
+
+def _read_unit(node, target):
+    own = units.of_column(target.to)
+    if node.is_map("unit"):
+        if own is None or own.dimension != "voltage":
+            node.fail("unit", f"counts of a converter are volts, not {target.to}")
+        target.unit = _counts(node.child("unit", ["adc_bits", "range_V", "signed"]))
+        return
+    name = node.text("unit")
+    if target.to == "time_s" and name in EPOCH_UNITS and target.form != "iso8601":
+        target.form, name = "epoch", EPOCH_UNITS[name]
+    unit = units.find(name)
+    if unit is None or units.conversion(unit, target.to) is None:
+        node.fail("unit", units.why_not(name, target.to))
+    if target.form == "iso8601":
+        node.fail("unit", "a time of iso8601 has none")
+    target.unit = unit
+
+
+def _target(node, header):
+    """(header, Target or None) of an entry; {ours: theirs} is taken the other way round."""
+    if not node.is_map(header):
+        to = node.plain(header)
         if to is None:
-            return None  # left out on purpose
-        target = Target(str(to))
-        fail = lambda text: columns.fail(header, text)
-    else:
-        own = columns.child(header, COLUMN)
-        if "to" not in own.values:
-            columns.fail(header, "needs `to`, the column that it becomes")
-        scale, offset = own.number("scale"), own.number("offset")
-        target = Target(own.text("to"), 1.0 if scale is None else scale, offset or 0.0,
-                        own.text("unit") or "", own.text("format", list(FORMATS)),
-                        own.number("bits"), own.numbers("range_V", 2), scale is not None)
-        fail = lambda text: own.fail("unit" if "unit" in own.values else "to", text)
-        if target.scale == 0:
-            own.fail("scale", "a scale of 0 leaves nothing of the column")
-        if (target.bits is None) != (target.range_V is None):
-            fail("`bits` and `range_V` go together")
-        if target.bits is not None and not (target.bits == int(target.bits) and
-                                            1 <= target.bits <= 32):
-            own.fail("bits", f"expected 1 to 32, found {target.bits:g}")
-        if target.bits is not None and (units.find(target.unit or "counts") or ("",))[0] != "count":
-            fail("`bits` and `range_V` are for `unit: counts`")
-    if not vocabulary.is_column(target.to):
-        fail(f"'{shown(target.to)}' is no column of a log{vocabulary.nearest(target.to)}")
+            return header, None  # left out on purpose
+        if vocabulary.is_column(header) and not vocabulary.is_column(str(to)):
+            return str(to), Target(header)
+        _check_target(node, header, str(to))
+        return header, Target(str(to))
+    own = node.child(header, ["to", "scale", "offset", "unit", "format"])
+    if "to" not in own.values:
+        node.fail(header, "needs `to`, the column that it becomes")
+    target = Target(own.text("to"), own.number("scale"), own.number("offset") or 0.0,
+                    form=own.text("format", ["iso8601", "epoch"]))
+    _check_target(own, "to", target.to)
+    if target.scale == 0:
+        own.fail("scale", "expected another than 0")
     if target.form and target.to != "time_s":
-        fail(f"`format` is for time_s, not for {target.to}")
-    if target.unit and target.bits is None:
-        _, why = units.factor(target.unit, target.to)
-        scaled_counts = target.stated_scale and (units.find(target.unit) or ("",))[0] == "count"
-        if why and not scaled_counts:
-            fail(why)
-    return target
+        own.fail("format", f"is for time_s, not for {target.to}")
+    if "unit" in own.values:
+        _read_unit(own, target)
+    return header, target
 
 
-def _columns(node):
-    """{header: Target, or None for one that is left out}."""
-    columns = node.child("columns")
-    return {} if columns is None else {name: _target(columns, name) for name in columns.values}
+def _check_target(node, key, to):
+    if not vocabulary.is_column(to):
+        node.fail(key, f"'{shown(to)}' is no column of a log{vocabulary.nearest(to)}")
 
 
-def _settings(node):
-    return {"delimiter": node.text("delimiter"), "decimal": node.text("decimal", [".", ","]),
-            "na_words": node.words("na_words"), "row_type": node.text("row_type")}
+class Table:
+    """columns: {header: Target, or None for one that is left out}; settings of CSV."""
+
+    def __init__(self, node=None):
+        self.columns, self.settings = {}, {key: None for key in SETTINGS}
+        self.time_offset_s = self.time_offset_std_s = None
+        if node is None:
+            return
+        if node.is_map("columns"):
+            columns = node.child("columns")
+            self.columns = dict(_target(columns, header) for header in columns.values)
+        elif "columns" in node.values:
+            shared = os.path.join(os.path.dirname(node.path), node.text("columns"))
+            other = Node(shared, load(shared), ["schema_version", "columns"] + FORMAT_KEYS)
+            if not other.is_map("columns"):
+                raise BadInput(f"{shared}: needs `columns`, a mapping")
+            self.columns, self.settings = Table(other).columns, Table(other).settings
+        delimiter = node.text("delimiter", [",", ";", "\t", "tab", "|", " "])
+        read = {"delimiter": "\t" if delimiter == "tab" else delimiter,
+                "decimal": node.text("decimal", [".", ","]),
+                "header_line": node.integer("header_line", 1, 10**9),
+                "units_row": node.switch("units_row"),
+                "not_measured": node.words("not_measured") or None,
+                "row_type": node.text("row_type") if "row_type" in node.values else None}
+        self.settings.update({key: v for key, v in read.items() if v is not None})
+        self.time_offset_s = node.number("time_offset_s")
+        self.time_offset_std_s = node.number("time_offset_std_s")
 
 
 class Mapping:
-    """columns, settings: of all tables; tables: {name: (columns, settings, offset, std)};
-    join, plateaus, force: plain values, None where nothing is said."""
+    """top, tables {name: Table}; join, plateaus, force: plain values, None where nothing is said."""
 
     def __init__(self):
-        self.path, self.columns, self.tables = None, {}, {}
-        self.settings = {"delimiter": None, "decimal": None, "na_words": [], "row_type": None}
+        self.path, self.top, self.tables = None, Table(), {}
         self.join, self.plateaus, self.force = {}, None, {}
 
-    def of(self, table, key):
-        own = self.tables.get(table, ({}, {}, None, None))[1].get(key)
-        return own or self.settings[key]
+    def _tables(self, name):
+        """What speaks of a table, the nearest first: itself, its file, all."""
+        names = dict.fromkeys((name, name.partition(":")[0]))
+        return [self.tables[n] for n in names if n in self.tables] + [self.top]
 
-    def target(self, table, header):
+    def setting(self, name, key):
+        said = [t.settings[key] for t in self._tables(name) if t.settings[key] is not None]
+        return said[0] if said else None
+
+    def target(self, name, header):
         """(whether the mapping says something, Target or None)."""
-        for columns in (self.tables.get(table, ({},))[0], self.columns):
-            if header in columns:
-                return True, columns[header]
+        for table in self._tables(name):
+            if header in table.columns:
+                return True, table.columns[header]
         return False, None
+
+    def time_offset(self, name):
+        """(seconds, std), each None where nothing is stated."""
+        for table in self._tables(name):
+            if table.time_offset_s is not None:
+                return table.time_offset_s, table.time_offset_std_s
+        return None, None
 
 
 def read(path):
     mapping = Mapping()
-    mapping.path = path
-    try:
-        with open(path, "rb") as file:
-            data = file.read(MOST_BYTES + 1)
-        if len(data) > MOST_BYTES:
-            raise BadInput(f"{path}: larger than 16 MiB")
-        node = yaml.compose(data.decode("utf-8-sig"), Loader=yaml.SafeLoader)
-    except OSError as error:
-        raise BadInput(f"{path}: cannot be read: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise BadInput(f"{path}: is not UTF-8 text") from error
-    except (yaml.YAMLError, RecursionError) as error:
-        mark = getattr(error, "problem_mark", None)
-        line = f":{mark.line + 1}" if mark else ""
-        raise BadInput(f"{path}{line}: {shown(getattr(error, 'problem', None) or error)}") \
-            from error
-    if node is None:
-        raise BadInput(f"{path}: is empty")
-    top = _Node(path, node, TOP)
+    top = Node(path, load(path), TOP)
     if top.plain("schema_version") not in (None, 1):
         top.fail("schema_version", "expected 1")
-    mapping.columns, mapping.settings = _columns(top), _settings(top)
+    mapping.path, mapping.top = path, Table(top)
     tables = top.child("tables")
     for name in tables.values if tables else ():
-        own = tables.child(name, TABLE)
-        mapping.tables[name] = (_columns(own), _settings(own), own.number("time_offset_s"),
-                                own.number("time_offset_std_s"))
-    join = top.child("join", JOIN)
+        mapping.tables[name] = Table(tables.child(name, TABLE))
+    join = top.child("join", ["base", "method", "longest_gap_s"])
     if join:
         mapping.join = {"base": join.text("base"),
                         "method": join.text("method", ["linear", "nearest", "previous"]),
                         "longest_gap_s": join.number("longest_gap_s")}
-    plateaus = top.child("plateaus", PLATEAUS)
+    plateaus = top.child("plateaus", ["shortest_s"])
     if plateaus:
         mapping.plateaus = {"shortest_s": plateaus.number("shortest_s")}
     force = top.child("force", FORCE)
     if force:
-        mapping.force = {"bias_N": force.numbers("bias_N"),
-                         "bias_std_N": force.numbers("bias_std_N"),
-                         "rotation_deg": force.number("rotation_deg"),
-                         "rotation_std_deg": force.number("rotation_std_deg"),
-                         "tool_weight_N": force.numbers("tool_weight_N", 2),
-                         "tool_weight_std_N": force.numbers("tool_weight_std_N", 2),
-                         "turns_with_object": force.switch("turns_with_object"),
-                         "free_s": force.numbers("free_s", 2)}
+        mapping.force = {key: force.numbers(key) for key in ("bias_N", "bias_std_N")}
+        mapping.force.update((key, force.numbers(key, 2)) for key in
+                             ("tool_weight_N", "tool_weight_std_N", "free_s"))
+        mapping.force.update((key, force.number(key)) for key in
+                             ("rotation_deg", "rotation_std_deg"))
+        mapping.force["turns_with_object"] = force.switch("turns_with_object")
     return mapping

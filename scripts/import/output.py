@@ -6,6 +6,7 @@ import tempfile
 import numpy as np
 import yaml
 
+import units
 import vocabulary
 from errors import BadInput
 
@@ -47,35 +48,43 @@ def mapping_path(out):
     return out + ".mapping.yaml"
 
 
-def _column(target):
-    out = {"to": target.to}
-    if target.bits is not None:
-        out.update(unit="counts", bits=int(target.bits), range_V=target.range_V)
-    elif target.unit_used:
-        out["unit"] = target.unit_used
-    if target.form and target.form != "seconds":
+def _column(used):
+    target, out = used.target, {"to": used.target.to}
+    if isinstance(used.unit, units.Counts):
+        out["unit"] = {"adc_bits": used.unit.bits, "range_V": [used.unit.low_V, used.unit.high_V]}
+        if used.unit.signed:
+            out["unit"]["signed"] = True
+    elif used.unit is not None and not (target.form == "epoch" and used.unit.name == "s"):
+        out["unit"] = used.unit.name
+    if target.form in ("iso8601", "epoch"):
         out["format"] = target.form
-    if target.stated_scale:
+    if target.scale is not None:
         out["scale"] = target.scale
     if target.offset:
         out["offset"] = target.offset
     return out if len(out) > 1 else target.to
 
 
-def _table(recording, mapping):
-    columns = {header: _column(target) for header, target in recording.used}
-    columns.update({c.name: None for c in recording.table.columns if c.name not in columns})
+def _tables(recordings, mapping):
+    """What is said of each file and of each table of it."""
     out = {}
-    if recording.table.delimiter is not None:
-        out.update(delimiter=recording.table.delimiter, decimal=recording.table.decimal)
-    if mapping.of(recording.name, "na_words"):
-        out["na_words"] = mapping.of(recording.name, "na_words")
-    if recording.offset_s or recording.offset_std_s is not None:
-        out["time_offset_s"] = float(recording.offset_s)
-    if recording.offset_std_s is not None:
-        out["time_offset_std_s"] = float(recording.offset_std_s)
-    out["columns"] = columns
-    return out
+    for r in recordings:
+        of_file = out.setdefault(r.name.partition(":")[0], {})
+        if r.table.delimiter is not None:
+            of_file.update(delimiter=r.table.delimiter, decimal=r.table.decimal)
+        of_file.update((key, value) for key, value in
+                       ((key, mapping.setting(r.name, key)) for key in
+                        ("header_line", "units_row", "not_measured", "row_type"))
+                       if value is not None)
+        own = out.setdefault(r.name, {})
+        if r.offset_s or r.offset_std_s is not None:
+            own["time_offset_s"] = float(r.offset_s)
+        if r.offset_std_s is not None:
+            own["time_offset_std_s"] = float(r.offset_std_s)
+        columns = {used.header: _column(used) for used in r.used}
+        columns.update({c.name: None for c in r.table.columns if c.name not in columns})
+        own["columns"] = columns
+    return {name: table for name, table in out.items() if table}
 
 
 class _Dumper(yaml.SafeDumper):
@@ -95,10 +104,8 @@ _Dumper.add_representer(float, _number)
 def mapping_text(recordings, mapping, in_force):
     """in_force: join, plateaus, force and time_origin as used, None where not."""
     out = {"schema_version": 1}
-    if mapping.settings["row_type"]:
-        out["row_type"] = mapping.settings["row_type"]
     out.update({key: value for key, value in in_force.items() if value})
-    out["tables"] = {r.name: _table(r, mapping) for r in recordings}
+    out["tables"] = _tables(recordings, mapping)
     return "# Written by finray_import. With it and the same recordings the same log comes out " \
         "again.\n" + yaml.dump(out, Dumper=_Dumper, sort_keys=False, allow_unicode=True,
                                default_flow_style=None, width=110)

@@ -30,10 +30,10 @@ class RawTable:
     """columns: Column in order, all of the same length; lines: the line of each row of a text
     file; delimiter: of a CSV; notes: what to tell the user of how it was read."""
 
-    def __init__(self, path, part, columns, decimal=".", na_words=(), lines=None):
+    def __init__(self, path, part, columns, decimal=".", not_measured=(), lines=None):
         self.path, self.part, self.columns = path, part, columns
         self.decimal, self.lines, self.delimiter = decimal, lines, None
-        self.na_words = NA_WORDS | {word.lower() for word in na_words}
+        self.na_words = NA_WORDS | {word.lower() for word in not_measured}
         self.notes = []
 
     @property

@@ -6,6 +6,7 @@ import os
 import csv_reader
 import event_log
 import isolated
+import mapping_file
 from errors import BadInput, shown
 
 # name of the format, its reader, the Debian package that the reader needs.
@@ -39,7 +40,7 @@ def format_of(path):
 def read(path, mapping):
     """The tables of a file. Whatever a library says of a broken file becomes one line."""
     name = os.path.basename(path)
-    settings = {key: mapping.of(name, key) for key in ("delimiter", "decimal", "na_words")}
+    settings = {key: mapping.setting(name, key) for key in mapping_file.FORMAT_KEYS}
     try:
         if not os.path.exists(path):
             raise BadInput(f"{path}: there is no such file")
@@ -56,7 +57,7 @@ def read(path, mapping):
     tables = [table for table in tables if table.rows]
     if not tables:
         raise BadInput(f"{path}: has no rows of numbers")
-    kind = mapping.of(name, "row_type") or "row_type"
+    kind = mapping.setting(name, "row_type") or "row_type"
     return [part for table in tables for part in event_log.split(table, kind)]
 
 

@@ -9,11 +9,18 @@ from errors import BadInput, shown
 from mapping_file import Target
 
 
+class Used:
+    """A column that became a channel: the unit that was used, as text and as Unit or Counts."""
+
+    def __init__(self, header, target, unit):
+        self.header, self.target, self.unit = header, target, unit
+
+
 class Recording:
     """name; channels {column: values}; time: seconds of the log, or None.
 
-    used: (header, unit, Target) of every column that became a channel; unknown: headers that
-    nobody knows; warnings. offset_s is added to the times, std_s is its std or None.
+    used: a Used for each column that became a channel; unknown: headers that nobody knows;
+    warnings. offset_s is added to the times, offset_std_s is its std or None.
     """
 
     def __init__(self, table):
@@ -39,22 +46,6 @@ class Recording:
         self.offset_s, self.offset_std_s = offset_s, std_s
 
 
-def _time_format(table, column, unit):
-    """The format of times whose mapping states none."""
-    if column.is_text and times.looks_iso(column.cells[0]):
-        return "iso8601"
-    values = table.numbers(column)
-    first = values[np.isfinite(values)][:1]
-    for form, per_second in (("epoch", 1), ("epoch_ms", 1e3), ("epoch_us", 1e6),
-                             ("epoch_ns", 1e9)):
-        if len(first) and 3e8 * per_second < first[0] < 4e9 * per_second:
-            wanted = {"epoch": ("", "s"), "epoch_ms": ("", "ms"), "epoch_us": ("", "us", "µs"),
-                      "epoch_ns": ("", "ns")}[form]
-            if unit in wanted:
-                return form
-    return "seconds"
-
-
 def _target_of(recording, mapping, column):
     """The Target of a column, or None; notes headers that nobody knows."""
     said, target = mapping.target(recording.name, column.name)
@@ -64,52 +55,74 @@ def _target_of(recording, mapping, column):
     if guessed is None:
         recording.unknown.append(column.name)
         return None
-    return Target(guessed[0], unit=guessed[1], form=guessed[2])
+    return Target(guessed[0], unit=guessed[1])
 
 
-def _convert(recording, column, target):
-    """Values of a channel; fills in the unit that was used."""
-    table, unit = recording.table, target.unit
-    if not unit and not target.stated_scale and target.bits is None and column.unit and \
-            target.to != column.name:
-        unit = column.unit  # the file's own word
-    elif not unit and target.stated_scale and column.unit:
-        factor, _ = units.factor(column.unit, target.to)
-        if factor not in (None, 1.0) and target.scale in (1.0, -1.0):
+def _fail(table, column, text):
+    raise BadInput(f"{table.path}: column '{shown(column.name)}': {text}")
+
+
+def _unit(recording, column, target):
+    """The Unit or Counts that converts a column, or None. A scale speaks of the cell as it is
+    written, so the file's own word for the unit counts only where no scale is stated."""
+    own = units.find_in_file(column.unit)
+    if target.unit is not None or not column.unit or column.unit in units.NO_UNIT:
+        if target.unit and own and own.name != target.unit.name and target.scale is None:
+            _fail(recording.table, column, f"the file gives it in {column.unit}, the mapping in "
+                  f"{target.unit.name}")
+        return target.unit
+    if target.scale is not None:
+        if own and own.name != units.of_column(target.to).name and abs(target.scale) == 1:
             recording.warnings.append(
                 f"{recording.name}: '{column.name}' is in {column.unit} by the file, yet its "
-                f"scale of {target.scale:g} is taken as it is; state `unit: {column.unit}` to "
-                "convert")
+                f"scale of {target.scale:g} is taken as it is; state `unit: {own.name}` to convert")
+        return None
+    if own is None and not vocabulary.is_column(column.name) or \
+            own is not None and units.conversion(own, target.to) is None:
+        _fail(recording.table, column, units.why_not(column.unit, target.to))
+    return own
+
+
+def _convert(recording, column, target, unit):
+    table = recording.table
     values = table.numbers(column)
-    if target.bits is not None:
-        low, high = target.range_V
-        values = low + values * ((high - low) / 2.0**target.bits)
-        unit = f"{int(target.bits)} bits over {low:g} to {high:g} V"
-    elif unit and not (target.stated_scale and (units.find(unit) or ("",))[0] == "count"):
-        factor, why = units.factor(unit, target.to)
-        if factor is None:
-            raise BadInput(f"{table.path}: column '{shown(column.name)}': {why}")
-        values = values * factor if factor != 1.0 else values
-    target.unit_used = unit
-    if target.scale != 1.0:
+    if isinstance(unit, units.Counts):
+        wrong = np.flatnonzero((values < unit.least) | (values > unit.most))
+        if len(wrong):
+            raise BadInput(f"{table.where(wrong[0])}: column '{shown(column.name)}': expected "
+                           f"counts of {unit.bits} bits, {unit.least} to {unit.most}, found "
+                           f"{values[wrong[0]]:.17g}")
+        values = unit.apply(values)
+    elif unit is not None:
+        values = units.conversion(unit, target.to).apply(values)
+    if target.scale is not None:
         values = target.scale * values
-    return values + target.offset if target.offset else values
+    values = values + target.offset if target.offset else values
+    wrong = np.flatnonzero(np.isinf(values))
+    if len(wrong):
+        raise BadInput(f"{table.where(wrong[0])}: column '{shown(column.name)}': is too large "
+                       "when converted")
+    return values
 
 
 def _take_time(recording, column, target):
-    table = recording.table
-    form = target.form or _time_format(table, column, target.unit or column.unit)
-    target.form = form
-    if form == "seconds":
-        recording.seconds = _convert(recording, column, target)
+    """Sets stamps or seconds, and returns the unit that was used."""
+    table, unit = recording.table, _unit(recording, column, target)
+    if target.form is None:
+        target.form, unit = times.form_of(table, column, unit, target)
+    if target.form == "number":
+        recording.seconds = _convert(recording, column, target, unit)
         missing = np.flatnonzero(np.isnan(recording.seconds))
         if len(missing):
             raise BadInput(f"{table.where(missing[0])}: column '{shown(column.name)}': a row "
                            "needs a time")
     else:
-        recording.stamps = times.stamps_ns(table, column, form)
-        target.unit_used = ""
-    steps = np.diff(recording.stamps if form != "seconds" else recording.seconds)
+        if target.scale is not None or target.offset:
+            _fail(table, column, f"a time of format {target.form} takes no scale and no offset; "
+                  "state time_offset_s of its table")
+        unit = None if target.form == "iso8601" else unit or units.UNITS["s"]
+        recording.stamps = times.stamps_ns(table, column, target.form, unit)
+    steps = np.diff(recording.seconds if target.form == "number" else recording.stamps)
     back = np.flatnonzero(steps < 0)
     if len(back):
         raise BadInput(f"{table.where(back[0] + 1)}: column '{shown(column.name)}': the time goes "
@@ -117,6 +130,7 @@ def _take_time(recording, column, target):
     same = int(np.sum(steps == 0))
     if same:
         recording.warnings.append(f"{recording.name}: {same} rows have the time of the row before")
+    return unit
 
 
 def convert(table, mapping):
@@ -131,11 +145,14 @@ def convert(table, mapping):
                            f"'{shown(column.name)}' would both become {target.to}; map one of "
                            "them to null")
         taken[target.to] = column.name
+        # The same Target may serve other tables, whose times have another form.
+        target = Target(target.to, target.scale, target.offset, target.unit, target.form)
         if target.to == "time_s":
-            _take_time(recording, column, target)
+            unit = _take_time(recording, column, target)
         else:
-            recording.channels[target.to] = _convert(recording, column, target)
-        recording.used.append((column.name, target))
+            unit = _unit(recording, column, target)
+            recording.channels[target.to] = _convert(recording, column, target, unit)
+        recording.used.append(Used(column.name, target, unit))
     return recording
 
 
@@ -156,7 +173,7 @@ def align_clocks(recordings, mapping):
     for r in plain:
         r.time = r.seconds.copy()
     for r in recordings:
-        _, _, offset, std = mapping.tables.get(r.name, (0, 0, None, None))
+        offset, std = mapping.time_offset(r.name)
         if offset is not None and r.time is not None:
             r.shift(offset, std)
     return origin

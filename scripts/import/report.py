@@ -2,6 +2,7 @@
 
 import numpy as np
 
+import units
 from errors import shown
 
 
@@ -14,11 +15,18 @@ def _range(values):
 
 def _becomes(target):
     text = target.to
-    if target.scale != 1.0:
+    if target.scale is not None:
         text += f", scale {target.scale:g}"
     if target.offset:
         text += f", offset {target.offset:g}"
     return text
+
+
+def _unit(used):
+    if isinstance(used.unit, units.Counts):
+        return f"{used.unit.bits} bits, {used.unit.low_V:g} to {used.unit.high_V:g} V"
+    form = used.target.form if used.target.form not in (None, "number") else ""
+    return " ".join(w for w in (form, used.unit.name if used.unit else "") if w)
 
 
 def _rate(recording):
@@ -27,14 +35,11 @@ def _rate(recording):
 
 
 def _rows(recording):
-    for header, target in recording.used:
-        if target.to == "time_s":
-            values, unit = recording.time, target.form if target.form != "seconds" else \
-                target.unit_used or "s"
-        else:
-            values, unit = recording.channels[target.to], target.unit_used
-        yield (recording.name, shown(header, 30), unit, _rate(recording), _range(values),
-               _becomes(target))
+    for used in recording.used:
+        to = used.target.to
+        values = recording.time if to == "time_s" else recording.channels[to]
+        yield (recording.name, shown(used.header, 30), _unit(used), _rate(recording),
+               _range(values), _becomes(used.target))
 
 
 def understood(recordings):

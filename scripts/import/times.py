@@ -10,12 +10,13 @@ import re
 
 import numpy as np
 
+import units
 from errors import BadInput, shown
 
-FORMATS = {"seconds": 0, "iso8601": 0, "epoch": 1, "epoch_ms": 1000, "epoch_us": 10**6,
-           "epoch_ns": 10**9}
 ISO = re.compile(r"(\d{4})-(\d\d)-(\d\d)[T ](\d\d):(\d\d)(?::(\d\d)(?:[.,](\d{1,9}))?)?"
                  r"\s*(Z|[+-]\d\d:?\d\d)?")
+# Times since 1970 lie between these years, so that a wrong unit is noticed.
+YEAR_1980_S, YEAR_2100_S = 315532800, 4102444800
 EPOCH = datetime.datetime(1970, 1, 1)
 
 
@@ -42,37 +43,47 @@ def looks_iso(text):
     return iso_ns(text) is not None
 
 
-def stamps_ns(table, column, form):
-    """int64 nanoseconds since 1970 of a column with stamps; every cell has one."""
+def form_of(table, column, unit, target):
+    """(form, unit) of times whose mapping states no form: ISO text, a number that can only be
+    a time since 1970, or a number."""
+    if column.is_text and looks_iso(column.cells[0]):
+        return "iso8601", None
+    values = table.numbers(column)
+    first = values[np.isfinite(values)][:1]
+    if len(first) and target.scale is None and not target.offset:
+        for candidate in (units.UNITS[name] for name in ("s", "ms", "us", "ns")):
+            if YEAR_1980_S < first[0] / candidate.divide < YEAR_2100_S and \
+                    unit in (None, candidate):
+                return "epoch", candidate
+    return "number", unit
+
+
+def stamps_ns(table, column, form, unit):
+    """int64 nanoseconds since 1970 of a column with stamps; every cell has one.
+
+    form: `iso8601`, or `epoch` for numbers in a Unit.
+    """
     out = np.empty(table.rows, dtype=np.int64)
+    where = f"column '{shown(column.name)}'"
     if form == "iso8601":
         cells = column.cells if column.is_text else [str(c) for c in column.cells]
         for i, text in enumerate(cells):
             ns = iso_ns(text)
             if ns is None:
-                raise BadInput(f"{table.where(i)}: column '{shown(column.name)}': expected an "
-                               f"ISO 8601 time such as 2026-03-11T14:05:07.25, found "
-                               f"'{shown(text)}'")
+                raise BadInput(f"{table.where(i)}: {where}: expected a time such as "
+                               f"2026-11-24T10:30:15.250+01:00, found '{shown(text)}'")
             out[i] = ns
         return out
-    per_second = FORMATS[form]
+    per_second = int(unit.divide / unit.multiply)
     integers = not column.is_text and np.asarray(column.cells).dtype.kind in "iu"
-    values = None if integers else table.numbers(column)
-    for i in range(table.rows):
-        if integers:
-            seconds = decimal.Decimal(int(column.cells[i]))
-        else:
-            if np.isnan(values[i]):
-                raise BadInput(f"{table.where(i)}: column '{shown(column.name)}': a row needs a "
-                               "time")
-            text = column.cells[i].strip().replace(",", ".") if column.is_text else \
-                repr(float(values[i]))
-            seconds = decimal.Decimal(text)
-        ns = seconds * 10**9 / per_second
-        if not 0 <= ns < 2**63 - 1:
-            raise BadInput(f"{table.where(i)}: column '{shown(column.name)}': {shown(seconds)} is "
-                           f"no time of format {form}")
-        out[i] = int(ns.to_integral_value())
+    values = np.asarray(column.cells) if integers else table.numbers(column)
+    for i, value in enumerate(values):
+        if not YEAR_1980_S < value / per_second < YEAR_2100_S:
+            raise BadInput(f"{table.where(i)}: {where}: expected a time since 1970 in "
+                           f"{unit.name}, found {shown(column.cells[i])}")
+        text = column.cells[i].strip().replace(",", ".") if column.is_text else str(value)
+        # Digits as they are written: a double of seconds has no nanoseconds.
+        out[i] = int((decimal.Decimal(text) * (10**9 // per_second)).to_integral_value())
     return out
 
 

@@ -50,28 +50,26 @@ def split_unit(header):
     found = re.fullmatch(r"(.*?)\s*(?:\[(.*)\]|\((.*)\)|/\s*(\S+))", header)
     if found:
         unit = next((u for u in found.groups()[1:] if u is not None), "")
-        if units.find(unit):
+        if units.is_word_of_file(unit):
             return found.group(1), unit
     return header, ""
 
 
 def guess(header, unit):
-    """(column, unit, format) that a header certainly means, or None: a name of the
+    """(column, Unit or None) that a header certainly means, or None: a name of the
     vocabulary, one with another unit at its end, or a usual word for time."""
     if is_column(header):
-        return header, "", "seconds"
+        return header, None
     bare, own = split_unit(header)
     if bare.lower() in TIME_HEADERS:
-        return "time_s", own or unit, None
+        return "time_s", units.find_in_file(own or unit)
     stem, _, last = bare.rpartition("_")
-    found = units.find(last)
+    found = units.find_in_file(last)
+    if not found or not stem:
+        stem, found = bare, units.find_in_file(own or unit)
     if found:
-        unit = last
-    else:
-        stem, unit, found = bare, own or unit, units.find(own or unit)
-    if found and stem:
-        for suffix, dimension in units.SUFFIX.items():
+        for suffix in units.SUFFIX:
             target = f"{stem}_{suffix}"
-            if dimension == found[0] and is_column(target):
-                return target, unit, "seconds"
+            if is_column(target) and units.conversion(found, target):
+                return target, found
     return None

@@ -4,6 +4,7 @@
 import gzip
 import unittest
 
+import numpy as np
 from fixture import ROOT, ImportCase
 
 import times
@@ -61,7 +62,7 @@ class DialectTest(ImportCase):
             with self.subTest(word):
                 log = self.log_of_text(PLAIN.replace("-0.25", word))
                 self.assertEqual(log["gauge_1_V"], ["0.125", ""])
-        log = self.log_of_text(PLAIN.replace("-0.25", "OVER"), "na_words: [OVER]")
+        log = self.log_of_text(PLAIN.replace("-0.25", "OVER"), "not_measured: [OVER]")
         self.assertEqual(log["gauge_1_V"], ["0.125", ""])
 
     def test_stated_dialect_holds(self):
@@ -87,15 +88,14 @@ class DialectTest(ImportCase):
     def test_scale_and_offset_apply_behind_the_unit(self):
         log = self.log_of_text(
             "t,ch0,x\n0,0,0.15\n1,65535,0.16\n",
-            "columns: {t: time_s, ch0: {to: gauge_1_V, unit: counts, bits: 16, "
-            "range_V: [-5, 5]}, x: {to: object_x_mm, unit: m, scale: -1, offset: 150}}")
+            "columns: {t: time_s, ch0: {to: gauge_1_V, unit: {adc_bits: 16, "
+            "range_V: [-5, 5]}}, x: {to: object_x_mm, unit: m, scale: -1, offset: 150}}")
         self.assertEqual(log["gauge_1_V"], ["-5.0", repr(-5 + 65535 * (10 / 65536))])
         self.assertEqual(log["object_x_mm"], ["0.0", "-10.0"])
         log = self.log_of_text("t,x\ns,m\n0,0.15\n", "columns: {x: {to: object_x_mm, "
                                "scale: -1000, offset: 150}}")
         self.assertEqual(log["object_x_mm"], ["0.0"])
-        log = self.log_of_text("t,ch0\n0,100\n", "columns: {ch0: {to: gauge_1_V, unit: counts, "
-                               "scale: 8.06e-4}}")
+        log = self.log_of_text("t,ch0\n0,100\n", "columns: {ch0: {to: gauge_1_V, scale: 8.06e-4}}")
         self.assertEqual(log["gauge_1_V"], [repr(100 * 8.06e-4)])
 
     def test_a_scale_of_one_against_a_unit_of_the_file_is_said(self):
@@ -115,6 +115,29 @@ class DialectTest(ImportCase):
                 self.assertEqual(log["time_s"], ["0.0", "0.1"])
                 text = (self.folder / "log.mapping.yaml").read_text()
                 self.assertIn("2026-03-11T14:05:07Z", text)
+
+    def test_one_mapping_can_be_shared(self):
+        self.write("shared.yaml", "decimal: ','\ncolumns: {ch0: {to: gauge_1_V, unit: mV}}\n")
+        for mapping in ("columns: shared.yaml", "tables: {a.csv: {columns: shared.yaml}}"):
+            log = self.log_of_text("time_s;ch0\n0;125\n0,1;-250\n", mapping)
+            self.assertEqual(log, {n: LOG[n] for n in ("time_s", "gauge_1_V")})
+
+    def test_headers_may_stand_on_either_side(self):
+        log = self.log_of_text("t,Fz\n0,1.5\n0.1,2\n", "columns: {force_N: Fz}")
+        self.assertEqual(log["force_N"], LOG["force_N"])
+
+    def test_a_stated_header_line_holds(self):
+        text = "1,2,3\n4,5,6\ntime_s,gauge_1_V,force_N\nx,y,z\n" + PLAIN.split("\n", 1)[1]
+        log = self.log_of_text(text, "header_line: 3\nunits_row: true")
+        self.assertEqual(log, LOG)
+
+    def test_counts_beyond_the_converter_are_a_fault(self):
+        path = self.write("a.csv", "time_s,ch0\n0,65535\n1,65536\n")
+        mapping = self.write("m.yaml", "columns: {ch0: {to: gauge_1_V, unit: {adc_bits: 16, "
+                             "range_V: [-5, 5]}}}")
+        line = self.refused("--logs", path, "--mapping", mapping)
+        self.assertIn("a.csv:3", line)
+        self.assertIn("0 to 65535, found 65536", line)
 
     def test_a_cut_last_cell_is_said(self):
         self.log_of_text(PLAIN[:-1])
@@ -154,12 +177,17 @@ class FaultTest(ImportCase):
         for mapping, words in (
                 ("columns: {a: force}", ["m.yaml:1", "force_N"]),
                 ("columns:\n  a: {to: force_N, unti: gf}", ["m.yaml:2", "'unit'"]),
-                ("columns:\n  a: {to: force_N,\n    unit: mm}", ["m.yaml:3", "length"]),
+                ("columns:\n  a: {to: force_N,\n    unit: mm}", ["m.yaml:3", "takes one of N, mN"]),
                 ("columns: {a: {to: force_N, unit: kgff}}", ["m.yaml:1", "kgf"]),
                 ("columns: {a: {scale: 2}}", ["m.yaml:1", "needs `to`"]),
-                ("columns: {a: {to: gauge_1_V, unit: counts}}", ["m.yaml:1", "bits"]),
-                ("columns: {a: {to: gauge_1_V, bits: 16, unit: gf, range_V: [0, 1]}}",
-                 ["m.yaml:1"]),
+                ("columns: {a: {to: gauge_1_V, unit: counts}}", ["m.yaml:1", "adc_bits"]),
+                ("columns: {a: {to: gauge_1_V, unit: {adc_bits: 16}}}", ["m.yaml:1", "range_V"]),
+                ("columns: {a: {to: force_N, unit: {adc_bits: 16, range_V: [0, 1]}}}",
+                 ["m.yaml:1", "volts"]),
+                ("columns: {a: {to: gauge_1_V, unit: {adc_bits: 16, range_V: [1, 0]}}}",
+                 ["m.yaml:1", "smaller"]),
+                ("columns: {a: {to: time_s, unit: ms, format: iso8601}}", ["m.yaml:1", "none"]),
+                ("columns: none.yaml", ["none.yaml", "cannot be read"]),
                 ("columns: {a: {to: force_N, scale: 0}}", ["m.yaml:1", "scale"]),
                 ("columns: {a: {to: force_N, scale: x}}", ["m.yaml:1", "number"]),
                 ("columns: {a: {to: time_s, format: iso}}", ["m.yaml:1", "iso8601"]),
@@ -189,18 +217,28 @@ class NamesTest(unittest.TestCase):
         self.assertEqual(vocabulary.PATTERNS, words)
 
     def test_headers_are_guessed_only_where_they_are_certain(self):
-        self.assertEqual(vocabulary.guess("gauge_3_mV", ""), ("gauge_3_V", "mV", "seconds"))
-        self.assertEqual(vocabulary.guess("force [kgf]", "kgf"), ("force_N", "kgf", "seconds"))
-        self.assertEqual(vocabulary.guess("object_x", "m"), ("object_x_mm", "m", "seconds"))
+        self.assertEqual(vocabulary.guess("gauge_3_mV", ""), ("gauge_3_V", units.find("mV")))
+        self.assertEqual(vocabulary.guess("force [kg]", "kg"), ("force_N", units.find("kgf")))
+        self.assertEqual(vocabulary.guess("object_x", "m"), ("object_x_mm", units.find("m")))
         self.assertEqual(vocabulary.guess("Time (s)", "s")[0], "time_s")
         for header in ("Fz", "ch0", "stage_x", "force", "gauge_0_V"):
             self.assertIsNone(vocabulary.guess(header, ""))
 
     def test_units(self):
-        self.assertEqual(units.factor("kgf", "force_N"), (9.80665, ""))
-        self.assertEqual(units.factor("deg", "object_angle_deg"), (1.0, ""))
-        self.assertEqual(units.factor("m", "object_x_mm"), (1000.0, ""))
-        self.assertIsNone(units.factor("mm", "force_N")[0])
+        def one(unit, target):
+            return units.conversion(units.find(unit), target).apply(np.array([12.3]))[0]
+        self.assertEqual(one("kgf", "force_N"), 12.3 * 9.80665)
+        self.assertEqual(one("deg", "object_angle_deg"), 12.3)
+        self.assertEqual(one("deg", "gauge_1_rad"), 12.3 * np.pi / 180)
+        self.assertEqual(one("m", "object_x_mm"), 12300)
+        self.assertEqual(one("mV", "gauge_1_V"), 0.0123)
+        self.assertEqual(one("µV", "gauge_1_V"), 12.3e-6)
+        self.assertEqual(one("K", "temperature_C"), 12.3 - 273.15)
+        self.assertAlmostEqual(one("degF", "temperature_C"), (12.3 - 32) / 1.8, 12)
+        self.assertIsNone(units.conversion(units.find("mm"), "force_N"))
+        signed = units.Counts(16, -5, 5, True)
+        self.assertEqual((signed.least, signed.most), (-32768, 32767))
+        np.testing.assert_array_equal(signed.apply(np.array([-32768.0, 0.0])), [-5, 0])
 
     def test_iso_times(self):
         self.assertEqual(times.iso_ns("1970-01-02T00:00:00.000000001"), 86400 * 10**9 + 1)
