@@ -48,6 +48,10 @@ def mapping_path(out):
     return out + ".mapping.yaml"
 
 
+class _OneLine(dict):
+    """A mapping that YAML has in one line."""
+
+
 def _column(used):
     target, out = used.target, {"to": used.target.to}
     if isinstance(used.unit, units.Counts):
@@ -62,7 +66,7 @@ def _column(used):
         out["scale"] = target.scale
     if target.offset:
         out["offset"] = target.offset
-    return out if len(out) > 1 else target.to
+    return _OneLine(out) if len(out) > 1 else target.to
 
 
 def _tables(recordings, mapping):
@@ -99,6 +103,8 @@ def _number(dumper, value):
 
 
 _Dumper.add_representer(float, _number)
+_Dumper.add_representer(_OneLine, lambda dumper, value: dumper.represent_mapping(
+    "tag:yaml.org,2002:map", value, flow_style=True))
 
 
 def mapping_text(recordings, mapping, in_force):
@@ -108,7 +114,7 @@ def mapping_text(recordings, mapping, in_force):
     out["tables"] = _tables(recordings, mapping)
     return "# Written by finray_import. With it and the same recordings the same log comes out " \
         "again.\n" + yaml.dump(out, Dumper=_Dumper, sort_keys=False, allow_unicode=True,
-                               default_flow_style=None, width=110)
+                               default_flow_style=None, width=200)
 
 
 def write(path, columns, text):

@@ -19,7 +19,7 @@ class Used:
 class Recording:
     """name; channels {column: values}; time: seconds of the log, or None.
 
-    used: a Used for each column that became a channel; unknown: headers that nobody knows;
+    used: a Used for each column that became a channel; unknown: columns that nobody knows;
     warnings. offset_s is added to the times, offset_std_s is its std or None.
     """
 
@@ -47,13 +47,13 @@ class Recording:
 
 
 def _target_of(recording, mapping, column):
-    """The Target of a column, or None; notes headers that nobody knows."""
+    """The Target of a column, or None; notes columns that nobody knows."""
     said, target = mapping.target(recording.name, column.name)
     if said:
         return target
     guessed = vocabulary.guess(column.name, column.unit)
     if guessed is None:
-        recording.unknown.append(column.name)
+        recording.unknown.append(column)
         return None
     return Target(guessed[0], unit=guessed[1])
 

@@ -52,22 +52,24 @@ def understood(recordings):
                      for row in rows)
 
 
+def _named(column):
+    unit = f" [{column.unit}]" if column.unit and column.unit not in column.name else ""
+    return shown(column.name, 40) + unit
+
+
 def not_understood(recordings):
-    """Lines about columns that nobody knows."""
+    """Lines about columns that nobody knows, and how to map them."""
     lines = []
     for r in recordings:
         if r.unknown:
-            names = [shown(n, 40) for n in r.unknown]
+            names = [_named(c) for c in r.unknown]
             more = f" and {len(names) - 12} more" if len(names) > 12 else ""
             lines.append(f"{r.name}: left out: {', '.join(names[:12])}{more}")
+    if lines:
+        name = next(c.name for r in recordings for c in r.unknown)
+        lines.append(f"to use them, say what they are in --mapping M.yaml, such as columns: "
+                     f"{{'{shown(name)}': {{to: gauge_1_V, unit: mV}}}}")
     return lines
-
-
-def example(recordings):
-    """A mapping to begin with, for columns that nobody knows."""
-    names = [n for r in recordings for n in r.unknown][:1]
-    return f"map columns in --mapping M.yaml: columns: {{'{shown(names[0])}': " \
-        "{to: gauge_1_V, unit: mV}}" if names else ""
 
 
 def summary(pairs):

@@ -207,6 +207,9 @@ class FaultTest(ImportCase):
         result = self.run_import("--logs", self.write("a.csv", PLAIN.replace("force_N", "Fz")))
         self.assertEqual(result.code, 0)
         self.assertIn("a.csv: left out: Fz", result.out)
+        self.assertIn("columns: {'Fz': {to: gauge_1_V", result.out)
+        result = self.run_import("--logs", self.write("b.csv", "a,b [mV]\n1,2\n"))
+        self.assertEqual((result.code, result.err), (0, ""))
 
 
 class NamesTest(unittest.TestCase):
