@@ -6,17 +6,26 @@ import zlib
 import dialect as dialects
 from errors import BadInput, shown
 
+MOST_BYTES, MOST_LINE = 2 << 30, 16 << 20
 NAMES = {";": "';'", "\t": "tab", ",": "','", "|": "'|'", " ": "spaces"}
 
 
-def _text(path):
+def _bytes(path):
+    """The file, unpacked if it is gzipped."""
     with open(path, "rb") as file:
-        data = file.read()
-    if data[:2] == b"\x1f\x8b":
-        try:
-            data = gzip.decompress(data)
-        except (OSError, EOFError, zlib.error) as error:
-            raise BadInput(f"{path}: broken gzip: {shown(error)}") from error
+        packed = file.read(2) == b"\x1f\x8b"
+    try:
+        with (gzip.open if packed else open)(path, "rb") as file:
+            data = file.read(MOST_BYTES + 1)
+    except (gzip.BadGzipFile, EOFError, zlib.error) as error:
+        raise BadInput(f"{path}: broken gzip: {shown(error)}") from error
+    if len(data) > MOST_BYTES:
+        raise BadInput(f"{path}: larger than 2 GiB; split it")
+    return data
+
+
+def _text(path):
+    data = _bytes(path)
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         encodings = ["utf-16"]
     else:
@@ -35,22 +44,41 @@ def _text(path):
     return text
 
 
-def _lines(text):
-    """(number from 1, text) of the lines that say something."""
+def _lines(path, text):
+    """(lines, comments): (number from 1, text) of those that say something; comments are
+    without their #."""
+    lines, comments = [], []
     for number, line in enumerate(text.replace("\r\n", "\n").replace("\r", "\n").split("\n"), 1):
-        if line.strip() and not line.startswith("#"):
-            yield number, line
+        if len(line) > MOST_LINE:
+            raise BadInput(f"{path}:{number}: a line of more than 16 MiB")
+        if line.startswith("#"):
+            comments.append((number, line.lstrip("# ")))
+        elif line.strip():
+            lines.append((number, line))
+    return lines, comments
+
+
+def _with_header(rows, comments, delimiter, mark):
+    """The rows below the comment that is their header, as numpy.savetxt writes it, if their
+    own first one holds data."""
+    if not any(dialects.is_number(cell, mark) for cell in rows[0][1]):
+        return rows
+    above = [(n, dialects.cells_of(c, delimiter)) for n, c in comments if n < rows[0][0]]
+    fits = above and len(above[-1][1]) == len(rows[0][1]) and \
+        not any(dialects.is_number(cell, mark) for cell in above[-1][1])
+    return [above[-1]] + rows if fits else rows
 
 
 def read(path, settings):
     """[RawTable]; settings: what the mapping states of delimiter, decimal, header_line, ..."""
     text = _text(path)
-    lines = list(_lines(text))
+    lines, comments = _lines(path, text)
     if not lines:
         raise BadInput(f"{path}: no rows")
     delimiter, mark = dialects.choose([line for _, line in lines], settings.get("delimiter"),
                                       settings.get("decimal"))
     rows = [(number, dialects.cells_of(line, delimiter)) for number, line in lines]
+    rows = _with_header(rows, comments, delimiter, mark)
     table = dialects.table_of(path, "", rows, mark, settings)
     table.delimiter = delimiter
     said = f"cells end at {NAMES.get(delimiter, delimiter)}"

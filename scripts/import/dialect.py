@@ -112,6 +112,17 @@ def _layout(path, rows, mark, header_line=None, units_row=None):
     return (header - 1, header, first) if found else (header, None, first)
 
 
+def _told_apart(names):
+    """(names, new ones): the second Time is Time.2."""
+    out, new, seen = [], [], collections.Counter()
+    for name in names:
+        seen[name] += 1
+        out.append(f"{name}.{seen[name]}" if name and seen[name] > 1 else name)
+        if out[-1] != name:
+            new.append(shown(out[-1], 20))
+    return out, new[:8]
+
+
 def table_of(path, part, rows, mark, settings=None):
     """RawTable of (line, cells) rows with preamble, header and row of units, if any.
 
@@ -128,9 +139,7 @@ def table_of(path, part, rows, mark, settings=None):
         unit_of = [split_unit(cell)[1] for cell in names]
         if units_row is not None:
             unit_of = [c.strip("[]()") for c in rows[units_row][1]]
-        twice = next((n for n in names if n and names.count(n) > 1), None)
-        if twice:
-            raise BadInput(f"{path}:{rows[header][0]}: two columns are named '{shown(twice)}'")
+        names, twice = _told_apart(names)
     for number, cells in rows[first:]:
         if len(cells) != width:
             raise BadInput(f"{path}:{number}: expected {width} cells, found {len(cells)}")
@@ -144,6 +153,8 @@ def table_of(path, part, rows, mark, settings=None):
         table.notes.append(f"{top} preamble line{'s' if top > 1 else ''}")
     if units_row is not None:
         table.notes.append(f"units in line {rows[units_row][0]}")
+    if header is not None and twice:
+        table.notes.append(f"columns of one name are {', '.join(twice)}")
     if header is None:
         table.notes.append("no header: columns are column_1, column_2, ...")
     return table

@@ -54,6 +54,8 @@ def read(path, mapping):
             tables = _read_binary(path, form)
     except OSError as error:
         raise BadInput(f"{path}: cannot be read: {error.strerror or shown(error)}") from error
+    except MemoryError as error:
+        raise BadInput(f"{path}: is too large for this machine's memory") from error
     tables = [table for table in tables if table.rows]
     if not tables:
         raise BadInput(f"{path}: has no rows of numbers")

@@ -16,7 +16,9 @@ import numpy as np
 from errors import NoSolution
 from joining import interpolate
 
-LEAST_ROWS, ROWS_A_TERM, BLOCKS = 30, 8, 20
+LEAST_ROWS, MOST_ROWS, ROWS_A_TERM, BLOCKS = 30, 20000, 8, 20
+SMOOTHING_S = 0.01  # of fast tables: without it noise would pass for slopes
+LEAST_STD_LIMIT_S = 0.005
 LEAST_R2, LEAST_CONTRAST = 0.9, 1.5
 
 
@@ -57,13 +59,18 @@ class _Misfit:
         self.names = {r: sorted(n for n in r.channels if n.startswith(stem))
                       for r, stem in ((force, "force_"), (gauges, "gauge_"))}
         self.force, self.gauges = force, gauges
-        self.inputs = {n: _smooth(self.fast.time, self.fast.channels[n], 0.1 * self.period)
-                       for n in self.names[self.fast]}
-        margin = longest_s + self.period
-        self.rows = (self.slow.time > self.fast.time[0] + margin) & \
+        self.width_s = max(0.1 * self.period, SMOOTHING_S)
+        self.inputs = {n: _smooth(r.time, r.channels[n], self.width_s)
+                       for r in (force, gauges) for n in self.names[r]}
+        margin = longest_s + self.period + self.width_s
+        rows = (self.slow.time > self.fast.time[0] + margin) & \
             (self.slow.time < self.fast.time[-1] - margin)
         for name in self.names[self.slow]:
-            self.rows &= np.isfinite(self.slow.channels[name])
+            rows &= np.isfinite(self.inputs[name])
+        # Rows that smoothing has made alike would count several times.
+        stride = max(1, int(np.ceil(2 * self.width_s / self.period)) if
+                     self.width_s > self.period else 1, int(np.ceil(rows.sum() / MOST_ROWS)))
+        self.rows = np.flatnonzero(rows)[::stride]
         self.centre = self.width = None
 
     def sides(self, offset_s):
@@ -72,7 +79,7 @@ class _Misfit:
         gap = 3 * self.fast.period_s
         fast = np.stack([interpolate(self.fast.time, self.inputs[n], at, "linear", gap)
                          for n in self.names[self.fast]], axis=1)
-        slow = np.stack([self.slow.channels[n][self.rows] for n in self.names[self.slow]], axis=1)
+        slow = np.stack([self.inputs[n][self.rows] for n in self.names[self.slow]], axis=1)
         gauges, force = (fast, slow) if self.force_is_slow else (slow, fast)
         if self.centre is None:
             self.centre = np.nanmean(gauges, axis=0)
@@ -97,7 +104,7 @@ class _Misfit:
         """(Gauss-Newton step, its std): d residual / d tau by central differences, with the
         coefficients eliminated."""
         residual, terms, coefficients, good = self.fit(offset_s, degree)
-        h = 0.1 * self.period
+        h = self.width_s
         later, earlier = self.sides(offset_s + h), self.sides(offset_s - h)
         slope = (later[1] - earlier[1])[good] - (
             _monomials(later[0][good], degree) - _monomials(earlier[0][good], degree)) \
@@ -154,10 +161,10 @@ def estimate(force, gauges, longest_s):
     if not force.period_s or not gauges.period_s:
         raise NoSolution(f"{why}: a table has fewer than two times")
     misfit = _Misfit(force, gauges, longest_s)
-    rows = int(misfit.rows.sum())
+    rows = len(misfit.rows)
     if rows < LEAST_ROWS:
         raise NoSolution(f"{why}: {rows} rows in common, {LEAST_ROWS} are needed")
-    step = min(misfit.period / 3, longest_s / 10)
+    step = min(max(misfit.period / 3, longest_s / 400), longest_s / 10)
     grid = np.arange(-np.ceil(longest_s / step), np.ceil(longest_s / step) + 1) * step
     coarse = 2 if rows > 15 * ROWS_A_TERM else 1
     values = np.array([misfit.misfit(tau, coarse) for tau in grid])
@@ -175,15 +182,18 @@ def estimate(force, gauges, longest_s):
     r2 = 1 - misfit.misfit(tau, degree)
     if r2 < LEAST_R2:
         raise NoSolution(f"{why}: gauges explain only {100 * r2:.0f} % of the force")
-    far = np.abs(grid - tau) > 2 * misfit.period
-    if far.any() and values[far].min() < LEAST_CONTRAST * values[k] + 1e-12:
-        other = grid[far][np.argmin(values[far])]
+    alike = values < LEAST_CONTRAST * values[k]
+    others = np.flatnonzero(~alike)
+    lobe = slice(max(others[others < k], default=-1) + 1, min(others[others > k], default=len(grid)))
+    alike[lobe] = False
+    if alike.any():
+        other = grid[alike][np.argmin(values[alike])]
         raise NoSolution(f"{why}: {tau:.3g} s and {other:.3g} s explain it alike, as in a motion "
                          "that repeats")
     blocks = np.arange(rows) * BLOCKS // rows
     moves = np.array([misfit.step(tau, degree, blocks != b)[0] for b in range(BLOCKS)])
     jackknife = np.sqrt((BLOCKS - 1) * np.mean((moves - moves.mean())**2))
     std = max(std, float(jackknife), _half_stretch(misfit, tau, degree, std))
-    if not std < misfit.period / 4:
+    if not std < max(misfit.period / 4, LEAST_STD_LIMIT_S):
         raise NoSolution(f"{why}: its std would be {std:.2g} s; record more slopes of force that last some readings")
     return Offset(tau, std, degree, r2, rows)

@@ -56,11 +56,11 @@ class TimeOffsetTest(unittest.TestCase):
         draw = np.random.default_rng(11)
         for _ in range(draws):
             truth = draw.uniform(-0.3, 0.3)
-            found = time_offset.estimate(*recordings(draw, truth, **how), longest_s=1.0)
+            found = time_offset.estimate(*recordings(draw, truth, **how), longest_s=0.5)
             yield found.offset_s - truth, found.std_s
 
     def test_errors_follow_the_std(self):
-        errors = np.array(list(self.errors(10)))
+        errors = np.array(list(self.errors(8)))
         z = errors[:, 0] / errors[:, 1]
         self.assertLess(np.abs(errors[:, 0]).max(), 0.002)
         self.assertLess(errors[:, 1].max(), 0.002)
@@ -71,11 +71,17 @@ class TimeOffsetTest(unittest.TestCase):
         for error, std in self.errors(3, gauge_hz=20, force_hz=500):
             self.assertLess(abs(error), max(4 * std, 1e-3))
 
+    def test_both_may_be_fast(self):
+        errors = np.array(list(self.errors(4, gauge_hz=1000, force_hz=1000, seconds=40)))
+        self.assertLess(np.abs(errors[:, 0]).max(), 1e-3)
+        self.assertLess(np.abs(errors[:, 0] / errors[:, 1]).max(), 3)
+        self.assertLess(errors[:, 1].max(), 1e-3)
+
     def test_jumps_of_the_force_have_a_wide_std_or_none(self):
         draw = np.random.default_rng(7)
         for _ in range(3):
             try:
-                found = time_offset.estimate(*recordings(draw, 0.03, ramp_s=1e-3), longest_s=1.0)
+                found = time_offset.estimate(*recordings(draw, 0.03, ramp_s=1e-3), longest_s=0.5)
             except NoSolution:
                 continue
             self.assertLess(abs(found.offset_s - 0.03), 4 * found.std_s)
