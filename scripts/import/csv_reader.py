@@ -6,7 +6,7 @@ import zlib
 import dialect as dialects
 from errors import BadInput, shown
 
-MOST_BYTES, MOST_LINE = 2 << 30, 16 << 20
+MOST_BYTES, MOST_LINE, MOST_CELLS = 2 << 30, 16 << 20, 10000
 NAMES = {";": "';'", "\t": "tab", ",": "','", "|": "'|'", " ": "spaces"}
 
 
@@ -51,6 +51,8 @@ def _lines(path, text):
     for number, line in enumerate(text.replace("\r\n", "\n").replace("\r", "\n").split("\n"), 1):
         if len(line) > MOST_LINE:
             raise BadInput(f"{path}:{number}: a line of more than 16 MiB")
+        if len(line) > MOST_CELLS and max(map(line.count, dialects.DELIMITERS)) > MOST_CELLS:
+            raise BadInput(f"{path}:{number}: a line of more than {MOST_CELLS} cells")
         if line.startswith("#"):
             comments.append((number, line.lstrip("# ")))
         elif line.strip():

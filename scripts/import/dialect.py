@@ -1,6 +1,7 @@
 """How a CSV is written: delimiter, decimal mark, preamble, header, row of units."""
 
 import collections
+import csv
 
 import units
 from errors import BadInput, shown
@@ -10,29 +11,16 @@ from vocabulary import split_unit
 
 DELIMITERS = [";", "\t", ",", "|", " "]
 SAMPLE = 60  # lines
+csv.field_size_limit(1 << 25)  # longer than any line that is read
 
 
 def cells_of(line, delimiter):
-    """The cells of a line, quotes taken off; doubled quotes inside are one."""
+    """The cells of a line, with quotes taken off."""
     if delimiter == " ":
         return line.split()
-    if '"' not in line:
-        return [cell.strip() for cell in line.split(delimiter)]
-    cells, cell, quoted, i = [], [], False, 0
-    while i < len(line):
-        c = line[i]
-        if quoted and line[i:i + 2] == '""':
-            cell.append('"')
-            i += 1
-        elif c == '"':
-            quoted = not quoted
-        elif c == delimiter and not quoted:
-            cells.append("".join(cell).strip())
-            cell = []
-        else:
-            cell.append(c)
-        i += 1
-    return cells + ["".join(cell).strip()]
+    cells = next(csv.reader([line], delimiter=delimiter, skipinitialspace=True)) \
+        if '"' in line else line.split(delimiter)
+    return [cell.strip() for cell in cells]
 
 
 def is_number(cell, decimal):

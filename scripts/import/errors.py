@@ -1,6 +1,7 @@
 """The ways in which an import ends early, each one line and an exit code."""
 
 import difflib
+import reprlib
 
 
 class UsageError(Exception):
@@ -22,6 +23,9 @@ def did_you_mean(name, names):
 
 
 def shown(text, limit=60):
-    """A text of a file as part of one line."""
-    text = "".join(c if c.isprintable() else "?" for c in str(text))
+    """A text of a file, or a value of it, as part of one line."""
+    # Of what aliases make endless, reprlib takes the beginning.
+    text = text if isinstance(text, str) else reprlib.repr(text) \
+        if isinstance(text, (list, dict)) else str(text)
+    text = "".join(c if c.isprintable() else "?" for c in text[:limit + 1])
     return text if len(text) <= limit else text[:limit] + "..."

@@ -36,6 +36,8 @@ class Import:
 
     def read(self):
         paths = [p for p in self.flags["logs"].split(",") if p]
+        if not paths:
+            raise UsageError("--logs: expected files, separated by commas")
         tables = [t for path in paths for t in readers.read(path, self.mapping)]
         names = [t.name for t in tables]
         for name in names:
@@ -121,7 +123,8 @@ class Import:
                 r.shift(r.offset_s + found.offset_s, found.std_s)  # one file has one clock
             elif r.table.path != gauges.table.path:
                 self.warnings.append(f"{r.name}: its clock is taken to agree with that of "
-                                     f"{gauges.name}; state its time_offset_s in the mapping if not")
+                                     f"{gauges.name}; if not, state its time_offset_s in the "
+                                     "mapping")
         self.said.append(("time offset", f"{force.name} {1e3 * force.offset_s:+.2f} ms against "
                           f"{gauges.name}, std {1e3 * found.std_s:.2f} ms; gauges explain "
                           f"{100 * found.r2:.2f} % of the force"))

@@ -144,7 +144,7 @@ class Table:
 
 
 class Mapping:
-    """top, tables {name: Table}; join, plateaus, force: plain values, None where nothing is said."""
+    """top, tables {name: Table}; join, plateaus, force: values, None where nothing is said."""
 
     def __init__(self):
         self.path, self.top, self.tables = None, Table(), {}

@@ -1,8 +1,9 @@
 """One row for each place at which everything stands still.
 
 A channel moves at time t if the means of parts of the shortest plateau about t (before and
-after, middle and ends) differ by more than noise and a thousandth of its range allow. A plateau is a stretch in which no channel
-moves. Each table's own readings are averaged there; nothing is interpolated.
+after, middle and ends) differ by more than noise and a thousandth of its range allow. A
+plateau is a stretch in which no channel moves. Each table's own readings are averaged
+there; nothing is interpolated.
 """
 
 import numpy as np

@@ -25,8 +25,11 @@ def _becomes(target):
 def _unit(used):
     if isinstance(used.unit, units.Counts):
         return f"{used.unit.bits} bits, {used.unit.low_V:g} to {used.unit.high_V:g} V"
-    form = used.target.form if used.target.form not in (None, "number") else ""
-    return " ".join(w for w in (form, used.unit.name if used.unit else "") if w)
+    if used.target.form == "iso8601":
+        return "iso8601"
+    unit = used.unit or (units.of_column(used.target.to) if used.target.scale is None else None)
+    name = unit.name if unit else ""
+    return f"epoch {name}" if used.target.form == "epoch" else name
 
 
 def _rate(recording):

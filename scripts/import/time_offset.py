@@ -18,7 +18,7 @@ from joining import interpolate
 
 LEAST_ROWS, MOST_ROWS, ROWS_A_TERM, BLOCKS = 30, 20000, 8, 20
 SMOOTHING_S = 0.01  # of fast tables: without it noise would pass for slopes
-LEAST_STD_LIMIT_S = 0.005
+MOST_STD_S = 0.005  # or a quarter of the slower period
 LEAST_R2, LEAST_CONTRAST = 0.9, 1.5
 
 
@@ -56,21 +56,23 @@ class _Misfit:
         self.force_is_slow = force.period_s >= gauges.period_s
         self.slow, self.fast = (force, gauges) if self.force_is_slow else (gauges, force)
         self.period = self.slow.period_s
-        self.names = {r: sorted(n for n in r.channels if n.startswith(stem))
+        # A gauge that is dead for most of the time would leave no rows.
+        self.names = {r: sorted(n for n, v in r.channels.items() if n.startswith(stem) and
+                                np.isfinite(v).mean() > 0.5)
                       for r, stem in ((force, "force_"), (gauges, "gauge_"))}
-        self.force, self.gauges = force, gauges
         self.width_s = max(0.1 * self.period, SMOOTHING_S)
         self.inputs = {n: _smooth(r.time, r.channels[n], self.width_s)
                        for r in (force, gauges) for n in self.names[r]}
         margin = longest_s + self.period + self.width_s
         rows = (self.slow.time > self.fast.time[0] + margin) & \
             (self.slow.time < self.fast.time[-1] - margin)
+        if not all(self.names.values()):
+            rows[:] = False
         for name in self.names[self.slow]:
             rows &= np.isfinite(self.inputs[name])
         # Rows that smoothing has made alike would count several times.
-        stride = max(1, int(np.ceil(2 * self.width_s / self.period)) if
-                     self.width_s > self.period else 1, int(np.ceil(rows.sum() / MOST_ROWS)))
-        self.rows = np.flatnonzero(rows)[::stride]
+        alike = 2 * self.width_s / self.period if self.width_s > self.period else 1
+        self.rows = np.flatnonzero(rows)[::int(np.ceil(max(alike, rows.sum() / MOST_ROWS)))]
         self.centre = self.width = None
 
     def sides(self, offset_s):
@@ -83,7 +85,8 @@ class _Misfit:
         gauges, force = (fast, slow) if self.force_is_slow else (slow, fast)
         if self.centre is None:
             self.centre = np.nanmean(gauges, axis=0)
-            self.width = np.nanstd(gauges, axis=0) + 1e-300
+            self.width = np.nanstd(gauges, axis=0)
+            self.width[self.width <= 1e-12 * np.abs(self.centre)] = np.inf  # it does not move
         return (gauges - self.centre) / self.width, force
 
     def fit(self, offset_s, degree):
@@ -96,7 +99,9 @@ class _Misfit:
 
     def misfit(self, offset_s, degree):
         """Mean square of what the gauges do not explain of the force, over its variance."""
-        residual, terms, coefficients, _ = self.fit(offset_s, degree)
+        residual, terms, coefficients, good = self.fit(offset_s, degree)
+        if good.sum() < LEAST_ROWS:
+            return 1.0
         force = residual + terms @ coefficients
         return float(np.sum(residual**2) / (np.sum((force - force.mean(axis=0))**2) + 1e-300))
 
@@ -169,6 +174,8 @@ def estimate(force, gauges, longest_s):
     coarse = 2 if rows > 15 * ROWS_A_TERM else 1
     values = np.array([misfit.misfit(tau, coarse) for tau in grid])
     k = int(np.argmin(values))
+    if values[k] > 1 - 1e-9:
+        raise NoSolution(f"{why}: too few rows in common, or a force that stays as it is")
     if k in (0, len(grid) - 1):
         raise NoSolution(f"{why} within {longest_s:g} s: choose a larger --longest_offset_s")
     tau = float(grid[k])
@@ -184,7 +191,8 @@ def estimate(force, gauges, longest_s):
         raise NoSolution(f"{why}: gauges explain only {100 * r2:.0f} % of the force")
     alike = values < LEAST_CONTRAST * values[k]
     others = np.flatnonzero(~alike)
-    lobe = slice(max(others[others < k], default=-1) + 1, min(others[others > k], default=len(grid)))
+    lobe = slice(max(others[others < k], default=-1) + 1,
+                 min(others[others > k], default=len(grid)))
     alike[lobe] = False
     if alike.any():
         other = grid[alike][np.argmin(values[alike])]
@@ -194,6 +202,7 @@ def estimate(force, gauges, longest_s):
     moves = np.array([misfit.step(tau, degree, blocks != b)[0] for b in range(BLOCKS)])
     jackknife = np.sqrt((BLOCKS - 1) * np.mean((moves - moves.mean())**2))
     std = max(std, float(jackknife), _half_stretch(misfit, tau, degree, std))
-    if not std < max(misfit.period / 4, LEAST_STD_LIMIT_S):
-        raise NoSolution(f"{why}: its std would be {std:.2g} s; record more slopes of force that last some readings")
+    if not std < max(misfit.period / 4, MOST_STD_S):
+        raise NoSolution(f"{why}: its std would be {std:.2g} s; record more slopes of force "
+                         "that last some readings")
     return Offset(tau, std, degree, r2, rows)

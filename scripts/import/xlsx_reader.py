@@ -6,7 +6,6 @@ import openpyxl
 
 import dialect as dialects
 from errors import BadInput
-from raw_table import Column, RawTable
 
 
 def _text(value):

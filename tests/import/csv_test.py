@@ -13,7 +13,9 @@ import vocabulary
 
 PLAIN = "time_s,gauge_1_V,force_N\n0,0.125,1.5\n0.1,-0.25,2\n"
 LOG = {"time_s": ["0.0", "0.1"], "gauge_1_V": ["0.125", "-0.25"], "force_N": ["1.5", "2.0"]}
-MAPPING = "columns: {t: time_s, ch0: gauge_1_V, Fz: force_N}\n"
+# Billions of words behind few bytes.
+LAUGHS = "l0: &l0 [x, x, x]\n" + "".join(
+    f"l{i}: &l{i} [{', '.join([f'*l{i - 1}'] * 9)}]\n" for i in range(1, 9))
 
 
 class DialectTest(ImportCase):
@@ -164,6 +166,7 @@ class FaultTest(ImportCase):
                 (PLAIN.replace("-0.25", "0x10"), ["bad.csv:3", "0x10"]),
                 (PLAIN.replace("-0.25,2", "-0.25"), ["bad.csv:3", "expected 3 cells, found 2"]),
                 (PLAIN + "1" * (17 << 20), ["bad.csv:4", "16 MiB"]),
+                ("a," * 20000 + "\n" + "1," * 20000 + "\n", ["bad.csv:1", "10000 cells"]),
                 (PLAIN.replace("0.1,", "-0.1,"), ["bad.csv:3", "time_s", "goes back"]),
                 (PLAIN.replace("0.1,", "NA,"), ["bad.csv:3", "needs a time"]),
                 (PLAIN + "0.2,1.234,5,6\n", ["bad.csv:4", "4"]),
@@ -203,6 +206,8 @@ class FaultTest(ImportCase):
                 ("columns: {a: force_N, a: time_s}", ["m.yaml:1", "twice"]),
                 ("columns: {a: force_N, b: force_N}", ["'a'", "'b'", "force_N"]),
                 ("join: {method: cubic}", ["m.yaml:1", "linear"]),
+                ("delimiter: *l9", ["m.yaml:1"]), ("x: " + "[" * 5000, ["m.yaml"]),
+                (LAUGHS + "delimiter: *l8", ["m.yaml"]), (LAUGHS + "columns: *l8", ["m.yaml"]),
                 ("a: [", ["m.yaml"]), ("", ["m.yaml", "empty"]), ("[]", ["m.yaml:1"]),
                 ("decimal: ';'", ["m.yaml:1", "';'"])):
             with self.subTest(mapping):

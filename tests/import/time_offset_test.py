@@ -77,6 +77,19 @@ class TimeOffsetTest(unittest.TestCase):
         self.assertLess(np.abs(errors[:, 0] / errors[:, 1]).max(), 3)
         self.assertLess(errors[:, 1].max(), 1e-3)
 
+    def test_gauges_that_are_dead_do_no_harm(self):
+        force, gauges = recordings(np.random.default_rng(8), 0.02)
+        gauges.channels["gauge_2_V"] = np.full(len(gauges.time), 0.1)
+        gauges.channels["gauge_5_V"] = np.full(len(gauges.time), np.nan)
+        found = time_offset.estimate(force, gauges, 0.5)
+        self.assertLess(abs(found.offset_s - 0.02), 0.002)
+        gauges.channels = {"gauge_1_V": np.full(len(gauges.time), 0.1)}
+        with self.assertRaises(NoSolution):
+            time_offset.estimate(force, gauges, 0.5)
+        gauges.channels = {"gauge_1_V": np.full(len(gauges.time), np.nan)}
+        with self.assertRaises(NoSolution):
+            time_offset.estimate(force, gauges, 0.5)
+
     def test_jumps_of_the_force_have_a_wide_std_or_none(self):
         draw = np.random.default_rng(7)
         for _ in range(3):
