@@ -6,7 +6,7 @@ import csv
 import units
 from errors import BadInput, shown
 from raw_table import NA_WORDS, NUMBER, Column, RawTable
-from times import looks_iso
+from times import looks_like_time
 from vocabulary import split_unit
 
 DELIMITERS = [";", "\t", ",", "|", " "]
@@ -30,7 +30,7 @@ def is_number(cell, decimal):
 
 
 def is_datum(cell, decimal):
-    return is_number(cell, decimal) or cell.lower() in NA_WORDS or looks_iso(cell)
+    return is_number(cell, decimal) or cell.lower() in NA_WORDS or looks_like_time(cell)
 
 
 def _score(lines, delimiter, decimal):
@@ -40,7 +40,7 @@ def _score(lines, delimiter, decimal):
     width = counts.most_common(1)[0][0]
     cells = [cell for row in split for cell in row]
     data = sum(is_datum(cell, decimal) for cell in cells)
-    if not any(is_number(cell, decimal) or looks_iso(cell) for cell in cells):
+    if not any(is_number(cell, decimal) or looks_like_time(cell) for cell in cells):
         data = 0
     share = counts[width] / len(lines) * data / len(cells)
     return round(share, 1), 0 if delimiter == " " and width == 1 else width
@@ -87,7 +87,7 @@ def _layout(path, rows, mark, header_line=None, units_row=None):
 
     def is_data(cells):
         return len(cells) == width and any(
-            is_number(c, mark) or looks_iso(c) for c in cells) and \
+            is_number(c, mark) or looks_like_time(c) for c in cells) and \
             sum(is_datum(c, mark) for c in cells) * 2 >= width and not _is_units(cells)
 
     first = next((i for i, (_, cells) in enumerate(rows) if is_data(cells)), None)

@@ -97,11 +97,13 @@ class ForceCorrection:
                 raise
             self.warnings.append(f"{error}; none is taken off")
             return zero
-        if not turns:
-            bias = np.where(np.abs(bias) > 3 * std, bias, 0.0)
+        known = np.ones(len(axes), dtype=bool) if turns else np.abs(bias) > 3 * std
+        taken = "taken off" if known.all() else "left, as it is within 3 std of 0" \
+            if not known.any() else f"{', '.join(np.array(axes)[known])} taken off"
+        self.said.append(("force bias", f"{_values(bias, std)} {taken}, from {free.sum()} free "
+                          "rows"))
+        bias = np.where(known, bias, 0.0)
         self.kept.update(bias_N=_plain(bias), bias_std_N=_plain(std))
-        self.said.append(("force bias", f"{_values(bias, std)} taken off, from {free.sum()} free "
-                          "rows" + ("" if bias.any() else ": within 3 std of 0")))
         return bias, weight
 
     def _rotation(self, columns, along):

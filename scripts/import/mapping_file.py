@@ -45,7 +45,8 @@ class Target:
     """What a column becomes: value = scale * (cell in finray's unit) + offset.
 
     unit: a Unit or Counts or None; scale: None where none is stated; form: of times, `iso8601`,
-    `epoch` (since 1970, in the unit), `number`, or None where it is to be found out.
+    `epoch` (since 1970, in the unit), `clock` (14:05:07), `number`, or None where it is to be
+    found out.
     """
 
     def __init__(self, to, scale=None, offset=0.0, unit=None, form=None):
@@ -79,8 +80,8 @@ def _read_unit(node, target):
     unit = units.find(name)
     if unit is None or units.conversion(unit, target.to) is None:
         node.fail("unit", units.why_not(name, target.to))
-    if target.form == "iso8601":
-        node.fail("unit", "a time of iso8601 has none")
+    if target.form in ("iso8601", "clock"):
+        node.fail("unit", f"a time of {target.form} has none")
     target.unit = unit
 
 
@@ -98,7 +99,7 @@ def _target(node, header):
     if "to" not in own.values:
         node.fail(header, "needs `to`, the column that it becomes")
     target = Target(own.text("to"), own.number("scale"), own.number("offset") or 0.0,
-                    form=own.text("format", ["iso8601", "epoch"]))
+                    form=own.text("format", ["iso8601", "epoch", "clock"]))
     _check_target(own, "to", target.to)
     if target.scale == 0:
         own.fail("scale", "expected another than 0")

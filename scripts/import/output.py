@@ -60,7 +60,7 @@ def _column(used):
             out["unit"]["signed"] = True
     elif used.unit is not None and not (target.form == "epoch" and used.unit.name == "s"):
         out["unit"] = used.unit.name
-    if target.form in ("iso8601", "epoch"):
+    if target.form in ("iso8601", "epoch", "clock"):
         out["format"] = target.form
     if target.scale is not None:
         out["scale"] = target.scale

@@ -9,16 +9,18 @@ import isolated
 import mapping_file
 from errors import BadInput, shown
 
-# name of the format, its reader, the Debian package that the reader needs.
+INSTALL = "scripts/install_dependencies import"
+# name of the format, its reader, where what the reader needs comes from.
 FORMATS = {
-    "hdf5": ("an HDF5 file", "hdf5_reader", "python3-h5py"),
-    "mat": ("a MAT file", "mat_reader", "python3-scipy"),
-    "npz": ("an NPZ file", "npz_reader", "python3-numpy"),
-    "xlsx": ("an XLSX file", "xlsx_reader", "python3-openpyxl"),
-    "parquet": ("a Parquet file", "parquet_reader", "python3-pandas and pyarrow"),
-    "ros1": ("a ROS 1 bag", "ros1_reader", "python3-rosbag"),
-    "ros2": ("a ROS 2 bag", "ros2_reader", "python3"),
-    "mcap": ("an MCAP file", "mcap_reader", "python3-zstandard or python3-lz4"),
+    "hdf5": ("an HDF5 file", "hdf5_reader", INSTALL),
+    "mat": ("a MAT file", "mat_reader", INSTALL),
+    "npz": ("an NPZ file", "npz_reader", INSTALL),
+    "xlsx": ("an XLSX file", "xlsx_reader", INSTALL),
+    "parquet": ("a Parquet file", "parquet_reader", 
+                "pandas and pyarrow, of which Debian 12 has no package"),
+    "ros1": ("a ROS 1 bag", "ros1_reader", INSTALL),
+    "ros2": ("a ROS 2 bag", "ros2_reader", INSTALL),
+    "mcap": ("an MCAP file", "mcap_reader", INSTALL),
 }
 BY_NAME = {".mat": "mat", ".h5": "hdf5", ".hdf5": "hdf5", ".hdf": "hdf5", ".npz": "npz",
            ".xlsx": "xlsx", ".xlsm": "xlsx", ".parquet": "parquet", ".bag": "ros1",
@@ -64,12 +66,12 @@ def read(path, mapping):
 
 
 def _read_binary(path, form):
-    words, module, package = FORMATS[form]
+    words, module, source = FORMATS[form]
     try:
         reader = importlib.import_module(module)
     except ImportError as error:
-        raise BadInput(f"{path}: {words} needs {package}, which is not installed "
-                       f"({shown(error)}); scripts/install_dependencies import") from error
+        raise BadInput(f"{path}: {words} needs a package that is not installed "
+                       f"({shown(error)}): {source}") from error
     try:
         return isolated.call(reader.read, path, os.path.getsize(path))
     except BadInput:

@@ -116,13 +116,15 @@ def _take_time(recording, column, target):
         if len(missing):
             raise BadInput(f"{table.where(missing[0])}: column '{shown(column.name)}': a row "
                            "needs a time")
+    elif target.scale is not None or target.offset:
+        _fail(table, column, f"a time of format {target.form} takes no scale and no offset; "
+              "state time_offset_s of its table")
+    elif target.form == "clock":
+        recording.seconds, unit = times.clock_seconds(table, column), None
     else:
-        if target.scale is not None or target.offset:
-            _fail(table, column, f"a time of format {target.form} takes no scale and no offset; "
-                  "state time_offset_s of its table")
         unit = None if target.form == "iso8601" else unit or units.UNITS["s"]
         recording.stamps = times.stamps_ns(table, column, target.form, unit)
-    steps = np.diff(recording.seconds if target.form == "number" else recording.stamps)
+    steps = np.diff(recording.stamps if recording.seconds is None else recording.seconds)
     back = np.flatnonzero(steps < 0)
     if len(back):
         raise BadInput(f"{table.where(back[0] + 1)}: column '{shown(column.name)}': the time goes "

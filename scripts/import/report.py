@@ -25,8 +25,8 @@ def _becomes(target):
 def _unit(used):
     if isinstance(used.unit, units.Counts):
         return f"{used.unit.bits} bits, {used.unit.low_V:g} to {used.unit.high_V:g} V"
-    if used.target.form == "iso8601":
-        return "iso8601"
+    if used.target.form in ("iso8601", "clock"):
+        return used.target.form
     unit = used.unit or (units.of_column(used.target.to) if used.target.scale is None else None)
     name = unit.name if unit else ""
     return f"epoch {name}" if used.target.form == "epoch" else name

@@ -15,6 +15,8 @@ from errors import BadInput, shown
 
 ISO = re.compile(r"(\d{4})-(\d\d)-(\d\d)[T ](\d\d):(\d\d)(?::(\d\d)(?:[.,](\d{1,9}))?)?"
                  r"\s*(Z|[+-]\d\d:?\d\d)?")
+CLOCK = re.compile(r"(\d\d?):(\d\d):(\d\d)(?:[.,](\d{1,9}))?")
+DATE = re.compile(r"\d{4}-\d\d-\d\d|\d\d?[./]\d\d?[./]\d{4}")
 # Times since 1970 lie between these years, so that a wrong unit is noticed.
 YEAR_1980_S, YEAR_2100_S = 315532800, 4102444800
 EPOCH = datetime.datetime(1970, 1, 1)
@@ -43,11 +45,42 @@ def looks_iso(text):
     return iso_ns(text) is not None
 
 
+def clock_s(text):
+    """Seconds since midnight of 14:05:07 or 14:05:07,250, or None."""
+    found = CLOCK.fullmatch(text.strip())
+    if not found:
+        return None
+    hour, minute, second, fraction = found.groups()
+    if int(hour) > 23 or int(minute) > 59 or int(second) > 59:
+        return None
+    return int(hour) * 3600 + int(minute) * 60 + float(f"{second}.{fraction or 0}")
+
+
+def clock_seconds(table, column):
+    """Seconds since the midnight before the first row; a clock that falls by more than half
+    a day has passed another one."""
+    out = np.empty(table.rows)
+    for i, cell in enumerate(column.cells):
+        seconds = clock_s(str(cell))
+        if seconds is None:
+            raise BadInput(f"{table.where(i)}: column '{shown(column.name)}': expected a time such "
+                           f"as 14:05:07.25, found '{shown(str(cell))}'")
+        out[i] = seconds
+    return out + 86400 * np.cumsum(np.concatenate(([0], np.diff(out) < -43200)))
+
+
+def looks_like_time(text):
+    """Whether a cell is a time, or a date beside one."""
+    return looks_iso(text) or clock_s(text) is not None or DATE.fullmatch(text) is not None
+
+
 def form_of(table, column, unit, target):
-    """(form, unit) of times whose mapping states no form: ISO text, a number that can only be
-    a time since 1970, or a number."""
+    """(form, unit) of times whose mapping states no form: ISO text, the time of a clock, a
+    number that can only be a time since 1970, or a number."""
     if column.is_text and looks_iso(column.cells[0]):
         return "iso8601", None
+    if column.is_text and clock_s(column.cells[0]) is not None:
+        return "clock", None
     values = table.numbers(column)
     first = values[np.isfinite(values)][:1]
     if len(first) and target.scale is None and not target.offset:

@@ -119,6 +119,16 @@ class DialectTest(ImportCase):
                 text = (self.folder / "log.mapping.yaml").read_text()
                 self.assertIn("2026-03-11T14:05:07Z", text)
 
+    def test_a_clock_beside_a_date_is_a_time(self):
+        log = self.log_of_text("Datum;Zeit;ch0\n11.03.2026;23:59:59,9;1,5\n"
+                               "12.03.2026;00:00:00,4;2,5\n", "columns: {ch0: gauge_1_V}")
+        self.assertEqual(log["time_s"], ["86399.9", "86400.4"])
+        self.assertIn("a.csv: left out: Datum", self.result.out)
+        again = (self.folder / "log.mapping.yaml").read_text()
+        self.assertIn("Zeit: {to: time_s, format: clock}", again)
+        path = self.write("a.csv", "Zeit;ch0\n14:05:07;1\n14:05:61;2\n")
+        self.assertIn("a.csv:3", self.refused("--logs", path))
+
     def test_columns_of_one_name_are_told_apart(self):
         log = self.log_of_text("time,ch,time,ch\n0,125,0,1\n0.1,-250,0.1,2\n",
                                "columns: {ch: {to: gauge_1_V, unit: mV}, ch.2: force_N}")

@@ -2,6 +2,7 @@
 """Every format gives the log of the CSV, to the byte; broken and cut files get one line."""
 
 import random
+import sqlite3
 import unittest
 
 import numpy as np
@@ -150,6 +151,21 @@ class ReadersTest(ImportCase):
                     self.assertIn(result.code, (0, 2), result.err)
                     if result.code == 2:
                         self.assertEqual(result.err.count("\n"), 1, result.err)
+
+    def test_messages_that_nobody_knows_are_said(self):
+        path = self.folder / "a.mcap"
+        path.write_bytes(samples.mcap_bytes(encoding="protobuf"))
+        self.assertIn("/readings is in protobuf", self.refused("--logs", path))
+        path = self.folder / "a.db3"
+        samples.write_ros2(path)
+        connection = sqlite3.connect(path)
+        connection.execute("INSERT INTO topics VALUES(2, '/other', 'lab_msgs/msg/Own', 'cdr', '')")
+        connection.execute("INSERT INTO messages(topic_id, timestamp, data) VALUES(2, 5, x'0001000000')")
+        connection.commit()
+        connection.close()
+        mapping = self.write("m.yaml", samples.BAG_MAPPING)
+        self.log_of("--logs", path, "--mapping", mapping)
+        self.assertIn("left out: /other needs the definition of lab_msgs/Own", self.result.out)
 
     def test_parquet_without_its_library_says_so(self):
         try:
