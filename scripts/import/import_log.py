@@ -211,6 +211,9 @@ def main(arguments):
     except NoSolution as error:
         print(f"finray_import: {error}", file=sys.stderr)
         return 3
+    except KeyboardInterrupt:
+        print("finray_import: interrupted", file=sys.stderr)
+        return 130
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return 0

@@ -1,5 +1,6 @@
 """Writes the log, and the mapping by which the same log comes out again."""
 
+import gzip
 import os
 import tempfile
 
@@ -11,21 +12,34 @@ import vocabulary
 from errors import BadInput
 
 
-def _write(path, text):
-    """The whole file or nothing."""
-    folder = os.path.dirname(path) or "."
+def _part(path, data):
+    """Writes a file beside `path` that is to take its place, and returns its name."""
+    descriptor, part = tempfile.mkstemp(prefix=".", suffix=".part",
+                                        dir=os.path.dirname(path) or ".")
     try:
-        descriptor, part = tempfile.mkstemp(prefix=".", suffix=".part", dir=folder)
-        try:
-            with os.fdopen(descriptor, "w", encoding="utf-8", newline="\n") as file:
-                file.write(text)
-            os.chmod(part, 0o666 & ~_umask())
-            os.replace(part, path)
-        except BaseException:
-            os.unlink(part)
-            raise
+        with os.fdopen(descriptor, "wb") as file:
+            file.write(data)
+        os.chmod(part, 0o666 & ~_umask())
+    except BaseException:
+        os.unlink(part)
+        raise
+    return part
+
+
+def _write_all(files):
+    """All files {path: bytes}, or none."""
+    parts = {}
+    try:
+        for path, data in files.items():
+            parts[path] = _part(path, data)
+        for path in files:
+            os.replace(parts[path], path)
+            del parts[path]
     except OSError as error:
         raise BadInput(f"{path}: cannot be written: {error.strerror}") from error
+    finally:
+        for part in parts.values():
+            os.unlink(part)
 
 
 def _umask():
@@ -118,5 +132,7 @@ def mapping_text(recordings, mapping, in_force):
 
 
 def write(path, columns, text):
-    _write(path, log_text(columns))
-    _write(mapping_path(path), text)
+    log = log_text(columns).encode()
+    if path.endswith(".gz"):
+        log = gzip.compress(log, mtime=0)
+    _write_all({mapping_path(path): text.encode(), path: log})

@@ -16,7 +16,7 @@ FORMATS = {
     "mat": ("a MAT file", "mat_reader", INSTALL),
     "npz": ("an NPZ file", "npz_reader", INSTALL),
     "xlsx": ("an XLSX file", "xlsx_reader", INSTALL),
-    "parquet": ("a Parquet file", "parquet_reader", 
+    "parquet": ("a Parquet file", "parquet_reader",
                 "pandas and pyarrow, of which Debian 12 has no package"),
     "ros1": ("a ROS 1 bag", "ros1_reader", INSTALL),
     "ros2": ("a ROS 2 bag", "ros2_reader", INSTALL),

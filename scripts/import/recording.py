@@ -10,7 +10,7 @@ from mapping_file import Target
 
 
 class Used:
-    """A column that became a channel: the unit that was used, as text and as Unit or Counts."""
+    """A column that became a channel, and the Unit or Counts that was used, or None."""
 
     def __init__(self, header, target, unit):
         self.header, self.target, self.unit = header, target, unit
@@ -72,7 +72,8 @@ def _unit(recording, column, target):
                   f"{target.unit.name}")
         return target.unit
     if target.scale is not None:
-        if own and own.name != units.of_column(target.to).name and abs(target.scale) == 1:
+        would = units.conversion(own, target.to) if own else None
+        if would and would.multiply != would.divide and abs(target.scale) == 1:
             recording.warnings.append(
                 f"{recording.name}: '{column.name}' is in {column.unit} by the file, yet its "
                 f"scale of {target.scale:g} is taken as it is; state `unit: {own.name}` to convert")

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """finray_import as the other executables: help, flags, exit codes, files whole or not at all."""
 
+import gzip
 import os
 import pathlib
 import re
@@ -56,6 +57,15 @@ class CommandLineTest(ImportCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("gauge_1_V", done.stdout)
         self.assertEqual([p.name for p in self.folder.iterdir()], ["a.csv"])
+
+    def test_a_log_can_be_gzipped(self):
+        path = self.write("a.csv", LOG)
+        for name in ("b.csv", "b.csv.gz"):
+            self.assertEqual(self.call("--logs", path, "--out", self.folder / name).returncode, 0)
+        self.assertEqual(gzip.decompress((self.folder / "b.csv.gz").read_bytes()),
+                         (self.folder / "b.csv").read_bytes())
+        self.assertEqual({p.name for p in self.folder.iterdir()},
+                         {"a.csv", "b.csv", "b.csv.gz", "b.mapping.yaml"})
 
     def test_a_folder_that_is_absent_is_one_line(self):
         path = self.write("a.csv", LOG)

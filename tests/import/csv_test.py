@@ -104,6 +104,9 @@ class DialectTest(ImportCase):
     def test_a_scale_of_one_against_a_unit_of_the_file_is_said(self):
         self.log_of_text("t,x\ns,m\n0,0.15\n", "columns: {x: {to: object_x_mm, scale: -1}}")
         self.assertIn("state `unit: m`", self.result.err)
+        log = self.log_of_text("t,ch,x\ns,V,mm\n0,1,0.15\n", "columns: {ch: gauge_1_V, "
+                               "x: {to: friction_1, scale: 1}}")
+        self.assertEqual((log["friction_1"], self.result.err), (["0.15"], ""))
 
     def test_times_of_every_kind_are_the_same(self):
         for cells in (("2026-03-11T14:05:07", "2026-03-11T14:05:07.1"),
