@@ -24,6 +24,11 @@ def main():
                    for flag in sorted(defined - shared - documented)]
         faults += [f"{source.stem}: there is no flag --{flag}"
                    for flag in sorted(documented - defined)]
+    # The one in Python has all its flags in its own section.
+    defined = set(re.findall(r'Flag\("(\w+)",', (ROOT / "scripts/import/flags.py").read_text()))
+    documented = flags_of_rows(sections["finray_import"])
+    faults += [f"finray_import: --{flag} is missing in the page" if flag in defined else
+               f"finray_import: there is no flag --{flag}" for flag in sorted(defined ^ documented)]
     print(*faults, sep="\n", end="\n" if faults else "")
     return 1 if faults else 0
 

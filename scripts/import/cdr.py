@@ -1,0 +1,125 @@
+"""Messages of ROS 2: plain CDR (OMG DDSI-RTPS 2.3, 10.2), laid out by .msg definitions.
+
+A message is a header of four bytes, which says the order of bytes, and its fields one after
+the other, each aligned to its size from behind the header.
+"""
+
+import re
+import struct
+
+import ros_definitions
+
+PRIMITIVES = {"bool": "?", "byte": "B", "char": "B", "int8": "b", "uint8": "B", "int16": "h",
+              "uint16": "H", "int32": "i", "uint32": "I", "int64": "q", "uint64": "Q",
+              "float32": "f", "float64": "d"}
+PLAIN_CDR = {b"\0\0": ">", b"\0\1": "<"}
+DEEPEST = 20
+
+
+class UnknownType(Exception):
+    """A message has a field of a type that nobody defines."""
+
+
+def _short(name):
+    """geometry_msgs/Point of geometry_msgs/msg/Point."""
+    return name.replace("/msg/", "/")
+
+
+class Definitions:
+    """{type: [(field, type, array)]}; array: None, '' for a sequence, or a fixed count."""
+
+    def __init__(self):
+        self.types = {}
+
+    def add(self, name, text):
+        """A definition as bags have it: its own, and behind lines of = those that it uses."""
+        parts = re.split(r"^=+\s*$", text, flags=re.M)
+        self.types[_short(name)] = self._fields(name, parts[0])
+        for part in parts[1:]:
+            head, _, body = part.strip().partition("\n")
+            if head.startswith("MSG:"):
+                used = head[4:].strip()
+                self.types[_short(used)] = self._fields(used, body)
+
+    def of(self, name):
+        name = _short(name)
+        if name not in self.types:
+            text = ros_definitions.text_of(name)
+            if text is None:
+                raise UnknownType(name)
+            self.types[name] = self._fields(name, text)
+        return self.types[name]
+
+    def _fields(self, name, text):
+        package, fields = name.split("/")[0], []
+        for line in text.split("\n"):
+            line = line.split("#")[0].strip()
+            found = re.match(r"([\w/]+)(?:<=\d+)?(\[[^\]]*\])?\s+(\w+)\s*(=)?", line)
+            if not found or found[4]:  # a constant is not part of a message
+                continue
+            kind, array, field = found[1], found[2], found[3]
+            if kind in ("time", "duration"):
+                kind = "builtin_interfaces/Time"
+            elif "/" not in kind and kind not in PRIMITIVES and kind not in ("string", "wstring"):
+                kind = "std_msgs/Header" if kind == "Header" else f"{package}/{kind}"
+            if array is not None:
+                array = array.strip("[]")
+                array = "" if not array or array.startswith("<=") else int(array)
+            fields.append((field, kind, array))
+        return fields
+
+
+class _Reader:
+    def __init__(self, data):
+        if data[:2] not in PLAIN_CDR:
+            raise ValueError(f"CDR of kind {data[:2].hex()}, only plain CDR is read")
+        self.order, self.data, self.at = PLAIN_CDR[data[:2]], data[4:], 0
+
+    def values(self, code, count):
+        size = struct.calcsize("=" + code)
+        if count:
+            self.at += -self.at % size
+        end = self.at + size * count
+        if end > len(self.data):
+            raise ValueError("a message is shorter than its definition")
+        out = struct.unpack(f"{self.order}{count}{code}", self.data[self.at:end])
+        self.at = end
+        return out
+
+    def text(self):
+        length = self.values("I", 1)[0]
+        raw = bytes(self.values("B", length))
+        return raw.rstrip(b"\0").decode("utf-8", "replace")
+
+    def field(self, definitions, kind, depth):
+        if kind in PRIMITIVES:
+            return self.values(PRIMITIVES[kind], 1)[0]
+        if kind == "string":
+            return self.text()
+        if kind == "wstring":
+            raise UnknownType("wstring")
+        return self.message(definitions, kind, depth + 1)
+
+    def message(self, definitions, name, depth=0):
+        if depth > DEEPEST:
+            raise ValueError("definitions are nested too deep")
+        fields, out = definitions.of(name), {}
+        if not fields:  # an empty message takes one byte
+            self.values("B", 1)
+        for field, kind, array in fields:
+            if array is None:
+                out[field] = self.field(definitions, kind, depth)
+                continue
+            count = self.values("I", 1)[0] if array == "" else array
+            if kind in PRIMITIVES:
+                out[field] = list(self.values(PRIMITIVES[kind], count))
+            elif count > len(self.data):
+                raise ValueError("a message is shorter than its definition")
+            else:
+                out[field] = [self.field(definitions, kind, depth) for _ in range(count)]
+        return out
+
+
+def decode(data, name, definitions):
+    """The message as a dict. ValueError if it is cut, UnknownType if it cannot be known."""
+    return _Reader(data).message(definitions, name)

@@ -1,0 +1,31 @@
+"""The ways in which an import ends early, each one line and an exit code."""
+
+import difflib
+import reprlib
+
+
+class UsageError(Exception):
+    """A wrong command line: exit code 1."""
+
+
+class BadInput(Exception):
+    """A file that is wrong: exit code 2. The text names file, line and column."""
+
+
+class NoSolution(Exception):
+    """Something asked for that the recording does not determine: exit code 3."""
+
+
+def did_you_mean(name, names):
+    """" (did you mean 'x'?)", or nothing if no name is near."""
+    near = difflib.get_close_matches(name, list(names), 1, 0.6)
+    return f" (did you mean '{near[0]}'?)" if near else ""
+
+
+def shown(text, limit=60):
+    """A text of a file, or a value of it, as part of one line."""
+    # Of what aliases make endless, reprlib takes the beginning.
+    text = text if isinstance(text, str) else reprlib.repr(text) \
+        if isinstance(text, (list, dict)) else str(text)
+    text = "".join(c if c.isprintable() else "?" for c in text[:limit + 1])
+    return text if len(text) <= limit else text[:limit] + "..."

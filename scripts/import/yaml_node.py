@@ -1,0 +1,108 @@
+"""YAML that is read strictly: every fault names file, line and key."""
+
+import yaml
+
+from errors import BadInput, did_you_mean, shown
+
+MOST_BYTES = 16 << 20
+
+
+def load(path):
+    """The root node of a file; BadInput if it is none."""
+    try:
+        with open(path, "rb") as file:
+            data = file.read(MOST_BYTES + 1)
+        if len(data) > MOST_BYTES:
+            raise BadInput(f"{path}: larger than 16 MiB")
+        node = yaml.compose(data.decode("utf-8-sig"), Loader=yaml.SafeLoader)
+    except OSError as error:
+        raise BadInput(f"{path}: cannot be read: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise BadInput(f"{path}: is not UTF-8 text") from error
+    except (yaml.YAMLError, RecursionError) as error:
+        mark = getattr(error, "problem_mark", None)
+        line = f":{mark.line + 1}" if mark else ""
+        raise BadInput(f"{path}{line}: {shown(getattr(error, 'problem', None) or error)}") \
+            from error
+    if node is None:
+        raise BadInput(f"{path}: is empty")
+    return node
+
+
+class Node:
+    """A mapping with the line of each key; a key that is not in `keys` is a fault."""
+
+    def __init__(self, path, node, keys=None):
+        if not isinstance(node, yaml.MappingNode):
+            raise BadInput(f"{path}:{node.start_mark.line + 1}: expected a mapping (key: value)")
+        self.path, self.values = path, {}
+        for key, value in node.value:
+            name, line = str(key.value), key.start_mark.line + 1
+            if name in self.values:
+                raise BadInput(f"{path}:{line}: '{shown(name)}' is there twice")
+            if keys is not None and name not in keys:
+                raise BadInput(f"{path}:{line}: unknown key '{shown(name)}'"
+                               f"{did_you_mean(name, keys)}")
+            self.values[name] = value
+
+    def fail(self, key, text):
+        raise BadInput(f"{self.path}:{self.values[key].start_mark.line + 1}: {key}: {text}")
+
+    def is_map(self, key):
+        return isinstance(self.values.get(key), yaml.MappingNode)
+
+    def child(self, key, keys=None):
+        return Node(self.path, self.values[key], keys) if key in self.values else None
+
+    def plain(self, key):
+        """The value of any kind, or None."""
+        if key not in self.values:
+            return None
+        try:
+            return yaml.SafeLoader("").construct_object(self.values[key], deep=True)
+        except (yaml.YAMLError, ValueError, RecursionError) as error:
+            self.fail(key, f"cannot be read: {shown(error)}")
+
+    def _checked(self, key, good, expected):
+        value = self.plain(key)
+        if value is not None and not good(value):
+            self.fail(key, f"expected {expected}, found '{shown(value)}'")
+        return value
+
+    def text(self, key, allowed=None):
+        if allowed is None:
+            return self._checked(key, lambda v: isinstance(v, str) and v, "a text")
+        return self._checked(key, allowed.__contains__, "one of " + ", ".join(
+            f"'{a}'" if a != "\t" else "tab" for a in allowed))
+
+    def number(self, key):
+        value = self.plain(key)
+        if isinstance(value, str):  # PyYAML takes 8e-4 for a text
+            try:
+                value = float(value)
+            except ValueError:
+                self.fail(key, f"expected a number, found '{shown(value)}'")
+        if value is not None and not _is_number(value):
+            self.fail(key, f"expected a number, found '{shown(value)}'")
+        return None if value is None else float(value)
+
+    def integer(self, key, least, most):
+        return self._checked(key, lambda v: type(v) is int and least <= v <= most,
+                             f"a whole number from {least} to {most}")
+
+    def numbers(self, key, count=None):
+        value = self._checked(
+            key, lambda v: isinstance(v, list) and all(map(_is_number, v)) and
+            len(v) == (count or len(v)), f"a list of {count or 'some'} numbers")
+        return None if value is None else [float(v) for v in value]
+
+    def switch(self, key):
+        return self._checked(key, lambda v: isinstance(v, bool), "true or false")
+
+    def words(self, key):
+        return self._checked(key, lambda v: isinstance(v, list) and
+                             all(isinstance(w, str) for w in v), "a list of words") or []
+
+
+def _is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < 1e30

@@ -1,0 +1,102 @@
+#!/usr/bin/python3
+"""finray_import as the other executables: help, flags, exit codes, files whole or not at all."""
+
+import gzip
+import os
+import pathlib
+import re
+import subprocess
+import unittest
+
+from fixture import ROOT, ImportCase
+
+import flags
+import import_log
+
+TOOL = ROOT / "apps/finray_import"
+LOG = "time_s,gauge_1_V,force_N\n0,0.1,0\n1,0.2,1\n"
+
+
+class CommandLineTest(ImportCase):
+    def call(self, *arguments, **how):
+        return subprocess.run([TOOL, *map(str, arguments)], capture_output=True, text=True, **how)
+
+    def test_help_has_every_flag_the_required_ones_first(self):
+        done = self.call("--help")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        required, optional = done.stdout.split("\nOptional\n")
+        self.assertIn("\nRequired\n  --logs ", required)
+        self.assertEqual(set(re.findall(r"^  --(\w+)", done.stdout, re.M)),
+                         {flag.name for flag in flags.FLAGS} | {"version"})
+        self.assertIn("--out log.csv", done.stdout)
+        self.assertIn("Exit code: 0 good, 1 wrong usage, 2 bad input", optional)
+
+    def test_a_wrong_command_line_is_one_line_and_exit_1(self):
+        for arguments, words in (
+                (["--log", "a"], "did you mean 'logs'"), ([], "--logs is missing"),
+                (["--logs"], "needs a value"), (["a.csv"], "is not a flag"),
+                (["--logs", "a", "--join", "cubic"], "linear, nearest or previous"),
+                (["--logs", "a", "--longest_gap_s", "-1"], "a number above 0"),
+                (["--logs", "a", "--plateaus=maybe"], "true or false"),
+                (["--logs", "a", "--shortest_plateau_s", "1"], "--plateaus")):
+            with self.subTest(arguments):
+                done = self.call(*arguments)
+                self.assertEqual((done.returncode, done.stdout), (1, ""))
+                self.assertEqual(done.stderr.count("\n"), 1)
+                self.assertIn(words, done.stderr)
+
+    def test_values_of_flags_that_make_no_sense_are_exit_1(self):
+        path = self.write("a.csv", LOG)
+        for flag in ("--force_time_offset_s", "--force_bias_N", "--free_s"):
+            with self.subTest(flag):
+                self.refused("--logs", path, flag, "soon", code=1)
+
+    def test_without_out_nothing_is_written(self):
+        path = self.write("a.csv", LOG)
+        done = self.call("--logs", path, cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("gauge_1_V", done.stdout)
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["a.csv"])
+
+    def test_a_log_can_be_gzipped(self):
+        path = self.write("a.csv", LOG)
+        for name in ("b.csv", "b.csv.gz"):
+            self.assertEqual(self.call("--logs", path, "--out", self.folder / name).returncode, 0)
+        self.assertEqual(gzip.decompress((self.folder / "b.csv.gz").read_bytes()),
+                         (self.folder / "b.csv").read_bytes())
+        self.assertEqual({p.name for p in self.folder.iterdir()},
+                         {"a.csv", "b.csv", "b.csv.gz", "b.mapping.yaml"})
+
+    def test_a_folder_that_is_absent_is_one_line(self):
+        path = self.write("a.csv", LOG)
+        done = self.call("--logs", path, "--out", self.folder / "none/log.csv")
+        self.assertEqual((done.returncode, done.stderr.count("cannot be written")), (2, 1))
+
+    def test_a_symbolic_link_beside_the_executables_finds_the_package(self):
+        link = self.folder / "finray_import"
+        link.symlink_to(TOOL)
+        done = subprocess.run([link, "--version"], capture_output=True, text=True, cwd="/")
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stdout, r"^finray_import version \d+\.\d+\.\d+\n$")
+
+    def test_the_locale_does_not_matter(self):
+        path = self.write("a.csv", LOG)
+        for locale in ("C", "de_DE.UTF-8"):
+            done = self.call("--logs", path, "--out", self.folder / f"{locale}.csv",
+                             env={**os.environ, "LC_ALL": locale})
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((self.folder / "C.csv").read_bytes(),
+                         (self.folder / "de_DE.UTF-8.csv").read_bytes())
+
+    def test_two_files_of_one_name_are_refused(self):
+        (self.folder / "b").mkdir()
+        a, b = self.write("a.csv", LOG), self.write("b/a.csv", LOG)
+        self.assertIn("two tables are named", self.refused("--logs", f"{a},{b}"))
+
+    def test_sources_are_small(self):
+        for path in pathlib.Path(import_log.__file__).parent.glob("*.py"):
+            self.assertLess(len(path.read_text().splitlines()), 400, path)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,168 @@
+#!/usr/bin/python3
+"""Joins by time, event logs, plateaus and the mapping that is written beside a log."""
+
+import unittest
+
+import numpy as np
+from fixture import ImportCase
+
+import joining
+import noise
+import plateaus
+
+
+def table(names, rows):
+    return "\n".join([",".join(names)] + [",".join(map(repr, map(float, r))) for r in rows]) + "\n"
+
+
+class InterpolationTest(unittest.TestCase):
+    T, V = np.array([0.0, 1.0, 2.0, 5.0]), np.array([0.0, 10.0, 30.0, 0.0])
+
+    def at(self, method, *times):
+        out = joining.interpolate(self.T, self.V, np.array(times), method, 2.0)
+        return [None if np.isnan(v) else float(v) for v in out]
+
+    def test_values_between_readings(self):
+        self.assertEqual(self.at("linear", 0, 0.25, 1, 1.75, 2), [0, 2.5, 10, 25, 30])
+        self.assertEqual(self.at("previous", 0, 0.25, 1, 1.75, 2), [0, 0, 10, 10, 30])
+        self.assertEqual(self.at("nearest", 0.25, 0.75, 1.25), [0, 10, 10])
+
+    def test_nothing_is_extrapolated_nor_told_in_a_gap(self):
+        for method in ("linear", "previous", "nearest"):
+            self.assertEqual(self.at(method, -0.1, 5.1, 2.1, 4.9, 5), [None] * 4 + [0])
+
+    def test_missing_readings_are_bridged_within_the_gap(self):
+        v = np.array([0.0, np.nan, 30.0, 0.0])
+        self.assertEqual(joining.interpolate(self.T, v, np.array([1.0]), "linear", 2.0)[0], 15)
+        self.assertTrue(np.isnan(joining.interpolate(self.T, v, np.array([1.0]), "linear", 1.5)))
+
+    def test_angles_take_the_short_way(self):
+        out = joining.interpolate(np.array([0.0, 1.0]), np.array([350.0, 10.0]),
+                                  np.array([0.5]), "linear", 2.0, True)
+        self.assertEqual(out[0] % 360, 0)
+
+
+class JoinTest(ImportCase):
+    def two_files(self, gap=False):
+        t = np.round(np.arange(0, 10, 0.005), 6)
+        if gap:
+            t = t[(t < 4) | (t > 5)]
+        gauges = self.write("g.csv", table(["time_s", "gauge_1_V"], np.stack((t, 2 * t), axis=1)))
+        t = np.round(np.arange(-0.5, 11, 0.1), 6)
+        force = self.write("f.csv", table(["time_s", "force_N"], np.stack((t, 3 * t), axis=1)))
+        return ["--logs", f"{gauges},{force}", "--force_time_offset_s", "0", "--force_bias_N", "0"]
+
+    def test_rows_are_those_of_the_slower_table(self):
+        log = self.log_of(*self.two_files())
+        t = np.array(log["time_s"], dtype=float)
+        self.assertEqual(len(t), 100)
+        np.testing.assert_allclose(np.array(log["gauge_1_V"], dtype=float), 2 * t, atol=1e-12)
+        self.assertIn("15 rows of f.csv at its ends", self.result.err)
+
+    def test_another_base_can_be_named(self):
+        log = self.log_of(*self.two_files(), "--base", "g.csv")
+        t = np.array(log["time_s"], dtype=float)
+        self.assertEqual(len(t), 2000)
+        np.testing.assert_allclose(np.array(log["force_N"], dtype=float), 3 * t, atol=1e-12)
+        self.assertIn("'g.csv'", self.refused(*self.two_files(), "--base", "h.csv"))
+
+    def test_gaps_stay_empty_and_are_said(self):
+        log = self.log_of(*self.two_files(gap=True))
+        t = np.array(log["time_s"], dtype=float)
+        empty = np.array([cell == "" for cell in log["gauge_1_V"]])
+        np.testing.assert_array_equal(empty, (t >= 4.0) & (t <= 5.0))
+        self.assertIn("g.csv has a gap from 3.995 to 5.005 s", self.result.err)
+        log = self.log_of(*self.two_files(gap=True), "--longest_gap_s", "2")
+        self.assertNotIn("", log["gauge_1_V"])
+
+    def test_tables_that_do_not_meet_are_refused(self):
+        a = self.write("a.csv", "time_s,gauge_1_V\n0,1\n1,2\n")
+        b = self.write("b.csv", "time_s,force_N\n5,1\n6,2\n")
+        self.assertIn("share no time", self.refused("--logs", f"{a},{b}"))
+        b = self.write("b.csv", "time,force_N\n1773237907,1\n1773237908,2\n")
+        self.assertIn("time of day", self.refused("--logs", f"{a},{b}"))
+        b = self.write("b.csv", "force_N\n1\n2\n")
+        self.assertIn("no column that becomes time_s", self.refused("--logs", f"{a},{b}"))
+
+    def test_an_event_log_is_taken_apart(self):
+        rows = ["kind;t;F;ch0"]
+        for i in range(200):
+            rows.append(f"sensor;{i * 0.01:.2f};;{i}")
+            if i % 10 == 5:
+                rows.append(f"force;{i * 0.01:.2f};{3 * i};")
+        path = self.write("events.csv", "\n".join(rows) + "\n")
+        mapping = self.write("m.yaml", "row_type: kind\ncolumns: {F: force_N, ch0: gauge_1_V}\n")
+        log = self.log_of("--logs", path, "--mapping", mapping, "--force_bias_N", "0")
+        self.assertEqual(len(log["time_s"]), 20)
+        gauges = np.array(log["gauge_1_V"], dtype=float)
+        np.testing.assert_allclose(np.array(log["force_N"], dtype=float), 3 * gauges, atol=1e-9)
+        self.assertIn("events.csv:force", self.result.out)
+
+    def test_the_written_mapping_makes_the_same_log(self):
+        for more in ([], ["--plateaus"]):
+            t = np.arange(0, 30, 0.01)
+            place = np.floor(t / 1.5) % 2 * (1 + np.floor(t / 3))
+            draw = np.random.default_rng(1)
+            a = self.write("a.csv", table(["t", "ch"], np.stack(
+                (t, 100 + 50 * place + draw.normal(size=len(t))), axis=1)))
+            t, place = t[::10], place[::10]
+            b = self.write("b.csv", table(["t", "Fz"], np.stack(
+                (t, 20 + 100 * place + draw.normal(size=len(t))), axis=1)))
+            mapping = self.write("m.yaml", "columns:\n  ch: {to: gauge_1_V, unit: mV, offset: "
+                                 "0.5}\n  Fz: {to: force_N, unit: gf, scale: 1.001}\n")
+            first = self.log_of("--logs", f"{a},{b}", "--mapping", mapping, *more)
+            again = self.write("again.yaml", (self.folder / "log.mapping.yaml").read_text())
+            self.assertEqual(self.log_of("--logs", f"{a},{b}", "--mapping", again), first)
+            self.assertEqual((self.folder / "log.mapping.yaml").read_text(), again.read_text())
+
+
+class PlateauTest(ImportCase):
+    def test_every_place_is_one_row_with_its_scatter(self):
+        draw = np.random.default_rng(2)
+        t = np.arange(0, 40, 0.005)
+        level = np.interp(t, *np.array([(k + d, k // 2 * 0.01 * (k % 4 == 2) + 0.002 * (k % 3))
+                                        for k in range(0, 40, 2) for d in (0.2, 1.8)]).T)
+        gauges = table(["time_s", "gauge_1_V"],
+                       np.stack((t, level + 3e-4 * draw.normal(size=len(t))), axis=1))
+        slow = np.arange(0, 40, 0.1)
+        forces = 20 * np.interp(slow, t, level) + 0.02 * draw.normal(size=len(slow))
+        force = table(["time_s", "force_N"], np.stack((slow, forces), axis=1))
+        log = self.log_of("--logs", f"{self.write('g.csv', gauges)},{self.write('f.csv', force)}",
+                          "--plateaus", "--force_time_offset_s", "0", "--force_bias_N", "0")
+        value = {name: np.array(cells, dtype=float) for name, cells in log.items()}
+        self.assertEqual(len(value["time_s"]), 20)
+        np.testing.assert_allclose(value["time_s"], np.arange(20) * 2 + 1, atol=0.2)
+        truth = np.interp(value["time_s"], t, level)
+        z = (value["gauge_1_V"] - truth) / (3e-4 / np.sqrt(value["gauge_readings"]))
+        self.assertLess(np.sqrt(np.mean(z**2)), 1.6)
+        z = (value["force_N"] - 20 * truth) / (0.02 / np.sqrt(value["force_readings"]))
+        self.assertLess(np.sqrt(np.mean(z**2)), 1.6)
+        np.testing.assert_allclose(value["gauge_1_scatter_V"], 3e-4, rtol=0.2)
+        self.assertTrue((value["gauge_readings"] > 200).all())
+
+    def test_a_motion_without_rest_has_no_plateau(self):
+        t = np.arange(0, 10, 0.01)
+        path = self.write("a.csv", table(["time_s", "gauge_1_V"],
+                                         np.stack((t, np.sin(3 * t)), axis=1)))
+        self.assertIn("no place is held", self.refused("--logs", path, "--plateaus", code=3))
+
+    def test_noise_is_told_from_motion(self):
+        draw = np.random.default_rng(3)
+        values = np.sin(np.arange(5000) / 300) + 1e-3 * draw.normal(size=5000)
+        self.assertAlmostEqual(noise.reading_std(values) / 1e-3, 1, delta=0.1)
+        self.assertLess(noise.reading_std(np.round(np.arange(5000) / 999.0)), 0.3)
+
+    def test_correlated_readings_are_worth_less(self):
+        draw = np.random.default_rng(4)
+        white = [draw.normal(size=50) for _ in range(200)]
+        self.assertAlmostEqual(noise.mean_std_factor(white), 1, delta=0.1)
+        slow = [np.convolve(draw.normal(size=60), 0.5**np.arange(10), "valid")
+                for _ in range(200)]
+        self.assertAlmostEqual(noise.mean_std_factor(slow), np.sqrt(3), delta=0.2)
+
+    def test_names_of_scatter(self):
+        self.assertEqual(plateaus.scatter_name("gauge_1_V"), "gauge_1_scatter_V")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,185 @@
+#!/usr/bin/python3
+"""Every format gives the log of the CSV, to the byte; broken and cut files get one line."""
+
+import random
+import sqlite3
+import unittest
+
+import numpy as np
+import samples
+from fixture import ImportCase
+
+
+class ReadersTest(ImportCase):
+    def logs_of(self, writers, reference, *more):
+        """Whether each format's log is the reference's; formats without library are skipped."""
+        path = self.write("reference.csv", reference)
+        expected = self.log_of("--logs", path)
+        self.assertEqual(len(expected["time_s"]), samples.ROWS)
+        for form, write in writers.items():
+            with self.subTest(form):
+                path = self.folder / f"a.{form}"
+                try:
+                    write(path)
+                except ImportError as error:
+                    self.skipTest(str(error))
+                self.assertEqual(self.log_of("--logs", path, *more), expected)
+
+    def test_files_give_the_log_of_the_csv(self):
+        writers = {form: w for form, w in samples.PLAIN.items() if form != "xlsx"}
+        self.logs_of(writers, samples.csv_text(samples.readings()))
+
+    def test_a_workbook_gives_the_log_of_the_csv(self):
+        self.logs_of({"xlsx": samples.write_xlsx},
+                     samples.csv_text(samples.readings(samples.XLSX_DIGITS)))
+
+    def test_bags_give_the_log_of_the_csv(self):
+        mapping = self.write("m.yaml", samples.BAG_MAPPING)
+        self.logs_of(samples.BAGS, samples.csv_of_stamps(), "--mapping", mapping)
+
+    def test_the_log_has_the_digits_of_the_csv(self):
+        path = self.write("a.csv", samples.csv_text(samples.readings()))
+        log = self.log_of("--logs", path)
+        for name, values in samples.readings().items():
+            self.assertEqual(log[name], [repr(float(v)) for v in values])
+
+    def test_topics_of_a_bag_are_joined(self):
+        """A wrench at 10 Hz, a stage and gauges at 100 Hz, each with stamps of its own."""
+        try:
+            import genpy
+            import rosbag
+            from geometry_msgs.msg import PointStamped, WrenchStamped
+            from sensor_msgs.msg import JointState
+        except ImportError as error:
+            self.skipTest(str(error))
+        path = self.folder / "run.bag"
+        with rosbag.Bag(str(path), "w") as bag:
+            for i in range(300):
+                stamp = genpy.Time(samples.EPOCH_S, i * 10**7)
+                recorded = genpy.Time(samples.EPOCH_S + 7, i * 10**7)
+                joints = JointState(name=["a", "b"], position=[0.01 * i, -0.02 * i])
+                place = PointStamped()
+                place.point.x, place.point.y = -0.001 * i, 0.07
+                messages = [("/gauges", joints), ("/stage", place)]
+                if i % 10 == 5:
+                    messages.append(("/ft", WrenchStamped()))
+                    messages[-1][1].wrench.force.x = 0.5 * i
+                for topic, message in messages:
+                    message.header.stamp = stamp
+                    bag.write(topic, message, recorded)
+        mapping = self.write("m.yaml", "columns:\n  position.a: gauge_1_V\n"
+                             "  position.b: gauge_2_V\n  wrench.force.x: force_N\n"
+                             "  point.x: object_x_mm\n")
+        log = self.log_of("--logs", path, "--mapping", mapping, "--force_bias_N", "0")
+        i = np.arange(5, 300, 10)
+        for name, truth in (("time_s", 0.01 * i), ("gauge_1_V", 0.01 * i),
+                            ("gauge_2_V", -0.02 * i), ("force_N", 0.5 * i),
+                            ("object_x_mm", -1.0 * i)):
+            np.testing.assert_allclose(np.array(log[name], dtype=float), truth, atol=1e-12)
+        self.assertIn("run.bag:/ft: 30 rows; time is header.stamp", self.result.out)
+
+    def test_structs_sheets_and_groups_are_tables(self):
+        t = np.arange(0, 3, 0.01)
+        gauges = {"time_s": t, "gauge_1_V": 2 * t}
+        force = {"time_s": t[::10], "force_N": 3 * t[::10]}
+
+        def mat(path):
+            import scipy.io
+            scipy.io.savemat(path, {"daq": gauges, "rig": force, "note": "by hand"})
+
+        def hdf5(path):
+            import h5py
+            with h5py.File(path, "w") as file:
+                for group, columns in (("daq", gauges), ("rig", force)):
+                    for name, values in columns.items():
+                        file[f"{group}/{name}"] = values
+
+        def xlsx(path):
+            import openpyxl
+            book = openpyxl.Workbook()
+            for title, columns in (("daq", gauges), ("rig", force)):
+                sheet = book.create_sheet(title)
+                sheet.append(["measured on Monday"])
+                sheet.append(list(columns))
+                sheet.append(["s", "N" if title == "rig" else "V"])
+                for row in zip(*columns.values()):
+                    sheet.append([float(v) for v in row])
+            book.save(path)
+
+        for end, write in (("mat", mat), ("h5", hdf5), ("xlsx", xlsx)):
+            with self.subTest(end):
+                try:
+                    write(self.folder / f"a.{end}")
+                except ImportError as error:
+                    self.skipTest(str(error))
+                log = self.log_of("--logs", self.folder / f"a.{end}", "--force_bias_N", "0")
+                self.assertEqual(len(log["time_s"]), 30)
+                np.testing.assert_allclose(np.array(log["gauge_1_V"], dtype=float),
+                                           2 * np.array(log["time_s"], dtype=float), atol=1e-12)
+                self.assertIn(f"a.{end}:rig: 30 rows", self.result.out)
+
+    def every_format(self):
+        for form, write in {**samples.PLAIN, **samples.BAGS}.items():
+            path = self.folder / f"whole.{form}"
+            try:
+                write(path)
+            except ImportError:
+                continue
+            yield form, path.read_bytes()
+
+    def test_cut_files_get_one_line(self):
+        mapping = self.write("m.yaml", samples.BAG_MAPPING)
+        for form, data in self.every_format():
+            for length in [0, 20, len(data) // 3, len(data) * 4 // 5, len(data) - 1]:
+                with self.subTest(f"{form}, {length} of {len(data)} bytes"):
+                    path = self.write(f"cut.{form}", data[:length])
+                    line = self.refused("--logs", path, "--mapping", mapping)
+                    self.assertIn(f"cut.{form}", line)
+
+    def test_broken_bytes_get_one_line_or_do_no_harm(self):
+        mapping = self.write("m.yaml", samples.BAG_MAPPING)
+        draw = random.Random(3)
+        for form, data in self.every_format():
+            for _ in range(8):
+                broken = bytearray(data)
+                for _ in range(draw.choice((1, 8))):
+                    broken[draw.randrange(len(broken))] = draw.randrange(256)
+                path = self.write(f"broken.{form}", bytes(broken))
+                result = self.run_import("--logs", path, "--mapping", mapping, "--out",
+                                         self.folder / "out.csv")
+                with self.subTest(form):
+                    self.assertIn(result.code, (0, 2), result.err)
+                    if result.code == 2:
+                        self.assertEqual(result.err.count("\n"), 1, result.err)
+
+    def test_messages_that_nobody_knows_are_said(self):
+        path = self.folder / "a.mcap"
+        path.write_bytes(samples.mcap_bytes(encoding="protobuf"))
+        self.assertIn("/readings is in protobuf", self.refused("--logs", path))
+        path = self.folder / "a.db3"
+        samples.write_ros2(path)
+        connection = sqlite3.connect(path)
+        connection.execute("INSERT INTO topics VALUES(2, '/other', 'lab_msgs/msg/Own', 'cdr', '')")
+        connection.execute("INSERT INTO messages(topic_id, timestamp, data) VALUES(2, 5, x'0001000000')")
+        connection.commit()
+        connection.close()
+        mapping = self.write("m.yaml", samples.BAG_MAPPING)
+        self.log_of("--logs", path, "--mapping", mapping)
+        self.assertIn("left out: /other needs the definition of lab_msgs/Own", self.result.out)
+
+    def test_parquet_without_its_library_says_so(self):
+        try:
+            import pyarrow  # noqa: F401
+            self.skipTest("pyarrow is installed")
+        except ImportError:
+            pass
+        line = self.refused("--logs", self.write("a.parquet", b"PAR1" + b"\0" * 40 + b"PAR1"))
+        self.assertIn("pyarrow", line)
+
+    def test_missing_files_and_folders_get_one_line(self):
+        self.assertIn("no such file", self.refused("--logs", self.folder / "none.csv"))
+        self.assertIn("is not a file", self.refused("--logs", self.folder))
+
+
+if __name__ == "__main__":
+    unittest.main()
