@@ -7,6 +7,7 @@
 #include "finray/finger/geometry.h"
 #include "finray/io/number_text.h"
 #include "finray/ladder/contact_pose.h"
+#include "finray/ladder/rib_law.h"
 
 namespace finray {
 namespace {
@@ -29,6 +30,8 @@ double EffectUnit(FingerParameterKind kind,
   switch (kind) {
     case FingerParameterKind::kHingeStiffness:
       return unit.moment_unit();
+    case FingerParameterKind::kRibBending:
+      return unit.stiffness_unit();
     case FingerParameterKind::kFrontHinge:
     case FingerParameterKind::kBackHinge:
     case FingerParameterKind::kSurfaceOffset:
@@ -72,6 +75,9 @@ bool EquilibriumSolver::SolveFor(const std::vector<PointContact>& contacts,
   status_ =
       IsBadLoad(contacts) ? SolveStatus::kBadLoad : Attempt(contacts, columns);
   iterations_ = newton_.TakeIterations();
+  if (status_ == SolveStatus::kSolved && BendsTooFar(newton_.frame(), 0)) {
+    status_ = SolveStatus::kRibTooBent;
+  }
   if (status_ != SolveStatus::kSolved) {
     Reset();
     return false;
@@ -147,6 +153,10 @@ std::string EquilibriumSolver::Why() const {
   if (status_ == SolveStatus::kSolved) return "";
   if (status_ == SolveStatus::kBadLoad) {
     return "a contact lies off its beam or a number is not finite";
+  }
+  if (status_ == SolveStatus::kRibTooBent) {
+    return "a rib buckles or bends so far that it becomes 4 % shorter, beyond "
+           "what its equations hold for";
   }
   return FormatText(
       status_ == SolveStatus::kLimitPoint

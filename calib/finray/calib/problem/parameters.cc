@@ -76,6 +76,7 @@ bool AnyFitted(const CalibrationLogs& logs, int log, const Has& has) {
 double VagueStd(const CalibrationParameter& parameter) {
   switch (parameter.family) {
     case ParameterFamily::kGaugeGain:
+    case ParameterFamily::kRibBending:
       return 0.2 * parameter.scale;
     case ParameterFamily::kGaugeOffset:
       return 0.01;
@@ -115,6 +116,11 @@ double VagueStd(const CalibrationParameter& parameter) {
 // A free hinge stiffness is one number for all hinges.
 void RefuseUnequalHinges(const Finger& finger) {
   const double one = finger.ribs[0].front_hinge_N_mm_per_rad;
+  if (std::isinf(one)) {
+    throw InputError(
+        "plan: hinge_stiffness is free, but the finger's ribs are clamped to "
+        "the beams; give them a hinge_stiffness_N_mm_per_rad to start from");
+  }
   for (const Rib& rib : finger.ribs) {
     if (rib.front_hinge_N_mm_per_rad != one ||
         rib.back_hinge_N_mm_per_rad != one) {
@@ -283,6 +289,9 @@ void CalibrationParameters::AddOfFinger(const Finger& finger, const Plan& plan,
     case FingerParameterKind::kHingeStiffness:
       RefuseUnequalHinges(finger);
       parameter.scale = 10;
+      break;
+    case FingerParameterKind::kRibBending:
+      parameter.scale = ParameterValue(finger, of_finger);
       break;
     case FingerParameterKind::kFrontClamp:
     case FingerParameterKind::kBackClamp:
@@ -456,6 +465,7 @@ void CalibrationParameters::Add(const Plan& plan,
   if (family.prior_std) {
     const bool percent = parameter.is_log ||
                          parameter.family == ParameterFamily::kGaugeGain ||
+                         parameter.family == ParameterFamily::kRibBending ||
                          parameter.family == ParameterFamily::kFrontPiece ||
                          parameter.family == ParameterFamily::kBackPiece;
     parameter.prior_std =
