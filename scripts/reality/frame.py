@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-STIFF = 1e4  # of what does not bend, relative
+from plant import STIFF
 
 
 class Frame:

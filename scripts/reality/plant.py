@@ -14,6 +14,9 @@ import pathlib
 
 import yaml
 
+STIFF = 1e4  # of what does not bend, relative
+RIGID_SHARE = 0.7  # of the way into a joint of solids, where it agrees best with CalculiX
+
 
 @dataclasses.dataclass
 class Rib:
@@ -81,12 +84,26 @@ class Plant:
         (x, y), angle = self.base[side], self.angle[side]
         return x + s * math.cos(angle), y + s * math.sin(angle)
 
+    def rigid_tip(self, share):
+        """So much of either beam at the tip is within `share` of the solid that joins them, which
+        begins where the inner surfaces meet."""
+        front, back = (self.thickness[side] / 2 for side in ("front", "back"))
+        wedge = self.angle["back"] - self.angle["front"]
+        return {"front": share * (front * math.cos(wedge) + back) / math.sin(wedge),
+                "back": share * (front + back * math.cos(wedge)) / math.sin(wedge)}
+
     def one_piece(self, share):
-        """Beams and ribs of finger.yaml: ribs bend, and everything stretches."""
-        beams = {}
+        """Beams and ribs of finger.yaml: ribs bend, all stretches, contacts act on the surface, and of
+        a joint's solid the first `share` does not bend."""
+        beams, tip = {}, self.rigid_tip(share)
         for side, thickness in self.thickness.items():
             axial, bending = self.section(side, thickness)
-            beams[side] = {"bending_stiffness_N_mm2": bending, "axial_stiffness_N": axial}
+            length = self.front_length_mm / math.sin(self.angle[side])
+            beams[side] = {"axial_stiffness_N": axial, "pieces": [{"bending_stiffness_N_mm2": bending}]}
+            if share:
+                beams[side]["pieces"] = [{"end_mm": length - tip[side], "bending_stiffness_N_mm2": bending},
+                                         {"bending_stiffness_N_mm2": STIFF * bending}]
+        beams["front"]["surface_offset_mm"] = self.thickness["front"] / 2
         ribs = []
         for rib in self.ribs:
             axial, bending = self.rib_section(rib)

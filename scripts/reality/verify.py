@@ -6,7 +6,6 @@ Prints tables; exit code 1 if a difference is beyond what it may be. BUILD_DIR
 """
 
 import copy
-import json
 import math
 import pathlib
 import sys
@@ -16,13 +15,13 @@ sys.dont_write_bytecode = True
 
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipeinc, ellipk, ellipkinc
-import yaml
 
 import ccx
 import gauges
+from beams import beam_model, difference, readings
 from frame import Frame
 import plant as plants
-from outcome import rows, run
+from plant import RIGID_SHARE
 from solid import Solid
 from touch import RADIUS_MM, touch
 
@@ -33,7 +32,6 @@ CIRCLES = [(45.0, 2.0), (70.0, 4.0), (100.0, 2.5)]  # height, depth in mm
 # The one-piece finger: three depths, to about 7 N, at three heights.
 PRINTED = [(30.0, 0.3), (30.0, 0.6), (30.0, 0.9), (50.0, 0.4), (50.0, 0.8), (50.0, 1.2),
            (70.0, 0.4), (70.0, 0.7), (70.0, 1.0)]
-RIGID_SHARE = 0.7
 
 
 class Cantilever(Solid):
@@ -85,30 +83,6 @@ def cantilever(plant, folder, forces=(0.5, 2.0), step_mm=2.0):
     return found
 
 
-def beam_model(build, plant, name, scene, header, table, folder, one_piece=None):
-    """Rows of finray_simulate for the plant's finger; one_piece: the rigid share of its ribs,
-    which bend."""
-    drawing = yaml.safe_load((DATA / name / "finger.yaml").read_text("utf-8"))
-    drawing["beams"] = {side: {"bending_stiffness_N_mm2": plant.stiffness(side)} for side in plant.thickness}
-    if one_piece is not None:
-        drawing.update(plant.one_piece(one_piece))
-    (folder / "finger.yaml").write_text(json.dumps(drawing))  # JSON is YAML
-    (folder / "scene.yaml").write_text(json.dumps(scene))
-    (folder / "in.csv").write_text("\n".join([header, *(",".join(f"{x:.12g}" for x in row) for row in table), ""]))
-    run(build, "finray_simulate", "--finger", folder / "finger.yaml", "--scene", folder / "scene.yaml",
-        "--frames", folder / "in.csv", "--out", folder / "out.csv")
-    return rows(folder / "out.csv")
-
-
-def readings(row, plant):
-    return [float(row[f"gauge_{j}_rad"]) for j in range(1, len(plant.gauges) + 1)]
-
-
-def difference(found, expected):
-    """The largest difference over the largest expected value, in percent."""
-    return 100 * max(abs(a - b) for a, b in zip(found, expected)) / max(map(abs, expected))
-
-
 def point_loads(build, plant, folder, points=POINTS):
     """(place, force, difference of gauges in percent, of the same by sections, of the
     contact's place in mm)."""
@@ -148,7 +122,7 @@ def beside(build, plant, name, folder, friction, places, frames, one_piece=None)
         expected = beam_model(build, plant, name, {"contacts": 1}, "contact_1_mm,normal_1_N,friction_1",
                               [(f.contact_mm, f.normal_N, f.friction) for f in frames], folder, one_piece)
     else:
-        outside = RADIUS_MM + plant.thickness["front"] / 2
+        outside = RADIUS_MM + (plant.thickness["front"] / 2 if one_piece is None else 0)
         expected = beam_model(build, plant, name, {"object": {"shape": "circle", "radius_mm": outside}},
                               "object_x_mm,object_y_mm", [f.object_mm for f in frames], folder, one_piece)
     return [(height, depth, frame.normal_N,
@@ -227,8 +201,8 @@ def main():
         deep = touches(printed, folder, 0.0, PRINTED)
         for share in (0.0, RIGID_SHARE, 1.0):
             found = beside(build, printed, "printed", folder, 0.0, PRINTED, deep, share)
-            table("One-piece finger against `finray_simulate` with ribs that bend; of their way through half a beam the first "
-                  f"{share:g} is rigid", header, found)
+            table("One-piece finger against `finray_simulate` with ribs that bend; the first "
+                  f"{share:g} of the way into a joint is rigid", header, found)
             if share == RIGID_SHARE:
                 worst += [(row[4], 2.0) for row in found] + [(row[3], 3.0) for row in found]
         presses = pressed(printed, folder)

@@ -15,6 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "scripts" / "reality"))
 
+import beams
 import gauges
 import make_logs
 import outcome
@@ -130,6 +131,24 @@ class BundledLogsTest(unittest.TestCase):
                            for row in outcome.rows(DATA / finger / world / f"{log}_truth.csv")]
                           for world in make_logs.FRICTIONS]
                 self.assertEqual(*places)
+
+
+class OnePieceTest(unittest.TestCase):
+    def test_ribs_that_bend_are_those_of_calculix(self):
+        """Gauge angles at all 360 touches of the bundled logs: light to 7 N, at all heights."""
+        of, worst = plant("printed"), []
+        with tempfile.TemporaryDirectory() as folder:
+            for world in make_logs.FRICTIONS:
+                for log in make_logs.TOUCHES:
+                    truth = [row for row in outcome.rows(DATA / "printed" / world / f"{log}_truth.csv") if row["normal_1_N"]]
+                    table = [[float(row[key]) for key in ("contact_1_mm", "normal_1_N", "friction_1")] for row in truth]
+                    found = beams.beam_model(BUILD, of, "printed", {"contacts": 1}, "contact_1_mm,normal_1_N,friction_1",
+                                             table, pathlib.Path(folder), plants.RIGID_SHARE)
+                    worst += [beams.difference(beams.readings(row, of), beams.readings(true, of))
+                              for row, true in zip(found, truth, strict=True)]
+        self.assertEqual(len(worst), 360)
+        self.assertLess(max(worst), 2)
+        self.assertLess(statistics.fmean(worst), 1)
 
 
 class OutcomeTest(unittest.TestCase):
