@@ -32,3 +32,17 @@ def readings(row, plant):
 def difference(found, expected):
     """The largest difference over the largest expected value, in percent."""
     return 100 * max(abs(a - b) for a, b in zip(found, expected)) / max(map(abs, expected))
+
+
+def bundled(build, plant, logs, folder, rigid_share):
+    """Of each touch in datasets/reality/printed: load in N, and by how much the gauges differ from
+    finray_simulate's under the same contact, in percent of the largest. logs: their truths."""
+    found = []
+    for path in logs:
+        truth = [row for row in rows(path) if row["normal_1_N"]]
+        keys = ("contact_1_mm", "normal_1_N", "friction_1")
+        simulated = beam_model(build, plant, "printed", {"contacts": 1}, ",".join(keys),
+                               [[float(row[key]) for key in keys] for row in truth], folder, rigid_share)
+        found += [(float(true["normal_1_N"]), difference(readings(row, plant), readings(true, plant)))
+                  for row, true in zip(simulated, truth, strict=True)]
+    return found

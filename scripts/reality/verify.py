@@ -8,6 +8,7 @@ Prints tables; exit code 1 if a difference is beyond what it may be. BUILD_DIR
 import copy
 import math
 import pathlib
+import statistics
 import sys
 import tempfile
 
@@ -18,7 +19,7 @@ from scipy.special import ellipe, ellipeinc, ellipk, ellipkinc
 
 import ccx
 import gauges
-from beams import beam_model, difference, readings
+from beams import beam_model, bundled, difference, readings
 from frame import Frame
 import plant as plants
 from plant import RIGID_SHARE
@@ -205,6 +206,14 @@ def main():
                   f"{share:g} of the way into a joint is rigid", header, found)
             if share == RIGID_SHARE:
                 worst += [(row[4], 2.0) for row in found] + [(row[3], 3.0) for row in found]
+        logs = sorted((DATA / "printed").glob("*/*_truth.csv"))
+        every = {share: bundled(build, printed, logs, folder, share) for share in (0.0, 0.5, RIGID_SHARE, 0.85, 1.0)}
+        table("One-piece finger, all touches of datasets/reality, against `finray_simulate` with ribs that bend, under the same "
+              "contact", ["rigid share of a joint", "touches", "from, N", "to, N", "gauges differ by, % of the largest, mean",
+                          "at most"],
+              [(share, len(found), min(found)[0], max(found)[0], statistics.fmean(off for _, off in found),
+                max(off for _, off in found)) for share, found in every.items()])
+        worst += [(off, 2.0) for _, off in every[RIGID_SHARE]]
         presses = pressed(printed, folder)
         for share in (0.0, RIGID_SHARE, 1.0):
             found = frames(printed, share, presses)

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 
 namespace finray {
@@ -132,6 +133,15 @@ void RefuseUnequalHinges(const Finger& finger) {
   }
 }
 
+void RefuseRibsThatDoNotBend(const Finger& finger, const Plan& plan) {
+  if (plan.family(ParameterFamily::kRibBending).free &&
+      FirstBendingRib(finger) == nullptr) {
+    throw InputError(
+        "plan: rib_bending_stiffness is free, but no rib has a "
+        "bending_stiffness_N_mm2 to start from");
+  }
+}
+
 }  // namespace
 
 double CalibrationParameter::Value(double at) const {
@@ -165,6 +175,7 @@ CalibrationParameters::CalibrationParameters(const Finger& finger,
     shared.friction_varies = true;
     shared.effect_values.push_back(friction_);
   }
+  RefuseRibsThatDoNotBend(finger, plan);
   if (plan.HasCreep(finger)) ReadCreep(logs);
   if (plan.family(ParameterFamily::kForceTimeOffset).free) ReadForces(logs);
   for (const FingerParameter& parameter : AllParametersOf(finger)) {
