@@ -77,6 +77,7 @@ bool EquilibriumSolver::SolveFor(const std::vector<PointContact>& contacts,
   iterations_ = newton_.TakeIterations();
   if (status_ == SolveStatus::kSolved && BendsTooFar(newton_.frame(), 0)) {
     status_ = SolveStatus::kRibTooBent;
+    path_fraction_ = 1;
   }
   if (status_ != SolveStatus::kSolved) {
     Reset();
@@ -155,8 +156,10 @@ std::string EquilibriumSolver::Why() const {
     return "a contact lies off its beam or a number is not finite";
   }
   if (status_ == SolveStatus::kRibTooBent) {
-    return "a rib buckles or bends so far that it becomes 4 % shorter, beyond "
-           "what its equations hold for";
+    return FormatText(
+        "at %.3g %% of this load a rib buckles or becomes 4 %% shorter by "
+        "bending, and its equations hold no further",
+        100 * path_fraction_);
   }
   return FormatText(
       status_ == SolveStatus::kLimitPoint
