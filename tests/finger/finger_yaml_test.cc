@@ -295,7 +295,7 @@ TEST(FingerYamlTest, RibsThatBendRoundTripAndNameTheirErrors) {
     }
   };
   expect_error("rigid_ends_mm: [1, 1]",
-               "f.yaml:5:39: rigid_ends_mm: only a rib with "
+               "f.yaml:5:53: rigid_ends_mm: only a rib with "
                "bending_stiffness_N_mm2 bends between its ends");
   expect_error("bending_stiffness_N_mm2: 9, rigid_ends_mm: [1]",
                "rigid_ends_mm: expected two lengths, none below 0");
