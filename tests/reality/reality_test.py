@@ -157,6 +157,24 @@ class OutcomeTest(unittest.TestCase):
         self.assertEqual(outcome.means(found), {"place_mm": 1, "angle_deg": 0, "force_N": 0.5, "force_percent": 25})
         self.assertEqual(outcome.summary(found["force"]), {"rms": 0.5, "max": 0.5, "covered_68": 0, "covered_95": 100})
 
+    def test_the_one_piece_finger_is_calibrated_and_covered(self):
+        with tempfile.TemporaryDirectory() as folder:
+            found = outcome.outcome(BUILD, DATA / "printed/finger_bending.yaml", DATA / "printed/plan_bending.yaml",
+                                    DATA / "printed/smooth", plant("printed"), ROOT / "configs/scenes/auto.yaml",
+                                    pathlib.Path(folder) / "out")
+        self.assertEqual(found["exit"], 0)
+        self.assertGreater(found["ok"], 50)
+        self.assertLess(found["force"]["rms"], 0.2)
+        self.assertGreater(found["force"]["covered_95"], 85)
+        for entry in found["parameters"]:
+            self.assertLess(abs(entry["value"] - entry["true"]), 4 * entry["std"], entry["name"])
+
+    def test_a_parameter_that_one_plan_alone_varies_has_a_row(self):
+        ei, rib = ({"name": name, "true": 2.0, "value": 3.0, "std": 0.5} for name in ("ei", "rib"))
+        self.assertEqual(report.parameters([{"parameters": [ei]}, {"parameters": [ei, rib]}]),
+                         [["`ei`", "2", "3.00 ± 0.50, +2.0 std", "3.00 ± 0.50, +2.0 std"],
+                          ["`rib`", "2", "", "3.00 ± 0.50, +2.0 std"]])
+
     def test_the_strip_without_friction_is_calibrated_and_covered(self):
         with tempfile.TemporaryDirectory() as folder:
             found = outcome.outcome(BUILD, DATA / "strip/finger.yaml", DATA / "strip/plan_thickness.yaml",
