@@ -104,6 +104,39 @@ void Column(const J& length, const J& stiffness, const double end[2],
   *by_tension = {d_k.ff + r.ff, d_k.fb + r.fb, d_k.bb + r.bb};
 }
 
+// Turns G and G_T into H and H_T. False if the rib buckles on its springs.
+template <class J>
+bool PutSpringsInSeries(const RibLaw& law, const std::array<J, 2>& stiffness,
+                        Pair<J>* G, Pair<J>* by_tension) {
+  const bool springs[2] = {std::isfinite(law.hinge_stiffness[0]),
+                           std::isfinite(law.hinge_stiffness[1])};
+  if (!springs[0] && !springs[1]) return true;
+  // The rows of (k + G) alpha = k a, or alpha = a at a clamped end.
+  const J of_G[2][2] = {{G->ff, G->fb}, {G->fb, G->bb}};
+  J k[2] = {J(1), J(1)}, row[2][2] = {{J(1), J(0)}, {J(0), J(1)}};
+  for (int i = 0; i < 2; ++i) {
+    if (!springs[i]) continue;
+    k[i] = stiffness[i];
+    row[i][i] = of_G[i][i] + k[i];
+    row[i][1 - i] = of_G[i][1 - i];
+  }
+  const J determinant = row[0][0] * row[1][1] - row[0][1] * row[1][0];
+  if (!(row[0][0].a > 0 && row[1][1].a > 0 && determinant.a > 0)) return false;
+  const J w[2][2] = {
+      {row[1][1] * k[0] / determinant, -(row[0][1] * k[1]) / determinant},
+      {-(row[1][0] * k[0]) / determinant, row[0][0] * k[1] / determinant}};
+  *G = {of_G[0][0] * w[0][0] + of_G[0][1] * w[1][0],
+        of_G[0][0] * w[0][1] + of_G[0][1] * w[1][1],
+        of_G[1][0] * w[0][1] + of_G[1][1] * w[1][1]};
+  const Pair<J> t = *by_tension;
+  const auto between = [&](int i, int j) {
+    return w[0][i] * (t.ff * w[0][j] + t.fb * w[1][j]) +
+           w[1][i] * (t.fb * w[0][j] + t.bb * w[1][j]);
+  };
+  *by_tension = {between(0, 0), between(0, 1), between(1, 1)};
+  return true;
+}
+
 // J counts derivatives by T and, if it has more than one, by L, EI and k.
 template <int kCount>
 RibReaction ReactBending(const RibLaw& law, double tension,
@@ -122,36 +155,14 @@ RibReaction ReactBending(const RibLaw& law, double tension,
   const double y = tension * bent * bent / (4 * law.bending_stiffness);
   // Written so that a NaN fails.
   if (!(bent > 0 && law.bending_stiffness > 0 && y > -kPi * kPi)) return fail();
-  Pair<J> G, by_tension;
+  Pair<J> H, H_T;
   Column(variable(law.length, 1), variable(law.bending_stiffness, 2), law.end,
-         variable(tension, 0), &G, &by_tension);
-  // The rows of (k + G) alpha = k a, or alpha = a at a clamped end.
-  const bool springs[2] = {std::isfinite(law.hinge_stiffness[0]),
-                           std::isfinite(law.hinge_stiffness[1])};
-  Pair<J> H = G, H_T = by_tension;
-  if (springs[0] || springs[1]) {
-    J k[2], a[2][2] = {{J(1), J(0)}, {J(0), J(1)}};
-    const J of_G[2][2] = {{G.ff, G.fb}, {G.fb, G.bb}};
-    for (int i = 0; i < 2; ++i) {
-      k[i] = springs[i] ? variable(law.hinge_stiffness[i], 3) : J(1);
-      for (int j = 0; springs[i] && j < 2; ++j) {
-        a[i][j] = of_G[i][j] + (i == j ? k[i] : J(0));
-      }
-    }
-    const J determinant = a[0][0] * a[1][1] - a[0][1] * a[1][0];
-    // The rib buckles on its springs.
-    if (!(a[0][0].a > 0 && a[1][1].a > 0 && determinant.a > 0)) return fail();
-    const J w[2][2] = {
-        {a[1][1] * k[0] / determinant, -(a[0][1] * k[1]) / determinant},
-        {-(a[1][0] * k[0]) / determinant, a[0][0] * k[1] / determinant}};
-    H = {G.ff * w[0][0] + G.fb * w[1][0], G.ff * w[0][1] + G.fb * w[1][1],
-         G.fb * w[0][1] + G.bb * w[1][1]};
-    const Pair<J>& t = by_tension;
-    const auto between = [&](int i, int j) {
-      return w[0][i] * (t.ff * w[0][j] + t.fb * w[1][j]) +
-             w[1][i] * (t.fb * w[0][j] + t.bb * w[1][j]);
-    };
-    H_T = {between(0, 0), between(0, 1), between(1, 1)};
+         variable(tension, 0), &H, &H_T);
+  if (!PutSpringsInSeries<J>(law,
+                             {variable(law.hinge_stiffness[0], 3),
+                              variable(law.hinge_stiffness[1], 3)},
+                             &H, &H_T)) {
+    return fail();
   }
   const J moment[2] = {H.ff * turn[0] + H.fb * turn[1],
                        H.fb * turn[0] + H.bb * turn[1]};

@@ -253,7 +253,7 @@ bool EquilibriumSolver::Shoot(const Eigen::VectorXd& q,
                               LadderShot* shot) {
   status_ = SolveStatus::kNotConverged;
   undeformed_ = false;
-  if (!newton_.Shoot(q, contacts)) {
+  if (!newton_.Shoot(q, contacts) || BendsTooFar(newton_.frame(), 0)) {
     Reset();
     return false;
   }
