@@ -3,7 +3,8 @@
 
 LOGS_DIR has <finger>/<world>/{train,holdout}.csv and their truth (make_logs.py).
 Writes OUT_DIR/outcomes.json. A finger is calibrated with the bundled plan and with
-each datasets/reality/<finger>/plan_*.yaml; the control has the last of them alone.
+each datasets/reality/<finger>/plan_*.yaml, which may have a finger_*.yaml of its own;
+the control has the last of them alone.
 """
 
 import json
@@ -28,11 +29,17 @@ BUNDLED_PLAN = ROOT / "configs" / "plans" / "force_and_circle.yaml"
 CONTROLS = ("strip",)
 
 
+def drawing_of(finger, plan):
+    """A plan may have a drawing of its own."""
+    own = BUNDLED / finger / f"finger_{plan}.yaml"
+    return own if own.exists() else BUNDLED / finger / "finger.yaml"
+
+
 def cases(build, logs, out):
     """(finger, world, folder of its logs, name of the plan, plan)."""
     for finger in HEIGHTS:
         plans = [("bundled", BUNDLED_PLAN)] + [(path.stem.removeprefix("plan_"), path)
-                                               for path in sorted((BUNDLED / finger).glob("plan_*.yaml"))]
+                                               for path in sorted((BUNDLED / finger).glob("plan_*.yaml"), reverse=True)]
         if finger in CONTROLS:
             drawing = yaml.safe_load((BUNDLED / finger / "finger.yaml").read_text("utf-8"))
             control = out / finger / "same_model"
@@ -51,7 +58,7 @@ def main():
     found = []
     try:
         for finger, world, folder, name, plan in cases(build, logs, out):
-            result = outcome(build, BUNDLED / finger / "finger.yaml", plan, folder,
+            result = outcome(build, drawing_of(finger, name), plan, folder,
                              plants.read(BUNDLED / finger / "plant.yaml"), SCENE,
                              out / finger / world.replace(" ", "_") / name)
             found.append({"finger": finger, "world": world, "plan": name, **result})

@@ -1,15 +1,15 @@
 """A one-piece finger as a frame of straight elastic beams, for small loads: linear,
 joints rigid, ribs clamped to both beams.
 
-A joint of solids is stiff within the beam: of the way from the beam's neutral line
-to its inner surface the rib's first `rigid_share` does not bend.
+The first `rigid_share` of a rib's way from the beam's neutral line to its inner
+surface does not bend.
 """
 
 import math
 
 import numpy as np
 
-STIFF = 1e4  # of what does not bend, relative
+from plant import STIFF
 
 
 class Frame:
@@ -28,10 +28,6 @@ class Frame:
         self.nodes.append((x, y))
         return len(self.nodes) - 1
 
-    def _sections(self, side, thickness):
-        modulus = self.plant.modulus[side] / (1 - self.plant.poisson**2)
-        return (modulus * self.plant.width_mm * thickness, modulus * self.plant.width_mm * thickness**3 / 12)
-
     def _beam(self, side, tip):
         plant, angle = self.plant, self.plant.angle[side]
         (x, y), end = plant.base[side], plant.front_length_mm / math.sin(angle)
@@ -45,7 +41,7 @@ class Frame:
             node = tip if s == end else self._node(x + s * math.cos(angle), y + s * math.sin(angle))
             self.column[side][s] = node
             if last is not None:
-                self.beams.append((last, node, *self._sections(side, plant.thickness[side])))
+                self.beams.append((last, node, *plant.section(side, plant.thickness[side])))
             last = node
 
     def _rib(self, rib, rigid_share):
@@ -53,12 +49,8 @@ class Frame:
         (x0, y0), (x1, y1) = (self.nodes[n] for n in ends)
         length = math.dist((x0, y0), (x1, y1))
         c, s = (x1 - x0) / length, (y1 - y0) / length
-        # Ribs are of the front beam's material, as all is one piece.
-        section = self._sections("front", rib.thickness_mm)
-        rigid = []
-        for side in ("front", "back"):
-            angle = self.plant.angle[side]
-            rigid.append(rigid_share * self.plant.thickness[side] / 2 / abs(c * math.sin(angle) - s * math.cos(angle)))
+        section = self.plant.rib_section(rib)
+        rigid = self.plant.rigid_ends(rib, rigid_share)
         if rigid_share:
             inner = [self._node(x0 + c * rigid[0], y0 + s * rigid[0]), self._node(x1 - c * rigid[1], y1 - s * rigid[1])]
             self.beams += [(end, near, *(STIFF * value for value in section)) for end, near in zip(ends, inner)]

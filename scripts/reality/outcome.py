@@ -34,6 +34,8 @@ def number(text):
 def true_values(plant):
     """By the names of calibration.yaml; ribs are as drawn."""
     values = {f"{side}_stiffness_N_mm2": plant.stiffness(side) for side in ("front", "back")}
+    if plant.ribs[0].thickness_mm:
+        values["rib_bending_stiffness_N_mm2"] = plant.rib_section(plant.ribs[0])[1]
     for j, gauge in enumerate(plant.gauges, 1):
         values[f"gauge_{j}_gain_V_per_rad"] = gauge.gain_V_per_rad
         values[f"gauge_{j}_offset_V"] = gauge.offset_V

@@ -14,6 +14,9 @@ import pathlib
 
 import yaml
 
+STIFF = 1e4  # of what does not bend, relative
+RIGID_SHARE = 0.7  # of the way into a joint of solids, where it agrees best with CalculiX
+
 
 @dataclasses.dataclass
 class Rib:
@@ -56,9 +59,57 @@ class Plant:
         span = (x * math.sin(phi) + rib["front_mm"] * math.cos(phi)) / math.sin(phi - alpha)
         return (rib["front_mm"] + span * math.sin(alpha)) / math.sin(phi)
 
+    def section(self, side, thickness):
+        """EA in N and EI in N mm^2 of a strip too wide to curve across its width (plane strain)."""
+        modulus = self.modulus[side] / (1 - self.poisson**2)
+        return modulus * self.width_mm * thickness, modulus * self.width_mm * thickness**3 / 12
+
     def stiffness(self, side):
-        """EI in N mm^2 of a strip too wide to curve across its width (plane strain)."""
-        return self.modulus[side] * self.width_mm * self.thickness[side] ** 3 / (12 * (1 - self.poisson**2))
+        return self.section(side, self.thickness[side])[1]
+
+    def rib_section(self, rib):
+        """Ribs are of the front beam's material, as all is one piece."""
+        return self.section("front", rib.thickness_mm)
+
+    def rigid_ends(self, rib, share):
+        """The rib's lengths in front and behind from the neutral line to `share` of the way
+        to the inner surface. A joint of solids is stiff within the beam."""
+        (x0, y0), (x1, y1) = (self.point(side, s) for side, s in (("front", rib.front_mm), ("back", rib.back_mm)))
+        length = math.dist((x0, y0), (x1, y1))
+        c, s = (x1 - x0) / length, (y1 - y0) / length
+        return [share * self.thickness[side] / 2 / abs(c * math.sin(self.angle[side]) - s * math.cos(self.angle[side]))
+                for side in ("front", "back")]
+
+    def point(self, side, s):
+        (x, y), angle = self.base[side], self.angle[side]
+        return x + s * math.cos(angle), y + s * math.sin(angle)
+
+    def rigid_tip(self, share):
+        """So much of either beam at the tip is within `share` of the solid that joins them, which
+        begins where the inner surfaces meet."""
+        front, back = (self.thickness[side] / 2 for side in ("front", "back"))
+        wedge = self.angle["back"] - self.angle["front"]
+        return {"front": share * (front * math.cos(wedge) + back) / math.sin(wedge),
+                "back": share * (front + back * math.cos(wedge)) / math.sin(wedge)}
+
+    def one_piece(self, share):
+        """Beams and ribs of finger.yaml: ribs bend, all stretches, contacts act on the surface, and of
+        a joint's solid the first `share` does not bend."""
+        beams, tip = {}, self.rigid_tip(share)
+        for side, thickness in self.thickness.items():
+            axial, bending = self.section(side, thickness)
+            length = self.front_length_mm / math.sin(self.angle[side])
+            beams[side] = {"axial_stiffness_N": axial, "pieces": [{"bending_stiffness_N_mm2": bending}]}
+            if share:
+                beams[side]["pieces"] = [{"end_mm": length - tip[side], "bending_stiffness_N_mm2": bending},
+                                         {"bending_stiffness_N_mm2": STIFF * bending}]
+        beams["front"]["surface_offset_mm"] = self.thickness["front"] / 2
+        ribs = []
+        for rib in self.ribs:
+            axial, bending = self.rib_section(rib)
+            ribs.append({"front_mm": rib.front_mm, "back_mm": rib.back_mm, "axial_stiffness_N": axial,
+                         "bending_stiffness_N_mm2": bending, "rigid_ends_mm": self.rigid_ends(rib, share)})
+        return {"beams": beams, "ribs": ribs}
 
 
 def read(path):

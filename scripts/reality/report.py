@@ -55,12 +55,17 @@ def short(value, std):
 
 
 def parameters(outcomes):
-    """A row a parameter: its true value, then value, std and error over std of each case."""
+    """A row a parameter: its true value, then value, std and error over std of each case; empty
+    where a plan does not vary it."""
     body = []
-    for k, first in enumerate(outcomes[0]["parameters"]):
-        row = [f"`{first['name']}`", "" if first["true"] is None else f"{first['true']:.6g}"]
-        for o in outcomes:
-            p = o["parameters"][k]
+    named = [{p["name"]: p for p in o["parameters"]} for o in outcomes]
+    for name, first in {name: p for of in reversed(named) for name, p in of.items()}.items():
+        row = [f"`{name}`", "" if first["true"] is None else f"{first['true']:.6g}"]
+        for of in named:
+            p = of.get(name)
+            if p is None:
+                row.append("")
+                continue
             off = "" if p["true"] is None or not p["std"] > 0 else f", {(p['value'] - p['true']) / p['std']:+.1f} std"
             row.append(f"{short(p['value'], p['std'])} ± {short(p['std'], p['std'])}{off}")
         body.append(row)

@@ -253,6 +253,58 @@ TEST(FingerYamlTest, HingeStiffnessIsOneNumberOrTwo) {
   }
 }
 
+TEST(FingerYamlTest, RibsThatBendRoundTripAndNameTheirErrors) {
+  const TempFolder folder;
+  const auto read = [&](const std::string& rib) {
+    return ReadFinger(
+        folder.Write("f.yaml",
+                     "schema_version: 1\nname: n\n"
+                     "geometry: {front_length_mm: 140, back_angle_deg: 112}\n"
+                     "beams: {front: {bending_stiffness_N_mm2: 3}, back: "
+                     "{bending_stiffness_N_mm2: 3}}\n"
+                     "ribs: [{front_mm: 17, angle_deg: 10, " +
+                         rib + "}]\n"));
+  };
+  // Without a key for hinges the rib is clamped.
+  Finger finger =
+      read("bending_stiffness_N_mm2: 1000, rigid_ends_mm: [0.5, 1]");
+  EXPECT_TRUE(finger.ribs[0].Bends());
+  EXPECT_EQ(finger.ribs[0].front_rigid_mm, 0.5);
+  EXPECT_EQ(finger.ribs[0].back_rigid_mm, 1);
+  EXPECT_TRUE(std::isinf(finger.ribs[0].front_hinge_N_mm_per_rad));
+  EXPECT_FALSE(read("axial_stiffness_N: 1e4").ribs[0].HasMoments());
+  const Finger sprung =
+      read("bending_stiffness_N_mm2: 1e3, hinge_stiffness_N_mm_per_rad: 40");
+  for (Finger at : {finger, sprung}) {
+    at.ribs[0].bending_stiffness_N_mm2 = 1e3 / 3;
+    const Rib back =
+        ReadFinger(folder.Write("g.yaml", FingerToYaml(at))).ribs[0];
+    EXPECT_EQ(back.bending_stiffness_N_mm2, 1e3 / 3);
+    EXPECT_EQ(back.front_rigid_mm, at.ribs[0].front_rigid_mm);
+    EXPECT_EQ(back.back_rigid_mm, at.ribs[0].back_rigid_mm);
+    EXPECT_EQ(back.back_hinge_N_mm_per_rad, at.ribs[0].back_hinge_N_mm_per_rad);
+  }
+  const auto expect_error = [&](const std::string& rib,
+                                const std::string& message) {
+    try {
+      read(rib);
+      FAIL() << rib;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(message), std::string::npos)
+          << error.what();
+    }
+  };
+  expect_error("rigid_ends_mm: [1, 1]",
+               "f.yaml:5:53: rigid_ends_mm: only a rib with "
+               "bending_stiffness_N_mm2 bends between its ends");
+  expect_error("bending_stiffness_N_mm2: 9, rigid_ends_mm: [1]",
+               "rigid_ends_mm: expected two lengths, none below 0");
+  expect_error("bending_stiffness_N_mm2: 9, rigid_ends_mm: [30, 30]",
+               "shorter than its rigid ends");
+  expect_error("bending_stiffness_N_mm2: 0", "bending_stiffness_N_mm2");
+  expect_error("bending_stifness_N_mm2: 5", "bending_stiffness_N_mm2");
+}
+
 TEST(FingerYamlTest, ClampsAndSurfacesRoundTripExactly) {
   const TempFolder folder;
   const auto read = [&](const std::string& front) {

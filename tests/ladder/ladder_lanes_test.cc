@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "finray/ladder/ladder_newton.h"
@@ -79,6 +80,12 @@ TEST(LadderLanesTest, EveryLaneIsAFrameAlone) {
   stretching.front_axial_stiffness_N = 1e4;
   Finger ribless = PaperFinger();
   ribless.ribs.clear();
+  Finger bending = PaperFinger();
+  for (Rib& rib : bending.ribs) {
+    rib.bending_stiffness_N_mm2 = 2000;
+    rib.front_hinge_N_mm_per_rad = std::numeric_limits<double>::infinity();
+    rib.back_hinge_N_mm_per_rad = 200;
+  }
   Finger soft = PaperFinger();  // whose parameters are exchanged on the way
   soft.front_stiffness_N_mm2 = soft.back_stiffness_N_mm2 = 12.5;
   // In one element; in two; on a rib's hinge and at an end.
@@ -94,6 +101,8 @@ TEST(LadderLanesTest, EveryLaneIsAFrameAlone) {
   EXPECT_LT(WorstLane(elastic, one, astride, force), 1e-11);
   EXPECT_LT(WorstLane(stretching, one, astride, force), 1e-11);
   EXPECT_LT(WorstLane(ribless, one, near, light), 1e-11);
+  EXPECT_LT(WorstLane(bending, one, near, force), 1e-11);
+  EXPECT_LT(WorstLane(bending, two, astride, force), 1e-11);
   EXPECT_LT(WorstLane(PaperFinger(), links, {66.1, 66.2, 66.3, 66.4}, force),
             1e-11);
   EXPECT_LT(WorstLane(soft, many, {69.9, 70, 70.1, 70.2}, light), 1e-8);

@@ -58,9 +58,20 @@ class CalculixTest(unittest.TestCase):
     def test_a_one_piece_finger_bends_lightly_as_a_frame_of_beams(self):
         printed = plants.read(verify.DATA / "printed/plant.yaml")
         pressed = verify.pressed(printed, self.path, [(54.0, 0.3)])
-        for _, _, _, way_off, gauges_off in verify.frames(printed, 0.7, pressed):
+        for _, _, _, way_off, gauges_off in verify.frames(printed, plants.RIGID_SHARE, pressed):
             self.assertLess(way_off, 2)
             self.assertLess(gauges_off, 2)
+
+    def test_a_one_piece_finger_bends_far_as_in_finray(self):
+        printed = plants.read(verify.DATA / "printed/plant.yaml")
+        places = [(50.0, 1.2)]
+        touches = verify.touches(printed, self.path, 0.0, places)
+        (_, _, force, force_off, gauges_off, place_off), = verify.beside(
+            BUILD, printed, "printed", self.path, 0.0, places, touches, plants.RIGID_SHARE)
+        self.assertGreater(force, 5)
+        self.assertLess(force_off, 3)
+        self.assertLess(gauges_off, 2)
+        self.assertLess(place_off, 0.2)
 
     def test_a_deck_that_ccx_refuses_is_one_clear_line(self):
         with self.assertRaisesRegex(ccx.NotSolved, r"^\*ERROR"):

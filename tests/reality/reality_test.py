@@ -15,6 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "scripts" / "reality"))
 
+import beams
 import gauges
 import make_logs
 import outcome
@@ -132,6 +133,19 @@ class BundledLogsTest(unittest.TestCase):
                 self.assertEqual(*places)
 
 
+class OnePieceTest(unittest.TestCase):
+    def test_ribs_that_bend_are_those_of_calculix(self):
+        """Gauge angles at all 360 touches of the bundled logs: light to 7 N, at all heights."""
+        with tempfile.TemporaryDirectory() as folder:
+            found = beams.bundled(BUILD, plant("printed"), sorted((DATA / "printed").glob("*/*_truth.csv")),
+                                  pathlib.Path(folder), plants.RIGID_SHARE)
+        self.assertEqual(len(found), 360)
+        self.assertLess(min(force for force, _ in found), 1)
+        self.assertGreater(max(force for force, _ in found), 6)
+        self.assertLess(max(off for _, off in found), 2)
+        self.assertLess(statistics.fmean(off for _, off in found), 1)
+
+
 class OutcomeTest(unittest.TestCase):
     def test_only_frames_that_are_ok_and_touch_count(self):
         truth = [{"normal_1_N": "2", "contact_1_mm": "50", "contact_1_angle_rad": "1.5"}, {"normal_1_N": ""},
@@ -142,6 +156,24 @@ class OutcomeTest(unittest.TestCase):
         self.assertEqual(found, {"force": [(0.5, 0.4)], "place": [(-1.0, 2.0)], "angle": [0.0], "percent": [25.0]})
         self.assertEqual(outcome.means(found), {"place_mm": 1, "angle_deg": 0, "force_N": 0.5, "force_percent": 25})
         self.assertEqual(outcome.summary(found["force"]), {"rms": 0.5, "max": 0.5, "covered_68": 0, "covered_95": 100})
+
+    def test_the_one_piece_finger_is_calibrated_and_covered(self):
+        with tempfile.TemporaryDirectory() as folder:
+            found = outcome.outcome(BUILD, DATA / "printed/finger_bending.yaml", DATA / "printed/plan_bending.yaml",
+                                    DATA / "printed/smooth", plant("printed"), ROOT / "configs/scenes/auto.yaml",
+                                    pathlib.Path(folder) / "out")
+        self.assertEqual(found["exit"], 0)
+        self.assertGreater(found["ok"], 50)
+        self.assertLess(found["force"]["rms"], 0.2)
+        self.assertGreater(found["force"]["covered_95"], 85)
+        for entry in found["parameters"]:
+            self.assertLess(abs(entry["value"] - entry["true"]), 4 * entry["std"], entry["name"])
+
+    def test_a_parameter_that_one_plan_alone_varies_has_a_row(self):
+        ei, rib = ({"name": name, "true": 2.0, "value": 3.0, "std": 0.5} for name in ("ei", "rib"))
+        self.assertEqual(report.parameters([{"parameters": [ei]}, {"parameters": [ei, rib]}]),
+                         [["`ei`", "2", "3.00 ± 0.50, +2.0 std", "3.00 ± 0.50, +2.0 std"],
+                          ["`rib`", "2", "", "3.00 ± 0.50, +2.0 std"]])
 
     def test_the_strip_without_friction_is_calibrated_and_covered(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -17,8 +17,12 @@ class EffectsTest : public ResidualsFixture {
  protected:
   EffectsTest() {
     SetParameter({FingerParameterKind::kHingeStiffness}, 30, &finger_);
+    finger_.ribs[1].bending_stiffness_N_mm2 = 3000;
+    finger_.ribs[2].bending_stiffness_N_mm2 = 2000;
+    finger_.ribs[2].front_rigid_mm = 1;
     using Kind = FingerParameterKind;
     shared_ = SharedParameters::Of(finger_, {{Kind::kHingeStiffness},
+                                             {Kind::kRibBending},
                                              {Kind::kFrontHinge, 2},
                                              {Kind::kBackHinge, 1},
                                              {Kind::kBackAngle}});
@@ -48,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(Forms, EffectsTest,
 
 TEST_P(EffectsTest, AnalyticalVersusFiniteDifferences) {
   ASSERT_TRUE(frame_->valid());
-  ASSERT_EQ(frame_->effects(), 5);
+  ASSERT_EQ(frame_->effects(), 6);
   const double volts = 0.1;
   const GaugeReadingResidual gauge(frame_, 1, &volts, 3e-4);
   CheckDerivatives(gauge, BlocksAnd({&gain_, &curvature_, offset_}), 1e-5);

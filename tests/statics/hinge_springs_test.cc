@@ -14,6 +14,7 @@
 #include "finray/statics/shape.h"
 #include "statics/equilibrium_values.h"
 #include "statics/gauss_legendre.h"
+#include "statics/rib_ends.h"
 #include "statics/strain_energy.h"
 #include "test_finger.h"
 
@@ -44,47 +45,6 @@ const std::vector<std::vector<PointContact>>& Loads() {
   return loads;
 }
 
-Vector2d PointOf(const Section& section) {
-  return {section.x_mm, section.y_mm};
-}
-
-// What the beam does to the rib at a hinge, read from the jump there.
-struct HingeLoad {
-  Vector2d at, force;
-  double moment, turn;
-};
-
-HingeLoad ReadHinge(const Shape& shape, const Finger& finger, int rib,
-                    Side side) {
-  constexpr double kBeside_mm = 1e-7;
-  const double arc = side == Side::kFront ? finger.ribs[rib].front_mm
-                                          : finger.ribs[rib].back_mm;
-  const Section before = shape.At(side, arc - kBeside_mm),
-                behind = shape.At(side, arc + kBeside_mm);
-  return {PointOf(shape.At(side, arc)),
-          {behind.force_x_N - before.force_x_N,
-           behind.force_y_N - before.force_y_N},
-          behind.moment_N_mm - before.moment_N_mm,
-          shape.At(side, arc).theta_rad - BeamAngle(finger, side)};
-}
-
-double DirectionOf(const Vector2d& r) { return std::atan2(r.y(), r.x()); }
-
-double RestDirection(const Finger& finger, int rib) {
-  return DirectionOf(
-      UndeformedPoint(finger, Side::kBack, finger.ribs[rib].back_mm) -
-      UndeformedPoint(finger, Side::kFront, finger.ribs[rib].front_mm));
-}
-
-// The turn of both springs of a rib.
-std::array<double, 2> Turns(const Shape& shape, const Finger& finger, int rib) {
-  const HingeLoad front = ReadHinge(shape, finger, rib, Side::kFront),
-                  back = ReadHinge(shape, finger, rib, Side::kBack);
-  const double swing =
-      DirectionOf(back.at - front.at) - RestDirection(finger, rib);
-  return {front.turn - swing, back.turn - swing};
-}
-
 class HingeSpringsTest : public testing::TestWithParam<Scheme> {
  protected:
   Discretization discretization() const { return {GetParam(), 0}; }
@@ -107,9 +67,9 @@ TEST(HingeSpringsBalanceTest,
     const Shape shape(solver, contacts);
     for (int i = 0; i < static_cast<int>(finger.ribs.size()); ++i) {
       const Rib& rib = finger.ribs[i];
-      const HingeLoad front = ReadHinge(shape, finger, i, Side::kFront),
-                      back = ReadHinge(shape, finger, i, Side::kBack);
-      const auto turns = Turns(shape, finger, i);
+      const RibEndLoad front = ReadRibEnd(shape, finger, i, Side::kFront),
+                       back = ReadRibEnd(shape, finger, i, Side::kBack);
+      const auto turns = RibTurns(shape, finger, i);
       EXPECT_NEAR(front.moment, rib.front_hinge_N_mm_per_rad * turns[0], 2e-6);
       EXPECT_NEAR(back.moment, rib.back_hinge_N_mm_per_rad * turns[1], 2e-6);
       EXPECT_LT((front.force + back.force).norm(), 1e-6);
@@ -159,7 +119,7 @@ TEST(HingeSpringsBalanceTest, WorkOfTheContactIsStored) {
     double sum = StrainEnergy(solver, contacts);
     const Shape shape(solver, contacts);
     for (int i = 0; i < static_cast<int>(finger.ribs.size()); ++i) {
-      const auto turns = Turns(shape, finger, i);
+      const auto turns = RibTurns(shape, finger, i);
       sum += finger.ribs[i].front_hinge_N_mm_per_rad * turns[0] * turns[0] / 2 +
              finger.ribs[i].back_hinge_N_mm_per_rad * turns[1] * turns[1] / 2;
     }

@@ -78,10 +78,11 @@ void CheckArguments(const Finger& finger, int resolution,
     }
   }
   for (const Rib& rib : finger.ribs) {
-    if (!rib.HasSprings()) continue;
-    throw InputError(
-        "chain: its hinges turn freely, but a rib has a "
-        "hinge_stiffness_N_mm_per_rad");
+    if (!rib.HasMoments()) continue;
+    throw InputError(std::string("chain: its hinges turn freely, but a rib has "
+                                 "a ") +
+                     (rib.Bends() ? "bending_stiffness_N_mm2"
+                                  : "hinge_stiffness_N_mm_per_rad"));
   }
 }
 

@@ -18,9 +18,9 @@ inline const char* SideName(Side side) {
   return side == Side::kFront ? "front" : "back";
 }
 
-/// A rib that is hinged to both beams, rigid or axially elastic. Hinges are
-/// given by arc length from the base of their beam. A length other than the
-/// distance of the hinges in the undeformed finger means prestress.
+/// A rib between both beams, rigid or axially elastic, on hinges or bending.
+/// Hinges are given by arc length from the base of their beam. A length other
+/// than the distance of the hinges in the undeformed finger means prestress.
 struct Rib {
   double front_mm = 0;   ///< Hinge on the front beam, l_i.
   double back_mm = 0;    ///< Hinge on the back beam.
@@ -29,10 +29,19 @@ struct Rib {
   /// Springs between beam and rib, k_F and k_B. Each turns with the beam
   /// against the rib, a = (theta - theta_0) - (phi - phi_0), and is at rest in
   /// the undeformed finger. Its moment k a acts on the rib, -k a on the beam.
+  /// In a rib that bends they are in series with it, and an infinite one clamps
+  /// the rib to the beam.
   double front_hinge_N_mm_per_rad = 0, back_hinge_N_mm_per_rad = 0;
+  /// EI. A rib with an infinite one does not bend (ladder/rib_law.h).
+  double bending_stiffness_N_mm2 = std::numeric_limits<double>::infinity();
+  /// So much of a bending rib's length at either end does not bend.
+  double front_rigid_mm = 0, back_rigid_mm = 0;
 
-  bool HasSprings() const {
-    return front_hinge_N_mm_per_rad != 0 || back_hinge_N_mm_per_rad != 0;
+  bool Bends() const { return std::isfinite(bending_stiffness_N_mm2); }
+  /// Says that the rib's ends carry moments.
+  bool HasMoments() const {
+    return Bends() || front_hinge_N_mm_per_rad != 0 ||
+           back_hinge_N_mm_per_rad != 0;
   }
 };
 

@@ -9,6 +9,12 @@
 namespace finray {
 namespace {
 
+template <class Ribs>
+auto& FirstBending(Ribs& ribs) {
+  return *std::find_if(ribs.begin(), ribs.end(),
+                       [](const Rib& rib) { return rib.Bends(); });
+}
+
 // The member of a finger, const or not, that holds a parameter.
 template <class AnyFinger>
 auto& Variable(AnyFinger& finger, const FingerParameter& parameter) {
@@ -33,6 +39,8 @@ auto& Variable(AnyFinger& finger, const FingerParameter& parameter) {
       return finger.gauges[parameter.index].creep_time_constant_s;
     case FingerParameterKind::kHingeStiffness:
       return finger.ribs[0].front_hinge_N_mm_per_rad;
+    case FingerParameterKind::kRibBending:
+      return FirstBending(finger.ribs).bending_stiffness_N_mm2;
     case FingerParameterKind::kFrontPiece:
       return finger.front_pieces[parameter.index].stiffness_ratio;
     case FingerParameterKind::kBackPiece:
@@ -90,6 +98,9 @@ std::vector<FingerParameter> AllParametersOf(const Finger& finger) {
   if (!finger.ribs.empty()) {
     all.push_back({FingerParameterKind::kHingeStiffness});
   }
+  if (FirstBendingRib(finger) != nullptr) {
+    all.push_back({FingerParameterKind::kRibBending});
+  }
   const auto add_pieces = [&](FingerParameterKind kind, std::size_t count) {
     for (std::size_t i = 1; i < count; ++i) {
       all.push_back({kind, static_cast<int>(i)});
@@ -121,6 +132,7 @@ std::string ParameterName(const FingerParameter& parameter) {
       "gauge_#_creep_share",
       "gauge_#_creep_time_constant_s",
       "hinge_stiffness_N_mm_per_rad",
+      "rib_bending_stiffness_N_mm2",
       "front_piece_#_stiffness_step",
       "back_piece_#_stiffness_step",
       "rib_#_front_mm",
@@ -139,9 +151,9 @@ std::string ParameterName(const FingerParameter& parameter) {
 
 const char* ParameterUnit(FingerParameterKind kind) {
   constexpr const char* kUnits[kFingerParameterKinds] = {
-      "N mm^2", "N mm^2",     "V/rad",      "V",        "mm", "1/rad", "mm",
-      "mm",     "1",          "s",          "N mm/rad", "1",  "1",     "mm",
-      "mm",     "rad/(N mm)", "rad/(N mm)", "deg",      "mm"};
+      "N mm^2", "N mm^2", "V/rad",      "V",          "mm",     "1/rad", "mm",
+      "mm",     "1",      "s",          "N mm/rad",   "N mm^2", "1",     "1",
+      "mm",     "mm",     "rad/(N mm)", "rad/(N mm)", "deg",    "mm"};
   return kUnits[static_cast<int>(kind)];
 }
 
@@ -157,6 +169,13 @@ void SetParameter(const FingerParameter& parameter, double value,
   if (parameter.kind == FingerParameterKind::kHingeStiffness) {
     for (Rib& rib : finger->ribs) {
       rib.front_hinge_N_mm_per_rad = rib.back_hinge_N_mm_per_rad = value;
+    }
+    return;
+  }
+  if (parameter.kind == FingerParameterKind::kRibBending) {
+    const double factor = value / ParameterValue(*finger, parameter);
+    for (Rib& rib : finger->ribs) {
+      if (rib.Bends()) rib.bending_stiffness_N_mm2 *= factor;
     }
     return;
   }

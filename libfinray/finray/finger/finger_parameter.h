@@ -25,6 +25,7 @@ enum class FingerParameterKind {
   kGaugeCreepShare,
   kGaugeCreepTime,
   kHingeStiffness,  ///< One for all hinges of the ribs.
+  kRibBending,  ///< EI of the first rib that bends; others keep their ratio.
   // The stiffness of a piece, from the second one on, over that of the piece
   // before it. All pieces behind it change with it.
   kFrontPiece,
@@ -39,7 +40,7 @@ enum class FingerParameterKind {
   kBackAngle,      ///< In degrees.
   kSurfaceOffset,  ///< That of the front beam.
 };
-constexpr int kFingerParameterKinds = 19;
+constexpr int kFingerParameterKinds = 20;
 
 /// Says that a plain finger goes without this kind. Reports list its parameters
 /// only where they are free.

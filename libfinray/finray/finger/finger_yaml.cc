@@ -50,6 +50,7 @@ std::string TextThat(const ReadsBack& reads_back, long double value) {
 constexpr const char* kHingeStiffness = "hinge_stiffness_N_mm_per_rad";
 constexpr const char* kClampStiffness = "clamp_stiffness_N_mm_per_rad";
 constexpr const char* kSurfaceOffset = "surface_offset_mm";
+constexpr const char* kRigidEnds = "rigid_ends_mm";
 constexpr const char* kBendingStiffness = "bending_stiffness_N_mm2";
 constexpr const char* kPlate[] = {"width_mm", "thickness_mm",
                                   "youngs_modulus_GPa"};
@@ -201,9 +202,16 @@ double ReadBackHinge(const YamlMap& yaml, const Finger& finger,
 }
 
 // Springs at both hinges: one number, or that in front and that behind. A
-// calibration of free hinges may end a little below 0.
+// calibration of free hinges may end a little below 0. A rib that bends is
+// clamped without them.
 void ReadHinges(const YamlMap& yaml, Rib* rib) {
-  if (!yaml.Has(kHingeStiffness)) return;
+  if (!yaml.Has(kHingeStiffness)) {
+    if (rib->Bends()) {
+      rib->front_hinge_N_mm_per_rad = rib->back_hinge_N_mm_per_rad =
+          std::numeric_limits<double>::infinity();
+    }
+    return;
+  }
   if (yaml.IsSequence(kHingeStiffness)) {
     const std::vector<double> both = yaml.Numbers(kHingeStiffness);
     if (both.size() != 2) {
@@ -219,9 +227,36 @@ void ReadHinges(const YamlMap& yaml, Rib* rib) {
   }
 }
 
+void ReadBending(const YamlMap& yaml, Rib* rib) {
+  if (!yaml.Has(kBendingStiffness)) {
+    if (yaml.Has(kRigidEnds)) {
+      yaml.Fail(kRigidEnds, std::string(kRigidEnds) +
+                                ": only a rib with bending_stiffness_N_mm2 "
+                                "bends between its ends");
+    }
+    return;
+  }
+  rib->bending_stiffness_N_mm2 = yaml.PositiveNumber(kBendingStiffness);
+  if (!yaml.Has(kRigidEnds)) return;
+  const std::vector<double> ends = yaml.Numbers(kRigidEnds);
+  if (ends.size() != 2 || !(ends[0] >= 0 && ends[1] >= 0)) {
+    yaml.Fail(kRigidEnds, std::string(kRigidEnds) +
+                              ": expected two lengths, none below 0: [front, "
+                              "back]");
+  }
+  if (!(ends[0] + ends[1] < rib->length_mm)) {
+    yaml.Fail(kRigidEnds, std::string(kRigidEnds) + ": the rib is " +
+                              Short(rib->length_mm) +
+                              " mm long, shorter than its rigid ends");
+  }
+  rib->front_rigid_mm = ends[0];
+  rib->back_rigid_mm = ends[1];
+}
+
 Rib ReadRib(const YamlMap& yaml, const Finger& finger) {
   yaml.AllowOnly({"front_mm", "angle_deg", "back_mm", "length_mm",
-                  "axial_stiffness_N", kHingeStiffness});
+                  "axial_stiffness_N", kHingeStiffness, kBendingStiffness,
+                  kRigidEnds});
   Rib rib;
   rib.front_mm = yaml.PositiveNumber("front_mm");
   if (rib.front_mm >= finger.front_length_mm) {
@@ -233,6 +268,7 @@ Rib ReadRib(const YamlMap& yaml, const Finger& finger) {
       yaml.PositiveNumber("length_mm", NominalRibLength(finger, rib));
   rib.axial_stiffness_N =
       yaml.PositiveNumber("axial_stiffness_N", rib.axial_stiffness_N);
+  ReadBending(yaml, &rib);
   ReadHinges(yaml, &rib);
   return rib;
 }
@@ -356,6 +392,34 @@ std::string BeamToYaml(const Finger& finger, Side side) {
   return yaml.str();
 }
 
+std::string PairToYaml(double front, double back) {
+  return "[" + NumberText(front) + ", " + NumberText(back) + "]";
+}
+
+// Nothing for hinges that turn freely and for clamped ends. One clamped end
+// beside a spring is written as the stiffest one.
+std::string HingesToYaml(const Rib& rib) {
+  const double front =
+      std::min(rib.front_hinge_N_mm_per_rad, kLargestYamlNumber);
+  const double back = std::min(rib.back_hinge_N_mm_per_rad, kLargestYamlNumber);
+  const bool clamped = std::isinf(rib.front_hinge_N_mm_per_rad) &&
+                       std::isinf(rib.back_hinge_N_mm_per_rad);
+  if (!rib.HasMoments() || clamped) return "";
+  return std::string(", ") + kHingeStiffness + ": " +
+         (front == back ? NumberText(front) : PairToYaml(front, back));
+}
+
+std::string BendingToYaml(const Rib& rib) {
+  if (!rib.Bends()) return "";
+  std::string yaml = std::string(", ") + kBendingStiffness + ": " +
+                     NumberText(rib.bending_stiffness_N_mm2);
+  if (rib.front_rigid_mm != 0 || rib.back_rigid_mm != 0) {
+    yaml += std::string(", ") + kRigidEnds + ": " +
+            PairToYaml(rib.front_rigid_mm, rib.back_rigid_mm);
+  }
+  return yaml;
+}
+
 }  // namespace
 
 Finger ReadFinger(const std::string& path) {
@@ -419,12 +483,7 @@ std::string FingerToYaml(const Finger& finger, const std::string& comment) {
     add("back_mm", rib.back_mm);
     add("length_mm", rib.length_mm);
     add("axial_stiffness_N", rib.axial_stiffness_N);
-    if (rib.HasSprings()) {
-      const std::string front = NumberText(rib.front_hinge_N_mm_per_rad),
-                        back = NumberText(rib.back_hinge_N_mm_per_rad);
-      yaml << ", " << kHingeStiffness << ": "
-           << (front == back ? front : "[" + front + ", " + back + "]");
-    }
+    yaml << HingesToYaml(rib) << BendingToYaml(rib);
     yaml << "}\n";
   }
   if (!finger.gauges.empty()) yaml << "gauges:\n";

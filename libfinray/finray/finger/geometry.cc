@@ -90,6 +90,13 @@ double HingePlace(const Rib& rib, Side side) {
   return side == Side::kFront ? rib.front_mm : rib.back_mm;
 }
 
+const Rib* FirstBendingRib(const Finger& finger) {
+  for (const Rib& rib : finger.ribs) {
+    if (rib.Bends()) return &rib;
+  }
+  return nullptr;
+}
+
 double NominalRibLength(const Finger& finger, const Rib& rib) {
   return (UndeformedPoint(finger, Side::kBack, rib.back_mm) -
           UndeformedPoint(finger, Side::kFront, rib.front_mm))

@@ -47,6 +47,9 @@ double RibBackArc(const Finger& finger, double front_mm, double angle_rad);
 /// The arc length of a rib's hinge on one beam.
 double HingePlace(const Rib& rib, Side side);
 
+/// The first rib that bends; null if none does.
+const Rib* FirstBendingRib(const Finger& finger);
+
 /// The distance of a rib's hinges in the undeformed finger, d_{k,0} of (7).
 double NominalRibLength(const Finger& finger, const Rib& rib);
 

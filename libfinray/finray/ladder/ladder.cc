@@ -10,6 +10,25 @@
 namespace finray {
 namespace {
 
+void CheckMoments(const Rib& rib, const std::string& name) {
+  for (const double stiffness :
+       {rib.front_hinge_N_mm_per_rad, rib.back_hinge_N_mm_per_rad}) {
+    const bool clamped = rib.Bends() && stiffness > 0;
+    if (!std::isfinite(stiffness) && !clamped) {
+      throw InputError(name + " has a hinge stiffness that is not finite");
+    }
+  }
+  // Written so that a NaN fails.
+  if (!(rib.bending_stiffness_N_mm2 > 0)) {
+    throw InputError(name + " has no bending stiffness");
+  }
+  if (rib.Bends() &&
+      !(rib.front_rigid_mm >= 0 && rib.back_rigid_mm >= 0 &&
+        rib.front_rigid_mm + rib.back_rigid_mm < rib.length_mm)) {
+    throw InputError(name + " is shorter than its rigid ends");
+  }
+}
+
 // Ribs must lie inside both beams and in the same order on them, as the march
 // meets them.
 void CheckRibs(const Finger& finger) {
@@ -35,10 +54,7 @@ void CheckRibs(const Finger& finger) {
     if (!(rib.axial_stiffness_N > 0)) {
       throw InputError(name + " has no axial stiffness");
     }
-    if (!std::isfinite(rib.front_hinge_N_mm_per_rad) ||
-        !std::isfinite(rib.back_hinge_N_mm_per_rad)) {
-      throw InputError(name + " has a hinge stiffness that is not finite");
-    }
+    CheckMoments(rib, name);
     front = rib.front_mm;
     back = rib.back_mm;
   }
@@ -77,7 +93,8 @@ bool LadderModel::set_effect(int effect, double value) {
   if (MovesNodes(kind)) return MoveTo(effects_[effect], value);
   const bool piece = kind == FingerParameterKind::kFrontPiece ||
                      kind == FingerParameterKind::kBackPiece;
-  if (!std::isfinite(value) || (piece && !(value > 0))) return false;
+  const bool positive = piece || kind == FingerParameterKind::kRibBending;
+  if (!std::isfinite(value) || (positive && !(value > 0))) return false;
   SetParameter(effects_[effect], value, &finger_);
   if (piece) {
     const Side side =

@@ -21,7 +21,8 @@ namespace finray {
 //
 //   N_front+ = N_front- - T u,    N_back+ = N_back- + T u.
 //
-// Springs at its hinges add jumps of moment and a transverse force (finger.h).
+// Springs at its hinges, or a rib that bends, add jumps of moment and a
+// transverse force (finger.h, rib_law.h).
 // A contact force F makes N jump to N+ = N- - F on its beam. If it acts on a
 // surface at a height h above the beam, the moment of its friction makes M jump
 // too. A clamp with compliance turns by it times M. The march leaves 6 + r
@@ -30,8 +31,8 @@ namespace finray {
 //   q = (M, N_x, N_y at the front base; the same at the back base; T_1 .. T_r)
 //
 // and as many closure equations: r rib lengths, |r_R - r_L| = L (1 + T / EA),
-// equation (7) of the paper, and six at the tip, where position, angle, moment
-// and force of both beams must agree.
+// equation (7) of the paper, less what bending shortens; and six at the tip,
+// where position, angle, moment and force of both beams must agree.
 //
 // The state at every mesh node is an unknown too (multiple shooting): a Newton
 // step then starts each element near its true state. A march from the base

@@ -171,22 +171,29 @@ class LadderEvaluator {
     force[0][1] -= tension * uy;
     force[1][0] += tension * ux;
     force[1][1] += tension * uy;
-    if (f_.springs) PassSprings(rib, at, force, propagate);
+    if (f_.joined) PassJoints(rib, at, force, propagate);
   }
 
-  // The springs turn the rib by m = k a at each hinge, and the rib turns the
+  // The beams turn the rib by the moments m of rib_law.h, and the rib turns the
   // beams back: M jumps to M+ = M- + m. The couple Q d of the transverse forces
   // balances the rib, Q = (m_F + m_B) / d with d the distance of the hinges.
-  void PassSprings(int rib, const int at[2], T force[2][2], bool propagate) {
+  void PassJoints(int rib, const int at[2], T force[2][2], bool propagate) {
     const LadderNodes<T>& z = f_.state;
     const T ux = f_.rib_ux[rib], uy = f_.rib_uy[rib];
     const T swing = AngleOf(T(f_.rest_ux[rib] * uy - f_.rest_uy[rib] * ux),
                             T(f_.rest_ux[rib] * ux + f_.rest_uy[rib] * uy));
+    T* joint = f_.joints + kJointValues * rib;
+    for (int side = 0; side < 2; ++side) {
+      joint[kJointTurn + side] =
+          z.theta[at[side]] - f_.base_angle[side] - swing;
+    }
+    f_.react(
+        f_, rib,
+        columns_ != SweepColumns::kNone && columns_ != SweepColumns::kContacts);
+    f_.closure[rib] += joint[kJointBow];
     T sum{};
     for (int side = 0; side < 2; ++side) {
-      const T angle = z.theta[at[side]] - f_.base_angle[side] - swing;
-      const T moment = f_.hinge_stiffness[side][rib] * angle;
-      f_.hinge_angle[side][rib] = angle;
+      const T& moment = joint[kJointMoment + side];
       if (propagate) z.moment[at[side]] += moment;
       sum += moment;
     }
@@ -299,13 +306,13 @@ class LadderEvaluator {
         gap[1] = end.y - z.y[e + 1];
         gap[2] = end.theta - z.theta[e + 1];
         gap[3] = end.moment - z.moment[e + 1];
-        if (f_.springs) continue;
+        if (f_.joined) continue;
         for (int i = 0; i < 4; ++i) {
           largest = Larger(largest, Magnitude(gap[i]));
         }
       }
     }
-    if (f_.springs) largest = AddSpringsToGaps();
+    if (f_.joined) largest = AddJointsToGaps();
     f_.tip[0] = tip[0].x;
     f_.tip[1] = tip[0].y;
     f_.tip[2] = tip[0].theta;
@@ -322,11 +329,11 @@ class LadderEvaluator {
   }
 
   // Returns the largest gap.
-  T AddSpringsToGaps() {
+  T AddJointsToGaps() {
     for (int side = 0; side < 2; ++side) {
       for (int rib = 0; rib < f_.ribs; ++rib) {
         f_.gap[4 * f_.rib_element[side][rib] + 3] +=
-            f_.hinge_stiffness[side][rib] * f_.hinge_angle[side][rib];
+            f_.joints[kJointValues * rib + kJointMoment + side];
       }
     }
     T largest{};

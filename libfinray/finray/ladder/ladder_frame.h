@@ -68,6 +68,12 @@ constexpr int kMapEnd = 0, kMapStart = 4, kMapStiffness = 20, kMapLength = 24,
 /// A readout has the angle, its derivatives by the start (4), EI, offset and
 /// length.
 constexpr int kReadoutValues = 8;
+/// The offsets in LadderFrame::joints: the turns of a rib's ends and its
+/// reaction (rib_law.h), with derivatives of (m_F, m_B, bow) by L, EI and k.
+constexpr int kJointTurn = 0, kJointStiffness = 2, kJointMoment = 5,
+              kJointByTension = 7, kJointBow = 9, kJointBowByTension = 10,
+              kJointBy = 11, kJointValues = 20;
+enum JointBy { kByLength, kByBending, kByHinge };
 /// The columns of a node's rows that are used: six parameters, the step, and
 /// derivatives by the load or by up to kFittedContacts contacts.
 constexpr int kNodeColumns = 8, kMostNodeColumns = 16;
@@ -88,10 +94,15 @@ struct LadderFrame {
   int *piece;
   T *piece_step;
   T *rib_length, *rib_flexibility, *d_rib_length;
-  /// Springs at the hinges: k, and the rib's direction in the undeformed
-  /// finger.
-  bool springs = false;
-  T *hinge_stiffness[2], *rest_ux, *rest_uy;
+  /// Ribs whose ends carry moments (rib_law.h): on hinge springs, k, or bent,
+  /// EI (0: rigid), that over EI of the first such rib, and lengths of their
+  /// rigid ends; and the rib's direction in the undeformed finger.
+  bool joined = false;
+  T *hinge_stiffness[2], *rib_bending, *bending_ratio, *rib_end[2], *rest_ux,
+      *rest_uy;
+  /// ReactInFrame of rib_law.h, which is compiled once.
+  using React = void(LadderFrame &frame, int rib, bool derivatives);
+  React *react = nullptr;
   /// Clamps that turn: their compliance.
   bool clamps = false;
   alignas(sizeof(T)) T clamp[2] = {};
@@ -132,7 +143,7 @@ struct LadderFrame {
   alignas(sizeof(T)) T tip[3];
   alignas(sizeof(T)) T residual;  ///< The largest one; NaN if any is NaN.
   T *rib_ux, *rib_uy, *rib_distance;
-  T *hinge_angle[2];  ///< The turn a of each spring; only with springs.
+  T *joints;                         ///< kJointValues a rib; only if joined.
   int *first_readout, *end_readout;  ///< The readouts of each slot.
   T *readout_map;
 
@@ -144,9 +155,9 @@ struct LadderFrame {
   int affine = 6, stride = 8, node_columns = kNodeColumns;
   /// With kParameters, columns of effects behind those of the rib lengths. Each
   /// effect begins at its number among them; a negative number means none.
-  int effects = 0, by_hinge_stiffness = -1, by_friction = -1,
-      by_piece[2] = {-1, -1}, by_clamp[2] = {-1, -1}, by_back_angle = -1,
-      by_surface = -1;
+  int effects = 0, by_hinge_stiffness = -1, by_rib_bending = -1,
+      by_friction = -1, by_piece[2] = {-1, -1}, by_clamp[2] = {-1, -1},
+      by_back_angle = -1, by_surface = -1;
   int event_count = 0;
   T *taps;
   T *q_step;  ///< Rows of the change of q.

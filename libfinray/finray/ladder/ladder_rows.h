@@ -7,7 +7,7 @@ namespace finray {
 inline namespace FINRAY_ISA {
 
 // The rows of both beams during a sweep (ladder_kernel.h): where they are, what
-// their columns mean, and what springs, clamps, surfaces and moved nodes do to
+// their columns mean, and what joints, clamps, surfaces and moved nodes do to
 // them. `open` is for all
 // of q as parameters.
 template <class T, int kVectors>
@@ -50,74 +50,107 @@ class LadderRows : protected LadderWalkBack<T, kVectors> {
   }
   int EffectColumn(int effect) const { return RibColumn(f_.ribs) + effect; }
 
+  const T* Joint(int rib) const { return f_.joints + kJointValues * rib; }
+
   // With the rib's turn dphi = across / d, where u and v are its directions
-  // along and across, dm = k (dtheta - dphi) and
+  // along and across, da = dtheta - dphi and
   //
+  //   dm = H da + m_T dT,   dbow = m_T . da + bow_T dT,
   //   dQ = (dm_F + dm_B - Q du) / d,   d(Q v) = dQ v - Q dphi u.
-  void PassSprings(int rib) {
+  //
+  // The terms of dT are left to TightenJoints. `length` is the row of the rib's
+  // closure equation.
+  void PassJoints(int rib, T* length) {
+    const T* joint = Joint(rib);
     const T ux = f_.rib_ux[rib], uy = f_.rib_uy[rib];
-    const T front = f_.hinge_stiffness[0][rib],
-            back = f_.hinge_stiffness[1][rib];
     const T inverse = Scalar(1) / f_.rib_distance[rib];
-    const T angles[2] = {f_.hinge_angle[0][rib], f_.hinge_angle[1][rib]};
-    const T transverse = (front * angles[0] + back * angles[1]) * inverse;
+    const T transverse =
+        (joint[kJointMoment] + joint[kJointMoment + 1]) * inverse;
     const V wide_x = Broadcast(ux), wide_y = Broadcast(uy);
-    const V wide_front = Broadcast(front), wide_back = Broadcast(back);
+    const V of_front = Broadcast(joint[kJointStiffness]),
+            of_both = Broadcast(joint[kJointStiffness + 1]),
+            of_back = Broadcast(joint[kJointStiffness + 2]);
+    const V bow_front = Broadcast(joint[kJointByTension]),
+            bow_back = Broadcast(joint[kJointByTension + 1]);
     const V wide_inverse = Broadcast(inverse);
     const V wide_transverse = Broadcast(transverse);
     for (int v = 0; v < vectors(); ++v) {
       const V dx = Wide(RowOf(1, kX))[v] - Wide(RowOf(0, kX))[v];
       const V dy = Wide(RowOf(1, kY))[v] - Wide(RowOf(0, kY))[v];
       const V turn = wide_inverse * (wide_x * dy - wide_y * dx);
-      const V front_moment = wide_front * (Wide(RowOf(0, kTheta))[v] - turn);
-      const V back_moment = wide_back * (Wide(RowOf(1, kTheta))[v] - turn);
+      const V front = Wide(RowOf(0, kTheta))[v] - turn;
+      const V back = Wide(RowOf(1, kTheta))[v] - turn;
+      const V front_moment = of_front * front + of_both * back;
+      const V back_moment = of_both * front + of_back * back;
       const V across =
           wide_inverse * (front_moment + back_moment -
                           wide_transverse * (wide_x * dx + wide_y * dy));
       Wide(RowOf(0, kMoment))[v] += front_moment;
       Wide(RowOf(1, kMoment))[v] += back_moment;
+      Wide(length)[v] += bow_front * front + bow_back * back;
       AddAcross(v, across, wide_transverse * turn, wide_x, wide_y);
     }
+    if (by_load()) {
+      AddJoint(rib, affine() + 1, length, joint + kJointBy + 3 * kByLength,
+               f_.d_rib_length[rib]);
+    }
     if (!parameters()) return;
-    if (f_.moves) TurnRest(rib, inverse);
-    if (f_.by_hinge_stiffness < 0) return;
-    const int column = EffectColumn(f_.by_hinge_stiffness);
-    for (int side = 0; side < 2; ++side) {
-      RowOf(side, kMoment)[column] += angles[side];
+    AddJoint(rib, RibColumn(rib), length, joint + kJointBy + 3 * kByLength,
+             T{} + Scalar(1));
+    if (f_.moves) TurnRest(rib, length);
+    if (f_.by_hinge_stiffness >= 0) {
+      AddJoint(rib, EffectColumn(f_.by_hinge_stiffness), length,
+               joint + kJointBy + 3 * kByHinge, T{} + Scalar(1));
     }
-    const T slope = (angles[0] + angles[1]) * inverse;
-    RowOf(0, kForceX)[column] -= slope * uy;
-    RowOf(0, kForceY)[column] += slope * ux;
-    RowOf(1, kForceX)[column] += slope * uy;
-    RowOf(1, kForceY)[column] -= slope * ux;
-  }
-  // The rest of the springs turns with the places of the hinges and with the
-  // back angle.
-  void TurnRest(int rib, const T& inverse) {
-    for (int side = 0; side < 2; ++side) {
-      const int effect = f_.hinge_effect[side][rib];
-      const T& turn = f_.rest_turn[side][rib];
-      if (effect >= 0) TurnSprings(rib, inverse, effect, turn, turn);
+    if (f_.by_rib_bending >= 0) {
+      AddJoint(rib, EffectColumn(f_.by_rib_bending), length,
+               joint + kJointBy + 3 * kByBending, f_.bending_ratio[rib]);
     }
-    if (f_.by_back_angle < 0) return;
-    const T& turn = f_.rest_turn[2][rib];
-    TurnSprings(rib, inverse, f_.by_back_angle, turn, turn - Scalar(1));
   }
-  // Adds to the column of an effect that turns both springs.
-  void TurnSprings(int rib, const T& inverse, int effect, const T& front,
-                   const T& back) {
-    const int column = EffectColumn(effect);
-    const T moments[2] = {f_.hinge_stiffness[0][rib] * front,
-                          f_.hinge_stiffness[1][rib] * back};
+  // Adds to a column the change `factor` of what (m_F, m_B, bow) have the
+  // derivatives `by` by.
+  void AddJoint(int rib, int column, T* length, const T* by,
+                const T& factor) const {
+    const T moments[2] = {by[0] * factor, by[1] * factor};
+    length[column] += by[2] * factor;
+    AddMoments(rib, column, moments);
+  }
+  void AddMoments(int rib, int column, const T moments[2]) const {
     for (int side = 0; side < 2; ++side) {
       RowOf(side, kMoment)[column] += moments[side];
     }
-    const T across = (moments[0] + moments[1]) * inverse;
+    const T across = (moments[0] + moments[1]) / f_.rib_distance[rib];
     const T x = across * f_.rib_uy[rib], y = across * f_.rib_ux[rib];
     RowOf(0, kForceX)[column] -= x;
     RowOf(0, kForceY)[column] += y;
     RowOf(1, kForceX)[column] += x;
     RowOf(1, kForceY)[column] -= y;
+  }
+  // The moments that the tension in `column` adds.
+  void TightenJoints(int rib, int column) const {
+    AddMoments(rib, column, Joint(rib) + kJointByTension);
+  }
+  // The rest of the rib's ends turns with the places of the hinges and with the
+  // back angle.
+  void TurnRest(int rib, T* length) const {
+    for (int side = 0; side < 2; ++side) {
+      const int effect = f_.hinge_effect[side][rib];
+      const T& turn = f_.rest_turn[side][rib];
+      if (effect >= 0) TurnEnds(rib, length, effect, turn, turn);
+    }
+    if (f_.by_back_angle < 0) return;
+    const T& turn = f_.rest_turn[2][rib];
+    TurnEnds(rib, length, f_.by_back_angle, turn, turn - Scalar(1));
+  }
+  // Adds to the column of an effect that turns both ends.
+  void TurnEnds(int rib, T* length, int effect, const T& front,
+                const T& back) const {
+    const T* joint = Joint(rib);
+    const T* h = joint + kJointStiffness;
+    const T by[3] = {
+        h[0] * front + h[1] * back, h[1] * front + h[2] * back,
+        joint[kJointByTension] * front + joint[kJointByTension + 1] * back};
+    AddJoint(rib, EffectColumn(effect), length, by, T{} + Scalar(1));
   }
   // N_front += across v - along u, N_back the opposite.
   void AddAcross(int v, const V& across, const V& along, const V& ux,

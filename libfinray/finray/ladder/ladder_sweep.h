@@ -16,10 +16,10 @@ class LadderSweeper : private LadderRows<T, kVectors> {
       Rows::by_load, Rows::Clear, Rows::columns_, Rows::ContactColumn,
       Rows::ContactNode, Rows::Copy, Rows::EffectColumn, Rows::f_, Rows::kNode,
       Rows::kPivot, Rows::kTap, Rows::kWidth, Rows::Node, Rows::node_,
-      Rows::Lengthening, Rows::open_, Rows::parameters, Rows::PassSprings,
-      Rows::PassSurface, Rows::Present, Rows::TurnBases, Rows::RibColumn,
-      Rows::RowOf, Rows::StiffnessColumn, Rows::stride, Rows::Tap,
-      Rows::TipNode, Rows::vectors, Rows::Wide;
+      Rows::Lengthening, Rows::open_, Rows::parameters, Rows::PassJoints,
+      Rows::PassSurface, Rows::Present, Rows::TightenJoints, Rows::TurnBases,
+      Rows::RibColumn, Rows::RowOf, Rows::StiffnessColumn, Rows::stride,
+      Rows::Tap, Rows::TipNode, Rows::vectors, Rows::Wide;
   using Rows::kX, Rows::kY, Rows::kTheta, Rows::kMoment, Rows::kForceX,
       Rows::kForceY, Rows::kRows;
   using typename Rows::Event, typename Rows::Scalar, typename Rows::U,
@@ -235,7 +235,7 @@ class LadderSweeper : private LadderRows<T, kVectors> {
   void PassRib(int rib) {
     const T ux = f_.rib_ux[rib], uy = f_.rib_uy[rib];
     const T tension = f_.state.q[6 + rib];
-    const T kappa = f_.rib_length[rib] * f_.rib_flexibility[rib];
+    T kappa = f_.rib_length[rib] * f_.rib_flexibility[rib];
     T* length =
         open_ ? Tap(f_.closure_tap() + rib) : f_.pivots + pivots_ * stride();
     const V wide_x = Broadcast(ux), wide_y = Broadcast(uy);
@@ -255,7 +255,10 @@ class LadderSweeper : private LadderRows<T, kVectors> {
       back_x[v] -= across * wide_y;
       back_y[v] += across * wide_x;
     }
-    if (f_.springs) PassSprings(rib);
+    if (f_.joined) {
+      PassJoints(rib, length);
+      kappa -= f_.joints[kJointValues * rib + kJointBowByTension];
+    }
     const T strained = Scalar(1) + tension * f_.rib_flexibility[rib];
     if (parameters()) length[RibColumn(rib)] -= strained;
     if (by_load()) length[affine() + 1] -= strained * f_.d_rib_length[rib];
@@ -271,6 +274,7 @@ class LadderSweeper : private LadderRows<T, kVectors> {
     RowOf(0, kForceY)[column] -= uy;
     RowOf(1, kForceX)[column] += ux;
     RowOf(1, kForceY)[column] += uy;
+    if (f_.joined) TightenJoints(rib, column);
   }
 
   // All lanes share a pivot, so an entry counts as much as its smallest lane.

@@ -62,12 +62,14 @@ void LadderWorkspace<T>::LayOut(Take&& take) {
                     &f.axial_flexibility, &f.piece_step}) {
     take(field, elements);
   }
-  for (T** field : {&f.rib_length, &f.rib_flexibility, &f.d_rib_length,
-                    &f.hinge_stiffness[0], &f.hinge_stiffness[1], &f.rest_ux,
-                    &f.rest_uy, &f.hinge_angle[0], &f.hinge_angle[1], &f.rib_ux,
-                    &f.rib_uy, &f.rib_distance}) {
+  for (T** field :
+       {&f.rib_length, &f.rib_flexibility, &f.d_rib_length,
+        &f.hinge_stiffness[0], &f.hinge_stiffness[1], &f.rib_bending,
+        &f.bending_ratio, &f.rib_end[0], &f.rib_end[1], &f.rest_ux, &f.rest_uy,
+        &f.rib_ux, &f.rib_uy, &f.rib_distance}) {
     take(field, ribs);
   }
+  take(&f.joints, kJointValues * ribs);
   for (T** field : {&f.slot_x, &f.slot_y, &f.slot_theta, &f.slot_moment,
                     &f.slot_fx, &f.slot_fy, &f.slot_length, &f.slot_stiffness,
                     &f.slot_axial, &f.truncation}) {

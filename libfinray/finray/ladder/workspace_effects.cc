@@ -6,6 +6,7 @@
 #include "finray/finger/geometry.h"
 #include "finray/ladder/ladder_workspace.h"
 #include "finray/ladder/put_lanes.h"
+#include "finray/ladder/rib_law.h"
 
 namespace finray {
 
@@ -18,15 +19,24 @@ void LadderWorkspace<T>::SetEffects(const LadderModel& model) {
       model.EffectOf(FingerParameterKind::kHingeStiffness);
   SetPieces(model);
   SetBeamEffects(model);
-  frame_.springs = frame_.by_hinge_stiffness >= 0;
-  for (const Rib& rib : finger.ribs) frame_.springs |= rib.HasSprings();
-  if (!frame_.springs) return;
+  frame_.by_rib_bending = model.EffectOf(FingerParameterKind::kRibBending);
+  frame_.joined = frame_.by_hinge_stiffness >= 0;
+  for (const Rib& rib : finger.ribs) frame_.joined |= rib.HasMoments();
+  if (!frame_.joined) return;
+  frame_.react = ReactInFrame<T>;
+  const Rib* const bending = FirstBendingRib(finger);
   for (int i = 0; i < frame_.ribs; ++i) {
     const Rib& rib = finger.ribs[i];
     Put(rib.front_hinge_N_mm_per_rad / moment_unit(),
         &frame_.hinge_stiffness[0][i]);
     Put(rib.back_hinge_N_mm_per_rad / moment_unit(),
         &frame_.hinge_stiffness[1][i]);
+    const double stiffness = rib.Bends() ? rib.bending_stiffness_N_mm2 : 0;
+    Put(stiffness / stiffness_unit(), &frame_.rib_bending[i]);
+    Put(bending ? stiffness / bending->bending_stiffness_N_mm2 : 0,
+        &frame_.bending_ratio[i]);
+    Put(rib.front_rigid_mm / length_unit_, &frame_.rib_end[0][i]);
+    Put(rib.back_rigid_mm / length_unit_, &frame_.rib_end[1][i]);
     const Eigen::Vector2d along =
         (UndeformedPoint(finger, Side::kBack, rib.back_mm) -
          UndeformedPoint(finger, Side::kFront, rib.front_mm))

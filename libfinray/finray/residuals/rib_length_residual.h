@@ -7,11 +7,11 @@ namespace finray {
 
 /// The rib lengths, equation (7), as soft residuals for the weighted form:
 ///
-///   r_k = w (|r_Rk - r_Lk| - L_k (1 + T_k / EA_k)) / l_0,   k = 1 .. r.
+///   r_k = w (|r_Rk - r_Lk| - L_k (1 + T_k / EA_k) + b_k) / l_0,   k = 1 .. r.
 ///
 /// r_Lk and r_Rk are the ends of rib k on the two beams, L_k its length, T_k
-/// its tension and EA_k its axial stiffness. Parameter blocks: those of
-/// FrameResidual.
+/// its tension, EA_k its axial stiffness and b_k what bending shortens it by
+/// (ladder/rib_law.h; 0 on hinges). Parameter blocks: those of FrameResidual.
 class RibLengthResidual : public FrameResidual {
  public:
   RibLengthResidual(const FrameEvaluation* frame, const Finger& finger,

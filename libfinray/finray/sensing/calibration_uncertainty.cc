@@ -149,6 +149,7 @@ CalibrationUncertainty::ErrorsAt(const std::vector<PointContact>& contacts,
         column = m.derivatives.col(unknowns + 2 + index);
         break;
       case FingerParameterKind::kHingeStiffness:
+      case FingerParameterKind::kRibBending:
       case FingerParameterKind::kFrontPiece:
       case FingerParameterKind::kBackPiece:
       case FingerParameterKind::kFrontHinge:
@@ -245,6 +246,7 @@ void CalibrationUncertainty::FillByParameter(
         by_statics(2 + index);
         break;
       case FingerParameterKind::kHingeStiffness:
+      case FingerParameterKind::kRibBending:
       case FingerParameterKind::kFrontPiece:
       case FingerParameterKind::kBackPiece:
       case FingerParameterKind::kFrontHinge:

@@ -300,6 +300,7 @@ ContactMatrix FrameProblem::Systematic(const Eigen::MatrixXd& by_unknown,
         by_parameter.col(k).setZero();
         break;
       case FingerParameterKind::kHingeStiffness:
+      case FingerParameterKind::kRibBending:
       case FingerParameterKind::kFrontPiece:
       case FingerParameterKind::kBackPiece:
       case FingerParameterKind::kFrontHinge:

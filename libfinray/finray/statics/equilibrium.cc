@@ -7,6 +7,7 @@
 #include "finray/finger/geometry.h"
 #include "finray/io/number_text.h"
 #include "finray/ladder/contact_pose.h"
+#include "finray/ladder/rib_law.h"
 
 namespace finray {
 namespace {
@@ -29,6 +30,8 @@ double EffectUnit(FingerParameterKind kind,
   switch (kind) {
     case FingerParameterKind::kHingeStiffness:
       return unit.moment_unit();
+    case FingerParameterKind::kRibBending:
+      return unit.stiffness_unit();
     case FingerParameterKind::kFrontHinge:
     case FingerParameterKind::kBackHinge:
     case FingerParameterKind::kSurfaceOffset:
@@ -72,6 +75,10 @@ bool EquilibriumSolver::SolveFor(const std::vector<PointContact>& contacts,
   status_ =
       IsBadLoad(contacts) ? SolveStatus::kBadLoad : Attempt(contacts, columns);
   iterations_ = newton_.TakeIterations();
+  if (status_ == SolveStatus::kSolved && BendsTooFar(newton_.frame(), 0)) {
+    status_ = SolveStatus::kRibTooBent;
+    path_fraction_ = 1;
+  }
   if (status_ != SolveStatus::kSolved) {
     Reset();
     return false;
@@ -147,6 +154,12 @@ std::string EquilibriumSolver::Why() const {
   if (status_ == SolveStatus::kSolved) return "";
   if (status_ == SolveStatus::kBadLoad) {
     return "a contact lies off its beam or a number is not finite";
+  }
+  if (status_ == SolveStatus::kRibTooBent) {
+    return FormatText(
+        "at %.3g %% of this load a rib buckles or becomes 4 %% shorter by "
+        "bending, and its equations hold no further",
+        100 * path_fraction_);
   }
   return FormatText(
       status_ == SolveStatus::kLimitPoint
@@ -240,7 +253,7 @@ bool EquilibriumSolver::Shoot(const Eigen::VectorXd& q,
                               LadderShot* shot) {
   status_ = SolveStatus::kNotConverged;
   undeformed_ = false;
-  if (!newton_.Shoot(q, contacts)) {
+  if (!newton_.Shoot(q, contacts) || BendsTooFar(newton_.frame(), 0)) {
     Reset();
     return false;
   }

@@ -111,8 +111,8 @@ class EquilibriumSolver {
       const std::vector<PointContact>& contacts) const;
 
   /// Marches from base to tip with the base loads and tensions `q`. False if
-  /// the result is not finite. It changes the state, which is then no
-  /// equilibrium.
+  /// the result is not finite or a rib bends too far (rib_law.h). It changes
+  /// the state, which is then no equilibrium.
   bool Shoot(const Eigen::VectorXd& q,
              const std::vector<PointContact>& contacts, LadderShot* shot);
 

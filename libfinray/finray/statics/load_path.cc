@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/ladder/rib_law.h"
+
 namespace finray {
 namespace {
 
@@ -205,6 +207,7 @@ SolveStatus WalkLoadPath(const std::vector<PointContact>& contacts,
   for (int i = 0; i < kMostSteps; ++i) {
     const bool advanced = path.Advance(1);
     *fraction = path.fraction();
+    if (BendsTooFar(newton->frame(), 0)) return SolveStatus::kRibTooBent;
     if (!advanced) break;
     if (path.passed_limit_point()) {
       *fraction = path.limit_fraction();

@@ -67,6 +67,7 @@ enum class SolveStatus {
   kLimitPoint,  ///< The equilibrium that grows out of the unloaded finger ends
                 ///< (folds over) before the whole load is reached.
   kNotConverged,
+  kRibTooBent,  ///< A rib bends further than its equations hold (rib_law.h).
 };
 
 /// Walks from the undeformed finger to the whole load. On kSolved `newton` is

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "finray/finger/geometry.h"
+
 namespace finray {
 namespace {
 
@@ -17,6 +19,14 @@ bool AllHave(const CalibrationLogs& logs, const Number& number) {
     any = true;
   }
   return any;
+}
+
+bool HasClampedRib(const Finger& finger) {
+  return std::any_of(finger.ribs.begin(), finger.ribs.end(),
+                     [](const Rib& rib) {
+                       return std::isinf(rib.front_hinge_N_mm_per_rad) ||
+                              std::isinf(rib.back_hinge_N_mm_per_rad);
+                     });
 }
 
 }  // namespace
@@ -36,6 +46,7 @@ const std::vector<CandidateEffect>& AllCandidateEffects() {
       {Family::kGaugeCreepShare, 0.1, "gauges that creep"},
       {Family::kGaugeCreepTime, 50, "another time constant of creep"},
       {Family::kHingeStiffness, 20, "hinges that resist"},
+      {Family::kRibBending, 50, "another bending stiffness of the ribs"},
       {Family::kFrontPiece, 1.5, "a stiffness that changes along the beams"},
       {Family::kFrontHinge, 0.5, "hinges beside their drawn places"},
       {Family::kFrontClamp, 2e-4, "clamps that give"},
@@ -98,6 +109,12 @@ std::vector<CandidateEffect> CandidatesFor(const Finger& finger,
         if (!components) continue;
         break;
       case Family::kHingeStiffness:
+        if (finger.ribs.empty() || HasClampedRib(finger)) continue;
+        break;
+      case Family::kRibBending:
+        // Ribs on hinges have no stiffness to start from.
+        if (FirstBendingRib(finger) == nullptr) continue;
+        break;
       case Family::kFrontHinge:
         if (finger.ribs.empty()) continue;
         break;

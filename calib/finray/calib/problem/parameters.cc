@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 
 namespace finray {
@@ -76,6 +77,7 @@ bool AnyFitted(const CalibrationLogs& logs, int log, const Has& has) {
 double VagueStd(const CalibrationParameter& parameter) {
   switch (parameter.family) {
     case ParameterFamily::kGaugeGain:
+    case ParameterFamily::kRibBending:
       return 0.2 * parameter.scale;
     case ParameterFamily::kGaugeOffset:
       return 0.01;
@@ -115,6 +117,11 @@ double VagueStd(const CalibrationParameter& parameter) {
 // A free hinge stiffness is one number for all hinges.
 void RefuseUnequalHinges(const Finger& finger) {
   const double one = finger.ribs[0].front_hinge_N_mm_per_rad;
+  if (std::isinf(one)) {
+    throw InputError(
+        "plan: hinge_stiffness is free, but the finger's ribs are clamped to "
+        "the beams; give them a hinge_stiffness_N_mm_per_rad to start from");
+  }
   for (const Rib& rib : finger.ribs) {
     if (rib.front_hinge_N_mm_per_rad != one ||
         rib.back_hinge_N_mm_per_rad != one) {
@@ -123,6 +130,15 @@ void RefuseUnequalHinges(const Finger& finger) {
           "the finger's hinge_stiffness_N_mm_per_rad differ; give all ribs the "
           "same one");
     }
+  }
+}
+
+void RefuseRibsThatDoNotBend(const Finger& finger, const Plan& plan) {
+  if (plan.family(ParameterFamily::kRibBending).free &&
+      FirstBendingRib(finger) == nullptr) {
+    throw InputError(
+        "plan: rib_bending_stiffness is free, but no rib has a "
+        "bending_stiffness_N_mm2 to start from");
   }
 }
 
@@ -159,6 +175,7 @@ CalibrationParameters::CalibrationParameters(const Finger& finger,
     shared.friction_varies = true;
     shared.effect_values.push_back(friction_);
   }
+  RefuseRibsThatDoNotBend(finger, plan);
   if (plan.HasCreep(finger)) ReadCreep(logs);
   if (plan.family(ParameterFamily::kForceTimeOffset).free) ReadForces(logs);
   for (const FingerParameter& parameter : AllParametersOf(finger)) {
@@ -283,6 +300,9 @@ void CalibrationParameters::AddOfFinger(const Finger& finger, const Plan& plan,
     case FingerParameterKind::kHingeStiffness:
       RefuseUnequalHinges(finger);
       parameter.scale = 10;
+      break;
+    case FingerParameterKind::kRibBending:
+      parameter.scale = ParameterValue(finger, of_finger);
       break;
     case FingerParameterKind::kFrontClamp:
     case FingerParameterKind::kBackClamp:
@@ -456,6 +476,7 @@ void CalibrationParameters::Add(const Plan& plan,
   if (family.prior_std) {
     const bool percent = parameter.is_log ||
                          parameter.family == ParameterFamily::kGaugeGain ||
+                         parameter.family == ParameterFamily::kRibBending ||
                          parameter.family == ParameterFamily::kFrontPiece ||
                          parameter.family == ParameterFamily::kBackPiece;
     parameter.prior_std =

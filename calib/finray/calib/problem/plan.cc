@@ -32,6 +32,7 @@ constexpr FamilyKey kFamilyKeys[kParameterFamilies] = {
     {"gauge_creep_share", "prior_std"},
     {"gauge_creep_time", "prior_std_percent"},
     {"hinge_stiffness", "prior_std_N_mm_per_rad"},
+    {"rib_bending_stiffness", "prior_std_percent"},
     {"stiffness_pieces", "prior_std_percent", {kCount}},  // front
     {"stiffness_pieces", "prior_std_percent", {kCount}},  // back
     {"hinge_place", "prior_std_mm"},                      // front

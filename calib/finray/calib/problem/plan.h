@@ -29,6 +29,7 @@ enum class ParameterFamily {
   kGaugeCreepShare = static_cast<int>(FingerParameterKind::kGaugeCreepShare),
   kGaugeCreepTime = static_cast<int>(FingerParameterKind::kGaugeCreepTime),
   kHingeStiffness = static_cast<int>(FingerParameterKind::kHingeStiffness),
+  kRibBending = static_cast<int>(FingerParameterKind::kRibBending),
   kFrontPiece = static_cast<int>(FingerParameterKind::kFrontPiece),
   kBackPiece = static_cast<int>(FingerParameterKind::kBackPiece),
   kFrontHinge = static_cast<int>(FingerParameterKind::kFrontHinge),

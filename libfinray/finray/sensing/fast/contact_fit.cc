@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "finray/ladder/contact_pose.h"
+#include "finray/ladder/rib_law.h"
 #include "finray/objects/circle_centre.h"
 
 namespace finray {
@@ -152,6 +153,7 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
     comparable = true;
     if (predicts || !last) continue;
     const LadderFrame<double>& f = newton_.frame();
+    if (BendsTooFar(f, 0)) return false;
     for (int c = 0; c < count; ++c) {
       poses_[f.contacts[c].index] = PoseAfter(f, c, length, change, 0);
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "finray/ladder/mesh_refinement.h"
+#include "finray/ladder/rib_law.h"
 
 namespace finray {
 namespace {
@@ -146,7 +147,8 @@ void FrameGroupFit::Advance(const Frames& frames, int lane) {
   if (one_by_one_) return;
   if (!Has(linearised_, lane) || ++l.iteration > kMostIterations ||
       !Improve(frames, lane, false) ||
-      (l.converged && adaptive_ && !IsResolved(lanes_.frame(), lane))) {
+      (l.converged && adaptive_ && !IsResolved(lanes_.frame(), lane)) ||
+      (l.converged && BendsTooFar(lanes_.frame(), lane))) {
     FitLane(frames, lane);
     return;
   }
