@@ -26,6 +26,8 @@ class GaugeResiduals {
   void Find(const Measurements& readings,
             const std::vector<PointContact>& contacts,
             const std::vector<double>& offsets_V, float* residuals);
+  /// From now on the gauges are these, at the same places.
+  void set_gauges(const std::vector<Gauge>& gauges) { gauges_ = gauges; }
   /// The solver, in the state of the last frame.
   const EquilibriumSolver& solver() const { return solver_; }
 

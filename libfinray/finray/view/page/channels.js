@@ -95,6 +95,8 @@ class StaticLog {
                          framesPerBin: packed.frames_per_bin, first: 0, shift: 0});
     self.status = await unpackCodes(packed.status, 8);
     self.end = self.status.length;
+    self.statusLevel = new Uint8Array(Math.ceil(self.end / 64));
+    for (let i = 0; i < self.end; i++) self.statusLevel[i >> 6] |= self.status[i];
     self.start = packed.time.start;
     self.step = packed.time.step;
     if (packed.time.words) {
@@ -126,9 +128,14 @@ class StaticLog {
     const i = Math.min(this.end - 1, this.indexOf(time));
     return i > this.first && time - this.time(i - 1) < this.time(i) - time ? i - 1 : i;
   }
+  // Which statuses entries i to end - 1 have: 1 << status.
   statusMask(i, end) {
     let mask = 0;
-    for (; i < end; i++) mask |= this.status[i];
+    while (i < end) {
+      const whole = i % 64 === 0 && i + 64 <= end;
+      mask |= whole ? this.statusLevel[i >> 6] : this.status[i];
+      i += whole ? 64 : 1;
+    }
     return mask;
   }
   value(name, i) {

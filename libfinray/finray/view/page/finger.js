@@ -77,7 +77,7 @@ class FingerPicture {
   }
   begin() {
     const {g, width, height} = prepared(this.canvas), size = this.length;
-    const x0 = this.box.x0 - 0.42 * size, x1 = this.box.x1 + 0.25 * size, y0 = -0.06 * size, y1 = this.box.y1 + 0.09 * size;
+    const x0 = this.box.x0 - 0.36 * size, x1 = this.box.x1 + 0.16 * size, y0 = -0.05 * size, y1 = this.box.y1 + 0.08 * size;
     const scale = Math.min(width / (x1 - x0), height / (y1 - y0));
     this.g = g;
     this.scale = scale;
@@ -142,7 +142,7 @@ class FingerPicture {
   // An arrow into the finger; `contact`: arc, low, high, force, force_low, force_high.
   contact(places, contact, most, colour, dash) {
     if (isNaN(contact.arc) || isNaN(contact.force)) return;
-    const g = this.g, length = force => 0.36 * this.length * Math.min(1, force / most);
+    const g = this.g, length = force => 0.3 * this.length * Math.min(1, force / most);
     const at = onFront(this.finger, places, contact.arc), sin = Math.sin(at.theta), cos = Math.cos(at.theta);
     const lift = this.finger.surface_mm, mu = this.finger.friction || 0;
     const head = [at.x - sin * lift, at.y + cos * lift];
@@ -176,7 +176,7 @@ class FingerPicture {
     g.closePath();
     g.fill();
     for (const force of [contact.force_low, contact.force_high]) {  // the interval of the force, at the tail
-      if (isNaN(force)) continue;
+      if (isNaN(force) || force > most) continue;
       const [x, y] = tail(Math.max(0, force));
       g.lineWidth = 1.4;
       g.beginPath();

@@ -181,7 +181,7 @@ class Page {
       return isNaN(a) ? "" : `${number(a, 1)} mm, ${number(f, 3)} N`; });
     add("force_N", (log, i) => { const f = log.value("force_N", i); return isNaN(f) ? "" : number(f, 3) + " N"; });
     add("residuals", (log, i) => Object.keys(log.channels).filter(n => n.endsWith("_residual_std"))
-      .map(n => number(log.value(n, i), 1)).join("  "));
+      .map(n => number(log.value(n, i), 1)).join("   ").replace(/^[– ]+$/, ""));
     add("p-value", (log, i) => { const p = log.value("chi2_p_value", i); return isNaN(p) ? "" : p < 0.001 ? p.toExponential(0).replace("-", "−") : p.toFixed(3); });
     const table = byId("readout");
     while (table.rows.length > rows.length) table.deleteRow(-1);
@@ -247,15 +247,16 @@ StaticLog.prototype.frameText = function (i) {
   const first = i * this.framesPerBin + 1;
   return this.framesPerBin > 1 ? `${first} to ${Math.min(this.frames, first + this.framesPerBin - 1)}` : `${first}`;
 };
+// The largest force of a frame that is sure, or of any.
 StaticLog.prototype.mostForce = function () {
-  const out = [0, 0];
-  let most = 0;
+  const most = [0, 0];
   for (const name of ["normal_1_N", "normal_2_N"]) {
-    if (!this.channels[name]) continue;
-    this.channels[name].range(0, this.end, out);
-    if (out[1] > most) most = out[1];
+    for (let i = 0; this.channels[name] && i < this.end; i++) {
+      const force = this.channels[name].at(i), sure = this.status[i] & 4 ? 0 : 1;
+      if (force > most[sure]) most[sure] = force;
+    }
   }
-  return most;
+  return most[1] || most[0];
 };
 
 function explain(finger) {

@@ -42,7 +42,7 @@ class View {
   }
 }
 
-const LEFT = 56, RIGHT = 8, TOP = 18, BOTTOM = 4;
+const LEFT = 56, RIGHT = 8, TOP = 18, BOTTOM = 7;
 
 function niceStep(span, count) {
   const raw = span / count, power = Math.pow(10, Math.floor(Math.log10(raw)));
@@ -88,7 +88,7 @@ class Plot {
     });
     this.head.replaceChildren();
     const title = document.createElement("b");
-    title.textContent = this.spec.title + (this.spec.unit ? ` (${this.spec.unit})` : "");
+    if (this.spec.kind !== "status") title.textContent = this.spec.title + (this.spec.unit ? ` (${this.spec.unit})` : "");
     this.head.append(title);
     for (const series of this.series) {
       if (!series.label) continue;
@@ -109,7 +109,7 @@ class Plot {
     const first = Math.max(log.first, log.indexOf(t0) - 1), end = Math.min(log.end, log.indexOf(t1) + 1);
     const add = (x, i, next) => {
       channel.range(i, next, out);
-      const column = {x, lo: out[0], hi: out[1], low: NaN, high: NaN, s: 0};
+      const column = {x, lo: out[0], hi: out[1], low: NaN, high: NaN, s: 0, mask: log.statusMask(i, next)};
       if (low) { low.range(i, next, out); column.low = column.lo - (isNaN(out[1]) ? 0 : out[1]); }
       if (high) { high.range(i, next, out); column.high = column.hi + (isNaN(out[1]) ? 0 : out[1]); }
       if (std) { std.range(i, next, out); column.s = isNaN(out[1]) ? 0 : out[1]; }
@@ -133,6 +133,9 @@ class Plot {
     const spec = this.spec;
     if (spec.range) { [this.low, this.high] = spec.range; return; }
     let low = Infinity, high = -Infinity;
+    // Frames that are not observable may be far off; they do not set the scale, unless there are no others.
+    const sure = all.map(columns => columns.filter(c => !(c.mask & 4)));
+    if (sure.some(columns => columns.some(c => !isNaN(c.lo)))) all = sure;
     for (const columns of all) {
       for (const c of columns) {
         if (c.lo < low) low = c.lo;
@@ -170,7 +173,7 @@ class Plot {
     if (this.spec.kind === "log") {
       for (const value of this.spec.ticks) line(value, value < 0.01 && value !== 0.001 ? value.toExponential(0).replace("-", "−") : value);
     } else {
-      const step = niceStep(this.high - this.low, Math.max(2, this.height / 40));
+      const step = niceStep(this.high - this.low, Math.max(3, this.height / 36));
       const places = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
       for (let v = Math.ceil(this.low / step - 1e-9) * step; v <= this.high + 1e-9 * step; v += step) {
         line(v, v.toFixed(places).replace("-", "−").replace(/^−(0\.?0*)$/, "$1"));
