@@ -95,7 +95,7 @@ const char* WordsOf(Kind kind) {
     case Kind::kUnchecked:
       return "No warning, but no force_N and no free row that could show one.";
     case Kind::kWatch:
-      return "Usable; watch the warnings.";
+      return "No log of the last day asks for more; watch the warnings.";
     case Kind::kZero:
       return "Zero the gauges with finray_zero.";
     case Kind::kCalibrate:

@@ -138,31 +138,39 @@ ShapeTable MakeShapeTable(const Finger& finger,
   }
   EquilibriumSolver solver(finger, discretization);
   const std::vector<double> undeformed = nodes.Undeformed();
+  const std::vector<double> none(undeformed.size(), std::nan(""));
   const auto moves_at = [&](double arc_mm, double normal_N) {
     const std::vector<PointContact> contacts = {{arc_mm, normal_N, friction}};
-    if (!solver.Solve(contacts)) {
-      return std::vector<double>(undeformed.size(), std::nan(""));
-    }
-    return Difference(nodes.Places(solver, contacts), undeformed);
+    return solver.Solve(contacts)
+               ? Difference(nodes.Places(solver, contacts), undeformed)
+               : none;
   };
-  for (const double force : table.forces_N) {
-    for (const double arc : table.arcs_mm) {
-      table.moves_mm.push_back(moves_at(arc, force));
+  // The load grows at each arc length from state to state. Where a finger has
+  // no equilibrium any more, it has none under a larger load.
+  std::vector<LadderState> states(kTableArcs, solver.state());
+  std::vector<char> lost(kTableArcs, 0);
+  for (int f = 0; f < kTableForces; ++f) {
+    solver.set_near_only(f > 0);
+    for (std::size_t a = 0; a < kTableArcs; ++a) {
+      solver.set_state(states[a]);
+      table.moves_mm.push_back(
+          lost[a] ? none : moves_at(table.arcs_mm[a], table.forces_N[f]));
+      lost[a] = std::isnan(table.moves_mm.back().front());
+      if (!lost[a]) states[a] = solver.state();
     }
-  }
-  for (int f = 0; f + 1 < kTableForces; ++f) {
-    for (int a = 0; a + 1 < kTableArcs; ++a) {
-      const auto corner = [&](int df, int da) {
-        return &table.moves_mm[static_cast<std::size_t>((f + df) * kTableArcs +
-                                                        a + da)];
-      };
+    for (std::size_t a = 0; f > 0 && a + 1 < kTableArcs; ++a) {
+      if (lost[a] || lost[a + 1]) continue;
+      const auto* const corner =
+          &table.moves_mm[static_cast<std::size_t>(f - 1) * kTableArcs + a];
       const std::vector<double>* const corners[4] = {
-          corner(0, 0), corner(0, 1), corner(1, 0), corner(1, 1)};
-      const std::vector<double> middle =
-          moves_at(0.5 * (table.arcs_mm[a] + table.arcs_mm[a + 1]),
-                   0.5 * (table.forces_N[f] + table.forces_N[f + 1]));
-      table.largest_error_mm = std::max(table.largest_error_mm,
-                                        DistanceFromMean(middle, corners));
+          corner, corner + 1, corner + kTableArcs, corner + kTableArcs + 1};
+      solver.set_state(states[a]);
+      table.largest_error_mm = std::max(
+          table.largest_error_mm,
+          DistanceFromMean(
+              moves_at(0.5 * (table.arcs_mm[a] + table.arcs_mm[a + 1]),
+                       0.5 * (table.forces_N[f - 1] + table.forces_N[f])),
+              corners));
     }
   }
   return table;

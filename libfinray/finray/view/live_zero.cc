@@ -66,7 +66,10 @@ void LiveZero::MakeZeroed() {
     const std::lock_guard<std::mutex> lock(mutex_);
     zeroed_ = std::move(zeroed.finger);
   } catch (const std::exception& error) {
+    // The remedy behind the fault is for finray_zero.
     words = error.what();
+    words = words.substr(0, words.find(';')) +
+            ". Try again once the finger is free and at rest.";
   }
   {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -79,16 +79,7 @@ class LiveLog {
   }
   facts() { return ""; }
   frameText(i) { return `${this.numbers[this.slot(i)]}`; }
-  mostForce() {
-    const out = [0, 0];
-    let most = 0;
-    for (const name of ["normal_1_N", "normal_2_N"]) {
-      if (!this.channels[name]) continue;
-      this.channels[name].range(this.first, this.end, out);
-      if (out[1] > most) most = out[1];
-    }
-    return most;
-  }
+  mostForce() { return 0; }  // grows with the updates
 }
 
 class Live {
@@ -130,7 +121,8 @@ class Live {
     log.add(update);
     view.bounds(log.time(log.first), Math.max(update.time, log.time(log.first) + this.span));
     if (log.end === 1) view.show(view.least, this.span);
-    page.mostForce = Math.max(page.mostForce, update.most[log.names.indexOf("normal_1_N")] || 0);
+    // Frames that are not observable may be far off.
+    if (!(update.mask & 4)) page.mostForce = Math.max(page.mostForce, update.most[log.names.indexOf("normal_1_N")] || 0);
     if (this.following) {
       view.cursor = update.time;
       const span = view.t1 - view.t0;

@@ -3,19 +3,19 @@
 const byId = id => document.getElementById(id);
 
 const PLOTS = [
-  {title: "Force", unit: "N", height: 190, zero: true, least: 0.1,
+  {title: "Force", unit: "N", height: 170, zero: true, least: 0.1,
    series: (log, k, n) => [
      {name: "normal_1_N", label: n > 1 ? log.name : "contact 1", colour: COLOURS.logs[k], std: "normal_1_std_N", below: "normal_1_N_below", above: "normal_1_N_above"},
      {name: "normal_2_N", label: n > 1 ? "" : "contact 2", colour: n > 1 ? COLOURS.logs[k] : COLOURS.second, dash: [6, 3], std: "normal_2_std_N", below: "normal_2_N_below", above: "normal_2_N_above"},
      {name: "force_N", label: n > 1 ? "" : "force_N, the sensor's", colour: n > 1 ? COLOURS.logs[k] : COLOURS.ink, dash: [2, 3], width: 1.2}]},
-  {title: "Place, from the base", unit: "mm", height: 170, least: 2,
+  {title: "Place, from the base", unit: "mm", height: 150, least: 2, length: true,
    series: (log, k, n) => [
      {name: "contact_1_mm", label: n > 1 ? log.name : "contact 1", colour: COLOURS.logs[k], std: "contact_1_std_mm", below: "contact_1_mm_below", above: "contact_1_mm_above"},
      {name: "contact_2_mm", label: n > 1 ? "" : "contact 2", colour: n > 1 ? COLOURS.logs[k] : COLOURS.second, dash: [6, 3], std: "contact_2_std_mm", below: "contact_2_mm_below", above: "contact_2_mm_above"}]},
-  {title: "Gauge residuals", unit: "std", height: 130, symmetric: true, least: 4,
+  {title: "Gauge residuals", unit: "std", height: 112, symmetric: true, least: 4,
    series: (log, k, n) => Object.keys(log.channels).filter(name => name.endsWith("_residual_std")).map((name, j) => (
      {name, label: n > 1 ? "" : "gauge " + name.split("_")[1], colour: n > 1 ? COLOURS.logs[k] : COLOURS.gauges[j % COLOURS.gauges.length], width: 1.1}))},
-  {title: "p-value of χ²", height: 110, kind: "log", range: [1e-12, 1.6], ticks: [1, 0.001, 1e-6, 1e-12], mark: 0.001,
+  {title: "p-value of χ²", height: 92, kind: "log", range: () => [1e-12, 1.6], ticks: [1, 0.001, 1e-6, 1e-12], mark: 0.001,
    series: (log, k, n) => [{name: "chi2_p_value", label: n > 1 ? log.name : "", colour: COLOURS.logs[k]}]},
   {title: "Status", height: 96, kind: "status", series: () => []},
 ];
@@ -31,7 +31,9 @@ class Page {
     readColours();
     const actions = {scrub: t => this.scrub(t), redraw: () => this.redraw()};
     this.plots = PLOTS.map(spec => {
-      const plot = new Plot(byId("plots"), {...spec, logs: () => this.logs}, this.view);
+      const full = {...spec, logs: () => this.logs};
+      if (spec.length && finger) full.range = () => [0, finger.front[finger.front.length - 1]];
+      const plot = new Plot(byId("plots"), full, this.view);
       listen(plot, this.view, actions);
       return plot;
     });
@@ -181,9 +183,10 @@ class Page {
       return isNaN(a) ? "" : `${number(a, 1)} mm, ${number(f, 3)} N`; });
     add("force_N", (log, i) => { const f = log.value("force_N", i); return isNaN(f) ? "" : number(f, 3) + " N"; });
     add("residuals", (log, i) => Object.keys(log.channels).filter(n => n.endsWith("_residual_std"))
-      .map(n => number(log.value(n, i), 1)).join("   ").replace(/^[– ]+$/, ""));
+      .map(n => number(log.value(n, i), 1)).join(", ").replace(/^[–, ]+$/, ""));
     add("p-value", (log, i) => { const p = log.value("chi2_p_value", i); return isNaN(p) ? "" : p < 0.001 ? p.toExponential(0).replace("-", "−") : p.toFixed(3); });
     const table = byId("readout");
+    table.classList.toggle("two", this.logs.length > 1);
     while (table.rows.length > rows.length) table.deleteRow(-1);
     rows.forEach((cells, r) => {
       const row = table.rows[r] || table.insertRow();

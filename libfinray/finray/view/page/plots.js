@@ -42,7 +42,7 @@ class View {
   }
 }
 
-const LEFT = 56, RIGHT = 8, TOP = 18, BOTTOM = 7;
+const LEFT = 56, RIGHT = 8, TOP = 5, BOTTOM = 7;
 
 function niceStep(span, count) {
   const raw = span / count, power = Math.pow(10, Math.floor(Math.log10(raw)));
@@ -62,14 +62,17 @@ class Plot {
     this.view = view;
     this.element = document.createElement("div");
     this.element.className = "plot";
-    this.element.style.height = spec.height + "px";
     this.head = document.createElement("div");
     this.head.className = "head";
+    this.area = document.createElement("div");
+    this.area.className = "area";
+    this.area.style.height = spec.height + "px";
     this.canvas = document.createElement("canvas");
     this.canvas.setAttribute("role", "img");
     this.canvas.setAttribute("aria-label", spec.title + " over time");
     this.overlay = document.createElement("canvas");
-    this.element.append(this.canvas, this.overlay, this.head);
+    this.area.append(this.canvas, this.overlay);
+    this.element.append(this.head, this.area);
     parent.append(this.element);
   }
   x(t) { return LEFT + (this.width - LEFT - RIGHT) * (t - this.view.t0) / (this.view.t1 - this.view.t0); }
@@ -131,7 +134,7 @@ class Plot {
   // The range of values that are shown.
   findRange(all) {
     const spec = this.spec;
-    if (spec.range) { [this.low, this.high] = spec.range; return; }
+    if (spec.range) { [this.low, this.high] = spec.range(); return; }
     let low = Infinity, high = -Infinity;
     // Frames that are not observable may be far off; they do not set the scale, unless there are no others.
     const sure = all.map(columns => columns.filter(c => !(c.mask & 4)));
@@ -173,7 +176,7 @@ class Plot {
     if (this.spec.kind === "log") {
       for (const value of this.spec.ticks) line(value, value < 0.01 && value !== 0.001 ? value.toExponential(0).replace("-", "−") : value);
     } else {
-      const step = niceStep(this.high - this.low, Math.max(3, this.height / 36));
+      const step = niceStep(this.high - this.low, Math.max(3, this.height / 28));
       const places = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
       for (let v = Math.ceil(this.low / step - 1e-9) * step; v <= this.high + 1e-9 * step; v += step) {
         line(v, v.toFixed(places).replace("-", "−").replace(/^−(0\.?0*)$/, "$1"));
@@ -202,7 +205,7 @@ class Plot {
     this.axes(g);
     g.save();
     g.beginPath();
-    g.rect(LEFT, TOP - 3, width - LEFT - RIGHT, height - TOP - BOTTOM + 6);
+    g.rect(LEFT, TOP - 2, width - LEFT - RIGHT, height - TOP - BOTTOM + 4);
     g.clip();
     this.series.forEach((series, k) => {
       g.fillStyle = series.colour;
@@ -327,7 +330,7 @@ class Plot {
 
 // Scrub, zoom and pan by mouse, pen and fingers.
 function listen(plot, view, actions) {
-  const element = plot.element, down = new Map();
+  const element = plot.area, down = new Map();
   let pinch = null, selection = null;
   const place = event => event.clientX - element.getBoundingClientRect().left;
   element.addEventListener("pointerdown", event => {
