@@ -98,6 +98,11 @@ class LiveServer::Implementation {
     server_.set_keep_alive_timeout(2);
     server_.set_payload_max_length(kMostBodyBytes);
     server_.set_tcp_nodelay(true);
+    // Not SO_REUSEPORT, httplib's default: two servers would share a port.
+    server_.set_socket_options([](socket_t socket) {
+      const int yes = 1;
+      setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
     Route();
     port_ = settings.port == 0
                 ? server_.bind_to_any_port(settings.address.c_str())
