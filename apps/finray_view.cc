@@ -16,8 +16,7 @@ DEFINE_string(results, "",
 DEFINE_string(finger, "",
               "finger YAML of the results; without it pages have neither the "
               "finger's shape nor the residuals of its gauges");
-DEFINE_string(out_dir, "",
-              "folder for <log>.html and, of folders, index.html");
+DEFINE_string(out_dir, "", "folder for <log>.html and, of folders, index.html");
 DEFINE_bool(compare, false, "one page with both of two <log>.frames.csv");
 
 namespace {
@@ -41,6 +40,11 @@ int ViewFolders(const std::vector<std::string>& folders, const Finger* finger) {
   std::vector<ViewJob> all;
   for (const std::string& folder : folders) {
     batches.push_back(ReadBatchResults(folder));
+    if (finger != nullptr && batches.back().finger != finger->name) {
+      Warn("the results in " + folder + " are of the finger " +
+               batches.back().finger + ", --finger is " + finger->name,
+           "shapes and residuals are those of --finger");
+    }
     // The logs of several batches may have equal names.
     fs::path pages = FLAGS_out_dir;
     if (folders.size() > 1) {
@@ -90,8 +94,7 @@ int Run() {
     }
     const std::string page = OutPath(ResultName(results[0]) + "_and_" +
                                      ResultName(results[1]) + ".html");
-    WriteComparison(results[0], results[1], page, known,
-                    DiscretizationFlags());
+    WriteComparison(results[0], results[1], page, known, DiscretizationFlags());
     std::printf("%s\n", page.c_str());
     return kGood;
   }

@@ -46,10 +46,11 @@ LogResult Log(const std::string& day, const std::vector<Warning>& warnings,
 }
 
 TEST(BatchResults, VerdictsFollowTheLatestWarnings) {
-  const Warning moved = Of("unexplained_frames",
-                           "likeliest cause: the gauges' offsets have moved; 9");
-  const Warning stiff = Of("forces_differ",
-                           "likeliest cause: it grows with the load, so");
+  const Warning moved =
+      Of("unexplained_frames",
+         "likeliest cause: the gauges' offsets have moved; 9");
+  const Warning stiff =
+      Of("forces_differ", "likeliest cause: it grows with the load, so");
   const Warning dead =
       Of("unexplained_frames", "likeliest cause: gauge 2 is dead: it");
   const Warning some = Of("some_unexplained_frames", "the offsets have moved");

@@ -34,10 +34,10 @@ std::string FromBase64(const std::string& text) {
 std::string Inflated(const std::string& packed, std::size_t size) {
   std::string bytes(size, '\0');
   uLongf length = size;
-  EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(bytes.data()), &length,
-                       reinterpret_cast<const Bytef*>(packed.data()),
-                       packed.size()),
-            Z_OK);
+  EXPECT_EQ(
+      uncompress(reinterpret_cast<Bytef*>(bytes.data()), &length,
+                 reinterpret_cast<const Bytef*>(packed.data()), packed.size()),
+      Z_OK);
   EXPECT_EQ(length, size);
   return bytes;
 }
@@ -97,7 +97,7 @@ TEST(Channel, BinsKeepLeastAndLargestAndGaps) {
   Channel channel{"x", 16, false, -6, 6, {}};
   for (int i = 0; i < 1003; ++i) {
     channel.values.push_back(i / 16 % 5 == 3 || i % 7 == 0 ? NAN
-                                                          : normal(random));
+                                                           : normal(random));
   }
   channel.values[500] = 5.9f;  // a spike of one frame
   const ChannelScale scale = channel.Scale();
@@ -107,8 +107,8 @@ TEST(Channel, BinsKeepLeastAndLargestAndGaps) {
     ASSERT_EQ(bins.most.size(), size > 1 ? bins.least.size() : 0);
     for (std::size_t b = 0; b < bins.least.size(); ++b) {
       float least = NAN, most = NAN;
-      for (std::size_t i = b * size; i < std::min<std::size_t>(1003, (b + 1) * size);
-           ++i) {
+      for (std::size_t i = b * size;
+           i < std::min<std::size_t>(1003, (b + 1) * size); ++i) {
         least = std::fmin(least, channel.values[i]);
         most = std::fmax(most, channel.values[i]);
       }
@@ -147,17 +147,18 @@ TEST(TimeJson, UnevenTimesAreGoodToAFractionOfTheirSpan) {
   const std::string json = TimeJson(times, 1);
   const std::string key = "\"words\":\"";
   const std::size_t begin = json.find(key) + key.size();
-  const std::string bytes =
-      Inflated(FromBase64(json.substr(begin, json.find('"', begin) - begin)), 20);
+  const std::string bytes = Inflated(
+      FromBase64(json.substr(begin, json.find('"', begin) - begin)), 20);
   std::uint32_t word = 0;
   for (std::size_t i = 0; i < 5; ++i) {
     std::uint32_t difference = 0;
     for (std::size_t plane = 0; plane < 4; ++plane) {
-      difference = difference << 8 |
-                   static_cast<unsigned char>(bytes[5 * plane + i]);
+      difference =
+          difference << 8 | static_cast<unsigned char>(bytes[5 * plane + i]);
     }
     word += difference;
-    EXPECT_NEAR(10 + 86400 * (word / 4294967295.0), times[i], 86400 / 4294967295.0);
+    EXPECT_NEAR(10 + 86400 * (word / 4294967295.0), times[i],
+                86400 / 4294967295.0);
   }
 }
 

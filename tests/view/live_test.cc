@@ -124,8 +124,7 @@ class LiveZeroTest : public testing::Test {
 
   const Finger finger_ =
       ReadFinger(FINRAY_SOURCE_DIR "/configs/fingers/paper_140mm.yaml");
-  const std::string text_ =
-      "time_s,gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V";
+  const std::string text_ = "time_s,gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V";
   CsvLine line_;
   std::vector<Measurements> rows_;
 };

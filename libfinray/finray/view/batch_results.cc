@@ -91,7 +91,8 @@ Kind KindOf(const Warning& warning) {
 const char* WordsOf(Kind kind) {
   switch (kind) {
     case Kind::kGood:
-      return "No warning, and a force sensor or free rows would have shown one.";
+      return "No warning, and a force sensor or free rows would have shown "
+             "one.";
     case Kind::kUnchecked:
       return "No warning, but no force_N and no free row that could show one.";
     case Kind::kWatch:
@@ -112,7 +113,8 @@ std::string DayInPath(const std::string& path) {
   const auto number = [&](std::size_t at, std::size_t digits) {
     int value = 0;
     for (std::size_t i = at; i < at + digits; ++i) {
-      if (i >= path.size() || !std::isdigit(static_cast<unsigned char>(path[i]))) {
+      if (i >= path.size() ||
+          !std::isdigit(static_cast<unsigned char>(path[i]))) {
         return -1;
       }
       value = 10 * value + (path[i] - '0');
@@ -188,15 +190,14 @@ FingerVerdict Judge(const std::vector<Warning>& of_finger,
   for (const LogResult* log : logs) {
     checked = checked || log->force_compared > 0 || log->free_rows > 0;
     for (const Warning& warning : log->warnings) {
-      kind = std::max(kind, log->day == last_day ? KindOf(warning)
-                                                 : Kind::kWatch);
+      kind =
+          std::max(kind, log->day == last_day ? KindOf(warning) : Kind::kWatch);
     }
   }
   if (kind == Kind::kGood && !checked) kind = Kind::kUnchecked;
   const bool uncalibrated =
-      std::any_of(of_finger.begin(), of_finger.end(), [](const Warning& w) {
-        return w.code == "not_calibrated";
-      });
+      std::any_of(of_finger.begin(), of_finger.end(),
+                  [](const Warning& w) { return w.code == "not_calibrated"; });
   if (uncalibrated && kind < Kind::kCalibrate) {
     return {Kind::kCalibrate,
             "Nobody has calibrated it: use finray_calibrate."};

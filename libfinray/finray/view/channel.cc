@@ -41,9 +41,9 @@ std::uint16_t ChannelScale::Code(double value) const {
   if (std::isnan(value)) return 0;
   double share = 0;
   if (high > low) {
-    share = logarithmic ? std::log(std::max(value, low) / low) /
-                              std::log(high / low)
-                        : (value - low) / (high - low);
+    share = logarithmic
+                ? std::log(std::max(value, low) / low) / std::log(high / low)
+                : (value - low) / (high - low);
   }
   share = std::min(1.0, std::max(0.0, share));
   return static_cast<std::uint16_t>(1 + std::lround(share * (codes() - 1)));

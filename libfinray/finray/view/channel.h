@@ -62,7 +62,8 @@ std::string PackCodes(const std::vector<std::uint16_t>& codes, int bits);
 /// bytes first.
 std::string PackWords(const std::vector<std::uint32_t>& words);
 
-/// Returns a channel as a JSON object {name, bits, log, low, high, least, most}.
+/// Returns a channel as a JSON object {name, bits, log, low, high, least,
+/// most}.
 std::string ChannelJson(const Channel& channel, std::size_t frames_per_bin);
 
 /// Returns the times of bins as a JSON object. Times must not decrease.

@@ -12,8 +12,8 @@
 namespace finray {
 namespace {
 
-constexpr int kNodes = 20;       // evenly spaced ones of a beam
-constexpr int kTableArcs = 57;   // 2.5 mm apart on a beam of 140 mm
+constexpr int kNodes = 20;      // evenly spaced ones of a beam
+constexpr int kTableArcs = 57;  // 2.5 mm apart on a beam of 140 mm
 constexpr int kTableForces = 25;
 
 constexpr Side kSides[] = {Side::kFront, Side::kBack};
@@ -53,12 +53,11 @@ PictureNodes::PictureNodes(const Finger& finger) : finger_(finger) {
     // An even node that is almost a hinge would only bend the drawn line.
     for (int i = 0; i <= kNodes; ++i) {
       const double arc = length * i / kNodes;
-      const bool taken =
-          std::any_of(finger.ribs.begin(), finger.ribs.end(),
-                      [&](const Rib& rib) {
-                        return std::abs(HingePlace(rib, side) - arc) <
-                               0.2 * length / kNodes;
-                      });
+      const bool taken = std::any_of(
+          finger.ribs.begin(), finger.ribs.end(), [&](const Rib& rib) {
+            return std::abs(HingePlace(rib, side) - arc) <
+                   0.2 * length / kNodes;
+          });
       if (!taken || i == 0 || i == kNodes) arcs.push_back(arc);
     }
     std::sort(arcs.begin(), arcs.end());

@@ -19,10 +19,9 @@ void GaugeResiduals::Find(const Measurements& readings,
     const double read_V = readings.gauges_V[j];
     residuals[j] =
         solved && gauge.IsMeasured(read_V)
-            ? static_cast<float>(
-                  (read_V -
-                   gauge.Volts(solver_.gauge_angle(static_cast<int>(j)))) /
-                  gauge.noise_V)
+            ? static_cast<float>((read_V - gauge.Volts(solver_.gauge_angle(
+                                               static_cast<int>(j)))) /
+                                 gauge.noise_V)
             : std::nanf("");
   }
 }

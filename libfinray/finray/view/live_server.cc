@@ -107,9 +107,9 @@ class LiveServer::Implementation {
     port_ = settings.port == 0
                 ? server_.bind_to_any_port(settings.address.c_str())
                 : settings.port;
-    if (settings.port == 0 ? port_ <= 0
-                           : !server_.bind_to_port(settings.address.c_str(),
-                                                   settings.port)) {
+    if (settings.port == 0
+            ? port_ <= 0
+            : !server_.bind_to_port(settings.address.c_str(), settings.port)) {
       throw InputError("cannot serve at " + settings.address + ":" +
                        std::to_string(settings.port) +
                        ": the port is in use, or the address is not of this "
@@ -218,8 +218,8 @@ class LiveServer::Implementation {
 
 LiveServer::LiveServer(const ServeSettings& settings, Pages pages,
                        const LiveHub* hub)
-    : implementation_(std::make_unique<Implementation>(
-          settings, std::move(pages), hub)) {}
+    : implementation_(
+          std::make_unique<Implementation>(settings, std::move(pages), hub)) {}
 
 LiveServer::~LiveServer() = default;
 

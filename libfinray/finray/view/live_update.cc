@@ -89,8 +89,7 @@ std::string LiveUpdates::Shape() {
     }
     contacts.push_back({contact.arc_mm, contact.normal_N, friction_});
   }
-  if (!solved ||
-      (contacts.empty() && row_.status != FrameStatus::kNoContact)) {
+  if (!solved || (contacts.empty() && row_.status != FrameStatus::kNoContact)) {
     return "null";
   }
   Measurements readings;
@@ -121,7 +120,8 @@ std::string LiveUpdates::Next(LiveFeed* feed, const std::string& message,
     return std::chrono::duration<double>(time).count();
   };
   if (seconds(now - rate_from_) > 1) {
-    rate_ = static_cast<double>(rows_ - rows_before_) / seconds(now - rate_from_);
+    rate_ =
+        static_cast<double>(rows_ - rows_before_) / seconds(now - rate_from_);
     rows_before_ = rows_;
     rate_from_ = now;
   }
@@ -138,10 +138,9 @@ std::string LiveUpdates::Next(LiveFeed* feed, const std::string& message,
       .Add("last", ShownAll(last_))
       .Add("shape", shape)
       .Add("rate", Shown(rate_))
-      .Add("latency",
-           ShownAll({1e-3 * latency_.Quantile(0.5),
-                     1e-3 * latency_.Quantile(0.99),
-                     1e-3 * static_cast<double>(latency_.max())}))
+      .Add("latency", ShownAll({1e-3 * latency_.Quantile(0.5),
+                                1e-3 * latency_.Quantile(0.99),
+                                1e-3 * static_cast<double>(latency_.max())}))
       .Add("missed", std::to_string(feed->missed()))
       .Add("message", JsonText(message))
       .Add("zeroing", zeroing ? "true" : "false")

@@ -19,9 +19,9 @@ LiveView::LiveView(const Finger& finger, const Scene& scene,
               {LogPageText(finger.name, updates_.PageJson(finger.name)),
                [this] { return zero_.Request() + "\n"; },
                [this] {
-                 return FingerToYaml(zero_.finger(),
-                                     "Of finray_estimate --follow --serve. " +
-                                         zero_.message());
+                 return FingerToYaml(
+                     zero_.finger(),
+                     "Of finray_estimate --follow --serve. " + zero_.message());
                }},
               &hub_),
       publisher_([this, updates_Hz] { Publish(updates_Hz); }) {}

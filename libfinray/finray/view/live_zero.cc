@@ -10,9 +10,7 @@ namespace finray {
 
 LiveZero::LiveZero(const Finger& finger, const Discretization& discretization,
                    Make make)
-    : discretization_(discretization),
-      make_(std::move(make)),
-      finger_(finger) {
+    : discretization_(discretization), make_(std::move(make)), finger_(finger) {
   free_rows_.reserve(kRows);
 }
 
@@ -59,7 +57,8 @@ void LiveZero::MakeZeroed() {
     made_ = make_(zeroed.finger);
     words = "Zeroed by " + std::to_string(zeroed.rows) + " rows; moved by";
     for (std::size_t j = 0; j < zeroed.change_V.size(); ++j) {
-      words += FormatText("%s %+.3g", j > 0 ? "," : "", 1e3 * zeroed.change_V[j]);
+      words +=
+          FormatText("%s %+.3g", j > 0 ? "," : "", 1e3 * zeroed.change_V[j]);
     }
     words += " mV.";
     state = State::kMade;

@@ -48,9 +48,8 @@ class ResultRows {
     const auto number = [&](const ColumnAt& at) {
       return at ? rows.at(row, *at).number : std::nan("");
     };
-    const FrameStatus status =
-        StatusNamed(rows.at(row, *status_).text,
-                    path_ + ":" + std::to_string(line) + ": ");
+    const FrameStatus status = StatusNamed(
+        rows.at(row, *status_).text, path_ + ":" + std::to_string(line) + ": ");
     log_.status.push_back(
         static_cast<std::uint16_t>(1 << static_cast<int>(status)));
     AddTime(number(time_));
@@ -188,8 +187,7 @@ class ResultRows {
                         status == FrameStatus::kNoContact ||
                         status == FrameStatus::kUnobservable;
     // An unobservable frame may have a force but no place.
-    const bool placed =
-        status == FrameStatus::kNoContact || !contacts_.empty();
+    const bool placed = status == FrameStatus::kNoContact || !contacts_.empty();
     if (solved && placed) {
       if (status == FrameStatus::kNoContact) contacts_.clear();
       offsets_V_.clear();

@@ -47,8 +47,7 @@ std::string PairsJson(const LogChannels& log, const Finger& finger,
   std::vector<std::vector<double>> moves;
   std::vector<double> frames;
   for (std::size_t k = 0; k < count; ++k) {
-    const LogChannels::Pair& pair =
-        log.pairs[k * log.pairs.size() / count];
+    const LogChannels::Pair& pair = log.pairs[k * log.pairs.size() / count];
     if (!solver.Solve(pair.contacts)) continue;
     std::vector<double> places = nodes.Places(solver, pair.contacts);
     for (std::size_t i = 0; i < places.size(); ++i) places[i] -= undeformed[i];

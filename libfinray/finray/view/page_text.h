@@ -8,9 +8,9 @@ namespace finray {
 
 // The build compiles the files of view/page/ into the library.
 //
-// Each function returns a page with nothing to load from elsewhere: page.html with the
-// title as text, page.css, the body and scripts of its kind, and `data_json` in
-// the element "data", where the scripts read it.
+// Each function returns a page with nothing to load from elsewhere: page.html
+// with the title as text, page.css, the body and scripts of its kind, and
+// `data_json` in the element "data", where the scripts read it.
 
 /// A log, two logs to compare, or a live log.
 std::string LogPageText(std::string_view title, std::string_view data_json);

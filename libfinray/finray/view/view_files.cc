@@ -82,9 +82,8 @@ std::string LogJson(const LogResult& log, const LogChannels& channels,
       .Add("status", status.str())
       .Add("unexplained", std::to_string(log.unexplained))
       .Add("force_compared", std::to_string(log.force_compared))
-      .Add("force_rms_N", JsonNumber(log.force_compared > 0
-                                         ? log.force_rms_N
-                                         : std::nan("")))
+      .Add("force_rms_N",
+           JsonNumber(log.force_compared > 0 ? log.force_rms_N : std::nan("")))
       .Add("free_V", JsonNumbers(free_V))
       .Add("warnings", WarningsJson(log.warnings))
       .Add("worst", WorstJson(WorstOf(channels), channels.has_time))
@@ -117,10 +116,9 @@ void WriteComparison(const std::string& result, const std::string& other,
                      const Discretization& discretization) {
   const LogChannels a = ReadLogChannels(result, finger, discretization);
   const LogChannels b = ReadLogChannels(other, finger, discretization);
-  WritePage(page,
-            LogPageText(a.name + " and " + b.name,
-                        LogPageJson({{&a, {}}, {&b, {}}}, finger,
-                                    discretization)));
+  WritePage(page, LogPageText(a.name + " and " + b.name,
+                              LogPageJson({{&a, {}}, {&b, {}}}, finger,
+                                          discretization)));
 }
 
 std::vector<ViewJob> JobsOf(const BatchResults& batch,
