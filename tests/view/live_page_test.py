@@ -29,7 +29,7 @@ SCENE = "contacts: 1\n"
 class Server:
     """The executable with a port of its own and rows at a rate, free or under a load."""
 
-    def __init__(self, folder, *flags, rows_per_s=500):
+    def __init__(self, folder, *flags, rows_per_s=500, row_s=None):
         scene = folder / "scene.yaml"
         scene.write_text(SCENE)
         self.out, self.err = open(folder / "rows.csv", "w+"), open(folder / "errors", "w+")
@@ -46,17 +46,17 @@ class Server:
             time.sleep(0.02)
         self.url, host, self.query = found.groups()
         self.port = int(host.rsplit(":", 1)[1])
-        self.thread = threading.Thread(target=self._feed, args=(rows_per_s,))
+        self.thread = threading.Thread(target=self._feed, args=(rows_per_s, row_s or 1 / rows_per_s))
         self.thread.start()
 
-    def _feed(self, rate):
+    def _feed(self, rate, row_s):
         start = time.monotonic()
         while not self.ending:
             due = int((time.monotonic() - start) * rate)
             while self.rows < due:
                 noise = 1e-4 * (self.rows % 5 - 2)
                 volts = [0.002, 0.002, 0.002, 0.002] if self.free else [0.025, 0.034, 0.042, 0.022]
-                self.process.stdin.write(f"{self.rows / rate:.4f}," + ",".join(f"{v + noise:.5f}" for v in volts) + "\n")
+                self.process.stdin.write(f"{self.rows * row_s:.4f}," + ",".join(f"{v + noise:.5f}" for v in volts) + "\n")
                 self.rows += 1
             self.process.stdin.flush()
             time.sleep(0.005)

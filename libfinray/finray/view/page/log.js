@@ -29,7 +29,8 @@ class Page {
     if (finger) this.picture = new FingerPicture(byId("finger"), finger);
     else byId("finger").closest(".finger").hidden = true;
     readColours();
-    const actions = {scrub: t => this.scrub(t), redraw: () => this.redraw()};
+    const actions = {scrub: t => this.scrub(t), redraw: () => this.redraw(), select: (x0, x1) => this.cursor.select(x0, x1)};
+    this.cursor = new Cursor(byId("plots"), this.view);
     this.plots = PLOTS.map(spec => {
       const full = {...spec, logs: () => this.logs};
       if (spec.length && finger) full.range = () => [0, finger.front[finger.front.length - 1]];
@@ -124,8 +125,8 @@ class Page {
     const start = performance.now();
     if (this.stale) for (const plot of this.plots) plot.draw();
     this.stale = false;
-    for (const plot of this.plots) plot.drawCursor();
     const view = this.view;
+    this.cursor.draw(byId("plots").clientWidth);
     if (document.activeElement !== byId("scrub")) byId("scrub").value = (view.cursor - view.least) / (view.most - view.least);
     const entries = this.logs.map(log => log.end > log.first ? log.nearest(view.cursor) : -1);
     if (this.picture) this.drawFinger(entries);

@@ -35,10 +35,10 @@ class View {
     this.t0 = Math.max(this.least, Math.min(this.most - span, t0));
     this.t1 = this.t0 + span;
   }
-  // Moves the range so that the cursor is in it.
+  // Moves the range so that the cursor is in it, by a page: what moves with every frame is drawn with every frame.
   include(t) {
     const span = this.t1 - this.t0;
-    if (t < this.t0 || t > this.t1) this.show(t < this.t0 ? t - 0.1 * span : t - 0.9 * span, span);
+    if (t < this.t0 || t > this.t1) this.show(t < this.t0 ? t - 0.95 * span : t - 0.05 * span, span);
   }
 }
 
@@ -70,8 +70,7 @@ class Plot {
     this.canvas = document.createElement("canvas");
     this.canvas.setAttribute("role", "img");
     this.canvas.setAttribute("aria-label", spec.title + " over time");
-    this.overlay = document.createElement("canvas");
-    this.area.append(this.canvas, this.overlay);
+    this.area.append(this.canvas);
     this.element.append(this.head, this.area);
     parent.append(this.element);
   }
@@ -119,7 +118,8 @@ class Plot {
       columns.push(column);
     };
     const pixels = Math.max(1, Math.floor(this.width - LEFT - RIGHT));
-    if (end - first <= 1.5 * pixels) {
+    columns.dense = end - first > pixels;
+    if (!columns.dense) {
       for (let i = first; i < end; i++) add(this.x(log.time(i)), i, i + 1);
     } else {
       let i = log.indexOf(this.t(LEFT));
@@ -199,6 +199,7 @@ class Plot {
     const {g, width, height} = prepared(this.canvas);
     this.width = width;
     this.height = height;
+    if (width < LEFT + 20) return;
     if (this.spec.kind === "status") { this.drawStatus(g); return; }
     const all = this.series.map(series => this.columns(series));
     this.findRange(all);
@@ -230,9 +231,11 @@ class Plot {
       let end = i;
       while (end < columns.length && !isNaN(low(columns[end])) && !isNaN(high(columns[end]))) end++;
       g.beginPath();
-      if (end === i + 1) g.rect(columns[i].x - 1, this.y(high(columns[i])), 2, this.y(low(columns[i])) - this.y(high(columns[i])));
-      for (let k = i; k < end && end > i + 1; k++) g.lineTo(columns[k].x, this.y(high(columns[k])));
-      for (let k = end - 1; k >= i && end > i + 1; k--) g.lineTo(columns[k].x, this.y(low(columns[k])));
+      if (columns.dense) {
+        for (let k = i; k < end; k++) g.rect(columns[k].x - 0.5, this.y(high(columns[k])), 1, this.y(low(columns[k])) - this.y(high(columns[k])));
+      } else if (end === i + 1) g.rect(columns[i].x - 1, this.y(high(columns[i])), 2, this.y(low(columns[i])) - this.y(high(columns[i])));
+      for (let k = i; k < end && end > i + 1 && !columns.dense; k++) g.lineTo(columns[k].x, this.y(high(columns[k])));
+      for (let k = end - 1; k >= i && end > i + 1 && !columns.dense; k--) g.lineTo(columns[k].x, this.y(low(columns[k])));
       g.fill();
       i = end;
     }
@@ -240,8 +243,22 @@ class Plot {
   }
   line(g, columns, series) {
     g.strokeStyle = g.fillStyle = series.colour;
+    if (columns.dense) {  // a bar for each pixel, which reaches to the one before: much faster than a path
+      let before = null;
+      for (const c of columns) {
+        if (isNaN(c.lo)) { before = null; continue; }
+        let top = this.y(c.hi), bottom = this.y(c.lo);
+        if (before) {
+          if (before.bottom < top) top = before.bottom;
+          if (before.top > bottom) bottom = before.top;
+        }
+        g.fillRect(c.x - 0.5, top - 0.6, 1, bottom - top + 1.2);
+        before = {top: this.y(c.hi), bottom: this.y(c.lo)};
+      }
+      return;
+    }
     g.lineWidth = series.width || 1.5;
-    g.lineJoin = "round";
+    g.lineJoin = "bevel";
     g.setLineDash(series.dash);
     const dots = columns.length < (this.width - LEFT) / 8;
     g.beginPath();
@@ -309,22 +326,30 @@ class Plot {
     }
     g.textAlign = "left";
   }
-  drawCursor(selection) {
-    if (this.element.hidden || !this.width) return;
-    const {g, width, height} = prepared(this.overlay), x = this.x(this.view.cursor);
-    if (selection) {
-      g.fillStyle = COLOURS.quiet;
-      g.globalAlpha = 0.25;
-      g.fillRect(Math.min(selection.x0, selection.x1), 0, Math.abs(selection.x1 - selection.x0), height);
-      g.globalAlpha = 1;
-    }
-    if (x < LEFT - 1 || x > width - RIGHT + 1) return;
-    g.strokeStyle = COLOURS.ink;
-    g.lineWidth = 1;
-    g.beginPath();
-    g.moveTo(Math.round(x) + 0.5, 2);
-    g.lineTo(Math.round(x) + 0.5, height - 2);
-    g.stroke();
+}
+
+// The cursor and a selection: elements above all plots, so that no canvas is drawn while they move.
+class Cursor {
+  constructor(parent, view) {
+    this.parent = parent;
+    this.view = view;
+    this.line = document.createElement("div");
+    this.line.className = "cursor";
+    this.area = document.createElement("div");
+    this.area.className = "selection";
+    this.area.hidden = true;
+    parent.append(this.area, this.line);
+  }
+  draw(width) {
+    const {cursor, t0, t1} = this.view, share = (cursor - t0) / (t1 - t0);
+    this.line.hidden = !(share >= -1e-9 && share <= 1 + 1e-9);
+    this.line.style.transform = `translateX(${Math.round(LEFT + (width - LEFT - RIGHT) * share)}px)`;
+  }
+  select(x0, x1) {
+    this.area.hidden = x0 === undefined;
+    if (this.area.hidden) return;
+    this.area.style.left = Math.min(x0, x1) + "px";
+    this.area.style.width = Math.abs(x1 - x0) + "px";
   }
 }
 
@@ -355,7 +380,7 @@ function listen(plot, view, actions) {
       actions.redraw();
     } else if (selection) {
       selection.x1 = place(event);
-      plot.drawCursor(selection);
+      actions.select(selection.x0, selection.x1);
     } else if (!pinch) {
       actions.scrub(plot.t(place(event)));
     }
@@ -367,6 +392,7 @@ function listen(plot, view, actions) {
       actions.redraw();
     }
     selection = null;
+    actions.select();
     down.delete(event.pointerId);
     if (down.size === 0) pinch = null;
   };
