@@ -140,6 +140,9 @@ TEST(LogPageJson, KeepsEveryFrameWhereItFitsAndBinsWhereNot) {
   const std::string small = LogPageJson({{&log, {}}}, nullptr, {}, limit);
   EXPECT_LT(small.size(), limit);
   EXPECT_THAT(small, HasSubstr("\"frames_per_bin\":8,"));
+  // What cannot fit ends with one bin.
+  EXPECT_THAT(LogPageJson({{&log, {}}}, nullptr, {}, 1),
+              HasSubstr("\"frames_per_bin\":65536,"));
 }
 
 TEST(LogPageJson, SlowAMillionFramesOfNoiseAreWithin30MB) {

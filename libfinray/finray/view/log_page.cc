@@ -31,7 +31,8 @@ std::string PackedLog(const LogChannels& log, std::size_t frames_per_bin) {
 std::string FittingLog(const LogChannels& log, std::size_t most_bytes) {
   std::string packed = PackedLog(log, 1);
   // A bin has two values, so bins of two frames save nothing.
-  for (std::size_t bin = 4; packed.size() > most_bytes; bin *= 2) {
+  for (std::size_t bin = 4; packed.size() > most_bytes && bin < 4 * log.frames;
+       bin *= 2) {
     packed = PackedLog(log, bin);
   }
   return packed;
