@@ -165,7 +165,7 @@ class Page {
       const cells = entries.map((i, k) => i < 0 ? "" : cell(this.logs[k], i));
       if (cells.some(text => text !== "")) rows.push([label, ...cells]);
     };
-    const number = (value, places) => isNaN(value) ? "–" : value.toFixed(places).replace("-", "−");
+    const number = (value, places) => isNaN(value) ? "–" : value.toFixed(places).replace(/^-(0\.?0*)$/, "$1").replace("-", "−");
     const spread = (value, std, below, above, places) => isNaN(value) ? "" :
       number(value, places) + (isNaN(std) ? "" : ` ± ${number(std, places)}`) +
       (isNaN(below) ? "" : ` [${number(value - below, places)}, ${number(value + above, places)}]`);

@@ -176,7 +176,7 @@ class Plot {
     if (this.spec.kind === "log") {
       for (const value of this.spec.ticks) line(value, value < 0.01 && value !== 0.001 ? value.toExponential(0).replace("-", "−") : value);
     } else {
-      const step = niceStep(this.high - this.low, Math.max(3, this.height / 28));
+      const step = niceStep(this.high - this.low, Math.max(4, this.height / 24));
       const places = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
       for (let v = Math.ceil(this.low / step - 1e-9) * step; v <= this.high + 1e-9 * step; v += step) {
         line(v, v.toFixed(places).replace("-", "−").replace(/^−(0\.?0*)$/, "$1"));
@@ -265,18 +265,21 @@ class Plot {
     let open = false;
     columns.forEach((c, k) => {
       if (isNaN(c.lo)) { open = false; return; }
-      const low = this.y(c.lo), high = this.y(c.hi);
-      if (open) g.lineTo(c.x, low); else g.moveTo(c.x, low);
-      if (high !== low) g.lineTo(c.x, high);
-      const alone = !open && (k + 1 === columns.length || isNaN(columns[k + 1].lo));
-      if (alone && high === low) g.lineTo(c.x + 1, low);
+      const middle = (this.y(c.lo) + this.y(c.hi)) / 2;
+      if (open) g.lineTo(c.x, middle); else g.moveTo(c.x, middle);
+      if (!open && (k + 1 === columns.length || isNaN(columns[k + 1].lo))) g.lineTo(c.x + 1, middle);
       open = true;
     });
+    for (const c of columns) {  // entries of several frames
+      if (!(c.hi > c.lo)) continue;
+      g.moveTo(c.x, this.y(c.lo));
+      g.lineTo(c.x, this.y(c.hi));
+    }
     g.stroke();
     g.setLineDash([]);
     if (dots) {
       for (const c of columns) {
-        if (isNaN(c.lo)) continue;
+        if (c.lo !== c.hi) continue;
         g.beginPath();
         g.arc(c.x, this.y(c.lo), 2.2, 0, 7);
         g.fill();
