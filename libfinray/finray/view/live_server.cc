@@ -104,12 +104,8 @@ class LiveServer::Implementation {
       setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     });
     Route();
-    port_ = settings.port == 0
-                ? server_.bind_to_any_port(settings.address.c_str())
-                : settings.port;
-    if (settings.port == 0
-            ? port_ <= 0
-            : !server_.bind_to_port(settings.address.c_str(), settings.port)) {
+    port_ = Bind();
+    if (port_ <= 0) {
       throw InputError("cannot serve at " + settings.address + ":" +
                        std::to_string(settings.port) +
                        ": the port is in use, or the address is not of this "
@@ -128,6 +124,13 @@ class LiveServer::Implementation {
   int port() const { return port_; }
 
  private:
+  // Returns the port, or what is not above 0.
+  int Bind() {
+    const char* address = settings_.address.c_str();
+    if (settings_.port == 0) return server_.bind_to_any_port(address);
+    return server_.bind_to_port(address, settings_.port) ? settings_.port : 0;
+  }
+
   void Route() {
     server_.Get("/", [this](const auto& request, auto& response) {
       if (!Admits(request, &response)) return;

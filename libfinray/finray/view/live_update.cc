@@ -26,7 +26,7 @@ LiveUpdates::LiveUpdates(const Finger& finger,
                          const Discretization& discretization, double friction)
     : friction_(friction),
       nodes_(finger),
-      residuals_(finger, discretization),
+      solver_(finger, discretization),
       found_(finger.gauges.size()) {
   for (int c = 0; c < 2; ++c) {
     for (const std::string& name :
@@ -94,13 +94,13 @@ std::string LiveUpdates::Shape() {
   }
   Measurements readings;
   readings.gauges_V = row_.gauges_V;
-  residuals_.Find(readings, contacts, {}, found_.data());
+  solver_.FindResiduals(readings, contacts, {}, found_.data());
   const std::size_t first = names_.size() - found_.size();
   for (std::size_t j = 0; j < found_.size(); ++j) {
     least_[first + j] = most_[first + j] = last_[first + j] = found_[j];
   }
-  if (residuals_.solver().status() != SolveStatus::kSolved) return "null";
-  return ShownAll(nodes_.Places(residuals_.solver(), contacts));
+  if (solver_.solver().status() != SolveStatus::kSolved) return "null";
+  return ShownAll(nodes_.Places(solver_.solver(), contacts));
 }
 
 std::string LiveUpdates::Next(LiveFeed* feed, const std::string& message,
@@ -125,8 +125,11 @@ std::string LiveUpdates::Next(LiveFeed* feed, const std::string& message,
     rows_before_ = rows_;
     rate_from_ = now;
   }
-  // Rows without a time have that of the clock.
-  time_s_ = std::isfinite(row_.time_s) ? row_.time_s : seconds(now - start_);
+  // A log without times has those of the clock. In one with times, a row that
+  // cannot be read has that of the row before.
+  timed_ = timed_ || std::isfinite(row_.time_s);
+  if (!timed_) time_s_ = seconds(now - start_);
+  if (std::isfinite(row_.time_s)) time_s_ = row_.time_s;
   const std::string shape = Shape();
   return JsonObject()
       .Add("rows", std::to_string(rows_))

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "finray/batch/live_rows.h"
+#include "finray/view/estimate_solver.h"
 #include "finray/view/finger_picture.h"
-#include "finray/view/gauge_residuals.h"
 #include "finray/view/live_feed.h"
 
 namespace finray {
@@ -28,7 +28,7 @@ class LiveUpdates {
   /// From now on residuals are those of these gauges: the finger has been
   /// zeroed.
   void set_gauges(const std::vector<Gauge>& gauges) {
-    residuals_.set_gauges(gauges);
+    solver_.set_gauges(gauges);
   }
 
  private:
@@ -39,7 +39,7 @@ class LiveUpdates {
 
   double friction_;
   PictureNodes nodes_;
-  GaugeResiduals residuals_;
+  EstimateSolver solver_;
   std::vector<std::string> names_;
   std::vector<double> least_, most_, last_;
   std::vector<float> found_;
@@ -49,6 +49,7 @@ class LiveUpdates {
   LatencyHistogram latency_;
   Clock::time_point start_ = Clock::now(), rate_from_ = start_;
   double rate_ = 0, time_s_ = 0;
+  bool timed_ = false;
 };
 
 }  // namespace finray

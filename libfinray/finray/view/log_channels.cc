@@ -12,7 +12,7 @@
 #include "finray/scene/creep_filter.h"
 #include "finray/scene/frame_columns.h"
 #include "finray/scene/measurement_columns.h"
-#include "finray/view/gauge_residuals.h"
+#include "finray/view/estimate_solver.h"
 
 namespace finray {
 namespace {
@@ -68,11 +68,13 @@ class ResultRows {
       const double friction = number(contact.friction);
       if (!std::isnan(friction)) log_.friction = point.friction = friction;
       if (!std::isfinite(point.arc_mm) || !std::isfinite(point.normal_N)) break;
-      log_.most_force_N = std::max(log_.most_force_N, point.normal_N);
+      double& most_N = status == FrameStatus::kOk ? most_sure_N_ : most_N_;
+      most_N = std::max(most_N, point.normal_N);
       contacts_.push_back(point);
     }
     if (contacts_.size() > 1) log_.pairs.push_back({log_.frames, contacts_});
-    if (residuals_) AddResiduals(rows, row, status);
+    log_.most_force_N = most_sure_N_ > 0 ? most_sure_N_ : most_N_;
+    if (solver_) AddResiduals(rows, row, status);
     ++log_.frames;
   }
 
@@ -166,7 +168,7 @@ class ResultRows {
     columns_.emplace(finger, names_, path_,
                      MeasurementColumns::Options{true, false, false});
     creep_.emplace(finger);
-    residuals_.emplace(finger, discretization);
+    solver_.emplace(finger, discretization);
     first_residual_ = log_.channels.size();
     for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
       Channel& channel =
@@ -196,7 +198,7 @@ class ResultRows {
           offsets_V_.push_back(rows.at(row, *at).number);
         }
       }
-      residuals_->Find(readings_, contacts_, offsets_V_, found_.data());
+      solver_->FindResiduals(readings_, contacts_, offsets_V_, found_.data());
     } else {
       std::fill(found_.begin(), found_.end(), std::nanf(""));
     }
@@ -228,9 +230,10 @@ class ResultRows {
   std::vector<ContactAt> contact_at_;
   std::optional<std::size_t> force_;  // its channel
   std::size_t first_residual_ = 0;
+  double most_sure_N_ = 0, most_N_ = 0;
   std::optional<MeasurementColumns> columns_;
   std::optional<CreepFilter> creep_;
-  std::optional<GaugeResiduals> residuals_;
+  std::optional<EstimateSolver> solver_;
   std::vector<ColumnAt> offset_at_;
   // Memory, reused by the next row.
   Measurements readings_;

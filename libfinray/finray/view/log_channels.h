@@ -30,7 +30,8 @@ struct LogChannels {
   std::vector<Channel> channels;
   /// 1 << status of each frame.
   std::vector<std::uint16_t> status;
-  /// The largest normal_<c>_N; 0 if there is none.
+  /// The largest normal_<c>_N of the frames that are ok, or of all if none is:
+  /// those of other frames may be far off. 0 if there is none.
   double most_force_N = 0;
   double friction = 0;  ///< mu of the contacts.
   /// The contacts of each frame with two.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/view/estimate_solver.h"
 #include "finray/view/finger_picture.h"
 #include "finray/view/json_text.h"
 
@@ -43,14 +44,14 @@ std::string PairsJson(const LogChannels& log, const Finger& finger,
                       const Discretization& discretization,
                       const PictureNodes& nodes) {
   const std::size_t count = std::min(log.pairs.size(), kMostPairs);
-  EquilibriumSolver solver(finger, discretization);
+  EstimateSolver solver(finger, discretization);
   const std::vector<double> undeformed = nodes.Undeformed();
   std::vector<std::vector<double>> moves;
   std::vector<double> frames;
   for (std::size_t k = 0; k < count; ++k) {
     const LogChannels::Pair& pair = log.pairs[k * log.pairs.size() / count];
     if (!solver.Solve(pair.contacts)) continue;
-    std::vector<double> places = nodes.Places(solver, pair.contacts);
+    std::vector<double> places = nodes.Places(solver.solver(), pair.contacts);
     for (std::size_t i = 0; i < places.size(); ++i) places[i] -= undeformed[i];
     moves.push_back(std::move(places));
     frames.push_back(static_cast<double>(pair.frame));

@@ -35,8 +35,10 @@ class Finger {
     if (log.pairs && !isNaN(log.value("contact_2_mm", i))) return this.pairShape(log, i);
     const free = mask === 2 || isNaN(arc);
     if (free && mask & 4) return none;
-    const places = this.places(this.interpolate(free ? 0 : arc, free ? 0 : force));
+    const most = this.table.forces[this.table.forces.length - 1], beyond = !free && force > most * 1.0001;
+    const places = this.places(this.interpolate(free ? 0 : arc, free ? 0 : Math.min(force, most)));
     if (places.some(isNaN)) return {places: null, words: "The finger has no equilibrium there: undeformed."};
+    if (beyond) return {places, approximate: true, words: `No sure frame has so large a force: the shape under ${most.toFixed(2)} N.`};
     return {places, words: log.framesPerBin > 1 ? `The middle of ${log.framesPerBin} frames.` : ""};
   }
   pairShape(log, i) {

@@ -267,7 +267,7 @@ function explain(finger) {
   const table = finger && finger.table;
   byId("how").textContent = !finger ? "Made without a finger: there is no picture of it and no residual of its gauges."
     : !table ? "Each shape is solved for its frame while it is live. The thick band is the interval of the place, the ticks at the arrow's tail that of the force."
-    : `The shape is interpolated between ${table.arcs.length} by ${table.forces.length} solutions for one contact, to ${table.error_mm.toFixed(3)} mm; ` +
+    : `The shape is interpolated between ${table.arcs.length} by ${table.forces.length} solutions for one contact, to ${table.error_mm.toFixed(3)} mm, up to the largest force of a frame that is ok (beyond it: dashed and named); ` +
       "with two contacts each frame is solved (very long logs: the nearest solved one, dashed and named). The thick band on the beam is the interval of the place, " +
       "the ticks at the arrow's tail that of the force. A dashed grey arrow is a second solution that explains the frame as well.";
 }

@@ -1,18 +1,24 @@
-#include "finray/view/gauge_residuals.h"
+#include "finray/view/estimate_solver.h"
 
 #include <cmath>
 
 namespace finray {
 
-GaugeResiduals::GaugeResiduals(const Finger& finger,
+EstimateSolver::EstimateSolver(const Finger& finger,
                                const Discretization& discretization)
     : gauges_(finger.gauges), solver_(finger, discretization) {}
 
-void GaugeResiduals::Find(const Measurements& readings,
-                          const std::vector<PointContact>& contacts,
-                          const std::vector<double>& offsets_V,
-                          float* residuals) {
-  const bool solved = solver_.Solve(contacts);
+bool EstimateSolver::Solve(const std::vector<PointContact>& contacts) {
+  if (solver_.Solve(contacts)) return true;
+  if (++failures_ == kPatience) solver_.set_near_only(true);
+  return false;
+}
+
+void EstimateSolver::FindResiduals(const Measurements& readings,
+                                   const std::vector<PointContact>& contacts,
+                                   const std::vector<double>& offsets_V,
+                                   float* residuals) {
+  const bool solved = Solve(contacts);
   for (std::size_t j = 0; j < gauges_.size(); ++j) {
     Gauge gauge = gauges_[j];
     if (!offsets_V.empty()) gauge.offset_V = offsets_V[j];
