@@ -4,22 +4,21 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
+#include <optional>
 
 #include "app.h"
-#include "finray/batch/live_rows.h"
 #include "finray/batch/log_job.h"
 #include "finray/calib/analysis/gate.h"
 #include "finray/io/atomic_file.h"
-#include "finray/io/line_reader.h"
 #include "finray/io/log_list.h"
+#include "finray/view/live_server.h"
+#include "finray/view/view_files.h"
+#include "follow_input.h"
 #include "progress_bar.h"
 
 DEFINE_string(finger, "", "finger YAML, best a calibrated one");
@@ -53,6 +52,16 @@ DEFINE_bool(keep_going, false,
             "leave out logs that are bad input, list them in summary.yaml");
 DEFINE_bool(follow, false,
             "a log from standard input, each row at once to standard output");
+DEFINE_bool(report, false,
+            "write a page of each log beside its result, and index.html");
+DEFINE_int32(serve, -1,
+             "with --follow: port of a live page; 0: any free one; -1: none");
+DEFINE_string(serve_address, "127.0.0.1",
+              "address of the live page; any but this machine's own needs "
+              "--serve_token");
+DEFINE_string(serve_token, "",
+              "the live page asks for it: http://...?token=...");
+DEFINE_double(serve_rate_Hz, 20, "updates of the live page in a second");
 
 namespace {
 
@@ -200,38 +209,11 @@ void CheckJoint(BatchSettings* settings) {
 // Live rows go from one pipe to the other, so flags of batches mean nothing.
 void RefuseBatchFlags() {
   for (const char* flag : {"logs", "logs_root", "out_dir", "resume", "threads",
-                           "keep_going", "joint"}) {
+                           "keep_going", "joint", "report"}) {
     if (IsGiven(flag)) {
       throw UsageError(std::string("--") + flag + " does not go with --follow");
     }
   }
-}
-
-// Writes to standard output. Returns false if nobody reads the output, or if
-// told to stop while it waits for a reader.
-bool WriteLive(std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t count = write(STDOUT_FILENO, text.data(), text.size());
-    if (count >= 0) {
-      text.remove_prefix(static_cast<std::size_t>(count));
-    } else if (errno == EPIPE || (errno == EINTR && IsStopRequested())) {
-      return false;
-    } else if (errno != EINTR) {
-      throw InputError(std::string("stdout: cannot be written: ") +
-                       std::strerror(errno));
-    }
-  }
-  return true;
-}
-
-void PrintLatency(const LatencyHistogram& latency) {
-  const auto us = [&](double share) { return 1e-3 * latency.Quantile(share); };
-  std::fprintf(stderr,
-               "latency        p50 %.1f us, p99 %.1f us, p99.9 %.1f us, max "
-               "%.1f us, over %llu frames\n",
-               us(0.5), us(0.99), us(0.999),
-               1e-3 * static_cast<double>(latency.max()),
-               static_cast<unsigned long long>(latency.count()));
 }
 
 // Says whether all frames together keep the gate, and prints it.
@@ -249,68 +231,74 @@ bool KeepsGate(const EstimationSummary& all) {
   return gate.passed;
 }
 
-// Runs `finray_estimate --follow`: it reads a log from standard input and
-// writes each row to standard output at once. It ends with its input, with a
-// stop signal, or when nobody reads its output any more. Then it says how long
-// the rows have taken, from having the whole line to having written its row.
-int FollowInput(const BatchSettings& settings) {
-  using Clock = std::chrono::steady_clock;
-  constexpr char kSource[] = "stdin";
+// Checks who may see a live page.
+std::optional<ServeSettings> LivePage() {
+  if (FLAGS_serve < 0) {
+    for (const char* flag : {"serve_address", "serve_token", "serve_rate_Hz"}) {
+      if (IsGiven(flag)) {
+        throw UsageError(std::string("--") + flag + " goes with --serve");
+      }
+    }
+    return {};
+  }
+  if (FLAGS_serve > 65535) {
+    throw UsageError("--serve: expected a port, 0 to 65535, found " +
+                     std::to_string(FLAGS_serve));
+  }
+  if (!(FLAGS_serve_rate_Hz >= 0.1 && FLAGS_serve_rate_Hz <= 1000)) {
+    throw UsageError("--serve_rate_Hz: expected 0.1 to 1000");
+  }
+  constexpr std::size_t kShortestToken = 16;
+  constexpr char kDigits[] =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
+  if (FLAGS_serve_token.empty() ? !IsLoopback(FLAGS_serve_address)
+                                : FLAGS_serve_token.size() < kShortestToken) {
+    throw UsageError(
+        "--serve_address " + FLAGS_serve_address +
+        ": other machines reach it, so it needs a --serve_token of at least 16 "
+        "letters and digits");
+  }
+  if (FLAGS_serve_token.find_first_not_of(kDigits) != std::string::npos) {
+    throw UsageError("--serve_token: expected letters, digits, - and _ only");
+  }
+  return ServeSettings{FLAGS_serve_address, FLAGS_serve, FLAGS_serve_token};
+}
+
+// Runs `finray_estimate --follow`.
+int Follow(const BatchSettings& settings) {
   std::signal(SIGPIPE, SIG_IGN);
   // A poll() on this pipe cannot miss the request to stop.
   int ends[2] = {-1, -1};
   if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) == 0) stop_pipe = ends[1];
   CatchStopSignals(0);
-  LineReader lines = ReadPipe(STDIN_FILENO, ends[0], kSource);
-  FrameEstimator estimator(settings.finger, settings.scene,
-                           settings.discretization, settings.method);
-  CsvLine header;
-  do {
-    if (!lines.Next()) {
-      if (IsStopRequested()) return kGood;
-      throw InputError(std::string(kSource) +
-                       ": is empty, expected a header and rows");
-    }
-    header = lines.line();
-  } while (!IsHeaderLine(&header));
-  LiveRows rows(settings.finger, settings.scene, kSource, header, &estimator);
-  LatencyHistogram latency;
-  EstimationSummary summary;
-  std::size_t ended = 0;
-  Warn(WarningsOf(settings.finger));
-  bool open = WriteLive(rows.HeaderCsv());
-  while (open && !IsStopRequested() && lines.Next()) {
-    const Clock::time_point start = Clock::now();
-    const std::string& row = rows.Next(lines.line());
-    if (!rows.error().empty()) {
-      if (FLAGS_strict) throw InputError(rows.error());
-      std::cerr << "finray_estimate: " << rows.error() << "\n";
-    }
-    open = WriteLive(row);
-    if (open) {
-      const std::chrono::nanoseconds time = Clock::now() - start;
-      latency.Add(static_cast<std::uint64_t>(time.count()));
-    }
-    summary.Add(rows.estimate(), settings.scene.friction_coefficient,
-                rows.readings());
-    ended += rows.estimate().search_ended;
-  }
-  PrintLatency(latency);
-  if (settings.scene.search_iteration_limit) {
-    std::fprintf(stderr,
-                 "searches       %zu ended by the scene's limit of %d\n", ended,
-                 *settings.scene.search_iteration_limit);
-  }
+  const auto summary =
+      FollowInput(settings, {FLAGS_strict, LivePage(), FLAGS_serve_rate_Hz,
+                             ends[0], IsStopRequested});
+  if (!summary) return kGood;
   const std::vector<Warning> warnings =
-      WarningsOf({{&summary, kSource}}, settings.finger);
+      WarningsOf({{&*summary, "stdin"}}, settings.finger);
   Warn(warnings);
-  if (FLAGS_strict && summary.unsolved() > 0) return kSolveFailed;
-  const bool kept = KeepsGate(summary);
+  if (FLAGS_strict && summary->unsolved() > 0) return kSolveFailed;
+  const bool kept = KeepsGate(*summary);
   return kept && !(FLAGS_strict && FailsStrict(warnings)) ? kGood : kGateFailed;
+}
+
+// Writes D/<log>.html of each log, and D/index.html of several.
+void WriteReport(const BatchSettings& settings) {
+  const BatchResults batch = ReadBatchResults(FLAGS_out_dir);
+  const std::vector<ViewJob> jobs = JobsOf(batch, FLAGS_out_dir);
+  ProgressBar bar(jobs.size());
+  WriteBatchPages({batch}, {jobs}, OutPath("index.html"), &settings.finger,
+                  settings.discretization, [&] { bar.Add(1, false); });
+  bar.Clear();
+  std::printf("report         %s\n", OutPath("index.html").c_str());
 }
 
 int Run() {
   if (FLAGS_follow) RefuseBatchFlags();
+  if (!FLAGS_follow && FLAGS_serve >= 0) {
+    throw UsageError("--serve goes with --follow");
+  }
   BatchSettings settings(Required("finger", FLAGS_finger), FLAGS_scene,
                          DiscretizationFlags());
   settings.method = ChosenMethod();
@@ -324,7 +312,7 @@ int Run() {
                      settings.discretization)) {
     return kGood;
   }
-  if (FLAGS_follow) return FollowInput(settings);
+  if (FLAGS_follow) return Follow(settings);
   settings.threads = Threads(FLAGS_threads);
   settings.resume = FLAGS_resume;
   settings.stop = IsStopRequested;
@@ -352,6 +340,7 @@ int Run() {
   WriteFileAtomically(OutPath("summary.yaml"),
                       BatchYaml(settings, jobs, bad_logs));
   PrintSummary(jobs, bar);
+  if (FLAGS_report) WriteReport(settings);
   const EstimationSummary all = Total(jobs);
   const std::vector<Warning> warnings =
       WarningsOf(SummariesOf(jobs), settings.finger);
@@ -371,6 +360,6 @@ const finray::App finray::kApp = {
     "Contact location and force from the gauges of every frame.\n"
     "finray_estimate --finger F.yaml --logs 'runs/*.csv' --out_dir D "
     "[--scene S.yaml] [--resume] [--joint]\n"
-    "sensor | finray_estimate --follow --finger F.yaml [--scene S.yaml] | "
-    "consumer",
+    "sensor | finray_estimate --follow --finger F.yaml [--scene S.yaml] "
+    "[--serve 8080] | consumer",
     Run};

@@ -19,6 +19,7 @@ ROWS = [
     [("apps", "the executables: flags, files, exit codes")],
     [("calib", "from plan and logs to a calibrated finger"),
      ("perception", "outlines, stiffness"), ("control", "force control"), ("benchmark", "speed, error")],
+    [("view", "pages of results, the live page and its server")],
     [("batch", "many logs: jobs, streams, result rows, summaries")],
     [("sensing", "contacts from gauges: search, fit, status, uncertainty; sensing/fast: what exists for speed")],
     [("residuals", "the heart: a frame's measurements as Ceres blocks, for sensing and calib alike")],

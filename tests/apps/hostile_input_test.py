@@ -47,6 +47,9 @@ SPRING = (SOURCE / "datasets/springs/spring_0.5_1.csv").read_bytes()
 TOUCHES = (SOURCE / "datasets/touches_square/touches.csv").read_bytes()
 OUTLINE = (SOURCE / "datasets/touches_square/outline.csv").read_bytes()
 
+RESULT = (b"time_s,gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V,contact_1_mm,normal_1_N,status\n"
+          b"0,0.01,0.02,0.03,0.02,50,2,ok\n1,0,0,0,0,,0,no_contact\n")
+
 # Each executable: its input files, good ones, and its arguments.
 APPS = {
     "simulate": ({"finger.yaml": FINGER, "scene.yaml": SCENE, "in.csv": LOADS},
@@ -66,6 +69,8 @@ APPS = {
     "reconstruct": ({"finger.yaml": FINGER, "log.csv": TOUCHES, "truth.csv": OUTLINE},
                     "--finger finger.yaml --logs log.csv --truth truth.csv --out_dir out"
                     " --noplots"),
+    "view": ({"finger.yaml": FINGER, "a.frames.csv": RESULT},
+             "--finger finger.yaml --results a.frames.csv --out_dir out"),
     "control": ({"finger.yaml": FINGER, "experiment.yaml": EXPERIMENT},
                 "--finger finger.yaml --experiment experiment.yaml --out_dir out"
                 " --draws 1"),

@@ -25,11 +25,15 @@ const std::string& LiveRows::Next(const CsvLine& line) {
   try {
     parser_.Parse(line, &rows_);
     layout_.Read(rows_, 0, &readings_);
-    if (!creep_.empty()) creep_.Remove(&readings_);
+    if (!creep_.empty()) {
+      raw_ = readings_;
+      creep_.Remove(&readings_);
+    }
   } catch (const InputError& error) {
     error_ = error.what();
     readings_ = {};
     readings_.gauges_V.assign(estimator_.finger().gauges.size(), std::nan(""));
+    raw_ = readings_;
   }
   estimate_ = estimator_.Next(readings_);
   layout_.Append(rows_, 0, readings_, estimate_, &values_, &row_);

@@ -37,6 +37,8 @@ class LiveRows {
   const FrameEstimate& estimate() const { return estimate_; }
   /// Its measurements; NaN if it has an error.
   const Measurements& readings() const { return readings_; }
+  /// The same as they were read, with the creep of the gauges.
+  const Measurements& raw() const { return creep_.empty() ? readings_ : raw_; }
 
  private:
   FrameParser parser_;
@@ -44,7 +46,7 @@ class LiveRows {
   FrameEstimator& estimator_;
   CreepFilter creep_;
   FrameRows rows_;
-  Measurements readings_;
+  Measurements readings_, raw_;
   std::vector<double> values_;  // memory, reused by the next row
   std::string row_, error_;
   FrameEstimate estimate_;

@@ -1,0 +1,138 @@
+#include "follow_input.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <string_view>
+
+#include "app.h"
+#include "finray/batch/estimation_warnings.h"
+#include "finray/io/line_reader.h"
+#include "finray/view/live_view.h"
+
+namespace finray {
+namespace {
+
+constexpr char kSource[] = "stdin";
+
+// Writes to standard output. Returns false if nobody reads the output, or if
+// told to stop while it waits for a reader.
+bool WriteLive(std::string_view text, const std::function<bool()>& stop) {
+  while (!text.empty()) {
+    const ssize_t count = write(STDOUT_FILENO, text.data(), text.size());
+    if (count >= 0) {
+      text.remove_prefix(static_cast<std::size_t>(count));
+    } else if (errno == EPIPE || (errno == EINTR && stop())) {
+      return false;
+    } else if (errno != EINTR) {
+      throw InputError(std::string("stdout: cannot be written: ") +
+                       std::strerror(errno));
+    }
+  }
+  return true;
+}
+
+void PrintLatency(const LatencyHistogram& latency) {
+  const auto us = [&](double share) { return 1e-3 * latency.Quantile(share); };
+  std::fprintf(stderr,
+               "latency        p50 %.1f us, p99 %.1f us, p99.9 %.1f us, max "
+               "%.1f us, over %llu frames\n",
+               us(0.5), us(0.99), us(0.999),
+               1e-3 * static_cast<double>(latency.max()),
+               static_cast<unsigned long long>(latency.count()));
+}
+
+// The header, whose text stays where it is.
+struct Header {
+  std::string text;
+  CsvLine line;
+};
+
+bool ReadHeader(LineReader* lines, const std::function<bool()>& stop,
+                Header* header) {
+  do {
+    if (!lines->Next()) {
+      if (stop()) return false;
+      throw InputError(std::string(kSource) +
+                       ": is empty, expected a header and rows");
+    }
+    header->line = lines->line();
+  } while (!IsHeaderLine(&header->line));
+  header->text = header->line.text;
+  header->line.text = header->text;
+  return true;
+}
+
+std::unique_ptr<LiveView> Serve(const BatchSettings& settings,
+                                const FollowSettings& follow,
+                                LiveZero::Make make) {
+  if (!follow.serve) return nullptr;
+  auto view = std::make_unique<LiveView>(
+      settings.finger, settings.scene, settings.discretization,
+      follow.updates_Hz, *follow.serve, std::move(make));
+  const std::string& address = follow.serve->address;
+  const bool is_ipv6 = address.find(':') != std::string::npos;
+  const std::string host = is_ipv6 ? "[" + address + "]" : address;
+  const std::string token =
+      follow.serve->token.empty() ? "" : "?token=" + follow.serve->token;
+  std::fprintf(stderr, "live page      http://%s:%d/%s\n", host.c_str(),
+               view->port(), token.c_str());
+  return view;
+}
+
+}  // namespace
+
+std::optional<EstimationSummary> FollowInput(const BatchSettings& settings,
+                                             const FollowSettings& follow) {
+  using Clock = std::chrono::steady_clock;
+  LineReader lines = ReadPipe(STDIN_FILENO, follow.stop_file, kSource);
+  Header header;
+  if (!ReadHeader(&lines, follow.stop, &header)) return {};
+  const LiveZero::Make make = [&](const Finger& finger) {
+    return std::make_unique<LiveEstimator>(
+        finger, settings.scene, settings.discretization, settings.method,
+        kSource, header.line);
+  };
+  std::unique_ptr<LiveEstimator> live = make(settings.finger);
+  const std::unique_ptr<LiveView> view = Serve(settings, follow, make);
+  LatencyHistogram latency;
+  EstimationSummary summary;
+  std::size_t ended = 0;
+  Warn(WarningsOf(settings.finger));
+  bool open = WriteLive(live->rows.HeaderCsv(), follow.stop);
+  while (open && !follow.stop() && lines.Next()) {
+    const Clock::time_point start = Clock::now();
+    LiveRows& rows = live->rows;
+    const std::string& row = rows.Next(lines.line());
+    if (!rows.error().empty()) {
+      if (follow.strict) throw InputError(rows.error());
+      std::cerr << "finray_estimate: " << rows.error() << "\n";
+    }
+    open = WriteLive(row, follow.stop);
+    const auto taken = static_cast<std::uint64_t>(
+        std::chrono::nanoseconds(Clock::now() - start).count());
+    if (open) latency.Add(taken);
+    summary.Add(rows.estimate(), settings.scene.friction_coefficient,
+                rows.readings());
+    ended += rows.estimate().search_ended;
+    if (!view) continue;
+    view->Push(rows, taken);
+    if (auto zeroed = view->TakeZeroed()) {
+      live = std::move(zeroed);
+      std::fprintf(stderr, "%s\n", view->message().c_str());
+    }
+  }
+  PrintLatency(latency);
+  if (settings.scene.search_iteration_limit) {
+    std::fprintf(stderr,
+                 "searches       %zu ended by the scene's limit of %d\n", ended,
+                 *settings.scene.search_iteration_limit);
+  }
+  return summary;
+}
+
+}  // namespace finray

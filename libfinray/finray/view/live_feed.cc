@@ -1,0 +1,38 @@
+#include "finray/view/live_feed.h"
+
+#include <utility>
+
+namespace finray {
+
+LiveFeed::LiveFeed(std::size_t gauges) : rows_(kRows) {
+  for (LiveRow& row : rows_) row.gauges_V.resize(gauges);
+}
+
+void LiveFeed::Push(const Measurements& readings, const FrameEstimate& estimate,
+                    std::uint64_t latency_ns) {
+  const std::size_t at = pushed_.load(std::memory_order_relaxed);
+  if (at - popped_.load(std::memory_order_acquire) == kRows) {
+    missed_.fetch_add(1, std::memory_order_relaxed);
+    return;
+  }
+  LiveRow& row = rows_[at % kRows];
+  row.time_s = readings.time_s;
+  row.status = estimate.status;
+  row.contact = estimate.contact;
+  row.p_value = estimate.p_value();
+  row.force_N = readings.force_xy_N.allFinite() ? readings.force_xy_N.norm()
+                                                : readings.force_N;
+  row.gauges_V.assign(readings.gauges_V.begin(), readings.gauges_V.end());
+  row.latency_ns = latency_ns;
+  pushed_.store(at + 1, std::memory_order_release);
+}
+
+bool LiveFeed::Pop(LiveRow* row) {
+  const std::size_t at = popped_.load(std::memory_order_relaxed);
+  if (at == pushed_.load(std::memory_order_acquire)) return false;
+  std::swap(*row, rows_[at % kRows]);
+  popped_.store(at + 1, std::memory_order_release);
+  return true;
+}
+
+}  // namespace finray

@@ -1,0 +1,231 @@
+#include "finray/view/live_server.h"
+
+#include <httplib.h>
+
+#include <atomic>
+#include <thread>
+#include <utility>
+
+#include "finray/io/error.h"
+
+namespace finray {
+namespace {
+
+constexpr std::size_t kMostBodyBytes = 1024;
+
+// Workers in a fixed number. A connection that finds none waits until one is
+// free, and others behind it in the system's queue, which is short.
+class BoundedWorkers : public httplib::TaskQueue {
+ public:
+  explicit BoundedWorkers(int workers) {
+    for (int i = 0; i < workers; ++i) {
+      threads_.emplace_back([this] { Work(); });
+    }
+  }
+
+  // httplib has changed what this returns.
+  using Taken = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));
+  Taken enqueue(std::function<void()> task) override {
+    std::unique_lock<std::mutex> lock(mutex_);
+    change_.wait(lock, [&] { return idle_ > 0 || ended_; });
+    --idle_;
+    tasks_.push_back(std::move(task));
+    change_.notify_all();
+    return static_cast<Taken>(true);
+  }
+  void shutdown() override {
+    Release();
+    for (std::thread& thread : threads_) thread.join();
+  }
+  // Lets nobody wait any more.
+  void Release() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ended_ = true;
+    change_.notify_all();
+  }
+
+ private:
+  void Work() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (true) {
+      ++idle_;
+      change_.notify_all();
+      change_.wait(lock, [&] { return !tasks_.empty() || ended_; });
+      if (tasks_.empty()) return;
+      const std::function<void()> task = std::move(tasks_.front());
+      tasks_.pop_front();
+      lock.unlock();
+      task();
+      lock.lock();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable change_;
+  std::deque<std::function<void()>> tasks_;
+  std::vector<std::thread> threads_;
+  int idle_ = 0;
+  bool ended_ = false;
+};
+
+// Takes the same time wherever the difference is.
+bool IsEqualSecret(const std::string& a, const std::string& b) {
+  unsigned difference = a.size() != b.size();
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    difference |= static_cast<unsigned char>(a[i]) ^
+                  static_cast<unsigned char>(b[b.empty() ? 0 : i % b.size()]);
+  }
+  return difference == 0;
+}
+
+}  // namespace
+
+bool IsLoopback(const std::string& address) {
+  return address == "localhost" || address == "::1" ||
+         address.compare(0, 4, "127.") == 0;
+}
+
+class LiveServer::Implementation {
+ public:
+  Implementation(const ServeSettings& settings, Pages pages, const LiveHub* hub)
+      : settings_(settings), pages_(std::move(pages)), hub_(*hub) {
+    server_.new_task_queue = [this] {
+      workers_ = new BoundedWorkers(kWorkers);  // httplib deletes it
+      return workers_.load();
+    };
+    server_.set_read_timeout(kPatience_s);
+    server_.set_write_timeout(kPatience_s);
+    server_.set_keep_alive_timeout(2);
+    server_.set_payload_max_length(kMostBodyBytes);
+    server_.set_tcp_nodelay(true);
+    // Not SO_REUSEPORT, httplib's default: two servers would share a port.
+    server_.set_socket_options([](socket_t socket) {
+      const int yes = 1;
+      setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
+    Route();
+    port_ = Bind();
+    if (port_ <= 0) {
+      throw InputError("cannot serve at " + settings.address + ":" +
+                       std::to_string(settings.port) +
+                       ": the port is in use, or the address is not of this "
+                       "machine");
+    }
+    thread_ = std::thread([this] { server_.listen_after_bind(); });
+    while (!server_.is_running()) std::this_thread::yield();
+  }
+  ~Implementation() {
+    ending_ = true;
+    if (BoundedWorkers* workers = workers_.load()) workers->Release();
+    server_.stop();
+    thread_.join();
+  }
+
+  int port() const { return port_; }
+
+ private:
+  // Returns the port, or what is not above 0.
+  int Bind() {
+    const char* address = settings_.address.c_str();
+    if (settings_.port == 0) return server_.bind_to_any_port(address);
+    return server_.bind_to_port(address, settings_.port) ? settings_.port : 0;
+  }
+
+  void Route() {
+    server_.Get("/", [this](const auto& request, auto& response) {
+      if (!Admits(request, &response)) return;
+      response.set_header("Cache-Control", "no-store");
+      response.set_content(pages_.page, "text/html; charset=utf-8");
+    });
+    server_.Get("/finger.yaml", [this](const auto& request, auto& response) {
+      if (!Admits(request, &response)) return;
+      response.set_header("Cache-Control", "no-store");
+      response.set_content(pages_.finger_yaml(), "application/yaml");
+    });
+    server_.Post("/zero", [this](const auto& request, auto& response) {
+      if (!Admits(request, &response)) return;
+      if (!request.has_header("X-Finray")) {
+        Refuse(403, "expected the header X-Finray", &response);
+        return;
+      }
+      response.set_content(pages_.zero(), "text/plain; charset=utf-8");
+    });
+    server_.Get("/events", [this](const auto& request, auto& response) {
+      if (Admits(request, &response)) Stream(&response);
+    });
+  }
+
+  bool Admits(const httplib::Request& request, httplib::Response* response) {
+    if (!settings_.token.empty()) {
+      if (IsEqualSecret(request.get_param_value("token"), settings_.token)) {
+        return true;
+      }
+      Refuse(403, "expected ?token=... as on the console", response);
+      return false;
+    }
+    std::string host = request.get_header_value("Host");
+    if (!host.empty() && host[0] == '[') {
+      host = host.substr(1, host.find(']') - 1);
+    } else {
+      host = host.substr(0, host.find(':'));
+    }
+    if (IsLoopback(host)) return true;
+    Refuse(403, "this page is for this machine only", response);
+    return false;
+  }
+
+  static void Refuse(int status, const std::string& why,
+                     httplib::Response* response) {
+    response->status = status;
+    response->set_content(why + "\n", "text/plain; charset=utf-8");
+  }
+
+  // Server-sent events until the client goes or the log ends.
+  void Stream(httplib::Response* response) {
+    if (++streams_ > kMostPages) {
+      --streams_;
+      Refuse(503, "too many pages are open", response);
+      return;
+    }
+    response->set_header("Cache-Control", "no-store");
+    auto next = std::make_shared<std::uint64_t>(hub_.count());
+    response->set_chunked_content_provider(
+        "text/event-stream",
+        [this, next](std::size_t, httplib::DataSink& sink) {
+          const auto updates =
+              hub_.After(next.get(), std::chrono::milliseconds(500));
+          // A comment finds out whether the client is still there.
+          std::string text = updates.empty() ? ":\n\n" : "";
+          for (const LiveHub::Update& update : updates) {
+            text += "data: " + *update + "\n\n";
+          }
+          const bool ended = hub_.closed() || ending_;
+          if (ended) text += "event: end\ndata: {}\n\n";
+          const bool open = sink.write(text.data(), text.size());
+          if (ended) sink.done();
+          return open;
+        },
+        [this](bool) { --streams_; });
+  }
+
+  ServeSettings settings_;
+  Pages pages_;
+  const LiveHub& hub_;
+  httplib::Server server_;
+  std::atomic<BoundedWorkers*> workers_{nullptr};
+  std::atomic<int> streams_{0};
+  std::atomic<bool> ending_{false};
+  int port_ = 0;
+  std::thread thread_;
+};
+
+LiveServer::LiveServer(const ServeSettings& settings, Pages pages,
+                       const LiveHub* hub)
+    : implementation_(
+          std::make_unique<Implementation>(settings, std::move(pages), hub)) {}
+
+LiveServer::~LiveServer() = default;
+
+int LiveServer::port() const { return implementation_->port(); }
+
+}  // namespace finray

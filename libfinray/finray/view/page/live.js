@@ -1,0 +1,149 @@
+// A log that is still coming: the last entries in rings of fixed size.
+
+const LIVE_ENTRIES = 12000;  // ten minutes at 20 a second
+
+class RingChannel {
+  constructor(log) {
+    this.log = log;
+    this.least = new Float32Array(LIVE_ENTRIES).fill(NaN);
+    this.most = new Float32Array(LIVE_ENTRIES).fill(NaN);
+  }
+  range(i, end, out) {
+    let lo = NaN, hi = NaN;
+    for (; i < end; i++) {
+      const k = i % LIVE_ENTRIES;
+      if (!(this.least[k] >= lo)) lo = isNaN(this.least[k]) ? lo : this.least[k];
+      if (!(this.most[k] <= hi)) hi = isNaN(this.most[k]) ? hi : this.most[k];
+    }
+    out[0] = lo;
+    out[1] = hi;
+  }
+  at(i) { return this.most[i % LIVE_ENTRIES]; }
+}
+
+// Entries are the updates of the server: the least and largest value of the rows since the one before, and the
+// last row itself, whose values `at` gives and whose shape is drawn.
+class LiveLog {
+  constructor({name, channels, nodes}) {
+    Object.assign(this, {name, hasTime: true, warnings: [], framesPerBin: 1, first: 0, end: 0, shift: 0, rows: 0, size: 2 * nodes});
+    this.times = new Float64Array(LIVE_ENTRIES);
+    this.status = new Uint8Array(LIVE_ENTRIES);
+    this.masks = new Uint8Array(LIVE_ENTRIES);
+    this.numbers = new Float64Array(LIVE_ENTRIES);
+    this.last = {};
+    this.channels = {};
+    for (const channel of channels) {
+      this.channels[channel] = new RingChannel(this);
+      this.last[channel] = new Float32Array(LIVE_ENTRIES);
+    }
+    this.names = channels;
+    this.shapes = new Float32Array(LIVE_ENTRIES * this.size);
+  }
+  add(update) {
+    const k = this.end % LIVE_ENTRIES;
+    this.times[k] = update.time;
+    this.status[k] = 1 << update.status;
+    this.masks[k] = update.mask;
+    this.numbers[k] = this.rows = update.rows;
+    this.names.forEach((name, c) => {
+      const number = value => value === null ? NaN : value;
+      this.channels[name].least[k] = number(update.least[c]);
+      this.channels[name].most[k] = number(update.most[c]);
+      this.last[name][k] = number(update.last[c]);
+    });
+    if (update.shape) this.shapes.set(update.shape, k * this.size);
+    else this.shapes.fill(NaN, k * this.size, (k + 1) * this.size);
+    this.end++;
+    this.first = Math.max(0, this.end - LIVE_ENTRIES);
+  }
+  slot(i) { return i % LIVE_ENTRIES; }
+  time(i) { return this.times[this.slot(i)]; }
+  indexOf(time) {
+    let low = this.first, high = this.end;
+    while (low < high) {
+      const middle = low + high >> 1;
+      if (this.time(middle) < time) low = middle + 1; else high = middle;
+    }
+    return low;
+  }
+  nearest(time) { return StaticLog.prototype.nearest.call(this, time); }
+  statusMask(i, end) {
+    let mask = 0;
+    for (; i < end; i++) mask |= this.masks[this.slot(i)];
+    return mask;
+  }
+  value(name, i) { return this.last[name] ? this.last[name][this.slot(i)] : NaN; }
+  shapeAt(i) {
+    const k = this.slot(i) * this.size, places = this.shapes.subarray(k, k + this.size);
+    return isNaN(places[0]) ? {places: null, words: "No estimate in this frame: undeformed."} : {places, words: ""};
+  }
+  facts() { return ""; }
+  frameText(i) { return `${this.numbers[this.slot(i)]}`; }
+  mostForce() { return 0; }  // grows with the updates
+}
+
+class Live {
+  constructor(page, log) {
+    this.page = page;
+    this.log = log;
+    this.following = true;
+    this.span = 30;  // seconds that are shown while it follows
+    byId("live").hidden = false;
+    byId("compare").hidden = byId("play").hidden = byId("speed").hidden = true;
+    this.query = location.search;  // the token
+    byId("zeroed").href = "finger.yaml" + this.query;
+    byId("follow").addEventListener("click", () => this.setFollowing(!this.following));
+    byId("zero").addEventListener("click", () => this.zero());
+    this.connect();
+  }
+  setFollowing(on) {
+    this.following = on;
+    byId("follow").setAttribute("aria-pressed", on);
+  }
+  state(name, words) {
+    byId("connection").className = "chip " + name;
+    byId("connection").textContent = words;
+  }
+  connect() {
+    const source = new EventSource("events" + this.query);
+    source.onopen = () => this.state("good", "live");
+    source.onerror = () => this.state("bad_input", source.readyState === EventSource.CLOSED ? "refused: too many pages, or a wrong token" : "connection lost");
+    source.onmessage = event => this.update(JSON.parse(event.data));
+    source.addEventListener("end", () => {
+      source.close();
+      this.state("no_contact", "the input has ended");
+      byId("zero").disabled = true;
+    });
+  }
+  update(update) {
+    const {log, page} = this, view = page.view, restarted = log.end > log.first && update.time < log.time(log.end - 1);
+    if (restarted) log.first = log.end = 0;
+    log.add(update);
+    view.bounds(log.time(log.first), Math.max(update.time, log.time(log.first) + this.span));
+    if (log.end === 1) view.show(view.least, this.span);
+    // Frames that are not observable may be far off.
+    if (!(update.mask & 4)) page.mostForce = Math.max(page.mostForce, update.most[log.names.indexOf("normal_1_N")] || 0);
+    if (this.following) {
+      view.cursor = update.time;
+      const span = view.t1 - view.t0;
+      view.show(Math.max(view.least, update.time - span), span);
+    }
+    byId("rate").textContent = `${Math.round(update.rate)} rows/s`;
+    byId("latency").textContent = `latency ${micros(update.latency[0])}, 99 %: ${micros(update.latency[1])}, most ${micros(update.latency[2])}` +
+      (update.missed ? `, ${update.missed} rows not shown` : "");
+    if (update.message && update.message !== this.message) say(update.message);
+    this.message = update.message;
+    byId("zero").disabled = update.zeroing;
+    page.redraw();
+  }
+  async zero() {
+    try {
+      const answer = await fetch("zero" + this.query, {method: "POST", headers: {"X-Finray": "zero"}});
+      say(await answer.text());
+    } catch (error) {
+      say("The gauges cannot be zeroed: " + error.message + ".");
+    }
+  }
+}
+
+function micros(us) { return us < 1000 ? `${us.toFixed(0)} µs` : `${(us / 1000).toFixed(1)} ms`; }

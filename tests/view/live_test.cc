@@ -1,0 +1,172 @@
+// The parts of a live page, without a server.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "finray/finger/finger_yaml.h"
+#include "finray/sensing/zeroed_finger.h"
+#include "finray/view/live_feed.h"
+#include "finray/view/live_hub.h"
+#include "finray/view/live_server.h"
+#include "finray/view/live_zero.h"
+
+namespace finray {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::vector<std::string> Texts(const std::vector<LiveHub::Update>& updates) {
+  std::vector<std::string> texts;
+  for (const LiveHub::Update& update : updates) texts.push_back(*update);
+  return texts;
+}
+
+TEST(LiveHub, AReaderGetsEachUpdateOnceAndASlowOneTheLast) {
+  LiveHub hub;
+  hub.Publish("before");
+  std::uint64_t fast = hub.count(), slow = fast;
+  EXPECT_TRUE(hub.After(&fast, milliseconds(0)).empty());
+  hub.Publish("a");
+  hub.Publish("b");
+  EXPECT_THAT(Texts(hub.After(&fast, milliseconds(0))),
+              testing::ElementsAre("a", "b"));
+  EXPECT_TRUE(hub.After(&fast, milliseconds(0)).empty());
+  for (int i = 0; i < 1000; ++i) hub.Publish(std::to_string(i));
+  const auto last = Texts(hub.After(&slow, milliseconds(0)));
+  EXPECT_EQ(last.size(), LiveHub::kUpdates);
+  EXPECT_EQ(last.back(), "999");
+}
+
+TEST(LiveHub, ClosingWakesReaders) {
+  LiveHub hub;
+  std::thread closer([&] { hub.Close(); });
+  std::uint64_t next = 0;
+  EXPECT_TRUE(hub.After(&next, milliseconds(60000)).empty());
+  EXPECT_TRUE(hub.closed());
+  closer.join();
+}
+
+TEST(LiveFeed, KeepsTheOrderAndCountsWhatFindsItFull) {
+  LiveFeed feed(2);
+  Measurements readings;
+  readings.gauges_V = {1, 2};
+  FrameEstimate estimate;
+  for (std::size_t i = 0; i < LiveFeed::kRows + 3; ++i) {
+    readings.time_s = static_cast<double>(i);
+    feed.Push(readings, estimate, i);
+  }
+  EXPECT_EQ(feed.missed(), 3u);
+  LiveRow row;
+  for (std::size_t i = 0; i < LiveFeed::kRows; ++i) {
+    ASSERT_TRUE(feed.Pop(&row));
+    EXPECT_EQ(row.time_s, static_cast<double>(i));
+  }
+  EXPECT_FALSE(feed.Pop(&row));
+}
+
+TEST(LiveFeed, TwoThreads) {
+  LiveFeed feed(1);
+  constexpr int kCount = 100000;
+  std::thread writer([&] {
+    Measurements readings;
+    readings.gauges_V = {0};
+    for (int i = 0; i < kCount; ++i) {
+      readings.time_s = readings.gauges_V[0] = i;
+      feed.Push(readings, {}, 0);
+    }
+  });
+  LiveRow row;
+  double before = -1;
+  int seen = 0;
+  while (before < kCount - 1 &&
+         seen + static_cast<int>(feed.missed()) < kCount) {
+    if (!feed.Pop(&row)) continue;
+    ++seen;
+    ASSERT_GT(row.time_s, before);
+    ASSERT_EQ(row.gauges_V[0], row.time_s);
+    before = row.time_s;
+  }
+  writer.join();
+}
+
+class LiveZeroTest : public testing::Test {
+ protected:
+  LiveZeroTest() {
+    line_.text = text_;
+    line_.number = 1;
+  }
+  std::unique_ptr<LiveEstimator> Make(const Finger& finger) {
+    return std::make_unique<LiveEstimator>(finger, Scene(), Discretization(),
+                                           FrameMethod::kFast, "stdin", line_);
+  }
+  // Offers rows until the result is there.
+  std::unique_ptr<LiveEstimator> Run(LiveZero* zero, double spread_V) {
+    std::unique_ptr<LiveEstimator> made;
+    for (int i = 0; i < 60000 && zero->busy(); ++i) {
+      Measurements row;
+      for (std::size_t j = 0; j < finger_.gauges.size(); ++j) {
+        row.gauges_V.push_back(0.01 * static_cast<double>(j) +
+                               (i % 2 ? spread_V : -spread_V));
+      }
+      rows_.push_back(row);
+      zero->Offer(row);
+      made = zero->Take();
+      std::this_thread::sleep_for(milliseconds(1));
+    }
+    return made;
+  }
+
+  const Finger finger_ =
+      ReadFinger(FINRAY_SOURCE_DIR "/configs/fingers/paper_140mm.yaml");
+  const std::string text_ = "time_s,gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V";
+  CsvLine line_;
+  std::vector<Measurements> rows_;
+};
+
+TEST_F(LiveZeroTest, OffsetsAreThoseOfFinrayZero) {
+  LiveZero zero(finger_, {}, [&](const Finger& f) { return Make(f); });
+  EXPECT_EQ(zero.Take(), nullptr);
+  EXPECT_THAT(zero.Request(), StartsWith("Zeroing: the next 100 rows"));
+  EXPECT_THAT(zero.Request(), HasSubstr("already"));
+  const auto made = Run(&zero, 1e-4);
+  ASSERT_NE(made, nullptr);
+  rows_.resize(LiveZero::kRows);
+  const ZeroedFinger expected = ZeroGauges(finger_, {}, rows_, "stdin");
+  for (std::size_t j = 0; j < finger_.gauges.size(); ++j) {
+    EXPECT_EQ(made->estimator.finger().gauges[j].offset_V,
+              expected.finger.gauges[j].offset_V);
+    EXPECT_EQ(zero.finger().gauges[j].offset_V,
+              expected.finger.gauges[j].offset_V);
+  }
+  EXPECT_THAT(zero.message(), StartsWith("Zeroed by 100 rows; moved by"));
+  EXPECT_FALSE(zero.busy());
+}
+
+TEST_F(LiveZeroTest, AFingerThatMovesIsNotZeroed) {
+  LiveZero zero(finger_, {}, [&](const Finger& f) { return Make(f); });
+  zero.Request();
+  EXPECT_EQ(Run(&zero, 0.1), nullptr);
+  EXPECT_THAT(zero.message(), HasSubstr("Not zeroed: gauge_1_V varies by"));
+  EXPECT_THAT(zero.message(), HasSubstr("Try again once"));
+  EXPECT_EQ(zero.finger().gauges[0].offset_V, finger_.gauges[0].offset_V);
+  EXPECT_THAT(zero.Request(), StartsWith("Zeroing"));  // once more
+}
+
+TEST(LiveServer, OnlyThisMachineIsALoopback) {
+  for (const char* address : {"127.0.0.1", "127.1.2.3", "localhost", "::1"}) {
+    EXPECT_TRUE(IsLoopback(address)) << address;
+  }
+  for (const char* address :
+       {"0.0.0.0", "::", "192.168.1.2", "example.org", ""}) {
+    EXPECT_FALSE(IsLoopback(address)) << address;
+  }
+}
+
+}  // namespace
+}  // namespace finray
