@@ -19,14 +19,15 @@
 #include "finray/calib/analysis/gate.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/line_reader.h"
+#include "finray/io/log_lines.h"
 #include "finray/io/log_list.h"
 #include "progress_bar.h"
 
 DEFINE_string(finger, "", "finger YAML, best a calibrated one");
 DEFINE_string(scene, "", "scene YAML; without it contacts: auto");
 DEFINE_string(logs, "",
-              "CSV logs with gauge_<j>_V, separated by commas: files, patterns "
-              "('runs/*.csv'), lists (@list.txt)");
+              "CSV logs with gauge_<j>_V, separated by commas: files, folders, "
+              "patterns ('runs/*.csv', 'runs/**'), lists (@list.txt)");
 DEFINE_string(out_dir, "", "folder for <log>.frames.csv and summary.yaml");
 DEFINE_string(logs_root, "",
               "folder above all logs: results lie in --out_dir as logs lie in "
@@ -51,6 +52,15 @@ DEFINE_double(most_unexplained_percent, 0,
               "not explain; default: none");
 DEFINE_bool(keep_going, false,
             "leave out logs that are bad input, list them in summary.yaml");
+DEFINE_string(bad_rows, "error",
+              "error, or skip: leave out rows that are bad input and list them "
+              "in <log>.bad_rows.csv");
+DEFINE_string(columns, "",
+              "columns of the results, separated by commas, in this order; * "
+              "stands for any text; default: all");
+DEFINE_int32(digits, 0,
+             "significant digits of computed numbers; 0: as many as read back "
+             "the same");
 DEFINE_bool(follow, false,
             "a log from standard input, each row at once to standard output");
 
@@ -150,6 +160,7 @@ void PrintSummary(const std::vector<LogJob>& jobs, const ProgressBar& bar) {
     std::printf(", %.0f frames/s", static_cast<double>(bar.done()) / seconds);
   }
   if (bar.kept() > 0) std::printf(", %zu kept", bar.kept());
+  if (all.bad_rows > 0) std::printf(", %zu bad rows", all.bad_rows);
   std::printf("\nok             %zu, no_contact %zu\n",
               all.count(FrameStatus::kOk), all.count(FrameStatus::kNoContact));
   std::printf("unobservable   %zu, unexplained %zu\n",
@@ -166,24 +177,35 @@ void PrintSummary(const std::vector<LogJob>& jobs, const ProgressBar& bar) {
   }
 }
 
+// Says whether the value of a flag is `b`. It must be `a` or `b`.
+bool IsSecond(const char* flag, const std::string& value, const std::string& a,
+              const std::string& b) {
+  if (value != a && value != b) {
+    throw UsageError(std::string("--") + flag + ": expected " + a + " or " + b +
+                     ", found '" + value + "'");
+  }
+  return value == b;
+}
+
 FrameMethod ChosenMethod() {
-  const auto choose = [](const char* flag, const std::string& value,
-                         const std::string& a, const std::string& b) {
-    if (value != a && value != b) {
-      throw UsageError(std::string("--") + flag + ": expected " + a + " or " +
-                       b + ", found '" + value + "'");
-    }
-    return value == b;
-  };
-  const bool ceres = choose("solver", FLAGS_solver, "fast", "ceres");
+  const bool ceres = IsSecond("solver", FLAGS_solver, "fast", "ceres");
   const bool weighted =
-      choose("equilibrium", FLAGS_equilibrium, "reduced", "weighted");
+      IsSecond("equilibrium", FLAGS_equilibrium, "reduced", "weighted");
   if (weighted && !ceres) {
     throw UsageError("--equilibrium weighted goes with --solver ceres");
   }
   return !ceres     ? FrameMethod::kFast
          : weighted ? FrameMethod::kCeresWeighted
                     : FrameMethod::kCeresReduced;
+}
+
+ResultFormat ChosenFormat() {
+  constexpr int kMostDigits = 17;
+  if (FLAGS_digits < 0 || FLAGS_digits > kMostDigits) {
+    throw UsageError("--digits: expected 0 (all) to 17, found " +
+                     std::to_string(FLAGS_digits));
+  }
+  return {SplitList(FLAGS_columns), FLAGS_digits};
 }
 
 // A scene can describe the offsets of a whole log. Only --joint can use that.
@@ -200,7 +222,7 @@ void CheckJoint(BatchSettings* settings) {
 // Live rows go from one pipe to the other, so flags of batches mean nothing.
 void RefuseBatchFlags() {
   for (const char* flag : {"logs", "logs_root", "out_dir", "resume", "threads",
-                           "keep_going", "joint"}) {
+                           "keep_going", "joint", "bad_rows"}) {
     if (IsGiven(flag)) {
       throw UsageError(std::string("--") + flag + " does not go with --follow");
     }
@@ -261,19 +283,19 @@ int FollowInput(const BatchSettings& settings) {
   int ends[2] = {-1, -1};
   if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) == 0) stop_pipe = ends[1];
   CatchStopSignals(0);
-  LineReader lines = ReadPipe(STDIN_FILENO, ends[0], kSource);
   FrameEstimator estimator(settings.finger, settings.scene,
                            settings.discretization, settings.method);
-  CsvLine header;
-  do {
-    if (!lines.Next()) {
-      if (IsStopRequested()) return kGood;
-      throw InputError(std::string(kSource) +
-                       ": is empty, expected a header and rows");
-    }
-    header = lines.line();
-  } while (!IsHeaderLine(&header));
-  LiveRows rows(settings.finger, settings.scene, kSource, header, &estimator);
+  std::optional<LogLines> log;
+  try {
+    log.emplace(ReadPipe(STDIN_FILENO, ends[0], kSource), kSource,
+                settings.scene.columns);
+  } catch (const InputError&) {
+    if (IsStopRequested()) return kGood;
+    throw;
+  }
+  LogLines& lines = *log;
+  LiveRows rows(settings.finger, settings.scene, lines.parser(), &estimator,
+                settings.format);
   LatencyHistogram latency;
   EstimationSummary summary;
   std::size_t ended = 0;
@@ -315,6 +337,9 @@ int Run() {
                          DiscretizationFlags());
   settings.method = ChosenMethod();
   settings.joint = FLAGS_joint;
+  settings.format = ChosenFormat();
+  settings.skip_bad_rows =
+      IsSecond("bad_rows", FLAGS_bad_rows, "error", "skip");
   CheckJoint(&settings);
   if (!FLAGS_follow) {
     Required("logs", FLAGS_logs);
@@ -348,7 +373,7 @@ int Run() {
                        " of " + std::to_string(Frames(jobs)) + " frames");
   }
 
-  BatchTable(jobs).Write(OutPath("summary.csv"));
+  BatchTable(jobs, bad_logs).Write(OutPath("summary.csv"));
   WriteFileAtomically(OutPath("summary.yaml"),
                       BatchYaml(settings, jobs, bad_logs));
   PrintSummary(jobs, bar);
