@@ -160,7 +160,10 @@ void PrintSummary(const std::vector<LogJob>& jobs, const ProgressBar& bar) {
     std::printf(", %.0f frames/s", static_cast<double>(bar.done()) / seconds);
   }
   if (bar.kept() > 0) std::printf(", %zu kept", bar.kept());
-  if (all.bad_rows > 0) std::printf(", %zu bad rows", all.bad_rows);
+  if (all.bad_rows > 0) {
+    std::printf(", %zu bad row%s left out", all.bad_rows,
+                all.bad_rows == 1 ? "" : "s");
+  }
   std::printf("\nok             %zu, no_contact %zu\n",
               all.count(FrameStatus::kOk), all.count(FrameStatus::kNoContact));
   std::printf("unobservable   %zu, unexplained %zu\n",

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "finray/io/csv_cells.h"
 #include "finray/io/iso_time.h"
 #include "finray/io/message_text.h"
 #include "finray/io/nan.h"
@@ -15,13 +16,6 @@ namespace {
 
 // Epoch times lie between these years, so that a wrong unit is noticed.
 constexpr double kYear1980_s = 315532800, kYear2100_s = 4102444800;
-
-std::optional<double> NumberWithComma(std::string_view cell) {
-  if (cell.find('.') != cell.npos) return std::nullopt;
-  std::string text(cell);
-  std::replace(text.begin(), text.end(), ',', '.');
-  return ParseNumber(text);
-}
 
 }  // namespace
 
@@ -90,7 +84,7 @@ double ColumnConversion::Value(std::string_view cell, char decimal,
       return kNaN;
     }
   } else {
-    number = decimal == ',' ? NumberWithComma(cell) : ParseNumber(cell);
+    number = NumberInCell(cell, decimal);
     if (!number) {
       *error = "expected a number" +
                std::string(decimal == ',' ? " with a decimal comma" : "") +

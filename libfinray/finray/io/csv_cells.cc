@@ -1,5 +1,9 @@
 #include "finray/io/csv_cells.h"
 
+#include <algorithm>
+
+#include "finray/io/number_text.h"
+
 namespace finray {
 namespace {
 
@@ -61,6 +65,14 @@ const char* SplitCsvLine(std::string_view line, char delimiter,
   if (delimiter == ';') return SplitAt<';'>(line, cells, unquoted);
   if (delimiter == '\t') return SplitAt<'\t'>(line, cells, unquoted);
   return SplitAt<','>(line, cells, unquoted);
+}
+
+std::optional<double> NumberInCell(std::string_view cell, char decimal) {
+  if (decimal == '.') return ParseNumber(cell);
+  if (cell.find('.') != cell.npos) return std::nullopt;
+  std::string text(cell);
+  std::replace(text.begin(), text.end(), ',', '.');
+  return ParseNumber(text);
 }
 
 void AppendCsvText(std::string_view cell, std::string* csv) {

@@ -2,6 +2,7 @@
 #define FINRAY_IO_CSV_CELLS_H_
 
 #include <deque>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,10 @@ inline std::string_view Trimmed(std::string_view text) {
 const char* SplitCsvLine(std::string_view line, char delimiter,
                          std::vector<std::string_view>* cells,
                          std::deque<std::string>* unquoted);
+
+/// Returns the finite number in a cell whose decimal mark is a point or a
+/// comma, or nothing. There are no separators of thousands.
+std::optional<double> NumberInCell(std::string_view cell, char decimal);
 
 /// Appends a cell to a line of cells with commas between them, in quotes if it
 /// would not read back the same without them.

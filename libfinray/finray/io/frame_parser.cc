@@ -44,13 +44,6 @@ bool MayBeThousands(std::string_view text) {
          text.find_first_not_of("0123456789,") == text.npos;
 }
 
-bool IsNumberWithComma(std::string_view text) {
-  if (text.find('.') != text.npos) return false;
-  std::string with_point(text);
-  std::replace(with_point.begin(), with_point.end(), ',', '.');
-  return ParseNumber(with_point).has_value();
-}
-
 // Returns the unit in a cell of a units row, also in brackets, or nothing.
 std::optional<Unit> UnitInCell(std::string_view cell) {
   if (cell.size() > 2 && ((cell.front() == '[' && cell.back() == ']') ||
@@ -106,9 +99,6 @@ FrameParser::FrameParser(const std::string& path, const CsvLine& header,
 void FrameParser::TakeNames(const CsvLine& header,
                             const std::vector<std::string>& found,
                             const ColumnMapping& mapping) {
-  if (std::all_of(found.begin(), found.end(), ParseNumber)) {
-    Fail(header.number, "expected a header, found numbers only");
-  }
   // Rules refer to the names in the file, so that two columns can be swapped.
   names_ = found;
   columns_.resize(found.size());
@@ -125,6 +115,9 @@ void FrameParser::TakeNames(const CsvLine& header,
     mapped[i] = true;
     columns_[i].rule = rule;
     columns_[i].declared = UnitInBrackets(rule.from);
+  }
+  if (std::all_of(names_.begin(), names_.end(), ParseNumber)) {
+    Fail(header.number, "expected a header, found numbers only");
   }
   std::set<std::string> seen;
   for (std::size_t i = 0; i < names_.size(); ++i) {
@@ -186,7 +179,7 @@ bool FrameParser::TakeUnits(const CsvLine& line) {
       any = true;
     } else if (IsNotMeasured(cells[i]) || cells[i] == "1") {
       continue;  // no unit
-    } else if (ParseNumber(cells[i]) || IsNumberWithComma(cells[i])) {
+    } else if (ParseNumber(cells[i]) || NumberInCell(cells[i], ',')) {
       if (units_row_ != true) return false;
       FailAt(line.number, i,
              names_[i] + ": expected a unit, found " + ShownText(cells[i]));
@@ -199,8 +192,7 @@ bool FrameParser::TakeUnits(const CsvLine& line) {
   if (unknown < cells.size()) {
     FailAt(line.number, unknown,
            names_[unknown] +
-               ": expected a unit as in the other columns, one "
-               "of " +
+               ": expected a unit as in the other columns, one of " +
                Joined(UnitNames(UnitOfColumn(names_[unknown]).dimension)) +
                ", found " + ShownText(cells[unknown]) +
                "; a scale in the column's mapping speaks for it too");
@@ -228,7 +220,7 @@ void FrameParser::LearnDecimal(const CsvLine& line) {
     const bool point = cells[i].find('.') != cells[i].npos;
     if (point && ParseNumber(cells[i])) return UseDecimal('.');
     comma |= !point && cells[i].find(',') != cells[i].npos &&
-             IsNumberWithComma(cells[i]) && !MayBeThousands(cells[i]);
+             NumberInCell(cells[i], ',') && !MayBeThousands(cells[i]);
   }
   if (comma) UseDecimal(',');
 }
@@ -251,7 +243,7 @@ FrameRows::Cell FrameParser::ReadCell(int line, std::size_t i,
   std::string error;
   const double value = column.conversion.Value(text, decimal_, &error);
   if (error.empty()) return {value, {}};
-  if (decimal_ == '.' && IsNumberWithComma(text)) {
+  if (decimal_ == '.' && NumberInCell(text, ',')) {
     error += MayBeThousands(text) ? ", which may stand for two numbers" : "";
     error +=
         "; a decimal comma is stated by decimal: \",\" in the scene or "
