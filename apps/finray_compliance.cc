@@ -157,7 +157,9 @@ int Run() {
   }
   const ComplianceSettings settings = Settings();
   std::vector<std::string> inputs = {FLAGS_finger};
-  if (!FLAGS_scene.empty()) inputs.push_back(FLAGS_scene);
+  for (const std::string& path : {FLAGS_scene, scene.columns.path}) {
+    if (!path.empty()) inputs.push_back(path);
+  }
   if (!FLAGS_second_logs.empty()) {
     fingers.push_back(ComplianceFinger(fingers[0]));
     if (!FLAGS_second_finger.empty()) {

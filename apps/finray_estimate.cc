@@ -24,8 +24,8 @@
 DEFINE_string(finger, "", "finger YAML, best a calibrated one");
 DEFINE_string(scene, "", "scene YAML; without it contacts: auto");
 DEFINE_string(logs, "",
-              "CSV logs with gauge_<j>_V, separated by commas: files, patterns "
-              "('runs/*.csv'), lists (@list.txt)");
+              "CSV logs with gauge_<j>_V, separated by commas: files, folders, "
+              "patterns ('runs/*.csv', 'runs/**'), lists (@list.txt)");
 DEFINE_string(out_dir, "", "folder for <log>.frames.csv and summary.yaml");
 DEFINE_string(logs_root, "",
               "folder above all logs: results lie in --out_dir as logs lie in "
@@ -50,6 +50,15 @@ DEFINE_double(most_unexplained_percent, 0,
               "not explain; default: none");
 DEFINE_bool(keep_going, false,
             "leave out logs that are bad input, list them in summary.yaml");
+DEFINE_string(bad_rows, "error",
+              "error, or skip: leave out rows that are bad input and list them "
+              "in <log>.bad_rows.csv");
+DEFINE_string(columns, "",
+              "columns of the results, separated by commas, in this order; * "
+              "stands for any text; default: all");
+DEFINE_int32(digits, 0,
+             "significant digits of computed numbers; 0: as many as read back "
+             "the same");
 DEFINE_bool(follow, false,
             "a log from standard input, each row at once to standard output");
 DEFINE_bool(report, false,
@@ -159,6 +168,10 @@ void PrintSummary(const std::vector<LogJob>& jobs, const ProgressBar& bar) {
     std::printf(", %.0f frames/s", static_cast<double>(bar.done()) / seconds);
   }
   if (bar.kept() > 0) std::printf(", %zu kept", bar.kept());
+  if (all.bad_rows > 0) {
+    std::printf(", %zu bad row%s left out", all.bad_rows,
+                all.bad_rows == 1 ? "" : "s");
+  }
   std::printf("\nok             %zu, no_contact %zu\n",
               all.count(FrameStatus::kOk), all.count(FrameStatus::kNoContact));
   std::printf("unobservable   %zu, unexplained %zu\n",
@@ -175,24 +188,35 @@ void PrintSummary(const std::vector<LogJob>& jobs, const ProgressBar& bar) {
   }
 }
 
+// Says whether the value of a flag is `b`. It must be `a` or `b`.
+bool IsSecond(const char* flag, const std::string& value, const std::string& a,
+              const std::string& b) {
+  if (value != a && value != b) {
+    throw UsageError(std::string("--") + flag + ": expected " + a + " or " + b +
+                     ", found '" + value + "'");
+  }
+  return value == b;
+}
+
 FrameMethod ChosenMethod() {
-  const auto choose = [](const char* flag, const std::string& value,
-                         const std::string& a, const std::string& b) {
-    if (value != a && value != b) {
-      throw UsageError(std::string("--") + flag + ": expected " + a + " or " +
-                       b + ", found '" + value + "'");
-    }
-    return value == b;
-  };
-  const bool ceres = choose("solver", FLAGS_solver, "fast", "ceres");
+  const bool ceres = IsSecond("solver", FLAGS_solver, "fast", "ceres");
   const bool weighted =
-      choose("equilibrium", FLAGS_equilibrium, "reduced", "weighted");
+      IsSecond("equilibrium", FLAGS_equilibrium, "reduced", "weighted");
   if (weighted && !ceres) {
     throw UsageError("--equilibrium weighted goes with --solver ceres");
   }
   return !ceres     ? FrameMethod::kFast
          : weighted ? FrameMethod::kCeresWeighted
                     : FrameMethod::kCeresReduced;
+}
+
+ResultFormat ChosenFormat() {
+  constexpr int kMostDigits = 17;
+  if (FLAGS_digits < 0 || FLAGS_digits > kMostDigits) {
+    throw UsageError("--digits: expected 0 (all) to 17, found " +
+                     std::to_string(FLAGS_digits));
+  }
+  return {SplitList(FLAGS_columns), FLAGS_digits};
 }
 
 // A scene can describe the offsets of a whole log. Only --joint can use that.
@@ -209,7 +233,7 @@ void CheckJoint(BatchSettings* settings) {
 // Live rows go from one pipe to the other, so flags of batches mean nothing.
 void RefuseBatchFlags() {
   for (const char* flag : {"logs", "logs_root", "out_dir", "resume", "threads",
-                           "keep_going", "joint", "report"}) {
+                           "keep_going", "joint", "report", "bad_rows"}) {
     if (IsGiven(flag)) {
       throw UsageError(std::string("--") + flag + " does not go with --follow");
     }
@@ -303,6 +327,9 @@ int Run() {
                          DiscretizationFlags());
   settings.method = ChosenMethod();
   settings.joint = FLAGS_joint;
+  settings.format = ChosenFormat();
+  settings.skip_bad_rows =
+      IsSecond("bad_rows", FLAGS_bad_rows, "error", "skip");
   CheckJoint(&settings);
   if (!FLAGS_follow) {
     Required("logs", FLAGS_logs);
@@ -336,7 +363,7 @@ int Run() {
                        " of " + std::to_string(Frames(jobs)) + " frames");
   }
 
-  BatchTable(jobs).Write(OutPath("summary.csv"));
+  BatchTable(jobs, bad_logs).Write(OutPath("summary.csv"));
   WriteFileAtomically(OutPath("summary.yaml"),
                       BatchYaml(settings, jobs, bad_logs));
   PrintSummary(jobs, bar);

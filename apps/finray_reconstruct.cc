@@ -89,7 +89,8 @@ int Run() {
     throw UsageError("--logs: expected one log, the touches of one object");
   }
   std::vector<std::string> inputs = {FLAGS_finger, log};
-  for (const std::string& path : {FLAGS_scene, FLAGS_truth}) {
+  for (const std::string& path :
+       {FLAGS_scene, scene.columns.path, FLAGS_truth}) {
     if (!path.empty()) inputs.push_back(path);
   }
   RefuseToOverwrite(inputs,

@@ -7,14 +7,15 @@
 
 #include "app.h"
 #include "finray/io/atomic_file.h"
-#include "finray/io/frame_parser.h"
 #include "finray/io/frame_table.h"
 #include "finray/io/line_reader.h"
+#include "finray/io/log_lines.h"
 #include "finray/io/number_text.h"
 #include "finray/scene/measurement_columns.h"
 #include "finray/sensing/zeroed_finger.h"
 
 DEFINE_string(finger, "", "finger YAML to zero");
+DEFINE_string(scene, "", "scene YAML, for its columns");
 DEFINE_string(logs, "", "CSV log with free rows");
 DEFINE_string(out, "", "finger YAML to write: all but the offsets stays");
 DEFINE_string(zero_rows, "",
@@ -75,16 +76,10 @@ std::vector<Measurements> FreeRows(const std::vector<Measurements>& rows,
 }
 
 // Copies standard input up to the last row that is needed to a table.
-std::vector<Measurements> LiveRows(const Finger& finger) {
-  LineReader lines = ReadPipe(STDIN_FILENO, -1, "stdin");
-  CsvLine header;
-  do {
-    if (!lines.Next()) {
-      throw InputError("stdin: is empty, expected a header and rows");
-    }
-    header = lines.line();
-  } while (!IsHeaderLine(&header));
-  const FrameParser parser("stdin", header, {});
+std::vector<Measurements> LiveRows(const Finger& finger,
+                                   const ColumnMapping& mapping) {
+  LogLines lines(ReadPipe(STDIN_FILENO, -1, "stdin"), "stdin", mapping);
+  const FrameParser& parser = lines.parser();
   const MeasurementColumns columns(finger, parser.names(), "stdin", {});
   const Range range = ZeroRows();
   std::vector<Measurements> rows;
@@ -103,14 +98,17 @@ int Run() {
   const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
   const std::string& out = Required("out", FLAGS_out);
   const Discretization discretization = DiscretizationFlags();
+  const ColumnMapping mapping =
+      FLAGS_scene.empty() ? ColumnMapping() : ReadScene(FLAGS_scene).columns;
   std::vector<Measurements> free;
   const std::string source =
       FLAGS_follow ? "stdin" : Required("logs", FLAGS_logs);
   if (FLAGS_follow) {
-    free = LiveRows(finger);
+    free = LiveRows(finger, mapping);
   } else {
-    free = FreeRows(ReadMeasurements(FrameTable::Read(source), finger, {}),
-                    source);
+    free = FreeRows(
+        ReadMeasurements(FrameTable::Read(source, mapping), finger, {}),
+        source);
   }
   const ZeroedFinger zeroed = ZeroGauges(finger, discretization, free, source);
   WriteFileAtomically(
@@ -131,7 +129,7 @@ int Run() {
 
 const finray::App finray::kApp = {
     "Zeroes the gauges of a finger by rows in which it is free.\n"
-    "finray_zero --finger F.yaml --logs free.csv --out F2.yaml [--zero_rows "
-    "1:100]\n"
+    "finray_zero --finger F.yaml --logs free.csv --out F2.yaml [--scene "
+    "S.yaml] [--zero_rows 1:100]\n"
     "sensor | finray_zero --follow --finger F.yaml --out F2.yaml",
     Run};

@@ -12,6 +12,7 @@
 #include "app.h"
 #include "finray/batch/estimation_warnings.h"
 #include "finray/io/line_reader.h"
+#include "finray/io/log_lines.h"
 #include "finray/view/live_view.h"
 
 namespace finray {
@@ -46,25 +47,17 @@ void PrintLatency(const LatencyHistogram& latency) {
                static_cast<unsigned long long>(latency.count()));
 }
 
-// The header, whose text stays where it is.
-struct Header {
-  std::string text;
-  CsvLine line;
-};
-
-bool ReadHeader(LineReader* lines, const std::function<bool()>& stop,
-                Header* header) {
-  do {
-    if (!lines->Next()) {
-      if (stop()) return false;
-      throw InputError(std::string(kSource) +
-                       ": is empty, expected a header and rows");
-    }
-    header->line = lines->line();
-  } while (!IsHeaderLine(&header->line));
-  header->text = header->line.text;
-  header->line.text = header->text;
-  return true;
+// Reads up to the header of `log`. Returns false if it was stopped before.
+bool ReadHeader(const ColumnMapping& columns, const FollowSettings& follow,
+                std::optional<LogLines>* log) {
+  try {
+    log->emplace(ReadPipe(STDIN_FILENO, follow.stop_file, kSource), kSource,
+                 columns);
+    return true;
+  } catch (const InputError&) {
+    if (follow.stop()) return false;
+    throw;
+  }
 }
 
 std::unique_ptr<LiveView> Serve(const BatchSettings& settings,
@@ -89,13 +82,13 @@ std::unique_ptr<LiveView> Serve(const BatchSettings& settings,
 std::optional<EstimationSummary> FollowInput(const BatchSettings& settings,
                                              const FollowSettings& follow) {
   using Clock = std::chrono::steady_clock;
-  LineReader lines = ReadPipe(STDIN_FILENO, follow.stop_file, kSource);
-  Header header;
-  if (!ReadHeader(&lines, follow.stop, &header)) return {};
+  std::optional<LogLines> log;
+  if (!ReadHeader(settings.scene.columns, follow, &log)) return {};
+  LogLines& lines = *log;
   const LiveZero::Make make = [&](const Finger& finger) {
     return std::make_unique<LiveEstimator>(
         finger, settings.scene, settings.discretization, settings.method,
-        kSource, header.line);
+        lines.parser(), settings.format);
   };
   std::unique_ptr<LiveEstimator> live = make(settings.finger);
   const std::unique_ptr<LiveView> view = Serve(settings, follow, make);

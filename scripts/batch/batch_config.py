@@ -8,6 +8,8 @@ import yaml
 
 DEFAULTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "config.yaml")
 SCHEMES = ("taylor", "rigid_chain")
+BAD_ROWS = ("error", "skip")
+MOST_DIGITS = 17
 REQUIRED = ("finger", "logs", "out_dir")
 AT_LEAST_ONE = ("logs_per_task", "log_MB_per_task", "cpus_per_task", "memory_MB",
                 "minutes")
@@ -65,9 +67,12 @@ def check_value(place, key, value, default):
         raise BadInput(f"{place}: expected at least 1, not {value}")
     if key == "resolution" and value < 0:
         raise BadInput(f"{place}: expected 0 or more, not {value}")
-    if key == "scheme" and value not in SCHEMES:
-        raise BadInput(f"{place}: expected one of {', '.join(SCHEMES)}, "
-                       f"not '{value}'")
+    for choice, words in (("scheme", SCHEMES), ("bad_rows", BAD_ROWS)):
+        if key == choice and value not in words:
+            raise BadInput(f"{place}: expected one of {', '.join(words)}, "
+                           f"not '{value}'")
+    if key == "digits" and not 0 <= value <= MOST_DIGITS:
+        raise BadInput(f"{place}: expected 0 to {MOST_DIGITS}, not {value}")
     return value
 
 

@@ -5,21 +5,54 @@ import os
 
 from batch_config import BadInput
 
+LOGS = ("*.csv", "*.csv.gz")
+
 
 def is_below(folder, path):
     return path.startswith(folder.rstrip("/") + "/")
 
 
+def folders_in(folder):
+    """The folder and those below it, but no hidden ones and no links."""
+    yield folder
+    for entry in os.scandir(folder):
+        if entry.is_dir(follow_symlinks=False) and not entry.name.startswith("."):
+            yield from folders_in(entry.path)
+
+
+def matches(folder, pattern):
+    """The files in `folder` ("" or ending in /) that a pattern matches. ** as a part of
+    the path stands for any folders, and at its end for all logs in them."""
+    parts = pattern.split("/")
+    if "**" not in parts:
+        return [path for path in glob.glob(glob.escape(folder) + pattern)
+                if os.path.isfile(path)]
+    at = parts.index("**")
+    before, behind = "/".join(parts[:at]), "/".join(parts[at + 1:])
+    if pattern.startswith("/") and at == 1:
+        before = "/"
+    bases = glob.glob(glob.escape(folder) + before) if before else [folder or "."]
+    return [path for base in bases if os.path.isdir(base)
+            for below in folders_in(base)
+            for rest in ([behind] if behind else LOGS)
+            for path in matches(os.path.join(below, ""), rest)]
+
+
 def files_of(item, place, out_dir):
-    """A file, or the files that a pattern matches, sorted byte by byte."""
-    if not any(c in item for c in "*?[") or os.path.exists(item):
+    """A file, or the logs in a folder, or the files that a pattern matches, sorted byte
+    by byte."""
+    is_folder = os.path.isdir(item)
+    if not is_folder and (not any(c in item for c in "*?[") or os.path.exists(item)):
         if not os.path.isfile(item):
             raise BadInput(f"{place}there is no log '{item}'")
         return [item]
-    found = [path for path in glob.glob(item)
-             if not is_below(out_dir, path) and os.path.isfile(path)]
+    found = ([path for logs in LOGS for path in matches(os.path.join(item, ""), logs)]
+             if is_folder else matches("", item))
+    found = {path for path in found if not is_below(out_dir, path)}
     if not found:
-        raise BadInput(f"{place}'{item}' matches no file")
+        raise BadInput(f"{place}'{item}' " + (
+            "holds no *.csv and no *.csv.gz; logs in its folders are "
+            f"'{os.path.join(item, '**')}'" if is_folder else "matches no file"))
     return sorted(found, key=os.fsencode)
 
 

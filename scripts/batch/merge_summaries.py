@@ -55,7 +55,7 @@ def yaml_number(text):
 class Totals:
     def __init__(self, columns):
         """Of summary.csv."""
-        self.frames, self.compared, self.squares_N2 = 0, 0, 0.0
+        self.frames, self.bad_rows, self.compared, self.squares_N2 = 0, 0, 0, 0.0
         self.status = {status: 0 for status in columns[
             columns.index("frames") + 1:columns.index("force_compared_frames")]}
         self.unexplained, self.judged, self.far, self.variances_N2 = 0, 0, 0, 0.0
@@ -66,6 +66,7 @@ class Totals:
         for status in self.status:
             self.status[status] += int(row[status])
         self.unexplained += int(row["unexplained_frames"])
+        self.bad_rows += int(row["bad_rows"])
         compared = int(row["force_compared_frames"])
         if compared == 0:
             return
@@ -88,6 +89,8 @@ class Totals:
         text = f"all:\n  frames: {self.frames}\n  status:\n"
         text += "".join(f"    {s}: {n}\n" for s, n in self.status.items())
         text += f"  unexplained_frames: {self.unexplained}\n"
+        if self.bad_rows > 0:
+            text += f"  bad_rows: {self.bad_rows}\n"
         if self.compared > 0:
             text += (f"  force_compared_frames: {self.compared}\n"
                      f"  force_rms_error_N: {yaml_number(number_text(self.rms_N()))}\n"
@@ -124,7 +127,7 @@ class Group:
 
     heads: tuple  # of the CSV and the YAML file
     logs: dict    # by log (CSV line, its cells, YAML entry)
-    bad: dict     # by log its YAML entry
+    bad: dict     # by log (CSV line, YAML entry)
 
 
 def entries_of(text):
@@ -141,15 +144,18 @@ def read_group(folder):
         os.path.join(folder, "summary.yaml")).rpartition("\nall:\n")
     yaml_head, entries = entries_of(logs_text)
     yaml_head = yaml_head.removesuffix(NO_LOGS)
-    if (not len(rows) == len(lines) - 1 == len(entries)
+    _, bad_entries = entries_of(all_text.partition("\n" + BAD_LOGS)[2])
+    good = len(entries)
+    if (not len(rows) == len(lines) - 1 == good + len(bad_entries)
             or any("log" not in row for row in rows)):
         raise BadInput(f"{folder}/summary.yaml: expected the logs of summary.csv; "
                        "remove it, and its group is done again")
-    _, bad = entries_of(all_text.partition("\n" + BAD_LOGS)[2])
     return Group((lines[0], yaml_head),
                  {row["log"]: (line, row, entry)
                   for line, row, entry in zip(lines[1:], rows, entries)},
-                 {yaml.safe_load(entry)[0]["log"]: entry for entry in bad})
+                 {row["log"]: (line, entry)
+                  for line, row, entry in zip(lines[1 + good:], rows[good:],
+                                              bad_entries)})
 
 
 def warnings_of(yaml_head, yaml_entries):
@@ -192,7 +198,7 @@ def merge(out_dir):
                        "schemes or fingers")
     (csv_head, yaml_head), = heads
     totals = Totals(csv_head.rstrip("\r\n").split(","))
-    csv_lines, yaml_entries, bad_entries = [], [], []
+    csv_lines, yaml_entries, bad_lines, bad_entries = [], [], [], []
     for log, name in order:
         group = groups[name]
         if log in group.logs:
@@ -201,11 +207,13 @@ def merge(out_dir):
             yaml_entries.append(entry)
             add_row(row, name, totals)
         elif log in group.bad:
-            bad_entries.append(group.bad[log])
+            line, entry = group.bad[log]
+            bad_lines.append(line)
+            bad_entries.append(entry)
         else:
             raise BadInput(f"group {name}: its summary lacks '{log}'")
     write_if_changed(os.path.join(out_dir, "summary.csv"),
-                     csv_head + "".join(csv_lines))
+                     csv_head + "".join(csv_lines + bad_lines))
     bad_text = BAD_LOGS + "".join(bad_entries) if bad_entries else ""
     write_if_changed(os.path.join(out_dir, "summary.yaml"),
                      yaml_head + ("".join(yaml_entries) or NO_LOGS)

@@ -119,7 +119,8 @@ BAD_CSV = {
     "empty": lambda text: b"",
     "header only": lambda text: text.split(b"\n")[0] + b"\n",
     "decimal commas": lambda text: text.replace(b".", b","),
-    "semicolons": lambda text: text.replace(b",", b";"),
+    "thousands or decimals": lambda text: cell(b"1_234")(text).replace(b",", b";")
+                             .replace(b";1_234", b";1,234"),
     "hexadecimal": cell(b"0x1p3"),
     "1e999": cell(b"1e999"),
     "infinite": cell(b"inf"),

@@ -135,6 +135,57 @@ TEST_F(BatchStreamTest, StopAfterAnyBlockAndResume) {
   }
 }
 
+TEST_F(BatchStreamTest, BadRowsAreLeftOutAlsoWhereARunGoesOn) {
+  // Single ones, a whole block of 64, and the last one.
+  std::string text = "gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V,force_N,note\n";
+  std::size_t bad = 0;
+  for (int i = 0; i < kFrames; ++i) {
+    const bool is_bad =
+        i == 3 || (i >= 64 && i < 128) || i % 100 == 77 || i == kFrames - 1;
+    bad += is_bad;
+    text += std::to_string(0.37 * i) + (is_bad ? ",x" : ",0") + ",0,0,1,n\n";
+  }
+  log_ = folder_.Write("log.csv", text);
+  LogJob strict(&settings_, log_, folder_.Path("strict.csv"));
+  EXPECT_THAT([&] { strict.Check(); },
+              testing::ThrowsMessage<InputError>(
+                  testing::HasSubstr("log.csv:5:2: gauge_2_V: expected")));
+  settings_.skip_bad_rows = true;
+  settings_.chunk_blocks = 1;
+  const auto [rows, summary] = Expected();
+  const std::string list = folder_.Read("log.bad_rows.csv");
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'),
+            kFrames + 1 - static_cast<long>(bad));
+  EXPECT_EQ(std::count(list.begin(), list.end(), '\n'),
+            1 + static_cast<long>(bad));
+  EXPECT_THAT(list, testing::StartsWith("line,reason\n5,\"" + log_ + ":5:2: "));
+  EXPECT_THAT(summary,
+              testing::HasSubstr("\nbad_rows: " + std::to_string(bad)));
+  for (const int stop_at : {1, 2, 9}) {
+    settings_.threads = 2;
+    settings_.resume = false;
+    FrameSolverPool pool(chain_);
+    LogJob first = Job("out.csv");
+    int asked = 0;
+    settings_.stop = [&] { return asked++ == stop_at; };
+    EXPECT_FALSE(first.Run(&pool));
+    settings_.stop = nullptr;
+    settings_.resume = true;
+    LogJob second = Job("out.csv");
+    EXPECT_EQ(second.frames(), kFrames - bad);
+    EXPECT_TRUE(second.Run(&pool));
+    EXPECT_EQ(folder_.Read("out.csv"), rows) << stop_at;
+    EXPECT_EQ(folder_.Read("log.summary.yaml"), summary);
+    EXPECT_EQ(folder_.Read("log.bad_rows.csv"), list);
+  }
+  log_ = folder_.Write("log.csv",
+                       "gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V\n0,0,0\n");
+  LogJob none(&settings_, log_, folder_.Path("none.csv"));
+  EXPECT_THAT([&] { none.Check(); },
+              testing::ThrowsMessage<InputError>(testing::HasSubstr(
+                  "log.csv: all rows are bad; the first: ")));
+}
+
 // What creeps depends on all rows before, on any number of threads and after
 // any interruption.
 TEST_F(BatchStreamTest, CreepIsTakenOutInOrder) {
@@ -186,6 +237,9 @@ TEST_F(BatchStreamTest, AnythingThatMattersChangesTheKey) {
   };
   EXPECT_TRUE(changed([&] { settings_.finger_sha256 = "f"; }));
   EXPECT_TRUE(changed([&] { settings_.scene_sha256 = "s"; }));
+  EXPECT_TRUE(changed([&] { settings_.format.digits = 6; }));
+  EXPECT_TRUE(changed([&] { settings_.format.columns = {"force_N"}; }));
+  EXPECT_TRUE(changed([&] { settings_.skip_bad_rows = true; }));
   EXPECT_TRUE(changed([&] { settings_.discretization.resolution = 40; }));
   EXPECT_TRUE(
       changed([&] { settings_.discretization.scheme = Scheme::kTaylor8; }));
@@ -208,7 +262,7 @@ TEST_F(BatchStreamTest, AFinishedLogIsDoneAgainUnlessAllIsAsItWas) {
     settings_.progress = nullptr;
     EXPECT_EQ(folder_.Read("expected.csv"), rows);
     EXPECT_EQ(folder_.Read("log.summary.yaml"), summary);
-    EXPECT_EQ(BatchTable({job}).rows(), 1u);
+    EXPECT_EQ(BatchTable({job}, {}).rows(), 1u);
     EXPECT_EQ(job.frames(), static_cast<std::size_t>(kFrames));
     return count;
   };

@@ -46,6 +46,35 @@ FrameEstimate Estimate() {
   return estimate;
 }
 
+TEST(ResultRowsTest, WritesTheColumnsAndDigitsThatAreAskedFor) {
+  const FrameParser log =
+      Log("time_s,gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V,note");
+  const auto row = [&](const ResultFormat& format) {
+    const ResultLayout layout(PaperFinger(), {}, log, format);
+    FrameRows rows;
+    log.Parse({"0.10,1,2,3,4,a", 2, false}, &rows);
+    Measurements readings;
+    layout.Read(rows, 0, &readings);
+    std::string csv = layout.HeaderCsv();
+    std::vector<double> values;
+    layout.Append(rows, 0, readings, Estimate(), &values, &csv);
+    return csv;
+  };
+  EXPECT_EQ(row({{"status", "contact_1_*mm", "normal_1_N", "time_s"}, 4}),
+            "status,contact_1_mm,contact_1_std_mm,contact_1_x_mm,contact_1_y_"
+            "mm,contact_1_low_mm,contact_1_high_mm,normal_1_N,time_s\n"
+            "ok,50.25,,,,,,0.3333,0.10\n");
+  // A row is never blank.
+  EXPECT_EQ(row({{"contact_1_std_mm"}, 0}), "contact_1_std_mm\nnan\n");
+  EXPECT_EQ(row({{"note", "note", "n*e"}, 0}), "note\na\n");
+  EXPECT_THAT(
+      [&] {
+        row({{"contact_3_mm"}, 0});
+      },
+      testing::ThrowsMessage<InputError>(testing::HasSubstr(
+          "a.csv: --columns: no column 'contact_3_mm' (did you mean")));
+}
+
 TEST(ResultRowsTest, KeepsTheLogAndOverwritesInPlace) {
   const FrameParser log =
       Log("status,normal_1_N,gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V,time_s,"

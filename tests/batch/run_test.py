@@ -1,10 +1,17 @@
 #!/usr/bin/python3
 """scripts/batch/run on this machine."""
 
+import csv
 import os
+import shutil
+import subprocess
+import unittest
+import unittest.mock
 
 import batch_fixture
 from batch_fixture import FRAMES
+import batch_config
+import log_files
 
 LOGS = ["d1/a.csv", "d1/b.csv", "d1/c.csv", "d2/a.csv", "d2/b.csv", "d3/a.csv"]
 GROUP_SUMMARY = "groups/*/*/summary.yaml"
@@ -118,6 +125,100 @@ class RunTest(batch_fixture.BatchTestCase):
         path.write_text(good)
         self.run_batch("--logs_per_task", "4")
         self.assertEqual((self.out / "summary.csv").read_bytes(), merged)
+
+
+    def test_writes_what_is_asked_for_and_lists_bad_rows(self):
+        self.write_logs(LOGS)
+        for name in LOGS[1:3]:
+            path = self.folder / "runs" / name
+            path.write_text(path.read_text() + "1,x,0,0,0,0,0,0\n2,3\n")
+        more = ("--bad_rows", "skip", "--digits", "6", "--columns",
+                "time_s,contact_1_*,normal_1_N,status")
+        output = self.run_batch("--logs_per_task", "2", *more, logs="runs/**")
+        self.assertRegex(output, r"\nwarning: 2 of 15 rows of \S*d1/b.csv are bad .*"
+                         r"\(and 1 more such log\)")
+        self.expect_equal_to_single(more=more)
+        head, first, *_ = (self.out / "groups/000/000/a.frames.csv").read_text().splitlines()
+        self.assertTrue(head.startswith("time_s,contact_1_mm,contact_1_std_mm,"))
+        self.assertTrue(head.endswith(",normal_1_N,status"))
+        self.assertEqual(first.split(",")[0], "0.000000")  # as it is in the log
+        bad = (self.out / "groups/000/000/b.bad_rows.csv").read_text()
+        self.assertIn("b.csv:15:2: gauge_1_V: expected a number, found 'x'", bad)
+        self.assertIn("b.csv:16: expected 8 cells as in the header, found 2", bad)
+        self.assertEqual([row["bad_rows"] for row in self.rows(self.out)],
+                         ["0", "2", "2", "0", "0", "0"])
+
+    def test_takes_the_mapping_along(self):
+        self.write_logs(LOGS[:1])
+        path = self.folder / "runs" / LOGS[0]
+        text = path.read_text()
+        self.run_batch(out="plain")
+        path.write_text(text.replace("gauge_1_V", "U1").replace(",", ";").replace(".", ","))
+        (self.folder / "lab").mkdir()
+        (self.folder / "lab/columns.yaml").write_text("columns: {U1: gauge_1_V}\n")
+        scene = self.folder / "scene.yaml"
+        scene.write_text("contacts: auto\ncolumns: lab/columns.yaml\n")
+        self.run_batch("--scene", "scene.yaml")
+        results = [list(csv.DictReader((self.folder / out / "groups/000/000/a.frames.csv")
+                                       .read_text().splitlines()))
+                   for out in ("plain", "out")]
+        for row, other in zip(*results):
+            for name, cell in row.items():
+                self.assertEqual(cell if name == "status" else float(cell or "nan"),
+                                 other[name] if name == "status"
+                                 else unittest.mock.ANY if cell == ""
+                                 else float(other[name]))
+        frames = self.times(FRAMES)
+        (self.folder / "lab/columns.yaml").write_text(
+            "columns: {U1: {to: gauge_1_V, offset: 0.001}}\n")
+        self.run_batch("--scene", "scene.yaml")
+        self.assertEqual(self.changed(FRAMES, frames), sorted(frames))
+
+    @unittest.skipUnless(shutil.which("parallel"), "GNU parallel is not installed")
+    def test_on_a_few_machines(self):
+        self.write_logs(LOGS)
+        ssh = self.folder / "ssh"
+        ssh.write_text("#!/bin/bash\n"
+                       f"echo $1 >>{self.folder}/hosts\nshift\n[[ $1 == -- ]] && shift\n"
+                       'exec bash -c "$*"\n')
+        ssh.chmod(0o755)
+        self.run_batch("--logs_per_task", "1", "--machines", "2/one,1/two",
+                       env={**os.environ, "PARALLEL_SSH": str(ssh)})
+        hosts = set((self.folder / "hosts").read_text().split())
+        self.assertEqual(hosts, {"one", "two"})
+        self.expect_equal_to_single()
+        output = self.run_batch("--slurm", "--machines", "one", code=1)
+        self.assertIn("--slurm and --machines do not go together", output)
+
+
+class LogFilesTest(batch_fixture.BatchTestCase):
+    """The logs of an item, by Python and by finray_estimate."""
+
+    def test_folders_and_patterns(self):
+        self.write_logs(["a.csv", "b.csv.txt", "d1/c.csv", "d1/e/f.csv", ".hidden/g.csv",
+                         "d2/a.csv"], frames=1)
+        (self.folder / "runs/link").symlink_to(self.folder / "runs/d1")
+        runs = str(self.folder / "runs")
+        for item, expected in (
+                (runs, ["a.csv"]), (runs + "/d1/", ["d1/c.csv"]),
+                (runs + "/**", ["a.csv", "d1/c.csv", "d1/e/f.csv", "d2/a.csv"]),
+                (runs + "/**/a.csv", ["a.csv", "d2/a.csv"]),
+                (runs + "/d*/**/*.csv", ["d1/c.csv", "d1/e/f.csv", "d2/a.csv"]),
+                (runs + "/**/e/**", ["d1/e/f.csv"])):
+            paths = [os.path.join(runs, name) for name in expected]
+            self.assertEqual([os.path.normpath(path) for path in
+                              log_files.expand([item], str(self.out))], paths)
+            done = subprocess.run(
+                [batch_fixture.ESTIMATE, "--finger", self.finger, "--logs", item,
+                 "--logs_root", runs, "--out_dir", "out"], cwd=self.folder,
+                check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            self.assertIn(done.returncode, (0, 3))
+            self.assertEqual([os.path.normpath(row["log"])
+                              for row in self.rows(self.out)], paths)
+        for item, text in ((runs + "/none*", "matches no file"),
+                           (str(self.out / ".."), "logs in its folders are")):
+            with self.assertRaisesRegex(batch_config.BadInput, text):
+                log_files.expand([item], "/none")
 
 
 class BadInputTest(batch_fixture.BatchTestCase):

@@ -187,13 +187,9 @@ class BatchBenchmark {
     FrameReader reader(log_);
     LineBlock lines;
     reader.ReadLines(std::numeric_limits<std::size_t>::max(), &lines);
-    std::string header;
-    for (const std::string& name : reader.parser().names()) {
-      header += (header.empty() ? "" : ",") + name;
-    }
     FrameEstimator estimator(settings_->finger, settings_->scene);
-    LiveRows rows(settings_->finger, settings_->scene, "log",
-                  {header, 1, false}, &estimator);
+    LiveRows rows(settings_->finger, settings_->scene, reader.parser(),
+                  &estimator);
     LatencyHistogram latency;
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const double start = WallSeconds();

@@ -5,32 +5,18 @@
 #include "finray/batch/live_rows.h"
 #include "finray/batch/result_rows.h"
 #include "finray/io/csv_cells.h"
-#include "finray/io/frame_parser.h"
-#include "finray/io/line_reader.h"
+#include "finray/io/log_lines.h"
 #include "fuzz/feeding.h"
 #include "fuzz/targets.h"
 
 namespace finray {
 
-namespace {
-
-CsvLine NextHeader(LineReader* lines) {
-  CsvLine header;
-  do {
-    if (!lines->Next()) throw InputError("the log is empty");
-    header = lines->line();
-  } while (!IsHeaderLine(&header));
-  return header;
-}
-
-}  // namespace
-
 void ReadRenamedTable(std::string_view bytes) {
   const MemoryFile scene(TakeFile(&bytes)), log(bytes);
   Tolerate([&] {
     const auto columns = ReadScene(scene.path()).columns;
-    LineReader lines = ReadPipe(log.descriptor(), -1, "log");
-    const FrameParser parser("log", NextHeader(&lines), columns);
+    LogLines lines(ReadPipe(log.descriptor(), -1, "log"), "log", columns);
+    const FrameParser& parser = lines.parser();
     FrameRows rows;
     while (lines.Next()) {
       rows.Clear();
@@ -47,8 +33,8 @@ void ReadEstimateInputs(std::string_view bytes) {
     const Finger finger = ReadFinger(finger_file.path());
     const Scene scene = ReadScene(scene_file.path());
     RefuseBackContacts(scene);
-    LineReader lines = ReadPipe(log.descriptor(), -1, "log");
-    const FrameParser parser("log", NextHeader(&lines), scene.columns);
+    LogLines lines(ReadPipe(log.descriptor(), -1, "log"), "log", scene.columns);
+    const FrameParser& parser = lines.parser();
     const ResultLayout layout(finger, scene, parser);
     layout.HeaderCsv();
     FrameRows rows;
@@ -71,17 +57,17 @@ void FollowRows(std::string_view bytes) {
   static FrameEstimator estimator(Paper(), scene);
   const MemoryFile file(bytes);
   Tolerate([&] {
-    LineReader lines = ReadPipe(file.descriptor(), -1, "stdin");
-    LiveRows rows(Paper(), scene, "stdin", NextHeader(&lines), &estimator);
+    LogLines lines(ReadPipe(file.descriptor(), -1, "stdin"), "stdin", {});
+    LiveRows rows(Paper(), scene, lines.parser(), &estimator);
     const std::string names = rows.HeaderCsv();
     std::vector<std::string_view> cells;
     std::deque<std::string> unquoted;
-    SplitCsvLine(names.substr(0, names.size() - 1), &cells, &unquoted);
+    SplitCsvLine(names.substr(0, names.size() - 1), ',', &cells, &unquoted);
     const std::size_t columns = cells.size();
     for (int i = 0; i < kFollowedRows && lines.Next(); ++i) {
       const std::string& row = rows.Next(lines.line());
       Check(!row.empty() && row.back() == '\n', "a row has no line end");
-      SplitCsvLine(std::string_view(row).substr(0, row.size() - 1), &cells,
+      SplitCsvLine(std::string_view(row).substr(0, row.size() - 1), ',', &cells,
                    &unquoted);
       Check(cells.size() == columns, "a row has not all cells");
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "finray/io/error.h"
+#include "renaming.h"
 #include "temp_file.h"
 
 namespace finray {
@@ -23,7 +24,7 @@ class FrameReaderTest : public testing::Test {
     }
     return folder_.Write("log.csv", text);
   }
-  const std::map<std::string, std::string> renames_ = {{"U1", "gauge_1_V"}};
+  ColumnMapping renames_ = Renaming("U1", "gauge_1_V");
   TempFolder folder_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "finray/io/error.h"
 #include "finray/io/frame_vocabulary.h"
+#include "renaming.h"
 #include "temp_file.h"
 
 namespace finray {
@@ -82,11 +83,12 @@ TEST_F(FrameTableTest, Vocabulary) {
 
 TEST_F(FrameTableTest, RenamesALabsHeaders) {
   const std::string path = folder_.Write("log.csv", "Fz [N],U1\n2,3\n");
-  const FrameTable table =
-      FrameTable::Read(path, {{"Fz [N]", "force_N"}, {"gauge_1_V", "U1"}});
+  ColumnMapping mapping = Renaming("Fz [N]", "force_N");
+  mapping.AddMissing(Renaming("U1", "gauge_1_V"));
+  const FrameTable table = FrameTable::Read(path, mapping);
   EXPECT_EQ(table.Numbers("force_N")[0], 2);
   EXPECT_EQ(table.Numbers("gauge_1_V")[0], 3);
-  EXPECT_INPUT_ERROR(FrameTable::Read(path, {{"Fz[N]", "force_N"}}),
+  EXPECT_INPUT_ERROR(FrameTable::Read(path, Renaming("Fz[N]", "force_N")),
                      "no column 'Fz[N]' to rename to 'force_N' (did you mean "
                      "'Fz [N]'?)");
 }
@@ -108,8 +110,6 @@ TEST_F(FrameTableTest, ErrorsNameThePlace) {
 
 TEST_F(FrameTableTest, FilesThatAreNoTable) {
   EXPECT_INPUT_ERROR(Load(""), "is empty");
-  EXPECT_INPUT_ERROR(Load("time_s;force_N\n0;1\n"),
-                     "log.csv:1: no commas in the header 'time_s;force_N'");
   EXPECT_INPUT_ERROR(Load("force_N\n"), "has a header but no rows");
   EXPECT_INPUT_ERROR(Load(std::string("force_N\n1\0\n", 11)), "NUL");
   EXPECT_INPUT_ERROR(

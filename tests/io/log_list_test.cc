@@ -54,6 +54,31 @@ TEST_F(LogListTest, FilesPatternsAndLists) {
   }
 }
 
+TEST_F(LogListTest, FoldersAndAnyFolders) {
+  for (const char* name : {"runs/d", "runs/d/e", "runs/.hidden", "empty"}) {
+    std::filesystem::create_directory(At(name));
+  }
+  for (const char* name : {"runs/d/e/a.csv", "runs/d/z.txt",
+                           "runs/.hidden/a.csv", "runs/d/a.frames.csv"}) {
+    folder_.Write(name, "");
+  }
+  std::filesystem::create_directory_symlink(At("runs/d"), At("runs/link"));
+  const std::vector<std::string> in_runs = {At("runs/a.csv"), At("runs/b.csv"),
+                                            At("runs/c.csv.gz"),
+                                            At("runs/x[1].csv")};
+  EXPECT_EQ(ExpandLogs({At("runs")}), in_runs);
+  EXPECT_EQ(ExpandLogs({At("runs/")}), in_runs);
+  EXPECT_THAT(ExpandLogs({At("runs/**/a*.csv")}, At("runs/d")),
+              ElementsAre(At("runs/a.csv"), At("runs/d/e/a.csv")));
+  EXPECT_THAT(ExpandLogs({At("ru*/**/e/**")}),
+              ElementsAre(At("runs/d/e/a.csv")));
+  EXPECT_THAT(
+      ExpandLogs({At("**")}, At("runs")),
+      ElementsAre(At("runs/a.csv"), At("runs/b.csv"), At("runs/c.csv.gz"),
+                  At("runs/d/e/a.csv"), At("runs/x[1].csv"), At("x.csv")));
+  ExpectError({At("empty")}, "empty' holds no *.csv and no *.csv.gz; logs in");
+}
+
 TEST_F(LogListTest, SaysWhatIsMissing) {
   ExpectError({}, "--logs: names no log");
   ExpectError({At("runs/*.tsv")}, "runs/*.tsv' matches no file");
@@ -71,7 +96,7 @@ TEST_F(LogListTest, PatternsPassOverResults) {
   folder_.Write("runs/summary.csv", "");
   EXPECT_THAT(ExpandLogs({At("runs/[as]*.csv")}, At("runs")),
               ElementsAre(At("runs/a.csv")));
-  EXPECT_THAT(ExpandLogs({At("runs/[as]*.csv")}, At("")),
+  EXPECT_THAT(ExpandLogs({At("runs/[as]*.csv")}, At("other")),
               ElementsAre(At("runs/a.csv"), At("runs/a.frames.csv"),
                           At("runs/summary.csv")));
 }

@@ -27,7 +27,9 @@ TEST(SceneTest, Reads) {
   EXPECT_EQ(scene.contacts, 1);
   EXPECT_EQ(scene.friction_coefficient, 0.2);
   EXPECT_EQ(scene.circle_radius_mm(), 20);
-  EXPECT_EQ(scene.columns.at("Fz [N]"), "force_N");
+  ASSERT_EQ(scene.columns.rules.size(), 1u);
+  EXPECT_EQ(scene.columns.rules[0].from, "Fz [N]");
+  EXPECT_EQ(scene.columns.rules[0].to, "force_N");
   EXPECT_FALSE(Load("contacts: auto\n").contacts.has_value());
 }
 

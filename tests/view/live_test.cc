@@ -97,13 +97,10 @@ TEST(LiveFeed, TwoThreads) {
 
 class LiveZeroTest : public testing::Test {
  protected:
-  LiveZeroTest() {
-    line_.text = text_;
-    line_.number = 1;
-  }
   std::unique_ptr<LiveEstimator> Make(const Finger& finger) {
     return std::make_unique<LiveEstimator>(finger, Scene(), Discretization(),
-                                           FrameMethod::kFast, "stdin", line_);
+                                           FrameMethod::kFast, parser_,
+                                           ResultFormat());
   }
   // Offers rows until the result is there.
   std::unique_ptr<LiveEstimator> Run(LiveZero* zero, double spread_V) {
@@ -124,8 +121,10 @@ class LiveZeroTest : public testing::Test {
 
   const Finger finger_ =
       ReadFinger(FINRAY_SOURCE_DIR "/configs/fingers/paper_140mm.yaml");
-  const std::string text_ = "time_s,gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V";
-  CsvLine line_;
+  const FrameParser parser_{
+      "stdin",
+      CsvLine{"time_s,gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V", 1},
+      {}};
   std::vector<Measurements> rows_;
 };
 

@@ -120,6 +120,7 @@ void EstimationSummary::Add(const FrameEstimate& estimate, double friction,
 
 void EstimationSummary::Add(const EstimationSummary& other) {
   frames += other.frames;
+  bad_rows += other.bad_rows;
   for (std::size_t i = 0; i < by_status.size(); ++i) {
     by_status[i] += other.by_status[i];
   }
@@ -142,7 +143,8 @@ void EstimationSummary::Add(const EstimationSummary& other) {
 }
 
 std::string SummaryToText(const EstimationSummary& summary) {
-  std::string text = std::to_string(summary.frames);
+  std::string text =
+      std::to_string(summary.frames) + " " + std::to_string(summary.bad_rows);
   for (const std::size_t count : summary.by_status) {
     text += " " + std::to_string(count);
   }
@@ -177,7 +179,7 @@ std::optional<EstimationSummary> SummaryFromText(const std::string& text) {
     if (read) *value = *read;
     if (!read) stream.setstate(std::ios::failbit);
   };
-  stream >> summary.frames;
+  stream >> summary.frames >> summary.bad_rows;
   for (std::size_t& count : summary.by_status) stream >> count;
   stream >> summary.unexplained >> summary.force_compared;
   number(&summary.force_squares_N2);
@@ -209,6 +211,7 @@ void EmitSummary(const EstimationSummary& summary, YamlEmitter* yaml) {
   }
   *yaml << YAML::EndMap;
   YamlPair(yaml, "unexplained_frames", summary.unexplained);
+  if (summary.bad_rows > 0) YamlPair(yaml, "bad_rows", summary.bad_rows);
   if (summary.force_compared > 0) {
     YamlPairs(yaml, "force_compared_frames", summary.force_compared,
               "force_rms_error_N", summary.force_rms_N(), "force_max_error_N",

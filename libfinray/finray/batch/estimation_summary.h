@@ -21,6 +21,8 @@ struct EstimationSummary {
       FrameStatus::kNotConverged, FrameStatus::kBadInput};
 
   std::size_t frames = 0;
+  /// Rows that were left out as bad; they are no frames.
+  std::size_t bad_rows = 0;
   std::array<std::size_t, 5> by_status{};  ///< indexed by FrameStatus
   /// Solved frames that neither the described finger nor its noise explains:
   /// the p-value of chi2 is below FrameEstimate::kUnexplained.
@@ -54,6 +56,7 @@ struct EstimationSummary {
   std::size_t count(FrameStatus status) const {
     return by_status[static_cast<std::size_t>(status)];
   }
+  bool any_bad_rows() const { return bad_rows > 0; }
   /// Number of frames that are not_converged or bad_input.
   std::size_t unsolved() const;
   /// More than kMostUnexplained of the solved frames are unexplained, and at

@@ -178,6 +178,16 @@ Warning NeverFree(const EstimationSummary& summary, const Finger& finger,
           "moved: zero them with finray_zero"};
 }
 
+Warning BadRows(const EstimationSummary& summary, const Finger& /*finger*/,
+                const std::string& log) {
+  return {
+      "bad_rows",
+      std::to_string(summary.bad_rows) + " of " +
+          std::to_string(summary.frames + summary.bad_rows) + " rows of " +
+          log + " are bad and left out",
+      "their lines and reasons are in <log>.bad_rows.csv beside the result"};
+}
+
 // A reason to doubt a log, and how many of its frames show it.
 struct Doubt {
   bool (EstimationSummary::*applies)() const;
@@ -192,7 +202,8 @@ constexpr Doubt kDoubts[] = {
      SomeUnexplained},
     {&EstimationSummary::forces_differ, &EstimationSummary::force_far,
      ForcesDiffer},
-    {&EstimationSummary::never_free, &EstimationSummary::frames, NeverFree}};
+    {&EstimationSummary::never_free, &EstimationSummary::frames, NeverFree},
+    {&EstimationSummary::any_bad_rows, &EstimationSummary::bad_rows, BadRows}};
 
 }  // namespace
 

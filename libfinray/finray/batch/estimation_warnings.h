@@ -26,6 +26,7 @@ std::vector<Warning> WarningsOf(const Finger& finger);
 ///  - some_unexplained_frames: not so many, but more than chance makes;
 ///  - forces_differ: force_N contradicts too many forces, or shows free rows
 ///    where every frame has a contact;
+///  - bad_rows: rows were left out as bad input;
 ///  - never_free: every frame has a contact and no force_N says otherwise.
 /// Offsets that have moved alike make all gauges consistent with contacts that
 /// are not there, so chi2 does not show them. Where force_N marks free rows,
@@ -41,8 +42,8 @@ std::vector<Warning> WarningsOf(const std::vector<LogSummary>& logs,
                                 const Finger& finger);
 
 /// Says whether --strict fails with one of these warnings: all but those of an
-/// uncalibrated finger, of some unexplained frames, and never_free, which may
-/// be meant.
+/// uncalibrated finger, of some unexplained frames, bad_rows, and never_free,
+/// which may be meant.
 bool FailsStrict(const std::vector<Warning>& warnings);
 
 }  // namespace finray

@@ -8,13 +8,13 @@
 namespace finray {
 
 LiveRows::LiveRows(const Finger& finger, const Scene& scene,
-                   const std::string& source, const CsvLine& header,
-                   FrameEstimator* estimator)
-    : parser_(source, header, scene.columns),
-      layout_(finger, scene, parser_),
+                   const FrameParser& parser, FrameEstimator* estimator,
+                   const ResultFormat& format)
+    : parser_(parser),
+      layout_(finger, scene, parser_, format),
       estimator_(*estimator),
       creep_(finger) {
-  RequireTimeForCreep(finger, parser_.names(), source);
+  RequireTimeForCreep(finger, parser_.names(), parser_.path());
   estimator_.Restart();
 }
 

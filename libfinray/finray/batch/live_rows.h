@@ -18,12 +18,12 @@ namespace finray {
 /// arrives. The columns are those of a batch.
 class LiveRows {
  public:
-  /// `header` is the header line of a log from `source`, the name that messages
-  /// show. Throws InputError for a bad header. The estimator must be made for
-  /// this finger and scene and stay in place. It is restarted, and serves one
-  /// log at a time.
-  LiveRows(const Finger& finger, const Scene& scene, const std::string& source,
-           const CsvLine& header, FrameEstimator* estimator);
+  /// `parser` is that of the log (LogLines). Throws InputError if its columns
+  /// do not suffice. Parser and estimator must stay in place; the latter must
+  /// be made for this finger and scene. It is restarted, and serves one log at
+  /// a time.
+  LiveRows(const Finger& finger, const Scene& scene, const FrameParser& parser,
+           FrameEstimator* estimator, const ResultFormat& format = {});
 
   std::string HeaderCsv() const { return layout_.HeaderCsv(); }
 
@@ -41,7 +41,7 @@ class LiveRows {
   const Measurements& raw() const { return creep_.empty() ? readings_ : raw_; }
 
  private:
-  FrameParser parser_;
+  const FrameParser& parser_;
   ResultLayout layout_;
   FrameEstimator& estimator_;
   CreepFilter creep_;

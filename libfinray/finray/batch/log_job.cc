@@ -9,6 +9,7 @@
 #include "finray/io/error.h"
 #include "finray/io/frame_reader.h"
 #include "finray/io/log_list.h"
+#include "finray/io/message_text.h"
 #include "finray/io/number_text.h"
 #include "finray/io/sha256.h"
 #include "finray/io/yaml_emitter.h"
@@ -23,14 +24,21 @@ std::string SolverName(const BatchSettings& settings) {
   return settings.joint ? "joint" : FrameMethodName(settings.method);
 }
 
+std::string WrittenText(const BatchSettings& settings) {
+  return Joined(settings.format.columns) + " " +
+         std::to_string(settings.format.digits) +
+         (settings.skip_bad_rows ? " skip" : "");
+}
+
 std::string Key(const BatchSettings& settings, const std::string& log_sha256) {
   return Sha256OfText(
-      "results 7\nversion " FINRAY_VERSION "\nlog " + log_sha256 + "\nfinger " +
+      "results 8\nversion " FINRAY_VERSION "\nlog " + log_sha256 + "\nfinger " +
       settings.finger_sha256 + "\nscene " + settings.scene_sha256 +
       "\nscheme " + SchemeName(settings.discretization.scheme) +
       "\nresolution " + std::to_string(settings.discretization.resolution) +
       "\nsolver " + SolverName(settings) + "\nblock_frames " +
-      std::to_string(kBlockFrames) + "\n");
+      std::to_string(kBlockFrames) + "\nwritten " + WrittenText(settings) +
+      "\n");
 }
 
 std::size_t Count(const YamlMap& yaml, const std::string& key) {
@@ -46,6 +54,7 @@ EstimationSummary SummaryFromYaml(const YamlMap& yaml) {
         Count(status, StatusName(s));
   }
   summary.unexplained = Count(yaml, "unexplained_frames");
+  if (yaml.Has("bad_rows")) summary.bad_rows = Count(yaml, "bad_rows");
   if (yaml.Has("force_compared_frames")) {
     summary.force_compared = Count(yaml, "force_compared_frames");
     summary.force_squares_N2 = yaml.NonNegativeNumber("force_squares_N2");
@@ -81,7 +90,9 @@ void AddCells(const LogJob& job, Set set) {
   set("force_variances_N2",
       compared ? NumberText(summary.force_variances_N2) : "");
   set("unexplained_frames", std::to_string(summary.unexplained));
+  set("bad_rows", std::to_string(summary.bad_rows));
   set("key", job.key());
+  set("reason", "");
 }
 
 }  // namespace
@@ -95,6 +106,10 @@ BatchSettings::BatchSettings(const std::string& finger_path,
   if (scene_path.empty()) return;
   scene = ReadScene(scene_path);
   scene_sha256 = Sha256OfFile(scene_path);
+  if (!scene.columns.path.empty()) {
+    scene_sha256 =
+        Sha256OfText(scene_sha256 + Sha256OfFile(scene.columns.path));
+  }
 }
 
 LogJob::LogJob(const BatchSettings* settings, std::string log,
@@ -102,6 +117,12 @@ LogJob::LogJob(const BatchSettings* settings, std::string log,
     : settings_(settings), log_(std::move(log)), result_(std::move(result)) {
   const fs::path folder = fs::path(result_).parent_path();
   summary_path_ = (folder / (LogName(log_) + ".summary.yaml")).string();
+  bad_rows_path_ = (folder / (LogName(log_) + ".bad_rows.csv")).string();
+}
+
+StreamOptions LogJob::Options() const {
+  return {settings_->threads, settings_->stop, settings_->format,
+          settings_->skip_bad_rows};
 }
 
 bool LogJob::Check() {
@@ -129,11 +150,15 @@ bool LogJob::Check() {
     if (finished_before_) return true;
   }
   FrameReader reader(log_, settings_->scene.columns);
-  if (!CheckStream(settings_->finger, settings_->threads, settings_->stop,
-                   &reader)) {
+  if (!CheckStream(settings_->finger, settings_->scene, Options(), &reader,
+                   &bad_rows_)) {
     return false;
   }
-  frames_ = reader.position();
+  frames_ = reader.position() - bad_rows_.size();
+  if (frames_ == 0) {
+    throw InputError(
+        log_ + ": all rows are bad; the first: " + bad_rows_.front().reason);
+  }
   if (!perhaps_finished) set_key();
   return true;
 }
@@ -153,7 +178,7 @@ bool LogJob::ReadFinished() {
     return false;  // not ours, or edited by hand: the log is estimated again
   }
   frames_ = summary_.frames;
-  return true;
+  return summary_.bad_rows == 0 || fs::exists(bad_rows_path_, missing);
 }
 
 bool LogJob::Changed() const {
@@ -180,6 +205,7 @@ bool LogJob::Run(FrameSolverPool* pool) {
   summary_ = SummaryFromText(out.note()).value_or(EstimationSummary());
   ReportProgress(summary_.frames, true);
   if (!out.finished() && !Estimate(pool, &out)) return false;
+  WriteBadRows();
   WriteSummary(out.bytes());
   out.Forget();
   return true;
@@ -200,11 +226,11 @@ bool LogJob::Estimate(FrameSolverPool* pool, ResumableFile* out) {
     FrameReader reader(log_, settings_->scene.columns);
     whole = settings_->joint
                 ? EstimateJointly(settings_->finger, settings_->scene,
-                                  settings_->discretization, settings_->threads,
-                                  settings_->stop, &reader, write)
+                                  settings_->discretization, Options(), &reader,
+                                  write)
                 : EstimateStream(settings_->finger, settings_->scene, pool,
-                                 settings_->threads, settings_->stop, &reader,
-                                 write, summary_.frames);
+                                 Options(), &reader, write,
+                                 summary_.frames + summary_.bad_rows);
   } catch (const InputError&) {
     if (!Changed()) throw;  // the result cannot be written
   }
@@ -222,6 +248,20 @@ bool LogJob::Estimate(FrameSolverPool* pool, ResumableFile* out) {
   fs::remove(summary_path_, missing);
   out->Finish(SummaryToText(summary_));
   return true;
+}
+
+void LogJob::WriteBadRows() const {
+  if (bad_rows_.empty()) {
+    std::error_code missing;
+    fs::remove(bad_rows_path_, missing);
+    return;
+  }
+  FrameTable table(bad_rows_.size());
+  for (std::size_t i = 0; i < bad_rows_.size(); ++i) {
+    table.MutableText("line")[i] = std::to_string(bad_rows_[i].line);
+    table.MutableText("reason")[i] = bad_rows_[i].reason;
+  }
+  table.Write(bad_rows_path_);
 }
 
 void LogJob::WriteSummary(std::uint64_t bytes) const {
@@ -310,8 +350,9 @@ std::string BatchYaml(const BatchSettings& settings,
   return std::string(yaml.c_str()) + "\n";
 }
 
-FrameTable BatchTable(const std::vector<LogJob>& jobs) {
-  FrameTable table(jobs.size());
+FrameTable BatchTable(const std::vector<LogJob>& jobs,
+                      const std::vector<BadLog>& bad_logs) {
+  FrameTable table(jobs.size() + bad_logs.size());
   // The table has its columns even without any log.
   AddCells(LogJob(nullptr, "", ""),
            [&](const std::string& name, const std::string&) {
@@ -321,6 +362,10 @@ FrameTable BatchTable(const std::vector<LogJob>& jobs) {
     AddCells(jobs[row], [&](const std::string& name, const std::string& text) {
       table.MutableText(name)[row] = text;
     });
+  }
+  for (std::size_t i = 0; i < bad_logs.size(); ++i) {
+    table.MutableText("log")[jobs.size() + i] = bad_logs[i].log;
+    table.MutableText("reason")[jobs.size() + i] = bad_logs[i].reason;
   }
   return table;
 }

@@ -9,6 +9,7 @@
 
 #include "finray/batch/batch_estimation.h"
 #include "finray/batch/estimation_warnings.h"
+#include "finray/batch/log_stream.h"
 #include "finray/io/frame_table.h"
 #include "finray/io/resumable_file.h"
 
@@ -26,7 +27,11 @@ struct BatchSettings {
   /// Solves all frames of a log together (EstimateJointly) instead of one by
   /// one. An interrupted log then begins anew.
   bool joint = false;
-  std::string finger_sha256, scene_sha256;  ///< "" without a scene file.
+  /// What is written of the results, and whether bad rows are left out.
+  ResultFormat format;
+  bool skip_bad_rows = false;
+  /// "" without a scene file. That of a scene covers the mapping it names.
+  std::string finger_sha256, scene_sha256;
   int threads = 1;
   /// Continues what an earlier run has left unfinished, and keeps what it has
   /// finished.
@@ -43,10 +48,11 @@ struct BatchSettings {
 };
 
 /// Estimates one log into its result, D/<log>.frames.csv, with a summary beside
-/// it, D/<log>.summary.yaml. The summary holds a key: a SHA-256 over the
-/// contents of the log, the finger and the scene file, and over scheme,
-/// resolution, solver, version, kBlockFrames and the number of the results'
-/// format. Results with the same key have the same bytes.
+/// it, D/<log>.summary.yaml, and D/<log>.bad_rows.csv if rows were left out.
+/// The summary holds a key: a SHA-256 over the contents of the log, the finger
+/// and the scene file, and over scheme, resolution, solver, version,
+/// kBlockFrames, what is written and the number of the results' format. Results
+/// with the same key have the same bytes.
 ///
 /// All functions throw InputError for a bad log or a result that cannot be
 /// written.
@@ -77,12 +83,16 @@ class LogJob {
   // stop.
   bool Estimate(FrameSolverPool* pool, ResumableFile* out);
   void ReportProgress(std::size_t frames, bool kept) const;
+  StreamOptions Options() const;
+  // Writes the table of bad rows, or removes an older one.
+  void WriteBadRows() const;
   void WriteSummary(std::uint64_t bytes) const;
   // Says whether the log has changed since it was checked.
   bool Changed() const;
 
   const BatchSettings* settings_;
-  std::string log_, result_, summary_path_, log_sha256_, key_;
+  std::string log_, result_, summary_path_, bad_rows_path_, log_sha256_, key_;
+  std::vector<BadRow> bad_rows_;
   std::filesystem::file_time_type written_;
   std::uintmax_t bytes_ = 0;
   std::size_t frames_ = 0;
@@ -107,8 +117,10 @@ std::string BatchYaml(const BatchSettings& settings,
                       const std::vector<LogJob>& jobs,
                       const std::vector<BadLog>& bad_logs);
 
-/// The table of summary.csv, with a row for each log.
-FrameTable BatchTable(const std::vector<LogJob>& jobs);
+/// The table of summary.csv, with a row for each log, and behind these one for
+/// each bad log with the reason.
+FrameTable BatchTable(const std::vector<LogJob>& jobs,
+                      const std::vector<BadLog>& bad_logs);
 
 }  // namespace finray
 

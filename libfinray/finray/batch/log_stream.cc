@@ -20,11 +20,14 @@ namespace {
 constexpr int kBlocksPerThread = 8;
 // Number of rows in a block that is only checked.
 constexpr std::size_t kCheckedRows = 512;
+// A list of more bad rows helps nobody.
+constexpr std::size_t kMostBadRows = 100'000;
 
 // The data of a block at all stages. Later blocks reuse its memory.
 struct Block {
   LineBlock lines;
   FrameRows rows;
+  std::vector<BadRow> bad_rows;
   bool first = false;  // of the log
   std::vector<Measurements> readings;
   std::vector<FrameEstimate> estimates;
@@ -38,16 +41,23 @@ bool ReadBlock(std::size_t rows, FrameReader* reader, Block* block) {
   return reader->ReadLines(rows, &block->lines);
 }
 
-// Parses the lines up to the first bad one. An error in an earlier line
-// replaces the reader's error, which lies behind these lines.
-void Parse(const FrameParser& parser, Block* block) {
+// Parses the lines, up to the first bad one unless these are skipped. An error
+// in an earlier line replaces the reader's error, which lies behind these
+// lines.
+void Parse(const FrameParser& parser, bool skip_bad_rows, Block* block) {
   block->rows.Clear();
-  try {
-    for (std::size_t i = 0; i < block->lines.size(); ++i) {
+  block->bad_rows.clear();
+  for (std::size_t i = 0; i < block->lines.size(); ++i) {
+    try {
       parser.Parse(block->lines.at(i), &block->rows);
+    } catch (const InputError& error) {
+      if (!skip_bad_rows) {
+        block->lines.error = error.what();
+        return;
+      }
+      block->rows.DropRow();
+      block->bad_rows.push_back({block->lines.at(i).number, error.what()});
     }
-  } catch (const InputError& error) {
-    block->lines.error = error.what();
   }
 }
 
@@ -66,6 +76,7 @@ void RemoveCreep(CreepFilter* creep, Block* block) {
 void WriteResult(const ResultLayout& layout, double friction, Block* block) {
   StreamedBlock& result = block->result;
   result.summary = EstimationSummary();
+  result.summary.bad_rows = block->bad_rows.size();
   result.csv.clear();
   if (block->first) result.csv = layout.HeaderCsv();
   for (std::size_t row = 0; row < block->readings.size(); ++row) {
@@ -84,12 +95,12 @@ const std::function<void(Block*)> kIndependent;
 // at a time in order. Before the work, `prepare` sees the blocks one at a time
 // in order, if they depend on each other. Throws InputError at the first bad
 // block. Returns false if told to stop.
-bool ForEachBlock(int threads, std::size_t rows,
-                  const std::function<bool()>& stop, FrameReader* reader,
+bool ForEachBlock(const StreamOptions& options, std::size_t rows,
+                  FrameReader* reader,
                   const std::function<void(Block*)>& prepare,
                   const std::function<void(Block*)>& work,
                   const std::function<void(const Block&)>& finish) {
-  threads = std::max(1, threads);
+  const int threads = std::max(1, options.threads);
   // The pipeline holds at most ring.size() blocks, so a block is finished
   // before its place in the ring is used again.
   std::vector<Block> ring(static_cast<std::size_t>(threads * kBlocksPerThread));
@@ -97,12 +108,12 @@ bool ForEachBlock(int threads, std::size_t rows,
   bool stopped = false;
   const auto read = [&](tbb::flow_control& flow) -> Block* {
     Block* block = &ring[next++ % ring.size()];
-    stopped = stop && stop();
+    stopped = options.stop && options.stop();
     if (stopped || !ReadBlock(rows, reader, block)) flow.stop();
     return block;
   };
   const auto parse = [&](Block* block) {
-    Parse(reader->parser(), block);
+    Parse(reader->parser(), options.skip_bad_rows, block);
     return block;
   };
   const auto prepare_one = [&](Block* block) {
@@ -141,17 +152,17 @@ bool ForEachBlock(int threads, std::size_t rows,
 }  // namespace
 
 bool EstimateStream(const Finger& finger, const Scene& scene,
-                    FrameSolverPool* pool, int threads,
-                    const std::function<bool()>& stop, FrameReader* reader,
+                    FrameSolverPool* pool, const StreamOptions& options,
+                    FrameReader* reader,
                     const std::function<void(const StreamedBlock&)>& write,
                     std::size_t done) {
-  const ResultLayout layout(finger, scene, reader->parser());
+  const ResultLayout layout(finger, scene, reader->parser(), options.format);
   CreepFilter creep(finger);
   if (creep.empty()) reader->Skip(done);
   Block skipped;
   while (reader->position() < done &&
          ReadBlock(kBlockFrames, reader, &skipped)) {
-    Parse(reader->parser(), &skipped);
+    Parse(reader->parser(), options.skip_bad_rows, &skipped);
     ReadReadings(layout, &skipped);
     RemoveCreep(&creep, &skipped);
   }
@@ -161,7 +172,7 @@ bool EstimateStream(const Finger& finger, const Scene& scene,
     RemoveCreep(&creep, block);
   };
   return ForEachBlock(
-      threads, kBlockFrames, stop, reader,
+      options, kBlockFrames, reader,
       creep.empty() ? kIndependent : read_in_order,
       [&](Block* block) {
         if (creep.empty()) ReadReadings(layout, block);
@@ -174,14 +185,14 @@ bool EstimateStream(const Finger& finger, const Scene& scene,
 }
 
 bool EstimateJointly(const Finger& finger, const Scene& scene,
-                     const Discretization& discretization, int threads,
-                     const std::function<bool()>& stop, FrameReader* reader,
+                     const Discretization& discretization,
+                     const StreamOptions& options, FrameReader* reader,
                      const std::function<void(const StreamedBlock&)>& write) {
   const FrameParser& parser = reader->parser();
-  const ResultLayout layout(finger, scene, parser);
+  const ResultLayout layout(finger, scene, parser, options.format);
   CreepFilter creep(finger);
   std::deque<Block> waiting;  // for their estimates
-  LogEstimator estimator(finger, scene, discretization, threads,
+  LogEstimator estimator(finger, scene, discretization, options.threads,
                          [&](const FrameEstimate& estimate) {
                            Block& block = waiting.front();
                            block.estimates.push_back(estimate);
@@ -193,14 +204,30 @@ bool EstimateJointly(const Finger& finger, const Scene& scene,
                            waiting.pop_front();
                          });
   std::size_t row_of_log = 0;
-  while (!stop || !stop()) {
+  // Bad rows at the end of what was read; the next good row brings them along.
+  std::vector<BadRow> bad_rows;
+  while (!options.stop || !options.stop()) {
     Block& block = waiting.emplace_back();
     if (!ReadBlock(kBlockFrames, reader, &block)) {
       estimator.Finish();
+      if (!bad_rows.empty()) {
+        StreamedBlock rest;
+        rest.summary.bad_rows = bad_rows.size();
+        write(rest);
+      }
       return true;
     }
-    Parse(parser, &block);
+    Parse(parser, options.skip_bad_rows, &block);
     if (!block.lines.error.empty()) throw InputError(block.lines.error);
+    block.first = row_of_log == 0;
+    block.bad_rows.insert(block.bad_rows.end(), bad_rows.begin(),
+                          bad_rows.end());
+    bad_rows.clear();
+    if (block.rows.rows() == 0) {
+      bad_rows.swap(block.bad_rows);
+      waiting.pop_back();
+      continue;
+    }
     ReadReadings(layout, &block);
     RemoveCreep(&creep, &block);
     // The estimator may give back all frames with the last one that it takes.
@@ -219,14 +246,23 @@ bool EstimateJointly(const Finger& finger, const Scene& scene,
   return false;
 }
 
-bool CheckStream(const Finger& finger, int threads,
-                 const std::function<bool()>& stop, FrameReader* reader) {
+bool CheckStream(const Finger& finger, const Scene& scene,
+                 const StreamOptions& options, FrameReader* reader,
+                 std::vector<BadRow>* bad_rows) {
   const FrameParser& parser = reader->parser();
-  MeasurementColumns(finger, parser.names(), parser.path(), {});
+  const ResultLayout layout(finger, scene, parser, options.format);
   RequireTimeForCreep(finger, parser.names(), parser.path());
   return ForEachBlock(
-      threads, kCheckedRows, stop, reader, kIndependent, [](Block*) {},
-      [](const Block&) {});
+      options, kCheckedRows, reader, kIndependent, [](Block*) {},
+      [&](const Block& block) {
+        bad_rows->insert(bad_rows->end(), block.bad_rows.begin(),
+                         block.bad_rows.end());
+        if (bad_rows->size() > kMostBadRows) {
+          throw InputError(
+              parser.path() + ": more than " + std::to_string(kMostBadRows) +
+              " rows are bad; the first: " + bad_rows->front().reason);
+        }
+      });
 }
 
 }  // namespace finray

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "finray/batch/batch_estimation.h"
 #include "finray/batch/estimation_summary.h"
+#include "finray/batch/result_rows.h"
 #include "finray/io/frame_reader.h"
 
 namespace finray {
@@ -17,20 +19,28 @@ struct StreamedBlock {
   EstimationSummary summary;
 };
 
+struct StreamOptions {
+  int threads = 1;
+  /// Asked before each block is read. May be empty. If it returns true, the
+  /// function ends and returns false.
+  std::function<bool()> stop;
+  ResultFormat format;
+  /// Leaves out rows that are bad instead of throwing InputError.
+  bool skip_bad_rows = false;
+};
+
 // These functions process a log from the reader's position (the start of a
-// block) to its end, on `threads` threads. Memory does not grow with the log.
-// `stop` (may be empty) is asked before each block is read. If it returns true,
-// the function ends and returns false. `write` receives blocks one by one and
-// in order. The functions throw InputError for a bad log, and what `write`
-// throws.
+// block) to its end. Memory does not grow with the log. `write` receives blocks
+// one by one and in order. The functions throw InputError for a bad log, and
+// what `write` throws.
 
 /// Estimates the frames of a log one by one. Only a few blocks are in memory at
 /// a time. `write` receives all blocks that were read, also after `stop`. The
-/// first `done` rows, whole blocks, are estimated already: the function only
-/// skips them, or reads what they say of the creep of gauges.
+/// first `done` rows, bad ones too, whole blocks, are estimated already: the
+/// function only skips them, or reads what they say of the creep of gauges.
 bool EstimateStream(const Finger& finger, const Scene& scene,
-                    FrameSolverPool* pool, int threads,
-                    const std::function<bool()>& stop, FrameReader* reader,
+                    FrameSolverPool* pool, const StreamOptions& options,
+                    FrameReader* reader,
                     const std::function<void(const StreamedBlock&)>& write,
                     std::size_t done = 0);
 
@@ -39,13 +49,22 @@ bool EstimateStream(const Finger& finger, const Scene& scene,
 /// most LogEstimator::kLongestWindow frames and the blocks about them. Rows
 /// that wait when `stop` says so are lost.
 bool EstimateJointly(const Finger& finger, const Scene& scene,
-                     const Discretization& discretization, int threads,
-                     const std::function<bool()>& stop, FrameReader* reader,
+                     const Discretization& discretization,
+                     const StreamOptions& options, FrameReader* reader,
                      const std::function<void(const StreamedBlock&)>& write);
 
-/// Only reads and parses a log. Throws InputError at the first bad place.
-bool CheckStream(const Finger& finger, int threads,
-                 const std::function<bool()>& stop, FrameReader* reader);
+/// A row that is left out.
+struct BadRow {
+  int line;
+  std::string reason;  ///< "path:line:column: ..."
+};
+
+/// Only reads and parses a log. Throws InputError at the first bad place. With
+/// skip_bad_rows, it appends bad rows to `bad_rows` and throws only if there
+/// are more than 100 000 of them.
+bool CheckStream(const Finger& finger, const Scene& scene,
+                 const StreamOptions& options, FrameReader* reader,
+                 std::vector<BadRow>* bad_rows);
 
 }  // namespace finray
 

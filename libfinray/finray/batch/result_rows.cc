@@ -5,9 +5,26 @@
 #include <cmath>
 
 #include "finray/io/csv_cells.h"
+#include "finray/io/error.h"
+#include "finray/io/frame_vocabulary.h"
 #include "finray/scene/frame_columns.h"
 
 namespace finray {
+namespace {
+
+// Says whether a name is `pattern`, in which * stands for any text.
+bool Fits(std::string_view name, std::string_view pattern) {
+  const std::size_t star = pattern.find('*');
+  if (star == pattern.npos) return name == pattern;
+  const std::string_view before = pattern.substr(0, star);
+  if (name.substr(0, star) != before) return false;
+  for (name.remove_prefix(star);; name.remove_prefix(1)) {
+    if (Fits(name, pattern.substr(star + 1))) return true;
+    if (name.empty()) return false;
+  }
+}
+
+}  // namespace
 
 // Calls column(name, value) for each column, where name() makes the name. Only
 // this function knows which columns there are.
@@ -102,11 +119,12 @@ void ResultColumns::Values(const Measurements& readings,
 }
 
 ResultLayout::ResultLayout(const Finger& finger, const Scene& scene,
-                           const FrameParser& log)
+                           const FrameParser& log, const ResultFormat& format)
     : readings_(
           finger, log.names(), log.path(),
           {/*angles=*/true, /*gauges_may_lack=*/false, scene.UsesCamera()}),
-      results_(finger, scene) {
+      results_(finger, scene),
+      digits_(format.digits) {
   for (std::size_t i = 0; i < log.names().size(); ++i) {
     outputs_.push_back({log.names()[i],
                         log.IsNumeric(i) ? Source::kNumber : Source::kText, i});
@@ -125,6 +143,37 @@ ResultLayout::ResultLayout(const Finger& finger, const Scene& scene,
     put({results_.names()[i], Source::kEstimate, i});
   }
   put({"status", Source::kStatus, 0});
+  if (!format.columns.empty()) Select(format.columns, log.path());
+}
+
+void ResultLayout::Select(const std::vector<std::string>& columns,
+                          const std::string& path) {
+  std::vector<Output> chosen;
+  std::vector<std::string> names;
+  for (const Output& output : outputs_) names.push_back(output.name);
+  for (const std::string& pattern : columns) {
+    bool fits = false;
+    for (const Output& output : outputs_) {
+      if (!Fits(output.name, pattern)) continue;
+      fits = true;
+      const bool known = std::any_of(
+          chosen.begin(), chosen.end(),
+          [&output](const Output& old) { return old.name == output.name; });
+      if (!known) chosen.push_back(output);
+    }
+    if (!fits)
+      throw InputError(path + ": --columns: " + NoColumn(pattern, names));
+  }
+  outputs_ = std::move(chosen);
+}
+
+void ResultLayout::AppendNumber(double value, std::string* csv) const {
+  char text[32];
+  const auto end = digits_ > 0
+                       ? std::to_chars(text, text + sizeof text, value,
+                                       std::chars_format::general, digits_)
+                       : std::to_chars(text, text + sizeof text, value);
+  csv->append(text, end.ptr);
 }
 
 std::string ResultLayout::HeaderCsv() const {
@@ -148,13 +197,12 @@ void ResultLayout::Append(const FrameRows& log, std::size_t row,
                           std::vector<double>* values, std::string* csv) const {
   values->resize(results_.names().size());
   results_.Values(readings, estimate, values->data());
+  const std::size_t begin = csv->size();
   for (const Output& output : outputs_) {
     switch (output.source) {
       case Source::kEstimate: {
         const double value = (*values)[output.index];
-        if (std::isnan(value)) break;
-        char text[32];
-        csv->append(text, std::to_chars(text, text + sizeof text, value).ptr);
+        if (!std::isnan(value)) AppendNumber(value, csv);
         break;
       }
       case Source::kStatus:
@@ -162,7 +210,12 @@ void ResultLayout::Append(const FrameRows& log, std::size_t row,
         break;
       case Source::kNumber: {
         const FrameRows::Cell& cell = log.at(row, output.index);
-        if (!std::isnan(cell.number)) *csv += cell.text;
+        if (std::isnan(cell.number)) break;
+        if (cell.text.empty()) {
+          AppendNumber(cell.number, csv);
+        } else {
+          *csv += cell.text;
+        }
         break;
       }
       case Source::kText:
@@ -170,6 +223,10 @@ void ResultLayout::Append(const FrameRows& log, std::size_t row,
         break;
     }
     *csv += ',';
+  }
+  // A blank line would be skipped when the table is read.
+  if (outputs_.size() == 1 && csv->size() == begin + 1) {
+    csv->insert(begin, outputs_[0].source == Source::kText ? "\"\"" : "nan");
   }
   csv->back() = '\n';
 }

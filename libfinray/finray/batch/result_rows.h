@@ -39,22 +39,33 @@ class ResultColumns {
   std::vector<std::string> names_;
 };
 
+/// What is written of a result.
+struct ResultFormat {
+  /// Columns in the order in which they are written; a name may hold * for any
+  /// text. Empty: all.
+  std::vector<std::string> columns;
+  /// Significant digits of numbers that are computed or converted; 0: as many
+  /// as read back as the same double.
+  int digits = 0;
+};
+
 /// Maps the columns of a log to those of its result. Columns of the log stay as
 /// they are; ResultColumns and `status` replace columns of the same name or
 /// follow at the end. Any number of threads may use one layout.
 class ResultLayout {
  public:
-  /// Throws InputError if a gauge of the finger has no column.
-  ResultLayout(const Finger& finger, const Scene& scene,
-               const FrameParser& log);
+  /// Throws InputError if a gauge of the finger has no column, or if a column
+  /// of the format is none of the result's.
+  ResultLayout(const Finger& finger, const Scene& scene, const FrameParser& log,
+               const ResultFormat& format = {});
 
   /// Returns the header line of the result.
   std::string HeaderCsv() const;
   void Read(const FrameRows& rows, std::size_t row,
             Measurements* readings) const;
   /// Appends a row of the result with its line end. Numbers of the estimate
-  /// have the fewest digits that read back as the same double, numbers of the
-  /// log stay as they were. A value that is not finite becomes an empty cell.
+  /// and converted ones of the log have the format's digits, its other numbers
+  /// stay as they were. A value that is not finite becomes an empty cell.
   /// `values` is memory for the next rows.
   void Append(const FrameRows& log, std::size_t row,
               const Measurements& readings, const FrameEstimate& estimate,
@@ -70,8 +81,13 @@ class ResultLayout {
     std::size_t index;
   };
 
+  // Keeps the outputs that the format names.
+  void Select(const std::vector<std::string>& columns, const std::string& path);
+  void AppendNumber(double value, std::string* csv) const;
+
   MeasurementColumns readings_;
   ResultColumns results_;
+  int digits_;
   std::vector<Output> outputs_;
 };
 

@@ -1,5 +1,9 @@
 #include "finray/io/csv_cells.h"
 
+#include <algorithm>
+
+#include "finray/io/number_text.h"
+
 namespace finray {
 namespace {
 
@@ -18,14 +22,21 @@ bool TakeQuoted(std::string_view* line, std::string* cell) {
   }
 }
 
-}  // namespace
+template <char kDelimiter>
+std::string_view WithoutBlanks(std::string_view cell) {
+  if constexpr (kDelimiter != '\t') return Trimmed(cell);
+  while (!cell.empty() && cell.front() == ' ') cell.remove_prefix(1);
+  while (!cell.empty() && cell.back() == ' ') cell.remove_suffix(1);
+  return cell;
+}
 
-const char* SplitCsvLine(std::string_view line,
-                         std::vector<std::string_view>* cells,
-                         std::deque<std::string>* unquoted) {
+template <char kDelimiter>
+const char* SplitAt(std::string_view line, std::vector<std::string_view>* cells,
+                    std::deque<std::string>* unquoted) {
+  constexpr const char* kBlank = kDelimiter == '\t' ? " " : " \t";
   cells->clear();
   for (;;) {
-    const auto start = line.find_first_not_of(" \t");
+    const auto start = line.find_first_not_of(kBlank);
     const bool quoted = start != std::string_view::npos && line[start] == '"';
     if (quoted) {
       line.remove_prefix(start + 1);
@@ -33,21 +44,41 @@ const char* SplitCsvLine(std::string_view line,
       cells->push_back(unquoted->back());
       if (!closed) return "a quoted cell does not end on its line";
     }
-    const auto comma = line.find(',');
-    const std::string_view rest = Trimmed(line.substr(0, comma));
+    const auto end = line.find(kDelimiter);
+    const std::string_view rest =
+        WithoutBlanks<kDelimiter>(line.substr(0, end));
     if (!quoted) {
       cells->push_back(rest);
     } else if (!rest.empty()) {
       return "text behind the closing quote of a cell";
     }
-    if (comma == std::string_view::npos) return "";
-    line.remove_prefix(comma + 1);
+    if (end == std::string_view::npos) return "";
+    line.remove_prefix(end + 1);
   }
+}
+
+}  // namespace
+
+const char* SplitCsvLine(std::string_view line, char delimiter,
+                         std::vector<std::string_view>* cells,
+                         std::deque<std::string>* unquoted) {
+  if (delimiter == ';') return SplitAt<';'>(line, cells, unquoted);
+  if (delimiter == '\t') return SplitAt<'\t'>(line, cells, unquoted);
+  return SplitAt<','>(line, cells, unquoted);
+}
+
+std::optional<double> NumberInCell(std::string_view cell, char decimal) {
+  if (decimal == '.') return ParseNumber(cell);
+  if (cell.find('.') != cell.npos) return std::nullopt;
+  std::string text(cell);
+  std::replace(text.begin(), text.end(), ',', '.');
+  return ParseNumber(text);
 }
 
 void AppendCsvText(std::string_view cell, std::string* csv) {
   const bool comment = !cell.empty() && cell.front() == '#';
-  if (cell.find_first_of(",\"\r\n") == std::string::npos &&
+  // A header with another delimiter could be cut there.
+  if (cell.find_first_of(",;\t\"\r\n") == std::string::npos &&
       Trimmed(cell) == cell && !comment) {
     csv->append(cell);
     return;

@@ -9,53 +9,12 @@
 #include "finray/io/csv_cells.h"
 #include "finray/io/error.h"
 #include "finray/io/frame_vocabulary.h"
+#include "finray/io/log_header.h"
 #include "finray/io/message_text.h"
 #include "finray/io/number_text.h"
 
 namespace finray {
 namespace {
-
-// Renames refer to the names in the file, so that two columns can be swapped.
-std::vector<std::string> Renamed(
-    const std::string& path, const std::vector<std::string>& found,
-    const std::map<std::string, std::string>& renames) {
-  std::vector<std::string> headers = found;
-  for (const auto& [key, value] : renames) {
-    // The entry is {lab's header: our name}, or the other way round.
-    const bool reversed = IsFrameColumn(key) && !IsFrameColumn(value);
-    const std::string& from = reversed ? value : key;
-    const std::string& to = reversed ? key : value;
-    if (!IsFrameColumn(to) && to != "status") {
-      throw InputError(path + ": column " + ShownText(from) +
-                       " is renamed to " + ShownText(to) +
-                       ", which is no known column" +
-                       DidYouMeanFrameColumn(to));
-    }
-    const auto at = std::find(found.begin(), found.end(), from);
-    if (at == found.end()) {
-      throw InputError(path + ": no column " + ShownText(from) +
-                       " to rename to " + ShownText(to) +
-                       DidYouMean(from, found));
-    }
-    headers[static_cast<std::size_t>(at - found.begin())] = to;
-  }
-  return headers;
-}
-
-bool IsNan(std::string_view text) {
-  // printf writes a NaN with its sign.
-  if (!text.empty() && (text[0] == '-' || text[0] == '+')) {
-    text.remove_prefix(1);
-  }
-  return text.size() == 3 && (text[0] | 0x20) == 'n' &&
-         (text[1] | 0x20) == 'a' && (text[2] | 0x20) == 'n';
-}
-
-// Returns the number in a cell, NaN for an empty cell or "nan".
-std::optional<double> CellNumber(std::string_view text) {
-  if (text.empty() || IsNan(text)) return kNaN;
-  return ParseNumber(text);
-}
 
 // Says whether a character is a control character other than a tab.
 bool IsControl(char c) {
@@ -74,23 +33,44 @@ std::size_t FirstNul(const CsvLine& line,
   return static_cast<std::size_t>(at - cells.begin());
 }
 
-}  // namespace
-
-bool IsHeaderLine(CsvLine* line) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  while (line->text.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
-    line->text.remove_prefix(kByteOrderMark.size());
+// Says whether a comma in a number may separate thousands: "1,234".
+bool MayBeThousands(std::string_view text) {
+  if (!text.empty() && (text[0] == '-' || text[0] == '+')) {
+    text.remove_prefix(1);
   }
-  line->text = Trimmed(line->text);
-  return !line->text.empty() && line->text.front() != '#';
+  const std::size_t comma = text.find(',');
+  return comma >= 1 && comma <= 3 && text[0] != '0' &&
+         text.size() == comma + 4 &&
+         text.find_first_not_of("0123456789,") == text.npos;
 }
 
+// Returns the unit in a cell of a units row, also in brackets, or nothing.
+std::optional<Unit> UnitInCell(std::string_view cell) {
+  if (cell.size() > 2 && ((cell.front() == '[' && cell.back() == ']') ||
+                          (cell.front() == '(' && cell.back() == ')'))) {
+    cell = Trimmed(cell.substr(1, cell.size() - 2));
+  }
+  return FindUnit(cell);
+}
+
+}  // namespace
+
 FrameParser::FrameParser(const std::string& path, const CsvLine& header,
-                         const std::map<std::string, std::string>& renames)
-    : path_(path) {
+                         const ColumnMapping& mapping)
+    : path_(path),
+      not_measured_(mapping.not_measured),
+      units_row_(mapping.units_row) {
+  delimiter_ = DelimiterOf(header.text, mapping);
+  if (delimiter_ == '\0') {
+    Fail(header.number,
+         "the header " + ShownText(header.text) +
+             " holds more than one of comma, semicolon and tab; state which "
+             "one stands between cells with delimiter: in the scene or plan");
+  }
   std::vector<std::string_view> cells;
   std::deque<std::string> unquoted;
-  const std::string error = SplitCsvLine(header.text, &cells, &unquoted);
+  const std::string error =
+      SplitCsvLine(header.text, delimiter_, &cells, &unquoted);
   if (!error.empty()) FailAt(header.number, cells.size() - 1, error);
   const std::size_t nul = FirstNul(header, cells);
   if (nul < cells.size()) {
@@ -107,11 +87,35 @@ FrameParser::FrameParser(const std::string& path, const CsvLine& header,
                                "end with a line feed"
                              : " holds a control character, expected text"));
   }
-  if (cells.size() == 1 && cells[0].find_first_of(";\t") != cells[0].npos) {
-    Fail(header.number, "no commas in the header " + ShownText(cells[0]) +
-                            ", expected cells with commas between them");
+  TakeNames(header, {cells.begin(), cells.end()}, mapping);
+  // Cells with decimal commas between commas have quotes, so they are rare.
+  if (mapping.decimal) {
+    UseDecimal(*mapping.decimal);
+  } else {
+    decimal_settled_ = delimiter_ == ',';
   }
-  names_ = Renamed(path, {cells.begin(), cells.end()}, renames);
+}
+
+void FrameParser::TakeNames(const CsvLine& header,
+                            const std::vector<std::string>& found,
+                            const ColumnMapping& mapping) {
+  // Rules refer to the names in the file, so that two columns can be swapped.
+  names_ = found;
+  columns_.resize(found.size());
+  std::vector<char> mapped(found.size());
+  for (const ColumnRule& rule : mapping.rules) {
+    const auto at = std::find(found.begin(), found.end(), rule.from);
+    if (at == found.end()) {
+      throw InputError(path_ + ": no column " + ShownText(rule.from) +
+                       " to rename to " + ShownText(rule.to) +
+                       DidYouMean(rule.from, found));
+    }
+    const auto i = static_cast<std::size_t>(at - found.begin());
+    names_[i] = rule.to;
+    mapped[i] = true;
+    columns_[i].rule = rule;
+    columns_[i].declared = UnitInBrackets(rule.from);
+  }
   if (std::all_of(names_.begin(), names_.end(), ParseNumber)) {
     Fail(header.number, "expected a header, found numbers only");
   }
@@ -121,19 +125,148 @@ FrameParser::FrameParser(const std::string& path, const CsvLine& header,
       FailAt(header.number, i,
              "header " + ShownText(names_[i]) + " appears twice");
     }
-    numeric_.push_back(IsFrameColumn(names_[i]));
+    if (!IsFrameColumn(names_[i])) continue;
+    Column& column = columns_[i];
+    if (!mapped[i]) {
+      // The name says the unit already.
+      column.rule.from = column.rule.to = names_[i];
+      const Unit unit = UnitOfColumn(names_[i]);
+      if (unit.dimension != Dimension::kNone) column.rule.unit = unit;
+    }
+    column.may_be_infinite = names_[i] == "cylinder_radius_mm";
+    MakeConversion(header, i);
   }
+}
+
+void FrameParser::MakeConversion(const CsvLine& line, std::size_t i) {
+  Column& column = columns_[i];
+  std::string error;
+  column.conversion = ColumnConversion(column.rule, column.declared, &error);
+  if (!error.empty()) FailAt(line.number, i, names_[i] + ": " + error);
+  column.kind =
+      column.conversion.IsIdentity() && decimal_ == '.' && not_measured_.empty()
+          ? Kind::kNumber
+          : Kind::kConverted;
+}
+
+void FrameParser::UseDecimal(char decimal) {
+  decimal_ = decimal;
+  decimal_settled_ = true;
+  if (decimal == '.') return;
+  for (Column& column : columns_) {
+    if (column.kind == Kind::kNumber) column.kind = Kind::kConverted;
+  }
+}
+
+bool FrameParser::TakeUnits(const CsvLine& line) {
+  if (units_row_ == false) return false;
+  std::vector<std::string_view> cells;
+  std::deque<std::string> unquoted;
+  const std::string error =
+      SplitCsvLine(line.text, delimiter_, &cells, &unquoted);
+  if (!error.empty() || cells.size() != names_.size()) {
+    if (units_row_ != true) return false;  // Parse() says what is wrong
+    Fail(line.number, "expected a unit for each of the " +
+                          std::to_string(names_.size()) +
+                          " columns of the header, as units_row says");
+  }
+  bool any = false;
+  std::size_t unknown = cells.size();
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Column& column = columns_[i];
+    if (column.kind == Kind::kText) continue;
+    if (UnitInCell(cells[i])) {
+      any = true;
+    } else if (IsNotMeasured(cells[i]) || cells[i] == "1") {
+      continue;  // no unit
+    } else if (ParseNumber(cells[i]) || NumberInCell(cells[i], ',')) {
+      if (units_row_ != true) return false;
+      FailAt(line.number, i,
+             names_[i] + ": expected a unit, found " + ShownText(cells[i]));
+    } else if (!column.rule.scale && !column.rule.counts &&
+               column.rule.format != TimeFormat::kIso8601) {
+      unknown = std::min(unknown, i);
+    }
+  }
+  if (!any && units_row_ != true) return false;
+  if (unknown < cells.size()) {
+    FailAt(line.number, unknown,
+           names_[unknown] +
+               ": expected a unit as in the other columns, one of " +
+               Joined(UnitNames(UnitOfColumn(names_[unknown]).dimension)) +
+               ", found " + ShownText(cells[unknown]) +
+               "; a scale in the column's mapping speaks for it too");
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto unit = UnitInCell(cells[i]);
+    if (columns_[i].kind == Kind::kText || !unit) continue;
+    columns_[i].declared = unit->name;
+    MakeConversion(line, i);
+  }
+  return true;
+}
+
+void FrameParser::LearnDecimal(const CsvLine& line) {
+  if (decimal_settled_) return;
+  std::vector<std::string_view> cells;
+  std::deque<std::string> unquoted;
+  SplitCsvLine(line.text, delimiter_, &cells, &unquoted);
+  bool comma = false;
+  for (std::size_t i = 0; i < std::min(cells.size(), columns_.size()); ++i) {
+    if (columns_[i].kind == Kind::kText ||
+        columns_[i].rule.format == TimeFormat::kIso8601) {
+      continue;
+    }
+    const bool point = cells[i].find('.') != cells[i].npos;
+    if (point && ParseNumber(cells[i])) return UseDecimal('.');
+    comma |= !point && cells[i].find(',') != cells[i].npos &&
+             NumberInCell(cells[i], ',') && !MayBeThousands(cells[i]);
+  }
+  if (comma) UseDecimal(',');
+}
+
+bool FrameParser::IsMissing(std::string_view text) const {
+  return IsNotMeasured(text) ||
+         std::find(not_measured_.begin(), not_measured_.end(), text) !=
+             not_measured_.end();
+}
+
+// Reads what is no plain number.
+FrameRows::Cell FrameParser::ReadCell(int line, std::size_t i,
+                                      std::string_view text) const {
+  if (IsMissing(text)) return {};
+  const Column& column = columns_[i];
+  // A cylinder of infinite radius is a plane.
+  if (column.may_be_infinite && text == "inf") {
+    return {std::numeric_limits<double>::infinity(), text};
+  }
+  std::string error;
+  const double value = column.conversion.Value(text, decimal_, &error);
+  if (error.empty()) return {value, {}};
+  if (decimal_ == '.' && NumberInCell(text, ',')) {
+    error += MayBeThousands(text) ? ", which may stand for two numbers" : "";
+    error +=
+        "; a decimal comma is stated by decimal: \",\" in the scene or "
+        "plan";
+  }
+  FailAt(line, i, names_[i] + ": " + error);
 }
 
 void FrameParser::Parse(const CsvLine& line, FrameRows* rows) const {
   std::vector<std::string_view>& split = rows->split_;
   FrameRows::Cell* cells = rows->AddRow(names_.size());
-  const char* error = SplitCsvLine(line.text, &split, &rows->unquoted_);
+  const char* error =
+      SplitCsvLine(line.text, delimiter_, &split, &rows->unquoted_);
   if (*error != '\0') FailAt(line.number, split.size() - 1, error);
   if (split.size() != names_.size()) {
-    Fail(line.number, "expected " + std::to_string(names_.size()) +
-                          " cells as in the header, found " +
-                          std::to_string(split.size()));
+    // Decimal commas between commas make too many cells.
+    const bool commas = delimiter_ == ',' && split.size() > names_.size();
+    Fail(line.number,
+         "expected " + std::to_string(names_.size()) +
+             " cells as in the header, found " + std::to_string(split.size()) +
+             (commas ? "; another delimiter than the comma is stated by "
+                       "delimiter: in the scene or plan"
+                     : ""));
   }
   const std::size_t nul = FirstNul(line, split);
   if (nul < split.size()) {
@@ -142,21 +275,19 @@ void FrameParser::Parse(const CsvLine& line, FrameRows* rows) const {
         ShownLine(names_[nul]) + ": the cell holds a NUL byte, expected text");
   }
   for (std::size_t i = 0; i < split.size(); ++i) {
-    if (!numeric_[i]) {
+    const Kind kind = columns_[i].kind;
+    if (kind == Kind::kText) {
       cells[i].text = split[i];
       continue;
     }
     const std::string_view text = Trimmed(split[i]);  // quotes keep spaces
-    std::optional<double> number = CellNumber(text);
-    // A cylinder of infinite radius is a plane.
-    if (!number && text == "inf" && names_[i] == "cylinder_radius_mm") {
-      number = std::numeric_limits<double>::infinity();
+    if (kind == Kind::kNumber) {
+      if (const std::optional<double> number = ParseNumber(text)) {
+        cells[i] = {*number, text};
+        continue;
+      }
     }
-    if (!number) {
-      FailAt(line.number, i,
-             names_[i] + ": expected a number, found " + ShownText(split[i]));
-    }
-    cells[i] = {*number, text};
+    cells[i] = ReadCell(line.number, i, text);
   }
 }
 

@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <deque>
-#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "finray/io/column_conversion.h"
+#include "finray/io/column_mapping.h"
 #include "finray/io/line_reader.h"
 #include "finray/io/nan.h"
 
@@ -19,7 +21,8 @@ class FrameRows {
   struct Cell {
     /// The number is NaN for text and for a cell that was not measured.
     double number = kNaN;
-    /// The text has no quotes. It refers to the line that was parsed.
+    /// The text has no quotes. It refers to the line that was parsed. It is
+    /// empty if the number was converted.
     std::string_view text;
   };
 
@@ -31,6 +34,12 @@ class FrameRows {
   std::size_t rows() const { return rows_; }
   const Cell& at(std::size_t row, std::size_t column) const {
     return cells_[row * columns_ + column];
+  }
+
+  /// Removes the last row.
+  void DropRow() {
+    --rows_;
+    cells_.resize(rows_ * columns_);
   }
 
  private:
@@ -50,24 +59,35 @@ class FrameRows {
   std::deque<std::string> unquoted_;     // a deque does not move its strings
 };
 
-/// Says whether a line is the header of a frame table, not a '#' comment or
-/// blank. Removes byte order marks from the front of the line. Files that were
-/// put together from others have such marks behind comments too.
-bool IsHeaderLine(CsvLine* line);
-
-/// Parses the rows of a frame table by its header. Several threads may use one.
+/// Parses the rows of a log by its header. Several threads may use one, once
+/// its first row is known not to hold units and the decimal mark is settled.
 class FrameParser {
  public:
-  /// `renames` maps a lab's own headers to vocabulary names, or the other way
-  /// round if only the key is a vocabulary name. Throws InputError
-  /// (path:line:column) for a bad header.
+  /// Throws InputError (path:line:column) for a header that is bad or does not
+  /// have the columns of the mapping.
   FrameParser(const std::string& path, const CsvLine& header,
-              const std::map<std::string, std::string>& renames);
+              const ColumnMapping& mapping);
 
   const std::string& path() const { return path_; }
   const std::vector<std::string>& names() const { return names_; }
+  char delimiter() const { return delimiter_; }
   /// Says whether a column holds numbers. Other columns hold text.
-  bool IsNumeric(std::size_t column) const { return numeric_[column]; }
+  bool IsNumeric(std::size_t column) const {
+    return columns_[column].kind != Kind::kText;
+  }
+
+  /// Takes the line below the header if it holds the units of the columns, and
+  /// says whether it does: the mapping says so, or each cell of a numeric
+  /// column is a unit or stands for none, and at least one is a unit. Throws
+  /// InputError for a unit that does not fit its column.
+  bool TakeUnits(const CsvLine& line);
+  /// Learns the decimal mark from a row: a point, or a comma that can be no
+  /// separator of thousands. Does nothing if the mark is settled: it is stated,
+  /// it was found, or cells are delimited by commas.
+  void LearnDecimal(const CsvLine& line);
+  /// Without a mark in the rows so far, it is the point.
+  void SettleDecimal() { decimal_settled_ = true; }
+  bool decimal_settled() const { return decimal_settled_; }
 
   /// Appends a line as a row. Throws InputError (path:line:column) for a wrong
   /// number of cells or a cell that is no number. The row then holds the cells
@@ -75,13 +95,35 @@ class FrameParser {
   void Parse(const CsvLine& line, FrameRows* rows) const;
 
  private:
+  // kNumber: the number as it is written, with a point.
+  enum class Kind : char { kText, kNumber, kConverted };
+  struct Column {
+    Kind kind = Kind::kText;
+    ColumnRule rule;
+    std::string declared;  // unit in the log
+    ColumnConversion conversion;
+    bool may_be_infinite = false;
+  };
+
+  void TakeNames(const CsvLine& header, const std::vector<std::string>& found,
+                 const ColumnMapping& mapping);
+  // Fails at a cell of the header's or the units' line.
+  void MakeConversion(const CsvLine& line, std::size_t column);
+  void UseDecimal(char decimal);
+  FrameRows::Cell ReadCell(int line, std::size_t column,
+                           std::string_view text) const;
+  bool IsMissing(std::string_view text) const;
   [[noreturn]] void Fail(int line, const std::string& message) const;
   [[noreturn]] void FailAt(int line, std::size_t cell,
                            const std::string& message) const;
 
   std::string path_;
   std::vector<std::string> names_;
-  std::vector<char> numeric_;
+  std::vector<Column> columns_;
+  std::vector<std::string> not_measured_;
+  std::optional<bool> units_row_;
+  char delimiter_ = ',', decimal_ = '.';
+  bool decimal_settled_ = true;
 };
 
 }  // namespace finray

@@ -3,33 +3,17 @@
 #include "finray/io/error.h"
 
 namespace finray {
-namespace {
-
-CsvLine NextHeader(const std::string& path, LineReader* reader) {
-  CsvLine line;
-  do {
-    if (!reader->Next()) {
-      throw InputError(path + ": is empty, expected a header and rows");
-    }
-    line = reader->line();
-  } while (!IsHeaderLine(&line));
-  return line;
-}
-
-}  // namespace
-
-FrameReader::FrameReader(const std::string& path,
-                         const std::map<std::string, std::string>& renames)
-    : reader_(ReadFile(path)),
-      parser_(path, NextHeader(path, &reader_), renames) {
-  looked_ahead_ = reader_.Next();
+FrameReader::FrameReader(const std::string& path, const ColumnMapping& mapping)
+    : lines_(ReadFile(path), path, mapping) {
+  lines_.FindDecimal();
+  looked_ahead_ = lines_.Next();
   if (!looked_ahead_) {
     throw InputError(path + ": is an empty log: it has a header but no rows");
   }
 }
 
 bool FrameReader::NextRow() {
-  if (!looked_ahead_ && !reader_.Next()) return false;
+  if (!looked_ahead_ && !lines_.Next()) return false;
   looked_ahead_ = false;
   ++position_;
   return true;
@@ -38,7 +22,7 @@ bool FrameReader::NextRow() {
 bool FrameReader::ReadLines(std::size_t rows, LineBlock* block) {
   block->Clear();
   try {
-    while (block->size() < rows && NextRow()) block->Add(reader_.line());
+    while (block->size() < rows && NextRow()) block->Add(lines_.line());
   } catch (const InputError& error) {
     block->error = error.what();
   }
@@ -52,8 +36,8 @@ std::size_t FrameReader::Skip(std::size_t rows) {
 }
 
 FrameTable FrameTable::Read(const std::string& path,
-                            const std::map<std::string, std::string>& renames) {
-  FrameReader reader(path, renames);
+                            const ColumnMapping& mapping) {
+  FrameReader reader(path, mapping);
   const FrameParser& parser = reader.parser();
   FrameTable table;
   table.path_ = path;
@@ -65,7 +49,7 @@ FrameTable FrameTable::Read(const std::string& path,
   FrameRows row;
   while (reader.NextRow()) {
     row.Clear();
-    parser.Parse(reader.reader_.line(), &row);
+    parser.Parse(reader.lines_.line(), &row);
     for (std::size_t i = 0; i < table.columns_.size(); ++i) {
       auto& cells = table.columns_[i].cells;
       if (auto* numbers = std::get_if<std::vector<double>>(&cells)) {
@@ -75,7 +59,7 @@ FrameTable FrameTable::Read(const std::string& path,
             row.at(0, i).text);
       }
     }
-    table.lines_.push_back(reader.reader_.line().number);
+    table.lines_.push_back(reader.lines_.line().number);
     ++table.rows_;
   }
   return table;

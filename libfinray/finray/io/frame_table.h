@@ -3,10 +3,11 @@
 
 #include <cstddef>
 #include <deque>
-#include <map>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "finray/io/column_mapping.h"
 
 namespace finray {
 
@@ -19,13 +20,12 @@ class FrameTable {
   FrameTable() = default;
   explicit FrameTable(std::size_t rows) : rows_(rows) {}
 
-  /// Reads .csv or .csv.gz. `renames` is that of FrameParser. Throws InputError
+  /// Reads .csv or .csv.gz as `mapping` says. Throws InputError
   /// (file:line:column, column being the cell's number) for an unreadable or
   /// empty file, a duplicate header, a row with the wrong number of cells or a
   /// cell that is no number.
-  static FrameTable Read(
-      const std::string& path,
-      const std::map<std::string, std::string>& renames = {});
+  static FrameTable Read(const std::string& path,
+                         const ColumnMapping& mapping = {});
 
   std::size_t rows() const { return rows_; }
   const std::string& path() const { return path_; }

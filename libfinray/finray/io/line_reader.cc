@@ -30,8 +30,13 @@ bool LineReader::Next() {
     while (!Take()) {
       if (ended_ || !Fill()) return false;
     }
-  } while (Trimmed(line_.text).empty());
+  } while (IsBlank());
   return true;
+}
+
+bool LineReader::IsBlank() const {
+  return Trimmed(line_.text).empty() &&
+         !(keep_tabs_ && line_.text.find('\t') != line_.text.npos);
 }
 
 bool LineReader::Take() {

@@ -32,6 +32,8 @@ class LineReader {
   /// was told to stop. Throws InputError if the source cannot be read or a line
   /// is longer than 16 MiB.
   bool Next();
+  /// Whether a line of nothing but blanks with tabs counts as a line.
+  void KeepTabs(bool keep) { keep_tabs_ = keep; }
   /// The current line. Its text is valid until the next call of Next().
   const CsvLine& line() const { return line_; }
 
@@ -41,6 +43,7 @@ class LineReader {
   // Moves the next line to line_. Returns false if its end has not been read
   // yet.
   bool Take();
+  bool IsBlank() const;
 
   ByteSource bytes_;
   std::string name_;
@@ -48,7 +51,7 @@ class LineReader {
   // The bytes from begin_ to end_ are not used yet. There is no line end
   // between begin_ and searched_.
   std::size_t begin_ = 0, searched_ = 0, end_ = 0;
-  bool ended_ = false;
+  bool ended_ = false, keep_tabs_ = false;
   CsvLine line_;
 };
 

@@ -20,6 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kResult[] = ".frames.csv";
+constexpr char kAnyFolders[] = "**";
+constexpr const char* kLogs[] = {"*.csv", "*.csv.gz"};
 constexpr int kLongestList_MiB = 16;
 
 bool EndsWith(const std::string& text, const std::string& end) {
@@ -27,47 +29,123 @@ bool EndsWith(const std::string& text, const std::string& end) {
          text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-bool IsResult(const fs::path& path, const std::string& results_folder) {
+// Says whether a file is a result below `folder`.
+bool IsResult(const fs::path& path, const std::string& folder) {
   const std::string name = path.filename().string();
-  if (name != "summary.csv" && !EndsWith(name, kResult)) return false;
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (folder.empty() || (name != "summary.csv" && !EndsWith(name, kResult) &&
+                         !EndsWith(name, ".bad_rows.csv"))) {
+    return false;
+  }
   std::error_code unknown;
-  return fs::equivalent(folder, results_folder, unknown);
+  const fs::path below =
+      fs::weakly_canonical(path, unknown)
+          .lexically_relative(fs::weakly_canonical(folder, unknown));
+  return !below.empty() && *below.begin() != "..";
 }
 
-// Returns the files that match a pattern, sorted byte by byte.
-std::vector<std::string> Matches(const std::string& pattern,
-                                 const std::string& results_folder) {
-  glob_t found = {};
-  const std::unique_ptr<glob_t, void (*)(glob_t*)> owner(&found, globfree);
-  std::vector<std::string> files;
-  if (glob(pattern.c_str(), GLOB_NOSORT, nullptr, &found) == 0) {
-    for (std::size_t i = 0; i < found.gl_pathc; ++i) {
-      std::error_code unknown;
-      if (!fs::is_directory(found.gl_pathv[i], unknown) &&
-          !IsResult(found.gl_pathv[i], results_folder)) {
-        files.emplace_back(found.gl_pathv[i]);
-      }
+// Adds the folder and those below it, but no hidden ones and no links.
+void AddFolders(const fs::path& folder, std::vector<fs::path>* folders) {
+  folders->push_back(folder);
+  std::error_code unknown;
+  for (const auto& entry : fs::directory_iterator(
+           folder.empty() ? fs::path(".") : folder, unknown)) {
+    if (entry.is_directory(unknown) && !entry.is_symlink(unknown) &&
+        entry.path().filename().string().front() != '.') {
+      AddFolders(folder / entry.path().filename(), folders);
     }
   }
-  // glob's own order depends on the locale.
-  std::sort(files.begin(), files.end());
-  return files;
 }
 
-// Appends a file, or the files that match a pattern. `place` begins messages.
+// Returns the paths that a pattern without ** matches.
+std::vector<fs::path> Glob(const std::string& pattern) {
+  glob_t found = {};
+  const std::unique_ptr<glob_t, void (*)(glob_t*)> owner(&found, globfree);
+  if (glob(pattern.c_str(), GLOB_NOSORT, nullptr, &found) != 0) return {};
+  return {found.gl_pathv, found.gl_pathv + found.gl_pathc};
+}
+
+// A folder's name as a pattern that matches only itself.
+std::string Escaped(const std::string& path) {
+  std::string pattern;
+  for (const char c : path) {
+    if (c == '*' || c == '?' || c == '[' || c == '\\') pattern += '\\';
+    pattern += c;
+  }
+  return pattern;
+}
+
+// Appends the files in `folder` that a pattern matches.
+void Match(const fs::path& folder, const fs::path& pattern,
+           std::vector<std::string>* files) {
+  fs::path before, behind;
+  bool any_folders = false;
+  for (const fs::path& part : pattern) {
+    if (!any_folders && part == kAnyFolders) {
+      any_folders = true;
+    } else {
+      (any_folders ? behind : before) /= part;
+    }
+  }
+  std::vector<fs::path> found = {folder};
+  if (!before.empty()) {
+    found = Glob((fs::path(Escaped(folder.string())) / before).string());
+  }
+  std::error_code unknown;
+  if (!any_folders) {
+    for (const fs::path& path : found) {
+      if (!fs::is_directory(path, unknown)) files->push_back(path.string());
+    }
+    return;
+  }
+  std::vector<fs::path> folders;
+  for (const fs::path& path : found) {
+    if (path.empty() || fs::is_directory(path, unknown)) {
+      AddFolders(path, &folders);
+    }
+  }
+  for (const fs::path& path : folders) {
+    if (behind.empty()) {
+      for (const char* logs : kLogs) Match(path, logs, files);
+    } else {
+      Match(path, behind, files);
+    }
+  }
+}
+
+// Appends a file, or the logs in a folder, or the files that match a pattern.
+// `place` begins messages.
 void AddFiles(const std::string& item, const std::string& place,
               const std::string& results_folder,
               std::vector<std::string>* logs) {
   std::error_code unknown;
-  if (item.find_first_of("*?[") == std::string::npos ||
-      fs::exists(item, unknown)) {
+  const bool is_folder = fs::is_directory(item, unknown);
+  const bool is_pattern = item.find_first_of("*?[") != std::string::npos &&
+                          !fs::exists(item, unknown);
+  if (!is_folder && !is_pattern) {
     logs->push_back(item);
     return;
   }
-  const std::vector<std::string> files = Matches(item, results_folder);
+  std::vector<std::string> files;
+  if (is_pattern) Match("", item, &files);
+  if (is_folder) {
+    for (const char* pattern : kLogs) Match(item, pattern, &files);
+  }
+  files.erase(std::remove_if(files.begin(), files.end(),
+                             [&](const std::string& file) {
+                               return IsResult(file, results_folder);
+                             }),
+              files.end());
+  // glob's own order depends on the locale.
+  std::sort(files.begin(), files.end());
+  files.erase(std::unique(files.begin(), files.end()), files.end());
   if (files.empty()) {
-    throw InputError(place + ShownLine("'" + item + "' matches no file"));
+    throw InputError(
+        place +
+        ShownLine("'" + item + "' " +
+                  (is_folder ? "holds no *.csv and no *.csv.gz; logs "
+                               "in its folders are '" +
+                                   (fs::path(item) / "**").string() + "'"
+                             : "matches no file")));
   }
   logs->insert(logs->end(), files.begin(), files.end());
 }

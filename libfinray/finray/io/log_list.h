@@ -8,14 +8,18 @@ namespace finray {
 
 /// Expands the items of a --logs flag into logs, in their order. An item is
 ///  - a file: a.csv, a.csv.gz;
-///  - a pattern with *, ? or [...]: the files that match, sorted by name;
+///  - a folder: the logs in it, *.csv and *.csv.gz, sorted by name;
+///  - a pattern with *, ? or [...]: the files that match, sorted by name. ** as
+///    a part of the path stands for any folders, none too, and at its end for
+///    all logs in them. Hidden folders and links to folders are passed over;
 ///  - a list: @list, or a name that ends in .txt or .list. Each line has a file
 ///    or pattern, relative to the list's own folder. A # at the start of a line
 ///    or after a space begins a comment.
-/// A file whose name looks like a pattern is taken as a file. Patterns skip the
-/// results in `results_folder`: *.frames.csv and summary.csv. Throws
-/// InputError, with the item (and its line), for a pattern without a match, a
-/// list without logs, and for no items.
+/// A file whose name looks like a pattern is taken as a file. Folders and
+/// patterns skip the results below `results_folder`: *.frames.csv,
+/// *.bad_rows.csv and summary.csv. Throws InputError, with the item (and its
+/// line), for a folder or a pattern without a log, a list without logs, and for
+/// no items.
 std::vector<std::string> ExpandLogs(const std::vector<std::string>& items,
                                     const std::string& results_folder = "");
 

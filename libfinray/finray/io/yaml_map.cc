@@ -215,12 +215,16 @@ bool YamlMap::Boolean(const std::string& key, bool fallback) const {
 }
 
 std::string YamlMap::Text(const std::string& key) const {
-  const YAML::Node value = Value(key);
-  if (!value.IsScalar()) FailExpecting(key, "a word");
   // The text may become part of a path or of a message.
-  const std::string& text = value.Scalar();
+  const std::string text = RawText(key);
   if (ShownLine(text) != text) FailExpecting(key, "one short line of text");
   return text;
+}
+
+std::string YamlMap::RawText(const std::string& key) const {
+  const YAML::Node value = Value(key);
+  if (!value.IsScalar()) FailExpecting(key, "a word");
+  return value.Scalar();
 }
 
 std::string YamlMap::Choice(const std::string& key,
@@ -272,6 +276,20 @@ std::vector<std::string> YamlMap::Choices(
     chosen.push_back(word.Scalar());
   }
   return chosen;
+}
+
+std::vector<std::string> YamlMap::Texts(const std::string& key) const {
+  const YAML::Node value = Sequence(key, " of texts");
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    if (!value[i].IsScalar()) {
+      FailAt(
+          path_, value[i],
+          ElementName(key, i) + ": expected a text, found " + Shown(value[i]));
+    }
+    texts.push_back(value[i].Scalar());
+  }
+  return texts;
 }
 
 std::vector<double> YamlMap::Numbers(const std::string& key) const {

@@ -46,6 +46,8 @@ class YamlMap {
   std::string Text(const std::string& key, const std::string& fallback) const {
     return Has(key) ? Text(key) : fallback;
   }
+  /// Returns a text that may hold control characters.
+  std::string RawText(const std::string& key) const;
   /// Returns one of the listed words. The error names all of them and the
   /// nearest.
   std::string Choice(const std::string& key,
@@ -66,6 +68,9 @@ class YamlMap {
   /// Returns a sequence of the listed words.
   std::vector<std::string> Choices(const std::string& key,
                                    const std::vector<std::string>& words) const;
+
+  /// Returns a sequence of texts.
+  std::vector<std::string> Texts(const std::string& key) const;
 
   /// Says whether the value of `key` is a sequence.
   bool IsSequence(const std::string& key) const;

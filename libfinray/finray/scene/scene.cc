@@ -189,19 +189,15 @@ std::string ObjectToYaml(const RigidObject& object) {
   return yaml.c_str();
 }
 
-std::map<std::string, std::string> ReadColumns(const YamlMap& yaml) {
-  std::map<std::string, std::string> columns;
-  if (!yaml.Has("columns")) return columns;
-  const YamlMap map = yaml.Map("columns");
-  for (const std::string& key : map.Keys()) columns[key] = map.Text(key);
-  return columns;
-}
-
 Scene ReadScene(const YamlMap& yaml) {
-  yaml.AllowOnly({"schema_version", "contacts", "contact_beams",
-                  "friction_coefficient", "force_max_N", "object",
-                  "measurements", "smoothing", "gauge_offset_walk", "columns",
-                  "search_iteration_limit"});
+  std::vector<std::string> keys = {
+      "schema_version",        "contacts",    "contact_beams",
+      "friction_coefficient",  "force_max_N", "object",
+      "measurements",          "smoothing",   "gauge_offset_walk",
+      "search_iteration_limit"};
+  keys.insert(keys.end(), ColumnMappingKeys().begin(),
+              ColumnMappingKeys().end());
+  yaml.AllowOnly(keys);
   if (yaml.Has("schema_version") && yaml.Integer("schema_version") != 1) {
     yaml.Fail("schema_version", "expected 1");
   }
@@ -239,7 +235,7 @@ Scene ReadScene(const YamlMap& yaml) {
     scene.gauge_offset_walk = {map.PositiveNumber("start_std_V"),
                                map.PositiveNumber("std_V_per_sqrt_s")};
   }
-  scene.columns = ReadColumns(yaml);
+  scene.columns = ReadColumnMapping(yaml);
   return scene;
 }
 

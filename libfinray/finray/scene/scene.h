@@ -1,11 +1,11 @@
 #ifndef FINRAY_SCENE_SCENE_H_
 #define FINRAY_SCENE_SCENE_H_
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "finray/io/column_mapping.h"
 #include "finray/io/yaml_map.h"
 #include "finray/objects/object_contact.h"
 
@@ -55,8 +55,8 @@ struct Scene {
   std::optional<Smoothing> smoothing;
   /// Empty: the offsets are the finger's.
   std::optional<GaugeOffsetWalk> gauge_offset_walk;
-  /// Maps a lab's own headers to columns of the frame table.
-  std::map<std::string, std::string> columns;
+  /// How a lab writes its logs.
+  ColumnMapping columns;
 
   bool UsesCamera() const { return pin_std_mm || tip_std_mm; }
   /// The radius of the object if it is a circle, else empty.
@@ -80,9 +80,6 @@ std::string ContactBeamsToYaml(const Scene& scene);
 /// Returns the `object:` mapping of a scene as one line of YAML. Reading it
 /// gives the same object.
 std::string ObjectToYaml(const RigidObject& object);
-
-/// Returns the `columns:` mapping of a YAML; empty if it has none.
-std::map<std::string, std::string> ReadColumns(const YamlMap& yaml);
 
 }  // namespace finray
 

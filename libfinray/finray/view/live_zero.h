@@ -17,9 +17,9 @@ namespace finray {
 struct LiveEstimator {
   LiveEstimator(const Finger& finger, const Scene& scene,
                 const Discretization& discretization, FrameMethod method,
-                const std::string& source, const CsvLine& header)
+                const FrameParser& parser, const ResultFormat& format)
       : estimator(finger, scene, discretization, method),
-        rows(finger, scene, source, header, &estimator) {}
+        rows(finger, scene, parser, &estimator, format) {}
 
   FrameEstimator estimator;
   LiveRows rows;

@@ -96,13 +96,38 @@ std::string WordsOf(const Exploration::Step& step) {
              -step.drop, step.after, step.before);
 }
 
+namespace {
+
+// Returns a path that `file` gives from its own folder on.
+std::string InFolderOf(const std::string& file, const std::string& path) {
+  return (std::filesystem::path(file).parent_path() / path).string();
+}
+
+// Makes the path of a shared mapping absolute, as the YAML that names it is
+// written to another folder.
+void FindColumnsFromAnywhere(const std::string& file, YAML::Node* yaml) {
+  YAML::Node columns = (*yaml)["columns"];
+  if (!columns || !columns.IsScalar()) return;
+  columns =
+      std::filesystem::absolute(InFolderOf(file, columns.as<std::string>()))
+          .string();
+}
+
+}  // namespace
+
 std::string ExploredPlanYaml(const std::string& path,
                              const Exploration& exploration) {
   YAML::Node plan = YAML::LoadFile(path);
+  FindColumnsFromAnywhere(path, &plan);
   if (plan["scene"] && plan["scene"].IsScalar()) {
-    plan["scene"] = YAML::LoadFile((std::filesystem::path(path).parent_path() /
-                                    plan["scene"].as<std::string>())
-                                       .string());
+    const std::string scene_path =
+        InFolderOf(path, plan["scene"].as<std::string>());
+    YAML::Node scene = YAML::LoadFile(scene_path);
+    FindColumnsFromAnywhere(scene_path, &scene);
+    plan["scene"] = scene;
+  } else if (plan["scene"]) {
+    YAML::Node scene = plan["scene"];
+    FindColumnsFromAnywhere(path, &scene);
   }
   std::string text = "# " + path +
                      ", with what finray_calibrate --explore has"

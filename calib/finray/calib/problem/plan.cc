@@ -193,8 +193,12 @@ double Plan::PlaceStd_mm(double reach_mm) const {
 
 Plan ReadPlan(const std::string& path) {
   const YamlMap yaml = YamlMap::FromFile(path);
-  yaml.AllowOnly({"schema_version", "scene", "parameters", "measurements",
-                  "robust_loss", "holdout", "columns"});
+  std::vector<std::string> keys = {"schema_version", "scene",
+                                   "parameters",     "measurements",
+                                   "robust_loss",    "holdout"};
+  keys.insert(keys.end(), ColumnMappingKeys().begin(),
+              ColumnMappingKeys().end());
+  yaml.AllowOnly(keys);
   if (yaml.Integer("schema_version") != 1) {
     yaml.Fail("schema_version", "expected 1");
   }
@@ -252,8 +256,8 @@ Plan ReadPlan(const std::string& path) {
       map.Fail("fraction", "expected a fraction between 0 and 1");
     }
   }
-  plan.columns = ReadColumns(yaml);
-  for (const auto& rename : plan.scene.columns) plan.columns.insert(rename);
+  plan.columns = ReadColumnMapping(yaml);
+  plan.columns.AddMissing(plan.scene.columns);
   return plan;
 }
 

@@ -98,7 +98,9 @@ struct Plan {
   double loss_scale = 2;  ///< In standard deviations.
   HoldoutBy holdout_by = HoldoutBy::kNothing;
   double holdout_fraction = 0.2;
-  std::map<std::string, std::string> columns;
+  /// How the logs are written: by the plan, and by its scene where the plan
+  /// says nothing.
+  ColumnMapping columns;
 
   const FamilyPlan& family(ParameterFamily which) const {
     return families[static_cast<int>(which)];

@@ -119,11 +119,12 @@ void EmitForceErrors(const char* key, const ForceCheck::Errors& errors,
   *yaml << YAML::EndMap;
 }
 
-void EmitInputs(const CalibrationLogs& logs, const CalibrationInputs& inputs,
-                YamlEmitter* yaml) {
+void EmitInputs(const CalibrationLogs& logs, const std::string& columns_path,
+                const CalibrationInputs& inputs, YamlEmitter* yaml) {
   BeginMap(yaml, "inputs");
   EmitFile(yaml, "finger", inputs.finger_path);
   EmitFile(yaml, "plan", inputs.plan_path);
+  if (!columns_path.empty()) EmitFile(yaml, "columns", columns_path);
   EmitSeq(yaml, "logs", logs.paths,
           [&](const std::string& path) { EmitFile(yaml, path); });
   *yaml << YAML::EndMap;
@@ -325,7 +326,7 @@ std::string CalibrationYaml(CalibrationProblem& problem,
   EmitLine(&yaml, "solver", "converged", solve.converged, "iterations",
            solve.iterations, "initial_cost", solve.initial_cost, "final_cost",
            solve.final_cost);
-  EmitInputs(problem.logs(), inputs, &yaml);
+  EmitInputs(problem.logs(), problem.plan().columns.path, inputs, &yaml);
   EmitConfig(problem.plan(), inputs, &yaml);
   EmitLine(&yaml, "versions", "finray", FINRAY_VERSION, "ceres",
            CERES_VERSION_STRING);

@@ -1,0 +1,44 @@
+#ifndef FINRAY_IO_UNITS_H_
+#define FINRAY_IO_UNITS_H_
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace finray {
+
+/// What a unit measures. Columns without a unit have kNone.
+enum class Dimension {
+  kNone,
+  kVoltage,
+  kForce,
+  kLength,
+  kAngle,
+  kTime,
+  kTemperature
+};
+
+/// value in V, N, mm, rad, s or deg C = number * multiply / divide + shift.
+/// A power of ten is one of the two factors, so that 12.3 mV is the double
+/// nearest to 0.0123 V.
+struct Unit {
+  std::string name;
+  Dimension dimension = Dimension::kNone;
+  double multiply = 1, divide = 1, shift = 0;
+};
+
+/// Returns the unit with this name (mV, gf, inch, ...; "µ" and "μ" are u, "°"
+/// is deg), or nothing.
+std::optional<Unit> FindUnit(std::string_view name);
+
+/// The unit in the name of a frame column: V of gauge_1_V. It is kNone for a
+/// column without one.
+Unit UnitOfColumn(const std::string& column);
+
+/// The names of all units of a dimension.
+std::vector<std::string> UnitNames(Dimension dimension);
+
+}  // namespace finray
+
+#endif  // FINRAY_IO_UNITS_H_
