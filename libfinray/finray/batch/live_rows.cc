@@ -13,7 +13,7 @@ LiveRows::LiveRows(const Finger& finger, const Scene& scene,
     : parser_(source, header, scene.columns),
       layout_(finger, scene, parser_),
       estimator_(*estimator),
-      creep_(finger) {
+      history_(finger) {
   RequireTimeForCreep(finger, parser_.names(), source);
   estimator_.Restart();
 }
@@ -25,7 +25,7 @@ const std::string& LiveRows::Next(const CsvLine& line) {
   try {
     parser_.Parse(line, &rows_);
     layout_.Read(rows_, 0, &readings_);
-    if (!creep_.empty()) creep_.Remove(&readings_);
+    if (!history_.empty()) history_.Remove(&readings_);
   } catch (const InputError& error) {
     error_ = error.what();
     readings_ = {};

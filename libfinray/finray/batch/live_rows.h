@@ -9,7 +9,7 @@
 
 #include "finray/batch/result_rows.h"
 #include "finray/io/frame_parser.h"
-#include "finray/scene/creep_filter.h"
+#include "finray/scene/history_filter.h"
 #include "finray/sensing/frame_estimator.h"
 
 namespace finray {
@@ -42,7 +42,7 @@ class LiveRows {
   FrameParser parser_;
   ResultLayout layout_;
   FrameEstimator& estimator_;
-  CreepFilter creep_;
+  HistoryFilter history_;
   FrameRows rows_;
   Measurements readings_;
   std::vector<double> values_;  // memory, reused by the next row
