@@ -1,6 +1,8 @@
 // Calibrates a finger from logs with a reference force, object place, or both.
 
 #include <cstdio>
+#include <memory>
+#include <utility>
 
 #include "app.h"
 #include "finray/calib/analysis/explore.h"
@@ -98,8 +100,13 @@ void PrintSummary(CalibrationProblem& problem,
   std::printf("\nforce error    %s\n", ForceWords(result.forces).c_str());
   if (result.discrepancy) {
     std::printf(
-        "model error    %s; finger.yaml and the std of estimates have it\n",
+        "model error    %s; finger.yaml and the std of estimates have it",
         WordsOf(*result.discrepancy).c_str());
+    if (result.UnseenForces().judged > 0) {
+      std::printf(": 95 %% intervals of unseen forces hold in %.0f %%",
+                  result.UnseenForces().coverage_95_percent());
+    }
+    std::printf("\n");
   }
   for (std::size_t k = 0; k < problem.parameters().free().size(); ++k) {
     // The finger's file does not keep it.
@@ -154,6 +161,48 @@ Plan ExplorePlan(const Finger& finger, const Plan& plan,
   return ReadPlan(FLAGS_plan);
 }
 
+// A problem and its calibration.
+struct Calibration {
+  std::unique_ptr<CalibrationProblem> problem;
+  CalibrationResult result;
+};
+
+Calibration CalibrateWith(const Finger& finger, const Plan& plan,
+                          const std::vector<std::string>& paths,
+                          const Discretization& discretization) {
+  Calibration done;
+  done.problem = std::make_unique<CalibrationProblem>(
+      finger, plan, ReadCalibrationLogs(paths, finger, plan), discretization,
+      Threads(FLAGS_threads));
+  done.problem->set_tolerance_std(FLAGS_tolerance_std);
+  RefuseImplausible(done.problem.get());
+  {
+    Heartbeat heartbeat;
+    done.problem->TellProgress(
+        [&](const std::string& step) { heartbeat.Say(step); });
+    done.result = Calibrate(done.problem.get(), FLAGS_leave_one_log_out);
+  }
+  done.problem->TellProgress({});
+  return done;
+}
+
+// Where the logs have an effect that finray lacks, others are freed in its
+// place, and these may deceive. Says in words why what --explore has freed is
+// not to be adopted; empty if it is.
+std::string WhyNotAdopted(const CalibrationResult& explored,
+                          const CalibrationResult& given) {
+  constexpr double kLess_percent = 2.5;
+  const double with = explored.UnseenForces().coverage_95_percent();
+  const double without = given.UnseenForces().coverage_95_percent();
+  if (explored.Verdict() == "good" || !(with < without - kLess_percent)) {
+    return "";
+  }
+  return FormatText(
+      "with the freed effects the verdict is %s, and 95 %% intervals of force "
+      "hold in %.0f %% of unseen frames, without them in %.0f %%",
+      explored.Verdict().c_str(), with, without);
+}
+
 int Run() {
   const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
   Plan plan = ReadPlan(Required("plan", FLAGS_plan));
@@ -165,18 +214,25 @@ int Run() {
   }
   const Discretization discretization = DiscretizationFlags();
   if (DumpConfigFlag(finger, plan.scene, discretization)) return kGood;
+  const Plan given = plan;
+  const std::string given_path = FLAGS_plan;
   if (FLAGS_explore) plan = ExplorePlan(finger, plan, paths, discretization);
-  CalibrationProblem problem(finger, plan,
-                             ReadCalibrationLogs(paths, finger, plan),
-                             discretization, Threads(FLAGS_threads));
-  problem.set_tolerance_std(FLAGS_tolerance_std);
-  RefuseImplausible(&problem);
-  const CalibrationResult result = [&] {
-    Heartbeat heartbeat;
-    problem.TellProgress([&](const std::string& step) { heartbeat.Say(step); });
-    return Calibrate(&problem, FLAGS_leave_one_log_out);
-  }();
-  problem.TellProgress({});
+  Calibration done = CalibrateWith(finger, plan, paths, discretization);
+  if (FLAGS_explore && done.result.Verdict() != "good") {
+    Calibration as_given = CalibrateWith(finger, given, paths, discretization);
+    const std::string why = WhyNotAdopted(done.result, as_given.result);
+    if (!why.empty()) {
+      done = std::move(as_given);
+      FLAGS_plan = given_path;
+      done.result.warnings.push_back(
+          {"explored_not_adopted",
+           "the result is that of the given plan: " + why,
+           "look for what the logs have and finray lacks; plan.yaml has the "
+           "freed effects"});
+    }
+  }
+  CalibrationProblem& problem = *done.problem;
+  const CalibrationResult& result = done.result;
 
   const std::string command =
       CommandWith({"finger", "plan", "logs", "out_dir", "scheme", "resolution",

@@ -1,4 +1,4 @@
-// Effects of the gauges that a plan may free: curve, place, creep.
+// Effects of the gauges that a plan may free: curve, place, creep, hysteresis.
 
 #include <gtest/gtest.h>
 
@@ -73,6 +73,48 @@ TEST(GaugeEffectsTest, Curve) {
   KeepCovariance(with.problem().parameters(), with.found(), &found);
   EXPECT_EQ(found.calibration->parameters.size(), 19u);
   ExpectCoverage(truth, found, 32);
+}
+
+TEST(GaugeEffectsTest, LessSensitiveWhenFlat) {
+  const TempFolder folder;
+  Finger truth = HiddenFinger();
+  const double shares[] = {0.2, 0.1, -0.1, 0.25};
+  for (int j = 0; j < 4; ++j) {
+    truth.gauges[j].flat_share = shares[j];
+    truth.gauges[j].flat_width_rad = 0.02;
+  }
+  const std::string log = StandardLog(folder, truth, 41);
+  Plan plan = StandardPlan();
+  const Recovery without(Nominal(), plan, {log});
+  Free(ParameterFamily::kGaugeFlatShare, &plan).prior_std = 0.2;
+  Free(ParameterFamily::kGaugeFlatWidth, &plan).prior_std = 50;
+  Recovery with(Nominal(), plan, {log});
+  for (int j = 0; j < 4; ++j) {
+    with.Expect(Name(j, "flat_share"), shares[j], 0.15);
+  }
+  EXPECT_GT(without.Chi2(), with.Chi2() + 300);
+  EXPECT_NEAR(with.Chi2PerDof(ResidualFamily::kGauge), 1, 0.2);
+  Finger found = with.problem().parameters().Apply(Nominal());
+  KeepCovariance(with.problem().parameters(), with.found(), &found);
+  ExpectCoverage(truth, found, 42);
+}
+
+TEST(GaugeEffectsTest, Hysteresis) {
+  const TempFolder folder;
+  Finger truth = HiddenFinger();
+  const double widths[] = {1e-3, 0.5e-3, 1.5e-3, 0.8e-3};
+  for (int j = 0; j < 4; ++j) truth.gauges[j].hysteresis_rad = widths[j];
+  const std::string log = StandardLog(folder, truth, 43);
+  Plan plan = StandardPlan();
+  const Recovery without(Nominal(), plan, {log});
+  Free(ParameterFamily::kGaugeHysteresis, &plan).prior_std = 1e-3;
+  Recovery with(Nominal(), plan, {log});
+  with.ExpectFinger(truth);
+  for (int j = 0; j < 4; ++j) {
+    with.Expect(Name(j, "hysteresis_rad"), widths[j], 1e-4);
+  }
+  EXPECT_GT(without.Chi2(), with.Chi2() + 300);
+  EXPECT_NEAR(with.Chi2PerDof(ResidualFamily::kGauge), 1, 0.2);
 }
 
 TEST(GaugeEffectsTest, Place) {

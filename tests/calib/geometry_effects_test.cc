@@ -106,7 +106,7 @@ TEST(GeometryEffectsTest, AClampBelowZeroCountsAsRigid) {
   ExpectNear(with, {Kind::kFrontClamp}, HiddenFinger(), 1.5e-4);
   ExpectNear(with, {Kind::kBackClamp}, HiddenFinger(), 1.5e-4);
   for (const CalibrationParameter& p : with.problem().parameters().all()) {
-    if (p.of_finger && IsClamp(p.of_finger->kind)) *p.variable = -1e-5;
+    if (p.of_finger && IsAtLeastZero(p.of_finger->kind)) *p.variable = -1e-5;
   }
   const Finger applied = with.problem().parameters().Apply(Nominal());
   EXPECT_EQ(applied.front_clamp_rad_per_N_mm, 0);

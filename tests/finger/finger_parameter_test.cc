@@ -49,6 +49,35 @@ TEST(ParameterCovarianceTest, RoundTripIsExact) {
   EXPECT_EQ(FingerToYaml(back), text);
 }
 
+TEST(ParameterCovarianceTest, FrictionCountsForContactsOfItsKind) {
+  Finger finger = UncertainFinger();
+  ParameterCovariance& covariance = *finger.calibration;
+  covariance.parameters.back() = {FingerParameterKind::kFriction};
+  covariance.friction = 0.31;
+  const Eigen::Index last = covariance.std.size() - 1;
+  covariance.std[last] = 0.02;
+  const TempFolder folder;
+  const std::string text = FingerToYaml(finger);
+  EXPECT_THAT(text, HasSubstr("  friction_coefficient: 0.31\n"));
+  const Finger back = ReadFinger(folder.Write("f.yaml", text));
+  EXPECT_TRUE(back.calibration->HasFriction());
+  EXPECT_EQ(back.calibration->friction, 0.31);
+  EXPECT_EQ(FingerToYaml(back), text);
+
+  const Finger same = ForFriction(finger, 0.3);
+  EXPECT_EQ(same.calibration->friction, 0.3);
+  EXPECT_EQ(same.calibration->parameters, covariance.parameters);
+  const Finger other = ForFriction(finger, 0);
+  EXPECT_FALSE(other.calibration->HasFriction());
+  EXPECT_EQ(other.calibration->std, covariance.std.head(last));
+  EXPECT_EQ(other.calibration->correlations,
+            covariance.correlations.topLeftCorner(last, last));
+  // It is said about which coefficient.
+  std::string without = text;
+  without.erase(without.find("  friction_coefficient: 0.31\n"), 29);
+  EXPECT_THROW(ReadFinger(folder.Write("g.yaml", without)), InputError);
+}
+
 TEST(ParameterCovarianceTest, FactorIsARoot) {
   ParameterCovariance covariance = *UncertainFinger().calibration;
   const Eigen::MatrixXd expected = covariance.std.asDiagonal() *

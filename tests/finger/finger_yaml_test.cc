@@ -344,6 +344,33 @@ TEST(FingerYamlTest, ClampsAndSurfacesRoundTripExactly) {
   EXPECT_THROW(read(", surface_offset_mm: thick"), InputError);
 }
 
+TEST(FingerYamlTest, FlatGaugesAndHysteresisRoundTrip) {
+  const TempFolder folder;
+  const auto read = [&](const std::string& gauge) {
+    return ReadFinger(
+        folder.Write("f.yaml",
+                     "schema_version: 1\nname: n\n"
+                     "geometry: {front_length_mm: 140, back_angle_deg: 112}\n"
+                     "beams: {front: {bending_stiffness_N_mm2: 3}, "
+                     "back: {bending_stiffness_N_mm2: 3}}\n"
+                     "gauges:\n"
+                     "  - {beam: back, start_mm: 30, length_mm: 18" +
+                         gauge + "}\n"));
+  };
+  const Finger finger =
+      read(", flat: {share: 0.2, width_rad: 0.025}, hysteresis_rad: 0.001");
+  EXPECT_EQ(finger.gauges[0].flat_share, 0.2);
+  EXPECT_EQ(finger.gauges[0].flat_width_rad, 0.025);
+  EXPECT_EQ(finger.gauges[0].hysteresis_rad, 0.001);
+  const std::string text = FingerToYaml(finger, "");
+  EXPECT_EQ(FingerToYaml(ReadFinger(folder.Write("g.yaml", text)), ""), text);
+  EXPECT_EQ(FingerToYaml(read(""), "").find("flat"), std::string::npos);
+  EXPECT_THROW(read(", flat: {share: 1, width_rad: 0.02}"), InputError);
+  EXPECT_THROW(read(", flat: {share: 0.2, width_rad: 0}"), InputError);
+  EXPECT_THROW(read(", flat: {share: 0.2}"), InputError);
+  EXPECT_THROW(read(", hysteresis_rad: -0.001"), InputError);
+}
+
 TEST(FingerYamlTest, EveryBundledFingerReads) {
   EXPECT_EQ(PaperFinger().ribs.size(), 5u);
   const Finger printed =

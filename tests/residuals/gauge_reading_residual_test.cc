@@ -61,17 +61,18 @@ TEST_P(GaugeReadingResidualTest, TermsBesideTheOffset) {
 
 // The reading is that of a gauge which has crept for a while.
 TEST_P(GaugeReadingResidualTest, Creep) {
-  CreepHistory history;
-  history.Set(0, 10, 0.25);
-  history.Set(2, 30, 0.5);
-  history.Set(3, 37, 0.31);
+  ReadingHistory history;
+  history.Set(0, 10, 0.25, 2);
+  history.Set(2, 30, 0.5, 2);
+  history.Set(3, 37, 0.31, 2);
   double gain = 1.7, curvature = 0.6, offset = 0.2, volts = 0.31;
-  double share = 0.2, ln_time = std::log(12), drift = 0.01;
+  double share = 0.2, ln_time = std::log(12), drift = 0.01, hysteresis = 0;
   std::vector<double*> blocks = Blocks();
-  blocks.insert(blocks.end(),
-                {&gain, &curvature, &share, &ln_time, &offset, &drift});
-  const std::unique_ptr<ceres::CostFunction> cost(new GaugeReadingResidual(
-      frame_, 1, &volts, 0.01, {1, 0.4}, {&history, 3, &share, &ln_time}));
+  blocks.insert(blocks.end(), {&gain, &curvature, &share, &ln_time, &hysteresis,
+                               &offset, &drift});
+  const std::unique_ptr<ceres::CostFunction> cost(
+      new GaugeReadingResidual(frame_, 1, &volts, 0.01, {1, 0.4},
+                               {&history, 3, &share, &ln_time, &hysteresis}));
   CheckDerivatives(*cost, blocks, 1e-6);
   GaugeLag<double> lag(share, 12);
   lag.Next(10, 0.25 - offset);
@@ -89,6 +90,62 @@ TEST_P(GaugeReadingResidualTest, Creep) {
               1e-9);
   share = -1;
   EXPECT_FALSE(cost->Evaluate(blocks.data(), &residual, nullptr));
+}
+
+// The reading is that of a gauge with hysteresis that has just fallen, and one
+// that creeps as well.
+TEST_P(GaugeReadingResidualTest, Hysteresis) {
+  ReadingHistory history;
+  history.set_noise_V(1e-3);
+  history.Set(0, 10, 0.25, 1e4);
+  history.Set(1, 30, 0.5, 1e4);
+  history.Set(2, 37, 0.31, 1e4);
+  history.Set(3, 40, 0.309, 1e4);  // hardly
+  double gain = -1.7, curvature = 0.6, offset = 0.2, volts = 0.31;
+  double share = 0, ln_time = std::log(12), hysteresis = 4e-3;
+  std::vector<double*> blocks = Blocks();
+  blocks.insert(blocks.end(),
+                {&gain, &curvature, &share, &ln_time, &hysteresis, &offset});
+  for (const int row : {2, 3}) {
+    const std::unique_ptr<ceres::CostFunction> cost(new GaugeReadingResidual(
+        frame_, 1, &volts, 0.01, {1},
+        {&history, row, &share, &ln_time, &hysteresis}));
+    share = 0.1;
+    CheckDerivatives(*cost, blocks, 1e-5);
+    share = 0;
+    CheckDerivatives(*cost, blocks, 1e-5);
+    if (row == 3) continue;
+    Gauge gauge;
+    gauge.gain_V_per_rad = gain;
+    gauge.curvature_per_rad = curvature;
+    double residual;
+    ASSERT_TRUE(cost->Evaluate(blocks.data(), &residual, nullptr));
+    EXPECT_NEAR(residual,
+                (gauge.BendingVolts(frame_->outputs()[1]) + offset -
+                 (volts - 1.7 * 4e-3)) /
+                    0.01,
+                1e-6);
+  }
+  // Where it has hardly moved, it may be anywhere in the loop.
+  EXPECT_EQ(history.KeptStd_V(3), 0);
+  history.KeepStd({0, ln_time, 1.7 * 4e-3});
+  EXPECT_LT(history.KeptStd_V(2), 1e-5);
+  EXPECT_NEAR(history.KeptStd_V(3), 1.7 * 4e-3 / std::sqrt(3.0), 1e-3);
+}
+
+TEST_P(GaugeReadingResidualTest, LessSensitiveWhenFlat) {
+  double gain = 1.7, curvature = 0.6, offset = 0.2, volts = 0.31;
+  double share = 0.3, ln_width = std::log(0.02);
+  std::vector<double*> blocks = Blocks();
+  blocks.insert(blocks.end(), {&gain, &curvature, &share, &ln_width, &offset});
+  const std::unique_ptr<ceres::CostFunction> cost(
+      new GaugeReadingResidual(frame_, 1, &volts, 0.01, {1}, {}, true));
+  CheckDerivatives(*cost, blocks, 1e-6);
+  const double a = frame_->outputs()[1];
+  double residual;
+  ASSERT_TRUE(cost->Evaluate(blocks.data(), &residual, nullptr));
+  const double signal = a * (1 + 0.6 * a) - 0.3 * a / std::hypot(1, a / 0.02);
+  EXPECT_NEAR(residual, (1.7 * signal + 0.2 - 0.31) / 0.01, 1e-10);
 }
 
 // A gauge that is moved reads the same as one that has always been there.

@@ -28,7 +28,7 @@ std::vector<FingerParameter> AllEffects() {
   return effects;
 }
 
-double StepOf(Kind kind) { return IsClamp(kind) ? 5e-7 : 1e-3; }
+double StepOf(Kind kind) { return IsAtLeastZero(kind) ? 5e-7 : 1e-3; }
 
 // Springs, pieces, stretch, prestress and a gauge on either beam.
 Finger RichFinger(Scheme scheme) {

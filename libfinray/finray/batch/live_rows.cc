@@ -13,7 +13,7 @@ LiveRows::LiveRows(const Finger& finger, const Scene& scene,
     : parser_(parser),
       layout_(finger, scene, parser_, format),
       estimator_(*estimator),
-      creep_(finger) {
+      history_(finger) {
   RequireTimeForCreep(finger, parser_.names(), parser_.path());
   estimator_.Restart();
 }
@@ -25,9 +25,9 @@ const std::string& LiveRows::Next(const CsvLine& line) {
   try {
     parser_.Parse(line, &rows_);
     layout_.Read(rows_, 0, &readings_);
-    if (!creep_.empty()) {
+    if (!history_.empty()) {
       raw_ = readings_;
-      creep_.Remove(&readings_);
+      history_.Remove(&readings_);
     }
   } catch (const InputError& error) {
     error_ = error.what();

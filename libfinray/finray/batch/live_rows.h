@@ -9,7 +9,7 @@
 
 #include "finray/batch/result_rows.h"
 #include "finray/io/frame_parser.h"
-#include "finray/scene/creep_filter.h"
+#include "finray/scene/history_filter.h"
 #include "finray/sensing/frame_estimator.h"
 
 namespace finray {
@@ -37,14 +37,14 @@ class LiveRows {
   const FrameEstimate& estimate() const { return estimate_; }
   /// Its measurements; NaN if it has an error.
   const Measurements& readings() const { return readings_; }
-  /// The same as they were read, with the creep of the gauges.
-  const Measurements& raw() const { return creep_.empty() ? readings_ : raw_; }
+  /// The same as they were read, with the creep and hysteresis of the gauges.
+  const Measurements& raw() const { return history_.empty() ? readings_ : raw_; }
 
  private:
   const FrameParser& parser_;
   ResultLayout layout_;
   FrameEstimator& estimator_;
-  CreepFilter creep_;
+  HistoryFilter history_;
   FrameRows rows_;
   Measurements readings_, raw_;
   std::vector<double> values_;  // memory, reused by the next row

@@ -9,7 +9,7 @@
 
 #include "finray/batch/result_rows.h"
 #include "finray/io/error.h"
-#include "finray/scene/creep_filter.h"
+#include "finray/scene/history_filter.h"
 #include "finray/sensing/log_estimator.h"
 
 namespace finray {
@@ -68,8 +68,8 @@ void ReadReadings(const ResultLayout& layout, Block* block) {
   }
 }
 
-void RemoveCreep(CreepFilter* creep, Block* block) {
-  for (Measurements& row : block->readings) creep->Remove(&row);
+void RemoveHistory(HistoryFilter* history, Block* block) {
+  for (Measurements& row : block->readings) history->Remove(&row);
 }
 
 // Fills in the result from the estimates.
@@ -157,25 +157,25 @@ bool EstimateStream(const Finger& finger, const Scene& scene,
                     const std::function<void(const StreamedBlock&)>& write,
                     std::size_t done) {
   const ResultLayout layout(finger, scene, reader->parser(), options.format);
-  CreepFilter creep(finger);
-  if (creep.empty()) reader->Skip(done);
+  HistoryFilter history(finger);
+  if (history.empty()) reader->Skip(done);
   Block skipped;
   while (reader->position() < done &&
          ReadBlock(kBlockFrames, reader, &skipped)) {
     Parse(reader->parser(), options.skip_bad_rows, &skipped);
     ReadReadings(layout, &skipped);
-    RemoveCreep(&creep, &skipped);
+    RemoveHistory(&history, &skipped);
   }
-  // Readings that creep depend on all rows before.
+  // Creep and hysteresis depend on all rows before.
   const auto read_in_order = [&](Block* block) {
     ReadReadings(layout, block);
-    RemoveCreep(&creep, block);
+    RemoveHistory(&history, block);
   };
   return ForEachBlock(
       options, kBlockFrames, reader,
-      creep.empty() ? kIndependent : read_in_order,
+      history.empty() ? kIndependent : read_in_order,
       [&](Block* block) {
-        if (creep.empty()) ReadReadings(layout, block);
+        if (history.empty()) ReadReadings(layout, block);
         block->estimates.resize(block->readings.size());
         pool->SolveBlock(block->readings.data(), block->readings.size(),
                          block->estimates.data());
@@ -190,7 +190,7 @@ bool EstimateJointly(const Finger& finger, const Scene& scene,
                      const std::function<void(const StreamedBlock&)>& write) {
   const FrameParser& parser = reader->parser();
   const ResultLayout layout(finger, scene, parser, options.format);
-  CreepFilter creep(finger);
+  HistoryFilter history(finger);
   std::deque<Block> waiting;  // for their estimates
   LogEstimator estimator(finger, scene, discretization, options.threads,
                          [&](const FrameEstimate& estimate) {
@@ -229,7 +229,7 @@ bool EstimateJointly(const Finger& finger, const Scene& scene,
       continue;
     }
     ReadReadings(layout, &block);
-    RemoveCreep(&creep, &block);
+    RemoveHistory(&history, &block);
     // The estimator may give back all frames with the last one that it takes.
     // Then the block is gone.
     const std::size_t rows = block.readings.size();

@@ -49,8 +49,14 @@ struct Rib {
 /// covers, less that of the undeformed finger:
 ///   V = gain * (angle + curvature * angle^2) + offset,
 ///   angle = [theta(start + length) - theta(start)] - undeformed.
-/// A gauge that creeps reads V + share * z after a while (GaugeLag,
-/// finger/gauge_lag.h); all functions below are without it.
+/// A gauge that is less sensitive when flat, whichever way it bends, has a
+/// signal less than its angle,
+///   V = gain * (s + curvature * angle^2) + offset,
+///   s = angle - share * angle / sqrt(1 + (angle / width)^2),
+/// so that the slope is 1 - share at 0 and 1 far beyond the width. A gauge that
+/// creeps reads V + share * z after a while (GaugeLag, finger/gauge_lag.h), and
+/// one with hysteresis follows V at a distance of up to |gain| hysteresis
+/// (Play, finger/gauge_play.h); all functions below are without both.
 struct Gauge {
   Side beam = Side::kBack;
   double start_mm = 0;   ///< p_j, arc length from the base of its beam.
@@ -61,6 +67,9 @@ struct Gauge {
   double curvature_per_rad = 0;  ///< 0: the gauge is linear.
   double creep_share = 0;        ///< 0: the gauge does not creep.
   double creep_time_constant_s = 30;
+  double flat_share = 0;  ///< 0: as sensitive when flat as when bent.
+  double flat_width_rad = 0.03;
+  double hysteresis_rad = 0;  ///< Half the width of the loop; 0: none.
   /// The range of the electronics: a reading at or beyond either limit is
   /// saturated.
   double min_V = -std::numeric_limits<double>::infinity();
@@ -71,19 +80,43 @@ struct Gauge {
   }
   /// Volts without the offset.
   double BendingVolts(double angle_rad) const {
-    return gain_V_per_rad * angle_rad * (1 + curvature_per_rad * angle_rad);
+    return gain_V_per_rad * Signal(angle_rad);
+  }
+  /// BendingVolts over the gain.
+  double Signal(double angle_rad) const {
+    const double curved = angle_rad * (1 + curvature_per_rad * angle_rad);
+    if (flat_share == 0) return curved;
+    return curved - flat_share * angle_rad / FlatRoot(angle_rad);
+  }
+  /// d Signal / d flat_share, and by flat_width_rad.
+  double SignalByFlatShare(double angle_rad) const {
+    return -angle_rad / FlatRoot(angle_rad);
+  }
+  double SignalByFlatWidth(double angle_rad) const {
+    return -flat_share * std::pow(angle_rad / FlatRoot(angle_rad), 3) /
+           std::pow(flat_width_rad, 3);
+  }
+  /// Says that V is not linear in the angle.
+  bool IsCurved() const { return curvature_per_rad != 0 || flat_share != 0; }
+  /// Half the width of the loop in volts.
+  double HysteresisV() const {
+    return std::abs(gain_V_per_rad) * hysteresis_rad;
   }
   /// dV/dangle, V per rad.
   double Slope(double angle_rad) const {
-    return gain_V_per_rad * (1 + 2 * curvature_per_rad * angle_rad);
+    double slope = 1 + 2 * curvature_per_rad * angle_rad;
+    if (flat_share != 0) {
+      slope -= flat_share * std::pow(FlatRoot(angle_rad), -3);
+    }
+    return gain_V_per_rad * slope;
   }
   /// The inverse of Volts on the branch through angle 0, where the slope has
   /// the sign of the gain. NaN if `volts` is NaN or beyond the vertex of the
   /// curve.
   double Angle(double volts) const {
     const double linear = (volts - offset_V) / gain_V_per_rad;
-    if (curvature_per_rad == 0) return linear;
-    return 2 * linear / (1 + std::sqrt(1 + 4 * curvature_per_rad * linear));
+    if (flat_share != 0) return FlatAngle(linear);
+    return Unbend(linear);
   }
   /// 1 / standard deviation of the angle of one reading there, per rad.
   double AngleWeight(double angle_rad = 0) const {
@@ -94,10 +127,19 @@ struct Gauge {
   /// False for a reading that tells no angle: missing, saturated, or beyond the
   /// vertex of the curve.
   bool IsMeasured(double volts) const {
-    return IsInRange(volts) &&
-           (curvature_per_rad == 0 ||
-            4 * curvature_per_rad * (volts - offset_V) / gain_V_per_rad > -1);
+    return IsInRange(volts) && (!IsCurved() || std::isfinite(Angle(volts)));
   }
+
+ private:
+  double FlatRoot(double angle_rad) const {
+    return std::hypot(1, angle_rad / flat_width_rad);
+  }
+  // The angle of a signal if the gauge were as sensitive when flat.
+  double Unbend(double signal) const {
+    if (curvature_per_rad == 0) return signal;
+    return 2 * signal / (1 + std::sqrt(1 + 4 * curvature_per_rad * signal));
+  }
+  double FlatAngle(double signal) const;
 };
 
 /// A piece of a beam with its own bending stiffness.
@@ -132,6 +174,10 @@ struct Finger {
   /// How well a calibration knows these numbers, if there was one.
   std::optional<ParameterCovariance> calibration;
 };
+
+/// Says that a gauge is less or more sensitive when flat, or that the
+/// calibration says how well it is known that it is not.
+bool HasFlatGauges(const Finger& finger);
 
 }  // namespace finray
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 
 #include "finray/finger/finger.h"
 #include "finray/finger/geometry.h"
@@ -37,6 +38,12 @@ auto& Variable(AnyFinger& finger, const FingerParameter& parameter) {
       return finger.gauges[parameter.index].creep_share;
     case FingerParameterKind::kGaugeCreepTime:
       return finger.gauges[parameter.index].creep_time_constant_s;
+    case FingerParameterKind::kGaugeFlatShare:
+      return finger.gauges[parameter.index].flat_share;
+    case FingerParameterKind::kGaugeFlatWidth:
+      return finger.gauges[parameter.index].flat_width_rad;
+    case FingerParameterKind::kGaugeHysteresis:
+      return finger.gauges[parameter.index].hysteresis_rad;
     case FingerParameterKind::kHingeStiffness:
       return finger.ribs[0].front_hinge_N_mm_per_rad;
     case FingerParameterKind::kRibBending:
@@ -58,6 +65,7 @@ auto& Variable(AnyFinger& finger, const FingerParameter& parameter) {
     case FingerParameterKind::kSurfaceOffset:
       return finger.front_surface_mm;
     case FingerParameterKind::kRibLength:
+    case FingerParameterKind::kFriction:
       break;
   }
   return finger.ribs[parameter.index].length_mm;
@@ -92,7 +100,10 @@ std::vector<FingerParameter> AllParametersOf(const Finger& finger) {
        {FingerParameterKind::kGaugeCurvature, FingerParameterKind::kGaugeStart,
         FingerParameterKind::kGaugeLength,
         FingerParameterKind::kGaugeCreepShare,
-        FingerParameterKind::kGaugeCreepTime}) {
+        FingerParameterKind::kGaugeCreepTime,
+        FingerParameterKind::kGaugeFlatShare,
+        FingerParameterKind::kGaugeFlatWidth,
+        FingerParameterKind::kGaugeHysteresis}) {
     Add(kind, finger.gauges.size(), &all);
   }
   if (!finger.ribs.empty()) {
@@ -131,6 +142,9 @@ std::string ParameterName(const FingerParameter& parameter) {
       "gauge_#_length_mm",
       "gauge_#_creep_share",
       "gauge_#_creep_time_constant_s",
+      "gauge_#_flat_share",
+      "gauge_#_flat_width_rad",
+      "gauge_#_hysteresis_rad",
       "hinge_stiffness_N_mm_per_rad",
       "rib_bending_stiffness_N_mm2",
       "front_piece_#_stiffness_step",
@@ -140,7 +154,8 @@ std::string ParameterName(const FingerParameter& parameter) {
       "front_clamp_compliance_rad_per_N_mm",
       "back_clamp_compliance_rad_per_N_mm",
       "back_angle_deg",
-      "front_surface_offset_mm"};
+      "front_surface_offset_mm",
+      "friction_coefficient"};
   std::string name = kNames[static_cast<int>(parameter.kind)];
   const auto number = name.find('#');
   if (number != std::string::npos) {
@@ -151,9 +166,10 @@ std::string ParameterName(const FingerParameter& parameter) {
 
 const char* ParameterUnit(FingerParameterKind kind) {
   constexpr const char* kUnits[kFingerParameterKinds] = {
-      "N mm^2", "N mm^2", "V/rad",      "V",          "mm",     "1/rad", "mm",
-      "mm",     "1",      "s",          "N mm/rad",   "N mm^2", "1",     "1",
-      "mm",     "mm",     "rad/(N mm)", "rad/(N mm)", "deg",    "mm"};
+      "N mm^2", "N mm^2",     "V/rad",      "V",   "mm", "1/rad",
+      "mm",     "mm",         "1",          "s",   "1",  "rad",
+      "rad",    "N mm/rad",   "N mm^2",     "1",   "1",  "mm",
+      "mm",     "rad/(N mm)", "rad/(N mm)", "deg", "mm", "1"};
   return kUnits[static_cast<int>(kind)];
 }
 
@@ -203,9 +219,17 @@ void SetParameter(const FingerParameter& parameter, double value,
 std::vector<FingerParameter> ParameterCovariance::StaticsEffects() const {
   std::vector<FingerParameter> effects;
   for (const FingerParameter& parameter : parameters) {
-    if (IsStaticsEffect(parameter.kind)) effects.push_back(parameter);
+    if (IsStaticsEffect(parameter.kind) &&
+        parameter.kind != FingerParameterKind::kFriction) {
+      effects.push_back(parameter);
+    }
   }
   return effects;
+}
+
+bool ParameterCovariance::HasFriction() const {
+  return !parameters.empty() &&
+         parameters.back().kind == FingerParameterKind::kFriction;
 }
 
 bool ParameterCovariance::HasGaugePlaces() const {
@@ -222,12 +246,33 @@ Eigen::MatrixXd ParameterCovariance::Factor() const {
          eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
+Finger ForFriction(const Finger& finger, double friction) {
+  Finger result = finger;
+  if (!finger.calibration || !finger.calibration->HasFriction()) return result;
+  ParameterCovariance& covariance = *result.calibration;
+  const Eigen::Index others = covariance.std.size() - 1;
+  constexpr double kRounding = 1e-3;  // of a coefficient that was copied
+  if (std::abs(friction - covariance.friction) <=
+      std::max(kRounding, covariance.std[others])) {
+    covariance.friction = friction;
+  } else if (others == 0) {
+    result.calibration.reset();
+  } else {
+    covariance.parameters.pop_back();
+    covariance.std.conservativeResize(others);
+    covariance.correlations.conservativeResize(others, others);
+  }
+  return result;
+}
+
 ParameterCovariance InOrderOf(const Finger& finger,
                               const ParameterCovariance& covariance) {
   ParameterCovariance ordered;
   std::vector<Eigen::Index> order;
   const auto& given = covariance.parameters;
-  for (const FingerParameter& parameter : AllParametersOf(finger)) {
+  std::vector<FingerParameter> all = AllParametersOf(finger);
+  all.push_back({FingerParameterKind::kFriction});
+  for (const FingerParameter& parameter : all) {
     const auto at = std::find(given.begin(), given.end(), parameter);
     if (at == given.end()) continue;
     ordered.parameters.push_back(parameter);
@@ -235,6 +280,7 @@ ParameterCovariance InOrderOf(const Finger& finger,
   }
   ordered.std = covariance.std(order);
   ordered.correlations = covariance.correlations(order, order);
+  ordered.friction = covariance.friction;
   ordered.discrepancy = covariance.discrepancy;
   return ordered;
 }

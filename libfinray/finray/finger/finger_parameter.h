@@ -24,6 +24,9 @@ enum class FingerParameterKind {
   kGaugeLength,
   kGaugeCreepShare,
   kGaugeCreepTime,
+  kGaugeFlatShare,
+  kGaugeFlatWidth,
+  kGaugeHysteresis,
   kHingeStiffness,  ///< One for all hinges of the ribs.
   kRibBending,  ///< EI of the first rib that bends; others keep their ratio.
   // The stiffness of a piece, from the second one on, over that of the piece
@@ -33,14 +36,16 @@ enum class FingerParameterKind {
   // The places of a rib's hinges. The rib keeps its length.
   kFrontHinge,
   kBackHinge,
-  // The compliance of a clamp; below 0 it is no finger's, but a solve may pass
-  // through it.
+  // The compliance of a clamp.
   kFrontClamp,
   kBackClamp,
   kBackAngle,      ///< In degrees.
   kSurfaceOffset,  ///< That of the front beam.
+  // The friction coefficient against the object of a calibration. No finger has
+  // one, but the covariance of its other parameters does.
+  kFriction,
 };
-constexpr int kFingerParameterKinds = 20;
+constexpr int kFingerParameterKinds = 24;
 
 /// Says that a plain finger goes without this kind. Reports list its parameters
 /// only where they are free.
@@ -60,9 +65,11 @@ constexpr bool IsHingePlace(FingerParameterKind kind) {
 constexpr bool MovesNodes(FingerParameterKind kind) {
   return IsHingePlace(kind) || kind == FingerParameterKind::kBackAngle;
 }
-constexpr bool IsClamp(FingerParameterKind kind) {
+/// Says that a value below 0 is no finger's, but a solve may pass through it.
+constexpr bool IsAtLeastZero(FingerParameterKind kind) {
   return kind == FingerParameterKind::kFrontClamp ||
-         kind == FingerParameterKind::kBackClamp;
+         kind == FingerParameterKind::kBackClamp ||
+         kind == FingerParameterKind::kGaugeHysteresis;
 }
 
 /// One number of a finger that a calibration may determine.
@@ -99,16 +106,27 @@ struct ParameterCovariance {
   std::vector<FingerParameter> parameters;
   Eigen::VectorXd std;
   Eigen::MatrixXd correlations;  ///< Symmetric, 1 on the diagonal.
+  double friction = 0;           ///< The coefficient that kFriction is about.
   /// What the model misses whatever the parameters are, if it is known.
   std::optional<GaugeDiscrepancy> discrepancy;
 
-  /// The statics effects among the parameters, in their order.
+  /// The statics effects of the finger among the parameters, in their order.
   std::vector<FingerParameter> StaticsEffects() const;
+  /// Says whether the friction coefficient is among the parameters. It is the
+  /// last one.
+  bool HasFriction() const;
   /// Says whether the start or the length of a gauge is among the parameters.
   bool HasGaugePlaces() const;
   /// F with F F' = C. Negative eigenvalues count as 0.
   Eigen::MatrixXd Factor() const;
 };
+
+/// Returns the finger with the covariance that counts for contacts with this
+/// friction. Where a calibration has found the coefficient together with the
+/// finger, its errors go with those of the finger in contacts of the same kind,
+/// within a std of the coefficient. Against other objects it is not among the
+/// parameters.
+Finger ForFriction(const Finger& finger, double friction);
 
 /// Returns the covariance with its parameters in the order of ParametersOf.
 ParameterCovariance InOrderOf(const Finger& finger,

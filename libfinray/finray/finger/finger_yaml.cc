@@ -297,7 +297,8 @@ void ReadRibs(const YamlMap& yaml, Finger* finger) {
 
 Gauge ReadGauge(const YamlMap& yaml, const Finger& finger) {
   yaml.AllowOnly({"beam", "start_mm", "length_mm", "gain_V_per_rad", "offset_V",
-                  "noise_V", "min_V", "max_V", "curvature_per_rad", "creep"});
+                  "noise_V", "min_V", "max_V", "curvature_per_rad", "flat",
+                  "creep", "hysteresis_rad"});
   Gauge gauge;
   gauge.beam = yaml.Choice("beam", {"front", "back"}) == "front" ? Side::kFront
                                                                  : Side::kBack;
@@ -319,6 +320,15 @@ Gauge ReadGauge(const YamlMap& yaml, const Finger& finger) {
   gauge.noise_V = yaml.PositiveNumber("noise_V", gauge.noise_V);
   gauge.curvature_per_rad =
       yaml.Number("curvature_per_rad", gauge.curvature_per_rad);
+  if (yaml.Has("flat")) {
+    const YamlMap flat = yaml.Map("flat");
+    flat.AllowOnly({"share", "width_rad"});
+    gauge.flat_share = flat.Number("share");
+    if (!(gauge.flat_share < 1)) {
+      flat.Fail("share", "share: expected a share below 1");
+    }
+    gauge.flat_width_rad = flat.PositiveNumber("width_rad");
+  }
   if (yaml.Has("creep")) {
     const YamlMap creep = yaml.Map("creep");
     creep.AllowOnly({"share", "time_constant_s"});
@@ -328,6 +338,8 @@ Gauge ReadGauge(const YamlMap& yaml, const Finger& finger) {
     }
     gauge.creep_time_constant_s = creep.PositiveNumber("time_constant_s");
   }
+  gauge.hysteresis_rad =
+      yaml.NonNegativeNumber("hysteresis_rad", gauge.hysteresis_rad);
   gauge.min_V = yaml.Number("min_V", gauge.min_V);
   gauge.max_V = yaml.Number("max_V", gauge.max_V);
   if (!(gauge.min_V < gauge.max_V)) {
@@ -499,6 +511,11 @@ std::string FingerToYaml(const Finger& finger, const std::string& comment) {
     if (gauge.curvature_per_rad != 0) {
       add("curvature_per_rad", gauge.curvature_per_rad);
     }
+    if (gauge.flat_share != 0) {
+      yaml << ", flat: {share: " << NumberText(gauge.flat_share)
+           << ", width_rad: " << NumberText(gauge.flat_width_rad) << "}";
+    }
+    if (gauge.hysteresis_rad != 0) add("hysteresis_rad", gauge.hysteresis_rad);
     if (gauge.creep_share != 0) {
       yaml << ", creep: {share: " << NumberText(gauge.creep_share)
            << ", time_constant_s: " << NumberText(gauge.creep_time_constant_s)

@@ -10,9 +10,12 @@
 namespace finray {
 namespace {
 
+constexpr const char* kFriction = "friction_coefficient";
+
 std::vector<FingerParameter> ReadParameters(const YamlMap& yaml,
                                             const Finger& finger) {
-  const std::vector<FingerParameter> known = AllParametersOf(finger);
+  std::vector<FingerParameter> known = AllParametersOf(finger);
+  known.push_back({FingerParameterKind::kFriction});
   std::vector<std::string> names;
   for (const FingerParameter& one : known) names.push_back(ParameterName(one));
   std::vector<FingerParameter> parameters;
@@ -80,12 +83,21 @@ std::string DiscrepancyToYaml(const GaugeDiscrepancy& discrepancy) {
 
 ParameterCovariance ReadParameterCovariance(const YamlMap& yaml,
                                             const Finger& finger) {
-  yaml.AllowOnly({"parameters", "std", "correlations", "discrepancy"});
+  yaml.AllowOnly(
+      {"parameters", "std", "correlations", "discrepancy", kFriction});
   ParameterCovariance covariance;
   covariance.parameters = ReadParameters(yaml, finger);
   const std::size_t count = covariance.parameters.size();
   covariance.std = ReadStd(yaml, "std", count, "a parameter");
   covariance.correlations = ReadCorrelations(yaml, count, "a parameter");
+  covariance = InOrderOf(finger, covariance);
+  if (covariance.HasFriction()) {
+    covariance.friction = yaml.Number(kFriction);
+  } else if (yaml.Has(kFriction)) {
+    yaml.Fail(kFriction, std::string(kFriction) +
+                             ": it is not among the parameters, so nothing "
+                             "depends on it");
+  }
   if (yaml.Has("discrepancy")) {
     covariance.discrepancy =
         ReadDiscrepancy(yaml.Map("discrepancy"), finger.gauges.size());
@@ -102,6 +114,10 @@ std::string ParameterCovarianceToYaml(const ParameterCovariance& covariance) {
                      "]\n  std: " + NumberList(covariance.std) +
                      "\n  correlations:\n" +
                      CorrelationRows(covariance.correlations, "    ");
+  if (covariance.HasFriction()) {
+    yaml += std::string("  ") + kFriction + ": " +
+            NumberText(covariance.friction) + "\n";
+  }
   if (covariance.discrepancy) {
     yaml += DiscrepancyToYaml(*covariance.discrepancy);
   }

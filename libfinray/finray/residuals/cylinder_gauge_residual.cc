@@ -1,16 +1,21 @@
 #include "finray/residuals/cylinder_gauge_residual.h"
 
+#include <cmath>
+
+#include "finray/finger/finger.h"
+
 namespace finray {
 
 CylinderGaugeResidual::CylinderGaugeResidual(
     double cylinder_radius_mm, double reading_V, double std_V,
-    const std::vector<double>& coefficients)
+    const std::vector<double>& coefficients, bool flat)
     : cylinder_radius_mm_(cylinder_radius_mm),
       reading_V_(reading_V),
       std_V_(std_V),
-      coefficients_(coefficients) {
+      coefficients_(coefficients),
+      flat_(flat) {
   set_num_residuals(1);
-  mutable_parameter_block_sizes()->assign(3 + coefficients.size(), 1);
+  mutable_parameter_block_sizes()->assign(First() + coefficients.size(), 1);
 }
 
 bool CylinderGaugeResidual::Evaluate(double const* const* parameters,
@@ -18,10 +23,17 @@ bool CylinderGaugeResidual::Evaluate(double const* const* parameters,
                                      double** jacobians) const {
   const double gain = *parameters[0], curvature = *parameters[1];
   const double angle = *parameters[2] / cylinder_radius_mm_;
-  const double bent = angle * (1 + curvature * angle);
+  Gauge gauge;
+  gauge.gain_V_per_rad = gain;
+  gauge.curvature_per_rad = curvature;
+  if (flat_) {
+    gauge.flat_share = *parameters[3];
+    gauge.flat_width_rad = std::exp(*parameters[4]);
+  }
+  const double bent = gauge.Signal(angle);
   double volts = gain * bent;
   for (std::size_t k = 0; k < coefficients_.size(); ++k) {
-    volts += coefficients_[k] * *parameters[3 + k];
+    volts += coefficients_[k] * *parameters[First() + k];
   }
   residuals[0] = (volts - reading_V_) / std_V_;
   if (jacobians == nullptr) return true;
@@ -30,9 +42,13 @@ bool CylinderGaugeResidual::Evaluate(double const* const* parameters,
   };
   set(0, bent);
   set(1, gain * angle * angle);
-  set(2, gain * (1 + 2 * curvature * angle) / cylinder_radius_mm_);
+  set(2, gauge.Slope(angle) / cylinder_radius_mm_);
+  if (flat_) {
+    set(3, gain * gauge.SignalByFlatShare(angle));
+    set(4, gain * gauge.flat_width_rad * gauge.SignalByFlatWidth(angle));
+  }
   for (std::size_t k = 0; k < coefficients_.size(); ++k) {
-    set(3 + k, coefficients_[k]);
+    set(First() + k, coefficients_[k]);
   }
   return true;
 }

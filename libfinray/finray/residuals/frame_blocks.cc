@@ -54,25 +54,37 @@ std::vector<double> AddTerms(const std::vector<ReadingTerm>& terms,
   return coefficients;
 }
 
+void AddFlat(const FrameParameters& of, int gauge,
+             std::vector<double*>* blocks) {
+  if (of.flat_shares == nullptr) return;
+  blocks->push_back(&of.flat_shares[gauge]);
+  blocks->push_back(&of.ln_flat_widths[gauge]);
+}
+
 void AddReadings(const std::vector<Gauge>& gauges, Builder* out) {
   for (int j = 0; j < static_cast<int>(gauges.size()); ++j) {
     if (!gauges[j].IsMeasured(out->row.gauges_V[j])) continue;
     const FrameParameters& of = out->parameters;
     std::vector<double*> blocks =
         out->OfModelAnd(&of.gains_V_per_rad[j], &of.curvatures_per_rad[j]);
+    AddFlat(of, j, &blocks);
     if (out->evaluation->movable_gauges()) {
       blocks.push_back(&of.finger->gauge_starts_mm[j]);
       blocks.push_back(&of.finger->gauge_lengths_mm[j]);
     }
-    const CreepTerm creep = of.creep.empty() ? CreepTerm{} : of.creep[j];
-    if (creep.history != nullptr) {
-      blocks.push_back(creep.share);
-      blocks.push_back(creep.ln_time_constant);
+    const HistoryTerm history =
+        of.histories.empty() ? HistoryTerm{} : of.histories[j];
+    double std_V = out->row.GaugeStd_V(static_cast<std::size_t>(j),
+                                       out->model.gauge_std_V[j]);
+    if (history.history != nullptr) {
+      blocks.insert(blocks.end(), {history.share, history.ln_time_constant,
+                                   history.hysteresis_rad});
+      std_V = std::hypot(std_V, history.history->KeptStd_V(history.row));
     }
     const auto coefficients = AddTerms(of.readings[j], &blocks);
     out->Add(new GaugeReadingResidual(out->evaluation, j, &out->row.gauges_V[j],
-                                      out->model.gauge_std_V[j], coefficients,
-                                      creep),
+                                      std_V, coefficients, history,
+                                      of.flat_shares != nullptr),
              std::move(blocks), ResidualFamily::kGauge, j);
   }
 }
@@ -84,10 +96,12 @@ void AddBench(const std::vector<Gauge>& gauges, Builder* out) {
         &out->parameters.gains_V_per_rad[j],
         &out->parameters.curvatures_per_rad[j],
         &out->parameters.finger->gauge_lengths_mm[j]};
+    AddFlat(out->parameters, j, &blocks);
     const auto coefficients = AddTerms(out->parameters.readings[j], &blocks);
     out->Add(new CylinderGaugeResidual(out->row.cylinder_radius_mm,
                                        out->row.gauges_V[j],
-                                       out->model.gauge_std_V[j], coefficients),
+                                       out->model.gauge_std_V[j], coefficients,
+                                       out->parameters.flat_shares != nullptr),
              std::move(blocks), ResidualFamily::kBench, j);
   }
 }
@@ -235,10 +249,20 @@ FingerParameters::FingerParameters(const Finger& finger,
           finger, finger.calibration ? finger.calibration->StaticsEffects()
                                      : std::vector<FingerParameter>())),
       object_radius_mm_(circle_radius_mm.value_or(0)) {
+  if (finger.calibration && finger.calibration->HasFriction()) {
+    shared_.friction_varies = true;
+    shared_.effect_values.push_back(finger.calibration->friction);
+  }
   for (const Gauge& gauge : finger.gauges) {
     gains_.push_back(gauge.gain_V_per_rad);
     offsets_.push_back(gauge.offset_V);
     curvatures_.push_back(gauge.curvature_per_rad);
+    flat_shares_.push_back(gauge.flat_share);
+    ln_flat_widths_.push_back(std::log(gauge.flat_width_rad));
+  }
+  if (HasFlatGauges(finger)) {
+    frame_.flat_shares = flat_shares_.data();
+    frame_.ln_flat_widths = ln_flat_widths_.data();
   }
   frame_.finger = &shared_;
   frame_.gains_V_per_rad = gains_.data();

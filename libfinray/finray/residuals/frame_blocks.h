@@ -8,9 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "finray/residuals/creep_history.h"
 #include "finray/residuals/frame_set.h"
 #include "finray/residuals/linear_signal.h"
+#include "finray/residuals/reading_history.h"
 #include "finray/residuals/residual_family.h"
 #include "finray/scene/measurements.h"
 #include "finray/scene/scene.h"
@@ -50,7 +50,9 @@ struct FrameParameters {
   double* gains_V_per_rad = nullptr;               ///< One per gauge.
   double* curvatures_per_rad = nullptr;            ///< One per gauge.
   std::vector<std::vector<ReadingTerm>> readings;  ///< One list per gauge.
-  std::vector<CreepTerm> creep;  ///< One per gauge, or none at all.
+  std::vector<HistoryTerm> histories;  ///< One per gauge, or none at all.
+  /// One per gauge, or null if no gauge may be flat.
+  double *flat_shares = nullptr, *ln_flat_widths = nullptr;
   double* ln_force_scale = nullptr;
   double* force_offset_N = nullptr;     ///< of the magnitude
   double* force_offset_xy_N = nullptr;  ///< of the components, 2
@@ -112,10 +114,13 @@ class FingerParameters {
   double* gain(int gauge) { return &gains_[gauge]; }
   double* offset(int gauge) { return &offsets_[gauge]; }
   double* curvature(int gauge) { return &curvatures_[gauge]; }
+  double* flat_share(int gauge) { return &flat_shares_[gauge]; }
+  double* ln_flat_width(int gauge) { return &ln_flat_widths_[gauge]; }
 
  private:
   SharedParameters shared_;
-  std::vector<double> gains_, offsets_, curvatures_;
+  std::vector<double> gains_, offsets_, curvatures_, flat_shares_,
+      ln_flat_widths_;
   double ln_force_scale_ = 0, force_offset_N_ = 0;
   double force_tilt_deg_ = 0, force_weight_N_[2] = {};
   double force_offset_xy_N_[2] = {}, object_origin_mm_[2] = {},

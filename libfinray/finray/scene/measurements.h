@@ -25,6 +25,9 @@ struct Measurements {
       std::numeric_limits<double>::quiet_NaN();
 
   std::vector<double> gauges_V;  ///< One per gauge of the finger, as read.
+  /// What the rows before leave unknown of each reading beside its noise
+  /// (HistoryFilter). Empty: nothing.
+  std::vector<double> history_std_V;
   double time_s = kNotMeasured;
   /// Reference sensor: the magnitude of the force, or its components.
   double force_N = kNotMeasured;
@@ -41,6 +44,11 @@ struct Measurements {
   /// without the finger.
   double cylinder_radius_mm = kNotMeasured;
 
+  /// The std of a gauge's reading with this noise.
+  double GaugeStd_V(std::size_t gauge, double noise_V) const {
+    return history_std_V.empty() ? noise_V
+                                 : std::hypot(noise_V, history_std_V[gauge]);
+  }
   bool IsBench() const { return !std::isnan(cylinder_radius_mm); }
 };
 

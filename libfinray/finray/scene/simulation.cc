@@ -9,8 +9,8 @@
 #include "finray/io/error.h"
 #include "finray/io/nan.h"
 #include "finray/objects/object_contact.h"
-#include "finray/scene/creep_filter.h"
 #include "finray/scene/frame_columns.h"
+#include "finray/scene/history_filter.h"
 #include "finray/statics/shape.h"
 
 namespace finray {
@@ -205,6 +205,19 @@ double FillRow(const Finger& finger, const Row& solved, int contacts,
   return force.norm();
 }
 
+// Adds the hysteresis to the volts of the rows.
+void AddHysteresis(const Finger& finger, FrameTable* frames) {
+  for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
+    const Gauge& gauge = finger.gauges[j];
+    if (gauge.hysteresis_rad == 0) continue;
+    Play play(gauge.HysteresisV());
+    for (double& volts : frames->MutableNumbers(GaugeVolts(j))) {
+      if (std::isnan(volts)) continue;
+      volts = gauge.offset_V + play.Next(volts - gauge.offset_V);
+    }
+  }
+}
+
 // Adds the creep to the volts of the rows.
 void AddCreep(const Finger& finger, FrameTable* frames) {
   for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
@@ -274,6 +287,7 @@ SimulationSummary Simulate(const Finger& finger, const Scene& scene,
     ++(touches ? summary.contact : summary.free);
     status = touches ? "ok" : "no_contact";
   }
+  AddHysteresis(finger, frames);
   AddCreep(finger, frames);
   return summary;
 }

@@ -11,13 +11,12 @@ namespace {
 // dr_j/dp of a parameter of gauge j's reading. The gauge may have none.
 double ByReading(FingerParameterKind kind, const Gauge& gauge, double volts,
                  bool read) {
-  if (kind == FingerParameterKind::kGaugeOffset &&
-      gauge.curvature_per_rad == 0) {
+  if (kind == FingerParameterKind::kGaugeOffset && !gauge.IsCurved()) {
     return 1 / gauge.gain_V_per_rad;
   }
   if (!read) return 0;
   const double angle = gauge.Angle(volts), slope = gauge.Slope(angle);
-  const double linear = angle * (1 + gauge.curvature_per_rad * angle);
+  const double linear = gauge.Signal(angle);
   switch (kind) {
     case FingerParameterKind::kGaugeOffset:
       return 1 / slope;
@@ -27,8 +26,12 @@ double ByReading(FingerParameterKind kind, const Gauge& gauge, double volts,
       return gauge.gain_V_per_rad * angle * angle / slope;
     case FingerParameterKind::kGaugeCreepShare:
       return gauge.gain_V_per_rad * linear / (1 + gauge.creep_share) / slope;
+    case FingerParameterKind::kGaugeFlatShare:
+      return gauge.gain_V_per_rad * gauge.SignalByFlatShare(angle) / slope;
+    case FingerParameterKind::kGaugeFlatWidth:
+      return gauge.gain_V_per_rad * gauge.SignalByFlatWidth(angle) / slope;
     default:
-      return 0;  // kGaugeCreepTime
+      return 0;  // kGaugeCreepTime, kGaugeHysteresis
   }
 }
 
@@ -52,10 +55,12 @@ CalibrationUncertainty::Model::Model(const Finger& finger, double friction,
       by_discrepancy(2, finger.gauges.size()) {}
 
 CalibrationUncertainty::CalibrationUncertainty(
-    const Finger& finger, double friction, EquilibriumSolver* solver,
+    const Finger& any, double friction, EquilibriumSolver* solver,
     std::optional<double> circle_radius_mm) {
+  const Finger finger = ForFriction(any, friction);
   if (!finger.calibration) return;
-  solver->model().set_effects(finger.calibration->StaticsEffects());
+  solver->model().set_effects(finger.calibration->StaticsEffects(),
+                              finger.calibration->HasFriction());
   model_.emplace(finger, friction, circle_radius_mm, solver);
   solver->model().set_effects({});
 }
@@ -158,6 +163,7 @@ CalibrationUncertainty::ErrorsAt(const std::vector<PointContact>& contacts,
       case FingerParameterKind::kBackClamp:
       case FingerParameterKind::kBackAngle:
       case FingerParameterKind::kSurfaceOffset:
+      case FingerParameterKind::kFriction:
         column = m.derivatives.col(effect++);
         break;
       case FingerParameterKind::kGaugeStart:
@@ -171,6 +177,9 @@ CalibrationUncertainty::ErrorsAt(const std::vector<PointContact>& contacts,
       case FingerParameterKind::kGaugeCurvature:
       case FingerParameterKind::kGaugeCreepShare:
       case FingerParameterKind::kGaugeCreepTime:
+      case FingerParameterKind::kGaugeFlatShare:
+      case FingerParameterKind::kGaugeFlatWidth:
+      case FingerParameterKind::kGaugeHysteresis:
         column[index] = ByReading(parameters[k].kind, m.finger.gauges[index],
                                   readings_V[index], weights[index] != 0);
     }
@@ -255,6 +264,7 @@ void CalibrationUncertainty::FillByParameter(
       case FingerParameterKind::kBackClamp:
       case FingerParameterKind::kBackAngle:
       case FingerParameterKind::kSurfaceOffset:
+      case FingerParameterKind::kFriction:
         by_statics(effect++);
         break;
       case FingerParameterKind::kGaugeStart:
@@ -268,6 +278,9 @@ void CalibrationUncertainty::FillByParameter(
       case FingerParameterKind::kGaugeCurvature:
       case FingerParameterKind::kGaugeCreepShare:
       case FingerParameterKind::kGaugeCreepTime:
+      case FingerParameterKind::kGaugeFlatShare:
+      case FingerParameterKind::kGaugeFlatWidth:
+      case FingerParameterKind::kGaugeHysteresis:
         by_gauge(ByReading(parameters[k].kind, m.finger.gauges[index],
                            readings_V[index], weights[index] != 0));
     }

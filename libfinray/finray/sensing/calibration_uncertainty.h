@@ -24,8 +24,8 @@ namespace finray {
 /// g_j^2 for gain j and 1 / g_j for offset j. A gauge with a curve has its
 /// slope where these have g_j, and g_j a_j^2 / slope for the curvature. The
 /// share of creep counts as for a gauge that has come to rest; its time
-/// constant counts as known. A measured circle's centre adds two rows to r,
-/// which also depend on stiffness and rib lengths.
+/// constant and the hysteresis count as known. A measured circle's centre adds
+/// two rows to r, which also depend on stiffness and rib lengths.
 ///
 /// What the model misses otherwise, the finger's `discrepancy` S of the gauge
 /// angles, adds (J'WJ)^-1 J'W S W J (J'WJ)^-1 to C_sys.

@@ -62,16 +62,16 @@ class AfterStep final : public ceres::IterationCallback {
 FrameProblem::FrameProblem(const Finger& finger, const Scene& scene,
                            const Discretization& discretization,
                            EquilibriumForm form, double most_force_N)
-    : finger_(finger),
+    : finger_(ForFriction(finger, scene.friction_coefficient)),
       model_(MeasurementModel::OfScene(finger, scene)),
       friction_(scene.friction_coefficient),
       most_force_N_(most_force_N),
       camera_(scene.UsesCamera()),
       form_(form),
-      parameters_(finger, scene.circle_radius_mm()),
+      parameters_(finger_, scene.circle_radius_mm()),
       frames_(finger, discretization, form, parameters_.shared(), 1),
       solver_(finger, discretization) {
-  if (finger.calibration) calibration_factor_ = finger.calibration->Factor();
+  if (finger_.calibration) calibration_factor_ = finger_.calibration->Factor();
 }
 
 FrameEvaluation& FrameProblem::Prepare(const Measurements& row, int contacts,
@@ -241,25 +241,28 @@ ContactMatrix FrameProblem::Systematic(const Eigen::MatrixXd& by_unknown,
   const auto count = static_cast<Eigen::Index>(parameters.size());
   const auto ribs = static_cast<Eigen::Index>(shared.rib_lengths_mm.size());
   const auto gauges = static_cast<Eigen::Index>(finger_.gauges.size());
-  const auto effects = static_cast<Eigen::Index>(shared.effects.size());
-  // Columns of C: stiffness, rib lengths, five for each gauge, then effects.
+  const auto effects = static_cast<Eigen::Index>(shared.effect_values.size());
+  // Columns of C: stiffness, rib lengths, kOwn for each gauge, then effects.
+  constexpr int kOwn = 7;
   const auto of_gauge = [ribs](int gauge, int which) {
-    return static_cast<int>(2 + ribs) + 5 * gauge + which;
+    return static_cast<int>(2 + ribs) + kOwn * gauge + which;
   };
   std::unordered_map<const double*, int> column_of = {
       {&shared.ln_front_stiffness, 0}, {&shared.ln_back_stiffness, 1}};
   if (ribs > 0) column_of.emplace(shared.rib_lengths_mm.data(), 2);
   for (int j = 0; j < gauges; ++j) {
-    double* const own[] = {parameters_.gain(j), parameters_.offset(j),
-                           parameters_.curvature(j), &shared.gauge_starts_mm[j],
-                           &shared.gauge_lengths_mm[j]};
-    for (int k = 0; k < 5; ++k) column_of.emplace(own[k], of_gauge(j, k));
+    double* const own[] = {
+        parameters_.gain(j),         parameters_.offset(j),
+        parameters_.curvature(j),    &shared.gauge_starts_mm[j],
+        &shared.gauge_lengths_mm[j], parameters_.flat_share(j),
+        parameters_.ln_flat_width(j)};
+    for (int k = 0; k < kOwn; ++k) column_of.emplace(own[k], of_gauge(j, k));
   }
   int effect = of_gauge(static_cast<int>(gauges), 0);
   if (effects > 0) column_of.emplace(shared.effect_values.data(), effect);
   BlockRows rows;
   rows.Evaluate(blocks_, column_of,
-                static_cast<int>(2 + ribs + 5 * gauges + effects));
+                static_cast<int>(2 + ribs + kOwn * gauges + effects));
   Eigen::MatrixXd by_parameter(rows.jacobian.rows(), count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const FingerParameter& p = parameters[static_cast<std::size_t>(k)];
@@ -296,7 +299,16 @@ ContactMatrix FrameProblem::Systematic(const Eigen::MatrixXd& by_unknown,
                               column(of_gauge(p.index, 0));
         break;
       }
+      case FingerParameterKind::kGaugeFlatShare:
+        by_parameter.col(k) = column(of_gauge(p.index, 5));
+        break;
+      case FingerParameterKind::kGaugeFlatWidth:
+        by_parameter.col(k) =
+            column(of_gauge(p.index, 6)) /
+            finger_.gauges[static_cast<std::size_t>(p.index)].flat_width_rad;
+        break;
       case FingerParameterKind::kGaugeCreepTime:
+      case FingerParameterKind::kGaugeHysteresis:
         by_parameter.col(k).setZero();
         break;
       case FingerParameterKind::kHingeStiffness:
@@ -309,6 +321,7 @@ ContactMatrix FrameProblem::Systematic(const Eigen::MatrixXd& by_unknown,
       case FingerParameterKind::kBackClamp:
       case FingerParameterKind::kBackAngle:
       case FingerParameterKind::kSurfaceOffset:
+      case FingerParameterKind::kFriction:
         by_parameter.col(k) = column(effect++);
         break;
     }

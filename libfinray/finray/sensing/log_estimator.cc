@@ -185,7 +185,8 @@ double LogEstimator::FreeChi2(const LogFrame& frame,
     for (Eigen::Index k = 0; k < count; ++k) {
       covariance(i, k) = marginal.offsets_without(j, measured[k]);
     }
-    covariance(i, i) += gauge.noise_V * gauge.noise_V;
+    covariance(i, i) += std::pow(
+        frame.row.GaugeStd_V(static_cast<std::size_t>(j), gauge.noise_V), 2);
   }
   return off.dot(covariance.ldlt().solve(off));
 }

@@ -21,7 +21,8 @@ void Pack(const Finger& finger, const Scene& scene, const Measurements& row,
     if (!gauge.IsMeasured(row.gauges_V[j])) continue;
     ++p.gauges;
     p.values[j] = gauge.Angle(row.gauges_V[j]);
-    p.weights[j] = gauge.AngleWeight(p.values[j]);
+    p.weights[j] = std::abs(gauge.Slope(p.values[j])) /
+                   row.GaugeStd_V(static_cast<std::size_t>(j), gauge.noise_V);
   }
   p.camera = 0;
   if (scene.pin_std_mm) p.camera += 2 * static_cast<int>(row.pins.size());

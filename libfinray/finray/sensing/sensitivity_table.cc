@@ -120,8 +120,7 @@ SensitivityTable::SensitivityTable(double friction,
                                    EquilibriumSolver* solver, bool gauge_places)
     : gauge_places_(gauge_places),
       node_(solver->model().gauges() + (circle_radius_mm ? 2 : 0),
-            4 + solver->model().ribs() +
-                static_cast<int>(solver->model().effects().size()) +
+            4 + solver->model().ribs() + solver->model().effect_columns() +
                 (gauge_places ? 2 : 0)) {
   const Finger& finger = solver->model().finger();
   const double length = finger.front_length_mm;

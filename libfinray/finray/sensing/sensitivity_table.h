@@ -15,7 +15,7 @@ namespace finray {
 /// (circle_centre.h). The columns are
 ///
 ///   l_c, ln f_c of each contact, EI front, EI back, rib lengths, effects of
-///   the solver's model,
+///   the solver's model and friction if it is carried,
 ///
 /// and with `gauge_places` two more: for each gauge the derivatives by its own
 /// start and length, d(angle)/d(start) = kappa(end) - kappa(start) and

@@ -196,7 +196,8 @@ bool TouchDetection::FindContact(const LogFrame& frame,
     measurement_.values[j] = read ? angle : 0;
     measurement_.weights[j] =
         read ? std::abs(gauge.Slope(angle)) /
-                   std::sqrt(variance_V2[j] + gauge.noise_V * gauge.noise_V)
+                   std::hypot(std::sqrt(variance_V2[j]),
+                              frame.row.GaugeStd_V(j, gauge.noise_V))
              : 0;
   }
   const double free_chi2 = FreeChi2(frame, mean_V, variance_V2);
@@ -218,7 +219,9 @@ double TouchDetection::FreeChi2(const LogFrame& frame,
     const Gauge& gauge = finger_.gauges[j];
     const double off =
         frame.row.gauges_V[j] - gauge.BendingVolts(free[j]) - mean_V[j];
-    chi2 += off * off / (variance_V2[j] + gauge.noise_V * gauge.noise_V);
+    chi2 +=
+        off * off /
+        (variance_V2[j] + std::pow(frame.row.GaugeStd_V(j, gauge.noise_V), 2));
   }
   return chi2;
 }
@@ -237,7 +240,9 @@ void TouchDetection::Absorb(const LogFrame& frame, OffsetBelief* belief) const {
     const Gauge& gauge = finger_.gauges[j];
     double& mean = belief->mean_V[j];
     double& variance = belief->variance_V2[j];
-    const double weight = variance / (variance + gauge.noise_V * gauge.noise_V);
+    const double weight =
+        variance /
+        (variance + std::pow(frame.row.GaugeStd_V(j, gauge.noise_V), 2));
     mean +=
         weight * (frame.row.gauges_V[j] - gauge.BendingVolts(free[j]) - mean);
     variance *= 1 - weight;

@@ -41,6 +41,10 @@ Eigen::MatrixXd SlopesOf(const Finger& finger,
                          const Eigen::VectorXd& std) {
   Eigen::MatrixXd slopes(finger.gauges.size(), parameters.size());
   for (Eigen::Index k = 0; k < slopes.cols(); ++k) {
+    if (parameters[k].kind == FingerParameterKind::kFriction) {
+      slopes.col(k).setZero();  // nothing touches
+      continue;
+    }
     const double value = ParameterValue(finger, parameters[k]);
     const double step =
         std::max(0.1 * std[k], 1e-6 * std::max(1.0, std::abs(value)));
@@ -127,7 +131,8 @@ ZeroedFinger ZeroGauges(const Finger& finger,
                        " readings in the free rows, expected at least " +
                        std::to_string(kLeastZeroRows));
     }
-    if (of.scatter > kSteady * gauge.noise_V) {
+    const double loop_V = gauge.HysteresisV();
+    if (of.scatter > kSteady * std::hypot(gauge.noise_V, loop_V)) {
       throw InputError(
           source + ": " + GaugeVolts(j) +
           FormatText(" varies by %.2g mV in the free rows, its noise_V is "
@@ -137,8 +142,11 @@ ZeroedFinger ZeroGauges(const Finger& finger,
     }
     const double offset = of.mean - free_V[j];
     zeroed.change_V.push_back(offset - gauge.offset_V);
-    zeroed.std_V.push_back(std::max(of.scatter, gauge.noise_V) /
-                           std::sqrt(static_cast<double>(of.count)));
+    // Where in its loop the gauge has come to rest is not known.
+    zeroed.std_V.push_back(
+        std::hypot(std::max(of.scatter, gauge.noise_V) /
+                       std::sqrt(static_cast<double>(of.count)),
+                   loop_V / std::sqrt(3.0)));
     gauge.offset_V = offset;
   }
   if (finger.calibration) {

@@ -31,6 +31,8 @@ struct ZeroedFinger {
 ///   cov(offset) = diag(s_j^2 / n) + G C_x G',  cov(offset, x) = -G C_x,
 ///
 /// with G = dg/dx and s_j the scatter of the readings, no less than noise_V. A
+/// gauge with hysteresis has (gain w)^2 / 3 more: nobody knows how it came to
+/// rest. A
 /// finger without a calibration stays without.
 ///
 /// Throws InputError with `source` if there are fewer than kLeastZeroRows rows

@@ -9,7 +9,7 @@
 #include "finray/io/frame_reader.h"
 #include "finray/io/frame_vocabulary.h"
 #include "finray/io/message_text.h"
-#include "finray/scene/creep_filter.h"
+#include "finray/scene/history_filter.h"
 #include "finray/scene/frame_columns.h"
 #include "finray/scene/measurement_columns.h"
 #include "finray/view/estimate_solver.h"
@@ -167,7 +167,7 @@ class ResultRows {
     RequireTimeForCreep(finger, names_, path_);
     columns_.emplace(finger, names_, path_,
                      MeasurementColumns::Options{true, false, false});
-    creep_.emplace(finger);
+    history_.emplace(finger);
     solver_.emplace(finger, discretization);
     first_residual_ = log_.channels.size();
     for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
@@ -184,7 +184,7 @@ class ResultRows {
                     FrameStatus status) {
     columns_->Read([&](std::size_t i) { return rows.at(row, i).number; },
                    &readings_);
-    if (!creep_->empty()) creep_->Remove(&readings_);
+    if (!history_->empty()) history_->Remove(&readings_);
     const bool solved = status == FrameStatus::kOk ||
                         status == FrameStatus::kNoContact ||
                         status == FrameStatus::kUnobservable;
@@ -232,7 +232,7 @@ class ResultRows {
   std::size_t first_residual_ = 0;
   double most_sure_N_ = 0, most_N_ = 0;
   std::optional<MeasurementColumns> columns_;
-  std::optional<CreepFilter> creep_;
+  std::optional<HistoryFilter> history_;
   std::optional<EstimateSolver> solver_;
   std::vector<ColumnAt> offset_at_;
   // Memory, reused by the next row.

@@ -45,6 +45,10 @@ const std::vector<CandidateEffect>& AllCandidateEffects() {
       {Family::kGaugeLength, 1, "gauges of other lengths"},
       {Family::kGaugeCreepShare, 0.1, "gauges that creep"},
       {Family::kGaugeCreepTime, 50, "another time constant of creep"},
+      {Family::kGaugeFlatShare, 0.2,
+       "gauges that are less sensitive when flat"},
+      {Family::kGaugeFlatWidth, 50, "another width of what gauges call flat"},
+      {Family::kGaugeHysteresis, 1e-3, "gauges with hysteresis"},
       {Family::kHingeStiffness, 20, "hinges that resist"},
       {Family::kRibBending, 50, "another bending stiffness of the ribs"},
       {Family::kFrontPiece, 1.5, "a stiffness that changes along the beams"},
@@ -52,11 +56,11 @@ const std::vector<CandidateEffect>& AllCandidateEffects() {
       {Family::kFrontClamp, 2e-4, "clamps that give"},
       {Family::kBackAngle, 0.5, "another angle of the back beam"},
       {Family::kSurfaceOffset, 0.5, "a surface beside the beam"},
+      {Family::kFriction, 0.3, "friction"},
       {Family::kObjectOrigin, 0.5, "a shifted stage"},
       {Family::kObjectRotation, 1, "a turned stage"},
       {Family::kObjectScale, 1, "a stage of another scale"},
       {Family::kObjectRadius, 0.5, "another radius of the object"},
-      {Family::kFriction, 0.3, "friction"},
       {Family::kForceScale, 3, "another scale of the force sensor"},
       {Family::kForceOffset, 0.1, "an offset of the force sensor"},
       {Family::kForceTimeOffset, 0.1, "a force sensor that is late"},
@@ -103,6 +107,9 @@ std::vector<CandidateEffect> CandidatesFor(const Finger& finger,
         break;
       case Family::kGaugeCreepTime:
         if (!timed || !plan.HasCreep(finger)) continue;
+        break;
+      case Family::kGaugeFlatWidth:
+        if (!plan.HasFlatGauges(finger)) continue;
         break;
       case Family::kForceTilt:
       case Family::kForceWeight:

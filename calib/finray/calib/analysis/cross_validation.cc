@@ -107,9 +107,10 @@ double CrossValidatedLogLikelihood(const CalibrationProblem& problem,
   return sum;
 }
 
-CrossValidation CrossValidate(const CalibrationProblem& problem,
-                              const Identifiability& found,
-                              const WideLinearization& wide) {
+CrossValidation CrossValidate(
+    const CalibrationProblem& problem, const Identifiability& found,
+    const WideLinearization& wide,
+    const std::optional<GaugeDiscrepancy>& discrepancy) {
   CrossValidation result;
   result.errors.front_length_mm = problem.finger().front_length_mm;
   for (const std::vector<int>& frames : wide.frames) {
@@ -125,7 +126,10 @@ CrossValidation CrossValidate(const CalibrationProblem& problem,
       if (!problem.frame(i).IsBench()) frames.push_back(i);
     }
     if (frames.empty()) continue;
-    const LeftOutFinger without(problem, found, wide, fold, frames);
+    LeftOutFinger without(problem, found, wide, fold, frames);
+    if (without.finger.calibration) {
+      without.finger.calibration->discrepancy = discrepancy;
+    }
     const SensedFrames sensed =
         SenseFrames(without.part.get(), without.finger, frames, false);
     for (std::size_t k = 0; k < frames.size(); ++k) {

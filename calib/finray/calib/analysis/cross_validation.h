@@ -3,12 +3,14 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "finray/calib/analysis/error_table.h"
 #include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/analysis/score_test.h"
 #include "finray/calib/problem/calibration_problem.h"
+#include "finray/finger/gauge_discrepancy.h"
 
 namespace finray {
 
@@ -49,15 +51,16 @@ double CrossValidatedLogLikelihood(const CalibrationProblem& problem,
 
 /// Forces from the gauges alone, each fold with the finger that the
 /// other folds calibrate, against the references. It takes at most kMostChecked
-/// frames, evenly spread.
+/// frames, evenly spread. With a discrepancy the intervals have it too.
 struct CrossValidation {
   static constexpr std::size_t kMostChecked = 1000;
   int folds = 0;  ///< 0 if it was not done: too few frames, or held-out ones.
   ErrorTable errors;
 };
-CrossValidation CrossValidate(const CalibrationProblem& problem,
-                              const Identifiability& found,
-                              const WideLinearization& wide);
+CrossValidation CrossValidate(
+    const CalibrationProblem& problem, const Identifiability& found,
+    const WideLinearization& wide,
+    const std::optional<GaugeDiscrepancy>& discrepancy = std::nullopt);
 
 }  // namespace finray
 

@@ -117,7 +117,8 @@ void AddErrors(CalibrationProblem* problem, const Finger& finger,
     for (Eigen::Index j = 0; j < gauges; ++j) {
       const Gauge& gauge = finger.gauges[j];
       all &= gauge.IsMeasured(frame.gauges_V[j]);
-      weights[j] = gauge.AngleWeight(gauge.Angle(frame.gauges_V[j]));
+      weights[j] = std::abs(gauge.Slope(gauge.Angle(frame.gauges_V[j]))) /
+                   frame.GaugeStd_V(static_cast<std::size_t>(j), gauge.noise_V);
     }
     if (!all) continue;
     const auto at = uncertainty.ErrorsAt({{arc_mm, normal_N, friction}},

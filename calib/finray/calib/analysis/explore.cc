@@ -33,6 +33,7 @@ void JudgeAgain(SolvedProblem* at) {
     for (const auto& [frame, reason] : at->problem->rejected()) {
       contacts.Forget(frame);
     }
+    at->problem->parameters().KeepHistoryStd();
     solved =
         SolveSummed(at->problem->FittedFrames(), {}, at->problem, &contacts);
   } catch (const std::runtime_error&) {

@@ -226,9 +226,14 @@ void KeepCovariance(const CalibrationParameters& parameters,
   std::vector<double> std;
   for (std::size_t i = 0; i < parameters.free().size(); ++i) {
     const CalibrationParameter& p = parameters.FreeParameter(i);
-    if (!p.of_finger) continue;
+    std::optional<FingerParameter> its = p.of_finger;
+    if (p.family == ParameterFamily::kFriction) {
+      its = FingerParameter{FingerParameterKind::kFriction};
+      covariance.friction = *p.variable;
+    }
+    if (!its) continue;
     kept.push_back(static_cast<int>(i));
-    covariance.parameters.push_back(*p.of_finger);
+    covariance.parameters.push_back(*its);
     std.push_back(p.ValueStd(*p.variable, found.bounded_std[i]));
   }
   if (kept.empty()) return;
@@ -245,7 +250,11 @@ void KeepCovariance(const CalibrationParameters& parameters,
     }
   }
   for (const Eigen::Index k : fixed) {
-    covariance.parameters.push_back(finger->calibration->parameters[k]);
+    const FingerParameter& p = finger->calibration->parameters[k];
+    covariance.parameters.push_back(p);
+    if (p.kind == FingerParameterKind::kFriction) {
+      covariance.friction = finger->calibration->friction;
+    }
     std.push_back(finger->calibration->std[k]);
   }
   const auto all = static_cast<Eigen::Index>(std.size());

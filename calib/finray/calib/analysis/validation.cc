@@ -9,7 +9,7 @@
 #include "finray/io/nan.h"
 #include "finray/io/number_text.h"
 #include "finray/residuals/parallel_frames.h"
-#include "finray/scene/creep_filter.h"
+#include "finray/scene/history_filter.h"
 
 namespace finray {
 namespace {
@@ -30,6 +30,7 @@ double TouchedAt(const CalibrationFrame& frame, const Plan& plan,
 Measurements GaugesOnly(const CalibrationFrame& frame) {
   Measurements readings;
   readings.gauges_V = frame.gauges_V;
+  readings.history_std_V = frame.history_std_V;
   if (frame.IsBench()) {
     readings.gauges_V.assign(frame.gauges_V.size(), kNaN);
   }
@@ -48,12 +49,12 @@ std::vector<FrameEstimate> EstimateLogs(const Finger& finger, const Plan& plan,
   std::vector<FrameEstimate> all;
   for (std::size_t i = 0; i < logs.frames.size();) {
     std::vector<Measurements> readings;
-    CreepFilter creep(finger);
+    HistoryFilter history(finger);
     for (const int log = logs.frames[i].log;
          i < logs.frames.size() && logs.frames[i].log == log; ++i) {
       readings.push_back(GaugesOnly(logs.frames[i]));
       readings.back().time_s = logs.frames[i].time_s;
-      creep.Remove(&readings.back());
+      history.Remove(&readings.back());
     }
     const auto some =
         EstimateFrames(finger, scene, discretization, readings, threads);

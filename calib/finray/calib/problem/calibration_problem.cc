@@ -105,6 +105,7 @@ std::unique_ptr<CalibrationProblem> CalibrationProblem::Part(
       new CalibrationProblem(finger_, plan_, logs_, discretization_, threads));
   part->candidates_ = frames;
   part->SetValues(Values());
+  part->parameters_.KeepHistoryStdOf(parameters_);
   part->progress_ = progress_;
   part->tolerance_std_ = tolerance_std_;
   return part;
@@ -127,6 +128,7 @@ std::unique_ptr<CalibrationProblem> CalibrationProblem::WithPlan(
     const auto value = values.find(p.name);
     if (value != values.end()) *p.variable = value->second;
   }
+  other->parameters_.KeepHistoryStdOf(parameters_);
   return other;
 }
 
@@ -228,7 +230,8 @@ void ZeroHeldOutLogs(CalibrationProblem* problem) {
         return frame.gauges_V[j] -
                parameters.Present(problem->finger(), j)
                    .BendingVolts(free.gauge_angle(j)) -
-               parameters.readings.Sum(frame, j) - parameters.Creep(frame, j);
+               parameters.readings.Sum(frame, j) -
+               parameters.OfHistory(frame, j);
       },
       &parameters.readings);
   for (const auto& [offset, error] : errors) *offset += error;

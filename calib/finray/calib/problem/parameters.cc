@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "finray/finger/gauge_play.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 
@@ -83,7 +84,11 @@ double VagueStd(const CalibrationParameter& parameter) {
       return 0.01;
     case ParameterFamily::kGaugeCurvature:
     case ParameterFamily::kGaugeCreepTime:
+    case ParameterFamily::kGaugeFlatShare:
+    case ParameterFamily::kGaugeFlatWidth:
       return 1;
+    case ParameterFamily::kGaugeHysteresis:
+      return 0.02;
     case ParameterFamily::kGaugeStart:
     case ParameterFamily::kGaugeLength:
       return 2;
@@ -170,13 +175,19 @@ CalibrationParameters::CalibrationParameters(const Finger& finger,
     curvatures_per_rad.push_back(gauge.curvature_per_rad);
     creep_shares.push_back(gauge.creep_share);
     ln_creep_times.push_back(std::log(gauge.creep_time_constant_s));
+    hystereses_rad.push_back(gauge.hysteresis_rad);
+    flat_shares.push_back(gauge.flat_share);
+    ln_flat_widths.push_back(std::log(gauge.flat_width_rad));
   }
   if (plan.family(ParameterFamily::kFriction).free) {
     shared.friction_varies = true;
     shared.effect_values.push_back(friction_);
   }
   RefuseRibsThatDoNotBend(finger, plan);
-  if (plan.HasCreep(finger)) ReadCreep(logs);
+  if (plan.HasCreep(finger) || plan.HasHysteresis(finger)) {
+    ReadHistories(finger, logs);
+  }
+  flat_ = plan.HasFlatGauges(finger);
   if (plan.family(ParameterFamily::kForceTimeOffset).free) ReadForces(logs);
   for (const FingerParameter& parameter : AllParametersOf(finger)) {
     const auto family = static_cast<ParameterFamily>(parameter.kind);
@@ -192,14 +203,24 @@ CalibrationParameters::CalibrationParameters(const Finger& finger,
   AddCamera(plan);
 }
 
-void CalibrationParameters::ReadCreep(const CalibrationLogs& logs) {
+void CalibrationParameters::ReadHistories(const Finger& finger,
+                                          const CalibrationLogs& logs) {
   const std::size_t gauges = gains_V_per_rad.size();
   for (std::size_t log = 0; log < logs.paths.size(); ++log) {
-    creep_.emplace_back(gauges);
-  }
-  for (const CalibrationFrame& frame : logs.frames) {
+    histories_.emplace_back(gauges);
     for (std::size_t j = 0; j < gauges; ++j) {
-      creep_[frame.log][j].Set(frame.row, frame.time_s, frame.gauges_V[j]);
+      histories_.back()[j].set_noise_V(finger.gauges[j].noise_V);
+    }
+  }
+  RowChange change(finger.gauges);
+  int log = -1;
+  for (const CalibrationFrame& frame : logs.frames) {
+    if (frame.log != log) change.Restart();
+    log = frame.log;
+    const double moved2 = change.Next(frame.gauges_V);
+    for (std::size_t j = 0; j < gauges; ++j) {
+      histories_[log][j].Set(frame.row, frame.time_s, frame.gauges_V[j],
+                             moved2);
     }
   }
 }
@@ -214,26 +235,76 @@ void CalibrationParameters::ReadForces(const CalibrationLogs& logs) {
   }
 }
 
-CreepTerm CalibrationParameters::CreepOf(const CalibrationFrame& frame,
-                                         int gauge) {
-  if (creep_.empty() || frame.IsBench()) return {};
-  return {&creep_[frame.log][gauge], frame.row, &creep_shares[gauge],
-          &ln_creep_times[gauge]};
+HistoryTerm CalibrationParameters::HistoryOf(const CalibrationFrame& frame,
+                                             int gauge) {
+  if (histories_.empty() || frame.IsBench()) return {};
+  return {&histories_[frame.log][gauge], frame.row, &creep_shares[gauge],
+          &ln_creep_times[gauge], &hystereses_rad[gauge]};
 }
 
-double CalibrationParameters::Creep(const CalibrationFrame& frame, int gauge) {
-  const CreepTerm creep = CreepOf(frame, gauge);
-  if (creep.history == nullptr) return 0;
-  return *creep.share *
-         (creep.history->At(creep.row, *creep.share, *creep.ln_time_constant)
-              .volts -
-          *readings.offset_V(gauge, frame.log) / (1 + *creep.share));
+ReadingHistory::Values CalibrationParameters::HistoryValues(int gauge) const {
+  return {creep_shares[gauge], ln_creep_times[gauge],
+          std::abs(gains_V_per_rad[gauge]) * hystereses_rad[gauge]};
+}
+
+double CalibrationParameters::OfHistory(const CalibrationFrame& frame,
+                                        int gauge) {
+  const HistoryTerm term = HistoryOf(frame, gauge);
+  if (term.history == nullptr) return 0;
+  const ReadingHistory::Row behind =
+      term.history->At(term.row, HistoryValues(gauge));
+  return *term.share *
+             (behind.lag.volts -
+              *readings.offset_V(gauge, frame.log) / (1 + *term.share)) -
+         behind.play.volts;
+}
+
+void CalibrationParameters::KeepHistoryStdAt(
+    const std::vector<ReadingHistory::Values>& values) {
+  kept_ = values;
+  for (std::vector<ReadingHistory>& log : histories_) {
+    for (std::size_t j = 0; j < kept_.size(); ++j) log[j].KeepStd(kept_[j]);
+  }
+}
+
+bool CalibrationParameters::KeepHistoryStd() {
+  if (histories_.empty()) return false;
+  constexpr double kMuch = 0.03;  // of the width
+  std::vector<ReadingHistory::Values> values;
+  bool much = false;
+  for (int j = 0; j < static_cast<int>(gains_V_per_rad.size()); ++j) {
+    values.push_back(HistoryValues(j));
+    const double before = kept_.empty() ? 0 : kept_[j].width_V;
+    much |= std::abs(values[j].width_V - before) >
+            kMuch * std::abs(gains_V_per_rad[j]) * 1e-3;
+  }
+  KeepHistoryStdAt(values);
+  return much;
+}
+
+void CalibrationParameters::KeepHistoryStdOf(
+    const CalibrationParameters& other) {
+  if (!histories_.empty() && !other.kept_.empty()) {
+    KeepHistoryStdAt(other.kept_);
+  }
+}
+
+std::vector<double> CalibrationParameters::HistoryStd_V(
+    const CalibrationFrame& frame) const {
+  std::vector<double> std_V;
+  if (kept_.empty() || frame.IsBench()) return std_V;
+  for (const ReadingHistory& history : histories_[frame.log]) {
+    std_V.push_back(history.KeptStd_V(frame.row));
+  }
+  return std_V;
 }
 
 Gauge CalibrationParameters::Present(const Finger& finger, int gauge) const {
   Gauge present = finger.gauges[gauge];
   present.gain_V_per_rad = gains_V_per_rad[gauge];
   present.curvature_per_rad = curvatures_per_rad[gauge];
+  present.flat_share = flat_shares[gauge];
+  present.flat_width_rad = std::exp(ln_flat_widths[gauge]);
   return present;
 }
 
@@ -297,6 +368,18 @@ void CalibrationParameters::AddOfFinger(const Finger& finger, const Plan& plan,
       parameter.variable = &ln_creep_times[index];
       parameter.is_log = true;
       break;
+    case FingerParameterKind::kGaugeFlatShare:
+      parameter.variable = &flat_shares[index];
+      parameter.scale = 0.1;
+      break;
+    case FingerParameterKind::kGaugeFlatWidth:
+      parameter.variable = &ln_flat_widths[index];
+      parameter.is_log = true;
+      break;
+    case FingerParameterKind::kGaugeHysteresis:
+      parameter.variable = &hystereses_rad[index];
+      parameter.scale = 1e-3;
+      break;
     case FingerParameterKind::kHingeStiffness:
       RefuseUnequalHinges(finger);
       parameter.scale = 10;
@@ -314,6 +397,7 @@ void CalibrationParameters::AddOfFinger(const Finger& finger, const Plan& plan,
     case FingerParameterKind::kBackHinge:
     case FingerParameterKind::kBackAngle:
     case FingerParameterKind::kSurfaceOffset:
+    case FingerParameterKind::kFriction:  // see AddFriction
       break;
   }
   parameter.block = of_finger.kind == FingerParameterKind::kRibLength
@@ -495,9 +579,13 @@ FrameParameters CalibrationParameters::Of(const CalibrationFrame& frame) {
   of.readings.reserve(frame.gauges_V.size());
   for (std::size_t j = 0; j < frame.gauges_V.size(); ++j) {
     of.readings.push_back(readings.Of(frame, static_cast<int>(j)));
-    if (!creep_.empty()) {
-      of.creep.push_back(CreepOf(frame, static_cast<int>(j)));
+    if (!histories_.empty()) {
+      of.histories.push_back(HistoryOf(frame, static_cast<int>(j)));
     }
+  }
+  if (flat_) {
+    of.flat_shares = flat_shares.data();
+    of.ln_flat_widths = ln_flat_widths.data();
   }
   of.ln_force_scale = &ln_force_scale;
   of.force_offset_N = &force_offset_N;
@@ -533,8 +621,9 @@ Finger CalibrationParameters::Apply(const Finger& finger) const {
     const CalibrationParameter& parameter = all_[i];
     if (!parameter.of_finger) continue;
     double value = parameter.Value(*parameter.variable);
-    // No clamp turns against its moment: such a one counts as rigid.
-    if (IsClamp(parameter.of_finger->kind)) value = std::max(0.0, value);
+    // No clamp turns against its moment: such a one counts as rigid. No loop
+    // has a negative width.
+    if (IsAtLeastZero(parameter.of_finger->kind)) value = std::max(0.0, value);
     SetParameter(*parameter.of_finger, value, &calibrated);
   }
   return calibrated;
@@ -576,8 +665,9 @@ CalibrationLogs CalibrationParameters::Corrected(const CalibrationLogs& logs,
     for (std::size_t j = 0; j < frame.gauges_V.size(); ++j) {
       const int gauge = static_cast<int>(j);
       frame.gauges_V[j] += calibrated.gauges[j].offset_V -
-                           readings.Sum(frame, gauge) - Creep(frame, gauge);
+                           readings.Sum(frame, gauge) - OfHistory(frame, gauge);
     }
+    frame.history_std_V = HistoryStd_V(frame);
     CorrectForce(&frame);
     frame.object_mm = Stage(frame.log).InS(frame.object_mm);
     const Eigen::Map<const Eigen::Vector2d> camera(camera_origin_mm);

@@ -55,7 +55,8 @@ class CalibrationParameters {
 
   SharedParameters shared;
   std::vector<double> gains_V_per_rad, curvatures_per_rad;
-  std::vector<double> creep_shares, ln_creep_times;
+  std::vector<double> creep_shares, ln_creep_times, hystereses_rad;
+  std::vector<double> flat_shares, ln_flat_widths;
   ReadingTerms readings;
   /// The force sensor reads F = scale f + offset. The magnitude has one offset,
   /// and each component has one.
@@ -111,9 +112,17 @@ class CalibrationParameters {
   /// has none.
   Eigen::VectorXd Units() const;
 
-  /// What creep adds to the reading of a frame, V.
-  double Creep(const CalibrationFrame& frame, int gauge);
-  /// The gauge with the present gain and curvature.
+  /// What creep and hysteresis add to the reading of a frame, V.
+  double OfHistory(const CalibrationFrame& frame, int gauge);
+  /// Keeps what the rows before leave unknown of each reading, at the present
+  /// values, for all that follows. Returns whether that changes it by more than
+  /// a few percent of the noise.
+  bool KeepHistoryStd();
+  /// Keeps the same as another set of parameters for the same logs.
+  void KeepHistoryStdOf(const CalibrationParameters& other);
+  /// What is kept for a frame, one number a gauge; empty if nothing is.
+  std::vector<double> HistoryStd_V(const CalibrationFrame& frame) const;
+  /// The gauge with the present gain and curve.
   Gauge Present(const Finger& finger, int gauge) const;
   /// Returns the finger with the present values. If offsets are per log, it
   /// gets those of last_fitted_log().
@@ -123,17 +132,19 @@ class CalibrationParameters {
   /// logs that are Corrected.
   Plan Corrected(const Plan& plan) const;
   /// Returns the logs as a perfect setup would have recorded them: with the
-  /// offsets of `calibrated`, without drift and creep, at the reference
-  /// temperature, with
-  /// a true force sensor, and with all positions in frame S.
+  /// offsets of `calibrated`, without drift, creep and hysteresis, at
+  /// the reference temperature, with a true force sensor, and with all
+  /// positions in frame S.
   CalibrationLogs Corrected(const CalibrationLogs& logs,
                             const Finger& calibrated);
 
  private:
-  void ReadCreep(const CalibrationLogs& logs);
+  void ReadHistories(const Finger& finger, const CalibrationLogs& logs);
   void ReadForces(const CalibrationLogs& logs);
   void CorrectForce(CalibrationFrame* frame) const;
-  CreepTerm CreepOf(const CalibrationFrame& frame, int gauge);
+  HistoryTerm HistoryOf(const CalibrationFrame& frame, int gauge);
+  ReadingHistory::Values HistoryValues(int gauge) const;
+  void KeepHistoryStdAt(const std::vector<ReadingHistory::Values>& values);
   void AddOfFinger(const Finger& finger, const Plan& plan,
                    const CalibrationLogs& logs,
                    const FingerParameter& of_finger);
@@ -150,8 +161,11 @@ class CalibrationParameters {
   void Add(const Plan& plan, CalibrationParameter parameter,
            bool held_out = false);
 
-  // By log and gauge; empty if no gauge creeps.
-  std::vector<std::vector<CreepHistory>> creep_;
+  // By log and gauge; empty if no gauge creeps or has hysteresis.
+  std::vector<std::vector<ReadingHistory>> histories_;
+  // Where their std was kept, by gauge; empty if it was not.
+  std::vector<ReadingHistory::Values> kept_;
+  bool flat_ = false;  // a gauge is less sensitive when flat, or may be
   // By log; empty if the force sensor is not late.
   std::vector<std::array<LinearSignal, 3>> forces_N_;
   double friction_;             // of the plan's scene

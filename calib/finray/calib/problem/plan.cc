@@ -31,6 +31,9 @@ constexpr FamilyKey kFamilyKeys[kParameterFamilies] = {
     {"gauge_length", "prior_std_mm"},
     {"gauge_creep_share", "prior_std"},
     {"gauge_creep_time", "prior_std_percent"},
+    {"gauge_flat_share", "prior_std"},
+    {"gauge_flat_width", "prior_std_percent"},
+    {"gauge_hysteresis", "prior_std_rad"},
     {"hinge_stiffness", "prior_std_N_mm_per_rad"},
     {"rib_bending_stiffness", "prior_std_percent"},
     {"stiffness_pieces", "prior_std_percent", {kCount}},  // front
@@ -41,11 +44,11 @@ constexpr FamilyKey kFamilyKeys[kParameterFamilies] = {
     {"clamp_compliance", "prior_std_rad_per_N_mm"},       // back
     {"back_angle", "prior_std_deg"},
     {"surface_offset", "prior_std_mm"},
+    {"friction", "prior_std"},
     {"object_origin", "prior_std_mm", {"per_log"}},
     {"object_rotation", "prior_std_deg", {"per_log"}},
     {"object_scale", "prior_std_percent"},
     {"object_radius", "prior_std_mm"},
-    {"friction", "prior_std"},
     {"force_scale", "prior_std_percent"},
     {"force_offset", "prior_std_N"},
     {"force_time_offset", "prior_std_s"},
@@ -148,6 +151,20 @@ bool Plan::HasCreep(const Finger& finger) const {
          family(ParameterFamily::kGaugeCreepTime).free ||
          std::any_of(finger.gauges.begin(), finger.gauges.end(),
                      [](const Gauge& gauge) { return gauge.creep_share != 0; });
+}
+
+bool Plan::HasHysteresis(const Finger& finger) const {
+  return family(ParameterFamily::kGaugeHysteresis).free ||
+         std::any_of(
+             finger.gauges.begin(), finger.gauges.end(),
+             [](const Gauge& gauge) { return gauge.hysteresis_rad != 0; });
+}
+
+bool Plan::HasFlatGauges(const Finger& finger) const {
+  return family(ParameterFamily::kGaugeFlatShare).free ||
+         family(ParameterFamily::kGaugeFlatWidth).free ||
+         std::any_of(finger.gauges.begin(), finger.gauges.end(),
+                     [](const Gauge& gauge) { return gauge.flat_share != 0; });
 }
 
 Finger Plan::CutIntoPieces(const Finger& finger) const {

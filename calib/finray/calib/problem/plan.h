@@ -28,6 +28,9 @@ enum class ParameterFamily {
   kGaugeLength = static_cast<int>(FingerParameterKind::kGaugeLength),
   kGaugeCreepShare = static_cast<int>(FingerParameterKind::kGaugeCreepShare),
   kGaugeCreepTime = static_cast<int>(FingerParameterKind::kGaugeCreepTime),
+  kGaugeFlatShare = static_cast<int>(FingerParameterKind::kGaugeFlatShare),
+  kGaugeFlatWidth = static_cast<int>(FingerParameterKind::kGaugeFlatWidth),
+  kGaugeHysteresis = static_cast<int>(FingerParameterKind::kGaugeHysteresis),
   kHingeStiffness = static_cast<int>(FingerParameterKind::kHingeStiffness),
   kRibBending = static_cast<int>(FingerParameterKind::kRibBending),
   kFrontPiece = static_cast<int>(FingerParameterKind::kFrontPiece),
@@ -38,11 +41,11 @@ enum class ParameterFamily {
   kBackClamp = static_cast<int>(FingerParameterKind::kBackClamp),
   kBackAngle = static_cast<int>(FingerParameterKind::kBackAngle),
   kSurfaceOffset = static_cast<int>(FingerParameterKind::kSurfaceOffset),
+  kFriction = static_cast<int>(FingerParameterKind::kFriction),
   kObjectOrigin = kFingerParameterKinds,
   kObjectRotation,
   kObjectScale,
   kObjectRadius,
-  kFriction,
   kForceScale,
   kForceOffset,
   kForceTimeOffset,
@@ -52,7 +55,7 @@ enum class ParameterFamily {
   kGaugeDrift,
   kCameraOrigin,
 };
-constexpr int kParameterFamilies = kFingerParameterKinds + 13;
+constexpr int kParameterFamilies = kFingerParameterKinds + 12;
 
 /// Says whether a family is varied, and its prior.
 struct FamilyPlan {
@@ -117,6 +120,11 @@ struct Plan {
   std::vector<FingerParameter> StaticsEffects(const Finger& finger) const;
   /// Says that the finger's gauges creep or the plan asks whether they do.
   bool HasCreep(const Finger& finger) const;
+  /// Says that the finger's gauges have hysteresis or the plan asks whether
+  /// they do.
+  bool HasHysteresis(const Finger& finger) const;
+  /// Says that a gauge is less sensitive when flat or the plan asks whether.
+  bool HasFlatGauges(const Finger& finger) const;
   /// Says that the force sensor reads 0 where nothing touches.
   bool ForceZeroIsKnown() const {
     return !family(ParameterFamily::kForceOffset).free &&

@@ -276,6 +276,13 @@ bool CalibrationResult::TooFewRows() const {
                                         ParameterStatus::kEstimated));
 }
 
+const ErrorStatistics& CalibrationResult::UnseenForces() const {
+  const ErrorStatistics& held_out = forces.held_out.force_after_N();
+  if (held_out.judged > 0) return held_out;
+  return (with_discrepancy.folds > 0 ? with_discrepancy : cross_validation)
+      .errors.contact.force_N;
+}
+
 std::string CalibrationResult::Verdict() const {
   if (!solution.solve.converged) return "not_converged";
   if (!solution.starts.empty() && solution.agreeing() < 2) {
@@ -303,6 +310,7 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
   result.identifiability = AnalyzeIdentifiability(problem, result.solution.at);
   result.residual_correlation = AnalyzeResidualCorrelation(
       problem->logs(), result.solution.at, result.identifiability);
+  const Identifiability of_noise = result.identifiability;
   EnlargeStd(result.residual_correlation, &result.identifiability);
   problem->Tell("what to record next");
   result.next =
@@ -326,11 +334,18 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
           CrossValidate(*problem, result.identifiability, wide);
     }
     result.discrepancy = FitDiscrepancy(
-        GaugeErrorsOf(*problem, result.solution, result.identifiability, wide));
+        GaugeErrorsOf(*problem, result.solution, of_noise, wide));
+    if (result.discrepancy && result.cross_validation.folds > 0) {
+      result.with_discrepancy =
+          CrossValidate(*problem, of_noise, wide, result.discrepancy);
+    }
   }
   problem->Tell("check of forces and contacts");
   result.finger = problem->parameters().Apply(problem->finger());
-  KeepCovariance(problem->parameters(), result.identifiability, &result.finger);
+  // What enlarges the std is in the discrepancy already, if there is one.
+  KeepCovariance(problem->parameters(),
+                 result.discrepancy ? of_noise : result.identifiability,
+                 &result.finger);
   if (result.finger.calibration) {
     result.finger.calibration->discrepancy = result.discrepancy;
   }

@@ -39,6 +39,9 @@ struct CalibrationResult {
   CrossValidation cross_validation;
   /// What the model still misses, also in `finger`; empty if it shows nothing.
   std::optional<GaugeDiscrepancy> discrepancy;
+  /// As cross_validation, with the discrepancy in the intervals; not done
+  /// without one, nor with a hold-out.
+  CrossValidation with_discrepancy;
   /// Why the result is doubtful, in words (doubts.h).
   std::vector<std::string> doubts;
   Finger finger;  ///< The calibrated finger.
@@ -54,6 +57,10 @@ struct CalibrationResult {
   /// there are TooFewRows; `doubtful`, if there are `doubts`; `good`.
   std::string Verdict() const;
   static constexpr double kUnexplained = 5;
+  /// Errors of forces in frames that the calibration has not seen, with all
+  /// that widens the intervals of estimates: of the hold-out, or by
+  /// cross-validation.
+  const ErrorStatistics& UnseenForces() const;
 };
 
 /// Solves the problem, analyses it and checks it against the references.

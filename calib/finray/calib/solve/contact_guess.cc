@@ -81,7 +81,7 @@ void ContactGuess::AddGauges(const CalibrationFrame& frame) {
   for (int j = 0; j < static_cast<int>(frame.gauges_V.size()); ++j) {
     Gauge gauge = parameters.Present(problem_.finger(), j);
     gauge.offset_V =
-        parameters.readings.Sum(frame, j) + parameters.Creep(frame, j);
+        parameters.readings.Sum(frame, j) + parameters.OfHistory(frame, j);
     const double angle = gauge.Angle(frame.gauges_V[j]);
     if (!std::isfinite(angle)) continue;
     values_[j] = angle;

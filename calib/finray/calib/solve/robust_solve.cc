@@ -94,12 +94,14 @@ class RobustSolve {
     CalibrationSolution result{{}, std::move(solved.at), {}, std::move(starts)};
     for (; result.rounds < kMostRounds; ++result.rounds) {
       const Outliers outliers = FindOutliers(result.at, &problem_, &contacts_);
+      const bool other_std = problem_.parameters().KeepHistoryStd();
       const auto same_frame = [](const auto& a, const auto& b) {
         return a.first == b.first;
       };
       if (std::equal(outliers.reasons.begin(), outliers.reasons.end(),
                      problem_.rejected().begin(), problem_.rejected().end(),
-                     same_frame)) {
+                     same_frame) &&
+          !other_std) {
         result.settled = true;
         result.outliers_too_many = outliers.too_many;
         break;

@@ -21,7 +21,7 @@ Eigen::VectorXd LeastWeights(const Finger& finger, const GaugeTable& table) {
   for (Eigen::Index j = 0; j < gauges; ++j) {
     const Gauge& gauge = finger.gauges[j];
     weights[j] = gauge.AngleWeight();
-    if (gauge.curvature_per_rad == 0) continue;
+    if (!gauge.IsCurved()) continue;
     for (const GaugeTable::Row& row : table.rows()) {
       for (const double angle : row.values.col(j)) {
         weights[j] = std::min(weights[j], gauge.AngleWeight(angle));
