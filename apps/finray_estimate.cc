@@ -44,8 +44,9 @@ DEFINE_bool(
     "solve all frames of a log together, with the gauge_offset_walk and "
     "the smoothing of the scene");
 DEFINE_bool(strict, false,
-            "fail if any frame is not_converged or bad_input, or if more than "
-            "5 % of a log are unexplained or contradict its force_N");
+            "fail if any frame is not_converged or bad_input, if more than 5 % "
+            "of a log are unexplained or contradict its force_N, or if all its "
+            "frames have a contact that nothing confirms");
 DEFINE_double(most_unexplained_percent, 0,
               "gate: share of solved frames that the finger and its noise do "
               "not explain; default: none");
@@ -234,6 +235,14 @@ void PrintLatency(const LatencyHistogram& latency) {
                static_cast<unsigned long long>(latency.count()));
 }
 
+// Says how many searches the scene's limit has ended, if it has one.
+void PrintEnded(const EstimationSummary& summary, const Scene& scene,
+                std::FILE* out) {
+  if (!scene.search_iteration_limit) return;
+  std::fprintf(out, "searches       %zu ended by the scene's limit of %d\n",
+               summary.search_ended, *scene.search_iteration_limit);
+}
+
 // Says whether all frames together keep the gate, and prints it.
 bool KeepsGate(const EstimationSummary& all) {
   if (!IsGiven("most_unexplained_percent")) return true;
@@ -276,7 +285,6 @@ int FollowInput(const BatchSettings& settings) {
   LiveRows rows(settings.finger, settings.scene, kSource, header, &estimator);
   LatencyHistogram latency;
   EstimationSummary summary;
-  std::size_t ended = 0;
   Warn(WarningsOf(settings.finger));
   bool open = WriteLive(rows.HeaderCsv());
   while (open && !IsStopRequested() && lines.Next()) {
@@ -293,20 +301,17 @@ int FollowInput(const BatchSettings& settings) {
     }
     summary.Add(rows.estimate(), settings.scene.friction_coefficient,
                 rows.readings());
-    ended += rows.estimate().search_ended;
   }
   PrintLatency(latency);
-  if (settings.scene.search_iteration_limit) {
-    std::fprintf(stderr,
-                 "searches       %zu ended by the scene's limit of %d\n", ended,
-                 *settings.scene.search_iteration_limit);
-  }
+  PrintEnded(summary, settings.scene, stderr);
   const std::vector<Warning> warnings =
       WarningsOf({{&summary, kSource}}, settings.finger);
   Warn(warnings);
   if (FLAGS_strict && summary.unsolved() > 0) return kSolveFailed;
   const bool kept = KeepsGate(summary);
-  return kept && !(FLAGS_strict && FailsStrict(warnings)) ? kGood : kGateFailed;
+  return kept && !(FLAGS_strict && FailsStrict(warnings, settings.scene))
+             ? kGood
+             : kGateFailed;
 }
 
 int Run() {
@@ -348,11 +353,12 @@ int Run() {
                        " of " + std::to_string(Frames(jobs)) + " frames");
   }
 
-  BatchTable(jobs).Write(OutPath("summary.csv"));
+  BatchTable(settings, jobs).Write(OutPath("summary.csv"));
   WriteFileAtomically(OutPath("summary.yaml"),
                       BatchYaml(settings, jobs, bad_logs));
   PrintSummary(jobs, bar);
   const EstimationSummary all = Total(jobs);
+  PrintEnded(all, settings.scene, stdout);
   const std::vector<Warning> warnings =
       WarningsOf(SummariesOf(jobs), settings.finger);
   Warn(WarningsOf(settings.finger));
@@ -362,7 +368,9 @@ int Run() {
     return kSolveFailed;
   }
   const bool kept = KeepsGate(all);
-  return kept && !(FLAGS_strict && FailsStrict(warnings)) ? kGood : kGateFailed;
+  return kept && !(FLAGS_strict && FailsStrict(warnings, settings.scene))
+             ? kGood
+             : kGateFailed;
 }
 
 }  // namespace

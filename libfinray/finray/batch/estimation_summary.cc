@@ -78,6 +78,7 @@ void EstimationSummary::Add(const FrameEstimate& estimate, double friction,
     AddAll(readings.gauges_V, &free_sums_V);
   }
   ++frames;
+  search_ended += estimate.search_ended;
   ++by_status[static_cast<std::size_t>(estimate.status)];
   if (estimate.status == FrameStatus::kNotConverged ||
       estimate.status == FrameStatus::kBadInput) {
@@ -124,6 +125,7 @@ void EstimationSummary::Add(const EstimationSummary& other) {
     by_status[i] += other.by_status[i];
   }
   unexplained += other.unexplained;
+  search_ended += other.search_ended;
   force_compared += other.force_compared;
   force_squares_N2 += other.force_squares_N2;
   force_max_N = std::max(force_max_N, other.force_max_N);
@@ -147,6 +149,7 @@ std::string SummaryToText(const EstimationSummary& summary) {
     text += " " + std::to_string(count);
   }
   text += " " + std::to_string(summary.unexplained) + " " +
+          std::to_string(summary.search_ended) + " " +
           std::to_string(summary.force_compared) + " " +
           NumberText(summary.force_squares_N2) + " " +
           NumberText(summary.force_max_N) + " " +
@@ -179,7 +182,8 @@ std::optional<EstimationSummary> SummaryFromText(const std::string& text) {
   };
   stream >> summary.frames;
   for (std::size_t& count : summary.by_status) stream >> count;
-  stream >> summary.unexplained >> summary.force_compared;
+  stream >> summary.unexplained >> summary.search_ended >>
+      summary.force_compared;
   number(&summary.force_squares_N2);
   number(&summary.force_max_N);
   stream >> summary.force_judged >> summary.force_far;
@@ -208,7 +212,8 @@ void EmitSummary(const EstimationSummary& summary, YamlEmitter* yaml) {
     YamlPair(yaml, StatusName(status), summary.count(status));
   }
   *yaml << YAML::EndMap;
-  YamlPair(yaml, "unexplained_frames", summary.unexplained);
+  YamlPairs(yaml, "unexplained_frames", summary.unexplained,
+            "search_ended_frames", summary.search_ended);
   if (summary.force_compared > 0) {
     YamlPairs(yaml, "force_compared_frames", summary.force_compared,
               "force_rms_error_N", summary.force_rms_N(), "force_max_error_N",

@@ -13,6 +13,7 @@
 #include "finray/io/sha256.h"
 #include "finray/io/yaml_emitter.h"
 #include "finray/io/yaml_map.h"
+#include "finray/sensing/hidden_forces.h"
 
 namespace finray {
 namespace {
@@ -25,7 +26,7 @@ std::string SolverName(const BatchSettings& settings) {
 
 std::string Key(const BatchSettings& settings, const std::string& log_sha256) {
   return Sha256OfText(
-      "results 7\nversion " FINRAY_VERSION "\nlog " + log_sha256 + "\nfinger " +
+      "results 8\nversion " FINRAY_VERSION "\nlog " + log_sha256 + "\nfinger " +
       settings.finger_sha256 + "\nscene " + settings.scene_sha256 +
       "\nscheme " + SchemeName(settings.discretization.scheme) +
       "\nresolution " + std::to_string(settings.discretization.resolution) +
@@ -46,6 +47,7 @@ EstimationSummary SummaryFromYaml(const YamlMap& yaml) {
         Count(status, StatusName(s));
   }
   summary.unexplained = Count(yaml, "unexplained_frames");
+  summary.search_ended = Count(yaml, "search_ended_frames");
   if (yaml.Has("force_compared_frames")) {
     summary.force_compared = Count(yaml, "force_compared_frames");
     summary.force_squares_N2 = yaml.NonNegativeNumber("force_squares_N2");
@@ -61,9 +63,19 @@ EstimationSummary SummaryFromYaml(const YamlMap& yaml) {
   return summary;
 }
 
+// The codes of a log's warnings.
+std::string WarningCodes(const LogJob& job, const Finger& finger) {
+  std::string codes;
+  for (const Warning& warning :
+       WarningsOf({{&job.summary(), job.log()}}, finger)) {
+    codes += (codes.empty() ? "" : " ") + warning.code;
+  }
+  return codes;
+}
+
 // Calls set(name, text) for each cell of a row of summary.csv.
 template <class Set>
-void AddCells(const LogJob& job, Set set) {
+void AddCells(const LogJob& job, const Finger& finger, Set set) {
   const EstimationSummary& summary = job.summary();
   set("log", job.log());
   set("result", job.result());
@@ -81,6 +93,8 @@ void AddCells(const LogJob& job, Set set) {
   set("force_variances_N2",
       compared ? NumberText(summary.force_variances_N2) : "");
   set("unexplained_frames", std::to_string(summary.unexplained));
+  set("search_ended_frames", std::to_string(summary.search_ended));
+  set("warnings", WarningCodes(job, finger));
   set("key", job.key());
 }
 
@@ -269,6 +283,21 @@ void EmitWarnings(const std::vector<Warning>& warnings, YamlEmitter* yaml) {
   *yaml << YAML::EndSeq;
 }
 
+void EmitHiddenForces(const HiddenForces& hidden, YamlEmitter* yaml) {
+  constexpr int kDigits = 3;
+  const auto numbers = [&](const char* key, const std::vector<double>& values) {
+    *yaml << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (const double value : values) {
+      *yaml << YAML::Auto << YamlNumber(value, kDigits);
+    }
+    *yaml << YAML::EndSeq;
+  };
+  *yaml << YAML::Key << "hidden_forces" << YAML::Value << YAML::BeginMap;
+  numbers("contact_mm", hidden.contact_mm);
+  numbers("normal_N", hidden.normal_N);
+  *yaml << YAML::EndMap;
+}
+
 }  // namespace
 
 std::string BatchYaml(const BatchSettings& settings,
@@ -283,6 +312,12 @@ std::string BatchYaml(const BatchSettings& settings,
   }
   YamlPair(&yaml, "version", FINRAY_VERSION);
   EmitWarnings(WarningsOf(settings.finger), &yaml);
+  // With --joint offsets hide more than noise does.
+  if (!settings.joint && settings.scene.contacts != 0) {
+    EmitHiddenForces(FindHiddenForces(settings.finger, settings.scene,
+                                      settings.discretization),
+                     &yaml);
+  }
   yaml << YAML::Key << "logs" << YAML::Value << YAML::BeginSeq;
   for (const LogJob& job : jobs) {
     yaml << YAML::BeginMap;
@@ -310,17 +345,19 @@ std::string BatchYaml(const BatchSettings& settings,
   return std::string(yaml.c_str()) + "\n";
 }
 
-FrameTable BatchTable(const std::vector<LogJob>& jobs) {
+FrameTable BatchTable(const BatchSettings& settings,
+                      const std::vector<LogJob>& jobs) {
   FrameTable table(jobs.size());
   // The table has its columns even without any log.
-  AddCells(LogJob(nullptr, "", ""),
+  AddCells(LogJob(nullptr, "", ""), settings.finger,
            [&](const std::string& name, const std::string&) {
              table.MutableText(name);
            });
   for (std::size_t row = 0; row < jobs.size(); ++row) {
-    AddCells(jobs[row], [&](const std::string& name, const std::string& text) {
-      table.MutableText(name)[row] = text;
-    });
+    AddCells(jobs[row], settings.finger,
+             [&](const std::string& name, const std::string& text) {
+               table.MutableText(name)[row] = text;
+             });
   }
   return table;
 }

@@ -108,7 +108,8 @@ std::string BatchYaml(const BatchSettings& settings,
                       const std::vector<BadLog>& bad_logs);
 
 /// The table of summary.csv, with a row for each log.
-FrameTable BatchTable(const std::vector<LogJob>& jobs);
+FrameTable BatchTable(const BatchSettings& settings,
+                      const std::vector<LogJob>& jobs);
 
 }  // namespace finray
 
