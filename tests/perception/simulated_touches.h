@@ -18,7 +18,8 @@ namespace finray {
 struct TouchProtocol {
   int orientations = 36;
   double height_mm = 65;
-  double force_N = 3;  ///< The stage stops when the finger is pressed so.
+  double force_N = 3;   ///< The stage stops when the finger is pressed so.
+  double friction = 0;  ///< of the contact; + towards the tip
 };
 
 /// Presses the object in until the protocol's force is reached, and leaves the
@@ -38,7 +39,8 @@ inline ObjectPose PressObject(const RigidObject& object, double angle_rad,
   ObjectContact found;
   for (int i = 0; i < 60; ++i) {
     pose.position_mm.x() = depth - leading.x();
-    found = SolveObjectContact(object, pose, 0, solver, found.contacts);
+    found = SolveObjectContact(object, pose, protocol.friction, solver,
+                               found.contacts);
     const bool solved = found.status == ObjectContactStatus::kContact;
     double force = 0;
     for (const PointContact& c : found.contacts) force += c.normal_N;
