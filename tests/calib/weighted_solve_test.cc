@@ -20,7 +20,8 @@ TEST(WeightedSolveTest, EqualsTheReducedForm) {
   CalibrationProblem whole(
       start, plan, ReadCalibrationLogs({folder.Path("log.csv")}, start, plan),
       {}, 1);
-  const std::vector<int> frames = whole.SpreadFrames(40);
+  std::vector<int> frames;  // one of them is free
+  for (int i = 0; i < 210; i += 14) frames.push_back(i);
   constexpr JointLimits kLimits{200, 1e-14};
   const auto reduced = whole.Part(frames, 1), weighted = whole.Part(frames, 1);
   ContactStore contacts(reduced.get()), weighted_contacts(weighted.get());

@@ -64,9 +64,11 @@ SolveReport JointProblem::Solve(const JointLimits& limits) {
   options.parameter_tolerance = 1e-11;
   options.gradient_tolerance = 1e-12;
   options.callbacks.push_back(&tell);
+  // The weights of equilibrium leave normal equations, and so Schur's too,
+  // without a correct digit.
   options.linear_solver_type = ceres::DENSE_QR;
   const auto ordering = FixAndOrder();
-  if (!frame_blocks_.empty()) {
+  if (!frame_blocks_.empty() && form_ == EquilibriumForm::kReduced) {
     options.linear_solver_type = ceres::DENSE_SCHUR;
     options.linear_solver_ordering = ordering;
   }

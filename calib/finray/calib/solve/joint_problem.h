@@ -13,10 +13,11 @@
 
 namespace finray {
 
-/// The parameters and the unknowns of some frames as one ceres::Problem. Ceres
-/// eliminates the unknowns of the frames (DENSE_SCHUR): l_c and f_c of a
-/// contact, and in the weighted form the base loads and rib tensions of every
-/// frame, which start in equilibrium.
+/// The parameters and the unknowns of some frames as one ceres::Problem. In the
+/// reduced form the unknowns of a frame are l_c and f_c of its contact, and
+/// Ceres eliminates them (DENSE_SCHUR). In the weighted form they are the base
+/// loads and rib tensions too, which start in equilibrium, and Ceres solves for
+/// all by DENSE_QR, so that time grows with the cube of the frames.
 class JointProblem {
  public:
   /// Frames start from the contacts of the store.

@@ -1,12 +1,11 @@
 #include "finray/calib/solve/weighted_solve.h"
 
 #include "finray/calib/solve/joint_problem.h"
-#include "finray/residuals/frame_blocks.h"
 
 namespace finray {
 namespace {
 
-constexpr double kRisingWeights[] = {1e3, 1e4, 1e5, 1e6, kEquilibriumWeight};
+constexpr double kRisingWeights[] = {1e3, 1e4, 1e5, 1e6};
 
 }  // namespace
 

@@ -11,8 +11,9 @@ namespace finray {
 /// minimum under a small weight is near the one under a larger weight. A
 /// calibration does not use it. It is there to be held against the reduced
 /// form, which has 6 + r unknowns fewer a frame
-/// (docs/decisions/0002-reduced-equilibrium.md). The limits are those of each
-/// weight. Not converged if a frame has no equilibrium to start from.
+/// (docs/decisions/0002-reduced-equilibrium.md), and for a few frames only
+/// (JointProblem). The limits are those of each weight. Not converged if a
+/// frame has no equilibrium to start from.
 SolveReport SolveJointlyWeighted(const std::vector<int>& frames,
                                  const JointLimits& limits,
                                  CalibrationProblem* problem,
