@@ -6,7 +6,7 @@ from comparison import Section, count, worst
 from inputs import folders, read_yaml
 
 STUDY = "scripts/paper/structural_plant.py"
-KEYS = ("words", "bench", "calibration", "contact_frames", "presses")
+KEYS = ("words", "bench", "calibration", "contact_frames", "presses", "outlines")
 
 
 def draws(folder):
@@ -37,12 +37,16 @@ def sections(folder):
                       ", ".join(found["freed"]).replace("_", " ") or "nothing", found["verdict"],
                       f"{sensed['place_mm']:.2f}", f"{sensed['force_N']:.3f}", f"{result['presses']['plain']['rms_N']:.3f}"])
     words = draws(folder)[0][1]["words"]
+    empty = sum(result["outlines"]["empty_touches"] for _, result in draws(folder))
     return [Section(
         "A plant with structural errors",
         f"The second column is of plants that the bundled plan does not describe, {count(len(table), 'draw')}: {words}. "
         "Only the plant has them. A log of 200 contacts and 10 free frames is recorded on each (force sensor 0.02 N, stage "
         "0.05 mm), the drawn finger is calibrated by it with finray_calibrate --explore, and the experiments are "
-        "repeated with what it found. Springs, objects and force control are not repeated.",
+        "repeated with what it found. Springs, objects and force control are not repeated."
+        + (f" {count(empty, 'touch')} of the outlines found no equilibrium under friction and is left out."
+           if empty == 1 else f" {empty} touches of the outlines found no equilibrium under friction and are left out."
+           if empty else ""),
         [], [],
         [("The draws", ("draw", "friction", "hinges, N mm/rad", "stage, deg", "freed by --explore", "verdict",
                         "place, mm", "force, N", "presses, N rms"), table,

@@ -175,12 +175,14 @@ class Lab:
     def outlines(self):
         folder = self.out / "outlines"
         self.run("tests/reconstruction_study", "write", folder, self.seed, self.plant, self.bench["friction"])
-        scene = self.known_scene("one.yaml", contacts=1)
+        scene, empty = self.known_scene("one.yaml", contacts=1), 0
         for log in sorted(folder.glob("*.touches.csv")):
             name = log.name[:-len(".touches.csv")]
             self.turn(log)
+            empty += sum(not cell for cell in contact_cycles.read(log)["gauge_1_V"])
             self.run("finray_reconstruct", finger=self.finger, scene=scene, logs=log, truth=folder / f"{name}.outline.csv",
                      stage_std_mm=STAGE_STD_MM, plots="false", out_dir=folder / "single" / name)
+        return {"empty_touches": empty}
 
     def presses(self):
         """The worst of three heights at 30 frames a second: frames the estimator vouches
@@ -233,8 +235,7 @@ def main():
         sys.exit(__doc__.strip())
     lab = Lab(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]), int(sys.argv[3]))
     results = {"words": WORDS, "bench": lab.bench, "calibration": lab.calibrate(), "contact_frames": lab.contact_frames(),
-               "presses": lab.presses()}
-    lab.outlines()
+               "presses": lab.presses(), "outlines": lab.outlines()}
     (lab.out / "results.yaml").write_text(yaml.safe_dump(results, sort_keys=False))
 
 

@@ -142,7 +142,7 @@ class InputTest(unittest.TestCase):
                 ("bench: {friction: 0.1, hinge_N_mm_per_rad: 12, turn_deg: -0.2}",),
                 ("calibration: {verdict: doubtful, freed: [hinge_stiffness]}",),
                 (f"contact_frames: {{sensed: {errors}, kinetostatics: {errors}}}",),
-                (f"presses: {{plain: {press}, known: {press}}}",)])
+                (f"presses: {{plain: {press}, known: {press}}}",), ("outlines: {empty_touches: 1}",)])
 
     def test_the_structural_column_has_a_verdict_of_its_own(self):
         self.structural_draws(0.5, 0.7)
@@ -154,6 +154,7 @@ class InputTest(unittest.TestCase):
         self.assertIsNone(figure(0.4).structural_verdict)
         section, = structural.sections(self.folder)
         self.assertIn("hinge stiffness", report.rendered([section]))
+        self.assertIn("2 touches of the outlines found no equilibrium", report.rendered([section]))
         self.assertIn("0 of 1 beat the paper.", report.tally_text([Section("a", "b", [figure(0.4, structural=0.6)])]))
 
     def test_contact_frames(self):

@@ -20,6 +20,8 @@ struct TouchProtocol {
   double height_mm = 65;
   double force_N = 3;   ///< The stage stops when the finger is pressed so.
   double friction = 0;  ///< of the contact; + towards the tip
+  /// Leaves the row of an orientation empty that cannot be pressed so.
+  bool may_fail = false;
 };
 
 /// Presses the object in until the protocol's force is reached, and leaves the
@@ -73,8 +75,12 @@ inline FrameTable SimulateTouches(const Finger& plant, const Outline& outline,
   for (int row = 0; row < protocol.orientations; ++row) {
     const double angle = 2 * M_PI * row / protocol.orientations;
     solver.Reset();
-    const ObjectPose pose = PressObject(object, angle, protocol, &solver);
-    log.Write(row, solver, pose.position_mm, protocol.force_N);
+    try {
+      const ObjectPose pose = PressObject(object, angle, protocol, &solver);
+      log.Write(row, solver, pose.position_mm, protocol.force_N);
+    } catch (const std::runtime_error&) {
+      if (!protocol.may_fail) throw;
+    }
     log.table().MutableNumbers("object_angle_deg")[row] = angle * 180 / M_PI;
   }
   return log.table();

@@ -10,7 +10,8 @@
 // The second one writes logs of the noisy touches and true outlines instead;
 // with SEED the touching finger is off from the paper's by parameters drawn as
 // a calibration leaves them (EI 1 %, gains 0.3 %, ribs 0.03 mm), as
-// conditions.yaml says. With the YAML of a finger it is that finger.
+// conditions.yaml says. With the YAML of a finger it is that finger. Under
+// friction a touch that finds no equilibrium is an empty row.
 
 #include <algorithm>
 #include <cstdio>
@@ -127,6 +128,7 @@ void Write(const std::string& folder, const Plant& plant,
   MakeFolder(folder);
   TouchProtocol protocol;
   protocol.friction = friction;
+  protocol.may_fail = friction > 0;
   const double stage_std_mm = 0.02;
   std::mt19937_64 generator(seed);
   for (const NamedObject& object : StudyObjects()) {

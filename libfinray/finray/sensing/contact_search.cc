@@ -20,7 +20,7 @@ constexpr std::size_t kMostStarts = 4, kMostPairStarts = 12, kMostFallbacks = 4;
 // the solutions found expect there.
 constexpr double kHides = 0.5;
 // So many std from one row to the next hide a minimum of any finger.
-constexpr double kSharp = 10;
+constexpr double kSharp = 30;
 constexpr int kMostSolutions = 16;
 constexpr double kSame = 0.01;  // chi2 between fits of one minimum
 // A rival lies outside the region that holds 99 % of the estimates. These are
@@ -36,6 +36,12 @@ constexpr std::size_t kCrowded = 13;
 
 bool HasCloseMinima(const Finger& finger) {
   return finger.back_angle_rad < kUpright_rad || finger.ribs.size() >= kCrowded;
+}
+
+// Says whether neither neighbour of a row explains the frame better.
+bool IsLowest(const std::vector<ContactStart>& profile, std::size_t i) {
+  return (i == 0 || profile[i].chi2 <= profile[i - 1].chi2) &&
+         (i + 1 == profile.size() || profile[i].chi2 <= profile[i + 1].chi2);
 }
 
 bool IsLoaded(const ContactStart& row) {
@@ -154,14 +160,16 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
 // Minima lie close together where a finger is upright or has many ribs, and the
 // table may rank them wrongly where the noise is less than its own error.
 void ContactSearch::SearchRows(const PackedReadings& packed, bool close) {
-  const double least_rise = close ? 0 : kSharp;
+  const auto may_lead_on = [&](std::size_t i) {
+    return close ? IsBeside(i) || Hides(i, 0)
+                 : (IsBeside(i) || IsLowest(profile_, i)) && Hides(i, kSharp);
+  };
   while (found_ < kMostSolutions) {
     std::size_t next = profile_.size();
     for (std::size_t i = 0; i < profile_.size(); ++i) {
       if (next < profile_.size() && profile_[i].chi2 >= profile_[next].chi2)
         continue;
-      if (profile_[i].count > 0 &&
-          ((close && IsBeside(i)) || Hides(i, least_rise))) {
+      if (profile_[i].count > 0 && may_lead_on(i)) {
         next = i;
       }
     }
