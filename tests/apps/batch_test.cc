@@ -259,6 +259,7 @@ TEST_F(BatchTest, TheSummaryCountsEndedSearchesAndNamesHiddenForces) {
   const YAML::Node hidden = yaml["hidden_forces"];
   ASSERT_EQ(hidden["contact_mm"].size(), 57u);
   EXPECT_EQ(hidden["contact_mm"][28].as<double>(), 70);
+  EXPECT_EQ(hidden["contact_mm"][41].as<double>(), 102.5);
   EXPECT_LT(hidden["normal_N"][28].as<double>(), 0.1);
   EXPECT_GT(hidden["normal_N"][1].as<double>(), 5);
 }

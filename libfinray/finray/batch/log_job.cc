@@ -284,17 +284,17 @@ void EmitWarnings(const std::vector<Warning>& warnings, YamlEmitter* yaml) {
 }
 
 void EmitHiddenForces(const HiddenForces& hidden, YamlEmitter* yaml) {
-  constexpr int kDigits = 3;
-  const auto numbers = [&](const char* key, const std::vector<double>& values) {
+  const auto numbers = [&](const char* key, const std::vector<double>& values,
+                           int digits) {
     *yaml << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginSeq;
     for (const double value : values) {
-      *yaml << YAML::Auto << YamlNumber(value, kDigits);
+      *yaml << YAML::Auto << YamlNumber(value, digits);
     }
     *yaml << YAML::EndSeq;
   };
   *yaml << YAML::Key << "hidden_forces" << YAML::Value << YAML::BeginMap;
-  numbers("contact_mm", hidden.contact_mm);
-  numbers("normal_N", hidden.normal_N);
+  numbers("contact_mm", hidden.contact_mm, 6);
+  numbers("normal_N", hidden.normal_N, 3);
   *yaml << YAML::EndMap;
 }
 

@@ -9,7 +9,7 @@
 namespace finray {
 namespace {
 
-constexpr int kPlaces = 56;
+constexpr int kHiddenPlaces = 56;
 // Forces are tried in steps of this factor, from this share of the largest one.
 constexpr double kStep = 1.25, kLeastShare = 1e-5;
 
@@ -35,8 +35,8 @@ HiddenForces FindHiddenForces(const Finger& finger, const Scene& scene,
       scene.force_max_N.value_or(GaugeTable::HeaviestForce_N(finger));
   const double noticed = std::sqrt(FrameEstimator::kSignificance) + kNoticed;
   HiddenForces hidden;
-  for (int i = 0; i <= kPlaces; ++i) {
-    const double arc_mm = finger.front_length_mm * i / kPlaces;
+  for (int i = 0; i <= kHiddenPlaces; ++i) {
+    const double arc_mm = finger.front_length_mm * i / kHiddenPlaces;
     double below_N = 0, below = 0, hidden_N = most_N;
     solver.Reset();
     for (double force_N = kLeastShare * most_N;;
