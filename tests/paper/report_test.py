@@ -229,6 +229,13 @@ class StructuralPlantTest(unittest.TestCase):
         self.assertAlmostEqual(x, -4)
         self.assertAlmostEqual(y, 3)
 
+    def test_touches_without_an_equilibrium_are_taken_out(self):
+        with tempfile.TemporaryDirectory() as name:
+            log = pathlib.Path(name) / "log.csv"
+            log.write_text("gauge_1_V,object_x_mm,object_angle_deg\n0.1,-15,0\n,,10\n0.2,-14,20\n")
+            self.assertEqual(structural_plant.without_empty_rows(log), 1)
+            self.assertEqual(log.read_text(), "gauge_1_V,object_x_mm,object_angle_deg\n0.1,-15,0\n0.2,-14,20\n")
+
     def test_a_frame_without_an_estimate_is_no_good_mean(self):
         truth = {"contact_1_x_mm": ["0", "0"], "contact_1_y_mm": ["50", "60"], "contact_1_angle_rad": ["1.5", "1.5"],
                  "force_N": ["2", "4"]}
