@@ -25,7 +25,8 @@ def worst_press(folder, way, key):
 
 def worst_outline(folder, stems, key):
     """The radial error of the worst of these objects and draws, percent."""
-    return worst(read_yaml(seed / "outlines" / "single" / stem / "reconstruction.yaml", ("fit",), STUDY)["fit"][key]
+    return worst(read_yaml(seed / "outlines" / "single" / stem / "reconstruction.yaml", ("radial_error_percent",),
+                           STUDY)["radial_error_percent"][key]
                  for seed, _ in draws(folder) for stem in stems)
 
 

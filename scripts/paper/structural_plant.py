@@ -75,6 +75,17 @@ def turned(x, y, angle_deg):
     return c * x - s * y, s * x + c * y
 
 
+def moved(log, stage):
+    """Places of the log in the axes of another stage: origin x, y (mm) and turn (deg)."""
+    rows = contact_cycles.read(log)
+    x, y = turned(*(contact_cycles.numbers(rows[f"object_{axis}_mm"]) for axis in "xy"), stage[2])
+    rows["object_x_mm"], rows["object_y_mm"] = ([repr(float(value)) for value in values]
+                                                for values in (x + stage[0], y + stage[1]))
+    if "object_angle_deg" in rows:
+        rows["object_angle_deg"] = [repr(float(angle) + stage[2]) for angle in rows["object_angle_deg"]]
+    contact_cycles.write_rows(log, rows, zip(*rows.values()))
+
+
 class Lab:
     """The plant, and what the lab knows of it after calibration."""
 
@@ -111,13 +122,7 @@ class Lab:
         return contact_cycles.read(truth), log
 
     def turn(self, log):
-        rows = contact_cycles.read(log)
-        x, y = (contact_cycles.numbers(rows[f"object_{axis}_mm"]) for axis in "xy")
-        rows["object_x_mm"], rows["object_y_mm"] = (
-            [repr(float(value)) for value in values] for values in turned(x, y, -self.bench["turn_deg"]))
-        if "object_angle_deg" in rows:
-            rows["object_angle_deg"] = [repr(float(angle) - self.bench["turn_deg"]) for angle in rows["object_angle_deg"]]
-        contact_cycles.write_rows(log, rows, zip(*rows.values()))
+        moved(log, (0, 0, -self.bench["turn_deg"]))
 
     def calibrate(self):
         """Leaves self.finger, self.friction and self.stage (x, y, deg), as calibrated."""
@@ -157,9 +162,8 @@ class Lab:
         self.run("finray_estimate", finger=self.finger, scene=self.known_scene("one.yaml", contacts=1), logs=log,
                  out_dir=estimates)
         rows = contact_cycles.read(log)
-        read_x, read_y = (contact_cycles.numbers(rows[f"object_{axis}_mm"]) for axis in "xy")
         origin_x, origin_y, turn = self.stage
-        read_x, read_y = turned(read_x, read_y, turn)
+        read_x, read_y = turned(*(contact_cycles.numbers(rows[f"object_{axis}_mm"]) for axis in "xy"), turn)
         self.run("finray_simulate", finger=self.finger,
                  scene=self.known_scene("stage.yaml", object={"shape": "circle", "radius_mm": RADIUS_MM}),
                  frames=contact_cycles.write(self.out / "stage.in.csv", {"object_x_mm": read_x + origin_x,
@@ -180,6 +184,7 @@ class Lab:
             name = log.name[:-len(".touches.csv")]
             empty += without_empty_rows(log)
             self.turn(log)
+            moved(log, self.stage)  # as the lab found it
             self.run("finray_reconstruct", finger=self.finger, scene=scene, logs=log, truth=folder / f"{name}.outline.csv",
                      stage_std_mm=STAGE_STD_MM, plots="false", out_dir=folder / "single" / name)
         return {"empty_touches": empty}

@@ -228,6 +228,14 @@ class StructuralPlantTest(unittest.TestCase):
         x, y = structural_plant.turned(3.0, 4.0, 90)
         self.assertAlmostEqual(x, -4)
         self.assertAlmostEqual(y, 3)
+        with tempfile.TemporaryDirectory() as name:
+            log = pathlib.Path(name) / "log.csv"
+            log.write_text("object_x_mm,object_y_mm,object_angle_deg\n3,4,10\n")
+            structural_plant.moved(log, (0, 0, -90))
+            structural_plant.moved(log, (0, 0, 90))  # as a lab that has found the turn
+            row, = read_csv(log, ("object_x_mm", "object_y_mm", "object_angle_deg"), "a test")
+            for found, true in zip(row.values(), (3, 4, 10)):
+                self.assertAlmostEqual(found, true)
 
     def test_touches_without_an_equilibrium_are_taken_out(self):
         with tempfile.TemporaryDirectory() as name:
