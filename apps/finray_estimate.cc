@@ -43,8 +43,9 @@ DEFINE_bool(
     "solve all frames of a log together, with the gauge_offset_walk and "
     "the smoothing of the scene");
 DEFINE_bool(strict, false,
-            "fail if any frame is not_converged or bad_input, or if more than "
-            "5 % of a log are unexplained or contradict its force_N");
+            "fail if any frame is not_converged or bad_input, if more than 5 % "
+            "of a log are unexplained or contradict its force_N, or if all its "
+            "frames have a contact that nothing confirms");
 DEFINE_double(most_unexplained_percent, 0,
               "gate: share of solved frames that the finger and its noise do "
               "not explain; default: none");
@@ -304,7 +305,9 @@ int Follow(const BatchSettings& settings) {
   Warn(warnings);
   if (FLAGS_strict && summary->unsolved() > 0) return kSolveFailed;
   const bool kept = KeepsGate(*summary);
-  return kept && !(FLAGS_strict && FailsStrict(warnings)) ? kGood : kGateFailed;
+  return kept && !(FLAGS_strict && FailsStrict(warnings, settings.scene))
+             ? kGood
+             : kGateFailed;
 }
 
 // Writes D/<log>.html of each log, and D/index.html of several.
@@ -363,12 +366,13 @@ int Run() {
                        " of " + std::to_string(Frames(jobs)) + " frames");
   }
 
-  BatchTable(jobs, bad_logs).Write(OutPath("summary.csv"));
+  BatchTable(settings, jobs, bad_logs).Write(OutPath("summary.csv"));
   WriteFileAtomically(OutPath("summary.yaml"),
                       BatchYaml(settings, jobs, bad_logs));
   PrintSummary(jobs, bar);
   if (FLAGS_report) WriteReport(settings);
   const EstimationSummary all = Total(jobs);
+  PrintEnded(all, settings.scene, stdout);
   const std::vector<Warning> warnings =
       WarningsOf(SummariesOf(jobs), settings.finger);
   Warn(WarningsOf(settings.finger));
@@ -378,7 +382,9 @@ int Run() {
     return kSolveFailed;
   }
   const bool kept = KeepsGate(all);
-  return kept && !(FLAGS_strict && FailsStrict(warnings)) ? kGood : kGateFailed;
+  return kept && !(FLAGS_strict && FailsStrict(warnings, settings.scene))
+             ? kGood
+             : kGateFailed;
 }
 
 }  // namespace

@@ -79,6 +79,13 @@ std::unique_ptr<LiveView> Serve(const BatchSettings& settings,
 
 }  // namespace
 
+void PrintEnded(const EstimationSummary& summary, const Scene& scene,
+                std::FILE* out) {
+  if (!scene.search_iteration_limit) return;
+  std::fprintf(out, "searches       %zu ended by the scene's limit of %d\n",
+               summary.search_ended, *scene.search_iteration_limit);
+}
+
 std::optional<EstimationSummary> FollowInput(const BatchSettings& settings,
                                              const FollowSettings& follow) {
   using Clock = std::chrono::steady_clock;
@@ -94,7 +101,6 @@ std::optional<EstimationSummary> FollowInput(const BatchSettings& settings,
   const std::unique_ptr<LiveView> view = Serve(settings, follow, make);
   LatencyHistogram latency;
   EstimationSummary summary;
-  std::size_t ended = 0;
   Warn(WarningsOf(settings.finger));
   bool open = WriteLive(live->rows.HeaderCsv(), follow.stop);
   while (open && !follow.stop() && lines.Next()) {
@@ -111,7 +117,6 @@ std::optional<EstimationSummary> FollowInput(const BatchSettings& settings,
     if (open) latency.Add(taken);
     summary.Add(rows.estimate(), settings.scene.friction_coefficient,
                 rows.readings());
-    ended += rows.estimate().search_ended;
     if (!view) continue;
     view->Push(rows, taken);
     if (auto zeroed = view->TakeZeroed()) {
@@ -120,11 +125,7 @@ std::optional<EstimationSummary> FollowInput(const BatchSettings& settings,
     }
   }
   PrintLatency(latency);
-  if (settings.scene.search_iteration_limit) {
-    std::fprintf(stderr,
-                 "searches       %zu ended by the scene's limit of %d\n", ended,
-                 *settings.scene.search_iteration_limit);
-  }
+  PrintEnded(summary, settings.scene, stderr);
   return summary;
 }
 

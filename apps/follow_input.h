@@ -1,6 +1,7 @@
 #ifndef FINRAY_APPS_FOLLOW_INPUT_H_
 #define FINRAY_APPS_FOLLOW_INPUT_H_
 
+#include <cstdio>
 #include <functional>
 #include <optional>
 
@@ -27,6 +28,10 @@ struct FollowSettings {
 /// stopped before there was a header.
 std::optional<EstimationSummary> FollowInput(const BatchSettings& settings,
                                              const FollowSettings& follow);
+
+/// Says how many searches the scene's limit has ended, if it has one.
+void PrintEnded(const EstimationSummary& summary, const Scene& scene,
+                std::FILE* out);
 
 }  // namespace finray
 

@@ -58,7 +58,8 @@ class Totals:
         self.frames, self.bad_rows, self.compared, self.squares_N2 = 0, 0, 0, 0.0
         self.status = {status: 0 for status in columns[
             columns.index("frames") + 1:columns.index("force_compared_frames")]}
-        self.unexplained, self.judged, self.far, self.variances_N2 = 0, 0, 0, 0.0
+        self.unexplained, self.ended = 0, 0
+        self.judged, self.far, self.variances_N2 = 0, 0, 0.0
         self.max_N, self.max_text = -1.0, ""
 
     def add(self, row):
@@ -66,6 +67,7 @@ class Totals:
         for status in self.status:
             self.status[status] += int(row[status])
         self.unexplained += int(row["unexplained_frames"])
+        self.ended += int(row["search_ended_frames"])
         self.bad_rows += int(row["bad_rows"])
         compared = int(row["force_compared_frames"])
         if compared == 0:
@@ -88,7 +90,8 @@ class Totals:
     def yaml(self):
         text = f"all:\n  frames: {self.frames}\n  status:\n"
         text += "".join(f"    {s}: {n}\n" for s, n in self.status.items())
-        text += f"  unexplained_frames: {self.unexplained}\n"
+        text += (f"  unexplained_frames: {self.unexplained}\n"
+                 f"  search_ended_frames: {self.ended}\n")
         if self.bad_rows > 0:
             text += f"  bad_rows: {self.bad_rows}\n"
         if self.compared > 0:
@@ -108,11 +111,13 @@ class Totals:
         force = (f"{self.rms_N():g} N rms, {self.max_N:g} N at most, over "
                  f"{self.compared} frames" if self.compared > 0
                  else "not known: no ok or no_contact frame with a force_N")
+        ended = (f"\nsearches       {self.ended} ended by the scene's limit"
+                 if self.ended > 0 else "")
         return (f"ok             {status['ok']}, no_contact {status['no_contact']}\n"
                 f"unobservable   {status['unobservable']}, unexplained {self.unexplained}\n"
                 f"not solved     {status['not_converged']} not_converged, "
                 f"{status['bad_input']} bad_input\n"
-                f"force error    {force}")
+                f"force error    {force}{ended}")
 
 
 def read_text(path):

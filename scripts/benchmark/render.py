@@ -113,6 +113,15 @@ def enough(run):
             for e in run["enough"]]
 
 
+def split_forms(rows):
+    """The settings of a calibration; and both forms of equilibrium, one above the other, with
+    the weighted one's time over the reduced one's."""
+    forms = [r for r in rows if r["kind"] == "form"]
+    reduced = {r["frames"]: r["cpu_s"] for r in forms if r["setting"] == "reduced"}
+    return ([r for r in rows if r["kind"] != "form"],
+            [dict(r, times=r["cpu_s"] / reduced[r["frames"]]) for r in forms])
+
+
 def calibration_enough(rows, share):
     """By number of frames, the fastest setting on one thread whose error is small against the
     noise of the log, with the default's time over its own."""
@@ -162,15 +171,15 @@ def main():
             if plot:
                 plots.append((front["scene"].replace("_", " "), plot))
         scenes.append((TASKS[task], plots))
-    calibration = None
+    calibration, forms = None, []
     if (folder / "calibration.json").exists():
-        calibration = json.loads((folder / "calibration.json").read_text("utf-8"))
+        calibration, forms = split_forms(json.loads((folder / "calibration.json").read_text("utf-8")))
     text = environment.get_template("benchmark.html.jinja").render(
         run=run, headline=headline, meaning=meaning, good=good, tiles=tiles(run, by_id),
         uses=USES, noise=noise.get("one_contact"), enough=enough(run), yardstick_us=yardstick_us, by_id=by_id, scenes=scenes, groups=groups(run),
         key=pareto_plots.key(run["settings"]), links=scaling_plots.links(run["settings"]),
         frames=scaling_plots.frames(run["scaling"]["frames"]),
-        calibration=calibration, calibration_enough=calibration and calibration_enough(
+        calibration=calibration, calibration_forms=forms, calibration_enough=calibration and calibration_enough(
             calibration, run["share_of_noise"]),
         calibration_plots=calibration and [calibration_plots.error(calibration),
                                            calibration_plots.frames(calibration)],

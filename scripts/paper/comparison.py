@@ -28,6 +28,7 @@ class Comparison:
     why: str
     preview: bool = False  # the controller knows the set-point beforehand
     limit: bool = False  # the paper gives an upper limit only
+    structural: float | None = None  # ours with a plant of structural errors; None: not repeated
 
     @property
     def verdict(self):
@@ -38,16 +39,27 @@ class Comparison:
         return self.verdict == BEATS
 
     @property
+    def structural_verdict(self):
+        return None if self.structural is None else BEATS if self.structural < self.paper else WORSE
+
+    @property
     def paper_text(self):
         number = f"{self.paper:g}" if self.paper == round(self.paper) else f"{self.paper:.2f}"
         return f"{'below ' if self.limit else ''}{number} {self.unit}"
 
     @property
     def ours_text(self):
-        if math.isnan(self.ours):
+        return self._text(self.ours)
+
+    @property
+    def structural_text(self):
+        return "" if self.structural is None else self._text(self.structural)
+
+    def _text(self, error):
+        if math.isnan(error):
             return "none"
-        places = 3 if abs(self.ours) < 1 else 2 if abs(self.ours) < 10 else 1
-        return f"{self.ours:.{places}f} {self.unit}"
+        places = 3 if abs(error) < 1 else 2 if abs(error) < 10 else 1
+        return f"{error:.{places}f} {self.unit}"
 
 
 @dataclasses.dataclass(frozen=True)

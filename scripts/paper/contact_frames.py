@@ -4,6 +4,7 @@ import statistics
 
 from comparison import Comparison, Finding, Section, worst
 from inputs import read_csv, read_yaml
+import structural
 from look import AFTER, BEFORE, HELD, QUIET, legend, paper_line, plt, svg
 
 STUDY = "paper_protocol_study"
@@ -90,8 +91,8 @@ def plot_heights(rows):
     return svg(figure, "Error of force by height")
 
 
-def sections(folder):
-    folder = folder / "contact_frames"
+def sections(parent):
+    folder = parent / "contact_frames"
     grid = read_csv(folder / "grid.csv", ("setting", "height_mm", "force_N", *MEANS, "not_ok_percent"), STUDY)
     frames = read_csv(folder / "contact_frames.csv",
                       ("setting", "x_mm", "y_mm", "true_x_mm", "true_y_mm"), STUDY)
@@ -112,23 +113,28 @@ def sections(folder):
     model = f"{stage}, {calibrated}, {draws}"
     rows = [
         Comparison("contact frame from kinetostatics, mean error of place", "Fig. 11, V-B", "mm", 0.70,
-                   found[MODEL]["place"], model, ONLY_WHAT_IS_PUT_IN),
+                   found[MODEL]["place"], model, ONLY_WHAT_IS_PUT_IN,
+                   structural=structural.mean(parent, "kinetostatics", "place_mm")),
         Comparison("contact frame from kinetostatics, mean error of angle", "Fig. 11, V-B", "deg", 1.21,
-                   found[MODEL]["angle"], model, ONLY_WHAT_IS_PUT_IN),
+                   found[MODEL]["angle"], model, ONLY_WHAT_IS_PUT_IN,
+                   structural=structural.mean(parent, "kinetostatics", "angle_deg")),
         Comparison("contact frame from kinetostatics, finger not calibrated, place", "Fig. 11, V-B", "mm", 0.70,
                    found[NOMINAL[MODEL]]["place"], f"{stage}, {drawn}",
                    ONLY_WHAT_IS_PUT_IN),
         Comparison("contact frame sensed, mean error of place", "Fig. 11, V-B", "mm", 0.58,
-                   found[SENSED]["place"], sensed, ONLY_WHAT_IS_PUT_IN),
+                   found[SENSED]["place"], sensed, ONLY_WHAT_IS_PUT_IN,
+                   structural=structural.mean(parent, "sensed", "place_mm")),
         Comparison("contact frame sensed, mean error of angle", "Fig. 11, V-B", "deg", 1.24,
-                   found[SENSED]["angle"], sensed, ONLY_WHAT_IS_PUT_IN),
+                   found[SENSED]["angle"], sensed, ONLY_WHAT_IS_PUT_IN,
+                   structural=structural.mean(parent, "sensed", "angle_deg")),
         Comparison("contact frame sensed, finger not calibrated, place", "Fig. 11, V-B", "mm", 0.58,
                    found[NOMINAL[SENSED]]["place"], sensed_drawn,
                    f"With the finger calibrated the same noise gives {found[SENSED]['place']:.2f} mm: calibrate it."),
         Comparison("sensed force, mean error", "Fig. 12, V-B", "N", 0.15, found[SENSED]["force"], sensed,
-                   ONLY_WHAT_IS_PUT_IN),
+                   ONLY_WHAT_IS_PUT_IN, structural=structural.mean(parent, "sensed", "force_N")),
         Comparison("sensed force, mean error, of the force", "Fig. 12, V-B", "%", 5,
-                   found[SENSED]["force percent"], sensed, ONLY_WHAT_IS_PUT_IN),
+                   found[SENSED]["force percent"], sensed, ONLY_WHAT_IS_PUT_IN,
+                   structural=structural.mean(parent, "sensed", "force_percent")),
         Comparison("sensed force, finger not calibrated", "Fig. 12, V-B", "N", 0.15,
                    found[NOMINAL[SENSED]]["force"], sensed_drawn,
                    f"With the finger calibrated the same noise gives {found[SENSED]['force']:.2f} N: calibrate it."),

@@ -4,6 +4,7 @@ import math
 
 from comparison import Comparison, Section, worst
 from inputs import read_csv
+import structural
 from look import AFTER, INK, legend, plt, svg
 
 STUDY = "scripts/studies/contact_cycles.py"
@@ -24,8 +25,8 @@ def plot(frames):
     return svg(figure, "Sensed force over four contacts")
 
 
-def sections(folder):
-    folder = folder / "force_sensing"
+def sections(parent):
+    folder = parent / "force_sensing"
     cycles = read_csv(folder / "contact_cycles.csv", COLUMNS, STUDY)
     frames = read_csv(folder / "contact_cycles_frames.csv", ("time_s", "force_N", "force_estimate_N"), STUDY)
     used = [row for row in cycles if row["finger"] == "calibrated" and row["rate_Hz"] == 30]
@@ -41,20 +42,24 @@ def sections(folder):
     sure = f"frames the estimator vouches for ({share:.0f} % at most are flagged{touches})"
     rows = [
         Comparison("sensed force, object pressed in four times, rms", "Fig. 22, VI", "N", 0.18, largest["rms_N"]["rms_N"],
-                   f"{conditions}; {sure}", f"It is so at {height['rms_N']}."),
+                   f"{conditions}; {sure}", f"It is so at {height['rms_N']}.",
+                   structural=structural.worst_press(parent, "plain", "rms_N")),
         Comparison("the same, largest error", "Fig. 22, VI", "N", 0.61, largest["max_N"]["max_N"],
-                   f"{conditions}; {sure}", f"It is so at {height['max_N']}."),
+                   f"{conditions}; {sure}", f"It is so at {height['max_N']}.",
+                   structural=structural.worst_press(parent, "plain", "max_N")),
         Comparison("the same, rms of all frames, flagged ones too", "Fig. 22, VI", "N", 0.18,
                    largest["rms_of_all_N"]["rms_of_all_N"], conditions,
                    f"At {height['rms_of_all_N']} a light touch reads like a heavy one near the tip. Such frames "
-                   "carry the status unobservable and are not to be used; whoever uses them all the same gets this."),
+                   "carry the status unobservable and are not to be used; whoever uses them all the same gets this.",
+                   structural=structural.worst_press(parent, "plain", "rms_of_all_N")),
     ]
     smoothed = worst((row for row in cycles if row["finger"] == "smoothed" and row["rate_Hz"] == 30),
                      key=lambda row: row["rms_of_all_N"])
     rows.append(Comparison(
         "the same, the scene says what is known of the presses", "Fig. 22, VI", "N", 0.18, smoothed["rms_of_all_N"],
         f"{conditions}; no force beyond 10 N, place and force change by about 0.2 mm and 0.1 N a frame "
-        "(force_max_N, smoothing)", f"It is so at {smoothed['height_mm']:g} mm."))
+        "(force_max_N, smoothing)", f"It is so at {smoothed['height_mm']:g} mm.",
+        structural=structural.worst_press(parent, "known", "rms_of_all_N")))
     table = [[f"{row['rate_Hz']:g}", f"{row['height_mm']:g}", row["finger"], f"{row['rms_N']:.3f}",
               f"{row['max_N']:.3f}", f"{row['rms_of_all_N']:.3f}", f"{row['unobservable']:g} of {row['frames']:g}"]
              for row in cycles]

@@ -4,6 +4,7 @@ import statistics
 
 from comparison import Comparison, Section, count, model_error_text, worst
 from inputs import folders, read_csv, read_yaml
+import structural
 from look import AFTER, BEFORE, QUIET, plt, svg
 
 STUDY = "scripts/paper/simulate.py"
@@ -113,7 +114,9 @@ def sections(folder):
             rows.append(Comparison(
                 f"five objects {WORDS[kind]}, radial error, {what}, worst object and draw", figure, "%", LIMIT,
                 worst(values(mine, FIT, key)), f"{conditions}, one contact known to be there",
-                "Noise and model error as they are put in; which of them costs more is not told apart here.", limit=True))
+                "Noise and model error as they are put in; which of them costs more is not told apart here.", limit=True,
+                structural=structural.worst_outline(
+                    folder, [stem(item["name"]) for item in objects if item["kind"] == kind], key)))
     undecided = list(auto.values())
     refused = sum(result is None for one in undecided for result in one)
     most = worst(values(undecided, FIT, "quantile_95"))

@@ -17,13 +17,14 @@ import force_control
 import force_sensing
 import outlines
 import stiffness
-from comparison import Comparison, DIFFERS
+import structural
+from comparison import BEATS, Comparison, DIFFERS
 from inputs import BadInput
 import look  # finds the modules of the calibration's report
 import page
 
 # In the paper's order; each module has sections(folder).
-EXPERIMENTS = (contact_frames, outlines, stiffness, force_sensing, force_control)
+EXPERIMENTS = (contact_frames, outlines, stiffness, force_sensing, force_control, structural)
 NOT_IN_IT = ("hysteresis and creep of beams and joints", "friction at the contact and in the drive", "clamps that give",
              "out-of-plane loads", "errors of the camera or force sensor that the result is compared with",
              "drift and temperature",
@@ -39,9 +40,11 @@ def tally(sections):
     rows = [row for row in every if isinstance(row, Comparison)]
     findings = [row for row in every if not isinstance(row, Comparison)]
     own = [row for row in rows if not row.preview]
+    repeated = [row.structural_verdict for row in rows if row.structural_verdict]
     return {"rows": len(every), "findings": len(findings),
             "differs": sum(row.verdict == DIFFERS for row in findings),
             "figures": len(own), "beaten": sum(row.beats for row in own),
+            "structural_figures": len(repeated), "structural_beaten": repeated.count(BEATS),
             "worse": [row for row in own if not row.beats],
             "preview_figures": sum(row.preview for row in rows),
             "preview_beaten": sum(row.preview and row.beats for row in rows)}
@@ -51,17 +54,21 @@ def fields(row):
     """The cells of a row of the table, for either kind."""
     if isinstance(row, Comparison):
         return {"paper": row.paper_text, "ours": row.ours_text, "why": "" if row.beats else row.why, "words": False,
-                "kind": "good" if row.beats else "bad"}
+                "kind": "good" if row.beats else "bad", "structural": row.structural_text,
+                "structural_verdict": row.structural_verdict or "",
+                "structural_kind": "good" if row.structural_verdict == BEATS else "bad"}
     return {"paper": row.paper, "ours": row.ours, "why": "" if row.agrees else row.why, "words": True,
-            "kind": "good" if row.agrees else "warn"}
+            "kind": "good" if row.agrees else "warn", "structural": "", "structural_verdict": ""}
 
 
 def markdown(sections):
-    lines = ["| experiment | where | paper | ours, simulated | verdict |", "|---|---|---|---|---|"]
+    lines = ["| experiment | where | paper | ours, simulated | verdict | ours, plant with structural errors | verdict |",
+             "|---|---|---|---|---|---|---|"]
     for section in sections:
         for row in section.rows:
             cells = fields(row)
-            lines.append(f"| {row.what} | {row.source} | {cells['paper']} | {cells['ours']} | {row.verdict} |")
+            lines.append(f"| {row.what} | {row.source} | {cells['paper']} | {cells['ours']} | {row.verdict} | "
+                         f"{cells['structural']} | {cells['structural_verdict']} |")
     return "\n".join(lines) + "\n"
 
 
@@ -79,7 +86,8 @@ def tally_text(sections):
     return (f"{found['rows']} rows. Without a preview {found['beaten']} of {found['figures']} beat the paper, with one "
             f"{found['preview_beaten']} of {found['preview_figures']}; of {found['findings']} without a number to beat "
             f"{found['findings'] - found['differs']} are the same and {found['differs']} "
-            f"{'differs' if found['differs'] == 1 else 'differ'}.")
+            f"{'differs' if found['differs'] == 1 else 'differ'}. With a plant of structural errors "
+            f"{found['structural_beaten']} of {found['structural_figures']} beat the paper.")
 
 
 def sections_of(experiment, folder):

@@ -21,7 +21,7 @@ CONTROL = ("fixed_harmonic", "fixed_step", "moving_harmonic", "moving_triangular
            "two_finger_ramped")
 # What finray_reconstruct says, by exit code, when it refuses touches.
 REFUSALS = {2: "too few touches: ", 4: "badly spread touches: "}
-FOLDERS = ("contact_frames", "force_sensing", "outlines", "stiffness", "force_control")
+FOLDERS = ("contact_frames", "force_sensing", "outlines", "stiffness", "force_control", "structural")
 MARKER = ".paper_experiments"  # in folders that a run may delete
 PATTERNS = "*?[]{},\\"  # what --logs reads as patterns or as the end of a name
 
@@ -95,6 +95,10 @@ def stiffness(build, out, seed):
                out_dir=folder / "objects"))
 
 
+def structural(build, out, seed):
+    run(ROOT / "scripts" / "paper" / "structural_plant.py", build, out / "structural" / f"seed_{seed}", seed)
+
+
 def force_control(build, out, name, draws):
     run(build / "finray_control",
         *flags(finger=FINGER, experiment=ROOT / "configs" / "control" / f"{name}.yaml", draws=draws,
@@ -110,6 +114,7 @@ def tasks(build, out, quick):
     for seed in seeds:
         yield outlines, (build, out, seed)
         yield stiffness, (build, out, seed)
+        yield structural, (build, out, seed)
     yield force_sensing, (build, out)
 
 

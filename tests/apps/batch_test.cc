@@ -203,12 +203,65 @@ TEST_F(BatchTest, EqualShiftsOfAllGaugesAreLoud) {
   EXPECT_EQ(log_entry["warnings"][0]["code"].as<std::string>(),
             "forces_differ");
   EXPECT_EQ(log_entry["free_rows"].as<int>(), 10);
+  const FrameTable table = FrameTable::Read(folder_.Path("moved/summary.csv"));
+  EXPECT_EQ(FrameTable(table).MutableText("warnings")[0], "forces_differ");
   // A finished log that is kept tells the same.
   EXPECT_EQ(Run("finray_estimate",
                 "--strict --finger %finger.yaml --logs %shifted.csv "
                 "--out_dir %moved --resume")
                 .code,
             4);
+}
+
+// Without a force sensor such a shift shows in one thing only: nothing is ever
+// free.
+TEST_F(BatchTest, EqualShiftsWithoutAForceFailStrict) {
+  const std::string data = FINRAY_SOURCE_DIR "/datasets/simulated_r15/";
+  FrameTable log = FrameTable::Read(data + "holdout.csv");
+  for (double& force_N : log.MutableNumbers("force_N")) force_N = std::nan("");
+  const auto run = [&](const std::string& out) {
+    return Run("finray_estimate",
+               "--strict --finger " + data +
+                   "hidden_finger.yaml --logs %log.csv --out_dir " + out);
+  };
+  log.Write(folder_.Path("log.csv"));
+  EXPECT_EQ(run("%good").code, 0);
+  for (const char* gauge :
+       {"gauge_1_V", "gauge_2_V", "gauge_3_V", "gauge_4_V"}) {
+    for (double& volts : log.MutableNumbers(gauge)) volts += 0.02;
+  }
+  log.Write(folder_.Path("log.csv"));
+  const Outcome moved = run("%moved");
+  EXPECT_EQ(moved.code, 4) << moved.output;
+  EXPECT_THAT(moved.output, HasSubstr("unexplained 0\n"));
+  EXPECT_THAT(moved.output, HasSubstr("zero them with finray_zero"));
+}
+
+TEST_F(BatchTest, TheSummaryCountsEndedSearchesAndNamesHiddenForces) {
+  const std::string data = FINRAY_SOURCE_DIR "/datasets/simulated_r15/";
+  folder_.Write("limit.yaml", "search_iteration_limit: 5\n");
+  const std::string arguments =
+      "--finger " + data + "hidden_finger.yaml --logs " + data + "holdout.csv ";
+  const Outcome limited =
+      Run("finray_estimate", arguments + "--scene %limit.yaml --out_dir %out");
+  ASSERT_EQ(limited.code, 0) << limited.output;
+  FrameTable frames = FrameTable::Read(folder_.Path("out/holdout.frames.csv"));
+  double ended = 0;
+  for (const double one : frames.Numbers("search_ended")) ended += one;
+  EXPECT_GT(ended, 0);
+  const YAML::Node yaml = YAML::LoadFile(folder_.Path("out/summary.yaml"));
+  EXPECT_EQ(yaml["all"]["search_ended_frames"].as<double>(), ended);
+  EXPECT_EQ(yaml["logs"][0]["search_ended_frames"].as<double>(), ended);
+  EXPECT_THAT(
+      limited.output,
+      HasSubstr("searches       " + std::to_string(static_cast<int>(ended)) +
+                " ended by the scene's limit of 5\n"));
+  const YAML::Node hidden = yaml["hidden_forces"];
+  ASSERT_EQ(hidden["contact_mm"].size(), 57u);
+  EXPECT_EQ(hidden["contact_mm"][28].as<double>(), 70);
+  EXPECT_EQ(hidden["contact_mm"][41].as<double>(), 102.5);
+  EXPECT_LT(hidden["normal_N"][28].as<double>(), 0.1);
+  EXPECT_GT(hidden["normal_N"][1].as<double>(), 5);
 }
 
 TEST_F(BatchTest, PatternsListsAndTables) {
@@ -235,7 +288,9 @@ TEST_F(BatchTest, PatternsListsAndTables) {
   EXPECT_EQ(copy.MutableText("no_contact")[0], "300");
   EXPECT_EQ(copy.MutableText("log")[0], folder_.Path("runs/a.csv"));
   const auto headers = table.headers();
-  EXPECT_EQ(headers[headers.size() - 2], "unexplained_frames");
+  EXPECT_EQ(headers[headers.size() - 4], "unexplained_frames");
+  EXPECT_EQ(headers[headers.size() - 3], "search_ended_frames");
+  EXPECT_EQ(headers[headers.size() - 2], "warnings");
   EXPECT_EQ(headers.back(), "key");
   const YAML::Node yaml = YAML::LoadFile(folder_.Path("out/summary.yaml"));
   EXPECT_EQ(yaml["logs"][1]["frames"].as<int>(), 200);

@@ -64,6 +64,17 @@ TEST_F(ValidateCompareTest, AGateThatFailsIsExitCode4) {
               HasSubstr("verdict: failed"));
 }
 
+TEST_F(ValidateCompareTest, StrictCountsErrorsWithoutGates) {
+  const std::string drawn = "--finger " + paper_ + " --plan " + plan_ +
+                            " --logs " + data_ + "holdout.csv --out_dir %drawn";
+  const Outcome outcome = Run("finray_validate", drawn);
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("\nwarning: the finger is not "
+                                        "calibrated: "));
+  EXPECT_EQ(Run("finray_validate", drawn + " --strict").code, 4);
+  EXPECT_EQ(Run("finray_validate", validate_ + " --strict").code, 0);
+}
+
 TEST_F(ValidateCompareTest, BadInputOfValidate) {
   EXPECT_EQ(Run("finray_validate", "--finger " + hidden_).code, 1);
   EXPECT_EQ(Run("finray_validate", validate_ + " --scene x.yaml").code, 2);

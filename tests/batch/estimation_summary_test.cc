@@ -18,6 +18,7 @@ TEST(EstimationSummaryTest, ReadsBackTheSame) {
     estimate.chi2 = i;  // p = exp(-chi2 / 2) < 0.001 from 13.8 on
     estimate.contacts = 1;
     estimate.contact[0].normal_std_N = 0.01 * i;
+    estimate.search_ended = i % 10 == 0;
     readings.gauges_V = {0.1 * i, 1};
     readings.force_N = i % 7 ? 0.05 * i : std::nan("");
     summary.Add(estimate, 0.3, readings);
@@ -29,6 +30,8 @@ TEST(EstimationSummaryTest, ReadsBackTheSame) {
   // Three of five statuses are solved.
   EXPECT_EQ(summary.unexplained, 17u * 3);
   EXPECT_EQ(back->unexplained, summary.unexplained);
+  EXPECT_EQ(summary.search_ended, 10u);
+  EXPECT_EQ(back->search_ended, 10u);
   EXPECT_EQ(back->force_compared, summary.force_compared);
   EXPECT_EQ(back->force_squares_N2, summary.force_squares_N2);
   EXPECT_EQ(back->force_max_N, summary.force_max_N);

@@ -262,7 +262,7 @@ TEST_F(BatchStreamTest, AFinishedLogIsDoneAgainUnlessAllIsAsItWas) {
     settings_.progress = nullptr;
     EXPECT_EQ(folder_.Read("expected.csv"), rows);
     EXPECT_EQ(folder_.Read("log.summary.yaml"), summary);
-    EXPECT_EQ(BatchTable({job}, {}).rows(), 1u);
+    EXPECT_EQ(BatchTable(settings_, {job}, {}).rows(), 1u);
     EXPECT_EQ(job.frames(), static_cast<std::size_t>(kFrames));
     return count;
   };

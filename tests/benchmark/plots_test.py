@@ -83,6 +83,13 @@ class CalibrationTest(unittest.TestCase):
         close = [dict(r, cpu_s=1.8 * r["frames"] / 1000) if r["setting"] == "order 8" else r for r in self.ROWS]
         self.assertEqual(render.calibration_enough(close, 0.25)[0]["setting"], "default")
 
+    def test_forms_are_no_settings(self):
+        forms = [{"frames": 15, "setting": form, "kind": "form", "cpu_s": seconds, "iterations": 4, "converged": "yes",
+                  "error_std": 1e-3} for form, seconds in (("reduced", 0.01), ("weighted", 0.5))]
+        settings, compared = render.split_forms(self.ROWS + forms)
+        self.assertEqual(settings, self.ROWS)
+        self.assertEqual([round(form["times"]) for form in compared], [1, 50])
+
     def test_the_plots_have_noise_and_frames(self):
         plot = calibration_plots.error(self.ROWS)
         self.assertIn("noise of the log", plot)

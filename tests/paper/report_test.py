@@ -18,6 +18,8 @@ import outlines
 import report
 import simulate
 import stiffness
+import structural
+import structural_plant
 from comparison import Comparison, Finding, Section, worst
 from inputs import BadInput, read_csv
 
@@ -132,6 +134,29 @@ class InputTest(unittest.TestCase):
         self.assertIn("1 points left out", why)
         self.assertIn("has 1 of 3 points of up to 50 N where the spring has 0.6 N at most", why)
 
+    def structural_draws(self, *places):
+        for seed, place in enumerate(places, 1):
+            errors = f"{{place_mm: {place}, angle_deg: 0.1, force_N: 0.1, force_percent: 4}}"
+            press = f"{{rms_N: {place}, max_N: 0.5, rms_of_all_N: 0.3}}"
+            write(self.folder / "structural" / f"seed_{seed}" / "results.yaml", "words: friction", [
+                ("bench: {friction: 0.1, hinge_N_mm_per_rad: 12, turn_deg: -0.2}",),
+                ("calibration: {verdict: doubtful, freed: [hinge_stiffness]}",),
+                (f"contact_frames: {{sensed: {errors}, kinetostatics: {errors}}}",),
+                (f"presses: {{plain: {press}, known: {press}}}",), ("outlines: {empty_touches: 1}",)])
+
+    def test_the_structural_column_has_a_verdict_of_its_own(self):
+        self.structural_draws(0.5, 0.7)
+        self.assertAlmostEqual(structural.mean(self.folder, "sensed", "place_mm"), 0.6)
+        self.assertAlmostEqual(structural.worst_press(self.folder, "plain", "rms_N"), 0.7)
+        table = report.markdown([Section("Contact", "One sentence.", [figure(0.4, structural=0.6)])])
+        self.assertIn("| 0.400 mm | beats | 0.600 mm | does not beat |", table)
+        self.assertEqual(figure(0.4, structural=math.nan).structural_verdict, "does not beat")
+        self.assertIsNone(figure(0.4).structural_verdict)
+        section, = structural.sections(self.folder)
+        self.assertIn("hinge stiffness", report.rendered([section]))
+        self.assertIn("2 touches of the outlines found no equilibrium", report.rendered([section]))
+        self.assertIn("0 of 1 beat the paper.", report.tally_text([Section("a", "b", [figure(0.4, structural=0.6)])]))
+
     def test_contact_frames(self):
         """Kinetostatics of 0.1 mm beat 0.70 mm; sensing of 0.6 mm is worse than 0.58 mm."""
         folder = self.folder / "contact_frames"
@@ -150,6 +175,7 @@ class InputTest(unittest.TestCase):
             "{gauge_noise_rad: 0.0003, stage_std_mm: 0.05, force_sensor_std_N: 0.02, circle_radius_mm: 15, draws: 1, "
             "repeats: 1, nominal_error: {front_stiffness_percent: 12, back_stiffness_percent: -10, "
             "largest_rib_length_mm: 0.2}}")
+        self.structural_draws(0.5, 0.7)
         section, = contact_frames.sections(self.folder)
         rows = {row.what: row for row in section.rows}
         model = rows["contact frame from kinetostatics, mean error of place"]
@@ -157,6 +183,7 @@ class InputTest(unittest.TestCase):
         self.assertAlmostEqual(model.ours, 0.1)
         self.assertAlmostEqual(sensed.ours, 0.6)
         self.assertEqual((model.verdict, sensed.verdict), ("beats", "does not beat"))
+        self.assertAlmostEqual(sensed.structural, 0.6)
         self.assertAlmostEqual(rows["sensed force, mean error, of the force"].ours, 0.75)
         self.assertEqual(rows["force error near base and tip over that in the middle"].verdict, "same")
         page = report.rendered([section])
@@ -184,6 +211,48 @@ class InputTest(unittest.TestCase):
         self.assertAlmostEqual(largest, math.sqrt(2) * rms, delta=0.005)
         steps = self.experiment("fixed_step", lambda t: 3 + 0.25 * math.floor(t + 1e-9))
         self.assertAlmostEqual(steps.cost_of_delay(0.130)[0], 0.25 * math.sqrt(4 / 30), delta=0.002)
+
+
+class StructuralPlantTest(unittest.TestCase):
+    def test_the_plant_has_what_the_page_says(self):
+        finger, bench = structural_plant.draw(3)
+        self.assertEqual((finger, bench), structural_plant.draw(3))
+        self.assertTrue(0 <= bench["friction"] <= 0.2 and 0 <= bench["hinge_N_mm_per_rad"] <= 20)
+        for beam in ("front", "back"):
+            stiffness = [piece["bending_stiffness_N_mm2"] for piece in finger["beams"][beam]["pieces"]]
+            self.assertAlmostEqual(max(stiffness[0], stiffness[-1]) / min(stiffness[0], stiffness[-1]), 1.05, delta=0.004)
+        self.assertTrue(all(rib["hinge_stiffness_N_mm_per_rad"] == bench["hinge_N_mm_per_rad"] for rib in finger["ribs"]))
+        self.assertNotEqual(finger["gauges"][0]["start_mm"], 30)
+
+    def test_the_stage_reads_turned_axes(self):
+        x, y = structural_plant.turned(3.0, 4.0, 90)
+        self.assertAlmostEqual(x, -4)
+        self.assertAlmostEqual(y, 3)
+        with tempfile.TemporaryDirectory() as name:
+            log = pathlib.Path(name) / "log.csv"
+            log.write_text("object_x_mm,object_y_mm,object_angle_deg\n3,4,10\n")
+            structural_plant.moved(log, (0, 0, -90))
+            structural_plant.moved(log, (0, 0, 90))  # as a lab that has found the turn
+            row, = read_csv(log, ("object_x_mm", "object_y_mm", "object_angle_deg"), "a test")
+            for found, true in zip(row.values(), (3, 4, 10)):
+                self.assertAlmostEqual(found, true)
+
+    def test_touches_without_an_equilibrium_are_taken_out(self):
+        with tempfile.TemporaryDirectory() as name:
+            log = pathlib.Path(name) / "log.csv"
+            log.write_text("gauge_1_V,object_x_mm,object_angle_deg\n0.1,-15,0\n,,10\n0.2,-14,20\n")
+            self.assertEqual(structural_plant.without_empty_rows(log), 1)
+            self.assertEqual(log.read_text(), "gauge_1_V,object_x_mm,object_angle_deg\n0.1,-15,0\n0.2,-14,20\n")
+
+    def test_a_frame_without_an_estimate_is_no_good_mean(self):
+        truth = {"contact_1_x_mm": ["0", "0"], "contact_1_y_mm": ["50", "60"], "contact_1_angle_rad": ["1.5", "1.5"],
+                 "force_N": ["2", "4"]}
+        found = {**{name: cells[:1] + [""] for name, cells in truth.items()}, "normal_1_N": ["2.1", ""]}
+        both, first = (structural_plant.errors(truth, found, 0, structural_plant.np.array([True, second]))
+                       for second in (True, False))
+        self.assertTrue(math.isnan(both["place_mm"]))
+        self.assertAlmostEqual(first["force_N"], 0.1)
+        self.assertAlmostEqual(first["force_percent"], 5)
 
 
 class SimulateTest(unittest.TestCase):

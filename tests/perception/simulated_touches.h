@@ -18,7 +18,10 @@ namespace finray {
 struct TouchProtocol {
   int orientations = 36;
   double height_mm = 65;
-  double force_N = 3;  ///< The stage stops when the finger is pressed so.
+  double force_N = 3;   ///< The stage stops when the finger is pressed so.
+  double friction = 0;  ///< of the contact; + towards the tip
+  /// Leaves the row of an orientation empty that cannot be pressed so.
+  bool may_fail = false;
 };
 
 /// Presses the object in until the protocol's force is reached, and leaves the
@@ -38,7 +41,8 @@ inline ObjectPose PressObject(const RigidObject& object, double angle_rad,
   ObjectContact found;
   for (int i = 0; i < 60; ++i) {
     pose.position_mm.x() = depth - leading.x();
-    found = SolveObjectContact(object, pose, 0, solver, found.contacts);
+    found = SolveObjectContact(object, pose, protocol.friction, solver,
+                               found.contacts);
     const bool solved = found.status == ObjectContactStatus::kContact;
     double force = 0;
     for (const PointContact& c : found.contacts) force += c.normal_N;
@@ -71,8 +75,12 @@ inline FrameTable SimulateTouches(const Finger& plant, const Outline& outline,
   for (int row = 0; row < protocol.orientations; ++row) {
     const double angle = 2 * M_PI * row / protocol.orientations;
     solver.Reset();
-    const ObjectPose pose = PressObject(object, angle, protocol, &solver);
-    log.Write(row, solver, pose.position_mm, protocol.force_N);
+    try {
+      const ObjectPose pose = PressObject(object, angle, protocol, &solver);
+      log.Write(row, solver, pose.position_mm, protocol.force_N);
+    } catch (const std::runtime_error&) {
+      if (!protocol.may_fail) throw;
+    }
     log.table().MutableNumbers("object_angle_deg")[row] = angle * 180 / M_PI;
   }
   return log.table();

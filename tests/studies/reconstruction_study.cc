@@ -5,20 +5,23 @@
 // orientations, 3 N, gauges 3e-4 rad, stage 0.02 mm. `seeds` draws of noise.
 //
 //   build/test/tests/reconstruction_study [SEEDS [OBJECT]]
-//   build/test/tests/reconstruction_study write DIR [SEED]
+//   build/test/tests/reconstruction_study write DIR [SEED [FINGER [FRICTION]]]
 //
 // The second one writes logs of the noisy touches and true outlines instead;
 // with SEED the touching finger is off from the paper's by parameters drawn as
 // a calibration leaves them (EI 1 %, gains 0.3 %, ribs 0.03 mm), as
-// conditions.yaml says.
+// conditions.yaml says. With the YAML of a finger it is that finger. Under
+// friction a touch that finds no equilibrium is an empty row.
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <random>
 
 #include "finray/control/plant.h"
+#include "finray/finger/finger_yaml.h"
 #include "finray/io/atomic_file.h"
 #include "finray/perception/polygon.h"
 #include "finray/perception/reconstruction.h"
@@ -117,16 +120,23 @@ void Run(int seeds, const char* only) {
 
 constexpr ModelError kCalibrated{1, 0.3, 0, 0.03};
 
-void Write(const std::string& folder, const ModelError& error, unsigned seed) {
+// Returns the finger that touches, drawn anew for each object.
+using Plant = std::function<Finger(std::mt19937_64*)>;
+
+void Write(const std::string& folder, const Plant& plant,
+           const ModelError& error, double friction, unsigned seed) {
   MakeFolder(folder);
+  TouchProtocol protocol;
+  protocol.friction = friction;
+  protocol.may_fail = friction > 0;
   const double stage_std_mm = 0.02;
   std::mt19937_64 generator(seed);
   for (const NamedObject& object : StudyObjects()) {
     std::string stem = folder + "/" + object.name;
     std::replace(stem.end() - static_cast<std::ptrdiff_t>(object.name.size()),
                  stem.end(), ' ', '_');
-    SimulateTouches(Perturbed(PaperFinger(), error, &generator), object.touched,
-                    {}, {}, {true, stage_std_mm, seed})
+    SimulateTouches(plant(&generator), object.touched, {}, protocol,
+                    {true, stage_std_mm, seed})
         .Write(stem + ".touches.csv");
     FrameTable outline(360);
     const Polygon points = EvenlySpaced(object.truth, 360);
@@ -137,7 +147,6 @@ void Write(const std::string& folder, const ModelError& error, unsigned seed) {
     outline.Write(stem + ".outline.csv");
   }
   const Gauge gauge = PaperFinger().gauges[0];
-  const TouchProtocol protocol;
   std::ofstream conditions(folder + "/conditions.yaml");
   conditions << "gauge_noise_rad: " << 1 / gauge.AngleWeight()
              << "\nstage_std_mm: " << stage_std_mm
@@ -158,9 +167,22 @@ void Write(const std::string& folder, const ModelError& error, unsigned seed) {
 
 int main(int argc, char** argv) {
   if (argc >= 3 && std::string(argv[1]) == "write") {
-    const bool seeded = argc > 3;
-    finray::Write(argv[2], seeded ? finray::kCalibrated : finray::ModelError{},
-                  seeded ? std::atoi(argv[3]) : 1);
+    const unsigned seed = argc > 3 ? std::atoi(argv[3]) : 1;
+    const double friction = argc > 5 ? std::atof(argv[5]) : 0;
+    if (argc > 4) {
+      const finray::Finger finger = finray::ReadFinger(argv[4]);
+      finray::Write(
+          argv[2], [&](auto*) { return finger; }, {}, friction, seed);
+      return 0;
+    }
+    const finray::ModelError error =
+        argc > 3 ? finray::kCalibrated : finray::ModelError{};
+    finray::Write(
+        argv[2],
+        [&](auto* generator) {
+          return finray::Perturbed(finray::PaperFinger(), error, generator);
+        },
+        error, 0, seed);
     return 0;
   }
   finray::Run(argc > 1 ? std::atoi(argv[1]) : 10, argc > 2 ? argv[2] : nullptr);

@@ -78,6 +78,7 @@ void EstimationSummary::Add(const FrameEstimate& estimate, double friction,
     AddAll(readings.gauges_V, &free_sums_V);
   }
   ++frames;
+  search_ended += estimate.search_ended;
   ++by_status[static_cast<std::size_t>(estimate.status)];
   if (estimate.status == FrameStatus::kNotConverged ||
       estimate.status == FrameStatus::kBadInput) {
@@ -125,6 +126,7 @@ void EstimationSummary::Add(const EstimationSummary& other) {
     by_status[i] += other.by_status[i];
   }
   unexplained += other.unexplained;
+  search_ended += other.search_ended;
   force_compared += other.force_compared;
   force_squares_N2 += other.force_squares_N2;
   force_max_N = std::max(force_max_N, other.force_max_N);
@@ -149,6 +151,7 @@ std::string SummaryToText(const EstimationSummary& summary) {
     text += " " + std::to_string(count);
   }
   text += " " + std::to_string(summary.unexplained) + " " +
+          std::to_string(summary.search_ended) + " " +
           std::to_string(summary.force_compared) + " " +
           NumberText(summary.force_squares_N2) + " " +
           NumberText(summary.force_max_N) + " " +
@@ -181,7 +184,8 @@ std::optional<EstimationSummary> SummaryFromText(const std::string& text) {
   };
   stream >> summary.frames >> summary.bad_rows;
   for (std::size_t& count : summary.by_status) stream >> count;
-  stream >> summary.unexplained >> summary.force_compared;
+  stream >> summary.unexplained >> summary.search_ended >>
+      summary.force_compared;
   number(&summary.force_squares_N2);
   number(&summary.force_max_N);
   stream >> summary.force_judged >> summary.force_far;
@@ -210,7 +214,8 @@ void EmitSummary(const EstimationSummary& summary, YamlEmitter* yaml) {
     YamlPair(yaml, StatusName(status), summary.count(status));
   }
   *yaml << YAML::EndMap;
-  YamlPair(yaml, "unexplained_frames", summary.unexplained);
+  YamlPairs(yaml, "unexplained_frames", summary.unexplained,
+            "search_ended_frames", summary.search_ended);
   if (summary.bad_rows > 0) YamlPair(yaml, "bad_rows", summary.bad_rows);
   if (summary.force_compared > 0) {
     YamlPairs(yaml, "force_compared_frames", summary.force_compared,

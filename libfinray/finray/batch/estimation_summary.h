@@ -27,6 +27,8 @@ struct EstimationSummary {
   /// Solved frames that neither the described finger nor its noise explains:
   /// the p-value of chi2 is below FrameEstimate::kUnexplained.
   std::size_t unexplained = 0;
+  /// Frames whose search Scene::search_iteration_limit has ended.
+  std::size_t search_ended = 0;
   /// The comparison with the log's own force_N, over the frames that have it
   /// and are ok or no_contact.
   std::size_t force_compared = 0;

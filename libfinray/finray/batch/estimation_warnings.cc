@@ -175,7 +175,8 @@ Warning NeverFree(const EstimationSummary& summary, const Finger& finger,
   }
   return {"never_free", contacts + ", and no force_N says whether that is so",
           "if the finger was free in any of them, the gauges' offsets have "
-          "moved: zero them with finray_zero"};
+          "moved: zero them with finray_zero; if it never was, say contacts: 1 "
+          "in the scene"};
 }
 
 Warning BadRows(const EstimationSummary& summary, const Finger& /*finger*/,
@@ -240,11 +241,12 @@ std::vector<Warning> WarningsOf(const std::vector<LogSummary>& logs,
   return warnings;
 }
 
-bool FailsStrict(const std::vector<Warning>& warnings) {
+bool FailsStrict(const std::vector<Warning>& warnings, const Scene& scene) {
   return std::any_of(warnings.begin(), warnings.end(),
-                     [](const Warning& warning) {
+                     [&](const Warning& warning) {
                        return warning.code == "unexplained_frames" ||
-                              warning.code == "forces_differ";
+                              warning.code == "forces_differ" ||
+                              (warning.code == "never_free" && !scene.contacts);
                      });
 }
 

@@ -7,6 +7,7 @@
 #include "finray/batch/estimation_summary.h"
 #include "finray/finger/finger.h"
 #include "finray/io/warning.h"
+#include "finray/scene/scene.h"
 
 namespace finray {
 
@@ -41,10 +42,10 @@ std::vector<Warning> WarningsOf(const Finger& finger);
 std::vector<Warning> WarningsOf(const std::vector<LogSummary>& logs,
                                 const Finger& finger);
 
-/// Says whether --strict fails with one of these warnings: all but those of an
-/// uncalibrated finger, of some unexplained frames, bad_rows, and never_free,
-/// which may be meant.
-bool FailsStrict(const std::vector<Warning>& warnings);
+/// Says whether --strict fails with one of these warnings: unexplained_frames,
+/// forces_differ, and never_free unless the scene states the number of contacts
+/// of every frame, so that it is meant.
+bool FailsStrict(const std::vector<Warning>& warnings, const Scene& scene);
 
 }  // namespace finray
 

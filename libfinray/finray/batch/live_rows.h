@@ -38,7 +38,9 @@ class LiveRows {
   /// Its measurements; NaN if it has an error.
   const Measurements& readings() const { return readings_; }
   /// The same as they were read, with the creep and hysteresis of the gauges.
-  const Measurements& raw() const { return history_.empty() ? readings_ : raw_; }
+  const Measurements& raw() const {
+    return history_.empty() ? readings_ : raw_;
+  }
 
  private:
   const FrameParser& parser_;

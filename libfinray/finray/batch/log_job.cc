@@ -14,6 +14,7 @@
 #include "finray/io/sha256.h"
 #include "finray/io/yaml_emitter.h"
 #include "finray/io/yaml_map.h"
+#include "finray/sensing/hidden_forces.h"
 
 namespace finray {
 namespace {
@@ -54,6 +55,7 @@ EstimationSummary SummaryFromYaml(const YamlMap& yaml) {
         Count(status, StatusName(s));
   }
   summary.unexplained = Count(yaml, "unexplained_frames");
+  summary.search_ended = Count(yaml, "search_ended_frames");
   if (yaml.Has("bad_rows")) summary.bad_rows = Count(yaml, "bad_rows");
   if (yaml.Has("force_compared_frames")) {
     summary.force_compared = Count(yaml, "force_compared_frames");
@@ -70,9 +72,19 @@ EstimationSummary SummaryFromYaml(const YamlMap& yaml) {
   return summary;
 }
 
+// The codes of a log's warnings.
+std::string WarningCodes(const LogJob& job, const Finger& finger) {
+  std::string codes;
+  for (const Warning& warning :
+       WarningsOf({{&job.summary(), job.log()}}, finger)) {
+    codes += (codes.empty() ? "" : " ") + warning.code;
+  }
+  return codes;
+}
+
 // Calls set(name, text) for each cell of a row of summary.csv.
 template <class Set>
-void AddCells(const LogJob& job, Set set) {
+void AddCells(const LogJob& job, const Finger& finger, Set set) {
   const EstimationSummary& summary = job.summary();
   set("log", job.log());
   set("result", job.result());
@@ -90,7 +102,9 @@ void AddCells(const LogJob& job, Set set) {
   set("force_variances_N2",
       compared ? NumberText(summary.force_variances_N2) : "");
   set("unexplained_frames", std::to_string(summary.unexplained));
+  set("search_ended_frames", std::to_string(summary.search_ended));
   set("bad_rows", std::to_string(summary.bad_rows));
+  set("warnings", WarningCodes(job, finger));
   set("key", job.key());
   set("reason", "");
 }
@@ -309,6 +323,21 @@ void EmitWarnings(const std::vector<Warning>& warnings, YamlEmitter* yaml) {
   *yaml << YAML::EndSeq;
 }
 
+void EmitHiddenForces(const HiddenForces& hidden, YamlEmitter* yaml) {
+  const auto numbers = [&](const char* key, const std::vector<double>& values,
+                           int digits) {
+    *yaml << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (const double value : values) {
+      *yaml << YAML::Auto << YamlNumber(value, digits);
+    }
+    *yaml << YAML::EndSeq;
+  };
+  *yaml << YAML::Key << "hidden_forces" << YAML::Value << YAML::BeginMap;
+  numbers("contact_mm", hidden.contact_mm, 6);
+  numbers("normal_N", hidden.normal_N, 3);
+  *yaml << YAML::EndMap;
+}
+
 }  // namespace
 
 std::string BatchYaml(const BatchSettings& settings,
@@ -323,6 +352,12 @@ std::string BatchYaml(const BatchSettings& settings,
   }
   YamlPair(&yaml, "version", FINRAY_VERSION);
   EmitWarnings(WarningsOf(settings.finger), &yaml);
+  // With --joint offsets hide more than noise does.
+  if (!settings.joint && settings.scene.contacts != 0) {
+    EmitHiddenForces(FindHiddenForces(settings.finger, settings.scene,
+                                      settings.discretization),
+                     &yaml);
+  }
   yaml << YAML::Key << "logs" << YAML::Value << YAML::BeginSeq;
   for (const LogJob& job : jobs) {
     yaml << YAML::BeginMap;
@@ -350,18 +385,20 @@ std::string BatchYaml(const BatchSettings& settings,
   return std::string(yaml.c_str()) + "\n";
 }
 
-FrameTable BatchTable(const std::vector<LogJob>& jobs,
+FrameTable BatchTable(const BatchSettings& settings,
+                      const std::vector<LogJob>& jobs,
                       const std::vector<BadLog>& bad_logs) {
   FrameTable table(jobs.size() + bad_logs.size());
   // The table has its columns even without any log.
-  AddCells(LogJob(nullptr, "", ""),
+  AddCells(LogJob(nullptr, "", ""), settings.finger,
            [&](const std::string& name, const std::string&) {
              table.MutableText(name);
            });
   for (std::size_t row = 0; row < jobs.size(); ++row) {
-    AddCells(jobs[row], [&](const std::string& name, const std::string& text) {
-      table.MutableText(name)[row] = text;
-    });
+    AddCells(jobs[row], settings.finger,
+             [&](const std::string& name, const std::string& text) {
+               table.MutableText(name)[row] = text;
+             });
   }
   for (std::size_t i = 0; i < bad_logs.size(); ++i) {
     table.MutableText("log")[jobs.size() + i] = bad_logs[i].log;

@@ -119,7 +119,8 @@ std::string BatchYaml(const BatchSettings& settings,
 
 /// The table of summary.csv, with a row for each log, and behind these one for
 /// each bad log with the reason.
-FrameTable BatchTable(const std::vector<LogJob>& jobs,
+FrameTable BatchTable(const BatchSettings& settings,
+                      const std::vector<LogJob>& jobs,
                       const std::vector<BadLog>& bad_logs);
 
 }  // namespace finray

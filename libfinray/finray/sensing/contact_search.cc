@@ -19,6 +19,8 @@ constexpr std::size_t kMostStarts = 4, kMostPairStarts = 12, kMostFallbacks = 4;
 // A row of the table hides a minimum if its chi2 is below this fraction of what
 // the solutions found expect there.
 constexpr double kHides = 0.5;
+// So many std from one row to the next hide a minimum of any finger.
+constexpr double kSharp = 30;
 constexpr int kMostSolutions = 16;
 constexpr double kSame = 0.01;  // chi2 between fits of one minimum
 // A rival lies outside the region that holds 99 % of the estimates. These are
@@ -34,6 +36,12 @@ constexpr std::size_t kCrowded = 13;
 
 bool HasCloseMinima(const Finger& finger) {
   return finger.back_angle_rad < kUpright_rad || finger.ribs.size() >= kCrowded;
+}
+
+// Says whether neither neighbour of a row explains the frame better.
+bool IsLowest(const std::vector<ContactStart>& profile, std::size_t i) {
+  return (i == 0 || profile[i].chi2 <= profile[i - 1].chi2) &&
+         (i + 1 == profile.size() || profile[i].chi2 <= profile[i + 1].chi2);
 }
 
 bool IsLoaded(const ContactStart& row) {
@@ -140,24 +148,28 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
       fallbacks = kMostFallbacks;
     }
   }
-  if (contacts == 1 && found_ > 0 && method_ == FrameMethod::kFast &&
-      (exact || HasCloseMinima(solver_.model().finger()) ||
-       (!starts_.empty() && starts_[0].error > kCoarse))) {
-    SearchRows(packed);
-    SearchBeside(packed);
+  if (contacts == 1 && found_ > 0 && method_ == FrameMethod::kFast) {
+    const bool close = exact || HasCloseMinima(solver_.model().finger()) ||
+                       (!starts_.empty() && starts_[0].error > kCoarse);
+    SearchRows(packed, close);
+    if (close) SearchBeside(packed);
   }
   return found_ > 0;
 }
 
 // Minima lie close together where a finger is upright or has many ribs, and the
 // table may rank them wrongly where the noise is less than its own error.
-void ContactSearch::SearchRows(const PackedReadings& packed) {
+void ContactSearch::SearchRows(const PackedReadings& packed, bool close) {
+  const auto may_lead_on = [&](std::size_t i) {
+    return close ? IsBeside(i) || Hides(i, 0)
+                 : (IsBeside(i) || IsLowest(profile_, i)) && Hides(i, kSharp);
+  };
   while (found_ < kMostSolutions) {
     std::size_t next = profile_.size();
     for (std::size_t i = 0; i < profile_.size(); ++i) {
       if (next < profile_.size() && profile_[i].chi2 >= profile_[next].chi2)
         continue;
-      if (profile_[i].count > 0 && (IsBeside(i) || Hides(i))) {
+      if (profile_[i].count > 0 && may_lead_on(i)) {
         next = i;
       }
     }
@@ -200,7 +212,7 @@ bool ContactSearch::IsBeside(std::size_t i) const {
       });
 }
 
-bool ContactSearch::Hides(std::size_t i) const {
+bool ContactSearch::Hides(std::size_t i, double least_rise) const {
   const ContactStart& row = profile_[i];
   if (!IsLoaded(row)) return false;
   const double distance = std::sqrt(row.chi2);
@@ -215,6 +227,7 @@ bool ContactSearch::Hides(std::size_t i) const {
   if (i + 1 < profile_.size()) {
     rise = std::max(rise, std::abs(distance - std::sqrt(profile_[i + 1].chi2)));
   }
+  if (rise < least_rise) return false;
   const double between = std::max(0.0, at_row - rise);
   return between * between < least_chi2() + kWithinNoise;
 }
@@ -235,6 +248,9 @@ bool ContactSearch::IsKnown() const {
   const PointContact& next = solutions_[found_].contacts[0];
   for (int i = 0; i < found_; ++i) {
     const ContactSolution& one = solutions_[i];
+    // At the clamp of the beam the information is zero, and every other
+    // solution would be near.
+    if (solutions_[found_].chi2 < one.chi2 - kSame) continue;
     const Eigen::Vector2d apart(next.arc_mm - one.contacts[0].arc_mm,
                                 next.normal_N - one.contacts[0].normal_N);
     if (apart.dot(one.information * apart) < kSame) return true;

@@ -87,14 +87,17 @@ class ContactSearch {
   // Counts the iterations of a fit.
   void Spend(int iterations, bool converged);
   void FindStarts(int contacts, const PackedReadings& packed);
-  // Fits from rows of the table that the solutions found do not account for.
-  void SearchRows(const PackedReadings& packed);
+  // Fits from rows of the table that the solutions found do not account for:
+  // from all of them where minima are `close`, else from those beside which
+  // chi2 changes too sharply for the table to show a minimum between rows.
+  void SearchRows(const PackedReadings& packed, bool close);
   // Fits from places up to a row's spacing away from the best solution.
   void SearchBeside(const PackedReadings& packed);
   // Says whether a solution is nearer to a row than its neighbours are.
   bool IsBeside(std::size_t row) const;
-  // Whether a minimum within noise, other than those found, may lie near a row.
-  bool Hides(std::size_t row) const;
+  // Whether a minimum within noise, other than those found, may lie near a row
+  // where the distance in std changes by least_rise or more from row to row.
+  bool Hides(std::size_t row, double least_rise) const;
   // The least chi2 that the solutions found expect of a contact at that place.
   double ExpectedChi2(double arc_mm) const;
   // Whether the next solution is one of those found.
