@@ -102,7 +102,8 @@ int Run() {
               check.limit.folds ? "folds over at" : "none found up to",
               check.limit.force_N, check.limit.contact_mm);
   std::printf(
-      "usual forces   %.2g N; estimates end at 40 EI / l_0^2 = %.3g N\n",
+      "forces         %.2g N is easy (10 EI / l_0^2); estimates end at %.3g N "
+      "(40 EI / l_0^2) unless the scene has force_max_N\n",
       10 * check.force_unit_N, 40 * check.force_unit_N);
   Warn(check.warnings);
   return FLAGS_strict && !check.warnings.empty() ? kGateFailed : kGood;

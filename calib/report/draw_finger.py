@@ -20,13 +20,13 @@ DIMENSIONS, LABELS = 120.0, 150.0  # room on the left and on the right
 
 
 def number(value):
-    return f"{value:.4g}"
+    return f"{value:.5g}"
 
 
 def beam_words(beam):
     stiffness = [p["bending_stiffness_N_mm2"] for p in beam.get("pieces", [beam])]
-    words = "EI " + ", ".join(f"{v:.4g}" for v in stiffness) + " N mm²"
-    return words if len(stiffness) < 4 else f"EI {min(stiffness):.4g} to {max(stiffness):.4g} N mm²"
+    words = "EI " + ", ".join(f"{v:.6g}" for v in stiffness) + " N mm²"
+    return words if len(stiffness) < 4 else f"EI {min(stiffness):.6g} to {max(stiffness):.6g} N mm²"
 
 
 def ribs(drawing, finger):
@@ -35,7 +35,7 @@ def ribs(drawing, finger):
         drawing.line(a, b, RIB, 3)
         middle = ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)
         angle = math.degrees(math.atan2(b[1] - a[1], b[0] - a[0]))
-        drawing.text(middle, f"{i}: {angle:.4g}°", QUIET, "middle", 13, dy=-6, italic=False)
+        drawing.text(middle, f"{i}: {angle:.3g}°", QUIET, "middle", 12, dy=-7, italic=False)
 
 
 def gauges(drawing, finger, mm):
@@ -44,7 +44,7 @@ def gauges(drawing, finger, mm):
         words = f"{j}: {number(start)} to {number(start + length)}"
         if gauge["beam"] == "front":
             drawing.line((5 * mm, start), (5 * mm, start + length), GAUGE, 5)
-            drawing.text((9 * mm, start + length / 2), words, GAUGE, "start", 13, dy=12, italic=False)
+            drawing.text((26 * mm, start + length / 2), words, GAUGE, "start", 13, dy=4, italic=False)
         else:
             drawing.line(drawing.back(start, 5 * mm), drawing.back(start + length, 5 * mm), GAUGE, 5)
             drawing.text(drawing.back(start + length / 2, 11 * mm), words, GAUGE, "start", 13, dy=4, italic=False)
@@ -69,7 +69,7 @@ def draw(finger, places):
         drawing.dot((0, rib["front_mm"]))
         drawing.dot(drawing.back(rib["back_mm"]))
         drawing.text((0, rib["front_mm"]), number(rib["front_mm"]), QUIET, "end", 13, dx=-9, dy=4, italic=False)
-        drawing.text(drawing.back(rib["back_mm"], -8 * mm), number(rib["back_mm"]), QUIET, "end", 11, dy=14,
+        drawing.text(drawing.back(rib["back_mm"], 8 * mm), number(rib["back_mm"]), QUIET, "start", 13, dy=4,
                      italic=False)
     x = -64 * mm
     for height in (0, length):

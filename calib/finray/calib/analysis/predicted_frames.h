@@ -16,9 +16,21 @@ namespace finray {
 struct PredictedFrame {
   bool free;
   double contact_mm, normal_N;  ///< NaN and 0 if free.
+  /// Where the stage has the circle, as the logs count its places. NaN without
+  /// a circle.
+  Eigen::Vector2d object_mm;
   /// The derivatives are by the free parameters, in the given units.
   LinearizedFrame at;
 };
+
+/// Fills in what all sensors read of a finger under these contacts, at most one
+/// of them: the gauges that work, the magnitude of the force, and where the
+/// stage has the circle of the plan. Returns false if the solver's finger
+/// cannot carry the contacts.
+bool PredictReadings(const std::vector<PointContact>& contacts,
+                     const std::vector<bool>& works, const Plan& plan,
+                     const StageFrame& stage, EquilibriumSolver* solver,
+                     CalibrationFrame* frame);
 
 /// A free frame, and contacts at nine heights under four loads each, up to a
 /// load that the logs show the finger to bear. Gauges that never read in the

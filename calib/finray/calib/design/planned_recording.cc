@@ -1,0 +1,90 @@
+#include "finray/calib/design/planned_recording.h"
+
+#include <cmath>
+
+#include "finray/calib/analysis/predicted_frames.h"
+#include "finray/calib/solve/contact_store.h"
+#include "finray/calib/solve/frame_pass.h"
+#include "finray/io/nan.h"
+
+namespace finray {
+namespace {
+
+constexpr double kSecondsPerFrame = 10;
+
+double Fraction(double value) { return value - std::floor(value); }
+
+}  // namespace
+
+std::vector<PlannedContact> SpreadContacts(const ContactRange& range,
+                                           std::size_t count,
+                                           std::uint64_t seed) {
+  // 1 / g and 1 / g^2 with g^3 = g + 1.
+  constexpr double kG = 1.32471795724474602596;
+  const double shift = Fraction(static_cast<double>(seed) * 0.61803398875);
+  std::vector<PlannedContact> frames(count);
+  std::size_t contacts = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i % kFreeEvery == 0) continue;
+    const auto n = static_cast<double>(++contacts);
+    frames[i].contact_mm = range.from_mm + (range.to_mm - range.from_mm) *
+                                               Fraction(shift + n / kG);
+    frames[i].normal_N =
+        range.least_N +
+        (range.most_N - range.least_N) * Fraction(0.5 + shift + n / (kG * kG));
+  }
+  return frames;
+}
+
+PlannedRecording::PlannedRecording(const Finger& finger, const Plan& plan,
+                                   const std::vector<PlannedContact>& contacts,
+                                   const Discretization& discretization) {
+  CalibrationLogs logs;
+  logs.paths = logs.names = {"the planned recording"};
+  Contacts at;
+  EquilibriumSolver solver(finger, discretization);
+  const std::vector<bool> all(finger.gauges.size(), true);
+  const double friction = plan.scene.friction_coefficient;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const PlannedContact& planned = contacts[i];
+    CalibrationFrame frame;
+    frame.row = static_cast<int>(i);
+    frame.time_s = kSecondsPerFrame * static_cast<double>(i);
+    frame.temperature_C = plan.reference_temperature_C;
+    frame.contact = planned.touches();
+    std::vector<PointContact> points;
+    if (planned.touches()) {
+      points.push_back({planned.contact_mm, planned.normal_N, friction});
+    }
+    if (!PredictReadings(points, all, plan, {}, &solver, &frame)) continue;
+    // A stage tells the place of a circle; who has none measures the contact.
+    if (plan.scene.circle_radius_mm()) frame.contact_mm = kNaN;
+    logs.frames.push_back(frame);
+    at.push_back({planned.contact_mm, planned.normal_N});
+  }
+  problem_ = std::make_unique<CalibrationProblem>(finger, plan, logs,
+                                                  discretization, 1);
+  ContactStore places(problem_.get());
+  places.Set(at);
+  const std::vector<int>& frames = problem_->candidates();
+  const auto columns =
+      static_cast<Eigen::Index>(problem_->parameters().free().size());
+  const Eigen::VectorXd unit = problem_->parameters().Units();
+  Linearization sum(static_cast<int>(columns), frames.size());
+  LinearizeFrames(frames, problem_.get(), &places,
+                  [&](int frame, const LinearizedFrame& rows) {
+                    sum.Add(frame, 0, rows);
+                    const Eigen::MatrixXd j = rows.reduced * unit.asDiagonal();
+                    information_.push_back(j.transpose() * j);
+                  });
+  sum.Finish();
+  found_ = AnalyzeIdentifiability(problem_.get(), sum);
+}
+
+Finger PlannedRecording::Calibrated() const {
+  Finger finger = problem_->finger();
+  KeepCovariance(problem_->parameters(), found_, &finger);
+  return finger;
+}
+
+}  // namespace finray
