@@ -302,6 +302,7 @@ int Design() {
     before = WorstOf(heights, task.normal_N, task.friction, &accuracy);
   }
   WorstStd worst = before.value_or(WorstStd{});
+  std::vector<double> untold;
   std::optional<GaugePlaces> places;
   if (FLAGS_gauges > 0 || FLAGS_most_gauges > 0) {
     places.emplace(start, task, discretization);
@@ -318,6 +319,10 @@ int Design() {
     }
     designed = choice->finger;
     worst = choice->worst;
+    untold = choice->untold_mm;
+  } else {
+    untold = UntoldHeights(designed, heights, task.normal_N, task.friction,
+                           discretization);
   }
   const FrameTable table =
       AccuracyTable(designed, task.normal_N, task.friction, discretization);
@@ -351,11 +356,23 @@ int Design() {
                 WordsOf(*before).c_str(), PlacesOf(start).c_str());
   }
   PrintPairs(table);
+  if (!untold.empty()) {
+    Warn(
+        FormatText("at %zu of %zu heights of the region, %.0f to %.0f mm, the "
+                   "estimator does not tell the contact, even from exact "
+                   "readings",
+                   untold.size(), heights.size(), untold.front(),
+                   untold.back()),
+        "another contact explains them as well: take a larger force, a smaller "
+        "region, or more gauges");
+  }
   if (FLAGS_most_gauges > 0) {
     Front(start, *places, task, calibration, discretization)
         .Write(OutPath("gauges.csv"));
   }
-  return std::isinf(worst.place_mm) ? kGateFailed : kGood;
+  return std::isinf(worst.place_mm) || untold.size() == heights.size()
+             ? kGateFailed
+             : kGood;
 }
 
 int Run() {

@@ -201,6 +201,16 @@ double PredictedForce::calibration_N(const Eigen::MatrixXd& covariance) const {
   return std::sqrt(weight.cwiseProduct(covariance).sum());
 }
 
+std::optional<SensedContact> SensedBy(const LinearizedFrame& at) {
+  const Eigen::MatrixXd by_contact = GaugeRows(at, at.by_contact);
+  if (by_contact.rows() < 2) return {};
+  SensedContact sensed;
+  sensed.noise = PseudoInverse(by_contact.transpose() * by_contact);
+  sensed.by_parameter =
+      -sensed.noise * by_contact.transpose() * GaugeRows(at, at.by_parameter);
+  return sensed;
+}
+
 PredictedForce PredictForce(const CalibrationProblem& problem,
                             const PredictedFrames& predicted) {
   PredictedForce force;
@@ -210,10 +220,9 @@ PredictedForce PredictForce(const CalibrationProblem& problem,
   double noise = 0;
   for (const PredictedFrame& frame : predicted.frames) {
     if (frame.free) continue;
-    const Eigen::MatrixXd by_contact = GaugeRows(frame.at, frame.at.by_contact);
-    if (by_contact.rows() < 2) continue;
-    const Eigen::Matrix2d covariance =
-        PseudoInverse(by_contact.transpose() * by_contact);
+    const std::optional<SensedContact> sensed = SensedBy(frame.at);
+    if (!sensed) continue;
+    const Eigen::Matrix2d& covariance = sensed->noise;
     const double place_std = std::sqrt(covariance(0, 0));
     const double force_std = std::sqrt(covariance(1, 1));
     if (place_std >
@@ -222,9 +231,7 @@ PredictedForce PredictForce(const CalibrationProblem& problem,
       continue;
     }
     const Eigen::RowVectorXd by_parameter =
-        -per_normal * (covariance * by_contact.transpose() *
-                       GaugeRows(frame.at, frame.at.by_parameter))
-                          .row(1);
+        per_normal * sensed->by_parameter.row(1);
     force.weight += by_parameter.transpose() * by_parameter;
     noise += per_normal * per_normal * covariance(1, 1);
     force.contacts.emplace_back(frame.contact_mm, frame.normal_N);

@@ -2,6 +2,7 @@
 #define FINRAY_CALIB_ANALYSIS_PREDICTED_FRAMES_H_
 
 #include <Eigen/Core>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -42,6 +43,17 @@ struct PredictedFrames {
 PredictedFrames PredictFrames(CalibrationProblem* problem,
                               const Contacts& contacts,
                               const Eigen::VectorXd& unit);
+
+/// The contact that the gauges of a frame alone tell. With the derivatives E of
+/// its gauges by (l_c, f_c) and C by the parameters, both over their std,
+///
+///   noise = (E'E)^-1,    by_parameter = -(E'E)^-1 E'C.
+struct SensedContact {
+  Eigen::Matrix2d noise;  ///< The covariance of (l_c, f_c).
+  Eigen::Matrix<double, 2, Eigen::Dynamic> by_parameter;
+};
+/// Empty with fewer than two gauges.
+std::optional<SensedContact> SensedBy(const LinearizedFrame& at);
 
 /// Predicts the std of a force that the gauges alone sense with the calibrated
 /// finger. Of a contact frame with the derivatives E of its gauges by (l_c,

@@ -7,11 +7,12 @@
 #include "finray/finger/geometry.h"
 #include "finray/io/number_text.h"
 #include "finray/scene/frame_columns.h"
+#include "finray/sensing/frame_estimator.h"
 
 namespace finray {
 namespace {
 
-constexpr double kUsualLoads = 10;                           // EI / l_0^2
+constexpr double kUsualLoads = 10, kMostLoads = 40;  // EI / l_0^2
 constexpr double kOneStep = 1.0 / 56, kPairStep = 1.0 / 14;  // of l_0
 constexpr double kLeastDistance = 0.2;  // of two contacts, of l_0
 
@@ -49,6 +50,32 @@ Finger AfterCalibration(const Finger& finger,
       .Calibrated();
 }
 
+std::vector<double> UntoldHeights(const Finger& finger,
+                                  const std::vector<double>& heights_mm,
+                                  double normal_N, double friction,
+                                  const Discretization& discretization) {
+  Scene scene;
+  scene.contacts = 1;
+  scene.friction_coefficient = friction;
+  scene.force_max_N = std::max(normal_N, kMostLoads * ForceUnit(finger));
+  FrameEstimator estimator(finger, scene, discretization);
+  EquilibriumSolver solver(finger, discretization);
+  std::vector<double> untold;
+  for (const double height : heights_mm) {
+    solver.Reset();
+    Measurements exact;
+    if (solver.Solve({{height, normal_N, friction}})) {
+      for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
+        exact.gauges_V.push_back(
+            finger.gauges[j].Volts(solver.gauge_angle(static_cast<int>(j))));
+      }
+      if (estimator.Estimate(exact).status == FrameStatus::kOk) continue;
+    }
+    untold.push_back(height);
+  }
+  return untold;
+}
+
 std::optional<GaugeChoice> ChooseGauges(const Finger& finger,
                                         const GaugePlaces& places,
                                         const PlacementTask& task, int count,
@@ -69,8 +96,11 @@ std::optional<GaugeChoice> ChooseGauges(const Finger& finger,
     ContactAccuracy accuracy(placed, task.friction, discretization);
     const WorstStd worst =
         WorstOf(heights, task.normal_N, task.friction, &accuracy);
-    if (!best || of_goal(worst) < of_goal(best->worst)) {
-      best = GaugeChoice{placed, worst};
+    const std::vector<double> untold = UntoldHeights(
+        placed, heights, task.normal_N, task.friction, discretization);
+    if (!best || std::pair(untold.size(), of_goal(worst)) <
+                     std::pair(best->untold_mm.size(), of_goal(best->worst))) {
+      best = GaugeChoice{placed, worst, untold};
     }
   }
   return best;
@@ -94,8 +124,18 @@ FrameTable AccuracyTable(const Finger& finger, double normal_N, double friction,
     }
   }
   FrameTable table(cases.size());
+  std::vector<double> singles;
   for (std::size_t row = 0; row < cases.size(); ++row) {
     AddAccuracy(cases[row], &accuracy, row, &table);
+    if (cases[row].size() == 1) singles.push_back(cases[row][0].arc_mm);
+  }
+  const std::vector<double> untold =
+      UntoldHeights(finger, singles, normal_N, friction, discretization);
+  std::vector<std::string>& status = table.MutableText("status");
+  for (std::size_t row = 0; row < singles.size(); ++row) {
+    const bool is_untold =
+        std::find(untold.begin(), untold.end(), singles[row]) != untold.end();
+    status[row] = is_untold ? "unobservable" : "ok";
   }
   return table;
 }

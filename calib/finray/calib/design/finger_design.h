@@ -24,15 +24,25 @@ Finger AfterCalibration(const Finger& finger,
                         const FutureCalibration& calibration, double normal_N,
                         const Discretization& discretization);
 
+/// Returns those of the heights at which the estimator does not tell a contact
+/// of `normal_N` even from exact readings: another contact explains them as
+/// well, or the std is too large (FrameEstimator::StatusOf). The linear std
+/// says nothing of the first kind.
+std::vector<double> UntoldHeights(const Finger& finger,
+                                  const std::vector<double>& heights_mm,
+                                  double normal_N, double friction,
+                                  const Discretization& discretization);
+
 /// A finger with its gauges chosen, and the accuracy that it will have.
 struct GaugeChoice {
   Finger finger;   ///< With the covariance of the future calibration.
   WorstStd worst;  ///< Over the task's region, calibration included.
+  std::vector<double> untold_mm;  ///< UntoldHeights of the region.
 };
 
 /// Places `count` gauges: of the best placements by noise alone (PlaceGauges)
-/// the one whose goal is best after the calibration. Empty if so many have no
-/// room.
+/// the one with the fewest UntoldHeights, and of these the one whose goal is
+/// best after the calibration. Empty if so many have no room.
 std::optional<GaugeChoice> ChooseGauges(const Finger& finger,
                                         const GaugePlaces& places,
                                         const PlacementTask& task, int count,

@@ -14,8 +14,8 @@
 namespace finray {
 namespace {
 
-constexpr int kPlacementStarts = 40;
-constexpr std::size_t kMostPlacements = 6;
+constexpr int kPlacementStarts = 80;
+constexpr std::size_t kMostPlacements = 20;
 constexpr int kLengths = 4;  // between the least and the most
 
 // One gauge on each mm of both beams: the bending angle between any two of

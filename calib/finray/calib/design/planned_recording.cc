@@ -71,12 +71,15 @@ PlannedRecording::PlannedRecording(const Finger& finger, const Plan& plan,
       static_cast<Eigen::Index>(problem_->parameters().free().size());
   const Eigen::VectorXd unit = problem_->parameters().Units();
   Linearization sum(static_cast<int>(columns), frames.size());
-  LinearizeFrames(frames, problem_.get(), &places,
-                  [&](int frame, const LinearizedFrame& rows) {
-                    sum.Add(frame, 0, rows);
-                    const Eigen::MatrixXd j = rows.reduced * unit.asDiagonal();
-                    information_.push_back(j.transpose() * j);
-                  });
+  LinearizeFrames(
+      frames, problem_.get(), &places,
+      [&](int frame, const LinearizedFrame& at) {
+        sum.Add(frame, 0, at);
+        Row row{static_cast<std::size_t>(problem_->frame(frame).row), at};
+        row.at.by_parameter *= unit.asDiagonal();
+        row.at.reduced *= unit.asDiagonal();
+        rows_.push_back(std::move(row));
+      });
   sum.Finish();
   found_ = AnalyzeIdentifiability(problem_.get(), sum);
 }

@@ -2,6 +2,7 @@
 #define FINRAY_CALIB_DESIGN_PLANNED_RECORDING_H_
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -46,17 +47,20 @@ class PlannedRecording {
 
   CalibrationProblem& problem() { return *problem_; }
   const CalibrationProblem& problem() const { return *problem_; }
-  /// The information of each frame on the free parameters, in the units of
+  /// The frames as the plan fits them. CalibrationFrame::row is the index of
+  /// the planned contact. The derivatives are by the free parameters in
   /// CalibrationParameters::Units().
-  const std::vector<Eigen::MatrixXd>& information() const {
-    return information_;
-  }
+  struct Row {
+    std::size_t contact;  ///< Index of the planned contact.
+    LinearizedFrame at;
+  };
+  const std::vector<Row>& rows() const { return rows_; }
   /// The finger with the covariance that the calibration leaves.
   Finger Calibrated() const;
 
  private:
   std::unique_ptr<CalibrationProblem> problem_;
-  std::vector<Eigen::MatrixXd> information_;
+  std::vector<Row> rows_;
   Identifiability found_;
 };
 
