@@ -12,7 +12,7 @@
 namespace finray {
 namespace {
 
-constexpr double kUsualLoads = 10, kMostLoads = 40;  // EI / l_0^2
+constexpr double kUsualLoads = 10, kMostLoads = 40;          // EI / l_0^2
 constexpr double kOneStep = 1.0 / 56, kPairStep = 1.0 / 14;  // of l_0
 constexpr double kLeastDistance = 0.2;  // of two contacts, of l_0
 

@@ -64,6 +64,12 @@ PlannedRecording::PlannedRecording(const Finger& finger, const Plan& plan,
   }
   problem_ = std::make_unique<CalibrationProblem>(finger, plan, logs,
                                                   discretization, 1);
+  // A solve starts from the readings of free rows. Here offsets are known, and
+  // ribs may prestress the finger.
+  for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
+    *problem_->parameters().readings.offset_V(static_cast<int>(j), 0) =
+        finger.gauges[j].offset_V;
+  }
   ContactStore places(problem_.get());
   places.Set(at);
   const std::vector<int>& frames = problem_->candidates();

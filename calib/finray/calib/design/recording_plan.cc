@@ -25,7 +25,9 @@ constexpr double kLightest = 0.15, kHeaviest = 0.8;
 constexpr double kRetreat_mm = 5;  // of a free row, from the finger at rest
 constexpr int kErrorsPerDraw = 100;
 constexpr double kFramesStep = 1.08;
-constexpr std::size_t kLeastFrames = 12;
+// Fewer rows than this a free parameter leave residuals too few to show what is
+// wrong with a recording.
+constexpr std::size_t kRowsPerParameter = 2;
 
 struct StagePlace {
   bool touches;
@@ -244,10 +246,12 @@ RecordingPlan PlanRecording(const KnownFinger& known, const Plan& plan,
   }
   RecordingPlan result;
   result.met_before = ErrorsAfter(0, known, draws).Met(target);
+  const std::size_t least =
+      kRowsPerParameter * static_cast<std::size_t>(known.information.rows());
   std::size_t rows = 0;
   PredictedErrors errors = ErrorsAfter(rows, known, draws);
   while (errors.Met(target) < target.confidence && rows < places.size()) {
-    rows = rows == 0 ? kLeastFrames
+    rows = rows == 0 ? least
                      : std::max(rows + 1,
                                 static_cast<std::size_t>(kFramesStep * rows));
     rows = std::min(rows, places.size());
