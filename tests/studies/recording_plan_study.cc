@@ -160,7 +160,7 @@ int main() {
   const TempFolder folder;
   const Plan plan = ReadPlan(folder.Write("plan.yaml", kLabPlan));
   const Finger paper = PaperFinger();
-  const RecordingTarget target{28, 98, 3, 0.7, 0.08, 0.95};
+  const RecordingTarget target{28, 98, 3, 0.7, 0.066, 0.95};
   Meet("as promised", paper, plan, target, 1);
   Meet("1.3 times as many", paper, plan, target, 1.3);
   return 0;

@@ -14,24 +14,32 @@ constexpr double kSecondsPerFrame = 10;
 
 double Fraction(double value) { return value - std::floor(value); }
 
+// The bits of n behind the point, in reverse: van der Corput's sequence.
+double Reversed(std::size_t n) {
+  double sum = 0, bit = 0.5;
+  for (; n > 0; n /= 2, bit /= 2) sum += bit * static_cast<double>(n % 2);
+  return sum;
+}
+
 }  // namespace
 
 std::vector<PlannedContact> SpreadContacts(const ContactRange& range,
                                            std::size_t count,
                                            std::uint64_t seed) {
-  // 1 / g and 1 / g^2 with g^3 = g + 1.
-  constexpr double kG = 1.32471795724474602596;
-  const double shift = Fraction(static_cast<double>(seed) * 0.61803398875);
+  constexpr double kGolden = 0.61803398874989484820;
+  const double shift = Fraction(static_cast<double>(seed) * std::sqrt(2.0));
   std::vector<PlannedContact> frames(count);
   std::size_t contacts = 0;
   for (std::size_t i = 0; i < count; ++i) {
     if (i % kFreeEvery == 0) continue;
-    const auto n = static_cast<double>(++contacts);
-    frames[i].contact_mm = range.from_mm + (range.to_mm - range.from_mm) *
-                                               Fraction(shift + n / kG);
+    ++contacts;
+    frames[i].contact_mm =
+        range.from_mm +
+        (range.to_mm - range.from_mm) *
+            Fraction(shift + static_cast<double>(contacts) * kGolden);
     frames[i].normal_N =
         range.least_N +
-        (range.most_N - range.least_N) * Fraction(0.5 + shift + n / (kG * kG));
+        (range.most_N - range.least_N) * Fraction(shift + Reversed(contacts));
   }
   return frames;
 }

@@ -25,9 +25,9 @@ struct ContactRange {
 };
 
 /// Returns `count` frames, every kFreeEvery-th of them free and the others
-/// spread evenly over heights and loads by a sequence of low discrepancy
-/// (Roberts' R2). So the first n frames are spread evenly for each n. `seed`
-/// shifts the sequence.
+/// spread evenly by sequences of low discrepancy: heights by the golden ratio,
+/// loads by van der Corput's. So the first n frames are spread evenly for each
+/// n. `seed` shifts both.
 std::vector<PlannedContact> SpreadContacts(const ContactRange& range,
                                            std::size_t count,
                                            std::uint64_t seed);
