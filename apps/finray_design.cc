@@ -14,6 +14,7 @@
 #include "finray/io/number_text.h"
 #include "finray/io/python_script.h"
 #include "finray/scene/frame_columns.h"
+#include "number_flags.h"
 
 DEFINE_string(finger, "", "finger YAML to start from");
 DEFINE_string(dxf, "",
@@ -53,37 +54,17 @@ using namespace finray;
 
 constexpr double kReferenceLength_mm = 18;
 
-// Returns both numbers of "from:to", or the same twice of "number".
-std::pair<double, double> Range(const char* flag, const std::string& text) {
-  const std::size_t colon = text.find(':');
-  const auto from = ParseNumber(text.substr(0, colon));
-  const auto to =
-      colon == std::string::npos ? from : ParseNumber(text.substr(colon + 1));
-  if (!from || !to || !(*from >= 0) || !(*to >= *from)) {
-    throw UsageError(std::string("--") + flag + ": expected from:to in mm, " +
-                     "such as 20:105, found " + text);
-  }
-  return {*from, *to};
-}
-
-double Positive(const char* flag, double value) {
-  if (!(value > 0) || std::isinf(value)) {
-    throw UsageError(std::string("--") + flag +
-                     ": expected a number above 0, found " + NumberText(value));
-  }
-  return value;
-}
-
 double PlateStiffness() {
-  return Positive("youngs_modulus_GPa", FLAGS_youngs_modulus_GPa) * 1e3 *
-         Positive("width_mm", FLAGS_width_mm) *
-         std::pow(Positive("thickness_mm", FLAGS_thickness_mm), 3) / 12;
+  return PositiveFlag("youngs_modulus_GPa", FLAGS_youngs_modulus_GPa) * 1e3 *
+         PositiveFlag("width_mm", FLAGS_width_mm) *
+         std::pow(PositiveFlag("thickness_mm", FLAGS_thickness_mm), 3) / 12;
 }
 
 Finger FingerOfDimensions() {
   Finger finger;
   finger.name = FormatText("strip_%gmm", FLAGS_front_length_mm);
-  finger.front_length_mm = Positive("front_length_mm", FLAGS_front_length_mm);
+  finger.front_length_mm =
+      PositiveFlag("front_length_mm", FLAGS_front_length_mm);
   if (!(FLAGS_back_angle_deg > 90 && FLAGS_back_angle_deg < 180)) {
     throw UsageError("--back_angle_deg: expected between 90 and 180, found " +
                      NumberText(FLAGS_back_angle_deg));
@@ -118,8 +99,8 @@ Finger FingerOfDimensions() {
 class DrawingFailed : public std::exception {};
 
 Finger FingerOfDrawing() {
-  Positive("youngs_modulus_GPa", FLAGS_youngs_modulus_GPa);
-  Positive("width_mm", FLAGS_width_mm);
+  PositiveFlag("youngs_modulus_GPa", FLAGS_youngs_modulus_GPa);
+  PositiveFlag("width_mm", FLAGS_width_mm);
   std::string folder =
       (std::filesystem::temp_directory_path() / "finray_XXXXXX").string();
   if (mkdtemp(folder.data()) == nullptr) {
@@ -155,7 +136,7 @@ Finger StartFinger() {
 PlacementTask Task(const Finger& finger) {
   PlacementTask task;
   task.gauge.length_mm = kReferenceLength_mm;
-  task.gauge.noise_V = Positive("gauge_noise_rad", FLAGS_gauge_noise_rad) *
+  task.gauge.noise_V = PositiveFlag("gauge_noise_rad", FLAGS_gauge_noise_rad) *
                        task.gauge.gain_V_per_rad;
   for (const std::string& beam : SplitList(FLAGS_gauge_beams)) {
     if (beam != "front" && beam != "back") {
@@ -164,8 +145,13 @@ PlacementTask Task(const Finger& finger) {
     }
     task.beams.push_back(beam == "front" ? Side::kFront : Side::kBack);
   }
-  std::tie(task.least_length_mm, task.most_length_mm) =
-      Range("gauge_length_mm", FLAGS_gauge_length_mm);
+  const std::string& length_mm = FLAGS_gauge_length_mm;
+  if (const auto one = ParseNumber(length_mm)) {
+    task.least_length_mm = task.most_length_mm = *one;
+  } else {
+    std::tie(task.least_length_mm, task.most_length_mm) =
+        RangeFlag("gauge_length_mm", length_mm);
+  }
   if (task.least_length_mm < 1) {
     throw UsageError("--gauge_length_mm: expected at least 1 mm");
   }
@@ -173,20 +159,10 @@ PlacementTask Task(const Finger& finger) {
   if (!(task.clearance_mm >= 0)) {
     throw UsageError("--clearance_mm: expected at least 0");
   }
-  const double length = finger.front_length_mm;
-  task.from_mm = 0.15 * length;
-  task.to_mm = 0.8 * length;
-  if (!FLAGS_region_mm.empty()) {
-    std::tie(task.from_mm, task.to_mm) = Range("region_mm", FLAGS_region_mm);
-    if (!(task.from_mm > 0 && task.to_mm < length)) {
-      throw UsageError(
-          FormatText("--region_mm: expected a part of the front beam, 0 to %g "
-                     "mm, found %s",
-                     length, FLAGS_region_mm.c_str()));
-    }
-  }
+  std::tie(task.from_mm, task.to_mm) =
+      RegionFlag("region_mm", FLAGS_region_mm, finger, 0.15, 0.8);
   task.normal_N = FLAGS_force_N == 0 ? 3 * ForceUnit(finger)
-                                     : Positive("force_N", FLAGS_force_N);
+                                     : PositiveFlag("force_N", FLAGS_force_N);
   task.friction = FLAGS_friction;
   if (FLAGS_goal != "place" && FLAGS_goal != "force") {
     throw UsageError("--goal: expected place or force, found " + FLAGS_goal);
@@ -254,12 +230,18 @@ FrameTable Front(const Finger& finger, const GaugePlaces& places,
     std::printf("%d gauges       %s: %s\n", count,
                 WordsOf(choice->worst).c_str(),
                 PlacesOf(choice->finger).c_str());
+    if (!choice->untold_mm.empty()) {
+      std::printf("               %zu heights are not told\n",
+                  choice->untold_mm.size());
+    }
+    table.MutableText("untold_heights")[row] =
+        std::to_string(choice->untold_mm.size());
     table.MutableText("gauges")[row] = std::to_string(count);
     table.MutableText("worst_place_std_mm")[row] =
         NumberText(choice->worst.place_mm);
     table.MutableText("worst_force_std_N")[row] =
         NumberText(choice->worst.force_N);
-    table.MutableText("places_mm")[row] = '"' + PlacesOf(choice->finger) + '"';
+    table.MutableText("places_mm")[row] = PlacesOf(choice->finger);
   }
   return table;
 }

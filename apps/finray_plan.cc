@@ -14,6 +14,7 @@
 #include "finray/io/number_text.h"
 #include "finray/io/python_script.h"
 #include "finray/scene/frame_columns.h"
+#include "number_flags.h"
 
 DEFINE_string(finger, "",
               "finger YAML: the drawing, or an earlier calibration");
@@ -43,28 +44,6 @@ namespace {
 
 using namespace finray;
 
-std::pair<double, double> RangeFlag(const char* flag, const std::string& text) {
-  const std::size_t colon = text.find(':');
-  std::optional<double> from, to;
-  if (colon != std::string::npos) {
-    from = ParseNumber(text.substr(0, colon));
-    to = ParseNumber(text.substr(colon + 1));
-  }
-  if (!from || !to || !(*to > *from)) {
-    throw UsageError(std::string("--") + flag +
-                     ": expected from:to in mm, such as -30:5, found " + text);
-  }
-  return {*from, *to};
-}
-
-double PositiveFlag(const char* flag, double value) {
-  if (!(value > 0) || std::isinf(value)) {
-    throw UsageError(std::string("--") + flag +
-                     ": expected a number above 0, found " + NumberText(value));
-  }
-  return value;
-}
-
 RecordingLimits LimitFlags() {
   RecordingLimits limits;
   const auto x = RangeFlag("x_mm", Required("x_mm", FLAGS_x_mm));
@@ -77,19 +56,8 @@ RecordingLimits LimitFlags() {
 
 RecordingTarget TargetFlags(const Finger& finger) {
   RecordingTarget target;
-  const double length = finger.front_length_mm;
-  target.from_mm = 0.2 * length;
-  target.to_mm = 0.7 * length;
-  if (!FLAGS_region_mm.empty()) {
-    std::tie(target.from_mm, target.to_mm) =
-        RangeFlag("region_mm", FLAGS_region_mm);
-    if (!(target.from_mm > 0 && target.to_mm < length)) {
-      throw UsageError(FormatText(
-          "--region_mm: expected a part of the front beam, 0 to %g mm, found "
-          "%s",
-          length, FLAGS_region_mm.c_str()));
-    }
-  }
+  std::tie(target.from_mm, target.to_mm) =
+      RegionFlag("region_mm", FLAGS_region_mm, finger, 0.2, 0.7);
   target.normal_N = FLAGS_force_N == 0 ? 3 * ForceUnit(finger)
                                        : PositiveFlag("force_N", FLAGS_force_N);
   if (FLAGS_target_contact_mm != 0) {

@@ -18,7 +18,7 @@
 namespace finray {
 namespace {
 
-constexpr double kForce_N = 2;
+constexpr double kForce_N = 2, kLarge_N = 6;
 constexpr int kFrames = 1000, kCalibrations = 100;
 
 struct Spread {
@@ -28,8 +28,8 @@ struct Spread {
 
 // Sums squares of errors of noisy frames.
 void AddFrames(FrameEstimator* estimator, const Measurements& exact,
-               double contact_mm, int frames, std::mt19937_64* generator,
-               Spread* sum) {
+               const PointContact& contact, int frames,
+               std::mt19937_64* generator, Spread* sum) {
   std::normal_distribution<double> normal;
   const Finger& finger = estimator->finger();
   for (int k = 0; k < frames; ++k) {
@@ -39,14 +39,15 @@ void AddFrames(FrameEstimator* estimator, const Measurements& exact,
     }
     const FrameEstimate estimate = estimator->Estimate(row);
     sum->usable += estimate.status == FrameStatus::kOk;
-    sum->place_mm += std::pow(estimate.contact[0].arc_mm - contact_mm, 2);
-    sum->force_N += std::pow(estimate.contact[0].normal_N - kForce_N, 2);
+    sum->place_mm += std::pow(estimate.contact[0].arc_mm - contact.arc_mm, 2);
+    sum->force_N +=
+        std::pow(estimate.contact[0].normal_N - contact.normal_N, 2);
   }
 }
 
-Measurements Exact(const Finger& finger, double contact_mm) {
+Measurements Exact(const Finger& finger, const PointContact& contact) {
   EquilibriumSolver solver(finger, {});
-  if (!solver.Solve({{contact_mm, kForce_N}})) std::abort();
+  if (!solver.Solve({contact})) std::abort();
   Measurements row;
   for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
     row.gauges_V.push_back(
@@ -55,9 +56,8 @@ Measurements Exact(const Finger& finger, double contact_mm) {
   return row;
 }
 
-void PrintRow(double height, const ContactStd& predicted,
-              const Eigen::VectorXd& std, const Spread& sum, int frames) {
-  (void)predicted;
+void PrintRow(double height, const Eigen::VectorXd& std, const Spread& sum,
+              int frames) {
   const double place = std::sqrt(sum.place_mm / frames);
   const double force = std::sqrt(sum.force_N / frames);
   std::printf(
@@ -69,9 +69,10 @@ void PrintRow(double height, const ContactStd& predicted,
 const std::vector<double> kHeights = {14, 20, 30, 40,  50,  60,
                                       70, 80, 90, 100, 105, 110};
 
-void NoiseAlone(const char* name, const Finger& finger) {
-  std::printf("\n%s: %d frames of %g N by the noise of the gauges\n\n", name,
-              kFrames, kForce_N);
+void NoiseAlone(const Finger& finger, double normal_N) {
+  std::printf(
+      "\npaper's finger: %d frames of %g N by the noise of the gauges\n\n",
+      kFrames, kForce_N);
   std::printf(
       "| l_c mm | predicted mm | spread mm | off | predicted N | spread "
       "N | off | ok |\n|---|---|---|---|---|---|---|---|\n");
@@ -82,10 +83,11 @@ void NoiseAlone(const char* name, const Finger& finger) {
   std::mt19937_64 generator(1);
   for (const double height : kHeights) {
     Spread sum;
-    AddFrames(&estimator, Exact(finger, height), height, kFrames, &generator,
+    const PointContact contact{height, normal_N};
+    AddFrames(&estimator, Exact(finger, contact), contact, kFrames, &generator,
               &sum);
-    const ContactStd predicted = accuracy.At({{height, kForce_N}});
-    PrintRow(height, predicted, predicted.noise, sum, kFrames);
+    const ContactStd predicted = accuracy.At({contact});
+    PrintRow(height, predicted.noise, sum, kFrames);
   }
 }
 
@@ -112,13 +114,14 @@ void Calibrated(const Finger& finger, const Plan& plan) {
         WithNoise(recording.problem().logs(), finger, plan, &generator));
     FrameEstimator estimator(found, scene);
     for (std::size_t i = 0; i < kHeights.size(); ++i) {
-      AddFrames(&estimator, Exact(finger, kHeights[i]), kHeights[i],
+      const PointContact contact{kHeights[i], kForce_N};
+      AddFrames(&estimator, Exact(finger, contact), contact,
                 kFrames / kCalibrations, &generator, &sums[i]);
     }
   }
   for (std::size_t i = 0; i < kHeights.size(); ++i) {
     const ContactStd predicted = accuracy.At({{kHeights[i], kForce_N}});
-    PrintRow(kHeights[i], predicted, predicted.total, sums[i], kFrames);
+    PrintRow(kHeights[i], predicted.total, sums[i], kFrames);
   }
 }
 
@@ -131,7 +134,8 @@ Spread WorstSpread(const Finger& finger) {
   Spread worst;
   for (const double height : HeightsOf(20, 105)) {
     Spread sum;
-    AddFrames(&estimator, Exact(finger, height), height, kFrames, &generator,
+    const PointContact contact{height, kForce_N};
+    AddFrames(&estimator, Exact(finger, contact), contact, kFrames, &generator,
               &sum);
     worst.place_mm =
         std::max(worst.place_mm, std::sqrt(sum.place_mm / kFrames));
@@ -177,7 +181,8 @@ int main() {
   const Finger paper = PaperFinger();
   const Plan plan =
       ReadPlan(FINRAY_SOURCE_DIR "/configs/plans/force_and_circle.yaml");
-  NoiseAlone("paper's finger", paper);
+  NoiseAlone(paper, kForce_N);
+  NoiseAlone(paper, kLarge_N);
   Placements(paper, plan);
   std::fflush(stdout);
   Calibrated(paper, plan);

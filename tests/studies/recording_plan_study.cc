@@ -24,19 +24,6 @@ namespace {
 
 constexpr int kDraws = 20, kFramesPerHeight = 20;
 
-constexpr char kLabPlan[] = R"(schema_version: 1
-scene: {contacts: auto, object: {shape: circle, radius_mm: 15}}
-parameters:
-  front_stiffness: {prior_std_percent: 15}
-  back_stiffness:  {prior_std_percent: 15}
-  gauge_gain:      {prior_std_percent: 20}
-  gauge_offset:    {prior_std_V: 0.05}
-  rib_length:      {prior_std_mm: 0.3}
-  object_origin:   {prior_std_mm: 0.3}
-measurements: {force_std_N: 0.02, object_std_mm: 0.05}
-robust_loss: {type: huber, scale: 3.0}
-)";
-
 // The log that a lab records of the finger at the places of the plan: by the
 // simulation, with noise. Rows above the largest force are left out.
 std::string Record(const KnownFinger& truth, const Plan& plan,
@@ -157,8 +144,8 @@ int Meet(const char* name, const Finger& drawing, const Plan& plan,
 
 int main() {
   using namespace finray;
-  const TempFolder folder;
-  const Plan plan = ReadPlan(folder.Write("plan.yaml", kLabPlan));
+  const Plan plan =
+      ReadPlan(FINRAY_SOURCE_DIR "/configs/plans/drawn_finger.yaml");
   const Finger paper = PaperFinger();
   const RecordingTarget target{28, 98, 3, 0.7, 0.066, 0.95};
   Meet("as promised", paper, plan, target, 1);
