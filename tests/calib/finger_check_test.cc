@@ -111,9 +111,10 @@ TEST(FingerCheckTest, ImplausibleNumbersAreNamed) {
   finger = paper;
   finger.ribs[2].back_mm = finger.ribs[1].back_mm + 0.5;
   finger.ribs[2].front_mm = finger.ribs[1].front_mm + 1;
+  finger.ribs[2].length_mm = NominalRibLength(finger, finger.ribs[2]);
   EXPECT_THAT(Codes(finger), Contains("ribs_close"));
   finger = paper;
-  finger.ribs[0].length_mm += 2;
+  finger.ribs[4].length_mm += 0.3;
   EXPECT_THAT(Codes(finger), Contains("prestress"));
   finger = paper;
   finger.gauges[1].start_mm = 35;

@@ -12,8 +12,10 @@ namespace {
 std::vector<RibFigures> RibsAtRest(const Finger& finger,
                                    EquilibriumSolver* solver) {
   if (!solver->Solve({})) {
-    throw std::runtime_error("the finger has no equilibrium at rest: " +
-                             solver->Why());
+    throw std::runtime_error(
+        "the finger has no equilibrium at rest, so its ribs do not fit "
+        "(length_mm): " +
+        solver->Why());
   }
   std::vector<RibFigures> ribs;
   for (std::size_t i = 0; i < finger.ribs.size(); ++i) {

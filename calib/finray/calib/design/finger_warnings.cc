@@ -172,7 +172,6 @@ void CheckRibs(const Finger& finger, const FingerCheck& figures,
   }
 }
 
-// Says which gauge feels least, in std of its noise per N at its best height.
 void CheckGauges(const Finger& finger, const FingerCheck& figures,
                  WarningList* list) {
   const std::vector<Gauge>& gauges = finger.gauges;
