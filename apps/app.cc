@@ -1,6 +1,7 @@
 #include "app.h"
 
 #include <exception>
+#include <filesystem>
 
 #include "finray/io/number_text.h"
 
@@ -87,6 +88,20 @@ void DumpConfig(const Finger& finger, const Scene& scene,
   std::cout << "finger:\n";
   for (std::string line; std::getline(lines, line);) {
     std::cout << "  " << line << "\n";
+  }
+}
+
+void RefuseToOverwrite(const std::vector<std::string>& inputs,
+                       const std::vector<std::string>& outputs) {
+  for (const std::string& output : outputs) {
+    for (const std::string& input : inputs) {
+      std::error_code missing;
+      if (std::filesystem::equivalent(input, output, missing)) {
+        throw InputError(input +
+                         ": is an input and would be written over; "
+                         "choose another output");
+      }
+    }
   }
 }
 

@@ -63,6 +63,10 @@ std::vector<std::string> SplitList(const std::string& list);
 /// for result files.
 std::string CommandWith(const std::vector<const char*>& flags);
 
+/// Throws InputError if one of the outputs is a file that was read.
+void RefuseToOverwrite(const std::vector<std::string>& inputs,
+                       const std::vector<std::string>& outputs);
+
 /// Prints the configuration after all files and defaults, as YAML, for
 /// --dump_config.
 void DumpConfig(const Finger& finger, const Scene& scene,
@@ -81,10 +85,6 @@ bool DumpConfigFlag(const Finger& finger, const Scene& scene,
 /// Returns the path of a file in the folder of --out_dir, which the executable
 /// defines.
 std::string OutPath(const std::string& name);
-
-/// Throws InputError if one of the outputs is a file that was read.
-void RefuseToOverwrite(const std::vector<std::string>& inputs,
-                       const std::vector<std::string>& outputs);
 
 /// An executable. app.cc has main(), which parses flags and calls `run`. An
 /// exception becomes one line on stderr and an exit code.

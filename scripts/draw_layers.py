@@ -31,7 +31,7 @@ ROWS = [
     [("io", "tables, YAML with places, files that survive")],
 ]
 # The folders of the calibration; each may include itself and those before it.
-STAGES = ["problem", "solve", "analysis", "report"]
+STAGES = ["problem", "solve", "analysis", "design", "report"]
 
 WIDTH, ROW, GAP, EDGE = 900, 46, 10, 16
 INK, QUIET, PAPER = "#22272e", "#5b6572", "#ffffff"

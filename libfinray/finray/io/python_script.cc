@@ -4,28 +4,33 @@
 #include <sys/wait.h>
 
 #include <cerrno>
-#include <cstring>
 
 extern char** environ;
 
 namespace finray {
 
-std::string RunPythonScript(const std::string& script,
-                            const std::vector<std::string>& arguments,
-                            const std::string& packages) {
+int RunPython(const std::string& script,
+              const std::vector<std::string>& arguments) {
   std::vector<std::string> words = {"/usr/bin/python3", script};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   pid_t child;
-  const int error =
-      posix_spawn(&child, argv[0], nullptr, nullptr, argv.data(), environ);
-  if (error != 0) return words[0] + ": " + std::strerror(error);
+  if (posix_spawn(&child, argv[0], nullptr, nullptr, argv.data(), environ) !=
+      0) {
+    return -1;
+  }
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+std::string RunPythonScript(const std::string& script,
+                            const std::vector<std::string>& arguments,
+                            const std::string& packages) {
+  if (RunPython(script, arguments) == 0) return "";
   return script + " failed; are " + packages + " installed?";
 }
 

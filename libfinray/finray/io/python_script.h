@@ -7,8 +7,13 @@
 namespace finray {
 
 /// Runs a Python script with /usr/bin/python3, as another interpreter on PATH
-/// may lack matplotlib. Returns an error message, or "" on success. `packages`
-/// names the script's packages for that message.
+/// may lack matplotlib. Returns its exit code, or -1 if it did not run to its
+/// end. The script itself says what went wrong.
+int RunPython(const std::string& script,
+              const std::vector<std::string>& arguments);
+
+/// The same, but returns an error message, or "" on success. `packages` names
+/// the script's packages for that message.
 std::string RunPythonScript(const std::string& script,
                             const std::vector<std::string>& arguments,
                             const std::string& packages);

@@ -26,6 +26,12 @@ struct StageFrame {
   Eigen::Vector2d InS(const Eigen::Vector2d& place_mm) const {
     return origin_mm + Turned(place_mm);
   }
+  /// The place p of a log that lies at p_S.
+  Eigen::Vector2d FromS(const Eigen::Vector2d& place_mm) const {
+    return std::exp(-ln_scale) *
+           (Eigen::Rotation2Dd(-rotation_deg * M_PI / 180) *
+            (place_mm - origin_mm));
+  }
 };
 
 }  // namespace finray

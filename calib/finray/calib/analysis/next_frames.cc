@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "finray/calib/solve/information_spectrum.h"
 #include "finray/io/nan.h"
@@ -210,26 +211,33 @@ class NextFrames {
     FrameAdvice best;
     best.std_before = best.std_after = 1;
     const auto consider = [&](const Eigen::MatrixXd& information, double arc,
-                              double force) {
+                              double force,
+                              std::vector<Eigen::Vector2d> object_mm) {
       FrameAdvice advice;
       advice.contact_mm = arc;
       advice.normal_N = force;
       advice.added = added;
+      if (!object_mm.empty() && object_mm[0].allFinite()) {
+        advice.object_mm = std::move(object_mm);
+      }
       Judge(information, goal, &advice);
       if (advice.ratio() < best.ratio()) best = advice;
     };
     for (const double force : predicted_.forces_N) {
       Eigen::MatrixXd spread =
           Eigen::MatrixXd::Zero(goal.weight.rows(), goal.weight.rows());
-      int heights = 0;
+      std::vector<Eigen::Vector2d> places;
       for (const PredictedFrame& candidate : predicted_.frames) {
         if (candidate.free || candidate.normal_N != force) continue;
         const Eigen::MatrixXd one = Information(candidate, measured);
-        consider(one, candidate.contact_mm, force);
+        consider(one, candidate.contact_mm, force, {candidate.object_mm});
         spread += one;
-        ++heights;
+        places.push_back(candidate.object_mm);
       }
-      if (heights > 1) consider(spread / heights, kNaN, force);
+      if (places.size() > 1) {
+        consider(spread / static_cast<double>(places.size()), kNaN, force,
+                 places);
+      }
     }
     return best;
   }

@@ -38,6 +38,9 @@ struct FrameAdvice {
   bool known_gains = false;
   double contact_mm = 0;  ///< NaN if the frames spread over all heights.
   double normal_N = 0;
+  /// Where the stage has the circle for it, as the logs count object_x_mm and
+  /// object_y_mm: one place, or one for each height. Empty without a circle.
+  std::vector<Eigen::Vector2d> object_mm;
   /// The measurements that the logs do not have.
   std::vector<ResidualFamily> added;
   /// Along v, in units of the priors; or what the calibration adds to the std

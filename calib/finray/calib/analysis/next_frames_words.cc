@@ -45,6 +45,17 @@ std::string Spoken(const CalibrationParameter& parameter) {
   return name;
 }
 
+// Says where the stage goes, as the logs count it.
+std::string PlaceWords(const std::vector<Eigen::Vector2d>& object_mm) {
+  if (object_mm.empty()) return "";
+  const Eigen::Vector2d &first = object_mm.front(), &last = object_mm.back();
+  if (object_mm.size() == 1) {
+    return FormatText(" (object at %.1f, %.1f mm)", first.x(), first.y());
+  }
+  return FormatText(" (object from %.1f, %.1f to %.1f, %.1f mm)", first.x(),
+                    first.y(), last.x(), last.y());
+}
+
 }  // namespace
 
 std::string DescribeNextFrames(CalibrationProblem& problem,
@@ -58,7 +69,8 @@ std::string DescribeNextFrames(CalibrationProblem& problem,
     words += std::isnan(advice.contact_mm)
                  ? "spread over the finger"
                  : "at " + FormatText("%.0f mm", advice.contact_mm);
-    words += " with " + FormatText("%.2g N", advice.normal_N);
+    words += " with " + FormatText("%.2g N", advice.normal_N) +
+             PlaceWords(advice.object_mm);
   }
   for (std::size_t i = 0; i < advice.added.size(); ++i) {
     words += (i == 0 ? " and " : " and with ") + Spoken(advice.added[i]);

@@ -78,29 +78,6 @@ std::vector<bool> WorkingGauges(const CalibrationProblem& problem) {
   return works;
 }
 
-// Fills in the readings of all sensors. Returns false if the finger cannot
-// carry the contact, if there is one.
-bool Measure(const std::vector<PointContact>& contacts,
-             const std::vector<bool>& works, const Plan& plan,
-             EquilibriumSolver* solver, CalibrationFrame* frame) {
-  solver->Reset();
-  if (!solver->Solve(contacts)) return false;
-  const Finger& finger = solver->model().finger();
-  frame->gauges_V.resize(works.size());
-  for (std::size_t j = 0; j < works.size(); ++j) {
-    const double angle = solver->gauge_angle(static_cast<int>(j));
-    frame->gauges_V[j] = works[j] ? finger.gauges[j].Volts(angle) : kNaN;
-  }
-  if (contacts.empty()) return true;
-  frame->force_N = contacts[0].normal_N;
-  frame->contact_mm = contacts[0].arc_mm;
-  if (plan.scene.circle_radius_mm()) {
-    frame->object_mm =
-        CircleCentre(solver->contact_pose(0), *plan.scene.circle_radius_mm());
-  }
-  return true;
-}
-
 // The rows of `all` that belong to gauges.
 Eigen::MatrixXd GaugeRows(const LinearizedFrame& at,
                           const Eigen::MatrixXd& all) {
@@ -114,6 +91,28 @@ Eigen::MatrixXd GaugeRows(const LinearizedFrame& at,
 }
 
 }  // namespace
+
+bool PredictReadings(const std::vector<PointContact>& contacts,
+                     const std::vector<bool>& works, const Plan& plan,
+                     const StageFrame& stage, EquilibriumSolver* solver,
+                     CalibrationFrame* frame) {
+  solver->Reset();
+  if (!solver->Solve(contacts)) return false;
+  const Finger& finger = solver->model().finger();
+  frame->gauges_V.resize(works.size());
+  for (std::size_t j = 0; j < works.size(); ++j) {
+    const double angle = solver->gauge_angle(static_cast<int>(j));
+    frame->gauges_V[j] = works[j] ? finger.gauges[j].Volts(angle) : kNaN;
+  }
+  if (contacts.empty()) return true;
+  frame->force_N = contacts[0].normal_N * std::hypot(1, contacts[0].friction);
+  frame->contact_mm = contacts[0].arc_mm;
+  if (plan.scene.circle_radius_mm()) {
+    frame->object_mm = stage.FromS(
+        CircleCentre(solver->contact_pose(0), *plan.scene.circle_radius_mm()));
+  }
+  return true;
+}
 
 PredictedFrames PredictFrames(CalibrationProblem* problem,
                               const Contacts& contacts,
@@ -134,21 +133,23 @@ PredictedFrames PredictFrames(CalibrationProblem* problem,
   EquilibriumSolver solver(finger, problem->discretization());
   const std::vector<bool> works = WorkingGauges(*problem);
   CalibrationFrame frame = Template(*problem, false);
-  if (Measure({}, works, plan, &solver, &frame)) {
+  const StageFrame stage = problem->parameters().Stage(frame.log);
+  if (PredictReadings({}, works, plan, stage, &solver, &frame)) {
     logs.frames.push_back(frame);
-    predicted.frames.push_back({true, kNaN, 0, {}});
+    predicted.frames.push_back({true, kNaN, 0, {kNaN, kNaN}, {}});
   }
   frame = Template(*problem, true);
+  const StageFrame touching = problem->parameters().Stage(frame.log);
   const bool may_touch = plan.scene.contacts.value_or(1) > 0;
   for (int i = 1; may_touch && i <= kHeights; ++i) {
     const double arc = std::round(finger.front_length_mm * i / (kHeights + 1));
     for (const double force : predicted.forces_N) {
-      if (!Measure({{arc, force, problem->parameters().friction()}}, works,
-                   plan, &solver, &frame)) {
+      if (!PredictReadings({{arc, force, problem->parameters().friction()}},
+                           works, plan, touching, &solver, &frame)) {
         continue;
       }
       logs.frames.push_back(frame);
-      predicted.frames.push_back({false, arc, force, {}});
+      predicted.frames.push_back({false, arc, force, frame.object_mm, {}});
     }
   }
   CalibrationProblem extended(finger, plan, logs, problem->discretization(), 1);
@@ -200,6 +201,16 @@ double PredictedForce::calibration_N(const Eigen::MatrixXd& covariance) const {
   return std::sqrt(weight.cwiseProduct(covariance).sum());
 }
 
+std::optional<SensedContact> SensedBy(const LinearizedFrame& at) {
+  const Eigen::MatrixXd by_contact = GaugeRows(at, at.by_contact);
+  if (by_contact.rows() < 2) return {};
+  SensedContact sensed;
+  sensed.noise = PseudoInverse(by_contact.transpose() * by_contact);
+  sensed.by_parameter =
+      -sensed.noise * by_contact.transpose() * GaugeRows(at, at.by_parameter);
+  return sensed;
+}
+
 PredictedForce PredictForce(const CalibrationProblem& problem,
                             const PredictedFrames& predicted) {
   PredictedForce force;
@@ -209,10 +220,9 @@ PredictedForce PredictForce(const CalibrationProblem& problem,
   double noise = 0;
   for (const PredictedFrame& frame : predicted.frames) {
     if (frame.free) continue;
-    const Eigen::MatrixXd by_contact = GaugeRows(frame.at, frame.at.by_contact);
-    if (by_contact.rows() < 2) continue;
-    const Eigen::Matrix2d covariance =
-        PseudoInverse(by_contact.transpose() * by_contact);
+    const std::optional<SensedContact> sensed = SensedBy(frame.at);
+    if (!sensed) continue;
+    const Eigen::Matrix2d& covariance = sensed->noise;
     const double place_std = std::sqrt(covariance(0, 0));
     const double force_std = std::sqrt(covariance(1, 1));
     if (place_std >
@@ -221,9 +231,7 @@ PredictedForce PredictForce(const CalibrationProblem& problem,
       continue;
     }
     const Eigen::RowVectorXd by_parameter =
-        -per_normal * (covariance * by_contact.transpose() *
-                       GaugeRows(frame.at, frame.at.by_parameter))
-                          .row(1);
+        per_normal * sensed->by_parameter.row(1);
     force.weight += by_parameter.transpose() * by_parameter;
     noise += per_normal * per_normal * covariance(1, 1);
     force.contacts.emplace_back(frame.contact_mm, frame.normal_N);

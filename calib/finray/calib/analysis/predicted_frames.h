@@ -2,6 +2,7 @@
 #define FINRAY_CALIB_ANALYSIS_PREDICTED_FRAMES_H_
 
 #include <Eigen/Core>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -16,9 +17,21 @@ namespace finray {
 struct PredictedFrame {
   bool free;
   double contact_mm, normal_N;  ///< NaN and 0 if free.
+  /// Where the stage has the circle, as the logs count its places. NaN without
+  /// a circle.
+  Eigen::Vector2d object_mm;
   /// The derivatives are by the free parameters, in the given units.
   LinearizedFrame at;
 };
+
+/// Fills in what all sensors read of a finger under these contacts, at most one
+/// of them: the gauges that work, the magnitude of the force, and where the
+/// stage has the circle of the plan. Returns false if the solver's finger
+/// cannot carry the contacts.
+bool PredictReadings(const std::vector<PointContact>& contacts,
+                     const std::vector<bool>& works, const Plan& plan,
+                     const StageFrame& stage, EquilibriumSolver* solver,
+                     CalibrationFrame* frame);
 
 /// A free frame, and contacts at nine heights under four loads each, up to a
 /// load that the logs show the finger to bear. Gauges that never read in the
@@ -30,6 +43,17 @@ struct PredictedFrames {
 PredictedFrames PredictFrames(CalibrationProblem* problem,
                               const Contacts& contacts,
                               const Eigen::VectorXd& unit);
+
+/// The contact that the gauges of a frame alone tell. With the derivatives E of
+/// its gauges by (l_c, f_c) and C by the parameters, both over their std,
+///
+///   noise = (E'E)^-1,    by_parameter = -(E'E)^-1 E'C.
+struct SensedContact {
+  Eigen::Matrix2d noise;  ///< The covariance of (l_c, f_c).
+  Eigen::Matrix<double, 2, Eigen::Dynamic> by_parameter;
+};
+/// Empty with fewer than two gauges.
+std::optional<SensedContact> SensedBy(const LinearizedFrame& at);
 
 /// Predicts the std of a force that the gauges alone sense with the calibrated
 /// finger. Of a contact frame with the derivatives E of its gauges by (l_c,

@@ -240,6 +240,16 @@ void EmitLeaveOneLogOut(CalibrationProblem& problem,
   *yaml << YAML::EndMap;
 }
 
+void EmitPlaces(const std::vector<Eigen::Vector2d>& object_mm,
+                YamlEmitter* yaml) {
+  for (int axis = 0; axis < 2; ++axis) {
+    *yaml << YAML::Key << (axis == 0 ? "object_x_mm" : "object_y_mm")
+          << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (const Eigen::Vector2d& place : object_mm) *yaml << place[axis];
+    *yaml << YAML::EndSeq;
+  }
+}
+
 void EmitNext(CalibrationProblem& problem,
               const std::vector<FrameAdvice>& advised, YamlEmitter* yaml) {
   EmitSeq(yaml, "next", advised, [&](const FrameAdvice& advice) {
@@ -253,6 +263,7 @@ void EmitNext(CalibrationProblem& problem,
       // NaN means that the frames spread over the finger.
       YamlPairs(yaml, "contact_mm", advice.contact_mm, "normal_N",
                 advice.normal_N);
+      EmitPlaces(advice.object_mm, yaml);
     }
     *yaml << YAML::Key << "add" << YAML::Value << YAML::Flow << YAML::BeginSeq;
     for (const ResidualFamily family : advice.added) {

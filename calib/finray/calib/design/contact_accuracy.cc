@@ -1,0 +1,73 @@
+#include "finray/calib/design/contact_accuracy.h"
+
+#include <cmath>
+#include <limits>
+
+namespace finray {
+
+ContactAccuracy::ContactAccuracy(const Finger& finger, double friction,
+                                 const Discretization& discretization)
+    : solver_(finger, discretization),
+      systematic_(finger, friction, &solver_) {}
+
+ContactStd ContactAccuracy::At(const std::vector<PointContact>& contacts) {
+  const Finger& finger = solver_.model().finger();
+  const auto gauges = static_cast<Eigen::Index>(finger.gauges.size());
+  const auto unknowns = 2 * static_cast<Eigen::Index>(contacts.size());
+  ContactStd std;
+  std.noise = std.total = Eigen::VectorXd::Constant(
+      unknowns, std::numeric_limits<double>::infinity());
+  solver_.Reset();
+  if (gauges < unknowns || !solver_.SolveWithSensitivities(contacts)) {
+    return std;
+  }
+  Eigen::VectorXd weights(gauges);
+  std::vector<double> readings_V;
+  for (Eigen::Index j = 0; j < gauges; ++j) {
+    const Gauge& gauge = finger.gauges[j];
+    const double angle = solver_.gauge_angle(static_cast<int>(j));
+    weights[j] = gauge.AngleWeight(angle);
+    readings_V.push_back(gauge.Volts(angle));
+    if (!gauge.IsInRange(readings_V.back())) weights[j] = 0;
+  }
+  const Eigen::MatrixXd slope =
+      weights.asDiagonal() *
+      solver_.d_outputs().topLeftCorner(gauges, unknowns);
+  const ContactMatrix noise = CovarianceOf(slope.transpose() * slope);
+  std.noise = std.total = noise.diagonal().cwiseSqrt();
+  if (systematic_.empty() || std::isinf(noise(0, 0))) return std;
+  std.total = (noise.diagonal() +
+               systematic_.Of(contacts, readings_V, weights).diagonal())
+                  .cwiseSqrt();
+  return std;
+}
+
+std::vector<double> HeightsOf(double from_mm, double to_mm) {
+  constexpr double kStep_mm = 2.5;
+  const int steps =
+      std::max(1, static_cast<int>(std::ceil((to_mm - from_mm) / kStep_mm)));
+  std::vector<double> heights;
+  for (int i = 0; i <= steps; ++i) {
+    heights.push_back(from_mm + (to_mm - from_mm) * i / steps);
+  }
+  return heights;
+}
+
+WorstStd WorstOf(const std::vector<double>& heights_mm, double normal_N,
+                 double friction, ContactAccuracy* accuracy) {
+  WorstStd worst;
+  for (const double height : heights_mm) {
+    const ContactStd std = accuracy->At({{height, normal_N, friction}});
+    if (std.total[0] > worst.place_mm) {
+      worst.place_mm = std.total[0];
+      worst.place_at_mm = height;
+    }
+    if (std.total[1] > worst.force_N) {
+      worst.force_N = std.total[1];
+      worst.force_at_mm = height;
+    }
+  }
+  return worst;
+}
+
+}  // namespace finray
