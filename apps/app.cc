@@ -3,6 +3,7 @@
 #include <exception>
 
 #include "finray/io/number_text.h"
+#include "finray/io/versions.h"
 
 namespace finray {
 
@@ -95,7 +96,7 @@ void DumpConfig(const Finger& finger, const Scene& scene,
 int main(int argc, char** argv) {
   using namespace finray;
   gflags::SetUsageMessage(kApp.usage);
-  gflags::SetVersionString(FINRAY_VERSION);
+  gflags::SetVersionString(FINRAY_VERSION "\n" + std::string(kVersions));
   FLAGS_logtostderr = true;
   // Solvers try steps that fail. Users read what the tools say instead.
   FLAGS_minloglevel = google::GLOG_FATAL;

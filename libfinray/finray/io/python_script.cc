@@ -6,6 +6,9 @@
 #include <cerrno>
 #include <cstring>
 
+#include "finray/io/error.h"
+#include "finray/io/resources.h"
+
 extern char** environ;
 
 namespace finray {
@@ -13,7 +16,12 @@ namespace finray {
 std::string RunPythonScript(const std::string& script,
                             const std::vector<std::string>& arguments,
                             const std::string& packages) {
-  std::vector<std::string> words = {"/usr/bin/python3", script};
+  std::vector<std::string> words = {"/usr/bin/python3"};
+  try {
+    words.push_back(ResourcePath(script));
+  } catch (const InputError& error) {
+    return error.what();
+  }
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());

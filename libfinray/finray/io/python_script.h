@@ -6,9 +6,10 @@
 
 namespace finray {
 
-/// Runs a Python script with /usr/bin/python3, as another interpreter on PATH
-/// may lack matplotlib. Returns an error message, or "" on success. `packages`
-/// names the script's packages for that message.
+/// Runs a Python script that finray comes with, by its name in the source tree
+/// (ResourcePath), with /usr/bin/python3: another interpreter on PATH may lack
+/// matplotlib. Returns an error message, or "" on success. `packages` names the
+/// script's packages for that message.
 std::string RunPythonScript(const std::string& script,
                             const std::vector<std::string>& arguments,
                             const std::string& packages);

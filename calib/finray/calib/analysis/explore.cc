@@ -96,25 +96,25 @@ std::string WordsOf(const Exploration::Step& step) {
              -step.drop, step.after, step.before);
 }
 
-std::string ExploredPlanYaml(const std::string& path,
+std::string ExploredPlanYaml(const std::string& path, const std::string& text,
                              const Exploration& exploration) {
-  YAML::Node plan = YAML::LoadFile(path);
+  YAML::Node plan = YAML::Load(text);
   if (plan["scene"] && plan["scene"].IsScalar()) {
     plan["scene"] = YAML::LoadFile((std::filesystem::path(path).parent_path() /
                                     plan["scene"].as<std::string>())
                                        .string());
   }
-  std::string text = "# " + path +
-                     ", with what finray_calibrate --explore has"
-                     " freed.\n";
+  std::string explored = "# " + path +
+                         ", with what finray_calibrate --explore has"
+                         " freed.\n";
   for (const Exploration::Step& step : exploration.steps) {
-    text += "# " + WordsOf(step) + "\n";
+    explored += "# " + WordsOf(step) + "\n";
     if (!step.kept) continue;
     YAML::Node family;
     family[PriorKeyOf(step.effect.family)] = NumberText(step.effect.prior_std);
     plan["parameters"][FamilyKeyOf(step.effect.family)] = family;
   }
-  return text + YAML::Dump(plan) + "\n";
+  return explored + YAML::Dump(plan) + "\n";
 }
 
 }  // namespace finray

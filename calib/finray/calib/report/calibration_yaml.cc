@@ -122,10 +122,13 @@ void EmitForceErrors(const char* key, const ForceCheck::Errors& errors,
 void EmitInputs(const CalibrationLogs& logs, const CalibrationInputs& inputs,
                 YamlEmitter* yaml) {
   BeginMap(yaml, "inputs");
-  EmitFile(yaml, "finger", inputs.finger_path);
-  EmitFile(yaml, "plan", inputs.plan_path);
-  EmitSeq(yaml, "logs", logs.paths,
-          [&](const std::string& path) { EmitFile(yaml, path); });
+  for (const auto& [key, path] : {std::pair("finger", inputs.finger_path),
+                                  std::pair("plan", inputs.plan_path)}) {
+    EmitLine(yaml, key, "path", path, "sha256", inputs.Sha256Of(path));
+  }
+  EmitSeq(yaml, "logs", logs.paths, [&](const std::string& path) {
+    YamlLine(yaml, "path", path, "sha256", inputs.Sha256Of(path));
+  });
   *yaml << YAML::EndMap;
 }
 
@@ -271,6 +274,11 @@ void EmitNext(CalibrationProblem& problem,
 }
 
 }  // namespace
+
+std::string CalibrationInputs::Sha256Of(const std::string& path) const {
+  const auto text = texts.find(path);
+  return text == texts.end() ? Sha256OfFile(path) : Sha256OfText(text->second);
+}
 
 std::string CalibrationYaml(CalibrationProblem& problem,
                             const CalibrationResult& result,
