@@ -80,7 +80,7 @@ class Finger(Description):
     Finger('mine', 2 ribs, 1 gauges)
     >>> finray.Finger(geometry={"front_lenght_mm": 140, "back_angle_deg": 112}, beams={})
     Traceback (most recent call last):
-    finray.errors.InputError: finger:3:15: 'front_lenght_mm' is not a key here, did you mean 'front_length_mm'?
+    finray.errors.InputError: finger:3:15: unknown key 'front_lenght_mm' in geometry (did you mean 'front_length_mm'?)
     """
 
     _kind = _finray.Finger

@@ -48,7 +48,7 @@ def simulate(finger: Finger, frames: Log, scene: Scene | None = None, *, shapes:
     >>> finger = finray.paper_finger()
     >>> found = finray.simulate(finger, {"contact_1_mm": [70.0], "normal_1_N": [2.0]})
     >>> found["status"][0], round(found["gauge_1_V"][0], 4)
-    ('ok', -0.0256)
+    ('ok', -0.0098)
     """
     scene = scene or Scene()
     columns, beams, contact, free, failed, first = _finray.simulate(

@@ -56,7 +56,7 @@ def plot_estimates(found: Estimation, column: str = "normal_1_N", x: Floats | No
         rows = found.codes == code
         if not rows.any():
             continue
-        axes.errorbar(place[rows], found[column][rows], None if std is None else 2 * std[rows], fmt=".", markersize=3,
+        axes.errorbar(place[rows], found[column][rows], None if std is None else 2 * np.nan_to_num(std[rows]), fmt=".", markersize=3,
                       elinewidth=0.5, color=COLOURS[str(status)], label=str(status))
     axes.set_xlabel("frame" if x is None else "x")
     axes.set_ylabel(f"{name} / {unit}")

@@ -138,7 +138,7 @@ TEST(FrameResidualsTest, DerivativesAreThoseOfDifferences) {
          back = residuals.ln_back_stiffness();
   std::vector<double> ribs = residuals.rib_lengths_mm();
   ceres::NumericDiffOptions options;
-  options.relative_step_size = 1e-5;
+  options.relative_step_size = 1e-4;  // far above the noise of equilibrium
   for (const auto& [cost, blocks] :
        {std::pair(state.get(), std::vector<const double*>{contact, &front,
                                                           &back, ribs.data()}),
@@ -147,7 +147,7 @@ TEST(FrameResidualsTest, DerivativesAreThoseOfDifferences) {
         cost, static_cast<std::vector<const ceres::Manifold*>*>(nullptr),
         options);
     ceres::GradientChecker::ProbeResults results;
-    EXPECT_TRUE(checker.Probe(blocks.data(), 1e-5, &results))
+    EXPECT_TRUE(checker.Probe(blocks.data(), 2e-5, &results))
         << results.error_log;
   }
   double of_gauges[4];

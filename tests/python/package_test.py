@@ -137,11 +137,11 @@ class PackageTest(unittest.TestCase):
     def test_errors_are_those_of_the_command_line(self):
         broken = self.folder / "broken.yaml"
         broken.write_text(FINGER.read_text().replace("front_length_mm", "front_lenght_mm"))
+        loads = self.folder / "no_gauges.csv"
+        loads.write_text("time_s\n0\n")
         cases = [(lambda: finray.Finger.read(broken), ("--finger", broken, "--logs", HOLDOUT)),
                  (lambda: finray.Finger.read("missing.yaml"), ("--finger", "missing.yaml", "--logs", HOLDOUT)),
                  (lambda: finray.estimate(finray.Finger.read(FINGER), loads), ("--finger", FINGER, "--logs", loads))]
-        loads = self.folder / "no_gauges.csv"
-        loads.write_text("time_s\n0\n")
         for call, flags in cases:
             with self.assertRaises(finray.InputError) as raised:
                 call()
