@@ -37,11 +37,17 @@ string(REGEX REPLACE "\n+$" "" FINRAY_LICENSE "${FINRAY_LICENSE}")
 string(REPLACE "\n" "\n " FINRAY_LICENSE "${FINRAY_LICENSE}")
 string(REPLACE "\n \n" "\n .\n" FINRAY_LICENSE "${FINRAY_LICENSE}")
 configure_file(${PROJECT_SOURCE_DIR}/cmake/copyright.in ${FINRAY_DEBIAN}/copyright @ONLY)
+string(TIMESTAMP FINRAY_DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/changelog.Debian.in
+  ${FINRAY_DEBIAN}/changelog.Debian @ONLY)
 execute_process(COMMAND ${GZIP_PROGRAM} -9nc ${PROJECT_SOURCE_DIR}/CHANGELOG.md
   OUTPUT_FILE ${FINRAY_DEBIAN}/changelog.gz)
+execute_process(COMMAND ${GZIP_PROGRAM} -9nc ${FINRAY_DEBIAN}/changelog.Debian
+  OUTPUT_FILE ${FINRAY_DEBIAN}/changelog.Debian.gz)
 foreach(component ${FINRAY_COMPONENTS})
   set(package ${FINRAY_PACKAGE_${component}})
   install(FILES ${FINRAY_DEBIAN}/copyright ${FINRAY_DEBIAN}/changelog.gz
+    ${FINRAY_DEBIAN}/changelog.Debian.gz
     DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component})
   if(EXISTS ${PROJECT_SOURCE_DIR}/cmake/lintian/${package})
     install(FILES ${PROJECT_SOURCE_DIR}/cmake/lintian/${package}
@@ -99,6 +105,8 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
   "libfinray${FINRAY_SOVERSION} (= ${this}), python3 (>= ${FINRAY_PYTHON_VERSION}), python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "finray, python3-matplotlib, python3-pandas")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+  "${PROJECT_SOURCE_DIR}/cmake/debian/postinst;${PROJECT_SOURCE_DIR}/cmake/debian/prerm")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
 "contact sensing and calibration of Fin-Ray fingers: Python 3
 Simulates, estimates, senses live, calibrates and reconstructs on NumPy arrays

@@ -16,7 +16,8 @@ namespace finray {
 std::string RunPythonScript(const std::string& script,
                             const std::vector<std::string>& arguments,
                             const std::string& packages) {
-  std::vector<std::string> words = {"/usr/bin/python3"};
+  // -B: no __pycache__ is left in an installation.
+  std::vector<std::string> words = {"/usr/bin/python3", "-B"};
   try {
     words.push_back(ResourcePath(script));
   } catch (const InputError& error) {
