@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "finray/io/number_text.h"
+#include "finray/io/versions.h"
 
 namespace finray {
 
@@ -110,7 +111,7 @@ void RefuseToOverwrite(const std::vector<std::string>& inputs,
 int main(int argc, char** argv) {
   using namespace finray;
   gflags::SetUsageMessage(kApp.usage);
-  gflags::SetVersionString(FINRAY_VERSION);
+  gflags::SetVersionString(FINRAY_VERSION "\n" + std::string(kVersions));
   FLAGS_logtostderr = true;
   // Solvers try steps that fail. Users read what the tools say instead.
   FLAGS_minloglevel = google::GLOG_FATAL;

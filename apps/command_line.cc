@@ -7,8 +7,8 @@
 #include <iterator>
 
 #include "app.h"
-#include "finray/benchmark/benchmark_run.h"
 #include "finray/io/message_text.h"
+#include "finray/io/usable_cores.h"
 
 namespace finray {
 namespace {

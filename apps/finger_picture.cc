@@ -15,7 +15,7 @@ bool DrawFinger(const Finger& finger, const std::string& path,
     arguments.push_back(FormatText("%.4g,%.4g", place.x(), place.y()));
   }
   const std::string why_not =
-      RunPythonScript(FINRAY_REPORT_DIR "/draw_finger.py", arguments,
+      RunPythonScript("calib/report/draw_finger.py", arguments,
                       "python3-jinja2 and python3-yaml");
   if (!why_not.empty()) Warn("no " + path, why_not);
   return why_not.empty();

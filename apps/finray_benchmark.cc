@@ -16,11 +16,11 @@
 #include "finray/benchmark/run_comparison.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/python_script.h"
+#include "finray/io/resources.h"
 #include "finray/io/sha256.h"
 #include "progress_bar.h"
 
-DEFINE_string(finger, FINRAY_SOURCE_DIR "/configs/fingers/paper_140mm.yaml",
-              "finger YAML");
+DEFINE_string(finger, "", "finger YAML; without it the paper's finger");
 DEFINE_string(out_dir, "",
               "folder for benchmark.json, benchmark.csv, report.html");
 DEFINE_bool(quick, false, "less than a minute: part of the log, few rounds");
@@ -226,14 +226,17 @@ void MeasureCalibrations() {
       std::filesystem::read_symlink("/proc/self/exe").parent_path().string(),
       OutPath("calibration.json")};
   if (FLAGS_quick) arguments.push_back("210");
-  const std::string problem = RunPythonScript(
-      FINRAY_SOURCE_DIR "/scripts/studies/calibration_speed.py", arguments,
-      "finray_calibrate, finray_simulate and python3-yaml");
+  const std::string problem =
+      RunPythonScript("scripts/studies/calibration_speed.py", arguments,
+                      "finray_calibrate, finray_simulate and python3-yaml");
   if (!problem.empty()) Warn("no calibration.json", problem);
 }
 
 int Measure() {
-  const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
+  if (FLAGS_finger.empty()) {
+    FLAGS_finger = ResourcePath("configs/fingers/paper_140mm.yaml");
+  }
+  const Finger finger = ReadFinger(FLAGS_finger);
   Required("out_dir", FLAGS_out_dir);
   if (FLAGS_rounds < 0) throw UsageError("--rounds: expected 0 or more");
   const std::vector<std::string> peers = ParsePeers(FLAGS_peers);
@@ -291,8 +294,7 @@ int Measure() {
   run.latencies =
       MeasureLatencies(finger, FLAGS_quick ? 1000 : 20000, FLAGS_quick ? 1 : 2);
   for (const std::string& peer : peers) {
-    MeasurePeer(peer, FINRAY_SOURCE_DIR "/scripts/peers", FLAGS_out_dir, finger,
-                cases, &run);
+    MeasurePeer(peer, FLAGS_out_dir, finger, cases, &run);
   }
 
   std::filesystem::remove(OutPath("calibration.json"));  // of another run
@@ -300,9 +302,9 @@ int Measure() {
   WriteFileAtomically(OutPath("benchmark.json"), BenchmarkJson(run));
   WriteFileAtomically(OutPath("benchmark.csv"), BenchmarkCsv(run));
   if (FLAGS_report) {
-    const std::string problem = RunPythonScript(
-        FINRAY_SOURCE_DIR "/scripts/benchmark/render.py", {FLAGS_out_dir},
-        "python3-matplotlib and python3-jinja2");
+    const std::string problem =
+        RunPythonScript("scripts/benchmark/render.py", {FLAGS_out_dir},
+                        "python3-matplotlib and python3-jinja2");
     if (!problem.empty()) Warn("no report.html", problem);
   }
   PrintSummary(run);

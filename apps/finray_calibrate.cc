@@ -10,7 +10,7 @@
 #include "finray/calib/report/calibration_result.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/log_list.h"
-#include "finray/io/python_script.h"
+#include "finray/io/yaml_limits.h"
 #include "heartbeat.h"
 
 DEFINE_string(finger, "", "finger YAML to start from");
@@ -154,7 +154,9 @@ Plan ExplorePlan(const Finger& finger, const Plan& plan,
         "explored       the logs show no effect that the plan leaves "
         "out\n");
   }
-  const std::string text = ExploredPlanYaml(FLAGS_plan, exploration);
+  const std::string text = ExploredPlanYaml(
+      FLAGS_plan, ReadWholeFile(FLAGS_plan, "a YAML file", kMostYaml_MiB),
+      exploration);
   FLAGS_plan = OutPath("plan.yaml");
   MakeFolder(FLAGS_out_dir);
   WriteFileAtomically(FLAGS_plan, text);
@@ -237,26 +239,11 @@ int Run() {
   const std::string command =
       CommandWith({"finger", "plan", "logs", "out_dir", "scheme", "resolution",
                    "leave_one_log_out", "tolerance_std"});
-  MakeFolder(FLAGS_out_dir);
-  WriteFileAtomically(OutPath("calibration.yaml"),
-                      CalibrationYaml(problem, result,
-                                      {FLAGS_finger, FLAGS_plan, FLAGS_scheme,
-                                       FLAGS_resolution, command}));
-  CalibrationFrames(problem, result).Write(OutPath("calibration.frames.csv"));
-  CalibrationShape(problem, result).Write(OutPath("calibration.shape.csv"));
-  std::string origin = "Calibrated from";
-  for (const std::string& path : paths) origin += " " + path;
-  WriteFileAtomically(
-      OutPath("finger.yaml"),
-      FingerToYaml(result.finger, origin +
-                                      "\nStandard deviations and checks: "
-                                      "calibration.yaml beside this file."));
-  if (FLAGS_report) {
-    const std::string why_not =
-        RunPythonScript(FINRAY_REPORT_DIR "/render.py", {FLAGS_out_dir},
-                        "python3-matplotlib, python3-jinja2 and python3-yaml");
-    if (!why_not.empty()) Warn("no report.html", why_not);
-  }
+  const std::string why_not = WriteCalibration(
+      problem, result,
+      {FLAGS_finger, FLAGS_plan, FLAGS_scheme, FLAGS_resolution, command, {}},
+      FLAGS_out_dir, FLAGS_report);
+  if (!why_not.empty()) Warn("no report.html", why_not);
   PrintSummary(problem, result);
   const std::string verdict = result.Verdict();
   return verdict == "good"            ? kGood

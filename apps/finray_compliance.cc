@@ -182,8 +182,8 @@ int Run() {
   PrintSummary(found);
   if (FLAGS_plots) {
     const std::string problem =
-        RunPythonScript(FINRAY_PLOT_DIR "/plot_compliance.py", {FLAGS_out_dir},
-                        "python3-matplotlib");
+        RunPythonScript("scripts/perception/plot_compliance.py",
+                        {FLAGS_out_dir}, "python3-matplotlib");
     if (!problem.empty()) Warn("no plots", problem);
   }
   return found.order_confidence < FLAGS_least_order_confidence ? kGateFailed

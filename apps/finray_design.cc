@@ -107,7 +107,7 @@ Finger FingerOfDrawing() {
     throw InputError(folder + ": cannot be created");
   }
   const std::string yaml = folder + "/finger.yaml";
-  const int status = RunPython(FINRAY_REPORT_DIR "/dxf_finger.py",
+  const int status = RunPython("calib/report/dxf_finger.py",
                                {FLAGS_dxf, yaml, NumberText(FLAGS_width_mm),
                                 NumberText(FLAGS_youngs_modulus_GPa)});
   std::optional<Finger> finger;

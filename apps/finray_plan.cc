@@ -150,7 +150,7 @@ int Run() {
   if (FLAGS_report) {
     const bool drawn = DrawFinger(known.finger, OutPath("finger.svg"), places);
     const std::string why_not = RunPythonScript(
-        FINRAY_REPORT_DIR "/recording_page.py",
+        "calib/report/recording_page.py",
         {FLAGS_out_dir, known.finger.name, verdict, TargetWords(target),
          FormatText("%.4g", limits.force_max_N), drawn ? "1" : "0"},
         "python3-jinja2");

@@ -130,7 +130,7 @@ int Run() {
     std::vector<std::string> arguments = {FLAGS_out_dir};
     if (truth) arguments.push_back(FLAGS_truth);
     const std::string problem =
-        RunPythonScript(FINRAY_PLOT_DIR "/plot_outline.py", arguments,
+        RunPythonScript("scripts/perception/plot_outline.py", arguments,
                         "python3-matplotlib and python3-yaml");
     if (!problem.empty()) Warn("no plots", problem);
   }

@@ -16,7 +16,7 @@ INCLUDE = re.compile(r'#include "finray/([^"\n]*)/[^/"\n]+"')
 
 # From top to bottom; a room may include rooms of the rows below it only.
 ROWS = [
-    [("apps", "the executables: flags, files, exit codes")],
+    [("apps", "the executables: flags, files, exit codes"), ("api", "public headers, libfinray.so.1; python on top")],
     [("calib", "from plan and logs to a calibrated finger"),
      ("perception", "outlines, stiffness"), ("control", "force control"), ("benchmark", "speed, error")],
     [("view", "pages of results, the live page and its server")],

@@ -328,8 +328,8 @@ TEST_F(FollowTest, FlagsOfABatchAreRefused) {
 TEST_F(FollowTest, TheExampleOfTheDocs) {
   std::ostringstream docs, example;
   docs << std::ifstream(FINRAY_SOURCE_DIR "/docs/guides/sense_live.md").rdbuf();
-  example
-      << std::ifstream(FINRAY_SOURCE_DIR "/examples/live_contact.cc").rdbuf();
+  example << std::ifstream(FINRAY_SOURCE_DIR "/examples/cpp/live_contact.cc")
+                 .rdbuf();
   ASSERT_THAT(example.str(), Not(testing::IsEmpty()));
   EXPECT_THAT(docs.str(), HasSubstr("```cpp\n" + example.str() + "```\n"));
 

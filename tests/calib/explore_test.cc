@@ -79,8 +79,8 @@ TEST(ExploreTest, ThePlanIsValidAnywhere) {
   found.steps.push_back(
       {CandidateOf(ParameterFamily::kObjectRadius), "", 1, 2, 1, false});
   const TempFolder elsewhere;
-  std::ofstream(elsewhere.Path("plan.yaml"))
-      << ExploredPlanYaml(folder.Path("plan.yaml"), found);
+  std::ofstream(elsewhere.Path("plan.yaml")) << ExploredPlanYaml(
+      folder.Path("plan.yaml"), folder.Read("plan.yaml"), found);
   const Plan plan = ReadPlan(elsewhere.Path("plan.yaml"));
   EXPECT_EQ(plan.scene.circle_radius_mm(), 15);
   EXPECT_TRUE(plan.family(ParameterFamily::kGaugeGain).free);

@@ -72,7 +72,7 @@ def tests():
 
 
 def sources():
-    return {path.name for folder in ("libfinray", "calib", "apps", "examples", "scripts", "tests")
+    return {path.name for folder in ("libfinray", "calib", "apps", "api", "python", "examples", "scripts", "tests")
             for path in (ROOT / folder).rglob("*") if path.suffix in (".h", ".cc", ".py")}
 
 

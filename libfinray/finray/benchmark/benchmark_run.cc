@@ -1,7 +1,6 @@
 #include "finray/benchmark/benchmark_run.h"
 
 #include <ceres/version.h>
-#include <sched.h>
 #include <sys/utsname.h>
 
 #include <Eigen/Core>
@@ -14,6 +13,7 @@
 #include "finray/benchmark/recommendation.h"
 #include "finray/benchmark/statistics.h"
 #include "finray/io/frame_table.h"
+#include "finray/io/usable_cores.h"
 #include "finray/io/yaml_map.h"
 #include "finray/ladder/ladder_kernel.h"
 
@@ -168,11 +168,6 @@ void WriteConclusions(const BenchmarkRun& run, JsonEmitter* json) {
 }
 
 }  // namespace
-
-int UsableCores() {
-  cpu_set_t set;
-  return sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : 1;
-}
 
 Facts ThisMachine() {
   const std::string governor =

@@ -15,9 +15,6 @@ namespace finray {
 /// not tell.
 using Facts = std::map<std::string, std::string>;
 
-/// Returns the number of cores that this process may use.
-int UsableCores();
-
 /// Returns the facts of this machine that times depend on: cpu, cores, caches,
 /// governor (of the frequency of core 0), instruction_set (of the ladder
 /// kernel) and system.

@@ -139,15 +139,15 @@ std::string PeerJob(const Finger& finger,
   return json.c_str();
 }
 
-void MeasurePeer(const std::string& peer, const std::string& scripts,
-                 const std::string& folder, const Finger& finger,
-                 const std::vector<BenchmarkCase>& cases, BenchmarkRun* run) {
+void MeasurePeer(const std::string& peer, const std::string& folder,
+                 const Finger& finger, const std::vector<BenchmarkCase>& cases,
+                 BenchmarkRun* run) {
   PeerStatus status{peer, "", ""};
   const std::string work = folder + "/peer_" + peer;
   MakeFolder(work);
   WriteFileAtomically(work + "/job.json", PeerJob(finger, cases, run->quick));
   const double before = YardstickUs();
-  status.skipped = RunPythonScript(scripts + "/run.py", {peer, work},
+  status.skipped = RunPythonScript("scripts/peers/run.py", {peer, work},
                                    "python3-numpy and python3-scipy");
   const double yardstick_us = (before + YardstickUs()) / 2;
   if (status.skipped.empty()) {

@@ -26,9 +26,9 @@ std::string PeerJob(const Finger& finger,
 /// Runs one peer once, with its files in `folder`, and adds its settings and
 /// its status to `run`. Times are by the clock; the yardstick is the mean of
 /// one before and one after.
-void MeasurePeer(const std::string& peer, const std::string& scripts,
-                 const std::string& folder, const Finger& finger,
-                 const std::vector<BenchmarkCase>& cases, BenchmarkRun* run);
+void MeasurePeer(const std::string& peer, const std::string& folder,
+                 const Finger& finger, const std::vector<BenchmarkCase>& cases,
+                 BenchmarkRun* run);
 
 }  // namespace finray
 

@@ -435,7 +435,10 @@ std::string BendingToYaml(const Rib& rib) {
 }  // namespace
 
 Finger ReadFinger(const std::string& path) {
-  const YamlMap yaml = YamlMap::FromFile(path);
+  return ReadFinger(YamlMap::FromFile(path));
+}
+
+Finger ReadFinger(const YamlMap& yaml) {
   // Checked first, as another version has other keys.
   const int version = yaml.Integer("schema_version");
   if (version != 1) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "finray/finger/finger.h"
+#include "finray/io/yaml_map.h"
 
 namespace finray {
 
@@ -13,6 +14,7 @@ namespace finray {
 /// their beam, a rib that misses the back beam, ribs that cross, a gauge off
 /// its beam, a `calibration` of another finger.
 Finger ReadFinger(const std::string& path);
+Finger ReadFinger(const YamlMap& yaml);
 
 /// The YAML text of a finger. ReadFinger returns the same doubles from it, with
 /// stiffness ratios relative to the first piece of a beam. The lines of

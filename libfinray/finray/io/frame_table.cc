@@ -101,6 +101,17 @@ std::vector<double> FrameTable::NumbersOrNan(const std::string& name) const {
   return std::vector<double>(rows_, kNaN);
 }
 
+bool FrameTable::IsText(const std::string& name) const {
+  const Column* column = Find(name);
+  return column != nullptr && std::holds_alternative<Texts>(column->cells);
+}
+
+const std::vector<std::string>& FrameTable::Text(
+    const std::string& name) const {
+  if (const Column* column = Find(name)) return CellsAs<Texts>(*column);
+  throw InputError(Name() + ": " + NoColumn(name, headers()));
+}
+
 std::vector<double>& FrameTable::MutableNumbers(const std::string& name) {
   return MutableCells<Numeric>(name, kNaN);
 }

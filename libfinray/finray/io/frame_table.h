@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <deque>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -18,7 +19,9 @@ namespace finray {
 class FrameTable {
  public:
   FrameTable() = default;
-  explicit FrameTable(std::size_t rows) : rows_(rows) {}
+  /// `name` stands for the path in messages.
+  explicit FrameTable(std::size_t rows, std::string name = "")
+      : rows_(rows), path_(std::move(name)) {}
 
   /// Reads .csv or .csv.gz as `mapping` says. Throws InputError
   /// (file:line:column, column being the cell's number) for an unreadable or
@@ -29,10 +32,10 @@ class FrameTable {
 
   std::size_t rows() const { return rows_; }
   const std::string& path() const { return path_; }
-  /// Returns the line of the file that a row came from, counted from 1. It is 0
-  /// in a table that was not read.
+  /// Returns the line of the file that a row came from, counted from 1. In a
+  /// table that was not read it is the row, counted from 1.
   int line(std::size_t row) const {
-    return row < lines_.size() ? lines_[row] : 0;
+    return row < lines_.size() ? lines_[row] : static_cast<int>(row) + 1;
   }
 
   std::vector<std::string> headers() const;
@@ -42,6 +45,10 @@ class FrameTable {
   const std::vector<double>& Numbers(const std::string& name) const;
   /// Returns a numeric column like Numbers, but all NaN if it is missing.
   std::vector<double> NumbersOrNan(const std::string& name) const;
+  bool IsText(const std::string& name) const;
+  /// Returns a text column. Throws InputError if it is missing or holds
+  /// numbers.
+  const std::vector<std::string>& Text(const std::string& name) const;
   /// Returns a numeric column to write to, filled with NaN if it is new. Throws
   /// InputError if it exists and holds text.
   std::vector<double>& MutableNumbers(const std::string& name);

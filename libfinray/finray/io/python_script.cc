@@ -5,13 +5,18 @@
 
 #include <cerrno>
 
+#include "finray/io/error.h"
+#include "finray/io/resources.h"
+
 extern char** environ;
 
 namespace finray {
 
 int RunPython(const std::string& script,
               const std::vector<std::string>& arguments) {
-  std::vector<std::string> words = {"/usr/bin/python3", script};
+  // -B: no __pycache__ is left in an installation.
+  std::vector<std::string> words = {"/usr/bin/python3", "-B",
+                                    ResourcePath(script)};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
@@ -30,7 +35,11 @@ int RunPython(const std::string& script,
 std::string RunPythonScript(const std::string& script,
                             const std::vector<std::string>& arguments,
                             const std::string& packages) {
-  if (RunPython(script, arguments) == 0) return "";
+  try {
+    if (RunPython(script, arguments) == 0) return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
   return script + " failed; are " + packages + " installed?";
 }
 

@@ -6,9 +6,10 @@
 
 namespace finray {
 
-/// Runs a Python script with /usr/bin/python3, as another interpreter on PATH
-/// may lack matplotlib. Returns its exit code, or -1 if it did not run to its
-/// end. The script itself says what went wrong.
+/// Runs a Python script that finray comes with, by its name in the source tree
+/// (ResourcePath), with /usr/bin/python3: another interpreter on PATH may lack
+/// matplotlib. Returns its exit code, or -1 if it did not run to its end. The
+/// script itself says what went wrong. Throws InputError if it is missing.
 int RunPython(const std::string& script,
               const std::vector<std::string>& arguments);
 

@@ -111,13 +111,16 @@ YamlMap::YamlMap(YAML::Node node, std::string path, std::string name)
 }
 
 YamlMap YamlMap::FromFile(const std::string& path) {
-  const std::string text = ReadWholeFile(path, "a YAML file", kMostYaml_MiB);
-  RefuseNul(path, text);
-  const YAML::Node node = ParseOneDocument(path, text);
+  return FromText(ReadWholeFile(path, "a YAML file", kMostYaml_MiB), path);
+}
+
+YamlMap YamlMap::FromText(const std::string& text, const std::string& name) {
+  RefuseNul(name, text);
+  const YAML::Node node = ParseOneDocument(name, text);
   if (!node.IsMap()) {
-    FailAt(path, node, "expected a YAML mapping, found " + Shown(node));
+    FailAt(name, node, "expected a YAML mapping, found " + Shown(node));
   }
-  return YamlMap(node, path, "the file");
+  return YamlMap(node, name, "the file");
 }
 
 void YamlMap::AllowOnly(const std::vector<std::string>& keys) const {

@@ -21,6 +21,8 @@ class YamlMap {
  public:
   /// Reads a file whose top level is a mapping.
   static YamlMap FromFile(const std::string& path);
+  /// The same of a text; messages show `name` in place of a path.
+  static YamlMap FromText(const std::string& text, const std::string& name);
 
   /// Throws for a key that is not listed, with the nearest one that is.
   void AllowOnly(const std::vector<std::string>& keys) const;

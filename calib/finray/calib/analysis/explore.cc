@@ -116,9 +116,9 @@ void FindColumnsFromAnywhere(const std::string& file, YAML::Node* yaml) {
 
 }  // namespace
 
-std::string ExploredPlanYaml(const std::string& path,
+std::string ExploredPlanYaml(const std::string& path, const std::string& text,
                              const Exploration& exploration) {
-  YAML::Node plan = YAML::LoadFile(path);
+  YAML::Node plan = YAML::Load(text);
   FindColumnsFromAnywhere(path, &plan);
   if (plan["scene"] && plan["scene"].IsScalar()) {
     const std::string scene_path =
@@ -130,17 +130,17 @@ std::string ExploredPlanYaml(const std::string& path,
     YAML::Node scene = plan["scene"];
     FindColumnsFromAnywhere(path, &scene);
   }
-  std::string text = "# " + path +
-                     ", with what finray_calibrate --explore has"
-                     " freed.\n";
+  std::string explored = "# " + path +
+                         ", with what finray_calibrate --explore has"
+                         " freed.\n";
   for (const Exploration::Step& step : exploration.steps) {
-    text += "# " + WordsOf(step) + "\n";
+    explored += "# " + WordsOf(step) + "\n";
     if (!step.kept) continue;
     YAML::Node family;
     family[PriorKeyOf(step.effect.family)] = NumberText(step.effect.prior_std);
     plan["parameters"][FamilyKeyOf(step.effect.family)] = family;
   }
-  return text + YAML::Dump(plan) + "\n";
+  return explored + YAML::Dump(plan) + "\n";
 }
 
 }  // namespace finray

@@ -35,9 +35,10 @@ Exploration Explore(CalibrationProblem* problem);
 /// Says in one line what a step did.
 std::string WordsOf(const Exploration::Step& step);
 
-/// Returns the text of the plan at `path` with the kept effects free. A scene
-/// in a file of its own is written into the plan, so that it can lie anywhere.
-std::string ExploredPlanYaml(const std::string& path,
+/// Returns `text`, that of the plan at `path`, with the kept effects free. A
+/// scene in a file of its own is written into the plan, so that it can lie
+/// anywhere.
+std::string ExploredPlanYaml(const std::string& path, const std::string& text,
                              const Exploration& exploration);
 
 }  // namespace finray

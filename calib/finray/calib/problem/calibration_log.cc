@@ -287,14 +287,17 @@ std::vector<bool> CalibrationLogs::HeldOut() const {
   return held_out;
 }
 
-CalibrationLogs ReadCalibrationLogs(const std::vector<std::string>& paths,
-                                    const Finger& finger, const Plan& plan) {
+namespace {
+
+// table(i) returns the log of the i-th path.
+template <class Table>
+CalibrationLogs MakeLogs(const std::vector<std::string>& paths,
+                         const Finger& finger, const Plan& plan, Table table) {
   CalibrationLogs logs;
   logs.paths = paths;
   logs.names = NamesOf(paths);
   for (std::size_t log = 0; log < paths.size(); ++log) {
-    const FrameTable table = FrameTable::Read(paths[log], plan.columns);
-    for (CalibrationFrame& frame : ReadLog(table, finger, plan)) {
+    for (CalibrationFrame& frame : ReadLog(table(log), finger, plan)) {
       frame.log = static_cast<int>(log);
       const Touch touch = TouchOf(frame, finger, plan);
       frame.contact = touch.contact;
@@ -310,6 +313,24 @@ CalibrationLogs ReadCalibrationLogs(const std::vector<std::string>& paths,
   MarkHoldout(plan, &logs);
   MarkRepeatedRows(plan, &logs);
   return logs;
+}
+
+}  // namespace
+
+CalibrationLogs ReadCalibrationLogs(const std::vector<std::string>& paths,
+                                    const Finger& finger, const Plan& plan) {
+  return MakeLogs(paths, finger, plan, [&](std::size_t log) {
+    return FrameTable::Read(paths[log], plan.columns);
+  });
+}
+
+CalibrationLogs ReadCalibrationLogs(const std::vector<FrameTable>& tables,
+                                    const Finger& finger, const Plan& plan) {
+  std::vector<std::string> names;
+  for (const FrameTable& table : tables) names.push_back(table.path());
+  return MakeLogs(
+      names, finger, plan,
+      [&](std::size_t log) -> const FrameTable& { return tables[log]; });
 }
 
 }  // namespace finray

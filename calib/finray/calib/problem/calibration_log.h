@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "finray/calib/problem/plan.h"
+#include "finray/io/frame_table.h"
 #include "finray/residuals/residual_family.h"
 #include "finray/scene/measurements.h"
 
@@ -74,6 +75,10 @@ struct CalibrationLogs {
 /// instead), for a free parameter whose column is missing, and for logs that
 /// are too short to hold anything out.
 CalibrationLogs ReadCalibrationLogs(const std::vector<std::string>& paths,
+                                    const Finger& finger, const Plan& plan);
+/// The same of tables in memory, whose columns have the names of the
+/// vocabulary. Their path() is their name.
+CalibrationLogs ReadCalibrationLogs(const std::vector<FrameTable>& tables,
                                     const Finger& finger, const Plan& plan);
 
 }  // namespace finray

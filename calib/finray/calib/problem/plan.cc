@@ -209,7 +209,10 @@ double Plan::PlaceStd_mm(double reach_mm) const {
 }
 
 Plan ReadPlan(const std::string& path) {
-  const YamlMap yaml = YamlMap::FromFile(path);
+  return ReadPlan(YamlMap::FromFile(path));
+}
+
+Plan ReadPlan(const YamlMap& yaml) {
   std::vector<std::string> keys = {"schema_version", "scene",
                                    "parameters",     "measurements",
                                    "robust_loss",    "holdout"};

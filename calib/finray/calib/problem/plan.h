@@ -147,6 +147,7 @@ const char* PriorKeyOf(ParameterFamily family);
 
 /// Reads a plan. Throws InputError for unknown keys and wrong units in a key.
 Plan ReadPlan(const std::string& path);
+Plan ReadPlan(const YamlMap& yaml);
 
 }  // namespace finray
 

@@ -1,6 +1,7 @@
 #ifndef FINRAY_CALIB_REPORT_CALIBRATION_RESULT_H_
 #define FINRAY_CALIB_REPORT_CALIBRATION_RESULT_H_
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -74,12 +75,26 @@ struct CalibrationInputs {
   std::string scheme;
   int resolution = 0;
   std::string command;
+  /// The text of each input that is no file, by the name that stands for its
+  /// path.
+  std::map<std::string, std::string> texts;
+
+  /// The SHA-256 of an input.
+  std::string Sha256Of(const std::string& path) const;
 };
 
 /// Returns the text of calibration.yaml (docs/reference/formats.md).
 std::string CalibrationYaml(CalibrationProblem& problem,
                             const CalibrationResult& result,
                             const CalibrationInputs& inputs);
+
+/// Writes finger.yaml, calibration.yaml, calibration.frames.csv and
+/// calibration.shape.csv into `out_dir`, which is made if it is missing. With
+/// `report`, report.html follows. Returns why there is none, or "".
+std::string WriteCalibration(CalibrationProblem& problem,
+                             const CalibrationResult& result,
+                             const CalibrationInputs& inputs,
+                             const std::string& out_dir, bool report);
 
 /// Returns a table with a row for each frame: log, time, kind (contact, free,
 /// bench), held_out, reference force, force and place from the gauges before

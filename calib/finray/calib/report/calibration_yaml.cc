@@ -122,11 +122,15 @@ void EmitForceErrors(const char* key, const ForceCheck::Errors& errors,
 void EmitInputs(const CalibrationLogs& logs, const std::string& columns_path,
                 const CalibrationInputs& inputs, YamlEmitter* yaml) {
   BeginMap(yaml, "inputs");
-  EmitFile(yaml, "finger", inputs.finger_path);
-  EmitFile(yaml, "plan", inputs.plan_path);
-  if (!columns_path.empty()) EmitFile(yaml, "columns", columns_path);
-  EmitSeq(yaml, "logs", logs.paths,
-          [&](const std::string& path) { EmitFile(yaml, path); });
+  const auto emit = [&](const char* key, const std::string& path) {
+    EmitLine(yaml, key, "path", path, "sha256", inputs.Sha256Of(path));
+  };
+  emit("finger", inputs.finger_path);
+  emit("plan", inputs.plan_path);
+  if (!columns_path.empty()) emit("columns", columns_path);
+  EmitSeq(yaml, "logs", logs.paths, [&](const std::string& path) {
+    YamlLine(yaml, "path", path, "sha256", inputs.Sha256Of(path));
+  });
   *yaml << YAML::EndMap;
 }
 
@@ -283,6 +287,11 @@ void EmitNext(CalibrationProblem& problem,
 }
 
 }  // namespace
+
+std::string CalibrationInputs::Sha256Of(const std::string& path) const {
+  const auto text = texts.find(path);
+  return text == texts.end() ? Sha256OfFile(path) : Sha256OfText(text->second);
+}
 
 std::string CalibrationYaml(CalibrationProblem& problem,
                             const CalibrationResult& result,
