@@ -103,8 +103,11 @@ TEST_F(LogChannelsTest, WhatIsNoResult) {
               "a.frames.csv:2: no status 'fine', expected ok, no_contact");
   ExpectError("contact_1_mm,normal_1_N,status\n1,x,ok\n", "a.frames.csv:2:2");
   ExpectError("contact_1_mm,normal_1_N,status\n", "no rows");
-  ExpectError("contact_1_mm,normal_1_N,status\n1,1,ok\n", "gauge_1_V",
-              &finger_);
+  ExpectError("gauge_1_V,contact_1_mm,normal_1_N,status\n0,1,1,ok\n",
+              "gauge_2_V", &finger_);
+  // A result without gauges is fine.
+  EXPECT_EQ(Read("contact_1_mm,normal_1_N,status\n1,1,ok\n", &finger_).frames,
+            1u);
 }
 
 // Noise in all channels, which compresses least.

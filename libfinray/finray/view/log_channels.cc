@@ -41,7 +41,10 @@ class ResultRows {
     p.logarithmic = true;
     p.low = kLeastPValue;
     p.high = 1;
-    if (finger != nullptr) AddResiduals(*finger, discretization);
+    // A result may have been written without its gauges.
+    if (finger != nullptr && HasGauges(*finger)) {
+      AddResiduals(*finger, discretization);
+    }
   }
 
   void Add(const FrameRows& rows, std::size_t row, int line) {
@@ -99,6 +102,13 @@ class ResultRows {
                        "; expected a <log>.frames.csv of finray_estimate");
     }
     return at;
+  }
+
+  bool HasGauges(const Finger& finger) const {
+    for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
+      if (At(GaugeVolts(j)) || At(GaugeAngle(j))) return true;
+    }
+    return false;
   }
 
   // Appends a channel whose values are pushed in the order of the channels.

@@ -45,9 +45,9 @@ struct LogChannels {
 };
 
 /// Reads D/<log>.frames.csv. With a finger it finds the residuals of the gauges
-/// by solving each frame at its estimate; nullptr leaves them out. Throws
-/// InputError for a file that is not such a result or does not belong to the
-/// finger.
+/// by solving each frame at its estimate, unless the result has no gauge;
+/// nullptr leaves them out. Throws InputError for a file that is not such a
+/// result or does not belong to the finger.
 LogChannels ReadLogChannels(const std::string& path, const Finger* finger,
                             const Discretization& discretization);
 

@@ -54,8 +54,8 @@ std::string PageText(std::string_view title, std::string_view html,
 
 std::string LogPageText(std::string_view title, std::string_view data_json) {
   std::string scripts;
-  for (const char* name :
-       {"channels.js", "finger.js", "plots.js", "live.js", "log.js"}) {
+  for (const char* name : {"channels.js", "finger.js", "plots.js",
+                           "gestures.js", "live.js", "log.js"}) {
     scripts += PageFile(name);
   }
   return PageText(title, PageFile("log.html"), scripts, data_json);

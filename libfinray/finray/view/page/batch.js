@@ -55,7 +55,7 @@ function worstTable(finger) {
 
 // Values of each log over days, or in the order of logs where days are not known; `lines`: {label, colour, values}.
 function drift(finger, title, unit, lines) {
-  const WIDTH = 720, HEIGHT = 200, LEFT = 56, BOTTOM = 26, TOP = 36, logs = finger.logs;
+  const WIDTH = Math.max(280, Math.min(720, document.body.clientWidth - 24)), HEIGHT = 200, LEFT = 56, BOTTOM = 26, TOP = 36, logs = finger.logs;
   const values = lines.flatMap(line => line.values).filter(value => value !== null && isFinite(value));
   if (!values.length) return "";
   const byDay = logs.every(log => log.day), days = logs.map((log, i) => byDay ? Date.parse(log.day) / 864e5 : i);
@@ -83,7 +83,7 @@ function drift(finger, title, unit, lines) {
       svg.append(amber ? make("rect", {x: x(i) - 4, y: y(value) - 4, width: 8, height: 8, style: `fill:var(--ground);stroke:var(--warn);stroke-width:2`}, title)
                        : make("circle", {cx: x(i), cy: y(value), r: 3, style: `fill:${colour}`}, title));
     }
-    if (line.label) text(LEFT + 78 * k, 28, line.label, "start", line.colour);
+    if (line.label) text(LEFT + (WIDTH < 500 ? 54 : 78) * k, 28, line.label, "start", line.colour);
   });
   return svg;
 }
