@@ -90,8 +90,8 @@ void AddCells(const LogJob& job, Set set) {
   set("force_variances_N2",
       compared ? NumberText(summary.force_variances_N2) : "");
   set("unexplained_frames", std::to_string(summary.unexplained));
-  set("bad_rows", std::to_string(summary.bad_rows));
   set("key", job.key());
+  set("bad_rows", std::to_string(summary.bad_rows));
   set("reason", "");
 }
 
