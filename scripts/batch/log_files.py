@@ -49,10 +49,11 @@ def files_of(item, place, out_dir):
     found = ([path for logs in LOGS for path in matches(os.path.join(item, ""), logs)]
              if is_folder else matches("", item))
     found = {path for path in found if not is_below(out_dir, path)}
+    if not found and is_folder:
+        raise BadInput(f"{item}: is a folder without *.csv and *.csv.gz; logs in its "
+                       f"folders are '{os.path.join(item, '**')}'")
     if not found:
-        raise BadInput(f"{place}'{item}' " + (
-            "holds no *.csv and no *.csv.gz; logs in its folders are "
-            f"'{os.path.join(item, '**')}'" if is_folder else "matches no file"))
+        raise BadInput(f"{place}'{item}' matches no file")
     return sorted(found, key=os.fsencode)
 
 

@@ -76,7 +76,7 @@ TEST_F(LogListTest, FoldersAndAnyFolders) {
       ExpandLogs({At("**")}, At("runs")),
       ElementsAre(At("runs/a.csv"), At("runs/b.csv"), At("runs/c.csv.gz"),
                   At("runs/d/e/a.csv"), At("runs/x[1].csv"), At("x.csv")));
-  ExpectError({At("empty")}, "empty' holds no *.csv and no *.csv.gz; logs in");
+  ExpectError({At("empty")}, "empty: is a folder without *.csv and *.csv.gz");
 }
 
 TEST_F(LogListTest, SaysWhatIsMissing) {

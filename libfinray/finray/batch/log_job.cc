@@ -103,9 +103,9 @@ void AddCells(const LogJob& job, const Finger& finger, Set set) {
       compared ? NumberText(summary.force_variances_N2) : "");
   set("unexplained_frames", std::to_string(summary.unexplained));
   set("search_ended_frames", std::to_string(summary.search_ended));
-  set("bad_rows", std::to_string(summary.bad_rows));
   set("warnings", WarningCodes(job, finger));
   set("key", job.key());
+  set("bad_rows", std::to_string(summary.bad_rows));
   set("reason", "");
 }
 

@@ -138,14 +138,14 @@ void AddFiles(const std::string& item, const std::string& place,
   // glob's own order depends on the locale.
   std::sort(files.begin(), files.end());
   files.erase(std::unique(files.begin(), files.end()), files.end());
-  if (files.empty()) {
-    throw InputError(
-        place +
-        ShownLine("'" + item + "' " +
-                  (is_folder ? "holds no *.csv and no *.csv.gz; logs "
+  if (files.empty() && is_folder) {
+    throw InputError(ShownLine(item +
+                               ": is a folder without *.csv and *.csv.gz; logs "
                                "in its folders are '" +
-                                   (fs::path(item) / "**").string() + "'"
-                             : "matches no file")));
+                               (fs::path(item) / "**").string() + "'"));
+  }
+  if (files.empty()) {
+    throw InputError(place + ShownLine("'" + item + "' matches no file"));
   }
   logs->insert(logs->end(), files.begin(), files.end());
 }
