@@ -1,4 +1,5 @@
 #include "command_line.h"
+#include "finray/finger/finger_yaml.h"
 
 namespace finray {
 namespace {

@@ -72,7 +72,7 @@ const std::vector<double> kHeights = {14, 20, 30, 40,  50,  60,
 void NoiseAlone(const Finger& finger, double normal_N) {
   std::printf(
       "\npaper's finger: %d frames of %g N by the noise of the gauges\n\n",
-      kFrames, kForce_N);
+      kFrames, normal_N);
   std::printf(
       "| l_c mm | predicted mm | spread mm | off | predicted N | spread "
       "N | off | ok |\n|---|---|---|---|---|---|---|---|\n");

@@ -43,11 +43,11 @@ void CheckPlates(const Finger& finger, const std::vector<WrittenPlate>& plates,
     if (plate.youngs_modulus_GPa > kStiffest_GPa ||
         plate.youngs_modulus_GPa < kSoftest_GPa) {
       list->Add("modulus",
-                name + FormatText("a modulus of %g GPa, that of %s",
+                name + FormatText("a modulus of %g GPa; no strip has %s",
                                   plate.youngs_modulus_GPa,
                                   plate.youngs_modulus_GPa > kStiffest_GPa
-                                      ? "no strip is above 250 GPa"
-                                      : "no strip is below 0.001 GPa"),
+                                      ? "more than 250 GPa"
+                                      : "less than 0.001 GPa"),
                 "is it in MPa? The key is in GPa: steel 200, carbon 60 to 150, "
                 "PETG 2, TPU 0.03");
     }

@@ -235,8 +235,9 @@ RecordingPlan PlanRecording(const KnownFinger& known, const Plan& plan,
         "the plan's scene needs an object {shape: circle, radius_mm: ...}: a "
         "calibration measures the place of no other shape");
   }
+  // The last row is a free one.
   const std::vector<StagePlace> places =
-      Candidates(known, plan, limits, seed, most_frames, discretization);
+      Candidates(known, plan, limits, seed, most_frames - 1, discretization);
   std::vector<RecordingDraw> draws;
   for (int k = 0; k < kRecordingDraws; ++k) {
     const KnownFinger drawn =
