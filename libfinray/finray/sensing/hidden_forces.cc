@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kHiddenPlaces = 56;
 // Forces are tried in steps of this factor, from this share of the largest one.
-constexpr double kStep = 1.25, kLeastShare = 1e-5;
+constexpr double kStep = 1.25, kFirstForceShare = 1e-5;
 
 Eigen::VectorXd VoltsOf(const EquilibriumSolver& solver) {
   const std::vector<Gauge>& gauges = solver.model().finger().gauges;
@@ -39,7 +39,7 @@ HiddenForces FindHiddenForces(const Finger& finger, const Scene& scene,
     const double arc_mm = finger.front_length_mm * i / kHiddenPlaces;
     double below_N = 0, below = 0, hidden_N = most_N;
     solver.Reset();
-    for (double force_N = kLeastShare * most_N;;
+    for (double force_N = kFirstForceShare * most_N;;
          force_N = std::min(kStep * force_N, most_N)) {
       // Where the finger has no equilibrium, it cannot be overlooked.
       const bool stands =
