@@ -11,7 +11,7 @@
 #include "finray/batch/estimation_summary.h"
 #include "finray/batch/estimation_warnings.h"
 #include "finray/batch/result_rows.h"
-#include "finray/scene/creep_filter.h"
+#include "finray/scene/history_filter.h"
 #include "finray/sensing/log_estimator.h"
 #include "inside.h"
 
@@ -134,12 +134,12 @@ Estimation Estimator::Inside::OneByOne(const Table& log,
   const LogColumns columns(log, finger, scene);
   const std::size_t rows = log.rows();
   Results results(finger, scene, rows);
-  // Readings that creep depend on all rows before.
-  CreepFilter creep(finger);
-  std::vector<Measurements> without_creep(creep.empty() ? 0 : rows);
-  for (std::size_t row = 0; row < without_creep.size(); ++row) {
-    columns.Read(row, &without_creep[row]);
-    creep.Remove(&without_creep[row]);
+  // Creep and hysteresis depend on all rows before.
+  HistoryFilter history(finger);
+  std::vector<Measurements> without_history(history.empty() ? 0 : rows);
+  for (std::size_t row = 0; row < without_history.size(); ++row) {
+    columns.Read(row, &without_history[row]);
+    history.Remove(&without_history[row]);
   }
   std::atomic<bool> stopped = false;
   const auto solve = [&](std::size_t block) {
@@ -156,12 +156,12 @@ Estimation Estimator::Inside::OneByOne(const Table& log,
     const std::size_t begin = block * kBlockFrames;
     const std::size_t count = std::min(kBlockFrames, rows - begin);
     const Measurements* readings = memory.readings.data();
-    if (without_creep.empty()) {
+    if (without_history.empty()) {
       for (std::size_t i = 0; i < count; ++i) {
         columns.Read(begin + i, &memory.readings[i]);
       }
     } else {
-      readings = &without_creep[begin];
+      readings = &without_history[begin];
     }
     pool->SolveBlock(readings, count, memory.estimates.data());
     for (std::size_t i = 0; i < count; ++i) {
@@ -181,7 +181,7 @@ Estimation Estimator::Inside::Jointly(const Table& log,
                                       const std::function<bool()>& stop) const {
   const LogColumns columns(log, finger, scene);
   Results results(finger, scene, log.rows());
-  CreepFilter creep(finger);
+  HistoryFilter history(finger);
   std::vector<Measurements> readings(log.rows());
   std::vector<double> memory;
   std::size_t done = 0;
@@ -193,7 +193,7 @@ Estimation Estimator::Inside::Jointly(const Table& log,
   for (std::size_t row = 0; row < log.rows(); ++row) {
     if (row % kBlockFrames == 0 && stop && stop()) throw Interrupted();
     columns.Read(row, &readings[row]);
-    creep.Remove(&readings[row]);
+    history.Remove(&readings[row]);
     try {
       estimator.Add(readings[row]);
     } catch (const finray::InputError& error) {

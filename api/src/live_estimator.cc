@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "finray/scene/creep_filter.h"
+#include "finray/scene/history_filter.h"
 #include "inside.h"
 
 namespace finray::v1 {
@@ -19,10 +19,10 @@ Contact ToPublicContact(const ContactEstimate& contact) {
 struct LiveEstimator::Inside {
   Inside(const finray::Finger& finger, const finray::Scene& scene,
          const finray::Discretization& discretization, FrameMethod method)
-      : estimator(finger, scene, discretization, method), creep(finger) {}
+      : estimator(finger, scene, discretization, method), history(finger) {}
 
   FrameEstimator estimator;
-  CreepFilter creep;
+  HistoryFilter history;
   Measurements row;
   Frame frame;
 };
@@ -55,12 +55,10 @@ const Frame& LiveEstimator::Next(const Readings& readings) {
     row.time_s = readings.time_s;
     row.object_mm = {readings.object_x_mm, readings.object_y_mm};
     row.object_angle_rad = readings.object_angle_deg * M_PI / 180;
-    if (!inside_->creep.empty()) {
-      if (std::isnan(readings.time_s)) {
-        throw InputError("time_s: is missing; gauges of the finger creep");
-      }
-      inside_->creep.Remove(&row);
+    if (std::isnan(readings.time_s) && HasCreep(finger)) {
+      throw InputError("time_s: is missing; gauges of the finger creep");
     }
+    if (!inside_->history.empty()) inside_->history.Remove(&row);
     const FrameEstimate estimate = inside_->estimator.Next(row);
     Frame& frame = inside_->frame;
     frame.status = static_cast<FrameStatus>(estimate.status);
@@ -81,7 +79,7 @@ const Frame& LiveEstimator::Next(const Readings& readings) {
 
 void LiveEstimator::Restart() {
   inside_->estimator.Restart();
-  inside_->creep.Restart();
+  inside_->history.Restart();
 }
 
 }  // namespace finray::v1

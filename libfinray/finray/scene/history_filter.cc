@@ -52,10 +52,14 @@ void HistoryFilter::Restart() {
   change_.Restart();
 }
 
+bool HasCreep(const Finger& finger) {
+  return std::any_of(finger.gauges.begin(), finger.gauges.end(), Creeps);
+}
+
 void RequireTimeForCreep(const Finger& finger,
                          const std::vector<std::string>& names,
                          const std::string& path) {
-  if (std::none_of(finger.gauges.begin(), finger.gauges.end(), Creeps) ||
+  if (!HasCreep(finger) ||
       std::find(names.begin(), names.end(), "time_s") != names.end()) {
     return;
   }

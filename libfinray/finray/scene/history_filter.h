@@ -39,6 +39,9 @@ class HistoryFilter {
   bool play_ = false;
 };
 
+/// Says whether a gauge of the finger creeps, so that time_s is needed.
+bool HasCreep(const Finger& finger);
+
 /// Throws InputError if gauges of the finger creep but the log's columns, given
 /// by name, have no time_s.
 void RequireTimeForCreep(const Finger& finger,
