@@ -81,6 +81,7 @@ TEST(ComplianceTest, CalibrationWidensTheStd) {
       ParameterCovariance{{{FingerParameterKind::kBackStiffness, 0}},
                           Eigen::VectorXd::Constant(1, 250),
                           Eigen::MatrixXd::Identity(1, 1),
+                          0,
                           std::nullopt};
   ComplianceSettings settings;
   settings.direction_rad = M_PI;

@@ -65,6 +65,7 @@ TEST(ReconstructionTest, CalibrationWidensTheBand) {
       ParameterCovariance{{{FingerParameterKind::kBackStiffness, 0}},
                           Eigen::VectorXd::Constant(1, 250),
                           Eigen::MatrixXd::Identity(1, 1),
+                          0,
                           std::nullopt};
   const Reconstruction known = Touched(circle, false);
   const Reconstruction uncertain = Touched(circle, false, finger);
