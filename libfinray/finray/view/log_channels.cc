@@ -9,8 +9,8 @@
 #include "finray/io/frame_reader.h"
 #include "finray/io/frame_vocabulary.h"
 #include "finray/io/message_text.h"
-#include "finray/scene/history_filter.h"
 #include "finray/scene/frame_columns.h"
+#include "finray/scene/history_filter.h"
 #include "finray/scene/measurement_columns.h"
 #include "finray/view/estimate_solver.h"
 
