@@ -18,11 +18,11 @@ Table NumbersOfCsv(const std::string& csv, const std::string& name) {
   std::vector<std::string_view> cells;
   std::string header, line;
   std::getline(lines, header);
-  SplitCsvLine(header, &cells, &unquoted);
+  SplitCsvLine(header, ',', &cells, &unquoted);
   const std::vector<std::string> names(cells.begin(), cells.end());
   std::vector<std::vector<double>> columns(names.size());
   while (std::getline(lines, line)) {
-    SplitCsvLine(line, &cells, &unquoted);
+    SplitCsvLine(line, ',', &cells, &unquoted);
     for (std::size_t i = 0; i < names.size(); ++i) {
       const std::string cell(cells[i]);
       columns[i].push_back(cell.empty() ? std::nan("")

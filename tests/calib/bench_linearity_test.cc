@@ -164,7 +164,11 @@ TEST(BenchLinearityTest, RealGaugesAreNotLinear) {
   if (!std::filesystem::exists(path)) {
     GTEST_SKIP() << "the measurements are not here";
   }
-  FrameTable table = FrameTable::Read(path, {{"voltage_V", "gauge_1_V"}});
+  ColumnMapping volts;
+  ColumnRule& rule = volts.rules.emplace_back();
+  rule.from = "voltage_V";
+  rule.to = "gauge_1_V";
+  FrameTable table = FrameTable::Read(path, volts);
   std::map<std::string, std::map<std::string, std::string>> trials;
   for (std::size_t i = 0; i < table.rows(); ++i) {
     if (table.MutableText("excluded_by_author")[i] != "0") continue;

@@ -201,10 +201,10 @@ double PredictedForce::calibration_N(const Eigen::MatrixXd& covariance) const {
   return std::sqrt(weight.cwiseProduct(covariance).sum());
 }
 
-std::optional<SensedContact> SensedBy(const LinearizedFrame& at) {
+std::optional<GaugedContact> SensedBy(const LinearizedFrame& at) {
   const Eigen::MatrixXd by_contact = GaugeRows(at, at.by_contact);
   if (by_contact.rows() < 2) return {};
-  SensedContact sensed;
+  GaugedContact sensed;
   sensed.noise = PseudoInverse(by_contact.transpose() * by_contact);
   sensed.by_parameter =
       -sensed.noise * by_contact.transpose() * GaugeRows(at, at.by_parameter);
@@ -220,7 +220,7 @@ PredictedForce PredictForce(const CalibrationProblem& problem,
   double noise = 0;
   for (const PredictedFrame& frame : predicted.frames) {
     if (frame.free) continue;
-    const std::optional<SensedContact> sensed = SensedBy(frame.at);
+    const std::optional<GaugedContact> sensed = SensedBy(frame.at);
     if (!sensed) continue;
     const Eigen::Matrix2d& covariance = sensed->noise;
     const double place_std = std::sqrt(covariance(0, 0));

@@ -48,12 +48,12 @@ PredictedFrames PredictFrames(CalibrationProblem* problem,
 /// its gauges by (l_c, f_c) and C by the parameters, both over their std,
 ///
 ///   noise = (E'E)^-1,    by_parameter = -(E'E)^-1 E'C.
-struct SensedContact {
+struct GaugedContact {
   Eigen::Matrix2d noise;  ///< The covariance of (l_c, f_c).
   Eigen::Matrix<double, 2, Eigen::Dynamic> by_parameter;
 };
 /// Empty with fewer than two gauges.
-std::optional<SensedContact> SensedBy(const LinearizedFrame& at);
+std::optional<GaugedContact> SensedBy(const LinearizedFrame& at);
 
 /// Predicts the std of a force that the gauges alone sense with the calibrated
 /// finger. Of a contact frame with the derivatives E of its gauges by (l_c,

@@ -135,7 +135,7 @@ RecordingDraw Meet(const KnownFinger& drawn, const Plan& plan,
           row.at.reduced.transpose() * row.at.reduced;
       continue;
     }
-    const std::optional<SensedContact> sensed = SensedBy(row.at);
+    const std::optional<GaugedContact> sensed = SensedBy(row.at);
     if (!sensed) {
       throw InputError("the finger has fewer than two gauges");
     }

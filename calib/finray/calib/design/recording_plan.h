@@ -77,7 +77,7 @@ struct RecordingPlan {
 /// parameters have the covariance (P + sum J'J)^-1. Errors drawn from it give
 /// the rms error over the region,
 ///
-///   rms^2 = mean over the region of (E'E)^-1 + (g d)^2,   g as SensedContact.
+///   rms^2 = mean over the region of (E'E)^-1 + (g d)^2,   g as GaugedContact.
 ///
 /// n is the least number for which the share of draws below the target is the
 /// confidence. Throws InputError if the plan has no circle, or if the stage

@@ -77,7 +77,7 @@ struct CalibrationInputs {
   std::string command;
   /// The text of each input that is no file, by the name that stands for its
   /// path.
-  std::map<std::string, std::string> texts;
+  std::map<std::string, std::string> texts = {};
 
   /// The SHA-256 of an input.
   std::string Sha256Of(const std::string& path) const;
