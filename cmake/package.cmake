@@ -86,7 +86,11 @@ strain gauges, with uncertainty, and calibrates fingers from logs that have a
 reference force sensor.")
 
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_GENERATE_SHLIBS ON)
+file(WRITE ${FINRAY_DEBIAN}/shlibs
+  "libfinray ${FINRAY_SOVERSION} libfinray${FINRAY_SOVERSION} (>= ${PROJECT_VERSION})\n")
+file(WRITE ${FINRAY_DEBIAN}/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA
+  "${FINRAY_DEBIAN}/shlibs;${FINRAY_DEBIAN}/triggers")
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
 "contact sensing and calibration of Fin-Ray fingers: shared library
 The library behind finray: statics of Fin-Ray fingers, estimation of contacts
