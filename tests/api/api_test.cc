@@ -137,17 +137,16 @@ TEST(FrameResidualsTest, DerivativesAreThoseOfDifferences) {
   double front = residuals.ln_front_stiffness(),
          back = residuals.ln_back_stiffness();
   std::vector<double> ribs = residuals.rib_lengths_mm();
-  ceres::NumericDiffOptions options;
-  options.relative_step_size = 1e-4;  // far above the noise of equilibrium
   for (const auto& [cost, blocks] :
        {std::pair(state.get(), std::vector<const double*>{contact, &front,
                                                           &back, ribs.data()}),
         std::pair(gauges.get(), std::vector<const double*>{contact})}) {
     const ceres::GradientChecker checker(
-        cost, static_cast<std::vector<const ceres::Manifold*>*>(nullptr),
-        options);
+        cost, static_cast<std::vector<const ceres::Manifold*>*>(nullptr), {});
     ceres::GradientChecker::ProbeResults results;
-    EXPECT_TRUE(checker.Probe(blocks.data(), 2e-5, &results))
+    // The differences end at the noise of equilibria that start from each
+    // other.
+    EXPECT_TRUE(checker.Probe(blocks.data(), 1e-4, &results))
         << results.error_log;
   }
   double of_gauges[4];

@@ -72,8 +72,9 @@ TEST(ScoreTestTest, IsExactWhereReadingsAreLinear) {
   for (int j = 0; j < 4; ++j) {
     const Gauge& gauge = finger.gauges[j];
     for (int i = 0; i < 40; ++i) {
-      const double radius = i % 5 == 0 ? std::numeric_limits<double>::infinity()
-                                       : 40 + 10 * (i % 5);
+      // Half of the rows are flat: too many for outliers, and they tell an
+      // offset from a curve.
+      const double radius = i % 2 == 0 ? 1e12 : 40 + 10 * (i % 5);
       log.MutableNumbers("cylinder_radius_mm")[i] = radius;
       log.MutableNumbers("gauge_" + std::to_string(j + 1) + "_V")[i] =
           0.01 * (j == 2) + 1.02 * gauge.length_mm / radius +
