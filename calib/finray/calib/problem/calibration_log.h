@@ -1,6 +1,7 @@
 #ifndef FINRAY_CALIB_PROBLEM_CALIBRATION_LOG_H_
 #define FINRAY_CALIB_PROBLEM_CALIBRATION_LOG_H_
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,15 @@ struct CalibrationLogs {
   /// Says for each log whether all its rows are held out.
   std::vector<bool> HeldOut() const;
 };
+
+/// Says whether `has` is true for a fitted frame of the log.
+template <class Has>
+bool AnyFitted(const CalibrationLogs& logs, int log, const Has& has) {
+  return std::any_of(logs.frames.begin(), logs.frames.end(),
+                     [&](const CalibrationFrame& frame) {
+                       return frame.log == log && !frame.held_out && has(frame);
+                     });
+}
 
 /// Reads the logs and decides row by row whether the finger touches. The first
 /// of these measurements that the row has decides:
