@@ -212,6 +212,9 @@ FrameMethod ChosenMethod() {
 }
 
 ResultFormat ChosenFormat() {
+  if (FLAGS_report && IsGiven("columns")) {
+    throw UsageError("--columns does not go with --report, which shows all");
+  }
   constexpr int kMostDigits = 17;
   if (FLAGS_digits < 0 || FLAGS_digits > kMostDigits) {
     throw UsageError("--digits: expected 0 (all) to 17, found " +
@@ -310,7 +313,7 @@ int Follow(const BatchSettings& settings) {
              : kGateFailed;
 }
 
-// Writes D/<log>.html of each log, and D/index.html of several.
+// Writes D/<log>.html of each log, and D/index.html.
 void WriteReport(const BatchSettings& settings) {
   const BatchResults batch = ReadBatchResults(FLAGS_out_dir);
   const std::vector<ViewJob> jobs = JobsOf(batch, FLAGS_out_dir);

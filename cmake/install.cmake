@@ -19,6 +19,9 @@ foreach(folder ${FINRAY_RESOURCE_FOLDERS})
 endforeach()
 install(FILES ${PROJECT_SOURCE_DIR}/scripts/studies/calibration_speed.py
   DESTINATION ${CMAKE_INSTALL_DATADIR}/finray/scripts/studies COMPONENT tools)
+# finray_import reads its version there.
+install(FILES ${PROJECT_SOURCE_DIR}/CMakeLists.txt
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/finray COMPONENT tools)
 install(FILES ${PROJECT_SOURCE_DIR}/apps/finray_import
   DESTINATION ${CMAKE_INSTALL_DATADIR}/finray/apps COMPONENT tools)
 install(FILES ${PROJECT_SOURCE_DIR}/scripts/make_dataset.py

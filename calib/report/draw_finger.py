@@ -10,8 +10,6 @@ import sys
 
 sys.dont_write_bytecode = True
 
-import yaml
-
 import page
 from finger_drawing import BEAM, FORCE, GAUGE, QUIET, RIB, Drawing
 
@@ -91,7 +89,7 @@ def draw(finger, places):
 
 def main():
     places = [tuple(map(float, pair.split(","))) for pair in sys.argv[3:]]
-    page.write(pathlib.Path(sys.argv[1]), draw(yaml.safe_load(sys.argv[2]), places))
+    page.write(pathlib.Path(sys.argv[1]), draw(page.load_yaml(sys.argv[2]), places))
 
 
 if __name__ == "__main__":

@@ -220,8 +220,8 @@ def text(source, finger, width, modulus):
     lines += [f"  - {{front_mm: {a:.6g}, back_mm: {b:.6g}}}  # {t:.3g} mm thick" for a, b, t in ribs]
     thick = [t for _, _, t in ribs if t > 0.5 * front_mm]
     if thick:
-        notes.append(f"{len(thick)} of {len(ribs)} ribs are {min(thick):.3g} to {max(thick):.3g} mm thick: ribs count "
-                     "as hinged, and these also bend")
+        notes.append(f"{len(thick)} of {len(ribs)} ribs are {min(thick):.3g} to {max(thick):.3g} mm thick: these ribs "
+                     "bend; give them a bending_stiffness_N_mm2")
     return "\n".join(lines) + "\n", notes
 
 

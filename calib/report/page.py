@@ -1,8 +1,22 @@
 """What all pages share: templates, and files that appear whole or not at all."""
 
 import pathlib
+import re
 
 import jinja2
+import yaml
+
+
+class _Loader(yaml.SafeLoader):
+    """Takes 1e+07 for a number, as YAML 1.2 and finray do; PyYAML alone takes it for text."""
+
+
+_Loader.add_implicit_resolver("tag:yaml.org,2002:float", re.compile(r"[-+]?(\d+(\.\d*)?|\.\d+)[eE][-+]?\d+$"),
+                              list("-+.0123456789"))
+
+
+def load_yaml(text):
+    return yaml.load(text, _Loader)
 
 
 def environment(*folders, undefined=jinja2.StrictUndefined):

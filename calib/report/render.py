@@ -16,7 +16,6 @@ import sys
 sys.dont_write_bytecode = True
 
 import jinja2
-import yaml
 
 import page
 import plots
@@ -204,7 +203,7 @@ def tables(value):
 
 def main():
     folder = pathlib.Path(sys.argv[1])
-    c = yaml.safe_load((folder / "calibration.yaml").read_text("utf-8"))
+    c = page.load_yaml((folder / "calibration.yaml").read_text("utf-8"))
     frames = read_csv(folder / "calibration.frames.csv")
     gauges = sum(1 for p in c["parameters"] if "_gain_" in p["name"])
     environment = page.environment(undefined=jinja2.Undefined)
@@ -215,6 +214,7 @@ def main():
     parts, region_rows = regions(c)
     headline, meaning, good = verdict(c)
     names = c["correlations"]["names"]
+    advice = [] if c["predicted_force"].get("enough") else c.get("next") or []
     forces, above = plots.forces(frames)
     text = environment.get_template("report.html.jinja").render(
         c=c, headline=headline, meaning=meaning, good=good, tiles=tiles(c),
@@ -226,7 +226,7 @@ def main():
         forces=forces, above=above, heights=plots.errors_by_height(frames),
         shape=plots.shape(read_csv(folder / "calibration.shape.csv")),
         residuals=plots.residuals(frames, gauges) if gauges else None,
-        coverage=plots.coverage(frames, c.get("next") or []),
+        coverage=plots.coverage(frames, advice),
         correlations=plots.correlations([short(n) for n in names], c["correlations"]["matrix"])
         if len(names) > 1 else None,
         date=datetime.date.today().isoformat())

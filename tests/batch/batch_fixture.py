@@ -1,6 +1,7 @@
 """Logs, runs of scripts/batch/run and comparisons for the tests beside this file."""
 
 import csv
+import fcntl
 import os
 import pathlib
 import shutil
@@ -76,6 +77,11 @@ class BatchTestCase(unittest.TestCase):
                 os.kill(pid, signal.SIGKILL)
         process.wait()
         process.stdout.close()
+
+    def wait_until_ended(self):
+        """All that was killed has let the lock go; a busy machine takes its time."""
+        with open(self.out / "plan/.lock", encoding="ascii") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
 
     def run_single(self, out, code, more=()):
         """One finray_estimate over all logs."""

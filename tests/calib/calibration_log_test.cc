@@ -98,6 +98,23 @@ TEST(CalibrationLogTest, MissingGaugeNamesTheColumn) {
                   "no column 'gauge_4_V' (did you mean 'gauge4_V'?)")));
 }
 
+// Without them it would be another calibration, and look like a good one.
+TEST(CalibrationLogTest, NearlyNamedColumnsAreNotLeftOut) {
+  const TempFolder folder;
+  const auto refuses = [&](const std::string& columns,
+                           const std::string& message) {
+    const std::string path = folder.Write(
+        "a.csv", std::string(kGauges) + "," + columns + "\n0,0,0,0,1,2,3\n");
+    EXPECT_THAT([&] { ReadCalibrationLogs({path}, PaperFinger(), Plan()); },
+                ThrowsMessage<InputError>(HasSubstr(message)));
+  };
+  refuses("force_N,object_x_m,object_y_mm",
+          "no column 'object_x_mm' (did you mean 'object_x_m'?)");
+  refuses("force_mN,object_x_mm,object_y_mm",
+          "no column 'force_N' (did you mean 'force_mN'?)");
+  refuses("force_x_N,object_x_mm,object_y_mm", "no column 'force_y_N'");
+}
+
 TEST(CalibrationLogTest, RefusesHugeNumbers) {
   const TempFolder folder;
   for (const char* row : {"0,0,-1e16,0,1\n", "0,0,0,0,1e308\n"}) {

@@ -111,6 +111,23 @@ TEST(ZeroedFingerTest, CovarianceIsThatOfManyZeroings) {
   }
 }
 
+TEST(ZeroedFingerTest, FrictionStays) {
+  std::mt19937_64 generator(3);
+  Finger before = Calibrated();
+  ParameterCovariance& old = *before.calibration;
+  old.parameters.push_back({FingerParameterKind::kFriction, 0});
+  const Eigen::Index n = old.std.size();
+  old.std.conservativeResize(n + 1);
+  old.std[n] = 0.02;
+  old.correlations = Eigen::MatrixXd::Identity(n + 1, n + 1);
+  old.friction = 0.31;
+  const ZeroedFinger zeroed =
+      ZeroGauges(before, {}, Resting(before, 100, &generator), "log");
+  ASSERT_TRUE(zeroed.finger.calibration.has_value());
+  EXPECT_TRUE(zeroed.finger.calibration->HasFriction());
+  EXPECT_EQ(zeroed.finger.calibration->friction, 0.31);
+}
+
 TEST(ZeroedFingerTest, RefusesAFingerThatMoves) {
   std::mt19937_64 generator(3);
   const Finger finger = Calibrated();

@@ -111,7 +111,8 @@ class LivePageTest(unittest.TestCase):
     def test_who_may_see_it(self):
         server = self.start()
         self.assertEqual(server.request("GET", "/")[0], 200)
-        self.assertEqual(server.request("GET", "/", {"Host": "evil.example"})[0], 403)
+        for host in ("evil.example", "127.evil.example"):
+            self.assertEqual(server.request("GET", "/", {"Host": host})[0], 403)
         self.assertEqual(server.request("POST", "/zero", {"X-Finray": "zero", "Host": "evil.example"}, "")[0], 403)
         self.assertEqual(server.request("POST", "/zero", {}, "")[0], 403)
         self.assertEqual(server.request("GET", "/zero")[0], 404)

@@ -32,7 +32,8 @@ std::optional<Shift> ShiftOf(const EstimationSummary& summary,
     const double moved_V =
         summary.free_sums_V[j] / static_cast<double>(summary.free_rows) -
         gauge.offset_V - bent_V[static_cast<Eigen::Index>(j)];
-    if (std::abs(moved_V) > kMoved * gauge.noise_V) {
+    if (std::abs(moved_V) >
+        kMoved * std::hypot(gauge.noise_V, gauge.HysteresisV())) {
       shift.moved = true;
       ++shift.moved_gauges;
       shift.last_moved = static_cast<int>(j);

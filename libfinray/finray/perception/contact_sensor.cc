@@ -5,6 +5,7 @@
 
 #include "finray/io/error.h"
 #include "finray/scene/frame_columns.h"
+#include "finray/scene/history_filter.h"
 
 namespace finray {
 namespace {
@@ -114,9 +115,13 @@ std::vector<Measurements> ReadWithPlaces(
     const FrameTable& table, const Finger& finger,
     const MeasurementColumns::Options& options) {
   for (const char* name : {"object_x_mm", "object_y_mm"}) table.Numbers(name);
-  const std::vector<Measurements> rows =
-      ReadMeasurements(table, finger, options);
+  RequireTimeForCreep(finger, table.headers(), table.path());
+  std::vector<Measurements> rows = ReadMeasurements(table, finger, options);
+  HistoryFilter history(finger);
   for (std::size_t row = 0; row < rows.size(); ++row) {
+    if (!history.empty() && !options.gauges_may_lack) {
+      history.Remove(&rows[row]);
+    }
     if (rows[row].object_mm.allFinite()) continue;
     throw InputError(table.path() + ":" + std::to_string(table.line(row)) +
                      ": no object_x_mm, object_y_mm; every row needs the "

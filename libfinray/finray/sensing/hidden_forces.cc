@@ -17,7 +17,10 @@ Eigen::VectorXd VoltsOf(const EquilibriumSolver& solver) {
   const std::vector<Gauge>& gauges = solver.model().finger().gauges;
   Eigen::VectorXd volts(static_cast<Eigen::Index>(gauges.size()));
   for (int j = 0; j < static_cast<int>(gauges.size()); ++j) {
-    volts[j] = gauges[j].Volts(solver.gauge_angle(j)) / gauges[j].noise_V;
+    // Anywhere in its loop a gauge with hysteresis is off by half / sqrt(3).
+    const double std_V =
+        std::hypot(gauges[j].noise_V, gauges[j].HysteresisV() / std::sqrt(3.0));
+    volts[j] = gauges[j].Volts(solver.gauge_angle(j)) / std_V;
   }
   return volts;
 }

@@ -96,6 +96,7 @@ void RenewCovariance(const Discretization& discretization,
       (renewed.std.array() > 0).select(renewed.std.cwiseInverse(), 0.0);
   renewed.correlations = scale.asDiagonal() * covariance * scale.asDiagonal();
   renewed.correlations.diagonal().setOnes();
+  renewed.friction = old.friction;
   renewed.discrepancy = old.discrepancy;
   finger->calibration = InOrderOf(*finger, renewed);
 }

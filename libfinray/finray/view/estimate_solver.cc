@@ -27,7 +27,7 @@ void EstimateSolver::FindResiduals(const Measurements& readings,
         solved && gauge.IsMeasured(read_V)
             ? static_cast<float>((read_V - gauge.Volts(solver_.gauge_angle(
                                                static_cast<int>(j)))) /
-                                 gauge.noise_V)
+                                 readings.GaugeStd_V(j, gauge.noise_V))
             : std::nanf("");
   }
 }

@@ -82,7 +82,8 @@ bool IsEqualSecret(const std::string& a, const std::string& b) {
 
 bool IsLoopback(const std::string& address) {
   return address == "localhost" || address == "::1" ||
-         address.compare(0, 4, "127.") == 0;
+         (address.compare(0, 4, "127.") == 0 &&
+          address.find_first_not_of("0123456789.") == std::string::npos);
 }
 
 class LiveServer::Implementation {

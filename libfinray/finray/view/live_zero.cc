@@ -19,11 +19,12 @@ LiveZero::~LiveZero() {
 }
 
 std::string LiveZero::Request() {
+  // Held from here on: the outcome of this request comes after its message.
+  const std::lock_guard<std::mutex> lock(mutex_);
   State idle = State::kIdle;
   if (!state_.compare_exchange_strong(idle, State::kAsked)) {
     return "The gauges are being zeroed already.";
   }
-  const std::lock_guard<std::mutex> lock(mutex_);
   message_ = "Zeroing: the next " + std::to_string(kRows) +
              " rows have to be of the free finger at rest.";
   return message_;

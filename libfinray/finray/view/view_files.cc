@@ -114,8 +114,12 @@ void WriteLogPage(const ViewJob& job, const std::vector<Warning>& warnings,
 void WriteComparison(const std::string& result, const std::string& other,
                      const std::string& page, const Finger* finger,
                      const Discretization& discretization) {
-  const LogChannels a = ReadLogChannels(result, finger, discretization);
-  const LogChannels b = ReadLogChannels(other, finger, discretization);
+  LogChannels a = ReadLogChannels(result, finger, discretization);
+  LogChannels b = ReadLogChannels(other, finger, discretization);
+  if (a.name == b.name) {  // one log, two runs
+    a.name = fs::path(result).parent_path().filename() / a.name;
+    b.name = fs::path(other).parent_path().filename() / b.name;
+  }
   WritePage(page, LogPageText(a.name + " and " + b.name,
                               LogPageJson({{&a, {}}, {&b, {}}}, finger,
                                           discretization)));

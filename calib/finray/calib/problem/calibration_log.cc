@@ -10,6 +10,7 @@
 #include "finray/io/error.h"
 #include "finray/io/frame_table.h"
 #include "finray/io/frame_vocabulary.h"
+#include "finray/io/message_text.h"
 #include "finray/io/number_text.h"
 #include "finray/scene/frame_columns.h"
 #include "finray/scene/measurement_columns.h"
@@ -225,6 +226,22 @@ void RefuseHugeCells(const FrameTable& table, int gauges) {
   }
 }
 
+// Refuses one of two coordinates, and a force whose column is nearly named so:
+// a calibration without them would look like one that needed none.
+void RefuseNearlyNamed(const FrameTable& table) {
+  const std::vector<std::string> headers = table.headers();
+  const auto refuse = [&](const std::string& name) {
+    throw InputError(table.path() + ": " + NoColumn(name, headers));
+  };
+  for (const auto& [x, y] : {std::pair("object_x_mm", "object_y_mm"),
+                             std::pair("force_x_N", "force_y_N")}) {
+    if (table.Has(x) != table.Has(y)) refuse(table.Has(x) ? y : x);
+  }
+  const bool has_force = table.Has("force_N") || table.Has("force_x_N");
+  if (has_force || DidYouMean("force_N", headers).empty()) return;
+  refuse("force_N");
+}
+
 // Reads the rows of one log. A log with pins may lack all gauges, but not only
 // some. A bench log may lack some, because its gauges are bent one by one.
 std::vector<CalibrationFrame> ReadLog(const FrameTable& table,
@@ -244,6 +261,7 @@ std::vector<CalibrationFrame> ReadLog(const FrameTable& table,
   options.camera = true;
   std::vector<Measurements> rows = ReadMeasurements(table, finger, options);
   RefuseHugeCells(table, gauges);
+  RefuseNearlyNamed(table);
   std::vector<double> times, temperatures;
   if (!bench && plan.family(ParameterFamily::kGaugeDrift).free) {
     times = Needed(table, "time_s", "gauge_drift");

@@ -21,6 +21,7 @@ void CalibrationParameters::ReadHistories(const Finger& finger,
   for (const CalibrationFrame& frame : logs.frames) {
     if (frame.log != log) change.Restart();
     log = frame.log;
+    if (frame.IsBench()) continue;
     const double moved2 = change.Next(frame.gauges_V);
     for (std::size_t j = 0; j < gauges; ++j) {
       histories_[log][j].Set(frame.row, frame.time_s, frame.gauges_V[j],
