@@ -178,12 +178,22 @@ class RunTest(batch_fixture.BatchTestCase):
     def test_on_a_few_machines(self):
         self.write_logs(LOGS)
         ssh = self.folder / "ssh"
-        ssh.write_text("#!/bin/bash\n"
-                       f"echo $1 >>{self.folder}/hosts\nshift\n[[ $1 == -- ]] && shift\n"
-                       'exec bash -c "$*"\n')
-        ssh.chmod(0o755)
-        self.run_batch("--logs_per_task", "1", "--machines", "2/one,1/two",
-                       env={**os.environ, "PARALLEL_SSH": str(ssh)})
+
+        def stand_in(shell):
+            """sshd sets SHELL; a task without a shell ends without a word."""
+            ssh.write_text("#!/bin/bash\n"
+                           f"echo $1 >>{self.folder}/hosts\nshift\n"
+                           "[[ $1 == -- ]] && shift\n"
+                           f'SHELL={shell} exec bash -c "$*"\n')
+            ssh.chmod(0o755)
+
+        machines = {"env": {**os.environ, "PARALLEL_SSH": str(ssh)}}
+        stand_in("")
+        output = self.run_batch("--logs_per_task", "1", "--machines", "2/one,1/two",
+                                code=1, **machines)
+        self.assertIn("ended before finray_estimate began", output)
+        stand_in("/bin/bash")
+        self.run_batch("--logs_per_task", "1", "--machines", "2/one,1/two", **machines)
         hosts = set((self.folder / "hosts").read_text().split())
         self.assertEqual(hosts, {"one", "two"})
         self.expect_equal_to_single()
