@@ -119,6 +119,26 @@ TEST(ContactFitTest, StaysWithinItsBounds) {
   EXPECT_GE(converged, 100);  // the rest says that it did not
 }
 
+// There chi2 is one long hyperbola f (l_0 - l) = const, or nearly flat.
+TEST(ContactFitTest, LightTouchesConvergeFromTheTip) {
+  const Finger finger = PaperFinger();
+  ContactFit fit(finger, {});
+  fit.set_most_force(25);
+  std::mt19937_64 generator(3);
+  std::normal_distribution<double> noise(0, kNoise_rad);
+  int converged = 0, iterations = 0;
+  for (int i = 0; i < 200; ++i) {
+    Eigen::VectorXd angles = Angles(finger, {{35.0 + i % 8 * 10, 0.05, 0}});
+    for (double& angle : angles) angle += noise(generator);
+    std::vector<PointContact> contacts = {{i % 2 == 0 ? 138.75 : 80, 0.2, 0}};
+    StartAt(finger, contacts, &fit);
+    converged += fit.Fit(angles, Weights(finger), &contacts);
+    iterations += fit.iterations();
+  }
+  EXPECT_GE(converged, 195);
+  EXPECT_LE(iterations, 200 * 15);
+}
+
 TEST(ContactFitTest, AGaugeOfNoWeightIsNotThere) {
   const Finger finger = PaperFinger();
   Eigen::VectorXd angles = Angles(finger, {{70, 3, 0}});

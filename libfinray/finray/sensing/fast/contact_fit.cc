@@ -7,6 +7,7 @@
 #include "finray/ladder/contact_pose.h"
 #include "finray/ladder/rib_law.h"
 #include "finray/objects/circle_centre.h"
+#include "finray/sensing/fast/step_pace.h"
 
 namespace finray {
 namespace {
@@ -16,10 +17,6 @@ namespace {
 // in std for the contacts, in rad and l_0 for the shape.
 constexpr int kPatience = 8;
 constexpr double kNoDifference = 1e-5;
-// Where chi2 still rises then, Gauss-Newton overshoots and may go to and fro
-// for ever. The fit takes this share of such a change.
-constexpr double kPace = 0.5;
-
 }  // namespace
 
 ContactFit::ContactFit(const Finger& finger,
@@ -81,6 +78,7 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
   double last_cost = std::numeric_limits<double>::infinity();
   double damping = 0, last_change = kUnknownChange;
   ContactVector x(unknowns), step;
+  StepPace pace;
   // True if step_ leads from one linearisation to the next.
   bool comparable = predict;
   for (iterations_ = predict ? 0 : 1; iterations_ <= most_iterations_;
@@ -106,10 +104,9 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
       last_cost = std::numeric_limits<double>::infinity();
       last_change = kUnknownChange;
       comparable = false;
+      pace.Reset();
       continue;
     }
-    const bool overshot = iterations_ > kPatience && equations.chi2 > last_cost;
-    const double pace = overshot ? kPace : 1;
     Keep(*contacts);
     last_cost = equations.chi2;
     for (int c = 0; c < count; ++c) {
@@ -118,22 +115,22 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
     }
     ContactVector change =
         BoundedChange(equations, x, most_force_N_ / force, damping);
-    bool inside = true;
+    change *= pace.Of(change, x);
     for (int k = 0; k < unknowns; ++k) {
-      const double to = x[k] + change[k];
-      inside &= to > 0 && to < (k % 2 == 0 ? 1 : most_force_N_ / force);
+      const double most = k % 2 == 0 ? 1 : most_force_N_ / force;
+      change[k] = std::clamp(change[k], -x[k], most - x[k]);
     }
-    if (inside) change *= pace;
     newton_.StepWithContacts(predicts ? 0 : 1, change.data());
     const double size = newton_.Size(1, 0);
     if (!std::isfinite(size)) return false;
     const double share = std::min(1.0, kMaxTurn_rad / size);
     newton_.Move(share, 0);
     const double moved = LargestChange(change, x, size);
-    const ContactVector moves = share * change;
+    ContactVector moves = share * change;
     bool crossed = false;
     for (int c = 0; c < count; ++c) {
       PointContact& contact = (*contacts)[c];
+      moves[2 * c] *= ArcShare(x[2 * c + 1], moves[2 * c + 1]);
       crossed |= MoveContact(mesh, &moves[2 * c], length, force,
                              &contact.arc_mm, &contact.normal_N);
     }
@@ -146,7 +143,7 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
     const double deviations = std::sqrt(change.dot(equations.normal * change));
     const bool last =
         IsLastChange(moved, last_change, rate, crossed, tolerance_) ||
-        (iterations_ >= kPatience && deviations < pace * kNoDifference &&
+        (iterations_ >= kPatience && deviations < kNoDifference &&
          size < kNoDifference);
     damping *= 0.1;
     last_change = moved;
@@ -172,6 +169,7 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
     last_cost = std::numeric_limits<double>::infinity();
     last_change = kUnknownChange;
     comparable = false;
+    pace.Reset();
   }
   iterations_ = most_iterations_;
   return false;

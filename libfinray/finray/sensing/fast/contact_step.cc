@@ -11,7 +11,8 @@ namespace {
 // convergence on noise-free data stays quadratic.
 constexpr double kArcDamping = 22;
 constexpr double kForceDamping = 1e-9;
-constexpr double kLeastForce = 0.02;  // in units of EI / l_0^2
+// A bound is met or left at most so often for each component.
+constexpr int kMostPasses = 4;
 
 // A + D
 ContactMatrix Damped(const ContactEquations& equations, double damping) {
@@ -53,43 +54,69 @@ void SolvePositive(ContactMatrix* a, ContactVector* b) {
 
 }  // namespace
 
+// The primal active-set method for a convex quadratic in a box: goes towards
+// the least squares of the free components until the first of them meets its
+// bound, and lets a bound go that the gradient leaves.
 ContactVector BoundedChange(const ContactEquations& equations,
                             const ContactVector& x, double most_force,
                             double damping) {
   const int unknowns = static_cast<int>(x.size());
   const ContactMatrix system = Damped(equations, damping);
   ContactVector change = ContactVector::Zero(unknowns);
+  ContactVector low(unknowns), high(unknowns);
+  for (int k = 0; k < unknowns; ++k) {
+    const bool arc = k % 2 == 0;
+    low[k] = arc ? std::max(-x[k], -kLongestMove) : -x[k];
+    high[k] = arc ? std::min(1 - x[k], kLongestMove) : most_force - x[k];
+  }
   bool fixed[2 * kFittedContacts] = {};
-  for (int pass = 0; pass <= unknowns; ++pass) {
+  for (int pass = 0; pass < kMostPasses * unknowns; ++pass) {
     ContactMatrix free = system;
-    ContactVector right = -equations.gradient;
+    ContactVector target = -equations.gradient;
     for (int k = 0; k < unknowns; ++k) {
-      if (fixed[k]) right -= system.col(k) * change[k];
+      if (fixed[k]) target -= system.col(k) * change[k];
     }
     for (int k = 0; k < unknowns; ++k) {
       if (!fixed[k]) continue;
       free.row(k).setZero();
       free.col(k).setZero();
       free(k, k) = 1;
-      right[k] = change[k];
+      target[k] = change[k];
     }
-    SolvePositive(&free, &right);
-    change = right;
-    bool inside = true;
+    SolvePositive(&free, &target);
+    double share = 1;
+    int met = -1;
     for (int k = 0; k < unknowns; ++k) {
-      const bool arc = k % 2 == 0;
-      const double low = std::max(-x[k], arc ? -kLongestMove : -x[k]);
-      const double high =
-          arc ? std::min(1 - x[k], kLongestMove) : most_force - x[k];
-      const double bounded = std::clamp(change[k], low, high);
-      if (fixed[k] || bounded == change[k]) continue;
-      change[k] = bounded;
-      fixed[k] = true;
-      inside = false;
+      const double bound = std::clamp(target[k], low[k], high[k]);
+      if (fixed[k] || bound == target[k]) continue;
+      const double to_bound = (bound - change[k]) / (target[k] - change[k]);
+      if (met >= 0 && !(to_bound < share)) continue;
+      share = to_bound;
+      met = k;
     }
-    if (inside) break;
+    change += share * (target - change);
+    if (met >= 0) {
+      change[met] = target[met] > change[met] ? high[met] : low[met];
+      fixed[met] = true;
+      continue;
+    }
+    const ContactVector slope = equations.gradient + system * change;
+    int left = -1;
+    for (int k = 0; k < unknowns; ++k) {
+      if (fixed[k] && (change[k] == low[k] ? slope[k] < 0 : slope[k] > 0)) {
+        left = k;
+      }
+    }
+    if (left < 0) break;
+    fixed[left] = false;
   }
   return change;
+}
+
+double ArcShare(double normal, double by) {
+  constexpr double kSmall = 0.1, kMost = 2;
+  if (std::abs(by) < kSmall * normal) return 1;
+  return normal > 0 ? normal / std::max(normal / kMost, normal + by) : 1;
 }
 
 bool MoveContact(const BeamMesh& mesh, const double* change, double length_unit,
@@ -114,7 +141,7 @@ double LargestChange(const ContactVector& change, const ContactVector& x,
                      double shape) {
   double largest = shape;
   for (int k = 0; k < change.size(); ++k) {
-    const double unit = k % 2 == 0 ? 1 : x[k] + kLeastForce;
+    const double unit = k % 2 == 0 ? 1 : x[k] + kSmallForce;
     largest = std::max(largest, std::abs(change[k]) / unit);
   }
   return largest;

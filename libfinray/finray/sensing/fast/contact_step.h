@@ -29,6 +29,10 @@ constexpr double kMaxTurn_rad = 0.7;
 // equilibrium is reached.
 constexpr double kMostRise = 2;
 
+// A force counts as at least this large when its changes are compared, in units
+// of EI / l_0^2.
+constexpr double kSmallForce = 0.02;
+
 struct ContactEquations {
   ContactMatrix normal;
   ContactVector gradient;
@@ -41,6 +45,13 @@ struct ContactEquations {
 ContactVector BoundedChange(const ContactEquations& equations,
                             const ContactVector& x, double most_force,
                             double damping);
+
+/// The share of a change of l_c to be taken with a change `by` of f_c. Small
+/// angles are f phi(l); the linearised change (dl, df) is that of
+/// (f + df) phi(l + dl f / (f + df)). Near the tip, where the gauges see little
+/// but f (l_0 - l_c), the contact then moves along that hyperbola. 1 for small
+/// `by`, so that the last steps are Newton's.
+double ArcShare(double normal, double by);
 
 /// Moves a contact by `change` = (l_c, f_c) of x, within 0 <= l_c <= l_0 and 0
 /// <= f_c. Returns whether it has passed to another element of the mesh.
