@@ -19,6 +19,9 @@ constexpr double kNoDifference = 1e-5;
 // Where chi2 still rises then, Gauss-Newton overshoots and may go to and fro
 // for ever. The fit takes this share of such a change.
 constexpr double kPace = 0.5;
+// Where the tolerance is worth more std than this, as with a noise of a few
+// rounding errors, the last change must be below it, not only the next one.
+constexpr double kTolerableStd = 0.1;
 
 }  // namespace
 
@@ -144,8 +147,11 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
             ? gauges_.Rate(measured, weights, equations, damping, step, x, 0)
             : 0;
     const double deviations = std::sqrt(change.dot(equations.normal * change));
+    const bool small =
+        moved < tolerance_ || tolerance_ * deviations < kTolerableStd * moved;
     const bool last =
-        IsLastChange(moved, last_change, rate, crossed, tolerance_) ||
+        (small &&
+         IsLastChange(moved, last_change, rate, crossed, tolerance_)) ||
         (iterations_ >= kPatience && deviations < pace * kNoDifference &&
          size < kNoDifference);
     damping *= 0.1;
