@@ -41,6 +41,21 @@ TEST(ExtremesTest, ErrorsGoWithTheNoiseOverEightDecades) {
   EXPECT_NEAR(median(1e-2) / usual, 1, 0.1);
 }
 
+// Two ends of one fit are no two places, however small the std.
+TEST(ExtremesTest, NoiseOfSomeRoundingErrorsLeavesNoRival) {
+  for (const double noise : {1e-12, 1e-13, 1e-14}) {
+    SCOPED_TRACE(noise);
+    SensingCase c;
+    c.noise_of_reading = noise;
+    const SensingOutcome outcome = RunSensing(c, kFrames);
+    EXPECT_EQ(outcome.ok(), outcome.frames);
+    if (noise < 1e-12) continue;  // less than the model's own rounding
+    ExpectSound(outcome);
+    EXPECT_NEAR(double(outcome.arc_within[0]) / outcome.ok(), 0.683, 0.08);
+    EXPECT_GT(outcome.arc_within[1], 0.9 * outcome.ok());
+  }
+}
+
 TEST(ExtremesTest, GainsAndUnitsChangeNothing) {
   SensingCase usual;
   const SensingOutcome before = RunSensing(usual, kFrames);

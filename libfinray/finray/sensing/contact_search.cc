@@ -26,6 +26,9 @@ constexpr double kSame = 0.01;  // chi2 between fits of one minimum
 // A rival lies outside the region that holds 99 % of the estimates. These are
 // the quantiles of chi-squared for two and for four parameters.
 constexpr double kDistinct[] = {9.21, 13.28};
+// Fits of one minimum end this close to each other, in l_0 and f_c, however
+// small the std.
+constexpr double kRounding = 1e-11;
 
 // The table is too coarse where its values are wrong by more std than this.
 constexpr double kCoarse = 1;
@@ -372,11 +375,16 @@ bool ContactSearch::IsDistinct(const ContactSolution& other) const {
   const ContactSolution& one = best();
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kFittedContacts, 1> apart(
       2 * one.count);
+  bool rounding = true;
   for (int c = 0; c < one.count; ++c) {
     apart[2 * c] = other.contacts[c].arc_mm - one.contacts[c].arc_mm;
     apart[2 * c + 1] = other.contacts[c].normal_N - one.contacts[c].normal_N;
+    rounding &=
+        std::abs(apart[2 * c]) < kRounding * length_mm_ &&
+        std::abs(apart[2 * c + 1]) < kRounding * one.contacts[c].normal_N;
   }
-  return apart.dot(one.information * apart) > kDistinct[one.count - 1];
+  return !rounding &&
+         apart.dot(one.information * apart) > kDistinct[one.count - 1];
 }
 
 const ContactSolution* ContactSearch::rival() const {

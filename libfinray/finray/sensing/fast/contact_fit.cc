@@ -17,6 +17,10 @@ namespace {
 // in std for the contacts, in rad and l_0 for the shape.
 constexpr int kPatience = 8;
 constexpr double kNoDifference = 1e-5;
+// Where the tolerance is worth more std than this, as with a noise of a few
+// rounding errors, the last change must be below it, not only the next one.
+constexpr double kTolerableStd = 0.1;
+
 }  // namespace
 
 ContactFit::ContactFit(const Finger& finger,
@@ -141,10 +145,12 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
             ? gauges_.Rate(measured, weights, equations, damping, step, x, 0)
             : 0;
     const double deviations = std::sqrt(change.dot(equations.normal * change));
-    const bool last =
-        IsLastChange(moved, last_change, rate, crossed, tolerance_) ||
-        (iterations_ >= kPatience && deviations < kNoDifference &&
-         size < kNoDifference);
+    const bool small =
+        moved < tolerance_ || tolerance_ * deviations < kTolerableStd * moved;
+    const bool last = (small && IsLastChange(moved, last_change, rate, crossed,
+                                             tolerance_)) ||
+                      (iterations_ >= kPatience && deviations < kNoDifference &&
+                       size < kNoDifference);
     damping *= 0.1;
     last_change = moved;
     comparable = true;
