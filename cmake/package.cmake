@@ -76,9 +76,9 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
 set(this "${PROJECT_VERSION}-1")
 
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS python3)
+set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "python3, python3-numpy, python3-yaml") # finray_import
 set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS
-  "python3-matplotlib, python3-jinja2, python3-yaml")
+  "python3-matplotlib, python3-jinja2")
 set(CPACK_COMPONENT_TOOLS_DESCRIPTION
 "contact sensing and calibration of Fin-Ray fingers: executables
 Estimates where and how hard a soft Fin-Ray gripper finger is touched from its
@@ -107,8 +107,8 @@ Residuals of one's own (finray/residuals.h) need libceres-dev too.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-  "libfinray${FINRAY_SOVERSION} (= ${this}), python3 (>= ${FINRAY_PYTHON_VERSION}), python3-numpy")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "finray, python3-matplotlib, python3-pandas")
+  "libfinray${FINRAY_SOVERSION} (= ${this}), finray (= ${this}), ${FINRAY_DEBIAN_PYTHON}, python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-matplotlib, python3-pandas")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
   "${PROJECT_SOURCE_DIR}/cmake/debian/postinst;${PROJECT_SOURCE_DIR}/cmake/debian/prerm")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION

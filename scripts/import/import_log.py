@@ -1,7 +1,9 @@
 """finray_import from the command line to the files."""
 
+import importlib.metadata
 import os
 import pathlib
+import platform
 import re
 import sys
 
@@ -186,9 +188,17 @@ class Import:
             print(f"warning: {text}", file=sys.stderr)
 
 
-def _version():
+def _versions():
+    """The tool, and the packages that it reads with where they are installed, one a line."""
     project = (pathlib.Path(__file__).resolve().parents[2] / "CMakeLists.txt").read_text()
-    return re.search(r"project\(finray VERSION ([\d.]+)", project)[1]
+    yield "finray_import version " + re.search(r"project\(finray VERSION ([\d.]+)", project)[1]
+    yield "python " + platform.python_version()
+    for package in ("numpy", "PyYAML", "scipy", "h5py", "h5py._debian_h5py_serial", "openpyxl", "pandas", "rosbag",
+                    "zstandard", "lz4"):
+        try:
+            yield f"{package.partition('.')[0].lower()} {importlib.metadata.version(package)}"
+        except importlib.metadata.PackageNotFoundError:
+            pass
 
 
 def main(arguments):
@@ -196,7 +206,7 @@ def main(arguments):
         print(flags.help_text())
         return 0
     if any(a in ("-version", "--version") for a in arguments):
-        print(f"finray_import version {_version()}")
+        print("\n".join(_versions()))
         return 0
     try:
         values, given = flags.parse(arguments)

@@ -12,8 +12,7 @@ import re
 import subprocess
 import sys
 
-# "  --flag   what it does", or with a short form and the word for its value before that.
-FLAG = re.compile(r"^ {2}(?:-\w(?:, | \w+, ))?--(?:\[no\])?([\w-]+)(?:[ =](?:\S+))?(?:\s{2,}(.*))?$")
+FLAG = re.compile(r"^ {2}--(\w+)\s+(.*)$")
 
 
 def pages_of(executable):
@@ -23,20 +22,18 @@ def pages_of(executable):
         sys.exit(f"{executable} --help ends with {run.returncode}: {run.stderr}")
     lines = run.stdout.splitlines()
     name = pathlib.Path(executable).name
-    flags, words, usage, section = [], [], [], "Options"
+    flags, words, usage, section = [], [], [], ""
     for line in lines:
         found = FLAG.match(line)
         if found:
-            flags.append([section, found[1], found[2] or ""])
-        elif flags and line.startswith(" " * 8):
-            flags[-1][2] += " " + line.strip()
-        elif re.fullmatch(r"\w+:?", line.strip()) and not line.startswith(" "):
-            section = line.strip().rstrip(":").capitalize()
+            flags.append((section, found[1], found[2]))
+        elif re.fullmatch(r"\w+", line):
+            section = line
         elif name in line and not flags:
-            usage.append(re.sub(r"^usage:\s*", "", line.strip()))
+            usage.append(line.strip())
         elif line.strip():
             words.append(line.strip())
-    return name, words[0] if words else name, usage or [name], flags, words[1:]
+    return name, words[0], usage, flags, words[1:]
 
 
 def roff(text):
@@ -44,7 +41,7 @@ def roff(text):
     return "\\&" + text if text[:1] in (".", "'") else text
 
 
-def man_page(version, name, what, usage, flags, more):
+def man_page(version, name, what, usage, flags, more, others):
     yield f'.TH {name.upper()} 1 "" "finray {version}" "finray"'
     yield f".SH NAME\n{name} \\- {roff(what.rstrip('.'))}"
     yield ".SH SYNOPSIS\n" + "\n.br\n".join(roff(line) for line in usage)
@@ -53,15 +50,15 @@ def man_page(version, name, what, usage, flags, more):
         if section != last:
             yield f".SH {section.upper()}"
             last = section
-        yield ".TP\n\\fB\\-\\-" + roff(flag) + "\\fR\n" + (roff(words) or "\\&")
-    if more:
-        yield ".SH NOTES"
-        yield from ("\n.PP\n" + roff(line) for line in more)
-    yield ".SH SEE ALSO\nThe documentation of finray: formats, commands and guides."
+        yield ".TP\n\\fB\\-\\-" + roff(flag) + "\\fR\n" + roff(words)
+    for line in more:
+        title, colon, rest = line.partition(": ")
+        yield (".SH EXIT STATUS\n" + roff(rest) if colon and title == "Exit code" else ".SH NOTES\n" + roff(line))
+    yield ".SH SEE ALSO\n" + ",\n".join(f".BR {other} (1)" for other in others)
 
 
 def completion(name, flags):
-    words = " ".join("--" + flag for _, flag, _ in flags)
+    words = " ".join("--" + flag for flag in [*(flag for _, flag, _ in flags), "help"])
     return f"""# Flags of {name}; anything else is a file.
 _{name}() {{
   COMPREPLY=()
@@ -77,9 +74,11 @@ def main():
     version, out, executables = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]
     for folder in ("man1", "completions"):
         (out / folder).mkdir(parents=True, exist_ok=True)
+    names = sorted(pathlib.Path(executable).name for executable in executables)
     for executable in executables:
         name, what, usage, flags, more = pages_of(executable)
-        text = "\n".join(man_page(version, name, what, usage, flags, more)) + "\n"
+        others = [other for other in names if other != name]
+        text = "\n".join(man_page(version, name, what, usage, flags, more, others)) + "\n"
         (out / "man1" / f"{name}.1.gz").write_bytes(gzip.compress(text.encode(), mtime=0))
         (out / "completions" / name).write_text(completion(name, flags), encoding="utf-8")
 
