@@ -132,11 +132,17 @@ void MakeFolders(const std::vector<LogJob>& jobs) {
   }
 }
 
-// The summaries of an earlier run would no longer be true of the folder.
-void RemoveOldSummaries() {
+// The summaries and pages of an earlier run would no longer be true of the
+// folder.
+void RemoveOldSummaries(const std::vector<LogJob>& jobs) {
   for (const char* name : {"summary.yaml", "summary.csv"}) {
     std::error_code missing;
     std::filesystem::remove(OutPath(name), missing);
+  }
+  RemoveOldPage(OutPath("index.html"));
+  for (const LogJob& job : jobs) {
+    const std::filesystem::path result = job.result();
+    RemoveOldPage(PagePath(result, result.parent_path()));
   }
 }
 
@@ -357,7 +363,7 @@ int Run() {
   FrameSolverPool pool(FrameSolvers(settings.finger, settings.scene,
                                     settings.discretization, settings.method));
   MakeFolders(jobs);
-  RemoveOldSummaries();
+  RemoveOldSummaries(jobs);
   ProgressBar bar(Frames(jobs));
   settings.progress = [&bar](std::size_t frames, bool kept) {
     bar.Add(frames, kept);

@@ -66,8 +66,7 @@ int ViewFolders(const std::vector<std::string>& folders, const Finger* finger) {
 int ViewTables(const std::vector<std::string>& tables, const Finger* finger) {
   std::vector<ViewJob> jobs;
   for (const std::string& table : tables) {
-    fs::path page = fs::path(FLAGS_out_dir) / (ResultName(table) + ".html");
-    jobs.push_back({table, page.string()});
+    jobs.push_back({table, PagePath(table, FLAGS_out_dir)});
   }
   RefuseSamePages(jobs);
   for (const ViewJob& job : jobs) {

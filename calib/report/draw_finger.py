@@ -66,10 +66,11 @@ def draw(finger, places):
     for rib in finger.get("ribs") or []:
         drawing.dot((0, rib["front_mm"]))
         drawing.dot(drawing.back(rib["back_mm"]))
-        drawing.text((0, rib["front_mm"]), number(rib["front_mm"]), QUIET, "end", 13, dx=-9, dy=4, italic=False)
+        drawing.text((0, rib["front_mm"]), number(rib["front_mm"]), QUIET, "end", 13, dx=-9, dy=4, italic=False,
+                     halo=bool(places))
         drawing.text(drawing.back(rib["back_mm"], 8 * mm), number(rib["back_mm"]), QUIET, "start", 13, dy=4,
                      italic=False)
-    x = -64 * mm
+    x = -max(64, aside + 24) * mm  # left of all places
     for height in (0, length):
         drawing.line((-12 * mm, height), (x - 8 * mm, height), QUIET, 0.8, 'stroke-dasharray="2 3"')
     drawing.dimension((x, 0), (x, length), number(length), dx=-6)

@@ -49,10 +49,12 @@ class Drawing:
         self.out.append(f'<circle cx="{x}" cy="{y}" r="{radius * self.scale}" fill="{fill}" '
                         f'stroke="{stroke}" stroke-width="1.5"{extra}/>')
 
-    def text(self, at, words, colour=INK, anchor="start", size=17, dx=0, dy=0, italic=True):
-        """`a_b` in italics sets b as a subscript."""
+    def text(self, at, words, colour=INK, anchor="start", size=17, dx=0, dy=0, italic=True,
+             halo=False):
+        """`a_b` in italics sets b as a subscript; a halo keeps the words apart from what is below them."""
         x, y = self.page(at)
         style = ' font-style="italic"' if italic else ""
+        style += ' stroke="#ffffff" stroke-width="4" paint-order="stroke"' if halo else ""
         words = html.escape(words)
         if italic and "_" in words:
             main, sub = words.split("_", 1)

@@ -17,7 +17,10 @@ def _bytes(path):
     try:
         with (gzip.open if packed else open)(path, "rb") as file:
             data = file.read(MOST_BYTES + 1)
-    except (gzip.BadGzipFile, EOFError, zlib.error) as error:
+    except EOFError as error:
+        raise BadInput(f"{path}: the gzip file is cut: it ends before the end of its data; copy "
+                       "it once more, or gunzip what is there") from error
+    except (gzip.BadGzipFile, zlib.error) as error:
         raise BadInput(f"{path}: broken gzip: {shown(error)}") from error
     if len(data) > MOST_BYTES:
         raise BadInput(f"{path}: larger than 2 GiB; split it")

@@ -18,8 +18,9 @@ class NoSolution(Exception):
 
 def did_you_mean(name, names):
     """" (did you mean 'x'?)", or nothing if no name is near."""
-    near = difflib.get_close_matches(name, list(names), 1, 0.6)
-    return f" (did you mean '{near[0]}'?)" if near else ""
+    known = {candidate.lower(): candidate for candidate in names}
+    near = difflib.get_close_matches(name.lower(), known, 1, 0.6)
+    return f" (did you mean '{shown(known[near[0]])}'?)" if near else ""
 
 
 def shown(text, limit=60):

@@ -45,6 +45,7 @@ class Import:
         for name in names:
             if names.count(name) > 1:
                 raise BadInput(f"--logs: two tables are named '{name}'; rename a file")
+        mapping_file.refuse_absent(self.mapping, tables)
         self.recordings = [recordings_of.convert(t, self.mapping) for t in tables]
         for name in self.mapping.tables:
             files = {n.partition(":")[0] for n in names}

@@ -29,8 +29,8 @@ import os
 
 import units
 import vocabulary
-from errors import BadInput, shown
-from yaml_node import Node, load
+from errors import BadInput, did_you_mean, shown
+from yaml_node import Node, load, place
 
 FORMAT_KEYS = ["delimiter", "decimal", "header_line", "units_row", "not_measured"]
 SETTINGS = FORMAT_KEYS + ["row_type"]
@@ -57,14 +57,10 @@ def _counts(node):
     bits, volts = node.integer("adc_bits", 1, 32), node.numbers("range_V", 2)
     for key, value in (("adc_bits", bits), ("range_V", volts)):
         if value is None:
-            raise BadInput(f"{node.path}:{_line(node)}: unit: counts need adc_bits and range_V")
+            raise BadInput(f"{place(node.path, node.node)}: unit: counts need adc_bits and range_V")
     if not volts[0] < volts[1]:
         node.fail("range_V", "expected [from, to] in V, the first one smaller")
     return units.Counts(bits, *volts, bool(node.switch("signed")))
-
-
-def _line(node):
-    return min(v.start_mark.line for v in node.values.values()) + 1 if node.values else 1
 
 
 def _read_unit(node, target):
@@ -116,22 +112,26 @@ def _check_target(node, key, to):
 
 
 class Table:
-    """columns: {header: Target, or None for one that is left out}; settings of CSV."""
+    """columns: {header: Target, or None for one that is left out}, and where in the mapping each
+    of them is said; settings of CSV."""
 
     def __init__(self, node=None):
-        self.columns, self.settings = {}, {key: None for key in SETTINGS}
+        self.columns, self.places, self.settings = {}, {}, {key: None for key in SETTINGS}
         self.time_offset_s = self.time_offset_std_s = None
         if node is None:
             return
         if node.is_map("columns"):
             columns = node.child("columns")
-            self.columns = dict(_target(columns, header) for header in columns.values)
+            for key in columns.values:
+                header, target = _target(columns, key)
+                self.columns[header], self.places[header] = target, columns.places[key]
         elif "columns" in node.values:
             shared = os.path.join(os.path.dirname(node.path), node.text("columns"))
             other = Node(shared, load(shared), ["schema_version", "columns"] + FORMAT_KEYS)
             if not other.is_map("columns"):
                 raise BadInput(f"{shared}: needs `columns`, a mapping")
-            self.columns, self.settings = Table(other).columns, Table(other).settings
+            said = Table(other)
+            self.columns, self.places, self.settings = said.columns, said.places, said.settings
         delimiter = node.text("delimiter", [",", ";", "\t", "tab", "|", " "])
         read = {"delimiter": "\t" if delimiter == "tab" else delimiter,
                 "decimal": node.text("decimal", [".", ","]),
@@ -173,6 +173,25 @@ class Mapping:
             if table.time_offset_s is not None:
                 return table.time_offset_s, table.time_offset_std_s
         return None, None
+
+
+def refuse_absent(mapping, tables):
+    """BadInput for a column that the mapping names and that no table has, unless another one
+    becomes the same."""
+    for name, said in (("", mapping.top), *mapping.tables.items()):
+        headers = [header for t in tables if name in ("", t.name, t.name.partition(":")[0])
+                   for header in t.headers]
+        if not headers and name:
+            continue  # of a file that is not there, which is a warning of its own
+        there = {said.columns[h].to for h in said.columns if h in headers and said.columns[h]}
+        for header, target in said.columns.items():
+            if target is None or header in headers or target.to in there:
+                continue
+            who = f"{shown(name)} has no" if name else "no recording has a"
+            raise BadInput(
+                f"{said.places[header]}: {who} column '{shown(header)}' to become {target.to}"
+                f"{did_you_mean(header, headers)}" + ("" if name else
+                "; what another file has goes under `tables`"))
 
 
 def read(path):

@@ -27,7 +27,8 @@ def _part(path, data):
 
 
 def _write_all(files):
-    """All files {path: bytes}, or none."""
+    """Writes files {path: bytes}, each whole or not at all. All are on the disk before the first
+    one takes its place, so a full disk leaves none of them."""
     parts = {}
     try:
         for path, data in files.items():

@@ -10,8 +10,9 @@ import numpy as np
 
 from errors import BadInput, shown
 
-NA_WORDS = {"", "nan", "na", "n/a", "#n/a", "#nv", "null", "none", "-", "--", "---", "missing",
-            "?"}
+# In any case of letters; those of libfinray/finray/io/column_mapping.cc.
+NA_WORDS = {"", "-", "--", "---", "?", "na", "n/a", "#n/a", "#nv", "null", "none", "missing",
+            "nan", "+nan", "-nan"}
 NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?")
 
 
@@ -28,13 +29,14 @@ class Column:
 
 class RawTable:
     """columns: Column in order, all of the same length; lines: the line of each row of a text
-    file; delimiter: of a CSV; notes: what to tell the user of how it was read."""
+    file; delimiter: of a CSV; notes: what to tell the user of how it was read; headers: names of
+    all columns in the file, where rows of other kinds had more."""
 
     def __init__(self, path, part, columns, decimal=".", not_measured=(), lines=None):
         self.path, self.part, self.columns = path, part, columns
         self.decimal, self.lines, self.delimiter = decimal, lines, None
-        self.na_words = NA_WORDS | {word.lower() for word in not_measured}
-        self.notes = []
+        self.not_measured = tuple(not_measured)
+        self.notes, self.headers = [], [c.name for c in columns]
 
     @property
     def name(self):
@@ -56,7 +58,7 @@ class RawTable:
         return f"{self.path}{part}: row {row + 1}"
 
     def is_na(self, text):
-        return text.strip().lower() in self.na_words
+        return text.strip() in self.not_measured or text.strip().lower() in NA_WORDS
 
     def numbers(self, column):
         """The column as floats, NaN where nothing was measured."""
@@ -72,6 +74,9 @@ class RawTable:
         for i, text in enumerate(column.cells):
             text = text.strip()
             plain = text.replace(",", ".") if comma and "." not in text else text
+            if text in self.not_measured:  # it may be a number: -9999
+                out[i] = np.nan
+                continue
             if NUMBER.fullmatch(plain) and not (comma and "." in text):
                 out[i] = float(plain)
                 if np.isfinite(out[i]):
@@ -88,7 +93,7 @@ class RawTable:
         at = np.flatnonzero(keep)
         columns = [Column(c.name, [c.cells[i] for i in at] if c.is_text else c.cells[at], c.unit)
                    for c in self.columns]
-        out = RawTable(self.path, part, columns, self.decimal, self.na_words,
+        out = RawTable(self.path, part, columns, self.decimal, self.not_measured,
                        [self.lines[i] for i in at] if self.lines else None)
-        out.notes, out.delimiter = list(self.notes), self.delimiter
+        out.notes, out.delimiter, out.headers = list(self.notes), self.delimiter, self.headers
         return out

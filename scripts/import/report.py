@@ -1,5 +1,7 @@
 """What the import prints: a table of what it understood, and what it did not."""
 
+import itertools
+
 import numpy as np
 
 import units
@@ -70,8 +72,10 @@ def not_understood(recordings):
             lines.append(f"{r.name}: left out: {', '.join(names[:12])}{more}")
     if lines:
         name = next(c.name for r in recordings for c in r.unknown)
+        taken = {used.target.to for r in recordings for used in r.used}
+        free = next(to for to in map("gauge_{}_V".format, itertools.count(1)) if to not in taken)
         lines.append(f"to use them, say what they are in --mapping M.yaml, such as columns: "
-                     f"{{'{shown(name)}': {{to: gauge_1_V, unit: mV}}}}")
+                     f"{{'{shown(name)}': {{to: {free}, unit: mV}}}}")
     return lines
 
 

@@ -15,14 +15,16 @@ alternative_contact_#_mm alternative_normal_#_N contact_#_x_mm contact_#_y_mm
 contact_#_angle_rad object_x_mm object_y_mm object_angle_deg object_displacement_mm
 force_N force_x_N force_y_N rib_#_N rib_#_front_x_mm rib_#_front_y_mm rib_#_back_x_mm
 rib_#_back_y_mm cylinder_radius_mm tip_x_mm tip_y_mm tip_angle_rad chi2 chi2_p_value
-alternative_chi2 iterations search_ended temperature_C
+alternative_chi2 iterations search_ended temperature_C gauge_#_scatter_V
 """.split()
 # Along the sensor's own axes; force_frame.py turns them into force_x_N, force_y_N.
 SENSOR_AXES = ["force_sensor_x_N", "force_sensor_y_N"]
 TIME_HEADERS = {"t", "time", "zeit", "timestamp", "time_stamp", "header.stamp"}
 
+# plateaus.py finds scatter; no column of a recording becomes it.
+_TARGETS = [p for p in PATTERNS + SENSOR_AXES if "_scatter_" not in p]
 _MATCH = [re.compile(re.escape(p).replace(r"\#", "#").replace("#", r"[1-9]\d{0,3}"))
-          for p in PATTERNS + SENSOR_AXES]
+          for p in _TARGETS]
 
 
 def is_column(name):
@@ -32,7 +34,7 @@ def is_column(name):
 def nearest(name):
     index = re.search(r"[1-9]\d*", name)
     index = index.group() if index else "1"
-    return did_you_mean(name, [p.replace("#", index) for p in PATTERNS + SENSOR_AXES])
+    return did_you_mean(name, [p.replace("#", index) for p in _TARGETS])
 
 
 def order(name):

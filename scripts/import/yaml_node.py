@@ -21,32 +21,37 @@ def load(path):
         raise BadInput(f"{path}: is not UTF-8 text") from error
     except (yaml.YAMLError, RecursionError) as error:
         mark = getattr(error, "problem_mark", None)
-        line = f":{mark.line + 1}" if mark else ""
-        raise BadInput(f"{path}{line}: {shown(getattr(error, 'problem', None) or error)}") \
+        where = f":{mark.line + 1}:{mark.column + 1}" if mark else ""
+        raise BadInput(f"{path}{where}: {shown(getattr(error, 'problem', None) or error)}") \
             from error
     if node is None:
         raise BadInput(f"{path}: is empty")
     return node
 
 
+def place(path, node):
+    """file:line:column of a node, both from 1."""
+    return f"{path}:{node.start_mark.line + 1}:{node.start_mark.column + 1}"
+
+
 class Node:
-    """A mapping with the line of each key; a key that is not in `keys` is a fault."""
+    """A mapping with the place of each key; a key that is not in `keys` is a fault."""
 
     def __init__(self, path, node, keys=None):
         if not isinstance(node, yaml.MappingNode):
-            raise BadInput(f"{path}:{node.start_mark.line + 1}: expected a mapping (key: value)")
-        self.path, self.values = path, {}
+            raise BadInput(f"{place(path, node)}: expected a mapping (key: value)")
+        self.path, self.node, self.values, self.places = path, node, {}, {}
         for key, value in node.value:
-            name, line = str(key.value), key.start_mark.line + 1
+            name, where = str(key.value), place(path, key)
             if name in self.values:
-                raise BadInput(f"{path}:{line}: '{shown(name)}' is there twice")
+                raise BadInput(f"{where}: '{shown(name)}' is there twice")
             if keys is not None and name not in keys:
-                raise BadInput(f"{path}:{line}: unknown key '{shown(name)}'"
-                               f"{did_you_mean(name, keys)}")
-            self.values[name] = value
+                raise BadInput(f"{where}: unknown key '{shown(name)}'{did_you_mean(name, keys)}")
+            self.values[name], self.places[name] = value, where
 
     def fail(self, key, text):
-        raise BadInput(f"{self.path}:{self.values[key].start_mark.line + 1}: {key}: {text}")
+        """A fault in the value of a key."""
+        raise BadInput(f"{place(self.path, self.values[key])}: {shown(key)}: {text}")
 
     def is_map(self, key):
         return isinstance(self.values.get(key), yaml.MappingNode)
@@ -100,8 +105,13 @@ class Node:
         return self._checked(key, lambda v: isinstance(v, bool), "true or false")
 
     def words(self, key):
-        return self._checked(key, lambda v: isinstance(v, list) and
-                             all(isinstance(w, str) for w in v), "a list of words") or []
+        """A list of texts; numbers too as they are written."""
+        if key not in self.values:
+            return []
+        items = getattr(self.values[key], "value", None)
+        if not isinstance(items, list) or not all(isinstance(i, yaml.ScalarNode) for i in items):
+            self.fail(key, "expected a list of words")
+        return [item.value for item in items]
 
 
 def _is_number(value):

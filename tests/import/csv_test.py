@@ -7,6 +7,7 @@ import unittest
 import numpy as np
 from fixture import ROOT, ImportCase
 
+import raw_table
 import times
 import units
 import vocabulary
@@ -65,8 +66,9 @@ class DialectTest(ImportCase):
             with self.subTest(word):
                 log = self.log_of_text(PLAIN.replace("-0.25", word))
                 self.assertEqual(log["gauge_1_V"], ["0.125", ""])
-        log = self.log_of_text(PLAIN.replace("-0.25", "OVER"), "not_measured: [OVER]")
-        self.assertEqual(log["gauge_1_V"], ["0.125", ""])
+        for word in ("OVER", "-9999"):
+            log = self.log_of_text(PLAIN.replace("-0.25", word), "not_measured: [OVER, -9999]")
+            self.assertEqual(log["gauge_1_V"], ["0.125", ""])
 
     def test_stated_dialect_holds(self):
         log = self.log_of_text("gauge_1_V\n1,5\n2,5\n", 'delimiter: ";"\ndecimal: ","')
@@ -185,7 +187,9 @@ class FaultTest(ImportCase):
                 (PLAIN + "0.2,1.234,5,6\n", ["bad.csv:4", "4"]),
                 ("", ["bad.csv", "no rows"]), ("time_s,force_N\n", ["bad.csv", "no rows"]),
                 ("hello\n", ["bad.csv", "no rows"]), (PLAIN + "\0", ["bad.csv:4", "NUL"]),
-                (b"\x1f\x8b\x08\x00", ["bad.csv", "gzip"]),
+                (b"\x1f\x8b\x08\x00", ["bad.csv", "the gzip file is cut"]),
+                (gzip.compress(PLAIN.encode() * 99)[:-20], ["bad.csv", "the gzip file is cut"]),
+                (b"\x1f\x8b\x08\x00" + b"x" * 99, ["bad.csv", "broken gzip"]),
                 ("a,b\n1,2\n", ["bad.csv", "no column is understood", "--mapping"])):
             with self.subTest(text[:99]):
                 line = self.fault(text)
@@ -198,9 +202,16 @@ class FaultTest(ImportCase):
 
     def test_faults_of_a_mapping_name_the_line_and_the_nearest_name(self):
         for mapping, words in (
-                ("columns: {a: force}", ["m.yaml:1", "force_N"]),
-                ("columns:\n  a: {to: force_N, unti: gf}", ["m.yaml:2", "'unit'"]),
-                ("columns:\n  a: {to: force_N,\n    unit: mm}", ["m.yaml:3", "takes one of N, mN"]),
+                ("columns: {a: force}", ["m.yaml:1:14: a: 'force' is no column", "force_N"]),
+                ("columns:\n  a: {to: force_N, unti: gf}", ["m.yaml:2:20: unknown key", "'unit'"]),
+                ("columns:\n  a: {to: force_N,\n    unit: mm}",
+                 ["m.yaml:3:11: unit", "takes one of N, mN"]),
+                ("columns:\n  a: force_N\n  bb: time_s", ["m.yaml:3:3: no recording has a column 'bb'",
+                                                          "time_s", "`tables`"]),
+                ("columns: {A: force_N}", ["m.yaml:1:11", "'A'", "force_N", "did you mean 'a'"]),
+                ("tables: {bad.csv: {columns: {c: force_N}}}",
+                 ["m.yaml:1:30: bad.csv has no column 'c' to become force_N"]),
+                ("not_measured: {a: 1}", ["m.yaml:1:15", "a list of words"]),
                 ("columns: {a: {to: force_N, unit: kgff}}", ["m.yaml:1", "kgf"]),
                 ("columns: {a: {scale: 2}}", ["m.yaml:1", "needs `to`"]),
                 ("columns: {a: {to: gauge_1_V, unit: counts}}", ["m.yaml:1", "adc_bits"]),
@@ -228,11 +239,21 @@ class FaultTest(ImportCase):
                 for word in words:
                     self.assertIn(word, line)
 
+    def test_columns_of_files_that_are_not_there_may_be_mapped(self):
+        plain = self.write("a.csv", PLAIN)
+        for mapping in ("columns: {operator: null}",  # left out: nothing is missed
+                        "columns: {time_s: time_s, t: time_s}",  # one of two names
+                        "tables: {rig.csv: {columns: {Fz: force_x_N}}}"):
+            with self.subTest(mapping):
+                log = self.log_of("--logs", plain, "--mapping", self.write("m.yaml", mapping))
+                self.assertEqual(log, LOG)
+        self.assertIn("no recording has the table 'rig.csv'", self.result.err)
+
     def test_columns_that_nobody_knows_are_listed(self):
         result = self.run_import("--logs", self.write("a.csv", PLAIN.replace("force_N", "Fz")))
         self.assertEqual(result.code, 0)
         self.assertIn("a.csv: left out: Fz", result.out)
-        self.assertIn("columns: {'Fz': {to: gauge_1_V", result.out)
+        self.assertIn("columns: {'Fz': {to: gauge_2_V", result.out)  # there is a gauge_1_V
         result = self.run_import("--logs", self.write("b.csv", "a,b [mV]\n1,2\n"))
         self.assertEqual((result.code, result.err), (0, ""))
 
@@ -243,6 +264,12 @@ class NamesTest(unittest.TestCase):
         start = source.index("words(") + len("words(")
         words = "".join(source[start:source.index(");", start)].split('"')[1::2]).split()
         self.assertEqual(vocabulary.PATTERNS, words)
+
+    def test_words_for_nothing_are_those_of_the_library(self):
+        source = (ROOT / "libfinray/finray/io/column_mapping.cc").read_text()
+        source = source[source.index("kNotMeasured"):]
+        words = source[:source.index("}")].split('"')[1::2]
+        self.assertEqual({"", *words}, raw_table.NA_WORDS)
 
     def test_headers_are_guessed_only_where_they_are_certain(self):
         self.assertEqual(vocabulary.guess("gauge_3_mV", ""), ("gauge_3_V", units.find("mV")))

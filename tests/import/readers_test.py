@@ -1,13 +1,16 @@
 #!/usr/bin/python3
 """Every format gives the log of the CSV, to the byte; broken and cut files get one line."""
 
+import importlib.util
 import random
 import sqlite3
 import unittest
 
 import numpy as np
 import samples
-from fixture import ImportCase
+from fixture import ROOT, ImportCase
+
+BAGS = ROOT / "tests/import/bags"
 
 
 class ReadersTest(ImportCase):
@@ -36,6 +39,21 @@ class ReadersTest(ImportCase):
     def test_bags_give_the_log_of_the_csv(self):
         mapping = self.write("m.yaml", samples.BAG_MAPPING)
         self.logs_of(samples.BAGS, samples.csv_of_stamps(), "--mapping", mapping)
+
+    def test_bags_of_other_writers_give_the_log_of_the_csv(self):
+        """An MCAP by MCAP's own library (zstd, indices, a summary), and its messages in a bag of SQLite;
+        bags/make writes them."""
+        free = ("--force_bias_N", "0", "--force_time_offset_s", "0", "--mapping")
+        stamps = self.write("csv.yaml", "columns: {stamp_ns: {to: time_s, format: epoch, unit: ns}}\n")
+        expected = self.log_of("--logs", BAGS / "rig.csv", *free, stamps)
+        self.assertEqual(len(expected["force_y_N"]), 30)
+        mapping = self.write("bag.yaml", "columns: {data_1: gauge_1_V, data_2: gauge_2_V,\n"
+                             "  wrench.force.x: force_x_N, wrench.force.y: force_y_N}\n")
+        for name, package in (("rig.mcap", "zstandard"), ("rig.db3", "sqlite3")):
+            with self.subTest(name):
+                if importlib.util.find_spec(package) is None:
+                    self.skipTest(package)
+                self.assertEqual(self.log_of("--logs", BAGS / name, *free, mapping), expected)
 
     def test_the_log_has_the_digits_of_the_csv(self):
         path = self.write("a.csv", samples.csv_text(samples.readings()))

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <random>
 
 #include "finray/io/error.h"
@@ -68,6 +69,18 @@ TEST_F(FrameTableTest, TextSurvivesAWrite) {
   const FrameTable table =
       Load("status,x y\nok,\"a,b\"\nbad,\"c \"\"d\"\"\"\n");
   EXPECT_EQ(table.ToCsv(), "status,x y\nok,\"a,b\"\nbad,\"c \"\"d\"\"\"\n");
+}
+
+TEST_F(FrameTableTest, APlaneSurvivesAWrite) {
+  FrameTable table(2);
+  const double plane = std::numeric_limits<double>::infinity();
+  table.MutableNumbers("cylinder_radius_mm") = {plane, 80};
+  table.MutableNumbers("force_N") = {plane, 1};  // could not be read
+  EXPECT_EQ(table.ToCsv(), "cylinder_radius_mm,force_N\ninf,\n80,1\n");
+  table.Write(folder_.Path("a.csv"));
+  EXPECT_EQ(
+      FrameTable::Read(folder_.Path("a.csv")).Numbers("cylinder_radius_mm")[0],
+      plane);
 }
 
 TEST_F(FrameTableTest, Vocabulary) {

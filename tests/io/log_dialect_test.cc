@@ -118,8 +118,9 @@ std::vector<Dialect> AllDialects() {
   std::vector<Dialect> dialects;
   for (int bits = 0; bits < 32; ++bits) {
     for (const char delimiter : {',', ';', '\t'}) {
-      for (const char* missing : {"", "NA", "N/A", "NaN", "nan", "-nan", "null",
-                                  "NULL", "-", "#N/A"}) {
+      for (const char* missing :
+           {"", "NA", "N/A", "NaN", "nan", "-nan", "null", "NULL", "-", "--",
+            "---", "?", "#N/A", "#NV", "None", "missing"}) {
         dialects.push_back({delimiter, bits & 1 ? ',' : '.', (bits & 2) != 0,
                             (bits & 4) != 0, (bits & 8) != 0, (bits & 16) != 0,
                             missing});

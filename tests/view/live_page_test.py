@@ -4,6 +4,7 @@ The parts without a browser run where Chromium is absent too."""
 
 import csv
 import http.client
+import json
 import os
 import pathlib
 import re
@@ -226,6 +227,22 @@ class LivePageTest(unittest.TestCase):
             time.sleep(0.2)
         self.assertEqual(status, 200)
 
+    def test_the_end_comes_behind_the_last_row(self):
+        for rate in ("0.1", "1000"):
+            with self.subTest(rate):
+                server = self.start("--serve_rate_Hz", rate)
+                connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=30)
+                connection.request("GET", "/events")
+                answer = connection.getresponse()
+                time.sleep(0.3)
+                self.server = None
+                self.assertEqual(server.finish()[0], 0)
+                events = answer.read().decode()
+                connection.close()
+                *updates, end = [e for e in events.split("\n\n") if e and e != ":"]
+                self.assertEqual(end, "event: end\ndata: {}")
+                self.assertEqual(json.loads(updates[-1].removeprefix("data: "))["rows"], server.rows)
+
     def test_page(self):
         if missing := chromium.missing():
             self.skipTest(missing)
@@ -247,6 +264,8 @@ class LivePageTest(unittest.TestCase):
             self.assertEqual(browser.run("document.getElementById('follow').getAttribute('aria-pressed')"), "false")
             server.ending = True
             browser.wait("document.getElementById('connection').textContent === 'the input has ended'")
+            server.thread.join()
+            self.assertEqual(browser.run("finray.then(p => p.logs[0].rows)"), server.rows)
             self.assertEqual(browser.errors, [])
 
 

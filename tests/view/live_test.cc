@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <sstream>
 #include <thread>
 
 #include "finray/finger/finger_yaml.h"
@@ -12,6 +13,7 @@
 #include "finray/view/live_feed.h"
 #include "finray/view/live_hub.h"
 #include "finray/view/live_server.h"
+#include "finray/view/live_update.h"
 #include "finray/view/live_zero.h"
 
 namespace finray {
@@ -21,9 +23,9 @@ using std::chrono::milliseconds;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-std::vector<std::string> Texts(const std::vector<LiveHub::Update>& updates) {
+std::vector<std::string> Texts(const LiveHub::News& news) {
   std::vector<std::string> texts;
-  for (const LiveHub::Update& update : updates) texts.push_back(*update);
+  for (const LiveHub::Update& update : news.updates) texts.push_back(*update);
   return texts;
 }
 
@@ -31,12 +33,12 @@ TEST(LiveHub, AReaderGetsEachUpdateOnceAndASlowOneTheLast) {
   LiveHub hub;
   hub.Publish("before");
   std::uint64_t fast = hub.count(), slow = fast;
-  EXPECT_TRUE(hub.After(&fast, milliseconds(0)).empty());
+  EXPECT_TRUE(hub.After(&fast, milliseconds(0)).updates.empty());
   hub.Publish("a");
   hub.Publish("b");
   EXPECT_THAT(Texts(hub.After(&fast, milliseconds(0))),
               testing::ElementsAre("a", "b"));
-  EXPECT_TRUE(hub.After(&fast, milliseconds(0)).empty());
+  EXPECT_TRUE(hub.After(&fast, milliseconds(0)).updates.empty());
   for (int i = 0; i < 1000; ++i) hub.Publish(std::to_string(i));
   const auto last = Texts(hub.After(&slow, milliseconds(0)));
   EXPECT_EQ(last.size(), LiveHub::kUpdates);
@@ -47,9 +49,22 @@ TEST(LiveHub, ClosingWakesReaders) {
   LiveHub hub;
   std::thread closer([&] { hub.Close(); });
   std::uint64_t next = 0;
-  EXPECT_TRUE(hub.After(&next, milliseconds(60000)).empty());
-  EXPECT_TRUE(hub.closed());
+  const LiveHub::News news = hub.After(&next, milliseconds(60000));
+  EXPECT_TRUE(news.updates.empty());
+  EXPECT_TRUE(news.closed);
   closer.join();
+}
+
+TEST(LiveHub, TheEndComesWithTheLastUpdates) {
+  LiveHub hub;
+  std::uint64_t next = 0;
+  hub.Publish("a");
+  EXPECT_FALSE(hub.After(&next, milliseconds(0)).closed);
+  hub.Publish("b");
+  hub.Close();
+  const LiveHub::News news = hub.After(&next, milliseconds(0));
+  EXPECT_THAT(Texts(news), testing::ElementsAre("b"));
+  EXPECT_TRUE(news.closed);
 }
 
 TEST(LiveFeed, KeepsTheOrderAndCountsWhatFindsItFull) {
@@ -93,6 +108,44 @@ TEST(LiveFeed, TwoThreads) {
     before = row.time_s;
   }
   writer.join();
+}
+
+// Returns the residuals, in std, of an update: the last of its values.
+std::vector<double> ResidualsOf(const std::string& update) {
+  const std::string key = "\"last\":[";
+  const auto begin = update.find(key) + key.size();
+  std::stringstream cells(
+      update.substr(begin, update.find(']', begin) - begin));
+  std::vector<double> values;
+  for (std::string cell; std::getline(cells, cell, ',');) {
+    values.push_back(cell == "null" ? std::nan("") : std::stod(cell));
+  }
+  return {values.end() - 4, values.end()};
+}
+
+TEST(LiveUpdates, ResidualsHaveTheStdOfHysteresis) {
+  const Finger finger =
+      ReadFinger(FINRAY_SOURCE_DIR "/configs/fingers/paper_140mm.yaml");
+  LiveFeed feed(4);
+  LiveUpdates updates(finger, {}, 0);
+  Measurements readings;
+  readings.gauges_V = {0.02, 0.03, 0.04, 0.02};
+  FrameEstimate estimate;
+  estimate.status = FrameStatus::kOk;
+  estimate.contact[0].arc_mm = 60;
+  estimate.contact[0].normal_N = 1;
+  feed.Push(readings, estimate, 1);
+  const auto plain = ResidualsOf(updates.Next(&feed, "", false));
+  for (const Gauge& gauge : finger.gauges) {
+    readings.history_std_V.push_back(2 * gauge.noise_V);
+  }
+  readings.history_std_V[3] = 0;
+  feed.Push(readings, estimate, 1);
+  const auto wide = ResidualsOf(updates.Next(&feed, "", false));
+  for (std::size_t j = 0; j < 4; ++j) {
+    ASSERT_GT(std::abs(plain[j]), 1) << j;
+    EXPECT_NEAR(plain[j] / wide[j], j < 3 ? std::sqrt(5) : 1, 1e-3) << j;
+  }
 }
 
 class LiveZeroTest : public testing::Test {
@@ -155,6 +208,34 @@ TEST_F(LiveZeroTest, AFingerThatMovesIsNotZeroed) {
   EXPECT_THAT(zero.message(), HasSubstr("Try again once"));
   EXPECT_EQ(zero.finger().gauges[0].offset_V, finger_.gauges[0].offset_V);
   EXPECT_THAT(zero.Request(), StartsWith("Zeroing"));  // once more
+}
+
+// For ThreadSanitizer: the worker reads a parser that the estimating thread is
+// still teaching the decimal mark.
+TEST_F(LiveZeroTest, TheWorkerMakesItsEstimatorWhileTheDecimalMarkIsLearned) {
+  FrameParser parser(
+      "stdin", CsvLine{"time_s;gauge_1_V;gauge_2_V;gauge_3_V;gauge_4_V", 1},
+      {});
+  std::unique_ptr<LiveEstimator> made;
+  std::thread worker([&] {
+    made = std::make_unique<LiveEstimator>(finger_, Scene(), Discretization(),
+                                           FrameMethod::kFast, parser,
+                                           ResultFormat());
+  });
+  parser.LearnDecimal({"1;0;0;0;0", 2});
+  EXPECT_FALSE(parser.decimal_settled());
+  parser.LearnDecimal({"2;0,5;0;0;0", 3});
+  EXPECT_TRUE(parser.decimal_settled());
+  worker.join();
+  EXPECT_THAT(made->rows.Next({"3;0,25;0;0;0", 4}), StartsWith("3,0.25,0,0,0"));
+}
+
+TEST(LiveServer, ItEndsWhereNobodyHasConnected) {
+  for (int i = 0; i < 50; ++i) {
+    const LiveHub hub;
+    const LiveServer server({}, {}, &hub);
+    EXPECT_GT(server.port(), 0);
+  }
 }
 
 TEST(LiveServer, OnlyThisMachineIsALoopback) {

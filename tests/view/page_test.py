@@ -5,6 +5,7 @@ an error, and load nothing from elsewhere."""
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -71,6 +72,28 @@ class PageTest(unittest.TestCase):
         self.assertIn(f"report         {self.out}/index.html\n", self.said)
         self.assertEqual(sorted(p.name for p in self.out.glob("*.html")),
                          ["2026-03-01 a.html", "2026-03-04 b.html", "2026-03-07 c.html", "index.html"])
+
+    def test_pages_of_an_earlier_run_go(self):
+        """A run without --report leaves no page that is no longer true, and none that finray has not written."""
+        logs, out = self.folder / "again", self.folder / "again_D"
+        logs.mkdir()
+        for name in ("index", "b"):
+            shutil.copy(self.folder / "logs/2026-03-04 b.csv", logs / f"{name}.csv")
+        batch = ["finray_estimate", "--finger", FINGER, "--logs", f"{logs}/*.csv", "--out_dir", out]
+        run(*batch, "--report")
+        self.assertEqual(sorted(p.name for p in out.glob("*.html")), ["b.html", "index.html", "index_log.html"])
+        self.assertIn("index_log.html", (out / "index.html").read_text())
+        (out / "b.html").write_text("<html>of the user</html>")
+        run(*batch)
+        self.assertEqual([p.name for p in out.glob("*.html")], ["b.html"])
+
+    def test_a_folder_without_results_is_one_line(self):
+        (self.folder / "none").mkdir()
+        done = subprocess.run([BINARIES / "finray_view", "--results", self.folder / "none", "--out_dir", self.folder / "V"],
+                              capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))
+        self.assertIn("none: has no summary.yaml", done.stderr)
+        self.assertFalse((self.folder / "V").exists())
 
     def test_draws_all(self):
         self.open("2026-03-01 a.html")

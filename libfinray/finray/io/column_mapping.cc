@@ -3,12 +3,19 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <iterator>
 
 #include "finray/io/frame_vocabulary.h"
 #include "finray/io/message_text.h"
 
 namespace finray {
 namespace {
+
+// Besides the empty cell. printf writes a NaN with its sign; scripts/import has
+// the same words.
+constexpr std::string_view kNotMeasured[] = {
+    "-",   "--",   "---",  "?",       "na",  "n/a",  "#n/a",
+    "#nv", "null", "none", "missing", "nan", "+nan", "-nan"};
 
 // Returns the dimension of a rule's target.
 Dimension DimensionOf(const ColumnRule& rule) {
@@ -206,13 +213,9 @@ ColumnMapping ReadColumnMapping(const YamlMap& yaml) {
 }
 
 bool IsNotMeasured(std::string_view cell) {
-  if (cell.empty() || cell == "-") return true;
-  for (const std::string_view word : {"na", "n/a", "#n/a", "null"}) {
-    if (IsWord(cell, word)) return true;
-  }
-  // printf writes a NaN with its sign.
-  if (cell[0] == '-' || cell[0] == '+') cell.remove_prefix(1);
-  return IsWord(cell, "nan");
+  return cell.empty() ||
+         std::any_of(std::begin(kNotMeasured), std::end(kNotMeasured),
+                     [&](std::string_view word) { return IsWord(cell, word); });
 }
 
 }  // namespace finray

@@ -55,8 +55,8 @@ const std::vector<std::string>& ColumnMappingKeys();
 /// replace those of that file. Throws InputError.
 ColumnMapping ReadColumnMapping(const YamlMap& yaml);
 
-/// Says whether a cell stands for no measurement: it is empty, NaN, NA, N/A,
-/// #N/A, null or -, in any case of letters.
+/// Says whether a cell stands for no measurement: it is empty or, in any case
+/// of letters, NaN, NA, N/A, #N/A, #NV, null, none, missing, -, --, --- or ?.
 bool IsNotMeasured(std::string_view cell);
 
 }  // namespace finray

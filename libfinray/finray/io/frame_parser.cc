@@ -133,7 +133,8 @@ void FrameParser::TakeNames(const CsvLine& header,
       const Unit unit = UnitOfColumn(names_[i]);
       if (unit.dimension != Dimension::kNone) column.rule.unit = unit;
     }
-    column.may_be_infinite = names_[i] == "cylinder_radius_mm";
+    column.numeric = true;
+    column.may_be_infinite = MayBeInfinite(names_[i]);
     MakeConversion(header, i);
   }
 }
@@ -143,19 +144,15 @@ void FrameParser::MakeConversion(const CsvLine& line, std::size_t i) {
   std::string error;
   column.conversion = ColumnConversion(column.rule, column.declared, &error);
   if (!error.empty()) FailAt(line.number, i, names_[i] + ": " + error);
-  column.kind =
-      column.conversion.IsIdentity() && decimal_ == '.' && not_measured_.empty()
-          ? Kind::kNumber
-          : Kind::kConverted;
+  column.plain = column.conversion.IsIdentity() && decimal_ == '.' &&
+                 not_measured_.empty();
 }
 
 void FrameParser::UseDecimal(char decimal) {
   decimal_ = decimal;
   decimal_settled_ = true;
   if (decimal == '.') return;
-  for (Column& column : columns_) {
-    if (column.kind == Kind::kNumber) column.kind = Kind::kConverted;
-  }
+  for (Column& column : columns_) column.plain = false;
 }
 
 bool FrameParser::TakeUnits(const CsvLine& line) {
@@ -174,7 +171,7 @@ bool FrameParser::TakeUnits(const CsvLine& line) {
   std::size_t unknown = cells.size();
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Column& column = columns_[i];
-    if (column.kind == Kind::kText) continue;
+    if (!column.numeric) continue;
     if (UnitInCell(cells[i])) {
       any = true;
     } else if (IsNotMeasured(cells[i]) || cells[i] == "1") {
@@ -199,7 +196,7 @@ bool FrameParser::TakeUnits(const CsvLine& line) {
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const auto unit = UnitInCell(cells[i]);
-    if (columns_[i].kind == Kind::kText || !unit) continue;
+    if (!columns_[i].numeric || !unit) continue;
     columns_[i].declared = unit->name;
     MakeConversion(line, i);
   }
@@ -213,7 +210,7 @@ void FrameParser::LearnDecimal(const CsvLine& line) {
   SplitCsvLine(line.text, delimiter_, &cells, &unquoted);
   bool comma = false;
   for (std::size_t i = 0; i < std::min(cells.size(), columns_.size()); ++i) {
-    if (columns_[i].kind == Kind::kText ||
+    if (!columns_[i].numeric ||
         columns_[i].rule.format == TimeFormat::kIso8601) {
       continue;
     }
@@ -236,7 +233,6 @@ FrameRows::Cell FrameParser::ReadCell(int line, std::size_t i,
                                       std::string_view text) const {
   if (IsMissing(text)) return {};
   const Column& column = columns_[i];
-  // A cylinder of infinite radius is a plane.
   if (column.may_be_infinite && text == "inf") {
     return {std::numeric_limits<double>::infinity(), text};
   }
@@ -275,13 +271,13 @@ void FrameParser::Parse(const CsvLine& line, FrameRows* rows) const {
         ShownLine(names_[nul]) + ": the cell holds a NUL byte, expected text");
   }
   for (std::size_t i = 0; i < split.size(); ++i) {
-    const Kind kind = columns_[i].kind;
-    if (kind == Kind::kText) {
+    const Column& column = columns_[i];
+    if (!column.numeric) {
       cells[i].text = split[i];
       continue;
     }
     const std::string_view text = Trimmed(split[i]);  // quotes keep spaces
-    if (kind == Kind::kNumber) {
+    if (column.plain) {
       if (const std::optional<double> number = ParseNumber(text)) {
         cells[i] = {*number, text};
         continue;

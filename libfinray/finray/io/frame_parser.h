@@ -61,6 +61,8 @@ class FrameRows {
 
 /// Parses the rows of a log by its header. Several threads may use one, once
 /// its first row is known not to hold units and the decimal mark is settled.
+/// Names, path, delimiter and which columns are numeric never change, so they
+/// can be asked for before that too.
 class FrameParser {
  public:
   /// Throws InputError (path:line:column) for a header that is bad or does not
@@ -72,9 +74,7 @@ class FrameParser {
   const std::vector<std::string>& names() const { return names_; }
   char delimiter() const { return delimiter_; }
   /// Says whether a column holds numbers. Other columns hold text.
-  bool IsNumeric(std::size_t column) const {
-    return columns_[column].kind != Kind::kText;
-  }
+  bool IsNumeric(std::size_t column) const { return columns_[column].numeric; }
 
   /// Takes the line below the header if it holds the units of the columns, and
   /// says whether it does: the mapping says so, or each cell of a numeric
@@ -95,10 +95,9 @@ class FrameParser {
   void Parse(const CsvLine& line, FrameRows* rows) const;
 
  private:
-  // kNumber: the number as it is written, with a point.
-  enum class Kind : char { kText, kNumber, kConverted };
   struct Column {
-    Kind kind = Kind::kText;
+    bool numeric = false;
+    bool plain = false;  // the number as it is written, with a point
     ColumnRule rule;
     std::string declared;  // unit in the log
     ColumnConversion conversion;

@@ -58,8 +58,8 @@ class FrameTable {
   /// Keeps the first rows only.
   void Truncate(std::size_t rows);
 
-  /// Returns CSV text that reads back as the same doubles. A number that is not
-  /// finite becomes an empty cell ("nan" if the line would be blank).
+  /// Returns CSV text that reads back as the same doubles. NaN and infinity are
+  /// empty ("nan" on a line that would be blank); inf stays if MayBeInfinite().
   std::string ToCsv() const { return HeaderCsv() + RowsCsv(); }
   /// Return the first line of ToCsv(), and its other lines.
   std::string HeaderCsv() const;

@@ -21,7 +21,8 @@ const std::vector<std::string>& Patterns() {
         "object_displacement_mm force_N force_x_N force_y_N rib_#_N "
         "rib_#_front_x_mm rib_#_front_y_mm rib_#_back_x_mm rib_#_back_y_mm "
         "cylinder_radius_mm tip_x_mm tip_y_mm tip_angle_rad chi2 chi2_p_value "
-        "alternative_chi2 iterations search_ended temperature_C");
+        "alternative_chi2 iterations search_ended temperature_C "
+        "gauge_#_scatter_V");
     return std::vector<std::string>(std::istream_iterator<std::string>(words),
                                     {});
   }();
@@ -52,6 +53,10 @@ bool IsFrameColumn(std::string_view name) {
   return std::any_of(
       Patterns().begin(), Patterns().end(),
       [name](std::string_view pattern) { return Matches(name, pattern); });
+}
+
+bool MayBeInfinite(std::string_view name) {
+  return name == "cylinder_radius_mm";
 }
 
 std::string DidYouMeanFrameColumn(const std::string& name) {

@@ -11,6 +11,10 @@ namespace finray {
 /// gauge_<j>_V with j = 1, 2, ... (no leading zeros).
 bool IsFrameColumn(std::string_view name);
 
+/// Says whether inf is a value of a column: a cylinder of infinite radius is a
+/// plane. In other columns inf cannot be read.
+bool MayBeInfinite(std::string_view name);
+
 /// Returns " (did you mean 'x'?)" with the nearest name of the vocabulary, or
 /// "".
 std::string DidYouMeanFrameColumn(const std::string& name);

@@ -148,8 +148,15 @@ std::string DayOfTime(double time_s) {
 }
 
 BatchResults ReadBatchResults(const std::string& folder) {
-  const YamlMap yaml =
-      YamlMap::FromFile((fs::path(folder) / "summary.yaml").string());
+  const fs::path summary = fs::path(folder) / "summary.yaml";
+  std::error_code unknown;
+  if (fs::is_directory(folder, unknown) && !fs::exists(summary, unknown)) {
+    throw InputError(
+        folder +
+        ": has no summary.yaml, so it holds no results of finray_estimate, or "
+        "those of a run that did not end; expected the --out_dir of one");
+  }
+  const YamlMap yaml = YamlMap::FromFile(summary.string());
   BatchResults batch;
   batch.folder = folder;
   batch.finger = yaml.Text("finger");

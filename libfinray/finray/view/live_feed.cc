@@ -1,11 +1,12 @@
 #include "finray/view/live_feed.h"
 
-#include <utility>
-
 namespace finray {
 
 LiveFeed::LiveFeed(std::size_t gauges) : rows_(kRows) {
-  for (LiveRow& row : rows_) row.gauges_V.resize(gauges);
+  for (LiveRow& row : rows_) {
+    row.gauges_V.resize(gauges);
+    row.history_std_V.reserve(gauges);
+  }
 }
 
 void LiveFeed::Push(const Measurements& readings, const FrameEstimate& estimate,
@@ -23,6 +24,8 @@ void LiveFeed::Push(const Measurements& readings, const FrameEstimate& estimate,
   row.force_N = readings.force_xy_N.allFinite() ? readings.force_xy_N.norm()
                                                 : readings.force_N;
   row.gauges_V.assign(readings.gauges_V.begin(), readings.gauges_V.end());
+  row.history_std_V.assign(readings.history_std_V.begin(),
+                           readings.history_std_V.end());
   row.latency_ns = latency_ns;
   pushed_.store(at + 1, std::memory_order_release);
 }
@@ -30,7 +33,7 @@ void LiveFeed::Push(const Measurements& readings, const FrameEstimate& estimate,
 bool LiveFeed::Pop(LiveRow* row) {
   const std::size_t at = popped_.load(std::memory_order_relaxed);
   if (at == pushed_.load(std::memory_order_acquire)) return false;
-  std::swap(*row, rows_[at % kRows]);
+  *row = rows_[at % kRows];  // a swap would take the memory that Push() needs
   popped_.store(at + 1, std::memory_order_release);
   return true;
 }

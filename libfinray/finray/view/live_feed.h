@@ -17,7 +17,7 @@ struct LiveRow {
   FrameStatus status = FrameStatus::kBadInput;
   ContactEstimates contact;
   double p_value = 0, force_N = 0;
-  std::vector<double> gauges_V;
+  std::vector<double> gauges_V, history_std_V;
   std::uint64_t latency_ns = 0;
 };
 
@@ -31,7 +31,7 @@ class LiveFeed {
   /// For the estimating thread only. Allocates nothing.
   void Push(const Measurements& readings, const FrameEstimate& estimate,
             std::uint64_t latency_ns);
-  /// For the other thread only. Swaps the oldest row into `row`; false if there
+  /// For the other thread only. Copies the oldest row to `row`; false if there
   /// is none.
   bool Pop(LiveRow* row);
 

@@ -29,20 +29,17 @@ std::uint64_t LiveHub::count() const {
   return count_;
 }
 
-std::vector<LiveHub::Update> LiveHub::After(
-    std::uint64_t* next, std::chrono::milliseconds wait) const {
+LiveHub::News LiveHub::After(std::uint64_t* next,
+                             std::chrono::milliseconds wait) const {
   std::unique_lock<std::mutex> lock(mutex_);
   news_.wait_for(lock, wait, [&] { return closed_ || count_ > *next; });
   const std::uint64_t oldest = count_ - updates_.size();
   const auto first = std::min(count_, std::max(*next, oldest)) - oldest;
   *next = count_;
-  return {updates_.begin() + static_cast<std::ptrdiff_t>(first),
-          updates_.end()};
-}
-
-bool LiveHub::closed() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return closed_;
+  // Both under one lock, so that no update comes between them.
+  return {
+      {updates_.begin() + static_cast<std::ptrdiff_t>(first), updates_.end()},
+      closed_};
 }
 
 }  // namespace finray

@@ -17,6 +17,10 @@ namespace finray {
 class LiveHub {
  public:
   using Update = std::shared_ptr<const std::string>;
+  struct News {
+    std::vector<Update> updates;
+    bool closed = false;  ///< No update follows these.
+  };
 
   void Publish(std::string update);
   /// There will be no more updates.
@@ -25,11 +29,8 @@ class LiveHub {
   /// The number of updates so far: where a new reader begins.
   std::uint64_t count() const;
   /// Returns the updates from number `*next` on, and sets `*next` behind them.
-  /// Waits for the first one for at most `wait`; returns none if there is none
-  /// by then.
-  std::vector<Update> After(std::uint64_t* next,
-                            std::chrono::milliseconds wait) const;
-  bool closed() const;
+  /// Waits for the first one, or for the end, for at most `wait`.
+  News After(std::uint64_t* next, std::chrono::milliseconds wait) const;
 
   static constexpr std::size_t kUpdates = 64;
 

@@ -3,8 +3,15 @@
 #include <httplib.h>
 
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <future>
+#include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "finray/io/error.h"
 
@@ -15,33 +22,39 @@ constexpr std::size_t kMostBodyBytes = 1024;
 
 // Workers in a fixed number. A connection that finds none waits until one is
 // free, and others behind it in the system's queue, which is short.
-class BoundedWorkers : public httplib::TaskQueue {
+class BoundedWorkers {
  public:
   explicit BoundedWorkers(int workers) {
-    for (int i = 0; i < workers; ++i) {
-      threads_.emplace_back([this] { Work(); });
+    threads_.reserve(static_cast<std::size_t>(workers));
+    try {
+      for (int i = 0; i < workers; ++i) {
+        threads_.emplace_back([this] { Work(); });
+      }
+    } catch (const std::system_error&) {
+      Join();
+      throw;
     }
   }
+  ~BoundedWorkers() { Join(); }
 
-  // httplib has changed what this returns.
-  using Taken = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));
-  Taken enqueue(std::function<void()> task) override {
+  void Add(std::function<void()> task) {
     std::unique_lock<std::mutex> lock(mutex_);
     change_.wait(lock, [&] { return idle_ > 0 || ended_; });
     --idle_;
     tasks_.push_back(std::move(task));
     change_.notify_all();
-    return static_cast<Taken>(true);
-  }
-  void shutdown() override {
-    Release();
-    for (std::thread& thread : threads_) thread.join();
   }
   // Lets nobody wait any more.
   void Release() {
     const std::lock_guard<std::mutex> lock(mutex_);
     ended_ = true;
     change_.notify_all();
+  }
+  // Waits for what the workers are at.
+  void Join() {
+    Release();
+    for (std::thread& thread : threads_) thread.join();
+    threads_.clear();
   }
 
  private:
@@ -68,6 +81,24 @@ class BoundedWorkers : public httplib::TaskQueue {
   bool ended_ = false;
 };
 
+// The workers as httplib wants them. It deletes this object whenever it ends to
+// listen, so the workers are not its own.
+class WorkerQueue : public httplib::TaskQueue {
+ public:
+  explicit WorkerQueue(BoundedWorkers* workers) : workers_(*workers) {}
+
+  // httplib has changed what this returns.
+  using Taken = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));
+  Taken enqueue(std::function<void()> task) override {
+    workers_.Add(std::move(task));
+    return static_cast<Taken>(true);
+  }
+  void shutdown() override { workers_.Join(); }
+
+ private:
+  BoundedWorkers& workers_;
+};
+
 // Takes the same time wherever the difference is.
 bool IsEqualSecret(const std::string& a, const std::string& b) {
   unsigned difference = a.size() != b.size();
@@ -91,8 +122,8 @@ class LiveServer::Implementation {
   Implementation(const ServeSettings& settings, Pages pages, const LiveHub* hub)
       : settings_(settings), pages_(std::move(pages)), hub_(*hub) {
     server_.new_task_queue = [this] {
-      workers_ = new BoundedWorkers(kWorkers);  // httplib deletes it
-      return workers_.load();
+      listens_.set_value();
+      return new WorkerQueue(&workers_);
     };
     server_.set_read_timeout(kPatience_s);
     server_.set_write_timeout(kPatience_s);
@@ -113,12 +144,18 @@ class LiveServer::Implementation {
                        "machine");
     }
     thread_ = std::thread([this] { server_.listen_after_bind(); });
-    while (!server_.is_running()) std::this_thread::yield();
+    // Before that, stop() would do nothing.
+    listens_.get_future().wait();
   }
   ~Implementation() {
-    ending_ = true;
-    if (BoundedWorkers* workers = workers_.load()) workers->Release();
+    // A page that is still to be told of the end is not served after stop().
+    const auto deadline =
+        std::chrono::steady_clock::now() + std::chrono::seconds(kPatience_s);
+    while (streams_ > 0 && std::chrono::steady_clock::now() < deadline) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
     server_.stop();
+    workers_.Release();
     thread_.join();
   }
 
@@ -193,17 +230,17 @@ class LiveServer::Implementation {
     response->set_chunked_content_provider(
         "text/event-stream",
         [this, next](std::size_t, httplib::DataSink& sink) {
-          const auto updates =
+          const LiveHub::News news =
               hub_.After(next.get(), std::chrono::milliseconds(500));
-          // A comment finds out whether the client is still there.
-          std::string text = updates.empty() ? ":\n\n" : "";
-          for (const LiveHub::Update& update : updates) {
+          std::string text;
+          for (const LiveHub::Update& update : news.updates) {
             text += "data: " + *update + "\n\n";
           }
-          const bool ended = hub_.closed() || ending_;
-          if (ended) text += "event: end\ndata: {}\n\n";
+          if (news.closed) text += "event: end\ndata: {}\n\n";
+          // A comment finds out whether the client is still there.
+          if (text.empty()) text = ":\n\n";
           const bool open = sink.write(text.data(), text.size());
-          if (ended) sink.done();
+          if (news.closed) sink.done();
           return open;
         },
         [this](bool) { --streams_; });
@@ -212,10 +249,10 @@ class LiveServer::Implementation {
   ServeSettings settings_;
   Pages pages_;
   const LiveHub& hub_;
-  httplib::Server server_;
-  std::atomic<BoundedWorkers*> workers_{nullptr};
   std::atomic<int> streams_{0};
-  std::atomic<bool> ending_{false};
+  std::promise<void> listens_;
+  httplib::Server server_;
+  BoundedWorkers workers_{kWorkers};
   int port_ = 0;
   std::thread thread_;
 };

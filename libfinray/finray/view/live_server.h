@@ -40,8 +40,8 @@ class LiveServer {
   /// Starts to serve; `hub` must outlive the server. Throws InputError if the
   /// port cannot be had.
   LiveServer(const ServeSettings& settings, Pages pages, const LiveHub* hub);
-  /// Tells the pages that it is over. Does not wait for slow clients for more
-  /// than kPatience_s.
+  /// Waits until the pages have been told of the hub's end, for at most
+  /// kPatience_s, so the hub is to be closed before.
   ~LiveServer();
 
   int port() const;

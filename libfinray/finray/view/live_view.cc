@@ -27,7 +27,11 @@ LiveView::LiveView(const Finger& finger, const Scene& scene,
       publisher_([this, updates_Hz] { Publish(updates_Hz); }) {}
 
 LiveView::~LiveView() {
-  ending_ = true;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ending_ = true;
+  }
+  end_.notify_all();
   publisher_.join();
   hub_.Close();
 }
@@ -37,9 +41,14 @@ void LiveView::Publish(double updates_Hz) {
   const auto period = std::chrono::duration_cast<Clock::duration>(
       std::chrono::duration<double>(1 / updates_Hz));
   std::string message;
-  for (Clock::time_point next = Clock::now(); !ending_;) {
+  Clock::time_point next = Clock::now();
+  // The last pass begins after the end, so it takes the last row.
+  for (bool ended = false; !ended;) {
     next = std::max(next + period, Clock::now());
-    std::this_thread::sleep_until(next);
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      ended = end_.wait_until(lock, next, [this] { return ending_; });
+    }
     if (std::string news = zero_.message(); news != message) {
       message = std::move(news);
       updates_.set_gauges(zero_.finger().gauges);

@@ -1,8 +1,9 @@
 #ifndef FINRAY_VIEW_LIVE_VIEW_H_
 #define FINRAY_VIEW_LIVE_VIEW_H_
 
-#include <atomic>
+#include <condition_variable>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
 
@@ -43,7 +44,9 @@ class LiveView {
   LiveUpdates updates_;
   LiveZero zero_;
   LiveHub hub_;
-  std::atomic<bool> ending_{false};
+  std::mutex mutex_;
+  std::condition_variable end_;
+  bool ending_ = false;  // by the mutex
   LiveServer server_;
   std::thread publisher_;
 };

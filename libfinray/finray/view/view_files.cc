@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
+#include <system_error>
 
 #include "finray/io/atomic_file.h"
 #include "finray/view/json_text.h"
@@ -17,6 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kWorstFrames = 5;  // of a log
+// In the head of every page, page/page.html.
+constexpr char kPageMark[] = "<meta name=\"generator\" content=\"finray\">";
 
 struct WorstFrame {
   std::size_t frame;
@@ -125,16 +129,32 @@ void WriteComparison(const std::string& result, const std::string& other,
                                           discretization)));
 }
 
+std::string PagePath(const std::string& result, const std::string& folder) {
+  const std::string name = ResultName(result);
+  const char* const end = name == "index" ? "_log.html" : ".html";
+  return (fs::path(folder) / (name + end)).string();
+}
+
 std::vector<ViewJob> JobsOf(const BatchResults& batch,
                             const std::string& folder) {
   std::vector<ViewJob> jobs;
   for (const LogResult& log : batch.logs) {
-    fs::path page = fs::path(folder) /
-                    fs::path(log.result).lexically_relative(batch.folder);
-    page.replace_extension().replace_extension(".html");  // .frames.csv
-    jobs.push_back({log.result, page.string()});
+    const fs::path below =
+        fs::path(log.result).lexically_relative(batch.folder);
+    jobs.push_back(
+        {log.result,
+         PagePath(log.result, (folder / below.parent_path()).string())});
   }
   return jobs;
+}
+
+void RemoveOldPage(const std::string& page) {
+  std::ifstream file(page, std::ios::binary);
+  std::string start(1024, '\0');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  if (start.find(kPageMark) == std::string::npos) return;
+  std::error_code missing;
+  fs::remove(page, missing);
 }
 
 void WriteBatchPages(const std::vector<BatchResults>& batches,

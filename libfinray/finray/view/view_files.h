@@ -25,10 +25,18 @@ void WriteComparison(const std::string& result, const std::string& other,
                      const std::string& page, const Finger* finger,
                      const Discretization& discretization);
 
+/// Returns F/a.html for the result a.frames.csv and a folder F. index.html is
+/// the page of all logs, so that of a log `index` is index_log.html.
+std::string PagePath(const std::string& result, const std::string& folder);
+
 /// Returns the jobs of a batch: pages lie in `folder` as results lie in the
 /// batch's folder.
 std::vector<ViewJob> JobsOf(const BatchResults& batch,
                             const std::string& folder);
+
+/// Removes a page of an earlier run, which would no longer be true. A file of
+/// that name that finray has not written stays.
+void RemoveOldPage(const std::string& page);
 
 /// Writes the page of each log and, last, `index`, the page of all of them.
 /// `jobs` holds the jobs of each batch. `progress` is called behind each log.

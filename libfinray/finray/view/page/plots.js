@@ -230,12 +230,18 @@ class Plot {
       if (isNaN(low(columns[i])) || isNaN(high(columns[i]))) { i++; continue; }
       let end = i;
       while (end < columns.length && !isNaN(low(columns[end])) && !isNaN(high(columns[end]))) end++;
+      if (columns.dense) {  // bars, as for lines
+        for (let k = i; k < end; k++) {
+          const top = this.y(high(columns[k]));
+          g.fillRect(columns[k].x - 0.5, top, 1, this.y(low(columns[k])) - top);
+        }
+        i = end;
+        continue;
+      }
       g.beginPath();
-      if (columns.dense) {
-        for (let k = i; k < end; k++) g.rect(columns[k].x - 0.5, this.y(high(columns[k])), 1, this.y(low(columns[k])) - this.y(high(columns[k])));
-      } else if (end === i + 1) g.rect(columns[i].x - 1, this.y(high(columns[i])), 2, this.y(low(columns[i])) - this.y(high(columns[i])));
-      for (let k = i; k < end && end > i + 1 && !columns.dense; k++) g.lineTo(columns[k].x, this.y(high(columns[k])));
-      for (let k = end - 1; k >= i && end > i + 1 && !columns.dense; k--) g.lineTo(columns[k].x, this.y(low(columns[k])));
+      if (end === i + 1) g.rect(columns[i].x - 1, this.y(high(columns[i])), 2, this.y(low(columns[i])) - this.y(high(columns[i])));
+      for (let k = i; k < end && end > i + 1; k++) g.lineTo(columns[k].x, this.y(high(columns[k])));
+      for (let k = end - 1; k >= i && end > i + 1; k--) g.lineTo(columns[k].x, this.y(low(columns[k])));
       g.fill();
       i = end;
     }
