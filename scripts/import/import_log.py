@@ -188,7 +188,7 @@ class Import:
 
 def _version():
     project = (pathlib.Path(__file__).resolve().parents[2] / "CMakeLists.txt").read_text()
-    return re.search(r"project\(finray VERSION ([\d.]+)", project)[1]
+    return re.search(r"FINRAY_VERSION ([^)]+)", project)[1]
 
 
 def main(arguments):
