@@ -30,6 +30,14 @@ delimiter: ";"
 decimal: "."
 not_measured: [OVLD]
 """
+MAPPING = """schema_version: 1
+columns:
+  U1: gauge_1_V
+  U2: {to: gauge_2_V, unit: mV}
+  t: {to: time_s, unit: ms}
+not_measured: [OVLD]
+delimiter: ";"
+"""
 LAB_LOG = "\n".join([
     "# a lab", "t;U1;U2;gauge_3_V;gauge_4_V;object_x_mm;object_y_mm;force_N;note",
     "0;0;0;0;0;-20;70;0;free", "100;-0.00978;13.44;0.0272;0.02307;-12.7;70;2;touch", "200;OVLD;13.44;0.0272;0.02307;-12.7;70;2;"]) + "\n"
@@ -55,14 +63,15 @@ def main(version):
         shutil.copy(ROOT / "configs/fingers/paper_140mm_eight_gauges.yaml", made / "drawn_finger.yaml")
         shutil.copy(ROOT / "configs/plans/force_and_circle.yaml", made / "plan.yaml")
         shutil.copy(ROOT / "configs/control/fixed_step.yaml", made / "experiment.yaml")
-        shutil.copy(ROOT / "datasets/raw_recording/mapping.yaml", made / "mapping.yaml")
+        (made / "mapping.yaml").write_text(MAPPING)
         (made / "scene.yaml").write_text(SCENE)
         (made / "lab_log.csv").write_text(LAB_LOG)
         (made / "train.csv").write_text(rows(data / "train.csv", 200))
         (made / "log.csv").write_text(rows(data / "holdout.csv", 30))
         (made / "touches.csv").write_text(rows(ROOT / "datasets/touches_square/touches.csv", 40))
-        spring = sorted((ROOT / "datasets/springs").rglob("*.csv"))[0]
-        (made / "spring.csv").write_text(rows(spring, 60))
+        shutil.copy(ROOT / "configs/scenes/pulley.yaml", made / "spring_scene.yaml")
+        for trial in ("spring_0.5_1", "spring_0.5_2", "spring_2.0_1", "spring_2.0_2"):
+            shutil.copy(ROOT / f"datasets/springs/{trial}.csv", made)
         run("finray_calibrate", "--finger", ROOT / "configs/fingers/paper_140mm.yaml", "--plan", made / "plan.yaml", "--logs",
             made / "train.csv", "--out_dir", made / "calibration", "--leave_one_log_out=false")
         run("finray_estimate", "--finger", made / "calibration/finger.yaml", "--logs", made / "log.csv", "--out_dir",
@@ -81,6 +90,7 @@ def main(version):
                        for path in sorted(made.rglob("*")) if path.is_file())
         (made / "SHA256SUMS").write_text(sums)
         shutil.copytree(made, out)
+        out.chmod(0o755)
 
 
 if __name__ == "__main__":
