@@ -19,6 +19,7 @@
 #include "finray/view/live_server.h"
 #include "finray/view/view_files.h"
 #include "follow_input.h"
+#include "listen.h"
 #include "progress_bar.h"
 
 DEFINE_string(finger, "", "finger YAML, best a calibrated one");
@@ -64,6 +65,10 @@ DEFINE_bool(follow, false,
             "a log from standard input, each row at once to standard output");
 DEFINE_bool(report, false,
             "write a page of each log beside its result, and index.html");
+DEFINE_string(listen, "",
+              "with --follow: clients of a socket in place of standard input, "
+              "a session each: unix:PATH, PORT or ADDRESS:PORT (a PORT alone "
+              "is of 127.0.0.1; 0: any free one)");
 DEFINE_int32(serve, -1,
              "with --follow: port of a live page; 0: any free one; -1: none");
 DEFINE_string(serve_address, "127.0.0.1",
@@ -250,6 +255,15 @@ void RefuseBatchFlags() {
   }
 }
 
+// A client sees the status of each of its rows, and a page shows one log.
+void RefuseFlagsOfOneLog() {
+  for (const char* flag : {"strict", "most_unexplained_percent", "serve"}) {
+    if (IsGiven(flag)) {
+      throw UsageError(std::string("--") + flag + " does not go with --listen");
+    }
+  }
+}
+
 // Says whether all frames together keep the gate, and prints it.
 bool KeepsGate(const EstimationSummary& all) {
   if (!IsGiven("most_unexplained_percent")) return true;
@@ -305,15 +319,26 @@ int Follow(const BatchSettings& settings) {
   int ends[2] = {-1, -1};
   if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) == 0) stop_pipe = ends[1];
   CatchStopSignals(0);
-  const auto summary =
-      FollowInput(settings, {FLAGS_strict, LivePage(), FLAGS_serve_rate_Hz,
-                             ends[0], IsStopRequested});
-  if (!summary) return kGood;
+  FollowSettings follow;
+  follow.strict = FLAGS_strict;
+  follow.serve = LivePage();
+  follow.updates_Hz = FLAGS_serve_rate_Hz;
+  follow.stop_file = ends[0];
+  follow.stop = IsStopRequested;
+  if (IsGiven("listen")) {
+    Listen(settings, FLAGS_listen, follow);
+    return kGood;
+  }
+  const auto followed = FollowInput(settings, follow);
+  if (!followed) return kGood;
+  const EstimationSummary& summary = followed->summary;
+  PrintLatency("latency", followed->latency);
+  PrintEnded(summary, settings.scene, stderr);
   const std::vector<Warning> warnings =
-      WarningsOf({{&*summary, "stdin"}}, settings.finger);
+      WarningsOf({{&summary, follow.source}}, settings.finger);
   Warn(warnings);
-  if (FLAGS_strict && summary->unsolved() > 0) return kSolveFailed;
-  const bool kept = KeepsGate(*summary);
+  if (FLAGS_strict && summary.unsolved() > 0) return kSolveFailed;
+  const bool kept = KeepsGate(summary);
   return kept && !(FLAGS_strict && FailsStrict(warnings, settings.scene))
              ? kGood
              : kGateFailed;
@@ -334,6 +359,10 @@ int Run() {
   if (FLAGS_follow) RefuseBatchFlags();
   if (!FLAGS_follow && FLAGS_serve >= 0) {
     throw UsageError("--serve goes with --follow");
+  }
+  if (IsGiven("listen")) {
+    if (!FLAGS_follow) throw UsageError("--listen goes with --follow");
+    RefuseFlagsOfOneLog();
   }
   BatchSettings settings(Required("finger", FLAGS_finger), FLAGS_scene,
                          DiscretizationFlags());
@@ -403,5 +432,6 @@ const finray::App finray::kApp = {
     "finray_estimate --finger F.yaml --logs 'runs/*.csv' --out_dir D "
     "[--scene S.yaml] [--resume] [--joint]\n"
     "sensor | finray_estimate --follow --finger F.yaml [--scene S.yaml] "
-    "[--serve 8080] | consumer",
+    "[--serve 8080] | consumer\n"
+    "finray_estimate --follow --finger F.yaml --listen 9000",
     Run};

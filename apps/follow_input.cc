@@ -18,41 +18,29 @@
 namespace finray {
 namespace {
 
-constexpr char kSource[] = "stdin";
-
-// Writes to standard output. Returns false if nobody reads the output, or if
-// told to stop while it waits for a reader.
-bool WriteLive(std::string_view text, const std::function<bool()>& stop) {
+// Writes to the output. Returns false if nobody reads it, or if told to stop
+// while it waits for a reader.
+bool WriteLive(std::string_view text, const FollowSettings& follow) {
   while (!text.empty()) {
-    const ssize_t count = write(STDOUT_FILENO, text.data(), text.size());
+    const ssize_t count = write(follow.output, text.data(), text.size());
     if (count >= 0) {
       text.remove_prefix(static_cast<std::size_t>(count));
-    } else if (errno == EPIPE || (errno == EINTR && stop())) {
+    } else if (errno == EPIPE || (errno == EINTR && follow.stop())) {
       return false;
     } else if (errno != EINTR) {
-      throw InputError(std::string("stdout: cannot be written: ") +
-                       std::strerror(errno));
+      throw InputError("the rows of " + follow.source +
+                       " cannot be written: " + std::strerror(errno));
     }
   }
   return true;
-}
-
-void PrintLatency(const LatencyHistogram& latency) {
-  const auto us = [&](double share) { return 1e-3 * latency.Quantile(share); };
-  std::fprintf(stderr,
-               "latency        p50 %.1f us, p99 %.1f us, p99.9 %.1f us, max "
-               "%.1f us, over %llu frames\n",
-               us(0.5), us(0.99), us(0.999),
-               1e-3 * static_cast<double>(latency.max()),
-               static_cast<unsigned long long>(latency.count()));
 }
 
 // Reads up to the header of `log`. Returns false if it was stopped before.
 bool ReadHeader(const ColumnMapping& columns, const FollowSettings& follow,
                 std::optional<LogLines>* log) {
   try {
-    log->emplace(ReadPipe(STDIN_FILENO, follow.stop_file, kSource), kSource,
-                 columns);
+    log->emplace(ReadPipe(follow.input, follow.stop_file, follow.source),
+                 follow.source, columns);
     return true;
   } catch (const InputError&) {
     if (follow.stop()) return false;
@@ -79,6 +67,16 @@ std::unique_ptr<LiveView> Serve(const BatchSettings& settings,
 
 }  // namespace
 
+void PrintLatency(const char* label, const LatencyHistogram& latency) {
+  const auto us = [&](double share) { return 1e-3 * latency.Quantile(share); };
+  std::fprintf(stderr,
+               "%-14s p50 %.1f us, p99 %.1f us, p99.9 %.1f us, max %.1f us, "
+               "over %llu frames\n",
+               label, us(0.5), us(0.99), us(0.999),
+               1e-3 * static_cast<double>(latency.max()),
+               static_cast<unsigned long long>(latency.count()));
+}
+
 void PrintEnded(const EstimationSummary& summary, const Scene& scene,
                 std::FILE* out) {
   if (!scene.search_iteration_limit) return;
@@ -86,8 +84,8 @@ void PrintEnded(const EstimationSummary& summary, const Scene& scene,
                summary.search_ended, *scene.search_iteration_limit);
 }
 
-std::optional<EstimationSummary> FollowInput(const BatchSettings& settings,
-                                             const FollowSettings& follow) {
+std::optional<Followed> FollowInput(const BatchSettings& settings,
+                                    const FollowSettings& follow) {
   using Clock = std::chrono::steady_clock;
   std::optional<LogLines> log;
   if (!ReadHeader(settings.scene.columns, follow, &log)) return {};
@@ -99,24 +97,23 @@ std::optional<EstimationSummary> FollowInput(const BatchSettings& settings,
   };
   std::unique_ptr<LiveEstimator> live = make(settings.finger);
   const std::unique_ptr<LiveView> view = Serve(settings, follow, make);
-  LatencyHistogram latency;
-  EstimationSummary summary;
-  Warn(WarningsOf(settings.finger));
-  bool open = WriteLive(live->rows.HeaderCsv(), follow.stop);
+  std::optional<Followed> followed(std::in_place);
+  if (follow.warn_of_finger) Warn(WarningsOf(settings.finger));
+  bool open = WriteLive(live->rows.HeaderCsv(), follow);
   while (open && !follow.stop() && lines.Next()) {
     const Clock::time_point start = Clock::now();
     LiveRows& rows = live->rows;
     const std::string& row = rows.Next(lines.line());
     if (!rows.error().empty()) {
       if (follow.strict) throw InputError(rows.error());
-      std::cerr << "finray_estimate: " << rows.error() << "\n";
+      std::fprintf(stderr, "finray_estimate: %s\n", rows.error().c_str());
     }
-    open = WriteLive(row, follow.stop);
+    open = WriteLive(row, follow);
     const auto taken = static_cast<std::uint64_t>(
         std::chrono::nanoseconds(Clock::now() - start).count());
-    if (open) latency.Add(taken);
-    summary.Add(rows.estimate(), settings.scene.friction_coefficient,
-                rows.readings());
+    if (open) followed->latency.Add(taken);
+    followed->summary.Add(rows.estimate(), settings.scene.friction_coefficient,
+                          rows.readings());
     if (!view) continue;
     view->Push(rows, taken);
     if (auto zeroed = view->TakeZeroed()) {
@@ -124,9 +121,7 @@ std::optional<EstimationSummary> FollowInput(const BatchSettings& settings,
       std::fprintf(stderr, "%s\n", view->message().c_str());
     }
   }
-  PrintLatency(latency);
-  PrintEnded(summary, settings.scene, stderr);
-  return summary;
+  return followed;
 }
 
 }  // namespace finray

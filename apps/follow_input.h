@@ -1,19 +1,28 @@
 #ifndef FINRAY_APPS_FOLLOW_INPUT_H_
 #define FINRAY_APPS_FOLLOW_INPUT_H_
 
+#include <unistd.h>
+
 #include <cstdio>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "finray/batch/estimation_summary.h"
+#include "finray/batch/live_rows.h"
 #include "finray/batch/log_job.h"
 #include "finray/view/live_server.h"
 
 namespace finray {
 
-/// What `finray_estimate --follow` does beside estimating.
+/// Where the rows of `finray_estimate --follow` come from and go to, and what
+/// it does beside estimating.
 struct FollowSettings {
+  std::string source = "stdin";  ///< The name of the input in messages.
+  int input = STDIN_FILENO, output = STDOUT_FILENO;
   bool strict = false;  ///< A line that cannot be read is an error.
+  /// Warn of a finger that is not calibrated, as soon as there is a header.
+  bool warn_of_finger = true;
   std::optional<ServeSettings> serve;
   double updates_Hz = 20;  ///< Of live pages.
   /// Can be read as soon as the user asks to stop.
@@ -21,13 +30,22 @@ struct FollowSettings {
   std::function<bool()> stop;
 };
 
-/// Reads a log from standard input and writes each row to standard output at
-/// once. It ends with its input, with a stop, or when nobody reads its output
-/// any more. Then it says how long the rows have taken, from having the whole
-/// line to having written its row. Returns their summary; nothing if it was
-/// stopped before there was a header.
-std::optional<EstimationSummary> FollowInput(const BatchSettings& settings,
-                                             const FollowSettings& follow);
+/// What became of an input.
+struct Followed {
+  EstimationSummary summary;
+  /// From having a whole line to having written its row.
+  LatencyHistogram latency;
+};
+
+/// Reads a log from the input and writes each row to the output at once. It
+/// ends with its input, with a stop, or when nobody reads its output any more.
+/// Returns nothing if it was stopped before there was a header. Throws
+/// InputError for a header that does not suffice, and if input or output fail.
+std::optional<Followed> FollowInput(const BatchSettings& settings,
+                                    const FollowSettings& follow);
+
+/// Prints the quantiles of a latency on stderr, with a label of 14 characters.
+void PrintLatency(const char* label, const LatencyHistogram& latency);
 
 /// Says how many searches the scene's limit has ended, if it has one.
 void PrintEnded(const EstimationSummary& summary, const Scene& scene,

@@ -10,7 +10,7 @@ install(TARGETS ${FINRAY_APP_NAMES} DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONEN
 # Files that executables read lie as in the source tree (io/resources.h). Python tools
 # add their folder here.
 set(FINRAY_RESOURCE_FOLDERS calib/report configs scripts/perception scripts/benchmark
-    scripts/peers scripts/import
+    scripts/peers scripts/import scripts/convert
     datasets/simulated_r15)
 foreach(folder ${FINRAY_RESOURCE_FOLDERS})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}/
@@ -19,10 +19,10 @@ foreach(folder ${FINRAY_RESOURCE_FOLDERS})
 endforeach()
 install(FILES ${PROJECT_SOURCE_DIR}/scripts/studies/calibration_speed.py
   DESTINATION ${CMAKE_INSTALL_DATADIR}/finray/scripts/studies COMPONENT tools)
-# finray_import reads its version there.
+# Tools in Python read their version there.
 install(FILES ${PROJECT_SOURCE_DIR}/CMakeLists.txt
   DESTINATION ${CMAKE_INSTALL_DATADIR}/finray COMPONENT tools)
-install(FILES ${PROJECT_SOURCE_DIR}/apps/finray_import
+install(FILES ${PROJECT_SOURCE_DIR}/apps/finray_import ${PROJECT_SOURCE_DIR}/apps/finray_convert
   DESTINATION ${CMAKE_INSTALL_DATADIR}/finray/apps COMPONENT tools)
 install(FILES ${PROJECT_SOURCE_DIR}/scripts/make_dataset.py
   DESTINATION ${CMAKE_INSTALL_DATADIR}/finray/scripts COMPONENT tools)

@@ -7,7 +7,7 @@ foreach(app ${FINRAY_APP_NAMES})
 endforeach()
 add_custom_command(OUTPUT ${FINRAY_PAGES}/stamp
   COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/package/make_pages.py
-    ${PROJECT_VERSION} ${FINRAY_PAGES} ${FINRAY_TOOL_FILES}
+    ${FINRAY_VERSION} ${FINRAY_PAGES} ${FINRAY_TOOL_FILES}
   COMMAND ${CMAKE_COMMAND} -E touch ${FINRAY_PAGES}/stamp
   DEPENDS ${FINRAY_APP_NAMES} ${PROJECT_SOURCE_DIR}/scripts/package/make_pages.py
   COMMENT "Man pages and completions")
@@ -20,6 +20,9 @@ install(DIRECTORY ${FINRAY_PAGES}/completions/
 if(NOT FINRAY_SHARED)
   return()
 endif()
+
+# In Debian 1.0.0~rc1 comes before 1.0.0.
+string(REPLACE "-" "~" FINRAY_DEBIAN_VERSION ${FINRAY_VERSION})
 
 # What Debian asks of every package: its copyright and its changelog.
 find_program(GZIP_PROGRAM gzip)
@@ -61,7 +64,7 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_COMPONENTS_ALL ${FINRAY_COMPONENTS})
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_PACKAGE_NAME finray)
-set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_VERSION ${FINRAY_DEBIAN_VERSION})
 set(CPACK_PACKAGE_CONTACT "finray developers <finray@localhost.localdomain>")
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -73,7 +76,7 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
-set(this "${PROJECT_VERSION}-1")
+set(this "${FINRAY_DEBIAN_VERSION}-1")
 
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "python3, python3-numpy, python3-yaml") # finray_import
@@ -87,7 +90,7 @@ reference force sensor.")
 
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
 file(WRITE ${FINRAY_DEBIAN}/shlibs
-  "libfinray ${FINRAY_SOVERSION} libfinray${FINRAY_SOVERSION} (>= ${PROJECT_VERSION})\n")
+  "libfinray ${FINRAY_SOVERSION} libfinray${FINRAY_SOVERSION} (>= ${FINRAY_DEBIAN_VERSION})\n")
 file(WRITE ${FINRAY_DEBIAN}/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA
   "${FINRAY_DEBIAN}/shlibs;${FINRAY_DEBIAN}/triggers")

@@ -192,7 +192,7 @@ class Import:
 def _versions():
     """The tool, and the packages that it reads with where they are installed, one a line."""
     project = (pathlib.Path(__file__).resolve().parents[2] / "CMakeLists.txt").read_text()
-    yield "finray_import version " + re.search(r"project\(finray VERSION ([\d.]+)", project)[1]
+    yield "finray_import version " + re.search(r"FINRAY_VERSION ([^)]+)", project)[1]
     yield "python " + platform.python_version()
     for package in ("numpy", "PyYAML", "scipy", "h5py", "h5py._debian_h5py_serial", "openpyxl", "pandas", "rosbag",
                     "zstandard", "lz4"):

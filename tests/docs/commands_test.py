@@ -24,11 +24,13 @@ def main():
                    for flag in sorted(defined - shared - documented)]
         faults += [f"{source.stem}: there is no flag --{flag}"
                    for flag in sorted(documented - defined)]
-    # The one in Python has all its flags in its own section.
-    defined = set(re.findall(r'Flag\("(\w+)",', (ROOT / "scripts/import/flags.py").read_text()))
-    documented = flags_of_rows(sections["finray_import"])
-    faults += [f"finray_import: --{flag} is missing in the page" if flag in defined else
-               f"finray_import: there is no flag --{flag}" for flag in sorted(defined ^ documented)]
+    # Those in Python have all their flags in their own sections.
+    in_python = {"finray_import": re.findall(r'Flag\("(\w+)",', (ROOT / "scripts/import/flags.py").read_text()),
+                 "finray_convert": re.findall(r"^  --(?!version)(\w+) ", (ROOT / "scripts/convert/convert.py").read_text(), re.M)}
+    for tool, defined in in_python.items():
+        documented = flags_of_rows(sections[tool])
+        faults += [f"{tool}: --{flag} is missing in the page" if flag in defined else
+                   f"{tool}: there is no flag --{flag}" for flag in sorted(set(defined) ^ documented)]
     print(*faults, sep="\n", end="\n" if faults else "")
     return 1 if faults else 0
 

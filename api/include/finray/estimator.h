@@ -56,8 +56,8 @@ struct EstimationSummary {
 class FINRAY_API Estimation {
  public:
   std::size_t rows() const { return statuses.size(); }
-  /// The computed numbers, as finray_estimate writes them: contact_<c>_mm,
-  /// contact_<c>_std_mm, normal_<c>_N, ..., chi2, iterations.
+  /// The computed numbers, as finray_estimate writes them: `contact_<c>_mm`,
+  /// `contact_<c>_std_mm`, `normal_<c>_N`, ..., chi2, iterations.
   Table numbers;
   std::vector<FrameStatus> statuses;
   EstimationSummary summary;
@@ -82,9 +82,10 @@ class FINRAY_API Estimator {
   Estimator(Estimator&&) noexcept;
   Estimator& operator=(Estimator&&) noexcept;
 
-  /// Estimates all rows of a log, with a column gauge_<j>_V (or gauge_<j>_rad)
-  /// for each gauge. Columns that are borrowed are not copied. `stop` is polled
-  /// from any thread; if it returns true, Interrupted is thrown.
+  /// Estimates all rows of a log, with a column `gauge_<j>_V` (or
+  /// `gauge_<j>_rad`) for each gauge. Columns that are borrowed are not copied.
+  /// `stop` is polled from any thread; if it returns true, Interrupted is
+  /// thrown.
   Estimation Estimate(const Table& log,
                       const std::function<bool()>& stop = {}) const;
 

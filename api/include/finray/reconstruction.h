@@ -26,7 +26,7 @@ struct Reconstruction {
   std::size_t usable_touches = 0, rows = 0;
 };
 
-/// Reconstructs the outline from a table with gauge_<j>_V, object_x_mm,
+/// Reconstructs the outline from a table with `gauge_<j>_V`, object_x_mm,
 /// object_y_mm and object_angle_deg, a row a touch. `stage_std_mm` is the std
 /// of the object's place. Throws InputError, and GateError if the touches leave
 /// too much of the object open.

@@ -49,12 +49,12 @@ class FINRAY_API Simulator {
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;
 
-  /// Rows have contact_<c>_mm, normal_<c>_N and perhaps friction_<c>, or
+  /// Rows have `contact_<c>_mm`, `normal_<c>_N` and perhaps `friction_<c>`, or
   /// object_x_mm and object_y_mm of the scene's object. Throws InputError at a
   /// row whose load is incomplete, negative or off the beam.
   Simulation Simulate(const Table& frames, bool shapes = false) const;
 
-  /// The log that a lab would record of simulated frames: time_s, gauge_<j>_V,
+  /// The log that a lab would record of simulated frames: time_s, `gauge_<j>_V`,
   /// force_N, the object's place; with noise, without the true contacts.
   Table MakeLog(const Table& simulated, const LogNoise& noise = {}) const;
 

@@ -1,0 +1,196 @@
+#!/usr/bin/env python3
+"""finray_estimate --listen: a session for each client of a socket, and nothing that a client can break."""
+import contextlib
+import os
+import pathlib
+import signal
+import socket
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BINARY = pathlib.Path(os.environ.get("FINRAY_BINARY_DIR", ROOT / "build/test")) / "finray_estimate"
+FINGER = ROOT / "configs/fingers/paper_140mm.yaml"
+HEADER = "time_s,gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V\n"
+PATIENCE_S = 120  # only a test that fails waits for so long
+
+
+class Server:
+    """The executable, once it listens."""
+
+    def __init__(self, address, *more):
+        self.process = subprocess.Popen(
+            [BINARY, "--follow", "--finger", FINGER, "--listen", address, *more], cwd=ROOT, stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace")
+        self.before = []
+        for line in self.process.stderr:
+            self.before.append(line)
+            if line.startswith("listening"):
+                self.address = line.split()[1]
+                break
+
+    def connect(self):
+        if self.address.startswith("unix:"):
+            client = socket.socket(socket.AF_UNIX)
+            client.connect(self.address[5:])
+        else:
+            host, port = self.address.rsplit(":", 1)
+            client = socket.create_connection((host.strip("[]"), int(port)))
+        client.settimeout(PATIENCE_S)
+        return client
+
+    def ask(self, data):
+        """All that a client gets which sends data and no more."""
+        with self.connect() as client:
+            client.sendall(data if isinstance(data, bytes) else data.encode())
+            client.shutdown(socket.SHUT_WR)
+            return client.makefile(errors="replace").read()
+
+    def stop(self):
+        self.process.send_signal(signal.SIGTERM)
+        return self.process.wait(PATIENCE_S), self.process.stderr.read()
+
+
+@contextlib.contextmanager
+def serving(address="0", *more):
+    server = Server(address, *more)
+    try:
+        yield server
+    finally:
+        server.process.kill()
+        server.process.wait()
+        server.process.stderr.close()
+
+
+class ListenTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.scene = self.folder / "scene.yaml"
+        self.scene.write_text("contacts: 1\n")
+        self.log = (ROOT / "datasets/simulated_r15/holdout.csv").read_text().splitlines(keepends=True)[:40]
+
+    def follow(self, text):
+        return subprocess.run([BINARY, "--follow", "--finger", FINGER, "--scene", self.scene], cwd=ROOT, input=text,
+                              capture_output=True, text=True, check=True).stdout
+
+    def test_rows_are_those_of_standard_input(self):
+        text = "".join(self.log)
+        expected = self.follow(text)
+        path = f"unix:{self.folder}/socket"
+        for address in ("0", "127.0.0.1:0", path):
+            with serving(address, "--scene", self.scene) as server:
+                self.assertEqual(server.ask(text), expected)
+                self.assertEqual(server.stop()[0], 0)
+        self.assertFalse((self.folder / "socket").exists())
+
+    def test_each_client_has_a_session(self):
+        with serving("0", "--scene", self.scene) as server:
+            clients = [server.connect() for _ in range(3)]
+            files = [client.makefile("rw") for client in clients]
+            alone = self.follow("".join(self.log)).splitlines(keepends=True)
+            # One row of each client after the other.
+            for line, row in zip(self.log, alone):
+                for file in files:
+                    file.write(line)
+                    file.flush()
+                    self.assertEqual(file.readline(), row)
+            for number, (client, file) in enumerate(zip(clients, files), 1):
+                client.shutdown(socket.SHUT_WR)
+                self.assertEqual(file.read(), "", f"client {number}")
+                file.close()
+                client.close()
+
+    def test_malformed_clients_are_harmless(self):
+        hostile = {
+            "GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n": "# error: client 2: no column 'gauge_1_V'",
+            "": "# error: client 3: is empty, expected a header and rows\n",
+            "gauge_1_V,gauge_1_V\n": "# error: client 4:1:2: header 'gauge_1_V' appears twice\n",
+            b"\x00\xff\xfe" * 5000 + b"\n": "# error: client 5:",
+            b"x" * (17 << 20): "",  # longer than a line may be; the connection may be cut before it is sent
+        }
+        with serving("0", "--scene", self.scene) as server:
+            with server.connect() as good, good.makefile("rw") as file:
+                file.write(HEADER)
+                file.flush()
+                self.assertTrue(file.readline().startswith("time_s,gauge_1_V,"))
+                for data, answer in hostile.items():
+                    with contextlib.suppress(ConnectionError):
+                        found = server.ask(data)
+                        self.assertTrue(found.startswith(answer), (data[:40], found))
+                        self.assertLessEqual(found.count("\n"), 1)
+                with server.connect() as gone:  # in the middle of a row
+                    gone.sendall(HEADER.encode() + b"1,0.0")
+                    gone.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, b"\1\0\0\0\0\0\0\0")  # by RST
+                for line, status in (("1,oops,0,0,0\n", "bad_input"), ("2,0,0,0,0\n", "no_contact")):
+                    file.write(line)
+                    file.flush()
+                    self.assertEqual(file.readline().rstrip().rsplit(",", 1)[1], status)
+            code, errors = server.stop()
+            self.assertEqual(code, 0)
+            self.assertIn("finray_estimate: client 1:2:2: gauge_1_V: expected a number, found 'oops'\n", errors)
+
+    def test_no_more_clients_than_sixteen(self):
+        with serving("0", "--scene", self.scene) as server:
+            clients = [server.connect() for _ in range(17)]
+            with clients[16].makefile() as refused:
+                self.assertEqual(refused.read(), "# error: 16 clients are connected, which is the most\n")
+            clients[0].sendall(HEADER.encode() + b"1,0,0,0,0\n")
+            with clients[0].makefile() as file:
+                file.readline()
+                self.assertTrue(file.readline().startswith("1,"))
+            for client in clients:
+                client.close()
+            self.assertEqual(server.stop()[0], 0)
+
+    def test_a_client_that_does_not_read_ends_with_the_server(self):
+        with serving("0", "--scene", self.scene) as server:
+            with server.connect() as client:
+                client.setblocking(False)
+                client.send(HEADER.encode())
+                with contextlib.suppress(BlockingIOError):
+                    for _ in range(20):
+                        client.send(b"1,0,0,0,0\n" * 2000)
+                self.assertEqual(server.stop()[0], 0)
+
+    def test_a_path_that_is_served_or_no_socket_is_left_alone(self):
+        path = self.folder / "socket"
+        with serving(f"unix:{path}") as server:
+            self.assertEqual(path.stat().st_mode & 0o777, 0o600)
+            self.assertEqual(self.run_for_error(f"unix:{path}"),
+                             (2, f"finray_estimate: cannot listen at unix:{path}: another process serves it\n"))
+            self.assertIn("time_s", server.ask(HEADER))
+            server.process.kill()  # it leaves its path behind
+            server.process.wait()
+        with serving(f"unix:{path}") as server:
+            self.assertIn("time_s", server.ask(HEADER))
+        path.unlink()
+        path.write_text("mine")
+        self.assertEqual(self.run_for_error(f"unix:{path}"),
+                         (2, f"finray_estimate: cannot listen at unix:{path}: the path is there and is no socket\n"))
+        self.assertEqual(path.read_text(), "mine")
+
+    def run_for_error(self, address, *more):
+        ended = subprocess.run([BINARY, "--follow", "--finger", FINGER, "--listen", address, *more], cwd=ROOT,
+                               capture_output=True, text=True, timeout=PATIENCE_S)
+        return ended.returncode, ended.stderr
+
+    def test_wrong_use(self):
+        for address in ("eighty", "127.0.0.1:", ":80", "127.0.0.1:70000", "127.0.0.1:-1"):
+            code, error = self.run_for_error(address)
+            self.assertEqual((code, f"found '{address}'" in error), (1, True), error)
+        self.assertEqual(self.run_for_error("unix:" + "x" * 200)[0], 1)
+        for flag in ("--strict", "--serve=0", "--most_unexplained_percent=1"):
+            code, error = self.run_for_error("0", flag)
+            self.assertEqual(code, 1)
+            self.assertIn(f"{flag.split('=')[0]} does not go with --listen", error)
+
+    def test_an_address_for_others_is_warned_of(self):
+        with serving("0.0.0.0:0") as server:
+            self.assertTrue(any("other machines reach 0.0.0.0:" in line for line in server.before), server.before)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,12 @@
+# A stand-in for ament_cmake, with the headers of all stand-ins.
+set(FINRAY_STAND_INS ${CMAKE_CURRENT_LIST_DIR}/../include)
+function(ament_target_dependencies target)
+  foreach(package ${ARGN})
+    if(NOT ${package}_FOUND)
+      message(FATAL_ERROR "${package} was not found before")
+    endif()
+  endforeach()
+  target_include_directories(${target} PRIVATE ${FINRAY_STAND_INS})
+endfunction()
+function(ament_package)
+endfunction()

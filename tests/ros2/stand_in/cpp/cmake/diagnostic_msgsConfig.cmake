@@ -1,0 +1,1 @@
+# A stand-in: its headers are those of the folder beside.
