@@ -9,6 +9,7 @@
 #include "finray/control/run_experiment.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/sha256.h"
+#include "finray/io/versions.h"
 #include "finray/io/yaml_emitter.h"
 #include "progress_bar.h"
 

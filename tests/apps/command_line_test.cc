@@ -10,6 +10,7 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/io/frame_table.h"
+#include "finray/io/versions.h"
 #include "test_finger.h"
 
 namespace finray {

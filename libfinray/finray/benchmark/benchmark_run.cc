@@ -14,6 +14,7 @@
 #include "finray/benchmark/statistics.h"
 #include "finray/io/frame_table.h"
 #include "finray/io/usable_cores.h"
+#include "finray/io/versions.h"
 #include "finray/io/yaml_map.h"
 #include "finray/ladder/ladder_kernel.h"
 

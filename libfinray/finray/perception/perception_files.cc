@@ -10,6 +10,7 @@
 #include "finray/io/message_text.h"
 #include "finray/io/number_text.h"
 #include "finray/io/sha256.h"
+#include "finray/io/versions.h"
 #include "finray/io/yaml_emitter.h"
 
 namespace finray {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "finray/io/number_text.h"
+#include "finray/io/versions.h"
 #include "finray/scene/frame_columns.h"
 #include "finray/view/json_text.h"
 

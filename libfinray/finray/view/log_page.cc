@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/io/versions.h"
 #include "finray/view/estimate_solver.h"
 #include "finray/view/finger_picture.h"
 #include "finray/view/json_text.h"

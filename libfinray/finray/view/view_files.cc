@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "finray/io/atomic_file.h"
+#include "finray/io/versions.h"
 #include "finray/view/json_text.h"
 #include "finray/view/log_channels.h"
 #include "finray/view/log_page.h"

@@ -4,6 +4,7 @@
 
 #include "finray/calib/report/calibration_result.h"
 #include "finray/calib/report/yaml_rows.h"
+#include "finray/io/versions.h"
 
 namespace finray {
 namespace {

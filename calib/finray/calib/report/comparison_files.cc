@@ -2,6 +2,7 @@
 
 #include "finray/calib/analysis/calibration_comparison.h"
 #include "finray/calib/report/yaml_rows.h"
+#include "finray/io/versions.h"
 
 namespace finray {
 

@@ -3,6 +3,7 @@
 
 #include "finray/calib/analysis/validation.h"
 #include "finray/calib/report/yaml_rows.h"
+#include "finray/io/versions.h"
 
 namespace finray {
 
