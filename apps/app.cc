@@ -3,6 +3,7 @@
 #include <exception>
 #include <filesystem>
 
+#include "finray/io/column_mapping_yaml.h"
 #include "finray/io/number_text.h"
 #include "finray/io/versions.h"
 
@@ -85,6 +86,7 @@ void DumpConfig(const Finger& finger, const Scene& scene,
               << scene.gauge_offset_walk->start_std_V << ", std_V_per_sqrt_s: "
               << scene.gauge_offset_walk->std_V_per_sqrt_s << "}\n";
   }
+  std::cout << ColumnMappingToYaml(scene.columns);
   std::istringstream lines(FingerToYaml(finger));
   std::cout << "finger:\n";
   for (std::string line; std::getline(lines, line);) {

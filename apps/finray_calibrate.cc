@@ -97,7 +97,16 @@ void PrintSummary(CalibrationProblem& problem,
     std::printf(" %s %.2f", ResidualFamilyName(static_cast<ResidualFamily>(i)),
                 noise.chi2 / noise.dof);
   }
-  std::printf("\nforce error    %s\n", ForceWords(result.forces).c_str());
+  std::printf("\n");
+  if (problem.plan().gauge_std_V && problem.logs().AnyReadingStd()) {
+    std::printf("noise_V        ");
+    for (const Gauge& gauge : result.finger.gauges) {
+      std::printf("%.2g ", 1e3 * gauge.noise_V);
+    }
+    std::printf("mV, the scatter of single readings; rows have %.2g mV\n",
+                1e3 * *problem.plan().gauge_std_V);
+  }
+  std::printf("force error    %s\n", ForceWords(result.forces).c_str());
   if (result.discrepancy) {
     std::printf(
         "model error    %s; finger.yaml and the std of estimates have it",
@@ -215,7 +224,9 @@ int Run() {
     throw UsageError("--tolerance_std: expected a number above 0");
   }
   const Discretization discretization = DiscretizationFlags();
-  if (DumpConfigFlag(finger, plan.scene, discretization)) return kGood;
+  Scene with_columns = plan.scene;
+  with_columns.columns = plan.columns;
+  if (DumpConfigFlag(finger, with_columns, discretization)) return kGood;
   const Plan given = plan;
   const std::string given_path = FLAGS_plan;
   if (FLAGS_explore) plan = ExplorePlan(finger, plan, paths, discretization);

@@ -191,7 +191,9 @@ int Run() {
     }
   }
   const Discretization discretization = DiscretizationFlags();
-  if (DumpConfigFlag(finger, plan.scene, discretization)) return kGood;
+  Scene with_columns = plan.scene;
+  with_columns.columns = plan.columns;
+  if (DumpConfigFlag(finger, with_columns, discretization)) return kGood;
   WarnOfParametersOfLogs(plan);
   Plan whole = plan;
   whole.holdout_by = HoldoutBy::kNothing;  // these logs are held out already
@@ -207,10 +209,10 @@ int Run() {
   MakeFolder(FLAGS_out_dir);
   WriteFileAtomically(
       OutPath("validation.yaml"),
-      ValidationYaml(
-          logs, validation, gates,
-          {FLAGS_finger, FLAGS_baseline,
-           FLAGS_plan.empty() ? FLAGS_scene : FLAGS_plan, CommandWith(flags)}));
+      ValidationYaml(logs, validation, gates,
+                     {FLAGS_finger, FLAGS_baseline,
+                      FLAGS_plan.empty() ? FLAGS_scene : FLAGS_plan,
+                      plan.columns.path, CommandWith(flags)}));
   ValidationFrames(logs, validation, plan.scene.friction_coefficient)
       .Write(OutPath("validation.frames.csv"));
   PrintSummary(logs, validation, gates);

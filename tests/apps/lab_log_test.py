@@ -132,6 +132,8 @@ class LabLogTest(unittest.TestCase):
         self.assertEqual(values["lab"], values["plain"])
         inputs = yaml.safe_load((self.folder / "lab_c/calibration.yaml").read_text())["inputs"]
         self.assertEqual(inputs["columns"]["path"], "lab_columns.yaml")
+        inputs = yaml.safe_load((self.folder / "lab_v/validation.yaml").read_text())["inputs"]
+        self.assertEqual(inputs["columns"]["path"], "lab_columns.yaml")
         self.expect_equal_tables("lab_e/lab_holdout.frames.csv",
                                  "plain_e/plain_holdout.frames.csv")
         self.expect_equal_tables("lab_live.csv", "plain_live.csv")
@@ -139,6 +141,57 @@ class LabLogTest(unittest.TestCase):
         zeroed = [yaml.safe_load((self.folder / f"{kind}_zero.yaml").read_text())["gauges"]
                   for kind in ("lab", "plain")]
         self.assertEqual(*zeroed)
+
+    def test_the_configuration_has_the_mapping(self):
+        plan = ("--finger", PAPER, "--plan", "lab_plan.yaml", "--logs", "lab_train.csv", "--out_dir", "o")
+        scene = ("--finger", PAPER, "--scene", "lab_scene.yaml", "--logs", "lab_train.csv", "--out_dir", "o")
+        for tool, flags in (("calibrate", plan), ("validate", plan), ("estimate", scene)):
+            dump = yaml.safe_load(self.run_tool(tool, *flags, "--dump_config"))
+            self.assertEqual(dump["columns"]["stage_x"],
+                             {"to": "object_x_mm", "scale": -1000, "offset": 150})
+            self.assertEqual(dump["columns"]["ch2"]["unit"]["range_V"], [FROM_V, TO_V])
+            self.assertEqual(dump["columns"]["Fz [gf]"], {"to": "force_N"})
+        self.assertFalse((self.folder / "o").exists())
+
+    def test_touches_of_an_object(self):
+        """finray_reconstruct, with a stage in metres and headers of its own."""
+        with open(SOURCE / "datasets/touches_square/touches.csv", newline="") as file:
+            rows = list(csv.reader(file))[::2]
+        headers = ["ch1", "ch2", "ch3", "ch4", "sx", "sy", "turn", "F"]
+        lines = [";".join(headers)] + [";".join([*row[:4], f"{float(row[4]) / 1000:.9f}", *row[5:]])
+                                       for row in rows[1:]]
+        (self.folder / "lab_touches.csv").write_text("\n".join(lines).replace(".", ",") + "\n")
+        plain = [",".join(rows[0])] + [",".join([*row[:4], repr(float(f"{float(row[4]) / 1000:.9f}") * 1000),
+                                                 *row[5:]]) for row in rows[1:]]
+        (self.folder / "plain_touches.csv").write_text("\n".join(plain) + "\n")
+        (self.folder / "touch_scene.yaml").write_text(
+            "contacts: 1\ncolumns: {ch1: gauge_1_V, ch2: gauge_2_V, ch3: gauge_3_V, ch4: gauge_4_V,\n"
+            "  sx: {to: object_x_mm, unit: m}, sy: object_y_mm, turn: object_angle_deg, F: force_N}\n")
+        (self.folder / "plain_touch_scene.yaml").write_text("contacts: 1\n")
+        self.run_tool("reconstruct", "--finger", PAPER, "--scene", "touch_scene.yaml", "--logs",
+                      "lab_touches.csv", "--out_dir", "lab_r", "--noplots")
+        self.run_tool("reconstruct", "--finger", PAPER, "--scene", "plain_touch_scene.yaml", "--logs",
+                      "plain_touches.csv", "--out_dir", "plain_r", "--noplots")
+        for name in ("outline.csv", "touches.csv"):
+            self.expect_equal_tables(f"lab_r/{name}", f"plain_r/{name}")
+
+    def test_bad_rows_are_left_out_of_a_joint_estimate(self):
+        rows = (self.folder / "plain_holdout.csv").read_text().splitlines(keepends=True)[:40]
+        (self.folder / "good.csv").write_text("".join(rows))
+        bad = rows[5].replace(",", ",x", 1)
+        (self.folder / "bad.csv").write_text("".join(rows[:11] + [bad, "1,2\n"] + rows[11:]))
+        (self.folder / "joint.yaml").write_text(
+            "contacts: 1\ngauge_offset_walk: {start_std_V: 0.001, std_V_per_sqrt_s: 1.0e-5}\n")
+        joint = ("--joint", "--finger", PAPER, "--scene", "joint.yaml", "--logs")
+        for name, more in (("good", ()), ("bad", ("--bad_rows", "skip"))):
+            said = self.run_tool("estimate", *joint, f"{name}.csv", "--out_dir", "j", *more)
+        self.assertIn("2 bad rows left out", said)
+        self.expect_equal_tables("j/bad.frames.csv", "j/good.frames.csv")
+        listed = self.numbers((self.folder / "j/bad.bad_rows.csv").read_text())
+        self.assertEqual(len(listed), 3)
+        self.assertEqual([row[0] for row in listed[1:]], [12, 13])
+        self.run_tool("estimate", *joint, "bad.csv", "--out_dir", "k", codes=(2,))
+        self.assertFalse((self.folder / "k").exists())
 
 
 if __name__ == "__main__":

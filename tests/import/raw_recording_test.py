@@ -57,6 +57,8 @@ class RawRecordingTest(ImportCase):
             capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         found = yaml.safe_load((out / "calibration.yaml").read_text())
+        self.assertEqual(found["verdict"], "good")
+        self.finger = yaml.safe_load((out / "finger.yaml").read_text())
         return {p["name"]: p for p in found["parameters"]}, found["noise"]
 
     def check(self, parameters):
@@ -79,6 +81,9 @@ class RawRecordingTest(ImportCase):
         rows = np.genfromtxt(log, delimiter=",", names=True)
         self.assertEqual(len(rows), 57)
         self.check(self.calibrate(DATA / "plan.yaml", log)[0])
+        # The plan has the noise of means, the finger senses by single readings.
+        for gauge in self.finger["gauges"]:
+            self.assertAlmostEqual(gauge["noise_V"], 3e-4, delta=3e-5)
 
     def test_moving_rows_are_calibrated(self):
         log = self.import_raw()

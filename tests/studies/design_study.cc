@@ -4,9 +4,12 @@
 // The frames are simulated by the model that also predicts: the study shows
 // that the linear prediction of the std is right, not that the model is.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <random>
+#include <vector>
 
 #include "finray/calib/design/finger_design.h"
 #include "finray/calib/design/planned_recording.h"
@@ -21,12 +24,30 @@ namespace {
 constexpr double kForce_N = 2, kLarge_N = 6;
 constexpr int kFrames = 1000, kCalibrations = 100;
 
+// Errors of noisy frames.
 struct Spread {
-  double place_mm = 0, force_N = 0;
+  std::vector<double> place_mm, force_N;
   int usable = 0;
 };
 
-// Sums squares of errors of noisy frames.
+double Rms(const std::vector<double>& errors) {
+  double squares = 0;
+  for (const double error : errors) squares += error * error;
+  return std::sqrt(squares / static_cast<double>(errors.size()));
+}
+
+// Half of the range of the middle 68.27 %: the std of normal errors, whatever a
+// few frames do that find another contact.
+double Middle(std::vector<double> errors) {
+  std::sort(errors.begin(), errors.end());
+  const auto at = [&](double share) {
+    return errors[static_cast<std::size_t>(
+        share * static_cast<double>(errors.size() - 1) + 0.5)];
+  };
+  return (at(0.84135) - at(0.15865)) / 2;
+}
+
+// Adds errors of noisy frames.
 void AddFrames(FrameEstimator* estimator, const Measurements& exact,
                const PointContact& contact, int frames,
                std::mt19937_64* generator, Spread* sum) {
@@ -39,9 +60,8 @@ void AddFrames(FrameEstimator* estimator, const Measurements& exact,
     }
     const FrameEstimate estimate = estimator->Estimate(row);
     sum->usable += estimate.status == FrameStatus::kOk;
-    sum->place_mm += std::pow(estimate.contact[0].arc_mm - contact.arc_mm, 2);
-    sum->force_N +=
-        std::pow(estimate.contact[0].normal_N - contact.normal_N, 2);
+    sum->place_mm.push_back(estimate.contact[0].arc_mm - contact.arc_mm);
+    sum->force_N.push_back(estimate.contact[0].normal_N - contact.normal_N);
   }
 }
 
@@ -56,14 +76,27 @@ Measurements Exact(const Finger& finger, const PointContact& contact) {
   return row;
 }
 
-void PrintRow(double height, const Eigen::VectorXd& std, const Spread& sum,
-              int frames) {
-  const double place = std::sqrt(sum.place_mm / frames);
-  const double force = std::sqrt(sum.force_N / frames);
+void PrintHead() {
   std::printf(
-      "| %.0f | %.3f | %.3f | %+.0f %% | %.4f | %.4f | %+.0f %% | %.0f %% |\n",
-      height, std[0], place, 100 * (std[0] / place - 1), std[1], force,
-      100 * (std[1] / force - 1), 100.0 * sum.usable / frames);
+      "| l_c mm | predicted mm | rms | off | middle 68 %% | off | predicted N "
+      "| rms | off | middle 68 %% | off | ok |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+}
+
+void PrintRow(double height, const Eigen::VectorXd& std, const Spread& spread) {
+  std::printf("| %.0f ", height);
+  const auto print = [](double predicted, const std::vector<double>& errors,
+                        int digits) {
+    std::printf("| %.*f ", digits, predicted);
+    for (const double found : {Rms(errors), Middle(errors)}) {
+      std::printf("| %.*f | %+.0f %% ", digits, found,
+                  100 * (predicted / found - 1));
+    }
+  };
+  print(std[0], spread.place_mm, 3);
+  print(std[1], spread.force_N, 4);
+  std::printf("| %.0f %% |\n", 100.0 * spread.usable /
+                                   static_cast<double>(spread.force_N.size()));
 }
 
 const std::vector<double> kHeights = {14, 20, 30, 40,  50,  60,
@@ -73,9 +106,7 @@ void NoiseAlone(const Finger& finger, double normal_N) {
   std::printf(
       "\npaper's finger: %d frames of %g N by the noise of the gauges\n\n",
       kFrames, normal_N);
-  std::printf(
-      "| l_c mm | predicted mm | spread mm | off | predicted N | spread "
-      "N | off | ok |\n|---|---|---|---|---|---|---|---|\n");
+  PrintHead();
   Scene scene;
   scene.contacts = 1;
   FrameEstimator estimator(finger, scene);
@@ -87,7 +118,7 @@ void NoiseAlone(const Finger& finger, double normal_N) {
     AddFrames(&estimator, Exact(finger, contact), contact, kFrames, &generator,
               &sum);
     const ContactStd predicted = accuracy.At({contact});
-    PrintRow(height, predicted.noise, sum, kFrames);
+    PrintRow(height, predicted.noise, sum);
   }
 }
 
@@ -96,9 +127,7 @@ void Calibrated(const Finger& finger, const Plan& plan) {
       "\npaper's finger, calibrated %d times from 200 frames each, %d "
       "noisy frames each\n\n",
       kCalibrations, kFrames / kCalibrations);
-  std::printf(
-      "| l_c mm | predicted mm | spread mm | off | predicted N | spread "
-      "N | off | ok |\n|---|---|---|---|---|---|---|---|\n");
+  PrintHead();
   const double most_N = 10 * ForceUnit(finger);
   PlannedRecording recording(
       finger, plan, SpreadContacts({14, 126, 0.1 * most_N, most_N}, 200, 1),
@@ -121,25 +150,24 @@ void Calibrated(const Finger& finger, const Plan& plan) {
   }
   for (std::size_t i = 0; i < kHeights.size(); ++i) {
     const ContactStd predicted = accuracy.At({{kHeights[i], kForce_N}});
-    PrintRow(kHeights[i], predicted.total, sums[i], kFrames);
+    PrintRow(kHeights[i], predicted.total, sums[i]);
   }
 }
 
-// The worst spread of noisy frames from 20 to 105 mm.
-Spread WorstSpread(const Finger& finger) {
+// The worst rms errors of noisy frames from 20 to 105 mm: place, force.
+std::array<double, 2> WorstSpread(const Finger& finger) {
   Scene scene;
   scene.contacts = 1;
   FrameEstimator estimator(finger, scene);
   std::mt19937_64 generator(3);
-  Spread worst;
+  std::array<double, 2> worst = {};
   for (const double height : HeightsOf(20, 105)) {
     Spread sum;
     const PointContact contact{height, kForce_N};
     AddFrames(&estimator, Exact(finger, contact), contact, kFrames, &generator,
               &sum);
-    worst.place_mm =
-        std::max(worst.place_mm, std::sqrt(sum.place_mm / kFrames));
-    worst.force_N = std::max(worst.force_N, std::sqrt(sum.force_N / kFrames));
+    worst[0] = std::max(worst[0], Rms(sum.place_mm));
+    worst[1] = std::max(worst[1], Rms(sum.force_N));
   }
   return worst;
 }
@@ -152,9 +180,9 @@ void Placements(const Finger& paper, const Plan& plan) {
       kFrames);
   const auto print = [&](const char* name, const Finger& finger,
                          const WorstStd& worst) {
-    const Spread spread = WorstSpread(finger);
+    const auto [place_mm, force_N] = WorstSpread(finger);
     std::printf("| %s | %.2f mm | %.3f N | %.2f mm | %.3f N |\n", name,
-                worst.place_mm, worst.force_N, spread.place_mm, spread.force_N);
+                worst.place_mm, worst.force_N, place_mm, force_N);
   };
   const FutureCalibration calibration{plan, 200};
   const Finger known = AfterCalibration(paper, calibration, kForce_N, {});

@@ -173,7 +173,7 @@ void SensedFrames::AddTo(ErrorTable* table, std::size_t k,
 SensedFrames SenseFrames(CalibrationProblem* problem, const Finger& calibrated,
                          const std::vector<int>& frames, bool places) {
   const Plan plan = problem->parameters().Corrected(problem->plan());
-  CalibrationLogs logs{problem->logs().paths, problem->logs().names, {}};
+  CalibrationLogs logs{problem->logs().paths, problem->logs().names, {}, {}};
   for (const int i : frames) logs.frames.push_back(problem->frame(i));
   const CalibrationLogs corrected =
       problem->parameters().Corrected(logs, calibrated);

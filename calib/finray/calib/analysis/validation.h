@@ -114,6 +114,7 @@ FrameTable ValidationFrames(const CalibrationLogs& logs,
 
 struct ValidationInputs {
   std::string finger_path, baseline_path, plan_path;  ///< Plan or scene.
+  std::string columns_path;  ///< The file of the mapping, if it has one.
   std::string command;
 };
 /// Returns the text of validation.yaml (docs/reference/formats.md).

@@ -297,6 +297,11 @@ double ReferenceForce(const CalibrationFrame& frame) {
   return frame.force_xy_N.allFinite() ? frame.force_xy_N.norm() : frame.force_N;
 }
 
+bool CalibrationLogs::AnyReadingStd() const {
+  return std::any_of(reading_std_V.begin(), reading_std_V.end(),
+                     [](double std_V) { return std::isfinite(std_V); });
+}
+
 std::vector<bool> CalibrationLogs::HeldOut() const {
   std::vector<bool> held_out(paths.size(), true);
   for (const CalibrationFrame& frame : frames) {
@@ -307,6 +312,36 @@ std::vector<bool> CalibrationLogs::HeldOut() const {
 
 namespace {
 
+// The scatter of single readings about the rows of all logs.
+class ReadingScatter {
+ public:
+  explicit ReadingScatter(std::size_t gauges)
+      : squares_(gauges), counts_(gauges) {}
+
+  void Add(const FrameTable& table) {
+    for (std::size_t j = 0; j < squares_.size(); ++j) {
+      for (const double std_V : table.NumbersOrNan(
+               IndexedColumn("gauge_", static_cast<int>(j), "_scatter_V"))) {
+        if (!std::isfinite(std_V)) continue;
+        squares_[j] += std_V * std_V;
+        ++counts_[j];
+      }
+    }
+  }
+  std::vector<double> Std_V() const {
+    std::vector<double> std_V;
+    for (std::size_t j = 0; j < squares_.size(); ++j) {
+      std_V.push_back(counts_[j] > 0 ? std::sqrt(squares_[j] / counts_[j])
+                                     : std::nan(""));
+    }
+    return std_V;
+  }
+
+ private:
+  std::vector<double> squares_;
+  std::vector<int> counts_;
+};
+
 // table(i) returns the log of the i-th path.
 template <class Table>
 CalibrationLogs MakeLogs(const std::vector<std::string>& paths,
@@ -314,8 +349,11 @@ CalibrationLogs MakeLogs(const std::vector<std::string>& paths,
   CalibrationLogs logs;
   logs.paths = paths;
   logs.names = NamesOf(paths);
+  ReadingScatter scatter(finger.gauges.size());
   for (std::size_t log = 0; log < paths.size(); ++log) {
-    for (CalibrationFrame& frame : ReadLog(table(log), finger, plan)) {
+    const FrameTable& rows = table(log);
+    scatter.Add(rows);
+    for (CalibrationFrame& frame : ReadLog(rows, finger, plan)) {
       frame.log = static_cast<int>(log);
       const Touch touch = TouchOf(frame, finger, plan);
       frame.contact = touch.contact;
@@ -327,6 +365,7 @@ CalibrationLogs MakeLogs(const std::vector<std::string>& paths,
       logs.frames.push_back(std::move(frame));
     }
   }
+  logs.reading_std_V = scatter.Std_V();
   RefuseWithoutMeasurements(plan, logs);
   MarkHoldout(plan, &logs);
   MarkRepeatedRows(plan, &logs);

@@ -48,7 +48,11 @@ struct CalibrationLogs {
   /// their paths as tells them apart.
   std::vector<std::string> names;
   std::vector<CalibrationFrame> frames;
+  /// The std of one reading of each gauge where rows are means of readings: the
+  /// root mean square of gauge_<j>_scatter_V. NaN for a gauge without.
+  std::vector<double> reading_std_V;
 
+  bool AnyReadingStd() const;
   /// Says for each log whether all its rows are held out.
   std::vector<bool> HeldOut() const;
 };

@@ -55,7 +55,11 @@ CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
       parameters_(finger_, plan, *logs_),
       discretization_(discretization),
       threads_(std::max(1, threads)),
-      blocks_(finger_, plan_, &parameters_) {}
+      blocks_(finger_, plan_, &parameters_) {
+  for (const Gauge& gauge : finger.gauges) {
+    given_noise_V_.push_back(gauge.noise_V);
+  }
+}
 
 CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
                                        CalibrationLogs all_logs,

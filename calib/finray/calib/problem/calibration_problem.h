@@ -91,6 +91,9 @@ class CalibrationProblem {
   const CalibrationFrame& frame(int i) const { return logs_->frames[i]; }
   const Plan& plan() const { return plan_; }
   const Finger& finger() const { return finger_; }
+  /// The noise_V of each gauge in the given finger, which the plan's
+  /// gauge_std_V replaces in finger().
+  const std::vector<double>& given_noise_V() const { return given_noise_V_; }
   const Discretization& discretization() const { return discretization_; }
   int threads() const { return threads_; }
 
@@ -108,6 +111,7 @@ class CalibrationProblem {
   void FindCandidates();
 
   Finger finger_;
+  std::vector<double> given_noise_V_;
   Plan plan_;
   std::shared_ptr<CalibrationLogs> logs_;
   CalibrationParameters parameters_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/calib/analysis/reading_noise.h"
 #include "finray/calib/analysis/refit.h"
 #include "finray/calib/report/doubts.h"
 #include "finray/calib/solve/undecided.h"
@@ -350,6 +351,7 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
     result.finger.calibration->discrepancy = result.discrepancy;
   }
   result.forces = CheckForces(problem, result.finger);
+  SetReadingNoise(*problem, &result.finger, &result.warnings);
   result.bench =
       TestBenchLinearity(problem->finger(), problem->plan(), problem->logs());
   result.free_scatter = MeasureFreeScatter(

@@ -82,7 +82,8 @@ std::string ValidationYaml(const CalibrationLogs& logs,
   const std::pair<const char*, const std::string*> named[] = {
       {"finger", &inputs.finger_path},
       {"baseline", &inputs.baseline_path},
-      {"plan_or_scene", &inputs.plan_path}};
+      {"plan_or_scene", &inputs.plan_path},
+      {"columns", &inputs.columns_path}};
   for (const auto& [key, path] : named) {
     if (!path->empty()) EmitFile(&yaml, key, *path);
   }

@@ -1,0 +1,68 @@
+#include "finray/calib/analysis/reading_noise.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "calib/standard_log.h"
+
+namespace finray {
+namespace {
+
+using testing::HasSubstr;
+
+// What SetReadingNoise() does to a finger whose readings have 0.3 mV.
+struct Noise {
+  explicit Noise(const FrameTable& log, std::optional<double> row_std_V) {
+    Finger start = Nominal();
+    for (Gauge& gauge : start.gauges) gauge.noise_V = 3e-4;
+    Plan plan = StandardPlan();
+    plan.gauge_std_V = row_std_V;
+    const CalibrationProblem problem(
+        start, plan,
+        ReadCalibrationLogs(std::vector<FrameTable>{log}, start, plan), {}, 1);
+    Finger finger = problem.finger();
+    SetReadingNoise(problem, &finger, &warnings);
+    for (const Gauge& gauge : finger.gauges) V.push_back(gauge.noise_V);
+  }
+
+  std::vector<double> V;
+  std::vector<Warning> warnings;
+};
+
+TEST(ReadingNoiseTest, ScatterAboutMeansIsTheNoiseOfOneReading) {
+  FrameTable log = StandardFrames(HiddenFinger(), 7);
+  log.MutableNumbers("gauge_1_scatter_V").assign(log.rows(), 2.5e-4);
+  log.MutableNumbers("gauge_1_scatter_V")[3] = std::nan("");
+  std::vector<double>& second = log.MutableNumbers("gauge_2_scatter_V");
+  for (std::size_t i = 0; i < log.rows(); ++i) second[i] = i % 2 ? 3e-4 : 4e-4;
+  log.MutableNumbers("gauge_3_scatter_V").assign(log.rows(), 0);  // steps
+  log.MutableNumbers("gauge_4_scatter_V").assign(log.rows(), 1e-3);
+  const Noise noise(log, 2.8e-5);
+  EXPECT_NEAR(noise.V[0], 2.5e-4, 1e-12);
+  EXPECT_NEAR(noise.V[1], std::sqrt(12.5e-8), 1e-12);
+  EXPECT_EQ(noise.V[2], 2.8e-5);
+  EXPECT_NEAR(noise.V[3], 1e-3, 1e-12);
+  EXPECT_TRUE(noise.warnings.empty());
+  // The noise of the finger counts if the plan gives none for rows.
+  EXPECT_EQ(Noise(log, {}).V[3], 3e-4);
+}
+
+TEST(ReadingNoiseTest, AMuchSmallerNoiseOfRowsIsAWarning) {
+  FrameTable log = StandardFrames(HiddenFinger(), 7);
+  for (const double row_std_V : {2e-4, 5e-3}) {
+    const Noise noise(log, row_std_V);
+    EXPECT_EQ(noise.V[0], row_std_V);
+    EXPECT_TRUE(noise.warnings.empty());
+  }
+  log.MutableNumbers("gauge_1_scatter_V").assign(log.rows(), 3e-4);
+  const Noise noise(log, 2.8e-5);
+  EXPECT_EQ(noise.V[1], 2.8e-5);
+  ASSERT_EQ(noise.warnings.size(), 1u);
+  EXPECT_EQ(noise.warnings[0].code, "noise_of_rows");
+  EXPECT_THAT(
+      noise.warnings[0].text,
+      HasSubstr("gauge_std_V of 0.028 mV replaces a noise_V of 0.3 mV"));
+}
+
+}  // namespace
+}  // namespace finray
