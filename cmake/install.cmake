@@ -22,7 +22,7 @@ install(FILES ${PROJECT_SOURCE_DIR}/scripts/studies/calibration_speed.py
 # Tools in Python read their version there.
 install(FILES ${PROJECT_SOURCE_DIR}/CMakeLists.txt
   DESTINATION ${CMAKE_INSTALL_DATADIR}/finray COMPONENT tools)
-install(FILES ${PROJECT_SOURCE_DIR}/apps/finray_import ${PROJECT_SOURCE_DIR}/apps/finray_convert
+install(PROGRAMS ${PROJECT_SOURCE_DIR}/apps/finray_import ${PROJECT_SOURCE_DIR}/apps/finray_convert
   DESTINATION ${CMAKE_INSTALL_DATADIR}/finray/apps COMPONENT tools)
 install(FILES ${PROJECT_SOURCE_DIR}/scripts/make_dataset.py
   DESTINATION ${CMAKE_INSTALL_DATADIR}/finray/scripts COMPONENT tools)

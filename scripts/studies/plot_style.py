@@ -1,9 +1,13 @@
 """The look of all plots of docs/evidence/accuracy.md."""
 
+import atexit
 import os
+import shutil
 import tempfile
 
-os.environ.setdefault("MPLCONFIGDIR", tempfile.mkdtemp(prefix="finray_mpl_"))
+if "MPLCONFIGDIR" not in os.environ:
+    os.environ["MPLCONFIGDIR"] = tempfile.mkdtemp(prefix="finray_mpl_")
+    atexit.register(shutil.rmtree, os.environ["MPLCONFIGDIR"], ignore_errors=True)
 
 import matplotlib
 

@@ -7,6 +7,7 @@ import math
 import os
 import pathlib
 import pickle
+import re
 import subprocess
 import sys
 import tempfile
@@ -248,6 +249,30 @@ class PackageTest(unittest.TestCase):
                                cwd=ROOT, env={**os.environ, "MYPYPATH": "python"}, capture_output=True, text=True,
                                check=False)
         self.assertEqual(found.returncode, 0, found.stdout + found.stderr)
+
+    def test_stubs_are_those_of_the_module(self):
+        try:
+            importlib.import_module("mypy.stubtest")
+        except ImportError:
+            self.skipTest("no mypy")
+        found = subprocess.run([sys.executable, "-m", "mypy.stubtest", "finray._finray", "--concise",
+                                "--mypy-config-file", ROOT / "pyproject.toml"], cwd=self.folder,
+                               env={**os.environ, "PYTHONPATH": BUILD / "python"}, capture_output=True, text=True,
+                               check=False)
+        # pybind11 has a metaclass of its own, and an __init__ that refuses, where a class has no constructor.
+        faults = [line for line in found.stdout.splitlines() if "metaclass differs" not in line
+                  and not re.search(r"\.__init__ is inconsistent, stub does not have \*args", line)]
+        self.assertEqual(faults, [], found.stderr)
+        self.assertIn("metaclass differs", found.stdout)  # it has looked
+
+    def test_from_import_to_a_calibrated_finger_takes_20_lines(self):
+        example = ROOT / "examples/python/calibrate.py"
+        code = example.read_text().split('"""')[2]
+        self.assertLessEqual(len([line for line in code.splitlines() if line.strip()]), 20)
+        done = subprocess.run([sys.executable, example, self.folder / "own", TRAIN], capture_output=True, text=True,
+                              env={**os.environ, "PYTHONPATH": BUILD / "python"}, check=True)
+        self.assertEqual(done.stdout.splitlines()[-1], "verdict: good")
+        self.assertTrue(finray.Finger.read(self.folder / "own/finger.yaml").calibrated)
 
 
 if __name__ == "__main__":
