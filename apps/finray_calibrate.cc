@@ -8,6 +8,7 @@
 #include "finray/calib/analysis/explore.h"
 #include "finray/calib/analysis/plausibility.h"
 #include "finray/calib/report/calibration_result.h"
+#include "finray/calib/report/doubts.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/log_list.h"
 #include "finray/io/yaml_limits.h"
@@ -195,23 +196,6 @@ Calibration CalibrateWith(const Finger& finger, const Plan& plan,
   }
   done.problem->TellProgress({});
   return done;
-}
-
-// Where the logs have an effect that finray lacks, others are freed in its
-// place, and these may deceive. Says in words why what --explore has freed is
-// not to be adopted; empty if it is.
-std::string WhyNotAdopted(const CalibrationResult& explored,
-                          const CalibrationResult& given) {
-  constexpr double kLess_percent = 2.5;
-  const double with = explored.UnseenForces().coverage_95_percent();
-  const double without = given.UnseenForces().coverage_95_percent();
-  if (explored.Verdict() == "good" || !(with < without - kLess_percent)) {
-    return "";
-  }
-  return FormatText(
-      "with the freed effects the verdict is %s, and 95 %% intervals of force "
-      "hold in %.0f %% of unseen frames, without them in %.0f %%",
-      explored.Verdict().c_str(), with, without);
 }
 
 int Run() {

@@ -40,19 +40,36 @@ void PrintBeam(const Finger& finger, Side side) {
   std::printf("\n");
 }
 
+// The last two columns of a rib.
+std::string RibBendingText(const Rib& rib, double axial) {
+  // Both columns start below their titles, whatever the one before is.
+  const int gap = std::isfinite(axial)
+                      ? 10 - static_cast<int>(FormatText("%.4g", axial).size())
+                      : 5;
+  if (!rib.Bends()) return FormatText("%*s%9s  -", gap, "", "rigid");
+  return FormatText("%*s%9.5g  %.3g, %.3g", gap, "",
+                    rib.bending_stiffness_N_mm2, rib.front_rigid_mm,
+                    rib.back_rigid_mm);
+}
+
 void PrintRibs(const Finger& finger, const FingerCheck& check) {
   if (check.ribs.empty()) return;
+  const bool bend = std::any_of(finger.ribs.begin(), finger.ribs.end(),
+                                [](const Rib& rib) { return rib.Bends(); });
   std::printf(
       "rib   front_mm  back_mm  angle_deg  length_mm  gap_mm  "
-      "at rest N  EA N\n");
+      "at rest N  EA N%s\n",
+      bend ? "      EI N mm^2  rigid ends mm" : "");
   for (std::size_t i = 0; i < check.ribs.size(); ++i) {
     const RibFigures& rib = check.ribs[i];
     const double axial = finger.ribs[i].axial_stiffness_N;
     std::printf(
-        "%-4zu  %8.5g  %7.5g  %9.4g  %9.5g  %6.5g  %9.3g  %s\n", i + 1,
+        "%-4zu  %8.5g  %7.5g  %9.4g  %9.5g  %6.5g  %9.3g  %s", i + 1,
         rib.front_mm, rib.back_mm, rib.angle_deg, rib.length_mm, rib.nominal_mm,
         std::abs(rib.tension_N) < 1e-6 ? 0 : rib.tension_N,
         std::isfinite(axial) ? FormatText("%.4g", axial).c_str() : "rigid");
+    if (bend) std::printf("%s", RibBendingText(finger.ribs[i], axial).c_str());
+    std::printf("\n");
   }
 }
 

@@ -135,7 +135,7 @@ Estimation Estimator::Inside::OneByOne(const Table& log,
   const std::size_t rows = log.rows();
   Results results(finger, scene, rows);
   // Creep and hysteresis depend on all rows before.
-  HistoryFilter history(finger);
+  HistoryFilter history(finger, scene);
   std::vector<Measurements> without_history(history.empty() ? 0 : rows);
   for (std::size_t row = 0; row < without_history.size(); ++row) {
     columns.Read(row, &without_history[row]);

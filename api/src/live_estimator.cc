@@ -19,7 +19,8 @@ Contact ToPublicContact(const ContactEstimate& contact) {
 struct LiveEstimator::Inside {
   Inside(const finray::Finger& finger, const finray::Scene& scene,
          const finray::Discretization& discretization, FrameMethod method)
-      : estimator(finger, scene, discretization, method), history(finger) {}
+      : estimator(finger, scene, discretization, method),
+        history(finger, scene) {}
 
   FrameEstimator estimator;
   HistoryFilter history;

@@ -50,6 +50,24 @@ TEST(DiscrepancyTest, FindsTheCovarianceThatErrorsWereDrawnFrom) {
   }
 }
 
+// A covariance from a few errors fits these better than those to come.
+TEST(DiscrepancyTest, HoldsForErrorsThatItHasNotSeen) {
+  const GaugeDiscrepancy truth = Typical();
+  double chi2 = 0;
+  int values = 0;
+  for (unsigned seed = 0; seed < 30; ++seed) {
+    const auto found = FitDiscrepancy(Drawn(seed, 40, &truth));
+    ASSERT_TRUE(found.has_value());
+    for (const GaugeError& at : Drawn(1000 + seed, 200, &truth).fitted) {
+      Eigen::MatrixXd covariance = at.expected;
+      found->AddTo(at.place_mm, at.force_N, &covariance);
+      chi2 += at.error_rad.dot(covariance.llt().solve(at.error_rad));
+      values += 4;
+    }
+  }
+  EXPECT_NEAR(chi2 / values, 1, 0.06);
+}
+
 TEST(DiscrepancyTest, NoiseAloneHasNone) {
   int some = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {

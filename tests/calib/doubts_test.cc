@@ -44,5 +44,28 @@ TEST(DoubtsTest, FrictionIsNotGood) {
   EXPECT_EQ(ResultOf(folder.Path("log.csv")).Verdict(), "doubtful");
 }
 
+// A result that is solved, of which so many of 100 unseen forces lie within
+// their 95 % intervals.
+CalibrationResult Judged(const char* doubt, std::size_t within_95) {
+  CalibrationResult result;
+  result.solution.solve.converged = true;
+  if (doubt != nullptr) result.doubts.push_back(doubt);
+  result.forces.held_out.after.contact.force_N.judged = 100;
+  result.forces.held_out.after.contact.force_N.within_95 = within_95;
+  return result;
+}
+
+TEST(DoubtsTest, FreedEffectsThatDeceiveAreNotAdopted) {
+  const CalibrationResult given = Judged("model", 95);
+  EXPECT_EQ(WhyNotAdopted(Judged("model", 90), given),
+            "with the freed effects the verdict is doubtful, and 95 % "
+            "intervals of force hold in 90 % of unseen frames, without them in "
+            "95 %");
+  EXPECT_EQ(WhyNotAdopted(Judged("model", 93), given), "");
+  EXPECT_EQ(WhyNotAdopted(Judged("model", 97), given), "");
+  // A green verdict has its own tests of the intervals.
+  EXPECT_EQ(WhyNotAdopted(Judged(nullptr, 90), given), "");
+}
+
 }  // namespace
 }  // namespace finray

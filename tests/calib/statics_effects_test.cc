@@ -81,6 +81,71 @@ TEST(StaticsEffectsTest, Friction) {
   both.Expect(kHinges, 0, 10);
 }
 
+// Touches that go in and half out again: friction pulls towards the tip, then
+// towards the base. Both ways of a force sensor tell how much.
+TEST(StaticsEffectsTest, FrictionTurnsRoundWithTheObject) {
+  FrameTable frames = StandardFrames(HiddenFinger(), 46);
+  std::vector<double>& x = frames.MutableNumbers("object_x_mm");
+  std::vector<double>& y = frames.MutableNumbers("object_y_mm");
+  for (std::size_t i = 0; i + 3 < frames.rows(); i += 3) {
+    const double depth = std::max(x[i] + 15, 0.0),
+                 height = 30 + 0.9 * (y[i] - 22);
+    for (int k = 0; k < 3; ++k) {
+      const double shares[] = {0.6, 1.0, 0.6};
+      if (depth > 0) x[i + k] = -15 + shares[k] * depth;
+      y[i + k] = height;
+    }
+  }
+  Scene rough = StandardScene();
+  rough.friction_coefficient = 0.3;
+  ASSERT_EQ(Simulate(HiddenFinger(), rough, {}, &frames).not_converged, 0);
+  const TempFolder folder;
+  MakeLog(HiddenFinger(), frames, {0.02, 0.05, 46})
+      .Write(folder.Path("log.csv"));
+  Plan plan = StandardPlan();
+  Free(ParameterFamily::kFriction, &plan).prior_std = 0.3;
+  Recovery with(Nominal(), plan, {folder.Path("log.csv")});
+  with.ExpectFinger(HiddenFinger());
+  with.Expect("friction_coefficient", 0.3, 0.02);
+  EXPECT_NEAR(with.Chi2PerDof(ResidualFamily::kGauge), 1, 0.2);
+  EXPECT_NEAR(with.Chi2PerDof(ResidualFamily::kForce), 1, 0.3);
+
+  // A row's friction is that of the simulation, and how it follows the
+  // coefficient is what another coefficient shows.
+  CalibrationProblem& problem = with.problem();
+  const CalibrationParameters& parameters = problem.parameters();
+  const double found = parameters.friction();
+  int forward = 0, backward = 0, near = 0;
+  std::vector<RowFriction> rows;
+  for (const CalibrationFrame& frame : problem.logs().frames) {
+    rows.push_back(parameters.FrictionOf(frame));
+    if (!frame.contact) continue;
+    const double friction = rows.back().At(found);
+    forward += friction > 0.9 * found;
+    backward += friction < -0.9 * found;
+    near += std::abs(friction - frames.Numbers("friction_1")[rows.size() - 1]) <
+            0.03;
+  }
+  EXPECT_GT(forward, 80);
+  EXPECT_GT(backward, 30);
+  EXPECT_GT(near, 0.9 * (forward + backward));
+  const int at = problem.parameters().free().size() - 1;
+  ASSERT_EQ(parameters.FreeParameter(at).name, "friction_coefficient");
+  Eigen::VectorXd values = problem.Values();
+  values[at] += 2e-3;
+  problem.SetValues(values);
+  problem.KeepFriction();
+  int same = 0, all = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const CalibrationFrame& frame = problem.logs().frames[i];
+    if (!frame.contact) continue;
+    ++all;
+    same += std::abs(parameters.FrictionOf(frame).At(found + 2e-3) -
+                     rows[i].At(found + 2e-3)) < 2e-4;
+  }
+  EXPECT_GT(same, 0.97 * all);
+}
+
 // Beams that taper by 10 % from base to tip.
 TEST(StaticsEffectsTest, StiffnessPieces) {
   const TempFolder folder;

@@ -30,7 +30,8 @@ class EffectsTest : public ResidualsFixture {
     shared_.effect_values.push_back(kFriction);
     frames_ = std::make_unique<FrameSet>(finger_, Discretization(), GetParam(),
                                          &shared_, 1);
-    frame_ = &frames_->Add(1, 0, unknowns_.data(), true);
+    // An object that half sticks and slides towards the base.
+    frame_ = &frames_->Add(1, 0, unknowns_.data(), true, false, {0.1, -0.7});
     frames_->PrepareForEvaluation(true, true);
   }
   std::vector<double*> BlocksAnd(const std::vector<double*>& more) {

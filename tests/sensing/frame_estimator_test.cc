@@ -8,6 +8,8 @@
 #include <random>
 
 #include "finray/io/error.h"
+#include "finray/objects/sliding_friction.h"
+#include "finray/scene/history_filter.h"
 #include "studies/gauge_frames.h"
 #include "test_finger.h"
 
@@ -134,6 +136,48 @@ TEST(FrameEstimatorTest, KnownFrictionIsPartOfTheModel) {
   EXPECT_NEAR(estimate.contact[0].normal_N, 5, 1e-6);
   EXPECT_NEAR(estimate.rib_tension_N[2], solver.rib_tension(2), 1e-6);
   EXPECT_NEAR((estimate.tip_pose - solver.tip_pose()).norm(), 0, 1e-6);
+}
+
+// An object that goes in, out and along, with its place in the log: each row
+// has its own friction. Without its place, friction counts as the scene's.
+TEST(FrameEstimatorTest, TheObjectsMotionTellsTheFriction) {
+  const Finger finger = PaperFinger();
+  Scene scene = OneContact();
+  scene.friction_coefficient = 0.3;
+  scene.object = {Outline(CircleOutline{15}), std::nullopt};
+  EquilibriumSolver solver(finger, {});
+  SlidingFriction sliding(*scene.object, 0.3, scene.presliding_mm, 0);
+  std::vector<Measurements> rows;
+  std::vector<PointContact> truth;
+  for (const Eigen::Vector2d& centre :
+       {Eigen::Vector2d(-12, 60), {-11, 60}, {-12, 60}, {-12, 61}, {-12, 59}}) {
+    ASSERT_TRUE(sliding.Next({centre}, &solver).has_value());
+    truth.push_back(sliding.contact().contacts[0]);
+    rows.push_back(CleanReadings(solver));
+    rows.back().object_mm = centre;
+  }
+  EXPECT_GT(truth[1].friction, 0.29);
+  EXPECT_LT(truth[2].friction, -0.29);
+  for (const FrameMethod method :
+       {FrameMethod::kFast, FrameMethod::kCeresReduced}) {
+    FrameEstimator estimator(finger, scene, {}, method);
+    HistoryFilter history(finger, scene);
+    std::vector<Measurements> filtered = rows;
+    for (Measurements& row : filtered) history.Remove(&row);
+    std::vector<FrameEstimate> block(rows.size());
+    estimator.EstimateBlock(filtered.data(), rows.size(), block.data());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      EXPECT_NEAR(filtered[i].friction, truth[i].friction, 1e-3) << i;
+      EXPECT_NEAR(block[i].contact[0].normal_N / truth[i].normal_N, 1, 2e-3)
+          << i;
+      EXPECT_NEAR(block[i].contact[0].arc_mm, truth[i].arc_mm, 0.1) << i;
+      EXPECT_EQ(estimator.Next(filtered[i]).contact[0].normal_N,
+                estimator.Estimate(filtered[i]).contact[0].normal_N);
+    }
+    const FrameEstimate blind = estimator.Estimate(rows[2]);
+    EXPECT_GT(std::abs(blind.contact[0].normal_N / truth[2].normal_N - 1),
+              0.01);
+  }
 }
 
 TEST(FrameEstimatorTest, ASaturatedGaugeIsLeftOut) {

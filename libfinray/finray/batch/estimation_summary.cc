@@ -23,15 +23,6 @@ void AddAll(const std::vector<double>& more, std::vector<double>* sums) {
   for (std::size_t j = 0; j < more.size(); ++j) (*sums)[j] += more[j];
 }
 
-// The std of the total force is at most the sum of those of its parts.
-double ForceStd(const FrameEstimate& estimate, double friction) {
-  double std_N = 0;
-  for (int c = 0; c < estimate.contacts; ++c) {
-    std_N += std::hypot(1, friction) * estimate.contact[c].normal_std_N;
-  }
-  return std_N;
-}
-
 }  // namespace
 
 std::size_t EstimationSummary::unsolved() const {
@@ -67,8 +58,9 @@ double EstimationSummary::force_std_N() const {
   return std::sqrt(force_variances_N2 / static_cast<double>(force_judged));
 }
 
-void EstimationSummary::Add(const FrameEstimate& estimate, double friction,
+void EstimationSummary::Add(const FrameEstimate& estimate, double coefficient,
                             const Measurements& readings) {
+  const double friction = readings.FrictionOr(coefficient);
   const double force_N = readings.force_N;
   const bool all_read =
       std::all_of(readings.gauges_V.begin(), readings.gauges_V.end(),
@@ -110,7 +102,7 @@ void EstimationSummary::Add(const FrameEstimate& estimate, double friction,
   force_max_N = std::max(force_max_N, std::abs(error));
   ++force_compared;
   if (estimate.status != FrameStatus::kOk) return;
-  const double std_N = ForceStd(estimate, friction);
+  const double std_N = EstimatedForceStd(estimate, friction);
   if (!std::isfinite(std_N)) return;
   ++force_judged;
   force_variances_N2 += std_N * std_N;

@@ -82,8 +82,9 @@ struct EstimationSummary {
   /// Rms of the std that the judged estimates claim.
   double force_std_N() const;
 
-  /// Counts one frame; `friction` is the scene's mu.
-  void Add(const FrameEstimate& estimate, double friction,
+  /// Counts one frame; `coefficient` is the scene's mu, for a frame whose
+  /// friction is not told by the object's motion.
+  void Add(const FrameEstimate& estimate, double coefficient,
            const Measurements& readings);
   /// Adds the frames of another summary.
   void Add(const EstimationSummary& other);

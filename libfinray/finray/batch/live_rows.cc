@@ -13,7 +13,7 @@ LiveRows::LiveRows(const Finger& finger, const Scene& scene,
     : parser_(parser),
       layout_(finger, scene, parser_, format),
       estimator_(*estimator),
-      history_(finger) {
+      history_(finger, scene) {
   RequireTimeForCreep(finger, parser_.names(), parser_.path());
   estimator_.Restart();
 }

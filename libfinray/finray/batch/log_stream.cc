@@ -157,7 +157,7 @@ bool EstimateStream(const Finger& finger, const Scene& scene,
                     const std::function<void(const StreamedBlock&)>& write,
                     std::size_t done) {
   const ResultLayout layout(finger, scene, reader->parser(), options.format);
-  HistoryFilter history(finger);
+  HistoryFilter history(finger, scene);
   if (history.empty()) reader->Skip(done);
   Block skipped;
   while (reader->position() < done &&

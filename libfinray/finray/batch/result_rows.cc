@@ -42,8 +42,9 @@ void ResultColumns::ForEach(const Measurements& readings,
     column([c] { return NormalForce(c); }, contact.normal_N);
     column([c] { return NormalForceStd(c); }, contact.normal_std_N);
     if (friction_ != 0) {
-      column([c] { return Friction(c); },
-             std::isfinite(contact.arc_mm) ? friction_ : std::nan(""));
+      column([c] { return Friction(c); }, std::isfinite(contact.arc_mm)
+                                              ? readings.FrictionOr(friction_)
+                                              : std::nan(""));
     }
     column([c] { return ContactX(c); }, contact.pose.x());
     column([c] { return ContactY(c); }, contact.pose.y());

@@ -265,6 +265,16 @@ Finger ForFriction(const Finger& finger, double friction) {
   return result;
 }
 
+Finger WithFrictionReversed(Finger finger) {
+  if (!finger.calibration || !finger.calibration->HasFriction()) return finger;
+  ParameterCovariance& covariance = *finger.calibration;
+  const Eigen::Index last = covariance.std.size() - 1;
+  covariance.friction = -covariance.friction;
+  covariance.correlations.row(last).head(last) *= -1;
+  covariance.correlations.col(last).head(last) *= -1;
+  return finger;
+}
+
 ParameterCovariance InOrderOf(const Finger& finger,
                               const ParameterCovariance& covariance) {
   ParameterCovariance ordered;

@@ -128,6 +128,10 @@ struct ParameterCovariance {
 /// parameters.
 Finger ForFriction(const Finger& finger, double friction);
 
+/// Returns the finger for contacts whose friction pulls the other way: the
+/// friction in its covariance changes sign.
+Finger WithFrictionReversed(Finger finger);
+
 /// Returns the covariance with its parameters in the order of ParametersOf.
 ParameterCovariance InOrderOf(const Finger& finger,
                               const ParameterCovariance& covariance);

@@ -30,6 +30,16 @@ class Play {
   double width_, at_ = 0;
 };
 
+/// Std of d for a gauge whose d may be anywhere in [-w, w] before its signal
+/// moves by m. Of the places a share of m / 2 w then ends at d = w. 0 once the
+/// signal has moved by 2 w.
+inline double PlayStd(double width, double moved) {
+  const double rest = 1 - std::abs(moved) / (2 * width);
+  if (!(width > 0) || !(rest > 0)) return 0;
+  const double length = 2 * width * rest;
+  return length * std::sqrt(rest * (1 / 12.0 + (1 - rest) / 4));
+}
+
 /// What readings with noise say of d = s - p, which lies in [-w, w]. All
 /// numbers are in units of the noise's std. Where p rises d = w, where it falls
 /// d = -w, and while it stands still s may be anywhere in between.

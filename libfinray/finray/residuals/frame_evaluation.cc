@@ -9,18 +9,21 @@ namespace finray {
 
 FrameEvaluation::FrameEvaluation(const LadderModel& model, EquilibriumForm form,
                                  int contacts, double friction, bool pins,
-                                 bool movable_gauges)
+                                 bool movable_gauges, RowFriction row)
     : form_(form),
       ribs_(model.ribs()),
       effects_(model.effect_columns()),
       gauges_(model.gauges()),
       contact_count_(contacts),
       by_friction_(model.by_friction()),
+      row_friction_(row),
       loads_(contacts),
       length_mm_(model.finger().front_length_mm),
       back_length_mm_(BeamLength(model.finger(), Side::kBack)),
       state_(LadderState::Undeformed(model)) {
-  for (PointContact& contact : loads_) contact.friction = friction;
+  for (PointContact& contact : loads_) {
+    contact.friction = row_friction_.At(friction);
+  }
   if (pins) {
     for (const Rib& rib : model.finger().ribs) {
       loads_.push_back({rib.front_mm, 0, 0, Side::kFront, true});
@@ -75,7 +78,9 @@ void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
   for (int i = 0; i < effects_; ++i) {
     if (!std::isfinite(effects[i])) return;
     if (i == friction_effect()) {
-      for (int c = 0; c < contacts(); ++c) loads_[c].friction = effects[i];
+      for (int c = 0; c < contacts(); ++c) {
+        loads_[c].friction = row_friction_.At(effects[i]);
+      }
     } else if (!solver->model().set_effect(i, effects[i])) {
       return;
     }
@@ -99,6 +104,9 @@ void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
     if (d->size() == 0) continue;
     d->col(frame_size()) *= front;
     d->col(frame_size() + 1) *= back;
+    if (by_friction_) {
+      d->col(effect_column() + friction_effect()) *= row_friction_.slope;
+    }
   }
 }
 

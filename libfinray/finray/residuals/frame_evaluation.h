@@ -17,6 +17,15 @@ enum class EquilibriumForm {
               ///< by EquilibriumResidual and RibLengthResidual.
 };
 
+/// The tangential share q of a row's contacts as a function of the friction
+/// coefficient, q = offset + slope mu. A row whose object slides has a slope of
+/// +-1, one whose object sticks an offset and hardly a slope (SlidingFriction).
+/// Where nothing tells how the object moves, q = mu.
+struct RowFriction {
+  double offset = 0, slope = 1;
+  double At(double coefficient) const { return offset + slope * coefficient; }
+};
+
 /// The model of one frame at the present parameter values. All residual blocks
 /// of the frame share it, so it is computed once per evaluation.
 ///
@@ -36,7 +45,7 @@ class FrameEvaluation {
 
   FrameEvaluation(const LadderModel& model, EquilibriumForm form, int contacts,
                   double friction, bool pins = false,
-                  bool movable_gauges = false);
+                  bool movable_gauges = false, RowFriction row = {});
 
   /// Moves the gauges, if they are movable, for the next Update(). That one
   /// fails if a gauge is off its beam.
@@ -64,6 +73,8 @@ class FrameEvaluation {
   /// The place of the friction coefficient among the effects; -1 if it is not
   /// varied.
   int friction_effect() const { return by_friction_ ? effects_ - 1 : -1; }
+  /// How the contacts' friction follows from the coefficient.
+  const RowFriction& row_friction() const { return row_friction_; }
   /// The column of the first effect.
   int effect_column() const { return frame_size() + 2 + ribs_; }
   int columns() const { return frame_size() + 2 + ribs_ + effects_; }
@@ -107,6 +118,7 @@ class FrameEvaluation {
   EquilibriumForm form_;
   int ribs_, effects_, gauges_, contact_count_;
   bool by_friction_;
+  RowFriction row_friction_;
   int ends_ = 0;  // of movable gauges
   // Contacts, then pins, then the start and the end of each movable gauge.
   std::vector<PointContact> loads_;

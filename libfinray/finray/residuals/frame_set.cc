@@ -39,9 +39,9 @@ FrameSet::FrameSet(const Finger& finger, const Discretization& discretization,
 
 FrameEvaluation& FrameSet::Add(int contacts, double friction,
                                const double* frame, bool pins,
-                               bool movable_gauges) {
+                               bool movable_gauges, RowFriction row) {
   frames_.push_back({FrameEvaluation(solver_.model(), form_, contacts, friction,
-                                     pins, movable_gauges),
+                                     pins, movable_gauges, row),
                      frame});
   return frames_.back().evaluation;
 }

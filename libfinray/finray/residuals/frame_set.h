@@ -45,7 +45,8 @@ class FrameSet : public ceres::EvaluationCallback {
   /// if it has none. With `pins`, the rib pins are among its outputs. The
   /// returned reference stays valid.
   FrameEvaluation& Add(int contacts, double friction, const double* frame,
-                       bool pins = false, bool movable_gauges = false);
+                       bool pins = false, bool movable_gauges = false,
+                       RowFriction row = {});
 
   /// See EquilibriumSolver::set_near_only.
   void set_near_only(bool near_only) { solver_.set_near_only(near_only); }

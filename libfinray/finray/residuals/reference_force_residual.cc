@@ -13,6 +13,7 @@ ReferenceForceResidual::ReferenceForceResidual(const FrameEvaluation* frame,
       normal_(frame_size_ > 0 ? frame->contact_offset(0) + 1 : 0),
       effects_(0),
       friction_effect_(frame_size_ > 0 ? frame->friction_effect() : -1),
+      row_friction_(frame->row_friction()),
       friction_(frame_size_ > 0 ? frame->contact(0).friction : 0),
       force_N_(force_N),
       std_N_(std_N),
@@ -35,7 +36,8 @@ bool ReferenceForceResidual::Evaluate(double const* const* parameters,
   const double scale = std::exp(*parameters[sensor]);
   const int effects = sensor + (late_.signals != nullptr ? 3 : 2);
   const double friction =
-      effects_ > 0 ? parameters[effects][friction_effect_] : friction_;
+      effects_ > 0 ? row_friction_.At(parameters[effects][friction_effect_])
+                   : friction_;
   const double per_normal = std::hypot(1, friction);
   const double force =
       frame_size_ > 0 ? scale * per_normal * parameters[0][normal_] : 0;
@@ -58,8 +60,8 @@ bool ReferenceForceResidual::Evaluate(double const* const* parameters,
   if (effects_ > 0 && jacobians[effects] != nullptr) {
     Eigen::Map<Eigen::VectorXd> by_effect(jacobians[effects], effects_);
     by_effect.setZero();
-    by_effect[friction_effect_] =
-        force * friction / (per_normal * per_normal) / std_N_;
+    by_effect[friction_effect_] = row_friction_.slope * force * friction /
+                                  (per_normal * per_normal) / std_N_;
   }
   return true;
 }
@@ -106,7 +108,8 @@ bool ReferenceForceVectorResidual::Evaluate(double const* const* parameters,
     d_sum += f * (t - mu * n) * frame().d_outputs().row(row);
     d_sum.col(frame().contact_offset(i) + 1) += n + mu * t;
     if (frame().friction_effect() >= 0) {
-      d_sum.col(frame().effect_column() + frame().friction_effect()) += f * t;
+      d_sum.col(frame().effect_column() + frame().friction_effect()) +=
+          frame().row_friction().slope * f * t;
     }
   }
   Eigen::Map<Eigen::Vector2d>(residuals, 2) =

@@ -41,6 +41,7 @@ class ReferenceForceResidual : public ceres::CostFunction {
   int frame_size_, normal_;  // position of f_c among the frame unknowns
   // The number of effects, if friction is one, and its place among them.
   int effects_, friction_effect_;
+  RowFriction row_friction_;
   double friction_, force_N_, std_N_;
   LateForce late_;
 };

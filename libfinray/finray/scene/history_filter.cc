@@ -9,14 +9,24 @@
 namespace finray {
 namespace {
 
+// Of a stage, where the scene does not say it.
+constexpr double kUsualObjectStd_mm = 0.05;
+
 bool Creeps(const Gauge& gauge) { return gauge.creep_share != 0; }
 bool HasPlay(const Gauge& gauge) { return gauge.hysteresis_rad != 0; }
 
 }  // namespace
 
-HistoryFilter::HistoryFilter(const Finger& finger)
+HistoryFilter::HistoryFilter(const Finger& finger, const Scene& scene)
     : change_(finger.gauges),
       play_(std::any_of(finger.gauges.begin(), finger.gauges.end(), HasPlay)) {
+  if (scene.object && scene.friction_coefficient > 0 && !scene.smoothing) {
+    sliding_.reset(new Sliding{
+        EquilibriumSolver(finger, {}),
+        SlidingFriction(*scene.object, scene.friction_coefficient,
+                        scene.presliding_mm,
+                        scene.object_std_mm.value_or(kUsualObjectStd_mm))});
+  }
   if (!play_ &&
       std::none_of(finger.gauges.begin(), finger.gauges.end(), Creeps)) {
     return;
@@ -29,6 +39,12 @@ HistoryFilter::HistoryFilter(const Finger& finger)
 }
 
 void HistoryFilter::Remove(Measurements* row) {
+  if (sliding_) {
+    row->friction =
+        sliding_->friction
+            .Next({row->object_mm, row->object_angle_rad}, &sliding_->solver)
+            .value_or(Measurements::kNotMeasured);
+  }
   const double moved2 = play_ ? change_.Next(row->gauges_V) : 0;
   if (play_) row->history_std_V.assign(gauges_.size(), 0);
   for (std::size_t j = 0; j < gauges_.size(); ++j) {
@@ -50,6 +66,7 @@ void HistoryFilter::Restart() {
   for (GaugeLag<double>& lag : lags_) lag.Restart();
   for (PlayBelief<double>& play : plays_) play.Restart();
   change_.Restart();
+  if (sliding_) sliding_->friction.Lift();
 }
 
 bool HasCreep(const Finger& finger) {

@@ -1,14 +1,16 @@
 #ifndef FINRAY_SCENE_HISTORY_FILTER_H_
 #define FINRAY_SCENE_HISTORY_FILTER_H_
 
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "finray/finger/finger.h"
 #include "finray/finger/gauge_lag.h"
 #include "finray/finger/gauge_play.h"
+#include "finray/objects/sliding_friction.h"
 #include "finray/scene/measurements.h"
+#include "finray/scene/scene.h"
 
 namespace finray {
 
@@ -17,22 +19,33 @@ namespace finray {
 /// follow from the readings (gauge_lag.h, gauge_play.h), so they add no
 /// unknown. For creep, readings run linearly from row to row, and the first row
 /// is of a gauge at rest. For hysteresis, rows are in the order of time.
+///
+/// Where the scene has an object with friction and no smoothing, the filter
+/// also says which way friction pulls: from the motion of the object in the
+/// rows before (SlidingFriction), which are in the order of time.
 class HistoryFilter {
  public:
-  explicit HistoryFilter(const Finger& finger);
+  /// Without a scene, friction stays as it is.
+  explicit HistoryFilter(const Finger& finger, const Scene& scene = {});
 
-  /// Says that no gauge of the finger has either, so that nothing needs
+  /// Says that no row depends on the rows before, so that nothing needs
   /// filtering.
-  bool empty() const { return gauges_.empty(); }
+  bool empty() const { return gauges_.empty() && sliding_ == nullptr; }
   /// Replaces the volts of the next row of the log by those without creep and
-  /// hysteresis, and sets its history_std_V. A missing or saturated reading
-  /// stays. A row without time_s counts as simultaneous with the row before.
+  /// hysteresis, and sets its history_std_V and friction. A missing or
+  /// saturated reading stays. A row without time_s counts as simultaneous with
+  /// the row before.
   void Remove(Measurements* row);
   /// The next row is the first of another log.
   void Restart();
 
  private:
-  std::vector<Gauge> gauges_;  // all or none
+  struct Sliding {
+    EquilibriumSolver solver;
+    SlidingFriction friction;
+  };
+  std::unique_ptr<Sliding> sliding_;  // null without friction of an object
+  std::vector<Gauge> gauges_;         // all or none
   std::vector<GaugeLag<double>> lags_;
   std::vector<PlayBelief<double>> plays_;
   RowChange change_;

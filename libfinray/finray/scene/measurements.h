@@ -36,6 +36,9 @@ struct Measurements {
   /// camera.
   Eigen::Vector2d object_mm{kNotMeasured, kNotMeasured};
   double object_angle_rad = 0;
+  /// Tangential over normal force of the contact, where the object's motion
+  /// tells it (SlidingFriction); else the scene's coefficient counts.
+  double friction = kNotMeasured;
   double contact_mm = kNotMeasured;  ///< l_c
   double temperature_C = kNotMeasured;
   std::vector<SeenPin> pins;
@@ -48,6 +51,9 @@ struct Measurements {
   double GaugeStd_V(std::size_t gauge, double noise_V) const {
     return history_std_V.empty() ? noise_V
                                  : std::hypot(noise_V, history_std_V[gauge]);
+  }
+  double FrictionOr(double coefficient) const {
+    return std::isnan(friction) ? coefficient : friction;
   }
   bool IsBench() const { return !std::isnan(cylinder_radius_mm); }
 };

@@ -191,10 +191,10 @@ std::string ObjectToYaml(const RigidObject& object) {
 
 Scene ReadScene(const YamlMap& yaml) {
   std::vector<std::string> keys = {
-      "schema_version",        "contacts",    "contact_beams",
-      "friction_coefficient",  "force_max_N", "object",
-      "measurements",          "smoothing",   "gauge_offset_walk",
-      "search_iteration_limit"};
+      "schema_version",         "contacts",     "contact_beams",
+      "friction_coefficient",   "force_max_N",  "object",
+      "measurements",           "smoothing",    "gauge_offset_walk",
+      "search_iteration_limit", "presliding_mm"};
   keys.insert(keys.end(), ColumnMappingKeys().begin(),
               ColumnMappingKeys().end());
   yaml.AllowOnly(keys);
@@ -204,6 +204,9 @@ Scene ReadScene(const YamlMap& yaml) {
   Scene scene;
   scene.contacts = ReadContacts(yaml);
   scene.friction_coefficient = yaml.Number("friction_coefficient", 0);
+  if (yaml.Has("presliding_mm")) {
+    scene.presliding_mm = yaml.PositiveNumber("presliding_mm");
+  }
   if (yaml.Has("force_max_N")) {
     scene.force_max_N = yaml.PositiveNumber("force_max_N");
   }

@@ -9,6 +9,7 @@
 #include "finray/io/error.h"
 #include "finray/io/nan.h"
 #include "finray/objects/object_contact.h"
+#include "finray/objects/sliding_friction.h"
 #include "finray/scene/frame_columns.h"
 #include "finray/scene/history_filter.h"
 #include "finray/statics/shape.h"
@@ -115,13 +116,25 @@ void AddShape(const Finger& finger, const Shape& shape, std::size_t row,
   }
 }
 
-void SolveRow(const Scene& scene, EquilibriumSolver* solver, Row* row) {
-  // Every row starts from the unloaded finger, so that its result does not
-  // depend on the rows before.
+// Finds the contact of the scene's object in a row. `sliding` has seen the rows
+// before; null if there is no friction.
+ObjectContact ObjectContactOf(const Scene& scene, const ObjectPose& object,
+                              SlidingFriction* sliding,
+                              EquilibriumSolver* solver) {
+  if (sliding != nullptr && sliding->Next(object, solver)) {
+    return sliding->contact();
+  }
   solver->Reset();
+  return SolveObjectContact(*scene.object, object, scene.friction_coefficient,
+                            solver);
+}
+
+void SolveRow(const Scene& scene, SlidingFriction* sliding,
+              EquilibriumSolver* solver, Row* row) {
+  if (sliding != nullptr && !row->object) sliding->Lift();
   if (row->object) {
-    const ObjectContact found = SolveObjectContact(
-        *scene.object, *row->object, scene.friction_coefficient, solver);
+    const ObjectContact found =
+        ObjectContactOf(scene, *row->object, sliding, solver);
     row->solved = found.status == ObjectContactStatus::kContact ||
                   found.status == ObjectContactStatus::kNoContact;
     row->contacts = found.contacts;
@@ -132,6 +145,9 @@ void SolveRow(const Scene& scene, EquilibriumSolver* solver, Row* row) {
       row->failure = "no equilibrium found against this object";
     }
   } else {
+    // Every row starts from the unloaded finger, so that its result does not
+    // depend on the rows before.
+    solver->Reset();
     row->solved = solver->Solve(row->contacts);
     row->failure = solver->Why();
   }
@@ -159,7 +175,8 @@ std::vector<Eigen::Vector2d> Pins(const Finger& finger, const Shape& shape) {
 
 // Fills in a row. Returns the force on the finger.
 double FillRow(const Finger& finger, const Row& solved, int contacts,
-               bool displacement, std::size_t row, FrameTable* frames) {
+               bool displacement, bool friction, std::size_t row,
+               FrameTable* frames) {
   const auto set = [&](const std::string& name, double value) {
     frames->MutableNumbers(name)[row] = value;
   };
@@ -201,6 +218,7 @@ double FillRow(const Finger& finger, const Row& solved, int contacts,
   for (int c = 0; c < touching; ++c) {
     set(ContactArc(c), solved.contacts[c].arc_mm);
     set(NormalForce(c), solved.contacts[c].normal_N);
+    if (friction) set(Friction(c), solved.contacts[c].friction);
   }
   return force.norm();
 }
@@ -248,10 +266,15 @@ SimulationSummary Simulate(const Finger& finger, const Scene& scene,
   std::size_t next_shape = 0;
 
   EquilibriumSolver solver(finger, discretization);
+  std::optional<SlidingFriction> sliding;
+  if (scene.object && scene.friction_coefficient > 0) {
+    sliding.emplace(*scene.object, scene.friction_coefficient,
+                    scene.presliding_mm, 0);
+  }
   int object_contacts = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     Row& row = rows[i];
-    SolveRow(scene, &solver, &row);
+    SolveRow(scene, sliding ? &*sliding : nullptr, &solver, &row);
     if (row.object) {
       object_contacts =
           std::max({object_contacts, 1, static_cast<int>(row.contacts.size())});
@@ -271,8 +294,8 @@ SimulationSummary Simulate(const Finger& finger, const Scene& scene,
   }
   contacts = std::max(contacts, object_contacts);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool touches =
-        FillRow(finger, rows[i], contacts, displacement, i, frames) > 0;
+    const bool touches = FillRow(finger, rows[i], contacts, displacement,
+                                 sliding.has_value(), i, frames) > 0;
     std::string& status = frames->MutableText("status")[i];
     if (!rows[i].solved) {
       ++summary.not_converged;

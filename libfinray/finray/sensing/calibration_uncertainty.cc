@@ -90,13 +90,36 @@ ContactMatrix CalibrationUncertainty::Of(
     m.by_measured.row(2 * static_cast<int>(c) + 1) *= contacts[c].normal_N;
   }
   covariance.noalias() = m.by_factor.lazyProduct(m.by_factor.transpose());
+  if (contacts.size() == 1) FindWholeForce(contacts[0]);
   if (has_discrepancy()) {
     FindDiscrepancy(contacts);
     const auto by_angle = m.by_measured.leftCols(m.discrepancy.rows());
     m.by_discrepancy.noalias() = by_angle.lazyProduct(m.discrepancy);
-    covariance.noalias() += m.by_discrepancy.lazyProduct(by_angle.transpose());
+    const ContactMatrix missed =
+        m.by_discrepancy.lazyProduct(by_angle.transpose());
+    covariance += missed;
+    if (contacts.size() == 1) {
+      const double friction = contacts[0].friction;
+      whole_force_variance_N2_ += (1 + friction * friction) * missed(1, 1);
+    }
   }
   return covariance;
+}
+
+// dF = c df_c + f_c mu / c dmu with c = sqrt(1 + mu^2).
+void CalibrationUncertainty::FindWholeForce(const PointContact& contact) {
+  const Model& m = *model_;
+  const double mu = contact.friction, per_normal = std::hypot(1, mu);
+  const bool varies = m.finger.calibration->HasFriction();
+  whole_force_variance_N2_ = 0;
+  for (Eigen::Index k = 0; k < m.by_factor.cols(); ++k) {
+    double error = per_normal * m.by_factor(1, k);
+    if (varies) {  // the last parameter
+      error +=
+          contact.normal_N * mu / per_normal * m.factor(m.factor.rows() - 1, k);
+    }
+    whole_force_variance_N2_ += error * error;
+  }
 }
 
 double CalibrationUncertainty::Chi2(const std::vector<PointContact>& contacts,

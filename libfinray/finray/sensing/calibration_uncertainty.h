@@ -60,6 +60,10 @@ class CalibrationUncertainty {
                    const std::vector<double>& readings_V,
                    const Eigen::VectorXd& weights);
 
+  /// What the last call of Of() with one contact says of the variance of the
+  /// whole force F = f_c sqrt(1 + mu^2): an error of mu is in both factors.
+  double whole_force_variance_N2() const { return whole_force_variance_N2_; }
+
   /// The least chi2 of as many contacts near a solution, with parameters that
   /// may be off as the calibration says. Linear in both,
   ///
@@ -112,10 +116,12 @@ class CalibrationUncertainty {
 
   bool FindDerivatives(const std::vector<PointContact>& contacts);
   void FindDiscrepancy(const std::vector<PointContact>& contacts);
+  void FindWholeForce(const PointContact& contact);
   void FillByParameter(int unknowns, const std::vector<double>& readings_V,
                        const Eigen::VectorXd& weights);
 
   std::optional<Model> model_;
+  double whole_force_variance_N2_ = 0;
 };
 
 }  // namespace finray

@@ -62,6 +62,7 @@ ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
                              const Discretization& discretization,
                              FrameMethod method)
     : scene_(scene),
+      friction_(scene.friction_coefficient),
       length_mm_(finger.front_length_mm),
       solver_(finger, discretization),
       table_(&solver_, scene.friction_coefficient, MeasuredRadius(scene),
@@ -317,6 +318,7 @@ bool ContactSearch::FitFast(const ContactStart& start,
                             const PackedReadings& packed) {
   contacts_.assign(start.contacts.begin(),
                    start.contacts.begin() + start.count);
+  for (PointContact& contact : contacts_) contact.friction = friction_;
   fit_.set_state(*start.state);
   const bool converged = fit_.Fit(packed.values, packed.weights, &contacts_);
   Spend(fit_.iterations(), converged);

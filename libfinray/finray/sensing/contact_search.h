@@ -76,6 +76,14 @@ class ContactSearch {
   /// or at the largest force.
   bool OnBound(double arc_mm, double normal_N) const;
 
+  /// The friction of the contacts of the searches that follow; the scene's at
+  /// first. Starts come from the table with the scene's.
+  void set_friction(double friction) {
+    friction_ = friction;
+    problem_.set_friction(friction);
+  }
+  double friction() const { return friction_; }
+
   const GaugeTable& table() const { return table_; }
   /// The largest credible force: the scene's force_max_N, by default
   /// table().heaviest_N().
@@ -113,7 +121,7 @@ class ContactSearch {
   bool IsDistinct(const ContactSolution& other) const;
 
   Scene scene_;
-  double length_mm_;
+  double friction_, length_mm_;
   EquilibriumSolver solver_;
   GaugeTable table_;
   double most_force_N_;

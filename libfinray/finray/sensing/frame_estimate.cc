@@ -73,4 +73,15 @@ double EstimatedForce(const FrameEstimate& estimate,
   return force.norm();
 }
 
+double EstimatedForceStd(const FrameEstimate& estimate,
+                         double friction_coefficient) {
+  if (!std::isnan(estimate.force_std_N)) return estimate.force_std_N;
+  double std_N = 0;
+  for (int c = 0; c < estimate.contacts; ++c) {
+    std_N +=
+        std::hypot(1, friction_coefficient) * estimate.contact[c].normal_std_N;
+  }
+  return std_N;
+}
+
 }  // namespace finray

@@ -79,6 +79,10 @@ struct FrameEstimate {
   /// its noise, and its chi2. NaN if there is none.
   ContactEstimates alternative;
   double alternative_chi2 = std::numeric_limits<double>::quiet_NaN();
+  /// Std of EstimatedForce of one contact; NaN where it was not computed. It is
+  /// less than that of the normal force alone times sqrt(1 + mu^2) where an
+  /// error of the friction coefficient goes into both.
+  double force_std_N = std::numeric_limits<double>::quiet_NaN();
   /// By gauge, where they are estimated too (LogEstimator); else empty.
   std::vector<double> gauge_offset_V, gauge_offset_std_V;
 
@@ -106,6 +110,11 @@ struct FrameEstimate {
 /// reference sensor. NaN if the frame is not solved.
 double EstimatedForce(const FrameEstimate& estimate,
                       double friction_coefficient);
+
+/// Std of EstimatedForce: force_std_N, or else the sum of those of its parts,
+/// which it is at most.
+double EstimatedForceStd(const FrameEstimate& estimate,
+                         double friction_coefficient);
 
 }  // namespace finray
 

@@ -102,6 +102,38 @@ CalibrationUncertainty FrameEstimator::SystematicOf(
 }
 
 FrameEstimate FrameEstimator::Estimate(const Measurements& readings) {
+  if (Slides(readings)) return EstimateSliding(readings);
+  return EstimateAlone(readings);
+}
+
+// Says whether the object's motion makes friction another than the scene's.
+bool FrameEstimator::Slides(const Measurements& readings) const {
+  constexpr double kSame = 1e-3;  // of the coefficient
+  const double friction = scene_.friction_coefficient;
+  return std::abs(readings.FrictionOr(friction) - friction) >
+         kSame * std::abs(friction);
+}
+
+// Friction that pulls the other way has tables of its own.
+FrameEstimate FrameEstimator::EstimateSliding(const Measurements& readings) {
+  const double friction = scene_.friction_coefficient;
+  FrameEstimator* way = this;
+  if (readings.friction * friction < 0) {
+    if (!reversed_) {
+      Scene scene = scene_;
+      scene.friction_coefficient = -friction;
+      reversed_ = std::make_unique<FrameEstimator>(
+          WithFrictionReversed(finger_), scene, discretization_, method_);
+    }
+    way = reversed_.get();
+  }
+  way->search_.set_friction(readings.friction);
+  const FrameEstimate estimate = way->EstimateAlone(readings);
+  way->search_.set_friction(way->scene_.friction_coefficient);
+  return estimate;
+}
+
+FrameEstimate FrameEstimator::EstimateAlone(const Measurements& readings) {
   FrameEstimate estimate;
   PackAll(&readings, 1);
   SearchAlone(readings, packed_[0], &estimate);
@@ -115,11 +147,17 @@ void FrameEstimator::EstimateBlock(const Measurements* readings,
   PackAll(readings, count);
   following_ = false;  // the follower leaves the frame of the last Next()
   for (std::size_t i = 0; i < count;) {
+    if (Slides(readings[i])) {
+      ++i;
+      continue;
+    }
     SearchAlone(readings[i], packed_[i], &estimates[i]);
     const bool follow = CanFollow(packed_[i], estimates[i]);
     ++i;
     if (!follow) continue;
-    const std::size_t fitted = FitRun(i, count);
+    std::size_t end = i;
+    while (end < count && !Slides(readings[end])) ++end;
+    const std::size_t fitted = FitRun(i, end);
     for (std::size_t run = 0; run < fitted; ++run, ++i) {
       if (!TakeFollowed(packed_[i], run, &estimates[i])) {
         SearchAlone(readings[i], packed_[i], &estimates[i]);
@@ -130,11 +168,19 @@ void FrameEstimator::EstimateBlock(const Measurements* readings,
     Smooth(finger_, scene_, discretization_, readings, count, {}, estimates);
   }
   for (std::size_t i = 0; i < count; ++i) {
-    Judge(readings[i], packed_[i], &estimates[i]);
+    if (!Slides(readings[i])) Judge(readings[i], packed_[i], &estimates[i]);
+  }
+  // These use the memory of the packed frames.
+  for (std::size_t i = 0; i < count; ++i) {
+    if (Slides(readings[i])) estimates[i] = EstimateSliding(readings[i]);
   }
 }
 
 FrameEstimate FrameEstimator::Next(const Measurements& readings) {
+  if (Slides(readings)) {
+    following_ = false;
+    return EstimateSliding(readings);
+  }
   FrameEstimate estimate;
   PackAll(&readings, 1);
   if (!following_ || FitRun(0, 1) == 0 ||
@@ -274,7 +320,7 @@ bool FrameEstimator::IsSecondCertain(const Measurements& readings,
                                      const FrameEstimate& one) {
   if (systematic_.empty() || packed.camera > 0) return true;
   const ContactSolution& two = search_.best();
-  const double friction = scene_.friction_coefficient;
+  const double friction = search_.friction();
   const double without = systematic_.Chi2(
       {{one.contact[0].arc_mm, one.contact[0].normal_N, friction}},
       readings.gauges_V, packed.weights);
@@ -362,8 +408,7 @@ void FrameEstimator::ExplainByModelErrors(const Measurements& readings,
   contacts_.clear();
   for (int c = 0; c < estimate->contacts; ++c) {
     contacts_.push_back({estimate->contact[c].arc_mm,
-                         estimate->contact[c].normal_N,
-                         scene_.friction_coefficient});
+                         estimate->contact[c].normal_N, search_.friction()});
   }
   estimate->model_chi2 =
       systematic_.Chi2(contacts_, readings.gauges_V, packed.weights);
@@ -382,12 +427,17 @@ void FrameEstimator::Judge(const Measurements& readings,
     contacts_.clear();
     for (int c = 0; c < estimate->contacts; ++c) {
       contacts_.push_back({estimate->contact[c].arc_mm,
-                           estimate->contact[c].normal_N,
-                           scene_.friction_coefficient});
+                           estimate->contact[c].normal_N, search_.friction()});
     }
     if (method_ == FrameMethod::kFast) {
       estimate->calibration_covariance =
           systematic_.Of(contacts_, readings.gauges_V, packed.weights);
+      if (estimate->contacts == 1) {
+        estimate->force_std_N =
+            std::hypot(std::hypot(1, search_.friction()) *
+                           estimate->contact[0].normal_std_N,
+                       std::sqrt(systematic_.whole_force_variance_N2()));
+      }
     }
     AddCovariance(estimate->calibration_covariance, estimate);
   }

@@ -103,6 +103,9 @@ class FrameEstimator {
                               const ContactSearch& search);
 
  private:
+  bool Slides(const Measurements& readings) const;
+  FrameEstimate EstimateSliding(const Measurements& readings);
+  FrameEstimate EstimateAlone(const Measurements& readings);
   // Packs the readings and finds their chi2 without a contact.
   void PackAll(const Measurements* readings, std::size_t count);
   void SearchAlone(const Measurements& readings, const PackedReadings& packed,
@@ -141,7 +144,8 @@ class FrameEstimator {
   std::vector<PointContact> contacts_;
   LogPrior followed_;  // by Next, if the scene has smoothing
   FrameEstimate free_;
-  std::vector<PackedReadings> packed_;  // of the frames under way
+  std::unique_ptr<FrameEstimator> reversed_;  // made when needed
+  std::vector<PackedReadings> packed_;        // of the frames under way
 };
 
 }  // namespace finray

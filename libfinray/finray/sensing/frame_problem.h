@@ -39,6 +39,8 @@ class FrameProblem {
   /// one whose first equilibrium is far from that of its start: the way there
   /// has no bound.
   void set_most_iterations(int count) { most_iterations_ = count; }
+  /// The friction of the contacts; the scene's at first.
+  void set_friction(double friction) { friction_ = friction; }
 
   /// chi2 of the finger without a contact; infinite if it has no equilibrium.
   double FreeChi2(const Measurements& row);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "finray/calib/analysis/cross_validation.h"
 #include "finray/calib/analysis/validation.h"
@@ -101,13 +102,14 @@ void AddErrors(CalibrationProblem* problem, const Finger& finger,
   CalibrationLogs logs{problem->logs().paths, problem->logs().names, {}, {}};
   for (const int i : frames) logs.frames.push_back(problem->frame(i));
   logs = problem->parameters().Corrected(logs, finger);
-  const double friction = problem->parameters().friction();
+  const double coefficient = problem->parameters().friction();
   EquilibriumSolver solver(finger, problem->discretization());
-  CalibrationUncertainty uncertainty(finger, friction, &solver);
+  CalibrationUncertainty uncertainty(finger, coefficient, &solver);
   const auto gauges = static_cast<Eigen::Index>(finger.gauges.size());
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const CalibrationFrame& frame = logs.frames[k];
     const auto [arc_mm, fitted_N] = contacts[frames[k]];
+    const double friction = frame.FrictionOr(coefficient);
     const double measured_N = ReferenceForce(frame) / std::hypot(1, friction);
     const bool sensed = std::isfinite(measured_N);
     const double normal_N = sensed ? measured_N : fitted_N;
@@ -149,6 +151,20 @@ std::vector<int> Spread(const std::vector<int>& frames, std::size_t most) {
   return spread;
 }
 
+// Returns the covariance for frames that the model has not seen: if n errors of
+// m gauges make an estimate A, the expected covariance is A n / (n - m - 1),
+// the mean of the inverse Wishart distribution. At least half of the errors
+// count, as few of them tell the factor no better.
+GaugeDiscrepancy ForOtherFrames(GaugeDiscrepancy found, std::size_t errors) {
+  const double each =
+      static_cast<double>(errors) / static_cast<double>(found.places.size());
+  for (GaugeDiscrepancy::Place& at : found.places) {
+    const double gauges = static_cast<double>(at.covariance_rad2.rows());
+    at.covariance_rad2 *= each / std::max(each - gauges - 1, each / 2);
+  }
+  return found;
+}
+
 // The model with the best criterion; nothing if that is better without one.
 std::optional<GaugeDiscrepancy> BestFit(std::vector<GaugeError> errors) {
   std::stable_sort(
@@ -172,6 +188,7 @@ std::optional<GaugeDiscrepancy> BestFit(std::vector<GaugeError> errors) {
       best = model.discrepancy;
     }
   }
+  if (best) best = ForOtherFrames(std::move(*best), errors.size());
   return best;
 }
 

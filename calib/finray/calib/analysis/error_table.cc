@@ -108,7 +108,7 @@ void ErrorRow::Add(const FrameReference& reference,
   const ContactEstimate& found = estimate.contact[0];
   force_N.Add(EstimatedForce(estimate, friction) - reference.force_N,
               reference.force_N,
-              one ? std::hypot(std::hypot(1, friction) * found.normal_std_N,
+              one ? std::hypot(EstimatedForceStd(estimate, friction),
                                reference.force_std_N)
                   : kNaN);
   if (missing) {

@@ -34,6 +34,7 @@ void JudgeAgain(SolvedProblem* at) {
       contacts.Forget(frame);
     }
     at->problem->parameters().KeepHistoryStd();
+    at->problem->KeepFriction();
     solved =
         SolveSummed(at->problem->FittedFrames(), {}, at->problem, &contacts);
   } catch (const std::runtime_error&) {

@@ -17,9 +17,9 @@ namespace {
 double TouchedAt(const CalibrationFrame& frame, const Plan& plan,
                  EquilibriumSolver* solver) {
   solver->Reset();
-  const ObjectContact found =
-      SolveObjectContact(*plan.scene.object, {frame.object_mm},
-                         plan.scene.friction_coefficient, solver);
+  const ObjectContact found = SolveObjectContact(
+      *plan.scene.object, {frame.object_mm},
+      frame.FrictionOr(plan.scene.friction_coefficient), solver);
   const bool one = found.status == ObjectContactStatus::kContact &&
                    found.contacts.size() == 1;
   return one ? found.contacts[0].arc_mm : kNaN;
@@ -31,6 +31,7 @@ Measurements GaugesOnly(const CalibrationFrame& frame) {
   Measurements readings;
   readings.gauges_V = frame.gauges_V;
   readings.history_std_V = frame.history_std_V;
+  readings.friction = frame.friction;
   if (frame.IsBench()) {
     readings.gauges_V.assign(frame.gauges_V.size(), kNaN);
   }
@@ -49,11 +50,13 @@ std::vector<FrameEstimate> EstimateLogs(const Finger& finger, const Plan& plan,
   std::vector<FrameEstimate> all;
   for (std::size_t i = 0; i < logs.frames.size();) {
     std::vector<Measurements> readings;
-    HistoryFilter history(finger);
+    HistoryFilter history(finger, scene);
     for (const int log = logs.frames[i].log;
          i < logs.frames.size() && logs.frames[i].log == log; ++i) {
       readings.push_back(GaugesOnly(logs.frames[i]));
       readings.back().time_s = logs.frames[i].time_s;
+      readings.back().object_mm = logs.frames[i].object_mm;
+      readings.back().object_angle_rad = logs.frames[i].object_angle_rad;
       history.Remove(&readings.back());
     }
     const auto some =

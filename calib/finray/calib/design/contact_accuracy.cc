@@ -3,12 +3,18 @@
 #include <cmath>
 #include <limits>
 
+#include "finray/finger/gauge_play.h"
+
 namespace finray {
 
 ContactAccuracy::ContactAccuracy(const Finger& finger, double friction,
                                  const Discretization& discretization)
-    : solver_(finger, discretization),
-      systematic_(finger, friction, &solver_) {}
+    : solver_(finger, discretization), systematic_(finger, friction, &solver_) {
+  const bool solved = solver_.Solve({});
+  for (int j = 0; j < solver_.model().gauges(); ++j) {
+    free_rad_.push_back(solved ? solver_.gauge_angle(j) : 0);
+  }
+}
 
 ContactStd ContactAccuracy::At(const std::vector<PointContact>& contacts) {
   const Finger& finger = solver_.model().finger();
@@ -26,7 +32,10 @@ ContactStd ContactAccuracy::At(const std::vector<PointContact>& contacts) {
   for (Eigen::Index j = 0; j < gauges; ++j) {
     const Gauge& gauge = finger.gauges[j];
     const double angle = solver_.gauge_angle(static_cast<int>(j));
-    weights[j] = gauge.AngleWeight(angle);
+    const double moved_V = gauge.Volts(angle) - gauge.Volts(free_rad_[j]);
+    weights[j] =
+        std::abs(gauge.Slope(angle)) /
+        std::hypot(gauge.noise_V, PlayStd(gauge.HysteresisV(), moved_V));
     readings_V.push_back(gauge.Volts(angle));
     if (!gauge.IsInRange(readings_V.back())) weights[j] = 0;
   }

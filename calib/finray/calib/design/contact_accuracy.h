@@ -26,6 +26,7 @@ struct ContactStd {
 /// holds where the std is small against the distance over which J changes.
 class ContactAccuracy {
  public:
+  /// Gauges with hysteresis were anywhere in their loops before the touch.
   ContactAccuracy(const Finger& finger, double friction,
                   const Discretization& discretization);
 
@@ -35,6 +36,7 @@ class ContactAccuracy {
  private:
   EquilibriumSolver solver_;
   CalibrationUncertainty systematic_;
+  std::vector<double> free_rad_;  // gauge angles without a contact
 };
 
 /// The largest std over a region of the front beam, at one force.

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "finray/calib/design/contact_accuracy.h"
+#include "finray/finger/gauge_play.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 #include "finray/io/number_text.h"
@@ -34,15 +35,23 @@ Finger Tiled(Finger finger, Side side) {
   return finger;
 }
 
-// Row s is the derivative of the bending angle between 0 and s mm by (l_c,
-// f_c) of a contact at each height, two columns a height.
-Eigen::MatrixXd Cumulated(const Finger& finger, const PlacementTask& task,
-                          Side side, const std::vector<double>& heights,
-                          const Discretization& discretization) {
+}  // namespace
+
+// Row s is of the bending angle between 0 and s mm under a contact at each
+// height: the angle itself, and its derivatives by (l_c, f_c), two columns a
+// height.
+struct GaugePlaces::Bending {
+  Eigen::MatrixXd angle, slope;
+};
+
+GaugePlaces::Bending GaugePlaces::BendingOf(
+    const Finger& finger, const PlacementTask& task, Side side,
+    const std::vector<double>& heights, const Discretization& discretization) {
   EquilibriumSolver solver(Tiled(finger, side), discretization);
   const int tiles = solver.model().gauges();
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(
-      tiles + 1, 2 * static_cast<Eigen::Index>(heights.size()));
+  const auto count = static_cast<Eigen::Index>(heights.size());
+  Bending sum{Eigen::MatrixXd::Zero(tiles + 1, count),
+              Eigen::MatrixXd::Zero(tiles + 1, 2 * count)};
   for (std::size_t i = 0; i < heights.size(); ++i) {
     solver.Reset();
     if (!solver.SolveWithSensitivities(
@@ -52,15 +61,15 @@ Eigen::MatrixXd Cumulated(const Finger& finger, const PlacementTask& task,
                                   solver.Why().c_str()));
     }
     for (int s = 0; s < tiles; ++s) {
-      sum.block<1, 2>(s + 1, 2 * static_cast<Eigen::Index>(i)) =
-          sum.block<1, 2>(s, 2 * static_cast<Eigen::Index>(i)) +
+      const auto at = static_cast<Eigen::Index>(i);
+      sum.angle(s + 1, at) = sum.angle(s, at) + solver.gauge_angle(s);
+      sum.slope.block<1, 2>(s + 1, 2 * at) =
+          sum.slope.block<1, 2>(s, 2 * at) +
           solver.d_outputs().block<1, 2>(s, 0);
     }
   }
   return sum;
 }
-
-}  // namespace
 
 GaugePlaces::GaugePlaces(const Finger& finger, const PlacementTask& task,
                          const Discretization& discretization)
@@ -74,10 +83,10 @@ GaugePlaces::GaugePlaces(const Finger& finger, const PlacementTask& task,
   }
   lengths.erase(std::unique(lengths.begin(), lengths.end()), lengths.end());
   for (const Side side : task.beams) {
-    const Eigen::MatrixXd cumulated =
-        Cumulated(finger, task, side, heights, discretization);
+    const Bending bending =
+        BendingOf(finger, task, side, heights, discretization);
     for (const int length : lengths) {
-      Add(finger, task, side, length, cumulated);
+      Add(finger, task, side, length, bending);
     }
   }
   if (gauges_.empty()) {
@@ -88,10 +97,9 @@ GaugePlaces::GaugePlaces(const Finger& finger, const PlacementTask& task,
 }
 
 void GaugePlaces::Add(const Finger& finger, const PlacementTask& task,
-                      Side side, int length_mm,
-                      const Eigen::MatrixXd& cumulated) {
+                      Side side, int length_mm, const Bending& bending) {
   const double beam_mm = BeamLength(finger, side);
-  for (int start = 0; start + length_mm < cumulated.rows(); ++start) {
+  for (int start = 0; start + length_mm < bending.slope.rows(); ++start) {
     const double end = start + length_mm;
     const bool free = std::all_of(
         finger.ribs.begin(), finger.ribs.end(), [&](const Rib& rib) {
@@ -106,12 +114,19 @@ void GaugePlaces::Add(const Finger& finger, const PlacementTask& task,
     gauge.start_mm = start;
     gauge.length_mm = length_mm;
     gauge.gain_V_per_rad *= task.gauge.length_mm / length_mm;
-    const Eigen::RowVectorXd angle =
-        cumulated.row(start + length_mm) - cumulated.row(start);
-    gauges_.push_back(gauge);
-    feels_.push_back(
+    const Eigen::RowVectorXd slope =
+        bending.slope.row(start + length_mm) - bending.slope.row(start);
+    Eigen::Matrix2Xd feel =
         gauge.AngleWeight() *
-        Eigen::Map<const Eigen::Matrix2Xd>(angle.data(), 2, angle.size() / 2));
+        Eigen::Map<const Eigen::Matrix2Xd>(slope.data(), 2, slope.size() / 2);
+    for (Eigen::Index i = 0; gauge.hysteresis_rad > 0 && i < feel.cols(); ++i) {
+      const double play_rad =
+          PlayStd(gauge.hysteresis_rad, bending.angle(start + length_mm, i) -
+                                            bending.angle(start, i));
+      feel.col(i) /= std::hypot(1, gauge.AngleWeight() * play_rad);
+    }
+    gauges_.push_back(gauge);
+    feels_.push_back(feel);
   }
 }
 

@@ -46,8 +46,12 @@ class GaugePlaces {
   double WorstStd(const std::vector<int>& places) const;
 
  private:
+  struct Bending;
+  static Bending BendingOf(const Finger& finger, const PlacementTask& task,
+                           Side side, const std::vector<double>& heights,
+                           const Discretization& discretization);
   void Add(const Finger& finger, const PlacementTask& task, Side side,
-           int length_mm, const Eigen::MatrixXd& cumulated);
+           int length_mm, const Bending& bending);
 
   PlacementGoal goal_;
   double clearance_mm_;

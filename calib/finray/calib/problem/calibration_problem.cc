@@ -73,6 +73,7 @@ CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
   }
   FindCandidates();
   StartFrom(finger_);
+  KeepFriction();
 }
 
 void CalibrationProblem::FindCandidates() {
@@ -110,6 +111,7 @@ std::unique_ptr<CalibrationProblem> CalibrationProblem::Part(
   part->candidates_ = frames;
   part->SetValues(Values());
   part->parameters_.KeepHistoryStdOf(parameters_);
+  part->parameters_.KeepFrictionOf(parameters_);
   part->progress_ = progress_;
   part->tolerance_std_ = tolerance_std_;
   return part;
@@ -133,6 +135,7 @@ std::unique_ptr<CalibrationProblem> CalibrationProblem::WithPlan(
     if (value != values.end()) *p.variable = value->second;
   }
   other->parameters_.KeepHistoryStdOf(parameters_);
+  other->KeepFriction();
   return other;
 }
 

@@ -70,6 +70,11 @@ class CalibrationProblem {
   /// fitted.
   bool gauges_only() const { return gauges_only_; }
 
+  /// CalibrationParameters::KeepFriction at the present values.
+  bool KeepFriction() {
+    return parameters_.KeepFriction(finger_, plan_, *logs_, discretization_);
+  }
+
   /// The values of the free parameters.
   Eigen::VectorXd Values() const;
   void SetValues(const Eigen::VectorXd& values);

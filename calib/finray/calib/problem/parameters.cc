@@ -382,6 +382,9 @@ CalibrationLogs CalibrationParameters::Corrected(const CalibrationLogs& logs,
                            readings.Sum(frame, gauge) - OfHistory(frame, gauge);
     }
     frame.history_std_V = HistoryStd_V(frame);
+    if (!frictions_.empty() && frame.contact) {
+      frame.friction = FrictionOf(frame).At(friction());
+    }
     CorrectForce(&frame);
     frame.object_mm = Stage(frame.log).InS(frame.object_mm);
     const Eigen::Map<const Eigen::Vector2d> camera(camera_origin_mm);

@@ -122,6 +122,23 @@ class CalibrationParameters {
   void KeepHistoryStdOf(const CalibrationParameters& other);
   /// What is kept for a frame, one number a gauge; empty if nothing is.
   std::vector<double> HistoryStd_V(const CalibrationFrame& frame) const;
+  /// How the friction of a frame's contact follows from the coefficient.
+  RowFriction FrictionOf(const CalibrationFrame& frame) const {
+    return frictions_.empty() || frame.IsBench()
+               ? RowFriction{}
+               : frictions_[frame.log][frame.row];
+  }
+  /// Finds it from how the object moves in the logs, at the present values, and
+  /// keeps it for all that follows. Does nothing without a circle or without
+  /// friction. `finger` is that of the problem. Returns whether it has changed
+  /// by much.
+  bool KeepFriction(const Finger& finger, const Plan& plan,
+                    const CalibrationLogs& logs,
+                    const Discretization& discretization);
+  /// Keeps the same as another set of parameters for the same logs.
+  void KeepFrictionOf(const CalibrationParameters& other) {
+    frictions_ = other.frictions_;
+  }
   /// The gauge with the present gain and curve.
   Gauge Present(const Finger& finger, int gauge) const;
   /// Returns the finger with the present values. If offsets are per log, it
@@ -168,7 +185,9 @@ class CalibrationParameters {
   bool flat_ = false;  // a gauge is less sensitive when flat, or may be
   // By log; empty if the force sensor is not late.
   std::vector<std::array<LinearSignal, 3>> forces_N_;
-  double friction_;             // of the plan's scene
+  double friction_;  // of the plan's scene
+  // By log and row; empty if the object's motion tells nothing.
+  std::vector<std::vector<RowFriction>> frictions_;
   std::vector<bool> held_out_;  // by log: whether all its rows are held out
   int last_fitted_;
   bool origin_per_log_, rotation_per_log_;

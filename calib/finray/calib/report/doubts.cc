@@ -141,4 +141,18 @@ void WarnOfDoubts(CalibrationResult* result) {
                 "measurements"});
 }
 
+std::string WhyNotAdopted(const CalibrationResult& explored,
+                          const CalibrationResult& given) {
+  constexpr double kLess_percent = 2.5;
+  const double with = explored.UnseenForces().coverage_95_percent();
+  const double without = given.UnseenForces().coverage_95_percent();
+  if (explored.Verdict() == "good" || !(with < without - kLess_percent)) {
+    return "";
+  }
+  return FormatText(
+      "with the freed effects the verdict is %s, and 95 %% intervals of force "
+      "hold in %.0f %% of unseen frames, without them in %.0f %%",
+      explored.Verdict().c_str(), with, without);
+}
+
 }  // namespace finray

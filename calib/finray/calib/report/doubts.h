@@ -32,6 +32,13 @@ constexpr std::size_t kLeastRejected = 3;
 /// `good`: the likeliest cause first, by the score test, then the doubts.
 void WarnOfDoubts(CalibrationResult* result);
 
+/// Says in words why what --explore has freed is not to be adopted; empty if it
+/// is. Where the logs have an effect that finray lacks, others are freed in its
+/// place, and these may deceive. That shows where 95 % intervals of unseen
+/// forces hold less often with them and the verdict is not good either.
+std::string WhyNotAdopted(const CalibrationResult& explored,
+                          const CalibrationResult& given);
+
 }  // namespace finray
 
 #endif  // FINRAY_CALIB_REPORT_DOUBTS_H_

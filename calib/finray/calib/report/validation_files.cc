@@ -47,8 +47,7 @@ FrameTable ValidationFrames(const CalibrationLogs& logs,
     set("reference_contact_mm", reference.contact_mm);
     set("force_N", force);
     // The std of the sum of two contacts is not known.
-    set("force_std_N", found.contacts == 1 ? std::hypot(1, friction) *
-                                                 found.contact[0].normal_std_N
+    set("force_std_N", found.contacts == 1 ? EstimatedForceStd(found, friction)
                                            : std::nan(""));
     set("force_error_N", force - reference.force_N);
     set("contact_1_mm", found.contact[0].arc_mm);

@@ -49,7 +49,8 @@ void FrameLinearizer::Prepare(const CalibrationFrame& frame,
     if (start.q.size() == 0) solver_.Reset();
     model->evaluation.emplace(solver_.model(), EquilibriumForm::kReduced,
                               frame.contact ? 1 : 0, friction_,
-                              !frame.pins.empty(), movable_gauges_);
+                              !frame.pins.empty(), movable_gauges_,
+                              parameters_.FrictionOf(frame));
   }
   model->blocks =
       blocks_.Of(frame, model->evaluation ? &*model->evaluation : nullptr,

@@ -97,7 +97,8 @@ void JointProblem::AddFrame(int i) {
   if (!frame.IsBench()) {
     evaluation = &evaluations_.Add(
         frame.contact ? 1 : 0, problem_.parameters().friction(), unknowns,
-        !frame.pins.empty(), problem_.plan().MovesGauges());
+        !frame.pins.empty(), problem_.plan().MovesGauges(),
+        problem_.parameters().FrictionOf(frame));
     const LadderState state = contacts_.StateNear(i);
     if (state.q.size() > 0) evaluation->set_state(state);
   }
@@ -127,7 +128,10 @@ double* JointProblem::StartWeighted(int i, const double* contact) {
   solver_.Reset();
   std::vector<PointContact> loads;
   if (contact != nullptr) {
-    loads.push_back({contact[0], contact[1], problem_.parameters().friction()});
+    const CalibrationParameters& parameters = problem_.parameters();
+    loads.push_back(
+        {contact[0], contact[1],
+         parameters.FrictionOf(problem_.frame(i)).At(parameters.friction())});
   }
   ready_ &= solver_.Solve(loads);
   if (!ready_) return nullptr;

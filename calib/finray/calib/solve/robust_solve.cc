@@ -95,13 +95,14 @@ class RobustSolve {
     for (; result.rounds < kMostRounds; ++result.rounds) {
       const Outliers outliers = FindOutliers(result.at, &problem_, &contacts_);
       const bool other_std = problem_.parameters().KeepHistoryStd();
+      const bool other_friction = problem_.KeepFriction();
       const auto same_frame = [](const auto& a, const auto& b) {
         return a.first == b.first;
       };
       if (std::equal(outliers.reasons.begin(), outliers.reasons.end(),
                      problem_.rejected().begin(), problem_.rejected().end(),
                      same_frame) &&
-          !other_std) {
+          !other_std && !other_friction) {
         result.settled = true;
         result.outliers_too_many = outliers.too_many;
         break;
@@ -228,6 +229,14 @@ CalibrationSolution SolveOnce(CalibrationProblem* problem) {
                                          kStart, problem, &contacts);
   SummedSolution solved =
       SolveSummed(problem->FittedFrames(), {}, problem, &contacts);
+  for (int round = 0; round < kMostRounds; ++round) {
+    const bool other_std = problem->parameters().KeepHistoryStd();
+    const bool other_friction = problem->KeepFriction();
+    if (!other_std && !other_friction) break;
+    const int before = solved.report.iterations;
+    solved = SolveSummed(problem->FittedFrames(), {}, problem, &contacts);
+    solved.report.iterations += before;
+  }
   solved.report.iterations += joint.iterations;
   return {solved.report, std::move(solved.at), contacts.all(), {}};
 }

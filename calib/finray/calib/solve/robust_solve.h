@@ -53,8 +53,9 @@ struct CalibrationSolution {
 CalibrationSolution SolveRobustly(CalibrationProblem* problem);
 constexpr std::size_t kStartFrames = 250, kStageFrames = 20000;
 
-/// Solves once from the present values, with steps 1 and 2, and rejects
-/// nothing.
+/// Solves from the present values, with steps 1 and 2, and rejects nothing.
+/// Step 2 is repeated until what the rows before leave unknown of a reading,
+/// and which way friction pulls, stay the same.
 CalibrationSolution SolveOnce(CalibrationProblem* problem);
 
 }  // namespace finray
