@@ -4,9 +4,11 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "finray/sensing/frame_estimator.h"
+#include "studies/ramps.h"
 #include "test_finger.h"
 
 namespace finray {
@@ -194,6 +196,30 @@ TEST(SmoothingTest, ARunEndsWhereTheContactDoes) {
   for (int t = 8; t < 12; ++t) {
     EXPECT_NEAR(estimates[t].contact[0].arc_mm, 95, 1e-3);
     EXPECT_NEAR(estimates[t].contact[0].normal_N, 4, 1e-3);
+  }
+}
+
+// A light touch at mid-finger reads like a heavy one near the tip, and past the
+// last rib chi2 is one long valley. Neighbours are ambiguous alike there. They
+// must not make each other sure of a wrong place.
+TEST(SmoothingTest, NeighboursMakeNoWrongPlaceSure) {
+  struct Case {
+    double peak_N, change_N;
+    std::optional<double> most_N;
+  };
+  for (const Case& c : {Case{8, 0.3, {}}, {0.7, 0.1, {}}, {0.7, 0.1, 10}}) {
+    SCOPED_TRACE(testing::Message() << c.peak_N << " N, " << bool(c.most_N));
+    Scene scene;
+    scene.force_max_N = c.most_N;
+    const auto ramps = [&] {
+      return RampStudy(PaperFinger(), scene, c.peak_N, 60, {0, 140}, 1)[0];
+    };
+    const RampTally alone = ramps();
+    scene.smoothing = {0.2, c.change_N};
+    const RampTally smoothed = ramps();
+    EXPECT_EQ(smoothed.beyond_6, 0) << smoothed.worst;
+    EXPECT_LT(smoothed.beyond_3, 0.003 * smoothed.ok);
+    EXPECT_GE(smoothed.ok, alone.ok);
   }
 }
 

@@ -165,7 +165,8 @@ void FrameEstimator::EstimateBlock(const Measurements* readings,
     }
   }
   if (scene_.smoothing) {
-    Smooth(finger_, scene_, discretization_, readings, count, {}, estimates);
+    SmoothBlock(readings, count, {}, estimates);
+    return;
   }
   for (std::size_t i = 0; i < count; ++i) {
     if (!Slides(readings[i])) Judge(readings[i], packed_[i], &estimates[i]);
@@ -189,11 +190,29 @@ FrameEstimate FrameEstimator::Next(const Measurements& readings) {
     following_ = CanFollow(packed_[0], estimate);
   }
   if (scene_.smoothing) {
-    followed_ = Smooth(finger_, scene_, discretization_, &readings, 1,
-                       followed_, &estimate);
+    followed_ = SmoothBlock(&readings, 1, followed_, &estimate);
+  } else {
+    Judge(readings, packed_[0], &estimate);
   }
-  Judge(readings, packed_[0], &estimate);
   return estimate;
+}
+
+LogPrior FrameEstimator::SmoothBlock(const Measurements* readings,
+                                     std::size_t count, const LogPrior& before,
+                                     FrameEstimate* estimates) {
+  std::vector<char> sure(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    sure[i] = StatusOf(estimates[i], finger_, search_) == FrameStatus::kOk;
+  }
+  const LogPrior next = Smooth(finger_, scene_, discretization_, readings,
+                               count, before, estimates, &sure);
+  for (std::size_t i = 0; i < count; ++i) {
+    Judge(readings[i], packed_[i], &estimates[i]);
+    if (estimates[i].contacts == 1 && !sure[i]) {
+      estimates[i].status = FrameStatus::kUnobservable;
+    }
+  }
+  return next;
 }
 
 void FrameEstimator::PackAll(const Measurements* readings, std::size_t count) {
@@ -390,6 +409,10 @@ FrameEstimate FrameEstimator::Found(const Measurements& readings,
         search_.profile(), best, estimate.contact[0].arc_std_mm,
         estimate.contact[0].normal_std_N, scale, finger_.front_length_mm);
   }
+  if (estimate.valley) {
+    estimate.contact[0].arc_std_mm *= estimate.valley->arc_factor;
+    estimate.contact[0].normal_std_N *= estimate.valley->normal_factor;
+  }
   if (const ContactSolution* rival = search_.rival()) {
     CopyContacts(*rival, &estimate.alternative);
     estimate.alternative_chi2 = rival->chi2;
@@ -418,11 +441,6 @@ void FrameEstimator::Judge(const Measurements& readings,
                            const PackedReadings& packed,
                            FrameEstimate* estimate) {
   if (estimate->contacts == 0) return;
-  if (estimate->valley) {
-    ContactEstimate& contact = estimate->contact[0];
-    contact.arc_std_mm *= estimate->valley->arc_factor;
-    contact.normal_std_N *= estimate->valley->normal_factor;
-  }
   if (!systematic_.empty()) {
     contacts_.clear();
     for (int c = 0; c < estimate->contacts; ++c) {

@@ -38,7 +38,9 @@ namespace finray {
 ///   of l_0, the std of f_c is above kLargestForceStd of f_c, l_c or f_c is on
 ///   a bound of the search, another solution explains the frame as well, or
 ///   Scene::search_iteration_limit ended the search (search_ended). A frame
-///   without any solution by then is not_converged.
+///   without any solution by then is not_converged. A smoothed frame is
+///   unobservable too where neither it nor a frame next to it is sure alone
+///   (smoothing.h).
 /// - ok (Judge): everything else.
 class FrameEstimator {
  public:
@@ -114,6 +116,9 @@ class FrameEstimator {
   std::size_t FitRun(std::size_t begin, std::size_t end);
   bool TakeFollowed(const PackedReadings& packed, std::size_t run,
                     FrameEstimate* estimate);
+  // Smooths and judges frames of one log.
+  LogPrior SmoothBlock(const Measurements* readings, std::size_t count,
+                       const LogPrior& before, FrameEstimate* estimates);
   void Automatic(const Measurements& readings, const PackedReadings& packed,
                  FrameEstimate* estimate);
   bool IsSecondCertain(const Measurements& readings,

@@ -2,6 +2,7 @@
 #define FINRAY_SENSING_SMOOTHING_H_
 
 #include <cstddef>
+#include <vector>
 
 #include "finray/finger/finger.h"
 #include "finray/scene/measurements.h"
@@ -17,10 +18,16 @@ namespace finray {
 /// and the alternative remain those of the frame alone. `before` is the prior
 /// of the first frame. Returns the prior of the frame that comes next. A run
 /// whose problem does not converge remains as it is.
+///
+/// No frame moves to where its own readings are not: a run that would do so is
+/// smoothed in parts. `sure` says which frames are ok by themselves, and on
+/// return also those that such a frame of their part makes sure. A frame in a
+/// valley keeps its std, and one that others make sure has theirs at least.
 LogPrior Smooth(const Finger& finger, const Scene& scene,
                 const Discretization& discretization,
                 const Measurements* readings, std::size_t count,
-                const LogPrior& before, FrameEstimate* estimates);
+                const LogPrior& before, FrameEstimate* estimates,
+                std::vector<char>* sure);
 
 }  // namespace finray
 

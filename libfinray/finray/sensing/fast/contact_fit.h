@@ -35,7 +35,8 @@ class ContactFit {
              std::optional<double> circle_radius_mm = std::nullopt);
 
   /// A fit ends when the next change of l_c over l_0 and of f_c over its size
-  /// is expected to be below `relative`.
+  /// is expected to be below `relative`. If `relative` is not small in std, the
+  /// last change must be below it.
   void set_tolerance(double relative) { tolerance_ = relative; }
 
   /// Upper bound of f_c.
