@@ -25,6 +25,7 @@ JOIN = 0.02  # mm between ends of pieces that belong together
 STRAIGHT = math.radians(1)  # pieces that turn by less are one edge
 PARALLEL = math.radians(4)
 SMALLEST = 2e-3  # of the outer area: smaller contours are holes for screws
+RIB_BENDS = 0.5  # of the front beam's thickness: ribs from there on are beams, with an eighth of its stiffness or more
 
 
 class Refused(Exception):
@@ -217,11 +218,15 @@ def text(source, finger, width, modulus):
              f"  back: {{{plate.format(width, back_mm, modulus)}}}"]
     if ribs:
         lines.append("ribs:")
-    lines += [f"  - {{front_mm: {a:.6g}, back_mm: {b:.6g}}}  # {t:.3g} mm thick" for a, b, t in ribs]
-    thick = [t for _, _, t in ribs if t > 0.5 * front_mm]
+    for a, b, t in ribs:
+        bends = ""
+        if t > RIB_BENDS * front_mm:
+            bends = f", bending_stiffness_N_mm2: {1000 * float(modulus) * float(width) * t**3 / 12:.6g}"
+        lines.append(f"  - {{front_mm: {a:.6g}, back_mm: {b:.6g}{bends}}}  # {t:.3g} mm thick")
+    thick = [t for _, _, t in ribs if t > RIB_BENDS * front_mm]
     if thick:
-        notes.append(f"{len(thick)} of {len(ribs)} ribs are {min(thick):.3g} to {max(thick):.3g} mm thick: these ribs "
-                     "bend; give them a bending_stiffness_N_mm2")
+        notes.append(f"{len(thick)} of {len(ribs)} ribs are {min(thick):.3g} to {max(thick):.3g} mm thick: they bend, with a "
+                     "bending_stiffness_N_mm2 by width and modulus")
     return "\n".join(lines) + "\n", notes
 
 

@@ -29,7 +29,7 @@ def meet(line, other):
     return p + u * cross(q - p, v) / cross(u, v)
 
 
-def contours(phi=112.0, base_angle=0.0):
+def contours(phi=112.0, base_angle=0.0, rib=RIB):
     """The outer contour and the cells, in frame S."""
     back = np.array([math.cos(math.radians(phi)), math.sin(math.radians(phi))])
     out = np.array([back[1], -back[0]])
@@ -43,7 +43,7 @@ def contours(phi=112.0, base_angle=0.0):
     below = (np.zeros(2), np.array([1.0, 0.0]))
     for height, angle in RIBS:
         u = np.array([math.cos(math.radians(angle)), math.sin(math.radians(angle))])
-        across = np.array([-u[1], u[0]]) * RIB / 2
+        across = np.array([-u[1], u[0]]) * rib / 2
         under, over = [(np.array([0.0, height]) + s * across, u) for s in (-1, 1)]
         loops.append([meet(front[1], below), meet(behind[1], below), meet(behind[1], under), meet(front[1], under)])
         below = over
@@ -91,11 +91,20 @@ class DxfFingerTest(unittest.TestCase):
         for rib, (height, _), place in zip(finger["ribs"], RIBS, PLACES):
             self.assertAlmostEqual(rib["front_mm"], height, places=2)
             self.assertAlmostEqual(rib["back_mm"], place, places=2)
+            # E w t^3 / 12 of 2.1 GPa and 20 mm
+            self.assertAlmostEqual(rib["bending_stiffness_N_mm2"], 2100 * 20 * RIB**3 / 12, delta=15)
         return result.stdout
 
     def test_as_drawn(self):
         self.save(contours())
         self.assertIn("unit of the drawing: mm", self.expect_paper())
+
+    def test_thin_ribs_are_hinged_bars(self):
+        self.save(contours(rib=0.5))
+        result = self.read()
+        finger = yaml.safe_load((self.path / "out.yaml").read_text("utf-8"))
+        self.assertEqual([sorted(rib) for rib in finger["ribs"]], 5 * [["back_mm", "front_mm"]])
+        self.assertNotIn("they bend", result.stdout)
 
     def test_turned_mirrored_and_in_inches(self):
         self.save(contours(), turn=2.1, mirror=True, unit=1, scale=1 / 25.4)
