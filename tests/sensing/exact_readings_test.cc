@@ -16,7 +16,7 @@ TEST(ExactReadingsTest, OkFramesOfHardFingersAreRight) {
   scene.contacts = 1;
   ExactTally tally;
   for (const unsigned seed :
-       {3, 10, 19, 54, 1040, 1086, 1105, 1109, 1123, 1143}) {
+       {3, 10, 19, 54, 1040, 1086, 1105, 1109, 1123, 1143, 3066}) {
     GaugedFingers fingers(seed);
     const Finger finger = fingers.Draw();
     ExactReadings readings(finger, scene);

@@ -156,7 +156,10 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
     const bool close = exact || HasCloseMinima(solver_.model().finger()) ||
                        (!starts_.empty() && starts_[0].error > kCoarse);
     SearchRows(packed, close);
-    if (close) SearchBeside(packed);
+    if (close) {
+      SearchBeside(packed);
+      SearchForces(packed);
+    }
   }
   return found_ > 0;
 }
@@ -201,6 +204,40 @@ void ContactSearch::SearchBeside(const PackedReadings& packed) {
                    most_force_N_);
     start.state = &from.state;
     if (FitFast(start, packed) && !IsKnown()) Keep();
+  }
+}
+
+// Two minima may lie at one row, and its profile shows the force of one only.
+void ContactSearch::SearchForces(const PackedReadings& packed) {
+  const double arc_mm = best().contacts[0].arc_mm;
+  for (std::size_t i = 0; i < profile_.size(); ++i) {
+    const GaugeTable::Row& row = table_.rows()[i];
+    if (!IsLoaded(profile_[i]) ||
+        std::abs(row.arc_mm - arc_mm) > 2 * table_.row_spacing_mm()) {
+      continue;
+    }
+    const auto chi2 = [&](std::size_t k) {
+      return (packed.weights.array() *
+              (row.nodes[k].values - packed.values).array())
+          .matrix()
+          .squaredNorm();
+    };
+    const double shown_N = profile_[i].contacts[0].normal_N;
+    for (std::size_t k = 1; k < row.nodes.size(); ++k) {
+      const bool last = k + 1 == row.nodes.size();
+      const bool shown = shown_N >= row.nodes[k - 1].normal_N &&
+                         (last || shown_N <= row.nodes[k + 1].normal_N);
+      if (shown || chi2(k) > chi2(k - 1) || (!last && chi2(k) > chi2(k + 1))) {
+        continue;
+      }
+      if (found_ == kMostSolutions || !MayGoOn()) return;
+      ContactStart start;
+      start.count = 1;
+      start.contacts[0] = {row.arc_mm, row.nodes[k].normal_N,
+                           scene_.friction_coefficient};
+      start.state = &row.nodes[k].state;
+      if (FitFast(start, packed) && !IsKnown()) Keep();
+    }
   }
 }
 

@@ -101,6 +101,9 @@ class ContactSearch {
   void SearchRows(const PackedReadings& packed, bool close);
   // Fits from places up to a row's spacing away from the best solution.
   void SearchBeside(const PackedReadings& packed);
+  // Fits from the other forces of the rows beside the best solution at which
+  // the table's chi2 has a minimum.
+  void SearchForces(const PackedReadings& packed);
   // Says whether a solution is nearer to a row than its neighbours are.
   bool IsBeside(std::size_t row) const;
   // Whether a minimum within noise, other than those found, may lie near a row
