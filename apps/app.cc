@@ -63,6 +63,9 @@ void DumpConfig(const Finger& finger, const Scene& scene,
     std::cout << "contact_beams: " << ContactBeamsToYaml(scene) << "\n";
   }
   std::cout << "friction_coefficient: " << scene.friction_coefficient << "\n";
+  if (scene.presliding_mm) {
+    std::cout << "presliding_mm: " << *scene.presliding_mm << "\n";
+  }
   if (scene.force_max_N) {
     std::cout << "force_max_N: " << *scene.force_max_N << "\n";
   }

@@ -73,10 +73,8 @@ TEST_P(GaugeReadingResidualTest, Creep) {
   const std::unique_ptr<ceres::CostFunction> cost(
       new GaugeReadingResidual(frame_, 1, &volts, 0.01, {1, 0.4},
                                {&history, 3, &share, &ln_time, &hysteresis}));
-  // Away from 0, where the slope by the hysteresis bends.
-  hysteresis = -1e-3;
-  CheckDerivatives(*cost, blocks, 1e-6);
-  hysteresis = 0;
+  // The slope by the hysteresis bends at 0.
+  CheckDerivatives(*cost, blocks, 3e-5);
   GaugeLag<double> lag(share, 12);
   lag.Next(10, 0.25 - offset);
   lag.Next(30, 0.5 - offset);

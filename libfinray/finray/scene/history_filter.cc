@@ -20,11 +20,12 @@ bool HasPlay(const Gauge& gauge) { return gauge.hysteresis_rad != 0; }
 HistoryFilter::HistoryFilter(const Finger& finger, const Scene& scene)
     : change_(finger.gauges),
       play_(std::any_of(finger.gauges.begin(), finger.gauges.end(), HasPlay)) {
-  if (scene.object && scene.friction_coefficient > 0 && !scene.smoothing) {
+  if (scene.object && scene.presliding_mm && scene.friction_coefficient > 0 &&
+      !scene.smoothing) {
     sliding_.reset(new Sliding{
         EquilibriumSolver(finger, {}),
         SlidingFriction(*scene.object, scene.friction_coefficient,
-                        scene.presliding_mm,
+                        *scene.presliding_mm,
                         scene.object_std_mm.value_or(kUsualObjectStd_mm))});
   }
   if (!play_ &&

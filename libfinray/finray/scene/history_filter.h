@@ -20,7 +20,7 @@ namespace finray {
 /// unknown. For creep, readings run linearly from row to row, and the first row
 /// is of a gauge at rest. For hysteresis, rows are in the order of time.
 ///
-/// Where the scene has an object with friction and no smoothing, the filter
+/// Where the scene has a presliding displacement and no smoothing, the filter
 /// also says which way friction pulls: from the motion of the object in the
 /// rows before (SlidingFriction), which are in the order of time.
 class HistoryFilter {

@@ -38,7 +38,8 @@ struct Scene {
   std::string contact_beams_place = "scene: ";
   double friction_coefficient = 0;  ///< mu; + pulls towards the tip.
   /// The slip of the object in which friction turns round (SlidingFriction).
-  double presliding_mm = 0.001;
+  /// Empty: friction does not follow the object's motion.
+  std::optional<double> presliding_mm;
   std::optional<RigidObject> object;
   /// Std of object_x_mm and object_y_mm. Empty: the estimate of a contact does
   /// not use them.

@@ -267,9 +267,9 @@ SimulationSummary Simulate(const Finger& finger, const Scene& scene,
 
   EquilibriumSolver solver(finger, discretization);
   std::optional<SlidingFriction> sliding;
-  if (scene.object && scene.friction_coefficient > 0) {
+  if (scene.object && scene.presliding_mm && scene.friction_coefficient > 0) {
     sliding.emplace(*scene.object, scene.friction_coefficient,
-                    scene.presliding_mm, 0);
+                    *scene.presliding_mm, 0);
   }
   int object_contacts = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -23,12 +23,12 @@ struct SimulationSummary {
 /// - point contacts: contact_<c>_mm, normal_<c>_N, friction_<c> (default: the
 ///   scene's friction). The columns set their number, the scene their beams;
 /// - the scene's object at object_x_mm, object_y_mm, turned by object_angle_deg
-///   (default 0). The rows are in the order of time: its friction depends on
-///   the rows before (SlidingFriction), or is that of the scene if it touches
-///   at several points. The simulation then also fills in contact_<c>,
-///   normal_<c> and, in a scene with friction, friction_<c>, as many as the row
-///   with most contacts has, and object_displacement_mm if the object stands on
-///   a spring;
+///   (default 0). With a presliding displacement the rows are in the order
+///   of time: friction depends on the rows before (SlidingFriction), or is that
+///   of the scene if the object touches at several points. The simulation then
+///   also fills in contact_<c>, normal_<c> and, if it follows the motion,
+///   friction_<c>, as many as the row with most contacts has, and
+///   object_displacement_mm if the object stands on a spring;
 /// - no load.
 ///
 /// Gauges that creep lag behind the angles of the rows before, which run

@@ -13,6 +13,10 @@ namespace {
 constexpr double kNoFriction = 0.005;
 // The step of the coefficient that shows how friction follows it.
 constexpr double kStep = 1e-3;
+// The slip of a touch near the base is so small that a finger as drawn, with
+// ribs that are 0.3 mm off, may have it the wrong way round. The first look
+// takes so small a slip for little friction.
+constexpr double kFirstPresliding_mm = 0.02;
 // Mean change of the tangential share that asks for another solve.
 constexpr double kMuch = 0.003;
 
@@ -28,17 +32,20 @@ bool CalibrationParameters::KeepFriction(const Finger& finger, const Plan& plan,
                                          const CalibrationLogs& logs,
                                          const Discretization& discretization) {
   const double coefficient = std::max(0.0, friction());
-  if (!plan.scene.circle_radius_mm() || !(object_radius_mm > 0) ||
+  if (!plan.scene.presliding_mm || !plan.scene.circle_radius_mm() ||
+      !(object_radius_mm > 0) ||
       (!shared.friction_varies && coefficient == 0)) {
     return false;
   }
   RigidObject circle = *plan.scene.object;
   circle.outline = Outline(CircleOutline{object_radius_mm});
   const Finger present = Apply(finger);
+  const double presliding_mm =
+      std::max(*plan.scene.presliding_mm,
+               frictions_.empty() ? kFirstPresliding_mm : 0.0);
   const auto walk = [&](double at) {
     EquilibriumSolver solver(present, discretization);
-    SlidingFriction sliding(circle, at, plan.scene.presliding_mm,
-                            plan.object_std_mm);
+    SlidingFriction sliding(circle, at, presliding_mm, plan.object_std_mm);
     std::vector<Walk> rows;
     int log = -1;
     for (const CalibrationFrame& frame : logs.frames) {

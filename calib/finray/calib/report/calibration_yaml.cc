@@ -147,6 +147,9 @@ void EmitConfig(const Plan& plan, const CalibrationInputs& inputs,
     YamlPair(yaml, "contact_beams", YAML::Load(ContactBeamsToYaml(plan.scene)));
   }
   YamlPair(yaml, "friction_coefficient", plan.scene.friction_coefficient);
+  if (plan.scene.presliding_mm) {
+    YamlPair(yaml, "presliding_mm", *plan.scene.presliding_mm);
+  }
   if (plan.scene.circle_radius_mm()) {
     YamlPair(yaml, "circle_radius_mm", *plan.scene.circle_radius_mm());
   }
