@@ -351,13 +351,13 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
     result.finger.calibration->discrepancy = result.discrepancy;
   }
   result.forces = CheckForces(problem, result.finger);
-  SetReadingNoise(*problem, &result.finger, &result.warnings);
   result.bench =
       TestBenchLinearity(problem->finger(), problem->plan(), problem->logs());
   result.free_scatter = MeasureFreeScatter(
       problem->logs(), static_cast<int>(problem->finger().gauges.size()));
   result.effective_rows = EffectiveRows(*problem, result.solution.at.frames);
   WarnOfFreeScatter(result.free_scatter, problem->finger(), &result.warnings);
+  SetReadingNoise(*problem, &result.finger, &result.warnings);
   if (!result.solution.solve.converged) {
     result.warnings.push_back(
         {"not_converged",
