@@ -17,7 +17,8 @@ install(DIRECTORY ${FINRAY_PAGES}/man1/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
 install(DIRECTORY ${FINRAY_PAGES}/completions/
   DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT tools)
 
-if(NOT FINRAY_SHARED)
+# A wheel takes nothing of the following.
+if(NOT FINRAY_SHARED OR SKBUILD)
   return()
 endif()
 
