@@ -54,8 +54,9 @@ class FINRAY_API Simulator {
   /// row whose load is incomplete, negative or off the beam.
   Simulation Simulate(const Table& frames, bool shapes = false) const;
 
-  /// The log that a lab would record of simulated frames: time_s, `gauge_<j>_V`,
-  /// force_N, the object's place; with noise, without the true contacts.
+  /// The log that a lab would record of simulated frames: time_s,
+  /// `gauge_<j>_V`, force_N, the object's place; with noise, without the true
+  /// contacts.
   Table MakeLog(const Table& simulated, const LogNoise& noise = {}) const;
 
  private:
