@@ -28,7 +28,7 @@ constexpr double kSame = 0.01;  // chi2 between fits of one minimum
 constexpr double kDistinct[] = {9.21, 13.28};
 // Fits of one minimum end this close to each other, in l_0 and f_c, however
 // small the std.
-constexpr double kRounding = 1e-11;
+constexpr double kRounding = 1e-10;
 
 // The table is too coarse where its values are wrong by more std than this.
 constexpr double kCoarse = 1;
