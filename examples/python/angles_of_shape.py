@@ -9,26 +9,27 @@ gauge reads how far the tangent turns between its ends, beside how far it turns 
 
 import csv
 import sys
+from typing import Any
 
 import numpy as np
 import yaml
 
 
-def turn_rad(arc_mm, points_mm, start_mm, end_mm):
+def turn_rad(arc_mm: Any, points_mm: Any, start_mm: float, end_mm: float) -> float:
     """The turn of the tangent between two places. Chords have the tangent's angle at their middle, to second order."""
     chords = np.diff(points_mm, axis=0)
     angles = np.unwrap(np.arctan2(chords[:, 1], chords[:, 0]))
     middles = (arc_mm[1:] + arc_mm[:-1]) / 2
-    return np.interp(end_mm, middles, angles) - np.interp(start_mm, middles, angles)
+    return float(np.interp(end_mm, middles, angles) - np.interp(start_mm, middles, angles))
 
 
-def main():
+def main() -> None:
     finger_path, shape_path, log_path = sys.argv[1:]
     with open(finger_path, encoding="utf-8") as file:
         gauges = yaml.safe_load(file)["gauges"]
     with open(shape_path, newline="", encoding="utf-8") as file:
         points = [line for line in csv.DictReader(file) if line.get("beam", "back") == "back"]
-    shapes = {}
+    shapes: dict[str, list[list[float]]] = {}
     for line in points:
         shapes.setdefault(line["row"], []).append([float(line[name]) for name in ("arc_mm", "x_mm", "y_mm")])
     with open(log_path, "w", newline="", encoding="utf-8") as file:

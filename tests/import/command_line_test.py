@@ -77,7 +77,7 @@ class CommandLineTest(ImportCase):
         link.symlink_to(TOOL)
         done = subprocess.run([link, "--version"], capture_output=True, text=True, cwd="/")
         self.assertEqual(done.returncode, 0)
-        self.assertRegex(done.stdout, r"^finray_import version \d+\.\d+\.\d+\n(\S+ \S+\n)*$")
+        self.assertRegex(done.stdout, r"^finray_import version \d+\.\d+\.\d+\S*\n(\S+ \S+\n)*$")
         self.assertIn("\nnumpy ", done.stdout)
 
     def test_the_locale_does_not_matter(self):

@@ -39,5 +39,20 @@ TEST(FrameEstimateTest, IsWhatASensorUnderTheFingerMeasures) {
   EXPECT_TRUE(std::isnan(EstimatedForce(FrameEstimate(), 0.3)));
 }
 
+// Two contacts on their bounds leave a chi2 although there is no freedom left.
+TEST(FrameEstimateTest, AChi2WithoutFreedomIsUnexplained) {
+  FrameEstimate estimate;
+  estimate.contacts = 2;
+  estimate.dof = 0;
+  estimate.chi2 = 1e-9;
+  EXPECT_FALSE(estimate.IsUnexplained());
+  estimate.chi2 = 2e6;
+  EXPECT_TRUE(estimate.IsUnexplained());
+  EXPECT_EQ(estimate.noise_scale(), 1);
+  estimate.dof = 2;
+  estimate.chi2 = 5;
+  EXPECT_FALSE(estimate.IsUnexplained());
+}
+
 }  // namespace
 }  // namespace finray

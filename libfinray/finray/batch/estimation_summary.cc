@@ -76,7 +76,7 @@ void EstimationSummary::Add(const FrameEstimate& estimate, double coefficient,
       estimate.status == FrameStatus::kBadInput) {
     return;
   }
-  const bool is_explained = !(estimate.p_value() < FrameEstimate::kUnexplained);
+  const bool is_explained = !estimate.IsUnexplained();
   unexplained += !is_explained;
   if (all_read) {
     ++read_rows;

@@ -24,8 +24,8 @@ struct EstimationSummary {
   /// Rows that were left out as bad; they are no frames.
   std::size_t bad_rows = 0;
   std::array<std::size_t, 5> by_status{};  ///< indexed by FrameStatus
-  /// Solved frames that neither the described finger nor its noise explains:
-  /// the p-value of chi2 is below FrameEstimate::kUnexplained.
+  /// Solved frames that neither the described finger nor its noise explains
+  /// (FrameEstimate::IsUnexplained).
   std::size_t unexplained = 0;
   /// Frames whose search Scene::search_iteration_limit has ended.
   std::size_t search_ended = 0;

@@ -28,6 +28,10 @@ double FrameEstimate::p_value() const {
   return ChiSquaredTail(explained_chi2(), dof);
 }
 
+bool FrameEstimate::IsUnexplained() const {
+  return ChiSquaredTail(explained_chi2(), std::max(1, dof)) < kUnexplained;
+}
+
 double FrameEstimate::noise_scale() const {
   return p_value() < kUnexplained ? std::sqrt(explained_chi2() / dof) : 1;
 }

@@ -101,6 +101,11 @@ struct FrameEstimate {
     return std::isnan(model_chi2) ? chi2 : model_chi2;
   }
   static constexpr double kUnexplained = 0.001;
+  /// Says whether neither the finger nor its noise explains the frame: the
+  /// p-value is below kUnexplained, or there are as many unknowns as readings
+  /// and chi2, which is zero inside all bounds then, is above the same quantile
+  /// for one degree of freedom.
+  bool IsUnexplained() const;
 
   /// Sets the intervals of all contacts from their std and the valley.
   void SetIntervals(double length_mm);
