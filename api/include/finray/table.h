@@ -25,9 +25,9 @@ struct Numbers {
 
 /// A table of frames, one row a frame: a log, or the result of one. Columns
 /// have the names of the frame table (docs/reference/formats.md): time_s,
-/// `gauge_<j>_V`, `contact_<c>_mm`, `normal_<c>_N`, force_N, ... A NaN means not
-/// measured. `status` and columns of other names hold text. Copies share their
-/// columns.
+/// `gauge_<j>_V`, `contact_<c>_mm`, `normal_<c>_N`, force_N, ... A NaN means
+/// not measured. `status` and columns of other names hold text. Copies share
+/// their columns.
 class FINRAY_API Table {
  public:
   /// `name` stands for the path in messages.

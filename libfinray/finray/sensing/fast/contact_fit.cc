@@ -16,7 +16,7 @@ namespace {
 // After kPatience iterations the fit ends when a change is below kNoDifference:
 // in std for the contacts, in rad and l_0 for the shape.
 constexpr int kPatience = 8;
-constexpr double kNoDifference = 1e-5;
+constexpr double kNoDifference = 1e-6;
 // Where the tolerance is worth more std than this, as with a noise of a few
 // rounding errors, the last change must be below it, not only the next one.
 constexpr double kTolerableStd = 0.1;
@@ -119,7 +119,8 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
     }
     ContactVector change =
         BoundedChange(equations, x, most_force_N_ / force, damping);
-    change *= pace.Of(change, x);
+    const double taken = pace.Of(change, x);
+    change *= taken;
     for (int k = 0; k < unknowns; ++k) {
       const double most = k % 2 == 0 ? 1 : most_force_N_ / force;
       change[k] = std::clamp(change[k], -x[k], most - x[k]);
@@ -149,7 +150,8 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
         moved < tolerance_ || tolerance_ * deviations < kTolerableStd * moved;
     const bool last = (small && IsLastChange(moved, last_change, rate, crossed,
                                              tolerance_)) ||
-                      (iterations_ >= kPatience && deviations < kNoDifference &&
+                      (iterations_ >= kPatience &&
+                       deviations < std::min(1.0, taken) * kNoDifference &&
                        size < kNoDifference);
     damping *= 0.1;
     last_change = moved;

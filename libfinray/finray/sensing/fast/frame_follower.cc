@@ -7,7 +7,7 @@ namespace {
 
 // Relative to l_0 and to the force. The remaining error is far below any
 // gauge's noise.
-constexpr double kTolerance = 5e-9;
+constexpr double kTolerance = 2e-9;
 
 // A frame is searched if another place may have a chi2 that is larger by less
 // than this. The map's margins reach to Valley::kFarthest then (ramp_study).
