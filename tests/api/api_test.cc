@@ -125,7 +125,7 @@ TEST(ApiTest, CalibratesFromTablesAsFromFiles) {
   const std::size_t n = file.free_names().size();
   const std::vector<double> covariance = file.covariance();
   ASSERT_EQ(covariance.size(), n * n);
-  EXPECT_EQ(covariance[1], covariance[n]);
+  EXPECT_DOUBLE_EQ(covariance[1], covariance[n]);
 }
 
 TEST(FrameResidualsTest, DerivativesAreThoseOfDifferences) {

@@ -13,6 +13,7 @@ namespace {
 // and that of the fit are as small as the solve that starts from them needs.
 // The tolerance of the fit is relative to l_0 and EI / l_0^2.
 constexpr int kRows = GaugeTable::kMostRows / 2;
+constexpr double kMostGap_mm = 2;
 constexpr double kTableTolerance = 1e-6, kFitTolerance = 1e-3;
 
 EquilibriumSolver SolverFor(const CalibrationProblem& problem) {
@@ -103,7 +104,10 @@ ContactGuess::Place ContactGuess::FromTable(bool fit) {
   if (!fit_.Fit(values_, weights_, &contact)) return place;
   place.arc_mm = contact[0].arc_mm;
   place.normal_N = contact[0].normal_N;
-  place.met = true;
+  // A circle out of reach leaves the contact on a bound.
+  const bool alone = circle_ && weights_.head(weights_.size() - 2).isZero();
+  const double gap_mm = std::sqrt(fit_.chi2()) * problem_.plan().object_std_mm;
+  place.met = !alone || gap_mm < kMostGap_mm;
   return place;
 }
 

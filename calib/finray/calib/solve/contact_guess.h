@@ -21,8 +21,8 @@ class ContactGuess {
 
   struct Place {
     double arc_mm = 0, normal_N = 0;
-    /// The fit converged, so the contact meets the object or the gauges. If
-    /// not, the contact is only a node of the table.
+    /// The fit converged, and an object that was fitted alone is met within
+    /// 2 mm. If not, the contact is a node of the table or on a bound.
     bool met = false;
   };
   /// kObjectFirst takes a measured force as it is, and uses the gauges only if
