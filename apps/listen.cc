@@ -14,7 +14,7 @@
 #include <cstring>
 #include <list>
 #include <memory>
-#include <mutex>
+#include <system_error>
 #include <thread>
 
 #include "app.h"
@@ -85,8 +85,12 @@ class Listener {
       }
       Open(AF_UNIX);
       const bool served = connect(file_, generic, sizeof to) == 0;
+      const int error = errno;
       close(file_);
       if (served) FailListening(address_, "another process serves it");
+      if (error != ECONNREFUSED) {
+        FailListening(address_, std::strerror(error));
+      }
       unlink(path.c_str());
     }
     Open(AF_UNIX);
@@ -212,11 +216,21 @@ void PrepareClient(int file, bool is_unix) {
   setsockopt(file, SOL_SOCKET, SO_KEEPALIVE, &yes, sizeof yes);
 }
 
+// Says why, and closes after what has come has been read: TCP throws a last
+// line away where bytes are left.
+void Dismiss(int file, const std::string& line) {
+  send(file, line.data(), line.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+  shutdown(file, SHUT_WR);
+  char bytes[4096];
+  while (recv(file, bytes, sizeof bytes, MSG_DONTWAIT) > 0) {
+  }
+  close(file);
+}
+
 void Refuse(int file) {
   const std::string line = "# error: " + std::to_string(kMostClients) +
                            " clients are connected, which is the most\n";
-  send(file, line.data(), line.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
-  close(file);
+  Dismiss(file, line);
 }
 
 }  // namespace
@@ -241,7 +255,11 @@ void Listen(const BatchSettings& settings, const std::string& address,
       Refuse(file);
     } else {
       PrepareClient(file, listener.is_unix());
-      sessions.emplace_back(settings, follow, file, ++clients);
+      try {
+        sessions.emplace_back(settings, follow, file, ++clients);
+      } catch (const std::system_error& error) {  // no thread to be had
+        Dismiss(file, "# error: " + std::string(error.what()) + "\n");
+      }
     }
   }
 }

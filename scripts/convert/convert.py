@@ -50,6 +50,9 @@ def converted(path):
         text = file.read()
     if not isinstance(root, yaml.MappingNode):
         raise BadInput(f"{path}:{root.start_mark.line + 1}: expected a mapping (key: value)")
+    for key, _ in root.value:
+        if not isinstance(key, yaml.ScalarNode):
+            raise BadInput(f"{path}:{key.start_mark.line + 1}: expected a word as a key")
     values = {key.value: value for key, value in root.value}
     kind = kind_of(values)
     if kind is None:
@@ -89,6 +92,9 @@ def run(flags):
             raise UsageError(f"--files: two files are named '{name}', and --out_dir holds one; convert them one by one")
     found = [(path, *converted(path)) for path in paths]  # all are read before one is written
     out = pathlib.Path(flags["out_dir"]) if flags["out_dir"] else None
+    for path in paths if out else []:
+        if (out / path.name).exists() and (out / path.name).samefile(path):
+            raise BadInput(f"{path}: is an input and would be written over; choose another output")
     old = 0
     for path, kind, version, text in found:
         was = f"version {version}" if version else "without schema_version"
@@ -97,8 +103,6 @@ def run(flags):
         target = ""
         if out:
             out.mkdir(parents=True, exist_ok=True)
-            if (out / path.name).exists() and (out / path.name).samefile(path):
-                raise BadInput(f"{path}: is an input and would be written over; choose another output")
             write(out / path.name, text)
             target = f" -> {out / path.name}"
         print(f"{path}: {kind}, {was}: " +

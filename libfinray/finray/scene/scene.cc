@@ -206,6 +206,14 @@ Scene ReadScene(const YamlMap& yaml) {
   scene.friction_coefficient = yaml.Number("friction_coefficient", 0);
   if (yaml.Has("presliding_mm")) {
     scene.presliding_mm = yaml.PositiveNumber("presliding_mm");
+    if (scene.friction_coefficient < 0) {
+      yaml.Fail("friction_coefficient",
+                "expected 0 or more, as presliding_mm tells the way of "
+                "friction");
+    }
+    if (yaml.Has("smoothing")) {
+      yaml.Fail("presliding_mm", "does not go with smoothing");
+    }
   }
   if (yaml.Has("force_max_N")) {
     scene.force_max_N = yaml.PositiveNumber("force_max_N");

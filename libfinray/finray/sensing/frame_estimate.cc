@@ -61,29 +61,38 @@ void FrameEstimate::SetIntervals(double length_mm) {
   }
 }
 
+namespace {
+
+double FrictionOf(const FrameEstimate& estimate, double coefficient) {
+  return std::isnan(estimate.friction) ? coefficient : estimate.friction;
+}
+
+}  // namespace
+
 double EstimatedForce(const FrameEstimate& estimate,
                       double friction_coefficient) {
+  const double friction = FrictionOf(estimate, friction_coefficient);
   // The magnitude of a single force does not depend on its direction.
   if (estimate.contacts < 2) {
-    return std::hypot(1, friction_coefficient) * estimate.contact[0].normal_N;
+    return std::hypot(1, friction) * estimate.contact[0].normal_N;
   }
   Eigen::Vector2d force(0, 0);
   for (int c = 0; c < estimate.contacts; ++c) {
     const ContactEstimate& contact = estimate.contact[c];
-    force += ContactForce(
-        {contact.arc_mm, contact.normal_N, friction_coefficient, Side::kFront},
-        contact.pose.z());
+    force +=
+        ContactForce({contact.arc_mm, contact.normal_N, friction, Side::kFront},
+                     contact.pose.z());
   }
   return force.norm();
 }
 
 double EstimatedForceStd(const FrameEstimate& estimate,
                          double friction_coefficient) {
+  const double friction = FrictionOf(estimate, friction_coefficient);
   if (!std::isnan(estimate.force_std_N)) return estimate.force_std_N;
   double std_N = 0;
   for (int c = 0; c < estimate.contacts; ++c) {
-    std_N +=
-        std::hypot(1, friction_coefficient) * estimate.contact[c].normal_std_N;
+    std_N += std::hypot(1, friction) * estimate.contact[c].normal_std_N;
   }
   return std_N;
 }

@@ -72,6 +72,10 @@ struct FrameEstimate {
   /// leave (CalibrationUncertainty::Chi2). NaN elsewhere.
   double model_chi2 = std::numeric_limits<double>::quiet_NaN();
   int iterations = 0;
+  /// The tangential share with which the contacts were found, where the motion
+  /// of the object tells it (Measurements::friction); NaN where it is the
+  /// scene's.
+  double friction = std::numeric_limits<double>::quiet_NaN();
   /// The scene's search_iteration_limit has ended the search. The frame is then
   /// neither ok nor no_contact: what was left to try may explain it better.
   bool search_ended = false;
@@ -112,7 +116,8 @@ struct FrameEstimate {
 };
 
 /// Magnitude of the total force of all contacts in N, for comparison with a
-/// reference sensor. NaN if the frame is not solved.
+/// reference sensor. NaN if the frame is not solved. The coefficient counts
+/// where the frame has no friction of its own.
 double EstimatedForce(const FrameEstimate& estimate,
                       double friction_coefficient);
 

@@ -128,7 +128,8 @@ FrameEstimate FrameEstimator::EstimateSliding(const Measurements& readings) {
     way = reversed_.get();
   }
   way->search_.set_friction(readings.friction);
-  const FrameEstimate estimate = way->EstimateAlone(readings);
+  FrameEstimate estimate = way->EstimateAlone(readings);
+  estimate.friction = readings.friction;
   way->search_.set_friction(way->scene_.friction_coefficient);
   return estimate;
 }
@@ -450,7 +451,8 @@ void FrameEstimator::Judge(const Measurements& readings,
     if (method_ == FrameMethod::kFast) {
       estimate->calibration_covariance =
           systematic_.Of(contacts_, readings.gauges_V, packed.weights);
-      if (estimate->contacts == 1) {
+      if (estimate->contacts == 1 &&
+          std::isfinite(estimate->calibration_covariance(0, 0))) {
         estimate->force_std_N =
             std::hypot(std::hypot(1, search_.friction()) *
                            estimate->contact[0].normal_std_N,

@@ -39,7 +39,7 @@ namespace finray {
 ///   a bound of the search, another solution explains the frame as well, or
 ///   Scene::search_iteration_limit ended the search (search_ended). A frame
 ///   without any solution by then is not_converged. A smoothed frame is
-///   unobservable too where neither it nor a frame next to it is sure alone
+///   unobservable too where neither it nor a frame of its part is sure alone
 ///   (smoothing.h).
 /// - ok (Judge): everything else.
 class FrameEstimator {

@@ -194,6 +194,19 @@ std::vector<ExpectedGauges> ExpectGauges(
   return expected;
 }
 
+// The number of objects that would touch the finger with x and y exchanged.
+int MetIfSwapped(const std::vector<const CalibrationFrame*>& frames,
+                 ContactGuess* guess) {
+  int met = 0;
+  for (const CalibrationFrame* frame : frames) {
+    if (!frame->object_mm.allFinite()) continue;
+    CalibrationFrame swapped = WithoutForce(*frame);
+    std::swap(swapped.object_mm.x(), swapped.object_mm.y());
+    met += guess->Of(swapped, From::kObjectFirst).met;
+  }
+  return met;
+}
+
 // Makes the checks of objects whose places are known.
 void RefuseImplausibleObjects(
     const std::vector<const CalibrationFrame*>& frames,
@@ -216,6 +229,13 @@ void RefuseImplausibleObjects(
     }
   }
   if (objects >= 4 && 2 * met < objects) {
+    if (2 * MetIfSwapped(frames, guess) > objects) {
+      Refuse(
+          "logs: of %d frames with contact the circle can touch the finger in "
+          "%d, and in most if the columns are exchanged: are object_x_mm and "
+          "object_y_mm swapped?",
+          objects, met);
+    }
     Refuse(
         "logs: of %d frames with contact the circle of radius %g mm can touch "
         "the finger in %d: check units, signs and columns of object_x_mm and "

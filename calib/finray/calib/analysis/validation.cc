@@ -44,13 +44,15 @@ std::vector<FrameEstimate> EstimateLogs(const Finger& finger, const Plan& plan,
                                         const Discretization& discretization,
                                         int threads) {
   Scene scene = plan.scene;
+  Scene moving = plan.scene;
+  moving.object_std_mm = plan.object_std_mm;
   // The other measurements are the reference, so the estimate does not use
   // them.
   scene.object_std_mm = scene.pin_std_mm = scene.tip_std_mm = std::nullopt;
   std::vector<FrameEstimate> all;
   for (std::size_t i = 0; i < logs.frames.size();) {
     std::vector<Measurements> readings;
-    HistoryFilter history(finger, scene);
+    HistoryFilter history(finger, moving);
     for (const int log = logs.frames[i].log;
          i < logs.frames.size() && logs.frames[i].log == log; ++i) {
       readings.push_back(GaugesOnly(logs.frames[i]));

@@ -20,7 +20,7 @@ constexpr double kFirstPresliding_mm = 0.02;
 // Mean change of the tangential share that asks for another solve.
 constexpr double kMuch = 0.003;
 
-// The object's contacts of all rows at a coefficient: z mu, and z itself.
+// The contact of a row at a coefficient: z mu, and z itself.
 struct Walk {
   std::optional<double> friction;
   double state = 0;

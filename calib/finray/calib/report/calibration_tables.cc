@@ -40,18 +40,19 @@ FrameTable CalibrationFrames(CalibrationProblem& problem,
     set(i, "fit_contact_mm", result.solution.contacts[i][0]);
     set(i, "fit_normal_N", result.solution.contacts[i][1]);
   }
-  const double per_normal = std::hypot(1, problem.parameters().friction());
+  const double friction = problem.parameters().friction();
   const ForceCheck& forces = result.forces;
   for (std::size_t k = 0; k < forces.frames.size(); ++k) {
     const int frame = forces.frames[k];
     const FrameEstimate& estimate = forces.after[k];
-    const ContactEstimate& before = forces.before[k].contact[0];
+    const FrameEstimate& drawn = forces.before[k];
+    const ContactEstimate& before = drawn.contact[0];
     const ContactEstimate& after = estimate.contact[0];
     table.MutableText("status_after")[frame] = StatusName(estimate.status);
-    set(frame, "force_before_N", per_normal * before.normal_N);
+    set(frame, "force_before_N", EstimatedForce(drawn, friction));
     set(frame, "contact_before_mm", before.arc_mm);
-    set(frame, "force_after_N", per_normal * after.normal_N);
-    set(frame, "force_after_std_N", per_normal * after.normal_std_N);
+    set(frame, "force_after_N", EstimatedForce(estimate, friction));
+    set(frame, "force_after_std_N", EstimatedForceStd(estimate, friction));
     set(frame, "contact_after_mm", after.arc_mm);
     set(frame, "contact_after_std_mm", after.arc_std_mm);
   }

@@ -96,7 +96,7 @@ ContactVector BoundedChange(const ContactEquations& equations,
     }
     change += share * (target - change);
     if (met >= 0) {
-      change[met] = target[met] > change[met] ? high[met] : low[met];
+      change[met] = std::clamp(target[met], low[met], high[met]);
       fixed[met] = true;
       continue;
     }
