@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import platform
 import re
 import sys
 import tempfile
@@ -120,7 +121,7 @@ def main(arguments):
         print(HELP)
         return 0
     if any(a in ("-version", "--version") for a in arguments):
-        print(f"finray_convert version {version()}")
+        print(f"finray_convert version {version()}\npython {platform.python_version()}\npyyaml {yaml.__version__}")
         return 0
     try:
         return run(parse(arguments))

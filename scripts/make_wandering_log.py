@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """A log as labs have it, for timings: one contact that wanders and comes and goes.
 
-make_wandering_log BUILD_DIR OUT.csv [ROWS] [FINGER.yaml]
+make_wandering_log.py BUILD_DIR OUT.csv [ROWS] [FINGER.yaml]
 
 At 100 Hz the contact wanders over 35 to 105 mm, and the force swings between 0 and
 8 N and rests at zero now and then. Rows: 200 000. Noise, gains and offsets are those
@@ -17,7 +17,7 @@ import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+ROOT = pathlib.Path(__file__).resolve().parents[1]
 RATE_HZ = 100
 LOW_MM, HIGH_MM, MOST_N = 35, 105, 8
 
