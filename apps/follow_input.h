@@ -30,7 +30,7 @@ struct FollowSettings {
   std::function<bool()> stop;
 };
 
-/// What became of an input.
+/// The result of an input that was followed to its end.
 struct Followed {
   EstimationSummary summary;
   /// From having a whole line to having written its row.

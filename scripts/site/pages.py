@@ -10,7 +10,7 @@ import shutil
 FENCE = re.compile(r"^\s*(```|~~~)")
 ITEM = re.compile(r"^(\s*)([-*+]|\d+[.)])\s")
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\[\]]*\])*)\]\(([^()\s]+)\)")
-# What links may lead to beside pages.
+# Links may lead to files with these endings, beside pages.
 SOURCE_SUFFIXES = {".h", ".cc", ".py", ".yaml", ".txt", ".pyi", ".json", ".cmake", ".in"}
 
 

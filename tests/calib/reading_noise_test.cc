@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// What SetReadingNoise() does to a finger whose readings have 0.3 mV.
+// SetReadingNoise() applied to a finger whose readings have 0.3 mV.
 struct Noise {
   explicit Noise(const FrameTable& log, std::optional<double> row_std_V) {
     Finger start = Nominal();

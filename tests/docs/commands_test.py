@@ -24,7 +24,7 @@ def main():
                    for flag in sorted(defined - shared - documented)]
         faults += [f"{source.stem}: there is no flag --{flag}"
                    for flag in sorted(documented - defined)]
-    # Those in Python have all their flags in their own sections.
+    # Tools in Python have all their flags in their own sections.
     in_python = {"finray_import": re.findall(r'Flag\("(\w+)",', (ROOT / "scripts/import/flags.py").read_text()),
                  "finray_convert": re.findall(r"^  --(?!version)(\w+) ", (ROOT / "scripts/convert/convert.py").read_text(), re.M)}
     for tool, defined in in_python.items():

@@ -9,7 +9,7 @@
 namespace finray {
 namespace {
 
-// Of a stage, where the scene does not say it.
+// The std of a stage, where the scene does not state one.
 constexpr double kUsualObjectStd_mm = 0.05;
 
 bool Creeps(const Gauge& gauge) { return gauge.creep_share != 0; }

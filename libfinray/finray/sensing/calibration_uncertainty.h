@@ -60,8 +60,8 @@ class CalibrationUncertainty {
                    const std::vector<double>& readings_V,
                    const Eigen::VectorXd& weights);
 
-  /// What the last call of Of() with one contact says of the variance of the
-  /// whole force F = f_c sqrt(1 + mu^2): an error of mu is in both factors.
+  /// The variance of the whole force F = f_c sqrt(1 + mu^2) from the last call
+  /// of Of() with one contact. An error of mu is in both factors.
   double whole_force_variance_N2() const { return whole_force_variance_N2_; }
 
   /// The least chi2 of as many contacts near a solution, with parameters that

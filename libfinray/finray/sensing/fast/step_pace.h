@@ -49,7 +49,7 @@ class StepPace {
   // is worth a secant.
   static constexpr double kAligned = 0.9, kSlow = 0.3;
   static constexpr double kMostGain = 8, kLeast = 0.1;
-  // Of l_0 and of the force: beyond it no line is straight.
+  // No line is straight over more than this share of l_0 and of the force.
   static constexpr double kLongest = 0.02;
 
   ContactVector before_;
