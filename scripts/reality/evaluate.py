@@ -4,7 +4,7 @@
 LOGS_DIR has <finger>/<world>/{train,holdout}.csv and their truth (make_logs.py).
 Writes OUT_DIR/outcomes.json. A finger is calibrated with the bundled plan and with
 each datasets/reality/<finger>/plan_*.yaml, which may have a finger_*.yaml of its own;
-the control has the last of them alone.
+the control has one of them alone.
 """
 
 import json
@@ -25,8 +25,8 @@ import page
 
 SCENE = ROOT / "configs" / "scenes" / "auto.yaml"
 BUNDLED_PLAN = ROOT / "configs" / "plans" / "force_and_circle.yaml"
-# Whose model has an equal plant in finray: rigid ribs on hinges.
-CONTROLS = ("strip",)
+# Whose model has an equal plant in finray (rigid ribs on hinges), and the control's plan.
+CONTROLS = {"strip": "thickness"}
 
 
 def drawing_of(finger, plan):
@@ -45,7 +45,7 @@ def cases(build, logs, out):
             control = out / finger / "same_model"
             same_model.make(build, plants.read(BUNDLED / finger / "plant.yaml"), drawing,
                             logs / finger / "smooth", control)
-            yield finger, "same model", control, *plans[-1]
+            yield finger, "same model", control, CONTROLS[finger], dict(plans)[CONTROLS[finger]]
         for world in FRICTIONS:
             for name, plan in plans:
                 yield finger, world, logs / finger / world, name, plan

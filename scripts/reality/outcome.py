@@ -57,7 +57,20 @@ def parameters(calibration, plant):
     return found
 
 
-def errors(estimates, truth):
+def scene_of(plan, calibration, scene, out):
+    """The scene to estimate in: where the plan's friction follows the motion, as `scene`
+    with the friction that the calibration found."""
+    planned = yaml.safe_load(plan.read_text("utf-8"))["scene"]
+    if not isinstance(planned, dict) or "presliding_mm" not in planned:
+        return scene
+    found = {entry["name"]: entry["value"] for entry in calibration["parameters"]}
+    path = out / "scene.yaml"
+    path.write_text(yaml.safe_dump({"schema_version": 1, **planned,
+                                    "friction_coefficient": max(0.0, found["friction_coefficient"])}), "utf-8")
+    return path
+
+
+def errors(estimates, truth, knows_friction=False):
     """Of the frames with status ok: error and std of force and place; the error of the
     tangent angle in deg and that of force in percent."""
     found = {"force": [], "place": [], "angle": [], "percent": []}
@@ -69,7 +82,8 @@ def errors(estimates, truth):
         if number(row.get("normal_2_N", "")) > 0:
             normal += number(row["normal_2_N"])
         # Without friction in the model, its force is the whole one, as the force sensor reads.
-        force = number(true["normal_1_N"]) * math.hypot(1, number(true.get("friction_1") or "0"))
+        friction = 0 if knows_friction else number(true.get("friction_1") or "0")
+        force = number(true["normal_1_N"]) * math.hypot(1, friction)
         found["force"].append((normal - force, number(row["normal_1_std_N"])))
         found["place"].append((number(row["contact_1_mm"]) - number(true["contact_1_mm"]),
                                number(row["contact_1_std_mm"])))
@@ -108,10 +122,11 @@ def outcome(build, finger, plan, logs, plant, scene, out):
     if ended.returncode == 2:
         return {"exit": 2, "refused": ended.stderr.strip().splitlines()[-1]}
     calibration = yaml.safe_load((out / "calibration.yaml").read_text("utf-8"))
-    run(build, "finray_estimate", "--finger", out / "finger.yaml", "--scene", scene,
+    own_scene = scene_of(plan, calibration, scene, out)
+    run(build, "finray_estimate", "--finger", out / "finger.yaml", "--scene", own_scene,
         "--logs", logs / "holdout.csv", "--out_dir", out)
     estimates, truth = rows(out / "holdout.frames.csv"), rows(logs / "holdout_truth.csv")
-    compared = errors(estimates, truth)
+    compared = errors(estimates, truth, own_scene != scene)
     touched = [row for row, true in zip(estimates, truth) if number(true["normal_1_N"]) > 0]
     unexplained = yaml.safe_load((out / "summary.yaml").read_text("utf-8"))["all"]["unexplained_frames"]
     return {"exit": ended.returncode, "verdict": calibration["verdict"],

@@ -169,6 +169,17 @@ class OutcomeTest(unittest.TestCase):
         for entry in found["parameters"]:
             self.assertLess(abs(entry["value"] - entry["true"]), 4 * entry["std"], entry["name"])
 
+    def test_friction_that_follows_the_motion_costs_no_force(self):
+        with tempfile.TemporaryDirectory() as folder:
+            found = outcome.outcome(BUILD, DATA / "strip/finger.yaml", DATA / "strip/plan_sliding.yaml",
+                                    DATA / "strip/rough", plant("strip"), ROOT / "configs/scenes/auto.yaml",
+                                    pathlib.Path(folder) / "out")
+        friction = next(p for p in found["parameters"] if p["name"] == "friction_coefficient")
+        self.assertLess(abs(friction["value"] - 0.3), 0.02)
+        self.assertGreater(found["ok"], 50)
+        self.assertLess(found["force"]["rms"], 0.06)  # 0.09 without the motion
+        self.assertGreater(found["force"]["covered_95"], 85)
+
     def test_a_parameter_that_one_plan_alone_varies_has_a_row(self):
         ei, rib = ({"name": name, "true": 2.0, "value": 3.0, "std": 0.5} for name in ("ei", "rib"))
         self.assertEqual(report.parameters([{"parameters": [ei]}, {"parameters": [ei, rib]}]),
