@@ -1,10 +1,10 @@
 // Is an `ok` frame ever far from the truth? Ramps of the force from zero to a
 // peak and back at random places of the whole beam, the paper's finger, gauge
 // noise 3e-4 rad, `contacts: auto`. It prints the frames that are `ok` and more
-// than 6 std off, after a table by place. With a second number behind a peak,
-// the scene has it as its force_max_N.
+// than 6 std off, after a table by place. Behind a peak, `:` states the scene's
+// force_max_N, and `~` smooths with 0.2 mm and that force from frame to frame.
 //
-//   build/test/tests/ramp_study [FRAMES_PER_PEAK [SEED [PEAK_N[:MAX_N]...]]]
+//   build/test/tests/ramp_study [FRAMES [SEED [PEAK_N[:MAX_N][~CHANGE_N]...]]]
 
 #include <cstdio>
 #include <cstdlib>
@@ -23,15 +23,20 @@ void Run(long frames, unsigned seed, const char* peak) {
   if (const char* limit = std::strchr(peak, ':')) {
     scene.force_max_N = std::atof(limit + 1);
   }
+  if (const char* change = std::strchr(peak, '~')) {
+    scene.smoothing = {0.2, std::atof(change + 1)};
+  }
   const Finger finger = PaperFinger();
   const std::vector<double> edges = {0, 5, 17, 39, 61, 83, 105, 115, 125, 140};
   const std::vector<RampTally> bands = RampStudy(
       finger, scene, peak_N, static_cast<int>(frames / 64), edges, seed);
   std::printf(
-      "\n| l_c, mm; 0 to %g N%s | frames | ok, %% | two contacts | ok beyond 3 "
+      "\n| l_c, mm; 0 to %g N%s%s | frames | ok, %% | two contacts | ok beyond "
+      "3 "
       "std, %% | beyond 6 std | farthest, std | largest force of a no_contact "
       "frame, N |\n|---|---|---|---|---|---|---|---|\n",
-      peak_N, scene.force_max_N ? ", force_max_N stated" : "");
+      peak_N, scene.force_max_N ? ", force_max_N stated" : "",
+      scene.smoothing ? ", smoothed" : "");
   RampTally all;
   const auto print = [](const char* name, const RampTally& t) {
     std::printf("| %s | %ld | %.2f | %ld | %.2f | %ld | %.1f | %.2f |\n", name,
