@@ -17,7 +17,7 @@ HELP = """Brings files of earlier versions to today's formats. Comments stay. Fi
   finray_convert --files 'old/finger.yaml,old/plan.yaml' --out_dir new
 
 Required
-  --files                      YAML files, separated by commas: fingers, scenes, plans, experiments, mappings, calibrations
+  --files                      YAML files, separated by commas: fingers, scenes, plans, experiments, mappings, results
 
 Optional
   --out_dir                    folder for the converted files; without it the tool only says what it would do
