@@ -15,7 +15,8 @@ const std::string& Required(const char* flag, const std::string& value) {
 }
 
 void Warn(const std::string& text, const std::string& remedy) {
-  std::cerr << "warning: " << text << "; " << remedy << "\n";
+  // One piece, which lines of other threads cannot part.
+  std::cerr << "warning: " + text + "; " + remedy + "\n";
 }
 
 void Warn(const std::vector<Warning>& warnings) {

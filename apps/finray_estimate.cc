@@ -333,7 +333,7 @@ int Follow(const BatchSettings& settings) {
   if (!followed) return kGood;
   const EstimationSummary& summary = followed->summary;
   PrintLatency("latency", followed->latency);
-  PrintEnded(summary, settings.scene, stderr);
+  PrintEnded("searches", summary, settings.scene, stderr);
   const std::vector<Warning> warnings =
       WarningsOf({{&summary, follow.source}}, settings.finger);
   Warn(warnings);
@@ -410,7 +410,7 @@ int Run() {
   PrintSummary(jobs, bar);
   if (FLAGS_report) WriteReport(settings);
   const EstimationSummary all = Total(jobs);
-  PrintEnded(all, settings.scene, stdout);
+  PrintEnded("searches", all, settings.scene, stdout);
   const std::vector<Warning> warnings =
       WarningsOf(SummariesOf(jobs), settings.finger);
   Warn(WarningsOf(settings.finger));

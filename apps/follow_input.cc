@@ -77,10 +77,10 @@ void PrintLatency(const char* label, const LatencyHistogram& latency) {
                static_cast<unsigned long long>(latency.count()));
 }
 
-void PrintEnded(const EstimationSummary& summary, const Scene& scene,
-                std::FILE* out) {
+void PrintEnded(const char* label, const EstimationSummary& summary,
+                const Scene& scene, std::FILE* out) {
   if (!scene.search_iteration_limit) return;
-  std::fprintf(out, "searches       %zu ended by the scene's limit of %d\n",
+  std::fprintf(out, "%-14s %zu ended by the scene's limit of %d\n", label,
                summary.search_ended, *scene.search_iteration_limit);
 }
 

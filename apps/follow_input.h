@@ -48,8 +48,8 @@ std::optional<Followed> FollowInput(const BatchSettings& settings,
 void PrintLatency(const char* label, const LatencyHistogram& latency);
 
 /// Says how many searches the scene's limit has ended, if it has one.
-void PrintEnded(const EstimationSummary& summary, const Scene& scene,
-                std::FILE* out);
+void PrintEnded(const char* label, const EstimationSummary& summary,
+                const Scene& scene, std::FILE* out);
 
 }  // namespace finray
 

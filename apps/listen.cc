@@ -170,9 +170,7 @@ class Session {
   void Serve() {
     try {
       if (const auto followed = FollowInput(settings_, follow_)) {
-        PrintLatency(follow_.source.c_str(), followed->latency);
-        Warn(WarningsOf({{&followed->summary, follow_.source}},
-                        settings_.finger));
+        Report(*followed);
       }
     } catch (const std::exception& error) {
       std::fprintf(stderr, "finray_estimate: %s\n", error.what());
@@ -182,6 +180,19 @@ class Session {
     }
     shutdown(file_, SHUT_RDWR);
     ended_ = true;
+  }
+
+  // The lines of a session stand together, and each names it.
+  void Report(const Followed& followed) const {
+    const std::string& client = follow_.source;
+    const std::vector<Warning> warnings =
+        WarningsOf({{&followed.summary, client}}, settings_.finger);
+    flockfile(stderr);
+    PrintLatency(client.c_str(), followed.latency);
+    PrintEnded((client + " searches").c_str(), followed.summary,
+               settings_.scene, stderr);
+    Warn(warnings);
+    funlockfile(stderr);
   }
 
   // Takes what the client still sends, for a while: TCP throws a last line away

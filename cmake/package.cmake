@@ -108,7 +108,8 @@ set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libceres-dev, pkg-config")
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS cmake)
 set(CPACK_COMPONENT_DEV_DESCRIPTION
 "contact sensing and calibration of Fin-Ray fingers: development
-Headers of finray, its packages for CMake and pkg-config, and examples in C++.
+Headers of finray, its packages for CMake and pkg-config, and examples in C++
+and for ROS 2.
 Residuals of one's own (finray/residuals.h) need libceres-dev too.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)

@@ -102,6 +102,26 @@ def calibrate(finger: Finger, plan: Plan, logs: Union[Log, Sequence[Log]], *, to
     """Calibrates a finger from logs, as finray_calibrate does. Logs are all paths, or all tables in memory.
 
     A verdict other than "good", and each warning of the result, are told as FinrayWarning.
+
+    A simulated finger whose front beam is softer than its drawing says, pressed at 20 places:
+
+    >>> import finray, numpy, warnings
+    >>> def finger(front_N_mm2):
+    ...     return finray.Finger(
+    ...         geometry={"front_length_mm": 140, "back_angle_deg": 112},
+    ...         beams={"front": {"bending_stiffness_N_mm2": front_N_mm2}, "back": {"bending_stiffness_N_mm2": 12500}},
+    ...         ribs=[{"front_mm": 17 + 22 * i, "angle_deg": 10 + 3 * i} for i in range(5)],
+    ...         gauges=[{"beam": "back", "start_mm": mm, "length_mm": 18, "noise_V": 3e-4} for mm in (30, 53, 76, 98)])
+    >>> hidden = finger(11000)
+    >>> touched = finray.simulate(hidden, {"contact_1_mm": numpy.linspace(30, 110, 20), "normal_1_N": numpy.linspace(2, 6, 20)})
+    >>> plan = finray.Plan(scene={"contacts": 1}, parameters={"front_stiffness": {"prior_std_percent": 50}},
+    ...                    measurements={"force_std_N": 0.02, "contact_std_mm": 0.3})
+    >>> with warnings.catch_warnings():  # that a log of its own should be held out
+    ...     warnings.simplefilter("ignore", finray.FinrayWarning)
+    ...     found = finray.calibrate(finger(12500), plan, finray.make_log(hidden, touched))
+    >>> front = found["front_stiffness_N_mm2"]
+    >>> front.status, abs(front.value - 11000) < 4 * front.std < 400
+    ('estimated', True)
     """
     all_logs = list(logs) if isinstance(logs, (list, tuple)) else [logs]
     given: list[Any] = ([os.fspath(log) for log in all_logs] if all(is_path(log) for log in all_logs)

@@ -1,4 +1,12 @@
-"""The exceptions of finray. Their texts are those of the command line."""
+"""The exceptions of finray. Their texts are those of the command line.
+
+>>> import finray
+>>> try:
+...     finray.Scene(contacts=17)
+... except finray.Error as error:
+...     type(error).__name__, error.exit_code, str(error)
+('InputError', 2, 'scene:1:14: expected a number of contacts from 0 to 16, or auto')
+"""
 
 
 class Error(Exception):

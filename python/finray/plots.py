@@ -26,7 +26,14 @@ def _axes(axes: Any) -> Any:
 
 def plot_finger(finger: Finger, contact_mm: float | None = None, normal_N: float = 0.0, *, scene: Scene | None = None,
                 axes: Any = None) -> Any:
-    """Draws both beams and the ribs' pins, undeformed or under a contact."""
+    """Draws both beams and the ribs' pins, undeformed or under a contact.
+
+    >>> import finray, matplotlib
+    >>> matplotlib.use("Agg")  # no window
+    >>> axes = finray.plot_finger(finray.paper_finger(), contact_mm=70, normal_N=2)
+    >>> [text.get_text() for text in axes.get_legend().get_texts()]
+    ['front', 'back', '2 N at 70 mm']
+    """
     axes = _axes(axes)
     load = {"contact_1_mm": [contact_mm], "normal_1_N": [normal_N]} if contact_mm is not None else {"time_s": [0.0]}
     found = simulate(finger, load, scene, shapes=True)

@@ -25,7 +25,15 @@ def is_path(log: Log) -> bool:
 
 
 def table_of(log: Log, scene: Scene | None = None, name: str = "the log") -> _finray.Table:
-    """The table of a log. Columns of float64 are not copied."""
+    """The table of a log. Columns of float64 are not copied.
+
+    >>> table_of({"time_s": [0.0, 0.1], "note": ["free"]})
+    Traceback (most recent call last):
+    finray.errors.InputError: the log: column 'note': expected 2 values, found 1
+    >>> table_of(3.5)
+    Traceback (most recent call last):
+    finray.errors.InputError: the log: expected a path, a DataFrame, a mapping from names to arrays, or a structured array, found float
+    """
     if isinstance(log, (str, os.PathLike)):
         return _finray.Table.read(os.fspath(log), (scene or Scene())._inside)
     if isinstance(log, np.ndarray) and log.dtype.names:

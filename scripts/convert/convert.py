@@ -7,6 +7,7 @@ import re
 import sys
 import tempfile
 
+import project
 import yaml
 from errors import BadInput, UsageError, did_you_mean
 from kinds import TODAY, kind_of, step
@@ -17,7 +18,7 @@ HELP = """Brings files of earlier versions to today's formats. Comments stay. Fi
   finray_convert --files 'old/finger.yaml,old/plan.yaml' --out_dir new
 
 Required
-  --files                      YAML files, separated by commas: fingers, scenes, plans, experiments, mappings, calibrations
+  --files                      YAML files, separated by commas: fingers, scenes, plans, experiments, mappings, results
 
 Optional
   --out_dir                    folder for the converted files; without it the tool only says what it would do
@@ -111,17 +112,12 @@ def run(flags):
     return 4 if old and not out else 0
 
 
-def version():
-    project = (pathlib.Path(__file__).resolve().parents[2] / "CMakeLists.txt").read_text()
-    return re.search(r"FINRAY_VERSION ([^)]+)", project)[1]
-
-
 def main(arguments):
     if any(a in ("-h", "-help", "--help") for a in arguments):
         print(HELP)
         return 0
     if any(a in ("-version", "--version") for a in arguments):
-        print(f"finray_convert version {version()}\npython {platform.python_version()}\npyyaml {yaml.__version__}")
+        print(f"finray_convert version {project.version()}\npython {platform.python_version()}\npyyaml {yaml.__version__}")
         return 0
     try:
         return run(parse(arguments))

@@ -2,9 +2,7 @@
 
 import importlib.metadata
 import os
-import pathlib
 import platform
-import re
 import sys
 
 import numpy as np
@@ -14,6 +12,7 @@ import joining
 import mapping_file
 import output
 import plateaus
+import project
 import readers
 import recording as recordings_of
 import report
@@ -191,8 +190,7 @@ class Import:
 
 def _versions():
     """The tool, and the packages that it reads with where they are installed, one a line."""
-    project = (pathlib.Path(__file__).resolve().parents[2] / "CMakeLists.txt").read_text()
-    yield "finray_import version " + re.search(r"FINRAY_VERSION ([^)]+)", project)[1]
+    yield f"finray_import version {project.version()}"
     yield "python " + platform.python_version()
     for package in ("numpy", "PyYAML", "scipy", "h5py", "h5py._debian_h5py_serial", "openpyxl", "pandas", "rosbag",
                     "zstandard", "lz4"):

@@ -7,6 +7,7 @@ import pathlib
 import re
 import shutil
 
+MARKER = ".finray_docs_site"  # in folders that a run may delete
 FENCE = re.compile(r"^\s*(```|~~~)")
 ITEM = re.compile(r"^(\s*)([-*+]|\d+[.)])\s")
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\[\]]*\])*)\]\(([^()\s]+)\)")
@@ -111,8 +112,12 @@ def named_pages(root):
 
 
 def empty(folder):
-    """A folder with nothing in it, once it is sure that only an earlier site is lost."""
+    """Leaves a marker in a folder that has nothing else, once it is sure that only an earlier site is lost."""
     folder = pathlib.Path(folder)
-    if folder.exists() and any(folder.iterdir()) and not (folder / "sitemap.xml").exists():
-        raise SystemExit(f"docs_site: {folder}: is not empty and holds no earlier site; choose another folder")
-    shutil.rmtree(folder, ignore_errors=True)
+    if folder.exists() and any(folder.iterdir()) and not (folder / MARKER).is_file():
+        raise SystemExit(f"docs_site: {folder}: is not empty and not marked as an earlier site (no file {MARKER} in it); "
+                         "choose another folder")
+    if folder.exists():
+        shutil.rmtree(folder)
+    folder.mkdir(parents=True)
+    (folder / MARKER).write_text("scripts/docs_site deletes this folder when it runs again.\n")  # mkdocs leaves hidden files

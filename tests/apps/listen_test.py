@@ -132,6 +132,39 @@ class ListenTest(unittest.TestCase):
             self.assertEqual(code, 0)
             self.assertIn("finray_estimate: client 1:2:2: gauge_1_V: expected a number, found 'oops'\n", errors)
 
+    def test_lines_of_a_session_stand_together_and_name_it(self):
+        self.scene.write_text("contacts: 1\nsearch_iteration_limit: 30\n")
+        # No contact makes gauges read so, and a line of each client is bad.
+        rows = "".join(f"{i},0.2,-0.2,{0.1 + 0.01 * i},0.2\n" for i in range(40)) + "x\n"
+        numbers = range(1, 9)
+        with serving("0", "--scene", self.scene) as server:
+            with contextlib.ExitStack() as stack:
+                clients = []
+                for number in numbers:  # one after the other, so that names are known
+                    client = stack.enter_context(server.connect())
+                    client.sendall(HEADER.encode())
+                    file = stack.enter_context(client.makefile("rw"))
+                    file.readline()
+                    clients.append((client, file))
+                for client, _ in clients:
+                    client.sendall(rows.encode())
+                for client, _ in clients:
+                    client.shutdown(socket.SHUT_WR)
+                for _, file in clients:
+                    found = file.read().splitlines()
+                    self.assertEqual((len(found), found[-1].rsplit(",", 1)[1]), (41, "bad_input"))
+            code, errors = server.stop()
+        self.assertEqual(code, 0)
+        lines = errors.splitlines()
+        for number in numbers:
+            self.assertIn(f"finray_estimate: client {number}:42: ", errors)
+            at = next(i for i, line in enumerate(lines) if line.startswith(f"client {number}  "))
+            self.assertRegex(lines[at], rf"^client {number}       p50 \S+ us, .* over 41 frames$")
+            self.assertRegex(lines[at + 1], rf"^client {number} searches \d+ ended by the scene's limit of 30$")
+            self.assertRegex(lines[at + 2], rf"^warning: .* of client {number} .*; \S")
+        kinds = ("finray_estimate: client ", "client ", "warning: ")
+        self.assertEqual([line for line in lines if not line.startswith(kinds)], [])
+
     def test_no_more_clients_than_sixteen(self):
         with serving("0", "--scene", self.scene) as server:
             clients = [server.connect() for _ in range(17)]

@@ -9,7 +9,11 @@ import tempfile
 import unittest
 import urllib.parse
 
+sys.dont_write_bytecode = True
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts/site"))
+import pages  # noqa: E402
+
 NEEDS = ["/usr/bin/mkdocs", "/usr/bin/doxygen", "/usr/share/doxygen-awesome-css", "/usr/lib/python3/dist-packages/mkdocstrings"]
 
 
@@ -45,17 +49,28 @@ class SiteTest(unittest.TestCase):
             python = (out / "api/python.html").read_text()
             for name in ("Live", "calibrate", "simulate", "reconstruct", "plot_finger", "InputError"):
                 self.assertRegex(python, rf'id="finray\.\w+\.{name}"', name)
-            # A second site takes the place of the first, and of nothing else.
-            (out / "sitemap.xml").unlink()
+            self.assertTrue((out / pages.MARKER).is_file())
+
+    def test_a_site_takes_the_place_of_an_earlier_one_and_of_nothing_else(self):
+        with tempfile.TemporaryDirectory() as name:
+            out = pathlib.Path(name) / "site"
+            pages.empty(out)
+            (out / "page.html").write_text("of an earlier site")
+            pages.empty(out)
+            self.assertEqual([path.name for path in out.iterdir()], [pages.MARKER])
+            # Another's site.
+            (out / pages.MARKER).unlink()
+            (out / "sitemap.xml").write_text("")
             refused = subprocess.run([ROOT / "scripts/docs_site", out], capture_output=True, text=True)
-            self.assertEqual(refused.returncode, 1)
-            self.assertIn("holds no earlier site", refused.stderr)
+            self.assertEqual((refused.returncode, refused.stderr.count("\n")), (1, 1))
+            self.assertIn("not marked as an earlier site", refused.stderr)
+            self.assertEqual([path.name for path in out.iterdir()], ["sitemap.xml"])
 
     def check_links(self, out):
-        pages = {path: Links(path) for path in out.rglob("*.html") if "api/cpp/" not in str(path)}
-        self.assertGreater(len(pages), 60)
+        links_of = {path: Links(path) for path in out.rglob("*.html") if "api/cpp/" not in str(path)}
+        self.assertGreater(len(links_of), 60)
         lost = []
-        for path, page in pages.items():
+        for path, page in links_of.items():
             if path.name == "404.html":
                 continue
             for link in page.links:
@@ -66,7 +81,7 @@ class SiteTest(unittest.TestCase):
                 target = target / "index.html" if target.is_dir() else target
                 if not target.exists():
                     lost.append(f"{path.relative_to(out)}: {link}")
-                elif parts.fragment and target in pages and urllib.parse.unquote(parts.fragment) not in pages[target].ids:
+                elif parts.fragment and target in links_of and urllib.parse.unquote(parts.fragment) not in links_of[target].ids:
                     lost.append(f"{path.relative_to(out)}: {link}: no such anchor")
         self.assertEqual(lost, [])
 

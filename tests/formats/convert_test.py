@@ -18,6 +18,10 @@ OLD = {  # name: text of a file without a version, text that it becomes, kind
     "flow": ("{contacts: 1}\n", "{schema_version: 1, contacts: 1}\n", "scene"),
     "document": ("%YAML 1.1\n---\nfriction_coefficient: 0.3\n",
                  "%YAML 1.1\n---\nschema_version: 1\nfriction_coefficient: 0.3\n", "scene"),
+    "tagged": ("--- !!map\n# one\ncontacts: 1\n", "--- !!map\n# one\nschema_version: 1\ncontacts: 1\n", "scene"),
+    "anchored": ("--- &top !!map  # all\n  contacts: 1\n", "--- &top !!map  # all\n  schema_version: 1\n  contacts: 1\n", "scene"),
+    "tagged_flow": ("--- !!map {contacts: 1}\n", "--- !!map {schema_version: 1, contacts: 1}\n", "scene"),
+    "marked_key": ("? contacts\n: 1\n", "schema_version: 1\n? contacts\n: 1\n", "scene"),
     "windows": ("delimiter: ';'\r\ncolumns: {U1: gauge_1_V}\r\n",
                 "schema_version: 1\ndelimiter: ';'\r\ncolumns: {U1: gauge_1_V}\r\n", "mapping"),
     "finger": ((ROOT / "configs/fingers/paper_140mm.yaml").read_text().replace("schema_version: 1\n", "", 1), None, "finger"),
@@ -69,6 +73,24 @@ class ConvertTest(unittest.TestCase):
             self.assertEqual((code, error), (0, ""), path)
             self.assertIn("version 1: is today's", out)
             self.assertEqual((self.folder / "same" / path.name).read_bytes(), path.read_bytes())
+
+    def test_results_are_called_what_they_are_and_stay(self):
+        frozen = ROOT / "tests/data/formats/1.0"
+        inputs = {"sha256": "0"}
+        for kind, text in (
+                ("calibration", (frozen / "calibration/calibration.yaml").read_text()),
+                ("summary", (frozen / "estimated/summary.yaml").read_text()),
+                ("summary", (frozen / "estimated/log.summary.yaml").read_text()),
+                ("validation", yaml.safe_dump({"schema_version": 1, "verdict": "no_gates", "gates": [], "errors": {}, "inputs": inputs})),
+                ("comparison", yaml.safe_dump({"schema_version": 1, "verdict": "passed", "shared_logs": 0, "parameters": [], "gates": []})),
+                ("control summary", yaml.safe_dump({"finger": "f", "inputs": inputs, "experiments": []})),
+                ("reconstruction", yaml.safe_dump({"touches": {}, "descriptors": [], "inputs": [inputs]})),
+                ("compliance", yaml.safe_dump({"order_confidence": 1, "objects": [], "inputs": [inputs]}))):
+            path = self.write("result.yaml", text)
+            code, out, error = self.convert("--files", path, "--out_dir", "new")
+            version = "version 1" if "schema_version" in text else "without schema_version"
+            self.assertEqual((code, out, error), (0, f"{path}: {kind}, {version}: is today's -> new/result.yaml\n", ""))
+            self.assertEqual((self.folder / "new/result.yaml").read_bytes(), path.read_bytes())
 
     def test_kinds(self):
         for folder, kind in (("fingers", "finger"), ("scenes", "scene"), ("plans", "plan"), ("control", "experiment")):

@@ -25,15 +25,15 @@ LOADS = [(70.0, 2.0), (55.0, 1.0)]
 
 
 def install(folder):
-    """The C++ package as its users have it, without the executables."""
-    for component in ("runtime", "dev"):
+    """finray as its users have it, without the executables. Returns the folder of documents."""
+    for component in ("runtime", "dev", "python"):
         subprocess.run(["cmake", "--install", BUILD, "--component", component, "--prefix", folder / "installed"],
                        check=True, stdout=subprocess.DEVNULL)
+    return folder / "installed/share/doc"
 
 
-def build(folder):
-    install(folder)
-    shutil.copytree(EXAMPLES / "cpp", folder / "cpp")
+def build(folder, example):
+    shutil.copytree(example, folder / "cpp")
     packages = ";".join(map(str, [folder / "installed", STAND_INS / "cpp/cmake"]))
     subprocess.run(["cmake", "-S", folder / "cpp", "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={packages}",
                     "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror -O1"], check=True, stdout=subprocess.DEVNULL)
@@ -46,8 +46,9 @@ class Ros2Test(unittest.TestCase):
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
-        cls.nodes = {"Python": [sys.executable, EXAMPLES / "python/finray_node.py"],
-                     "C++": build(pathlib.Path(folder.name))}
+        documents = install(pathlib.Path(folder.name))
+        cls.nodes = {"Python": [sys.executable, documents / "python3-finray/examples/ros2/python/finray_node.py"],
+                     "C++": build(pathlib.Path(folder.name), documents / "libfinray-dev/examples/ros2/cpp")}
         finger = finray.Finger.read(FINGER)
         seen = finray.simulate(finger, {"contact_1_mm": [load[0] for load in LOADS],
                                         "normal_1_N": [load[1] for load in LOADS]})

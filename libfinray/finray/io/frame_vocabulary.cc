@@ -9,26 +9,6 @@
 namespace finray {
 namespace {
 
-// '#' stands for an index that starts from 1.
-const std::vector<std::string>& Patterns() {
-  static const std::vector<std::string> patterns = [] {
-    std::istringstream words(
-        "time_s gauge_#_V gauge_#_rad contact_#_mm contact_#_std_mm normal_#_N "
-        "normal_#_std_N contact_#_low_mm contact_#_high_mm normal_#_low_N "
-        "normal_#_high_N friction_# alternative_contact_#_mm "
-        "alternative_normal_#_N contact_#_x_mm contact_#_y_mm "
-        "contact_#_angle_rad object_x_mm object_y_mm object_angle_deg "
-        "object_displacement_mm force_N force_x_N force_y_N rib_#_N "
-        "rib_#_front_x_mm rib_#_front_y_mm rib_#_back_x_mm rib_#_back_y_mm "
-        "cylinder_radius_mm tip_x_mm tip_y_mm tip_angle_rad chi2 chi2_p_value "
-        "alternative_chi2 iterations search_ended temperature_C "
-        "gauge_#_scatter_V");
-    return std::vector<std::string>(std::istream_iterator<std::string>(words),
-                                    {});
-  }();
-  return patterns;
-}
-
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
 bool Matches(std::string_view name, std::string_view pattern) {
@@ -49,9 +29,28 @@ bool Matches(std::string_view name, std::string_view pattern) {
 
 }  // namespace
 
+const std::vector<std::string>& FrameColumnPatterns() {
+  static const std::vector<std::string> patterns = [] {
+    std::istringstream words(
+        "time_s gauge_#_V gauge_#_rad contact_#_mm contact_#_std_mm normal_#_N "
+        "normal_#_std_N contact_#_low_mm contact_#_high_mm normal_#_low_N "
+        "normal_#_high_N friction_# alternative_contact_#_mm "
+        "alternative_normal_#_N contact_#_x_mm contact_#_y_mm "
+        "contact_#_angle_rad object_x_mm object_y_mm object_angle_deg "
+        "object_displacement_mm force_N force_x_N force_y_N rib_#_N "
+        "rib_#_front_x_mm rib_#_front_y_mm rib_#_back_x_mm rib_#_back_y_mm "
+        "cylinder_radius_mm tip_x_mm tip_y_mm tip_angle_rad chi2 chi2_p_value "
+        "alternative_chi2 iterations search_ended temperature_C "
+        "gauge_#_scatter_V");
+    return std::vector<std::string>(std::istream_iterator<std::string>(words),
+                                    {});
+  }();
+  return patterns;
+}
+
 bool IsFrameColumn(std::string_view name) {
   return std::any_of(
-      Patterns().begin(), Patterns().end(),
+      FrameColumnPatterns().begin(), FrameColumnPatterns().end(),
       [name](std::string_view pattern) { return Matches(name, pattern); });
 }
 
@@ -65,7 +64,7 @@ std::string DidYouMeanFrameColumn(const std::string& name) {
   std::string index(digit, std::find_if_not(digit, name.end(), IsDigit));
   if (index.empty() || index.front() == '0') index = "1";
   std::vector<std::string> columns = {"status"};
-  for (const std::string& pattern : Patterns()) {
+  for (const std::string& pattern : FrameColumnPatterns()) {
     std::string& column = columns.emplace_back(pattern);
     const auto hash = column.find('#');
     if (hash != std::string::npos) column.replace(hash, 1, index);

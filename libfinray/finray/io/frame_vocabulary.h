@@ -7,6 +7,10 @@
 
 namespace finray {
 
+/// The vocabulary of numeric columns; '#' stands for an index that starts from
+/// 1.
+const std::vector<std::string>& FrameColumnPatterns();
+
 /// Says whether a name belongs to the vocabulary of numeric columns, such as
 /// gauge_<j>_V with j = 1, 2, ... (no leading zeros).
 bool IsFrameColumn(std::string_view name);
