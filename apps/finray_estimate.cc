@@ -100,6 +100,13 @@ void CatchStopSignals(int flags) {
   sigaction(SIGTERM, &action, nullptr);
 }
 
+// A result and the page beside it.
+ViewJob PageOf(const LogJob& job) {
+  const std::string folder =
+      std::filesystem::path(job.result()).parent_path().string();
+  return {job.result(), PagePath(job.result(), folder)};
+}
+
 std::vector<LogJob> MakeJobs(const BatchSettings& settings) {
   const auto logs =
       ExpandLogs(SplitList(Required("logs", FLAGS_logs)), FLAGS_out_dir);
@@ -107,6 +114,11 @@ std::vector<LogJob> MakeJobs(const BatchSettings& settings) {
   std::vector<LogJob> jobs;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     jobs.emplace_back(&settings, logs[i], results[i]);
+  }
+  if (FLAGS_report) {
+    std::vector<ViewJob> pages;
+    for (const LogJob& job : jobs) pages.push_back(PageOf(job));
+    RefuseSamePages(pages);
   }
   return jobs;
 }
@@ -145,10 +157,7 @@ void RemoveOldSummaries(const std::vector<LogJob>& jobs) {
     std::filesystem::remove(OutPath(name), missing);
   }
   RemoveOldPage(OutPath("index.html"));
-  for (const LogJob& job : jobs) {
-    const std::filesystem::path result = job.result();
-    RemoveOldPage(PagePath(result, result.parent_path()));
-  }
+  for (const LogJob& job : jobs) RemoveOldPage(PageOf(job).page);
 }
 
 bool RunAll(FrameSolverPool* pool, std::vector<LogJob>* jobs) {

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
-#include <set>
 
 #include "app.h"
 #include "finray/view/log_channels.h"
@@ -23,16 +22,6 @@ namespace {
 
 using namespace finray;
 namespace fs = std::filesystem;
-
-void RefuseSamePages(const std::vector<ViewJob>& jobs) {
-  std::set<std::string> pages;
-  for (const ViewJob& job : jobs) {
-    if (!pages.insert(job.page).second) {
-      throw InputError(job.result + ": another result has the page " +
-                       job.page + " too; make them one by one");
-    }
-  }
-}
 
 int ViewFolders(const std::vector<std::string>& folders, const Finger* finger) {
   std::vector<BatchResults> batches;

@@ -266,6 +266,8 @@ class LivePageTest(unittest.TestCase):
             browser.wait("document.getElementById('connection').textContent === 'the input has ended'")
             server.thread.join()
             self.assertEqual(browser.run("finray.then(p => p.logs[0].rows)"), server.rows)
+            browser.window(390, 844, phone=True)
+            self.assertLessEqual(browser.run("document.documentElement.scrollWidth"), 390)
             self.assertEqual(browser.errors, [])
 
 

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "finray/io/atomic_file.h"
+#include "finray/io/error.h"
 #include "finray/io/versions.h"
 #include "finray/view/json_text.h"
 #include "finray/view/log_channels.h"
@@ -147,6 +148,18 @@ std::vector<ViewJob> JobsOf(const BatchResults& batch,
          PagePath(log.result, (folder / below.parent_path()).string())});
   }
   return jobs;
+}
+
+void RefuseSamePages(const std::vector<ViewJob>& jobs) {
+  std::map<std::string, std::string> result_of;
+  for (const ViewJob& job : jobs) {
+    const auto [at, is_new] = result_of.insert({job.page, job.result});
+    if (!is_new) {
+      throw InputError(job.page + ": would be the page of " + at->second +
+                       " and of " + job.result +
+                       "; rename one, or make their pages one by one");
+    }
+  }
 }
 
 void RemoveOldPage(const std::string& page) {

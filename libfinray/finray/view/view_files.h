@@ -34,6 +34,10 @@ std::string PagePath(const std::string& result, const std::string& folder);
 std::vector<ViewJob> JobsOf(const BatchResults& batch,
                             const std::string& folder);
 
+/// Throws InputError if two results have one page, as `index` and `index_log`
+/// have.
+void RefuseSamePages(const std::vector<ViewJob>& jobs);
+
 /// Removes a page of an earlier run, which would no longer be true. A file of
 /// that name that finray has not written stays.
 void RemoveOldPage(const std::string& page);
