@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 STRANGE = "zzzzzzzz"
 # Mappings that one function reads.
 SAME = {"beams.front": "beams.<beam>", "beams.back": "beams.<beam>", "tables.*.columns": "columns"}
-# What an error says of a value, and the words for it.
+# A pattern finds what an error expects of a value. The table writes the words beside the pattern.
 EXPECTED = [
     (r"expected one of (.*?), found", lambda found: _words(found[1].split(", "))),
     (r'expected ((?:"[^"]*",? )+or \w+), found', lambda found: _words(re.split(r", | or ", found[1]))),
@@ -174,17 +174,21 @@ def _walk(reader, document, where, path, stop, mappings):
 
 
 def keys_of(reader, samples, stop=()):
-    """{path of a mapping: Mapping} of all samples, which have to be good."""
+    """{path of a mapping: Mapping} of all samples (name, document), which have to be good."""
     mappings = {}
-    for sample in samples:
-        document = yaml.safe_load(sample.read_text(encoding="utf-8"))
+    for name, document in samples:
         if error := reader.error_of(document):
-            raise RuntimeError(f"{sample}: {error}")
+            raise RuntimeError(f"{name}: {error}")
         _walk(reader, document, [], "", stop, mappings)
     reader.close()
     return mappings
 
 
 def samples_of(kind):
-    return sorted((ROOT / "tests/docs/samples").glob(f"{kind}*.yaml"))
-
+    """[(name, document)]. A second plan fixes what the first one frees."""
+    found = [(path.name, yaml.safe_load(path.read_text(encoding="utf-8")))
+             for path in sorted((ROOT / "tests/docs/samples").glob(f"{kind}*.yaml"))]
+    if kind == "plan":
+        fixed = {family: {"fixed": True} for family in found[0][1]["parameters"]}
+        found.insert(1, ("the plan that fixes all", {"schema_version": 1, "parameters": fixed}))
+    return found

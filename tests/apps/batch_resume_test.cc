@@ -118,7 +118,7 @@ TEST_F(BatchResumeTest, SignalsEndARunThatCanBeResumed) {
 }
 
 TEST_F(BatchResumeTest, MemoryStaysBehindTheLog) {
-  // As a table these frames alone would take 100 MB, as text three times that.
+  // A table of these frames would take 100 MB, their text three times that.
   EXPECT_LT(PeakMemory(400000), 150);
 }
 

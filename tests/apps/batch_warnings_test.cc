@@ -1,5 +1,5 @@
-// What finray_estimate says of logs that the finger does not explain, and its
-// gates.
+// finray_estimate warns of logs that the finger does not explain. Gates then
+// end it with exit code 4.
 
 #include <yaml-cpp/yaml.h>
 

@@ -2,9 +2,8 @@
 // scripts/site/format_tables.py, which makes the tables of
 // docs/reference/formats.md of these answers.
 //
-//   format_reader finger|scene|plan|experiment    on each line of stdin the
-//   path
-//     of a file; each answer is a line: empty, or the error
+//   format_reader finger|scene|plan|experiment    reads the file whose path is
+//     on a line of stdin; each answer is a line: empty, or the error
 //   format_reader columns     column and unit of each column of a log
 //   format_reader estimates   the columns that an estimate may have
 #include <functional>
@@ -50,7 +49,7 @@ int ListColumns() {
   return 0;
 }
 
-// Of a finger and a scene that leave out nothing.
+// The finger and the scene leave out nothing.
 int ListEstimates() {
   Scene scene;
   scene.contacts = 2;

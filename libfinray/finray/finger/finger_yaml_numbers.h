@@ -6,9 +6,9 @@
 
 namespace finray {
 
-// What the reader and the writer of finger YAML share: keys, and numbers that
-// are rounded once, in long double, so that each value of a finger has a text
-// that reads back as the same.
+// The reader and the writer of finger YAML share these keys and numbers. Each
+// number is rounded once, in long double. Each value of a finger then has a
+// text that reads back as the same value.
 
 inline constexpr const char* kHingeStiffness = "hinge_stiffness_N_mm_per_rad";
 inline constexpr const char* kClampStiffness = "clamp_stiffness_N_mm_per_rad";

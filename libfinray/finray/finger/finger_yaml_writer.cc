@@ -141,6 +141,12 @@ std::string FingerToYaml(const Finger& finger, const std::string& comment) {
     yaml << HingesToYaml(rib) << BendingToYaml(rib);
     yaml << "}\n";
   }
+  const auto add_share = [&](const char* key, double share, const char* scale,
+                             double value) {
+    if (share == 0) return;
+    yaml << ", " << key << ": {share: " << NumberText(share) << ", " << scale
+         << ": " << NumberText(value) << "}";
+  };
   if (!finger.gauges.empty()) yaml << "gauges:\n";
   for (const Gauge& gauge : finger.gauges) {
     yaml << "  - {beam: " << SideName(gauge.beam);
@@ -154,16 +160,10 @@ std::string FingerToYaml(const Finger& finger, const std::string& comment) {
     if (gauge.curvature_per_rad != 0) {
       add("curvature_per_rad", gauge.curvature_per_rad);
     }
-    if (gauge.flat_share != 0) {
-      yaml << ", flat: {share: " << NumberText(gauge.flat_share)
-           << ", width_rad: " << NumberText(gauge.flat_width_rad) << "}";
-    }
+    add_share("flat", gauge.flat_share, "width_rad", gauge.flat_width_rad);
     if (gauge.hysteresis_rad != 0) add("hysteresis_rad", gauge.hysteresis_rad);
-    if (gauge.creep_share != 0) {
-      yaml << ", creep: {share: " << NumberText(gauge.creep_share)
-           << ", time_constant_s: " << NumberText(gauge.creep_time_constant_s)
-           << "}";
-    }
+    add_share("creep", gauge.creep_share, "time_constant_s",
+              gauge.creep_time_constant_s);
     yaml << "}\n";
   }
   if (finger.calibration)
