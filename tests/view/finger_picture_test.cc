@@ -43,7 +43,7 @@ TEST_F(FingerPictureTest, RibsEndAtTheirHingesAndKeepTheirLengths) {
 }
 
 TEST_F(FingerPictureTest, TableIsGoodWhereItSaysSo) {
-  const ShapeTable table = MakeShapeTable(finger_, {}, nodes_, 0, 8);
+  const ShapeTable table = MakeShapeTable(finger_, {}, nodes_, 0, 0, 8);
   EXPECT_EQ(table.moves_mm.size(),
             table.arcs_mm.size() * table.forces_N.size());
   // A pixel of a picture of 500 pixels is 0.28 mm.
@@ -62,11 +62,28 @@ TEST_F(FingerPictureTest, TableIsGoodWhereItSaysSo) {
   }
 }
 
+TEST_F(FingerPictureTest, TableIsGoodAtAllFrictions) {
+  const ShapeTable table = MakeShapeTable(finger_, {}, nodes_, -0.3, 0.3, 8);
+  EXPECT_EQ(table.frictions, (std::vector<double>{-0.3, 0, 0.3}));
+  EXPECT_LT(table.largest_error_mm, 0.08);
+  // The order is that of the header.
+  const std::vector<PointContact> contacts = {
+      {table.arcs_mm[40], table.forces_N[20], -0.3}};
+  ASSERT_TRUE(solver_.Solve(contacts));
+  const std::vector<double> places = nodes_.Places(solver_, contacts);
+  const std::vector<double> undeformed = nodes_.Undeformed();
+  const std::vector<double>& moves =
+      table.moves_mm[20 * 3 * table.arcs_mm.size() + 40];
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    EXPECT_NEAR(undeformed[i] + moves[i], places[i], 1e-8);
+  }
+}
+
 TEST_F(FingerPictureTest, WithoutAnEquilibriumTheTableHasNoShape) {
   Finger soft = finger_;
   soft.front_stiffness_N_mm2 = soft.back_stiffness_N_mm2 = 20;
   const PictureNodes nodes(soft);
-  const ShapeTable table = MakeShapeTable(soft, {}, nodes, 0, 500);
+  const ShapeTable table = MakeShapeTable(soft, {}, nodes, 0, 0, 500);
   bool any = false;
   for (const auto& moves : table.moves_mm) any = any || std::isnan(moves[0]);
   EXPECT_TRUE(any);

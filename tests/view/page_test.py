@@ -2,7 +2,9 @@
 """The pages of finray_view in headless Chromium: they draw, scrub, zoom, play and compare without
 an error, and load nothing from elsewhere."""
 
+import csv
 import json
+import math
 import os
 import pathlib
 import shutil
@@ -104,7 +106,6 @@ class PageTest(unittest.TestCase):
 
     def test_values_are_those_of_the_result(self):
         self.open("2026-03-01 a.html")
-        import csv
         with open(self.out / "2026-03-01 a.frames.csv", newline="") as file:
             rows = list(csv.DictReader(file))
         names = ["contact_1_mm", "contact_1_std_mm", "normal_1_N", "contact_2_mm", "force_N"]
@@ -141,6 +142,44 @@ class PageTest(unittest.TestCase):
                 u = (arc - a[0]) / (b[0] - a[0])
                 for axis in (1, 2):
                     self.assertAlmostEqual(places[2 * k + axis - 1], a[axis] + u * (b[axis] - a[axis]), delta=0.08)
+
+    def test_friction_of_each_row(self):
+        """A circle slides up the finger and down again: friction turns round, and arrow and shape with it."""
+        scene, table, log = (self.folder / name for name in ("slide.yaml", "slide.csv", "slide.frames.csv"))
+        scene.write_text("{contacts: 1, friction_coefficient: 0.3, presliding_mm: 0.001, object: {shape: circle, radius_mm: 15}}\n")
+        table.write_text("time_s,object_x_mm,object_y_mm\n"
+                         + "".join(f"{0.1 * i:.1f},-9,{75 + 0.8 * min(i, 39 - i):.1f}\n" for i in range(40)))
+        run("finray_simulate", "--finger", FINGER, "--scene", scene, "--frames", table, "--out", log)
+        run("finray_view", "--results", log, "--finger", FINGER, "--out_dir", self.out / "slide")
+        with open(log, newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.open("slide/slide.html")
+        # The shaft of an arrow is the only line of this width.
+        self.browser.run("""(prototype => { let path = []; window.shafts = [];
+          for (const name of ["moveTo", "lineTo", "beginPath", "stroke"]) {
+            const plain = prototype[name];
+            prototype[name] = function (...at) {
+              if (name === "beginPath") path = [];
+              else if (name !== "stroke") path.push(at);
+              else if (Math.abs(this.lineWidth - 2.6) < 0.01 && path.length === 2) window.shafts.push(path);
+              return plain.apply(this, at);
+            };
+          } })(CanvasRenderingContext2D.prototype)""")
+        turns = set()
+        for frame in (10, 15, 25, 35):
+            row = {name: float(cell) for name, cell in rows[frame].items() if name != "status"}
+            self.browser.run(f"window.shafts.length = 0, finray.then(p => {{ p.scrub({row['time_s']}); }})")
+            self.browser.run(FRAME)
+            ((tail_x, tail_y), (head_x, head_y)), = self.browser.run("window.shafts")
+            drawn = math.atan2(tail_y - head_y, head_x - tail_x)  # y of a canvas points down
+            into_finger = row["contact_1_angle_rad"] - math.pi / 2
+            self.assertAlmostEqual(drawn - into_finger, math.atan(row["friction_1"]), delta=0.01)
+            turns.add(round(row["friction_1"], 3))
+            tip = self.browser.run(f"finray.then(p => {{ const n = p.picture.finger.front.length, s = p.picture.finger.shape(p.logs[0], {frame});"
+                                   "return [s.places[2 * n - 2], s.places[2 * n - 1]]; })")
+            for shown, axis in zip(tip, "xy"):
+                self.assertAlmostEqual(shown, row[f"tip_{axis}_mm"], delta=0.05)
+        self.assertEqual(turns, {-0.3, 0.3})
 
     def test_scrubs_by_mouse_keys_and_slider(self):
         self.open("2026-03-01 a.html")

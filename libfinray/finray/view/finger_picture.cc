@@ -15,6 +15,7 @@ namespace {
 constexpr int kNodes = 20;      // evenly spaced ones of a beam
 constexpr int kTableArcs = 57;  // 2.5 mm apart on a beam of 140 mm
 constexpr int kTableForces = 25;
+constexpr int kTableFrictions = 3;  // where frictions differ
 
 constexpr Side kSides[] = {Side::kFront, Side::kBack};
 
@@ -26,22 +27,105 @@ std::vector<double> Difference(const std::vector<double>& a,
 }
 
 // Returns the largest distance between the points of `moves`, (x, y) each, and
-// the mean of four others.
-double DistanceFromMean(const std::vector<double>& moves,
-                        const std::vector<double>* const (&corners)[4]) {
+// the mean of `corners`.
+double DistanceFromMean(
+    const std::vector<double>& moves,
+    const std::vector<const std::vector<double>*>& corners) {
   double most = 0;
   for (std::size_t i = 0; i + 1 < moves.size(); i += 2) {
     double off[2];
     for (std::size_t k = 0; k < 2; ++k) {
-      double mean = 0;
-      for (const auto* corner : corners) mean += 0.25 * (*corner)[i + k];
-      off[k] = moves[i + k] - mean;
+      double sum = 0;
+      for (const auto* corner : corners) sum += (*corner)[i + k];
+      off[k] = moves[i + k] - sum / static_cast<double>(corners.size());
     }
     const double distance = std::hypot(off[0], off[1]);
     if (distance > most) most = distance;  // not if it is NaN
   }
   return most;
 }
+
+// Fills a ShapeTable.
+class TableMaker {
+ public:
+  TableMaker(const Finger& finger, const Discretization& discretization,
+             const PictureNodes& nodes, ShapeTable* table)
+      : nodes_(nodes),
+        table_(*table),
+        undeformed_(nodes.Undeformed()),
+        solver_(finger, discretization),
+        states_(table->frictions.size() * kTableArcs, solver_.state()),
+        lost_(states_.size(), 0) {}
+
+  // The load grows from state to state. Where a finger has no equilibrium any
+  // more, it has none under a larger load.
+  void AddForce(std::size_t f) {
+    solver_.set_near_only(f > 0);
+    for (std::size_t at = 0; at < states_.size(); ++at) {
+      solver_.set_state(states_[at]);
+      table_.moves_mm.push_back(
+          lost_[at] ? none()
+                    : Moves(table_.arcs_mm[at % kTableArcs], table_.forces_N[f],
+                            table_.frictions[at / kTableArcs]));
+      lost_[at] = std::isnan(table_.moves_mm.back().front());
+      if (!lost_[at]) states_[at] = solver_.state();
+    }
+  }
+  // Holds the middles of the cells between the last two forces against their
+  // corners.
+  void CheckCells(std::size_t f) {
+    const std::size_t layers = table_.frictions.size();
+    for (std::size_t m = 0; m < std::max<std::size_t>(1, layers - 1); ++m) {
+      const std::size_t next = std::min(m + 1, layers - 1);
+      for (std::size_t a = 0; a + 1 < kTableArcs; ++a) {
+        CheckCell(f, m, next, a);
+      }
+    }
+  }
+
+ private:
+  std::vector<double> none() const {
+    return std::vector<double>(undeformed_.size(), std::nan(""));
+  }
+  std::vector<double> Moves(double arc_mm, double normal_N, double friction) {
+    const std::vector<PointContact> contacts = {{arc_mm, normal_N, friction}};
+    return solver_.Solve(contacts)
+               ? Difference(nodes_.Places(solver_, contacts), undeformed_)
+               : none();
+  }
+  void CheckCell(std::size_t f, std::size_t m, std::size_t next,
+                 std::size_t a) {
+    std::vector<const std::vector<double>*> corners;
+    for (const std::size_t layer : {m, next}) {
+      for (const std::size_t arc : {a, a + 1}) {
+        const std::size_t at = layer * kTableArcs + arc;
+        if (lost_[at]) return;
+        for (const std::size_t force : {f - 1, f}) {
+          corners.push_back(&table_.moves_mm[force * states_.size() + at]);
+        }
+      }
+    }
+    solver_.set_state(states_[m * kTableArcs + a]);
+    const auto middle = [](const std::vector<double>& values, std::size_t i,
+                           std::size_t j) {
+      return 0.5 * (values[i] + values[j]);
+    };
+    table_.largest_error_mm =
+        std::max(table_.largest_error_mm,
+                 DistanceFromMean(Moves(middle(table_.arcs_mm, a, a + 1),
+                                        middle(table_.forces_N, f - 1, f),
+                                        middle(table_.frictions, m, next)),
+                                  corners));
+  }
+
+  const PictureNodes& nodes_;
+  ShapeTable& table_;
+  std::vector<double> undeformed_;
+  EquilibriumSolver solver_;
+  // By friction, then by arc length: under the last force.
+  std::vector<LadderState> states_;
+  std::vector<char> lost_;
+};
 
 }  // namespace
 
@@ -92,7 +176,7 @@ std::vector<double> PictureNodes::Undeformed() const {
   return places;
 }
 
-std::string PictureNodes::Json(double friction) const {
+std::string PictureNodes::Json() const {
   JsonArray ribs, gauges;
   const auto node = [&](const Rib& rib, Side side) {
     const auto& arcs = arcs_mm_[static_cast<int>(side)];
@@ -117,7 +201,6 @@ std::string PictureNodes::Json(double friction) const {
       .Add("back", JsonNumbers(arcs_mm_[1]))
       .Add("ribs", ribs.str())
       .Add("gauges", gauges.str())
-      .Add("friction", JsonNumber(friction))
       .Add("surface_mm", JsonNumber(finger_.front_surface_mm))
       .Add("undeformed", JsonNumbers(Undeformed()))
       .str();
@@ -125,8 +208,8 @@ std::string PictureNodes::Json(double friction) const {
 
 ShapeTable MakeShapeTable(const Finger& finger,
                           const Discretization& discretization,
-                          const PictureNodes& nodes, double friction,
-                          double most_force_N) {
+                          const PictureNodes& nodes, double least_friction,
+                          double most_friction, double most_force_N) {
   ShapeTable table;
   const double length = BeamLength(finger, Side::kFront);
   for (int i = 0; i < kTableArcs; ++i) {
@@ -135,42 +218,16 @@ ShapeTable MakeShapeTable(const Finger& finger,
   for (int i = 0; i < kTableForces; ++i) {
     table.forces_N.push_back(most_force_N * i / (kTableForces - 1));
   }
-  EquilibriumSolver solver(finger, discretization);
-  const std::vector<double> undeformed = nodes.Undeformed();
-  const std::vector<double> none(undeformed.size(), std::nan(""));
-  const auto moves_at = [&](double arc_mm, double normal_N) {
-    const std::vector<PointContact> contacts = {{arc_mm, normal_N, friction}};
-    return solver.Solve(contacts)
-               ? Difference(nodes.Places(solver, contacts), undeformed)
-               : none;
-  };
-  // The load grows at each arc length from state to state. Where a finger has
-  // no equilibrium any more, it has none under a larger load.
-  std::vector<LadderState> states(kTableArcs, solver.state());
-  std::vector<char> lost(kTableArcs, 0);
-  for (int f = 0; f < kTableForces; ++f) {
-    solver.set_near_only(f > 0);
-    for (std::size_t a = 0; a < kTableArcs; ++a) {
-      solver.set_state(states[a]);
-      table.moves_mm.push_back(
-          lost[a] ? none : moves_at(table.arcs_mm[a], table.forces_N[f]));
-      lost[a] = std::isnan(table.moves_mm.back().front());
-      if (!lost[a]) states[a] = solver.state();
-    }
-    for (std::size_t a = 0; f > 0 && a + 1 < kTableArcs; ++a) {
-      if (lost[a] || lost[a + 1]) continue;
-      const auto* const corner =
-          &table.moves_mm[static_cast<std::size_t>(f - 1) * kTableArcs + a];
-      const std::vector<double>* const corners[4] = {
-          corner, corner + 1, corner + kTableArcs, corner + kTableArcs + 1};
-      solver.set_state(states[a]);
-      table.largest_error_mm = std::max(
-          table.largest_error_mm,
-          DistanceFromMean(
-              moves_at(0.5 * (table.arcs_mm[a] + table.arcs_mm[a + 1]),
-                       0.5 * (table.forces_N[f - 1] + table.forces_N[f])),
-              corners));
-    }
+  table.frictions = {least_friction};
+  for (int i = 1; i < kTableFrictions && most_friction > least_friction; ++i) {
+    table.frictions.push_back(least_friction +
+                              (most_friction - least_friction) * i /
+                                  (kTableFrictions - 1));
+  }
+  TableMaker maker(finger, discretization, nodes, &table);
+  for (std::size_t f = 0; f < table.forces_N.size(); ++f) {
+    maker.AddForce(f);
+    if (f > 0) maker.CheckCells(f);
   }
   return table;
 }
@@ -202,6 +259,7 @@ std::string ShapeTableJson(const ShapeTable& table) {
   return JsonObject()
       .Add("arcs", JsonNumbers(table.arcs_mm))
       .Add("forces", JsonNumbers(table.forces_N))
+      .Add("frictions", JsonNumbers(table.frictions))
       .Add("error_mm", JsonNumber(table.largest_error_mm))
       .Add("moves", MovesJson(table.moves_mm))
       .str();

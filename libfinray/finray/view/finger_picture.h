@@ -24,32 +24,36 @@ class PictureNodes {
   std::size_t size() const { return arcs_mm_[0].size() + arcs_mm_[1].size(); }
 
   /// The finger as a JSON object: name, front and back (arc lengths of the
-  /// nodes), ribs (pairs of nodes), gauges (beam, start, end), friction of the
-  /// contacts, surface_mm, undeformed.
-  std::string Json(double friction) const;
+  /// nodes), ribs (pairs of nodes), gauges (beam, start, end), surface_mm,
+  /// undeformed.
+  std::string Json() const;
 
  private:
   Finger finger_;
   std::vector<double> arcs_mm_[2];
 };
 
-/// The deformed finger under one contact, on a grid of arc lengths and forces,
-/// so that a page can draw any frame by interpolating between four solutions.
+/// The deformed finger under one contact, on a grid of arc lengths, normal
+/// forces and frictions, so that a page can draw any frame by interpolating
+/// between the solutions around it.
 struct ShapeTable {
-  std::vector<double> arcs_mm, forces_N;
-  /// By force, then by arc length: the displacement of each node in mm, as
-  /// PictureNodes::Places; NaN where the finger has no equilibrium.
+  /// `frictions` has one value, or several that are evenly spaced.
+  std::vector<double> arcs_mm, forces_N, frictions;
+  /// By force, then by friction, then by arc length: the displacement of each
+  /// node in mm, as PictureNodes::Places; NaN where the finger has no
+  /// equilibrium.
   std::vector<std::vector<double>> moves_mm;
   /// The largest distance of an interpolated node from the solved one, over the
   /// middles of all cells.
   double largest_error_mm = 0;
 };
 
-/// Solves the finger under contacts up to `most_force_N`.
+/// Solves the finger under contacts up to `most_force_N`. Where the frictions
+/// differ, the table has some between the least and the largest.
 ShapeTable MakeShapeTable(const Finger& finger,
                           const Discretization& discretization,
-                          const PictureNodes& nodes, double friction,
-                          double most_force_N);
+                          const PictureNodes& nodes, double least_friction,
+                          double most_friction, double most_force_N);
 
 /// Displacements of nodes as base64 of 16-bit codes (PackCodes), with their
 /// range: {low, high, codes}.

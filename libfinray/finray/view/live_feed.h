@@ -17,6 +17,8 @@ struct LiveRow {
   FrameStatus status = FrameStatus::kBadInput;
   ContactEstimates contact;
   double p_value = 0, force_N = 0;
+  /// Where the motion of the object tells it; NaN where it is the scene's.
+  double friction = Measurements::kNotMeasured;
   std::vector<double> gauges_V, history_std_V;
   std::uint64_t latency_ns = 0;
 };

@@ -53,7 +53,7 @@ std::string LiveUpdates::PageJson(const std::string& name) const {
       .Add("name", JsonText(name))
       .Add("channels", names.str())
       .Add("nodes", std::to_string(nodes_.size()))
-      .Add("finger", nodes_.Json(friction_))
+      .Add("finger", nodes_.Json())
       .str();
 }
 
@@ -88,7 +88,7 @@ std::string LiveUpdates::Shape() {
     if (!std::isfinite(contact.arc_mm) || !std::isfinite(contact.normal_N)) {
       break;
     }
-    contacts.push_back({contact.arc_mm, contact.normal_N, friction_});
+    contacts.push_back({contact.arc_mm, contact.normal_N, FrictionOf(row_)});
   }
   if (!solved || (contacts.empty() && row_.status != FrameStatus::kNoContact)) {
     return "null";
@@ -141,6 +141,7 @@ std::string LiveUpdates::Next(LiveFeed* feed, const std::string& message,
       .Add("least", ShownAll(least_))
       .Add("most", ShownAll(most_))
       .Add("last", ShownAll(last_))
+      .Add("friction", Shown(FrictionOf(row_)))
       .Add("shape", shape)
       .Add("rate", Shown(rate_))
       .Add("latency", ShownAll({1e-3 * latency_.Quantile(0.5),

@@ -2,6 +2,7 @@
 #define FINRAY_VIEW_LIVE_UPDATE_H_
 
 #include <chrono>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,11 @@ class LiveUpdates {
 
   void Take(const LiveRow& row);
   std::string Shape();
+
+  // Returns that of the contacts of a row.
+  double FrictionOf(const LiveRow& row) const {
+    return std::isnan(row.friction) ? friction_ : row.friction;
+  }
 
   double friction_;
   PictureNodes nodes_;

@@ -68,9 +68,10 @@ class ResultRows {
       PointContact point;
       point.arc_mm = number(contact.arc);
       point.normal_N = number(contact.normal);
-      const double friction = number(contact.friction);
-      if (!std::isnan(friction)) log_.friction = point.friction = friction;
       if (!std::isfinite(point.arc_mm) || !std::isfinite(point.normal_N)) break;
+      const double friction = number(contact.friction);
+      if (std::isfinite(friction)) point.friction = friction;
+      AddFriction(point.friction);
       double& most_N = status == FrameStatus::kOk ? most_sure_N_ : most_N_;
       most_N = std::max(most_N, point.normal_N);
       contacts_.push_back(point);
@@ -141,7 +142,7 @@ class ResultRows {
       AddWithSpread(NormalForce(c), NormalForceStd(c), NormalForceLow(c),
                     NormalForceHigh(c));
       for (const std::string& name :
-           {AlternativeContactArc(c), AlternativeNormalForce(c)}) {
+           {Friction(c), AlternativeContactArc(c), AlternativeNormalForce(c)}) {
         if (At(name)) AddValue(name);
       }
     }
@@ -152,6 +153,13 @@ class ResultRows {
     AddSpread(std);
     AddSpread(low, At(value), true, value + "_below");
     AddSpread(high, At(value), false, value + "_above");
+  }
+  void AddFriction(double friction) {
+    log_.least_friction =
+        has_friction_ ? std::min(log_.least_friction, friction) : friction;
+    log_.most_friction =
+        has_friction_ ? std::max(log_.most_friction, friction) : friction;
+    has_friction_ = true;
   }
   void AddForce() {
     force_at_ = At("force_N");
@@ -241,6 +249,7 @@ class ResultRows {
   std::optional<std::size_t> force_;  // its channel
   std::size_t first_residual_ = 0;
   double most_sure_N_ = 0, most_N_ = 0;
+  bool has_friction_ = false;  // a contact has been read
   std::optional<MeasurementColumns> columns_;
   std::optional<HistoryFilter> history_;
   std::optional<EstimateSolver> solver_;

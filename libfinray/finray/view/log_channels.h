@@ -23,7 +23,8 @@ struct LogChannels {
   bool has_time = true;
   /// contact_<c>_mm, normal_<c>_N and their std. `..._below` and `..._above` is
   /// how far the interval reaches below and above the value. force_N is the
-  /// reference force. alternative_* is a second solution. chi2_p_value.
+  /// reference force. friction_<c> is the tangential over the normal force.
+  /// alternative_* is a second solution. chi2_p_value.
   /// gauge_<j>_residual_std: reading less that of the estimate in std of the
   /// gauge's noise, at most kMostResidual. Channels without any value are left
   /// out.
@@ -33,7 +34,8 @@ struct LogChannels {
   /// The largest normal_<c>_N of the frames that are ok, or of all if none is:
   /// those of other frames may be far off. 0 if there is none.
   double most_force_N = 0;
-  double friction = 0;  ///< mu of the contacts.
+  /// The least and the largest friction_<c> of contacts; 0 without any.
+  double least_friction = 0, most_friction = 0;
   /// The contacts of each frame with two.
   struct Pair {
     std::size_t frame;

@@ -86,17 +86,20 @@ std::string LogPageJson(const std::vector<PageLog>& logs, const Finger* finger,
   std::vector<std::string> pairs(logs.size(), "null");
   if (finger != nullptr) {
     const PictureNodes nodes(*finger);
-    double most_N = 0, friction = 0;
+    double most_N = 0;
+    double least = logs[0].log->least_friction;
+    double most = logs[0].log->most_friction;
     for (std::size_t i = 0; i < logs.size(); ++i) {
       most_N = std::max(most_N, logs[i].log->most_force_N);
-      if (logs[i].log->friction != 0) friction = logs[i].log->friction;
+      least = std::min(least, logs[i].log->least_friction);
+      most = std::max(most, logs[i].log->most_friction);
       pairs[i] = PairsJson(*logs[i].log, *finger, discretization, nodes);
       bytes += pairs[i].size();
     }
     // Without any contact the table has the free finger only.
     const std::string table = ShapeTableJson(MakeShapeTable(
-        *finger, discretization, nodes, friction, std::max(most_N, 1e-3)));
-    json.Add("finger", nodes.Json(friction)).Add("table", table);
+        *finger, discretization, nodes, least, most, std::max(most_N, 1e-3)));
+    json.Add("finger", nodes.Json()).Add("table", table);
     bytes += table.size();
   }
   JsonArray array;

@@ -89,8 +89,10 @@ const STATUSES = ["ok", "no_contact", "unobservable", "not_converged", "bad_inpu
 
 class StaticLog {
   // Entries are frames, or bins of frames_per_bin of them.
-  static async unpack(log) {
+  // `table`: shapes under one contact, or none.
+  static async unpack(log, table) {
     const self = new StaticLog(), packed = log.packed;
+    self.table = table;
     Object.assign(self, {name: log.name, frames: log.frames, hasTime: log.has_time, warnings: log.warnings,
                          framesPerBin: packed.frames_per_bin, first: 0, shift: 0});
     self.status = await unpackCodes(packed.status, 8);
@@ -142,6 +144,8 @@ class StaticLog {
     const channel = this.channels[name];
     return channel && i < this.end ? channel.at(i) : NaN;
   }
+  // Tangential over normal force of a contact.
+  friction(contact, i) { return this.value(`friction_${contact}`, i) || 0; }
 }
 
 // Displacements: [node, x or y] of many shapes behind each other.
@@ -149,3 +153,4 @@ async function unpackMoves({low, high, codes}) {
   const values = valuesOfCodes({bits: 16, log: false, low, high});
   return Float32Array.from(await unpackCodes(codes, 16), code => values[code]);
 }
+async function unpackTable(table) { return {...table, moves: await unpackMoves(table.moves)}; }

@@ -1,28 +1,29 @@
 // The finger: its shape at an instant and the picture of it.
 
 class Finger {
-  static async unpack(finger, table) {
-    const self = Object.assign(new Finger(), finger);
-    self.nodes = finger.front.length + finger.back.length;
-    if (table) self.table = {...table, moves: await unpackMoves(table.moves)};
-    return self;
+  constructor(finger) {
+    Object.assign(this, finger);
+    this.nodes = finger.front.length + finger.back.length;
   }
   places(moves) { return moves && Float32Array.from(moves, (move, k) => this.undeformed[k] + move); }
-  // Displacements under one contact, between the four nearest solutions.
-  interpolate(arc, force) {
-    const {arcs, forces, moves} = this.table, size = 2 * this.nodes;
-    const cell = (values, x) => {
-      const step = values[values.length - 1] / (values.length - 1) || 1;
-      const k = Math.max(0, Math.min(values.length - 2, Math.floor(x / step)));
-      return [k, x / step - k];
+  // Displacements under one contact, between the nearest solutions of a table.
+  interpolate({arcs, forces, frictions, moves}, arc, force, friction) {
+    const size = 2 * this.nodes, out = new Float32Array(size);
+    // The two neighbours of x among evenly spaced values, and their weights.
+    const neighbours = (values, x) => {
+      const last = values.length - 1;
+      if (!last) return [[0, 1]];
+      const at = (x - values[0]) / (values[last] - values[0]) * last, k = Math.max(0, Math.min(last - 1, Math.floor(at)));
+      return [[k, k + 1 - at], [k + 1, at - k]];
     };
-    const [a, u] = cell(arcs, arc), [f, v] = cell(forces, force), out = new Float32Array(size);
-    const at = (f, a) => (f * arcs.length + a) * size;
-    const corners = [[at(f, a), (1 - u) * (1 - v)], [at(f, a + 1), u * (1 - v)],
-                     [at(f + 1, a), (1 - u) * v], [at(f + 1, a + 1), u * v]];
-    for (const [start, weight] of corners) {
-      if (weight === 0) continue;
-      for (let k = 0; k < size; k++) out[k] += weight * moves[start + k];
+    for (const [f, u] of neighbours(forces, force)) {
+      for (const [m, v] of neighbours(frictions, friction)) {
+        for (const [a, w] of neighbours(arcs, arc)) {
+          const weight = u * v * w, start = ((f * frictions.length + m) * arcs.length + a) * size;
+          if (weight === 0) continue;
+          for (let k = 0; k < size; k++) out[k] += weight * moves[start + k];
+        }
+      }
     }
     return out;
   }
@@ -35,8 +36,8 @@ class Finger {
     if (log.pairs && !isNaN(log.value("contact_2_mm", i))) return this.pairShape(log, i);
     const free = mask === 2 || isNaN(arc);
     if (free && mask & 4) return none;
-    const most = this.table.forces[this.table.forces.length - 1], beyond = !free && force > most * 1.0001;
-    const places = this.places(this.interpolate(free ? 0 : arc, free ? 0 : Math.min(force, most)));
+    const most = log.table.forces[log.table.forces.length - 1], beyond = !free && force > most * 1.0001;
+    const places = this.places(this.interpolate(log.table, free ? 0 : arc, free ? 0 : Math.min(force, most), free ? 0 : log.friction(1, i)));
     if (places.some(isNaN)) return {places: null, words: "The finger has no equilibrium there: undeformed."};
     if (beyond) return {places, approximate: true, words: `No sure frame has so large a force: the shape under ${most.toFixed(2)} N.`};
     return {places, words: log.framesPerBin > 1 ? `The middle of ${log.framesPerBin} frames.` : ""};
@@ -141,12 +142,12 @@ class FingerPicture {
       g.fillText(j + 1, this.x((x0 + x1) / 2) + (out < 0 ? -16 : 10), this.y((y0 + y1) / 2) + 4);
     });
   }
-  // An arrow into the finger; `contact`: arc, low, high, force, force_low, force_high.
+  // An arrow along the whole force, into the finger; `contact`: arc, low, high; force, force_low, force_high along the normal; friction.
   contact(places, contact, most, colour, dash) {
     if (isNaN(contact.arc) || isNaN(contact.force)) return;
     const g = this.g, length = force => 0.3 * this.length * Math.min(1, force / most);
     const at = onFront(this.finger, places, contact.arc), sin = Math.sin(at.theta), cos = Math.cos(at.theta);
-    const lift = this.finger.surface_mm, mu = this.finger.friction || 0;
+    const lift = this.finger.surface_mm, mu = contact.friction;
     const head = [at.x - sin * lift, at.y + cos * lift];
     const tail = force => [this.x(head[0] - (sin + mu * cos) * length(force)), this.y(head[1] + (cos - mu * sin) * length(force))];
     if (contact.high > contact.low) {  // the interval of the place, along the beam

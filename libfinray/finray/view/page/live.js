@@ -30,6 +30,7 @@ class LiveLog {
     this.status = new Uint8Array(LIVE_ENTRIES);
     this.masks = new Uint8Array(LIVE_ENTRIES);
     this.numbers = new Float64Array(LIVE_ENTRIES);
+    this.frictions = new Float32Array(LIVE_ENTRIES);
     this.last = {};
     this.channels = {};
     for (const channel of channels) {
@@ -44,6 +45,7 @@ class LiveLog {
     this.times[k] = update.time;
     this.status[k] = 1 << update.status;
     this.masks[k] = update.mask;
+    this.frictions[k] = update.friction;
     this.numbers[k] = this.rows = update.rows;
     this.names.forEach((name, c) => {
       const number = value => value === null ? NaN : value;
@@ -73,6 +75,7 @@ class LiveLog {
     return mask;
   }
   value(name, i) { return this.last[name] ? this.last[name][this.slot(i)] : NaN; }
+  friction(contact, i) { return this.frictions[this.slot(i)]; }  // one for all contacts
   shapeAt(i) {
     const k = this.slot(i) * this.size, places = this.shapes.subarray(k, k + this.size);
     return isNaN(places[0]) ? {places: null, words: "No estimate in this frame: undeformed."} : {places, words: ""};

@@ -150,10 +150,10 @@ class Page {
       const unsure = !(log.status[log.slot ? log.slot(i) : i] & 3), colours = [COLOURS.logs[k], this.logs.length > 1 ? COLOURS.logs[k] : COLOURS.second];
       for (const c of [1, 2]) {
         const value = name => log.value(name, i), arc = value(`contact_${c}_mm`), force = value(`normal_${c}_N`);
-        picture.contact(places, {arc, force, low: arc - value(`contact_${c}_mm_below`), high: arc + value(`contact_${c}_mm_above`),
+        picture.contact(places, {arc, force, low: arc - value(`contact_${c}_mm_below`), high: arc + value(`contact_${c}_mm_above`), friction: log.friction(c, i),
           force_low: force - value(`normal_${c}_N_below`), force_high: force + value(`normal_${c}_N_above`)},
           this.mostForce, unsure ? COLOURS.warn : colours[c - 1], []);
-        picture.contact(places, {arc: value(`alternative_contact_${c}_mm`), force: value(`alternative_normal_${c}_N`)},
+        picture.contact(places, {arc: value(`alternative_contact_${c}_mm`), force: value(`alternative_normal_${c}_N`), friction: log.friction(1, i)},
           this.mostForce, COLOURS.quiet, [3, 3]);
       }
     });
@@ -205,12 +205,11 @@ class Page {
       const found = /<script type="application\/json" id="data">(.*?)<\/script>/s.exec(await file.text());
       const data = found && JSON.parse(found[1]);
       if (!data || !data.logs || !data.logs.length) throw new Error("it is not the page of a log");
-      const log = await StaticLog.unpack(data.logs[0]);
       const a = this.logs[0];
+      const same = this.data.finger && data.finger && JSON.stringify(this.data.finger) === JSON.stringify(data.finger);
+      const log = await StaticLog.unpack(data.logs[0], same ? await unpackTable(data.table) : a.table);
       if (log.time(0) > a.time(a.end - 1) || log.time(log.end - 1) < a.time(0)) log.shift = a.time(0) - log.time(0);
       byId("seconds").value = log.shift;
-      const same = this.data.finger && data.finger && JSON.stringify(this.data.finger) === JSON.stringify(data.finger);
-      if (this.picture && same) this.widen(data.table);
       this.logs = [a, log];
       this.changed();
       this.view.all();
@@ -219,13 +218,6 @@ class Page {
     } catch (error) {
       say(`${file.name} cannot be compared: ${error.message}.`);
     }
-  }
-  // The table of shapes that reaches further serves both logs.
-  async widen(table) {
-    const last = forces => forces[forces.length - 1];
-    if (last(table.forces) <= last(this.picture.finger.table.forces)) return;
-    this.picture.finger.table = {...table, moves: await unpackMoves(table.moves)};
-    this.redraw();
   }
 }
 
@@ -263,26 +255,25 @@ StaticLog.prototype.mostForce = function () {
   return most[1] || most[0];
 };
 
-function explain(finger) {
-  const table = finger && finger.table;
+function explain(finger, table) {
   byId("how").textContent = !finger ? "Made without a finger: there is no picture of it and no residual of its gauges."
     : !table ? "Each shape is solved for its frame while it is live. The thick band is the interval of the place, the ticks at the arrow's tail that of the force."
-    : `The shape is interpolated between ${table.arcs.length} by ${table.forces.length} solutions for one contact, to ${table.error_mm.toFixed(3)} mm, up to the largest force of a frame that is ok (beyond it: dashed and named); ` +
+    : `The shape is interpolated between ${[table.arcs, table.forces, table.frictions].map(v => v.length).filter(n => n > 1).join(" by ")} solutions for one contact, to ${table.error_mm.toFixed(3)} mm, up to the largest force of a frame that is ok (beyond it: dashed and named); ` +
       "with two contacts each frame is solved (very long logs: the nearest solved one, dashed and named). The thick band on the beam is the interval of the place, " +
       "the ticks at the arrow's tail that of the force. A dashed grey arrow is a second solution that explains the frame as well.";
 }
 
 async function main() {
   const data = JSON.parse(byId("data").textContent);
-  const finger = data.finger ? await Finger.unpack(data.finger, data.table) : null;
-  explain(finger);
+  const finger = data.finger ? new Finger(data.finger) : null, table = data.table && await unpackTable(data.table);
+  explain(finger, table);
   if (data.live) {
     const log = new LiveLog(data);
     const page = new Page(data, [log], finger);
     page.live = new Live(page, log);
     return page;
   }
-  const page = new Page(data, await Promise.all(data.logs.map(log => StaticLog.unpack(log))), finger);
+  const page = new Page(data, await Promise.all(data.logs.map(log => StaticLog.unpack(log, table))), finger);
   const frame = /^#frame=(\d+)$/.exec(location.hash);
   if (frame) {  // a link of the page of all logs
     const log = page.logs[0], i = Math.min(log.end - 1, Math.floor((frame[1] - 1) / log.framesPerBin));
