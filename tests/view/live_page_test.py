@@ -2,12 +2,14 @@
 """finray_estimate --follow --serve: the live page, its zero button, and clients that are slow, many or malformed.
 The parts without a browser run where Chromium is absent too."""
 
+import contextlib
 import csv
 import http.client
 import json
 import os
 import pathlib
 import re
+import signal
 import socket
 import subprocess
 import sys
@@ -51,6 +53,11 @@ class Server:
         self.thread.start()
 
     def _feed(self, rate, row_s):
+        with contextlib.suppress(BrokenPipeError):  # a server that was killed
+            self._write_rows(rate, row_s)
+            self.process.stdin.close()
+
+    def _write_rows(self, rate, row_s):
         start = time.monotonic()
         while not self.ending:
             due = int((time.monotonic() - start) * rate)
@@ -61,7 +68,6 @@ class Server:
                 self.rows += 1
             self.process.stdin.flush()
             time.sleep(0.005)
-        self.process.stdin.close()
 
     def errors(self):
         return pathlib.Path(self.err.name).read_text()
@@ -213,7 +219,16 @@ class LivePageTest(unittest.TestCase):
             connection.request("GET", "/events")
             streams.append((connection, connection.getresponse()))
         self.assertTrue(all(answer.status == 200 for _, answer in streams))
-        self.assertEqual(server.request("GET", "/events")[0], 503)
+        status, words = server.request("GET", "/events")
+        self.assertEqual((status, words[:21]), (503, "8 live pages are open"))
+        # Four more that do not end their request: no worker is left.
+        stalled = [socket.create_connection(("127.0.0.1", server.port), timeout=10) for _ in range(4)]
+        for client in stalled:
+            client.sendall(b"GET / HT")
+        status, words = server.request("GET", "/")
+        self.assertEqual((status, words), (503, "This live page can take no more connections: 12 are open. Close one, then load it again.\n"))
+        for client in stalled:
+            client.close()
         for connection, answer in streams:
             answer.close()
             connection.close()
@@ -242,7 +257,7 @@ class LivePageTest(unittest.TestCase):
                 self.assertEqual(server.finish()[0], 0)
                 events = answer.read().decode()
                 connection.close()
-                *updates, end = [e for e in events.split("\n\n") if e and e != ":"]
+                *updates, end = [e for e in events.split("\n\n") if e and not e.startswith("event: alive")]
                 self.assertEqual(end, "event: end\ndata: {}")
                 self.assertEqual(json.loads(updates[-1].removeprefix("data: "))["rows"], server.rows)
 
@@ -272,6 +287,36 @@ class LivePageTest(unittest.TestCase):
             browser.window(390, 844, phone=True)
             self.assertLessEqual(browser.run("document.documentElement.scrollWidth"), 390)
             self.assertEqual(browser.errors, [])
+
+    def test_page_says_that_its_server_is_lost_or_full(self):
+        if missing := chromium.missing():
+            self.skipTest(missing)
+        server = self.start()
+        connection, message = (f"document.getElementById('{name}').textContent" for name in ("connection", "message"))
+        with chromium.Browser() as browser:
+            browser.window(1280, 900)
+            streams = []
+            for _ in range(8):
+                client = http.client.HTTPConnection("127.0.0.1", server.port, timeout=10)
+                client.request("GET", "/events")
+                streams.append((client, client.getresponse()))
+            browser.open(server.url)
+            browser.wait(f"{connection} === 'refused' && {message}.startsWith('8 live pages are open')")
+            for client, answer in streams:
+                answer.close()
+                client.close()
+            browser.wait(f"{connection} === 'live' && {message} === ''")  # by itself
+            server.process.send_signal(signal.SIGSTOP)  # the connection stays, and nothing comes
+            browser.wait(f"{connection} === 'server lost'")
+            server.process.send_signal(signal.SIGCONT)
+            browser.wait(f"{connection} === 'live' && {message} === ''")
+            server.process.kill()
+            browser.wait(f"{connection} === 'server lost'")
+            self.assertIn("has not answered since", browser.run(message))
+            self.assertEqual(browser.run("document.getElementById('rate').textContent"), "")
+            self.assertTrue(browser.run("document.getElementById('zero').disabled"))
+        self.server = None
+        server.finish()
 
 
 if __name__ == "__main__":

@@ -20,14 +20,15 @@ namespace {
 
 constexpr std::size_t kMostBodyBytes = 1024;
 
-// Workers in a fixed number. A connection that finds none waits until one is
-// free, and others behind it in the system's queue, which is short.
+// Workers in a fixed number, and one more that tells its client that all are
+// at work. A connection that finds none waits until one is free, and others
+// behind it in the system's queue, which is short.
 class BoundedWorkers {
  public:
   explicit BoundedWorkers(int workers) {
-    threads_.reserve(static_cast<std::size_t>(workers));
+    threads_.reserve(static_cast<std::size_t>(workers) + 1);
     try {
-      for (int i = 0; i < workers; ++i) {
+      for (int i = 0; i < workers + 1; ++i) {
         threads_.emplace_back([this] { Work(); });
       }
     } catch (const std::system_error&) {
@@ -41,9 +42,11 @@ class BoundedWorkers {
     std::unique_lock<std::mutex> lock(mutex_);
     change_.wait(lock, [&] { return idle_ > 0 || ended_; });
     --idle_;
-    tasks_.push_back(std::move(task));
+    tasks_.push_back({std::move(task), idle_ == 0});
     change_.notify_all();
   }
+  // Says whether this thread's connection is the one too many.
+  static bool is_one_too_many() { return one_too_many; }
   // Lets nobody wait any more.
   void Release() {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -58,6 +61,11 @@ class BoundedWorkers {
   }
 
  private:
+  struct Task {
+    std::function<void()> run;
+    bool is_one_too_many;
+  };
+
   void Work() {
     std::unique_lock<std::mutex> lock(mutex_);
     while (true) {
@@ -65,20 +73,22 @@ class BoundedWorkers {
       change_.notify_all();
       change_.wait(lock, [&] { return !tasks_.empty() || ended_; });
       if (tasks_.empty()) return;
-      const std::function<void()> task = std::move(tasks_.front());
+      const Task task = std::move(tasks_.front());
       tasks_.pop_front();
       lock.unlock();
-      task();
+      one_too_many = task.is_one_too_many;
+      task.run();
       lock.lock();
     }
   }
 
   std::mutex mutex_;
   std::condition_variable change_;
-  std::deque<std::function<void()>> tasks_;
+  std::deque<Task> tasks_;
   std::vector<std::thread> threads_;
   int idle_ = 0;
   bool ended_ = false;
+  inline static thread_local bool one_too_many = false;
 };
 
 // The workers as httplib wants them. It deletes this object whenever it ends to
@@ -170,6 +180,18 @@ class LiveServer::Implementation {
   }
 
   void Route() {
+    server_.set_pre_routing_handler([](const auto&, auto& response) {
+      if (!BoundedWorkers::is_one_too_many()) {
+        return httplib::Server::HandlerResponse::Unhandled;
+      }
+      response.set_header("Connection", "close");
+      Refuse(503,
+             "This live page can take no more connections: " +
+                 std::to_string(kWorkers) +
+                 " are open. Close one, then load it again.",
+             &response);
+      return httplib::Server::HandlerResponse::Handled;
+    });
     server_.Get("/", [this](const auto& request, auto& response) {
       if (!Admits(request, &response)) return;
       response.set_header("Cache-Control", "no-store");
@@ -222,7 +244,11 @@ class LiveServer::Implementation {
   void Stream(httplib::Response* response) {
     if (++streams_ > kMostPages) {
       --streams_;
-      Refuse(503, "too many pages are open", response);
+      Refuse(503,
+             std::to_string(kMostPages) +
+                 " live pages are open, and no more are served. Close one, and "
+                 "this one goes on.",
+             response);
       return;
     }
     response->set_header("Cache-Control", "no-store");
@@ -237,8 +263,8 @@ class LiveServer::Implementation {
             text += "data: " + *update + "\n\n";
           }
           if (news.closed) text += "event: end\ndata: {}\n\n";
-          // A comment finds out whether the client is still there.
-          if (text.empty()) text = ":\n\n";
+          // Each finds out whether the other is still there.
+          if (text.empty()) text = "event: alive\ndata: {}\n\n";
           const bool open = sink.write(text.data(), text.size());
           if (news.closed) sink.done();
           return open;

@@ -27,9 +27,9 @@ bool IsLoopback(const std::string& address);
 /// `/zero` also needs the header X-Finray, which such a page cannot send.
 ///
 /// All that clients can do is bounded: kWorkers connections are served at a
-/// time and a few wait in the system's queue; kMostPages of them may be pages
-/// that get updates. A client that does not read or send for kPatience_s is
-/// disconnected.
+/// time, one more is told so (503), and a few wait in the system's queue;
+/// kMostPages of them may be pages that get updates. A client that does not
+/// read or send for kPatience_s is disconnected.
 class LiveServer {
  public:
   struct Pages {

@@ -94,10 +94,12 @@ class Live {
     byId("live").hidden = false;
     byId("compare").hidden = byId("play").hidden = byId("speed").hidden = true;
     this.query = location.search;  // the token
+    this.message = this.trouble = "";
     byId("zeroed").href = "finger.yaml" + this.query;
     byId("follow").addEventListener("click", () => this.setFollowing(!this.following));
     byId("zero").addEventListener("click", () => this.zero());
     this.connect();
+    this.watch = setInterval(() => { if (performance.now() - this.heardAt > 5000) this.lost(); }, 500);
   }
   setFollowing(on) {
     this.following = on;
@@ -109,14 +111,53 @@ class Live {
   }
   connect() {
     const source = new EventSource("events" + this.query);
-    source.onopen = () => this.state("good", "live");
-    source.onerror = () => this.state("bad_input", source.readyState === EventSource.CLOSED ? "refused: too many pages, or a wrong token" : "connection lost");
-    source.onmessage = event => this.update(JSON.parse(event.data));
+    this.heardAt = performance.now();
+    source.onopen = () => this.hear();
+    source.addEventListener("alive", () => this.hear());
+    source.onerror = () => source.readyState === EventSource.CLOSED ? this.refused() : this.lost();
+    source.onmessage = event => {
+      this.hear();
+      this.update(JSON.parse(event.data));
+    };
     source.addEventListener("end", () => {
       source.close();
+      clearInterval(this.watch);
       this.state("no_contact", "the input has ended");
       byId("zero").disabled = true;
     });
+  }
+  // The server says at least twice a second that it is there.
+  hear() {
+    this.heardAt = performance.now();
+    this.state("good", "live");
+    if (!this.trouble) return;
+    if (byId("message").textContent === this.trouble) say(this.message);
+    this.trouble = "";
+  }
+  // What is shown is no longer true.
+  stop(words, why) {
+    this.state("bad_input", words);
+    this.trouble = why;
+    say(why);
+    byId("rate").textContent = byId("latency").textContent = "";
+    byId("zero").disabled = true;
+  }
+  lost() {
+    if (this.trouble) return;
+    const since = new Date(Date.now() - (performance.now() - this.heardAt)).toLocaleTimeString("en-GB");
+    this.stop("server lost", `The server has not answered since ${since}: it has ended or cannot be reached. What is shown is from before. The page goes on if the server comes back.`);
+  }
+  // An EventSource does not tell why it was refused.
+  async refused() {
+    const abort = new AbortController();
+    setTimeout(() => this.connect(), 3000);
+    try {
+      const answer = await fetch("events" + this.query, {signal: abort.signal});
+      if (!answer.ok) this.stop("refused", (await answer.text()).trim());
+    } catch {
+      this.lost();
+    }
+    abort.abort();
   }
   update(update) {
     const {log, page} = this, view = page.view, restarted = log.end > log.first && update.time < log.time(log.end - 1);
