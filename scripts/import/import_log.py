@@ -39,6 +39,8 @@ class Import:
         paths = [p for p in self.flags["logs"].split(",") if p]
         if not paths:
             raise UsageError("--logs: expected files, separated by commas")
+        if self.flags["out"]:
+            output.refuse_to_overwrite(paths + [self.flags["mapping"]], self.flags["out"])
         tables = [t for path in paths for t in readers.read(path, self.mapping)]
         names = [t.name for t in tables]
         for name in names:
@@ -201,15 +203,14 @@ def _versions():
 
 
 def main(arguments):
-    if any(a in ("-h", "-help", "--help") for a in arguments):
-        print(flags.help_text())
-        return 0
-    if any(a in ("-version", "--version") for a in arguments):
-        print("\n".join(_versions()))
-        return 0
     try:
-        values, given = flags.parse(arguments)
-        Import(values, given).run()
+        if any(a in ("-h", "-help", "--help") for a in arguments):
+            print(flags.help_text())
+        elif any(a in ("-version", "--version") for a in arguments):
+            print("\n".join(_versions()))
+        else:
+            values, given = flags.parse(arguments)
+            Import(values, given).run()
         sys.stdout.flush()
     except UsageError as error:
         print(f"finray_import: {error}; see --help", file=sys.stderr)

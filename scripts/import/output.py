@@ -132,6 +132,14 @@ def mapping_text(recordings, mapping, in_force):
                                default_flow_style=None, width=200)
 
 
+def refuse_to_overwrite(inputs, out):
+    """BadInput if the log or its mapping would take the place of a file that is read."""
+    for path in (out, mapping_path(out)):
+        for read in inputs:
+            if os.path.exists(path) and os.path.exists(read) and os.path.samefile(path, read):
+                raise BadInput(f"{read}: is an input and would be written over; choose another --out")
+
+
 def write(path, columns, text):
     log = log_text(columns).encode()
     if path.endswith(".gz"):

@@ -89,6 +89,27 @@ class CommandLineTest(ImportCase):
         self.assertEqual((self.folder / "C.csv").read_bytes(),
                          (self.folder / "de_DE.UTF-8.csv").read_bytes())
 
+    def test_an_input_is_not_written_over(self):
+        path, mapping = self.write("a.csv", LOG), self.write("b.mapping.yaml", "tables: {}\n")
+        link = self.folder / "link.csv"
+        link.symlink_to(path)
+        for out in ("a.csv", "./a.csv", "link.csv", "b.csv"):
+            with self.subTest(out):
+                done = self.call("--logs", path, "--mapping", mapping, "--out", out, cwd=self.folder)
+                self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))
+                self.assertIn("is an input and would be written over", done.stderr)
+        self.assertEqual((path.read_text(), mapping.read_text()), (LOG, "tables: {}\n"))
+
+    def test_a_reader_that_goes_away_is_no_error(self):
+        path = self.write("a.csv", LOG)
+        for arguments in (["--version"], ["--help"], ["--logs", path]):
+            with self.subTest(arguments):
+                read, write = os.pipe()
+                os.close(read)
+                done = subprocess.run([TOOL, *map(str, arguments)], stdout=write, stderr=subprocess.PIPE, text=True)
+                os.close(write)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+
     def test_two_files_of_one_name_are_refused(self):
         (self.folder / "b").mkdir()
         a, b = self.write("a.csv", LOG), self.write("b/a.csv", LOG)
