@@ -66,8 +66,31 @@ void PrintHelp() {
       "4 a check failed.\n");
 }
 
-// Throws UsageError with the nearest name if a flag is unknown.
-void RefuseUnknownFlags(int argc, char** argv) {
+// Returns what a flag of this type takes, in words.
+const char* Expected(const std::string& type) {
+  if (type == "bool") return "true or false";
+  if (type == "double") return "a number";
+  return type[0] == 'u' ? "a whole number, 0 or more" : "a whole number";
+}
+
+// Throws UsageError if a flag does not take the value.
+void RefuseWrongKind(const gflags::CommandLineFlagInfo& flag,
+                     const std::string& value) {
+  // gflags' own flags of text may do something; text is never of a wrong kind.
+  if (flag.type == "string") return;
+  if (!gflags::SetCommandLineOption(flag.name.c_str(), value.c_str()).empty()) {
+    return;
+  }
+  const bool large =
+      !value.empty() && value.find_first_not_of("+-0123456789") == value.npos;
+  throw UsageError("--" + flag.name + ": expected " + Expected(flag.type) +
+                   (large ? " of fewer digits" : "") + ", found '" + value +
+                   "'");
+}
+
+// Throws UsageError if a flag is unknown, with the nearest name, or has no
+// value, or one of another kind.
+void RefuseWrongFlags(int argc, char** argv) {
   for (int i = 1; i < argc && std::strcmp(argv[i], "--") != 0; ++i) {
     const std::string argument = argv[i];
     if (argument.size() < 2 || argument[0] != '-') continue;
@@ -76,8 +99,13 @@ void RefuseUnknownFlags(int argc, char** argv) {
     const std::string name = argument.substr(first, equals - first);
     gflags::CommandLineFlagInfo info;
     if (gflags::GetCommandLineFlagInfo(name.c_str(), &info)) {
-      // The next argument is the value of this flag.
-      i += info.type != "bool" && equals == std::string::npos;
+      if (equals != std::string::npos) {
+        RefuseWrongKind(info, argument.substr(equals + 1));
+      } else if (info.type != "bool") {
+        // The next argument is the value of this flag.
+        if (++i == argc) throw UsageError("--" + name + " needs a value");
+        RefuseWrongKind(info, argv[i]);
+      }
       continue;
     }
     if (name.find("no") == 0 &&
@@ -109,7 +137,7 @@ bool ParseFlags(int* argc, char*** argv) {
       return false;
     }
   }
-  RefuseUnknownFlags(*argc, *argv);
+  RefuseWrongFlags(*argc, *argv);
   gflags::ParseCommandLineFlags(argc, argv, true);
   return true;
 }

@@ -8,6 +8,7 @@
 #include "finger_picture.h"
 #include "finray/calib/design/finger_check.h"
 #include "finray/finger/geometry.h"
+#include "finray/io/atomic_file.h"
 #include "finray/io/number_text.h"
 
 DEFINE_string(finger, "", "finger YAML");
@@ -98,11 +99,14 @@ void PrintGauges(const Finger& finger, const FingerCheck& check) {
 
 int Run() {
   const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
-  const FingerCheck check =
-      CheckFinger(finger, ReadPlates(FLAGS_finger), DiscretizationFlags());
   if (!FLAGS_out.empty()) {
     RefuseToOverwrite({FLAGS_finger}, {FLAGS_out});
-    if (DrawFinger(finger, FLAGS_out)) std::printf("%s\n", FLAGS_out.c_str());
+    RefuseUnwritable(FLAGS_out);
+  }
+  const FingerCheck check =
+      CheckFinger(finger, ReadPlates(FLAGS_finger), DiscretizationFlags());
+  if (!FLAGS_out.empty() && DrawFinger(finger, FLAGS_out)) {
+    std::printf("%s\n", FLAGS_out.c_str());
   }
   std::printf("finger         %s, %s\n", finger.name.c_str(),
               finger.calibration ? "calibrated" : "not calibrated");

@@ -8,6 +8,7 @@
 
 #include "app.h"
 #include "finger_picture.h"
+#include "finray/calib/design/finger_check.h"
 #include "finray/calib/design/finger_design.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/atomic_file.h"
@@ -98,7 +99,23 @@ Finger FingerOfDimensions() {
 // The helper says by itself what is wrong with the drawing.
 class DrawingFailed : public std::exception {};
 
-Finger FingerOfDrawing() {
+// A finger to start from, and its plates for warnings.
+struct Start {
+  Finger finger;
+  std::vector<WrittenPlate> plates;
+};
+
+Start StartOfFile(const std::string& yaml) {
+  return {ReadFinger(yaml), ReadPlates(yaml)};
+}
+
+Start StartOfDimensions() {
+  return {FingerOfDimensions(),
+          {{Side::kFront, "both beams", FLAGS_width_mm, FLAGS_thickness_mm,
+            FLAGS_youngs_modulus_GPa}}};
+}
+
+Start StartOfDrawing() {
   PositiveFlag("youngs_modulus_GPa", FLAGS_youngs_modulus_GPa);
   PositiveFlag("width_mm", FLAGS_width_mm);
   std::string folder =
@@ -110,27 +127,30 @@ Finger FingerOfDrawing() {
   const int status = RunPython("calib/report/dxf_finger.py",
                                {FLAGS_dxf, yaml, NumberText(FLAGS_width_mm),
                                 NumberText(FLAGS_youngs_modulus_GPa)});
-  std::optional<Finger> finger;
+  std::optional<Start> start;
   try {
-    if (status == 0) finger = ReadFinger(yaml);
+    if (status == 0) start = StartOfFile(yaml);
   } catch (...) {
     std::filesystem::remove_all(folder);
     throw;
   }
   std::filesystem::remove_all(folder);
-  if (!finger) throw DrawingFailed();
-  return *finger;
+  if (!start) throw DrawingFailed();
+  for (WrittenPlate& plate : start->plates) {  // their file is no more
+    plate.name = FLAGS_dxf + ": " + SideName(plate.side) + " beam";
+  }
+  return *start;
 }
 
-Finger StartFinger() {
+Start StartFinger() {
   const int given =
       !FLAGS_finger.empty() + !FLAGS_dxf.empty() + IsGiven("front_length_mm");
   if (given != 1) {
     throw UsageError(
         "expected one of --finger, --dxf and --front_length_mm to start from");
   }
-  if (!FLAGS_finger.empty()) return ReadFinger(FLAGS_finger);
-  return FLAGS_dxf.empty() ? FingerOfDimensions() : FingerOfDrawing();
+  if (!FLAGS_finger.empty()) return StartOfFile(FLAGS_finger);
+  return FLAGS_dxf.empty() ? StartOfDimensions() : StartOfDrawing();
 }
 
 PlacementTask Task(const Finger& finger) {
@@ -249,7 +269,7 @@ FrameTable Front(const Finger& finger, const GaugePlaces& places,
 int Design() {
   const Discretization discretization = DiscretizationFlags();
   Required("out_dir", FLAGS_out_dir);
-  const Finger start = StartFinger();
+  const auto [start, plates] = StartFinger();
   const PlacementTask task = Task(start);
   FutureCalibration calibration;
   if (!FLAGS_plan.empty()) calibration.plan = ReadPlan(FLAGS_plan);
@@ -338,6 +358,7 @@ int Design() {
                 WordsOf(*before).c_str(), PlacesOf(start).c_str());
   }
   PrintPairs(table);
+  Warn(StiffnessWarnings(start, plates));
   if (!untold.empty()) {
     Warn(
         FormatText("at %zu of %zu heights of the region, %.0f to %.0f mm, the "

@@ -44,6 +44,8 @@ namespace {
 
 using namespace finray;
 
+constexpr int kLeastRows = 12;  // fewer tell no finger
+
 RecordingLimits LimitFlags() {
   RecordingLimits limits;
   const auto x = RangeFlag("x_mm", Required("x_mm", FLAGS_x_mm));
@@ -116,8 +118,9 @@ int Run() {
   Required("out_dir", FLAGS_out_dir);
   const RecordingLimits limits = LimitFlags();
   const RecordingTarget target = TargetFlags(finger);
-  if (FLAGS_most_frames < 12) {
-    throw UsageError("--most_frames: expected at least 12");
+  if (FLAGS_most_frames < kLeastRows) {
+    throw UsageError("--most_frames: expected at least " +
+                     std::to_string(kLeastRows));
   }
   std::vector<std::string> logs;
   if (!FLAGS_from.empty()) logs = ExpandLogs(SplitList(FLAGS_from), "");
@@ -168,6 +171,15 @@ int Run() {
       "frame alone is %.3g mm and %.3g N\n",
       recording.median_mm, recording.median_N, recording.noise_mm,
       recording.noise_N);
+  if (!logs.empty() && known.rows < kLeastRows) {
+    Warn(
+        FormatText("--from has %zu row%s that can be fitted, which tell%s next "
+                   "to nothing of the finger",
+                   known.rows, known.rows == 1 ? "" : "s",
+                   known.rows == 1 ? "s" : ""),
+        "are these the logs that you mean? Without --from the plan starts "
+        "from the drawing");
+  }
   if (recording.largest_N > limits.force_max_N) {
     Warn(FormatText("a finger within the priors may press with up to %.3g N at "
                     "these places",

@@ -7,6 +7,7 @@ The text is that of FingerToYaml: ribs have back_mm. Places x,y (mm, frame S) ar
 import math
 import pathlib
 import sys
+import unicodedata
 
 sys.dont_write_bytecode = True
 
@@ -19,6 +20,21 @@ DIMENSIONS, LABELS = 120.0, 150.0  # room on the left and on the right
 
 def number(value):
     return f"{value:.5g}"
+
+
+def wrapped(words, pixels):
+    """Lines of words of 14 pixels that are no wider, broken behind a space, a comma, _ or - where there is one; at most six."""
+    lines, rest = [], words
+    while rest:
+        room, end = pixels, 0
+        while end < len(rest) and room > 0:
+            room -= 14 if unicodedata.east_asian_width(rest[end]) in "FW" else 8.4
+            end += room >= 0
+        if end < len(rest):
+            end = max((rest.rfind(mark, end // 2, end) + 1 for mark in " ,_-"), default=0) or max(end, 1)
+        lines.append(rest[:end].rstrip())
+        rest = rest[end:].lstrip()
+    return lines if len(lines) <= 6 else lines[:5] + ["…"]
 
 
 def beam_words(beam):
@@ -53,8 +69,10 @@ def draw(finger, places):
     scale = HEIGHT / length
     mm = 1 / scale  # a pixel
     aside = max([0.0] + [-x * scale for x, _ in places])
-    drawing = Drawing(length, angle, scale, DIMENSIONS + aside, 60)
-    width = DIMENSIONS + aside + drawing.base_back[0] * scale + LABELS
+    width = max(DIMENSIONS + aside - length / math.tan(angle) * scale + LABELS, 560 + aside)
+    title = wrapped(f"{finger['name']}, lengths in mm from the base of each beam", width - DIMENSIONS - aside + 80)
+    top = 42 + 18 * len(title)
+    drawing = Drawing(length, angle, scale, DIMENSIONS + aside, top)
     for x, y in places:
         drawing.dot((x, y), 2.4, FORCE, FORCE)
     ribs(drawing, finger)
@@ -83,9 +101,9 @@ def draw(finger, places):
     drawing.text(below, f"front {beam_words(finger['beams']['front'])}", BEAM, "start", 14, dx=-80, italic=False)
     drawing.text(below, f"back {number(drawing.back_length)} mm, base at x = {drawing.base_back[0]:.5g} mm, "
                  f"{beam_words(finger['beams']['back'])}", BEAM, "start", 14, dx=-80, dy=20, italic=False)
-    drawing.text((0, length), f"{finger['name']}, lengths in mm from the base of each beam", QUIET, "start", 14,
-                 dx=-80, dy=-30, italic=False)
-    return drawing.svg(round(max(width, 560 + aside)), 60 + HEIGHT + 90, f"Finger {finger['name']}")
+    for i, words in enumerate(title):
+        drawing.text((0, length), words, QUIET, "start", 14, dx=-80, dy=18 * (i + 1) - top + 12, italic=False)
+    return drawing.svg(round(width), top + HEIGHT + 90, f"Finger {finger['name']}")
 
 
 def main():

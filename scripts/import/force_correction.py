@@ -82,8 +82,13 @@ class ForceCorrection:
                 self._keep_stated("bias_std_N", "tool_weight_N", "tool_weight_std_N")
             weight = (self.kept.get("tool_weight_N") if turns else None) or [0.0, 0.0]
             return np.array(stated), np.array(weight)
-        free = force_frame.free_rows(columns, force_frame.gauge_noise(recordings), self._free_s())
+        free_s = self._free_s()
+        free = force_frame.free_rows(columns, force_frame.gauge_noise(recordings), free_s)
         try:
+            if free_s is None and not turns and force_frame.follows_gauges(columns, axes, free):
+                raise NoSolution("bias of the force sensor: no free rows are found, as the force of those "
+                                 "that look free follows the gauges; state when the finger is free with "
+                                 "--free_s, or --force_bias_N")
             if turns:
                 bias, weight, std, weight_std = force_frame.bias_and_weight(columns, free)
                 self.said.append(("tool weight", _values(weight, weight_std)))
@@ -113,8 +118,10 @@ class ForceCorrection:
             try:
                 degrees = float(wish)
             except ValueError:
+                degrees = np.inf
+            if not np.isfinite(degrees):
                 raise UsageError("--force_rotation_deg: expected estimate or a number, found "
-                                 f"'{wish}'") from None
+                                 f"'{wish}'")
         elif self.mapping.force.get("rotation_deg") is not None and \
                 "force_rotation_deg" not in self.given:
             degrees = self.mapping.force["rotation_deg"]

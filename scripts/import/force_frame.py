@@ -58,6 +58,23 @@ def free_rows(columns, gauge_noise, free_s):
     return free & known
 
 
+def follows_gauges(columns, axes, free):
+    """Whether the force of rows that count as free goes with the gauges, so that something touches
+    in them: gauges explain more than half of the variance that chance leaves them. Free rows are
+    found by the gauges alone, and where every row is another place all may look alike."""
+    gauges = np.stack([v for name, v in columns.items() if name.startswith("gauge_")], axis=1)
+    force = np.stack([columns[a] for a in axes], axis=1)
+    rows = free & np.isfinite(force).all(axis=1) & np.isfinite(gauges).all(axis=1)
+    left = rows.sum() - gauges.shape[1] - 1
+    if left < gauges.shape[1]:
+        return False
+    known = np.column_stack([np.ones(rows.sum()), gauges[rows]])
+    unexplained = force[rows] - known @ np.linalg.lstsq(known, force[rows], rcond=None)[0]
+    total = force[rows] - force[rows].mean(axis=0)
+    return bool(((unexplained**2).sum(axis=0) / left <
+                 0.5 * (total**2).sum(axis=0) / (rows.sum() - 1)).any())
+
+
 def gauge_noise(recordings):
     return {name: reading_std(values) for r in recordings
             for name, values in r.channels.items() if name.startswith("gauge_")}

@@ -133,8 +133,11 @@ def mapping_text(recordings, mapping, in_force):
 
 
 def refuse_to_overwrite(inputs, out):
-    """BadInput if the log or its mapping would take the place of a file that is read."""
+    """BadInput if the log or its mapping would take the place of a file that is read, or of a
+    folder."""
     for path in (out, mapping_path(out)):
+        if os.path.isdir(path):
+            raise BadInput(f"{path}: is a folder, expected a file to write")
         for read in inputs:
             if os.path.exists(path) and os.path.exists(read) and os.path.samefile(path, read):
                 raise BadInput(f"{read}: is an input and would be written over; choose another --out")

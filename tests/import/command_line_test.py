@@ -100,6 +100,13 @@ class CommandLineTest(ImportCase):
                 self.assertIn("is an input and would be written over", done.stderr)
         self.assertEqual((path.read_text(), mapping.read_text()), (LOG, "tables: {}\n"))
 
+    def test_a_folder_as_output_leaves_nothing(self):
+        path = self.write("a.csv", LOG)
+        (self.folder / "d").mkdir()
+        done = self.call("--logs", path, "--out", self.folder / "d")
+        self.assertEqual((done.returncode, done.stdout, done.stderr.count("d: is a folder")), (2, "", 1))
+        self.assertEqual({p.name for p in self.folder.iterdir()}, {"a.csv", "d"})
+
     def test_a_reader_that_goes_away_is_no_error(self):
         path = self.write("a.csv", LOG)
         for arguments in (["--version"], ["--help"], ["--logs", path]):

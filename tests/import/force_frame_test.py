@@ -5,7 +5,7 @@ import re
 import unittest
 
 import numpy as np
-from fixture import ImportCase
+from fixture import ROOT, ImportCase
 
 import force_frame
 from errors import NoSolution
@@ -142,6 +142,12 @@ class SensorTest(ImportCase):
         self.assertIn("state when the finger is free with --free_s", self.result.err)
         log = self.log_of("--logs", path, "--free_s", "3.5:5.5")
         self.assertAlmostEqual(float(log["force_N"][0]), 2, delta=0.05)
+
+    def test_no_bias_comes_from_rows_that_touch(self):
+        """Every row is another place, so neighbouring readings differ as much as any, and all rows look free."""
+        self.log_of("--logs", ROOT / "datasets/simulated_r15/train.csv")
+        self.assertIn("follows the gauges; state when the finger is free with --free_s", self.result.err)
+        self.assertNotIn("force bias", self.result.out)
 
 
 if __name__ == "__main__":

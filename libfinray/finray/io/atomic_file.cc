@@ -91,6 +91,17 @@ void RefuseFolderOrPipe(const std::string& path, const std::string& expected) {
   }
 }
 
+void RefuseUnwritable(const std::string& path) {
+  std::error_code unknown;
+  if (fs::is_directory(path, unknown)) {
+    throw InputError(path + ": is a folder, expected a file to write");
+  }
+  const std::string folder = fs::path(path).parent_path().string();
+  if (access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0) {
+    throw InputError(path + ": cannot be written: " + std::strerror(errno));
+  }
+}
+
 std::string ReadWholeFile(const std::string& path, const std::string& expected,
                           int most_MiB) {
   RefuseFolderOrPipe(path, expected);

@@ -21,6 +21,10 @@ void MakeFolder(const std::string& path);
 /// YAML file"). It does not check whether the file can be opened.
 void RefuseFolderOrPipe(const std::string& path, const std::string& expected);
 
+/// Throws InputError if `path` is a folder or its folder takes no file: for an
+/// output that another program writes.
+void RefuseUnwritable(const std::string& path);
+
 /// Returns the bytes of a file. Throws InputError if it cannot be read, is a
 /// folder or a pipe, or is longer than `most_MiB`.
 std::string ReadWholeFile(const std::string& path, const std::string& expected,

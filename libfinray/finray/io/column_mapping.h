@@ -40,6 +40,9 @@ struct ColumnMapping {
   std::optional<bool> units_row;   ///< Whether units stand below the header.
   /// Cells that mean not measured, beside IsNotMeasured().
   std::vector<std::string> not_measured;
+  /// The file is a result that finray has written: no scene or plan says how,
+  /// so errors do not tell what to state there.
+  bool is_result = false;
   /// The file that the mapping was read from, if `columns:` names one.
   std::string path;
 

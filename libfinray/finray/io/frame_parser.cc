@@ -59,13 +59,14 @@ FrameParser::FrameParser(const std::string& path, const CsvLine& header,
                          const ColumnMapping& mapping)
     : path_(path),
       not_measured_(mapping.not_measured),
-      units_row_(mapping.units_row) {
+      units_row_(mapping.units_row),
+      is_result_(mapping.is_result) {
   delimiter_ = DelimiterOf(header.text, mapping);
   if (delimiter_ == '\0') {
     Fail(header.number,
          "the header " + ShownText(header.text) +
-             " holds more than one of comma, semicolon and tab; state which "
-             "one stands between cells with delimiter: in the scene or plan");
+             " holds more than one of comma, semicolon and tab" +
+             Advice("state which one stands between cells with delimiter:"));
   }
   std::vector<std::string_view> cells;
   std::deque<std::string> unquoted;
@@ -228,6 +229,12 @@ bool FrameParser::IsMissing(std::string_view text) const {
              not_measured_.end();
 }
 
+std::string FrameParser::Advice(const std::string& how) const {
+  return is_result_ ? "; finray_estimate has not written this: make the result "
+                      "again"
+                    : "; " + how + " in the scene or plan";
+}
+
 // Reads what is no plain number.
 FrameRows::Cell FrameParser::ReadCell(int line, std::size_t i,
                                       std::string_view text) const {
@@ -241,9 +248,7 @@ FrameRows::Cell FrameParser::ReadCell(int line, std::size_t i,
   if (error.empty()) return {value, {}};
   if (decimal_ == '.' && NumberInCell(text, ',')) {
     error += MayBeThousands(text) ? ", which may stand for two numbers" : "";
-    error +=
-        "; a decimal comma is stated by decimal: \",\" in the scene or "
-        "plan";
+    error += Advice("a decimal comma is stated by decimal: \",\"");
   }
   FailAt(line, i, names_[i] + ": " + error);
 }
@@ -260,8 +265,8 @@ void FrameParser::Parse(const CsvLine& line, FrameRows* rows) const {
     Fail(line.number,
          "expected " + std::to_string(names_.size()) +
              " cells as in the header, found " + std::to_string(split.size()) +
-             (commas ? "; another delimiter than the comma is stated by "
-                       "delimiter: in the scene or plan"
+             (commas ? Advice("another delimiter than the comma is stated by "
+                              "delimiter:")
                      : ""));
   }
   const std::size_t nul = FirstNul(line, split);

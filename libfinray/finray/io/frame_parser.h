@@ -112,6 +112,8 @@ class FrameParser {
   FrameRows::Cell ReadCell(int line, std::size_t column,
                            std::string_view text) const;
   bool IsMissing(std::string_view text) const;
+  // What a user may do about a dialect that was not understood.
+  std::string Advice(const std::string& how) const;
   [[noreturn]] void Fail(int line, const std::string& message) const;
   [[noreturn]] void FailAt(int line, std::size_t cell,
                            const std::string& message) const;
@@ -121,6 +123,7 @@ class FrameParser {
   std::vector<Column> columns_;
   std::vector<std::string> not_measured_;
   std::optional<bool> units_row_;
+  bool is_result_;
   char delimiter_ = ',', decimal_ = '.';
   bool decimal_settled_ = true;
 };

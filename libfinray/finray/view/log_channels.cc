@@ -308,7 +308,9 @@ LogChannels ReadLogChannels(const std::string& path, const Finger* finger,
                             const Discretization& discretization) {
   LogChannels log;
   log.name = ResultName(path);
-  FrameReader reader(path);
+  ColumnMapping as_written;
+  as_written.is_result = true;
+  FrameReader reader(path, as_written);
   ResultRows result(reader.parser(), finger, discretization, &log);
   LineBlock block;
   FrameRows rows;

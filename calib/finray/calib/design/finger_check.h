@@ -61,6 +61,11 @@ FingerCheck CheckFinger(const Finger& finger,
 /// l_0^2.
 constexpr double kLargestCheckedLoad = 200;
 
+/// Returns the warnings of the plates and of the bending stiffness alone: units
+/// that were mixed up.
+std::vector<Warning> StiffnessWarnings(const Finger& finger,
+                                       const std::vector<WrittenPlate>& plates);
+
 /// Returns the warnings; `figures` has everything else.
 std::vector<Warning> FingerWarnings(const Finger& finger,
                                     const std::vector<WrittenPlate>& plates,

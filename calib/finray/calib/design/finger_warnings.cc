@@ -39,7 +39,7 @@ class WarningList {
 void CheckPlates(const Finger& finger, const std::vector<WrittenPlate>& plates,
                  WarningList* list) {
   for (const WrittenPlate& plate : plates) {
-    const std::string name = plate.place + SideName(plate.side) + " beam: ";
+    const std::string name = plate.name + ": ";
     if (plate.youngs_modulus_GPa > kStiffest_GPa ||
         plate.youngs_modulus_GPa < kSoftest_GPa) {
       list->Add("modulus",
@@ -57,13 +57,14 @@ void CheckPlates(const Finger& finger, const std::vector<WrittenPlate>& plates,
                 name + FormatText("%g mm thick is %.0f %% of its length",
                                   plate.thickness_mm,
                                   100 * plate.thickness_mm / length),
-                "the model neglects shear, which such a beam shows; check "
-                "thickness_mm");
+                "the model neglects shear, which such a beam shows; are all "
+                "lengths in mm?");
     } else if (plate.thickness_mm < kThinnest_mm) {
       list->Add(
           "thickness",
           name + FormatText("%g mm is thinner than foil", plate.thickness_mm),
-          "check thickness_mm; stiffness goes with its cube");
+          "is it in m? thickness_mm is in mm, and stiffness goes with its "
+          "cube");
     }
     if (plate.width_mm < plate.thickness_mm) {
       list->Add("width",
@@ -75,8 +76,7 @@ void CheckPlates(const Finger& finger, const std::vector<WrittenPlate>& plates,
   }
 }
 
-void CheckStiffness(const Finger& finger, const FingerCheck& figures,
-                    WarningList* list) {
+void CheckStiffness(const Finger& finger, WarningList* list) {
   const double ratio =
       finger.front_stiffness_N_mm2 / finger.back_stiffness_N_mm2;
   if (std::max(ratio, 1 / ratio) > kMostStiffnessRatio) {
@@ -85,15 +85,18 @@ void CheckStiffness(const Finger& finger, const FingerCheck& figures,
                          std::max(ratio, 1 / ratio)),
               "check both stiffnesses; E w t^3 / 12 in N mm^2");
   }
-  if (figures.force_unit_N < kLeastUnit_N ||
-      figures.force_unit_N > kMostUnit_N) {
+  const double unit_N = ForceUnit(finger);
+  if (unit_N < kLeastUnit_N || unit_N > kMostUnit_N) {
     list->Add("stiffness",
               FormatText("a force of %.2g N bends the finger by about its "
                          "own length (EI / l_0^2)",
-                         figures.force_unit_N),
+                         unit_N),
               "check the bending stiffness: N mm^2, not N m^2 (1e6 times as "
               "much)");
   }
+}
+
+void CheckLimit(const FingerCheck& figures, WarningList* list) {
   if (figures.limit.folds) {
     list->Add("folds",
               FormatText("the finger folds over at %.3g N at %g mm",
@@ -229,12 +232,21 @@ void CheckGauges(const Finger& finger, const FingerCheck& figures,
 
 }  // namespace
 
+std::vector<Warning> StiffnessWarnings(
+    const Finger& finger, const std::vector<WrittenPlate>& plates) {
+  WarningList list;
+  CheckPlates(finger, plates, &list);
+  CheckStiffness(finger, &list);
+  return list.Take();
+}
+
 std::vector<Warning> FingerWarnings(const Finger& finger,
                                     const std::vector<WrittenPlate>& plates,
                                     const FingerCheck& figures) {
   WarningList list;
   CheckPlates(finger, plates, &list);
-  CheckStiffness(finger, figures, &list);
+  CheckStiffness(finger, &list);
+  CheckLimit(figures, &list);
   CheckAngles(finger, figures, &list);
   CheckRibs(finger, figures, &list);
   CheckGauges(finger, figures, &list);

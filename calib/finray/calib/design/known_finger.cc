@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
@@ -8,6 +9,7 @@
 #include "finray/calib/solve/information_spectrum.h"
 #include "finray/calib/solve/robust_solve.h"
 #include "finray/finger/geometry.h"
+#include "finray/io/error.h"
 
 namespace finray {
 namespace {
@@ -38,6 +40,19 @@ Eigen::MatrixXd PriorOf(const CalibrationParameters& parameters) {
   return prior;
 }
 
+CalibrationLogs ReadLogsWithReadings(const std::vector<std::string>& paths,
+                                     const Finger& finger, const Plan& plan) {
+  CalibrationLogs logs = ReadCalibrationLogs(paths, finger, plan);
+  const bool any = std::any_of(
+      logs.frames.begin(), logs.frames.end(), [](const auto& frame) {
+        return std::any_of(frame.gauges_V.begin(), frame.gauges_V.end(),
+                           [](double volts) { return std::isfinite(volts); });
+      });
+  if (any) return logs;
+  throw InputError(paths.front() + (paths.size() > 1 ? " and others" : "") +
+                   ": no row has a reading of a gauge");
+}
+
 }  // namespace
 
 KnownFinger FromDrawing(const Finger& finger, const Plan& plan,
@@ -50,7 +65,7 @@ KnownFinger FromLogs(const Finger& finger, const Plan& plan,
                      const std::vector<std::string>& logs,
                      const Discretization& discretization, int threads) {
   CalibrationProblem problem(finger, plan,
-                             ReadCalibrationLogs(logs, finger, plan),
+                             ReadLogsWithReadings(logs, finger, plan),
                              discretization, threads);
   RefuseImplausible(&problem);
   const CalibrationSolution solution = SolveRobustly(&problem);
@@ -60,6 +75,7 @@ KnownFinger FromLogs(const Finger& finger, const Plan& plan,
   const Identifiability found = AnalyzeIdentifiability(&problem, solution.at);
   CalibrationParameters& parameters = problem.parameters();
   KnownFinger known;
+  known.rows = problem.FittedFrames().size();
   known.finger = parameters.Apply(finger);
   known.stage = parameters.Stage(parameters.last_fitted_log());
 

@@ -37,11 +37,13 @@ struct KnownFinger {
   /// The information on the free parameters of a PlannedRecording of this
   /// finger, in their units.
   Eigen::MatrixXd information;
+  std::size_t rows = 0;  ///< Rows of logs that told it.
 };
 KnownFinger FromDrawing(const Finger& finger, const Plan& plan,
                         const Discretization& discretization);
 /// Calibrates the finger from the logs. Parameters that belong to single logs
 /// (offsets by log, drift) are as unknown in the next log as the plan says.
+/// Throws InputError for logs without any reading of a gauge.
 KnownFinger FromLogs(const Finger& finger, const Plan& plan,
                      const std::vector<std::string>& logs,
                      const Discretization& discretization, int threads);

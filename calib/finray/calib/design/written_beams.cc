@@ -8,7 +8,8 @@ namespace {
 void AddPlate(const YamlMap& yaml, Side side,
               std::vector<WrittenPlate>* plates) {
   if (!yaml.Has("thickness_mm")) return;
-  plates->push_back({side, yaml.PlaceOf("thickness_mm"),
+  plates->push_back({side,
+                     yaml.PlaceOf("thickness_mm") + SideName(side) + " beam",
                      yaml.Number("width_mm"), yaml.Number("thickness_mm"),
                      yaml.Number("youngs_modulus_GPa")});
 }

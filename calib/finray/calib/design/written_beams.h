@@ -8,11 +8,11 @@
 
 namespace finray {
 
-/// A rectangular plate as a finger YAML gives it. A Finger keeps only its
-/// bending stiffness E w t^3 / 12.
+/// A rectangular plate as a user gives it. A Finger keeps only its bending
+/// stiffness E w t^3 / 12.
 struct WrittenPlate {
   Side side;
-  std::string place;  ///< "path:line:column: ", for messages.
+  std::string name;  ///< "path:line:column: front beam", for messages.
   double width_mm, thickness_mm, youngs_modulus_GPa;
 };
 

@@ -1,0 +1,109 @@
+#!/usr/bin/python3
+"""What newcomers get wrong with the tools that come before and after an estimate: one clear line that names the flag or
+the file, an exit code, and nothing written; or a warning that says what is implausible."""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BINARIES = pathlib.Path(os.environ.get("FINRAY_BINARY_DIR", ROOT / "build/dev")).resolve()
+FINGER = ROOT / "configs/fingers/paper_140mm.yaml"
+PLAN = ROOT / "configs/plans/force_and_circle.yaml"
+TRAIN = ROOT / "datasets/simulated_r15/train.csv"
+STRIP = "--front_length_mm 140 --ribs 17:10,39:13,61:16 --gauges 4 --out_dir out "
+
+
+class NewcomerInputTest(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.folder = pathlib.Path(self.temporary.name)
+        self.plan = (f"--finger {FINGER} --plan {PLAN} --x_mm -30:10 --y_mm 0:140 --force_max_N 8 --target_force_N 0.3 "
+                     "--most_frames 12 --report=false --out_dir out ")
+
+    def run_tool(self, tool, arguments):
+        return subprocess.run([BINARIES / f"finray_{tool}", *arguments.split()], cwd=self.folder, capture_output=True, text=True)
+
+    def refused(self, tool, arguments, words, code=2):
+        with self.subTest(tool, arguments=arguments):
+            done = self.run_tool(tool, arguments)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (code, "", 1), done.stderr)
+            self.assertTrue(done.stderr.startswith(f"finray_{tool}: "), done.stderr)
+            self.assertIn(words, done.stderr)
+            self.assertFalse((self.folder / "out").exists())
+
+    def test_flag_values_of_another_kind(self):
+        for flag, words in (("--threads two", "--threads: expected a whole number, found 'two'"),
+                            ("--threads=1.5", "--threads: expected a whole number, found '1.5'"),
+                            ("--threads 99999999999", "--threads: expected a whole number of fewer digits, found '99999999999'"),
+                            ("--seed -1", "--seed: expected a whole number, 0 or more"),
+                            ("--force_max_N 8N", "--force_max_N: expected a number, found '8N'"),
+                            ("--report=maybe", "--report: expected true or false, found 'maybe'"),
+                            ("--force_max_N", "--force_max_N needs a value")):
+            self.refused("plan", self.plan + flag, words, code=1)
+
+    def test_the_picture_of_a_check_needs_a_place(self):
+        (self.folder / "pictures").mkdir()
+        self.refused("check", f"--finger {FINGER} --out pictures", "pictures: is a folder, expected a file to write")
+        self.refused("check", f"--finger {FINGER} --out none/f.svg", "none/f.svg: cannot be written: No such file")
+
+    def test_long_names_stay_in_the_picture(self):
+        for name in ("left_index_finger_of_the_gripper_in_room_3_with_the_new_glue_and_the_old_cable_as_of_march",
+                     "x" * 300, "\u6307" * 200, "f"):
+            (self.folder / "f.yaml").write_text(re.sub("(?m)^name:.*$", f"name: {name}", FINGER.read_text()))
+            self.assertEqual(self.run_tool("check", "--finger f.yaml --out f.svg").returncode, 0)
+            svg = (self.folder / "f.svg").read_text()
+            width = float(re.search(r'<svg[^>]* width="([\d.]+)"', svg)[1])
+            lines = re.findall(r'<text x="40\.0" y="([\d.-]+)"[^>]*>([^<]*)<', svg)
+            heights = [float(y) for y, _ in lines]
+            self.assertEqual(len(set(heights)), len(heights), lines)
+            self.assertGreater(min(heights), 12)
+            for _, words in lines:
+                pixels = sum(14 if letter == "\u6307" else 8 for letter in words)
+                self.assertLess(40 + pixels, width, words)
+
+    def test_mixed_up_units_are_implausible(self):
+        for flags, words in (("--width_mm 20 --thickness_mm 1 --youngs_modulus_GPa 7000", "both beams: a modulus of 7000 GPa"),
+                             ("--width_mm 20 --thickness_mm 0.001 --youngs_modulus_GPa 7", "both beams: 0.001 mm is thinner than foil; is it in m?"),
+                             ("--width_mm 0.02 --thickness_mm 1 --youngs_modulus_GPa 7", "are they exchanged?"),
+                             ("--width_mm 20 --thickness_mm 1 --youngs_modulus_GPa 7", "")):
+            done = self.run_tool("design", STRIP + flags)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(words, done.stderr)
+            if not words:
+                self.assertEqual(done.stderr, "")
+        plates = FINGER.read_text().replace("{bending_stiffness_N_mm2: 12500}",
+                                            "{width_mm: 20, thickness_mm: 1, youngs_modulus_GPa: 7000}")
+        (self.folder / "f.yaml").write_text(plates)
+        self.assertRegex(self.run_tool("design", "--finger f.yaml --out_dir out").stderr,
+                         r"warning: f.yaml:\d+:\d+: front beam: a modulus of 7000 GPa")
+
+    def test_logs_to_plan_from_without_readings(self):
+        header, first, *_ = TRAIN.read_text().splitlines()
+        gauges = [i for i, name in enumerate(header.split(",")) if name.startswith("gauge_")]
+        cells = ["" if i in gauges else cell for i, cell in enumerate(first.split(","))]
+        for rows in (["," * header.count(",")] * 3, [",".join(cells)] * 20):
+            (self.folder / "log.csv").write_text("\n".join([header, *rows]) + "\n")
+            self.refused("plan", self.plan + "--from log.csv", "log.csv: no row has a reading of a gauge")
+        (self.folder / "log.csv").write_text(f"{header}\n{first}\n")
+        self.assertIn("warning: --from has 1 row that can be fitted, which tells next to nothing",
+                      self.run_tool("plan", self.plan + "--from log.csv").stderr)
+
+    def test_results_that_were_changed(self):
+        head = "contact_1_mm,normal_1_N,status\n"
+        for text, words in (("1,1,ok\n1,1,2,ok\n", ":3: expected 3 cells as in the header, found 4; finray_estimate has not written this"),
+                            ("1,\"1,5\",ok\n", ":2:2: normal_1_N: expected a number")):
+            (self.folder / "a.frames.csv").write_text(head + text)
+            self.refused("view", "--results a.frames.csv --out_dir out", "a.frames.csv" + words)
+            done = self.run_tool("view", "--results a.frames.csv --out_dir out")
+            self.assertNotIn("scene or plan", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
