@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 #include "app.h"
 #include "finger_picture.h"
@@ -102,6 +103,10 @@ int Run() {
   if (!FLAGS_out.empty()) {
     RefuseToOverwrite({FLAGS_finger}, {FLAGS_out});
     RefuseUnwritable(FLAGS_out);
+    const std::string end = std::filesystem::path(FLAGS_out).extension();
+    if (!end.empty() && end != ".svg") {
+      throw InputError(FLAGS_out + ": the picture is an SVG, not " + end);
+    }
   }
   const FingerCheck check =
       CheckFinger(finger, ReadPlates(FLAGS_finger), DiscretizationFlags());

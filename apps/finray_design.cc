@@ -78,11 +78,14 @@ Finger FingerOfDimensions() {
     const auto angle = colon == std::string::npos
                            ? std::nullopt
                            : ParseNumber(item.substr(colon + 1));
-    if (!front || !angle || !(*front > 0 && *front < FLAGS_front_length_mm)) {
+    if (!front || !angle) {
       throw UsageError(
-          "--ribs: expected front_mm:angle_deg on the front beam, "
-          "such as 17:10, found " +
-          item);
+          "--ribs: expected front_mm:angle_deg, such as 17:10, found " + item);
+    }
+    if (!(*front > 0 && *front < FLAGS_front_length_mm)) {
+      throw UsageError(FormatText(
+          "--ribs: the rib %s leaves the front beam, which is %g mm long",
+          item.c_str(), FLAGS_front_length_mm));
     }
     Rib rib;
     rib.front_mm = *front;
@@ -142,6 +145,25 @@ Start StartOfDrawing() {
   return *start;
 }
 
+// Throws UsageError for flags that would do nothing.
+void RefuseUnused() {
+  const auto refuse = [](std::initializer_list<const char*> flags,
+                         const char* why) {
+    for (const char* flag : flags) {
+      if (IsGiven(flag)) throw UsageError(std::string("--") + flag + why);
+    }
+  };
+  const char* const dimensions = " goes with --front_length_mm";
+  if (!IsGiven("front_length_mm")) {
+    refuse({"ribs", "back_angle_deg", "thickness_mm"}, dimensions);
+  }
+  if (!FLAGS_finger.empty()) {
+    refuse({"width_mm", "youngs_modulus_GPa"},
+           ": the beams are those of --finger");
+  }
+  if (FLAGS_plan.empty()) refuse({"calibration_frames"}, " goes with --plan");
+}
+
 Start StartFinger() {
   const int given =
       !FLAGS_finger.empty() + !FLAGS_dxf.empty() + IsGiven("front_length_mm");
@@ -149,6 +171,7 @@ Start StartFinger() {
     throw UsageError(
         "expected one of --finger, --dxf and --front_length_mm to start from");
   }
+  RefuseUnused();
   if (!FLAGS_finger.empty()) return StartOfFile(FLAGS_finger);
   return FLAGS_dxf.empty() ? StartOfDimensions() : StartOfDrawing();
 }
@@ -164,6 +187,9 @@ PlacementTask Task(const Finger& finger) {
                        beam);
     }
     task.beams.push_back(beam == "front" ? Side::kFront : Side::kBack);
+  }
+  if (task.beams.empty()) {
+    throw UsageError("--gauge_beams: expected back, front or both");
   }
   const std::string& length_mm = FLAGS_gauge_length_mm;
   if (const auto one = ParseNumber(length_mm)) {
@@ -184,6 +210,10 @@ PlacementTask Task(const Finger& finger) {
   task.normal_N = FLAGS_force_N == 0 ? 3 * ForceUnit(finger)
                                      : PositiveFlag("force_N", FLAGS_force_N);
   task.friction = FLAGS_friction;
+  if (!(std::abs(task.friction) <= 10)) {
+    throw UsageError("--friction: expected a coefficient, -10 to 10, found " +
+                     NumberText(task.friction));
+  }
   if (FLAGS_goal != "place" && FLAGS_goal != "force") {
     throw UsageError("--goal: expected place or force, found " + FLAGS_goal);
   }
@@ -359,6 +389,11 @@ int Design() {
   }
   PrintPairs(table);
   Warn(StiffnessWarnings(start, plates));
+  if (start.ribs.empty()) {
+    Warn("the finger has no ribs",
+         "give them by --ribs or list them in the "
+         "finger YAML, from base to tip");
+  }
   if (!untold.empty()) {
     Warn(
         FormatText("at %zu of %zu heights of the region, %.0f to %.0f mm, the "

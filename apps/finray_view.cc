@@ -1,5 +1,6 @@
 // Pages that show the results of finray_estimate.
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -72,6 +73,12 @@ int Run() {
   std::optional<Finger> finger;
   if (!FLAGS_finger.empty()) finger = ReadFinger(FLAGS_finger);
   const Finger* known = finger ? &*finger : nullptr;
+  for (std::size_t i = 1; i < results.size(); ++i) {
+    if (std::find(results.begin(), results.begin() + i, results[i]) !=
+        results.begin() + i) {
+      throw UsageError("--results: " + results[i] + " is there twice");
+    }
+  }
   std::size_t folders = 0;
   for (const std::string& result : results) {
     folders += fs::is_directory(result);

@@ -51,6 +51,7 @@ class NewcomerInputTest(unittest.TestCase):
     def test_the_picture_of_a_check_needs_a_place(self):
         (self.folder / "pictures").mkdir()
         self.refused("check", f"--finger {FINGER} --out pictures", "pictures: is a folder, expected a file to write")
+        self.refused("check", f"--finger {FINGER} --out f.png", "f.png: the picture is an SVG, not .png")
         self.refused("check", f"--finger {FINGER} --out none/f.svg", "none/f.svg: cannot be written: No such file")
 
     def test_long_names_stay_in_the_picture(self):
@@ -103,6 +104,24 @@ class NewcomerInputTest(unittest.TestCase):
             self.refused("view", "--results a.frames.csv --out_dir out", "a.frames.csv" + words)
             done = self.run_tool("view", "--results a.frames.csv --out_dir out")
             self.assertNotIn("scene or plan", done.stderr)
+        self.refused("view", "--results a.frames.csv,a.frames.csv --compare --out_dir out", "a.frames.csv is there twice", code=1)
+
+    def test_results_of_another_finger(self):
+        (self.folder / "a.frames.csv").write_text("contact_1_mm,normal_1_N,status\n100,1,ok\n150,1,ok\n")
+        self.refused("view", f"--results a.frames.csv --finger {FINGER} --out_dir out",
+                     "a.frames.csv:3: a contact at 150 mm, and the finger ends at 140 mm; is it the finger of the result?")
+
+    def test_flags_that_would_do_nothing(self):
+        for flags, words in ((f"--finger {FINGER} --thickness_mm 3", "--thickness_mm goes with --front_length_mm"),
+                             (f"--finger {FINGER} --width_mm 3", "--width_mm: the beams are those of --finger"),
+                             (f"--finger {FINGER} --calibration_frames 5", "--calibration_frames goes with --plan"),
+                             (f"--finger {FINGER} --gauge_beams=", "--gauge_beams: expected back, front or both"),
+                             (f"--finger {FINGER} --friction nan", "--friction: expected a coefficient"),
+                             ("--front_length_mm 0.14 --ribs 17:10 --width_mm 20 --thickness_mm 1 --youngs_modulus_GPa 7 --gauges 4",
+                              "--ribs: the rib 17:10 leaves the front beam, which is 0.14 mm long")):
+            self.refused("design", flags + " --out_dir out", words, code=1)
+        done = self.run_tool("design", STRIP.replace("--ribs 17:10,39:13,61:16", "") + "--width_mm 20 --thickness_mm 1 --youngs_modulus_GPa 7")
+        self.assertIn("the finger has no ribs", done.stderr)
 
 
 if __name__ == "__main__":

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <optional>
 
 #include "finray/io/error.h"
 #include "finray/io/frame_reader.h"
 #include "finray/io/frame_vocabulary.h"
 #include "finray/io/message_text.h"
+#include "finray/io/number_text.h"
 #include "finray/scene/frame_columns.h"
 #include "finray/scene/history_filter.h"
 #include "finray/scene/measurement_columns.h"
@@ -30,6 +32,7 @@ class ResultRows {
   ResultRows(const FrameParser& parser, const Finger* finger,
              const Discretization& discretization, LogChannels* log)
       : path_(parser.path()), names_(parser.names()), log_(*log) {
+    if (finger != nullptr) most_arc_mm_ = finger->front_length_mm * (1 + 1e-9);
     status_ = Needed("status");
     time_ = At("time_s");
     log_.has_time = time_.has_value();
@@ -69,6 +72,13 @@ class ResultRows {
       point.arc_mm = number(contact.arc);
       point.normal_N = number(contact.normal);
       if (!std::isfinite(point.arc_mm) || !std::isfinite(point.normal_N)) break;
+      if (point.arc_mm > most_arc_mm_) {
+        throw InputError(path_ + ":" + std::to_string(line) +
+                         ": a contact at " +
+                         FormatText("%.4g mm, and the finger ends at %.4g mm; "
+                                    "is it the finger of the result?",
+                                    point.arc_mm, most_arc_mm_));
+      }
       const double friction = number(contact.friction);
       if (std::isfinite(friction)) point.friction = friction;
       AddFriction(point.friction);
@@ -248,6 +258,7 @@ class ResultRows {
   std::vector<ContactAt> contact_at_;
   std::optional<std::size_t> force_;  // its channel
   std::size_t first_residual_ = 0;
+  double most_arc_mm_ = std::numeric_limits<double>::infinity();
   double most_sure_N_ = 0, most_N_ = 0;
   bool has_friction_ = false;  // a contact has been read
   std::optional<MeasurementColumns> columns_;
