@@ -99,14 +99,8 @@ void PrintSummary(CalibrationProblem& problem,
                 noise.chi2 / noise.dof);
   }
   std::printf("\n");
-  if (problem.plan().gauge_std_V && problem.logs().AnyReadingStd()) {
-    std::printf("noise_V        ");
-    for (const Gauge& gauge : result.finger.gauges) {
-      std::printf("%.2g ", 1e3 * gauge.noise_V);
-    }
-    std::printf("mV, the scatter of single readings; rows have %.2g mV\n",
-                1e3 * *problem.plan().gauge_std_V);
-  }
+  const std::string noise = ReadingNoiseWords(problem, result.finger);
+  if (!noise.empty()) std::printf("noise_V        %s\n", noise.c_str());
   std::printf("force error    %s\n", ForceWords(result.forces).c_str());
   if (result.discrepancy) {
     std::printf(

@@ -23,9 +23,11 @@ struct Noise {
     Finger finger = problem.finger();
     SetReadingNoise(problem, &finger, &warnings);
     for (const Gauge& gauge : finger.gauges) V.push_back(gauge.noise_V);
+    words = ReadingNoiseWords(problem, finger);
   }
 
   std::vector<double> V;
+  std::string words;
   std::vector<Warning> warnings;
 };
 
@@ -43,8 +45,23 @@ TEST(ReadingNoiseTest, ScatterAboutMeansIsTheNoiseOfOneReading) {
   EXPECT_EQ(noise.V[2], 2.8e-5);
   EXPECT_NEAR(noise.V[3], 1e-3, 1e-12);
   EXPECT_TRUE(noise.warnings.empty());
+  EXPECT_EQ(noise.words,
+            "0.25 0.35 0.028 1 mV, the scatter of single readings; rows have "
+            "0.028 mV");
   // The noise of the finger counts if the plan gives none for rows.
   EXPECT_EQ(Noise(log, {}).V[3], 3e-4);
+  EXPECT_EQ(Noise(log, {}).words, "");
+}
+
+TEST(ReadingNoiseTest, WordsNameTheGaugesWithAScatter) {
+  FrameTable log = StandardFrames(HiddenFinger(), 7);
+  EXPECT_EQ(Noise(log, 2.8e-5).words, "");
+  log.MutableNumbers("gauge_2_scatter_V").assign(log.rows(), 3e-4);
+  EXPECT_EQ(Noise(log, 2.8e-5).words,
+            "0.028 0.3 0.028 0.028 mV, the scatter of single readings of gauge "
+            "2; rows have 0.028 mV");
+  log.MutableNumbers("gauge_4_scatter_V").assign(log.rows(), 4e-4);
+  EXPECT_THAT(Noise(log, 2.8e-5).words, HasSubstr(" of gauges 2, 4; rows"));
 }
 
 TEST(ReadingNoiseTest, AMuchSmallerNoiseOfRowsIsAWarning) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "finray/io/message_text.h"
 #include "finray/io/number_text.h"
 
 namespace finray {
@@ -31,6 +32,28 @@ void SetReadingNoise(const CalibrationProblem& problem, Finger* finger,
        "before the finger senses by single readings, give it their noise_V; a "
        "log with gauge_<j>_scatter_V, as finray_import --plateaus writes, does "
        "that"});
+}
+
+std::string ReadingNoiseWords(const CalibrationProblem& problem,
+                              const Finger& finger) {
+  const std::vector<double>& scatter_V = problem.logs().reading_std_V;
+  std::string noise_mV;
+  std::vector<std::string> with_scatter;
+  for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
+    noise_mV += FormatText("%.2g ", 1e3 * finger.gauges[j].noise_V);
+    if (j < scatter_V.size() && std::isfinite(scatter_V[j])) {
+      with_scatter.push_back(std::to_string(j + 1));
+    }
+  }
+  if (!problem.plan().gauge_std_V || with_scatter.empty()) return "";
+  std::string gauges;
+  if (with_scatter.size() < finger.gauges.size()) {
+    gauges = (with_scatter.size() == 1 ? " of gauge " : " of gauges ") +
+             Joined(with_scatter);
+  }
+  return FormatText("%smV, the scatter of single readings%s; rows have %.2g mV",
+                    noise_mV.c_str(), gauges.c_str(),
+                    1e3 * *problem.plan().gauge_std_V);
 }
 
 }  // namespace finray

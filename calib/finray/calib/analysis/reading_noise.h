@@ -1,6 +1,7 @@
 #ifndef FINRAY_CALIB_ANALYSIS_READING_NOISE_H_
 #define FINRAY_CALIB_ANALYSIS_READING_NOISE_H_
 
+#include <string>
 #include <vector>
 
 #include "finray/calib/problem/calibration_problem.h"
@@ -20,6 +21,11 @@ namespace finray {
 /// noise_V. Without a gauge_std_V nothing changes.
 void SetReadingNoise(const CalibrationProblem& problem, Finger* finger,
                      std::vector<Warning>* warnings);
+
+/// The noise of a finger after SetReadingNoise(), and which gauges have it from
+/// the scatter of single readings; empty if none has.
+std::string ReadingNoiseWords(const CalibrationProblem& problem,
+                              const Finger& finger);
 
 }  // namespace finray
 

@@ -297,11 +297,6 @@ double ReferenceForce(const CalibrationFrame& frame) {
   return frame.force_xy_N.allFinite() ? frame.force_xy_N.norm() : frame.force_N;
 }
 
-bool CalibrationLogs::AnyReadingStd() const {
-  return std::any_of(reading_std_V.begin(), reading_std_V.end(),
-                     [](double std_V) { return std::isfinite(std_V); });
-}
-
 std::vector<bool> CalibrationLogs::HeldOut() const {
   std::vector<bool> held_out(paths.size(), true);
   for (const CalibrationFrame& frame : frames) {

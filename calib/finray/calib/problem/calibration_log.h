@@ -52,7 +52,6 @@ struct CalibrationLogs {
   /// root mean square of gauge_<j>_scatter_V. NaN for a gauge without.
   std::vector<double> reading_std_V;
 
-  bool AnyReadingStd() const;
   /// Says for each log whether all its rows are held out.
   std::vector<bool> HeldOut() const;
 };
