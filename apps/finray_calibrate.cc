@@ -7,6 +7,7 @@
 #include "app.h"
 #include "finray/calib/analysis/explore.h"
 #include "finray/calib/analysis/plausibility.h"
+#include "finray/calib/analysis/reading_noise.h"
 #include "finray/calib/report/calibration_result.h"
 #include "finray/calib/report/doubts.h"
 #include "finray/io/atomic_file.h"
