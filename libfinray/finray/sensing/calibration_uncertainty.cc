@@ -156,57 +156,17 @@ CalibrationUncertainty::ErrorsAt(const std::vector<PointContact>& contacts,
   ReadSensitivities(m.solver, contacts, std::nullopt, m.gauge_places,
                     &m.derivatives);
   const Eigen::Index gauges = m.derivatives.rows();
-  const std::vector<FingerParameter>& parameters =
-      m.finger.calibration->parameters;
   GaugeErrors at;
   at.error = Eigen::VectorXd::Zero(gauges);
-  Eigen::MatrixXd by_parameter = Eigen::MatrixXd::Zero(
-      gauges, static_cast<Eigen::Index>(parameters.size()));
-  Eigen::Index effect = unknowns + 2 + m.solver.model().ribs();
-  for (std::size_t k = 0; k < parameters.size(); ++k) {
-    const int index = parameters[k].index;
-    auto column = by_parameter.col(static_cast<Eigen::Index>(k));
-    switch (parameters[k].kind) {
-      case FingerParameterKind::kFrontStiffness:
-        column = m.derivatives.col(unknowns);
-        break;
-      case FingerParameterKind::kBackStiffness:
-        column = m.derivatives.col(unknowns + 1);
-        break;
-      case FingerParameterKind::kRibLength:
-        column = m.derivatives.col(unknowns + 2 + index);
-        break;
-      case FingerParameterKind::kHingeStiffness:
-      case FingerParameterKind::kRibBending:
-      case FingerParameterKind::kFrontPiece:
-      case FingerParameterKind::kBackPiece:
-      case FingerParameterKind::kFrontHinge:
-      case FingerParameterKind::kBackHinge:
-      case FingerParameterKind::kFrontClamp:
-      case FingerParameterKind::kBackClamp:
-      case FingerParameterKind::kBackAngle:
-      case FingerParameterKind::kSurfaceOffset:
-      case FingerParameterKind::kFriction:
-        column = m.derivatives.col(effect++);
-        break;
-      case FingerParameterKind::kGaugeStart:
-        column[index] = m.derivatives.rightCols<2>()(index, 0);
-        break;
-      case FingerParameterKind::kGaugeLength:
-        column[index] = m.derivatives.rightCols<2>()(index, 1);
-        break;
-      case FingerParameterKind::kGaugeGain:
-      case FingerParameterKind::kGaugeOffset:
-      case FingerParameterKind::kGaugeCurvature:
-      case FingerParameterKind::kGaugeCreepShare:
-      case FingerParameterKind::kGaugeCreepTime:
-      case FingerParameterKind::kGaugeFlatShare:
-      case FingerParameterKind::kGaugeFlatWidth:
-      case FingerParameterKind::kGaugeHysteresis:
-        column[index] = ByReading(parameters[k].kind, m.finger.gauges[index],
-                                  readings_V[index], weights[index] != 0);
-    }
-  }
+  Eigen::MatrixXd by_parameter = Eigen::MatrixXd::Zero(gauges, m.factor.rows());
+  ForEachParameter(
+      readings_V, weights,
+      [&](Eigen::Index k, Eigen::Index which) {
+        by_parameter.col(k) = m.derivatives.col(unknowns + which);
+      },
+      [&](Eigen::Index k, int gauge, double slope) {
+        by_parameter(gauge, k) = slope;
+      });
   for (Eigen::Index j = 0; j < gauges; ++j) {
     if (weights[j] == 0) continue;
     const auto i = static_cast<std::size_t>(j);
@@ -253,29 +213,38 @@ void CalibrationUncertainty::FillByParameter(
     int unknowns, const std::vector<double>& readings_V,
     const Eigen::VectorXd& weights) {
   Model& m = *model_;
+  m.by_parameter.resize(unknowns, m.factor.rows());
+  ForEachParameter(
+      readings_V, weights,
+      [&](Eigen::Index k, Eigen::Index which) {
+        m.by_parameter.col(k).noalias() =
+            -m.by_measured.lazyProduct(m.derivatives.col(unknowns + which));
+      },
+      [&](Eigen::Index k, int gauge, double slope) {
+        m.by_parameter.col(k) = -slope * m.by_measured.col(gauge);
+      });
+}
+
+template <class ByStatics, class ByGauge>
+void CalibrationUncertainty::ForEachParameter(
+    const std::vector<double>& readings_V, const Eigen::VectorXd& weights,
+    const ByStatics& by_statics, const ByGauge& by_gauge) const {
+  const Model& m = *model_;
   const std::vector<FingerParameter>& parameters =
       m.finger.calibration->parameters;
-  m.by_parameter.resize(unknowns, static_cast<int>(parameters.size()));
   int effect = 2 + m.solver.model().ribs();
-  for (std::size_t k = 0; k < parameters.size(); ++k) {
-    const int index = parameters[k].index;
-    auto column = m.by_parameter.col(static_cast<int>(k));
-    const auto by_gauge = [&](double slope) {
-      column = -slope * m.by_measured.col(index);
-    };
-    const auto by_statics = [&](int which) {
-      column.noalias() =
-          -m.by_measured.lazyProduct(m.derivatives.col(unknowns + which));
-    };
-    switch (parameters[k].kind) {
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const int index = parameters[i].index;
+    switch (parameters[i].kind) {
       case FingerParameterKind::kFrontStiffness:
-        by_statics(0);
+        by_statics(k, 0);
         break;
       case FingerParameterKind::kBackStiffness:
-        by_statics(1);
+        by_statics(k, 1);
         break;
       case FingerParameterKind::kRibLength:
-        by_statics(2 + index);
+        by_statics(k, 2 + index);
         break;
       case FingerParameterKind::kHingeStiffness:
       case FingerParameterKind::kRibBending:
@@ -288,13 +257,13 @@ void CalibrationUncertainty::FillByParameter(
       case FingerParameterKind::kBackAngle:
       case FingerParameterKind::kSurfaceOffset:
       case FingerParameterKind::kFriction:
-        by_statics(effect++);
+        by_statics(k, effect++);
         break;
       case FingerParameterKind::kGaugeStart:
-        by_gauge(m.derivatives.rightCols<2>()(index, 0));
+        by_gauge(k, index, m.derivatives.rightCols<2>()(index, 0));
         break;
       case FingerParameterKind::kGaugeLength:
-        by_gauge(m.derivatives.rightCols<2>()(index, 1));
+        by_gauge(k, index, m.derivatives.rightCols<2>()(index, 1));
         break;
       case FingerParameterKind::kGaugeGain:
       case FingerParameterKind::kGaugeOffset:
@@ -304,7 +273,8 @@ void CalibrationUncertainty::FillByParameter(
       case FingerParameterKind::kGaugeFlatShare:
       case FingerParameterKind::kGaugeFlatWidth:
       case FingerParameterKind::kGaugeHysteresis:
-        by_gauge(ByReading(parameters[k].kind, m.finger.gauges[index],
+        by_gauge(k, index,
+                 ByReading(parameters[i].kind, m.finger.gauges[index],
                            readings_V[index], weights[index] != 0));
     }
   }

@@ -119,6 +119,14 @@ class CalibrationUncertainty {
   void FindWholeForce(const PointContact& contact);
   void FillByParameter(int unknowns, const std::vector<double>& readings_V,
                        const Eigen::VectorXd& weights);
+  // Says what the gauge angles change by with each calibrated parameter k:
+  // by_statics(k, i), a column of the derivatives, i counted from behind those
+  // by contacts; or by_gauge(k, gauge, dr/dp), one gauge alone.
+  template <class ByStatics, class ByGauge>
+  void ForEachParameter(const std::vector<double>& readings_V,
+                        const Eigen::VectorXd& weights,
+                        const ByStatics& by_statics,
+                        const ByGauge& by_gauge) const;
 
   std::optional<Model> model_;
   double whole_force_variance_N2_ = 0;

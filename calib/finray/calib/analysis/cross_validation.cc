@@ -22,9 +22,7 @@ ScaledSums OfFold(const WideLinearization& wide, int fold,
                   const Eigen::VectorXd& unit) {
   const Linearization& at = wide.folds[fold];
   const Eigen::MatrixXd information = at.Information();
-  return {unit.asDiagonal() *
-              Eigen::MatrixXd(information(wide.free, wide.free)) *
-              unit.asDiagonal(),
+  return {InUnits(information(wide.free, wide.free), unit),
           Eigen::VectorXd(at.gradient(wide.free)).cwiseProduct(unit)};
 }
 
@@ -41,7 +39,7 @@ ScaledSums OfAll(const CalibrationProblem& problem,
         problem.parameters().FreeParameter(static_cast<std::size_t>(k));
     if (!p.prior_std) continue;
     sums.information(k, k) += 1;
-    sums.gradient[k] += (*p.variable - p.initial) / *p.prior_std;
+    sums.gradient[k] += p.PriorResidual();
   }
   return sums;
 }

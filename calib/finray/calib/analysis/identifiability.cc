@@ -147,11 +147,7 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
   for (int i = 0; i < n; ++i) {
     if (parameters.FreeParameter(i).prior_std) result.prior(i, i) = 1;
   }
-  const auto scaled = [&](const Eigen::MatrixXd& of_variables) {
-    return Eigen::MatrixXd(unit.asDiagonal() * of_variables *
-                           unit.asDiagonal());
-  };
-  result.information = scaled(at.Information());
+  result.information = InUnits(at.Information(), unit);
   const InformationSpectrum spectrum(result.information);
   const Eigen::VectorXd& value = spectrum.values;
   const Eigen::MatrixXd& vector = spectrum.vectors;
@@ -213,7 +209,7 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
     if (noise.residuals == 0) continue;
     const double leverage =
         at.contact_leverage[f] +
-        covariance.cwiseProduct(scaled(at.InformationOfFamily(f))).sum();
+        covariance.cwiseProduct(InUnits(at.InformationOfFamily(f), unit)).sum();
     noise.dof = told[f] * (1 - leverage / noise.residuals);
   }
   return result;

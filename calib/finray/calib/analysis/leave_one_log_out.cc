@@ -35,10 +35,9 @@ std::vector<std::size_t> ContradictedPriors(
   for (std::size_t k = 0; k < parameters.free().size(); ++k) {
     const CalibrationParameter& p = parameters.FreeParameter(k);
     if (!p.prior_std) continue;
-    const double off = (*p.variable - p.initial) / *p.prior_std;
     const double share =
         found.covariance.diagonal()[static_cast<Eigen::Index>(k)];
-    if (std::abs(off) >
+    if (std::abs(p.PriorResidual()) >
         LeaveOneLogOut::kContradicted * std::sqrt(std::max(0.0, 1 - share))) {
       contradicted.push_back(k);
     }
@@ -107,9 +106,7 @@ LeaveOneLogOut LeaveLogsOut(CalibrationProblem* problem,
     Eigen::MatrixXd information = prior;
     for (const auto& [log, its] : by_log) {
       if (group_of[log] == group) continue;
-      information += found.unit.asDiagonal() *
-                     solution.at.InformationOfLog(log) *
-                     found.unit.asDiagonal();
+      information += InUnits(solution.at.InformationOfLog(log), found.unit);
     }
     const Eigen::VectorXd variance_without =
         BoundedCovariance(information).diagonal();

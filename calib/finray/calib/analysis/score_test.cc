@@ -118,13 +118,13 @@ class ScoreRanking {
     }
     unit_ = wide_.problem->parameters().Units();
     gradient = gradient.cwiseProduct(unit_);
-    information = unit_.asDiagonal() * information * unit_.asDiagonal();
+    information = InUnits(information, unit_);
     const CalibrationParameters& parameters = problem.parameters();
     for (std::size_t k = 0; k < wide_.free.size(); ++k) {
       const CalibrationParameter& p = parameters.FreeParameter(k);
       if (!p.prior_std) continue;
       const Eigen::Index i = wide_.free[k];
-      gradient[i] += (*p.variable - p.initial) / *p.prior_std;
+      gradient[i] += p.PriorResidual();
       information(i, i) += 1;
     }
     const auto& f = wide_.free;

@@ -65,7 +65,7 @@ void FindUnsupported(CalibrationProblem& problem, Identifiability* found,
     if (found->status[k] == ParameterStatus::kUnidentifiable) continue;
     const CalibrationParameter& p = parameters.FreeParameter(k);
     const double value = *p.variable, std = found->std[k];
-    const double off = p.prior_std ? (value - p.initial) / *p.prior_std : 0.0;
+    const double off = p.PriorResidual();
     const bool dead =
         p.family == ParameterFamily::kGaugeGain &&
         std::abs(value) < std::max(kInsignificant * std,

@@ -44,6 +44,10 @@ struct CalibrationParameter {
   /// Convert a variable and its std to the number that the user sees.
   double Value(double at) const;
   double ValueStd(double at, double std) const;
+  /// The residual of the prior, which is 0 without one.
+  double PriorResidual() const {
+    return prior_std ? (*variable - initial) / *prior_std : 0;
+  }
 };
 
 /// The variables of a calibration, at fixed addresses, and their description.

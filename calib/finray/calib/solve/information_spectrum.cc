@@ -45,10 +45,14 @@ InformationSpectrum::InformationSpectrum(const Eigen::MatrixXd& information) {
   vectors = right.rowwise().reverse();
 }
 
+Eigen::MatrixXd InUnits(const Eigen::MatrixXd& information,
+                        const Eigen::VectorXd& unit) {
+  return unit.asDiagonal() * information * unit.asDiagonal();
+}
+
 Eigen::MatrixXd DeterminedUnits(const Eigen::MatrixXd& information,
                                 const Eigen::VectorXd& unit) {
-  const InformationSpectrum spectrum(unit.asDiagonal() * information *
-                                     unit.asDiagonal());
+  const InformationSpectrum spectrum(InUnits(information, unit));
   const auto weak =
       std::count_if(spectrum.values.begin(), spectrum.values.end(),
                     [](double value) { return value < kLeastMoved; });

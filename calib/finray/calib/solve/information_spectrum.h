@@ -25,6 +25,10 @@ struct InformationSpectrum {
   Eigen::MatrixXd vectors;  ///< Each column is an eigenvector.
 };
 
+/// The information of variables that are in the given units: U S U.
+Eigen::MatrixXd InUnits(const Eigen::MatrixXd& information,
+                        const Eigen::VectorXd& unit);
+
 /// Returns the changes of one std, as columns, along the directions that the
 /// information S determines. The variables are in the given units. Directions
 /// with an information below kLeastMoved are left out: derivatives are exact to

@@ -43,7 +43,7 @@ FrameSums SumsWithPriors(const Linearization& at,
   for (Eigen::Index k = 0; k < sums.gradient.size(); ++k) {
     const CalibrationParameter& p = parameters.FreeParameter(k);
     if (!p.prior_std) continue;
-    const double residual = (*p.variable - p.initial) / *p.prior_std;
+    const double residual = p.PriorResidual();
     sums.information(k, k) += 1 / (*p.prior_std * *p.prior_std);
     sums.gradient[k] += residual / *p.prior_std;
     sums.cost += residual * residual / 2;
