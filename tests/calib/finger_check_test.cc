@@ -149,7 +149,7 @@ TEST(FingerCheckTest, PlatesOfPiecesHaveTheirPlace) {
   const std::vector<WrittenPlate> plates = ReadPlates(path);
   ASSERT_EQ(plates.size(), 3u);
   EXPECT_EQ(plates[2].thickness_mm, 1);
-  EXPECT_THAT(plates[2].place, HasSubstr("f.yaml:9:"));
+  EXPECT_THAT(plates[2].name, HasSubstr("f.yaml:9:"));
   const FingerCheck check = CheckFinger(ReadFinger(path), plates, {});
   EXPECT_THAT(check.warnings[0].text, HasSubstr("f.yaml:9:"));
 }

@@ -19,6 +19,10 @@
 namespace finray {
 namespace {
 
+// A contact further along than this share of l_0 is not one of the finger. The
+// rest is for results that were rounded or scaled.
+constexpr double kEnd = 1.01;
+
 constexpr std::size_t kBlockRows = 4096;
 constexpr int kMostContacts = 2;
 // Smaller p-values are drawn alike.
@@ -32,7 +36,7 @@ class ResultRows {
   ResultRows(const FrameParser& parser, const Finger* finger,
              const Discretization& discretization, LogChannels* log)
       : path_(parser.path()), names_(parser.names()), log_(*log) {
-    if (finger != nullptr) most_arc_mm_ = finger->front_length_mm * (1 + 1e-9);
+    if (finger != nullptr) most_arc_mm_ = kEnd * finger->front_length_mm;
     status_ = Needed("status");
     time_ = At("time_s");
     log_.has_time = time_.has_value();
@@ -77,7 +81,7 @@ class ResultRows {
                          ": a contact at " +
                          FormatText("%.4g mm, and the finger ends at %.4g mm; "
                                     "is it the finger of the result?",
-                                    point.arc_mm, most_arc_mm_));
+                                    point.arc_mm, most_arc_mm_ / kEnd));
       }
       const double friction = number(contact.friction);
       if (std::isfinite(friction)) point.friction = friction;
