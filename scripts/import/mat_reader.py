@@ -7,12 +7,13 @@ import numpy as np
 import scipy.io
 
 import arrays
-import hdf5_reader
 
 
 def read(path):
     with open(path, "rb") as file:
         if b"MATLAB 7.3" in file.read(128):
+            import hdf5_reader  # needs h5py, which the other versions do not
+
             return hdf5_reader.read(path)
     loaded = scipy.io.loadmat(path, squeeze_me=True, struct_as_record=False,
                               chars_as_strings=True)

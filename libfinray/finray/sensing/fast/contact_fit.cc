@@ -13,8 +13,9 @@ namespace finray {
 namespace {
 
 // Gauss-Newton converges slowly where the data hardly determine the contacts.
-// A fit ends when a change is below this: in std for the contacts, in rad and
-// l_0 for the shape.
+// After kPatience iterations the fit ends when a change is below kNoDifference:
+// in std for the contacts, in rad and l_0 for the shape.
+constexpr int kPatience = 8;
 constexpr double kNoDifference = 1e-6;
 // Where the tolerance is worth more std than this, as with a noise of a few
 // rounding errors, the last change must be below it, not only the next one.
@@ -149,7 +150,8 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
         moved < tolerance_ || tolerance_ * deviations < kTolerableStd * moved;
     const bool last = (small && IsLastChange(moved, last_change, rate, crossed,
                                              tolerance_)) ||
-                      (deviations < std::min(1.0, taken) * kNoDifference &&
+                      (iterations_ >= kPatience &&
+                       deviations < std::min(1.0, taken) * kNoDifference &&
                        size < kNoDifference);
     damping *= 0.1;
     last_change = moved;
