@@ -1,6 +1,5 @@
 // Pages that show the results of finray_estimate.
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -73,19 +72,14 @@ int Run() {
   std::optional<Finger> finger;
   if (!FLAGS_finger.empty()) finger = ReadFinger(FLAGS_finger);
   const Finger* known = finger ? &*finger : nullptr;
-  for (std::size_t i = 1; i < results.size(); ++i) {
-    if (std::find(results.begin(), results.begin() + i, results[i]) !=
-        results.begin() + i) {
-      throw UsageError("--results: " + results[i] + " is there twice");
-    }
-  }
   std::size_t folders = 0;
   for (const std::string& result : results) {
     folders += fs::is_directory(result);
   }
   if (FLAGS_compare) {
-    if (results.size() != 2 || folders > 0) {
-      throw UsageError("--compare: expected two <log>.frames.csv in --results");
+    if (results.size() != 2 || folders > 0 || results[0] == results[1]) {
+      throw UsageError(
+          "--compare: expected two different <log>.frames.csv in --results");
     }
     const std::string page = OutPath(ResultName(results[0]) + "_and_" +
                                      ResultName(results[1]) + ".html");

@@ -7,6 +7,7 @@ The text is that of FingerToYaml: ribs have back_mm. Places x,y (mm, frame S) ar
 import math
 import pathlib
 import sys
+import textwrap
 import unicodedata
 
 sys.dont_write_bytecode = True
@@ -23,18 +24,9 @@ def number(value):
 
 
 def wrapped(words, pixels):
-    """Lines of words of 14 pixels that are no wider, broken behind a space, a comma, _ or - where there is one; at most six."""
-    lines, rest = [], words
-    while rest:
-        room, end = pixels, 0
-        while end < len(rest) and room > 0:
-            room -= 14 if unicodedata.east_asian_width(rest[end]) in "FW" else 8.4
-            end += room >= 0
-        if end < len(rest):
-            end = max((rest.rfind(mark, end // 2, end) + 1 for mark in " ,_-"), default=0) or max(end, 1)
-        lines.append(rest[:end].rstrip())
-        rest = rest[end:].lstrip()
-    return lines if len(lines) <= 6 else lines[:5] + ["…"]
+    """At most six lines of words of 14 pixels that are no wider."""
+    wide = any(unicodedata.east_asian_width(letter) in "FW" for letter in words)
+    return textwrap.wrap(words, max(int(pixels / (14 if wide else 8.4)), 2), max_lines=6, placeholder=" …")
 
 
 def beam_words(beam):

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What newcomers get wrong with the tools that come before and after an estimate: one clear line that names the flag or
+"""Mistakes of newcomers with the tools that come before and after an estimate: one clear line that names the flag or
 the file, an exit code, and nothing written; or a warning that says what is implausible."""
 
 import os
@@ -104,7 +104,7 @@ class NewcomerInputTest(unittest.TestCase):
             self.refused("view", "--results a.frames.csv --out_dir out", "a.frames.csv" + words)
             done = self.run_tool("view", "--results a.frames.csv --out_dir out")
             self.assertNotIn("scene or plan", done.stderr)
-        self.refused("view", "--results a.frames.csv,a.frames.csv --compare --out_dir out", "a.frames.csv is there twice", code=1)
+        self.refused("view", "--results a.frames.csv,a.frames.csv --compare --out_dir out", "--compare: expected two different <log>.frames.csv in --results", code=1)
 
     def test_results_of_another_finger(self):
         (self.folder / "a.frames.csv").write_text("contact_1_mm,normal_1_N,status\n100,1,ok\n150,1,ok\n")

@@ -17,6 +17,7 @@
 #include "finray/calib/design/finger_design.h"
 #include "finray/calib/design/planned_recording.h"
 #include "finray/finger/geometry.h"
+#include "finray/io/number_text.h"
 #include "finray/sensing/frame_estimator.h"
 #include "studies/planned_log.h"
 #include "test_finger.h"
@@ -97,10 +98,9 @@ class Within {
   void Add(double height, double predicted, double found, int quantity) {
     const double off = predicted / found - 1;
     if (std::abs(off) <= 0.1) return;
-    char text[64];
-    std::snprintf(text, sizeof text, "%s%.0f mm (%+.0f %%)",
-                  beyond_[quantity].empty() ? "" : ", ", height, 100 * off);
-    beyond_[quantity] += text;
+    beyond_[quantity] +=
+        FormatText("%s%.0f mm (%+.0f %%)",
+                   beyond_[quantity].empty() ? "" : ", ", height, 100 * off);
   }
   void Print() const {
     const char* names[] = {"place", "force"};

@@ -112,7 +112,7 @@ class FrameParser {
   FrameRows::Cell ReadCell(int line, std::size_t column,
                            std::string_view text) const;
   bool IsMissing(std::string_view text) const;
-  // What a user may do about a dialect that was not understood.
+  // Tells a user how to state a dialect that the parser does not understand.
   std::string Advice(const std::string& how) const;
   [[noreturn]] void Fail(int line, const std::string& message) const;
   [[noreturn]] void FailAt(int line, std::size_t cell,

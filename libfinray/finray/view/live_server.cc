@@ -263,7 +263,7 @@ class LiveServer::Implementation {
             text += "data: " + *update + "\n\n";
           }
           if (news.closed) text += "event: end\ndata: {}\n\n";
-          // Each finds out whether the other is still there.
+          // Page and server both find out whether the other is still there.
           if (text.empty()) text = "event: alive\ndata: {}\n\n";
           const bool open = sink.write(text.data(), text.size());
           if (news.closed) sink.done();

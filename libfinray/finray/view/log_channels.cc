@@ -19,8 +19,8 @@
 namespace finray {
 namespace {
 
-// A contact further along than this share of l_0 is not one of the finger. The
-// rest is for results that were rounded or scaled.
+// Results may be rounded or scaled, so a contact may lie this far along, as a
+// share of l_0.
 constexpr double kEnd = 1.01;
 
 constexpr std::size_t kBlockRows = 4096;
@@ -36,7 +36,7 @@ class ResultRows {
   ResultRows(const FrameParser& parser, const Finger* finger,
              const Discretization& discretization, LogChannels* log)
       : path_(parser.path()), names_(parser.names()), log_(*log) {
-    if (finger != nullptr) most_arc_mm_ = kEnd * finger->front_length_mm;
+    if (finger != nullptr) length_mm_ = finger->front_length_mm;
     status_ = Needed("status");
     time_ = At("time_s");
     log_.has_time = time_.has_value();
@@ -76,12 +76,12 @@ class ResultRows {
       point.arc_mm = number(contact.arc);
       point.normal_N = number(contact.normal);
       if (!std::isfinite(point.arc_mm) || !std::isfinite(point.normal_N)) break;
-      if (point.arc_mm > most_arc_mm_) {
+      if (point.arc_mm > kEnd * length_mm_) {
         throw InputError(path_ + ":" + std::to_string(line) +
                          ": a contact at " +
                          FormatText("%.4g mm, and the finger ends at %.4g mm; "
                                     "is it the finger of the result?",
-                                    point.arc_mm, most_arc_mm_ / kEnd));
+                                    point.arc_mm, length_mm_));
       }
       const double friction = number(contact.friction);
       if (std::isfinite(friction)) point.friction = friction;
@@ -262,7 +262,7 @@ class ResultRows {
   std::vector<ContactAt> contact_at_;
   std::optional<std::size_t> force_;  // its channel
   std::size_t first_residual_ = 0;
-  double most_arc_mm_ = std::numeric_limits<double>::infinity();
+  double length_mm_ = std::numeric_limits<double>::infinity();
   double most_sure_N_ = 0, most_N_ = 0;
   bool has_friction_ = false;  // a contact has been read
   std::optional<MeasurementColumns> columns_;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "finray/calib/design/finger_check.h"
 #include "finray/finger/geometry.h"
@@ -8,8 +9,7 @@
 namespace finray {
 namespace {
 
-// Of flexures that people make: from soft rubber to steel, from foil to a
-// block.
+// People make flexures from soft rubber to steel, from foil to a block.
 constexpr double kSoftest_GPa = 1e-3, kStiffest_GPa = 250;
 constexpr double kThinnest_mm = 0.05;
 // A beam that is thicker than this share of its length also shears.
@@ -26,6 +26,8 @@ constexpr double kCoarseNoise_rad = 5e-3;
 
 class WarningList {
  public:
+  explicit WarningList(std::vector<Warning> list = {})
+      : list_(std::move(list)) {}
   void Add(const char* code, const std::string& text,
            const std::string& remedy) {
     list_.push_back({code, text, remedy});
@@ -243,9 +245,7 @@ std::vector<Warning> StiffnessWarnings(
 std::vector<Warning> FingerWarnings(const Finger& finger,
                                     const std::vector<WrittenPlate>& plates,
                                     const FingerCheck& figures) {
-  WarningList list;
-  CheckPlates(finger, plates, &list);
-  CheckStiffness(finger, &list);
+  WarningList list(StiffnessWarnings(finger, plates));
   CheckLimit(figures, &list);
   CheckAngles(finger, figures, &list);
   CheckRibs(finger, figures, &list);

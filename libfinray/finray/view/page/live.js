@@ -134,7 +134,7 @@ class Live {
     if (byId("message").textContent === this.trouble) say(this.message);
     this.trouble = "";
   }
-  // What is shown is no longer true.
+  // The figures on the page are no longer true.
   stop(words, why) {
     this.state("bad_input", words);
     this.trouble = why;
@@ -145,7 +145,7 @@ class Live {
   lost() {
     if (this.trouble) return;
     const since = new Date(Date.now() - (performance.now() - this.heardAt)).toLocaleTimeString("en-GB");
-    this.stop("server lost", `The server has not answered since ${since}: it has ended or cannot be reached. What is shown is from before. The page goes on if the server comes back.`);
+    this.stop("server lost", `The server has not answered since ${since}: it has ended or cannot be reached. The figures are the last that came. The page goes on if the server comes back.`);
   }
   // An EventSource does not tell why it was refused.
   async refused() {
