@@ -67,6 +67,7 @@ ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
       solver_(finger, discretization),
       table_(&solver_, scene.friction_coefficient, MeasuredRadius(scene),
              scene.force_max_N),
+      surface_(table_, finger),
       most_force_N_(scene.force_max_N.value_or(table_.heaviest_N())),
       method_(method),
       fit_(finger, discretization, MeasuredRadius(scene)),
@@ -123,6 +124,10 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
   // however far the table's nodes are from it. Then chi2 cannot tell which
   // minimum is right, and all starts are tried.
   const bool exact = contacts == 1 && dof < 1;
+  // The surface is as exact as the table between its forces.
+  const bool by_surface = contacts == 1 && !exact && !starts_.empty() &&
+                          starts_[0].error <= kCoarse &&
+                          !HasCloseMinima(solver_.model().finger());
   found_ = iterations_ = 0;
   std::size_t fallbacks = 0;
   for (const ContactStart& start : starts_) {
@@ -139,7 +144,7 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
       if (FitByCeres(start, row)) Keep();
       continue;
     }
-    if (FitFast(start, packed)) {
+    if (by_surface ? FitBySurface(start, packed) : FitFast(start, packed)) {
       Keep();
       continue;
     }
@@ -358,10 +363,30 @@ bool ContactSearch::FitFast(const ContactStart& start,
   for (PointContact& contact : contacts_) contact.friction = friction_;
   fit_.set_state(*start.state);
   const bool converged = fit_.Fit(packed.values, packed.weights, &contacts_);
+  return Fill(converged, start.count);
+}
+
+bool ContactSearch::FitBySurface(const ContactStart& start,
+                                 const PackedReadings& packed) {
+  ContactStart end = start;
+  ContactMatrix curvature;
+  if (!surface_.Descend(packed.values, packed.weights, most_force_N_, &end,
+                        &curvature)) {
+    return FitFast(start, packed);
+  }
+  contacts_.assign(1, end.contacts[0]);
+  contacts_[0].friction = friction_;
+  fit_.set_state(*start.state);
+  const bool converged =
+      fit_.Finish(packed.values, packed.weights, curvature, &contacts_);
+  return Fill(converged, 1) || FitFast(start, packed);
+}
+
+bool ContactSearch::Fill(bool converged, int count) {
   Spend(fit_.iterations(), converged);
   if (!converged) return false;
   ContactSolution& solution = solutions_[found_];
-  solution.count = start.count;
+  solution.count = count;
   solution.chi2 = fit_.chi2();
   solution.information = fit_.information();
   solution.systematic.resize(0, 0);  // FrameEstimator finds it
@@ -370,7 +395,7 @@ bool ContactSearch::FitFast(const ContactStart& start,
   for (std::size_t i = 0; i < solution.rib_tension_N.size(); ++i) {
     solution.rib_tension_N[i] = fit_.rib_tension(static_cast<int>(i));
   }
-  for (int c = 0; c < start.count; ++c) {
+  for (int c = 0; c < count; ++c) {
     solution.contacts[c] = contacts_[c];
     solution.poses[c] = fit_.contact_pose(c);
   }

@@ -9,6 +9,7 @@
 #include "finray/sensing/contact_solution.h"
 #include "finray/sensing/fast/contact_fit.h"
 #include "finray/sensing/frame_problem.h"
+#include "finray/sensing/gauge_surface.h"
 #include "finray/sensing/gauge_table.h"
 #include "finray/sensing/packed_readings.h"
 #include "finray/sensing/pair_table.h"
@@ -115,6 +116,10 @@ class ContactSearch {
   bool IsKnown() const;
   // FitFast and FitByCeres fit from a start and fill in the next solution.
   bool FitFast(const ContactStart& start, const PackedReadings& packed);
+  // Like FitFast, by way of the surface of the table where it has one.
+  bool FitBySurface(const ContactStart& start, const PackedReadings& packed);
+  // Takes over a fit's result as the next solution; false if there is none.
+  bool Fill(bool converged, int count);
   bool FitByCeres(const ContactStart& start, const Measurements& row);
   // Keeps the next solution, with its contacts sorted from base to tip.
   void Keep();
@@ -127,6 +132,7 @@ class ContactSearch {
   double friction_, length_mm_;
   EquilibriumSolver solver_;
   GaugeTable table_;
+  GaugeSurface surface_;
   double most_force_N_;
   std::unique_ptr<PairTable> pair_table_;  // made when needed
   FrameMethod method_;

@@ -181,6 +181,8 @@ GaugeTable::GaugeTable(EquilibriumSolver* solver, double friction,
                          circle_radius_mm, &own);
     });
   });
+  solver->set_state(free_state);
+  tip_ = MakeRow(length, forces, friction, circle_radius_mm, solver);
   rows_.erase(std::remove_if(rows_.begin(), rows_.end(),
                              [](const Row& row) { return row.nodes.empty(); }),
               rows_.end());

@@ -75,6 +75,8 @@ class GaugeTable {
   /// Rows from base to tip.
   const std::vector<Row>& rows() const { return rows_; }
   double row_spacing_mm() const { return row_spacing_mm_; }
+  /// A row at the tip, l_c = l_0, beyond the last of rows().
+  const Row& tip() const { return tip_; }
 
   /// Gauge angles of the unloaded finger.
   const Eigen::VectorXd& free_angles() const { return free_angles_; }
@@ -97,6 +99,7 @@ class GaugeTable {
   double heaviest_N_, row_spacing_mm_;
   Eigen::VectorXd free_angles_;
   std::vector<Row> rows_;
+  Row tip_;
   Eigen::ArrayXXd errors_;  // of interpolated values, values x chords
 };
 

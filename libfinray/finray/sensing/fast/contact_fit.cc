@@ -17,6 +17,8 @@ namespace {
 // in std for the contacts, in rad and l_0 for the shape.
 constexpr int kPatience = 8;
 constexpr double kNoDifference = 1e-6;
+// B is known within this many std of the start of Finish.
+constexpr double kNearStart = 0.1;
 // Where the tolerance is worth more std than this, as with a noise of a few
 // rounding errors, the last change must be below it, not only the next one.
 constexpr double kTolerableStd = 0.1;
@@ -69,6 +71,15 @@ bool ContactFit::Fit(const Readings& measured, const Readings& weights,
   return Follow(measured, weights, contacts);
 }
 
+bool ContactFit::Finish(const Readings& measured, const Readings& weights,
+                        const ContactMatrix& curvature,
+                        std::vector<PointContact>* contacts) {
+  curvature_ = curvature;
+  const bool converged = Fit(measured, weights, contacts);
+  curvature_.resize(0, 0);
+  return converged;
+}
+
 bool ContactFit::Follow(const Readings& measured, const Readings& weights,
                         std::vector<PointContact>* contacts) {
   const int count = static_cast<int>(contacts->size());
@@ -85,6 +96,9 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
   StepPace pace;
   // True if step_ leads from one linearisation to the next.
   bool comparable = predict;
+  const bool finishes = curvature_.size() > 0;
+  bool holds = finishes;  // the contacts
+  bool knows_curvature = finishes;
   for (iterations_ = predict ? 0 : 1; iterations_ <= most_iterations_;
        ++iterations_) {
     // The prediction uses the last linearisation of the frame before, whose
@@ -99,8 +113,12 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
       step = step_;
       step_.setZero(unknowns);
     }
-    const ContactEquations equations =
+    ContactEquations equations =
         gauges_.Equations(measured, weights, unknowns, 0);
+    if (knows_curvature) {
+      equations.curvature = curvature_;
+      KeepConvex(&equations);
+    }
     if (!std::isfinite(equations.chi2)) return false;
     if (equations.chi2 > kMostRise * last_cost + 1 && damping < 1e6) {
       Restore(contacts);
@@ -118,8 +136,9 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
       x[2 * c + 1] = (*contacts)[c].normal_N / force;
     }
     ContactVector change =
-        BoundedChange(equations, x, most_force_N_ / force, damping);
-    const double taken = pace.Of(change, x);
+        holds ? ContactVector::Zero(unknowns)
+              : BoundedChange(equations, x, most_force_N_ / force, damping);
+    const double taken = holds ? 1 : pace.Of(change, x);
     change *= taken;
     for (int k = 0; k < unknowns; ++k) {
       const double most = k % 2 == 0 ? 1 : most_force_N_ / force;
@@ -144,19 +163,25 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
     const double rate =
         comparable && !predicts
             ? gauges_.Rate(measured, weights, equations, damping, step, x, 0)
-            : 0;
+            : finishes;
     const double deviations = std::sqrt(change.dot(equations.normal * change));
     const bool small =
         moved < tolerance_ || tolerance_ * deviations < kTolerableStd * moved;
     const bool last = (small && IsLastChange(moved, last_change, rate, crossed,
                                              tolerance_)) ||
-                      (iterations_ >= kPatience &&
+                      (iterations_ >= (knows_curvature ? 2 : kPatience) &&
                        deviations < std::min(1.0, taken) * kNoDifference &&
                        size < kNoDifference);
+    // B is that of the start.
+    knows_curvature &= deviations < kNearStart;
     damping *= 0.1;
     last_change = moved;
-    comparable = true;
-    if (predicts || !last) continue;
+    comparable = !holds;
+    if (holds) last_cost = std::numeric_limits<double>::infinity();
+    if (predicts || holds || !last) {
+      holds = false;
+      continue;
+    }
     const LadderFrame<double>& f = newton_.frame();
     if (BendsTooFar(f, 0)) return false;
     for (int c = 0; c < count; ++c) {

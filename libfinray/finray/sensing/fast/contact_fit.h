@@ -70,6 +70,14 @@ class ContactFit {
   bool Follow(const Readings& measured, const Readings& weights,
               std::vector<PointContact>* contacts);
 
+  /// Like Fit, from contacts near the solution and an equilibrium that is less
+  /// near (GaugeSurface). The first iteration changes the equilibrium only.
+  /// `curvature` is B of contact_step.h: with it convergence is fast where the
+  /// readings hardly determine the contact.
+  bool Finish(const Readings& measured, const Readings& weights,
+              const ContactMatrix& curvature,
+              std::vector<PointContact>* contacts);
+
   // Results of the last successful fit.
 
   double chi2() const { return chi2_; }
@@ -106,6 +114,7 @@ class ContactFit {
   // Number of contacts of the last fit whose linearisation the frame still
   // holds; 0 if it holds none.
   int linearised_contacts_ = 0;
+  ContactMatrix curvature_;  // of Finish; else empty
   std::vector<double> kept_state_;
   std::vector<PointContact> kept_contacts_;
 };

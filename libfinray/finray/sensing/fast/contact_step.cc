@@ -8,20 +8,23 @@ namespace {
 
 // Damping of l_c, equal to a prior of 30 mm about its present place. It keeps a
 // contact without force from wandering. It is scaled by min(1, chi2), so that
-// convergence on noise-free data stays quadratic.
+// convergence on noise-free data stays quadratic. Where B is known the contact
+// is near the solution, and damping would only slow it down.
 constexpr double kArcDamping = 22;
 constexpr double kForceDamping = 1e-9;
 // A bound is met or left at most so often for each component.
 constexpr int kMostPasses = 4;
 
-// A + D
+// A + B + D
 ContactMatrix Damped(const ContactEquations& equations, double damping) {
   const double unexplained = std::min(1.0, equations.chi2);
   ContactMatrix system = equations.normal;
+  const bool free = equations.curvature.size() > 0;
+  if (free) system += equations.curvature;
   for (Eigen::Index k = 0; k < system.rows(); ++k) {
     system(k, k) *= 1 + damping;
     system(k, k) +=
-        kForceDamping + (k % 2 == 0 ? kArcDamping * unexplained : 0);
+        kForceDamping + (!free && k % 2 == 0 ? kArcDamping * unexplained : 0);
   }
   return system;
 }
@@ -53,6 +56,16 @@ void SolvePositive(ContactMatrix* a, ContactVector* b) {
 }
 
 }  // namespace
+
+void KeepConvex(ContactEquations* equations) {
+  // As a share of the product of the diagonal: less may be rounding.
+  constexpr double kLeastDeterminant = 1e-9;
+  const ContactMatrix m = equations->normal + equations->curvature;
+  const bool convex = m(0, 0) > 0 && m(1, 1) > 0 &&
+                      m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0) >
+                          kLeastDeterminant * m(0, 0) * m(1, 1);
+  if (!convex) equations->curvature.resize(0, 0);
+}
 
 // The primal active-set method for a convex quadratic in a box: goes towards
 // the least squares of the free components until the first of them meets its
@@ -153,10 +166,7 @@ double CurvatureRate(const ContactEquations& equations, double damping,
   const double size = LargestChange(step, x, 0);
   if (size == 0) return 0;
   ContactMatrix system = Damped(equations, damping);
-  ContactVector change = -by_residual;
-  for (int k = 0; k < x.size(); ++k) {
-    change[k] += (system(k, k) - equations.normal(k, k)) * step[k];
-  }
+  ContactVector change = (system - equations.normal) * step - by_residual;
   SolvePositive(&system, &change);
   return LargestChange(change, x, 0) / size;
 }

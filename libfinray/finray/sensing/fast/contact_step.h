@@ -12,10 +12,11 @@ namespace finray {
 // The rules by which ContactFit and FrameGroupFit move contacts to explain
 // gauges: Gauss-Newton on x = (l_c / l_0, f_c / force unit) of each contact,
 //
-//   (A + D) dx = -g,    A = S' S,  g = S' r,
+//   (A + B + D) dx = -g,    A = S' S,  g = S' r,
 //
-// with r the whitened residuals, S their slopes and D a damping, within 0 <=
-// l_c <= l_0 and 0 <= f_c <= its bound.
+// with r the whitened residuals, S their slopes, B = sum_j r_j d2r_j/dx2 where
+// it is known, and D a damping, within 0 <= l_c <= l_0 and 0 <= f_c <= its
+// bound.
 
 using ContactVector =
     Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kFittedContacts, 1>;
@@ -37,7 +38,12 @@ struct ContactEquations {
   ContactMatrix normal;
   ContactVector gradient;
   double chi2;
+  ContactMatrix curvature = {};  ///< B; empty if it is not known.
 };
+
+/// Drops B unless A + B is positive, for one contact. Without B the change
+/// leads downhill.
+void KeepConvex(ContactEquations* equations);
 
 /// Solves for the change dx from x. A component that would pass a bound is set
 /// to the bound, and the others are solved again. `most_force` is in units of
@@ -70,9 +76,9 @@ double LargestChange(const ContactVector& change, const ContactVector& x,
 // When to stop. Near the solution the changes obey next = rho now + C now^2. C
 // follows from the last two changes: Newton's method converges quadratically,
 // so C now is at most (now / before)^2. The linear rate rho has two causes: the
-// damping D, and the curvature of the gauges that A leaves out,
+// damping D, and the curvature of the gauges that B leaves out,
 //
-//   rho = |(A + D)^-1 (D step - dS' r)| / |step|.
+//   rho = |(A + B + D)^-1 ((B + D) step - dS' r)| / |step|.
 //
 // r are the residuals after the change. dS is the difference of the slopes to
 // those of the linearisation before, which was `step` away. This is the rate

@@ -1,0 +1,218 @@
+#include "finray/sensing/gauge_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "finray/finger/geometry.h"
+
+namespace finray {
+namespace {
+
+constexpr int kMostSteps = 30;
+// The end of a descent, in l_0 and in the force. A fit goes on from there.
+constexpr double kDescended = 1e-5;
+// A step is halved at most so often until chi2 falls.
+constexpr int kMostHalvings = 6;
+
+// The interval of rising `nodes` that is nearest to `at`.
+std::size_t Interval(const std::vector<double>& nodes, double at) {
+  const auto next = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, at);
+  return static_cast<std::size_t>(next - nodes.begin()) - 1;
+}
+
+// The slope at node `k` of the parabola through it and its neighbours, or
+// through three nodes at an end. value(i) belongs to nodes[i].
+template <class ValueOf>
+double ParabolaSlope(const std::vector<double>& nodes, std::size_t k,
+                     const ValueOf& value) {
+  const std::size_t middle = std::clamp<std::size_t>(k, 1, nodes.size() - 2);
+  const double a = nodes[middle - 1], b = nodes[middle], c = nodes[middle + 1];
+  const double left = (value(middle) - value(middle - 1)) / (b - a),
+               right = (value(middle + 1) - value(middle)) / (c - b);
+  return left + (right - left) / (c - a) * (2 * nodes[k] - a - b);
+}
+
+}  // namespace
+
+// The cubic Hermite polynomials of an interval, for its two ends, with their
+// first and second derivatives. `h` belongs to values, `g` to slopes.
+struct GaugeSurface::Cubics {
+  double h[2][3], g[2][3];
+
+  Cubics(double from, double to, double at) {
+    const double width = to - from, per = 1 / width;
+    const double t = (at - from) * per, u = 1 - t;
+    h[1][0] = t * t * (3 - 2 * t);
+    h[1][1] = 6 * t * u * per;
+    h[1][2] = (6 - 12 * t) * per * per;
+    h[0][0] = 1 - h[1][0];
+    h[0][1] = -h[1][1];
+    h[0][2] = -h[1][2];
+    g[0][0] = width * t * u * u;
+    g[0][1] = u * (1 - 3 * t);
+    g[0][2] = (6 * t - 4) * per;
+    g[1][0] = -width * t * t * u;
+    g[1][1] = t * (3 * t - 2);
+    g[1][2] = (6 * t - 2) * per;
+  }
+};
+
+// The polynomials of a cell and its corners; [0] is at the smaller arc, and the
+// next force lies values_ behind.
+struct GaugeSurface::Cell {
+  Cubics along, up;
+  const Corner* corners[2];
+  std::size_t next;
+
+  Value At(std::size_t j) const {
+    // [derivative by arc][corner by force]
+    double value[3][2] = {}, slope[3][2] = {};
+    for (int a = 0; a < 2; ++a) {
+      for (int b = 0; b < 2; ++b) {
+        const Corner& c = corners[a][b * next + j];
+        for (int d = 0; d < 3; ++d) {
+          value[d][b] += along.h[a][d] * c.value + along.g[a][d] * c.by_arc;
+          slope[d][b] += along.h[a][d] * c.by_force + along.g[a][d] * c.by_both;
+        }
+      }
+    }
+    const auto sum = [&](int by_arc, int by_force) {
+      return up.h[0][by_force] * value[by_arc][0] +
+             up.h[1][by_force] * value[by_arc][1] +
+             up.g[0][by_force] * slope[by_arc][0] +
+             up.g[1][by_force] * slope[by_arc][1];
+    };
+    return {sum(0, 0), sum(1, 0), sum(0, 1), sum(2, 0), sum(1, 1), sum(0, 2)};
+  }
+};
+
+GaugeSurface::GaugeSurface(const GaugeTable& table, const Finger& finger)
+    : length_mm_(finger.front_length_mm), force_unit_N_(ForceUnit(finger)) {
+  std::vector<const GaugeTable::Row*> rows;
+  for (const GaugeTable::Row& row : table.rows()) rows.push_back(&row);
+  rows.push_back(&table.tip());
+  std::size_t forces = rows[0]->nodes.size();
+  for (const GaugeTable::Row* row : rows) {
+    forces = std::min(forces, row->nodes.size());
+  }
+  if (forces < 3) return;
+  const Eigen::VectorXd& free = rows[0]->nodes[0].values;
+  values_ = static_cast<std::size_t>(free.size());
+  for (std::size_t k = 0; k < forces; ++k) {
+    forces_.push_back(rows[0]->nodes[k].normal_N / force_unit_N_);
+  }
+  const auto add = [&](const Eigen::VectorXd& values) {
+    for (const double value : values) corners_.push_back({value, 0, 0, 0});
+  };
+  arcs_.push_back(0);
+  for (std::size_t k = 0; k < forces; ++k) add(free);
+  for (const GaugeTable::Row* row : rows) {
+    arcs_.push_back(row->arc_mm / length_mm_);
+    for (std::size_t k = 0; k < forces; ++k) add(row->nodes[k].values);
+  }
+  SetSlopes();
+}
+
+void GaugeSurface::SetSlopes() {
+  const std::size_t forces = forces_.size();
+  const auto corner = [&](std::size_t i, std::size_t k,
+                          std::size_t j) -> Corner& {
+    return corners_[(i * forces + k) * values_ + j];
+  };
+  for (std::size_t j = 0; j < values_; ++j) {
+    for (std::size_t i = 0; i < arcs_.size(); ++i) {
+      for (std::size_t k = 0; k < forces; ++k) {
+        Corner& c = corner(i, k, j);
+        c.by_arc = ParabolaSlope(
+            arcs_, i, [&](std::size_t n) { return corner(n, k, j).value; });
+        c.by_force = ParabolaSlope(
+            forces_, k, [&](std::size_t n) { return corner(i, n, j).value; });
+      }
+    }
+    for (std::size_t i = 0; i < arcs_.size(); ++i) {
+      for (std::size_t k = 0; k < forces; ++k) {
+        corner(i, k, j).by_both = ParabolaSlope(
+            arcs_, i, [&](std::size_t n) { return corner(n, k, j).by_force; });
+      }
+    }
+  }
+}
+
+GaugeSurface::Cell GaugeSurface::CellAt(double arc, double force) const {
+  const std::size_t i = Interval(arcs_, arc), k = Interval(forces_, force);
+  const auto at = [&](std::size_t row) {
+    return &corners_[(row * forces_.size() + k) * values_];
+  };
+  return {{arcs_[i], arcs_[i + 1], arc},
+          {forces_[k], forces_[k + 1], force},
+          {at(i), at(i + 1)},
+          values_};
+}
+
+GaugeSurface::Value GaugeSurface::At(Eigen::Index j, double arc,
+                                     double force) const {
+  return CellAt(arc, force).At(static_cast<std::size_t>(j));
+}
+
+ContactEquations GaugeSurface::EquationsAt(
+    const ContactVector& x, const Eigen::VectorXd& values,
+    const Eigen::VectorXd& weights) const {
+  const Cell cell = CellAt(x[0], x[1]);
+  ContactEquations sums{ContactMatrix::Zero(2, 2), ContactVector::Zero(2), 0,
+                        ContactMatrix::Zero(2, 2)};
+  for (std::size_t j = 0; j < values_; ++j) {
+    const double w = weights[j];
+    if (w == 0) continue;
+    const Value s = cell.At(j);
+    const double off = w * (s.value - values[j]);
+    const double by_arc = w * s.by_arc, by_force = w * s.by_force;
+    sums.chi2 += off * off;
+    sums.gradient[0] += by_arc * off;
+    sums.gradient[1] += by_force * off;
+    sums.normal(0, 0) += by_arc * by_arc;
+    sums.normal(1, 0) += by_arc * by_force;
+    sums.normal(1, 1) += by_force * by_force;
+    sums.curvature(0, 0) += w * off * s.by_arc_arc;
+    sums.curvature(1, 0) += w * off * s.by_arc_force;
+    sums.curvature(1, 1) += w * off * s.by_force_force;
+  }
+  sums.normal(0, 1) = sums.normal(1, 0);
+  sums.curvature(0, 1) = sums.curvature(1, 0);
+  KeepConvex(&sums);
+  return sums;
+}
+
+bool GaugeSurface::Descend(const Eigen::VectorXd& values,
+                           const Eigen::VectorXd& weights, double most_force_N,
+                           ContactStart* start,
+                           ContactMatrix* curvature) const {
+  const double most = most_force_N / force_unit_N_;
+  ContactVector x(2);
+  x << start->contacts[0].arc_mm / length_mm_,
+      start->contacts[0].normal_N / force_unit_N_;
+  if (!Covers(x[1])) return false;
+  ContactEquations here = EquationsAt(x, values, weights);
+  for (int i = 0; i < kMostSteps; ++i) {
+    ContactVector change = BoundedChange(here, x, most, 0);
+    ContactEquations there;
+    for (int halvings = 0;; ++halvings) {
+      if (!Covers(x[1] + change[1])) return false;
+      if (LargestChange(change, x, 0) < kDescended) {
+        start->contacts[0].arc_mm = x[0] * length_mm_;
+        start->contacts[0].normal_N = x[1] * force_unit_N_;
+        start->chi2 = here.chi2;
+        *curvature = here.curvature;
+        return true;
+      }
+      there = EquationsAt(x + change, values, weights);
+      if (there.chi2 <= here.chi2) break;
+      if (halvings == kMostHalvings) return false;
+      change *= 0.5;
+    }
+    x += change;
+    here = there;
+  }
+  return false;
+}
+
+}  // namespace finray
