@@ -124,10 +124,9 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
   // however far the table's nodes are from it. Then chi2 cannot tell which
   // minimum is right, and all starts are tried.
   const bool exact = contacts == 1 && dof < 1;
-  // The surface is as exact as the table between its forces.
-  const bool by_surface = contacts == 1 && !exact && !starts_.empty() &&
-                          starts_[0].error <= kCoarse &&
-                          !HasCloseMinima(solver_.model().finger());
+  const bool close = exact || HasCloseMinima(solver_.model().finger()) ||
+                     (!starts_.empty() && starts_[0].error > kCoarse);
+  has_surface_ = contacts == 1 && !close && !starts_.empty();
   found_ = iterations_ = 0;
   std::size_t fallbacks = 0;
   for (const ContactStart& start : starts_) {
@@ -144,7 +143,9 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
       if (FitByCeres(start, row)) Keep();
       continue;
     }
-    if (by_surface ? FitBySurface(start, packed) : FitFast(start, packed)) {
+    const Way way = WayFrom(start, packed);
+    if (LeadsToKnown(way)) continue;
+    if (FitAlong(way, packed)) {
       Keep();
       continue;
     }
@@ -158,8 +159,6 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
     }
   }
   if (contacts == 1 && found_ > 0 && method_ == FrameMethod::kFast) {
-    const bool close = exact || HasCloseMinima(solver_.model().finger()) ||
-                       (!starts_.empty() && starts_[0].error > kCoarse);
     SearchRows(packed, close);
     if (close) {
       SearchBeside(packed);
@@ -186,7 +185,8 @@ void ContactSearch::SearchRows(const PackedReadings& packed, bool close) {
       }
     }
     if (next == profile_.size() || !MayGoOn()) return;
-    if (FitFast(profile_[next], packed) && !IsKnown()) Keep();
+    const Way way = WayFrom(profile_[next], packed);
+    if (!LeadsToKnown(way) && FitAlong(way, packed) && !IsKnown()) Keep();
     profile_[next].count = 0;  // tried
   }
 }
@@ -291,12 +291,15 @@ double ContactSearch::ExpectedChi2(double arc_mm) const {
 }
 
 bool ContactSearch::IsKnown() const {
-  const PointContact& next = solutions_[found_].contacts[0];
+  return IsKnown(solutions_[found_].contacts[0], solutions_[found_].chi2);
+}
+
+bool ContactSearch::IsKnown(const PointContact& next, double chi2) const {
   for (int i = 0; i < found_; ++i) {
     const ContactSolution& one = solutions_[i];
     // At the clamp of the beam the information is zero, and every other
     // solution would be near.
-    if (solutions_[found_].chi2 < one.chi2 - kSame) continue;
+    if (chi2 < one.chi2 - kSame) continue;
     const Eigen::Vector2d apart(next.arc_mm - one.contacts[0].arc_mm,
                                 next.normal_N - one.contacts[0].normal_N);
     if (apart.dot(one.information * apart) < kSame) return true;
@@ -366,20 +369,28 @@ bool ContactSearch::FitFast(const ContactStart& start,
   return Fill(converged, start.count);
 }
 
-bool ContactSearch::FitBySurface(const ContactStart& start,
-                                 const PackedReadings& packed) {
-  ContactStart end = start;
-  ContactMatrix curvature;
-  if (!surface_.Descend(packed.values, packed.weights, most_force_N_, &end,
-                        &curvature)) {
-    return FitFast(start, packed);
+ContactSearch::Way ContactSearch::WayFrom(const ContactStart& start,
+                                          const PackedReadings& packed) const {
+  Way way{start, start, {}};
+  if (has_surface_) {
+    surface_.Descend(packed.values, packed.weights, most_force_N_, &way.end,
+                     &way.curvature);
   }
-  contacts_.assign(1, end.contacts[0]);
+  return way;
+}
+
+bool ContactSearch::LeadsToKnown(const Way& way) const {
+  return way.curvature.size() > 0 && IsKnown(way.end.contacts[0], way.end.chi2);
+}
+
+bool ContactSearch::FitAlong(const Way& way, const PackedReadings& packed) {
+  if (way.curvature.size() == 0) return FitFast(way.start, packed);
+  contacts_.assign(1, way.end.contacts[0]);
   contacts_[0].friction = friction_;
-  fit_.set_state(*start.state);
+  fit_.set_state(*way.start.state);
   const bool converged =
-      fit_.Finish(packed.values, packed.weights, curvature, &contacts_);
-  return Fill(converged, 1) || FitFast(start, packed);
+      fit_.Finish(packed.values, packed.weights, way.curvature, &contacts_);
+  return Fill(converged, 1) || FitFast(way.start, packed);
 }
 
 bool ContactSearch::Fill(bool converged, int count) {

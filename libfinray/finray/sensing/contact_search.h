@@ -114,10 +114,20 @@ class ContactSearch {
   double ExpectedChi2(double arc_mm) const;
   // Whether the next solution is one of those found.
   bool IsKnown() const;
+  // Whether a contact with that chi2 is one of those found.
+  bool IsKnown(const PointContact& contact, double chi2) const;
   // FitFast and FitByCeres fit from a start and fill in the next solution.
   bool FitFast(const ContactStart& start, const PackedReadings& packed);
-  // Like FitFast, by way of the surface of the table where it has one.
-  bool FitBySurface(const ContactStart& start, const PackedReadings& packed);
+  // A start and where the surface of the table leads from there. Without a
+  // curvature it leads nowhere.
+  struct Way {
+    ContactStart start, end;
+    ContactMatrix curvature;
+  };
+  Way WayFrom(const ContactStart& start, const PackedReadings& packed) const;
+  bool LeadsToKnown(const Way& way) const;
+  // Like FitFast, from the end of the way.
+  bool FitAlong(const Way& way, const PackedReadings& packed);
   // Takes over a fit's result as the next solution; false if there is none.
   bool Fill(bool converged, int count);
   bool FitByCeres(const ContactStart& start, const Measurements& row);
@@ -136,6 +146,8 @@ class ContactSearch {
   double most_force_N_;
   std::unique_ptr<PairTable> pair_table_;  // made when needed
   FrameMethod method_;
+  // Whether the surface of the table is exact enough for this frame.
+  bool has_surface_ = false;
   ContactFit fit_;
   FrameProblem problem_;
   std::vector<ContactStart> profile_, starts_;

@@ -42,9 +42,6 @@ constexpr int kRefinements = 4;
 // Every such row shows how wrong its cubics are half way between forces.
 constexpr std::size_t kErrorRows = 7;
 
-// Number of valleys that BestStart refines.
-constexpr int kValleys = 3;
-
 // The minimum of the parabola through three equally spaced values of which the
 // middle one is the least.
 double LeastOfParabola(double left, double middle, double right) {
@@ -52,6 +49,12 @@ double LeastOfParabola(double left, double middle, double right) {
   if (!(curvature > 0) || std::isinf(curvature)) return middle;
   const double slope = 0.5 * (right - left);
   return std::max(0.0, middle - 0.5 * slope * slope / curvature);
+}
+
+template <class V>
+V WithinOne(V share) {
+  share = share < 0 ? V{} : share;
+  return share > 1 ? V{} + 1 : share;
 }
 
 Eigen::ArrayXXd Values(const std::vector<GaugeTable::Node>& nodes) {
@@ -112,40 +115,6 @@ GaugeTable::Row MakeRow(double arc_mm, const std::vector<double>& forces,
   return row;
 }
 
-// The cubic between two nodes, and its misfit to the measured values.
-struct Hermite {
-  const GaugeTable::Node &from, &to;
-  const Eigen::VectorXd &values, &weights;
-
-  // chi2 at a share of the way, half its first derivative by the share, and
-  // half its second derivative in Gauss-Newton's approximation.
-  struct Misfit {
-    double chi2 = 0, slope = 0, curvature = 0;
-  };
-  Misfit At(double t) const {
-    const double width = to.normal_N - from.normal_N;
-    const double u = 1 - t;
-    const double h0 = u * u * (1 + 2 * t), h1 = t * t * (3 - 2 * t);
-    const double g0 = width * t * u * u, g1 = -width * t * t * u;
-    const double d1 = 6 * t * u;
-    const double e0 = width * u * (1 - 3 * t), e1 = width * t * (3 * t - 2);
-    Misfit misfit;
-    for (Eigen::Index j = 0; j < values.size(); ++j) {
-      const double w = weights[j];
-      if (w == 0) continue;
-      const double off =
-          w * (h0 * from.values[j] + h1 * to.values[j] + g0 * from.by_force[j] +
-               g1 * to.by_force[j] - values[j]);
-      const double slope = w * (d1 * (to.values[j] - from.values[j]) +
-                                e0 * from.by_force[j] + e1 * to.by_force[j]);
-      misfit.chi2 += off * off;
-      misfit.slope += off * slope;
-      misfit.curvature += slope * slope;
-    }
-    return misfit;
-  }
-};
-
 }  // namespace
 
 double GaugeTable::HeaviestForce_N(const Finger& finger) {
@@ -187,6 +156,7 @@ GaugeTable::GaugeTable(EquilibriumSolver* solver, double friction,
                              [](const Row& row) { return row.nodes.empty(); }),
               rows_.end());
   FindErrors(solver, circle_radius_mm);
+  FillGroups(forces);
   solver->Reset();
 }
 
@@ -214,99 +184,159 @@ void GaugeTable::FindErrors(EquilibriumSolver* solver,
   }
 }
 
-// Finds the point of a row's chords that is nearest to the measured values.
-GaugeTable::OnChord GaugeTable::NearestChord(
-    const Row& row, const Eigen::VectorXd& values,
-    const Eigen::VectorXd& weights) const {
-  // The arrays hold all chords of the row.
-  using Chords = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor,
-                              std::size(kForces), 1>;
-  const auto chords = static_cast<Eigen::Index>(row.nodes.size()) - 1;
-  Chords along = Chords::Zero(chords), square = along, misfit = along;
-  for (Eigen::Index j = 0; j < values.size(); ++j) {
-    const double w = weights[j];
-    if (w == 0) continue;
-    const auto from = row.values.col(j).head(chords);
-    const Chords edge = w * (row.values.col(j).tail(chords) - from);
-    const Chords off = w * (values[j] - from);
-    along += edge * off;
-    square += edge * edge;
-    misfit += off * off;
-  }
-  OnChord nearest;
-  for (Eigen::Index k = 0; k < chords; ++k) {
-    const double share =
-        square[k] > 0 ? std::clamp(along[k] / square[k], 0.0, 1.0) : 0.0;
-    const double chi2 =
-        std::max(0.0, misfit[k] + share * (share * square[k] - 2 * along[k]));
-    if (chi2 < nearest.chi2) {
-      nearest = {chi2, static_cast<std::size_t>(k) + 1, share};
+void GaugeTable::FillGroups(const std::vector<double>& forces_N) {
+  forces_N_ = forces_N;
+  values_ = static_cast<std::size_t>(errors_.rows());
+  const std::size_t per_group = forces_N.size() * values_;
+  const V none = V{} + std::nan("");
+  groups_.assign((rows_.size() + kGroup - 1) / kGroup * per_group,
+                 {none, none});
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const std::vector<Node>& nodes = rows_[i].nodes;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      for (std::size_t j = 0; j < values_; ++j) {
+        InGroup& at = groups_[i / kGroup * per_group + k * values_ + j];
+        const auto column = static_cast<Eigen::Index>(j);
+        at.value[i % kGroup] = nodes[k].values[column];
+        at.by_force[i % kGroup] = nodes[k].by_force[column];
+      }
     }
+  }
+}
+
+// Finds the points of a group's chords that are nearest to the measured values.
+GaugeTable::OnChords GaugeTable::NearestChords(
+    const InGroup* group, const Eigen::VectorXd& values,
+    const Eigen::VectorXd& weights) const {
+  OnChords nearest;
+  for (std::size_t k = 0; k + 1 < forces_N_.size(); ++k) {
+    V along{}, square{}, misfit{};
+    for (std::size_t j = 0; j < values_; ++j) {
+      const double w = weights[static_cast<Eigen::Index>(j)];
+      if (w == 0) continue;
+      const V from = group[k * values_ + j].value;
+      const V edge = w * (group[(k + 1) * values_ + j].value - from);
+      const V off = w * (values[static_cast<Eigen::Index>(j)] - from);
+      along += edge * off;
+      square += edge * edge;
+      misfit += off * off;
+    }
+    const V share = WithinOne(square > 0 ? along / square : V{});
+    const V chi2 = misfit + share * (share * square - 2 * along);
+    const auto better = chi2 < nearest.chi2;  // false for rows without the node
+    nearest.chi2 = better ? chi2 : nearest.chi2;
+    nearest.share = better ? share : nearest.share;
+    nearest.to = better ? V{} + static_cast<double>(k + 1) : nearest.to;
   }
   return nearest;
 }
 
-// Finds the nearest point of the row's curve of values over force, on the cubic
-// above the nearest chord.
-ContactStart GaugeTable::Refined(const Row& row, const OnChord& chord,
-                                 const Eigen::VectorXd& values,
-                                 const Eigen::VectorXd& weights) const {
-  ContactStart best;
-  best.count = 1;
-  best.chi2 = std::numeric_limits<double>::infinity();
-  if (chord.to == 0) return best;
-  const Node &from = row.nodes[chord.to - 1], &to = row.nodes[chord.to];
-  const Hermite cubic{from, to, values, weights};
-  double share_of_way = chord.share;
-  double t = share_of_way;
-  for (int i = 0; i < kRefinements; ++i) {
-    const Hermite::Misfit misfit = cubic.At(t);
-    if (!(misfit.chi2 < best.chi2)) break;
-    best.chi2 = misfit.chi2;
-    share_of_way = t;
-    if (!(misfit.curvature > 0)) break;
-    t = std::clamp(t - misfit.slope / misfit.curvature, 0.0, 1.0);
+// Finds the nearest points of the rows' curves of values over force, on the
+// cubics above the nearest chords, by Gauss-Newton.
+void GaugeTable::Refine(const InGroup* group, const Eigen::VectorXd& values,
+                        const Eigen::VectorXd& weights,
+                        OnChords* nearest) const {
+  const InGroup *from[kGroup], *end[kGroup];
+  V width{};
+  for (int lane = 0; lane < kGroup; ++lane) {
+    const auto to = static_cast<std::size_t>(std::max(1.0, nearest->to[lane]));
+    from[lane] = group + (to - 1) * values_;
+    end[lane] = group + to * values_;
+    width[lane] = forces_N_[to] - forces_N_[to - 1];
   }
-  best.contacts[0] = {
-      row.arc_mm, from.normal_N + share_of_way * (to.normal_N - from.normal_N),
-      friction_};
-  best.error =
-      (errors_.col(static_cast<Eigen::Index>(chord.to) - 1) * weights.array())
-          .matrix()
-          .norm();
+  const auto gather = [](const InGroup* const* at, std::size_t j,
+                         V InGroup::*member) {
+    return V{(at[0][j].*member)[0], (at[1][j].*member)[1]};
+  };
+  V t = nearest->share;
+  nearest->chi2 = V{} + std::numeric_limits<double>::infinity();
+  auto goes_on = t == t;
+  for (int i = 0; i < kRefinements; ++i) {
+    const V u = 1 - t;
+    const V h = t * t * (3 - 2 * t), g0 = t * u * u, g1 = -t * t * u;
+    const V d = 6 * t * u, e0 = u * (1 - 3 * t), e1 = t * (3 * t - 2);
+    V chi2{}, slope{}, curvature{};
+    for (std::size_t j = 0; j < values_; ++j) {
+      const double w = weights[static_cast<Eigen::Index>(j)];
+      if (w == 0) continue;
+      const V at = gather(from, j, &InGroup::value);
+      const V rise = gather(end, j, &InGroup::value) - at;
+      const V slope_from = width * gather(from, j, &InGroup::by_force);
+      const V slope_end = width * gather(end, j, &InGroup::by_force);
+      const V off = w * (at + h * rise + g0 * slope_from + g1 * slope_end -
+                         values[static_cast<Eigen::Index>(j)]);
+      const V by_share = w * (d * rise + e0 * slope_from + e1 * slope_end);
+      chi2 += off * off;
+      slope += off * by_share;
+      curvature += by_share * by_share;
+    }
+    goes_on &= chi2 < nearest->chi2;
+    nearest->chi2 = goes_on ? chi2 : nearest->chi2;
+    nearest->share = goes_on ? t : nearest->share;
+    goes_on &= curvature > 0;
+    t = goes_on ? WithinOne(t - slope / curvature) : t;
+  }
+}
+
+template <class Use>
+void GaugeTable::ForEachRow(const Eigen::VectorXd& values,
+                            const Eigen::VectorXd& weights,
+                            const Use& use) const {
+  OnChords nearest;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const auto lane = static_cast<int>(i % kGroup);
+    if (lane == 0) {
+      const InGroup* group = &groups_[i / kGroup * forces_N_.size() * values_];
+      nearest = NearestChords(group, values, weights);
+      Refine(group, values, weights, &nearest);
+    }
+    use(i, nearest.chi2[lane], static_cast<std::size_t>(nearest.to[lane]),
+        nearest.share[lane]);
+  }
+}
+
+ContactStart GaugeTable::StartAt(std::size_t row, std::size_t to, double share,
+                                 double chi2) const {
+  ContactStart start;
+  start.count = 1;
+  start.chi2 = std::numeric_limits<double>::infinity();
+  if (to == 0) return start;
+  const Node &from = rows_[row].nodes[to - 1], &end = rows_[row].nodes[to];
+  start.chi2 = chi2;
+  start.contacts[0] = {rows_[row].arc_mm,
+                       from.normal_N + share * (end.normal_N - from.normal_N),
+                       friction_};
   // The unloaded state does not show how the finger bends under this contact.
-  best.state = share_of_way > 0.5 || chord.to == 1 ? &to.state : &from.state;
-  return best;
+  start.state = share > 0.5 || to == 1 ? &end.state : &from.state;
+  return start;
+}
+
+void GaugeTable::Profile(const Eigen::VectorXd& values,
+                         const Eigen::VectorXd& weights,
+                         std::vector<ContactStart>* profile) const {
+  profile->resize(rows_.size());
+  // How wrong the cubic of each chord is, in std.
+  std::array<double, std::size(kForces)> errors;
+  for (Eigen::Index k = 0; k < errors_.cols(); ++k) {
+    errors[static_cast<std::size_t>(k)] =
+        (errors_.col(k) * weights.array()).matrix().norm();
+  }
+  ForEachRow(values, weights,
+             [&](std::size_t row, double chi2, std::size_t to, double share) {
+               ContactStart& start = (*profile)[row];
+               start = StartAt(row, to, share, chi2);
+               if (to > 0) start.error = errors[to - 1];
+             });
 }
 
 ContactStart GaugeTable::BestStart(const Eigen::VectorXd& values,
                                    const Eigen::VectorXd& weights) const {
-  std::array<OnChord, kMostRows> chords;
-  const int rows = static_cast<int>(rows_.size());
-  for (int i = 0; i < rows; ++i) {
-    chords[i] = NearestChord(rows_[i], values, weights);
-  }
-  // Valleys of the misfit to the chords. Chords show every deep valley of the
-  // cubics.
-  std::array<int, kMostRows> valleys;
-  int count = 0;
-  for (int i = 0; i < rows; ++i) {
-    if ((i == 0 || chords[i].chi2 <= chords[i - 1].chi2) &&
-        (i + 1 == rows || chords[i].chi2 < chords[i + 1].chi2)) {
-      valleys[count++] = i;
-    }
-  }
-  std::sort(valleys.begin(), valleys.begin() + count,
-            [&](int a, int b) { return chords[a].chi2 < chords[b].chi2; });
   ContactStart best;
   best.chi2 = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < std::min(count, kValleys); ++k) {
-    for (int i = std::max(0, valleys[k] - 1);
-         i < std::min(rows, valleys[k] + 2); ++i) {
-      const ContactStart start = Refined(rows_[i], chords[i], values, weights);
-      if (start.chi2 < best.chi2) best = start;
-    }
-  }
+  ForEachRow(values, weights,
+             [&](std::size_t row, double chi2, std::size_t to, double share) {
+               if (chi2 < best.chi2) best = StartAt(row, to, share, chi2);
+             });
   return best;
 }
 
@@ -321,16 +351,6 @@ const LadderState& GaugeTable::StateNear(double arc_mm, double normal_N) const {
                                    std::abs(b.normal_N - normal_N);
                           })
       ->state;
-}
-
-void GaugeTable::Profile(const Eigen::VectorXd& values,
-                         const Eigen::VectorXd& weights,
-                         std::vector<ContactStart>* profile) const {
-  profile->resize(rows_.size());
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    (*profile)[i] = Refined(rows_[i], NearestChord(rows_[i], values, weights),
-                            values, weights);
-  }
 }
 
 void GaugeTable::FindStarts(const std::vector<ContactStart>& profile,

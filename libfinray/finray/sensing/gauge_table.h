@@ -43,8 +43,7 @@ class GaugeTable {
   static void FindStarts(const std::vector<ContactStart>& profile,
                          std::vector<ContactStart>* starts);
 
-  /// The best start to within a row's spacing, in less time than FindStarts.
-  /// Its `state` is null if there is no start.
+  /// The best row of the profile. Its `state` is null if there is none.
   ContactStart BestStart(const Eigen::VectorXd& values,
                          const Eigen::VectorXd& weights) const;
 
@@ -82,18 +81,32 @@ class GaugeTable {
   const Eigen::VectorXd& free_angles() const { return free_angles_; }
 
  private:
-  struct OnChord {
-    double chi2 = std::numeric_limits<double>::infinity();
-    std::size_t to = 0;  // index of the node at its end; 0: none
-    double share = 0;    // of the way to that node
+  // Two rows side by side: a register of SSE or NEON, so that one instruction
+  // serves both.
+  typedef double V __attribute__((vector_size(16)));
+  static constexpr int kGroup = 2;
+  struct InGroup {
+    V value, by_force;  // NaN where a row has no such node
+  };
+  // A point on the chords of each row.
+  struct OnChords {
+    V chi2 = V{} + std::numeric_limits<double>::infinity();
+    V to{};     // index of the node at its end; 0: none
+    V share{};  // of the way to that node
   };
   void FindErrors(EquilibriumSolver* solver,
                   const std::optional<double>& circle_radius_mm);
-  OnChord NearestChord(const Row& row, const Eigen::VectorXd& values,
-                       const Eigen::VectorXd& weights) const;
-  ContactStart Refined(const Row& row, const OnChord& chord,
-                       const Eigen::VectorXd& values,
-                       const Eigen::VectorXd& weights) const;
+  void FillGroups(const std::vector<double>& forces_N);
+  OnChords NearestChords(const InGroup* group, const Eigen::VectorXd& values,
+                         const Eigen::VectorXd& weights) const;
+  void Refine(const InGroup* group, const Eigen::VectorXd& values,
+              const Eigen::VectorXd& weights, OnChords* nearest) const;
+  // Calls use(row, chi2, to, share) for the best force of each row.
+  template <class Use>
+  void ForEachRow(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
+                  const Use& use) const;
+  ContactStart StartAt(std::size_t row, std::size_t to, double share,
+                       double chi2) const;
 
   double friction_;
   double heaviest_N_, row_spacing_mm_;
@@ -101,6 +114,9 @@ class GaugeTable {
   std::vector<Row> rows_;
   Row tip_;
   Eigen::ArrayXXd errors_;  // of interpolated values, values x chords
+  std::vector<double> forces_N_;
+  std::size_t values_ = 0;
+  std::vector<InGroup> groups_;  // groups x forces x values
 };
 
 }  // namespace finray

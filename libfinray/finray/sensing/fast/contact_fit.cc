@@ -167,11 +167,15 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
     const double deviations = std::sqrt(change.dot(equations.normal * change));
     const bool small =
         moved < tolerance_ || tolerance_ * deviations < kTolerableStd * moved;
-    const bool last = (small && IsLastChange(moved, last_change, rate, crossed,
-                                             tolerance_)) ||
-                      (iterations_ >= (knows_curvature ? 2 : kPatience) &&
-                       deviations < std::min(1.0, taken) * kNoDifference &&
-                       size < kNoDifference);
+    // With B known, the rate says how little the next change will be.
+    const double next =
+        knows_curvature && comparable ? std::min(1.0, kDoubt * rate) : 1;
+    const bool last =
+        (small &&
+         IsLastChange(moved, last_change, rate, crossed, tolerance_)) ||
+        (iterations_ >= (knows_curvature ? 2 : kPatience) &&
+         next * deviations < std::min(1.0, taken) * kNoDifference &&
+         size < kNoDifference);
     // B is that of the start.
     knows_curvature &= deviations < kNearStart;
     damping *= 0.1;
