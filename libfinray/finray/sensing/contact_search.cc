@@ -371,20 +371,19 @@ bool ContactSearch::FitFast(const ContactStart& start,
 
 ContactSearch::Way ContactSearch::WayFrom(const ContactStart& start,
                                           const PackedReadings& packed) const {
-  Way way{start, start, {}};
-  if (has_surface_) {
-    surface_.Descend(packed.values, packed.weights, most_force_N_, &way.end,
-                     &way.curvature);
-  }
+  Way way{start, start, {}, false};
+  way.leads =
+      has_surface_ && surface_.Descend(packed.values, packed.weights,
+                                       most_force_N_, &way.end, &way.curvature);
   return way;
 }
 
 bool ContactSearch::LeadsToKnown(const Way& way) const {
-  return way.curvature.size() > 0 && IsKnown(way.end.contacts[0], way.end.chi2);
+  return way.leads && IsKnown(way.end.contacts[0], way.end.chi2);
 }
 
 bool ContactSearch::FitAlong(const Way& way, const PackedReadings& packed) {
-  if (way.curvature.size() == 0) return FitFast(way.start, packed);
+  if (!way.leads) return FitFast(way.start, packed);
   contacts_.assign(1, way.end.contacts[0]);
   contacts_[0].friction = friction_;
   fit_.set_state(*way.start.state);

@@ -118,11 +118,11 @@ class ContactSearch {
   bool IsKnown(const PointContact& contact, double chi2) const;
   // FitFast and FitByCeres fit from a start and fill in the next solution.
   bool FitFast(const ContactStart& start, const PackedReadings& packed);
-  // A start and where the surface of the table leads from there. Without a
-  // curvature it leads nowhere.
+  // A start and where the surface of the table leads from there.
   struct Way {
     ContactStart start, end;
-    ContactMatrix curvature;
+    ContactMatrix curvature;  // empty if it is not known
+    bool leads = false;
   };
   Way WayFrom(const ContactStart& start, const PackedReadings& packed) const;
   bool LeadsToKnown(const Way& way) const;

@@ -74,9 +74,10 @@ bool ContactFit::Fit(const Readings& measured, const Readings& weights,
 bool ContactFit::Finish(const Readings& measured, const Readings& weights,
                         const ContactMatrix& curvature,
                         std::vector<PointContact>* contacts) {
+  finishes_ = true;
   curvature_ = curvature;
   const bool converged = Fit(measured, weights, contacts);
-  curvature_.resize(0, 0);
+  finishes_ = false;
   return converged;
 }
 
@@ -96,9 +97,8 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
   StepPace pace;
   // True if step_ leads from one linearisation to the next.
   bool comparable = predict;
-  const bool finishes = curvature_.size() > 0;
-  bool holds = finishes;  // the contacts
-  bool knows_curvature = finishes;
+  bool holds = finishes_;  // the contacts
+  bool knows_curvature = finishes_ && curvature_.size() > 0;
   for (iterations_ = predict ? 0 : 1; iterations_ <= most_iterations_;
        ++iterations_) {
     // The prediction uses the last linearisation of the frame before, whose
@@ -163,7 +163,7 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
     const double rate =
         comparable && !predicts
             ? gauges_.Rate(measured, weights, equations, damping, step, x, 0)
-            : finishes;
+            : finishes_;
     const double deviations = std::sqrt(change.dot(equations.normal * change));
     const bool small =
         moved < tolerance_ || tolerance_ * deviations < kTolerableStd * moved;

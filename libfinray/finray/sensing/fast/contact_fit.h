@@ -72,8 +72,8 @@ class ContactFit {
 
   /// Like Fit, from contacts near the solution and an equilibrium that is less
   /// near (GaugeSurface). The first iteration changes the equilibrium only.
-  /// `curvature` is B of contact_step.h: with it convergence is fast where the
-  /// readings hardly determine the contact.
+  /// `curvature` is B of contact_step.h, empty if it is not known: with it
+  /// convergence is fast where the readings hardly determine the contact.
   bool Finish(const Readings& measured, const Readings& weights,
               const ContactMatrix& curvature,
               std::vector<PointContact>* contacts);
@@ -114,7 +114,8 @@ class ContactFit {
   // Number of contacts of the last fit whose linearisation the frame still
   // holds; 0 if it holds none.
   int linearised_contacts_ = 0;
-  ContactMatrix curvature_;  // of Finish; else empty
+  bool finishes_ = false;    // in Finish
+  ContactMatrix curvature_;  // of Finish
   std::vector<double> kept_state_;
   std::vector<PointContact> kept_contacts_;
 };
