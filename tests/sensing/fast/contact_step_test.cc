@@ -58,6 +58,19 @@ TEST(BoundedChangeTest, IsTheLeastInTheBox) {
 
 // A force that the gauges do not see goes to its bound and leaves the place to
 // be found.
+// Where A + B is not positive, a step by it may lead uphill.
+TEST(KeepConvexTest, DropsACurvatureThatTurnsTheBowlOver) {
+  ContactEquations equations{ContactMatrix::Identity(2, 2),
+                             ContactVector::Zero(2), 1,
+                             ContactMatrix::Identity(2, 2)};
+  equations.curvature *= -0.5;
+  KeepConvex(&equations);
+  EXPECT_EQ(equations.curvature.rows(), 2);
+  equations.curvature(0, 1) = equations.curvature(1, 0) = 0.6;
+  KeepConvex(&equations);
+  EXPECT_EQ(equations.curvature.size(), 0);
+}
+
 TEST(BoundedChangeTest, OneBoundDoesNotTakeAnotherAlong) {
   ContactEquations equations;
   equations.normal = Eigen::Matrix2d{{2e7, -4}, {-4, 1e-6}};
