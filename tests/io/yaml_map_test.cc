@@ -69,6 +69,9 @@ TEST_F(YamlMapTest, FilesThatAreNoMapping) {
   EXPECT_INPUT_ERROR(Load(std::string("a: 1\n\0", 6)), ":2:1: found a NUL");
   EXPECT_INPUT_ERROR(Load("- 1\n"), "found a sequence");
   EXPECT_INPUT_ERROR(Load("a: [1\n"), "not valid YAML");
+  EXPECT_INPUT_ERROR(Load("a:\n  b: 1\n \tc: 2\n"),
+                     ":3:2: not valid YAML: tab in the indentation, YAML wants "
+                     "spaces (");
   EXPECT_INPUT_ERROR(YamlMap::FromFile(folder_.Path("none")),
                      "none: cannot be read: No such file");
   EXPECT_INPUT_ERROR(YamlMap::FromFile(folder_.Path("")), "is a folder");
