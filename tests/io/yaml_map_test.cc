@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "finray/io/error.h"
 #include "temp_file.h"
 
@@ -51,6 +53,21 @@ TEST_F(YamlMapTest, ErrorsNameThePlace) {
                      "found 'fornt' (did you mean 'front'?)");
   EXPECT_INPUT_ERROR(Load("ribs:\n  - {a: 1}\n  - 3\n").Maps("ribs"),
                      "a.yaml:3:5: ribs[2]: expected a mapping, found '3'");
+}
+
+TEST_F(YamlMapTest, ErrorsNameTheDefault) {
+  EXPECT_INPUT_ERROR(Load("a: x\n").Number("a", 3e-4),
+                     "a: expected a number, found 'x'; the default is 0.0003");
+  EXPECT_INPUT_ERROR(Load("a: 0\n").PositiveNumber("a", 2), "default is 2");
+  EXPECT_INPUT_ERROR(Load("a: x\n").Integer("a", 5), "default is 5");
+  EXPECT_INPUT_ERROR(Load("a: x\n").Boolean("a", false), "default is false");
+  EXPECT_INPUT_ERROR(Load("a: []\n").Text("a", "auto"), "default is auto");
+  for (const double fallback : {-HUGE_VAL, std::nan("")}) {
+    EXPECT_THAT([&] { Load("a: x\n").Number("a", fallback); },
+                ThrowsMessage<InputError>(Not(HasSubstr("default"))));
+  }
+  EXPECT_THAT([&] { Load("a: x\n").Number("a"); },
+              ThrowsMessage<InputError>(Not(HasSubstr("default"))));
 }
 
 TEST_F(YamlMapTest, UnknownAndDoubleKeys) {
