@@ -12,7 +12,11 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def run(*command, **more):
-    return subprocess.run(list(map(str, command)), check=True, capture_output=True, text=True, **more).stdout
+    ended = subprocess.run(list(map(str, command)), capture_output=True, text=True, **more)
+    if ended.returncode:
+        print(ended.stdout[-4000:], ended.stderr[-4000:], file=sys.stderr)
+    ended.check_returncode()
+    return ended.stdout
 
 
 def commit_of(folder):
