@@ -123,3 +123,6 @@ set(CPACK_COMPONENT_PYTHON_DESCRIPTION
 Simulates, estimates, senses live, calibrates and reconstructs on NumPy arrays
 and pandas tables, with the numbers of the executables.")
 include(CPack)
+# CPack would pack the folder as it lies there, with its builds. Sources are packed by
+# scripts/source_archive.
+file(REMOVE ${PROJECT_BINARY_DIR}/CPackSourceConfig.cmake)

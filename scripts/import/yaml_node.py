@@ -22,8 +22,10 @@ def load(path):
     except (yaml.YAMLError, RecursionError) as error:
         mark = getattr(error, "problem_mark", None)
         where = f":{mark.line + 1}:{mark.column + 1}" if mark else ""
-        raise BadInput(f"{path}{where}: {shown(getattr(error, 'problem', None) or error)}") \
-            from error
+        problem = shown(getattr(error, "problem", None) or error)
+        if mark and mark.buffer[mark.pointer - mark.column:mark.pointer + 1].strip(" ") == "\t":
+            problem = f"tab in the indentation, YAML wants spaces ({problem})"
+        raise BadInput(f"{path}{where}: {problem}") from error
     if node is None:
         raise BadInput(f"{path}: is empty")
     return node

@@ -123,7 +123,7 @@ def main():
     try:
         print(ccx.version(), flush=True)
     except ccx.NotInstalled as error:
-        sys.exit(f"make_logs.py: {error}")
+        sys.exit(print(f"make_logs.py: {error}", file=sys.stderr) or 2)
     with multiprocessing.Pool(int(sys.argv[2]) if len(sys.argv) > 2 else os.cpu_count()) as pool:
         for finger in HEIGHTS:
             plant = plants.read(BUNDLED / finger / "plant.yaml")

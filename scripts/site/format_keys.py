@@ -83,7 +83,11 @@ class MappingReader:
 
 class Key:
     def __init__(self):
-        self.kinds, self.needed, self.seen = [], True, 0
+        self.kinds, self.needed, self.seen, self.defaults = [], True, 0, set()
+
+    def default(self):
+        """The default that errors name; None where it differs from place to place."""
+        return next(iter(self.defaults)) if len(self.defaults) == 1 else None
 
 
 class Mapping:
@@ -115,12 +119,15 @@ def _without(document, where):
 
 
 def _kinds(reader, document, where):
-    """What a reader expects of a value, in the words of the table."""
-    key, kinds = str(where[-1]), []
+    """What a reader expects of a value, in the words of the table, and the defaults that its errors name."""
+    key, kinds, defaults = str(where[-1]), [], set()
 
     def expected(value, of_element=False):
         error = reader.error_of(_with(document, where, value))
-        if not re.match(rf"{re.escape(key)}\b", error) or of_element != error.startswith(f"{key}[1]"):
+        if not re.match(rf"{re.escape(key)}\b", error):
+            return None
+        defaults.update(re.findall(r"; the default is (.*)", error))
+        if of_element != error.startswith(f"{key}[1]"):
             return None
         return next((kind if isinstance(kind, str) else kind(found) for pattern, kind in EXPECTED
                      if (found := re.search(pattern, error))), None)
@@ -141,7 +148,7 @@ def _kinds(reader, document, where):
     value = _at(document, where)
     if isinstance(value, str) and "number" in (scalar or "") and not re.match(r"[-+.\d]", value):
         kinds.append(f"`{value}`")
-    return kinds
+    return kinds, defaults
 
 
 def _walk(reader, document, where, path, stop, mappings):
@@ -158,7 +165,9 @@ def _walk(reader, document, where, path, stop, mappings):
         at = [*where, name]
         key.seen += 1
         key.needed = key.needed and bool(reader.error_of(_without(document, at)))
-        for kind in _kinds(reader, document, at):
+        kinds, defaults = _kinds(reader, document, at)
+        key.defaults |= defaults
+        for kind in kinds:
             if kind not in key.kinds:
                 key.kinds.append(kind)
         inner = f"{path}.{'*' if mapping.free else name}".lstrip(".")

@@ -25,7 +25,9 @@ ELSEWHERE = {"plan": ("scene", "columns"), "experiment": ("scene",)}
 
 
 def keys_table(mappings):
-    rows = ["| mapping | keys; required ones are bold |", "|---|---|"]
+    # The errors of finray_import name no defaults.
+    any_default = any(key.default() for mapping in mappings.values() for key in mapping.keys.values())
+    rows = [f"| mapping | keys; required ones are bold{', defaults in brackets' if any_default else ''} |", "|---|---|"]
     for path, mapping in mappings.items():
         if mapping.free and not mapping.keys:
             continue
@@ -38,7 +40,8 @@ def keys_table(mappings):
             if mapping.is_needed(key) and not mapping.free:
                 shown = f"**{shown}**"
             kinds = "" if key.kinds == ["mapping"] else ", or ".join(key.kinds)
-            cells.append(f"{shown} {kinds}".strip())
+            default = key.default()
+            cells.append(f"{shown} {kinds}".strip() + (f" ({default})" if default else ""))
         shown = f"`{path.replace('*', '<name>')}`" if path else "the file"
         rows.append(f"| {shown} | {'; '.join(cells)} |".replace("`|`", "`\\|`"))
     return "\n".join(rows) + "\n"

@@ -96,6 +96,25 @@ class NewcomerInputTest(unittest.TestCase):
         self.assertIn("warning: --from has 1 row that can be fitted, which tells next to nothing",
                       self.run_tool("plan", self.plan + "--from log.csv").stderr)
 
+    def test_a_finger_in_place_of_a_log(self):
+        words = f"{FINGER}: is a YAML file, expected a log: a CSV table with a header and rows"
+        for tool, arguments in (("plan", f"{self.plan}--from {FINGER}"),
+                                ("estimate", f"--finger {FINGER} --logs {FINGER} --out_dir out"),
+                                ("calibrate", f"--finger {FINGER} --plan {PLAN} --logs {FINGER} --out_dir out"),
+                                ("validate", f"--finger {FINGER} --logs {FINGER} --out_dir out"),
+                                ("zero", f"--finger {FINGER} --logs {FINGER} --out out"),
+                                ("reconstruct", f"--finger {FINGER} --logs {FINGER} --out_dir out"),
+                                ("simulate", f"--finger {FINGER} --frames {FINGER} --out out"),
+                                ("view", f"--finger {FINGER} --results {FINGER} --out_dir out")):
+            self.refused(tool, arguments, words)
+
+    def test_tabs_in_the_indentation_of_a_yaml(self):
+        for lines, place in (("geometry:\n\tfront_length_mm: 140", "3:1"), ("ribs:\n  \t- {front_mm: 17}", "3:3"),
+                             ("geometry:\n  front_length_mm: 140\n\tback_angle_deg: 112", "4:1"),
+                             ("ribs:\n  - front_mm: 17\n  \tangle_deg: 10", "4:3")):
+            (self.folder / "f.yaml").write_text(f"name: f\n{lines}\n")
+            self.refused("check", "--finger f.yaml", f"f.yaml:{place}: not valid YAML: tab in the indentation, YAML wants spaces")
+
     def test_results_that_were_changed(self):
         head = "contact_1_mm,normal_1_N,status\n"
         for text, words in (("1,1,ok\n1,1,2,ok\n", ":3: expected 3 cells as in the header, found 4; finray_estimate has not written this"),

@@ -232,6 +232,7 @@ class FaultTest(ImportCase):
                 ("join: {method: cubic}", ["m.yaml:1", "linear"]),
                 ("delimiter: *l9", ["m.yaml:1"]), ("x: " + "[" * 5000, ["m.yaml"]),
                 (LAUGHS + "delimiter: *l8", ["m.yaml"]), (LAUGHS + "columns: *l8", ["m.yaml"]),
+                ("columns:\n\ta: force_N", ["m.yaml:2:1: tab in the indentation, YAML wants spaces"]),
                 ("a: [", ["m.yaml"]), ("", ["m.yaml", "empty"]), ("[]", ["m.yaml:1"]),
                 ("decimal: ';'", ["m.yaml:1", "';'"])):
             with self.subTest(mapping):

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "finray/io/error.h"
 #include "temp_file.h"
 
@@ -53,6 +55,21 @@ TEST_F(YamlMapTest, ErrorsNameThePlace) {
                      "a.yaml:3:5: ribs[2]: expected a mapping, found '3'");
 }
 
+TEST_F(YamlMapTest, ErrorsNameTheDefault) {
+  EXPECT_INPUT_ERROR(Load("a: x\n").Number("a", 3e-4),
+                     "a: expected a number, found 'x'; the default is 0.0003");
+  EXPECT_INPUT_ERROR(Load("a: 0\n").PositiveNumber("a", 2), "default is 2");
+  EXPECT_INPUT_ERROR(Load("a: x\n").Integer("a", 5), "default is 5");
+  EXPECT_INPUT_ERROR(Load("a: x\n").Boolean("a", false), "default is false");
+  EXPECT_INPUT_ERROR(Load("a: []\n").Text("a", "auto"), "default is auto");
+  for (const double fallback : {-HUGE_VAL, std::nan("")}) {
+    EXPECT_THAT([&] { Load("a: x\n").Number("a", fallback); },
+                ThrowsMessage<InputError>(Not(HasSubstr("default"))));
+  }
+  EXPECT_THAT([&] { Load("a: x\n").Number("a"); },
+              ThrowsMessage<InputError>(Not(HasSubstr("default"))));
+}
+
 TEST_F(YamlMapTest, UnknownAndDoubleKeys) {
   EXPECT_INPUT_ERROR(
       Load("r:\n  - {lenght_mm: 1}\n").Maps("r")[0].AllowOnly({"length_mm"}),
@@ -69,6 +86,9 @@ TEST_F(YamlMapTest, FilesThatAreNoMapping) {
   EXPECT_INPUT_ERROR(Load(std::string("a: 1\n\0", 6)), ":2:1: found a NUL");
   EXPECT_INPUT_ERROR(Load("- 1\n"), "found a sequence");
   EXPECT_INPUT_ERROR(Load("a: [1\n"), "not valid YAML");
+  EXPECT_INPUT_ERROR(Load("a:\n  b: 1\n \tc: 2\n"),
+                     ":3:2: not valid YAML: tab in the indentation, YAML wants "
+                     "spaces (");
   EXPECT_INPUT_ERROR(YamlMap::FromFile(folder_.Path("none")),
                      "none: cannot be read: No such file");
   EXPECT_INPUT_ERROR(YamlMap::FromFile(folder_.Path("")), "is a folder");

@@ -7,6 +7,7 @@ import math
 import os
 import pathlib
 import statistics
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -205,6 +206,18 @@ class OutcomeTest(unittest.TestCase):
         self.assertIn("<td>no such log</td>", page)
         self.assertIn(f"| strip | smooth | thickness | good, exit 0 | {found['ok']} of {found['touched']} |", text)
         self.assertIn("| `rib_5_longer_by_mm` | 0 |", text)
+
+
+class MissingPackageTest(unittest.TestCase):
+    def test_a_missing_package_is_named_in_one_line(self):
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "scipy.py").write_text("raise ImportError\n")
+            for name, hidden, package in (("verify", {"PYTHONPATH": folder}, "python3-scipy"),
+                                          ("make_logs", {"PATH": folder}, "calculix-ccx")):
+                ended = subprocess.run([sys.executable, ROOT / f"scripts/reality/{name}.py", folder], capture_output=True, text=True,
+                                       env={**os.environ, **hidden})
+                self.assertEqual((ended.returncode, ended.stderr), (
+                    2, f"{name}.py: {package} is not installed: scripts/install_dependencies reality\n"), name)
 
 
 if __name__ == "__main__":

@@ -27,8 +27,15 @@ struct Field {
   double unit = 1;
   bool required = false;
   bool is_rate = false;
+  bool varies = false;  // its default depends on other values
 };
 using Fields = std::vector<Field>;
+
+// Returns a number as it stands in the YAML.
+double Written(const Field& field) {
+  const double number = *std::get<double*>(field.value);
+  return field.is_rate ? 1 / number : number / field.unit;
+}
 
 // Reads the fields of a mapping, which may have `other` keys too.
 void Read(const YamlMap& map, const Fields& fields,
@@ -37,16 +44,22 @@ void Read(const YamlMap& map, const Fields& fields,
   map.AllowOnly(other);
   for (const Field& field : fields) {
     const std::string& key = field.key;
+    // A default keeps its bits, which a change of its unit would round.
     if (!field.required && !map.Has(key)) continue;
     if (auto* flag = std::get_if<bool*>(&field.value)) {
-      **flag = map.Boolean(key, false);
+      **flag = map.Boolean(key, **flag);
     } else if (auto* count = std::get_if<int*>(&field.value)) {
-      **count = map.Integer(key);
+      **count = map.Integer(key, **count);
     } else {
-      const double number = field.unit * (field.range == kAny ? map.Number(key)
-                                          : field.range == kPositive
-                                              ? map.PositiveNumber(key)
-                                              : map.NonNegativeNumber(key));
+      const auto read = [&](auto... fallback) {
+        return field.range == kAny ? map.Number(key, fallback...)
+               : field.range == kPositive
+                   ? map.PositiveNumber(key, fallback...)
+                   : map.NonNegativeNumber(key, fallback...);
+      };
+      const bool has_default = !field.required && !field.varies;
+      const double number =
+          field.unit * (has_default ? read(Written(field)) : read());
       *std::get<double*>(field.value) = field.is_rate ? 1 / number : number;
     }
   }
@@ -59,9 +72,7 @@ void Emit(const Fields& fields, YamlEmitter* yaml) {
     } else if (auto* count = std::get_if<int*>(&field.value)) {
       YamlPair(yaml, field.key, **count);
     } else {
-      const double number = *std::get<double*>(field.value);
-      YamlPair(yaml, field.key,
-               field.is_rate ? 1 / number : number / field.unit);
+      YamlPair(yaml, field.key, Written(field));
     }
   }
 }
@@ -82,7 +93,8 @@ std::map<std::string, Fields> Mappings(Experiment* e) {
       {"actuation",
        {{"rate_Hz", &actuation.period_s, kPositive, 1, true, true},
         {"delay_ms", &actuation.delay_s, kNonNegative, 1e-3, true},
-        {"true_delay_ms", &e->true_delay_s, kNonNegative, 1e-3},
+        {"true_delay_ms", &e->true_delay_s, kNonNegative, 1e-3, false, false,
+         true},
         {"time_constant_ms", &actuation.time_constant_s, kNonNegative, 1e-3},
         {"speed_limit" + per_s, &actuation.speed_limit, kPositive, speed, true},
         {"drive_is_measured", &e->drive_is_measured}}},
@@ -117,7 +129,9 @@ Fields ControllerFields(ControllerSettings* controller) {
   if (controller->kind == ControllerKind::kNone) return {};
   const Field preview{"preview", &controller->preview};
   if (controller->kind == ControllerKind::kPi) {
-    return {preview, {"tuned_at_mm", &controller->tuned_at_mm, kPositive}};
+    return {preview,
+            {"tuned_at_mm", &controller->tuned_at_mm, kPositive, 1, false,
+             false, true}};
   }
   ObjectPrior& prior = controller->prior;
   return {preview,

@@ -96,7 +96,7 @@ ColumnRule ReadRule(const std::string& header, const YamlMap& yaml) {
     yaml.Fail("to", "to: status is a text, which has nothing to convert");
   }
   if (yaml.Has("scale")) {
-    rule.scale = yaml.Number("scale");
+    rule.scale = yaml.Number("scale", 1);
     if (*rule.scale == 0) yaml.Fail("scale", "scale: expected another than 0");
   }
   rule.offset = yaml.Number("offset", 0);
@@ -152,7 +152,7 @@ ColumnMapping ReadKeys(const YamlMap& yaml) {
     }
   }
   if (yaml.Has("units_row")) {
-    mapping.units_row = yaml.Boolean("units_row", false);
+    mapping.units_row = yaml.Boolean("units_row");
   }
   if (yaml.Has("not_measured")) {
     mapping.not_measured = yaml.Texts("not_measured");

@@ -1,5 +1,6 @@
 #include "finray/io/log_lines.h"
 
+#include <filesystem>
 #include <utility>
 
 #include "finray/io/csv_cells.h"
@@ -12,6 +13,12 @@ namespace {
 // How far the header and the decimal mark are looked for.
 constexpr std::size_t kHeaderLines = 100, kDecimalLines = 1000;
 constexpr std::size_t kMostAheadBytes = 1 << 20;
+
+// A finger or a plan in place of a log would be a table of one column.
+bool IsYamlName(const std::string& name) {
+  const auto extension = std::filesystem::path(name).extension();
+  return extension == ".yaml" || extension == ".yml";
+}
 
 }  // namespace
 
@@ -58,6 +65,11 @@ CsvLine LogLines::FindHeader(const std::string& name,
   }
   if (ahead_.size() == 0) {
     throw InputError(name + ": is empty, expected a header and rows");
+  }
+  if (most == 0 && IsYamlName(name)) {
+    throw InputError(name +
+                     ": is a YAML file, expected a log: a CSV table with a "
+                     "header and rows");
   }
   next_ahead_ = best + 1;
   return ahead_.at(best);

@@ -4,6 +4,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <map>
+#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -94,6 +95,17 @@ class Counter : public YAML::EventHandler {
   std::map<YAML::anchor_t, std::size_t> sizes_;  // of values with an anchor
 };
 
+// Returns the column of a tab in the indentation of a line, or nothing. Both
+// count from 0.
+std::optional<int> TabInIndentation(const std::string& text, int line) {
+  std::istringstream lines(text);
+  std::string found;
+  for (int i = 0; i <= line; ++i) std::getline(lines, found);
+  const std::size_t tab = found.find('\t');
+  if (tab >= found.find_first_not_of(" \t")) return std::nullopt;
+  return static_cast<int>(tab);
+}
+
 }  // namespace
 
 void CheckYamlLimits(const std::string& path, const std::string& text) {
@@ -104,6 +116,14 @@ void CheckYamlLimits(const std::string& path, const std::string& text) {
     while (parser.HandleNextDocument(counter)) {
     }
   } catch (const YAML::Exception& error) {
+    const int line = error.mark.line;
+    // The parser complains of what it finds behind the tab.
+    if (const auto tab = TabInIndentation(text, line)) {
+      throw InputError(YamlPlace(path, line, *tab) +
+                       "not valid YAML: tab in the indentation, YAML wants "
+                       "spaces (" +
+                       ShownLine(error.msg) + ")");
+    }
     throw InputError(YamlPlace(path, error.mark) +
                      "not valid YAML: " + ShownLine(error.msg));
   }

@@ -80,6 +80,28 @@ std::string NotOneOf(const std::string& name,
          (value.IsScalar() ? DidYouMean(value.Scalar(), words) : "");
 }
 
+std::string ShownDefault(double value) {
+  return std::isfinite(value) ? YamlNumber(value, 6) : "";
+}
+std::string ShownDefault(int value) { return std::to_string(value); }
+std::string ShownDefault(bool value) { return value ? "true" : "false"; }
+std::string ShownDefault(const std::string& value) { return value; }
+
+// Returns what `read` returns, or `fallback` if the key is missing. An error of
+// `read` says the fallback too.
+template <class Value, class Read>
+Value ReadOr(const YamlMap& map, const std::string& key, const Value& fallback,
+             const Read& read) {
+  if (!map.Has(key)) return fallback;
+  try {
+    return read();
+  } catch (const InputError& error) {
+    const std::string shown = ShownDefault(fallback);
+    if (shown.empty()) throw;
+    throw InputError(error.what() + ("; the default is " + shown));
+  }
+}
+
 YAML::Node ParseOneDocument(const std::string& path, const std::string& text) {
   CheckYamlLimits(path, text);
   const std::vector<YAML::Node> documents = YAML::LoadAll(text);
@@ -187,6 +209,10 @@ double YamlMap::Number(const std::string& key) const {
   return NumberIn(path_, Value(key), key);
 }
 
+double YamlMap::Number(const std::string& key, double fallback) const {
+  return ReadOr(*this, key, fallback, [&] { return Number(key); });
+}
+
 double YamlMap::PositiveNumber(const std::string& key) const {
   const double number = Number(key);
   if (!(number > 0)) FailExpecting(key, "a number above 0");
@@ -196,10 +222,19 @@ double YamlMap::PositiveNumber(const std::string& key) const {
   return number;
 }
 
+double YamlMap::PositiveNumber(const std::string& key, double fallback) const {
+  return ReadOr(*this, key, fallback, [&] { return PositiveNumber(key); });
+}
+
 double YamlMap::NonNegativeNumber(const std::string& key) const {
   const double number = Number(key);
   if (!(number >= 0)) FailExpecting(key, "a number of at least 0");
   return number;
+}
+
+double YamlMap::NonNegativeNumber(const std::string& key,
+                                  double fallback) const {
+  return ReadOr(*this, key, fallback, [&] { return NonNegativeNumber(key); });
 }
 
 int YamlMap::Integer(const std::string& key) const {
@@ -210,11 +245,18 @@ int YamlMap::Integer(const std::string& key) const {
   return static_cast<int>(number);
 }
 
-bool YamlMap::Boolean(const std::string& key, bool fallback) const {
-  if (!Has(key)) return fallback;
+int YamlMap::Integer(const std::string& key, int fallback) const {
+  return ReadOr(*this, key, fallback, [&] { return Integer(key); });
+}
+
+bool YamlMap::Boolean(const std::string& key) const {
   const std::string text = Text(key);
   if (text != "true" && text != "false") FailExpecting(key, "true or false");
   return text == "true";
+}
+
+bool YamlMap::Boolean(const std::string& key, bool fallback) const {
+  return ReadOr(*this, key, fallback, [&] { return Boolean(key); });
 }
 
 std::string YamlMap::Text(const std::string& key) const {
@@ -222,6 +264,11 @@ std::string YamlMap::Text(const std::string& key) const {
   const std::string text = RawText(key);
   if (ShownLine(text) != text) FailExpecting(key, "one short line of text");
   return text;
+}
+
+std::string YamlMap::Text(const std::string& key,
+                          const std::string& fallback) const {
+  return ReadOr(*this, key, fallback, [&] { return Text(key); });
 }
 
 std::string YamlMap::RawText(const std::string& key) const {

@@ -16,7 +16,8 @@ constexpr double kLargestYamlNumber = 1e30;
 /// A YAML mapping that is read strictly: every getter throws InputError with
 /// "path:line:column: ..." if a value is missing or of the wrong kind. Numbers
 /// must be finite and within kLargestYamlNumber. Duplicate keys are errors. A
-/// getter with a fallback returns it if the key is missing.
+/// getter with a fallback returns it if the key is missing, and its errors name
+/// it as the default. Only finite numbers are named.
 class YamlMap {
  public:
   /// Reads a file whose top level is a mapping.
@@ -31,34 +32,23 @@ class YamlMap {
   std::vector<std::string> Keys() const;
 
   double Number(const std::string& key) const;
-  double Number(const std::string& key, double fallback) const {
-    return Has(key) ? Number(key) : fallback;
-  }
+  double Number(const std::string& key, double fallback) const;
   double PositiveNumber(const std::string& key) const;
-  double PositiveNumber(const std::string& key, double fallback) const {
-    return Has(key) ? PositiveNumber(key) : fallback;
-  }
+  double PositiveNumber(const std::string& key, double fallback) const;
   double NonNegativeNumber(const std::string& key) const;
-  double NonNegativeNumber(const std::string& key, double fallback) const {
-    return Has(key) ? NonNegativeNumber(key) : fallback;
-  }
+  double NonNegativeNumber(const std::string& key, double fallback) const;
   int Integer(const std::string& key) const;
+  int Integer(const std::string& key, int fallback) const;
+  bool Boolean(const std::string& key) const;
   bool Boolean(const std::string& key, bool fallback) const;
   std::string Text(const std::string& key) const;
-  std::string Text(const std::string& key, const std::string& fallback) const {
-    return Has(key) ? Text(key) : fallback;
-  }
+  std::string Text(const std::string& key, const std::string& fallback) const;
   /// Returns a text that may hold control characters.
   std::string RawText(const std::string& key) const;
   /// Returns one of the listed words. The error names all of them and the
   /// nearest.
   std::string Choice(const std::string& key,
                      const std::vector<std::string>& words) const;
-  std::string Choice(const std::string& key,
-                     const std::vector<std::string>& words,
-                     const std::string& fallback) const {
-    return Has(key) ? Choice(key, words) : fallback;
-  }
 
   /// Says whether the value of `key` is a mapping.
   bool IsMap(const std::string& key) const;

@@ -96,7 +96,7 @@ void ReadFamily(const YamlMap& yaml, int index, Plan* plan) {
   }
   if (family == ParameterFamily::kGaugeDrift) ReadWalk(map, plan);
   if (family == ParameterFamily::kFrontPiece && map.Has(kCount)) {
-    plan->piece_count = map.Integer(kCount);
+    plan->piece_count = map.Integer(kCount, plan->piece_count);
     constexpr int kMostPieces = 20;
     if (plan->piece_count < 2 || plan->piece_count > kMostPieces) {
       map.Fail(kCount, "count: expected 2 to 20 pieces");
