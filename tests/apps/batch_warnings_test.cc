@@ -148,7 +148,7 @@ TEST_F(BatchWarningsTest, EqualShiftsWithoutAForceFailStrict) {
 
 TEST_F(BatchWarningsTest, TheSummaryCountsEndedSearchesAndNamesHiddenForces) {
   const std::string data = FINRAY_SOURCE_DIR "/datasets/simulated_r15/";
-  folder_.Write("limit.yaml", "search_iteration_limit: 5\n");
+  folder_.Write("limit.yaml", "search_iteration_limit: 3\n");
   const std::string arguments =
       "--finger " + data + "hidden_finger.yaml --logs " + data + "holdout.csv ";
   const Outcome limited =

@@ -12,7 +12,7 @@
 namespace finray {
 namespace {
 
-constexpr double kNoise_rad = 3e-4;
+constexpr double kGaugeNoise_rad = 3e-4;
 
 class GaugeSurfaceTest : public testing::Test {
  protected:
@@ -23,7 +23,7 @@ class GaugeSurfaceTest : public testing::Test {
         surface_(table_, finger_),
         length_mm_(finger_.front_length_mm),
         unit_N_(ForceUnit(finger_)) {
-    weights_.setConstant(4, 1 / kNoise_rad);
+    weights_.setConstant(4, 1 / kGaugeNoise_rad);
   }
 
   Eigen::VectorXd Angles(double arc_mm, double normal_N) {
@@ -49,7 +49,7 @@ TEST_F(GaugeSurfaceTest, AgreesWithTheStatics) {
     const Eigen::VectorXd angles = Angles(arc_mm, normal_N);
     for (int j = 0; j < 4; ++j) {
       EXPECT_NEAR(surface_.At(j, arc_mm / length_mm_, normal_N / unit_N_).value,
-                  angles[j], 0.2 * kNoise_rad)
+                  angles[j], 0.2 * kGaugeNoise_rad)
           << arc_mm << " mm, " << normal_N << " N";
     }
   }
@@ -80,12 +80,12 @@ TEST_F(GaugeSurfaceTest, DerivativesAreThoseOfTheValue) {
 }
 
 // A descent ends where a fit by the ladder ends, and the fit that goes on from
-// there takes half the iterations.
+// there takes two thirds of the iterations.
 TEST_F(GaugeSurfaceTest, AFitGoesOnFromItsEnd) {
   ContactFit fit(finger_, {});
   fit.set_most_force(table_.heaviest_N());
   std::mt19937 generator(2);
-  std::normal_distribution<double> noise(0, kNoise_rad);
+  std::normal_distribution<double> noise(0, kGaugeNoise_rad);
   std::vector<ContactStart> profile, starts;
   int directly = 0, by_surface = 0;
   for (double arc_mm = 32; arc_mm < 108; arc_mm += 5.3) {
@@ -120,7 +120,7 @@ TEST_F(GaugeSurfaceTest, AFitGoesOnFromItsEnd) {
       EXPECT_NEAR(fit.chi2(), chi2, 1e-8 * (1 + chi2));
     }
   }
-  EXPECT_LT(by_surface, 0.6 * directly);
+  EXPECT_LT(by_surface, 0.7 * directly);
 }
 
 // B is the curvature that Gauss-Newton leaves out: with it the Hessian is that

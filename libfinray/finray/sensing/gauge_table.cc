@@ -160,14 +160,11 @@ GaugeTable::GaugeTable(EquilibriumSolver* solver, double friction,
   solver->Reset();
 }
 
-// The row in the middle of each stretch speaks for the stretch and, as errors
-// change from row to row, for half of the next ones.
 void GaugeTable::FindErrors(EquilibriumSolver* solver,
                             const std::optional<double>& circle_radius_mm) {
-  const Eigen::Index values = free_angles_.size() + (circle_radius_mm ? 2 : 0);
-  std::vector<Eigen::ArrayXXd> middle;
+  errors_.setZero(free_angles_.size() + (circle_radius_mm ? 2 : 0),
+                  std::size(kForces));
   for (std::size_t i = kErrorRows / 2; i < rows_.size(); i += kErrorRows) {
-    middle.push_back(Eigen::ArrayXXd::Zero(values, std::size(kForces)));
     const std::vector<Node>& nodes = rows_[i].nodes;
     for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
       const Node &from = nodes[k], &to = nodes[k + 1];
@@ -177,28 +174,19 @@ void GaugeTable::FindErrors(EquilibriumSolver* solver,
               {{rows_[i].arc_mm, from.normal_N + 0.5 * width, friction_}})) {
         continue;
       }
-      const Eigen::VectorXd half_way =
+      const Eigen::VectorXd middle =
           0.5 * (from.values + to.values) +
           0.125 * width * (from.by_force - to.by_force);
-      middle.back().col(static_cast<Eigen::Index>(k)) =
-          (half_way - ValuesOf(*solver, circle_radius_mm)).array().abs();
+      const auto chord = static_cast<Eigen::Index>(k);
+      errors_.col(chord) = errors_.col(chord).max(
+          (middle - ValuesOf(*solver, circle_radius_mm)).array().abs());
     }
-  }
-  const std::size_t stretches = (rows_.size() + kErrorRows - 1) / kErrorRows;
-  if (middle.empty()) {
-    middle.push_back(Eigen::ArrayXXd::Zero(values, std::size(kForces)));
-  }
-  middle.resize(stretches, Eigen::ArrayXXd(middle.back()));
-  errors_ = middle;
-  for (std::size_t i = 0; i + 1 < stretches; ++i) {
-    errors_[i] = errors_[i].max(middle[i + 1]);
-    errors_[i + 1] = errors_[i + 1].max(middle[i]);
   }
 }
 
 void GaugeTable::FillGroups(const std::vector<double>& forces_N) {
   forces_N_ = forces_N;
-  values_ = static_cast<std::size_t>(errors_.front().rows());
+  values_ = static_cast<std::size_t>(errors_.rows());
   const std::size_t per_group = forces_N.size() * values_;
   const V none = V{} + std::nan("");
   groups_.assign((rows_.size() + kGroup - 1) / kGroup * per_group,
@@ -329,17 +317,12 @@ void GaugeTable::Profile(const Eigen::VectorXd& values,
   profile->resize(rows_.size());
   // How wrong the cubic of each chord is, in std.
   std::array<double, std::size(kForces)> errors;
+  for (Eigen::Index k = 0; k < errors_.cols(); ++k) {
+    errors[static_cast<std::size_t>(k)] =
+        (errors_.col(k) * weights.array()).matrix().norm();
+  }
   ForEachRow(values, weights,
              [&](std::size_t row, double chi2, std::size_t to, double share) {
-               if (row % kErrorRows == 0) {
-                 const Eigen::ArrayXXd& stretch = errors_[row / kErrorRows];
-                 for (std::size_t k = 0; k < errors.size(); ++k) {
-                   errors[k] = (stretch.col(static_cast<Eigen::Index>(k)) *
-                                weights.array())
-                                   .matrix()
-                                   .norm();
-                 }
-               }
                ContactStart& start = (*profile)[row];
                start = StartAt(row, to, share, chi2);
                if (to > 0) start.error = errors[to - 1];

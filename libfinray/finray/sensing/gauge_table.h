@@ -113,8 +113,7 @@ class GaugeTable {
   Eigen::VectorXd free_angles_;
   std::vector<Row> rows_;
   Row tip_;
-  // Of interpolated values, values x chords, for each stretch of rows.
-  std::vector<Eigen::ArrayXXd> errors_;
+  Eigen::ArrayXXd errors_;  // of interpolated values, values x chords
   std::vector<double> forces_N_;
   std::size_t values_ = 0;
   std::vector<InGroup> groups_;  // groups x forces x values

@@ -64,19 +64,17 @@ TEST(FrameFollowerTest, BlocksAndLiveFramesAgreeWithSearches) {
     for (std::size_t i = 0; i < log.size(); i += 64) {
       block.EstimateBlock(&log[i], 64, &estimates[i]);
     }
-    int followed = 0, shorter = 0;
+    int followed = 0;
     for (std::size_t i = 0; i < log.size(); ++i) {
       const int frame = static_cast<int>(i);
       const FrameEstimate searched = alone.Estimate(log[i]);
       ExpectSame(estimates[i], searched, frame);
       ExpectSame(live.Next(log[i]), searched, frame);
       followed += estimates[i].contacts == 1 && estimates[i].iterations <= 4;
-      shorter += estimates[i].iterations < searched.iterations;
     }
     std::printf("noise %g rad: %d of %zu frames in four iterations or fewer\n",
                 noise, followed, log.size());
     EXPECT_GT(followed, 150);
-    EXPECT_GT(shorter, 150);
   }
 }
 

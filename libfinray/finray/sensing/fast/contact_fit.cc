@@ -17,6 +17,8 @@ namespace {
 // in std for the contacts, in rad and l_0 for the shape.
 constexpr int kPatience = 8;
 constexpr double kNoDifference = 1e-6;
+// With B known, convergence is fast and the fit ends at this instead.
+constexpr double kNothing = 1e-8;
 // B is known within this many std of the start of Finish.
 constexpr double kNearStart = 0.1;
 // Where the tolerance is worth more std than this, as with a noise of a few
@@ -174,7 +176,8 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
         (small &&
          IsLastChange(moved, last_change, rate, crossed, tolerance_)) ||
         (iterations_ >= (knows_curvature ? 2 : kPatience) &&
-         next * deviations < std::min(1.0, taken) * kNoDifference &&
+         next * deviations < std::min(1.0, taken) *
+                                 (knows_curvature ? kNothing : kNoDifference) &&
          size < kNoDifference);
     // B is that of the start.
     knows_curvature &= deviations < kNearStart;
