@@ -164,7 +164,7 @@ TEST_F(BatchWarningsTest, TheSummaryCountsEndedSearchesAndNamesHiddenForces) {
   EXPECT_THAT(
       limited.output,
       HasSubstr("searches       " + std::to_string(static_cast<int>(ended)) +
-                " ended by the scene's limit of 5\n"));
+                " ended by the scene's limit of 3\n"));
   const YAML::Node hidden = yaml["hidden_forces"];
   ASSERT_EQ(hidden["contact_mm"].size(), 57u);
   EXPECT_EQ(hidden["contact_mm"][28].as<double>(), 70);
