@@ -291,20 +291,21 @@ double ContactSearch::ExpectedChi2(double arc_mm) const {
 }
 
 bool ContactSearch::IsKnown() const {
-  return IsKnown(solutions_[found_].contacts[0], solutions_[found_].chi2);
+  const ContactSolution& next = solutions_[found_];
+  return std::any_of(solutions_.begin(), solutions_.begin() + found_,
+                     [&](const ContactSolution& one) {
+                       return IsNear(one, next.contacts[0], next.chi2);
+                     });
 }
 
-bool ContactSearch::IsKnown(const PointContact& next, double chi2) const {
-  for (int i = 0; i < found_; ++i) {
-    const ContactSolution& one = solutions_[i];
-    // At the clamp of the beam the information is zero, and every other
-    // solution would be near.
-    if (chi2 < one.chi2 - kSame) continue;
-    const Eigen::Vector2d apart(next.arc_mm - one.contacts[0].arc_mm,
-                                next.normal_N - one.contacts[0].normal_N);
-    if (apart.dot(one.information * apart) < kSame) return true;
-  }
-  return false;
+bool ContactSearch::IsNear(const ContactSolution& one,
+                           const PointContact& contact, double chi2) const {
+  // At the clamp of the beam the information is zero, and every other solution
+  // would be near.
+  if (chi2 < one.chi2 - kSame) return false;
+  const Eigen::Vector2d apart(contact.arc_mm - one.contacts[0].arc_mm,
+                              contact.normal_N - one.contacts[0].normal_N);
+  return apart.dot(one.information * apart) < kSame;
 }
 
 double ContactSearch::FreeChi2(const Measurements& row,
@@ -379,7 +380,13 @@ ContactSearch::Way ContactSearch::WayFrom(const ContactStart& start,
 }
 
 bool ContactSearch::LeadsToKnown(const Way& way) const {
-  return way.leads && IsKnown(way.end.contacts[0], way.end.chi2);
+  const auto is_there = [&](const ContactSolution& one) {
+    const PointContact& contact = one.contacts[0];
+    return !OnBound(contact.arc_mm, contact.normal_N) &&
+           IsNear(one, way.end.contacts[0], way.end.chi2);
+  };
+  return way.leads &&
+         std::any_of(solutions_.begin(), solutions_.begin() + found_, is_there);
 }
 
 bool ContactSearch::FitAlong(const Way& way, const PackedReadings& packed) {
@@ -389,7 +396,7 @@ bool ContactSearch::FitAlong(const Way& way, const PackedReadings& packed) {
   fit_.set_state(*way.start.state);
   const bool converged =
       fit_.Finish(packed.values, packed.weights, way.curvature, &contacts_);
-  return Fill(converged, 1) || FitFast(way.start, packed);
+  return Fill(converged, 1) || (MayGoOn() && FitFast(way.start, packed));
 }
 
 bool ContactSearch::Fill(bool converged, int count) {

@@ -114,8 +114,9 @@ class ContactSearch {
   double ExpectedChi2(double arc_mm) const;
   // Whether the next solution is one of those found.
   bool IsKnown() const;
-  // Whether a contact with that chi2 is one of those found.
-  bool IsKnown(const PointContact& contact, double chi2) const;
+  // Whether a contact with that chi2 is the solution `one`.
+  bool IsNear(const ContactSolution& one, const PointContact& contact,
+              double chi2) const;
   // FitFast and FitByCeres fit from a start and fill in the next solution.
   bool FitFast(const ContactStart& start, const PackedReadings& packed);
   // A start and where the surface of the table leads from there.

@@ -104,8 +104,12 @@ GaugeSurface::GaugeSurface(const GaugeTable& table, const Finger& finger)
   const auto add = [&](const Eigen::VectorXd& values) {
     for (const double value : values) corners_.push_back({value, 0, 0, 0});
   };
-  arcs_.push_back(0);
-  for (std::size_t k = 0; k < forces; ++k) add(free);
+  // At the clamp no contact bends the finger; where a circle is measured, its
+  // centre still moves along the beam.
+  if (free.size() == table.free_angles().size()) {
+    arcs_.push_back(0);
+    for (std::size_t k = 0; k < forces; ++k) add(free);
+  }
   for (const GaugeTable::Row* row : rows) {
     arcs_.push_back(row->arc_mm / length_mm_);
     for (std::size_t k = 0; k < forces; ++k) add(row->nodes[k].values);

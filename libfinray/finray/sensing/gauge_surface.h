@@ -14,8 +14,9 @@ namespace finray {
 /// polynomials s_j(x) of x = (l_c / l_0, f_c / (EI / l_0^2)), with slopes from
 /// the neighbours of each node. Its first row is the clamp, where no contact
 /// bends the finger, its last row the tip. The error is a small part of a
-/// typical std. A descent on them takes less time than one iteration of a fit,
-/// and a fit that starts from its end needs few iterations.
+/// typical std up to 8 N for the paper's finger. A descent on them takes less
+/// time than one iteration of a fit, and a fit that starts from its end needs
+/// few iterations.
 class GaugeSurface {
  public:
   /// Keeps no reference to the table. The surface ends at the force that all
@@ -28,8 +29,8 @@ class GaugeSurface {
   ///
   ///   B = sum_j w_j^2 (s_j - values_j) d2 s_j / dx2
   ///
-  /// there (contact_step.h). Returns false and leaves both alone if the way
-  /// leads off the surface or does not end soon.
+  /// there (contact_step.h), empty unless A + B is positive. Returns false and
+  /// leaves both alone if the way leads off the surface or does not end soon.
   bool Descend(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
                double most_force_N, ContactStart* start,
                ContactMatrix* curvature) const;

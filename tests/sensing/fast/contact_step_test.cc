@@ -56,8 +56,6 @@ TEST(BoundedChangeTest, IsTheLeastInTheBox) {
   EXPECT_GT(at_bounds, 10);
 }
 
-// A force that the gauges do not see goes to its bound and leaves the place to
-// be found.
 // Where A + B is not positive, a step by it may lead uphill.
 TEST(KeepConvexTest, DropsACurvatureThatTurnsTheBowlOver) {
   ContactEquations equations{ContactMatrix::Identity(2, 2),
@@ -71,6 +69,8 @@ TEST(KeepConvexTest, DropsACurvatureThatTurnsTheBowlOver) {
   EXPECT_EQ(equations.curvature.size(), 0);
 }
 
+// A force that the gauges do not see goes to its bound and leaves the place to
+// be found.
 TEST(BoundedChangeTest, OneBoundDoesNotTakeAnotherAlong) {
   ContactEquations equations;
   equations.normal = Eigen::Matrix2d{{2e7, -4}, {-4, 1e-6}};

@@ -19,7 +19,7 @@ constexpr int kPatience = 8;
 constexpr double kNoDifference = 1e-6;
 // With B known, convergence is fast and the fit ends at this instead.
 constexpr double kNothing = 1e-8;
-// B is known within this many std of the start of Finish.
+// B is kept until one change exceeds this many std.
 constexpr double kNearStart = 0.1;
 // Where the tolerance is worth more std than this, as with a noise of a few
 // rounding errors, the last change must be below it, not only the next one.
@@ -120,6 +120,7 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
     if (knows_curvature) {
       equations.curvature = curvature_;
       KeepConvex(&equations);
+      knows_curvature = equations.curvature.size() > 0;
     }
     if (!std::isfinite(equations.chi2)) return false;
     if (equations.chi2 > kMostRise * last_cost + 1 && damping < 1e6) {
