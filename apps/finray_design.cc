@@ -194,8 +194,8 @@ FrameTable Front(const Finger& finger, const GaugePlaces& places,
 int Design() {
   const Discretization discretization = DiscretizationFlags();
   Required("out_dir", FLAGS_out_dir);
-  const auto [start, plates] = StartFinger();
   RefuseUnused();
+  const auto [start, plates] = StartFinger();
   const PlacementTask task = Task(start);
   FutureCalibration calibration;
   if (!FLAGS_plan.empty()) calibration.plan = ReadPlan(FLAGS_plan);

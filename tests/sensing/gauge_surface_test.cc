@@ -6,6 +6,7 @@
 #include <random>
 
 #include "finray/finger/geometry.h"
+#include "finray/objects/circle_centre.h"
 #include "finray/sensing/fast/contact_fit.h"
 #include "test_finger.h"
 
@@ -51,6 +52,23 @@ TEST_F(GaugeSurfaceTest, AgreesWithTheStatics) {
       EXPECT_NEAR(surface_.At(j, arc_mm / length_mm_, normal_N / unit_N_).value,
                   angles[j], 0.2 * kGaugeNoise_rad)
           << arc_mm << " mm, " << normal_N << " N";
+    }
+  }
+}
+
+// The centre of a measured circle moves along the beam, at the clamp too.
+TEST_F(GaugeSurfaceTest, CentresOfCirclesAgreeWithTheStatics) {
+  constexpr double kRadius_mm = 15, kNoise_mm = 0.1;
+  const GaugeTable table(&solver_, 0, kRadius_mm);
+  const GaugeSurface surface(table, finger_);
+  for (double arc_mm = 0.3; arc_mm < 140; arc_mm += 3.1) {
+    Angles(arc_mm, 2.3);
+    const Eigen::Vector2d centre =
+        CircleCentre(solver_.contact_pose(0), kRadius_mm);
+    for (int i = 0; i < 2; ++i) {
+      EXPECT_NEAR(surface.At(4 + i, arc_mm / length_mm_, 2.3 / unit_N_).value,
+                  centre[i], 0.2 * kNoise_mm)
+          << arc_mm << " mm";
     }
   }
 }

@@ -21,14 +21,6 @@ constexpr std::size_t kMostStarts = 4, kMostPairStarts = 12, kMostFallbacks = 4;
 constexpr double kHides = 0.5;
 // So many std from one row to the next hide a minimum of any finger.
 constexpr double kSharp = 30;
-constexpr int kMostSolutions = 16;
-constexpr double kSame = 0.01;  // chi2 between fits of one minimum
-// A rival lies outside the region that holds 99 % of the estimates. These are
-// the quantiles of chi-squared for two and for four parameters.
-constexpr double kDistinct[] = {9.21, 13.28};
-// Fits of one minimum end this close to each other, in l_0 and f_c, however
-// small the std.
-constexpr double kRounding = 1e-10;
 
 // The table is too coarse where its values are wrong by more std than this.
 constexpr double kCoarse = 1;
@@ -69,18 +61,15 @@ ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
              scene.force_max_N),
       surface_(table_, finger),
       most_force_N_(scene.force_max_N.value_or(table_.heaviest_N())),
+      found_(length_mm_, most_force_N_, finger.ribs.size()),
       method_(method),
       fit_(finger, discretization, MeasuredRadius(scene)),
       problem_(finger, scene, discretization,
                method == FrameMethod::kCeresWeighted
                    ? EquilibriumForm::kWeighted
                    : EquilibriumForm::kReduced,
-               most_force_N_),
-      solutions_(kMostSolutions) {
+               most_force_N_) {
   fit_.set_most_force(most_force_N_);
-  for (ContactSolution& solution : solutions_) {
-    solution.rib_tension_N.resize(finger.ribs.size());
-  }
   // With a limit no frame waits for the table.
   if (scene.search_iteration_limit && !scene.object_std_mm &&
       scene.contacts.value_or(scene.most_contacts) == 2 &&
@@ -111,11 +100,6 @@ bool ContactSearch::IsExplained(double chi2, int dof) {
                  : ChiSquaredTail(chi2, dof) > kWellExplained;
 }
 
-double ContactSearch::least_chi2() const {
-  return found_ > 0 ? solutions_[best_].chi2
-                    : std::numeric_limits<double>::infinity();
-}
-
 bool ContactSearch::Search(int contacts, const Measurements& row,
                            const PackedReadings& packed) {
   FindStarts(contacts, packed);
@@ -126,46 +110,51 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
   const bool exact = contacts == 1 && dof < 1;
   const bool close = exact || HasCloseMinima(solver_.model().finger()) ||
                      (!starts_.empty() && starts_[0].error > kCoarse);
-  has_surface_ = contacts == 1 && !close && !starts_.empty();
-  found_ = iterations_ = 0;
+  // The table's contacts have the scene's friction.
+  has_surface_ =
+      contacts == 1 && !close && friction_ == scene_.friction_coefficient;
+  found_.Clear();
+  iterations_ = 0;
   std::size_t fallbacks = 0;
   for (const ContactStart& start : starts_) {
     // This start can neither win nor be a rival, and those behind it are worse.
-    if (!exact && kTableFactor * start.chi2 >= least_chi2() + kWithinNoise) {
+    if (!exact &&
+        kTableFactor * start.chi2 >= found_.least_chi2() + kWithinNoise) {
       break;
     }
     // Wherever it is, a contact without force is the free finger.
-    if (contacts == 1 && found_ > 0 && start.contacts[0].normal_N == 0) {
+    if (contacts == 1 && !found_.empty() && start.contacts[0].normal_N == 0) {
       continue;
     }
     if (!MayGoOn()) break;
     if (method_ != FrameMethod::kFast) {
-      if (FitByCeres(start, row)) Keep();
+      if (FitByCeres(start, row)) found_.Keep();
       continue;
     }
     const Way way = WayFrom(start, packed);
-    if (LeadsToKnown(way)) continue;
+    if (way.is_known) continue;
     if (FitAlong(way, packed)) {
-      Keep();
+      found_.Keep();
       continue;
     }
-    const bool explained = found_ > 0 && IsExplained(least_chi2(), dof);
+    const bool explained =
+        !found_.empty() && IsExplained(found_.least_chi2(), dof);
     if ((explained && !exact) || fallbacks >= kMostFallbacks) continue;
     ++fallbacks;
     if (!MayGoOn()) break;
-    if (FitByCeres(start, row)) Keep();
-    if (found_ > 0 && least_chi2() > FrameProblem::kHopelessChi2) {
+    if (FitByCeres(start, row)) found_.Keep();
+    if (!found_.empty() && found_.least_chi2() > FrameProblem::kHopelessChi2) {
       fallbacks = kMostFallbacks;
     }
   }
-  if (contacts == 1 && found_ > 0 && method_ == FrameMethod::kFast) {
+  if (contacts == 1 && !found_.empty() && method_ == FrameMethod::kFast) {
     SearchRows(packed, close);
     if (close) {
       SearchBeside(packed);
       SearchForces(packed);
     }
   }
-  return found_ > 0;
+  return !found_.empty();
 }
 
 // Minima lie close together where a finger is upright or has many ribs, and the
@@ -175,7 +164,7 @@ void ContactSearch::SearchRows(const PackedReadings& packed, bool close) {
     return close ? IsBeside(i) || Hides(i, 0)
                  : (IsBeside(i) || IsLowest(profile_, i)) && Hides(i, kSharp);
   };
-  while (found_ < kMostSolutions) {
+  while (!found_.full()) {
     std::size_t next = profile_.size();
     for (std::size_t i = 0; i < profile_.size(); ++i) {
       if (next < profile_.size() && profile_[i].chi2 >= profile_[next].chi2)
@@ -186,17 +175,18 @@ void ContactSearch::SearchRows(const PackedReadings& packed, bool close) {
     }
     if (next == profile_.size() || !MayGoOn()) return;
     const Way way = WayFrom(profile_[next], packed);
-    if (!LeadsToKnown(way) && FitAlong(way, packed) && !IsKnown()) Keep();
+    if (!way.is_known && FitAlong(way, packed) && !found_.KnowsNext())
+      found_.Keep();
     profile_[next].count = 0;  // tried
   }
 }
 
 // Two minima may lie between the same two rows.
 void ContactSearch::SearchBeside(const PackedReadings& packed) {
-  // Keep() writes behind this one.
-  const ContactSolution& from = solutions_[best_];
+  // found_.Keep() writes behind this one.
+  const ContactSolution& from = found_.best();
   for (const double rows : {-1.0, -0.5, 0.5, 1.0}) {
-    if (found_ == kMostSolutions || !MayGoOn()) return;
+    if (found_.full() || !MayGoOn()) return;
     ContactStart start;
     start.count = 1;
     start.contacts[0] = from.contacts[0];
@@ -208,7 +198,7 @@ void ContactSearch::SearchBeside(const PackedReadings& packed) {
         std::clamp(from.contacts[0].normal_N - a(0, 1) / a(1, 1) * apart, 0.0,
                    most_force_N_);
     start.state = &from.state;
-    if (FitFast(start, packed) && !IsKnown()) Keep();
+    if (FitFast(start, packed) && !found_.KnowsNext()) found_.Keep();
   }
 }
 
@@ -235,27 +225,22 @@ void ContactSearch::SearchForces(const PackedReadings& packed) {
       if (shown || chi2(k) > chi2(k - 1) || (!last && chi2(k) > chi2(k + 1))) {
         continue;
       }
-      if (found_ == kMostSolutions || !MayGoOn()) return;
+      if (found_.full() || !MayGoOn()) return;
       ContactStart start;
       start.count = 1;
       start.contacts[0] = {row.arc_mm, row.nodes[k].normal_N,
                            scene_.friction_coefficient};
       start.state = &row.nodes[k].state;
-      if (FitFast(start, packed) && !IsKnown()) Keep();
+      if (FitFast(start, packed) && !found_.KnowsNext()) found_.Keep();
     }
   }
 }
 
 // Another minimum may be nearer to a solution than the rows are to each other.
 bool ContactSearch::IsBeside(std::size_t i) const {
-  const ContactStart& row = profile_[i];
-  if (!IsLoaded(row)) return false;
-  return std::any_of(
-      solutions_.begin(), solutions_.begin() + found_,
-      [&](const ContactSolution& one) {
-        return std::abs(row.contacts[0].arc_mm - one.contacts[0].arc_mm) <
-               table_.row_spacing_mm();
-      });
+  return IsLoaded(profile_[i]) &&
+         found_.IsWithin(table_.row_spacing_mm(),
+                         profile_[i].contacts[0].arc_mm);
 }
 
 bool ContactSearch::Hides(std::size_t i, double least_rise) const {
@@ -263,7 +248,7 @@ bool ContactSearch::Hides(std::size_t i, double least_rise) const {
   if (!IsLoaded(row)) return false;
   const double distance = std::sqrt(row.chi2);
   const double at_row = std::max(0.0, distance - row.error);
-  if (at_row * at_row > kHides * ExpectedChi2(row.contacts[0].arc_mm)) {
+  if (at_row * at_row > kHides * found_.ExpectedChi2(row.contacts[0].arc_mm)) {
     return false;
   }
   // Towards a minimum between two rows the distance falls by no more than it
@@ -275,37 +260,7 @@ bool ContactSearch::Hides(std::size_t i, double least_rise) const {
   }
   if (rise < least_rise) return false;
   const double between = std::max(0.0, at_row - rise);
-  return between * between < least_chi2() + kWithinNoise;
-}
-
-double ContactSearch::ExpectedChi2(double arc_mm) const {
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < found_; ++i) {
-    const ContactSolution& one = solutions_[i];
-    const ContactMatrix& a = one.information;
-    const double apart = arc_mm - one.contacts[0].arc_mm;
-    const double given_force = a(0, 0) - a(0, 1) * a(1, 0) / a(1, 1);
-    least = std::min(least, one.chi2 + given_force * apart * apart);
-  }
-  return least;
-}
-
-bool ContactSearch::IsKnown() const {
-  const ContactSolution& next = solutions_[found_];
-  return std::any_of(solutions_.begin(), solutions_.begin() + found_,
-                     [&](const ContactSolution& one) {
-                       return IsNear(one, next.contacts[0], next.chi2);
-                     });
-}
-
-bool ContactSearch::IsNear(const ContactSolution& one,
-                           const PointContact& contact, double chi2) const {
-  // At the clamp of the beam the information is zero, and every other solution
-  // would be near.
-  if (chi2 < one.chi2 - kSame) return false;
-  const Eigen::Vector2d apart(contact.arc_mm - one.contacts[0].arc_mm,
-                              contact.normal_N - one.contacts[0].normal_N);
-  return apart.dot(one.information * apart) < kSame;
+  return between * between < found_.least_chi2() + kWithinNoise;
 }
 
 double ContactSearch::FreeChi2(const Measurements& row,
@@ -372,21 +327,12 @@ bool ContactSearch::FitFast(const ContactStart& start,
 
 ContactSearch::Way ContactSearch::WayFrom(const ContactStart& start,
                                           const PackedReadings& packed) const {
-  Way way{start, start, {}, false};
-  way.leads =
-      has_surface_ && surface_.Descend(packed.values, packed.weights,
-                                       most_force_N_, &way.end, &way.curvature);
+  Way way{start, start, {}, false, false};
+  way.leads = has_surface_ && start.error <= kCoarse &&
+              surface_.Descend(packed.values, packed.weights, most_force_N_,
+                               &way.end, &way.curvature);
+  way.is_known = way.leads && found_.Knows(way.end.contacts[0], way.end.chi2);
   return way;
-}
-
-bool ContactSearch::LeadsToKnown(const Way& way) const {
-  const auto is_there = [&](const ContactSolution& one) {
-    const PointContact& contact = one.contacts[0];
-    return !OnBound(contact.arc_mm, contact.normal_N) &&
-           IsNear(one, way.end.contacts[0], way.end.chi2);
-  };
-  return way.leads &&
-         std::any_of(solutions_.begin(), solutions_.begin() + found_, is_there);
 }
 
 bool ContactSearch::FitAlong(const Way& way, const PackedReadings& packed) {
@@ -402,7 +348,7 @@ bool ContactSearch::FitAlong(const Way& way, const PackedReadings& packed) {
 bool ContactSearch::Fill(bool converged, int count) {
   Spend(fit_.iterations(), converged);
   if (!converged) return false;
-  ContactSolution& solution = solutions_[found_];
+  ContactSolution& solution = found_.next();
   solution.count = count;
   solution.chi2 = fit_.chi2();
   solution.information = fit_.information();
@@ -421,74 +367,9 @@ bool ContactSearch::Fill(bool converged, int count) {
 
 bool ContactSearch::FitByCeres(const ContactStart& start,
                                const Measurements& row) {
-  const bool converged = problem_.Fit(start, row, &solutions_[found_]);
+  const bool converged = problem_.Fit(start, row, &found_.next());
   Spend(problem_.iterations(), converged);
   return converged;
-}
-
-void ContactSearch::Keep() {
-  ContactSolution& solution = solutions_[found_];
-  if (solution.count == 2 &&
-      solution.contacts[1].arc_mm < solution.contacts[0].arc_mm) {
-    std::swap(solution.contacts[0], solution.contacts[1]);
-    std::swap(solution.poses[0], solution.poses[1]);
-    for (ContactMatrix* matrix :
-         {&solution.information, &solution.systematic}) {
-      if (matrix->size() == 0) continue;
-      const ContactMatrix was = *matrix;
-      for (int i = 0; i < 4; ++i) {
-        for (int j = 0; j < 4; ++j) {
-          (*matrix)(i, j) = was((i + 2) % 4, (j + 2) % 4);
-        }
-      }
-    }
-  }
-  // A force on its bound is not credible and wins only where nothing else
-  // explains the frame.
-  const auto chi2 = [this](const ContactSolution& of) {
-    return of.chi2 + (HasMostForce(of) ? kWithinNoise : 0);
-  };
-  if (found_ == 0 || chi2(solution) < chi2(best())) best_ = found_;
-  ++found_;
-}
-
-bool ContactSearch::IsDistinct(const ContactSolution& other) const {
-  const ContactSolution& one = best();
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kFittedContacts, 1> apart(
-      2 * one.count);
-  bool rounding = true;
-  for (int c = 0; c < one.count; ++c) {
-    apart[2 * c] = other.contacts[c].arc_mm - one.contacts[c].arc_mm;
-    apart[2 * c + 1] = other.contacts[c].normal_N - one.contacts[c].normal_N;
-    rounding &=
-        std::abs(apart[2 * c]) < kRounding * length_mm_ &&
-        std::abs(apart[2 * c + 1]) < kRounding * one.contacts[c].normal_N;
-  }
-  return !rounding &&
-         apart.dot(one.information * apart) > kDistinct[one.count - 1];
-}
-
-const ContactSolution* ContactSearch::rival() const {
-  const ContactSolution* rival = nullptr;
-  for (int i = 0; i < found_; ++i) {
-    const ContactSolution& other = solutions_[i];
-    if (i == best_ || other.chi2 > best().chi2 + kWithinNoise) continue;
-    if (HasMostForce(other) && !HasMostForce(best())) continue;
-    if (!IsDistinct(other)) continue;
-    if (rival == nullptr || other.chi2 < rival->chi2) rival = &other;
-  }
-  return rival;
-}
-
-bool ContactSearch::HasMostForce(const ContactSolution& solution) const {
-  for (int c = 0; c < solution.count; ++c) {
-    if (solution.contacts[c].normal_N >= most_force_N_) return true;
-  }
-  return false;
-}
-
-bool ContactSearch::OnBound(double arc_mm, double normal_N) const {
-  return arc_mm <= 0 || arc_mm >= length_mm_ || normal_N >= most_force_N_;
 }
 
 }  // namespace finray

@@ -8,6 +8,7 @@
 #include "finray/scene/scene.h"
 #include "finray/sensing/contact_solution.h"
 #include "finray/sensing/fast/contact_fit.h"
+#include "finray/sensing/found_solutions.h"
 #include "finray/sensing/frame_problem.h"
 #include "finray/sensing/gauge_surface.h"
 #include "finray/sensing/gauge_table.h"
@@ -31,9 +32,7 @@ const char* FrameMethodName(FrameMethod method);
 /// well. Where ContactFit does not converge, FrameProblem solves the frame.
 class ContactSearch {
  public:
-  /// Two solutions explain a frame equally well if their chi2 differ by less
-  /// than this, the 99 % quantile of chi-squared with two degrees of freedom.
-  static constexpr double kWithinNoise = 9.21;
+  static constexpr double kWithinNoise = FoundSolutions::kWithinNoise;
 
   /// Throws InputError for a finger without an unloaded equilibrium.
   ContactSearch(const Finger& finger, const Scene& scene,
@@ -59,10 +58,8 @@ class ContactSearch {
 
   // Results of the last successful search.
 
-  const ContactSolution& best() const { return solutions_[best_]; }
-  /// The best solution that is distinct from best() beyond its uncertainty and
-  /// explains the frame as well; null if there is none.
-  const ContactSolution* rival() const;
+  const ContactSolution& best() const { return found_.best(); }
+  const ContactSolution* rival() const { return found_.rival(); }
   /// The best contact at each place of the table (GaugeTable::Profile). Empty
   /// after a search for two contacts or without gauges.
   const std::vector<ContactStart>& profile() const { return profile_; }
@@ -75,7 +72,9 @@ class ContactSearch {
 
   /// Says whether a contact is on a bound of the search: at an end of the beam
   /// or at the largest force.
-  bool OnBound(double arc_mm, double normal_N) const;
+  bool OnBound(double arc_mm, double normal_N) const {
+    return found_.OnBound(arc_mm, normal_N);
+  }
 
   /// The friction of the contacts of the searches that follow; the scene's at
   /// first. Starts come from the table with the scene's.
@@ -110,34 +109,21 @@ class ContactSearch {
   // Whether a minimum within noise, other than those found, may lie near a row
   // where the distance in std changes by least_rise or more from row to row.
   bool Hides(std::size_t row, double least_rise) const;
-  // The least chi2 that the solutions found expect of a contact at that place.
-  double ExpectedChi2(double arc_mm) const;
-  // Whether the next solution is one of those found.
-  bool IsKnown() const;
-  // Whether a contact with that chi2 is the solution `one`.
-  bool IsNear(const ContactSolution& one, const PointContact& contact,
-              double chi2) const;
   // FitFast and FitByCeres fit from a start and fill in the next solution.
   bool FitFast(const ContactStart& start, const PackedReadings& packed);
   // A start and where the surface of the table leads from there.
   struct Way {
     ContactStart start, end;
-    ContactMatrix curvature;  // empty if it is not known
-    bool leads = false;
+    ContactMatrix curvature;  // empty if B is not known
+    bool leads = false;       // to `end`, else nowhere
+    bool is_known = false;    // `end` is a solution that was found
   };
   Way WayFrom(const ContactStart& start, const PackedReadings& packed) const;
-  bool LeadsToKnown(const Way& way) const;
   // Like FitFast, from the end of the way.
   bool FitAlong(const Way& way, const PackedReadings& packed);
   // Takes over a fit's result as the next solution; false if there is none.
   bool Fill(bool converged, int count);
   bool FitByCeres(const ContactStart& start, const Measurements& row);
-  // Keeps the next solution, with its contacts sorted from base to tip.
-  void Keep();
-  double least_chi2() const;
-  // Says whether a force is on its bound.
-  bool HasMostForce(const ContactSolution& solution) const;
-  bool IsDistinct(const ContactSolution& other) const;
 
   Scene scene_;
   double friction_, length_mm_;
@@ -145,16 +131,15 @@ class ContactSearch {
   GaugeTable table_;
   GaugeSurface surface_;
   double most_force_N_;
+  FoundSolutions found_;
   std::unique_ptr<PairTable> pair_table_;  // made when needed
   FrameMethod method_;
-  // Whether the surface of the table is exact enough for this frame.
-  bool has_surface_ = false;
+  bool has_surface_ = false;  // one that is exact enough for this frame
   ContactFit fit_;
   FrameProblem problem_;
   std::vector<ContactStart> profile_, starts_;
   std::vector<PointContact> contacts_;
-  std::vector<ContactSolution> solutions_;  // allocated for the largest search
-  int found_ = 0, best_ = 0, iterations_ = 0;
+  int iterations_ = 0;
   int spent_ = 0;  // by all searches of the frame
   bool ended_ = false;
 };

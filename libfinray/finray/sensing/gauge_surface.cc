@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "finray/finger/geometry.h"
+#include "finray/sensing/parabola_slope.h"
 
 namespace finray {
 namespace {
@@ -18,18 +19,6 @@ constexpr int kMostHalvings = 6;
 std::size_t Interval(const std::vector<double>& nodes, double at) {
   const auto next = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, at);
   return static_cast<std::size_t>(next - nodes.begin()) - 1;
-}
-
-// The slope at node `k` of the parabola through it and its neighbours, or
-// through three nodes at an end. value(i) belongs to nodes[i].
-template <class ValueOf>
-double ParabolaSlope(const std::vector<double>& nodes, std::size_t k,
-                     const ValueOf& value) {
-  const std::size_t middle = std::clamp<std::size_t>(k, 1, nodes.size() - 2);
-  const double a = nodes[middle - 1], b = nodes[middle], c = nodes[middle + 1];
-  const double left = (value(middle) - value(middle - 1)) / (b - a),
-               right = (value(middle + 1) - value(middle)) / (c - b);
-  return left + (right - left) / (c - a) * (2 * nodes[k] - a - b);
 }
 
 }  // namespace
@@ -101,44 +90,42 @@ GaugeSurface::GaugeSurface(const GaugeTable& table, const Finger& finger)
   for (std::size_t k = 0; k < forces; ++k) {
     forces_.push_back(rows[0]->nodes[k].normal_N / force_unit_N_);
   }
-  const auto add = [&](const Eigen::VectorXd& values) {
-    for (const double value : values) corners_.push_back({value, 0, 0, 0});
-  };
   // At the clamp no contact bends the finger; where a circle is measured, its
   // centre still moves along the beam.
   if (free.size() == table.free_angles().size()) {
     arcs_.push_back(0);
-    for (std::size_t k = 0; k < forces; ++k) add(free);
+    for (std::size_t k = 0; k < forces; ++k) {
+      for (const double value : free) corners_.push_back({value, 0, 0, 0});
+    }
   }
   for (const GaugeTable::Row* row : rows) {
     arcs_.push_back(row->arc_mm / length_mm_);
-    for (std::size_t k = 0; k < forces; ++k) add(row->nodes[k].values);
+    for (std::size_t k = 0; k < forces; ++k) {
+      const GaugeTable::Node& node = row->nodes[k];
+      for (Eigen::Index j = 0; j < node.values.size(); ++j) {
+        corners_.push_back(
+            {node.values[j], 0, node.by_force[j] * force_unit_N_, 0});
+      }
+    }
   }
-  SetSlopes();
+  if (arcs_.size() < 3) {
+    forces_.clear();
+  } else {
+    SetSlopes();
+  }
 }
 
 void GaugeSurface::SetSlopes() {
-  const std::size_t forces = forces_.size();
-  const auto corner = [&](std::size_t i, std::size_t k,
-                          std::size_t j) -> Corner& {
-    return corners_[(i * forces + k) * values_ + j];
-  };
-  for (std::size_t j = 0; j < values_; ++j) {
-    for (std::size_t i = 0; i < arcs_.size(); ++i) {
-      for (std::size_t k = 0; k < forces; ++k) {
-        Corner& c = corner(i, k, j);
-        c.by_arc = ParabolaSlope(
-            arcs_, i, [&](std::size_t n) { return corner(n, k, j).value; });
-        c.by_force = ParabolaSlope(
-            forces_, k, [&](std::size_t n) { return corner(i, n, j).value; });
-      }
-    }
-    for (std::size_t i = 0; i < arcs_.size(); ++i) {
-      for (std::size_t k = 0; k < forces; ++k) {
-        corner(i, k, j).by_both = ParabolaSlope(
-            arcs_, i, [&](std::size_t n) { return corner(n, k, j).by_force; });
-      }
-    }
+  const std::size_t in_row = forces_.size() * values_;
+  const auto arc = [&](std::size_t i) { return arcs_[i]; };
+  for (std::size_t at = 0; at < corners_.size(); ++at) {
+    const auto slope = [&](double Corner::*value) {
+      return ParabolaSlope(arcs_.size(), at / in_row, arc, [&](std::size_t i) {
+        return corners_[i * in_row + at % in_row].*value;
+      });
+    };
+    corners_[at].by_arc = slope(&Corner::value);
+    corners_[at].by_both = slope(&Corner::by_force);
   }
 }
 
@@ -198,19 +185,18 @@ bool GaugeSurface::Descend(const Eigen::VectorXd& values,
   ContactEquations here = EquationsAt(x, values, weights);
   for (int i = 0; i < kMostSteps; ++i) {
     ContactVector change = BoundedChange(here, x, most, 0);
+    if (LargestChange(change, x, 0) < kDescended) {
+      start->contacts[0].arc_mm = x[0] * length_mm_;
+      start->contacts[0].normal_N = x[1] * force_unit_N_;
+      start->chi2 = here.chi2;
+      *curvature = here.curvature;
+      return true;
+    }
     ContactEquations there;
     for (int halvings = 0;; ++halvings) {
-      if (!Covers(x[1] + change[1])) return false;
-      if (LargestChange(change, x, 0) < kDescended) {
-        start->contacts[0].arc_mm = x[0] * length_mm_;
-        start->contacts[0].normal_N = x[1] * force_unit_N_;
-        start->chi2 = here.chi2;
-        *curvature = here.curvature;
-        return true;
-      }
+      if (halvings > kMostHalvings || !Covers(x[1] + change[1])) return false;
       there = EquationsAt(x + change, values, weights);
       if (there.chi2 <= here.chi2) break;
-      if (halvings == kMostHalvings) return false;
       change *= 0.5;
     }
     x += change;

@@ -13,6 +13,7 @@
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 #include "finray/objects/circle_centre.h"
+#include "finray/sensing/parabola_slope.h"
 
 namespace finray {
 namespace {
@@ -57,30 +58,15 @@ V WithinOne(V share) {
   return share > 1 ? V{} + 1 : share;
 }
 
-Eigen::ArrayXXd Values(const std::vector<GaugeTable::Node>& nodes) {
-  Eigen::ArrayXXd values(nodes.size(), nodes[0].values.size());
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    values.row(static_cast<Eigen::Index>(k)) = nodes[k].values.transpose();
-  }
-  return values;
-}
-
 // Sets each node's slope to that of the parabola through it and its neighbours.
 void SetSlopes(std::vector<GaugeTable::Node>* nodes) {
-  const std::size_t count = nodes->size();
-  for (std::size_t k = 0; k < count; ++k) {
+  for (std::size_t k = 0; k < nodes->size(); ++k) {
     GaugeTable::Node& node = (*nodes)[k];
     node.by_force.setZero(node.values.size());
-    if (count < 3) continue;
-    const std::size_t middle = std::clamp<std::size_t>(k, 1, count - 2);
-    const GaugeTable::Node &a = (*nodes)[middle - 1], &b = (*nodes)[middle],
-                           &c = (*nodes)[middle + 1];
-    const double ab = b.normal_N - a.normal_N, bc = c.normal_N - b.normal_N;
-    const Eigen::VectorXd left = (b.values - a.values) / ab,
-                          right = (c.values - b.values) / bc;
-    const Eigen::VectorXd curvature = (right - left) / (ab + bc);
-    node.by_force =
-        left + curvature * (2 * node.normal_N - a.normal_N - b.normal_N);
+    if (nodes->size() < 3) continue;
+    node.by_force = ParabolaSlope(
+        nodes->size(), k, [&](std::size_t i) { return (*nodes)[i].normal_N; },
+        [&](std::size_t i) { return Eigen::VectorXd((*nodes)[i].values); });
   }
 }
 
@@ -102,16 +88,14 @@ GaugeTable::Row MakeRow(double arc_mm, const std::vector<double>& forces,
                         double friction,
                         const std::optional<double>& circle_radius_mm,
                         EquilibriumSolver* solver) {
-  GaugeTable::Row row{arc_mm, {}, {}};
+  GaugeTable::Row row{arc_mm, {}};
   for (const double force : forces) {
     // Soft fingers fold over at the heavy end; the table ends there.
     if (!solver->Solve({{arc_mm, force, friction}})) break;
     row.nodes.push_back(
         {force, ValuesOf(*solver, circle_radius_mm), {}, solver->state()});
   }
-  if (row.nodes.empty()) return row;
   SetSlopes(&row.nodes);
-  row.values = Values(row.nodes);
   return row;
 }
 

@@ -69,7 +69,6 @@ class GaugeTable {
   struct Row {
     double arc_mm;
     std::vector<Node> nodes;  ///< By rising force; the first has no load.
-    Eigen::ArrayXXd values;   ///< The nodes' values as nodes x values.
   };
   /// Rows from base to tip.
   const std::vector<Row>& rows() const { return rows_; }

@@ -76,11 +76,24 @@ bool ContactFit::Fit(const Readings& measured, const Readings& weights,
 bool ContactFit::Finish(const Readings& measured, const Readings& weights,
                         const ContactMatrix& curvature,
                         std::vector<PointContact>* contacts) {
-  finishes_ = true;
+  linearised_contacts_ = 0;
+  iterations_ = 1;
+  if (!StepShape(*contacts)) return false;
   curvature_ = curvature;
-  const bool converged = Fit(measured, weights, contacts);
-  finishes_ = false;
+  --most_iterations_;
+  const bool converged = Follow(measured, weights, contacts);
+  ++most_iterations_;
+  ++iterations_;
+  curvature_.resize(0, 0);
   return converged;
+}
+
+bool ContactFit::StepShape(const std::vector<PointContact>& contacts) {
+  if (!newton_.Linearize(contacts, 1, SweepColumns::kNone)) return false;
+  const double size = newton_.Size(1, 0);
+  if (!std::isfinite(size)) return false;
+  newton_.Move(std::min(1.0, kMaxTurn_rad / size), 0);
+  return true;
 }
 
 bool ContactFit::Follow(const Readings& measured, const Readings& weights,
@@ -99,8 +112,9 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
   StepPace pace;
   // True if step_ leads from one linearisation to the next.
   bool comparable = predict;
-  bool holds = finishes_;  // the contacts
-  bool knows_curvature = finishes_ && curvature_.size() > 0;
+  bool knows_curvature = curvature_.size() > 0;
+  // Before two linearisations show the rate, a known B is not trusted.
+  const double unknown_rate = knows_curvature ? 1 : 0;
   for (iterations_ = predict ? 0 : 1; iterations_ <= most_iterations_;
        ++iterations_) {
     // The prediction uses the last linearisation of the frame before, whose
@@ -139,9 +153,8 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
       x[2 * c + 1] = (*contacts)[c].normal_N / force;
     }
     ContactVector change =
-        holds ? ContactVector::Zero(unknowns)
-              : BoundedChange(equations, x, most_force_N_ / force, damping);
-    const double taken = holds ? 1 : pace.Of(change, x);
+        BoundedChange(equations, x, most_force_N_ / force, damping);
+    const double taken = pace.Of(change, x);
     change *= taken;
     for (int k = 0; k < unknowns; ++k) {
       const double most = k % 2 == 0 ? 1 : most_force_N_ / force;
@@ -166,7 +179,7 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
     const double rate =
         comparable && !predicts
             ? gauges_.Rate(measured, weights, equations, damping, step, x, 0)
-            : finishes_;
+            : unknown_rate;
     const double deviations = std::sqrt(change.dot(equations.normal * change));
     const bool small =
         moved < tolerance_ || tolerance_ * deviations < kTolerableStd * moved;
@@ -176,7 +189,7 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
     const bool last =
         (small &&
          IsLastChange(moved, last_change, rate, crossed, tolerance_)) ||
-        (iterations_ >= (knows_curvature ? 2 : kPatience) &&
+        ((knows_curvature || iterations_ >= kPatience) &&
          next * deviations < std::min(1.0, taken) *
                                  (knows_curvature ? kNothing : kNoDifference) &&
          size < kNoDifference);
@@ -184,12 +197,8 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
     knows_curvature &= deviations < kNearStart;
     damping *= 0.1;
     last_change = moved;
-    comparable = !holds;
-    if (holds) last_cost = std::numeric_limits<double>::infinity();
-    if (predicts || holds || !last) {
-      holds = false;
-      continue;
-    }
+    comparable = true;
+    if (predicts || !last) continue;
     const LadderFrame<double>& f = newton_.frame();
     if (BendsTooFar(f, 0)) return false;
     for (int c = 0; c < count; ++c) {

@@ -96,6 +96,8 @@ class ContactFit {
   }
 
  private:
+  // A Newton step of the equilibrium, with the contacts held.
+  bool StepShape(const std::vector<PointContact>& contacts);
   void ReadCentre(double radius_mm, int unknowns);
   void Keep(const std::vector<PointContact>& contacts);
   void Restore(std::vector<PointContact>* contacts);
@@ -114,8 +116,7 @@ class ContactFit {
   // Number of contacts of the last fit whose linearisation the frame still
   // holds; 0 if it holds none.
   int linearised_contacts_ = 0;
-  bool finishes_ = false;    // in Finish
-  ContactMatrix curvature_;  // of Finish
+  ContactMatrix curvature_;  // in Finish; else empty
   std::vector<double> kept_state_;
   std::vector<PointContact> kept_contacts_;
 };

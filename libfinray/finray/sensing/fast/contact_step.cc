@@ -58,7 +58,7 @@ void SolvePositive(ContactMatrix* a, ContactVector* b) {
 }  // namespace
 
 void KeepConvex(ContactEquations* equations) {
-  // As a share of the product of the diagonal: less may be rounding.
+  // A smaller share of the product of the diagonal may be rounding.
   constexpr double kLeastDeterminant = 1e-9;
   const ContactMatrix m = equations->normal + equations->curvature;
   const bool convex = m(0, 0) > 0 && m(1, 1) > 0 &&

@@ -23,8 +23,8 @@ Eigen::VectorXd LeastWeights(const Finger& finger, const GaugeTable& table) {
     weights[j] = gauge.AngleWeight();
     if (!gauge.IsCurved()) continue;
     for (const GaugeTable::Row& row : table.rows()) {
-      for (const double angle : row.values.col(j)) {
-        weights[j] = std::min(weights[j], gauge.AngleWeight(angle));
+      for (const GaugeTable::Node& node : row.nodes) {
+        weights[j] = std::min(weights[j], gauge.AngleWeight(node.values[j]));
       }
     }
   }
