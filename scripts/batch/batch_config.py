@@ -46,8 +46,11 @@ def read_yaml(path):
                        f"{error.character:#x} is not allowed in YAML") from error
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark
-        raise BadInput(f"{path}:{mark.line + 1}:{mark.column + 1}: "
-                       f"{error.problem}") from error
+        said = error.problem
+        before = mark.buffer[mark.pointer - mark.column:mark.pointer + 1]
+        if before.strip(" ") == "\t":
+            said = f"tab in the indentation, YAML wants spaces ({said})"
+        raise BadInput(f"{path}:{mark.line + 1}:{mark.column + 1}: {said}") from error
     if not isinstance(content, dict):
         raise BadInput(f"{path}: expected keys with values")
     return content

@@ -6,6 +6,8 @@ USAGE = ("Turns a lab's recordings into one log of finray: reads, converts, join
          "finray_import --logs gauges.csv,rig.csv --mapping lab.yaml --out log.csv [--plateaus]")
 EPILOGUE = "Exit code: 0 good, 1 wrong usage, 2 bad input, 3 not determined by the recording."
 
+JOINS = ["linear", "nearest", "previous"]
+
 
 class Flag:
     def __init__(self, name, default, text, required=False):
@@ -35,6 +37,10 @@ FLAGS = [
          "scatter of the readings"),
     Flag("shortest_plateau_s", 0.3, "with --plateaus: shorter rests are not places"),
 ]
+
+
+def default(name):
+    return next(flag.default for flag in FLAGS if flag.name == name)
 
 
 def help_text():
@@ -97,7 +103,7 @@ def parse(arguments):
     for flag in FLAGS:
         if flag.required and not values[flag.name]:
             raise UsageError(f"--{flag.name} is missing")
-    if values["join"] not in ("linear", "nearest", "previous"):
+    if values["join"] not in JOINS:
         raise UsageError("--join: expected linear, nearest or previous, found "
                          f"'{values['join']}'")
     if "shortest_plateau_s" in given and not values["plateaus"]:

@@ -27,6 +27,7 @@ The rest is for finray_import:
 
 import os
 
+import flags
 import units
 import vocabulary
 from errors import BadInput, did_you_mean, shown
@@ -60,7 +61,7 @@ def _counts(node):
             raise BadInput(f"{place(node.path, node.node)}: unit: counts need adc_bits and range_V")
     if not volts[0] < volts[1]:
         node.fail("range_V", "expected [from, to] in V, the first one smaller")
-    return units.Counts(bits, *volts, bool(node.switch("signed")))
+    return units.Counts(bits, *volts, node.switch("signed", False))
 
 
 def _read_unit(node, target):
@@ -94,7 +95,7 @@ def _target(node, header):
     own = node.child(header, ["to", "scale", "offset", "unit", "format"])
     if "to" not in own.values:
         node.fail(header, "needs `to`, the column that it becomes")
-    target = Target(own.text("to"), own.number("scale"), own.number("offset") or 0.0,
+    target = Target(own.text("to"), own.number("scale"), own.number("offset", 0),
                     form=own.text("format", ["iso8601", "epoch", "clock"]))
     _check_target(own, "to", target.to)
     if target.scale == 0:
@@ -206,11 +207,12 @@ def read(path):
     join = top.child("join", ["base", "method", "longest_gap_s"])
     if join:
         mapping.join = {"base": join.text("base"),
-                        "method": join.text("method", ["linear", "nearest", "previous"]),
+                        "method": join.text("method", flags.JOINS, flags.default("join")),
                         "longest_gap_s": join.number("longest_gap_s")}
     plateaus = top.child("plateaus", ["shortest_s"])
     if plateaus:
-        mapping.plateaus = {"shortest_s": plateaus.number("shortest_s")}
+        mapping.plateaus = {"shortest_s": plateaus.number(
+            "shortest_s", flags.default("shortest_plateau_s"))}
     force = top.child("force", FORCE)
     if force:
         mapping.force = {key: force.numbers(key) for key in ("bias_N", "bias_std_N")}
@@ -218,5 +220,5 @@ def read(path):
                              ("tool_weight_N", "tool_weight_std_N", "free_s"))
         mapping.force.update((key, force.number(key)) for key in
                              ("rotation_deg", "rotation_std_deg"))
-        mapping.force["turns_with_object"] = force.switch("turns_with_object")
+        mapping.force["turns_with_object"] = force.switch("turns_with_object", False)
     return mapping

@@ -25,6 +25,7 @@ FORMATS = {
 BY_NAME = {".mat": "mat", ".h5": "hdf5", ".hdf5": "hdf5", ".hdf": "hdf5", ".npz": "npz",
            ".xlsx": "xlsx", ".xlsm": "xlsx", ".parquet": "parquet", ".bag": "ros1",
            ".db3": "ros2", ".mcap": "mcap"}
+YAML = (".yaml", ".yml")
 BY_BYTES = [(b"#ROSBAG V", "ros1"), (b"SQLite format 3\0", "ros2"), (b"\x89MCAP0\r\n", "mcap"),
             (b"PAR1", "parquet"), (b"MATLAB", "mat"), (b"\x89HDF\r\n\x1a\n", "hdf5")]
 
@@ -49,6 +50,9 @@ def read(path, mapping):
         if not os.path.isfile(path):
             raise BadInput(f"{path}: is not a file; a ROS 2 bag is the .db3 or .mcap in its "
                            "folder")
+        if name.lower().endswith(YAML):
+            raise BadInput(f"{path}: is a YAML file, expected a recording; --mapping takes a "
+                           "mapping")
         form = format_of(path)
         if form is None:
             tables = csv_reader.read(path, settings)

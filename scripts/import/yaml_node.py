@@ -70,28 +70,38 @@ class Node:
         except (yaml.YAMLError, ValueError, RecursionError) as error:
             self.fail(key, f"cannot be read: {shown(error)}")
 
-    def _checked(self, key, good, expected):
+    # Where the key is absent, the methods below return `default`, which errors name.
+
+    def _checked(self, key, good, expected, default=None):
         value = self.plain(key)
-        if value is not None and not good(value):
-            self.fail(key, f"expected {expected}, found '{shown(value)}'")
+        if value is None:
+            return default
+        if not good(value):
+            self._fail_expected(key, expected, value, default)
         return value
 
-    def text(self, key, allowed=None):
-        if allowed is None:
-            return self._checked(key, lambda v: isinstance(v, str) and v, "a text")
-        return self._checked(key, allowed.__contains__, "one of " + ", ".join(
-            f"'{a}'" if a != "\t" else "tab" for a in allowed))
+    def _fail_expected(self, key, expected, value, default):
+        named = "" if default is None else f"; the default is {str(default).lower()}"
+        self.fail(key, f"expected {expected}, found '{shown(value)}'{named}")
 
-    def number(self, key):
+    def text(self, key, allowed=None, default=None):
+        if allowed is None:
+            return self._checked(key, lambda v: isinstance(v, str) and v, "a text", default)
+        return self._checked(key, allowed.__contains__, "one of " + ", ".join(
+            f"'{a}'" if a != "\t" else "tab" for a in allowed), default)
+
+    def number(self, key, default=None):
         value = self.plain(key)
+        if value is None:
+            return default
         if isinstance(value, str):  # PyYAML takes 8e-4 for a text
             try:
                 value = float(value)
             except ValueError:
-                self.fail(key, f"expected a number, found '{shown(value)}'")
-        if value is not None and not _is_number(value):
-            self.fail(key, f"expected a number, found '{shown(value)}'")
-        return None if value is None else float(value)
+                pass
+        if not _is_number(value):
+            self._fail_expected(key, "a number", value, default)
+        return float(value)
 
     def integer(self, key, least, most):
         return self._checked(key, lambda v: type(v) is int and least <= v <= most,
@@ -103,8 +113,8 @@ class Node:
             len(v) == (count or len(v)), f"a list of {count or 'some'} numbers")
         return None if value is None else [float(v) for v in value]
 
-    def switch(self, key):
-        return self._checked(key, lambda v: isinstance(v, bool), "true or false")
+    def switch(self, key, default=None):
+        return self._checked(key, lambda v: isinstance(v, bool), "true or false", default)
 
     def words(self, key):
         """A list of texts; numbers too as they are written."""

@@ -25,9 +25,7 @@ ELSEWHERE = {"plan": ("scene", "columns"), "experiment": ("scene",)}
 
 
 def keys_table(mappings):
-    # The errors of finray_import name no defaults.
-    any_default = any(key.default() for mapping in mappings.values() for key in mapping.keys.values())
-    rows = [f"| mapping | keys; required ones are bold{', defaults in brackets' if any_default else ''} |", "|---|---|"]
+    rows = ["| mapping | keys; required ones are bold, defaults in brackets |", "|---|---|"]
     for path, mapping in mappings.items():
         if mapping.free and not mapping.keys:
             continue

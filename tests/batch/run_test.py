@@ -255,6 +255,9 @@ class BadInputTest(batch_fixture.BatchTestCase):
                          "--config", "c.yaml")
         config.write_text("minutes: [3\n")
         self.expect_line("c.yaml:2:1: ", "--config", "c.yaml")
+        config.write_text("minutes: 3\n\tcpus_per_task: 1\n")
+        self.expect_line("c.yaml:2:1: tab in the indentation, YAML wants spaces",
+                         "--config", "c.yaml")
         self.expect_line("'--job' is not a flag", "--job", "2", code=1)
         self.expect_line("--scheme: expected one of taylor, rigid_chain",
                          "--scheme", "linear")

@@ -229,7 +229,7 @@ class FaultTest(ImportCase):
                 ("column: {}", ["m.yaml:1", "'columns'"]),
                 ("columns: {a: force_N, a: time_s}", ["m.yaml:1", "twice"]),
                 ("columns: {a: force_N, b: force_N}", ["'a'", "'b'", "force_N"]),
-                ("join: {method: cubic}", ["m.yaml:1", "linear"]),
+                ("join: {method: cubic}", ["m.yaml:1", "; the default is linear"]),
                 ("delimiter: *l9", ["m.yaml:1"]), ("x: " + "[" * 5000, ["m.yaml"]),
                 (LAUGHS + "delimiter: *l8", ["m.yaml"]), (LAUGHS + "columns: *l8", ["m.yaml"]),
                 ("columns:\n\ta: force_N", ["m.yaml:2:1: tab in the indentation, YAML wants spaces"]),

@@ -198,6 +198,10 @@ class ReadersTest(ImportCase):
         self.assertIn("no such file", self.refused("--logs", self.folder / "none.csv"))
         self.assertIn("is not a file", self.refused("--logs", self.folder))
 
+    def test_a_yaml_file_is_no_recording(self):
+        self.assertIn("is a YAML file, expected a recording",
+                      self.refused("--logs", self.write("a.yaml", b"a: 1\n")))
+
 
 if __name__ == "__main__":
     unittest.main()
