@@ -1,12 +1,13 @@
 #!/usr/bin/python3
 """A log as labs have it, for timings: one contact that wanders and comes and goes.
 
-make_wandering_log.py BUILD_DIR OUT.csv [ROWS] [FINGER.yaml]
+make_wandering_log.py BUILD_DIR OUT.csv [ROWS] [FINGER.yaml] [--steady]
 
 At 100 Hz the contact wanders over 35 to 105 mm, and the force swings between 0 and
-8 N and rests at zero now and then. Rows: 200 000. Noise, gains and offsets are those
-of the finger (configs/fingers/paper_140mm.yaml). The equilibria are finray's own: the
-log measures speed, not accuracy.
+8 N and rests at zero now and then. With --steady it never lets go: 55 to 95 mm, 2 to
+5 N, so that every frame but the first is followed. Rows: 200 000. Noise, gains and
+offsets are those of the finger (configs/fingers/paper_140mm.yaml). The equilibria are
+finray's own: the log measures speed, not accuracy.
 """
 
 import csv
@@ -39,16 +40,26 @@ def contacts(rows, seed=24):
         yield time, arc, peak * swing * swing
 
 
+def steady_contacts(rows):
+    """The same of a touch that never ends."""
+    for i in range(rows):
+        time = i / RATE_HZ
+        yield (time, 75 + 20 * math.sin(2 * math.pi * 0.11 * time),
+               3.5 + 1.5 * math.sin(2 * math.pi * 0.23 * time))
+
+
 def main():
-    build, out = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
-    rows = int(sys.argv[3]) if len(sys.argv) > 3 else 200_000
-    finger = sys.argv[4] if len(sys.argv) > 4 else ROOT / "configs/fingers/paper_140mm.yaml"
+    arguments = [a for a in sys.argv[1:] if a != "--steady"]
+    touches = steady_contacts if "--steady" in sys.argv else contacts
+    build, out = pathlib.Path(arguments[0]), pathlib.Path(arguments[1])
+    rows = int(arguments[2]) if len(arguments) > 2 else 200_000
+    finger = arguments[3] if len(arguments) > 3 else ROOT / "configs/fingers/paper_140mm.yaml"
     with tempfile.TemporaryDirectory() as folder:
         frames = pathlib.Path(folder) / "frames.csv"
         with open(frames, "w", newline="") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(["time_s", "contact_1_mm", "normal_1_N"])
-            for time, arc, force in contacts(rows):
+            for time, arc, force in touches(rows):
                 writer.writerow([f"{time:.2f}", f"{arc:.6f}", f"{force:.6f}"])
         subprocess.run([build / "finray_simulate", "--finger", finger, "--frames", frames,
                         "--out", pathlib.Path(folder) / "truth.csv", "--log_out", out],

@@ -327,10 +327,10 @@ bool ContactSearch::FitFast(const ContactStart& start,
 
 ContactSearch::Way ContactSearch::WayFrom(const ContactStart& start,
                                           const PackedReadings& packed) const {
-  Way way{start, start, {}, false, false};
-  way.leads = has_surface_ && start.error <= kCoarse &&
-              surface_.Descend(packed.values, packed.weights, most_force_N_,
-                               &way.end, &way.curvature);
+  Way way{start, start, false, false};
+  way.leads =
+      has_surface_ && start.error <= kCoarse &&
+      surface_.Descend(packed.values, packed.weights, most_force_N_, &way.end);
   way.is_known = way.leads && found_.Knows(way.end.contacts[0], way.end.chi2);
   return way;
 }
@@ -341,7 +341,7 @@ bool ContactSearch::FitAlong(const Way& way, const PackedReadings& packed) {
   contacts_[0].friction = friction_;
   fit_.set_state(*way.start.state);
   const bool converged =
-      fit_.Finish(packed.values, packed.weights, way.curvature, &contacts_);
+      fit_.Finish(packed.values, packed.weights, surface_, &contacts_);
   return Fill(converged, 1) || (MayGoOn() && FitFast(way.start, packed));
 }
 

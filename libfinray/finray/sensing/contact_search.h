@@ -85,6 +85,7 @@ class ContactSearch {
   double friction() const { return friction_; }
 
   const GaugeTable& table() const { return table_; }
+  const GaugeSurface& surface() const { return surface_; }
   /// The largest credible force: the scene's force_max_N, by default
   /// table().heaviest_N().
   double most_force_N() const { return most_force_N_; }
@@ -114,9 +115,8 @@ class ContactSearch {
   // A start and where the surface of the table leads from there.
   struct Way {
     ContactStart start, end;
-    ContactMatrix curvature;  // empty if B is not known
-    bool leads = false;       // to `end`, else nowhere
-    bool is_known = false;    // `end` is a solution that was found
+    bool leads = false;     // to `end`, else nowhere
+    bool is_known = false;  // `end` is a solution that was found
   };
   Way WayFrom(const ContactStart& start, const PackedReadings& packed) const;
   // Like FitFast, from the end of the way.

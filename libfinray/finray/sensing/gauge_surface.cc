@@ -145,38 +145,35 @@ GaugeSurface::Value GaugeSurface::At(Eigen::Index j, double arc,
   return CellAt(arc, force).At(static_cast<std::size_t>(j));
 }
 
+void GaugeSurface::CurvaturesAt(double arc, double force,
+                                GaugeCurvatures* second) const {
+  const Cell cell = CellAt(arc, force);
+  second->resize(static_cast<Eigen::Index>(values_), 3);
+  for (std::size_t j = 0; j < values_; ++j) {
+    const Value s = cell.At(j);
+    second->row(static_cast<Eigen::Index>(j)) << s.by_arc_arc, s.by_arc_force,
+        s.by_force_force;
+  }
+}
+
 ContactEquations GaugeSurface::EquationsAt(
     const ContactVector& x, const Eigen::VectorXd& values,
     const Eigen::VectorXd& weights) const {
   const Cell cell = CellAt(x[0], x[1]);
-  ContactEquations sums{ContactMatrix::Zero(2, 2), ContactVector::Zero(2), 0,
-                        ContactMatrix::Zero(2, 2)};
+  CurvedSums sums;
   for (std::size_t j = 0; j < values_; ++j) {
-    const double w = weights[j];
-    if (w == 0) continue;
+    const auto row = static_cast<Eigen::Index>(j);
+    if (weights[row] == 0) continue;
     const Value s = cell.At(j);
-    const double off = w * (s.value - values[j]);
-    const double by_arc = w * s.by_arc, by_force = w * s.by_force;
-    sums.chi2 += off * off;
-    sums.gradient[0] += by_arc * off;
-    sums.gradient[1] += by_force * off;
-    sums.normal(0, 0) += by_arc * by_arc;
-    sums.normal(1, 0) += by_arc * by_force;
-    sums.normal(1, 1) += by_force * by_force;
-    sums.curvature(0, 0) += w * off * s.by_arc_arc;
-    sums.curvature(1, 0) += w * off * s.by_arc_force;
-    sums.curvature(1, 1) += w * off * s.by_force_force;
+    sums.Add(weights[row], s.value - values[row], s.by_arc, s.by_force,
+             s.by_arc_arc, s.by_arc_force, s.by_force_force);
   }
-  sums.normal(0, 1) = sums.normal(1, 0);
-  sums.curvature(0, 1) = sums.curvature(1, 0);
-  KeepConvex(&sums);
-  return sums;
+  return sums.Equations();
 }
 
 bool GaugeSurface::Descend(const Eigen::VectorXd& values,
                            const Eigen::VectorXd& weights, double most_force_N,
-                           ContactStart* start,
-                           ContactMatrix* curvature) const {
+                           ContactStart* start) const {
   const double most = most_force_N / force_unit_N_;
   ContactVector x(2);
   x << start->contacts[0].arc_mm / length_mm_,
@@ -189,7 +186,6 @@ bool GaugeSurface::Descend(const Eigen::VectorXd& values,
       start->contacts[0].arc_mm = x[0] * length_mm_;
       start->contacts[0].normal_N = x[1] * force_unit_N_;
       start->chi2 = here.chi2;
-      *curvature = here.curvature;
       return true;
     }
     ContactEquations there;

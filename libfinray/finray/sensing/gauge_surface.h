@@ -25,15 +25,10 @@ class GaugeSurface {
 
   /// Minimises chi2 = sum_j w_j^2 (s_j(x) - values_j)^2 from the contact of
   /// `start`, within 0 <= l_c <= l_0 and 0 <= f_c <= `most_force_N`. Sets
-  /// contact and chi2 of `start` to those of the minimum, and `curvature` to
-  ///
-  ///   B = sum_j w_j^2 (s_j - values_j) d2 s_j / dx2
-  ///
-  /// there (contact_step.h), empty unless A + B is positive. Returns false and
-  /// leaves both alone if the way leads off the surface or does not end soon.
+  /// contact and chi2 of `start` to those of the minimum. Returns false and
+  /// leaves it alone if the way leads off the surface or does not end soon.
   bool Descend(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
-               double most_force_N, ContactStart* start,
-               ContactMatrix* curvature) const;
+               double most_force_N, ContactStart* start) const;
 
   /// s_j and its derivatives by x.
   struct Value {
@@ -41,6 +36,7 @@ class GaugeSurface {
   };
   /// `arc` and `force` are those of x. Requires Covers(force).
   Value At(Eigen::Index j, double arc, double force) const;
+  void CurvaturesAt(double arc, double force, GaugeCurvatures* second) const;
   bool Covers(double force) const {
     return !forces_.empty() && force <= forces_.back();
   }

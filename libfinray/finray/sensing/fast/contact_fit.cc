@@ -8,6 +8,7 @@
 #include "finray/ladder/rib_law.h"
 #include "finray/objects/circle_centre.h"
 #include "finray/sensing/fast/step_pace.h"
+#include "finray/sensing/gauge_surface.h"
 
 namespace finray {
 namespace {
@@ -19,8 +20,6 @@ constexpr int kPatience = 8;
 constexpr double kNoDifference = 1e-6;
 // With B known, convergence is fast and the fit ends at this instead.
 constexpr double kNothing = 1e-8;
-// B is kept until one change exceeds this many std.
-constexpr double kNearStart = 0.1;
 // Where the tolerance is worth more std than this, as with a noise of a few
 // rounding errors, the last change must be below it, not only the next one.
 constexpr double kTolerableStd = 0.1;
@@ -74,17 +73,23 @@ bool ContactFit::Fit(const Readings& measured, const Readings& weights,
 }
 
 bool ContactFit::Finish(const Readings& measured, const Readings& weights,
-                        const ContactMatrix& curvature,
+                        const GaugeSurface& surface,
                         std::vector<PointContact>* contacts) {
   linearised_contacts_ = 0;
   iterations_ = 1;
   if (!StepShape(*contacts)) return false;
-  curvature_ = curvature;
+  const double force =
+      contacts->at(0).normal_N / newton_.workspace().force_unit();
+  if (surface.Covers(force)) {
+    surface.CurvaturesAt(
+        contacts->at(0).arc_mm / newton_.workspace().length_unit(), force,
+        &curvatures_);
+  }
   --most_iterations_;
   const bool converged = Follow(measured, weights, contacts);
   ++most_iterations_;
   ++iterations_;
-  curvature_.resize(0, 0);
+  curvatures_.resize(0, 3);
   return converged;
 }
 
@@ -112,9 +117,9 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
   StepPace pace;
   // True if step_ leads from one linearisation to the next.
   bool comparable = predict;
-  bool knows_curvature = curvature_.size() > 0;
+  const bool curved = curvatures_.rows() > 0;
   // Before two linearisations show the rate, a known B is not trusted.
-  const double unknown_rate = knows_curvature ? 1 : 0;
+  const double unknown_rate = curved ? 1 : 0;
   for (iterations_ = predict ? 0 : 1; iterations_ <= most_iterations_;
        ++iterations_) {
     // The prediction uses the last linearisation of the frame before, whose
@@ -129,13 +134,10 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
       step = step_;
       step_.setZero(unknowns);
     }
-    ContactEquations equations =
-        gauges_.Equations(measured, weights, unknowns, 0);
-    if (knows_curvature) {
-      equations.curvature = curvature_;
-      KeepConvex(&equations);
-      knows_curvature = equations.curvature.size() > 0;
-    }
+    const ContactEquations equations =
+        curved ? gauges_.Equations(measured, weights, curvatures_, 0, 0, 0)
+               : gauges_.Equations(measured, weights, unknowns, 0);
+    const bool knows_curvature = equations.curvature.size() > 0;
     if (!std::isfinite(equations.chi2)) return false;
     if (equations.chi2 > kMostRise * last_cost + 1 && damping < 1e6) {
       Restore(contacts);
@@ -153,7 +155,8 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
       x[2 * c + 1] = (*contacts)[c].normal_N / force;
     }
     ContactVector change =
-        BoundedChange(equations, x, most_force_N_ / force, damping);
+        gauges_.Change(measured, weights, curvatures_, equations, x,
+                       most_force_N_ / force, damping, 0);
     const double taken = pace.Of(change, x);
     change *= taken;
     for (int k = 0; k < unknowns; ++k) {
@@ -193,8 +196,6 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
          next * deviations < std::min(1.0, taken) *
                                  (knows_curvature ? kNothing : kNoDifference) &&
          size < kNoDifference);
-    // B is that of the start.
-    knows_curvature &= deviations < kNearStart;
     damping *= 0.1;
     last_change = moved;
     comparable = true;

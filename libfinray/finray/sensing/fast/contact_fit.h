@@ -12,6 +12,8 @@
 
 namespace finray {
 
+class GaugeSurface;
+
 /// Fits contacts to gauge angles s_j. It minimises
 ///
 ///   chi2(l_c, f_c) = sum_j w_j^2 (s_j(l_c, f_c) - measured_j)^2
@@ -72,11 +74,10 @@ class ContactFit {
 
   /// Like Fit, from contacts near the solution and an equilibrium that is less
   /// near (GaugeSurface). The first iteration changes the equilibrium only.
-  /// `curvature` is B of contact_step.h, empty if it is not known: with it
+  /// The surface gives the curvatures of the gauges there: with them
   /// convergence is fast where the readings hardly determine the contact.
   bool Finish(const Readings& measured, const Readings& weights,
-              const ContactMatrix& curvature,
-              std::vector<PointContact>* contacts);
+              const GaugeSurface& surface, std::vector<PointContact>* contacts);
 
   // Results of the last successful fit.
 
@@ -116,7 +117,7 @@ class ContactFit {
   // Number of contacts of the last fit whose linearisation the frame still
   // holds; 0 if it holds none.
   int linearised_contacts_ = 0;
-  ContactMatrix curvature_;  // in Finish; else empty
+  GaugeCurvatures curvatures_;  // in Finish; else empty
   std::vector<double> kept_state_;
   std::vector<PointContact> kept_contacts_;
 };

@@ -57,14 +57,37 @@ void SolvePositive(ContactMatrix* a, ContactVector* b) {
 
 }  // namespace
 
-void KeepConvex(ContactEquations* equations) {
+void CurvedSums::Add(double weight, double angle, double by_arc,
+                     double by_force, double by_arc_arc, double by_arc_force,
+                     double by_force_force) {
+  const double square = weight * weight, off = square * angle;
+  chi2_ += off * angle;
+  gradient_[0] += off * by_arc;
+  gradient_[1] += off * by_force;
+  normal_[0] += square * by_arc * by_arc;
+  normal_[1] += square * by_arc * by_force;
+  normal_[2] += square * by_force * by_force;
+  curvature_[0] += off * by_arc_arc;
+  curvature_[1] += off * by_arc_force;
+  curvature_[2] += off * by_force_force;
+}
+
+ContactEquations CurvedSums::Equations() const {
   // A smaller share of the product of the diagonal may be rounding.
   constexpr double kLeastDeterminant = 1e-9;
-  const ContactMatrix m = equations->normal + equations->curvature;
-  const bool convex = m(0, 0) > 0 && m(1, 1) > 0 &&
-                      m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0) >
-                          kLeastDeterminant * m(0, 0) * m(1, 1);
-  if (!convex) equations->curvature.resize(0, 0);
+  const auto matrix = [](const double* of) {
+    ContactMatrix m(2, 2);
+    m << of[0], of[1], of[1], of[2];
+    return m;
+  };
+  ContactEquations equations{matrix(normal_), ContactVector(2), chi2_};
+  equations.gradient << gradient_[0], gradient_[1];
+  const double ll = normal_[0] + curvature_[0], lf = normal_[1] + curvature_[1],
+               ff = normal_[2] + curvature_[2];
+  if (ll > 0 && ff > 0 && ll * ff - lf * lf > kLeastDeterminant * ll * ff) {
+    equations.curvature = matrix(curvature_);
+  }
+  return equations;
 }
 
 // The primal active-set method for a convex quadratic in a box: goes towards

@@ -41,9 +41,22 @@ struct ContactEquations {
   ContactMatrix curvature = {};  ///< B; empty if it is not known.
 };
 
-/// Drops B unless A + B is positive, for one contact. Without B the change
-/// leads downhill.
-void KeepConvex(ContactEquations* equations);
+/// d2 s_j / dx2 of one contact: a row (ll, lf, ff) for each gauge.
+using GaugeCurvatures = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+
+/// Adds up the equations of one contact with B.
+class CurvedSums {
+ public:
+  /// `angle` is s_j - measured_j, then come its derivatives by x.
+  void Add(double weight, double angle, double by_arc, double by_force,
+           double by_arc_arc, double by_arc_force, double by_force_force);
+  /// B is left out unless A + B is positive. Without B the change leads
+  /// downhill.
+  ContactEquations Equations() const;
+
+ private:
+  double chi2_ = 0, gradient_[2] = {}, normal_[3] = {}, curvature_[3] = {};
+};
 
 /// Solves for the change dx from x. A component that would pass a bound is set
 /// to the bound, and the others are solved again. `most_force` is in units of

@@ -53,6 +53,7 @@ FrameFollower::FrameFollower(const Finger& finger, const Scene& scene,
       group_(finger, discretization, scene.friction_coefficient) {
   group_.set_tolerance(kTolerance);
   group_.set_most_force(search.most_force_N());
+  group_.set_surface(&search.surface());
 }
 
 bool FrameFollower::Start(const ContactSolution& solution, double arc_std_mm,

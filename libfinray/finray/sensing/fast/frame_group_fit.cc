@@ -5,6 +5,7 @@
 
 #include "finray/ladder/mesh_refinement.h"
 #include "finray/ladder/rib_law.h"
+#include "finray/sensing/gauge_surface.h"
 
 namespace finray {
 namespace {
@@ -42,6 +43,10 @@ void FrameGroupFit::set_tolerance(double relative) {
 void FrameGroupFit::set_most_force(double force_N) {
   most_force_N_ = force_N;
   alone_.set_most_force(force_N);
+}
+
+void FrameGroupFit::set_surface(const GaugeSurface* surface) {
+  surface_ = surface;
 }
 
 void FrameGroupFit::Start(const LadderState& state,
@@ -89,6 +94,7 @@ void FrameGroupFit::TakeFrame(int lane, int frame) {
   Lane& l = lane_[lane];
   l.frame = frame;
   l.iteration = 0;
+  l.has_curvatures = false;
   l.waiting = true;
   l.last_cost = std::numeric_limits<double>::infinity();
   l.last_change = kUnknownChange;
@@ -166,16 +172,23 @@ bool FrameGroupFit::Improve(const Frames& frames, int lane, bool predict) {
   const double force = lanes_.workspace().force_unit();
   const Column measured = frames.angles_rad.col(l.frame);
   const Column weights = frames.weights_per_rad.col(l.frame);
+  ContactVector x(2);
+  x << l.arc_mm / length, l.normal_N / force;
+  if (surface_ && !l.has_curvatures && surface_->Covers(x[1])) {
+    surface_->CurvaturesAt(x[0], x[1], &l.curvatures);
+    l.has_curvatures = true;
+  }
   const ContactEquations equations =
-      gauges_.Equations(measured, weights, 2, lane);
+      l.has_curvatures
+          ? gauges_.Equations(measured, weights, l.curvatures, 0, 0, lane)
+          : gauges_.Equations(measured, weights, 2, lane);
   // This comparison and those below are written so that a NaN fails them.
   if (!(equations.chi2 <= kMostRise * l.last_cost + 1)) return false;
   l.last_cost = equations.chi2;
   l.normal = equations.normal;
-  ContactVector x(2);
-  x << l.arc_mm / length, l.normal_N / force;
   const ContactVector change =
-      BoundedChange(equations, x, most_force_N_ / force, 0);
+      gauges_.Change(measured, weights, l.curvatures, equations, x,
+                     most_force_N_ / force, 0, lane);
   const double moved =
       LargestChange(change, x, ShapeChange(lane, !predict, change));
   if (!(moved <= kLargestChange)) return false;

@@ -49,6 +49,10 @@ class FrameGroupFit {
   FrameGroupFit(const Finger& finger, const Discretization& discretization,
                 double friction = 0);
 
+  /// Fits take the curvatures of the gauges from it and converge faster. It
+  /// must outlive this and have the same friction.
+  void set_surface(const GaugeSurface* surface);
+
   /// The same as in ContactFit.
   void set_tolerance(double relative);
   void set_most_force(double force_N);
@@ -78,6 +82,8 @@ class FrameGroupFit {
     double arc_mm, normal_N;
     double last_cost, last_change;
     ContactMatrix normal;  // ContactEquations::normal, the last one
+    bool has_curvatures;   // those of the frame's first contact
+    GaugeCurvatures curvatures;
     double kept_arc_mm, kept_normal_N;
   };
   // The arguments of one call of Fit.
@@ -106,6 +112,7 @@ class FrameGroupFit {
   double most_force_N_ = std::numeric_limits<double>::infinity();
   double friction_;
   bool adaptive_;
+  const GaugeSurface* surface_ = nullptr;
 
   std::array<Lane, kFrameLanes> lane_{};
   // The lanes with a valid linearisation. For each of them Newton's step is

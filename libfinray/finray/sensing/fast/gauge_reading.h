@@ -60,6 +60,44 @@ class GaugeReading {
                          : Sums<kMost>(measured, weights, lane);
   }
 
+  /// The equations of one contact with B, after a change (dl, df) of x, by
+  ///
+  ///   s_j(x + dx) = s_j + S_j dx + dx' H_j dx / 2.
+  ContactEquations Equations(const Readings& measured, const Readings& weights,
+                             const GaugeCurvatures& curvatures, double dl,
+                             double df, int lane) const {
+    CurvedSums sums;
+    for (std::size_t j = 0; j < angle.size(); ++j) {
+      const auto row = static_cast<Eigen::Index>(j);
+      const double ll = curvatures(row, 0), lf = curvatures(row, 1),
+                   ff = curvatures(row, 2);
+      const double rise_l = ll * dl + lf * df, rise_f = lf * dl + ff * df;
+      const double slope_l = LaneOf(slope[0][j], lane),
+                   slope_f = LaneOf(slope[1][j], lane);
+      sums.Add(weights[row],
+               LaneOf(angle[j], lane) - measured[row] +
+                   (slope_l + rise_l / 2) * dl + (slope_f + rise_f / 2) * df,
+               slope_l + rise_l, slope_f + rise_f, ll, lf, ff);
+    }
+    return sums.Equations();
+  }
+
+  /// BoundedChange of `equations`, and where they have B, a second one from
+  /// there by that quadratic: what is left is of third order.
+  ContactVector Change(const Readings& measured, const Readings& weights,
+                       const GaugeCurvatures& curvatures,
+                       const ContactEquations& equations,
+                       const ContactVector& x, double most_force,
+                       double damping, int lane) const {
+    ContactVector change = BoundedChange(equations, x, most_force, damping);
+    if (equations.curvature.size() == 0) return change;
+    const ContactEquations there =
+        Equations(measured, weights, curvatures, change[0], change[1], lane);
+    if (there.curvature.size() == 0) return change;
+    change += BoundedChange(there, x + change, most_force, damping);
+    return change;
+  }
+
   double Chi2(const Readings& measured, const Readings& weights,
               int lane) const {
     double chi2 = 0;
