@@ -41,7 +41,7 @@ def contacts(rows, seed=24):
 
 
 def steady_contacts(rows):
-    """The same of a touch that never ends."""
+    """The same for a contact that never lets go."""
     for i in range(rows):
         time = i / RATE_HZ
         yield (time, 75 + 20 * math.sin(2 * math.pi * 0.11 * time),

@@ -36,6 +36,7 @@ class GaugeSurface {
   };
   /// `arc` and `force` are those of x. Requires Covers(force).
   Value At(Eigen::Index j, double arc, double force) const;
+  /// d2 s_j / dx2 of all s_j. Requires Covers(force).
   void CurvaturesAt(double arc, double force, GaugeCurvatures* second) const;
   bool Covers(double force) const {
     return !forces_.empty() && force <= forces_.back();

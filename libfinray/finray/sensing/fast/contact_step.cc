@@ -8,8 +8,8 @@ namespace {
 
 // Damping of l_c, equal to a prior of 30 mm about its present place. It keeps a
 // contact without force from wandering. It is scaled by min(1, chi2), so that
-// convergence on noise-free data stays quadratic. Where B is known the contact
-// is near the solution, and damping would only slow it down.
+// convergence on noise-free data stays quadratic. Where B is known, A + B is
+// the Hessian of chi2 and positive, and damping would only slow the fit down.
 constexpr double kArcDamping = 22;
 constexpr double kForceDamping = 1e-9;
 // A bound is met or left at most so often for each component.

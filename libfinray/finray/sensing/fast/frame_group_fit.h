@@ -49,8 +49,9 @@ class FrameGroupFit {
   FrameGroupFit(const Finger& finger, const Discretization& discretization,
                 double friction = 0);
 
-  /// Fits take the curvatures of the gauges from it and converge faster. It
-  /// must outlive this and have the same friction.
+  /// Fits in lanes take the curvatures of the gauges from it and converge
+  /// faster (GaugeReading::Change). It must outlive this and have the same
+  /// finger and friction. Null: none.
   void set_surface(const GaugeSurface* surface);
 
   /// The same as in ContactFit.
@@ -82,7 +83,7 @@ class FrameGroupFit {
     double arc_mm, normal_N;
     double last_cost, last_change;
     ContactMatrix normal;  // ContactEquations::normal, the last one
-    bool has_curvatures;   // those of the frame's first contact
+    bool has_curvatures;   // where the frame starts
     GaugeCurvatures curvatures;
     double kept_arc_mm, kept_normal_N;
   };
