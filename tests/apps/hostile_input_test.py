@@ -24,7 +24,7 @@ USER_LOCALE = BINARIES / "tests/libuser_locale.so"
 # Sanitizers reserve terabytes of addresses.
 BOUNDED = os.environ.get("FINRAY_SANITIZE", "") == ""
 MEMORY = 1 << 30  # bytes of addresses
-SECONDS = 60      # a hang, on a busy machine too
+SECONDS = 180      # a hang, on a busy machine too
 
 
 def first_lines(path, count):
