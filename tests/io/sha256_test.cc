@@ -16,5 +16,14 @@ TEST(Sha256Test, KnownDigests) {  // FIPS 180-4 examples
   EXPECT_EQ(Sha256OfText("abc"), Sha256OfFile(folder.Path("a")));
 }
 
+TEST(Sha256Test, EndsWhenToldTo) {
+  const TempFolder folder;
+  int calls = 0;
+  const std::string path = folder.Write("a", std::string(1 << 20, 'a'));
+  EXPECT_EQ(Sha256OfFile(path, [&] { return ++calls == 2; }), "");
+  EXPECT_EQ(calls, 2);
+  EXPECT_EQ(Sha256OfFile(path, [] { return false; }), Sha256OfFile(path));
+}
+
 }  // namespace
 }  // namespace finray

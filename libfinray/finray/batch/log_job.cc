@@ -1,5 +1,6 @@
 #include "finray/batch/log_job.h"
 
+#include <atomic>
 #include <future>
 #include <utility>
 
@@ -149,10 +150,16 @@ bool LogJob::Check() {
   }
   bytes_ = fs::file_size(log_, unknown);
   written_ = fs::last_write_time(log_, unknown);
-  // Hashes the log in parallel to the check if there is a thread for it.
+  // Hashes the log in parallel to the check if there is a thread for it. Nobody
+  // waits for the hash of a log that the check refuses.
+  std::atomic<bool> ended{false};
   auto hash = std::async(
       settings_->threads > 1 ? std::launch::async : std::launch::deferred,
-      Sha256OfFile, log_);
+      [&] { return Sha256OfFile(log_, [&] { return ended.load(); }); });
+  const struct EndsHash {
+    ~EndsHash() { *ended = true; }
+    std::atomic<bool>* ended;
+  } ends_hash{&ended};
   const auto set_key = [&] {
     log_sha256_ = hash.get();
     key_ = Key(*settings_, log_sha256_);
