@@ -24,7 +24,7 @@ USER_LOCALE = BINARIES / "tests/libuser_locale.so"
 # Sanitizers reserve terabytes of addresses.
 BOUNDED = os.environ.get("FINRAY_SANITIZE", "") == ""
 MEMORY = 1 << 30  # bytes of addresses
-SECONDS = 60      # a hang, on a busy machine too
+SECONDS = 60       # a hang, on a busy machine too
 
 
 def first_lines(path, count):
@@ -395,7 +395,7 @@ class HostileInputTest(unittest.TestCase):
         self.assertEqual(outcome.stderr, b"finray_estimate: stdin:1: the line is too long "
                                          b"for a table of numbers\n")
 
-    # Reading all of it would take a quarter of an hour.
+    # Whoever hashes or reads all of it takes minutes.
     def test_a_sparse_line_of_100_GB(self):
         for app, name in (("simulate", "in.csv"), ("estimate", "log.csv")):
             with self.subTest(app=app):
