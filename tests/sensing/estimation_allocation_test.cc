@@ -5,6 +5,7 @@
 #include "count_allocations.h"
 #include "finray/sensing/fast/contact_fit.h"
 #include "finray/sensing/fast/frame_group_fit.h"
+#include "finray/sensing/gauge_surface.h"
 #include "sensing/gauge_log.h"
 
 namespace finray {
@@ -29,6 +30,20 @@ TEST(SensingAllocationTest, WarmFitsTakeNone) {
       angles = log.angles.col(i);
       weights = log.weights.col(i);
       ASSERT_TRUE(fit.Follow(angles, weights, &contacts));
+    }
+    EXPECT_EQ(allocations - before, 0);
+
+    // A search finishes its fits so.
+    EquilibriumSolver solver(PaperFinger(), {});
+    const GaugeSurface surface(GaugeTable(&solver, 0, {}), PaperFinger());
+    const LadderState start = log.StateAt(discretization, 0);
+    for (int i = 0; i < 40; ++i) {
+      if (i == 20) before = allocations;
+      fit.set_state(start);
+      contacts[0] = log.truth[0];
+      angles = log.angles.col(0);
+      weights = log.weights.col(0);
+      ASSERT_TRUE(fit.Finish(angles, weights, surface, &contacts));
     }
     EXPECT_EQ(allocations - before, 0);
 

@@ -84,12 +84,13 @@ bool ContactFit::Finish(const Readings& measured, const Readings& weights,
     surface.CurvaturesAt(
         contacts->at(0).arc_mm / newton_.workspace().length_unit(), force,
         &curvatures_);
+    has_curvatures_ = true;
   }
   --most_iterations_;
   const bool converged = Follow(measured, weights, contacts);
   ++most_iterations_;
   ++iterations_;
-  curvatures_.resize(0, 3);
+  has_curvatures_ = false;
   return converged;
 }
 
@@ -117,9 +118,10 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
   StepPace pace;
   // True if step_ leads from one linearisation to the next.
   bool comparable = predict;
-  const bool curved = curvatures_.rows() > 0;
+  const GaugeCurvatures* const curvatures =
+      has_curvatures_ ? &curvatures_ : nullptr;
   // Before two linearisations show the rate, a known B is not trusted.
-  const double unknown_rate = curved ? 1 : 0;
+  const double unknown_rate = has_curvatures_ ? 1 : 0;
   for (iterations_ = predict ? 0 : 1; iterations_ <= most_iterations_;
        ++iterations_) {
     // The prediction uses the last linearisation of the frame before, whose
@@ -135,8 +137,7 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
       step_.setZero(unknowns);
     }
     const ContactEquations equations =
-        curved ? gauges_.Equations(measured, weights, curvatures_, 0, 0, 0)
-               : gauges_.Equations(measured, weights, unknowns, 0);
+        gauges_.Equations(measured, weights, curvatures, unknowns, 0);
     const bool knows_curvature = equations.curvature.size() > 0;
     if (!std::isfinite(equations.chi2)) return false;
     if (equations.chi2 > kMostRise * last_cost + 1 && damping < 1e6) {
@@ -155,7 +156,7 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
       x[2 * c + 1] = (*contacts)[c].normal_N / force;
     }
     ContactVector change =
-        gauges_.Change(measured, weights, curvatures_, equations, x,
+        gauges_.Change(measured, weights, curvatures, equations, x,
                        most_force_N_ / force, damping, 0);
     const double taken = pace.Of(change, x);
     change *= taken;
@@ -173,7 +174,10 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
     bool crossed = false;
     for (int c = 0; c < count; ++c) {
       PointContact& contact = (*contacts)[c];
-      moves[2 * c] *= ArcShare(x[2 * c + 1], moves[2 * c + 1]);
+      // A known B follows that hyperbola by itself.
+      if (!knows_curvature) {
+        moves[2 * c] *= ArcShare(x[2 * c + 1], moves[2 * c + 1]);
+      }
       crossed |= MoveContact(mesh, &moves[2 * c], length, force,
                              &contact.arc_mm, &contact.normal_N);
     }

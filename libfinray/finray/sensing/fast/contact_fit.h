@@ -117,7 +117,8 @@ class ContactFit {
   // Number of contacts of the last fit whose linearisation the frame still
   // holds; 0 if it holds none.
   int linearised_contacts_ = 0;
-  GaugeCurvatures curvatures_;  // in Finish; else empty
+  GaugeCurvatures curvatures_;
+  bool has_curvatures_ = false;  // only within Finish
   std::vector<double> kept_state_;
   std::vector<PointContact> kept_contacts_;
 };

@@ -178,16 +178,16 @@ bool FrameGroupFit::Improve(const Frames& frames, int lane, bool predict) {
     surface_->CurvaturesAt(x[0], x[1], &l.curvatures);
     l.has_curvatures = true;
   }
+  const GaugeCurvatures* const curvatures =
+      l.has_curvatures ? &l.curvatures : nullptr;
   const ContactEquations equations =
-      l.has_curvatures
-          ? gauges_.Equations(measured, weights, l.curvatures, 0, 0, lane)
-          : gauges_.Equations(measured, weights, 2, lane);
+      gauges_.Equations(measured, weights, curvatures, 2, lane);
   // This comparison and those below are written so that a NaN fails them.
   if (!(equations.chi2 <= kMostRise * l.last_cost + 1)) return false;
   l.last_cost = equations.chi2;
   l.normal = equations.normal;
   const ContactVector change =
-      gauges_.Change(measured, weights, l.curvatures, equations, x,
+      gauges_.Change(measured, weights, curvatures, equations, x,
                      most_force_N_ / force, 0, lane);
   const double moved =
       LargestChange(change, x, ShapeChange(lane, !predict, change));

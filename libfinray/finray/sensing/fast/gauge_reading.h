@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "finray/ladder/contact_pose.h"
@@ -53,49 +54,41 @@ class GaugeReading {
     }
   }
 
-  /// `weights` are 1 / std of `measured`.
+  /// `weights` are 1 / std of `measured`. With `curvatures`, of one contact,
+  /// the equations have B.
   ContactEquations Equations(const Readings& measured, const Readings& weights,
-                             int unknowns, int lane) const {
+                             const GaugeCurvatures* curvatures, int unknowns,
+                             int lane) const {
+    if (curvatures != nullptr) {
+      return After(measured, weights, *curvatures, 0, 0, lane);
+    }
     return unknowns == 2 ? Sums<2>(measured, weights, lane)
                          : Sums<kMost>(measured, weights, lane);
   }
 
-  /// The equations of one contact with B, after a change (dl, df) of x, by
-  ///
-  ///   s_j(x + dx) = s_j + S_j dx + dx' H_j dx / 2.
-  ContactEquations Equations(const Readings& measured, const Readings& weights,
-                             const GaugeCurvatures& curvatures, double dl,
-                             double df, int lane) const {
-    CurvedSums sums;
-    for (std::size_t j = 0; j < angle.size(); ++j) {
-      const auto row = static_cast<Eigen::Index>(j);
-      const double ll = curvatures(row, 0), lf = curvatures(row, 1),
-                   ff = curvatures(row, 2);
-      const double rise_l = ll * dl + lf * df, rise_f = lf * dl + ff * df;
-      const double slope_l = LaneOf(slope[0][j], lane),
-                   slope_f = LaneOf(slope[1][j], lane);
-      sums.Add(weights[row],
-               LaneOf(angle[j], lane) - measured[row] +
-                   (slope_l + rise_l / 2) * dl + (slope_f + rise_f / 2) * df,
-               slope_l + rise_l, slope_f + rise_f, ll, lf, ff);
-    }
-    return sums.Equations();
-  }
-
   /// BoundedChange of `equations`, and where they have B, a second one from
-  /// there by that quadratic: what is left is of third order.
+  /// there by the quadratic of After: what is left is of third order. The
+  /// second one is left out if the first is damped or if it does not shrink:
+  /// the quadratic then says little. Both together keep to kLongestMove.
   ContactVector Change(const Readings& measured, const Readings& weights,
-                       const GaugeCurvatures& curvatures,
+                       const GaugeCurvatures* curvatures,
                        const ContactEquations& equations,
                        const ContactVector& x, double most_force,
                        double damping, int lane) const {
-    ContactVector change = BoundedChange(equations, x, most_force, damping);
-    if (equations.curvature.size() == 0) return change;
+    const ContactVector change =
+        BoundedChange(equations, x, most_force, damping);
+    if (equations.curvature.size() == 0 || damping > 0) return change;
     const ContactEquations there =
-        Equations(measured, weights, curvatures, change[0], change[1], lane);
+        After(measured, weights, *curvatures, change[0], change[1], lane);
     if (there.curvature.size() == 0) return change;
-    change += BoundedChange(there, x + change, most_force, damping);
-    return change;
+    const ContactVector second =
+        BoundedChange(there, x + change, most_force, 0);
+    const bool shrinks =
+        LargestChange(second, x, 0) < LargestChange(change, x, 0);
+    if (!shrinks || std::abs(change[0] + second[0]) > kLongestMove) {
+      return change;
+    }
+    return change + second;
   }
 
   double Chi2(const Readings& measured, const Readings& weights,
@@ -131,6 +124,28 @@ class GaugeReading {
   std::array<std::vector<T>, kMost> slope;
 
  private:
+  // The equations of one contact with B, after a change (dl, df) of x, by
+  //
+  //   s_j(x + dx) = s_j + S_j dx + dx' H_j dx / 2.
+  ContactEquations After(const Readings& measured, const Readings& weights,
+                         const GaugeCurvatures& curvatures, double dl,
+                         double df, int lane) const {
+    CurvedSums sums;
+    for (std::size_t j = 0; j < angle.size(); ++j) {
+      const auto row = static_cast<Eigen::Index>(j);
+      const double ll = curvatures(row, 0), lf = curvatures(row, 1),
+                   ff = curvatures(row, 2);
+      const double rise_l = ll * dl + lf * df, rise_f = lf * dl + ff * df;
+      const double slope_l = LaneOf(slope[0][j], lane),
+                   slope_f = LaneOf(slope[1][j], lane);
+      sums.Add(weights[row],
+               LaneOf(angle[j], lane) - measured[row] +
+                   (slope_l + rise_l / 2) * dl + (slope_f + rise_f / 2) * df,
+               slope_l + rise_l, slope_f + rise_f, ll, lf, ff);
+    }
+    return sums.Equations();
+  }
+
   template <int kUnknowns>
   ContactEquations Sums(const Readings& measured, const Readings& weights,
                         int lane) const {
