@@ -15,9 +15,9 @@ constexpr int kMaxIterations = 30;
 constexpr int kMostRefinements = 8;
 // A node that turns further than this in one step has left the linear range.
 constexpr double kMaxTurn_rad = 0.7;
-// A step may be the last if it starts from a residual below kNearlyThere or
-// follows a change below kSmallChange. Only such a step needs to carry gauges
-// and derivatives.
+// A step may be the last if it starts from a residual below kNearlyThere, or
+// below the change that the tolerance allows, or if it follows a change below
+// kSmallChange. Only such a step needs to carry gauges and derivatives.
 constexpr double kNearlyThere = 1e-7;
 constexpr double kSmallChange = 3e-2;
 // Rounding may keep changes below this from shrinking further.
@@ -103,6 +103,8 @@ bool LadderNewton::ConvergeOnMesh(const std::vector<PointContact>& contacts,
   for (int c = 0; c < f.contact_count; ++c) {
     load += std::abs(f.contacts[c].normal);
   }
+  const double near =
+      load * std::max(kNearlyThere, 0.01 * std::sqrt(tolerance_));
   double last_change = 0, best = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMaxIterations; ++i) {
     ++iterations_;
@@ -110,7 +112,7 @@ bool LadderNewton::ConvergeOnMesh(const std::vector<PointContact>& contacts,
     const double residual = f.residual;
     if (!std::isfinite(residual)) return false;
     const bool maybe_last =
-        residual < kNearlyThere * load || (i > 0 && last_change < kSmallChange);
+        residual < near || (i > 0 && last_change < kSmallChange);
     const SweepColumns now = maybe_last ? columns : SweepColumns::kNone;
     workspace_.SetColumns(now, false);
     if (!kernel_->sweep(f, now, maybe_last)) return false;

@@ -50,7 +50,10 @@ double EffectUnit(FingerParameterKind kind,
 
 EquilibriumSolver::EquilibriumSolver(const Finger& finger,
                                      const Discretization& discretization)
-    : scheme_(discretization.scheme), newton_(finger, discretization) {}
+    : scheme_(discretization.scheme),
+      newton_(finger, discretization),
+      trail_(newton_.workspace().length_unit(),
+             newton_.workspace().force_unit()) {}
 
 LadderState EquilibriumSolver::state() const {
   LadderState state;
@@ -60,11 +63,13 @@ LadderState EquilibriumSolver::state() const {
 
 void EquilibriumSolver::set_state(const LadderState& state) {
   newton_.Load(state);
+  trail_.Clear();
   undeformed_ = false;
 }
 
 void EquilibriumSolver::Reset() {
   newton_.Reset();
+  trail_.Clear();
   undeformed_ = true;
 }
 
@@ -84,6 +89,7 @@ bool EquilibriumSolver::SolveFor(const std::vector<PointContact>& contacts,
     return false;
   }
   undeformed_ = false;
+  trail_.Add(contacts, newton_.frame().state.q, newton_.frame().state_size());
   CollectValues(true, &outputs_);
   if (columns != SweepColumns::kParameters) return true;
   const int p = static_cast<int>(parameter_unit_.size());
@@ -97,23 +103,49 @@ bool EquilibriumSolver::SolveFor(const std::vector<PointContact>& contacts,
 SolveStatus EquilibriumSolver::Attempt(
     const std::vector<PointContact>& contacts, SweepColumns columns) {
   const bool heavy = IsHeavy(contacts);
-  const auto converges = [&] {
-    return newton_.Converge(contacts, 1, columns) &&
-           (heavy ? newton_.turn() < kNear_rad
-                  : newton_.longest_run() <= kStraightIterations);
-  };
-  if (!undeformed_ && converges()) return SolveStatus::kSolved;
+  if (!undeformed_ && ConvergeNear(contacts, columns, heavy)) {
+    return SolveStatus::kSolved;
+  }
   if (near_only_) return SolveStatus::kNotConverged;
   if (!heavy) {
     newton_.Reset();
-    if (converges()) return SolveStatus::kSolved;
+    if (Converge(contacts, columns, heavy)) return SolveStatus::kSolved;
   }
   const SolveStatus end = WalkLoadPath(contacts, &newton_, &path_fraction_);
-  if (end != SolveStatus::kSolved ||
-      (newton_.Converge(contacts, 1, columns) && newton_.turn() < kNear_rad)) {
+  if (end != SolveStatus::kSolved || Converge(contacts, columns, true)) {
     return end;
   }
   return SolveStatus::kNotConverged;
+}
+
+// From the guess of the trail, and from the present state if that fails.
+bool EquilibriumSolver::ConvergeNear(const std::vector<PointContact>& contacts,
+                                     SweepColumns columns, bool heavy) {
+  const LadderFrame<double>& f = newton_.frame();
+  const Eigen::Index size = f.state_size();
+  if (trail_.Predict(contacts, f.state.q, size)) {
+    const Eigen::VectorXd& before = trail_.newest();
+    double turned = 0;
+    for (int e = 0; e < f.elements; ++e) {
+      turned = std::max(
+          turned,
+          std::abs(f.state.theta[e] - before[f.state.theta - f.state.q + e]));
+    }
+    if (Converge(contacts, columns, heavy, turned)) return true;
+    if (f.state_size() != size) return false;
+    Eigen::Map<Eigen::VectorXd>(f.state.q, size) = before;
+  }
+  return Converge(contacts, columns, heavy);
+}
+
+// Newton's method from the present state, with the rules above by which its
+// result is trusted. `turned` is by how much a node has turned already.
+bool EquilibriumSolver::Converge(const std::vector<PointContact>& contacts,
+                                 SweepColumns columns, bool heavy,
+                                 double turned) {
+  return newton_.Converge(contacts, 1, columns) &&
+         (heavy ? turned + newton_.turn() < kNear_rad
+                : newton_.longest_run() <= kStraightIterations);
 }
 
 bool EquilibriumSolver::IsBadLoad(
@@ -253,6 +285,7 @@ bool EquilibriumSolver::Shoot(const Eigen::VectorXd& q,
                               LadderShot* shot) {
   status_ = SolveStatus::kNotConverged;
   undeformed_ = false;
+  trail_.Clear();
   if (!newton_.Shoot(q, contacts) || BendsTooFar(newton_.frame(), 0)) {
     Reset();
     return false;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "finray/statics/load_path.h"
+#include "finray/statics/load_trail.h"
 
 namespace finray {
 
@@ -33,8 +34,8 @@ struct LadderShot {
 /// path of growing loads and assembly prestress (load_path.h). High loads may
 /// have several equilibria; then only the path or a near start is trusted.
 ///
-/// The solver keeps its state between calls, so each frame of a log starts near
-/// its solution. Such a warm solve allocates nothing.
+/// The solver keeps its last states (load_trail.h), so each frame of a log
+/// starts near its solution. Such a warm solve allocates nothing.
 class EquilibriumSolver {
  public:
   using Matrix = LadderShot::Matrix;
@@ -121,6 +122,10 @@ class EquilibriumSolver {
                 SweepColumns columns);
   SolveStatus Attempt(const std::vector<PointContact>& contacts,
                       SweepColumns columns);
+  bool ConvergeNear(const std::vector<PointContact>& contacts,
+                    SweepColumns columns, bool heavy);
+  bool Converge(const std::vector<PointContact>& contacts, SweepColumns columns,
+                bool heavy, double turned = 0);
   bool IsBadLoad(const std::vector<PointContact>& contacts) const;
   bool IsHeavy(const std::vector<PointContact>& contacts) const;
   void CollectValues(bool stepped, Eigen::VectorXd* outputs);
@@ -129,6 +134,7 @@ class EquilibriumSolver {
 
   Scheme scheme_;
   mutable LadderNewton newton_;  // Spans() uses its scratch memory
+  LoadTrail trail_;
   bool undeformed_ = true, near_only_ = false;
   SolveStatus status_ = SolveStatus::kSolved;
   double path_fraction_ = 0;

@@ -9,14 +9,15 @@
 namespace finray {
 
 Shape::Shape(const EquilibriumSolver& solver,
-             const std::vector<PointContact>& contacts) {
+             const std::vector<PointContact>& contacts, int sides) {
   if (solver.status() != SolveStatus::kSolved) {
     throw std::logic_error("the shape of a finger without equilibrium");
   }
   const Finger& finger = solver.model().finger();
   lift_mm_ = {finger.front_surface_mm, -finger.back_surface_mm};
   const auto spans = solver.Spans(contacts);
-  for (int side = 0; side < 2; ++side) {
+  for (int side = 0; side < sides; ++side) {
+    pieces_[side].reserve(spans[side].size());
     for (const BeamSpan& span : spans[side]) {
       VisitElement(solver.scheme(), [&](auto element) {
         using Element = decltype(element);

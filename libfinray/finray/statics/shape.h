@@ -26,7 +26,14 @@ class Shape {
   /// `contacts` must be those of the solver's last solve. Throws
   /// std::logic_error if that solve found no equilibrium.
   Shape(const EquilibriumSolver& solver,
-        const std::vector<PointContact>& contacts);
+        const std::vector<PointContact>& contacts)
+      : Shape(solver, contacts, 2) {}
+  /// The front beam alone takes half the time. At must not be asked for the
+  /// back beam then.
+  static Shape OfFront(const EquilibriumSolver& solver,
+                       const std::vector<PointContact>& contacts) {
+    return {solver, contacts, 1};
+  }
 
   /// At a rib or contact, where internal forces jump, it gives the values on
   /// the side towards the tip, and at the tip itself those before it.
@@ -35,6 +42,10 @@ class Shape {
   Section SurfaceAt(Side side, double arc_mm) const;
 
  private:
+  // Of the first `sides` beams, front and back.
+  Shape(const EquilibriumSolver& solver,
+        const std::vector<PointContact>& contacts, int sides);
+
   // A piece of a beam. (x, y, theta, M) are polynomials of the arc length from
   // its start.
   struct Piece {
