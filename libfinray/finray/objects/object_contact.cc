@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "finray/finger/geometry.h"
+#include "finray/objects/approaches.h"
 #include "finray/objects/tangency.h"
 
 namespace finray {
@@ -49,14 +50,7 @@ class ObjectContactSolver {
     }
     if (result.status != ObjectContactStatus::kContact) return result;
 
-    std::sort(contacts.begin(), contacts.end(),
-              [](const PointContact& a, const PointContact& b) {
-                return a.arc_mm < b.arc_mm;
-              });
-    // Solves again, so that the solver's results are in the order of contacts.
-    result.status = solver_->SolveWithSensitivities(contacts)
-                        ? Verified(pose, contacts)
-                        : ObjectContactStatus::kNotConverged;
+    result.status = Judge(contacts, approaches_);
     if (result.status != ObjectContactStatus::kContact) {
       contacts.clear();
       return result;
@@ -69,17 +63,23 @@ class ObjectContactSolver {
   // The approaches to the displaced object, with all that are inside it.
   std::vector<Approach> Approaches(
       const ObjectPose& pose, const std::vector<PointContact>& contacts) const {
-    return FindApproaches(Shape(*solver_, contacts), length_, contacts,
+    return FindApproaches(Shape::OfFront(*solver_, contacts), length_, contacts,
                           object_.outline, tangency_.Displaced(pose), deepest_);
   }
 
   // Finds the set of contacts: drops those that pull and adds places that are
   // inside the object. Where the beam follows the outline, Newton cannot
   // determine the places of contacts; they are then held, and enough of them
-  // keep the beam out of the object.
+  // keep the beam out of the object. If it returns true, the contacts are in
+  // order and the solver and tangency_ are at their equilibrium, of which
+  // approaches_ holds the approaches.
   bool Settle(const ObjectPose& pose, std::vector<PointContact>* contacts) {
+    const auto lower = [](const PointContact& a, const PointContact& b) {
+      return a.arc_mm < b.arc_mm;
+    };
     for (int round = 0; round < kMaxRounds; ++round) {
       if (contacts->empty() || contacts->size() > kMostContacts) return false;
+      std::sort(contacts->begin(), contacts->end(), lower);
       const LadderState start = solver_->state();
       std::vector<PointContact> slid = *contacts;
       const bool tangent =
@@ -102,12 +102,18 @@ class ObjectContactSolver {
         continue;
       }
       std::vector<double> inside;
-      for (const Approach& approach : Approaches(pose, *contacts)) {
+      approaches_ = Approaches(pose, *contacts);
+      for (const Approach& approach : approaches_) {
         if (!approach.at_end && approach.distance_mm < deepest_) {
           inside.push_back(approach.arc_mm);
         }
       }
-      if (inside.empty()) return true;
+      if (inside.empty()) {
+        if (std::is_sorted(contacts->begin(), contacts->end(), lower)) {
+          return true;
+        }
+        continue;
+      }
       AddContacts(inside, !tangent && round < kMovingRounds, contacts);
     }
     return false;
@@ -154,19 +160,21 @@ class ObjectContactSolver {
       }
     }
     if (!solver_->SolveWithSensitivities(contacts)) return false;
-    return Verified(pose, contacts) == ObjectContactStatus::kNoTangency;
+    tangency_.Linearize(pose, contacts);
+    return Judge(contacts, Approaches(pose, contacts)) ==
+           ObjectContactStatus::kNoTangency;
   }
 
-  ObjectContactStatus Verified(const ObjectPose& pose,
-                               const std::vector<PointContact>& contacts) {
-    ObjectContactStatus status = ObjectContactStatus::kContact;
+  // What an equilibrium is worth that tangency_ has evaluated.
+  ObjectContactStatus Judge(const std::vector<PointContact>& contacts,
+                            const std::vector<Approach>& approaches) const {
     for (const PointContact& contact : contacts) {
       if (contact.arc_mm <= 0 || contact.arc_mm >= length_) {
         return ObjectContactStatus::kNoTangency;
       }
     }
-    tangency_.Linearize(pose, contacts);
-    for (const Approach& approach : Approaches(pose, contacts)) {
+    ObjectContactStatus status = ObjectContactStatus::kContact;
+    for (const Approach& approach : approaches) {
       if (approach.distance_mm >= deepest_) continue;
       if (approach.at_end) return ObjectContactStatus::kNoTangency;
       status = ObjectContactStatus::kNotConverged;
@@ -208,7 +216,7 @@ class ObjectContactSolver {
                              std::vector<PointContact>* contacts) {
     if (!solver_->Solve({})) return ObjectContactStatus::kNotConverged;
     tangency_.ResetDisplacement();
-    const Shape free(*solver_, {});
+    const Shape free = Shape::OfFront(*solver_, {});
     const auto deepest = [&](const ObjectPose& at) {
       const std::vector<Approach> all =
           FindApproaches(free, length_, {}, object_.outline, at, 0);
@@ -280,33 +288,8 @@ class ObjectContactSolver {
   const double length_;
   const double deepest_;  // A point at a smaller distance counts as inside.
   Tangency tangency_;
+  std::vector<Approach> approaches_;
 };
-
-// At this density a bend of the front beam spans tens of samples.
-constexpr int kSamples = 280;
-constexpr int kBisections = 50;
-
-struct Sample {
-  double arc;
-  double distance;
-  double slope;  // by arc length
-};
-
-std::vector<double> SampleArcs(double length_mm,
-                               const std::vector<PointContact>& contacts) {
-  std::vector<double> arcs;
-  for (const PointContact& contact : contacts) arcs.push_back(contact.arc_mm);
-  std::sort(arcs.begin(), arcs.end());
-  for (std::size_t c = 1; c < contacts.size(); ++c) {
-    arcs.push_back(0.5 * (arcs[c - 1] + arcs[c]));
-  }
-  for (int i = 0; i <= kSamples; ++i) {
-    arcs.push_back(length_mm * i / kSamples);
-  }
-  std::sort(arcs.begin(), arcs.end());
-  arcs.erase(std::unique(arcs.begin(), arcs.end()), arcs.end());
-  return arcs;
-}
 
 }  // namespace
 
@@ -315,65 +298,6 @@ ObjectContact SolveObjectContact(const RigidObject& object,
                                  EquilibriumSolver* solver,
                                  const std::vector<PointContact>& guess) {
   return ObjectContactSolver(object, friction, solver).Solve(pose, guess);
-}
-
-std::vector<Approach> FindApproaches(const Shape& shape, double length_mm,
-                                     const std::vector<PointContact>& contacts,
-                                     const Outline& outline,
-                                     const ObjectPose& pose, double below_mm) {
-  const auto sample = [&](double arc) -> Sample {
-    const Section at = shape.SurfaceAt(Side::kFront, arc);
-    const Outline::Distance distance =
-        outline.DistanceOf({at.x_mm, at.y_mm}, pose);
-    return {arc, distance.distance_mm,
-            distance.normal.x() * std::cos(at.theta_rad) +
-                distance.normal.y() * std::sin(at.theta_rad)};
-  };
-  std::vector<Sample> samples;
-  double least = HUGE_VAL;
-  for (const double arc : SampleArcs(length_mm, contacts)) {
-    samples.push_back(sample(arc));
-    least = std::min(least, samples.back().distance);
-  }
-  // A minimum is at most one spacing lower than the samples beside it.
-  const double cut = std::max(least, below_mm + length_mm / kSamples);
-  std::vector<Approach> approaches;
-  const std::size_t last = samples.size() - 1;
-  for (std::size_t i = 0; i <= last; ++i) {
-    const Sample& here = samples[i];
-    const Sample& before = samples[i > 0 ? i - 1 : 0];
-    const Sample& after = samples[std::min(i + 1, last)];
-    if (here.distance > cut) continue;
-    // Among equal neighbours the first one counts.
-    if (i > 0 && before.distance <= here.distance) continue;
-    if (after.distance < here.distance) continue;
-    if ((i == 0 && here.slope >= 0) || (i == last && here.slope <= 0)) {
-      approaches.push_back({here.arc, here.distance, true});
-      continue;
-    }
-    double arc = here.arc;
-    if (before.slope < 0 && after.slope > 0) {
-      double low = before.arc, high = after.arc;
-      for (int k = 0; k < kBisections; ++k) {
-        const double middle = 0.5 * (low + high);
-        (sample(middle).slope < 0 ? low : high) = middle;
-      }
-      arc = 0.5 * (low + high);
-    }
-    // In a rigid chain points lie on chords while angles turn evenly, so the
-    // root of the slope may not be the lowest point.
-    const double refined = sample(arc).distance;
-    if (refined > here.distance) arc = here.arc;
-    approaches.push_back({arc, std::min(refined, here.distance), false});
-    least = std::min(least, refined);
-  }
-  approaches.erase(std::remove_if(approaches.begin(), approaches.end(),
-                                  [&](const Approach& a) {
-                                    return a.distance_mm > below_mm &&
-                                           a.distance_mm > least;
-                                  }),
-                   approaches.end());
-  return approaches;
 }
 
 }  // namespace finray

@@ -65,22 +65,6 @@ ObjectContact SolveObjectContact(const RigidObject& object,
                                  EquilibriumSolver* solver,
                                  const std::vector<PointContact>& guess = {});
 
-/// A local minimum of the front beam's distance from an object.
-struct Approach {
-  double arc_mm;
-  double distance_mm;  ///< < 0 inside the object.
-  bool at_end;         ///< The distance still falls at this end of the beam.
-};
-
-/// The local minima of the front beam's distance d from an object, base to tip,
-/// that lie below `below_mm`, and the least of all. The beam is sampled
-/// densely, also at `contacts` and midway between them. Between samples the
-/// minimum is where d' = t . n_o passes through zero.
-std::vector<Approach> FindApproaches(const Shape& shape, double length_mm,
-                                     const std::vector<PointContact>& contacts,
-                                     const Outline& outline,
-                                     const ObjectPose& pose, double below_mm);
-
 }  // namespace finray
 
 #endif  // FINRAY_OBJECTS_OBJECT_CONTACT_H_

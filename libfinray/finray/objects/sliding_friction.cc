@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/objects/approaches.h"
+
 namespace finray {
 namespace {
 
@@ -69,7 +71,7 @@ bool SlidingFriction::Begin(const ObjectPose& pose, EquilibriumSolver* solver) {
   contact_ = {ObjectContactStatus::kNotConverged, {}, 0};
   solver->Reset();
   if (!solver->Solve({})) return false;
-  const Shape free(*solver, {});
+  const Shape free = Shape::OfFront(*solver, {});
   const double length = solver->model().finger().front_length_mm;
   const std::vector<Approach> approaches =
       FindApproaches(free, length, {}, object_.outline, pose, 0);
