@@ -13,7 +13,10 @@ import sys
 
 sys.dont_write_bytecode = True
 
-MODULES = {"scipy": "scipy_peer", "octave": "octave_peer", "calculix": "calculix_peer"}
+MODULES = {"scipy": "scipy_peer", "octave": "octave_peer", "calculix": "calculix_peer",
+           "getfem": "getfem_peer"}
+# Debian's packages of modules that are not called python3-MODULE.
+PACKAGES = {"getfem": "python3-getfem++"}
 
 
 class NotInstalled(Exception):
@@ -28,8 +31,9 @@ def main():
         module = importlib.import_module(MODULES[peer])
         answer = {"skipped": "", **module.run(job, folder)}
     except ImportError as error:
-        package = error.name.split(".")[0] if error.name else "a package"
-        answer = {"version": "", "skipped": f"python3-{package} is not installed", "settings": []}
+        name = error.name.split(".")[0] if error.name else "a package"
+        package = PACKAGES.get(name, f"python3-{name}")
+        answer = {"version": "", "skipped": f"{package} is not installed", "settings": []}
     except NotInstalled as error:
         answer = {"version": "", "skipped": str(error), "settings": []}
     (folder / "answer.json").write_text(json.dumps(answer), "utf-8")

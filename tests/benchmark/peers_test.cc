@@ -13,7 +13,8 @@ using testing::ElementsAre;
 
 TEST(PeersTest, NamesOfPeers) {
   EXPECT_TRUE(ParsePeers("none").empty());
-  EXPECT_THAT(ParsePeers("auto"), ElementsAre("scipy", "octave", "calculix"));
+  EXPECT_THAT(ParsePeers("auto"),
+              ElementsAre("scipy", "octave", "calculix", "getfem"));
   EXPECT_THAT(ParsePeers("calculix,scipy"), ElementsAre("calculix", "scipy"));
   try {
     ParsePeers("scypi");

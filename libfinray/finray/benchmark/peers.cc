@@ -16,7 +16,8 @@
 namespace finray {
 namespace {
 
-const std::vector<std::string> kPeers = {"scipy", "octave", "calculix"};
+const std::vector<std::string> kPeers = {"scipy", "octave", "calculix",
+                                         "getfem"};
 const char* const kScenes[] = {"one_contact", "friction"};
 
 // Returns the frames of a scene that peers are asked for: the first of some
@@ -104,7 +105,7 @@ std::vector<std::string> ParsePeers(const std::string& words) {
     if (std::find(kPeers.begin(), kPeers.end(), peer) == kPeers.end()) {
       throw InputError("--peers: unknown peer '" + peer + "'" +
                        DidYouMean(peer, kPeers) +
-                       "; known: none auto scipy octave calculix");
+                       "; known: none auto scipy octave calculix getfem");
     }
     peers.push_back(peer);
   }
