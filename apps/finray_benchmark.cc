@@ -31,7 +31,8 @@ DEFINE_int32(threads, 0, "batches run on 1 .. this many; 0: all cores");
 DEFINE_int32(rounds, 0, "repeats of every setting; 0: 9 if quick, else 15");
 DEFINE_string(peers, "none",
               "other programs to measure too: none, auto (all that are "
-              "installed), or some of scipy,octave,calculix,getfem");
+              "installed), or some of scipy,octave,calculix,getfem,"
+              "mujoco");
 DEFINE_bool(calibration, false,
             "measure calibrations too: minutes, less with --quick");
 DEFINE_string(compare, "",

@@ -14,7 +14,7 @@ import sys
 sys.dont_write_bytecode = True
 
 MODULES = {"scipy": "scipy_peer", "octave": "octave_peer", "calculix": "calculix_peer",
-           "getfem": "getfem_peer"}
+           "getfem": "getfem_peer", "mujoco": "mujoco_peer"}
 # Debian's packages of modules that are not called python3-MODULE.
 PACKAGES = {"getfem": "python3-getfem++"}
 

@@ -26,7 +26,7 @@ Facts ThisBuild();
 
 /// Another program that was asked for the same answers.
 struct PeerStatus {
-  std::string name;     ///< scipy, octave, calculix, getfem
+  std::string name;     ///< scipy, octave, calculix, getfem, mujoco
   std::string version;  ///< Empty if it did not run.
   std::string skipped;  ///< The reason why it did not run; else empty.
 };

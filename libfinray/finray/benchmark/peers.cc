@@ -17,7 +17,7 @@ namespace finray {
 namespace {
 
 const std::vector<std::string> kPeers = {"scipy", "octave", "calculix",
-                                         "getfem"};
+                                         "getfem", "mujoco"};
 const char* const kScenes[] = {"one_contact", "friction"};
 
 // Returns the frames of a scene that peers are asked for: the first of some
@@ -105,7 +105,7 @@ std::vector<std::string> ParsePeers(const std::string& words) {
     if (std::find(kPeers.begin(), kPeers.end(), peer) == kPeers.end()) {
       throw InputError("--peers: unknown peer '" + peer + "'" +
                        DidYouMean(peer, kPeers) +
-                       "; known: none auto scipy octave calculix getfem");
+                       "; known: none auto scipy octave calculix getfem mujoco");
     }
     peers.push_back(peer);
   }

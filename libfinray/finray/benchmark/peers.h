@@ -10,9 +10,9 @@ namespace finray {
 
 // Peers are programs that a lab might use instead of finray. They solve the
 // same frames: the paper's equations in SciPy and in Octave, as a user's script
-// would have them, CalculiX, which bends solids, and an exact beam in GetFEM.
-// scripts/peers/ has one file for each, and run.py, which reads a job and
-// writes the answers, both as JSON.
+// would have them, CalculiX, which bends solids, an exact beam in GetFEM, and
+// links in MuJoCo, which come to rest. scripts/peers/ has files for each, and
+// run.py, which reads a job and writes the answers, both as JSON.
 
 /// Parses the value of --peers: "none", "auto" or a list. Throws InputError for
 /// an unknown name.
