@@ -51,7 +51,8 @@ static void Load(double contact, double force) {
 // Steps from the state as it is; returns whether it came to rest.
 static int Settle(double contact, double force) {
   mju_zero(data->qvel, model->nv);
-  for (int k = 0; k < most_steps; ++k, ++steps) {
+  for (int k = 0; k < most_steps; ++k) {
+    ++steps;
     mj_step1(model, data);
     Load(contact, force);
     mj_step2(model, data);
