@@ -17,6 +17,8 @@
 enum { kSolve, kFollow, kSense };  // the task
 enum { kMostGauges = 64, kMostSensing = 20 };
 
+static const double kSoftness = 1e-4;
+
 static mjModel* model;
 static mjData* data;
 static int front_links, gauges, most_steps, steps;
@@ -138,6 +140,11 @@ int main(int argc, char** argv) {
   }
   most_steps = atoi(argv[2]);
   still = atof(argv[3]);
+  // Constraints are soft in proportion to this estimate of inertia.
+  mju_scl(model->tendon_invweight0, model->tendon_invweight0, kSoftness,
+          model->ntendon);
+  mju_scl(model->body_invweight0, model->body_invweight0, kSoftness,
+          2 * model->nbody);
   data = mj_makeData(model);
   shares = malloc(sizeof(double) * (gauges * model->nq + 1));
   for (int i = 0; i < gauges * model->nq; ++i) {
