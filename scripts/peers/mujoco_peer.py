@@ -4,10 +4,10 @@ equal sums of angles, each rib a tendon of a given length.
 
 Only rest counts, so masses are free: a joint's inertia (armature) is its stiffness,
 links have none to speak of. All modes then have the time constant 1. A time step T
-with damping 2 + T makes each a factor 1 / (1 + T) smaller. T = 4 is enough, as loads
-and bent ribs, which steps know of one step late, then decide. `solref` damps
-constraints as the springs are. They are soft, by up to 0.04 mm as MuJoCo's format has
-it; the program hardens them, and 1e-5 mm are left. What links leave is more.
+with damping 2 + T makes each a factor 1 / (1 + T) smaller. T = 4 is enough: forces
+turn with the links, of which a step knows one step late. `solref` damps constraints
+as the springs are. They are soft, by up to 0.04 mm as MuJoCo's format has it; the
+program hardens them, and 1e-5 mm are left. What links leave is more.
 """
 
 import pathlib
