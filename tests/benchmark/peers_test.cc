@@ -14,8 +14,7 @@ using testing::ElementsAre;
 TEST(PeersTest, NamesOfPeers) {
   EXPECT_TRUE(ParsePeers("none").empty());
   EXPECT_THAT(ParsePeers("auto"),
-              ElementsAre("scipy", "octave", "calculix", "getfem",
-                          "mujoco"));
+              ElementsAre("scipy", "octave", "calculix", "getfem", "mujoco"));
   EXPECT_THAT(ParsePeers("calculix,scipy"), ElementsAre("calculix", "scipy"));
   try {
     ParsePeers("scypi");

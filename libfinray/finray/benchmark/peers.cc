@@ -103,9 +103,9 @@ std::vector<std::string> ParsePeers(const std::string& words) {
   std::istringstream stream(words);
   for (std::string peer; std::getline(stream, peer, ',');) {
     if (std::find(kPeers.begin(), kPeers.end(), peer) == kPeers.end()) {
-      throw InputError("--peers: unknown peer '" + peer + "'" +
-                       DidYouMean(peer, kPeers) +
-                       "; known: none auto scipy octave calculix getfem mujoco");
+      throw InputError(
+          "--peers: unknown peer '" + peer + "'" + DidYouMean(peer, kPeers) +
+          "; known: none auto scipy octave calculix getfem mujoco");
     }
     peers.push_back(peer);
   }
