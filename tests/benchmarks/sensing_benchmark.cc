@@ -112,7 +112,8 @@ void Alone(benchmark::State& state, const Discretization& discretization,
 }
 
 void InLanes(benchmark::State& state, const Discretization& discretization) {
-  FrameGroupFit fit(PaperFinger(), discretization);
+  const auto fitting = FrameGroupFit::Make(PaperFinger(), discretization);
+  FrameGroupFit& fit = *fitting;
   fit.set_tolerance(kTolerance);
   std::vector<FrameFit> fits(kBlock);
   const LadderState first = TheLog().StateAt(discretization, 0);
