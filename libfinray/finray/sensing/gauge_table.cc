@@ -20,7 +20,8 @@ namespace {
 
 // Forces in units of EI / l_0^2, which is 0.64 N for the paper's finger. The
 // table thus reaches 26 N.
-constexpr double kForces[] = {0.5, 1, 2, 4, 7, 11, 16, 22, 30, 40};
+constexpr double kForces[] = {0.5, 1,  2,  4,  7,  9,  11, 13.5,
+                              16,  19, 22, 26, 30, 35, 40};
 
 // The forces of a row, rising from 0. They end at most_force_N if that is less.
 // A slope needs at least three of them.
