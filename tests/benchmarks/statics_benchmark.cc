@@ -17,6 +17,7 @@
 #include <string>
 
 #include "finray/chain/forward.h"
+#include "finray/ladder/instruction_set.h"
 #include "finray/ladder/ladder_kernel.h"
 #include "finray/ladder/ladder_newton.h"
 #include "finray/ladder/ladder_workspace.h"
@@ -240,10 +241,10 @@ void Register() {
           ->Unit(benchmark::kMicrosecond);
     }
   }
-  for (int set = 0; set < LadderInstructionSets(); ++set) {
+  for (int set = 0; set < InstructionSets(); ++set) {
     for (const bool evaluate : {true, false}) {
       const std::string name = std::string(evaluate ? "evaluate" : "sweep") +
-                               "_" + LadderInstructionSetName(set);
+                               "_" + InstructionSetName(set);
       benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
         Pass(state, set, evaluate);
       })->Unit(benchmark::kMicrosecond);
@@ -270,7 +271,7 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   finray::Register();
-  std::printf("instruction set: %s\n", finray::LadderInstructionSetName(0));
+  std::printf("instruction set: %s\n", finray::InstructionSetName(0));
   finray::ComparingReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   reporter.Compare();

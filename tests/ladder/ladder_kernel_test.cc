@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "finray/ladder/instruction_set.h"
 #include "finray/ladder/ladder_newton.h"
 #include "finray/ladder/ladder_workspace.h"
 #include "finray/statics/equilibrium.h"
@@ -191,7 +192,7 @@ TEST(LadderKernelTest, InstructionSetsAgreeInLanes) {
       const Eigen::MatrixXd best =
           StepInLanes(*FindFramesKernel<FourFrames>(scheme, stretch), model,
                       solver.state(), contact);
-      for (int set = 0; set < LadderInstructionSets(); ++set) {
+      for (int set = 0; set < InstructionSets(); ++set) {
         const LadderKernel& kernel = FindLadderKernel(scheme, stretch, set);
         const bool eight = kernel.eight.evaluate != nullptr;
         ASSERT_NE(eight, kernel.four.evaluate != nullptr);
@@ -200,7 +201,7 @@ TEST(LadderKernelTest, InstructionSetsAgreeInLanes) {
                   : StepInLanes(kernel.four, model, solver.state(), contact);
         for (Eigen::Index lane = 0; lane < all.rows(); ++lane) {
           EXPECT_LT(Difference(all.row(lane), best.row(lane % 4)), 1e-11)
-              << LadderInstructionSetName(set) << ", lane " << lane;
+              << InstructionSetName(set) << ", lane " << lane;
         }
       }
     }
@@ -214,12 +215,12 @@ TEST(LadderKernelTest, InstructionSetsAgree) {
       Fixture fixture(PaperFinger(), 24, {{70, 3, 0.1}}, 1e-3);
       const Eigen::VectorXd best =
           fixture.SweptStep(FindLadderKernel(scheme, stretch));
-      for (int set = 1; set < LadderInstructionSets(); ++set) {
+      for (int set = 1; set < InstructionSets(); ++set) {
         EXPECT_LT(Difference(
                       fixture.SweptStep(FindLadderKernel(scheme, stretch, set)),
                       best),
                   1e-11)
-            << LadderInstructionSetName(set);
+            << InstructionSetName(set);
       }
     }
   }

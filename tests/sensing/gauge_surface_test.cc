@@ -76,7 +76,7 @@ TEST_F(GaugeSurfaceTest, CentresOfCirclesAgreeWithTheStatics) {
 TEST_F(GaugeSurfaceTest, DerivativesAreThoseOfTheValue) {
   constexpr double kStep = 1e-5;
   for (const double arc : {0.004, 0.31, 0.62, 0.995}) {
-    for (const double force : {0.2, 1.7, 9.0, 33.0}) {
+    for (const double force : {0.2, 1.7, 8.3, 33.0}) {
       for (int j = 0; j < 4; ++j) {
         const auto at = [&](double by_arc, double by_force) {
           return surface_.At(j, arc + by_arc, force + by_force);

@@ -79,19 +79,15 @@ const FramesKernel<T>& OfFrames(const LadderKernel& kernel) {
 /// `stretch` is for beams with axial flexibility.
 const LadderKernel& FindLadderKernel(Scheme scheme, bool stretch);
 
-/// The number of frames in lanes and of bytes in a vector that go with the best
-/// instruction set of this machine.
+/// The number of frames in lanes that go with the best instruction set of this
+/// machine.
 int FrameLanes();
-int LadderVectorBytes();
 /// Its kernel for so many frames, or that of the next best set that has one.
 /// Null if there is none.
 template <class T>
 const FramesKernel<T>* FindFramesKernel(Scheme scheme, bool stretch);
 
-/// For tests and benchmarks: the instruction sets that this machine can run,
-/// best first, and the kernel of one of them.
-int LadderInstructionSets();
-const char* LadderInstructionSetName(int set);
+/// For tests and benchmarks: the kernel of one of InstructionSets().
 const LadderKernel& FindLadderKernel(Scheme scheme, bool stretch, int set);
 
 }  // namespace finray

@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "finray/finger/geometry.h"
-#include "finray/ladder/ladder_kernel.h"
+#include "finray/ladder/instruction_set.h"
 #include "finray/ladder/put_lanes.h"
 
 namespace finray {
@@ -19,7 +19,7 @@ int RoundUp(int value, int multiple) {
 template <class T>
 int VectorWidth() {
   if constexpr (std::is_floating_point_v<T>) {
-    return LadderVectorBytes() / static_cast<int>(sizeof(T));
+    return VectorBytes() / static_cast<int>(sizeof(T));
   } else {
     return 1;
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "finray/sensing/contact_solution.h"
+#include "finray/sensing/row_curves.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {
@@ -80,26 +81,10 @@ class GaugeTable {
   const Eigen::VectorXd& free_angles() const { return free_angles_; }
 
  private:
-  // Two rows side by side: a register of SSE or NEON, so that one instruction
-  // serves both.
-  typedef double V __attribute__((vector_size(16)));
-  static constexpr int kGroup = 2;
-  struct InGroup {
-    V value, by_force;  // NaN where a row has no such node
-  };
-  // A point on the chords of each row.
-  struct OnChords {
-    V chi2 = V{} + std::numeric_limits<double>::infinity();
-    V to{};     // index of the node at its end; 0: none
-    V share{};  // of the way to that node
-  };
   void FindErrors(EquilibriumSolver* solver,
                   const std::optional<double>& circle_radius_mm);
-  void FillGroups(const std::vector<double>& forces_N);
-  OnChords NearestChords(const InGroup* group, const Eigen::VectorXd& values,
-                         const Eigen::VectorXd& weights) const;
-  void Refine(const InGroup* group, const Eigen::VectorXd& values,
-              const Eigen::VectorXd& weights, OnChords* nearest) const;
+  void FillCurves(const std::vector<double>& forces_N);
+  RowCurves Curves() const;
   // Calls use(row, chi2, to, share) for the best force of each row.
   template <class Use>
   void ForEachRow(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
@@ -114,8 +99,7 @@ class GaugeTable {
   Row tip_;
   Eigen::ArrayXXd errors_;  // of interpolated values, values x chords
   std::vector<double> forces_N_;
-  std::size_t values_ = 0;
-  std::vector<InGroup> groups_;  // groups x forces x values
+  std::vector<double> value_, by_force_;  // of RowCurves
 };
 
 }  // namespace finray

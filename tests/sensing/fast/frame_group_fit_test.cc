@@ -181,8 +181,7 @@ TEST_P(FrameGroupFitTest, CurvaturesSaveIterations) {
     double force_N;
     const GaugeSurface& surface;
     double share;
-  } cases[] = {
-      {3, surface, 0.9}, {10, surface, 0.95}, {3, other_surface, 0.9}};
+  } cases[] = {{3, surface, 0.9}, {10, surface, 0.95}, {3, other_surface, 0.9}};
   for (const auto& c : cases) {
     const Frames frames(finger, Sweep(402, 25, 110, c.force_N));
     const auto with =
