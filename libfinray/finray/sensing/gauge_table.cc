@@ -50,6 +50,24 @@ double LeastOfParabola(double left, double middle, double right) {
   return std::max(0.0, middle - 0.5 * slope * slope / curvature);
 }
 
+constexpr std::size_t kPoints = 4;
+
+// The weights of kPoints of `count` nodes about x. Returns the first of them.
+template <class At>
+std::size_t LagrangeWeights(std::size_t count, double x, const At& at,
+                            double weights[kPoints]) {
+  std::size_t first = 0;
+  while (first + kPoints < count && at(first + kPoints / 2) < x) ++first;
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    weights[i] = 1;
+    for (std::size_t k = 0; k < kPoints; ++k) {
+      if (k == i) continue;
+      weights[i] *= (x - at(first + k)) / (at(first + i) - at(first + k));
+    }
+  }
+  return first;
+}
+
 constexpr std::size_t Padded(std::size_t rows) {
   constexpr std::size_t kPadding = RowCurves::kPadding;
   return (rows + kPadding - 1) / kPadding * kPadding;
@@ -260,6 +278,45 @@ const LadderState& GaugeTable::StateNear(double arc_mm, double normal_N) const {
                                    std::abs(b.normal_N - normal_N);
                           })
       ->state;
+}
+
+bool GaugeTable::StateAt(double arc_mm, double normal_N,
+                         LadderState* state) const {
+  double by_row[kPoints], by_force[kPoints];
+  const std::size_t row = LagrangeWeights(
+      rows_.size(), arc_mm, [&](std::size_t i) { return rows_[i].arc_mm; },
+      by_row);
+  const std::size_t node = LagrangeWeights(
+      forces_N_.size(), normal_N, [&](std::size_t k) { return forces_N_[k]; },
+      by_force);
+  const LadderState* first = nullptr;
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const std::vector<Node>& nodes = rows_[row + i].nodes;
+    if (nodes.size() < node + kPoints) return false;
+    for (std::size_t k = 0; k < kPoints; ++k) {
+      const LadderState& from = nodes[node + k].state;
+      const double weight = by_row[i] * by_force[k];
+      if (first == nullptr) {
+        first = &from;
+        *state = from;
+        state->q *= weight;
+        for (auto& beam : state->nodes) beam *= weight;
+        continue;
+      }
+      if (from.nodes[0].cols() != first->nodes[0].cols() ||
+          from.nodes[1].cols() != first->nodes[1].cols()) {
+        return false;
+      }
+      state->q += weight * from.q;
+      for (int side = 0; side < 2; ++side) {
+        state->nodes[side] += weight * from.nodes[side];
+      }
+    }
+  }
+  for (int side = 0; side < 2; ++side) {
+    state->nodes[side].row(0) = first->nodes[side].row(0);
+  }
+  return true;
 }
 
 void GaugeTable::FindStarts(const std::vector<ContactStart>& profile,

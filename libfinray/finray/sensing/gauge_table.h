@@ -51,6 +51,10 @@ class GaugeTable {
   /// The equilibrium of the grid node near that contact.
   const LadderState& StateNear(double arc_mm, double normal_N) const;
 
+  /// Interpolates the equilibria of the nodes about a contact: a cubic in l_c
+  /// times one in f_c. Returns false if they are not on one mesh.
+  bool StateAt(double arc_mm, double normal_N, LadderState* state) const;
+
   /// The largest force of the grid where nobody says most_force_N: 40 EI /
   /// l_0^2.
   static double HeaviestForce_N(const Finger& finger);
