@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "finray/chain/sensing.h"
+#include "finray/ladder/instruction_set.h"
 #include "finray/ladder/ladder_kernel.h"
 #include "finray/sensing/fast/contact_fit.h"
 #include "finray/sensing/fast/frame_group_fit.h"
@@ -112,7 +113,8 @@ void Alone(benchmark::State& state, const Discretization& discretization,
 }
 
 void InLanes(benchmark::State& state, const Discretization& discretization) {
-  FrameGroupFit fit(PaperFinger(), discretization);
+  const auto fitting = FrameGroupFit::Make(PaperFinger(), discretization);
+  FrameGroupFit& fit = *fitting;
   fit.set_tolerance(kTolerance);
   std::vector<FrameFit> fits(kBlock);
   const LadderState first = TheLog().StateAt(discretization, 0);
@@ -255,7 +257,7 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   finray::Register();
-  std::printf("instruction set: %s\n", finray::LadderInstructionSetName(0));
+  std::printf("instruction set: %s\n", finray::InstructionSetName(0));
   finray::ComparingReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   reporter.Compare();

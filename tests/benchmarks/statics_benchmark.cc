@@ -17,6 +17,7 @@
 #include <string>
 
 #include "finray/chain/forward.h"
+#include "finray/ladder/instruction_set.h"
 #include "finray/ladder/ladder_kernel.h"
 #include "finray/ladder/ladder_newton.h"
 #include "finray/ladder/ladder_workspace.h"
@@ -149,28 +150,29 @@ void Pass(benchmark::State& state, int set, bool evaluate) {
   }
 }
 
-// The same of four frames in lanes, with the derivatives of a fit: per frame.
-void PassOfFour(benchmark::State& state, int set, bool evaluate) {
+// The same of frames in lanes, with the derivatives of a fit: per frame.
+template <class T>
+void PassOfFrames(benchmark::State& state, const FramesKernel<T>& kernel,
+                  bool evaluate) {
   const Discretization discretization{Scheme::kTaylor8, 12};
   LadderNewton newton(PaperFinger(), discretization);
   newton.Converge({Frame(0)}, 1, SweepColumns::kNone);
   LadderState equilibrium;
   newton.Save(&equilibrium);
-  LadderWorkspace<FourFrames> workspace(newton.model());
+  LadderWorkspace<T> workspace(newton.model());
   workspace.SetContacts(newton.model(), {Frame(0)}, 1, SweepColumns::kContacts);
   workspace.Load(equilibrium);
-  LadderFrame<FourFrames>& frame = workspace.frame();
-  const LadderKernel& kernel = FindLadderKernel(Scheme::kTaylor8, false, set);
-  kernel.four.evaluate(frame);
+  LadderFrame<T>& frame = workspace.frame();
+  kernel.evaluate(frame);
   for (auto _ : state) {
     if (evaluate) {
-      kernel.four.evaluate(frame);
+      kernel.evaluate(frame);
     } else {
-      benchmark::DoNotOptimize(kernel.four.sweep(frame));
+      benchmark::DoNotOptimize(kernel.sweep(frame));
     }
   }
   state.counters["us/frame"] = benchmark::Counter(
-      1e-6 * kFrameLanes * static_cast<double>(state.iterations()),
+      1e-6 * kFrameLanes<T> * static_cast<double>(state.iterations()),
       benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
@@ -239,16 +241,24 @@ void Register() {
           ->Unit(benchmark::kMicrosecond);
     }
   }
-  for (int set = 0; set < LadderInstructionSets(); ++set) {
+  for (int set = 0; set < InstructionSets(); ++set) {
     for (const bool evaluate : {true, false}) {
       const std::string name = std::string(evaluate ? "evaluate" : "sweep") +
-                               "_" + LadderInstructionSetName(set);
+                               "_" + InstructionSetName(set);
       benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
         Pass(state, set, evaluate);
       })->Unit(benchmark::kMicrosecond);
       benchmark::RegisterBenchmark(
-          ("four_frames_" + name).c_str(),
-          [=](benchmark::State& state) { PassOfFour(state, set, evaluate); })
+          ("frames_" + name).c_str(),
+          [=](benchmark::State& state) {
+            const LadderKernel& kernel =
+                FindLadderKernel(Scheme::kTaylor8, false, set);
+            if (kernel.eight.evaluate != nullptr) {
+              PassOfFrames(state, kernel.eight, evaluate);
+            } else {
+              PassOfFrames(state, kernel.four, evaluate);
+            }
+          })
           ->Unit(benchmark::kMicrosecond);
     }
   }
@@ -261,7 +271,7 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   finray::Register();
-  std::printf("instruction set: %s\n", finray::LadderInstructionSetName(0));
+  std::printf("instruction set: %s\n", finray::InstructionSetName(0));
   finray::ComparingReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   reporter.Compare();

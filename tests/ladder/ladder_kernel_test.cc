@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "finray/ladder/instruction_set.h"
 #include "finray/ladder/ladder_newton.h"
 #include "finray/ladder/ladder_workspace.h"
 #include "finray/statics/equilibrium.h"
@@ -151,7 +152,35 @@ TEST(LadderKernelTest, DerivativesByManyContactsAreRefused) {
   EXPECT_TRUE(newton.Linearize(contacts, 1, SweepColumns::kContacts));
 }
 
-// Four frames in lanes in one set against another.
+// Frames in lanes, four or eight, as each set has them: the first four against
+// the best set that has four.
+template <class T>
+Eigen::MatrixXd StepInLanes(const FramesKernel<T>& kernel,
+                            const LadderModel& model, const LadderState& state,
+                            const PointContact& contact) {
+  LadderWorkspace<T> workspace(model);
+  workspace.SetContacts(model, {contact}, 1, SweepColumns::kContacts);
+  LadderFrame<T>& f = workspace.frame();
+  workspace.Load(state);
+  for (int lane = 0; lane < kFrameLanes<T>; lane += 4) {
+    f.contacts[0].normal[lane + 2] *= 1.3;
+    f.state.q[7][lane + 1] += 0.1;
+  }
+  kernel.evaluate(f);
+  EXPECT_TRUE(kernel.sweep(f));
+  f.newton = f.change[0] = f.change[1] = T{};
+  for (int lane = 0; lane < kFrameLanes<T>; lane += 4) {
+    for (int k = 0; k < 3; ++k) f.newton[lane + k] = 1;
+    f.change[0][lane + 1] = 0.01;
+    f.change[0][lane + 3] = -0.02;
+    f.change[1][lane] = 0.1;
+  }
+  kernel.step(f);
+  return Eigen::Map<const Eigen::MatrixXd>(
+      reinterpret_cast<const double*>(f.state.q), kFrameLanes<T>,
+      f.state_size());
+}
+
 TEST(LadderKernelTest, InstructionSetsAgreeInLanes) {
   for (const Scheme scheme :
        {Scheme::kRigidChain, Scheme::kTaylor8, Scheme::kTaylor}) {
@@ -160,26 +189,20 @@ TEST(LadderKernelTest, InstructionSetsAgreeInLanes) {
       EquilibriumSolver solver(PaperFinger(), {scheme, 24});
       const PointContact contact = {70, 3, 0.1};
       ASSERT_TRUE(solver.Solve({contact}));
-      LadderWorkspace<FourFrames> workspace(model);
-      workspace.SetContacts(model, {contact}, 1, SweepColumns::kContacts);
-      LadderFrame<FourFrames>& f = workspace.frame();
-      f.contacts[0].normal[2] *= 1.3;
-      std::vector<Eigen::VectorXd> ends;
-      for (int set = 0; set < LadderInstructionSets(); ++set) {
+      const Eigen::MatrixXd best =
+          StepInLanes(*FindFramesKernel<FourFrames>(scheme, stretch), model,
+                      solver.state(), contact);
+      for (int set = 0; set < InstructionSets(); ++set) {
         const LadderKernel& kernel = FindLadderKernel(scheme, stretch, set);
-        workspace.Load(solver.state());
-        f.state.q[7][1] += 0.1;
-        kernel.four.evaluate(f);
-        ASSERT_TRUE(kernel.four.sweep(f));
-        f.newton = FourFrames{1, 1, 1, 0};
-        f.change[0] = FourFrames{0, 0.01, 0, -0.02};
-        f.change[1] = FourFrames{0.1, 0, 0, 0};
-        kernel.four.step(f);
-        const int count = kFrameLanes * (6 + f.ribs + 4 * f.elements);
-        ends.push_back(Eigen::Map<const Eigen::VectorXd>(
-            reinterpret_cast<const double*>(f.state.q), count));
-        EXPECT_LT(Difference(ends.back(), ends[0]), 1e-11)
-            << LadderInstructionSetName(set);
+        const bool eight = kernel.eight.evaluate != nullptr;
+        ASSERT_NE(eight, kernel.four.evaluate != nullptr);
+        const Eigen::MatrixXd all =
+            eight ? StepInLanes(kernel.eight, model, solver.state(), contact)
+                  : StepInLanes(kernel.four, model, solver.state(), contact);
+        for (Eigen::Index lane = 0; lane < all.rows(); ++lane) {
+          EXPECT_LT(Difference(all.row(lane), best.row(lane % 4)), 1e-11)
+              << InstructionSetName(set) << ", lane " << lane;
+        }
       }
     }
   }
@@ -192,12 +215,12 @@ TEST(LadderKernelTest, InstructionSetsAgree) {
       Fixture fixture(PaperFinger(), 24, {{70, 3, 0.1}}, 1e-3);
       const Eigen::VectorXd best =
           fixture.SweptStep(FindLadderKernel(scheme, stretch));
-      for (int set = 1; set < LadderInstructionSets(); ++set) {
+      for (int set = 1; set < InstructionSets(); ++set) {
         EXPECT_LT(Difference(
                       fixture.SweptStep(FindLadderKernel(scheme, stretch, set)),
                       best),
                   1e-11)
-            << LadderInstructionSetName(set);
+            << InstructionSetName(set);
       }
     }
   }

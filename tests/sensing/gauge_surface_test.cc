@@ -76,7 +76,7 @@ TEST_F(GaugeSurfaceTest, CentresOfCirclesAgreeWithTheStatics) {
 TEST_F(GaugeSurfaceTest, DerivativesAreThoseOfTheValue) {
   constexpr double kStep = 1e-5;
   for (const double arc : {0.004, 0.31, 0.62, 0.995}) {
-    for (const double force : {0.2, 1.7, 9.0, 33.0}) {
+    for (const double force : {0.2, 1.7, 8.3, 33.0}) {
       for (int j = 0; j < 4; ++j) {
         const auto at = [&](double by_arc, double by_force) {
           return surface_.At(j, arc + by_arc, force + by_force);
@@ -130,7 +130,15 @@ TEST_F(GaugeSurfaceTest, AFitGoesOnFromItsEnd) {
         return std::sqrt(off.dot(information * off));
       };
       EXPECT_LT(deviations(end.contacts[0]), 0.2);
-      fit.set_state(*start.state);
+      LadderState between;
+      if (table_.StateAt(end.contacts[0].arc_mm, end.contacts[0].normal_N,
+                         &between)) {
+        fit.set_state(between);
+      } else {
+        fit.set_state(*start.state);
+        ASSERT_TRUE(fit.Settle(other));
+        ++by_surface;
+      }
       ASSERT_TRUE(fit.Finish(angles, weights_, surface_, &other));
       by_surface += fit.iterations();
       EXPECT_LT(deviations(other[0]), 1e-5) << arc_mm << " " << normal_N;

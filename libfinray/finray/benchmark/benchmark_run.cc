@@ -16,7 +16,7 @@
 #include "finray/io/usable_cores.h"
 #include "finray/io/versions.h"
 #include "finray/io/yaml_map.h"
-#include "finray/ladder/ladder_kernel.h"
+#include "finray/ladder/instruction_set.h"
 
 namespace finray {
 namespace {
@@ -179,7 +179,7 @@ Facts ThisMachine() {
           {"cores", std::to_string(UsableCores())},
           {"caches", Caches()},
           {"governor", governor.empty() ? "unknown" : governor},
-          {"instruction_set", LadderInstructionSetName(0)},
+          {"instruction_set", InstructionSetName(0)},
           {"system", named ? std::string(name.sysname) + " " + name.release +
                                  " " + name.machine
                            : "unknown"}};

@@ -115,17 +115,18 @@ class FrameByFrame : public SensingRunner {
   std::vector<PointContact> contacts_;
 };
 
-/// Senses one contact with FrameGroupFit, four frames in vector lanes.
+/// Senses one contact with FrameGroupFit, frames in vector lanes.
 class InLanes : public SensingRunner {
  public:
   InLanes(const BenchmarkCase& c, const Discretization& discretization,
           double tolerance)
       : SensingRunner(c, discretization),
-        fit_(c.finger, discretization, c.scene.friction_coefficient),
+        fit_(FrameGroupFit::Make(c.finger, discretization,
+                                 c.scene.friction_coefficient)),
         angles_(c.finger.gauges.size(), c.frames.size()),
         weights_(c.finger.gauges.size(), c.frames.size()),
         fits_(kStretchFrames) {
-    fit_.set_tolerance(tolerance);
+    fit_->set_tolerance(tolerance);
     for (std::size_t i = 0; i < c.frames.size(); ++i) {
       const auto column = static_cast<Eigen::Index>(i);
       angles_.col(column) = c.frames[i].measurement.values;
@@ -134,8 +135,8 @@ class InLanes : public SensingRunner {
   }
 
   void Run(int first, int count) override {
-    fit_.Fit(angles_.middleCols(first, count),
-             weights_.middleCols(first, count), fits_.data());
+    fit_->Fit(angles_.middleCols(first, count),
+              weights_.middleCols(first, count), fits_.data());
   }
 
   FrameAnswer Answer(int k) override {
@@ -155,10 +156,10 @@ class InLanes : public SensingRunner {
   void StartAt(int frame) override {
     const PointContact& contact = case_.frames[frame].contacts.at(0);
     model_.Solve({contact});
-    fit_.Start(model_.state(), contact);
+    fit_->Start(model_.state(), contact);
   }
 
-  FrameGroupFit fit_;
+  std::unique_ptr<FrameGroupFit> fit_;
   Eigen::MatrixXd angles_, weights_;  // a column a frame
   std::vector<FrameFit> fits_;
 };

@@ -1,59 +1,40 @@
+#include "finray/ladder/instruction_set.h"
 #include "finray/ladder/ladder_kernel.h"
 
 namespace finray {
 
 // Each compilation of ladder_kernel.cc has one of these.
+using FindKernel = const LadderKernel&(Scheme scheme, bool stretch);
 inline namespace generic {
-const LadderKernel& KernelOf(Scheme scheme, bool stretch);
+FindKernel KernelOf;
 }
-#ifdef FINRAY_HAS_AVX2
 namespace avx2 {
-const LadderKernel& KernelOf(Scheme scheme, bool stretch);
+FindKernel KernelOf;
 }
-#endif
-
-namespace {
-
-struct InstructionSet {
-  const char* name;
-  const LadderKernel& (*kernel)(Scheme, bool);
-};
-
-bool HasAvx2() {
-#ifdef FINRAY_HAS_AVX2
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-#else
-  return false;
-#endif
-}
-
-constexpr InstructionSet kSets[] = {
-#ifdef FINRAY_HAS_AVX2
-    {"AVX2", avx2::KernelOf},
-#endif
-    {"baseline", generic::KernelOf}};
-constexpr int kSetCount = sizeof(kSets) / sizeof(kSets[0]);
-
-// Index of the best set that this machine can run.
-int BestSet() {
-  static const int best = kSetCount > 1 && !HasAvx2() ? 1 : 0;
-  return best;
-}
-
-}  // namespace
-
-int LadderInstructionSets() { return kSetCount - BestSet(); }
-
-const char* LadderInstructionSetName(int set) {
-  return kSets[BestSet() + set].name;
+namespace avx512 {
+FindKernel KernelOf;
 }
 
 const LadderKernel& FindLadderKernel(Scheme scheme, bool stretch, int set) {
-  return kSets[BestSet() + set].kernel(scheme, stretch);
+  static constexpr FindKernel* kKernels[] = FINRAY_COMPILATIONS(KernelOf);
+  return kKernels[BestInstructionSet() + set](scheme, stretch);
 }
 
 const LadderKernel& FindLadderKernel(Scheme scheme, bool stretch) {
   return FindLadderKernel(scheme, stretch, 0);
 }
+
+int FrameLanes() { return VectorBytes() / static_cast<int>(sizeof(double)); }
+
+template <class T>
+const FramesKernel<T>* FindFramesKernel(Scheme scheme, bool stretch) {
+  for (int set = 0; set < InstructionSets(); ++set) {
+    const auto& kernel = OfFrames<T>(FindLadderKernel(scheme, stretch, set));
+    if (kernel.evaluate != nullptr) return &kernel;
+  }
+  return nullptr;
+}
+template const FramesKernel<FourFrames>* FindFramesKernel(Scheme, bool);
+template const FramesKernel<EightFrames>* FindFramesKernel(Scheme, bool);
 
 }  // namespace finray

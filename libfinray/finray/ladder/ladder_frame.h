@@ -14,11 +14,11 @@ namespace finray {
 // element's number, the piece behind contact c has number elements + c.
 //
 // T is double or float, and vector lanes are elements (in Evaluate) or columns
-// (in Sweep) of one frame. Or T is FourFrames of lanes.h: each number then
-// stands for one of each of four frames, which share the mesh, the pivots and
-// all other integers here. The code is the same. Numbers are aligned to their
-// size, which not every instruction set guarantees for locals; so no local
-// variable is passed to the kernel.
+// (in Sweep) of one frame. Or T is FourFrames or EightFrames of lanes.h:
+// each number then stands for one of each of the frames, which share the mesh,
+// the pivots and all other integers here. The code is the same. Numbers are
+// aligned to their size, which not every instruction set guarantees for locals;
+// so no local variable is passed to the kernel.
 
 /// The derivatives that a sweep carries beside the Newton step.
 enum class SweepColumns {

@@ -12,6 +12,8 @@ namespace {
 
 using Frame = LadderFrame<double>;
 using V = Lanes<double>::Vector;
+// Lanes are elements or frames, as many as a register holds.
+using Frames = V;
 
 template <class T, class Wide, class Single>
 void EvaluateScheme(LadderFrame<T>& frame, SweepColumns columns,
@@ -23,16 +25,22 @@ bool SweepColumnsOf(Frame& frame, SweepColumns columns, bool open,
                     bool readouts) {
   // Fixed lengths for the common cases: a step, and up to one contact's
   // derivatives.
+  constexpr int kWidth = Lanes<double>::kWidth;
   switch (frame.stride) {
     case 8:
-      return LadderSweeper<double, 2>(&frame, columns, open).Run(readouts);
+      return LadderSweeper<double, 8 / kWidth>(&frame, columns, open)
+          .Run(readouts);
     case 12:
-      return LadderSweeper<double, 3>(&frame, columns, open).Run(readouts);
+      if constexpr (12 % kWidth == 0) {
+        return LadderSweeper<double, 12 / kWidth>(&frame, columns, open)
+            .Run(readouts);
+      }
+      break;
     case 16:
-      return LadderSweeper<double, 4>(&frame, columns, open).Run(readouts);
-    default:
-      return LadderSweeper<double, 0>(&frame, columns, open).Run(readouts);
+      return LadderSweeper<double, 16 / kWidth>(&frame, columns, open)
+          .Run(readouts);
   }
+  return LadderSweeper<double, 0>(&frame, columns, open).Run(readouts);
 }
 
 bool Sweep(Frame& frame, SweepColumns columns, bool readouts) {
@@ -40,22 +48,22 @@ bool Sweep(Frame& frame, SweepColumns columns, bool readouts) {
 }
 
 // Six parameters, the step and one contact's derivatives.
-constexpr int kFourColumns = 9;
+constexpr int kFramesColumns = 9;
 
 template <class Element>
-void EvaluateFour(LadderFrame<FourFrames>& frame) {
-  EvaluateScheme<FourFrames, Element, Element>(frame, SweepColumns::kContacts,
-                                               false);
+void EvaluateFrames(LadderFrame<Frames>& frame) {
+  EvaluateScheme<Frames, Element, Element>(frame, SweepColumns::kContacts,
+                                           false);
 }
 
-bool SweepFour(LadderFrame<FourFrames>& frame) {
-  return LadderSweeper<FourFrames, kFourColumns>(&frame,
-                                                 SweepColumns::kContacts, false)
+bool SweepFrames(LadderFrame<Frames>& frame) {
+  return LadderSweeper<Frames, kFramesColumns>(&frame, SweepColumns::kContacts,
+                                               false)
       .Run(true);
 }
 
-void StepFour(LadderFrame<FourFrames>& frame) {
-  LadderWalkBack<FourFrames, kFourColumns>(&frame, SweepColumns::kContacts)
+void StepFrames(LadderFrame<Frames>& frame) {
+  LadderWalkBack<Frames, kFramesColumns>(&frame, SweepColumns::kContacts)
       .Combine(2);
   const int count = frame.state_size();
   for (int i = 0; i < count; ++i) frame.state.q[i] += frame.step.q[i];
@@ -72,11 +80,16 @@ void OpenSweep(Frame& frame, SweepColumns columns) {
 
 template <class Wide, class Single>
 constexpr LadderKernel KernelOfScheme() {
-  return {EvaluateScheme<double, Wide, Single>,
-          Sweep,
-          Combine,
-          OpenSweep,
-          {EvaluateFour<Wide>, SweepFour, StepFour}};
+  LadderKernel kernel = {
+      EvaluateScheme<double, Wide, Single>, Sweep, Combine, OpenSweep, {}, {}};
+  const FramesKernel<Frames> frames = {EvaluateFrames<Wide>, SweepFrames,
+                                       StepFrames};
+  if constexpr (kFrameLanes<Frames> == 8) {
+    kernel.eight = frames;
+  } else {
+    kernel.four = frames;
+  }
+  return kernel;
 }
 
 template <int K, bool kStretch>

@@ -33,6 +33,17 @@ namespace finray {
 // pivoting. At the tip six exchanges with kappa = 0 use up the parameters. The
 // walk back through the exchanges gives the step.
 
+/// The same for frames in lanes, with the derivatives by one contact. A sweep
+/// is singular if any lane is. The memory is laid out by SetColumns with
+/// kContacts and one contact.
+template <class T>
+struct FramesKernel {
+  void (*evaluate)(LadderFrame<T>&);
+  bool (*sweep)(LadderFrame<T>&);
+  /// As combine, and adds `step` to the state.
+  void (*step)(LadderFrame<T>&);
+};
+
 struct LadderKernel {
   /// Fills slots, maps, readouts, gaps and closures for a sweep with `columns`
   /// or with kNone. With `propagate` each node is overwritten by the end of the
@@ -49,25 +60,34 @@ struct LadderKernel {
   /// the tip stays open.
   void (*open_sweep)(LadderFrame<double>&, SweepColumns);
 
-  /// The same for four frames in lanes, with the derivatives by one contact. A
-  /// sweep is singular if any lane is. The memory is laid out by SetColumns
-  /// with kContacts and one contact.
-  struct {
-    void (*evaluate)(LadderFrame<FourFrames>&);
-    bool (*sweep)(LadderFrame<FourFrames>&);
-    /// As combine, and adds `step` to the state.
-    void (*step)(LadderFrame<FourFrames>&);
-  } four;
+  /// A kernel has one of these two, and no functions in the other: as many
+  /// lanes as its registers have.
+  FramesKernel<FourFrames> four;
+  FramesKernel<EightFrames> eight;
 };
+
+template <class T>
+const FramesKernel<T>& OfFrames(const LadderKernel& kernel) {
+  if constexpr (kFrameLanes<T> == 8) {
+    return kernel.eight;
+  } else {
+    return kernel.four;
+  }
+}
 
 /// The kernel of a scheme in the best instruction set of this machine.
 /// `stretch` is for beams with axial flexibility.
 const LadderKernel& FindLadderKernel(Scheme scheme, bool stretch);
 
-/// For tests and benchmarks: the instruction sets that this machine can run,
-/// best first, and the kernel of one of them.
-int LadderInstructionSets();
-const char* LadderInstructionSetName(int set);
+/// The number of frames in lanes that go with the best instruction set of this
+/// machine.
+int FrameLanes();
+/// Its kernel for so many frames, or that of the next best set that has one.
+/// Null if there is none.
+template <class T>
+const FramesKernel<T>* FindFramesKernel(Scheme scheme, bool stretch);
+
+/// For tests and benchmarks: the kernel of one of InstructionSets().
 const LadderKernel& FindLadderKernel(Scheme scheme, bool stretch, int set);
 
 }  // namespace finray

@@ -11,12 +11,13 @@ namespace finray {
 
 /// A set of lanes, one bit each.
 using LaneSet = unsigned;
-constexpr LaneSet kAllFrameLanes = (1u << kFrameLanes) - 1;
+template <class T>
+constexpr LaneSet kAllFrameLanes = (1u << kFrameLanes<T>)-1;
 inline bool Has(LaneSet set, int lane) { return (set >> lane & 1u) != 0; }
 
-/// Linearises four frames side by side as LadderNewton does one. Each frame has
-/// one contact on the front beam; the mesh is the one that the discretization
-/// begins with.
+/// Linearises frames side by side as LadderNewton does one: four or eight, T
+/// being FourFrames or EightFrames. Each frame has one contact on the front
+/// beam; the mesh is the one that the discretization begins with.
 ///
 /// The lanes share the mesh, the pivots and the order of contacts and gauge
 /// ends on a beam. The contacts of the lanes may lie in two different elements.
@@ -24,15 +25,19 @@ inline bool Has(LaneSet set, int lane) { return (set >> lane & 1u) != 0; }
 /// force
 /// (`present` is 0) and lies at the start or end of its element, where it cuts
 /// off a piece of no length and changes nothing.
+template <class T>
 class LadderLanes {
  public:
-  /// Throws InputError as LadderModel.
+  static constexpr int kLanes = kFrameLanes<T>;
+
+  /// Throws InputError as LadderModel, and std::invalid_argument if this
+  /// machine has no kernel for T (FindFramesKernel).
   LadderLanes(const Finger& finger, const Discretization& discretization,
               double friction);
 
   const LadderModel& model() const { return model_; }
-  const LadderWorkspace<FourFrames>& workspace() const { return workspace_; }
-  const LadderFrame<FourFrames>& frame() const { return workspace_.frame(); }
+  const LadderWorkspace<T>& workspace() const { return workspace_; }
+  const LadderFrame<T>& frame() const { return workspace_.frame(); }
 
   /// Loads and saves one lane. Load returns false if the state has another
   /// mesh.
@@ -44,8 +49,8 @@ class LadderLanes {
   /// Places a contact for each of the lanes `wanted` and returns the lanes that
   /// can be solved together. Lanes in `first` are chosen before others. The
   /// other lanes are computed without a contact.
-  LaneSet Place(const std::array<double, kFrameLanes>& arc_mm,
-                const std::array<double, kFrameLanes>& normal_N, LaneSet wanted,
+  LaneSet Place(const std::array<double, kLanes>& arc_mm,
+                const std::array<double, kLanes>& normal_N, LaneSet wanted,
                 LaneSet first);
   /// The number of the contact that is the lane's own.
   int contact_of(int lane) const { return contact_of_[lane]; }
@@ -55,16 +60,16 @@ class LadderLanes {
   bool Linearize();
   /// After Linearize: adds `newton` times Newton's step (0 or 1 in each lane)
   /// to the state, with (l_c, f_c) moved by `change` in units of the workspace.
-  void Step(const FourFrames& newton, const FourFrames change[2]);
+  void Step(const T& newton, const T change[2]);
 
  private:
   static constexpr int kMostContacts = 2;
 
   LadderModel model_;
-  LadderWorkspace<FourFrames> workspace_;
-  const LadderKernel* kernel_;
+  LadderWorkspace<T> workspace_;
+  const FramesKernel<T>* kernel_;
   double friction_;
-  std::array<int, kFrameLanes> contact_of_{};
+  std::array<int, kLanes> contact_of_{};
 };
 
 }  // namespace finray

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "finray/finger/geometry.h"
+#include "finray/ladder/instruction_set.h"
 #include "finray/ladder/put_lanes.h"
 
 namespace finray {
@@ -11,6 +13,16 @@ namespace {
 
 int RoundUp(int value, int multiple) {
   return (value + multiple - 1) / multiple * multiple;
+}
+
+// The width of the kernel's vectors in T.
+template <class T>
+int VectorWidth() {
+  if constexpr (std::is_floating_point_v<T>) {
+    return VectorBytes() / static_cast<int>(sizeof(T));
+  } else {
+    return 1;
+  }
 }
 
 double ScaledFlexibility(double axial_stiffness_N, double force_unit) {
@@ -48,7 +60,7 @@ template <class T>
 template <class Take>
 void LadderWorkspace<T>::LayOut(Take&& take) {
   LadderFrame<T>& f = frame_;
-  const int width = Lanes<T>::kWidth;
+  const int width = VectorWidth<T>();
   const int elements = f.elements, ribs = f.ribs, q = 6 + ribs;
   const int slots = RoundUp(elements + contact_capacity_, width);
   const int stride = stride_capacity_;
@@ -300,7 +312,7 @@ void LadderWorkspace<T>::SetColumns(SweepColumns columns, bool open) {
                                                                : 1;
   frame_.affine = open ? 6 + frame_.ribs : 6;
   frame_.stride = std::max(
-      kNodeColumns, RoundUp(frame_.affine + 1 + derivatives, Lanes<T>::kWidth));
+      kNodeColumns, RoundUp(frame_.affine + 1 + derivatives, VectorWidth<T>()));
   frame_.node_columns = columns == SweepColumns::kContacts && !open
                             ? frame_.stride
                             : kNodeColumns;
@@ -355,5 +367,6 @@ void LadderWorkspace<T>::Save(const LadderModel& model, LadderState* state,
 template class LadderWorkspace<double>;
 template class LadderWorkspace<float>;
 template class LadderWorkspace<FourFrames>;
+template class LadderWorkspace<EightFrames>;
 
 }  // namespace finray

@@ -10,8 +10,8 @@ namespace finray {
 
 /// The memory of a LadderFrame and the conversion to and from its units. A call
 /// allocates only when the mesh changes or when it asks for more contacts or
-/// columns than ever before. T is double, float or FourFrames; values go to all
-/// lanes of FourFrames unless a lane is named.
+/// columns than ever before. T is double, float, FourFrames or EightFrames;
+/// values go to all lanes of frames unless a lane is named.
 template <class T>
 class LadderWorkspace {
  public:
@@ -66,9 +66,9 @@ class LadderWorkspace {
   double length_unit_, force_unit_;
   LadderFrame<T> frame_;
   int contact_capacity_ = 0, stride_capacity_ = 8;
-  // 32 bytes with that alignment.
-  struct alignas(32) Cell {
-    T numbers[32 / sizeof(T)];
+  // The widest vector with its alignment.
+  struct alignas(64) Cell {
+    T numbers[64 / sizeof(T)];
   };
   std::vector<Cell> cells_;
   std::vector<int> integers_;

@@ -6,23 +6,28 @@
 #include <type_traits>
 
 // Vector lanes: numbers side by side, so that one instruction serves several
-// elements or several frames. Lanes<T>::kWidth and kFrameLanes are the numbers
-// of lanes. The arithmetic is written once for a value V, which is a double or
-// float or a vector of them. Code for another instruction set is compiled in a
-// namespace of that name, so that the linker keeps both versions.
+// elements or several frames. Lanes<T>::kWidth and kFrameLanes<T> are the
+// numbers of lanes. The arithmetic is written once for a value V, which is a
+// double or float or a vector of them. Code for another instruction set is
+// compiled in a namespace of that name, so that the linker keeps all versions.
 #ifndef FINRAY_ISA
 #define FINRAY_ISA generic
+#endif
+#ifndef FINRAY_VECTOR_BYTES
+#define FINRAY_VECTOR_BYTES 32
 #endif
 
 namespace finray {
 
-/// One number of each of four frames (LadderFrame); 32 bytes hold four.
+/// One number of each of four or eight frames (LadderFrame).
 typedef double FourFrames __attribute__((vector_size(32)));
-constexpr int kFrameLanes = 4;
+typedef double EightFrames __attribute__((vector_size(64)));
+template <class T>
+constexpr int kFrameLanes = sizeof(T) / sizeof(double);
 
 inline namespace FINRAY_ISA {
 
-/// One number of a value T, which is a number itself or FourFrames.
+/// One number of a value T, which is a number itself or one of each frame.
 template <class T>
 using Number = std::conditional_t<std::is_same_v<T, float>, float, double>;
 template <class T>
@@ -34,23 +39,27 @@ inline Number<T> LaneOf(const T& value, int lane) {
   return reinterpret_cast<const Number<T>*>(&value)[lane];
 }
 
-/// 32 bytes of T: one AVX register, or two of SSE or NEON.
+/// A vector of T: one AVX or AVX-512 register, or two of SSE or NEON.
 template <class T>
 struct Lanes {
-  typedef T Vector __attribute__((vector_size(32)));
+  typedef T Vector __attribute__((vector_size(FINRAY_VECTOR_BYTES)));
   /// The same in memory, aligned to T only.
-  typedef T Unaligned
-      __attribute__((vector_size(32), aligned(sizeof(T)), may_alias));
-  static constexpr int kWidth = 32 / sizeof(T);
+  typedef T Unaligned __attribute__((vector_size(FINRAY_VECTOR_BYTES),
+                                     aligned(sizeof(T)), may_alias));
+  static constexpr int kWidth = FINRAY_VECTOR_BYTES / sizeof(T);
 };
 
 /// If lanes are frames, a vector is one number of each.
-template <>
-struct Lanes<FourFrames> {
-  using Vector = FourFrames;
-  using Unaligned = FourFrames;
+template <class T>
+struct LanesOfFrames {
+  using Vector = T;
+  using Unaligned = T;
   static constexpr int kWidth = 1;
 };
+template <>
+struct Lanes<FourFrames> : LanesOfFrames<FourFrames> {};
+template <>
+struct Lanes<EightFrames> : LanesOfFrames<EightFrames> {};
 
 /// The number type of a value, integers of the same size, and its width.
 template <class V>
@@ -60,10 +69,16 @@ struct ValueTraits {
   static constexpr int kWidth = 1;
 };
 template <>
-struct ValueTraits<Lanes<double>::Vector> {
+struct ValueTraits<FourFrames> {
   using Scalar = double;
   typedef long long Integers __attribute__((vector_size(32)));
-  static constexpr int kWidth = Lanes<double>::kWidth;
+  static constexpr int kWidth = 4;
+};
+template <>
+struct ValueTraits<EightFrames> {
+  using Scalar = double;
+  typedef long long Integers __attribute__((vector_size(64)));
+  static constexpr int kWidth = 8;
 };
 template <>
 struct ValueTraits<Lanes<float>::Vector> {
@@ -102,6 +117,10 @@ template <class V>
 inline typename ValueTraits<V>::Scalar SmallestLane(const V& a) {
   if constexpr (ValueTraits<V>::kWidth == 1) {
     return a;
+  } else if constexpr (ValueTraits<V>::kWidth == 8) {
+    return SmallestLane(
+        Smaller(FourFrames(__builtin_shufflevector(a, a, 0, 1, 2, 3)),
+                FourFrames(__builtin_shufflevector(a, a, 4, 5, 6, 7))));
   } else {
     static_assert(ValueTraits<V>::kWidth == 4);
     const V pairs = Smaller(a, V(__builtin_shufflevector(a, a, 2, 3, 0, 1)));

@@ -248,7 +248,9 @@ bool BendsTooFar(const LadderFrame<T>& frame, int lane) {
 template void ReactInFrame(LadderFrame<double>&, int, bool);
 template void ReactInFrame(LadderFrame<float>&, int, bool);
 template void ReactInFrame(LadderFrame<FourFrames>&, int, bool);
+template void ReactInFrame(LadderFrame<EightFrames>&, int, bool);
 template bool BendsTooFar(const LadderFrame<double>&, int);
 template bool BendsTooFar(const LadderFrame<FourFrames>&, int);
+template bool BendsTooFar(const LadderFrame<EightFrames>&, int);
 
 }  // namespace finray

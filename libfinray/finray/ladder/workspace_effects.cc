@@ -186,5 +186,8 @@ template void LadderWorkspace<float>::SetBases();
 template void LadderWorkspace<FourFrames>::SetEffects(const LadderModel&);
 template void LadderWorkspace<FourFrames>::SetMotion(const LadderModel&);
 template void LadderWorkspace<FourFrames>::SetBases();
+template void LadderWorkspace<EightFrames>::SetEffects(const LadderModel&);
+template void LadderWorkspace<EightFrames>::SetMotion(const LadderModel&);
+template void LadderWorkspace<EightFrames>::SetBases();
 
 }  // namespace finray

@@ -339,10 +339,19 @@ bool ContactSearch::FitAlong(const Way& way, const PackedReadings& packed) {
   if (!way.leads) return FitFast(way.start, packed);
   contacts_.assign(1, way.end.contacts[0]);
   contacts_[0].friction = friction_;
-  fit_.set_state(*way.start.state);
-  const bool converged =
-      fit_.Finish(packed.values, packed.weights, surface_, &contacts_);
-  return Fill(converged, 1) || (MayGoOn() && FitFast(way.start, packed));
+  const PointContact& end = way.end.contacts[0];
+  bool settled = true;
+  if (table_.StateAt(end.arc_mm, end.normal_N, &between_)) {
+    fit_.set_state(between_);
+  } else {
+    fit_.set_state(*way.start.state);
+    Spend(1, false);
+    settled = fit_.Settle(contacts_) && MayGoOn();
+  }
+  return (settled &&
+          Fill(fit_.Finish(packed.values, packed.weights, surface_, &contacts_),
+               1)) ||
+         (MayGoOn() && FitFast(way.start, packed));
 }
 
 bool ContactSearch::Fill(bool converged, int count) {

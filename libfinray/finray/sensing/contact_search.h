@@ -137,6 +137,7 @@ class ContactSearch {
   bool has_surface_ = false;  // one that is exact enough for this frame
   ContactFit fit_;
   FrameProblem problem_;
+  LadderState between_;  // nodes of the table
   std::vector<ContactStart> profile_, starts_;
   std::vector<PointContact> contacts_;
   int iterations_ = 0;

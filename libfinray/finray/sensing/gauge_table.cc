@@ -20,7 +20,8 @@ namespace {
 
 // Forces in units of EI / l_0^2, which is 0.64 N for the paper's finger. The
 // table thus reaches 26 N.
-constexpr double kForces[] = {0.5, 1, 2, 4, 7, 11, 16, 22, 30, 40};
+constexpr double kForces[] = {0.5, 1,  2,  4,  7,  9,  11, 13.5,
+                              16,  19, 22, 26, 30, 35, 40};
 
 // The forces of a row, rising from 0. They end at most_force_N if that is less.
 // A slope needs at least three of them.
@@ -37,9 +38,6 @@ std::vector<double> Forces(const Finger& finger,
   return forces;
 }
 
-// Gauss-Newton steps on a cubic, from the nearest point of its chord.
-constexpr int kRefinements = 4;
-
 // Every such row shows how wrong its cubics are half way between forces.
 constexpr std::size_t kErrorRows = 7;
 
@@ -52,10 +50,27 @@ double LeastOfParabola(double left, double middle, double right) {
   return std::max(0.0, middle - 0.5 * slope * slope / curvature);
 }
 
-template <class V>
-V WithinOne(V share) {
-  share = share < 0 ? V{} : share;
-  return share > 1 ? V{} + 1 : share;
+constexpr std::size_t kPoints = 4;
+
+// The weights of kPoints of `count` nodes about x. Returns the first of them.
+template <class At>
+std::size_t LagrangeWeights(std::size_t count, double x, const At& at,
+                            double weights[kPoints]) {
+  std::size_t first = 0;
+  while (first + kPoints < count && at(first + kPoints / 2) < x) ++first;
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    weights[i] = 1;
+    for (std::size_t k = 0; k < kPoints; ++k) {
+      if (k == i) continue;
+      weights[i] *= (x - at(first + k)) / (at(first + i) - at(first + k));
+    }
+  }
+  return first;
+}
+
+constexpr std::size_t Padded(std::size_t rows) {
+  constexpr std::size_t kPadding = RowCurves::kPadding;
+  return (rows + kPadding - 1) / kPadding * kPadding;
 }
 
 // Sets each node's slope to that of the parabola through it and its neighbours.
@@ -140,7 +155,7 @@ GaugeTable::GaugeTable(EquilibriumSolver* solver, double friction,
                              [](const Row& row) { return row.nodes.empty(); }),
               rows_.end());
   FindErrors(solver, circle_radius_mm);
-  FillGroups(forces);
+  FillCurves(forces);
   solver->Reset();
 }
 
@@ -168,114 +183,42 @@ void GaugeTable::FindErrors(EquilibriumSolver* solver,
   }
 }
 
-void GaugeTable::FillGroups(const std::vector<double>& forces_N) {
+void GaugeTable::FillCurves(const std::vector<double>& forces_N) {
   forces_N_ = forces_N;
-  values_ = static_cast<std::size_t>(errors_.rows());
-  const std::size_t per_group = forces_N.size() * values_;
-  const V none = V{} + std::nan("");
-  groups_.assign((rows_.size() + kGroup - 1) / kGroup * per_group,
-                 {none, none});
+  const auto values = static_cast<std::size_t>(errors_.rows());
+  const std::size_t rows = Padded(rows_.size());
+  value_.assign(forces_N.size() * values * rows, std::nan(""));
+  by_force_ = value_;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const std::vector<Node>& nodes = rows_[i].nodes;
     for (std::size_t k = 0; k < nodes.size(); ++k) {
-      for (std::size_t j = 0; j < values_; ++j) {
-        InGroup& at = groups_[i / kGroup * per_group + k * values_ + j];
-        const auto column = static_cast<Eigen::Index>(j);
-        at.value[i % kGroup] = nodes[k].values[column];
-        at.by_force[i % kGroup] = nodes[k].by_force[column];
+      for (std::size_t j = 0; j < values; ++j) {
+        const std::size_t at = (k * values + j) * rows + i;
+        value_[at] = nodes[k].values[static_cast<Eigen::Index>(j)];
+        by_force_[at] = nodes[k].by_force[static_cast<Eigen::Index>(j)];
       }
     }
   }
 }
 
-// Finds the points of a group's chords that are nearest to the measured values.
-GaugeTable::OnChords GaugeTable::NearestChords(
-    const InGroup* group, const Eigen::VectorXd& values,
-    const Eigen::VectorXd& weights) const {
-  OnChords nearest;
-  for (std::size_t k = 0; k + 1 < forces_N_.size(); ++k) {
-    V along{}, square{}, misfit{};
-    for (std::size_t j = 0; j < values_; ++j) {
-      const double w = weights[static_cast<Eigen::Index>(j)];
-      if (w == 0) continue;
-      const V from = group[k * values_ + j].value;
-      const V edge = w * (group[(k + 1) * values_ + j].value - from);
-      const V off = w * (values[static_cast<Eigen::Index>(j)] - from);
-      along += edge * off;
-      square += edge * edge;
-      misfit += off * off;
-    }
-    const V share = WithinOne(square > 0 ? along / square : V{});
-    const V chi2 = misfit + share * (share * square - 2 * along);
-    const auto better = chi2 < nearest.chi2;  // false for rows without the node
-    nearest.chi2 = better ? chi2 : nearest.chi2;
-    nearest.share = better ? share : nearest.share;
-    nearest.to = better ? V{} + static_cast<double>(k + 1) : nearest.to;
-  }
-  return nearest;
-}
-
-// Finds the nearest points of the rows' curves of values over force, on the
-// cubics above the nearest chords, by Gauss-Newton.
-void GaugeTable::Refine(const InGroup* group, const Eigen::VectorXd& values,
-                        const Eigen::VectorXd& weights,
-                        OnChords* nearest) const {
-  const InGroup *from[kGroup], *end[kGroup];
-  V width{};
-  for (int lane = 0; lane < kGroup; ++lane) {
-    const auto to = static_cast<std::size_t>(std::max(1.0, nearest->to[lane]));
-    from[lane] = group + (to - 1) * values_;
-    end[lane] = group + to * values_;
-    width[lane] = forces_N_[to] - forces_N_[to - 1];
-  }
-  const auto gather = [](const InGroup* const* at, std::size_t j,
-                         V InGroup::*member) {
-    return V{(at[0][j].*member)[0], (at[1][j].*member)[1]};
-  };
-  V t = nearest->share;
-  nearest->chi2 = V{} + std::numeric_limits<double>::infinity();
-  auto goes_on = t == t;
-  for (int i = 0; i < kRefinements; ++i) {
-    const V u = 1 - t;
-    const V h = t * t * (3 - 2 * t), g0 = t * u * u, g1 = -t * t * u;
-    const V d = 6 * t * u, e0 = u * (1 - 3 * t), e1 = t * (3 * t - 2);
-    V chi2{}, slope{}, curvature{};
-    for (std::size_t j = 0; j < values_; ++j) {
-      const double w = weights[static_cast<Eigen::Index>(j)];
-      if (w == 0) continue;
-      const V at = gather(from, j, &InGroup::value);
-      const V rise = gather(end, j, &InGroup::value) - at;
-      const V slope_from = width * gather(from, j, &InGroup::by_force);
-      const V slope_end = width * gather(end, j, &InGroup::by_force);
-      const V off = w * (at + h * rise + g0 * slope_from + g1 * slope_end -
-                         values[static_cast<Eigen::Index>(j)]);
-      const V by_share = w * (d * rise + e0 * slope_from + e1 * slope_end);
-      chi2 += off * off;
-      slope += off * by_share;
-      curvature += by_share * by_share;
-    }
-    goes_on &= chi2 < nearest->chi2;
-    nearest->chi2 = goes_on ? chi2 : nearest->chi2;
-    nearest->share = goes_on ? t : nearest->share;
-    goes_on &= curvature > 0;
-    t = goes_on ? WithinOne(t - slope / curvature) : t;
-  }
+RowCurves GaugeTable::Curves() const {
+  return {static_cast<int>(Padded(rows_.size())),
+          static_cast<int>(forces_N_.size()),
+          static_cast<int>(errors_.rows()),
+          forces_N_.data(),
+          value_.data(),
+          by_force_.data()};
 }
 
 template <class Use>
 void GaugeTable::ForEachRow(const Eigen::VectorXd& values,
                             const Eigen::VectorXd& weights,
                             const Use& use) const {
-  OnChords nearest;
+  std::array<double, Padded(kMostRows)> chi2, to, share;
+  FindRowMinima(Curves(), values.data(), weights.data(),
+                {chi2.data(), to.data(), share.data()});
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const auto lane = static_cast<int>(i % kGroup);
-    if (lane == 0) {
-      const InGroup* group = &groups_[i / kGroup * forces_N_.size() * values_];
-      nearest = NearestChords(group, values, weights);
-      Refine(group, values, weights, &nearest);
-    }
-    use(i, nearest.chi2[lane], static_cast<std::size_t>(nearest.to[lane]),
-        nearest.share[lane]);
+    use(i, chi2[i], static_cast<std::size_t>(to[i]), share[i]);
   }
 }
 
@@ -335,6 +278,45 @@ const LadderState& GaugeTable::StateNear(double arc_mm, double normal_N) const {
                                    std::abs(b.normal_N - normal_N);
                           })
       ->state;
+}
+
+bool GaugeTable::StateAt(double arc_mm, double normal_N,
+                         LadderState* state) const {
+  double by_row[kPoints], by_force[kPoints];
+  const std::size_t row = LagrangeWeights(
+      rows_.size(), arc_mm, [&](std::size_t i) { return rows_[i].arc_mm; },
+      by_row);
+  const std::size_t node = LagrangeWeights(
+      forces_N_.size(), normal_N, [&](std::size_t k) { return forces_N_[k]; },
+      by_force);
+  const LadderState* first = nullptr;
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const std::vector<Node>& nodes = rows_[row + i].nodes;
+    if (nodes.size() < node + kPoints) return false;
+    for (std::size_t k = 0; k < kPoints; ++k) {
+      const LadderState& from = nodes[node + k].state;
+      const double weight = by_row[i] * by_force[k];
+      if (first == nullptr) {
+        first = &from;
+        *state = from;
+        state->q *= weight;
+        for (auto& beam : state->nodes) beam *= weight;
+        continue;
+      }
+      if (from.nodes[0].cols() != first->nodes[0].cols() ||
+          from.nodes[1].cols() != first->nodes[1].cols()) {
+        return false;
+      }
+      state->q += weight * from.q;
+      for (int side = 0; side < 2; ++side) {
+        state->nodes[side] += weight * from.nodes[side];
+      }
+    }
+  }
+  for (int side = 0; side < 2; ++side) {
+    state->nodes[side].row(0) = first->nodes[side].row(0);
+  }
+  return true;
 }
 
 void GaugeTable::FindStarts(const std::vector<ContactStart>& profile,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "finray/sensing/contact_solution.h"
+#include "finray/sensing/row_curves.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {
@@ -50,6 +51,10 @@ class GaugeTable {
   /// The equilibrium of the grid node near that contact.
   const LadderState& StateNear(double arc_mm, double normal_N) const;
 
+  /// Interpolates the equilibria of the nodes about a contact: a cubic in l_c
+  /// times one in f_c. Returns false if they are not on one mesh.
+  bool StateAt(double arc_mm, double normal_N, LadderState* state) const;
+
   /// The largest force of the grid where nobody says most_force_N: 40 EI /
   /// l_0^2.
   static double HeaviestForce_N(const Finger& finger);
@@ -80,26 +85,10 @@ class GaugeTable {
   const Eigen::VectorXd& free_angles() const { return free_angles_; }
 
  private:
-  // Two rows side by side: a register of SSE or NEON, so that one instruction
-  // serves both.
-  typedef double V __attribute__((vector_size(16)));
-  static constexpr int kGroup = 2;
-  struct InGroup {
-    V value, by_force;  // NaN where a row has no such node
-  };
-  // A point on the chords of each row.
-  struct OnChords {
-    V chi2 = V{} + std::numeric_limits<double>::infinity();
-    V to{};     // index of the node at its end; 0: none
-    V share{};  // of the way to that node
-  };
   void FindErrors(EquilibriumSolver* solver,
                   const std::optional<double>& circle_radius_mm);
-  void FillGroups(const std::vector<double>& forces_N);
-  OnChords NearestChords(const InGroup* group, const Eigen::VectorXd& values,
-                         const Eigen::VectorXd& weights) const;
-  void Refine(const InGroup* group, const Eigen::VectorXd& values,
-              const Eigen::VectorXd& weights, OnChords* nearest) const;
+  void FillCurves(const std::vector<double>& forces_N);
+  RowCurves Curves() const;
   // Calls use(row, chi2, to, share) for the best force of each row.
   template <class Use>
   void ForEachRow(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
@@ -114,8 +103,7 @@ class GaugeTable {
   Row tip_;
   Eigen::ArrayXXd errors_;  // of interpolated values, values x chords
   std::vector<double> forces_N_;
-  std::size_t values_ = 0;
-  std::vector<InGroup> groups_;  // groups x forces x values
+  std::vector<double> value_, by_force_;  // of RowCurves
 };
 
 }  // namespace finray

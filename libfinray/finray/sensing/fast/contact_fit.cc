@@ -76,8 +76,6 @@ bool ContactFit::Finish(const Readings& measured, const Readings& weights,
                         const GaugeSurface& surface,
                         std::vector<PointContact>* contacts) {
   linearised_contacts_ = 0;
-  iterations_ = 1;
-  if (!StepShape(*contacts)) return false;
   const double force =
       contacts->at(0).normal_N / newton_.workspace().force_unit();
   if (surface.Covers(force)) {
@@ -86,15 +84,13 @@ bool ContactFit::Finish(const Readings& measured, const Readings& weights,
         &curvatures_);
     has_curvatures_ = true;
   }
-  --most_iterations_;
   const bool converged = Follow(measured, weights, contacts);
-  ++most_iterations_;
-  ++iterations_;
   has_curvatures_ = false;
   return converged;
 }
 
-bool ContactFit::StepShape(const std::vector<PointContact>& contacts) {
+bool ContactFit::Settle(const std::vector<PointContact>& contacts) {
+  linearised_contacts_ = 0;
   if (!newton_.Linearize(contacts, 1, SweepColumns::kNone)) return false;
   const double size = newton_.Size(1, 0);
   if (!std::isfinite(size)) return false;

@@ -54,6 +54,9 @@ class ContactFit {
     newton_.Load(state);
     linearised_contacts_ = 0;
   }
+  /// Brings the equilibrium nearer to that with these contacts, by one of
+  /// Newton's steps. Returns false if the system is singular.
+  bool Settle(const std::vector<PointContact>& contacts);
   void SaveState(LadderState* state) const { newton_.Save(state); }
 
   /// Starts from the present equilibrium and from `*contacts` (one or two, on
@@ -72,10 +75,9 @@ class ContactFit {
   bool Follow(const Readings& measured, const Readings& weights,
               std::vector<PointContact>* contacts);
 
-  /// Like Fit, from contacts near the solution and an equilibrium that is less
-  /// near (GaugeSurface). The first iteration changes the equilibrium only.
-  /// The surface gives the curvatures of the gauges there: with them
-  /// convergence is fast where the readings hardly determine the contact.
+  /// Like Fit, from contacts near the solution. The surface gives the
+  /// curvatures of the gauges there: with them convergence is fast where the
+  /// readings hardly determine the contact.
   bool Finish(const Readings& measured, const Readings& weights,
               const GaugeSurface& surface, std::vector<PointContact>* contacts);
 
@@ -97,8 +99,6 @@ class ContactFit {
   }
 
  private:
-  // A Newton step of the equilibrium, with the contacts held.
-  bool StepShape(const std::vector<PointContact>& contacts);
   void ReadCentre(double radius_mm, int unknowns);
   void Keep(const std::vector<PointContact>& contacts);
   void Restore(std::vector<PointContact>* contacts);

@@ -50,10 +50,11 @@ FrameFollower::FrameFollower(const Finger& finger, const Scene& scene,
     : search_(search),
       gauges_(static_cast<int>(finger.gauges.size())),
       rivals_(MapRivals(finger, discretization, search)),
-      group_(finger, discretization, scene.friction_coefficient) {
-  group_.set_tolerance(kTolerance);
-  group_.set_most_force(search.most_force_N());
-  group_.set_surface(&search.surface());
+      group_(FrameGroupFit::Make(finger, discretization,
+                                 scene.friction_coefficient)) {
+  group_->set_tolerance(kTolerance);
+  group_->set_most_force(search.most_force_N());
+  group_->set_surface(&search.surface());
 }
 
 bool FrameFollower::Start(const ContactSolution& solution, double arc_std_mm,
@@ -64,7 +65,7 @@ bool FrameFollower::Start(const ContactSolution& solution, double arc_std_mm,
                         solution.chi2, kOtherPlaces)) {
     return false;
   }
-  group_.Start(solution.state, contact);
+  group_->Start(solution.state, contact);
   return true;
 }
 
@@ -79,8 +80,8 @@ void FrameFollower::Fit(const PackedReadings* frames, std::size_t count) {
     angles_rad_.col(i) = frames[i].values;
     weights_.col(i) = frames[i].weights;
   }
-  group_.Fit(angles_rad_.leftCols(columns), weights_.leftCols(columns),
-             fits_.data());
+  group_->Fit(angles_rad_.leftCols(columns), weights_.leftCols(columns),
+              fits_.data());
 }
 
 bool FrameFollower::IsCertain(std::size_t frame, double arc_std_mm) const {

@@ -1,6 +1,7 @@
 #ifndef FINRAY_SENSING_FAST_FRAME_FOLLOWER_H_
 #define FINRAY_SENSING_FAST_FRAME_FOLLOWER_H_
 
+#include <memory>
 #include <vector>
 
 #include "finray/sensing/contact_search.h"
@@ -41,7 +42,7 @@ class FrameFollower {
   const ContactSearch& search_;
   int gauges_;
   RivalMap rivals_;
-  FrameGroupFit group_;
+  std::unique_ptr<FrameGroupFit> group_;
   Eigen::MatrixXd angles_rad_, weights_;
   std::vector<FrameFit> fits_;
 };

@@ -1,4 +1,4 @@
-#include "finray/sensing/fast/frame_group_fit.h"
+#include "finray/sensing/fast/lane_group_fit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,19 +14,18 @@ namespace {
 // alone.
 constexpr int kMostIterations = 10;
 constexpr double kLargestChange = 0.5;
-// A lane waits before a frame that is further ahead of another lane's.
-// Otherwise the contacts would lie in too many elements.
-constexpr int kMostLead = 4 * kFrameLanes;
 
-ContactVector OfLane(const FourFrames values[2], int lane) {
+template <class T>
+ContactVector OfLane(const T values[2], int lane) {
   return Eigen::Vector2d(values[0][lane], values[1][lane]);
 }
 
 }  // namespace
 
-FrameGroupFit::FrameGroupFit(const Finger& finger,
-                             const Discretization& discretization,
-                             double friction)
+template <class T>
+LaneGroupFit<T>::LaneGroupFit(const Finger& finger,
+                              const Discretization& discretization,
+                              double friction)
     : lanes_(finger, discretization, friction),
       alone_(finger, discretization),
       friction_(friction),
@@ -35,26 +34,30 @@ FrameGroupFit::FrameGroupFit(const Finger& finger,
       kept_state_(lanes_.frame().state_size()),
       contact_(1) {}
 
-void FrameGroupFit::set_tolerance(double relative) {
+template <class T>
+void LaneGroupFit<T>::set_tolerance(double relative) {
   tolerance_ = relative;
   alone_.set_tolerance(relative);
 }
 
-void FrameGroupFit::set_most_force(double force_N) {
+template <class T>
+void LaneGroupFit<T>::set_most_force(double force_N) {
   most_force_N_ = force_N;
   alone_.set_most_force(force_N);
 }
 
-void FrameGroupFit::set_surface(const GaugeSurface* surface) {
+template <class T>
+void LaneGroupFit<T>::set_surface(const GaugeSurface* surface) {
   surface_ = surface;
 }
 
-void FrameGroupFit::Start(const LadderState& state,
-                          const PointContact& contact) {
+template <class T>
+void LaneGroupFit<T>::Start(const LadderState& state,
+                            const PointContact& contact) {
   one_by_one_ = false;
   linearised_ = 0;
-  newton_ = change_[0] = change_[1] = FourFrames{};
-  for (int lane = 0; lane < kFrameLanes; ++lane) {
+  newton_ = change_[0] = change_[1] = T{};
+  for (int lane = 0; lane < kLanes; ++lane) {
     one_by_one_ |= !lanes_.Load(state, lane);
     lane_[lane].arc_mm = contact.arc_mm;
     lane_[lane].normal_N = contact.normal_N;
@@ -64,38 +67,37 @@ void FrameGroupFit::Start(const LadderState& state,
   alone_.set_state(state);
 }
 
-void FrameGroupFit::Fit(const Columns& angles_rad,
-                        const Columns& weights_per_rad, FrameFit* fits) {
+template <class T>
+void LaneGroupFit<T>::Fit(const Columns& angles_rad,
+                          const Columns& weights_per_rad, FrameFit* fits) {
   const Frames frames{angles_rad, weights_per_rad, fits};
-  for (int lane = 0; lane < kFrameLanes; ++lane) {
-    TakeFrame(lane, lane);
-  }
-  for (int lane = 0; lane < kFrameLanes; ++lane) Begin(frames, lane);
+  next_ = 0;
+  for (int lane = 0; lane < kLanes; ++lane) TakeFrame(lane);
+  for (int lane = 0; lane < kLanes; ++lane) Begin(frames, lane);
   const auto busy = [&](const Lane& lane) { return frames.Busy(lane); };
   while (!one_by_one_ && std::any_of(lane_.begin(), lane_.end(), busy)) {
     Keep(to_keep_);
     if (linearised_ != 0) lanes_.Step(newton_, change_);
-    Linearize();
-    for (int lane = 0; lane < kFrameLanes; ++lane) {
-      if (lane_[lane].waiting) {
-        Begin(frames, lane);
-      } else {
-        Advance(frames, lane);
-      }
+    Linearize(frames);
+    for (int lane = 0; lane < kLanes; ++lane) {
+      if (frames.Busy(lane_[lane])) Advance(frames, lane);
     }
   }
   if (!one_by_one_) return;
   for (int i = 0; i < frames.count(); ++i) {
-    if (i >= lane_[i % kFrameLanes].frame) FitAlone(frames, i);
+    const auto has = [i](const Lane& lane) { return lane.frame == i; };
+    if (i >= next_ || std::any_of(lane_.begin(), lane_.end(), has)) {
+      FitAlone(frames, i);
+    }
   }
 }
 
-void FrameGroupFit::TakeFrame(int lane, int frame) {
+template <class T>
+void LaneGroupFit<T>::TakeFrame(int lane) {
   Lane& l = lane_[lane];
-  l.frame = frame;
+  l.frame = next_++;
   l.iteration = 0;
   l.has_curvatures = false;
-  l.waiting = true;
   l.last_cost = std::numeric_limits<double>::infinity();
   l.last_change = kUnknownChange;
   l.kept_arc_mm = l.arc_mm;
@@ -105,13 +107,10 @@ void FrameGroupFit::TakeFrame(int lane, int frame) {
 
 // Predicts the contact of the lane's frame if there is a linearisation to
 // predict from.
-void FrameGroupFit::Begin(const Frames& frames, int lane) {
+template <class T>
+void LaneGroupFit<T>::Begin(const Frames& frames, int lane) {
   Lane& l = lane_[lane];
   if (one_by_one_ || !frames.Busy(l)) return;
-  for (const Lane& other : lane_) {
-    if (l.frame > other.frame + kMostLead) return;
-  }
-  l.waiting = false;
   if (Has(linearised_, lane) && !Improve(frames, lane, true)) {
     FitLane(frames, lane);
   }
@@ -119,28 +118,29 @@ void FrameGroupFit::Begin(const Frames& frames, int lane) {
 
 // Linearises all lanes. Lanes without a frame move along, so that they are near
 // the start of their next one.
-void FrameGroupFit::Linearize() {
-  std::array<double, kFrameLanes> arc_mm, normal_N;
+template <class T>
+void LaneGroupFit<T>::Linearize(const Frames& frames) {
+  std::array<double, kLanes> arc_mm, normal_N;
   LaneSet first = 0;
-  for (int lane = 0; lane < kFrameLanes; ++lane) {
+  for (int lane = 0; lane < kLanes; ++lane) {
     arc_mm[lane] = lane_[lane].arc_mm;
     normal_N[lane] = lane_[lane].normal_N;
-    if (!lane_[lane].waiting) first |= 1u << lane;
+    if (frames.Busy(lane_[lane])) first |= 1u << lane;
   }
   comparable_ = linearised_;
-  linearised_ = lanes_.Place(arc_mm, normal_N, kAllFrameLanes, first);
+  linearised_ = lanes_.Place(arc_mm, normal_N, kAllFrameLanes<T>, first);
   if (!lanes_.Linearize()) {
     // One bad lane spoils the linearisation of all. The states are restored so
     // that idle lanes do not spoil the next one too.
     linearised_ = 0;
-    FourFrames* state = lanes_.frame().state.q;
+    T* state = lanes_.frame().state.q;
     std::copy(kept_state_.begin(), kept_state_.end(), state);
   }
   for (int k = 0; k < 2; ++k) {
     step_[k] = change_[k];
-    change_[k] = FourFrames{};
+    change_[k] = T{};
   }
-  for (int lane = 0; lane < kFrameLanes; ++lane) {
+  for (int lane = 0; lane < kLanes; ++lane) {
     newton_[lane] = Has(linearised_, lane);
   }
   gauges_.Read(lanes_.frame(), 2);
@@ -148,7 +148,8 @@ void FrameGroupFit::Linearize() {
 
 // Called after a linearisation. If the lane's frame has converged, records it
 // and predicts the next one.
-void FrameGroupFit::Advance(const Frames& frames, int lane) {
+template <class T>
+void LaneGroupFit<T>::Advance(const Frames& frames, int lane) {
   Lane& l = lane_[lane];
   if (one_by_one_) return;
   if (!Has(linearised_, lane) || ++l.iteration > kMostIterations ||
@@ -160,13 +161,14 @@ void FrameGroupFit::Advance(const Frames& frames, int lane) {
   }
   if (!l.converged) return;
   Record(frames, lane);
-  TakeFrame(lane, l.frame + kFrameLanes);
+  TakeFrame(lane);
   Begin(frames, lane);
 }
 
 // Moves the contact to the least squares of the linearisation. Returns false if
 // the frame should be fitted alone.
-bool FrameGroupFit::Improve(const Frames& frames, int lane, bool predict) {
+template <class T>
+bool LaneGroupFit<T>::Improve(const Frames& frames, int lane, bool predict) {
   Lane& l = lane_[lane];
   const double length = lanes_.workspace().length_unit();
   const double force = lanes_.workspace().force_unit();
@@ -212,14 +214,15 @@ bool FrameGroupFit::Improve(const Frames& frames, int lane, bool predict) {
 
 // The change of the whole shape, judged by the gaps between its elements and by
 // the poses of tip and contact.
-double FrameGroupFit::ShapeChange(int lane, bool newton,
-                                  const ContactVector& change) const {
-  const LadderFrame<FourFrames>& f = lanes_.frame();
+template <class T>
+double LaneGroupFit<T>::ShapeChange(int lane, bool newton,
+                                    const ContactVector& change) const {
+  const LadderFrame<T>& f = lanes_.frame();
   double largest = newton ? f.residual[lane] : 0;
   for (const int first :
        {f.tip_tap(), f.contact_tap(lanes_.contact_of(lane))}) {
     for (int tap = first; tap < first + 3; ++tap) {
-      const FourFrames* row = f.taps + tap * f.stride + f.affine;
+      const T* row = f.taps + tap * f.stride + f.affine;
       largest = std::max(largest, std::abs((newton ? row[0][lane] : 0) +
                                            row[1][lane] * change[0] +
                                            row[2][lane] * change[1]));
@@ -230,8 +233,9 @@ double FrameGroupFit::ShapeChange(int lane, bool newton,
 
 // Writes a converged lane's result to its frame. Poses and rib tensions are
 // those of the last linearisation plus their linear change in the last step.
-void FrameGroupFit::Record(const Frames& frames, int lane) const {
-  const LadderFrame<FourFrames>& f = lanes_.frame();
+template <class T>
+void LaneGroupFit<T>::Record(const Frames& frames, int lane) const {
+  const LadderFrame<T>& f = lanes_.frame();
   const Lane& l = lane_[lane];
   FrameFit& fit = frames.fits[l.frame];
   const double length = lanes_.workspace().length_unit();
@@ -255,12 +259,13 @@ void FrameGroupFit::Record(const Frames& frames, int lane) const {
   }
 }
 
-void FrameGroupFit::Keep(LaneSet lanes) {
-  const FourFrames* state = lanes_.frame().state.q;
-  if (lanes == kAllFrameLanes) {
+template <class T>
+void LaneGroupFit<T>::Keep(LaneSet lanes) {
+  const T* state = lanes_.frame().state.q;
+  if (lanes == kAllFrameLanes<T>) {
     std::copy_n(state, kept_state_.size(), kept_state_.begin());
   } else {
-    for (int lane = 0; lane < kFrameLanes; ++lane) {
+    for (int lane = 0; lane < kLanes; ++lane) {
       if (!Has(lanes, lane)) continue;
       for (std::size_t i = 0; i < kept_state_.size(); ++i) {
         kept_state_[i][lane] = state[i][lane];
@@ -271,10 +276,11 @@ void FrameGroupFit::Keep(LaneSet lanes) {
 }
 
 // Fits a lane's frame without the other lanes, from where the frame started.
-void FrameGroupFit::FitLane(const Frames& frames, int lane) {
+template <class T>
+void LaneGroupFit<T>::FitLane(const Frames& frames, int lane) {
   Lane& l = lane_[lane];
   Keep(to_keep_ & 1u << lane);
-  FourFrames* state = lanes_.frame().state.q;
+  T* state = lanes_.frame().state.q;
   for (std::size_t i = 0; i < kept_state_.size(); ++i) {
     state[i][lane] = kept_state_[i][lane];
   }
@@ -293,11 +299,12 @@ void FrameGroupFit::FitLane(const Frames& frames, int lane) {
     l.arc_mm = fit.arc_mm;
     l.normal_N = fit.normal_N;
   }
-  TakeFrame(lane, l.frame + kFrameLanes);
+  TakeFrame(lane);
 }
 
 // Fits a frame by ContactFit, starting from state_ and contact_.
-void FrameGroupFit::FitAlone(const Frames& frames, int frame) {
+template <class T>
+void LaneGroupFit<T>::FitAlone(const Frames& frames, int frame) {
   FrameFit& fit = frames.fits[frame];
   const PointContact before = contact_[0];
   fit.in_lanes = false;
@@ -320,6 +327,17 @@ void FrameGroupFit::FitAlone(const Frames& frames, int frame) {
   for (int i = 0; i < lanes_.model().ribs(); ++i) {
     fit.rib_tension_N[i] = alone_.rib_tension(i);
   }
+}
+
+std::unique_ptr<FrameGroupFit> FrameGroupFit::Make(
+    const Finger& finger, const Discretization& discretization, double friction,
+    int lanes) {
+  if (lanes == kFrameLanes<EightFrames>) {
+    return std::make_unique<LaneGroupFit<EightFrames>>(finger, discretization,
+                                                       friction);
+  }
+  return std::make_unique<LaneGroupFit<FourFrames>>(finger, discretization,
+                                                    friction);
 }
 
 }  // namespace finray

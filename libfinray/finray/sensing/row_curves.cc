@@ -1,0 +1,26 @@
+#include "finray/sensing/row_curves.h"
+
+#include "finray/ladder/instruction_set.h"
+
+namespace finray {
+
+// Each compilation of row_curves_kernel.cc has one of these.
+using FindMinima = void(const RowCurves& curves, const double* measured,
+                        const double* weights, const RowMinima& minima);
+inline namespace generic {
+FindMinima RowMinimaOf;
+}
+namespace avx2 {
+FindMinima RowMinimaOf;
+}
+namespace avx512 {
+FindMinima RowMinimaOf;
+}
+
+void FindRowMinima(const RowCurves& curves, const double* measured,
+                   const double* weights, const RowMinima& minima, int set) {
+  static constexpr FindMinima* kFind[] = FINRAY_COMPILATIONS(RowMinimaOf);
+  kFind[BestInstructionSet() + set](curves, measured, weights, minima);
+}
+
+}  // namespace finray
