@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "finray/sensing/contact_solution.h"
-#include "finray/sensing/row_curves.h"
+#include "finray/sensing/fast/row_curves.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {

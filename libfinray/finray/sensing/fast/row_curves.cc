@@ -1,4 +1,4 @@
-#include "finray/sensing/row_curves.h"
+#include "finray/sensing/fast/row_curves.h"
 
 #include "finray/ladder/instruction_set.h"
 

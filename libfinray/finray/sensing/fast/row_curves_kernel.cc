@@ -1,7 +1,7 @@
 // Compiled once for every instruction set; see CMakeLists.txt.
 #include <limits>
 
-#include "finray/sensing/row_curves.h"
+#include "finray/sensing/fast/row_curves.h"
 
 #ifndef FINRAY_ISA
 #define FINRAY_ISA generic

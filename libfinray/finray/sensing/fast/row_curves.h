@@ -1,5 +1,5 @@
-#ifndef FINRAY_SENSING_ROW_CURVES_H_
-#define FINRAY_SENSING_ROW_CURVES_H_
+#ifndef FINRAY_SENSING_FAST_ROW_CURVES_H_
+#define FINRAY_SENSING_FAST_ROW_CURVES_H_
 
 namespace finray {
 
@@ -30,4 +30,4 @@ void FindRowMinima(const RowCurves& curves, const double* measured,
 
 }  // namespace finray
 
-#endif  // FINRAY_SENSING_ROW_CURVES_H_
+#endif  // FINRAY_SENSING_FAST_ROW_CURVES_H_
