@@ -55,6 +55,7 @@ template <class T>
 void LaneGroupFit<T>::Start(const LadderState& state,
                             const PointContact& contact) {
   one_by_one_ = false;
+  fresh_ = true;
   linearised_ = 0;
   newton_ = change_[0] = change_[1] = T{};
   for (int lane = 0; lane < kLanes; ++lane) {
@@ -71,6 +72,9 @@ template <class T>
 void LaneGroupFit<T>::Fit(const Columns& angles_rad,
                           const Columns& weights_per_rad, FrameFit* fits) {
   const Frames frames{angles_rad, weights_per_rad, fits};
+  // A log that comes frame by frame would leave all lanes but one empty.
+  one_by_one_ |= fresh_ && frames.count() == 1;
+  fresh_ = false;
   next_ = 0;
   for (int lane = 0; lane < kLanes; ++lane) TakeFrame(lane);
   for (int lane = 0; lane < kLanes; ++lane) Begin(frames, lane);

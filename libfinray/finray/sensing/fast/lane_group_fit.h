@@ -87,9 +87,10 @@ class LaneGroupFit : public FrameGroupFit {
   std::vector<T> kept_state_;
   LaneSet to_keep_ = 0;
 
-  // Set when a load needs a finer mesh than the lanes have. Frames are then
-  // fitted one by one until the next Start.
+  // Set when a load needs a finer mesh than the lanes have, and by a first call
+  // with one frame. Frames are then fitted one by one until the next Start.
   bool one_by_one_ = false;
+  bool fresh_ = false;  // no call since Start
   LadderState state_;
   std::vector<PointContact> contact_;
 };
