@@ -132,7 +132,7 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
       continue;
     }
     const Way way = WayFrom(start, packed);
-    if (way.is_known) continue;
+    if (way.is_known || !Matters(way)) continue;
     if (FitAlong(way, packed)) {
       found_.Keep();
       continue;
@@ -333,6 +333,15 @@ ContactSearch::Way ContactSearch::WayFrom(const ContactStart& start,
       surface_.Descend(packed.values, packed.weights, most_force_N_, &way.end);
   way.is_known = way.leads && found_.Knows(way.end.contacts[0], way.end.chi2);
   return way;
+}
+
+bool ContactSearch::Matters(const Way& way) const {
+  if (!way.leads || found_.empty()) return true;
+  const double distance = std::max(0.0, std::sqrt(way.end.chi2) - kCoarse);
+  const double chi2 = distance * distance;
+  return found_.IsBarred(way.end.contacts[0].normal_N)
+             ? chi2 + kWithinNoise < found_.least_chi2()
+             : chi2 < found_.least_chi2() + kWithinNoise;
 }
 
 bool ContactSearch::FitAlong(const Way& way, const PackedReadings& packed) {
