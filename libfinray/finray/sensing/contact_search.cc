@@ -116,6 +116,12 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
   found_.Clear();
   iterations_ = 0;
   std::size_t fallbacks = 0;
+  // Once another solution is known, one on the bound of the force rarely
+  // matters.
+  if (has_surface_ && starts_.size() > 1 && IsLoaded(starts_[1]) &&
+      WayFrom(starts_[0], packed).end.contacts[0].normal_N >= most_force_N_) {
+    std::swap(starts_[0], starts_[1]);
+  }
   for (const ContactStart& start : starts_) {
     // This start can neither win nor be a rival, and those behind it are worse.
     if (!exact &&

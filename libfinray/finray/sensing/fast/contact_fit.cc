@@ -18,8 +18,9 @@ namespace {
 // in std for the contacts, in rad and l_0 for the shape.
 constexpr int kPatience = 8;
 constexpr double kNoDifference = 1e-6;
-// With B known, convergence is fast and the fit ends at this instead.
-constexpr double kNothing = 1e-8;
+// With B known, convergence is fast. A fit of readings without noise then goes
+// on to this; its chi2 is below kNoiseless.
+constexpr double kNothing = 1e-8, kNoiseless = 1e-3;
 // Where the tolerance is worth more std than this, as with a noise of a few
 // rounding errors, the last change must be below it, not only the next one.
 constexpr double kTolerableStd = 0.1;
@@ -194,7 +195,9 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
          IsLastChange(moved, last_change, rate, crossed, tolerance_)) ||
         ((knows_curvature || iterations_ >= kPatience) &&
          next * deviations < std::min(1.0, taken) *
-                                 (knows_curvature ? kNothing : kNoDifference) &&
+                                 (knows_curvature && last_cost < kNoiseless
+                                      ? kNothing
+                                      : kNoDifference) &&
          size < kNoDifference);
     damping *= 0.1;
     last_change = moved;
