@@ -71,9 +71,9 @@ class FrameGroupFit {
   /// Fits consecutive frames that follow the last one fitted, or Start. Each
   /// column of angles and weights is a frame; weights are per rad, 0 where not
   /// measured. All lanes finish before the call returns, so calls with many
-  /// frames are faster. If the first call after Start has one frame, all frames
-  /// until the next Start are fitted alone. If a frame does not converge, the
-  /// next one of its lane starts from where that frame started.
+  /// frames are faster. Single frames after Start are fitted alone. If a frame
+  /// does not converge, the next one of its lane starts from where that frame
+  /// started.
   virtual void Fit(const Eigen::Ref<const Eigen::MatrixXd>& angles_rad,
                    const Eigen::Ref<const Eigen::MatrixXd>& weights_per_rad,
                    FrameFit* fits) = 0;

@@ -54,18 +54,22 @@ void LaneGroupFit<T>::set_surface(const GaugeSurface* surface) {
 template <class T>
 void LaneGroupFit<T>::Start(const LadderState& state,
                             const PointContact& contact) {
-  one_by_one_ = false;
   fresh_ = true;
-  linearised_ = 0;
-  newton_ = change_[0] = change_[1] = T{};
-  for (int lane = 0; lane < kLanes; ++lane) {
-    one_by_one_ |= !lanes_.Load(state, lane);
-    lane_[lane].arc_mm = contact.arc_mm;
-    lane_[lane].normal_N = contact.normal_N;
-  }
   state_ = state;
   contact_[0] = {contact.arc_mm, contact.normal_N, friction_};
   alone_.set_state(state);
+}
+
+template <class T>
+void LaneGroupFit<T>::StartLanes() {
+  fresh_ = one_by_one_ = false;
+  linearised_ = 0;
+  newton_ = change_[0] = change_[1] = T{};
+  for (int lane = 0; lane < kLanes; ++lane) {
+    one_by_one_ |= !lanes_.Load(state_, lane);
+    lane_[lane].arc_mm = contact_[0].arc_mm;
+    lane_[lane].normal_N = contact_[0].normal_N;
+  }
 }
 
 template <class T>
@@ -73,8 +77,8 @@ void LaneGroupFit<T>::Fit(const Columns& angles_rad,
                           const Columns& weights_per_rad, FrameFit* fits) {
   const Frames frames{angles_rad, weights_per_rad, fits};
   // A log that comes frame by frame would leave all lanes but one empty.
-  one_by_one_ |= fresh_ && frames.count() == 1;
-  fresh_ = false;
+  if (fresh_ && frames.count() == 1) return FitAlone(frames, 0);
+  if (fresh_) StartLanes();
   next_ = 0;
   for (int lane = 0; lane < kLanes; ++lane) TakeFrame(lane);
   for (int lane = 0; lane < kLanes; ++lane) Begin(frames, lane);

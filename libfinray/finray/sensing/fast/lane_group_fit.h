@@ -51,6 +51,7 @@ class LaneGroupFit : public FrameGroupFit {
     bool Busy(const Lane& lane) const { return lane.frame < count(); }
   };
 
+  void StartLanes();
   void TakeFrame(int lane);
   void Begin(const Frames& frames, int lane);
   void Linearize(const Frames& frames);
@@ -87,10 +88,12 @@ class LaneGroupFit : public FrameGroupFit {
   std::vector<T> kept_state_;
   LaneSet to_keep_ = 0;
 
-  // Set when a load needs a finer mesh than the lanes have, and by a first call
-  // with one frame. Frames are then fitted one by one until the next Start.
+  // Until a call with more than one frame the lanes hold nothing, and state_ and
+  // contact_ are the start of the next frame.
+  bool fresh_ = true;
+  // Set when a load needs a finer mesh than the lanes have. Frames are then
+  // fitted one by one until the next Start.
   bool one_by_one_ = false;
-  bool fresh_ = false;  // no call since Start
   LadderState state_;
   std::vector<PointContact> contact_;
 };
