@@ -269,16 +269,25 @@ bool FrameEstimator::TakeFollowed(const PackedReadings& packed, std::size_t run,
                                   FrameEstimate* estimate) {
   const FrameFit& fit = follower_->fit(run);
   if (!fit.converged) return false;
+  estimate->chi2 = fit.chi2;
+  estimate->model_chi2 = kNaN;
+  estimate->dof = static_cast<int>(finger_.gauges.size()) - kUnknowns;
+  // A search would look for what else a discrepancy explains.
+  const double scale = estimate->noise_scale();
+  if (scale > 1 && systematic_.has_discrepancy()) return false;
   const ContactMatrix covariance = CovarianceOf(fit.information);
-  const double arc_std = std::sqrt(covariance(0, 0));
+  const double arc_std = scale * std::sqrt(covariance(0, 0));
   const bool touches = scene_.contacts
                            ? fit.normal_N >= least_force_N_
                            : fit.chi2 < kSecondSignificance &&
                                  packed.free_chi2 - fit.chi2 >= kSignificance;
-  if (!touches || !follower_->IsCertain(run, arc_std)) return false;
+  if (!touches || !follower_->IsCertain(run, arc_std, scale)) {
+    return false;
+  }
   estimate->contacts = 1;
   estimate->contact[0] = {fit.arc_mm, arc_std, fit.normal_N,
-                          std::sqrt(covariance(1, 1)), fit.contact_pose};
+                          scale * std::sqrt(covariance(1, 1)),
+                          fit.contact_pose};
   estimate->contact[1] = {};
   estimate->valley.reset();
   estimate->noise_covariance = covariance;
@@ -287,13 +296,9 @@ bool FrameEstimator::TakeFollowed(const PackedReadings& packed, std::size_t run,
   estimate->tip_pose = fit.tip_pose;
   estimate->rib_tension_N.assign(fit.rib_tension_N.begin(),
                                  fit.rib_tension_N.end());
-  estimate->chi2 = fit.chi2;
-  estimate->model_chi2 = kNaN;
-  estimate->dof = static_cast<int>(finger_.gauges.size()) - kUnknowns;
   estimate->iterations = fit.iterations;
   estimate->search_ended = false;
-  // A frame without degrees of freedom has no p-value.
-  return !(estimate->p_value() < FrameEstimate::kUnexplained);
+  return true;
 }
 
 // Adds a contact as long as it makes a significant difference. The free finger

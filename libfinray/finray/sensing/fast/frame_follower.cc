@@ -84,11 +84,12 @@ void FrameFollower::Fit(const PackedReadings* frames, std::size_t count) {
               fits_.data());
 }
 
-bool FrameFollower::IsCertain(std::size_t frame, double arc_std_mm) const {
+bool FrameFollower::IsCertain(std::size_t frame, double arc_std_mm,
+                              double scale) const {
   const FrameFit& fit = fits_[frame];
   return fit.converged && !search_.OnBound(fit.arc_mm, fit.normal_N) &&
          rivals_.IsUnique(fit.arc_mm, arc_std_mm, fit.normal_N, fit.chi2,
-                          kOtherPlaces);
+                          kOtherPlaces * scale * scale);
 }
 
 }  // namespace finray

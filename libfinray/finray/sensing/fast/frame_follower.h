@@ -35,8 +35,10 @@ class FrameFollower {
 
   /// The result of the last call for a frame.
   const FrameFit& fit(std::size_t frame) const { return fits_[frame]; }
-  /// Says whether a search would find the same contact. `arc_std_mm` as above.
-  bool IsCertain(std::size_t frame, double arc_std_mm) const;
+  /// Says whether a search would find the same contact. `arc_std_mm` as above;
+  /// `scale` is the factor of all std by which the frame is not explained
+  /// (FrameEstimate::noise_scale).
+  bool IsCertain(std::size_t frame, double arc_std_mm, double scale = 1) const;
 
  private:
   const ContactSearch& search_;
