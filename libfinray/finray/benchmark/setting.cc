@@ -124,7 +124,7 @@ class Grid {
     }
     if (scene != "one_contact" && scene != "friction") return;
     for (const Ladder& ladder : series_) {
-      add(ladder, "lanes", ", four frames in lanes",
+      add(ladder, "lanes", ", frames in lanes",
           MakerOf<InLanes>(ladder.discretization, kSensingTolerance));
     }
     Ceres("sensing", scene, "reduced", "alone", kMedium,
