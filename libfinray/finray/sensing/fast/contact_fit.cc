@@ -190,15 +190,14 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
     // With B known, the rate says how little the next change will be.
     const double next =
         knows_curvature && comparable ? std::min(1.0, kDoubt * rate) : 1;
-    const bool last =
-        (small &&
-         IsLastChange(moved, last_change, rate, crossed, tolerance_)) ||
-        ((knows_curvature || iterations_ >= kPatience) &&
-         next * deviations < std::min(1.0, taken) *
-                                 (knows_curvature && last_cost < kNoiseless
-                                      ? kNothing
-                                      : kNoDifference) &&
-         size < kNoDifference);
+    const double nothing = knows_curvature && equations.chi2 < kNoiseless
+                               ? kNothing
+                               : kNoDifference;
+    const bool last = (small && IsLastChange(moved, last_change, rate, crossed,
+                                             tolerance_)) ||
+                      ((knows_curvature || iterations_ >= kPatience) &&
+                       next * deviations < std::min(1.0, taken) * nothing &&
+                       size < kNoDifference);
     damping *= 0.1;
     last_change = moved;
     comparable = true;

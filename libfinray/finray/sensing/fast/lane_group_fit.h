@@ -88,8 +88,8 @@ class LaneGroupFit : public FrameGroupFit {
   std::vector<T> kept_state_;
   LaneSet to_keep_ = 0;
 
-  // Until a call with more than one frame the lanes hold nothing, and state_ and
-  // contact_ are the start of the next frame.
+  // Until a call with more than one frame the lanes hold nothing, and state_
+  // and contact_ are the start of the next frame.
   bool fresh_ = true;
   // Set when a load needs a finer mesh than the lanes have. Frames are then
   // fitted one by one until the next Start.
