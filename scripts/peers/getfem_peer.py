@@ -238,7 +238,7 @@ def measure(finger, order, task, warm, frames):
 
 
 def version():
-    """Of Debian's package: the module does not tell its own."""
+    """Takes it from Debian's package, since the module does not tell its own."""
     asked = subprocess.run(["dpkg-query", "-W", "-f", "${Version}", "python3-getfem++"],
                            capture_output=True, text=True, check=False)
     return f"GetFEM {asked.stdout}" if asked.returncode == 0 else "GetFEM"

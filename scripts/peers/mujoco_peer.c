@@ -65,7 +65,7 @@ static int Settle(double contact, double force) {
     for (int i = 0; i < model->nv; ++i) {
       fastest = fmax(fastest, fabs(data->qvel[i]));
     }
-    // What is left is that of a geometric series.
+    // The rest is that of a geometric series.
     if (fastest * (1 + model->opt.timestep) < still) return 1;
   }
   return 0;

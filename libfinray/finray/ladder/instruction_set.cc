@@ -15,7 +15,8 @@ constexpr InstructionSet kSets[] = {
      [] {
        return __builtin_cpu_supports("avx512f") &&
               __builtin_cpu_supports("avx512dq") &&
-              __builtin_cpu_supports("avx512vl");
+              __builtin_cpu_supports("avx512vl") &&
+              __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
      }},
     {"AVX2", 32,
      [] {

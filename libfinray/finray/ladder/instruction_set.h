@@ -19,7 +19,7 @@ namespace finray {
 int BestInstructionSet();
 
 /// The number of sets from the best one on, which this machine can run, and the
-/// name of each, as "AVX2".
+/// name of each, as "AVX2"; `set` counts from the best one.
 int InstructionSets();
 const char* InstructionSetName(int set);
 

@@ -117,7 +117,7 @@ template <class V>
 inline typename ValueTraits<V>::Scalar SmallestLane(const V& a) {
   if constexpr (ValueTraits<V>::kWidth == 1) {
     return a;
-  } else if constexpr (ValueTraits<V>::kWidth == 8) {
+  } else if constexpr (std::is_same_v<V, EightFrames>) {
     return SmallestLane(
         Smaller(FourFrames(__builtin_shufflevector(a, a, 0, 1, 2, 3)),
                 FourFrames(__builtin_shufflevector(a, a, 4, 5, 6, 7))));

@@ -9,8 +9,9 @@ namespace {
 // At this density a bend of the front beam spans tens of samples.
 constexpr int kSamples = 280;
 constexpr int kMostSecants = 60;
-// The surface of a stretched or bent beam moves at most this far per arc
-// length, so a distance changes no faster.
+// The surface moves |1 + strain + kappa h| per arc length, h being its height
+// over the beam. Up to |kappa h| = 1, where it would fold over itself, that is
+// at most this, and a distance changes no faster.
 constexpr double kFastest = 2;
 constexpr double kFound = 1e-14;  // of l_0
 

@@ -165,7 +165,7 @@ class ObjectContactSolver {
            ObjectContactStatus::kNoTangency;
   }
 
-  // What an equilibrium is worth that tangency_ has evaluated.
+  // Judges the equilibrium that tangency_ has evaluated.
   ObjectContactStatus Judge(const std::vector<PointContact>& contacts,
                             const std::vector<Approach>& approaches) const {
     for (const PointContact& contact : contacts) {

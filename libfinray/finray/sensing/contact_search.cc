@@ -111,19 +111,20 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
   const bool close = exact || HasCloseMinima(solver_.model().finger()) ||
                      (!starts_.empty() && starts_[0].error > kCoarse);
   // The table's contacts have the scene's friction.
-  has_surface_ =
-      contacts == 1 && !close && friction_ == scene_.friction_coefficient;
+  has_surface_ = method_ == FrameMethod::kFast && contacts == 1 && !close &&
+                 friction_ == scene_.friction_coefficient;
   found_.Clear();
   iterations_ = 0;
   std::size_t fallbacks = 0;
-  // Once another solution is known, one on the bound of the force rarely
-  // matters.
+  // A solution on the bound of the force is no rival of another one. Its fit
+  // is often spared once that one is known.
   if (has_surface_ && starts_.size() > 1 && IsLoaded(starts_[1]) &&
       WayFrom(starts_[0], packed).end.contacts[0].normal_N >= most_force_N_) {
     std::swap(starts_[0], starts_[1]);
   }
   for (const ContactStart& start : starts_) {
-    // This start can neither win nor be a rival, and those behind it are worse.
+    // This start can neither win nor be a rival, and those behind it are worse:
+    // also after a swap, since the first two are then both tried or too high.
     if (!exact &&
         kTableFactor * start.chi2 >= found_.least_chi2() + kWithinNoise) {
       break;
@@ -138,7 +139,7 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
       continue;
     }
     const Way way = WayFrom(start, packed);
-    if (way.is_known || !Matters(way)) continue;
+    if (way.is_known || !Matters(way, packed)) continue;
     if (FitAlong(way, packed)) {
       found_.Keep();
       continue;
@@ -341,13 +342,15 @@ ContactSearch::Way ContactSearch::WayFrom(const ContactStart& start,
   return way;
 }
 
-bool ContactSearch::Matters(const Way& way) const {
-  if (!way.leads || found_.empty()) return true;
+bool ContactSearch::Matters(const Way& way,
+                            const PackedReadings& packed) const {
+  if (!way.leads || found_.empty() ||
+      table_.SurfaceError(way.end.contacts[0].normal_N, packed.weights) >
+          kCoarse) {
+    return true;
+  }
   const double distance = std::max(0.0, std::sqrt(way.end.chi2) - kCoarse);
-  const double chi2 = distance * distance;
-  return found_.IsBarred(way.end.contacts[0].normal_N)
-             ? chi2 + kWithinNoise < found_.least_chi2()
-             : chi2 < found_.least_chi2() + kWithinNoise;
+  return distance * distance < found_.least_chi2() + kWithinNoise;
 }
 
 bool ContactSearch::FitAlong(const Way& way, const PackedReadings& packed) {

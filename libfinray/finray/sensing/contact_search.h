@@ -120,8 +120,8 @@ class ContactSearch {
   };
   Way WayFrom(const ContactStart& start, const PackedReadings& packed) const;
   // Says whether the minimum at the end of the way may be the best solution or
-  // a rival, the surface being wrong by kCoarse std at most.
-  bool Matters(const Way& way) const;
+  // a rival. True where the surface may be wrong by more than kCoarse std.
+  bool Matters(const Way& way, const PackedReadings& packed) const;
   // Like FitFast, from the end of the way.
   bool FitAlong(const Way& way, const PackedReadings& packed);
   // Takes over a fit's result as the next solution; false if there is none.

@@ -39,12 +39,6 @@ class FoundSolutions {
 
   // For one contact.
 
-  /// Says whether a solution with that force is on a bound that best() is not
-  /// on. It can then be no rival.
-  bool IsBarred(double normal_N) const {
-    return normal_N >= most_force_N_ && !HasMostForce(best());
-  }
-
   /// Says whether the next solution is one that is kept.
   bool KnowsNext() const;
   /// Says whether a minimum at that contact, not yet fitted, is one that is

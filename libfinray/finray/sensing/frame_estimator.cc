@@ -272,7 +272,7 @@ bool FrameEstimator::TakeFollowed(const PackedReadings& packed, std::size_t run,
   estimate->chi2 = fit.chi2;
   estimate->model_chi2 = kNaN;
   estimate->dof = static_cast<int>(finger_.gauges.size()) - kUnknowns;
-  // A search would look for what else a discrepancy explains.
+  // A search weighs the discrepancy, which this does not.
   const double scale = estimate->noise_scale();
   if (scale > 1 && systematic_.has_discrepancy()) return false;
   const ContactMatrix covariance = CovarianceOf(fit.information);

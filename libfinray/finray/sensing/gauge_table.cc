@@ -154,8 +154,9 @@ GaugeTable::GaugeTable(EquilibriumSolver* solver, double friction,
   rows_.erase(std::remove_if(rows_.begin(), rows_.end(),
                              [](const Row& row) { return row.nodes.empty(); }),
               rows_.end());
+  forces_N_ = forces;
   FindErrors(solver, circle_radius_mm);
-  FillCurves(forces);
+  FillCurves();
   solver->Reset();
 }
 
@@ -163,6 +164,7 @@ void GaugeTable::FindErrors(EquilibriumSolver* solver,
                             const std::optional<double>& circle_radius_mm) {
   errors_.setZero(free_angles_.size() + (circle_radius_mm ? 2 : 0),
                   std::size(kForces));
+  between_rows_ = errors_;
   for (std::size_t i = kErrorRows / 2; i < rows_.size(); i += kErrorRows) {
     const std::vector<Node>& nodes = rows_[i].nodes;
     for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
@@ -180,14 +182,56 @@ void GaugeTable::FindErrors(EquilibriumSolver* solver,
       errors_.col(chord) = errors_.col(chord).max(
           (middle - ValuesOf(*solver, circle_radius_mm)).array().abs());
     }
+    FindErrorsBetweenRows(i, solver, circle_radius_mm);
   }
 }
 
-void GaugeTable::FillCurves(const std::vector<double>& forces_N) {
-  forces_N_ = forces_N;
+// GaugeSurface interpolates over l_c by cubics with slopes from neighbours:
+// half way between rows that is (-1, 9, 9, -1) / 16.
+void GaugeTable::FindErrorsBetweenRows(
+    std::size_t row, EquilibriumSolver* solver,
+    const std::optional<double>& circle_radius_mm) {
+  if (row == 0 || row + 2 >= rows_.size()) return;
+  const auto values = [&](std::size_t i, std::size_t k) {
+    return rows_[i].nodes[k].values.array();
+  };
+  const auto ends = [&](std::size_t i) { return rows_[i].nodes.size(); };
+  const std::size_t nodes =
+      std::min({ends(row - 1), ends(row), ends(row + 1), ends(row + 2)});
+  for (std::size_t k = 1; k < nodes; ++k) {
+    solver->set_state(rows_[row].nodes[k].state);
+    if (!solver->Solve({{0.5 * (rows_[row].arc_mm + rows_[row + 1].arc_mm),
+                         rows_[row].nodes[k].normal_N, friction_}})) {
+      continue;
+    }
+    const Eigen::ArrayXd error = ((9 * (values(row, k) + values(row + 1, k)) -
+                                   values(row - 1, k) - values(row + 2, k)) /
+                                      16 -
+                                  ValuesOf(*solver, circle_radius_mm).array())
+                                     .abs();
+    for (const std::size_t chord : {k - 1, k}) {
+      if (chord + 1 >= forces_N_.size()) continue;
+      const auto column = static_cast<Eigen::Index>(chord);
+      between_rows_.col(column) = between_rows_.col(column).max(error);
+    }
+  }
+}
+
+double GaugeTable::SurfaceError(double normal_N,
+                                const Eigen::VectorXd& weights) const {
+  std::size_t to = 1;
+  while (to < forces_N_.size() && forces_N_[to] < normal_N) ++to;
+  if (to >= forces_N_.size()) return std::numeric_limits<double>::infinity();
+  const auto chord = static_cast<Eigen::Index>(to - 1);
+  return ((errors_.col(chord) + between_rows_.col(chord)) * weights.array())
+      .matrix()
+      .norm();
+}
+
+void GaugeTable::FillCurves() {
   const auto values = static_cast<std::size_t>(errors_.rows());
   const std::size_t rows = Padded(rows_.size());
-  value_.assign(forces_N.size() * values * rows, std::nan(""));
+  value_.assign(forces_N_.size() * values * rows, std::nan(""));
   by_force_ = value_;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const std::vector<Node>& nodes = rows_[i].nodes;
@@ -282,6 +326,7 @@ const LadderState& GaugeTable::StateNear(double arc_mm, double normal_N) const {
 
 bool GaugeTable::StateAt(double arc_mm, double normal_N,
                          LadderState* state) const {
+  if (rows_.size() < kPoints || forces_N_.size() < kPoints) return false;
   double by_row[kPoints], by_force[kPoints];
   const std::size_t row = LagrangeWeights(
       rows_.size(), arc_mm, [&](std::size_t i) { return rows_[i].arc_mm; },
@@ -303,9 +348,11 @@ bool GaugeTable::StateAt(double arc_mm, double normal_N,
         for (auto& beam : state->nodes) beam *= weight;
         continue;
       }
-      if (from.nodes[0].cols() != first->nodes[0].cols() ||
-          from.nodes[1].cols() != first->nodes[1].cols()) {
-        return false;
+      for (int side = 0; side < 2; ++side) {
+        if (from.nodes[side].cols() != first->nodes[side].cols() ||
+            from.nodes[side].row(0) != first->nodes[side].row(0)) {
+          return false;
+        }
       }
       state->q += weight * from.q;
       for (int side = 0; side < 2; ++side) {

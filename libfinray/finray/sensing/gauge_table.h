@@ -48,11 +48,18 @@ class GaugeTable {
   ContactStart BestStart(const Eigen::VectorXd& values,
                          const Eigen::VectorXd& weights) const;
 
+  /// How far, in std, the values interpolated between rows and forces may be
+  /// off under a force: the largest error half way between nodes, for every
+  /// seventh row. Infinite beyond the grid.
+  double SurfaceError(double normal_N, const Eigen::VectorXd& weights) const;
+
   /// The equilibrium of the grid node near that contact.
   const LadderState& StateNear(double arc_mm, double normal_N) const;
 
   /// Interpolates the equilibria of the nodes about a contact: a cubic in l_c
-  /// times one in f_c. Returns false if they are not on one mesh.
+  /// times one in f_c. Returns false if they are not on one mesh, or if a row
+  /// about it ends before those forces. Beyond the outer rows it extrapolates
+  /// by less than a spacing.
   bool StateAt(double arc_mm, double normal_N, LadderState* state) const;
 
   /// The largest force of the grid where nobody says most_force_N: 40 EI /
@@ -87,7 +94,9 @@ class GaugeTable {
  private:
   void FindErrors(EquilibriumSolver* solver,
                   const std::optional<double>& circle_radius_mm);
-  void FillCurves(const std::vector<double>& forces_N);
+  void FindErrorsBetweenRows(std::size_t row, EquilibriumSolver* solver,
+                             const std::optional<double>& circle_radius_mm);
+  void FillCurves();
   RowCurves Curves() const;
   // Calls use(row, chi2, to, share) for the best force of each row.
   template <class Use>
@@ -101,7 +110,8 @@ class GaugeTable {
   Eigen::VectorXd free_angles_;
   std::vector<Row> rows_;
   Row tip_;
-  Eigen::ArrayXXd errors_;  // of interpolated values, values x chords
+  Eigen::ArrayXXd errors_;        // of interpolated values, values x chords
+  Eigen::ArrayXXd between_rows_;  // the same half way to the next row
   std::vector<double> forces_N_;
   std::vector<double> value_, by_force_;  // of RowCurves
 };

@@ -107,6 +107,7 @@ SolveStatus EquilibriumSolver::Attempt(
     return SolveStatus::kSolved;
   }
   if (near_only_) return SolveStatus::kNotConverged;
+  trail_.Clear();  // the path may end on another branch
   if (!heavy) {
     newton_.Reset();
     if (Converge(contacts, columns, heavy)) return SolveStatus::kSolved;
@@ -118,7 +119,8 @@ SolveStatus EquilibriumSolver::Attempt(
   return SolveStatus::kNotConverged;
 }
 
-// From the guess of the trail, and from the present state if that fails.
+// Tries the guess of the trail, and then the newest equilibrium unless the mesh
+// was refined on the way.
 bool EquilibriumSolver::ConvergeNear(const std::vector<PointContact>& contacts,
                                      SweepColumns columns, bool heavy) {
   const LadderFrame<double>& f = newton_.frame();

@@ -26,7 +26,8 @@ class LoadTrail {
 
   void Clear() { count_ = 0; }
   /// Keeps the equilibrium `state`, `size` numbers, as the newest one. Other
-  /// kinds of contacts or another size begin a new trail. Only that allocates.
+  /// kinds of contacts or another size begin a new trail. A trail that is full
+  /// allocates nothing.
   void Add(const std::vector<PointContact>& contacts, const double* state,
            Eigen::Index size);
   /// Replaces `state`, which must be the newest one, by the guess for

@@ -42,7 +42,7 @@ class Shape {
   Section SurfaceAt(Side side, double arc_mm) const;
 
  private:
-  // Of the first `sides` beams, front and back.
+  // Takes the first `sides` beams, front and back.
   Shape(const EquilibriumSolver& solver,
         const std::vector<PointContact>& contacts, int sides);
 

@@ -38,7 +38,7 @@ class FrameFollower {
   /// Says whether a search would find the same contact. `arc_std_mm` as above;
   /// `scale` is the factor of all std by which the frame is not explained
   /// (FrameEstimate::noise_scale).
-  bool IsCertain(std::size_t frame, double arc_std_mm, double scale = 1) const;
+  bool IsCertain(std::size_t frame, double arc_std_mm, double scale) const;
 
  private:
   const ContactSearch& search_;

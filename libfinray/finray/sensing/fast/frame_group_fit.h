@@ -44,12 +44,12 @@ struct FrameFit {
 ///
 /// Results depend on the state given to Start, the frames since then, how the
 /// frames were divided into calls, and the number of lanes, to within the
-/// tolerance. After the first calls nothing is
-/// allocated.
+/// tolerance. After the first calls nothing is allocated.
 class FrameGroupFit {
  public:
-  /// Makes one with `lanes` lanes, 4 or 8. Throws InputError as LadderModel
-  /// does.
+  /// Makes one with `lanes` lanes. Throws InputError as LadderModel does, and
+  /// std::invalid_argument if this machine cannot have so many: 4, and 8 where
+  /// FrameLanes() is 8.
   static std::unique_ptr<FrameGroupFit> Make(
       const Finger& finger, const Discretization& discretization,
       double friction = 0, int lanes = FrameLanes());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "finray/ladder/mesh_refinement.h"
 #include "finray/ladder/rib_law.h"
@@ -343,6 +344,9 @@ std::unique_ptr<FrameGroupFit> FrameGroupFit::Make(
   if (lanes == kFrameLanes<EightFrames>) {
     return std::make_unique<LaneGroupFit<EightFrames>>(finger, discretization,
                                                        friction);
+  }
+  if (lanes != kFrameLanes<FourFrames>) {
+    throw std::invalid_argument("frames go in 4 or 8 lanes");
   }
   return std::make_unique<LaneGroupFit<FourFrames>>(finger, discretization,
                                                     friction);
