@@ -188,12 +188,17 @@ TYPED_TEST(LadderLanesTest, AStateOfAnotherMeshIsRefused) {
 
 TYPED_TEST(LadderLanesTest, ALaneThatIsNotFiniteIsReported) {
   LadderLanes<TypeParam> lanes(PaperFinger(), {Scheme::kTaylor8, 12}, 0);
-  const auto force = Repeated<TypeParam>({1, 1, 1, 1});
-  lanes.Place(Repeated<TypeParam>({60, 60, 60, 60}), force,
+  const auto normal_N = Repeated<TypeParam>({1, 1, 1, 1});
+  lanes.Place(Repeated<TypeParam>({60, 60, 60, 60}), normal_N,
               kAllFrameLanes<TypeParam>, 0);
   EXPECT_TRUE(lanes.Linearize());
-  lanes.frame().state.q[4][2] = std::nan("");
-  EXPECT_FALSE(lanes.Linearize());
+  for (int lane = 0; lane < kFrameLanes<TypeParam>; ++lane) {
+    double& force = LaneOf(lanes.frame().state.q[4], lane);
+    const double was = force;
+    force = std::nan("");
+    EXPECT_FALSE(lanes.Linearize()) << lane;
+    force = was;
+  }
 }
 
 }  // namespace

@@ -100,5 +100,43 @@ TEST_F(GaugeTableTest, HalfTheRowsLessExact) {
   }
 }
 
+// Between nodes an interpolated state is far nearer to the equilibrium than the
+// nearest node is.
+TEST_F(GaugeTableTest, StatesBetweenNodes) {
+  const auto distance = [](const LadderState& a, const LadderState& b) {
+    double largest = (a.q - b.q).lpNorm<Eigen::Infinity>();
+    for (int side = 0; side < 2; ++side) {
+      EXPECT_EQ(a.nodes[side].row(0), b.nodes[side].row(0));
+      largest = std::max(largest, (a.nodes[side] - b.nodes[side])
+                                      .bottomRows<4>()
+                                      .lpNorm<Eigen::Infinity>());
+    }
+    return largest;
+  };
+  LadderState state;
+  for (const double arc_mm : {31.3, 70.1, 107.9}) {
+    for (const double normal_N : {0.1, 0.5, 1.7}) {
+      ASSERT_TRUE(solver_.Solve({{arc_mm, normal_N}}));
+      ASSERT_TRUE(table_.StateAt(arc_mm, normal_N, &state));
+      const LadderState exact = solver_.state();
+      EXPECT_LT(distance(state, exact),
+                0.05 * distance(table_.StateNear(arc_mm, normal_N), exact))
+          << arc_mm << " mm, " << normal_N << " N";
+    }
+  }
+  EXPECT_FALSE(table_.StateAt(70, 20, &state));  // nodes of several meshes
+}
+
+// Exact values between nodes are off the interpolated ones by no more than the
+// table says.
+TEST_F(GaugeTableTest, SurfaceErrorsGrowWithTheForce) {
+  const double light = table_.SurfaceError(0.5, weights_),
+               heavy = table_.SurfaceError(20, weights_);
+  EXPECT_GT(light, 0);
+  EXPECT_LT(light, 1);
+  EXPECT_GT(heavy, light);
+  EXPECT_TRUE(std::isinf(table_.SurfaceError(1e3, weights_)));
+}
+
 }  // namespace
 }  // namespace finray

@@ -97,7 +97,11 @@ TEST(LoadTrailTest, SaysNothingOfOtherContacts) {
   trail.Add({}, z.data(), 2);
   EXPECT_FALSE(predicts(At(0.5, 1.03)));
   trail.Clear();
-  EXPECT_FALSE(predicts({}));
+  trail.Add(At(0.5, 1), z.data(), 2);
+  trail.Add(At(0.5, 1.01), z.data(), 2);
+  EXPECT_TRUE(predicts(At(0.5, 1.02)));
+  trail.Clear();
+  EXPECT_FALSE(predicts(At(0.5, 1.02)));
 }
 
 // A solver on a path needs fewer iterations than one that forgets its trail. It

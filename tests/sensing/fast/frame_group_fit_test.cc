@@ -166,7 +166,8 @@ int Iterations(const std::vector<FrameFit>& fits) {
 }
 
 // The curvatures of a surface change the way of a fit and not its end.
-// Under 3 and 10 N, and with the curvatures of a finger that is a little other.
+// That holds under 3 and 10 N, and with the curvatures of a finger that is a
+// little other.
 TEST_P(FrameGroupFitTest, CurvaturesSaveIterations) {
   const Finger finger = PaperFinger();
   const Discretization discretization{Scheme::kTaylor8, 12};
@@ -317,7 +318,8 @@ TEST_P(FrameGroupFitTest, TheSameCallsGiveTheSameBits) {
   }
 }
 
-// Dividing the frames into other calls gives the same results to rounding.
+// Dividing the frames into other calls gives the same results. Single frames
+// are fitted alone until a call has more.
 TEST_P(FrameGroupFitTest, CallsOfAnyLength) {
   const Finger finger = PaperFinger();
   const Discretization discretization{Scheme::kTaylor8, 12};
@@ -326,6 +328,23 @@ TEST_P(FrameGroupFitTest, CallsOfAnyLength) {
     ExpectAsAlone(finger, discretization, frames,
                   FitInLanes(finger, discretization, frames, block));
   }
+  const auto fit = FrameGroupFit::Make(finger, discretization, 0, GetParam());
+  fit->set_tolerance(1e-13);
+  EquilibriumSolver solver(finger, discretization);
+  ASSERT_TRUE(solver.Solve({frames.truth[0]}));
+  fit->Start(solver.state(), frames.truth[0]);
+  std::vector<FrameFit> fits(70);
+  int i = 0;
+  for (const int count : {1, 1, 20, 1, 47}) {
+    fit->Fit(frames.angles.middleCols(i, count),
+             frames.weights.middleCols(i, count), &fits[i]);
+    i += count;
+  }
+  EXPECT_FALSE(fits[0].in_lanes);
+  EXPECT_FALSE(fits[1].in_lanes);
+  EXPECT_TRUE(fits[2].in_lanes);
+  EXPECT_TRUE(fits[22].in_lanes);
+  ExpectAsAlone(finger, discretization, frames, fits);
 }
 
 TEST_P(FrameGroupFitTest, FollowsALogToTheLeastSquares) {
