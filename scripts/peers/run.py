@@ -24,7 +24,7 @@ class NotInstalled(Exception):
 
 
 def main():
-    peer, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+    peer, folder = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
     job = json.loads((folder / "job.json").read_text("utf-8"))
     sys.modules["run"] = sys.modules["__main__"]
     try:
