@@ -19,8 +19,10 @@ FAMILIES = {
     "scipy": (theme.INK, "SciPy"),
     "octave": (theme.INK, "Octave"),
     "calculix": (theme.INK, "CalculiX"),
+    "getfem": (theme.INK, "GetFEM"),
+    "mujoco": (theme.INK, "MuJoCo"),
 }
-MARKERS = {"scipy": "P", "octave": "X", "calculix": "D"}
+MARKERS = {"scipy": "P", "octave": "X", "calculix": "D", "getfem": "v", "mujoco": "*"}
 HOW_MARKERS = {"lanes": "s", "block": "s", "to_rounding": "^", "cold": "v", "search": "v"}
 
 

@@ -33,6 +33,17 @@ SETTINGS = [setting(k, 1 + 0.3 * k, 10**-k) for k in range(5)]
 NOISE = {"scene": "one_contact", "gauge_rad": 3e-4, "contact_mm": 0.56, "normal_N": 0.1}
 
 
+class FamiliesTest(unittest.TestCase):
+    def test_every_peer_has_a_look_and_a_script(self):
+        code = (ROOT / "libfinray/finray/benchmark/peers.cc").read_text("utf-8")
+        peers = re.findall(r'"(\w+)"', re.search(r"kPeers = \{(.*?)\}", code, re.S)[1])
+        self.assertGreater(len(peers), 4)
+        looks = {plot_style.look({"family": peer, "how": "peer"}) for peer in peers}
+        self.assertEqual(len(looks), len(peers))
+        for peer in peers:
+            self.assertTrue((ROOT / f"scripts/peers/{peer}_peer.py").exists(), peer)
+
+
 class LogAxisTest(unittest.TestCase):
     def labels(self, low, high):
         figure, axes = plt.subplots()
