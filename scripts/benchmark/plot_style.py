@@ -22,7 +22,7 @@ FAMILIES = {
     "getfem": (theme.INK, "GetFEM"),
     "mujoco": (theme.INK, "MuJoCo"),
 }
-MARKERS = {"scipy": "P", "octave": "X", "calculix": "D", "getfem": "v", "mujoco": "*"}
+MARKERS = {"scipy": "P", "octave": "X", "calculix": "D", "getfem": "p", "mujoco": "*"}
 HOW_MARKERS = {"lanes": "s", "block": "s", "to_rounding": "^", "cold": "v", "search": "v"}
 
 
