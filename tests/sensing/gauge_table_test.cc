@@ -2,11 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <random>
 #include <vector>
 
+#include "finray/finger/geometry.h"
 #include "finray/objects/circle_centre.h"
+#include "finray/sensing/gauge_surface.h"
 #include "test_finger.h"
 
 namespace finray {
@@ -127,14 +131,30 @@ TEST_F(GaugeTableTest, StatesBetweenNodes) {
   EXPECT_FALSE(table_.StateAt(70, 20, &state));  // nodes of several meshes
 }
 
-// Exact values between nodes are off the interpolated ones by no more than the
-// table says.
-TEST_F(GaugeTableTest, SurfaceErrorsGrowWithTheForce) {
-  const double light = table_.SurfaceError(0.5, weights_),
-               heavy = table_.SurfaceError(20, weights_);
-  EXPECT_GT(light, 0);
-  EXPECT_LT(light, 1);
-  EXPECT_GT(heavy, light);
+// Half way between rows and forces, where it is farthest off, the surface is no
+// more than some times as wrong as the table says of every seventh row.
+TEST_F(GaugeTableTest, SurfaceErrorsHold) {
+  const GaugeSurface surface(table_, PaperFinger());
+  const double length = PaperFinger().front_length_mm,
+               unit = ForceUnit(PaperFinger());
+  double worst = 0;
+  for (double arc_mm = 22.5; arc_mm < 120; arc_mm += 7.5) {
+    for (const double force : {0.75, 1.5, 5.5, 10.0, 17.5}) {
+      ASSERT_TRUE(solver_.Solve({{arc_mm, force * unit}}));
+      Eigen::VectorXd off(6);
+      off.head<4>() = solver_.outputs().head<4>();
+      off.tail<2>() = CircleCentre(solver_.contact_pose(0), kRadius_mm);
+      for (Eigen::Index j = 0; j < 6; ++j) {
+        off[j] -= surface.At(j, arc_mm / length, force).value;
+        off[j] *= weights_[j];
+      }
+      worst = std::max(
+          worst, off.norm() / table_.SurfaceError(force * unit, weights_));
+    }
+  }
+  std::printf("largest error over the table's: %.2f\n", worst);
+  EXPECT_LT(worst, 2);
+  EXPECT_GT(worst, 0.2);
   EXPECT_TRUE(std::isinf(table_.SurfaceError(1e3, weights_)));
 }
 

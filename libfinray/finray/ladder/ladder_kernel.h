@@ -40,7 +40,7 @@ template <class T>
 struct FramesKernel {
   void (*evaluate)(LadderFrame<T>&);
   bool (*sweep)(LadderFrame<T>&);
-  /// As combine, and adds `step` to the state.
+  /// Does what LadderKernel::combine does, and adds `step` to the state.
   void (*step)(LadderFrame<T>&);
 };
 

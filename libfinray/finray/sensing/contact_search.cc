@@ -123,8 +123,8 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
     std::swap(starts_[0], starts_[1]);
   }
   for (const ContactStart& start : starts_) {
-    // This start can neither win nor be a rival, and those behind it are worse:
-    // also after a swap, since the first two are then both tried or too high.
+    // This start can neither win nor be a rival, and those behind it are worse.
+    // After a swap the first one is tried all the same.
     if (!exact &&
         kTableFactor * start.chi2 >= found_.least_chi2() + kWithinNoise) {
       break;
@@ -358,18 +358,20 @@ bool ContactSearch::FitAlong(const Way& way, const PackedReadings& packed) {
   contacts_.assign(1, way.end.contacts[0]);
   contacts_[0].friction = friction_;
   const PointContact& end = way.end.contacts[0];
-  bool settled = true;
-  if (table_.StateAt(end.arc_mm, end.normal_N, &between_)) {
+  bool starts = table_.StateAt(end.arc_mm, end.normal_N, &between_);
+  if (starts) {
     fit_.set_state(between_);
   } else {
     fit_.set_state(*way.start.state);
     Spend(1, false);
-    settled = fit_.Settle(contacts_) && MayGoOn();
+    starts = fit_.Settle(contacts_) && MayGoOn();
   }
-  return (settled &&
-          Fill(fit_.Finish(packed.values, packed.weights, surface_, &contacts_),
-               1)) ||
-         (MayGoOn() && FitFast(way.start, packed));
+  if (starts &&
+      Fill(fit_.Finish(packed.values, packed.weights, surface_, &contacts_),
+           1)) {
+    return true;
+  }
+  return MayGoOn() && FitFast(way.start, packed);
 }
 
 bool ContactSearch::Fill(bool converged, int count) {

@@ -1,0 +1,48 @@
+#!/usr/bin/python3
+"""Compares two results of finray_estimate on one log, frame by frame.
+
+compare_frames.py A.frames.csv B.frames.csv
+
+Prints the sums of `iterations`, how many frames change from one status to
+another, and the largest differences of place and force of frames that are `ok`
+in both, in the std of A.
+"""
+
+import collections
+import csv
+import itertools
+import sys
+
+
+def frames(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        yield from csv.DictReader(file)
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    iterations, changes = [0, 0], collections.Counter()
+    largest = {"contact_1_mm": 0.0, "normal_1_N": 0.0}
+    for both in itertools.zip_longest(*map(frames, sys.argv[1:])):
+        if None in both:
+            sys.exit("the results have different numbers of frames")
+        a, b = both
+        for k, frame in enumerate(both):
+            iterations[k] += int(frame["iterations"] or 0)
+        if a["status"] != b["status"]:
+            changes[a["status"], b["status"]] += 1
+        elif a["status"] == "ok":
+            for name in largest:
+                value, unit = name.rsplit("_", 1)
+                off = abs(float(a[name]) - float(b[name])) / float(a[f"{value}_std_{unit}"])
+                largest[name] = max(largest[name], off)
+    print("iterations", *iterations)
+    for (before, after), count in changes.most_common():
+        print(f"{count} frames from {before} to {after}")
+    for name, off in largest.items():
+        print(f"{name}: {off:.1e} std apart at most")
+
+
+if __name__ == "__main__":
+    main()
