@@ -77,7 +77,9 @@ class PlayBelief {
   static constexpr double kMoves = 4;
 
   explicit PlayBelief(const T& width)
-      : width_(width), band_(width > 0.0 ? width : T(0.0)) {}
+      : width_(width),
+        band_(width > 0.0 ? width : T(0.0)),
+        cells_(width > 0.0 ? kCells : 1) {}
 
   /// Takes the next reading u. `moved2` is the mean square of the changes of
   /// all gauges since the row before; it is 2 for noise alone.
@@ -91,6 +93,7 @@ class PlayBelief {
       step2_ = T(0.0);
       for (T& share : shares_) share = T(1.0 / (kCells - 1.0));
       shares_[0] = shares_[kCells - 1] = T(0.5 / (kCells - 1.0));
+      if (cells_ == 1) shares_[0] = T(1.0);
       SetMoments(T(0.0), T(0.0));
       return;
     }
@@ -144,7 +147,7 @@ class PlayBelief {
     const T e_still = -0.5 * change * change / s2;
     std::array<T, kCells> up, down;  // exponents, then probabilities
     T most = e_still;
-    for (int i = 0; i < kCells; ++i) {
+    for (int i = 0; i < cells_; ++i) {
       const T above = width_ - ValueOf(i, cell);
       const T below = width_ + ValueOf(i, cell);
       up[i] = -0.5 * (change + above) * (change + above) / far2;
@@ -153,19 +156,19 @@ class PlayBelief {
     }
     // Phi at the edges between cells, (k + 1/2) cells away, and at both ends.
     std::array<T, 2 * kCells> edges;
-    for (int k = 0; k < 2 * kCells; ++k) {
-      edges[k] = Phi((k - kCells + 0.5) * cell / t);
+    for (int k = 1; k < 2 * cells_ - 1; ++k) {
+      edges[k] = Phi((k - cells_ + 0.5) * cell / t);
     }
     const T inside = exp(e_still - most) / sqrt(s2);
     std::array<T, kCells> next;
     next.fill(T(0.0));
     T rises(0.0), falls(0.0), stays(0.0);
-    for (int i = 0; i < kCells; ++i) {
+    for (int i = 0; i < cells_; ++i) {
       const T above = width_ - ValueOf(i, cell);
       const T below = width_ + ValueOf(i, cell);
       T low = Phi((-band_ - ValueOf(i, cell)) / t);
-      for (int j = 0; j < kCells; ++j) {
-        const T high = j + 1 < kCells ? edges[j - i + kCells]
+      for (int j = 0; j < cells_; ++j) {
+        const T high = j + 1 < cells_ ? edges[j - i + cells_]
                                       : Phi((band_ - ValueOf(i, cell)) / t);
         const T share = shares_[i] * inside * (high - low);
         next[j] += share;
@@ -179,10 +182,10 @@ class PlayBelief {
     }
     const T total = stays + rises + falls;
     if (!(total > 1e-300)) return T(1.0);  // beyond what doubles tell
-    for (int i = 0; i < kCells; ++i) shares_[i] = next[i] / total;
+    for (int i = 0; i < cells_; ++i) shares_[i] = next[i] / total;
     SetMoments(falls / total, rises / total);
     shares_[0] += falls / total;
-    shares_[kCells - 1] += rises / total;
+    shares_[cells_ - 1] += rises / total;
     return stays / total;
   }
 
@@ -191,7 +194,7 @@ class PlayBelief {
     const T cell = 2.0 * band_ / (kCells - 1.0);
     mean_ = width_ * (up - down);
     variance_ = width_ * width_ * (up + down);
-    for (int i = 0; i < kCells; ++i) {
+    for (int i = 0; i < cells_; ++i) {
       const T d = ValueOf(i, cell);
       mean_ += shares_[i] * d;
       variance_ += shares_[i] * d * d;
@@ -201,6 +204,7 @@ class PlayBelief {
   }
 
   T width_, band_;
+  int cells_;  // at a width of 0 all cells are one
   bool started_ = false;
   T at_{}, at_variance_{}, step2_{}, mean_{}, variance_{};
   std::array<T, kCells> shares_{};
