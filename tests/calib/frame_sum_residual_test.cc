@@ -23,6 +23,7 @@ TEST(FrameSumResidualTest, ContactsAreEliminated) {
   frame.Eliminate();
   Linearization sums(3, 1);
   sums.Add(0, 0, frame);
+  sums.Finish();
   // The least over the contact of |r + C dx + E dc|^2 / 2.
   const auto least = [&](const Eigen::Vector3d& dx) {
     const Eigen::VectorXd at = r + c * dx;
@@ -34,6 +35,45 @@ TEST(FrameSumResidualTest, ContactsAreEliminated) {
     EXPECT_NEAR(sums.cost + sums.gradient.dot(dx) +
                     0.5 * dx.dot(sums.Information() * dx),
                 least(dx), 1e-10 * least(dx) + 1e-12);
+  }
+}
+
+// Rows are summed many at a time; each must count once and for its own log and
+// family.
+TEST(FrameSumResidualTest, InformationIsTheSumOverAllRows) {
+  constexpr int kFrames = 90, kLogs = 3;
+  const ResidualFamily families[] = {ResidualFamily::kGauge,
+                                     ResidualFamily::kForce};
+  Linearization sums(4, kFrames);
+  Eigen::MatrixXd of_log[kLogs], of_family[2];
+  for (Eigen::MatrixXd& sum : of_log) sum.setZero(4, 4);
+  for (Eigen::MatrixXd& sum : of_family) sum.setZero(4, 4);
+  for (int i = 0; i < kFrames; ++i) {
+    const int log = i < 60 ? 0 : i % kLogs;
+    LinearizedFrame frame;
+    frame.rows.assign(5, {families[0], 0});
+    frame.rows.resize(8, {families[1], -1});
+    frame.residuals = Eigen::VectorXd::Random(8);
+    frame.weights = Eigen::VectorXd::Ones(8);
+    frame.by_parameter = Eigen::MatrixXd::Random(8, 4);
+    frame.by_contact.setZero(8, 2);
+    frame.Eliminate();
+    sums.Add(i, log, frame);
+    const Eigen::MatrixXd& c = frame.by_parameter;
+    of_log[log] += c.transpose() * c;
+    of_family[0] += c.topRows(5).transpose() * c.topRows(5);
+    of_family[1] += c.bottomRows(3).transpose() * c.bottomRows(3);
+  }
+  sums.Finish();
+  for (int log = 0; log < kLogs; ++log) {
+    EXPECT_LT((sums.InformationOfLog(log) - of_log[log]).norm(), 1e-11) << log;
+  }
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_LT(
+        (sums.InformationOfFamily(static_cast<int>(families[k])) - of_family[k])
+            .norm(),
+        1e-11)
+        << k;
   }
 }
 

@@ -95,6 +95,7 @@ bool LadderModel::set_effect(int effect, double value) {
                      kind == FingerParameterKind::kBackPiece;
   const bool positive = piece || kind == FingerParameterKind::kRibBending;
   if (!std::isfinite(value) || (positive && !(value > 0))) return false;
+  if (piece && value == ParameterValue(finger_, effects_[effect])) return true;
   SetParameter(effects_[effect], value, &finger_);
   if (piece) {
     const Side side =

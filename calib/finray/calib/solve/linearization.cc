@@ -1,8 +1,14 @@
 #include "finray/calib/solve/linearization.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace finray {
+namespace {
+
+constexpr Eigen::Index kMostWaiting = 128;
+
+}  // namespace
 
 Eigen::Matrix2d PseudoInverse(const Eigen::Matrix2d& a) {
   // The eigenvalues of [p, q; q, s] have a closed form.
@@ -56,9 +62,13 @@ void Linearization::Add(int frame, int log, const LinearizedFrame& at) {
   gradient += pull;
   cost += at.cost - at.move.decrease;
   frames.push_back(frame);
-  auto [of_log, is_new] = information.try_emplace(log);
-  if (is_new) {
-    of_log->second.fill(Eigen::MatrixXd::Zero(c.cols(), c.cols()));
+  if (log != log_) {
+    Sum();
+    log_ = log;
+    auto [of_log, is_new] = information.try_emplace(log);
+    if (is_new) {
+      of_log->second.fill(Eigen::MatrixXd::Zero(c.cols(), c.cols()));
+    }
   }
   const Eigen::Matrix2d contact =
       PseudoInverse(at.by_contact.transpose() * at.by_contact);
@@ -75,16 +85,37 @@ void Linearization::Add(int frame, int log, const LinearizedFrame& at) {
       residuals.push_back(at.residuals[end]);
       weighted_residuals.push_back(weighted[end]);
     }
-    // The matrix has few rows, and for these Eigen's product of large matrices
-    // takes several times as long.
-    const auto of_family = c.middleRows(i, end - i);
-    of_log->second[static_cast<int>(family)].noalias() +=
-        of_family.transpose().lazyProduct(of_family);
+    Waiting& waiting = waiting_[static_cast<int>(family)];
+    if (waiting.count + end - i > waiting.rows.cols()) {
+      Sum();
+      waiting.rows.resize(c.cols(), std::max(kMostWaiting, end - i));
+    }
+    waiting.rows.middleCols(waiting.count, end - i) =
+        c.middleRows(i, end - i).transpose();
+    waiting.count += end - i;
     i = end;
   }
 }
 
+// Adds the products of the waiting rows to the lower triangles.
+void Linearization::Sum() {
+  for (int i = 0; i < kResidualFamilies; ++i) {
+    Waiting& waiting = waiting_[i];
+    if (waiting.count == 0) continue;
+    information.at(log_)[i].selfadjointView<Eigen::Lower>().rankUpdate(
+        waiting.rows.leftCols(waiting.count));
+    waiting.count = 0;
+  }
+}
+
 void Linearization::Finish() {
+  Sum();
+  waiting_ = {};
+  for (auto& [log, of_log] : information) {
+    for (Eigen::MatrixXd& sum : of_log) {
+      sum.triangularView<Eigen::StrictlyUpper>() = sum.transpose();
+    }
+  }
   pulls.conservativeResize(Eigen::NoChange,
                            static_cast<Eigen::Index>(frames.size()));
 }

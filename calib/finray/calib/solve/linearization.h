@@ -96,13 +96,27 @@ struct Linearization {
 
   /// At most `most_frames` frames can be added.
   explicit Linearization(int parameters = 0, std::size_t most_frames = 0);
+  /// Frames of one log should follow each other.
   void Add(int frame, int log, const LinearizedFrame& at);
-  /// Call it after the last frame is added.
+  /// Call it after the last frame is added. `information` is not complete
+  /// before.
   void Finish();
 
   Eigen::MatrixXd Information() const;  ///< S
   Eigen::MatrixXd InformationOfLog(int log) const;
   Eigen::MatrixXd InformationOfFamily(int family) const;
+
+ private:
+  void Sum();
+
+  // Rows of the log added last whose products are not in `information` yet: a
+  // product of many rows takes a fraction of the time of many products.
+  struct Waiting {
+    Eigen::MatrixXd rows;  // parameters x rows
+    Eigen::Index count = 0;
+  };
+  int log_ = -1;
+  std::array<Waiting, kResidualFamilies> waiting_;
 };
 
 }  // namespace finray
