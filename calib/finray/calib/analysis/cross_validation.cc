@@ -1,7 +1,11 @@
 #include "finray/calib/analysis/cross_validation.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -46,6 +50,13 @@ ScaledSums OfAll(const CalibrationProblem& problem,
 
 }  // namespace
 
+void ForEachFold(const CalibrationProblem& problem,
+                 const std::function<void(int fold)>& use) {
+  tbb::task_arena(problem.threads()).execute([&] {
+    tbb::parallel_for(0, WideLinearization::kFolds, use);
+  });
+}
+
 LeftOut LeaveFoldOut(const CalibrationProblem& problem,
                      const WideLinearization& wide, int fold) {
   const Eigen::VectorXd unit = problem.parameters().Units();
@@ -80,7 +91,7 @@ LeftOutFinger::LeftOutFinger(const CalibrationProblem& problem,
                              const Identifiability& found,
                              const WideLinearization& wide, int fold,
                              const std::vector<int>& frames)
-    : part(problem.Part(frames, problem.threads())) {
+    : part(problem.Part(frames, 1)) {
   const LeftOut left = LeaveFoldOut(problem, wide, fold);
   part->SetValues(left.values);
   Identifiability known = found;
@@ -114,7 +125,12 @@ CrossValidation CrossValidate(
   for (const std::vector<int>& frames : wide.frames) {
     if (frames.empty()) return result;
   }
-  for (int fold = 0; fold < WideLinearization::kFolds; ++fold) {
+  struct Fold {
+    SensedFrames sensed;
+    double friction = 0;
+  };
+  std::array<Fold, WideLinearization::kFolds> folds;
+  ForEachFold(problem, [&](int fold) {
     const std::vector<int>& all = wide.frames[fold];
     const std::size_t count = std::min(
         all.size(), CrossValidation::kMostChecked / WideLinearization::kFolds);
@@ -123,17 +139,21 @@ CrossValidation CrossValidate(
       const int i = all[k * all.size() / count];
       if (!problem.frame(i).IsBench()) frames.push_back(i);
     }
-    if (frames.empty()) continue;
+    if (frames.empty()) return;
     LeftOutFinger without(problem, found, wide, fold, frames);
     if (without.finger.calibration) {
       without.finger.calibration->discrepancy = discrepancy;
     }
-    const SensedFrames sensed =
-        SenseFrames(without.part.get(), without.finger, frames, false);
-    for (std::size_t k = 0; k < frames.size(); ++k) {
-      sensed.AddTo(&result.errors, k, without.part->parameters().friction());
+    folds[fold] = {
+        SenseFrames(without.part.get(), without.finger, frames, false),
+        without.part->parameters().friction()};
+  });
+  for (const Fold& fold : folds) {
+    const std::size_t frames = fold.sensed.estimates.size();
+    for (std::size_t k = 0; k < frames; ++k) {
+      fold.sensed.AddTo(&result.errors, k, fold.friction);
     }
-    ++result.folds;
+    result.folds += frames > 0 ? 1 : 0;
   }
   return result;
 }

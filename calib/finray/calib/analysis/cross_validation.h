@@ -2,6 +2,7 @@
 #define FINRAY_CALIB_ANALYSIS_CROSS_VALIDATION_H_
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -33,8 +34,13 @@ struct LeftOut {
 LeftOut LeaveFoldOut(const CalibrationProblem& problem,
                      const WideLinearization& wide, int fold);
 
+/// Calls use(fold) for each fold, on the threads of the problem. What `use`
+/// makes must not depend on the other folds.
+void ForEachFold(const CalibrationProblem& problem,
+                 const std::function<void(int fold)>& use);
+
 /// The finger that all folds but one calibrate, with its covariance, and the
-/// problem of some frames of that fold at its values.
+/// problem of some frames of that fold at its values, for one thread.
 struct LeftOutFinger {
   LeftOutFinger(const CalibrationProblem& problem, const Identifiability& found,
                 const WideLinearization& wide, int fold,

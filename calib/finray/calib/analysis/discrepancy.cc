@@ -2,7 +2,10 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -205,17 +208,26 @@ HeldOutErrors GaugeErrorsOf(const CalibrationProblem& problem,
   const auto touches = [&](int i) {
     return !problem.frame(i).IsBench() && problem.frame(i).contact;
   };
-  for (int fold = 0; fold < WideLinearization::kFolds; ++fold) {
+  std::array<std::vector<GaugeError>, WideLinearization::kFolds> of_fold;
+  std::atomic<bool> all_known = true;
+  ForEachFold(problem, [&](int fold) {
     std::vector<int> frames;
     for (const int i : wide.frames[fold]) {
       if (touches(i)) frames.push_back(i);
     }
     frames = Spread(frames, kMostErrors / WideLinearization::kFolds);
-    if (frames.empty()) continue;
+    if (frames.empty()) return;
     const LeftOutFinger without(problem, found, wide, fold, frames);
-    if (!without.finger.calibration) return {};
-    AddErrors(without.part.get(), without.finger, frames, solution.contacts,
-              &errors.fitted);
+    if (without.finger.calibration) {
+      AddErrors(without.part.get(), without.finger, frames, solution.contacts,
+                &of_fold[fold]);
+    } else {
+      all_known = false;
+    }
+  });
+  if (!all_known) return {};
+  for (std::vector<GaugeError>& of : of_fold) {
+    std::move(of.begin(), of.end(), std::back_inserter(errors.fitted));
   }
   std::vector<int> rejected;
   for (const auto& [i, reason] : problem.rejected()) {
