@@ -5,7 +5,9 @@
 
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <random>
+#include <vector>
 
 #include "finray/io/error.h"
 #include "finray/objects/sliding_friction.h"
@@ -50,6 +52,44 @@ TEST(FrameEstimatorTest, NoiseFreeGridFromACold) {
   std::printf("30 x 20 grid: %d of 600 right; worst %.1e mm, %.1e\n", right,
               worst_arc, worst_force);
   EXPECT_EQ(right, 600);
+}
+
+// One estimator for each thread, with the tables of the first.
+TEST(FrameEstimatorTest, CopiesEstimateTheSame) {
+  const Finger finger = PaperFinger();
+  Scene scene;
+  scene.most_contacts = 2;
+  std::vector<Measurements> readings;
+  EquilibriumSolver solver(finger, {});
+  for (int i = 0; i < 40; ++i) {
+    ASSERT_TRUE(solver.Solve(
+        i < 36 ? std::vector<PointContact>{{40.0 + i, 0.005 * i * i, 0}}
+               : std::vector<PointContact>{{30, 4, 0}, {90, 3, 0}}));
+    readings.push_back(CleanReadings(solver));
+  }
+  auto first = std::make_unique<FrameEstimator>(finger, scene);
+  const auto estimate = [&](FrameEstimator* estimator) {
+    std::vector<FrameEstimate> estimates(readings.size());
+    estimator->EstimateBlock(readings.data(), readings.size(),
+                             estimates.data());
+    return estimates;
+  };
+  const std::vector<FrameEstimate> expected = estimate(first.get());
+  FrameEstimator copy(*first), before(*first);
+  first.reset();  // a copy keeps the tables alive
+  for (FrameEstimator* other : {&copy, &before}) {
+    const std::vector<FrameEstimate> found = estimate(other);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].status, expected[i].status) << i;
+      EXPECT_EQ(found[i].contacts, expected[i].contacts) << i;
+      EXPECT_EQ(found[i].chi2, expected[i].chi2) << i;
+      if (found[i].contacts == 0) continue;
+      EXPECT_EQ(found[i].contact[0].arc_mm, expected[i].contact[0].arc_mm) << i;
+      EXPECT_EQ(found[i].contact[0].arc_std_mm,
+                expected[i].contact[0].arc_std_mm)
+          << i;
+    }
+  }
 }
 
 TEST(FrameEstimatorTest, StdIsWhatNoiseDoes) {

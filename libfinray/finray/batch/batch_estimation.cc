@@ -5,15 +5,24 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <mutex>
 
 namespace finray {
 
 FrameSolverFactory FrameSolvers(const Finger& finger, const Scene& scene,
                                 const Discretization& discretization,
                                 FrameMethod method) {
-  return [=] {
-    const auto estimator =
-        std::make_shared<FrameEstimator>(finger, scene, discretization, method);
+  // The estimators of all threads share the tables of one.
+  struct First {
+    std::once_flag made;
+    std::unique_ptr<const FrameEstimator> estimator;
+  };
+  return [=, first = std::make_shared<First>()] {
+    std::call_once(first->made, [&] {
+      first->estimator = std::make_unique<const FrameEstimator>(
+          finger, scene, discretization, method);
+    });
+    const auto estimator = std::make_shared<FrameEstimator>(*first->estimator);
     return [estimator](const Measurements* readings, std::size_t count,
                        FrameEstimate* estimates) {
       estimator->EstimateBlock(readings, count, estimates);

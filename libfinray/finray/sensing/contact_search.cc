@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "finray/finger/geometry.h"
 #include "finray/sensing/chi_squared.h"
@@ -52,14 +53,16 @@ const char* FrameMethodName(FrameMethod method) {
 
 ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
                              const Discretization& discretization,
-                             FrameMethod method)
+                             FrameMethod method,
+                             std::shared_ptr<const SearchTables> tables)
     : scene_(scene),
       friction_(scene.friction_coefficient),
       length_mm_(finger.front_length_mm),
       solver_(finger, discretization),
-      table_(&solver_, scene.friction_coefficient, MeasuredRadius(scene),
-             scene.force_max_N),
-      surface_(table_, finger),
+      tables_(tables ? std::move(tables)
+                     : std::make_shared<const SearchTables>(scene, &solver_)),
+      table_(tables_->table()),
+      surface_(tables_->surface()),
       most_force_N_(scene.force_max_N.value_or(table_.heaviest_N())),
       found_(length_mm_, most_force_N_, finger.ribs.size()),
       method_(method),
@@ -74,8 +77,7 @@ ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
   if (scene.search_iteration_limit && !scene.object_std_mm &&
       scene.contacts.value_or(scene.most_contacts) == 2 &&
       finger.gauges.size() >= 2 * kFittedContacts) {
-    pair_table_ =
-        std::make_unique<PairTable>(&solver_, scene_.friction_coefficient);
+    tables_->Pairs(&solver_);
   }
 }
 
@@ -309,11 +311,7 @@ void ContactSearch::FindStarts(int contacts, const PackedReadings& packed) {
     if (starts_.size() > kMostStarts) starts_.resize(kMostStarts);
     return;
   }
-  if (!pair_table_) {
-    pair_table_ =
-        std::make_unique<PairTable>(&solver_, scene_.friction_coefficient);
-  }
-  pair_table_->FindStarts(packed.values, packed.weights, &starts_);
+  tables_->Pairs(&solver_).FindStarts(packed.values, packed.weights, &starts_);
   const std::size_t all = starts_.size();
   if (all <= kMostPairStarts) return;
   for (std::size_t k = 0; spread && k < kMostPairStarts; ++k) {

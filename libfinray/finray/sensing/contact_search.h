@@ -10,10 +10,8 @@
 #include "finray/sensing/fast/contact_fit.h"
 #include "finray/sensing/found_solutions.h"
 #include "finray/sensing/frame_problem.h"
-#include "finray/sensing/gauge_surface.h"
-#include "finray/sensing/gauge_table.h"
 #include "finray/sensing/packed_readings.h"
-#include "finray/sensing/pair_table.h"
+#include "finray/sensing/search_tables.h"
 
 namespace finray {
 
@@ -34,10 +32,12 @@ class ContactSearch {
  public:
   static constexpr double kWithinNoise = FoundSolutions::kWithinNoise;
 
+  /// `tables` are those of another search with the same arguments, or null.
   /// Throws InputError for a finger without an unloaded equilibrium.
   ContactSearch(const Finger& finger, const Scene& scene,
                 const Discretization& discretization,
-                FrameMethod method = FrameMethod::kFast);
+                FrameMethod method = FrameMethod::kFast,
+                std::shared_ptr<const SearchTables> tables = nullptr);
   ContactSearch(const ContactSearch&) = delete;
   ContactSearch& operator=(const ContactSearch&) = delete;
 
@@ -84,6 +84,7 @@ class ContactSearch {
   }
   double friction() const { return friction_; }
 
+  const std::shared_ptr<const SearchTables>& tables() const { return tables_; }
   const GaugeTable& table() const { return table_; }
   const GaugeSurface& surface() const { return surface_; }
   /// The largest credible force: the scene's force_max_N, by default
@@ -131,11 +132,11 @@ class ContactSearch {
   Scene scene_;
   double friction_, length_mm_;
   EquilibriumSolver solver_;
-  GaugeTable table_;
-  GaugeSurface surface_;
+  std::shared_ptr<const SearchTables> tables_;
+  const GaugeTable& table_;
+  const GaugeSurface& surface_;
   double most_force_N_;
   FoundSolutions found_;
-  std::unique_ptr<PairTable> pair_table_;  // made when needed
   FrameMethod method_;
   bool has_surface_ = false;  // one that is exact enough for this frame
   ContactFit fit_;

@@ -76,6 +76,22 @@ FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
   }
 }
 
+FrameEstimator::FrameEstimator(const FrameEstimator& other)
+    : finger_(other.finger_),
+      scene_(other.scene_),
+      discretization_(other.discretization_),
+      method_(other.method_),
+      least_force_N_(other.least_force_N_),
+      search_(finger_, scene_, discretization_, method_,
+              other.search_.tables()),
+      systematic_(other.systematic_),
+      free_(other.free_) {
+  if (other.follower_) {
+    follower_.emplace(finger_, scene_, discretization_, search_,
+                      other.follower_->rivals());
+  }
+}
+
 double FrameEstimator::LeastForce_N(const Finger& finger) {
   return std::min(kLeastForce_N, kLeastForce * ForceUnit(finger));
 }

@@ -1,6 +1,7 @@
 #include "finray/sensing/fast/frame_follower.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace finray {
 namespace {
@@ -31,11 +32,13 @@ Eigen::VectorXd LeastWeights(const Finger& finger, const GaugeTable& table) {
   return weights;
 }
 
-RivalMap MapRivals(const Finger& finger, const Discretization& discretization,
-                   const ContactSearch& search) {
+std::shared_ptr<const RivalMap> MapRivals(const Finger& finger,
+                                          const Discretization& discretization,
+                                          const ContactSearch& search) {
   ContactFit fit(finger, discretization);
   fit.set_most_force(search.most_force_N());
-  return {search.table(), LeastWeights(finger, search.table()), &fit};
+  return std::make_shared<const RivalMap>(
+      search.table(), LeastWeights(finger, search.table()), &fit);
 }
 
 }  // namespace
@@ -46,10 +49,12 @@ bool FrameFollower::Serves(const Scene& scene) {
 
 FrameFollower::FrameFollower(const Finger& finger, const Scene& scene,
                              const Discretization& discretization,
-                             const ContactSearch& search)
+                             const ContactSearch& search,
+                             std::shared_ptr<const RivalMap> rivals)
     : search_(search),
       gauges_(static_cast<int>(finger.gauges.size())),
-      rivals_(MapRivals(finger, discretization, search)),
+      rivals_(rivals ? std::move(rivals)
+                     : MapRivals(finger, discretization, search)),
       group_(FrameGroupFit::Make(finger, discretization,
                                  scene.friction_coefficient)) {
   group_->set_tolerance(kTolerance);
@@ -61,8 +66,8 @@ bool FrameFollower::Start(const ContactSolution& solution, double arc_std_mm,
                           int gauges) {
   const PointContact& contact = solution.contacts[0];
   if (solution.count != 1 || gauges != gauges_ ||
-      !rivals_.IsUnique(contact.arc_mm, arc_std_mm, contact.normal_N,
-                        solution.chi2, kOtherPlaces)) {
+      !rivals_->IsUnique(contact.arc_mm, arc_std_mm, contact.normal_N,
+                         solution.chi2, kOtherPlaces)) {
     return false;
   }
   group_->Start(solution.state, contact);
@@ -88,8 +93,8 @@ bool FrameFollower::IsCertain(std::size_t frame, double arc_std_mm,
                               double scale) const {
   const FrameFit& fit = fits_[frame];
   return fit.converged && !search_.OnBound(fit.arc_mm, fit.normal_N) &&
-         rivals_.IsUnique(fit.arc_mm, arc_std_mm, fit.normal_N, fit.chi2,
-                          kOtherPlaces * scale * scale);
+         rivals_->IsUnique(fit.arc_mm, arc_std_mm, fit.normal_N, fit.chi2,
+                           kOtherPlaces * scale * scale);
 }
 
 }  // namespace finray

@@ -21,9 +21,13 @@ class FrameFollower {
   /// and measure no object place.
   static bool Serves(const Scene& scene);
 
+  /// `rivals` are those of another follower whose search has the same tables,
+  /// or null.
   FrameFollower(const Finger& finger, const Scene& scene,
                 const Discretization& discretization,
-                const ContactSearch& search);
+                const ContactSearch& search,
+                std::shared_ptr<const RivalMap> rivals = nullptr);
+  const std::shared_ptr<const RivalMap>& rivals() const { return rivals_; }
 
   /// Says whether frames may be followed from a solution with all gauges; if
   /// so, the next frames start there. `arc_std_mm` is the std of the solution's
@@ -43,7 +47,7 @@ class FrameFollower {
  private:
   const ContactSearch& search_;
   int gauges_;
-  RivalMap rivals_;
+  std::shared_ptr<const RivalMap> rivals_;
   std::unique_ptr<FrameGroupFit> group_;
   Eigen::MatrixXd angles_rad_, weights_;
   std::vector<FrameFit> fits_;
