@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "calib/calibrated.h"
+#include "finray/calib/analysis/discrepancy.h"
 #include "finray/calib/solve/summed_solve.h"
 
 namespace finray {
@@ -43,6 +44,29 @@ TEST(CrossValidationTest, IntervalsOfACleanLogHold) {
   EXPECT_GT(forces.judged, 180u);
   EXPECT_NEAR(forces.coverage_68_percent(), 68, 12);
   EXPECT_NEAR(forces.coverage_95_percent(), 95, 5);
+}
+
+TEST(CrossValidationTest, ThreadsDoNotChangeTheResult) {
+  const TempFolder folder;
+  Calibrated all(StandardPlan(), {StandardLog(folder, HiddenFinger(), 63)});
+  const WideLinearization wide = LinearizeWide(*all.problem, all.solution);
+  CrossValidation checked[2];
+  HeldOutErrors errors[2];
+  for (const int threads : {1, 3}) {
+    const auto problem = all.problem->Part(all.solution.at.frames, threads);
+    checked[threads / 2] = CrossValidate(*problem, all.found, wide);
+    errors[threads / 2] =
+        GaugeErrorsOf(*problem, all.solution, all.found, wide);
+  }
+  EXPECT_EQ(checked[0].folds, WideLinearization::kFolds);
+  EXPECT_EQ(checked[1].folds, WideLinearization::kFolds);
+  EXPECT_EQ(checked[0].errors.contact.force_N.rms(),
+            checked[1].errors.contact.force_N.rms());
+  ASSERT_EQ(errors[0].fitted.size(), errors[1].fitted.size());
+  EXPECT_GT(errors[0].fitted.size(), 100u);
+  for (std::size_t i = 0; i < errors[0].fitted.size(); ++i) {
+    EXPECT_EQ(errors[0].fitted[i].error_rad, errors[1].fitted[i].error_rad);
+  }
 }
 
 }  // namespace

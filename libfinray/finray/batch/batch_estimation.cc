@@ -12,7 +12,7 @@ namespace finray {
 FrameSolverFactory FrameSolvers(const Finger& finger, const Scene& scene,
                                 const Discretization& discretization,
                                 FrameMethod method) {
-  // The estimators of all threads share the tables of one.
+  // The estimators of all threads share the tables of this one.
   struct First {
     std::once_flag made;
     std::unique_ptr<const FrameEstimator> estimator;
@@ -22,7 +22,8 @@ FrameSolverFactory FrameSolvers(const Finger& finger, const Scene& scene,
       first->estimator = std::make_unique<const FrameEstimator>(
           finger, scene, discretization, method);
     });
-    const auto estimator = std::make_shared<FrameEstimator>(*first->estimator);
+    const std::shared_ptr<FrameEstimator> estimator =
+        first->estimator->ForAnotherThread();
     return [estimator](const Measurements* readings, std::size_t count,
                        FrameEstimate* estimates) {
       estimator->EstimateBlock(readings, count, estimates);

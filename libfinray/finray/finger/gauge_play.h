@@ -154,7 +154,7 @@ class PlayBelief {
       down[i] = -0.5 * (change - below) * (change - below) / far2;
       most = std::max(most, std::max(up[i], down[i]));
     }
-    // Phi at the edges between cells, (k + 1/2) cells away, and at both ends.
+    // Phi at the edges between cells, (k + 1/2) cells away.
     std::array<T, 2 * kCells> edges;
     for (int k = 1; k < 2 * cells_ - 1; ++k) {
       edges[k] = Phi((k - cells_ + 0.5) * cell / t);
@@ -204,7 +204,7 @@ class PlayBelief {
   }
 
   T width_, band_;
-  int cells_;  // at a width of 0 all cells are one
+  int cells_;  // at a width of 0 and below all cells are one
   bool started_ = false;
   T at_{}, at_variance_{}, step2_{}, mean_{}, variance_{};
   std::array<T, kCells> shares_{};

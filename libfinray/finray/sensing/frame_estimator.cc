@@ -92,6 +92,10 @@ FrameEstimator::FrameEstimator(const FrameEstimator& other)
   }
 }
 
+std::unique_ptr<FrameEstimator> FrameEstimator::ForAnotherThread() const {
+  return std::unique_ptr<FrameEstimator>(new FrameEstimator(*this));
+}
+
 double FrameEstimator::LeastForce_N(const Finger& finger) {
   return std::min(kLeastForce_N, kLeastForce * ForceUnit(finger));
 }

@@ -58,10 +58,13 @@ class FrameEstimator {
   FrameEstimator(const Finger& finger, const Scene& scene,
                  const Discretization& discretization = {},
                  FrameMethod method = FrameMethod::kFast);
-  /// Makes another estimator of the same finger and scene, for another thread.
-  /// Both share their tables, so that takes less than a millisecond.
-  FrameEstimator(const FrameEstimator& other);
   FrameEstimator& operator=(const FrameEstimator&) = delete;
+
+  /// Makes another estimator of the same finger and scene, for another thread.
+  /// It starts a new log. Both share the tables of the search and the map of
+  /// rivals, so that it takes far less time. No thread may use this one
+  /// meanwhile.
+  std::unique_ptr<FrameEstimator> ForAnotherThread() const;
 
   /// Estimates one frame by itself.
   FrameEstimate Estimate(const Measurements& readings);
@@ -107,6 +110,7 @@ class FrameEstimator {
                               const ContactSearch& search);
 
  private:
+  FrameEstimator(const FrameEstimator& other);
   bool Slides(const Measurements& readings) const;
   FrameEstimate EstimateSliding(const Measurements& readings);
   FrameEstimate EstimateAlone(const Measurements& readings);

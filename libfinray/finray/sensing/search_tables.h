@@ -11,18 +11,18 @@
 
 namespace finray {
 
-/// What a ContactSearch knows of a finger and a scene before the first frame.
-/// It takes some milliseconds to make, and the searches of all threads share
-/// it.
+/// The tables of a finger and a scene from which a ContactSearch starts. They
+/// take some milliseconds to make, and the searches of all threads share them.
 class SearchTables {
  public:
-  /// `solver` is as after Reset() then. Throws InputError for a finger without
-  /// an unloaded equilibrium.
+  /// Afterwards `solver` is as after Reset(). Throws InputError for a finger
+  /// without an unloaded equilibrium.
   SearchTables(const Scene& scene, EquilibriumSolver* solver);
 
   const GaugeTable& table() const { return table_; }
   const GaugeSurface& surface() const { return surface_; }
-  /// Made with `solver`, another one for the same finger, by the first call.
+  /// The first call makes it with `solver`, which must be one of the same
+  /// finger; other threads wait. Afterwards `solver` is as after Reset().
   const PairTable& Pairs(EquilibriumSolver* solver) const;
 
  private:

@@ -50,13 +50,6 @@ ScaledSums OfAll(const CalibrationProblem& problem,
 
 }  // namespace
 
-void ForEachFold(const CalibrationProblem& problem,
-                 const std::function<void(int fold)>& use) {
-  tbb::task_arena(problem.threads()).execute([&] {
-    tbb::parallel_for(0, WideLinearization::kFolds, use);
-  });
-}
-
 LeftOut LeaveFoldOut(const CalibrationProblem& problem,
                      const WideLinearization& wide, int fold) {
   const Eigen::VectorXd unit = problem.parameters().Units();
@@ -87,12 +80,24 @@ LeftOut LeaveFoldOut(const CalibrationProblem& problem,
   return left;
 }
 
+void ForEachFold(
+    const CalibrationProblem& problem, const WideLinearization& wide,
+    const std::function<void(int fold, const LeftOut& left)>& use) {
+  // One thread calls LAPACK.
+  std::vector<LeftOut> left;
+  for (int fold = 0; fold < WideLinearization::kFolds; ++fold) {
+    left.push_back(LeaveFoldOut(problem, wide, fold));
+  }
+  tbb::task_arena(problem.threads()).execute([&] {
+    tbb::parallel_for(0, WideLinearization::kFolds,
+                      [&](int fold) { use(fold, left[fold]); });
+  });
+}
+
 LeftOutFinger::LeftOutFinger(const CalibrationProblem& problem,
-                             const Identifiability& found,
-                             const WideLinearization& wide, int fold,
+                             const Identifiability& found, const LeftOut& left,
                              const std::vector<int>& frames)
     : part(problem.Part(frames, 1)) {
-  const LeftOut left = LeaveFoldOut(problem, wide, fold);
   part->SetValues(left.values);
   Identifiability known = found;
   known.covariance = left.covariance;
@@ -130,7 +135,7 @@ CrossValidation CrossValidate(
     double friction = 0;
   };
   std::array<Fold, WideLinearization::kFolds> folds;
-  ForEachFold(problem, [&](int fold) {
+  ForEachFold(problem, wide, [&](int fold, const LeftOut& left) {
     const std::vector<int>& all = wide.frames[fold];
     const std::size_t count = std::min(
         all.size(), CrossValidation::kMostChecked / WideLinearization::kFolds);
@@ -140,7 +145,7 @@ CrossValidation CrossValidate(
       if (!problem.frame(i).IsBench()) frames.push_back(i);
     }
     if (frames.empty()) return;
-    LeftOutFinger without(problem, found, wide, fold, frames);
+    LeftOutFinger without(problem, found, left, frames);
     if (without.finger.calibration) {
       without.finger.calibration->discrepancy = discrepancy;
     }

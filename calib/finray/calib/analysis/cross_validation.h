@@ -34,17 +34,18 @@ struct LeftOut {
 LeftOut LeaveFoldOut(const CalibrationProblem& problem,
                      const WideLinearization& wide, int fold);
 
-/// Calls use(fold) for each fold, on the threads of the problem. What `use`
-/// makes must not depend on the other folds.
+/// Calls use(fold, LeaveFoldOut of the fold) for each fold, on the threads of
+/// the problem. What `use` makes must not depend on the other folds. As many
+/// folds are in memory as there are threads.
 void ForEachFold(const CalibrationProblem& problem,
-                 const std::function<void(int fold)>& use);
+                 const WideLinearization& wide,
+                 const std::function<void(int fold, const LeftOut& left)>& use);
 
 /// The finger that all folds but one calibrate, with its covariance, and the
 /// problem of some frames of that fold at its values, for one thread.
 struct LeftOutFinger {
   LeftOutFinger(const CalibrationProblem& problem, const Identifiability& found,
-                const WideLinearization& wide, int fold,
-                const std::vector<int>& frames);
+                const LeftOut& left, const std::vector<int>& frames);
 
   std::unique_ptr<CalibrationProblem> part;
   Finger finger;

@@ -210,14 +210,14 @@ HeldOutErrors GaugeErrorsOf(const CalibrationProblem& problem,
   };
   std::array<std::vector<GaugeError>, WideLinearization::kFolds> of_fold;
   std::atomic<bool> all_known = true;
-  ForEachFold(problem, [&](int fold) {
+  ForEachFold(problem, wide, [&](int fold, const LeftOut& left) {
     std::vector<int> frames;
     for (const int i : wide.frames[fold]) {
       if (touches(i)) frames.push_back(i);
     }
     frames = Spread(frames, kMostErrors / WideLinearization::kFolds);
     if (frames.empty()) return;
-    const LeftOutFinger without(problem, found, wide, fold, frames);
+    const LeftOutFinger without(problem, found, left, frames);
     if (without.finger.calibration) {
       AddErrors(without.part.get(), without.finger, frames, solution.contacts,
                 &of_fold[fold]);

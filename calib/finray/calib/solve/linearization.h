@@ -96,7 +96,8 @@ struct Linearization {
 
   /// At most `most_frames` frames can be added.
   explicit Linearization(int parameters = 0, std::size_t most_frames = 0);
-  /// Frames of one log should follow each other.
+  /// Frames of one log should follow each other, else few rows are summed at a
+  /// time, which takes longer.
   void Add(int frame, int log, const LinearizedFrame& at);
   /// Call it after the last frame is added. `information` is not complete
   /// before.

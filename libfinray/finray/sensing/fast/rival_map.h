@@ -19,7 +19,8 @@ namespace finray {
 class RivalMap {
  public:
   /// `weights` are those of a frame with all measurements. `fit` must be for
-  /// this finger, without a measured circle; its tolerance is set.
+  /// this finger, without a measured circle; its tolerance is set. The table
+  /// must outlive this.
   RivalMap(const GaugeTable& table, const Eigen::VectorXd& weights,
            ContactFit* fit);
 
