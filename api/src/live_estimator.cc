@@ -20,7 +20,9 @@ struct LiveEstimator::Inside {
   Inside(const finray::Finger& finger, const finray::Scene& scene,
          const finray::Discretization& discretization, FrameMethod method)
       : estimator(finger, scene, discretization, method),
-        history(finger, scene) {}
+        history(finger, scene) {
+    estimator.Prepare();
+  }
 
   FrameEstimator estimator;
   HistoryFilter history;

@@ -6,7 +6,7 @@ from plot_style import FAMILIES, HOW_MARKERS, MARKERS, log_axis, look
 from theme import INK, LINE, QUIET, svg
 
 LEAST_ERROR = 1e-13
-HOWS = {"s": "lanes, blocks of a log", "^": "to rounding", "v": "cold, every frame searched"}
+HOWS = {"s": "load surface, blocks of a log", "^": "to rounding", "v": "cold, every frame searched"}
 
 
 def error_of(setting):

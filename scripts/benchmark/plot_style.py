@@ -23,7 +23,7 @@ FAMILIES = {
     "mujoco": (theme.INK, "MuJoCo"),
 }
 MARKERS = {"scipy": "P", "octave": "X", "calculix": "D", "getfem": "p", "mujoco": "*"}
-HOW_MARKERS = {"lanes": "s", "block": "s", "to_rounding": "^", "cold": "v", "search": "v"}
+HOW_MARKERS = {"surface": "s", "block": "s", "to_rounding": "^", "cold": "v", "search": "v"}
 
 
 def look(setting):

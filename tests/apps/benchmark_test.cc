@@ -31,14 +31,15 @@ TEST_F(BenchmarkCommandTest, WritesFilesThatCompare) {
               "estimation/one_contact/default");
   ASSERT_EQ(measured.code, 0) << measured.output;
   EXPECT_THAT(measured.output, HasSubstr("out/benchmark.json\n"));
-  EXPECT_THAT(measured.output,
-              HasSubstr("\ndefault        sensing/one_contact/default/lanes"));
+  EXPECT_THAT(
+      measured.output,
+      HasSubstr("\ndefault        sensing/one_contact/default/surface"));
   EXPECT_THAT(measured.output,
               HasSubstr("\nnoise          0.0003 rad of the gauges leaves"));
   EXPECT_THAT(measured.output,
               HasSubstr(": at your noise (0.0003 rad) order "));
   EXPECT_THAT(Content("out/benchmark.csv"),
-              HasSubstr("\nsensing/one_contact/taylor8x1/lanes,"));
+              HasSubstr("\nsensing/one_contact/taylor8x1/surface,"));
   const std::string page = Content("out/report.html");
   EXPECT_THAT(page, HasSubstr("Benchmark of paper_140mm"));
   EXPECT_THAT(page, HasSubstr("<svg"));

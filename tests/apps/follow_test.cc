@@ -223,7 +223,7 @@ TEST_F(FollowTest, AMalformedLineIsARowAndAMessage) {
 }
 
 TEST_F(FollowTest, ASearchThatIsEndedSaysSo) {
-  folder_.Write("scene.yaml", "contacts: 1\nsearch_iteration_limit: 1\n");
+  folder_.Write("scene.yaml", "contacts: 2\nsearch_iteration_limit: 1\n");
   Follower follower = Start();
   follower.Write(header_ + "1" + good_ + "2" + good_);
   follower.CloseInput();

@@ -42,7 +42,7 @@ TEST(SettingTest, IdsAreUniqueAndStable) {
   for (const BenchmarkSetting& setting : BenchmarkGrid(PaperFinger(), false)) {
     EXPECT_TRUE(ids.insert(setting.name.id()).second) << setting.name.id();
   }
-  for (const char* id : {"sensing/one_contact/taylor8x1/lanes",
+  for (const char* id : {"sensing/one_contact/taylor8x1/surface",
                          "sensing/one_contact/paper100/alone",
                          "sensing/one_contact/ceres_dense_qr40/alone",
                          "forward/circle/default/warm",
@@ -90,7 +90,7 @@ TEST(SettingTest, SensingAndEstimationFindTheLeastSquares) {
   EXPECT_EQ(sensing.at("ceres_reduced/alone").unknowns, 2);
   EXPECT_EQ(sensing.at("ceres_weighted/alone").unknowns, 13);
   EXPECT_LT(sensing.at("default/alone").errors.contact_mm, 3e-6);
-  EXPECT_LT(sensing.at("default/lanes").errors.contact_mm, 3e-6);
+  EXPECT_LT(sensing.at("default/surface").errors.contact_mm, 3e-6);
   EXPECT_LT(sensing.at("default/to_rounding").errors.contact_mm, 1e-8);
   EXPECT_GT(sensing.at("taylor8x1/alone").errors.contact_mm, 1e-5);
   EXPECT_EQ(sensing.at("default/alone").unknowns, 65);

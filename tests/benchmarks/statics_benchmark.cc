@@ -20,7 +20,6 @@
 #include "finray/ladder/instruction_set.h"
 #include "finray/ladder/ladder_kernel.h"
 #include "finray/ladder/ladder_newton.h"
-#include "finray/ladder/ladder_workspace.h"
 #include "finray/statics/equilibrium.h"
 #include "test_finger.h"
 
@@ -150,32 +149,6 @@ void Pass(benchmark::State& state, int set, bool evaluate) {
   }
 }
 
-// The same of frames in lanes, with the derivatives of a fit: per frame.
-template <class T>
-void PassOfFrames(benchmark::State& state, const FramesKernel<T>& kernel,
-                  bool evaluate) {
-  const Discretization discretization{Scheme::kTaylor8, 12};
-  LadderNewton newton(PaperFinger(), discretization);
-  newton.Converge({Frame(0)}, 1, SweepColumns::kNone);
-  LadderState equilibrium;
-  newton.Save(&equilibrium);
-  LadderWorkspace<T> workspace(newton.model());
-  workspace.SetContacts(newton.model(), {Frame(0)}, 1, SweepColumns::kContacts);
-  workspace.Load(equilibrium);
-  LadderFrame<T>& frame = workspace.frame();
-  kernel.evaluate(frame);
-  for (auto _ : state) {
-    if (evaluate) {
-      kernel.evaluate(frame);
-    } else {
-      benchmark::DoNotOptimize(kernel.sweep(frame));
-    }
-  }
-  state.counters["us/frame"] = benchmark::Counter(
-      1e-6 * kFrameLanes<T> * static_cast<double>(state.iterations()),
-      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-}
-
 // Keeps what was measured, for the comparison at the end.
 class ComparingReporter : public benchmark::ConsoleReporter {
  public:
@@ -248,18 +221,6 @@ void Register() {
       benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
         Pass(state, set, evaluate);
       })->Unit(benchmark::kMicrosecond);
-      benchmark::RegisterBenchmark(
-          ("frames_" + name).c_str(),
-          [=](benchmark::State& state) {
-            const LadderKernel& kernel =
-                FindLadderKernel(Scheme::kTaylor8, false, set);
-            if (kernel.eight.evaluate != nullptr) {
-              PassOfFrames(state, kernel.eight, evaluate);
-            } else {
-              PassOfFrames(state, kernel.four, evaluate);
-            }
-          })
-          ->Unit(benchmark::kMicrosecond);
     }
   }
 }

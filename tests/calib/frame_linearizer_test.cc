@@ -129,5 +129,42 @@ TEST_F(FrameLinearizerTest, ContactsFollowTheParameters) {
   EXPECT_LT((end - start - expected).norm(), 0.2 * expected.norm());
 }
 
+// A pass over many frames takes the model from a surface. It fits each contact
+// to the same place and says the same of the parameters, also where the plan
+// moves the gauges.
+TEST_F(FrameLinearizerTest, ASurfaceTellsTheSameAsTheEquilibria) {
+  for (const bool moves_gauges : {false, true}) {
+    plan_.families[static_cast<int>(ParameterFamily::kGaugeStart)].free =
+        moves_gauges;
+    CalibrationParameters parameters(HiddenFinger(), plan_, logs_);
+    const CalibrationBlocks blocks(finger_, plan_, &parameters);
+    const EquilibriumSolver solver(finger_, {});
+    ASSERT_EQ(plan_.MovesGauges(), moves_gauges);
+    const ModelSurface surface(solver, parameters.shared, parameters.friction(),
+                               moves_gauges,
+                               Eigen::VectorXd::Constant(10, 1e-9));
+    FrameLinearizer plain(solver, plan_, &blocks, &parameters),
+        by_surface(solver, plan_, &blocks, &parameters, &surface);
+    for (const int frame : {0, 3, 7, 30, 41, 63}) {
+      const std::array<double, 2> start = {
+          std::clamp(logs_.frames[frame].object_mm.y() + 5, 20.0, 120.0),
+          1.3 * logs_.frames[frame].force_N};
+      std::array<double, 2> one = start, other = start;
+      LadderState state, other_state;
+      LinearizedFrame at, at_surface;
+      ASSERT_TRUE(plain.FitContact(logs_.frames[frame], &one, &state, &at));
+      ASSERT_TRUE(by_surface.FitContact(logs_.frames[frame], &other,
+                                        &other_state, &at_surface));
+      EXPECT_EQ(other_state.q.size(), 0);  // no equilibrium was solved
+      EXPECT_NEAR(one[0], other[0], 1e-6);
+      EXPECT_NEAR(one[1], other[1], 1e-7);
+      EXPECT_NEAR(at.cost, at_surface.cost, 1e-6 * (1 + at.cost));
+      EXPECT_LT((at.reduced - at_surface.reduced).norm(),
+                1e-5 * at.reduced.norm())
+          << frame;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace finray

@@ -77,9 +77,10 @@ TEST_F(SearchLimitTest, AGenerousLimitChangesNothing) {
   }
 }
 
-// A frame that may hold a contact is not called free because time is up.
+// A frame that may hold contacts is not called free because time is up. A fit
+// of two contacts takes more than one iteration.
 TEST_F(SearchLimitTest, NothingFoundInTimeIsNotNoContact) {
-  for (const FrameEstimate& one : Estimates({}, 1)) {
+  for (const FrameEstimate& one : Estimates(2, 1)) {
     EXPECT_NE(one.status, FrameStatus::kNoContact);
     EXPECT_NE(one.status, FrameStatus::kOk);
   }

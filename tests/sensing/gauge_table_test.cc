@@ -4,13 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <random>
 #include <vector>
 
-#include "finray/finger/geometry.h"
 #include "finray/objects/circle_centre.h"
-#include "finray/sensing/gauge_surface.h"
 #include "test_finger.h"
 
 namespace finray {
@@ -102,60 +99,6 @@ TEST_F(GaugeTableTest, HalfTheRowsLessExact) {
                 1e-2 * kNoise_rad);
     }
   }
-}
-
-// Between nodes an interpolated state is far nearer to the equilibrium than the
-// nearest node is.
-TEST_F(GaugeTableTest, StatesBetweenNodes) {
-  const auto distance = [](const LadderState& a, const LadderState& b) {
-    double largest = (a.q - b.q).lpNorm<Eigen::Infinity>();
-    for (int side = 0; side < 2; ++side) {
-      EXPECT_EQ(a.nodes[side].row(0), b.nodes[side].row(0));
-      largest = std::max(largest, (a.nodes[side] - b.nodes[side])
-                                      .bottomRows<4>()
-                                      .lpNorm<Eigen::Infinity>());
-    }
-    return largest;
-  };
-  LadderState state;
-  for (const double arc_mm : {31.3, 70.1, 107.9}) {
-    for (const double normal_N : {0.1, 0.5, 1.7}) {
-      ASSERT_TRUE(solver_.Solve({{arc_mm, normal_N}}));
-      ASSERT_TRUE(table_.StateAt(arc_mm, normal_N, &state));
-      const LadderState exact = solver_.state();
-      EXPECT_LT(distance(state, exact),
-                0.05 * distance(table_.StateNear(arc_mm, normal_N), exact))
-          << arc_mm << " mm, " << normal_N << " N";
-    }
-  }
-  EXPECT_FALSE(table_.StateAt(70, 20, &state));  // nodes of several meshes
-}
-
-// Half way between rows and forces, where it is farthest off, the surface is no
-// more than some times as wrong as the table says of every seventh row.
-TEST_F(GaugeTableTest, SurfaceErrorsHold) {
-  const GaugeSurface surface(table_, PaperFinger());
-  const double length = PaperFinger().front_length_mm,
-               unit = ForceUnit(PaperFinger());
-  double worst = 0;
-  for (double arc_mm = 22.5; arc_mm < 120; arc_mm += 7.5) {
-    for (const double force : {0.75, 1.5, 5.5, 10.0, 17.5}) {
-      ASSERT_TRUE(solver_.Solve({{arc_mm, force * unit}}));
-      Eigen::VectorXd off(6);
-      off.head<4>() = solver_.outputs().head<4>();
-      off.tail<2>() = CircleCentre(solver_.contact_pose(0), kRadius_mm);
-      for (Eigen::Index j = 0; j < 6; ++j) {
-        off[j] -= surface.At(j, arc_mm / length, force).value;
-        off[j] *= weights_[j];
-      }
-      worst = std::max(
-          worst, off.norm() / table_.SurfaceError(force * unit, weights_));
-    }
-  }
-  std::printf("largest error over the table's: %.2f\n", worst);
-  EXPECT_LT(worst, 2);
-  EXPECT_GT(worst, 0.2);
-  EXPECT_TRUE(std::isinf(table_.SurfaceError(1e3, weights_)));
 }
 
 }  // namespace

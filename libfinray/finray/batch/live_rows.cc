@@ -16,6 +16,7 @@ LiveRows::LiveRows(const Finger& finger, const Scene& scene,
       history_(finger, scene) {
   RequireTimeForCreep(finger, parser_.names(), parser_.path());
   estimator_.Restart();
+  estimator_.Prepare();
 }
 
 const std::string& LiveRows::Next(const CsvLine& line) {

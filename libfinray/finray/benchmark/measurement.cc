@@ -71,8 +71,7 @@ class Bench {
       result_.allocations = calls / frames;
       result_.bytes = bytes / frames;
     }
-    const std::string& how = setting_.name.how;
-    if (frames < 100 || how == "lanes" || how == "block") return;
+    if (frames < 100 || setting_.name.how == "block") return;
     std::vector<double> times;
     ForStretches([&](int first, int count) {
       for (int k = 0; k < count; ++k) {

@@ -20,7 +20,7 @@ constexpr double kConfidence = 0.95;
 constexpr std::pair<const char*, const char*> kUses[] = {
     {"estimation", "block"},
     {"estimation", "live"},
-    {"sensing", "lanes"},
+    {"sensing", "surface"},
     {"sensing", "alone"}};
 // Errors below this, in mm, N or rad, are equal.
 constexpr double kNoError = 1e-9;

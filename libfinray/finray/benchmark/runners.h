@@ -10,9 +10,10 @@
 #include "finray/chain/forward.h"
 #include "finray/chain/sensing.h"
 #include "finray/sensing/fast/contact_fit.h"
-#include "finray/sensing/fast/frame_group_fit.h"
 #include "finray/sensing/frame_estimator.h"
 #include "finray/sensing/frame_problem.h"
+#include "finray/sensing/gauge_surface.h"
+#include "finray/sensing/gauge_table.h"
 
 namespace finray {
 
@@ -115,53 +116,44 @@ class FrameByFrame : public SensingRunner {
   std::vector<PointContact> contacts_;
 };
 
-/// Senses one contact with FrameGroupFit, frames in vector lanes.
-class InLanes : public SensingRunner {
+/// Senses one contact with GaugeSurface; each frame starts from the one before.
+class OnSurface : public SensingRunner {
  public:
-  InLanes(const BenchmarkCase& c, const Discretization& discretization,
-          double tolerance)
+  OnSurface(const BenchmarkCase& c, const Discretization& discretization)
       : SensingRunner(c, discretization),
-        fit_(FrameGroupFit::Make(c.finger, discretization,
-                                 c.scene.friction_coefficient)),
-        angles_(c.finger.gauges.size(), c.frames.size()),
-        weights_(c.finger.gauges.size(), c.frames.size()),
-        fits_(kStretchFrames) {
-    fit_->set_tolerance(tolerance);
+        most_force_N_(GaugeTable::HeaviestForce_N(c.finger)),
+        surface_(model_, c.scene.friction_coefficient, std::nullopt,
+                 most_force_N_) {
+    // Makes the cells of the surface, which are not timed.
     for (std::size_t i = 0; i < c.frames.size(); ++i) {
-      const auto column = static_cast<Eigen::Index>(i);
-      angles_.col(column) = c.frames[i].measurement.values;
-      weights_.col(column) = c.frames[i].measurement.weights;
+      const int frame = static_cast<int>(i);
+      StartAt(frame);
+      Solve(frame, &answers_[0]);
     }
   }
 
-  void Run(int first, int count) override {
-    fit_->Fit(angles_.middleCols(first, count),
-              weights_.middleCols(first, count), fits_.data());
-  }
-
-  FrameAnswer Answer(int k) override {
-    const FrameFit& fit = fits_[k];
-    const double friction = case_.scene.friction_coefficient;
-    answers_[k] = {fit.converged,
-                   {{fit.arc_mm, fit.normal_N, friction}},
-                   {},
-                   fit.tip_pose,
-                   fit.iterations};
-    return SensingRunner::Answer(k);
-  }
-
-  int unknowns() const override { return model_.unknowns() + 2; }
+  int unknowns() const override { return 2; }
 
  private:
   void StartAt(int frame) override {
-    const PointContact& contact = case_.frames[frame].contacts.at(0);
-    model_.Solve({contact});
-    fit_->Start(model_.state(), contact);
+    last_ = case_.frames[frame].contacts.at(0);
   }
 
-  std::unique_ptr<FrameGroupFit> fit_;
-  Eigen::MatrixXd angles_, weights_;  // a column a frame
-  std::vector<FrameFit> fits_;
+  void Solve(int frame, FrameAnswer* answer) override {
+    const PackedReadings& measured = case_.frames[frame].measurement;
+    answer->solved = surface_.Fit(measured.values, measured.weights,
+                                  most_force_N_, last_, &solution_);
+    if (!answer->solved) return StartAt(frame);
+    last_ = solution_.contacts[0];
+    answer->contacts.assign(1, last_);
+    answer->tip_pose = solution_.tip_pose;
+    answer->iterations = 1;
+  }
+
+  double most_force_N_;
+  GaugeSurface surface_;
+  PointContact last_;
+  ContactSolution solution_;
 };
 
 /// Senses contacts frame by frame with FrameProblem, that is with ceres::Solve

@@ -124,8 +124,8 @@ class Grid {
     }
     if (scene != "one_contact" && scene != "friction") return;
     for (const Ladder& ladder : series_) {
-      add(ladder, "lanes", ", frames in lanes",
-          MakerOf<InLanes>(ladder.discretization, kSensingTolerance));
+      add(ladder, "surface", ", on the load surface",
+          MakerOf<OnSurface>(ladder.discretization));
     }
     Ceres("sensing", scene, "reduced", "alone", kMedium,
           MakerOf<CeresFrames>(EquilibriumForm::kReduced));

@@ -53,13 +53,13 @@ using RunnerMaker =
     std::function<std::unique_ptr<Runner>(const BenchmarkCase&)>;
 
 /// Names one line of the report, the same in every run, for example
-/// `sensing/one_contact/taylor8x1/lanes`.
+/// `sensing/one_contact/taylor8x1/surface`.
 struct SettingName {
   /// forward, sensing or estimation (docs/evidence/benchmark.md).
   std::string task;
   std::string scene;   ///< no_contact, one_contact, ...
   std::string solver;  ///< Scheme and elements a bay, or solver and links.
-  std::string how;     ///< warm, cold, alone, lanes, block, live, ...
+  std::string how;     ///< warm, cold, alone, surface, block, live, ...
 
   std::string id() const {
     return task + "/" + scene + "/" + solver + "/" + how;
@@ -69,7 +69,7 @@ struct SettingName {
 /// Describes a setting in the result files.
 struct SettingLabel {
   SettingName name;
-  std::string words;   ///< For people: "order 8, one element a bay, lanes".
+  std::string words;   ///< For people: "order 8, one element a bay, live".
   std::string family;  ///< paper, ceres, chain, taylor: a colour of the plots.
   int links = 0;       ///< n of a chain; 0 without one.
   std::string scheme;  ///< Value of --scheme; empty for the dense chain.

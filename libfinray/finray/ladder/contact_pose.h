@@ -5,20 +5,16 @@
 #include <cmath>
 
 #include "finray/ladder/ladder_frame.h"
-#include "finray/ladder/lanes.h"
 
 namespace finray {
 
 /// (x, y, theta) of contact `c` of the frame after an evaluation, on the
 /// surface of its beam; x and y in l_0.
-template <class T>
-Eigen::Vector3d ContactPose(const LadderFrame<T>& f, int c, int lane) {
+inline Eigen::Vector3d ContactPose(const LadderFrame<double>& f, int c) {
   const int slot = f.elements + c;
-  Eigen::Vector3d pose(LaneOf(f.slot_x[slot], lane),
-                       LaneOf(f.slot_y[slot], lane),
-                       LaneOf(f.slot_theta[slot], lane));
+  Eigen::Vector3d pose(f.slot_x[slot], f.slot_y[slot], f.slot_theta[slot]);
   if (f.lifted) {
-    const double lift = LaneOf(f.contacts[c].lift, lane);
+    const double lift = f.contacts[c].lift;
     pose.x() -= lift * std::sin(pose.z());
     pose.y() += lift * std::cos(pose.z());
   }

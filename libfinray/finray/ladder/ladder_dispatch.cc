@@ -24,17 +24,4 @@ const LadderKernel& FindLadderKernel(Scheme scheme, bool stretch) {
   return FindLadderKernel(scheme, stretch, 0);
 }
 
-int FrameLanes() { return VectorBytes() / static_cast<int>(sizeof(double)); }
-
-template <class T>
-const FramesKernel<T>* FindFramesKernel(Scheme scheme, bool stretch) {
-  for (int set = 0; set < InstructionSets(); ++set) {
-    const auto& kernel = OfFrames<T>(FindLadderKernel(scheme, stretch, set));
-    if (kernel.evaluate != nullptr) return &kernel;
-  }
-  return nullptr;
-}
-template const FramesKernel<FourFrames>* FindFramesKernel(Scheme, bool);
-template const FramesKernel<EightFrames>* FindFramesKernel(Scheme, bool);
-
 }  // namespace finray

@@ -1,6 +1,8 @@
 #ifndef FINRAY_LADDER_LADDER_EVALUATE_H_
 #define FINRAY_LADDER_LADDER_EVALUATE_H_
 
+#include <cmath>
+
 #include "finray/ladder/ladder_frame.h"
 #include "finray/ladder/lanes.h"
 
@@ -12,10 +14,9 @@ inline namespace FINRAY_ISA {
 template <class T>
 inline void ContactDirection(const LadderContact<T>& contact, const T& theta,
                              T* unit, T* turned) {
-  using Scalar = typename ValueTraits<T>::Scalar;
   T s, c;
   SinCos(theta, &s, &c);
-  const Scalar into = contact.side == 0 ? Scalar(1) : Scalar(-1);
+  const T into = contact.side == 0 ? T(1) : T(-1);
   const T mu = contact.friction;
   unit[0] = into * s + mu * c;
   unit[1] = mu * s - into * c;
@@ -24,13 +25,11 @@ inline void ContactDirection(const LadderContact<T>& contact, const T& theta,
 }
 
 // Evaluate, the first half of a Newton step (ladder_kernel.h). Wide is the
-// scheme's element over vector lanes, Single the same over one T. If lanes are
-// elements, starts are collected first and then solved vector by vector. If
-// lanes are frames (kWidth 1), each element is solved when the walk meets it.
+// scheme's element over vector lanes, Single the same over one T. Starts are
+// collected first and then solved vector by vector.
 template <class T, class Wide, class Single>
 class LadderEvaluator {
  public:
-  using Scalar = typename ValueTraits<T>::Scalar;
   using V = typename Lanes<T>::Vector;
   using U = typename Lanes<T>::Unaligned;
   static constexpr int kWidth = Lanes<T>::kWidth;
@@ -41,9 +40,7 @@ class LadderEvaluator {
   void Evaluate(bool propagate) {
     AssignReadouts();
     FillSlots(propagate);
-    if constexpr (kWidth > 1) {
-      for (int slot = 0; slot < f_.slots(); slot += kWidth) ComputeMaps(slot);
-    }
+    for (int slot = 0; slot < f_.slots(); slot += kWidth) ComputeMaps(slot);
     CollectGaps();
   }
 
@@ -89,7 +86,7 @@ class LadderEvaluator {
     for (int slot = f_.slots(); slot % kWidth != 0; ++slot) {
       PutSlot(slot, {T{}, T{}, T{}, T{}}, 0, T{});
       f_.slot_fx[slot] = f_.slot_fy[slot] = T{};
-      f_.slot_stiffness[slot] = T{} + Scalar(1);
+      f_.slot_stiffness[slot] = T(1);
       f_.slot_axial[slot] = T{};
     }
   }
@@ -127,11 +124,8 @@ class LadderEvaluator {
       f_.slot_fx[slot] = force[0];
       f_.slot_fy[slot] = force[1];
     }
-    if constexpr (kWidth == 1) {
-      ComputeMaps(slot);
-    }
     if (propagate) {
-      const End end = kWidth == 1 ? SlotEnd(slot) : SolveSlot(slot);
+      const End end = SolveSlot(slot);
       z.x[e + 1] = end.x;
       z.y[e + 1] = end.y;
       z.theta[e + 1] = end.theta;
@@ -140,33 +134,26 @@ class LadderEvaluator {
   }
 
   End SolveSlot(int slot) {
-    if constexpr (kWidth == 1) {
-      ComputeMaps(slot);
-      return SlotEnd(slot);
-    } else {
-      Single element;
-      element.Solve({f_.slot_theta[slot], f_.slot_moment[slot],
-                     f_.slot_fx[slot], f_.slot_fy[slot]},
-                    f_.slot_stiffness[slot], f_.slot_axial[slot],
-                    f_.slot_length[slot]);
-      const auto& end = element.map().end;
-      return {f_.slot_x[slot] + end[0], f_.slot_y[slot] + end[1], end[2],
-              end[3]};
-    }
+    Single element;
+    element.Solve({f_.slot_theta[slot], f_.slot_moment[slot], f_.slot_fx[slot],
+                   f_.slot_fy[slot]},
+                  f_.slot_stiffness[slot], f_.slot_axial[slot],
+                  f_.slot_length[slot]);
+    const auto& end = element.map().end;
+    return {f_.slot_x[slot] + end[0], f_.slot_y[slot] + end[1], end[2], end[3]};
   }
 
   void PassRib(int rib, const int at[2], T force[2][2], bool propagate) {
     const LadderNodes<T>& z = f_.state;
     const T dx = z.x[at[1]] - z.x[at[0]], dy = z.y[at[1]] - z.y[at[0]];
-    const T distance = SquareRoot(T(dx * dx + dy * dy));
+    const T distance = std::sqrt(dx * dx + dy * dy);
     const T ux = dx / distance, uy = dy / distance;
     const T tension = z.q[6 + rib];
     f_.rib_ux[rib] = ux;
     f_.rib_uy[rib] = uy;
     f_.rib_distance[rib] = distance;
-    f_.closure[rib] =
-        distance -
-        f_.rib_length[rib] * (Scalar(1) + tension * f_.rib_flexibility[rib]);
+    f_.closure[rib] = distance - f_.rib_length[rib] *
+                                     (T(1) + tension * f_.rib_flexibility[rib]);
     force[0][0] -= tension * ux;
     force[0][1] -= tension * uy;
     force[1][0] += tension * ux;
@@ -180,8 +167,8 @@ class LadderEvaluator {
   void PassJoints(int rib, const int at[2], T force[2][2], bool propagate) {
     const LadderNodes<T>& z = f_.state;
     const T ux = f_.rib_ux[rib], uy = f_.rib_uy[rib];
-    const T swing = AngleOf(T(f_.rest_ux[rib] * uy - f_.rest_uy[rib] * ux),
-                            T(f_.rest_ux[rib] * ux + f_.rest_uy[rib] * uy));
+    const T swing = std::atan2(f_.rest_ux[rib] * uy - f_.rest_uy[rib] * ux,
+                               f_.rest_ux[rib] * ux + f_.rest_uy[rib] * uy);
     T* joint = f_.joints + kJointValues * rib;
     for (int side = 0; side < 2; ++side) {
       joint[kJointTurn + side] =
@@ -357,7 +344,7 @@ class LadderEvaluator {
       int slot = readout.element;
       for (int c = 0; c < f_.contact_count; ++c) {
         if (f_.contacts[c].element == readout.element &&
-            SmallestLane(T(readout.offset - f_.contacts[c].offset)) >= 0) {
+            readout.offset - f_.contacts[c].offset >= 0) {
           slot = f_.elements + c;
         }
       }

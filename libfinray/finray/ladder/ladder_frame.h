@@ -13,12 +13,8 @@ namespace finray {
 // slot is a piece of an element: the piece before the first contact has the
 // element's number, the piece behind contact c has number elements + c.
 //
-// T is double or float, and vector lanes are elements (in Evaluate) or columns
-// (in Sweep) of one frame. Or T is FourFrames or EightFrames of lanes.h:
-// each number then stands for one of each of the frames, which share the mesh,
-// the pivots and all other integers here. The code is the same. Numbers are
-// aligned to their size, which not every instruction set guarantees for locals;
-// so no local variable is passed to the kernel.
+// T is double or float; vector lanes are elements (in Evaluate) or columns (in
+// Sweep).
 
 /// The derivatives that a sweep carries beside the Newton step.
 enum class SweepColumns {
@@ -35,13 +31,11 @@ struct LadderContact {
   int side;  ///< 0 front, 1 back.
   int element;
   int index;     ///< The caller's number of the contact.
-  int columns;   ///< The number of its pair of derivatives by (l_c, f_c).
   bool is_mark;  ///< It lies on the beam, not on its surface.
-  alignas(sizeof(T)) T offset;  ///< From the start of the element.
+  T offset;      ///< From the start of the element.
   T normal;
   T friction;
   T d_normal;  ///< Derivative of `normal` by the load factor.
-  T present;   ///< 0 in frames that have no contact in this element, else 1.
   T lift;      ///< Only with lifted: of a mark 0, else that of the beam.
 };
 
@@ -51,7 +45,7 @@ struct LadderReadout {
   int gauge;
   int sign;
   int element;
-  alignas(sizeof(T)) T offset;
+  T offset;
 };
 
 /// Base moments and forces and rib tensions (q of ladder.h), and (x, y, theta,
@@ -86,7 +80,7 @@ template <class T>
 struct LadderFrame {
   // The finger and its mesh.
   int front_elements = 0, elements = 0, ribs = 0;
-  alignas(sizeof(T)) T base_x[2] = {}, base_angle[2] = {};
+  T base_x[2] = {}, base_angle[2] = {};
   T *length, *stiffness, *stiffness_ratio, *axial_flexibility;
   int *rib_element[2];  ///< The element that starts at the hinge.
   /// Only with by_piece: the piece of each element, from 0, and for each piece,
@@ -105,11 +99,11 @@ struct LadderFrame {
   React *react = nullptr;
   /// Clamps that turn: their compliance.
   bool clamps = false;
-  alignas(sizeof(T)) T clamp[2] = {};
+  T clamp[2] = {};
   /// Surfaces beside the beams: their height to the left of the beam, that is
   /// outwards in front and inwards behind.
   bool lifted = false;
-  alignas(sizeof(T)) T lift[2] = {};
+  T lift[2] = {};
   /// Only if nodes move with effects: the effects, or -1, that move the start
   /// [0] and the end [1] of an element's bay, and the motion of the element's
   /// start and end with them.
@@ -121,7 +115,7 @@ struct LadderFrame {
   /// the back beam's base with the back angle.
   int *hinge_effect[2];
   T *rest_turn[3];
-  alignas(sizeof(T)) T base_x_by_angle = {};
+  T base_x_by_angle = {};
   int readout_count = 0;
   LadderReadout<T> *readouts;  ///< Sorted by element and offset.
 
@@ -140,8 +134,8 @@ struct LadderFrame {
   T *gap;      ///< Four an element, at its start.
   T *closure;  ///< Ribs, then six at the tip.
   /// (x, y, theta) of the front beam's end.
-  alignas(sizeof(T)) T tip[3];
-  alignas(sizeof(T)) T residual;  ///< The largest one; NaN if any is NaN.
+  T tip[3];
+  T residual;  ///< The largest one; NaN if any is NaN.
   T *rib_ux, *rib_uy, *rib_distance;
   T *joints;                         ///< kJointValues a rib; only if joined.
   int *first_readout, *end_readout;  ///< The readouts of each slot.
@@ -164,8 +158,8 @@ struct LadderFrame {
 
   /// The input of Combine: the share of Newton's step, and the change of
   /// (l_c, f_c) of each contact.
-  alignas(sizeof(T)) T newton;
-  alignas(sizeof(T)) T change[2 * kFittedContacts];
+  T newton;
+  T change[2 * kFittedContacts];
 
   // The sweep's own memory.
   T *rows, *tip_rows, *node_rows, *pivots, *parameters;

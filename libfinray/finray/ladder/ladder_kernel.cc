@@ -12,13 +12,10 @@ namespace {
 
 using Frame = LadderFrame<double>;
 using V = Lanes<double>::Vector;
-// Lanes are elements or frames, as many as a register holds.
-using Frames = V;
 
-template <class T, class Wide, class Single>
-void EvaluateScheme(LadderFrame<T>& frame, SweepColumns columns,
-                    bool propagate) {
-  LadderEvaluator<T, Wide, Single>(&frame, columns).Evaluate(propagate);
+template <class Wide, class Single>
+void EvaluateScheme(Frame& frame, SweepColumns columns, bool propagate) {
+  LadderEvaluator<double, Wide, Single>(&frame, columns).Evaluate(propagate);
 }
 
 bool SweepColumnsOf(Frame& frame, SweepColumns columns, bool open,
@@ -47,31 +44,8 @@ bool Sweep(Frame& frame, SweepColumns columns, bool readouts) {
   return SweepColumnsOf(frame, columns, false, readouts);
 }
 
-// Six parameters, the step and one contact's derivatives.
-constexpr int kFramesColumns = 9;
-
-template <class Element>
-void EvaluateFrames(LadderFrame<Frames>& frame) {
-  EvaluateScheme<Frames, Element, Element>(frame, SweepColumns::kContacts,
-                                           false);
-}
-
-bool SweepFrames(LadderFrame<Frames>& frame) {
-  return LadderSweeper<Frames, kFramesColumns>(&frame, SweepColumns::kContacts,
-                                               false)
-      .Run(true);
-}
-
-void StepFrames(LadderFrame<Frames>& frame) {
-  LadderWalkBack<Frames, kFramesColumns>(&frame, SweepColumns::kContacts)
-      .Combine(2);
-  const int count = frame.state_size();
-  for (int i = 0; i < count; ++i) frame.state.q[i] += frame.step.q[i];
-}
-
 void Combine(Frame& frame) {
-  LadderWalkBack<double, 0>(&frame, SweepColumns::kContacts)
-      .Combine(2 * frame.contact_count);
+  LadderWalkBack<double, 0>(&frame, SweepColumns::kContacts).Combine();
 }
 
 void OpenSweep(Frame& frame, SweepColumns columns) {
@@ -80,16 +54,7 @@ void OpenSweep(Frame& frame, SweepColumns columns) {
 
 template <class Wide, class Single>
 constexpr LadderKernel KernelOfScheme() {
-  LadderKernel kernel = {
-      EvaluateScheme<double, Wide, Single>, Sweep, Combine, OpenSweep, {}, {}};
-  const FramesKernel<Frames> frames = {EvaluateFrames<Wide>, SweepFrames,
-                                       StepFrames};
-  if constexpr (kFrameLanes<Frames> == 8) {
-    kernel.eight = frames;
-  } else {
-    kernel.four = frames;
-  }
-  return kernel;
+  return {EvaluateScheme<Wide, Single>, Sweep, Combine, OpenSweep};
 }
 
 template <int K, bool kStretch>

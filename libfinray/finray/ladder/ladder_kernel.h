@@ -3,7 +3,6 @@
 
 #include "finray/finger/discretization.h"
 #include "finray/ladder/ladder_frame.h"
-#include "finray/ladder/lanes.h"
 
 namespace finray {
 
@@ -33,17 +32,6 @@ namespace finray {
 // pivoting. At the tip six exchanges with kappa = 0 use up the parameters. The
 // walk back through the exchanges gives the step.
 
-/// The same for frames in lanes, with the derivatives by one contact. A sweep
-/// is singular if any lane is. The memory is laid out by SetColumns with
-/// kContacts and one contact.
-template <class T>
-struct FramesKernel {
-  void (*evaluate)(LadderFrame<T>&);
-  bool (*sweep)(LadderFrame<T>&);
-  /// Does what LadderKernel::combine does, and adds `step` to the state.
-  void (*step)(LadderFrame<T>&);
-};
-
 struct LadderKernel {
   /// Fills slots, maps, readouts, gaps and closures for a sweep with `columns`
   /// or with kNone. With `propagate` each node is overwritten by the end of the
@@ -59,33 +47,11 @@ struct LadderKernel {
   /// Fills the taps only, with all of q as parameters: no rib is exchanged and
   /// the tip stays open.
   void (*open_sweep)(LadderFrame<double>&, SweepColumns);
-
-  /// A kernel has one of these two, and no functions in the other: as many
-  /// lanes as its registers have.
-  FramesKernel<FourFrames> four;
-  FramesKernel<EightFrames> eight;
 };
-
-template <class T>
-const FramesKernel<T>& OfFrames(const LadderKernel& kernel) {
-  if constexpr (kFrameLanes<T> == 8) {
-    return kernel.eight;
-  } else {
-    return kernel.four;
-  }
-}
 
 /// The kernel of a scheme in the best instruction set of this machine.
 /// `stretch` is for beams with axial flexibility.
 const LadderKernel& FindLadderKernel(Scheme scheme, bool stretch);
-
-/// The number of frames in lanes that go with the best instruction set of this
-/// machine.
-int FrameLanes();
-/// Its kernel for so many frames, or that of the next best set that has one.
-/// Null if there is none.
-template <class T>
-const FramesKernel<T>* FindFramesKernel(Scheme scheme, bool stretch);
 
 /// For tests and benchmarks: the kernel of one of InstructionSets().
 const LadderKernel& FindLadderKernel(Scheme scheme, bool stretch, int set);

@@ -6,6 +6,7 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
+#include "finray/ladder/lanes.h"
 #include "finray/ladder/mesh_refinement.h"
 
 namespace finray {
@@ -206,7 +207,7 @@ double LadderNewton::Size(double a, double b) const {
 }
 
 MeshChange LadderNewton::RefineMesh() {
-  if (!discretization_.adaptive() || IsResolved(frame(), 0)) {
+  if (!discretization_.adaptive() || IsResolved(frame())) {
     return MeshChange::kNone;
   }
   std::array<BeamMesh, 2> finer;

@@ -16,7 +16,7 @@ class LadderRows : protected LadderWalkBack<T, kVectors> {
   using Base = LadderWalkBack<T, kVectors>;
   using Base::Broadcast, Base::columns_, Base::f_, Base::Node, Base::stride,
       Base::Add, Base::by_load, Base::Tap, Base::vectors, Base::Wide;
-  using typename Base::Scalar, typename Base::V;
+  using typename Base::V;
 
   LadderRows(LadderFrame<T>* frame, SweepColumns columns, bool open)
       : Base(frame, columns), open_(open) {}
@@ -39,9 +39,8 @@ class LadderRows : protected LadderWalkBack<T, kVectors> {
     return parameters() || columns_ == SweepColumns::kContacts;
   }
   int ContactColumn(int c) const {
-    return affine() + 1 + 2 * f_.contacts[c].columns;
+    return affine() + 1 + 2 * f_.contacts[c].index;
   }
-  const T& Present(int c) const { return f_.contacts[c].present; }
   int StiffnessColumn(int side) const {
     return affine() + 1 + 2 * f_.contact_count + side;
   }
@@ -63,7 +62,7 @@ class LadderRows : protected LadderWalkBack<T, kVectors> {
   void PassJoints(int rib, T* length) {
     const T* joint = Joint(rib);
     const T ux = f_.rib_ux[rib], uy = f_.rib_uy[rib];
-    const T inverse = Scalar(1) / f_.rib_distance[rib];
+    const T inverse = T(1) / f_.rib_distance[rib];
     const T transverse =
         (joint[kJointMoment] + joint[kJointMoment + 1]) * inverse;
     const V wide_x = Broadcast(ux), wide_y = Broadcast(uy);
@@ -96,11 +95,11 @@ class LadderRows : protected LadderWalkBack<T, kVectors> {
     }
     if (!parameters()) return;
     AddJoint(rib, RibColumn(rib), length, joint + kJointBy + 3 * kByLength,
-             T{} + Scalar(1));
+             T(1));
     if (f_.moves) TurnRest(rib, length);
     if (f_.by_hinge_stiffness >= 0) {
       AddJoint(rib, EffectColumn(f_.by_hinge_stiffness), length,
-               joint + kJointBy + 3 * kByHinge, T{} + Scalar(1));
+               joint + kJointBy + 3 * kByHinge, T(1));
     }
     if (f_.by_rib_bending >= 0) {
       AddJoint(rib, EffectColumn(f_.by_rib_bending), length,
@@ -140,7 +139,7 @@ class LadderRows : protected LadderWalkBack<T, kVectors> {
     }
     if (f_.by_back_angle < 0) return;
     const T& turn = f_.rest_turn[2][rib];
-    TurnEnds(rib, length, f_.by_back_angle, turn, turn - Scalar(1));
+    TurnEnds(rib, length, f_.by_back_angle, turn, turn - T(1));
   }
   // Adds to the column of an effect that turns both ends.
   void TurnEnds(int rib, T* length, int effect, const T& front,
@@ -150,7 +149,7 @@ class LadderRows : protected LadderWalkBack<T, kVectors> {
     const T by[3] = {
         h[0] * front + h[1] * back, h[1] * front + h[2] * back,
         joint[kJointByTension] * front + joint[kJointByTension + 1] * back};
-    AddJoint(rib, EffectColumn(effect), length, by, T{} + Scalar(1));
+    AddJoint(rib, EffectColumn(effect), length, by, T(1));
   }
   // N_front += across v - along u, N_back the opposite.
   void AddAcross(int v, const V& across, const V& along, const V& ux,
@@ -167,7 +166,7 @@ class LadderRows : protected LadderWalkBack<T, kVectors> {
     if (parameters() && f_.moves && f_.by_back_angle >= 0) {
       const int column = EffectColumn(f_.by_back_angle);
       RowOf(1, kX)[column] += f_.base_x_by_angle;
-      RowOf(1, kTheta)[column] += Scalar(1);
+      RowOf(1, kTheta)[column] += T(1);
     }
     if (!f_.clamps) return;
     for (int side = 0; side < 2; ++side) {
@@ -201,7 +200,7 @@ class LadderRows : protected LadderWalkBack<T, kVectors> {
       Add(-contact.lift * along[i], RowOf(side, kTheta), pose[i]);
     }
     const T lever = contact.lift * contact.friction;
-    if (by_contacts()) moment[ContactColumn(c) + 1] += contact.present * lever;
+    if (by_contacts()) moment[ContactColumn(c) + 1] += lever;
     if (by_load()) moment[affine() + 1] += contact.d_normal * lever;
     if (!parameters()) return;
     if (f_.by_friction >= 0) {

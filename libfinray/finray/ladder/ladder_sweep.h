@@ -17,13 +17,12 @@ class LadderSweeper : private LadderRows<T, kVectors> {
       Rows::ContactNode, Rows::Copy, Rows::EffectColumn, Rows::f_, Rows::kNode,
       Rows::kPivot, Rows::kTap, Rows::kWidth, Rows::Node, Rows::node_,
       Rows::Lengthening, Rows::open_, Rows::parameters, Rows::PassJoints,
-      Rows::PassSurface, Rows::Present, Rows::TightenJoints, Rows::TurnBases,
-      Rows::RibColumn, Rows::RowOf, Rows::StiffnessColumn, Rows::stride,
-      Rows::Tap, Rows::TipNode, Rows::vectors, Rows::Wide;
+      Rows::PassSurface, Rows::TightenJoints, Rows::TurnBases, Rows::RibColumn,
+      Rows::RowOf, Rows::StiffnessColumn, Rows::stride, Rows::Tap,
+      Rows::TipNode, Rows::vectors, Rows::Wide;
   using Rows::kX, Rows::kY, Rows::kTheta, Rows::kMoment, Rows::kForceX,
       Rows::kForceY, Rows::kRows;
-  using typename Rows::Event, typename Rows::Scalar, typename Rows::U,
-      typename Rows::V;
+  using typename Rows::Event, typename Rows::U, typename Rows::V;
 
  public:
   LadderSweeper(LadderFrame<T>* frame, SweepColumns columns, bool open)
@@ -55,7 +54,7 @@ class LadderSweeper : private LadderRows<T, kVectors> {
  private:
   // Growth beyond this exchanges the parameters. Growth up to it costs three
   // digits of a step, which Newton's next step corrects.
-  static constexpr Scalar kLargestGrowth = 1000;
+  static constexpr T kLargestGrowth = 1000;
   static constexpr int kParameterVectors = (6 + kWidth - 1) / kWidth;
 
   void Log(Event event, int index) { f_.events[events_++] = 4 * index + event; }
@@ -70,7 +69,7 @@ class LadderSweeper : private LadderRows<T, kVectors> {
     for (int i = 0; i < 2 * kRows; ++i) Clear(RowOf(i));
     for (int side = 0; side < 2; ++side) {
       for (int i = 0; i < 3; ++i) {
-        RowOf(side, kMoment + i)[3 * side + i] += Scalar(1);
+        RowOf(side, kMoment + i)[3 * side + i] += T(1);
       }
     }
     TurnBases();
@@ -138,12 +137,8 @@ class LadderSweeper : private LadderRows<T, kVectors> {
         AddStiffness(side, e, map[(kMapStiffness + i) * kWidth], row);
       }
       const T& by_length = map[(kMapLength + i) * kWidth];
-      if (begins_at >= 0) {
-        row[ContactColumn(begins_at)] -= Present(begins_at) * by_length;
-      }
-      if (ends_at >= 0) {
-        row[ContactColumn(ends_at)] += Present(ends_at) * by_length;
-      }
+      if (begins_at >= 0) row[ContactColumn(begins_at)] -= by_length;
+      if (ends_at >= 0) row[ContactColumn(ends_at)] += by_length;
     }
     if (!parameters() || !f_.moves) return;
     for (int which = 0; which < 2; ++which) {
@@ -183,12 +178,8 @@ class LadderSweeper : private LadderRows<T, kVectors> {
       AddStiffness(side, e, at[5], tap);
     }
     if (by_contacts()) {
-      if (begins_at >= 0) {
-        tap[ContactColumn(begins_at)] -= Present(begins_at) * (at[6] + at[7]);
-      }
-      if (ends_at >= 0) {
-        tap[ContactColumn(ends_at)] += Present(ends_at) * at[7];
-      }
+      if (begins_at >= 0) tap[ContactColumn(begins_at)] -= at[6] + at[7];
+      if (ends_at >= 0) tap[ContactColumn(ends_at)] += at[7];
     }
     for (int which = 0; parameters() && f_.moves && which < 2; ++which) {
       const int effect = f_.moved_by[which][e];
@@ -219,7 +210,7 @@ class LadderSweeper : private LadderRows<T, kVectors> {
       T* force = RowOf(side, kForceX + i);
       Add(-contact.normal * turned[i], RowOf(side, kTheta), force);
       if (by_contacts()) {
-        force[ContactColumn(c) + 1] -= contact.present * unit[i];
+        force[ContactColumn(c) + 1] -= unit[i];
       }
       if (by_load()) force[affine() + 1] -= contact.d_normal * unit[i];
     }
@@ -259,7 +250,7 @@ class LadderSweeper : private LadderRows<T, kVectors> {
       PassJoints(rib, length);
       kappa -= f_.joints[kJointValues * rib + kJointBowByTension];
     }
-    const T strained = Scalar(1) + tension * f_.rib_flexibility[rib];
+    const T strained = T(1) + tension * f_.rib_flexibility[rib];
     if (parameters()) length[RibColumn(rib)] -= strained;
     if (by_load()) length[affine() + 1] -= strained * f_.d_rib_length[rib];
     int column = 6 + rib;
@@ -277,12 +268,11 @@ class LadderSweeper : private LadderRows<T, kVectors> {
     if (f_.joined) TightenJoints(rib, column);
   }
 
-  // All lanes share a pivot, so an entry counts as much as its smallest lane.
   static int LargestColumn(const T* row) {
     int column = 0;
-    Scalar largest = SmallestLane(Magnitude(row[0]));
+    T largest = Magnitude(row[0]);
     for (int j = 1; j < 6; ++j) {
-      const Scalar size = SmallestLane(Magnitude(row[j]));
+      const T size = Magnitude(row[j]);
       if (size > largest) {
         largest = size;
         column = j;
@@ -302,7 +292,7 @@ class LadderSweeper : private LadderRows<T, kVectors> {
   }
   void ExchangeIn(int column, const T& kappa, T* rows, int count) const {
     const T* g = f_.pivots + pivots_ * stride();
-    const T inverse = Scalar(1) / g[column];
+    const T inverse = T(1) / g[column];
     for (int i = 0; i < count; ++i) {
       T* row = rows + i * stride();
       const T factor = row[column] * inverse;
@@ -329,17 +319,17 @@ class LadderSweeper : private LadderRows<T, kVectors> {
     const T* of_column = reinterpret_cast<const T*>(squares);
     T largest = of_column[0];
     for (int j = 1; j < 6; ++j) largest = Larger(largest, of_column[j]);
-    if (LargestLane(largest) > kLargestGrowth * kLargestGrowth) Reparametrize();
+    if (largest > kLargestGrowth * kLargestGrowth) Reparametrize();
   }
 
   void Reparametrize() {
     bool used[6] = {};
     for (int k = 0; k < 6; ++k) {
       int pivot_row = 0, column = 0;
-      Scalar largest = -1;
+      T largest = -1;
       for (int i = 0; i < 2 * kRows; ++i) {
         for (int j = 0; j < 6; ++j) {
-          const Scalar size = SmallestLane(Magnitude(RowOf(i)[j]));
+          const T size = Magnitude(RowOf(i)[j]);
           // A row that was chosen is 1 in its own column and 0 elsewhere.
           if (!used[j] && size > largest) {
             largest = size;
@@ -351,7 +341,7 @@ class LadderSweeper : private LadderRows<T, kVectors> {
       if (!(largest > 0)) return;
       used[column] = true;
       Copy(RowOf(pivot_row), f_.pivots + pivots_ * stride());
-      Exchange(column, T{} + Scalar(1), -1);
+      Exchange(column, T(1), -1);
     }
   }
 
@@ -362,11 +352,11 @@ class LadderSweeper : private LadderRows<T, kVectors> {
     for (int i = 0; i < kRows; ++i) {
       T* row = rows + i * stride();
       Copy(RowOf(0, i), row);
-      Add(T{} + Scalar(i < kMoment ? -1 : 1), RowOf(1, i), row);
+      Add(T(i < kMoment ? -1 : 1), RowOf(1, i), row);
       if (!open_) row[affine()] += f_.closure[f_.ribs + i];
     }
     if (parameters() && f_.moves && f_.by_back_angle >= 0) {
-      rows[kTheta * stride() + EffectColumn(f_.by_back_angle)] += Scalar(1);
+      rows[kTheta * stride() + EffectColumn(f_.by_back_angle)] += T(1);
     }
   }
 
@@ -375,7 +365,7 @@ class LadderSweeper : private LadderRows<T, kVectors> {
       const T* row = f_.tip_rows + k * stride();
       const int column = LargestColumn(row);
       // Written so that a NaN fails.
-      if (!(SmallestLane(Magnitude(row[column])) > 0)) return false;
+      if (!(Magnitude(row[column]) > 0)) return false;
       Copy(row, f_.pivots + pivots_ * stride());
       ExchangeIn(column, T{}, f_.tip_rows + (k + 1) * stride(), 5 - k);
       KeepPivot(column, T{}, -1);

@@ -50,7 +50,8 @@ class LadderWalkBack {
 
   // The same for one combination of the columns, the frame's `newton` and
   // `change`.
-  void Combine(int derivatives) {
+  void Combine() {
+    const int derivatives = 2 * f_.contact_count;
     T with[kMostNodeColumns] = {};  // parameters, newton, change
     with[kAffine] = f_.newton;
     for (int k = 0; k < derivatives; ++k) with[kAffine + 1 + k] = f_.change[k];
@@ -73,7 +74,6 @@ class LadderWalkBack {
   }
 
  protected:
-  using Scalar = typename ValueTraits<T>::Scalar;
   using V = typename Lanes<T>::Vector;
   using U = typename Lanes<T>::Unaligned;
   static constexpr int kWidth = Lanes<T>::kWidth;
@@ -126,7 +126,7 @@ class LadderWalkBack {
       for (int j = 0; j < 6; ++j) {
         with[j] = f_.parameters[j * stride() + column];
       }
-      with[column] = T{} + Scalar(1);
+      with[column] = T(1);
       if (column > kAffine) with[kAffine] = T{};
       FinishNodeWith(with, column == kAffine ? &f_.step : &f_.by_load, e);
     }
@@ -141,7 +141,7 @@ class LadderWalkBack {
       for (int v = 0; v < f_.node_columns / kWidth; ++v) {
         sum += Wide(kept + stride() * i)[v] * Wide(with)[v];
       }
-      change[i] = reinterpret_cast<const T*>(&sum)[0];
+      change[i] = sum[0];
       for (int lane = 1; lane < kWidth; ++lane) change[i] += sum[lane];
     }
     z->x[e] = change[0];
@@ -170,7 +170,7 @@ class LadderWalkBack {
       Copy(exchanged, f_.q_step + (6 + f_.pivot_rib[pivot]) * stride());
     }
     const V kappa = Broadcast(f_.pivot_flexibility[pivot]);
-    const V inverse = Broadcast(Scalar(1) / g[column]);
+    const V inverse = Broadcast(T(1) / g[column]);
     for (int v = first_value(); v < vectors(); ++v) {
       V sum = kappa * Wide(exchanged)[v] - Wide(g)[v];
       for (int j = 0; j < 6; ++j) {

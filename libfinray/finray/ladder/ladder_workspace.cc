@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "finray/finger/geometry.h"
 #include "finray/ladder/instruction_set.h"
-#include "finray/ladder/put_lanes.h"
 
 namespace finray {
 namespace {
@@ -18,11 +16,7 @@ int RoundUp(int value, int multiple) {
 // The width of the kernel's vectors in T.
 template <class T>
 int VectorWidth() {
-  if constexpr (std::is_floating_point_v<T>) {
-    return VectorBytes() / static_cast<int>(sizeof(T));
-  } else {
-    return 1;
-  }
+  return VectorBytes() / static_cast<int>(sizeof(T));
 }
 
 double ScaledFlexibility(double axial_stiffness_N, double force_unit) {
@@ -165,8 +159,8 @@ void LadderWorkspace<T>::SetMesh(const LadderModel& model) {
     const double flexibility =
         ScaledFlexibility(AxialStiffness(model.finger(), side), force_unit_);
     for (int k = 0; k < mesh.elements(); ++k) {
-      Put(mesh.stiffness_ratio[k], &frame_.stiffness_ratio[first + k]);
-      Put(flexibility, &frame_.axial_flexibility[first + k]);
+      frame_.stiffness_ratio[first + k] = mesh.stiffness_ratio[k];
+      frame_.axial_flexibility[first + k] = flexibility;
     }
     for (int i = 0; i < frame_.ribs; ++i) {
       frame_.rib_element[beam][i] = first + mesh.rib_node[i];
@@ -186,14 +180,14 @@ void LadderWorkspace<T>::PlaceReadouts(const LadderModel& model) {
       const MeshPoint at =
           model.mesh(gauge.beam)
               .Locate(gauge.start_mm + (sign > 0 ? gauge.length_mm : 0));
-      readouts_.push_back({j, sign, first + at.element, T{}});
-      Put(at.offset_mm / length_unit_, &readouts_.back().offset);
+      readouts_.push_back({j, sign, first + at.element,
+                           static_cast<T>(at.offset_mm / length_unit_)});
     }
   }
   std::sort(readouts_.begin(), readouts_.end(),
             [](const LadderReadout<T>& a, const LadderReadout<T>& b) {
-              return std::make_pair(a.element, LaneOf(a.offset, 0)) <
-                     std::make_pair(b.element, LaneOf(b.offset, 0));
+              return std::make_pair(a.element, a.offset) <
+                     std::make_pair(b.element, b.offset);
             });
   frame_.readout_count = static_cast<int>(readouts_.size());
 }
@@ -208,12 +202,12 @@ void LadderWorkspace<T>::PlaceNodes(const LadderModel& model) {
   }
   for (const Side side : {Side::kFront, Side::kBack}) {
     const int i = LadderModel::Index(side), first = frame_.first(i);
-    Put(BeamBase(finger, side).x() / length_unit_, &frame_.base_x[i]);
-    Put(BeamAngle(finger, side), &frame_.base_angle[i]);
+    frame_.base_x[i] = BeamBase(finger, side).x() / length_unit_;
+    frame_.base_angle[i] = BeamAngle(finger, side);
     const BeamMesh& mesh = model.mesh(side);
     for (int k = 0; k < mesh.elements(); ++k) {
-      Put((mesh.nodes_mm[k + 1] - mesh.nodes_mm[k]) / length_unit_,
-          &frame_.length[first + k]);
+      frame_.length[first + k] =
+          (mesh.nodes_mm[k + 1] - mesh.nodes_mm[k]) / length_unit_;
     }
   }
 }
@@ -227,8 +221,8 @@ void LadderWorkspace<T>::SetFinger(const LadderModel& model, double fraction) {
   }
   for (const Side side : {Side::kFront, Side::kBack}) {
     const int i = LadderModel::Index(side);
-    T stiffness;
-    Put(BendingStiffness(model.finger(), side) / stiffness_unit(), &stiffness);
+    const T stiffness =
+        BendingStiffness(model.finger(), side) / stiffness_unit();
     for (int e = frame_.first(i); e < frame_.end(i); ++e) {
       frame_.stiffness[e] = stiffness * frame_.stiffness_ratio[e];
     }
@@ -237,10 +231,10 @@ void LadderWorkspace<T>::SetFinger(const LadderModel& model, double fraction) {
     const Rib& rib = model.finger().ribs[i];
     const double slope = rib.length_mm - nominal_mm_[i];
     const double length = rib.length_mm - (1 - fraction) * slope;
-    Put(length / length_unit_, &frame_.rib_length[i]);
-    Put(slope / length_unit_, &frame_.d_rib_length[i]);
-    Put(ScaledFlexibility(rib.axial_stiffness_N, force_unit_),
-        &frame_.rib_flexibility[i]);
+    frame_.rib_length[i] = length / length_unit_;
+    frame_.d_rib_length[i] = slope / length_unit_;
+    frame_.rib_flexibility[i] =
+        ScaledFlexibility(rib.axial_stiffness_N, force_unit_);
   }
   SetEffects(model);
 }
@@ -277,23 +271,22 @@ bool LadderWorkspace<T>::SetContacts(const LadderModel& model,
     LadderContact<T> placed{};
     placed.side = LadderModel::Index(contact.side);
     placed.element = frame_.first(placed.side) + at.element;
-    placed.index = placed.columns = i;
+    placed.index = i;
     placed.is_mark = contact.is_mark;
-    Put(at.offset_mm / length_unit_, &placed.offset);
-    Put(fraction * normal, &placed.normal);
-    Put(contact.friction, &placed.friction);
-    Put(normal, &placed.d_normal);
-    Put(1, &placed.present);
+    placed.offset = at.offset_mm / length_unit_;
+    placed.normal = fraction * normal;
+    placed.friction = contact.friction;
+    placed.d_normal = normal;
     const double lift =
         contact.is_mark ? 0 : SurfaceOffset(model.finger(), contact.side);
-    Put((placed.side == 0 ? lift : -lift) / length_unit_, &placed.lift);
+    placed.lift = (placed.side == 0 ? lift : -lift) / length_unit_;
     // Insertion keeps the order of contacts at one place.
     int k = i;
     for (; k > 0; --k) {
       const LadderContact<T>& before = contacts_[k - 1];
       if (before.element < placed.element ||
           (before.element == placed.element &&
-           LaneOf(before.offset, 0) <= LaneOf(placed.offset, 0))) {
+           before.offset <= placed.offset)) {
         break;
       }
       contacts_[k] = before;
@@ -319,33 +312,33 @@ void LadderWorkspace<T>::SetColumns(SweepColumns columns, bool open) {
 }
 
 template <class T>
-void LadderWorkspace<T>::Load(const LadderState& state, int lane) {
+void LadderWorkspace<T>::Load(const LadderState& state) {
   const LadderNodes<T>& z = frame_.state;
   for (int i = 0; i < 6 + frame_.ribs; ++i) {
     const bool moment = i == 0 || i == 3;
-    Put(state.q[i] / (moment ? moment_unit() : force_unit_), lane, &z.q[i]);
+    z.q[i] = state.q[i] / (moment ? moment_unit() : force_unit_);
   }
   for (int side = 0; side < 2; ++side) {
     const int first = frame_.first(side);
     for (int k = 0; k < frame_.end(side) - first; ++k) {
       const auto node = state.nodes[side].col(k);
-      Put(node[1] / length_unit_, lane, &z.x[first + k]);
-      Put(node[2] / length_unit_, lane, &z.y[first + k]);
-      Put(node[3], lane, &z.theta[first + k]);
-      Put(node[4] / moment_unit(), lane, &z.moment[first + k]);
+      z.x[first + k] = node[1] / length_unit_;
+      z.y[first + k] = node[2] / length_unit_;
+      z.theta[first + k] = node[3];
+      z.moment[first + k] = node[4] / moment_unit();
     }
   }
   SetBases();
 }
 
 template <class T>
-void LadderWorkspace<T>::Save(const LadderModel& model, LadderState* state,
-                              int lane) const {
+void LadderWorkspace<T>::Save(const LadderModel& model,
+                              LadderState* state) const {
   const LadderNodes<T>& z = frame_.state;
   state->q.resize(6 + frame_.ribs);
   for (int i = 0; i < 6 + frame_.ribs; ++i) {
     const bool moment = i == 0 || i == 3;
-    state->q[i] = LaneOf(z.q[i], lane) * (moment ? moment_unit() : force_unit_);
+    state->q[i] = z.q[i] * (moment ? moment_unit() : force_unit_);
   }
   for (const Side side : {Side::kFront, Side::kBack}) {
     const BeamMesh& mesh = model.mesh(side);
@@ -355,18 +348,14 @@ void LadderWorkspace<T>::Save(const LadderModel& model, LadderState* state,
     state->rib_node[i] = mesh.rib_node;
     state->length_mm[i] = mesh.nodes_mm.back();
     for (int k = 0; k < mesh.elements(); ++k) {
-      nodes.col(k) << mesh.nodes_mm[k],
-          LaneOf(z.x[first + k], lane) * length_unit_,
-          LaneOf(z.y[first + k], lane) * length_unit_,
-          LaneOf(z.theta[first + k], lane),
-          LaneOf(z.moment[first + k], lane) * moment_unit();
+      nodes.col(k) << mesh.nodes_mm[k], z.x[first + k] * length_unit_,
+          z.y[first + k] * length_unit_, z.theta[first + k],
+          z.moment[first + k] * moment_unit();
     }
   }
 }
 
 template class LadderWorkspace<double>;
 template class LadderWorkspace<float>;
-template class LadderWorkspace<FourFrames>;
-template class LadderWorkspace<EightFrames>;
 
 }  // namespace finray

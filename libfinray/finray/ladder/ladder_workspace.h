@@ -10,8 +10,7 @@ namespace finray {
 
 /// The memory of a LadderFrame and the conversion to and from its units. A call
 /// allocates only when the mesh changes or when it asks for more contacts or
-/// columns than ever before. T is double, float, FourFrames or EightFrames;
-/// values go to all lanes of frames unless a lane is named.
+/// columns than ever before. T is double or float.
 template <class T>
 class LadderWorkspace {
  public:
@@ -47,9 +46,8 @@ class LadderWorkspace {
 
   /// Puts the bases where base loads and clamps hold them.
   void SetBases();
-  void Load(const LadderState& state, int lane = kAllLanes);
-  void Save(const LadderModel& model, LadderState* state, int lane = 0) const;
-  static constexpr int kAllLanes = -1;
+  void Load(const LadderState& state);
+  void Save(const LadderModel& model, LadderState* state) const;
 
  private:
   void SetEffects(const LadderModel& model);

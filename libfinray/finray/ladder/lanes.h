@@ -3,13 +3,12 @@
 
 #include <cmath>
 #include <cstring>
-#include <type_traits>
 
 // Vector lanes: numbers side by side, so that one instruction serves several
-// elements or several frames. Lanes<T>::kWidth and kFrameLanes<T> are the
-// numbers of lanes. The arithmetic is written once for a value V, which is a
-// double or float or a vector of them. Code for another instruction set is
-// compiled in a namespace of that name, so that the linker keeps all versions.
+// elements or several columns. Lanes<T>::kWidth is the number of lanes. The
+// arithmetic is written once for a value V, which is a double or float or a
+// vector of them. Code for another instruction set is compiled in a namespace
+// of that name, so that the linker keeps all versions.
 #ifndef FINRAY_ISA
 #define FINRAY_ISA generic
 #endif
@@ -18,26 +17,7 @@
 #endif
 
 namespace finray {
-
-/// One number of each of four or eight frames (LadderFrame).
-typedef double FourFrames __attribute__((vector_size(32)));
-typedef double EightFrames __attribute__((vector_size(64)));
-template <class T>
-constexpr int kFrameLanes = sizeof(T) / sizeof(double);
-
 inline namespace FINRAY_ISA {
-
-/// One number of a value T, which is a number itself or one of each frame.
-template <class T>
-using Number = std::conditional_t<std::is_same_v<T, float>, float, double>;
-template <class T>
-inline Number<T>& LaneOf(T& value, int lane) {
-  return reinterpret_cast<Number<T>*>(&value)[lane];
-}
-template <class T>
-inline Number<T> LaneOf(const T& value, int lane) {
-  return reinterpret_cast<const Number<T>*>(&value)[lane];
-}
 
 /// A vector of T: one AVX or AVX-512 register, or two of SSE or NEON.
 template <class T>
@@ -49,18 +29,6 @@ struct Lanes {
   static constexpr int kWidth = FINRAY_VECTOR_BYTES / sizeof(T);
 };
 
-/// If lanes are frames, a vector is one number of each.
-template <class T>
-struct LanesOfFrames {
-  using Vector = T;
-  using Unaligned = T;
-  static constexpr int kWidth = 1;
-};
-template <>
-struct Lanes<FourFrames> : LanesOfFrames<FourFrames> {};
-template <>
-struct Lanes<EightFrames> : LanesOfFrames<EightFrames> {};
-
 /// The number type of a value, integers of the same size, and its width.
 template <class V>
 struct ValueTraits {
@@ -69,16 +37,10 @@ struct ValueTraits {
   static constexpr int kWidth = 1;
 };
 template <>
-struct ValueTraits<FourFrames> {
+struct ValueTraits<Lanes<double>::Vector> {
   using Scalar = double;
-  typedef long long Integers __attribute__((vector_size(32)));
-  static constexpr int kWidth = 4;
-};
-template <>
-struct ValueTraits<EightFrames> {
-  using Scalar = double;
-  typedef long long Integers __attribute__((vector_size(64)));
-  static constexpr int kWidth = 8;
+  using Integers = Lanes<long long>::Vector;
+  static constexpr int kWidth = Lanes<double>::kWidth;
 };
 template <>
 struct ValueTraits<Lanes<float>::Vector> {
@@ -91,60 +53,10 @@ inline V Magnitude(const V& a) {
   return a < V{} ? -a : a;
 }
 
-/// The smaller one; NaN if either is NaN.
-template <class V>
-inline V Smaller(const V& a, const V& b) {
-  return ((a < b) | (a != a)) ? a : b;
-}
 /// The larger one; NaN if either is NaN.
 template <class V>
 inline V Larger(const V& a, const V& b) {
   return ((a < b) | (b != b)) ? b : a;
-}
-
-template <class V>
-inline V SquareRoot(V a) {
-  if constexpr (ValueTraits<V>::kWidth == 1) {
-    return std::sqrt(a);
-  } else {
-    for (int i = 0; i < ValueTraits<V>::kWidth; ++i) a[i] = std::sqrt(a[i]);
-    return a;
-  }
-}
-
-/// The smallest and the largest number of all lanes.
-template <class V>
-inline typename ValueTraits<V>::Scalar SmallestLane(const V& a) {
-  if constexpr (ValueTraits<V>::kWidth == 1) {
-    return a;
-  } else if constexpr (std::is_same_v<V, EightFrames>) {
-    return SmallestLane(
-        Smaller(FourFrames(__builtin_shufflevector(a, a, 0, 1, 2, 3)),
-                FourFrames(__builtin_shufflevector(a, a, 4, 5, 6, 7))));
-  } else {
-    static_assert(ValueTraits<V>::kWidth == 4);
-    const V pairs = Smaller(a, V(__builtin_shufflevector(a, a, 2, 3, 0, 1)));
-    return Smaller(pairs,
-                   V(__builtin_shufflevector(pairs, pairs, 1, 0, 3, 2)))[0];
-  }
-}
-template <class V>
-inline typename ValueTraits<V>::Scalar LargestLane(const V& a) {
-  return -SmallestLane(V(-a));
-}
-
-/// The angle of (x, y) from +x.
-template <class V>
-inline V AngleOf(const V& y, const V& x) {
-  if constexpr (ValueTraits<V>::kWidth == 1) {
-    return std::atan2(y, x);
-  } else {
-    V angle{};
-    for (int i = 0; i < ValueTraits<V>::kWidth; ++i) {
-      angle[i] = std::atan2(y[i], x[i]);
-    }
-    return angle;
-  }
 }
 
 template <class To, class From>

@@ -42,6 +42,14 @@ Eigen::Vector4d PointInSlot(const LadderFrame<double>& f, Scheme scheme,
 
 }  // namespace
 
+bool IsResolved(const LadderFrame<double>& f) {
+  double worst = 0;
+  for (int slot = 0; slot < f.slots(); ++slot) {
+    worst = std::max(worst, f.truncation[slot]);
+  }
+  return worst < kRefinedTruncation_rad;
+}
+
 bool RefineToSeries(const LadderModel& model,
                     const LadderWorkspace<double>& workspace, Scheme scheme,
                     std::array<BeamMesh, 2>* finer, LadderState* state) {

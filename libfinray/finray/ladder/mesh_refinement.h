@@ -1,24 +1,15 @@
 #ifndef FINRAY_LADDER_MESH_REFINEMENT_H_
 #define FINRAY_LADDER_MESH_REFINEMENT_H_
 
-#include <algorithm>
 #include <array>
 
 #include "finray/ladder/ladder.h"
 #include "finray/ladder/ladder_workspace.h"
-#include "finray/ladder/lanes.h"
 
 namespace finray {
 
 /// Returns true if the series of the last evaluation had converged.
-template <class T>
-bool IsResolved(const LadderFrame<T>& f, int lane) {
-  double worst = 0;
-  for (int slot = 0; slot < f.slots(); ++slot) {
-    worst = std::max(worst, LaneOf(f.truncation[slot], lane));
-  }
-  return worst < kRefinedTruncation_rad;
-}
+bool IsResolved(const LadderFrame<double>& f);
 
 /// Divides every element whose series leaves out about kRefinedTruncation_rad
 /// or more at the last evaluation in `workspace`. The order of the scheme tells

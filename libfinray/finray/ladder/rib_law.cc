@@ -7,8 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "finray/ladder/put_lanes.h"
-
 namespace finray {
 namespace {
 
@@ -207,50 +205,32 @@ RibReaction React(const RibLaw& law, double tension, const double turn[2],
 
 template <class T>
 void ReactInFrame(LadderFrame<T>& frame, int rib, bool derivatives) {
-  constexpr int kLanes = sizeof(T) / sizeof(Number<T>);
   T* joint = frame.joints + kJointValues * rib;
-  for (int lane = 0; lane < kLanes; ++lane) {
-    RibLaw law;
-    law.length = LaneOf(frame.rib_length[rib], lane);
-    law.bending_stiffness = LaneOf(frame.rib_bending[rib], lane);
-    double turn[2];
-    for (int side = 0; side < 2; ++side) {
-      law.end[side] = LaneOf(frame.rib_end[side][rib], lane);
-      law.hinge_stiffness[side] =
-          LaneOf(frame.hinge_stiffness[side][rib], lane);
-      turn[side] = LaneOf(joint[kJointTurn + side], lane);
-    }
-    RibReaction reaction =
-        React(law, LaneOf(frame.state.q[6 + rib], lane), turn, derivatives);
-    const double* numbers = Numbers(reaction);
-    const int count = derivatives ? kJointValues : kJointBy;
-    for (int i = kJointStiffness; i < count; ++i) {
-      LaneOf(joint[i], lane) =
-          static_cast<Number<T>>(numbers[i - kJointStiffness]);
-    }
+  const RibLaw law = {
+      frame.rib_length[rib],
+      frame.rib_bending[rib],
+      {frame.rib_end[0][rib], frame.rib_end[1][rib]},
+      {frame.hinge_stiffness[0][rib], frame.hinge_stiffness[1][rib]}};
+  const double turn[2] = {joint[kJointTurn], joint[kJointTurn + 1]};
+  RibReaction reaction = React(law, frame.state.q[6 + rib], turn, derivatives);
+  const double* numbers = Numbers(reaction);
+  const int count = derivatives ? kJointValues : kJointBy;
+  for (int i = kJointStiffness; i < count; ++i) {
+    joint[i] = static_cast<T>(numbers[i - kJointStiffness]);
   }
 }
 
-template <class T>
-bool BendsTooFar(const LadderFrame<T>& frame, int lane) {
+bool BendsTooFar(const LadderFrame<double>& frame) {
   if (!frame.joined) return false;
   for (int rib = 0; rib < frame.ribs; ++rib) {
-    const T& bow = frame.joints[kJointValues * rib + kJointBow];
+    const double bow = frame.joints[kJointValues * rib + kJointBow];
     // Written so that a NaN is too far.
-    if (!(LaneOf(bow, lane) <=
-          kLargestBow * LaneOf(frame.rib_length[rib], lane))) {
-      return true;
-    }
+    if (!(bow <= kLargestBow * frame.rib_length[rib])) return true;
   }
   return false;
 }
 
 template void ReactInFrame(LadderFrame<double>&, int, bool);
 template void ReactInFrame(LadderFrame<float>&, int, bool);
-template void ReactInFrame(LadderFrame<FourFrames>&, int, bool);
-template void ReactInFrame(LadderFrame<EightFrames>&, int, bool);
-template bool BendsTooFar(const LadderFrame<double>&, int);
-template bool BendsTooFar(const LadderFrame<FourFrames>&, int);
-template bool BendsTooFar(const LadderFrame<EightFrames>&, int);
 
 }  // namespace finray

@@ -52,14 +52,13 @@ struct RibReaction {
 RibReaction React(const RibLaw& law, double tension, const double turn[2],
                   bool derivatives);
 
-/// Fills the joint of a rib in all lanes from its turns and its tension.
+/// Fills the joint of a rib from its turns and its tension.
 template <class T>
 void ReactInFrame(LadderFrame<T>& frame, int rib, bool derivatives);
 
 /// Says that a rib bends so far that the equations above do not hold: bending
 /// shortens it by more than 4 %, as an arc of half a rad at both ends does.
-template <class T>
-bool BendsTooFar(const LadderFrame<T>& frame, int lane);
+bool BendsTooFar(const LadderFrame<double>& frame);
 
 }  // namespace finray
 

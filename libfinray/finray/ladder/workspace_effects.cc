@@ -5,7 +5,6 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/ladder/ladder_workspace.h"
-#include "finray/ladder/put_lanes.h"
 #include "finray/ladder/rib_law.h"
 
 namespace finray {
@@ -27,22 +26,20 @@ void LadderWorkspace<T>::SetEffects(const LadderModel& model) {
   const Rib* const bending = FirstBendingRib(finger);
   for (int i = 0; i < frame_.ribs; ++i) {
     const Rib& rib = finger.ribs[i];
-    Put(rib.front_hinge_N_mm_per_rad / moment_unit(),
-        &frame_.hinge_stiffness[0][i]);
-    Put(rib.back_hinge_N_mm_per_rad / moment_unit(),
-        &frame_.hinge_stiffness[1][i]);
+    frame_.hinge_stiffness[0][i] = rib.front_hinge_N_mm_per_rad / moment_unit();
+    frame_.hinge_stiffness[1][i] = rib.back_hinge_N_mm_per_rad / moment_unit();
     const double stiffness = rib.Bends() ? rib.bending_stiffness_N_mm2 : 0;
-    Put(stiffness / stiffness_unit(), &frame_.rib_bending[i]);
-    Put(bending ? stiffness / bending->bending_stiffness_N_mm2 : 0,
-        &frame_.bending_ratio[i]);
-    Put(rib.front_rigid_mm / length_unit_, &frame_.rib_end[0][i]);
-    Put(rib.back_rigid_mm / length_unit_, &frame_.rib_end[1][i]);
+    frame_.rib_bending[i] = stiffness / stiffness_unit();
+    frame_.bending_ratio[i] =
+        bending ? stiffness / bending->bending_stiffness_N_mm2 : 0;
+    frame_.rib_end[0][i] = rib.front_rigid_mm / length_unit_;
+    frame_.rib_end[1][i] = rib.back_rigid_mm / length_unit_;
     const Eigen::Vector2d along =
         (UndeformedPoint(finger, Side::kBack, rib.back_mm) -
          UndeformedPoint(finger, Side::kFront, rib.front_mm))
             .normalized();
-    Put(along.x(), &frame_.rest_ux[i]);
-    Put(along.y(), &frame_.rest_uy[i]);
+    frame_.rest_ux[i] = along.x();
+    frame_.rest_uy[i] = along.y();
   }
 }
 
@@ -61,8 +58,8 @@ void LadderWorkspace<T>::SetBeamEffects(const LadderModel& model) {
     const double lift = SurfaceOffset(finger, side);
     frame_.clamps |= clamp != 0;
     frame_.lifted |= lift != 0;
-    Put(clamp * moment_unit(), &frame_.clamp[i]);
-    Put((i == 0 ? lift : -lift) / length_unit_, &frame_.lift[i]);
+    frame_.clamp[i] = clamp * moment_unit();
+    frame_.lift[i] = (i == 0 ? lift : -lift) / length_unit_;
   }
   if (frame_.clamps || frame_.moves) SetBases();
 }
@@ -89,7 +86,7 @@ void LadderWorkspace<T>::SetMotion(const LadderModel& model) {
   const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
   const double shift =
       finger.front_length_mm / std::pow(std::sin(angle), 2);  // mm per rad
-  Put(shift / length_unit_, &frame_.base_x_by_angle);
+  frame_.base_x_by_angle = shift / length_unit_;
   for (int i = 0; i < frame_.ribs; ++i) {
     const Rib& rib = finger.ribs[i];
     frame_.hinge_effect[0][i] =
@@ -104,9 +101,9 @@ void LadderWorkspace<T>::SetMotion(const LadderModel& model) {
     const Eigen::Vector2d swing =
         Eigen::Vector2d(shift, 0) +
         rib.back_mm * Eigen::Vector2d(-along.y(), along.x());
-    Put(-across.y() * length_unit_, &frame_.rest_turn[0][i]);
-    Put(across.dot(along) * length_unit_, &frame_.rest_turn[1][i]);
-    Put(across.dot(swing), &frame_.rest_turn[2][i]);
+    frame_.rest_turn[0][i] = -across.y() * length_unit_;
+    frame_.rest_turn[1][i] = across.dot(along) * length_unit_;
+    frame_.rest_turn[2][i] = across.dot(swing);
   }
   SetBayMotion(model, Side::kFront);
   SetBayMotion(model, Side::kBack);
@@ -140,10 +137,10 @@ void LadderWorkspace<T>::SetBayMotion(const LadderModel& model, Side side) {
                    after = (mesh.nodes_mm[k + 1] - from) / length;
       frame_.moved_by[0][first + k] = mover(start);
       frame_.moved_by[1][first + k] = mover(end);
-      Put(1 - before, &frame_.start_moves[0][first + k]);
-      Put(1 - after, &frame_.end_moves[0][first + k]);
-      Put(rate * before, &frame_.start_moves[1][first + k]);
-      Put(rate * after, &frame_.end_moves[1][first + k]);
+      frame_.start_moves[0][first + k] = 1 - before;
+      frame_.end_moves[0][first + k] = 1 - after;
+      frame_.start_moves[1][first + k] = rate * before;
+      frame_.end_moves[1][first + k] = rate * after;
     }
   }
 }
@@ -159,7 +156,7 @@ void LadderWorkspace<T>::SetPieces(const LadderModel& model) {
     if (frame_.by_piece[i] < 0) continue;
     const std::vector<StiffnessPiece>& pieces = Pieces(finger, side);
     for (int p = 1; p < static_cast<int>(pieces.size()); ++p) {
-      Put(ParameterValue(finger, {kind, p}), &frame_.piece_step[first + p]);
+      frame_.piece_step[first + p] = ParameterValue(finger, {kind, p});
     }
     const std::vector<double>& nodes_mm = model.mesh(side).nodes_mm;
     int piece = 0;
@@ -169,8 +166,7 @@ void LadderWorkspace<T>::SetPieces(const LadderModel& model) {
         ++piece;
       }
       frame_.piece[e] = piece;
-      T ratio;
-      Put(pieces[piece].stiffness_ratio, &ratio);
+      const T ratio = pieces[piece].stiffness_ratio;
       frame_.stiffness[e] *= ratio / frame_.stiffness_ratio[e];
       frame_.stiffness_ratio[e] = ratio;
     }
@@ -183,11 +179,5 @@ template void LadderWorkspace<double>::SetBases();
 template void LadderWorkspace<float>::SetEffects(const LadderModel&);
 template void LadderWorkspace<float>::SetMotion(const LadderModel&);
 template void LadderWorkspace<float>::SetBases();
-template void LadderWorkspace<FourFrames>::SetEffects(const LadderModel&);
-template void LadderWorkspace<FourFrames>::SetMotion(const LadderModel&);
-template void LadderWorkspace<FourFrames>::SetBases();
-template void LadderWorkspace<EightFrames>::SetEffects(const LadderModel&);
-template void LadderWorkspace<EightFrames>::SetMotion(const LadderModel&);
-template void LadderWorkspace<EightFrames>::SetBases();
 
 }  // namespace finray

@@ -110,8 +110,33 @@ void FrameEvaluation::Update(const double* frame, double ln_front_stiffness,
   }
 }
 
+bool FrameEvaluation::FitsSurface() const {
+  const auto loads = static_cast<int>(loads_.size());
+  return form_ == EquilibriumForm::kReduced && contacts() <= 1 &&
+         loads == contacts() + ends_ && row_friction_.offset == 0 &&
+         row_friction_.slope == 1;
+}
+
+void FrameEvaluation::Take(const double* frame, const Eigen::VectorXd& outputs,
+                           const Matrix& d_outputs,
+                           const std::vector<Eigen::Vector2d>& by_place) {
+  if (contacts() == 1) {
+    loads_[0].arc_mm = std::clamp(frame[0], 0.0, length_mm_);
+    loads_[0].normal_N = frame[1];
+  }
+  const int first = contact_row(contacts()), tip = tip_row();
+  outputs_.resize(tip + 3);
+  outputs_.head(first) = outputs.head(first);
+  outputs_.tail<3>() = outputs.tail<3>();
+  d_outputs_.resize(tip + 3, columns());
+  d_outputs_.topRows(first) = d_outputs.topRightCorner(first, columns());
+  d_outputs_.bottomRows<3>() = d_outputs.bottomRightCorner(3, columns());
+  by_place_ = by_place;
+  valid_ = true;
+}
+
 void FrameEvaluation::UpdateReduced(EquilibriumSolver* solver) {
-  solver->set_state(state_);
+  if (state_.q.size() > 0) solver->set_state(state_);
   valid_ = solver->SolveWithSensitivities(loads_);
   if (!valid_) return;  // the next trial starts from the last equilibrium
   solver->SaveState(&state_);

@@ -59,6 +59,16 @@ class FrameEvaluation {
               double ln_back_stiffness, const double* rib_lengths_mm,
               const double* effects, EquilibriumSolver* solver);
 
+  /// Says whether ModelSurface can take the place of Update: the reduced form
+  /// with one contact or none, without pins and without friction of its own.
+  bool FitsSurface() const;
+  /// Takes the rows of a ModelSurface::Values in place of Update. A frame
+  /// without contact takes those of a contact without force. Rows of gauges'
+  /// ends are left undefined. The friction must be that of the constructor.
+  void Take(const double* frame, const Eigen::VectorXd& outputs,
+            const Matrix& d_outputs,
+            const std::vector<Eigen::Vector2d>& by_place);
+
   bool valid() const { return valid_; }
   /// Marks the model as not evaluated at the present values.
   void Invalidate() { valid_ = false; }
@@ -104,7 +114,8 @@ class FrameEvaluation {
   const Eigen::VectorXd& closure() const { return closure_; }
   const Matrix& d_closure() const { return d_closure_; }
 
-  /// The last equilibrium found. The next evaluation starts from it.
+  /// The last equilibrium found. The next evaluation starts from it; if it is
+  /// empty, from where the solver is.
   const LadderState& state() const { return state_; }
   void set_state(const LadderState& state) { state_ = state; }
 

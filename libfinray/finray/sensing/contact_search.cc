@@ -23,7 +23,8 @@ constexpr double kHides = 0.5;
 // So many std from one row to the next hide a minimum of any finger.
 constexpr double kSharp = 30;
 
-// The table is too coarse where its values are wrong by more std than this.
+// The table cannot rank starts where its values are wrong by more std than
+// this.
 constexpr double kCoarse = 1;
 // An upright finger bends alike wherever it is touched, and each bay between
 // ribs may hold a minimum.
@@ -112,21 +113,14 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
   const bool exact = contacts == 1 && dof < 1;
   const bool close = exact || HasCloseMinima(solver_.model().finger()) ||
                      (!starts_.empty() && starts_[0].error > kCoarse);
-  // The table's contacts have the scene's friction.
-  has_surface_ = method_ == FrameMethod::kFast && contacts == 1 && !close &&
-                 friction_ == scene_.friction_coefficient;
+  // The surface's contacts have the scene's friction.
+  on_surface_ = method_ == FrameMethod::kFast && contacts == 1 &&
+                friction_ == scene_.friction_coefficient;
   found_.Clear();
   iterations_ = 0;
   std::size_t fallbacks = 0;
-  // A solution on the bound of the force is no rival of another one. Its fit
-  // is often spared once that one is known.
-  if (has_surface_ && starts_.size() > 1 && IsLoaded(starts_[1]) &&
-      WayFrom(starts_[0], packed).end.contacts[0].normal_N >= most_force_N_) {
-    std::swap(starts_[0], starts_[1]);
-  }
   for (const ContactStart& start : starts_) {
     // This start can neither win nor be a rival, and those behind it are worse.
-    // After a swap the first one is tried all the same.
     if (!exact &&
         kTableFactor * start.chi2 >= found_.least_chi2() + kWithinNoise) {
       break;
@@ -140,10 +134,11 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
       if (FitByCeres(start, row)) found_.Keep();
       continue;
     }
-    const Way way = WayFrom(start, packed);
-    if (way.is_known || !Matters(way, packed)) continue;
-    if (FitAlong(way, packed)) {
-      found_.Keep();
+    if (Fit(start, packed)) {
+      const ContactSolution& next = found_.next();
+      if (!on_surface_ || !found_.Knows(next.contacts[0], next.chi2)) {
+        found_.Keep();
+      }
       continue;
     }
     const bool explained =
@@ -183,9 +178,7 @@ void ContactSearch::SearchRows(const PackedReadings& packed, bool close) {
       }
     }
     if (next == profile_.size() || !MayGoOn()) return;
-    const Way way = WayFrom(profile_[next], packed);
-    if (!way.is_known && FitAlong(way, packed) && !found_.KnowsNext())
-      found_.Keep();
+    if (Fit(profile_[next], packed) && !found_.KnowsNext()) found_.Keep();
     profile_[next].count = 0;  // tried
   }
 }
@@ -206,8 +199,9 @@ void ContactSearch::SearchBeside(const PackedReadings& packed) {
     start.contacts[0].normal_N =
         std::clamp(from.contacts[0].normal_N - a(0, 1) / a(1, 1) * apart, 0.0,
                    most_force_N_);
-    start.state = &from.state;
-    if (FitFast(start, packed) && !found_.KnowsNext()) found_.Keep();
+    start.state =
+        &table_.StateNear(start.contacts[0].arc_mm, start.contacts[0].normal_N);
+    if (Fit(start, packed) && !found_.KnowsNext()) found_.Keep();
   }
 }
 
@@ -240,7 +234,7 @@ void ContactSearch::SearchForces(const PackedReadings& packed) {
       start.contacts[0] = {row.arc_mm, row.nodes[k].normal_N,
                            scene_.friction_coefficient};
       start.state = &row.nodes[k].state;
-      if (FitFast(start, packed) && !found_.KnowsNext()) found_.Keep();
+      if (Fit(start, packed) && !found_.KnowsNext()) found_.Keep();
     }
   }
 }
@@ -320,72 +314,48 @@ void ContactSearch::FindStarts(int contacts, const PackedReadings& packed) {
   starts_.resize(kMostPairStarts);
 }
 
-bool ContactSearch::FitFast(const ContactStart& start,
-                            const PackedReadings& packed) {
+bool ContactSearch::Fit(const ContactStart& start,
+                        const PackedReadings& packed) {
+  if (!on_surface_ ||
+      !surface_.Fit(packed.values, packed.weights, most_force_N_,
+                    start.contacts[0], &found_.next())) {
+    return FitEquilibria(start, packed);
+  }
+  Spend(1, true);
+  const ContactSolution& solution = found_.next();
+  const int left = scene_.search_iteration_limit.value_or(
+                       spent_ + ContactFit::kMostIterations) -
+                   spent_;
+  if (solution.chi2 > kNoiseless || left < 1) return true;
+  fit_.set_most_iterations(std::min(left, ContactFit::kMostIterations));
+  ContactStart near = start;
+  near.contacts[0] = solution.contacts[0];
+  near.state =
+      &table_.StateNear(near.contacts[0].arc_mm, near.contacts[0].normal_N);
+  // The solution of the surface stays if this does not converge.
+  FitEquilibria(near, packed, true);
+  return true;
+}
+
+bool ContactSearch::FitEquilibria(const ContactStart& start,
+                                  const PackedReadings& packed, bool known) {
   contacts_.assign(start.contacts.begin(),
                    start.contacts.begin() + start.count);
   for (PointContact& contact : contacts_) contact.friction = friction_;
   fit_.set_state(*start.state);
   const bool converged = fit_.Fit(packed.values, packed.weights, &contacts_);
-  return Fill(converged, start.count);
-}
-
-ContactSearch::Way ContactSearch::WayFrom(const ContactStart& start,
-                                          const PackedReadings& packed) const {
-  Way way{start, start, false, false};
-  way.leads =
-      has_surface_ && start.error <= kCoarse &&
-      surface_.Descend(packed.values, packed.weights, most_force_N_, &way.end);
-  way.is_known = way.leads && found_.Knows(way.end.contacts[0], way.end.chi2);
-  return way;
-}
-
-bool ContactSearch::Matters(const Way& way,
-                            const PackedReadings& packed) const {
-  if (!way.leads || found_.empty() ||
-      table_.SurfaceError(way.end.contacts[0].normal_N, packed.weights) >
-          kCoarse) {
-    return true;
-  }
-  const double distance = std::max(0.0, std::sqrt(way.end.chi2) - kCoarse);
-  return distance * distance < found_.least_chi2() + kWithinNoise;
-}
-
-bool ContactSearch::FitAlong(const Way& way, const PackedReadings& packed) {
-  if (!way.leads) return FitFast(way.start, packed);
-  contacts_.assign(1, way.end.contacts[0]);
-  contacts_[0].friction = friction_;
-  const PointContact& end = way.end.contacts[0];
-  bool starts = table_.StateAt(end.arc_mm, end.normal_N, &between_);
-  if (starts) {
-    fit_.set_state(between_);
-  } else {
-    fit_.set_state(*way.start.state);
-    Spend(1, false);
-    starts = fit_.Settle(contacts_) && MayGoOn();
-  }
-  if (starts &&
-      Fill(fit_.Finish(packed.values, packed.weights, surface_, &contacts_),
-           1)) {
-    return true;
-  }
-  return MayGoOn() && FitFast(way.start, packed);
-}
-
-bool ContactSearch::Fill(bool converged, int count) {
-  Spend(fit_.iterations(), converged);
+  Spend(fit_.iterations(), known || converged);
   if (!converged) return false;
   ContactSolution& solution = found_.next();
-  solution.count = count;
+  solution.count = start.count;
   solution.chi2 = fit_.chi2();
   solution.information = fit_.information();
   solution.systematic.resize(0, 0);  // FrameEstimator finds it
-  fit_.SaveState(&solution.state);
   solution.tip_pose = fit_.tip_pose();
   for (std::size_t i = 0; i < solution.rib_tension_N.size(); ++i) {
     solution.rib_tension_N[i] = fit_.rib_tension(static_cast<int>(i));
   }
-  for (int c = 0; c < count; ++c) {
+  for (int c = 0; c < start.count; ++c) {
     solution.contacts[c] = contacts_[c];
     solution.poses[c] = fit_.contact_pose(c);
   }

@@ -27,10 +27,15 @@ const char* FrameMethodName(FrameMethod method);
 /// Finds the contacts that explain a frame, without a guess. It minimises chi2
 /// from the best starts of a table, and from all further starts that might lead
 /// to a rival. A rival is another solution that explains the frame about as
-/// well. Where ContactFit does not converge, FrameProblem solves the frame.
+/// well. One contact is fitted on the GaugeSurface. Where that does not serve,
+/// and for two contacts, ContactFit solves the equilibria. Where that does not
+/// converge, FrameProblem solves the frame.
 class ContactSearch {
  public:
   static constexpr double kWithinNoise = FoundSolutions::kWithinNoise;
+  /// Readings without noise leave a chi2 below this. They show every digit of
+  /// an estimate, so a search solves their equilibria.
+  static constexpr double kNoiseless = 1e-3;
 
   /// `tables` are those of another search with the same arguments, or null.
   /// Throws InputError for a finger without an unloaded equilibrium.
@@ -111,22 +116,12 @@ class ContactSearch {
   // Whether a minimum within noise, other than those found, may lie near a row
   // where the distance in std changes by least_rise or more from row to row.
   bool Hides(std::size_t row, double least_rise) const;
-  // FitFast and FitByCeres fit from a start and fill in the next solution.
-  bool FitFast(const ContactStart& start, const PackedReadings& packed);
-  // A start and where the surface of the table leads from there.
-  struct Way {
-    ContactStart start, end;
-    bool leads = false;     // to `end`, else nowhere
-    bool is_known = false;  // `end` is a solution that was found
-  };
-  Way WayFrom(const ContactStart& start, const PackedReadings& packed) const;
-  // Says whether the minimum at the end of the way may be the best solution or
-  // a rival. True where the surface may be wrong by more than kCoarse std.
-  bool Matters(const Way& way, const PackedReadings& packed) const;
-  // Like FitFast, from the end of the way.
-  bool FitAlong(const Way& way, const PackedReadings& packed);
-  // Takes over a fit's result as the next solution; false if there is none.
-  bool Fill(bool converged, int count);
+  // All fit from a start and fill in the next solution. Fit goes by the surface
+  // where it can, else by FitEquilibria, which is ContactFit.
+  bool Fit(const ContactStart& start, const PackedReadings& packed);
+  // With `known`, a solution is there already if it does not converge.
+  bool FitEquilibria(const ContactStart& start, const PackedReadings& packed,
+                     bool known = false);
   bool FitByCeres(const ContactStart& start, const Measurements& row);
 
   Scene scene_;
@@ -138,10 +133,9 @@ class ContactSearch {
   double most_force_N_;
   FoundSolutions found_;
   FrameMethod method_;
-  bool has_surface_ = false;  // one that is exact enough for this frame
+  bool on_surface_ = false;  // this search
   ContactFit fit_;
   FrameProblem problem_;
-  LadderState between_;  // nodes of the table
   std::vector<ContactStart> profile_, starts_;
   std::vector<PointContact> contacts_;
   int iterations_ = 0;

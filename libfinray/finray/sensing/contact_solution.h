@@ -29,7 +29,7 @@ struct ContactSolution {
   std::array<Eigen::Vector3d, kFittedContacts> poses;  ///< x, y (mm), theta
   Eigen::Vector3d tip_pose;
   std::vector<double> rib_tension_N;
-  LadderState state;  ///< In equilibrium with the contacts.
+  LadderState state;  ///< The equilibrium. Only FrameProblem fills it in.
   /// Covariance of (l_c, f_c) due to the finger's calibration. Only
   /// FrameProblem fills it in.
   ContactMatrix systematic;

@@ -72,7 +72,7 @@ FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
       free_(FreeEstimate(finger, discretization)) {
   scene_.gauge_offset_walk.reset();
   if (method == FrameMethod::kFast && FrameFollower::Serves(scene)) {
-    follower_.emplace(finger, scene, discretization, search_);
+    follower_.emplace(finger, search_);
   }
 }
 
@@ -87,8 +87,7 @@ FrameEstimator::FrameEstimator(const FrameEstimator& other)
       systematic_(other.systematic_),
       free_(other.free_) {
   if (other.follower_) {
-    follower_.emplace(finger_, scene_, discretization_, search_,
-                      other.follower_->rivals());
+    follower_.emplace(finger_, search_, other.follower_->rivals());
   }
 }
 
@@ -287,36 +286,37 @@ std::size_t FrameEstimator::FitRun(std::size_t begin, std::size_t end) {
 // the same.
 bool FrameEstimator::TakeFollowed(const PackedReadings& packed, std::size_t run,
                                   FrameEstimate* estimate) {
-  const FrameFit& fit = follower_->fit(run);
-  if (!fit.converged) return false;
+  const ContactSolution& fit = follower_->fit(run);
+  if (fit.count == 0) return false;
+  const PointContact& contact = fit.contacts[0];
   estimate->chi2 = fit.chi2;
   estimate->model_chi2 = kNaN;
   estimate->dof = static_cast<int>(finger_.gauges.size()) - kUnknowns;
+  // A search is exact to rounding, which this is not.
+  if (estimate->dof > 0 && fit.chi2 < ContactSearch::kNoiseless) return false;
   // A search weighs the discrepancy, which this does not.
   const double scale = estimate->noise_scale();
   if (scale > 1 && systematic_.has_discrepancy()) return false;
   const ContactMatrix covariance = CovarianceOf(fit.information);
   const double arc_std = scale * std::sqrt(covariance(0, 0));
   const bool touches = scene_.contacts
-                           ? fit.normal_N >= least_force_N_
+                           ? contact.normal_N >= least_force_N_
                            : fit.chi2 < kSecondSignificance &&
                                  packed.free_chi2 - fit.chi2 >= kSignificance;
   if (!touches || !follower_->IsCertain(run, arc_std, scale)) {
     return false;
   }
   estimate->contacts = 1;
-  estimate->contact[0] = {fit.arc_mm, arc_std, fit.normal_N,
-                          scale * std::sqrt(covariance(1, 1)),
-                          fit.contact_pose};
+  estimate->contact[0] = {contact.arc_mm, arc_std, contact.normal_N,
+                          scale * std::sqrt(covariance(1, 1)), fit.poses[0]};
   estimate->contact[1] = {};
   estimate->valley.reset();
   estimate->noise_covariance = covariance;
   estimate->alternative = {};
   estimate->alternative_chi2 = kNaN;
   estimate->tip_pose = fit.tip_pose;
-  estimate->rib_tension_N.assign(fit.rib_tension_N.begin(),
-                                 fit.rib_tension_N.end());
-  estimate->iterations = fit.iterations;
+  estimate->rib_tension_N = fit.rib_tension_N;
+  estimate->iterations = 1;
   estimate->search_ended = false;
   return true;
 }

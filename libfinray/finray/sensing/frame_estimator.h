@@ -80,6 +80,12 @@ class FrameEstimator {
   /// Estimates the next frame of a log. If the scene asks for smoothing, the
   /// frames before smooth it.
   FrameEstimate Next(const Measurements& readings);
+  /// Makes what frames with one contact and the scene's friction would make
+  /// when they first need it, so that none of them waits.
+  void Prepare() const {
+    if (method_ == FrameMethod::kFast) search_.surface().Prepare();
+    if (follower_) follower_->rivals()->Prepare();
+  }
   /// The next call of Next() starts a new log.
   void Restart() {
     following_ = false;

@@ -1,204 +1,237 @@
 #include "finray/sensing/gauge_surface.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <memory>
 
 #include "finray/finger/geometry.h"
-#include "finray/sensing/parabola_slope.h"
+#include "finray/objects/circle_centre.h"
 
 namespace finray {
 namespace {
 
 constexpr int kMostSteps = 30;
-// The end of a descent, in l_0 and in the force. A fit goes on from there.
-constexpr double kDescended = 1e-5;
 // A step is halved at most so often until chi2 falls.
 constexpr int kMostHalvings = 6;
+// The last change, in l_0 and in the force: Newton's method squares it. Without
+// B, on a bound, the steps shrink by a constant factor only.
+constexpr double kLastNewton = 1e-6, kLastGauss = 1e-9;
+// A change this small may not lower chi2, because of rounding.
+constexpr double kFutile = 1e-5;
+// The surface serves a frame if it is exact to this, in std.
+constexpr double kExact_std = 1e-5;
+// Cells leave out this, in std of the finger's gauges and of a circle measured
+// to kCircle_mm, but no less than rounding.
+constexpr double kResolution_std = 1e-6, kCircle_mm = 1e-3;
+constexpr double kLeastResolution_rad = 1e-12;
+// No gauge bends further.
+constexpr double kMostAngle_rad = 0.8;
+// Of the equilibria. Newton's method ends far below it.
+constexpr double kTolerance = 1e-10;
+constexpr int kPoses = 6;
 
-// The interval of rising `nodes` that is nearest to `at`.
-std::size_t Interval(const std::vector<double>& nodes, double at) {
-  const auto next = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, at);
-  return static_cast<std::size_t>(next - nodes.begin()) - 1;
+Eigen::VectorXd ResolutionOf(const Finger& finger, bool circle) {
+  const auto gauges = static_cast<Eigen::Index>(finger.gauges.size());
+  Eigen::VectorXd resolution(gauges + (circle ? 2 : 0));
+  for (Eigen::Index j = 0; j < gauges; ++j) {
+    // With a curve the weight differs from angle to angle.
+    double weight = 0;
+    for (double angle = -kMostAngle_rad; angle <= kMostAngle_rad;
+         angle += kMostAngle_rad / 8) {
+      weight = std::max(weight, finger.gauges[j].AngleWeight(angle));
+    }
+    resolution[j] = std::max(kLeastResolution_rad, kResolution_std / weight);
+  }
+  if (circle) resolution.tail<2>().setConstant(kResolution_std * kCircle_mm);
+  return resolution;
+}
+
+// Samples [gauges, centre] and then [contact pose, tip pose, rib tensions].
+std::function<LoadSurface::Sampler()> SamplersOf(
+    const EquilibriumSolver& solver, double friction,
+    std::optional<double> circle_radius_mm) {
+  const auto prototype = std::make_shared<const EquilibriumSolver>(solver);
+  return [=]() -> LoadSurface::Sampler {
+    const auto own = std::make_shared<EquilibriumSolver>(*prototype);
+    own->Reset();
+    own->set_tolerance(kTolerance);
+    bool near = false;
+    return [=](double arc_mm, double normal_N, double* values) mutable {
+      if (!own->Solve({{arc_mm, normal_N, friction}})) return false;
+      // The first equilibrium may take a path of loads.
+      if (!near) own->set_near_only(near = true);
+      const int gauges = own->model().gauges();
+      values = std::copy_n(own->outputs().data(), gauges, values);
+      if (circle_radius_mm) {
+        const Eigen::Vector2d centre =
+            CircleCentre(own->contact_pose(0), *circle_radius_mm);
+        values = std::copy_n(centre.data(), 2, values);
+      }
+      values = std::copy_n(own->outputs().data() + gauges, kPoses, values);
+      for (int i = 0; i < own->model().ribs(); ++i) {
+        *values++ = own->rib_tension(i);
+      }
+      return true;
+    };
+  };
 }
 
 }  // namespace
 
-// The cubic Hermite polynomials of an interval, for its two ends, with their
-// first and second derivatives. `h` belongs to values, `g` to slopes.
-struct GaugeSurface::Cubics {
-  double h[2][3], g[2][3];
+GaugeSurface::GaugeSurface(const EquilibriumSolver& solver, double friction,
+                           std::optional<double> circle_radius_mm,
+                           double heaviest_N)
+    : friction_(friction),
+      length_mm_(solver.model().finger().front_length_mm),
+      force_unit_N_(ForceUnit(solver.model().finger())),
+      gauges_(solver.model().gauges()),
+      values_(gauges_ + (circle_radius_mm ? 2 : 0)),
+      ribs_(solver.model().ribs()),
+      resolution_(
+          ResolutionOf(solver.model().finger(), circle_radius_mm.has_value())),
+      surface_(
+          LoadSurface::DomainOf(solver.model().finger(),
+                                solver.model().mesh(Side::kFront), heaviest_N),
+          {values_, kPoses + ribs_}, resolution_,
+          SamplersOf(solver, friction, circle_radius_mm)) {}
 
-  Cubics(double from, double to, double at) {
-    const double width = to - from, per = 1 / width;
-    const double t = (at - from) * per, u = 1 - t;
-    h[1][0] = t * t * (3 - 2 * t);
-    h[1][1] = 6 * t * u * per;
-    h[1][2] = (6 - 12 * t) * per * per;
-    h[0][0] = 1 - h[1][0];
-    h[0][1] = -h[1][1];
-    h[0][2] = -h[1][2];
-    g[0][0] = width * t * u * u;
-    g[0][1] = u * (1 - 3 * t);
-    g[0][2] = (6 * t - 4) * per;
-    g[1][0] = -width * t * t * u;
-    g[1][1] = t * (3 * t - 2);
-    g[1][2] = (6 * t - 2) * per;
+// Memory for a frame, on the stack unless the finger is large.
+template <int kOnStack>
+class GaugeSurface::Scratch {
+ public:
+  explicit Scratch(int size) {
+    if (size > kOnStack) heap_.resize(size);
   }
+  double* data() { return heap_.empty() ? stack_.data() : heap_.data(); }
+
+ private:
+  std::array<double, kOnStack> stack_;
+  std::vector<double> heap_;
 };
 
-// The polynomials of a cell and its corners; [0] is at the smaller arc, and the
-// next force lies values_ behind.
-struct GaugeSurface::Cell {
-  Cubics along, up;
-  const Corner* corners[2];
-  std::size_t next;
+// Newton's method on x = (l_c / l_0, f_c / (EI / l_0^2)).
+class GaugeSurface::Descent {
+ public:
+  using Column = Eigen::Ref<const Eigen::VectorXd>;
 
-  Value At(std::size_t j) const {
-    // [derivative by arc][corner by force]
-    double value[3][2] = {}, slope[3][2] = {};
-    for (int a = 0; a < 2; ++a) {
-      for (int b = 0; b < 2; ++b) {
-        const Corner& c = corners[a][b * next + j];
-        for (int d = 0; d < 3; ++d) {
-          value[d][b] += along.h[a][d] * c.value + along.g[a][d] * c.by_arc;
-          slope[d][b] += along.h[a][d] * c.by_force + along.g[a][d] * c.by_both;
-        }
-      }
+  Descent(const GaugeSurface& surface, const Column& values,
+          const Column& weights, double most_force_N)
+      : s_(surface),
+        values_(values),
+        weights_(weights),
+        most_force_N_(most_force_N),
+        stride_(LoadSurface::Padded(s_.values_)),
+        jets_(6 * stride_) {}
+
+  // Returns false off the surface.
+  bool EquationsAt(const ContactVector& x, ContactEquations* equations) {
+    // Rounding may put the force beyond its bound.
+    const double arc_mm = std::clamp(x[0] * s_.length_mm_, 0.0, s_.length_mm_);
+    const double normal_N =
+        std::clamp(x[1] * s_.force_unit_N_, 0.0, most_force_N_);
+    if (!s_.surface_.Locate(arc_mm, normal_N, &place_)) return false;
+    s_.surface_.Jets(place_, 0, jets_.data());
+    const double l = s_.length_mm_, f = s_.force_unit_N_;
+    CurvedSums sums;
+    for (int j = 0; j < s_.values_; ++j) {
+      if (weights_[j] == 0) continue;
+      const double* const jet = jets_.data() + j;
+      sums.Add(weights_[j], jet[0] - values_[j], l * jet[stride_],
+               f * jet[2 * stride_], l * l * jet[3 * stride_],
+               l * f * jet[4 * stride_], f * f * jet[5 * stride_]);
     }
-    const auto sum = [&](int by_arc, int by_force) {
-      return up.h[0][by_force] * value[by_arc][0] +
-             up.h[1][by_force] * value[by_arc][1] +
-             up.g[0][by_force] * slope[by_arc][0] +
-             up.g[1][by_force] * slope[by_arc][1];
-    };
-    return {sum(0, 0), sum(1, 0), sum(0, 1), sum(2, 0), sum(1, 1), sum(0, 2)};
+    *equations = sums.Equations();
+    return true;
   }
+
+ private:
+  const GaugeSurface& s_;
+  const Column &values_, &weights_;
+  const double most_force_N_;
+  const int stride_;
+  LoadSurface::Place place_;
+  Scratch<6 * 16> jets_;  // LoadSurface::Jets
 };
 
-GaugeSurface::GaugeSurface(const GaugeTable& table, const Finger& finger)
-    : length_mm_(finger.front_length_mm), force_unit_N_(ForceUnit(finger)) {
-  std::vector<const GaugeTable::Row*> rows;
-  for (const GaugeTable::Row& row : table.rows()) rows.push_back(&row);
-  rows.push_back(&table.tip());
-  std::size_t forces = rows[0]->nodes.size();
-  for (const GaugeTable::Row* row : rows) {
-    forces = std::min(forces, row->nodes.size());
-  }
-  if (forces < 3) return;
-  const Eigen::VectorXd& free = rows[0]->nodes[0].values;
-  values_ = static_cast<std::size_t>(free.size());
-  for (std::size_t k = 0; k < forces; ++k) {
-    forces_.push_back(rows[0]->nodes[k].normal_N / force_unit_N_);
-  }
-  // At the clamp no contact bends the finger; where a circle is measured, its
-  // centre still moves along the beam.
-  if (free.size() == table.free_angles().size()) {
-    arcs_.push_back(0);
-    for (std::size_t k = 0; k < forces; ++k) {
-      for (const double value : free) corners_.push_back({value, 0, 0, 0});
-    }
-  }
-  for (const GaugeTable::Row* row : rows) {
-    arcs_.push_back(row->arc_mm / length_mm_);
-    for (std::size_t k = 0; k < forces; ++k) {
-      const GaugeTable::Node& node = row->nodes[k];
-      for (Eigen::Index j = 0; j < node.values.size(); ++j) {
-        corners_.push_back(
-            {node.values[j], 0, node.by_force[j] * force_unit_N_, 0});
-      }
-    }
-  }
-  if (arcs_.size() < 3) {
-    forces_.clear();
-  } else {
-    SetSlopes();
-  }
-}
-
-void GaugeSurface::SetSlopes() {
-  const std::size_t in_row = forces_.size() * values_;
-  const auto arc = [&](std::size_t i) { return arcs_[i]; };
-  for (std::size_t at = 0; at < corners_.size(); ++at) {
-    const auto slope = [&](double Corner::*value) {
-      return ParabolaSlope(arcs_.size(), at / in_row, arc, [&](std::size_t i) {
-        return corners_[i * in_row + at % in_row].*value;
-      });
-    };
-    corners_[at].by_arc = slope(&Corner::value);
-    corners_[at].by_both = slope(&Corner::by_force);
-  }
-}
-
-GaugeSurface::Cell GaugeSurface::CellAt(double arc, double force) const {
-  const std::size_t i = Interval(arcs_, arc), k = Interval(forces_, force);
-  const auto at = [&](std::size_t row) {
-    return &corners_[(row * forces_.size() + k) * values_];
-  };
-  return {{arcs_[i], arcs_[i + 1], arc},
-          {forces_[k], forces_[k + 1], force},
-          {at(i), at(i + 1)},
-          values_};
-}
-
-GaugeSurface::Value GaugeSurface::At(Eigen::Index j, double arc,
-                                     double force) const {
-  return CellAt(arc, force).At(static_cast<std::size_t>(j));
-}
-
-void GaugeSurface::CurvaturesAt(double arc, double force,
-                                GaugeCurvatures* second) const {
-  const Cell cell = CellAt(arc, force);
-  second->resize(static_cast<Eigen::Index>(values_), 3);
-  for (std::size_t j = 0; j < values_; ++j) {
-    const Value s = cell.At(j);
-    second->row(static_cast<Eigen::Index>(j)) << s.by_arc_arc, s.by_arc_force,
-        s.by_force_force;
-  }
-}
-
-ContactEquations GaugeSurface::EquationsAt(
-    const ContactVector& x, const Eigen::VectorXd& values,
-    const Eigen::VectorXd& weights) const {
-  const Cell cell = CellAt(x[0], x[1]);
-  CurvedSums sums;
-  for (std::size_t j = 0; j < values_; ++j) {
-    const auto row = static_cast<Eigen::Index>(j);
-    if (weights[row] == 0) continue;
-    const Value s = cell.At(j);
-    sums.Add(weights[row], s.value - values[row], s.by_arc, s.by_force,
-             s.by_arc_arc, s.by_arc_force, s.by_force_force);
-  }
-  return sums.Equations();
-}
-
-bool GaugeSurface::Descend(const Eigen::VectorXd& values,
-                           const Eigen::VectorXd& weights, double most_force_N,
-                           ContactStart* start) const {
+bool GaugeSurface::Fit(const Eigen::Ref<const Eigen::VectorXd>& values,
+                       const Eigen::Ref<const Eigen::VectorXd>& weights,
+                       double most_force_N, const PointContact& start,
+                       ContactSolution* solution) const {
   const double most = most_force_N / force_unit_N_;
   ContactVector x(2);
-  x << start->contacts[0].arc_mm / length_mm_,
-      start->contacts[0].normal_N / force_unit_N_;
-  if (!Covers(x[1])) return false;
-  ContactEquations here = EquationsAt(x, values, weights);
+  x << start.arc_mm / length_mm_, start.normal_N / force_unit_N_;
+  Descent descent(*this, values, weights, most_force_N);
+  ContactEquations here, there;
+  if (!descent.EquationsAt(x, &here)) return false;
   for (int i = 0; i < kMostSteps; ++i) {
     ContactVector change = BoundedChange(here, x, most, 0);
-    if (LargestChange(change, x, 0) < kDescended) {
-      start->contacts[0].arc_mm = x[0] * length_mm_;
-      start->contacts[0].normal_N = x[1] * force_unit_N_;
-      start->chi2 = here.chi2;
-      return true;
-    }
-    ContactEquations there;
-    for (int halvings = 0;; ++halvings) {
-      if (halvings > kMostHalvings || !Covers(x[1] + change[1])) return false;
-      there = EquationsAt(x + change, values, weights);
+    const bool newton = here.curvature.size() > 0;
+    const double size = LargestChange(change, x, 0);
+    // Wherever it is, a contact without force is the free finger.
+    bool last = size < (newton ? kLastNewton : kLastGauss) ||
+                (x[1] == 0 && change[1] == 0);
+    ContactVector taken = change;
+    for (int halvings = 0; !last; ++halvings) {
+      taken = change;
+      taken[0] *= ArcShare(x[1], change[1]);
+      taken[0] = std::clamp(x[0] + taken[0], 0.0, 1.0) - x[0];
+      if (!descent.EquationsAt(x + taken, &there)) return false;
       if (there.chi2 <= here.chi2) break;
+      if (halvings == kMostHalvings) {
+        if (size > kFutile) return false;
+        taken.setZero();
+        last = true;
+      }
       change *= 0.5;
     }
-    x += change;
+    if (last) {
+      // chi2 is quadratic over so small a change.
+      double fallen = 2 * here.gradient.dot(taken);
+      fallen += taken.dot(ContactVector(here.normal * taken));
+      if (newton) fallen += taken.dot(ContactVector(here.curvature * taken));
+      x += taken;
+      solution->count = 1;
+      solution->contacts[0] = {
+          x[0] >= 1 ? length_mm_ : x[0] * length_mm_,
+          x[1] >= most ? most_force_N : x[1] * force_unit_N_, friction_};
+      solution->chi2 = std::max(0.0, here.chi2 + fallen);
+      solution->information =
+          InformationOf(here.normal, length_mm_, force_unit_N_);
+      solution->systematic.resize(0, 0);  // FrameEstimator finds it
+      return SetOutputs(kExact_std / weights.cwiseProduct(resolution_).norm(),
+                        solution);
+    }
+    x += taken;
     here = there;
   }
   return false;
+}
+
+bool GaugeSurface::SetOutputs(double most_error,
+                              ContactSolution* solution) const {
+  LoadSurface::Place place;
+  const PointContact& contact = solution->contacts[0];
+  if (!surface_.Locate(contact.arc_mm, contact.normal_N, &place) ||
+      !(place.error() < most_error)) {
+    return false;
+  }
+  Scratch<32> outputs(LoadSurface::Padded(kPoses + ribs_));
+  surface_.Values(place, 1, outputs.data());
+  const double* const poses = outputs.data();
+  solution->poses[0] = Eigen::Map<const Eigen::Vector3d>(poses);
+  solution->tip_pose = Eigen::Map<const Eigen::Vector3d>(poses + 3);
+  solution->rib_tension_N.assign(poses + kPoses, poses + kPoses + ribs_);
+  return true;
+}
+
+bool GaugeSurface::ValuesAt(double arc_mm, double normal_N,
+                            Eigen::VectorXd* values) const {
+  LoadSurface::Place place;
+  if (!surface_.Locate(arc_mm, normal_N, &place)) return false;
+  values->resize(LoadSurface::Padded(values_));
+  surface_.Values(place, 0, values->data());
+  values->conservativeResize(values_);
+  return true;
 }
 
 }  // namespace finray

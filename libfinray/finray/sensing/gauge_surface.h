@@ -2,63 +2,60 @@
 #define FINRAY_SENSING_GAUGE_SURFACE_H_
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "finray/sensing/contact_solution.h"
 #include "finray/sensing/fast/contact_step.h"
-#include "finray/sensing/gauge_table.h"
+#include "finray/statics/load_surface.h"
 
 namespace finray {
 
-/// The values of a GaugeTable between its rows and forces: bicubic Hermite
-/// polynomials s_j(x) of x = (l_c / l_0, f_c / (EI / l_0^2)), with slopes from
-/// the neighbours of each node. Its first row is the clamp, where no contact
-/// bends the finger, its last row the tip. The error is a small part of a
-/// typical std up to 8 N for the paper's finger. A descent on them takes less
-/// time than one iteration of a fit, and a fit that starts from its end needs
-/// few iterations.
+/// The measured values s_j of all equilibria with one contact, as functions of
+/// its (l_c, f_c): the gauges' angles in rad and, if the object is a measured
+/// circle, its centre (x, y) in mm behind them (circle_centre.h). Poses and rib
+/// tensions follow. The values are those of the statics to a
+/// millionth of the gauges' noise (load_surface.h), so that a frame is fitted
+/// without solving an equilibrium.
 class GaugeSurface {
  public:
-  /// Keeps no reference to the table. The surface ends at the force that all
-  /// rows have.
-  GaugeSurface(const GaugeTable& table, const Finger& finger);
+  /// `solver` is copied when cells are made. Forces go up to `heaviest_N`.
+  GaugeSurface(const EquilibriumSolver& solver, double friction,
+               std::optional<double> circle_radius_mm, double heaviest_N);
 
-  /// Minimises chi2 = sum_j w_j^2 (s_j(x) - values_j)^2 from the contact of
-  /// `start`, within 0 <= l_c <= l_0 and 0 <= f_c <= `most_force_N`. Sets
-  /// contact and chi2 of `start` to those of the minimum. Returns false and
-  /// leaves it alone if the way leads off the surface or does not end soon.
-  bool Descend(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
-               double most_force_N, ContactStart* start) const;
+  /// Minimises
+  ///
+  ///   chi2(l_c, f_c) = sum_j w_j^2 (s_j(l_c, f_c) - values_j)^2
+  ///
+  /// within 0 <= l_c <= l_0 and 0 <= f_c <= `most_force_N`, by Newton's method
+  /// from `start`, to rounding. `weights` are 1 / std, 0 where nothing was
+  /// measured. Returns false and leaves `*solution` undefined if the way leads
+  /// off the surface or does not end soon, or if the surface is not exact to a
+  /// small part of these std. A call for a finger of up to 16 gauges and 26
+  /// ribs allocates nothing once `*solution` has been used.
+  bool Fit(const Eigen::Ref<const Eigen::VectorXd>& values,
+           const Eigen::Ref<const Eigen::VectorXd>& weights,
+           double most_force_N, const PointContact& start,
+           ContactSolution* solution) const;
 
-  /// s_j and its derivatives by x.
-  struct Value {
-    double value, by_arc, by_force, by_arc_arc, by_arc_force, by_force_force;
-  };
-  /// `arc` and `force` are those of x. Requires Covers(force).
-  Value At(Eigen::Index j, double arc, double force) const;
-  /// d2 s_j / dx2 of all s_j. Requires Covers(force).
-  void CurvaturesAt(double arc, double force, GaugeCurvatures* second) const;
-  bool Covers(double force) const {
-    return !forces_.empty() && force <= forces_.back();
-  }
+  /// Makes what fits would make when they first need it.
+  void Prepare() const { surface_.MakeAll(); }
+
+  /// Finds s_j under a load. Returns false off the surface.
+  bool ValuesAt(double arc_mm, double normal_N, Eigen::VectorXd* values) const;
 
  private:
-  // s, its slopes by l and f, and its twist at a node
-  struct Corner {
-    double value, by_arc, by_force, by_both;
-  };
-  struct Cubics;
-  struct Cell;
-  Cell CellAt(double arc, double force) const;
-  ContactEquations EquationsAt(const ContactVector& x,
-                               const Eigen::VectorXd& values,
-                               const Eigen::VectorXd& weights) const;
-  void SetSlopes();
+  class Descent;
+  template <int kOnStack>
+  class Scratch;
+  // Sets poses and tensions at the contact. Returns false if the surface is
+  // wrong by more there, in units of its resolution.
+  bool SetOutputs(double most_error, ContactSolution* solution) const;
 
-  double length_mm_, force_unit_N_;
-  std::size_t values_ = 0;
-  std::vector<double> arcs_, forces_;  // of x
-  std::vector<Corner> corners_;        // rows x forces x values
+  double friction_, length_mm_, force_unit_N_;
+  int gauges_, values_, ribs_;
+  Eigen::VectorXd resolution_;
+  LoadSurface surface_;
 };
 
 }  // namespace finray

@@ -50,24 +50,6 @@ double LeastOfParabola(double left, double middle, double right) {
   return std::max(0.0, middle - 0.5 * slope * slope / curvature);
 }
 
-constexpr std::size_t kPoints = 4;
-
-// The weights of kPoints of `count` nodes about x. Returns the first of them.
-template <class At>
-std::size_t LagrangeWeights(std::size_t count, double x, const At& at,
-                            double weights[kPoints]) {
-  std::size_t first = 0;
-  while (first + kPoints < count && at(first + kPoints / 2) < x) ++first;
-  for (std::size_t i = 0; i < kPoints; ++i) {
-    weights[i] = 1;
-    for (std::size_t k = 0; k < kPoints; ++k) {
-      if (k == i) continue;
-      weights[i] *= (x - at(first + k)) / (at(first + i) - at(first + k));
-    }
-  }
-  return first;
-}
-
 constexpr std::size_t Padded(std::size_t rows) {
   constexpr std::size_t kPadding = RowCurves::kPadding;
   return (rows + kPadding - 1) / kPadding * kPadding;
@@ -150,7 +132,6 @@ GaugeTable::GaugeTable(EquilibriumSolver* solver, double friction,
     });
   });
   solver->set_state(free_state);
-  tip_ = MakeRow(length, forces, friction, circle_radius_mm, solver);
   rows_.erase(std::remove_if(rows_.begin(), rows_.end(),
                              [](const Row& row) { return row.nodes.empty(); }),
               rows_.end());
@@ -164,7 +145,6 @@ void GaugeTable::FindErrors(EquilibriumSolver* solver,
                             const std::optional<double>& circle_radius_mm) {
   errors_.setZero(free_angles_.size() + (circle_radius_mm ? 2 : 0),
                   std::size(kForces));
-  between_rows_ = errors_;
   for (std::size_t i = kErrorRows / 2; i < rows_.size(); i += kErrorRows) {
     const std::vector<Node>& nodes = rows_[i].nodes;
     for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
@@ -182,50 +162,7 @@ void GaugeTable::FindErrors(EquilibriumSolver* solver,
       errors_.col(chord) = errors_.col(chord).max(
           (middle - ValuesOf(*solver, circle_radius_mm)).array().abs());
     }
-    FindErrorsBetweenRows(i, solver, circle_radius_mm);
   }
-}
-
-// GaugeSurface interpolates over l_c by cubics with slopes from neighbours:
-// half way between rows that is (-1, 9, 9, -1) / 16.
-void GaugeTable::FindErrorsBetweenRows(
-    std::size_t row, EquilibriumSolver* solver,
-    const std::optional<double>& circle_radius_mm) {
-  if (row == 0 || row + 2 >= rows_.size()) return;
-  const auto values = [&](std::size_t i, std::size_t k) {
-    return rows_[i].nodes[k].values.array();
-  };
-  const auto ends = [&](std::size_t i) { return rows_[i].nodes.size(); };
-  const std::size_t nodes =
-      std::min({ends(row - 1), ends(row), ends(row + 1), ends(row + 2)});
-  for (std::size_t k = 1; k < nodes; ++k) {
-    solver->set_state(rows_[row].nodes[k].state);
-    if (!solver->Solve({{0.5 * (rows_[row].arc_mm + rows_[row + 1].arc_mm),
-                         rows_[row].nodes[k].normal_N, friction_}})) {
-      continue;
-    }
-    const Eigen::ArrayXd error = ((9 * (values(row, k) + values(row + 1, k)) -
-                                   values(row - 1, k) - values(row + 2, k)) /
-                                      16 -
-                                  ValuesOf(*solver, circle_radius_mm).array())
-                                     .abs();
-    for (const std::size_t chord : {k - 1, k}) {
-      if (chord + 1 >= forces_N_.size()) continue;
-      const auto column = static_cast<Eigen::Index>(chord);
-      between_rows_.col(column) = between_rows_.col(column).max(error);
-    }
-  }
-}
-
-double GaugeTable::SurfaceError(double normal_N,
-                                const Eigen::VectorXd& weights) const {
-  std::size_t to = 1;
-  while (to < forces_N_.size() && forces_N_[to] < normal_N) ++to;
-  if (to >= forces_N_.size()) return std::numeric_limits<double>::infinity();
-  const auto chord = static_cast<Eigen::Index>(to - 1);
-  return ((errors_.col(chord) + between_rows_.col(chord)) * weights.array())
-      .matrix()
-      .norm();
 }
 
 void GaugeTable::FillCurves() {
@@ -322,48 +259,6 @@ const LadderState& GaugeTable::StateNear(double arc_mm, double normal_N) const {
                                    std::abs(b.normal_N - normal_N);
                           })
       ->state;
-}
-
-bool GaugeTable::StateAt(double arc_mm, double normal_N,
-                         LadderState* state) const {
-  if (rows_.size() < kPoints || forces_N_.size() < kPoints) return false;
-  double by_row[kPoints], by_force[kPoints];
-  const std::size_t row = LagrangeWeights(
-      rows_.size(), arc_mm, [&](std::size_t i) { return rows_[i].arc_mm; },
-      by_row);
-  const std::size_t node = LagrangeWeights(
-      forces_N_.size(), normal_N, [&](std::size_t k) { return forces_N_[k]; },
-      by_force);
-  const LadderState* first = nullptr;
-  for (std::size_t i = 0; i < kPoints; ++i) {
-    const std::vector<Node>& nodes = rows_[row + i].nodes;
-    if (nodes.size() < node + kPoints) return false;
-    for (std::size_t k = 0; k < kPoints; ++k) {
-      const LadderState& from = nodes[node + k].state;
-      const double weight = by_row[i] * by_force[k];
-      if (first == nullptr) {
-        first = &from;
-        *state = from;
-        state->q *= weight;
-        for (auto& beam : state->nodes) beam *= weight;
-        continue;
-      }
-      for (int side = 0; side < 2; ++side) {
-        if (from.nodes[side].cols() != first->nodes[side].cols() ||
-            from.nodes[side].row(0) != first->nodes[side].row(0)) {
-          return false;
-        }
-      }
-      state->q += weight * from.q;
-      for (int side = 0; side < 2; ++side) {
-        state->nodes[side] += weight * from.nodes[side];
-      }
-    }
-  }
-  for (int side = 0; side < 2; ++side) {
-    state->nodes[side].row(0) = first->nodes[side].row(0);
-  }
-  return true;
 }
 
 void GaugeTable::FindStarts(const std::vector<ContactStart>& profile,

@@ -48,19 +48,8 @@ class GaugeTable {
   ContactStart BestStart(const Eigen::VectorXd& values,
                          const Eigen::VectorXd& weights) const;
 
-  /// How far, in std, the values interpolated between rows and forces may be
-  /// off under a force: the largest error half way between nodes, for every
-  /// seventh row. Infinite beyond the grid.
-  double SurfaceError(double normal_N, const Eigen::VectorXd& weights) const;
-
   /// The equilibrium of the grid node near that contact.
   const LadderState& StateNear(double arc_mm, double normal_N) const;
-
-  /// Interpolates the equilibria of the nodes about a contact: a cubic in l_c
-  /// times one in f_c. Returns false if they are not on one mesh, or if a row
-  /// about it ends before those forces. Beyond the outer rows it extrapolates
-  /// by less than a spacing.
-  bool StateAt(double arc_mm, double normal_N, LadderState* state) const;
 
   /// The largest force of the grid where nobody says most_force_N: 40 EI /
   /// l_0^2.
@@ -85,8 +74,6 @@ class GaugeTable {
   /// Rows from base to tip.
   const std::vector<Row>& rows() const { return rows_; }
   double row_spacing_mm() const { return row_spacing_mm_; }
-  /// A row at the tip, l_c = l_0, beyond the last of rows().
-  const Row& tip() const { return tip_; }
 
   /// Gauge angles of the unloaded finger.
   const Eigen::VectorXd& free_angles() const { return free_angles_; }
@@ -94,8 +81,6 @@ class GaugeTable {
  private:
   void FindErrors(EquilibriumSolver* solver,
                   const std::optional<double>& circle_radius_mm);
-  void FindErrorsBetweenRows(std::size_t row, EquilibriumSolver* solver,
-                             const std::optional<double>& circle_radius_mm);
   void FillCurves();
   RowCurves Curves() const;
   // Calls use(row, chi2, to, share) for the best force of each row.
@@ -109,9 +94,7 @@ class GaugeTable {
   double heaviest_N_, row_spacing_mm_;
   Eigen::VectorXd free_angles_;
   std::vector<Row> rows_;
-  Row tip_;
-  Eigen::ArrayXXd errors_;        // of interpolated values, values x chords
-  Eigen::ArrayXXd between_rows_;  // the same half way to the next row
+  Eigen::ArrayXXd errors_;  // of interpolated values, values x chords
   std::vector<double> forces_N_;
   std::vector<double> value_, by_force_;  // of RowCurves
 };

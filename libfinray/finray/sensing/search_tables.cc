@@ -5,7 +5,8 @@ namespace finray {
 SearchTables::SearchTables(const Scene& scene, EquilibriumSolver* solver)
     : table_(solver, scene.friction_coefficient, MeasuredRadius(scene),
              scene.force_max_N),
-      surface_(table_, solver->model().finger()) {}
+      surface_(*solver, scene.friction_coefficient, MeasuredRadius(scene),
+               table_.heaviest_N()) {}
 
 const PairTable& SearchTables::Pairs(EquilibriumSolver* solver) const {
   std::call_once(pairs_made_, [&] {

@@ -162,7 +162,7 @@ void TouchDetection::StartTouch(LogFrame* frame) const {
   frame->role = LogFrame::Role::kTouching;
   frame->arc_mm = first->contacts[0].arc_mm;
   frame->normal_N = first->contacts[0].normal_N;
-  frame->state = first->state;
+  frame->state = search_.table().StateNear(frame->arc_mm, frame->normal_N);
   frame->rival.reset();
   if (second == nullptr) return;
   frame->rival = {*second, second->chi2 - first->chi2};

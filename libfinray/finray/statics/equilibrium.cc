@@ -80,7 +80,7 @@ bool EquilibriumSolver::SolveFor(const std::vector<PointContact>& contacts,
   status_ =
       IsBadLoad(contacts) ? SolveStatus::kBadLoad : Attempt(contacts, columns);
   iterations_ = newton_.TakeIterations();
-  if (status_ == SolveStatus::kSolved && BendsTooFar(newton_.frame(), 0)) {
+  if (status_ == SolveStatus::kSolved && BendsTooFar(newton_.frame())) {
     status_ = SolveStatus::kRibTooBent;
     path_fraction_ = 1;
   }
@@ -254,7 +254,7 @@ void EquilibriumSolver::CollectValues(bool stepped, Eigen::VectorXd* outputs) {
   }
   for (int c = 0; c < f.contact_count; ++c) {
     const int index = f.contacts[c].index;
-    const Eigen::Vector3d value = ContactPose(f, c, 0);
+    const Eigen::Vector3d value = ContactPose(f, c);
     for (int i = 0; i < 3; ++i) {
       (*outputs)[m + 3 * index + i] =
           value[i] + change(f.contact_tap(index) + i);
@@ -288,7 +288,7 @@ bool EquilibriumSolver::Shoot(const Eigen::VectorXd& q,
   status_ = SolveStatus::kNotConverged;
   undeformed_ = false;
   trail_.Clear();
-  if (!newton_.Shoot(q, contacts) || BendsTooFar(newton_.frame(), 0)) {
+  if (!newton_.Shoot(q, contacts) || BendsTooFar(newton_.frame())) {
     Reset();
     return false;
   }

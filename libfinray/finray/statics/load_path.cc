@@ -207,7 +207,7 @@ SolveStatus WalkLoadPath(const std::vector<PointContact>& contacts,
   for (int i = 0; i < kMostSteps; ++i) {
     const bool advanced = path.Advance(1);
     *fraction = path.fraction();
-    if (BendsTooFar(newton->frame(), 0)) return SolveStatus::kRibTooBent;
+    if (BendsTooFar(newton->frame())) return SolveStatus::kRibTooBent;
     if (!advanced) break;
     if (path.passed_limit_point()) {
       *fraction = path.limit_fraction();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "finray/sensing/contact_search.h"
+#include "finray/sensing/fast/contact_fit.h"
 #include "test_finger.h"
 
 namespace finray {
@@ -25,8 +26,9 @@ TEST(RivalMapTest, WhatItCallsUniqueHasNoRival) {
     PackedReadings measurement;
     measurement.weights = Eigen::VectorXd::Constant(4, 1 / noise);
     measurement.gauges = measurement.all = 4;
-    ContactFit map_fit(finger, {});
-    const RivalMap map(table, measurement.weights, &map_fit);
+    const GaugeSurface surface(solver, friction, std::nullopt,
+                               table.heaviest_N());
+    const RivalMap map(table, surface, measurement.weights, table.heaviest_N());
     ContactSearch search(finger, scene, {});
     std::mt19937_64 generator(11);
     std::uniform_real_distribution<double> place(10, 135), force(0, 2);

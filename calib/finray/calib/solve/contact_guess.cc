@@ -32,7 +32,7 @@ std::optional<double> RadiusOf(const CalibrationProblem& problem) {
 
 }  // namespace
 
-ContactGuess::ContactGuess(CalibrationProblem* problem)
+ContactGuess::ContactGuess(CalibrationProblem* problem, bool many)
     : problem_(*problem),
       solver_(SolverFor(*problem)),
       table_(&solver_, problem->parameters().friction(), RadiusOf(*problem),
@@ -46,6 +46,11 @@ ContactGuess::ContactGuess(CalibrationProblem* problem)
   weights_.resize(size);
   fit_.set_most_force(table_.heaviest_N());
   fit_.set_tolerance(kFitTolerance);
+  if (many && size > 0) {
+    surface_ = std::make_shared<const GaugeSurface>(
+        solver_, problem->parameters().friction(), RadiusOf(*problem),
+        table_.heaviest_N());
+  }
 }
 
 ContactGuess::Place ContactGuess::Of(const CalibrationFrame& frame, From from) {
@@ -97,18 +102,31 @@ ContactGuess::Place ContactGuess::FromTable(bool fit) {
     return {problem_.finger().front_length_mm / 2,
             ForceUnit(solver_.model().finger()), false};
   }
-  std::vector<PointContact> contact = {start.contacts[0]};
-  Place place{contact[0].arc_mm, contact[0].normal_N, false};
-  if (!fit) return place;
-  fit_.set_state(*start.state);
-  if (!fit_.Fit(values_, weights_, &contact)) return place;
-  place.arc_mm = contact[0].arc_mm;
-  place.normal_N = contact[0].normal_N;
+  Place place{start.contacts[0].arc_mm, start.contacts[0].normal_N, false};
+  double chi2 = 0;
+  if (!fit || !Fit(start, &place, &chi2)) return place;
   // A circle out of reach leaves the contact on a bound.
   const bool alone = circle_ && weights_.head(weights_.size() - 2).isZero();
-  const double gap_mm = std::sqrt(fit_.chi2()) * problem_.plan().object_std_mm;
+  const double gap_mm = std::sqrt(chi2) * problem_.plan().object_std_mm;
   place.met = !alone || gap_mm < kMostGap_mm;
   return place;
+}
+
+bool ContactGuess::Fit(const ContactStart& start, Place* place, double* chi2) {
+  if (surface_ && surface_->Fit(values_, weights_, table_.heaviest_N(),
+                                start.contacts[0], &solution_)) {
+    place->arc_mm = solution_.contacts[0].arc_mm;
+    place->normal_N = solution_.contacts[0].normal_N;
+    *chi2 = solution_.chi2;
+    return true;
+  }
+  std::vector<PointContact> contact = {start.contacts[0]};
+  fit_.set_state(*start.state);
+  if (!fit_.Fit(values_, weights_, &contact)) return false;
+  place->arc_mm = contact[0].arc_mm;
+  place->normal_N = contact[0].normal_N;
+  *chi2 = fit_.chi2();
+  return true;
 }
 
 }  // namespace finray

@@ -2,9 +2,11 @@
 #define FINRAY_CALIB_SOLVE_CONTACT_GUESS_H_
 
 #include <Eigen/Core>
+#include <memory>
 
 #include "finray/calib/problem/calibration_problem.h"
 #include "finray/sensing/fast/contact_fit.h"
+#include "finray/sensing/gauge_surface.h"
 #include "finray/sensing/gauge_table.h"
 
 namespace finray {
@@ -15,9 +17,14 @@ namespace finray {
 /// the gauges. The search starts from a table of contacts (gauge_table.h).
 class ContactGuess {
  public:
-  /// `problem` must stay in place. Throws InputError for a finger without an
+  /// Below so many frames, their own equilibria take less time than those of a
+  /// surface (load_surface.h).
+  static constexpr std::size_t kMany = 2000;
+
+  /// `problem` must stay in place. With `many` frames to guess, a GaugeSurface
+  /// fits them. Throws InputError for a finger without an
   /// unloaded equilibrium.
-  explicit ContactGuess(CalibrationProblem* problem);
+  explicit ContactGuess(CalibrationProblem* problem, bool many = false);
 
   struct Place {
     double arc_mm = 0, normal_N = 0;
@@ -37,11 +44,16 @@ class ContactGuess {
   void AddCircle(const CalibrationFrame& frame);
   void AddGauges(const CalibrationFrame& frame);
   Place FromTable(bool fit);
+  // Moves a start to where it explains the frame best. Returns whether it
+  // converges.
+  bool Fit(const ContactStart& start, Place* place, double* chi2);
 
   CalibrationProblem& problem_;
   EquilibriumSolver solver_;
   GaugeTable table_;
+  std::shared_ptr<const GaugeSurface> surface_;  // null: none
   ContactFit fit_;
+  ContactSolution solution_;
   bool circle_;
   Eigen::VectorXd values_, weights_;  // gauges, then the circle's centre
 };

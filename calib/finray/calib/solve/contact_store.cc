@@ -22,7 +22,8 @@ void ContactStore::Guess(const std::vector<int>& frames,
     }
   }
   if (wanted.empty() && guess_) return;
-  auto guess = std::make_unique<const ContactGuess>(&problem_);
+  auto guess = std::make_unique<const ContactGuess>(
+      &problem_, wanted.size() >= ContactGuess::kMany);
   VisitInParallel(wanted.size(), problem_.threads(), *guess,
                   [&](std::size_t k, ContactGuess* local) {
                     const auto place =

@@ -21,18 +21,21 @@ constexpr int kContact = -1, kNowhere = -2;
 struct FrameLinearizer::Model {
   std::array<double, 2> contact;
   std::optional<FrameEvaluation> evaluation;  // none on the bench
+  bool by_surface = false;                    // the last one
   std::vector<FrameBlock> blocks;
 };
 
 FrameLinearizer::FrameLinearizer(const EquilibriumSolver& solver,
                                  const Plan& plan,
                                  const CalibrationBlocks* blocks,
-                                 const CalibrationParameters* parameters)
+                                 const CalibrationParameters* parameters,
+                                 const ModelSurface* surface)
     : solver_(solver),
       friction_(parameters->friction()),
       movable_gauges_(plan.MovesGauges()),
       blocks_(*blocks),
       parameters_(*parameters),
+      surface_(surface),
       loss_(MakeLoss(plan)) {
   solver_.model().set_effects(parameters_.shared.effects,
                               parameters_.shared.friction_varies);
@@ -62,26 +65,50 @@ bool FrameLinearizer::Linearize(const CalibrationFrame& frame,
                                 LadderState* state, LinearizedFrame* out) {
   Model model;
   Prepare(frame, *state, &model);
-  if (!Evaluate(contact, &model, state, out)) return false;
+  if (!Evaluate(contact, true, &model, state, out)) return false;
   out->Eliminate();
   return true;
 }
 
-bool FrameLinearizer::Evaluate(const std::array<double, 2>& contact,
+bool FrameLinearizer::Solve(const std::array<double, 2>& contact, Model* model,
+                            LadderState* state) {
+  if (state->q.size() > 0) model->evaluation->set_state(*state);
+  const SharedParameters& shared = parameters_.shared;
+  model->evaluation->PlaceGauges(shared.gauge_starts_mm.data(),
+                                 shared.gauge_lengths_mm.data());
+  model->evaluation->Update(
+      contact.data(), shared.ln_front_stiffness, shared.ln_back_stiffness,
+      shared.rib_lengths_mm.data(), shared.effect_values.data(), &solver_);
+  if (!model->evaluation->valid()) return false;
+  *state = model->evaluation->state();
+  return true;
+}
+
+bool FrameLinearizer::TakeFromSurface(const std::array<double, 2>& contact,
+                                      bool all, FrameEvaluation* evaluation) {
+  if (surface_ == nullptr || !evaluation->FitsSurface()) return false;
+  // Wherever it is, a contact without force is the free finger.
+  const double length_mm = solver_.model().finger().front_length_mm;
+  const bool touches = evaluation->contacts() == 1;
+  const double arc_mm =
+      touches ? std::clamp(contact[0], 0.0, length_mm) : length_mm / 2;
+  if (!surface_->Evaluate(arc_mm, touches ? contact[1] : 0, all, &values_)) {
+    return false;
+  }
+  evaluation->Take(contact.data(), values_.outputs, values_.d_outputs,
+                   values_.by_place);
+  return true;
+}
+
+bool FrameLinearizer::Evaluate(const std::array<double, 2>& contact, bool all,
                                Model* model, LadderState* state,
                                LinearizedFrame* out) {
   model->contact = contact;
   if (model->evaluation) {
-    if (state->q.size() > 0) model->evaluation->set_state(*state);
-    const SharedParameters& shared = parameters_.shared;
-    model->evaluation->PlaceGauges(shared.gauge_starts_mm.data(),
-                                   shared.gauge_lengths_mm.data());
-    model->evaluation->Update(
-        contact.data(), shared.ln_front_stiffness, shared.ln_back_stiffness,
-        shared.rib_lengths_mm.data(), shared.effect_values.data(), &solver_);
-    if (!model->evaluation->valid()) return false;
-    *state = model->evaluation->state();
+    model->by_surface = TakeFromSurface(contact, all, &*model->evaluation);
+    if (!model->by_surface && !Solve(contact, model, state)) return false;
   }
+  all |= !model->by_surface;
   int rows = 0;
   for (const FrameBlock& block : model->blocks) {
     rows += block.cost->num_residuals();
@@ -95,13 +122,13 @@ bool FrameLinearizer::Evaluate(const std::array<double, 2>& contact,
   out->cost = 0;
   for (const FrameBlock& block : model->blocks) {
     const int first = static_cast<int>(out->rows.size());
-    AddBlock(block, model->contact.data(), first, out);
+    AddBlock(block, model->contact.data(), all, first, out);
   }
   return out->residuals.allFinite();
 }
 
 void FrameLinearizer::AddBlock(const FrameBlock& block, const double* contact,
-                               int first_row, LinearizedFrame* out) {
+                               bool all, int first_row, LinearizedFrame* out) {
   using RowMajor =
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const int size = block.cost->num_residuals();
@@ -112,9 +139,9 @@ void FrameLinearizer::AddBlock(const FrameBlock& block, const double* contact,
   for (std::size_t k = 0; k < sizes.size(); ++k) {
     if (block.parameters[k] == contact) {
       columns_[k] = kContact;
-    } else if (const auto at = column_of_.find(block.parameters[k]);
-               at != column_of_.end()) {
-      columns_[k] = at->second;
+    } else if (all) {
+      const auto at = column_of_.find(block.parameters[k]);
+      if (at != column_of_.end()) columns_[k] = at->second;
     }
     if (columns_[k] == kNowhere) continue;
     scratch_[k].resize(size * sizes[k]);
@@ -156,12 +183,14 @@ bool FrameLinearizer::FitContact(const CalibrationFrame& frame,
                                  LadderState* state, LinearizedFrame* out) {
   Model model;
   Prepare(frame, *state, &model);
-  if (!Evaluate(*contact, &model, state, out)) {
+  if (!Evaluate(*contact, false, &model, state, out)) {
     out->rows.clear();
     return false;
   }
   const Finger& finger = solver_.model().finger();
   const Eigen::Vector2d unit(finger.front_length_mm, ForceUnit(finger));
+  // The surface leaves the derivatives by the parameters to the end.
+  bool complete = !model.by_surface;
   double damping = 0;
   for (int step = 0; frame.contact && step < kMostSteps; ++step) {
     const Eigen::Matrix<double, Eigen::Dynamic, 2> slopes =
@@ -181,16 +210,22 @@ bool FrameLinearizer::FitContact(const CalibrationFrame& frame,
         std::clamp(unit[0] * (x[0] + change[0]), 0.0, unit[0]),
         std::max(0.0, unit[1] * (x[1] + change[1]))};
     LadderState near = *state;
-    if (Evaluate(moved, &model, &near, &tried_) && tried_.cost < out->cost) {
+    if (Evaluate(moved, false, &model, &near, &tried_) &&
+        tried_.cost < out->cost) {
       *contact = moved;
       *state = std::move(near);
       std::swap(*out, tried_);
+      complete = !model.by_surface;
       damping /= 10;
       if (damping < 1e-6) damping = 0;
       continue;
     }
     damping = std::max(1e-3, 10 * damping);
     if (damping > kMostDamping) break;  // as good as rounding allows
+  }
+  if (!complete && !Evaluate(*contact, true, &model, state, out)) {
+    out->rows.clear();
+    return false;
   }
   out->Eliminate();
   return true;

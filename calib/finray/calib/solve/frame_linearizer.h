@@ -8,6 +8,7 @@
 
 #include "finray/calib/problem/calibration_blocks.h"
 #include "finray/calib/solve/linearization.h"
+#include "finray/residuals/model_surface.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {
@@ -17,14 +18,17 @@ namespace finray {
 /// one.
 class FrameLinearizer {
  public:
-  /// `blocks` and `parameters` must stay in place.
+  /// `blocks` and `parameters` must stay in place, and `surface` too unless it
+  /// is null: the model at the present values, for frames that it serves.
   FrameLinearizer(const EquilibriumSolver& solver, const Plan& plan,
                   const CalibrationBlocks* blocks,
-                  const CalibrationParameters* parameters);
+                  const CalibrationParameters* parameters,
+                  const ModelSurface* surface = nullptr);
 
   /// Linearises the frame with its contact at (l_c, f_c) = `contact`. A free
   /// frame does not use `contact`. The solve of equilibrium starts from
-  /// `*state`, which then holds the equilibrium. Returns false if the model
+  /// `*state`, which then holds the equilibrium
+  /// unless the surface gave the values. Returns false if the model
   /// cannot be evaluated.
   bool Linearize(const CalibrationFrame& frame,
                  const std::array<double, 2>& contact, LadderState* state,
@@ -47,16 +51,22 @@ class FrameLinearizer {
 
   void Prepare(const CalibrationFrame& frame, const LadderState& start,
                Model* model);
-  bool Evaluate(const std::array<double, 2>& contact, Model* model,
+  // With `all` false, the derivatives by the parameters may be left out.
+  bool Evaluate(const std::array<double, 2>& contact, bool all, Model* model,
                 LadderState* state, LinearizedFrame* out);
-  void AddBlock(const FrameBlock& block, const double* contact, int first_row,
-                LinearizedFrame* out);
+  bool TakeFromSurface(const std::array<double, 2>& contact, bool all,
+                       FrameEvaluation* evaluation);
+  bool Solve(const std::array<double, 2>& contact, Model* model,
+             LadderState* state);
+  void AddBlock(const FrameBlock& block, const double* contact, bool all,
+                int first_row, LinearizedFrame* out);
 
   EquilibriumSolver solver_;
   double friction_;
   bool movable_gauges_;
   const CalibrationBlocks& blocks_;
   const CalibrationParameters& parameters_;
+  const ModelSurface* surface_;
   std::unique_ptr<ceres::LossFunction> loss_;
   // The first column of a parameter block.
   std::unordered_map<const double*, int> column_of_;
@@ -65,6 +75,7 @@ class FrameLinearizer {
   std::vector<double*> jacobians_;
   std::vector<int> columns_;
   LinearizedFrame tried_;
+  ModelSurface::Values values_;
 };
 
 }  // namespace finray

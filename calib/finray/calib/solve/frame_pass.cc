@@ -6,18 +6,46 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <stdexcept>
 
 #include "finray/calib/solve/frame_linearizer.h"
+#include "finray/residuals/model_surface.h"
 
 namespace finray {
 namespace {
 
 // A thread evaluates so many frames at a time.
 constexpr std::size_t kChunk = 32;
+// What the surface may leave out, in std of the gauges.
+constexpr double kExact_std = 1e-5;
+// The same in rad where gauges tell hardly anything.
+constexpr double kExact_rad = 1e-7;
 
 using Evaluate = std::function<void(int frame, FrameLinearizer* linearizer,
                                     LinearizedFrame* out)>;
+
+// The model at the present values, where so many frames are evaluated that its
+// cells are worth their equilibria.
+std::optional<ModelSurface> SurfaceFor(const std::vector<int>& frames,
+                                       const CalibrationProblem& problem) {
+  if (frames.size() < ContactGuess::kMany) return {};
+  const CalibrationParameters& parameters = problem.parameters();
+  const auto gauges = static_cast<int>(problem.finger().gauges.size());
+  Eigen::VectorXd resolution(gauges + 6);
+  double rad = kExact_rad;
+  for (int j = 0; j < gauges; ++j) {
+    const Gauge gauge = parameters.Present(problem.finger(), j);
+    resolution[j] = std::min(kExact_rad, kExact_std / gauge.AngleWeight());
+    rad = std::min(rad, resolution[j]);
+  }
+  resolution.tail<6>().setConstant(rad * problem.finger().front_length_mm);
+  resolution[gauges + 2] = resolution[gauges + 5] = rad;
+  return std::make_optional<ModelSurface>(
+      EquilibriumSolver(problem.finger(), problem.discretization()),
+      parameters.shared, parameters.friction(), problem.plan().MovesGauges(),
+      resolution);
+}
 
 void VisitInOrder(const std::vector<int>& frames, const Plan& plan,
                   CalibrationProblem* problem, const Evaluate& evaluate,
@@ -27,9 +55,11 @@ void VisitInOrder(const std::vector<int>& frames, const Plan& plan,
     std::array<LinearizedFrame, kChunk> frames;
   };
   const EquilibriumSolver solver(problem->finger(), problem->discretization());
+  const std::optional<ModelSurface> surface = SurfaceFor(frames, *problem);
   tbb::enumerable_thread_specific<FrameLinearizer> linearizers([&] {
     return FrameLinearizer(solver, plan, &problem->blocks(),
-                           &problem->parameters());
+                           &problem->parameters(),
+                           surface ? &*surface : nullptr);
   });
   const int threads = problem->threads();
   // The pipeline holds at most ring.size() chunks and finishes them in order.

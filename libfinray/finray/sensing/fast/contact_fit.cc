@@ -8,7 +8,6 @@
 #include "finray/ladder/rib_law.h"
 #include "finray/objects/circle_centre.h"
 #include "finray/sensing/fast/step_pace.h"
-#include "finray/sensing/gauge_surface.h"
 
 namespace finray {
 namespace {
@@ -18,9 +17,6 @@ namespace {
 // in std for the contacts, in rad and l_0 for the shape.
 constexpr int kPatience = 8;
 constexpr double kNoDifference = 1e-6;
-// With B known, convergence is fast. A fit of readings without noise then goes
-// on to this; its chi2 is below kNoiseless.
-constexpr double kNothing = 1e-8, kNoiseless = 1e-3;
 // Where the tolerance is worth more std than this, as with a noise of a few
 // rounding errors, the last change must be below it, not only the next one.
 constexpr double kTolerableStd = 0.1;
@@ -38,7 +34,7 @@ void ContactFit::ReadCentre(double radius_mm, int unknowns) {
   const LadderFrame<double>& f = newton_.frame();
   const double length = newton_.workspace().length_unit();
   const int gauges = newton_.model().gauges();
-  Eigen::Vector3d contact = ContactPose(f, 0, 0);
+  Eigen::Vector3d contact = ContactPose(f, 0);
   contact.head<2>() *= length;
   const double theta = contact.z();
   const Eigen::Vector2d at = CircleCentre(contact, radius_mm);
@@ -73,32 +69,6 @@ bool ContactFit::Fit(const Readings& measured, const Readings& weights,
   return Follow(measured, weights, contacts);
 }
 
-bool ContactFit::Finish(const Readings& measured, const Readings& weights,
-                        const GaugeSurface& surface,
-                        std::vector<PointContact>* contacts) {
-  linearised_contacts_ = 0;
-  const double force =
-      contacts->at(0).normal_N / newton_.workspace().force_unit();
-  if (surface.Covers(force)) {
-    surface.CurvaturesAt(
-        contacts->at(0).arc_mm / newton_.workspace().length_unit(), force,
-        &curvatures_);
-    has_curvatures_ = true;
-  }
-  const bool converged = Follow(measured, weights, contacts);
-  has_curvatures_ = false;
-  return converged;
-}
-
-bool ContactFit::Settle(const std::vector<PointContact>& contacts) {
-  linearised_contacts_ = 0;
-  if (!newton_.Linearize(contacts, 1, SweepColumns::kNone)) return false;
-  const double size = newton_.Size(1, 0);
-  if (!std::isfinite(size)) return false;
-  newton_.Move(std::min(1.0, kMaxTurn_rad / size), 0);
-  return true;
-}
-
 bool ContactFit::Follow(const Readings& measured, const Readings& weights,
                         std::vector<PointContact>* contacts) {
   const int count = static_cast<int>(contacts->size());
@@ -115,10 +85,6 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
   StepPace pace;
   // True if step_ leads from one linearisation to the next.
   bool comparable = predict;
-  const GaugeCurvatures* const curvatures =
-      has_curvatures_ ? &curvatures_ : nullptr;
-  // Before two linearisations show the rate, a known B is not trusted.
-  const double unknown_rate = has_curvatures_ ? 1 : 0;
   for (iterations_ = predict ? 0 : 1; iterations_ <= most_iterations_;
        ++iterations_) {
     // The prediction uses the last linearisation of the frame before, whose
@@ -134,8 +100,7 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
       step_.setZero(unknowns);
     }
     const ContactEquations equations =
-        gauges_.Equations(measured, weights, curvatures, unknowns, 0);
-    const bool knows_curvature = equations.curvature.size() > 0;
+        gauges_.Equations(measured, weights, unknowns);
     if (!std::isfinite(equations.chi2)) return false;
     if (equations.chi2 > kMostRise * last_cost + 1 && damping < 1e6) {
       Restore(contacts);
@@ -153,8 +118,7 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
       x[2 * c + 1] = (*contacts)[c].normal_N / force;
     }
     ContactVector change =
-        gauges_.Change(measured, weights, curvatures, equations, x,
-                       most_force_N_ / force, damping, 0);
+        BoundedChange(equations, x, most_force_N_ / force, damping);
     const double taken = pace.Of(change, x);
     change *= taken;
     for (int k = 0; k < unknowns; ++k) {
@@ -171,44 +135,35 @@ bool ContactFit::Follow(const Readings& measured, const Readings& weights,
     bool crossed = false;
     for (int c = 0; c < count; ++c) {
       PointContact& contact = (*contacts)[c];
-      // A known B follows that hyperbola by itself.
-      if (!knows_curvature) {
-        moves[2 * c] *= ArcShare(x[2 * c + 1], moves[2 * c + 1]);
-      }
+      moves[2 * c] *= ArcShare(x[2 * c + 1], moves[2 * c + 1]);
       crossed |= MoveContact(mesh, &moves[2 * c], length, force,
                              &contact.arc_mm, &contact.normal_N);
     }
     step_ += moves;
-    gauges_.Move(change, 0);
+    gauges_.Move(change);
     const double rate =
         comparable && !predicts
-            ? gauges_.Rate(measured, weights, equations, damping, step, x, 0)
-            : unknown_rate;
+            ? gauges_.Rate(measured, weights, equations, damping, step, x)
+            : 0;
     const double deviations = std::sqrt(change.dot(equations.normal * change));
     const bool small =
         moved < tolerance_ || tolerance_ * deviations < kTolerableStd * moved;
-    // With B known, the rate says how little the next change will be.
-    const double next =
-        knows_curvature && comparable ? std::min(1.0, kDoubt * rate) : 1;
-    const double nothing = knows_curvature && equations.chi2 < kNoiseless
-                               ? kNothing
-                               : kNoDifference;
     const bool last = (small && IsLastChange(moved, last_change, rate, crossed,
                                              tolerance_)) ||
-                      ((knows_curvature || iterations_ >= kPatience) &&
-                       next * deviations < std::min(1.0, taken) * nothing &&
+                      (iterations_ >= kPatience &&
+                       deviations < std::min(1.0, taken) * kNoDifference &&
                        size < kNoDifference);
     damping *= 0.1;
     last_change = moved;
     comparable = true;
     if (predicts || !last) continue;
     const LadderFrame<double>& f = newton_.frame();
-    if (BendsTooFar(f, 0)) return false;
+    if (BendsTooFar(f)) return false;
     for (int c = 0; c < count; ++c) {
-      poses_[f.contacts[c].index] = PoseAfter(f, c, length, change, 0);
+      poses_[f.contacts[c].index] = PoseAfter(f, c, length, change);
     }
-    poses_[kFittedContacts] = PoseAfter(f, count, length, change, 0);
-    chi2_ = gauges_.Chi2(measured, weights, 0);
+    poses_[kFittedContacts] = PoseAfter(f, count, length, change);
+    chi2_ = gauges_.Chi2(measured, weights);
     information_ = InformationOf(equations.normal, length, force);
     switch (newton_.RefineMesh()) {
       case MeshChange::kNone:

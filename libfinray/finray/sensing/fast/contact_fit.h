@@ -12,8 +12,6 @@
 
 namespace finray {
 
-class GaugeSurface;
-
 /// Fits contacts to gauge angles s_j. It minimises
 ///
 ///   chi2(l_c, f_c) = sum_j w_j^2 (s_j(l_c, f_c) - measured_j)^2
@@ -54,10 +52,6 @@ class ContactFit {
     newton_.Load(state);
     linearised_contacts_ = 0;
   }
-  /// Brings the equilibrium nearer to that with these contacts, by one of
-  /// Newton's steps. Returns false if the system is singular.
-  bool Settle(const std::vector<PointContact>& contacts);
-  void SaveState(LadderState* state) const { newton_.Save(state); }
 
   /// Starts from the present equilibrium and from `*contacts` (one or two, on
   /// the front beam; their friction is kept) and leaves both at the solution.
@@ -74,12 +68,6 @@ class ContactFit {
   /// call, Follow does the same as Fit.
   bool Follow(const Readings& measured, const Readings& weights,
               std::vector<PointContact>* contacts);
-
-  /// Like Fit, from contacts near the solution. The surface gives the
-  /// curvatures of the gauges there: with them convergence is fast where the
-  /// readings hardly determine the contact.
-  bool Finish(const Readings& measured, const Readings& weights,
-              const GaugeSurface& surface, std::vector<PointContact>* contacts);
 
   // Results of the last successful fit.
 
@@ -112,13 +100,11 @@ class ContactFit {
   int iterations_ = 0;
   Information information_;
   std::array<Eigen::Vector3d, kFittedContacts + 1> poses_;
-  GaugeReading<double, 2 * kFittedContacts> gauges_;
+  GaugeReading gauges_;
   ContactVector step_;  // since the last linearisation
   // Number of contacts of the last fit whose linearisation the frame still
   // holds; 0 if it holds none.
   int linearised_contacts_ = 0;
-  GaugeCurvatures curvatures_;
-  bool has_curvatures_ = false;  // only within Finish
   std::vector<double> kept_state_;
   std::vector<PointContact> kept_contacts_;
 };

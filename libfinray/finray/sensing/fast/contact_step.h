@@ -9,8 +9,8 @@
 
 namespace finray {
 
-// The rules by which ContactFit and FrameGroupFit move contacts to explain
-// gauges: Gauss-Newton on x = (l_c / l_0, f_c / force unit) of each contact,
+// The rules by which fits move contacts to explain gauges: Gauss-Newton on x =
+// (l_c / l_0, f_c / force unit) of each contact,
 //
 //   (A + B + D) dx = -g,    A = S' S,  g = S' r,
 //
@@ -40,9 +40,6 @@ struct ContactEquations {
   double chi2;
   ContactMatrix curvature = {};  ///< B; empty if it is not known.
 };
-
-/// d2 s_j / dx2 of one contact: a row (ll, lf, ff) for each gauge.
-using GaugeCurvatures = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
 /// Adds up the equations of one contact with B.
 class CurvedSums {

@@ -6,10 +6,6 @@
 namespace finray {
 namespace {
 
-// Relative to l_0 and to the force. The remaining error is far below any
-// gauge's noise.
-constexpr double kTolerance = 2e-9;
-
 // A frame is searched if another place may have a chi2 that is larger by less
 // than this. The map's margins reach to Valley::kFarthest then (ramp_study).
 constexpr double kOtherPlaces = 17;
@@ -33,12 +29,10 @@ Eigen::VectorXd LeastWeights(const Finger& finger, const GaugeTable& table) {
 }
 
 std::shared_ptr<const RivalMap> MapRivals(const Finger& finger,
-                                          const Discretization& discretization,
                                           const ContactSearch& search) {
-  ContactFit fit(finger, discretization);
-  fit.set_most_force(search.most_force_N());
-  return std::make_shared<const RivalMap>(
-      search.table(), LeastWeights(finger, search.table()), &fit);
+  return std::make_shared<const RivalMap>(search.table(), search.surface(),
+                                          LeastWeights(finger, search.table()),
+                                          search.most_force_N());
 }
 
 }  // namespace
@@ -47,20 +41,11 @@ bool FrameFollower::Serves(const Scene& scene) {
   return scene.contacts.value_or(1) == 1 && !scene.object_std_mm;
 }
 
-FrameFollower::FrameFollower(const Finger& finger, const Scene& scene,
-                             const Discretization& discretization,
-                             const ContactSearch& search,
+FrameFollower::FrameFollower(const Finger& finger, const ContactSearch& search,
                              std::shared_ptr<const RivalMap> rivals)
     : search_(search),
       gauges_(static_cast<int>(finger.gauges.size())),
-      rivals_(rivals ? std::move(rivals)
-                     : MapRivals(finger, discretization, search)),
-      group_(FrameGroupFit::Make(finger, discretization,
-                                 scene.friction_coefficient)) {
-  group_->set_tolerance(kTolerance);
-  group_->set_most_force(search.most_force_N());
-  group_->set_surface(&search.surface());
-}
+      rivals_(rivals ? std::move(rivals) : MapRivals(finger, search)) {}
 
 bool FrameFollower::Start(const ContactSolution& solution, double arc_std_mm,
                           int gauges) {
@@ -70,31 +55,30 @@ bool FrameFollower::Start(const ContactSolution& solution, double arc_std_mm,
                          solution.chi2, kOtherPlaces)) {
     return false;
   }
-  group_->Start(solution.state, contact);
+  last_ = contact;
   return true;
 }
 
 void FrameFollower::Fit(const PackedReadings* frames, std::size_t count) {
-  if (fits_.size() < count) {
-    fits_.resize(count);
-    angles_rad_.resize(gauges_, static_cast<Eigen::Index>(count));
-    weights_.resize(gauges_, static_cast<Eigen::Index>(count));
+  if (fits_.size() < count) fits_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    ContactSolution& fit = fits_[i];
+    if (search_.surface().Fit(frames[i].values, frames[i].weights,
+                              search_.most_force_N(), last_, &fit)) {
+      last_ = fit.contacts[0];
+    } else {
+      fit.count = 0;
+    }
   }
-  const auto columns = static_cast<Eigen::Index>(count);
-  for (Eigen::Index i = 0; i < columns; ++i) {
-    angles_rad_.col(i) = frames[i].values;
-    weights_.col(i) = frames[i].weights;
-  }
-  group_->Fit(angles_rad_.leftCols(columns), weights_.leftCols(columns),
-              fits_.data());
 }
 
 bool FrameFollower::IsCertain(std::size_t frame, double arc_std_mm,
                               double scale) const {
-  const FrameFit& fit = fits_[frame];
-  return fit.converged && !search_.OnBound(fit.arc_mm, fit.normal_N) &&
-         rivals_->IsUnique(fit.arc_mm, arc_std_mm, fit.normal_N, fit.chi2,
-                           kOtherPlaces * scale * scale);
+  const ContactSolution& fit = fits_[frame];
+  const PointContact& contact = fit.contacts[0];
+  return fit.count == 1 && !search_.OnBound(contact.arc_mm, contact.normal_N) &&
+         rivals_->IsUnique(contact.arc_mm, arc_std_mm, contact.normal_N,
+                           fit.chi2, kOtherPlaces * scale * scale);
 }
 
 }  // namespace finray

@@ -5,13 +5,12 @@
 #include <vector>
 
 #include "finray/sensing/contact_search.h"
-#include "finray/sensing/fast/frame_group_fit.h"
 #include "finray/sensing/fast/rival_map.h"
 
 namespace finray {
 
 /// Fits frames with one contact without a search. Each fit starts where the one
-/// before ended (FrameGroupFit). Its result is accepted only where a search
+/// before ended (GaugeSurface). Its result is accepted only where a search
 /// would find the same: a minimum inside all bounds, where no other contact
 /// explains the frame as well (RivalMap). The caller must search all other
 /// frames.
@@ -23,9 +22,7 @@ class FrameFollower {
 
   /// `rivals` are those of another follower whose search has the same tables,
   /// or null.
-  FrameFollower(const Finger& finger, const Scene& scene,
-                const Discretization& discretization,
-                const ContactSearch& search,
+  FrameFollower(const Finger& finger, const ContactSearch& search,
                 std::shared_ptr<const RivalMap> rivals = nullptr);
   const std::shared_ptr<const RivalMap>& rivals() const { return rivals_; }
 
@@ -37,8 +34,9 @@ class FrameFollower {
   /// Fits consecutive frames. All gauges of all frames must have a reading.
   void Fit(const PackedReadings* frames, std::size_t count);
 
-  /// The result of the last call for a frame.
-  const FrameFit& fit(std::size_t frame) const { return fits_[frame]; }
+  /// The result of the last call for a frame, without contacts if there is
+  /// none.
+  const ContactSolution& fit(std::size_t frame) const { return fits_[frame]; }
   /// Says whether a search would find the same contact. `arc_std_mm` as above;
   /// `scale` is the factor of all std by which the frame is not explained
   /// (FrameEstimate::noise_scale).
@@ -48,9 +46,8 @@ class FrameFollower {
   const ContactSearch& search_;
   int gauges_;
   std::shared_ptr<const RivalMap> rivals_;
-  std::unique_ptr<FrameGroupFit> group_;
-  Eigen::MatrixXd angles_rad_, weights_;
-  std::vector<FrameFit> fits_;
+  PointContact last_;
+  std::vector<ContactSolution> fits_;
 };
 
 }  // namespace finray

@@ -12,10 +12,6 @@ constexpr double kBetweenNodes = 0.8;
 // Without a fit, the true chi2 may be this fraction of the table's. A start is
 // not fitted if that is far above anything that noise can do.
 constexpr double kTableFactor = 0.25, kFarAbove = 400;
-// The map needs a rival's chi2, but not its exact place. A fit that creeps and
-// ends without a result counts as a possible rival, and each frame near its
-// node would be searched.
-constexpr double kFitTolerance = 1e-5;
 // The largest std of l_c, in row spacings.
 constexpr double kWidest = 0.5;
 // A valley is straight to within this factor (Valley::kSlack).
@@ -25,45 +21,59 @@ constexpr double kSameRows = 1.5;
 
 }  // namespace
 
-RivalMap::RivalMap(const GaugeTable& table, const Eigen::VectorXd& weights,
-                   ContactFit* fit)
-    : table_(table) {
-  fit->set_tolerance(kFitTolerance);
+RivalMap::RivalMap(const GaugeTable& table, const GaugeSurface& surface,
+                   const Eigen::VectorXd& weights, double most_force_N)
+    : table_(table),
+      surface_(surface),
+      weights_(weights),
+      most_force_N_(most_force_N) {
   for (const GaugeTable::Row& row : table.rows()) {
-    std::vector<double>& distances = distance_per_N_.emplace_back();
-    for (std::size_t k = 1; k < row.nodes.size(); ++k) {
-      distances.push_back(DistancePerN(row.nodes[k], row.arc_mm, weights, fit));
+    nodes_.emplace_back(row.nodes.size() - 1);
+  }
+}
+
+double RivalMap::DistancePerN(std::size_t row, std::size_t node) const {
+  Node& of = nodes_[row][node - 1];
+  std::call_once(of.judged, [&] {
+    const GaugeTable::Row& at = table_.rows()[row];
+    of.distance_per_N = Judge(at.nodes[node], at.arc_mm);
+  });
+  return of.distance_per_N;
+}
+
+void RivalMap::Prepare() const {
+  for (std::size_t row = 0; row < nodes_.size(); ++row) {
+    for (std::size_t node = 1; node <= nodes_[row].size(); ++node) {
+      DistancePerN(row, node);
     }
   }
 }
 
-double RivalMap::DistancePerN(const GaugeTable::Node& node, double arc_mm,
-                              const Eigen::VectorXd& weights, ContactFit* fit) {
+double RivalMap::Judge(const GaugeTable::Node& node, double arc_mm) const {
   const double same_mm = kSameRows * table_.row_spacing_mm();
   double least = std::numeric_limits<double>::infinity();
-  std::vector<PointContact> contact(1);
-  table_.Profile(node.values, weights, &profile_);
-  GaugeTable::FindStarts(profile_, &starts_);
-  for (const ContactStart& start : starts_) {
-    contact[0] = start.contacts[0];
-    if (std::abs(contact[0].arc_mm - arc_mm) <= same_mm) continue;
+  ContactSolution fit;
+  const auto fits = [&](const PointContact& start) {
+    return surface_.Fit(node.values, weights_, most_force_N_, start, &fit);
+  };
+  std::vector<ContactStart> profile, starts;
+  table_.Profile(node.values, weights_, &profile);
+  GaugeTable::FindStarts(profile, &starts);
+  for (const ContactStart& start : starts) {
+    const PointContact& contact = start.contacts[0];
+    if (std::abs(contact.arc_mm - arc_mm) <= same_mm) continue;
     double chi2 = kTableFactor * start.chi2;
-    if (chi2 < kFarAbove) {
-      fit->set_state(*start.state);
-      if (fit->Fit(node.values, weights, &contact)) {
-        if (std::abs(contact[0].arc_mm - arc_mm) <= same_mm) continue;
-        chi2 = fit->chi2();
-      }
+    if (chi2 < kFarAbove && fits(contact)) {
+      if (std::abs(fit.contacts[0].arc_mm - arc_mm) <= same_mm) continue;
+      chi2 = fit.chi2;
     }
     least = std::min(least, chi2);
   }
   // Places that the node's std puts farther away than their chi2 does
   // (Valley).
-  contact[0] = {arc_mm, node.normal_N, table_.friction()};
-  fit->set_state(node.state);
-  if (!fit->Fit(node.values, weights, &contact)) return 0;
-  const ContactMatrix covariance = CovarianceOf(fit->information());
-  for (const ContactStart& place : profile_) {
+  if (!fits({arc_mm, node.normal_N, table_.friction()})) return 0;
+  const ContactMatrix covariance = CovarianceOf(fit.information);
+  for (const ContactStart& place : profile) {
     const double arc_away = std::abs(place.contacts[0].arc_mm - arc_mm);
     const double normal_away =
         std::abs(place.contacts[0].normal_N - node.normal_N);
@@ -92,8 +102,9 @@ bool RivalMap::IsUnique(double arc_mm, double arc_std_mm, double normal_N,
     std::size_t k = 1;
     while (k < nodes.size() && nodes[k].normal_N < normal_N) ++k;
     if (k == nodes.size()) return false;  // beyond the table
-    least = std::min({least, distance_per_N_[i][k - 1],
-                      distance_per_N_[i][k > 1 ? k - 2 : 0]});
+    const auto row = static_cast<std::size_t>(i);
+    least = std::min(
+        {least, DistancePerN(row, k), DistancePerN(row, k > 1 ? k - 1 : 1)});
   }
   return kBetweenNodes * least * normal_N >
          std::sqrt(chi2) + std::sqrt(chi2 + within_noise);

@@ -2,9 +2,10 @@
 #define FINRAY_SENSING_FAST_RIVAL_MAP_H_
 
 #include <Eigen/Core>
+#include <mutex>
 #include <vector>
 
-#include "finray/sensing/fast/contact_fit.h"
+#include "finray/sensing/gauge_surface.h"
 #include "finray/sensing/gauge_table.h"
 
 namespace finray {
@@ -18,11 +19,14 @@ namespace finray {
 /// and exactly so for light forces.
 class RivalMap {
  public:
-  /// `weights` are those of a frame with all measurements. `fit` must be for
-  /// this finger, without a measured circle; its tolerance is set. The table
-  /// must outlive this.
-  RivalMap(const GaugeTable& table, const Eigen::VectorXd& weights,
-           ContactFit* fit);
+  /// `weights` are those of a frame with all measurements. Table and surface
+  /// are of one finger, without a measured circle, and must outlive this. Nodes
+  /// are judged when they are first needed; all threads may use a map at once.
+  RivalMap(const GaugeTable& table, const GaugeSurface& surface,
+           const Eigen::VectorXd& weights, double most_force_N);
+
+  /// Judges all nodes.
+  void Prepare() const;
 
   /// Says whether no contact elsewhere explains a frame as well as (l_c, f_c)
   /// does, to within `within_noise` of chi2. `chi2` and `arc_std_mm` are those
@@ -32,13 +36,19 @@ class RivalMap {
                 double within_noise) const;
 
  private:
-  double DistancePerN(const GaugeTable::Node& node, double arc_mm,
-                      const Eigen::VectorXd& weights, ContactFit* fit);
+  // What is known of a node of the table.
+  struct Node {
+    std::once_flag judged;
+    double distance_per_N = 0;  // d / f_c
+  };
+  double DistancePerN(std::size_t row, std::size_t node) const;
+  double Judge(const GaugeTable::Node& node, double arc_mm) const;
 
   const GaugeTable& table_;
-  // d / f_c of the table's nodes, without the unloaded one.
-  std::vector<std::vector<double>> distance_per_N_;
-  std::vector<ContactStart> profile_, starts_;
+  const GaugeSurface& surface_;
+  Eigen::VectorXd weights_;
+  double most_force_N_;
+  mutable std::vector<std::vector<Node>> nodes_;  // without the unloaded ones
 };
 
 }  // namespace finray

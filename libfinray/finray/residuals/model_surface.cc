@@ -1,0 +1,129 @@
+#include "finray/residuals/model_surface.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "finray/finger/geometry.h"
+
+namespace finray {
+namespace {
+
+// Loads beyond this, in units of EI / l_0^2, are rare and solved one by one.
+constexpr double kHeaviest = 40;
+// A cell that leaves out so many times the resolution is not used.
+constexpr double kInexact = 10;
+
+// A solver and a frame at values of the shared parameters.
+struct Model {
+  SharedParameters shared;
+  EquilibriumSolver solver;
+  FrameEvaluation frame;
+
+  Model(const EquilibriumSolver& from, const SharedParameters& at,
+        double friction, bool movable_gauges)
+      : shared(at),
+        solver(from),
+        frame(
+            (solver.model().set_effects(shared.effects, shared.friction_varies),
+             solver.Reset(), solver.model()),
+            EquilibriumForm::kReduced, 1, friction, false, movable_gauges) {}
+
+  bool Update(double arc_mm, double normal_N) {
+    const double contact[] = {arc_mm, normal_N};
+    frame.PlaceGauges(shared.gauge_starts_mm.data(),
+                      shared.gauge_lengths_mm.data());
+    frame.Update(contact, shared.ln_front_stiffness, shared.ln_back_stiffness,
+                 shared.rib_lengths_mm.data(), shared.effect_values.data(),
+                 &solver);
+    return frame.valid();
+  }
+
+  // Writes the outputs, their derivatives by the parameters, and by the places
+  // of the gauges.
+  bool Sample(double arc_mm, double normal_N, double* to) {
+    // The solver knows the samples before.
+    frame.set_state({});
+    if (!Update(arc_mm, normal_N)) return false;
+    const int first = frame.contact_row(1), tip = frame.tip_row();
+    const auto& outputs = frame.outputs();
+    const auto& all = frame.d_outputs();
+    to = std::copy_n(outputs.data(), first, to);
+    to = std::copy_n(outputs.data() + tip, 3, to);
+    for (int i = 0; i < first + 3; ++i) {
+      const int row = i < first ? i : i - first + tip;
+      to = std::copy_n(all.row(row).data() + 2, all.cols() - 2, to);
+    }
+    if (!frame.movable_gauges()) return true;
+    for (int j = 0; j < frame.gauges(); ++j) {
+      to = std::copy_n(frame.by_place(j).data(), 2, to);
+    }
+    return true;
+  }
+};
+
+LoadSurface::Domain DomainOf(Model model) {
+  const LadderModel& at = model.solver.model();
+  model.Update(at.finger().front_length_mm / 2, 0);  // moves the hinges
+  Finger finger = at.finger();
+  for (std::size_t j = 0;
+       model.frame.movable_gauges() && j < finger.gauges.size(); ++j) {
+    finger.gauges[j].start_mm = model.shared.gauge_starts_mm[j];
+    finger.gauges[j].length_mm = model.shared.gauge_lengths_mm[j];
+  }
+  return LoadSurface::DomainOf(finger, at.mesh(Side::kFront),
+                               kHeaviest * ForceUnit(finger));
+}
+
+}  // namespace
+
+ModelSurface::ModelSurface(const EquilibriumSolver& solver,
+                           const SharedParameters& shared, double friction,
+                           bool movable_gauges,
+                           const Eigen::VectorXd& resolution)
+    : outputs_(static_cast<int>(resolution.size())),
+      parameters_(
+          Model(solver, shared, friction, movable_gauges).frame.columns() - 2),
+      places_(movable_gauges ? solver.model().gauges() : 0),
+      surface_(DomainOf({solver, shared, friction, movable_gauges}),
+               {outputs_, outputs_ * parameters_ + 2 * places_}, resolution,
+               [prototype = std::make_shared<const Model>(
+                    solver, shared, friction,
+                    movable_gauges)]() -> LoadSurface::Sampler {
+                 const auto own = std::make_shared<Model>(*prototype);
+                 return [own](double arc_mm, double normal_N, double* to) {
+                   return own->Sample(arc_mm, normal_N, to);
+                 };
+               }) {}
+
+bool ModelSurface::Evaluate(double arc_mm, double normal_N, bool all,
+                            Values* values) const {
+  LoadSurface::Place place;
+  if (!surface_.Locate(arc_mm, normal_N, &place) || place.error() > kInexact) {
+    return false;
+  }
+  thread_local std::vector<double> scratch;
+  const int stride = LoadSurface::Padded(outputs_);
+  const int derivatives = outputs_ * parameters_;
+  const int size = LoadSurface::Padded(derivatives + 2 * places_);
+  scratch.resize(static_cast<std::size_t>(std::max(6 * stride, size)));
+  surface_.Jets(place, 0, scratch.data());
+  values->outputs = Eigen::Map<const Eigen::VectorXd>(scratch.data(), outputs_);
+  values->d_outputs.resize(outputs_, 2 + parameters_);
+  for (int k = 0; k < 2; ++k) {
+    values->d_outputs.col(k) = Eigen::Map<const Eigen::VectorXd>(
+        scratch.data() + (1 + k) * stride, outputs_);
+  }
+  values->by_place.resize(static_cast<std::size_t>(places_));
+  if (!all) return true;
+  surface_.Values(place, 1, scratch.data());
+  values->d_outputs.rightCols(parameters_) =
+      Eigen::Map<const EquilibriumSolver::Matrix>(scratch.data(), outputs_,
+                                                  parameters_);
+  for (int j = 0; j < places_; ++j) {
+    values->by_place[j] =
+        Eigen::Map<const Eigen::Vector2d>(scratch.data() + derivatives + 2 * j);
+  }
+  return true;
+}
+
+}  // namespace finray

@@ -1,0 +1,38 @@
+#ifndef FINRAY_STATICS_LOAD_POLYNOMIAL_H_
+#define FINRAY_STATICS_LOAD_POLYNOMIAL_H_
+
+namespace finray {
+
+/// Several values as polynomials of a load,
+///
+///   v(l, f) = sum_ij c_ij P_i(l) Q_j(f),
+///
+/// as a plain array with the values innermost, so that vector lanes are values.
+struct LoadPolynomial {
+  /// The number of values is a multiple of this.
+  static constexpr int kPadding = 4;
+
+  int arc_terms, force_terms, values;
+  const double* c;  ///< [i][j][value]
+};
+
+/// P_i and P_i', P_i'' of an argument, for each term.
+struct PolynomialBasis {
+  static constexpr int kMostTerms = 12;
+  double by[3][kMostTerms];  ///< [derivative][term]
+};
+
+/// Evaluates all values. `set` counts from the best instruction set of this
+/// machine.
+void EvaluateValues(const LoadPolynomial& polynomial,
+                    const PolynomialBasis& arc, const PolynomialBasis& force,
+                    double* values, int set = 0);
+
+/// Evaluates v, dv/dl, dv/df, d2v/dl2, d2v/dldf and d2v/df2 of all values, in
+/// this order: 6 x values.
+void EvaluateJets(const LoadPolynomial& polynomial, const PolynomialBasis& arc,
+                  const PolynomialBasis& force, double* jets, int set = 0);
+
+}  // namespace finray
+
+#endif  // FINRAY_STATICS_LOAD_POLYNOMIAL_H_

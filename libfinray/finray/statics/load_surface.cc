@@ -1,0 +1,330 @@
+#include "finray/statics/load_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "finray/finger/geometry.h"
+
+namespace finray {
+namespace {
+
+// Light loads need fewer terms. Where those do not do, a cell has these.
+constexpr int kMostArcTerms = 12, kMostForceTerms = 11;
+constexpr int kArcTerms[] = {10, 12}, kForceTerms[] = {7, 9};
+// A cell of the domain is halved at most so often.
+constexpr int kMostHalvings = 4;
+// Cells end at these forces, in units of EI / l_0^2: heavy ones bend sharply.
+constexpr double kCellEnds[] = {4, 13, 26};
+// Elements longer than this have two cells.
+constexpr double kLongElement = 0.2;  // of l_0
+constexpr int kMostElements = 4;      // a bay
+// The series goes on behind its last terms.
+constexpr double kTail = 2;
+
+// T_k(x) and its derivatives by an argument of which x has the slope `per`.
+void SetBasis(double x, double per, int terms, PolynomialBasis* basis) {
+  auto& [t, d, dd] = basis->by;
+  t[0] = 1;
+  d[0] = dd[0] = 0;
+  t[1] = x;
+  d[1] = 1;
+  dd[1] = 0;
+  for (int k = 2; k < terms; ++k) {
+    t[k] = 2 * x * t[k - 1] - t[k - 2];
+    d[k] = 2 * t[k - 1] + 2 * x * d[k - 1] - d[k - 2];
+    dd[k] = 4 * d[k - 1] + 2 * x * dd[k - 1] - dd[k - 2];
+  }
+  for (int k = 0; k < terms; ++k) {
+    d[k] *= per;
+    dd[k] *= per * per;
+  }
+}
+
+// The matrix that makes coefficients of values at the zeros of T_terms.
+Eigen::MatrixXd Transform(int terms) {
+  Eigen::MatrixXd of(terms, terms);
+  for (int k = 0; k < terms; ++k) {
+    for (int i = 0; i < terms; ++i) {
+      of(k, i) =
+          (k == 0 ? 1.0 : 2.0) / terms * std::cos(M_PI * k * (i + 0.5) / terms);
+    }
+  }
+  return of;
+}
+
+// The interval of rising `nodes` that holds `at`.
+std::size_t IntervalOf(const std::vector<double>& nodes, double at) {
+  const auto next = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, at);
+  return static_cast<std::size_t>(next - nodes.begin()) - 1;
+}
+
+}  // namespace
+
+// A rectangle of loads.
+struct LoadCell {
+  struct Interval {
+    double from, to;
+
+    double middle() const { return 0.5 * (from + to); }
+    // The rising zeros of T_terms.
+    double Zero(int i, int terms) const {
+      return middle() - 0.5 * (to - from) * std::cos(M_PI * (i + 0.5) / terms);
+    }
+    double slope() const { return 2 / (to - from); }
+    double At(double x) const {
+      return std::clamp((x - middle()) * slope(), -1.0, 1.0);
+    }
+  };
+  struct Group {
+    int arc_terms = 0, force_terms = 0;
+    std::vector<double> c;  // LoadPolynomial
+  };
+
+  Interval arc, force;
+  int arc_terms = kMostArcTerms, force_terms = kMostForceTerms;
+  int halvings = 0;
+  std::once_flag made;
+  // Afterwards: the groups, or the halves, or neither where there is no
+  // equilibrium.
+  std::vector<Group> groups;
+  double error = 0;
+  bool halved_by_arc = false;
+  std::unique_ptr<LoadCell> halves[2];
+
+  void Halve(bool by_arc) {
+    halved_by_arc = by_arc;
+    for (int i = 0; i < 2; ++i) {
+      halves[i] = std::make_unique<LoadCell>();
+      LoadCell& half = *halves[i];
+      half.arc = arc;
+      half.force = force;
+      half.halvings = halvings + 1;
+      Interval& side = by_arc ? half.arc : half.force;
+      (i == 0 ? side.to : side.from) = side.middle();
+    }
+  }
+};
+
+double LoadSurface::Place::error() const { return cell_->error; }
+
+int LoadSurface::Padded(int size) {
+  constexpr int kPadding = LoadPolynomial::kPadding;
+  return (size + kPadding - 1) / kPadding * kPadding;
+}
+
+LoadSurface::Domain LoadSurface::DomainOf(const Finger& finger,
+                                          const BeamMesh& front,
+                                          double heaviest_N) {
+  Domain domain;
+  const auto bays = static_cast<int>(front.bay_node.size()) - 1;
+  if (front.elements() > kMostElements * bays) return domain;
+  std::vector<double>& arcs = domain.arcs_mm;
+  for (const double end_mm : front.nodes_mm) {
+    if (!arcs.empty() &&
+        end_mm - arcs.back() > kLongElement * finger.front_length_mm) {
+      arcs.push_back(0.5 * (arcs.back() + end_mm));
+    }
+    arcs.push_back(end_mm);
+  }
+  for (const Gauge& gauge : finger.gauges) {
+    if (gauge.beam != Side::kFront) continue;
+    arcs.push_back(gauge.start_mm);
+    arcs.push_back(gauge.start_mm + gauge.length_mm);
+  }
+  std::sort(arcs.begin(), arcs.end());
+  const double same_mm = 1e-6 * finger.front_length_mm;
+  const double end_mm = arcs.back();
+  arcs.erase(std::unique(arcs.begin(), arcs.end(),
+                         [&](double a, double b) { return b - a < same_mm; }),
+             arcs.end());
+  arcs.back() = end_mm;
+  domain.forces_N = {0};
+  for (const double force : kCellEnds) {
+    const double end_N = force * ForceUnit(finger);
+    if (end_N < heaviest_N) domain.forces_N.push_back(end_N);
+  }
+  domain.forces_N.push_back(heaviest_N);
+  return domain;
+}
+
+LoadSurface::LoadSurface(Domain domain, std::vector<int> sizes,
+                         Eigen::VectorXd resolution,
+                         std::function<Sampler()> make_sampler)
+    : domain_(std::move(domain)),
+      sizes_(std::move(sizes)),
+      resolution_(std::move(resolution)),
+      make_sampler_(std::move(make_sampler)) {
+  for (std::size_t i = 0; i + 1 < domain_.arcs_mm.size(); ++i) {
+    for (std::size_t k = 0; k + 1 < domain_.forces_N.size(); ++k) {
+      auto cell = std::make_unique<LoadCell>();
+      cell->arc = {domain_.arcs_mm[i], domain_.arcs_mm[i + 1]};
+      cell->force = {domain_.forces_N[k], domain_.forces_N[k + 1]};
+      if (k < std::size(kArcTerms)) {
+        cell->arc_terms = kArcTerms[k];
+        cell->force_terms = kForceTerms[k];
+      }
+      cells_.push_back(std::move(cell));
+    }
+  }
+}
+
+LoadSurface::~LoadSurface() = default;
+
+bool LoadSurface::Locate(double arc_mm, double normal_N, Place* place) const {
+  // Written so that a NaN lies outside.
+  if (cells_.empty() ||
+      !(arc_mm >= domain_.arcs_mm.front() && arc_mm <= domain_.arcs_mm.back() &&
+        normal_N >= 0 && normal_N <= domain_.forces_N.back())) {
+    return false;
+  }
+  LoadCell* cell = cells_[IntervalOf(domain_.arcs_mm, arc_mm) *
+                              (domain_.forces_N.size() - 1) +
+                          IntervalOf(domain_.forces_N, normal_N)]
+                       .get();
+  for (;;) {
+    Need(cell);
+    if (!cell->halves[0]) break;
+    const bool upper = cell->halved_by_arc ? arc_mm > cell->arc.middle()
+                                           : normal_N > cell->force.middle();
+    cell = cell->halves[upper].get();
+  }
+  if (cell->groups.empty()) return false;
+  place->cell_ = cell;
+  SetBasis(cell->arc.At(arc_mm), cell->arc.slope(), cell->arc_terms,
+           &place->arc_);
+  SetBasis(cell->force.At(normal_N), cell->force.slope(), cell->force_terms,
+           &place->force_);
+  return true;
+}
+
+void LoadSurface::Need(LoadCell* cell) const {
+  std::call_once(cell->made, [&] {
+    while (!Make(cell)) {
+    }
+  });
+}
+
+void LoadSurface::MakeAll() const {
+  for (const auto& cell : cells_) MakeWhole(cell.get());
+}
+
+void LoadSurface::MakeWhole(LoadCell* cell) const {
+  Need(cell);
+  for (const auto& half : cell->halves) {
+    if (half) MakeWhole(half.get());
+  }
+}
+
+bool LoadSurface::Make(LoadCell* cell) const {
+  const int arc_terms = cell->arc_terms, force_terms = cell->force_terms;
+  using RowMajor =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const int all = std::accumulate(sizes_.begin(), sizes_.end(), 0);
+  const Sampler sample = make_sampler_();
+  RowMajor values(arc_terms * force_terms, all);
+  for (int i = 0; i < arc_terms; ++i) {
+    for (int k = 0; k < force_terms; ++k) {
+      // To and fro, so that each equilibrium is near the one before.
+      const int j = i % 2 == 0 ? k : force_terms - 1 - k;
+      if (sample(cell->arc.Zero(i, arc_terms), cell->force.Zero(j, force_terms),
+                 values.row(i * force_terms + j).data())) {
+        continue;
+      }
+      // The part of lighter loads may have equilibria.
+      if (i + j > 0 && cell->halvings < kMostHalvings) cell->Halve(false);
+      return true;
+    }
+  }
+  const Eigen::MatrixXd by_arc = Transform(arc_terms),
+                        by_force = Transform(force_terms);
+  RowMajor c(values.rows(), all);
+  for (int i = 0; i < arc_terms; ++i) {
+    // Zeros rise, cosines fall.
+    c.middleRows(i * force_terms, force_terms) =
+        by_force.rowwise().reverse() *
+        values.middleRows(i * force_terms, force_terms);
+  }
+  for (int j = 0; j < force_terms; ++j) {
+    RowMajor along(arc_terms, all);
+    for (int i = 0; i < arc_terms; ++i)
+      along.row(i) = c.row(i * force_terms + j);
+    along = (by_arc.rowwise().reverse() * along).eval();
+    for (int i = 0; i < arc_terms; ++i)
+      c.row(i * force_terms + j) = along.row(i);
+  }
+
+  // The largest coefficients of the first group by term, in its resolution.
+  Eigen::VectorXd arc_size = Eigen::VectorXd::Zero(arc_terms),
+                  force_size = Eigen::VectorXd::Zero(force_terms);
+  const auto size_of = [&](int i, int j) {
+    return (c.row(i * force_terms + j).head(sizes_[0]).array().abs() /
+            resolution_.transpose().array())
+        .maxCoeff();
+  };
+  for (int i = 0; i < arc_terms; ++i) {
+    for (int j = 0; j < force_terms; ++j) {
+      const double size = size_of(i, j);
+      arc_size[i] = std::max(arc_size[i], size);
+      force_size[j] = std::max(force_size[j], size);
+    }
+  }
+  // Every second term may be small by symmetry.
+  const double arc_error = kTail * arc_size.tail<2>().maxCoeff(),
+               force_error = kTail * force_size.tail<2>().maxCoeff();
+  cell->error = arc_error + force_error;
+  if (cell->error > 1 && force_terms < kMostForceTerms) {
+    cell->arc_terms = kMostArcTerms;
+    cell->force_terms = kMostForceTerms;
+    return false;
+  }
+  if (cell->error > 1 && cell->halvings < kMostHalvings) {
+    cell->Halve(arc_error > force_error);
+    return true;
+  }
+  int offset = 0;
+  for (std::size_t g = 0; g < sizes_.size(); ++g) {
+    LoadCell::Group group{arc_terms, force_terms, {}};
+    // Terms that are rounding are left out.
+    const auto needed = [](const Eigen::VectorXd& sizes) {
+      auto count = static_cast<int>(sizes.size());
+      while (count > 2 && sizes[count - 1] < 0.1) --count;
+      return count;
+    };
+    if (g == 0) {
+      group.arc_terms = needed(arc_size);
+      group.force_terms = needed(force_size);
+    }
+    const int padded = Padded(sizes_[g]);
+    group.c.assign(
+        static_cast<std::size_t>(group.arc_terms) * group.force_terms * padded,
+        0);
+    double* to = group.c.data();
+    for (int i = 0; i < group.arc_terms; ++i) {
+      for (int j = 0; j < group.force_terms; ++j, to += padded) {
+        for (int v = 0; v < sizes_[g]; ++v) {
+          to[v] = c(i * force_terms + j, offset + v);
+        }
+      }
+    }
+    offset += sizes_[g];
+    cell->groups.push_back(std::move(group));
+  }
+  return true;
+}
+
+void LoadSurface::Values(const Place& place, int group, double* values) const {
+  const LoadCell::Group& g = place.cell_->groups[group];
+  EvaluateValues(
+      {g.arc_terms, g.force_terms, Padded(sizes_[group]), g.c.data()},
+      place.arc_, place.force_, values);
+}
+
+void LoadSurface::Jets(const Place& place, int group, double* jets) const {
+  const LoadCell::Group& g = place.cell_->groups[group];
+  EvaluateJets({g.arc_terms, g.force_terms, Padded(sizes_[group]), g.c.data()},
+               place.arc_, place.force_, jets);
+}
+
+}  // namespace finray

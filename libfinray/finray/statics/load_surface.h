@@ -1,0 +1,101 @@
+#ifndef FINRAY_STATICS_LOAD_SURFACE_H_
+#define FINRAY_STATICS_LOAD_SURFACE_H_
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "finray/finger/mesh.h"
+#include "finray/statics/load_polynomial.h"
+
+namespace finray {
+
+/// Values of a finger's equilibria as functions of the load (l_c, f_c) of one
+/// contact. Between the places where a beam changes, an equilibrium is an
+/// analytic function of the load. So each cell of the surface has polynomials
+/// of Chebyshev T,
+///
+///   v(l, f) = sum_ij c_ij T_i(u) T_j(w),    u, w = -1 .. 1 across the cell,
+///
+/// whose coefficients fall off geometrically: a dozen in either direction leave
+/// out no more than rounding. An evaluation takes a twentieth of the time of
+/// one Newton iteration of the equilibrium.
+/// docs/decisions/0019-a-load-surface.md has figures.
+///
+/// A cell is made when it is first needed, from some hundred equilibria. Where
+/// the last coefficients are not small it is halved. All threads may use a
+/// surface at once; its values do not depend on who made a cell.
+class LoadSurface {
+ public:
+  /// Computes all values under a load, group after group. Returns false if
+  /// there is no equilibrium.
+  using Sampler =
+      std::function<bool(double arc_mm, double normal_N, double* values)>;
+
+  struct Domain {
+    /// Rising. Between two of these the finger is smooth along l_c.
+    std::vector<double> arcs_mm;
+    /// Rising, from 0.
+    std::vector<double> forces_N;
+  };
+  /// The loads of a contact on the front beam, up to `heaviest_N`. Equilibria
+  /// change along l_c at the nodes of the mesh, and gauges of the front beam
+  /// feel on which side of their ends a contact lies. A mesh with many elements
+  /// a bay would need too many cells: nothing lies in its domain.
+  static Domain DomainOf(const Finger& finger, const BeamMesh& front,
+                         double heaviest_N);
+
+  /// `sizes` are the numbers of values of each group. The values of the first
+  /// group are what cells are judged by, in units of `resolution`: a cell is
+  /// fine enough if it leaves out less. Each cell gets a sampler of its own.
+  LoadSurface(Domain domain, std::vector<int> sizes, Eigen::VectorXd resolution,
+              std::function<Sampler()> make_sampler);
+  ~LoadSurface();
+
+  /// A load and the cell that holds it.
+  class Place {
+   public:
+    /// About how far the values of the first group may be off, in units of
+    /// their resolution.
+    double error() const;
+
+   private:
+    friend class LoadSurface;
+    const struct LoadCell* cell_ = nullptr;
+    PolynomialBasis arc_, force_;
+  };
+
+  /// Finds the cell of a load, and makes it if need be. Returns false outside
+  /// the domain or where there is no equilibrium.
+  bool Locate(double arc_mm, double normal_N, Place* place) const;
+
+  /// Makes all cells, for those who cannot wait later.
+  void MakeAll() const;
+
+  /// Evaluates a group. `values` has room for Padded(its size).
+  void Values(const Place& place, int group, double* values) const;
+  /// The values of a group and their derivatives by l_c (mm) and f_c (N) in the
+  /// order of EvaluateJets, 6 x Padded(its size).
+  void Jets(const Place& place, int group, double* jets) const;
+
+  static int Padded(int size);
+
+ private:
+  // Makes a cell unless it is made.
+  void Need(LoadCell* cell) const;
+  void MakeWhole(LoadCell* cell) const;
+  // Returns false if the cell must be made again with more terms.
+  bool Make(LoadCell* cell) const;
+
+  Domain domain_;
+  std::vector<int> sizes_;
+  Eigen::VectorXd resolution_;
+  std::function<Sampler()> make_sampler_;
+  std::vector<std::unique_ptr<LoadCell>> cells_;  // by arc, then by force
+};
+
+}  // namespace finray
+
+#endif  // FINRAY_STATICS_LOAD_SURFACE_H_

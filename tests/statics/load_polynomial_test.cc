@@ -1,0 +1,52 @@
+#include "finray/statics/load_polynomial.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "finray/ladder/instruction_set.h"
+
+namespace finray {
+namespace {
+
+// Every compilation sums up the same products.
+TEST(LoadPolynomialTest, AllInstructionSetsAgreeWithThePlainSum) {
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> draw(-1, 1);
+  constexpr int kArcTerms = 5, kForceTerms = 4, kValues = 12;
+  std::vector<double> c(kArcTerms * kForceTerms * kValues);
+  for (double& one : c) one = draw(generator);
+  PolynomialBasis arc, force;
+  for (int d = 0; d < 3; ++d) {
+    for (int i = 0; i < PolynomialBasis::kMostTerms; ++i) {
+      arc.by[d][i] = draw(generator);
+      force.by[d][i] = draw(generator);
+    }
+  }
+  const int orders[6][2] = {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}};
+  const LoadPolynomial polynomial{kArcTerms, kForceTerms, kValues, c.data()};
+  for (int set = 0; set < InstructionSets(); ++set) {
+    double jets[6 * kValues], values[kValues];
+    EvaluateJets(polynomial, arc, force, jets, set);
+    EvaluateValues(polynomial, arc, force, values, set);
+    for (int v = 0; v < kValues; ++v) {
+      for (int d = 0; d < 6; ++d) {
+        double sum = 0;
+        for (int i = 0; i < kArcTerms; ++i) {
+          for (int j = 0; j < kForceTerms; ++j) {
+            sum += arc.by[orders[d][0]][i] * force.by[orders[d][1]][j] *
+                   c[(i * kForceTerms + j) * kValues + v];
+          }
+        }
+        EXPECT_NEAR(jets[d * kValues + v], sum, 1e-13) << set;
+        if (d == 0) {
+          EXPECT_NEAR(values[v], sum, 1e-13) << set;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace finray
