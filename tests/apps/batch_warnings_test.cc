@@ -148,7 +148,7 @@ TEST_F(BatchWarningsTest, EqualShiftsWithoutAForceFailStrict) {
 
 TEST_F(BatchWarningsTest, TheSummaryCountsEndedSearchesAndNamesHiddenForces) {
   const std::string data = FINRAY_SOURCE_DIR "/datasets/simulated_r15/";
-  folder_.Write("limit.yaml", "contacts: 2\nsearch_iteration_limit: 3\n");
+  folder_.Write("limit.yaml", "contacts: 2\nsearch_iteration_limit: 30\n");
   const std::string arguments =
       "--finger " + data + "hidden_finger.yaml --logs " + data + "holdout.csv ";
   const Outcome limited =
@@ -164,7 +164,7 @@ TEST_F(BatchWarningsTest, TheSummaryCountsEndedSearchesAndNamesHiddenForces) {
   EXPECT_THAT(
       limited.output,
       HasSubstr("searches       " + std::to_string(static_cast<int>(ended)) +
-                " ended by the scene's limit of 3\n"));
+                " ended by the scene's limit of 30\n"));
   ASSERT_EQ(Run("finray_estimate", arguments + "--out_dir %out_one").code, 0);
   const YAML::Node one_contact =
       YAML::LoadFile(folder_.Path("out_one/summary.yaml"));
