@@ -204,8 +204,8 @@ void PrintSummary(const BenchmarkRun& run) {
                         "accurate"
         : !check.on_front() ? "NOT on the Pareto front"
                             : "BEATEN",
-        check.rival.c_str(), check.rival_time, check.rival_interval.low,
-        check.rival_interval.high);
+        check.rival.empty() ? "none" : check.rival.c_str(), check.rival_time,
+        check.rival_interval.low, check.rival_interval.high);
     for (const std::string& id : check.dominated_by) {
       std::printf("               dominated by %s\n", id.c_str());
     }

@@ -77,7 +77,6 @@ class Loop {
     for (int i = 0; i < experiment.mechanism.fingers(); ++i) {
       zeros_.emplace_back(finger, discretization);
       estimators_.emplace_back(finger, experiment.scene, discretization);
-      estimators_.back().Prepare();
     }
   }
 

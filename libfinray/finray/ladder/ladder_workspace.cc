@@ -5,13 +5,10 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/ladder/instruction_set.h"
+#include "finray/ladder/round_up.h"
 
 namespace finray {
 namespace {
-
-int RoundUp(int value, int multiple) {
-  return (value + multiple - 1) / multiple * multiple;
-}
 
 // The width of the kernel's vectors in T.
 template <class T>

@@ -13,8 +13,10 @@ constexpr double kHeaviest = 40;
 // A cell that leaves out so many times the resolution is not used.
 constexpr double kInexact = 10;
 
+}  // namespace
+
 // A solver and a frame at values of the shared parameters.
-struct Model {
+struct ModelSurface::Model {
   SharedParameters shared;
   EquilibriumSolver solver;
   FrameEvaluation frame;
@@ -59,37 +61,40 @@ struct Model {
     }
     return true;
   }
-};
 
-LoadSurface::Domain DomainOf(Model model) {
-  const LadderModel& at = model.solver.model();
-  model.Update(at.finger().front_length_mm / 2, 0);  // moves the hinges
-  Finger finger = at.finger();
-  for (std::size_t j = 0;
-       model.frame.movable_gauges() && j < finger.gauges.size(); ++j) {
-    finger.gauges[j].start_mm = model.shared.gauge_starts_mm[j];
-    finger.gauges[j].length_mm = model.shared.gauge_lengths_mm[j];
+  // The loads at these values: the hinges may have moved, and the gauges too.
+  LoadSurface::Domain Domain() const {
+    Model moved = *this;
+    const LadderModel& at = moved.solver.model();
+    moved.Update(at.finger().front_length_mm / 2, 0);
+    Finger finger = at.finger();
+    for (std::size_t j = 0; frame.movable_gauges() && j < finger.gauges.size();
+         ++j) {
+      finger.gauges[j].start_mm = shared.gauge_starts_mm[j];
+      finger.gauges[j].length_mm = shared.gauge_lengths_mm[j];
+    }
+    return LoadSurface::DomainOf(finger, at.mesh(Side::kFront),
+                                 kHeaviest * ForceUnit(finger));
   }
-  return LoadSurface::DomainOf(finger, at.mesh(Side::kFront),
-                               kHeaviest * ForceUnit(finger));
-}
-
-}  // namespace
+};
 
 ModelSurface::ModelSurface(const EquilibriumSolver& solver,
                            const SharedParameters& shared, double friction,
                            bool movable_gauges,
                            const Eigen::VectorXd& resolution)
+    : ModelSurface(std::make_shared<const Model>(solver, shared, friction,
+                                                 movable_gauges),
+                   resolution) {}
+
+ModelSurface::ModelSurface(std::shared_ptr<const Model> model,
+                           const Eigen::VectorXd& resolution)
     : outputs_(static_cast<int>(resolution.size())),
-      parameters_(
-          Model(solver, shared, friction, movable_gauges).frame.columns() - 2),
-      places_(movable_gauges ? solver.model().gauges() : 0),
-      surface_(DomainOf({solver, shared, friction, movable_gauges}),
+      parameters_(model->frame.columns() - 2),
+      places_(model->frame.movable_gauges() ? model->frame.gauges() : 0),
+      surface_(model->Domain(),
                {outputs_, outputs_ * parameters_ + 2 * places_}, resolution,
-               [prototype = std::make_shared<const Model>(
-                    solver, shared, friction,
-                    movable_gauges)]() -> LoadSurface::Sampler {
-                 const auto own = std::make_shared<Model>(*prototype);
+               [model]() -> LoadSurface::Sampler {
+                 const auto own = std::make_shared<Model>(*model);
                  return [own](double arc_mm, double normal_N, double* to) {
                    return own->Sample(arc_mm, normal_N, to);
                  };
@@ -101,7 +106,7 @@ bool ModelSurface::Evaluate(double arc_mm, double normal_N, bool all,
   if (!surface_.Locate(arc_mm, normal_N, &place) || place.error() > kInexact) {
     return false;
   }
-  thread_local std::vector<double> scratch;
+  std::vector<double>& scratch = values->scratch;
   const int stride = LoadSurface::Padded(outputs_);
   const int derivatives = outputs_ * parameters_;
   const int size = LoadSurface::Padded(derivatives + 2 * places_);

@@ -2,6 +2,7 @@
 #define FINRAY_RESIDUALS_MODEL_SURFACE_H_
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "finray/residuals/frame_set.h"
@@ -28,12 +29,17 @@ class ModelSurface {
     EquilibriumSolver::Matrix d_outputs;
     /// FrameEvaluation::by_place of each gauge, if gauges are movable.
     std::vector<Eigen::Vector2d> by_place;
+    std::vector<double> scratch;
   };
   /// With `all` false, only the derivatives by (l_c, f_c) are set. Returns
   /// false off the surface or where it is not exact enough.
   bool Evaluate(double arc_mm, double normal_N, bool all, Values* values) const;
 
  private:
+  struct Model;
+  ModelSurface(std::shared_ptr<const Model> model,
+               const Eigen::VectorXd& resolution);
+
   int outputs_, parameters_, places_;
   LoadSurface surface_;
 };

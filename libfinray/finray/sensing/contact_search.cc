@@ -327,13 +327,18 @@ bool ContactSearch::Fit(const ContactStart& start,
                        spent_ + ContactFit::kMostIterations) -
                    spent_;
   if (solution.chi2 > kNoiseless || left < 1) return true;
+  // The equilibrium comes first: from another one, the first change would lead
+  // the contact away, perhaps beyond a hinge.
+  ContactStart here = start;
+  here.contacts[0] = solution.contacts[0];
+  solver_.set_state(
+      table_.StateNear(here.contacts[0].arc_mm, here.contacts[0].normal_N));
+  if (!solver_.Solve({here.contacts[0]})) return true;
+  solver_.SaveState(&exact_);
+  here.state = &exact_;
   fit_.set_most_iterations(std::min(left, ContactFit::kMostIterations));
-  ContactStart near = start;
-  near.contacts[0] = solution.contacts[0];
-  near.state =
-      &table_.StateNear(near.contacts[0].arc_mm, near.contacts[0].normal_N);
   // The solution of the surface stays if this does not converge.
-  FitEquilibria(near, packed, true);
+  FitEquilibria(here, packed, true);
   return true;
 }
 

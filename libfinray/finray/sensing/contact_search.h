@@ -135,6 +135,7 @@ class ContactSearch {
   FrameMethod method_;
   bool on_surface_ = false;  // this search
   ContactFit fit_;
+  LadderState exact_;  // where a fit goes on to rounding
   FrameProblem problem_;
   std::vector<ContactStart> profile_, starts_;
   std::vector<PointContact> contacts_;

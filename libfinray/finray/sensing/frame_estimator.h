@@ -44,6 +44,7 @@ namespace finray {
 /// - ok (Judge): everything else.
 class FrameEstimator {
  public:
+  static constexpr int kUnknowns = 2;            ///< Of a contact.
   static constexpr double kSignificance = 13.8;  // chi2, 2 dof, p = 0.001
   /// A second contact can explain almost any reading, so it needs p = 1e-7.
   static constexpr double kSecondSignificance = 32.2;

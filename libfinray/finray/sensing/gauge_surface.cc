@@ -26,7 +26,8 @@ constexpr double kResolution_std = 1e-6, kCircle_mm = 1e-3;
 constexpr double kLeastResolution_rad = 1e-12;
 // No gauge bends further.
 constexpr double kMostAngle_rad = 0.8;
-// Of the equilibria. Newton's method ends far below it.
+// The equilibria are solved to this tolerance. Newton's method ends far below
+// it.
 constexpr double kTolerance = 1e-10;
 constexpr int kPoses = 6;
 

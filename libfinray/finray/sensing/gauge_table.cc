@@ -12,6 +12,7 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
+#include "finray/ladder/round_up.h"
 #include "finray/objects/circle_centre.h"
 #include "finray/sensing/parabola_slope.h"
 
@@ -50,10 +51,7 @@ double LeastOfParabola(double left, double middle, double right) {
   return std::max(0.0, middle - 0.5 * slope * slope / curvature);
 }
 
-constexpr std::size_t Padded(std::size_t rows) {
-  constexpr std::size_t kPadding = RowCurves::kPadding;
-  return (rows + kPadding - 1) / kPadding * kPadding;
-}
+constexpr int Padded(int rows) { return RoundUp(rows, RowCurves::kPadding); }
 
 // Sets each node's slope to that of the parabola through it and its neighbours.
 void SetSlopes(std::vector<GaugeTable::Node>* nodes) {
@@ -167,7 +165,8 @@ void GaugeTable::FindErrors(EquilibriumSolver* solver,
 
 void GaugeTable::FillCurves() {
   const auto values = static_cast<std::size_t>(errors_.rows());
-  const std::size_t rows = Padded(rows_.size());
+  const auto rows =
+      static_cast<std::size_t>(Padded(static_cast<int>(rows_.size())));
   value_.assign(forces_N_.size() * values * rows, std::nan(""));
   by_force_ = value_;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -183,7 +182,7 @@ void GaugeTable::FillCurves() {
 }
 
 RowCurves GaugeTable::Curves() const {
-  return {static_cast<int>(Padded(rows_.size())),
+  return {Padded(static_cast<int>(rows_.size())),
           static_cast<int>(forces_N_.size()),
           static_cast<int>(errors_.rows()),
           forces_N_.data(),

@@ -1,28 +1,16 @@
 // Compiled once for every instruction set; see CMakeLists.txt.
-#include "finray/statics/load_polynomial.h"
+#include <algorithm>
 
-#ifndef FINRAY_ISA
-#define FINRAY_ISA generic
-#endif
+#include "finray/ladder/registers.h"
+#include "finray/statics/load_polynomial.h"
 
 namespace finray {
 inline namespace FINRAY_ISA {
 namespace {
 
-#if defined(__AVX2__)
-constexpr int kWidth = 4;
-#else
-constexpr int kWidth = 2;
-#endif
-typedef double V __attribute__((vector_size(kWidth * sizeof(double))));
-typedef double Unaligned __attribute__((vector_size(kWidth * sizeof(double)),
-                                        aligned(sizeof(double)), may_alias));
-static_assert(LoadPolynomial::kPadding % kWidth == 0);
-
-V Load(const double* from) { return *reinterpret_cast<const Unaligned*>(from); }
-void Store(const V& value, double* to) {
-  *reinterpret_cast<Unaligned*>(to) = value;
-}
+constexpr int kWidth = std::min(kRegisterWidth, LoadPolynomial::kPadding);
+using Some = Doubles<kWidth>;
+using V = Some::Vector;
 
 }  // namespace
 
@@ -36,15 +24,15 @@ void ValuesOf(const LoadPolynomial& polynomial, const PolynomialBasis& arc,
       V along{}, odd{};
       int j = 0;
       for (; j + 1 < polynomial.force_terms; j += 2, c += 2 * stride) {
-        along += force.by[0][j] * Load(c);
-        odd += force.by[0][j + 1] * Load(c + stride);
+        along += force.by[0][j] * Some::Load(c);
+        odd += force.by[0][j + 1] * Some::Load(c + stride);
       }
       for (; j < polynomial.force_terms; ++j, c += stride) {
-        along += force.by[0][j] * Load(c);
+        along += force.by[0][j] * Some::Load(c);
       }
       sum += arc.by[0][i] * (along + odd);
     }
-    Store(sum, values + first);
+    Some::Store(sum, values + first);
   }
 }
 
@@ -58,7 +46,7 @@ void JetsOf(const LoadPolynomial& polynomial, const PolynomialBasis& arc,
     for (int i = 0; i < polynomial.arc_terms; ++i) {
       V along[3] = {};
       for (int j = 0; j < polynomial.force_terms; ++j, c += stride) {
-        const V term = Load(c);
+        const V term = Some::Load(c);
         along[0] += force.by[0][j] * term;
         along[1] += force.by[1][j] * term;
         along[2] += force.by[2][j] * term;
@@ -72,7 +60,7 @@ void JetsOf(const LoadPolynomial& polynomial, const PolynomialBasis& arc,
     }
     const V all[] = {value,      by_arc,       by_force,
                      by_arc_arc, by_arc_force, by_force_force};
-    for (int k = 0; k < 6; ++k) Store(all[k], jets + k * stride + first);
+    for (int k = 0; k < 6; ++k) Some::Store(all[k], jets + k * stride + first);
   }
 }
 

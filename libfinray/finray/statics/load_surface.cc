@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "finray/finger/geometry.h"
+#include "finray/ladder/round_up.h"
 
 namespace finray {
 namespace {
@@ -22,6 +23,11 @@ constexpr double kLongElement = 0.2;  // of l_0
 constexpr int kMostElements = 4;      // a bay
 // The series goes on behind its last terms.
 constexpr double kTail = 2;
+// Terms below this share of the resolution are left out.
+constexpr double kRounding = 0.1;
+
+using RowMajor =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 // T_k(x) and its derivatives by an argument of which x has the slope `per`.
 void SetBasis(double x, double per, int terms, PolynomialBasis* basis) {
@@ -53,6 +59,57 @@ Eigen::MatrixXd Transform(int terms) {
   }
   return of;
 }
+
+// Makes coefficients of `values` at the zeros, [arc term, force term] x value.
+RowMajor Coefficients(const RowMajor& values, int arc_terms, int force_terms) {
+  // Zeros rise, cosines fall.
+  const Eigen::MatrixXd by_arc = Transform(arc_terms).rowwise().reverse(),
+                        by_force = Transform(force_terms).rowwise().reverse();
+  RowMajor along(values.rows(), values.cols());
+  for (int i = 0; i < arc_terms; ++i) {
+    along.middleRows(i * force_terms, force_terms) =
+        by_force * values.middleRows(i * force_terms, force_terms);
+  }
+  // A row of this has all values of all force terms.
+  const Eigen::Index row = force_terms * values.cols();
+  RowMajor c(values.rows(), values.cols());
+  Eigen::Map<RowMajor>(c.data(), arc_terms, row) =
+      by_arc * Eigen::Map<const RowMajor>(along.data(), arc_terms, row);
+  return c;
+}
+
+// The largest coefficients of the values that a cell is judged by, for each
+// term, in their resolution.
+struct TermSizes {
+  Eigen::VectorXd arc, force;
+
+  TermSizes(const RowMajor& c, const Eigen::VectorXd& resolution, int arc_terms,
+            int force_terms)
+      : arc(Eigen::VectorXd::Zero(arc_terms)),
+        force(Eigen::VectorXd::Zero(force_terms)) {
+    for (int i = 0; i < arc_terms; ++i) {
+      for (int j = 0; j < force_terms; ++j) {
+        const double size =
+            (c.row(i * force_terms + j).head(resolution.size()).array().abs() /
+             resolution.transpose().array())
+                .maxCoeff();
+        arc[i] = std::max(arc[i], size);
+        force[j] = std::max(force[j], size);
+      }
+    }
+  }
+
+  // What the series leaves out. Every second term may be small by symmetry.
+  static double Error(const Eigen::VectorXd& sizes) {
+    return kTail * sizes.tail<2>().maxCoeff();
+  }
+  // The number of terms that are more than rounding.
+  static int Needed(const Eigen::VectorXd& sizes) {
+    auto count = static_cast<int>(sizes.size());
+    while (count > 2 && sizes[count - 1] < kRounding) --count;
+    return count;
+  }
+};
 
 // The interval of rising `nodes` that holds `at`.
 std::size_t IntervalOf(const std::vector<double>& nodes, double at) {
@@ -93,6 +150,38 @@ struct LoadCell {
   bool halved_by_arc = false;
   std::unique_ptr<LoadCell> halves[2];
 
+  // Computes the values at all zeros. Returns false at the first one without an
+  // equilibrium; `*lightest` says whether that is the first of all.
+  bool Sample(const LoadSurface::Sampler& sample, RowMajor* values,
+              bool* lightest) const {
+    for (int i = 0; i < arc_terms; ++i) {
+      for (int k = 0; k < force_terms; ++k) {
+        // To and fro, so that each equilibrium is near the one before.
+        const int j = i % 2 == 0 ? k : force_terms - 1 - k;
+        if (!sample(arc.Zero(i, arc_terms), force.Zero(j, force_terms),
+                    values->row(i * force_terms + j).data())) {
+          *lightest = i + j == 0;
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  // Keeps `size` values from `first` on, up to these terms.
+  void Keep(const RowMajor& c, int first, int size, int arcs, int forces) {
+    Group group{arcs, forces, {}};
+    const int padded = LoadSurface::Padded(size);
+    group.c.assign(static_cast<std::size_t>(arcs) * forces * padded, 0);
+    double* to = group.c.data();
+    for (int i = 0; i < arcs; ++i) {
+      for (int j = 0; j < forces; ++j, to += padded) {
+        std::copy_n(c.row(i * force_terms + j).data() + first, size, to);
+      }
+    }
+    groups.push_back(std::move(group));
+  }
+
   void Halve(bool by_arc) {
     halved_by_arc = by_arc;
     for (int i = 0; i < 2; ++i) {
@@ -110,8 +199,7 @@ struct LoadCell {
 double LoadSurface::Place::error() const { return cell_->error; }
 
 int LoadSurface::Padded(int size) {
-  constexpr int kPadding = LoadPolynomial::kPadding;
-  return (size + kPadding - 1) / kPadding * kPadding;
+  return RoundUp(size, LoadPolynomial::kPadding);
 }
 
 LoadSurface::Domain LoadSurface::DomainOf(const Finger& finger,
@@ -219,97 +307,35 @@ void LoadSurface::MakeWhole(LoadCell* cell) const {
 
 bool LoadSurface::Make(LoadCell* cell) const {
   const int arc_terms = cell->arc_terms, force_terms = cell->force_terms;
-  using RowMajor =
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const int all = std::accumulate(sizes_.begin(), sizes_.end(), 0);
-  const Sampler sample = make_sampler_();
-  RowMajor values(arc_terms * force_terms, all);
-  for (int i = 0; i < arc_terms; ++i) {
-    for (int k = 0; k < force_terms; ++k) {
-      // To and fro, so that each equilibrium is near the one before.
-      const int j = i % 2 == 0 ? k : force_terms - 1 - k;
-      if (sample(cell->arc.Zero(i, arc_terms), cell->force.Zero(j, force_terms),
-                 values.row(i * force_terms + j).data())) {
-        continue;
-      }
-      // The part of lighter loads may have equilibria.
-      if (i + j > 0 && cell->halvings < kMostHalvings) cell->Halve(false);
-      return true;
-    }
+  const bool may_halve = cell->halvings < kMostHalvings;
+  RowMajor values(arc_terms * force_terms,
+                  std::accumulate(sizes_.begin(), sizes_.end(), 0));
+  bool lightest = false;
+  if (!cell->Sample(make_sampler_(), &values, &lightest)) {
+    // The part of lighter loads may have equilibria.
+    if (may_halve && !lightest) cell->Halve(false);
+    return true;
   }
-  const Eigen::MatrixXd by_arc = Transform(arc_terms),
-                        by_force = Transform(force_terms);
-  RowMajor c(values.rows(), all);
-  for (int i = 0; i < arc_terms; ++i) {
-    // Zeros rise, cosines fall.
-    c.middleRows(i * force_terms, force_terms) =
-        by_force.rowwise().reverse() *
-        values.middleRows(i * force_terms, force_terms);
-  }
-  for (int j = 0; j < force_terms; ++j) {
-    RowMajor along(arc_terms, all);
-    for (int i = 0; i < arc_terms; ++i)
-      along.row(i) = c.row(i * force_terms + j);
-    along = (by_arc.rowwise().reverse() * along).eval();
-    for (int i = 0; i < arc_terms; ++i)
-      c.row(i * force_terms + j) = along.row(i);
-  }
-
-  // The largest coefficients of the first group by term, in its resolution.
-  Eigen::VectorXd arc_size = Eigen::VectorXd::Zero(arc_terms),
-                  force_size = Eigen::VectorXd::Zero(force_terms);
-  const auto size_of = [&](int i, int j) {
-    return (c.row(i * force_terms + j).head(sizes_[0]).array().abs() /
-            resolution_.transpose().array())
-        .maxCoeff();
-  };
-  for (int i = 0; i < arc_terms; ++i) {
-    for (int j = 0; j < force_terms; ++j) {
-      const double size = size_of(i, j);
-      arc_size[i] = std::max(arc_size[i], size);
-      force_size[j] = std::max(force_size[j], size);
-    }
-  }
-  // Every second term may be small by symmetry.
-  const double arc_error = kTail * arc_size.tail<2>().maxCoeff(),
-               force_error = kTail * force_size.tail<2>().maxCoeff();
+  const RowMajor c = Coefficients(values, arc_terms, force_terms);
+  const TermSizes sizes(c, resolution_, arc_terms, force_terms);
+  const double arc_error = TermSizes::Error(sizes.arc),
+               force_error = TermSizes::Error(sizes.force);
   cell->error = arc_error + force_error;
   if (cell->error > 1 && force_terms < kMostForceTerms) {
     cell->arc_terms = kMostArcTerms;
     cell->force_terms = kMostForceTerms;
     return false;
   }
-  if (cell->error > 1 && cell->halvings < kMostHalvings) {
+  if (cell->error > 1 && may_halve) {
     cell->Halve(arc_error > force_error);
     return true;
   }
-  int offset = 0;
-  for (std::size_t g = 0; g < sizes_.size(); ++g) {
-    LoadCell::Group group{arc_terms, force_terms, {}};
-    // Terms that are rounding are left out.
-    const auto needed = [](const Eigen::VectorXd& sizes) {
-      auto count = static_cast<int>(sizes.size());
-      while (count > 2 && sizes[count - 1] < 0.1) --count;
-      return count;
-    };
-    if (g == 0) {
-      group.arc_terms = needed(arc_size);
-      group.force_terms = needed(force_size);
-    }
-    const int padded = Padded(sizes_[g]);
-    group.c.assign(
-        static_cast<std::size_t>(group.arc_terms) * group.force_terms * padded,
-        0);
-    double* to = group.c.data();
-    for (int i = 0; i < group.arc_terms; ++i) {
-      for (int j = 0; j < group.force_terms; ++j, to += padded) {
-        for (int v = 0; v < sizes_[g]; ++v) {
-          to[v] = c(i * force_terms + j, offset + v);
-        }
-      }
-    }
-    offset += sizes_[g];
-    cell->groups.push_back(std::move(group));
+  cell->Keep(c, 0, sizes_[0], TermSizes::Needed(sizes.arc),
+             TermSizes::Needed(sizes.force));
+  int first = sizes_[0];
+  for (std::size_t g = 1; g < sizes_.size(); ++g) {
+    cell->Keep(c, first, sizes_[g], arc_terms, force_terms);
+    first += sizes_[g];
   }
   return true;
 }

@@ -20,8 +20,7 @@ namespace finray {
 ///   v(l, f) = sum_ij c_ij T_i(u) T_j(w),    u, w = -1 .. 1 across the cell,
 ///
 /// whose coefficients fall off geometrically: a dozen in either direction leave
-/// out no more than rounding. An evaluation takes a twentieth of the time of
-/// one Newton iteration of the equilibrium.
+/// out no more than rounding.
 /// docs/decisions/0019-a-load-surface.md has figures.
 ///
 /// A cell is made when it is first needed, from some hundred equilibria. Where

@@ -17,7 +17,7 @@ namespace {
 
 // A thread evaluates so many frames at a time.
 constexpr std::size_t kChunk = 32;
-// What the surface may leave out, in std of the gauges.
+// The surface may leave out so much, in std of the gauges.
 constexpr double kExact_std = 1e-5;
 // The same in rad where gauges tell hardly anything.
 constexpr double kExact_rad = 1e-7;

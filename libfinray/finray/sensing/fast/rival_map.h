@@ -36,7 +36,7 @@ class RivalMap {
                 double within_noise) const;
 
  private:
-  // What is known of a node of the table.
+  // A node of the table, once it is judged.
   struct Node {
     std::once_flag judged;
     double distance_per_N = 0;  // d / f_c

@@ -1,37 +1,22 @@
 // Compiled once for every instruction set; see CMakeLists.txt.
 #include <limits>
 
+#include "finray/ladder/registers.h"
 #include "finray/sensing/fast/row_curves.h"
-
-#ifndef FINRAY_ISA
-#define FINRAY_ISA generic
-#endif
 
 namespace finray {
 inline namespace FINRAY_ISA {
 namespace {
 
-// One register. Vectors of two are split badly, above all their comparisons.
-#if defined(__AVX512F__)
-constexpr int kWidth = 8;
-#elif defined(__AVX2__)
-constexpr int kWidth = 4;
-#else
-constexpr int kWidth = 2;
-#endif
-typedef double V __attribute__((vector_size(kWidth * sizeof(double))));
-typedef double Unaligned __attribute__((vector_size(kWidth * sizeof(double)),
-                                        aligned(sizeof(double)), may_alias));
+constexpr int kWidth = kRegisterWidth;
+using Row = Doubles<kWidth>;
+using V = Row::Vector;
 static_assert(RowCurves::kPadding % kWidth == 0);
 
 constexpr int kRefinements = 4;
 // Cubics beyond these are formed anew in every refinement.
 constexpr int kKept = 16;
 
-V Load(const double* from) { return *reinterpret_cast<const Unaligned*>(from); }
-void Store(const V& value, double* to) {
-  *reinterpret_cast<Unaligned*>(to) = value;
-}
 V WithinOne(V share) {
   share = share < 0 ? V{} : share;
   return share > 1 ? V{} + 1.0 : share;
@@ -61,9 +46,9 @@ class Rows {
       V along{}, square{}, misfit{};
       for (int j = 0; j < curves_.values; ++j) {
         if (weights_[j] == 0) continue;
-        const V from = Load(curves_.value + At(k, j));
+        const V from = Row::Load(curves_.value + At(k, j));
         const V edge =
-            weights_[j] * (Load(curves_.value + At(k + 1, j)) - from);
+            weights_[j] * (Row::Load(curves_.value + At(k + 1, j)) - from);
         const V off = weights_[j] * (measured_[j] - from);
         along += edge * off;
         square += edge * edge;
@@ -149,9 +134,9 @@ void RowMinimaOf(const RowCurves& curves, const double* measured,
     const Rows rows(curves, measured, weights, row);
     Nearest nearest = rows.OnChords();
     rows.Refine(&nearest);
-    Store(nearest.chi2, minima.chi2 + row);
-    Store(nearest.to, minima.to + row);
-    Store(nearest.share, minima.share + row);
+    Row::Store(nearest.chi2, minima.chi2 + row);
+    Row::Store(nearest.to, minima.to + row);
+    Row::Store(nearest.share, minima.share + row);
   }
 }
 

@@ -1,0 +1,154 @@
+#include <cmath>
+
+#include "finray/io/nan.h"
+#include "finray/sensing/frame_estimator.h"
+#include "finray/sensing/smoothing.h"
+
+// Frames that follow each other: blocks of a log, and frames that come one by
+// one.
+
+namespace finray {
+namespace {
+
+double ArcStd(const ContactMatrix& information) {
+  return std::sqrt(CovarianceOf(information)(0, 0));
+}
+
+}  // namespace
+
+void FrameEstimator::EstimateBlock(const Measurements* readings,
+                                   std::size_t count,
+                                   FrameEstimate* estimates) {
+  PackAll(readings, count);
+  following_ = false;  // the follower leaves the frame of the last Next()
+  for (std::size_t i = 0; i < count;) {
+    if (Slides(readings[i])) {
+      ++i;
+      continue;
+    }
+    SearchAlone(readings[i], packed_[i], &estimates[i]);
+    const bool follow = CanFollow(packed_[i], estimates[i]);
+    ++i;
+    if (!follow) continue;
+    std::size_t end = i;
+    while (end < count && !Slides(readings[end])) ++end;
+    const std::size_t fitted = FitRun(i, end);
+    for (std::size_t run = 0; run < fitted; ++run, ++i) {
+      if (!TakeFollowed(packed_[i], run, &estimates[i])) {
+        SearchAlone(readings[i], packed_[i], &estimates[i]);
+      }
+    }
+  }
+  if (scene_.smoothing) {
+    SmoothBlock(readings, count, {}, estimates);
+    return;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!Slides(readings[i])) Judge(readings[i], packed_[i], &estimates[i]);
+  }
+  // These use the memory of the packed frames.
+  for (std::size_t i = 0; i < count; ++i) {
+    if (Slides(readings[i])) estimates[i] = EstimateSliding(readings[i]);
+  }
+}
+
+FrameEstimate FrameEstimator::Next(const Measurements& readings) {
+  if (Slides(readings)) {
+    following_ = false;
+    return EstimateSliding(readings);
+  }
+  FrameEstimate estimate;
+  PackAll(&readings, 1);
+  if (!following_ || FitRun(0, 1) == 0 ||
+      !TakeFollowed(packed_[0], 0, &estimate)) {
+    SearchAlone(readings, packed_[0], &estimate);
+    following_ = CanFollow(packed_[0], estimate);
+  }
+  if (scene_.smoothing) {
+    followed_ = SmoothBlock(&readings, 1, followed_, &estimate);
+  } else {
+    Judge(readings, packed_[0], &estimate);
+  }
+  return estimate;
+}
+
+LogPrior FrameEstimator::SmoothBlock(const Measurements* readings,
+                                     std::size_t count, const LogPrior& before,
+                                     FrameEstimate* estimates) {
+  std::vector<char> sure(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    sure[i] = StatusOf(estimates[i], finger_, search_) == FrameStatus::kOk;
+  }
+  const LogPrior next = Smooth(finger_, scene_, discretization_, readings,
+                               count, before, estimates, &sure);
+  for (std::size_t i = 0; i < count; ++i) {
+    Judge(readings[i], packed_[i], &estimates[i]);
+    if (estimates[i].contacts == 1 && !sure[i]) {
+      estimates[i].status = FrameStatus::kUnobservable;
+    }
+  }
+  return next;
+}
+
+// Says whether later frames can be followed from the frame searched last.
+bool FrameEstimator::CanFollow(const PackedReadings& packed,
+                               const FrameEstimate& estimate) {
+  return follower_ && estimate.contacts == 1 && !estimate.valley &&
+         StatusOf(estimate, finger_, search_) == FrameStatus::kOk &&
+         follower_->Start(search_.best(), ArcStd(search_.best().information),
+                          packed.gauges);
+}
+
+// Fits the packed frames [begin, end) up to the first that lacks a gauge or a
+// contact. Returns their number.
+std::size_t FrameEstimator::FitRun(std::size_t begin, std::size_t end) {
+  const auto all = static_cast<int>(finger_.gauges.size());
+  std::size_t stop = begin;
+  while (stop < end && packed_[stop].gauges == all &&
+         packed_[stop].free_chi2 >= kSignificance) {
+    ++stop;
+  }
+  if (stop > begin) follower_->Fit(&packed_[begin], stop - begin);
+  return stop - begin;
+}
+
+// Takes the follower's fit for its frame number `run`, if a search would find
+// the same.
+bool FrameEstimator::TakeFollowed(const PackedReadings& packed, std::size_t run,
+                                  FrameEstimate* estimate) {
+  const ContactSolution& fit = follower_->fit(run);
+  if (fit.count == 0) return false;
+  const PointContact& contact = fit.contacts[0];
+  estimate->chi2 = fit.chi2;
+  estimate->model_chi2 = kNaN;
+  estimate->dof = static_cast<int>(finger_.gauges.size()) - kUnknowns;
+  // A search is exact to rounding, which this is not.
+  if (estimate->dof > 0 && fit.chi2 < ContactSearch::kNoiseless) return false;
+  // A search weighs the discrepancy, which this does not.
+  const double scale = estimate->noise_scale();
+  if (scale > 1 && systematic_.has_discrepancy()) return false;
+  const ContactMatrix covariance = CovarianceOf(fit.information);
+  const double arc_std = scale * std::sqrt(covariance(0, 0));
+  const bool touches = scene_.contacts
+                           ? contact.normal_N >= least_force_N_
+                           : fit.chi2 < kSecondSignificance &&
+                                 packed.free_chi2 - fit.chi2 >= kSignificance;
+  if (!touches || !follower_->IsCertain(run, arc_std, scale)) {
+    return false;
+  }
+  estimate->contacts = 1;
+  estimate->contact[0] = {contact.arc_mm, arc_std, contact.normal_N,
+                          scale * std::sqrt(covariance(1, 1)), fit.poses[0]};
+  estimate->contact[1] = {};
+  estimate->valley.reset();
+  estimate->noise_covariance = covariance;
+  estimate->alternative = {};
+  estimate->alternative_chi2 = kNaN;
+  estimate->tip_pose = fit.tip_pose;
+  estimate->rib_tension_N = fit.rib_tension_N;
+  estimate->iterations = 1;
+  estimate->search_ended = false;
+  return true;
+}
+
+}  // namespace finray
