@@ -12,7 +12,6 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
-#include "finray/ladder/round_up.h"
 #include "finray/objects/circle_centre.h"
 #include "finray/sensing/parabola_slope.h"
 
@@ -50,8 +49,6 @@ double LeastOfParabola(double left, double middle, double right) {
   const double slope = 0.5 * (right - left);
   return std::max(0.0, middle - 0.5 * slope * slope / curvature);
 }
-
-constexpr int Padded(int rows) { return RoundUp(rows, RowCurves::kPadding); }
 
 // Sets each node's slope to that of the parabola through it and its neighbours.
 void SetSlopes(std::vector<GaugeTable::Node>* nodes) {
@@ -165,8 +162,8 @@ void GaugeTable::FindErrors(EquilibriumSolver* solver,
 
 void GaugeTable::FillCurves() {
   const auto values = static_cast<std::size_t>(errors_.rows());
-  const auto rows =
-      static_cast<std::size_t>(Padded(static_cast<int>(rows_.size())));
+  const auto rows = static_cast<std::size_t>(
+      RowCurves::Padded(static_cast<int>(rows_.size())));
   value_.assign(forces_N_.size() * values * rows, std::nan(""));
   by_force_ = value_;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -182,7 +179,7 @@ void GaugeTable::FillCurves() {
 }
 
 RowCurves GaugeTable::Curves() const {
-  return {Padded(static_cast<int>(rows_.size())),
+  return {RowCurves::Padded(static_cast<int>(rows_.size())),
           static_cast<int>(forces_N_.size()),
           static_cast<int>(errors_.rows()),
           forces_N_.data(),
@@ -194,7 +191,7 @@ template <class Use>
 void GaugeTable::ForEachRow(const Eigen::VectorXd& values,
                             const Eigen::VectorXd& weights,
                             const Use& use) const {
-  std::array<double, Padded(kMostRows)> chi2, to, share;
+  std::array<double, RowCurves::Padded(kMostRows)> chi2, to, share;
   FindRowMinima(Curves(), values.data(), weights.data(),
                 {chi2.data(), to.data(), share.data()});
   for (std::size_t i = 0; i < rows_.size(); ++i) {

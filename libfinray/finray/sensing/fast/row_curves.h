@@ -1,6 +1,8 @@
 #ifndef FINRAY_SENSING_FAST_ROW_CURVES_H_
 #define FINRAY_SENSING_FAST_ROW_CURVES_H_
 
+#include "finray/ladder/round_up.h"
+
 namespace finray {
 
 /// The values of a GaugeTable's rows over force, as plain arrays with the rows
@@ -9,6 +11,7 @@ namespace finray {
 struct RowCurves {
   /// Rows are padded to a multiple of this, the widest vector.
   static constexpr int kPadding = 8;
+  static constexpr int Padded(int rows) { return RoundUp(rows, kPadding); }
 
   int rows, forces, values;
   const double* force_N;
