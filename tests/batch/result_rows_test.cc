@@ -89,6 +89,17 @@ TEST(ResultRowsTest, KeepsTheLogAndOverwritesInPlace) {
                               "\"c \"\"d\"\"\",50.25,,,"));
 }
 
+TEST(ResultRowsTest, CellsOfAnyLengthStay) {
+  const FrameParser log =
+      Log("time_s,force_N,gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V,note");
+  for (const std::size_t length : {400, 470, 500, 510, 511, 512, 5000}) {
+    const std::string digits = "0." + std::string(length, '1');
+    const std::string line =
+        digits + "," + digits + ",1,2,3,4," + std::string(length, 'a');
+    EXPECT_THAT(Row(log, {}, line, Estimate()), StartsWith(line + ",50.25,,"));
+  }
+}
+
 TEST(ResultRowsTest, ColumnsFollowFromTheScene) {
   const FrameParser log = Log("gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_rad");
   const auto header = [&](std::optional<int> contacts, std::size_t gauges = 4) {

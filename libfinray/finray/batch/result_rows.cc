@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 
 #include "finray/io/csv_cells.h"
 #include "finray/io/error.h"
@@ -11,6 +12,8 @@
 
 namespace finray {
 namespace {
+
+constexpr std::size_t kLongestNumber = 32;
 
 // Says whether a name is `pattern`, in which * stands for any text.
 bool Fits(std::string_view name, std::string_view pattern) {
@@ -168,13 +171,12 @@ void ResultLayout::Select(const std::vector<std::string>& columns,
   outputs_ = std::move(chosen);
 }
 
-void ResultLayout::AppendNumber(double value, std::string* csv) const {
-  char text[32];
-  const auto end = digits_ > 0
-                       ? std::to_chars(text, text + sizeof text, value,
-                                       std::chars_format::general, digits_)
-                       : std::to_chars(text, text + sizeof text, value);
-  csv->append(text, end.ptr);
+char* ResultLayout::WriteNumber(double value, char* begin) const {
+  char* const end = begin + kLongestNumber;
+  return digits_ > 0 ? std::to_chars(begin, end, value,
+                                     std::chars_format::general, digits_)
+                           .ptr
+                     : std::to_chars(begin, end, value).ptr;
 }
 
 std::string ResultLayout::HeaderCsv() const {
@@ -199,32 +201,51 @@ void ResultLayout::Append(const FrameRows& log, std::size_t row,
   values->resize(results_.names().size());
   results_.Values(readings, estimate, values->data());
   const std::size_t begin = csv->size();
+  // Cells wait here, because to append each costs a fifth of its digits.
+  char waiting[512];
+  char* end = waiting;
+  const auto hand_over = [&] {
+    csv->append(waiting, end);
+    end = waiting;
+  };
+  // Makes room for a cell and its comma.
+  const auto make_room = [&](std::size_t length) {
+    const auto room = static_cast<std::size_t>(std::end(waiting) - end);
+    if (length >= room) hand_over();
+  };
+  const auto put_number = [&](double value) {
+    if (!std::isnan(value)) end = WriteNumber(value, end);
+  };
+  const auto put_text = [&](std::string_view text) {
+    make_room(text.size());
+    if (text.size() < sizeof waiting) {
+      end = std::copy(text.begin(), text.end(), end);
+    } else {
+      csv->append(text);
+    }
+  };
   for (const Output& output : outputs_) {
+    make_room(kLongestNumber);
     switch (output.source) {
-      case Source::kEstimate: {
-        const double value = (*values)[output.index];
-        if (!std::isnan(value)) AppendNumber(value, csv);
+      case Source::kEstimate:
+        put_number((*values)[output.index]);
         break;
-      }
       case Source::kStatus:
-        *csv += StatusName(estimate.status);
+        put_text(StatusName(estimate.status));
         break;
       case Source::kNumber: {
         const FrameRows::Cell& cell = log.at(row, output.index);
-        if (std::isnan(cell.number)) break;
-        if (cell.text.empty()) {
-          AppendNumber(cell.number, csv);
-        } else {
-          *csv += cell.text;
-        }
+        cell.text.empty() ? put_number(cell.number) : put_text(cell.text);
         break;
       }
       case Source::kText:
+        hand_over();
         AppendCsvText(log.at(row, output.index).text, csv);
         break;
     }
-    *csv += ',';
+    *end++ = ',';
   }
+  hand_over();
   // A blank line would be skipped when the table is read.
   if (outputs_.size() == 1 && csv->size() == begin + 1) {
     csv->insert(begin, outputs_[0].source == Source::kText ? "\"\"" : "nan");

@@ -83,7 +83,8 @@ class ResultLayout {
 
   // Keeps the outputs that the format names.
   void Select(const std::vector<std::string>& columns, const std::string& path);
-  void AppendNumber(double value, std::string* csv) const;
+  // Writes at most kLongestNumber characters, and returns their end.
+  char* WriteNumber(double value, char* begin) const;
 
   MeasurementColumns readings_;
   ResultColumns results_;
