@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <future>
 #include <optional>
 
 #include "app.h"
@@ -406,6 +407,10 @@ int Run() {
   settings.progress = [&bar](std::size_t frames, bool kept) {
     bar.Add(frames, kept);
   };
+  // They take as long as some thousand frames, so they are found beside these.
+  auto hidden = std::async(
+      settings.threads > 1 ? std::launch::async : std::launch::deferred,
+      [&settings] { return HiddenForcesOf(settings); });
   const bool whole = RunAll(&pool, &jobs);
   bar.Clear();
   if (!whole) {
@@ -415,7 +420,7 @@ int Run() {
 
   BatchTable(settings, jobs, bad_logs).Write(OutPath("summary.csv"));
   WriteFileAtomically(OutPath("summary.yaml"),
-                      BatchYaml(settings, jobs, bad_logs));
+                      BatchYaml(settings, jobs, bad_logs, hidden.get()));
   PrintSummary(jobs, bar);
   if (FLAGS_report) WriteReport(settings);
   const EstimationSummary all = Total(jobs);

@@ -16,7 +16,6 @@
 #include "finray/io/versions.h"
 #include "finray/io/yaml_emitter.h"
 #include "finray/io/yaml_map.h"
-#include "finray/sensing/hidden_forces.h"
 
 namespace finray {
 namespace {
@@ -348,9 +347,17 @@ void EmitHiddenForces(const HiddenForces& hidden, YamlEmitter* yaml) {
 
 }  // namespace
 
+std::optional<HiddenForces> HiddenForcesOf(const BatchSettings& settings) {
+  // With --joint offsets hide more than noise does.
+  if (settings.joint || settings.scene.contacts == 0) return {};
+  return FindHiddenForces(settings.finger, settings.scene,
+                          settings.discretization);
+}
+
 std::string BatchYaml(const BatchSettings& settings,
                       const std::vector<LogJob>& jobs,
-                      const std::vector<BadLog>& bad_logs) {
+                      const std::vector<BadLog>& bad_logs,
+                      const std::optional<HiddenForces>& hidden) {
   YamlEmitter yaml;
   yaml << YAML::BeginMap;
   YamlPairs(&yaml, "finger", settings.finger.name, "scheme",
@@ -360,12 +367,7 @@ std::string BatchYaml(const BatchSettings& settings,
   }
   YamlPair(&yaml, "version", FINRAY_VERSION);
   EmitWarnings(WarningsOf(settings.finger), &yaml);
-  // With --joint offsets hide more than noise does.
-  if (!settings.joint && settings.scene.contacts != 0) {
-    EmitHiddenForces(FindHiddenForces(settings.finger, settings.scene,
-                                      settings.discretization),
-                     &yaml);
-  }
+  if (hidden) EmitHiddenForces(*hidden, &yaml);
   yaml << YAML::Key << "logs" << YAML::Value << YAML::BeginSeq;
   for (const LogJob& job : jobs) {
     yaml << YAML::BeginMap;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "finray/batch/log_stream.h"
 #include "finray/io/frame_table.h"
 #include "finray/io/resumable_file.h"
+#include "finray/sensing/hidden_forces.h"
 
 namespace finray {
 
@@ -111,11 +113,15 @@ EstimationSummary Total(const std::vector<LogJob>& jobs);
 /// Names and summaries of all logs, for WarningsOf.
 std::vector<LogSummary> SummariesOf(const std::vector<LogJob>& jobs);
 
-/// The text of summary.yaml: the settings, each log, the total, and bad logs if
-/// there are any.
+/// What summary.yaml says of hidden forces (FindHiddenForces), if anything.
+std::optional<HiddenForces> HiddenForcesOf(const BatchSettings& settings);
+
+/// The text of summary.yaml: the settings, the hidden forces, each log, the
+/// total, and bad logs if there are any.
 std::string BatchYaml(const BatchSettings& settings,
                       const std::vector<LogJob>& jobs,
-                      const std::vector<BadLog>& bad_logs);
+                      const std::vector<BadLog>& bad_logs,
+                      const std::optional<HiddenForces>& hidden);
 
 /// The table of summary.csv, with a row for each log, and behind these one for
 /// each bad log with the reason.
