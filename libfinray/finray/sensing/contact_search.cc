@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "finray/finger/geometry.h"
@@ -17,6 +18,11 @@ constexpr double kWellExplained = 0.01, kNearlyNothing = 4;
 // start.
 constexpr double kTableFactor = 0.25;
 constexpr std::size_t kMostStarts = 4, kMostPairStarts = 12, kMostFallbacks = 4;
+// Contacts that need more iterations from frame to frame have jumped.
+constexpr int kFollowIterations = 8;
+// Of fits from frame to frame: far less than any std. ContactFit's own makes
+// readings without noise show every digit.
+constexpr double kFollowTolerance = 1e-8;
 // A row of the table hides a minimum if its chi2 is below this fraction of what
 // the solutions found expect there.
 constexpr double kHides = 0.5;
@@ -74,12 +80,16 @@ ContactSearch::ContactSearch(const Finger& finger, const Scene& scene,
                    : EquilibriumForm::kReduced,
                most_force_N_) {
   fit_.set_most_force(most_force_N_);
-  // With a limit no frame waits for the table.
-  if (scene.search_iteration_limit && !scene.object_std_mm &&
-      scene.contacts.value_or(scene.most_contacts) == 2 &&
-      finger.gauges.size() >= 2 * kFittedContacts) {
-    tables_->Pairs(&solver_);
+  const bool two = !scene.object_std_mm &&
+                   scene.contacts.value_or(scene.most_contacts) == 2 &&
+                   finger.gauges.size() >= 2 * kFittedContacts;
+  if (two && method == FrameMethod::kFast) {
+    following_.emplace(finger, discretization);
+    following_->set_most_force(most_force_N_);
+    following_->set_tolerance(kFollowTolerance);
   }
+  // With a limit no frame waits for the table.
+  if (two && scene.search_iteration_limit) tables_->Pairs(&solver_);
 }
 
 void ContactSearch::Spend(int iterations, bool converged) {
@@ -89,11 +99,18 @@ void ContactSearch::Spend(int iterations, bool converged) {
   ended_ |= limit && spent_ >= *limit && !converged;
 }
 
+int ContactSearch::Left() const {
+  return std::min(scene_.search_iteration_limit.value_or(
+                      spent_ + ContactFit::kMostIterations) -
+                      spent_,
+                  ContactFit::kMostIterations);
+}
+
 bool ContactSearch::MayGoOn() {
   if (!scene_.search_iteration_limit) return true;
   const int left = *scene_.search_iteration_limit - spent_;
   ended_ |= left < 1;
-  fit_.set_most_iterations(std::min(left, ContactFit::kMostIterations));
+  fit_.set_most_iterations(Left());
   problem_.set_most_iterations(left);
   return left > 0;
 }
@@ -119,7 +136,12 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
   found_.Clear();
   iterations_ = 0;
   std::size_t fallbacks = 0;
-  for (const ContactStart& start : starts_) {
+  const auto keep = [this](const ContactStart& start) {
+    found_.Keep();
+    if (&found_.best() == &found_.last()) best_from_ = start.state;
+  };
+  for (turn_ = 0; turn_ < starts_.size(); ++turn_) {
+    const ContactStart& start = starts_[turn_];
     // This start can neither win nor be a rival, and those behind it are worse.
     if (!exact &&
         kTableFactor * start.chi2 >= found_.least_chi2() + kWithinNoise) {
@@ -131,13 +153,13 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
     }
     if (!MayGoOn()) break;
     if (method_ != FrameMethod::kFast) {
-      if (FitByCeres(start, row)) found_.Keep();
+      if (FitByCeres(start, row)) keep(start);
       continue;
     }
     if (Fit(start, packed)) {
       const ContactSolution& next = found_.next();
       if (!on_surface_ || !found_.Knows(next.contacts[0], next.chi2)) {
-        found_.Keep();
+        keep(start);
       }
       continue;
     }
@@ -146,7 +168,7 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
     if ((explained && !exact) || fallbacks >= kMostFallbacks) continue;
     ++fallbacks;
     if (!MayGoOn()) break;
-    if (FitByCeres(start, row)) found_.Keep();
+    if (FitByCeres(start, row)) keep(start);
     if (!found_.empty() && found_.least_chi2() > FrameProblem::kHopelessChi2) {
       fallbacks = kMostFallbacks;
     }
@@ -305,10 +327,16 @@ void ContactSearch::FindStarts(int contacts, const PackedReadings& packed) {
     if (starts_.size() > kMostStarts) starts_.resize(kMostStarts);
     return;
   }
-  tables_->Pairs(&solver_).FindStarts(packed.values, packed.weights, &starts_);
+  const PairTable& pairs = tables_->Pairs(&solver_);
+  if (!spread) {
+    pairs.FindStarts(packed.values, packed.weights, kMostPairStarts, &starts_);
+    return;
+  }
+  constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+  pairs.FindStarts(packed.values, packed.weights, kAll, &starts_);
   const std::size_t all = starts_.size();
   if (all <= kMostPairStarts) return;
-  for (std::size_t k = 0; spread && k < kMostPairStarts; ++k) {
+  for (std::size_t k = 0; k < kMostPairStarts; ++k) {
     starts_[k] = starts_[(2 * k + 1) * all / (2 * kMostPairStarts)];
   }
   starts_.resize(kMostPairStarts);
@@ -323,9 +351,7 @@ bool ContactSearch::Fit(const ContactStart& start,
   }
   Spend(1, true);
   const ContactSolution& solution = found_.next();
-  const int left = scene_.search_iteration_limit.value_or(
-                       spent_ + ContactFit::kMostIterations) -
-                   spent_;
+  const int left = Left();
   if (solution.chi2 > kNoiseless || left < 1) return true;
   // The equilibrium comes first: from another one, the first change would lead
   // the contact away, perhaps beyond a hinge.
@@ -336,7 +362,7 @@ bool ContactSearch::Fit(const ContactStart& start,
   if (!solver_.Solve({here.contacts[0]})) return true;
   solver_.SaveState(&exact_);
   here.state = &exact_;
-  fit_.set_most_iterations(std::min(left, ContactFit::kMostIterations));
+  fit_.set_most_iterations(left);
   // The solution of the surface stays if this does not converge.
   FitEquilibria(here, packed, true);
   return true;
@@ -350,20 +376,67 @@ bool ContactSearch::FitEquilibria(const ContactStart& start,
   fit_.set_state(*start.state);
   const bool converged = fit_.Fit(packed.values, packed.weights, &contacts_);
   Spend(fit_.iterations(), known || converged);
-  if (!converged) return false;
+  if (converged) Take(fit_, contacts_);
+  return converged;
+}
+
+void ContactSearch::Take(const ContactFit& fit,
+                         const std::vector<PointContact>& contacts) {
   ContactSolution& solution = found_.next();
-  solution.count = start.count;
-  solution.chi2 = fit_.chi2();
-  solution.information = fit_.information();
+  solution.count = static_cast<int>(contacts.size());
+  solution.chi2 = fit.chi2();
+  solution.information = fit.information();
   solution.systematic.resize(0, 0);  // FrameEstimator finds it
-  solution.tip_pose = fit_.tip_pose();
+  solution.tip_pose = fit.tip_pose();
   for (std::size_t i = 0; i < solution.rib_tension_N.size(); ++i) {
-    solution.rib_tension_N[i] = fit_.rib_tension(static_cast<int>(i));
+    solution.rib_tension_N[i] = fit.rib_tension(static_cast<int>(i));
   }
-  for (int c = 0; c < start.count; ++c) {
-    solution.contacts[c] = contacts_[c];
-    solution.poses[c] = fit_.contact_pose(c);
+  for (int c = 0; c < solution.count; ++c) {
+    solution.contacts[c] = contacts[c];
+    solution.poses[c] = fit.contact_pose(c);
   }
+}
+
+bool ContactSearch::BeginFollowing(const PackedReadings& packed) {
+  if (!following_) return false;
+  while (Probe(packed)) continue;
+  if (HasSuspect()) return false;
+  followed_.assign(best().contacts.begin(), best().contacts.end());
+  solver_.set_state(*best_from_);
+  if (!solver_.Solve(followed_)) return false;
+  solver_.SaveState(&exact_);
+  following_->set_state(exact_);
+  turn_ = 0;
+  return true;
+}
+
+bool ContactSearch::Follow(const PackedReadings& packed) {
+  found_.Clear();
+  iterations_ = 0;
+  on_surface_ = false;
+  if (!MayGoOn()) return false;
+  following_->set_most_iterations(std::min(Left(), kFollowIterations));
+  const bool converged =
+      following_->Follow(packed.values, packed.weights, &followed_);
+  Spend(following_->iterations(), converged);
+  if (!converged) return false;
+  Take(*following_, followed_);
+  found_.Keep();
+  if (turn_ >= kMostPairStarts) {
+    FindStarts(2, packed);
+    turn_ = 0;
+  }
+  if (!Probe(packed)) ++turn_;
+  return found_.first().chi2 < best().chi2 + kWithinNoise && !HasSuspect();
+}
+
+bool ContactSearch::Probe(const PackedReadings& packed) {
+  if (turn_ >= starts_.size() || found_.full() ||
+      kTableFactor * starts_[turn_].chi2 >= best().chi2 + kSuspect ||
+      !MayGoOn()) {
+    return false;
+  }
+  if (FitEquilibria(starts_[turn_++], packed)) found_.Keep();
   return true;
 }
 

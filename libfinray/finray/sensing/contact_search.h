@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "finray/scene/scene.h"
@@ -36,6 +37,8 @@ class ContactSearch {
   /// Readings without noise leave a chi2 below this. They show every digit of
   /// an estimate, so a search solves their equilibria.
   static constexpr double kNoiseless = 1e-3;
+  /// Noise may bring a rival from so far, in chi2, to within kWithinNoise.
+  static constexpr double kSuspect = 40;
 
   /// `tables` are those of another search with the same arguments, or null.
   /// Throws InputError for a finger without an unloaded equilibrium.
@@ -54,6 +57,22 @@ class ContactSearch {
   /// Searches with one or two contacts. Returns false if no start converged.
   bool Search(int contacts, const Measurements& row,
               const PackedReadings& packed);
+
+  // Frames with two contacts that follow each other:
+
+  /// After a search for two contacts: prepares Follow for a frame with the same
+  /// gauges. Returns false if the frame after must be searched.
+  bool BeginFollowing(const PackedReadings& packed);
+  /// Fits two contacts from those that the last frame left, and from one start
+  /// of the table, another one in every frame. Returns false where only a
+  /// search can tell what explains the frame: the contacts have jumped, or the
+  /// start leads to others that explain it too.
+  bool Follow(const PackedReadings& packed);
+  /// Says whether the last call has found a solution that noise makes a rival
+  /// in some frames.
+  bool HasSuspect() const {
+    return !found_.empty() && found_.rival(kSuspect) != nullptr;
+  }
 
   /// chi2 of the finger without a contact.
   double FreeChi2(const Measurements& row, const PackedReadings& packed);
@@ -97,6 +116,8 @@ class ContactSearch {
   double most_force_N() const { return most_force_N_; }
 
  private:
+  // The iterations that a fit may take, at most kMostIterations.
+  int Left() const;
   // Says whether another fit may begin. It then gets the iterations left.
   bool MayGoOn();
   // Counts the iterations of a fit.
@@ -123,6 +144,11 @@ class ContactSearch {
   bool FitEquilibria(const ContactStart& start, const PackedReadings& packed,
                      bool known = false);
   bool FitByCeres(const ContactStart& start, const Measurements& row);
+  // Fits from the next start that might lead near a rival. Returns false if it
+  // does not.
+  bool Probe(const PackedReadings& packed);
+  // Fills in the next solution.
+  void Take(const ContactFit& fit, const std::vector<PointContact>& contacts);
 
   Scene scene_;
   double friction_, length_mm_;
@@ -139,6 +165,10 @@ class ContactSearch {
   FrameProblem problem_;
   std::vector<ContactStart> profile_, starts_;
   std::vector<PointContact> contacts_;
+  const LadderState* best_from_ = nullptr;  // of the start that led to best()
+  std::optional<ContactFit> following_;     // if the scene allows two contacts
+  std::vector<PointContact> followed_;
+  std::size_t turn_ = 0;  // of the starts
   int iterations_ = 0;
   int spent_ = 0;  // by all searches of the frame
   bool ended_ = false;

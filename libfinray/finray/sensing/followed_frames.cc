@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "finray/io/nan.h"
@@ -14,19 +15,34 @@ double ArcStd(const ContactMatrix& information) {
   return std::sqrt(CovarianceOf(information)(0, 0));
 }
 
+// Two contacts are not followed for so many frames after a frame that might
+// have another explanation: noise shows it in some frames and hides it in
+// others.
+constexpr int kDoubtful = 64;
+
 }  // namespace
 
 void FrameEstimator::EstimateBlock(const Measurements* readings,
                                    std::size_t count,
                                    FrameEstimate* estimates) {
   PackAll(readings, count);
-  following_ = false;  // the follower leaves the frame of the last Next()
+  LeaveLastFrame();          // that of Next()
+  std::size_t searched = 0;  // all frames before are, or have one contact
   for (std::size_t i = 0; i < count;) {
     if (Slides(readings[i])) {
-      ++i;
+      LeaveLastFrame();
+      searched = ++i;
       continue;
     }
-    SearchAlone(readings[i], packed_[i], &estimates[i]);
+    if (!SearchNext(readings[i], packed_[i], &estimates[i])) {
+      // Another explanation may have been there while frames were followed.
+      if (doubtful_ < kDoubtful) searched = i;
+      for (; searched < i; ++searched) {
+        SearchAlone(readings[searched], packed_[searched],
+                    &estimates[searched]);
+      }
+      searched = i + 1;
+    }
     const bool follow = CanFollow(packed_[i], estimates[i]);
     ++i;
     if (!follow) continue;
@@ -38,6 +54,7 @@ void FrameEstimator::EstimateBlock(const Measurements* readings,
         SearchAlone(readings[i], packed_[i], &estimates[i]);
       }
     }
+    searched = i;
   }
   if (scene_.smoothing) {
     SmoothBlock(readings, count, {}, estimates);
@@ -54,14 +71,14 @@ void FrameEstimator::EstimateBlock(const Measurements* readings,
 
 FrameEstimate FrameEstimator::Next(const Measurements& readings) {
   if (Slides(readings)) {
-    following_ = false;
+    LeaveLastFrame();
     return EstimateSliding(readings);
   }
   FrameEstimate estimate;
   PackAll(&readings, 1);
   if (!following_ || FitRun(0, 1) == 0 ||
       !TakeFollowed(packed_[0], 0, &estimate)) {
-    SearchAlone(readings, packed_[0], &estimate);
+    SearchNext(readings, packed_[0], &estimate);
     following_ = CanFollow(packed_[0], estimate);
   }
   if (scene_.smoothing) {
@@ -70,6 +87,34 @@ FrameEstimate FrameEstimator::Next(const Measurements& readings) {
     Judge(readings, packed_[0], &estimate);
   }
   return estimate;
+}
+
+bool FrameEstimator::SearchNext(const Measurements& readings,
+                                const PackedReadings& packed,
+                                FrameEstimate* estimate) {
+  const bool all = packed.gauges == static_cast<int>(finger_.gauges.size());
+  const auto is_sure = [&] {
+    return estimate->contacts == 2 &&
+           StatusOf(*estimate, finger_, search_) == FrameStatus::kOk;
+  };
+  bool doubtful = false;
+  search_.Begin();
+  if (follows_two_ && all) {
+    following_two_ = true;
+    Explain(readings, packed, estimate);
+    following_two_ = false;
+    // A search is exact to rounding, which this is not.
+    const bool noiseless =
+        estimate->dof > 0 && estimate->chi2 < ContactSearch::kNoiseless;
+    if (is_sure() && !noiseless) return true;
+    doubtful = search_.HasSuspect();
+  }
+  Explain(readings, packed, estimate);
+  follows_two_ = all && is_sure() && search_.BeginFollowing(packed);
+  doubtful |= estimate->contacts == 2 && search_.HasSuspect();
+  doubtful_ = doubtful ? kDoubtful : std::max(0, doubtful_ - 1);
+  follows_two_ &= doubtful_ == 0;
+  return false;
 }
 
 LogPrior FrameEstimator::SmoothBlock(const Measurements* readings,

@@ -55,11 +55,11 @@ double FoundSolutions::least_chi2() const {
   return empty() ? std::numeric_limits<double>::infinity() : best().chi2;
 }
 
-const ContactSolution* FoundSolutions::rival() const {
+const ContactSolution* FoundSolutions::rival(double within) const {
   const ContactSolution* rival = nullptr;
   for (int i = 0; i < count_; ++i) {
     const ContactSolution& other = solutions_[i];
-    if (i == best_ || other.chi2 > best().chi2 + kWithinNoise) continue;
+    if (i == best_ || other.chi2 > best().chi2 + within) continue;
     if (HasMostForce(other) && !HasMostForce(best())) continue;
     if (!IsDistinct(other)) continue;
     if (rival == nullptr || other.chi2 < rival->chi2) rival = &other;

@@ -31,11 +31,15 @@ class FoundSolutions {
   /// A solution with a force on its bound is the best one only if nothing else
   /// explains the frame.
   const ContactSolution& best() const { return solutions_[best_]; }
+  /// Those kept first and last.
+  const ContactSolution& first() const { return solutions_[0]; }
+  const ContactSolution& last() const { return solutions_[count_ - 1]; }
   /// Its chi2; infinite if there is none.
   double least_chi2() const;
   /// The best solution that is distinct from best() beyond its uncertainty and
-  /// explains the frame as well; null if there is none.
-  const ContactSolution* rival() const;
+  /// explains the frame as well; null if there is none. `within` is the
+  /// difference of chi2 that this allows.
+  const ContactSolution* rival(double within = kWithinNoise) const;
 
   // For one contact.
 

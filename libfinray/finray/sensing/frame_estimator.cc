@@ -151,6 +151,7 @@ FrameEstimate FrameEstimator::EstimateSliding(const Measurements& readings) {
 FrameEstimate FrameEstimator::EstimateAlone(const Measurements& readings) {
   FrameEstimate estimate;
   PackAll(&readings, 1);
+  LeaveLastFrame();
   SearchAlone(readings, packed_[0], &estimate);
   Judge(readings, packed_[0], &estimate);
   return estimate;
@@ -167,8 +168,14 @@ void FrameEstimator::PackAll(const Measurements* readings, std::size_t count) {
 void FrameEstimator::SearchAlone(const Measurements& readings,
                                  const PackedReadings& packed,
                                  FrameEstimate* estimate) {
-  const int contacts = scene_.contacts.value_or(1);
   search_.Begin();
+  Explain(readings, packed, estimate);
+}
+
+void FrameEstimator::Explain(const Measurements& readings,
+                             const PackedReadings& packed,
+                             FrameEstimate* estimate) {
+  const int contacts = scene_.contacts.value_or(1);
   if (packed.gauges + packed.camera < 1 || packed.all < kUnknowns * contacts) {
     *estimate = Unsolved(FrameStatus::kBadInput);
   } else if (scene_.contacts) {
@@ -203,7 +210,7 @@ void FrameEstimator::Automatic(const Measurements& readings,
     return;
   }
   const int before = search_.iterations();
-  if (!search_.Search(2, readings, packed)) return;
+  if (!Fit(2, readings, packed)) return;
   const ContactSolution& two = search_.best();
   for (const PointContact& contact : two.contacts) {
     if (contact.normal_N < least_force_N_) return;
@@ -239,7 +246,7 @@ void FrameEstimator::WithContacts(const Measurements& readings,
                                   const PackedReadings& packed, int contacts,
                                   FrameEstimate* estimate) {
   if (contacts == 0) return Free(packed, estimate);
-  if (!search_.Search(contacts, readings, packed)) {
+  if (!Fit(contacts, readings, packed)) {
     *estimate = Unsolved(FrameStatus::kNotConverged);
     return;
   }
@@ -250,6 +257,13 @@ void FrameEstimator::WithContacts(const Measurements& readings,
     }
   }
   *estimate = Found(readings, packed);
+}
+
+bool FrameEstimator::Fit(int contacts, const Measurements& readings,
+                         const PackedReadings& packed) {
+  return following_two_ && contacts == 2
+             ? search_.Follow(packed)
+             : search_.Search(contacts, readings, packed);
 }
 
 // Copies into the memory of the estimate: most frames of a log are free.

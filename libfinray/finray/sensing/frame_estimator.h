@@ -89,7 +89,7 @@ class FrameEstimator {
   }
   /// The next call of Next() starts a new log.
   void Restart() {
-    following_ = false;
+    LeaveLastFrame();
     followed_ = {};
   }
 
@@ -125,6 +125,17 @@ class FrameEstimator {
   void PackAll(const Measurements* readings, std::size_t count);
   void SearchAlone(const Measurements& readings, const PackedReadings& packed,
                    FrameEstimate* estimate);
+  // The same, after search_.Begin().
+  void Explain(const Measurements& readings, const PackedReadings& packed,
+               FrameEstimate* estimate);
+  // Explains the frame after the last one, and follows its two contacts if
+  // follows_two_. Returns false if it has to search.
+  bool SearchNext(const Measurements& readings, const PackedReadings& packed,
+                  FrameEstimate* estimate);
+  void LeaveLastFrame() {
+    following_ = follows_two_ = false;
+    doubtful_ = 0;
+  }
   bool CanFollow(const PackedReadings& packed, const FrameEstimate& estimate);
   std::size_t FitRun(std::size_t begin, std::size_t end);
   bool TakeFollowed(const PackedReadings& packed, std::size_t run,
@@ -138,6 +149,9 @@ class FrameEstimator {
                        const PackedReadings& packed, const FrameEstimate& one);
   void WithContacts(const Measurements& readings, const PackedReadings& packed,
                     int contacts, FrameEstimate* estimate);
+  // Searches, or follows if following_two_.
+  bool Fit(int contacts, const Measurements& readings,
+           const PackedReadings& packed);
   void Free(const PackedReadings& packed, FrameEstimate* estimate) const;
   FrameEstimate Unsolved(FrameStatus status) const;
   FrameEstimate Found(const Measurements& readings,
@@ -158,6 +172,9 @@ class FrameEstimator {
   ContactSearch search_;
   std::optional<FrameFollower> follower_;  // if it serves the scene
   bool following_ = false;                 // by Next
+  bool follows_two_ = false;    // the last frame left two contacts to follow
+  int doubtful_ = 0;            // so many of the next frames are searched
+  bool following_two_ = false;  // this frame
   CalibrationUncertainty systematic_;
   std::vector<PointContact> contacts_;
   LogPrior followed_;  // by Next, if the scene has smoothing
