@@ -304,8 +304,8 @@ void ContactSearch::FindStarts(int contacts, const PackedReadings& packed) {
   // A frame with camera measurements only has its starts spread over the
   // finger.
   const bool spread = packed.weights.isZero(0);
-  profile_.clear();
   if (contacts == 1 && spread) {
+    profile_.clear();
     starts_.clear();
     const auto& rows = table_.rows();
     for (std::size_t k = 0; k < kMostStarts; ++k) {
@@ -327,6 +327,7 @@ void ContactSearch::FindStarts(int contacts, const PackedReadings& packed) {
     if (starts_.size() > kMostStarts) starts_.resize(kMostStarts);
     return;
   }
+  profile_.clear();
   const PairTable& pairs = tables_->Pairs(&solver_);
   if (!spread) {
     pairs.FindStarts(packed.values, packed.weights, kMostPairStarts, &starts_);

@@ -14,7 +14,7 @@ using V = Row::Vector;
 static_assert(RowCurves::kPadding % kWidth == 0);
 
 constexpr int kRefinements = 4;
-// Cubics beyond these are formed anew in every refinement.
+// What belongs to values beyond these is formed anew where it is needed.
 constexpr int kKept = 16;
 
 V WithinOne(V share) {
@@ -42,17 +42,19 @@ class Rows {
   // The nearest points of the chords.
   Nearest OnChords() const {
     Nearest nearest;
+    V kept[kKept];  // misfits at the nodes where chords begin
+    for (int j = 0; j < curves_.values && j < kKept; ++j) kept[j] = Off(0, j);
     for (int k = 0; k + 1 < curves_.forces; ++k) {
       V along{}, square{}, misfit{};
       for (int j = 0; j < curves_.values; ++j) {
         if (weights_[j] == 0) continue;
-        const V from = Row::Load(curves_.value + At(k, j));
-        const V edge =
-            weights_[j] * (Row::Load(curves_.value + At(k + 1, j)) - from);
-        const V off = weights_[j] * (measured_[j] - from);
-        along += edge * off;
+        const V from = j < kKept ? kept[j] : Off(k, j);
+        const V to = Off(k + 1, j);
+        const V edge = from - to;
+        along += edge * from;
         square += edge * edge;
-        misfit += off * off;
+        misfit += from * from;
+        if (j < kKept) kept[j] = to;
       }
       const V share = WithinOne(square > 0 ? along / square : V{});
       const V chi2 = misfit + share * (share * square - 2.0 * along);
@@ -101,6 +103,12 @@ class Rows {
  private:
   int At(int force, int value) const {
     return (force * curves_.values + value) * curves_.rows + row_;
+  }
+
+  // The whitened misfit of a node, measured less its value.
+  V Off(int force, int j) const {
+    return weights_[j] *
+           (measured_[j] - Row::Load(curves_.value + At(force, j)));
   }
 
   Cubic CubicOf(int j, const int end[kWidth]) const {
