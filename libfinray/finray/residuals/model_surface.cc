@@ -12,6 +12,9 @@ namespace {
 constexpr double kHeaviest = 40;
 // A cell that leaves out so many times the resolution is not used.
 constexpr double kInexact = 10;
+// Derivatives by the parameters leave out terms of this size. They move the
+// parameters and their std by as small a share.
+constexpr double kNegligible = 1e-7;
 
 }  // namespace
 
@@ -91,14 +94,16 @@ ModelSurface::ModelSurface(std::shared_ptr<const Model> model,
     : outputs_(static_cast<int>(resolution.size())),
       parameters_(model->frame.columns() - 2),
       places_(model->frame.movable_gauges() ? model->frame.gauges() : 0),
-      surface_(model->Domain(),
-               {outputs_, outputs_ * parameters_ + 2 * places_}, resolution,
-               [model]() -> LoadSurface::Sampler {
-                 const auto own = std::make_shared<Model>(*model);
-                 return [own](double arc_mm, double normal_N, double* to) {
-                   return own->Sample(arc_mm, normal_N, to);
-                 };
-               }) {}
+      surface_(
+          model->Domain(), {outputs_, outputs_ * parameters_ + 2 * places_},
+          resolution,
+          [model]() -> LoadSurface::Sampler {
+            const auto own = std::make_shared<Model>(*model);
+            return [own](double arc_mm, double normal_N, double* to) {
+              return own->Sample(arc_mm, normal_N, to);
+            };
+          },
+          kNegligible) {}
 
 bool ModelSurface::Evaluate(double arc_mm, double normal_N, bool all,
                             Values* values) const {

@@ -8,17 +8,21 @@ namespace finray {
 ///   v(l, f) = sum_ij c_ij P_i(l) Q_j(f),
 ///
 /// as a plain array with the values innermost, so that vector lanes are values.
+/// Terms that are high in both directions are small: each i has its own number
+/// of j.
 struct LoadPolynomial {
   /// The number of values is a multiple of this.
   static constexpr int kPadding = 4;
 
-  int arc_terms, force_terms, values;
+  int arc_terms;
+  const int* force_terms;  ///< of each arc term
+  int values;
   const double* c;  ///< [i][j][value]
 };
 
 /// P_i and P_i', P_i'' of an argument, for each term.
 struct PolynomialBasis {
-  static constexpr int kMostTerms = 12;
+  static constexpr int kMostTerms = 16;
   double by[3][kMostTerms];  ///< [derivative][term]
 };
 

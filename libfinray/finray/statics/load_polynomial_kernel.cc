@@ -12,56 +12,76 @@ constexpr int kWidth = std::min(kRegisterWidth, LoadPolynomial::kPadding);
 using Some = Doubles<kWidth>;
 using V = Some::Vector;
 
+// Evaluates `n` registers of values at a time from `first` on, as long as there
+// are so many. Their sums do not wait for each other.
+template <int n>
+void SumValues(const LoadPolynomial& polynomial, const PolynomialBasis& arc,
+               const PolynomialBasis& force, int* first, double* values) {
+  const int stride = polynomial.values;
+  for (; *first + n * kWidth <= stride; *first += n * kWidth) {
+    const double* c = polynomial.c + *first;
+    V sums[n] = {};
+    for (int i = 0; i < polynomial.arc_terms; ++i) {
+      for (int j = 0; j < polynomial.force_terms[i]; ++j, c += stride) {
+        const double term = arc.by[0][i] * force.by[0][j];
+        for (int k = 0; k < n; ++k)
+          sums[k] += term * Some::Load(c + k * kWidth);
+      }
+    }
+    for (int k = 0; k < n; ++k) {
+      Some::Store(sums[k], values + *first + k * kWidth);
+    }
+  }
+}
+
+template <int n>
+void SumJets(const LoadPolynomial& polynomial, const PolynomialBasis& arc,
+             const PolynomialBasis& force, int* first, double* jets) {
+  const int stride = polynomial.values;
+  for (; *first + n * kWidth <= stride; *first += n * kWidth) {
+    const double* c = polynomial.c + *first;
+    V sums[6][n] = {};
+    for (int i = 0; i < polynomial.arc_terms; ++i) {
+      V along[3][n] = {};
+      for (int j = 0; j < polynomial.force_terms[i]; ++j, c += stride) {
+        for (int k = 0; k < n; ++k) {
+          const V term = Some::Load(c + k * kWidth);
+          for (int d = 0; d < 3; ++d) along[d][k] += force.by[d][j] * term;
+        }
+      }
+      for (int k = 0; k < n; ++k) {
+        sums[0][k] += arc.by[0][i] * along[0][k];
+        sums[1][k] += arc.by[1][i] * along[0][k];
+        sums[2][k] += arc.by[0][i] * along[1][k];
+        sums[3][k] += arc.by[2][i] * along[0][k];
+        sums[4][k] += arc.by[1][i] * along[1][k];
+        sums[5][k] += arc.by[0][i] * along[2][k];
+      }
+    }
+    for (int d = 0; d < 6; ++d) {
+      for (int k = 0; k < n; ++k) {
+        Some::Store(sums[d][k], jets + d * stride + *first + k * kWidth);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void ValuesOf(const LoadPolynomial& polynomial, const PolynomialBasis& arc,
               const PolynomialBasis& force, double* values) {
-  const int stride = polynomial.values;
-  for (int first = 0; first < stride; first += kWidth) {
-    const double* c = polynomial.c + first;
-    V sum{};
-    for (int i = 0; i < polynomial.arc_terms; ++i) {
-      V along{}, odd{};
-      int j = 0;
-      for (; j + 1 < polynomial.force_terms; j += 2, c += 2 * stride) {
-        along += force.by[0][j] * Some::Load(c);
-        odd += force.by[0][j + 1] * Some::Load(c + stride);
-      }
-      for (; j < polynomial.force_terms; ++j, c += stride) {
-        along += force.by[0][j] * Some::Load(c);
-      }
-      sum += arc.by[0][i] * (along + odd);
-    }
-    Some::Store(sum, values + first);
-  }
+  int first = 0;
+  SumValues<8>(polynomial, arc, force, &first, values);
+  SumValues<4>(polynomial, arc, force, &first, values);
+  SumValues<2>(polynomial, arc, force, &first, values);
+  SumValues<1>(polynomial, arc, force, &first, values);
 }
 
 void JetsOf(const LoadPolynomial& polynomial, const PolynomialBasis& arc,
             const PolynomialBasis& force, double* jets) {
-  const int stride = polynomial.values;
-  for (int first = 0; first < stride; first += kWidth) {
-    const double* c = polynomial.c + first;
-    V value{}, by_arc{}, by_force{}, by_arc_arc{}, by_arc_force{},
-        by_force_force{};
-    for (int i = 0; i < polynomial.arc_terms; ++i) {
-      V along[3] = {};
-      for (int j = 0; j < polynomial.force_terms; ++j, c += stride) {
-        const V term = Some::Load(c);
-        along[0] += force.by[0][j] * term;
-        along[1] += force.by[1][j] * term;
-        along[2] += force.by[2][j] * term;
-      }
-      value += arc.by[0][i] * along[0];
-      by_arc += arc.by[1][i] * along[0];
-      by_arc_arc += arc.by[2][i] * along[0];
-      by_force += arc.by[0][i] * along[1];
-      by_arc_force += arc.by[1][i] * along[1];
-      by_force_force += arc.by[0][i] * along[2];
-    }
-    const V all[] = {value,      by_arc,       by_force,
-                     by_arc_arc, by_arc_force, by_force_force};
-    for (int k = 0; k < 6; ++k) Some::Store(all[k], jets + k * stride + first);
-  }
+  int first = 0;
+  SumJets<2>(polynomial, arc, force, &first, jets);
+  SumJets<1>(polynomial, arc, force, &first, jets);
 }
 
 }  // namespace FINRAY_ISA

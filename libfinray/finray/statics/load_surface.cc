@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -11,9 +12,17 @@
 namespace finray {
 namespace {
 
-// Light loads need fewer terms. Where those do not do, a cell has these.
-constexpr int kMostArcTerms = 12, kMostForceTerms = 11;
-constexpr int kArcTerms[] = {10, 12}, kForceTerms[] = {7, 9};
+// A cell starts with as many terms as do for gauges of usual noise. Light loads
+// need fewer.
+constexpr int kForceTerms[] = {9, 11};
+// Along an element of usual length the terms fall by this factor each, to this
+// share.
+constexpr double kUsualLength = 0.16;  // of l_0
+constexpr double kArcFall = 8, kArcShare = 1e-12;
+constexpr int kMostArcTerms = PolynomialBasis::kMostTerms, kMostForceTerms = 12;
+// Half a cell needs fewer terms along the side that was halved, but enough to
+// see them fall.
+constexpr int kFewer = 3, kLeastTerms = 7;
 // A cell of the domain is halved at most so often.
 constexpr int kMostHalvings = 4;
 // Cells end at these forces, in units of EI / l_0^2: heavy ones bend sharply.
@@ -23,8 +32,13 @@ constexpr double kLongElement = 0.2;  // of l_0
 constexpr int kMostElements = 4;      // a bay
 // The series goes on behind its last terms.
 constexpr double kTail = 2;
-// Terms below this share of the resolution are left out.
-constexpr double kRounding = 0.1;
+// Either direction may leave out this share of the resolution.
+constexpr double kShare = 0.5;
+// Terms below this share of the resolution are left out. Some dozen of them are
+// left out together.
+constexpr double kRounding = 0.03;
+// The unit of values that are 0 in all of a cell.
+constexpr double kTiny = std::numeric_limits<double>::min();
 
 using RowMajor =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -78,38 +92,53 @@ RowMajor Coefficients(const RowMajor& values, int arc_terms, int force_terms) {
   return c;
 }
 
-// The largest coefficients of the values that a cell is judged by, for each
-// term, in their resolution.
-struct TermSizes {
-  Eigen::VectorXd arc, force;
-
-  TermSizes(const RowMajor& c, const Eigen::VectorXd& resolution, int arc_terms,
-            int force_terms)
-      : arc(Eigen::VectorXd::Zero(arc_terms)),
-        force(Eigen::VectorXd::Zero(force_terms)) {
-    for (int i = 0; i < arc_terms; ++i) {
-      for (int j = 0; j < force_terms; ++j) {
-        const double size =
-            (c.row(i * force_terms + j).head(resolution.size()).array().abs() /
-             resolution.transpose().array())
-                .maxCoeff();
-        arc[i] = std::max(arc[i], size);
-        force[j] = std::max(force[j], size);
-      }
+// The largest coefficients of some values for each term, [arc term, force
+// term], in units of each value.
+Eigen::ArrayXXd TermSizes(const RowMajor& c, int first,
+                          const Eigen::VectorXd& units, int arc_terms,
+                          int force_terms) {
+  Eigen::ArrayXXd sizes(arc_terms, force_terms);
+  for (int i = 0; i < arc_terms; ++i) {
+    for (int j = 0; j < force_terms; ++j) {
+      const auto row = c.row(i * force_terms + j).segment(first, units.size());
+      sizes(i, j) = (row.array().abs() / units.transpose().array()).maxCoeff();
     }
   }
+  return sizes;
+}
 
-  // What the series leaves out. Every second term may be small by symmetry.
-  static double Error(const Eigen::VectorXd& sizes) {
-    return kTail * sizes.tail<2>().maxCoeff();
+// How large the terms of one direction are, and how they fall.
+struct TermFall {
+  int terms;
+  double error;  // what the series leaves out
+  double fall;   // from term to term
+
+  explicit TermFall(const Eigen::ArrayXd& sizes)
+      : terms(static_cast<int>(sizes.size())) {
+    // Every second term may be small by symmetry.
+    const double last = sizes.tail<2>().maxCoeff();
+    error = kTail * last;
+    constexpr int kBefore = 4;
+    fall = std::pow(sizes.segment<2>(terms - 2 - kBefore).maxCoeff() / last,
+                    1.0 / kBefore);
   }
-  // The number of terms that are more than rounding.
-  static int Needed(const Eigen::VectorXd& sizes) {
-    auto count = static_cast<int>(sizes.size());
-    while (count > 2 && sizes[count - 1] < kRounding) --count;
-    return count;
+  // The number of terms that leave out little enough. It is large where terms
+  // do not fall.
+  int Needed() const {
+    if (error <= kShare) return terms;
+    const double more = std::log(error / kShare) / std::log(fall);
+    constexpr int kLarge = 2 * PolynomialBasis::kMostTerms;
+    return fall > 1 && more < kLarge ? terms + static_cast<int>(std::ceil(more))
+                                     : kLarge;
   }
 };
+
+// The terms along a length in l_0. Half the length doubles the factor.
+int ArcTerms(double length) {
+  const double fall = std::max(2.0, kArcFall * kUsualLength / length);
+  const double terms = std::ceil(-std::log(kArcShare) / std::log(fall));
+  return std::clamp(static_cast<int>(terms), kLeastTerms, kMostArcTerms);
+}
 
 // The interval of rising `nodes` that holds `at`.
 std::size_t IntervalOf(const std::vector<double>& nodes, double at) {
@@ -135,12 +164,12 @@ struct LoadCell {
     }
   };
   struct Group {
-    int arc_terms = 0, force_terms = 0;
-    std::vector<double> c;  // LoadPolynomial
+    std::vector<int> force_terms;  // LoadPolynomial
+    std::vector<double> c;
   };
 
   Interval arc, force;
-  int arc_terms = kMostArcTerms, force_terms = kMostForceTerms;
+  int arc_terms = 0, force_terms = kForceTerms[1];
   int halvings = 0;
   std::once_flag made;
   // Afterwards: the groups, or the halves, or neither where there is no
@@ -168,18 +197,37 @@ struct LoadCell {
     return true;
   }
 
-  // Keeps `size` values from `first` on, up to these terms.
-  void Keep(const RowMajor& c, int first, int size, int arcs, int forces) {
-    Group group{arcs, forces, {}};
+  // Keeps `size` values from `first` on, but for terms of a size below `least`
+  // that none of the others follows.
+  void Keep(const RowMajor& c, int first, int size,
+            const Eigen::ArrayXXd& sizes, double least) {
+    Group group;
+    for (int i = 0; i < arc_terms; ++i) {
+      int count = force_terms;
+      while (count > 0 && sizes(i, count - 1) < least) --count;
+      group.force_terms.push_back(count);
+    }
+    while (!group.force_terms.empty() && group.force_terms.back() == 0) {
+      group.force_terms.pop_back();
+    }
     const int padded = LoadSurface::Padded(size);
-    group.c.assign(static_cast<std::size_t>(arcs) * forces * padded, 0);
+    const int terms =
+        std::accumulate(group.force_terms.begin(), group.force_terms.end(), 0);
+    group.c.assign(static_cast<std::size_t>(terms) * padded, 0);
     double* to = group.c.data();
-    for (int i = 0; i < arcs; ++i) {
-      for (int j = 0; j < forces; ++j, to += padded) {
-        std::copy_n(c.row(i * force_terms + j).data() + first, size, to);
+    for (std::size_t i = 0; i < group.force_terms.size(); ++i) {
+      for (int j = 0; j < group.force_terms[i]; ++j, to += padded) {
+        const auto row = static_cast<Eigen::Index>(i) * force_terms + j;
+        std::copy_n(c.row(row).data() + first, size, to);
       }
     }
     groups.push_back(std::move(group));
+  }
+
+  LoadPolynomial Polynomial(int group, int size) const {
+    const Group& g = groups[group];
+    return {static_cast<int>(g.force_terms.size()), g.force_terms.data(),
+            LoadSurface::Padded(size), g.c.data()};
   }
 
   void Halve(bool by_arc) {
@@ -190,6 +238,10 @@ struct LoadCell {
       half.arc = arc;
       half.force = force;
       half.halvings = halvings + 1;
+      half.arc_terms = arc_terms;
+      half.force_terms = force_terms;
+      int& terms = by_arc ? half.arc_terms : half.force_terms;
+      terms = std::max(kLeastTerms, terms - kFewer);
       Interval& side = by_arc ? half.arc : half.force;
       (i == 0 ? side.to : side.from) = side.middle();
     }
@@ -239,20 +291,21 @@ LoadSurface::Domain LoadSurface::DomainOf(const Finger& finger,
 
 LoadSurface::LoadSurface(Domain domain, std::vector<int> sizes,
                          Eigen::VectorXd resolution,
-                         std::function<Sampler()> make_sampler)
+                         std::function<Sampler()> make_sampler,
+                         double negligible)
     : domain_(std::move(domain)),
       sizes_(std::move(sizes)),
       resolution_(std::move(resolution)),
-      make_sampler_(std::move(make_sampler)) {
+      make_sampler_(std::move(make_sampler)),
+      negligible_(negligible) {
   for (std::size_t i = 0; i + 1 < domain_.arcs_mm.size(); ++i) {
     for (std::size_t k = 0; k + 1 < domain_.forces_N.size(); ++k) {
       auto cell = std::make_unique<LoadCell>();
       cell->arc = {domain_.arcs_mm[i], domain_.arcs_mm[i + 1]};
       cell->force = {domain_.forces_N[k], domain_.forces_N[k + 1]};
-      if (k < std::size(kArcTerms)) {
-        cell->arc_terms = kArcTerms[k];
-        cell->force_terms = kForceTerms[k];
-      }
+      cell->arc_terms = ArcTerms((domain_.arcs_mm[i + 1] - domain_.arcs_mm[i]) /
+                                 domain_.arcs_mm.back());
+      if (k == 0) cell->force_terms = kForceTerms[0];
       cells_.push_back(std::move(cell));
     }
   }
@@ -317,40 +370,49 @@ bool LoadSurface::Make(LoadCell* cell) const {
     return true;
   }
   const RowMajor c = Coefficients(values, arc_terms, force_terms);
-  const TermSizes sizes(c, resolution_, arc_terms, force_terms);
-  const double arc_error = TermSizes::Error(sizes.arc),
-               force_error = TermSizes::Error(sizes.force);
-  cell->error = arc_error + force_error;
-  if (cell->error > 1 && force_terms < kMostForceTerms) {
-    cell->arc_terms = kMostArcTerms;
-    cell->force_terms = kMostForceTerms;
-    return false;
+  const Eigen::ArrayXXd sizes =
+      TermSizes(c, 0, resolution_, arc_terms, force_terms);
+  const TermFall arc(sizes.rowwise().maxCoeff());
+  const TermFall force(sizes.colwise().maxCoeff().transpose());
+  cell->error = arc.error + force.error;
+  if (cell->error > 1) {
+    const int arcs = arc.Needed(), forces = force.Needed();
+    if (arcs <= kMostArcTerms && forces <= kMostForceTerms) {
+      cell->arc_terms = arcs;
+      cell->force_terms = forces;
+      return false;
+    }
+    if (may_halve) {
+      cell->Halve(arcs > kMostArcTerms &&
+                  (forces <= kMostForceTerms || arc.error > force.error));
+      return true;
+    }
   }
-  if (cell->error > 1 && may_halve) {
-    cell->Halve(arc_error > force_error);
-    return true;
-  }
-  cell->Keep(c, 0, sizes_[0], TermSizes::Needed(sizes.arc),
-             TermSizes::Needed(sizes.force));
+  cell->Keep(c, 0, sizes_[0], sizes, kRounding);
   int first = sizes_[0];
   for (std::size_t g = 1; g < sizes_.size(); ++g) {
-    cell->Keep(c, first, sizes_[g], arc_terms, force_terms);
+    const Eigen::VectorXd largest = c.middleCols(first, sizes_[g])
+                                        .cwiseAbs()
+                                        .colwise()
+                                        .maxCoeff()
+                                        .cwiseMax(kTiny)
+                                        .transpose();
+    cell->Keep(c, first, sizes_[g],
+               TermSizes(c, first, largest, arc_terms, force_terms),
+               negligible_);
     first += sizes_[g];
   }
   return true;
 }
 
 void LoadSurface::Values(const Place& place, int group, double* values) const {
-  const LoadCell::Group& g = place.cell_->groups[group];
-  EvaluateValues(
-      {g.arc_terms, g.force_terms, Padded(sizes_[group]), g.c.data()},
-      place.arc_, place.force_, values);
+  EvaluateValues(place.cell_->Polynomial(group, sizes_[group]), place.arc_,
+                 place.force_, values);
 }
 
 void LoadSurface::Jets(const Place& place, int group, double* jets) const {
-  const LoadCell::Group& g = place.cell_->groups[group];
-  EvaluateJets({g.arc_terms, g.force_terms, Padded(sizes_[group]), g.c.data()},
-               place.arc_, place.force_, jets);
+  EvaluateJets(place.cell_->Polynomial(group, sizes_[group]), place.arc_,
+               place.force_, jets);
 }
 
 }  // namespace finray

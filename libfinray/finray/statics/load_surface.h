@@ -24,8 +24,9 @@ namespace finray {
 /// docs/decisions/0019-a-load-surface.md has figures.
 ///
 /// A cell is made when it is first needed, from some hundred equilibria. Where
-/// the last coefficients are not small it is halved. All threads may use a
-/// surface at once; its values do not depend on who made a cell.
+/// the last coefficients are not small, it is made again with as many as their
+/// fall says, or halved. All threads may use a surface at once; its values do
+/// not depend on who made a cell.
 class LoadSurface {
  public:
   /// Computes all values under a load, group after group. Returns false if
@@ -49,8 +50,10 @@ class LoadSurface {
   /// `sizes` are the numbers of values of each group. The values of the first
   /// group are what cells are judged by, in units of `resolution`: a cell is
   /// fine enough if it leaves out less. Each cell gets a sampler of its own.
+  /// The other groups are evaluated without terms below `negligible`, a share
+  /// of the largest term of the same value.
   LoadSurface(Domain domain, std::vector<int> sizes, Eigen::VectorXd resolution,
-              std::function<Sampler()> make_sampler);
+              std::function<Sampler()> make_sampler, double negligible = 0);
   ~LoadSurface();
 
   /// A load and the cell that holds it.
@@ -92,6 +95,7 @@ class LoadSurface {
   std::vector<int> sizes_;
   Eigen::VectorXd resolution_;
   std::function<Sampler()> make_sampler_;
+  double negligible_;
   std::vector<std::unique_ptr<LoadCell>> cells_;  // by arc, then by force
 };
 
