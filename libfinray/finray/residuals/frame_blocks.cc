@@ -25,9 +25,9 @@ struct Builder {
   std::vector<FrameBlock> blocks;
 
   void Add(ceres::CostFunction* cost, std::vector<double*> parameter_blocks,
-           ResidualFamily family, int gauge = -1) {
+           ResidualFamily family, int gauge = -1, double std_V = 0) {
     blocks.push_back({std::unique_ptr<ceres::CostFunction>(cost),
-                      std::move(parameter_blocks), family, gauge});
+                      std::move(parameter_blocks), family, gauge, std_V});
   }
   // Returns the parameter blocks of a residual that depends on the whole model:
   // those of FrameResidual, then `a` and `b`.
@@ -85,7 +85,7 @@ void AddReadings(const std::vector<Gauge>& gauges, Builder* out) {
     out->Add(new GaugeReadingResidual(out->evaluation, j, &out->row.gauges_V[j],
                                       std_V, coefficients, history,
                                       of.flat_shares != nullptr),
-             std::move(blocks), ResidualFamily::kGauge, j);
+             std::move(blocks), ResidualFamily::kGauge, j, std_V);
   }
 }
 

@@ -74,7 +74,8 @@ struct FrameBlock {
   std::unique_ptr<ceres::CostFunction> cost;
   std::vector<double*> parameters;  ///< as ceres::Problem takes them
   ResidualFamily family;
-  int gauge;  ///< for kGauge and kBench, else -1
+  int gauge;         ///< for kGauge and kBench, else -1
+  double std_V = 0;  ///< of the reading, for kGauge
 };
 
 /// Returns one block for each measurement in `row` that counts. `row`,

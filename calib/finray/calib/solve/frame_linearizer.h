@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -51,15 +52,17 @@ class FrameLinearizer {
 
   void Prepare(const CalibrationFrame& frame, const LadderState& start,
                Model* model);
-  // With `all` false, the derivatives by the parameters may be left out.
+  // With `all` false, the derivatives by the parameters may be left undefined.
   bool Evaluate(const std::array<double, 2>& contact, bool all, Model* model,
                 LadderState* state, LinearizedFrame* out);
   bool TakeFromSurface(const std::array<double, 2>& contact, bool all,
                        FrameEvaluation* evaluation);
   bool Solve(const std::array<double, 2>& contact, Model* model,
              LadderState* state);
-  void AddBlock(const FrameBlock& block, const double* contact, bool all,
-                int first_row, LinearizedFrame* out);
+  // The first column of each parameter of the index-th block of a frame.
+  const std::vector<int>& ColumnsOf(const FrameBlock& block, std::size_t index);
+  void AddBlock(const FrameBlock& block, const std::vector<int>& columns,
+                const double* contact, bool all, LinearizedFrame* out);
 
   EquilibriumSolver solver_;
   double friction_;
@@ -70,10 +73,19 @@ class FrameLinearizer {
   std::unique_ptr<ceres::LossFunction> loss_;
   // The first column of a parameter block.
   std::unordered_map<const double*, int> column_of_;
+  struct KnownColumns {
+    std::vector<double*> parameters;
+    std::vector<int> columns;
+  };
+  std::vector<KnownColumns> known_;  // by index of the block
   // For each parameter of a residual block: its Jacobian and its first column.
   std::vector<std::vector<double>> scratch_;
   std::vector<double*> jacobians_;
   std::vector<int> columns_;
+  // Evaluations without and with a contact, for frames without pins and without
+  // friction of their own; and that of another frame.
+  std::array<std::optional<FrameEvaluation>, 2> usual_;
+  std::optional<FrameEvaluation> unusual_;
   LinearizedFrame tried_;
   ModelSurface::Values values_;
 };

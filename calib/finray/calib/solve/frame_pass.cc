@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "finray/calib/solve/frame_linearizer.h"
 #include "finray/residuals/model_surface.h"
@@ -15,8 +17,9 @@
 namespace finray {
 namespace {
 
-// A thread evaluates so many frames at a time.
-constexpr std::size_t kChunk = 32;
+// A thread evaluates so many frames at a time. There are some for each cell of
+// a surface, whose coefficients take more memory than a core has next to it.
+constexpr std::size_t kChunk = 128;
 // The surface may leave out so much, in std of the gauges.
 constexpr double kExact_std = 1e-5;
 // The same in rad where gauges tell hardly anything.
@@ -48,8 +51,8 @@ std::optional<ModelSurface> SurfaceFor(const std::vector<int>& frames,
 }
 
 void VisitInOrder(const std::vector<int>& frames, const Plan& plan,
-                  CalibrationProblem* problem, const Evaluate& evaluate,
-                  const FrameVisitor& visit) {
+                  const Contacts& contacts, CalibrationProblem* problem,
+                  const Evaluate& evaluate, const FrameVisitor& visit) {
   struct Chunk {
     std::size_t first, count;
     std::array<LinearizedFrame, kChunk> frames;
@@ -76,10 +79,18 @@ void VisitInOrder(const std::vector<int>& frames, const Plan& plan,
     chunk.count = std::min(kChunk, frames.size() - first);
     return &chunk;
   };
+  // Along the finger, so that frames of one cell follow each other.
   const auto evaluate_all = [&](Chunk* chunk) {
     FrameLinearizer& linearizer = linearizers.local();
+    std::array<std::pair<double, std::size_t>, kChunk> order;
     for (std::size_t k = 0; k < chunk->count; ++k) {
-      evaluate(frames[chunk->first + k], &linearizer, &chunk->frames[k]);
+      const double arc_mm = contacts[frames[chunk->first + k]][0];
+      order[k] = {std::isnan(arc_mm) ? 0 : arc_mm, k};
+    }
+    std::sort(order.begin(), order.begin() + chunk->count);
+    for (std::size_t k = 0; k < chunk->count; ++k) {
+      const std::size_t i = order[k].second;
+      evaluate(frames[chunk->first + i], &linearizer, &chunk->frames[i]);
     }
     return chunk;
   };
@@ -105,7 +116,7 @@ void LinearizeFrames(const std::vector<int>& frames,
                      const FrameVisitor& visit) {
   contacts->Guess(frames, ContactGuess::From::kObjectFirst);
   VisitInOrder(
-      frames, problem->plan(), problem,
+      frames, problem->plan(), contacts->all(), problem,
       [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
         LadderState state = contacts->StateNear(i);
         if (!linearizer->Linearize(problem->frame(i), (*contacts)[i], &state,
@@ -121,7 +132,7 @@ void FitContacts(const std::vector<int>& frames, CalibrationProblem* problem,
                  ContactStore* contacts, const FrameVisitor& visit) {
   contacts->Guess(frames, ContactGuess::From::kAll);
   VisitInOrder(
-      frames, problem->plan(), problem,
+      frames, problem->plan(), contacts->all(), problem,
       [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
         LadderState state = contacts->StateNear(i);
         linearizer->FitContact(problem->frame(i), &(*contacts)[i], &state, out);
@@ -138,7 +149,7 @@ void FitContactsRobustly(const std::vector<int>& frames,
   robust.loss = RobustLoss::kCauchy;
   robust.loss_scale = 1;
   VisitInOrder(
-      frames, robust, problem,
+      frames, robust, contacts->all(), problem,
       [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
         LadderState state = contacts->StateNear(i);
         std::array<double, 2> contact = (*contacts)[i];

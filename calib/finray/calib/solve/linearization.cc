@@ -42,10 +42,12 @@ void LinearizedFrame::Eliminate() {
       PseudoInverse(by_contact.transpose() * by_contact);
   const Eigen::Vector2d pull = by_contact.transpose() * WeightedResiduals();
   move.now = -inverse * pull;
-  move.by_parameter = -inverse * (by_contact.transpose() * by_parameter);
+  // Products of two rows or columns take longer to prepare than to make.
+  move.by_parameter.noalias() =
+      (-inverse * by_contact.transpose()).eval().lazyProduct(by_parameter);
   move.decrease = -0.5 * pull.dot(move.now);
   reduced = by_parameter;
-  reduced.noalias() += by_contact * move.by_parameter;
+  reduced.noalias() += by_contact.lazyProduct(move.by_parameter);
 }
 
 Linearization::Linearization(int parameters, std::size_t most_frames)

@@ -21,7 +21,8 @@ namespace finray {
 struct LinearizedFrame {
   struct Row {
     ResidualFamily family;
-    int gauge;  ///< The gauge of kGauge and kBench, else -1.
+    int gauge;         ///< The gauge of kGauge and kBench, else -1.
+    double std_V = 0;  ///< Of the reading, for kGauge.
   };
   std::vector<Row> rows;
   Eigen::VectorXd residuals;     ///< r, without weights.
