@@ -11,21 +11,31 @@
 namespace finray {
 namespace {
 
-// Tells each iteration to who waits.
+// A trust region of this radius or more hardly dampens a step of Gauss and
+// Newton: its radius is in units of the diagonal of J'J.
+constexpr double kUndamped = 1e4;
+
+// Tells each iteration to who waits, and ends the solve after the last one.
 class TellIteration : public ceres::IterationCallback {
  public:
-  TellIteration(const CalibrationProblem* problem, std::size_t frames)
-      : problem_(*problem), frames_(frames) {}
+  TellIteration(const CalibrationProblem* problem, std::size_t frames,
+                double least_decrease)
+      : problem_(*problem), frames_(frames), least_decrease_(least_decrease) {}
   ceres::CallbackReturnType operator()(
       const ceres::IterationSummary& iteration) override {
     problem_.Tell(std::to_string(frames_) + " frames, iteration " +
                   std::to_string(iteration.iteration));
-    return ceres::SOLVER_CONTINUE;
+    return iteration.iteration > 0 && iteration.step_is_successful &&
+                   iteration.trust_region_radius > kUndamped &&
+                   iteration.cost_change < least_decrease_
+               ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+               : ceres::SOLVER_CONTINUE;
   }
 
  private:
   const CalibrationProblem& problem_;
   std::size_t frames_;
+  double least_decrease_;
 };
 
 }  // namespace
@@ -52,7 +62,7 @@ JointProblem::JointProblem(const std::vector<int>& frames, EquilibriumForm form,
 }
 
 SolveReport JointProblem::Solve(const JointLimits& limits) {
-  TellIteration tell(&problem_, frames_);
+  TellIteration tell(&problem_, frames_, limits.least_decrease);
   ceres::Solver::Options options;
   options.logging_type = ceres::SILENT;
   options.max_num_iterations = limits.iterations;
@@ -63,6 +73,9 @@ SolveReport JointProblem::Solve(const JointLimits& limits) {
   options.function_tolerance = limits.function_tolerance;
   options.parameter_tolerance = 1e-11;
   options.gradient_tolerance = 1e-12;
+  // With bounds, Ceres searches along each step, and nearly always takes all of
+  // it. A cubic would ask for derivatives there.
+  options.line_search_interpolation_type = ceres::QUADRATIC;
   options.callbacks.push_back(&tell);
   // The weights of equilibrium leave normal equations, and so Schur's too,
   // without a correct digit.

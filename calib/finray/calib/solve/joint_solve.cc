@@ -7,7 +7,8 @@
 namespace finray {
 
 SolveReport ReportOf(const ceres::Solver::Summary& summary) {
-  return {summary.termination_type == ceres::CONVERGENCE,
+  return {summary.termination_type == ceres::CONVERGENCE ||
+              summary.termination_type == ceres::USER_SUCCESS,
           std::max(0, static_cast<int>(summary.iterations.size()) - 1),
           summary.initial_cost, summary.final_cost, summary.message};
 }

@@ -25,6 +25,8 @@ struct JointLimits {
   int iterations;
   /// The solve ends after a step that lowers the cost by less than this share.
   double function_tolerance;
+  /// So does an undamped step that lowers it by less than this.
+  double least_decrease = 0;
 };
 
 /// Solves for the parameters and the contacts of these frames in one

@@ -40,7 +40,7 @@ struct CalibrationSolution {
 /// Solves from several starts, goes on from the best one, and solves again
 /// without the outliers until these stay the same.
 ///
-///   1. SolveJointly solves kStartFrames evenly spread frames from each start.
+///   1. SolveJointly solves StartFrames() from each start.
 ///      Before that, a few iterations from the given start show which frames
 ///      are far out. With them the starts would take long and end in basins of
 ///      their own.
@@ -51,7 +51,12 @@ struct CalibrationSolution {
 ///   3. FindOutliers judges the frames. While the outliers change, step 2 is
 ///      repeated.
 CalibrationSolution SolveRobustly(CalibrationProblem* problem);
-constexpr std::size_t kStartFrames = 250, kStageFrames = 20000;
+constexpr std::size_t kStageFrames = 20000;
+
+/// Evenly spread frames that tell each free parameter some thirty measurements:
+/// kLeastStartFrames or more, kMostStartFrames at most.
+std::vector<int> StartFrames(const CalibrationProblem& problem);
+constexpr std::size_t kLeastStartFrames = 100, kMostStartFrames = 250;
 
 /// Solves from the present values, with steps 1 and 2, and rejects nothing.
 /// Step 2 is repeated until what the rows before leave unknown of a reading,
