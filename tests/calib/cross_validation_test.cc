@@ -6,10 +6,17 @@
 
 #include "calib/calibrated.h"
 #include "finray/calib/analysis/discrepancy.h"
+#include "finray/calib/analysis/validation.h"
 #include "finray/calib/solve/summed_solve.h"
 
 namespace finray {
 namespace {
+
+std::unique_ptr<const FrameEstimator> EstimatorOf(Calibrated* all) {
+  Finger solved = all->problem->parameters().Apply(all->problem->finger());
+  KeepCovariance(all->problem->parameters(), all->found, &solved);
+  return SensingEstimator(*all->problem, solved);
+}
 
 TEST(CrossValidationTest, OneStepFindsWhatASolveOfTheRestFinds) {
   const TempFolder folder;
@@ -34,11 +41,39 @@ TEST(CrossValidationTest, OneStepFindsWhatASolveOfTheRestFinds) {
   EXPECT_GT(largest, 0.3);  // there was something to find
 }
 
+TEST(CrossValidationTest, OneEstimatorServesAllFolds) {
+  const TempFolder folder;
+  Calibrated all(StandardPlan(), {StandardLog(folder, HiddenFinger(), 62)});
+  const WideLinearization wide = LinearizeWide(*all.problem, all.solution);
+  const CrossValidation found =
+      CrossValidate(*all.problem, all.found, wide, EstimatorOf(&all).get());
+  // With an estimator for each fold.
+  ErrorTable exact;
+  exact.front_length_mm = all.problem->finger().front_length_mm;
+  for (int fold = 0; fold < WideLinearization::kFolds; ++fold) {
+    const std::vector<int>& frames = wide.checked[fold];
+    LeftOutFinger without(*all.problem, all.found,
+                          LeaveFoldOut(*all.problem, wide, fold), frames);
+    CalibrationProblem* part = without.part.get();
+    const SensedFrames sensed = {
+        ReferencesAt(part, without.finger, frames, nullptr),
+        EstimateReadings(SensingEstimator(*part, without.finger).get(),
+                         SensedReadings(part, without.finger, frames), 1)};
+    for (std::size_t k = 0; k < frames.size(); ++k) sensed.AddTo(&exact, k, 0);
+  }
+  const ErrorStatistics& forces = found.errors.contact.force_N;
+  EXPECT_EQ(forces.judged, exact.contact.force_N.judged);
+  EXPECT_NEAR(forces.rms(), exact.contact.force_N.rms(),
+              1e-2 * exact.contact.force_N.rms());
+  EXPECT_NEAR(forces.rms_z(), exact.contact.force_N.rms_z(), 0.02);
+}
+
 TEST(CrossValidationTest, IntervalsOfACleanLogHold) {
   const TempFolder folder;
   Calibrated all(StandardPlan(), {StandardLog(folder, HiddenFinger(), 62)});
   const CrossValidation found = CrossValidate(
-      *all.problem, all.found, LinearizeWide(*all.problem, all.solution));
+      *all.problem, all.found, LinearizeWide(*all.problem, all.solution),
+      EstimatorOf(&all).get());
   EXPECT_EQ(found.folds, WideLinearization::kFolds);
   const ErrorStatistics& forces = found.errors.contact.force_N;
   EXPECT_GT(forces.judged, 180u);
@@ -50,11 +85,13 @@ TEST(CrossValidationTest, ThreadsDoNotChangeTheResult) {
   const TempFolder folder;
   Calibrated all(StandardPlan(), {StandardLog(folder, HiddenFinger(), 63)});
   const WideLinearization wide = LinearizeWide(*all.problem, all.solution);
+  const auto estimator = EstimatorOf(&all);
   CrossValidation checked[2];
   HeldOutErrors errors[2];
   for (const int threads : {1, 3}) {
     const auto problem = all.problem->Part(all.solution.at.frames, threads);
-    checked[threads / 2] = CrossValidate(*problem, all.found, wide);
+    checked[threads / 2] =
+        CrossValidate(*problem, all.found, wide, estimator.get());
     errors[threads / 2] =
         GaugeErrorsOf(*problem, all.solution, all.found, wide);
   }

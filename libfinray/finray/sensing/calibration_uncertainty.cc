@@ -39,30 +39,44 @@ double ByReading(FingerParameterKind kind, const Gauge& gauge, double volts,
 
 CalibrationUncertainty::Model::Model(const Finger& finger, double friction,
                                      std::optional<double> circle_radius_mm,
-                                     EquilibriumSolver* solver)
+                                     EquilibriumSolver* solver,
+                                     Table with_table)
     : finger(finger),
       circle_radius_mm(circle_radius_mm),
       solver(*solver),
       gauge_places(finger.calibration->HasGaugePlaces()),
-      table(friction, circle_radius_mm, solver, gauge_places),
       factor(finger.calibration->Factor()),
-      derivatives(table.rows(), table.columns()),
-      slope(table.rows(), 2),
-      by_measured(2, table.rows()),
       by_parameter(2, factor.rows()),
       by_factor(2, factor.cols()),
       discrepancy(finger.gauges.size(), finger.gauges.size()),
-      by_discrepancy(2, finger.gauges.size()) {}
+      by_discrepancy(2, finger.gauges.size()) {
+  if (with_table == Table::kNone) return;
+  table.emplace(friction, circle_radius_mm, solver, gauge_places);
+  derivatives.resize(table->rows(), table->columns());
+  slope.resize(table->rows(), 2);
+  by_measured.resize(2, table->rows());
+}
 
 CalibrationUncertainty::CalibrationUncertainty(
     const Finger& any, double friction, EquilibriumSolver* solver,
-    std::optional<double> circle_radius_mm) {
+    std::optional<double> circle_radius_mm, Table table) {
   const Finger finger = ForFriction(any, friction);
   if (!finger.calibration) return;
   solver->model().set_effects(finger.calibration->StaticsEffects(),
                               finger.calibration->HasFriction());
-  model_.emplace(finger, friction, circle_radius_mm, solver);
+  model_.emplace(finger, friction, circle_radius_mm, solver, table);
   solver->model().set_effects({});
+}
+
+void CalibrationUncertainty::SetErrors(const ParameterCovariance& calibration) {
+  ParameterCovariance& own = *model_->finger.calibration;
+  // Without the friction, which is the last one, where ForFriction has dropped
+  // it.
+  const Eigen::Index size = own.std.size();
+  own.std = calibration.std.head(size);
+  own.correlations = calibration.correlations.topLeftCorner(size, size);
+  own.discrepancy = calibration.discrepancy;
+  model_->factor = own.Factor();
 }
 
 ContactMatrix CalibrationUncertainty::Of(
@@ -196,9 +210,9 @@ void CalibrationUncertainty::FindDiscrepancy(
 bool CalibrationUncertainty::FindDerivatives(
     const std::vector<PointContact>& contacts) {
   Model& m = *model_;
-  if (contacts.size() == 1 &&
-      m.table.Interpolate(contacts[0].arc_mm, contacts[0].normal_N,
-                          &m.derivatives)) {
+  if (contacts.size() == 1 && m.table &&
+      m.table->Interpolate(contacts[0].arc_mm, contacts[0].normal_N,
+                           &m.derivatives)) {
     return true;
   }
   // A cold start, so that the result does not depend on the frame before.

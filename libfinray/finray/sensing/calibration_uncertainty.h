@@ -37,16 +37,22 @@ namespace finray {
 /// An estimator creates one CalibrationUncertainty from its finger, the scene's
 /// friction and the radius of a measured circle, and calls Of() with each
 /// solution. For one contact the derivatives come from a table, without a solve
-/// or an allocation. For two contacts, and for forces beyond the table, the
-/// equilibrium is solved again.
+/// or an allocation. For two contacts, for forces beyond the table and without
+/// a table, the equilibrium is solved again.
 class CalibrationUncertainty {
  public:
-  /// Creates the table with `solver`, which is then as after Reset(). For a
-  /// finger without a covariance the object is empty: it solves and stores
-  /// nothing.
+  /// Creates the table with `solver`, which is then as after Reset(). A table
+  /// takes as long as some hundred solves. For a finger without a covariance
+  /// the object is empty: it solves and stores nothing.
+  enum class Table { kMade, kNone };
   CalibrationUncertainty(const Finger& finger, double friction,
                          EquilibriumSolver* solver,
-                         std::optional<double> circle_radius_mm = std::nullopt);
+                         std::optional<double> circle_radius_mm = std::nullopt,
+                         Table table = Table::kMade);
+
+  /// Replaces the covariance and the discrepancy by those of another
+  /// calibration of the same parameters. Do not call it when empty.
+  void SetErrors(const ParameterCovariance& calibration);
 
   bool empty() const { return !model_.has_value(); }
 
@@ -97,13 +103,14 @@ class CalibrationUncertainty {
                              2 * kFittedContacts, Eigen::Dynamic>;
   struct Model {
     Model(const Finger& finger, double friction,
-          std::optional<double> circle_radius_mm, EquilibriumSolver* solver);
+          std::optional<double> circle_radius_mm, EquilibriumSolver* solver,
+          Table with_table);
 
     Finger finger;
     std::optional<double> circle_radius_mm;
     EquilibriumSolver solver;  // for contacts beyond the table
     bool gauge_places;         // among the parameters
-    SensitivityTable table;
+    std::optional<SensitivityTable> table;
     Eigen::MatrixXd factor;  // of C_pp
     // Work space: the matrix of ReadSensitivities; J with weights; (J'WJ)^-1
     // J'W; dx/dp; dx/dp times the factor.

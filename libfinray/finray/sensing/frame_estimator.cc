@@ -90,6 +90,14 @@ std::unique_ptr<FrameEstimator> FrameEstimator::ForAnotherThread() const {
   return std::unique_ptr<FrameEstimator>(new FrameEstimator(*this));
 }
 
+std::unique_ptr<FrameEstimator> FrameEstimator::WithErrorsOf(
+    const ParameterCovariance& calibration) const {
+  auto other = ForAnotherThread();
+  other->finger_.calibration = calibration;
+  if (!other->systematic_.empty()) other->systematic_.SetErrors(calibration);
+  return other;
+}
+
 double FrameEstimator::LeastForce_N(const Finger& finger) {
   return std::min(kLeastForce_N, kLeastForce * ForceUnit(finger));
 }

@@ -66,6 +66,10 @@ class FrameEstimator {
   /// rivals, so that it takes far less time. No thread may use this one
   /// meanwhile.
   std::unique_ptr<FrameEstimator> ForAnotherThread() const;
+  /// The same under another calibration of the same parameters. Only its
+  /// covariance and its discrepancy count, not its values.
+  std::unique_ptr<FrameEstimator> WithErrorsOf(
+      const ParameterCovariance& calibration) const;
 
   /// Estimates one frame by itself.
   FrameEstimate Estimate(const Measurements& readings);

@@ -123,34 +123,40 @@ double CrossValidatedLogLikelihood(const CalibrationProblem& problem,
 
 CrossValidation CrossValidate(
     const CalibrationProblem& problem, const Identifiability& found,
-    const WideLinearization& wide,
+    const WideLinearization& wide, const FrameEstimator* estimator,
     const std::optional<GaugeDiscrepancy>& discrepancy) {
   CrossValidation result;
   result.errors.front_length_mm = problem.finger().front_length_mm;
   for (const std::vector<int>& frames : wide.frames) {
     if (frames.empty()) return result;
   }
+  const Finger solved = problem.parameters().Apply(problem.finger());
   struct Fold {
     SensedFrames sensed;
     double friction = 0;
   };
   std::array<Fold, WideLinearization::kFolds> folds;
   ForEachFold(problem, wide, [&](int fold, const LeftOut& left) {
-    const std::vector<int>& all = wide.frames[fold];
-    const std::size_t count = std::min(
-        all.size(), CrossValidation::kMostChecked / WideLinearization::kFolds);
-    std::vector<int> frames;
-    for (std::size_t k = 0; k < count; ++k) {
-      const int i = all[k * all.size() / count];
-      if (!problem.frame(i).IsBench()) frames.push_back(i);
-    }
+    const std::vector<int>& frames = wide.checked[fold];
     if (frames.empty()) return;
     LeftOutFinger without(problem, found, left, frames);
-    if (without.finger.calibration) {
+    std::unique_ptr<FrameEstimator> own;
+    if (estimator != nullptr && without.finger.calibration) {
       without.finger.calibration->discrepancy = discrepancy;
+      own = estimator->WithErrorsOf(*without.finger.calibration);
+    }
+    const Eigen::VectorXd moved = left.values - problem.Values();
+    std::vector<Measurements> readings =
+        SensedReadings(problem.Part(frames, 1).get(), solved, frames);
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+      const Eigen::VectorXd more_V = wide.readings_V.at(frames[k]) * moved;
+      for (std::size_t j = 0; j < readings[k].gauges_V.size(); ++j) {
+        readings[k].gauges_V[j] -= more_V[static_cast<Eigen::Index>(j)];
+      }
     }
     folds[fold] = {
-        SenseFrames(without.part.get(), without.finger, frames, false),
+        {ReferencesAt(without.part.get(), without.finger, frames, nullptr),
+         EstimateReadings(own ? own.get() : estimator, readings, 1)},
         without.part->parameters().friction()};
   });
   for (const Fold& fold : folds) {

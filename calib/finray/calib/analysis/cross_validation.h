@@ -12,6 +12,7 @@
 #include "finray/calib/analysis/score_test.h"
 #include "finray/calib/problem/calibration_problem.h"
 #include "finray/finger/gauge_discrepancy.h"
+#include "finray/sensing/frame_estimator.h"
 
 namespace finray {
 
@@ -57,16 +58,22 @@ double CrossValidatedLogLikelihood(const CalibrationProblem& problem,
                                    const WideLinearization& wide);
 
 /// Forces from the gauges alone, each fold with the finger that the
-/// other folds calibrate, against the references. It takes at most kMostChecked
-/// frames, evenly spread. With a discrepancy the intervals have it too.
+/// other folds calibrate, against the references, for the frames of
+/// WideLinearization::checked. With a discrepancy the intervals have it too.
+///
+/// The finger theta_k senses in readings V what the finger theta senses in
+///
+///   V - dV/dtheta (theta_k - theta),
+///
+/// to first order like theta_k itself. So `estimator`, one of the finger at the
+/// solution with a covariance, serves all folds (SensingEstimator).
 struct CrossValidation {
-  static constexpr std::size_t kMostChecked = 1000;
   int folds = 0;  ///< 0 if it was not done: too few frames, or held-out ones.
   ErrorTable errors;
 };
 CrossValidation CrossValidate(
     const CalibrationProblem& problem, const Identifiability& found,
-    const WideLinearization& wide,
+    const WideLinearization& wide, const FrameEstimator* estimator,
     const std::optional<GaugeDiscrepancy>& discrepancy = std::nullopt);
 
 }  // namespace finray

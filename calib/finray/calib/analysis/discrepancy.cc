@@ -78,16 +78,25 @@ Model FitModel(const std::vector<GaugeError>& errors, double load_N,
     }
     const auto count = static_cast<double>(last - first);
     a /= count;
+    // Work space, as small matrices cost less than their memory.
+    Eigen::MatrixXd next, both, share;
+    Eigen::VectorXd mean;
+    Eigen::LLT<Eigen::MatrixXd> root(gauges);
     for (int round = 0; round < kRounds; ++round) {
-      Eigen::MatrixXd next = Eigen::MatrixXd::Zero(gauges, gauges);
+      next.setZero(gauges, gauges);
       for (std::size_t i = first; i < last; ++i) {
         const GaugeError& at = errors[i];
-        const Eigen::MatrixXd s = size(at) * a;
+        const double s = size(at);
         // The discrepancy of this frame, given its error.
-        const Eigen::MatrixXd share =
-            Eigen::LLT<Eigen::MatrixXd>(at.expected + s).solve(s).transpose();
-        const Eigen::VectorXd mean = share * at.error_rad;
-        next += (mean * mean.transpose() + s - share * s) / size(at);
+        both = at.expected + s * a;
+        root.compute(both);
+        share = a;
+        root.solveInPlace(share);
+        share *= s;
+        mean.noalias() = share.transpose().lazyProduct(at.error_rad);
+        next += a;
+        next.noalias() += mean.lazyProduct(mean.transpose()) / s;
+        next.noalias() -= share.transpose().lazyProduct(a);
       }
       a = 0.5 / count * (next + next.transpose());
     }
@@ -107,7 +116,8 @@ void AddErrors(CalibrationProblem* problem, const Finger& finger,
   logs = problem->parameters().Corrected(logs, finger);
   const double coefficient = problem->parameters().friction();
   EquilibriumSolver solver(finger, problem->discretization());
-  CalibrationUncertainty uncertainty(finger, coefficient, &solver);
+  CalibrationUncertainty uncertainty(finger, coefficient, &solver, {},
+                                     CalibrationUncertainty::Table::kNone);
   const auto gauges = static_cast<Eigen::Index>(finger.gauges.size());
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const CalibrationFrame& frame = logs.frames[k];

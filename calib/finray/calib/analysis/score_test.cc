@@ -281,6 +281,21 @@ class ScoreRanking {
   std::vector<Candidates> tests_;
 };
 
+// The derivatives of readings, from the residuals of a frame.
+Eigen::MatrixXd ReadingsBy(const std::vector<Eigen::Index>& columns,
+                           std::size_t gauges, const LinearizedFrame& at) {
+  Eigen::MatrixXd readings_V =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(gauges),
+                            static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t i = 0; i < at.rows.size(); ++i) {
+    if (at.rows[i].family != ResidualFamily::kGauge) continue;
+    const auto row = static_cast<Eigen::Index>(i);
+    readings_V.row(at.rows[i].gauge) =
+        at.rows[i].std_V / at.weights[row] * at.by_parameter(row, columns);
+  }
+  return readings_V;
+}
+
 }  // namespace
 
 WideLinearization LinearizeWide(const CalibrationProblem& problem,
@@ -315,12 +330,26 @@ WideLinearization LinearizeWide(const CalibrationProblem& problem,
   }
   for (const std::vector<int>& of_fold : wide.frames) {
     wide.folds.emplace_back(static_cast<int>(columns), of_fold.size());
+    std::vector<int>& checked = wide.checked.emplace_back();
+    const std::size_t count =
+        std::min(of_fold.size(),
+                 WideLinearization::kMostChecked / WideLinearization::kFolds);
+    for (std::size_t k = 0; k < count; ++k) {
+      const int i = of_fold[k * of_fold.size() / count];
+      if (problem.frame(i).IsBench()) continue;
+      checked.push_back(i);
+      wide.readings_V[i];
+    }
   }
   ContactStore contacts(wide.problem.get());
   contacts.Set(solution.contacts);
   LinearizeFrames(frames, wide.problem.get(), &contacts,
                   [&](int i, const LinearizedFrame& frame) {
                     wide.folds[fold_of[i]].Add(i, problem.frame(i).log, frame);
+                    const auto kept = wide.readings_V.find(i);
+                    if (kept == wide.readings_V.end()) return;
+                    kept->second = ReadingsBy(
+                        wide.free, problem.finger().gauges.size(), frame);
                   });
   for (Linearization& fold : wide.folds) fold.Finish();
   return wide;

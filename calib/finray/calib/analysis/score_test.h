@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "finray/calib/analysis/candidate_effects.h"
@@ -19,10 +20,16 @@ namespace finray {
 /// free as well, in folds: blocks of neighbouring rows, dealt out in turn.
 struct WideLinearization {
   static constexpr int kFolds = 5;
+  static constexpr std::size_t kMostChecked = 1000;
   /// Its plan frees the candidates too. Its values are those of the solution.
   std::unique_ptr<CalibrationProblem> problem;
   std::vector<std::vector<int>> frames;  ///< Of each fold.
   std::vector<Linearization> folds;
+  /// Frames of each fold that CrossValidate estimates, evenly spread and
+  /// kMostChecked of all, and the derivatives of what their gauges read: V by
+  /// the free parameters of the solved problem, a row for each gauge.
+  std::vector<std::vector<int>> checked;
+  std::unordered_map<int, Eigen::MatrixXd> readings_V;
   /// The columns of the free parameters of the solved problem, in their order,
   /// and those of the candidates.
   std::vector<Eigen::Index> free, candidates;

@@ -1,5 +1,8 @@
 #include "finray/calib/analysis/validation.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -15,11 +18,12 @@ namespace finray {
 namespace {
 
 double TouchedAt(const CalibrationFrame& frame, const Plan& plan,
+                 const std::vector<PointContact>& near,
                  EquilibriumSolver* solver) {
   solver->Reset();
   const ObjectContact found = SolveObjectContact(
       *plan.scene.object, {frame.object_mm},
-      frame.FrictionOr(plan.scene.friction_coefficient), solver);
+      frame.FrictionOr(plan.scene.friction_coefficient), solver, near);
   const bool one = found.status == ObjectContactStatus::kContact &&
                    found.contacts.size() == 1;
   return one ? found.contacts[0].arc_mm : kNaN;
@@ -102,6 +106,15 @@ Scene SensedScene(const Plan& plan) {
   return scene;
 }
 
+// These frames, corrected by the present values of the problem.
+CalibrationLogs CorrectedFrames(CalibrationProblem* problem,
+                                const Finger& calibrated,
+                                const std::vector<int>& frames) {
+  CalibrationLogs logs{problem->logs().paths, problem->logs().names, {}, {}};
+  for (const int i : frames) logs.frames.push_back(problem->frame(i));
+  return problem->parameters().Corrected(logs, calibrated);
+}
+
 // Says whether a frame with contact has this reference.
 bool HasReference(const Validation& validation,
                   double FrameReference::*quantity) {
@@ -142,9 +155,9 @@ double FigureOf(const std::string& gate, const ErrorRow& errors) {
 std::vector<FrameReference> ReferencesOf(const CalibrationLogs& logs,
                                          const Finger& finger, const Plan& plan,
                                          const Discretization& discretization,
-                                         int threads) {
-  const auto reference_of = [&](const CalibrationFrame& frame,
-                                EquilibriumSolver* solver) {
+                                         int threads, const Contacts& near) {
+  const auto reference_of = [&](std::size_t i, EquilibriumSolver* solver) {
+    const CalibrationFrame& frame = logs.frames[i];
     FrameReference reference;
     reference.contact = frame.contact;
     reference.undecided = frame.undecided;
@@ -155,7 +168,11 @@ std::vector<FrameReference> ReferencesOf(const CalibrationLogs& logs,
       reference.contact_std_mm = plan.contact_std_mm;
     } else if (frame.contact && frame.object_mm.allFinite() &&
                plan.scene.circle_radius_mm()) {
-      reference.contact_mm = TouchedAt(frame, plan, solver);
+      std::vector<PointContact> guess;
+      if (!near.empty() && near[i][1] > 0) {
+        guess.push_back({near[i][0], near[i][1]});
+      }
+      reference.contact_mm = TouchedAt(frame, plan, guess, solver);
       reference.contact_std_mm = plan.object_std_mm;
     }
     return reference;
@@ -164,7 +181,7 @@ std::vector<FrameReference> ReferencesOf(const CalibrationLogs& logs,
   VisitInParallel(references.size(), threads,
                   EquilibriumSolver(finger, discretization),
                   [&](std::size_t i, EquilibriumSolver* solver) {
-                    references[i] = reference_of(logs.frames[i], solver);
+                    references[i] = reference_of(i, solver);
                   });
   return references;
 }
@@ -175,34 +192,66 @@ void SensedFrames::AddTo(ErrorTable* table, std::size_t k,
              friction);
 }
 
-SensedFrames SenseFrames(CalibrationProblem* problem, const Finger& calibrated,
-                         const std::vector<int>& frames, bool places) {
-  const Plan plan = problem->parameters().Corrected(problem->plan());
-  CalibrationLogs logs{problem->logs().paths, problem->logs().names, {}, {}};
-  for (const int i : frames) logs.frames.push_back(problem->frame(i));
-  const CalibrationLogs corrected =
-      problem->parameters().Corrected(logs, calibrated);
-  SensedFrames sensed;
-  sensed.estimates.resize(frames.size());
-  // A contact has two unknowns, so fewer than two gauges give no estimate.
-  if (calibrated.gauges.size() >= 2) {
-    std::vector<Measurements> readings;
-    for (const CalibrationFrame& frame : corrected.frames) {
-      readings.push_back(GaugesOnly(frame));
-    }
-    sensed.estimates =
-        EstimateFrames(calibrated, SensedScene(plan), problem->discretization(),
-                       readings, problem->threads());
-  }
-  Plan referenced = plan;
-  if (!places) referenced.scene.object.reset();
-  sensed.references =
-      ReferencesOf(corrected, calibrated, referenced, problem->discretization(),
-                   problem->threads());
-  return sensed;
+std::unique_ptr<const FrameEstimator> SensingEstimator(
+    const CalibrationProblem& problem, const Finger& calibrated) {
+  if (calibrated.gauges.size() < 2) return nullptr;
+  return std::make_unique<const FrameEstimator>(
+      calibrated, SensedScene(problem.parameters().Corrected(problem.plan())),
+      problem.discretization());
 }
 
-ForceCheck CheckForces(CalibrationProblem* problem, const Finger& calibrated) {
+std::vector<Measurements> SensedReadings(CalibrationProblem* problem,
+                                         const Finger& calibrated,
+                                         const std::vector<int>& frames) {
+  std::vector<Measurements> readings;
+  for (const CalibrationFrame& frame :
+       CorrectedFrames(problem, calibrated, frames).frames) {
+    readings.push_back(GaugesOnly(frame));
+  }
+  return readings;
+}
+
+std::vector<FrameEstimate> EstimateReadings(
+    const FrameEstimator* estimator, const std::vector<Measurements>& readings,
+    int threads) {
+  std::vector<FrameEstimate> estimates(readings.size());
+  if (estimator == nullptr) return estimates;
+  FrameSolverPool pool([estimator] {
+    const std::shared_ptr<FrameEstimator> own = estimator->ForAnotherThread();
+    return [own](const Measurements* some, std::size_t count,
+                 FrameEstimate* to) { own->EstimateBlock(some, count, to); };
+  });
+  const std::size_t blocks =
+      (readings.size() + kBlockFrames - 1) / kBlockFrames;
+  tbb::task_arena(threads).execute([&] {
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+      const std::size_t begin = block * kBlockFrames;
+      const std::size_t end = std::min(begin + kBlockFrames, readings.size());
+      pool.SolveBlock(&readings[begin], end - begin, &estimates[begin]);
+    });
+  });
+  return estimates;
+}
+
+std::vector<FrameReference> ReferencesAt(CalibrationProblem* problem,
+                                         const Finger& calibrated,
+                                         const std::vector<int>& frames,
+                                         const Contacts* near) {
+  Plan plan = problem->parameters().Corrected(problem->plan());
+  Contacts some;
+  if (near != nullptr) {
+    for (const int i : frames) some.push_back((*near)[i]);
+  } else {
+    plan.scene.object.reset();
+  }
+  return ReferencesOf(CorrectedFrames(problem, calibrated, frames), calibrated,
+                      plan, problem->discretization(), problem->threads(),
+                      some);
+}
+
+ForceCheck CheckForces(CalibrationProblem* problem, const Finger& calibrated,
+                       const FrameEstimator* estimator,
+                       const Contacts& contacts) {
   const Plan plan = problem->parameters().Corrected(problem->plan());
   ForceCheck check;
   check.frames = FramesToCheck(*problem);
@@ -230,7 +279,11 @@ ForceCheck CheckForces(CalibrationProblem* problem, const Finger& calibrated) {
     has_before[k * frames / some] = true;
     check.before[k * frames / some] = were[k];
   }
-  SensedFrames after = SenseFrames(problem, calibrated, check.frames);
+  SensedFrames after = {
+      ReferencesAt(problem, calibrated, check.frames, &contacts),
+      EstimateReadings(estimator,
+                       SensedReadings(problem, calibrated, check.frames),
+                       problem->threads())};
   for (ForceCheck::Errors* errors : {&check.fitted, &check.held_out}) {
     errors->before.front_length_mm = errors->after.front_length_mm =
         calibrated.front_length_mm;

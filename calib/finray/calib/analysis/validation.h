@@ -1,6 +1,7 @@
 #ifndef FINRAY_CALIB_ANALYSIS_VALIDATION_H_
 #define FINRAY_CALIB_ANALYSIS_VALIDATION_H_
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "finray/calib/analysis/error_table.h"
 #include "finray/calib/analysis/gate.h"
 #include "finray/calib/problem/calibration_problem.h"
+#include "finray/calib/solve/contact_store.h"
 #include "finray/io/frame_table.h"
 #include "finray/sensing/frame_estimator.h"
 
@@ -20,11 +22,13 @@ namespace finray {
 ///  - the contact is `contact_1_mm`. If that is not measured, it is the place
 ///    where the front beam of `finger` touches the circle of the plan, held at
 ///    the measured centre, if there is one such place only. The centre tells
-///    the place along the beam almost whatever the stiffness.
+///    the place along the beam almost whatever the stiffness. The search for it
+///    starts at the frame's contact of `near`, if that has one.
 std::vector<FrameReference> ReferencesOf(const CalibrationLogs& logs,
                                          const Finger& finger, const Plan& plan,
                                          const Discretization& discretization,
-                                         int threads);
+                                         int threads,
+                                         const Contacts& near = {});
 
 /// What the gauges alone and the references say of some frames.
 struct SensedFrames {
@@ -35,12 +39,31 @@ struct SensedFrames {
   void AddTo(ErrorTable* table, std::size_t k, double friction) const;
 };
 
-/// Senses frames with `calibrated`, which is the finger at the present values
-/// of the problem. Readings and references are corrected by these values. The
-/// place of a circle costs as much as an estimate, and is a reference only with
-/// `places`.
-SensedFrames SenseFrames(CalibrationProblem* problem, const Finger& calibrated,
-                         const std::vector<int>& frames, bool places = true);
+/// Makes an estimator of `calibrated`, which is the finger at the present
+/// values of the problem. It is null with fewer than two gauges: a contact has
+/// two unknowns.
+std::unique_ptr<const FrameEstimator> SensingEstimator(
+    const CalibrationProblem& problem, const Finger& calibrated);
+
+/// What the gauges alone read in these frames, corrected by the present values
+/// of the problem, as estimates of `calibrated` take it.
+std::vector<Measurements> SensedReadings(CalibrationProblem* problem,
+                                         const Finger& calibrated,
+                                         const std::vector<int>& frames);
+
+/// Estimates readings with the estimator of SensingEstimator, with the same
+/// results on any number of threads.
+std::vector<FrameEstimate> EstimateReadings(
+    const FrameEstimator* estimator, const std::vector<Measurements>& readings,
+    int threads);
+
+/// The references of frames, corrected by the present values of the problem.
+/// The place of a circle costs as much as an estimate, and is a reference only
+/// with `near`, the contacts of the solution.
+std::vector<FrameReference> ReferencesAt(CalibrationProblem* problem,
+                                         const Finger& calibrated,
+                                         const std::vector<int>& frames,
+                                         const Contacts* near);
 
 /// Compares the references with the gauges alone, before and after a
 /// calibration. The estimate before the calibration takes the readings as they
@@ -74,8 +97,11 @@ struct ForceCheck {
   } fitted, held_out;
 };
 
-/// `calibrated` is the finger of the problem at its solution.
-ForceCheck CheckForces(CalibrationProblem* problem, const Finger& calibrated);
+/// `calibrated` is the finger of the problem at its solution, `estimator` one
+/// of it, and `contacts` are those of the solution.
+ForceCheck CheckForces(CalibrationProblem* problem, const Finger& calibrated,
+                       const FrameEstimator* estimator,
+                       const Contacts& contacts);
 
 /// Compares a finger with logs that it was not calibrated from.
 struct Validation {

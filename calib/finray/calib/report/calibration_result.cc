@@ -320,6 +320,11 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
     result.leave_one_log_out =
         LeaveLogsOut(problem, result.solution, result.identifiability);
   }
+  // It serves all checks: they differ in what they say of errors only.
+  Finger solved = problem->parameters().Apply(problem->finger());
+  KeepCovariance(problem->parameters(), of_noise, &solved);
+  std::unique_ptr<const FrameEstimator> estimator =
+      SensingEstimator(*problem, solved);
   if (result.solution.solve.converged && !result.solution.at.frames.empty()) {
     problem->Tell("effects that the plan leaves out");
     const WideLinearization wide = LinearizeWide(*problem, result.solution);
@@ -331,14 +336,14 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
                                 RefitRivals(at, result.score));
     }
     if (problem->plan().holdout_by == HoldoutBy::kNothing) {
-      result.cross_validation =
-          CrossValidate(*problem, result.identifiability, wide);
+      result.cross_validation = CrossValidate(*problem, result.identifiability,
+                                              wide, estimator.get());
     }
     result.discrepancy = FitDiscrepancy(
         GaugeErrorsOf(*problem, result.solution, of_noise, wide));
     if (result.discrepancy && result.cross_validation.folds > 0) {
-      result.with_discrepancy =
-          CrossValidate(*problem, of_noise, wide, result.discrepancy);
+      result.with_discrepancy = CrossValidate(
+          *problem, of_noise, wide, estimator.get(), result.discrepancy);
     }
   }
   problem->Tell("check of forces and contacts");
@@ -350,7 +355,11 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
   if (result.finger.calibration) {
     result.finger.calibration->discrepancy = result.discrepancy;
   }
-  result.forces = CheckForces(problem, result.finger);
+  if (estimator && result.finger.calibration) {
+    estimator = estimator->WithErrorsOf(*result.finger.calibration);
+  }
+  result.forces = CheckForces(problem, result.finger, estimator.get(),
+                              result.solution.contacts);
   result.bench =
       TestBenchLinearity(problem->finger(), problem->plan(), problem->logs());
   result.free_scatter = MeasureFreeScatter(
