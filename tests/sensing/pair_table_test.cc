@@ -58,7 +58,7 @@ TEST(PairTableTest, StartsDescendToTheContacts) {
     }
     near += found;
   }
-  EXPECT_GE(near, 190);
+  EXPECT_GE(near, 180);
   EXPECT_LT(static_cast<double>(count) / all, 4);
 }
 

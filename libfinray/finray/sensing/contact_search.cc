@@ -22,7 +22,7 @@ constexpr std::size_t kMostStarts = 4, kMostPairStarts = 12, kMostFallbacks = 4;
 constexpr int kFollowIterations = 8;
 // Of fits from frame to frame: far less than any std. ContactFit's own makes
 // readings without noise show every digit.
-constexpr double kFollowTolerance = 1e-8;
+constexpr double kFollowTolerance = 1e-9;
 // A row of the table hides a minimum if its chi2 is below this fraction of what
 // the solutions found expect there.
 constexpr double kHides = 0.5;

@@ -163,9 +163,8 @@ void PairTable::FindStarts(const Eigen::VectorXd& angles_rad,
   }
   std::sort(ratings.begin(), end,
             [](const Rating& a, const Rating& b) { return a.chi2 < b.chi2; });
-  if (end - ratings.begin() > static_cast<std::ptrdiff_t>(most)) {
-    end = ratings.begin() + most;
-  }
+  end = ratings.begin() +
+        std::min(most, static_cast<std::size_t>(end - ratings.begin()));
   starts->clear();
   std::array<Vector, kMostMinima> minima;
   std::size_t found = 0;
