@@ -143,8 +143,7 @@ class Grid {
                            EstimatorUse use) {
         FrameBudget budget = ladder.budget;
         // In these every frame is searched.
-        if (scene == "two_contacts" || scene == "circle" ||
-            use == EstimatorUse::kSearch) {
+        if (scene == "circle" || use == EstimatorUse::kSearch) {
           budget = {4, scene == "two_contacts" ? 4 : 16};
         }
         AddLadder(

@@ -34,7 +34,9 @@ void FrameEstimator::EstimateBlock(const Measurements* readings,
       searched = ++i;
       continue;
     }
-    if (!SearchNext(readings[i], packed_[i], &estimates[i])) {
+    const bool followed = SearchNext(readings[i], packed_[i], &estimates[i]);
+    const bool follow = CanFollow(packed_[i], estimates[i]);
+    if (!followed) {
       // Another explanation may have been there while frames were followed.
       if (doubtful_ < kDoubtful) searched = i;
       for (; searched < i; ++searched) {
@@ -43,7 +45,6 @@ void FrameEstimator::EstimateBlock(const Measurements* readings,
       }
       searched = i + 1;
     }
-    const bool follow = CanFollow(packed_[i], estimates[i]);
     ++i;
     if (!follow) continue;
     std::size_t end = i;
