@@ -52,8 +52,15 @@ std::vector<FrameEstimate> EstimateFrames(
     const Finger& finger, const Scene& scene,
     const Discretization& discretization,
     const std::vector<Measurements>& readings, int threads) {
+  return EstimateFrames(FrameSolvers(finger, scene, discretization), readings,
+                        threads);
+}
+
+std::vector<FrameEstimate> EstimateFrames(
+    const FrameSolverFactory& make, const std::vector<Measurements>& readings,
+    int threads) {
   std::vector<FrameEstimate> estimates(readings.size());
-  FrameSolverPool pool(FrameSolvers(finger, scene, discretization));
+  FrameSolverPool pool(make);
   const std::size_t blocks =
       (readings.size() + kBlockFrames - 1) / kBlockFrames;
   tbb::task_arena(std::max(1, threads)).execute([&] {

@@ -48,6 +48,10 @@ std::vector<FrameEstimate> EstimateFrames(
     const Finger& finger, const Scene& scene,
     const Discretization& discretization,
     const std::vector<Measurements>& readings, int threads);
+/// The same with solvers of one's own.
+std::vector<FrameEstimate> EstimateFrames(
+    const FrameSolverFactory& make, const std::vector<Measurements>& readings,
+    int threads);
 
 }  // namespace finray
 

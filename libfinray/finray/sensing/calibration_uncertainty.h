@@ -41,10 +41,11 @@ namespace finray {
 /// a table, the equilibrium is solved again.
 class CalibrationUncertainty {
  public:
+  /// kNone: Of() solves every equilibrium.
+  enum class Table { kMade, kNone };
   /// Creates the table with `solver`, which is then as after Reset(). A table
   /// takes as long as some hundred solves. For a finger without a covariance
   /// the object is empty: it solves and stores nothing.
-  enum class Table { kMade, kNone };
   CalibrationUncertainty(const Finger& finger, double friction,
                          EquilibriumSolver* solver,
                          std::optional<double> circle_radius_mm = std::nullopt,

@@ -128,8 +128,9 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
   // however far the table's nodes are from it. Then chi2 cannot tell which
   // minimum is right, and all starts are tried.
   const bool exact = contacts == 1 && dof < 1;
-  const bool close = exact || HasCloseMinima(solver_.model().finger()) ||
-                     (!starts_.empty() && starts_[0].error > kCoarse);
+  const bool close =
+      exact || HasCloseMinima(solver_.model().finger()) ||
+      (contacts == 1 && !starts_.empty() && starts_[0].error > kCoarse);
   // The surface's contacts have the scene's friction.
   on_surface_ = method_ == FrameMethod::kFast && contacts == 1 &&
                 friction_ == scene_.friction_coefficient;
@@ -140,11 +141,11 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
     found_.Keep();
     if (&found_.best() == &found_.last()) best_from_ = start.state;
   };
-  for (turn_ = 0; turn_ < starts_.size(); ++turn_) {
-    const ContactStart& start = starts_[turn_];
+  // A rival may be hidden by noise, and two contacts are followed from here.
+  const double within = contacts == 2 ? kSuspect : kWithinNoise;
+  for (const ContactStart& start : contacts == 2 ? pair_starts_ : starts_) {
     // This start can neither win nor be a rival, and those behind it are worse.
-    if (!exact &&
-        kTableFactor * start.chi2 >= found_.least_chi2() + kWithinNoise) {
+    if (!exact && kTableFactor * start.chi2 >= found_.least_chi2() + within) {
       break;
     }
     // Wherever it is, a contact without force is the free finger.
@@ -173,6 +174,7 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
       fallbacks = kMostFallbacks;
     }
   }
+  suspect_ = contacts == 2 && found_.rival(kSuspect) != nullptr;
   if (contacts == 1 && !found_.empty() && method_ == FrameMethod::kFast) {
     SearchRows(packed, close);
     if (close) {
@@ -330,17 +332,18 @@ void ContactSearch::FindStarts(int contacts, const PackedReadings& packed) {
   profile_.clear();
   const PairTable& pairs = tables_->Pairs(&solver_);
   if (!spread) {
-    pairs.FindStarts(packed.values, packed.weights, kMostPairStarts, &starts_);
+    pairs.FindStarts(packed.values, packed.weights, kMostPairStarts,
+                     &pair_starts_);
     return;
   }
   constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
-  pairs.FindStarts(packed.values, packed.weights, kAll, &starts_);
-  const std::size_t all = starts_.size();
+  pairs.FindStarts(packed.values, packed.weights, kAll, &pair_starts_);
+  const std::size_t all = pair_starts_.size();
   if (all <= kMostPairStarts) return;
   for (std::size_t k = 0; k < kMostPairStarts; ++k) {
-    starts_[k] = starts_[(2 * k + 1) * all / (2 * kMostPairStarts)];
+    pair_starts_[k] = pair_starts_[(2 * k + 1) * all / (2 * kMostPairStarts)];
   }
-  starts_.resize(kMostPairStarts);
+  pair_starts_.resize(kMostPairStarts);
 }
 
 bool ContactSearch::Fit(const ContactStart& start,
@@ -398,15 +401,14 @@ void ContactSearch::Take(const ContactFit& fit,
   }
 }
 
-bool ContactSearch::BeginFollowing(const PackedReadings& packed) {
-  if (!following_) return false;
-  while (Probe(packed)) continue;
-  if (HasSuspect()) return false;
+bool ContactSearch::BeginFollowing() {
+  if (!following_ || suspect_) return false;
   followed_.assign(best().contacts.begin(), best().contacts.end());
   solver_.set_state(*best_from_);
   if (!solver_.Solve(followed_)) return false;
   solver_.SaveState(&exact_);
   following_->set_state(exact_);
+  searched_chi2_ = best().chi2;
   turn_ = 0;
   return true;
 }
@@ -420,25 +422,23 @@ bool ContactSearch::Follow(const PackedReadings& packed) {
   const bool converged =
       following_->Follow(packed.values, packed.weights, &followed_);
   Spend(following_->iterations(), converged);
-  if (!converged) return false;
+  if (!converged || following_->chi2() > searched_chi2_ + kSuspect) {
+    return false;
+  }
   Take(*following_, followed_);
   found_.Keep();
-  if (turn_ >= kMostPairStarts) {
+  if (turn_ == kMostPairStarts) {
     FindStarts(2, packed);
     turn_ = 0;
   }
-  if (!Probe(packed)) ++turn_;
-  return found_.first().chi2 < best().chi2 + kWithinNoise && !HasSuspect();
-}
-
-bool ContactSearch::Probe(const PackedReadings& packed) {
-  if (turn_ >= starts_.size() || found_.full() ||
-      kTableFactor * starts_[turn_].chi2 >= best().chi2 + kSuspect ||
-      !MayGoOn()) {
-    return false;
+  if (turn_ < pair_starts_.size() && MayGoOn() &&
+      kTableFactor * pair_starts_[turn_].chi2 < best().chi2 + kSuspect &&
+      FitEquilibria(pair_starts_[turn_], packed)) {
+    found_.Keep();
   }
-  if (FitEquilibria(starts_[turn_++], packed)) found_.Keep();
-  return true;
+  ++turn_;
+  suspect_ = found_.rival(kSuspect) != nullptr;
+  return !suspect_ && found_.first().chi2 < best().chi2 + kWithinNoise;
 }
 
 bool ContactSearch::FitByCeres(const ContactStart& start,

@@ -52,7 +52,7 @@ class ContactSearch {
   /// Begins a frame. Its searches share Scene::search_iteration_limit.
   void Begin() {
     spent_ = 0;
-    ended_ = false;
+    ended_ = suspect_ = false;
   }
   /// Searches with one or two contacts. Returns false if no start converged.
   bool Search(int contacts, const Measurements& row,
@@ -62,17 +62,16 @@ class ContactSearch {
 
   /// After a search for two contacts: prepares Follow for a frame with the same
   /// gauges. Returns false if the frame after must be searched.
-  bool BeginFollowing(const PackedReadings& packed);
+  bool BeginFollowing();
   /// Fits two contacts from those that the last frame left, and from one start
-  /// of the table, another one in every frame. Returns false where only a
-  /// search can tell what explains the frame: the contacts have jumped, or the
-  /// start leads to others that explain it too.
+  /// of the table, another one in every frame. Returns false, and leaves no
+  /// results, where only a search can tell what explains the frame: the
+  /// contacts have jumped, chi2 has risen since the search, or the start leads
+  /// to others that explain the frame too.
   bool Follow(const PackedReadings& packed);
-  /// Says whether the last call has found a solution that noise makes a rival
-  /// in some frames.
-  bool HasSuspect() const {
-    return !found_.empty() && found_.rival(kSuspect) != nullptr;
-  }
+  /// Says whether a search for two contacts or Follow has found, in this frame,
+  /// a solution that noise makes a rival in some frames.
+  bool HasSuspect() const { return suspect_; }
 
   /// chi2 of the finger without a contact.
   double FreeChi2(const Measurements& row, const PackedReadings& packed);
@@ -144,9 +143,6 @@ class ContactSearch {
   bool FitEquilibria(const ContactStart& start, const PackedReadings& packed,
                      bool known = false);
   bool FitByCeres(const ContactStart& start, const Measurements& row);
-  // Fits from the next start that might lead near a rival. Returns false if it
-  // does not.
-  bool Probe(const PackedReadings& packed);
   // Fills in the next solution.
   void Take(const ContactFit& fit, const std::vector<PointContact>& contacts);
 
@@ -163,12 +159,15 @@ class ContactSearch {
   ContactFit fit_;
   LadderState exact_;  // where a fit goes on to rounding
   FrameProblem problem_;
-  std::vector<ContactStart> profile_, starts_;
+  std::vector<ContactStart> profile_, starts_;  // of one contact
+  std::vector<ContactStart> pair_starts_;
   std::vector<PointContact> contacts_;
   const LadderState* best_from_ = nullptr;  // of the start that led to best()
   std::optional<ContactFit> following_;     // if the scene allows two contacts
   std::vector<PointContact> followed_;
-  std::size_t turn_ = 0;  // of the starts
+  std::size_t turn_ = 0;      // of pair_starts_
+  double searched_chi2_ = 0;  // where following began
+  bool suspect_ = false;
   int iterations_ = 0;
   int spent_ = 0;  // by all searches of the frame
   bool ended_ = false;

@@ -109,9 +109,14 @@ bool FrameEstimator::SearchNext(const Measurements& readings,
         estimate->dof > 0 && estimate->chi2 < ContactSearch::kNoiseless;
     if (is_sure() && !noiseless) return true;
     doubtful = search_.HasSuspect();
+    // Nothing is left to search with.
+    if (search_.ended() && estimate->contacts > 0) {
+      follows_two_ = false;
+      return false;
+    }
   }
   Explain(readings, packed, estimate);
-  follows_two_ = all && is_sure() && search_.BeginFollowing(packed);
+  follows_two_ = all && is_sure() && search_.BeginFollowing();
   doubtful |= estimate->contacts == 2 && search_.HasSuspect();
   doubtful_ = doubtful ? kDoubtful : std::max(0, doubtful_ - 1);
   follows_two_ &= doubtful_ == 0;

@@ -83,7 +83,9 @@ class FrameEstimator {
   // (docs/guides/sense_live.md):
 
   /// Estimates the next frame of a log. If the scene asks for smoothing, the
-  /// frames before smooth it.
+  /// frames before smooth it. Another explanation of two contacts that are
+  /// followed may be noticed up to twelve frames late, while EstimateBlock then
+  /// searches the frames before, too.
   FrameEstimate Next(const Measurements& readings);
   /// Makes what frames with one contact and the scene's friction would make
   /// when they first need it, so that none of them waits.

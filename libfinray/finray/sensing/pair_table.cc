@@ -38,6 +38,7 @@ double LogStep(int k) { return std::log(kPairForces[k + 1] / kPairForces[k]); }
 PairTable::PairTable(EquilibriumSolver* solver, double friction)
     : friction_(friction) {
   const Finger& finger = solver->model().finger();
+  static_assert(kForcePairs == kPairForceCount * kPairForceCount);
   gauges_ = solver->model().gauges();
   unit_N_ = ForceUnit(finger);
   length_mm_ = finger.front_length_mm;
@@ -116,6 +117,7 @@ PairTable::Rating PairTable::Rate(const Pair& pair,
   }
   Rating best{&pair, -1, std::numeric_limits<double>::infinity()};
   for (int force = 0; force < kForcePairs; ++force) {
+    if (std::isnan(pair.values(force, 0))) continue;
     if (rating[force] < best.chi2) best = {&pair, force, rating[force]};
   }
   return best;
@@ -274,7 +276,7 @@ bool PairTable::Descent(const Place& cell, const Vector& x,
   }
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
   Vector right = Vector::Zero();
-  for (Eigen::Index j = 0; j < angles_rad.size(); ++j) {
+  for (int j = 0; j < gauges_; ++j) {
     const double w = weight_per_rad[j];
     if (w == 0) continue;
     double value = 0;

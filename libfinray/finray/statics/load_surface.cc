@@ -377,12 +377,14 @@ bool LoadSurface::Make(LoadCell* cell) const {
   cell->error = arc.error + force.error;
   if (cell->error > 1) {
     const int arcs = arc.Needed(), forces = force.Needed();
-    if (arcs <= kMostArcTerms && forces <= kMostForceTerms) {
-      cell->arc_terms = arcs;
-      cell->force_terms = forces;
-      return false;
-    }
-    if (may_halve) {
+    const bool enough = arcs <= kMostArcTerms && forces <= kMostForceTerms;
+    if (enough || !may_halve) {
+      cell->arc_terms = std::min(arcs, kMostArcTerms);
+      cell->force_terms = std::min(forces, kMostForceTerms);
+      if (cell->arc_terms != arc_terms || cell->force_terms != force_terms) {
+        return false;
+      }
+    } else {
       cell->Halve(arcs > kMostArcTerms &&
                   (forces <= kMostForceTerms || arc.error > force.error));
       return true;

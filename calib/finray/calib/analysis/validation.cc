@@ -1,8 +1,5 @@
 #include "finray/calib/analysis/validation.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -214,23 +211,13 @@ std::vector<Measurements> SensedReadings(CalibrationProblem* problem,
 std::vector<FrameEstimate> EstimateReadings(
     const FrameEstimator* estimator, const std::vector<Measurements>& readings,
     int threads) {
-  std::vector<FrameEstimate> estimates(readings.size());
-  if (estimator == nullptr) return estimates;
-  FrameSolverPool pool([estimator] {
+  if (estimator == nullptr) return std::vector<FrameEstimate>(readings.size());
+  const auto make = [estimator]() -> FrameSolver {
     const std::shared_ptr<FrameEstimator> own = estimator->ForAnotherThread();
     return [own](const Measurements* some, std::size_t count,
                  FrameEstimate* to) { own->EstimateBlock(some, count, to); };
-  });
-  const std::size_t blocks =
-      (readings.size() + kBlockFrames - 1) / kBlockFrames;
-  tbb::task_arena(threads).execute([&] {
-    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-      const std::size_t begin = block * kBlockFrames;
-      const std::size_t end = std::min(begin + kBlockFrames, readings.size());
-      pool.SolveBlock(&readings[begin], end - begin, &estimates[begin]);
-    });
-  });
-  return estimates;
+  };
+  return EstimateFrames(make, readings, threads);
 }
 
 std::vector<FrameReference> ReferencesAt(CalibrationProblem* problem,

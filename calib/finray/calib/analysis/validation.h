@@ -52,7 +52,7 @@ std::vector<Measurements> SensedReadings(CalibrationProblem* problem,
                                          const std::vector<int>& frames);
 
 /// Estimates readings with the estimator of SensingEstimator, with the same
-/// results on any number of threads.
+/// results on any number of threads. Without an estimator no frame is solved.
 std::vector<FrameEstimate> EstimateReadings(
     const FrameEstimator* estimator, const std::vector<Measurements>& readings,
     int threads);
