@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t kMostPairs = 12;
 
-// Whether a start is as near as the interpolation of the grid is exact: 2 mm
-// and 5 % where it is 11.7 mm and a factor of three wide.
+// Says whether both contacts of a start lie within 2 mm and 5 % of the true
+// ones. The nodes are 11.7 mm and a factor of three apart.
 bool IsNearBoth(const ContactStart& start, const PointContact* contacts) {
   for (int c = 0; c < 2; ++c) {
     if (std::abs(start.contacts[c].arc_mm - contacts[c].arc_mm) > 2 ||

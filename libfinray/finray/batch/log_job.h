@@ -113,7 +113,8 @@ EstimationSummary Total(const std::vector<LogJob>& jobs);
 /// Names and summaries of all logs, for WarningsOf.
 std::vector<LogSummary> SummariesOf(const std::vector<LogJob>& jobs);
 
-/// What summary.yaml says of hidden forces (FindHiddenForces), if anything.
+/// Finds the hidden forces (FindHiddenForces) that summary.yaml reports.
+/// Returns nothing with --joint and without contacts.
 std::optional<HiddenForces> HiddenForcesOf(const BatchSettings& settings);
 
 /// The text of summary.yaml: the settings, the hidden forces, each log, the

@@ -20,8 +20,8 @@ constexpr double kTableFactor = 0.25;
 constexpr std::size_t kMostStarts = 4, kMostPairStarts = 12, kMostFallbacks = 4;
 // Contacts that need more iterations from frame to frame have jumped.
 constexpr int kFollowIterations = 8;
-// Of fits from frame to frame: far less than any std. ContactFit's own makes
-// readings without noise show every digit.
+// A followed fit ends at this tolerance, far below any std. ContactFit's own
+// makes readings without noise show every digit.
 constexpr double kFollowTolerance = 1e-9;
 // A row of the table hides a minimum if its chi2 is below this fraction of what
 // the solutions found expect there.

@@ -31,7 +31,7 @@ class FoundSolutions {
   /// A solution with a force on its bound is the best one only if nothing else
   /// explains the frame.
   const ContactSolution& best() const { return solutions_[best_]; }
-  /// Those kept first and last.
+  /// The solutions that Keep has stored first and last.
   const ContactSolution& first() const { return solutions_[0]; }
   const ContactSolution& last() const { return solutions_[count_ - 1]; }
   /// Its chi2; infinite if there is none.

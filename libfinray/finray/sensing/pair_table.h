@@ -48,8 +48,8 @@ class PairTable {
   // All nodes at one pair of places, by pairs of forces.
   struct Pair {
     int first, second;
-    // Of each gauge an angle in rad and its slopes per spacing. NaN where the
-    // finger folds over.
+    // The angle of each gauge in rad, then its slopes per spacing. NaN where
+    // the finger folds over.
     Eigen::Array<double, kForcePairs, Eigen::Dynamic> values;
     std::array<LadderState, kForcePairs> states;
   };

@@ -45,8 +45,8 @@ struct SensedFrames {
 std::unique_ptr<const FrameEstimator> SensingEstimator(
     const CalibrationProblem& problem, const Finger& calibrated);
 
-/// What the gauges alone read in these frames, corrected by the present values
-/// of the problem, as estimates of `calibrated` take it.
+/// Returns the gauges' readings of these frames, corrected by the present
+/// values of the problem, as estimates of `calibrated` take it.
 std::vector<Measurements> SensedReadings(CalibrationProblem* problem,
                                          const Finger& calibrated,
                                          const std::vector<int>& frames);

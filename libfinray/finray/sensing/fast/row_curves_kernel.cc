@@ -14,7 +14,7 @@ using V = Row::Vector;
 static_assert(RowCurves::kPadding % kWidth == 0);
 
 constexpr int kRefinements = 4;
-// What belongs to values beyond these is formed anew where it is needed.
+// The first kKept values keep their terms. Those of the others are formed anew.
 constexpr int kKept = 16;
 
 V WithinOne(V share) {
