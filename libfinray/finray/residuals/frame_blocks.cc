@@ -81,9 +81,9 @@ void AddReadings(const std::vector<Gauge>& gauges, Builder* out) {
                                    history.hysteresis_rad});
       std_V = std::hypot(std_V, history.history->KeptStd_V(history.row));
     }
-    const auto coefficients = AddTerms(of.readings[j], &blocks);
+    std::vector<double> coefficients = AddTerms(of.readings[j], &blocks);
     out->Add(new GaugeReadingResidual(out->evaluation, j, &out->row.gauges_V[j],
-                                      std_V, coefficients, history,
+                                      std_V, std::move(coefficients), history,
                                       of.flat_shares != nullptr),
              std::move(blocks), ResidualFamily::kGauge, j, std_V);
   }
@@ -219,6 +219,7 @@ std::vector<FrameBlock> MeasurementBlocks(const Measurements& row,
     return std::move(out.blocks);
   }
   out.of_model = ModelBlocks(parameters, *evaluation, unknowns);
+  out.blocks.reserve(gauges.size() + 2);  // force and place
   AddReadings(gauges, &out);
   AddForce(&out);
   AddPlace(&out);

@@ -3,6 +3,8 @@
 
 #include <ceres/cost_function.h>
 
+#include <cstddef>
+#include <initializer_list>
 #include <vector>
 
 #include "finray/residuals/frame_evaluation.h"
@@ -20,7 +22,10 @@ namespace finray {
 class FrameResidual : public ceres::CostFunction {
  protected:
   FrameResidual(const FrameEvaluation* frame, int residuals,
-                const std::vector<int>& extra_blocks = {});
+                std::initializer_list<int> extra_blocks = {});
+  /// All extra blocks have one parameter.
+  FrameResidual(const FrameEvaluation* frame, int residuals,
+                std::size_t extra_blocks);
 
   /// Index of the first extra block.
   int extra_block() const { return extra_block_; }
@@ -44,6 +49,9 @@ class FrameResidual : public ceres::CostFunction {
   const FrameEvaluation& frame() const { return *frame_; }
 
  private:
+  // Sets the sizes of the blocks before the extra ones.
+  void SetSizes(int residuals, std::size_t extra_blocks);
+
   const FrameEvaluation* frame_;
   int extra_block_;
 };

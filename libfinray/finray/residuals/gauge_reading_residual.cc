@@ -1,22 +1,23 @@
 #include "finray/residuals/gauge_reading_residual.h"
 
 #include <cmath>
+#include <utility>
 
 namespace finray {
 
-GaugeReadingResidual::GaugeReadingResidual(
-    const FrameEvaluation* frame, int gauge, const double* reading_V,
-    double std_V, const std::vector<double>& coefficients,
-    const HistoryTerm& history, bool flat)
+GaugeReadingResidual::GaugeReadingResidual(const FrameEvaluation* frame,
+                                           int gauge, const double* reading_V,
+                                           double std_V,
+                                           std::vector<double> coefficients,
+                                           const HistoryTerm& history,
+                                           bool flat)
     : FrameResidual(frame, 1,
-                    std::vector<int>(
-                        2 + (frame->movable_gauges() ? 2 : 0) + (flat ? 2 : 0) +
-                            (history.history ? 3 : 0) + coefficients.size(),
-                        1)),
+                    2 + (frame->movable_gauges() ? 2 : 0) + (flat ? 2 : 0) +
+                        (history.history ? 3 : 0) + coefficients.size()),
       gauge_(gauge),
       reading_V_(reading_V),
       std_V_(std_V),
-      coefficients_(coefficients),
+      coefficients_(std::move(coefficients)),
       history_(history.history),
       history_row_(history.row),
       flat_(flat) {}

@@ -33,7 +33,7 @@ class GaugeReadingResidual : public FrameResidual {
   /// `coefficients` are the c_k; the default is an offset only.
   GaugeReadingResidual(const FrameEvaluation* frame, int gauge,
                        const double* reading_V, double std_V,
-                       const std::vector<double>& coefficients = {1},
+                       std::vector<double> coefficients = {1},
                        const HistoryTerm& history = {}, bool flat = false);
 
   bool Evaluate(double const* const* parameters, double* residuals,

@@ -69,13 +69,13 @@ bool ReferenceForceResidual::Evaluate(double const* const* parameters,
 ReferenceForceVectorResidual::ReferenceForceVectorResidual(
     const FrameEvaluation* frame, const Eigen::Vector2d& force_N, double std_N,
     double object_angle_rad, const LateForce& late)
-    : FrameResidual(frame, 2,
-                    late.signals != nullptr ? std::vector<int>{1, 2, 1, 2, 1}
-                                            : std::vector<int>{1, 2, 1, 2}),
+    : FrameResidual(frame, 2, {1, 2, 1, 2}),
       force_N_(force_N),
       std_N_(std_N),
       object_angle_rad_(object_angle_rad),
-      late_(late) {}
+      late_(late) {
+  if (late_.signals != nullptr) mutable_parameter_block_sizes()->push_back(1);
+}
 
 bool ReferenceForceVectorResidual::Evaluate(double const* const* parameters,
                                             double* residuals,

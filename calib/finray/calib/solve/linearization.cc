@@ -58,7 +58,7 @@ Linearization::Linearization(int parameters, std::size_t most_frames)
 
 void Linearization::Add(int frame, int log, const LinearizedFrame& at) {
   const Eigen::VectorXd weighted = at.WeightedResiduals();
-  const Eigen::MatrixXd& c = at.reduced;
+  const LinearizedFrame::Rows& c = at.reduced;
   const Eigen::VectorXd pull = c.transpose() * weighted;
   pulls.col(static_cast<Eigen::Index>(frames.size())) = pull.cast<float>();
   gradient += pull;

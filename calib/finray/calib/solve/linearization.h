@@ -24,10 +24,12 @@ struct LinearizedFrame {
     int gauge;         ///< The gauge of kGauge and kBench, else -1.
     double std_V = 0;  ///< Of the reading, for kGauge.
   };
+  using Rows =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   std::vector<Row> rows;
-  Eigen::VectorXd residuals;     ///< r, without weights.
-  Eigen::VectorXd weights;       ///< w.
-  Eigen::MatrixXd by_parameter;  ///< C, rows x free parameters, weighted.
+  Eigen::VectorXd residuals;  ///< r, without weights.
+  Eigen::VectorXd weights;    ///< w.
+  Rows by_parameter;          ///< C, rows x free parameters, weighted.
   /// E, rows x (l_c, f_c), weighted. It is zero for a free frame.
   Eigen::Matrix<double, Eigen::Dynamic, 2> by_contact;
   double cost = 0;  ///< The sum of rho / 2.
@@ -39,14 +41,14 @@ struct LinearizedFrame {
   /// (A | B) = -(E'E)^-1 E'(r | C).
   struct ContactMove {
     Eigen::Vector2d now = Eigen::Vector2d::Zero();
-    Eigen::Matrix<double, 2, Eigen::Dynamic> by_parameter;
+    Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor> by_parameter;
     double decrease = 0;  ///< The move A lowers the cost by this.
   };
   ContactMove move;
   /// The rows with the contact eliminated, C - E (E'E)^-1 E'C. They say what
   /// the frame tells about the parameters if l_c and f_c may be anything. Their
   /// product with themselves is the information of the frame.
-  Eigen::MatrixXd reduced;
+  Rows reduced;
 
   /// Computes `move` and `reduced` from the rest.
   void Eliminate();
