@@ -1,11 +1,13 @@
 #include "finray/calib/problem/repeated_rows.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <utility>
 #include <vector>
+
+#include "finray/io/nan.h"
 
 namespace finray {
 namespace {
@@ -16,12 +18,20 @@ int Compare(double a, double b) {
   return (a > b) - (a < b);
 }
 
-int Compare(const std::vector<double>& a, const std::vector<double>& b) {
+template <class Numbers>
+int Compare(const Numbers& a, const Numbers& b) {
   for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
     if (const int order = Compare(a[i], b[i])) return order;
   }
   return static_cast<int>(a.size()) - static_cast<int>(b.size());
 }
+
+// A row beside its first numbers, which nearly always differ. A million frames
+// would not fit into the cache.
+struct KeyedRow {
+  std::array<double, 3> key;
+  int row;
+};
 
 // Everything that a row measures, at any time.
 std::vector<double> Numbers(const CalibrationFrame& frame) {
@@ -38,12 +48,17 @@ std::vector<double> Numbers(const CalibrationFrame& frame) {
   return numbers;
 }
 
-// Calls `visit(first, last)` for each run of rows that `order` calls equal.
-void VisitRuns(std::vector<int>* rows,
-               const std::function<int(int, int)>& order,
+// Calls `visit(first, last)` for each run of rows whose keys are equal and that
+// `rest` calls equal.
+void VisitRuns(std::vector<KeyedRow>* rows,
+               const std::function<int(int, int)>& rest,
                const std::function<void(std::size_t, std::size_t)>& visit) {
+  const auto order = [&](const KeyedRow& a, const KeyedRow& b) {
+    const int by_key = Compare(a.key, b.key);
+    return by_key != 0 ? by_key : rest(a.row, b.row);
+  };
   std::sort(rows->begin(), rows->end(),
-            [&](int a, int b) { return order(a, b) < 0; });
+            [&](const auto& a, const auto& b) { return order(a, b) < 0; });
   for (std::size_t first = 0; first < rows->size();) {
     std::size_t last = first + 1;
     while (last < rows->size() && order((*rows)[first], (*rows)[last]) == 0) {
@@ -58,50 +73,48 @@ void VisitRuns(std::vector<int>* rows,
 
 void MarkRepeatedRows(const Plan& plan, CalibrationLogs* logs) {
   std::vector<CalibrationFrame>& frames = logs->frames;
-  std::vector<int> rows(frames.size());
-  std::iota(rows.begin(), rows.end(), 0);
+  const auto count = static_cast<int>(frames.size());
+  std::vector<KeyedRow> rows;
+  for (int i = 0; i < count; ++i) {
+    const std::vector<double>& gauges = frames[i].gauges_V;
+    KeyedRow keyed{{kNaN, kNaN, kNaN}, i};
+    std::copy_n(gauges.begin(), std::min(gauges.size(), keyed.key.size()),
+                keyed.key.begin());
+    rows.push_back(keyed);
+  }
   VisitRuns(
       &rows,
       [&](int a, int b) {
-        // Gauges nearly always differ.
-        const int gauges = Compare(frames[a].gauges_V, frames[b].gauges_V);
-        return gauges != 0 ? gauges
-                           : Compare(Numbers(frames[a]), Numbers(frames[b]));
+        return Compare(Numbers(frames[a]), Numbers(frames[b]));
       },
       [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k) {
-          frames[rows[k]].readings_std_times =
+          frames[rows[k].row].readings_std_times =
               std::sqrt(static_cast<double>(last - first));
         }
       });
 
-  const auto place = [&](int i) -> std::vector<double> {
+  rows.clear();
+  for (int i = 0; i < count; ++i) {
     const CalibrationFrame& frame = frames[i];
-    if (!frame.object_mm.allFinite()) {
-      return {
-          std::round(frame.contact_mm / (kSamePlace * plan.contact_std_mm))};
-    }
-    const double cell = kSamePlace * plan.object_std_mm;
-    return {std::round(frame.object_mm.x() / cell),
-            std::round(frame.object_mm.y() / cell)};
-  };
-  rows.erase(
-      std::remove_if(rows.begin(), rows.end(),
-                     [&](int i) {
-                       return std::isnan(place(i)[0]) ||
-                              !(frames[i].contact || frames[i].undecided);
-                     }),
-      rows.end());
+    if (!frame.contact && !frame.undecided) continue;
+    const bool object = frame.object_mm.allFinite();
+    if (!object && std::isnan(frame.contact_mm)) continue;
+    const double cell =
+        kSamePlace * (object ? plan.object_std_mm : plan.contact_std_mm);
+    const double x = object ? frame.object_mm.x() : frame.contact_mm;
+    const double y = object ? frame.object_mm.y() : kNaN;
+    rows.push_back({{static_cast<double>(frame.log), std::round(x / cell),
+                     std::round(y / cell)},
+                    i});
+  }
   VisitRuns(
-      &rows,
-      [&](int a, int b) {
-        const int log = frames[a].log - frames[b].log;
-        return log != 0 ? log : Compare(place(a), place(b));
-      },
+      &rows, [](int, int) { return 0; },
       [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k) {
-          frames[rows[k]].place_std_times =
-              std::max(frames[rows[k]].readings_std_times,
+          CalibrationFrame& frame = frames[rows[k].row];
+          frame.place_std_times =
+              std::max(frame.readings_std_times,
                        std::sqrt(static_cast<double>(last - first)));
         }
       });

@@ -20,26 +20,35 @@ FrameTable CalibrationFrames(CalibrationProblem& problem,
         "fit_normal_N"}) {
     table.MutableNumbers(name);
   }
-  for (int j = 0; j < static_cast<int>(problem.finger().gauges.size()); ++j) {
+  const auto gauges = static_cast<int>(problem.finger().gauges.size());
+  for (int j = 0; j < gauges; ++j) {
     table.MutableNumbers(IndexedColumn("gauge_", j, "_residual_std"));
   }
   for (const char* name : {"status_after", "rejected"}) table.MutableText(name);
+  const auto fill = [&](const char* name, const auto& value) {
+    std::vector<double>& column = table.MutableNumbers(name);
+    for (std::size_t i = 0; i < logs.frames.size(); ++i) {
+      column[i] = value(logs.frames[i]);
+    }
+  };
+  fill("row", [](const auto& frame) { return frame.row + 1; });
+  fill("time_s", [](const auto& frame) { return frame.time_s; });
+  fill("held_out", [](const auto& frame) { return frame.held_out; });
+  fill("force_N", ReferenceForce);
+  std::vector<std::string>&log = table.MutableText("log"),
+  &kind = table.MutableText("kind");
+  std::vector<double>&arc_mm = table.MutableNumbers("fit_contact_mm"),
+  &normal_N = table.MutableNumbers("fit_normal_N");
+  for (std::size_t i = 0; i < logs.frames.size(); ++i) {
+    const CalibrationFrame& frame = logs.frames[i];
+    log[i] = logs.paths[frame.log];
+    kind[i] = frame.IsBench() ? "bench" : frame.contact ? "contact" : "free";
+    arc_mm[i] = result.solution.contacts[i][0];
+    normal_N[i] = result.solution.contacts[i][1];
+  }
   const auto set = [&](int frame, const std::string& name, double value) {
     table.MutableNumbers(name)[frame] = value;
   };
-  for (int i = 0; i < static_cast<int>(logs.frames.size()); ++i) {
-    const CalibrationFrame& frame = logs.frames[i];
-    table.MutableText("log")[i] = logs.paths[frame.log];
-    table.MutableText("kind")[i] = frame.IsBench() ? "bench"
-                                   : frame.contact ? "contact"
-                                                   : "free";
-    set(i, "row", frame.row + 1);
-    set(i, "time_s", frame.time_s);
-    set(i, "held_out", frame.held_out);
-    set(i, "force_N", ReferenceForce(frame));
-    set(i, "fit_contact_mm", result.solution.contacts[i][0]);
-    set(i, "fit_normal_N", result.solution.contacts[i][1]);
-  }
   const double friction = problem.parameters().friction();
   const ForceCheck& forces = result.forces;
   for (std::size_t k = 0; k < forces.frames.size(); ++k) {
@@ -56,12 +65,15 @@ FrameTable CalibrationFrames(CalibrationProblem& problem,
     set(frame, "contact_after_mm", after.arc_mm);
     set(frame, "contact_after_std_mm", after.arc_std_mm);
   }
+  std::vector<std::vector<double>*> residual_std;
+  for (int j = 0; j < gauges; ++j) {
+    residual_std.push_back(
+        &table.MutableNumbers(IndexedColumn("gauge_", j, "_residual_std")));
+  }
   const Linearization& at = result.solution.at;
   for (std::size_t k = 0; k < at.rows.size(); ++k) {
     if (at.rows[k].family != ResidualFamily::kGauge) continue;
-    set(at.rows[k].frame,
-        IndexedColumn("gauge_", at.rows[k].gauge, "_residual_std"),
-        at.residuals[k]);
+    (*residual_std[at.rows[k].gauge])[at.rows[k].frame] = at.residuals[k];
   }
   for (const auto& [frame, reason] : problem.rejected()) {
     table.MutableText("rejected")[frame] = reason;
