@@ -81,6 +81,18 @@ TEST(CrossValidationTest, IntervalsOfACleanLogHold) {
   EXPECT_NEAR(forces.coverage_95_percent(), 95, 5);
 }
 
+// Candidates add columns; what the free parameters predict stays the same.
+TEST(CrossValidationTest, FoldsNeedFewCandidates) {
+  const TempFolder folder;
+  Calibrated all(StandardPlan(), {StandardLog(folder, HiddenFinger(), 63)});
+  const WideLinearization wide = LinearizeWide(*all.problem, all.solution);
+  const WideLinearization folds = LinearizeFolds(*all.problem, all.solution);
+  EXPECT_GT(wide.candidates.size(), 10u);
+  EXPECT_LT(folds.candidates.size(), 3u);
+  EXPECT_NEAR(CrossValidatedLogLikelihood(*all.problem, folds),
+              CrossValidatedLogLikelihood(*all.problem, wide), 1e-6);
+}
+
 TEST(CrossValidationTest, ThreadsDoNotChangeTheResult) {
   const TempFolder folder;
   Calibrated all(StandardPlan(), {StandardLog(folder, HiddenFinger(), 63)});

@@ -35,7 +35,7 @@ std::optional<SolvedProblem> SolveWith(const CandidateEffect& effect,
     with.solution.at = std::move(solved.at);
     with.solution.contacts = contacts.all();
     with.log_likelihood = CrossValidatedLogLikelihood(
-        *with.problem, LinearizeWide(*with.problem, with.solution));
+        *with.problem, LinearizeFolds(*with.problem, with.solution));
   } catch (const std::runtime_error&) {
     return {};
   }

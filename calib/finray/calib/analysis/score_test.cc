@@ -296,16 +296,12 @@ Eigen::MatrixXd ReadingsBy(const std::vector<Eigen::Index>& columns,
   return readings_V;
 }
 
-}  // namespace
-
-WideLinearization LinearizeWide(const CalibrationProblem& problem,
+// Linearises the frames of a solution with more parameters free, those of
+// `plan`.
+WideLinearization LinearizeWith(const Plan& plan,
+                                const CalibrationProblem& problem,
                                 const CalibrationSolution& solution) {
   WideLinearization wide;
-  Plan plan = problem.plan();
-  for (const CandidateEffect& effect :
-       CandidatesFor(problem.finger(), plan, problem.logs())) {
-    plan = Freed(plan, effect);
-  }
   wide.problem = problem.WithPlan(plan);
   const CalibrationParameters& parameters = wide.problem->parameters();
   std::unordered_set<std::string> free;
@@ -353,6 +349,29 @@ WideLinearization LinearizeWide(const CalibrationProblem& problem,
                   });
   for (Linearization& fold : wide.folds) fold.Finish();
   return wide;
+}
+
+}  // namespace
+
+WideLinearization LinearizeWide(const CalibrationProblem& problem,
+                                const CalibrationSolution& solution) {
+  Plan plan = problem.plan();
+  for (const CandidateEffect& effect :
+       CandidatesFor(problem.finger(), plan, problem.logs())) {
+    plan = Freed(plan, effect);
+  }
+  return LinearizeWith(plan, problem, solution);
+}
+
+WideLinearization LinearizeFolds(const CalibrationProblem& problem,
+                                 const CalibrationSolution& solution) {
+  Plan plan = problem.plan();
+  for (const CandidateEffect& effect :
+       CandidatesFor(problem.finger(), plan, problem.logs())) {
+    const Plan freed = Freed(plan, effect);
+    if (plan.ForceZeroIsKnown() && !freed.ForceZeroIsKnown()) plan = freed;
+  }
+  return LinearizeWith(plan, problem, solution);
 }
 
 const ScoreTest::Effect* ScoreTest::Best() const {

@@ -36,6 +36,11 @@ struct WideLinearization {
 };
 WideLinearization LinearizeWide(const CalibrationProblem& problem,
                                 const CalibrationSolution& solution);
+/// The same with few candidates, for CrossValidatedLogLikelihood: those that
+/// let the forces of free frames count (Plan::ForceZeroIsKnown), so that the
+/// same measurements are predicted whatever the plan frees.
+WideLinearization LinearizeFolds(const CalibrationProblem& problem,
+                                 const CalibrationSolution& solution);
 
 /// What solving with an effect free has found, where the score test may err.
 struct Refit {
