@@ -1,5 +1,7 @@
 #include "finray/calib/analysis/discrepancy.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
@@ -57,6 +59,50 @@ double LogLikelihood(const std::vector<GaugeError>& errors,
   return sum;
 }
 
+double SizeAt(double force_N, double load_N) {
+  return 1 + force_N * force_N / (load_N * load_N);
+}
+
+// The covariance of a place: the maximum of the likelihood over these errors,
+// by expectation and maximisation. With `kGauges` the compiler knows the sizes.
+template <int kGauges>
+Eigen::MatrixXd FitCovariance(const GaugeError* errors, std::size_t count,
+                              double load_N) {
+  using Square = Eigen::Matrix<double, kGauges, kGauges>;
+  using Column = Eigen::Matrix<double, kGauges, 1>;
+  const auto gauges = errors[0].error_rad.size();
+  Square a = Square::Zero(gauges, gauges);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Column error = errors[i].error_rad;
+    a += error * error.transpose() / SizeAt(errors[i].force_N, load_N);
+  }
+  a /= static_cast<double>(count);
+  // Work space, as small matrices cost less than their memory. A product or a
+  // solve by all columns would pack them first.
+  Square next(gauges, gauges), both(gauges, gauges), share(gauges, gauges);
+  Column mean(gauges);
+  Eigen::LLT<Square> root(gauges);
+  for (int round = 0; round < kRounds; ++round) {
+    next.setZero();
+    for (std::size_t i = 0; i < count; ++i) {
+      const GaugeError& at = errors[i];
+      const double s = SizeAt(at.force_N, load_N);
+      // The discrepancy of this frame, given its error.
+      both = at.expected + s * a;
+      root.compute(both);
+      share = a;
+      for (Eigen::Index j = 0; j < gauges; ++j) root.solveInPlace(share.col(j));
+      share *= s;
+      mean.noalias() = share.transpose().lazyProduct(at.error_rad);
+      next += a;
+      next.noalias() += mean.lazyProduct(mean.transpose()) / s;
+      next.noalias() -= share.transpose().lazyProduct(a);
+    }
+    a = 0.5 / static_cast<double>(count) * (next + next.transpose());
+  }
+  return a;
+}
+
 // The places are the middles of as many lengths with equally many errors.
 Model FitModel(const std::vector<GaugeError>& errors, double load_N,
                int places) {
@@ -65,42 +111,14 @@ Model FitModel(const std::vector<GaugeError>& errors, double load_N,
   const std::size_t n = errors.size();
   for (int p = 0; p < places; ++p) {
     const std::size_t first = n * p / places, last = n * (p + 1) / places;
-    const auto gauges = errors[0].error_rad.size();
-    const auto size = [&](const GaugeError& at) {
-      return 1 + at.force_N * at.force_N / (load_N * load_N);
-    };
     double middle = 0;
-    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(gauges, gauges);
-    for (std::size_t i = first; i < last; ++i) {
-      const GaugeError& at = errors[i];
-      middle += at.place_mm;
-      a += at.error_rad * at.error_rad.transpose() / size(at);
-    }
-    const auto count = static_cast<double>(last - first);
-    a /= count;
-    // Work space, as small matrices cost less than their memory.
-    Eigen::MatrixXd next, both, share;
-    Eigen::VectorXd mean;
-    Eigen::LLT<Eigen::MatrixXd> root(gauges);
-    for (int round = 0; round < kRounds; ++round) {
-      next.setZero(gauges, gauges);
-      for (std::size_t i = first; i < last; ++i) {
-        const GaugeError& at = errors[i];
-        const double s = size(at);
-        // The discrepancy of this frame, given its error.
-        both = at.expected + s * a;
-        root.compute(both);
-        share = a;
-        root.solveInPlace(share);
-        share *= s;
-        mean.noalias() = share.transpose().lazyProduct(at.error_rad);
-        next += a;
-        next.noalias() += mean.lazyProduct(mean.transpose()) / s;
-        next.noalias() -= share.transpose().lazyProduct(a);
-      }
-      a = 0.5 / count * (next + next.transpose());
-    }
-    model.discrepancy.places.push_back({middle / count, a});
+    for (std::size_t i = first; i < last; ++i) middle += errors[i].place_mm;
+    const auto fit = errors[0].error_rad.size() == 4
+                         ? FitCovariance<4>  // the usual finger
+                         : FitCovariance<Eigen::Dynamic>;
+    model.discrepancy.places.push_back(
+        {middle / static_cast<double>(last - first),
+         fit(&errors[first], last - first, load_N)});
   }
   model.log_likelihood = LogLikelihood(errors, &model.discrepancy);
   return model;
@@ -193,8 +211,11 @@ std::optional<GaugeDiscrepancy> BestFit(std::vector<GaugeError> errors) {
     if (values < kLeastErrors * numbers) break;
     // What depends on the place shows without it, too.
     if (places > kPlaces[0] && !best) break;
-    for (const double load_N : kLoads_N) {
-      const Model model = FitModel(errors, load_N, places);
+    std::array<Model, std::size(kLoads_N)> models;
+    tbb::parallel_for(std::size_t{0}, models.size(), [&](std::size_t i) {
+      models[i] = FitModel(errors, kLoads_N[i], places);
+    });
+    for (const Model& model : models) {
       const double criterion = -2 * model.log_likelihood + 2 * numbers;
       if (criterion >= best_criterion) continue;
       best_criterion = criterion;

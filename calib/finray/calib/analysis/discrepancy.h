@@ -41,7 +41,8 @@ HeldOutErrors GaugeErrorsOf(const CalibrationProblem& problem,
 /// nothing if that is better without. Errors without a discrepancy gain less
 /// than half a unit of chi2 for each number, as S cannot be negative. Where the
 /// model is wrong, the frames that show it most are rejected; so those join
-/// that are not far beyond what the fitted frames show.
+/// that are not far beyond what the fitted frames show. It uses the threads of
+/// the caller's arena.
 std::optional<GaugeDiscrepancy> FitDiscrepancy(const HeldOutErrors& errors);
 
 /// "gauges are off by up to 1.2 mrad rms under 5 N at 70 mm".

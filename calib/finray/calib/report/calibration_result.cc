@@ -1,5 +1,8 @@
 #include "finray/calib/report/calibration_result.h"
 
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -312,6 +315,16 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
   result.residual_correlation = AnalyzeResidualCorrelation(
       problem->logs(), result.solution.at, result.identifiability);
   const Identifiability of_noise = result.identifiability;
+  // One estimator serves all checks: they differ in what they say of errors
+  // only. Its tables are made beside the advice.
+  Finger solved = problem->parameters().Apply(problem->finger());
+  KeepCovariance(problem->parameters(), of_noise, &solved);
+  std::unique_ptr<const FrameEstimator> estimator;
+  tbb::task_arena arena(problem->threads());
+  tbb::task_group tables;
+  arena.execute([&] {
+    tables.run([&] { estimator = SensingEstimator(*problem, solved); });
+  });
   EnlargeStd(result.residual_correlation, &result.identifiability);
   problem->Tell("what to record next");
   result.next =
@@ -320,11 +333,7 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
     result.leave_one_log_out =
         LeaveLogsOut(problem, result.solution, result.identifiability);
   }
-  // It serves all checks: they differ in what they say of errors only.
-  Finger solved = problem->parameters().Apply(problem->finger());
-  KeepCovariance(problem->parameters(), of_noise, &solved);
-  std::unique_ptr<const FrameEstimator> estimator =
-      SensingEstimator(*problem, solved);
+  arena.execute([&] { tables.wait(); });
   if (result.solution.solve.converged && !result.solution.at.frames.empty()) {
     problem->Tell("effects that the plan leaves out");
     const WideLinearization wide = LinearizeWide(*problem, result.solution);
@@ -339,8 +348,9 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
       result.cross_validation = CrossValidate(*problem, result.identifiability,
                                               wide, estimator.get());
     }
-    result.discrepancy = FitDiscrepancy(
-        GaugeErrorsOf(*problem, result.solution, of_noise, wide));
+    const HeldOutErrors errors =
+        GaugeErrorsOf(*problem, result.solution, of_noise, wide);
+    arena.execute([&] { result.discrepancy = FitDiscrepancy(errors); });
     if (result.discrepancy && result.cross_validation.folds > 0) {
       result.with_discrepancy = CrossValidate(
           *problem, of_noise, wide, estimator.get(), result.discrepancy);
