@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kSmallDecrease = FrameLinearizer::kSmallDecrease;
 
+const FrameLinearizer::StartState kUndeformed = [] { return LadderState(); };
+
 class FrameLinearizerTest : public testing::Test {
  protected:
   FrameLinearizerTest() {
@@ -33,10 +35,9 @@ class FrameLinearizerTest : public testing::Test {
   }
 
   double Cost(int frame, const std::array<double, 2>& contact) {
-    LadderState state;
     LinearizedFrame at;
     EXPECT_TRUE(
-        linearizer_->Linearize(logs_.frames[frame], contact, &state, &at));
+        linearizer_->Linearize(logs_.frames[frame], contact, kUndeformed, &at));
     return at.cost;
   }
 
@@ -54,10 +55,9 @@ TEST_F(FrameLinearizerTest, GradientOfTheCost) {
   for (const int frame : {0, 3, 7}) {
     const bool touches = logs_.frames[frame].contact;
     std::array<double, 2> contact = {60, 2.5};
-    LadderState state;
     LinearizedFrame at;
     ASSERT_TRUE(
-        linearizer_->Linearize(logs_.frames[frame], contact, &state, &at));
+        linearizer_->Linearize(logs_.frames[frame], contact, kUndeformed, &at));
     const Eigen::VectorXd weighted = at.WeightedResiduals();
     const auto difference = [&](double* variable, double step) {
       const double kept = *variable;
@@ -91,10 +91,9 @@ TEST_F(FrameLinearizerTest, FitsTheContact) {
     std::array<double, 2> contact = {
         std::clamp(logs_.frames[frame].object_mm.y() + 5, 20.0, 120.0),
         1.5 * logs_.frames[frame].force_N};
-    LadderState state;
     LinearizedFrame at;
-    ASSERT_TRUE(
-        linearizer_->FitContact(logs_.frames[frame], &contact, &state, &at));
+    ASSERT_TRUE(linearizer_->FitContact(logs_.frames[frame], &contact,
+                                        kUndeformed, &at));
     const LinearizedFrame::ContactMove move = at.move;
     EXPECT_LT(move.decrease, 2 * kSmallDecrease);
     const std::array<double, 2> best = {contact[0] + move.now[0],
@@ -112,17 +111,16 @@ TEST_F(FrameLinearizerTest, FitsTheContact) {
 // The best contact goes with the parameters as B says.
 TEST_F(FrameLinearizerTest, ContactsFollowTheParameters) {
   std::array<double, 2> contact = {60, 2};
-  LadderState state;
   LinearizedFrame at;
   const CalibrationFrame& frame = logs_.frames[7];
-  ASSERT_TRUE(linearizer_->FitContact(frame, &contact, &state, &at));
+  ASSERT_TRUE(linearizer_->FitContact(frame, &contact, kUndeformed, &at));
   const auto move = at.move;
   const Eigen::Vector2d start =
       Eigen::Vector2d(contact[0], contact[1]) + move.now;
   const double step = 1e-3;
   *parameters_->FreeParameter(0).variable += step;
   std::array<double, 2> moved = contact;
-  ASSERT_TRUE(linearizer_->FitContact(frame, &moved, &state, &at));
+  ASSERT_TRUE(linearizer_->FitContact(frame, &moved, kUndeformed, &at));
   const Eigen::Vector2d end = Eigen::Vector2d(moved[0], moved[1]) + at.move.now;
   const Eigen::Vector2d expected = move.by_parameter.col(0) * step;
   // Up to what Gauss-Newton and the changing weights leave out.
@@ -140,9 +138,10 @@ TEST_F(FrameLinearizerTest, ASurfaceTellsTheSameAsTheEquilibria) {
     const CalibrationBlocks blocks(finger_, plan_, &parameters);
     const EquilibriumSolver solver(finger_, {});
     ASSERT_EQ(plan_.MovesGauges(), moves_gauges);
+    const int outputs = moves_gauges ? 10 : 7;  // with a tip and without
     const ModelSurface surface(solver, parameters.shared, parameters.friction(),
                                moves_gauges,
-                               Eigen::VectorXd::Constant(10, 1e-9));
+                               Eigen::VectorXd::Constant(outputs, 1e-9));
     FrameLinearizer plain(solver, plan_, &blocks, &parameters),
         by_surface(solver, plan_, &blocks, &parameters, &surface);
     for (const int frame : {0, 3, 7, 30, 41, 63}) {
@@ -150,12 +149,18 @@ TEST_F(FrameLinearizerTest, ASurfaceTellsTheSameAsTheEquilibria) {
           std::clamp(logs_.frames[frame].object_mm.y() + 5, 20.0, 120.0),
           1.3 * logs_.frames[frame].force_N};
       std::array<double, 2> one = start, other = start;
-      LadderState state, other_state;
       LinearizedFrame at, at_surface;
-      ASSERT_TRUE(plain.FitContact(logs_.frames[frame], &one, &state, &at));
-      ASSERT_TRUE(by_surface.FitContact(logs_.frames[frame], &other,
-                                        &other_state, &at_surface));
-      EXPECT_EQ(other_state.q.size(), 0);  // no equilibrium was solved
+      ASSERT_TRUE(
+          plain.FitContact(logs_.frames[frame], &one, kUndeformed, &at));
+      bool solved = false;
+      ASSERT_TRUE(by_surface.FitContact(
+          logs_.frames[frame], &other,
+          [&] {
+            solved = true;
+            return LadderState();
+          },
+          &at_surface));
+      EXPECT_FALSE(solved);
       EXPECT_NEAR(one[0], other[0], 1e-6);
       EXPECT_NEAR(one[1], other[1], 1e-7);
       EXPECT_NEAR(at.cost, at_surface.cost, 1e-6 * (1 + at.cost));

@@ -155,5 +155,20 @@ TEST(LoadSurfaceTest, ThreadsShareCellsThatAreMadeWhenNeeded) {
   for (const double value : values) EXPECT_EQ(value, values[0]);
 }
 
+// The domain has six cells. One of them holds two of the loads.
+TEST(LoadSurfaceTest, CellsOfLoadsAreMadeBeforehand) {
+  const LoadSurface surface = MakeSurface(Counted);
+  cells_made = 0;
+  surface.MakeFor({{1, 1}, {6, 1}, {1.5, 2}, {1, 12}, {std::nan(""), 1}});
+  const int made = cells_made;
+  EXPECT_GE(made, 2);
+  LoadSurface::Place place;
+  EXPECT_TRUE(surface.Locate(0.5, 2.5, &place));
+  EXPECT_TRUE(surface.Locate(3, 0, &place));
+  EXPECT_EQ(cells_made, made);
+  EXPECT_TRUE(surface.Locate(1, 5, &place));
+  EXPECT_GT(cells_made, made);
+}
+
 }  // namespace
 }  // namespace finray

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "finray/finger/geometry.h"
+#include "finray/io/nan.h"
 
 namespace finray {
 
@@ -126,11 +127,15 @@ void FrameEvaluation::Take(const double* frame, const Eigen::VectorXd& outputs,
   }
   const int first = contact_row(contacts()), tip = tip_row();
   outputs_.resize(tip + 3);
-  outputs_.head(first) = outputs.head(first);
-  outputs_.tail<3>() = outputs.tail<3>();
   d_outputs_.resize(tip + 3, columns());
+  outputs_.head(first) = outputs.head(first);
   d_outputs_.topRows(first) = d_outputs.topRightCorner(first, columns());
-  d_outputs_.bottomRows<3>() = d_outputs.bottomRightCorner(3, columns());
+  if (outputs.size() > contact_row(1)) {
+    outputs_.tail<3>() = outputs.tail<3>();
+    d_outputs_.bottomRows<3>() = d_outputs.bottomRightCorner(3, columns());
+  } else {
+    outputs_.tail<3>().setConstant(kNaN);
+  }
   by_place_ = by_place;
   valid_ = true;
 }

@@ -64,7 +64,8 @@ class FrameEvaluation {
   bool FitsSurface() const;
   /// Takes the rows of a ModelSurface::Values in place of Update. A frame
   /// without contact takes those of a contact without force. Rows of gauges'
-  /// ends are left undefined. The friction must be that of the constructor.
+  /// ends are left undefined, and those of a tip that is no output are NaN. The
+  /// friction must be that of the constructor.
   void Take(const double* frame, const Eigen::VectorXd& outputs,
             const Matrix& d_outputs,
             const std::vector<Eigen::Vector2d>& by_place);

@@ -13,8 +13,8 @@ constexpr double kHeaviest = 40;
 // A cell that leaves out so many times the resolution is not used.
 constexpr double kInexact = 10;
 // Derivatives by the parameters leave out terms of this size. They move the
-// parameters and their std by as small a share.
-constexpr double kNegligible = 1e-7;
+// parameters, in their std, and the std by as small a share.
+constexpr double kNegligible = 1e-5;
 
 }  // namespace
 
@@ -43,20 +43,18 @@ struct ModelSurface::Model {
     return frame.valid();
   }
 
-  // Writes the outputs, their derivatives by the parameters, and by the places
-  // of the gauges.
-  bool Sample(double arc_mm, double normal_N, double* to) {
+  // Writes the first `count` outputs, their derivatives by the parameters, and
+  // by the places of the gauges.
+  bool Sample(double arc_mm, double normal_N, int count, double* to) {
     // The solver knows the samples before.
     frame.set_state({});
     if (!Update(arc_mm, normal_N)) return false;
     const int first = frame.contact_row(1), tip = frame.tip_row();
-    const auto& outputs = frame.outputs();
     const auto& all = frame.d_outputs();
-    to = std::copy_n(outputs.data(), first, to);
-    to = std::copy_n(outputs.data() + tip, 3, to);
-    for (int i = 0; i < first + 3; ++i) {
-      const int row = i < first ? i : i - first + tip;
-      to = std::copy_n(all.row(row).data() + 2, all.cols() - 2, to);
+    const auto row = [&](int i) { return i < first ? i : i - first + tip; };
+    for (int i = 0; i < count; ++i) *to++ = frame.outputs()[row(i)];
+    for (int i = 0; i < count; ++i) {
+      to = std::copy_n(all.row(row(i)).data() + 2, all.cols() - 2, to);
     }
     if (!frame.movable_gauges()) return true;
     for (int j = 0; j < frame.gauges(); ++j) {
@@ -97,10 +95,10 @@ ModelSurface::ModelSurface(std::shared_ptr<const Model> model,
       surface_(
           model->Domain(), {outputs_, outputs_ * parameters_ + 2 * places_},
           resolution,
-          [model]() -> LoadSurface::Sampler {
+          [model, count = outputs_]() -> LoadSurface::Sampler {
             const auto own = std::make_shared<Model>(*model);
-            return [own](double arc_mm, double normal_N, double* to) {
-              return own->Sample(arc_mm, normal_N, to);
+            return [own, count](double arc_mm, double normal_N, double* to) {
+              return own->Sample(arc_mm, normal_N, count, to);
             };
           },
           kNegligible) {}

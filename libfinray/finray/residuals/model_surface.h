@@ -2,6 +2,7 @@
 #define FINRAY_RESIDUALS_MODEL_SURFACE_H_
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -17,7 +18,8 @@ namespace finray {
 class ModelSurface {
  public:
   /// `solver` and `shared` are copied. `resolution` is what the outputs [gauge
-  /// angles (m); contact (x, y, theta); tip (x, y, theta)] may leave out.
+  /// angles (m); contact (x, y, theta); tip (x, y, theta)] may leave out. It
+  /// may end before the tip, which is then no output.
   ModelSurface(const EquilibriumSolver& solver, const SharedParameters& shared,
                double friction, bool movable_gauges,
                const Eigen::VectorXd& resolution);
@@ -34,6 +36,11 @@ class ModelSurface {
   /// With `all` false, only the derivatives by (l_c, f_c) are set. Returns
   /// false off the surface or where it is not exact enough.
   bool Evaluate(double arc_mm, double normal_N, bool all, Values* values) const;
+
+  /// LoadSurface::MakeFor
+  void MakeFor(const std::vector<std::array<double, 2>>& contacts) const {
+    surface_.MakeFor(contacts);
+  }
 
  private:
   struct Model;

@@ -27,13 +27,17 @@ ReadingHistory::Row ReadingHistory::At(int row, const Values& values) const {
     const std::shared_lock<std::shared_mutex> lock(mutex_);
     if (computed_ && values == at_) return rows_[row];
   }
-  const std::unique_lock<std::shared_mutex> lock(mutex_);
-  if (!computed_ || !(values == at_)) {
-    at_ = values;
-    computed_ = true;
-    Compute();
-  }
+  Follow(values);
+  const std::shared_lock<std::shared_mutex> lock(mutex_);
   return rows_[row];
+}
+
+void ReadingHistory::Follow(const Values& values) const {
+  const std::unique_lock<std::shared_mutex> lock(mutex_);
+  if (computed_ && values == at_) return;
+  at_ = values;
+  computed_ = true;
+  Compute();
 }
 
 void ReadingHistory::KeepStd(const Values& values) {

@@ -42,6 +42,8 @@ class ReadingHistory {
   /// A row with its derivatives. It is that of the row before if this one has
   /// no reading.
   Row At(int row, const Values& values) const;
+  /// Computes all rows at these values, for At.
+  void Follow(const Values& values) const;
 
   /// Keeps the std of d at these values for KeptStd_V. In a sum of squares a
   /// std that goes with a parameter would pull at it.

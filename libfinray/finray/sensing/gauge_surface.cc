@@ -18,11 +18,9 @@ constexpr int kMostHalvings = 6;
 constexpr double kLastNewton = 1e-6, kLastGauss = 1e-9;
 // A change this small may not lower chi2, because of rounding.
 constexpr double kFutile = 1e-5;
-// The surface serves a frame if it is exact to this, in std.
-constexpr double kExact_std = 1e-5;
-// Cells leave out this, in std of the finger's gauges and of a circle measured
-// to kCircle_mm, but no less than rounding.
-constexpr double kResolution_std = 1e-6, kCircle_mm = 1e-3;
+// Cells leave out this share of what a frame may, in std of the finger's gauges
+// and of a circle measured to kCircle_mm, but no less than rounding.
+constexpr double kResolution = 0.1, kCircle_mm = 1e-3;
 constexpr double kLeastResolution_rad = 1e-12;
 // No gauge bends further.
 constexpr double kMostAngle_rad = 0.8;
@@ -31,7 +29,7 @@ constexpr double kMostAngle_rad = 0.8;
 constexpr double kTolerance = 1e-10;
 constexpr int kPoses = 6;
 
-Eigen::VectorXd ResolutionOf(const Finger& finger, bool circle) {
+Eigen::VectorXd ResolutionOf(const Finger& finger, bool circle, double std) {
   const auto gauges = static_cast<Eigen::Index>(finger.gauges.size());
   Eigen::VectorXd resolution(gauges + (circle ? 2 : 0));
   for (Eigen::Index j = 0; j < gauges; ++j) {
@@ -41,9 +39,9 @@ Eigen::VectorXd ResolutionOf(const Finger& finger, bool circle) {
          angle += kMostAngle_rad / 8) {
       weight = std::max(weight, finger.gauges[j].AngleWeight(angle));
     }
-    resolution[j] = std::max(kLeastResolution_rad, kResolution_std / weight);
+    resolution[j] = std::max(kLeastResolution_rad, std / weight);
   }
-  if (circle) resolution.tail<2>().setConstant(kResolution_std * kCircle_mm);
+  if (circle) resolution.tail<2>().setConstant(std * kCircle_mm);
   return resolution;
 }
 
@@ -81,15 +79,17 @@ std::function<LoadSurface::Sampler()> SamplersOf(
 
 GaugeSurface::GaugeSurface(const EquilibriumSolver& solver, double friction,
                            std::optional<double> circle_radius_mm,
-                           double heaviest_N)
+                           double heaviest_N, double exact_std)
     : friction_(friction),
       length_mm_(solver.model().finger().front_length_mm),
       force_unit_N_(ForceUnit(solver.model().finger())),
+      exact_std_(exact_std),
       gauges_(solver.model().gauges()),
       values_(gauges_ + (circle_radius_mm ? 2 : 0)),
       ribs_(solver.model().ribs()),
-      resolution_(
-          ResolutionOf(solver.model().finger(), circle_radius_mm.has_value())),
+      resolution_(ResolutionOf(solver.model().finger(),
+                               circle_radius_mm.has_value(),
+                               kResolution * exact_std)),
       surface_(
           LoadSurface::DomainOf(solver.model().finger(),
                                 solver.model().mesh(Side::kFront), heaviest_N),
@@ -199,7 +199,7 @@ bool GaugeSurface::Fit(const Eigen::Ref<const Eigen::VectorXd>& values,
       solution->information =
           InformationOf(here.normal, length_mm_, force_unit_N_);
       solution->systematic.resize(0, 0);  // FrameEstimator finds it
-      return SetOutputs(kExact_std / weights.cwiseProduct(resolution_).norm(),
+      return SetOutputs(exact_std_ / weights.cwiseProduct(resolution_).norm(),
                         solution);
     }
     x += taken;

@@ -14,14 +14,21 @@ namespace finray {
 /// The measured values s_j of all equilibria with one contact, as functions of
 /// its (l_c, f_c): the gauges' angles in rad and, if the object is a measured
 /// circle, its centre (x, y) in mm behind them (circle_centre.h). Poses and rib
-/// tensions follow. The values are those of the statics to a
-/// millionth of the gauges' noise (load_surface.h), so that a frame is fitted
-/// without solving an equilibrium.
+/// tensions follow. The values are those of the statics to a small part of the
+/// gauges' noise (load_surface.h), so that a frame is fitted without solving an
+/// equilibrium.
 class GaugeSurface {
  public:
+  /// How exact the surface of an estimate is, in std: it serves a frame whose
+  /// measurements are off by no more.
+  static constexpr double kEstimate_std = 1e-5;
+
   /// `solver` is copied when cells are made. Forces go up to `heaviest_N`.
+  /// Cells leave out a tenth of `exact_std`, in std of the finger's gauges and
+  /// of a circle measured to a micrometre.
   GaugeSurface(const EquilibriumSolver& solver, double friction,
-               std::optional<double> circle_radius_mm, double heaviest_N);
+               std::optional<double> circle_radius_mm, double heaviest_N,
+               double exact_std = kEstimate_std);
 
   /// Minimises
   ///
@@ -52,7 +59,7 @@ class GaugeSurface {
   // wrong by more there, in units of its resolution.
   bool SetOutputs(double most_error, ContactSolution* solution) const;
 
-  double friction_, length_mm_, force_unit_N_;
+  double friction_, length_mm_, force_unit_N_, exact_std_;
   int gauges_, values_, ribs_;
   Eigen::VectorXd resolution_;
   LoadSurface surface_;

@@ -1,5 +1,7 @@
 #include "finray/statics/load_surface.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,13 +14,15 @@
 namespace finray {
 namespace {
 
-// A cell starts with as many terms as do for gauges of usual noise. Light loads
-// need fewer.
+// A cell starts with as many terms as do for this resolution, that of an
+// estimate with gauges of usual noise. Light loads need fewer.
+constexpr double kUsualResolution = 1e-10;
 constexpr int kForceTerms[] = {9, 11};
+constexpr double kForceFall = 10;  // from term to term
 // Along an element of usual length the terms fall by this factor each, to this
 // share.
 constexpr double kUsualLength = 0.16;  // of l_0
-constexpr double kArcFall = 8, kArcShare = 1e-12;
+constexpr double kArcFall = 8, kArcShare = 3e-13;
 constexpr int kMostArcTerms = PolynomialBasis::kMostTerms, kMostForceTerms = 12;
 // Half a cell needs fewer terms along the side that was halved, but enough to
 // see them fall.
@@ -133,11 +137,19 @@ struct TermFall {
   }
 };
 
-// The terms along a length in l_0. Half the length doubles the factor.
-int ArcTerms(double length) {
+// The terms along a length in l_0 where the resolution is `coarse` times the
+// usual one. Half the length doubles the factor.
+int ArcTerms(double length, double coarse) {
   const double fall = std::max(2.0, kArcFall * kUsualLength / length);
-  const double terms = std::ceil(-std::log(kArcShare) / std::log(fall));
+  const double terms =
+      std::ceil(-std::log(kArcShare * coarse) / std::log(fall));
   return std::clamp(static_cast<int>(terms), kLeastTerms, kMostArcTerms);
+}
+
+int ForceTerms(int usual, double coarse) {
+  const double fewer = std::log(coarse) / std::log(kForceFall);
+  return std::clamp(usual - static_cast<int>(std::lround(fewer)), kLeastTerms,
+                    usual);
 }
 
 // The interval of rising `nodes` that holds `at`.
@@ -298,14 +310,17 @@ LoadSurface::LoadSurface(Domain domain, std::vector<int> sizes,
       resolution_(std::move(resolution)),
       make_sampler_(std::move(make_sampler)),
       negligible_(negligible) {
+  const double coarse =
+      std::max(1.0, resolution_.minCoeff() / kUsualResolution);
   for (std::size_t i = 0; i + 1 < domain_.arcs_mm.size(); ++i) {
     for (std::size_t k = 0; k + 1 < domain_.forces_N.size(); ++k) {
       auto cell = std::make_unique<LoadCell>();
       cell->arc = {domain_.arcs_mm[i], domain_.arcs_mm[i + 1]};
       cell->force = {domain_.forces_N[k], domain_.forces_N[k + 1]};
       cell->arc_terms = ArcTerms((domain_.arcs_mm[i + 1] - domain_.arcs_mm[i]) /
-                                 domain_.arcs_mm.back());
-      if (k == 0) cell->force_terms = kForceTerms[0];
+                                     domain_.arcs_mm.back(),
+                                 coarse);
+      cell->force_terms = ForceTerms(kForceTerms[k == 0 ? 0 : 1], coarse);
       cells_.push_back(std::move(cell));
     }
   }
@@ -313,24 +328,33 @@ LoadSurface::LoadSurface(Domain domain, std::vector<int> sizes,
 
 LoadSurface::~LoadSurface() = default;
 
-bool LoadSurface::Locate(double arc_mm, double normal_N, Place* place) const {
+std::size_t LoadSurface::CellOf(double arc_mm, double normal_N) const {
   // Written so that a NaN lies outside.
   if (cells_.empty() ||
       !(arc_mm >= domain_.arcs_mm.front() && arc_mm <= domain_.arcs_mm.back() &&
         normal_N >= 0 && normal_N <= domain_.forces_N.back())) {
-    return false;
+    return cells_.size();
   }
-  LoadCell* cell = cells_[IntervalOf(domain_.arcs_mm, arc_mm) *
-                              (domain_.forces_N.size() - 1) +
-                          IntervalOf(domain_.forces_N, normal_N)]
-                       .get();
+  return IntervalOf(domain_.arcs_mm, arc_mm) * (domain_.forces_N.size() - 1) +
+         IntervalOf(domain_.forces_N, normal_N);
+}
+
+const LoadCell* LoadSurface::PartOf(LoadCell* cell, double arc_mm,
+                                    double normal_N) const {
   for (;;) {
     Need(cell);
-    if (!cell->halves[0]) break;
+    if (!cell->halves[0]) return cell;
     const bool upper = cell->halved_by_arc ? arc_mm > cell->arc.middle()
                                            : normal_N > cell->force.middle();
     cell = cell->halves[upper].get();
   }
+}
+
+bool LoadSurface::Locate(double arc_mm, double normal_N, Place* place) const {
+  const std::size_t of_domain = CellOf(arc_mm, normal_N);
+  if (of_domain == cells_.size()) return false;
+  const LoadCell* const cell =
+      PartOf(cells_[of_domain].get(), arc_mm, normal_N);
   if (cell->groups.empty()) return false;
   place->cell_ = cell;
   SetBasis(cell->arc.At(arc_mm), cell->arc.slope(), cell->arc_terms,
@@ -356,6 +380,19 @@ void LoadSurface::MakeWhole(LoadCell* cell) const {
   for (const auto& half : cell->halves) {
     if (half) MakeWhole(half.get());
   }
+}
+
+void LoadSurface::MakeFor(
+    const std::vector<std::array<double, 2>>& loads) const {
+  std::vector<std::vector<std::array<double, 2>>> loads_of(cells_.size() + 1);
+  for (const auto& load : loads) {
+    loads_of[CellOf(load[0], load[1])].push_back(load);
+  }
+  tbb::parallel_for(std::size_t{0}, cells_.size(), [&](std::size_t i) {
+    for (const auto& load : loads_of[i]) {
+      PartOf(cells_[i].get(), load[0], load[1]);
+    }
+  });
 }
 
 bool LoadSurface::Make(LoadCell* cell) const {

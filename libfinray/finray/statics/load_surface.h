@@ -2,6 +2,7 @@
 #define FINRAY_STATICS_LOAD_SURFACE_H_
 
 #include <Eigen/Core>
+#include <array>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -11,6 +12,8 @@
 #include "finray/statics/load_polynomial.h"
 
 namespace finray {
+
+struct LoadCell;
 
 /// Values of a finger's equilibria as functions of the load (l_c, f_c) of one
 /// contact. Between the places where a beam changes, an equilibrium is an
@@ -65,7 +68,7 @@ class LoadSurface {
 
    private:
     friend class LoadSurface;
-    const struct LoadCell* cell_ = nullptr;
+    const LoadCell* cell_ = nullptr;
     PolynomialBasis arc_, force_;
   };
 
@@ -75,6 +78,10 @@ class LoadSurface {
 
   /// Makes all cells, for those who cannot wait later.
   void MakeAll() const;
+  /// Makes the cells of these loads (arc_mm, normal_N), side by side on the
+  /// threads of the caller's arena. Threads that come to a new cell together
+  /// would wait for each other.
+  void MakeFor(const std::vector<std::array<double, 2>>& loads) const;
 
   /// Evaluates a group. `values` has room for Padded(its size).
   void Values(const Place& place, int group, double* values) const;
@@ -85,6 +92,10 @@ class LoadSurface {
   static int Padded(int size);
 
  private:
+  // The cell of the domain that holds a load; cells_.size() outside.
+  std::size_t CellOf(double arc_mm, double normal_N) const;
+  // The part of a cell that holds a load, which is not halved.
+  const LoadCell* PartOf(LoadCell* cell, double arc_mm, double normal_N) const;
   // Makes a cell unless it is made.
   void Need(LoadCell* cell) const;
   void MakeWhole(LoadCell* cell) const;

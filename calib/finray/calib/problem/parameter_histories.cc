@@ -1,5 +1,7 @@
 // How what gauges read depends on the rows before: creep and hysteresis.
 
+#include <tbb/parallel_for.h>
+
 #include <cmath>
 
 #include "finray/calib/problem/parameters.h"
@@ -60,6 +62,15 @@ void CalibrationParameters::KeepHistoryStdAt(
   for (std::vector<ReadingHistory>& log : histories_) {
     for (std::size_t j = 0; j < kept_.size(); ++j) log[j].KeepStd(kept_[j]);
   }
+}
+
+void CalibrationParameters::FollowHistories() const {
+  const std::size_t gauges = gains_V_per_rad.size();
+  tbb::parallel_for(
+      std::size_t{0}, histories_.size() * gauges, [&](std::size_t k) {
+        const auto gauge = static_cast<int>(k % gauges);
+        histories_[k / gauges][gauge].Follow(HistoryValues(gauge));
+      });
 }
 
 bool CalibrationParameters::KeepHistoryStd() {

@@ -116,6 +116,10 @@ class CalibrationParameters {
   /// has none.
   Eigen::VectorXd Units() const;
 
+  /// Computes creep and hysteresis in all rows at the present values, on the
+  /// threads of the caller's arena. Frames that need them first would wait for
+  /// each other.
+  void FollowHistories() const;
   /// What creep and hysteresis add to the reading of a frame, V.
   double OfHistory(const CalibrationFrame& frame, int gauge);
   /// Keeps what the rows before leave unknown of each reading, at the present

@@ -15,6 +15,8 @@ namespace {
 constexpr int kRows = GaugeTable::kMostRows / 2;
 constexpr double kMostGap_mm = 2;
 constexpr double kTableTolerance = 1e-6, kFitTolerance = 1e-3;
+// So exact is the surface, in std.
+constexpr double kSurfaceExact_std = 0.1;
 
 EquilibriumSolver SolverFor(const CalibrationProblem& problem) {
   EquilibriumSolver solver(problem.parameters().Apply(problem.finger()),
@@ -49,7 +51,7 @@ ContactGuess::ContactGuess(CalibrationProblem* problem, bool many)
   if (many && size > 0) {
     surface_ = std::make_shared<const GaugeSurface>(
         solver_, problem->parameters().friction(), RadiusOf(*problem),
-        table_.heaviest_N());
+        table_.heaviest_N(), kSurfaceExact_std);
   }
 }
 

@@ -39,6 +39,8 @@ class ContactGuess {
   Place Of(const CalibrationFrame& frame, From from);
 
   const GaugeTable& table() const { return table_; }
+  /// Whether many frames are guessed.
+  bool many() const { return surface_ != nullptr; }
 
  private:
   void AddCircle(const CalibrationFrame& frame);

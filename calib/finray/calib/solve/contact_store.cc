@@ -21,17 +21,24 @@ void ContactStore::Guess(const std::vector<int>& frames,
       wanted.push_back(i);
     }
   }
-  if (wanted.empty() && guess_) return;
-  auto guess = std::make_unique<const ContactGuess>(
-      &problem_, wanted.size() >= ContactGuess::kMany);
-  VisitInParallel(wanted.size(), problem_.threads(), *guess,
+  if (wanted.empty()) return;
+  const bool many = wanted.size() >= ContactGuess::kMany;
+  if (!guess_ || guessed_at_ != problem_.Values() ||
+      (many && !guess_->many())) {
+    NewGuess(many);
+  }
+  VisitInParallel(wanted.size(), problem_.threads(), *guess_,
                   [&](std::size_t k, ContactGuess* local) {
                     const auto place =
                         local->Of(problem_.frame(wanted[k]), from);
                     contacts_[wanted[k]] = {place.arc_mm, place.normal_N};
                   });
-  guess_ = std::move(guess);
-  guessed_at_ = Stiffness();
+}
+
+void ContactStore::NewGuess(bool many) const {
+  guess_ = std::make_unique<const ContactGuess>(&problem_, many);
+  guessed_at_ = problem_.Values();
+  stiffness_ = Stiffness();
 }
 
 Eigen::Vector2d ContactStore::Stiffness() const {
@@ -41,7 +48,7 @@ Eigen::Vector2d ContactStore::Stiffness() const {
 
 void ContactStore::RenewStates() {
   if (!guess_) return;
-  const Eigen::Vector2d change = Stiffness() - guessed_at_;
+  const Eigen::Vector2d change = Stiffness() - stiffness_;
   if (change.cwiseAbs().maxCoeff() > 0.1) guess_.reset();
 }
 
@@ -57,6 +64,8 @@ void ContactStore::Move(int frame, const Eigen::Vector2d& by) {
 LadderState ContactStore::StateNear(int frame) const {
   const auto [arc_mm, normal_N] = contacts_[frame];
   if (std::isnan(arc_mm)) return {};
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!guess_) NewGuess(false);
   return guess_->table().StateNear(arc_mm, normal_N);
 }
 

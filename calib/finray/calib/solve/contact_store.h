@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "finray/calib/problem/calibration_problem.h"
@@ -28,11 +29,10 @@ class ContactStore {
   void Set(Contacts contacts) { contacts_ = std::move(contacts); }
 
   /// Guesses the contacts of those of the frames that have none yet, with the
-  /// finger as it is now. Call it before StateNear.
+  /// finger as it is now.
   void Guess(const std::vector<int>& frames, ContactGuess::From from);
-  /// Makes the next Guess build a new table for StateNear if the stiffness has
-  /// changed by a tenth since the last one. Loads in equilibrium change with
-  /// the stiffness.
+  /// Makes StateNear build a new table if the stiffness has changed by a tenth
+  /// since the last one. Loads in equilibrium change with the stiffness.
   void RenewStates();
   /// Removes the contact of a frame, so that the next Guess makes a new one.
   void Forget(int frame);
@@ -40,18 +40,24 @@ class ContactStore {
   void Move(int frame, const Eigen::Vector2d& by);
 
   /// Returns a state of equilibrium near the contact of the frame, from the
-  /// table of the last guess. The state is empty for a frame without contact.
-  /// The table is small, so memory for states does not grow with the number of
-  /// frames.
+  /// table of the last guess, or from one of the finger as it is now. The state
+  /// is empty for a frame without contact. The table is small, so memory for
+  /// states does not grow with the number of frames. Threads may call it at the
+  /// same time.
   LadderState StateNear(int frame) const;
 
  private:
   Eigen::Vector2d Stiffness() const;
+  void NewGuess(bool many) const;
 
   CalibrationProblem& problem_;
   Contacts contacts_;
-  std::unique_ptr<const ContactGuess> guess_;
-  Eigen::Vector2d guessed_at_;  // logarithms of the stiffness
+  // Made when it is needed. The values and logarithms of the stiffness are
+  // those that it was made at.
+  mutable std::mutex mutex_;
+  mutable std::unique_ptr<const ContactGuess> guess_;
+  mutable Eigen::VectorXd guessed_at_;
+  mutable Eigen::Vector2d stiffness_;
 };
 
 }  // namespace finray

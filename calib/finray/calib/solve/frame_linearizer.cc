@@ -22,10 +22,18 @@ constexpr int kContact = -1, kNowhere = -2;
 }  // namespace
 
 struct FrameLinearizer::Model {
-  std::array<double, 2> contact;
+  const StartState& start;
+  std::array<double, 2> contact{};
   FrameEvaluation* evaluation = nullptr;  // none on the bench
   bool by_surface = false;                // the last one
-  std::vector<FrameBlock> blocks;
+  std::optional<LadderState> near = {};   // where solves start
+  LadderState reached = {};               // by the last solve
+  std::vector<FrameBlock> blocks = {};
+
+  // The next solve starts where the last evaluation was.
+  void Stay() {
+    if (evaluation != nullptr && !by_surface) std::swap(*near, reached);
+  }
 };
 
 FrameLinearizer::FrameLinearizer(const EquilibriumSolver& solver,
@@ -47,14 +55,17 @@ FrameLinearizer::FrameLinearizer(const EquilibriumSolver& solver,
   }
 }
 
-void FrameLinearizer::Prepare(const CalibrationFrame& frame,
-                              const LadderState& start, Model* model) {
+bool FrameLinearizer::FitsSurface(const CalibrationFrame& frame,
+                                  const CalibrationParameters& parameters) {
+  if (frame.IsBench() || !frame.pins.empty()) return false;
+  const RowFriction row = parameters.FrictionOf(frame);
+  return row.offset == 0 && row.slope == 1;
+}
+
+void FrameLinearizer::Prepare(const CalibrationFrame& frame, Model* model) {
   if (!frame.IsBench()) {
-    // The solver drops the mesh that another frame has refined. Otherwise
-    // results would depend on which thread had which frame.
-    if (start.q.size() == 0) solver_.Reset();
     const RowFriction row = parameters_.FrictionOf(frame);
-    const bool usual = frame.pins.empty() && row.offset == 0 && row.slope == 1;
+    const bool usual = FitsSurface(frame, parameters_);
     auto& evaluation = usual ? usual_[frame.contact] : unusual_;
     if (!usual || !evaluation) {
       evaluation.emplace(solver_.model(), EquilibriumForm::kReduced,
@@ -68,18 +79,25 @@ void FrameLinearizer::Prepare(const CalibrationFrame& frame,
 
 bool FrameLinearizer::Linearize(const CalibrationFrame& frame,
                                 const std::array<double, 2>& contact,
-                                LadderState* state, LinearizedFrame* out) {
-  Model model;
-  Prepare(frame, *state, &model);
-  if (!Evaluate(contact, true, &model, state, out)) return false;
+                                const StartState& start, LinearizedFrame* out) {
+  Model model{start};
+  Prepare(frame, &model);
+  if (!Evaluate(contact, true, &model, out)) return false;
   out->Eliminate();
   return true;
 }
 
-bool FrameLinearizer::Solve(const std::array<double, 2>& contact, Model* model,
-                            LadderState* state) {
-  model->evaluation->set_state(
-      state->q.size() > 0 ? *state : LadderState::Undeformed(solver_.model()));
+bool FrameLinearizer::Solve(const std::array<double, 2>& contact,
+                            Model* model) {
+  if (!model->near) {
+    model->near = model->start();
+    // The solver drops the mesh that another frame has refined. Otherwise
+    // results would depend on which thread had which frame.
+    if (model->near->q.size() == 0) solver_.Reset();
+  }
+  model->evaluation->set_state(model->near->q.size() > 0
+                                   ? *model->near
+                                   : LadderState::Undeformed(solver_.model()));
   const SharedParameters& shared = parameters_.shared;
   model->evaluation->PlaceGauges(shared.gauge_starts_mm.data(),
                                  shared.gauge_lengths_mm.data());
@@ -87,7 +105,7 @@ bool FrameLinearizer::Solve(const std::array<double, 2>& contact, Model* model,
       contact.data(), shared.ln_front_stiffness, shared.ln_back_stiffness,
       shared.rib_lengths_mm.data(), shared.effect_values.data(), &solver_);
   if (!model->evaluation->valid()) return false;
-  *state = model->evaluation->state();
+  model->reached = model->evaluation->state();
   return true;
 }
 
@@ -108,12 +126,11 @@ bool FrameLinearizer::TakeFromSurface(const std::array<double, 2>& contact,
 }
 
 bool FrameLinearizer::Evaluate(const std::array<double, 2>& contact, bool all,
-                               Model* model, LadderState* state,
-                               LinearizedFrame* out) {
+                               Model* model, LinearizedFrame* out) {
   model->contact = contact;
   if (model->evaluation) {
     model->by_surface = TakeFromSurface(contact, all, model->evaluation);
-    if (!model->by_surface && !Solve(contact, model, state)) return false;
+    if (!model->by_surface && !Solve(contact, model)) return false;
   }
   all |= !model->by_surface;
   int rows = 0;
@@ -155,8 +172,6 @@ void FrameLinearizer::AddBlock(const FrameBlock& block,
                                const std::vector<int>& columns,
                                const double* contact, bool all,
                                LinearizedFrame* out) {
-  using RowMajor =
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const int size = block.cost->num_residuals();
   const int first_row = static_cast<int>(out->rows.size());
   const auto& sizes = block.cost->parameter_block_sizes();
@@ -170,6 +185,10 @@ void FrameLinearizer::AddBlock(const FrameBlock& block,
       columns_[k] = columns[k];
     }
     if (columns_[k] == kNowhere) continue;
+    if (size == 1 && columns_[k] != kContact) {
+      jacobians_[k] = &out->by_parameter(first_row, columns_[k]);
+      continue;
+    }
     scratch_[k].resize(size * sizes[k]);
     jacobians_[k] = scratch_[k].data();
   }
@@ -192,12 +211,16 @@ void FrameLinearizer::AddBlock(const FrameBlock& block,
     out->rows.push_back({block.family, block.gauge, block.std_V});
     out->weights[first_row + i] = weight;
   }
+  if (all && size == 1 && weight != 1) {
+    out->by_parameter.row(first_row) *= weight;
+  }
   for (std::size_t k = 0; k < sizes.size(); ++k) {
     if (jacobians_[k] == nullptr) continue;
-    const Eigen::Map<const RowMajor> jacobian(jacobians_[k], size, sizes[k]);
+    const Eigen::Map<const LinearizedFrame::Rows> jacobian(jacobians_[k], size,
+                                                           sizes[k]);
     if (columns_[k] == kContact) {
       out->by_contact.middleRows(first_row, size) = weight * jacobian;
-    } else {
+    } else if (size > 1) {
       out->by_parameter.block(first_row, columns_[k], size, sizes[k]) =
           weight * jacobian;
     }
@@ -206,17 +229,20 @@ void FrameLinearizer::AddBlock(const FrameBlock& block,
 
 bool FrameLinearizer::FitContact(const CalibrationFrame& frame,
                                  std::array<double, 2>* contact,
-                                 LadderState* state, LinearizedFrame* out) {
-  Model model;
-  Prepare(frame, *state, &model);
-  if (!Evaluate(*contact, false, &model, state, out)) {
+                                 const StartState& start,
+                                 LinearizedFrame* out) {
+  Model model{start};
+  Prepare(frame, &model);
+  if (!Evaluate(*contact, settled_, &model, out)) {
     out->rows.clear();
     return false;
   }
+  model.Stay();
   const Finger& finger = solver_.model().finger();
   const Eigen::Vector2d unit(finger.front_length_mm, ForceUnit(finger));
   // The surface leaves the derivatives by the parameters to the last step.
-  bool complete = !model.by_surface;
+  bool complete = settled_ || !model.by_surface;
+  settled_ = true;
   double damping = 0;
   for (int step = 0; frame.contact && step < kMostSteps; ++step) {
     const Eigen::Matrix<double, Eigen::Dynamic, 2> slopes =
@@ -235,12 +261,11 @@ bool FrameLinearizer::FitContact(const CalibrationFrame& frame,
     const std::array<double, 2> moved = {
         std::clamp(unit[0] * (x[0] + change[0]), 0.0, unit[0]),
         std::max(0.0, unit[1] * (x[1] + change[1]))};
-    LadderState near = *state;
+    settled_ = false;
     const bool all = expected < kNearlyThere;
-    if (Evaluate(moved, all, &model, &near, &tried_) &&
-        tried_.cost < out->cost) {
+    if (Evaluate(moved, all, &model, &tried_) && tried_.cost < out->cost) {
       *contact = moved;
-      *state = std::move(near);
+      model.Stay();
       std::swap(*out, tried_);
       complete = all || !model.by_surface;
       damping /= 10;
@@ -250,7 +275,7 @@ bool FrameLinearizer::FitContact(const CalibrationFrame& frame,
     damping = std::max(1e-3, 10 * damping);
     if (damping > kMostDamping) break;  // as good as rounding allows
   }
-  if (!complete && !Evaluate(*contact, true, &model, state, out)) {
+  if (!complete && !Evaluate(*contact, true, &model, out)) {
     out->rows.clear();
     return false;
   }

@@ -2,6 +2,7 @@
 #define FINRAY_CALIB_SOLVE_FRAME_LINEARIZER_H_
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -26,13 +27,20 @@ class FrameLinearizer {
                   const CalibrationParameters* parameters,
                   const ModelSurface* surface = nullptr);
 
+  /// Makes the state that the first solve of a frame's equilibrium starts from;
+  /// an empty one for the undeformed finger. It is not called where the surface
+  /// gives all values.
+  using StartState = std::function<LadderState()>;
+
+  /// Says whether a surface can serve the frame (FrameEvaluation::FitsSurface).
+  static bool FitsSurface(const CalibrationFrame& frame,
+                          const CalibrationParameters& parameters);
+
   /// Linearises the frame with its contact at (l_c, f_c) = `contact`. A free
-  /// frame does not use `contact`. The solve of equilibrium starts from
-  /// `*state`, which then holds the equilibrium
-  /// unless the surface gave the values. Returns false if the model
-  /// cannot be evaluated.
+  /// frame does not use `contact`. Returns false if the model cannot be
+  /// evaluated.
   bool Linearize(const CalibrationFrame& frame,
-                 const std::array<double, 2>& contact, LadderState* state,
+                 const std::array<double, 2>& contact, const StartState& start,
                  LinearizedFrame* out);
 
   /// Moves the contact to where it explains the frame best with the present
@@ -41,24 +49,22 @@ class FrameLinearizer {
   /// by less than kSmallDecrease. LinearizedFrame::move tells the rest of the
   /// way well enough. If the model cannot be evaluated, it returns false and
   /// leaves `out` without rows.
-  static constexpr double kSmallDecrease = 1e-5;
+  static constexpr double kSmallDecrease = 1e-3;
   bool FitContact(const CalibrationFrame& frame, std::array<double, 2>* contact,
-                  LadderState* state, LinearizedFrame* out);
+                  const StartState& start, LinearizedFrame* out);
 
  private:
   // The blocks of a frame, and the evaluation at a contact from which they
   // read.
   struct Model;
 
-  void Prepare(const CalibrationFrame& frame, const LadderState& start,
-               Model* model);
+  void Prepare(const CalibrationFrame& frame, Model* model);
   // With `all` false, the derivatives by the parameters may be left undefined.
   bool Evaluate(const std::array<double, 2>& contact, bool all, Model* model,
-                LadderState* state, LinearizedFrame* out);
+                LinearizedFrame* out);
   bool TakeFromSurface(const std::array<double, 2>& contact, bool all,
                        FrameEvaluation* evaluation);
-  bool Solve(const std::array<double, 2>& contact, Model* model,
-             LadderState* state);
+  bool Solve(const std::array<double, 2>& contact, Model* model);
   // The first column of each parameter of the index-th block of a frame.
   const std::vector<int>& ColumnsOf(const FrameBlock& block, std::size_t index);
   void AddBlock(const FrameBlock& block, const std::vector<int>& columns,
@@ -78,7 +84,8 @@ class FrameLinearizer {
     std::vector<int> columns;
   };
   std::vector<KnownColumns> known_;  // by index of the block
-  // For each parameter of a residual block: its Jacobian and its first column.
+  // For each parameter of a residual block: its Jacobian, where that does not
+  // go straight to the rows, and its first column.
   std::vector<std::vector<double>> scratch_;
   std::vector<double*> jacobians_;
   std::vector<int> columns_;
@@ -86,6 +93,8 @@ class FrameLinearizer {
   // friction of their own; and that of another frame.
   std::array<std::optional<FrameEvaluation>, 2> usual_;
   std::optional<FrameEvaluation> unusual_;
+  // The last contact stayed where it was, as the next one may.
+  bool settled_ = false;
   LinearizedFrame tried_;
   ModelSurface::Values values_;
 };

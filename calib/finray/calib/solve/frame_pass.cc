@@ -20,9 +20,11 @@ namespace {
 // A thread evaluates so many frames at a time. There are some for each cell of
 // a surface, whose coefficients take more memory than a core has next to it.
 constexpr std::size_t kChunk = 128;
-// The surface may leave out so much, in std of the gauges.
-constexpr double kExact_std = 1e-5;
-// The same in rad where gauges tell hardly anything.
+// What the surface leaves out may move the parameters by this at most, in their
+// std. A million frames add up what each leaves out to a thousand times of
+// that.
+constexpr double kExact_std = 1e-2;
+// A frame may leave out this in rad where gauges tell hardly anything.
 constexpr double kExact_rad = 1e-7;
 
 using Evaluate = std::function<void(int frame, FrameLinearizer* linearizer,
@@ -35,19 +37,40 @@ std::optional<ModelSurface> SurfaceFor(const std::vector<int>& frames,
   if (frames.size() < ContactGuess::kMany) return {};
   const CalibrationParameters& parameters = problem.parameters();
   const auto gauges = static_cast<int>(problem.finger().gauges.size());
-  Eigen::VectorXd resolution(gauges + 6);
+  const int poses = problem.plan().tip_std_mm ? 2 : 1;  // contact, tip
+  const double std = kExact_std / std::sqrt(static_cast<double>(frames.size()));
+  Eigen::VectorXd resolution(gauges + 3 * poses);
   double rad = kExact_rad;
   for (int j = 0; j < gauges; ++j) {
     const Gauge gauge = parameters.Present(problem.finger(), j);
-    resolution[j] = std::min(kExact_rad, kExact_std / gauge.AngleWeight());
+    resolution[j] = std::min(kExact_rad, std / gauge.AngleWeight());
     rad = std::min(rad, resolution[j]);
   }
-  resolution.tail<6>().setConstant(rad * problem.finger().front_length_mm);
-  resolution[gauges + 2] = resolution[gauges + 5] = rad;
+  for (int i = 0; i < poses; ++i) {
+    resolution.segment<2>(gauges + 3 * i)
+        .setConstant(rad * problem.finger().front_length_mm);
+    resolution[gauges + 3 * i + 2] = rad;
+  }
   return std::make_optional<ModelSurface>(
       EquilibriumSolver(problem.finger(), problem.discretization()),
       parameters.shared, parameters.friction(), problem.plan().MovesGauges(),
       resolution);
+}
+
+// Makes the cells of the surface where the frames start, on the threads of the
+// caller's arena.
+void MakeCells(const std::vector<int>& frames, const Contacts& contacts,
+               const CalibrationProblem& problem, const ModelSurface& surface) {
+  std::vector<std::array<double, 2>> wanted;
+  wanted.reserve(frames.size());
+  for (const int i : frames) {
+    const CalibrationFrame& frame = problem.frame(i);
+    if (frame.contact &&
+        FrameLinearizer::FitsSurface(frame, problem.parameters())) {
+      wanted.push_back(contacts[i]);
+    }
+  }
+  surface.MakeFor(wanted);
 }
 
 void VisitInOrder(const std::vector<int>& frames, const Plan& plan,
@@ -59,6 +82,10 @@ void VisitInOrder(const std::vector<int>& frames, const Plan& plan,
   };
   const EquilibriumSolver solver(problem->finger(), problem->discretization());
   const std::optional<ModelSurface> surface = SurfaceFor(frames, *problem);
+  tbb::task_arena(problem->threads()).execute([&] {
+    problem->parameters().FollowHistories();
+    if (surface) MakeCells(frames, contacts, *problem, *surface);
+  });
   tbb::enumerable_thread_specific<FrameLinearizer> linearizers([&] {
     return FrameLinearizer(solver, plan, &problem->blocks(),
                            &problem->parameters(),
@@ -118,9 +145,9 @@ void LinearizeFrames(const std::vector<int>& frames,
   VisitInOrder(
       frames, problem->plan(), contacts->all(), problem,
       [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
-        LadderState state = contacts->StateNear(i);
-        if (!linearizer->Linearize(problem->frame(i), (*contacts)[i], &state,
-                                   out)) {
+        if (!linearizer->Linearize(
+                problem->frame(i), (*contacts)[i],
+                [&] { return contacts->StateNear(i); }, out)) {
           throw std::runtime_error(
               "the model cannot be evaluated at the solution");
         }
@@ -134,8 +161,9 @@ void FitContacts(const std::vector<int>& frames, CalibrationProblem* problem,
   VisitInOrder(
       frames, problem->plan(), contacts->all(), problem,
       [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
-        LadderState state = contacts->StateNear(i);
-        linearizer->FitContact(problem->frame(i), &(*contacts)[i], &state, out);
+        linearizer->FitContact(
+            problem->frame(i), &(*contacts)[i],
+            [&] { return contacts->StateNear(i); }, out);
       },
       visit);
 }
@@ -151,9 +179,10 @@ void FitContactsRobustly(const std::vector<int>& frames,
   VisitInOrder(
       frames, robust, contacts->all(), problem,
       [&](int i, FrameLinearizer* linearizer, LinearizedFrame* out) {
-        LadderState state = contacts->StateNear(i);
         std::array<double, 2> contact = (*contacts)[i];
-        linearizer->FitContact(problem->frame(i), &contact, &state, out);
+        linearizer->FitContact(
+            problem->frame(i), &contact, [&] { return contacts->StateNear(i); },
+            out);
       },
       visit);
 }
