@@ -4,15 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
 #include "finray/objects/circle_centre.h"
+#include "finray/sensing/gauge_surface.h"
 #include "test_finger.h"
 
 namespace finray {
 namespace {
 
+constexpr double kAnyChi2 = std::numeric_limits<double>::infinity();
 constexpr double kRadius_mm = 15, kNoise_rad = 3e-4, kObject_mm = 0.05;
 
 // Angles and the circle's centre under a contact, with noise.
@@ -49,7 +52,7 @@ TEST_F(GaugeTableTest, BestStartIsTheBestOfAll) {
   for (double arc_mm = 30; arc_mm < 110; arc_mm += 2.3) {
     for (const double normal_N : {0.9, 2.0, 4.1, 7.3}) {
       const Eigen::VectorXd values = Measured(arc_mm, normal_N);
-      table_.Profile(values, weights_, &profile);
+      table_.Profile(values, weights_, kAnyChi2, &profile);
       GaugeTable::FindStarts(profile, &starts);
       ASSERT_FALSE(starts.empty());
       const ContactStart best = table_.BestStart(values, weights_);
@@ -62,6 +65,54 @@ TEST_F(GaugeTableTest, BestStartIsTheBestOfAll) {
       EXPECT_NEAR(best.contacts[0].normal_N, normal_N, 0.25 * normal_N);
     }
   }
+}
+
+// Against the equilibria of a grid finer than the table.
+TEST(GaugeTableLimitTest, NoContactNearALeftOutRowIsBelowTheLimit) {
+  EquilibriumSolver solver(PaperFinger(), {});
+  const GaugeTable table(&solver, 0, {});
+  const GaugeSurface surface(solver, 0, {}, table.heaviest_N());
+  std::vector<Eigen::VectorXd> grid;
+  std::vector<std::size_t> row_of;
+  const double spacing_mm = table.row_spacing_mm();
+  for (double arc_mm = 0.2; arc_mm < 140; arc_mm += 0.61) {
+    for (double normal_N = 0.01; normal_N < 25; normal_N *= 1.17) {
+      grid.emplace_back();
+      ASSERT_TRUE(surface.ValuesAt(arc_mm, normal_N, &grid.back()));
+      row_of.push_back(static_cast<std::size_t>(arc_mm / spacing_mm));
+    }
+  }
+  std::mt19937 generator(2);
+  std::normal_distribution<double> normal;
+  std::uniform_int_distribution<std::size_t> any(0, grid.size() - 1);
+  int left_out = 0, below = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    const double noise_rad = trial % 2 == 0 ? 1e-4 : 1e-3;
+    const Eigen::VectorXd weights = Eigen::VectorXd::Constant(4, 1 / noise_rad);
+    Eigen::VectorXd values = grid[any(generator)];
+    for (double& value : values) value += noise_rad * normal(generator);
+    const double most_chi2 = trial % 3 == 0 ? 400 : 50;
+    std::vector<ContactStart> all, some;
+    table.Profile(values, weights, kAnyChi2, &all);
+    table.Profile(values, weights, most_chi2, &some);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      left_out += some[i].count == 0;
+      if (all[i].chi2 < most_chi2) {
+        EXPECT_NEAR(some[i].chi2, all[i].chi2, 1e-6);
+        EXPECT_EQ(some[i].state, all[i].state);
+      } else {
+        EXPECT_GE(some[i].chi2, most_chi2);
+      }
+    }
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      const double chi2 = ((grid[i] - values) / noise_rad).squaredNorm();
+      if (chi2 >= most_chi2) continue;
+      ++below;
+      EXPECT_GT(some[row_of[i]].count, 0) << row_of[i];
+    }
+  }
+  EXPECT_GT(left_out, 4000);
+  EXPECT_GT(below, 1000);
 }
 
 void ExpectSameNodes(const GaugeTable::Row& one, const GaugeTable::Row& other) {

@@ -7,6 +7,7 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/sensing/chi_squared.h"
+#include "finray/sensing/valley.h"
 
 namespace finray {
 namespace {
@@ -36,6 +37,21 @@ constexpr double kCoarse = 1;
 // ribs may hold a minimum.
 constexpr double kUpright_rad = 93 * kDegree;
 constexpr std::size_t kCrowded = 13;
+
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+// Few frames that the model explains have a larger chi2.
+double LikelyChi2(int dof) { return dof + 4 * std::sqrt(2.0 * dof); }
+
+// The least chi2 of rows that do not matter beside a solution: starts there are
+// not tried, no contact there is a rival, and they are in no valley.
+double ProfiledChi2(double chi2, int dof) {
+  // FrameEstimate::noise_scale, or more.
+  const double scale2 =
+      chi2 > LikelyChi2(dof) ? std::max(1.0, chi2 / std::max(1, dof)) : 1;
+  return std::max((chi2 + ContactSearch::kWithinNoise) / kTableFactor,
+                  chi2 + scale2 * Valley::kMostChi2);
+}
 
 bool HasCloseMinima(const Finger& finger) {
   return finger.back_angle_rad < kUpright_rad || finger.ribs.size() >= kCrowded;
@@ -122,30 +138,64 @@ bool ContactSearch::IsExplained(double chi2, int dof) {
 
 bool ContactSearch::Search(int contacts, const Measurements& row,
                            const PackedReadings& packed) {
-  FindStarts(contacts, packed);
   const int dof = packed.all - 2 * contacts;
-  // With as many readings as unknowns, every minimum has a chi2 of zero,
-  // however far the table's nodes are from it. Then chi2 cannot tell which
-  // minimum is right, and all starts are tried.
-  const bool exact = contacts == 1 && dof < 1;
-  const bool close =
-      exact || HasCloseMinima(solver_.model().finger()) ||
-      (contacts == 1 && !starts_.empty() && starts_[0].error > kCoarse);
   // The surface's contacts have the scene's friction.
   on_surface_ = method_ == FrameMethod::kFast && contacts == 1 &&
                 friction_ == scene_.friction_coefficient;
-  found_.Clear();
+  // With as many readings as unknowns, every minimum has a chi2 of zero,
+  // however far the table's nodes are from it. Then chi2 cannot tell which
+  // minimum is right, and all starts are tried.
+  exact_fit_ = contacts == 1 && dof < 1;
+  bool close = exact_fit_ || HasCloseMinima(solver_.model().finger());
   iterations_ = 0;
+  // Fits on the surface cost less than the profile of all rows. With a limit no
+  // start is tried twice.
+  double most_chi2 = on_surface_ && !close && !scene_.search_iteration_limit
+                         ? ProfiledChi2(LikelyChi2(dof), dof)
+                         : kUnbounded;
+  for (;;) {
+    FindStarts(contacts, packed, most_chi2);
+    close |= contacts == 1 && !starts_.empty() && starts_[0].error > kCoarse;
+    double needed = kUnbounded;
+    if (!close || most_chi2 == kUnbounded) {
+      found_.Clear();
+      needed = TryStarts(contacts, row, packed, most_chi2);
+    }
+    if (needed <= most_chi2) break;
+    most_chi2 = needed;
+  }
+  suspect_ = contacts == 2 && found_.rival(kSuspect) != nullptr;
+  if (contacts == 1 && !found_.empty() && method_ == FrameMethod::kFast) {
+    SearchRows(packed, close);
+    if (close) {
+      SearchBeside(packed);
+      SearchForces(packed);
+    }
+  }
+  return !found_.empty();
+}
+
+double ContactSearch::TryStarts(int contacts, const Measurements& row,
+                                const PackedReadings& packed,
+                                double most_chi2) {
   std::size_t fallbacks = 0;
   const auto keep = [this](const ContactStart& start) {
     found_.Keep();
     if (&found_.best() == &found_.last()) best_from_ = start.state;
   };
+  const int dof = packed.all - 2 * contacts;
   // A rival may be hidden by noise, and two contacts are followed from here.
   const double within = contacts == 2 ? kSuspect : kWithinNoise;
   for (const ContactStart& start : contacts == 2 ? pair_starts_ : starts_) {
+    // Neither the solutions nor this start promise that the profile suffices.
+    if (!found_.empty() &&
+        ProfiledChi2(std::min(found_.least_chi2(), kTableFactor * start.chi2),
+                     dof) > most_chi2) {
+      break;
+    }
     // This start can neither win nor be a rival, and those behind it are worse.
-    if (!exact && kTableFactor * start.chi2 >= found_.least_chi2() + within) {
+    if (!exact_fit_ &&
+        kTableFactor * start.chi2 >= found_.least_chi2() + within) {
       break;
     }
     // Wherever it is, a contact without force is the free finger.
@@ -166,7 +216,7 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
     }
     const bool explained =
         !found_.empty() && IsExplained(found_.least_chi2(), dof);
-    if ((explained && !exact) || fallbacks >= kMostFallbacks) continue;
+    if ((explained && !exact_fit_) || fallbacks >= kMostFallbacks) continue;
     ++fallbacks;
     if (!MayGoOn()) break;
     if (FitByCeres(start, row)) keep(start);
@@ -174,15 +224,7 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
       fallbacks = kMostFallbacks;
     }
   }
-  suspect_ = contacts == 2 && found_.rival(kSuspect) != nullptr;
-  if (contacts == 1 && !found_.empty() && method_ == FrameMethod::kFast) {
-    SearchRows(packed, close);
-    if (close) {
-      SearchBeside(packed);
-      SearchForces(packed);
-    }
-  }
-  return !found_.empty();
+  return ProfiledChi2(found_.least_chi2(), dof);
 }
 
 // Minima lie close together where a finger is upright or has many ribs, and the
@@ -302,7 +344,8 @@ double ContactSearch::FreeChi2(const Measurements& row,
   return chi2;
 }
 
-void ContactSearch::FindStarts(int contacts, const PackedReadings& packed) {
+void ContactSearch::FindStarts(int contacts, const PackedReadings& packed,
+                               double most_chi2) {
   // A frame with camera measurements only has its starts spread over the
   // finger.
   const bool spread = packed.weights.isZero(0);
@@ -324,7 +367,7 @@ void ContactSearch::FindStarts(int contacts, const PackedReadings& packed) {
     return;
   }
   if (contacts == 1) {
-    table_.Profile(packed.values, packed.weights, &profile_);
+    table_.Profile(packed.values, packed.weights, most_chi2, &profile_);
     GaugeTable::FindStarts(profile_, &starts_);
     if (starts_.size() > kMostStarts) starts_.resize(kMostStarts);
     return;

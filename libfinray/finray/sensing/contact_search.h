@@ -2,6 +2,7 @@
 #define FINRAY_SENSING_CONTACT_SEARCH_H_
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -83,8 +84,9 @@ class ContactSearch {
 
   const ContactSolution& best() const { return found_.best(); }
   const ContactSolution* rival() const { return found_.rival(); }
-  /// The best contact at each place of the table (GaugeTable::Profile). Empty
-  /// after a search for two contacts or without gauges.
+  /// The best contact at each place of the table (GaugeTable::Profile) that may
+  /// be a rival or belong to a valley. Empty after a search for two contacts or
+  /// without gauges.
   const std::vector<ContactStart>& profile() const { return profile_; }
   /// Number of iterations of all fits of the last search.
   int iterations() const { return iterations_; }
@@ -121,7 +123,13 @@ class ContactSearch {
   bool MayGoOn();
   // Counts the iterations of a fit.
   void Spend(int iterations, bool converged);
-  void FindStarts(int contacts, const PackedReadings& packed);
+  // Rows of the profile need not reach beyond `most_chi2`.
+  void FindStarts(int contacts, const PackedReadings& packed,
+                  double most_chi2 = std::numeric_limits<double>::infinity());
+  // Fits from the starts of a profile that reaches to `most_chi2`. Returns how
+  // far it must reach; if that is farther, not all starts are tried.
+  double TryStarts(int contacts, const Measurements& row,
+                   const PackedReadings& packed, double most_chi2);
   // Fits from rows of the table that the solutions found do not account for:
   // from all of them where minima are `close`, else from those beside which
   // chi2 changes too sharply for the table to show a minimum between rows.
@@ -155,7 +163,7 @@ class ContactSearch {
   double most_force_N_;
   FoundSolutions found_;
   FrameMethod method_;
-  bool on_surface_ = false;  // this search
+  bool on_surface_ = false, exact_fit_ = false;  // this search
   ContactFit fit_;
   LadderState exact_;  // where a fit goes on to rounding
   FrameProblem problem_;

@@ -12,6 +12,7 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
+#include "finray/io/nan.h"
 #include "finray/objects/circle_centre.h"
 #include "finray/sensing/parabola_slope.h"
 
@@ -41,13 +42,19 @@ std::vector<double> Forces(const Finger& finger,
 // Every such row shows how wrong its cubics are half way between forces.
 constexpr std::size_t kErrorRows = 7;
 
-// The minimum of the parabola through three equally spaced values of which the
-// middle one is the least.
-double LeastOfParabola(double left, double middle, double right) {
-  const double curvature = left - 2 * middle + right;
-  if (!(curvature > 0) || std::isinf(curvature)) return middle;
-  const double slope = 0.5 * (right - left);
-  return std::max(0.0, middle - 0.5 * slope * slope / curvature);
+// Moves a start to the minimum of the parabola through chi2 at its row and at
+// the rows on either side, which are no better.
+void MoveBetweenRows(const ContactStart& below, const ContactStart& above,
+                     ContactStart* start) {
+  const double curvature = below.chi2 - 2 * start->chi2 + above.chi2;
+  if (!(curvature > 0) || std::isinf(curvature)) return;
+  const double slope = 0.5 * (above.chi2 - below.chi2);
+  const double rows = std::abs(slope) / curvature;  // at most half a row
+  const PointContact& towards = (slope > 0 ? below : above).contacts[0];
+  PointContact& contact = start->contacts[0];
+  contact.arc_mm += rows * (towards.arc_mm - contact.arc_mm);
+  contact.normal_N += rows * (towards.normal_N - contact.normal_N);
+  start->chi2 = std::max(0.0, start->chi2 - 0.5 * rows * std::abs(slope));
 }
 
 // Sets each node's slope to that of the parabola through it and its neighbours.
@@ -176,6 +183,7 @@ void GaugeTable::FillCurves() {
       }
     }
   }
+  boxes_ = RowBoxes(Curves());
 }
 
 RowCurves GaugeTable::Curves() const {
@@ -189,57 +197,61 @@ RowCurves GaugeTable::Curves() const {
 
 template <class Use>
 void GaugeTable::ForEachRow(const Eigen::VectorXd& values,
-                            const Eigen::VectorXd& weights,
+                            const Eigen::VectorXd& weights, double most_chi2,
                             const Use& use) const {
   std::array<double, RowCurves::Padded(kMostRows)> chi2, to, share;
-  FindRowMinima(Curves(), values.data(), weights.data(),
+  FindRowMinima(Curves(), boxes_, values.data(), weights.data(), most_chi2,
                 {chi2.data(), to.data(), share.data()});
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     use(i, chi2[i], static_cast<std::size_t>(to[i]), share[i]);
   }
 }
 
-ContactStart GaugeTable::StartAt(std::size_t row, std::size_t to, double share,
-                                 double chi2) const {
-  ContactStart start;
-  start.count = 1;
-  start.chi2 = std::numeric_limits<double>::infinity();
-  if (to == 0) return start;
+void GaugeTable::SetStart(std::size_t row, std::size_t to, double share,
+                          double chi2, ContactStart* start) const {
+  start->chi2 = std::numeric_limits<double>::infinity();
+  start->state = nullptr;
+  start->count = to == 0 ? 0 : 1;
+  if (to == 0) return;
   const Node &from = rows_[row].nodes[to - 1], &end = rows_[row].nodes[to];
-  start.chi2 = chi2;
-  start.contacts[0] = {rows_[row].arc_mm,
-                       from.normal_N + share * (end.normal_N - from.normal_N),
-                       friction_};
+  start->chi2 = chi2;
+  start->contacts[0] = {rows_[row].arc_mm,
+                        from.normal_N + share * (end.normal_N - from.normal_N),
+                        friction_};
   // The unloaded state does not show how the finger bends under this contact.
-  start.state = share > 0.5 || to == 1 ? &end.state : &from.state;
-  return start;
+  start->state = share > 0.5 || to == 1 ? &end.state : &from.state;
 }
 
 void GaugeTable::Profile(const Eigen::VectorXd& values,
-                         const Eigen::VectorXd& weights,
+                         const Eigen::VectorXd& weights, double most_chi2,
                          std::vector<ContactStart>* profile) const {
   profile->resize(rows_.size());
-  // How wrong the cubic of each chord is, in std.
+  // How wrong the cubic of each chord is, in std; NaN until a row asks.
   std::array<double, std::size(kForces)> errors;
-  for (Eigen::Index k = 0; k < errors_.cols(); ++k) {
-    errors[static_cast<std::size_t>(k)] =
-        (errors_.col(k) * weights.array()).matrix().norm();
-  }
-  ForEachRow(values, weights,
+  errors.fill(kNaN);
+  const auto error = [&](std::size_t chord) {
+    if (std::isnan(errors[chord])) {
+      const auto column = errors_.col(static_cast<Eigen::Index>(chord));
+      errors[chord] = (column * weights.array()).matrix().norm();
+    }
+    return errors[chord];
+  };
+  ForEachRow(values, weights, most_chi2,
              [&](std::size_t row, double chi2, std::size_t to, double share) {
                ContactStart& start = (*profile)[row];
-               start = StartAt(row, to, share, chi2);
-               if (to > 0) start.error = errors[to - 1];
+               SetStart(row, to, share, chi2, &start);
+               start.error = to > 0 ? error(to - 1) : 0;
              });
 }
 
 ContactStart GaugeTable::BestStart(const Eigen::VectorXd& values,
                                    const Eigen::VectorXd& weights) const {
+  constexpr double kAll = std::numeric_limits<double>::infinity();
   ContactStart best;
-  best.chi2 = std::numeric_limits<double>::infinity();
-  ForEachRow(values, weights,
+  best.chi2 = kAll;
+  ForEachRow(values, weights, kAll,
              [&](std::size_t row, double chi2, std::size_t to, double share) {
-               if (chi2 < best.chi2) best = StartAt(row, to, share, chi2);
+               if (chi2 < best.chi2) SetStart(row, to, share, chi2, &best);
              });
   return best;
 }
@@ -269,8 +281,7 @@ void GaugeTable::FindStarts(const std::vector<ContactStart>& profile,
     if (!below_left || !below_right) continue;
     starts->push_back(profile[i]);
     if (i > 0 && i + 1 < rows) {
-      starts->back().chi2 = LeastOfParabola(
-          profile[i - 1].chi2, profile[i].chi2, profile[i + 1].chi2);
+      MoveBetweenRows(profile[i - 1], profile[i + 1], &starts->back());
     }
   }
   std::sort(starts->begin(), starts->end(),

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "finray/sensing/contact_solution.h"
-#include "finray/sensing/fast/row_curves.h"
+#include "finray/sensing/fast/row_boxes.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {
@@ -36,11 +36,15 @@ class GaugeTable {
 
   /// Finds the best contact of each row, from base to tip. `weights` whiten the
   /// misfit to `values` (0: not measured). f_c is interpolated. A row without
-  /// load has an infinite chi2.
+  /// load has an infinite chi2 and no contact. A row whose chi2 is `most_chi2`
+  /// or more may get a larger one, or look like one without load.
+  ///
+  /// Contacts nearer to such a row than to others have a chi2 of `most_chi2` or
+  /// more, too (RowBoxes).
   void Profile(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
-               std::vector<ContactStart>* profile) const;
+               double most_chi2, std::vector<ContactStart>* profile) const;
 
-  /// Finds the local minima of a profile, best first.
+  /// Finds the local minima of a profile, between rows, best first.
   static void FindStarts(const std::vector<ContactStart>& profile,
                          std::vector<ContactStart>* starts);
 
@@ -86,9 +90,9 @@ class GaugeTable {
   // Calls use(row, chi2, to, share) for the best force of each row.
   template <class Use>
   void ForEachRow(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
-                  const Use& use) const;
-  ContactStart StartAt(std::size_t row, std::size_t to, double share,
-                       double chi2) const;
+                  double most_chi2, const Use& use) const;
+  void SetStart(std::size_t row, std::size_t to, double share, double chi2,
+                ContactStart* start) const;
 
   double friction_;
   double heaviest_N_, row_spacing_mm_;
@@ -97,6 +101,7 @@ class GaugeTable {
   Eigen::ArrayXXd errors_;  // of interpolated values, values x chords
   std::vector<double> forces_N_;
   std::vector<double> value_, by_force_;  // of RowCurves
+  RowBoxes boxes_;
 };
 
 }  // namespace finray

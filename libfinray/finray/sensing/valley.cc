@@ -13,7 +13,8 @@ constexpr double kNear = 2;
 // A place that explains the frame as well or better counts as if it were this
 // many std away.
 constexpr double kLeastDistance = 0.5;
-// The evidence of a place without force is that of this share of f_c.
+// The evidence of a place without force is that of this share of f_c,
+// exp(-kMostEvidence / 2).
 constexpr double kLightest = 1e-3;
 
 }  // namespace
@@ -36,7 +37,7 @@ std::optional<Valley> FindValley(const std::vector<ContactStart>& profile,
     const PointContact& other = place.contacts[0];
     const double away = std::abs(other.arc_mm - arc);
     const double more = more_chi2(place);
-    if (away < kNear * arc_std_mm || std::isinf(more)) continue;
+    if (away < kNear * arc_std_mm || more > Valley::kMostChi2) continue;
     const double evidence =
         2 * std::log(std::max(kLightest, other.normal_N / normal));
     const double distance =

@@ -34,6 +34,10 @@ struct Valley {
   double arc_low_mm, arc_high_mm, normal_low_N, normal_high_N;
 
   static constexpr double kFarthest = 5.3, kSlack = 1.25, kMostStd = 6;
+  /// Evidence makes d(l)^2 smaller by this at most, ln 10^6.
+  static constexpr double kMostEvidence = 13.82;
+  /// Places with p(l) above the minimum by this times scale^2 do not count.
+  static constexpr double kMostChi2 = kFarthest * kFarthest + kMostEvidence;
 };
 
 /// Compares a solution with the best contact at each place of a table

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "finray/ladder/instruction_set.h"
+#include "finray/sensing/fast/row_boxes.h"
 
 namespace finray {
 namespace {
@@ -61,32 +62,44 @@ class RowCurvesTest : public testing::TestWithParam<int> {
     return chi2;
   }
 
+  // Readings at a force and a place between rows.
+  void Measure(double force, double at_row, bool all, double noise_std) {
+    std::normal_distribution<double> noise(0, noise_std);
+    measured_.clear();
+    weights_.clear();
+    for (int j = 0; j < values_; ++j) {
+      measured_.push_back(std::sin(Rate(j) * force + 0.1 * j + 0.05 * at_row) +
+                          noise(generator_));
+      weights_.push_back(j == 2 && !all ? 0 : 300);
+    }
+  }
+
+  RowCurves Curves() const {
+    return {kRows,          Forces(),      values_,
+            forces_.data(), value_.data(), by_force_.data()};
+  }
+
   const std::vector<double> forces_ = {0, 0.5, 1, 2, 4, 7, 9};
   const int values_;
   std::vector<double> value_, by_force_, measured_, weights_;
+  std::mt19937_64 generator_{3};
 };
+
+constexpr double kAnyChi2 = std::numeric_limits<double>::infinity();
 
 // Every instruction set finds the least point of each cubic, against dense
 // samples of the row. Readings that no row explains may have two minima.
 TEST_P(RowCurvesTest, AreTheNearestPoints) {
-  std::mt19937_64 generator(3);
   std::uniform_real_distribution<double> force(0, 9), row_of(0, kUsed - 1);
-  std::normal_distribution<double> noise(0, 0.003);
   std::vector<double> chi2(kRows), to(kRows), share(kRows);
   int checked = 0;
   for (int trial = 0; trial < 100; ++trial) {
-    const double f = force(generator), at_row = row_of(generator);
-    measured_.clear();
-    weights_.clear();
-    for (int j = 0; j < values_; ++j) {
-      measured_.push_back(std::sin(Rate(j) * f + 0.1 * j + 0.05 * at_row) +
-                          noise(generator));
-      weights_.push_back(j == 2 && trial % 3 == 0 ? 0 : 300);
-    }
-    const RowCurves curves = {kRows,          Forces(),      values_,
-                              forces_.data(), value_.data(), by_force_.data()};
+    const double f = force(generator_), at_row = row_of(generator_);
+    Measure(f, at_row, trial % 3 != 0, 0.003);
+    const RowCurves curves = Curves();
+    const RowBoxes boxes(curves);
     for (int set = 0; set < InstructionSets(); ++set) {
-      FindRowMinima(curves, measured_.data(), weights_.data(),
+      FindRowMinima(curves, boxes, measured_.data(), weights_.data(), kAnyChi2,
                     {chi2.data(), to.data(), share.data()}, set);
       for (int row = 0; row < kRows; ++row) {
         if (row >= kUsed) {
@@ -112,6 +125,38 @@ TEST_P(RowCurvesTest, AreTheNearestPoints) {
     }
   }
   EXPECT_GT(checked, 150);
+}
+
+// Rows that a limit leaves out are those beyond it.
+TEST_P(RowCurvesTest, ALimitLeavesOutOnlyFartherRows) {
+  std::uniform_real_distribution<double> force(0, 9), row_of(0, kUsed - 1);
+  std::vector<double> all_chi2(kRows), all_to(kRows), all_share(kRows);
+  std::vector<double> chi2(kRows), to(kRows), share(kRows);
+  const RowCurves curves = Curves();
+  const RowBoxes boxes(curves);
+  int below = 0, left_out = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    Measure(force(generator_), row_of(generator_), trial % 3 != 0, 0.003);
+    const double most_chi2 = trial % 2 == 0 ? 50 : 500;
+    for (int set = 0; set < InstructionSets(); ++set) {
+      FindRowMinima(curves, boxes, measured_.data(), weights_.data(), kAnyChi2,
+                    {all_chi2.data(), all_to.data(), all_share.data()}, set);
+      FindRowMinima(curves, boxes, measured_.data(), weights_.data(), most_chi2,
+                    {chi2.data(), to.data(), share.data()}, set);
+      for (int row = 0; row < kRows; ++row) {
+        if (all_chi2[row] < most_chi2) {
+          ++below;
+          EXPECT_NEAR(chi2[row], all_chi2[row], 1e-9 * (1 + chi2[row]));
+          EXPECT_NEAR(to[row] + share[row], all_to[row] + all_share[row], 1e-6);
+        } else {
+          EXPECT_GE(chi2[row], most_chi2);
+          left_out += row < kUsed && to[row] == 0;
+        }
+      }
+    }
+  }
+  EXPECT_GT(below, 500);
+  EXPECT_GT(left_out, 200);
 }
 
 // Also more values than a kernel keeps the cubics of.

@@ -5,8 +5,9 @@
 namespace finray {
 
 // Each compilation of row_curves_kernel.cc has one of these.
-using FindMinima = void(const RowCurves& curves, const double* measured,
-                        const double* weights, const RowMinima& minima);
+using FindMinima = void(const RowCurves& curves, const RowBoxes& boxes,
+                        const double* measured, const double* weights,
+                        double most_chi2, const RowMinima& minima);
 inline namespace generic {
 FindMinima RowMinimaOf;
 }
@@ -17,10 +18,12 @@ namespace avx512 {
 FindMinima RowMinimaOf;
 }
 
-void FindRowMinima(const RowCurves& curves, const double* measured,
-                   const double* weights, const RowMinima& minima, int set) {
+void FindRowMinima(const RowCurves& curves, const RowBoxes& boxes,
+                   const double* measured, const double* weights,
+                   double most_chi2, const RowMinima& minima, int set) {
   static constexpr FindMinima* kFind[] = FINRAY_COMPILATIONS(RowMinimaOf);
-  kFind[BestInstructionSet() + set](curves, measured, weights, minima);
+  kFind[BestInstructionSet() + set](curves, boxes, measured, weights, most_chi2,
+                                    minima);
 }
 
 }  // namespace finray

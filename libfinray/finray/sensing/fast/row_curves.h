@@ -19,17 +19,22 @@ struct RowCurves {
   const double *value, *by_force;
 };
 
+struct RowBoxes;
+
 /// The nearest point of each row: the index of the node at the end of its chord
-/// (0: the row has none) and the share of the way there.
+/// (0: none was found) and the share of the way there.
 struct RowMinima {
   double *chi2, *to, *share;  ///< [row]
 };
 
 /// Minimises chi2 = sum_j w_j^2 (value_j - measured_j)^2 along each row: first
 /// on the chords between its nodes, then by Gauss-Newton on the cubic above the
-/// nearest one. `set` counts from the best instruction set of this machine.
-void FindRowMinima(const RowCurves& curves, const double* measured,
-                   const double* weights, const RowMinima& minima, int set = 0);
+/// nearest one. A row whose chi2 is `most_chi2` or more may get a larger one, or
+/// none: `boxes` say which chords may lead below that, and only those are
+/// searched. `set` counts from the best instruction set of this machine.
+void FindRowMinima(const RowCurves& curves, const RowBoxes& boxes,
+                   const double* measured, const double* weights,
+                   double most_chi2, const RowMinima& minima, int set = 0);
 
 }  // namespace finray
 

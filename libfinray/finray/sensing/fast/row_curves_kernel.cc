@@ -1,8 +1,9 @@
 // Compiled once for every instruction set; see CMakeLists.txt.
+#include <algorithm>
 #include <limits>
 
 #include "finray/ladder/registers.h"
-#include "finray/sensing/fast/row_curves.h"
+#include "finray/sensing/fast/row_boxes.h"
 
 namespace finray {
 inline namespace FINRAY_ISA {
@@ -16,14 +17,24 @@ static_assert(RowCurves::kPadding % kWidth == 0);
 constexpr int kRefinements = 4;
 // The first kKept values keep their terms. Those of the others are formed anew.
 constexpr int kKept = 16;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 V WithinOne(V share) {
   share = share < 0 ? V{} : share;
   return share > 1 ? V{} + 1.0 : share;
 }
 
+// Says whether a change of shares is too small to matter.
+bool IsSmall(const V& change) {
+  constexpr double kSmall = 1e-8;
+  const auto small = (change < kSmall) & (change > -kSmall);
+  bool all = true;
+  for (int lane = 0; lane < kWidth; ++lane) all &= small[lane] != 0;
+  return all;
+}
+
 struct Nearest {
-  V chi2 = V{} + std::numeric_limits<double>::infinity();
+  V chi2 = V{} + kInfinity;
   V to{}, share{};
 };
 
@@ -32,7 +43,47 @@ struct Cubic {
   V c[4];
 };
 
-// kWidth rows.
+// The chords from `first` to before `end`.
+struct Chords {
+  int first, end;
+};
+
+// Returns the least range of chords that holds all whose box is nearer than
+// most_chi2.
+Chords ChordsNear(const RowBoxes& boxes, int values, int group,
+                  const double* measured, const double* weights,
+                  double most_chi2) {
+  V first = V{} + static_cast<double>(boxes.chords), end{};
+  V chord;
+  for (int lane = 0; lane < kWidth; ++lane) chord[lane] = lane;
+  const int stride = boxes.chords;
+  const double* low = boxes.low.data() + group * values * stride;
+  const double* high = boxes.high.data() + group * values * stride;
+  for (int k = 0; k < stride; k += kWidth, low += kWidth, high += kWidth) {
+    V chi2{};
+    for (int j = 0; j < values; ++j) {
+      const V below = Row::Load(low + j * stride) - measured[j];
+      const V above = measured[j] - Row::Load(high + j * stride);
+      V off = below > above ? below : above;
+      off = weights[j] * (off > 0 ? off : V{});
+      chi2 += off * off;
+    }
+    const auto near = chi2 < most_chi2;
+    first = near & (chord < first) ? chord : first;
+    end = near ? chord + 1.0 : end;
+    chord += static_cast<double>(kWidth);
+  }
+  Chords chords = {stride, 0};
+  for (int lane = 0; lane < kWidth; ++lane) {
+    chords.first = std::min(chords.first, static_cast<int>(first[lane]));
+    chords.end = std::max(chords.end, static_cast<int>(end[lane]));
+  }
+  return chords;
+}
+
+// kWidth rows of kValues values, or of as many as there are if it is 0. A number
+// that the compiler knows keeps them all in registers.
+template <int kValues>
 class Rows {
  public:
   Rows(const RowCurves& curves, const double* measured, const double* weights,
@@ -40,14 +91,15 @@ class Rows {
       : curves_(curves), measured_(measured), weights_(weights), row_(row) {}
 
   // The nearest points of the chords.
-  Nearest OnChords() const {
+  Nearest OnChords(const Chords& chords) const {
     Nearest nearest;
     V kept[kKept];  // misfits at the nodes where chords begin
-    for (int j = 0; j < curves_.values && j < kKept; ++j) kept[j] = Off(0, j);
-    for (int k = 0; k + 1 < curves_.forces; ++k) {
+    for (int j = 0; j < values() && j < kKept; ++j) {
+      kept[j] = Off(chords.first, j);
+    }
+    for (int k = chords.first; k < chords.end; ++k) {
       V along{}, square{}, misfit{};
-      for (int j = 0; j < curves_.values; ++j) {
-        if (weights_[j] == 0) continue;
+      for (int j = 0; j < values(); ++j) {
         const V from = j < kKept ? kept[j] : Off(k, j);
         const V to = Off(k + 1, j);
         const V edge = from - to;
@@ -68,26 +120,28 @@ class Rows {
 
   // The nearest points of the cubics above the nearest chords.
   void Refine(Nearest* nearest) const {
-    int end[kWidth];
+    // Neighbouring rows end at the same few nodes.
+    Chords ends = {curves_.forces, 1};
     for (int lane = 0; lane < kWidth; ++lane) {
-      end[lane] =
-          nearest->to[lane] > 1 ? static_cast<int>(nearest->to[lane]) : 1;
+      const int end = std::max(1, static_cast<int>(nearest->to[lane]));
+      ends.first = std::min(ends.first, end);
+      ends.end = std::max(ends.end, end + 1);
     }
     Cubic kept[kKept];
-    for (int j = 0; j < curves_.values && j < kKept; ++j) {
-      kept[j] = CubicOf(j, end);
+    for (int j = 0; j < values() && j < kKept; ++j) {
+      kept[j] = CubicOf(j, nearest->to, ends);
     }
     V t = nearest->share;
-    nearest->chi2 = V{} + std::numeric_limits<double>::infinity();
-    auto goes_on = t == t;
+    nearest->chi2 = V{} + kInfinity;
+    auto goes_on = nearest->to > 0;
     for (int i = 0; i < kRefinements; ++i) {
       V chi2{}, slope{}, curvature{};
-      for (int j = 0; j < curves_.values; ++j) {
-        if (weights_[j] == 0) continue;
-        const Cubic cubic = j < kKept ? kept[j] : CubicOf(j, end);
-        const V* c = cubic.c;
+      const V twice = 2.0 * t, thrice = 3.0 * t * t;
+      for (int j = 0; j < values(); ++j) {
+        const Cubic other = j < kKept ? Cubic() : CubicOf(j, nearest->to, ends);
+        const V* c = j < kKept ? kept[j].c : other.c;
         const V off = c[0] + t * (c[1] + t * (c[2] + t * c[3]));
-        const V by_share = c[1] + t * (2.0 * c[2] + t * (3.0 * c[3]));
+        const V by_share = c[1] + twice * c[2] + thrice * c[3];
         chi2 += off * off;
         slope += off * by_share;
         curvature += by_share * by_share;
@@ -96,11 +150,15 @@ class Rows {
       nearest->chi2 = goes_on ? chi2 : nearest->chi2;
       nearest->share = goes_on ? t : nearest->share;
       goes_on &= curvature > 0;
-      t = goes_on ? WithinOne(t - slope / curvature) : t;
+      const V next = goes_on ? WithinOne(t - slope / curvature) : t;
+      if (IsSmall(next - t)) break;
+      t = next;
     }
   }
 
  private:
+  int values() const { return kValues > 0 ? kValues : curves_.values; }
+
   int At(int force, int value) const {
     return (force * curves_.values + value) * curves_.rows + row_;
   }
@@ -111,16 +169,17 @@ class Rows {
            (measured_[j] - Row::Load(curves_.value + At(force, j)));
   }
 
-  Cubic CubicOf(int j, const int end[kWidth]) const {
+  // The cubic of the chord to node `to`, one of `ends`.
+  Cubic CubicOf(int j, const V& to_node, const Chords& ends) const {
     V from{}, to{}, slope_from{}, slope_to{};
-    for (int lane = 0; lane < kWidth; ++lane) {
-      const int k = end[lane];
+    for (int k = ends.first; k < ends.end; ++k) {
       const double width = curves_.force_N[k] - curves_.force_N[k - 1];
-      const int a = At(k - 1, j) + lane, b = At(k, j) + lane;
-      from[lane] = curves_.value[a];
-      to[lane] = curves_.value[b];
-      slope_from[lane] = width * curves_.by_force[a];
-      slope_to[lane] = width * curves_.by_force[b];
+      const int a = At(k - 1, j), b = At(k, j);
+      const auto here = to_node == static_cast<double>(k);
+      from = here ? Row::Load(curves_.value + a) : from;
+      to = here ? Row::Load(curves_.value + b) : to;
+      slope_from = here ? width * Row::Load(curves_.by_force + a) : slope_from;
+      slope_to = here ? width * Row::Load(curves_.by_force + b) : slope_to;
     }
     const V rise = to - from;
     const double w = weights_[j];
@@ -134,17 +193,39 @@ class Rows {
   const int row_;
 };
 
+template <int kValues>
+void FindMinima(const RowCurves& curves, const RowBoxes& boxes,
+                const double* measured, const double* weights, double most_chi2,
+                const RowMinima& minima) {
+  const int values = kValues > 0 ? kValues : curves.values;
+  for (int group = 0; group * RowBoxes::kRows < curves.rows; ++group) {
+    const Chords chords =
+        ChordsNear(boxes, values, group, measured, weights, most_chi2);
+    for (int i = 0; i < RowBoxes::kRows; i += kWidth) {
+      const int row = group * RowBoxes::kRows + i;
+      Nearest nearest;
+      if (chords.first < chords.end) {
+        const Rows<kValues> rows(curves, measured, weights, row);
+        nearest = rows.OnChords(chords);
+        rows.Refine(&nearest);
+      }
+      Row::Store(nearest.chi2, minima.chi2 + row);
+      Row::Store(nearest.to, minima.to + row);
+      Row::Store(nearest.share, minima.share + row);
+    }
+  }
+}
+
 }  // namespace
 
-void RowMinimaOf(const RowCurves& curves, const double* measured,
-                 const double* weights, const RowMinima& minima) {
-  for (int row = 0; row < curves.rows; row += kWidth) {
-    const Rows rows(curves, measured, weights, row);
-    Nearest nearest = rows.OnChords();
-    rows.Refine(&nearest);
-    Row::Store(nearest.chi2, minima.chi2 + row);
-    Row::Store(nearest.to, minima.to + row);
-    Row::Store(nearest.share, minima.share + row);
+void RowMinimaOf(const RowCurves& curves, const RowBoxes& boxes,
+                 const double* measured, const double* weights,
+                 double most_chi2, const RowMinima& minima) {
+  // Most fingers have four gauges.
+  if (curves.values == 4) {
+    FindMinima<4>(curves, boxes, measured, weights, most_chi2, minima);
+  } else {
+    FindMinima<0>(curves, boxes, measured, weights, most_chi2, minima);
   }
 }
 
