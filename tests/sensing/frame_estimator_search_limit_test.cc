@@ -63,7 +63,9 @@ TEST_F(SearchLimitTest, FramesAreThoseOfAWholeSearchOrFlagged) {
         EXPECT_NEAR(a.contact[0].normal_N, b.contact[0].normal_N,
                     0.02 * b.contact[0].normal_std_N);
       }
-      EXPECT_EQ(ended > 0, longest > limit);
+      // A whole search may try a start twice.
+      EXPECT_TRUE(ended == 0 || longest > limit);
+      EXPECT_TRUE(ended > 0 || limit > 1 || contacts);
       EXPECT_LT(ended, limit > 10 ? 250 : 301);
     }
   }

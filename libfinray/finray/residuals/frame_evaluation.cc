@@ -135,6 +135,7 @@ void FrameEvaluation::Take(const double* frame, const Eigen::VectorXd& outputs,
     d_outputs_.bottomRows<3>() = d_outputs.bottomRightCorner(3, columns());
   } else {
     outputs_.tail<3>().setConstant(kNaN);
+    d_outputs_.bottomRows<3>().setConstant(kNaN);
   }
   by_place_ = by_place;
   valid_ = true;

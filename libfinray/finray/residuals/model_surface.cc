@@ -12,8 +12,9 @@ namespace {
 constexpr double kHeaviest = 40;
 // A cell that leaves out so many times the resolution is not used.
 constexpr double kInexact = 10;
-// Derivatives by the parameters leave out terms of this size. They move the
-// parameters, in their std, and the std by as small a share.
+// Derivatives by the parameters leave out terms of this share of their largest.
+// Every std is off by as small a share of itself, and the minimum by as small a
+// share of a std.
 constexpr double kNegligible = 1e-5;
 
 }  // namespace

@@ -27,13 +27,17 @@ ReadingHistory::Row ReadingHistory::At(int row, const Values& values) const {
     const std::shared_lock<std::shared_mutex> lock(mutex_);
     if (computed_ && values == at_) return rows_[row];
   }
-  Follow(values);
-  const std::shared_lock<std::shared_mutex> lock(mutex_);
+  const std::unique_lock<std::shared_mutex> lock(mutex_);
+  ComputeAt(values);
   return rows_[row];
 }
 
 void ReadingHistory::Follow(const Values& values) const {
   const std::unique_lock<std::shared_mutex> lock(mutex_);
+  ComputeAt(values);
+}
+
+void ReadingHistory::ComputeAt(const Values& values) const {
   if (computed_ && values == at_) return;
   at_ = values;
   computed_ = true;

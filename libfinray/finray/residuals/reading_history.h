@@ -53,6 +53,8 @@ class ReadingHistory {
   }
 
  private:
+  // Computes all rows unless they are those at these values.
+  void ComputeAt(const Values& values) const;
   void Compute() const;
 
   double noise_V_ = 1;

@@ -41,12 +41,15 @@ constexpr std::size_t kCrowded = 13;
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 // Few frames that the model explains have a larger chi2.
-double LikelyChi2(int dof) { return dof + 4 * std::sqrt(2.0 * dof); }
+double LikelyChi2(int dof) { return dof + 3 * std::sqrt(2.0 * dof); }
 
 // The least chi2 of rows that do not matter beside a solution: starts there are
-// not tried, no contact there is a rival, and they are in no valley.
+// not tried, no contact there is a rival, and no valley reaches them. The last
+// part of an interval ends between a row that counts and one that may not, so
+// it may depend on this.
 double ProfiledChi2(double chi2, int dof) {
-  // FrameEstimate::noise_scale, or more.
+  // FrameEstimate::noise_scale, or more, as LikelyChi2 is below the chi2 from
+  // which on that is more than 1.
   const double scale2 =
       chi2 > LikelyChi2(dof) ? std::max(1.0, chi2 / std::max(1, dof)) : 1;
   return std::max((chi2 + ContactSearch::kWithinNoise) / kTableFactor,
@@ -146,7 +149,9 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
   // however far the table's nodes are from it. Then chi2 cannot tell which
   // minimum is right, and all starts are tried.
   exact_fit_ = contacts == 1 && dof < 1;
-  bool close = exact_fit_ || HasCloseMinima(solver_.model().finger());
+  const bool always_close =
+      exact_fit_ || HasCloseMinima(solver_.model().finger());
+  bool close = always_close;
   iterations_ = 0;
   // Fits on the surface cost less than the profile of all rows. With a limit no
   // start is tried twice.
@@ -155,13 +160,15 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
                          : kUnbounded;
   for (;;) {
     FindStarts(contacts, packed, most_chi2);
-    close |= contacts == 1 && !starts_.empty() && starts_[0].error > kCoarse;
+    close = always_close ||
+            (contacts == 1 && !starts_.empty() && starts_[0].chi2 < most_chi2 &&
+             starts_[0].error > kCoarse);
     double needed = kUnbounded;
     if (!close || most_chi2 == kUnbounded) {
       found_.Clear();
       needed = TryStarts(contacts, row, packed, most_chi2);
     }
-    if (needed <= most_chi2) break;
+    if (!(needed > most_chi2)) break;
     most_chi2 = needed;
   }
   suspect_ = contacts == 2 && found_.rival(kSuspect) != nullptr;
@@ -187,7 +194,7 @@ double ContactSearch::TryStarts(int contacts, const Measurements& row,
   // A rival may be hidden by noise, and two contacts are followed from here.
   const double within = contacts == 2 ? kSuspect : kWithinNoise;
   for (const ContactStart& start : contacts == 2 ? pair_starts_ : starts_) {
-    // Neither the solutions nor this start promise that the profile suffices.
+    // The profile must reach farther, unless a start yet to come lowers chi2.
     if (!found_.empty() &&
         ProfiledChi2(std::min(found_.least_chi2(), kTableFactor * start.chi2),
                      dof) > most_chi2) {

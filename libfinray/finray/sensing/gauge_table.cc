@@ -52,6 +52,7 @@ void MoveBetweenRows(const ContactStart& below, const ContactStart& above,
   const double rows = std::abs(slope) / curvature;  // at most half a row
   const PointContact& towards = (slope > 0 ? below : above).contacts[0];
   PointContact& contact = start->contacts[0];
+  if (contact.normal_N == 0) return;  // the free finger
   contact.arc_mm += rows * (towards.arc_mm - contact.arc_mm);
   contact.normal_N += rows * (towards.normal_N - contact.normal_N);
   start->chi2 = std::max(0.0, start->chi2 - 0.5 * rows * std::abs(slope));

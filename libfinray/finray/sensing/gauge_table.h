@@ -35,12 +35,13 @@ class GaugeTable {
              int rows = kMostRows);
 
   /// Finds the best contact of each row, from base to tip. `weights` whiten the
-  /// misfit to `values` (0: not measured). f_c is interpolated. A row without
+  /// misfit to `values` (0: not measured; the value is finite even so). f_c is
+  /// interpolated. A row without
   /// load has an infinite chi2 and no contact. A row whose chi2 is `most_chi2`
   /// or more may get a larger one, or look like one without load.
   ///
   /// Contacts nearer to such a row than to others have a chi2 of `most_chi2` or
-  /// more, too (RowBoxes).
+  /// more, too, as far as RowBoxes hold.
   void Profile(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
                double most_chi2, std::vector<ContactStart>* profile) const;
 

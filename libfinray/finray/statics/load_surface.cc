@@ -311,7 +311,9 @@ LoadSurface::LoadSurface(Domain domain, std::vector<int> sizes,
       make_sampler_(std::move(make_sampler)),
       negligible_(negligible) {
   const double coarse =
-      std::max(1.0, resolution_.minCoeff() / kUsualResolution);
+      resolution_.size() > 0
+          ? std::max(1.0, resolution_.minCoeff() / kUsualResolution)
+          : 1;
   for (std::size_t i = 0; i + 1 < domain_.arcs_mm.size(); ++i) {
     for (std::size_t k = 0; k + 1 < domain_.forces_N.size(); ++k) {
       auto cell = std::make_unique<LoadCell>();

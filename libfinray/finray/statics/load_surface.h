@@ -23,7 +23,7 @@ struct LoadCell;
 ///   v(l, f) = sum_ij c_ij T_i(u) T_j(w),    u, w = -1 .. 1 across the cell,
 ///
 /// whose coefficients fall off geometrically: a dozen in either direction leave
-/// out no more than rounding.
+/// out no more than rounding, and fewer what the user allows.
 /// docs/decisions/0019-a-load-surface.md has figures.
 ///
 /// A cell is made when it is first needed, from some hundred equilibria. Where

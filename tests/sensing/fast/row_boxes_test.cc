@@ -9,13 +9,14 @@
 namespace finray {
 namespace {
 
-// Values s_j = a_j sin(b f + c row + j) with a kink at one row, as a rib makes
-// one.
-constexpr int kBoxRows = 24, kBoxUsed = 19, kBoxValues = 3, kKinkRow = 10;
+// Values s_j = a_j sin(b f + c row + j) with a kink half way between two rows,
+// as a rib makes one.
+constexpr int kBoxRows = 24, kBoxUsed = 19, kBoxValues = 3;
+constexpr double kKinkRow = 10.5;
 constexpr int kShortBoxRow = 5, kShortBoxForces = 3;
 
 double SheetValue(int j, double row, double force) {
-  const double kink = 0.02 * std::abs(row - kKinkRow) * force;
+  const double kink = 0.1 * std::abs(row - kKinkRow) * force;
   return (1 + j) * std::sin(0.2 * force + 0.15 * row + j) + (j == 1 ? kink : 0);
 }
 

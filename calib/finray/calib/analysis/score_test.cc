@@ -368,8 +368,9 @@ WideLinearization LinearizeFolds(const CalibrationProblem& problem,
   Plan plan = problem.plan();
   for (const CandidateEffect& effect :
        CandidatesFor(problem.finger(), plan, problem.logs())) {
+    if (!plan.ForceZeroIsKnown()) break;
     const Plan freed = Freed(plan, effect);
-    if (plan.ForceZeroIsKnown() && !freed.ForceZeroIsKnown()) plan = freed;
+    if (!freed.ForceZeroIsKnown()) plan = freed;
   }
   return LinearizeWith(plan, problem, solution);
 }

@@ -26,8 +26,8 @@ int Compare(const Numbers& a, const Numbers& b) {
   return static_cast<int>(a.size()) - static_cast<int>(b.size());
 }
 
-// A row beside its first numbers, which nearly always differ. A million frames
-// would not fit into the cache.
+// A row beside its first numbers, which nearly always differ: a sort by them
+// does not read the frames, which are all over the heap.
 struct KeyedRow {
   std::array<double, 3> key;
   int row;
@@ -75,6 +75,7 @@ void MarkRepeatedRows(const Plan& plan, CalibrationLogs* logs) {
   std::vector<CalibrationFrame>& frames = logs->frames;
   const auto count = static_cast<int>(frames.size());
   std::vector<KeyedRow> rows;
+  rows.reserve(frames.size());
   for (int i = 0; i < count; ++i) {
     const std::vector<double>& gauges = frames[i].gauges_V;
     KeyedRow keyed{{kNaN, kNaN, kNaN}, i};
@@ -85,7 +86,9 @@ void MarkRepeatedRows(const Plan& plan, CalibrationLogs* logs) {
   VisitRuns(
       &rows,
       [&](int a, int b) {
-        return Compare(Numbers(frames[a]), Numbers(frames[b]));
+        const int gauges = Compare(frames[a].gauges_V, frames[b].gauges_V);
+        return gauges != 0 ? gauges
+                           : Compare(Numbers(frames[a]), Numbers(frames[b]));
       },
       [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k) {

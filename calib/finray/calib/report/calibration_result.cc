@@ -1,10 +1,11 @@
 #include "finray/calib/report/calibration_result.h"
 
 #include <tbb/task_arena.h>
-#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <cmath>
+#include <future>
+#include <memory>
 
 #include "finray/calib/analysis/reading_noise.h"
 #include "finray/calib/analysis/refit.h"
@@ -316,15 +317,12 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
       problem->logs(), result.solution.at, result.identifiability);
   const Identifiability of_noise = result.identifiability;
   // One estimator serves all checks: they differ in what they say of errors
-  // only. Its tables are made beside the advice.
+  // only. With several threads its tables are made beside the advice.
   Finger solved = problem->parameters().Apply(problem->finger());
   KeepCovariance(problem->parameters(), of_noise, &solved);
-  std::unique_ptr<const FrameEstimator> estimator;
-  tbb::task_arena arena(problem->threads());
-  tbb::task_group tables;
-  arena.execute([&] {
-    tables.run([&] { estimator = SensingEstimator(*problem, solved); });
-  });
+  std::future<std::unique_ptr<const FrameEstimator>> tables = std::async(
+      problem->threads() > 1 ? std::launch::async : std::launch::deferred,
+      [&] { return SensingEstimator(*problem, solved); });
   EnlargeStd(result.residual_correlation, &result.identifiability);
   problem->Tell("what to record next");
   result.next =
@@ -333,7 +331,7 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
     result.leave_one_log_out =
         LeaveLogsOut(problem, result.solution, result.identifiability);
   }
-  arena.execute([&] { tables.wait(); });
+  std::unique_ptr<const FrameEstimator> estimator = tables.get();
   if (result.solution.solve.converged && !result.solution.at.frames.empty()) {
     problem->Tell("effects that the plan leaves out");
     const WideLinearization wide = LinearizeWide(*problem, result.solution);
@@ -350,7 +348,9 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
     }
     const HeldOutErrors errors =
         GaugeErrorsOf(*problem, result.solution, of_noise, wide);
-    arena.execute([&] { result.discrepancy = FitDiscrepancy(errors); });
+    tbb::task_arena(problem->threads()).execute([&] {
+      result.discrepancy = FitDiscrepancy(errors);
+    });
     if (result.discrepancy && result.cross_validation.folds > 0) {
       result.with_discrepancy = CrossValidate(
           *problem, of_noise, wide, estimator.get(), result.discrepancy);

@@ -15,7 +15,7 @@ namespace {
 constexpr int kRows = GaugeTable::kMostRows / 2;
 constexpr double kMostGap_mm = 2;
 constexpr double kTableTolerance = 1e-6, kFitTolerance = 1e-3;
-// So exact is the surface, in std.
+// The surface is exact to this, in std: the solve goes on from the guess.
 constexpr double kSurfaceExact_std = 0.1;
 
 EquilibriumSolver SolverFor(const CalibrationProblem& problem) {
@@ -41,6 +41,7 @@ ContactGuess::ContactGuess(CalibrationProblem* problem, bool many)
              std::nullopt, problem->threads(), kRows),
       fit_(solver_.model().finger(), problem->discretization(),
            RadiusOf(*problem)),
+      many_(many),
       circle_(RadiusOf(*problem).has_value()) {
   const auto size = static_cast<Eigen::Index>(problem->finger().gauges.size()) +
                     (circle_ ? 2 : 0);

@@ -39,8 +39,8 @@ class ContactGuess {
   Place Of(const CalibrationFrame& frame, From from);
 
   const GaugeTable& table() const { return table_; }
-  /// Whether many frames are guessed.
-  bool many() const { return surface_ != nullptr; }
+  /// Whether it was made for many frames.
+  bool many() const { return many_; }
 
  private:
   void AddCircle(const CalibrationFrame& frame);
@@ -56,7 +56,7 @@ class ContactGuess {
   std::shared_ptr<const GaugeSurface> surface_;  // null: none
   ContactFit fit_;
   ContactSolution solution_;
-  bool circle_;
+  bool many_, circle_;
   Eigen::VectorXd values_, weights_;  // gauges, then the circle's centre
 };
 

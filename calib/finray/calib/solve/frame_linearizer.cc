@@ -92,7 +92,8 @@ bool FrameLinearizer::Solve(const std::array<double, 2>& contact,
   if (!model->near) {
     model->near = model->start();
     // The solver drops the mesh that another frame has refined. Otherwise
-    // results would depend on which thread had which frame.
+    // results would depend on which thread had which frame. A state of the
+    // table brings its mesh along.
     if (model->near->q.size() == 0) solver_.Reset();
   }
   model->evaluation->set_state(model->near->q.size() > 0
@@ -112,14 +113,11 @@ bool FrameLinearizer::Solve(const std::array<double, 2>& contact,
 bool FrameLinearizer::TakeFromSurface(const std::array<double, 2>& contact,
                                       bool all, FrameEvaluation* evaluation) {
   if (surface_ == nullptr || !evaluation->FitsSurface()) return false;
-  // Wherever it is, a contact without force is the free finger.
-  const double length_mm = solver_.model().finger().front_length_mm;
-  const bool touches = evaluation->contacts() == 1;
-  const double arc_mm =
-      touches ? std::clamp(contact[0], 0.0, length_mm) : length_mm / 2;
-  if (!surface_->Evaluate(arc_mm, touches ? contact[1] : 0, all, &values_)) {
-    return false;
-  }
+  const Finger& finger = solver_.model().finger();
+  auto [arc_mm, normal_N] =
+      evaluation->contacts() == 1 ? contact : FreeContact(finger);
+  arc_mm = std::clamp(arc_mm, 0.0, finger.front_length_mm);
+  if (!surface_->Evaluate(arc_mm, normal_N, all, &values_)) return false;
   evaluation->Take(contact.data(), values_.outputs, values_.d_outputs,
                    values_.by_place);
   return true;

@@ -36,6 +36,11 @@ class FrameLinearizer {
   static bool FitsSurface(const CalibrationFrame& frame,
                           const CalibrationParameters& parameters);
 
+  /// Wherever it is, a contact without force is the free finger.
+  static std::array<double, 2> FreeContact(const Finger& finger) {
+    return {finger.front_length_mm / 2, 0};
+  }
+
   /// Linearises the frame with its contact at (l_c, f_c) = `contact`. A free
   /// frame does not use `contact`. Returns false if the model cannot be
   /// evaluated.
@@ -46,9 +51,9 @@ class FrameLinearizer {
   /// Moves the contact to where it explains the frame best with the present
   /// parameters, and linearises the frame there. It takes Gauss-Newton steps of
   /// l_c and f_c within their bounds, until a further step would lower chi2 / 2
-  /// by less than kSmallDecrease. LinearizedFrame::move tells the rest of the
-  /// way well enough. If the model cannot be evaluated, it returns false and
-  /// leaves `out` without rows.
+  /// by less than kSmallDecrease, 0.04 std. LinearizedFrame::move tells the
+  /// rest of the way well enough, and the next pass starts behind it. If the
+  /// model cannot be evaluated, it returns false and leaves `out` without rows.
   static constexpr double kSmallDecrease = 1e-3;
   bool FitContact(const CalibrationFrame& frame, std::array<double, 2>* contact,
                   const StartState& start, LinearizedFrame* out);
@@ -93,7 +98,9 @@ class FrameLinearizer {
   // friction of their own; and that of another frame.
   std::array<std::optional<FrameEvaluation>, 2> usual_;
   std::optional<FrameEvaluation> unusual_;
-  // The last contact stayed where it was, as the next one may.
+  // The last contact stayed where it was. If the next one does too, the
+  // derivatives by the parameters are best computed at once. Results do not
+  // depend on it.
   bool settled_ = false;
   LinearizedFrame tried_;
   ModelSurface::Values values_;

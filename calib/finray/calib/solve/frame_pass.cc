@@ -20,9 +20,9 @@ namespace {
 // A thread evaluates so many frames at a time. There are some for each cell of
 // a surface, whose coefficients take more memory than a core has next to it.
 constexpr std::size_t kChunk = 128;
-// What the surface leaves out may move the parameters by this at most, in their
-// std. A million frames add up what each leaves out to a thousand times of
-// that.
+// What the surface leaves out may move the parameters by about this, in their
+// std. If the errors of N frames all pull the same way, they move a parameter
+// by sqrt(N) times as many of its std as one error has of a measurement's.
 constexpr double kExact_std = 1e-2;
 // A frame may leave out this in rad where gauges tell hardly anything.
 constexpr double kExact_rad = 1e-7;
@@ -38,12 +38,13 @@ std::optional<ModelSurface> SurfaceFor(const std::vector<int>& frames,
   const CalibrationParameters& parameters = problem.parameters();
   const auto gauges = static_cast<int>(problem.finger().gauges.size());
   const int poses = problem.plan().tip_std_mm ? 2 : 1;  // contact, tip
-  const double std = kExact_std / std::sqrt(static_cast<double>(frames.size()));
+  const double exact_std =
+      kExact_std / std::sqrt(static_cast<double>(frames.size()));
   Eigen::VectorXd resolution(gauges + 3 * poses);
   double rad = kExact_rad;
   for (int j = 0; j < gauges; ++j) {
     const Gauge gauge = parameters.Present(problem.finger(), j);
-    resolution[j] = std::min(kExact_rad, std / gauge.AngleWeight());
+    resolution[j] = std::min(kExact_rad, exact_std / gauge.AngleWeight());
     rad = std::min(rad, resolution[j]);
   }
   for (int i = 0; i < poses; ++i) {
@@ -65,10 +66,10 @@ void MakeCells(const std::vector<int>& frames, const Contacts& contacts,
   wanted.reserve(frames.size());
   for (const int i : frames) {
     const CalibrationFrame& frame = problem.frame(i);
-    if (frame.contact &&
-        FrameLinearizer::FitsSurface(frame, problem.parameters())) {
-      wanted.push_back(contacts[i]);
-    }
+    if (!FrameLinearizer::FitsSurface(frame, problem.parameters())) continue;
+    wanted.push_back(frame.contact
+                         ? contacts[i]
+                         : FrameLinearizer::FreeContact(problem.finger()));
   }
   surface.MakeFor(wanted);
 }

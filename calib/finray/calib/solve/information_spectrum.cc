@@ -50,8 +50,8 @@ InformationSpectrum::InformationSpectrum(const Eigen::MatrixXd& information) {
       size.asDiagonal() * information * size.asDiagonal());
   const Eigen::VectorXd kept = even.eigenvalues().unaryExpr(
       [](double value) { return value > kRounding ? value : 0; });
-  const lapack_int work_size = 2 * n * n + 6 * n + 7;
-  const AlignedDoubles memory(3 * n * n + n + work_size + 4 * 8);
+  const lapack_int work_size = 2 * n * n + 6 * n + 7;  // ample
+  const AlignedDoubles memory(2 * n * n + n + work_size + 4 * 8);
   double* next = memory.data();
   const auto take = [&](lapack_int count) {
     double* const taken = next;
@@ -59,14 +59,14 @@ InformationSpectrum::InformationSpectrum(const Eigen::MatrixXd& information) {
     return taken;
   };
   double* const factor = take(n * n);
-  double *const left = take(n * n), *const right = take(n * n);
+  double* const right = take(n * n);
   double *const singular = take(n), *const work = take(work_size);
   std::vector<lapack_int> integers(4 * static_cast<std::size_t>(n) + 3);
   Eigen::Map<Eigen::MatrixXd>(factor, n, n) = kept.cwiseSqrt().asDiagonal() *
                                               even.eigenvectors().transpose() *
                                               root.asDiagonal();
   if (LAPACKE_dgejsv_work(LAPACK_COL_MAJOR, 'C', 'N', 'V', 'N', 'N', 'N', n, n,
-                          factor, n, singular, left, n, right, n, work,
+                          factor, n, singular, nullptr, n, right, n, work,
                           work_size, integers.data()) != 0) {
     throw std::runtime_error("the information of the data has no eigenvalues");
   }

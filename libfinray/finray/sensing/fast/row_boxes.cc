@@ -8,8 +8,8 @@ namespace finray {
 namespace {
 
 // A value between two rows leaves the hull of three rows by no more than this
-// part of their second difference.
-constexpr double kBulge = 0.25;
+// part of their second difference, even with a kink half way.
+constexpr double kBulge = 0.5;
 // Half a row beyond the last one, it leaves a straight line by no more than
 // this part.
 constexpr double kBeyond = 0.5;

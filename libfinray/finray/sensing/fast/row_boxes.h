@@ -12,9 +12,10 @@ namespace finray {
 /// with forces from one end of the chord to the other, and over the next row on
 /// either side. The cubics of rows lie in the hull of their Bezier points.
 /// Between rows and beyond the last ones, a box reaches further by the second
-/// differences of rows (RowBoxesTest).
+/// differences of rows at the ends of the chord. It holds all values as far as
+/// these show how they bend (RowBoxesTest).
 ///
-/// chi2 of readings m is thus no less, for all these contacts, than
+/// chi2 of readings m is then no less, for all these contacts, than
 ///
 ///   sum_j w_j^2 max(low_j - m_j, m_j - high_j, 0)^2.
 struct RowBoxes {
