@@ -39,7 +39,7 @@ class ContactGuess {
   Place Of(const CalibrationFrame& frame, From from);
 
   const GaugeTable& table() const { return table_; }
-  /// Whether it was made for many frames.
+  /// Says whether this guess was made for many frames.
   bool many() const { return many_; }
 
  private:

@@ -20,9 +20,9 @@ namespace {
 // A thread evaluates so many frames at a time. There are some for each cell of
 // a surface, whose coefficients take more memory than a core has next to it.
 constexpr std::size_t kChunk = 128;
-// What the surface leaves out may move the parameters by about this, in their
-// std. If the errors of N frames all pull the same way, they move a parameter
-// by sqrt(N) times as many of its std as one error has of a measurement's.
+// Errors of the surface move a parameter by about so many of its std at most.
+// If each of N frames has an error of e std, and all pull the same way, the
+// parameter moves by e sqrt(N) of its std.
 constexpr double kExact_std = 1e-2;
 // A frame may leave out this in rad where gauges tell hardly anything.
 constexpr double kExact_rad = 1e-7;

@@ -81,8 +81,8 @@ Chords ChordsNear(const RowBoxes& boxes, int values, int group,
   return chords;
 }
 
-// kWidth rows of kValues values, or of as many as there are if it is 0. A number
-// that the compiler knows keeps them all in registers.
+// kWidth rows of kValues values, or of as many as there are if it is 0. A
+// number that the compiler knows keeps them all in registers.
 template <int kValues>
 class Rows {
  public:
