@@ -2,7 +2,6 @@
 #define FINRAY_SENSING_CONTACT_SEARCH_H_
 
 #include <array>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -126,7 +125,7 @@ class ContactSearch {
   void Spend(int iterations, bool converged);
   // Rows of the profile need not reach beyond `most_chi2`.
   void FindStarts(int contacts, const PackedReadings& packed,
-                  double most_chi2 = std::numeric_limits<double>::infinity());
+                  double most_chi2 = GaugeTable::kAnyChi2);
   // Fits from the starts of a profile that reaches to `most_chi2`. Returns how
   // far it must reach; if that is farther, not all starts are tried.
   double TryStarts(int contacts, const Measurements& row,
@@ -142,9 +141,9 @@ class ContactSearch {
   void SearchForces(const PackedReadings& packed);
   // Says whether a solution is nearer to a row than its neighbours are.
   bool IsBeside(std::size_t row) const;
-  // Whether a minimum within noise, other than those found, may lie near a row
-  // where the distance in std changes by least_rise or more from row to row.
-  bool Hides(std::size_t row, double least_rise) const;
+  // Says whether a minimum within noise, other than those found, may lie near a
+  // row with a load.
+  bool Hides(std::size_t row) const;
   // All fit from a start and fill in the next solution. Fit goes by the surface
   // where it can, else by FitEquilibria, which is ContactFit.
   bool Fit(const ContactStart& start, const PackedReadings& packed);
@@ -169,6 +168,7 @@ class ContactSearch {
   LadderState exact_;  // where a fit goes on to rounding
   FrameProblem problem_;
   std::vector<ContactStart> profile_, starts_;  // of one contact
+  std::vector<std::size_t> untried_;            // rows of the profile
   std::vector<ContactStart> pair_starts_;
   std::vector<PointContact> contacts_;
   const LadderState* best_from_ = nullptr;  // of the start that led to best()

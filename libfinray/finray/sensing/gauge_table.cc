@@ -204,23 +204,26 @@ void GaugeTable::ForEachRow(const Eigen::VectorXd& values,
   FindRowMinima(Curves(), boxes_, values.data(), weights.data(), most_chi2,
                 {chi2.data(), to.data(), share.data()});
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    use(i, chi2[i], static_cast<std::size_t>(to[i]), share[i]);
+    use(i, chi2[i], static_cast<int>(to[i]), share[i]);
   }
 }
 
-void GaugeTable::SetStart(std::size_t row, std::size_t to, double share,
-                          double chi2, ContactStart* start) const {
-  start->chi2 = std::numeric_limits<double>::infinity();
-  start->state = nullptr;
-  start->count = to == 0 ? 0 : 1;
-  if (to == 0) return;
-  const Node &from = rows_[row].nodes[to - 1], &end = rows_[row].nodes[to];
+void GaugeTable::SetStart(std::size_t row, int to, double share, double chi2,
+                          ContactStart* start) const {
+  if (to == 0) {
+    *start = {};
+    start->chi2 = std::numeric_limits<double>::infinity();
+    return;
+  }
+  const double from_N = forces_N_[to - 1];
+  PointContact& contact = start->contacts[0];
+  contact.arc_mm = rows_[row].arc_mm;
+  contact.normal_N = from_N + share * (forces_N_[to] - from_N);
+  contact.friction = friction_;
+  start->count = 1;
   start->chi2 = chi2;
-  start->contacts[0] = {rows_[row].arc_mm,
-                        from.normal_N + share * (end.normal_N - from.normal_N),
-                        friction_};
   // The unloaded state does not show how the finger bends under this contact.
-  start->state = share > 0.5 || to == 1 ? &end.state : &from.state;
+  start->state = &rows_[row].nodes[share > 0.5 || to == 1 ? to : to - 1].state;
 }
 
 void GaugeTable::Profile(const Eigen::VectorXd& values,
@@ -230,28 +233,26 @@ void GaugeTable::Profile(const Eigen::VectorXd& values,
   // How wrong the cubic of each chord is, in std; NaN until a row asks.
   std::array<double, std::size(kForces)> errors;
   errors.fill(kNaN);
-  const auto error = [&](std::size_t chord) {
-    if (std::isnan(errors[chord])) {
-      const auto column = errors_.col(static_cast<Eigen::Index>(chord));
-      errors[chord] = (column * weights.array()).matrix().norm();
-    }
-    return errors[chord];
-  };
   ForEachRow(values, weights, most_chi2,
-             [&](std::size_t row, double chi2, std::size_t to, double share) {
+             [&](std::size_t row, double chi2, int to, double share) {
                ContactStart& start = (*profile)[row];
                SetStart(row, to, share, chi2, &start);
-               start.error = to > 0 ? error(to - 1) : 0;
+               if (to == 0) return;
+               double& error = errors[to - 1];
+               if (std::isnan(error)) {
+                 error =
+                     (errors_.col(to - 1) * weights.array()).matrix().norm();
+               }
+               start.error = error;
              });
 }
 
 ContactStart GaugeTable::BestStart(const Eigen::VectorXd& values,
                                    const Eigen::VectorXd& weights) const {
-  constexpr double kAll = std::numeric_limits<double>::infinity();
   ContactStart best;
-  best.chi2 = kAll;
-  ForEachRow(values, weights, kAll,
-             [&](std::size_t row, double chi2, std::size_t to, double share) {
+  best.chi2 = std::numeric_limits<double>::infinity();
+  ForEachRow(values, weights, kAnyChi2,
+             [&](std::size_t row, double chi2, int to, double share) {
                if (chi2 < best.chi2) SetStart(row, to, share, chi2, &best);
              });
   return best;

@@ -25,6 +25,9 @@ namespace finray {
 class GaugeTable {
  public:
   static constexpr int kMostRows = 56;
+  /// A profile with this bound has all rows.
+  static constexpr double kAnyChi2 = std::numeric_limits<double>::infinity();
+
   /// Builds the table with contacts at `rows` places from base to tip, at most
   /// kMostRows, and forces up to most_force_N or 40 EI / l_0^2, on `threads`
   /// threads. The equilibria are as exact as the solver's tolerance. The result
@@ -38,7 +41,8 @@ class GaugeTable {
   /// misfit to `values` (0: not measured; the value is finite even so). f_c is
   /// interpolated. A row without
   /// load has an infinite chi2 and no contact. A row whose chi2 is `most_chi2`
-  /// or more may get a larger one, or look like one without load.
+  /// or more may get another one that is not less either, or look like one
+  /// without load.
   ///
   /// Contacts nearer to such a row than to others have a chi2 of `most_chi2` or
   /// more, too, as far as RowBoxes hold.
@@ -92,7 +96,7 @@ class GaugeTable {
   template <class Use>
   void ForEachRow(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
                   double most_chi2, const Use& use) const;
-  void SetStart(std::size_t row, std::size_t to, double share, double chi2,
+  void SetStart(std::size_t row, int to, double share, double chi2,
                 ContactStart* start) const;
 
   double friction_;

@@ -32,12 +32,13 @@ std::optional<Valley> FindValley(const std::vector<ContactStart>& profile,
   const auto more_chi2 = [&](const ContactStart& place) {
     return std::max(0.0, place.chi2 - solution.chi2) / (scale * scale);
   };
+  const double most_chi2 = solution.chi2 + scale * scale * Valley::kMostChi2;
   double arc_far_mm = arc_std_mm, normal_far_N = normal_std_N;
   for (const ContactStart& place : profile) {
     const PointContact& other = place.contacts[0];
     const double away = std::abs(other.arc_mm - arc);
+    if (place.chi2 > most_chi2 || away < kNear * arc_std_mm) continue;
     const double more = more_chi2(place);
-    if (away < kNear * arc_std_mm || more > Valley::kMostChi2) continue;
     const double evidence =
         2 * std::log(std::max(kLightest, other.normal_N / normal));
     const double distance =

@@ -57,8 +57,7 @@ double RivalMap::Judge(const GaugeTable::Node& node, double arc_mm) const {
     return surface_.Fit(node.values, weights_, most_force_N_, start, &fit);
   };
   std::vector<ContactStart> profile, starts;
-  table_.Profile(node.values, weights_, std::numeric_limits<double>::infinity(),
-                 &profile);
+  table_.Profile(node.values, weights_, GaugeTable::kAnyChi2, &profile);
   GaugeTable::FindStarts(profile, &starts);
   for (const ContactStart& start : starts) {
     const PointContact& contact = start.contacts[0];
