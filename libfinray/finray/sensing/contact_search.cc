@@ -32,8 +32,6 @@ constexpr double kCoarse = 1;
 constexpr double kUpright_rad = 93 * kDegree;
 constexpr std::size_t kCrowded = 13;
 
-constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-
 // Few frames that the model explains have a larger chi2.
 double LikelyChi2(int dof) { return dof + 3 * std::sqrt(2.0 * dof); }
 
@@ -141,14 +139,14 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
   // start is tried twice.
   double most_chi2 = on_surface_ && !close && !scene_.search_iteration_limit
                          ? ProfiledChi2(LikelyChi2(dof), dof)
-                         : kUnbounded;
+                         : GaugeTable::kAnyChi2;
   for (;;) {
     FindStarts(contacts, packed, most_chi2);
     close = always_close ||
             (contacts == 1 && !starts_.empty() && starts_[0].chi2 < most_chi2 &&
              starts_[0].error > kCoarse);
-    double needed = kUnbounded;
-    if (!close || most_chi2 == kUnbounded) {
+    double needed = GaugeTable::kAnyChi2;
+    if (!close || most_chi2 == GaugeTable::kAnyChi2) {
       found_.Clear();
       needed = TryStarts(contacts, row, packed, most_chi2);
     }
