@@ -211,8 +211,10 @@ void GaugeTable::ForEachRow(const Eigen::VectorXd& values,
 void GaugeTable::SetStart(std::size_t row, int to, double share, double chi2,
                           ContactStart* start) const {
   if (to == 0) {
-    *start = {};
+    start->count = 0;
     start->chi2 = std::numeric_limits<double>::infinity();
+    start->state = nullptr;
+    start->error = 0;
     return;
   }
   const double from_N = forces_N_[to - 1];
@@ -223,7 +225,9 @@ void GaugeTable::SetStart(std::size_t row, int to, double share, double chi2,
   start->count = 1;
   start->chi2 = chi2;
   // The unloaded state does not show how the finger bends under this contact.
-  start->state = &rows_[row].nodes[share > 0.5 || to == 1 ? to : to - 1].state;
+  // Shares are as likely large as small, and a branch would often go wrong.
+  const int below = static_cast<int>(share <= 0.5) & static_cast<int>(to > 1);
+  start->state = &rows_[row].nodes[to - below].state;
 }
 
 void GaugeTable::Profile(const Eigen::VectorXd& values,

@@ -42,11 +42,16 @@ double RiseAt(const std::vector<ContactStart>& profile, std::size_t i) {
                   std::abs(here - std::sqrt(above)));
 }
 
+// Says whether RiseAt is kSharp or more, without roots:
+//
+//   |sqrt(a) - sqrt(b)| >= s  where  a + b - s^2 >= 2 sqrt(a b).
 bool IsSharp(const std::vector<ContactStart>& profile, std::size_t i) {
+  const auto differ = [](double a, double b) {
+    const double rest = a + b - kSharp * kSharp;
+    return rest >= 0 && rest * rest >= 4 * a * b;
+  };
   const auto [below, above] = Beside(profile, i);
-  // Distances differ by no more than the largest of them.
-  return std::max(profile[i].chi2, std::max(below, above)) >= kSharp * kSharp &&
-         RiseAt(profile, i) >= kSharp;
+  return differ(profile[i].chi2, below) || differ(profile[i].chi2, above);
 }
 
 }  // namespace
