@@ -1,12 +1,14 @@
 // Counts for callgrind: what a searched frame costs beside a followed one.
-// Estimates the frames of a log with one contact between two forces (all by
-// default), or 2048 frames of the benchmark, REPEATS times (1): each searched
-// alone, followed one by one, or in blocks.
+// Estimates the frames of a log whose force_N is between two limits (all frames
+// without limits), or 2048 frames of the benchmark, REPEATS times (1): each
+// searched alone, followed one by one, or in blocks. The benchmark's frames are
+// stretches of 65, and each begins with a jump, which is searched.
 //
 //   build/test/tests/searched_frames_study search|live|block
 //       [REPEATS [LOG.csv [LEAST_N MOST_N]]]
 //
-// The difference of two REPEATS leaves the start-up out.
+// The difference of two REPEATS, over the number of frames, leaves the start-up
+// out.
 
 #include <algorithm>
 #include <cstdio>
@@ -39,7 +41,8 @@ std::vector<Measurements> FramesOfLog(const Finger& finger,
   std::vector<Measurements> frames;
   for (const Measurements& row :
        ReadMeasurements(FrameTable::Read(path), finger)) {
-    if (row.force_N >= least_N && row.force_N < most_N) frames.push_back(row);
+    if (row.force_N < least_N || row.force_N >= most_N) continue;
+    frames.push_back(row);
   }
   return frames;
 }
@@ -74,7 +77,7 @@ int Run(const std::string& mode, int repeats, const std::string& log,
     ok += estimate.status == FrameStatus::kOk;
     iterations += estimate.iterations;
   }
-  std::printf("%zu frames, %zu with a contact, %zu ok, %zu fits\n",
+  std::printf("%zu frames, %zu with a contact, %zu ok, %zu iterations\n",
               frames.size(), touched, ok, iterations);
   return 0;
 }

@@ -214,7 +214,6 @@ void GaugeTable::SetStart(std::size_t row, int to, double share, double chi2,
     start->count = 0;
     start->chi2 = std::numeric_limits<double>::infinity();
     start->state = nullptr;
-    start->error = 0;
     return;
   }
   const double from_N = forces_N_[to - 1];
@@ -226,8 +225,8 @@ void GaugeTable::SetStart(std::size_t row, int to, double share, double chi2,
   start->chi2 = chi2;
   // The unloaded state does not show how the finger bends under this contact.
   // Shares are as likely large as small, and a branch would often go wrong.
-  const int below = static_cast<int>(share <= 0.5) & static_cast<int>(to > 1);
-  start->state = &rows_[row].nodes[to - below].state;
+  const int node = std::max(1, to - static_cast<int>(share <= 0.5));
+  start->state = &rows_[row].nodes[node].state;
 }
 
 void GaugeTable::Profile(const Eigen::VectorXd& values,
@@ -241,6 +240,7 @@ void GaugeTable::Profile(const Eigen::VectorXd& values,
              [&](std::size_t row, double chi2, int to, double share) {
                ContactStart& start = (*profile)[row];
                SetStart(row, to, share, chi2, &start);
+               start.error = 0;
                if (to == 0) return;
                double& error = errors[to - 1];
                if (std::isnan(error)) {

@@ -41,8 +41,7 @@ class GaugeTable {
   /// misfit to `values` (0: not measured; the value is finite even so). f_c is
   /// interpolated. A row without
   /// load has an infinite chi2 and no contact. A row whose chi2 is `most_chi2`
-  /// or more may get another one that is not less either, or look like one
-  /// without load.
+  /// or more may get a larger one, or look like one without load.
   ///
   /// Contacts nearer to such a row than to others have a chi2 of `most_chi2` or
   /// more, too, as far as RowBoxes hold.

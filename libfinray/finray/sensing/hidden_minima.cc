@@ -48,7 +48,7 @@ double RiseAt(const std::vector<ContactStart>& profile, std::size_t i) {
 bool IsSharp(const std::vector<ContactStart>& profile, std::size_t i) {
   const auto differ = [](double a, double b) {
     const double rest = a + b - kSharp * kSharp;
-    return rest >= 0 && rest * rest >= 4 * a * b;
+    return rest >= 0 && !(rest * rest < 4 * a * b);  // inf and 0 differ
   };
   const auto [below, above] = Beside(profile, i);
   return differ(profile[i].chi2, below) || differ(profile[i].chi2, above);

@@ -109,34 +109,6 @@ TEST_F(RowBoxesTest, AreSmall) {
   }
 }
 
-TEST_F(RowBoxesTest, BulgesHoldCubicsAboveChords) {
-  const RowCurves curves = Curves();
-  const RowBoxes boxes(curves);
-  for (int group = 0; group < kBoxRows / RowBoxes::kRows; ++group) {
-    const int end = std::min(kBoxUsed, (group + 1) * RowBoxes::kRows);
-    for (int j = 0; j < kBoxValues; ++j) {
-      for (int k = 0; k + 1 < Forces(); ++k) {
-        double most = 0;
-        for (int row = group * RowBoxes::kRows; row < end; ++row) {
-          if (row == kShortBoxRow && k + 1 >= kShortBoxForces) continue;
-          const auto at = [&](double t) {
-            return CubicValue(curves, k, j, row, t);
-          };
-          for (double t = 0; t <= 1; t += 0.125) {
-            most =
-                std::max(most, std::abs(at(t) - (1 - t) * at(0) - t * at(1)));
-          }
-        }
-        const double bulge =
-            boxes.bulge[(group * kBoxValues + j) * boxes.chords + k];
-        EXPECT_GE(bulge, most) << group << " " << j << " " << k;
-        // t (1 - t) / 2 against twice 4 / 27 where slopes differ alike.
-        EXPECT_LE(bulge, 1.5 * most) << group << " " << j << " " << k;
-      }
-    }
-  }
-}
-
 TEST_F(RowBoxesTest, NoRowNoBox) {
   const RowBoxes boxes(Curves());
   const int padding = Forces() - 1;  // the first chord that no row has

@@ -13,8 +13,6 @@ constexpr double kBulge = 0.5;
 // Half a row beyond the last one, it leaves a straight line by no more than
 // this part.
 constexpr double kBeyond = 0.5;
-// The largest value of t^2 (1 - t) for t in [0, 1].
-constexpr double kHermite = 4.0 / 27;
 
 struct Box {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -34,7 +32,6 @@ RowBoxes::RowBoxes(const RowCurves& curves)
   const auto size = static_cast<std::size_t>(groups * curves.values * chords);
   low.assign(size, Box().low);
   high.assign(size, Box().high);
-  bulge.assign(size, 0);
   const auto at = [&](const double* of, int k, int j, int row) {
     return row < 0 || row >= curves.rows
                ? std::nan("")
@@ -50,16 +47,6 @@ RowBoxes::RowBoxes(const RowCurves& curves)
     box->Add(from + third * at(curves.by_force, k, j, row));
     box->Add(to - third * at(curves.by_force, k + 1, j, row));
     box->Add(to);
-  };
-  // The cubic leaves its chord by t (1 - t)^2 a - t^2 (1 - t) b, where a and b
-  // are slopes at its ends less the chord's, times its width.
-  const auto bulge_of = [&](int k, int j, int row) {
-    const double width = curves.force_N[k + 1] - curves.force_N[k];
-    const double rise =
-        at(curves.value, k + 1, j, row) - at(curves.value, k, j, row);
-    return kHermite *
-           (std::abs(width * at(curves.by_force, k, j, row) - rise) +
-            std::abs(width * at(curves.by_force, k + 1, j, row) - rise));
   };
   // The values at a node and between rows beside it.
   const auto add_bulge = [&](int k, int j, int row, Box* box) {
@@ -90,10 +77,6 @@ RowBoxes::RowBoxes(const RowCurves& curves)
         const int i = (group * curves.values + j) * chords + k;
         low[i] = box.low;
         high[i] = box.high;
-        for (int row = group * kRows; row < (group + 1) * kRows; ++row) {
-          const double of_row = bulge_of(k, j, row);
-          if (of_row > bulge[i]) bulge[i] = of_row;  // not with a NaN
-        }
       }
     }
   }

@@ -27,8 +27,6 @@ struct RowBoxes {
   int chords = 0;  ///< Those of a row, padded to RowCurves::kPadding.
   /// [group][value][chord]; infinite and reversed where rows have no chord.
   std::vector<double> low, high;
-  /// How far the cubics of the group's rows leave their chords at most.
-  std::vector<double> bulge;
 };
 
 }  // namespace finray

@@ -29,10 +29,9 @@ struct RowMinima {
 
 /// Minimises chi2 = sum_j w_j^2 (value_j - measured_j)^2 along each row: first
 /// on the chords between its nodes, then by Gauss-Newton on the cubic above the
-/// nearest one. A row whose chi2 is `most_chi2` or more may get that of its
-/// chord, no less than `most_chi2` either, or none: `boxes` say which chords
-/// and cubics may lead below that, and only those are searched. `set` counts
-/// from the best instruction set of this machine.
+/// nearest one. A row whose chi2 is `most_chi2` or more may get a larger one,
+/// or none: `boxes` say which chords may lead below that, and only those are
+/// searched. `set` counts from the best instruction set of this machine.
 void FindRowMinima(const RowCurves& curves, const RowBoxes& boxes,
                    const double* measured, const double* weights,
                    double most_chi2, const RowMinima& minima, int set = 0);

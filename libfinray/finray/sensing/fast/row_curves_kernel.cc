@@ -1,6 +1,5 @@
 // Compiled once for every instruction set; see CMakeLists.txt.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "finray/ladder/registers.h"
@@ -25,18 +24,14 @@ V WithinOne(V share) {
   return share > 1 ? V{} + 1.0 : share;
 }
 
-// Says whether no lane of a comparison is false.
-template <class Mask>
-bool All(const Mask& mask) {
-  bool all = true;
-  for (int lane = 0; lane < kWidth; ++lane) all &= mask[lane] != 0;
-  return all;
-}
-
-// Says whether chi2 is quadratic over these changes of shares.
+// Says whether chi2 falls by these changes of shares as slope and curvature
+// say, but for 1e-6 (1 + chi2).
 bool IsSmall(const V& change) {
   constexpr double kSmall = 1e-4;
-  return All((change < kSmall) & (change > -kSmall));
+  const auto small = (change < kSmall) & (change > -kSmall);
+  bool all = true;
+  for (int lane = 0; lane < kWidth; ++lane) all &= small[lane] != 0;
+  return all;
 }
 
 struct Nearest {
@@ -85,25 +80,6 @@ Chords ChordsNear(const RowBoxes& boxes, int values, int group,
     chords.end = std::max(chords.end, static_cast<int>(end[lane]));
   }
   return chords;
-}
-
-// Returns the least chi2 on these chords of a group beneath which a cubic above
-// one of them may have less than most_chi2.
-double ChordChi2(const RowBoxes& boxes, int values, int group,
-                 const Chords& chords, const double* weights,
-                 double most_chi2) {
-  const double* bulge = boxes.bulge.data() + group * values * boxes.chords;
-  double square = 0;
-  for (int j = 0; j < values; ++j, bulge += boxes.chords) {
-    double most = 0;
-    for (int k = chords.first; k < chords.end; ++k) {
-      most = std::max(most, bulge[k]);
-    }
-    most *= weights[j];
-    square += most * most;
-  }
-  const double distance = std::sqrt(most_chi2) + std::sqrt(square);
-  return distance * distance;
 }
 
 // kWidth rows of kValues values, or of as many as there are if it is 0. A
@@ -233,15 +209,13 @@ void FindMinima(const RowCurves& curves, const RowBoxes& boxes,
   for (int group = 0; group * RowBoxes::kRows < curves.rows; ++group) {
     const Chords chords =
         ChordsNear(boxes, values, group, measured, weights, most_chi2);
-    const double most_on_chord =
-        ChordChi2(boxes, values, group, chords, weights, most_chi2);
     for (int i = 0; i < RowBoxes::kRows; i += kWidth) {
       const int row = group * RowBoxes::kRows + i;
       Nearest nearest;
       if (chords.first < chords.end) {
         const Rows<kValues> rows(curves, measured, weights, row);
         nearest = rows.OnChords(chords);
-        if (!All(nearest.chi2 >= most_on_chord)) rows.Refine(&nearest);
+        rows.Refine(&nearest);
       }
       Row::Store(nearest.chi2, minima.chi2 + row);
       Row::Store(nearest.to, minima.to + row);
