@@ -5,9 +5,9 @@ compare_threads.py BUILD_DIR LOG.csv [RUNS]
 
 Estimates a log of one contact of configs/fingers/paper_140mm.yaml with one
 thread, with two threads, and with two processes of one thread side by side,
-RUNS times (7) in turn. Prints medians of the seconds by the clock, how many
-times as many frames/s two threads and two processes have, and the former over
-the latter: two processes share nothing but the machine.
+RUNS times (7) in turn. Prints medians of the seconds by the clock of the whole
+command, how many times as many frames/s two threads and two processes have, and
+the former over the latter: two processes share nothing but the machine.
 """
 
 import pathlib

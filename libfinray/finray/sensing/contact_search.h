@@ -139,10 +139,11 @@ class ContactSearch {
   // Fits from the other forces of the rows beside the best solution at which
   // the table's chi2 has a minimum.
   void SearchForces(const PackedReadings& packed);
+  // Both are for rows with a load.
   // Says whether a solution is nearer to a row than its neighbours are.
   bool IsBeside(std::size_t row) const;
   // Says whether a minimum within noise, other than those found, may lie near a
-  // row with a load.
+  // row.
   bool Hides(std::size_t row) const;
   // All fit from a start and fill in the next solution. Fit goes by the surface
   // where it can, else by FitEquilibria, which is ContactFit.
