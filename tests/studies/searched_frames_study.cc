@@ -87,8 +87,15 @@ int Run(const std::string& mode, int repeats, const std::string& log,
 
 int main(int argc, char** argv) {
   constexpr double kAny = std::numeric_limits<double>::infinity();
-  return finray::Run(argc > 1 ? argv[1] : "search",
-                     argc > 2 ? std::atoi(argv[2]) : 1, argc > 3 ? argv[3] : "",
+  const std::string mode = argc > 1 ? argv[1] : "";
+  if (argc == 5 || (mode != "search" && mode != "live" && mode != "block")) {
+    std::fprintf(stderr,
+                 "searched_frames_study: expected search|live|block [REPEATS "
+                 "[LOG.csv [LEAST_N MOST_N]]]\n");
+    return 2;
+  }
+  return finray::Run(mode, argc > 2 ? std::atoi(argv[2]) : 1,
+                     argc > 3 ? argv[3] : "",
                      argc > 5 ? std::atof(argv[4]) : -kAny,
                      argc > 5 ? std::atof(argv[5]) : kAny);
 }
