@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <vector>
 
@@ -15,7 +14,6 @@
 namespace finray {
 namespace {
 
-constexpr double kAnyChi2 = std::numeric_limits<double>::infinity();
 constexpr double kRadius_mm = 15, kNoise_rad = 3e-4, kObject_mm = 0.05;
 
 // Angles and the circle's centre under a contact, with noise.
@@ -52,7 +50,7 @@ TEST_F(GaugeTableTest, BestStartIsTheBestOfAll) {
   for (double arc_mm = 30; arc_mm < 110; arc_mm += 2.3) {
     for (const double normal_N : {0.9, 2.0, 4.1, 7.3}) {
       const Eigen::VectorXd values = Measured(arc_mm, normal_N);
-      table_.Profile(values, weights_, kAnyChi2, &profile);
+      table_.Profile(values, weights_, GaugeTable::kAnyChi2, &profile);
       GaugeTable::FindStarts(profile, &starts);
       ASSERT_FALSE(starts.empty());
       const ContactStart best = table_.BestStart(values, weights_);
@@ -93,7 +91,7 @@ TEST(GaugeTableLimitTest, NoContactNearALeftOutRowIsBelowTheLimit) {
     for (double& value : values) value += noise_rad * normal(generator);
     const double most_chi2 = trial % 3 == 0 ? 400 : 50;
     std::vector<ContactStart> all, some;
-    table.Profile(values, weights, kAnyChi2, &all);
+    table.Profile(values, weights, GaugeTable::kAnyChi2, &all);
     table.Profile(values, weights, most_chi2, &some);
     for (std::size_t i = 0; i < all.size(); ++i) {
       left_out += some[i].count == 0;

@@ -16,6 +16,7 @@
 #include <limits>
 #include <string>
 
+#include "finray/batch/batch_estimation.h"
 #include "finray/benchmark/benchmark_case.h"
 #include "finray/finger/finger_yaml.h"
 #include "finray/io/frame_table.h"
@@ -24,8 +25,6 @@
 
 namespace finray {
 namespace {
-
-constexpr std::size_t kBlock = 64;
 
 std::vector<Measurements> FramesOfBenchmark(const BenchmarkCase& of) {
   std::vector<Measurements> frames;
@@ -61,7 +60,7 @@ int Run(const std::string& mode, int repeats, const std::string& log,
   for (int repeat = 0; repeat < repeats; ++repeat) {
     for (std::size_t i = 0; i < frames.size();) {
       if (mode == "block") {
-        const std::size_t count = std::min(kBlock, frames.size() - i);
+        const std::size_t count = std::min(kBlockFrames, frames.size() - i);
         estimator.EstimateBlock(&frames[i], count, &estimates[i]);
         i += count;
         continue;

@@ -139,12 +139,11 @@ class ContactSearch {
   // Fits from the other forces of the rows beside the best solution at which
   // the table's chi2 has a minimum.
   void SearchForces(const PackedReadings& packed);
-  // Both are for rows with a load.
   // Says whether a solution is nearer to a row than its neighbours are.
   bool IsBeside(std::size_t row) const;
-  // Says whether a minimum within noise, other than those found, may lie near a
-  // row.
-  bool Hides(std::size_t row) const;
+  // Whether a minimum within noise, other than those found, may lie near a row
+  // where the distance in std changes by least_rise or more from row to row.
+  bool Hides(std::size_t row, double least_rise) const;
   // All fit from a start and fill in the next solution. Fit goes by the surface
   // where it can, else by FitEquilibria, which is ContactFit.
   bool Fit(const ContactStart& start, const PackedReadings& packed);
@@ -169,7 +168,6 @@ class ContactSearch {
   LadderState exact_;  // where a fit goes on to rounding
   FrameProblem problem_;
   std::vector<ContactStart> profile_, starts_;  // of one contact
-  std::vector<std::size_t> untried_;            // rows of the profile
   std::vector<ContactStart> pair_starts_;
   std::vector<PointContact> contacts_;
   const LadderState* best_from_ = nullptr;  // of the start that led to best()

@@ -210,19 +210,14 @@ void GaugeTable::ForEachRow(const Eigen::VectorXd& values,
 
 void GaugeTable::SetStart(std::size_t row, int to, double share, double chi2,
                           ContactStart* start) const {
-  if (to == 0) {
-    start->count = 0;
-    start->chi2 = std::numeric_limits<double>::infinity();
-    start->state = nullptr;
-    return;
-  }
+  start->chi2 = std::numeric_limits<double>::infinity();
+  start->state = nullptr;
+  start->count = to == 0 ? 0 : 1;
+  if (to == 0) return;
   const double from_N = forces_N_[to - 1];
-  PointContact& contact = start->contacts[0];
-  contact.arc_mm = rows_[row].arc_mm;
-  contact.normal_N = from_N + share * (forces_N_[to] - from_N);
-  contact.friction = friction_;
-  start->count = 1;
   start->chi2 = chi2;
+  start->contacts[0] = {rows_[row].arc_mm,
+                        from_N + share * (forces_N_[to] - from_N), friction_};
   // The unloaded state does not show how the finger bends under this contact.
   // Shares are as likely large as small, and a branch would often go wrong.
   const int node = std::max(1, to - static_cast<int>(share <= 0.5));
@@ -236,18 +231,17 @@ void GaugeTable::Profile(const Eigen::VectorXd& values,
   // How wrong the cubic of each chord is, in std; NaN until a row asks.
   std::array<double, std::size(kForces)> errors;
   errors.fill(kNaN);
+  const auto error = [&](int chord) {
+    if (std::isnan(errors[chord])) {
+      errors[chord] = (errors_.col(chord) * weights.array()).matrix().norm();
+    }
+    return errors[chord];
+  };
   ForEachRow(values, weights, most_chi2,
              [&](std::size_t row, double chi2, int to, double share) {
                ContactStart& start = (*profile)[row];
                SetStart(row, to, share, chi2, &start);
-               start.error = 0;
-               if (to == 0) return;
-               double& error = errors[to - 1];
-               if (std::isnan(error)) {
-                 error =
-                     (errors_.col(to - 1) * weights.array()).matrix().norm();
-               }
-               start.error = error;
+               start.error = to > 0 ? error(to - 1) : 0;
              });
 }
 

@@ -25,62 +25,27 @@ bool IsLoaded(const ContactStart& row) {
   return row.state != nullptr && row.contacts[0].normal_N > 0;
 }
 
-struct Neighbours {
-  double below, above;  // chi2
-};
-
-Neighbours Beside(const std::vector<ContactStart>& profile, std::size_t i) {
-  return {profile[i > 0 ? i - 1 : i].chi2,
-          profile[i + 1 < profile.size() ? i + 1 : i].chi2};
-}
-
-// Returns by how many std the distance changes from a row to the next.
-double RiseAt(const std::vector<ContactStart>& profile, std::size_t i) {
-  const auto [below, above] = Beside(profile, i);
-  const double here = std::sqrt(profile[i].chi2);
-  return std::max(std::abs(here - std::sqrt(below)),
-                  std::abs(here - std::sqrt(above)));
-}
-
-// Says whether RiseAt is kSharp or more, without roots:
-//
-//   |sqrt(a) - sqrt(b)| >= s  where  a + b - s^2 >= 2 sqrt(a b).
-bool IsSharp(const std::vector<ContactStart>& profile, std::size_t i) {
-  const auto differ = [](double a, double b) {
-    const double rest = a + b - kSharp * kSharp;
-    return rest >= 0 && !(rest * rest < 4 * a * b);  // inf and 0 differ
-  };
-  const auto [below, above] = Beside(profile, i);
-  return differ(profile[i].chi2, below) || differ(profile[i].chi2, above);
-}
-
 }  // namespace
 
 // Minima lie close together where a finger is upright or has many ribs, and the
 // table may rank them wrongly where the noise is less than its own error.
 void ContactSearch::SearchRows(const PackedReadings& packed, bool close) {
-  untried_.clear();
-  for (std::size_t i = 0; i < profile_.size(); ++i) {
-    if (IsLoaded(profile_[i]) && (close || IsSharp(profile_, i))) {
-      untried_.push_back(i);
-    }
-  }
   const auto may_lead_on = [&](std::size_t i) {
-    return close ? IsBeside(i) || Hides(i)
-                 : (IsBeside(i) || IsLowest(profile_, i)) && Hides(i);
+    return close ? IsBeside(i) || Hides(i, 0)
+                 : (IsBeside(i) || IsLowest(profile_, i)) && Hides(i, kSharp);
   };
   while (!found_.full()) {
-    auto next = untried_.end();
-    for (auto i = untried_.begin(); i != untried_.end(); ++i) {
-      if ((next == untried_.end() ||
-           profile_[*i].chi2 < profile_[*next].chi2) &&
-          may_lead_on(*i)) {
+    std::size_t next = profile_.size();
+    for (std::size_t i = 0; i < profile_.size(); ++i) {
+      if (next < profile_.size() && profile_[i].chi2 >= profile_[next].chi2)
+        continue;
+      if (profile_[i].count > 0 && may_lead_on(i)) {
         next = i;
       }
     }
-    if (next == untried_.end() || !MayGoOn()) return;
-    if (Fit(profile_[*next], packed) && !found_.KnowsNext()) found_.Keep();
-    untried_.erase(next);
+    if (next == profile_.size() || !MayGoOn()) return;
+    if (Fit(profile_[next], packed) && !found_.KnowsNext()) found_.Keep();
+    profile_[next].count = 0;  // tried
   }
 }
 
@@ -142,19 +107,28 @@ void ContactSearch::SearchForces(const PackedReadings& packed) {
 
 // Another minimum may be nearer to a solution than the rows are to each other.
 bool ContactSearch::IsBeside(std::size_t i) const {
-  return found_.IsWithin(table_.row_spacing_mm(),
+  return IsLoaded(profile_[i]) &&
+         found_.IsWithin(table_.row_spacing_mm(),
                          profile_[i].contacts[0].arc_mm);
 }
 
-bool ContactSearch::Hides(std::size_t i) const {
+bool ContactSearch::Hides(std::size_t i, double least_rise) const {
   const ContactStart& row = profile_[i];
-  const double at_row = std::max(0.0, std::sqrt(row.chi2) - row.error);
+  if (!IsLoaded(row)) return false;
+  const double distance = std::sqrt(row.chi2);
+  const double at_row = std::max(0.0, distance - row.error);
   if (at_row * at_row > kHides * found_.ExpectedChi2(row.contacts[0].arc_mm)) {
     return false;
   }
   // Towards a minimum between two rows the distance falls by no more than it
   // rises on the other side.
-  const double between = std::max(0.0, at_row - RiseAt(profile_, i));
+  double rise = 0;
+  if (i > 0) rise = std::abs(distance - std::sqrt(profile_[i - 1].chi2));
+  if (i + 1 < profile_.size()) {
+    rise = std::max(rise, std::abs(distance - std::sqrt(profile_[i + 1].chi2)));
+  }
+  if (rise < least_rise) return false;
+  const double between = std::max(0.0, at_row - rise);
   return between * between < found_.least_chi2() + kWithinNoise;
 }
 
