@@ -19,26 +19,26 @@ TEST(LoadPolynomialTest, AllInstructionSetsAgreeWithThePlainSum) {
   const int force_terms[kArcTerms] = {4, 4, 3, 0, 1};
   std::vector<double> c(12 * kValues);
   for (double& one : c) one = draw(generator);
-  PolynomialBasis arc, force;
+  PolynomialBasis basis;
   for (int d = 0; d < 3; ++d) {
     for (int i = 0; i < PolynomialBasis::kMostTerms; ++i) {
-      arc.by[d][i] = draw(generator);
-      force.by[d][i] = draw(generator);
+      for (double& one : basis.by[d][i]) one = draw(generator);
     }
   }
   const int orders[6][2] = {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}};
   const LoadPolynomial polynomial{kArcTerms, force_terms, kValues, c.data()};
   for (int set = 0; set < InstructionSets(); ++set) {
     double jets[6 * kValues], values[kValues];
-    EvaluateJets(polynomial, arc, force, jets, set);
-    EvaluateValues(polynomial, arc, force, values, set);
+    EvaluateJets(polynomial, basis, jets, set);
+    EvaluateValues(polynomial, basis, values, set);
     for (int v = 0; v < kValues; ++v) {
       for (int d = 0; d < 6; ++d) {
         double sum = 0;
         const double* its = &c[v];
         for (int i = 0; i < kArcTerms; ++i) {
           for (int j = 0; j < force_terms[i]; ++j, its += kValues) {
-            sum += arc.by[orders[d][0]][i] * force.by[orders[d][1]][j] * *its;
+            sum += basis.by[orders[d][0]][i][0] * basis.by[orders[d][1]][j][1] *
+                   *its;
           }
         }
         EXPECT_NEAR(jets[d * kValues + v], sum, 1e-13) << set;

@@ -21,7 +21,7 @@ Closed ClosedAt(double l, double f) {
           -0.09 * s * e, -0.06 * c * e, 0.04 * s * e};
 }
 
-LoadSurface::Sampler Smooth() {
+LoadSampler Smooth() {
   return [](double l, double f, double* to) {
     to[0] = ClosedAt(l, f).value;
     to[1] = l * f;
@@ -30,10 +30,10 @@ LoadSurface::Sampler Smooth() {
   };
 }
 
-LoadSurface MakeSurface(LoadSurface::Sampler (*sampler)(),
-                        double resolution = 1e-10) {
-  return LoadSurface({{0, 2, 7}, {0, 3, 8, 11}}, {1, 2},
-                     Eigen::VectorXd::Constant(1, resolution), sampler);
+LoadSurface MakeSurface(LoadSampler (*sampler)(), double resolution = 1e-10) {
+  return LoadSurface(
+      {{0, 2, 7}, {0, 3, 8, 11}},
+      {{1, 2}, Eigen::VectorXd::Constant(1, resolution), sampler});
 }
 
 TEST(LoadSurfaceTest, ValuesAndDerivativesAreThoseOfAClosedForm) {
@@ -70,7 +70,7 @@ TEST(LoadSurfaceTest, NothingLiesOutsideItsDomain) {
 }
 
 // Bends too sharply for one cell.
-LoadSurface::Sampler Sharp() {
+LoadSampler Sharp() {
   return [](double l, double f, double* to) {
     to[0] = std::tanh(2 * (l - 4.4) + 0.3 * (f - 5));
     to[1] = to[2] = 0;
@@ -94,7 +94,7 @@ TEST(LoadSurfaceTest, ACellIsHalvedWhereItsSeriesIsNotEnough) {
 }
 
 // A kink cannot be resolved, and the error says so.
-LoadSurface::Sampler Kinked() {
+LoadSampler Kinked() {
   return [](double l, double f, double* to) {
     to[0] = std::abs(l - 4.4) + f;
     to[1] = to[2] = 0;
@@ -112,7 +112,7 @@ TEST(LoadSurfaceTest, TheErrorTellsOfAKink) {
 }
 
 // No equilibrium beyond a load.
-LoadSurface::Sampler Folded() {
+LoadSampler Folded() {
   return [](double l, double f, double* to) {
     to[0] = l * f;
     to[1] = to[2] = 0;
@@ -129,7 +129,7 @@ TEST(LoadSurfaceTest, NoCellLiesWhereThereIsNoEquilibrium) {
 }
 
 std::atomic<int> cells_made{0};
-LoadSurface::Sampler Counted() {
+LoadSampler Counted() {
   ++cells_made;
   return Smooth();
 }

@@ -93,16 +93,17 @@ ModelSurface::ModelSurface(std::shared_ptr<const Model> model,
     : outputs_(static_cast<int>(resolution.size())),
       parameters_(model->frame.columns() - 2),
       places_(model->frame.movable_gauges() ? model->frame.gauges() : 0),
-      surface_(
-          model->Domain(), {outputs_, outputs_ * parameters_ + 2 * places_},
-          resolution,
-          [model, count = outputs_]() -> LoadSurface::Sampler {
-            const auto own = std::make_shared<Model>(*model);
-            return [own, count](double arc_mm, double normal_N, double* to) {
-              return own->Sample(arc_mm, normal_N, count, to);
-            };
-          },
-          kNegligible) {}
+      surface_(model->Domain(),
+               {{outputs_, outputs_ * parameters_ + 2 * places_},
+                resolution,
+                [model, count = outputs_]() -> LoadSampler {
+                  const auto own = std::make_shared<Model>(*model);
+                  return
+                      [own, count](double arc_mm, double normal_N, double* to) {
+                        return own->Sample(arc_mm, normal_N, count, to);
+                      };
+                },
+                kNegligible}) {}
 
 bool ModelSurface::Evaluate(double arc_mm, double normal_N, bool all,
                             Values* values) const {
@@ -111,9 +112,9 @@ bool ModelSurface::Evaluate(double arc_mm, double normal_N, bool all,
     return false;
   }
   std::vector<double>& scratch = values->scratch;
-  const int stride = LoadSurface::Padded(outputs_);
+  const int stride = LoadPolynomial::Padded(outputs_);
   const int derivatives = outputs_ * parameters_;
-  const int size = LoadSurface::Padded(derivatives + 2 * places_);
+  const int size = LoadPolynomial::Padded(derivatives + 2 * places_);
   scratch.resize(static_cast<std::size_t>(std::max(6 * stride, size)));
   surface_.Jets(place, 0, scratch.data());
   values->outputs = Eigen::Map<const Eigen::VectorXd>(scratch.data(), outputs_);

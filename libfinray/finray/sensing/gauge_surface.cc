@@ -46,11 +46,11 @@ Eigen::VectorXd ResolutionOf(const Finger& finger, bool circle, double std) {
 }
 
 // Samples [gauges, centre] and then [contact pose, tip pose, rib tensions].
-std::function<LoadSurface::Sampler()> SamplersOf(
+std::function<LoadSampler()> SamplersOf(
     const EquilibriumSolver& solver, double friction,
     std::optional<double> circle_radius_mm) {
   const auto prototype = std::make_shared<const EquilibriumSolver>(solver);
-  return [=]() -> LoadSurface::Sampler {
+  return [=]() -> LoadSampler {
     const auto own = std::make_shared<EquilibriumSolver>(*prototype);
     own->Reset();
     own->set_tolerance(kTolerance);
@@ -93,8 +93,9 @@ GaugeSurface::GaugeSurface(const EquilibriumSolver& solver, double friction,
       surface_(
           LoadSurface::DomainOf(solver.model().finger(),
                                 solver.model().mesh(Side::kFront), heaviest_N),
-          {values_, kPoses + ribs_}, resolution_,
-          SamplersOf(solver, friction, circle_radius_mm)) {}
+          {{values_, kPoses + ribs_},
+           resolution_,
+           SamplersOf(solver, friction, circle_radius_mm)}) {}
 
 // Memory for a frame, on the stack unless the finger is large.
 template <int kOnStack>
@@ -121,7 +122,7 @@ class GaugeSurface::Descent {
         values_(values),
         weights_(weights),
         most_force_N_(most_force_N),
-        stride_(LoadSurface::Padded(s_.values_)),
+        stride_(LoadPolynomial::Padded(s_.values_)),
         jets_(6 * stride_) {}
 
   // Returns false off the surface.
@@ -216,7 +217,7 @@ bool GaugeSurface::SetOutputs(double most_error,
       !(place.error() < most_error)) {
     return false;
   }
-  Scratch<32> outputs(LoadSurface::Padded(kPoses + ribs_));
+  Scratch<32> outputs(LoadPolynomial::Padded(kPoses + ribs_));
   surface_.Values(place, 1, outputs.data());
   const double* const poses = outputs.data();
   solution->poses[0] = Eigen::Map<const Eigen::Vector3d>(poses);
@@ -229,7 +230,7 @@ bool GaugeSurface::ValuesAt(double arc_mm, double normal_N,
                             Eigen::VectorXd* values) const {
   LoadSurface::Place place;
   if (!surface_.Locate(arc_mm, normal_N, &place)) return false;
-  values->resize(LoadSurface::Padded(values_));
+  values->resize(LoadPolynomial::Padded(values_));
   surface_.Values(place, 0, values->data());
   values->conservativeResize(values_);
   return true;

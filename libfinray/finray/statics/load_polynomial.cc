@@ -6,8 +6,7 @@ namespace finray {
 
 // Each compilation of load_polynomial_kernel.cc has one of these.
 using Evaluate = void(const LoadPolynomial& polynomial,
-                      const PolynomialBasis& arc, const PolynomialBasis& force,
-                      double* results);
+                      const PolynomialBasis& basis, double* results);
 inline namespace generic {
 Evaluate ValuesOf, JetsOf;
 }
@@ -19,16 +18,15 @@ Evaluate ValuesOf, JetsOf;
 }
 
 void EvaluateValues(const LoadPolynomial& polynomial,
-                    const PolynomialBasis& arc, const PolynomialBasis& force,
-                    double* values, int set) {
+                    const PolynomialBasis& basis, double* values, int set) {
   static constexpr Evaluate* kEvaluate[] = FINRAY_COMPILATIONS(ValuesOf);
-  kEvaluate[BestInstructionSet() + set](polynomial, arc, force, values);
+  kEvaluate[BestInstructionSet() + set](polynomial, basis, values);
 }
 
-void EvaluateJets(const LoadPolynomial& polynomial, const PolynomialBasis& arc,
-                  const PolynomialBasis& force, double* jets, int set) {
+void EvaluateJets(const LoadPolynomial& polynomial,
+                  const PolynomialBasis& basis, double* jets, int set) {
   static constexpr Evaluate* kEvaluate[] = FINRAY_COMPILATIONS(JetsOf);
-  kEvaluate[BestInstructionSet() + set](polynomial, arc, force, jets);
+  kEvaluate[BestInstructionSet() + set](polynomial, basis, jets);
 }
 
 }  // namespace finray

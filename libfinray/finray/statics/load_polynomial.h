@@ -1,6 +1,8 @@
 #ifndef FINRAY_STATICS_LOAD_POLYNOMIAL_H_
 #define FINRAY_STATICS_LOAD_POLYNOMIAL_H_
 
+#include "finray/ladder/round_up.h"
+
 namespace finray {
 
 /// Several values as polynomials of a load,
@@ -13,6 +15,7 @@ namespace finray {
 struct LoadPolynomial {
   /// The number of values is a multiple of this.
   static constexpr int kPadding = 4;
+  static constexpr int Padded(int values) { return RoundUp(values, kPadding); }
 
   int arc_terms;
   const int* force_terms;  ///< of each arc term
@@ -20,22 +23,21 @@ struct LoadPolynomial {
   const double* c;  ///< [i][j][value]
 };
 
-/// P_i and P_i', P_i'' of an argument, for each term.
+/// P_i and Q_j of a load and their first and second derivatives.
 struct PolynomialBasis {
   static constexpr int kMostTerms = 16;
-  double by[3][kMostTerms];  ///< [derivative][term]
+  double by[3][kMostTerms][2];  ///< [derivative][term][0 by l, 1 by f]
 };
 
 /// Evaluates all values. `set` counts from the best instruction set of this
 /// machine.
 void EvaluateValues(const LoadPolynomial& polynomial,
-                    const PolynomialBasis& arc, const PolynomialBasis& force,
-                    double* values, int set = 0);
+                    const PolynomialBasis& basis, double* values, int set = 0);
 
 /// Evaluates v, dv/dl, dv/df, d2v/dl2, d2v/dldf and d2v/df2 of all values, in
 /// this order: 6 x values.
-void EvaluateJets(const LoadPolynomial& polynomial, const PolynomialBasis& arc,
-                  const PolynomialBasis& force, double* jets, int set = 0);
+void EvaluateJets(const LoadPolynomial& polynomial,
+                  const PolynomialBasis& basis, double* jets, int set = 0);
 
 }  // namespace finray
 

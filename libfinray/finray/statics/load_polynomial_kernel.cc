@@ -15,15 +15,15 @@ using V = Some::Vector;
 // Evaluates `n` registers of values at a time from `first` on, as long as there
 // are so many. Their sums do not wait for each other.
 template <int n>
-void SumValues(const LoadPolynomial& polynomial, const PolynomialBasis& arc,
-               const PolynomialBasis& force, int* first, double* values) {
+void SumValues(const LoadPolynomial& polynomial, const PolynomialBasis& basis,
+               int* first, double* values) {
   const int stride = polynomial.values;
   for (; *first + n * kWidth <= stride; *first += n * kWidth) {
     const double* c = polynomial.c + *first;
     V sums[n] = {};
     for (int i = 0; i < polynomial.arc_terms; ++i) {
       for (int j = 0; j < polynomial.force_terms[i]; ++j, c += stride) {
-        const double term = arc.by[0][i] * force.by[0][j];
+        const double term = basis.by[0][i][0] * basis.by[0][j][1];
         for (int k = 0; k < n; ++k)
           sums[k] += term * Some::Load(c + k * kWidth);
       }
@@ -35,8 +35,8 @@ void SumValues(const LoadPolynomial& polynomial, const PolynomialBasis& arc,
 }
 
 template <int n>
-void SumJets(const LoadPolynomial& polynomial, const PolynomialBasis& arc,
-             const PolynomialBasis& force, int* first, double* jets) {
+void SumJets(const LoadPolynomial& polynomial, const PolynomialBasis& basis,
+             int* first, double* jets) {
   const int stride = polynomial.values;
   for (; *first + n * kWidth <= stride; *first += n * kWidth) {
     const double* c = polynomial.c + *first;
@@ -46,16 +46,16 @@ void SumJets(const LoadPolynomial& polynomial, const PolynomialBasis& arc,
       for (int j = 0; j < polynomial.force_terms[i]; ++j, c += stride) {
         for (int k = 0; k < n; ++k) {
           const V term = Some::Load(c + k * kWidth);
-          for (int d = 0; d < 3; ++d) along[d][k] += force.by[d][j] * term;
+          for (int d = 0; d < 3; ++d) along[d][k] += basis.by[d][j][1] * term;
         }
       }
       for (int k = 0; k < n; ++k) {
-        sums[0][k] += arc.by[0][i] * along[0][k];
-        sums[1][k] += arc.by[1][i] * along[0][k];
-        sums[2][k] += arc.by[0][i] * along[1][k];
-        sums[3][k] += arc.by[2][i] * along[0][k];
-        sums[4][k] += arc.by[1][i] * along[1][k];
-        sums[5][k] += arc.by[0][i] * along[2][k];
+        sums[0][k] += basis.by[0][i][0] * along[0][k];
+        sums[1][k] += basis.by[1][i][0] * along[0][k];
+        sums[2][k] += basis.by[0][i][0] * along[1][k];
+        sums[3][k] += basis.by[2][i][0] * along[0][k];
+        sums[4][k] += basis.by[1][i][0] * along[1][k];
+        sums[5][k] += basis.by[0][i][0] * along[2][k];
       }
     }
     for (int d = 0; d < 6; ++d) {
@@ -68,20 +68,20 @@ void SumJets(const LoadPolynomial& polynomial, const PolynomialBasis& arc,
 
 }  // namespace
 
-void ValuesOf(const LoadPolynomial& polynomial, const PolynomialBasis& arc,
-              const PolynomialBasis& force, double* values) {
+void ValuesOf(const LoadPolynomial& polynomial, const PolynomialBasis& basis,
+              double* values) {
   int first = 0;
-  SumValues<8>(polynomial, arc, force, &first, values);
-  SumValues<4>(polynomial, arc, force, &first, values);
-  SumValues<2>(polynomial, arc, force, &first, values);
-  SumValues<1>(polynomial, arc, force, &first, values);
+  SumValues<8>(polynomial, basis, &first, values);
+  SumValues<4>(polynomial, basis, &first, values);
+  SumValues<2>(polynomial, basis, &first, values);
+  SumValues<1>(polynomial, basis, &first, values);
 }
 
-void JetsOf(const LoadPolynomial& polynomial, const PolynomialBasis& arc,
-            const PolynomialBasis& force, double* jets) {
+void JetsOf(const LoadPolynomial& polynomial, const PolynomialBasis& basis,
+            double* jets) {
   int first = 0;
-  SumJets<2>(polynomial, arc, force, &first, jets);
-  SumJets<1>(polynomial, arc, force, &first, jets);
+  SumJets<2>(polynomial, basis, &first, jets);
+  SumJets<1>(polynomial, basis, &first, jets);
 }
 
 }  // namespace FINRAY_ISA

@@ -1,19 +1,15 @@
 #ifndef FINRAY_STATICS_LOAD_SURFACE_H_
 #define FINRAY_STATICS_LOAD_SURFACE_H_
 
-#include <Eigen/Core>
 #include <array>
-#include <functional>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include "finray/finger/mesh.h"
+#include "finray/statics/load_cell.h"
 #include "finray/statics/load_polynomial.h"
 
 namespace finray {
-
-struct LoadCell;
 
 /// Values of a finger's equilibria as functions of the load (l_c, f_c) of one
 /// contact. Between the places where a beam changes, an equilibrium is an
@@ -32,11 +28,6 @@ struct LoadCell;
 /// not depend on who made a cell.
 class LoadSurface {
  public:
-  /// Computes all values under a load, group after group. Returns false if
-  /// there is no equilibrium.
-  using Sampler =
-      std::function<bool(double arc_mm, double normal_N, double* values)>;
-
   struct Domain {
     /// Rising. Between two of these the finger is smooth along l_c.
     std::vector<double> arcs_mm;
@@ -50,63 +41,44 @@ class LoadSurface {
   static Domain DomainOf(const Finger& finger, const BeamMesh& front,
                          double heaviest_N);
 
-  /// `sizes` are the numbers of values of each group. The values of the first
-  /// group are what cells are judged by, in units of `resolution`: a cell is
-  /// fine enough if it leaves out less. Each cell gets a sampler of its own.
-  /// The other groups are evaluated without terms below `negligible`, a share
-  /// of the largest term of the same value.
-  LoadSurface(Domain domain, std::vector<int> sizes, Eigen::VectorXd resolution,
-              std::function<Sampler()> make_sampler, double negligible = 0);
-  ~LoadSurface();
+  LoadSurface(Domain domain, LoadValues values);
 
   /// A load and the cell that holds it.
   class Place {
    public:
     /// About how far the values of the first group may be off, in units of
     /// their resolution.
-    double error() const;
+    double error() const { return cell_->error(); }
 
    private:
     friend class LoadSurface;
     const LoadCell* cell_ = nullptr;
-    PolynomialBasis arc_, force_;
+    PolynomialBasis basis_;
   };
 
   /// Finds the cell of a load, and makes it if need be. Returns false outside
   /// the domain or where there is no equilibrium.
   bool Locate(double arc_mm, double normal_N, Place* place) const;
 
-  /// Makes all cells, for those who cannot wait later.
-  void MakeAll() const;
-  /// Makes the cells of these loads (arc_mm, normal_N), side by side on the
+  /// Makes all cells, for those who cannot wait later, side by side on the
   /// threads of the caller's arena. Threads that come to a new cell together
   /// would wait for each other.
+  void MakeAll() const;
+  /// Makes the cells of these loads (arc_mm, normal_N) likewise.
   void MakeFor(const std::vector<std::array<double, 2>>& loads) const;
 
-  /// Evaluates a group. `values` has room for Padded(its size).
+  /// Evaluates a group. `values` has room for LoadPolynomial::Padded(its size).
   void Values(const Place& place, int group, double* values) const;
   /// The values of a group and their derivatives by l_c (mm) and f_c (N) in the
-  /// order of EvaluateJets, 6 x Padded(its size).
+  /// order of EvaluateJets, 6 x LoadPolynomial::Padded(its size).
   void Jets(const Place& place, int group, double* jets) const;
-
-  static int Padded(int size);
 
  private:
   // The cell of the domain that holds a load; cells_.size() outside.
   std::size_t CellOf(double arc_mm, double normal_N) const;
-  // The part of a cell that holds a load, which is not halved.
-  const LoadCell* PartOf(LoadCell* cell, double arc_mm, double normal_N) const;
-  // Makes a cell unless it is made.
-  void Need(LoadCell* cell) const;
-  void MakeWhole(LoadCell* cell) const;
-  // Returns false if the cell must be made again with more terms.
-  bool Make(LoadCell* cell) const;
 
   Domain domain_;
-  std::vector<int> sizes_;
-  Eigen::VectorXd resolution_;
-  std::function<Sampler()> make_sampler_;
-  double negligible_;
+  LoadValues values_;
   std::vector<std::unique_ptr<LoadCell>> cells_;  // by arc, then by force
 };
 
