@@ -11,16 +11,12 @@ namespace {
 // Smaller pivots are rounding errors of the derivatives.
 constexpr double kLeastPivot = 1e-7;
 
-}  // namespace
-
-ContactMatrix CovarianceOf(const ContactMatrix& information) {
+template <class Matrix>
+ContactMatrix InverseOf(const Matrix& information) {
   const Eigen::Index size = information.rows();
-  using Vector =
-      Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kFittedContacts, 1>;
-  const Vector scale = information.diagonal().cwiseSqrt().cwiseInverse();
-  const ContactMatrix scaled =
-      scale.asDiagonal() * information * scale.asDiagonal();
-  const Eigen::LLT<ContactMatrix> llt(scaled);
+  const auto scale = information.diagonal().cwiseSqrt().cwiseInverse().eval();
+  const Matrix scaled = scale.asDiagonal() * information * scale.asDiagonal();
+  const Eigen::LLT<Matrix> llt(scaled);
   const bool regular = scaled.allFinite() && llt.info() == Eigen::Success &&
                        llt.matrixLLT().diagonal().minCoeff() > kLeastPivot;
   if (!regular) {
@@ -28,8 +24,17 @@ ContactMatrix CovarianceOf(const ContactMatrix& information) {
     open.diagonal().setConstant(std::numeric_limits<double>::infinity());
     return open;
   }
-  const ContactMatrix inverse = llt.solve(ContactMatrix::Identity(size, size));
+  const Matrix inverse = llt.solve(Matrix::Identity(size, size));
   return scale.asDiagonal() * inverse * scale.asDiagonal();
+}
+
+}  // namespace
+
+ContactMatrix CovarianceOf(const ContactMatrix& information) {
+  // Most frames have one contact, and a size that the compiler knows costs a
+  // tenth.
+  return information.rows() == 2 ? InverseOf<Eigen::Matrix2d>(information)
+                                 : InverseOf<ContactMatrix>(information);
 }
 
 }  // namespace finray
