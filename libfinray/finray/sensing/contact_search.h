@@ -84,9 +84,9 @@ class ContactSearch {
   const ContactSolution& best() const { return found_.best(); }
   const ContactSolution* rival() const { return found_.rival(); }
   /// The best contact at each place of the table (GaugeTable::Profile) that may
-  /// be a rival or belong to a valley; the others have an infinite chi2 or one
-  /// that is too large. Empty after a search for two contacts or without
-  /// gauges.
+  /// be a rival or belong to a valley; others have an infinite chi2 or one that
+  /// is too large, or are left out. Empty after a search for two contacts or
+  /// without gauges.
   const std::vector<ContactStart>& profile() const { return profile_; }
   /// Number of iterations of all fits of the last search.
   int iterations() const { return iterations_; }
@@ -168,6 +168,7 @@ class ContactSearch {
   LadderState exact_;  // where a fit goes on to rounding
   FrameProblem problem_;
   std::vector<ContactStart> profile_, starts_;  // of one contact
+  std::size_t profile_row_ = 0;  // the table's row that profile_ begins with
   std::vector<ContactStart> pair_starts_;
   std::vector<PointContact> contacts_;
   const LadderState* best_from_ = nullptr;  // of the start that led to best()

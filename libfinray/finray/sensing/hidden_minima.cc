@@ -21,6 +21,15 @@ bool IsLowest(const std::vector<ContactStart>& profile, std::size_t i) {
          (i + 1 == profile.size() || profile[i].chi2 <= profile[i + 1].chi2);
 }
 
+// Says whether the distance to the readings, in std, may change by `rise` from
+// a row to a neighbour. It does not while all of them are nearer than that.
+bool MayRise(const std::vector<ContactStart>& profile, std::size_t i,
+             double rise) {
+  const double least = rise * rise;
+  return profile[i].chi2 >= least || (i > 0 && profile[i - 1].chi2 >= least) ||
+         (i + 1 < profile.size() && profile[i + 1].chi2 >= least);
+}
+
 bool IsLoaded(const ContactStart& row) {
   return row.state != nullptr && row.contacts[0].normal_N > 0;
 }
@@ -31,8 +40,10 @@ bool IsLoaded(const ContactStart& row) {
 // table may rank them wrongly where the noise is less than its own error.
 void ContactSearch::SearchRows(const PackedReadings& packed, bool close) {
   const auto may_lead_on = [&](std::size_t i) {
-    return close ? IsBeside(i) || Hides(i, 0)
-                 : (IsBeside(i) || IsLowest(profile_, i)) && Hides(i, kSharp);
+    return close
+               ? IsBeside(i) || Hides(i, 0)
+               : MayRise(profile_, i, kSharp) &&
+                     (IsBeside(i) || IsLowest(profile_, i)) && Hides(i, kSharp);
   };
   while (!found_.full()) {
     std::size_t next = profile_.size();
@@ -75,7 +86,7 @@ void ContactSearch::SearchBeside(const PackedReadings& packed) {
 void ContactSearch::SearchForces(const PackedReadings& packed) {
   const double arc_mm = best().contacts[0].arc_mm;
   for (std::size_t i = 0; i < profile_.size(); ++i) {
-    const GaugeTable::Row& row = table_.rows()[i];
+    const GaugeTable::Row& row = table_.rows()[profile_row_ + i];
     if (!IsLoaded(profile_[i]) ||
         std::abs(row.arc_mm - arc_mm) > 2 * table_.row_spacing_mm()) {
       continue;
