@@ -139,11 +139,13 @@ class ContactSearch {
   // Fits from the other forces of the rows beside the best solution at which
   // the table's chi2 has a minimum.
   void SearchForces(const PackedReadings& packed);
-  // Says whether a solution is nearer to a row than its neighbours are.
-  bool IsBeside(std::size_t row) const;
-  // Whether a minimum within noise, other than those found, may lie near a row
-  // where the distance in std changes by least_rise or more from row to row.
-  bool Hides(std::size_t row, double least_rise) const;
+  // Says whether a solution is nearer to the i-th row of the profile than its
+  // neighbours are.
+  bool IsBeside(std::size_t i) const;
+  // Whether a minimum within noise, other than those found, may lie near the
+  // i-th row where the distance in std changes by least_rise or more from row
+  // to row.
+  bool Hides(std::size_t i, double least_rise) const;
   // All fit from a start and fill in the next solution. Fit goes by the surface
   // where it can, else by FitEquilibria, which is ContactFit.
   bool Fit(const ContactStart& start, const PackedReadings& packed);

@@ -253,7 +253,7 @@ std::size_t GaugeTable::Profile(const Eigen::VectorXd& values,
 
 ContactStart GaugeTable::BestStart(const Eigen::VectorXd& values,
                                    const Eigen::VectorXd& weights) const {
-  Nearest nearest;
+  Nearest nearest{};  // so that a table without rows has no contact
   FindNearest(values, weights, kAnyChi2, &nearest);
   const auto rows = nearest.chi2.begin();
   const auto best = std::min_element(rows, rows + rows_.size());

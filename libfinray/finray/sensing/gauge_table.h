@@ -26,7 +26,7 @@ namespace finray {
 class GaugeTable {
  public:
   static constexpr int kMostRows = 56;
-  /// A profile with this bound has contacts in all rows.
+  /// With this bound no row is left out for its chi2.
   static constexpr double kAnyChi2 = std::numeric_limits<double>::infinity();
 
   /// Builds the table with contacts at `rows` places from base to tip, at most
@@ -47,8 +47,10 @@ class GaugeTable {
   /// Contacts nearer to such a row than to others have a chi2 of `most_chi2` or
   /// more, too, as far as RowBoxes hold.
   ///
-  /// The profile leaves out rows without a contact at either end, but for one.
-  /// Returns the row it begins with.
+  /// Rows without a contact are left out at both ends of the profile. One stays
+  /// at each end that is cut: FindValley takes the first and the last row with
+  /// a contact for those next to the ends of the beam. Returns the table's row
+  /// that the profile begins with.
   std::size_t Profile(const Eigen::VectorXd& values,
                       const Eigen::VectorXd& weights, double most_chi2,
                       std::vector<ContactStart>* profile) const;

@@ -21,8 +21,8 @@ bool IsLowest(const std::vector<ContactStart>& profile, std::size_t i) {
          (i + 1 == profile.size() || profile[i].chi2 <= profile[i + 1].chi2);
 }
 
-// Says whether the distance to the readings, in std, may change by `rise` from
-// a row to a neighbour. It does not while all of them are nearer than that.
+// Says whether the distance to the readings, in std, may change by `rise` or
+// more from a row to a neighbour. It does not while all three are nearer.
 bool MayRise(const std::vector<ContactStart>& profile, std::size_t i,
              double rise) {
   const double least = rise * rise;

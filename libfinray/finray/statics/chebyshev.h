@@ -11,16 +11,16 @@ namespace finray {
 ///
 ///   v(u, w) = sum_ij c_ij T_i(u) T_j(w),   T_k(cos a) = cos(k a).
 ///
-/// Sets T_k and its derivatives for all k below `terms`, at least 2. The
-/// derivatives are by the quantities that the two arguments of `x` change with,
-/// by `slope` each.
+/// Sets T_k and its derivatives for all k below `terms`, which is from 2 to
+/// kMostTerms. `x` are u and w, functions of l and f; `slope` are du/dl and
+/// dw/df. The derivatives are by l and by f.
 void SetChebyshev(const Eigen::Array2d& x, const Eigen::Array2d& slope,
                   int terms, PolynomialBasis* basis);
 
 /// The zeros of T_terms, rising for i = 0 .. terms - 1.
 double ChebyshevZero(int i, int terms);
 
-/// A row for each (i, j), i before j, and a column for each value.
+/// Row i * w_terms + j holds (i, j) for all values, a column each.
 using ChebyshevRows =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 

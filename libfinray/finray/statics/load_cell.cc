@@ -149,6 +149,7 @@ void LoadCell::Need(const LoadValues& values) {
 }
 
 bool LoadCell::Make(const LoadValues& values) {
+  groups_.clear();  // an exception may have ended another try
   const int arc_terms = arc_terms_, force_terms = force_terms_;
   const bool may_halve = halvings_ < kMostHalvings;
   ChebyshevRows samples(

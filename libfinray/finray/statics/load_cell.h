@@ -22,8 +22,8 @@ using LoadSampler =
 struct LoadValues {
   /// The numbers of values of each group.
   std::vector<int> sizes;
-  /// Units of the first group, whose values cells are judged by: a cell is fine
-  /// enough if it leaves out less.
+  /// A unit for each value of the first group, by which cells are judged: a
+  /// cell is fine enough if it leaves out less.
   Eigen::VectorXd resolution;
   /// Each cell gets a sampler of its own.
   std::function<LoadSampler()> make_sampler;
@@ -49,8 +49,8 @@ class LoadCell {
     }
   };
 
-  /// A cell that starts with so many terms as `values` need, where l_0 is
-  /// `length_mm`. Light loads need fewer.
+  /// A cell that starts with as many terms as `values` need, where l_0 is
+  /// `length_mm`. The `light` cells, which hold the least forces, need fewer.
   LoadCell(const Interval& arc_mm, const Interval& normal_N, double length_mm,
            bool light, const LoadValues& values);
 
@@ -63,7 +63,9 @@ class LoadCell {
   /// Makes all parts.
   void MakeWhole(const LoadValues& values);
 
-  /// Whether a part has values: there may be no equilibrium.
+  // What follows is of a part that PartAt has returned.
+
+  /// Whether it has values: there may be no equilibrium.
   bool has_values() const { return !groups_.empty(); }
   /// About how far the values of the first group may be off, in units of their
   /// resolution.

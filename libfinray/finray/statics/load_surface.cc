@@ -93,8 +93,7 @@ bool LoadSurface::Locate(double arc_mm, double normal_N, Place* place) const {
 }
 
 void LoadSurface::MakeAll() const {
-  tbb::parallel_for(std::size_t{0}, cells_.size(),
-                    [&](std::size_t i) { cells_[i]->MakeWhole(values_); });
+  for (const auto& cell : cells_) cell->MakeWhole(values_);
 }
 
 void LoadSurface::MakeFor(

@@ -60,11 +60,12 @@ class LoadSurface {
   /// the domain or where there is no equilibrium.
   bool Locate(double arc_mm, double normal_N, Place* place) const;
 
-  /// Makes all cells, for those who cannot wait later, side by side on the
+  /// Makes all cells on the caller's thread, for those who cannot wait later.
+  /// Another estimator may be at work on the other threads.
+  void MakeAll() const;
+  /// Makes the cells of these loads (arc_mm, normal_N), side by side on the
   /// threads of the caller's arena. Threads that come to a new cell together
   /// would wait for each other.
-  void MakeAll() const;
-  /// Makes the cells of these loads (arc_mm, normal_N) likewise.
   void MakeFor(const std::vector<std::array<double, 2>>& loads) const;
 
   /// Evaluates a group. `values` has room for LoadPolynomial::Padded(its size).
