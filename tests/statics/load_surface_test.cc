@@ -155,6 +155,24 @@ TEST(LoadSurfaceTest, ThreadsShareCellsThatAreMadeWhenNeeded) {
   for (const double value : values) EXPECT_EQ(value, values[0]);
 }
 
+TEST(LoadSurfaceTest, AllCellsAreMadeBeforehandAsTheyAreWhenNeeded) {
+  const LoadSurface surface = MakeSurface(Counted), lazy = MakeSurface(Smooth);
+  surface.MakeAll();
+  cells_made = 0;
+  LoadSurface::Place made, needed;
+  for (const double l : {1.0, 6.0}) {
+    for (const double f : {1.0, 5.0, 10.0}) {
+      ASSERT_TRUE(surface.Locate(l, f, &made));
+      ASSERT_TRUE(lazy.Locate(l, f, &needed));
+      double jets[2][6 * 4];
+      surface.Jets(made, 0, jets[0]);
+      lazy.Jets(needed, 0, jets[1]);
+      for (int i = 0; i < 6 * 4; ++i) EXPECT_EQ(jets[0][i], jets[1][i]);
+    }
+  }
+  EXPECT_EQ(cells_made, 0);
+}
+
 // The domain has six cells. One of them holds two of the loads.
 TEST(LoadSurfaceTest, CellsOfLoadsAreMadeBeforehand) {
   const LoadSurface surface = MakeSurface(Counted);

@@ -31,8 +31,7 @@ ContactMatrix InverseOf(const Matrix& information) {
 }  // namespace
 
 ContactMatrix CovarianceOf(const ContactMatrix& information) {
-  // Most frames have one contact. For it, Eigen's solve of a size unknown to
-  // the compiler takes a tenth of a followed frame.
+  // Most frames have one contact. The compiler unrolls its fixed size.
   return information.rows() == 2 ? InverseOf<Eigen::Matrix2d>(information)
                                  : InverseOf<ContactMatrix>(information);
 }

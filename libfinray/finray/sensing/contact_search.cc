@@ -251,8 +251,7 @@ void ContactSearch::FindStarts(int contacts, const PackedReadings& packed,
     return;
   }
   if (contacts == 1) {
-    profile_row_ =
-        table_.Profile(packed.values, packed.weights, most_chi2, &profile_);
+    table_.Profile(packed.values, packed.weights, most_chi2, &profile_);
     GaugeTable::FindStarts(profile_, &starts_);
     if (starts_.size() > kMostStarts) starts_.resize(kMostStarts);
     return;

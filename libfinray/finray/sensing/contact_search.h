@@ -84,9 +84,9 @@ class ContactSearch {
   const ContactSolution& best() const { return found_.best(); }
   const ContactSolution* rival() const { return found_.rival(); }
   /// The best contact at each place of the table (GaugeTable::Profile) that may
-  /// be a rival or belong to a valley; others have an infinite chi2 or one that
-  /// is too large, or are left out. Empty after a search for two contacts or
-  /// without gauges.
+  /// be a rival or belong to a valley; the others have an infinite chi2 or one
+  /// that is too large. Empty after a search for two contacts or without
+  /// gauges.
   const std::vector<ContactStart>& profile() const { return profile_; }
   /// Number of iterations of all fits of the last search.
   int iterations() const { return iterations_; }
@@ -139,13 +139,11 @@ class ContactSearch {
   // Fits from the other forces of the rows beside the best solution at which
   // the table's chi2 has a minimum.
   void SearchForces(const PackedReadings& packed);
-  // Says whether a solution is nearer to the i-th row of the profile than its
-  // neighbours are.
-  bool IsBeside(std::size_t i) const;
-  // Whether a minimum within noise, other than those found, may lie near the
-  // i-th row where the distance in std changes by least_rise or more from row
-  // to row.
-  bool Hides(std::size_t i, double least_rise) const;
+  // Says whether a solution is nearer to a row than its neighbours are.
+  bool IsBeside(std::size_t row) const;
+  // Says whether the search may have missed a minimum within noise near a row
+  // whose distance in std differs from a neighbour's by least_rise or more.
+  bool Hides(std::size_t row, double least_rise) const;
   // All fit from a start and fill in the next solution. Fit goes by the surface
   // where it can, else by FitEquilibria, which is ContactFit.
   bool Fit(const ContactStart& start, const PackedReadings& packed);
@@ -170,7 +168,6 @@ class ContactSearch {
   LadderState exact_;  // where a fit goes on to rounding
   FrameProblem problem_;
   std::vector<ContactStart> profile_, starts_;  // of one contact
-  std::size_t profile_row_ = 0;  // the table's row that profile_ begins with
   std::vector<ContactStart> pair_starts_;
   std::vector<PointContact> contacts_;
   const LadderState* best_from_ = nullptr;  // of the start that led to best()

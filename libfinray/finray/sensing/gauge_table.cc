@@ -196,23 +196,26 @@ RowCurves GaugeTable::Curves() const {
           by_force_.data()};
 }
 
-void GaugeTable::FindNearest(const Eigen::VectorXd& values,
-                             const Eigen::VectorXd& weights, double most_chi2,
-                             Nearest* nearest) const {
-  FindRowMinima(
-      Curves(), boxes_, values.data(), weights.data(), most_chi2,
-      {nearest->chi2.data(), nearest->to.data(), nearest->share.data()});
+template <class Use>
+void GaugeTable::ForEachRow(const Eigen::VectorXd& values,
+                            const Eigen::VectorXd& weights, double most_chi2,
+                            const Use& use) const {
+  std::array<double, RowCurves::Padded(kMostRows)> chi2, to, share;
+  FindRowMinima(Curves(), boxes_, values.data(), weights.data(), most_chi2,
+                {chi2.data(), to.data(), share.data()});
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    use(i, chi2[i], static_cast<int>(to[i]), share[i]);
+  }
 }
 
-void GaugeTable::SetStart(std::size_t row, const Nearest& nearest,
+void GaugeTable::SetStart(std::size_t row, int to, double share, double chi2,
                           ContactStart* start) const {
-  const int to = static_cast<int>(nearest.to[row]);
   start->chi2 = std::numeric_limits<double>::infinity();
   start->state = nullptr;
   start->count = to == 0 ? 0 : 1;
   if (to == 0) return;
-  const double from_N = forces_N_[to - 1], share = nearest.share[row];
-  start->chi2 = nearest.chi2[row];
+  const double from_N = forces_N_[to - 1];
+  start->chi2 = chi2;
   start->contacts[0] = {rows_[row].arc_mm,
                         from_N + share * (forces_N_[to] - from_N), friction_};
   // The unloaded state does not show how the finger bends under this contact.
@@ -221,17 +224,10 @@ void GaugeTable::SetStart(std::size_t row, const Nearest& nearest,
   start->state = &rows_[row].nodes[node].state;
 }
 
-std::size_t GaugeTable::Profile(const Eigen::VectorXd& values,
-                                const Eigen::VectorXd& weights,
-                                double most_chi2,
-                                std::vector<ContactStart>* profile) const {
-  Nearest nearest;
-  FindNearest(values, weights, most_chi2, &nearest);
-  std::size_t first = 0, end = rows_.size();
-  while (first < end && nearest.to[first] == 0) ++first;
-  while (first < end && nearest.to[end - 1] == 0) --end;
-  first -= first > 0;
-  end += end < rows_.size();
+void GaugeTable::Profile(const Eigen::VectorXd& values,
+                         const Eigen::VectorXd& weights, double most_chi2,
+                         std::vector<ContactStart>* profile) const {
+  profile->resize(rows_.size());
   // How wrong the cubic of each chord is, in std; NaN until a row asks.
   std::array<double, std::size(kForces)> errors;
   errors.fill(kNaN);
@@ -241,25 +237,23 @@ std::size_t GaugeTable::Profile(const Eigen::VectorXd& values,
     }
     return errors[chord];
   };
-  profile->resize(end - first);
-  for (std::size_t row = first; row < end; ++row) {
-    ContactStart& start = (*profile)[row - first];
-    SetStart(row, nearest, &start);
-    const int to = static_cast<int>(nearest.to[row]);
-    start.error = to > 0 ? error(to - 1) : 0;
-  }
-  return first;
+  ForEachRow(values, weights, most_chi2,
+             [&](std::size_t row, double chi2, int to, double share) {
+               ContactStart& start = (*profile)[row];
+               SetStart(row, to, share, chi2, &start);
+               start.error = to > 0 ? error(to - 1) : 0;
+             });
 }
 
 ContactStart GaugeTable::BestStart(const Eigen::VectorXd& values,
                                    const Eigen::VectorXd& weights) const {
-  Nearest nearest{};  // so that a table without rows has no contact
-  FindNearest(values, weights, kAnyChi2, &nearest);
-  const auto rows = nearest.chi2.begin();
-  const auto best = std::min_element(rows, rows + rows_.size());
-  ContactStart start;
-  SetStart(static_cast<std::size_t>(best - rows), nearest, &start);
-  return start;
+  ContactStart best;
+  best.chi2 = std::numeric_limits<double>::infinity();
+  ForEachRow(values, weights, kAnyChi2,
+             [&](std::size_t row, double chi2, int to, double share) {
+               if (chi2 < best.chi2) SetStart(row, to, share, chi2, &best);
+             });
+  return best;
 }
 
 const LadderState& GaugeTable::StateNear(double arc_mm, double normal_N) const {

@@ -2,7 +2,6 @@
 #define FINRAY_SENSING_GAUGE_TABLE_H_
 
 #include <Eigen/Core>
-#include <array>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -26,7 +25,7 @@ namespace finray {
 class GaugeTable {
  public:
   static constexpr int kMostRows = 56;
-  /// With this bound no row is left out for its chi2.
+  /// A profile with this bound has all rows.
   static constexpr double kAnyChi2 = std::numeric_limits<double>::infinity();
 
   /// Builds the table with contacts at `rows` places from base to tip, at most
@@ -46,14 +45,8 @@ class GaugeTable {
   ///
   /// Contacts nearer to such a row than to others have a chi2 of `most_chi2` or
   /// more, too, as far as RowBoxes hold.
-  ///
-  /// Rows without a contact are left out at both ends of the profile. One stays
-  /// at each end that is cut: FindValley takes the first and the last row with
-  /// a contact for those next to the ends of the beam. Returns the table's row
-  /// that the profile begins with.
-  std::size_t Profile(const Eigen::VectorXd& values,
-                      const Eigen::VectorXd& weights, double most_chi2,
-                      std::vector<ContactStart>* profile) const;
+  void Profile(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
+               double most_chi2, std::vector<ContactStart>* profile) const;
 
   /// Finds the local minima of a profile, between rows, best first.
   static void FindStarts(const std::vector<ContactStart>& profile,
@@ -98,14 +91,11 @@ class GaugeTable {
                   const std::optional<double>& circle_radius_mm);
   void FillCurves();
   RowCurves Curves() const;
-  // RowMinima of each row.
-  struct Nearest {
-    std::array<double, RowCurves::Padded(kMostRows)> chi2, to, share;
-  };
-  void FindNearest(const Eigen::VectorXd& values,
-                   const Eigen::VectorXd& weights, double most_chi2,
-                   Nearest* nearest) const;
-  void SetStart(std::size_t row, const Nearest& nearest,
+  // Calls use(row, chi2, to, share) for the best force of each row.
+  template <class Use>
+  void ForEachRow(const Eigen::VectorXd& values, const Eigen::VectorXd& weights,
+                  double most_chi2, const Use& use) const;
+  void SetStart(std::size_t row, int to, double share, double chi2,
                 ContactStart* start) const;
 
   double friction_;

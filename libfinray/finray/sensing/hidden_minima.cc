@@ -86,7 +86,7 @@ void ContactSearch::SearchBeside(const PackedReadings& packed) {
 void ContactSearch::SearchForces(const PackedReadings& packed) {
   const double arc_mm = best().contacts[0].arc_mm;
   for (std::size_t i = 0; i < profile_.size(); ++i) {
-    const GaugeTable::Row& row = table_.rows()[profile_row_ + i];
+    const GaugeTable::Row& row = table_.rows()[i];
     if (!IsLoaded(profile_[i]) ||
         std::abs(row.arc_mm - arc_mm) > 2 * table_.row_spacing_mm()) {
       continue;

@@ -7,10 +7,10 @@
 
 namespace finray {
 
-/// Series in Chebyshev's polynomials T_k of two arguments from -1 to 1,
-///
-///   v(u, w) = sum_ij c_ij T_i(u) T_j(w),   T_k(cos a) = cos(k a).
-///
+// Series in Chebyshev's polynomials T_k of two arguments from -1 to 1,
+//
+//   v(u, w) = sum_ij c_ij T_i(u) T_j(w),   T_k(cos a) = cos(k a).
+
 /// Sets T_k and its derivatives for all k below `terms`, which is from 2 to
 /// kMostTerms. `x` are u and w, functions of l and f; `slope` are du/dl and
 /// dw/df. The derivatives are by l and by f.

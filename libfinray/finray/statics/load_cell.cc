@@ -204,8 +204,7 @@ bool LoadCell::Sample(const LoadSampler& sample, ChebyshevRows* samples,
     for (int k = 0; k < force_terms_; ++k) {
       // To and fro, so that each equilibrium is near the one before.
       const int j = i % 2 == 0 ? k : force_terms_ - 1 - k;
-      if (!sample(arc_mm_.ChebyshevZero(i, arc_terms_),
-                  normal_N_.ChebyshevZero(j, force_terms_),
+      if (!sample(arc_mm_.Zero(i, arc_terms_), normal_N_.Zero(j, force_terms_),
                   samples->row(i * force_terms_ + j).data())) {
         *lightest = i + j == 0;
         return false;

@@ -18,7 +18,7 @@ namespace finray {
 using LoadSampler =
     std::function<bool(double arc_mm, double normal_N, double* values)>;
 
-/// What the cells of a surface hold.
+/// The values of a surface, how exact they must be, and who computes them.
 struct LoadValues {
   /// The numbers of values of each group.
   std::vector<int> sizes;
@@ -44,8 +44,8 @@ class LoadCell {
     double At(double x) const {
       return std::clamp((x - middle()) * slope(), -1.0, 1.0);
     }
-    double ChebyshevZero(int i, int terms) const {
-      return middle() + 0.5 * (to - from) * finray::ChebyshevZero(i, terms);
+    double Zero(int i, int terms) const {
+      return middle() + 0.5 * (to - from) * ChebyshevZero(i, terms);
     }
   };
 
@@ -63,9 +63,9 @@ class LoadCell {
   /// Makes all parts.
   void MakeWhole(const LoadValues& values);
 
-  // What follows is of a part that PartAt has returned.
+  // Only a part that PartAt has returned has these.
 
-  /// Whether it has values: there may be no equilibrium.
+  /// Says whether there is an equilibrium, and so values.
   bool has_values() const { return !groups_.empty(); }
   /// About how far the values of the first group may be off, in units of their
   /// resolution.
