@@ -31,6 +31,20 @@ struct Doubles {
   static void Store(const Vector& value, double* to) {
     *reinterpret_cast<Unaligned*>(to) = value;
   }
+
+  /// The least and the greatest lane of a vector without NaN. Halves are
+  /// compared as vectors: a loop over lanes moves each of them on its own.
+  static double Least(const Vector& value) {
+    const auto* const lanes = reinterpret_cast<const double*>(&value);
+    if constexpr (width == 1) {
+      return *lanes;
+    } else {
+      using Half = Doubles<width / 2>;
+      const auto low = Half::Load(lanes), high = Half::Load(lanes + width / 2);
+      return Half::Least(high < low ? high : low);
+    }
+  }
+  static double Greatest(const Vector& value) { return -Least(-value); }
 };
 
 }  // namespace FINRAY_ISA

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <utility>
 
 #include "finray/finger/geometry.h"
 #include "finray/objects/circle_centre.h"
@@ -163,11 +164,12 @@ bool GaugeSurface::Fit(const Eigen::Ref<const Eigen::VectorXd>& values,
   ContactVector x(2);
   x << start.arc_mm / length_mm_, start.normal_N / force_unit_N_;
   Descent descent(*this, values, weights, most_force_N);
-  ContactEquations here, there;
-  if (!descent.EquationsAt(x, &here)) return false;
+  std::array<ContactEquations, 2> equations;
+  ContactEquations *here = &equations[0], *there = &equations[1];
+  if (!descent.EquationsAt(x, here)) return false;
   for (int i = 0; i < kMostSteps; ++i) {
-    ContactVector change = BoundedChange(here, x, most, 0);
-    const bool newton = here.curvature.size() > 0;
+    ContactVector change = BoundedChange(*here, x, most, 0);
+    const bool newton = here->curvature.size() > 0;
     const double size = LargestChange(change, x, 0);
     // Wherever it is, a contact without force is the free finger.
     bool last = size < (newton ? kLastNewton : kLastGauss) ||
@@ -177,8 +179,8 @@ bool GaugeSurface::Fit(const Eigen::Ref<const Eigen::VectorXd>& values,
       taken = change;
       taken[0] *= ArcShare(x[1], change[1]);
       taken[0] = std::clamp(x[0] + taken[0], 0.0, 1.0) - x[0];
-      if (!descent.EquationsAt(x + taken, &there)) return false;
-      if (there.chi2 <= here.chi2) break;
+      if (!descent.EquationsAt(x + taken, there)) return false;
+      if (there->chi2 <= here->chi2) break;
       if (halvings == kMostHalvings) {
         if (size > kFutile) return false;
         taken.setZero();
@@ -188,23 +190,23 @@ bool GaugeSurface::Fit(const Eigen::Ref<const Eigen::VectorXd>& values,
     }
     if (last) {
       // chi2 is quadratic over so small a change.
-      double fallen = 2 * here.gradient.dot(taken);
-      fallen += taken.dot(ContactVector(here.normal * taken));
-      if (newton) fallen += taken.dot(ContactVector(here.curvature * taken));
+      double fallen = 2 * here->gradient.dot(taken);
+      fallen += taken.dot(ContactVector(here->normal * taken));
+      if (newton) fallen += taken.dot(ContactVector(here->curvature * taken));
       x += taken;
       solution->count = 1;
       solution->contacts[0] = {
           x[0] >= 1 ? length_mm_ : x[0] * length_mm_,
           x[1] >= most ? most_force_N : x[1] * force_unit_N_, friction_};
-      solution->chi2 = std::max(0.0, here.chi2 + fallen);
+      solution->chi2 = std::max(0.0, here->chi2 + fallen);
       solution->information =
-          InformationOf(here.normal, length_mm_, force_unit_N_);
+          InformationOf(here->normal, length_mm_, force_unit_N_);
       solution->systematic.resize(0, 0);  // FrameEstimator finds it
       return SetOutputs(exact_std_ / weights.cwiseProduct(resolution_).norm(),
                         solution);
     }
     x += taken;
-    here = there;
+    std::swap(here, there);
   }
   return false;
 }

@@ -28,10 +28,7 @@ V WithinOne(V share) {
 // say, but for 1e-6 (1 + chi2).
 bool IsSmall(const V& change) {
   constexpr double kSmall = 1e-4;
-  const auto small = (change < kSmall) & (change > -kSmall);
-  bool all = true;
-  for (int lane = 0; lane < kWidth; ++lane) all &= small[lane] != 0;
-  return all;
+  return Row::Greatest(change) < kSmall && Row::Least(change) > -kSmall;
 }
 
 struct Nearest {
@@ -74,12 +71,8 @@ Chords ChordsNear(const RowBoxes& boxes, int values, int group,
     end = near ? chord + 1.0 : end;
     chord += static_cast<double>(kWidth);
   }
-  Chords chords = {stride, 0};
-  for (int lane = 0; lane < kWidth; ++lane) {
-    chords.first = std::min(chords.first, static_cast<int>(first[lane]));
-    chords.end = std::max(chords.end, static_cast<int>(end[lane]));
-  }
-  return chords;
+  return {static_cast<int>(Row::Least(first)),
+          static_cast<int>(Row::Greatest(end))};
 }
 
 // kWidth rows of kValues values, or of as many as there are if it is 0. A
@@ -122,12 +115,9 @@ class Rows {
   // The nearest points of the cubics above the nearest chords.
   void Refine(Nearest* nearest) const {
     // Neighbouring rows end at the same few nodes.
-    Chords ends = {curves_.forces, 1};
-    for (int lane = 0; lane < kWidth; ++lane) {
-      const int end = std::max(1, static_cast<int>(nearest->to[lane]));
-      ends.first = std::min(ends.first, end);
-      ends.end = std::max(ends.end, end + 1);
-    }
+    const Chords ends = {
+        std::max(1, static_cast<int>(Row::Least(nearest->to))),
+        std::max(1, static_cast<int>(Row::Greatest(nearest->to))) + 1};
     Cubic kept[kKept];
     for (int j = 0; j < values() && j < kKept; ++j) {
       kept[j] = CubicOf(j, nearest->to, ends);
