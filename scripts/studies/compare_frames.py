@@ -5,9 +5,7 @@ compare_frames.py A.frames.csv B.frames.csv
 
 Prints the sums of `iterations`, how many frames change from one status to
 another, the largest differences of place and force of frames that are `ok` in
-both, in the std of A, and how many of these are more than 1e-5 std apart. For
-frames that change or are apart it counts whose chi2 is lower by more than a
-millionth: that result has the better contact.
+both, in the std of A, and how many of these frames are more than 1e-5 std apart.
 """
 
 import collections
@@ -21,27 +19,14 @@ def frames(path):
         yield from csv.DictReader(file)
 
 
-# The load surface is exact to 1e-6 std, so smaller differences of chi2 say nothing.
-FAR_STD, SAME = 1e-5, 1e-6
-
-
-def better(a, b):
-    """Whose contact explains the frame better."""
-    one, other = (float(frame["chi2"] or "nan") for frame in (a, b))
-    if not abs(one - other) > SAME * (1 + abs(one)):
-        return "neither"
-    return "A" if one < other else "B"
-
-
-def lower_chi2(counts):
-    return ", ".join(f"{name} {counts[name]}" for name in ("A", "B", "neither") if counts[name])
+FAR_STD = 1e-5
 
 
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    iterations, ok = [0, 0], 0
-    changes, apart = collections.defaultdict(collections.Counter), collections.Counter()
+    iterations, changes = [0, 0], collections.Counter()
+    ok = far = 0
     largest = {"contact_1_mm": 0.0, "normal_1_N": 0.0}
     for both in itertools.zip_longest(*map(frames, sys.argv[1:])):
         if None in both:
@@ -50,25 +35,22 @@ def main():
         for k, frame in enumerate(both):
             iterations[k] += int(frame["iterations"] or 0)
         if a["status"] != b["status"]:
-            changes[a["status"], b["status"]][better(a, b)] += 1
+            changes[a["status"], b["status"]] += 1
         elif a["status"] == "ok":
-            ok += 1
             most = 0.0
             for name in largest:
                 value, unit = name.rsplit("_", 1)
                 off = abs(float(a[name]) - float(b[name])) / float(a[f"{value}_std_{unit}"])
                 largest[name] = max(largest[name], off)
                 most = max(most, off)
-            if most > FAR_STD:
-                apart[better(a, b)] += 1
+            ok += 1
+            far += most > FAR_STD
     print("iterations", *iterations)
-    for (before, after), counts in sorted(changes.items(), key=lambda change: -sum(change[1].values())):
-        print(f"{sum(counts.values())} frames from {before} to {after}; chi2 lower in: {lower_chi2(counts)}")
+    for (before, after), count in changes.most_common():
+        print(f"{count} frames from {before} to {after}")
     for name, off in largest.items():
         print(f"{name}: {off:.1e} std apart at most")
-    far = sum(apart.values())
-    print(f"{far} of {ok} ok frames more than {FAR_STD:g} std apart" +
-          (f"; chi2 lower in: {lower_chi2(apart)}" if far else ""))
+    print(f"{far} of {ok} ok frames more than {FAR_STD:g} std apart")
 
 
 if __name__ == "__main__":

@@ -32,8 +32,9 @@ struct Doubles {
     *reinterpret_cast<Unaligned*>(to) = value;
   }
 
-  /// The least and the greatest lane of a vector without NaN. Halves are
-  /// compared as vectors: a loop over lanes moves each of them on its own.
+  /// The least and the greatest lane of a vector without NaN. Halves compare
+  /// as vectors. A loop over lanes would move each lane to a register of its
+  /// own.
   static double Least(const Vector& value) {
     const auto* const lanes = reinterpret_cast<const double*>(&value);
     if constexpr (width == 1) {

@@ -25,7 +25,8 @@ V WithinOne(V share) {
 }
 
 // Says whether chi2 falls by these changes of shares as slope and curvature
-// say, but for 1e-6 (1 + chi2).
+// say, but for 1e-6 (1 + chi2). No lane is NaN: rows without a chord do not
+// change.
 bool IsSmall(const V& change) {
   constexpr double kSmall = 1e-4;
   return Row::Greatest(change) < kSmall && Row::Least(change) > -kSmall;
