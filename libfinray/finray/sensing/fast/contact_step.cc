@@ -106,6 +106,7 @@ ContactVector BoundedChange(const ContactEquations& equations,
     high[k] = arc ? std::min(1 - x[k], kLongestMove) : most_force - x[k];
   }
   bool fixed[2 * kFittedContacts] = {};
+  int held = 0;  // how many are fixed
   for (int pass = 0; pass < kMostPasses * unknowns; ++pass) {
     ContactMatrix free = system;
     ContactVector target = -equations.gradient;
@@ -134,8 +135,10 @@ ContactVector BoundedChange(const ContactEquations& equations,
     if (met >= 0) {
       change[met] = std::clamp(target[met], low[met], high[met]);
       fixed[met] = true;
+      ++held;
       continue;
     }
+    if (held == 0) break;
     const ContactVector slope = equations.gradient + system * change;
     int left = -1;
     for (int k = 0; k < unknowns; ++k) {
@@ -145,6 +148,7 @@ ContactVector BoundedChange(const ContactEquations& equations,
     }
     if (left < 0) break;
     fixed[left] = false;
+    --held;
   }
   return change;
 }
