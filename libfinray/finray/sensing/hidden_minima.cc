@@ -39,11 +39,6 @@ bool IsLoaded(const ContactStart& row) {
 // Minima lie close together where a finger is upright or has many ribs, and the
 // table may rank them wrongly where the noise is less than its own error.
 void ContactSearch::SearchRows(const PackedReadings& packed, bool close) {
-  // As in MayRise. All rows of a light frame are so near.
-  const auto is_near = [](const ContactStart& row) {
-    return row.chi2 < kSharp * kSharp;
-  };
-  if (!close && std::all_of(profile_.begin(), profile_.end(), is_near)) return;
   const auto may_lead_on = [&](std::size_t i) {
     return close
                ? IsBeside(i) || Hides(i, 0)
