@@ -64,6 +64,31 @@ TEST(LoadTrailTest, IsRightToSecondOrderOnALine) {
   }
 }
 
+// A search for a load comes near it and then corrects it. Only loads off the
+// line would be left of the way, were it kept.
+TEST(LoadTrailTest, ACorrectionTakesThePlaceOfTheNewestOne) {
+  const double h = 1e-2;
+  const auto load = [](double t) { return Vector2d(0.5 + t, 1 - 2 * t); };
+  const Vector2d off(4e-4, 3e-4);
+  const Vector2d next = load(3 * h);
+  const Vector2d guess = Guess(
+      Quadratic,
+      {load(0), load(h) + off, load(h), load(2.1 * h) + off, load(2.1 * h)},
+      next);
+  EXPECT_LT((guess - Quadratic(next.x(), next.y())).norm(), 1e-9);
+}
+
+// A slow change has many steps of one length, and none of them is a correction.
+TEST(LoadTrailTest, ShortStepsAreKept) {
+  const double h = 1e-6;
+  const auto load = [](double t) { return Vector2d(0.5 + t, 1 - 2 * t); };
+  const Vector2d next = load(8 * h);
+  const Vector2d guess =
+      Guess(Linear,
+            {load(-0.1), load(0), load(2 * h), load(4 * h), load(6 * h)}, next);
+  EXPECT_LT((guess - Linear(next.x(), next.y())).norm(), 1e-12);
+}
+
 TEST(LoadTrailTest, TwoLoadsMakeALine) {
   const Vector2d guess = Guess(Linear, {{0.5, 1}, {0.51, 1.01}}, {0.52, 1.02});
   EXPECT_LT((guess - Linear(0.52, 1.02)).norm(), 1e-2 * 0.05);

@@ -10,7 +10,10 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr int kMaxIterations = 30;
-constexpr double kTangencyTolerance = 1e-12;  // in l_0 and rad
+constexpr double kGapTolerance = 1e-12;  // in l_0
+// An error of the slope moves the contact by the radius of the outline times as
+// much.
+constexpr double kSlopeTolerance_rad = 1e-11;
 
 }  // namespace
 
@@ -113,7 +116,7 @@ bool Tangency::Solve(const ObjectPose& pose, TangencyUnknowns unknowns,
     const double gap = residual_.head(count).lpNorm<Eigen::Infinity>();
     const double slope =
         sliding ? residual_.tail(count).lpNorm<Eigen::Infinity>() : 0;
-    if (gap <= kTangencyTolerance * length_ && slope <= kTangencyTolerance) {
+    if (gap <= kGapTolerance * length_ && slope <= kSlopeTolerance_rad) {
       return outside_;
     }
     const Eigen::VectorXd step = -jacobian_.topRightCorner(equations, equations)
