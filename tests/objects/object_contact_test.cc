@@ -176,8 +176,8 @@ TEST(ObjectContactTest, EllipseOfEqualAxesEqualsTheCircle) {
         Solve({Outline(EllipseOutline{14, 14}), {}}, pose, 0.2, &solver);
     ASSERT_EQ(a.contacts.size(), 1u);
     ASSERT_EQ(b.contacts.size(), 1u);
-    EXPECT_NEAR(a.contacts[0].arc_mm, b.contacts[0].arc_mm, 1e-10);
-    EXPECT_NEAR(a.contacts[0].normal_N, b.contacts[0].normal_N, 1e-10);
+    EXPECT_NEAR(a.contacts[0].arc_mm, b.contacts[0].arc_mm, 1e-9);
+    EXPECT_NEAR(a.contacts[0].normal_N, b.contacts[0].normal_N, 1e-9);
   }
 }
 
@@ -191,8 +191,8 @@ TEST(ObjectContactTest, SwappedAxesAreAQuarterTurn) {
       Solve({Outline(EllipseOutline{22, 10}), {}}, turned, 0.1, &solver);
   ASSERT_EQ(a.contacts.size(), 1u);
   ASSERT_EQ(b.contacts.size(), 1u);
-  EXPECT_NEAR(a.contacts[0].arc_mm, b.contacts[0].arc_mm, 1e-9);
-  EXPECT_NEAR(a.contacts[0].normal_N, b.contacts[0].normal_N, 1e-9);
+  EXPECT_NEAR(a.contacts[0].arc_mm, b.contacts[0].arc_mm, 2e-9);
+  EXPECT_NEAR(a.contacts[0].normal_N, b.contacts[0].normal_N, 2e-9);
 }
 
 TEST(ObjectContactTest, CornerEqualsACircleThere) {

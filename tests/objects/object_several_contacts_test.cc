@@ -200,7 +200,7 @@ TEST_P(ObjectSpringTest, TendsToARigidObject) {
   const ObjectContact found =
       SolveObjectContact(Sprung(1e30, M_PI), pose_, friction_, &solver);
   EXPECT_NEAR(found.contacts.at(0).arc_mm, rigid.arc_mm, 1e-9);
-  EXPECT_NEAR(found.contacts.at(0).normal_N, rigid.normal_N, 1e-10);
+  EXPECT_NEAR(found.contacts.at(0).normal_N, rigid.normal_N, 1e-9);
 }
 
 // The force on the given place is the slope of the energy of finger and spring.

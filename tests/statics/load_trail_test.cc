@@ -64,8 +64,9 @@ TEST(LoadTrailTest, IsRightToSecondOrderOnALine) {
   }
 }
 
-// A search for a load comes near it and then corrects it. Only loads off the
-// line would be left of the way, were it kept.
+// A search for a load comes near it and then corrects it. If the trail kept
+// both, its three loads would span a plane, and the guess would be right to
+// first order only.
 TEST(LoadTrailTest, ACorrectionTakesThePlaceOfTheNewestOne) {
   const double h = 1e-2;
   const auto load = [](double t) { return Vector2d(0.5 + t, 1 - 2 * t); };
@@ -78,7 +79,21 @@ TEST(LoadTrailTest, ACorrectionTakesThePlaceOfTheNewestOne) {
   EXPECT_LT((guess - Quadratic(next.x(), next.y())).norm(), 1e-9);
 }
 
-// A slow change has many steps of one length, and none of them is a correction.
+TEST(LoadTrailTest, StepsOfRoundingAndRepeatsAreNotKept) {
+  const double h = 1e-2;
+  const auto load = [](double t) { return Vector2d(0.5 + t, 1 - 2 * t); };
+  const Vector2d off(4e-4, 3e-4), less(4e-12, 3e-12);
+  const Vector2d next = load(3 * h);
+  const Vector2d guess = Guess(
+      Quadratic,
+      {load(0), load(h) + off, load(h) + off, load(h), load(2.1 * h) + off,
+       load(2.1 * h) + less, load(2.1 * h) - less, load(2.1 * h)},
+      next);
+  EXPECT_LT((guess - Quadratic(next.x(), next.y())).norm(), 1e-9);
+}
+
+// After a long step the first short one counts as a correction. The next ones
+// are as long as it, and are kept.
 TEST(LoadTrailTest, ShortStepsAreKept) {
   const double h = 1e-6;
   const auto load = [](double t) { return Vector2d(0.5 + t, 1 - 2 * t); };

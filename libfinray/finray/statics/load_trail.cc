@@ -9,9 +9,11 @@ namespace {
 // Larger weights lead far beyond the trail. A step as long as the last two has
 // |w_1| + |w_2| = 3 + 1.
 constexpr double kMostWeight = 6;
-// A step that is so much shorter than the one before corrects it. Newton's
-// method over loads takes such steps.
+// A step at most this share of the one before counts as a correction of the
+// load. Newton's method over loads takes such steps.
 constexpr double kCorrection = 0.05;
+// Nearer loads differ by rounding.
+constexpr double kRounding = 1e-9;
 
 }  // namespace
 
@@ -29,10 +31,12 @@ bool LoadTrail::SameKind(const std::vector<PointContact>& contacts,
 void LoadTrail::Add(const std::vector<PointContact>& contacts,
                     const double* state, Eigen::Index size) {
   if (count_ > 0 && !SameKind(contacts, size)) count_ = 0;
+  if (count_ == 0) last_square_ = 0;
   const double square = count_ > 0 ? Product(contacts, contacts) : 0;
   const bool corrects =
-      count_ > 0 && square <= kCorrection * kCorrection * last_square_;
-  last_square_ = square;
+      count_ > 0 && square <= std::max(kCorrection * kCorrection * last_square_,
+                                       kRounding * kRounding);
+  if (square > 0) last_square_ = square;
   if (!corrects) {
     newest_ = (newest_ + 1) % kPoints;
     count_ = std::min(count_ + 1, kPoints);

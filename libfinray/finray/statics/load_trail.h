@@ -25,10 +25,10 @@ class LoadTrail {
       : length_mm_(length_mm), force_unit_N_(force_unit_N) {}
 
   void Clear() { count_ = 0; }
-  /// Keeps the equilibrium `state`, `size` numbers, as the newest one. After a
-  /// step much shorter than the one before it, the state takes the place of the
-  /// newest one, so that the trail keeps where a search for a load has ended,
-  /// not its way there. Other kinds of contacts or another size begin a new
+  /// Keeps the equilibrium `state`, `size` numbers, as the newest one. It takes
+  /// the place of the newest one if the load comes again, or after a step much
+  /// shorter than the one before: the trail then holds less of the way of a
+  /// search for a load. Other kinds of contacts or another size begin a new
   /// trail. A trail that is full allocates nothing.
   void Add(const std::vector<PointContact>& contacts, const double* state,
            Eigen::Index size);
@@ -59,7 +59,7 @@ class LoadTrail {
   double length_mm_, force_unit_N_;
   std::array<Point, kPoints> points_;
   int newest_ = 0, count_ = 0;
-  double last_square_ = 0;  // of the last step
+  double last_square_ = 0;  // of the last step that was not zero
 };
 
 }  // namespace finray
