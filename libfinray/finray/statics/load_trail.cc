@@ -13,7 +13,7 @@ constexpr double kMostWeight = 6;
 // load. Newton's method over loads takes such steps.
 constexpr double kCorrection = 0.05;
 // Nearer loads differ by rounding.
-constexpr double kRounding = 1e-9;
+constexpr double kSameLoad = 1e-9;
 
 }  // namespace
 
@@ -35,7 +35,7 @@ void LoadTrail::Add(const std::vector<PointContact>& contacts,
   const double square = count_ > 0 ? Product(contacts, contacts) : 0;
   const bool corrects =
       count_ > 0 && square <= std::max(kCorrection * kCorrection * last_square_,
-                                       kRounding * kRounding);
+                                       kSameLoad * kSameLoad);
   if (square > 0) last_square_ = square;
   if (!corrects) {
     newest_ = (newest_ + 1) % kPoints;
