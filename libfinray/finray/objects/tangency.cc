@@ -13,7 +13,7 @@ constexpr int kMaxIterations = 30;
 constexpr double kGapTolerance = 1e-12;  // in l_0
 // The gap changes by the square of the slope only. Along the beam the contact
 // is off by slope / |1 / rho - kappa|, 2e-10 mm for a circle of 20 mm at a
-// straight beam. 1e-12 asks for one more equilibrium.
+// straight beam. 1e-12 would often ask for one more equilibrium.
 constexpr double kSlopeTolerance_rad = 1e-11;
 
 }  // namespace

@@ -31,12 +31,16 @@ bool LoadTrail::SameKind(const std::vector<PointContact>& contacts,
 void LoadTrail::Add(const std::vector<PointContact>& contacts,
                     const double* state, Eigen::Index size) {
   if (count_ > 0 && !SameKind(contacts, size)) count_ = 0;
-  if (count_ == 0) last_square_ = 0;
-  const double square = count_ > 0 ? Product(contacts, contacts) : 0;
-  const bool corrects =
-      count_ > 0 && square <= std::max(kCorrection * kCorrection * last_square_,
-                                       kSameLoad * kSameLoad);
-  if (square > 0) last_square_ = square;
+  bool corrects = false;
+  if (count_ == 0) {
+    last_square_ = 0;
+  } else if (const double square = Product(contacts, contacts); square > 0) {
+    corrects = square <= std::max(kCorrection * kCorrection * last_square_,
+                                  kSameLoad * kSameLoad);
+    last_square_ = square;
+  } else {
+    corrects = true;  // the load comes again
+  }
   if (!corrects) {
     newest_ = (newest_ + 1) % kPoints;
     count_ = std::min(count_ + 1, kPoints);

@@ -106,7 +106,6 @@ ContactVector BoundedChange(const ContactEquations& equations,
     high[k] = arc ? std::min(1 - x[k], kLongestMove) : most_force - x[k];
   }
   bool fixed[2 * kFittedContacts] = {};
-  int held = 0;  // how many are fixed
   for (int pass = 0; pass < kMostPasses * unknowns; ++pass) {
     ContactMatrix free = system;
     ContactVector target = -equations.gradient;
@@ -135,10 +134,9 @@ ContactVector BoundedChange(const ContactEquations& equations,
     if (met >= 0) {
       change[met] = std::clamp(target[met], low[met], high[met]);
       fixed[met] = true;
-      ++held;
       continue;
     }
-    if (held == 0) break;
+    if (std::count(fixed, fixed + unknowns, true) == 0) break;
     const ContactVector slope = equations.gradient + system * change;
     int left = -1;
     for (int k = 0; k < unknowns; ++k) {
@@ -148,7 +146,6 @@ ContactVector BoundedChange(const ContactEquations& equations,
     }
     if (left < 0) break;
     fixed[left] = false;
-    --held;
   }
   return change;
 }
