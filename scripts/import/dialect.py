@@ -4,10 +4,10 @@ import collections
 import csv
 
 import units
+import vocabulary
 from errors import BadInput, shown
 from raw_table import NA_WORDS, NUMBER, Column, RawTable
 from times import looks_like_time
-from vocabulary import split_unit
 
 DELIMITERS = [";", "\t", ",", "|", " "]
 SAMPLE = 60  # lines
@@ -65,18 +65,35 @@ def choose(texts, delimiter=None, decimal=None):
     return _delimiter(tail[::max(1, len(tail) // SAMPLE)], delimiter, decimal)
 
 
-def _is_units(cells):
-    """Whether all cells are units or nothing, and one is a unit."""
+def _is_units(cells, header, mapped):
+    """Whether cells below the cells of a header are its row of units, as frame_parser.cc has it:
+    one is a unit, and those of columns that have a meaning may be unknown words, no numbers.
+    mapped: headers of the mapping. Without a column that has a meaning half of the words are
+    units."""
+    def means(name):
+        return name in mapped or vocabulary.guess(name, "") is not None
+
     known = [units.is_word_of_file(c) for c in cells]
-    return any(known) and all(k or c.strip("[]()") in units.NO_UNIT for k, c in zip(known, cells))
+    words = sum(c.strip("[]()") not in units.NO_UNIT for c in cells)
+    if len(cells) != len(header) or not any(known) or \
+            any(NUMBER.fullmatch(c.replace(",", ".")) and c != "1" or means(c) for c in cells):
+        return False
+    return any(map(means, header)) or 2 * sum(known) >= words
 
 
-def _layout(path, rows, mark, header_line=None, units_row=None):
+def _layout(path, rows, mark, settings):
     """Indices of the header (or None), the row of units (or None) and the first row of data."""
+    header_line, units_row = settings.get("header_line"), settings.get("units_row")
+    mapped = settings.get("mapped") or ()
+
+    def has_units(i):
+        """Whether row i is the row of units of the row above."""
+        return units_row is not False and 0 < i < len(rows) and (
+            bool(units_row) or _is_units(rows[i][1], rows[i - 1][1], mapped))
+
     if header_line is not None:
         header = next((i for i, (line, _) in enumerate(rows) if line == header_line), None)
-        below = 1 if header is not None and header + 1 < len(rows) and (
-            units_row or units_row is None and _is_units(rows[header + 1][1])) else 0
+        below = 1 if header is not None and has_units(header + 1) else 0
         if header is None or header + 1 + below >= len(rows):
             raise BadInput(f"{path}: header_line {header_line} of the mapping has no rows below it")
         return header, header + 1 if below else None, header + 1 + below
@@ -85,18 +102,19 @@ def _layout(path, rows, mark, header_line=None, units_row=None):
     late = collections.Counter(len(cells) for _, cells in rows[len(rows) // 2:])
     width = max(late, key=lambda w: (late[w], widths[w]))
 
-    def is_data(cells):
+    def is_data(i):
+        cells = rows[i][1]
         return len(cells) == width and any(
             is_number(c, mark) or looks_like_time(c) for c in cells) and \
-            sum(is_datum(c, mark) for c in cells) * 2 >= width and not _is_units(cells)
+            sum(is_datum(c, mark) for c in cells) * 2 >= width and \
+            not (i and _is_units(cells, rows[i - 1][1], mapped))
 
-    first = next((i for i, (_, cells) in enumerate(rows) if is_data(cells)), None)
+    first = next((i for i in range(len(rows)) if is_data(i)), None)
     if first is None:
         raise BadInput(f"{path}: no rows of numbers found; state delimiter, decimal and "
                        "header_line in the mapping if it is a table")
     header = first - 1 if first > 0 and len(rows[first - 1][1]) == width else None
-    found = header and len(rows[header - 1][1]) == width and (
-        units_row or units_row is None and _is_units(rows[header][1]))
+    found = header and len(rows[header - 1][1]) == width and has_units(header)
     return (header - 1, header, first) if found else (header, None, first)
 
 
@@ -114,19 +132,19 @@ def _told_apart(names):
 def table_of(path, part, rows, mark, settings=None):
     """RawTable of (line, cells) rows with preamble, header and row of units, if any.
 
-    settings: header_line, units_row, not_measured of the mapping, where it states them.
+    settings: header_line, units_row, not_measured of the mapping, where it states them, and
+    mapped, the headers that it names.
     """
     settings = settings or {}
-    header, units_row, first = _layout(path, rows, mark, settings.get("header_line"),
-                                       settings.get("units_row"))
+    header, units_row, first = _layout(path, rows, mark, settings)
     width = len(rows[first][1])
     if header is None:
         names, unit_of = [f"column_{i + 1}" for i in range(width)], [""] * width
     else:
         names = rows[header][1]
-        unit_of = [split_unit(cell)[1] for cell in names]
+        unit_of = [vocabulary.split_unit(cell)[1] for cell in names]
         if units_row is not None:
-            unit_of = [c.strip("[]()") for c in rows[units_row][1]]
+            unit_of = [c.strip("[]()") or own for c, own in zip(rows[units_row][1], unit_of)]
         names, twice = _told_apart(names)
     for number, cells in rows[first:]:
         if len(cells) != width:

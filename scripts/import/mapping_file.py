@@ -161,6 +161,11 @@ class Mapping:
         said = [t.settings[key] for t in self._tables(name) if t.settings[key] is not None]
         return said[0] if said else None
 
+    def headers(self, name):
+        """Those of a file's columns that become something."""
+        return {header for table in self._tables(name) for header, target in table.columns.items()
+                if target is not None}
+
     def target(self, name, header):
         """(whether the mapping says something, Target or None)."""
         for table in self._tables(name):

@@ -44,6 +44,7 @@ def read(path, mapping):
     """The tables of a file. Whatever a library says of a broken file becomes one line."""
     name = os.path.basename(path)
     settings = {key: mapping.setting(name, key) for key in mapping_file.FORMAT_KEYS}
+    settings["mapped"] = mapping.headers(name)
     try:
         if not os.path.exists(path):
             raise BadInput(f"{path}: there is no such file")

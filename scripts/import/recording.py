@@ -78,8 +78,7 @@ def _unit(recording, column, target):
                 f"{recording.name}: '{column.name}' is in {column.unit} by the file, yet its "
                 f"scale of {target.scale:g} is taken as it is; state `unit: {own.name}` to convert")
         return None
-    if own is None and not vocabulary.is_column(column.name) or \
-            own is not None and units.conversion(own, target.to) is None:
+    if own is None or units.conversion(own, target.to) is None:
         _fail(recording.table, column, units.why_not(column.unit, target.to))
     return own
 
@@ -108,7 +107,10 @@ def _convert(recording, column, target, unit):
 
 def _take_time(recording, column, target):
     """Sets stamps or seconds, and returns the unit that was used."""
-    table, unit = recording.table, _unit(recording, column, target)
+    table = recording.table
+    # Of times in words the unit says nothing: ISO, UTC.
+    words = column.is_text and times.looks_like_time(column.cells[0].strip())
+    unit = target.unit if words else _unit(recording, column, target)
     if target.form is None:
         target.form, unit = times.form_of(table, column, unit, target)
     if target.form == "number":

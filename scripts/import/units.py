@@ -2,6 +2,7 @@
 order of the arithmetic are those of libfinray/finray/io, so that digits agree."""
 
 import math
+import re
 
 from errors import did_you_mean
 
@@ -29,6 +30,9 @@ UNITS = {unit.name: unit for unit in (
     Unit("mm", "length"), Unit("um", "length", 1, 1e3), Unit("cm", "length", 10),
     Unit("m", "length", 1e3), Unit("inch", "length", 25.4),
     Unit("rad", "angle"), Unit("mrad", "angle", 1, 1e3), Unit("deg", "angle", math.pi, 180),
+    # No column of a log is a torque, but force sensors write them.
+    Unit("Nmm", "torque"), Unit("mNm", "torque"), Unit("Ncm", "torque", 10),
+    Unit("Nm", "torque", 1e3),
     Unit("s", "time"), Unit("ms", "time", 1, 1e3), Unit("us", "time", 1, 1e6),
     Unit("ns", "time", 1, 1e9),
     Unit("degC", "temperature"), Unit("K", "temperature", 1, 1, -273.15),
@@ -45,6 +49,7 @@ def find(name):
     """The Unit of a name, or None."""
     for letter in "µμ":
         name = name.replace(letter, "u")
+    name = re.sub(r"(?<=N)\s?[ .·⋅*-]\s?(?=[mc]?m)", "", name)  # N mm
     return UNITS.get(name.replace("°", "deg"))
 
 

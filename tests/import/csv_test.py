@@ -7,6 +7,7 @@ import unittest
 import numpy as np
 from fixture import ROOT, ImportCase
 
+import csv_reader
 import raw_table
 import times
 import units
@@ -90,6 +91,51 @@ class DialectTest(ImportCase):
                 self.assertEqual(log["gauge_1_V"], ["0.125", "-0.25"])
                 self.assertEqual([float(v) for v in log["force_N"]], [9.80665, 9.80665 / 2])
 
+    def test_a_row_of_units_may_hold_units_that_no_column_takes(self):
+        known = ("Nm", "Nmm", "N mm", "N·m", "mNm", "[Nm]", "mm", "", "-")
+        for unit in (*known, "foo", "m/s^2"):
+            for names, of_names in (("t,Fx,Tx,Ty", "s,N"), ("Time;Fx;Tx;Ty", "s;N"),
+                                    ("tick,Fx,Tx,Ty", ",N"), ("force_N,Fx,Tx,Ty", "N,mN")):
+                if unit in ("foo", "m/s^2") and names.startswith("tick"):
+                    continue  # no header has a meaning, and most words are unknown
+                with self.subTest((unit, names)):
+                    mark = ";" if ";" in names else ","
+                    rows = [names, mark.join([of_names, unit, unit]),
+                            *(mark.join(map(str, (i, 2, 3, 4))) for i in range(1, 9))]
+                    table = csv_reader.read(str(self.write("a.csv", "\n".join(rows) + "\n")), {})[0]
+                    self.assertEqual([c.name for c in table.columns], names.split(mark))
+                    self.assertEqual([c.unit for c in table.columns],
+                                     [*of_names.split(mark), *[unit.strip("[]")] * 2])
+                    self.assertEqual(table.rows, 8)
+
+    def test_a_header_is_no_row_of_units(self):
+        for above in ("Rig,Sensor,Amplifier", "DAQ,7b,x"):
+            for header in ("t,V,N", "time_s,gauge_1_V,N", "ch1,x,N"):
+                with self.subTest((above, header)):
+                    text = f"{above}\n{header}\n" + PLAIN.split("\n", 1)[1]
+                    table = csv_reader.read(str(self.write("a.csv", text)), {})[0]
+                    self.assertEqual([c.name for c in table.columns], header.split(","))
+        log = self.log_of_text("Rig,Sensor,Amplifier\ns,V,N\n" + PLAIN.split("\n", 1)[1],
+                               "columns: {s: time_s, V: gauge_1_V, N: force_N}")
+        self.assertEqual(log, LOG)
+
+    def test_an_unknown_unit_is_refused_where_its_column_is_used(self):
+        text = PLAIN.replace("force_N", "Tx").replace("\n", "\ns,V,{}\n", 1)
+        for unit in ("Nm", "foo"):
+            log = self.log_of_text(text.format(unit))
+            self.assertEqual(log, {n: LOG[n] for n in ("time_s", "gauge_1_V")})
+            path, mapping = self.folder / "a.csv", self.write("m.yaml", "columns: {Tx: force_N}")
+            line = self.refused("--logs", path, "--mapping", mapping)
+            self.assertIn("column 'Tx': force_N takes one of N, mN", line)
+            self.assertIn(f"found '{unit}'", line)
+        path = self.write("a.csv", PLAIN.replace("\n", "\ns,V,pounds\n", 1))
+        self.assertIn("found 'pounds'", self.refused("--logs", path))
+        path = self.write("a.csv", "Tx [Nmm],t\n1,2\n")
+        mapping = self.write("m.yaml", "columns: {'Tx [Nmm]': force_N}")
+        self.assertIn("found 'Nmm'", self.refused("--logs", path, "--mapping", mapping))
+        self.log_of_text("time,gauge_1_V\nISO 8601,V\n2026-03-11T14:05:07,1\n"
+                         "2026-03-11T14:05:08,1\n")
+
     def test_scale_and_offset_apply_behind_the_unit(self):
         log = self.log_of_text(
             "t,ch0,x\n0,0,0.15\n1,65535,0.16\n",
@@ -151,7 +197,7 @@ class DialectTest(ImportCase):
         self.assertEqual(log["force_N"], LOG["force_N"])
 
     def test_a_stated_header_line_holds(self):
-        text = "1,2,3\n4,5,6\ntime_s,gauge_1_V,force_N\nx,y,z\n" + PLAIN.split("\n", 1)[1]
+        text = "1,2,3\n4,5,6\ntime_s,gauge_1_V,force_N\n-,-,-\n" + PLAIN.split("\n", 1)[1]
         log = self.log_of_text(text, "header_line: 3\nunits_row: true")
         self.assertEqual(log, LOG)
 
