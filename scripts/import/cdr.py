@@ -12,8 +12,9 @@ import ros_definitions
 PRIMITIVES = {"bool": "?", "byte": "B", "char": "B", "int8": "b", "uint8": "B", "int16": "h",
               "uint16": "H", "int32": "i", "uint32": "I", "int64": "q", "uint64": "Q",
               "float32": "f", "float64": "d"}
+BUILT_IN = ("string", "wstring", "time", "duration")
 PLAIN_CDR = {b"\0\0": ">", b"\0\1": "<"}
-DEEPEST = 20
+DEEPEST, MOST_EMPTY_PARTS = 20, 1000
 
 
 class UnknownType(Exception):
@@ -26,10 +27,12 @@ def _short(name):
 
 
 class Definitions:
-    """{type: [(field, type, array)]}; array: None, '' for a sequence, or a fixed count."""
+    """{type: [(field, type, array)]}; array: None, '' for a sequence, or a fixed count.
 
-    def __init__(self):
-        self.types = {}
+    text_of: the definition of a type that no file has to bring along, or None."""
+
+    def __init__(self, text_of=ros_definitions.text_of):
+        self.types, self.text_of = {}, text_of
 
     def add(self, name, text):
         """A definition as bags have it: its own, and behind lines of = those that it uses."""
@@ -44,7 +47,7 @@ class Definitions:
     def of(self, name):
         name = _short(name)
         if name not in self.types:
-            text = ros_definitions.text_of(name)
+            text = self.text_of(name)
             if text is None:
                 raise UnknownType(name)
             self.types[name] = self._fields(name, text)
@@ -54,13 +57,11 @@ class Definitions:
         package, fields = name.split("/")[0], []
         for line in text.split("\n"):
             line = line.split("#")[0].strip()
-            found = re.match(r"([\w/]+)(?:<=\d+)?(\[[^\]]*\])?\s+(\w+)\s*(=)?", line)
+            found = re.match(r"([\w/]+)(?:<=\d+)?(\[[^\]]*\])?\s+(\w+)((?!\s*[\"'\[]).*=)?", line)
             if not found or found[4]:  # a constant is not part of a message
                 continue
             kind, array, field = found[1], found[2], found[3]
-            if kind in ("time", "duration"):
-                kind = "builtin_interfaces/Time"
-            elif "/" not in kind and kind not in PRIMITIVES and kind not in ("string", "wstring"):
+            if "/" not in kind and kind not in PRIMITIVES and kind not in BUILT_IN:
                 kind = "std_msgs/Header" if kind == "Header" else f"{package}/{kind}"
             if array is not None:
                 array = array.strip("[]")
@@ -69,15 +70,18 @@ class Definitions:
         return fields
 
 
-class _Reader:
-    def __init__(self, data):
-        if data[:2] not in PLAIN_CDR:
-            raise ValueError(f"CDR of kind {data[:2].hex()}, only plain CDR is read")
-        self.order, self.data, self.at = PLAIN_CDR[data[:2]], data[4:], 0
+class Reader:
+    """Reads the fields of a message one after the other."""
+
+    codes, aligned = PRIMITIVES, True
+
+    def __init__(self, data, order):
+        self.order, self.data, self.at = order, data, 0
+        self.parts_left = len(data) + MOST_EMPTY_PARTS
 
     def values(self, code, count):
         size = struct.calcsize("=" + code)
-        if count:
+        if count and self.aligned:
             self.at += -self.at % size
         end = self.at + size * count
         if end > len(self.data):
@@ -88,12 +92,11 @@ class _Reader:
 
     def text(self):
         length = self.values("I", 1)[0]
-        raw = bytes(self.values("B", length))
-        return raw.rstrip(b"\0").decode("utf-8", "replace")
+        return bytes(self.values("B", length)).rstrip(b"\0").decode("utf-8", "replace")
 
     def field(self, definitions, kind, depth):
-        if kind in PRIMITIVES:
-            return self.values(PRIMITIVES[kind], 1)[0]
+        if kind in self.codes:
+            return self.values(self.codes[kind], 1)[0]
         if kind == "string":
             return self.text()
         if kind == "wstring":
@@ -101,18 +104,19 @@ class _Reader:
         return self.message(definitions, kind, depth + 1)
 
     def message(self, definitions, name, depth=0):
-        if depth > DEEPEST:
+        self.parts_left -= 1
+        if depth > DEEPEST or self.parts_left < 0:
             raise ValueError("definitions are nested too deep")
         fields, out = definitions.of(name), {}
-        if not fields:  # an empty message takes one byte
+        if not fields and self.aligned:  # an empty message of CDR takes one byte
             self.values("B", 1)
         for field, kind, array in fields:
             if array is None:
                 out[field] = self.field(definitions, kind, depth)
                 continue
             count = self.values("I", 1)[0] if array == "" else array
-            if kind in PRIMITIVES:
-                out[field] = list(self.values(PRIMITIVES[kind], count))
+            if kind in self.codes:
+                out[field] = list(self.values(self.codes[kind], count))
             elif count > len(self.data):
                 raise ValueError("a message is shorter than its definition")
             else:
@@ -122,4 +126,6 @@ class _Reader:
 
 def decode(data, name, definitions):
     """The message as a dict. ValueError if it is cut, UnknownType if it cannot be known."""
-    return _Reader(data).message(definitions, name)
+    if data[:2] not in PLAIN_CDR:
+        raise ValueError(f"CDR of kind {data[:2].hex()}, only plain CDR is read")
+    return Reader(data[4:], PLAIN_CDR[data[:2]]).message(definitions, name)

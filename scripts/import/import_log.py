@@ -194,7 +194,7 @@ def _versions():
     """The tool, and the packages that it reads with where they are installed, one a line."""
     yield f"finray_import version {project.version()}"
     yield "python " + platform.python_version()
-    for package in ("numpy", "PyYAML", "scipy", "h5py", "h5py._debian_h5py_serial", "openpyxl", "pandas", "rosbag",
+    for package in ("numpy", "PyYAML", "scipy", "h5py", "h5py._debian_h5py_serial", "openpyxl", "pandas",
                     "zstandard", "lz4"):
         try:
             yield f"{package.partition('.')[0].lower()} {importlib.metadata.version(package)}"

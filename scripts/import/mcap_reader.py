@@ -6,16 +6,17 @@ flatbuffer, ros1) are left out, and the table says so. Checksums of chunks are v
 """
 
 import json
+import mmap
 import struct
 import zlib
 
 import cdr
 import message_tables
 from errors import BadInput
+from limits import Room
 
 MAGIC = b"\x89MCAP0\r\n"
 SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END = 3, 4, 5, 6, 15
-LARGEST_CHUNK = 1 << 31
 
 
 class _Fields:
@@ -54,21 +55,21 @@ def _records(data, start, end):
         at += length
 
 
-def _chunk(content):
+def _chunk(content, room):
     fields = _Fields(content)
     fields.take(16)  # times of the first and the last message
     size, checksum, compression = fields.number("Q"), fields.number("I"), fields.text()
     packed = fields.take(fields.number("Q"))
-    if size > LARGEST_CHUNK:
-        raise ValueError("a chunk of more than 2 GiB")
+    room.take(size)
     if compression == "":
         data = packed
     elif compression == "zstd":
         import zstandard  # only for files that need it
-        data = zstandard.ZstdDecompressor().decompress(packed, max_output_size=size)
+        # Its one-shot call takes the size from the frame, which may say another one.
+        data = zstandard.ZstdDecompressor().stream_reader(packed).read(size + 1)
     elif compression == "lz4":
         import lz4.frame
-        data = lz4.frame.decompress(packed)
+        data = lz4.frame.LZ4FrameDecompressor().decompress(packed, size + 1)
     else:
         raise ValueError(f"compression '{compression}' is not known")
     if len(data) != size or (checksum and zlib.crc32(data) != checksum):
@@ -76,13 +77,13 @@ def _chunk(content):
     return data
 
 
-def _messages(data):
+def _messages(data, room):
     """Records of schemas, channels and messages, those in chunks too."""
     for opcode, content in _records(data, len(MAGIC), len(data) - len(MAGIC)):
         if opcode == DATA_END:
             return
         if opcode == CHUNK:
-            inside = _chunk(content)
+            inside = _chunk(content, room)
             yield from _records(inside, 0, len(inside))
         else:
             yield opcode, content
@@ -94,7 +95,7 @@ class _Channels:
 
     def __init__(self):
         self.schemas, self.channels = {}, {}
-        self.definitions, self.topics, self.left_out = cdr.Definitions(), {}, {}
+        self.definitions, self.topics = cdr.Definitions(), message_tables.Topics()
 
     def schema(self, fields):
         identity, name, encoding = fields.number("H"), fields.text(), fields.text()
@@ -116,36 +117,30 @@ class _Channels:
             raise ValueError("a message of a channel that is not defined")
         topic, encoding, schema = self.channels[identity]
         name, schema_encoding = self.schemas.get(schema, ("", ""))
+        if topic in self.topics.left_out:
+            return
         if encoding == "json":
             value = json.loads(fields.rest())
         elif encoding == "cdr" and schema_encoding == "ros2msg":
             try:
                 value = cdr.decode(fields.rest(), name, self.definitions)
             except cdr.UnknownType as unknown:
-                self.left_out[topic] = f"{topic} needs the definition of {unknown}"
+                self.topics.leave_out(topic, f"{topic} needs the definition of {unknown}")
                 return
         else:
-            self.left_out[topic] = f"{topic} is in {encoding} with a schema in " \
-                f"{schema_encoding or 'nothing'}"
+            self.topics.leave_out(topic, f"{topic} is in {encoding} with a schema in {schema_encoding or 'nothing'}")
             return
-        self.topics.setdefault(topic, []).append((recorded, value))
+        self.topics.add(topic, recorded, value)
 
 
 def read(path):
-    with open(path, "rb") as file:
-        data = file.read()
-    if data[-len(MAGIC):] != MAGIC or len(data) < 2 * len(MAGIC):
-        raise BadInput(f"{path}: broken or cut: an MCAP file ends with its magic bytes; "
-                       "`mcap recover` may mend it")
-    found = _Channels()
-    takers = {SCHEMA: found.schema, CHANNEL: found.channel, MESSAGE: found.message}
-    try:
-        for opcode, content in _messages(data):
+    with open(path, "rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
+        if data[-len(MAGIC):] != MAGIC or len(data) < 2 * len(MAGIC):
+            raise BadInput(f"{path}: broken or cut: an MCAP file ends with its magic bytes; "
+                           "`mcap recover` may mend it")
+        found = _Channels()
+        takers = {SCHEMA: found.schema, CHANNEL: found.channel, MESSAGE: found.message}
+        for opcode, content in _messages(data, Room(path)):
             if opcode in takers:
                 takers[opcode](_Fields(content))
-    except ImportError as error:
-        raise BadInput(f"{path}: its chunks are compressed: {error}; "
-                       "scripts/install_dependencies import") from error
-    if not found.topics and found.left_out:
-        raise BadInput(f"{path}: no topic can be read: {'; '.join(found.left_out.values())}")
-    return message_tables.tables(path, found.topics, list(found.left_out.values()))
+    return found.topics.tables(path)

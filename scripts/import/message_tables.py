@@ -4,13 +4,21 @@ A message is a dict of numbers, texts, lists and dicts, as its definition nests 
 `time` is header.stamp where the messages have one, else when they were recorded.
 """
 
+import array
+
 import numpy as np
 
+from errors import BadInput
+from limits import MOST_COLUMNS
 from raw_table import Column, RawTable
 
 # ROS uses SI units: REP 103.
 UNITS = {"force": "N", "point": "m", "translation": "m", "pose.position": "m",
          "temperature": "°C"}
+
+
+class _TooWide(Exception):
+    """A message has more numbers than a table has columns, as an image."""
 
 
 def stamp_ns(value):
@@ -25,6 +33,8 @@ def stamp_ns(value):
 
 
 def _flatten(value, path, out):
+    if len(out) > MOST_COLUMNS:
+        raise _TooWide
     if stamp_ns(value) is not None:
         out[path] = stamp_ns(value)
     elif isinstance(value, dict):
@@ -50,35 +60,71 @@ def _unit(name):
                  if parts == end or parts.endswith("." + end) or name == end), "")
 
 
-def _column(name, rows):
-    values = [row.get(name) for row in rows]
-    if all(isinstance(v, int) for v in values):
-        return Column(name, np.array(values, dtype=np.int64), _unit(name))
-    return Column(name, np.array([np.nan if v is None else float(v) for v in values]),
-                  _unit(name))
+class _Topic:
+    """The columns of a topic, packed: whole numbers as long as all are, else floats."""
 
+    def __init__(self):
+        self.recorded, self.stamps, self.columns = array.array("q"), array.array("q"), {}
 
-def tables(path, topics, left_out):
-    """topics: {topic: [(recorded in ns, message)]}; left_out: what to say of other topics."""
-    out = []
-    for topic, messages in topics.items():
-        rows = []
-        for recorded, message in messages:
-            row = {}
-            _flatten(message, "", row)
-            stamp = row.pop("header.stamp", None)
-            row.pop("header.seq", None)
-            rows.append((stamp or recorded, recorded, row, bool(stamp)))
-        stamped = all(row[3] for row in rows)
-        if not stamped:
-            rows = [(recorded, recorded, row, False) for _, recorded, row, _ in rows]
-        rows.sort(key=lambda row: row[0])
-        columns = [Column("time", np.array([r[0] for r in rows], dtype=np.int64), "ns")]
-        names = dict.fromkeys(name for r in rows for name in r[2])
-        columns += [_column(name, [r[2] for r in rows]) for name in names if name != "time"]
+    def add(self, recorded, message):
+        flat = {}
+        _flatten(message, "", flat)
+        rows = len(self.recorded)
+        self.recorded.append(recorded)
+        stamped = isinstance(flat.get("header.stamp"), int)
+        self.stamps.append(flat.pop("header.stamp") if stamped else 0)
+        flat.pop("header.seq", None)
+        for name, value in flat.items():
+            if name not in self.columns:
+                if len(self.columns) > MOST_COLUMNS:
+                    raise _TooWide
+                self.columns[name] = array.array("d", [np.nan]) * rows if rows else array.array("q")
+            self._append(name, value)
+        if len(flat) < len(self.columns):
+            for name, column in self.columns.items():
+                if len(column) <= rows:
+                    self._append(name, np.nan)
+
+    def _append(self, name, value):
+        column = self.columns[name]
+        if column.typecode == "q" and not (isinstance(value, int) and abs(value) < 2**63):
+            column = self.columns[name] = array.array("d", column)
+        column.append(value)
+
+    def table(self, path, topic):
+        stamped = all(self.stamps)
+        recorded = np.array(self.recorded, dtype=np.int64)
+        times = np.array(self.stamps, dtype=np.int64) if stamped else recorded
+        order = np.lexsort((recorded, times))
+        columns = [Column("time", times[order], "ns")]
+        columns += [Column(name, np.array(values)[order], _unit(name)) for name, values in self.columns.items()
+                    if name != "time"]
         table = RawTable(path, topic, columns)
         table.notes.append("time is header.stamp" if stamped else "time is when it was recorded")
-        out.append(table)
-    if out and left_out:
-        out[0].notes.append("left out: " + "; ".join(left_out))
-    return out
+        return table
+
+
+class Topics:
+    """The topics of a bag as their messages come, in any order."""
+
+    def __init__(self):
+        self.topics, self.left_out = {}, {}  # left_out: {topic: what to say of it}
+
+    def leave_out(self, topic, why):
+        self.left_out[topic] = why
+        self.topics.pop(topic, None)
+
+    def add(self, topic, recorded, message):
+        """A message, recorded in ns."""
+        try:
+            self.topics.setdefault(topic, _Topic()).add(recorded, message)
+        except _TooWide:
+            self.leave_out(topic, f"{topic} has more than {MOST_COLUMNS} numbers a message")
+
+    def tables(self, path):
+        if not self.topics and self.left_out:
+            raise BadInput(f"{path}: no topic can be read: {'; '.join(self.left_out.values())}")
+        out = [topic.table(path, name) for name, topic in self.topics.items()]
+        if self.left_out:
+            out[0].notes.append("left out: " + "; ".join(self.left_out.values()))
+        return out

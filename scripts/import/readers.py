@@ -73,14 +73,12 @@ def read(path, mapping):
 def _read_binary(path, form):
     words, module, source = FORMATS[form]
     try:
-        reader = importlib.import_module(module)
-    except ImportError as error:
-        raise BadInput(f"{path}: {words} needs a package that is not installed "
-                       f"({shown(error)}): {source}") from error
-    try:
-        return isolated.call(reader.read, path, os.path.getsize(path))
+        return isolated.call(importlib.import_module(module).read, path, os.path.getsize(path))
     except BadInput:
         raise
+    except ImportError as error:  # some packages are for compressed chunks alone
+        raise BadInput(f"{path}: {words} needs a package that is not installed "
+                       f"({shown(error)}): {source}") from error
     except MemoryError as error:
         raise BadInput(f"{path}: broken or cut, or too large: not readable as {words}") from error
     except Exception as error:  # libraries raise whatever comes on broken files

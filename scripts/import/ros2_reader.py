@@ -7,6 +7,7 @@ import sqlite3
 import cdr
 import message_tables
 from errors import BadInput
+from limits import LEAST_UNPACKED
 
 
 def _refuse_cut(path):
@@ -25,17 +26,22 @@ def read(path):
     # A bag that is still written to has a journal beside it, and SQLite reads that too.
     connection = sqlite3.connect(pathlib.Path(path).resolve().as_uri() + "?mode=ro", uri=True)
     try:
+        # A generated column may be of any length, and no cell of the file is longer than it.
+        connection.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, os.path.getsize(path) + LEAST_UNPACKED)
+        connection.execute("PRAGMA trusted_schema = OFF")
         fault = connection.execute("PRAGMA quick_check(1)").fetchone()[0]
         if fault != "ok":
             raise BadInput(f"{path}: broken or cut: {fault.splitlines()[-1]}")
-        return _topics(path, connection)
+        return _tables(path, connection)
     finally:
         connection.close()
 
 
-def _topics(path, connection):
-    definitions = cdr.Definitions()
-    names = {row[0] for row in connection.execute("SELECT name FROM sqlite_master")}
+def _tables(path, connection):
+    definitions, topics = cdr.Definitions(), message_tables.Topics()
+    # Rows of views and virtual tables are not in the file, and may have no end.
+    names = {row[0] for row in connection.execute(
+        "SELECT name FROM sqlite_master WHERE type = 'table' AND rootpage > 0")}
     if not {"topics", "messages"} <= names:
         raise BadInput(f"{path}: is an SQLite file, but no ROS 2 bag: it has no topics and "
                        "messages")
@@ -45,21 +51,18 @@ def _topics(path, connection):
                 "FROM message_definitions"):
             if encoding == "ros2msg":
                 definitions.add(kind, text)
-    topics, left_out = {}, []
+    types = {}
     for identity, topic, kind, form in connection.execute(
-            "SELECT id, name, type, serialization_format FROM topics ORDER BY id").fetchall():
+            "SELECT id, name, type, serialization_format FROM topics ORDER BY id"):
+        types[identity] = topic, kind
         if form != "cdr":
-            left_out.append(f"{topic} is in {form}, not in CDR")
+            topics.leave_out(topic, f"{topic} is in {form}, not in CDR")
+    for identity, stamp, data in connection.execute("SELECT topic_id, timestamp, data FROM messages ORDER BY id"):
+        topic, kind = types.get(identity, (None, None))
+        if topic is None or topic in topics.left_out:
             continue
         try:
-            topics[topic] = [
-                (stamp, cdr.decode(bytes(data), kind, definitions))
-                for stamp, data in connection.execute(
-                    "SELECT timestamp, data FROM messages WHERE topic_id = ? "
-                    "ORDER BY timestamp, id", (identity,))]
+            topics.add(topic, stamp, cdr.decode(bytes(data), kind, definitions))
         except cdr.UnknownType as unknown:
-            topics.pop(topic, None)
-            left_out.append(f"{topic} needs the definition of {unknown}, which the bag lacks")
-    if not topics and left_out:
-        raise BadInput(f"{path}: no topic can be read: {'; '.join(left_out)}")
-    return message_tables.tables(path, {t: m for t, m in topics.items() if m}, left_out)
+            topics.leave_out(topic, f"{topic} needs the definition of {unknown}, which the bag lacks")
+    return topics.tables(path)

@@ -1,8 +1,10 @@
 """Definitions of common messages of ROS 2, for bags that do not bring them along."""
 
 _HEADER = "std_msgs/Header header\n"
+_STAMP = "int32 sec\nuint32 nanosec"
 _TEXTS = {
-    "builtin_interfaces/Time": "int32 sec\nuint32 nanosec",
+    "time": _STAMP, "duration": _STAMP,
+    "builtin_interfaces/Time": _STAMP,
     "std_msgs/Header": "builtin_interfaces/Time stamp\nstring frame_id",
     "std_msgs/Float64": "float64 data",
     "std_msgs/Float32": "float32 data",

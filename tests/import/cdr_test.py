@@ -102,7 +102,9 @@ class CdrTest(ImportCase):
     def test_fields_get_names_units_and_stamps(self):
         message = {"header": HEADER, "name": ["a", "b"], "position": [1.0, 2.0],
                    "wrench": {"force": {"x": 3.0}}}
-        table, = message_tables.tables("x.bag", {"/t": [(5, message)]}, [])
+        topics = message_tables.Topics()
+        topics.add("/t", 5, message)
+        table, = topics.tables("x.bag")
         cells = {c.name: (list(c.cells), c.unit) for c in table.columns}
         self.assertEqual(cells, {"time": ([1773237907123456789], "ns"), "position.a": ([1.0], ""),
                                  "position.b": ([2.0], ""), "wrench.force.x": ([3.0], "N")})

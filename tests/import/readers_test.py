@@ -4,9 +4,12 @@
 import importlib.util
 import random
 import sqlite3
+import struct
+import sys
 import unittest
 
 import numpy as np
+import ros1_bag
 import samples
 from fixture import ROOT, ImportCase
 
@@ -41,15 +44,15 @@ class ReadersTest(ImportCase):
         self.logs_of(samples.BAGS, samples.csv_of_stamps(), "--mapping", mapping)
 
     def test_bags_of_other_writers_give_the_log_of_the_csv(self):
-        """An MCAP by MCAP's own library (zstd, indices, a summary), and its messages in a bag of SQLite;
-        bags/make writes them."""
+        """An MCAP by MCAP's own library (zstd, indices, a summary), its messages in a bag of SQLite, and a
+        bag of ROS 1 by rosbag (bz2); bags/make writes them."""
         free = ("--force_bias_N", "0", "--force_time_offset_s", "0", "--mapping")
         stamps = self.write("csv.yaml", "columns: {stamp_ns: {to: time_s, format: epoch, unit: ns}}\n")
         expected = self.log_of("--logs", BAGS / "rig.csv", *free, stamps)
         self.assertEqual(len(expected["force_y_N"]), 30)
         mapping = self.write("bag.yaml", "columns: {data_1: gauge_1_V, data_2: gauge_2_V,\n"
                              "  wrench.force.x: force_x_N, wrench.force.y: force_y_N}\n")
-        for name, package in (("rig.mcap", "zstandard"), ("rig.db3", "sqlite3")):
+        for name, package in (("rig.mcap", "zstandard"), ("rig.db3", "sqlite3"), ("rig.bag", "bz2")):
             with self.subTest(name):
                 if importlib.util.find_spec(package) is None:
                     self.skipTest(package)
@@ -63,30 +66,26 @@ class ReadersTest(ImportCase):
 
     def test_topics_of_a_bag_are_joined(self):
         """A wrench at 10 Hz, a stage and gauges at 100 Hz, each with stamps of its own."""
-        try:
-            import genpy
-            import rosbag
-            from geometry_msgs.msg import PointStamped, WrenchStamped
-            from sensor_msgs.msg import JointState
-        except ImportError as error:
-            self.skipTest(str(error))
-        path = self.folder / "run.bag"
-        with rosbag.Bag(str(path), "w") as bag:
-            for i in range(300):
-                stamp = genpy.Time(samples.EPOCH_S, i * 10**7)
-                recorded = genpy.Time(samples.EPOCH_S + 7, i * 10**7)
-                joints = JointState(name=["a", "b"], position=[0.01 * i, -0.02 * i])
-                place = PointStamped()
-                place.point.x, place.point.y = -0.001 * i, 0.07
-                messages = [("/gauges", joints), ("/stage", place)]
-                if i % 10 == 5:
-                    messages.append(("/ft", WrenchStamped()))
-                    messages[-1][1].wrench.force.x = 0.5 * i
-                for topic, message in messages:
-                    message.header.stamp = stamp
-                    bag.write(topic, message, recorded)
+        connections = [
+            ("/gauges", "sensor_msgs/JointState", "std_msgs/Header header\nstring[] name\nfloat64[] position\n"
+             "float64[] velocity\n" + ros1_bag.HEADER),
+            ("/stage", "geometry_msgs/PointStamped", "Header header\nPoint point\n" + ros1_bag.HEADER +
+             "===\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n"),
+            ("/ft", "lab/Force", "Header header\nint8 MOST=3\nbyte mode\nduration age\nstring NOTE=a # b\n"
+             "float32[2] wrench\n" + ros1_bag.HEADER)]
+        messages = []
+        for i in range(300):
+            head = ros1_bag.header(samples.EPOCH_S * 10**9 + i * 10**7)
+            recorded = (samples.EPOCH_S + 7) * 10**9 + i * 10**7
+            names = struct.pack("<I", 2) + ros1_bag.text("a") + ros1_bag.text("b")
+            joints = struct.pack("<I", 2) + ros1_bag.doubles([0.01 * i, -0.02 * i]) + struct.pack("<I", 0)
+            messages.append((0, recorded, head + names + joints))
+            messages.append((1, recorded, head + ros1_bag.doubles([-0.001 * i, 0.07, 0.0])))
+            if i % 10 == 5:
+                messages.append((2, recorded, head + struct.pack("<biiff", -1, 1, 5, 0.5 * i, 0)))
+        path = self.write("run.bag", ros1_bag.bag(connections, messages))
         mapping = self.write("m.yaml", "columns:\n  position.a: gauge_1_V\n"
-                             "  position.b: gauge_2_V\n  wrench.force.x: force_N\n"
+                             "  position.b: gauge_2_V\n  wrench_1: force_N\n"
                              "  point.x: object_x_mm\n")
         log = self.log_of("--logs", path, "--mapping", mapping, "--force_bias_N", "0")
         i = np.arange(5, 300, 10)
@@ -184,6 +183,48 @@ class ReadersTest(ImportCase):
         mapping = self.write("m.yaml", samples.BAG_MAPPING)
         self.log_of("--logs", path, "--mapping", mapping)
         self.assertIn("left out: /other needs the definition of lab_msgs/Own", self.result.out)
+
+    def test_no_code_in_a_bag_of_ros_1_is_run(self):
+        """ROS's reader writes constants into a module, and their names may be statements."""
+        mark = self.folder / "was_run"
+        code = f"open({str(mark)!r}, 'w').close(); X"
+        definitions = [f"float64[] data\nint8 {code}=1\n", f"float64[] data\nstring {code}=x\n",
+                       f"float64[] data\nint8 A={code}\nlab/{code} b\n===\nMSG: lab/{code}\nint8 {code}=1\n"]
+        mapping = self.write("m.yaml", samples.BAG_MAPPING)
+        for i, definition in enumerate(definitions):
+            values = struct.pack("<I", 3) + ros1_bag.doubles([1.0, 2.0, 3.0])
+            bag = ros1_bag.bag([("/a", "lab/Own", definition)],
+                               [(0, samples.EPOCH_S * 10**9 + k, values) for k in (1, 2)])
+            for name in ("gauges.csv", "a.bag", "a.mcap"):
+                with self.subTest(f"{i}, {name}"):
+                    result = self.run_import("--logs", self.write(name, bag), "--mapping", mapping)
+                    self.assertFalse(mark.exists())
+                    self.assertEqual(result.code, 0, result.err)
+                    self.assertIn(f"{name}:/a: 2 rows", result.out)
+        self.assertFalse({"rosbag", "genpy", "genmsg"} & set(sys.modules))
+
+    def test_bags_of_ros_1_that_do_not_hold_what_they_say(self):
+        array = [("/a", "std_msgs/Float64MultiArray", ros1_bag.ARRAY)]
+        wide = ros1_bag.array([0.0] * 20000)
+        nothing = "".join(f"T{i} a\nT{i} b\n===\nMSG: lab/T{i}\n" for i in range(18))
+        for why, data in (
+                ("longer than its definition", ros1_bag.bag(array, [(0, 5, ros1_bag.array([1.0]) + b"x")])),
+                ("connection that is not defined", ros1_bag.bag(array, [(3, 5, ros1_bag.array([1.0]))])),
+                ("another size", ros1_bag.bag(array, [(0, 5, ros1_bag.array([1.0]))], "bz2", chunk_size=40)),
+                ("unpacks to more than", ros1_bag.bag(array, [], "bz2", chunk_size=1 << 31)),
+                ("compression 'none2' is not known", ros1_bag.bag(array, [], "none2")),
+                ("a bag of another format, '#ROSBAG V1.2'", b"#ROSBAG V1.2\n" + b"\0" * 40),
+                ("nested too deep", ros1_bag.bag([("/a", "lab/D", nothing)], [(0, 5, b"")])),
+                ("more than 10000 numbers", ros1_bag.bag(array, [(0, 5, wide)]))):
+            with self.subTest(why):
+                self.assertIn(why, self.refused("--logs", self.write("a.bag", data)))
+        unknown = ros1_bag.bag(array + [("/b", "lab/Own", "Other o\n"), ("/image", array[0][1], ros1_bag.ARRAY)],
+                               [(0, i, ros1_bag.array([1.0, 2.0, 3.0])) for i in (5, 6)] + [(1, 5, b""), (2, 5, wide)])
+        result = self.run_import("--logs", self.write("b.bag", unknown), "--mapping",
+                                 self.write("m.yaml", samples.BAG_MAPPING))
+        self.assertEqual(result.code, 0, result.err)
+        self.assertIn("/b needs the definition of lab/Other", result.out)
+        self.assertIn("/image has more than 10000 numbers a message", result.out)
 
     def test_parquet_without_its_library_says_so(self):
         try:

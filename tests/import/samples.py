@@ -5,6 +5,7 @@ import struct
 import zlib
 
 import numpy as np
+import ros1_bag
 
 ROWS = 40
 XLSX_DIGITS = 15  # openpyxl writes no more
@@ -108,14 +109,9 @@ def cdr_array(values):
     return b"\0\1\0\0" + body + struct.pack(f"<{len(values)}d", *values)
 
 
-def write_ros1(path):
-    import genpy
-    import rosbag
-    from std_msgs.msg import Float64MultiArray
-    with rosbag.Bag(str(path), "w") as bag:
-        for ns, values in messages():
-            bag.write("/readings", Float64MultiArray(data=list(values)),
-                      genpy.Time(int(ns) // 10**9, int(ns) % 10**9))
+def ros1_bytes(compression="none"):
+    return ros1_bag.bag([("/readings", "std_msgs/Float64MultiArray", ros1_bag.ARRAY)],
+                        [(0, ns, ros1_bag.array(values)) for ns, values in messages()], compression)
 
 
 def write_ros2(path):
@@ -181,7 +177,10 @@ def mcap_bytes(compression="", encoding="cdr"):
 
 
 BAGS = {
-    "bag": write_ros1, "db3": write_ros2,
+    "bag": lambda path: path.write_bytes(ros1_bytes()),
+    "bz2.bag": lambda path: path.write_bytes(ros1_bytes("bz2")),
+    "lz4.bag": lambda path: path.write_bytes(ros1_bytes("lz4")),
+    "db3": write_ros2,
     "mcap": lambda path: path.write_bytes(mcap_bytes()),
     "json.mcap": lambda path: path.write_bytes(mcap_bytes(encoding="json")),
     "zstd.mcap": lambda path: path.write_bytes(mcap_bytes("zstd")),
