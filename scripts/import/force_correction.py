@@ -14,6 +14,7 @@ class ForceCorrection:
     def __init__(self, flags, given, mapping):
         self.flags, self.given, self.mapping = flags, given, mapping
         self.kept, self.said, self.warnings = {}, [], []
+        self.axes_are_unknown = False  # the log gets the magnitude, of means where it averages
 
     def apply(self, recordings, columns):
         """Takes bias and weight off and turns the axes, in the table of the force."""
@@ -34,6 +35,8 @@ class ForceCorrection:
         if axes == force_frame.SENSOR_AXES:
             along = force_frame.turned(along, angle) if turns else along
             degrees = self._rotation(columns, along - weight)
+        elif axes == force_frame.JOINT_AXES:
+            self._warn_of_mirror(columns, along, axes)
         values = np.stack([force.channels.pop(a) for a in axes], axis=1) - bias
         if axes != force_frame.SENSOR_AXES:
             force.channels.update(zip(axes, values.T))
@@ -44,8 +47,9 @@ class ForceCorrection:
                                      "linear", 3 * (holder.period_s or 0), True)
             values = force_frame.turned(values, np.deg2rad(at))
         values = values - weight
-        if degrees is None:
-            force.channels["force_N"] = np.hypot(values[:, 0], values[:, 1])
+        if degrees is None:  # noise would make the size of each reading too large
+            force.channels.update(zip(axes, values.T))
+            self.axes_are_unknown = True
         else:
             values = force_frame.turned(values, np.deg2rad(degrees))
             force.channels.update(force_x_N=values[:, 0], force_y_N=values[:, 1])
@@ -122,10 +126,12 @@ class ForceCorrection:
             if not np.isfinite(degrees):
                 raise UsageError("--force_rotation_deg: expected estimate or a number, found "
                                  f"'{wish}'")
+            self._warn_of_mirror(columns, along, force_frame.SENSOR_AXES)
         elif self.mapping.force.get("rotation_deg") is not None and \
                 "force_rotation_deg" not in self.given:
             degrees = self.mapping.force["rotation_deg"]
             self._keep_stated("rotation_std_deg")
+            self._warn_of_mirror(columns, along, force_frame.SENSOR_AXES)
         else:
             try:
                 degrees, std = force_frame.rotation(columns, along)
@@ -138,7 +144,16 @@ class ForceCorrection:
             self.said.append(("force axes", f"turned by {degrees:.3f} deg into frame S, std "
                               f"{std:.3f} deg, if there is no friction"))
         self.kept.update(rotation_deg=float(degrees))
+        if self.kept.get("rotation_std_deg"):
+            # Fixed axes would be blamed for what their std leaves.
+            self.said.append(("for the plan", "parameters: {force_tilt: {prior_std_deg: "
+                              f"{self.kept['rotation_std_deg']:.2g}}}}}, as well as the axes are known"))
         return degrees
+
+    def _warn_of_mirror(self, columns, along, axes):
+        wrong = force_frame.mirrored(columns, along, axes)
+        if wrong:
+            self.warnings.append(f"axes of the force: {wrong}")
 
     def _keep_stated(self, *keys):
         self.kept.update((key, self.mapping.force[key]) for key in keys

@@ -12,13 +12,16 @@ which pulls). With U a polynomial, the squares of what is no gradient are a quad
 
 import numpy as np
 
+import plateaus
 from errors import NoSolution
 from noise import reading_std
 from vocabulary import SENSOR_AXES
 
 FREE_STD, START_S, LEAST_FREE = 4.0, 0.25, 5
 MOST_ANGLE_STD_DEG = 1.0
-BLOCKS = 20
+BLOCKS, MOST_ROWS = 20, 20000
+MIRRORED_GAIN = 2.0  # a mirrored axis halves the squares of what is no gradient, or it is none
+NO_AXES = "axes of the force sensor: not determined"
 JOINT_AXES = ["force_x_N", "force_y_N"]
 
 
@@ -154,44 +157,104 @@ def _turn(x, y, force, degree):
     return np.arctan2(s, c), np.sqrt(values[0] / free / values[1]), values[0] / free
 
 
+class _Axes:
+    """degrees and std_deg of the turn into frame S, and the mean square that is no gradient."""
+
+    def __init__(self, x, y, force):
+        """Raises NoSolution with too few rows."""
+        best = None
+        for degree in range(2, 9):
+            terms = (degree + 1) * (degree + 2) // 2 - 1
+            if terms * 6 > 2 * len(x):
+                break
+            psi, std, rest = _turn(x, y, force, degree)
+            score = 2 * len(x) * np.log(rest + 1e-300) + terms * np.log(2 * len(x))
+            if best is None or score < best[0]:
+                best = (score, psi, std, rest, degree)
+        if best is None:
+            raise NoSolution(f"{NO_AXES}: too few rows with force")
+        _, psi, std, self.rest, degree = best
+        blocks = np.arange(len(x)) * BLOCKS // len(x)
+        others = [_turn(x[blocks != b], y[blocks != b], force[blocks != b], degree)[0]
+                  for b in range(BLOCKS)]
+        moves = (np.array(others) - psi + np.pi) % (2 * np.pi) - np.pi
+        std = max(std, float(np.sqrt((BLOCKS - 1) * np.mean((moves - moves.mean())**2))))
+        self.degrees, self.std_deg = float(np.degrees(psi)), float(np.degrees(std))
+
+
+def _rows_with_force(columns, force):
+    """x and y in one unit, and the force, of rows that tell about axes; raises NoSolution."""
+    if not all(n in columns for n in ("object_x_mm", "object_y_mm")):
+        raise NoSolution(f"{NO_AXES} without object_x_mm and object_y_mm")
+    size = np.hypot(force[:, 0], force[:, 1])
+    x, y = columns["object_x_mm"], columns["object_y_mm"]
+    good = np.isfinite(size) & np.isfinite(x) & np.isfinite(y)
+    if good.sum() < 40:
+        raise NoSolution(f"{NO_AXES}: too few rows")
+    good &= size > 0.1 * np.percentile(size[good], 95)
+    good = np.flatnonzero(good)[::int(np.ceil(good.sum() / MOST_ROWS))]
+    x, y, force = x[good], y[good], force[good]
+    # One unit for both, or the gradient would be another.
+    unit = max(np.ptp(x), np.ptp(y)) / 2
+    if not unit > 0 or min(np.ptp(x), np.ptp(y)) < 1e-3 * unit:
+        raise NoSolution(f"{NO_AXES}: the object moves along one line only")
+    return (x - x.mean()) / unit, (y - y.mean()) / unit, force
+
+
+def _mirrored(rows, own, axes):
+    """What to say if the force is a gradient with one axis mirrored and not as it is, or None."""
+    x, y, force = rows
+    other = _Axes(x, y, force * [-1, 1])
+    if not MIRRORED_GAIN * other.rest < own.rest or other.std_deg > MOST_ANGLE_STD_DEG:
+        return None
+    # Mirrored in y it is turned by another 180 deg; axes are mapped nearly as they lie.
+    wrong, turn = (axes[0], other.degrees) if abs(other.degrees) <= 90 else \
+        (axes[1], other.degrees - np.copysign(180, other.degrees))
+    return (f"the sign of {wrong} is wrong: mirrored, the forces fit the finger {own.rest / other.rest:.2g} "
+            f"times as well (squares of what is left), turned by {turn:.3f} deg, std {other.std_deg:.3f} "
+            f"deg; change the sign of its scale in the mapping, or, if that is right, of one axis of "
+            "the object's place")
+
+
+def mirrored(columns, force, axes):
+    """What to say of the sign of an axis, or None where nothing shows that it is wrong."""
+    try:
+        rows = _rows_with_force(columns, force)
+        return _mirrored(rows, _Axes(*rows), axes)
+    except NoSolution:
+        return None
+
+
 def rotation(columns, force):
     """(degrees, std) by which the sensor's axes are turned into frame S; raises NoSolution.
 
     force: without bias, in the sensor's axes (turned by the object's angle if it turns with it).
     """
-    why = "axes of the force sensor: not determined"
-    if not all(n in columns for n in ("object_x_mm", "object_y_mm")):
-        raise NoSolution(f"{why} without object_x_mm and object_y_mm")
-    size = np.hypot(force[:, 0], force[:, 1])
-    x, y = columns["object_x_mm"], columns["object_y_mm"]
-    good = np.isfinite(size) & np.isfinite(x) & np.isfinite(y)
-    if good.sum() < 40:
-        raise NoSolution(f"{why}: too few rows")
-    good &= size > 0.1 * np.percentile(size[good], 95)
-    x, y, force = x[good], y[good], force[good]
-    # One unit for both, or the gradient would be another.
-    unit = max(np.ptp(x), np.ptp(y)) / 2
-    if not unit > 0 or min(np.ptp(x), np.ptp(y)) < 1e-3 * unit:
-        raise NoSolution(f"{why}: the object moves along one line only")
-    x, y = (x - x.mean()) / unit, (y - y.mean()) / unit
-    best = None
-    for degree in range(2, 9):
-        terms = (degree + 1) * (degree + 2) // 2 - 1
-        if terms * 6 > 2 * len(x):
-            break
-        psi, std, rest = _turn(x, y, force, degree)
-        score = 2 * len(x) * np.log(rest + 1e-300) + terms * np.log(2 * len(x))
-        if best is None or score < best[0]:
-            best = (score, psi, std, degree)
-    if best is None:
-        raise NoSolution(f"{why}: too few rows with force")
-    _, psi, std, degree = best
-    blocks = np.arange(len(x)) * BLOCKS // len(x)
-    others = [_turn(x[blocks != b], y[blocks != b], force[blocks != b], degree)[0]
-              for b in range(BLOCKS)]
-    moves = (np.array(others) - psi + np.pi) % (2 * np.pi) - np.pi
-    std = max(std, float(np.sqrt((BLOCKS - 1) * np.mean((moves - moves.mean())**2))))
-    if np.degrees(std) > MOST_ANGLE_STD_DEG:
-        raise NoSolution(f"{why}: its std would be {np.degrees(std):.2g} deg; record presses at "
+    rows = _rows_with_force(columns, force)
+    own = _Axes(*rows)
+    wrong = _mirrored(rows, own, SENSOR_AXES)
+    if wrong:
+        raise NoSolution(f"{NO_AXES}: {wrong}")
+    if own.std_deg > MOST_ANGLE_STD_DEG:
+        raise NoSolution(f"{NO_AXES}: its std would be {own.std_deg:.2g} deg; record presses at "
                          "more heights and depths")
-    return float(np.degrees(psi)), float(np.degrees(std))
+    return own.degrees, own.std_deg
+
+
+def take_magnitude(columns, noise):
+    """Replaces the force along the sensor's axes by its size force_N, where rows are means.
+
+    noise: (column, std of a reading, std of a row of the median number of readings). The size of
+    a mean of n readings is too large by the noise of the mean, |m|^2 = |F|^2 + s_x^2 + s_y^2, which
+    scatter tells, so that much is taken off.
+    """
+    along = np.stack([columns.pop(name) for name in SENSOR_AXES], axis=1)
+    square, std = (along**2).sum(axis=1), {name: row for name, _, row in noise}
+    if all(name in std for name in SENSOR_AXES):
+        count = columns["force_readings"]
+        scatter = np.stack([columns.pop(plateaus.scatter_name(name)) for name in SENSOR_AXES], axis=1)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            columns["force_scatter_N"] = np.sqrt((along**2 * scatter**2).sum(axis=1) / square)
+            off = sum(std[name]**2 for name in SENSOR_AXES) * np.median(count) / count
+            square = np.where(count > 0, np.maximum(square - off, 0), np.nan)
+    columns["force_N"] = np.sqrt(square)

@@ -8,6 +8,7 @@ import sys
 import numpy as np
 
 import flags
+import force_frame
 import joining
 import mapping_file
 import output
@@ -146,13 +147,14 @@ class Import:
         return columns, notes, base, method
 
     def final_columns(self):
+        """(columns, noise as plateaus.average has it, notes)."""
         wanted = self.flags["plateaus"] if "plateaus" in self.given else \
             self.mapping.plateaus is not None
         if not wanted:
             columns, notes, base, method = self.joined()
             self.said.append(("rows", f"{len(next(iter(columns.values())))}, those of {base.name}"
                               + (f"; the others {method}" if len(self.used) > 1 else "")))
-            return columns, notes
+            return columns, [], notes
         if any(r.time is None for r in self.used):
             raise BadInput("--plateaus: needs a column that becomes time_s")
         stated = (self.mapping.plateaus or {}).get("shortest_s")
@@ -166,7 +168,7 @@ class Import:
                  if name.startswith(("gauge_", "force_"))]
         if texts:
             self.said.append(("noise of rows", ", ".join(texts)))
-        return columns, notes
+        return columns, noise, notes
 
     def run(self):
         self.read()
@@ -180,7 +182,12 @@ class Import:
             self.in_force["force"] = correction.kept
             self.said += correction.said
             self.warnings += correction.warnings
-        columns, notes = self.final_columns()
+        columns, noise, notes = self.final_columns()
+        if self.in_force["force"] is not None and correction.axes_are_unknown:
+            force_frame.take_magnitude(columns, noise)
+            if not noise:
+                self.warnings.append("force_N is the size of noisy readings, which is above 0 in free "
+                                     "rows; --plateaus averages the axes first")
         if self.flags["out"]:
             output.write(self.flags["out"], columns,
                          output.mapping_text(self.recordings, self.mapping, self.in_force))

@@ -10,6 +10,7 @@ from fixture import ROOT, ImportCase
 import force_frame
 from errors import NoSolution
 
+CASE = ROOT.parent / "shared/cases/two_axis_force/import"
 ANGLE_DEG, BIAS, WEIGHT = 30.0, np.array([0.4, -0.7]), np.array([0.2, -1.5])
 
 
@@ -54,6 +55,20 @@ class RotationTest(unittest.TestCase):
             work.append(abs(total))
         self.assertLess(work[0], 1e-4)
         self.assertGreater(work[1], 10)
+
+    def test_a_wrong_sign_is_named_and_no_right_one(self):
+        draw = np.random.default_rng(5)
+        for turn in (0, 8, -20):
+            for wrong, sides in (("force_sensor_x_N", [-1, 1]), ("force_sensor_y_N", [1, -1])):
+                x, y = presses(draw)
+                force = force_frame.turned(energy_force(x, y), np.radians(turn))
+                force += 0.02 * draw.normal(size=force.shape)
+                places = {"object_x_mm": x, "object_y_mm": y}
+                self.assertIsNone(force_frame.mirrored(places, force, force_frame.SENSOR_AXES))
+                self.assertLess(abs(force_frame.rotation(places, force)[0] + turn), 1)
+                with self.subTest((turn, wrong)), self.assertRaisesRegex(
+                        NoSolution, f"the sign of {wrong} is wrong: .* change the sign of its scale"):
+                    force_frame.rotation(places, force * sides)
 
     def test_one_line_of_places_is_refused(self):
         draw = np.random.default_rng(4)
@@ -129,6 +144,50 @@ class SensorTest(ImportCase):
         size = np.array(log["force_N"], dtype=float)
         self.assertLess(np.abs(size - np.hypot(*truth.T)).max(), 0.15)
         self.assertIn("magnitude force_N", self.result.err)
+
+    def test_axes_that_stay_unknown_are_averaged_before_their_magnitude_is_taken(self):
+        """Free places read 0 within the noise of means, not the size of single readings' noise."""
+        draw = np.random.default_rng(6)
+        size, held = 40, 50
+        x, y = presses(draw, size)
+        force = energy_force(x, y)
+        force[::2] = 0
+        truth = np.repeat(force, held, axis=0)
+        sensor = truth + BIAS + 0.03 * draw.normal(size=truth.shape)
+        gauge = 0.01 * np.hypot(*truth.T) + 1e-4 * draw.normal(size=len(truth))
+        rows = np.column_stack((0.02 * np.arange(len(truth)), gauge, sensor))
+        path = self.write("a.csv", "time_s,gauge_1_V,force_sensor_x_N,force_sensor_y_N\n" + "\n".join(
+            ",".join(map(repr, map(float, r))) for r in rows) + "\n")
+        log = self.log_of("--logs", path, "--plateaus")
+        found, row = np.array(log["force_N"], dtype=float), 0.03 / np.sqrt(held)
+        at = np.round(np.array(log["time_s"], dtype=float) // (0.02 * held)).astype(int)
+        expected = np.hypot(*force[at].T)
+        self.assertGreater(len(at), 35)
+        self.assertLess(found[expected == 0].mean(), 0.8 * row)
+        self.assertLess(found[expected == 0].max(), 4 * row)
+        self.assertLess(np.abs(found - expected).max(), 5 * row)
+        self.assertLess(abs((found - expected)[expected > 0].mean()), 4 * row / np.sqrt(size / 2))
+        self.assertLess(abs(float(log["force_scatter_N"][1]) - 0.03), 0.01)
+
+    @unittest.skipUnless(CASE.exists(), "the shared cases are absent")
+    def test_a_mirrored_mapping_is_named_and_leaves_free_rows_at_zero(self):
+        logs = ",".join(str(CASE / n) for n in ("dms.csv.gz", "ft.csv.gz", "stage.txt"))
+        log = self.log_of("--logs", logs, "--mapping", CASE / "mirrored.yaml", "--plateaus")
+        self.assertLess(float(log["force_N"][0]), 0.003)
+        self.assertIn("the sign of force_sensor_x_N is wrong", self.result.err)
+        self.log_of("--logs", logs, "--mapping", CASE / "right.yaml", "--plateaus")
+        self.assertNotIn("sign", self.result.err)
+        said = re.search(r"force_tilt: \{prior_std_deg: ([0-9.]+)\}", self.result.out)
+        self.assertLess(float(said[1]), 0.5)
+
+    def test_a_wrong_sign_is_said_of_stated_axes_too(self):
+        path, _ = self.recording()
+        right = ["--logs", path, "--force_rotation_deg", "30"]
+        self.log_of(*right)
+        self.assertNotIn("sign", self.result.err)
+        mapping = self.write("m.yaml", "columns: {force_sensor_y_N: {to: force_sensor_y_N, scale: -1}}")
+        self.log_of(*right, "--mapping", mapping)
+        self.assertIn("the sign of force_sensor_y_N is wrong", self.result.err)
 
     def test_a_start_that_is_not_free_is_refused(self):
         t = np.arange(0, 30, 0.1)
