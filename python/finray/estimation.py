@@ -12,7 +12,7 @@ import numpy.typing as npt
 from finray import _finray
 from finray.description import Finger, Scene
 from finray.errors import FinrayWarning
-from finray.tables import Columns, Floats, Log, columns_of, data_frame, table_of
+from finray.tables import Columns, Floats, Log, columns_of, data_frame, floats_of, table_of
 
 #: By number, as the library counts them.
 STATUSES = np.array(["ok", "no_contact", "unobservable", "not_converged", "bad_input"])
@@ -158,7 +158,8 @@ class Live:
              object_x_mm: float = float("nan"), object_y_mm: float = float("nan"),
              object_angle_deg: float = 0.0) -> Frame:
         """Estimates the next frame. A NaN means not measured; a gauge that creeps needs time_s."""
-        status, contacts, *rest = self._inside.next(gauges_V, time_s, object_x_mm, object_y_mm, object_angle_deg)
+        status, contacts, *rest = self._inside.next(floats_of("gauges_V", gauges_V).tolist(), time_s, object_x_mm,
+                                                    object_y_mm, object_angle_deg)
         return Frame(status, [Contact(*contact) for contact in contacts], *rest)
 
     def restart(self) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import importlib
 import os
-from typing import Any, Dict, Mapping, Union
+from typing import Any, Dict, Iterable, List, Mapping, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -24,6 +24,81 @@ def is_path(log: Log) -> bool:
     return isinstance(log, (str, os.PathLike))
 
 
+def _is_missing(value: Any) -> bool:
+    return value is None or value is np.ma.masked or type(value).__name__ in ("NAType", "NaTType") or (
+        isinstance(value, (float, np.datetime64, np.timedelta64)) and value != value)
+
+
+def _numbers(name: str, values: Any) -> Union[Floats, None]:
+    """The doubles of values, NaN where they are masked or missing; None if they are no numbers."""
+    dtype: Any = getattr(values, "dtype", None)
+    if hasattr(dtype, "kind") and not isinstance(dtype, np.dtype):  # an extension type of pandas
+        if dtype.kind not in "fiub":
+            return None
+        values = values.to_numpy(dtype=np.float64, na_value=np.nan)
+    try:
+        array: Any = values if isinstance(values, np.ma.MaskedArray) else np.asarray(values)
+    except Exception as error:  # whatever __array__ of another library raises
+        raise InputError(f"column '{name}': expected an array of numbers or text: {error}") from None
+    if array.ndim != 1:
+        raise InputError(f"column '{name}': expected a one-dimensional array, found one with {array.ndim} dimensions")
+    if array.dtype.kind in "cV":
+        raise InputError(f"column '{name}': expected real numbers or text, found {array.dtype}")
+    if array.dtype.kind not in "fiub":
+        return None
+    if isinstance(array, np.ma.MaskedArray):
+        masked: Any = array.astype(np.float64)
+        return np.asarray(masked.filled(np.nan))
+    # A table reads whole doubles: steps of other sizes, odd addresses and other types are copied.
+    if array.dtype == np.float64 and array.flags.aligned and array.strides[0] % array.itemsize == 0:
+        return np.asarray(array)
+    return np.array(array, dtype=np.float64)
+
+
+def floats_of(name: str, values: Any) -> Floats:
+    """The doubles of an array-like of real numbers: what numpy.asarray(values, float64) holds, and NaN for what is masked
+    or missing. Arrays of float64 are not copied where a table can read them in place.
+
+    >>> floats_of("gauges_V", np.ma.masked_invalid([1, float("inf")]))
+    array([ 1., nan])
+    >>> floats_of("gauges_V", [1j])
+    Traceback (most recent call last):
+    finray.errors.InputError: column 'gauges_V': expected real numbers or text, found complex128
+    """
+    numbers = _numbers(name, values)
+    if numbers is None:
+        raise InputError(f"column '{name}': expected numbers, found text")
+    return numbers
+
+
+def _column(name: str, values: Any) -> Union[Floats, List[str]]:
+    numbers = _numbers(name, values)
+    if numbers is not None:
+        return numbers
+    texts = np.char.decode(values, "utf-8", "replace") if np.asarray(values).dtype.kind == "S" else values
+    return ["" if _is_missing(value) else str(value) for value in texts]
+
+
+def _table(columns: Iterable[Tuple[Any, Any]], name: str) -> _finray.Table:
+    table: dict[str, Any] = {}
+    told = {}  # what a column of text was
+    for key, values in columns:
+        if str(key) in table:
+            raise InputError(f"{name}: two columns '{key}'")
+        try:
+            table[str(key)] = _column(str(key), values)
+        except InputError as error:
+            raise InputError(f"{name}: {error}") from None
+        told[str(key)] = getattr(values, "dtype", None)
+    try:
+        return _finray.Table(table, name)
+    except InputError as error:
+        for column, dtype in told.items():
+            if dtype is not None and f"'{column}' of the frame table" in str(error):
+                raise InputError(f"{error} (dtype {dtype})") from None
+        raise
+
+
 def table_of(log: Log, scene: Scene | None = None, name: str = "the log") -> _finray.Table:
     """The table of a log. Columns of float64 are not copied.
 
@@ -37,12 +112,13 @@ def table_of(log: Log, scene: Scene | None = None, name: str = "the log") -> _fi
     if isinstance(log, (str, os.PathLike)):
         return _finray.Table.read(os.fspath(log), (scene or Scene())._inside)
     if isinstance(log, np.ndarray) and log.dtype.names:
-        return _finray.Table({column: log[column] for column in log.dtype.names}, name)
+        array: Any = log
+        return _table(((column, array[column]) for column in log.dtype.names), name)
     if hasattr(log, "columns") and hasattr(log, "to_numpy"):
-        frame: Any = log  # a DataFrame
-        return _finray.Table({str(column): frame[column].to_numpy() for column in frame.columns}, name)
+        frame: Any = log  # a DataFrame; of two columns of one name, frame[name] is both
+        return _table(((column, frame[column]) for column in dict.fromkeys(frame.columns)), name)
     if isinstance(log, Mapping):
-        return _finray.Table({column: np.asarray(values) for column, values in log.items()}, name)
+        return _table(log.items(), name)
     raise InputError(f"{name}: expected a path, a DataFrame, a mapping from names to arrays, or a structured array, "
                      f"found {type(log).__name__}")
 

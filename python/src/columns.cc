@@ -13,6 +13,8 @@ namespace py = pybind11;
 namespace finray_python {
 namespace {
 
+constexpr int kAligned = py::detail::npy_api::NPY_ARRAY_ALIGNED_;
+
 // Keeps a Python object until the last table that uses it is gone, on any
 // thread.
 std::shared_ptr<const void> Owner(py::object object) {
@@ -23,52 +25,33 @@ std::shared_ptr<const void> Owner(py::object object) {
                                      });
 }
 
-py::array OneDimensional(const std::string& name, const py::handle& values) {
-  py::array array = py::array::ensure(values);
-  if (array && array.ndim() == 1) return array;
-  PyErr_Clear();
-  throw finray::InputError(
-      "column '" + name + "': expected a one-dimensional array" +
-      (array
-           ? ", found one with " + std::to_string(array.ndim()) + " dimensions"
-           : ""));
-}
-
-bool IsWhole(const py::array& array) {
-  return py::isinstance<py::array_t<double>>(array) &&
-         array.strides(0) % static_cast<py::ssize_t>(sizeof(double)) == 0;
+// A column in place: whole doubles at a step of whole doubles.
+py::array InPlace(const std::string& column, const py::handle& values) {
+  constexpr auto kDouble = static_cast<py::ssize_t>(sizeof(double));
+  if (py::isinstance<py::array_t<double>>(values)) {
+    auto array = py::reinterpret_borrow<py::array>(values);
+    if (array.ndim() == 1 && (array.flags() & kAligned) != 0 &&
+        array.strides(0) % kDouble == 0) {
+      return array;
+    }
+  }
+  throw finray::InputError("column '" + column +
+                           "': expected aligned doubles in one dimension");
 }
 
 }  // namespace
 
 finray::Table FromDict(const py::dict& columns, const std::string& name) {
-  std::size_t rows = 0;
-  if (!columns.empty()) {
-    const auto& [key, values] = *columns.begin();
-    rows =
-        static_cast<std::size_t>(OneDimensional(py::str(key), values).shape(0));
-  }
+  const std::size_t rows =
+      columns.empty() ? 0 : py::len((*columns.begin()).second);
   finray::Table table(rows, name);
   for (const auto& [key, values] : columns) {
     const std::string column = py::str(key);
-    py::array array = OneDimensional(column, values);
-    const char kind = array.dtype().kind();
-    if (kind == 'U' || kind == 'O' || kind == 'S') {
-      std::vector<std::string> texts;
-      for (const py::handle& value : array) {
-        texts.push_back(value.is_none() ? "" : std::string(py::str(value)));
-      }
-      table.SetText(column, std::move(texts));
+    if (py::isinstance<py::list>(values)) {
+      table.SetText(column, values.cast<std::vector<std::string>>());
       continue;
     }
-    if (!IsWhole(array)) {
-      array = py::array_t<double, py::array::forcecast>::ensure(array);
-      if (!array) {
-        PyErr_Clear();
-        throw finray::InputError("column '" + column +
-                                 "': expected numbers or text");
-      }
-    }
+    const py::array array = InPlace(column, values);
     const auto stride =
         array.size() > 1
             ? array.strides(0) / static_cast<py::ssize_t>(sizeof(double))

@@ -9,9 +9,9 @@
 
 namespace finray_python {
 
-/// A table of a dict from names to one-dimensional NumPy arrays. Arrays of
-/// float64 are borrowed and kept alive, other numbers are converted, and arrays
-/// of str hold text. Throws InputError as Table does.
+/// A table of a dict from names to columns, as finray/tables.py makes them:
+/// aligned one-dimensional arrays of float64, which are borrowed and kept
+/// alive, or lists of str. Throws InputError as Table does.
 finray::Table FromDict(const pybind11::dict& columns, const std::string& name);
 
 /// The columns of a table as NumPy arrays that share its memory; text as lists.
