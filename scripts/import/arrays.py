@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from limits import MOST_COLUMNS
 from raw_table import Column, RawTable
 
 
@@ -14,7 +15,8 @@ def vectors(name, array):
         return
     if array.ndim == 2 and 1 in array.shape:
         array = array.ravel()
-    if array.dtype.kind not in "fiubSUOM" or array.ndim not in (1, 2) or array.size < 2:
+    if array.dtype.kind not in "fiubSUOM" or array.ndim not in (1, 2) or array.size < 2 or \
+            array.shape[-1] > MOST_COLUMNS and array.ndim == 2:
         return
     if array.ndim == 1:
         yield name, array

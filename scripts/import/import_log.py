@@ -10,6 +10,7 @@ import numpy as np
 import flags
 import force_frame
 import joining
+import limits
 import mapping_file
 import output
 import plateaus
@@ -27,6 +28,9 @@ class Import:
 
     def __init__(self, values, given):
         self.flags, self.given = values, given
+        self.paths = [p for p in values["logs"].split(",") if p]
+        if not self.paths:
+            raise UsageError("--logs: expected files, separated by commas")
         self.warnings, self.said = [], []  # said: (label, text) of the summary
         self.mapping = mapping_file.read(values["mapping"]) if values["mapping"] else \
             mapping_file.Mapping()
@@ -37,12 +41,9 @@ class Import:
         return self.flags[flag] if flag in self.given or stated is None else stated
 
     def read(self):
-        paths = [p for p in self.flags["logs"].split(",") if p]
-        if not paths:
-            raise UsageError("--logs: expected files, separated by commas")
         if self.flags["out"]:
-            output.refuse_to_overwrite(paths + [self.flags["mapping"]], self.flags["out"])
-        tables = [t for path in paths for t in readers.read(path, self.mapping)]
+            output.refuse_to_overwrite(self.paths + [self.flags["mapping"]], self.flags["out"])
+        tables = [t for path in self.paths for t in readers.read(path, self.mapping)]
         names = [t.name for t in tables]
         for name in names:
             if names.count(name) > 1:
@@ -171,6 +172,10 @@ class Import:
         return columns, noise, notes
 
     def run(self):
+        with limits.bounded(sum(os.path.getsize(p) for p in self.paths if os.path.isfile(p))):
+            self._run()
+
+    def _run(self):
         self.read()
         self.print_tables()
         if not self.has_channels():

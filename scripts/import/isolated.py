@@ -10,32 +10,27 @@ import resource
 import signal
 import sys
 
-LEAST_BYTES, LEAST_SECONDS = 4 << 30, 60
-
-
-def _limit(size):
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    for kind, wanted in ((resource.RLIMIT_AS, LEAST_BYTES + 100 * size),
-                         (resource.RLIMIT_CPU, LEAST_SECONDS + size // 10**5)):
-        hard = resource.getrlimit(kind)[1]
-        if hard == resource.RLIM_INFINITY or wanted < hard:
-            resource.setrlimit(kind, (wanted, hard))
+import limits
 
 
 def _child(function, argument, size, writer):
-    try:
-        _limit(size)
-        # What a library prints is not for the user.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
-        result = (True, function(argument))
-    except BaseException as error:  # the parent raises it
-        result = (False, error)
-    try:
-        data = pickle.dumps(result)
-    except Exception:  # an exception that holds an open file
-        data = pickle.dumps((False, ValueError(str(result[1]))))
-    with os.fdopen(writer, "wb") as file:
-        file.write(data)
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    # What a library prints is not for the user.
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
+    with os.fdopen(writer, "wb") as file, limits.bounded(size):
+        # A library in C does not come back to Python to hear of the time.
+        signal.signal(signal.SIGXCPU, signal.SIG_DFL)
+        try:
+            result = function(argument)
+        except BaseException as error:  # the parent raises it
+            try:
+                data = pickle.dumps((False, error))
+                pickle.loads(data)
+            except Exception:  # an exception that holds an open file, or takes more arguments
+                data = pickle.dumps((False, ValueError(str(error))))
+            file.write(data)
+        else:
+            pickle.dump((True, result), file, pickle.HIGHEST_PROTOCOL)
 
 
 def call(function, argument, size):
@@ -51,14 +46,17 @@ def call(function, argument, size):
         finally:
             os._exit(0)
     os.close(writer)
-    with os.fdopen(reader, "rb") as file:
-        data = file.read()
-    status = os.waitpid(child, 0)[1]
-    if not data:
+    try:
+        with os.fdopen(reader, "rb") as file:
+            good, result = pickle.load(file)
+    except (EOFError, pickle.UnpicklingError):  # the child ended before it had written all
+        good = None
+    finally:
+        status = os.waitpid(child, 0)[1]
+    if good is None:
         if os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGXCPU:
-            raise ValueError("its library takes too long on it")
+            raise limits.TooLong
         raise ValueError("its library crashes on it")
-    good, result = pickle.loads(data)
     if good:
         return result
     raise result

@@ -6,6 +6,7 @@ import os
 import csv_reader
 import event_log
 import isolated
+import limits
 import mapping_file
 from errors import BadInput, shown
 
@@ -61,8 +62,8 @@ def read(path, mapping):
             tables = _read_binary(path, form)
     except OSError as error:
         raise BadInput(f"{path}: cannot be read: {error.strerror or shown(error)}") from error
-    except MemoryError as error:
-        raise BadInput(f"{path}: is too large for this machine's memory") from error
+    except (MemoryError, limits.TooLong) as error:
+        raise BadInput(f"{path}: {limits.why(error)}") from error
     tables = [table for table in tables if table.rows]
     if not tables:
         raise BadInput(f"{path}: has no rows of numbers")
@@ -74,13 +75,11 @@ def _read_binary(path, form):
     words, module, source = FORMATS[form]
     try:
         return isolated.call(importlib.import_module(module).read, path, os.path.getsize(path))
-    except BadInput:
+    except (BadInput, MemoryError):
         raise
     except ImportError as error:  # some packages are for compressed chunks alone
         raise BadInput(f"{path}: {words} needs a package that is not installed "
                        f"({shown(error)}): {source}") from error
-    except MemoryError as error:
-        raise BadInput(f"{path}: broken or cut, or too large: not readable as {words}") from error
     except Exception as error:  # libraries raise whatever comes on broken files
         said = shown(" ".join(str(error).split()) or type(error).__name__, 100)
         raise BadInput(f"{path}: broken or cut: not readable as {words}: {said}") from error
