@@ -120,7 +120,7 @@ class Import:
         try:
             found = time_offset.estimate(force, gauges, self.flags["longest_offset_s"])
         except NoSolution as error:
-            if wish == "estimate":
+            if wish == "estimate" or isinstance(error, time_offset.ClocksApart):
                 raise
             self.warnings.append(f"{error}; times are taken as they are")
             return

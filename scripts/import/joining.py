@@ -63,7 +63,8 @@ def join(recordings, base, method, longest_gap_s):
     if not keep.any():
         raise BadInput(f"{base.name} and {' and '.join(r.name for r in others)} share no time: "
                        + ", ".join(f"{r.name} from {r.time[0]:g} to {r.time[-1]:g} s"
-                                   for r in [base] + others))
+                                   for r in [base] + others)
+                       + "; if their clocks differ, state time_offset_s of a table in the mapping")
     at = base.time[keep]
     columns = {"time_s": at}
     columns.update({name: values[keep] for name, values in base.channels.items()})

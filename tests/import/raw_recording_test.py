@@ -49,6 +49,19 @@ class RawRecordingTest(ImportCase):
         self.assertLess(abs(float(bias) - BIAS_N), 3 * float(std))
         return log
 
+    def test_a_clock_that_is_seconds_off_ends_with_its_remedy(self):
+        rig = (DATA / "rig.csv").read_text().splitlines()
+        late = [re.sub(r"^(\d{10}),", lambda t: f"{int(t[1]) + 7},", line)
+                for line in rig]
+        self.write("rig.csv", "\n".join(late) + "\n")
+        given = ["--logs", f"{DATA}/gauges.csv.gz,{self.folder}/rig.csv", "--mapping",
+                 DATA / "mapping.yaml", "--plateaus"]
+        line = self.refused(*given, code=3)
+        flag = re.search(r"clocks are 7\.0\d* s apart.*give (--longest_offset_s) (\d+)", line)
+        self.log_of(*given, *flag.groups())
+        found = float(re.search(r"rig\.csv (\S+) ms against", self.result.out)[1])
+        self.assertLess(abs(found - OFFSET_MS + 7000), 2)
+
     def calibrate(self, plan, log):
         out = self.folder / "finger"
         done = subprocess.run(

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The time offset between force and gauges: its error, its std, and when it is refused."""
 
+import re
 import unittest
 
 import fixture  # noqa: F401  finds scripts/import
@@ -89,6 +90,32 @@ class TimeOffsetTest(unittest.TestCase):
         gauges.channels = {"gauge_1_V": np.full(len(gauges.time), np.nan)}
         with self.assertRaises(NoSolution):
             time_offset.estimate(force, gauges, 0.5)
+
+    def test_clocks_that_are_far_apart_are_said_and_found_if_asked_for(self):
+        for offset_s, longest_s, how in ((7.3, 1.0, {}), (-20, 2.0, {}), (7.3, 1.0, {
+                "gauge_hz": 250, "force_hz": 250, "seconds": 40})):
+            with self.subTest((offset_s, how)):
+                given = recordings(np.random.default_rng(735), offset_s, **how)
+                with self.assertRaisesRegex(time_offset.ClocksApart, "clocks are .* s apart") as said:
+                    time_offset.estimate(*given, longest_s)
+                flag = float(re.search(r"--longest_offset_s (\d+) ", str(said.exception))[1])
+                found = time_offset.estimate(*given, flag)
+                self.assertLess(abs(found.offset_s - offset_s), 3 * found.std_s + 1e-3)
+
+    def test_a_match_at_the_end_of_the_range_is_none(self):
+        with self.assertRaisesRegex(time_offset.ClocksApart, r"clocks are 0\.(3|29)\S* s apart"):
+            time_offset.estimate(*recordings(np.random.default_rng(8), 0.3), longest_s=0.25)
+
+    def test_times_are_taken_as_they_are_only_where_gauges_do_not_contradict(self):
+        draw = np.random.default_rng(8)
+        force, gauges = recordings(draw, 0.0)
+        other = Series("force", force.time, {"force_N": draw.permutation(force.channels["force_N"])})
+        with self.assertRaisesRegex(time_offset.ClocksApart, "larger --longest_offset_s; if they agree,"):
+            time_offset.estimate(other, gauges, 1.0)
+        still = Series("force", force.time, {"force_N": draw.normal(size=len(force.time))})
+        with self.assertRaises(NoSolution) as said:
+            time_offset.estimate(still, gauges, 1.0)
+        self.assertNotIsInstance(said.exception, time_offset.ClocksApart)
 
     def test_jumps_of_the_force_have_a_wide_std_or_none(self):
         draw = np.random.default_rng(7)
