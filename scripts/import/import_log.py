@@ -51,8 +51,7 @@ class Import:
         mapping_file.refuse_absent(self.mapping, tables)
         self.recordings = [recordings_of.convert(t, self.mapping) for t in tables]
         for name in self.mapping.tables:
-            files = {n.partition(":")[0] for n in names}
-            if name not in names and name not in files:
+            if not any(mapping_file.means(name, n) for n in names):
                 self.warnings.append(f"{self.mapping.path}: no recording has the table "
                                      f"'{shown(name)}'")
         timed = [r for r in self.recordings if r.channels]

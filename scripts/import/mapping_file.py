@@ -17,7 +17,7 @@
 The rest is for finray_import:
 
     row_type: kind                  # column that tells kinds of rows apart; default row_type
-    tables:                         # by file name, or file:part (sheet, topic, group, kind)
+    tables:                         # by file name, or file:part (sheet, topic, group, kind); * is any text
       rig.csv: {columns: {}, time_offset_s: -0.04, delimiter: ",", decimal: "."}
     join: {base: rig.csv, method: linear, longest_gap_s: 0.3}
     plateaus: {shortest_s: 0.3}
@@ -26,6 +26,7 @@ The rest is for finray_import:
 """
 
 import os
+import re
 
 import flags
 import units
@@ -145,6 +146,15 @@ class Table:
         self.time_offset_std_s = node.number("time_offset_std_s")
 
 
+def means(said, name):
+    """Whether a name under `tables` means the table `name`: it is that of the table or of its
+    file, where * stands for any text, and .gz may be left out."""
+    pattern = re.compile(re.escape(said).replace(r"\*", ".*"), re.DOTALL)
+    file, colon, part = name.partition(":")
+    plain = file.removesuffix(".gz")
+    return any(pattern.fullmatch(n) for n in (name, file, plain, plain + colon + part))
+
+
 class Mapping:
     """top, tables {name: Table}; join, plateaus, force: values, None where nothing is said."""
 
@@ -153,9 +163,11 @@ class Mapping:
         self.join, self.plateaus, self.force = {}, None, {}
 
     def _tables(self, name):
-        """What speaks of a table, the nearest first: itself, its file, all."""
+        """What speaks of a table, the nearest first: itself, its file, patterns, all."""
         names = dict.fromkeys((name, name.partition(":")[0]))
-        return [self.tables[n] for n in names if n in self.tables] + [self.top]
+        exact = [n for n in names if n in self.tables]
+        near = [n for n in self.tables if n not in exact and means(n, name)]
+        return [self.tables[n] for n in exact + near] + [self.top]
 
     def setting(self, name, key):
         said = [t.settings[key] for t in self._tables(name) if t.settings[key] is not None]
@@ -185,7 +197,7 @@ def refuse_absent(mapping, tables):
     """BadInput for a column that the mapping names and that no table has, unless another one
     becomes the same."""
     for name, said in (("", mapping.top), *mapping.tables.items()):
-        headers = [header for t in tables if name in ("", t.name, t.name.partition(":")[0])
+        headers = [header for t in tables if not name or means(name, t.name)
                    for header in t.headers]
         if not headers and name:
             continue  # of a file that is not there, which is a warning of its own

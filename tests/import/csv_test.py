@@ -296,6 +296,29 @@ class FaultTest(ImportCase):
                 self.assertEqual(log, LOG)
         self.assertIn("no recording has the table 'rig.csv'", self.result.err)
 
+    def test_tables_are_named_by_patterns_too(self):
+        text = PLAIN.replace("force_N", "Fz").replace(",", ";")
+        for name in ("rig_007.csv", "rig_007.csv.gz"):
+            data = text.encode()
+            path = self.write(name, gzip.compress(data) if name.endswith("gz") else data)
+            for said in ("rig_007.csv", "rig_*.csv", "rig*", "*"):
+                with self.subTest((name, said)):
+                    mapping = self.write("m.yaml", f"tables: {{'{said}': {{columns: {{Fz: force_N}}, "
+                                         "delimiter: ';'}}")
+                    log = self.log_of("--logs", path, "--mapping", mapping, "--force_bias_N", "0")
+                    self.assertEqual((log, self.result.err), (LOG, ""))
+            # An exact name says more than a pattern.
+            mapping = self.write("m.yaml", "tables: {'*': {columns: {Fz: null}}, rig_007.csv: "
+                                 f"{{columns: {{Fz: force_N}}}}}}".replace("rig_007.csv", name))
+            self.assertEqual(self.log_of("--logs", path, "--mapping", mapping,
+                                         "--force_bias_N", "0"), LOG)
+            mapping = self.write("m.yaml", "tables: {'rug_*.csv': {columns: {Fz: force_N}}}")
+            self.log_of("--logs", path, "--mapping", mapping)
+            self.assertIn("no recording has the table 'rug_*.csv'", self.result.err)
+            mapping = self.write("m.yaml", "tables: {'rig_*': {columns: {Fy: force_N}}}")
+            self.assertIn("rig_* has no column 'Fy'",
+                          self.refused("--logs", path, "--mapping", mapping))
+
     def test_columns_that_nobody_knows_are_listed(self):
         result = self.run_import("--logs", self.write("a.csv", PLAIN.replace("force_N", "Fz")))
         self.assertEqual(result.code, 0)
