@@ -15,12 +15,14 @@
 #include "finray/sensing/zeroed_finger.h"
 
 DEFINE_string(finger, "", "finger YAML to zero");
-DEFINE_string(scene, "", "scene YAML, for its columns");
+DEFINE_string(scene, "", "scene YAML, for its columns and its friction");
 DEFINE_string(logs, "", "CSV log with free rows");
 DEFINE_string(out, "", "finger YAML to write: all but the offsets stays");
 DEFINE_string(zero_rows, "",
               "free rows, first:last, counted from 1; default: the rows whose "
               "force_N is within 3 --force_std_N of zero, live 1:100");
+DEFINE_bool(allow_touch, false,
+            "zero even if a contact explains the rows, where none is there");
 DEFINE_double(force_std_N, 0.02, "noise of force_N, to tell free rows");
 DEFINE_bool(follow, false,
             "read a live log from standard input, up to the last row needed");
@@ -98,8 +100,8 @@ int Run() {
   const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
   const std::string& out = Required("out", FLAGS_out);
   const Discretization discretization = DiscretizationFlags();
-  const ColumnMapping mapping =
-      FLAGS_scene.empty() ? ColumnMapping() : ReadScene(FLAGS_scene).columns;
+  const Scene scene = FLAGS_scene.empty() ? Scene() : ReadScene(FLAGS_scene);
+  const ColumnMapping& mapping = scene.columns;
   std::vector<Measurements> free;
   const std::string source =
       FLAGS_follow ? "stdin" : Required("logs", FLAGS_logs);
@@ -110,7 +112,9 @@ int Run() {
         ReadMeasurements(FrameTable::Read(source, mapping), finger, {}),
         source);
   }
-  const ZeroedFinger zeroed = ZeroGauges(finger, discretization, free, source);
+  const ZeroedFinger zeroed =
+      ZeroGauges(finger, discretization, free, source,
+                 {scene.friction_coefficient, FLAGS_allow_touch});
   WriteFileAtomically(
       out, FingerToYaml(zeroed.finger,
                         "Zeroed by " + source + " from " + FLAGS_finger));
@@ -121,6 +125,13 @@ int Run() {
         "mV\n",
         j + 1, zeroed.finger.gauges[j].offset_V, 1e3 * zeroed.change_V[j],
         1e3 * zeroed.std_V[j]);
+  }
+  if (zeroed.fewest < kFewZeroRows) {
+    std::fprintf(stderr,
+                 "warning: %zu readings of a gauge are few: the std of offsets "
+                 "are no less than noise_V / sqrt(%zu); give %zu rows or "
+                 "more\n",
+                 zeroed.fewest, zeroed.fewest, kFewZeroRows);
   }
   return kGood;
 }

@@ -69,6 +69,28 @@ class NewcomerInputTest(unittest.TestCase):
                 pixels = sum(14 if letter == "\u6307" else 8 for letter in words)
                 self.assertLess(40 + pixels, width, words)
 
+    def test_a_touched_finger_is_not_zeroed_and_three_rows_are_enough(self):
+        (self.folder / "scene.yaml").write_text("contacts: 1\n")
+        (self.folder / "in.csv").write_text("contact_1_mm,normal_1_N\n59.4,2\n50,0\n")
+        self.assertEqual(self.run_tool("simulate", f"--finger {FINGER} --scene scene.yaml --frames in.csv --out s.csv").returncode, 0)
+        header, *rows = [line.split(",") for line in (self.folder / "s.csv").read_text().splitlines()]
+        names = [f"gauge_{j}_V" for j in range(1, 5)]
+        for name, row in zip(("touched", "free"), rows):
+            volts = [float(row[header.index(n)]) for n in names]
+            lines = [",".join(repr(v + noise) for v in volts) for noise in [3e-4, -3e-4, 0] * 7]
+            (self.folder / f"{name}.csv").write_text("\n".join([",".join(names + ["force_N"]),
+                                                               *(line + ",0.01" for line in lines)]))
+        zero = f"--finger {FINGER} --out out --logs "
+        for rows in ("", " --zero_rows 1:20", " --zero_rows 1:5"):
+            self.refused("zero", f"{zero}touched.csv{rows}", "touched.csv: a contact of 2 N at 59")
+            done = self.run_tool("zero", f"{zero}touched.csv{rows} --allow_touch")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            (self.folder / "out").unlink()
+        self.refused("zero", f"{zero}free.csv --zero_rows 1:2", "gauge_1_V has 2 readings in the free rows, expected at least 3")
+        for last, warned in ((3, True), (5, True), (20, False)):
+            done = self.run_tool("zero", f"{zero}free.csv --zero_rows 1:{last}")
+            self.assertEqual((done.returncode, f"warning: {last} readings" in done.stderr), (0, warned), done.stderr)
+
     def test_mixed_up_units_are_implausible(self):
         for flags, words in (("--width_mm 20 --thickness_mm 1 --youngs_modulus_GPa 7000", "both beams: a modulus of 7000 GPa"),
                              ("--width_mm 20 --thickness_mm 0.001 --youngs_modulus_GPa 7", "both beams: 0.001 mm is thinner than foil; is it in m?"),

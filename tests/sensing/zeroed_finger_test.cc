@@ -28,10 +28,12 @@ Finger Calibrated() {
   return finger;
 }
 
-std::vector<Measurements> Resting(const Finger& finger, int rows,
-                                  std::mt19937_64* generator) {
+// With `contacts` they are of a finger that something touches.
+std::vector<Measurements> Resting(
+    const Finger& finger, int rows, std::mt19937_64* generator,
+    const std::vector<PointContact>& contacts = {}) {
   EquilibriumSolver solver(finger, {});
-  EXPECT_TRUE(solver.Solve({}));
+  EXPECT_TRUE(solver.Solve(contacts));
   std::vector<Measurements> readings(rows);
   for (Measurements& row : readings) {
     for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
@@ -90,7 +92,8 @@ TEST(ZeroedFingerTest, CovarianceIsThatOfManyZeroings) {
       SetParameter(old.parameters[k],
                    ParameterValue(given, old.parameters[k]) + off[k], &truth);
     }
-    zeroed = ZeroGauges(given, {}, Resting(truth, kRows, &generator), "log");
+    zeroed = ZeroGauges(given, {}, Resting(truth, kRows, &generator), "log",
+                        {0, true});  // few of the draws look like a touch
     Eigen::VectorXd error(n);
     for (Eigen::Index k = 0; k < n; ++k) {
       error[k] = ParameterValue(zeroed.finger, old.parameters[k]) -
@@ -136,10 +139,70 @@ TEST(ZeroedFingerTest, RefusesAFingerThatMoves) {
   EXPECT_THAT([&] { ZeroGauges(finger, {}, rows, "log.csv"); },
               testing::ThrowsMessage<InputError>(
                   testing::HasSubstr("log.csv: gauge_3_V varies by")));
-  rows.resize(5);
+  rows.resize(2);
   EXPECT_THAT([&] { ZeroGauges(finger, {}, rows, "log.csv"); },
               testing::ThrowsMessage<InputError>(
-                  testing::HasSubstr("gauge_1_V has 5 readings")));
+                  testing::HasSubstr("gauge_1_V has 2 readings")));
+}
+
+TEST(ZeroedFingerTest, ThreeReadingsGiveTheirStd) {
+  std::mt19937_64 generator(5);
+  const Finger before = Calibrated(), now = Moved(before);
+  for (const int rows : {3, 5}) {
+    const ZeroedFinger zeroed =
+        ZeroGauges(before, {}, Resting(now, rows, &generator), "log");
+    EXPECT_EQ(zeroed.fewest, static_cast<std::size_t>(rows));
+    for (int j = 0; j < 4; ++j) {
+      EXPECT_GE(zeroed.std_V[j], now.gauges[j].noise_V / std::sqrt(rows));
+      EXPECT_NEAR(zeroed.finger.gauges[j].offset_V, now.gauges[j].offset_V,
+                  4 * zeroed.std_V[j]);
+    }
+  }
+}
+
+// Light and heavy touches, with the calibration's errors in the finger.
+TEST(ZeroedFingerTest, RefusesAFingerThatIsTouched) {
+  std::mt19937_64 generator(6);
+  const Finger known = Calibrated();
+  Finger truth = known;
+  truth.front_stiffness_N_mm2 *= 1.006;
+  truth.back_stiffness_N_mm2 *= 0.995;
+  truth.gauges[1].gain_V_per_rad *= 1.004;
+  for (const double force : {0.3, 1.0, 2.0, 6.0}) {
+    for (const double arc : {30.0, 59.4, 100.0}) {
+      for (const double friction : {0.0, 0.2, -0.2}) {
+        const std::vector<Measurements> rows =
+            Resting(truth, 50, &generator, {{arc, force, friction}});
+        const ZeroCheck check{std::abs(friction), false};
+        EXPECT_THAT([&] { ZeroGauges(known, {}, rows, "log.csv", check); },
+                    testing::ThrowsMessage<InputError>(testing::AllOf(
+                        testing::HasSubstr("log.csv: a contact of"),
+                        testing::HasSubstr("--allow_touch"))))
+            << force << " N at " << arc << " mm, friction " << friction;
+        EXPECT_NO_THROW(
+            ZeroGauges(known, {}, rows, "log.csv", {check.friction, true}));
+      }
+    }
+  }
+}
+
+// Offsets move by any amount from a fraction of the noise on.
+TEST(ZeroedFingerTest, OffsetsThatMoveAreNoTouch) {
+  std::mt19937_64 generator(7);
+  std::normal_distribution<double> normal;
+  const Finger before = Calibrated();
+  int refused = 0;
+  for (int draw = 0; draw < 40; ++draw) {
+    Finger now = before;
+    const double by_V = std::vector{1e-4, 1e-3, 5e-3, 3e-2}[draw % 4];
+    for (Gauge& gauge : now.gauges) gauge.offset_V += by_V * normal(generator);
+    try {
+      ZeroGauges(before, {}, Resting(now, 50, &generator), "log");
+    } catch (const InputError& error) {
+      ++refused;
+    }
+  }
+  EXPECT_LE(refused, 1);
 }
 
 TEST(ZeroedFingerTest, AnUncalibratedFingerStaysSo) {

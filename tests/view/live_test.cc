@@ -10,6 +10,7 @@
 
 #include "finray/finger/finger_yaml.h"
 #include "finray/sensing/zeroed_finger.h"
+#include "finray/statics/equilibrium.h"
 #include "finray/view/live_feed.h"
 #include "finray/view/live_hub.h"
 #include "finray/view/live_server.h"
@@ -21,6 +22,7 @@ namespace {
 
 using std::chrono::milliseconds;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 std::vector<std::string> Texts(const LiveHub::News& news) {
@@ -161,8 +163,7 @@ class LiveZeroTest : public testing::Test {
     for (int i = 0; i < 60000 && zero->busy(); ++i) {
       Measurements row;
       for (std::size_t j = 0; j < finger_.gauges.size(); ++j) {
-        row.gauges_V.push_back(0.01 * static_cast<double>(j) +
-                               (i % 2 ? spread_V : -spread_V));
+        row.gauges_V.push_back(touch_V_[j] + (i % 2 ? spread_V : -spread_V));
       }
       rows_.push_back(row);
       zero->Offer(row);
@@ -179,6 +180,7 @@ class LiveZeroTest : public testing::Test {
       CsvLine{"time_s,gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V", 1},
       {}};
   std::vector<Measurements> rows_;
+  std::vector<double> touch_V_{0, 0.01, 0.02, 0.03};  // what gauges read
 };
 
 TEST_F(LiveZeroTest, OffsetsAreThoseOfFinrayZero) {
@@ -208,6 +210,23 @@ TEST_F(LiveZeroTest, AFingerThatMovesIsNotZeroed) {
   EXPECT_THAT(zero.message(), HasSubstr("Try again once"));
   EXPECT_EQ(zero.finger().gauges[0].offset_V, finger_.gauges[0].offset_V);
   EXPECT_THAT(zero.Request(), StartsWith("Zeroing"));  // once more
+}
+
+TEST_F(LiveZeroTest, AFingerThatIsTouchedIsNotZeroed) {
+  EquilibriumSolver solver(finger_, {});
+  ASSERT_TRUE(solver.Solve({{60, 2}}));
+  touch_V_.clear();
+  for (std::size_t j = 0; j < finger_.gauges.size(); ++j) {
+    touch_V_.push_back(
+        finger_.gauges[j].Volts(solver.gauge_angle(static_cast<int>(j))));
+  }
+  LiveZero zero(finger_, {}, [&](const Finger& f) { return Make(f); });
+  zero.Request();
+  EXPECT_EQ(Run(&zero, 1e-4), nullptr);
+  EXPECT_THAT(zero.message(),
+              HasSubstr("Not zeroed: a contact of 2 N at 60 mm explains"));
+  EXPECT_THAT(zero.message(), Not(HasSubstr("--allow_touch")));
+  EXPECT_EQ(zero.finger().gauges[0].offset_V, finger_.gauges[0].offset_V);
 }
 
 // For ThreadSanitizer: the worker reads a parser that the estimating thread is

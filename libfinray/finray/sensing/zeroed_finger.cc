@@ -7,6 +7,8 @@
 #include "finray/io/error.h"
 #include "finray/io/number_text.h"
 #include "finray/scene/frame_columns.h"
+#include "finray/scene/scene.h"
+#include "finray/sensing/frame_estimator.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {
@@ -101,6 +103,49 @@ void RenewCovariance(const Discretization& discretization,
   finger->calibration = InOrderOf(*finger, renewed);
 }
 
+// Throws if one contact explains the mean readings by the old offsets.
+void RefuseTouch(const Finger& finger, const Discretization& discretization,
+                 const Eigen::VectorXd& free_V, const Measurements& means,
+                 const ZeroedFinger& zeroed, const std::string& source,
+                 const ZeroCheck& check) {
+  if (finger.gauges.size() < FrameEstimator::kUnknowns) return;
+  Finger tried = finger;
+  double free_chi2 = 0;
+  for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
+    tried.gauges[j].noise_V = zeroed.std_V[j];
+    const double off = means.gauges_V[j] - finger.gauges[j].offset_V -
+                       free_V[static_cast<Eigen::Index>(j)];
+    free_chi2 += off * off / (zeroed.std_V[j] * zeroed.std_V[j]);
+  }
+  const double coefficient = check.friction != 0 || !finger.calibration
+                                 ? check.friction
+                                 : finger.calibration->friction;
+  const auto readings = static_cast<double>(zeroed.fewest);
+  for (const double friction : {coefficient, -coefficient}) {
+    Scene scene;
+    scene.contacts = 1;
+    scene.friction_coefficient = friction;
+    const FrameEstimate touch =
+        FrameEstimator(tried, scene, discretization).Estimate(means);
+    const bool explains = touch.p_value() >= FrameEstimate::kUnexplained ||
+                          touch.chi2 < kTouchLeaves * kTouchLeaves * free_chi2;
+    const bool lowers =
+        free_chi2 - touch.chi2 >= FrameEstimator::kSignificance * readings;
+    const ContactEstimate& at = touch.contact[0];
+    if (explains && lowers &&
+        at.normal_N >= FrameEstimator::LeastForce_N(finger)) {
+      throw InputError(
+          source +
+          FormatText(": a contact of %.3g N at %.3g mm explains the readings, "
+                     "the free finger with its old offsets does not; choose "
+                     "rows in which nothing touches it with --zero_rows, or "
+                     "state --allow_touch if nothing does",
+                     at.normal_N, at.arc_mm));
+    }
+    if (coefficient == 0) return;
+  }
+}
+
 }  // namespace
 
 Eigen::VectorXd FreeVolts(const Finger& finger,
@@ -120,8 +165,9 @@ Eigen::VectorXd FreeVolts(const Finger& finger,
 ZeroedFinger ZeroGauges(const Finger& finger,
                         const Discretization& discretization,
                         const std::vector<Measurements>& free_rows,
-                        const std::string& source) {
-  ZeroedFinger zeroed{finger, free_rows.size(), {}, {}};
+                        const std::string& source, const ZeroCheck& check) {
+  ZeroedFinger zeroed{finger, free_rows.size(), {}, {}, free_rows.size()};
+  Measurements means;
   const Eigen::VectorXd free_V = FreeVolts(finger, discretization);
   for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
     Gauge& gauge = zeroed.finger.gauges[j];
@@ -141,6 +187,8 @@ ZeroedFinger ZeroGauges(const Finger& finger,
                      "of the resting finger with --zero_rows",
                      1e3 * of.scatter, 1e3 * gauge.noise_V));
     }
+    means.gauges_V.push_back(of.mean);
+    zeroed.fewest = std::min(zeroed.fewest, of.count);
     const double offset = of.mean - free_V[j];
     zeroed.change_V.push_back(offset - gauge.offset_V);
     // Where in its loop the gauge has come to rest is not known.
@@ -149,6 +197,9 @@ ZeroedFinger ZeroGauges(const Finger& finger,
                        std::sqrt(static_cast<double>(of.count)),
                    loop_V / std::sqrt(3.0)));
     gauge.offset_V = offset;
+  }
+  if (!check.touch_allowed) {
+    RefuseTouch(finger, discretization, free_V, means, zeroed, source, check);
   }
   if (finger.calibration) {
     RenewCovariance(discretization, zeroed.std_V, &zeroed.finger);

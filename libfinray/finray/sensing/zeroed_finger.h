@@ -12,12 +12,19 @@
 
 namespace finray {
 
+/// What tells free rows from rows in which something touches.
+struct ZeroCheck {
+  double friction = 0;  ///< Of the contact that rows are tried with.
+  bool touch_allowed = false;
+};
+
 /// A finger whose gauges were zeroed.
 struct ZeroedFinger {
   Finger finger;
   std::size_t rows = 0;          ///< The number of readings.
   std::vector<double> change_V;  ///< New offset less the old one, by gauge.
   std::vector<double> std_V;     ///< Of the mean reading, by gauge.
+  std::size_t fewest = 0;        ///< Readings of the gauge with the fewest.
 };
 
 /// Sets the offsets by n readings of the free finger,
@@ -37,16 +44,25 @@ struct ZeroedFinger {
 ///
 /// Throws InputError with `source` if there are fewer than kLeastZeroRows rows
 /// with readings of a gauge, if a gauge varies by more than kSteady times its
-/// noise, or if the finger has no equilibrium.
+/// noise, if the finger has no equilibrium, or if something touches it: with
+/// the old offsets the mean readings, of two gauges or more, are those of one
+/// contact and not those of the free finger. With chi2 in units of the noise of
+/// one reading that is so if the contact lowers it by
+/// FrameEstimator::kSignificance and its force is no less than LeastForce_N,
+/// and it explains the means (p >= FrameEstimate::kUnexplained) or leaves less
+/// than kTouchLeaves of the root of chi2, which offsets that move by themselves
+/// rarely do.
 ZeroedFinger ZeroGauges(const Finger& finger,
                         const Discretization& discretization,
                         const std::vector<Measurements>& free_rows,
-                        const std::string& source);
+                        const std::string& source, const ZeroCheck& check = {});
 /// Returns gain times angle of each gauge of the unloaded finger. Throws
 /// InputError if it has no equilibrium.
 Eigen::VectorXd FreeVolts(const Finger& finger,
                           const Discretization& discretization);
-constexpr std::size_t kLeastZeroRows = 10;
+constexpr std::size_t kLeastZeroRows = 3;
+constexpr std::size_t kFewZeroRows = 10;  ///< With fewer a caller warns.
+constexpr double kTouchLeaves = 0.05;
 constexpr double kSteady = 5;
 
 }  // namespace finray

@@ -9,8 +9,11 @@
 namespace finray {
 
 LiveZero::LiveZero(const Finger& finger, const Discretization& discretization,
-                   Make make)
-    : discretization_(discretization), make_(std::move(make)), finger_(finger) {
+                   Make make, double friction)
+    : discretization_(discretization),
+      make_(std::move(make)),
+      friction_(friction),
+      finger_(finger) {
   free_rows_.reserve(kRows);
 }
 
@@ -53,8 +56,8 @@ void LiveZero::MakeZeroed() {
   std::string words;
   State state = State::kFailed;
   try {
-    ZeroedFinger zeroed =
-        ZeroGauges(finger(), discretization_, free_rows_, "Not zeroed");
+    ZeroedFinger zeroed = ZeroGauges(finger(), discretization_, free_rows_,
+                                     "Not zeroed", {friction_, false});
     made_ = make_(zeroed.finger);
     words = "Zeroed by " + std::to_string(zeroed.rows) + " rows; moved by";
     for (std::size_t j = 0; j < zeroed.change_V.size(); ++j) {

@@ -33,8 +33,9 @@ class LiveZero {
   /// Makes an estimator of a finger.
   using Make = std::function<std::unique_ptr<LiveEstimator>(const Finger&)>;
 
+  /// `friction` is that of the contacts that rows are tried with.
   LiveZero(const Finger& finger, const Discretization& discretization,
-           Make make);
+           Make make, double friction = 0);
   ~LiveZero();
 
   // Any thread:
@@ -68,6 +69,7 @@ class LiveZero {
 
   Discretization discretization_;
   Make make_;
+  double friction_;
   std::atomic<State> state_{State::kIdle};
   std::vector<Measurements> free_rows_;
   std::thread worker_;
