@@ -64,10 +64,9 @@ std::vector<Measurements> FreeRows(const std::vector<Measurements>& rows,
   }
   bool any_force = false;
   for (const Measurements& row : rows) {
-    const double force =
-        row.force_xy_N.allFinite() ? row.force_xy_N.norm() : row.force_N;
-    any_force |= std::isfinite(force);
-    if (std::abs(force) <= 3 * FLAGS_force_std_N) free.push_back(row);
+    const MeasuredForce force = row.Force();
+    any_force |= force.IsMeasured();
+    if (force.IsWithinNoise(FLAGS_force_std_N)) free.push_back(row);
   }
   if (!any_force) {
     throw InputError(source +

@@ -54,6 +54,31 @@ TEST(EstimationSummaryTest, ReadsBackTheSame) {
   EXPECT_FALSE(SummaryFromText(SummaryToText(summary) + " 1"));
 }
 
+// A force sensor of two axes says of the estimates what one of its magnitude
+// says.
+TEST(EstimationSummaryTest, TwoAxesCountLikeTheirMagnitude) {
+  EstimationSummary of_magnitude, of_axes;
+  FrameEstimate estimate;
+  estimate.status = FrameStatus::kOk;
+  estimate.contacts = 1;
+  estimate.contact[0].normal_std_N = 0.02;
+  Measurements magnitude, axes;
+  magnitude.gauges_V = axes.gauges_V = {0.1, 0.2};
+  for (const double force : {0.03, 0.065, 1.0, 5.0}) {
+    estimate.contact[0].normal_N = 0.8 * force;
+    magnitude.force_N = force;
+    axes.force_xy_N = {0.6 * force, -0.8 * force};
+    of_magnitude.Add(estimate, 0, magnitude);
+    of_axes.Add(estimate, 0, axes);
+  }
+  EXPECT_EQ(of_axes.force_judged, 4u);
+  EXPECT_EQ(of_axes.force_far, 2u);
+  EXPECT_EQ(of_axes.free_rows, 1u);
+  EXPECT_NEAR(of_axes.force_rms_N(), of_magnitude.force_rms_N(), 1e-12);
+  EXPECT_EQ(of_axes.force_far, of_magnitude.force_far);
+  EXPECT_EQ(of_axes.free_rows, of_magnitude.free_rows);
+}
+
 TEST(EstimationSummaryTest, TooManyUnexplainedFramesAreNoChance) {
   EstimationSummary summary;
   summary.frames = 10;

@@ -44,6 +44,28 @@ TEST(CalibrationLogTest, DecidesWhatTouches) {
       ReadCalibrationLogs({path}, PaperFinger(), plan).frames[1].contact);
 }
 
+// The plan's std is 0.02 N. The object is 5 mm away from the finger.
+TEST(CalibrationLogTest, NoiseOfTwoAxesIsNoTouch) {
+  const TempFolder folder;
+  const std::string path =
+      folder.Write("a.csv", std::string(kGauges) +
+                                ",force_x_N,force_y_N,object_x_mm,object_y_mm\n"
+                                "0,0,0,0,0.045,0.045,-20,70\n"  // 3.18 std
+                                "0,0,0,0,-0.06,-0.06,-20,70\n"  // 4.24 std
+                                "0,0,0,0,0.15,0.0,-20,70\n"     // 7.5 std
+                                "0,0,0,0,0.06,0.06,,\n");
+  Plan plan;
+  plan.scene.object = RigidObject{Outline(CircleOutline{15}), {}};
+  const CalibrationLogs logs = ReadCalibrationLogs({path}, PaperFinger(), plan);
+  const bool contact[] = {false, true, true, true};
+  // Force and object contradict each other, and the force is weak.
+  const bool undecided[] = {false, true, false, false};
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(logs.frames[i].contact, contact[i]) << i;
+    EXPECT_EQ(logs.frames[i].undecided, undecided[i]) << i;
+  }
+}
+
 TEST(CalibrationLogTest, HoldsOutBlocksAndLogs) {
   const TempFolder folder;
   std::string text = std::string(kGauges) + "\n";

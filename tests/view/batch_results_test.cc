@@ -41,7 +41,7 @@ LogResult Log(const std::string& day, const std::vector<Warning>& warnings,
   LogResult log;
   log.day = day;
   log.warnings = warnings;
-  log.force_compared = compared;
+  log.force_judged = compared;
   return log;
 }
 
@@ -57,6 +57,11 @@ TEST(BatchResults, VerdictsFollowTheLatestWarnings) {
   const std::string early = "2026-03-01", late = "2026-03-09";
   EXPECT_EQ(JudgedAs({}, {Log(late, {})}), Kind::kGood);
   EXPECT_EQ(JudgedAs({}, {Log(late, {}, 0)}), Kind::kUnchecked);
+  // What a sensor read on another day, or of a free finger, checks nothing.
+  EXPECT_EQ(JudgedAs({}, {Log(early, {}), Log(late, {}, 0)}), Kind::kUnchecked);
+  LogResult free = Log(late, {}, 0);
+  free.free_rows = free.force_compared = 100;
+  EXPECT_EQ(JudgedAs({}, {free}), Kind::kUnchecked);
   EXPECT_EQ(JudgedAs({}, {Log(late, {some})}), Kind::kWatch);
   EXPECT_EQ(JudgedAs({}, {Log(late, {moved})}), Kind::kZero);
   EXPECT_EQ(JudgedAs({}, {Log(late, {moved}), Log(late, {stiff})}),
@@ -78,6 +83,7 @@ logs:
     unexplained_frames: 1
     force_compared_frames: 10
     force_rms_error_N: 0.25
+    force_judged_frames: 4
     free_rows: 2
     free_sums_V: [0.5, 1]
     warnings:
@@ -98,6 +104,7 @@ TEST(BatchResults, ReadsASummaryThatWasMoved) {
   EXPECT_EQ(log.day, "2026-03-05");
   EXPECT_EQ(log.status.at("no_contact"), 6u);
   EXPECT_EQ(log.force_rms_N, 0.25);
+  EXPECT_EQ(log.force_judged, 4u);
   EXPECT_EQ(log.warnings[0].code, "forces_differ");
   ASSERT_EQ(batch.bad_logs.size(), 1u);
   EXPECT_EQ(batch.bad_logs[0].reason, "b.csv:2: bad");

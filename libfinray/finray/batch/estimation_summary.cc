@@ -61,7 +61,7 @@ double EstimationSummary::force_std_N() const {
 void EstimationSummary::Add(const FrameEstimate& estimate, double coefficient,
                             const Measurements& readings) {
   const double friction = readings.FrictionOr(coefficient);
-  const double force_N = readings.force_N;
+  const double force_N = readings.Force().magnitude_N;
   const bool all_read =
       std::all_of(readings.gauges_V.begin(), readings.gauges_V.end(),
                   [](double volts) { return std::isfinite(volts); });

@@ -29,19 +29,20 @@ struct EstimationSummary {
   std::size_t unexplained = 0;
   /// Frames whose search Scene::search_iteration_limit has ended.
   std::size_t search_ended = 0;
-  /// The comparison with the log's own force_N, over the frames that have it
-  /// and are ok or no_contact.
+  /// The comparison with the log's own force (Measurements::Force), over the
+  /// frames that have it and are ok or no_contact.
   std::size_t force_compared = 0;
   double force_squares_N2 = 0;
   double force_max_N = 0;
   /// The number of ok frames among the compared ones, the sum of the variances
-  /// that they claim, and the number of them that force_N contradicts. An error
-  /// contradicts if it exceeds kFarStd of the std, kFarShare of force_N, and
+  /// that they claim, and the number of them that it contradicts. An error
+  /// contradicts if it exceeds kFarStd of the std, kFarShare of it, and
   /// kFreeForce_N. The std of two forces together is at most their sum.
   std::size_t force_judged = 0, force_far = 0;
   double force_variances_N2 = 0;
   static constexpr double kFarStd = 5, kFarShare = 0.1;
-  /// Rows that force_N shows to be free of contact, |force_N| <= kFreeForce_N,
+  /// Rows that the sensor shows to be free of contact, by a magnitude of at
+  /// most kFreeForce_N whatever its axes, since nobody states its noise here;
   /// and the sums of their readings by gauge.
   std::size_t free_rows = 0;
   std::vector<double> free_sums_V;
@@ -71,10 +72,10 @@ struct EstimationSummary {
   static constexpr double kSomeUnexplained = 0.01;
   static constexpr std::size_t kFewestUnexplained = 3;
   /// More than kMostUnexplained of the judged frames are contradicted by
-  /// force_N, and at least kFewestUnexplained of them.
+  /// the sensor, and at least kFewestUnexplained of them.
   bool forces_differ() const;
   /// No frame of at least kManyFrames is without a contact, and hardly any
-  /// estimate can be compared with a force_N.
+  /// estimate can be compared with a force.
   bool never_free() const;
   static constexpr std::size_t kManyFrames = 50;
   /// Rms of the force error; 0 if no force was compared.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "finray/finger/finger.h"
+#include "finray/scene/measured_force.h"
 
 namespace finray {
 
@@ -29,7 +30,7 @@ struct Measurements {
   /// (HistoryFilter). Empty: nothing.
   std::vector<double> history_std_V;
   double time_s = kNotMeasured;
-  /// Reference sensor: the magnitude of the force, or its components.
+  /// Reference sensor: one axis or two. Force() says what they mean.
   double force_N = kNotMeasured;
   Eigen::Vector2d force_xy_N{kNotMeasured, kNotMeasured};
   /// Origin and turn of the object's own frame, measured by a stage or a
@@ -52,6 +53,7 @@ struct Measurements {
     return history_std_V.empty() ? noise_V
                                  : std::hypot(noise_V, history_std_V[gauge]);
   }
+  MeasuredForce Force() const { return MeasuredForce::Of(force_N, force_xy_N); }
   double FrictionOr(double coefficient) const {
     return std::isnan(friction) ? coefficient : friction;
   }

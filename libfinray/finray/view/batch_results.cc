@@ -62,6 +62,7 @@ LogResult ReadLog(const std::string& folder, const YamlMap& yaml) {
   log.force_compared = CountIn(yaml, "force_compared_frames");
   if (log.force_compared > 0) {
     log.force_rms_N = yaml.NonNegativeNumber("force_rms_error_N");
+    log.force_judged = CountIn(yaml, "force_judged_frames");
   }
   log.free_rows = CountIn(yaml, "free_rows");
   if (log.free_rows > 0) log.free_sums_V = yaml.Numbers("free_sums_V");
@@ -91,10 +92,11 @@ Kind KindOf(const Warning& warning) {
 const char* WordsOf(Kind kind) {
   switch (kind) {
     case Kind::kGood:
-      return "No warning, and a force sensor or free rows would have shown "
-             "one.";
+      return "No warning, and a force sensor has read forces of the last day "
+             "that agree.";
     case Kind::kUnchecked:
-      return "No warning, but no force_N and no free row that could show one.";
+      return "No warning, but no force sensor has read a force of the last day "
+             "that could show one.";
     case Kind::kWatch:
       return "No log of the last day asks for more; watch the warnings.";
     case Kind::kZero:
@@ -195,7 +197,7 @@ FingerVerdict Judge(const std::vector<Warning>& of_finger,
   Kind kind = Kind::kGood;
   bool checked = false;
   for (const LogResult* log : logs) {
-    checked = checked || log->force_compared > 0 || log->free_rows > 0;
+    checked |= log->day == last_day && log->force_judged > 0;
     for (const Warning& warning : log->warnings) {
       kind =
           std::max(kind, log->day == last_day ? KindOf(warning) : Kind::kWatch);

@@ -16,6 +16,7 @@ struct LogResult {
   std::map<std::string, std::size_t> status;  ///< Frames by status.
   std::size_t unexplained = 0;
   std::size_t force_compared = 0;
+  std::size_t force_judged = 0;  ///< Those of them with contact and a std.
   double force_rms_N = 0;
   std::size_t free_rows = 0;
   std::vector<double> free_sums_V;  ///< By gauge.
@@ -64,7 +65,8 @@ const char* VerdictName(FingerVerdict::Kind kind);
 ///    differ and neither offsets nor a gauge are the cause;
 ///  - kZero: the offsets have moved, or a gauge has slipped;
 ///  - kWatch: another warning, or a stronger one on an earlier day;
-///  - kUnchecked: no warning, but no force_N or free row that could show one;
+///  - kUnchecked: no warning, but no frame with contact has the force of a
+///    sensor beside it: free rows show no wrong gain or stiffness;
 ///  - kGood: none of these.
 FingerVerdict Judge(const std::vector<Warning>& of_finger,
                     const std::vector<const LogResult*>& logs);

@@ -21,8 +21,7 @@ void LiveFeed::Push(const Measurements& readings, const FrameEstimate& estimate,
   row.status = estimate.status;
   row.contact = estimate.contact;
   row.p_value = estimate.p_value();
-  row.force_N = readings.force_xy_N.allFinite() ? readings.force_xy_N.norm()
-                                                : readings.force_N;
+  row.force_N = readings.Force().magnitude_N;
   row.friction = readings.friction;
   row.gauges_V.assign(readings.gauges_V.begin(), readings.gauges_V.end());
   row.history_std_V.assign(readings.history_std_V.begin(),

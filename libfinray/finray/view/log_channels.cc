@@ -13,6 +13,7 @@
 #include "finray/io/number_text.h"
 #include "finray/scene/frame_columns.h"
 #include "finray/scene/history_filter.h"
+#include "finray/scene/measured_force.h"
 #include "finray/scene/measurement_columns.h"
 #include "finray/view/estimate_solver.h"
 
@@ -186,12 +187,12 @@ class ResultRows {
     values_.push_back({});
   }
   double ReferenceForce(const FrameRows& rows, std::size_t row) const {
-    if (force_x_at_ && force_y_at_) {
-      const double force = std::hypot(rows.at(row, *force_x_at_).number,
-                                      rows.at(row, *force_y_at_).number);
-      if (!std::isnan(force) || !force_at_) return force;
-    }
-    return rows.at(row, *force_at_).number;
+    const auto read = [&](const ColumnAt& at) {
+      return at ? rows.at(row, *at).number : std::nan("");
+    };
+    return MeasuredForce::Of(read(force_at_),
+                             {read(force_x_at_), read(force_y_at_)})
+        .magnitude_N;
   }
 
   void AddResiduals(const Finger& finger,

@@ -141,7 +141,8 @@ void AddErrors(CalibrationProblem* problem, const Finger& finger,
     const CalibrationFrame& frame = logs.frames[k];
     const auto [arc_mm, fitted_N] = contacts[frames[k]];
     const double friction = frame.FrictionOr(coefficient);
-    const double measured_N = ReferenceForce(frame) / std::hypot(1, friction);
+    const double measured_N =
+        frame.Force().magnitude_N / std::hypot(1, friction);
     const bool sensed = std::isfinite(measured_N);
     const double normal_N = sensed ? measured_N : fitted_N;
     if (!(normal_N > 0) || std::isnan(arc_mm)) continue;

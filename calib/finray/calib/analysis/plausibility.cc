@@ -58,7 +58,7 @@ struct Press {
 std::vector<Press> Presses(const std::vector<const CalibrationFrame*>& frames) {
   std::vector<Press> presses;
   for (const CalibrationFrame* frame : frames) {
-    const double force = ReferenceForce(*frame);
+    const double force = frame->Force().magnitude_N;
     if (!std::isfinite(force) || !frame->object_mm.allFinite()) continue;
     presses.push_back(
         {frame->log, force, frame->object_mm.x(), frame->object_mm.y()});
@@ -175,8 +175,8 @@ std::vector<ExpectedGauges> ExpectGauges(
   std::vector<ExpectedGauges> expected;
   for (const CalibrationFrame* frame : frames) {
     const bool by_object = object_known && frame->object_mm.allFinite();
-    if (!by_object && (!std::isfinite(frame->contact_mm) ||
-                       !std::isfinite(ReferenceForce(*frame)))) {
+    if (!by_object &&
+        (!std::isfinite(frame->contact_mm) || !frame->Force().IsMeasured())) {
       continue;
     }
     const ContactGuess::Place place = guess->Of(
@@ -221,7 +221,7 @@ void RefuseImplausibleObjects(
         guess->Of(WithoutForce(*frame), From::kObjectFirst);
     ++objects;
     met += place.met;
-    const double force = ReferenceForce(*frame);
+    const double force = frame->Force().magnitude_N;
     // An object may be where it presses with no force at all.
     const double least = 1e-6 * ForceUnit(problem.finger());
     if (place.met && force > 0) {
@@ -261,7 +261,7 @@ void RefuseImplausible(CalibrationProblem* problem) {
   const std::vector<const CalibrationFrame*> frames = SomeTouching(*problem);
   std::vector<double> forces;
   for (const CalibrationFrame* frame : frames) {
-    const double force = ReferenceForce(*frame);
+    const double force = frame->Force().magnitude_N;
     if (std::isfinite(force)) forces.push_back(force);
   }
   const double unit = ForceUnit(problem->finger());

@@ -158,7 +158,7 @@ std::vector<FrameReference> ReferencesOf(const CalibrationLogs& logs,
     FrameReference reference;
     reference.contact = frame.contact;
     reference.undecided = frame.undecided;
-    reference.force_N = ReferenceForce(frame);
+    reference.force_N = frame.Force().magnitude_N;
     reference.force_std_N = plan.force_std_N;
     if (std::isfinite(frame.contact_mm)) {
       reference.contact_mm = frame.contact_mm;

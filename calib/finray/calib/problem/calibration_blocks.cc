@@ -53,7 +53,7 @@ bool CalibrationBlocks::HasEnough(const CalibrationFrame& frame) const {
   const bool object = frame.object_mm.allFinite() && model_.object_std_mm;
   const auto points = frame.pins.size() + frame.tip_mm.allFinite();
   if (!frame.contact) return points > 0;
-  return 2 * (points + object) + std::isfinite(ReferenceForce(frame)) +
+  return 2 * (points + object) + frame.Force().IsMeasured() +
              std::isfinite(frame.contact_mm) >
          2;
 }
@@ -61,7 +61,7 @@ bool CalibrationBlocks::HasEnough(const CalibrationFrame& frame) const {
 bool CalibrationBlocks::HasReference(const CalibrationFrame& frame) const {
   const bool object = frame.object_mm.allFinite() && model_.object_std_mm;
   return object || std::isfinite(frame.contact_mm) ||
-         std::isfinite(ReferenceForce(frame)) || !frame.pins.empty() ||
+         frame.Force().IsMeasured() || !frame.pins.empty() ||
          frame.tip_mm.allFinite();
 }
 

@@ -19,6 +19,9 @@ namespace finray {
 namespace {
 
 constexpr double kSignificant = 3;  // standard deviations
+// In a long log noise alone reads above the bound of a free row. Up to so many
+// times the bound an object that is out of reach contradicts the force.
+constexpr double kWeak = 2;
 // Whole blocks of neighbouring frames are held out, because neighbours share
 // errors.
 constexpr int kHoldoutBlock = 10;
@@ -50,18 +53,20 @@ Touch TouchOf(const CalibrationFrame& frame, const Finger& finger,
   const FamilyPlan& weight = plan.family(ParameterFamily::kForceWeight);
   const double place_std_mm = plan.PlaceStd_mm(finger.front_length_mm);
   const bool object_known = std::isfinite(place_std_mm);
-  const double force = ReferenceForce(frame);
+  const MeasuredForce force = frame.Force();
   const double reach_std =
       object ? Reach(frame, finger, plan) /
                    (object_known ? place_std_mm : plan.object_std_mm)
              : 0;
-  if (std::isfinite(force) && !(object && !plan.ForceZeroIsKnown())) {
-    const bool contact =
-        force > kSignificant * std::hypot(plan.force_std_N,
-                                          offset.prior_std.value_or(0),
-                                          weight.prior_std.value_or(0));
+  if (force.IsMeasured() && !(object && !plan.ForceZeroIsKnown())) {
+    const double std_N =
+        std::hypot(plan.force_std_N, offset.prior_std.value_or(0),
+                   weight.prior_std.value_or(0));
+    const bool contact = force.magnitude_N > 0 && !force.IsWithinNoise(std_N);
+    if (!object || !object_known) return {contact, false};
+    const bool reaches = reach_std > -kSignificant;
     return {contact,
-            !contact && object && object_known && reach_std > -kSignificant};
+            contact ? !reaches && force.IsWithinNoise(kWeak * std_N) : reaches};
   }
   if (!object) return {true, false};
   return {reach_std > kSignificant,
@@ -153,7 +158,7 @@ void RefuseWithoutMeasurements(const Plan& plan, const CalibrationLogs& logs) {
         std::pair(ParameterFamily::kForceOffset, "force_offset"),
         std::pair(ParameterFamily::kForceTimeOffset, "force_time_offset")}) {
     if (plan.family(family).free && none([](const CalibrationFrame& frame) {
-          return std::isfinite(ReferenceForce(frame));
+          return frame.Force().IsMeasured();
         })) {
       throw InputError(std::string("plan: ") + name +
                        " is free, but no log has a force_N, or a force_x_N "
@@ -292,10 +297,6 @@ std::vector<CalibrationFrame> ReadLog(const FrameTable& table,
 }
 
 }  // namespace
-
-double ReferenceForce(const CalibrationFrame& frame) {
-  return frame.force_xy_N.allFinite() ? frame.force_xy_N.norm() : frame.force_N;
-}
 
 std::vector<bool> CalibrationLogs::HeldOut() const {
   std::vector<bool> held_out(paths.size(), true);

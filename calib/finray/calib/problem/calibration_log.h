@@ -37,10 +37,6 @@ struct CalibrationFrame : Measurements {
   }
 };
 
-/// Returns the magnitude of the reference force of a frame, NaN if it was not
-/// measured.
-double ReferenceForce(const CalibrationFrame& frame);
-
 /// All logs of a calibration.
 struct CalibrationLogs {
   std::vector<std::string> paths;
@@ -67,19 +63,21 @@ bool AnyFitted(const CalibrationLogs& logs, int log, const Has& has) {
 
 /// Reads the logs and decides row by row whether the finger touches. The first
 /// of these measurements that the row has decides:
-///  - a reference force: the finger touches if the force is above 3 std;
+///  - a reference force: the finger touches if noise does not explain the force
+///    (MeasuredForce::IsWithinNoise);
 ///  - the centre of the object: it touches if the object reaches into the
 ///    undeformed finger by more than 3 std;
 ///  - a contact location: it touches.
 ///
 /// A row with none of them counts as touching. If the offset of the force
-/// sensor is unknown, the object comes first, and the force must exceed 3 times
-/// the std that its noise and the prior of the offset have together. The
+/// sensor is unknown, the object comes first, and the noise of the
+/// force counts as its std and that of the prior of the offset together. The
 /// scene's `contacts: 0` or `1` overrides all that.
 ///
-/// A row whose force is within 3 std of zero, or not known, is undecided if the
+/// A row whose force is within noise of zero, or not known, is undecided if the
 /// object is where it might touch: it reaches in by more than -3 std, and by no
-/// more than 3 std if the force is not known.
+/// more than 3 std if the force is not known. A row whose force is above that,
+/// by less than twice, is undecided if the object is further away than that.
 ///
 /// A row with a cylinder_radius_mm belongs to the bench. If the plan needs a
 /// time or a temperature that a row lacks, the row gets that of the row before;

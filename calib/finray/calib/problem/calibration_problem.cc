@@ -86,7 +86,7 @@ void CalibrationProblem::FindCandidates() {
   for (std::size_t i = 0; i < logs().frames.size(); ++i) {
     const CalibrationFrame& frame = logs().frames[i];
     if (frame.held_out || !blocks_.HasEnough(frame)) continue;
-    const double force = ReferenceForce(frame);
+    const double force = frame.Force().magnitude_N;
     if (frame.contact && !reference) {
       gauges_only_ = true;
     } else if (force > kImpossibleForce * ForceUnit(finger_)) {

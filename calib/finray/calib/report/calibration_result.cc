@@ -163,7 +163,7 @@ void WarnOfForceLimit(const CalibrationProblem& problem,
   double heaviest = 0;
   for (const int i : result.solution.at.frames) {
     const CalibrationFrame& frame = problem.frame(i);
-    const double force = frame.contact ? ReferenceForce(frame) : 0;
+    const double force = frame.contact ? frame.Force().magnitude_N : 0;
     if (!(force > limit)) continue;  // nor if it is NaN
     ++beyond;
     heaviest = std::max(heaviest, force);

@@ -34,7 +34,8 @@ FrameTable CalibrationFrames(CalibrationProblem& problem,
   fill("row", [](const auto& frame) { return frame.row + 1; });
   fill("time_s", [](const auto& frame) { return frame.time_s; });
   fill("held_out", [](const auto& frame) { return frame.held_out; });
-  fill("force_N", ReferenceForce);
+  fill("force_N",
+       [](const CalibrationFrame& frame) { return frame.Force().magnitude_N; });
   std::vector<std::string>&log = table.MutableText("log"),
   &kind = table.MutableText("kind");
   std::vector<double>&arc_mm = table.MutableNumbers("fit_contact_mm"),

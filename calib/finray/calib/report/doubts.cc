@@ -78,6 +78,10 @@ double RanksApart(const std::vector<double>& some, std::vector<double> others) {
   return (above - m * n / 2) / std::sqrt(m * n * (m + n + 1) / 12);
 }
 
+double ForceOf(const CalibrationFrame& frame) {
+  return frame.Force().magnitude_N;
+}
+
 double HeightOf(const CalibrationFrame& frame) {
   return std::isfinite(frame.contact_mm) ? frame.contact_mm
                                          : frame.object_mm.y();
@@ -87,7 +91,7 @@ void DoubtRejected(const CalibrationProblem& problem,
                    std::vector<std::string>* doubts) {
   const std::pair<double (*)(const CalibrationFrame&),
                   std::pair<const char*, const char*>>
-      kinds[] = {{ReferenceForce, {"low forces", "high forces"}},
+      kinds[] = {{ForceOf, {"low forces", "high forces"}},
                  {HeightOf, {"places near the base", "places near the tip"}}};
   for (const auto& [of, ends] : kinds) {
     std::vector<double> rejected, fitted;

@@ -71,7 +71,7 @@ ContactGuess::Place ContactGuess::Of(const CalibrationFrame& frame, From from) {
     place.arc_mm =
         std::clamp(frame.contact_mm, 0.0, problem_.finger().front_length_mm);
   }
-  const double force = ReferenceForce(frame);
+  const double force = frame.Force().magnitude_N;
   // A wild force may be larger than the finger can carry.
   if (from == From::kObjectFirst && force <= table_.heaviest_N()) {
     place.normal_N = std::max(force, 0.0);

@@ -29,7 +29,7 @@ std::map<int, double> Chi2As(bool contact, const std::vector<int>& frames,
 // Returns chi2 of the force, for which a free frame has no residual.
 double Chi2OfForce(const CalibrationProblem& problem, int i) {
   const Plan& plan = problem.plan();
-  const double force = ReferenceForce(problem.frame(i));
+  const double force = problem.frame(i).Force().magnitude_N;
   if (!std::isfinite(force) || !plan.ForceZeroIsKnown()) {
     return 0;
   }
