@@ -168,9 +168,9 @@ int Run() {
       100 * recording.met, 100 * recording.met_before);
   std::printf(
       "error          half are below %.3g mm and %.3g N; the noise of a "
-      "frame alone is %.3g mm and %.3g N\n",
+      "frame alone is %.3g mm and %.3g N, at worst %.3g mm and %.3g N\n",
       recording.median_mm, recording.median_N, recording.noise_mm,
-      recording.noise_N);
+      recording.noise_N, recording.worst_mm, recording.worst_N);
   if (!logs.empty() && known.rows < kLeastRows) {
     Warn(
         FormatText("--from has %zu row%s that can be fitted, which tell%s next "

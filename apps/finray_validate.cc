@@ -1,5 +1,6 @@
 // Compares a calibrated finger with logs that it was not calibrated from.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -81,8 +82,9 @@ std::vector<std::pair<std::string, double>> Bounds() {
 }
 
 // These parameters belong to the calibration's own logs. The finger YAML does
-// not hold them, so the errors found here contain their effect.
-void WarnOfParametersOfLogs(const Plan& plan) {
+// not hold them, so the errors found here contain their effect, unless the
+// stage of each log was found anew.
+void WarnOfParametersOfLogs(const Plan& plan, bool all_aligned) {
   const std::pair<ParameterFamily, const char*> of_logs[] = {
       {ParameterFamily::kObjectOrigin, "object_origin"},
       {ParameterFamily::kObjectRotation, "object_rotation"},
@@ -97,7 +99,11 @@ void WarnOfParametersOfLogs(const Plan& plan) {
       {ParameterFamily::kGaugeDrift, "gauge_drift"}};
   std::vector<std::string> names;
   for (const auto& [family, name] : of_logs) {
-    if (plan.family(family).free) names.push_back(name);
+    const bool of_stage = family == ParameterFamily::kObjectOrigin ||
+                          family == ParameterFamily::kObjectRotation;
+    if (plan.family(family).free && !(of_stage && all_aligned)) {
+      names.push_back(name);
+    }
   }
   if (plan.family(ParameterFamily::kFriction).free) {
     Warn(
@@ -110,6 +116,40 @@ void WarnOfParametersOfLogs(const Plan& plan) {
            ": its value from the calibration is not applied to these logs, so "
            "the errors contain it",
        "correct the logs, or use `holdout` in the plan");
+}
+
+// Where the stage of a log is, as far as it differs from that of the plan.
+void PrintStages(const CalibrationLogs& logs,
+                 const std::vector<FittedStage>& stages) {
+  constexpr std::size_t kMostShown = 5;
+  for (std::size_t i = 0; i < std::min(stages.size(), kMostShown); ++i) {
+    const FittedStage& stage = stages[i];
+    std::printf("origin         %+.3f, %+.3f mm (std %.2g, %.2g) fitted to %s",
+                stage.origin_mm.x(), stage.origin_mm.y(),
+                stage.origin_std_mm.x(), stage.origin_std_mm.y(),
+                logs.names[stage.log].c_str());
+    if (stage.rotation_std_deg > 0) {
+      std::printf(", turned by %+.3f deg (std %.2g)", stage.rotation_deg,
+                  stage.rotation_std_deg);
+    }
+    std::printf("\n");
+  }
+  if (stages.size() > kMostShown) {
+    std::printf("               and %zu more in validation.yaml\n",
+                stages.size() - kMostShown);
+  }
+}
+
+void WarnOfStages(const CalibrationLogs& logs,
+                  const std::vector<FittedStage>& stages) {
+  constexpr double kFar = 3;  // std of the prior
+  for (const FittedStage& stage : stages) {
+    if (stage.over_prior <= kFar) continue;
+    Warn(FormatText("the stage of %s is %.3g std of the plan's prior from "
+                    "where the plan has it",
+                    logs.names[stage.log].c_str(), stage.over_prior),
+         "look at how the object was set up, and at the columns of its place");
+  }
 }
 
 // Returns whether there is something to warn of.
@@ -168,6 +208,7 @@ void PrintSummary(const CalibrationLogs& logs, const Validation& validation,
   }
   std::printf("coverage      %s (68 and 95 %% predicted)\n",
               Joined(words, ",").c_str());
+  PrintStages(logs, validation.stages);
   std::printf("gates          %s\n", gates.empty()
                                          ? "none given, so nothing is judged"
                                          : GateWords(gates).c_str());
@@ -194,12 +235,16 @@ int Run() {
   Scene with_columns = plan.scene;
   with_columns.columns = plan.columns;
   if (DumpConfigFlag(finger, with_columns, discretization)) return kGood;
-  WarnOfParametersOfLogs(plan);
   Plan whole = plan;
   whole.holdout_by = HoldoutBy::kNothing;  // these logs are held out already
+  // The finger states the noise of a reading, and the logs how many of them
+  // are a row.
+  whole.gauge_std_V.reset();
   const CalibrationLogs logs = ReadCalibrationLogs(paths, finger, whole);
   const Validation validation = Validate(
       finger, baseline, whole, logs, discretization, Threads(FLAGS_threads));
+  WarnOfParametersOfLogs(plan, validation.stages.size() == paths.size());
+  WarnOfStages(logs, validation.stages);
   const std::vector<Gate> gates = CheckGates(validation, bounds);
 
   std::vector<const char*> flags = {"finger",   "plan",      "scene",

@@ -20,10 +20,11 @@ DEFINE_string(logs, "", "CSV log with free rows");
 DEFINE_string(out, "", "finger YAML to write: all but the offsets stays");
 DEFINE_string(zero_rows, "",
               "free rows, first:last, counted from 1; default: the rows whose "
-              "force_N is within 3 --force_std_N of zero, live 1:100");
+              "force is within noise of zero, live 1:100");
 DEFINE_bool(allow_touch, false,
             "zero even if a contact explains the rows, where none is there");
-DEFINE_double(force_std_N, 0.02, "noise of force_N, to tell free rows");
+DEFINE_double(force_std_N, 0.02,
+              "noise of each axis of the force, to tell free rows");
 DEFINE_bool(follow, false,
             "read a live log from standard input, up to the last row needed");
 

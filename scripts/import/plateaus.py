@@ -94,7 +94,8 @@ def average(recordings, shortest_s):
     scatters, noise = {}, []
     for r in recordings:
         ranges = [np.searchsorted(r.time, (a, b)) for a, b in found]
-        kinds = sorted({name.split("_")[0] for name in r.channels})
+        # By kind of channel: so many readings tell as much as one independent one.
+        worth = {name.split("_")[0]: 1.0 for name in r.channels}
         for name, values in r.channels.items():
             runs = [values[a:b][np.isfinite(values[a:b])] for a, b in ranges]
             columns[name] = np.array([run.mean() if len(run) else np.nan for run in runs])
@@ -102,10 +103,13 @@ def average(recordings, shortest_s):
             scatters[scatter_name(name)] = spread
             if np.isfinite(spread).any():
                 one = float(np.sqrt(np.nanmean(spread**2)))
-                count = np.median([len(run) for run in runs])
-                noise.append((name, one, one / np.sqrt(count) * mean_std_factor(runs)))
-        for kind in kinds:
-            scatters[f"{kind}_readings"] = np.array([float(b - a) for a, b in ranges])
+                count, factor = np.median([len(run) for run in runs]), mean_std_factor(runs)
+                noise.append((name, one, one / np.sqrt(count) * factor))
+                kind = name.split("_")[0]
+                worth[kind] = max(worth[kind], factor**2)
+        for kind, readings in sorted(worth.items()):
+            scatters[f"{kind}_readings"] = np.array([max(1.0, (b - a) / readings)
+                                                     for a, b in ranges])
     measured = [n for n in columns if n.startswith(FOLLOWED)]
     empty = sum(bool(np.isnan([columns[n][i] for n in measured]).any())
                 for i in range(len(found)))

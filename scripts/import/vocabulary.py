@@ -16,13 +16,15 @@ contact_#_angle_rad object_x_mm object_y_mm object_angle_deg object_displacement
 force_N force_x_N force_y_N rib_#_N rib_#_front_x_mm rib_#_front_y_mm rib_#_back_x_mm
 rib_#_back_y_mm cylinder_radius_mm tip_x_mm tip_y_mm tip_angle_rad chi2 chi2_p_value
 alternative_chi2 iterations search_ended temperature_C gauge_#_scatter_V
+force_scatter_N force_x_scatter_N force_y_scatter_N gauge_readings force_readings
 """.split()
 # Along the sensor's own axes; force_frame.py turns them into force_x_N, force_y_N.
 SENSOR_AXES = ["force_sensor_x_N", "force_sensor_y_N"]
 TIME_HEADERS = {"t", "time", "zeit", "timestamp", "time_stamp", "header.stamp"}
 
-# plateaus.py finds scatter; no column of a recording becomes it.
-_TARGETS = [p for p in PATTERNS + SENSOR_AXES if "_scatter_" not in p]
+# plateaus.py finds scatter and counts; no column of a recording becomes them.
+_TARGETS = [p for p in PATTERNS + SENSOR_AXES
+            if "_scatter_" not in p and not p.endswith("_readings")]
 _MATCH = [re.compile(re.escape(p).replace(r"\#", "#").replace("#", r"[1-9]\d{0,3}"))
           for p in _TARGETS]
 

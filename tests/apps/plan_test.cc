@@ -1,5 +1,6 @@
 #include "command_line.h"
 #include "finray/io/frame_table.h"
+#include "shared_case.h"
 
 namespace finray {
 namespace {
@@ -52,6 +53,31 @@ TEST_F(PlanTest, GoesOnFromALog) {
                              "train.csv --out_dir %d");
   EXPECT_EQ(outcome.code, 0) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr("no further row is needed"));
+}
+
+// The plan's gauge_std_V is the noise of means of some hundred readings. A
+// frame is one reading, and no calibration makes it better than its noise.
+TEST_F(PlanTest, AFrameHasTheNoiseOfOneReading) {
+  const std::string folder = SharedCase("plateau_noise/");
+  if (folder.empty()) GTEST_SKIP() << "the inputs are not here";
+  const Outcome outcome =
+      Run("finray_plan",
+          "--from " + folder + "rec1.csv," + folder + "rec2.csv --plan " +
+              folder + "Pt.yaml --finger " + folder +
+              "F.yaml --x_mm -30:15 --y_mm 0:100 --force_max_N 7 "
+              "--force_N 3 --region_mm 20:75 --target_force_N 0.02 "
+              "--most_frames 40 --noreport --out_dir %d");
+  EXPECT_EQ(outcome.code, 4) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              HasSubstr("the noise of one frame is larger: no calibration"));
+  // finray_design predicts 0.123 N at worst for this finger.
+  const std::size_t worst = outcome.output.find("at worst ");
+  ASSERT_NE(worst, std::string::npos);
+  double mm = 0, N = 0;
+  ASSERT_EQ(std::sscanf(outcome.output.c_str() + worst,
+                        "at worst %lf mm and %lf N", &mm, &N),
+            2);
+  EXPECT_NEAR(N, 0.123, 0.012);
 }
 
 TEST_F(PlanTest, WrongUse) {

@@ -23,17 +23,16 @@ std::string WarningsIn(const std::string& output) {
   return at == std::string::npos
              ? ""
              : std::regex_replace(output.substr(at),
-                                  std::regex("(mag|xy)\\\\.csv"), "log.csv");
+                                  std::regex("(mag|xy)\\.csv"), "log.csv");
 }
 
 // A sensor that reads 25 % too much shows, however its force is written.
 TEST_F(TwoAxisForceTest, EstimatesWarnAlikeOfMagnitudeAndAxes) {
   std::string said[2];
   for (const std::string log : {"mag", "xy"}) {
-    const Outcome outcome =
-        Run("finray_estimate", "--finger " + case_ + "finger.yaml --logs " +
-                                   case_ + log + ".csv --strict --out_dir %" +
-                                   log);
+    const Outcome outcome = Run(
+        "finray_estimate", "--finger " + case_ + "finger.yaml --logs " + case_ +
+                               log + ".csv --strict --out_dir %" + log);
     EXPECT_EQ(outcome.code, 4) << outcome.output;
     said[log == "xy"] = WarningsIn(outcome.output);
   }

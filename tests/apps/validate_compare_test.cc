@@ -6,6 +6,7 @@
 
 #include "apps/command_line.h"
 #include "finray/io/frame_table.h"
+#include "shared_case.h"
 
 namespace finray {
 namespace {
@@ -29,8 +30,7 @@ TEST_F(ValidateCompareTest, TheTrueFingerPasses) {
                                  "--least_coverage_95_percent 90 "
                                  "--least_usable_percent 90");
   EXPECT_EQ(outcome.code, 0) << outcome.output;
-  // One warning: the bundled plan frees the origin, which no log is corrected
-  // by.
+  // Of seven lines one has the origin, which the bundled plan frees.
   EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 7);
   const YAML::Node result = YAML::LoadFile(folder_.Path("out/validation.yaml"));
   EXPECT_EQ(result["verdict"].as<std::string>(), "passed");
@@ -127,8 +127,27 @@ TEST_F(ValidateCompareTest, SaysWhatItDoesNotApply) {
                              data_ + "holdout.csv --out_dir %out");
   EXPECT_EQ(outcome.code, 0) << outcome.output;
   EXPECT_THAT(outcome.output,
-              HasSubstr("the plan frees object_origin, force_scale: "));
+              HasSubstr("the plan frees force_scale: its value"));
+  EXPECT_THAT(outcome.output, HasSubstr("\norigin         "));
   EXPECT_THAT(outcome.output, HasSubstr(" missed), 10 free ("));
+}
+
+// A log whose rows are means of many readings is judged by the noise of means:
+// intervals of the noise of one reading would hold all errors.
+TEST_F(ValidateCompareTest, CoverageOfMeansIsByTheirNoise) {
+  const std::string folder = SharedCase("plateau_noise/");
+  if (folder.empty()) GTEST_SKIP() << "the inputs are not here";
+  const Outcome outcome =
+      Run("finray_validate", "--finger " + folder + "finger.yaml --plan " +
+                                 folder + "Pt.yaml --logs " + folder +
+                                 "rec3.csv --out_dir %out");
+  const YAML::Node errors =
+      YAML::LoadFile(folder_.Path("out/validation.yaml"))["errors"]["contact"];
+  EXPECT_LE(errors["force_coverage_68_percent"].as<double>(), 85);
+  EXPECT_GE(errors["force_coverage_68_percent"].as<double>(), 50);
+  EXPECT_LE(errors["contact_coverage_68_percent"].as<double>(), 90);
+  EXPECT_GE(errors["contact_rms_z"].as<double>(), 0.6);
+  EXPECT_LE(errors["contact_rms_z"].as<double>(), 1.6);
 }
 
 TEST_F(ValidateCompareTest, CompareTwoCalibrations) {

@@ -81,5 +81,28 @@ TEST(ReadingNoiseTest, AMuchSmallerNoiseOfRowsIsAWarning) {
       HasSubstr("gauge_std_V of 0.028 mV replaces a noise_V of 0.3 mV"));
 }
 
+// Without a std of rows in the plan, a row has the noise of a reading over the
+// root of its count; with one, it has that.
+TEST(ReadingNoiseTest, RowsOfMeansAreFittedWithTheNoiseOfMeans) {
+  FrameTable log = StandardFrames(HiddenFinger(), 7);
+  log.MutableNumbers("gauge_readings").assign(log.rows(), 25);
+  log.MutableNumbers("gauge_readings")[0] = std::nan("");
+  log.MutableNumbers("force_readings").assign(log.rows(), 4);
+  log.MutableNumbers("force_x_scatter_N").assign(log.rows(), 0.03);
+  log.MutableNumbers("force_y_scatter_N").assign(log.rows(), 0.05);
+  Plan plan = StandardPlan();
+  const auto frames = [&] {
+    return ReadCalibrationLogs(std::vector<FrameTable>{log}, Nominal(), plan)
+        .frames;
+  };
+  EXPECT_NEAR(frames()[1].GaugeStd_V(0, 3e-4), 6e-5, 1e-12);
+  EXPECT_EQ(frames()[0].GaugeStd_V(0, 3e-4), 3e-4);
+  EXPECT_NEAR(frames()[1].ForceStd_N(plan), std::sqrt(17e-4) / 2, 1e-12);
+  plan.gauge_std_V = 1e-4;
+  plan.force_std_stated = true;
+  EXPECT_EQ(frames()[1].GaugeStd_V(0, 1e-4), 1e-4);
+  EXPECT_EQ(frames()[1].ForceStd_N(plan), plan.force_std_N);
+}
+
 }  // namespace
 }  // namespace finray

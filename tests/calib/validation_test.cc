@@ -167,6 +167,77 @@ TEST(ValidationTest, ACircleTellsThePlace) {
               references[2].contact_mm, 0.1);
 }
 
+// The stage was set up anew, 0.6 and 0.8 mm away. Its origin is found, and what
+// is left is error of the finger.
+TEST(ValidationTest, AStageSetUpAnewIsAligned) {
+  const TempFolder folder;
+  const Eigen::Vector2d moved(0.6, -0.8);
+  FrameTable log = FrameTable::Read(StandardLog(folder, HiddenFinger(), 6));
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    log.MutableNumbers("object_x_mm")[i] -= moved.x();
+    log.MutableNumbers("object_y_mm")[i] -= moved.y();
+  }
+  log.Write(folder.Path("moved.csv"));
+  Plan plan = StandardPlan();
+  FamilyPlan& origin =
+      plan.families[static_cast<int>(ParameterFamily::kObjectOrigin)];
+  const std::string path = folder.Path("moved.csv");
+  origin = {};
+  const ErrorStatistics far =
+      ValidateLog(HiddenFinger(), plan, path).errors.contact.contact_mm;
+  EXPECT_LT(far.coverage_95_percent(), 80);
+  origin = {true, 0.5, false};
+  const Validation aligned = ValidateLog(HiddenFinger(), plan, path);
+  ASSERT_EQ(aligned.stages.size(), 1u);
+  const FittedStage& stage = aligned.stages[0];
+  for (int axis = 0; axis < 2; ++axis) {
+    EXPECT_LT(stage.origin_std_mm[axis], 0.1);
+    EXPECT_NEAR(stage.origin_mm[axis], moved[axis],
+                4 * stage.origin_std_mm[axis]);
+  }
+  EXPECT_GT(stage.over_prior, 1.2);
+  const ErrorRow& errors = aligned.errors.contact;
+  EXPECT_NEAR(errors.contact_mm.rms_z(), 1, 0.2);
+  EXPECT_GT(errors.contact_mm.coverage_95_percent(), 90);
+  // The origin does not stand for what a drawn finger lacks.
+  EXPECT_TRUE(ValidateLog(Nominal(), plan, path).stages.empty());
+  // A stiffer finger cannot hide behind the origin.
+  Finger stiff = HiddenFinger();
+  stiff.front_stiffness_N_mm2 *= 1.2;
+  stiff.back_stiffness_N_mm2 *= 1.2;
+  EXPECT_GT(ValidateLog(stiff, plan, path).errors.contact.force_N.percent(),
+            15);
+}
+
+// A plateau of a hundred readings has a tenth of the noise of one. Force and
+// gauges of each row are judged by that.
+TEST(ValidationTest, MeansHaveTheNoiseOfMeans) {
+  const TempFolder folder;
+  constexpr double kReadings = 100;
+  Finger finger = HiddenFinger(), quiet = finger;
+  for (Gauge& gauge : quiet.gauges) gauge.noise_V /= std::sqrt(kReadings);
+  FrameTable frames = StandardFrames(finger, 3);
+  FrameTable log = MakeLog(quiet, frames, {0.002, 0.005, 3});
+  Plan plan = StandardPlan();
+  plan.object_std_mm = 0.005;
+  const auto z_of = [&] {
+    log.Write(folder.Path("means.csv"));
+    const ErrorRow errors =
+        ValidateLog(finger, plan, folder.Path("means.csv")).errors.contact;
+    return std::pair(errors.force_N.rms_z(), errors.contact_mm.rms_z());
+  };
+  plan.families = {};
+  EXPECT_LT(z_of().first, 0.3);
+  log.MutableNumbers("gauge_readings").assign(log.rows(), kReadings);
+  log.MutableNumbers("force_readings").assign(log.rows(), kReadings);
+  log.MutableNumbers("force_scatter_N").assign(log.rows(), 0.02);
+  EXPECT_NEAR(z_of().first, 1, 0.2);
+  EXPECT_NEAR(z_of().second, 1, 0.2);
+  // A stated std of rows counts, whatever the log says.
+  plan.force_std_stated = true;
+  EXPECT_LT(z_of().first, 0.7);
+}
+
 TEST(ValidationTest, Gates) {
   const TempFolder folder;
   const Finger truth = HiddenFinger();

@@ -160,6 +160,19 @@ class PlateauTest(ImportCase):
                 for _ in range(200)]
         self.assertAlmostEqual(noise.mean_std_factor(slow), np.sqrt(3), delta=0.2)
 
+    def test_readings_that_go_together_are_counted_as_fewer(self):
+        draw = np.random.default_rng(5)
+        t = np.arange(0, 40, 0.005)
+        level = 0.01 * (t // 2 % 3)
+        one = 3e-4 * draw.normal(size=len(t) + 9)
+        slow = np.convolve(one, 0.5**np.arange(10), "valid")
+        counts = {}
+        for name, values in (("white", level + one[9:]), ("slow", level + slow)):
+            log = self.log_of("--logs", self.write(f"{name}.csv", table(
+                ["time_s", "gauge_1_V"], np.stack((t, values), axis=1))), "--plateaus")
+            counts[name] = np.median(np.array(log["gauge_readings"], dtype=float))
+        self.assertAlmostEqual(counts["white"] / counts["slow"], 3, delta=0.6)
+
     def test_names_of_scatter(self):
         self.assertEqual(plateaus.scatter_name("gauge_1_V"), "gauge_1_scatter_V")
 

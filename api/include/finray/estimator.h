@@ -46,7 +46,7 @@ struct EstimationSummary {
               not_converged = 0, bad_input = 0;
   /// Solved frames that the finger and its noise do not explain.
   std::size_t unexplained = 0;
-  /// Frames that were compared with a force_N of the log, and the errors; NaN
+  /// Frames that were compared with a force of the log, and the errors; NaN
   /// if there is none.
   std::size_t force_compared = 0;
   double force_rms_error_N = 0, force_max_error_N = 0;

@@ -41,7 +41,8 @@ const std::vector<std::string>& FrameColumnPatterns() {
         "rib_#_front_x_mm rib_#_front_y_mm rib_#_back_x_mm rib_#_back_y_mm "
         "cylinder_radius_mm tip_x_mm tip_y_mm tip_angle_rad chi2 chi2_p_value "
         "alternative_chi2 iterations search_ended temperature_C "
-        "gauge_#_scatter_V");
+        "gauge_#_scatter_V force_scatter_N force_x_scatter_N "
+        "force_y_scatter_N gauge_readings force_readings");
     return std::vector<std::string>(std::istream_iterator<std::string>(words),
                                     {});
   }();

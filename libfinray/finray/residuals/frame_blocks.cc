@@ -98,10 +98,11 @@ void AddBench(const std::vector<Gauge>& gauges, Builder* out) {
         &out->parameters.finger->gauge_lengths_mm[j]};
     AddFlat(out->parameters, j, &blocks);
     const auto coefficients = AddTerms(out->parameters.readings[j], &blocks);
-    out->Add(new CylinderGaugeResidual(out->row.cylinder_radius_mm,
-                                       out->row.gauges_V[j],
-                                       out->model.gauge_std_V[j], coefficients,
-                                       out->parameters.flat_shares != nullptr),
+    const double std_V = out->row.GaugeStd_V(static_cast<std::size_t>(j),
+                                             out->model.gauge_std_V[j]);
+    out->Add(new CylinderGaugeResidual(
+                 out->row.cylinder_radius_mm, out->row.gauges_V[j], std_V,
+                 coefficients, out->parameters.flat_shares != nullptr),
              std::move(blocks), ResidualFamily::kBench, j);
   }
 }

@@ -26,6 +26,8 @@ MeasurementColumns::MeasurementColumns(const Finger& finger,
     }
     columns_.push_back({volts ? volts : angle, !volts && angle});
   }
+  gauge_readings_ = find("gauge_readings");
+  force_readings_ = find("force_readings");
   time_ = find("time_s");
   force_ = find("force_N");
   force_xy_ = {find("force_x_N"), find("force_y_N")};

@@ -47,6 +47,8 @@ class MeasurementColumns {
       const double value = read(columns_[j].at);
       row->gauges_V[j] = columns_[j].is_angle ? gauges_[j].Volts(value) : value;
     }
+    row->gauge_readings = CountOr1(read(gauge_readings_));
+    row->force_readings = CountOr1(read(force_readings_));
     row->time_s = read(time_);
     row->force_N = read(force_);
     row->force_xy_N = read_point(force_xy_);
@@ -65,6 +67,11 @@ class MeasurementColumns {
   }
 
  private:
+  static double CountOr1(double readings) {
+    constexpr double kMost = 1e9;
+    return readings > 1 && readings < kMost ? readings : 1;
+  }
+
   using Column = std::optional<std::size_t>;
   using PointColumns = std::array<Column, 2>;
   struct GaugeColumn {
@@ -79,6 +86,7 @@ class MeasurementColumns {
 
   std::vector<Gauge> gauges_;
   std::vector<GaugeColumn> columns_;  // by gauge
+  Column gauge_readings_, force_readings_;
   Column time_, force_, object_angle_, contact_, temperature_, cylinder_;
   PointColumns force_xy_, object_, tip_;
   std::vector<PinColumns> pins_;

@@ -26,6 +26,9 @@ struct Measurements {
       std::numeric_limits<double>::quiet_NaN();
 
   std::vector<double> gauges_V;  ///< One per gauge of the finger, as read.
+  /// Of how many readings the gauges and the force of the row are means; 1
+  /// where the log does not say. A mean has 1 / sqrt(n) of a reading's noise.
+  double gauge_readings = 1, force_readings = 1;
   /// What the rows before leave unknown of each reading beside its noise
   /// (HistoryFilter). Empty: nothing.
   std::vector<double> history_std_V;
@@ -48,10 +51,15 @@ struct Measurements {
   /// without the finger.
   double cylinder_radius_mm = kNotMeasured;
 
-  /// The std of a gauge's reading with this noise.
+  /// The std of a mean of so many readings with this noise.
+  static double MeanStd(double noise, double readings) {
+    return readings == 1 ? noise : noise / std::sqrt(readings);
+  }
+  /// The std of a gauge's value in this row; `noise_V` is that of one reading.
   double GaugeStd_V(std::size_t gauge, double noise_V) const {
-    return history_std_V.empty() ? noise_V
-                                 : std::hypot(noise_V, history_std_V[gauge]);
+    const double mean_V = MeanStd(noise_V, gauge_readings);
+    return history_std_V.empty() ? mean_V
+                                 : std::hypot(mean_V, history_std_V[gauge]);
   }
   MeasuredForce Force() const { return MeasuredForce::Of(force_N, force_xy_N); }
   double FrictionOr(double coefficient) const {

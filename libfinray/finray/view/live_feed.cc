@@ -26,6 +26,7 @@ void LiveFeed::Push(const Measurements& readings, const FrameEstimate& estimate,
   row.gauges_V.assign(readings.gauges_V.begin(), readings.gauges_V.end());
   row.history_std_V.assign(readings.history_std_V.begin(),
                            readings.history_std_V.end());
+  row.gauge_readings = readings.gauge_readings;
   row.latency_ns = latency_ns;
   pushed_.store(at + 1, std::memory_order_release);
 }

@@ -20,6 +20,7 @@ struct LiveRow {
   /// Where the motion of the object tells it; NaN where it is the scene's.
   double friction = Measurements::kNotMeasured;
   std::vector<double> gauges_V, history_std_V;
+  double gauge_readings = 1;
   std::uint64_t latency_ns = 0;
 };
 

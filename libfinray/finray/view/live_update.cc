@@ -96,6 +96,7 @@ std::string LiveUpdates::Shape() {
   Measurements readings;
   readings.gauges_V = row_.gauges_V;
   readings.history_std_V = row_.history_std_V;
+  readings.gauge_readings = row_.gauge_readings;
   solver_.FindResiduals(readings, contacts, {}, found_.data());
   const std::size_t first = names_.size() - found_.size();
   for (std::size_t j = 0; j < found_.size(); ++j) {

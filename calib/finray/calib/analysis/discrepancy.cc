@@ -158,7 +158,7 @@ void AddErrors(CalibrationProblem* problem, const Finger& finger,
     const auto at = uncertainty.ErrorsAt({{arc_mm, normal_N, friction}},
                                          frame.gauges_V, weights);
     if (!at) continue;
-    Eigen::Vector2d reference(0, sensed ? plan.force_std_N : 0);
+    Eigen::Vector2d reference(0, sensed ? frame.ForceStd_N(plan) : 0);
     if (std::isfinite(frame.contact_mm)) {
       reference[0] = plan.contact_std_mm;
     } else if (frame.object_mm.allFinite()) {

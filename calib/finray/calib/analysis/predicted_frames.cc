@@ -6,6 +6,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "finray/calib/analysis/reading_noise.h"
 #include "finray/calib/solve/frame_pass.h"
 #include "finray/finger/geometry.h"
 #include "finray/io/nan.h"
@@ -33,6 +34,8 @@ CalibrationFrame Template(const CalibrationProblem& problem, bool contact) {
     frame.log = recorded.log;
     frame.time_s = recorded.time_s;
     frame.temperature_C = recorded.temperature_C;
+    frame.gauge_readings = recorded.gauge_readings;
+    frame.force_std_times = recorded.force_std_times;
     if (recorded.contact == contact) break;
   }
   frame.contact = contact;
@@ -78,14 +81,19 @@ std::vector<bool> WorkingGauges(const CalibrationProblem& problem) {
   return works;
 }
 
-// The rows of `all` that belong to gauges.
+// The rows of `all` that belong to gauges, over the std of one reading.
 Eigen::MatrixXd GaugeRows(const LinearizedFrame& at,
+                          const std::vector<double>& more_noise_V,
                           const Eigen::MatrixXd& all) {
   Eigen::MatrixXd rows(all.rows(), all.cols());
   Eigen::Index count = 0;
   for (std::size_t i = 0; i < at.rows.size(); ++i) {
-    if (at.rows[i].family != ResidualFamily::kGauge) continue;
-    rows.row(count++) = all.row(static_cast<Eigen::Index>(i));
+    const LinearizedFrame::Row& row = at.rows[i];
+    if (row.family != ResidualFamily::kGauge) continue;
+    rows.row(count++) =
+        all.row(static_cast<Eigen::Index>(i)) * row.std_V /
+        std::hypot(row.std_V,
+                   more_noise_V[static_cast<std::size_t>(row.gauge)]);
   }
   return rows.topRows(count);
 }
@@ -139,6 +147,7 @@ PredictedFrames PredictFrames(CalibrationProblem* problem,
     predicted.frames.push_back({true, kNaN, 0, {kNaN, kNaN}, {}});
   }
   frame = Template(*problem, true);
+  predicted.gauge_readings = frame.gauge_readings;
   const StageFrame touching = problem->parameters().Stage(frame.log);
   const bool may_touch = plan.scene.contacts.value_or(1) > 0;
   for (int i = 1; may_touch && i <= kHeights; ++i) {
@@ -201,13 +210,26 @@ double PredictedForce::calibration_N(const Eigen::MatrixXd& covariance) const {
   return std::sqrt(weight.cwiseProduct(covariance).sum());
 }
 
-std::optional<GaugedContact> SensedBy(const LinearizedFrame& at) {
-  const Eigen::MatrixXd by_contact = GaugeRows(at, at.by_contact);
+std::vector<double> MoreNoise_V(const Finger& rows, double gauge_readings,
+                                const std::vector<double>& reading_noise_V) {
+  std::vector<double> more_V;
+  for (std::size_t j = 0; j < rows.gauges.size(); ++j) {
+    const double row_V =
+        Measurements::MeanStd(rows.gauges[j].noise_V, gauge_readings);
+    more_V.push_back(std::sqrt(std::max(
+        0.0, reading_noise_V[j] * reading_noise_V[j] - row_V * row_V)));
+  }
+  return more_V;
+}
+
+std::optional<GaugedContact> SensedBy(const LinearizedFrame& at,
+                                      const std::vector<double>& more_noise_V) {
+  const Eigen::MatrixXd by_contact = GaugeRows(at, more_noise_V, at.by_contact);
   if (by_contact.rows() < 2) return {};
   GaugedContact sensed;
   sensed.noise = PseudoInverse(by_contact.transpose() * by_contact);
-  sensed.by_parameter =
-      -sensed.noise * by_contact.transpose() * GaugeRows(at, at.by_parameter);
+  sensed.by_parameter = -sensed.noise * by_contact.transpose() *
+                        GaugeRows(at, more_noise_V, at.by_parameter);
   return sensed;
 }
 
@@ -218,9 +240,12 @@ PredictedForce PredictForce(const CalibrationProblem& problem,
   force.weight = Eigen::MatrixXd::Zero(n, n);
   const double per_normal = std::hypot(1, problem.parameters().friction());
   double noise = 0;
+  const std::vector<double> more_noise_V = MoreNoise_V(
+      problem.finger(), predicted.gauge_readings, ReadingNoise_V(problem));
   for (const PredictedFrame& frame : predicted.frames) {
     if (frame.free) continue;
-    const std::optional<GaugedContact> sensed = SensedBy(frame.at);
+    const std::optional<GaugedContact> sensed =
+        SensedBy(frame.at, more_noise_V);
     if (!sensed) continue;
     const Eigen::Matrix2d& covariance = sensed->noise;
     const double place_std = std::sqrt(covariance(0, 0));

@@ -39,21 +39,29 @@ bool PredictReadings(const std::vector<PointContact>& contacts,
 struct PredictedFrames {
   std::vector<double> forces_N;
   std::vector<PredictedFrame> frames;
+  double gauge_readings = 1;  ///< Each touching one is a mean of so many.
 };
 PredictedFrames PredictFrames(CalibrationProblem* problem,
                               const Contacts& contacts,
                               const Eigen::VectorXd& unit);
 
-/// The contact that the gauges of a frame alone tell. With the derivatives E of
-/// its gauges by (l_c, f_c) and C by the parameters, both over their std,
+/// The contact that one reading of the gauges alone tells. With the derivatives
+/// E of its gauges by (l_c, f_c) and C by the parameters, both over the std of
+/// one reading,
 ///
 ///   noise = (E'E)^-1,    by_parameter = -(E'E)^-1 E'C.
 struct GaugedContact {
   Eigen::Matrix2d noise;  ///< The covariance of (l_c, f_c).
   Eigen::Matrix<double, 2, Eigen::Dynamic> by_parameter;
 };
-/// Empty with fewer than two gauges.
-std::optional<GaugedContact> SensedBy(const LinearizedFrame& at);
+/// Empty with fewer than two gauges. The rows of `at` may be means: one reading
+/// of gauge j has the variance of its row and that of `more_noise_V[j]`.
+std::optional<GaugedContact> SensedBy(const LinearizedFrame& at,
+                                      const std::vector<double>& more_noise_V);
+/// Returns that noise, where `rows` has the noise with which rows are fitted
+/// that are means of so many readings.
+std::vector<double> MoreNoise_V(const Finger& rows, double gauge_readings,
+                                const std::vector<double>& reading_noise_V);
 
 /// Predicts the std of a force that the gauges alone sense with the calibrated
 /// finger. Of a contact frame with the derivatives E of its gauges by (l_c,

@@ -9,20 +9,39 @@
 
 namespace finray {
 
+namespace {
+
+bool HasScatter(const CalibrationProblem& problem, std::size_t gauge) {
+  const std::vector<double>& scatter_V = problem.logs().reading_std_V;
+  return gauge < scatter_V.size() && std::isfinite(scatter_V[gauge]);
+}
+
+}  // namespace
+
+std::vector<double> ReadingNoise_V(const CalibrationProblem& problem) {
+  const std::optional<double>& row_std_V = problem.plan().gauge_std_V;
+  std::vector<double> noise_V;
+  for (const Gauge& gauge : problem.finger().gauges) {
+    noise_V.push_back(gauge.noise_V);
+    const std::size_t j = noise_V.size() - 1;
+    if (!row_std_V || !HasScatter(problem, j)) continue;
+    noise_V[j] = std::max(problem.logs().reading_std_V[j], *row_std_V);
+  }
+  return noise_V;
+}
+
 void SetReadingNoise(const CalibrationProblem& problem, Finger* finger,
                      std::vector<Warning>* warnings) {
-  const std::optional<double>& row_std_V = problem.plan().gauge_std_V;
-  if (!row_std_V) return;
-  const std::vector<double>& scatter_V = problem.logs().reading_std_V;
-  double most_V = 0;  // of the given finger, where it is replaced
+  const std::vector<double> noise_V = ReadingNoise_V(problem);
+  double most_V = 0;  // of the given finger, where the plan's replaces it
   for (std::size_t j = 0; j < finger->gauges.size(); ++j) {
-    if (j < scatter_V.size() && std::isfinite(scatter_V[j])) {
-      finger->gauges[j].noise_V = std::max(scatter_V[j], *row_std_V);
-    } else {
+    finger->gauges[j].noise_V = noise_V[j];
+    if (!HasScatter(problem, j)) {
       most_V = std::max(most_V, problem.given_noise_V()[j]);
     }
   }
-  if (*row_std_V >= 0.5 * most_V) return;
+  const std::optional<double>& row_std_V = problem.plan().gauge_std_V;
+  if (!row_std_V || *row_std_V >= 0.5 * most_V) return;
   warnings->push_back(
       {"noise_of_rows",
        FormatText("the plan's gauge_std_V of %.2g mV replaces a noise_V of "
@@ -36,12 +55,11 @@ void SetReadingNoise(const CalibrationProblem& problem, Finger* finger,
 
 std::string ReadingNoiseWords(const CalibrationProblem& problem,
                               const Finger& finger) {
-  const std::vector<double>& scatter_V = problem.logs().reading_std_V;
   std::string noise_mV;
   std::vector<std::string> with_scatter;
   for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
     noise_mV += FormatText("%.2g ", 1e3 * finger.gauges[j].noise_V);
-    if (j < scatter_V.size() && std::isfinite(scatter_V[j])) {
+    if (HasScatter(problem, j)) {
       with_scatter.push_back(std::to_string(j + 1));
     }
   }

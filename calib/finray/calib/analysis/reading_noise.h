@@ -10,15 +10,19 @@
 
 namespace finray {
 
-/// Gives the gauges of a calibrated finger the noise of one reading, which it
-/// senses with.
+/// Returns the noise of one reading of each gauge, with which the calibrated
+/// finger senses.
 ///
 /// The fit uses the plan's gauge_std_V, which is the std of a row. Rows may be
 /// means of many readings. If the logs tell how single readings scatter about
-/// them (CalibrationLogs::reading_std_V), noise_V becomes that scatter, but not
-/// less than gauge_std_V. If they do not, noise_V is gauge_std_V; a warning
-/// `noise_of_rows` then says where that is below half the given finger's
-/// noise_V. Without a gauge_std_V nothing changes.
+/// them (CalibrationLogs::reading_std_V), the noise is that scatter, but not
+/// less than gauge_std_V. If they do not, it is gauge_std_V. Without a
+/// gauge_std_V it is the finger's noise_V.
+std::vector<double> ReadingNoise_V(const CalibrationProblem& problem);
+
+/// Gives the gauges of a calibrated finger that noise. A warning
+/// `noise_of_rows` says where it is gauge_std_V and below half the given
+/// finger's noise_V.
 void SetReadingNoise(const CalibrationProblem& problem, Finger* finger,
                      std::vector<Warning>* warnings);
 

@@ -31,6 +31,7 @@ double TouchedAt(const CalibrationFrame& frame, const Plan& plan,
 Measurements GaugesOnly(const CalibrationFrame& frame) {
   Measurements readings;
   readings.gauges_V = frame.gauges_V;
+  readings.gauge_readings = frame.gauge_readings;
   readings.history_std_V = frame.history_std_V;
   readings.friction = frame.friction;
   if (frame.IsBench()) {
@@ -159,7 +160,7 @@ std::vector<FrameReference> ReferencesOf(const CalibrationLogs& logs,
     reference.contact = frame.contact;
     reference.undecided = frame.undecided;
     reference.force_N = frame.Force().magnitude_N;
-    reference.force_std_N = plan.force_std_N;
+    reference.force_std_N = frame.ForceStd_N(plan);
     if (std::isfinite(frame.contact_mm)) {
       reference.contact_mm = frame.contact_mm;
       reference.contact_std_mm = plan.contact_std_mm;
@@ -292,9 +293,10 @@ ForceCheck CheckForces(CalibrationProblem* problem, const Finger& calibrated,
 }
 
 Validation Validate(const Finger& finger, const std::optional<Finger>& baseline,
-                    const Plan& plan, const CalibrationLogs& logs,
+                    const Plan& plan, CalibrationLogs logs,
                     const Discretization& discretization, int threads) {
   Validation result;
+  result.stages = AlignStages(finger, plan, discretization, threads, &logs);
   result.references = ReferencesOf(logs, finger, plan, discretization, threads);
   if (!HasReference(result, &FrameReference::force_N) &&
       !HasReference(result, &FrameReference::contact_mm)) {

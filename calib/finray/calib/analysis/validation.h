@@ -9,6 +9,7 @@
 
 #include "finray/calib/analysis/error_table.h"
 #include "finray/calib/analysis/gate.h"
+#include "finray/calib/analysis/stage_fit.h"
 #include "finray/calib/problem/calibration_problem.h"
 #include "finray/calib/solve/contact_store.h"
 #include "finray/io/frame_table.h"
@@ -105,15 +106,20 @@ ForceCheck CheckForces(CalibrationProblem* problem, const Finger& calibrated,
 
 /// Compares a finger with logs that it was not calibrated from.
 struct Validation {
+  std::vector<FittedStage> stages;  ///< Of the logs that were aligned.
   std::vector<FrameReference> references;
   std::vector<FrameEstimate> estimates, baseline;  ///< `baseline` may be empty.
   ErrorTable errors;
   std::optional<ErrorTable> baseline_errors;
 };
 
+/// Aligns the stages of the logs where the plan frees them (AlignStages), and
+/// judges what is left. Rows are judged by the noise of one reading, the
+/// finger's noise_V, over the root of their gauge_readings, so `logs` are read
+/// without a gauge_std_V: that is the noise of the rows of a calibration.
 /// Throws InputError if the logs have no reference.
 Validation Validate(const Finger& finger, const std::optional<Finger>& baseline,
-                    const Plan& plan, const CalibrationLogs& logs,
+                    const Plan& plan, CalibrationLogs logs,
                     const Discretization& discretization, int threads);
 
 /// Checks gates over all frames with contact, by their names and bounds. The

@@ -5,6 +5,7 @@
 
 #include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/analysis/plausibility.h"
+#include "finray/calib/analysis/reading_noise.h"
 #include "finray/calib/design/recording_plan.h"
 #include "finray/calib/solve/information_spectrum.h"
 #include "finray/calib/solve/robust_solve.h"
@@ -77,6 +78,13 @@ KnownFinger FromLogs(const Finger& finger, const Plan& plan,
   KnownFinger known;
   known.rows = problem.FittedFrames().size();
   known.finger = parameters.Apply(finger);
+  const std::vector<double> reading_V = ReadingNoise_V(problem);
+  for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
+    // Without a scatter the plan's std may be that of means.
+    double& noise_V = known.finger.gauges[j].noise_V;
+    const bool scatter = std::isfinite(problem.logs().reading_std_V[j]);
+    noise_V = scatter ? reading_V[j] : std::max(noise_V, reading_V[j]);
+  }
   known.stage = parameters.Stage(parameters.last_fitted_log());
 
   // By name, because parameters of a log are new in the next one.

@@ -41,6 +41,7 @@ struct RecordingDraw {
   std::vector<double> force_N;               // by row; NaN without
   Eigen::MatrixXd by_place, by_force;        // mean of g'g over the region
   double noise_mm2 = 0, noise_N2 = 0;
+  double worst_mm2 = 0, worst_N2 = 0;
 };
 
 std::vector<StagePlace> Candidates(const KnownFinger& known, const Plan& plan,
@@ -128,6 +129,12 @@ RecordingDraw Meet(const KnownFinger& drawn, const Plan& plan,
   }
   const PlannedRecording recording(drawn.finger, plan, contacts,
                                    discretization);
+  std::vector<double> reading_V;
+  for (const Gauge& gauge : drawn.finger.gauges) {
+    reading_V.push_back(gauge.noise_V);
+  }
+  const std::vector<double> more_noise_V =
+      MoreNoise_V(recording.problem().finger(), 1, reading_V);
   std::size_t sensed_heights = 0;
   for (const PlannedRecording::Row& row : recording.rows()) {
     if (row.contact < row_of.size()) {
@@ -135,7 +142,7 @@ RecordingDraw Meet(const KnownFinger& drawn, const Plan& plan,
           row.at.reduced.transpose() * row.at.reduced;
       continue;
     }
-    const std::optional<GaugedContact> sensed = SensedBy(row.at);
+    const std::optional<GaugedContact> sensed = SensedBy(row.at, more_noise_V);
     if (!sensed) {
       throw InputError("the finger has fewer than two gauges");
     }
@@ -148,6 +155,8 @@ RecordingDraw Meet(const KnownFinger& drawn, const Plan& plan,
     add(&draw.by_force, g.row(1));
     draw.noise_mm2 += sensed->noise(0, 0);
     draw.noise_N2 += sensed->noise(1, 1);
+    draw.worst_mm2 = std::max(draw.worst_mm2, sensed->noise(0, 0));
+    draw.worst_N2 = std::max(draw.worst_N2, sensed->noise(1, 1));
     ++sensed_heights;
   }
   if (sensed_heights == 0) {
@@ -262,13 +271,17 @@ RecordingPlan PlanRecording(const KnownFinger& known, const Plan& plan,
   result.suffices = result.met >= target.confidence;
   result.median_mm = Median(errors.place_mm);
   result.median_N = Median(errors.force_N);
-  std::vector<double> noise_mm, noise_N;
-  for (const RecordingDraw& draw : draws) {
-    noise_mm.push_back(std::sqrt(draw.noise_mm2));
-    noise_N.push_back(std::sqrt(draw.noise_N2));
-  }
-  result.noise_mm = Median(noise_mm);
-  result.noise_N = Median(noise_N);
+  const auto median = [&](double RecordingDraw::*variance) {
+    std::vector<double> std;
+    for (const RecordingDraw& draw : draws) {
+      std.push_back(std::sqrt(draw.*variance));
+    }
+    return Median(std);
+  };
+  result.noise_mm = median(&RecordingDraw::noise_mm2);
+  result.noise_N = median(&RecordingDraw::noise_N2);
+  result.worst_mm = median(&RecordingDraw::worst_mm2);
+  result.worst_N = median(&RecordingDraw::worst_N2);
   result.largest_N = 0;
   if (rows == 0) return result;
 

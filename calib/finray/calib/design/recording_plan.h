@@ -32,7 +32,7 @@ struct RecordingTarget {
 /// What is known of a finger before the recording: the drawing with the priors
 /// of the plan, or a first recording.
 struct KnownFinger {
-  Finger finger;
+  Finger finger;  ///< Its noise_V is that of one reading.
   StageFrame stage;
   /// The information on the free parameters of a PlannedRecording of this
   /// finger, in their units.
@@ -68,6 +68,7 @@ struct RecordingPlan {
   /// The rms error over the region: of noise alone, and the predicted median
   /// with the calibration's; of place and force.
   double noise_mm, noise_N, median_mm, median_N;
+  double worst_mm, worst_N;  ///< The std of noise where it is largest.
   /// The largest force of all drawn fingers and rows.
   double largest_N;
 };

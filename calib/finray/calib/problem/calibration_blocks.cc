@@ -24,12 +24,14 @@ MeasurementModel ModelOf(const Finger& finger, const Plan& plan) {
   return model;
 }
 
-MeasurementModel Repeated(MeasurementModel model,
-                          const CalibrationFrame& frame) {
+// Returns the model with the std that this frame has.
+MeasurementModel ModelOf(const CalibrationFrame& frame,
+                         MeasurementModel model) {
   for (double& std : model.gauge_std_V) std *= frame.readings_std_times;
   for (auto* std : {&model.force_std_N, &model.pin_std_mm, &model.tip_std_mm}) {
     if (*std) **std *= frame.readings_std_times;
   }
+  if (model.force_std_N) *model.force_std_N *= frame.force_std_times;
   if (model.contact_std_mm) *model.contact_std_mm *= frame.place_std_times;
   if (model.object_std_mm) *model.object_std_mm *= frame.place_std_times;
   return model;
@@ -69,9 +71,10 @@ std::vector<FrameBlock> CalibrationBlocks::Of(const CalibrationFrame& frame,
                                               const FrameEvaluation* evaluation,
                                               double* unknowns) const {
   const MeasurementModel& model = frame.contact ? model_ : free_model_;
-  const bool repeats =
-      frame.place_std_times > 1 || frame.readings_std_times > 1;
-  return MeasurementBlocks(frame, repeats ? Repeated(model, frame) : model,
+  const bool own_std = frame.place_std_times > 1 ||
+                       frame.readings_std_times > 1 ||
+                       frame.force_std_times != 1;
+  return MeasurementBlocks(frame, own_std ? ModelOf(frame, model) : model,
                            parameters_.Of(frame), finger_.gauges, evaluation,
                            unknowns);
 }

@@ -60,7 +60,7 @@ Touch TouchOf(const CalibrationFrame& frame, const Finger& finger,
              : 0;
   if (force.IsMeasured() && !(object && !plan.ForceZeroIsKnown())) {
     const double std_N =
-        std::hypot(plan.force_std_N, offset.prior_std.value_or(0),
+        std::hypot(frame.ForceStd_N(plan), offset.prior_std.value_or(0),
                    weight.prior_std.value_or(0));
     const bool contact = force.magnitude_N > 0 && !force.IsWithinNoise(std_N);
     if (!object || !object_known) return {contact, false};
@@ -247,6 +247,23 @@ void RefuseNearlyNamed(const FrameTable& table) {
   refuse("force_N");
 }
 
+// Returns the std of one reading of an axis of the force sensor, the root mean
+// square of its scatter about the rows; nothing where the log does not tell.
+std::optional<double> ForceScatter_N(const FrameTable& table) {
+  double squares = 0;
+  int count = 0;
+  for (const char* name :
+       {"force_scatter_N", "force_x_scatter_N", "force_y_scatter_N"}) {
+    for (const double std_N : table.NumbersOrNan(name)) {
+      if (!(std_N > 0 && std_N < kLargest)) continue;
+      squares += std_N * std_N;
+      ++count;
+    }
+  }
+  if (count == 0) return std::nullopt;
+  return std::sqrt(squares / count);
+}
+
 // Reads the rows of one log. A log with pins may lack all gauges, but not only
 // some. A bench log may lack some, because its gauges are bent one by one.
 std::vector<CalibrationFrame> ReadLog(const FrameTable& table,
@@ -278,11 +295,19 @@ std::vector<CalibrationFrame> ReadLog(const FrameTable& table,
   if (!bench && plan.family(ParameterFamily::kTemperatureCoefficient).free) {
     temperatures = Needed(table, "temperature_C", "temperature_coefficient");
   }
+  const std::optional<double> force_reading_std_N =
+      plan.force_std_stated ? std::nullopt : ForceScatter_N(table);
   std::vector<CalibrationFrame> frames(rows.size());
   for (std::size_t row = 0; row < rows.size(); ++row) {
     CalibrationFrame& frame = frames[row];
     static_cast<Measurements&>(frame) = std::move(rows[row]);
     frame.row = static_cast<int>(row);
+    if (plan.gauge_std_V) frame.gauge_readings = 1;
+    if (force_reading_std_N && frame.force_readings > 1) {
+      frame.force_std_times =
+          Measurements::MeanStd(*force_reading_std_N, frame.force_readings) /
+          plan.force_std_N;
+    }
     for (int j = 0; j < gauges; ++j) {
       double& volts = frame.gauges_V[j];
       if (!finger.gauges[j].IsMeasured(volts)) volts = std::nan("");

@@ -28,6 +28,13 @@ struct CalibrationFrame : Measurements {
   /// count so many times, because the row repeats others (repeated_rows.h).
   double place_std_times = 1, readings_std_times = 1;
 
+  /// How many times the plan's force_std_N is the std of the force in this row,
+  /// where the row is a mean and the plan states no std.
+  double force_std_times = 1;
+
+  double ForceStd_N(const Plan& plan) const {
+    return force_std_times * plan.force_std_N;
+  }
   /// How many times the std of a family counts.
   double StdTimes(ResidualFamily family) const {
     return family == ResidualFamily::kObject ||
@@ -45,7 +52,9 @@ struct CalibrationLogs {
   std::vector<std::string> names;
   std::vector<CalibrationFrame> frames;
   /// The std of one reading of each gauge where rows are means of readings: the
-  /// root mean square of gauge_<j>_scatter_V. NaN for a gauge without.
+  /// root mean square of gauge_<j>_scatter_V. NaN for a gauge without. A row
+  /// has it over the root of its gauge_readings, unless the plan states the std
+  /// of rows: its frames then count as one reading each.
   std::vector<double> reading_std_V;
 
   /// Says for each log whether all its rows are held out.

@@ -244,6 +244,7 @@ Plan ReadPlan(const YamlMap& yaml) {
     const YamlMap map = yaml.Map("measurements");
     map.AllowOnly({"force_std_N", "gauge_std_V", "object_std_mm",
                    "contact_std_mm", "pin_std_mm", "tip_std_mm"});
+    plan.force_std_stated = map.Has("force_std_N");
     plan.force_std_N = map.PositiveNumber("force_std_N", plan.force_std_N);
     const auto read = [&](const char* key, std::optional<double>* std) {
       if (map.Has(key)) *std = map.PositiveNumber(key);

@@ -89,8 +89,15 @@ struct Plan {
   int piece_count = 5;
   /// The temperature coefficient counts from here.
   double reference_temperature_C = 20;
+  /// The std of a row. Where the plan states none, 0.02 N is that of a row that
+  /// is one reading, and rows that are means have the noise that their log
+  /// tells.
   double force_std_N = 0.02;
-  /// Replaces the noise_V of each gauge, in the calibrated finger too.
+  bool force_std_stated = false;
+  /// The std of a row. It replaces the noise_V of each gauge, in the calibrated
+  /// finger too where no scatter of readings is known (SetReadingNoise). Where
+  /// the plan states none, rows that are means of n readings have noise_V /
+  /// sqrt(n).
   std::optional<double> gauge_std_V;
   double object_std_mm = 0.05;
   double contact_std_mm = 0.3;

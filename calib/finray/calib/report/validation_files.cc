@@ -77,6 +77,20 @@ std::string ValidationYaml(const CalibrationLogs& logs,
   if (validation.baseline_errors) {
     EmitErrorTable("baseline", *validation.baseline_errors, &yaml);
   }
+  if (!validation.stages.empty()) {
+    EmitSeq(&yaml, "stages", validation.stages, [&](const FittedStage& stage) {
+      yaml << YAML::Flow << YAML::BeginMap;
+      YamlPairs(&yaml, "log", logs.paths[stage.log], "origin_x_mm",
+                stage.origin_mm.x(), "origin_y_mm", stage.origin_mm.y(),
+                "origin_x_std_mm", stage.origin_std_mm.x(), "origin_y_std_mm",
+                stage.origin_std_mm.y());
+      if (stage.rotation_std_deg > 0) {
+        YamlPairs(&yaml, "rotation_deg", stage.rotation_deg, "rotation_std_deg",
+                  stage.rotation_std_deg);
+      }
+      yaml << YAML::EndMap;
+    });
+  }
   BeginMap(&yaml, "inputs");
   const std::pair<const char*, const std::string*> named[] = {
       {"finger", &inputs.finger_path},

@@ -94,8 +94,9 @@ void ContactGuess::AddGauges(const CalibrationFrame& frame) {
     const double angle = gauge.Angle(frame.gauges_V[j]);
     if (!std::isfinite(angle)) continue;
     values_[j] = angle;
-    weights_[j] =
-        std::abs(gauge.Slope(angle)) / problem_.blocks().gauge_std_V(j);
+    weights_[j] = std::abs(gauge.Slope(angle)) /
+                  frame.GaugeStd_V(static_cast<std::size_t>(j),
+                                   problem_.blocks().gauge_std_V(j));
   }
 }
 

@@ -29,11 +29,11 @@ std::map<int, double> Chi2As(bool contact, const std::vector<int>& frames,
 // Returns chi2 of the force, for which a free frame has no residual.
 double Chi2OfForce(const CalibrationProblem& problem, int i) {
   const Plan& plan = problem.plan();
-  const double force = problem.frame(i).Force().magnitude_N;
-  if (!std::isfinite(force) || !plan.ForceZeroIsKnown()) {
-    return 0;
-  }
-  double rho[3] = {std::pow(force / plan.force_std_N, 2)};
+  const CalibrationFrame& frame = problem.frame(i);
+  const MeasuredForce force = frame.Force();
+  if (!force.IsMeasured() || !plan.ForceZeroIsKnown()) return 0;
+  const double std_N = frame.ForceStd_N(plan) * frame.readings_std_times;
+  double rho[3] = {std::pow(force.magnitude_N / std_N, 2)};
   if (const auto loss = MakeLoss(plan)) loss->Evaluate(rho[0], rho);
   return rho[0];
 }
