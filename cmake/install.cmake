@@ -10,7 +10,7 @@ install(TARGETS ${FINRAY_APP_NAMES} DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONEN
 # Files that executables read lie as in the source tree (io/resources.h). Python tools
 # add their folder here.
 set(FINRAY_RESOURCE_FOLDERS calib/report configs scripts/perception scripts/benchmark
-    scripts/peers scripts/import scripts/convert
+    scripts/peers scripts/common scripts/import scripts/convert
     datasets/simulated_r15)
 foreach(folder ${FINRAY_RESOURCE_FOLDERS})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}/

@@ -10,6 +10,12 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.dont_write_bytecode = True
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "scripts/common"))
+import guard  # noqa: E402
+
+guard.protect("draw_finger.py", __name__)
+
 sys.path.insert(0, str(ROOT / "calib" / "report"))
 
 from finger_drawing import BEAM, FORCE, GAUGE, INK, QUIET, RIB, Drawing

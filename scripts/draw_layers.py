@@ -11,6 +11,11 @@ import pathlib
 import re
 import sys
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "scripts/common"))
+import guard  # noqa: E402
+
+guard.protect("draw_layers.py", __name__)
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 INCLUDE = re.compile(r'#include "finray/([^"\n]*)/[^/"\n]+"')
 

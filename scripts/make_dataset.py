@@ -14,6 +14,11 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "scripts/common"))
+import guard  # noqa: E402
+
+guard.protect("make_dataset.py", __name__)
+
 RADIUS_MM = 15
 # Roughly the force in N that 1 mm of indentation costs, by height in mm.
 STIFFNESS = [(20, 9.7), (40, 2.0), (60, 1.0), (80, 0.83), (100, 1.04), (115, 1.9)]

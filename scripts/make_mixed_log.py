@@ -14,6 +14,11 @@ import pathlib
 import random
 import sys
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "scripts/common"))
+import guard  # noqa: E402
+
+guard.protect("make_mixed_log.py", __name__)
+
 import numpy as np
 import yaml
 

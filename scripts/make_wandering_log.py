@@ -18,6 +18,11 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "scripts/common"))
+import guard  # noqa: E402
+
+guard.protect("make_wandering_log.py", __name__)
+
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 RATE_HZ = 100
 LOW_MM, HIGH_MM, MOST_N = 35, 105, 8

@@ -12,6 +12,11 @@ import unicodedata
 
 sys.dont_write_bytecode = True
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "scripts/common"))
+import guard  # noqa: E402
+
+guard.protect("draw_finger.py", __name__)
+
 import page
 from finger_drawing import BEAM, FORCE, GAUGE, QUIET, RIB, Drawing
 

@@ -7,10 +7,15 @@ of the model is their centre lines. Exit code 2 and one line if the drawing is n
 """
 
 import math
+import os
 import pathlib
 import sys
 
 sys.dont_write_bytecode = True
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "scripts/common"))
+import guard  # noqa: E402
+
+guard.protect("finray_design", __name__)
 
 try:
     import ezdxf
@@ -19,17 +24,17 @@ except ImportError:
     sys.exit(print("finray_design: --dxf needs the package python3-ezdxf", file=sys.stderr) or 2)
 import numpy as np
 
+import limits
+from errors import BadInput
+
 MM = {0: 1.0, 1: 25.4, 2: 304.8, 4: 1.0, 5: 10.0, 6: 1000.0}
 UNIT = {0: "no unit, taken as mm", 1: "inches", 2: "feet", 4: "mm", 5: "cm", 6: "m"}
+LARGEST = 1e4  # mm across; the points of a larger circle have no end
 JOIN = 0.02  # mm between ends of pieces that belong together
 STRAIGHT = math.radians(1)  # pieces that turn by less are one edge
 PARALLEL = math.radians(4)
 SMALLEST = 2e-3  # of the outer area: smaller contours are holes for screws
 RIB_BENDS = 0.5  # of the front beam's thickness: ribs from there on are beams, with an eighth of its stiffness or more
-
-
-class Refused(Exception):
-    pass
 
 
 def cross(a, b):
@@ -40,10 +45,14 @@ def contours(doc):
     """Closed contours of the model space in mm, counter-clockwise."""
     unit = doc.header.get("$INSUNITS", 0)
     if unit not in MM:
-        raise Refused(f"$INSUNITS {unit} is no unit of length that is read; save it in mm")
+        raise BadInput(f"$INSUNITS {unit} is no unit of length that is read; save it in mm")
     loops, open_ends = [], []
     for entity in doc.modelspace().query("LWPOLYLINE POLYLINE LINE ARC CIRCLE ELLIPSE SPLINE"):
-        points = np.array([(p.x, p.y) for p in dxf_path.make_path(entity).flattening(0.02 / MM[unit])]) * MM[unit]
+        outline = dxf_path.make_path(entity)
+        across = np.ptp(np.array([(p.x, p.y) for p in outline.control_vertices()] or [(0, 0)]) * MM[unit], axis=0).max()
+        if not across <= LARGEST:
+            raise BadInput(f"a {entity.dxftype()} is {across:.3g} mm across; expected {LARGEST:g} mm at most")
+        points = np.array([(p.x, p.y) for p in outline.flattening(0.02 / MM[unit])]) * MM[unit]
         if len(points) < 2:
             continue
         (loops if np.linalg.norm(points[0] - points[-1]) < JOIN and len(points) > 3 else open_ends).append(points)
@@ -59,7 +68,7 @@ def contours(doc):
                     break
             else:
                 x, y = chain[-1]
-                raise Refused(f"the contour that ends at ({x:.4g}, {y:.4g}) mm is not closed")
+                raise BadInput(f"the contour that ends at ({x:.4g}, {y:.4g}) mm is not closed")
         loops.append(chain)
     closed = []
     for loop in loops:
@@ -99,15 +108,15 @@ def frame(outer):
     """The front side's line, the base's direction, and the back side's line, as (point, direction towards the tip)."""
     sides = sorted(edges(outer), key=length, reverse=True)
     if len(sides) < 3:
-        raise Refused("the outer contour has no two straight sides and a base")
+        raise BadInput("the outer contour has no two straight sides and a base")
     a, b = sides[0], sides[1]
     if angle_between(unit(a), unit(b)) < PARALLEL:
-        raise Refused("the two longest sides of the outer contour are parallel; a finger's meet at the tip")
+        raise BadInput("the two longest sides of the outer contour are parallel; a finger's meet at the tip")
     tip = meet(a[0], unit(a), b[0], unit(b))
     base = max(sides[2:], key=lambda e: float(np.linalg.norm((e[0] + e[1]) / 2 - tip)))
     right = [abs(math.degrees(angle_between(unit(e), unit(base))) - 90) for e in (a, b)]
     if min(right) > 3:
-        raise Refused(f"neither long side is at a right angle to the base (off by {right[0]:.1f} and {right[1]:.1f} "
+        raise BadInput(f"neither long side is at a right angle to the base (off by {right[0]:.1f} and {right[1]:.1f} "
                       "deg); the front beam has to be")
     front, back = (a, b) if right[0] < right[1] else (b, a)
 
@@ -151,19 +160,19 @@ def read(path):
     try:
         doc = ezdxf.readfile(path)
     except OSError as error:
-        raise Refused(error.strerror or "cannot be read as DXF")
-    except (ezdxf.DXFError, ValueError, UnicodeError) as error:
-        raise Refused("is no DXF file: " + " ".join(str(error).split()))
+        raise BadInput(error.strerror or "cannot be read as DXF")
+    except Exception as error:  # a DXFError, or whatever else comes on odd files
+        raise BadInput("is no DXF file: " + " ".join(str(error).split()))
     found, unit_words = contours(doc)
     if not found:
-        raise Refused("has no closed contour in its model space")
+        raise BadInput("has no closed contour in its model space")
     outer_area, outer = found[0]
     notes = [f"unit of the drawing: {unit_words}"]
     inner = [loop for area, loop in found[1:] if area > SMALLEST * outer_area]
     if len(inner) < len(found) - 1:
         notes.append(f"{len(found) - 1 - len(inner)} small contours are left out as holes")
     if not inner:
-        raise Refused("has no cells: draw a closed contour for each cell between ribs")
+        raise BadInput("has no cells: draw a closed contour for each cell between ribs")
 
     (tip, up), (_, along) = frame(outer)
     right = np.array([up[1], -up[0]])
@@ -181,12 +190,12 @@ def read(path):
     cells.sort(key=lambda cell: cell.height)
     for i, cell in enumerate(cells, 1):
         if cell.front is None or cell.back is None or cell.bottom is None:
-            raise Refused(f"cell {i} from the base has no sides along both beams")
+            raise BadInput(f"cell {i} from the base has no sides along both beams")
     normal = np.array([back[1], -back[0]])  # out of the back beam
     front_mm = thickness([float(np.mean([c.front[0][0], c.front[1][0]])) for c in cells], "front", notes)
     back_mm = thickness([-float(np.mean([c.back[0] @ normal, c.back[1] @ normal])) for c in cells], "back", notes)
     if min(front_mm, back_mm) <= 0:
-        raise Refused("a cell reaches out of the outer contour")
+        raise BadInput("a cell reaches out of the outer contour")
     base = float(np.mean([cells[0].bottom[0][1], cells[0].bottom[1][1]]))
 
     # The centre lines; the origin is where the front one meets the base.
@@ -233,13 +242,14 @@ def text(source, finger, width, modulus):
 def main():
     source, target, width, modulus = sys.argv[1:5]
     try:
-        yaml, notes = text(source, read(source), width, modulus)
-    except Refused as error:
-        print(f"finray_design: {source}: {error}", file=sys.stderr)
-        return 2
-    except (ValueError, ZeroDivisionError, FloatingPointError, IndexError):
-        print(f"finray_design: {source}: the contours are none of a strip finger", file=sys.stderr)
-        return 2
+        with limits.bounded(os.path.getsize(source) if os.path.isfile(source) else 0):
+            yaml, notes = text(source, read(source), width, modulus)
+    except (BadInput, limits.TooLong) as error:
+        raise BadInput(f"{source}: {error}") from error
+    except MemoryError as error:
+        raise BadInput(f"{source}: {limits.why('memory')}") from error
+    except Exception as error:  # ezdxf raises whatever comes on odd drawings
+        raise BadInput(f"{source}: the contours are none of a strip finger") from error
     pathlib.Path(target).write_text(yaml, "utf-8")
     for note in notes:
         print("drawing        " + note)

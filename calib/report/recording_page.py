@@ -10,6 +10,11 @@ import sys
 
 sys.dont_write_bytecode = True
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "scripts/common"))
+import guard  # noqa: E402
+
+guard.protect("recording_page.py", __name__)
+
 import markupsafe
 
 import page

@@ -15,6 +15,11 @@ import sys
 
 sys.dont_write_bytecode = True
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "scripts/common"))
+import guard  # noqa: E402
+
+guard.protect("render.py", __name__)
+
 import jinja2
 
 import page

@@ -2,16 +2,13 @@
 CSS variables in the SVG. Colours are Okabe and Ito's, apart for colour-blind
 readers; series differ in their markers too."""
 
-import atexit
 import io
-import os
+import pathlib
 import re
-import shutil
-import tempfile
+import sys
 
-if "MPLCONFIGDIR" not in os.environ:
-    os.environ["MPLCONFIGDIR"] = tempfile.mkdtemp(prefix="finray_mpl_")
-    atexit.register(shutil.rmtree, os.environ["MPLCONFIGDIR"], ignore_errors=True)
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "scripts/common"))
+import plain_matplotlib  # noqa: F401  before matplotlib
 
 import matplotlib
 

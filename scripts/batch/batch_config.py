@@ -18,9 +18,13 @@ AT_LEAST_ONE = ("logs_per_task", "log_MB_per_task", "cpus_per_task", "memory_MB"
 class BadInput(Exception):
     """One line for the user."""
 
+    exit_code = 2
+
 
 class BadUsage(Exception):
     """One line for the user."""
+
+    exit_code = 1
 
 
 def place_of(path, before):

@@ -3,7 +3,7 @@ report."""
 
 import math
 
-import theme  # before matplotlib: it says where that keeps its files
+import theme  # before matplotlib, which it brings as it comes
 
 from matplotlib import ticker
 

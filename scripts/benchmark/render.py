@@ -8,6 +8,12 @@ import statistics
 import sys
 
 sys.dont_write_bytecode = True
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import guard  # noqa: E402
+
+guard.protect("render.py", __name__)
+
 LOOK = pathlib.Path(__file__).parents[2] / "calib" / "report"
 sys.path.append(str(LOOK))
 

@@ -4,9 +4,9 @@ import os
 import pathlib
 import platform
 import re
-import sys
 import tempfile
 
+import guard
 import project
 import yaml
 from errors import BadInput, UsageError, did_you_mean
@@ -112,18 +112,15 @@ def run(flags):
     return 4 if old and not out else 0
 
 
-def main(arguments):
+def _main(arguments):
     if any(a in ("-h", "-help", "--help") for a in arguments):
         print(HELP)
         return 0
     if any(a in ("-version", "--version") for a in arguments):
         print(f"finray_convert version {project.version()}\npython {platform.python_version()}\npyyaml {yaml.__version__}")
         return 0
-    try:
-        return run(parse(arguments))
-    except UsageError as error:
-        print(f"finray_convert: {error}; see --help", file=sys.stderr)
-        return 1
-    except (BadInput, OSError) as error:
-        print(f"finray_convert: {error}", file=sys.stderr)
-        return 2
+    return run(parse(arguments))
+
+
+def main(arguments):
+    return guard.run("finray_convert", _main, arguments)

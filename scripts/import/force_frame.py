@@ -65,7 +65,10 @@ def follows_gauges(columns, axes, free):
     """Whether the force of rows that count as free goes with the gauges, so that something touches
     in them: gauges explain more than half of the variance that chance leaves them. Free rows are
     found by the gauges alone, and where every row is another place all may look alike."""
-    gauges = np.stack([v for name, v in columns.items() if name.startswith("gauge_")], axis=1)
+    gauges = [v for name, v in columns.items() if name.startswith("gauge_")]
+    if not gauges:
+        return False
+    gauges = np.stack(gauges, axis=1)
     force = np.stack([columns[a] for a in axes], axis=1)
     rows = free & np.isfinite(force).all(axis=1) & np.isfinite(gauges).all(axis=1)
     left = rows.sum() - gauges.shape[1] - 1

@@ -8,6 +8,7 @@ import sys
 import numpy as np
 
 import flags
+import guard
 import force_frame
 import joining
 import limits
@@ -59,6 +60,10 @@ class Import:
             if len(timed) > 1 and r.stamps is None and r.seconds is None:
                 raise BadInput(f"{r.table.path}: {r.name} has no column that becomes time_s, so it "
                                "cannot be joined with the others")
+            if len(timed) > 1 and 2 * r.same_times >= r.table.rows - 1 > 0:
+                raise BadInput(f"{r.table.path}: {r.same_times} of the {r.table.rows} rows of {r.name} have the time of the "
+                               "row before, so they cannot be joined with the others by time; a clock of whole seconds "
+                               "is too coarse")
         self.in_force["time_origin"] = recordings_of.align_clocks(self.recordings, self.mapping)
         for r in self.recordings:
             self.warnings += r.warnings
@@ -213,28 +218,15 @@ def _versions():
             pass
 
 
+def _main(arguments):
+    if any(a in ("-h", "-help", "--help") for a in arguments):
+        print(flags.help_text())
+    elif any(a in ("-version", "--version") for a in arguments):
+        print("\n".join(_versions()))
+    else:
+        values, given = flags.parse(arguments)
+        Import(values, given).run()
+
+
 def main(arguments):
-    try:
-        if any(a in ("-h", "-help", "--help") for a in arguments):
-            print(flags.help_text())
-        elif any(a in ("-version", "--version") for a in arguments):
-            print("\n".join(_versions()))
-        else:
-            values, given = flags.parse(arguments)
-            Import(values, given).run()
-        sys.stdout.flush()
-    except UsageError as error:
-        print(f"finray_import: {error}; see --help", file=sys.stderr)
-        return 1
-    except BadInput as error:
-        print(f"finray_import: {error}", file=sys.stderr)
-        return 2
-    except NoSolution as error:
-        print(f"finray_import: {error}", file=sys.stderr)
-        return 3
-    except KeyboardInterrupt:
-        print("finray_import: interrupted", file=sys.stderr)
-        return 130
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    return 0
+    return guard.run("finray_import", _main, arguments)

@@ -1,8 +1,8 @@
 """Writes the log, and the mapping by which the same log comes out again."""
 
-import gzip
 import os
 import tempfile
+import zlib
 
 import numpy as np
 import yaml
@@ -11,14 +11,16 @@ import units
 import vocabulary
 from errors import BadInput
 
+ROWS_A_BLOCK = 10000
 
-def _part(path, data):
-    """Writes a file beside `path` that is to take its place, and returns its name."""
+
+def _part(path, blocks):
+    """Writes blocks of bytes to a file beside `path` that is to take its place, and returns its name."""
     descriptor, part = tempfile.mkstemp(prefix=".", suffix=".part",
                                         dir=os.path.dirname(path) or ".")
     try:
         with os.fdopen(descriptor, "wb") as file:
-            file.write(data)
+            file.writelines(blocks)
         os.chmod(part, 0o666 & ~_umask())
     except BaseException:
         os.unlink(part)
@@ -27,12 +29,12 @@ def _part(path, data):
 
 
 def _write_all(files):
-    """Writes files {path: bytes}, each whole or not at all. All are on the disk before the first
+    """Writes files {path: blocks of bytes}, each whole or not at all. All are on the disk before the first
     one takes its place, so a full disk leaves none of them."""
     parts = {}
     try:
-        for path, data in files.items():
-            parts[path] = _part(path, data)
+        for path, blocks in files.items():
+            parts[path] = _part(path, blocks)
         for path in files:
             os.replace(parts[path], path)
             del parts[path]
@@ -49,11 +51,21 @@ def _umask():
     return mask
 
 
-def log_text(columns):
-    """CSV with numbers that read back as the same double; an empty cell is not measured."""
+def _log(columns):
+    """CSV in blocks, with numbers that read back as the same double; an empty cell is not measured."""
     names = sorted(columns, key=vocabulary.order)
-    cells = [["" if np.isnan(v) else repr(float(v)) for v in columns[name]] for name in names]
-    return "\n".join([",".join(names)] + [",".join(row) for row in zip(*cells)]) + "\n"
+    yield (",".join(names) + "\n").encode()
+    for first in range(0, len(columns[names[0]]), ROWS_A_BLOCK):
+        cells = [["" if np.isnan(v) else repr(float(v)) for v in columns[name][first:first + ROWS_A_BLOCK]]
+                 for name in names]
+        yield "".join(",".join(row) + "\n" for row in zip(*cells)).encode()
+
+
+def _packed(blocks):
+    squeeze = zlib.compressobj(9, wbits=31)  # gzip without a time in it
+    for block in blocks:
+        yield squeeze.compress(block)
+    yield squeeze.flush()
 
 
 def mapping_path(out):
@@ -144,7 +156,5 @@ def refuse_to_overwrite(inputs, out):
 
 
 def write(path, columns, text):
-    log = log_text(columns).encode()
-    if path.endswith(".gz"):
-        log = gzip.compress(log, mtime=0)
-    _write_all({mapping_path(path): text.encode(), path: log})
+    log = _log(columns)
+    _write_all({mapping_path(path): [text.encode()], path: _packed(log) if path.endswith(".gz") else log})

@@ -63,7 +63,8 @@ def read(path, mapping):
     except OSError as error:
         raise BadInput(f"{path}: cannot be read: {error.strerror or shown(error)}") from error
     except (MemoryError, limits.TooLong) as error:
-        raise BadInput(f"{path}: {limits.why(error)}") from error
+        limit = "memory" if isinstance(error, MemoryError) else "time"
+        raise BadInput(f"{path}: {limits.why(limit)}") from error
     tables = [table for table in tables if table.rows]
     if not tables:
         raise BadInput(f"{path}: has no rows of numbers")

@@ -28,6 +28,7 @@ class Recording:
         self.channels, self.used, self.unknown, self.warnings = {}, [], [], []
         self.stamps = self.seconds = self.time = None
         self.offset_s, self.offset_std_s = 0.0, None
+        self.same_times = 0  # rows that have the time of the row before
 
     def has(self, *stems):
         return any(name.startswith(stem) for name in self.channels for stem in stems)
@@ -132,7 +133,7 @@ def _take_time(recording, column, target):
     if len(back):
         raise BadInput(f"{table.where(back[0] + 1)}: column '{shown(column.name)}': the time goes "
                        "back; rows must be in order of time")
-    same = int(np.sum(steps == 0))
+    recording.same_times = same = int(np.sum(steps == 0))
     if same:
         recording.warnings.append(f"{recording.name}: {same} rows have the time of the row before")
     return unit

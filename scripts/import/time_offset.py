@@ -51,6 +51,12 @@ def _smooth(time, values, width_s):
     return np.convolve(np.pad(values, reach, mode="edge"), kernel, "valid")
 
 
+def _alive(recording, stem):
+    """Names of channels; one that is dead for most of the time would leave no rows."""
+    return sorted(name for name, values in recording.channels.items()
+                  if name.startswith(stem) and np.isfinite(values).mean() > 0.5)
+
+
 def _monomials(gauges, degree):
     columns = [np.ones(len(gauges))]
     for d in range(1, degree + 1):
@@ -66,10 +72,7 @@ class _Misfit:
         self.force_is_slow = force.period_s >= gauges.period_s
         self.slow, self.fast = (force, gauges) if self.force_is_slow else (gauges, force)
         self.period = self.slow.period_s
-        # A gauge that is dead for most of the time would leave no rows.
-        self.names = {r: sorted(n for n, v in r.channels.items() if n.startswith(stem) and
-                                np.isfinite(v).mean() > 0.5)
-                      for r, stem in ((force, "force_"), (gauges, "gauge_"))}
+        self.names = {r: _alive(r, stem) for r, stem in ((force, "force_"), (gauges, "gauge_"))}
         self.width_s = max(0.1 * self.period, SMOOTHING_S)
         self.inputs = {n: _smooth(r.time, r.channels[n], self.width_s)
                        for r in (force, gauges) for n in self.names[r]}
@@ -274,6 +277,9 @@ def estimate(force, gauges, longest_s):
     why = f"the time offset between {force.name} and {gauges.name} is not determined"
     if not force.period_s or not gauges.period_s:
         raise NoSolution(f"{why}: a table has fewer than two times")
+    for recording, stem in ((force, "force_"), (gauges, "gauge_")):
+        if not _alive(recording, stem):
+            raise NoSolution(f"{why}: {recording.name} has no readings in most of its rows")
     why += f" within {longest_s:g} s"
     try:
         found = _within(force, gauges, longest_s)

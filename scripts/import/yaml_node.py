@@ -44,6 +44,8 @@ class Node:
             raise BadInput(f"{place(path, node)}: expected a mapping (key: value)")
         self.path, self.node, self.values, self.places = path, node, {}, {}
         for key, value in node.value:
+            if not isinstance(key, yaml.ScalarNode):
+                raise BadInput(f"{place(path, key)}: expected a word as a key")
             name, where = str(key.value), place(path, key)
             if name in self.values:
                 raise BadInput(f"{where}: '{shown(name)}' is there twice")
@@ -73,16 +75,17 @@ class Node:
     # Where the key is absent, the methods below return `default`, which errors name.
 
     def _checked(self, key, good, expected, default=None):
-        value = self.plain(key)
-        if value is None:
+        if key not in self.values:
             return default
+        value = self.plain(key)
         if not good(value):
             self._fail_expected(key, expected, value, default)
         return value
 
     def _fail_expected(self, key, expected, value, default):
         named = "" if default is None else f"; the default is {str(default).lower()}"
-        self.fail(key, f"expected {expected}, found '{shown(value)}'{named}")
+        found = "nothing" if value is None else f"'{shown(value)}'"
+        self.fail(key, f"expected {expected}, found {found}{named}")
 
     def text(self, key, allowed=None, default=None):
         if allowed is None:
@@ -91,9 +94,9 @@ class Node:
             f"'{a}'" if a != "\t" else "tab" for a in allowed), default)
 
     def number(self, key, default=None):
-        value = self.plain(key)
-        if value is None:
+        if key not in self.values:
             return default
+        value = self.plain(key)
         if isinstance(value, str):  # PyYAML takes 8e-4 for a text
             try:
                 value = float(value)

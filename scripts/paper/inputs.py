@@ -9,7 +9,7 @@ import yaml
 
 
 class BadInput(Exception):
-    pass
+    exit_code = 2
 
 
 def _text(path, written_by):

@@ -12,6 +12,11 @@ import sys
 
 sys.dont_write_bytecode = True
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import guard  # noqa: E402
+
+guard.protect("paper_experiments", __name__)
+
 import contact_frames
 import force_control
 import force_sensing
@@ -109,11 +114,7 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     folder = pathlib.Path(sys.argv[1])
-    try:
-        sections = [section for experiment in EXPERIMENTS for section in sections_of(experiment, folder)]
-    except BadInput as error:
-        print(f"paper_experiments: {error}", file=sys.stderr)
-        sys.exit(2)
+    sections = [section for experiment in EXPERIMENTS for section in sections_of(experiment, folder)]
     table = f"{markdown(sections)}\n{tally_text(sections)}\n"
     page.write(folder / "report.html", rendered(sections))
     page.write(folder / "table.md", table)

@@ -13,6 +13,11 @@ import sys
 
 sys.dont_write_bytecode = True
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import guard  # noqa: E402
+
+guard.protect("peers", __name__)
+
 MODULES = {"scipy": "scipy_peer", "octave": "octave_peer", "calculix": "calculix_peer",
            "getfem": "getfem_peer", "mujoco": "mujoco_peer"}
 # Debian's packages of modules that are not called python3-MODULE.

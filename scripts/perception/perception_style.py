@@ -1,13 +1,10 @@
 """The look of the perception plots; each is written as SVG and PNG."""
 
-import atexit
-import os
-import shutil
-import tempfile
+import pathlib
+import sys
 
-if "MPLCONFIGDIR" not in os.environ:
-    os.environ["MPLCONFIGDIR"] = tempfile.mkdtemp(prefix="finray_mpl_")
-    atexit.register(shutil.rmtree, os.environ["MPLCONFIGDIR"], ignore_errors=True)
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import plain_matplotlib  # noqa: F401  before matplotlib
 
 import matplotlib
 

@@ -10,6 +10,11 @@ import math
 import pathlib
 import sys
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import guard  # noqa: E402
+
+guard.protect("plot_compliance.py", __name__)
+
 from perception_style import QUIET, plt, save
 
 # The colours of Okabe and Ito, which colour-blind readers can tell apart.

@@ -10,6 +10,11 @@ import math
 import pathlib
 import sys
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import guard  # noqa: E402
+
+guard.protect("plot_outline.py", __name__)
+
 from perception_style import BLUE, ORANGE, PALE, QUIET, plt, save
 
 

@@ -11,6 +11,11 @@ import textwrap
 
 sys.dont_write_bytecode = True
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import guard  # noqa: E402
+
+guard.protect("real_data", __name__)
+
 import yaml
 
 import bare_finger

@@ -11,6 +11,12 @@ import pathlib
 import sys
 
 sys.dont_write_bytecode = True
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import guard  # noqa: E402
+
+guard.protect("reality", __name__)
+
 REPORT = pathlib.Path(__file__).resolve().parents[2] / "calib" / "report"
 sys.path.append(str(REPORT))
 

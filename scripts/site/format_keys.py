@@ -63,7 +63,7 @@ class MappingReader:
     """The reader of finray_import's mappings, scripts/import/mapping_file.py."""
 
     def __init__(self, folder):
-        sys.path.insert(0, str(ROOT / "scripts/import"))
+        sys.path[:0] = [str(ROOT / "scripts/import"), str(ROOT / "scripts/common")]
         import errors
         import mapping_file
         self.errors, self.read, self.path = errors, mapping_file.read, pathlib.Path(folder) / "mapping.yaml"

@@ -147,6 +147,25 @@ class DxfFingerTest(unittest.TestCase):
         doc.saveas(self.path / "strip.dxf")
         self.refused("is not closed")
 
+    def test_odd_drawings_are_one_line(self):
+        """Circles without end, places that are no numbers, and things that are no outline."""
+        odd = {"1e+12": lambda space: space.add_circle((0, 0), 0.5e12),
+               "nan": lambda space: space.add_circle((0, 0), 1e200),
+               "1e+15": lambda space: space.add_lwpolyline([(0, 0), (1e15, 0), (0, 1)], close=True),
+               "5e+08": lambda space: space.add_lwpolyline([(0, 0, 0, 0, 1e9), (1, 0), (1, 1)], close=True),
+               "none of a strip finger": lambda space: space.add_polyface()}
+        for words, draw in odd.items():
+            with self.subTest(words):
+                doc = ezdxf.new()
+                doc.header["$INSUNITS"] = 4
+                draw(doc.modelspace())
+                doc.saveas(self.path / "strip.dxf")
+                done = self.read()
+                self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
+                self.assertIn(words, done.stderr)
+                self.assertIn("strip.dxf: ", done.stderr)
+                self.assertFalse((self.path / "out.yaml").exists())
+
 
 if __name__ == "__main__":
     unittest.main()

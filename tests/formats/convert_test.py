@@ -9,7 +9,7 @@ import unittest
 import yaml
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "scripts/convert"), str(ROOT / "scripts/import")]
+sys.path[:0] = [str(ROOT / "scripts/convert"), str(ROOT / "scripts/import"), str(ROOT / "scripts/common")]
 from kinds import TODAY, kind_of, step  # noqa: E402
 
 OLD = {  # name: text of a file without a version, text that it becomes, kind

@@ -107,15 +107,19 @@ class CommandLineTest(ImportCase):
         self.assertEqual((done.returncode, done.stdout, done.stderr.count("d: is a folder")), (2, "", 1))
         self.assertEqual({p.name for p in self.folder.iterdir()}, {"a.csv", "d"})
 
-    def test_a_reader_that_goes_away_is_no_error(self):
+    def test_what_is_printed_and_arrives_nowhere_is_exit_2(self):
         path = self.write("a.csv", LOG)
-        for arguments in (["--version"], ["--help"], ["--logs", path]):
-            with self.subTest(arguments):
-                read, write = os.pipe()
-                os.close(read)
-                done = subprocess.run([TOOL, *map(str, arguments)], stdout=write, stderr=subprocess.PIPE, text=True)
-                os.close(write)
-                self.assertEqual((done.returncode, done.stderr), (0, ""))
+        read, broken = os.pipe()
+        os.close(read)
+        outputs = {"Broken pipe": broken, "No space left on device": os.open("/dev/full", os.O_WRONLY), "is closed": None}
+        for name, arguments in (("finray_import", ["--version"]), ("finray_import", ["--help"]),
+                                ("finray_import", ["--logs", path]), ("finray_convert", ["--help"])):
+            for why, output in outputs.items():
+                with self.subTest(f"{name} {arguments} {why}"):
+                    done = subprocess.run([ROOT / "apps" / name, *map(str, arguments)], stdout=output,
+                                          stderr=subprocess.PIPE, text=True,
+                                          preexec_fn=None if output else lambda: os.close(1))
+                    self.assertEqual((done.returncode, done.stderr), (2, f"{name}: stdout: {why}\n"))
 
     def test_two_files_of_one_name_are_refused(self):
         (self.folder / "b").mkdir()
@@ -125,6 +129,18 @@ class CommandLineTest(ImportCase):
     def test_sources_are_small(self):
         for path in pathlib.Path(import_log.__file__).parent.glob("*.py"):
             self.assertLess(len(path.read_text().splitlines()), 400, path)
+
+    def test_keys_of_a_mapping_without_a_value_name_their_place(self):
+        path = self.write("a.csv", LOG)
+        for text, where in (("columns:\n", "1:9: columns"), ("columns: {g: {to: }}\n", "1:18: to"),
+                            ("columns: {g: {to: gauge_1_V, unit: }}\n", "1:35: unit"),
+                            ("tables: {a.csv: {columns: }}\n", "1:26: columns"),
+                            ("columns: {g: {to: gauge_1_V, scale: }}\n", "1:36: scale"), ("row_type:\n", "1:10: row_type"),
+                            ("columns: {? [a] : gauge_1_V}\n", "1:13: expected a word as a key")):
+            with self.subTest(text):
+                line = self.refused("--logs", path, "--mapping", self.write("m.yaml", text))
+                self.assertIn(f"m.yaml:{where}", line)
+                self.assertTrue("found nothing" in line or "as a key" in line, line)
 
 
 if __name__ == "__main__":

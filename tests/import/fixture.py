@@ -9,7 +9,7 @@ import unittest
 
 sys.dont_write_bytecode = True
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts/import"))
+sys.path[:0] = [str(ROOT / "scripts/import"), str(ROOT / "scripts/common")]
 
 import import_log  # noqa: E402
 

@@ -43,6 +43,28 @@ class InterpolationTest(unittest.TestCase):
 
 
 class JoinTest(ImportCase):
+    def test_a_force_without_gauges_is_a_log(self):
+        rows = [(0.01 * i, 0.1 * i) for i in range(400)]
+        for names in (["time_s", "force_N"], ["time_s", "force_x_N"]):
+            with self.subTest(names):
+                more = ["force_y_N"] if names[1] == "force_x_N" else []
+                path = self.write("f.csv", table(names + more, [r + (0.5,) * len(more) for r in rows]))
+                log = self.log_of("--logs", path)
+                self.assertEqual(len(log[names[1]]), 400)
+                self.assertIn("0 free rows", self.result.err)
+
+    def test_times_too_coarse_to_join_by_are_refused(self):
+        fine = self.write("f.csv", table(["time_s", "force_N"], [(0.01 * i, 0.1 * i) for i in range(400)]))
+        coarse = self.write("g.csv", table(["time_s", "gauge_1_V"], [(i // 100, 0.1 * i) for i in range(400)]))
+        line = self.refused("--logs", f"{fine},{coarse}")
+        self.assertIn("g.csv: 396 of the 400 rows of g.csv have the time of the row before", line)
+
+    def test_a_table_without_readings_tells_no_time_offset(self):
+        force = self.write("f.csv", "time_s,force_N\n" + "".join(f"{i},\n" for i in range(99)))
+        gauges = self.write("g.csv", table(["time_s", "gauge_1_V"], [(i, 0.1 * i) for i in range(99)]))
+        line = self.refused("--logs", f"{force},{gauges}", "--force_time_offset_s", "estimate", code=3)
+        self.assertIn("f.csv has no readings in most of its rows", line)
+
     def two_files(self, gap=False):
         t = np.round(np.arange(0, 10, 0.005), 6)
         if gap:

@@ -14,7 +14,7 @@ from errors import BadInput
 # Readings pack to a tenth at best where a gauge is dead; what is made to be large packs to a
 # thousandth.
 LEAST_UNPACKED, UNPACKED_RATIO = 32 << 20, 32
-LEAST_BYTES, BYTES_RATIO = 512 << 20, 100  # of memory, beside what a process has already
+LEAST_BYTES, BYTES_RATIO = 512 << 20, 200  # of memory, beside what a process has already
 LEAST_SECONDS, BYTES_A_SECOND = 8, 20000  # of CPU
 MOST_COLUMNS = 10000  # of a table
 
@@ -46,15 +46,16 @@ def refuse_large_zip(path):
 class TooLong(BaseException):
     """A process has used up its time. It is no Exception, so that no library takes it for one of its own."""
 
+    exit_code = 2
+
+
+def why(limit):
+    """What to say of a file that takes too much memory or time."""
+    return f"takes more {limit} than a file of its size may; if that is no fault, split it"
+
 
 def _too_long(*_):
-    raise TooLong
-
-
-def why(error):
-    """What to say of a MemoryError or TooLong."""
-    limit = "memory" if isinstance(error, MemoryError) else "time"
-    return f"takes more {limit} than a file of its size may; if that is no fault, split it"
+    raise TooLong(why("time"))
 
 
 def _in_use():

@@ -1,19 +1,25 @@
-"""The ways in which an import ends early, each one line and an exit code."""
+"""The ways in which a tool ends early, each one line and an exit code (guard.py)."""
 
 import difflib
 import reprlib
 
 
 class UsageError(Exception):
-    """A wrong command line: exit code 1."""
+    """A wrong command line."""
+
+    exit_code = 1
 
 
 class BadInput(Exception):
-    """A file that is wrong: exit code 2. The text names file, line and column."""
+    """A file that is wrong. The text names file, line and column."""
+
+    exit_code = 2
 
 
 class NoSolution(Exception):
-    """Something asked for that the recording does not determine: exit code 3."""
+    """Something asked for that the recording does not determine."""
+
+    exit_code = 3
 
 
 def did_you_mean(name, names):

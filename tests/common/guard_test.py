@@ -1,0 +1,103 @@
+#!/usr/bin/python3
+"""Tools in Python end in one line and an exit code, and their plots do not depend on where they run."""
+
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+COMMON = ROOT / "scripts/common"
+SCRIPT = """
+import sys
+sys.path.append({common!r})
+import guard
+guard.protect("tool", __name__)
+from errors import BadInput, NoSolution, UsageError
+print("begun")
+{body}
+"""
+PLOT = """
+import sys
+sys.path.append({folder!r})
+import {module} as style
+figure, axes = style.plt.subplots(figsize=(2, 2))
+axes.plot([0, 1], [1, 0])
+{end}
+"""
+
+
+def python(text, **how):
+    return subprocess.run(["/usr/bin/python3", "-B", "-c", text], capture_output=True, text=True, **how)
+
+
+class GuardTest(unittest.TestCase):
+    def test_what_a_script_raises_is_one_line_and_its_code(self):
+        for body, code, line in (
+                ("raise UsageError('--a is no flag')", 1, "tool: --a is no flag; see --help"),
+                ("raise BadInput('a.csv:3: no number')", 2, "tool: a.csv:3: no number"),
+                ("raise NoSolution('nothing')", 3, "tool: nothing"),
+                ("raise KeyboardInterrupt", 130, "tool: interrupted"),
+                ("raise MemoryError", 2, "tool: out of memory"),
+                ("open('/none/a.csv')", 2, "tool: /none/a.csv: No such file or directory"),
+                ("import a_package_that_is_not", 2, "tool: needs a package that is not installed (No module named "
+                 "'a_package_that_is_not'); see scripts/install_dependencies"),
+                ("{}['a']", 2, "tool: cannot work on this input: KeyError: 'a' (<string>:8)"),
+                ("import warnings; warnings.warn('odd')", 0, "")):
+            with self.subTest(body):
+                done = python(SCRIPT.format(common=str(COMMON), body=body))
+                self.assertEqual((done.returncode, done.stdout, done.stderr), (code, "begun\n", line and line + "\n"))
+
+    def test_a_full_disk_behind_stdout_is_exit_2(self):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run(["/usr/bin/python3", "-c", SCRIPT.format(common=str(COMMON), body="")], stdout=full,
+                                  stderr=subprocess.PIPE, text=True)
+        self.assertEqual((done.returncode, done.stderr), (2, "tool: stdout: No space left on device\n"))
+
+    def test_users_scripts_have_the_guard(self):
+        for name in ("apps/finray_import", "apps/finray_convert", "scripts/batch/run", "scripts/docs_site",
+                     *(str(path.relative_to(ROOT)) for folder in ("calib/report", "scripts/perception", "scripts/benchmark")
+                       for path in sorted((ROOT / folder).glob("*.py")) if "__main__" in path.read_text("utf-8"))):
+            with self.subTest(name):
+                self.assertIn("guard.protect(", (ROOT / name).read_text("utf-8"))
+
+    def test_docs_site_without_doxygen_says_what_is_missing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run(["/usr/bin/python3", ROOT / "scripts/docs_site", pathlib.Path(folder) / "out"],
+                                  capture_output=True, text=True, env={**os.environ, "PATH": folder})
+        self.assertEqual((done.returncode, done.stderr),
+                         (2, "docs_site: needs doxygen: scripts/install_dependencies site\n"))
+
+
+class PlainMatplotlibTest(unittest.TestCase):
+    def plot(self, folder, module, end, where, **more):
+        done = python(PLOT.format(folder=str(ROOT / folder), module=module, end=end), cwd=where,
+                      env={**os.environ, **more})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def test_a_matplotlibrc_changes_no_plot(self):
+        svg = "import io\nout = io.StringIO()\nstyle.plt.rcParams['svg.hashsalt'] = 'a'\n" \
+            "figure.savefig(out, format='svg', metadata={'Date': None})\nprint(out.getvalue())"
+        styled, broken = b"lines.linewidth: 20\nfont.size: 40\nbackend: tkagg\n", b"\xff\xfe\x00 no text"
+        with tempfile.TemporaryDirectory() as clean, tempfile.TemporaryDirectory() as odd:
+            rc = pathlib.Path(odd) / "matplotlibrc"
+            for folder, module, texts in (("calib/report", "theme", (styled, broken)),
+                                          ("scripts/perception", "perception_style", (styled,)),
+                                          ("scripts/studies", "plot_style", (broken,))):
+                expected = self.plot(folder, module, svg, clean)
+                self.assertIn("</svg>", expected)
+                for text in texts:
+                    with self.subTest(f"{module}, {text}"):
+                        rc.write_bytes(text)
+                        self.assertEqual(self.plot(folder, module, svg, odd, MATPLOTLIBRC=str(rc)), expected)
+
+
+if __name__ == "__main__":
+    try:
+        import matplotlib  # noqa: F401
+    except ImportError:
+        sys.exit(77)
+    unittest.main()
