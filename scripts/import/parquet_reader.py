@@ -1,5 +1,9 @@
 """Parquet through pandas and pyarrow."""
 
+import os
+
+os.environ.setdefault("ARROW_DEFAULT_MEMORY_POOL", "system")  # another one reserves more than it uses
+
 import pandas
 import pyarrow.parquet  # pandas reads Parquet with it; Debian 12 has no package of it
 
@@ -9,8 +13,9 @@ from limits import Room
 try:
     # Before 14.0.1 it unpickles, and so runs, what a file says of a column of this type.
     pyarrow.unregister_extension_type("arrow.py_extension_type")
-except pyarrow.ArrowKeyError:
+except KeyError:  # a version that does not know it
     pass
+pyarrow.set_cpu_count(1)
 
 
 def read(path):
