@@ -125,8 +125,10 @@ std::vector<LogJob> MakeJobs(const BatchSettings& settings) {
 }
 
 // Checks all logs before anything is written. A bad log is an error, or goes to
-// `bad` with --keep_going. Returns false if told to stop.
-bool CheckAll(std::vector<LogJob>* jobs, std::vector<BadLog>* bad) {
+// `bad` and its job to `left_out` with --keep_going. Returns false if told to
+// stop.
+bool CheckAll(std::vector<LogJob>* jobs, std::vector<LogJob>* left_out,
+              std::vector<BadLog>* bad) {
   std::vector<LogJob> good;
   for (LogJob& job : *jobs) {
     try {
@@ -136,6 +138,7 @@ bool CheckAll(std::vector<LogJob>* jobs, std::vector<BadLog>* bad) {
       if (!FLAGS_keep_going) throw;
       std::cerr << "finray_estimate: " << error.what() << "\n";
       bad->push_back({job.log(), error.what()});
+      left_out->push_back(std::move(job));
     }
   }
   jobs->swap(good);
@@ -159,6 +162,18 @@ void RemoveOldSummaries(const std::vector<LogJob>& jobs) {
   }
   RemoveOldPage(OutPath("index.html"));
   for (const LogJob& job : jobs) RemoveOldPage(PageOf(job).page);
+}
+
+// No result stands under the name of a log that is left out.
+void SetAside(const std::vector<LogJob>& left_out, std::vector<BadLog>* bad) {
+  for (std::size_t i = 0; i < left_out.size(); ++i) {
+    RemoveOldPage(PageOf(left_out[i]).page);
+    if (!left_out[i].SetAside()) continue;
+    const std::string told =
+        "the result of an earlier run is now " + left_out[i].result() + ".old";
+    std::cerr << "finray_estimate: " << told << "\n";
+    (*bad)[i].reason += "; " + told;
+  }
 }
 
 bool RunAll(FrameSolverPool* pool, std::vector<LogJob>* jobs) {
@@ -398,11 +413,15 @@ int Run() {
 
   std::vector<LogJob> jobs = MakeJobs(settings);
   std::vector<BadLog> bad_logs;
-  if (!CheckAll(&jobs, &bad_logs)) return Interrupted("before the first frame");
+  std::vector<LogJob> left_out;
+  if (!CheckAll(&jobs, &left_out, &bad_logs)) {
+    return Interrupted("before the first frame");
+  }
   FrameSolverPool pool(FrameSolvers(settings.finger, settings.scene,
                                     settings.discretization, settings.method));
   MakeFolders(jobs);
   RemoveOldSummaries(jobs);
+  SetAside(left_out, &bad_logs);
   ProgressBar bar(Frames(jobs));
   settings.progress = [&bar](std::size_t frames, bool kept) {
     bar.Add(frames, kept);
@@ -427,7 +446,7 @@ int Run() {
   PrintEnded("searches", all, settings.scene, stdout);
   const std::vector<Warning> warnings =
       WarningsOf(SummariesOf(jobs), settings.finger);
-  Warn(WarningsOf(settings.finger));
+  Warn(WarningsOf(settings.finger, settings.scene));
   Warn(warnings);
   if (!bad_logs.empty()) return kBadInput;
   if (all.unsolved() == all.frames || (FLAGS_strict && all.unsolved() > 0)) {

@@ -1,3 +1,4 @@
+#!/usr/bin/python3
 """Calibrates with one log, estimates the other and compares both with the truth."""
 
 import csv
@@ -6,6 +7,7 @@ import pathlib
 import shutil
 import statistics
 import subprocess
+import sys
 
 import yaml
 
@@ -137,3 +139,17 @@ def outcome(build, finger, plan, logs, plant, scene, out):
             "touched": len(touched), "ok": len(compared["force"]), "unexplained": unexplained,
             "second": sum(number(row.get("normal_2_N", "")) > 0 for row in touched if row["status"] == "ok"),
             "errors": compared, "means": means(compared), "force": summary(compared["force"]), "place": summary(compared["place"])}
+
+
+def main(estimates_path, truth_path):
+    """Prints how often the force of estimates in a scene without friction holds as what it may be."""
+    estimates, truth = rows(estimates_path), rows(truth_path)
+    for name, normal in (("whole force", False), ("normal force", True)):
+        force = errors(estimates, truth, normal)["force"]
+        of = summary(force)
+        print(f"{name:12} within 1 and 1.96 std in {of['covered_68']:.0f} and {of['covered_95']:.0f} % of {len(force)} frames, "
+              f"{of['rms']:.3f} N rms")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -213,6 +213,25 @@ TEST_F(BatchTest, KeepsGoingWithoutBadLogs) {
   EXPECT_THAT(summary.MutableText("log"), ElementsAre(_, _, log));
   EXPECT_THAT(summary.MutableText("reason"), ElementsAre("", "", reason));
 
+  // No result stands under the name of a log that has become bad.
+  std::ofstream(folder_.Path("runs/2.csv"), std::ios::app) << "1,x\n";
+  const Outcome later =
+      Run("finray_estimate",
+          Arguments("'%runs/*.csv'", "--keep_going --out_dir %good"));
+  EXPECT_EQ(later.code, 2);
+  const std::string old = "the result of an earlier run is now " +
+                          folder_.Path("good/2.frames.csv") + ".old";
+  EXPECT_THAT(later.output, HasSubstr("finray_estimate: " + old + "\n"));
+  const auto after = Files("good");
+  EXPECT_EQ(after.count("2.frames.csv"), 0u);
+  EXPECT_EQ(after.count("2.summary.yaml"), 0u);
+  EXPECT_EQ(after.at("2.frames.csv.old"), good.at("2.frames.csv"));
+  EXPECT_EQ(after.at("0.frames.csv"), good.at("0.frames.csv"));
+  EXPECT_THAT(
+      YAML::LoadFile(folder_.Path("good/summary.yaml"))["bad_logs"][1]["reason"]
+          .as<std::string>(),
+      HasSubstr(old));
+
   // None is left.
   EXPECT_EQ(
       Run("finray_estimate", Arguments(log, "--keep_going --out_dir %none"))

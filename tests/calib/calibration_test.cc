@@ -141,6 +141,46 @@ TEST(CalibrationTest, WithoutAForceSensorStiffnessIsFree) {
             std::string::npos);
 }
 
+// A force sensor is known to 3 % by its data sheet: the scale that the logs
+// leave free is as good as that, and no guess.
+TEST(CalibrationTest, APriorOfTheForceScaleDeterminesStiffness) {
+  const TempFolder folder;
+  const std::string log = StandardLog(folder, HiddenFinger(), 5);
+  for (const double percent : {3.0, 50.0}) {
+    Plan plan = StandardPlan();
+    FamilyPlan& scale =
+        plan.families[static_cast<int>(ParameterFamily::kForceScale)];
+    scale.free = true;
+    scale.prior_std = percent;
+    CalibrationProblem problem(
+        Nominal(), plan, ReadCalibrationLogs({log}, Nominal(), plan), {}, 2);
+    const CalibrationResult result = Calibrate(&problem);
+    const bool known = percent < 20;
+    EXPECT_EQ(result.AllIdentified(), known);
+    EXPECT_EQ(result.Verdict(), known ? "good" : "unidentifiable");
+    const auto& free = problem.parameters().free();
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      const CalibrationParameter& p = problem.parameters().FreeParameter(k);
+      const bool rides = p.family == ParameterFamily::kForceScale ||
+                         p.family == ParameterFamily::kFrontStiffness ||
+                         p.family == ParameterFamily::kBackStiffness;
+      EXPECT_EQ(result.identifiability.status[k],
+                !rides  ? ParameterStatus::kEstimated
+                : known ? ParameterStatus::kPriorDominated
+                        : ParameterStatus::kUnidentifiable)
+          << p.name;
+      if (rides && known) {
+        EXPECT_NEAR(result.identifiability.std[k], 0.03, 0.005) << p.name;
+      }
+    }
+    ASSERT_FALSE(result.identifiability.weak.empty());
+    const WeakDirection& weak = result.identifiability.weak[0];
+    EXPECT_EQ(IsHeld(weak, result.identifiability.status), known);
+    EXPECT_EQ(weak.remedy.find("give a prior") == std::string::npos, known)
+        << weak.remedy;
+  }
+}
+
 TEST(CalibrationTest, WithForceButNoPlaceGainsRideOnStiffness) {
   const TempFolder folder;
   FrameTable log = FrameTable::Read(StandardLog(folder, HiddenFinger(), 6));

@@ -71,6 +71,11 @@ class LogJob {
   /// `pool` solves the frames one by one; it is not used with `joint`.
   bool Run(FrameSolverPool* pool);
 
+  /// Renames the result of an earlier run to <result>.old and removes what
+  /// belongs to it, since it is not that of the log. Returns false if there is
+  /// none.
+  bool SetAside() const;
+
   const std::string& log() const { return log_; }
   const std::string& result() const { return result_; }
   const std::string& key() const { return key_; }

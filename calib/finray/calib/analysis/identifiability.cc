@@ -10,16 +10,37 @@
 
 namespace finray {
 
+namespace {
+
+// The least share of a component of a weak direction.
+constexpr double kLeastShare = 0.15;
+
+}  // namespace
+
 const char* ParameterStatusName(ParameterStatus status) {
   constexpr const char* kNames[] = {"estimated", "prior_dominated",
                                     "unidentifiable", "fixed"};
   return kNames[static_cast<int>(status)];
 }
 
+bool IsHeld(const WeakDirection& direction,
+            const std::vector<ParameterStatus>& status) {
+  for (Eigen::Index i = 0; i < direction.direction.size(); ++i) {
+    if (std::abs(direction.direction[i]) > kLeastShare &&
+        status[static_cast<std::size_t>(i)] ==
+            ParameterStatus::kUnidentifiable) {
+      return false;
+    }
+  }
+  return true;
+}
+
 namespace {
 
 // Says in words which parameters move together along a weak direction.
-void DescribeInWords(CalibrationProblem& problem, WeakDirection* direction) {
+void DescribeInWords(CalibrationProblem& problem,
+                     const std::vector<ParameterStatus>& status,
+                     WeakDirection* direction) {
   double front = 0, back = 0;  // the shares of the beams' stiffness
   double gains = 0;            // the sum of the squared shares of the gains
   bool raised = false, lowered = false;  // whether some gain is
@@ -53,28 +74,78 @@ void DescribeInWords(CalibrationProblem& problem, WeakDirection* direction) {
   direction->words = words;
   direction->how_far =
       std::isinf(direction->std_over_prior)
-          ? "the data do not say how far"
+          ? IsHeld(*direction, status)
+                ? "the data do not say how far, the priors do"
+                : "the data do not say how far"
           : FormatText("the data leave a std of %.3g times the prior's",
                        direction->std_over_prior);
 }
 
+// The variance that an information leaves to a parameter, in the square of its
+// unit.
+struct Variance {
+  /// Infinite with a share of more than 1 % in a null direction; smaller shares
+  /// do not count.
+  double value = 0;
+  double with_small_shares = 0;
+};
+
+std::vector<Variance> Variances(const InformationSpectrum& spectrum) {
+  const Eigen::Index n = spectrum.values.size();
+  std::vector<Variance> variances(static_cast<std::size_t>(n));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    Variance& of = variances[static_cast<std::size_t>(i)];
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const double share = spectrum.vectors(i, k) * spectrum.vectors(i, k);
+      const double value = spectrum.values[k];
+      of.with_small_shares += share / std::max(value, kLeastInformation);
+      if (!(value < Identifiability::kNull)) {
+        of.value += share / value;
+      } else if (share > 0.01) {
+        of.value = std::numeric_limits<double>::infinity();
+      }
+    }
+  }
+  return variances;
+}
+
+// By the data alone, and with all priors that are knowledge.
+ParameterStatus StatusOf(const CalibrationParameter& parameter,
+                         const Variance& by_data, const Variance& known) {
+  const double most = parameter.prior_std ? 1 : 1 / Identifiability::kNull;
+  if (std::isfinite(by_data.value) &&
+      !(parameter.prior_std && by_data.value > 1)) {
+    // Its unit may be so large that its share of what only another's prior
+    // determines is small.
+    return by_data.with_small_shares > most && known.with_small_shares <= most
+               ? ParameterStatus::kPriorDominated
+               : ParameterStatus::kEstimated;
+  }
+  const bool guessed =
+      parameter.prior_std && *parameter.prior_std > parameter.vague_std;
+  return std::isinf(known.value) || (guessed && known.value > 1)
+             ? ParameterStatus::kUnidentifiable
+             : ParameterStatus::kPriorDominated;
+}
+
 WeakDirection Describe(CalibrationProblem* problem,
+                       const std::vector<ParameterStatus>& status,
                        const Eigen::VectorXd& vector, double std_over_prior) {
   WeakDirection direction;
   direction.direction = vector;
   direction.std_over_prior = std_over_prior;
   for (Eigen::Index i = 0; i < vector.size(); ++i) {
-    if (std::abs(vector[i]) > 0.15) {
+    if (std::abs(vector[i]) > kLeastShare) {
+      const auto k = static_cast<std::size_t>(i);
       direction.components.push_back(
-          {problem->parameters().free()[static_cast<std::size_t>(i)],
-           vector[i]});
+          {problem->parameters().free()[k], vector[i]});
     }
   }
   std::sort(direction.components.begin(), direction.components.end(),
             [](const auto& a, const auto& b) {
               return std::abs(a.share) > std::abs(b.share);
             });
-  DescribeInWords(*problem, &direction);
+  DescribeInWords(*problem, status, &direction);
   return direction;
 }
 
@@ -120,8 +191,9 @@ void AddCommonGain(CalibrationProblem* problem, Identifiability* found) {
       together.dot(covariance * beams) / (all * std::sqrt(variance(beams)));
   if (!(all > kTogether * apart) || !(std::abs(correlation) > kRides)) return;
   const Eigen::VectorXd vector = (covariance * together).normalized();
-  WeakDirection direction = Describe(
-      problem, vector, 1 / std::sqrt(vector.dot(found->information * vector)));
+  WeakDirection direction =
+      Describe(problem, found->status, vector,
+               1 / std::sqrt(vector.dot(found->information * vector)));
   direction.words = kGainsAgainstStiffness;
   for (const WeakDirection& known : found->weak) {
     if (known.words == direction.words) return;
@@ -144,8 +216,12 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
   result.unit = parameters.Units();
   const Eigen::VectorXd& unit = result.unit;
   result.prior = Eigen::MatrixXd::Zero(n, n);
+  Eigen::MatrixXd knowledge = result.prior;
   for (int i = 0; i < n; ++i) {
-    if (parameters.FreeParameter(i).prior_std) result.prior(i, i) = 1;
+    const CalibrationParameter& p = parameters.FreeParameter(i);
+    if (!p.prior_std) continue;
+    result.prior(i, i) = 1;
+    if (*p.prior_std <= p.vague_std) knowledge(i, i) = 1;
   }
   result.information = InUnits(at.Information(), unit);
   const InformationSpectrum spectrum(result.information);
@@ -157,34 +233,21 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
   const Eigen::MatrixXd& covariance = result.covariance;
   const Eigen::VectorXd std = covariance.diagonal().cwiseSqrt();
   result.correlation = covariance.cwiseQuotient(std * std.transpose());
+  const std::vector<Variance> by_data = Variances(spectrum);
+  const std::vector<Variance> known =
+      Variances(InformationSpectrum(result.information + knowledge));
   for (int i = 0; i < n; ++i) {
-    // This is the variance from the data alone. It is infinite if the parameter
-    // has a share of more than 1 % in a null direction.
-    double variance = 0;
     const CalibrationParameter& p = parameters.FreeParameter(i);
-    bool null = false;
-    for (int k = 0; k < n; ++k) {
-      const double share = vector(i, k) * vector(i, k);
-      if (value[k] < Identifiability::kNull) {
-        null |= share > 0.01;
-      } else {
-        variance += share / value[k];
-      }
-    }
-    const bool by_prior = p.prior_std && variance > 1;
-    result.status.push_back(null || (by_prior && unit[i] > p.vague_std)
-                                ? ParameterStatus::kUnidentifiable
-                            : by_prior ? ParameterStatus::kPriorDominated
-                                       : ParameterStatus::kEstimated);
+    result.status.push_back(StatusOf(p, by_data[i], known[i]));
     result.bounded_std.push_back(unit[i] * std[i]);
-    result.std.push_back(null && !p.prior_std
+    result.std.push_back(std::isinf(known[i].value) && !p.prior_std
                              ? std::numeric_limits<double>::infinity()
                              : result.bounded_std.back());
   }
   for (int k = 0; k < n && value[k] < 1; ++k) {
     const bool null = value[k] < Identifiability::kNull;
     // The std is infinite if the data say nothing along the direction.
-    result.weak.push_back(Describe(problem, vector.col(k),
+    result.weak.push_back(Describe(problem, result.status, vector.col(k),
                                    null
                                        ? std::numeric_limits<double>::infinity()
                                        : 1 / std::sqrt(value[k])));

@@ -12,10 +12,13 @@
 namespace finray {
 
 enum class ParameterStatus {
-  kEstimated,       ///< The data say more than the prior.
-  kPriorDominated,  ///< The prior says more than the data.
-  /// The data say nothing about the parameter, alone or in a combination, or
-  /// less than a prior that is only a guess.
+  kEstimated,  ///< The data say more than the prior.
+  /// Priors say more than the data: its own, or those of parameters that go
+  /// with it, as a force sensor's scale goes with the stiffness.
+  kPriorDominated,
+  /// Nothing is known of the parameter but what is only a guess: the data say
+  /// nothing, alone or in a combination, or less than such a prior, and no
+  /// other prior determines it.
   kUnidentifiable,
   kFixed,
 };
@@ -38,6 +41,11 @@ struct WeakDirection {
   std::string remedy;   ///< AdviseNextFrames sets it.
 };
 
+/// Says whether priors that are knowledge determine the direction: with the
+/// status of the free parameters, none of its components is kUnidentifiable.
+bool IsHeld(const WeakDirection& direction,
+            const std::vector<ParameterStatus>& status);
+
 /// The words of the weak direction in which all gains are the unknown.
 constexpr char kGainsAgainstStiffness[] =
     "all gauge gains scale together against front and back stiffness";
@@ -48,10 +56,13 @@ constexpr char kGainsAgainstStiffness[] =
 ///
 /// in which the contacts are eliminated, scaled by the std of the priors. Along
 /// an eigenvector with an eigenvalue below 1 the data say less than the priors;
-/// along one below kNull they say nothing. There is one more weak direction,
-/// whatever the priors: if the ratios of the gains are known, but all gains
-/// together only as well as stiffness is. The covariance is (S + P)^-1 with the
-/// information P of the priors, or a pseudo-inverse if even S + P is singular.
+/// along one below kNull they say nothing. What the data leave open is judged
+/// again with S + K, where K is the information of the priors that are
+/// knowledge (CalibrationParameter::vague_std). There is one more weak
+/// direction, whatever the priors: if the ratios of the gains are known, but
+/// all gains together only as well as stiffness is. The covariance is (S +
+/// P)^-1 with the information P of the priors, or a pseudo-inverse if even S +
+/// P is singular.
 struct Identifiability {
   static constexpr double kNull = 1e-4;
 

@@ -285,10 +285,15 @@ NextRecording AdviseNextFrames(CalibrationProblem* problem,
   bool known = true;  // each direction is determined at least by its prior
   for (WeakDirection& weak : found->weak) {
     const std::vector<FrameAdvice> best = next.BestAlong(weak.direction);
-    weak.remedy = best.empty() ? "no 20 frames at one place or spread over "
-                                 "the finger would help much; give a prior"
-                               : best[0].words;
-    known &= std::isfinite(weak.std_over_prior);
+    const bool held = IsHeld(weak, found->status);
+    constexpr char kNone[] =
+        "no 20 frames at one place or spread over the finger would help much; ";
+    weak.remedy = !best.empty() ? best[0].words
+                  : held        ? kNone + std::string(
+                                              "it is as good as the "
+                                                     "priors of the plan")
+                         : kNone + std::string("give a prior");
+    known &= held || std::isfinite(weak.std_over_prior);
   }
   NextRecording recording;
   const PredictedForce& force = next.force();
