@@ -100,6 +100,15 @@ TEST(PlanTest, RefusesUnknownKeysAndUnits) {
   error("parameters: {rib_length: {prior_std_mm: -1}}\n", "a number above 0");
   error("parameters: {}\nholdout: {by: day}\n", "expected one of log, block");
   error("scene: {contacts: 2}\nparameters: {}\n", "one contact or none");
+  // Keys that would do nothing.
+  error(
+      "scene: {gauge_offset_walk: {start_std_V: 1, std_V_per_sqrt_s: 1}}\n"
+      "parameters: {}\n",
+      "expected parameters: {gauge_drift: {walk_std_V_per_sqrt_h");
+  error("scene: {measurements: {pin_std_mm: 1}}\nparameters: {}\n",
+        "no measurements");
+  error("parameters: {}\nrobust_loss: {type: none, scale: 2}\n",
+        "plan.yaml:3:34: scale: type none has no scale");
   error(
       "scene: {object: {shape: ellipse, semi_axis_x_mm: 9, semi_axis_y_mm: "
       "8}}\nparameters: {}\n",

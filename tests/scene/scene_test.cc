@@ -135,6 +135,8 @@ TEST(SceneTest, ReadsMeasurementsAndSmoothing) {
   error("search_iteration_limit: 0\n",
         ":1:25: search_iteration_limit: expected");
   error("search_iteration_limit: 1.5\n", "search_iteration_limit");
+  error("presliding_mm: 0.001\nfriction_coefficient: 0.3\n",
+        ":1:16: presliding_mm: it needs an object in the scene");
   error("smoothing: {contact_std_mm: 1}\n", "normal_std_N");
   error("smoothing: {contact_mm: 1, normal_std_N: 1}\n", "contact_std_mm");
 }

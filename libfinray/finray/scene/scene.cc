@@ -226,6 +226,11 @@ Scene ReadScene(const YamlMap& yaml) {
     }
   }
   if (yaml.Has("object")) scene.object = ReadObject(yaml.Map("object"));
+  if (scene.presliding_mm && !scene.object) {
+    yaml.Fail("presliding_mm",
+              "presliding_mm: it needs an object in the scene, whose motion "
+              "turns friction round");
+  }
   ReadContactBeams(yaml, &scene);
   if (yaml.Has("measurements")) {
     ReadMeasurements(yaml.Map("measurements"), &scene);

@@ -31,6 +31,9 @@ const Finger& Checked(const Finger& finger, const Scene& scene) {
     throw InputError(
         "scene: pin_std_mm and tip_std_mm cannot be used with the whole log");
   }
+  if (scene.presliding_mm) {
+    throw InputError("scene: presliding_mm cannot be used with the whole log");
+  }
   if (finger.gauges.size() < 2) {
     throw InputError("finger '" + finger.name +
                      "': a contact needs at least 2 gauges");

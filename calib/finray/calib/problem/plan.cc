@@ -225,10 +225,17 @@ Plan ReadPlan(const YamlMap& yaml) {
   Plan plan;
   plan.scene = ReadPlanScene(yaml);
   RefuseBackContacts(plan.scene);
-  if (plan.scene.object_std_mm || plan.scene.smoothing) {
+  if (plan.scene.object_std_mm || plan.scene.UsesCamera() ||
+      plan.scene.smoothing) {
     yaml.Fail("scene",
               "a plan's scene has no measurements and no smoothing: the plan "
               "has measurements of its own");
+  }
+  if (plan.scene.gauge_offset_walk) {
+    yaml.Fail(
+        "scene",
+        "a plan's scene has no gauge_offset_walk; expected "
+        "parameters: {gauge_drift: {walk_std_V_per_sqrt_h, knot_every_s}}");
   }
   if (plan.scene.contacts.value_or(1) > 1) {
     yaml.Fail("scene", "calibration takes frames with one contact or none");
@@ -264,6 +271,9 @@ Plan ReadPlan(const YamlMap& yaml) {
     plan.loss = type == "none"    ? RobustLoss::kNone
                 : type == "huber" ? RobustLoss::kHuber
                                   : RobustLoss::kCauchy;
+    if (plan.loss == RobustLoss::kNone && map.Has("scale")) {
+      map.Fail("scale", "scale: type none has no scale");
+    }
     plan.loss_scale = map.PositiveNumber("scale", plan.loss_scale);
   }
   if (yaml.Has("holdout")) {
