@@ -184,6 +184,18 @@ bool LogJob::Check() {
   return true;
 }
 
+bool LogJob::SetAside() const {
+  std::error_code missing;
+  for (const std::string& path : {summary_path_, bad_rows_path_}) {
+    fs::remove(path, missing);
+  }
+  if (ResumableFile::IsUnderWay(result_)) {
+    ResumableFile(result_, key_, false).Discard();
+  }
+  fs::rename(result_, result_ + ".old", missing);
+  return !missing;
+}
+
 bool LogJob::ReadFinished() {
   std::error_code missing;
   const std::uintmax_t bytes = fs::file_size(result_, missing);
