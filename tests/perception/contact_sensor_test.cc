@@ -90,6 +90,14 @@ TEST(FingerVariationsTest, SquaresAddUpToTheCovariance) {
   EXPECT_NEAR(sum(0, 0), 1e4, 1e-6);
   EXPECT_NEAR(sum(0, 1), 0.4 * 100 * 0.05, 1e-9);
   EXPECT_NEAR(sum(1, 1), 0.0025, 1e-12);
+  // An error of the object's friction moves no part of the finger.
+  known.parameters = {{FingerParameterKind::kFriction}};
+  known.std = Eigen::VectorXd::Constant(1, 0.02);
+  known.correlations = Eigen::MatrixXd::Identity(1, 1);
+  finger.calibration = known;
+  for (const Finger& varied : FingerVariations(finger)) {
+    EXPECT_EQ(varied.ribs[0].length_mm, finger.ribs[0].length_mm);
+  }
 }
 
 }  // namespace

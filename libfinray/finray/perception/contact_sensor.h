@@ -82,6 +82,8 @@ inline std::vector<Finger> FingerVariations(const Finger& finger) {
     Finger varied = finger;
     for (std::size_t i = 0; i < calibration.parameters.size(); ++i) {
       const FingerParameter& parameter = calibration.parameters[i];
+      // No part of a finger; its error in the object's friction is left out.
+      if (parameter.kind == FingerParameterKind::kFriction) continue;
       SetParameter(parameter,
                    ParameterValue(finger, parameter) +
                        factor(static_cast<Eigen::Index>(i), k),
