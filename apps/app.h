@@ -50,7 +50,7 @@ void Warn(const std::vector<Warning>& warnings);
 bool ParseFlags(int* argc, char*** argv);
 
 /// Returns the number of threads for --threads: all cores that the process may
-/// use for 0. Throws UsageError if it is negative.
+/// use for 0. Throws UsageError for what no machine has.
 int Threads(int flag);
 
 /// Returns true if the user gave the flag.

@@ -121,11 +121,11 @@ void RefuseWrongFlags(int argc, char** argv) {
 }  // namespace
 
 int Threads(int flag) {
-  if (flag < 0) {
-    throw UsageError("--threads: expected 0 (all cores) or more, found " +
-                     std::to_string(flag));
+  try {
+    return ThreadsFor("--threads", flag);
+  } catch (const InputError& error) {
+    throw UsageError(error.what());
   }
-  return flag > 0 ? flag : UsableCores();
 }
 
 bool ParseFlags(int* argc, char*** argv) {
@@ -139,6 +139,11 @@ bool ParseFlags(int* argc, char*** argv) {
   }
   RefuseWrongFlags(*argc, *argv);
   gflags::ParseCommandLineFlags(argc, argv, true);
+  // At once, not when they are needed, which may be minutes later.
+  gflags::CommandLineFlagInfo threads;
+  if (gflags::GetCommandLineFlagInfo("threads", &threads)) {
+    Threads(*static_cast<const int*>(threads.flag_ptr));
+  }
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include "finray/calib/report/calibration_result.h"
 #include "finray/finger/finger_yaml.h"
 #include "finray/io/atomic_file.h"
+#include "finray/io/usable_cores.h"
 #include "inside.h"
 
 namespace finray::v1 {
@@ -74,7 +75,7 @@ std::unique_ptr<CalibrationProblem> ProblemOf(
     CalibrationLogs logs, const CalibrationOptions& options) {
   auto problem = std::make_unique<CalibrationProblem>(
       finger, plan, std::move(logs), ToInternal(options.discretization),
-      ThreadsOf(options.threads));
+      ThreadsFor("threads", options.threads));
   problem->set_tolerance_std(options.tolerance_std);
   RefuseImplausible(problem.get());
   problem->TellProgress([options](const std::string& step) {

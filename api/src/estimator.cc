@@ -11,6 +11,7 @@
 #include "finray/batch/estimation_summary.h"
 #include "finray/batch/estimation_warnings.h"
 #include "finray/batch/result_rows.h"
+#include "finray/io/usable_cores.h"
 #include "finray/scene/history_filter.h"
 #include "finray/sensing/log_estimator.h"
 #include "inside.h"
@@ -212,7 +213,7 @@ Estimator::Estimator(const Finger& finger, const Scene& scene,
     inside_.reset(new Inside{finger.inside().finger,
                              SceneOf(scene, options.joint),
                              ToInternal(options.discretization),
-                             ThreadsOf(options.threads), nullptr});
+                             ThreadsFor("threads", options.threads), nullptr});
     if (options.joint) return;
     inside_->pool = std::make_unique<FrameSolverPool>(FrameSolvers(
         inside_->finger, inside_->scene, inside_->discretization, method));

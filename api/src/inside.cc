@@ -2,7 +2,6 @@
 
 #include "finray/io/atomic_file.h"
 #include "finray/io/resources.h"
-#include "finray/io/usable_cores.h"
 #include "finray/io/versions.h"
 #include "finray/io/yaml_limits.h"
 #include "finray/version.h"
@@ -56,14 +55,6 @@ finray::FrameMethod MethodOf(const EstimateOptions& options) {
   return !ceres     ? FrameMethod::kFast
          : weighted ? FrameMethod::kCeresWeighted
                     : FrameMethod::kCeresReduced;
-}
-
-int ThreadsOf(int threads) {
-  if (threads < 0) {
-    throw InputError("threads: expected 0 (all cores) or more, found " +
-                     std::to_string(threads));
-  }
-  return threads > 0 ? threads : UsableCores();
 }
 
 std::string YamlText(const std::string& path) {

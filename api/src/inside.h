@@ -73,10 +73,6 @@ finray::Discretization ToInternal(const Discretization& discretization);
 /// The method of the options. Throws InputError for a word that is none.
 finray::FrameMethod MethodOf(const EstimateOptions& options);
 
-/// `threads`, or for 0 all cores that the process may use. Throws InputError
-/// below 0.
-int ThreadsOf(int threads);
-
 /// The text of a file that holds YAML.
 std::string YamlText(const std::string& path);
 

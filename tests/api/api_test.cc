@@ -91,6 +91,11 @@ TEST(ApiTest, BadInputSaysWhere) {
   options.solver = "fats";
   EXPECT_THAT([&] { Estimator(PaperFinger(), finray::Scene(), options); },
               ThrowsMessage<finray::InputError>(HasSubstr("found 'fats'")));
+  options = {};
+  options.threads = 100000;
+  EXPECT_THAT([&] { Estimator(PaperFinger(), finray::Scene(), options); },
+              ThrowsMessage<finray::InputError>(
+                  "threads: expected 0 (all cores) to 1024, found 100000"));
   try {
     finray::Finger::Read("missing.yaml");
   } catch (const Error& error) {

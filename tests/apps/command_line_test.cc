@@ -46,6 +46,22 @@ TEST_F(CommandLineTest, SimulateThenEstimate) {
   EXPECT_LT(summary["all"]["force_rms_error_N"].as<double>(), 1e-6);
 }
 
+// No other flag is needed to find out.
+TEST_F(CommandLineTest, MoreThreadsThanAnyMachineHasAreRefused) {
+  for (const char* app :
+       {"finray_estimate", "finray_calibrate", "finray_validate", "finray_plan",
+        "finray_control", "finray_benchmark"}) {
+    for (const char* threads : {"100000", "1025", "-1"}) {
+      const Outcome outcome = Run(app, std::string("--threads ") + threads);
+      EXPECT_EQ(outcome.code, 1) << app;
+      EXPECT_EQ(outcome.output,
+                std::string(app) +
+                    ": --threads: expected 0 (all cores) to 1024, found " +
+                    threads + "\n");
+    }
+  }
+}
+
 TEST_F(CommandLineTest, CalibrateTheBundledLog) {
   const Outcome outcome = Run(
       "finray_calibrate", "--finger " + paper_ + " --plan " + plan_ +

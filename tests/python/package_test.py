@@ -161,7 +161,9 @@ class PackageTest(unittest.TestCase):
         log = {f"gauge_{j}_V": np.zeros(3) for j in range(1, 5)}
         for text, call in (
                 ("solver: expected fast or ceres, found 'fats'", lambda: finray.estimate(finger, log, solver="fats")),
-                ("threads: expected 0", lambda: finray.estimate(finger, log, threads=-1)),
+                ("^threads: expected 0 .* to 1024, found -1$", lambda: finray.estimate(finger, log, threads=-1)),
+                ("^threads: expected 0 .* to 1024, found 100000$", lambda: finray.estimate(finger, log, threads=100000)),
+                ("found 100000$", lambda: finray.calibrate(finger, finray.Plan.read(PLAN), HOLDOUT, threads=100000)),
                 ("'gauge_4_V': expected 3 values, found 2",
                  lambda: finray.estimate(finger, {**log, "gauge_4_V": np.zeros(2)})),
                 ("one-dimensional", lambda: finray.estimate(finger, {**log, "gauge_4_V": np.zeros((3, 2))})),

@@ -45,7 +45,7 @@ struct CalibrationOptions {
   /// First frees effects that the plan leaves out while unseen frames are
   /// predicted better.
   bool explore = false;
-  int threads = 0;  ///< 0: all cores.
+  int threads = 0;  ///< 0 (all cores) to 1024.
   Discretization discretization;
   /// Receives a line whenever the solve has made a step, from any thread.
   std::function<void(const std::string&)> progress;

@@ -36,7 +36,7 @@ struct EstimateOptions {
   /// Solves all frames of a log together, with the scene's gauge_offset_walk
   /// and smoothing.
   bool joint = false;
-  int threads = 0;  ///< 0: all cores. Results do not depend on it.
+  int threads = 0;  ///< 0 (all cores) to 1024. Results do not depend on it.
   Discretization discretization;
 };
 
