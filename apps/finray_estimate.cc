@@ -324,15 +324,20 @@ std::optional<ServeSettings> LivePage() {
   constexpr std::size_t kShortestToken = 16;
   constexpr char kDigits[] =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
-  if (FLAGS_serve_token.empty() ? !IsLoopback(FLAGS_serve_address)
-                                : FLAGS_serve_token.size() < kShortestToken) {
-    throw UsageError(
-        "--serve_address " + FLAGS_serve_address +
-        ": other machines reach it, so it needs a --serve_token of at least 16 "
-        "letters and digits");
+  const std::string& token = FLAGS_serve_token;
+  if (token.empty() && !IsLoopback(FLAGS_serve_address)) {
+    throw UsageError("--serve_address " + FLAGS_serve_address +
+                     ": other machines reach it, so it needs a --serve_token");
   }
-  if (FLAGS_serve_token.find_first_not_of(kDigits) != std::string::npos) {
-    throw UsageError("--serve_token: expected letters, digits, - and _ only");
+  if (IsGiven("serve_token") &&
+      (token.size() < kShortestToken ||
+       token.find_first_not_of(kDigits) != std::string::npos)) {
+    throw UsageError("--serve_token: expected at least " +
+                     std::to_string(kShortestToken) +
+                     " letters, digits, - and _, found " +
+                     (token.size() < kShortestToken
+                          ? std::to_string(token.size()) + " characters"
+                          : "another character"));
   }
   return ServeSettings{FLAGS_serve_address, FLAGS_serve, FLAGS_serve_token};
 }

@@ -8,21 +8,21 @@
 #include <cstring>
 #include <memory>
 #include <string_view>
+#include <utility>
 
 #include "app.h"
 #include "finray/batch/estimation_warnings.h"
-#include "finray/io/line_reader.h"
 #include "finray/io/log_lines.h"
 #include "finray/view/live_view.h"
 
 namespace finray {
 namespace {
 
-// Writes to the output. Returns false if nobody reads it, or if told to stop
-// while it waits for a reader.
+// Writes to standard output. Returns false if nobody reads it, or if told to
+// stop while it waits for a reader.
 bool WriteLive(std::string_view text, const FollowSettings& follow) {
   while (!text.empty()) {
-    const ssize_t count = write(follow.output, text.data(), text.size());
+    const ssize_t count = write(STDOUT_FILENO, text.data(), text.size());
     if (count >= 0) {
       text.remove_prefix(static_cast<std::size_t>(count));
     } else if (errno == EPIPE || (errno == EINTR && follow.stop())) {
@@ -39,8 +39,12 @@ bool WriteLive(std::string_view text, const FollowSettings& follow) {
 bool ReadHeader(const ColumnMapping& columns, const FollowSettings& follow,
                 std::optional<LogLines>* log) {
   try {
-    log->emplace(ReadPipe(follow.input, follow.stop_file, follow.source),
-                 follow.source, columns);
+    log->emplace(
+        LineReader(follow.read ? follow.read
+                               : PipeBytes(STDIN_FILENO, follow.stop_file,
+                                           follow.source),
+                   follow.source),
+        follow.source, columns);
     return true;
   } catch (const InputError&) {
     if (follow.stop()) return false;
@@ -90,16 +94,24 @@ std::optional<Followed> FollowInput(const BatchSettings& settings,
   std::optional<LogLines> log;
   if (!ReadHeader(settings.scene.columns, follow, &log)) return {};
   LogLines& lines = *log;
-  const LiveZero::Make make = [&](const Finger& finger) {
-    return std::make_unique<LiveEstimator>(
-        finger, settings.scene, settings.discretization, settings.method,
-        lines.parser(), settings.format);
+  const auto with = [&](std::unique_ptr<FrameEstimator> estimator) {
+    return std::make_unique<LiveEstimator>(std::move(estimator), settings.scene,
+                                           lines.parser(), settings.format);
   };
-  std::unique_ptr<LiveEstimator> live = make(settings.finger);
+  const LiveZero::Make make = [&](const Finger& finger) {
+    return with(std::make_unique<FrameEstimator>(
+        finger, settings.scene, settings.discretization, settings.method));
+  };
+  std::unique_ptr<LiveEstimator> live =
+      follow.prepared ? with(follow.prepared->ForAnotherThread())
+                      : make(settings.finger);
   const std::unique_ptr<LiveView> view = Serve(settings, follow, make);
   std::optional<Followed> followed(std::in_place);
   if (follow.warn_of_finger) Warn(WarningsOf(settings.finger));
-  bool open = WriteLive(live->rows.HeaderCsv(), follow);
+  const auto write = [&](std::string_view row) {
+    return follow.write ? follow.write(row) : WriteLive(row, follow);
+  };
+  bool open = write(live->rows.HeaderCsv());
   while (open && !follow.stop() && lines.Next()) {
     const Clock::time_point start = Clock::now();
     LiveRows& rows = live->rows;
@@ -108,7 +120,7 @@ std::optional<Followed> FollowInput(const BatchSettings& settings,
       if (follow.strict) throw InputError(rows.error());
       std::fprintf(stderr, "finray_estimate: %s\n", rows.error().c_str());
     }
-    open = WriteLive(row, follow);
+    open = write(row);
     const auto taken = static_cast<std::uint64_t>(
         std::chrono::nanoseconds(Clock::now() - start).count());
     if (open) followed->latency.Add(taken);

@@ -1,16 +1,16 @@
 #ifndef FINRAY_APPS_FOLLOW_INPUT_H_
 #define FINRAY_APPS_FOLLOW_INPUT_H_
 
-#include <unistd.h>
-
 #include <cstdio>
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "finray/batch/estimation_summary.h"
 #include "finray/batch/live_rows.h"
 #include "finray/batch/log_job.h"
+#include "finray/io/line_reader.h"
 #include "finray/view/live_server.h"
 
 namespace finray {
@@ -19,7 +19,14 @@ namespace finray {
 /// it does beside estimating.
 struct FollowSettings {
   std::string source = "stdin";  ///< The name of the input in messages.
-  int input = STDIN_FILENO, output = STDOUT_FILENO;
+  /// Without it standard input is read.
+  ByteSource read;
+  /// Takes a row with its line end. Returns false if nobody reads rows any
+  /// more. Without it they go to standard output.
+  std::function<bool(std::string_view)> write;
+  /// An estimator of the settings whose tables are used, for several inputs at
+  /// a time; nothing else may use it.
+  const FrameEstimator* prepared = nullptr;
   bool strict = false;  ///< A line that cannot be read is an error.
   /// Warn of a finger that is not calibrated, as soon as there is a header.
   bool warn_of_finger = true;

@@ -11,20 +11,21 @@
 
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <list>
 #include <memory>
-#include <system_error>
+#include <string_view>
 #include <thread>
 
 #include "app.h"
+#include "client_lines.h"
 #include "finray/batch/estimation_warnings.h"
 
 namespace finray {
 namespace {
 
-constexpr int kQueue = 16;           // clients that wait to be accepted
-constexpr int kWritePatience_s = 5;  // for a client that does not read
+constexpr int kQueue = 16;  // clients that wait to be accepted
 
 [[noreturn]] void FailListening(const std::string& address,
                                 const std::string& why) {
@@ -151,33 +152,74 @@ class Listener {
 // A client and its thread.
 class Session {
  public:
+  // Takes the socket once the thread is there; a constructor that throws leaves
+  // it to the caller.
   Session(const BatchSettings& settings, const FollowSettings& follow, int file,
           int number)
-      : settings_(settings), follow_(follow), file_(file) {
+      : settings_(settings),
+        follow_(follow),
+        file_(file),
+        lines_(file, follow.stop_file, "client " + std::to_string(number)) {
     follow_.source = "client " + std::to_string(number);
-    follow_.input = follow_.output = file;
+    follow_.read = [this](char* buffer, int size) {
+      return lines_.Read(buffer, size);
+    };
+    follow_.write = [this](std::string_view row) {
+      const bool open = lines_.Write(row);
+      answered_ = Clock::now();
+      follows_ = true;
+      return open;
+    };
+    follow_.stop = [this, stop = follow.stop] {
+      return stop() || lines_.left();
+    };
     follow_.warn_of_finger = false;
     thread_ = std::thread([this] { Serve(); });
   }
   ~Session() {
-    shutdown(file_, SHUT_RDWR);  // lets it wait for this client no longer
+    lines_.Leave();
     thread_.join();
     close(file_);
   }
   bool ended() const { return ended_; }
 
+  // Since the last row, or since it is connected.
+  std::chrono::seconds silent() const {
+    return std::chrono::duration_cast<std::chrono::seconds>(Clock::now() -
+                                                            answered_.load());
+  }
+  bool makes_room() const {
+    return silent().count() >= (follows_ ? kRowPatience_s : kHeaderPatience_s);
+  }
+  // Tells the client to leave.
+  void MakeRoom() {
+    makes_room_ = true;
+    lines_.Leave();
+  }
+
  private:
+  using Clock = std::chrono::steady_clock;
+
   void Serve() {
+    std::string error;
     try {
       if (const auto followed = FollowInput(settings_, follow_)) {
         Report(*followed);
       }
-    } catch (const std::exception& error) {
-      std::fprintf(stderr, "finray_estimate: %s\n", error.what());
-      const std::string line = "# error: " + std::string(error.what()) + "\n";
-      send(file_, line.data(), line.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
-      Drain();
+    } catch (const std::exception& thrown) {
+      error = thrown.what();
     }
+    if (makes_room_) {
+      error = follow_.source + ": silent for " +
+              std::to_string(silent().count()) +
+              " s, and another client needs the place";
+    }
+    if (!error.empty()) {
+      std::fprintf(stderr, "finray_estimate: %s\n", error.c_str());
+    }
+    // What it does from now on is not worth a place.
+    follows_ = false;
+    lines_.Finish(error.empty() ? "" : "# error: " + error + "\n");
     shutdown(file_, SHUT_RDWR);
     ended_ = true;
   }
@@ -195,31 +237,16 @@ class Session {
     funlockfile(stderr);
   }
 
-  // Takes what the client still sends, for a while: TCP throws a last line away
-  // where a socket is closed with bytes that nobody has read.
-  void Drain() {
-    shutdown(file_, SHUT_WR);
-    pollfd waiting[2] = {{file_, POLLIN, 0}, {follow_.stop_file, POLLIN, 0}};
-    char bytes[4096];
-    for (int i = 0; i < kMostDrained && poll(waiting, 2, kDrain_ms) > 0 &&
-                    waiting[1].revents == 0 &&
-                    recv(file_, bytes, sizeof bytes, MSG_DONTWAIT) > 0;
-         ++i) {
-    }
-  }
-
-  static constexpr int kDrain_ms = 500, kMostDrained = 1000;
-
   const BatchSettings& settings_;
   FollowSettings follow_;
   const int file_;
-  std::atomic<bool> ended_{false};
+  ClientLines lines_;
+  std::atomic<Clock::time_point> answered_{Clock::now()};
+  std::atomic<bool> follows_{false}, makes_room_{false}, ended_{false};
   std::thread thread_;
 };
 
 void PrepareClient(int file, bool is_unix) {
-  const timeval patience = {kWritePatience_s, 0};
-  setsockopt(file, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
   if (is_unix) return;
   const int yes = 1;
   setsockopt(file, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
@@ -244,11 +271,31 @@ void Refuse(int file) {
   Dismiss(file, line);
 }
 
+// Lets the client leave that has been silent longest, if one may.
+bool MakeRoom(std::list<Session>* sessions) {
+  auto longest = sessions->end();
+  for (auto at = sessions->begin(); at != sessions->end(); ++at) {
+    if (!at->makes_room()) continue;
+    if (longest == sessions->end() || at->silent() > longest->silent()) {
+      longest = at;
+    }
+  }
+  if (longest == sessions->end()) return false;
+  longest->MakeRoom();
+  sessions->erase(longest);
+  return true;
+}
+
 }  // namespace
 
 void Listen(const BatchSettings& settings, const std::string& address,
-            const FollowSettings& follow) {
+            const FollowSettings& follow_one) {
   const Listener listener(address);
+  const FrameEstimator prepared(settings.finger, settings.scene,
+                                settings.discretization, settings.method);
+  prepared.Prepare();
+  FollowSettings follow = follow_one;
+  follow.prepared = &prepared;
   Warn(WarningsOf(settings.finger));
   std::fprintf(stderr, "listening      %s\n", listener.address().c_str());
   std::list<Session> sessions;
@@ -262,13 +309,13 @@ void Listen(const BatchSettings& settings, const std::string& address,
     if (file < 0) {
       // Out of descriptors, say: the clients that there are go on.
       if (errno != EINTR && errno != ECONNABORTED) usleep(100000);
-    } else if (sessions.size() >= kMostClients) {
+    } else if (sessions.size() >= kMostClients && !MakeRoom(&sessions)) {
       Refuse(file);
     } else {
       PrepareClient(file, listener.is_unix());
       try {
         sessions.emplace_back(settings, follow, file, ++clients);
-      } catch (const std::system_error& error) {  // no thread to be had
+      } catch (const std::exception& error) {  // no thread to be had
         Dismiss(file, "# error: " + std::string(error.what()) + "\n");
       }
     }

@@ -3,10 +3,12 @@
 import contextlib
 import os
 import pathlib
+import re
 import signal
 import socket
 import subprocess
 import tempfile
+import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -30,13 +32,17 @@ class Server:
                 self.address = line.split()[1]
                 break
 
-    def connect(self):
+    def connect(self, buffer=None):
+        """A client, for whose rows the system keeps so many bytes."""
         if self.address.startswith("unix:"):
             client = socket.socket(socket.AF_UNIX)
             client.connect(self.address[5:])
         else:
             host, port = self.address.rsplit(":", 1)
-            client = socket.create_connection((host.strip("[]"), int(port)))
+            client = socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET)
+            if buffer:
+                client.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, buffer)
+            client.connect((host.strip("[]"), int(port)))
         client.settimeout(PATIENCE_S)
         return client
 
@@ -176,6 +182,81 @@ class ListenTest(unittest.TestCase):
                 self.assertTrue(file.readline().startswith("1,"))
             for client in clients:
                 client.close()
+            self.assertEqual(server.stop()[0], 0)
+
+    def test_silent_clients_make_room(self):
+        with serving("0", "--scene", self.scene) as server:
+            with contextlib.ExitStack() as stack:
+                follower = stack.enter_context(server.connect())  # says nothing either, but for its header
+                follower.sendall(HEADER.encode())
+                follower_file = stack.enter_context(follower.makefile("rw"))
+                follower_file.readline()
+                silent = [stack.enter_context(server.connect()) for _ in range(15)]
+                silent[1].sendall(b"time_s,gauge_1_V")  # a header that does not end
+                self.assertIn("16 clients are connected", server.ask(HEADER))
+                time.sleep(6)
+                self.assertEqual(len(server.ask("".join(self.log)).splitlines()), len(self.log))
+                self.assertRegex(silent[0].makefile().read(),
+                                 r"^# error: client 2: silent for \d+ s, and another client needs the place\n$")
+                follower_file.write("1,0,0,0,0\n")
+                follower_file.flush()
+                self.assertTrue(follower_file.readline().startswith("1,"))
+            self.assertEqual(server.stop()[0], 0)
+
+    def long_rows(self, count):
+        note = "x" * 1000
+        return HEADER.strip() + ",note\n" + "".join(f"{i},0,0,0,0,{note}\n" for i in range(count))
+
+    def check_rows(self, answer, count):
+        """So many rows of the log above, each of them whole."""
+        header, *rows = answer.splitlines(keepends=True)
+        columns = header.count(",")
+        for i, row in enumerate(rows[:count]):
+            self.assertEqual((row.split(",", 1)[0], row.count(","), row[-1]), (str(i), columns, "\n"))
+        return rows[count:]
+
+    def test_a_client_may_write_all_before_it_reads(self):
+        count = 8000  # 10 MB of rows, more than the system takes
+        with serving("0", "--scene", self.scene) as server, server.connect(1 << 16) as client:
+            client.sendall(self.long_rows(count).encode())
+            client.shutdown(socket.SHUT_WR)
+            time.sleep(12)
+            self.assertEqual(self.check_rows(client.makefile().read(), count), [])
+            self.assertEqual(server.stop()[0], 0)
+
+    def test_a_client_that_never_reads_is_told_so(self):
+        with serving("0", "--scene", self.scene) as server, server.connect() as client:
+            start = time.monotonic()
+            client.sendall(self.long_rows(40000).encode())
+            client.shutdown(socket.SHUT_WR)
+            self.assertLess(time.monotonic() - start, 60)
+            header, *rows, last = client.makefile().read().splitlines(keepends=True)
+            self.assertEqual(last, "# error: client 1: 4 MiB of rows and 8 MiB of lines wait, as it writes and does not read; "
+                                   "expected a client that reads while it writes\n")
+            self.assertEqual({row.count(",") for row in rows}, {header.count(",")})
+            self.assertGreater(len(rows), 4000)
+            status = pathlib.Path(f"/proc/{server.process.pid}/status").read_text()
+            self.assertLess(int(re.search(r"VmHWM:\s+(\d+)", status)[1]), 120_000)
+            self.assertEqual(server.stop()[0], 0)
+
+    def test_lines_are_whole_when_the_server_stops(self):
+        with serving("0", "--scene", self.scene) as server, server.connect(1 << 16) as client:
+            client.sendall(self.long_rows(10000).encode())
+            time.sleep(2)
+            self.assertEqual(server.stop()[0], 0)
+            answer = client.makefile().read()
+            self.check_rows(answer, 10000)
+            self.assertEqual(answer[-1], "\n")
+
+    def test_tables_are_those_of_the_server(self):
+        def cpu_s():
+            fields = pathlib.Path(f"/proc/{server.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+            return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+        with serving("0") as server:
+            before = cpu_s()
+            for _ in range(30):
+                self.assertIn("no_contact", server.ask(HEADER + "1,0,0,0,0\n"))
+            self.assertLess(cpu_s() - before, 0.6)  # of 30 clients
             self.assertEqual(server.stop()[0], 0)
 
     def test_a_client_that_does_not_read_ends_with_the_server(self):

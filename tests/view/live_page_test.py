@@ -126,6 +126,63 @@ class LivePageTest(unittest.TestCase):
         self.assertEqual(server.request("GET", "/../../etc/passwd")[0], 404)
         self.assertIn("name: paper_140mm", server.request("GET", "/finger.yaml")[1])
 
+    def test_what_a_request_costs_is_bounded(self):
+        server = self.start()
+        page = server.request("GET", "/")[1]
+        before = server.resident_kB()
+        ranges = {"Range": "bytes=" + ",".join(["0-"] * 2600)}  # of which each is a copy of the page
+        answers = []
+        clients = [threading.Thread(target=lambda: answers.append(server.request("GET", "/", ranges))) for _ in range(12)]
+        for client in clients:
+            client.start()
+        for client in clients:
+            client.join()
+        self.assertTrue(len(answers) == 12 and set(answers) == {(200, page)})
+        with socket.create_connection(("127.0.0.1", server.port), timeout=20) as client:  # headers without end
+            with contextlib.suppress(OSError):  # once they are too many
+                client.sendall(b"GET / HTTP/1.1\r\n")
+                for _ in range(10000):
+                    client.sendall(b"X-Filler: 0123456789\r\n" * 1000)  # 220 MB
+        self.assertLess(server.resident_kB() - before, 100_000)
+        with socket.create_connection(("127.0.0.1", server.port), timeout=20) as client:
+            client.sendall(b"GET / HTTP/1.1\r\nHost: localhost\r\n" + b"X-Filler: 0\r\n" * 1500 + b"\r\n")
+            answer = client.makefile(errors="replace").read()
+        self.assertTrue(answer.startswith("HTTP/1.1 400"), answer)
+        self.assertIn("at most 16384 bytes", answer)
+
+    def test_a_request_that_comes_byte_by_byte_ends(self):
+        server = self.start()
+        with socket.create_connection(("127.0.0.1", server.port), timeout=20) as client:
+            start = time.monotonic()
+            with contextlib.suppress(OSError):
+                while time.monotonic() - start < 60:
+                    client.sendall(b"G")
+                    time.sleep(0.5)
+            self.assertLess(time.monotonic() - start, 20)
+
+    def events(self, server, seconds):
+        """The events that a page gets which is open for so long: kind and data."""
+        connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=20)
+        connection.request("GET", "/events")
+        answer, text, end = connection.getresponse(), b"", time.monotonic() + seconds
+        while time.monotonic() < end:
+            text += answer.read1()
+        connection.close()
+        events = [event.split("data: ", 1) for event in text.decode().split("\n\n")[:-1]]
+        return [(kind.strip().removeprefix("event: "), json.loads(data)) for kind, data in events]
+
+    def test_a_page_that_is_opened_late_gets_the_past(self):
+        server = self.start()
+        time.sleep(6)
+        for _ in range(2):  # and one that is loaded anew
+            events = [event for event in self.events(server, 1) if event[0] != "alive"]
+            past = [update for kind, updates in events if kind == "past" for update in updates]
+            self.assertGreater(len(past), 60)
+            rows = [update["rows"] for update in past] + [update["rows"] for kind, update in events if kind == ""]
+            self.assertLess(rows[0], 200)  # of the first tenths of a second
+            self.assertGreater(rows[-1], len(past))
+            self.assertEqual(rows, sorted(set(rows)))
+
     def test_another_address_needs_the_token(self):
         token = "a-token-of-24-characters"
         server = self.start("--serve_address", "0.0.0.0", "--serve_token", token)
@@ -137,7 +194,10 @@ class LivePageTest(unittest.TestCase):
     def test_flags(self):
         base = [BINARIES / "finray_estimate", "--follow", "--finger", FINGER]
         for flags, words in ((["--serve", "0", "--serve_address", "0.0.0.0"], "needs a --serve_token"),
-                             (["--serve", "0", "--serve_token", "short"], "at least 16"),
+                             (["--serve", "0", "--serve_token", "secret"],
+                              "--serve_token: expected at least 16 letters, digits, - and _, found 6 characters"),
+                             (["--serve", "0", "--serve_address", "0.0.0.0", "--serve_token", "short"], "found 5 characters"),
+                             (["--serve", "0", "--serve_token="], "found 0 characters"),
                              (["--serve", "0", "--serve_token", "with space and more text"], "letters, digits"),
                              (["--serve", "70000"], "expected a port"), (["--serve_token", "x"], "goes with --serve"),
                              (["--serve", "0", "--serve_rate_Hz", "0"], "expected 0.1 to 1000")):
@@ -258,7 +318,8 @@ class LivePageTest(unittest.TestCase):
                 connection.close()
                 *updates, end = [e for e in events.split("\n\n") if e and not e.startswith("event: alive")]
                 self.assertEqual(end, "event: end\ndata: {}")
-                self.assertEqual(json.loads(updates[-1].removeprefix("data: "))["rows"], server.rows)
+                last = json.loads(updates[-1].split("data: ", 1)[1])
+                self.assertEqual((last[-1] if isinstance(last, list) else last)["rows"], server.rows)
 
     def test_page(self):
         if missing := chromium.missing():
@@ -277,6 +338,11 @@ class LivePageTest(unittest.TestCase):
             browser.wait("finray.then(p => p.logs[0].value('normal_1_N', p.logs[0].end - 1) > 0.1)")
             cursor = browser.run("finray.then(p => p.view.cursor)")
             browser.wait(f"finray.then(p => p.view.cursor > {cursor})")  # it follows
+            first, entries = browser.run("finray.then(p => [p.logs[0].time(p.logs[0].first), p.logs[0].end])")
+            browser.open(server.url)  # once more
+            browser.wait(f"finray.then(p => p.logs[0].end > {entries})")
+            self.assertEqual(browser.run("finray.then(p => p.logs[0].time(p.logs[0].first))"), first)
+            self.assertLessEqual(browser.run("finray.then(p => p.logs[0].end)"), entries + 200)  # each update once
             browser.run("finray.then(p => p.scrub(p.view.least))")
             self.assertEqual(browser.run("document.getElementById('follow').getAttribute('aria-pressed')"), "false")
             server.ending = True

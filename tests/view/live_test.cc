@@ -34,24 +34,53 @@ std::vector<std::string> Texts(const LiveHub::News& news) {
 TEST(LiveHub, AReaderGetsEachUpdateOnceAndASlowOneTheLast) {
   LiveHub hub;
   hub.Publish("before");
-  std::uint64_t fast = hub.count(), slow = fast;
-  EXPECT_TRUE(hub.After(&fast, milliseconds(0)).updates.empty());
+  LiveHub::Reader fast, slow;
+  for (LiveHub::Reader* reader : {&fast, &slow}) {
+    const LiveHub::News news = hub.Next(reader, milliseconds(0));
+    EXPECT_THAT(Texts(news), testing::ElementsAre("before"));
+    EXPECT_TRUE(news.past);
+  }
+  EXPECT_TRUE(hub.Next(&fast, milliseconds(0)).updates.empty());
   hub.Publish("a");
   hub.Publish("b");
-  EXPECT_THAT(Texts(hub.After(&fast, milliseconds(0))),
-              testing::ElementsAre("a", "b"));
-  EXPECT_TRUE(hub.After(&fast, milliseconds(0)).updates.empty());
+  const LiveHub::News news = hub.Next(&fast, milliseconds(0));
+  EXPECT_THAT(Texts(news), testing::ElementsAre("a", "b"));
+  EXPECT_FALSE(news.past);
+  EXPECT_TRUE(hub.Next(&fast, milliseconds(0)).updates.empty());
   for (int i = 0; i < 1000; ++i) hub.Publish(std::to_string(i));
-  const auto last = Texts(hub.After(&slow, milliseconds(0)));
+  const auto last = Texts(hub.Next(&slow, milliseconds(0)));
   EXPECT_EQ(last.size(), LiveHub::kUpdates);
   EXPECT_EQ(last.back(), "999");
+}
+
+TEST(LiveHub, ANewReaderGetsAllThatIsKept) {
+  LiveHub hub;
+  constexpr std::size_t kMore = 100;
+  for (std::size_t i = 0; i < LiveHub::kKept + kMore; ++i) {
+    hub.Publish(std::to_string(i));
+  }
+  LiveHub::Reader reader;
+  std::size_t next = kMore;
+  while (reader.in_past) {
+    const LiveHub::News news = hub.Next(&reader, milliseconds(0));
+    EXPECT_TRUE(news.past);
+    ASSERT_LE(news.updates.size(), LiveHub::kUpdates);
+    for (const std::string& text : Texts(news)) {
+      ASSERT_EQ(text, std::to_string(next++));
+    }
+    // One more comes while it reads.
+    if (next == kMore + LiveHub::kUpdates) {
+      hub.Publish(std::to_string(LiveHub::kKept + kMore));
+    }
+  }
+  EXPECT_EQ(next, LiveHub::kKept + kMore + 1);
 }
 
 TEST(LiveHub, ClosingWakesReaders) {
   LiveHub hub;
   std::thread closer([&] { hub.Close(); });
-  std::uint64_t next = 0;
-  const LiveHub::News news = hub.After(&next, milliseconds(60000));
+  LiveHub::Reader reader;
+  const LiveHub::News news = hub.Next(&reader, milliseconds(60000));
   EXPECT_TRUE(news.updates.empty());
   EXPECT_TRUE(news.closed);
   closer.join();
@@ -59,14 +88,21 @@ TEST(LiveHub, ClosingWakesReaders) {
 
 TEST(LiveHub, TheEndComesWithTheLastUpdates) {
   LiveHub hub;
-  std::uint64_t next = 0;
+  LiveHub::Reader reader;
   hub.Publish("a");
-  EXPECT_FALSE(hub.After(&next, milliseconds(0)).closed);
+  EXPECT_FALSE(hub.Next(&reader, milliseconds(0)).closed);
   hub.Publish("b");
   hub.Close();
-  const LiveHub::News news = hub.After(&next, milliseconds(0));
+  const LiveHub::News news = hub.Next(&reader, milliseconds(0));
   EXPECT_THAT(Texts(news), testing::ElementsAre("b"));
   EXPECT_TRUE(news.closed);
+  // A late one first gets the past.
+  LiveHub many;
+  for (std::size_t i = 0; i <= LiveHub::kUpdates; ++i) many.Publish("a");
+  many.Close();
+  LiveHub::Reader late;
+  EXPECT_FALSE(many.Next(&late, milliseconds(0)).closed);
+  EXPECT_TRUE(many.Next(&late, milliseconds(0)).closed);
 }
 
 TEST(LiveFeed, KeepsTheOrderAndCountsWhatFindsItFull) {
@@ -153,9 +189,9 @@ TEST(LiveUpdates, ResidualsHaveTheStdOfHysteresis) {
 class LiveZeroTest : public testing::Test {
  protected:
   std::unique_ptr<LiveEstimator> Make(const Finger& finger) {
-    return std::make_unique<LiveEstimator>(finger, Scene(), Discretization(),
-                                           FrameMethod::kFast, parser_,
-                                           ResultFormat());
+    return std::make_unique<LiveEstimator>(
+        std::make_unique<FrameEstimator>(finger, Scene()), Scene(), parser_,
+        ResultFormat());
   }
   // Offers rows until the result is there.
   std::unique_ptr<LiveEstimator> Run(LiveZero* zero, double spread_V) {
@@ -193,7 +229,7 @@ TEST_F(LiveZeroTest, OffsetsAreThoseOfFinrayZero) {
   rows_.resize(LiveZero::kRows);
   const ZeroedFinger expected = ZeroGauges(finger_, {}, rows_, "stdin");
   for (std::size_t j = 0; j < finger_.gauges.size(); ++j) {
-    EXPECT_EQ(made->estimator.finger().gauges[j].offset_V,
+    EXPECT_EQ(made->estimator->finger().gauges[j].offset_V,
               expected.finger.gauges[j].offset_V);
     EXPECT_EQ(zero.finger().gauges[j].offset_V,
               expected.finger.gauges[j].offset_V);
@@ -237,9 +273,9 @@ TEST_F(LiveZeroTest, TheWorkerMakesItsEstimatorWhileTheDecimalMarkIsLearned) {
       {});
   std::unique_ptr<LiveEstimator> made;
   std::thread worker([&] {
-    made = std::make_unique<LiveEstimator>(finger_, Scene(), Discretization(),
-                                           FrameMethod::kFast, parser,
-                                           ResultFormat());
+    made = std::make_unique<LiveEstimator>(
+        std::make_unique<FrameEstimator>(finger_, Scene()), Scene(), parser,
+        ResultFormat());
   });
   parser.LearnDecimal({"1;0;0;0;0", 2});
   EXPECT_FALSE(parser.decimal_settled());

@@ -106,8 +106,8 @@ LineReader ReadFile(const std::string& path) {
   return LineReader(read, path);
 }
 
-LineReader ReadPipe(int file, int wake, const std::string& name) {
-  const auto read_pipe = [file, wake, name](char* buffer, int size) {
+ByteSource PipeBytes(int file, int wake, const std::string& name) {
+  return [file, wake, name](char* buffer, int size) {
     pollfd waiting[2] = {{file, POLLIN, 0}, {wake, POLLIN, 0}};
     while (poll(waiting, 2, -1) < 0) {
       if (errno != EINTR) break;  // read() reports the error
@@ -122,7 +122,10 @@ LineReader ReadPipe(int file, int wake, const std::string& name) {
     }
     return static_cast<int>(count);
   };
-  return LineReader(read_pipe, name);
+}
+
+LineReader ReadPipe(int file, int wake, const std::string& name) {
+  return LineReader(PipeBytes(file, wake, name), name);
 }
 
 }  // namespace finray

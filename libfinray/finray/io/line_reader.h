@@ -59,9 +59,11 @@ class LineReader {
 /// file cannot be read, is a folder or pipe, or is damaged or cut short.
 LineReader ReadFile(const std::string& path);
 
-/// Reads lines as soon as they arrive at `file`, an open descriptor, which the
-/// caller keeps and closes. It stops as soon as the descriptor `wake` (-1:
-/// none) can be read. `name` is the name of the pipe in messages.
+/// The bytes that arrive at `file`, an open descriptor, which the caller keeps
+/// and closes. They stop as soon as the descriptor `wake` (-1: none) can be
+/// read. `name` is the name of the pipe in messages.
+ByteSource PipeBytes(int file, int wake, const std::string& name);
+/// Reads their lines as soon as they arrive.
 LineReader ReadPipe(int file, int wake, const std::string& name);
 
 }  // namespace finray

@@ -12,27 +12,34 @@
 
 namespace finray {
 
-/// The last updates, for any number of readers of any speed. A reader that is
-/// slower than kUpdates updates misses some; nobody waits for it.
+/// The last updates, for any number of readers of any speed. A new reader gets
+/// the last kKept ones. From then on one that is slower than kUpdates updates
+/// misses some; nobody waits for it.
 class LiveHub {
  public:
   using Update = std::shared_ptr<const std::string>;
   struct News {
-    std::vector<Update> updates;
-    bool closed = false;  ///< No update follows these.
+    std::vector<Update> updates;  ///< At most kUpdates.
+    bool past = false;            ///< They came before the reader did.
+    bool closed = false;          ///< No update follows these.
+  };
+  /// Where a reader is.
+  struct Reader {
+    std::uint64_t next = 0;  ///< The number of the update that it gets next.
+    bool in_past = true;
   };
 
   void Publish(std::string update);
   /// There will be no more updates.
   void Close();
 
-  /// The number of updates so far: where a new reader begins.
-  std::uint64_t count() const;
-  /// Returns the updates from number `*next` on, and sets `*next` behind them.
-  /// Waits for the first one, or for the end, for at most `wait`.
-  News After(std::uint64_t* next, std::chrono::milliseconds wait) const;
+  /// Returns what comes next for a reader, and moves it behind that. Waits for
+  /// the first update, or for the end, for at most `wait`.
+  News Next(Reader* reader, std::chrono::milliseconds wait) const;
 
   static constexpr std::size_t kUpdates = 64;
+  /// As many as the rings of a page: ten minutes at 20 a second.
+  static constexpr std::size_t kKept = 12000;
 
  private:
   mutable std::mutex mutex_;

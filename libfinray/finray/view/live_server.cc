@@ -1,7 +1,5 @@
 #include "finray/view/live_server.h"
 
-#include <httplib.h>
-
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -14,11 +12,11 @@
 #include <vector>
 
 #include "finray/io/error.h"
+#include "finray/view/bounded_http.h"
+#include "finray/view/json_text.h"
 
 namespace finray {
 namespace {
-
-constexpr std::size_t kMostBodyBytes = 1024;
 
 // Workers in a fixed number, and one more that tells its client that all are
 // at work. A connection that finds none waits until one is free, and others
@@ -135,10 +133,6 @@ class LiveServer::Implementation {
       listens_.set_value();
       return new WorkerQueue(&workers_);
     };
-    server_.set_read_timeout(kPatience_s);
-    server_.set_write_timeout(kPatience_s);
-    server_.set_keep_alive_timeout(2);
-    server_.set_payload_max_length(kMostBodyBytes);
     server_.set_tcp_nodelay(true);
     // Not SO_REUSEPORT, httplib's default: two servers would share a port.
     server_.set_socket_options([](socket_t socket) {
@@ -180,6 +174,14 @@ class LiveServer::Implementation {
   }
 
   void Route() {
+    server_.set_error_handler([](const auto&, auto& response) {
+      if (response.status != 400 || !response.body.empty()) return;
+      Refuse(400,
+             "expected an HTTP request of at most " +
+                 std::to_string(BoundedHttp::kMostBytes) + " bytes within " +
+                 std::to_string(kPatience_s) + " s",
+             &response);
+    });
     server_.set_pre_routing_handler([](const auto&, auto& response) {
       if (!BoundedWorkers::is_one_too_many()) {
         return httplib::Server::HandlerResponse::Unhandled;
@@ -240,6 +242,14 @@ class LiveServer::Implementation {
     response->set_content(why + "\n", "text/plain; charset=utf-8");
   }
 
+  // What came before a page was opened, as one event.
+  static std::string PastEvent(const std::vector<LiveHub::Update>& updates) {
+    if (updates.empty()) return "";
+    JsonArray array;
+    for (const LiveHub::Update& update : updates) array.Add(*update);
+    return "event: past\ndata: " + array.str() + "\n\n";
+  }
+
   // Server-sent events until the client goes or the log ends.
   void Stream(httplib::Response* response) {
     if (++streams_ > kMostPages) {
@@ -252,15 +262,15 @@ class LiveServer::Implementation {
       return;
     }
     response->set_header("Cache-Control", "no-store");
-    auto next = std::make_shared<std::uint64_t>(hub_.count());
+    auto reader = std::make_shared<LiveHub::Reader>();
     response->set_chunked_content_provider(
         "text/event-stream",
-        [this, next](std::size_t, httplib::DataSink& sink) {
+        [this, reader](std::size_t, httplib::DataSink& sink) {
           const LiveHub::News news =
-              hub_.After(next.get(), std::chrono::milliseconds(500));
-          std::string text;
-          for (const LiveHub::Update& update : news.updates) {
-            text += "data: " + *update + "\n\n";
+              hub_.Next(reader.get(), std::chrono::milliseconds(500));
+          std::string text = news.past ? PastEvent(news.updates) : "";
+          for (std::size_t i = 0; !news.past && i < news.updates.size(); ++i) {
+            text += "data: " + *news.updates[i] + "\n\n";
           }
           if (news.closed) text += "event: end\ndata: {}\n\n";
           // Page and server both find out whether the other is still there.
@@ -277,7 +287,7 @@ class LiveServer::Implementation {
   const LiveHub& hub_;
   std::atomic<int> streams_{0};
   std::promise<void> listens_;
-  httplib::Server server_;
+  BoundedHttp server_{kPatience_s};
   BoundedWorkers workers_{kWorkers};
   int port_ = 0;
   std::thread thread_;

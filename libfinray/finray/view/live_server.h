@@ -28,8 +28,9 @@ bool IsLoopback(const std::string& address);
 ///
 /// All that clients can do is bounded: kWorkers connections are served at a
 /// time, one more is told so (503), and a few wait in the system's queue;
-/// kMostPages of them may be pages that get updates. A client that does not
-/// read or send for kPatience_s is disconnected.
+/// kMostPages of them may be pages that get updates. A request has to be there
+/// within kPatience_s and is bounded (BoundedHttp); a client that takes nothing
+/// for kPatience_s is disconnected.
 class LiveServer {
  public:
   struct Pages {

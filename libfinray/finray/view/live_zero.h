@@ -7,21 +7,21 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "finray/batch/live_rows.h"
 
 namespace finray {
 
-/// A finger and what estimates the rows of a live log with it.
+/// What estimates the rows of a live log.
 struct LiveEstimator {
-  LiveEstimator(const Finger& finger, const Scene& scene,
-                const Discretization& discretization, FrameMethod method,
+  LiveEstimator(std::unique_ptr<FrameEstimator> own, const Scene& scene,
                 const FrameParser& parser, const ResultFormat& format)
-      : estimator(finger, scene, discretization, method),
-        rows(finger, scene, parser, &estimator, format) {}
+      : estimator(std::move(own)),
+        rows(estimator->finger(), scene, parser, estimator.get(), format) {}
 
-  FrameEstimator estimator;
+  const std::unique_ptr<FrameEstimator> estimator;
   LiveRows rows;
 };
 

@@ -1,6 +1,6 @@
 // A log that is still coming: the last entries in rings of fixed size.
 
-const LIVE_ENTRIES = 12000;  // ten minutes at 20 a second
+const LIVE_ENTRIES = 12000;  // ten minutes at 20 a second; LiveHub keeps as many
 
 class RingChannel {
   constructor(log) {
@@ -89,7 +89,7 @@ class Live {
   constructor(page, log) {
     this.page = page;
     this.log = log;
-    this.following = true;
+    this.following = this.isNew = true;
     this.span = 30;  // seconds that are shown while it follows
     byId("live").hidden = false;
     byId("compare").hidden = byId("play").hidden = byId("speed").hidden = true;
@@ -115,6 +115,16 @@ class Live {
     source.onopen = () => this.hear();
     source.addEventListener("alive", () => this.hear());
     source.onerror = () => source.readyState === EventSource.CLOSED ? this.refused() : this.lost();
+    // What came before the page was opened, or while it was away: all that the server has kept.
+    let first = true;
+    source.addEventListener("past", event => {
+      this.hear();
+      if (first) this.log.first = this.log.end = 0;
+      first = false;
+      const past = JSON.parse(event.data), last = past.pop();
+      for (const update of past) this.take(update);
+      this.update(last);
+    });
     source.onmessage = event => {
       this.hear();
       this.update(JSON.parse(event.data));
@@ -159,14 +169,20 @@ class Live {
     }
     abort.abort();
   }
-  update(update) {
-    const {log, page} = this, view = page.view, restarted = log.end > log.first && update.time < log.time(log.end - 1);
+  take(update) {
+    const {log, page} = this, restarted = log.end > log.first && update.time < log.time(log.end - 1);
     if (restarted) log.first = log.end = 0;
+    this.isNew = this.isNew || restarted;
     log.add(update);
-    view.bounds(log.time(log.first), Math.max(update.time, log.time(log.first) + this.span));
-    if (log.end === 1) view.show(view.least, this.span);
     // Frames that are not observable may be far off.
     if (!(update.mask & 4)) page.mostForce = Math.max(page.mostForce, update.most[log.names.indexOf("normal_1_N")] || 0);
+  }
+  update(update) {
+    const {log, page} = this, view = page.view;
+    this.take(update);
+    view.bounds(log.time(log.first), Math.max(update.time, log.time(log.first) + this.span));
+    if (this.isNew) view.show(view.least, this.span);
+    this.isNew = false;
     if (this.following) {
       view.cursor = update.time;
       const span = view.t1 - view.t0;
