@@ -92,9 +92,9 @@ class TimeOffsetTest(unittest.TestCase):
             time_offset.estimate(force, gauges, 0.5)
 
     def test_clocks_that_are_far_apart_are_said_and_found_if_asked_for(self):
-        for offset_s, longest_s, how in ((7.3, 1.0, {}), (-20, 2.0, {}), (7.3, 1.0, {
-                "gauge_hz": 250, "force_hz": 250, "seconds": 40})):
-            with self.subTest((offset_s, how)):
+        how = {"gauge_hz": 100, "seconds": 60}
+        for offset_s, longest_s in ((7.3, 1.0), (-20, 2.0)):
+            with self.subTest(offset_s):
                 given = recordings(np.random.default_rng(735), offset_s, **how)
                 with self.assertRaisesRegex(time_offset.ClocksApart, "clocks are .* s apart") as said:
                     time_offset.estimate(*given, longest_s)
