@@ -60,6 +60,9 @@ void DumpConfig(const Finger& finger, const Scene& scene,
             << "contacts: "
             << (scene.contacts ? std::to_string(*scene.contacts) : "auto")
             << "\n";
+  if (!scene.contacts) {
+    std::cout << "most_contacts: " << scene.most_contacts << "\n";
+  }
   if (!scene.contact_beams.empty()) {
     std::cout << "contact_beams: " << ContactBeamsToYaml(scene) << "\n";
   }

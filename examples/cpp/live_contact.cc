@@ -7,7 +7,7 @@
 int main(int argc, char** argv) {
   if (argc != 2) return 1;
   const finray::Finger finger = finray::Finger::Read(argv[1]);
-  const finray::Scene scene = finray::Scene::FromYaml("contacts: 1");
+  const finray::Scene scene = finray::Scene::FromYaml("most_contacts: 1");
   finray::LiveEstimator estimator(finger, scene);
   finray::Readings readings;
   readings.gauges_V.resize(finger.gauges());

@@ -8,7 +8,7 @@ import sys
 
 import finray
 
-live = finray.Live(finray.Finger.read(sys.argv[1]), finray.Scene(contacts=1))
+live = finray.Live(finray.Finger.read(sys.argv[1]), finray.Scene(most_contacts=1))
 for line in sys.stdin:
     frame = live.next([float(word) for word in line.split()])
     if frame.status == "ok":

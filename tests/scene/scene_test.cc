@@ -33,6 +33,22 @@ TEST(SceneTest, Reads) {
   EXPECT_FALSE(Load("contacts: auto\n").contacts.has_value());
 }
 
+TEST(SceneTest, NoneOrOne) {
+  EXPECT_EQ(Load("contacts: auto\n").most_contacts, 2);
+  const Scene scene = Load("contacts: auto\nmost_contacts: 1\n");
+  EXPECT_EQ(scene.most_contacts, 1);
+  EXPECT_FALSE(scene.contacts);
+  EXPECT_EQ(Load("most_contacts: 2\n").most_contacts, 2);
+  const auto error = [](const std::string& text, const std::string& message) {
+    EXPECT_THAT([&] { Load(text); },
+                ThrowsMessage<InputError>(HasSubstr(message)));
+  };
+  error("most_contacts: 0\n", ":1:16: most_contacts: expected 1 or 2");
+  error("most_contacts: 3\n", "expected 1 or 2");
+  error("most_contacts: auto\n", "most_contacts");
+  error("contacts: 1\nmost_contacts: 1\n", ":2:16: most_contacts: it is for");
+}
+
 TEST(SceneTest, BundledScenesAreWhatTheirNamesSay) {
   const std::string folder = FINRAY_SOURCE_DIR "/configs/scenes/";
   EXPECT_EQ(ReadScene(folder + "one_contact.yaml").contacts, 1);

@@ -22,7 +22,7 @@ class FinrayNode : public rclcpp::Node {
       : Node("finray"),
         frame_id_(Text("frame_id", "finray")),
         live_(finray::Finger::Read(Text("finger", "")),
-              finray::Scene::FromYaml(Text("scene", "contacts: 1"))),
+              finray::Scene::FromYaml(Text("scene", "most_contacts: 1"))),
         wrench_(create_publisher<WrenchStamped>("wrench", 10)),
         diagnostics_(create_publisher<DiagnosticArray>("/diagnostics", 10)),
         gauges_(create_subscription<Float64MultiArray>(

@@ -25,7 +25,7 @@ class FinrayNode(Node):
     def __init__(self):
         super().__init__("finray")
         finger = finray.Finger.read(self.declare_parameter("finger", "").value)
-        scene = finray.Scene.from_yaml(self.declare_parameter("scene", "contacts: 1").value)
+        scene = finray.Scene.from_yaml(self.declare_parameter("scene", "most_contacts: 1").value)
         self.frame_id = self.declare_parameter("frame_id", "finray").value
         self.live = finray.Live(finger, scene)
         self.wrench = self.create_publisher(WrenchStamped, "wrench", 10)

@@ -98,8 +98,8 @@ ResultColumns::ResultColumns(const Finger& finger, const Scene& scene)
       limited_(scene.search_iteration_limit.has_value()),
       friction_(scene.friction_coefficient) {
   constexpr std::size_t kGaugesForTwo = 4;  // as many as unknowns
-  const bool automatic =
-      gauges_.size() >= kGaugesForTwo && !scene.object_std_mm;
+  const bool automatic = gauges_.size() >= kGaugesForTwo &&
+                         !scene.object_std_mm && scene.most_contacts == 2;
   const bool two = scene.contacts ? *scene.contacts == 2 : automatic;
   if (two) contacts_ = 2;
   Measurements readings;

@@ -23,6 +23,21 @@ std::optional<int> ReadContacts(const YamlMap& yaml) {
   return contacts;
 }
 
+int ReadMostContacts(const YamlMap& yaml, const Scene& scene) {
+  constexpr const char* kKey = "most_contacts";
+  if (!yaml.Has(kKey)) return scene.most_contacts;
+  if (scene.contacts) {
+    yaml.Fail(kKey,
+              "most_contacts: it is for contacts: auto, which is the "
+              "default; leave out the number of contacts");
+  }
+  const int most = yaml.Integer(kKey);
+  if (most < 1 || most > 2) {
+    yaml.Fail(kKey, "most_contacts: expected 1 or 2");
+  }
+  return most;
+}
+
 bool HasBackContacts(const Scene& scene) {
   return std::count(scene.contact_beams.begin(), scene.contact_beams.end(),
                     Side::kBack) > 0;
@@ -190,11 +205,18 @@ std::string ObjectToYaml(const RigidObject& object) {
 }
 
 Scene ReadScene(const YamlMap& yaml) {
-  std::vector<std::string> keys = {
-      "schema_version",         "contacts",     "contact_beams",
-      "friction_coefficient",   "force_max_N",  "object",
-      "measurements",           "smoothing",    "gauge_offset_walk",
-      "search_iteration_limit", "presliding_mm"};
+  std::vector<std::string> keys = {"schema_version",
+                                   "contacts",
+                                   "most_contacts",
+                                   "contact_beams",
+                                   "friction_coefficient",
+                                   "force_max_N",
+                                   "object",
+                                   "measurements",
+                                   "smoothing",
+                                   "gauge_offset_walk",
+                                   "search_iteration_limit",
+                                   "presliding_mm"};
   keys.insert(keys.end(), ColumnMappingKeys().begin(),
               ColumnMappingKeys().end());
   yaml.AllowOnly(keys);
@@ -203,6 +225,7 @@ Scene ReadScene(const YamlMap& yaml) {
   }
   Scene scene;
   scene.contacts = ReadContacts(yaml);
+  scene.most_contacts = ReadMostContacts(yaml, scene);
   scene.friction_coefficient = yaml.Number("friction_coefficient", 0);
   if (yaml.Has("presliding_mm")) {
     scene.presliding_mm = yaml.PositiveNumber("presliding_mm");

@@ -29,7 +29,7 @@ struct Scene {
   /// Number of contacts. Empty for "auto": the estimator decides frame by
   /// frame.
   std::optional<int> contacts;
-  /// The largest number of contacts under "auto".
+  /// The largest number of contacts under "auto": 1 (none or one) or 2.
   int most_contacts = 2;
   /// The beam of each point contact, contact_1 first. Empty: all contacts are
   /// on the front beam.

@@ -180,10 +180,10 @@ bool FrameEstimator::TakeFollowed(const PackedReadings& packed, std::size_t run,
   if (scale > 1 && systematic_.has_discrepancy()) return false;
   const ContactMatrix covariance = CovarianceOf(fit.information);
   const double arc_std = scale * std::sqrt(covariance(0, 0));
-  const bool touches = scene_.contacts
-                           ? contact.normal_N >= least_force_N_
-                           : fit.chi2 < kSecondSignificance &&
-                                 packed.free_chi2 - fit.chi2 >= kSignificance;
+  const bool alone = scene_.most_contacts < 2 || fit.chi2 < kSecondSignificance;
+  const bool touches =
+      scene_.contacts ? contact.normal_N >= least_force_N_
+                      : alone && packed.free_chi2 - fit.chi2 >= kSignificance;
   if (!touches || !follower_->IsCertain(run, arc_std, scale)) {
     return false;
   }
