@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "finray/finray.h"
@@ -78,6 +79,26 @@ TEST(ApiTest, LiveFramesAreThoseOfTheLog) {
   }
   EXPECT_THAT([&] { live.Next({}); }, ThrowsMessage<finray::InputError>(
                                           HasSubstr("expected 4 readings")));
+}
+
+TEST(ApiTest, ReadingsThatNoGaugeGivesAreBadInput) {
+  const finray::Finger finger = PaperFinger();
+  Table log = OnlyGauges(Simulator(finger).Simulate(Loads()).frames);
+  const double infinity = std::numeric_limits<double>::infinity();
+  log.Set("gauge_2_V", {infinity, log.At("gauge_2_V")[1], -9.9e37});
+  const Estimation found = Estimator(finger).Estimate(log);
+  EXPECT_THAT(found.statuses,
+              ElementsAre(FrameStatus::kBadInput, FrameStatus::kOk,
+                          FrameStatus::kBadInput));
+  LiveEstimator live(finger, finray::Scene());
+  Readings readings;
+  readings.gauges_V = {0.01, -infinity, 0.01, 0.01};
+  EXPECT_EQ(live.Next(readings).status, FrameStatus::kBadInput);
+  EXPECT_TRUE(std::isnan(live.Next(readings).contact[0].normal_N));
+  // Nothing explains these: neither the free finger nor a contact.
+  readings.gauges_V = {-1, -1, -1, -1};
+  EXPECT_EQ(live.Next(readings).status, FrameStatus::kUnobservable);
+  EXPECT_TRUE(std::isnan(live.Next(readings).contact[0].normal_N));
 }
 
 TEST(ApiTest, BadInputSaysWhere) {

@@ -222,6 +222,56 @@ TEST_F(FollowTest, AMalformedLineIsARowAndAMessage) {
   }
 }
 
+// In a batch, too: the run goes on behind a reading that no gauge gives.
+TEST_F(FollowTest, ImpossibleReadingsAreBadInput) {
+  folder_.Write("scene.yaml", "contacts: auto\n");
+  const std::string readings[] = {"inf", "-inf", "9.9E+37", "1e400", "-50"};
+  std::string log = header_;
+  for (int i = 0; i < 10; ++i) {
+    log += std::to_string(i) +
+           (i % 2 == 0 ? ",0.0214,0.0321,0.0362,0.0304\n"
+                       : ",0.0214," + readings[i / 2] + ",0.0362,0.0304\n");
+  }
+  folder_.Write("log.csv", log);
+  const Outcome batch =
+      Run("finray_estimate", "--finger " + paper_ +
+                                 " --scene %scene.yaml --logs %log.csv "
+                                 "--out_dir %out");
+  EXPECT_EQ(batch.code, 0) << batch.output;
+  EXPECT_THAT(batch.output, HasSubstr("0 not_converged, 5 bad_input"));
+  const FrameTable found = FrameTable::Read(folder_.Path("out/log.frames.csv"));
+  Follower follower = Start();
+  follower.Write(log);
+  follower.CloseInput();
+  const FrameTable live =
+      FrameTable::Read(folder_.Write("live.csv", follower.ReadAll()));
+  EXPECT_EQ(follower.Wait(), 0);
+  ASSERT_EQ(found.rows(), 10u);
+  ASSERT_EQ(live.rows(), 10u);
+  for (std::size_t row = 0; row < 10; ++row) {
+    EXPECT_EQ(found.Text("status")[row] == "bad_input", row % 2 == 1) << row;
+    EXPECT_EQ(live.Text("status")[row], found.Text("status")[row]) << row;
+    EXPECT_EQ(std::isnan(found.Numbers("normal_1_N")[row]), row % 2 == 1);
+  }
+}
+
+TEST_F(FollowTest, NoneOrOne) {
+  const std::filesystem::path shared =
+      FINRAY_SOURCE_DIR "/../shared/cases/none_or_one/";
+  if (!std::filesystem::exists(shared)) GTEST_SKIP() << "no " << shared;
+  std::ifstream file(shared / "Sa.yaml");
+  std::ostringstream scene;
+  scene << file.rdbuf() << "\nmost_contacts: 1\n";
+  folder_.Write("scene.yaml", scene.str());
+  const Outcome outcome =
+      Run("finray_estimate", "--finger " + (shared / "finger.yaml").string() +
+                                 " --scene %scene.yaml --logs " +
+                                 (shared / "free_then_touch.csv").string() +
+                                 " --out_dir %out");
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("ok             174, no_contact 618"));
+}
+
 TEST_F(FollowTest, ASearchThatIsEndedSaysSo) {
   folder_.Write("scene.yaml", "contacts: 2\nsearch_iteration_limit: 1\n");
   Follower follower = Start();

@@ -139,7 +139,8 @@ TEST(CalibrationLogTest, NearlyNamedColumnsAreNotLeftOut) {
 
 TEST(CalibrationLogTest, RefusesHugeNumbers) {
   const TempFolder folder;
-  for (const char* row : {"0,0,-1e16,0,1\n", "0,0,0,0,1e308\n"}) {
+  for (const char* row :
+       {"0,0,-1e16,0,1\n", "0,0,0,0,1e308\n", "0,-inf,0,0,1\n"}) {
     const std::string path = folder.Write(
         "a.csv", std::string(kGauges) + ",force_N\n0,0,0,0,1\n" + row);
     EXPECT_THAT([&] { ReadCalibrationLogs({path}, PaperFinger(), Plan()); },

@@ -106,6 +106,19 @@ TEST_F(FrameTableTest, RenamesALabsHeaders) {
                      "'Fz [N]'?)");
 }
 
+TEST_F(FrameTableTest, GaugesMayReadInfinity) {
+  const std::string text = "gauge_1_V,gauge_2_rad\n-inf,inf\n1,2\n";
+  const FrameTable table = Load(text);
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(table.Numbers("gauge_1_V")[0], -infinity);
+  EXPECT_EQ(table.Numbers("gauge_2_rad")[0], infinity);
+  EXPECT_EQ(table.ToCsv(), text);
+  EXPECT_EQ(Load("gauge_1_V\n1e999\n").Numbers("gauge_1_V")[0], infinity);
+  EXPECT_EQ(Load("gauge_1_V\nInfinity\n").Numbers("gauge_1_V")[0], infinity);
+  EXPECT_INPUT_ERROR(Load("gauge_1_V\n1e-999\n"), "expected a number");
+  EXPECT_INPUT_ERROR(Load("gauge_1_V\ninfinite\n"), "expected a number");
+}
+
 TEST_F(FrameTableTest, ErrorsNameThePlace) {
   EXPECT_INPUT_ERROR(Load("time_s,force_N\n0,1\n1,2x\n"),
                      "log.csv:3:2: force_N: expected a number, found '2x'");

@@ -175,6 +175,21 @@ class PackageTest(unittest.TestCase):
             with self.assertRaisesRegex(finray.InputError, text):
                 call()
 
+    def test_readings_that_no_gauge_gives(self):
+        finger = finray.Finger.read(FINGER)
+        log = {f"gauge_{j}_V": np.array([float(v) for v in column(HOLDOUT, f"gauge_{j}_V")]) for j in range(1, 5)}
+        before = list(finray.estimate(finger, log).status)
+        readings = [math.inf, -math.inf, 9.9e37, 100.0, math.nan]
+        log["gauge_2_V"] = log["gauge_2_V"].copy()
+        log["gauge_2_V"][:5] = readings
+        after = list(finray.estimate(finger, log).status)
+        self.assertEqual(after[:4], ["bad_input"] * 4)
+        self.assertNotEqual(after[4], "bad_input")
+        self.assertEqual(after[5:], before[5:])
+        live = finray.Live(finger)
+        for row in range(5):
+            self.assertEqual(live.next([log[f"gauge_{j}_V"][row] for j in range(1, 5)]).status, after[row])
+
     def test_views_are_read_without_a_copy(self):
         finger = finray.Finger.read(FINGER)
         matrix = np.array([[float(v) for v in column(HOLDOUT, f"gauge_{j}_V")] for j in range(1, 5)]).T

@@ -33,10 +33,9 @@ TEST(FollowedPairsTest, AreWhatASearchFinds) {
 TEST(FollowedPairsTest, SayWhereThereAreOthers) {
   const Finger four = WithLittleNoise(PaperFinger());
   const PairLog log = SimulatePairs(four, 640, WanderingPair);
-  for (const Scene& scene : {Scene(), SceneOfTwo()}) {
-    const PairAgreement found = ComparePairs(four, scene, log);
-    ExpectPairs(found, 450, 1);
-  }
+  ExpectPairs(ComparePairs(four, SceneOfTwo(), log), 450, 1);
+  // Nothing is left that could doubt a pair on four gauges.
+  EXPECT_EQ(ComparePairs(four, Scene(), log).ok, 0);
 }
 
 // Contacts that jump, leave and come are searched.

@@ -65,7 +65,8 @@ void EstimationSummary::Add(const FrameEstimate& estimate, double coefficient,
   const bool all_read =
       std::all_of(readings.gauges_V.begin(), readings.gauges_V.end(),
                   [](double volts) { return std::isfinite(volts); });
-  if (std::abs(force_N) <= kFreeForce_N && all_read) {
+  if (std::abs(force_N) <= kFreeForce_N && all_read &&
+      estimate.status != FrameStatus::kBadInput) {
     ++free_rows;
     AddAll(readings.gauges_V, &free_sums_V);
   }

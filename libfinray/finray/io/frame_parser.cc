@@ -1,8 +1,9 @@
 #include "finray/io/frame_parser.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <limits>
+#include <cstdlib>
 #include <optional>
 #include <set>
 
@@ -42,6 +43,23 @@ bool MayBeThousands(std::string_view text) {
   return comma >= 1 && comma <= 3 && text[0] != '0' &&
          text.size() == comma + 4 &&
          text.find_first_not_of("0123456789,") == text.npos;
+}
+
+// Returns the infinity that a text stands for: "inf", "-Infinity", or a number
+// that is too large for a double.
+std::optional<double> InfinityIn(std::string_view text) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') {
+    text.remove_prefix(1);
+  }
+  const char* end = text.data() + text.size();
+  double value = 0;
+  const auto result = std::from_chars(text.data(), end, value);
+  if (result.ptr != end || result.ec == std::errc::invalid_argument) return {};
+  if (result.ec == std::errc::result_out_of_range) {
+    const ClassicNumbers classic;
+    value = std::strtod(std::string(text).c_str(), nullptr);
+  }
+  return std::isinf(value) ? std::optional<double>(value) : std::nullopt;
 }
 
 // Returns the unit in a cell of a units row, also in brackets, or nothing.
@@ -240,8 +258,9 @@ FrameRows::Cell FrameParser::ReadCell(int line, std::size_t i,
                                       std::string_view text) const {
   if (IsMissing(text)) return {};
   const Column& column = columns_[i];
-  if (column.may_be_infinite && text == "inf") {
-    return {std::numeric_limits<double>::infinity(), text};
+  if (column.may_be_infinite) {
+    const std::optional<double> infinity = InfinityIn(text);
+    if (infinity) return {*infinity, text};
   }
   std::string error;
   const double value = column.conversion.Value(text, decimal_, &error);

@@ -147,7 +147,7 @@ std::string FrameTable::RowsCsv() const {
       if (const auto* numbers = std::get_if<Numeric>(&columns_[i].cells)) {
         const double value = (*numbers)[row];
         if (std::isfinite(value) ||
-            (value > 0 && MayBeInfinite(columns_[i].name))) {
+            (std::isinf(value) && MayBeInfinite(columns_[i].name))) {
           csv += NumberText(value);
         } else if (alone) {
           csv += "nan";

@@ -56,7 +56,8 @@ bool IsFrameColumn(std::string_view name) {
 }
 
 bool MayBeInfinite(std::string_view name) {
-  return name == "cylinder_radius_mm";
+  return name == "cylinder_radius_mm" || Matches(name, "gauge_#_V") ||
+         Matches(name, "gauge_#_rad");
 }
 
 std::string DidYouMeanFrameColumn(const std::string& name) {

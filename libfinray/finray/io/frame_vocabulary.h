@@ -16,7 +16,7 @@ const std::vector<std::string>& FrameColumnPatterns();
 bool IsFrameColumn(std::string_view name);
 
 /// Says whether inf is a value of a column: a cylinder of infinite radius is a
-/// plane. In other columns inf cannot be read.
+/// plane, a gauge with an open cable reads anything. In others it is an error.
 bool MayBeInfinite(std::string_view name);
 
 /// Returns " (did you mean 'x'?)" with the nearest name of the vocabulary, or

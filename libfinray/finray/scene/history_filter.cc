@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finray/finger/possible_reading.h"
 #include "finray/io/error.h"
 #include "finray/io/frame_vocabulary.h"
 
@@ -46,6 +47,8 @@ void HistoryFilter::Remove(Measurements* row) {
             .Next({row->object_mm, row->object_angle_rad}, &sliding_->solver)
             .value_or(Measurements::kNotMeasured);
   }
+  // The estimator refuses such a row, and the next ones must not remember it.
+  if (!ArePossible(gauges_, row->gauges_V)) return;
   const double moved2 = play_ ? change_.Next(row->gauges_V) : 0;
   if (play_) row->history_std_V.assign(gauges_.size(), 0);
   for (std::size_t j = 0; j < gauges_.size(); ++j) {

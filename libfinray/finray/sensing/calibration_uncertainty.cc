@@ -151,10 +151,11 @@ double CalibrationUncertainty::Chi2(const std::vector<PointContact>& contacts,
     covariance += w * model_->discrepancy * w;
   }
   const Eigen::LLT<Eigen::MatrixXd> root(covariance);
-  const Eigen::MatrixXd slope =
-      root.matrixL().solve(Eigen::MatrixXd(w * at->by_contact));
   const Eigen::VectorXd whitened =
       root.matrixL().solve(Eigen::VectorXd(w * at->error));
+  if (contacts.empty()) return whitened.squaredNorm();
+  const Eigen::MatrixXd slope =
+      root.matrixL().solve(Eigen::MatrixXd(w * at->by_contact));
   return (whitened - slope * slope.colPivHouseholderQr().solve(whitened))
       .squaredNorm();
 }

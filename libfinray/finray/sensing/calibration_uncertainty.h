@@ -71,8 +71,8 @@ class CalibrationUncertainty {
   /// of Of() with one contact. An error of mu is in both factors.
   double whole_force_variance_N2() const { return whole_force_variance_N2_; }
 
-  /// The least chi2 of as many contacts near a solution, with parameters that
-  /// may be off as the calibration says. Linear in both,
+  /// The least chi2 of as many contacts near a solution, or of none, with
+  /// parameters that may be off as the calibration says. Linear in both,
   ///
   ///   min over x of (r + J x)' (W^-1 + D C_pp D' + S)^-1 (r + J x),
   ///   D = dr/dp,

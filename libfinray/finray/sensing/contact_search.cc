@@ -7,6 +7,7 @@
 
 #include "finray/finger/geometry.h"
 #include "finray/sensing/chi_squared.h"
+#include "finray/sensing/pair_profile.h"
 #include "finray/sensing/valley.h"
 
 namespace finray {
@@ -48,8 +49,45 @@ double ProfiledChi2(double chi2, int dof) {
                   chi2 + scale2 * Valley::kMostChi2);
 }
 
+// Fits of one pair end within this of each other, in chi2.
+constexpr double kSamePair = 0.01;
+// Searches for two contacts profile their solution so often, as a profile may
+// lead to a better one.
+constexpr int kMostProfiles = 3;
+
 bool HasCloseMinima(const Finger& finger) {
   return finger.back_angle_rad < kUpright_rad || finger.ribs.size() >= kCrowded;
+}
+
+}  // namespace
+
+namespace {
+
+// Fits from where the profile of the best pair has other minima, until they
+// lead to no better one. `profile` is then that of the best pair. fit(start)
+// fills in the next solution and says whether it has.
+template <class Fit>
+void ProfileFound(const PackedReadings& packed, double friction,
+                  double most_force_N, EquilibriumSolver* solver,
+                  FoundSolutions* found, LadderState* state,
+                  std::vector<ContactStart>* profile, const Fit& fit) {
+  for (int round = 0; round < kMostProfiles; ++round) {
+    PairProfile of_best = ProfilePair(found->best(), packed, friction,
+                                      most_force_N, solver, profile);
+    const double before = found->least_chi2();
+    for (int i = 0; i < of_best.count && !found->full(); ++i) {
+      ContactStart& start = of_best.minima[i];
+      for (PointContact& contact : start.contacts) contact.friction = friction;
+      solver->Reset();
+      if (!solver->Solve({start.contacts.begin(), start.contacts.end()})) {
+        continue;
+      }
+      solver->SaveState(state);
+      start.state = state;
+      if (fit(start)) found->Keep();
+    }
+    if (!(found->least_chi2() < before - kSamePair)) return;
+  }
 }
 
 }  // namespace
@@ -152,6 +190,23 @@ bool ContactSearch::Search(int contacts, const Measurements& row,
     }
     if (!(needed > most_chi2)) break;
     most_chi2 = needed;
+  }
+  if (contacts == 2 && !found_.empty() && packed.camera == 0 && MayGoOn()) {
+    const ContactSolution* best = &found_.best();
+    ProfileFound(packed, friction_, most_force_N_, &solver_, &found_, &exact_,
+                 &profile_, [&](const ContactStart& start) {
+                   return method_ == FrameMethod::kFast
+                              ? FitEquilibria(start, packed)
+                              : FitByCeres(start, row);
+                 });
+    Spend(static_cast<int>(profile_.size()), true);
+    // Following begins at an equilibrium near the best.
+    if (&found_.best() != best &&
+        solver_.Solve(
+            {this->best().contacts.begin(), this->best().contacts.end()})) {
+      solver_.SaveState(&exact_);
+      best_from_ = &exact_;
+    }
   }
   suspect_ = contacts == 2 && found_.rival(kSuspect) != nullptr;
   if (contacts == 1 && !found_.empty() && method_ == FrameMethod::kFast) {
@@ -342,6 +397,7 @@ bool ContactSearch::BeginFollowing() {
 
 bool ContactSearch::Follow(const PackedReadings& packed) {
   found_.Clear();
+  profile_.clear();
   iterations_ = 0;
   on_surface_ = false;
   if (!MayGoOn()) return false;
@@ -364,6 +420,13 @@ bool ContactSearch::Follow(const PackedReadings& packed) {
     found_.Keep();
   }
   ++turn_;
+  if (packed.camera == 0 && MayGoOn()) {
+    ProfileFound(packed, friction_, most_force_N_, &solver_, &found_, &exact_,
+                 &profile_, [&](const ContactStart& start) {
+                   return FitEquilibria(start, packed);
+                 });
+    Spend(static_cast<int>(profile_.size()), true);
+  }
   suspect_ = found_.rival(kSuspect) != nullptr;
   return !suspect_ && found_.first().chi2 < best().chi2 + kWithinNoise;
 }

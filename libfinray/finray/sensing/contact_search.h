@@ -85,8 +85,8 @@ class ContactSearch {
   const ContactSolution* rival() const { return found_.rival(); }
   /// The best contact at each place of the table (GaugeTable::Profile) that may
   /// be a rival or belong to a valley; the others have an infinite chi2 or one
-  /// that is too large. Empty after a search for two contacts or without
-  /// gauges.
+  /// that is too large. Of two contacts, the places of ProfilePair. Empty
+  /// without gauges.
   const std::vector<ContactStart>& profile() const { return profile_; }
   /// Number of iterations of all fits of the last search.
   int iterations() const { return iterations_; }

@@ -46,7 +46,7 @@ struct FrameEstimate {
   FrameStatus status = FrameStatus::kBadInput;
   int contacts = 0;
   /// The contacts from base to tip. Without a contact, the force of the first
-  /// one is 0, or NaN if the frame is not solved.
+  /// one is 0 if the status is no_contact, else NaN.
   ContactEstimates contact;
   // The two parts of the covariance of (l_c, f_c) of each contact. LogEstimator
   // leaves them empty. They are on the heap: most frames of a log are free, and
@@ -67,9 +67,9 @@ struct FrameEstimate {
   /// the number of unknowns.
   double chi2 = std::numeric_limits<double>::quiet_NaN();
   int dof = 0;
-  /// Where noise alone does not explain the frame and the finger has a
-  /// discrepancy: the chi2 that errors of the calibration and the discrepancy
-  /// leave (CalibrationUncertainty::Chi2). NaN elsewhere.
+  /// Where noise alone does not explain the frame, and it has no contact or the
+  /// finger a discrepancy: the chi2 that errors of the calibration and the
+  /// discrepancy leave (CalibrationUncertainty::Chi2). NaN elsewhere.
   double model_chi2 = std::numeric_limits<double>::quiet_NaN();
   int iterations = 0;
   /// The tangential share with which the contacts were found, where the motion

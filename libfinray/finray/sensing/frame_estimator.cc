@@ -1,11 +1,14 @@
 #include "finray/sensing/frame_estimator.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "finray/finger/geometry.h"
 #include "finray/io/error.h"
 #include "finray/io/nan.h"
+#include "finray/sensing/free_frame.h"
+#include "finray/sensing/pair_profile.h"
 
 namespace finray {
 namespace {
@@ -18,6 +21,20 @@ void CopyContacts(const ContactSolution& from, ContactEstimates* to) {
     (*to)[c].normal_N = from.contacts[c].normal_N;
     (*to)[c].pose = from.poses[c];
   }
+}
+
+// The std of two contacts in a curved valley may be so many times those that
+// are allowed elsewhere.
+constexpr double kPairValley = 3;
+
+// The std of an unknown of two contacts without their valley.
+double LocalStd(const FrameEstimate& estimate, int k) {
+  const double noise =
+      estimate.noise_scale() * std::sqrt(estimate.noise_covariance(k, k));
+  return estimate.calibration_covariance.size() == 0
+             ? noise
+             : std::hypot(noise,
+                          std::sqrt(estimate.calibration_covariance(k, k)));
 }
 
 void CheckScene(const Finger& finger, const Scene& scene, FrameMethod method) {
@@ -317,6 +334,17 @@ FrameEstimate FrameEstimator::Found(const Measurements& readings,
         search_.profile(), best, estimate.contact[0].arc_std_mm,
         estimate.contact[0].normal_std_N, scale, finger_.front_length_mm);
   }
+  if (best.count == 2) {
+    std::array<double, 2 * kFittedContacts> std;
+    for (int k = 0; k < 2 * kFittedContacts; ++k) {
+      std[k] = scale * std::sqrt(covariance(k, k));
+    }
+    const auto factors = PairFactors(search_.profile(), best, std, scale);
+    for (int c = 0; c < kFittedContacts; ++c) {
+      estimate.contact[c].arc_std_mm *= factors[2 * c];
+      estimate.contact[c].normal_std_N *= factors[2 * c + 1];
+    }
+  }
   if (estimate.valley) {
     estimate.contact[0].arc_std_mm *= estimate.valley->arc_factor;
     estimate.contact[0].normal_std_N *= estimate.valley->normal_factor;
@@ -348,7 +376,12 @@ void FrameEstimator::ExplainByModelErrors(const Measurements& readings,
 void FrameEstimator::Judge(const Measurements& readings,
                            const PackedReadings& packed,
                            FrameEstimate* estimate) {
-  if (estimate->contacts == 0) return;
+  if (estimate->contacts == 0) {
+    if (estimate->status == FrameStatus::kNoContact) {
+      JudgeFree(readings.gauges_V, packed, &systematic_, estimate);
+    }
+    return;
+  }
   if (!systematic_.empty()) {
     contacts_.clear();
     for (int c = 0; c < estimate->contacts; ++c) {
@@ -370,6 +403,11 @@ void FrameEstimator::Judge(const Measurements& readings,
   }
   estimate->SetIntervals(finger_.front_length_mm);
   estimate->status = StatusOf(*estimate, finger_, search_);
+  // Two contacts explain any reading of as many gauges as unknowns, so that
+  // nothing there says that there are two.
+  if (estimate->contacts == 2 && estimate->dof < 1 && !scene_.contacts) {
+    estimate->status = FrameStatus::kUnobservable;
+  }
 }
 
 void FrameEstimator::AddCovariance(const ContactMatrix& covariance,
@@ -388,12 +426,23 @@ FrameStatus FrameEstimator::StatusOf(const FrameEstimate& estimate,
                                      const ContactSearch& search) {
   bool determined =
       std::isnan(estimate.alternative_chi2) && !estimate.search_ended;
+  const bool pair = estimate.contacts == 2;
   for (int c = 0; c < estimate.contacts; ++c) {
     const ContactEstimate& contact = estimate.contact[c];
+    const auto is_sure = [&](double arc_std_mm, double normal_std_N) {
+      return arc_std_mm <= kLargestArcStd * finger.front_length_mm &&
+             normal_std_N <= kLargestForceStd * contact.normal_N;
+    };
+    determined &= !search.OnBound(contact.arc_mm, contact.normal_N);
+    if (!pair) {
+      determined &= is_sure(contact.arc_std_mm, contact.normal_std_N);
+      continue;
+    }
+    // Those of the minimum, and those of its valley.
     determined &=
-        contact.arc_std_mm <= kLargestArcStd * finger.front_length_mm &&
-        contact.normal_std_N <= kLargestForceStd * contact.normal_N &&
-        !search.OnBound(contact.arc_mm, contact.normal_N);
+        is_sure(LocalStd(estimate, 2 * c), LocalStd(estimate, 2 * c + 1)) &&
+        is_sure(contact.arc_std_mm / kPairValley,
+                contact.normal_std_N / kPairValley);
   }
   return determined ? FrameStatus::kOk : FrameStatus::kUnobservable;
 }

@@ -28,17 +28,17 @@ namespace finray {
 /// those of a noise that would (FrameEstimate::noise_scale).
 ///
 /// A frame's status is decided in this class (docs/reference/estimation.md):
-/// - bad_input (SearchAlone): fewer measurements than unknowns.
-/// - no_contact (Automatic): no contact is significant by the criterion above.
-///   With a fixed number of contacts (WithContacts): all forces are below
-///   kLeastForce_N, for soft fingers below kLeastForce.
+/// - bad_input (Explain): fewer measurements than unknowns, or impossible ones.
+/// - no_contact: none is significant (Automatic), or all of a fixed number are
+///   below kLeastForce_N, for soft fingers kLeastForce (WithContacts); and the
+///   free finger explains the frame, else it is unobservable (free_frame.h).
 /// - not_converged (Automatic, WithContacts): no start of the search led to a
 ///   solution.
 /// - unobservable (Judge): solved, but the std of l_c is above kLargestArcStd
-///   of l_0, the std of f_c is above kLargestForceStd of f_c, l_c or f_c is on
-///   a bound of the search, another solution explains the frame as well, or
-///   Scene::search_iteration_limit ended the search (search_ended). A frame
-///   without any solution by then is not_converged. A smoothed frame is
+///   of l_0, the std of f_c is above kLargestForceStd of f_c (of two contacts
+///   in a valley three times that), a bound is met, another solution is as
+///   good, or Scene::search_iteration_limit ended the search (search_ended). A
+///   frame without any solution by then is not_converged. A smoothed frame is
 ///   unobservable too where neither it nor a frame of its part is sure alone
 ///   (smoothing.h).
 /// - ok (Judge): everything else.

@@ -7,10 +7,13 @@
 #include <utility>
 
 #include "finray/finger/geometry.h"
+#include "finray/finger/possible_reading.h"
 #include "finray/io/error.h"
+#include "finray/io/nan.h"
 #include "finray/io/number_text.h"
 #include "finray/sensing/block_tridiagonal.h"
 #include "finray/sensing/frame_estimator.h"
+#include "finray/sensing/free_frame.h"
 
 namespace finray {
 namespace {
@@ -39,6 +42,16 @@ const Finger& Checked(const Finger& finger, const Scene& scene) {
                      "': a contact needs at least 2 gauges");
   }
   return finger;
+}
+
+// The readings with the finger's offsets.
+std::vector<double> WithoutWander(const Finger& finger, const LogFrame& frame) {
+  std::vector<double> readings_V = frame.row.gauges_V;
+  for (std::size_t j = 0; j < readings_V.size(); ++j) {
+    readings_V[j] += finger.gauges[j].offset_V -
+                     frame.offset_V[static_cast<Eigen::Index>(j)];
+  }
+  return readings_V;
 }
 
 }  // namespace
@@ -96,6 +109,9 @@ void LogEstimator::Add(const Measurements& row) {
   }
   LogFrame frame;
   frame.row = row;
+  if (!ArePossible(finger_.gauges, row.gauges_V, OffsetsWander_V(scene_))) {
+    frame.row.gauges_V.assign(row.gauges_V.size(), kNaN);
+  }
   frames_.push_back(std::move(frame));
   if (frames_.size() < next_look_) return;
   detection_.Decide(BeliefBefore(), &frames_);
@@ -237,6 +253,7 @@ FrameEstimate LogEstimator::Judge(const LogFrame& frame,
   } else {
     estimate.chi2 = FreeChi2(frame, marginal);
     estimate.dof = packed.gauges;
+    JudgeFree(WithoutWander(finger_, frame), packed, &systematic_, &estimate);
   }
   estimate.iterations = iterations_;
   if (!scene_.gauge_offset_walk) return estimate;
@@ -254,11 +271,7 @@ void LogEstimator::JudgeContact(const LogFrame& frame,
                                 FrameEstimate* estimate) {
   const std::vector<PointContact> contacts = {
       {frame.arc_mm, frame.normal_N, scene_.friction_coefficient}};
-  std::vector<double> readings_V = frame.row.gauges_V;
-  for (std::size_t j = 0; j < readings_V.size(); ++j) {
-    readings_V[j] += finger_.gauges[j].offset_V -
-                     frame.offset_V[static_cast<Eigen::Index>(j)];
-  }
+  const std::vector<double> readings_V = WithoutWander(finger_, frame);
   if (systematic_.has_discrepancy() && packed.all == packed.gauges &&
       estimate->p_value() < FrameEstimate::kUnexplained) {
     estimate->model_chi2 =

@@ -28,10 +28,10 @@ namespace finray {
 /// contact that has become significant is added. Then the window is solved
 /// again, up to kMostRounds times.
 ///
-/// It sets the statuses of FrameEstimator, by its criteria: no_contact for a
-/// frame without a contact or with one below LeastForce_N, not_converged for a
-/// touching frame of a window that did not converge, ok or unobservable for any
-/// other contact, bad_input for too few measurements.
+/// It sets the statuses of FrameEstimator, by its criteria: those of JudgeFree
+/// without a contact or with one below LeastForce_N, not_converged if it
+/// touches in a window that did not converge, ok or unobservable for any other
+/// contact, bad_input for too few measurements or impossible ones.
 class LogEstimator {
  public:
   static constexpr std::size_t kWindow = 2048, kLongestWindow = 16384;

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "finray/finger/possible_reading.h"
+#include "finray/sensing/free_frame.h"
+
 namespace finray {
 
 void Pack(const Finger& finger, const Scene& scene, const Measurements& row,
@@ -15,7 +18,8 @@ void Pack(const Finger& finger, const Scene& scene, const Measurements& row,
   PackedReadings& p = *packed;
   p.values.setZero(size);
   p.weights.setZero(size);
-  p.gauges = 0;
+  p.gauges = p.camera = p.all = 0;
+  if (!ArePossible(finger.gauges, row.gauges_V, OffsetsWander_V(scene))) return;
   for (Eigen::Index j = 0; j < gauges; ++j) {
     const Gauge& gauge = finger.gauges[j];
     if (!gauge.IsMeasured(row.gauges_V[j])) continue;
@@ -24,7 +28,6 @@ void Pack(const Finger& finger, const Scene& scene, const Measurements& row,
     p.weights[j] = std::abs(gauge.Slope(p.values[j])) /
                    row.GaugeStd_V(static_cast<std::size_t>(j), gauge.noise_V);
   }
-  p.camera = 0;
   if (scene.pin_std_mm) p.camera += 2 * static_cast<int>(row.pins.size());
   if (scene.tip_std_mm && row.tip_mm.allFinite()) p.camera += 2;
   p.all = p.gauges + p.camera;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "finray/finger/possible_reading.h"
 #include "finray/io/error.h"
 #include "finray/io/number_text.h"
 #include "finray/scene/frame_columns.h"
@@ -25,7 +26,7 @@ Mean MeanOf(const std::vector<Measurements>& rows, int gauge,
   double squares = 0;
   for (const Measurements& row : rows) {
     const double volts = row.gauges_V[gauge];
-    if (!its.IsMeasured(volts)) continue;
+    if (!its.IsMeasured(volts) || std::abs(volts) > kLargestReading_V) continue;
     const double off = volts - of.mean;
     of.mean += off / static_cast<double>(++of.count);
     squares += off * (volts - of.mean);

@@ -220,7 +220,9 @@ void RefuseHugeCells(const FrameTable& table, int gauges) {
   for (const std::string& name : names) {
     const std::vector<double> values = table.NumbersOrNan(name);
     for (std::size_t row = 0; row < values.size(); ++row) {
-      if (!std::isfinite(values[row]) || std::abs(values[row]) <= kLargest) {
+      const bool plane = name == "cylinder_radius_mm" && values[row] > 0;
+      if (!(std::abs(values[row]) > kLargest) ||
+          (plane && std::isinf(values[row]))) {
         continue;
       }
       throw InputError(

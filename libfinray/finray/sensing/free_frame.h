@@ -1,0 +1,29 @@
+#ifndef FINRAY_SENSING_FREE_FRAME_H_
+#define FINRAY_SENSING_FREE_FRAME_H_
+
+#include <vector>
+
+#include "finray/scene/scene.h"
+#include "finray/sensing/calibration_uncertainty.h"
+#include "finray/sensing/frame_estimate.h"
+#include "finray/sensing/packed_readings.h"
+
+namespace finray {
+
+/// Decides between no_contact and unobservable for a frame in which no contact
+/// is significant. `estimate` is FrameEstimator::FreeEstimate with its chi2 and
+/// dof. The free finger does not explain the frame if the p-value is below
+/// FrameEstimate::kUnexplained, also with the errors that the finger's
+/// calibration may have (FrameEstimate::model_chi2, which takes an
+/// equilibrium). The frame is then unobservable, without force and shape.
+void JudgeFree(const std::vector<double>& readings_V,
+               const PackedReadings& packed, CalibrationUncertainty* systematic,
+               FrameEstimate* estimate);
+
+/// How far the offsets of a scene may be from the finger's (IsPossible):
+/// anywhere, if they wander, else nowhere else.
+double OffsetsWander_V(const Scene& scene);
+
+}  // namespace finray
+
+#endif  // FINRAY_SENSING_FREE_FRAME_H_
