@@ -1,5 +1,6 @@
 #include "finray/finger/finger_yaml.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -12,7 +13,35 @@
 namespace finray {
 namespace {
 
+// No finger has more; all unknowns of a finger are solved together.
+constexpr std::size_t kMostRibs = 100, kMostPieces = 200, kMostGauges = 500;
+// Lengths in mm, far from where rounding hides what a finger does.
+constexpr double kShortest_mm = 1e-3, kLongest_mm = 1e6;
+// The stiffest part of both beams over the softest. Beyond it the stiff beam
+// does not bend where the soft one folds, and no load path ends.
+constexpr double kMostStiffnessRatio = 1e6;
+
 std::string Short(double value) { return FormatText("%g", value); }
+
+// Throws if one beam is so much softer than the other, or than a piece.
+void CheckStiffnessRatio(const YamlMap& yaml, const Finger& finger) {
+  double softest = std::numeric_limits<double>::infinity(), stiffest = 0;
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    double least = 1, most = 1;
+    for (const StiffnessPiece& piece : Pieces(finger, side)) {
+      least = std::min(least, piece.stiffness_ratio);
+      most = std::max(most, piece.stiffness_ratio);
+    }
+    const double stiffness = BendingStiffness(finger, side);
+    softest = std::min(softest, least * stiffness);
+    stiffest = std::max(stiffest, most * stiffness);
+  }
+  if (stiffest <= kMostStiffnessRatio * softest) return;
+  yaml.Fail("beams", "beams: expected bending stiffnesses within a factor of " +
+                         Short(kMostStiffnessRatio) + ", found " +
+                         Short(softest) + " and " + Short(stiffest) +
+                         " N mm^2");
+}
 
 constexpr const char* kPlate[] = {"width_mm", "thickness_mm",
                                   "youngs_modulus_GPa"};
@@ -81,6 +110,7 @@ double ReadPieces(const YamlMap& yaml, double length_mm,
   }
   const std::vector<YamlMap> entries = yaml.Maps("pieces");
   if (entries.empty()) yaml.Fail("pieces", "pieces: expected at least one");
+  yaml.CheckCount("pieces", entries.size(), kMostPieces);
   long double reference = 0;
   double first = 0, end_mm = 0;
   for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -225,7 +255,9 @@ Rib ReadRib(const YamlMap& yaml, const Finger& finger) {
 }
 
 void ReadRibs(const YamlMap& yaml, Finger* finger) {
-  for (const YamlMap& entry : yaml.Maps("ribs")) {
+  const std::vector<YamlMap> entries = yaml.Maps("ribs");
+  yaml.CheckCount("ribs", entries.size(), kMostRibs);
+  for (const YamlMap& entry : entries) {
     const Rib rib = ReadRib(entry, *finger);
     if (!finger->ribs.empty()) {
       const Rib& before = finger->ribs.back();
@@ -319,6 +351,13 @@ Finger ReadFinger(const YamlMap& yaml) {
   const YamlMap geometry = yaml.Map("geometry");
   geometry.AllowOnly({"front_length_mm", "back_angle_deg"});
   finger.front_length_mm = geometry.PositiveNumber("front_length_mm");
+  if (finger.front_length_mm < kShortest_mm ||
+      finger.front_length_mm > kLongest_mm) {
+    geometry.Fail("front_length_mm", "front_length_mm: expected " +
+                                         Short(kShortest_mm) + " to " +
+                                         Short(kLongest_mm) + ", found " +
+                                         Short(finger.front_length_mm));
+  }
   const double angle = geometry.Number("back_angle_deg");
   if (!(angle > 90 && angle < 180)) {
     geometry.Fail("back_angle_deg",
@@ -328,8 +367,11 @@ Finger ReadFinger(const YamlMap& yaml) {
   }
   finger.back_angle_rad = RadFromDegrees(geometry.Text("back_angle_deg"));
   ReadBeams(yaml.Map("beams"), &finger);
+  CheckStiffnessRatio(yaml, finger);
   ReadRibs(yaml, &finger);
-  for (const YamlMap& entry : yaml.Maps("gauges")) {
+  const std::vector<YamlMap> gauges = yaml.Maps("gauges");
+  yaml.CheckCount("gauges", gauges.size(), kMostGauges);
+  for (const YamlMap& entry : gauges) {
     finger.gauges.push_back(ReadGauge(entry, finger));
   }
   if (yaml.Has("calibration")) {

@@ -154,6 +154,7 @@ void FrameParser::TakeNames(const CsvLine& header,
     }
     column.numeric = true;
     column.may_be_infinite = MayBeInfinite(names_[i]);
+    column.largest = LargestIn(names_[i]);
     MakeConversion(header, i);
   }
 }
@@ -264,12 +265,27 @@ FrameRows::Cell FrameParser::ReadCell(int line, std::size_t i,
   }
   std::string error;
   const double value = column.conversion.Value(text, decimal_, &error);
-  if (error.empty()) return {value, {}};
+  if (error.empty()) {
+    CheckSize(line, i, value, text);
+    return {value, {}};
+  }
   if (decimal_ == '.' && NumberInCell(text, ',')) {
     error += MayBeThousands(text) ? ", which may stand for two numbers" : "";
     error += Advice("a decimal comma is stated by decimal: \",\"");
   }
   FailAt(line, i, names_[i] + ": " + error);
+}
+
+void FrameParser::CheckSize(int line, std::size_t i, double number,
+                            std::string_view text) const {
+  const double largest = columns_[i].largest;
+  if (!(std::abs(number) > largest)) return;
+  FailAt(
+      line, i,
+      names_[i] +
+          FormatText(": expected a magnitude of at most %g, found ", largest) +
+          ShownText(text) +
+          Advice("a number that stands for none is stated by not_measured:"));
 }
 
 void FrameParser::Parse(const CsvLine& line, FrameRows* rows) const {
@@ -303,6 +319,7 @@ void FrameParser::Parse(const CsvLine& line, FrameRows* rows) const {
     const std::string_view text = Trimmed(split[i]);  // quotes keep spaces
     if (column.plain) {
       if (const std::optional<double> number = ParseNumber(text)) {
+        CheckSize(line.number, i, *number, text);
         cells[i] = {*number, text};
         continue;
       }

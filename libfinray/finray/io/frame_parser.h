@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -102,6 +103,7 @@ class FrameParser {
     std::string declared;  // unit in the log
     ColumnConversion conversion;
     bool may_be_infinite = false;
+    double largest = std::numeric_limits<double>::infinity();
   };
 
   void TakeNames(const CsvLine& header, const std::vector<std::string>& found,
@@ -111,6 +113,9 @@ class FrameParser {
   void UseDecimal(char decimal);
   FrameRows::Cell ReadCell(int line, std::size_t column,
                            std::string_view text) const;
+  // Fails if the number of a cell is larger than those of its column.
+  void CheckSize(int line, std::size_t column, double number,
+                 std::string_view text) const;
   bool IsMissing(std::string_view text) const;
   // Tells a user how to state a dialect that the parser does not understand.
   std::string Advice(const std::string& how) const;

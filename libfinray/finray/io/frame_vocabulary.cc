@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <sstream>
 
 #include "finray/io/message_text.h"
@@ -53,6 +54,24 @@ bool IsFrameColumn(std::string_view name) {
   return std::any_of(
       FrameColumnPatterns().begin(), FrameColumnPatterns().end(),
       [name](std::string_view pattern) { return Matches(name, pattern); });
+}
+
+double LargestIn(std::string_view name) {
+  if (name == "time_s") return kLargestTime_s;
+  static const std::vector<std::string> patterns = [] {
+    std::istringstream words(
+        "contact_#_mm normal_#_N friction_# contact_#_x_mm contact_#_y_mm "
+        "contact_#_angle_rad object_x_mm object_y_mm object_angle_deg "
+        "object_displacement_mm force_N force_x_N force_y_N rib_#_N "
+        "rib_#_front_x_mm rib_#_front_y_mm rib_#_back_x_mm rib_#_back_y_mm "
+        "tip_x_mm tip_y_mm tip_angle_rad temperature_C");
+    return std::vector<std::string>(std::istream_iterator<std::string>(words),
+                                    {});
+  }();
+  const bool bounded = std::any_of(
+      patterns.begin(), patterns.end(),
+      [name](const auto& pattern) { return Matches(name, pattern); });
+  return bounded ? kLargestMeasured : std::numeric_limits<double>::infinity();
 }
 
 bool MayBeInfinite(std::string_view name) {

@@ -19,6 +19,15 @@ bool IsFrameColumn(std::string_view name);
 /// plane, a gauge with an open cable reads anything. In others it is an error.
 bool MayBeInfinite(std::string_view name);
 
+/// The largest magnitude of what a log or a load may hold, in the units of its
+/// column, and of its times. Sums of many squares stay far from overflow, and
+/// places far from where rounding hides a finger.
+constexpr double kLargestMeasured = 1e9, kLargestTime_s = 1e12;
+
+/// Returns the largest magnitude in a column. It is infinite for readings of
+/// gauges, which estimators judge row by row, and for what is computed.
+double LargestIn(std::string_view name);
+
 /// Returns " (did you mean 'x'?)" with the nearest name of the vocabulary, or
 /// "".
 std::string DidYouMeanFrameColumn(const std::string& name);

@@ -56,7 +56,8 @@ class LineReader {
 };
 
 /// Reads the lines of a file, which may be gzipped. Throws InputError if the
-/// file cannot be read, is a folder or pipe, or is damaged or cut short.
+/// file cannot be read, is a folder or pipe, is damaged or cut short, or
+/// unpacks to far more than a log of its size.
 LineReader ReadFile(const std::string& path);
 
 /// The bytes that arrive at `file`, an open descriptor, which the caller keeps

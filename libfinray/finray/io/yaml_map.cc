@@ -166,6 +166,13 @@ std::vector<std::string> YamlMap::Keys() const {
   return keys;
 }
 
+void YamlMap::CheckCount(const std::string& key, std::size_t count,
+                         std::size_t most) const {
+  if (count <= most) return;
+  Fail(key, key + ": expected at most " + std::to_string(most) + ", found " +
+                std::to_string(count));
+}
+
 void YamlMap::Fail(const std::string& key, const std::string& message) const {
   throw InputError(PlaceOf(key) + ShownLine(message));
 }

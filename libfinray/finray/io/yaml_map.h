@@ -73,6 +73,10 @@ class YamlMap {
   /// Returns a sequence of pairs of numbers, [[x, y], ...].
   std::vector<std::array<double, 2>> Pairs(const std::string& key) const;
 
+  /// Throws InputError at `key` if its value has more than `most` elements.
+  void CheckCount(const std::string& key, std::size_t count,
+                  std::size_t most) const;
+
   /// Throws InputError at the position of `key`, or of the mapping if the key
   /// is missing.
   [[noreturn]] void Fail(const std::string& key,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "finray/finger/geometry.h"
+#include "finray/io/nan.h"
 #include "finray/objects/approaches.h"
 #include "finray/objects/tangency.h"
 
@@ -23,6 +24,8 @@ constexpr int kMaxRounds = 40;
 constexpr int kMovingRounds = 8;
 constexpr std::size_t kMostContacts = 40;
 constexpr int kMaxWithdrawals = 200;
+// In l_0. Rounding hides the finger from an object further away.
+constexpr double kFarthest = 1e8;
 
 // The contact problem of one object with one finger.
 class ObjectContactSolver {
@@ -38,7 +41,9 @@ class ObjectContactSolver {
 
   ObjectContact Solve(const ObjectPose& pose,
                       const std::vector<PointContact>& guess) {
-    if (!pose.position_mm.allFinite() || !std::isfinite(pose.angle_rad)) {
+    // Written so that a NaN fails.
+    if (!(pose.position_mm.lpNorm<Eigen::Infinity>() <= kFarthest * length_) ||
+        !std::isfinite(pose.angle_rad)) {
       return {ObjectContactStatus::kNotConverged, {}, 0};
     }
     ObjectContact result{ObjectContactStatus::kContact, guess, 0};
@@ -220,12 +225,16 @@ class ObjectContactSolver {
     const auto deepest = [&](const ObjectPose& at) {
       const std::vector<Approach> all =
           FindApproaches(free, length_, {}, object_.outline, at, 0);
+      // Numbers that overflow have no lowest place.
+      if (all.empty()) return Approach{0, kNaN, true};
       return *std::min_element(all.begin(), all.end(),
                                [](const Approach& a, const Approach& b) {
                                  return a.distance_mm < b.distance_mm;
                                });
     };
     Approach touch = deepest(pose);
+    if (std::isnan(touch.distance_mm))
+      return ObjectContactStatus::kNotConverged;
     ObjectPose withdrawn = pose;
     if (touch.distance_mm >= deepest_) {
       const Vector2d inwards =

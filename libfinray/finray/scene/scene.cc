@@ -12,6 +12,8 @@ namespace finray {
 namespace {
 
 constexpr int kMostContacts = 16;
+// Each place of an outline is looked for among all of these.
+constexpr std::size_t kMostVertices = 1000, kMostHarmonics = 100;
 
 std::optional<int> ReadContacts(const YamlMap& yaml) {
   if (yaml.Text("contacts", "auto") == "auto") return std::nullopt;
@@ -89,6 +91,8 @@ Outline::Shape ReadShape(const YamlMap& object) {
     for (const auto& harmonic : object.Pairs("harmonics_mm")) {
       outline.harmonics_mm.emplace_back(harmonic[0], harmonic[1]);
     }
+    object.CheckCount("harmonics_mm", outline.harmonics_mm.size(),
+                      kMostHarmonics);
     return outline;
   }
   object.AllowOnly({"shape", "vertices_mm", "fillet_radius_mm", "spring"});
@@ -99,6 +103,7 @@ Outline::Shape ReadShape(const YamlMap& object) {
   if (polygon.vertices_mm.size() < 2) {
     object.Fail("vertices_mm", "vertices_mm: expected at least 2 vertices");
   }
+  object.CheckCount("vertices_mm", polygon.vertices_mm.size(), kMostVertices);
   polygon.fillet_radius_mm = object.PositiveNumber("fillet_radius_mm");
   return polygon;
 }

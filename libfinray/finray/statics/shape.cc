@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "finray/io/nan.h"
 #include "finray/ladder/scheme_element.h"
 
 namespace finray {
@@ -39,6 +40,7 @@ Shape::Shape(const EquilibriumSolver& solver,
 
 Section Shape::At(Side side, double arc_mm) const {
   const auto& pieces = pieces_[LadderModel::Index(side)];
+  if (pieces.empty()) return {kNaN, kNaN, kNaN, kNaN, kNaN, kNaN};
   auto after = std::upper_bound(
       pieces.begin(), pieces.end(), arc_mm,
       [](double arc, const Piece& piece) { return arc < piece.arc_mm; });

@@ -25,7 +25,6 @@ constexpr double kWeak = 2;
 // Whole blocks of neighbouring frames are held out, because neighbours share
 // errors.
 constexpr int kHoldoutBlock = 10;
-constexpr double kLargest = 1e15;
 
 // Returns how far the circle reaches into the undeformed finger, in mm.
 double Reach(const CalibrationFrame& frame, const Finger& finger,
@@ -211,26 +210,24 @@ bool IsBenchLog(const FrameTable& table) {
 }
 
 // Refuses numbers that no sensor reads: the sum of squares would overflow.
+// Tables of arrays have not come through the reader of logs.
 void RefuseHugeCells(const FrameTable& table, int gauges) {
-  std::vector<std::string> names = {
-      "cylinder_radius_mm", "time_s",    "temperature_C", "force_N",
-      "force_x_N",          "force_y_N", "object_x_mm",   "object_y_mm",
-      "contact_1_mm",       "tip_x_mm",  "tip_y_mm"};
-  for (int j = 0; j < gauges; ++j) names.push_back(GaugeVolts(j));
-  for (const std::string& name : names) {
+  const auto refuse = [&](const std::string& name, double largest) {
     const std::vector<double> values = table.NumbersOrNan(name);
     for (std::size_t row = 0; row < values.size(); ++row) {
-      const bool plane = name == "cylinder_radius_mm" && values[row] > 0;
-      if (!(std::abs(values[row]) > kLargest) ||
-          (plane && std::isinf(values[row]))) {
+      if (!(std::abs(values[row]) > largest)) {
         continue;
       }
       throw InputError(
           table.path() + ":" + std::to_string(table.line(row)) + ": " + name +
           ": expected a magnitude of " +
-          FormatText("at most %g, found %g", kLargest, values[row]));
+          FormatText("at most %g, found %g", largest, values[row]));
     }
+  };
+  for (const std::string& name : table.headers()) {
+    if (std::isfinite(LargestIn(name))) refuse(name, LargestIn(name));
   }
+  for (int j = 0; j < gauges; ++j) refuse(GaugeVolts(j), kLargestMeasured);
 }
 
 // Refuses one of two coordinates, and a force whose column is nearly named so:
@@ -257,13 +254,35 @@ std::optional<double> ForceScatter_N(const FrameTable& table) {
   for (const char* name :
        {"force_scatter_N", "force_x_scatter_N", "force_y_scatter_N"}) {
     for (const double std_N : table.NumbersOrNan(name)) {
-      if (!(std_N > 0 && std_N < kLargest)) continue;
+      if (!(std_N > 0 && std_N < kLargestMeasured)) continue;
       squares += std_N * std_N;
       ++count;
     }
   }
   if (count == 0) return std::nullopt;
   return std::sqrt(squares / count);
+}
+
+// Refuses forces with the other sign: force_N is a magnitude, and only noise
+// takes those of free rows below zero. A few wrong rows are rejected later.
+void RefuseTurnedForces(const FrameTable& table, const Plan& plan) {
+  if (!table.Has("force_N")) return;
+  std::size_t below = 0, above = 0, first = 0;
+  double sum_N = 0;
+  const std::vector<double>& forces = table.Numbers("force_N");
+  for (std::size_t row = 0; row < forces.size(); ++row) {
+    if (!(std::abs(forces[row]) > kSignificant * plan.force_std_N)) continue;
+    sum_N += forces[row];
+    if (forces[row] < 0 && below++ == 0) first = row;
+    above += forces[row] > 0;
+  }
+  if (below <= above || sum_N >= 0) return;
+  throw InputError(
+      table.path() + ":" + std::to_string(table.line(first)) +
+      FormatText(": force_N: expected a magnitude, 0 or more, found %g; %zu of "
+                 "%zu forces are negative; scale: -1 in the plan's columns "
+                 "turns their sign",
+                 forces[first], below, below + above));
 }
 
 // Reads the rows of one log. A log with pins may lack all gauges, but not only
@@ -286,6 +305,7 @@ std::vector<CalibrationFrame> ReadLog(const FrameTable& table,
   std::vector<Measurements> rows = ReadMeasurements(table, finger, options);
   RefuseHugeCells(table, gauges);
   RefuseNearlyNamed(table);
+  RefuseTurnedForces(table, plan);
   std::vector<double> times, temperatures;
   if (!bench && plan.family(ParameterFamily::kGaugeDrift).free) {
     times = Needed(table, "time_s", "gauge_drift");
