@@ -1,13 +1,35 @@
 #include "app.h"
 
+#include <fcntl.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <exception>
 #include <filesystem>
+#include <new>
+#include <system_error>
 
 #include "finray/io/column_mapping_yaml.h"
+#include "finray/io/message_text.h"
 #include "finray/io/number_text.h"
 #include "finray/io/versions.h"
 
 namespace finray {
+namespace {
+
+// The error that standard output had first.
+int output_error = 0;
+
+void FlushOutput() {
+  errno = 0;
+  std::cout.flush();
+  std::fflush(stdout);
+  if (output_error == 0) output_error = errno;
+}
+
+}  // namespace
 
 const std::string& Required(const char* flag, const std::string& value) {
   if (value.empty()) throw UsageError(std::string("--") + flag + " is missing");
@@ -15,8 +37,9 @@ const std::string& Required(const char* flag, const std::string& value) {
 }
 
 void Warn(const std::string& text, const std::string& remedy) {
+  FlushOutput();
   // One piece, which lines of other threads cannot part.
-  std::cerr << "warning: " + text + "; " + remedy + "\n";
+  std::cerr << OneLine("warning: " + text + "; " + remedy) + "\n";
 }
 
 void Warn(const std::vector<Warning>& warnings) {
@@ -117,19 +140,28 @@ void RefuseToOverwrite(const std::vector<std::string>& inputs,
 
 }  // namespace finray
 
-int main(int argc, char** argv) {
-  using namespace finray;
-  gflags::SetUsageMessage(kApp.usage);
-  gflags::SetVersionString(FINRAY_VERSION "\n" + std::string(kVersions));
-  FLAGS_logtostderr = true;
-  // Solvers try steps that fail. Users read what the tools say instead.
-  FLAGS_minloglevel = google::GLOG_FATAL;
-  google::InitGoogleLogging(argv[0]);
-  const auto fail = [](const std::string& message, ExitCode code) {
-    std::cerr << gflags::ProgramInvocationShortName() << ": " << message
-              << "\n";
-    return code;
-  };
+namespace {
+
+using namespace finray;
+
+// A file that is opened while a standard stream is closed takes its number, and
+// what is printed then goes into that file. The stand-ins cannot be read or
+// written either.
+void ReserveStandardStreams() {
+  for (int file = 0; file <= 2; ++file) {
+    if (fcntl(file, F_GETFD) >= 0) continue;
+    if (open("/dev/null", file == 0 ? O_WRONLY : O_RDONLY) < 0) return;
+  }
+}
+
+ExitCode Fail(const std::string& message, ExitCode code) {
+  std::cerr << OneLine(gflags::ProgramInvocationShortName() +
+                       (": " + message)) +
+                   "\n";
+  return code;
+}
+
+int RunApp(int argc, char** argv) {
   try {
     if (!ParseFlags(&argc, &argv)) return kGood;
     if (kApp.arguments != nullptr) {
@@ -140,10 +172,41 @@ int main(int argc, char** argv) {
     }
     return kApp.run();
   } catch (const UsageError& error) {
-    return fail(std::string(error.what()) + "; see --help", kUsage);
+    return Fail(std::string(error.what()) + "; see --help", kUsage);
   } catch (const InputError& error) {
-    return fail(error.what(), kBadInput);
+    return Fail(error.what(), kBadInput);
+  } catch (const std::bad_alloc&) {
+    return Fail("the memory does not suffice for this input", kBadInput);
+  } catch (const std::length_error&) {  // a container beyond all memory
+    return Fail("the memory does not suffice for this input", kBadInput);
+  } catch (const std::system_error& error) {  // files, threads
+    return Fail(error.what(), kBadInput);
   } catch (const std::exception& error) {
-    return fail(error.what(), kSolveFailed);
+    return Fail(error.what(), kSolveFailed);
   }
+}
+
+// Returns the exit code of a run that ends with `code`: output that is lost is
+// an error.
+int WithOutput(int code) {
+  FlushOutput();
+  if (std::cout && std::ferror(stdout) == 0) return code;
+  Fail(std::string("standard output: cannot be written: ") +
+           std::strerror(output_error),
+       kBadInput);
+  return code == kGood ? kBadInput : code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ReserveStandardStreams();
+  std::signal(SIGPIPE, SIG_IGN);  // it is an error of writing
+  gflags::SetUsageMessage(kApp.usage);
+  gflags::SetVersionString(FINRAY_VERSION "\n" + std::string(kVersions));
+  FLAGS_logtostderr = true;
+  // Solvers try steps that fail. Users read what the tools say instead.
+  FLAGS_minloglevel = google::GLOG_FATAL;
+  google::InitGoogleLogging(argv[0]);
+  return WithOutput(RunApp(argc, argv));
 }

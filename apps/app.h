@@ -45,7 +45,8 @@ void Warn(const std::string& text, const std::string& remedy);
 void Warn(const std::vector<Warning>& warnings);
 
 /// Parses the flags and leaves the other arguments. With --help or -h it prints
-/// the flags of this executable, the required ones first, and returns false.
+/// the flags of this executable, the required ones first, with --version the
+/// version, and returns false.
 /// Throws UsageError for an unknown flag, with the nearest name.
 bool ParseFlags(int* argc, char*** argv);
 
@@ -87,7 +88,8 @@ bool DumpConfigFlag(const Finger& finger, const Scene& scene,
 std::string OutPath(const std::string& name);
 
 /// An executable. app.cc has main(), which parses flags and calls `run`. An
-/// exception becomes one line on stderr and an exit code.
+/// exception becomes one line on stderr and an exit code, and so does standard
+/// output that cannot be written.
 struct App {
   const char* usage;
   int (*run)();  ///< Returns the exit code.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <initializer_list>
 #include <iterator>
 
 #include "app.h"
@@ -130,12 +131,21 @@ int Threads(int flag) {
 
 bool ParseFlags(int* argc, char*** argv) {
   gflags::SetArgv(*argc, const_cast<const char**>(*argv));
-  for (int i = 1; i < *argc; ++i) {
-    for (const char* help : {"-h", "-help", "--help"}) {
-      if (std::strcmp((*argv)[i], help) != 0) continue;
-      PrintHelp();
-      return false;
-    }
+  const auto given = [&](std::initializer_list<const char*> names) {
+    return std::any_of(*argv + 1, *argv + *argc, [&](const char* argument) {
+      return std::any_of(names.begin(), names.end(), [&](const char* name) {
+        return std::strcmp(argument, name) == 0;
+      });
+    });
+  };
+  if (given({"-h", "-help", "--help"})) {
+    PrintHelp();
+    return false;
+  }
+  if (given({"-version", "--version"})) {  // gflags' own ends the process
+    std::printf("%s version %s\n", gflags::ProgramInvocationShortName(),
+                gflags::VersionString());
+    return false;
   }
   RefuseWrongFlags(*argc, *argv);
   gflags::ParseCommandLineFlags(argc, argv, true);

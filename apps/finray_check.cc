@@ -110,7 +110,8 @@ int Run() {
   }
   const FingerCheck check =
       CheckFinger(finger, ReadPlates(FLAGS_finger), DiscretizationFlags());
-  if (!FLAGS_out.empty() && DrawFinger(finger, FLAGS_out)) {
+  if (!FLAGS_out.empty()) {
+    if (!DrawFinger(finger, FLAGS_out)) return kBadInput;
     std::printf("%s\n", FLAGS_out.c_str());
   }
   std::printf("finger         %s, %s\n", finger.name.c_str(),
