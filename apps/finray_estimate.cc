@@ -344,7 +344,6 @@ std::optional<ServeSettings> LivePage() {
 
 // Runs `finray_estimate --follow`.
 int Follow(const BatchSettings& settings) {
-  std::signal(SIGPIPE, SIG_IGN);
   // A poll() on this pipe cannot miss the request to stop.
   int ends[2] = {-1, -1};
   if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) == 0) stop_pipe = ends[1];
@@ -437,6 +436,11 @@ int Run() {
       [&settings] { return HiddenForcesOf(settings); });
   const bool whole = RunAll(&pool, &jobs);
   bar.Clear();
+  for (const LogJob& job : jobs) {
+    if (job.damaged().empty()) continue;
+    Warn(job.damaged() + ": its checksum is wrong",
+         "the rows behind the last good checkpoint are estimated again");
+  }
   if (!whole) {
     return Interrupted("after " + std::to_string(bar.done() + bar.kept()) +
                        " of " + std::to_string(Frames(jobs)) + " frames");

@@ -33,7 +33,8 @@ def write_if_changed(path, text):
     except FileNotFoundError:
         pass
     os.makedirs(os.path.dirname(path), exist_ok=True)
-    with open(path + ".new", "wb") as file:
+    # A link in its place would send the content elsewhere.
+    with open(path + ".new", "wb", opener=lambda name, flags: os.open(name, flags | os.O_NOFOLLOW, 0o666)) as file:
         file.write(content)
     os.rename(path + ".new", path)
 

@@ -25,6 +25,20 @@ TEST(AtomicFileTest, ReplacesAndLeavesNothingBeside) {
   EXPECT_EQ(files, 1);
 }
 
+TEST(AtomicFileTest, ALinkIsReplacedAndItsTargetKept) {
+  const TempFolder folder;
+  folder.Write("theirs", "kept");
+  for (const char* target : {"theirs", "nothing"}) {
+    std::filesystem::create_symlink(folder.Path(target), folder.Path("a"));
+    WriteFileAtomically(folder.Path("a"), "new");
+    EXPECT_EQ(folder.Read("a"), "new");
+    EXPECT_FALSE(std::filesystem::is_symlink(folder.Path("a")));
+    std::filesystem::remove(folder.Path("a"));
+  }
+  EXPECT_EQ(folder.Read("theirs"), "kept");
+  EXPECT_FALSE(std::filesystem::exists(folder.Path("nothing")));
+}
+
 TEST(AtomicFileTest, FailuresNameThePath) {
   const TempFolder folder;
   const std::string path = folder.Path("no/such/file");

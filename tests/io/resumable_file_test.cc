@@ -124,6 +124,54 @@ TEST_F(ResumableFileTest, AJournalCutAnywhereLosesItsLastLineAtMost) {
   EXPECT_EQ(ResumableFile(path_, "k", true).note(), "");
 }
 
+TEST_F(ResumableFileTest, AFlippedBitIsNotGoneOnWith) {
+  Crash();
+  {
+    ResumableFile file(path_, "k", true);
+    file.Append("two ");
+    file.Checkpoint("note 2");
+  }
+  const std::string journal = Journal(), part = folder_.Read(".a.csv.part");
+  const std::size_t bytes = journal.size() + part.size();
+  for (std::size_t bit = 0; bit < 8 * bytes; bit += 11) {
+    std::string both = journal + part;
+    both[bit / 8] = static_cast<char>(both[bit / 8] ^ (1 << bit % 8));
+    folder_.Write(".a.csv.journal", both.substr(0, journal.size()));
+    folder_.Write(".a.csv.part", both.substr(journal.size()));
+    const ResumableFile file(path_, "k", true);
+    ASSERT_NE(file.note(), "note 2") << bit;
+    ASSERT_NE(file.damaged(), "") << bit;
+    const std::string kept = folder_.Read(".a.csv.part");
+    ASSERT_EQ(kept, file.note() == "note 1" ? "one " : "") << bit;
+  }
+  // So in the whole file of a run that ended before it said so.
+  folder_.Write(".a.csv.journal", journal);
+  folder_.Write(".a.csv.part", part);
+  ResumableFile(path_, "k", true).Finish("sum");
+  folder_.Write("a.csv", "one twO ");
+  const ResumableFile file(path_, "k", true);
+  EXPECT_FALSE(file.finished());
+  EXPECT_EQ(file.damaged(), path_);
+}
+
+TEST_F(ResumableFileTest, LinksAreNotFollowed) {
+  const std::string theirs = folder_.Write("theirs", "kept");
+  for (const char* name : {".a.csv.journal", ".a.csv.part", "a.csv"}) {
+    std::filesystem::create_symlink(theirs, folder_.Path(name));
+    try {
+      ResumableFile file(path_, "k", true);
+      file.Append("new");
+      file.Finish("");
+      file.Forget();
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("journal is a link"));
+    }
+    EXPECT_EQ(folder_.Read("theirs"), "kept") << name;
+    std::filesystem::remove(folder_.Path(name));
+    std::filesystem::remove(path_);
+  }
+}
+
 TEST_F(ResumableFileTest, ACrashAfterTheRenameLeavesNothingToDo) {
   {
     ResumableFile file(path_, "k", false);

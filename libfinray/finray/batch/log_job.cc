@@ -235,6 +235,7 @@ bool LogJob::Run(FrameSolverPool* pool) {
     return true;
   }
   ResumableFile out(result_, key_, settings_->resume && !settings_->joint);
+  damaged_ = out.damaged();
   summary_ = SummaryFromText(out.note()).value_or(EstimationSummary());
   ReportProgress(summary_.frames, true);
   if (!out.finished() && !Estimate(pool, &out)) return false;

@@ -83,6 +83,9 @@ class LogJob {
   std::size_t frames() const { return frames_; }
   /// Summary of all frames written so far, by this run or an earlier one.
   const EstimationSummary& summary() const { return summary_; }
+  /// The damaged file of an interrupted run of which Run() could not keep all
+  /// checkpoints, or "".
+  const std::string& damaged() const { return damaged_; }
 
  private:
   bool ReadFinished();
@@ -98,7 +101,8 @@ class LogJob {
   bool Changed() const;
 
   const BatchSettings* settings_;
-  std::string log_, result_, summary_path_, bad_rows_path_, log_sha256_, key_;
+  std::string log_, result_, summary_path_, bad_rows_path_, log_sha256_, key_,
+      damaged_;
   std::vector<BadRow> bad_rows_;
   std::filesystem::file_time_type written_;
   std::uintmax_t bytes_ = 0;

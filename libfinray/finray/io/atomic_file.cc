@@ -51,12 +51,25 @@ int WriteAndRename(const fs::path& path, const std::string& content) {
   return error;
 }
 
+// Says whether a link is the system's, such as /dev/stdout and /dev/fd/3.
+bool IsSystemLink(const fs::path& path) {
+  std::error_code unknown;
+  const fs::path folder = fs::canonical(path.parent_path(), unknown);
+  if (unknown || folder.empty()) return false;
+  const std::string root = (++folder.begin())->string();
+  return root == "dev" || root == "proc";
+}
+
 int WriteFile(const std::string& path, const std::string& content) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status)) return EISDIR;
-  if (!fs::exists(status)) return WriteAndRename(path, content);
-  if (!fs::is_regular_file(status)) return WriteThrough(path, content);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    return WriteThrough(path, content);
+  }
+  if (!fs::is_symlink(fs::symlink_status(path, error)) || !IsSystemLink(path)) {
+    return WriteAndRename(path, content);
+  }
   const fs::path target = fs::canonical(path, error);
   return error ? error.value() : WriteAndRename(target, content);
 }

@@ -9,8 +9,10 @@ namespace finray {
 
 /// Writes the content under a temporary name in the same folder and renames the
 /// file, so that `path` never holds a partial file. On failure it removes the
-/// temporary file and throws InputError with the cause. Links are followed. A
-/// device or pipe cannot be replaced and is written to directly.
+/// temporary file and throws InputError with the cause. A link to a file is
+/// replaced and its target stays as it is, as somebody else may have put it
+/// there; only those of the system (/dev/stdout) are followed. A device or pipe
+/// cannot be replaced and is written to directly.
 void WriteFileAtomically(const std::string& path, const std::string& content);
 
 /// Creates a folder and its parents. Throws InputError if that fails.

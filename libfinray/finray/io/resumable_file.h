@@ -16,7 +16,12 @@ namespace finray {
 ///
 /// The bytes reach the disk before the checkpoint that counts them; the last
 /// checkpoint before the rename; the rename before the journal is removed. So a
-/// journal never counts bytes that are not there.
+/// journal never counts bytes that are not there. Each checkpoint holds
+/// checksums (CRC-32) of these bytes and of the journal so far, so that a file
+/// that was damaged meanwhile is not gone on with.
+///
+/// Links that stand in the place of its files are not followed: one at `path`
+/// is replaced, and those of the other two are errors.
 ///
 /// All functions throw InputError with the file's name if it cannot be written
 /// or if another process is writing it.
@@ -27,8 +32,8 @@ class ResumableFile {
   static bool IsUnderWay(const std::string& path);
 
   /// With `resume`, goes on behind the last checkpoint of an interrupted file
-  /// that has the same key (one line of text). Otherwise, or if there is none,
-  /// starts over.
+  /// that has the same key (one line of text) and checksums that hold.
+  /// Otherwise, or if there is none, starts over.
   ResumableFile(const std::string& path, const std::string& key, bool resume);
 
   /// The note of the checkpoint where it went on; "" if it started over.
@@ -37,6 +42,9 @@ class ResumableFile {
   /// then left to do.
   bool finished() const { return finished_; }
   std::uint64_t bytes() const { return bytes_; }
+  /// The partial file or the journal if its checksum or form was wrong, which
+  /// has put the file back or started it over; "" otherwise.
+  const std::string& damaged() const { return damaged_; }
 
   void Append(const std::string& text);
   /// Makes a checkpoint with a note of one line. Returns once all appended
@@ -56,6 +64,9 @@ class ResumableFile {
   void Lock();
   bool Restore(const std::string& key);
   void StartOver(const std::string& key);
+  // Returns a line of the journal at the present bytes, which its checksum then
+  // counts.
+  std::string NextLine(const char* kind, const std::string& note);
   // Brings the bytes and then the line to the disk. Returns 0 or an errno
   // value.
   int Save(const std::string& line);
@@ -63,11 +74,16 @@ class ResumableFile {
   void Settle();
   // Throws unless `error` is 0.
   void Check(int error) const;
+  // Opens one of the two files beside it. Throws for a link.
+  void OpenHidden(const std::string& path, int flags,
+                  FileDescriptor* file) const;
 
   std::string path_, folder_, part_path_, journal_path_;
   FileDescriptor part_, journal_;
-  std::string note_;
+  std::string note_, damaged_;
   std::uint64_t bytes_ = 0;
+  // Checksums of the bytes and of the journal.
+  std::uint32_t part_sum_ = 0, journal_sum_ = 0;
   bool finished_ = false;
   std::future<int> saving_;  // last member, so that it ends before the files
 };
