@@ -18,6 +18,7 @@ import guard  # noqa: E402
 guard.protect("draw_finger.py", __name__)
 
 import page
+import whole_file
 from finger_drawing import BEAM, FORCE, GAUGE, QUIET, RIB, Drawing
 
 HEIGHT = 560.0  # of the front beam, in pixels
@@ -105,7 +106,7 @@ def draw(finger, places):
 
 def main():
     places = [tuple(map(float, pair.split(","))) for pair in sys.argv[3:]]
-    page.write(pathlib.Path(sys.argv[1]), draw(page.load_yaml(sys.argv[2]), places))
+    whole_file.write(pathlib.Path(sys.argv[1]), draw(page.load_yaml(sys.argv[2]), places))
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""What all pages share: templates, and files that appear whole or not at all."""
+"""What all pages share: templates and YAML."""
 
 import pathlib
 import re
@@ -25,9 +25,3 @@ def environment(*folders, undefined=jinja2.StrictUndefined):
     return jinja2.Environment(
         loader=jinja2.FileSystemLoader([*folders, pathlib.Path(__file__).parent]),
         autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=undefined)
-
-
-def write(path, text):
-    temporary = path.with_name(path.name + ".part")
-    temporary.write_text(text, "utf-8")
-    temporary.rename(path)

@@ -18,6 +18,7 @@ guard.protect("recording_page.py", __name__)
 import markupsafe
 
 import page
+import whole_file
 
 
 def main():
@@ -30,7 +31,7 @@ def main():
     text = page.environment().get_template("recording.html.jinja").render(
         finger=finger, verdict=verdict, target=target, force_max=force_max, rows=rows, gauges=gauges,
         picture=markupsafe.Markup(picture))
-    page.write(folder / "recording.html", text)
+    whole_file.write(folder / "recording.html", text)
 
 
 if __name__ == "__main__":

@@ -24,6 +24,7 @@ import jinja2
 
 import page
 import plots
+import whole_file
 from plots import known, number
 
 MINUS = "\u2212"
@@ -32,7 +33,8 @@ FAR_FROM_PRIOR = 4  # prior std; kFarFromPrior of analysis/unsupported.h
 
 
 def read_csv(path):
-    with open(path, newline="", encoding="utf-8") as file:
+    # Tables keep the bytes of names, which may be no UTF-8.
+    with open(path, newline="", encoding="utf-8", errors="replace") as file:
         return list(csv.DictReader(file))
 
 
@@ -235,7 +237,7 @@ def main():
         correlations=plots.correlations([short(n) for n in names], c["correlations"]["matrix"])
         if len(names) > 1 else None,
         date=datetime.date.today().isoformat())
-    page.write(folder / "report.html", text)
+    whole_file.write(folder / "report.html", text)
 
 
 if __name__ == "__main__":

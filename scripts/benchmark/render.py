@@ -23,6 +23,7 @@ import calibration_plots
 import page
 import pareto_plots
 import scaling_plots
+import whole_file
 
 CLEARLY_FASTER = 1.15  # as for the front
 MINUS = "\u2212"
@@ -190,7 +191,7 @@ def main():
         calibration_plots=calibration and [calibration_plots.error(calibration),
                                            calibration_plots.frames(calibration)],
         threads=scaling_plots.threads(run["scaling"]["threads"]))
-    page.write(folder / "report.html", text)
+    whole_file.write(folder / "report.html", text)
 
 
 if __name__ == "__main__":

@@ -27,6 +27,7 @@ from comparison import BEATS, Comparison, DIFFERS
 from inputs import BadInput
 import look  # finds the modules of the calibration's report
 import page
+import whole_file
 
 # In the paper's order; each module has sections(folder).
 EXPERIMENTS = (contact_frames, outlines, stiffness, force_sensing, force_control, structural)
@@ -116,8 +117,8 @@ def main():
     folder = pathlib.Path(sys.argv[1])
     sections = [section for experiment in EXPERIMENTS for section in sections_of(experiment, folder)]
     table = f"{markdown(sections)}\n{tally_text(sections)}\n"
-    page.write(folder / "report.html", rendered(sections))
-    page.write(folder / "table.md", table)
+    whole_file.write(folder / "report.html", rendered(sections))
+    whole_file.write(folder / "table.md", table)
     print(table, end="")
     print(folder / "report.html")
 

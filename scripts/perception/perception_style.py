@@ -1,12 +1,16 @@
 """The look of the perception plots; each is written as SVG and PNG."""
 
+import io
 import pathlib
 import sys
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
 import plain_matplotlib  # noqa: F401  before matplotlib
 
+sys.path.append(str(pathlib.Path(__file__).parents[2] / "calib" / "report"))
+
 import matplotlib
+import whole_file
 
 matplotlib.use("agg")
 import matplotlib.pyplot as plt
@@ -25,6 +29,8 @@ plt.rcParams.update({
 
 def save(figure, stem):
     """Saves SVG and PNG without version and date: equal numbers give equal bytes."""
-    figure.savefig(f"{stem}.svg", bbox_inches="tight", metadata={"Date": None, "Creator": None})
-    figure.savefig(f"{stem}.png", bbox_inches="tight", metadata={"Software": None})
+    for ending, metadata in (("svg", {"Date": None, "Creator": None}), ("png", {"Software": None})):
+        image = io.BytesIO()
+        figure.savefig(image, format=ending, bbox_inches="tight", metadata=metadata)
+        whole_file.write(f"{stem}.{ending}", image.getvalue())
     plt.close(figure)

@@ -30,6 +30,7 @@ from tools import ROOT, Failed, Tools, write_yaml
 
 sys.path.append(str(ROOT / "calib" / "report"))
 import page
+import whole_file
 
 TITLE = """# Real measurements against predictions
 
@@ -162,7 +163,7 @@ def main():
     pictures.outlines(shown / "real_outlines.png", dict(shapes["plain"])["zero reading of the day"],
                       shapes["corrected"][0][3], dict(shapes["irregular"])["no correction"],
                       dict(shapes["irregular"])["the place of the turning axis"])
-    page.write(target, wrapped("\n\n".join([
+    whole_file.write(target, wrapped("\n\n".join([
         TITLE, page_text.bare(trials, chosen, fingers, entries, out),
         page_text.gauged(found, nine, repeats, explored, f"{std:.2f} N and {most:.2f} N over {pairs} pairs",
                          limit(fitted), springs, cylinders_on_finger),

@@ -21,7 +21,7 @@ from make_logs import BUNDLED, FRICTIONS, HEIGHTS, ROOT
 from outcome import Failed, outcome
 
 sys.path.append(str(ROOT / "calib" / "report"))
-import page
+import whole_file
 
 SCENE = ROOT / "configs" / "scenes" / "auto.yaml"
 BUNDLED_PLAN = ROOT / "configs" / "plans" / "force_and_circle.yaml"
@@ -67,7 +67,7 @@ def main():
     except (OSError, Failed) as error:
         print(f"evaluate.py: {error}", file=sys.stderr)
         sys.exit(2)
-    page.write(out / "outcomes.json", json.dumps(found, indent=1))
+    whole_file.write(out / "outcomes.json", json.dumps(found, indent=1))
 
 
 if __name__ == "__main__":

@@ -21,6 +21,7 @@ REPORT = pathlib.Path(__file__).resolve().parents[2] / "calib" / "report"
 sys.path.append(str(REPORT))
 
 import page
+import whole_file
 from theme import AFTER, BEFORE, QUIET, plt, svg
 
 HELD_OUT = ("finger", "world", "plan", "verdict", "frames ok", "force rms (largest), N", "place rms (largest), mm",
@@ -141,8 +142,8 @@ def main():
     except (OSError, ValueError) as problem:
         print(f"report.py: {folder / 'outcomes.json'}: {problem}; evaluate.py writes it", file=sys.stderr)
         sys.exit(2)
-    page.write(folder / "tables.md", markdown(outcomes))
-    page.write(folder / "reality.html", rendered(outcomes))
+    whole_file.write(folder / "tables.md", markdown(outcomes))
+    whole_file.write(folder / "reality.html", rendered(outcomes))
 
 
 if __name__ == "__main__":

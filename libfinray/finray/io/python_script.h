@@ -14,7 +14,8 @@ int RunPython(const std::string& script,
               const std::vector<std::string>& arguments);
 
 /// The same, but returns an error message, or "" on success. `packages` names
-/// the script's packages for that message.
+/// the script's packages for that message. Throws InputError with the line of a
+/// script that cannot write its file (calib/report/whole_file.py).
 std::string RunPythonScript(const std::string& script,
                             const std::vector<std::string>& arguments,
                             const std::string& packages);
