@@ -47,6 +47,11 @@ def number_text(value):
     return fixed if len(fixed) <= len(scientific) else scientific
 
 
+def force_line(key, value):
+    """A line of YAML, none for what has overflowed."""
+    return f"  {key}: {yaml_number(number_text(value))}\n" if math.isfinite(value) else ""
+
+
 def yaml_number(text):
     """A number that YAML 1.1 reads as one: with a point before an exponent."""
     return text if "." in text else text.replace("e", ".0e")
@@ -60,7 +65,7 @@ class Totals:
             columns.index("frames") + 1:columns.index("force_compared_frames")]}
         self.unexplained, self.ended = 0, 0
         self.judged, self.far, self.variances_N2 = 0, 0, 0.0
-        self.max_N, self.max_text = -1.0, ""
+        self.max_N = -1.0
 
     def add(self, row):
         self.frames += int(row["frames"])
@@ -77,9 +82,7 @@ class Totals:
         self.far += int(row["force_far_frames"])
         self.variances_N2 += float(row["force_variances_N2"])
         self.squares_N2 += float(row["force_squares_N2"])
-        if float(row["force_max_error_N"]) > self.max_N:
-            self.max_text = row["force_max_error_N"]
-            self.max_N = float(self.max_text)
+        self.max_N = max(self.max_N, float(row["force_max_error_N"]))
 
     def rms_N(self):
         return math.sqrt(self.squares_N2 / self.compared)
@@ -96,14 +99,12 @@ class Totals:
             text += f"  bad_rows: {self.bad_rows}\n"
         if self.compared > 0:
             text += (f"  force_compared_frames: {self.compared}\n"
-                     f"  force_rms_error_N: {yaml_number(number_text(self.rms_N()))}\n"
-                     f"  force_max_error_N: {yaml_number(self.max_text)}\n"
-                     f"  force_squares_N2: "
-                     f"{yaml_number(number_text(self.squares_N2))}\n"
+                     + force_line("force_rms_error_N", self.rms_N())
+                     + force_line("force_max_error_N", self.max_N)
+                     + force_line("force_squares_N2", self.squares_N2) +
                      f"  force_judged_frames: {self.judged}\n"
                      f"  force_far_frames: {self.far}\n"
-                     f"  force_variances_N2: "
-                     f"{yaml_number(number_text(self.variances_N2))}\n")
+                     + force_line("force_variances_N2", self.variances_N2))
         return text
 
     def lines(self):

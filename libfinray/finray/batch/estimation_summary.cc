@@ -6,6 +6,7 @@
 
 #include "finray/io/number_text.h"
 #include "finray/io/yaml_emitter.h"
+#include "finray/io/yaml_map.h"
 
 namespace finray {
 
@@ -211,17 +212,27 @@ void EmitSummary(const EstimationSummary& summary, YamlEmitter* yaml) {
             "search_ended_frames", summary.search_ended);
   if (summary.bad_rows > 0) YamlPair(yaml, "bad_rows", summary.bad_rows);
   if (summary.force_compared > 0) {
-    YamlPairs(yaml, "force_compared_frames", summary.force_compared,
-              "force_rms_error_N", summary.force_rms_N(), "force_max_error_N",
-              summary.force_max_N, "force_squares_N2", summary.force_squares_N2,
-              "force_judged_frames", summary.force_judged, "force_far_frames",
-              summary.force_far, "force_variances_N2",
-              summary.force_variances_N2);
+    // What readers would refuse is left out: inf is no error of a force.
+    const auto finite = [yaml](const char* key, double value) {
+      if (value <= kLargestYamlNumber) YamlPair(yaml, key, value);
+    };
+    YamlPair(yaml, "force_compared_frames", summary.force_compared);
+    finite("force_rms_error_N", summary.force_rms_N());
+    finite("force_max_error_N", summary.force_max_N);
+    finite("force_squares_N2", summary.force_squares_N2);
+    YamlPairs(yaml, "force_judged_frames", summary.force_judged,
+              "force_far_frames", summary.force_far);
+    finite("force_variances_N2", summary.force_variances_N2);
   }
 }
 
 void EmitFreeRows(const EstimationSummary& summary, YamlEmitter* yaml) {
-  if (summary.free_rows == 0) return;
+  if (summary.free_rows == 0 ||
+      !std::all_of(
+          summary.free_sums_V.begin(), summary.free_sums_V.end(),
+          [](double sum) { return std::abs(sum) <= kLargestYamlNumber; })) {
+    return;
+  }
   YamlPair(yaml, "free_rows", summary.free_rows);
   *yaml << YAML::Key << "free_sums_V" << YAML::Value << YAML::Flow
         << summary.free_sums_V;

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <numeric>
 
+#include "finray/io/utf8.h"
+
 namespace finray {
 namespace {
 
@@ -65,12 +67,26 @@ std::string NearestName(const std::string& name,
 
 }  // namespace
 
+std::string OneLine(std::string_view text) {
+  std::string line;
+  while (!text.empty()) {
+    const std::size_t bytes = Utf8Bytes(text);
+    const auto first = static_cast<unsigned char>(text[0]);
+    if (bytes == 0) {
+      line += '?';
+    } else if (first < ' ' || first == 0x7f) {
+      line += ' ';
+    } else {
+      line += text.substr(0, bytes);
+    }
+    text.remove_prefix(bytes == 0 ? 1 : bytes);
+  }
+  return line;
+}
+
 std::string ShownLine(std::string_view text) {
   constexpr std::size_t kLongest = 1000;
-  std::string shown(text.substr(0, kLongest));
-  for (char& c : shown) {
-    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';
-  }
+  std::string shown = OneLine(text.substr(0, kLongest));
   if (text.size() > kLongest) shown += "...";
   return shown;
 }

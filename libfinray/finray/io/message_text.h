@@ -7,8 +7,11 @@
 
 namespace finray {
 
-/// Returns text for a message of one line. Control characters and line ends
-/// become spaces, and text beyond 1000 bytes is cut off.
+/// Returns text as one line of UTF-8. Control characters and line ends become
+/// spaces, and bytes that are not UTF-8 question marks.
+std::string OneLine(std::string_view text);
+
+/// The same for a message: text beyond 1000 bytes is cut off.
 std::string ShownLine(std::string_view text);
 
 /// Returns text from a user's file for a message: in quotes, and cut after 40

@@ -4,15 +4,18 @@
 #include <yaml-cpp/yaml.h>
 
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
 #include "finray/io/number_text.h"
+#include "finray/io/utf8.h"
 
 namespace finray {
 
 /// A YAML::Emitter that writes numbers the same way in every locale. yaml-cpp
 /// follows the locale: in a German one it writes "1,5", and "2.577" for 2577.
+/// Texts are UTF-8 whatever they hold (AsUtf8).
 class YamlEmitter : public YAML::Emitter {
  public:
   /// `digits` is that of YamlNumber.
@@ -32,6 +35,8 @@ YamlEmitter& operator<<(YamlEmitter& yaml, const T& value) {
   } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool> &&
                        !std::is_same_v<T, char>) {
     base << YAML::Auto << std::to_string(value);
+  } else if constexpr (std::is_convertible_v<const T&, std::string_view>) {
+    base << AsUtf8(value);
   } else {
     base << value;
   }

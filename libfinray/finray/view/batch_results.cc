@@ -8,6 +8,7 @@
 
 #include "finray/io/error.h"
 #include "finray/io/number_text.h"
+#include "finray/io/utf8.h"
 #include "finray/io/yaml_map.h"
 
 namespace finray {
@@ -19,8 +20,8 @@ using Kind = FingerVerdict::Kind;
 std::vector<Warning> WarningsIn(const YamlMap& yaml) {
   std::vector<Warning> warnings;
   for (const YamlMap& warning : yaml.Maps("warnings")) {
-    warnings.push_back(
-        {warning.Text("code"), warning.Text("text"), warning.Text("remedy")});
+    warnings.push_back({warning.Text("code"), warning.RawText("text"),
+                        warning.Text("remedy")});
   }
   return warnings;
 }
@@ -34,10 +35,15 @@ std::size_t CountIn(const YamlMap& yaml, const std::string& key) {
 // that is there.
 std::string FindResult(const std::string& folder, const std::string& result,
                        const YamlMap& yaml) {
-  std::vector<fs::path> ends(1);
-  for (const fs::path& part : fs::path(result).relative_path()) {
-    for (fs::path& end : ends) end /= part;
+  std::vector<fs::path> ends;
+  // A name that is not UTF-8 is written with percents.
+  for (const std::string& written : {result, WithoutPercents(result)}) {
+    const std::size_t first = ends.size();
     ends.emplace_back();
+    for (const fs::path& part : fs::path(written).relative_path()) {
+      for (std::size_t i = first; i < ends.size(); ++i) ends[i] /= part;
+      ends.emplace_back();
+    }
   }
   for (const fs::path& end : ends) {
     std::error_code unknown;
@@ -51,8 +57,8 @@ std::string FindResult(const std::string& folder, const std::string& result,
 
 LogResult ReadLog(const std::string& folder, const YamlMap& yaml) {
   LogResult log;
-  log.log = yaml.Text("log");
-  log.result = FindResult(folder, yaml.Text("result"), yaml);
+  log.log = yaml.RawText("log");
+  log.result = FindResult(folder, yaml.RawText("result"), yaml);
   log.frames = CountIn(yaml, "frames");
   const YamlMap status = yaml.Map("status");
   for (const std::string& name : status.Keys()) {
@@ -60,7 +66,7 @@ LogResult ReadLog(const std::string& folder, const YamlMap& yaml) {
   }
   log.unexplained = CountIn(yaml, "unexplained_frames");
   log.force_compared = CountIn(yaml, "force_compared_frames");
-  if (log.force_compared > 0) {
+  if (log.force_compared > 0 && yaml.Has("force_rms_error_N")) {
     log.force_rms_N = yaml.NonNegativeNumber("force_rms_error_N");
     log.force_judged = CountIn(yaml, "force_judged_frames");
   }
@@ -167,7 +173,7 @@ BatchResults ReadBatchResults(const std::string& folder) {
     batch.logs.push_back(ReadLog(folder, log));
   }
   for (const YamlMap& bad : yaml.Maps("bad_logs")) {
-    batch.bad_logs.push_back({bad.Text("log"), bad.Text("reason")});
+    batch.bad_logs.push_back({bad.RawText("log"), bad.RawText("reason")});
   }
   return batch;
 }

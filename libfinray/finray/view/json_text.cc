@@ -4,40 +4,14 @@
 #include <cstdint>
 
 #include "finray/io/number_text.h"
+#include "finray/io/utf8.h"
 
 namespace finray {
-namespace {
-
-// Returns the number of bytes of the UTF-8 character at the front; 0 if there
-// is none.
-std::size_t CharacterBytes(std::string_view text) {
-  const auto byte = [&](std::size_t i) {
-    return static_cast<unsigned char>(text[i]);
-  };
-  const unsigned char first = byte(0);
-  if (first < 0x80) return 1;
-  const std::size_t bytes = first >= 0xC2 && first < 0xE0   ? 2
-                            : first >= 0xE0 && first < 0xF0 ? 3
-                            : first >= 0xF0 && first < 0xF5 ? 4
-                                                            : 0;
-  if (bytes == 0 || text.size() < bytes) return 0;
-  for (std::size_t i = 1; i < bytes; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) return 0;
-  }
-  // Overlong forms, surrogates and what is beyond U+10FFFF.
-  if ((first == 0xE0 && byte(1) < 0xA0) || (first == 0xED && byte(1) > 0x9F) ||
-      (first == 0xF0 && byte(1) < 0x90) || (first == 0xF4 && byte(1) > 0x8F)) {
-    return 0;
-  }
-  return bytes;
-}
-
-}  // namespace
 
 std::string JsonText(std::string_view text) {
   std::string json = "\"";
   while (!text.empty()) {
-    const std::size_t bytes = CharacterBytes(text);
+    const std::size_t bytes = Utf8Bytes(text);
     const auto first = static_cast<unsigned char>(text[0]);
     if (bytes == 0) {
       json += '?';

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "finray/io/message_text.h"
+
 namespace finray {
 
 // Defined in the source that embed_pages.cmake writes.
@@ -12,7 +14,7 @@ namespace {
 
 std::string HtmlText(std::string_view text) {
   std::string html;
-  for (const char c : text) {
+  for (const char c : OneLine(text)) {
     if (c == '<') {
       html += "&lt;";
     } else if (c == '&') {

@@ -1,7 +1,9 @@
 #include "finray/view/view_files.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -9,6 +11,7 @@
 
 #include "finray/io/atomic_file.h"
 #include "finray/io/error.h"
+#include "finray/io/number_text.h"
 #include "finray/io/versions.h"
 #include "finray/view/json_text.h"
 #include "finray/view/log_channels.h"
@@ -71,6 +74,22 @@ std::string WorstJson(const std::vector<WorstFrame>& worst, bool has_time) {
   return array.str();
 }
 
+// Returns a path as a link of a page.
+std::string LinkTo(const std::string& path) {
+  constexpr char kUnreserved[] = "/-._~";
+  std::string link;
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool letter = byte < 0x80 && std::isalnum(byte) != 0;
+    if (letter || (c != '\0' && std::strchr(kUnreserved, c) != nullptr)) {
+      link += c;
+    } else {
+      link += FormatText("%%%02X", byte);
+    }
+  }
+  return link;
+}
+
 std::string LogJson(const LogResult& log, const LogChannels& channels,
                     const std::string& page) {
   JsonObject status;
@@ -82,7 +101,7 @@ std::string LogJson(const LogResult& log, const LogChannels& channels,
   return JsonObject()
       .Add("name", JsonText(channels.name))
       .Add("log", JsonText(log.log))
-      .Add("page", JsonText(page))
+      .Add("page", JsonText(LinkTo(page)))
       .Add("day", JsonText(log.day))
       .Add("frames", std::to_string(log.frames))
       .Add("status", status.str())

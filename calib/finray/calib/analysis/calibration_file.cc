@@ -62,8 +62,8 @@ CalibrationFile ReadCalibration(const std::string& path) {
   for (const YamlMap& map : yaml.Maps("parameters")) {
     map.Choice("status",
                {"estimated", "prior_dominated", "unidentifiable", "fixed"});
-    file.parameters.push_back(
-        {map.Text("name"), map.Text("unit"), map.Number("value"), StdOf(map)});
+    file.parameters.push_back({map.RawText("name"), map.Text("unit"),
+                               map.Number("value"), StdOf(map)});
     names.push_back(file.parameters.back().name);
   }
   if (names.empty()) {
@@ -87,7 +87,7 @@ CalibrationFile ReadCalibration(const std::string& path) {
     }
   }
   for (const YamlMap& log : yaml.Map("inputs").Maps("logs")) {
-    file.logs.push_back({log.Text("path"), log.Text("sha256")});
+    file.logs.push_back({log.RawText("path"), log.Text("sha256")});
   }
   file.finger =
       ReadFinger((fs::path(file.path).parent_path() / "finger.yaml").string());

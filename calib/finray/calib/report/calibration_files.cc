@@ -3,6 +3,7 @@
 #include "finray/calib/report/calibration_result.h"
 #include "finray/finger/finger_yaml.h"
 #include "finray/io/atomic_file.h"
+#include "finray/io/message_text.h"
 #include "finray/io/python_script.h"
 
 namespace finray {
@@ -20,7 +21,8 @@ std::string WriteCalibration(CalibrationProblem& problem,
   CalibrationFrames(problem, result).Write(path("calibration.frames.csv"));
   CalibrationShape(problem, result).Write(path("calibration.shape.csv"));
   std::string origin = "Calibrated from";
-  for (const std::string& log : problem.logs().paths) origin += " " + log;
+  for (const std::string& log : problem.logs().paths)
+    origin += " " + OneLine(log);
   WriteFileAtomically(
       path("finger.yaml"),
       FingerToYaml(result.finger, origin +

@@ -39,7 +39,7 @@ function tableOf(head, rows) {
 function logTable(finger) {
   return tableOf([["log", "text"], ["day", "text"], ["frames"], ["status", "text"], ["ok"], ["unobservable"], ["unexplained"], ["force error"], ["warnings", "text"]],
     finger.logs.map(log => ({kind: isAmber(log) ? "amber" : "", cells: [
-      make("a", {href: encodeURI(log.page)}, log.name), log.day || "–", String(log.frames), statusBar(log),
+      make("a", {href: log.page}, log.name), log.day || "–", String(log.frames), statusBar(log),
       percent(log.status.ok || 0, log.frames), percent(log.status.unobservable || 0, log.frames), percent(log.unexplained, solved(log)),
       log.force_rms_N === null ? "–" : `${log.force_rms_N.toPrecision(2)} N`,
       log.warnings.map(w => w.code.replaceAll("_", " ")).join(", ") || "–"]})));
@@ -49,7 +49,7 @@ function worstTable(finger) {
   const frames = finger.logs.flatMap(log => log.worst.map(frame => ({log, ...frame}))).sort((a, b) => a.p - b.p).slice(0, 20);
   if (!frames.length) return make("p", {class: "quiet"}, "No frame has a p-value below 0.001.");
   return tableOf([["log", "text"], ["frame"], ["time"], ["p-value"]], frames.map(f => ({cells: [
-    make("a", {href: `${encodeURI(f.log.page)}#frame=${f.frame + 1}`}, f.log.name), String(f.frame + 1),
+    make("a", {href: `${f.log.page}#frame=${f.frame + 1}`}, f.log.name), String(f.frame + 1),
     f.time_s === null ? "–" : `${f.time_s.toFixed(3)} s`, f.p === 0 ? "0" : f.p.toExponential(1).replace("-", "−")]})));
 }
 
