@@ -16,6 +16,9 @@ import tempfile
 import threading
 import time
 import unittest
+import urllib.parse
+
+import yaml
 
 sys.dont_write_bytecode = True
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
@@ -246,6 +249,137 @@ class HostileInputTest(unittest.TestCase):
                         arguments = self.put(app)
                         make(self.folder / name)
                         self.expect_refused(app, arguments, name)
+
+    def test_numbers_that_nothing_measures(self):
+        """Places and loads far from what a finger can bear."""
+        for header in ("object_x_mm,object_y_mm", "object_y_mm,object_x_mm", "contact_1_mm,normal_1_N",
+                       "normal_1_N,contact_1_mm", "friction_1,contact_1_mm,normal_1_N",
+                       "object_angle_deg,object_x_mm,object_y_mm"):
+            for value in ("1e18", "-1e18", "1e155", "1e300"):
+                with self.subTest(header=header, value=value):
+                    arguments = self.put("simulate")
+                    row = ",".join([value, "20", "1"][:header.count(",") + 1])
+                    (self.folder / "in.csv").write_text(f"{header}\n{row}\n")
+                    self.assertIn(header.split(",")[0], self.expect_refused("simulate", arguments, "in.csv"))
+
+    def test_fingers_that_nobody_makes(self):
+        ribs = b"ribs:\n" + b"".join(b"  - {front_mm: %g, back_mm: %g}\n" % (i * 1.3e-3, i * 1.4e-3)
+                                     for i in range(1, 100001))
+        cases = {"ribs": re.sub(rb"ribs:\n(  - .*\n)+", ribs, FINGER),
+                 "beams": FINGER.replace(b"12500", b"1e-3", 1),
+                 "front_length_mm": FINGER.replace(b"front_length_mm: 140", b"front_length_mm: 1e20")}
+        for key, finger in cases.items():
+            self.assertNotEqual(finger, FINGER)
+            for app in ("simulate", "estimate", "calibrate"):
+                with self.subTest(key=key, app=app):
+                    arguments = self.put(app)
+                    (self.folder / "finger.yaml").write_bytes(finger)
+                    self.assertIn(key, self.expect_refused(app, arguments, "finger.yaml"))
+
+    def test_forces_with_the_other_sign(self):
+        arguments = self.put("calibrate")
+        rows = [line.split(b",") for line in LOG.splitlines()]
+        at = rows[0].index(b"force_N")
+        for row in rows[1:]:
+            row[at] = b"-2.5"
+        (self.folder / "log.csv").write_bytes(b"\n".join(map(b",".join, rows)) + b"\n")
+        line = self.expect_refused("calibrate", arguments, "log.csv:2: force_N")
+        self.assertIn("scale: -1", line)
+
+    def test_a_small_file_that_unpacks_to_gigabytes(self):
+        zeros = b"0,0,0,0\n" * (1 << 20)
+        packed = gzip.compress(b"gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V\n") + gzip.compress(zeros) * 100
+        for app, flag in (("estimate", "log.csv"), ("calibrate", "log.csv"), ("simulate", "in.csv")):
+            with self.subTest(app=app):
+                arguments = self.put(app)
+                (self.folder / flag).write_bytes(packed)
+                self.assertIn("unpacks to more than", self.expect_refused(app, arguments, flag))
+
+    def test_output_that_nobody_takes(self):
+        """--help, --version, --dump_config and a summary: exit code 2 and a line, also where stdout is closed."""
+        self.put("estimate")
+        commands = ["check --finger finger.yaml", "estimate --help", "simulate --version", "check -h",
+                    "estimate --dump_config --finger finger.yaml --logs log.csv --out_dir out"]
+        for command in commands:
+            for target, reason in (("> /dev/full", b"No space left on device"), (">&-", b"Bad file descriptor")):
+                with self.subTest(command=command, target=target):
+                    outcome = subprocess.run(["sh", "-c", f'"$0"/finray_{command} {target}', BINARIES], cwd=self.folder,
+                                             stderr=subprocess.PIPE, timeout=SECONDS, check=False)
+                    self.assertEqual(outcome.returncode, 2)
+                    self.assertTrue(outcome.stderr.endswith(b": standard output: cannot be written: " + reason + b"\n"),
+                                    outcome.stderr)
+
+    def test_no_output_goes_where_stdout_was(self):
+        arguments = self.put("simulate")
+        outcome = subprocess.run(["sh", "-c", f'"$0"/finray_simulate {arguments} >&-', BINARIES], cwd=self.folder,
+                                 stderr=subprocess.PIPE, timeout=SECONDS, check=False)
+        self.assertEqual(outcome.returncode, 2)
+        self.assertNotIn(b"with contact", (self.folder / "out").read_bytes())
+
+    @unittest.skipUnless(BOUNDED, "sanitizers reserve terabytes")
+    def test_memory_that_does_not_suffice(self):
+        arguments = self.put("simulate")
+        (self.folder / "in.csv").write_bytes(LOADS + b"60.5,1\n" * 2_000_000)
+        outcome = subprocess.run(["sh", "-c", f'ulimit -v 200000; "$0"/finray_simulate {arguments}', BINARIES],
+                                 cwd=self.folder, stderr=subprocess.PIPE, timeout=SECONDS, check=False)
+        self.assertEqual((outcome.returncode, outcome.stderr),
+                         (2, b"finray_simulate: the memory does not suffice for this input\n"))
+
+    def test_names_of_logs(self):
+        """Summaries and pages are UTF-8, and finray reads them again."""
+        self.put("estimate")
+        names = [b"a\nb", b"a\x01b", b"caf\xe9 %41", b"a#b?c", "caf\u00e9".encode()]
+        (self.folder / "runs").mkdir()
+        for name in names:
+            with open(os.fsencode(self.folder) + b"/runs/" + name + b".csv", "wb") as log:
+                log.write(LOG)
+        outcome = self.run_app("estimate", "--finger finger.yaml --logs runs --out_dir out --report")
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        outcome.stderr.decode()  # no other bytes
+        summary = yaml.safe_load((self.folder / "out/summary.yaml").read_text("utf-8"))
+        self.assertIn("runs/a\nb.csv", [log["log"] for log in summary["logs"]])
+        self.assertIn("runs/caf%E9 %2541.csv", [log["log"] for log in summary["logs"]])
+        for page in self.folder.glob("out/*.html"):
+            page.read_text("utf-8")
+        pages = re.findall(r'"page":"([^"]*)"', (self.folder / "out/index.html").read_text("utf-8"))
+        self.assertEqual({urllib.parse.unquote_to_bytes(page) for page in pages}, {name + b".html" for name in names})
+        outcome = self.run_app("view", "--finger finger.yaml --results out --out_dir pages")
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+
+    def test_plots_on_a_full_disk(self):
+        """Each file is whole under its name, or there is none, and the exit code says so."""
+        for app in ("compliance", "reconstruct"):
+            with self.subTest(app=app):
+                arguments = self.put(app).replace(" --noplots", "")
+                program = shlex.quote(str(BINARIES / f"finray_{app}"))
+                files = {}
+                for size in ("100m", "400k"):
+                    outcome = self.on_small_disk(size, f"""head -c {380 if size == "400k" else 0}k /dev/zero > out/other
+                        {program} {arguments}; code=$?; rm -rf kept; cp -r out kept; exit $code""")
+                    found = {p.name: p.read_bytes() for p in self.folder.glob("kept/*.[sp][vn]g")}
+                    files[size] = found
+                    if size == "100m":
+                        self.assertEqual((outcome.returncode, len(found)), (0, 2), outcome.stderr)
+                self.assertEqual(outcome.returncode, 2, outcome.stderr)
+                self.assertIn(b"cannot be written: No space left on device\n", outcome.stderr)
+                self.assertNotIn(b"Traceback", outcome.stderr)
+                self.assertEqual({**files["100m"], **files["400k"]}, files["100m"])
+
+    def test_links_in_the_place_of_outputs(self):
+        for app in ("simulate", "estimate", "calibrate", "compliance"):
+            arguments = self.put(app).replace("--out out", "--out out/result.csv")
+            (self.folder / "out").mkdir()
+            self.run_app(app, arguments)
+            written = [path.name for path in (self.folder / "out").iterdir()]
+            shutil.rmtree(self.folder / "out")
+            (self.folder / "out").mkdir()
+            (self.folder / "theirs").write_text("kept")
+            for name in written + [".log.frames.csv.part", ".log.frames.csv.journal"]:
+                with self.subTest(app=app, name=name):
+                    (self.folder / "out" / name).symlink_to(self.folder / "theirs")
+                    self.run_app(app, arguments)
+                    self.assertEqual((self.folder / "theirs").read_text(), "kept")
+                    (self.folder / "out" / name).unlink(missing_ok=True)
 
     def test_kinds_of_text_that_are_fine(self):
         changes = (lambda text: b"\xef\xbb\xbf" + text,
