@@ -138,9 +138,8 @@ TEST_F(FrameTableTest, FilesThatAreNoTable) {
   EXPECT_INPUT_ERROR(Load(""), "is empty");
   EXPECT_INPUT_ERROR(Load("force_N\n"), "has a header but no rows");
   EXPECT_INPUT_ERROR(Load(std::string("force_N\n1\0\n", 11)), "NUL");
-  EXPECT_INPUT_ERROR(
-      Load("# comment\nforce_N,\x1f\x8b\n1,2\n"),
-      "log.csv:2:2: the header ' ?' holds a control character");
+  EXPECT_INPUT_ERROR(Load("# comment\nforce_N,\x1f\x8b\n1,2\n"),
+                     "log.csv:2:2: the header ' ?' holds a control character");
   EXPECT_INPUT_ERROR(Load("force_N\x7f\n1\n"), "holds a control character");
   EXPECT_INPUT_ERROR(Load("time_s,force_N\r0,1\r"),
                      "log.csv:1:2: the header 'force_N 0' holds a carriage "
