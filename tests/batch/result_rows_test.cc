@@ -61,9 +61,10 @@ TEST(ResultRowsTest, WritesTheColumnsAndDigitsThatAreAskedFor) {
     return csv;
   };
   EXPECT_EQ(row({{"status", "contact_1_*mm", "normal_1_N", "time_s"}, 4}),
-            "status,contact_1_mm,contact_1_std_mm,contact_1_x_mm,contact_1_y_"
-            "mm,contact_1_low_mm,contact_1_high_mm,normal_1_N,time_s\n"
-            "ok,50.25,,,,,,0.3333,0.10\n");
+            "status,contact_1_mm,contact_1_std_mm,contact_1_noise_mm,"
+            "contact_1_x_mm,contact_1_y_mm,contact_1_low_mm,contact_1_high_mm,"
+            "normal_1_N,time_s\n"
+            "ok,50.25,,,,,,,0.3333,0.10\n");
   // A row is never blank.
   EXPECT_EQ(row({{"contact_1_std_mm"}, 0}), "contact_1_std_mm\nnan\n");
   EXPECT_EQ(row({{"note", "note", "n*e"}, 0}), "note\na\n");
@@ -117,7 +118,8 @@ TEST(ResultRowsTest, ColumnsFollowFromTheScene) {
   EXPECT_THAT(two, HasSubstr(",contact_1_angle_rad,contact_1_low_mm,"
                              "contact_1_high_mm,normal_1_low_N,normal_1_high_N,"
                              "contact_2_mm,"
-                             "contact_2_std_mm,normal_2_N,normal_2_std_N,"
+                             "contact_2_std_mm,contact_2_noise_mm,normal_2_N,"
+                             "normal_2_std_N,normal_2_noise_N,"
                              "contact_2_x_mm,contact_2_y_mm,"
                              "contact_2_angle_rad,contact_2_low_mm,"
                              "contact_2_high_mm,normal_2_low_N,"

@@ -42,8 +42,10 @@ void ResultColumns::ForEach(const Measurements& readings,
     const ContactEstimate& contact = estimate.contact[c];
     column([c] { return ContactArc(c); }, contact.arc_mm);
     column([c] { return ContactArcStd(c); }, contact.arc_std_mm);
+    column([c] { return ContactArcNoise(c); }, contact.arc_noise_mm);
     column([c] { return NormalForce(c); }, contact.normal_N);
     column([c] { return NormalForceStd(c); }, contact.normal_std_N);
+    column([c] { return NormalForceNoise(c); }, contact.normal_noise_N);
     if (friction_ != 0) {
       column([c] { return Friction(c); }, std::isfinite(contact.arc_mm)
                                               ? readings.FrictionOr(friction_)

@@ -33,8 +33,9 @@ bool Matches(std::string_view name, std::string_view pattern) {
 const std::vector<std::string>& FrameColumnPatterns() {
   static const std::vector<std::string> patterns = [] {
     std::istringstream words(
-        "time_s gauge_#_V gauge_#_rad contact_#_mm contact_#_std_mm normal_#_N "
-        "normal_#_std_N contact_#_low_mm contact_#_high_mm normal_#_low_N "
+        "time_s gauge_#_V gauge_#_rad contact_#_mm contact_#_std_mm "
+        "contact_#_noise_mm normal_#_N normal_#_std_N normal_#_noise_N "
+        "contact_#_low_mm contact_#_high_mm normal_#_low_N "
         "normal_#_high_N friction_# alternative_contact_#_mm "
         "alternative_normal_#_N contact_#_x_mm contact_#_y_mm "
         "contact_#_angle_rad object_x_mm object_y_mm object_angle_deg "

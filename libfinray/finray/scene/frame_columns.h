@@ -29,6 +29,9 @@ inline std::string ContactArc(int c) {
 inline std::string ContactArcStd(int c) {
   return IndexedColumn("contact_", c, "_std_mm");
 }
+inline std::string ContactArcNoise(int c) {
+  return IndexedColumn("contact_", c, "_noise_mm");
+}
 inline std::string ContactArcLow(int c) {
   return IndexedColumn("contact_", c, "_low_mm");
 }
@@ -49,6 +52,9 @@ inline std::string NormalForce(int c) {
 }
 inline std::string NormalForceStd(int c) {
   return IndexedColumn("normal_", c, "_std_N");
+}
+inline std::string NormalForceNoise(int c) {
+  return IndexedColumn("normal_", c, "_noise_N");
 }
 inline std::string NormalForceLow(int c) {
   return IndexedColumn("normal_", c, "_low_N");

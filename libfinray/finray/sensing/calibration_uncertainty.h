@@ -94,10 +94,6 @@ class CalibrationUncertainty {
   std::optional<GaugeErrors> ErrorsAt(const std::vector<PointContact>& contacts,
                                       const std::vector<double>& readings_V,
                                       const Eigen::VectorXd& weights);
-  /// Says whether the finger has a discrepancy.
-  bool has_discrepancy() const {
-    return model_ && model_->finger.calibration->discrepancy.has_value();
-  }
 
  private:
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
@@ -125,6 +121,9 @@ class CalibrationUncertainty {
   bool FindDerivatives(const std::vector<PointContact>& contacts);
   void FindDiscrepancy(const std::vector<PointContact>& contacts);
   void FindWholeForce(const PointContact& contact);
+  bool has_discrepancy() const {
+    return model_->finger.calibration->discrepancy.has_value();
+  }
   void FillByParameter(int unknowns, const std::vector<double>& readings_V,
                        const Eigen::VectorXd& weights);
   // Says what the gauge angles change by with each calibrated parameter k:

@@ -175,9 +175,9 @@ bool FrameEstimator::TakeFollowed(const PackedReadings& packed, std::size_t run,
   estimate->dof = static_cast<int>(finger_.gauges.size()) - kUnknowns;
   // A search is exact to rounding, which this is not.
   if (estimate->dof > 0 && fit.chi2 < ContactSearch::kNoiseless) return false;
-  // A search weighs the discrepancy, which this does not.
+  // A search weighs the errors of the calibration, which this does not.
   const double scale = estimate->noise_scale();
-  if (scale > 1 && systematic_.has_discrepancy()) return false;
+  if (scale > 1 && !systematic_.empty()) return false;
   const ContactMatrix covariance = CovarianceOf(fit.information);
   const double arc_std = scale * std::sqrt(covariance(0, 0));
   const bool alone = scene_.most_contacts < 2 || fit.chi2 < kSecondSignificance;

@@ -36,6 +36,14 @@ double FrameEstimate::noise_scale() const {
   return p_value() < kUnexplained ? std::sqrt(explained_chi2() / dof) : 1;
 }
 
+void FrameEstimate::SetNoise() {
+  const double scale = noise_scale();
+  for (int c = 0; c < contacts; ++c) {
+    contact[c].arc_noise_mm = contact[c].arc_std_mm / scale;
+    contact[c].normal_noise_N = contact[c].normal_std_N / scale;
+  }
+}
+
 void FrameEstimate::SetIntervals(double length_mm) {
   for (int c = 0; c < contacts; ++c) {
     ContactEstimate& of = contact[c];

@@ -38,6 +38,12 @@ struct ContactEstimate {
   double arc_high_mm = std::numeric_limits<double>::quiet_NaN();
   double normal_low_N = std::numeric_limits<double>::quiet_NaN();
   double normal_high_N = std::numeric_limits<double>::quiet_NaN();
+  /// The part of the std that the declared noise makes. It differs from frame
+  /// to frame, so the mean of n frames of one contact has the std
+  /// sqrt(noise^2 / n + std^2 - noise^2). The rest is common to them: errors of
+  /// the calibration, of offsets that wander, and what the model misses.
+  double arc_noise_mm = std::numeric_limits<double>::quiet_NaN();
+  double normal_noise_N = std::numeric_limits<double>::quiet_NaN();
 };
 using ContactEstimates = std::array<ContactEstimate, kFittedContacts>;
 
@@ -67,9 +73,9 @@ struct FrameEstimate {
   /// the number of unknowns.
   double chi2 = std::numeric_limits<double>::quiet_NaN();
   int dof = 0;
-  /// Where noise alone does not explain the frame, and it has no contact or the
-  /// finger a discrepancy: the chi2 that errors of the calibration and the
-  /// discrepancy leave (CalibrationUncertainty::Chi2). NaN elsewhere.
+  /// Where noise alone does not explain the frame and the finger has a
+  /// calibration: the chi2 that errors of the calibration and the discrepancy
+  /// leave (CalibrationUncertainty::Chi2). NaN elsewhere.
   double model_chi2 = std::numeric_limits<double>::quiet_NaN();
   int iterations = 0;
   /// The tangential share with which the contacts were found, where the motion
@@ -111,6 +117,9 @@ struct FrameEstimate {
   /// for one degree of freedom.
   bool IsUnexplained() const;
 
+  /// Takes the std of all contacts, before the errors of the calibration are
+  /// added, for noise_scale() times their noise.
+  void SetNoise();
   /// Sets the intervals of all contacts from their std and the valley.
   void SetIntervals(double length_mm);
 };

@@ -356,11 +356,11 @@ FrameEstimate FrameEstimator::Found(const Measurements& readings,
   return estimate;
 }
 
-// Rare only for a finger whose discrepancy is small: it solves an equilibrium.
+// Rare only for a finger that is well known: it solves an equilibrium.
 void FrameEstimator::ExplainByModelErrors(const Measurements& readings,
                                           const PackedReadings& packed,
                                           FrameEstimate* estimate) {
-  if (!systematic_.has_discrepancy() || packed.all > packed.gauges ||
+  if (systematic_.empty() || packed.all > packed.gauges ||
       !(estimate->p_value() < FrameEstimate::kUnexplained)) {
     return;
   }
@@ -382,6 +382,7 @@ void FrameEstimator::Judge(const Measurements& readings,
     }
     return;
   }
+  estimate->SetNoise();
   if (!systematic_.empty()) {
     contacts_.clear();
     for (int c = 0; c < estimate->contacts; ++c) {

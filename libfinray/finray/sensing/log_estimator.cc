@@ -272,13 +272,19 @@ void LogEstimator::JudgeContact(const LogFrame& frame,
   const std::vector<PointContact> contacts = {
       {frame.arc_mm, frame.normal_N, scene_.friction_coefficient}};
   const std::vector<double> readings_V = WithoutWander(finger_, frame);
-  if (systematic_.has_discrepancy() && packed.all == packed.gauges &&
+  if (!systematic_.empty() && packed.all == packed.gauges &&
       estimate->p_value() < FrameEstimate::kUnexplained) {
     estimate->model_chi2 =
         systematic_.Chi2(contacts, readings_V, packed.weights);
   }
   const double scale = estimate->noise_scale();
   frame.CopyTo(scale * scale * marginal.covariance, estimate);
+  estimate->SetNoise();
+  if (scene_.gauge_offset_walk) {
+    const Eigen::Vector2d noise = marginal.StdGivenOffsets();
+    estimate->contact[0].arc_noise_mm = noise[0];
+    estimate->contact[0].normal_noise_N = noise[1];
+  }
   if (!systematic_.empty()) {
     FrameEstimator::AddCovariance(
         systematic_.Of(contacts, readings_V, packed.weights), estimate);

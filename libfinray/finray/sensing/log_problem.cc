@@ -2,6 +2,7 @@
 
 #include <ceres/solver.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -37,6 +38,16 @@ void LogFrame::CopyTo(const Eigen::MatrixXd& covariance,
                           std::sqrt(covariance(at + 1, at + 1)), pose};
   estimate->tip_pose = tip_pose;
   estimate->rib_tension_N = rib_tension_N;
+}
+
+Eigen::Vector2d LogMarginal::StdGivenOffsets() const {
+  const Eigen::Index offsets = covariance.rows() - 2;
+  const auto both = covariance.topRightCorner(offsets, 2);
+  const Eigen::Matrix2d given =
+      covariance.bottomRightCorner<2, 2>() -
+      both.transpose() *
+          covariance.topLeftCorner(offsets, offsets).ldlt().solve(both);
+  return given.diagonal().cwiseMax(0).cwiseSqrt();
 }
 
 Eigen::VectorXd GaugeOffsets(const Finger& finger) {

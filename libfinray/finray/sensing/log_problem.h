@@ -65,6 +65,10 @@ struct LogMarginal {
   /// The frame's readings against those offsets: r'r + (A'r)'C(A'r). Degrees of
   /// freedom: as many as gauges, less two for a contact.
   double chi2 = 0;
+
+  /// The std of (l_c, f_c) for known offsets. An error of an offset is common
+  /// to the frames of a touch.
+  Eigen::Vector2d StdGivenOffsets() const;
 };
 
 /// Contacts and gauge offsets of a stretch of a log in one sparse problem; for
