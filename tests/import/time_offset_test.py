@@ -109,7 +109,7 @@ class TimeOffsetTest(unittest.TestCase):
     def test_times_are_taken_as_they_are_only_where_gauges_do_not_contradict(self):
         draw = np.random.default_rng(8)
         force, gauges = recordings(draw, 0.0)
-        other = Series("force", force.time, {"force_N": draw.permutation(force.channels["force_N"])})
+        other = recordings(np.random.default_rng(9), 0.0)[0]  # of another recording
         with self.assertRaisesRegex(time_offset.ClocksApart, "larger --longest_offset_s; if they agree,"):
             time_offset.estimate(other, gauges, 1.0)
         still = Series("force", force.time, {"force_N": draw.normal(size=len(force.time))})
