@@ -64,7 +64,7 @@ Rows RandomRows(std::mt19937* random, std::size_t rows) {
       case 1:
         return std::round(1e4 * uniform(*random)) / 1000;
       case 2:
-        return std::ldexp(uniform(*random), (*random)() % 200);
+        return std::ldexp(uniform(*random), (*random)() % 30);
       case 3:
         return std::ldexp(uniform(*random),
                           -static_cast<int>((*random)() % 200));

@@ -222,11 +222,12 @@ TEST(CalibrationUncertaintyTest, TwoContactsAreExact) {
             1e-8 * beyond.cwiseAbs().maxCoeff());
 }
 
-// It widens std, explains what noise does not, and moves nothing.
-TEST(CalibrationUncertaintyTest, ADiscrepancyNeverMovesAnEstimate) {
-  const Finger plain = UncertainFinger();
-  Finger discrepant = plain;
+// They widen std, explain what noise does not, and move nothing.
+TEST(CalibrationUncertaintyTest, ModelErrorsNeverMoveAnEstimate) {
+  Finger discrepant = UncertainFinger();
   discrepant.calibration->discrepancy = TypicalDiscrepancy(4);
+  Finger plain = discrepant;
+  plain.calibration.reset();
   Scene scene;
   scene.contacts = 1;
   FrameEstimator without(plain, scene, {}), with(discrepant, scene, {});

@@ -9,6 +9,7 @@
 #include "finray/io/number_text.h"
 #include "finray/scene/frame_columns.h"
 #include "finray/scene/scene.h"
+#include "finray/sensing/chi_squared.h"
 #include "finray/sensing/frame_estimator.h"
 #include "finray/statics/equilibrium.h"
 
@@ -122,14 +123,19 @@ void RefuseTouch(const Finger& finger, const Discretization& discretization,
                                  ? check.friction
                                  : finger.calibration->friction;
   const auto readings = static_cast<double>(zeroed.fewest);
+  // Errors of the offsets that the calibration left explain no touch: they are
+  // what is asked for here.
+  const bool discrepant = finger.calibration && finger.calibration->discrepancy;
   for (const double friction : {coefficient, -coefficient}) {
     Scene scene;
     scene.contacts = 1;
     scene.friction_coefficient = friction;
     const FrameEstimate touch =
         FrameEstimator(tried, scene, discretization).Estimate(means);
-    const bool explains = touch.p_value() >= FrameEstimate::kUnexplained ||
-                          touch.chi2 < kTouchLeaves * kTouchLeaves * free_chi2;
+    const double chi2 = discrepant ? touch.explained_chi2() : touch.chi2;
+    const bool explains =
+        ChiSquaredTail(chi2, touch.dof) >= FrameEstimate::kUnexplained ||
+        touch.chi2 < kTouchLeaves * kTouchLeaves * free_chi2;
     const bool lowers =
         free_chi2 - touch.chi2 >= FrameEstimator::kSignificance * readings;
     const ContactEstimate& at = touch.contact[0];
