@@ -26,8 +26,8 @@ TEST_F(BatchTest, PatternsListsAndTables) {
   const Outcome outcome =
       Run("finray_estimate", Arguments("'%runs/*.csv'", "--out_dir %out"));
   ASSERT_EQ(outcome.code, 0) << outcome.output;
-  // The last two are warnings.
-  EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 8);
+  // The last three are warnings.
+  EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 9);
   EXPECT_THAT(outcome.output,
               HasSubstr("\nwarning: the finger is not calibrated"));
   EXPECT_THAT(outcome.output,
@@ -40,7 +40,7 @@ TEST_F(BatchTest, PatternsListsAndTables) {
   EXPECT_EQ(table.rows(), 2u);
   FrameTable copy = table;
   EXPECT_EQ(copy.MutableText("frames")[1], "200");
-  EXPECT_EQ(copy.MutableText("no_contact")[0], "300");
+  EXPECT_EQ(copy.MutableText("unobservable")[0], "300");
   EXPECT_EQ(copy.MutableText("log")[0], folder_.Path("runs/a.csv"));
   const auto headers = table.headers();
   EXPECT_THAT(std::vector<std::string>(headers.end() - 6, headers.end()),
@@ -51,14 +51,14 @@ TEST_F(BatchTest, PatternsListsAndTables) {
   EXPECT_EQ(yaml["logs"][1]["key"].as<std::string>(),
             YAML::LoadFile(folder_.Path("out/b.summary.yaml"))["key"]
                 .as<std::string>());
-  EXPECT_EQ(yaml["all"]["force_compared_frames"].as<int>(), 500);
   EXPECT_EQ(yaml["warnings"][0]["code"].as<std::string>(), "not_calibrated");
   EXPECT_EQ(yaml["logs"][1]["warnings"][0]["code"].as<std::string>(),
             "unexplained_frames");
   // Readings of many mrad and no contact allowed.
   const int unexplained = yaml["all"]["unexplained_frames"].as<int>();
   EXPECT_EQ(unexplained, 500);
-  EXPECT_THAT(outcome.output, HasSubstr("unobservable   0, unexplained 500\n"));
+  EXPECT_THAT(outcome.output,
+              HasSubstr("unobservable   500, unexplained 500\n"));
 
   // Results in the logs' own folder are no logs.
   const std::string in_place = Arguments("'%runs/*.csv'", "--out_dir %runs");
@@ -80,8 +80,8 @@ TEST_F(BatchTest, PatternsListsAndTables) {
 
 TEST_F(BatchTest, ResultsLieAsTheLogsLieInTheirRoot) {
   std::filesystem::create_directory(folder_.Path("runs/x"));
-  WriteLog("runs/a.csv", 300, 1);
-  WriteLog("runs/x/a.csv", 200, 2);
+  WriteLog("runs/a.csv", 300, 1, Readings::kFree);
+  WriteLog("runs/x/a.csv", 200, 2, Readings::kFree);
   const std::string logs = "%runs/a.csv,%runs/x/a.csv";
   ExpectBadInput("finray_estimate", Arguments(logs, "--out_dir %out"),
                  "would both be written to");

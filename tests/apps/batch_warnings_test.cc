@@ -105,7 +105,7 @@ TEST_F(BatchWarningsTest, EqualShiftsOfAllGaugesAreLoud) {
   EXPECT_THAT(moved.output, Not(HasSubstr("unexplained 0\n")));
   EXPECT_THAT(moved.output,
               HasSubstr("\nwarning: likeliest cause: the gauges' offsets have "
-                        "moved; estimated forces differ from the force_N"));
+                        "moved; 45 of 110 solved frames"));
   EXPECT_THAT(moved.output, HasSubstr("the gauges read +20, +20, +20, +20 mV"));
   const YAML::Node log_entry =
       YAML::LoadFile(folder_.Path("moved/summary.yaml"))["logs"][0];

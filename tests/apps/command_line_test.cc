@@ -57,7 +57,7 @@ TEST_F(CommandLineTest, MoreThreadsThanAnyMachineHasAreRefused) {
       EXPECT_EQ(outcome.output,
                 std::string(app) +
                     ": --threads: expected 0 (all cores) to 1024, found " +
-                    threads + "\n");
+                    threads + "; see --help\n");
     }
   }
 }

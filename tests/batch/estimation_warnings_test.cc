@@ -111,8 +111,8 @@ TEST(EstimationWarningsTest, ALogWithoutForceThatIsNeverFree) {
   const std::vector<Warning> warnings = Of(summary, finger);
   ASSERT_THAT(warnings, SizeIs(1));
   EXPECT_EQ(warnings[0].text,
-            "all 50 solved frames of a.csv have a contact, 1 of them an "
-            "unobservable one, and no force_N says whether that is so");
+            "none of the 50 solved frames of a.csv is free, 1 unobservable, "
+            "and no force_N says whether that is so");
   EXPECT_THAT(warnings[0].remedy, HasSubstr("say contacts: 1 in the scene"));
   EXPECT_TRUE(FailsStrict(warnings, {}));
   EXPECT_FALSE(FailsStrict(warnings, OneContact()));  // it is meant

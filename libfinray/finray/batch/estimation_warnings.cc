@@ -163,18 +163,17 @@ Warning ForcesDiffer(const EstimationSummary& summary, const Finger& finger,
 Warning NeverFree(const EstimationSummary& summary, const Finger& finger,
                   const std::string& log) {
   const auto shift = ShiftOf(summary, finger);
-  const std::string contacts =
-      "all " + std::to_string(summary.frames - summary.unsolved()) +
-      " solved frames of " + log + " have a contact, " +
+  const std::string none =
+      "none of the " + std::to_string(summary.frames - summary.unsolved()) +
+      " solved frames of " + log + " is free, " +
       std::to_string(summary.count(FrameStatus::kUnobservable)) +
-      " of them an unobservable one";
+      " unobservable";
   if (shift) {
-    return {
-        "forces_differ",
-        contacts + ", although some have a force_N near zero" + Measured(shift),
-        MovedOrNot(shift)};
+    return {"forces_differ",
+            none + ", although some have a force_N near zero" + Measured(shift),
+            MovedOrNot(shift)};
   }
-  return {"never_free", contacts + ", and no force_N says whether that is so",
+  return {"never_free", none + ", and no force_N says whether that is so",
           "if the finger was free in any of them, the gauges' offsets have "
           "moved: zero them with finray_zero; if it never was, say contacts: 1 "
           "in the scene"};
