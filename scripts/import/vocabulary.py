@@ -9,7 +9,8 @@ import units
 from errors import did_you_mean
 
 PATTERNS = """
-time_s gauge_#_V gauge_#_rad contact_#_mm contact_#_std_mm normal_#_N normal_#_std_N
+time_s gauge_#_V gauge_#_rad contact_#_mm contact_#_std_mm contact_#_noise_mm
+normal_#_N normal_#_std_N normal_#_noise_N
 contact_#_low_mm contact_#_high_mm normal_#_low_N normal_#_high_N friction_#
 alternative_contact_#_mm alternative_normal_#_N contact_#_x_mm contact_#_y_mm
 contact_#_angle_rad object_x_mm object_y_mm object_angle_deg object_displacement_mm
