@@ -154,7 +154,10 @@ Plan ExplorePlan(const Finger& finger, const Plan& plan,
   for (const Exploration::Step& step : exploration.steps) {
     std::printf("explored       %s\n", WordsOf(step).c_str());
   }
-  if (exploration.steps.empty()) {
+  if (!exploration.beyond.empty()) {
+    std::printf("explored       ended, as no plan frees this: %s\n",
+                exploration.beyond.c_str());
+  } else if (exploration.steps.empty()) {
     std::printf(
         "explored       the logs show no effect that the plan leaves "
         "out\n");

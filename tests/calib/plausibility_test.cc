@@ -151,5 +151,15 @@ TEST(PlausibilityTest, RefusesMetres) {
               IsEmpty());
 }
 
+// A stage may count from the base, from the tip, or from the end of its way.
+TEST(PlausibilityTest, RefusesYOfALeftHandedStage) {
+  for (const double mirror : {0.0, 140.0, 120.0}) {
+    EXPECT_THAT(
+        RefusalOf({"object_y_mm"}, [&](double y) { return mirror - y; }),
+        HasSubstr("if y ran the other way"))
+        << mirror;
+  }
+}
+
 }  // namespace
 }  // namespace finray

@@ -27,5 +27,20 @@ TEST(LinearSignalTest, RunsLinearlyBetweenSamples) {
   EXPECT_EQ(signal.At(9).slope, 0);
 }
 
+TEST(LinearSignalTest, AChangeByNoTimeIsNoChange) {
+  LinearSignal signal;
+  EXPECT_EQ(signal.Change(1, 0.5).value, 0);
+  // Of 10, 11 and 12 at one time only the first is kept.
+  for (const double force : {10.0, 11.0, 12.0}) signal.Add(1, force);
+  signal.Add(2, 14);
+  for (const double time_s : {0.0, 1.0, 1.5, 7.0}) {
+    EXPECT_EQ(signal.Change(time_s, 0).value, 0);
+  }
+  EXPECT_EQ(signal.Change(1, 0.5).value, 2);
+  EXPECT_EQ(signal.Change(1, 0.5).slope, 4);
+  EXPECT_EQ(signal.Change(2, -0.25).value, -1);
+  EXPECT_EQ(signal.Change(std::nan(""), 1).value, 0);
+}
+
 }  // namespace
 }  // namespace finray

@@ -74,7 +74,7 @@ TEST_P(ReferenceForceResidualTest, TiltWeightAndTime) {
   blocks.push_back(&late_s);
   double without[2], with[2];
   const std::unique_ptr<ceres::CostFunction> vector(
-      new ReferenceForceVectorResidual(frame_, {9, 9}, 0.02, turned,
+      new ReferenceForceVectorResidual(frame_, {1.6, 2.9}, 0.02, turned,
                                        {signals, 3}));
   ASSERT_TRUE(vector->Evaluate(blocks.data(), without, nullptr));
   EXPECT_NEAR(

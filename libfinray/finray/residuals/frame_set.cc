@@ -75,7 +75,7 @@ void FrameSet::PrepareForEvaluation(bool /*evaluate_jacobians*/,
   // missing equilibrium takes long, so the other frames are skipped.
   std::atomic<bool> failed = false;
   const auto update = [&](Frame& frame, EquilibriumSolver* solver) {
-    if (failed) {
+    if (failed || exhausted()) {
       frame.evaluation.Invalidate();
       return;
     }
@@ -84,6 +84,12 @@ void FrameSet::PrepareForEvaluation(bool /*evaluate_jacobians*/,
     frame.evaluation.Update(
         frame.unknowns, shared_->ln_front_stiffness, shared_->ln_back_stiffness,
         shared_->rib_lengths_mm.data(), shared_->effect_values.data(), solver);
+    if (form_ == EquilibriumForm::kReduced) {
+      const double took = 1.0 * solver->iterations() * solver->unknowns();
+      for (double work = work_;
+           !work_.compare_exchange_weak(work, work + took);) {
+      }
+    }
     if (!frame.evaluation.valid()) failed = true;
   };
   if (threads_ <= 1 || frames_.size() < 2) {

@@ -3,7 +3,9 @@
 
 #include <ceres/evaluation_callback.h>
 
+#include <atomic>
 #include <deque>
+#include <limits>
 #include <vector>
 
 #include "finray/residuals/frame_evaluation.h"
@@ -51,6 +53,13 @@ class FrameSet : public ceres::EvaluationCallback {
   /// See EquilibriumSolver::set_near_only.
   void set_near_only(bool near_only) { solver_.set_near_only(near_only); }
 
+  /// Bounds what all solves of equilibria may cost together: each counts as
+  /// Newton iterations times unknowns of the mesh. Beyond, no frame is valid,
+  /// so that Ceres ends. Far from any finger that bends, a solve follows load
+  /// paths and takes thousands of times longer.
+  void set_most_work(double most) { most_work_ = most; }
+  bool exhausted() const { return work_ > most_work_; }
+
   /// Removes all frames.
   void Clear() {
     frames_.clear();
@@ -76,6 +85,8 @@ class FrameSet : public ceres::EvaluationCallback {
   const SharedParameters* shared_;
   int threads_;
   std::deque<Frame> frames_;
+  double most_work_ = std::numeric_limits<double>::infinity();
+  std::atomic<double> work_ = 0;
   std::vector<double> evaluated_at_;  // parameters, then unknowns of all frames
 };
 

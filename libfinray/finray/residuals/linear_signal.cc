@@ -30,4 +30,10 @@ LinearSignal::Point LinearSignal::At(double time_s) const {
   return {values_[at - 1] + slope(at) * (time_s - times_s_[at - 1]), slope(at)};
 }
 
+LinearSignal::Point LinearSignal::Change(double time_s, double by_s) const {
+  if (times_s_.empty() || std::isnan(time_s)) return {0, 0};
+  const Point later = At(time_s + by_s);
+  return {by_s == 0 ? 0 : later.value - At(time_s).value, later.slope};
+}
+
 }  // namespace finray

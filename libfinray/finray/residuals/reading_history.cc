@@ -15,11 +15,18 @@ void ReadingHistory::Set(int row, double time_s, double volts, double moved2) {
   if (i >= volts_.size()) {
     volts_.resize(i + 1, std::nan(""));
     times_s_.resize(i + 1, std::nan(""));
+    signals_V_.resize(i + 1, std::nan(""));
     moved2_.resize(i + 1, 2);
   }
   volts_[i] = volts;
   times_s_[i] = time_s;
   moved2_[i] = moved2;
+}
+
+void ReadingHistory::Drive(int row, double signal_V, double moved2) {
+  signals_V_[row] = signal_V;
+  moved2_[row] = moved2;
+  computed_ = false;
 }
 
 ReadingHistory::Row ReadingHistory::At(int row, const Values& values) const {
@@ -64,7 +71,10 @@ void ReadingHistory::Compute() const {
   for (std::size_t row = 0; row < volts_.size(); ++row) {
     if (std::isfinite(volts_[row])) {
       const Jet z = lag.Next(times_s_[row], Jet(volts_[row]));
-      play.Next((volts_[row] - share * z) / noise_V_, moved2_[row]);
+      const Jet signal = std::isfinite(signals_V_[row])
+                             ? Jet(signals_V_[row])
+                             : volts_[row] - share * z;
+      play.Next(signal / noise_V_, moved2_[row]);
       now = {split(z), split(play.mean() * noise_V_),
              noise_V_ * std::sqrt(play.variance().a)};
     }

@@ -22,6 +22,11 @@ class ReadingHistory {
   /// Sets the reading in a row of the log. One that is NaN was not measured.
   /// `moved2` is that of PlayBelief.
   void Set(int row, double time_s, double volts, double moved2);
+  /// Lets play in a row follow this signal, in V as the gauge would read it
+  /// without creep and play; NaN: the reading. A regressor made of readings
+  /// goes with their noise, hence with the residuals that it is to explain.
+  /// What a model fits to all measurements does not.
+  void Drive(int row, double signal_V, double moved2);
 
   struct Values {
     double share = 0, ln_time_constant = 0, width_V = 0;
@@ -58,7 +63,7 @@ class ReadingHistory {
   void Compute() const;
 
   double noise_V_ = 1;
-  std::vector<double> times_s_, volts_, moved2_, kept_std_V_;
+  std::vector<double> times_s_, volts_, signals_V_, moved2_, kept_std_V_;
   mutable std::shared_mutex mutex_;
   mutable bool computed_ = false;
   mutable Values at_;  // of rows_

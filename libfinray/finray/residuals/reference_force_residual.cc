@@ -43,7 +43,8 @@ bool ReferenceForceResidual::Evaluate(double const* const* parameters,
       frame_size_ > 0 ? scale * per_normal * parameters[0][normal_] : 0;
   LinearSignal::Point read{force_N_, 0};
   if (late_.signals != nullptr) {
-    read = late_.signals[0].At(late_.time_s + *parameters[sensor + 2]);
+    read = late_.signals[0].Change(late_.time_s, *parameters[sensor + 2]);
+    read.value += force_N_;
   }
   residuals[0] = (force + *parameters[sensor + 1] - read.value) / std_N_;
   if (jacobians == nullptr) return true;
@@ -90,9 +91,9 @@ bool ReferenceForceVectorResidual::Evaluate(double const* const* parameters,
       Eigen::Rotation2Dd(object_angle_rad_).toRotationMatrix();
   Eigen::Vector2d read = force_N_, read_slope(0, 0);
   for (int i = 0; late_.signals != nullptr && i < 2; ++i) {
-    const auto point = late_.signals[i].At(late_.time_s + *own[4]);
-    read[i] = point.value;
-    read_slope[i] = point.slope;
+    const auto change = late_.signals[i].Change(late_.time_s, *own[4]);
+    read[i] += change.value;
+    read_slope[i] = change.slope;
   }
   Eigen::Vector2d sum(0, 0);
   FrameEvaluation::Matrix d_sum =

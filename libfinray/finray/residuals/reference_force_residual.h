@@ -11,8 +11,8 @@
 namespace finray {
 
 /// What a log's force sensor read over time, for a sensor whose readings come
-/// late by `time_offset_s`: the force of a row is what the log has that much
-/// later, on a line between its rows.
+/// late by `time_offset_s`: the force of a row is its own and what the log's
+/// force changes by in that time, on a line between its rows.
 struct LateForce {
   const LinearSignal* signals = nullptr;  ///< Null: the sensor is not late.
   double time_s = 0;                      ///< of the row

@@ -34,35 +34,36 @@ bool HasClampedRib(const Finger& finger) {
 // A new family needs a line here, and the score test and --explore know it.
 const std::vector<CandidateEffect>& AllCandidateEffects() {
   using Family = ParameterFamily;
+  constexpr double kAny = -std::numeric_limits<double>::infinity();
   static const std::vector<CandidateEffect> all = {
       {Family::kFrontStiffness, 50, "another front stiffness"},
       {Family::kBackStiffness, 50, "another back stiffness"},
-      {Family::kGaugeGain, 20, "other gains of gauges"},
-      {Family::kGaugeOffset, 0.02, "moved offsets of gauges"},
+      {Family::kGaugeGain, 20, "other gains of gauges", kAny, true},
+      {Family::kGaugeOffset, 0.02, "moved offsets of gauges", kAny, true},
       {Family::kRibLength, 0.5, "ribs of other lengths"},
       {Family::kGaugeCurvature, 1, "gauges with a curved gain"},
       {Family::kGaugeStart, 1, "gauges beside their drawn places"},
       {Family::kGaugeLength, 1, "gauges of other lengths"},
-      {Family::kGaugeCreepShare, 0.1, "gauges that creep"},
+      {Family::kGaugeCreepShare, 0.1, "gauges that creep", 0},
       {Family::kGaugeCreepTime, 50, "another time constant of creep"},
-      {Family::kGaugeFlatShare, 0.2,
-       "gauges that are less sensitive when flat"},
+      {Family::kGaugeFlatShare, 0.2, "gauges that are less sensitive when flat",
+       0},
       {Family::kGaugeFlatWidth, 50, "another width of what gauges call flat"},
-      {Family::kGaugeHysteresis, 1e-3, "gauges with hysteresis"},
-      {Family::kHingeStiffness, 20, "hinges that resist"},
+      {Family::kGaugeHysteresis, 1e-3, "gauges with hysteresis", 0},
+      {Family::kHingeStiffness, 20, "hinges that resist", 0},
       {Family::kRibBending, 50, "another bending stiffness of the ribs"},
       {Family::kFrontPiece, 1.5, "a stiffness that changes along the beams"},
       {Family::kFrontHinge, 0.5, "hinges beside their drawn places"},
-      {Family::kFrontClamp, 2e-4, "clamps that give"},
+      {Family::kFrontClamp, 2e-4, "clamps that give", 0},
       {Family::kBackAngle, 0.5, "another angle of the back beam"},
       {Family::kSurfaceOffset, 0.5, "a surface beside the beam"},
-      {Family::kFriction, 0.3, "friction"},
-      {Family::kObjectOrigin, 0.5, "a shifted stage"},
-      {Family::kObjectRotation, 1, "a turned stage"},
+      {Family::kFriction, 0.3, "friction", 0},
+      {Family::kObjectOrigin, 0.5, "a shifted stage", kAny, true},
+      {Family::kObjectRotation, 1, "a turned stage", kAny, true},
       {Family::kObjectScale, 1, "a stage of another scale"},
       {Family::kObjectRadius, 0.5, "another radius of the object"},
-      {Family::kForceScale, 3, "another scale of the force sensor"},
-      {Family::kForceOffset, 0.1, "an offset of the force sensor"},
+      {Family::kForceScale, 3, "another scale of the force sensor", kAny, true},
+      {Family::kForceOffset, 0.1, "an offset of the force sensor", kAny, true},
       {Family::kForceTimeOffset, 0.1, "a force sensor that is late"},
       {Family::kForceTilt, 1, "a turned force sensor"},
       {Family::kForceWeight, 0.1, "a weight on the force sensor"},
@@ -96,6 +97,7 @@ std::vector<CandidateEffect> CandidatesFor(const Finger& finger,
   for (const CandidateEffect& effect : AllCandidateEffects()) {
     using Family = ParameterFamily;
     if (plan.family(effect.family).free) continue;
+    if (!TimesAllow(effect.family, logs)) continue;
     switch (effect.family) {
       case Family::kTemperatureCoefficient:
         if (!warm) continue;
@@ -143,10 +145,21 @@ std::vector<CandidateEffect> CandidatesFor(const Finger& finger,
   return candidates;
 }
 
+bool CanDifferByLog(ParameterFamily family) {
+  return family == ParameterFamily::kGaugeOffset ||
+         family == ParameterFamily::kObjectOrigin ||
+         family == ParameterFamily::kObjectRotation;
+}
+
 Plan Freed(const Plan& plan, const CandidateEffect& effect) {
   Plan freed = plan;
   FamilyPlan& family = freed.families[static_cast<int>(effect.family)];
+  if (effect.per_log && family.free) {
+    family.per_log = true;
+    return freed;
+  }
   family = {};
+  family.per_log = effect.per_log;
   family.free = true;
   family.prior_std = effect.prior_std;
   for (int i = 0; i < kParameterFamilies; ++i) {

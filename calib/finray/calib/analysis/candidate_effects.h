@@ -1,6 +1,8 @@
 #ifndef FINRAY_CALIB_ANALYSIS_CANDIDATE_EFFECTS_H_
 #define FINRAY_CALIB_ANALYSIS_CANDIDATE_EFFECTS_H_
 
+#include <limits>
+#include <string>
 #include <vector>
 
 #include "finray/calib/problem/calibration_log.h"
@@ -15,7 +17,14 @@ struct CandidateEffect {
   /// What such a finger, bench or sensor is usually off by, in the unit of the
   /// key of its prior in a plan.
   double prior_std;
-  const char* words;  ///< What residuals look like if it is there.
+  std::string words;  ///< What residuals look like if it is there.
+  /// No finger and no bench has a value below; -infinity: any value is
+  /// possible.
+  double least = -std::numeric_limits<double>::infinity();
+  /// It may differ from log to log, or change in one: somebody turns a knob,
+  /// sets up the stage anew, tares the sensor.
+  bool differs = false;
+  bool per_log = false;  ///< Freed for each log by itself.
 };
 
 /// All families, in the order of ParameterFamily. That of the front beam stands
@@ -24,12 +33,17 @@ const std::vector<CandidateEffect>& AllCandidateEffects();
 /// Returns the one of a family. Throws std::out_of_range if there is none.
 const CandidateEffect& CandidateOf(ParameterFamily family);
 
-/// Returns those that the plan does not free and whose columns the logs have.
+/// Returns those that the plan does not free, whose columns the logs have, and
+/// that their times allow (row_times.h).
 std::vector<CandidateEffect> CandidatesFor(const Finger& finger,
                                            const Plan& plan,
                                            const CalibrationLogs& logs);
 
-/// Returns the plan with a family free, with the prior of the candidate.
+/// Says whether a plan can free the family for each log.
+bool CanDifferByLog(ParameterFamily family);
+
+/// Returns the plan with a family free, with the prior of the candidate. One
+/// that the plan frees already, for all logs in common, keeps its prior.
 Plan Freed(const Plan& plan, const CandidateEffect& effect);
 
 }  // namespace finray

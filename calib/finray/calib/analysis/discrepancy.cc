@@ -129,7 +129,9 @@ void AddErrors(CalibrationProblem* problem, const Finger& finger,
                const std::vector<int>& frames, const Contacts& contacts,
                std::vector<GaugeError>* errors) {
   const Plan& plan = problem->plan();
-  CalibrationLogs logs{problem->logs().paths, problem->logs().names, {}, {}};
+  CalibrationLogs logs;
+  logs.paths = problem->logs().paths;
+  logs.names = problem->logs().names;
   for (const int i : frames) logs.frames.push_back(problem->frame(i));
   logs = problem->parameters().Corrected(logs, finger);
   const double coefficient = problem->parameters().friction();

@@ -10,6 +10,7 @@
 #include "finray/calib/analysis/cross_validation.h"
 #include "finray/calib/analysis/refit.h"
 #include "finray/calib/analysis/score_test.h"
+#include "finray/calib/solve/modelled_readings.h"
 #include "finray/calib/solve/outliers.h"
 #include "finray/calib/solve/robust_solve.h"
 #include "finray/calib/solve/summed_solve.h"
@@ -33,7 +34,7 @@ void JudgeAgain(SolvedProblem* at) {
     for (const auto& [frame, reason] : at->problem->rejected()) {
       contacts.Forget(frame);
     }
-    at->problem->parameters().KeepHistoryStd();
+    KeepHistory(at->solution.at, at->problem);
     at->problem->KeepFriction();
     solved =
         SolveSummed(at->problem->FittedFrames(), {}, at->problem, &contacts);
@@ -59,16 +60,22 @@ Exploration Explore(CalibrationProblem* problem) {
         TestScores(*now.problem,
                    AnalyzeIdentifiability(now.problem, now.solution.at), wide);
     if (score.Best() == nullptr) break;
+    if (!score.Best()->CanBeFreed()) {
+      result.beyond = score.Best()->words;
+      break;
+    }
     const double before = CrossValidatedLogLikelihood(*now.problem, wide);
     std::vector<ScoreTest::Effect> tried;
     for (const ScoreTest::Effect& effect : score.effects) {
-      if (effect.significant && tried.size() < kMostRivals)
+      if (effect.significant && effect.CanBeFreed() &&
+          tried.size() < kMostRivals) {
         tried.push_back(effect);
+      }
     }
     std::optional<SolvedProblem> best;
     std::optional<std::size_t> kept;
     for (const ScoreTest::Effect& effect : tried) {
-      const CandidateEffect& candidate = CandidateOf(effect.family);
+      const CandidateEffect candidate = effect.Candidate();
       std::optional<SolvedProblem> with = SolveWith(candidate, now);
       if (!with) continue;
       Exploration::Step step{candidate, effect.words, 0, before, 0, false};
@@ -131,15 +138,25 @@ std::string ExploredPlanYaml(const std::string& path, const std::string& text,
     YAML::Node scene = plan["scene"];
     FindColumnsFromAnywhere(path, &scene);
   }
+  const auto freed_before = [&](ParameterFamily family) {
+    const YAML::Node node = plan["parameters"][FamilyKeyOf(family)];
+    return node && !(node["fixed"] && node["fixed"].as<bool>());
+  };
   std::string explored = "# " + path +
                          ", with what finray_calibrate --explore has"
                          " freed.\n";
   for (const Exploration::Step& step : exploration.steps) {
     explored += "# " + WordsOf(step) + "\n";
     if (!step.kept) continue;
+    const char* key = FamilyKeyOf(step.effect.family);
+    if (step.effect.per_log && freed_before(step.effect.family)) {
+      plan["parameters"][key]["per_log"] = true;
+      continue;
+    }
     YAML::Node family;
     family[PriorKeyOf(step.effect.family)] = NumberText(step.effect.prior_std);
-    plan["parameters"][FamilyKeyOf(step.effect.family)] = family;
+    if (step.effect.per_log) family["per_log"] = true;
+    plan["parameters"][key] = family;
   }
   return explored + YAML::Dump(plan) + "\n";
 }

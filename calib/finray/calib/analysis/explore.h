@@ -21,6 +21,10 @@ struct Exploration {
     bool kept = false;
   };
   std::vector<Step> steps;
+  /// What the logs then show and no plan can free: something that changes in
+  /// mid-log. Empty if there is no such thing. What stands in for it would
+  /// deceive, so nothing is freed any more.
+  std::string beyond;
   Plan plan;  ///< With the kept effects free.
 };
 

@@ -73,7 +73,24 @@ int LooksLike(const std::vector<ExpectedGauges>& frames, int reading,
   return like;
 }
 
+bool HardlyBends(const Regression& sums) {
+  return sums.aa < kLeastBend * kLeastBend * static_cast<double>(sums.frames);
+}
+
 }  // namespace
+
+double UnexplainedShare(const std::vector<ExpectedGauges>& frames,
+                        const Finger& finger) {
+  double sum = 0;
+  int count = 0;
+  for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
+    const Regression sums = Regress(frames, j, j);
+    if (sums.frames < kLeastFrames || HardlyBends(sums)) continue;
+    sum += sums.rest();
+    ++count;
+  }
+  return sum / count;
+}
 
 void RefuseImplausibleGauges(const std::vector<ExpectedGauges>& frames,
                              const Finger& finger) {
@@ -88,7 +105,7 @@ void RefuseImplausibleGauges(const std::vector<ExpectedGauges>& frames,
     const Regression sums = Regress(frames, j, j);
     const auto count = static_cast<double>(sums.frames);
     if (sums.frames < kLeastFrames) continue;
-    if (sums.aa < kLeastBend * kLeastBend * count) {
+    if (HardlyBends(sums)) {
       unexpected |=
           std::sqrt(sums.vv / count) > kUnexpected * finger.gauges[j].noise_V;
       continue;

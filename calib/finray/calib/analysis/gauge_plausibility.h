@@ -8,9 +8,9 @@
 
 namespace finray {
 
-/// A frame with contact whose place is known without the gauges.
+/// A frame with contact whose place is known without the gauges, or a free one.
 struct ExpectedGauges {
-  int log = 0;
+  int log = 0, row = 0;
   std::vector<double> read_V;        ///< NaN where nothing was measured.
   std::vector<double> expected_rad;  ///< Angles of the given finger.
 };
@@ -31,6 +31,11 @@ struct ExpectedGauges {
 /// objects are elsewhere.
 void RefuseImplausibleGauges(const std::vector<ExpectedGauges>& frames,
                              const Finger& finger);
+
+/// The mean over the gauges of the share of their readings' variance that the
+/// expected angles leave; those that hardly bend are left out. NaN without any.
+double UnexplainedShare(const std::vector<ExpectedGauges>& frames,
+                        const Finger& finger);
 constexpr double kMostGain = 200, kSwapped = 3, kWrongSign = -0.8;
 constexpr double kLeastBend = 1e-4, kUnexpected = 20;
 constexpr std::size_t kLeastFrames = 10;

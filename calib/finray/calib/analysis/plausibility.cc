@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
 
+#include "finray/calib/analysis/gauge_changes.h"
 #include "finray/calib/analysis/gauge_plausibility.h"
 #include "finray/calib/problem/median.h"
 #include "finray/calib/solve/contact_guess.h"
@@ -23,16 +26,21 @@ using From = ContactGuess::From;
 // At most so many frames are looked at.
 constexpr std::size_t kLooked = 100;
 
-std::vector<const CalibrationFrame*> SomeTouching(
-    const CalibrationProblem& problem) {
-  std::vector<const CalibrationFrame*> touching;
+using FramesOfLogs = std::vector<const CalibrationFrame*>;
+
+// Returns fitted frames that touch, or free ones, evenly spread.
+FramesOfLogs SomeFrames(const CalibrationProblem& problem, bool touching) {
+  FramesOfLogs all;
   for (const CalibrationFrame& frame : problem.logs().frames) {
-    if (frame.contact && !frame.held_out) touching.push_back(&frame);
+    if (frame.contact == touching && !frame.held_out && !frame.IsBench() &&
+        (touching || !frame.undecided)) {
+      all.push_back(&frame);
+    }
   }
-  const std::size_t count = std::min(touching.size(), kLooked);
-  std::vector<const CalibrationFrame*> some;
+  const std::size_t count = std::min(all.size(), kLooked);
+  FramesOfLogs some;
   for (std::size_t k = 0; k < count; ++k) {
-    some.push_back(touching[k * touching.size() / count]);
+    some.push_back(all[k * all.size() / count]);
   }
   return some;
 }
@@ -55,7 +63,7 @@ struct Press {
   double force_N, x_mm, y_mm;
 };
 
-std::vector<Press> Presses(const std::vector<const CalibrationFrame*>& frames) {
+std::vector<Press> Presses(const FramesOfLogs& frames) {
   std::vector<Press> presses;
   for (const CalibrationFrame* frame : frames) {
     const double force = frame->Force().magnitude_N;
@@ -79,8 +87,7 @@ double Range(const std::vector<Press>& presses, double Press::*quantity) {
 }
 
 // Makes the check that holds wherever the contacts are.
-void RefuseImpossibleBends(const std::vector<const CalibrationFrame*>& frames,
-                           const Finger& finger) {
+void RefuseImpossibleBends(const FramesOfLogs& frames, const Finger& finger) {
   for (int j = 0; j < static_cast<int>(finger.gauges.size()); ++j) {
     std::map<int, std::vector<double>> logs;
     for (const CalibrationFrame* frame : frames) {
@@ -166,9 +173,9 @@ bool ObjectIsKnown(const CalibrationProblem& problem) {
 // Returns what the gauges would read at contacts that are known without them:
 // from the place of the object, which holds for any stiffness, or from the
 // place and force of the contact.
-std::vector<ExpectedGauges> ExpectGauges(
-    const std::vector<const CalibrationFrame*>& frames,
-    CalibrationProblem* problem, ContactGuess* guess) {
+std::vector<ExpectedGauges> ExpectGauges(const FramesOfLogs& frames,
+                                         CalibrationProblem* problem,
+                                         ContactGuess* guess) {
   const bool object_known =
       problem->plan().scene.circle_radius_mm() && ObjectIsKnown(*problem);
   EquilibriumSolver solver(problem->finger(), problem->discretization());
@@ -185,7 +192,7 @@ std::vector<ExpectedGauges> ExpectGauges(
         !solver.Solve({{place.arc_mm, place.normal_N}})) {
       continue;
     }
-    ExpectedGauges gauges{frame->log, frame->gauges_V, {}};
+    ExpectedGauges gauges{frame->log, frame->row, frame->gauges_V, {}};
     for (int j = 0; j < static_cast<int>(gauges.read_V.size()); ++j) {
       gauges.expected_rad.push_back(solver.gauge_angle(j));
     }
@@ -194,23 +201,89 @@ std::vector<ExpectedGauges> ExpectGauges(
   return expected;
 }
 
-// The number of objects that would touch the finger with x and y exchanged.
-int MetIfSwapped(const std::vector<const CalibrationFrame*>& frames,
-                 ContactGuess* guess) {
-  int met = 0;
+// Adds free frames, in the order of rows.
+std::vector<ExpectedGauges> WithFree(std::vector<ExpectedGauges> expected,
+                                     const CalibrationProblem& problem) {
+  const std::vector<double> unbent(problem.finger().gauges.size(), 0.0);
+  for (const CalibrationFrame* frame : SomeFrames(problem, false)) {
+    expected.push_back({frame->log, frame->row, frame->gauges_V, unbent});
+  }
+  std::sort(expected.begin(), expected.end(),
+            [](const ExpectedGauges& a, const ExpectedGauges& b) {
+              return std::pair(a.log, a.row) < std::pair(b.log, b.row);
+            });
+  return expected;
+}
+
+// FramesOfLogs with the object elsewhere.
+std::vector<CalibrationFrame> Moved(
+    const FramesOfLogs& frames,
+    const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& to) {
+  std::vector<CalibrationFrame> moved;
   for (const CalibrationFrame* frame : frames) {
     if (!frame->object_mm.allFinite()) continue;
-    CalibrationFrame swapped = WithoutForce(*frame);
-    std::swap(swapped.object_mm.x(), swapped.object_mm.y());
-    met += guess->Of(swapped, From::kObjectFirst).met;
+    moved.push_back(*frame);
+    moved.back().object_mm = to(frame->object_mm);
   }
-  return met;
+  return moved;
+}
+
+FramesOfLogs PointersTo(const std::vector<CalibrationFrame>& frames) {
+  FramesOfLogs pointers;
+  for (const CalibrationFrame& frame : frames) pointers.push_back(&frame);
+  return pointers;
+}
+
+// The number of objects that would touch the finger from there.
+int MetIf(const std::vector<CalibrationFrame>& moved, ContactGuess* guess) {
+  return static_cast<int>(
+      std::count_if(moved.begin(), moved.end(), [&](const auto& frame) {
+        return guess->Of(WithoutForce(frame), From::kObjectFirst).met;
+      }));
+}
+
+// What y may be if +y points from the tip to the base: the stage may count from
+// the base, from the tip, or from the other end of its way.
+std::vector<double> MirrorsOfY(const FramesOfLogs& frames,
+                               const Finger& finger) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const CalibrationFrame* frame : frames) {
+    if (!frame->object_mm.allFinite()) continue;
+    low = std::min(low, frame->object_mm.y());
+    high = std::max(high, frame->object_mm.y());
+  }
+  return {0, finger.front_length_mm, low + high};
+}
+
+Eigen::Vector2d MirroredY(const Eigen::Vector2d& at, double mirror) {
+  return {at.x(), mirror - at.y()};
+}
+
+constexpr char kMirrored[] =
+    "if y ran the other way: +y points from the base to the tip; check the "
+    "sign "
+    "of object_y_mm, or the direction of that axis of the stage";
+
+// Gauges that objects do not explain, but objects mirrored in y do.
+void RefuseMirroredY(const FramesOfLogs& frames,
+                     const std::vector<ExpectedGauges>& expected,
+                     CalibrationProblem* problem, ContactGuess* guess) {
+  const double rest = UnexplainedShare(expected, problem->finger());
+  if (!(rest > kLeastUnexplained)) return;
+  for (const double mirror : MirrorsOfY(frames, problem->finger())) {
+    const std::vector<CalibrationFrame> moved =
+        Moved(frames, [&](const auto& at) { return MirroredY(at, mirror); });
+    const double then = UnexplainedShare(
+        ExpectGauges(PointersTo(moved), problem, guess), problem->finger());
+    if (!(then < rest / kMirrorExplains)) continue;
+    Refuse("logs: gauges bend as they would %s", kMirrored);
+  }
 }
 
 // Makes the checks of objects whose places are known.
-void RefuseImplausibleObjects(
-    const std::vector<const CalibrationFrame*>& frames,
-    const CalibrationProblem& problem, ContactGuess* guess) {
+void RefuseImplausibleObjects(const FramesOfLogs& frames,
+                              const CalibrationProblem& problem,
+                              ContactGuess* guess) {
   const Plan& plan = problem.plan();
   if (!plan.scene.circle_radius_mm() || !ObjectIsKnown(problem)) return;
   std::vector<double> ratios;
@@ -229,12 +302,22 @@ void RefuseImplausibleObjects(
     }
   }
   if (objects >= 4 && 2 * met < objects) {
-    if (2 * MetIfSwapped(frames, guess) > objects) {
+    const auto met_if = [&](const auto& to) {
+      return 2 * MetIf(Moved(frames, to), guess) > objects;
+    };
+    if (met_if(
+            [](const auto& at) { return Eigen::Vector2d(at.y(), at.x()); })) {
       Refuse(
           "logs: of %d frames with contact the circle can touch the finger in "
           "%d, and in most if the columns are exchanged: are object_x_mm and "
           "object_y_mm swapped?",
           objects, met);
+    }
+    if (met_if([](const auto& at) { return MirroredY(at, 0); })) {
+      Refuse(
+          "logs: of %d frames with contact the circle can touch the finger in "
+          "%d, and in most %s",
+          objects, met, kMirrored);
     }
     Refuse(
         "logs: of %d frames with contact the circle of radius %g mm can touch "
@@ -258,7 +341,7 @@ void RefuseImplausibleObjects(
 
 void RefuseImplausible(CalibrationProblem* problem) {
   const Plan& plan = problem->plan();
-  const std::vector<const CalibrationFrame*> frames = SomeTouching(*problem);
+  const FramesOfLogs frames = SomeFrames(*problem, true);
   std::vector<double> forces;
   for (const CalibrationFrame* frame : frames) {
     const double force = frame->Force().magnitude_N;
@@ -280,8 +363,12 @@ void RefuseImplausible(CalibrationProblem* problem) {
   ContactGuess guess(problem);
   RefuseImplausibleObjects(frames, *problem, &guess);
   // Last: what is expected of the gauges follows from the objects.
-  RefuseImplausibleGauges(ExpectGauges(frames, problem, &guess),
-                          problem->finger());
+  const std::vector<ExpectedGauges> expected =
+      ExpectGauges(frames, problem, &guess);
+  RefuseGaugeChanges(WithFree(expected, *problem), problem->logs(),
+                     problem->finger());
+  RefuseMirroredY(frames, expected, problem, &guess);
+  RefuseImplausibleGauges(expected, problem->finger());
 }
 
 }  // namespace finray

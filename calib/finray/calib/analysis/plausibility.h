@@ -21,11 +21,16 @@ namespace finray {
 ///    the plan fixes the object's origin;
 ///  - the median force differs by more than kFactor from the force that these
 ///    objects need;
+///  - a gauge, its amplifier or its converter changes in mid-log
+///    (gauge_changes.h);
+///  - objects leave more than kLeastUnexplained of the variance of readings,
+///  and
+///    kMirrorExplains times as much as the same objects mirrored in y;
 ///  - gauges cannot be those of the finger (gauge_plausibility.h).
 void RefuseImplausible(CalibrationProblem* problem);
 constexpr double kLeastForce = 1e-3, kMostForce = 400, kFactor = 50,
                  kMostStiffness = 5e3, kLeastCorrelation = -0.5,
-                 kMostBend = 100;
+                 kMostBend = 100, kLeastUnexplained = 0.2, kMirrorExplains = 4;
 
 }  // namespace finray
 

@@ -28,7 +28,8 @@ struct SolvedProblem {
 };
 
 /// Solves the same frames with the effect free as well. Returns nothing if the
-/// solver does not get there, or to where the model cannot be evaluated.
+/// solver does not get there, or to where the model cannot be evaluated, or to
+/// values that are 3 std below the least that is possible.
 std::optional<SolvedProblem> SolveWith(const CandidateEffect& effect,
                                        const SolvedProblem& from);
 

@@ -3,12 +3,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <unordered_set>
 #include <utility>
 
-#include "finray/calib/solve/frame_pass.h"
 #include "finray/calib/solve/information_spectrum.h"
 #include "finray/io/number_text.h"
 #include "finray/sensing/chi_squared.h"
@@ -16,8 +14,6 @@
 namespace finray {
 namespace {
 
-// Neighbouring rows share what drifts, so folds are made of blocks of them.
-constexpr std::size_t kMostBlockRows = 10;
 // A candidate of which the data say less than this, in units of its usual std,
 // is none of its family's degrees of freedom.
 constexpr double kTold = 1e-3;
@@ -45,11 +41,25 @@ struct Scores {
   }
 };
 
-// A set of candidates that are tested together: a family or one of it.
+// A parameter in some stretches of the logs, and its usual std as the unit.
+struct Column {
+  Eigen::Index parameter;
+  int first, end;
+  double unit;
+  std::string name;
+};
+
+// Columns that are tested together: a family or one of it.
 struct Candidates {
   CandidateEffect effect;
   std::vector<int> columns;
+  ScoreTest::Where where = ScoreTest::Where::kEverywhere;
+  std::string rows = {};
 };
+
+std::string WithoutLog(const std::string& name) {
+  return name.substr(0, name.find('['));
+}
 
 class ScoreRanking {
  public:
@@ -105,52 +115,198 @@ class ScoreRanking {
  private:
   const CalibrationParameter& Parameter(int column) const {
     return wide_.problem->parameters().FreeParameter(
-        static_cast<std::size_t>(wide_.candidates[column]));
+        static_cast<std::size_t>(columns_[column].parameter));
+  }
+  const std::string& LogName(int log) const {
+    return wide_.problem->logs().names[log];
+  }
+
+  void FindColumns() {
+    for (const Eigen::Index k : wide_.candidates) {
+      columns_.push_back({k, 0, static_cast<int>(wide_.stretches.size()),
+                          unit_[k], WideParameter(k).name});
+    }
+    everywhere_ = columns_.size();
+    for (Eigen::Index k = 0; k < unit_.size(); ++k) FindColumnsOf(k);
+  }
+  const CalibrationParameter& WideParameter(Eigen::Index k) const {
+    return wide_.problem->parameters().FreeParameter(
+        static_cast<std::size_t>(k));
+  }
+
+  // Appends those of a parameter that may differ by log and by stretch.
+  void FindColumnsOf(Eigen::Index k) {
+    const CalibrationParameter& p = WideParameter(k);
+    const CandidateEffect& effect = CandidateOf(p.family);
+    if (!effect.differs) return;
+    const double unit = PriorStdOf(p, effect.prior_std);
+    const auto told = [&](int first, int end) {
+      double sum = 0;
+      for (int s = first; s < end; ++s) sum += information_[s](k, k);
+      return sum * unit * unit > kTold;
+    };
+    const auto logs = static_cast<int>(wide_.problem->logs().paths.size());
+    const auto of_log = static_cast<int>(wide_.stretches.size()) / logs;
+    std::vector<int> in;
+    for (int log = 0; log < logs; ++log) {
+      if (told(log * of_log, (log + 1) * of_log)) in.push_back(log);
+    }
+    const std::string name = WithoutLog(p.name);
+    for (const int log : in) {
+      const int first = log * of_log, end = first + of_log;
+      if (in.size() > 1) {
+        columns_.push_back(
+            {k, first, end, unit, name + "[" + LogName(log) + "]"});
+      }
+      for (int s = first + 1; s < end; ++s) {
+        if (!told(first, s) || !told(s, end)) continue;
+        columns_.push_back({k, s, end, unit,
+                            name + "[" + LogName(log) + " from row " +
+                                std::to_string(FirstRow(s)) + "]"});
+      }
+    }
+  }
+  // As users count.
+  int FirstRow(int stretch) const {
+    return wide_.stretches[stretch].first_row + 1;
+  }
+
+  // Sums what the frames of each stretch say.
+  void SumStretches() {
+    const std::size_t count = wide_.stretches.size();
+    const auto all = wide_.folds[0].gradient.size();
+    gradient_.assign(count, Eigen::VectorXd::Zero(all));
+    information_.assign(count, Eigen::MatrixXd::Zero(all, all));
+    for (const Linearization& fold : wide_.folds) {
+      for (std::size_t k = 0; k < fold.frames.size(); ++k) {
+        gradient_[wide_.stretch_of[fold.frames[k]]] +=
+            fold.pulls.col(static_cast<Eigen::Index>(k)).cast<double>();
+      }
+      for (const auto& [stretch, of_stretch] : fold.information) {
+        information_[stretch] += fold.InformationOfLog(stretch);
+      }
+    }
   }
 
   void FindScores(const CalibrationProblem& problem) {
-    const auto all = wide_.folds[0].gradient.size();
+    unit_ = wide_.problem->parameters().Units();
+    SumStretches();
+    FindColumns();
+    const auto& f = wide_.free;
+    const auto n = static_cast<Eigen::Index>(columns_.size());
+    const auto all = unit_.size();
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(all);
     Eigen::MatrixXd information = Eigen::MatrixXd::Zero(all, all);
-    for (const Linearization& fold : wide_.folds) {
-      gradient += fold.gradient;
-      information += fold.Information();
+    // Of the columns, and between them and all parameters.
+    Eigen::VectorXd s = Eigen::VectorXd::Zero(n);
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
+    Eigen::MatrixXd across = Eigen::MatrixXd::Zero(all, n);
+    for (std::size_t stretch = 0; stretch < information_.size(); ++stretch) {
+      std::vector<Eigen::Index> active, parameters;
+      for (Eigen::Index c = 0; c < n; ++c) {
+        const Column& column = columns_[c];
+        const auto at = static_cast<int>(stretch);
+        if (at < column.first || at >= column.end) continue;
+        active.push_back(c);
+        parameters.push_back(column.parameter);
+      }
+      information += information_[stretch];
+      s(active) += gradient_[stretch](parameters);
+      a(active, active) += information_[stretch](parameters, parameters);
+      across(Eigen::all, active) +=
+          information_[stretch](Eigen::all, parameters);
     }
-    unit_ = wide_.problem->parameters().Units();
+    for (const Linearization& fold : wide_.folds) gradient += fold.gradient;
+    // Sums of single precision are exact enough for the other ones.
+    for (std::size_t c = 0; c < everywhere_; ++c) {
+      s[static_cast<Eigen::Index>(c)] = gradient[columns_[c].parameter];
+    }
+    Eigen::VectorXd unit(n);
+    for (Eigen::Index c = 0; c < n; ++c) unit[c] = columns_[c].unit;
     gradient = gradient.cwiseProduct(unit_);
     information = InUnits(information, unit_);
     const CalibrationParameters& parameters = problem.parameters();
-    for (std::size_t k = 0; k < wide_.free.size(); ++k) {
+    for (std::size_t k = 0; k < f.size(); ++k) {
       const CalibrationParameter& p = parameters.FreeParameter(k);
       if (!p.prior_std) continue;
-      const Eigen::Index i = wide_.free[k];
+      const Eigen::Index i = f[k];
       gradient[i] += p.PriorResidual();
       information(i, i) += 1;
     }
-    const auto& f = wide_.free;
-    const auto& c = wide_.candidates;
     const Eigen::MatrixXd covariance =
         BoundedCovariance(Eigen::MatrixXd(information(f, f)));
-    const Eigen::MatrixXd across = covariance * information(f, c);
-    scores_.s = gradient(c) - across.transpose() * gradient(f);
-    scores_.a = information(c, c) - Eigen::MatrixXd(information(c, f)) * across;
+    const Eigen::MatrixXd of_free = unit_(f).asDiagonal() *
+                                    Eigen::MatrixXd(across(f, Eigen::all)) *
+                                    unit.asDiagonal();
+    const Eigen::MatrixXd followed = covariance * of_free;
+    scores_.s = s.cwiseProduct(unit) - followed.transpose() * gradient(f);
+    scores_.a = InUnits(a, unit) - of_free.transpose() * followed;
+    gradient_.clear();
+    information_.clear();
+  }
+
+  // Appends a test of these columns together, and of each alone.
+  void AddTests(const Candidates& all, bool each) {
+    if (all.columns.empty()) return;
+    tests_.push_back(all);
+    for (const int column : all.columns) {
+      if (!each || all.columns.size() < 2) break;
+      tests_.push_back({all.effect, {column}, all.where, all.rows});
+    }
   }
 
   void FindTests() {
-    std::vector<Candidates> families;
-    for (int column = 0; column < static_cast<int>(wide_.candidates.size());
-         ++column) {
-      const CandidateEffect& effect = CandidateOf(Parameter(column).family);
-      if (families.empty() || families.back().effect.family != effect.family) {
-        families.push_back({effect, {}});
+    using Where = ScoreTest::Where;
+    const auto logs = static_cast<int>(wide_.problem->logs().paths.size());
+    const auto of_log = static_cast<int>(wide_.stretches.size()) / logs;
+    const auto count = static_cast<int>(columns_.size());
+    const auto everywhere = static_cast<int>(everywhere_);
+    for (const CandidateEffect& effect : AllCandidateEffects()) {
+      // Returns the columns of the family from `first` on that `is` takes.
+      const auto chosen = [&](int first, int end, const auto& is) {
+        std::vector<int> columns;
+        for (int c = first; c < end; ++c) {
+          if (FrontFamilyOf(Parameter(c).family) == effect.family &&
+              is(columns_[c])) {
+            columns.push_back(c);
+          }
+        }
+        return columns;
+      };
+      AddTests({effect, chosen(0, everywhere, [](auto&) { return true; })},
+               true);
+      if (!effect.differs) continue;
+      const auto of_whole_log = [&](const Column& column, int log) {
+        return column.first == log * of_log && column.end == (log + 1) * of_log;
+      };
+      if (logs > 1) {
+        AddTests({effect,
+                  chosen(everywhere, count,
+                         [&](const Column& column) {
+                           return of_whole_log(column, column.first / of_log);
+                         }),
+                  Where::kByLog, ", not the same in all logs"},
+                 false);
       }
-      families.back().columns.push_back(column);
-    }
-    for (const Candidates& family : families) {
-      tests_.push_back(family);
-      if (family.columns.size() < 2) continue;
-      for (const int column : family.columns) {
-        tests_.push_back({family.effect, {column}});
+      for (int log = 0; log < logs; ++log) {
+        if (logs > 1) {
+          AddTests({effect,
+                    chosen(everywhere, count,
+                           [&](const Column& column) {
+                             return of_whole_log(column, log);
+                           }),
+                    Where::kByLog, " in " + LogName(log)},
+                   false);
+        }
+        for (int s = log * of_log + 1; s < (log + 1) * of_log; ++s) {
+          AddTests({effect,
+                    chosen(everywhere, count,
+                           [&](const Column& c) { return c.first == s; }),
+                    Where::kFrom,
+                    " from " + LogName(log) + " row " +
+                        std::to_string(FirstRow(s)) + " on"},
+                   true);
+        }
       }
     }
   }
@@ -162,7 +318,9 @@ class ScoreRanking {
     std::vector<ScoreTest::Effect> best;
     for (const Candidates& test : tests_) {
       if (but.count(test.effect.family) > 0) continue;
-      ScoreTest::Effect effect = Evaluate(test, scores, dropped);
+      ScoreTest::Effect effect =
+          Evaluate(WithPossible(test, scores), scores, dropped);
+      if (effect.values.empty()) continue;
       if (best.empty() || best.back().family != effect.family) {
         best.push_back(std::move(effect));
       } else if (effect.evidence > best.back().evidence) {
@@ -175,37 +333,80 @@ class ScoreRanking {
     return best;
   }
 
-  // Puts effects with a refit first.
+  // Puts effects with a refit first. One that no plan frees has none: it comes
+  // before them if it explains more than they were promised and have shown to.
   void SetRefits(std::vector<ScoreTest::Effect>* effects) const {
+    if (refits_.empty()) return;
+    double promised = 0, shown = 0;
+    for (const Refit& refit : refits_) {
+      shown = std::max(shown, refit.drop);
+      for (const ScoreTest::Effect& effect : *effects) {
+        if (effect.family != refit.family || !effect.CanBeFreed()) continue;
+        promised = std::max(promised, effect.evidence);
+      }
+    }
     for (const Refit& refit : refits_) {
       for (ScoreTest::Effect& effect : *effects) {
-        if (effect.family != refit.family) continue;
+        if (effect.family != refit.family || !effect.CanBeFreed()) continue;
         effect.drop = refit.drop;
         effect.evidence = refit.evidence;
         for (ScoreTest::Value& value : effect.values) {
-          const double at = refit.values.at(value.name);
-          value.change += at - value.value;
-          value.value = at;
+          const auto at = refit.values.find(value.name);
+          if (at == refit.values.end()) continue;
+          value.change += at->second - value.value;
+          value.value = at->second;
         }
         effect.words = WordsOf(CandidateOf(effect.family), effect);
       }
     }
-    const auto refitted = [&](const ScoreTest::Effect& effect) {
-      return std::any_of(
-          refits_.begin(), refits_.end(),
-          [&](const Refit& refit) { return refit.family == effect.family; });
+    const auto rank = [&](const ScoreTest::Effect& effect) {
+      if (!effect.CanBeFreed()) {
+        return effect.evidence > promised && effect.drop > shown ? 2 : 0;
+      }
+      return std::any_of(refits_.begin(), refits_.end(),
+                         [&](const Refit& refit) {
+                           return refit.family == effect.family;
+                         })
+                 ? 1
+                 : 0;
     };
     std::stable_sort(effects->begin(), effects->end(),
                      [&](const auto& a, const auto& b) {
-                       return std::pair(refitted(a), a.evidence) >
-                              std::pair(refitted(b), b.evidence);
+                       return std::pair(rank(a), a.evidence) >
+                              std::pair(rank(b), b.evidence);
                      });
+  }
+
+  // Returns the test without parameters whose values would be impossible.
+  Candidates WithPossible(Candidates test, const Scores& scores) const {
+    while (std::isfinite(test.effect.least) && !test.columns.empty()) {
+      const Eigen::VectorXd s = scores.s(test.columns);
+      Eigen::MatrixXd information = scores.a(test.columns, test.columns);
+      information.diagonal().array() += 1;
+      const Eigen::VectorXd e = -information.llt().solve(s);
+      Eigen::Index farthest = -1;
+      for (Eigen::Index i = 0; i < e.size(); ++i) {
+        const int c = test.columns[i];
+        const CalibrationParameter& p = Parameter(c);
+        if (p.Value(*p.variable + columns_[c].unit * e[i]) >=
+            std::min(test.effect.least, p.Value(*p.variable))) {
+          continue;
+        }
+        if (farthest < 0 || e[i] < e[farthest]) farthest = i;
+      }
+      if (farthest < 0) break;
+      test.columns.erase(test.columns.begin() + farthest);
+    }
+    return test;
   }
 
   ScoreTest::Effect Evaluate(const Candidates& test, const Scores& scores,
                              double dropped) const {
     const std::vector<int>& columns = test.columns;
     const auto k = static_cast<Eigen::Index>(columns.size());
+    ScoreTest::Effect effect;
+    effect.family = test.effect.family;
+    if (k == 0) return effect;
     const Eigen::VectorXd s = scores.s(columns);
     const Eigen::MatrixXd a = scores.a(columns, columns);
     const Eigen::MatrixXd information = a + Eigen::MatrixXd::Identity(k, k);
@@ -213,8 +414,8 @@ class ScoreRanking {
     const Eigen::MatrixXd covariance =
         factor.solve(Eigen::MatrixXd::Identity(k, k));
     const Eigen::VectorXd e = -(covariance * s);
-    ScoreTest::Effect effect;
-    effect.family = test.effect.family;
+    effect.where = test.where;
+    effect.rows = test.rows;
     effect.drop = std::max(0.0, -s.dot(e));
     const double rest = chi2_ - dropped - effect.drop;
     const double scale2 = dof_ > 0 ? std::max(1.0, rest / dof_) : 1.0;
@@ -229,12 +430,12 @@ class ScoreRanking {
                              ScoreTest::kSignificant;
     for (Eigen::Index i = 0; i < k; ++i) {
       const CalibrationParameter& p = Parameter(columns[i]);
-      const double unit = unit_[wide_.candidates[columns[i]]];
+      const double unit = columns_[columns[i]].unit;
       const double at = *p.variable + unit * e[i];
       const double std = unit * std::sqrt(scale2 * covariance(i, i));
-      effect.values.push_back({p.name, p.unit, p.Value(at), p.ValueStd(at, std),
-                               p.Value(at) - p.Value(*p.variable),
-                               p.Value(*p.variable) == 0});
+      effect.values.push_back(
+          {columns_[columns[i]].name, p.unit, p.Value(at), p.ValueStd(at, std),
+           p.Value(at) - p.Value(*p.variable), p.Value(*p.variable) == 0});
     }
     std::stable_sort(effect.values.begin(), effect.values.end(),
                      [](const auto& x, const auto& y) {
@@ -248,8 +449,7 @@ class ScoreRanking {
   static std::string WordsOf(const CandidateEffect& candidate,
                              const ScoreTest::Effect& effect) {
     const ScoreTest::Value& value = effect.values[0];
-    std::string words = candidate.words;
-    words += ", " + value.name;
+    std::string words = candidate.words + effect.rows + ", " + value.name;
     words += value.from_zero
                  ? FormatText(" %.3g", value.value)
                  : FormatText(" %.4g, by %+.2g", value.value, value.change);
@@ -267,8 +467,8 @@ class ScoreRanking {
       names.insert(value.name);
     }
     std::vector<int> columns;
-    for (int i = 0; i < static_cast<int>(wide_.candidates.size()); ++i) {
-      if (names.count(Parameter(i).name) > 0) columns.push_back(i);
+    for (int i = 0; i < static_cast<int>(columns_.size()); ++i) {
+      if (names.count(columns_[i].name) > 0) columns.push_back(i);
     }
     return columns;
   }
@@ -277,102 +477,27 @@ class ScoreRanking {
   const std::vector<Refit>& refits_;
   double chi2_ = 0, dof_ = 0;
   Eigen::VectorXd unit_;
+  // By stretch, while the scores are found.
+  std::vector<Eigen::VectorXd> gradient_;
+  std::vector<Eigen::MatrixXd> information_;
+  // First those of the candidates in all stretches.
+  std::vector<Column> columns_;
+  std::size_t everywhere_ = 0;
   Scores scores_;
   std::vector<Candidates> tests_;
 };
 
-// The derivatives of readings, from the residuals of a frame.
-Eigen::MatrixXd ReadingsBy(const std::vector<Eigen::Index>& columns,
-                           std::size_t gauges, const LinearizedFrame& at) {
-  Eigen::MatrixXd readings_V =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(gauges),
-                            static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t i = 0; i < at.rows.size(); ++i) {
-    if (at.rows[i].family != ResidualFamily::kGauge) continue;
-    const auto row = static_cast<Eigen::Index>(i);
-    readings_V.row(at.rows[i].gauge) =
-        at.rows[i].std_V / at.weights[row] * at.by_parameter(row, columns);
-  }
-  return readings_V;
-}
-
-// Linearises the frames of a solution with more parameters free, those of
-// `plan`.
-WideLinearization LinearizeWith(const Plan& plan,
-                                const CalibrationProblem& problem,
-                                const CalibrationSolution& solution) {
-  WideLinearization wide;
-  wide.problem = problem.WithPlan(plan);
-  const CalibrationParameters& parameters = wide.problem->parameters();
-  std::unordered_set<std::string> free;
-  for (const int i : problem.parameters().free()) {
-    free.insert(problem.parameters().all()[i].name);
-  }
-  const auto columns = static_cast<Eigen::Index>(parameters.free().size());
-  for (Eigen::Index k = 0; k < columns; ++k) {
-    const CalibrationParameter& p =
-        parameters.FreeParameter(static_cast<std::size_t>(k));
-    (free.count(p.name) > 0 ? wide.free : wide.candidates).push_back(k);
-  }
-  const std::vector<int>& frames = solution.at.frames;
-  wide.frames.resize(WideLinearization::kFolds);
-  std::vector<int> fold_of(problem.logs().frames.size(), 0);
-  const std::size_t block = std::clamp<std::size_t>(
-      frames.size() / (2 * WideLinearization::kFolds), 1, kMostBlockRows);
-  for (std::size_t k = 0; k < frames.size(); ++k) {
-    const auto fold = (k / block) % WideLinearization::kFolds;
-    fold_of[frames[k]] = static_cast<int>(fold);
-    wide.frames[fold].push_back(frames[k]);
-  }
-  for (const std::vector<int>& of_fold : wide.frames) {
-    wide.folds.emplace_back(static_cast<int>(columns), of_fold.size());
-    std::vector<int>& checked = wide.checked.emplace_back();
-    const std::size_t count =
-        std::min(of_fold.size(),
-                 WideLinearization::kMostChecked / WideLinearization::kFolds);
-    for (std::size_t k = 0; k < count; ++k) {
-      const int i = of_fold[k * of_fold.size() / count];
-      if (problem.frame(i).IsBench()) continue;
-      checked.push_back(i);
-      wide.readings_V[i];
-    }
-  }
-  ContactStore contacts(wide.problem.get());
-  contacts.Set(solution.contacts);
-  LinearizeFrames(frames, wide.problem.get(), &contacts,
-                  [&](int i, const LinearizedFrame& frame) {
-                    wide.folds[fold_of[i]].Add(i, problem.frame(i).log, frame);
-                    const auto kept = wide.readings_V.find(i);
-                    if (kept == wide.readings_V.end()) return;
-                    kept->second = ReadingsBy(
-                        wide.free, problem.finger().gauges.size(), frame);
-                  });
-  for (Linearization& fold : wide.folds) fold.Finish();
-  return wide;
-}
-
 }  // namespace
 
-WideLinearization LinearizeWide(const CalibrationProblem& problem,
-                                const CalibrationSolution& solution) {
-  Plan plan = problem.plan();
-  for (const CandidateEffect& effect :
-       CandidatesFor(problem.finger(), plan, problem.logs())) {
-    plan = Freed(plan, effect);
-  }
-  return LinearizeWith(plan, problem, solution);
+bool ScoreTest::Effect::CanBeFreed() const {
+  return where == Where::kEverywhere ||
+         (where == Where::kByLog && CanDifferByLog(family));
 }
 
-WideLinearization LinearizeFolds(const CalibrationProblem& problem,
-                                 const CalibrationSolution& solution) {
-  Plan plan = problem.plan();
-  for (const CandidateEffect& effect :
-       CandidatesFor(problem.finger(), plan, problem.logs())) {
-    if (!plan.ForceZeroIsKnown()) break;
-    const Plan freed = Freed(plan, effect);
-    if (!freed.ForceZeroIsKnown()) plan = freed;
-  }
-  return LinearizeWith(plan, problem, solution);
+CandidateEffect ScoreTest::Effect::Candidate() const {
+  CandidateEffect candidate = CandidateOf(family);
+  candidate.per_log = where == Where::kByLog;
+  return candidate;
 }
 
 const ScoreTest::Effect* ScoreTest::Best() const {

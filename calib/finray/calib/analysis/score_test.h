@@ -1,46 +1,17 @@
 #ifndef FINRAY_CALIB_ANALYSIS_SCORE_TEST_H_
 #define FINRAY_CALIB_ANALYSIS_SCORE_TEST_H_
 
-#include <Eigen/Core>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "finray/calib/analysis/candidate_effects.h"
 #include "finray/calib/analysis/identifiability.h"
+#include "finray/calib/analysis/wide_linearization.h"
 #include "finray/calib/problem/calibration_problem.h"
-#include "finray/calib/solve/robust_solve.h"
 
 namespace finray {
-
-/// The fitted frames at a solution, linearised once with all candidate effects
-/// free as well, in folds: blocks of neighbouring rows, dealt out in turn.
-struct WideLinearization {
-  static constexpr int kFolds = 5;
-  static constexpr std::size_t kMostChecked = 1000;
-  /// Its plan frees the candidates too. Its values are those of the solution.
-  std::unique_ptr<CalibrationProblem> problem;
-  std::vector<std::vector<int>> frames;  ///< Of each fold.
-  std::vector<Linearization> folds;
-  /// Frames of each fold that CrossValidate estimates, evenly spread and
-  /// kMostChecked of all, and the derivatives of what their gauges read: V by
-  /// the free parameters of the solved problem, a row for each gauge.
-  std::vector<std::vector<int>> checked;
-  std::unordered_map<int, Eigen::MatrixXd> readings_V;
-  /// The columns of the free parameters of the solved problem, in their order,
-  /// and those of the candidates.
-  std::vector<Eigen::Index> free, candidates;
-};
-WideLinearization LinearizeWide(const CalibrationProblem& problem,
-                                const CalibrationSolution& solution);
-/// The same with few candidates, for CrossValidatedLogLikelihood: those that
-/// let the forces of free frames count (Plan::ForceZeroIsKnown), so that the
-/// same measurements are predicted whatever the plan frees.
-WideLinearization LinearizeFolds(const CalibrationProblem& problem,
-                                 const CalibrationSolution& solution);
 
 /// What solving with an effect free has found, where the score test may err.
 struct Refit {
@@ -61,7 +32,14 @@ struct Refit {
 ///   drop of chi2 = r'P a (a'P a + 1)^-1 a'P r.
 ///
 /// The 1 is the prior of e. Robust weights are those of the solution. Families
-/// of several parameters are tested together, and each parameter alone.
+/// of several parameters are tested together, and each parameter alone. Where
+/// the candidate has a least value, parameters that would go below are left out
+/// of the test: a loop of negative width is noise.
+///
+/// Candidates that may differ (CandidateEffect::differs), free in the plan or
+/// not, are tested by log, for all logs together and each alone, and by stretch
+/// of time: from some row of a log to its end. Their derivatives are those of
+/// the parameter in these rows, and 0 elsewhere.
 ///
 /// More parameters always lower chi2 more. So effects are ranked by twice the
 /// logarithm of their Bayes factor,
@@ -83,8 +61,16 @@ struct ScoreTest {
     double change;      ///< From the fixed value.
     bool from_zero;     ///< The fixed value is 0.
   };
+  /// Which rows an effect is in.
+  enum class Where {
+    kEverywhere,
+    kByLog,  ///< It differs from log to log, or in one log.
+    kFrom,   ///< From a row of a log on.
+  };
   struct Effect {
     ParameterFamily family;
+    Where where = Where::kEverywhere;
+    std::string rows;  ///< " from a.csv row 31 on"; empty if everywhere.
     std::vector<Value> values;  ///< Largest change over its std first.
     double drop = 0;            ///< Of chi2.
     double evidence = 0;
@@ -92,6 +78,11 @@ struct ScoreTest {
     bool significant = false;
     /// "a turned stage, object_rotation_deg 0.98 +- 0.03 (chi2 -830)".
     std::string words;
+
+    /// Says whether a plan can free it.
+    bool CanBeFreed() const;
+    /// What SolveWith frees.
+    CandidateEffect Candidate() const;
   };
   /// The best test of each family, the best family first.
   std::vector<Effect> effects;

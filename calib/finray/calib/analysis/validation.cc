@@ -108,7 +108,9 @@ Scene SensedScene(const Plan& plan) {
 CalibrationLogs CorrectedFrames(CalibrationProblem* problem,
                                 const Finger& calibrated,
                                 const std::vector<int>& frames) {
-  CalibrationLogs logs{problem->logs().paths, problem->logs().names, {}, {}};
+  CalibrationLogs logs;
+  logs.paths = problem->logs().paths;
+  logs.names = problem->logs().names;
   for (const int i : frames) logs.frames.push_back(problem->frame(i));
   return problem->parameters().Corrected(logs, calibrated);
 }

@@ -396,6 +396,9 @@ CalibrationLogs MakeLogs(const std::vector<std::string>& paths,
   for (std::size_t log = 0; log < paths.size(); ++log) {
     const FrameTable& rows = table(log);
     scatter.Add(rows);
+    logs.times.push_back(IsBenchLog(rows)
+                             ? RowTimes()
+                             : RowTimes::Of(rows.NumbersOrNan("time_s")));
     for (CalibrationFrame& frame : ReadLog(rows, finger, plan)) {
       frame.log = static_cast<int>(log);
       const Touch touch = TouchOf(frame, finger, plan);

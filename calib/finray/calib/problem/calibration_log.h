@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "finray/calib/problem/plan.h"
+#include "finray/calib/problem/row_times.h"
 #include "finray/io/frame_table.h"
 #include "finray/residuals/residual_family.h"
 #include "finray/scene/measurements.h"
@@ -56,6 +57,8 @@ struct CalibrationLogs {
   /// has it over the root of its gauge_readings, unless the plan states the std
   /// of rows: its frames then count as one reading each.
   std::vector<double> reading_std_V;
+  /// How time_s runs in each log; those of the bench need no time.
+  std::vector<RowTimes> times;
 
   /// Says for each log whether all its rows are held out.
   std::vector<bool> HeldOut() const;

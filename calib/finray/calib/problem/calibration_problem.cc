@@ -50,9 +50,10 @@ CalibrationProblem::CalibrationProblem(const Finger& finger, const Plan& plan,
                                        const Discretization& discretization,
                                        int threads)
     : finger_(WithPlansNoise(plan.CutIntoPieces(finger), plan)),
-      plan_(plan),
+      plan_(WithTimesOf(plan, *logs)),
+      without_times_(WithoutTimes(plan, *logs)),
       logs_(std::move(logs)),
-      parameters_(finger_, plan, *logs_),
+      parameters_(finger_, plan_, *logs_),
       discretization_(discretization),
       threads_(std::max(1, threads)),
       blocks_(finger_, plan_, &parameters_) {
@@ -110,7 +111,7 @@ std::unique_ptr<CalibrationProblem> CalibrationProblem::Part(
       new CalibrationProblem(finger_, plan_, logs_, discretization_, threads));
   part->candidates_ = frames;
   part->SetValues(Values());
-  part->parameters_.KeepHistoryStdOf(parameters_);
+  part->parameters_.KeepHistoryOf(parameters_, finger_, *logs_);
   part->parameters_.KeepFrictionOf(parameters_);
   part->progress_ = progress_;
   part->tolerance_std_ = tolerance_std_;
@@ -131,10 +132,14 @@ std::unique_ptr<CalibrationProblem> CalibrationProblem::WithPlan(
     values.emplace(p.name, *p.variable);
   }
   for (const CalibrationParameter& p : other->parameters_.all()) {
-    const auto value = values.find(p.name);
+    auto value = values.find(p.name);
+    // What is one for all logs there may be one for each here.
+    if (value == values.end()) {
+      value = values.find(p.name.substr(0, p.name.find('[')));
+    }
     if (value != values.end()) *p.variable = value->second;
   }
-  other->parameters_.KeepHistoryStdOf(parameters_);
+  other->parameters_.KeepHistoryOf(parameters_, other->finger_, *logs_);
   other->KeepFriction();
   return other;
 }

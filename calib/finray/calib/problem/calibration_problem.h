@@ -70,6 +70,10 @@ class CalibrationProblem {
   /// fitted.
   bool gauges_only() const { return gauges_only_; }
 
+  /// CalibrationParameters::KeepHistory at the present values.
+  bool KeepHistory(std::shared_ptr<const Eigen::MatrixXd> signals_V) {
+    return parameters_.KeepHistory(std::move(signals_V), finger_, *logs_);
+  }
   /// CalibrationParameters::KeepFriction at the present values.
   bool KeepFriction() {
     return parameters_.KeepFriction(finger_, plan_, *logs_, discretization_);
@@ -95,6 +99,11 @@ class CalibrationProblem {
   const CalibrationLogs& logs() const { return *logs_; }
   const CalibrationFrame& frame(int i) const { return logs_->frames[i]; }
   const Plan& plan() const { return plan_; }
+  /// The families that the given plan frees and plan() fixes, because the times
+  /// of the logs do not rise (row_times.h).
+  const std::vector<ParameterFamily>& without_times() const {
+    return without_times_;
+  }
   const Finger& finger() const { return finger_; }
   /// The noise_V of each gauge in the given finger, which the plan's
   /// gauge_std_V replaces in finger().
@@ -118,6 +127,7 @@ class CalibrationProblem {
   Finger finger_;
   std::vector<double> given_noise_V_;
   Plan plan_;
+  std::vector<ParameterFamily> without_times_;
   std::shared_ptr<CalibrationLogs> logs_;
   CalibrationParameters parameters_;
   Discretization discretization_;

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
+#include <utility>
 
 #include "finray/calib/problem/parameters.h"
 #include "finray/finger/gauge_play.h"
@@ -28,6 +29,33 @@ void CalibrationParameters::ReadHistories(const Finger& finger,
     for (std::size_t j = 0; j < gauges; ++j) {
       histories_[log][j].Set(frame.row, frame.time_s, frame.gauges_V[j],
                              moved2);
+    }
+  }
+}
+
+void CalibrationParameters::DriveHistories(
+    std::shared_ptr<const Eigen::MatrixXd> signals_V, const Finger& finger,
+    const CalibrationLogs& logs) {
+  signals_V_ = std::move(signals_V);
+  if (histories_.empty() || signals_V_ == nullptr) return;
+  RowChange change(finger.gauges);
+  int log = -1;
+  std::vector<double> volts;
+  for (std::size_t i = 0; i < logs.frames.size(); ++i) {
+    const CalibrationFrame& frame = logs.frames[i];
+    if (frame.log != log) change.Restart();
+    log = frame.log;
+    if (frame.IsBench()) continue;
+    const auto signals = signals_V_->col(static_cast<Eigen::Index>(i));
+    volts = frame.gauges_V;
+    for (std::size_t j = 0; j < volts.size(); ++j) {
+      const double signal = signals[static_cast<Eigen::Index>(j)];
+      if (std::isfinite(signal)) volts[j] = signal;
+    }
+    const double moved2 = change.Next(volts);
+    for (std::size_t j = 0; j < volts.size(); ++j) {
+      histories_[log][j].Drive(frame.row, signals[static_cast<Eigen::Index>(j)],
+                               moved2);
     }
   }
 }
@@ -73,11 +101,14 @@ void CalibrationParameters::FollowHistories() const {
       });
 }
 
-bool CalibrationParameters::KeepHistoryStd() {
+bool CalibrationParameters::KeepHistory(
+    std::shared_ptr<const Eigen::MatrixXd> signals_V, const Finger& finger,
+    const CalibrationLogs& logs) {
+  bool much = signals_V_ == nullptr;
+  DriveHistories(std::move(signals_V), finger, logs);
   if (histories_.empty()) return false;
   constexpr double kMuch = 0.03;  // of the width
   std::vector<ReadingHistory::Values> values;
-  bool much = false;
   for (int j = 0; j < static_cast<int>(gains_V_per_rad.size()); ++j) {
     values.push_back(HistoryValues(j));
     const double before = kept_.empty() ? 0 : kept_[j].width_V;
@@ -88,8 +119,10 @@ bool CalibrationParameters::KeepHistoryStd() {
   return much;
 }
 
-void CalibrationParameters::KeepHistoryStdOf(
-    const CalibrationParameters& other) {
+void CalibrationParameters::KeepHistoryOf(const CalibrationParameters& other,
+                                          const Finger& finger,
+                                          const CalibrationLogs& logs) {
+  DriveHistories(other.signals_V_, finger, logs);
   if (!histories_.empty() && !other.kept_.empty()) {
     KeepHistoryStdAt(other.kept_);
   }

@@ -107,6 +107,15 @@ double CalibrationParameter::ValueStd(double at, double std) const {
   return is_log ? std::exp(at) * std : std;
 }
 
+double PriorStdOf(const CalibrationParameter& parameter, double in_plan) {
+  const bool percent = parameter.is_log ||
+                       parameter.family == ParameterFamily::kGaugeGain ||
+                       parameter.family == ParameterFamily::kRibBending ||
+                       parameter.family == ParameterFamily::kFrontPiece ||
+                       parameter.family == ParameterFamily::kBackPiece;
+  return percent ? in_plan / 100 * parameter.scale : in_plan;
+}
+
 CalibrationParameters::CalibrationParameters(const Finger& finger,
                                              const Plan& plan,
                                              const CalibrationLogs& logs)
@@ -272,13 +281,7 @@ void CalibrationParameters::Add(const Plan& plan,
   parameter.free = family.free && !held_out;
   parameter.initial = *parameter.variable;
   if (family.prior_std) {
-    const bool percent = parameter.is_log ||
-                         parameter.family == ParameterFamily::kGaugeGain ||
-                         parameter.family == ParameterFamily::kRibBending ||
-                         parameter.family == ParameterFamily::kFrontPiece ||
-                         parameter.family == ParameterFamily::kBackPiece;
-    parameter.prior_std =
-        percent ? *family.prior_std / 100 * parameter.scale : *family.prior_std;
+    parameter.prior_std = PriorStdOf(parameter, *family.prior_std);
   }
   parameter.vague_std = VagueStd(parameter);
   if (parameter.free) free_.push_back(static_cast<int>(all_.size()));
@@ -355,12 +358,11 @@ Plan CalibrationParameters::Corrected(const Plan& plan) const {
 void CalibrationParameters::CorrectForce(CalibrationFrame* frame) const {
   if (!forces_N_.empty()) {
     const std::array<LinearSignal, 3>& of_log = forces_N_[frame->log];
-    const double at_s = frame->time_s + force_time_offset_s;
-    for (int i = 0; i < 2 && frame->force_xy_N.allFinite(); ++i) {
-      frame->force_xy_N[i] = of_log[i].At(at_s).value;
-    }
-    if (std::isfinite(frame->force_N))
-      frame->force_N = of_log[2].At(at_s).value;
+    const auto later = [&](int i) {
+      return of_log[i].Change(frame->time_s, force_time_offset_s).value;
+    };
+    frame->force_xy_N += Eigen::Vector2d(later(0), later(1));
+    frame->force_N += later(2);
   }
   const double scale = std::exp(ln_force_scale);
   frame->force_N = (frame->force_N - force_offset_N) / scale;

@@ -1,7 +1,9 @@
 #ifndef FINRAY_CALIB_PROBLEM_PARAMETERS_H_
 #define FINRAY_CALIB_PROBLEM_PARAMETERS_H_
 
+#include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +51,9 @@ struct CalibrationParameter {
     return prior_std ? (*variable - initial) / *prior_std : 0;
   }
 };
+
+/// Returns the std of the variable in a prior that has this std in a plan.
+double PriorStdOf(const CalibrationParameter& parameter, double in_plan);
 
 /// The variables of a calibration, at fixed addresses, and their description.
 class CalibrationParameters {
@@ -122,12 +127,16 @@ class CalibrationParameters {
   void FollowHistories() const;
   /// What creep and hysteresis add to the reading of a frame, V.
   double OfHistory(const CalibrationFrame& frame, int gauge);
-  /// Keeps what the rows before leave unknown of each reading, at the present
-  /// values, for all that follows. Returns whether that changes it by more than
-  /// a few percent of the noise.
-  bool KeepHistoryStd();
+  /// Keeps for all that follows, at the present values: the signals that drive
+  /// hysteresis (ReadingHistory::Drive), V, gauges x frames of the logs, and
+  /// what the rows before leave unknown of each reading. Returns whether that
+  /// changes it by more than a few percent of the noise. `finger` is that of
+  /// the problem.
+  bool KeepHistory(std::shared_ptr<const Eigen::MatrixXd> signals_V,
+                   const Finger& finger, const CalibrationLogs& logs);
   /// Keeps the same as another set of parameters for the same logs.
-  void KeepHistoryStdOf(const CalibrationParameters& other);
+  void KeepHistoryOf(const CalibrationParameters& other, const Finger& finger,
+                     const CalibrationLogs& logs);
   /// What is kept for a frame, one number a gauge; empty if nothing is.
   std::vector<double> HistoryStd_V(const CalibrationFrame& frame) const;
   /// How the friction of a frame's contact follows from the coefficient.
@@ -165,6 +174,8 @@ class CalibrationParameters {
 
  private:
   void ReadHistories(const Finger& finger, const CalibrationLogs& logs);
+  void DriveHistories(std::shared_ptr<const Eigen::MatrixXd> signals_V,
+                      const Finger& finger, const CalibrationLogs& logs);
   void ReadForces(const CalibrationLogs& logs);
   void CorrectForce(CalibrationFrame* frame) const;
   HistoryTerm HistoryOf(const CalibrationFrame& frame, int gauge);
@@ -188,6 +199,8 @@ class CalibrationParameters {
 
   // By log and gauge; empty if no gauge creeps or has hysteresis.
   std::vector<std::vector<ReadingHistory>> histories_;
+  // What drives them; null: the readings.
+  std::shared_ptr<const Eigen::MatrixXd> signals_V_;
   // Where their std was kept, by gauge; empty if it was not.
   std::vector<ReadingHistory::Values> kept_;
   bool flat_ = false;  // a gauge is less sensitive when flat, or may be

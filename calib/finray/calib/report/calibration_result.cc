@@ -52,6 +52,23 @@ void WarnOfNoise(const Identifiability& found, std::vector<Warning>* warnings) {
   }
 }
 
+void WarnOfTimes(const CalibrationProblem& problem,
+                 std::vector<Warning>* warnings) {
+  std::string text = TimesInWords(problem.logs());
+  if (text.empty()) return;
+  text += TimesAllow(ParameterFamily::kGaugeDrift, problem.logs())
+              ? "; no late force sensor and no creep can be found"
+              : "; no late force sensor, creep, drift or hysteresis can be "
+                "found";
+  for (const ParameterFamily family : problem.without_times()) {
+    text +=
+        std::string(", ") + FamilyKeyOf(family) + " of the plan stays fixed";
+  }
+  warnings->push_back({"times_do_not_rise", text,
+                       "record time_s with all digits of its clock, rows in "
+                       "their order, and each start of a logger as a log"});
+}
+
 void WarnOfStarts(const CalibrationSolution& solution,
                   std::vector<Warning>* warnings) {
   const auto& starts = solution.starts;
@@ -391,6 +408,7 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
          "record the reference force (force_N), and the object's centre "
          "(object_x_mm, object_y_mm) or the contact location (contact_1_mm)"});
   }
+  WarnOfTimes(*problem, &result.warnings);
   WarnOfStarts(result.solution, &result.warnings);
   WarnOfOutliers(*problem, result.solution, &result.warnings);
   WarnOfWeakness(*problem, result.identifiability, &result.warnings);

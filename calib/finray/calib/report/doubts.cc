@@ -61,6 +61,21 @@ void DoubtPriors(const CalibrationParameters& parameters,
                     far);
 }
 
+void DoubtImpossible(const CalibrationParameters& parameters,
+                     const Identifiability& found,
+                     std::vector<std::string>* doubts) {
+  for (std::size_t k = 0; k < parameters.free().size(); ++k) {
+    const CalibrationParameter& p = parameters.FreeParameter(k);
+    if (!p.of_finger || !IsAtLeastZero(p.of_finger->kind)) continue;
+    const double value = p.Value(*p.variable);
+    const double std = p.ValueStd(*p.variable, found.std[k]);
+    if (!(value < -kImpossibleStd * std)) continue;
+    doubts->push_back(p.name + FormatText(" is %.3g +- %.1g, and no finger has "
+                                          "less than 0",
+                                          value, std));
+  }
+}
+
 // Returns how many std the rank sum of `some` is above that expected if they
 // are drawn from the same numbers as `others` (Mann and Whitney).
 double RanksApart(const std::vector<double>& some, std::vector<double> others) {
@@ -87,12 +102,15 @@ double HeightOf(const CalibrationFrame& frame) {
                                          : frame.object_mm.y();
 }
 
+double RowOf(const CalibrationFrame& frame) { return frame.row; }
+
 void DoubtRejected(const CalibrationProblem& problem,
                    std::vector<std::string>* doubts) {
   const std::pair<double (*)(const CalibrationFrame&),
                   std::pair<const char*, const char*>>
       kinds[] = {{ForceOf, {"low forces", "high forces"}},
-                 {HeightOf, {"places near the base", "places near the tip"}}};
+                 {HeightOf, {"places near the base", "places near the tip"}},
+                 {RowOf, {"early rows", "late rows"}}};
   for (const auto& [of, ends] : kinds) {
     std::vector<double> rejected, fitted;
     for (const int i : problem.candidates()) {
@@ -117,6 +135,7 @@ std::vector<std::string> FindDoubts(const CalibrationProblem& problem,
   DoubtCoverage(result, &doubts);
   DoubtChi2(result.identifiability, &doubts);
   DoubtPriors(problem.parameters(), &doubts);
+  DoubtImpossible(problem.parameters(), result.identifiability, &doubts);
   DoubtRejected(problem, &doubts);
   if (result.score.Best() != nullptr) {
     doubts.push_back("the plan leaves out an effect that the logs show");

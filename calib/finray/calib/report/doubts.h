@@ -17,15 +17,17 @@ namespace finray {
 ///    senses them, so they are not quite independent;
 ///  - total chi2 exceeds its degrees of freedom by less than kLoudStd std;
 ///  - no value is further than kFarFromPrior std of its prior from it;
-///  - rejected frames are of the same forces and places as the fitted ones: the
-///    rank sums of Mann and Whitney differ by less than kRanksApart std;
+///  - no value is further than kImpossibleStd std below what a finger can have;
+///  - rejected frames are of the same forces, places and rows as the fitted
+///    ones: the rank sums of Mann and Whitney differ by less than kRanksApart
+///    std;
 ///  - the score test finds no effect that the plan leaves out.
 /// Too wide intervals and a chi2 below its degrees of freedom are warnings, not
 /// doubts: a plan's std that are too large are on the safe side.
 std::vector<std::string> FindDoubts(const CalibrationProblem& problem,
                                     const CalibrationResult& result);
 constexpr double kFewer = 3, kFewerPercent = 2.5, kLoudStd = 4,
-                 kRanksApart = 3.5;
+                 kRanksApart = 3.5, kImpossibleStd = 3;
 constexpr std::size_t kLeastRejected = 3;
 
 /// Puts a warning before all others but `free_scatter` if the verdict is not

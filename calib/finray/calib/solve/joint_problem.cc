@@ -14,6 +14,9 @@ namespace {
 // A trust region of this radius or more hardly dampens a step of Gauss and
 // Newton: its radius is in units of the diagonal of J'J.
 constexpr double kUndamped = 1e4;
+// Of FrameSet, for each frame. A solve that converges takes some 1e4, one of a
+// start that is far off some 1e5.
+constexpr double kMostWork = 5e5;
 
 // Tells each iteration to who waits, and ends the solve after the last one.
 class TellIteration : public ceres::IterationCallback {
@@ -57,6 +60,7 @@ JointProblem::JointProblem(const std::vector<int>& frames, EquilibriumForm form,
   residuals_ = std::make_unique<ceres::Problem>(options);
   // The blocks stay where they are, in the order of the frames.
   unknowns_.reserve(frames.size() * (6 + problem->finger().ribs.size() + 2));
+  evaluations_.set_most_work(kMostWork * static_cast<double>(frames.size()));
   for (const int i : frames) AddFrame(i);
   AddPriors();
 }
@@ -91,7 +95,16 @@ SolveReport JointProblem::Solve(const JointLimits& limits) {
   for (const WeightedFrame& frame : weighted_) {
     std::copy_n(frame.contact, 2, frame.in_store);
   }
-  return ReportOf(summary);
+  SolveReport report = ReportOf(summary);
+  report.exhausted = evaluations_.exhausted();
+  if (report.exhausted) {
+    report.converged = false;
+    report.message = FormatText(
+        "equilibria far beyond any finger take too long: ended in iteration "
+        "%d, chi2 %.3g after %.3g at the start",
+        report.iterations + 1, 2 * report.final_cost, 2 * report.initial_cost);
+  }
+  return report;
 }
 
 void JointProblem::set_weight(double weight) {

@@ -18,6 +18,7 @@ struct SolveReport {
   double initial_cost = 0;
   double final_cost = 0;
   std::string message;
+  bool exhausted = false;  ///< It has reached the bound of its work.
 };
 SolveReport ReportOf(const ceres::Solver::Summary& summary);
 

@@ -82,8 +82,9 @@ void Linearization::Add(int frame, int log, const LinearizedFrame& at) {
       const auto e = at.by_contact.row(end);
       contact_leverage[static_cast<int>(family)] +=
           e.dot(contact * e.transpose());
-      rows.push_back(
-          {frame, family, static_cast<std::int16_t>(at.rows[end].gauge)});
+      rows.push_back({frame, family,
+                      static_cast<std::int16_t>(at.rows[end].gauge),
+                      static_cast<float>(at.rows[end].std_V)});
       residuals.push_back(at.residuals[end]);
       weighted_residuals.push_back(weighted[end]);
     }

@@ -68,6 +68,7 @@ struct ResidualInfo {
   std::int32_t frame;  ///< Index into the frames of the logs.
   ResidualFamily family;
   std::int16_t gauge;  ///< The gauge of kGauge and kBench, else -1.
+  float std_V = 0;     ///< Of the reading, for kGauge.
 };
 
 /// The cost of some frames near the present values of the free parameters x,

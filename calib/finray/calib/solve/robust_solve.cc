@@ -13,6 +13,7 @@
 #include <string>
 #include <utility>
 
+#include "finray/calib/solve/modelled_readings.h"
 #include "finray/calib/solve/outliers.h"
 #include "finray/calib/solve/summed_solve.h"
 #include "finray/calib/solve/undecided.h"
@@ -71,6 +72,22 @@ const StartSolution& LeastCost(const std::vector<StartSolution>& solutions) {
   return *best;
 }
 
+// Far from any solution each pass over the frames would take as long again.
+void RefuseExhausted(const std::vector<StartSolution>& solutions,
+                     const StartReport& best) {
+  if (!std::all_of(solutions.begin(), solutions.end(),
+                   [](const StartSolution& solution) {
+                     return solution.report.solve.exhausted;
+                   })) {
+    return;
+  }
+  throw std::runtime_error(
+      std::string("no start comes near a solution within its bound of work; "
+                  "the best one, '") +
+      best.name + "': " + best.solve.message +
+      "; look for rows between which gauges, stage or force sensor change");
+}
+
 // Holds the schedule of SolveRobustly.
 class RobustSolve {
  public:
@@ -97,7 +114,7 @@ class RobustSolve {
     CalibrationSolution result{{}, std::move(solved.at), {}, std::move(starts)};
     for (; result.rounds < kMostRounds; ++result.rounds) {
       const Outliers outliers = FindOutliers(result.at, &problem_, &contacts_);
-      const bool other_std = problem_.parameters().KeepHistoryStd();
+      const bool other_history = KeepHistory(result.at, &problem_);
       const bool other_friction = problem_.KeepFriction();
       const auto same_frame = [](const auto& a, const auto& b) {
         return a.first == b.first;
@@ -105,7 +122,7 @@ class RobustSolve {
       if (std::equal(outliers.reasons.begin(), outliers.reasons.end(),
                      problem_.rejected().begin(), problem_.rejected().end(),
                      same_frame) &&
-          !other_std && !other_friction) {
+          !other_history && !other_friction) {
         result.settled = true;
         result.outliers_too_many = outliers.too_many;
         break;
@@ -182,6 +199,7 @@ class RobustSolve {
       tbb::parallel_for(std::size_t{0}, solutions.size(), solve);
     });
     const StartSolution& best = LeastCost(solutions);
+    RefuseExhausted(solutions, best.report);
     problem_.SetValues(best.values);
     contacts_.Set(best.contacts);
     contacts_.RenewStates();
@@ -239,9 +257,9 @@ CalibrationSolution SolveOnce(CalibrationProblem* problem) {
   SummedSolution solved =
       SolveSummed(problem->FittedFrames(), {}, problem, &contacts);
   for (int round = 0; round < kMostRounds; ++round) {
-    const bool other_std = problem->parameters().KeepHistoryStd();
+    const bool other_history = KeepHistory(solved.at, problem);
     const bool other_friction = problem->KeepFriction();
-    if (!other_std && !other_friction) break;
+    if (!other_history && !other_friction) break;
     const int before = solved.report.iterations;
     solved = SolveSummed(problem->FittedFrames(), {}, problem, &contacts);
     solved.report.iterations += before;
