@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 // What is said of a log after a change of the readings in each row.
-std::string RefusalOf(
+std::string RefusalAfter(
     FrameTable log,
     const std::function<void(std::size_t row, std::array<double, 4>*)>&
         change) {
@@ -53,47 +53,49 @@ FrameTable Touches() {
 
 TEST(GaugeChangesTest, TakesLogsWithoutAny) {
   const auto nothing = [](std::size_t, std::array<double, 4>*) {};
-  EXPECT_THAT(RefusalOf(Touches(), nothing), IsEmpty());
+  EXPECT_THAT(RefusalAfter(Touches(), nothing), IsEmpty());
   EXPECT_THAT(
-      RefusalOf(MakeLog(HiddenFinger(), RecordedFrames(HiddenFinger(), 5),
-                        {0.02, 0.05, 5}),
-                nothing),
+      RefusalAfter(MakeLog(HiddenFinger(), RecordedFrames(HiddenFinger(), 5),
+                           {0.02, 0.05, 5}),
+                   nothing),
       IsEmpty());
   // Coarse steps all the time, and a drift.
-  EXPECT_THAT(RefusalOf(Touches(),
-                        [](std::size_t row, std::array<double, 4>* volts) {
-                          (*volts)[1] += 1e-4 * static_cast<double>(row);
-                          (*volts)[2] = 0.005 * std::round((*volts)[2] / 0.005);
-                        }),
+  EXPECT_THAT(RefusalAfter(Touches(),
+                           [](std::size_t row, std::array<double, 4>* volts) {
+                             (*volts)[1] += 1e-4 * static_cast<double>(row);
+                             (*volts)[2] =
+                                 0.005 * std::round((*volts)[2] / 0.005);
+                           }),
               IsEmpty());
 }
 
 TEST(GaugeChangesTest, NamesTheRowOfAJump) {
   for (const double jump_V : {3.75, -0.6}) {
-    EXPECT_THAT(RefusalOf(Touches(),
-                          [&](std::size_t row, std::array<double, 4>* volts) {
-                            for (double& v : *volts)
-                              v += row >= 100 ? jump_V : 0;
-                          }),
-                AllOf(HasSubstr("log.csv row 10"), HasSubstr("gauge_1_V jumps"),
-                      HasSubstr("gauge_4_V jumps")));
+    EXPECT_THAT(
+        RefusalAfter(Touches(),
+                     [&](std::size_t row, std::array<double, 4>* volts) {
+                       for (double& v : *volts) v += row >= 100 ? jump_V : 0;
+                     }),
+        AllOf(HasSubstr("log.csv row 10"), HasSubstr("gauge_1_V jumps"),
+              HasSubstr("gauge_4_V jumps")));
   }
 }
 
 TEST(GaugeChangesTest, NamesTheRowOfAnotherGain) {
-  EXPECT_THAT(RefusalOf(Touches(),
-                        [](std::size_t row, std::array<double, 4>* volts) {
-                          if (row >= 100) (*volts)[1] /= 2;
-                        }),
+  EXPECT_THAT(RefusalAfter(Touches(),
+                           [](std::size_t row, std::array<double, 4>* volts) {
+                             if (row >= 100) (*volts)[1] /= 2;
+                           }),
               AllOf(HasSubstr("log.csv row 10"),
                     HasSubstr("gauge_2_V responds 0.5 times as much")));
 }
 
 TEST(GaugeChangesTest, NamesTheRowOfExchangedChannels) {
-  EXPECT_THAT(RefusalOf(Touches(),
-                        [](std::size_t row, std::array<double, 4>* volts) {
-                          if (row >= 120) std::swap((*volts)[0], (*volts)[2]);
-                        }),
+  EXPECT_THAT(RefusalAfter(Touches(),
+                           [](std::size_t row, std::array<double, 4>* volts) {
+                             if (row >= 120)
+                               std::swap((*volts)[0], (*volts)[2]);
+                           }),
               AllOf(HasSubstr("log.csv row 12"),
                     HasSubstr("gauge_1_V bends as gauge 3 should")));
 }
@@ -103,16 +105,16 @@ TEST(GaugeChangesTest, NamesTheRowOfCoarserSteps) {
     if (first) (*volts)[3] = 0.005 * std::round((*volts)[3] / 0.005);
   };
   EXPECT_THAT(
-      RefusalOf(Touches(),
-                [&](std::size_t row, std::array<double, 4>* volts) {
-                  coarse(row >= 130, volts);
-                }),
+      RefusalAfter(Touches(),
+                   [&](std::size_t row, std::array<double, 4>* volts) {
+                     coarse(row >= 130, volts);
+                   }),
       AllOf(HasSubstr("gauge_4_V has steps of 0.005 V from log.csv row 13"),
             HasSubstr("finer ones before")));
-  EXPECT_THAT(RefusalOf(Touches(),
-                        [&](std::size_t row, std::array<double, 4>* volts) {
-                          coarse(row < 80, volts);
-                        }),
+  EXPECT_THAT(RefusalAfter(Touches(),
+                           [&](std::size_t row, std::array<double, 4>* volts) {
+                             coarse(row < 80, volts);
+                           }),
               HasSubstr("gauge_4_V has steps of 0.005 V before log.csv row 8"));
 }
 
