@@ -41,9 +41,8 @@ def cross(a, b):
     return a[0] * b[1] - a[1] * b[0]
 
 
-def contours(doc):
-    """Closed contours of the model space in mm, counter-clockwise."""
-    unit = doc.header.get("$INSUNITS", 0)
+def contours(doc, unit):
+    """Closed contours of the model space in mm, counter-clockwise; unit: $INSUNITS."""
     if unit not in MM:
         raise BadInput(f"$INSUNITS {unit} is no unit of length that is read; save it in mm")
     loops, open_ends = [], []
@@ -163,7 +162,9 @@ def read(path):
         raise BadInput(error.strerror or "cannot be read as DXF")
     except Exception as error:  # a DXFError, or whatever else comes on odd files
         raise BadInput("is no DXF file: " + " ".join(str(error).split()))
-    found, unit_words = contours(doc)
+    # ezdxf takes a drawing that names no unit for one in metres.
+    named = b"$INSUNITS" in pathlib.Path(path).read_bytes()
+    found, unit_words = contours(doc, doc.header.get("$INSUNITS", 0) if named else 0)
     if not found:
         raise BadInput("has no closed contour in its model space")
     outer_area, outer = found[0]

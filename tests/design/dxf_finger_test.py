@@ -99,6 +99,14 @@ class DxfFingerTest(unittest.TestCase):
         self.save(contours())
         self.assertIn("unit of the drawing: mm", self.expect_paper())
 
+    def test_a_drawing_that_names_no_unit_is_in_mm(self):
+        self.save(contours(), lines=True)
+        text = (self.path / "strip.dxf").read_text("utf-8")
+        start = text.index("ENTITIES")
+        entities = text[start:text.index("ENDSEC", start)]
+        (self.path / "strip.dxf").write_text("  0\nSECTION\n  2\n" + entities + "ENDSEC\n  0\nEOF\n")
+        self.assertIn("no unit, taken as mm", self.expect_paper())
+
     def test_thin_ribs_are_hinged_bars(self):
         self.save(contours(rib=0.5))
         result = self.read()
