@@ -14,6 +14,11 @@ import multiprocessing
 import pathlib
 import sys
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[0] / "common"))
+import guard  # noqa: E402
+
+guard.protect("make_reference.py", __name__)
+
 import numpy as np
 import yaml
 

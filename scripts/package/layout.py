@@ -12,6 +12,11 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import guard  # noqa: E402
+
+guard.protect("layout.py", __name__)
+
 ENTRY = re.compile(r"^ <([0-9a-f]+)><[0-9a-f]+>: Abbrev Number: \d+ \(DW_TAG_(\w+)\)")
 VALUE = re.compile(r"^ +<[0-9a-f]+> +DW_AT_(\w+) *: (?:\(indirect string, offset: 0x[0-9a-f]+\): )?(.*?)\s*$")
 TYPES = ("class_type", "structure_type", "enumeration_type")

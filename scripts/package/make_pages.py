@@ -12,6 +12,11 @@ import re
 import subprocess
 import sys
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import guard  # noqa: E402
+
+guard.protect("make_pages.py", __name__)
+
 FLAG = re.compile(r"^ {2}--(\w+)\s+(.*)$")
 
 

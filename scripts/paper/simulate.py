@@ -14,6 +14,11 @@ import subprocess
 import sys
 import time
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import guard  # noqa: E402
+
+guard.protect("simulate.py", __name__)
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FINGER = ROOT / "configs" / "fingers" / "paper_140mm.yaml"
 SCENES = ROOT / "configs" / "scenes"

@@ -16,6 +16,11 @@ import random
 import subprocess
 import sys
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import guard  # noqa: E402
+
+guard.protect("structural_plant.py", __name__)
+
 import numpy as np
 import yaml
 

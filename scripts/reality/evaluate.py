@@ -13,6 +13,11 @@ import sys
 
 sys.dont_write_bytecode = True
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import guard  # noqa: E402
+
+guard.protect("evaluate.py", __name__)
+
 import yaml
 
 import plant as plants

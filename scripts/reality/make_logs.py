@@ -17,6 +17,11 @@ import tempfile
 
 sys.dont_write_bytecode = True
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import guard  # noqa: E402
+
+guard.protect("make_logs.py", __name__)
+
 import ccx
 import plant as plants
 from touch import RADIUS_MM, touch

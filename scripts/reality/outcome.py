@@ -9,6 +9,11 @@ import statistics
 import subprocess
 import sys
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import guard  # noqa: E402
+
+guard.protect("outcome.py", __name__)
+
 import yaml
 
 

@@ -14,6 +14,11 @@ import tempfile
 
 sys.dont_write_bytecode = True
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import guard  # noqa: E402
+
+guard.protect("verify.py", __name__)
+
 try:
     from scipy.optimize import brentq
     from scipy.special import ellipe, ellipeinc, ellipk, ellipkinc

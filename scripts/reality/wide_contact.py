@@ -5,7 +5,14 @@ PYTHONPATH=build/release/python scripts/reality/wide_contact.py
 
 Plant and estimate are finray's: five equal forces side by side against one. Prints how often the 68 and 95 % intervals hold.
 """
+import pathlib
+import sys
 import warnings
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import guard  # noqa: E402
+
+guard.protect("wide_contact.py", __name__)
 
 import numpy as np
 

@@ -16,6 +16,11 @@ import statistics
 import sys
 import tempfile
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import guard  # noqa: E402
+
+guard.protect("compare_calibration_speed.py", __name__)
+
 from calibration_speed import calibrate, distance_std, simulate
 
 REPEATS = 5

@@ -11,7 +11,13 @@ both, in the std of A, and how many of these frames are more than 1e-5 std apart
 import collections
 import csv
 import itertools
+import pathlib
 import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import guard  # noqa: E402
+
+guard.protect("compare_frames.py", __name__)
 
 
 def frames(path):

@@ -17,6 +17,11 @@ import sys
 import tempfile
 import time
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import guard  # noqa: E402
+
+guard.protect("compare_threads.py", __name__)
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 

@@ -19,6 +19,11 @@ import re
 import subprocess
 import sys
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import guard  # noqa: E402
+
+guard.protect("contact_cycles.py", __name__)
+
 import numpy as np
 
 from plot_style import BLUE, INK, ORANGE, plt, save

@@ -9,6 +9,11 @@ import csv
 import pathlib
 import sys
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "common"))
+import guard  # noqa: E402
+
+guard.protect("plot_bounds.py", __name__)
+
 import numpy as np
 from matplotlib.colors import LogNorm
 

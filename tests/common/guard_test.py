@@ -3,6 +3,7 @@
 
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -57,11 +58,23 @@ class GuardTest(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (2, "tool: stdout: No space left on device\n"))
 
     def test_users_scripts_have_the_guard(self):
-        for name in ("apps/finray_import", "apps/finray_convert", "scripts/batch/run", "scripts/docs_site",
-                     *(str(path.relative_to(ROOT)) for folder in ("calib/report", "scripts/perception", "scripts/benchmark")
-                       for path in sorted((ROOT / folder).glob("*.py")) if "__main__" in path.read_text("utf-8"))):
-            with self.subTest(name):
-                self.assertIn("guard.protect(", (ROOT / name).read_text("utf-8"))
+        scripts = [path for folder in ("apps", "calib", "scripts") for path in sorted((ROOT / folder).rglob("*"))
+                   if path.is_file() and re.match(rb"#!.*python", path.read_bytes()[:30])]
+        self.assertGreater(len(scripts), 40)
+        for path in scripts:
+            with self.subTest(path.relative_to(ROOT)):
+                self.assertIn("guard.protect(", path.read_text("utf-8"))
+
+    def test_scripts_called_without_arguments_have_no_traceback(self):
+        for name in ("check_names /none", "package/layout.py", "package/make_pages.py", "site/format_tables.py /none",
+                     "model_errors/run /none", "reality/outcome.py", "studies/compare_frames.py /none /none",
+                     "paper/structural_plant.py"):
+            with self.subTest(name), tempfile.TemporaryDirectory() as folder:
+                script, *arguments = name.split()
+                done = subprocess.run(["/usr/bin/python3", ROOT / "scripts" / script, *arguments], cwd=folder,
+                                      capture_output=True, text=True)
+                self.assertNotIn("Traceback", done.stdout + done.stderr)
+                self.assertIn(done.returncode, (0, 1, 2))
 
     def test_docs_site_without_doxygen_says_what_is_missing(self):
         with tempfile.TemporaryDirectory() as folder:
