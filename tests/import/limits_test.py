@@ -100,7 +100,7 @@ def mat5():
 
 
 def mcap(compression, packed, size):
-    chunk = struct.pack("<QQQI", 0, 0, size, 0) + samples._text(compression) + struct.pack("<Q", len(packed)) + packed
+    chunk = struct.pack("<QQQI", 0, 0, size, 0) + ros1_bag.text(compression) + struct.pack("<Q", len(packed)) + packed
     magic = b"\x89MCAP0\r\n"
     return magic + samples._record(6, chunk) + samples._record(15, struct.pack("<I", 0)) + magic
 
@@ -200,6 +200,12 @@ class LimitsTest(ImportCase):
                 self.assertLess(seconds, MOST_SECONDS)
                 self.assertLess(megabytes, MOST_MB)
                 path.unlink()
+
+    def test_the_executables_have_the_same_limit(self):
+        stated = f"kLeastUnpacked = {limits.LEAST_UNPACKED >> 20} << 20, kUnpackedRatio = {limits.UNPACKED_RATIO};"
+        self.assertIn(stated, (ROOT / "libfinray/finray/io/line_reader.cc").read_text("utf-8"))
+        said = f"{limits.LEAST_UNPACKED >> 20} MiB and {limits.UNPACKED_RATIO} times its size"
+        self.assertIn(said, (ROOT / "docs/reference/formats.md").read_text("utf-8"))
 
     def test_a_reader_that_does_not_end_is_stopped(self):
         """A child that only computes, and one that takes memory, as a library in C does."""

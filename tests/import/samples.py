@@ -129,33 +129,15 @@ def write_ros2(path):
     connection.close()
 
 
-def _text(text):
-    return struct.pack("<I", len(text)) + text.encode()
-
-
 def _record(opcode, content):
     return struct.pack("<BQ", opcode, len(content)) + content
 
 
-DEFINITION = """std_msgs/MultiArrayLayout layout
-float64[] data
-================================================================================
-MSG: std_msgs/MultiArrayLayout
-std_msgs/MultiArrayDimension[] dim
-uint32 data_offset
-================================================================================
-MSG: std_msgs/MultiArrayDimension
-string label
-uint32 size
-uint32 stride
-"""
-
-
 def mcap_bytes(compression="", encoding="cdr"):
     """An MCAP as its specification has it: one chunk, no summary."""
-    schema = ("ros2msg", DEFINITION) if encoding == "cdr" else ("jsonschema", "{}")
-    inside = _record(3, struct.pack("<H", 1) + _text(ARRAY) + _text(schema[0]) + _text(schema[1]))
-    inside += _record(4, struct.pack("<HH", 1, 1) + _text("/readings") + _text(encoding) +
+    schema = ("ros2msg", ros1_bag.ARRAY) if encoding == "cdr" else ("jsonschema", "{}")
+    inside = _record(3, struct.pack("<H", 1) + ros1_bag.text(ARRAY) + ros1_bag.text(schema[0]) + ros1_bag.text(schema[1]))
+    inside += _record(4, struct.pack("<HH", 1, 1) + ros1_bag.text("/readings") + ros1_bag.text(encoding) +
                       struct.pack("<I", 0))
     for i, (ns, values) in enumerate(messages()):
         data = cdr_array(values) if encoding == "cdr" else \
@@ -170,9 +152,9 @@ def mcap_bytes(compression="", encoding="cdr"):
         packed = lz4.frame.compress(inside)
     first, last = messages()[0][0], messages()[-1][0]
     chunk = struct.pack("<QQQI", int(first), int(last), len(inside), zlib.crc32(inside)) + \
-        _text(compression) + struct.pack("<Q", len(packed)) + packed
+        ros1_bag.text(compression) + struct.pack("<Q", len(packed)) + packed
     magic = b"\x89MCAP0\r\n"
-    return magic + _record(1, _text("ros2") + _text("test")) + _record(6, chunk) + \
+    return magic + _record(1, ros1_bag.text("ros2") + ros1_bag.text("test")) + _record(6, chunk) + \
         _record(15, struct.pack("<I", 0)) + _record(2, struct.pack("<QQI", 0, 0, 0)) + magic
 
 

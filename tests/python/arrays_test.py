@@ -1,21 +1,9 @@
 #!/usr/bin/python3
 """Arrays of any layout: each column is read as the doubles that numpy.asarray(values, float64) holds, or refused by name."""
-import os
-import pathlib
-import sys
 import unittest
 import warnings
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-BUILD = pathlib.Path(os.environ.get("FINRAY_BINARY_DIR", ROOT / "build/dev")).resolve()
-sys.path.insert(0, str(BUILD / "python"))
-try:
-    import numpy as np
-
-    import finray
-except ImportError as error:
-    print(f"skipped: {error}")
-    sys.exit(77)
+from built_package import finray, np
 
 try:
     import pandas

@@ -16,16 +16,7 @@ import threading
 import unittest
 import warnings
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-BUILD = pathlib.Path(os.environ.get("FINRAY_BINARY_DIR", ROOT / "build/dev")).resolve()
-sys.path.insert(0, str(BUILD / "python"))
-try:
-    import numpy as np
-
-    import finray
-except ImportError as error:
-    print(f"skipped: {error}")
-    sys.exit(77)
+from built_package import BUILD, ROOT, finray, np
 
 FINGER = ROOT / "configs/fingers/paper_140mm.yaml"
 HIDDEN = ROOT / "datasets/simulated_r15/hidden_finger.yaml"

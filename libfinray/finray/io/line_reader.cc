@@ -22,9 +22,11 @@ namespace {
 
 constexpr std::size_t kFirstBuffer = 1 << 17;
 constexpr std::size_t kLongestLine = 1 << 24;
-// What a gzipped file may unpack to, by its size: readings pack to a tenth at
-// best where a gauge is dead, and what is made to take all memory to a
-// thousandth. scripts/import/limits.py has the same for other formats.
+// A gzipped file may unpack to kLeastUnpacked bytes and kUnpackedRatio times
+// its size. Readings pack to a tenth at best where a gauge is dead, and a file
+// that is made to exhaust the memory packs to a thousandth.
+// scripts/common/limits.py has the same limit for other formats;
+// tests/import/limits_test.py ties them.
 constexpr std::uintmax_t kLeastUnpacked = 32 << 20, kUnpackedRatio = 32;
 
 }  // namespace
@@ -106,9 +108,11 @@ LineReader ReadFile(const std::string& path) {
     const int n = gzread(file.get(), buffer, static_cast<unsigned>(size));
     if (n > 0 && gzdirect(file.get()) == 0) {
       if (static_cast<std::uintmax_t>(n) > left) {
-        throw InputError(path +
-                         ": unpacks to more than 32 MiB and 32 times its size, "
-                         "which no log does; if this is one, unpack it before");
+        throw InputError(path + ": unpacks to more than " +
+                         std::to_string(kLeastUnpacked >> 20) + " MiB and " +
+                         std::to_string(kUnpackedRatio) +
+                         " times its size, which no log does; if this is one, "
+                         "unpack it before");
       }
       left -= static_cast<std::uintmax_t>(n);
     }
