@@ -217,7 +217,7 @@ class Session {
     if (!error.empty()) {
       std::fprintf(stderr, "finray_estimate: %s\n", error.c_str());
     }
-    // What it does from now on is not worth a place.
+    // No more rows come: this session is the first to make room for another.
     follows_ = false;
     lines_.Finish(error.empty() ? "" : "# error: " + error + "\n");
     shutdown(file_, SHUT_RDWR);
