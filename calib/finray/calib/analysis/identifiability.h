@@ -56,13 +56,13 @@ constexpr char kGainsAgainstStiffness[] =
 ///
 /// in which the contacts are eliminated, scaled by the std of the priors. Along
 /// an eigenvector with an eigenvalue below 1 the data say less than the priors;
-/// along one below kNull they say nothing. What the data leave open is judged
-/// again with S + K, where K is the information of the priors that are
-/// knowledge (CalibrationParameter::vague_std). There is one more weak
-/// direction, whatever the priors: if the ratios of the gains are known, but
-/// all gains together only as well as stiffness is. The covariance is (S +
-/// P)^-1 with the information P of the priors, or a pseudo-inverse if even S +
-/// P is singular.
+/// along one below kNull they say nothing. A parameter that the data do not
+/// determine is judged again with S + K, where K is the information of the
+/// priors that are knowledge (CalibrationParameter::vague_std). There is one
+/// more weak direction, whatever the priors: if the ratios of the gains are
+/// known, but all gains together only as well as stiffness is. The covariance
+/// is (S + P)^-1 with the information P of the priors, or a pseudo-inverse if
+/// even S + P is singular.
 struct Identifiability {
   static constexpr double kNull = 1e-4;
 
