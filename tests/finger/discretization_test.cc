@@ -22,8 +22,9 @@ TEST(DiscretizationTest, ErrorsNameTheNearestScheme) {
               ThrowsMessage<InputError>(HasSubstr("did you mean 'taylor'?")));
   EXPECT_THAT([] { ParseDiscretization("taylor", -1); },
               ThrowsMessage<InputError>(HasSubstr("--resolution: -1")));
-  EXPECT_THROW(ParseDiscretization("taylor", 1000001), InputError);
-  EXPECT_EQ(ParseDiscretization("rigid_chain", 100000).resolution, 100000);
+  EXPECT_THAT([] { ParseDiscretization("taylor", 2001); },
+              ThrowsMessage<InputError>(HasSubstr("from 1 to 2000 (0: ")));
+  EXPECT_EQ(ParseDiscretization("rigid_chain", 2000).resolution, 2000);
 }
 
 }  // namespace

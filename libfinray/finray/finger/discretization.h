@@ -42,7 +42,7 @@ std::string SchemeName(Scheme scheme);
 
 /// Reads the values of --scheme and --resolution. Throws InputError for an
 /// unknown scheme, with the nearest one, and for a resolution below 0 or above
-/// 100 000.
+/// 2000.
 Discretization ParseDiscretization(const std::string& scheme, int resolution);
 
 }  // namespace finray
