@@ -125,7 +125,7 @@ std::optional<Followed> FollowInput(const BatchSettings& settings,
         std::chrono::nanoseconds(Clock::now() - start).count());
     if (open) followed->latency.Add(taken);
     followed->summary.Add(rows.estimate(), settings.scene.friction_coefficient,
-                          rows.readings());
+                          rows.readings(), settings.finger);
     if (!view) continue;
     view->Push(rows, taken);
     if (auto zeroed = view->TakeZeroed()) {

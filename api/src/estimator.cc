@@ -56,6 +56,7 @@ class Results {
   Results(const finray::Finger& finger, const finray::Scene& scene,
           std::size_t rows)
       : columns_(finger, scene),
+        finger_(finger),
         friction_(scene.friction_coefficient),
         values_(columns_.names().size()),
         statuses_(rows),
@@ -72,7 +73,7 @@ class Results {
       values_[i][row] = (*memory)[i];
     }
     statuses_[row] = static_cast<FrameStatus>(estimate.status);
-    summaries_[row / kBlockFrames].Add(estimate, friction_, readings);
+    summaries_[row / kBlockFrames].Add(estimate, friction_, readings, finger_);
   }
 
   Estimation Take(const finray::Finger& finger, const std::string& log) {
@@ -111,6 +112,7 @@ class Results {
 
  private:
   ResultColumns columns_;
+  const finray::Finger& finger_;
   double friction_;
   std::vector<std::vector<double>> values_;  // by column
   std::vector<FrameStatus> statuses_;

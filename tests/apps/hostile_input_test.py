@@ -187,6 +187,8 @@ class HostileInputTest(unittest.TestCase):
                     self.assertEqual(outcome.returncode, 0, outcome.stderr[-500:])
                     if app == "estimate":
                         self.assertIn(b"0 not_converged, 1 bad_input", outcome.stdout)
+                        self.assertIn(b"warning: 1 of 5 rows of log.csv are bad_input for a reading that no gauge gives: "
+                                      b"in row 1 gauge 1 reads inf V, expected -6.283 to 6.283 V; ", outcome.stderr)
 
     def test_yaml(self):
         self.refuse_all(".yaml", BAD_YAML)

@@ -4,10 +4,13 @@
 
 #include <cmath>
 
+#include "test_finger.h"
+
 namespace finray {
 namespace {
 
 TEST(EstimationSummaryTest, ReadsBackTheSame) {
+  const Finger finger = PaperFinger();
   EstimationSummary summary;
   FrameEstimate estimate;
   Measurements readings;
@@ -21,7 +24,7 @@ TEST(EstimationSummaryTest, ReadsBackTheSame) {
     estimate.search_ended = i % 10 == 0;
     readings.gauges_V = {0.1 * i, 1};
     readings.force_N = i % 7 ? 0.05 * i : std::nan("");
-    summary.Add(estimate, 0.3, readings);
+    summary.Add(estimate, 0.3, readings, finger);
   }
   const auto back = SummaryFromText(SummaryToText(summary));
   ASSERT_TRUE(back);
@@ -57,6 +60,7 @@ TEST(EstimationSummaryTest, ReadsBackTheSame) {
 // A force sensor of two axes says of the estimates what one of its magnitude
 // says.
 TEST(EstimationSummaryTest, TwoAxesCountLikeTheirMagnitude) {
+  const Finger finger = PaperFinger();
   EstimationSummary of_magnitude, of_axes;
   FrameEstimate estimate;
   estimate.status = FrameStatus::kOk;
@@ -68,8 +72,8 @@ TEST(EstimationSummaryTest, TwoAxesCountLikeTheirMagnitude) {
     estimate.contact[0].normal_N = 0.8 * force;
     magnitude.force_N = force;
     axes.force_xy_N = {0.6 * force, -0.8 * force};
-    of_magnitude.Add(estimate, 0, magnitude);
-    of_axes.Add(estimate, 0, axes);
+    of_magnitude.Add(estimate, 0, magnitude, finger);
+    of_axes.Add(estimate, 0, axes, finger);
   }
   EXPECT_EQ(of_axes.force_judged, 4u);
   EXPECT_EQ(of_axes.force_far, 2u);
@@ -77,6 +81,35 @@ TEST(EstimationSummaryTest, TwoAxesCountLikeTheirMagnitude) {
   EXPECT_NEAR(of_axes.force_rms_N(), of_magnitude.force_rms_N(), 1e-12);
   EXPECT_EQ(of_axes.force_far, of_magnitude.force_far);
   EXPECT_EQ(of_axes.free_rows, of_magnitude.free_rows);
+}
+
+TEST(EstimationSummaryTest, KeepsTheFirstReadingThatNoGaugeGives) {
+  const Finger finger = PaperFinger();
+  FrameEstimate bad;
+  bad.status = FrameStatus::kBadInput;
+  Measurements too_few, high, infinite;
+  too_few.gauges_V = {0.1, std::nan(""), std::nan(""), std::nan("")};
+  high.gauges_V = {0.1, std::nan(""), 9.9e37, 1e9};
+  infinite.gauges_V = {-1 / 0.0, 0, 0, 0};
+  EstimationSummary summary, first, second;
+  first.Add(bad, 0, too_few, finger);
+  EXPECT_FALSE(first.any_impossible());
+  second.Add(bad, 0, too_few, finger);
+  second.Add(bad, 0, high, finger);
+  second.Add(bad, 0, infinite, finger);
+  summary.Add(first);
+  summary.Add(second);
+  summary = *SummaryFromText(SummaryToText(summary));
+  EXPECT_EQ(summary.count(FrameStatus::kBadInput), 4u);
+  EXPECT_EQ(summary.impossible, 2u);
+  EXPECT_EQ(summary.impossible_row, 3u);
+  EXPECT_EQ(summary.impossible_gauge, 3u);
+  EXPECT_EQ(summary.impossible_V, "9.9e+37");
+
+  EstimationSummary other;
+  other.Add(bad, 0, infinite, finger);
+  other = *SummaryFromText(SummaryToText(other));
+  EXPECT_EQ(other.impossible_V, "-inf");
 }
 
 TEST(EstimationSummaryTest, TooManyUnexplainedFramesAreNoChance) {

@@ -57,16 +57,16 @@ TEST(EstimationWarningsTest, ForcesThatTheLogContradicts) {
   const Finger finger = CalibratedFinger();
   EstimationSummary summary;
   for (int i = 0; i < 40; ++i) {
-    summary.Add(Contact(3, 0.02), 0, Row(finger, 3.01, 0.02));
+    summary.Add(Contact(3, 0.02), 0, Row(finger, 3.01, 0.02), finger);
   }
   EXPECT_THAT(Of(summary, finger), IsEmpty());
   // Some are chance, and a light touch may be off by the sensor's noise.
-  summary.Add(Contact(0.08, 0.001), 0, Row(finger, 0.03, 0.02));
+  summary.Add(Contact(0.08, 0.001), 0, Row(finger, 0.03, 0.02), finger);
   for (int i = 0; i < 2; ++i) {
-    summary.Add(Contact(30, 1), 0, Row(finger, 0.01, 0.02));
+    summary.Add(Contact(30, 1), 0, Row(finger, 0.01, 0.02), finger);
   }
   EXPECT_THAT(Of(summary, finger), IsEmpty());
-  summary.Add(Contact(30, 1), 0, Row(finger, 0, 0.02));
+  summary.Add(Contact(30, 1), 0, Row(finger, 0, 0.02), finger);
   const std::vector<Warning> warnings = Of(summary, finger);
   ASSERT_THAT(warnings, SizeIs(1));
   EXPECT_EQ(warnings[0].code, "forces_differ");
@@ -84,11 +84,11 @@ TEST(EstimationWarningsTest, FreeRowsThatReadTheirOffsets) {
   const Finger finger = CalibratedFinger();
   EstimationSummary summary;
   for (int i = 0; i < 10; ++i) {
-    summary.Add(Contact(3, 0.02), 0, Row(finger, 3000, 0));  // mN
+    summary.Add(Contact(3, 0.02), 0, Row(finger, 3000, 0), finger);  // mN
     FrameEstimate free = Contact(0, 0);
     free.status = FrameStatus::kNoContact;
     free.contacts = 0;
-    summary.Add(free, 0, Row(finger, 0.01, 1e-4));
+    summary.Add(free, 0, Row(finger, 0.01, 1e-4), finger);
   }
   const std::vector<Warning> warnings = Of(summary, finger);
   ASSERT_THAT(warnings, SizeIs(1));
@@ -102,12 +102,12 @@ TEST(EstimationWarningsTest, ALogWithoutForceThatIsNeverFree) {
   const Finger finger = CalibratedFinger();
   EstimationSummary summary;
   for (int i = 0; i < 49; ++i) {
-    summary.Add(Contact(30, 1), 0, Row(finger, std::nan(""), 0.02));
+    summary.Add(Contact(30, 1), 0, Row(finger, std::nan(""), 0.02), finger);
   }
   EXPECT_THAT(Of(summary, finger), IsEmpty());
   FrameEstimate estimate = Contact(30, 1);
   estimate.status = FrameStatus::kUnobservable;
-  summary.Add(estimate, 0, Row(finger, std::nan(""), 0.02));
+  summary.Add(estimate, 0, Row(finger, std::nan(""), 0.02), finger);
   const std::vector<Warning> warnings = Of(summary, finger);
   ASSERT_THAT(warnings, SizeIs(1));
   EXPECT_EQ(warnings[0].text,
@@ -118,14 +118,15 @@ TEST(EstimationWarningsTest, ALogWithoutForceThatIsNeverFree) {
   EXPECT_FALSE(FailsStrict(warnings, OneContact()));  // it is meant
   // Some of the rows are free, and their forces cannot be compared.
   EstimationSummary free = summary;
-  for (int i = 0; i < 3; ++i) free.Add(estimate, 0, Row(finger, 0, 0.02));
+  for (int i = 0; i < 3; ++i)
+    free.Add(estimate, 0, Row(finger, 0, 0.02), finger);
   const std::vector<Warning> sure = Of(free, finger);
   ASSERT_THAT(sure, SizeIs(1));
   EXPECT_THAT(sure[0].text, HasSubstr("although some have a force_N near zero; "
                                       "in its 3 rows"));
   EXPECT_TRUE(FailsStrict(sure, OneContact()));
   estimate.status = FrameStatus::kNoContact;
-  summary.Add(estimate, 0, Row(finger, std::nan(""), 0.02));
+  summary.Add(estimate, 0, Row(finger, std::nan(""), 0.02), finger);
   EXPECT_THAT(Of(summary, finger), IsEmpty());
 }
 
@@ -138,7 +139,7 @@ EstimationSummary SomeUnexplained(const Finger& finger, int bad, int still) {
     estimate.chi2 = i < 100 ? 1 : 50;
     Measurements row = Row(finger, std::nan(""), 0.01 * (i % 5));
     if (still >= 0) row.gauges_V[still] = 0.1;
-    summary.Add(estimate, 0, row);
+    summary.Add(estimate, 0, row, finger);
   }
   return summary;
 }
@@ -172,12 +173,35 @@ TEST(EstimationWarningsTest, AGaugeThatMovedAloneHasSlipped) {
     estimate.chi2 = 50;
     Measurements row = Row(finger, 0, 0);
     row.gauges_V[1] += 0.02;
-    summary.Add(estimate, 0, row);
+    summary.Add(estimate, 0, row, finger);
   }
   const auto warnings = Of(summary, finger);
   ASSERT_FALSE(warnings.empty());
   EXPECT_THAT(warnings[0].text,
               HasSubstr("likeliest cause: gauge 2 has slipped"));
+}
+
+TEST(EstimationWarningsTest, NamesTheFirstReadingThatNoGaugeGives) {
+  Finger finger = CalibratedFinger();
+  finger.gauges[1].offset_V = 0.25;
+  finger.gauges[1].gain_V_per_rad = -2;
+  EstimationSummary summary;
+  FrameEstimate bad;
+  bad.status = FrameStatus::kBadInput;
+  summary.Add(Contact(1, 0.02), 0, Row(finger, std::nan(""), 0), finger);
+  for (const double volts : {-13., 9.9e37}) {
+    Measurements row = Row(finger, std::nan(""), 0);
+    row.gauges_V[1] = volts;
+    summary.Add(bad, 0, row, finger);
+  }
+  const auto warnings = Of(summary, finger);
+  ASSERT_THAT(warnings, SizeIs(1));
+  EXPECT_EQ(warnings[0].code, "impossible_readings");
+  EXPECT_THAT(warnings[0].text,
+              HasSubstr("2 of 3 rows of a.csv are bad_input for a reading that "
+                        "no gauge gives: in row 2 gauge 2 reads -13 V, "
+                        "expected -12.32 to 12.82 V"));
+  EXPECT_FALSE(FailsStrict(warnings, OneContact()));
 }
 
 TEST(EstimationWarningsTest, NamesTheWorstOfLogs) {

@@ -162,16 +162,17 @@ class BatchBenchmark {
     std::vector<std::string> csv(rows.size());
     std::vector<double> values;
     EstimationSummary summary;
-    sum += print("format and sum up", Cost(frames_, [&] {
-                   for (std::string& block : csv) block.clear();
-                   for_each([&](const FrameRows& block, std::size_t row,
-                                std::size_t frame) {
-                     const FrameEstimate& estimate = estimates_[frame];
-                     layout.Append(block, row, readings[frame], estimate,
-                                   &values, &csv[frame / kBlockFrames]);
-                     summary.Add(estimate, 0, readings[frame]);
-                   });
-                 }));
+    sum +=
+        print("format and sum up", Cost(frames_, [&] {
+                for (std::string& block : csv) block.clear();
+                for_each([&](const FrameRows& block, std::size_t row,
+                             std::size_t frame) {
+                  const FrameEstimate& estimate = estimates_[frame];
+                  layout.Append(block, row, readings[frame], estimate, &values,
+                                &csv[frame / kBlockFrames]);
+                  summary.Add(estimate, 0, readings[frame], settings_->finger);
+                });
+              }));
     sum += print("write", Cost(frames_, [&] {
                    ResumableFile out(Result(), "key", false);
                    for (const std::string& block : csv) out.Append(block);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "finray/finger/possible_reading.h"
 #include "finray/io/number_text.h"
 #include "finray/io/yaml_emitter.h"
 #include "finray/io/yaml_map.h"
@@ -60,7 +61,8 @@ double EstimationSummary::force_std_N() const {
 }
 
 void EstimationSummary::Add(const FrameEstimate& estimate, double coefficient,
-                            const Measurements& readings) {
+                            const Measurements& readings,
+                            const Finger& finger) {
   const double friction = readings.FrictionOr(coefficient);
   const double force_N = readings.Force().magnitude_N;
   const bool all_read =
@@ -74,6 +76,15 @@ void EstimationSummary::Add(const FrameEstimate& estimate, double coefficient,
   ++frames;
   search_ended += estimate.search_ended;
   ++by_status[static_cast<std::size_t>(estimate.status)];
+  if (estimate.status == FrameStatus::kBadInput) {
+    const int gauge = FirstImpossible(finger.gauges, readings.gauges_V);
+    if (gauge >= 0 && impossible++ == 0) {
+      impossible_row = frames;
+      impossible_gauge = static_cast<std::size_t>(gauge) + 1;
+      impossible_V =
+          NumberText(readings.gauges_V[static_cast<std::size_t>(gauge)]);
+    }
+  }
   if (estimate.status == FrameStatus::kNotConverged ||
       estimate.status == FrameStatus::kBadInput) {
     return;
@@ -114,6 +125,12 @@ void EstimationSummary::Add(const FrameEstimate& estimate, double coefficient,
 }
 
 void EstimationSummary::Add(const EstimationSummary& other) {
+  if (impossible == 0 && other.impossible > 0) {
+    impossible_row = frames + other.impossible_row;
+    impossible_gauge = other.impossible_gauge;
+    impossible_V = other.impossible_V;
+  }
+  impossible += other.impossible;
   frames += other.frames;
   bad_rows += other.bad_rows;
   for (std::size_t i = 0; i < by_status.size(); ++i) {
@@ -157,7 +174,10 @@ std::string SummaryToText(const EstimationSummary& summary) {
           std::to_string(summary.loads_explained) + " " +
           std::to_string(summary.loads_unexplained) + " " +
           NumberText(summary.load_explained_N) + " " +
-          NumberText(summary.load_unexplained_N);
+          NumberText(summary.load_unexplained_N) + " " +
+          std::to_string(summary.impossible) + " " +
+          std::to_string(summary.impossible_row) + " " +
+          std::to_string(summary.impossible_gauge) + " " + summary.impossible_V;
   for (const auto* sums :
        {&summary.free_sums_V, &summary.read_sums_V, &summary.read_squares_V2}) {
     text += " " + std::to_string(sums->size());
@@ -188,6 +208,8 @@ std::optional<EstimationSummary> SummaryFromText(const std::string& text) {
       summary.loads_unexplained;
   number(&summary.load_explained_N);
   number(&summary.load_unexplained_N);
+  stream >> summary.impossible >> summary.impossible_row >>
+      summary.impossible_gauge >> summary.impossible_V;
   for (auto* sums :
        {&summary.free_sums_V, &summary.read_sums_V, &summary.read_squares_V2}) {
     std::size_t gauges = 0;
@@ -211,8 +233,11 @@ void EmitSummary(const EstimationSummary& summary, YamlEmitter* yaml) {
   YamlPairs(yaml, "unexplained_frames", summary.unexplained,
             "search_ended_frames", summary.search_ended);
   if (summary.bad_rows > 0) YamlPair(yaml, "bad_rows", summary.bad_rows);
+  if (summary.impossible > 0) {
+    YamlPair(yaml, "impossible_rows", summary.impossible);
+  }
   if (summary.force_compared > 0) {
-    // What readers would refuse is left out: inf is no error of a force.
+    // Readers refuse inf, which is no error of a force: its key is left out.
     const auto finite = [yaml](const char* key, double value) {
       if (value <= kLargestYamlNumber) YamlPair(yaml, key, value);
     };
@@ -226,7 +251,12 @@ void EmitSummary(const EstimationSummary& summary, YamlEmitter* yaml) {
   }
 }
 
-void EmitFreeRows(const EstimationSummary& summary, YamlEmitter* yaml) {
+void EmitRowsOfLog(const EstimationSummary& summary, YamlEmitter* yaml) {
+  if (summary.impossible > 0) {
+    YamlPair(yaml, "impossible_row", summary.impossible_row);
+    YamlPair(yaml, "impossible_gauge", summary.impossible_gauge);
+    YamlPair(yaml, "impossible_V", summary.impossible_V);
+  }
   if (summary.free_rows == 0 ||
       !std::all_of(
           summary.free_sums_V.begin(), summary.free_sums_V.end(),

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "finray/finger/finger.h"
 #include "finray/io/yaml_emitter.h"
 #include "finray/scene/measurements.h"
 #include "finray/sensing/frame_estimator.h"
@@ -41,6 +42,12 @@ struct EstimationSummary {
   std::size_t force_judged = 0, force_far = 0;
   double force_variances_N2 = 0;
   static constexpr double kFarStd = 5, kFarShare = 0.1;
+  /// Frames that are bad_input for a reading that no gauge gives (IsPossible),
+  /// and the first such reading: the row of the result and the gauge, both from
+  /// 1, and its volts as text, since they may be inf.
+  std::size_t impossible = 0;
+  std::size_t impossible_row = 0, impossible_gauge = 0;
+  std::string impossible_V = "0";
   /// Rows that the sensor shows to be free of contact, by a magnitude of at
   /// most kFreeForce_N whatever its axes, since nobody states its noise here;
   /// and the sums of their readings by gauge.
@@ -60,6 +67,7 @@ struct EstimationSummary {
     return by_status[static_cast<std::size_t>(status)];
   }
   bool any_bad_rows() const { return bad_rows > 0; }
+  bool any_impossible() const { return impossible > 0; }
   /// Number of frames that are not_converged or bad_input.
   std::size_t unsolved() const;
   /// More than kMostUnexplained of the solved frames are unexplained, and at
@@ -86,7 +94,7 @@ struct EstimationSummary {
   /// Counts one frame; `coefficient` is the scene's mu, for a frame whose
   /// friction is not told by the object's motion.
   void Add(const FrameEstimate& estimate, double coefficient,
-           const Measurements& readings);
+           const Measurements& readings, const Finger& finger);
   /// Adds the frames of another summary.
   void Add(const EstimationSummary& other);
 };
@@ -97,10 +105,11 @@ std::string SummaryToText(const EstimationSummary& summary);
 std::optional<EstimationSummary> SummaryFromText(const std::string& text);
 
 /// Writes the summary's keys of a summary.yaml into the mapping that `yaml` is
-/// in, except those of free rows.
+/// in, except those of EmitRowsOfLog.
 void EmitSummary(const EstimationSummary& summary, YamlEmitter* yaml);
-/// Writes the keys of free rows, if there are any.
-void EmitFreeRows(const EstimationSummary& summary, YamlEmitter* yaml);
+/// Writes the keys that speak of the rows of one log: the first reading that no
+/// gauge gives, and the free rows, if there are any.
+void EmitRowsOfLog(const EstimationSummary& summary, YamlEmitter* yaml);
 
 }  // namespace finray
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "finray/finger/possible_reading.h"
 #include "finray/io/number_text.h"
 #include "finray/sensing/zeroed_finger.h"
 
@@ -189,6 +190,23 @@ Warning BadRows(const EstimationSummary& summary, const Finger& /*finger*/,
       "their lines and reasons are in <log>.bad_rows.csv beside the result"};
 }
 
+Warning Impossible(const EstimationSummary& summary, const Finger& finger,
+                   const std::string& log) {
+  const Gauge& gauge = finger.gauges.at(summary.impossible_gauge - 1);
+  const double most_V = LargestBending_V(gauge);
+  return {"impossible_readings",
+          std::to_string(summary.impossible) + " of " +
+              std::to_string(summary.frames) + " rows of " + log +
+              " are bad_input for a reading that no gauge gives: in row " +
+              std::to_string(summary.impossible_row) + " gauge " +
+              std::to_string(summary.impossible_gauge) + " reads " +
+              summary.impossible_V +
+              FormatText(" V, expected %.4g to %.4g V", gauge.offset_V - most_V,
+                         gauge.offset_V + most_V),
+          "look for an open cable, a wrong unit, or an error code of the "
+          "logger, which not_measured in the scene can name"};
+}
+
 // A reason to doubt a log, and how many of its frames show it.
 struct Doubt {
   bool (EstimationSummary::*applies)() const;
@@ -204,7 +222,9 @@ constexpr Doubt kDoubts[] = {
     {&EstimationSummary::forces_differ, &EstimationSummary::force_far,
      ForcesDiffer},
     {&EstimationSummary::never_free, &EstimationSummary::frames, NeverFree},
-    {&EstimationSummary::any_bad_rows, &EstimationSummary::bad_rows, BadRows}};
+    {&EstimationSummary::any_bad_rows, &EstimationSummary::bad_rows, BadRows},
+    {&EstimationSummary::any_impossible, &EstimationSummary::impossible,
+     Impossible}};
 
 }  // namespace
 

@@ -28,6 +28,9 @@ std::vector<Warning> WarningsOf(const Finger& finger);
 ///  - forces_differ: force_N contradicts too many forces, or shows free rows
 ///    where every frame has a contact;
 ///  - bad_rows: rows were left out as bad input;
+///  - impossible_readings: rows are bad_input for a reading that no gauge
+///  gives;
+///    it names the first one, and what the gauge gives at most;
 ///  - never_free: every frame has a contact and no force_N says otherwise.
 /// Offsets that have moved alike make all gauges consistent with contacts that
 /// are not there, so chi2 does not show them. Where force_N marks free rows,

@@ -34,7 +34,7 @@ std::string WrittenText(const BatchSettings& settings) {
 
 std::string Key(const BatchSettings& settings, const std::string& log_sha256) {
   return Sha256OfText(
-      "results 8\nversion " FINRAY_VERSION "\nlog " + log_sha256 + "\nfinger " +
+      "results 9\nversion " FINRAY_VERSION "\nlog " + log_sha256 + "\nfinger " +
       settings.finger_sha256 + "\nscene " + settings.scene_sha256 +
       "\nscheme " + SchemeName(settings.discretization.scheme) +
       "\nresolution " + std::to_string(settings.discretization.resolution) +
@@ -58,6 +58,12 @@ EstimationSummary SummaryFromYaml(const YamlMap& yaml) {
   summary.unexplained = Count(yaml, "unexplained_frames");
   summary.search_ended = Count(yaml, "search_ended_frames");
   if (yaml.Has("bad_rows")) summary.bad_rows = Count(yaml, "bad_rows");
+  if (yaml.Has("impossible_rows")) {
+    summary.impossible = Count(yaml, "impossible_rows");
+    summary.impossible_row = Count(yaml, "impossible_row");
+    summary.impossible_gauge = Count(yaml, "impossible_gauge");
+    summary.impossible_V = yaml.Text("impossible_V");
+  }
   if (yaml.Has("force_compared_frames")) {
     summary.force_compared = Count(yaml, "force_compared_frames");
     summary.force_squares_N2 = yaml.NonNegativeNumber("force_squares_N2");
@@ -314,7 +320,7 @@ void LogJob::WriteSummary(std::uint64_t bytes) const {
   yaml << YAML::EndMap;
   YamlPair(&yaml, "result_bytes", bytes);
   EmitSummary(summary_, &yaml);
-  EmitFreeRows(summary_, &yaml);
+  EmitRowsOfLog(summary_, &yaml);
   yaml << YAML::EndMap;
   WriteFileAtomically(summary_path_, std::string(yaml.c_str()) + "\n");
 }
@@ -387,7 +393,7 @@ std::string BatchYaml(const BatchSettings& settings,
     YamlPairs(&yaml, "log", job.log(), "result", job.result(), "key",
               job.key());
     EmitSummary(job.summary(), &yaml);
-    EmitFreeRows(job.summary(), &yaml);
+    EmitRowsOfLog(job.summary(), &yaml);
     EmitWarnings(WarningsOf({{&job.summary(), job.log()}}, settings.finger),
                  &yaml);
     yaml << YAML::EndMap;

@@ -73,7 +73,8 @@ void RemoveHistory(HistoryFilter* history, Block* block) {
 }
 
 // Fills in the result from the estimates.
-void WriteResult(const ResultLayout& layout, double friction, Block* block) {
+void WriteResult(const ResultLayout& layout, const Finger& finger,
+                 double friction, Block* block) {
   StreamedBlock& result = block->result;
   result.summary = EstimationSummary();
   result.summary.bad_rows = block->bad_rows.size();
@@ -84,7 +85,7 @@ void WriteResult(const ResultLayout& layout, double friction, Block* block) {
     const FrameEstimate& estimate = block->estimates[row];
     layout.Append(block->rows, row, readings, estimate, &block->values,
                   &result.csv);
-    result.summary.Add(estimate, friction, readings);
+    result.summary.Add(estimate, friction, readings, finger);
   }
 }
 
@@ -179,7 +180,7 @@ bool EstimateStream(const Finger& finger, const Scene& scene,
         block->estimates.resize(block->readings.size());
         pool->SolveBlock(block->readings.data(), block->readings.size(),
                          block->estimates.data());
-        WriteResult(layout, scene.friction_coefficient, block);
+        WriteResult(layout, finger, scene.friction_coefficient, block);
       },
       [&](const Block& block) { write(block.result); });
 }
@@ -198,8 +199,8 @@ bool EstimateJointly(const Finger& finger, const Scene& scene,
                            block.estimates.push_back(estimate);
                            if (block.estimates.size() < block.readings.size())
                              return;
-                           WriteResult(layout, scene.friction_coefficient,
-                                       &block);
+                           WriteResult(layout, finger,
+                                       scene.friction_coefficient, &block);
                            write(block.result);
                            waiting.pop_front();
                          });

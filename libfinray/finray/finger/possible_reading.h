@@ -17,6 +17,10 @@ constexpr double kLargestReading_V = 1e6;
 /// The gauges of a loaded finger turn by less than a tenth of it.
 constexpr double kLargestGaugeAngle_rad = 2 * M_PI;
 
+/// The most by which bending moves the reading of a gauge: the bound of
+/// IsPossible without wander_V.
+double LargestBending_V(const Gauge& gauge);
+
 /// Says whether a number of volts can be a reading: it is finite, and as far
 /// from the offset as the gauge reads at an angle of at most
 /// a = kLargestGaugeAngle_rad,
@@ -29,8 +33,10 @@ constexpr double kLargestGaugeAngle_rad = 2 * M_PI;
 /// kLargestReading_V. True for NaN, which stands for no reading.
 bool IsPossible(const Gauge& gauge, double volts, double wander_V = 0);
 
-/// Says whether all readings of a row are possible. A row with one that is not
-/// is bad_input; no other reading of it counts.
+/// Returns the first gauge whose reading in a row is not possible; -1 if there
+/// is none. A row with one is bad_input; no other reading of it counts.
+int FirstImpossible(const std::vector<Gauge>& gauges,
+                    const std::vector<double>& readings_V, double wander_V = 0);
 bool ArePossible(const std::vector<Gauge>& gauges,
                  const std::vector<double>& readings_V, double wander_V = 0);
 
