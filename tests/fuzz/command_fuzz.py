@@ -89,6 +89,12 @@ def tools():
         {"finger.yaml": finger, "scene.yaml": b"contacts: 1\nsmoothing: {contact_std_mm: 1, normal_std_N: 0.2}\n"
          b"gauge_offset_walk: {start_std_V: 0.001, std_V_per_sqrt_s: 0.0001}\n", "log.csv": log},
         "--finger finger.yaml --scene scene.yaml --logs log.csv --out_dir out --joint --report"))
+    rows = log.replace(b",", b";").replace(b".", b",").splitlines(True)
+    found["estimate"].append((
+        {"finger.yaml": finger, "log.csv": b"recorded by hand\n" + rows[0].replace(b"force_N", b"Fz [mN]") + b"".join(rows[1:]),
+         "scene.yaml": b"columns: {'Fz [mN]': force_N, gauge_1_V: {to: gauge_1_V, unit: mV, scale: -1}}\n"
+         b"not_measured: [OVLD]\nmost_contacts: 1\nfriction_coefficient: 0.3\n"},
+        "--finger finger.yaml --scene scene.yaml --logs log.csv --out_dir out --bad_rows skip --keep_going"))
     found["check"] = [({"finger.yaml": finger}, "--finger finger.yaml --out out.svg")]
     found["zero"] = [({"finger.yaml": finger, "log.csv": b"gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V\n"
                        + b"0.001,0.002,0.001,-0.001\n0.0012,0.0021,0.0011,-0.0011\n" * 5},
@@ -103,6 +109,14 @@ def tools():
     mapping = {"bag": samples.BAG_MAPPING.encode(), "mcap": samples.BAG_MAPPING.encode(), "db3": samples.BAG_MAPPING.encode()}
     found["import"] = [({name: data, "mapping.yaml": mapping.get(name.rpartition(".")[2], RIG_MAPPING)},
                         f"--logs {name} --mapping mapping.yaml --out out.csv") for name, data in recordings().items()]
+    still = [f"{i / 20:.2f},{0.01 * (i // 20):.3f},{-0.02 * (i // 20) + 1e-4 * (i % 3):.4f}" for i in range(80)]
+    force = [f"{1000 + i / 10:.2f};{0.5 * (i // 10):.2f};{0.1 * (i // 10):.2f}" for i in range(42)]
+    found["import"].append((
+        {"gauges.csv": "\n".join(["t,g1,g2", "s,V,V", *still, ""]).encode(),
+         "rig.csv": "\n".join(["time [s];Fx [N];Fy [N]", *force, ""]).replace(".", ",").encode(),
+         "mapping.yaml": b"columns: {t: time_s, g1: gauge_1_V, g2: gauge_2_V}\ntables:\n  rig.csv:\n    columns: {'time [s]': time_s,"
+         b" 'Fx [N]': force_x_N, 'Fy [N]': force_y_N}\n    time_offset_s: -1000\n"},
+        "--logs gauges.csv,rig.csv --mapping mapping.yaml --out out.csv --plateaus --force_bias_N 0:0"))
     found["import"].append(({"rec.csv": samples.csv_text(samples.readings()).encode()}, "--logs rec.csv"))
     return found
 
