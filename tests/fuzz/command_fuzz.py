@@ -74,6 +74,15 @@ def recordings():
     return found
 
 
+def benchmark():
+    """A small result of finray_benchmark, twice, to compare."""
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([BINARIES / "finray_benchmark", *"--quick --only forward/no_contact/default --report=false --out_dir".split(),
+                        folder], check=True, capture_output=True)
+        result = pathlib.Path(folder, "benchmark.json").read_bytes()
+    return {"a.json": result, "b.json": result}, "--compare a.json,b.json"
+
+
 def tools():
     """{tool: [(files, arguments)]}: the good inputs. Files that a run only reads once are pipes of stdin."""
     found = {tool: [case] for tool, case in good_inputs.APPS.items()}
@@ -95,6 +104,8 @@ def tools():
          "scene.yaml": b"columns: {'Fz [mN]': force_N, gauge_1_V: {to: gauge_1_V, unit: mV, scale: -1}}\n"
          b"not_measured: [OVLD]\nmost_contacts: 1\nfriction_coefficient: 0.3\n"},
         "--finger finger.yaml --scene scene.yaml --logs log.csv --out_dir out --bad_rows skip --keep_going"))
+    if (BINARIES / "finray_benchmark").exists():
+        found["benchmark"] = [benchmark()]
     found["check"] = [({"finger.yaml": finger}, "--finger finger.yaml --out out.svg")]
     found["zero"] = [({"finger.yaml": finger, "log.csv": b"gauge_1_V,gauge_2_V,gauge_3_V,gauge_4_V\n"
                        + b"0.001,0.002,0.001,-0.001\n0.0012,0.0021,0.0011,-0.0011\n" * 5},
