@@ -26,8 +26,8 @@ def other_number(data, rng):
         return data
     at = rng.choice(found)
     value = rng.choice(NUMBERS)
-    if rng.random() < 0.3:  # a value of the same kind, of any size
-        value = b"%g" % (float(at[0]) * 10 ** rng.uniform(-12, 12) * rng.choice((1, 1, -1)))
+    if rng.random() < 0.6:  # a value of the same kind, of any size or of nearly the same
+        value = b"%g" % (float(at[0]) * 10 ** (rng.choice((1, 0.1)) * rng.uniform(-12, 12)) * rng.choice((1, 1, 1, 1, -1)))
     return data[:at.start()] + value + data[at.end():]
 
 
