@@ -191,12 +191,7 @@ int Run() {
   if (!recording.suffices) {
     Warn("the target is not met with " + std::to_string(FLAGS_most_frames) +
              " rows",
-         recording.noise_mm > target.place_mm.value_or(INFINITY) ||
-                 recording.noise_N > target.force_N.value_or(INFINITY)
-             ? "the noise of one frame is larger: no calibration helps; take a "
-               "larger --force_N, average frames, or better gauges"
-             : "allow more rows, larger forces or a wider stage, or give "
-               "tighter priors");
+         recording.shortfall.Remedy());
     return kGateFailed;
   }
   return kGood;

@@ -1,8 +1,10 @@
 #include "finray/calib/design/recording_plan.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "finray/calib/analysis/predicted_frames.h"
@@ -37,6 +39,7 @@ struct StagePlace {
 
 // One drawn finger: what each row tells of it, and how the region is sensed.
 struct RecordingDraw {
+  std::vector<std::string> parameters;       // names of the free ones
   std::vector<Eigen::MatrixXd> information;  // by row; empty: nothing
   std::vector<double> force_N;               // by row; NaN without
   Eigen::MatrixXd by_place, by_force;        // mean of g'g over the region
@@ -129,6 +132,10 @@ RecordingDraw Meet(const KnownFinger& drawn, const Plan& plan,
   }
   const PlannedRecording recording(drawn.finger, plan, contacts,
                                    discretization);
+  const CalibrationParameters& parameters = recording.problem().parameters();
+  for (std::size_t k = 0; k < parameters.free().size(); ++k) {
+    draw.parameters.push_back(parameters.FreeParameter(k).name);
+  }
   std::vector<double> reading_V;
   for (const Gauge& gauge : drawn.finger.gauges) {
     reading_V.push_back(gauge.noise_V);
@@ -175,12 +182,22 @@ struct PredictedErrors {
   std::vector<double> place_mm, force_N;
 
   double Met(const RecordingTarget& target) const {
+    return Met(target, 0, place_mm.size());
+  }
+  // The same of one draw.
+  double MetBy(std::size_t draw, const RecordingTarget& target) const {
+    return Met(target, draw * kErrorsPerDraw, kErrorsPerDraw);
+  }
+
+ private:
+  double Met(const RecordingTarget& target, std::size_t first,
+             std::size_t count) const {
     double met = 0;
-    for (std::size_t i = 0; i < place_mm.size(); ++i) {
+    for (std::size_t i = first; i < first + count; ++i) {
       met += (!target.place_mm || place_mm[i] <= *target.place_mm) &&
              (!target.force_N || force_N[i] <= *target.force_N);
     }
-    return met / static_cast<double>(place_mm.size());
+    return met / static_cast<double>(count);
   }
 };
 
@@ -190,18 +207,30 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
+// What is known of a draw after n rows, each of them recorded `times` times.
+Eigen::MatrixXd InformationAfter(std::size_t rows, double times,
+                                 const KnownFinger& known,
+                                 const RecordingDraw& draw) {
+  Eigen::MatrixXd information = known.information;
+  for (std::size_t i = 0; i < rows; ++i) {
+    if (draw.information[i].size() > 0) {
+      information += times * draw.information[i];
+    }
+  }
+  return information;
+}
+
 PredictedErrors ErrorsAfter(std::size_t rows, const KnownFinger& known,
-                            const std::vector<RecordingDraw>& draws) {
+                            const std::vector<RecordingDraw>& draws,
+                            double times = 1) {
   PredictedErrors errors;
   std::mt19937_64 generator(1);
   std::normal_distribution<double> normal;
   for (const RecordingDraw& draw : draws) {
-    Eigen::MatrixXd information = known.information;
-    for (std::size_t i = 0; i < rows; ++i) {
-      if (draw.information[i].size() > 0) information += draw.information[i];
-    }
     const Eigen::MatrixXd root =
-        Eigen::LLT<Eigen::MatrixXd>(BoundedCovariance(information)).matrixL();
+        Eigen::LLT<Eigen::MatrixXd>(
+            BoundedCovariance(InformationAfter(rows, times, known, draw)))
+            .matrixL();
     for (int k = 0; k < kErrorsPerDraw; ++k) {
       const Eigen::VectorXd d =
           root * Eigen::VectorXd::NullaryExpr(root.cols(), [&](Eigen::Index) {
@@ -214,6 +243,78 @@ PredictedErrors ErrorsAfter(std::size_t rows, const KnownFinger& known,
     }
   }
   return errors;
+}
+
+// Returns the parameter that moves most along the direction in which what is
+// unknown of the finger moves places or forces most.
+std::string LeastKnown(const Eigen::MatrixXd& information,
+                       const RecordingDraw& draw,
+                       const RecordingTarget& target) {
+  const Eigen::MatrixXd root =
+      Eigen::LLT<Eigen::MatrixXd>(BoundedCovariance(information)).matrixL();
+  Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(root.rows(), root.cols());
+  if (target.place_mm) errors += draw.by_place / std::pow(*target.place_mm, 2);
+  if (target.force_N) errors += draw.by_force / std::pow(*target.force_N, 2);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(root.transpose() *
+                                                             errors * root);
+  Eigen::Index most = 0;
+  (root * eigen.eigenvectors().rightCols<1>()).cwiseAbs().maxCoeff(&most);
+  return draw.parameters[static_cast<std::size_t>(most)];
+}
+
+// Says that the finger touches within the limits in less than half of the rows.
+bool IsOutOfReach(const RecordingDraw& draw,
+                  const std::vector<StagePlace>& places) {
+  int planned = 0, told = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    planned += places[i].touches;
+    told += places[i].touches && draw.information[i].size() > 0;
+  }
+  return 2 * told < planned;
+}
+
+RecordingShortfall ShortfallOf(const std::vector<StagePlace>& places,
+                               const KnownFinger& known,
+                               const RecordingTarget& target,
+                               const std::vector<RecordingDraw>& draws) {
+  RecordingShortfall result;
+  result.draws = static_cast<int>(draws.size());
+  const auto errors_with = [&](int times) {
+    return ErrorsAfter(places.size(), known, draws, times);
+  };
+  PredictedErrors errors = errors_with(RecordingShortfall::kMostTimes);
+  result.met = errors.Met(target);
+  if (result.met >= target.confidence) {
+    int times = 2;
+    while (times < RecordingShortfall::kMostTimes &&
+           errors_with(times).Met(target) < target.confidence) {
+      times *= 2;
+    }
+    result.rows = static_cast<std::size_t>(times) * places.size();
+    return result;
+  }
+  std::map<std::string, int> unknown;
+  for (std::size_t k = 0; k < draws.size(); ++k) {
+    if (errors.MetBy(k, target) >= target.confidence) continue;
+    const RecordingDraw& draw = draws[k];
+    ++result.missing;
+    if (std::sqrt(draw.noise_mm2) > target.place_mm.value_or(INFINITY) ||
+        std::sqrt(draw.noise_N2) > target.force_N.value_or(INFINITY)) {
+      ++result.noisy;
+    } else if (IsOutOfReach(draw, places)) {
+      ++result.out_of_reach;
+    } else {
+      ++unknown[LeastKnown(
+          InformationAfter(places.size(), RecordingShortfall::kMostTimes, known,
+                           draw),
+          draw, target)];
+    }
+  }
+  const auto most = std::max_element(
+      unknown.begin(), unknown.end(),
+      [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (most != unknown.end()) result.parameter = most->first;
+  return result;
 }
 
 // Contacts in random order; free rows stay between them, and one ends the
@@ -269,6 +370,9 @@ RecordingPlan PlanRecording(const KnownFinger& known, const Plan& plan,
   }
   result.met = errors.Met(target);
   result.suffices = result.met >= target.confidence;
+  if (!result.suffices) {
+    result.shortfall = ShortfallOf(places, known, target, draws);
+  }
   result.median_mm = Median(errors.place_mm);
   result.median_N = Median(errors.force_N);
   const auto median = [&](double RecordingDraw::*variance) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "finray/calib/design/planned_recording.h"
+#include "finray/calib/design/recording_shortfall.h"
 #include "finray/calib/problem/plan.h"
 #include "finray/scene/stage_frame.h"
 
@@ -64,7 +65,8 @@ struct RecordingPlan {
   /// The share of fingers and recordings that meet the target with so many
   /// rows, and with none.
   double met, met_before;
-  bool suffices;  ///< met >= confidence
+  bool suffices;                 ///< met >= confidence
+  RecordingShortfall shortfall;  ///< Set unless it suffices.
   /// The rms error over the region: of noise alone, and the predicted median
   /// with the calibration's; of place and force.
   double noise_mm, noise_N, median_mm, median_N;
