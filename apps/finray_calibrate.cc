@@ -2,14 +2,12 @@
 
 #include <cstdio>
 #include <memory>
-#include <utility>
 
 #include "app.h"
-#include "finray/calib/analysis/explore.h"
 #include "finray/calib/analysis/plausibility.h"
 #include "finray/calib/analysis/reading_noise.h"
 #include "finray/calib/report/calibration_result.h"
-#include "finray/calib/report/doubts.h"
+#include "finray/calib/report/explored_calibration.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/log_list.h"
 #include "finray/io/yaml_limits.h"
@@ -136,69 +134,37 @@ void PrintSummary(CalibrationProblem& problem,
   }
 }
 
-// Frees what the logs ask for and writes the plan. That plan is then the input,
-// and its command makes the same result.
-Plan ExplorePlan(const Finger& finger, const Plan& plan,
-                 const std::vector<std::string>& paths,
-                 const Discretization& discretization) {
-  CalibrationProblem problem(finger, plan,
-                             ReadCalibrationLogs(paths, finger, plan),
-                             discretization, Threads(FLAGS_threads));
-  problem.set_tolerance_std(FLAGS_tolerance_std);
-  RefuseImplausible(&problem);
-  const Exploration exploration = [&] {
-    Heartbeat heartbeat;
-    problem.TellProgress([&](const std::string& step) { heartbeat.Say(step); });
-    return Explore(&problem);
-  }();
+void PrintExploration(const Exploration& exploration) {
   for (const Exploration::Step& step : exploration.steps) {
     std::printf("explored       %s\n", WordsOf(step).c_str());
   }
   if (!exploration.beyond.empty()) {
     std::printf("explored       ended, as no plan frees this: %s\n",
                 exploration.beyond.c_str());
-  } else if (exploration.steps.empty()) {
+  } else if (exploration.steps.empty() && exploration.failed.empty()) {
     std::printf(
         "explored       the logs show no effect that the plan leaves "
         "out\n");
   }
-  const std::string text = ExploredPlanYaml(
-      FLAGS_plan, ReadWholeFile(FLAGS_plan, "a YAML file", kMostYaml_MiB),
-      exploration);
-  FLAGS_plan = OutPath("plan.yaml");
-  MakeFolder(FLAGS_out_dir);
-  WriteFileAtomically(FLAGS_plan, text);
-  return ReadPlan(FLAGS_plan);
 }
 
-// A problem and its calibration.
-struct Calibration {
-  std::unique_ptr<CalibrationProblem> problem;
-  CalibrationResult result;
-};
-
-Calibration CalibrateWith(const Finger& finger, const Plan& plan,
-                          const std::vector<std::string>& paths,
-                          const Discretization& discretization) {
-  Calibration done;
-  done.problem = std::make_unique<CalibrationProblem>(
-      finger, plan, ReadCalibrationLogs(paths, finger, plan), discretization,
-      Threads(FLAGS_threads));
-  done.problem->set_tolerance_std(FLAGS_tolerance_std);
-  RefuseImplausible(done.problem.get());
-  {
-    Heartbeat heartbeat;
-    done.problem->TellProgress(
-        [&](const std::string& step) { heartbeat.Say(step); });
-    done.result = Calibrate(done.problem.get(), FLAGS_leave_one_log_out);
-  }
-  done.problem->TellProgress({});
+// Calibrates with the plan that --explore ends with, and writes that plan. It
+// is then the input, and its command makes the same result.
+ExploredCalibration ExploreAndCalibrate(const Plan& plan,
+                                        const ProblemOfPlan& problem_of) {
+  ExploredCalibration done = CalibrateExplored(
+      plan, FLAGS_plan, ReadWholeFile(FLAGS_plan, "a YAML file", kMostYaml_MiB),
+      problem_of, FLAGS_leave_one_log_out);
+  PrintExploration(done.exploration);
+  MakeFolder(FLAGS_out_dir);
+  WriteFileAtomically(OutPath("plan.yaml"), done.plan_yaml);
+  if (!done.as_given) FLAGS_plan = OutPath("plan.yaml");
   return done;
 }
 
 int Run() {
   const Finger finger = ReadFinger(Required("finger", FLAGS_finger));
-  Plan plan = ReadPlan(Required("plan", FLAGS_plan));
+  const Plan plan = ReadPlan(Required("plan", FLAGS_plan));
   Required("out_dir", FLAGS_out_dir);
   const auto paths =
       ExpandLogs(SplitList(Required("logs", FLAGS_logs)), FLAGS_out_dir);
@@ -209,22 +175,26 @@ int Run() {
   Scene with_columns = plan.scene;
   with_columns.columns = plan.columns;
   if (DumpConfigFlag(finger, with_columns, discretization)) return kGood;
-  const Plan given = plan;
-  const std::string given_path = FLAGS_plan;
-  if (FLAGS_explore) plan = ExplorePlan(finger, plan, paths, discretization);
-  Calibration done = CalibrateWith(finger, plan, paths, discretization);
-  if (FLAGS_explore && done.result.Verdict() != "good") {
-    Calibration as_given = CalibrateWith(finger, given, paths, discretization);
-    const std::string why = WhyNotAdopted(done.result, as_given.result);
-    if (!why.empty()) {
-      done = std::move(as_given);
-      FLAGS_plan = given_path;
-      done.result.warnings.push_back(
-          {"explored_not_adopted",
-           "the result is that of the given plan: " + why,
-           "look for what the logs have and finray lacks; plan.yaml has the "
-           "freed effects"});
+  ExploredCalibration done;
+  {
+    Heartbeat heartbeat;
+    const auto problem_of = [&](const Plan& with) {
+      auto problem = std::make_unique<CalibrationProblem>(
+          finger, with, ReadCalibrationLogs(paths, finger, with),
+          discretization, Threads(FLAGS_threads));
+      problem->set_tolerance_std(FLAGS_tolerance_std);
+      RefuseImplausible(problem.get());
+      problem->TellProgress(
+          [&](const std::string& step) { heartbeat.Say(step); });
+      return problem;
+    };
+    if (FLAGS_explore) {
+      done = ExploreAndCalibrate(plan, problem_of);
+    } else {
+      done.problem = problem_of(plan);
+      done.result = Calibrate(done.problem.get(), FLAGS_leave_one_log_out);
     }
+    done.problem->TellProgress({});
   }
   CalibrationProblem& problem = *done.problem;
   const CalibrationResult& result = done.result;

@@ -1,9 +1,8 @@
 #include <cmath>
 #include <utility>
 
-#include "finray/calib/analysis/explore.h"
 #include "finray/calib/analysis/plausibility.h"
-#include "finray/calib/report/calibration_result.h"
+#include "finray/calib/report/explored_calibration.h"
 #include "finray/finger/finger_yaml.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/usable_cores.h"
@@ -35,7 +34,7 @@ struct Calibration::Inside {
       : plan(std::move(given)), finger(std::move(start)) {}
 
   Plan plan;
-  bool explored = false;
+  std::string explored_yaml;  // with explore
   CalibrationInputs inputs;
   std::unique_ptr<CalibrationProblem> problem;
   CalibrationResult result;
@@ -70,6 +69,10 @@ CalibrationLogs LogsOf(const std::vector<Table>& logs,
   return ReadCalibrationLogs(tables, finger, plan);
 }
 
+// Ends a calibration from inside. It is no error, so no step that may fail
+// catches it.
+struct Stopped {};
+
 std::unique_ptr<CalibrationProblem> ProblemOf(
     const finray::Finger& finger, const finray::Plan& plan,
     CalibrationLogs logs, const CalibrationOptions& options) {
@@ -79,7 +82,7 @@ std::unique_ptr<CalibrationProblem> ProblemOf(
   problem->set_tolerance_std(options.tolerance_std);
   RefuseImplausible(problem.get());
   problem->TellProgress([options](const std::string& step) {
-    if (options.stop && options.stop()) throw Interrupted();
+    if (options.stop && options.stop()) throw Stopped();
     if (options.progress) options.progress(step);
   });
   return problem;
@@ -105,21 +108,31 @@ Calibration Calibration::Solve(const Finger& finger, const Plan& plan,
     inputs.command = "finray::Calibration::Run";
     inputs.texts[finger.path()] = finger.inside().text;
     const finray::Finger& start = finger.inside().finger;
-    if (options.explore) {
-      const auto problem =
-          ProblemOf(start, plan.inside().plan,
-                    LogsOf(logs, start, plan.inside().plan, &inputs), options);
-      inside->plan = Plan::FromYaml(
-          ExploredPlanYaml(plan.path(), plan.ToYaml(), Explore(problem.get())),
-          plan.path());
-      inside->explored = true;
+    const auto problem_of = [&](const finray::Plan& with) {
+      return ProblemOf(start, with, LogsOf(logs, start, with, &inputs),
+                       options);
+    };
+    const finray::Plan& given = plan.inside().plan;
+    try {
+      if (options.explore) {
+        ExploredCalibration done =
+            CalibrateExplored(given, plan.path(), plan.ToYaml(), problem_of,
+                              options.leave_one_log_out);
+        inside->problem = std::move(done.problem);
+        inside->result = std::move(done.result);
+        if (!done.as_given) {
+          inside->plan = Plan::FromYaml(done.plan_yaml, plan.path());
+        }
+        inside->explored_yaml = std::move(done.plan_yaml);
+      } else {
+        inside->problem = problem_of(given);
+        inside->result =
+            Calibrate(inside->problem.get(), options.leave_one_log_out);
+      }
+    } catch (const Stopped&) {
+      throw Interrupted();
     }
     inputs.texts[plan.path()] = inside->plan.ToYaml();
-    const finray::Plan& used = inside->plan.inside().plan;
-    inside->problem =
-        ProblemOf(start, used, LogsOf(logs, start, used, &inputs), options);
-    inside->result =
-        Calibrate(inside->problem.get(), options.leave_one_log_out);
     inside->problem->TellProgress({});
     inside->finger = Finger(std::make_shared<Finger::Inside>(Finger::Inside{
         inside->result.finger, FingerToYaml(inside->result.finger),
@@ -263,9 +276,9 @@ std::string Calibration::ToYaml() const {
 
 std::string Calibration::Write(const std::string& out_dir, bool report) const {
   return Guarded([&] {
-    if (inside_->explored) {
+    if (!inside_->explored_yaml.empty()) {
       MakeFolder(out_dir);
-      WriteFileAtomically(out_dir + "/plan.yaml", inside_->plan.ToYaml());
+      WriteFileAtomically(out_dir + "/plan.yaml", inside_->explored_yaml);
     }
     return WriteCalibration(*inside_->problem, inside_->result, inside_->inputs,
                             out_dir, report);

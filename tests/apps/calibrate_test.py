@@ -10,11 +10,14 @@ import sys
 import tempfile
 import unittest
 
+import yaml
+
 sys.dont_write_bytecode = True
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BINARIES = pathlib.Path(os.environ.get("FINRAY_BINARY_DIR", ROOT / "build/dev")).resolve()
 FINGER = ROOT / "configs/fingers/paper_140mm.yaml"
 PLAN = ROOT / "configs/plans/force_and_circle.yaml"
+PRINTED = ROOT / "datasets/reality/printed"
 
 
 class CalibrateTest(unittest.TestCase):
@@ -25,6 +28,22 @@ class CalibrateTest(unittest.TestCase):
 
     def run_tool(self, tool, arguments):
         return subprocess.run([BINARIES / f"finray_{tool}", *arguments.split()], cwd=self.folder, capture_output=True, text=True)
+
+    def calibrated(self, logs, finger=FINGER, plan=PLAN, more=""):
+        """Returns the exit code, stderr, and calibration.yaml."""
+        done = self.run_tool("calibrate", f"--finger {finger} --plan {plan} --logs {logs} --report=false --out_dir out {more}")
+        self.assertIn(done.returncode, (0, 4), done.stderr)
+        return done.returncode, done.stderr, yaml.safe_load((self.folder / "out/calibration.yaml").read_text())
+
+    def test_explore_falls_back_to_what_works(self):
+        for load in ("smooth", "rough"):
+            with self.subTest(load):
+                code, _, found = self.calibrated(PRINTED / load / "train.csv", PRINTED / "finger.yaml",
+                                                 PRINTED / "plan_thickness.yaml", "--explore")
+                self.assertEqual(code, 4)
+                self.assertTrue((self.folder / "out/finger.yaml").exists())
+                self.assertTrue((self.folder / "out/plan.yaml").exists())
+                self.assertNotEqual(found["verdict"], "good")
 
     def planned(self, arguments):
         done = self.run_tool("plan", f"--finger {FINGER} --plan {PLAN} --force_max_N 8 --force_N 3 --noreport --out_dir out {arguments}")

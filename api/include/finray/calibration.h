@@ -92,7 +92,8 @@ class FINRAY_API Calibration {
 
   /// The calibrated finger, with its covariance.
   const Finger& finger() const;
-  /// The plan; with explore, the one that it ended with.
+  /// The plan of the result; with explore, the one that it ended with, unless a
+  /// warning `explored_not_adopted` says that the given one is better.
   const Plan& plan() const;
   /// "good", "doubtful", "unidentifiable", "unexplained", "starts_disagree" or
   /// "not_converged". Only the first may be used without a thought.

@@ -2,6 +2,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -19,14 +20,22 @@
 namespace finray {
 namespace {
 
-// The effect may explain frames that were rejected. Where the model cannot be
-// evaluated with other frames, these stay.
-void JudgeAgain(SolvedProblem* at) {
+Exploration::Step* LastFreed(Exploration* exploration) {
+  const auto last =
+      std::find_if(exploration->steps.rbegin(), exploration->steps.rend(),
+                   [](const Exploration::Step& step) { return step.kept; });
+  return last == exploration->steps.rend() ? nullptr : &*last;
+}
+
+// The effect may explain frames that were rejected. Where other frames cannot
+// be solved for, these stay. Returns why.
+std::string JudgeAgain(SolvedProblem* at) {
   const auto rejected = at->problem->rejected();
   const Eigen::VectorXd values = at->problem->Values();
   ContactStore contacts(at->problem);
   contacts.Set(at->solution.contacts);
   SummedSolution solved;
+  std::string why_not;
   try {
     const Outliers outliers =
         FindOutliers(at->solution.at, at->problem, &contacts);
@@ -38,14 +47,73 @@ void JudgeAgain(SolvedProblem* at) {
     at->problem->KeepFriction();
     solved =
         SolveSummed(at->problem->FittedFrames(), {}, at->problem, &contacts);
-  } catch (const std::runtime_error&) {
+    if (!solved.report.converged) {
+      why_not = "the solver stopped early: " + solved.report.message;
+    }
+  } catch (const std::runtime_error& error) {
+    why_not = error.what();
+  }
+  if (!why_not.empty()) {
     at->problem->SetRejected(rejected);
     at->problem->SetValues(values);
-    return;
+    return why_not;
   }
   at->solution.solve = solved.report;
   at->solution.at = std::move(solved.at);
   at->solution.contacts = contacts.all();
+  return "";
+}
+
+// Frees the effect that predicts unseen frames best. Returns false if none
+// does, and leaves the solution as it was.
+bool FreeNext(SolvedProblem* now, Exploration* result) {
+  now->problem->Tell("effects that the plan leaves out");
+  const WideLinearization wide = LinearizeWide(*now->problem, now->solution);
+  const ScoreTest score =
+      TestScores(*now->problem,
+                 AnalyzeIdentifiability(now->problem, now->solution.at), wide);
+  if (score.Best() == nullptr) return false;
+  if (!score.Best()->CanBeFreed()) {
+    result->beyond = score.Best()->words;
+    return false;
+  }
+  const double before = CrossValidatedLogLikelihood(*now->problem, wide);
+  std::vector<ScoreTest::Effect> tried;
+  for (const ScoreTest::Effect& effect : score.effects) {
+    if (effect.significant && effect.CanBeFreed() &&
+        tried.size() < kMostRivals) {
+      tried.push_back(effect);
+    }
+  }
+  std::optional<SolvedProblem> best;
+  std::optional<std::size_t> kept;
+  for (const ScoreTest::Effect& effect : tried) {
+    const CandidateEffect candidate = effect.Candidate();
+    std::string why_not;
+    std::optional<SolvedProblem> with = SolveWith(candidate, *now, &why_not);
+    if (!with) {
+      const std::string failed = std::string("refit with ") +
+                                 FamilyKeyOf(candidate.family) +
+                                 " free: " + why_not + "; it stays fixed";
+      if (std::count(result->failed.begin(), result->failed.end(), failed) ==
+          0) {
+        result->failed.push_back(failed);
+      }
+      continue;
+    }
+    Exploration::Step step{candidate, effect.words, 0, before, 0, false};
+    step.drop = 2 * (now->Cost() - with->Cost());
+    step.after = with->log_likelihood;
+    result->steps.push_back(step);
+    const double bar = kept ? result->steps[*kept].after : before;
+    if (!(step.after > bar)) continue;
+    kept = result->steps.size() - 1;
+    best = std::move(with);
+  }
+  if (!kept) return false;
+  result->steps[*kept].kept = true;
+  *now = std::move(*best);
+  return true;
 }
 
 }  // namespace
@@ -53,47 +121,35 @@ void JudgeAgain(SolvedProblem* at) {
 Exploration Explore(CalibrationProblem* problem) {
   Exploration result;
   SolvedProblem now{problem, nullptr, SolveRobustly(problem)};
+  std::string free;
   while (now.solution.solve.converged && !now.solution.at.frames.empty()) {
-    now.problem->Tell("effects that the plan leaves out");
-    const WideLinearization wide = LinearizeWide(*now.problem, now.solution);
-    const ScoreTest score =
-        TestScores(*now.problem,
-                   AnalyzeIdentifiability(now.problem, now.solution.at), wide);
-    if (score.Best() == nullptr) break;
-    if (!score.Best()->CanBeFreed()) {
-      result.beyond = score.Best()->words;
+    try {
+      if (!FreeNext(&now, &result)) break;
+    } catch (const std::runtime_error& error) {
+      result.failed.push_back("search for effects" + free + ": " +
+                              error.what() + "; no more are freed");
       break;
     }
-    const double before = CrossValidatedLogLikelihood(*now.problem, wide);
-    std::vector<ScoreTest::Effect> tried;
-    for (const ScoreTest::Effect& effect : score.effects) {
-      if (effect.significant && effect.CanBeFreed() &&
-          tried.size() < kMostRivals) {
-        tried.push_back(effect);
-      }
+    free =
+        std::string(" after ") + FamilyKeyOf(LastFreed(&result)->effect.family);
+    const std::string why_not = JudgeAgain(&now);
+    if (!why_not.empty()) {
+      result.failed.push_back("judging outliers again" + free + ": " + why_not +
+                              "; they stay as they were");
     }
-    std::optional<SolvedProblem> best;
-    std::optional<std::size_t> kept;
-    for (const ScoreTest::Effect& effect : tried) {
-      const CandidateEffect candidate = effect.Candidate();
-      std::optional<SolvedProblem> with = SolveWith(candidate, now);
-      if (!with) continue;
-      Exploration::Step step{candidate, effect.words, 0, before, 0, false};
-      step.drop = 2 * (now.Cost() - with->Cost());
-      step.after = with->log_likelihood;
-      result.steps.push_back(step);
-      const double bar = kept ? result.steps[*kept].after : before;
-      if (!(step.after > bar)) continue;
-      kept = result.steps.size() - 1;
-      best = std::move(with);
-    }
-    if (!kept) break;
-    result.steps[*kept].kept = true;
-    now = std::move(*best);
-    JudgeAgain(&now);
   }
   result.plan = now.problem->plan();
   return result;
+}
+
+bool FixLast(const std::string& why, Exploration* exploration) {
+  Exploration::Step* last = LastFreed(exploration);
+  if (last == nullptr) return false;
+  last->kept = false;
+  exploration->failed.push_back(std::string("calibration with ") +
+                                FamilyKeyOf(last->effect.family) +
+                                " free: " + why + "; it stays fixed");
+  return true;
 }
 
 std::string WordsOf(const Exploration::Step& step) {

@@ -25,6 +25,9 @@ struct Exploration {
   /// mid-log. Empty if there is no such thing. What stands in for it would
   /// deceive, so nothing is freed any more.
   std::string beyond;
+  /// Steps that failed, each with the reason. What was solved before them
+  /// stands.
+  std::vector<std::string> failed;
   Plan plan;  ///< With the kept effects free.
 };
 
@@ -33,8 +36,12 @@ struct Exploration {
 /// one that predicts unseen frames best, if any predicts them
 /// better than the plan did. Outliers are judged again after each. It ends when
 /// no effect is significant or none is kept. A clean log frees nothing but by
-/// ScoreTest::kSignificant.
+/// ScoreTest::kSignificant. A step that fails leaves the solution before it.
+/// Throws std::runtime_error if there is not even the first one.
 Exploration Explore(CalibrationProblem* problem);
+
+/// Fixes what was freed last, for a reason. Returns false if nothing is free.
+bool FixLast(const std::string& why, Exploration* exploration);
 
 /// Says in one line what a step did.
 std::string WordsOf(const Exploration::Step& step);

@@ -1,5 +1,6 @@
 #include "finray/calib/analysis/refit.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -16,32 +17,42 @@ namespace {
 // and a refit with it explains everything.
 constexpr double kRival = 0.2;
 
-// Says whether the values of an effect are possible within 3 std.
-bool IsPossible(const CandidateEffect& effect, const Linearization& at,
-                const CalibrationParameters& parameters) {
-  if (std::isinf(effect.least)) return true;
-  const Eigen::VectorXd unit = parameters.Units();
-  const Eigen::MatrixXd covariance = BoundedCovariance(
-      InUnits(SumsWithPriors(at, parameters).information, unit));
-  for (Eigen::Index k = 0; k < unit.size(); ++k) {
-    const CalibrationParameter& p =
-        parameters.FreeParameter(static_cast<std::size_t>(k));
-    if (FrontFamilyOf(p.family) != effect.family) continue;
-    const double std = unit[k] * std::sqrt(covariance(k, k));
-    const double value = p.Value(*p.variable);
-    if (value + 3 * p.ValueStd(*p.variable, std) < effect.least) return false;
-  }
-  return true;
+double LeastOf(ParameterFamily family) {
+  const std::vector<CandidateEffect>& all = AllCandidateEffects();
+  const auto effect =
+      std::find_if(all.begin(), all.end(), [&](const CandidateEffect& other) {
+        return other.family == FrontFamilyOf(family);
+      });
+  return effect == all.end() ? -INFINITY : effect->least;
 }
 
 }  // namespace
+
+std::string ImpossibleValue(const SolvedProblem& at) {
+  const CalibrationParameters& parameters = at.problem->parameters();
+  const Eigen::VectorXd unit = parameters.Units();
+  const Eigen::MatrixXd covariance = BoundedCovariance(
+      InUnits(SumsWithPriors(at.solution.at, parameters).information, unit));
+  for (Eigen::Index k = 0; k < unit.size(); ++k) {
+    const CalibrationParameter& p =
+        parameters.FreeParameter(static_cast<std::size_t>(k));
+    const double std = unit[k] * std::sqrt(covariance(k, k));
+    const double value = p.Value(*p.variable);
+    if (!std::isfinite(value) ||
+        value + 3 * p.ValueStd(*p.variable, std) < LeastOf(p.family)) {
+      return p.name;
+    }
+  }
+  return "";
+}
 
 double SolvedProblem::Cost() const {
   return SumsWithPriors(solution.at, problem->parameters()).cost;
 }
 
 std::optional<SolvedProblem> SolveWith(const CandidateEffect& effect,
-                                       const SolvedProblem& from) {
+                                       const SolvedProblem& from,
+                                       std::string* why_not) {
   SolvedProblem with;
   with.owned = from.problem->WithPlan(Freed(from.problem->plan(), effect));
   with.problem = with.owned.get();
@@ -50,14 +61,22 @@ std::optional<SolvedProblem> SolveWith(const CandidateEffect& effect,
   try {
     SummedSolution solved =
         SolveSummed(from.solution.at.frames, {}, with.problem, &contacts);
-    if (!solved.report.converged) return {};
-    if (!IsPossible(effect, solved.at, with.problem->parameters())) return {};
+    if (!solved.report.converged) {
+      *why_not = "the solver stopped early: " + solved.report.message;
+      return {};
+    }
     with.solution.solve = solved.report;
     with.solution.at = std::move(solved.at);
     with.solution.contacts = contacts.all();
+    const std::string impossible = ImpossibleValue(with);
+    if (!impossible.empty() && ImpossibleValue(from).empty()) {
+      *why_not = "it ends at an impossible value of " + impossible;
+      return {};
+    }
     with.log_likelihood = CrossValidatedLogLikelihood(
         *with.problem, LinearizeFolds(*with.problem, with.solution));
-  } catch (const std::runtime_error&) {
+  } catch (const std::runtime_error& error) {
+    *why_not = error.what();
     return {};
   }
   return with;
@@ -76,7 +95,8 @@ std::vector<Refit> RefitRivals(const SolvedProblem& from,
   std::vector<Refit> refits;
   if (rivals.size() < 2) return refits;
   for (const ScoreTest::Effect* rival : rivals) {
-    const auto with = SolveWith(rival->Candidate(), from);
+    std::string why_not;
+    const auto with = SolveWith(rival->Candidate(), from, &why_not);
     if (!with) continue;
     Refit refit{rival->family,
                 2 * (from.Cost() - with->Cost()),

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "finray/calib/analysis/score_test.h"
@@ -27,11 +28,16 @@ struct SolvedProblem {
   double Cost() const;
 };
 
-/// Solves the same frames with the effect free as well. Returns nothing if the
-/// solver does not get there, or to where the model cannot be evaluated, or to
-/// values that are 3 std below the least that is possible.
+/// Returns the name of a free parameter at an impossible value: no number, or 3
+/// std below the least that a finger or bench has. Empty if there is none.
+std::string ImpossibleValue(const SolvedProblem& at);
+
+/// Solves the same frames with the effect free as well. Returns nothing, and
+/// says why not, if the solver does not get there, or to where the model cannot
+/// be evaluated, or to an ImpossibleValue where `from` has none.
 std::optional<SolvedProblem> SolveWith(const CandidateEffect& effect,
-                                       const SolvedProblem& from);
+                                       const SolvedProblem& from,
+                                       std::string* why_not);
 
 /// The score test extrapolates from one point, and far from the truth it may
 /// rank a wrong effect first. Solves with each of the best effects

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <future>
 #include <memory>
+#include <optional>
+#include <stdexcept>
 
 #include "finray/calib/analysis/reading_noise.h"
 #include "finray/calib/analysis/refit.h"
@@ -323,15 +325,86 @@ std::string CalibrationResult::Verdict() const {
   return doubts.empty() ? "good" : "doubtful";
 }
 
+namespace {
+
+// Runs a step without which the solution stands. Returns why it failed, which a
+// warning says, or "".
+template <class Step>
+std::string Try(const char* name, const Step& step,
+                std::vector<Warning>* warnings) {
+  try {
+    step();
+    return "";
+  } catch (const std::runtime_error& error) {
+    warnings->push_back(
+        {"step_failed",
+         std::string(name) + ": " + error.what() +
+             "; the result is that of the solve, without this step",
+         "start from a finger closer to the truth, give priors, or leave out "
+         "rows with unusual forces"});
+    return error.what();
+  }
+}
+
+template <class Step>
+void TryTest(const char* name, CalibrationResult* result, const Step& step) {
+  const std::string why = Try(name, step, &result->warnings);
+  if (!why.empty()) {
+    result->not_tested.push_back(name + (" (" + why + ")"));
+  }
+}
+
+// What frames say that the rest of them predicts: effects that the plan leaves
+// out, cross-validated forces, what the model still misses.
+void TestUnseen(CalibrationProblem* problem, const Identifiability& of_noise,
+                const FrameEstimator* estimator, CalibrationResult* result) {
+  std::optional<WideLinearization> wide;
+  TryTest("effects that the plan leaves out", result, [&] {
+    problem->Tell("effects that the plan leaves out");
+    wide = LinearizeWide(*problem, result->solution);
+    result->score = TestScores(*problem, result->identifiability, *wide);
+    if (result->score.Best() == nullptr) return;
+    const SolvedProblem at{problem, nullptr, result->solution,
+                           CrossValidatedLogLikelihood(*problem, *wide)};
+    result->score = TestScores(*problem, result->identifiability, *wide,
+                               RefitRivals(at, result->score));
+  });
+  if (!wide) return;
+  if (problem->plan().holdout_by == HoldoutBy::kNothing) {
+    TryTest("cross-validation", result, [&] {
+      result->cross_validation =
+          CrossValidate(*problem, result->identifiability, *wide, estimator);
+    });
+  }
+  TryTest("model error", result, [&] {
+    const HeldOutErrors errors =
+        GaugeErrorsOf(*problem, result->solution, of_noise, *wide);
+    tbb::task_arena(problem->threads()).execute([&] {
+      result->discrepancy = FitDiscrepancy(errors);
+    });
+  });
+  if (!result->discrepancy || result->cross_validation.folds == 0) return;
+  TryTest("cross-validation with the model error", result, [&] {
+    result->with_discrepancy = CrossValidate(*problem, of_noise, *wide,
+                                             estimator, result->discrepancy);
+  });
+}
+
+}  // namespace
+
 CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
   CalibrationResult result;
   result.solution = SolveRobustly(problem);
-  ZeroHeldOutLogs(problem);
-  DecideHeldOut(problem);
+  TryTest("hold-out", &result, [&] {
+    ZeroHeldOutLogs(problem);
+    DecideHeldOut(problem);
+  });
   problem->Tell("uncertainty");
   result.identifiability = AnalyzeIdentifiability(problem, result.solution.at);
-  result.residual_correlation = AnalyzeResidualCorrelation(
-      problem->logs(), result.solution.at, result.identifiability);
+  TryTest("correlation of residuals", &result, [&] {
+    result.residual_correlation = AnalyzeResidualCorrelation(
+        problem->logs(), result.solution.at, result.identifiability);
+  });
   const Identifiability of_noise = result.identifiability;
   // One estimator serves all checks: they differ in what they say of errors
   // only. With several threads its tables are made beside the advice.
@@ -341,39 +414,26 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
       problem->threads() > 1 ? std::launch::async : std::launch::deferred,
       [&] { return SensingEstimator(*problem, solved); });
   EnlargeStd(result.residual_correlation, &result.identifiability);
-  problem->Tell("what to record next");
-  result.next =
-      AdviseNextFrames(problem, result.solution, &result.identifiability);
+  Try(
+      "what to record next",
+      [&] {
+        problem->Tell("what to record next");
+        result.next =
+            AdviseNextFrames(problem, result.solution, &result.identifiability);
+      },
+      &result.warnings);
   if (leave_logs_out) {
-    result.leave_one_log_out =
-        LeaveLogsOut(problem, result.solution, result.identifiability);
-  }
-  std::unique_ptr<const FrameEstimator> estimator = tables.get();
-  if (result.solution.solve.converged && !result.solution.at.frames.empty()) {
-    problem->Tell("effects that the plan leaves out");
-    const WideLinearization wide = LinearizeWide(*problem, result.solution);
-    result.score = TestScores(*problem, result.identifiability, wide);
-    if (result.score.Best() != nullptr) {
-      const SolvedProblem at{problem, nullptr, result.solution,
-                             CrossValidatedLogLikelihood(*problem, wide)};
-      result.score = TestScores(*problem, result.identifiability, wide,
-                                RefitRivals(at, result.score));
-    }
-    if (problem->plan().holdout_by == HoldoutBy::kNothing) {
-      result.cross_validation = CrossValidate(*problem, result.identifiability,
-                                              wide, estimator.get());
-    }
-    const HeldOutErrors errors =
-        GaugeErrorsOf(*problem, result.solution, of_noise, wide);
-    tbb::task_arena(problem->threads()).execute([&] {
-      result.discrepancy = FitDiscrepancy(errors);
+    TryTest("agreement of the logs", &result, [&] {
+      result.leave_one_log_out =
+          LeaveLogsOut(problem, result.solution, result.identifiability);
     });
-    if (result.discrepancy && result.cross_validation.folds > 0) {
-      result.with_discrepancy = CrossValidate(
-          *problem, of_noise, wide, estimator.get(), result.discrepancy);
-    }
   }
-  problem->Tell("check of forces and contacts");
+  std::unique_ptr<const FrameEstimator> estimator;
+  TryTest("forces from gauges alone", &result,
+          [&] { estimator = tables.get(); });
+  if (result.solution.solve.converged && !result.solution.at.frames.empty()) {
+    TestUnseen(problem, of_noise, estimator.get(), &result);
+  }
   result.finger = problem->parameters().Apply(problem->finger());
   // What enlarges the std is in the discrepancy already, if there is one.
   KeepCovariance(problem->parameters(),
@@ -385,8 +445,11 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
   if (estimator && result.finger.calibration) {
     estimator = estimator->WithErrorsOf(*result.finger.calibration);
   }
-  result.forces = CheckForces(problem, result.finger, estimator.get(),
-                              result.solution.contacts);
+  TryTest("check of forces and contacts", &result, [&] {
+    problem->Tell("check of forces and contacts");
+    result.forces = CheckForces(problem, result.finger, estimator.get(),
+                                result.solution.contacts);
+  });
   result.bench =
       TestBenchLinearity(problem->finger(), problem->plan(), problem->logs());
   result.free_scatter = MeasureFreeScatter(

@@ -43,6 +43,9 @@ struct CalibrationResult {
   /// As cross_validation, with the discrepancy in the intervals; not done
   /// without one, nor with a hold-out.
   CrossValidation with_discrepancy;
+  /// Tests that could not be made, with the reason. A test that is not made
+  /// shows nothing, so each is a doubt.
+  std::vector<std::string> not_tested;
   /// Why the result is doubtful, in words (doubts.h).
   std::vector<std::string> doubts;
   Finger finger;  ///< The calibrated finger.
@@ -66,6 +69,8 @@ struct CalibrationResult {
 
 /// Solves the problem, analyses it and checks it against the references.
 /// `leave_logs_out` repeats the solve without each log, if there are several.
+/// Throws std::runtime_error if there is no solution. What fails behind it
+/// leaves the solution, and a warning `step_failed`.
 CalibrationResult Calibrate(CalibrationProblem* problem,
                             bool leave_logs_out = false);
 

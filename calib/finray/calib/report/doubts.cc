@@ -140,6 +140,9 @@ std::vector<std::string> FindDoubts(const CalibrationProblem& problem,
   if (result.score.Best() != nullptr) {
     doubts.push_back("the plan leaves out an effect that the logs show");
   }
+  for (const std::string& test : result.not_tested) {
+    doubts.push_back("not tested: " + test);
+  }
   return doubts;
 }
 

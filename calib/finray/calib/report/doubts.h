@@ -21,7 +21,8 @@ namespace finray {
 ///  - rejected frames are of the same forces, places and rows as the fitted
 ///    ones: the rank sums of Mann and Whitney differ by less than kRanksApart
 ///    std;
-///  - the score test finds no effect that the plan leaves out.
+///  - the score test finds no effect that the plan leaves out;
+///  - all of these tests could be made.
 /// Too wide intervals and a chi2 below its degrees of freedom are warnings, not
 /// doubts: a plan's std that are too large are on the safe side.
 std::vector<std::string> FindDoubts(const CalibrationProblem& problem,
