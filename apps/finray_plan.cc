@@ -171,6 +171,7 @@ int Run() {
       "frame alone is %.3g mm and %.3g N, at worst %.3g mm and %.3g N\n",
       recording.median_mm, recording.median_N, recording.noise_mm,
       recording.noise_N, recording.worst_mm, recording.worst_N);
+  if (!known.copies.empty()) Warn(known.copies, kCopiesRemedy);
   if (!logs.empty() && known.rows < kLeastRows) {
     Warn(
         FormatText("--from has %zu row%s that can be fitted, which tell%s next "

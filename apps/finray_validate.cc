@@ -241,9 +241,10 @@ int Run() {
   // are a row.
   whole.gauge_std_V.reset();
   const CalibrationLogs logs = ReadCalibrationLogs(paths, finger, whole);
+  if (!logs.copies.empty()) Warn(logs.copies, kCopiesRemedy);
   const Validation validation = Validate(
       finger, baseline, whole, logs, discretization, Threads(FLAGS_threads));
-  WarnOfParametersOfLogs(plan, validation.stages.size() == paths.size());
+  WarnOfParametersOfLogs(plan, validation.stages.size() == logs.paths.size());
   WarnOfStages(logs, validation.stages);
   const std::vector<Gate> gates = CheckGates(validation, bounds);
 

@@ -2,6 +2,7 @@
 """finray_calibrate and finray_plan where something does not work out: what works is written, and a line says what does
 not and what helps."""
 
+import csv
 import os
 import pathlib
 import re
@@ -17,6 +18,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 BINARIES = pathlib.Path(os.environ.get("FINRAY_BINARY_DIR", ROOT / "build/dev")).resolve()
 FINGER = ROOT / "configs/fingers/paper_140mm.yaml"
 PLAN = ROOT / "configs/plans/force_and_circle.yaml"
+TRAIN = ROOT / "datasets/simulated_r15/train.csv"
 PRINTED = ROOT / "datasets/reality/printed"
 
 
@@ -44,6 +46,44 @@ class CalibrateTest(unittest.TestCase):
                 self.assertTrue((self.folder / "out/finger.yaml").exists())
                 self.assertTrue((self.folder / "out/plan.yaml").exists())
                 self.assertNotEqual(found["verdict"], "good")
+
+    def test_rows_written_twice_count_once(self):
+        with open(TRAIN) as file:
+            header, *rows = csv.reader(file)
+        half = 0.05
+        later = [[repr(float(row[0]) + half), *row[1:]] for row in rows]
+        copies = {"each.csv": [row for row in rows for _ in range(2)],
+                  "later.csv": [row for pair in zip(rows, later) for row in pair],
+                  "whole.csv": rows + rows,
+                  "after.csv": rows + [[repr(float(row[0]) + 100), *row[1:]] for row in rows]}
+        for name, written in copies.items():
+            with open(self.folder / name, "w", newline="") as file:
+                csv.writer(file).writerows([header, *written])
+        once = self.calibrated(TRAIN)[2]
+        self.assertFalse([w for w in once["warnings"] if w["code"] == "rows_written_twice"])
+        second = {"each.csv": "each.csv row 2 those of each.csv row 1", "later.csv": "later.csv row 2 those of later.csv row 1",
+                  "whole.csv": "whole.csv row 211 those of whole.csv row 1", "after.csv": "after.csv row 211 those of after.csv row 1"}
+        second[f"{TRAIN},{self.folder}/each.csv"] = "each.csv row 1 those of train.csv row 1"
+        for logs, words in second.items():
+            with self.subTest(logs):
+                code, errors, found = self.calibrated(logs)
+                self.assertEqual(code, 0, errors)
+                self.assertIn(f"rows have all the numbers of an earlier row, first {words}; they count once", errors)
+                self.assertEqual(found["parameters"], once["parameters"])
+        self.assertIn("; nothing is left of each.csv", errors)
+
+    def test_noise_told_twice_too_large_is_not_good(self):
+        finger = self.folder / "loud.yaml"
+        finger.write_text(re.sub(r"noise_V: ([0-9.e-]+)", lambda found: f"noise_V: {2 * float(found[1])}", FINGER.read_text()))
+        code, errors, found = self.calibrated(TRAIN, finger)
+        self.assertEqual((code, found["verdict"]), (4, "doubtful"))
+        self.assertRegex(errors, r"likeliest cause: the noise that is stated is too large; gauge residuals are 0\.[45]")
+        self.assertRegex(errors, r"noise_V of the gauges times 0\.(4[5-9]|5[0-5]) fits")
+        plan = self.folder / "loud_plan.yaml"
+        plan.write_text(PLAN.read_text().replace("force_std_N: 0.02", "force_std_N: 0.04"))
+        code, errors, _ = self.calibrated(TRAIN, plan=plan)
+        self.assertEqual(code, 4)
+        self.assertRegex(errors, r"force residuals are 0\.[45].*force_std_N: 0.0(1[6-9]|2[0-4]?) instead of 0.04 fits")
 
     def planned(self, arguments):
         done = self.run_tool("plan", f"--finger {FINGER} --plan {PLAN} --force_max_N 8 --force_N 3 --noreport --out_dir out {arguments}")

@@ -21,7 +21,7 @@ TEST(ExtremesTest, WithoutNoiseTenDigits) {
   c.force_std_N = c.object_std_mm = 0;
   c.plan = WithoutPriors(c.plan);
   const CalibrationOutcome outcome = RunCalibration(c, 1);
-  ExpectVerdict(outcome, "good 0, noise_below_plan");
+  ExpectVerdict(outcome, "doubtful 4, noise_below_plan");
   EXPECT_LT(outcome.stiffness, 3e-10);
   EXPECT_LT(outcome.gain, 3e-10);
   EXPECT_LT(outcome.rib_mm, 3e-9);

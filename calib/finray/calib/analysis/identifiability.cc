@@ -278,6 +278,12 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
   return result;
 }
 
+bool Identifiability::Noise::IsTooQuiet() const {
+  if (dof < kEnoughDof || !(chi2 < kTooQuiet * dof)) return false;
+  const double variance = 2 / (9 * dof);
+  return std::cbrt(chi2 / dof) < 1 - variance - kSurely * std::sqrt(variance);
+}
+
 void KeepCovariance(const CalibrationParameters& parameters,
                     const Identifiability& found, Finger* finger) {
   ParameterCovariance covariance;

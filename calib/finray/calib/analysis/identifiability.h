@@ -88,6 +88,12 @@ struct Identifiability {
     int residuals = 0;
     double dof = 0;  ///< Residuals less what was fitted to them.
     double chi2 = 0;
+
+    /// Says that the stated std is too large: chi2 / dof is below kTooQuiet,
+    /// and honest noise makes it so in less than one of 10^4 calibrations, by
+    /// the cube root of Wilson and Hilferty.
+    bool IsTooQuiet() const;
+    static constexpr double kEnoughDof = 5, kTooQuiet = 0.5, kSurely = 3.72;
   };
   std::array<Noise, kResidualFamilies> noise;
 };

@@ -77,6 +77,7 @@ KnownFinger FromLogs(const Finger& finger, const Plan& plan,
   CalibrationParameters& parameters = problem.parameters();
   KnownFinger known;
   known.rows = problem.FittedFrames().size();
+  known.copies = problem.logs().copies;
   known.finger = parameters.Apply(finger);
   const std::vector<double> reading_V = ReadingNoise_V(problem);
   for (std::size_t j = 0; j < finger.gauges.size(); ++j) {

@@ -38,7 +38,8 @@ struct KnownFinger {
   /// The information on the free parameters of a PlannedRecording of this
   /// finger, in their units.
   Eigen::MatrixXd information;
-  std::size_t rows = 0;  ///< Rows of logs that told it.
+  std::size_t rows = 0;     ///< Rows of logs that told it.
+  std::string copies = {};  ///< CalibrationLogs::copies of these logs.
 };
 KnownFinger FromDrawing(const Finger& finger, const Plan& plan,
                         const Discretization& discretization);

@@ -11,6 +11,7 @@
 #include "finray/io/frame_table.h"
 #include "finray/io/frame_vocabulary.h"
 #include "finray/io/message_text.h"
+#include "finray/io/nan.h"
 #include "finray/io/number_text.h"
 #include "finray/scene/frame_columns.h"
 #include "finray/scene/measurement_columns.h"
@@ -393,12 +394,12 @@ CalibrationLogs MakeLogs(const std::vector<std::string>& paths,
   logs.paths = paths;
   logs.names = NamesOf(paths);
   ReadingScatter scatter(finger.gauges.size());
+  std::vector<std::vector<double>> times_s;  // NaN for the bench
   for (std::size_t log = 0; log < paths.size(); ++log) {
     const FrameTable& rows = table(log);
     scatter.Add(rows);
-    logs.times.push_back(IsBenchLog(rows)
-                             ? RowTimes()
-                             : RowTimes::Of(rows.NumbersOrNan("time_s")));
+    times_s.push_back(IsBenchLog(rows) ? std::vector<double>(rows.rows(), kNaN)
+                                       : rows.NumbersOrNan("time_s"));
     for (CalibrationFrame& frame : ReadLog(rows, finger, plan)) {
       frame.log = static_cast<int>(log);
       const Touch touch = TouchOf(frame, finger, plan);
@@ -411,6 +412,7 @@ CalibrationLogs MakeLogs(const std::vector<std::string>& paths,
       logs.frames.push_back(std::move(frame));
     }
   }
+  LeaveOutCopies(std::move(times_s), &logs);
   logs.reading_std_V = scatter.Std_V();
   RefuseWithoutMeasurements(plan, logs);
   MarkHoldout(plan, &logs);

@@ -59,6 +59,9 @@ struct CalibrationLogs {
   std::vector<double> reading_std_V;
   /// How time_s runs in each log; those of the bench need no time.
   std::vector<RowTimes> times;
+  /// Says which rows were written twice and are left out (repeated_rows.h);
+  /// empty if there are none.
+  std::string copies;
 
   /// Says for each log whether all its rows are held out.
   std::vector<bool> HeldOut() const;
@@ -72,6 +75,10 @@ bool AnyFitted(const CalibrationLogs& logs, int log, const Has& has) {
                        return frame.log == log && !frame.held_out && has(frame);
                      });
 }
+
+/// What to do about CalibrationLogs::copies.
+inline constexpr char kCopiesRemedy[] =
+    "look at what writes the log; a row that repeats another tells nothing new";
 
 /// Reads the logs and decides row by row whether the finger touches. The first
 /// of these measurements that the row has decides:

@@ -19,15 +19,43 @@
 namespace finray {
 namespace {
 
-// If chi2 / dof is beyond these, a std in the plan is wrong.
+// If chi2 / dof is above it, a std in the plan is wrong.
 constexpr double kTooNoisy = 2;
-constexpr double kTooQuiet = 0.5;
-constexpr double kEnoughDof = 5;
 
-void WarnOfNoise(const Identifiability& found, std::vector<Warning>* warnings) {
+// The std of the family that the plan or the finger states, times a factor.
+std::string StdInWords(ResidualFamily family, const CalibrationProblem& problem,
+                       double times) {
+  const Plan& plan = problem.plan();
+  const auto words = [times](const char* key, std::optional<double> std) {
+    return std ? FormatText(": %s: %.2g instead of %.2g fits", key,
+                            times * *std, *std)
+               : "";
+  };
+  switch (family) {
+    case ResidualFamily::kGauge:
+      return plan.gauge_std_V
+                 ? words("gauge_std_V", plan.gauge_std_V)
+                 : FormatText(": noise_V of the gauges times %.2f fits", times);
+    case ResidualFamily::kForce:
+      return words("force_std_N", plan.force_std_N);
+    case ResidualFamily::kObject:
+      return words("object_std_mm", plan.object_std_mm);
+    case ResidualFamily::kContact:
+      return words("contact_std_mm", plan.contact_std_mm);
+    case ResidualFamily::kPin:
+      return words("pin_std_mm", plan.pin_std_mm);
+    case ResidualFamily::kTip:
+      return words("tip_std_mm", plan.tip_std_mm);
+    default:
+      return "";
+  }
+}
+
+void WarnOfNoise(const CalibrationProblem& problem,
+                 const Identifiability& found, std::vector<Warning>* warnings) {
   for (int i = 0; i < kResidualFamilies; ++i) {
     const Identifiability::Noise& noise = found.noise[i];
-    if (noise.dof < kEnoughDof) continue;
+    if (noise.dof < Identifiability::Noise::kEnoughDof) continue;
     const double ratio = noise.chi2 / noise.dof;
     const std::string name = ResidualFamilyName(static_cast<ResidualFamily>(i));
     if (ratio > kTooNoisy) {
@@ -41,15 +69,17 @@ void WarnOfNoise(const Identifiability& found, std::vector<Warning>* warnings) {
            "look at the residuals by frame for outliers or a wrong model; "
            "raise "
            "the std in the plan's measurements if the sensor is that noisy"});
-    } else if (ratio < kTooQuiet) {
+    } else if (noise.IsTooQuiet()) {
       warnings->push_back(
           {"noise_below_plan",
-           name + FormatText(
-                      " residuals are %.2f of what their std says (chi2/dof "
-                      "%.3g)",
-                      std::sqrt(ratio), ratio),
-           "lower the std in the plan's measurements; reported std are too "
-           "large"});
+           name +
+               FormatText(
+                   " residuals are %.2f of what their std says (chi2/dof "
+                   "%.3g)",
+                   std::sqrt(ratio), ratio) +
+               StdInWords(static_cast<ResidualFamily>(i), problem,
+                          std::sqrt(ratio)),
+           "lower that std; reported std are too large"});
     }
   }
 }
@@ -316,7 +346,7 @@ std::string CalibrationResult::Verdict() const {
     const Identifiability::Noise& noise = identifiability.noise[i];
     // Gauges that are not linear on the bench have a warning of their own.
     if (i == static_cast<int>(ResidualFamily::kBench)) continue;
-    if (noise.dof >= kEnoughDof &&
+    if (noise.dof >= Identifiability::Noise::kEnoughDof &&
         noise.chi2 > kUnexplained * kUnexplained * noise.dof) {
       return "unexplained";
     }
@@ -472,13 +502,17 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
          "(object_x_mm, object_y_mm) or the contact location (contact_1_mm)"});
   }
   WarnOfTimes(*problem, &result.warnings);
+  if (!problem->logs().copies.empty()) {
+    result.warnings.push_back(
+        {"rows_written_twice", problem->logs().copies, kCopiesRemedy});
+  }
   WarnOfStarts(result.solution, &result.warnings);
   WarnOfOutliers(*problem, result.solution, &result.warnings);
   WarnOfWeakness(*problem, result.identifiability, &result.warnings);
   // Behind the line before: these parameters have warnings of their own.
   FindUnsupported(*problem, &result.identifiability, &result.warnings);
   WarnOfFewRows(result, &result.warnings);
-  WarnOfNoise(result.identifiability, &result.warnings);
+  WarnOfNoise(*problem, result.identifiability, &result.warnings);
   WarnOfCorrelation(*problem, result.residual_correlation, &result.warnings);
   WarnOfDisagreement(*problem, result.leave_one_log_out, &result.warnings);
   WarnOfForces(result.forces, problem->plan().force_std_N, &result.warnings);

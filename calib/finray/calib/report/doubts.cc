@@ -46,6 +46,19 @@ void DoubtChi2(const Identifiability& found, std::vector<std::string>* doubts) {
                  chi2, dof, (chi2 - dof) / std::sqrt(2 * dof)));
 }
 
+void DoubtQuiet(const Identifiability& found,
+                std::vector<std::string>* doubts) {
+  for (const ResidualFamily family :
+       {ResidualFamily::kGauge, ResidualFamily::kForce}) {
+    const Identifiability::Noise& noise = found.noise[static_cast<int>(family)];
+    if (!noise.IsTooQuiet()) continue;
+    doubts->push_back(
+        std::string(ResidualFamilyName(family)) +
+        FormatText(" residuals are %.2f of what their std says (chi2/dof %.3g)",
+                   std::sqrt(noise.chi2 / noise.dof), noise.chi2 / noise.dof));
+  }
+}
+
 void DoubtPriors(const CalibrationParameters& parameters,
                  std::vector<std::string>* doubts) {
   std::string far;
@@ -134,6 +147,7 @@ std::vector<std::string> FindDoubts(const CalibrationProblem& problem,
   std::vector<std::string> doubts;
   DoubtCoverage(result, &doubts);
   DoubtChi2(result.identifiability, &doubts);
+  DoubtQuiet(result.identifiability, &doubts);
   DoubtPriors(problem.parameters(), &doubts);
   DoubtImpossible(problem.parameters(), result.identifiability, &doubts);
   DoubtRejected(problem, &doubts);
@@ -151,9 +165,13 @@ void WarnOfDoubts(CalibrationResult* result) {
   if (result->Verdict() == "good" || (!effect && result->doubts.empty())) {
     return;
   }
-  std::string text =
-      "likeliest cause: " + (effect ? result->score.Words()
-                                    : "none of the effects that finray knows");
+  std::vector<std::string> quiet;
+  DoubtQuiet(result->identifiability, &quiet);
+  const bool only_quiet = !effect && quiet == result->doubts;
+  std::string text = "likeliest cause: " +
+                     (effect       ? result->score.Words()
+                      : only_quiet ? "the noise that is stated is too large"
+                                   : "none of the effects that finray knows");
   for (const std::string& doubt : result->doubts) text += "; " + doubt;
   // The scatter of free readings is measured, so it is likelier still.
   auto first = result->warnings.begin();
@@ -163,8 +181,10 @@ void WarnOfDoubts(CalibrationResult* result) {
       {"doubtful", text,
        effect ? "check that part of the setup, or free it in the plan; "
                 "--explore frees it if frames are then predicted better"
-              : "look at the residuals by frame, and at the std in the plan's "
-                "measurements"});
+       : only_quiet
+           ? "state the noise that fits (noise_below_plan)"
+           : "look at the residuals by frame, and at the std in the plan's "
+             "measurements"});
 }
 
 std::string WhyNotAdopted(const CalibrationResult& explored,

@@ -16,6 +16,9 @@ namespace finray {
 ///    a binomial number fewer: frames share the errors of the calibration that
 ///    senses them, so they are not quite independent;
 ///  - total chi2 exceeds its degrees of freedom by less than kLoudStd std;
+///  - the residuals of gauges and of forces are not too quiet
+///    (Identifiability::Noise): noise told too large makes all intervals from
+///    gauges too wide, and hides effects from the other tests;
 ///  - no value is further than kFarFromPrior std of its prior from it;
 ///  - no value is further than kImpossibleStd std below what a finger can have;
 ///  - rejected frames are of the same forces, places and rows as the fitted
@@ -23,8 +26,8 @@ namespace finray {
 ///    std;
 ///  - the score test finds no effect that the plan leaves out;
 ///  - all of these tests could be made.
-/// Too wide intervals and a chi2 below its degrees of freedom are warnings, not
-/// doubts: a plan's std that are too large are on the safe side.
+/// Too wide intervals are a warning, and so is a std of places that is told too
+/// large: it holds errors that rows share, which residuals need not show.
 std::vector<std::string> FindDoubts(const CalibrationProblem& problem,
                                     const CalibrationResult& result);
 constexpr double kFewer = 3, kFewerPercent = 2.5, kLoudStd = 4,
