@@ -90,6 +90,9 @@ void DumpConfig(const Finger& finger, const Scene& scene,
     std::cout << "contact_beams: " << ContactBeamsToYaml(scene) << "\n";
   }
   std::cout << "friction_coefficient: " << scene.friction_coefficient << "\n";
+  if (scene.friction_std > 0) {
+    std::cout << "friction_std: " << scene.friction_std << "\n";
+  }
   if (scene.presliding_mm) {
     std::cout << "presliding_mm: " << *scene.presliding_mm << "\n";
   }

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app.h"
+#include "finray/batch/estimation_warnings.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/log_list.h"
 #include "finray/io/number_text.h"
@@ -180,6 +181,10 @@ int Run() {
   WriteFileAtomically(OutPath("compliance.yaml"),
                       ComplianceYaml(found, inputs));
   PrintSummary(found);
+  Warn(FrictionWarnings(fingers[0].finger, scene));
+  if (!FLAGS_second_finger.empty()) {
+    Warn(FrictionWarnings(fingers[1].finger, scene));
+  }
   if (FLAGS_plots) {
     const std::string problem =
         RunPythonScript("scripts/perception/plot_compliance.py",

@@ -455,7 +455,7 @@ int Run() {
   PrintEnded("searches", all, settings.scene, stdout);
   const std::vector<Warning> warnings =
       WarningsOf(SummariesOf(jobs), settings.finger);
-  Warn(WarningsOf(settings.finger));
+  Warn(WarningsOf(settings.finger, settings.scene));
   Warn(warnings);
   if (!bad_logs.empty()) return kBadInput;
   if (all.unsolved() == all.frames || (FLAGS_strict && all.unsolved() > 0)) {

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "app.h"
+#include "finray/batch/estimation_warnings.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/python_script.h"
 #include "finray/perception/perception_files.h"
@@ -126,6 +127,7 @@ int Run() {
                       ReconstructionYaml(found, descriptors, envelope, error,
                                          envelope_error, inputs));
   PrintSummary(found, error, envelope_error);
+  Warn(FrictionWarnings(finger, scene));
   if (FLAGS_plots) {
     std::vector<std::string> arguments = {FLAGS_out_dir};
     if (truth) arguments.push_back(FLAGS_truth);

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "app.h"
+#include "finray/batch/estimation_warnings.h"
 #include "finray/calib/analysis/validation.h"
 #include "finray/io/atomic_file.h"
 #include "finray/io/log_list.h"
@@ -104,12 +105,6 @@ void WarnOfParametersOfLogs(const Plan& plan, bool all_aligned) {
     if (plan.family(family).free && !(of_stage && all_aligned)) {
       names.push_back(name);
     }
-  }
-  if (plan.family(ParameterFamily::kFriction).free) {
-    Warn(
-        "the plan frees friction: these logs are read with the "
-        "friction_coefficient of its scene",
-        "write the calibrated value there");
   }
   if (names.empty()) return;
   Warn("the plan frees " + Joined(names) +
@@ -244,6 +239,7 @@ int Run() {
   if (!logs.copies.empty()) Warn(logs.copies, kCopiesRemedy);
   const Validation validation = Validate(
       finger, baseline, whole, logs, discretization, Threads(FLAGS_threads));
+  Warn(FrictionWarnings(finger, plan.scene));
   WarnOfParametersOfLogs(plan, validation.stages.size() == logs.paths.size());
   WarnOfStages(logs, validation.stages);
   const std::vector<Gate> gates = CheckGates(validation, bounds);

@@ -107,7 +107,7 @@ std::optional<Followed> FollowInput(const BatchSettings& settings,
                       : make(settings.finger);
   const std::unique_ptr<LiveView> view = Serve(settings, follow, make);
   std::optional<Followed> followed(std::in_place);
-  if (follow.warn_of_finger) Warn(WarningsOf(settings.finger));
+  if (follow.warn_of_finger) Warn(WarningsOf(settings.finger, settings.scene));
   const auto write = [&](std::string_view row) {
     return follow.write ? follow.write(row) : WriteLive(row, follow);
   };

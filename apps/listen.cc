@@ -296,7 +296,7 @@ void Listen(const BatchSettings& settings, const std::string& address,
   prepared.Prepare();
   FollowSettings follow = follow_one;
   follow.prepared = &prepared;
-  Warn(WarningsOf(settings.finger));
+  Warn(WarningsOf(settings.finger, settings.scene));
   std::fprintf(stderr, "listening      %s\n", listener.address().c_str());
   std::list<Session> sessions;
   int clients = 0;

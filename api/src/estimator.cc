@@ -76,7 +76,8 @@ class Results {
     summaries_[row / kBlockFrames].Add(estimate, friction_, readings, finger_);
   }
 
-  Estimation Take(const finray::Finger& finger, const std::string& log) {
+  Estimation Take(const finray::Finger& finger, const finray::Scene& scene,
+                  const std::string& log) {
     Estimation result;
     result.numbers = Table(statuses_.size(), log);
     for (std::size_t i = 0; i < values_.size(); ++i) {
@@ -86,7 +87,7 @@ class Results {
     // In the order of a batch, for the same sums.
     finray::EstimationSummary all;
     for (const finray::EstimationSummary& block : summaries_) all.Add(block);
-    result.warnings = ToPublic(WarningsOf(finger));
+    result.warnings = ToPublic(WarningsOf(finger, scene));
     for (Warning& warning : ToPublic(WarningsOf({{&all, log}}, finger))) {
       result.warnings.push_back(std::move(warning));
     }
@@ -177,7 +178,7 @@ Estimation Estimator::Inside::OneByOne(const Table& log,
   tbb::task_arena(threads).execute(
       [&] { tbb::parallel_for(std::size_t{0}, blocks, solve); });
   if (stopped) throw Interrupted();
-  return results.Take(finger, log.name());
+  return results.Take(finger, scene, log.name());
 }
 
 Estimation Estimator::Inside::Jointly(const Table& log,
@@ -205,7 +206,7 @@ Estimation Estimator::Inside::Jointly(const Table& log,
     }
   }
   estimator.Finish();
-  return results.Take(finger, log.name());
+  return results.Take(finger, scene, log.name());
 }
 
 Estimator::Estimator(const Finger& finger, const Scene& scene,

@@ -20,8 +20,8 @@ _MARKS = [("finger", {"geometry", "beams", "gauges"}),
           ("compliance", {"order_confidence", "compared_between_N"}),
           ("plan", {"parameters", "scene", "holdout", "robust_loss"}),
           ("mapping", {"tables", "join", "plateaus", "force", "time_origin"}),
-          ("scene", {"contacts", "most_contacts", "contact_beams", "friction_coefficient", "force_max_N", "object",
-                     "measurements", "smoothing", "gauge_offset_walk", "search_iteration_limit", "presliding_mm"}),
+          ("scene", {"contacts", "most_contacts", "contact_beams", "friction_coefficient", "friction_std", "force_max_N",
+                     "object", "measurements", "smoothing", "gauge_offset_walk", "search_iteration_limit", "presliding_mm"}),
           ("mapping", {"columns", "delimiter", "decimal", "header_line", "units_row", "not_measured"})]
 
 

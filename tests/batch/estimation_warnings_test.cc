@@ -204,9 +204,50 @@ TEST(EstimationWarningsTest, NamesTheFirstReadingThatNoGaugeGives) {
   EXPECT_FALSE(FailsStrict(warnings, OneContact()));
 }
 
+TEST(EstimationWarningsTest, FrictionOfSceneAndFinger) {
+  Finger finger = PaperFinger();
+  finger.calibration.emplace();
+  finger.calibration->parameters = {{FingerParameterKind::kFrontStiffness}};
+  finger.calibration->std = Eigen::VectorXd::Constant(1, 100);
+  finger.calibration->correlations = Eigen::MatrixXd::Identity(1, 1);
+  Scene scene;
+  EXPECT_THAT(WarningsOf(finger, scene), IsEmpty());  // the file does not say
+  finger.calibration->friction = 0.3;
+  const auto warnings = WarningsOf(finger, scene);
+  ASSERT_THAT(warnings, SizeIs(1));
+  EXPECT_EQ(warnings[0].code, "friction_differs");
+  EXPECT_THAT(warnings[0].text, HasSubstr("of 0.3, and the scene has 0"));
+  EXPECT_THAT(warnings[0].remedy, HasSubstr("friction_coefficient: 0.3"));
+  scene.friction_std = 0.2;  // the scene does not contradict it
+  EXPECT_THAT(WarningsOf(finger, scene), IsEmpty());
+  scene.friction_std = 0.1;
+  EXPECT_THAT(WarningsOf(finger, scene), SizeIs(1));
+  scene.friction_std = 0;
+  scene.friction_coefficient = 0.31;
+  EXPECT_THAT(WarningsOf(finger, scene), IsEmpty());
+  scene.friction_coefficient = 0.33;
+  EXPECT_THAT(WarningsOf(finger, scene), SizeIs(1));
+  // As far as a calibration that has found it can tell.
+  finger.calibration->parameters.push_back({FingerParameterKind::kFriction});
+  finger.calibration->std = Eigen::Vector2d(100, 0.05);
+  finger.calibration->correlations = Eigen::Matrix2d::Identity();
+  scene.friction_coefficient = 0.34;
+  EXPECT_THAT(WarningsOf(finger, scene), IsEmpty());
+  scene.friction_coefficient = 0.36;
+  EXPECT_THAT(WarningsOf(finger, scene), SizeIs(1));
+  scene.contacts = 0;
+  EXPECT_THAT(WarningsOf(finger, scene), IsEmpty());
+}
+
+TEST(EstimationWarningsTest, PreslidingWithoutFrictionDoesNothing) {
+  Scene scene;
+  scene.presliding_mm = 0.001;
+  EXPECT_EQ(WarningsOf(PaperFinger(), scene)[0].code, "no_friction");
+}
+
 TEST(EstimationWarningsTest, NamesTheWorstOfLogs) {
   Finger finger = PaperFinger();
-  EXPECT_EQ(WarningsOf(finger)[0].code, "not_calibrated");
+  EXPECT_EQ(WarningsOf(finger, Scene())[0].code, "not_calibrated");
   EstimationSummary good, bad, worse;
   good.frames = bad.frames = worse.frames = 10;
   bad.unexplained = 3;

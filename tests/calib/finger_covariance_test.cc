@@ -67,6 +67,31 @@ TEST(FingerCovarianceTest, BlockSaysWhatCalibrationYamlSays) {
   EXPECT_NEAR(block.std[0] / 11000, 0.008, 0.003);
 }
 
+TEST(FingerCovarianceTest, SaysWithWhichFrictionItWasCalibrated) {
+  const TempFolder folder;
+  const std::string log = StandardLog(folder, HiddenFinger(), 11);
+  Plan plan = StandardPlan();
+  plan.scene.friction_coefficient = 0.1;
+  const Finger finger = CalibrateOn(Nominal(), plan, log);
+  EXPECT_FALSE(finger.calibration->HasFriction());
+  EXPECT_EQ(finger.calibration->friction, 0.1);
+  const Finger back = ReadFinger(folder.Write("f.yaml", FingerToYaml(finger)));
+  EXPECT_EQ(back.calibration->friction, 0.1);
+  // Free frames say nothing of it.
+  FrameTable free(20);
+  free.MutableNumbers("object_x_mm").assign(20, -25);
+  free.MutableNumbers("object_y_mm").assign(20, 60);
+  Simulate(HiddenFinger(), StandardScene(), {}, &free);
+  const std::string rows = folder.Path("free.csv");
+  MakeLog(HiddenFinger(), free, {0.02, 0.05, 11}).Write(rows);
+  Plan offsets;
+  offsets.scene.friction_coefficient = 0.2;
+  offsets.families[static_cast<int>(ParameterFamily::kGaugeOffset)].free = true;
+  EXPECT_EQ(CalibrateOn(finger, offsets, rows).calibration->friction, 0.1);
+  EXPECT_TRUE(
+      std::isnan(CalibrateOn(Nominal(), offsets, rows).calibration->friction));
+}
+
 // A plan that frees the offsets alone leaves the std of all else.
 TEST(FingerCovarianceTest, FixedParametersKeepTheirStd) {
   const TempFolder folder;

@@ -49,7 +49,7 @@ TEST(ParameterCovarianceTest, RoundTripIsExact) {
   EXPECT_EQ(FingerToYaml(back), text);
 }
 
-TEST(ParameterCovarianceTest, FrictionCountsForContactsOfItsKind) {
+TEST(ParameterCovarianceTest, FrictionIsSaidWithItsCoefficient) {
   Finger finger = UncertainFinger();
   ParameterCovariance& covariance = *finger.calibration;
   covariance.parameters.back() = {FingerParameterKind::kFriction};
@@ -64,14 +64,6 @@ TEST(ParameterCovarianceTest, FrictionCountsForContactsOfItsKind) {
   EXPECT_EQ(back.calibration->friction, 0.31);
   EXPECT_EQ(FingerToYaml(back), text);
 
-  const Finger same = ForFriction(finger, 0.3);
-  EXPECT_EQ(same.calibration->friction, 0.3);
-  EXPECT_EQ(same.calibration->parameters, covariance.parameters);
-  const Finger other = ForFriction(finger, 0);
-  EXPECT_FALSE(other.calibration->HasFriction());
-  EXPECT_EQ(other.calibration->std, covariance.std.head(last));
-  EXPECT_EQ(other.calibration->correlations,
-            covariance.correlations.topLeftCorner(last, last));
   // It is said about which coefficient.
   std::string without = text;
   without.erase(without.find("  friction_coefficient: 0.31\n"), 29);

@@ -72,7 +72,7 @@ TEST(ContactSensorTest, GivenEstimatesKeepTheirStd) {
 
 TEST(FingerVariationsTest, SquaresAddUpToTheCovariance) {
   Finger finger = PaperFinger();
-  EXPECT_TRUE(FingerVariations(finger).empty());
+  EXPECT_TRUE(FingerVariations(finger, 0.3).empty());
   ParameterCovariance known;
   known.parameters = {{FingerParameterKind::kFrontStiffness, 0},
                       {FingerParameterKind::kRibLength, 2}};
@@ -81,23 +81,20 @@ TEST(FingerVariationsTest, SquaresAddUpToTheCovariance) {
   known.correlations(0, 1) = known.correlations(1, 0) = 0.4;
   finger.calibration = known;
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
-  for (const Finger& varied : FingerVariations(finger)) {
+  double friction = 0;
+  for (const FingerVariation& moved : FingerVariations(finger, {0.3, 0.1})) {
+    const Finger& varied = moved.finger;
     Eigen::Vector2d off(
         varied.front_stiffness_N_mm2 - finger.front_stiffness_N_mm2,
         varied.ribs[2].length_mm - finger.ribs[2].length_mm);
     sum += off * off.transpose();
+    friction += moved.friction * moved.friction;
+    EXPECT_EQ(varied.ribs[0].length_mm, finger.ribs[0].length_mm);
   }
   EXPECT_NEAR(sum(0, 0), 1e4, 1e-6);
   EXPECT_NEAR(sum(0, 1), 0.4 * 100 * 0.05, 1e-9);
   EXPECT_NEAR(sum(1, 1), 0.0025, 1e-12);
-  // An error of the object's friction moves no part of the finger.
-  known.parameters = {{FingerParameterKind::kFriction}};
-  known.std = Eigen::VectorXd::Constant(1, 0.02);
-  known.correlations = Eigen::MatrixXd::Identity(1, 1);
-  finger.calibration = known;
-  for (const Finger& varied : FingerVariations(finger)) {
-    EXPECT_EQ(varied.ribs[0].length_mm, finger.ribs[0].length_mm);
-  }
+  EXPECT_NEAR(friction, 0.01, 1e-12);
 }
 
 }  // namespace

@@ -228,13 +228,47 @@ constexpr Doubt kDoubts[] = {
 
 }  // namespace
 
-std::vector<Warning> WarningsOf(const Finger& finger) {
-  if (finger.calibration) return {};
-  return {
-      {"not_calibrated",
-       "the finger is not calibrated: its gains and stiffness are as drawn, "
-       "and so are the std of its forces",
-       "calibrate it with finray_calibrate"}};
+std::vector<Warning> WarningsOf(const Finger& finger, const Scene& scene) {
+  std::vector<Warning> warnings = FrictionWarnings(finger, scene);
+  if (!finger.calibration) {
+    warnings.push_back(
+        {"not_calibrated",
+         "the finger is not calibrated: its gains and stiffness are as drawn, "
+         "and so are the std of its forces",
+         "calibrate it with finray_calibrate"});
+  }
+  return warnings;
+}
+
+std::vector<Warning> FrictionWarnings(const Finger& finger,
+                                      const Scene& scene) {
+  constexpr double kHarmless = 0.02;  // of the coefficient
+  constexpr double kFar = 2;          // friction_std
+  std::vector<Warning> warnings;
+  if (scene.presliding_mm && scene.friction_coefficient == 0) {
+    warnings.push_back(
+        {"no_friction",
+         "presliding_mm does nothing in a scene without friction",
+         "give the scene a friction_coefficient, or leave presliding_mm out"});
+  }
+  if (!finger.calibration || scene.contacts == 0) return warnings;
+  const double calibrated = finger.calibration->friction;
+  const double apart = std::abs(scene.friction_coefficient - calibrated);
+  if (std::isnan(calibrated) ||
+      apart <= std::max(kHarmless, kFar * scene.friction_std) ||
+      IsFrictionOf(*finger.calibration, scene.friction_coefficient)) {
+    return warnings;
+  }
+  warnings.push_back(
+      {"friction_differs",
+       FormatText("the finger was calibrated with a friction coefficient of "
+                  "%.3g, and the scene has %.3g: against the same objects "
+                  "places and forces are off, and chi2 may not show it",
+                  calibrated, scene.friction_coefficient),
+       FormatText("write friction_coefficient: %.3g in the scene; against "
+                  "other objects it has theirs, with their friction_std",
+                  calibrated)});
+  return warnings;
 }
 
 std::vector<Warning> WarningsOf(const std::vector<LogSummary>& logs,

@@ -17,8 +17,15 @@ struct LogSummary {
   std::string log;
 };
 
-/// Warns of a finger that nobody has calibrated.
-std::vector<Warning> WarningsOf(const Finger& finger);
+/// Warns of a finger that nobody has calibrated, and of what FrictionWarnings
+/// finds.
+std::vector<Warning> WarningsOf(const Finger& finger, const Scene& scene);
+
+/// Warns where the finger was calibrated with another friction than the scene
+/// has: they are more than 0.02 apart, more than the std of a friction that the
+/// calibration has found, and more than twice the scene's friction_std. Warns
+/// of a presliding_mm that does nothing.
+std::vector<Warning> FrictionWarnings(const Finger& finger, const Scene& scene);
 
 /// Says what makes the estimates of logs doubtful, one warning a code. It names
 /// the worst log and counts the others:

@@ -385,7 +385,7 @@ std::string BatchYaml(const BatchSettings& settings,
     YamlPair(&yaml, "solver", SolverName(settings));
   }
   YamlPair(&yaml, "version", FINRAY_VERSION);
-  EmitWarnings(WarningsOf(settings.finger), &yaml);
+  EmitWarnings(WarningsOf(settings.finger, settings.scene), &yaml);
   if (hidden) EmitHiddenForces(*hidden, &yaml);
   yaml << YAML::Key << "logs" << YAML::Value << YAML::BeginSeq;
   for (const LogJob& job : jobs) {

@@ -246,25 +246,6 @@ Eigen::MatrixXd ParameterCovariance::Factor() const {
          eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
-Finger ForFriction(const Finger& finger, double friction) {
-  Finger result = finger;
-  if (!finger.calibration || !finger.calibration->HasFriction()) return result;
-  ParameterCovariance& covariance = *result.calibration;
-  const Eigen::Index others = covariance.std.size() - 1;
-  constexpr double kRounding = 1e-3;  // of a coefficient that was copied
-  if (std::abs(friction - covariance.friction) <=
-      std::max(kRounding, covariance.std[others])) {
-    covariance.friction = friction;
-  } else if (others == 0) {
-    result.calibration.reset();
-  } else {
-    covariance.parameters.pop_back();
-    covariance.std.conservativeResize(others);
-    covariance.correlations.conservativeResize(others, others);
-  }
-  return result;
-}
-
 Finger WithFrictionReversed(Finger finger) {
   if (!finger.calibration || !finger.calibration->HasFriction()) return finger;
   ParameterCovariance& covariance = *finger.calibration;

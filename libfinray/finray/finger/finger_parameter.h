@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "finray/finger/gauge_discrepancy.h"
+#include "finray/io/nan.h"
 
 namespace finray {
 
@@ -106,7 +107,9 @@ struct ParameterCovariance {
   std::vector<FingerParameter> parameters;
   Eigen::VectorXd std;
   Eigen::MatrixXd correlations;  ///< Symmetric, 1 on the diagonal.
-  double friction = 0;           ///< The coefficient that kFriction is about.
+  /// The friction coefficient of the contacts that it is from; NaN if it is not
+  /// known.
+  double friction = kNaN;
   /// What the model misses whatever the parameters are, if it is known.
   std::optional<GaugeDiscrepancy> discrepancy;
 
@@ -120,13 +123,6 @@ struct ParameterCovariance {
   /// F with F F' = C. Negative eigenvalues count as 0.
   Eigen::MatrixXd Factor() const;
 };
-
-/// Returns the finger with the covariance that counts for contacts with this
-/// friction. Where a calibration has found the coefficient together with the
-/// finger, its errors go with those of the finger in contacts of the same kind,
-/// within a std of the coefficient. Against other objects it is not among the
-/// parameters.
-Finger ForFriction(const Finger& finger, double friction);
 
 /// Returns the finger for contacts whose friction pulls the other way: the
 /// friction in its covariance changes sign.

@@ -1,10 +1,12 @@
 #include "finray/finger/parameter_covariance_yaml.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "finray/finger/correlations_yaml.h"
 #include "finray/io/message_text.h"
+#include "finray/io/nan.h"
 #include "finray/io/number_text.h"
 
 namespace finray {
@@ -91,13 +93,9 @@ ParameterCovariance ReadParameterCovariance(const YamlMap& yaml,
   covariance.std = ReadStd(yaml, "std", count, "a parameter");
   covariance.correlations = ReadCorrelations(yaml, count, "a parameter");
   covariance = InOrderOf(finger, covariance);
-  if (covariance.HasFriction()) {
-    covariance.friction = yaml.Number(kFriction);
-  } else if (yaml.Has(kFriction)) {
-    yaml.Fail(kFriction, std::string(kFriction) +
-                             ": it is not among the parameters, so nothing "
-                             "depends on it");
-  }
+  covariance.friction = covariance.HasFriction() || yaml.Has(kFriction)
+                            ? yaml.Number(kFriction)
+                            : kNaN;
   if (yaml.Has("discrepancy")) {
     covariance.discrepancy =
         ReadDiscrepancy(yaml.Map("discrepancy"), finger.gauges.size());
@@ -114,7 +112,7 @@ std::string ParameterCovarianceToYaml(const ParameterCovariance& covariance) {
                      "]\n  std: " + NumberList(covariance.std) +
                      "\n  correlations:\n" +
                      CorrelationRows(covariance.correlations, "    ");
-  if (covariance.HasFriction()) {
+  if (!std::isnan(covariance.friction)) {
     yaml += std::string("  ") + kFriction + ": " +
             NumberText(covariance.friction) + "\n";
   }

@@ -327,15 +327,18 @@ Compliance MeasureCompliance(const std::vector<ComplianceLog>& logs,
   // finger.
   for (std::size_t f = 0; f < fingers.size(); ++f) {
     std::vector<ComplianceFinger> varied = fingers;
-    for (const Finger& finger : FingerVariations(fingers[f].finger)) {
-      varied[f].finger = finger;
+    for (const FingerVariation& moved :
+         FingerVariations(fingers[f].finger, fingers[f].scene.friction())) {
+      varied[f].finger = moved.finger;
+      varied[f].scene.friction_coefficient =
+          fingers[f].scene.friction_coefficient + moved.friction;
       auto trials = Trials(logs, varied, discretization, settings);
-      const auto moved = Compare(from, to, &trials);
-      for (std::size_t i = 0; i < moved.size(); ++i) {
+      const auto compared = Compare(from, to, &trials);
+      for (std::size_t i = 0; i < compared.size(); ++i) {
         ObjectStiffness& object = result.objects[i];
         object.calibration_std =
             std::hypot(object.calibration_std,
-                       moved[i].mean.N_per_mm - object.mean.N_per_mm);
+                       compared[i].mean.N_per_mm - object.mean.N_per_mm);
       }
     }
   }

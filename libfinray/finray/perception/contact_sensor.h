@@ -64,34 +64,42 @@ std::vector<Measurements> ReadWithPlaces(
     const FrameTable& table, const Finger& finger,
     const MeasurementColumns::Options& options = {});
 
-/// The finger moved by each principal error of its calibration: with
-/// C_pp = F F' the covariance of its parameters p, one finger for each column
-/// of F that is not zero. Empty if the finger has no calibration. The
-/// calibration's share in the error of any result y(p) is, to first order,
+/// A finger and the change of the friction coefficient that goes with it.
+struct FingerVariation {
+  Finger finger;
+  double friction = 0;
+};
+
+/// The finger and the friction moved by each principal error of what is known
+/// of them: with C_pp = F F' the covariance of ForFriction's parameters p, one
+/// variation for each column of F that is not zero. Empty if nothing is
+/// uncertain. Their share in the error of any result y(p) is, to first order,
 ///
 ///   cov y = sum_k (y(p + F_k) - y(p)) (y(p + F_k) - y(p))'.
 ///
 /// All frames share these errors, so y may be computed from any number of them.
-inline std::vector<Finger> FingerVariations(const Finger& finger) {
-  std::vector<Finger> fingers;
-  if (!finger.calibration) return fingers;
-  const ParameterCovariance& calibration = *finger.calibration;
-  const Eigen::MatrixXd factor = calibration.Factor();
+inline std::vector<FingerVariation> FingerVariations(
+    const Finger& finger, const KnownFriction& friction) {
+  std::vector<FingerVariation> variations;
+  const auto calibration = ForFriction(finger, friction).calibration;
+  if (!calibration) return variations;
+  const Eigen::MatrixXd factor = calibration->Factor();
   for (Eigen::Index k = 0; k < factor.cols(); ++k) {
     if (factor.col(k).isZero(0)) continue;
-    Finger varied = finger;
-    for (std::size_t i = 0; i < calibration.parameters.size(); ++i) {
-      const FingerParameter& parameter = calibration.parameters[i];
-      // No part of a finger; its error in the object's friction is left out.
-      if (parameter.kind == FingerParameterKind::kFriction) continue;
-      SetParameter(parameter,
-                   ParameterValue(finger, parameter) +
-                       factor(static_cast<Eigen::Index>(i), k),
-                   &varied);
+    FingerVariation varied{finger};
+    for (std::size_t i = 0; i < calibration->parameters.size(); ++i) {
+      const FingerParameter& parameter = calibration->parameters[i];
+      const double change = factor(static_cast<Eigen::Index>(i), k);
+      if (parameter.kind == FingerParameterKind::kFriction) {
+        varied.friction = change;
+        continue;
+      }
+      SetParameter(parameter, ParameterValue(finger, parameter) + change,
+                   &varied.finger);
     }
-    fingers.push_back(varied);
+    variations.push_back(varied);
   }
-  return fingers;
+  return variations;
 }
 
 /// One contact as a constraint on an outline, in the object's own frame (mm,

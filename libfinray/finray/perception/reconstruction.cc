@@ -103,8 +103,12 @@ void AddCalibrationError(const FrameTable& table, const Finger& finger,
                          const Discretization& discretization,
                          double stage_std_mm, Reconstruction* found) {
   std::vector<double> variance(found->outline.size(), 0);
-  for (const Finger& varied : FingerVariations(finger)) {
-    const Touches touches = SenseTouches(table, varied, scene, discretization);
+  for (const FingerVariation& varied :
+       FingerVariations(finger, scene.friction())) {
+    Scene moved_scene = scene;
+    moved_scene.friction_coefficient += varied.friction;
+    const Touches touches =
+        SenseTouches(table, varied.finger, moved_scene, discretization);
     if (touches.usable.size() < kLeastTouches) continue;
     const Polygon moved =
         Sampled(RefitOutline(touches.usable, found->fit, stage_std_mm));

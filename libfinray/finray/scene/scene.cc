@@ -210,18 +210,14 @@ std::string ObjectToYaml(const RigidObject& object) {
 }
 
 Scene ReadScene(const YamlMap& yaml) {
-  std::vector<std::string> keys = {"schema_version",
-                                   "contacts",
-                                   "most_contacts",
-                                   "contact_beams",
-                                   "friction_coefficient",
-                                   "force_max_N",
-                                   "object",
-                                   "measurements",
-                                   "smoothing",
-                                   "gauge_offset_walk",
-                                   "search_iteration_limit",
-                                   "presliding_mm"};
+  std::vector<std::string> keys = {
+      "schema_version",       "contacts",
+      "most_contacts",        "contact_beams",
+      "friction_coefficient", "friction_std",
+      "force_max_N",          "object",
+      "measurements",         "smoothing",
+      "gauge_offset_walk",    "search_iteration_limit",
+      "presliding_mm"};
   keys.insert(keys.end(), ColumnMappingKeys().begin(),
               ColumnMappingKeys().end());
   yaml.AllowOnly(keys);
@@ -232,6 +228,9 @@ Scene ReadScene(const YamlMap& yaml) {
   scene.contacts = ReadContacts(yaml);
   scene.most_contacts = ReadMostContacts(yaml, scene);
   scene.friction_coefficient = yaml.Number("friction_coefficient", 0);
+  if (yaml.Has("friction_std")) {
+    scene.friction_std = yaml.PositiveNumber("friction_std");
+  }
   if (yaml.Has("presliding_mm")) {
     scene.presliding_mm = yaml.PositiveNumber("presliding_mm");
     if (scene.friction_coefficient < 0) {

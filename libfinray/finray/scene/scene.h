@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "finray/finger/known_friction.h"
 #include "finray/io/column_mapping.h"
 #include "finray/io/yaml_map.h"
 #include "finray/objects/object_contact.h"
@@ -37,6 +38,8 @@ struct Scene {
   /// "path:line:column: " of `contact_beams` in the YAML, for messages.
   std::string contact_beams_place = "scene: ";
   double friction_coefficient = 0;  ///< mu; + pulls towards the tip.
+  /// Its std, an error that all frames share.
+  double friction_std = 0;
   /// The slip of the object in which friction turns round (SlidingFriction).
   /// Empty: friction does not follow the object's motion.
   std::optional<double> presliding_mm;
@@ -61,6 +64,9 @@ struct Scene {
   /// How a lab writes its logs.
   ColumnMapping columns;
 
+  KnownFriction friction() const {
+    return {friction_coefficient, friction_std};
+  }
   bool UsesCamera() const { return pin_std_mm || tip_std_mm; }
   /// The radius of the object if it is a circle, else empty.
   std::optional<double> circle_radius_mm() const {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "finray/io/nan.h"
+
 namespace finray {
 namespace {
 
@@ -37,11 +39,13 @@ double ByReading(FingerParameterKind kind, const Gauge& gauge, double volts,
 
 }  // namespace
 
-CalibrationUncertainty::Model::Model(const Finger& finger, double friction,
+CalibrationUncertainty::Model::Model(const Finger& finger,
+                                     const KnownFriction& friction,
                                      std::optional<double> circle_radius_mm,
                                      EquilibriumSolver* solver,
                                      Table with_table)
     : finger(finger),
+      friction(friction),
       circle_radius_mm(circle_radius_mm),
       solver(*solver),
       gauge_places(finger.calibration->HasGaugePlaces()),
@@ -51,32 +55,34 @@ CalibrationUncertainty::Model::Model(const Finger& finger, double friction,
       discrepancy(finger.gauges.size(), finger.gauges.size()),
       by_discrepancy(2, finger.gauges.size()) {
   if (with_table == Table::kNone) return;
-  table.emplace(friction, circle_radius_mm, solver, gauge_places);
+  table.emplace(friction.coefficient, circle_radius_mm, solver, gauge_places);
   derivatives.resize(table->rows(), table->columns());
   slope.resize(table->rows(), 2);
   by_measured.resize(2, table->rows());
 }
 
 CalibrationUncertainty::CalibrationUncertainty(
-    const Finger& any, double friction, EquilibriumSolver* solver,
+    const Finger& any, const KnownFriction& friction, EquilibriumSolver* solver,
     std::optional<double> circle_radius_mm, Table table) {
   const Finger finger = ForFriction(any, friction);
   if (!finger.calibration) return;
   solver->model().set_effects(finger.calibration->StaticsEffects(),
                               finger.calibration->HasFriction());
   model_.emplace(finger, friction, circle_radius_mm, solver, table);
+  model_->of_calibration =
+      any.calibration && IsFrictionOf(*any.calibration, friction.coefficient);
   solver->model().set_effects({});
 }
 
 void CalibrationUncertainty::SetErrors(const ParameterCovariance& calibration) {
-  ParameterCovariance& own = *model_->finger.calibration;
-  // Without the friction, which is the last one, where ForFriction has dropped
-  // it.
-  const Eigen::Index size = own.std.size();
-  own.std = calibration.std.head(size);
-  own.correlations = calibration.correlations.topLeftCorner(size, size);
-  own.discrepancy = calibration.discrepancy;
-  model_->factor = own.Factor();
+  Model& m = *model_;
+  m.finger.calibration = calibration;
+  // Whether the friction counts as the calibration's is settled: the table has
+  // its parameters.
+  m.finger.calibration->friction =
+      m.of_calibration ? m.friction.coefficient : kNaN;
+  m.finger = ForFriction(m.finger, m.friction);
+  m.factor = m.finger.calibration->Factor();
 }
 
 ContactMatrix CalibrationUncertainty::Of(

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "finray/finger/known_friction.h"
 #include "finray/sensing/contact_covariance.h"
 #include "finray/sensing/sensitivity_table.h"
 
@@ -34,6 +35,9 @@ namespace finray {
 /// differs from frame to frame, while parameter errors are the same in all
 /// frames. Averaging frames therefore does not reduce C_sys.
 ///
+/// Where the friction of the contacts has a std, it is one more parameter
+/// (ForFriction).
+///
 /// An estimator creates one CalibrationUncertainty from its finger, the scene's
 /// friction and the radius of a measured circle, and calls Of() with each
 /// solution. For one contact the derivatives come from a table, without a solve
@@ -45,8 +49,9 @@ class CalibrationUncertainty {
   enum class Table { kMade, kNone };
   /// Creates the table with `solver`, which is then as after Reset(). A table
   /// takes as long as some hundred solves. For a finger without a covariance
-  /// the object is empty: it solves and stores nothing.
-  CalibrationUncertainty(const Finger& finger, double friction,
+  /// and a friction without a std the object is empty: it solves and stores
+  /// nothing.
+  CalibrationUncertainty(const Finger& finger, const KnownFriction& friction,
                          EquilibriumSolver* solver,
                          std::optional<double> circle_radius_mm = std::nullopt,
                          Table table = Table::kMade);
@@ -99,11 +104,13 @@ class CalibrationUncertainty {
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
                              2 * kFittedContacts, Eigen::Dynamic>;
   struct Model {
-    Model(const Finger& finger, double friction,
+    Model(const Finger& finger, const KnownFriction& friction,
           std::optional<double> circle_radius_mm, EquilibriumSolver* solver,
           Table with_table);
 
     Finger finger;
+    KnownFriction friction;
+    bool of_calibration = false;  // the friction is that of the calibration
     std::optional<double> circle_radius_mm;
     EquilibriumSolver solver;  // for contacts beyond the table
     bool gauge_places;         // among the parameters

@@ -137,7 +137,7 @@ CalibrationUncertainty FrameEstimator::SystematicOf(
     const Finger& finger, const Scene& scene,
     const Discretization& discretization) {
   EquilibriumSolver solver(finger, discretization);
-  return {finger, scene.friction_coefficient, &solver, MeasuredRadius(scene)};
+  return {finger, scene.friction(), &solver, MeasuredRadius(scene)};
 }
 
 FrameEstimate FrameEstimator::Estimate(const Measurements& readings) {

@@ -62,7 +62,7 @@ class AfterStep final : public ceres::IterationCallback {
 FrameProblem::FrameProblem(const Finger& finger, const Scene& scene,
                            const Discretization& discretization,
                            EquilibriumForm form, double most_force_N)
-    : finger_(ForFriction(finger, scene.friction_coefficient)),
+    : finger_(ForFriction(finger, scene.friction())),
       model_(MeasurementModel::OfScene(finger, scene)),
       friction_(scene.friction_coefficient),
       most_force_N_(most_force_N),

@@ -119,9 +119,11 @@ void RefuseTouch(const Finger& finger, const Discretization& discretization,
                        free_V[static_cast<Eigen::Index>(j)];
     free_chi2 += off * off / (zeroed.std_V[j] * zeroed.std_V[j]);
   }
-  const double coefficient = check.friction != 0 || !finger.calibration
-                                 ? check.friction
-                                 : finger.calibration->friction;
+  const bool known =
+      finger.calibration && !std::isnan(finger.calibration->friction);
+  const double coefficient = check.friction == 0 && known
+                                 ? finger.calibration->friction
+                                 : check.friction;
   const auto readings = static_cast<double>(zeroed.fewest);
   // Errors of the offsets that the calibration left explain no touch: they are
   // what is asked for here.

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "finray/calib/solve/information_spectrum.h"
+#include "finray/finger/known_friction.h"
 #include "finray/io/number_text.h"
 
 namespace finray {
@@ -263,6 +264,7 @@ Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,
     const ResidualFamily family = at.rows[i].family;
     const CalibrationFrame& frame = problem->frame(at.rows[i].frame);
     Identifiability::Noise& noise = result.noise[static_cast<int>(family)];
+    result.touches |= frame.contact;
     ++noise.residuals;
     told[static_cast<int>(family)] += std::pow(frame.StdTimes(family), -2);
     noise.chi2 += at.weighted_residuals[i] * at.weighted_residuals[i];
@@ -304,10 +306,16 @@ void KeepCovariance(const CalibrationParameters& parameters,
   if (kept.empty()) return;
   const auto n = static_cast<Eigen::Index>(kept.size());
   // What was fixed is as uncertain as it was.
+  std::optional<ParameterCovariance> before = finger->calibration;
+  if (found.touches) {
+    covariance.friction = parameters.friction();
+    before = ForFriction(*finger, covariance.friction).calibration;
+  } else if (before && std::isnan(covariance.friction)) {
+    covariance.friction = before->friction;
+  }
   std::vector<Eigen::Index> fixed;
-  for (std::size_t k = 0;
-       finger->calibration && k < finger->calibration->parameters.size(); ++k) {
-    const FingerParameter& p = finger->calibration->parameters[k];
+  for (std::size_t k = 0; before && k < before->parameters.size(); ++k) {
+    const FingerParameter& p = before->parameters[k];
     const auto& found_ones = covariance.parameters;
     if (std::find(found_ones.begin(), found_ones.end(), p) ==
         found_ones.end()) {
@@ -315,19 +323,16 @@ void KeepCovariance(const CalibrationParameters& parameters,
     }
   }
   for (const Eigen::Index k : fixed) {
-    const FingerParameter& p = finger->calibration->parameters[k];
+    const FingerParameter& p = before->parameters[k];
     covariance.parameters.push_back(p);
-    if (p.kind == FingerParameterKind::kFriction) {
-      covariance.friction = finger->calibration->friction;
-    }
-    std.push_back(finger->calibration->std[k]);
+    std.push_back(before->std[k]);
   }
   const auto all = static_cast<Eigen::Index>(std.size());
   covariance.std = Eigen::Map<const Eigen::VectorXd>(std.data(), all);
   covariance.correlations = Eigen::MatrixXd::Identity(all, all);
   if (!fixed.empty()) {
     covariance.correlations.bottomRightCorner(all - n, all - n) =
-        finger->calibration->correlations(fixed, fixed);
+        before->correlations(fixed, fixed);
   }
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {

@@ -96,6 +96,7 @@ struct Identifiability {
     static constexpr double kEnoughDof = 5, kTooQuiet = 0.5, kSurely = 3.72;
   };
   std::array<Noise, kResidualFamilies> noise;
+  bool touches = false;  ///< Says whether there are frames with contact.
 };
 
 Identifiability AnalyzeIdentifiability(CalibrationProblem* problem,

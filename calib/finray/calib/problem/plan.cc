@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "finray/finger/geometry.h"
+#include "finray/io/number_text.h"
 
 namespace finray {
 namespace {
@@ -236,6 +237,12 @@ Plan ReadPlan(const YamlMap& yaml) {
         "scene",
         "a plan's scene has no gauge_offset_walk; expected "
         "parameters: {gauge_drift: {walk_std_V_per_sqrt_h, knot_every_s}}");
+  }
+  if (plan.scene.friction_std > 0) {
+    yaml.Fail("scene",
+              "a plan's scene has no friction_std; expected parameters: "
+              "{friction: {prior_std: " +
+                  NumberText(plan.scene.friction_std) + "}}");
   }
   if (plan.scene.contacts.value_or(1) > 1) {
     yaml.Fail("scene", "calibration takes frames with one contact or none");
