@@ -1,12 +1,10 @@
-"""Units by name: how a reading becomes one in finray's unit. The units, their factors and the
-order of the arithmetic are those of libfinray/finray/io, so that digits agree."""
+"""Units by name: how a reading becomes one in finray's unit. The units and their factors are units.inc, and the
+order of the arithmetic is that of libfinray/finray/io, so that digits agree."""
 
-import math
+import os
 import re
 
 from errors import did_you_mean
-
-STANDARD_GRAVITY, POUND_KG = 9.80665, 0.45359237
 
 
 class Unit:
@@ -22,23 +20,11 @@ class Unit:
         return readings * self.multiply / self.divide + self.shift
 
 
-UNITS = {unit.name: unit for unit in (
-    Unit("V", "voltage"), Unit("mV", "voltage", 1, 1e3), Unit("uV", "voltage", 1, 1e6),
-    Unit("N", "force"), Unit("mN", "force", 1, 1e3), Unit("kN", "force", 1e3),
-    Unit("gf", "force", STANDARD_GRAVITY, 1e3), Unit("kgf", "force", STANDARD_GRAVITY),
-    Unit("lbf", "force", POUND_KG * STANDARD_GRAVITY),
-    Unit("mm", "length"), Unit("um", "length", 1, 1e3), Unit("cm", "length", 10),
-    Unit("m", "length", 1e3), Unit("inch", "length", 25.4),
-    Unit("rad", "angle"), Unit("mrad", "angle", 1, 1e3), Unit("deg", "angle", math.pi, 180),
-    # No column of a log is a torque, but force sensors write them.
-    Unit("Nmm", "torque"), Unit("mNm", "torque"), Unit("Ncm", "torque", 10),
-    Unit("Nm", "torque", 1e3),
-    Unit("s", "time"), Unit("ms", "time", 1, 1e3), Unit("us", "time", 1, 1e6),
-    Unit("ns", "time", 1, 1e9),
-    Unit("degC", "temperature"), Unit("K", "temperature", 1, 1, -273.15),
-    Unit("degF", "temperature", 5, 9, -32 * 5 / 9))}
-# Words that only a file may have for a unit; scales of a kitchen say g and mean gf.
-FILE_WORDS = {"g": "gf", "kg": "kgf", "in": "inch", "C": "degC", "sec": "s"}
+with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "units.inc"), encoding="utf-8") as _list:
+    _LINES = _list.read()
+UNITS = {name: Unit(name, dimension.lower(), float(multiply), float(divide), float(shift)) for name, dimension, multiply,
+         divide, shift in re.findall(r"^FINRAY_UNIT\((\w+), k(\w+), (\S+), (\S+), (\S+)\)$", _LINES, re.M)}
+FILE_WORDS = dict(re.findall(r"^FINRAY_FILE_WORD\((\w+), (\w+)\)$", _LINES, re.M))
 COUNTS = {"counts", "count", "LSB"}
 NO_UNIT = {"", "-", "1"}
 # What the last word of a column's name says.

@@ -298,6 +298,19 @@ TEST_F(LogDialectTest, TheUnitsOfTheLogAreConvertedOrContradictTheMapping) {
   EXPECT_EQ(Load("t;Fz [mN]\n0;250\n", "columns: {\"Fz [mN]\": force_N}\n")
                 .Numbers("force_N")[0],
             0.25);
+  EXPECT_EQ(Load("t;Fz [kg]\n0;2\n", "columns: {\"Fz [kg]\": force_N}\n")
+                .Numbers("force_N")[0],
+            2 * 9.80665);
+  // A torque is no force, unless a lever arm says so.
+  EXPECT_REFUSED(Load("t,T\ns,Nm\n0,1\n", "columns: {t: time_s, T: force_N}\n"),
+                 "log.csv:2:2: force_N: the log gives it in Nm, expected one "
+                 "of N, mN, kN, gf");
+  EXPECT_REFUSED(Load("t;T [N m]\n0;1\n", "columns: {\"T [N m]\": force_N}\n"),
+                 "the log gives it in Nm, expected one of N, mN, kN, gf");
+  EXPECT_EQ(Load("t,T\ns,Nm\n0,3\n",
+                 "columns: {t: time_s, T: {to: force_N, scale: 20}}\n")
+                .Numbers("force_N")[0],
+            60);
   EXPECT_REFUSED(
       Load(log, "columns: {t: time_s, F: force_N}\nunits_row: false\n"),
       "log.csv:2:1: time_s: expected a number, found 'ms'");

@@ -68,7 +68,7 @@ std::optional<Unit> UnitInCell(std::string_view cell) {
                           (cell.front() == '(' && cell.back() == ')'))) {
     cell = Trimmed(cell.substr(1, cell.size() - 2));
   }
-  return FindUnit(cell);
+  return FindUnitInFile(cell);
 }
 
 }  // namespace

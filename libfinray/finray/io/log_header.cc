@@ -90,8 +90,8 @@ std::string UnitInBrackets(std::string_view header) {
   if (open == header.npos) return "";
   // "sensor(s)" names no unit.
   if (close == ')' && (open == 0 || header[open - 1] != ' ')) return "";
-  const auto unit =
-      FindUnit(Trimmed(header.substr(open + 1, header.size() - open - 2)));
+  const auto unit = FindUnitInFile(
+      Trimmed(header.substr(open + 1, header.size() - open - 2)));
   return unit ? unit->name : "";
 }
 

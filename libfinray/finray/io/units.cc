@@ -1,43 +1,33 @@
 #include "finray/io/units.h"
 
-#include <cmath>
+#include <functional>
+#include <map>
 
 namespace finray {
 namespace {
 
-constexpr double kStandardGravity = 9.80665;       // m/s^2
-constexpr double kPound_kg = 0.45359237;           // exact by definition
-constexpr double kFahrenheitShift = -32 * 5 / 9.;  // deg C
-
+// The same list is that of finray_import.
 const std::vector<Unit>& AllUnits() {
-  using D = Dimension;
+#define FINRAY_UNIT(name, dimension, multiply, divide, shift) \
+  {#name, Dimension::dimension, multiply, divide, shift},
+#define FINRAY_FILE_WORD(word, name)
   static const std::vector<Unit> units = {
-      {"V", D::kVoltage},
-      {"mV", D::kVoltage, 1, 1e3},
-      {"uV", D::kVoltage, 1, 1e6},
-      {"N", D::kForce},
-      {"mN", D::kForce, 1, 1e3},
-      {"kN", D::kForce, 1e3},
-      {"gf", D::kForce, kStandardGravity, 1e3},
-      {"kgf", D::kForce, kStandardGravity},
-      {"lbf", D::kForce, kPound_kg * kStandardGravity},
-      {"mm", D::kLength},
-      {"um", D::kLength, 1, 1e3},
-      {"cm", D::kLength, 10},
-      {"m", D::kLength, 1e3},
-      {"inch", D::kLength, 25.4},
-      {"rad", D::kAngle},
-      {"mrad", D::kAngle, 1, 1e3},
-      {"deg", D::kAngle, M_PI, 180},
-      {"s", D::kTime},
-      {"ms", D::kTime, 1, 1e3},
-      {"us", D::kTime, 1, 1e6},
-      {"ns", D::kTime, 1, 1e9},
-      {"degC", D::kTemperature},
-      {"K", D::kTemperature, 1, 1, -273.15},
-      {"degF", D::kTemperature, 5, 9, kFahrenheitShift},
+#include "../../../scripts/import/units.inc"
   };
+#undef FINRAY_UNIT
+#undef FINRAY_FILE_WORD
   return units;
+}
+
+const std::map<std::string, std::string, std::less<>>& FileWords() {
+#define FINRAY_UNIT(name, dimension, multiply, divide, shift)
+#define FINRAY_FILE_WORD(word, name) {#word, #name},
+  static const std::map<std::string, std::string, std::less<>> words = {
+#include "../../../scripts/import/units.inc"
+  };
+#undef FINRAY_UNIT
+#undef FINRAY_FILE_WORD
+  return words;
 }
 
 void Replace(std::string_view from, std::string_view to, std::string* text) {
@@ -54,15 +44,25 @@ std::optional<Unit> FindUnit(std::string_view name) {
   Replace("\xC2\xB5", "u", &plain);    // the micro sign
   Replace("\xCE\xBC", "u", &plain);    // the Greek letter
   Replace("\xC2\xB0", "deg", &plain);  // the degree sign
+  if (plain.size() > 2 && plain.front() == 'N' && plain.back() == 'm') {
+    for (const char* between :
+         {" ", ".", "*", "-", "\xC2\xB7", "\xE2\x8B\x85"}) {
+      Replace(between, "", &plain);  // N mm
+    }
+  }
   for (const Unit& unit : AllUnits()) {
     if (unit.name == plain) return unit;
   }
   return std::nullopt;
 }
 
+std::optional<Unit> FindUnitInFile(std::string_view word) {
+  const auto found = FileWords().find(word);
+  return FindUnit(found == FileWords().end() ? word : found->second);
+}
+
 Unit UnitOfColumn(const std::string& column) {
-  const std::string unit = column.substr(column.rfind('_') + 1);
-  return FindUnit(unit == "C" ? "degC" : unit).value_or(Unit());
+  return FindUnitInFile(column.substr(column.rfind('_') + 1)).value_or(Unit());
 }
 
 std::vector<std::string> UnitNames(Dimension dimension) {

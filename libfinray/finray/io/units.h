@@ -15,6 +15,7 @@ enum class Dimension {
   kForce,
   kLength,
   kAngle,
+  kTorque,  ///< of no column of finray's, but force sensors write it
   kTime,
   kTemperature
 };
@@ -29,8 +30,13 @@ struct Unit {
 };
 
 /// Returns the unit with this name (mV, gf, inch, ...; "µ" and "μ" are u, "°"
-/// is deg), or nothing.
+/// is deg, "N mm", "N.mm", "N*mm" and "N-mm" are Nmm), or nothing. The
+/// list is scripts/import/units.inc, which finray_import reads too.
 std::optional<Unit> FindUnit(std::string_view name);
+
+/// Returns the unit that a file means by a word beside or below a header: those
+/// of FindUnit, and words such as g for gf.
+std::optional<Unit> FindUnitInFile(std::string_view word);
 
 /// The unit in the name of a frame column: V of gauge_1_V. It is kNone for a
 /// column without one.
