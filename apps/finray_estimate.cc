@@ -259,13 +259,16 @@ ResultFormat ChosenFormat() {
   return {SplitList(FLAGS_columns), FLAGS_digits};
 }
 
-// A scene can describe the offsets of a whole log. Only --joint can use that.
+// A scene can describe offsets that wander. Frames by themselves, each in any
+// order, cannot use that.
 void CheckJoint(BatchSettings* settings) {
   if (settings->joint && settings->method != FrameMethod::kFast) {
     throw UsageError("--solver does not go with --joint, which uses Ceres");
   }
-  if (settings->joint || !settings->scene.gauge_offset_walk) return;
-  Warn("the scene's gauge_offset_walk is for --joint",
+  if (settings->joint || FLAGS_follow || !settings->scene.gauge_offset_walk) {
+    return;
+  }
+  Warn("the scene's gauge_offset_walk is for --joint and --follow",
        "without it the offsets are the finger's");
   settings->scene.gauge_offset_walk.reset();
 }

@@ -4,8 +4,10 @@
 
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -88,6 +90,34 @@ void PrintEnded(const char* label, const EstimationSummary& summary,
                summary.search_ended, *scene.search_iteration_limit);
 }
 
+namespace {
+
+// Warns, once, of a touch that lasts so long that offsets may have drifted,
+// where the scene does not say how far.
+class LongTouch {
+ public:
+  explicit LongTouch(const Scene& scene)
+      : warned_(scene.gauge_offset_walk.has_value()) {}
+
+  void Add(const FrameEstimate& estimate, double time_s) {
+    if (warned_ || std::isnan(time_s)) return;
+    if (estimate.contacts == 0 || !(time_s >= since_s_)) since_s_ = time_s;
+    if (time_s - since_s_ < kLong_s) return;
+    warned_ = true;
+    Warn(
+        "a touch lasts a minute, and offsets that drift under it read like a "
+        "force",
+        "say in the scene how much they wander, gauge_offset_walk");
+  }
+
+ private:
+  static constexpr double kLong_s = 60;
+  bool warned_;
+  double since_s_ = std::numeric_limits<double>::quiet_NaN();
+};
+
+}  // namespace
+
 std::optional<Followed> FollowInput(const BatchSettings& settings,
                                     const FollowSettings& follow) {
   using Clock = std::chrono::steady_clock;
@@ -111,6 +141,7 @@ std::optional<Followed> FollowInput(const BatchSettings& settings,
   const auto write = [&](std::string_view row) {
     return follow.write ? follow.write(row) : WriteLive(row, follow);
   };
+  LongTouch long_touch(settings.scene);
   bool open = write(live->rows.HeaderCsv());
   while (open && !follow.stop() && lines.Next()) {
     const Clock::time_point start = Clock::now();
@@ -126,6 +157,7 @@ std::optional<Followed> FollowInput(const BatchSettings& settings,
     if (open) followed->latency.Add(taken);
     followed->summary.Add(rows.estimate(), settings.scene.friction_coefficient,
                           rows.readings(), settings.finger);
+    long_touch.Add(rows.estimate(), rows.readings().time_s);
     if (!view) continue;
     view->Push(rows, taken);
     if (auto zeroed = view->TakeZeroed()) {

@@ -77,7 +77,8 @@ class Results {
   }
 
   Estimation Take(const finray::Finger& finger, const finray::Scene& scene,
-                  const std::string& log) {
+                  const std::string& log,
+                  const finray::EstimationSummary& whole = {}) {
     Estimation result;
     result.numbers = Table(statuses_.size(), log);
     for (std::size_t i = 0; i < values_.size(); ++i) {
@@ -87,6 +88,7 @@ class Results {
     // In the order of a batch, for the same sums.
     finray::EstimationSummary all;
     for (const finray::EstimationSummary& block : summaries_) all.Add(block);
+    all.Add(whole);
     result.warnings = ToPublic(WarningsOf(finger, scene));
     for (Warning& warning : ToPublic(WarningsOf({{&all, log}}, finger))) {
       result.warnings.push_back(std::move(warning));
@@ -206,7 +208,10 @@ Estimation Estimator::Inside::Jointly(const Table& log,
     }
   }
   estimator.Finish();
-  return results.Take(finger, scene, log.name());
+  finray::EstimationSummary whole;
+  whole.walk = estimator.walk();
+  whole.alone = estimator.alone();
+  return results.Take(finger, scene, log.name(), whole);
 }
 
 Estimator::Estimator(const Finger& finger, const Scene& scene,

@@ -61,9 +61,9 @@ std::string YamlText(const std::string& path) {
   return ReadWholeFile(path, "a YAML file", kMostYaml_MiB);
 }
 
-finray::Scene SceneOf(const Scene& scene, bool joint) {
+finray::Scene SceneOf(const Scene& scene, bool in_order) {
   finray::Scene internal = scene.inside().scene;
-  if (!joint) internal.gauge_offset_walk.reset();
+  if (!in_order) internal.gauge_offset_walk.reset();
   return internal;
 }
 

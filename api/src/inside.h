@@ -76,8 +76,9 @@ finray::FrameMethod MethodOf(const EstimateOptions& options);
 /// The text of a file that holds YAML.
 std::string YamlText(const std::string& path);
 
-/// The scene of estimates: only `joint` can use its gauge_offset_walk.
-finray::Scene SceneOf(const Scene& scene, bool joint);
+/// The scene of estimates: those of frames in their order, jointly or live, use
+/// its gauge_offset_walk.
+finray::Scene SceneOf(const Scene& scene, bool in_order);
 
 }  // namespace finray::v1
 

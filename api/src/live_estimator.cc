@@ -37,7 +37,7 @@ LiveEstimator::LiveEstimator(const Finger& finger, const Scene& scene,
           throw InputError("joint: does not go with live frames");
         }
         return std::make_unique<Inside>(
-            finger.inside().finger, SceneOf(scene, false),
+            finger.inside().finger, SceneOf(scene, true),
             ToInternal(options.discretization), MethodOf(options));
       })) {}
 LiveEstimator::~LiveEstimator() = default;

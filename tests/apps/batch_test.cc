@@ -107,6 +107,24 @@ TEST_F(BatchTest, ResultsLieAsTheLogsLieInTheirRoot) {
             std::sqrt((squares[0] + squares[1]) / 500));
 }
 
+TEST_F(BatchTest, AWholeLogThatDoesNotConvergeIsEstimatedFrameByFrame) {
+  FrameTable log = FrameTable::Read(data_ + "holdout.csv");
+  for (const char* gauge : {"gauge_1_V", "gauge_2_V", "gauge_3_V", "gauge_4_V"})
+    for (double& volts : log.MutableNumbers(gauge)) volts += 0.005;
+  log.Write(folder_.Path("runs/a.csv"));
+  folder_.Write("scene.yaml", "contacts: auto\n");
+  const Outcome outcome = Run(
+      "finray_estimate", Arguments("%runs/a.csv", "--joint --out_dir %out"));
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("could not be solved together"));
+  EXPECT_THAT(outcome.output, HasSubstr("estimated one by one"));
+  const YAML::Node yaml = YAML::LoadFile(folder_.Path("out/summary.yaml"));
+  EXPECT_EQ(yaml["all"]["status"]["not_converged"].as<int>(), 0);
+  EXPECT_EQ(YAML::LoadFile(folder_.Path("out/a.summary.yaml"))["alone_frames"]
+                .as<int>(),
+            110);
+}
+
 TEST_F(BatchTest, WholeLogsWithWanderingOffsets) {
   folder_.Write("scene.yaml",
                 "contacts: auto\n"

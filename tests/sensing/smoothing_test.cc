@@ -116,6 +116,35 @@ TEST(SmoothingTest, AnotherLogBeginsAfresh) {
   EXPECT_GT(std::abs(going_on.Next(first).contact[0].arc_mm - arc_mm), 1e-3);
 }
 
+TEST(SmoothingTest, ChangesTellWhetherTheirStdIsTrue) {
+  constexpr int kFrames = 256;
+  const Walk walk(kFrames, 0.8, 0.12, 4);
+  // The mean of the squared changes over what is expected of them, in a batch
+  // and live.
+  const auto scale = [&](double tighter, bool live) {
+    FrameEstimator estimator(PaperFinger(),
+                             SmoothScene(0.8 / tighter, 0.12 / tighter));
+    std::vector<FrameEstimate> estimates(kFrames);
+    for (int i = 0; i < kFrames; i += 64) {
+      if (!live) {
+        estimator.EstimateBlock(&walk.readings[i], 64, &estimates[i]);
+      }
+    }
+    double chi2 = 0, dof = 0;
+    for (int i = 0; i < kFrames; ++i) {
+      if (live) estimates[i] = estimator.Next(walk.readings[i]);
+      chi2 += estimates[i].change_chi2;
+      dof += estimates[i].change_dof;
+    }
+    EXPECT_GT(dof, 20);
+    return chi2 / dof;
+  };
+  for (const bool live : {false, true}) {
+    EXPECT_NEAR(scale(1, live), 1, 0.25) << live;
+    EXPECT_GT(scale(4, live), 4) << live;
+  }
+}
+
 TEST(SmoothingTest, HelpsAsMuchAsItsStdSays) {
   constexpr int kFrames = 256;
   const Walk walk(kFrames, 0.2, 0.03, 2);

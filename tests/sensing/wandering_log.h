@@ -15,6 +15,7 @@ namespace finray {
 struct WanderingLogSettings {
   double duration_s = 600, rate_Hz = 10;
   double walk_V_per_sqrt_s = 1e-3, start_std_V = 0.02, noise_V = 3e-4;
+  double drift_V_per_s = 0;  ///< of all gauges
   double shortest_touch_s = 5, longest_touch_s = 15;
   double shortest_gap_s = 2, longest_gap_s = 6;
   double lowest_mm = 30, highest_mm = 105;  ///< places of touches
@@ -54,6 +55,7 @@ struct WanderingLog {
         if (t > 0) {
           offset[j] +=
               settings.walk_V_per_sqrt_s * std::sqrt(dt) * normal_(generator_);
+          offset[j] += settings.drift_V_per_s * dt;
         }
         row.gauges_V.push_back(
             plant.gauges[j].Volts(solver.gauge_angle(static_cast<int>(j))) +

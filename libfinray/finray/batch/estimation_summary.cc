@@ -6,8 +6,6 @@
 
 #include "finray/finger/possible_reading.h"
 #include "finray/io/number_text.h"
-#include "finray/io/yaml_emitter.h"
-#include "finray/io/yaml_map.h"
 
 namespace finray {
 
@@ -50,6 +48,13 @@ bool EstimationSummary::never_free() const {
          force_judged < kFewestUnexplained;
 }
 
+bool EstimationSummary::changes_differ() const {
+  // A sum of squares that expects n has a variance of 2 n at most.
+  constexpr double kSure = 5;
+  return change_chi2 > kFarChange * kFarChange * change_dof &&
+         change_chi2 - change_dof > kSure * std::sqrt(2 * change_dof);
+}
+
 double EstimationSummary::force_rms_N() const {
   if (force_compared == 0) return 0;
   return std::sqrt(force_squares_N2 / static_cast<double>(force_compared));
@@ -74,6 +79,8 @@ void EstimationSummary::Add(const FrameEstimate& estimate, double coefficient,
     AddAll(readings.gauges_V, &free_sums_V);
   }
   ++frames;
+  change_chi2 += estimate.change_chi2;
+  change_dof += estimate.change_dof;
   search_ended += estimate.search_ended;
   ++by_status[static_cast<std::size_t>(estimate.status)];
   if (estimate.status == FrameStatus::kBadInput) {
@@ -153,6 +160,10 @@ void EstimationSummary::Add(const EstimationSummary& other) {
   loads_unexplained += other.loads_unexplained;
   load_explained_N += other.load_explained_N;
   load_unexplained_N += other.load_unexplained_N;
+  walk.Add(other.walk);
+  alone += other.alone;
+  change_chi2 += other.change_chi2;
+  change_dof += other.change_dof;
 }
 
 std::string SummaryToText(const EstimationSummary& summary) {
@@ -177,7 +188,9 @@ std::string SummaryToText(const EstimationSummary& summary) {
           NumberText(summary.load_unexplained_N) + " " +
           std::to_string(summary.impossible) + " " +
           std::to_string(summary.impossible_row) + " " +
-          std::to_string(summary.impossible_gauge) + " " + summary.impossible_V;
+          std::to_string(summary.impossible_gauge) + " " +
+          summary.impossible_V + " " + NumberText(summary.change_chi2) + " " +
+          NumberText(summary.change_dof);
   for (const auto* sums :
        {&summary.free_sums_V, &summary.read_sums_V, &summary.read_squares_V2}) {
     text += " " + std::to_string(sums->size());
@@ -210,6 +223,8 @@ std::optional<EstimationSummary> SummaryFromText(const std::string& text) {
   number(&summary.load_unexplained_N);
   stream >> summary.impossible >> summary.impossible_row >>
       summary.impossible_gauge >> summary.impossible_V;
+  number(&summary.change_chi2);
+  number(&summary.change_dof);
   for (auto* sums :
        {&summary.free_sums_V, &summary.read_sums_V, &summary.read_squares_V2}) {
     std::size_t gauges = 0;
@@ -249,6 +264,49 @@ void EmitSummary(const EstimationSummary& summary, YamlEmitter* yaml) {
               "force_far_frames", summary.force_far);
     finite("force_variances_N2", summary.force_variances_N2);
   }
+}
+
+void EmitChanges(const EstimationSummary& summary, YamlEmitter* yaml) {
+  if (summary.alone > 0) YamlPair(yaml, "alone_frames", summary.alone);
+  if (summary.change_dof > 0) {
+    YamlPairs(yaml, "change_chi2", summary.change_chi2, "change_dof",
+              summary.change_dof);
+  }
+  const WalkIncrements& walk = summary.walk;
+  if (!(walk.moved_s > 0)) return;
+  *yaml << YAML::Key << "gauge_offset_walk" << YAML::Value << YAML::BeginMap;
+  YamlPair(yaml, "told_V_per_sqrt_s", walk.told_V_per_sqrt_s);
+  *yaml << YAML::Key << "chi2" << YAML::Value << YAML::Flow
+        << std::vector<double>(walk.chi2.begin(), walk.chi2.end());
+  *yaml << YAML::Key << "dof" << YAML::Value << YAML::Flow
+        << std::vector<double>(walk.dof.begin(), walk.dof.end());
+  *yaml << YAML::Key << "moved_V" << YAML::Value << YAML::Flow << walk.moved_V;
+  YamlPair(yaml, "moved_s", walk.moved_s);
+  *yaml << YAML::EndMap;
+}
+
+void ReadChanges(const YamlMap& yaml, EstimationSummary* summary) {
+  if (yaml.Has("alone_frames")) {
+    summary->alone =
+        static_cast<std::size_t>(yaml.NonNegativeNumber("alone_frames"));
+  }
+  if (yaml.Has("change_dof")) {
+    summary->change_chi2 = yaml.NonNegativeNumber("change_chi2");
+    summary->change_dof = yaml.NonNegativeNumber("change_dof");
+  }
+  if (!yaml.Has("gauge_offset_walk")) return;
+  const YamlMap map = yaml.Map("gauge_offset_walk");
+  WalkIncrements& walk = summary->walk;
+  walk.told_V_per_sqrt_s = map.PositiveNumber("told_V_per_sqrt_s");
+  const std::vector<double> chi2 = map.Numbers("chi2"),
+                            dof = map.Numbers("dof");
+  for (std::size_t i = 0; i < std::min(chi2.size(), dof.size()); ++i) {
+    if (i >= WalkIncrements::kLags) break;
+    walk.chi2[i] = chi2[i];
+    walk.dof[i] = dof[i];
+  }
+  walk.moved_V = map.Numbers("moved_V");
+  walk.moved_s = map.PositiveNumber("moved_s");
 }
 
 void EmitRowsOfLog(const EstimationSummary& summary, YamlEmitter* yaml) {

@@ -9,8 +9,10 @@
 
 #include "finray/finger/finger.h"
 #include "finray/io/yaml_emitter.h"
+#include "finray/io/yaml_map.h"
 #include "finray/scene/measurements.h"
 #include "finray/sensing/frame_estimator.h"
+#include "finray/sensing/walk_increments.h"
 
 namespace finray {
 
@@ -62,12 +64,26 @@ struct EstimationSummary {
   /// sums of their normal forces.
   std::size_t loads_explained = 0, loads_unexplained = 0;
   double load_explained_N = 0, load_unexplained_N = 0;
+  /// Of whole logs whose offsets wander (LogEstimator).
+  WalkIncrements walk;
+  /// Frames of whole logs that were estimated one by one.
+  std::size_t alone = 0;
+  /// Sums of FrameEstimate::change_chi2 and change_dof.
+  double change_chi2 = 0, change_dof = 0;
 
   std::size_t count(FrameStatus status) const {
     return by_status[static_cast<std::size_t>(status)];
   }
   bool any_bad_rows() const { return bad_rows > 0; }
   bool any_impossible() const { return impossible > 0; }
+  bool any_alone() const { return alone > 0; }
+  /// Contacts change kFarChange times as much from frame to frame as the
+  /// scene's smoothing says, or more, and not by chance.
+  bool changes_differ() const;
+  static constexpr double kFarChange = 1.5;
+  bool offsets_move_otherwise() const {
+    return walk.Judge() != WalkIncrements::Verdict::kFits;
+  }
   /// Number of frames that are not_converged or bad_input.
   std::size_t unsolved() const;
   /// More than kMostUnexplained of the solved frames are unexplained, and at
@@ -99,10 +115,16 @@ struct EstimationSummary {
   void Add(const EstimationSummary& other);
 };
 
-/// Writes a summary as one line of text, and reads it back. Reading returns
-/// nothing if the text is not a summary.
+/// Writes a summary as one line of text, without what only whole logs have,
+/// which do not resume, and reads it back. Reading returns nothing if the text
+/// is not a summary.
 std::string SummaryToText(const EstimationSummary& summary);
 std::optional<EstimationSummary> SummaryFromText(const std::string& text);
+
+/// Writes the keys of a summary.yaml that tell how scenes fit the changes from
+/// frame to frame, if there are any, and reads them back.
+void EmitChanges(const EstimationSummary& summary, YamlEmitter* yaml);
+void ReadChanges(const YamlMap& yaml, EstimationSummary* summary);
 
 /// Writes the summary's keys of a summary.yaml into the mapping that `yaml` is
 /// in, except those of EmitRowsOfLog.

@@ -180,6 +180,64 @@ Warning NeverFree(const EstimationSummary& summary, const Finger& finger,
           "in the scene"};
 }
 
+Warning WalkDiffers(const EstimationSummary& summary, const Finger& /*finger*/,
+                    const std::string& log) {
+  using Verdict = WalkIncrements::Verdict;
+  const WalkIncrements& walk = summary.walk;
+  const Verdict verdict = walk.Judge();
+  const std::string told =
+      FormatText("std_V_per_sqrt_s: %.3g", walk.told_V_per_sqrt_s);
+  const std::string fitting = FormatText("%.2g", walk.FittingWalk());
+  if (verdict == Verdict::kTooLarge) {
+    return {"wide_offset_walk",
+            "the offsets of " + log + " wander less than the scene's " + told +
+                " says: " + fitting +
+                " fits. Contacts that are held come out less exact, or "
+                "unobservable",
+            "say " + fitting + " in the scene's gauge_offset_walk"};
+  }
+  const std::string unobservable = "; its contacts are unobservable";
+  if (verdict == Verdict::kTooSmall) {
+    return {"offset_walk",
+            "the offsets of " + log + " wander more than the scene's " + told +
+                " says: " + fitting + " fits" + unobservable,
+            "say " + fitting + " in the scene's gauge_offset_walk"};
+  }
+  std::string drifts;
+  for (const double moved_V : walk.moved_V) {
+    drifts += FormatText("%s%+.2g", drifts.empty() ? "" : ", ",
+                         1e3 * moved_V / walk.moved_s);
+  }
+  return {"offset_walk",
+          "the offsets of " + log + " drift steadily, by " + drifts +
+              " mV/s, which the scene's walk of " + told + " is not" +
+              unobservable,
+          "let the gauges warm up, or take the drift out of the readings; a "
+          "walk must be as large as the drift between two free stretches"};
+}
+
+Warning ChangesDiffer(const EstimationSummary& summary,
+                      const Finger& /*finger*/, const std::string& log) {
+  return {"smoothing",
+          FormatText("contacts of %s change from frame to frame by %.2g times "
+                     "what the scene's smoothing says, so that their std are "
+                     "too small",
+                     log.c_str(),
+                     std::sqrt(summary.change_chi2 / summary.change_dof)),
+          "say larger std in the scene's smoothing"};
+}
+
+Warning Alone(const EstimationSummary& summary, const Finger& /*finger*/,
+              const std::string& log) {
+  return {"not_joint",
+          "the frames of " + log +
+              " could not be solved together: the problem does not converge; " +
+              std::to_string(summary.alone) + " of " +
+              std::to_string(summary.frames) + " are estimated one by one",
+          "look for moved offsets and at start_std_V of the scene's "
+          "gauge_offset_walk"};
+}
+
 Warning BadRows(const EstimationSummary& summary, const Finger& /*finger*/,
                 const std::string& log) {
   return {
@@ -221,6 +279,11 @@ constexpr Doubt kDoubts[] = {
      SomeUnexplained},
     {&EstimationSummary::forces_differ, &EstimationSummary::force_far,
      ForcesDiffer},
+    {&EstimationSummary::offsets_move_otherwise, &EstimationSummary::frames,
+     WalkDiffers},
+    {&EstimationSummary::changes_differ, &EstimationSummary::frames,
+     ChangesDiffer},
+    {&EstimationSummary::any_alone, &EstimationSummary::alone, Alone},
     {&EstimationSummary::never_free, &EstimationSummary::frames, NeverFree},
     {&EstimationSummary::any_bad_rows, &EstimationSummary::bad_rows, BadRows},
     {&EstimationSummary::any_impossible, &EstimationSummary::impossible,
@@ -296,12 +359,13 @@ std::vector<Warning> WarningsOf(const std::vector<LogSummary>& logs,
 }
 
 bool FailsStrict(const std::vector<Warning>& warnings, const Scene& scene) {
-  return std::any_of(warnings.begin(), warnings.end(),
-                     [&](const Warning& warning) {
-                       return warning.code == "unexplained_frames" ||
-                              warning.code == "forces_differ" ||
-                              (warning.code == "never_free" && !scene.contacts);
-                     });
+  return std::any_of(
+      warnings.begin(), warnings.end(), [&](const Warning& warning) {
+        return warning.code == "unexplained_frames" ||
+               warning.code == "forces_differ" ||
+               warning.code == "offset_walk" || warning.code == "smoothing" ||
+               (warning.code == "never_free" && !scene.contacts);
+      });
 }
 
 }  // namespace finray

@@ -34,6 +34,11 @@ std::vector<Warning> FrictionWarnings(const Finger& finger, const Scene& scene);
 ///  - some_unexplained_frames: not so many, but more than chance makes;
 ///  - forces_differ: force_N contradicts too many forces, or shows free rows
 ///    where every frame has a contact;
+///  - offset_walk: the offsets wander more than the scene says, or drift
+///    steadily;
+///  - wide_offset_walk: they wander less;
+///  - smoothing: contacts change more from frame to frame than the scene says;
+///  - not_joint: frames of a whole log were estimated one by one;
 ///  - bad_rows: rows were left out as bad input;
 ///  - impossible_readings: rows are bad_input for a reading that no gauge
 ///  gives;
@@ -53,8 +58,8 @@ std::vector<Warning> WarningsOf(const std::vector<LogSummary>& logs,
                                 const Finger& finger);
 
 /// Says whether --strict fails with one of these warnings: unexplained_frames,
-/// forces_differ, and never_free unless the scene states the number of contacts
-/// of every frame, so that it is meant.
+/// forces_differ, offset_walk, smoothing, and never_free unless the scene
+/// states the number of contacts of every frame, so that it is meant.
 bool FailsStrict(const std::vector<Warning>& warnings, const Scene& scene);
 
 }  // namespace finray

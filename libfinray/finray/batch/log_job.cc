@@ -76,6 +76,7 @@ EstimationSummary SummaryFromYaml(const YamlMap& yaml) {
     summary.free_rows = Count(yaml, "free_rows");
     summary.free_sums_V = yaml.Numbers("free_sums_V");
   }
+  ReadChanges(yaml, &summary);
   return summary;
 }
 
@@ -321,6 +322,7 @@ void LogJob::WriteSummary(std::uint64_t bytes) const {
   YamlPair(&yaml, "result_bytes", bytes);
   EmitSummary(summary_, &yaml);
   EmitRowsOfLog(summary_, &yaml);
+  EmitChanges(summary_, &yaml);
   yaml << YAML::EndMap;
   WriteFileAtomically(summary_path_, std::string(yaml.c_str()) + "\n");
 }

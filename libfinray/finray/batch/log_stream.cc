@@ -211,11 +211,11 @@ bool EstimateJointly(const Finger& finger, const Scene& scene,
     Block& block = waiting.emplace_back();
     if (!ReadBlock(kBlockFrames, reader, &block)) {
       estimator.Finish();
-      if (!bad_rows.empty()) {
-        StreamedBlock rest;
-        rest.summary.bad_rows = bad_rows.size();
-        write(rest);
-      }
+      StreamedBlock rest;
+      rest.summary.bad_rows = bad_rows.size();
+      rest.summary.walk = estimator.walk();
+      rest.summary.alone = estimator.alone();
+      write(rest);
       return true;
     }
     Parse(parser, options.skip_bad_rows, &block);

@@ -72,6 +72,16 @@ std::vector<Eigen::MatrixXd> BlockTridiagonal::Marginals() const {
   return total;
 }
 
+std::vector<Eigen::MatrixXd> BlockTridiagonal::Gains() const {
+  std::vector<Eigen::MatrixXd> gains;
+  Eigen::MatrixXd forward = diagonal_.front();
+  for (std::size_t t = 0; t < upper_.size(); ++t) {
+    gains.push_back(-InverseInformation(forward) * upper_[t]);
+    forward = diagonal_[t + 1] + upper_[t].transpose() * gains.back();
+  }
+  return gains;
+}
+
 BlockTridiagonal::Marginal BlockTridiagonal::Last() const {
   Marginal last = {diagonal_.front(), gradient_.front()};
   for (std::size_t t = 1; t < diagonal_.size(); ++t) {

@@ -31,6 +31,10 @@ class BlockTridiagonal {
   /// F_t + B_t - D_t of every block: what all rows tell about it.
   std::vector<Eigen::MatrixXd> Marginals() const;
 
+  /// -F_t^-1 U_t of every block but the last, so that
+  /// (A^-1)_{t, t+1} = Gains()[t] (A^-1)_{t+1, t+1}.
+  std::vector<Eigen::MatrixXd> Gains() const;
+
   struct Marginal {
     Eigen::MatrixXd information;
     Eigen::VectorXd gradient;

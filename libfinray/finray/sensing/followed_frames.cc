@@ -71,6 +71,15 @@ void FrameEstimator::EstimateBlock(const Measurements* readings,
 }
 
 FrameEstimate FrameEstimator::Next(const Measurements& readings) {
+  if (!offsets_) return NextAlone(readings);
+  // The map of rivals is that of the noise, without errors of the offsets.
+  following_ = false;
+  FrameEstimate estimate = NextAlone(offsets_->Correct(readings));
+  offsets_->Judge(&estimate);
+  return estimate;
+}
+
+FrameEstimate FrameEstimator::NextAlone(const Measurements& readings) {
   if (Slides(readings)) {
     LeaveLastFrame();
     return EstimateSliding(readings);

@@ -93,7 +93,13 @@ struct FrameEstimate {
   /// less than that of the normal force alone times sqrt(1 + mu^2) where an
   /// error of the friction coefficient goes into both.
   double force_std_N = std::numeric_limits<double>::quiet_NaN();
-  /// By gauge, where they are estimated too (LogEstimator); else empty.
+  /// With smoothing: the change of the contact since the frame before, in units
+  /// of what the scene's smoothing says, squared, and what is expected of it,
+  /// which is less than 2 because the solution takes for 0 what the readings do
+  /// not tell (LogMarginal). 0 elsewhere.
+  double change_chi2 = 0, change_dof = 0;
+  /// By gauge, where they are estimated too (LogEstimator, LiveOffsets); else
+  /// empty.
   std::vector<double> gauge_offset_V, gauge_offset_std_V;
 
   /// The probability that noise alone makes chi2 as large or larger, or where

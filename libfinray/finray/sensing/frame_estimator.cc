@@ -82,6 +82,10 @@ FrameEstimator::FrameEstimator(const Finger& finger, const Scene& scene,
       search_(finger, scene, discretization, method),
       systematic_(SystematicOf(finger, scene, discretization)),
       free_(FreeEstimate(finger, discretization)) {
+  if (scene.gauge_offset_walk) {
+    offsets_.emplace(finger, *scene.gauge_offset_walk,
+                     search_.table().free_angles());
+  }
   scene_.gauge_offset_walk.reset();
   if (method == FrameMethod::kFast && FrameFollower::Serves(scene)) {
     follower_.emplace(finger, search_);
@@ -97,7 +101,9 @@ FrameEstimator::FrameEstimator(const FrameEstimator& other)
       search_(finger_, scene_, discretization_, method_,
               other.search_.tables()),
       systematic_(other.systematic_),
+      offsets_(other.offsets_),
       free_(other.free_) {
+  if (offsets_) offsets_->Restart();
   if (other.follower_) {
     follower_.emplace(finger_, search_, other.follower_->rivals());
   }

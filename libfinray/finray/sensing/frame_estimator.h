@@ -8,6 +8,7 @@
 #include "finray/sensing/contact_search.h"
 #include "finray/sensing/fast/frame_follower.h"
 #include "finray/sensing/frame_estimate.h"
+#include "finray/sensing/live_offsets.h"
 #include "finray/sensing/log_prior.h"
 
 namespace finray {
@@ -22,7 +23,7 @@ namespace finray {
 /// another kSecondSignificance or more, also with the errors that the finger's
 /// calibration may have (CalibrationUncertainty::Chi2).
 ///
-/// The scene's gauge_offset_walk is for LogEstimator and is ignored here.
+/// The scene's gauge_offset_walk counts in Next() only (LiveOffsets).
 ///
 /// If the model with the declared noise does not explain a frame, its std are
 /// those of a noise that would (FrameEstimate::noise_scale).
@@ -97,6 +98,7 @@ class FrameEstimator {
   void Restart() {
     LeaveLastFrame();
     followed_ = {};
+    if (offsets_) offsets_->Restart();
   }
 
   const Finger& finger() const { return finger_; }
@@ -127,6 +129,7 @@ class FrameEstimator {
   bool Slides(const Measurements& readings) const;
   FrameEstimate EstimateSliding(const Measurements& readings);
   FrameEstimate EstimateAlone(const Measurements& readings);
+  FrameEstimate NextAlone(const Measurements& readings);
   // Packs the readings and finds their chi2 without a contact.
   void PackAll(const Measurements* readings, std::size_t count);
   void SearchAlone(const Measurements& readings, const PackedReadings& packed,
@@ -183,7 +186,8 @@ class FrameEstimator {
   bool following_two_ = false;  // this frame
   CalibrationUncertainty systematic_;
   std::vector<PointContact> contacts_;
-  LogPrior followed_;  // by Next, if the scene has smoothing
+  std::optional<LiveOffsets> offsets_;  // where they wander, for Next
+  LogPrior followed_;                   // by Next, if the scene has smoothing
   FrameEstimate free_;
   std::unique_ptr<FrameEstimator> reversed_;  // made when needed
   std::vector<PackedReadings> packed_;        // of the frames under way

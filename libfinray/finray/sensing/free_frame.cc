@@ -14,6 +14,10 @@ void JudgeFree(const std::vector<double>& readings_V,
     estimate->model_chi2 = systematic->Chi2({}, readings_V, packed.weights);
     if (!estimate->IsUnexplained()) return;
   }
+  LeaveUnknown(estimate);
+}
+
+void LeaveUnknown(FrameEstimate* estimate) {
   FrameEstimate unknown;
   unknown.status = FrameStatus::kUnobservable;
   unknown.chi2 = estimate->chi2;

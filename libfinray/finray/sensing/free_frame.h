@@ -20,6 +20,10 @@ void JudgeFree(const std::vector<double>& readings_V,
                const PackedReadings& packed, CalibrationUncertainty* systematic,
                FrameEstimate* estimate);
 
+/// Makes a frame unobservable, without force and shape: nobody knows whether
+/// there is a contact.
+void LeaveUnknown(FrameEstimate* estimate);
+
 /// How far the offsets of a scene may be from the finger's (IsPossible):
 /// anywhere, if they wander, else nowhere else.
 double OffsetsWander_V(const Scene& scene);

@@ -163,8 +163,8 @@ std::optional<LogEstimator::Gap> LogEstimator::FindGap() const {
 }
 
 void LogEstimator::SolveWindow(std::size_t window, std::size_t settled) {
-  std::vector<LogFrame> frames(frames_.begin(),
-                               frames_.begin() + static_cast<long>(window));
+  const auto window_end = static_cast<long>(window);
+  std::vector<LogFrame> frames(frames_.begin(), frames_.begin() + window_end);
   std::vector<bool> dropped(window, false);
   iterations_ = 0;
   for (int round = 1;; ++round) {
@@ -175,13 +175,57 @@ void LogEstimator::SolveWindow(std::size_t window, std::size_t settled) {
     if (round < kMostRounds && Reconsider(marginals, &frames, &dropped)) {
       continue;
     }
+    if (!problem.converged()) {
+      EstimateAlone({frames_.begin(), frames_.begin() + window_end}, settled);
+      break;
+    }
+    problem.AddTo(&walk_, marginals, settled);
+    offsets_are_told_ = walk_.TellsOffsets();
     for (std::size_t t = 0; t < settled; ++t) {
-      take_(Judge(frames[t], marginals[t], problem.converged()));
+      take_(Judge(frames[t], marginals[t]));
     }
     if (settled < window) prior_ = problem.PriorOf(settled);
     break;
   }
+  detection_.Settle(settled);
   frames_.erase(frames_.begin(), frames_.begin() + static_cast<long>(settled));
+}
+
+void LogEstimator::EstimateAlone(const std::vector<LogFrame>& frames,
+                                 std::size_t settled) {
+  if (!frame_estimator_) {
+    Scene scene = scene_;
+    scene.gauge_offset_walk.reset();
+    scene.smoothing.reset();
+    scene.most_contacts = 1;
+    frame_estimator_.emplace(finger_, scene, discretization_);
+  }
+  const std::vector<OffsetBelief> beliefs =
+      detection_.Beliefs(BeliefBefore(), frames);
+  Measurements moved;
+  for (std::size_t t = 0; t < settled; ++t) {
+    MoveToOffsetsOf(finger_, beliefs[t], frames[t].row, &moved);
+    FrameEstimate estimate = frame_estimator_->Estimate(moved);
+    if (frames[t].doubtful && estimate.status == FrameStatus::kNoContact) {
+      LeaveUnknown(&estimate);
+    }
+    if (scene_.gauge_offset_walk) {
+      // Nothing tests the walk here.
+      if (estimate.status == FrameStatus::kOk) {
+        estimate.status = FrameStatus::kUnobservable;
+      }
+      for (Eigen::Index j = 0; j < beliefs[t].mean_V.size(); ++j) {
+        estimate.gauge_offset_V.push_back(beliefs[t].mean_V[j]);
+        estimate.gauge_offset_std_V.push_back(
+            std::sqrt(beliefs[t].variance_V2[j]));
+      }
+    }
+    take_(estimate);
+  }
+  alone_ += settled;
+  if (settled == frames.size() || !scene_.gauge_offset_walk) return;
+  const OffsetBelief& next = beliefs[settled];
+  prior_ = {next.mean_V, next.variance_V2.cwiseInverse().asDiagonal()};
 }
 
 // chi2 of the free finger where all other frames put the offsets.
@@ -224,7 +268,8 @@ bool LogEstimator::Reconsider(const std::vector<LogMarginal>& marginals,
           frame.normal_N > 0) {
         continue;
       }
-      frame.role = LogFrame::Role::kUnused;
+      frame.LeaveOpen();
+      frame.doubtful &= frame.normal_N > 0 && scene_.gauge_offset_walk;
       (*dropped)[t] = changed = true;
     } else if (!(*dropped)[t] && free_chi2 >= FrameEstimator::kSignificance &&
                detection_.FindContact(frame, marginal.mean_without,
@@ -237,7 +282,7 @@ bool LogEstimator::Reconsider(const std::vector<LogMarginal>& marginals,
 }
 
 FrameEstimate LogEstimator::Judge(const LogFrame& frame,
-                                  const LogMarginal& marginal, bool converged) {
+                                  const LogMarginal& marginal) {
   FrameEstimate estimate = free_;
   PackedReadings packed;
   Pack(finger_, scene_, frame.row, &packed);
@@ -249,11 +294,11 @@ FrameEstimate LogEstimator::Judge(const LogFrame& frame,
     estimate.chi2 = marginal.chi2;
     estimate.dof = packed.all - 2;
     JudgeContact(frame, marginal, packed, &estimate);
-    if (!converged) estimate.status = FrameStatus::kNotConverged;
   } else {
     estimate.chi2 = FreeChi2(frame, marginal);
     estimate.dof = packed.gauges;
     JudgeFree(WithoutWander(finger_, frame), packed, &systematic_, &estimate);
+    if (frame.doubtful) LeaveUnknown(&estimate);
   }
   estimate.iterations = iterations_;
   if (!scene_.gauge_offset_walk) return estimate;
@@ -279,6 +324,8 @@ void LogEstimator::JudgeContact(const LogFrame& frame,
   }
   const double scale = estimate->noise_scale();
   frame.CopyTo(scale * scale * marginal.covariance, estimate);
+  estimate->change_chi2 = marginal.change_chi2;
+  estimate->change_dof = marginal.change_dof;
   estimate->SetNoise();
   if (scene_.gauge_offset_walk) {
     const Eigen::Vector2d noise = marginal.StdGivenOffsets();
@@ -298,7 +345,9 @@ void LogEstimator::JudgeContact(const LogFrame& frame,
   }
   estimate->SetIntervals(finger_.front_length_mm);
   estimate->status =
-      FrameEstimator::StatusOf(*estimate, finger_, detection_.search());
+      offsets_are_told_
+          ? FrameEstimator::StatusOf(*estimate, finger_, detection_.search())
+          : FrameStatus::kUnobservable;
 }
 
 }  // namespace finray

@@ -8,6 +8,7 @@
 
 #include "finray/sensing/calibration_uncertainty.h"
 #include "finray/sensing/frame_estimate.h"
+#include "finray/sensing/frame_estimator.h"
 #include "finray/sensing/log_problem.h"
 #include "finray/sensing/touch_detection.h"
 
@@ -28,10 +29,14 @@ namespace finray {
 /// contact that has become significant is added. Then the window is solved
 /// again, up to kMostRounds times.
 ///
+/// The frames of a window that does not converge are estimated one by one, with
+/// the offsets that the free frames on both sides tell them; where offsets
+/// wander, their contacts are unobservable.
+///
 /// It sets the statuses of FrameEstimator, by its criteria: those of JudgeFree
-/// without a contact or with one below LeastForce_N, not_converged if it
-/// touches in a window that did not converge, ok or unobservable for any other
-/// contact, bad_input for too few measurements or impossible ones.
+/// without a contact or with one below LeastForce_N, but unobservable where the
+/// frame is doubtful, ok or unobservable for any other contact, bad_input for
+/// too few measurements or impossible ones.
 class LogEstimator {
  public:
   static constexpr std::size_t kWindow = 2048, kLongestWindow = 16384;
@@ -51,6 +56,13 @@ class LogEstimator {
   /// There are no more frames.
   void Finish();
 
+  /// How well the scene's gauge_offset_walk fits the frames so far. Where it is
+  /// too small, or the offsets drift steadily, what is not told about them goes
+  /// into the contacts, and these are unobservable.
+  const WalkIncrements& walk() const { return walk_; }
+  /// The number of frames that were estimated one by one.
+  std::size_t alone() const { return alone_; }
+
  private:
   // The last gap of the frames so far that is long enough.
   struct Gap {
@@ -64,8 +76,8 @@ class LogEstimator {
   double FreeChi2(const LogFrame& frame, const LogMarginal& marginal) const;
   LogPrior FirstPrior() const;
   OffsetBelief BeliefBefore() const;
-  FrameEstimate Judge(const LogFrame& frame, const LogMarginal& marginal,
-                      bool converged);
+  void EstimateAlone(const std::vector<LogFrame>& frames, std::size_t settled);
+  FrameEstimate Judge(const LogFrame& frame, const LogMarginal& marginal);
   void JudgeContact(const LogFrame& frame, const LogMarginal& marginal,
                     const PackedReadings& packed, FrameEstimate* estimate);
 
@@ -81,6 +93,10 @@ class LogEstimator {
   double least_force_N_;
   std::vector<LogFrame> frames_;
   LogPrior prior_;
+  WalkIncrements walk_;
+  bool offsets_are_told_ = true;
+  std::optional<FrameEstimator> frame_estimator_;  // made when needed
+  std::size_t alone_ = 0;
   std::size_t next_look_ = kWindow;  // frames at which a gap is looked for
 };
 

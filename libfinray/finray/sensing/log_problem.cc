@@ -13,7 +13,6 @@
 #include "finray/residuals/gauge_offset_change_residual.h"
 #include "finray/residuals/gaussian_prior_residual.h"
 #include "finray/residuals/parameter_prior_residual.h"
-#include "finray/sensing/block_tridiagonal.h"
 
 namespace finray {
 namespace {
@@ -272,11 +271,17 @@ void LogProblem::Linearize() {
   }
 }
 
+BlockTridiagonal LogProblem::Information() const {
+  std::vector<int> sizes;
+  for (std::size_t t = 0; t < frames_->size(); ++t) {
+    sizes.push_back(Unknowns(t));
+  }
+  return BlockTridiagonal(sizes);
+}
+
 std::vector<LogMarginal> LogProblem::Marginals() const {
   const std::size_t count = frames_->size();
-  std::vector<int> sizes;
-  for (std::size_t t = 0; t < count; ++t) sizes.push_back(Unknowns(t));
-  BlockTridiagonal all(sizes), own(sizes);
+  BlockTridiagonal all = Information(), own = Information();
   all.Add(jacobian_, residuals_, 0, jacobian_.num_rows);
   const std::vector<Eigen::MatrixXd> known = all.Marginals();
   std::vector<LogMarginal> marginals(count);
@@ -304,7 +309,69 @@ std::vector<LogMarginal> LogProblem::Marginals() const {
     marginal.mean_without += marginal.offsets_without * pull;
     marginal.chi2 += pull.dot(marginal.offsets_without * pull);
   }
+  if (scene_.smoothing) FindChanges(all, &marginals);
   return marginals;
+}
+
+void LogProblem::FindChanges(const BlockTridiagonal& all,
+                             std::vector<LogMarginal>* marginals) const {
+  const std::vector<Eigen::MatrixXd> gains = all.Gains();
+  const Eigen::Array2d told(scene_.smoothing->contact_mm,
+                            scene_.smoothing->normal_N);
+  for (std::size_t t = 1; t < marginals->size(); ++t) {
+    if (!Linked(t)) continue;
+    LogMarginal& to = (*marginals)[t];
+    const Eigen::MatrixXd& before = (*marginals)[t - 1].covariance;
+    const Eigen::MatrixXd both = gains[t - 1] * to.covariance;
+    const Eigen::Array2d variance =
+        before.diagonal().tail<2>() + to.covariance.diagonal().tail<2>() -
+        2 * both.bottomRightCorner<2, 2>().diagonal();
+    const LogFrame &from_frame = (*frames_)[t - 1], &frame = (*frames_)[t];
+    const Eigen::Array2d change(frame.arc_mm - from_frame.arc_mm,
+                                frame.normal_N - from_frame.normal_N);
+    to.change_chi2 = (change / told).square().sum();
+    to.change_dof = (1 - variance / told.square()).max(0).sum();
+  }
+}
+
+void LogProblem::AddTo(WalkIncrements* walk,
+                       const std::vector<LogMarginal>& marginals,
+                       std::size_t count) const {
+  if (!scene_.gauge_offset_walk || count < 2) return;
+  walk->told_V_per_sqrt_s = scene_.gauge_offset_walk->std_V_per_sqrt_s;
+  BlockTridiagonal all = Information();
+  all.Add(jacobian_, residuals_, 0, jacobian_.num_rows);
+  const std::vector<Eigen::MatrixXd> gains = all.Gains();
+  constexpr std::size_t kMostSteps = std::size_t{1}
+                                     << (WalkIncrements::kLags - 1);
+  std::size_t steps = kMostSteps, lag = 0;
+  for (; steps > count - 1; steps /= 2) ++lag;
+  const auto frame = [&](std::size_t step) {
+    return step * (count - 1) / steps;
+  };
+  // Of the steps between the chosen frames, then of the lag under way.
+  std::vector<Eigen::MatrixXd> passed;
+  for (std::size_t step = 0; step < steps; ++step) {
+    passed.push_back(gains[frame(step)]);
+    for (std::size_t t = frame(step) + 1; t < frame(step + 1); ++t) {
+      passed.back() *= gains[t];
+    }
+  }
+  const auto gauges = static_cast<Eigen::Index>(gauges_);
+  for (std::size_t of = 1; of <= steps; of *= 2, ++lag) {
+    for (std::size_t step = 0; step < steps; step += of) {
+      if (of > 1) passed[step] *= passed[step + of / 2];
+      const std::size_t from = frame(step), to = frame(step + of);
+      const Eigen::MatrixXd& at_end = marginals[to].covariance;
+      const Eigen::MatrixXd both =
+          (passed[step] * at_end).topLeftCorner(gauges, gauges);
+      walk->Add(lag, (*frames_)[to].offset_V - (*frames_)[from].offset_V,
+                (*frames_)[to].row.time_s - (*frames_)[from].row.time_s,
+                marginals[from].covariance.topLeftCorner(gauges, gauges) +
+                    at_end.topLeftCorner(gauges, gauges) - both -
+                    both.transpose());
+    }
+  }
 }
 
 LogPrior LogProblem::PriorOf(std::size_t frame) const {

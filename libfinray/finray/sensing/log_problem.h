@@ -12,9 +12,11 @@
 
 #include "finray/residuals/frame_blocks.h"
 #include "finray/scene/scene.h"
+#include "finray/sensing/block_tridiagonal.h"
 #include "finray/sensing/contact_search.h"
 #include "finray/sensing/frame_estimate.h"
 #include "finray/sensing/log_prior.h"
+#include "finray/sensing/walk_increments.h"
 
 namespace finray {
 
@@ -28,6 +30,8 @@ struct LogFrame {
 
   Measurements row;
   Role role = Role::kUnused;
+  /// A contact and offsets that have moved explain the frame alike.
+  bool doubtful = false;
   double noise_scale = 1;           ///< Factor on the std of its measurements.
   double arc_mm = 0, normal_N = 0;  ///< Start, then solution, if it touches.
   /// Mean of the weak prior of the force.
@@ -45,6 +49,11 @@ struct LogFrame {
   };
   std::optional<Rival> rival;
 
+  /// Takes the contact away: nobody knows whether there is one.
+  void LeaveOpen() {
+    role = Role::kUnused;
+    doubtful = true;
+  }
   /// Copies contact, poses and rib tensions of the solution, and the std of a
   /// covariance that ends with (l_c, f_c).
   void CopyTo(const Eigen::MatrixXd& covariance, FrameEstimate* estimate) const;
@@ -65,6 +74,10 @@ struct LogMarginal {
   /// The frame's readings against those offsets: r'r + (A'r)'C(A'r). Degrees of
   /// freedom: as many as gauges, less two for a contact.
   double chi2 = 0;
+  /// Of the change d since the contact of the frame before, with smoothing q by
+  /// unknown: the sum of (d / q)^2 and its expectation, the sum of
+  /// 1 - var(d) / q^2 with the variance that the whole problem leaves.
+  double change_chi2 = 0, change_dof = 0;
 
   /// The std of (l_c, f_c) for known offsets. An error of an offset is common
   /// to the frames of a touch.
@@ -109,6 +122,11 @@ class LogProblem {
   /// At the solution.
   std::vector<LogMarginal> Marginals() const;
 
+  /// Adds the increments of the offsets over the first `count` frames, at the
+  /// solution with these marginals, if the scene has a gauge_offset_walk.
+  void AddTo(WalkIncrements* walk, const std::vector<LogMarginal>& marginals,
+             std::size_t count) const;
+
   /// What the frames before `frame` tell about it, at the solution; `frame` is
   /// above 0. As the prior of a problem that begins there it stands for them.
   LogPrior PriorOf(std::size_t frame) const;
@@ -125,6 +143,9 @@ class LogProblem {
   void AddPrior(const LogPrior& prior);
   void FixWhatIsNotFree();
   void Linearize();
+  BlockTridiagonal Information() const;
+  void FindChanges(const BlockTridiagonal& all,
+                   std::vector<LogMarginal>* marginals) const;
   int FreeOffsets() const {
     return scene_.gauge_offset_walk ? static_cast<int>(gauges_) : 0;
   }

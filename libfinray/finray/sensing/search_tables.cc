@@ -1,5 +1,7 @@
 #include "finray/sensing/search_tables.h"
 
+#include "finray/sensing/packed_readings.h"
+
 namespace finray {
 
 SearchTables::SearchTables(const Scene& scene, EquilibriumSolver* solver)

@@ -96,6 +96,16 @@ LogPrior Smoother::Run(std::size_t begin, std::size_t end,
       FrameEstimate& estimate = estimates_[begin + t];
       alone.push_back(StdOf(estimate));
       frames[t].CopyTo(marginals[t].covariance, &estimate);
+      estimate.change_chi2 = marginals[t].change_chi2;
+      estimate.change_dof = marginals[t].change_dof;
+    }
+    if (before.mean.size() > 0) {
+      // The change from what the frames before predict.
+      const Eigen::Vector2d change =
+          Eigen::Vector2d(frames[0].arc_mm, frames[0].normal_N) - before.mean;
+      estimates_[begin].change_chi2 = change.dot(before.information * change);
+      estimates_[begin].change_dof =
+          2 - (marginals[0].covariance * before.information).trace();
     }
     Judge(begin, alone);
   }

@@ -46,20 +46,26 @@ TouchDetection::TouchDetection(const Finger& finger, const Scene& scene,
                 ? std::pow(scene.gauge_offset_walk->std_V_per_sqrt_s, 2)
                 : 0),
       search_(finger, WithAnyForce(scene, finger), discretization) {
-  if (walk_ == 0) return;
-  guard_s_ = kLongestGuard_s;
+  if (walk_ > 0) guard_s_ = GuardTime_s(finger, *scene.gauge_offset_walk);
+}
+
+double TouchDetection::GuardTime_s(const Finger& finger,
+                                   const GaugeOffsetWalk& walk) {
+  double guard_s = kLongestGuard_s;
   for (const Gauge& gauge : finger.gauges) {
-    guard_s_ = std::min(guard_s_, std::pow(kGuard * gauge.noise_V, 2) / walk_);
+    guard_s = std::min(
+        guard_s, std::pow(kGuard * gauge.noise_V / walk.std_V_per_sqrt_s, 2));
   }
+  return guard_s;
 }
 
 void TouchDetection::Decide(const OffsetBelief& before,
                             std::vector<LogFrame>* frames) {
   std::vector<LogFrame>& all = *frames;
-  const std::vector<Verdict> there = Pass(all, before, true);
+  const std::vector<Verdict> there = Pass(all, before, nullptr);
   std::vector<Verdict> back = there;
   if (walk_ > 0) {
-    back = Pass(all, Behind(before, all), false);
+    back = Pass(all, Behind(before, all), &there);
   }
   for (std::size_t t = 0; t < all.size(); ++t) {
     const auto either = [&](Verdict verdict) {
@@ -69,6 +75,8 @@ void TouchDetection::Decide(const OffsetBelief& before,
                   : either(Verdict::kGuard)  ? LogFrame::Role::kUnused
                   : either(Verdict::kFree)   ? LogFrame::Role::kFree
                                              : LogFrame::Role::kUnused;
+    all[t].doubtful =
+        all[t].role == LogFrame::Role::kUnused && either(Verdict::kDoubtful);
   }
   Start(before, &all);
 }
@@ -77,30 +85,47 @@ void TouchDetection::Decide(const OffsetBelief& before,
 OffsetBelief TouchDetection::Behind(const OffsetBelief& before,
                                     const std::vector<LogFrame>& frames) const {
   OffsetBelief behind = before;
-  Wander(frames.back().row.time_s, &behind);
+  behind.Wander(frames.back().row.time_s, walk_);
   return behind;
 }
 
 std::vector<TouchDetection::Verdict> TouchDetection::Pass(
-    const std::vector<LogFrame>& frames, OffsetBelief belief, bool forward) {
+    const std::vector<LogFrame>& frames, OffsetBelief belief,
+    const std::vector<Verdict>* there) {
+  const bool forward = there == nullptr;
+  const Eigen::VectorXd& angles = search_.table().free_angles();
   std::vector<Verdict> verdicts(frames.size());
+  HeldTouch touch = forward ? before_ : HeldTouch();
+  Eigen::VectorXd beside_V;
+  bool known = forward;  // where the offsets are
+  if (forward) touches_.clear();
   for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (forward) touches_.push_back(touch);
     const std::size_t t = At(i, frames.size(), forward);
     const LogFrame& frame = frames[t];
     OffsetBelief here = belief;
-    Wander(frame.row.time_s, &here);
+    here.Wander(frame.row.time_s, walk_);
+    ReadBesideFree(finger_, angles, frame.row, &beside_V);
     if (FindContact(frame, here.mean_V, here.variance_V2)) {
       const double chi2 = search_.best().chi2;
       const bool explained =
           chi2 < kLeftOver * measurement_.free_chi2 || measurement_.all < 3 ||
           ChiSquaredTail(chi2, measurement_.all - 2) > kExplained;
       verdicts[t] = explained ? Verdict::kTouching : Verdict::kUnexplained;
+      if (explained && walk_ > 0) touch.Hold(beside_V, frame.row.time_s);
       continue;
     }
-    Absorb(frame, &here);
+    known = known || (*there)[t] == Verdict::kFree;
+    if (!known || touch.Lasts(finger_, beside_V, here.mean_V)) {
+      verdicts[t] = Verdict::kDoubtful;
+      if (known) touch.Hold(beside_V, frame.row.time_s);
+      continue;
+    }
+    here.Absorb(finger_, angles, frame.row);
     if (CouldStayFree(frames, i, here, forward)) {
       belief = here;
       verdicts[t] = Verdict::kFree;
+      touch.End();
     } else {
       verdicts[t] = Verdict::kGuard;
     }
@@ -117,7 +142,7 @@ bool TouchDetection::CouldStayFree(const std::vector<LogFrame>& frames,
     const bool close = std::abs(frame.row.time_s - belief.time_s) <= guard_s_;
     if (walk_ == 0 || (!close && i > first + kLeastGuard)) break;
     OffsetBelief here = belief;
-    Wander(frame.row.time_s, &here);
+    here.Wander(frame.row.time_s, walk_);
     const double chi2 = FreeChi2(frame, here.mean_V, here.variance_V2);
     const auto gauges = static_cast<int>(finger_.gauges.size());
     if (ChiSquaredTail(chi2, gauges) < kCouldBeFree) return false;
@@ -125,29 +150,37 @@ bool TouchDetection::CouldStayFree(const std::vector<LogFrame>& frames,
   return true;
 }
 
+std::vector<OffsetBelief> TouchDetection::Beliefs(
+    const OffsetBelief& before, const std::vector<LogFrame>& frames) const {
+  std::vector<OffsetBelief> beliefs = FromOneSide(frames, before, true);
+  if (walk_ == 0) return beliefs;
+  const std::vector<OffsetBelief> back =
+      FromOneSide(frames, Behind(before, frames), false);
+  for (std::size_t t = 0; t < frames.size(); ++t) {
+    OffsetBelief& here = beliefs[t];
+    const Eigen::ArrayXd share =
+        here.variance_V2.array() /
+        (here.variance_V2 + back[t].variance_V2).array();
+    here.mean_V.array() += share * (back[t].mean_V - here.mean_V).array();
+    here.variance_V2.array() = share * back[t].variance_V2.array();
+  }
+  return beliefs;
+}
+
 // Starts: offsets from the free frames on both sides, contacts from a search
 // with these.
 void TouchDetection::Start(const OffsetBelief& before,
                            std::vector<LogFrame>* frames) {
-  const std::vector<OffsetBelief> there = FromOneSide(*frames, before, true);
-  const std::vector<OffsetBelief> back =
-      FromOneSide(*frames, Behind(before, *frames), false);
+  const std::vector<OffsetBelief> beliefs = Beliefs(before, *frames);
   for (std::size_t t = 0; t < frames->size(); ++t) {
     LogFrame& frame = (*frames)[t];
-    OffsetBelief here = there[t];
-    if (walk_ > 0) {
-      const Eigen::ArrayXd share =
-          there[t].variance_V2.array() /
-          (there[t].variance_V2 + back[t].variance_V2).array();
-      here.mean_V.array() += share * (back[t].mean_V - there[t].mean_V).array();
-      here.variance_V2.array() = share * back[t].variance_V2.array();
-    }
+    const OffsetBelief& here = beliefs[t];
     frame.offset_V = here.mean_V;
     if (frame.role != LogFrame::Role::kTouching) continue;
     if (FindContact(frame, here.mean_V, here.variance_V2)) {
       StartTouch(&frame);
     } else {
-      frame.role = LogFrame::Role::kUnused;
+      frame.LeaveOpen();
     }
   }
 }
@@ -160,6 +193,7 @@ void TouchDetection::StartTouch(LogFrame* frame) const {
     std::swap(first, second);
   }
   frame->role = LogFrame::Role::kTouching;
+  frame->doubtful = false;
   frame->arc_mm = first->contacts[0].arc_mm;
   frame->normal_N = first->contacts[0].normal_N;
   frame->state = search_.table().StateNear(frame->arc_mm, frame->normal_N);
@@ -175,9 +209,11 @@ std::vector<OffsetBelief> TouchDetection::FromOneSide(
   std::vector<OffsetBelief> beliefs(frames.size());
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const std::size_t t = At(i, frames.size(), forward);
-    Wander(frames[t].row.time_s, &belief);
+    belief.Wander(frames[t].row.time_s, walk_);
     beliefs[t] = belief;
-    if (frames[t].role == LogFrame::Role::kFree) Absorb(frames[t], &belief);
+    if (frames[t].role == LogFrame::Role::kFree) {
+      belief.Absorb(finger_, search_.table().free_angles(), frames[t].row);
+    }
   }
   return beliefs;
 }
@@ -224,29 +260,6 @@ double TouchDetection::FreeChi2(const LogFrame& frame,
         (variance_V2[j] + std::pow(frame.row.GaugeStd_V(j, gauge.noise_V), 2));
   }
   return chi2;
-}
-
-void TouchDetection::Wander(double time_s, OffsetBelief* belief) const {
-  belief->variance_V2.array() += walk_ * std::abs(time_s - belief->time_s);
-  belief->time_s = time_s;
-}
-
-// The readings of a free frame are its offsets, but for the noise and what the
-// unloaded finger reads.
-void TouchDetection::Absorb(const LogFrame& frame, OffsetBelief* belief) const {
-  const Eigen::VectorXd& free = search_.table().free_angles();
-  for (std::size_t j = 0; j < finger_.gauges.size(); ++j) {
-    if (!finger_.gauges[j].IsMeasured(frame.row.gauges_V[j])) continue;
-    const Gauge& gauge = finger_.gauges[j];
-    double& mean = belief->mean_V[j];
-    double& variance = belief->variance_V2[j];
-    const double weight =
-        variance /
-        (variance + std::pow(frame.row.GaugeStd_V(j, gauge.noise_V), 2));
-    mean +=
-        weight * (frame.row.gauges_V[j] - gauge.BendingVolts(free[j]) - mean);
-    variance *= 1 - weight;
-  }
 }
 
 }  // namespace finray

@@ -7,14 +7,9 @@
 #include "finray/scene/scene.h"
 #include "finray/sensing/contact_search.h"
 #include "finray/sensing/log_problem.h"
+#include "finray/sensing/offset_belief.h"
 
 namespace finray {
-
-/// Gauge offsets as Gaussians that do not depend on each other.
-struct OffsetBelief {
-  double time_s = 0;
-  Eigen::VectorXd mean_V, variance_V2;
-};
 
 /// Decides which frames of a log touch, before its offsets are known.
 ///
@@ -26,11 +21,16 @@ struct OffsetBelief {
 ///    readings also explains the frames within the guard time: this keeps the
 ///    begin and the end of a touch, where the force is small, out of the
 ///    belief;
+///  - is doubtful if the free finger explains it and a touch before has not
+///    ended (HeldTouch);
 ///  - is left open otherwise.
 ///
-/// One pass goes forward and one backward. A frame touches if one pass says so.
-/// It stays open (LogFrame::Role::kUnused) if one pass leaves it open because
-/// of the frames behind it. All other frames are free.
+/// One pass goes forward and one backward. The forward one takes it that the
+/// log begins with a free finger. The backward one knows nothing of the end of
+/// the log until it comes to a frame that the forward one calls free. A frame
+/// touches if one pass says so. It stays open (LogFrame::Role::kUnused) if one
+/// pass leaves it open because of the frames behind it, or if no pass calls it
+/// free; in doubt, it is also LogFrame::doubtful. All other frames are free.
 class TouchDetection {
  public:
   /// The guard time is that in which offsets wander by so many std of a
@@ -38,6 +38,7 @@ class TouchDetection {
   static constexpr double kGuard = 2;
   static constexpr double kLongestGuard_s = 1;
   static constexpr double kHeavier = 2;
+  static double GuardTime_s(const Finger& finger, const GaugeOffsetWalk& walk);
 
   /// Throws what ContactSearch throws.
   TouchDetection(const Finger& finger, const Scene& scene,
@@ -47,6 +48,16 @@ class TouchDetection {
   /// and where they start: offsets from the free frames on both sides, contacts
   /// from a search with these.
   void Decide(const OffsetBelief& before, std::vector<LogFrame>* frames);
+
+  /// The first `settled` frames of those of Decide are done with. What lasts
+  /// there goes on in the next ones.
+  void Settle(std::size_t settled) {
+    if (settled < touches_.size()) before_ = touches_[settled];
+  }
+
+  /// The offsets of each frame as the free frames on both sides tell them.
+  std::vector<OffsetBelief> Beliefs(const OffsetBelief& before,
+                                    const std::vector<LogFrame>& frames) const;
 
   /// Searches for the contact of a frame whose offsets have this mean and
   /// variance. False if the free finger explains it about as well, unless the
@@ -61,17 +72,17 @@ class TouchDetection {
   void StartTouch(LogFrame* frame) const;
 
  private:
-  enum class Verdict { kFree, kTouching, kGuard, kUnexplained };
+  enum class Verdict { kFree, kTouching, kDoubtful, kGuard, kUnexplained };
 
+  // The verdicts of the forward pass, or with these those of the backward one.
   std::vector<Verdict> Pass(const std::vector<LogFrame>& frames,
-                            OffsetBelief belief, bool forward);
+                            OffsetBelief belief,
+                            const std::vector<Verdict>* there);
   // Whether all frames that follow `first` closely could be free.
   bool CouldStayFree(const std::vector<LogFrame>& frames, std::size_t first,
                      const OffsetBelief& belief, bool forward) const;
   double FreeChi2(const LogFrame& frame, const Eigen::VectorXd& mean_V,
                   const Eigen::VectorXd& variance_V2) const;
-  void Wander(double time_s, OffsetBelief* belief) const;
-  void Absorb(const LogFrame& frame, OffsetBelief* belief) const;
   OffsetBelief Behind(const OffsetBelief& before,
                       const std::vector<LogFrame>& frames) const;
   std::vector<OffsetBelief> FromOneSide(const std::vector<LogFrame>& frames,
@@ -84,7 +95,9 @@ class TouchDetection {
   double walk_;  // V^2 per s
   double guard_s_ = 0;
   ContactSearch search_;
-  PackedReadings measurement_;  // of the last FindContact
+  HeldTouch before_;                // at the first frame
+  std::vector<HeldTouch> touches_;  // before each frame of Decide
+  PackedReadings measurement_;      // of the last FindContact
 };
 
 }  // namespace finray
