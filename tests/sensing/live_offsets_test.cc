@@ -11,18 +11,19 @@
 namespace finray {
 namespace {
 
-struct Tally {
+struct LiveTally {
   int touching = 0, missed = 0, ok = 0, far = 0, within = 0, imagined = 0,
       free = 0;
 };
 
-Tally Followed(const WanderingLogSettings& settings, double told_V_per_sqrt_s) {
+LiveTally Followed(const WanderingLogSettings& settings,
+                   double told_V_per_sqrt_s) {
   const WanderingLog log(PaperFinger(), {Scheme::kTaylor12, 96}, settings);
   Scene scene;
   scene.most_contacts = 1;
   scene.gauge_offset_walk = {0.02, told_V_per_sqrt_s};
   FrameEstimator estimator(PaperFinger(), scene);
-  Tally tally;
+  LiveTally tally;
   for (std::size_t t = 0; t < log.rows.size(); ++t) {
     const FrameEstimate estimate = estimator.Next(log.rows[t]);
     const double truth = log.truth[t].normal_N;
@@ -44,7 +45,7 @@ Tally Followed(const WanderingLogSettings& settings, double told_V_per_sqrt_s) {
 TEST(LiveOffsetsTest, ForcesUnderOffsetsThatWander) {
   WanderingLogSettings settings;
   settings.duration_s = 300;
-  const Tally tally = Followed(settings, settings.walk_V_per_sqrt_s);
+  const LiveTally tally = Followed(settings, settings.walk_V_per_sqrt_s);
   EXPECT_GT(tally.ok, 0.5 * tally.touching);
   EXPECT_GT(tally.free, 500);
   EXPECT_LE(tally.imagined, 3);
@@ -64,7 +65,7 @@ TEST(LiveOffsetsTest, DriftUnderLoadIsNoForce) {
   settings.shortest_gap_s = settings.longest_gap_s = 10;
   settings.least_N = settings.most_N = 2;
   settings.lowest_mm = settings.highest_mm = 70;
-  const Tally tally = Followed(settings, 5e-4);
+  const LiveTally tally = Followed(settings, 5e-4);
   EXPECT_GT(tally.ok, 50);
   EXPECT_EQ(tally.missed, 0);
   EXPECT_EQ(tally.imagined, 0);
