@@ -47,9 +47,9 @@ Scene OneContact() {
   return scene;
 }
 
-std::vector<Warning> Of(const EstimationSummary& summary,
-                        const Finger& finger) {
-  return WarningsOf({{&summary, "a.csv"}}, finger);
+std::vector<Warning> Of(const EstimationSummary& summary, const Finger& finger,
+                        const LogCause& cause = {}) {
+  return WarningsOf({{&summary, "a.csv", &cause}}, finger);
 }
 
 // Gauges that have all moved by as much agree on a contact that is not there.
@@ -67,7 +67,9 @@ TEST(EstimationWarningsTest, ForcesThatTheLogContradicts) {
   }
   EXPECT_THAT(Of(summary, finger), IsEmpty());
   summary.Add(Contact(30, 1), 0, Row(finger, 0, 0.02), finger);
-  const std::vector<Warning> warnings = Of(summary, finger);
+  const std::vector<Warning> warnings =
+      Of(summary, finger,
+         {"the gauges' offsets have moved", "so far", "finray_zero"});
   ASSERT_THAT(warnings, SizeIs(1));
   EXPECT_EQ(warnings[0].code, "forces_differ");
   EXPECT_EQ(warnings[0].text,
@@ -75,7 +77,9 @@ TEST(EstimationWarningsTest, ForcesThatTheLogContradicts) {
             "differ from the force_N of a.csv by 7.83 N rms, 29.9 times their "
             "stated std, and 3 of 44 are far off; in its 4 rows with a "
             "force_N near zero the gauges read +20, +20, +20, +20 mV beside "
-            "their offsets");
+            "their offsets; so far");
+  // Nobody has looked for a cause, so none is named.
+  EXPECT_EQ(Of(summary, finger)[0].text.find("estimated forces differ"), 0u);
   EXPECT_THAT(warnings[0].remedy, HasSubstr("finray_zero"));
   EXPECT_TRUE(FailsStrict(warnings, {}));
 }
@@ -94,8 +98,6 @@ TEST(EstimationWarningsTest, FreeRowsThatReadTheirOffsets) {
   ASSERT_THAT(warnings, SizeIs(1));
   EXPECT_THAT(warnings[0].text, HasSubstr("read +0.1, +0.1, +0.1, +0.1 mV"));
   EXPECT_THAT(warnings[0].text, Not(HasSubstr("offsets have moved")));
-  EXPECT_THAT(warnings[0].remedy,
-              HasSubstr("the offsets have not moved: look at the unit"));
 }
 
 TEST(EstimationWarningsTest, ALogWithoutForceThatIsNeverFree) {
@@ -128,57 +130,6 @@ TEST(EstimationWarningsTest, ALogWithoutForceThatIsNeverFree) {
   estimate.status = FrameStatus::kNoContact;
   summary.Add(estimate, 0, Row(finger, std::nan(""), 0.02), finger);
   EXPECT_THAT(Of(summary, finger), IsEmpty());
-}
-
-// 100 frames with a contact of 1 N, explained, and `bad` of 4 N that are not.
-EstimationSummary SomeUnexplained(const Finger& finger, int bad, int still) {
-  EstimationSummary summary;
-  for (int i = 0; i < 100 + bad; ++i) {
-    FrameEstimate estimate = Contact(i < 100 ? 1 : 4, 0.02);
-    estimate.dof = 2;
-    estimate.chi2 = i < 100 ? 1 : 50;
-    Measurements row = Row(finger, std::nan(""), 0.01 * (i % 5));
-    if (still >= 0) row.gauges_V[still] = 0.1;
-    summary.Add(estimate, 0, row, finger);
-  }
-  return summary;
-}
-
-TEST(EstimationWarningsTest, WhatGrowsWithLoadIsStiffness) {
-  const Finger finger = CalibratedFinger();
-  EXPECT_THAT(Of(SomeUnexplained(finger, 0, -1), finger),
-              testing::Each(testing::Field(&Warning::code, "never_free")));
-  const auto warnings = Of(SomeUnexplained(finger, 3, -1), finger);
-  ASSERT_FALSE(warnings.empty());
-  EXPECT_EQ(warnings[0].code, "some_unexplained_frames");
-  EXPECT_THAT(warnings[0].text,
-              HasSubstr("likeliest cause: it grows with the load"));
-  EXPECT_FALSE(FailsStrict(warnings, OneContact()));
-}
-
-TEST(EstimationWarningsTest, AGaugeThatStandsStillIsDead) {
-  const Finger finger = CalibratedFinger();
-  const auto warnings = Of(SomeUnexplained(finger, 30, 2), finger);
-  ASSERT_FALSE(warnings.empty());
-  EXPECT_EQ(warnings[0].code, "unexplained_frames");
-  EXPECT_THAT(warnings[0].text, HasSubstr("likeliest cause: gauge 3 is dead"));
-}
-
-TEST(EstimationWarningsTest, AGaugeThatMovedAloneHasSlipped) {
-  const Finger finger = CalibratedFinger();
-  EstimationSummary summary;
-  for (int i = 0; i < 20; ++i) {
-    FrameEstimate estimate = Contact(1, 0.02);
-    estimate.dof = 2;
-    estimate.chi2 = 50;
-    Measurements row = Row(finger, 0, 0);
-    row.gauges_V[1] += 0.02;
-    summary.Add(estimate, 0, row, finger);
-  }
-  const auto warnings = Of(summary, finger);
-  ASSERT_FALSE(warnings.empty());
-  EXPECT_THAT(warnings[0].text,
-              HasSubstr("likeliest cause: gauge 2 has slipped"));
 }
 
 TEST(EstimationWarningsTest, NamesTheFirstReadingThatNoGaugeGives) {

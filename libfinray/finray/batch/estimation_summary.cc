@@ -96,23 +96,7 @@ void EstimationSummary::Add(const FrameEstimate& estimate, double coefficient,
       estimate.status == FrameStatus::kBadInput) {
     return;
   }
-  const bool is_explained = !estimate.IsUnexplained();
-  unexplained += !is_explained;
-  if (all_read) {
-    ++read_rows;
-    AddAll(readings.gauges_V, &read_sums_V);
-    read_squares_V2.resize(read_sums_V.size());
-    for (std::size_t j = 0; j < readings.gauges_V.size(); ++j) {
-      read_squares_V2[j] += readings.gauges_V[j] * readings.gauges_V[j];
-    }
-  }
-  if (estimate.contacts > 0) {
-    ++(is_explained ? loads_explained : loads_unexplained);
-    double& load_N = is_explained ? load_explained_N : load_unexplained_N;
-    for (int c = 0; c < estimate.contacts; ++c) {
-      load_N += estimate.contact[c].normal_N;
-    }
-  }
+  unexplained += estimate.IsUnexplained();
   // The contacts of unobservable frames are unreliable, so they are not
   // compared.
   if (estimate.status == FrameStatus::kUnobservable) return;
@@ -153,13 +137,6 @@ void EstimationSummary::Add(const EstimationSummary& other) {
   force_variances_N2 += other.force_variances_N2;
   free_rows += other.free_rows;
   AddAll(other.free_sums_V, &free_sums_V);
-  read_rows += other.read_rows;
-  AddAll(other.read_sums_V, &read_sums_V);
-  AddAll(other.read_squares_V2, &read_squares_V2);
-  loads_explained += other.loads_explained;
-  loads_unexplained += other.loads_unexplained;
-  load_explained_N += other.load_explained_N;
-  load_unexplained_N += other.load_unexplained_N;
   walk.Add(other.walk);
   alone += other.alone;
   change_chi2 += other.change_chi2;
@@ -181,21 +158,13 @@ std::string SummaryToText(const EstimationSummary& summary) {
           std::to_string(summary.force_far) + " " +
           NumberText(summary.force_variances_N2) + " " +
           std::to_string(summary.free_rows) + " " +
-          std::to_string(summary.read_rows) + " " +
-          std::to_string(summary.loads_explained) + " " +
-          std::to_string(summary.loads_unexplained) + " " +
-          NumberText(summary.load_explained_N) + " " +
-          NumberText(summary.load_unexplained_N) + " " +
           std::to_string(summary.impossible) + " " +
           std::to_string(summary.impossible_row) + " " +
           std::to_string(summary.impossible_gauge) + " " +
           summary.impossible_V + " " + NumberText(summary.change_chi2) + " " +
-          NumberText(summary.change_dof);
-  for (const auto* sums :
-       {&summary.free_sums_V, &summary.read_sums_V, &summary.read_squares_V2}) {
-    text += " " + std::to_string(sums->size());
-    for (const double sum : *sums) text += " " + NumberText(sum);
-  }
+          NumberText(summary.change_dof) + " " +
+          std::to_string(summary.free_sums_V.size());
+  for (const double sum : summary.free_sums_V) text += " " + NumberText(sum);
   return text;
 }
 
@@ -217,21 +186,14 @@ std::optional<EstimationSummary> SummaryFromText(const std::string& text) {
   number(&summary.force_max_N);
   stream >> summary.force_judged >> summary.force_far;
   number(&summary.force_variances_N2);
-  stream >> summary.free_rows >> summary.read_rows >> summary.loads_explained >>
-      summary.loads_unexplained;
-  number(&summary.load_explained_N);
-  number(&summary.load_unexplained_N);
-  stream >> summary.impossible >> summary.impossible_row >>
+  stream >> summary.free_rows >> summary.impossible >> summary.impossible_row >>
       summary.impossible_gauge >> summary.impossible_V;
   number(&summary.change_chi2);
   number(&summary.change_dof);
-  for (auto* sums :
-       {&summary.free_sums_V, &summary.read_sums_V, &summary.read_squares_V2}) {
-    std::size_t gauges = 0;
-    stream >> gauges;
-    for (std::size_t j = 0; stream && j < gauges; ++j) {
-      number(&sums->emplace_back());
-    }
+  std::size_t gauges = 0;
+  stream >> gauges;
+  for (std::size_t j = 0; stream && j < gauges; ++j) {
+    number(&summary.free_sums_V.emplace_back());
   }
   std::string rest;
   if (!stream || stream >> rest) return std::nullopt;

@@ -56,14 +56,6 @@ struct EstimationSummary {
   std::size_t free_rows = 0;
   std::vector<double> free_sums_V;
   static constexpr double kFreeForce_N = 0.06;  // 3 std of a usual sensor
-  /// Solved rows with all readings and, by gauge, the sums of these and of
-  /// their squares.
-  std::size_t read_rows = 0;
-  std::vector<double> read_sums_V, read_squares_V2;
-  /// Solved frames with a contact, the explained ones and the others, and the
-  /// sums of their normal forces.
-  std::size_t loads_explained = 0, loads_unexplained = 0;
-  double load_explained_N = 0, load_unexplained_N = 0;
   /// Of whole logs whose offsets wander (LogEstimator).
   WalkIncrements walk;
   /// Frames of whole logs that were estimated one by one.
@@ -102,6 +94,8 @@ struct EstimationSummary {
   /// estimate can be compared with a force.
   bool never_free() const;
   static constexpr std::size_t kManyFrames = 50;
+  /// As many rows are free as must be before one speaks of them.
+  bool any_free_rows() const { return free_rows >= kFewestUnexplained; }
   /// Rms of the force error; 0 if no force was compared.
   double force_rms_N() const;
   /// Rms of the std that the judged estimates claim.

@@ -1,8 +1,6 @@
 #include "finray/batch/estimation_warnings.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 
 #include "finray/finger/possible_reading.h"
 #include "finray/io/number_text.h"
@@ -11,177 +9,111 @@
 namespace finray {
 namespace {
 
-// If all gauges of the free finger read their offsets within so many noise_V,
-// the offsets are not the cause.
-constexpr double kMoved = 2;
-
-// The mean shift of each gauge in free rows.
-struct Shift {
-  std::string words;
-  bool moved = false;
-  int moved_gauges = 0, last_moved = -1;
-};
-
-std::optional<Shift> ShiftOf(const EstimationSummary& summary,
-                             const Finger& finger) {
-  if (summary.free_rows < EstimationSummary::kFewestUnexplained) return {};
+// Where free rows show it, says what their gauges read beside the offsets.
+std::string Measured(const EstimationSummary& summary, const Finger& finger) {
+  if (!summary.any_free_rows()) return "";
   const Eigen::VectorXd bent_V = FreeVolts(finger, {});
-  Shift shift;
   std::string list;
   for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
-    const Gauge& gauge = finger.gauges[j];
     const double moved_V =
         summary.free_sums_V[j] / static_cast<double>(summary.free_rows) -
-        gauge.offset_V - bent_V[static_cast<Eigen::Index>(j)];
-    if (std::abs(moved_V) >
-        kMoved * std::hypot(gauge.noise_V, gauge.HysteresisV())) {
-      shift.moved = true;
-      ++shift.moved_gauges;
-      shift.last_moved = static_cast<int>(j);
-    }
+        finger.gauges[j].offset_V - bent_V[static_cast<Eigen::Index>(j)];
     list += FormatText("%s%+.2g", j > 0 ? ", " : "", 1e3 * moved_V);
   }
-  shift.words = "in its " + std::to_string(summary.free_rows) +
-                " rows with a force_N near zero the gauges read " + list +
-                " mV beside their offsets";
-  return shift;
+  return "; in its " + std::to_string(summary.free_rows) +
+         " rows with a force_N near zero the gauges read " + list +
+         " mV beside their offsets";
 }
 
-// Where free rows show it, says how far the offsets have moved.
-std::string Measured(const std::optional<Shift>& shift) {
-  return shift ? "; " + shift->words : "";
-}
-
-bool MayHaveMoved(const std::optional<Shift>& shift) {
-  return !shift || shift->moved;
-}
-
-const char* MovedOrNot(const std::optional<Shift>& shift) {
-  return MayHaveMoved(shift)
-             ? "zero the gauges with finray_zero; then look for more contacts "
-               "than the scene has, a changed finger, a wrong noise_V"
-             : "the offsets have not moved: look at the unit and the delay of "
-               "force_N, for more contacts than the scene has, a changed "
-               "finger, a wrong noise_V";
-}
-
-// Returns the gauge that reads nothing but noise while the others move; -1 if
-// there is none.
-int DeadGauge(const EstimationSummary& summary, const Finger& finger) {
-  constexpr double kStill = 3, kMoves = 30;  // in noise_V
-  const auto rows = static_cast<double>(summary.read_rows);
-  if (summary.read_rows < EstimationSummary::kManyFrames) return -1;
-  int still = -1, moving = 0;
-  for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
-    const double mean = summary.read_sums_V[j] / rows;
-    const double variance = summary.read_squares_V2[j] / rows - mean * mean;
-    const double scatter =
-        std::sqrt(std::max(0.0, variance)) / finger.gauges[j].noise_V;
-    if (scatter < kStill) still = still < 0 ? static_cast<int>(j) : -2;
-    moving += scatter > kMoves;
-  }
-  return still >= 0 && moving + 1 == static_cast<int>(finger.gauges.size())
-             ? still
-             : -1;
-}
-
-// Says whether the frames that are not explained are those of high loads.
-bool GrowsWithLoad(const EstimationSummary& summary) {
-  constexpr double kHeavier = 1.5;
-  constexpr std::size_t kFewest = EstimationSummary::kFewestUnexplained;
-  return summary.loads_explained >= kFewest &&
-         summary.loads_unexplained >= kFewest &&
-         summary.load_unexplained_N /
-                 static_cast<double>(summary.loads_unexplained) >
-             kHeavier * summary.load_explained_N /
-                 static_cast<double>(summary.loads_explained);
-}
-
-// The likeliest reason why the finger does not fit a log; empty if there is
-// none.
-std::string LikeliestCause(const EstimationSummary& summary,
-                           const Finger& finger,
-                           const std::optional<Shift>& shift) {
+// "likeliest cause: ...; ", or "" if nobody has looked for it.
+std::string CauseOf(const LogSummary& log, const Finger& finger) {
   const std::string cause = "likeliest cause: ";
-  if (!finger.calibration) return cause + "the finger is not calibrated; ";
-  if (const int dead = DeadGauge(summary, finger); dead >= 0) {
-    return cause + "gauge " + std::to_string(dead + 1) +
-           " is dead: it does not move while the others do; ";
+  if (log.cause && !log.cause->words.empty()) {
+    return cause + log.cause->words + "; ";
   }
-  if (shift && shift->moved_gauges == 1 && finger.gauges.size() > 2) {
-    return cause + "gauge " + std::to_string(shift->last_moved + 1) +
-           " has slipped: its offset alone has moved; ";
-  }
-  if (!(shift && shift->moved) && GrowsWithLoad(summary)) {
-    return cause +
-           "it grows with the load, so stiffness, gains or friction are not "
-           "the finger's; ";
-  }
-  if (MayHaveMoved(shift)) return cause + "the gauges' offsets have moved; ";
-  return "";
+  return finger.calibration ? "" : cause + "the finger is not calibrated; ";
 }
 
-const char* Remedy(const Finger& finger, const std::optional<Shift>& shift) {
-  return finger.calibration ? MovedOrNot(shift)
-                            : "calibrate it with finray_calibrate";
+// What the cause and the free rows measure.
+std::string Details(const LogSummary& log, const Finger& finger) {
+  std::string details = Measured(*log.summary, finger);
+  if (log.cause && !log.cause->details.empty()) {
+    details += "; " + log.cause->details;
+  }
+  return details;
 }
 
-Warning Unexplained(const EstimationSummary& summary, const Finger& finger,
-                    const std::string& log) {
-  const auto shift = ShiftOf(summary, finger);
+std::string Remedy(const LogSummary& log, const Finger& finger) {
+  if (log.cause && !log.cause->remedy.empty()) return log.cause->remedy;
+  return finger.calibration
+             ? "look at the frames with a high chi2: for moved offsets, more "
+               "contacts than the scene has, a changed finger, a wrong noise_V"
+             : "calibrate it with finray_calibrate";
+}
+
+// `name` is that of the log, and may count others.
+Warning Unexplained(const LogSummary& log, const Finger& finger,
+                    const std::string& name) {
+  const EstimationSummary& summary = *log.summary;
   return {"unexplained_frames",
-          LikeliestCause(summary, finger, shift) +
-              std::to_string(summary.unexplained) + " of " +
+          CauseOf(log, finger) + std::to_string(summary.unexplained) + " of " +
               std::to_string(summary.frames - summary.unsolved()) +
-              " solved frames of " + log +
+              " solved frames of " + name +
               " are not explained by the finger and its noise" +
-              Measured(shift),
-          Remedy(finger, shift)};
+              Details(log, finger),
+          Remedy(log, finger)};
 }
 
-Warning SomeUnexplained(const EstimationSummary& summary, const Finger& finger,
-                        const std::string& log) {
-  Warning warning = Unexplained(summary, finger, log);
+Warning SomeUnexplained(const LogSummary& log, const Finger& finger,
+                        const std::string& name) {
+  Warning warning = Unexplained(log, finger, name);
   warning.code = "some_unexplained_frames";
   return warning;
 }
 
-Warning ForcesDiffer(const EstimationSummary& summary, const Finger& finger,
-                     const std::string& log) {
-  const auto shift = ShiftOf(summary, finger);
+Warning ForcesDiffer(const LogSummary& log, const Finger& finger,
+                     const std::string& name) {
+  const EstimationSummary& summary = *log.summary;
   return {"forces_differ",
-          LikeliestCause(summary, finger, shift) +
-              "estimated forces differ from the force_N of " + log +
+          CauseOf(log, finger) +
+              "estimated forces differ from the force_N of " + name +
               FormatText(" by %.3g N rms, %.3g times their stated std, and "
                          "%zu of %zu are far off",
                          summary.force_rms_N(),
                          summary.force_rms_N() / summary.force_std_N(),
                          summary.force_far, summary.force_judged) +
-              Measured(shift),
-          Remedy(finger, shift)};
+              Details(log, finger),
+          Remedy(log, finger)};
 }
 
-Warning NeverFree(const EstimationSummary& summary, const Finger& finger,
-                  const std::string& log) {
-  const auto shift = ShiftOf(summary, finger);
+Warning NeverFree(const LogSummary& log, const Finger& finger,
+                  const std::string& name) {
+  const EstimationSummary& summary = *log.summary;
   const std::string none =
       "none of the " + std::to_string(summary.frames - summary.unsolved()) +
-      " solved frames of " + log + " is free, " +
+      " solved frames of " + name + " is free, " +
       std::to_string(summary.count(FrameStatus::kUnobservable)) +
       " unobservable";
-  if (shift) {
+  if (summary.any_free_rows()) {
     return {"forces_differ",
-            none + ", although some have a force_N near zero" + Measured(shift),
-            MovedOrNot(shift)};
+            CauseOf(log, finger) + none +
+                ", although some have a force_N near zero" +
+                Details(log, finger),
+            Remedy(log, finger)};
   }
+  // Where a cause is known, it is not guessed here.
+  const bool looked =
+      finger.calibration && log.cause && !log.cause->words.empty();
   return {"never_free", none + ", and no force_N says whether that is so",
-          "if the finger was free in any of them, the gauges' offsets have "
-          "moved: zero them with finray_zero; if it never was, say contacts: 1 "
-          "in the scene"};
+          looked ? log.cause->remedy
+                 : "if the finger was free in any of them, the gauges' offsets "
+                   "have moved: zero them with finray_zero; if it never was, "
+                   "say contacts: 1 in the scene"};
 }
 
-Warning WalkDiffers(const EstimationSummary& summary, const Finger& /*finger*/,
-                    const std::string& log) {
+Warning WalkDiffers(const LogSummary& log, const Finger& /*finger*/,
+                    const std::string& name) {
+  const EstimationSummary& summary = *log.summary;
   using Verdict = WalkIncrements::Verdict;
   const WalkIncrements& walk = summary.walk;
   const Verdict verdict = walk.Judge();
@@ -190,7 +122,7 @@ Warning WalkDiffers(const EstimationSummary& summary, const Finger& /*finger*/,
   const std::string fitting = FormatText("%.2g", walk.FittingWalk());
   if (verdict == Verdict::kTooLarge) {
     return {"wide_offset_walk",
-            "the offsets of " + log + " wander less than the scene's " + told +
+            "the offsets of " + name + " wander less than the scene's " + told +
                 " says: " + fitting +
                 " fits. Contacts that are held come out less exact, or "
                 "unobservable",
@@ -199,7 +131,7 @@ Warning WalkDiffers(const EstimationSummary& summary, const Finger& /*finger*/,
   const std::string unobservable = "; its contacts are unobservable";
   if (verdict == Verdict::kTooSmall) {
     return {"offset_walk",
-            "the offsets of " + log + " wander more than the scene's " + told +
+            "the offsets of " + name + " wander more than the scene's " + told +
                 " says: " + fitting + " fits" + unobservable,
             "say " + fitting + " in the scene's gauge_offset_walk"};
   }
@@ -209,28 +141,30 @@ Warning WalkDiffers(const EstimationSummary& summary, const Finger& /*finger*/,
                          1e3 * moved_V / walk.moved_s);
   }
   return {"offset_walk",
-          "the offsets of " + log + " drift steadily, by " + drifts +
+          "the offsets of " + name + " drift steadily, by " + drifts +
               " mV/s, which the scene's walk of " + told + " is not" +
               unobservable,
           "let the gauges warm up, or take the drift out of the readings; a "
           "walk must be as large as the drift between two free stretches"};
 }
 
-Warning ChangesDiffer(const EstimationSummary& summary,
-                      const Finger& /*finger*/, const std::string& log) {
+Warning ChangesDiffer(const LogSummary& log, const Finger& /*finger*/,
+                      const std::string& name) {
+  const EstimationSummary& summary = *log.summary;
   return {"smoothing",
           FormatText("contacts of %s change from frame to frame by %.2g times "
                      "what the scene's smoothing says, so that their std are "
                      "too small",
-                     log.c_str(),
+                     name.c_str(),
                      std::sqrt(summary.change_chi2 / summary.change_dof)),
           "say larger std in the scene's smoothing"};
 }
 
-Warning Alone(const EstimationSummary& summary, const Finger& /*finger*/,
-              const std::string& log) {
+Warning Alone(const LogSummary& log, const Finger& /*finger*/,
+              const std::string& name) {
+  const EstimationSummary& summary = *log.summary;
   return {"not_joint",
-          "the frames of " + log +
+          "the frames of " + name +
               " could not be solved together: the problem does not converge; " +
               std::to_string(summary.alone) + " of " +
               std::to_string(summary.frames) + " are estimated one by one",
@@ -238,23 +172,25 @@ Warning Alone(const EstimationSummary& summary, const Finger& /*finger*/,
           "gauge_offset_walk"};
 }
 
-Warning BadRows(const EstimationSummary& summary, const Finger& /*finger*/,
-                const std::string& log) {
+Warning BadRows(const LogSummary& log, const Finger& /*finger*/,
+                const std::string& name) {
+  const EstimationSummary& summary = *log.summary;
   return {
       "bad_rows",
       std::to_string(summary.bad_rows) + " of " +
           std::to_string(summary.frames + summary.bad_rows) + " rows of " +
-          log + " are bad and left out",
+          name + " are bad and left out",
       "their lines and reasons are in <log>.bad_rows.csv beside the result"};
 }
 
-Warning Impossible(const EstimationSummary& summary, const Finger& finger,
-                   const std::string& log) {
+Warning Impossible(const LogSummary& log, const Finger& finger,
+                   const std::string& name) {
+  const EstimationSummary& summary = *log.summary;
   const Gauge& gauge = finger.gauges.at(summary.impossible_gauge - 1);
   const double most_V = LargestBending_V(gauge);
   return {"impossible_readings",
           std::to_string(summary.impossible) + " of " +
-              std::to_string(summary.frames) + " rows of " + log +
+              std::to_string(summary.frames) + " rows of " + name +
               " are bad_input for a reading that no gauge gives: in row " +
               std::to_string(summary.impossible_row) + " gauge " +
               std::to_string(summary.impossible_gauge) + " reads " +
@@ -269,8 +205,7 @@ Warning Impossible(const EstimationSummary& summary, const Finger& finger,
 struct Doubt {
   bool (EstimationSummary::*applies)() const;
   std::size_t EstimationSummary::*frames;
-  Warning (*warning)(const EstimationSummary&, const Finger&,
-                     const std::string&);
+  Warning (*warning)(const LogSummary&, const Finger&, const std::string&);
 };
 constexpr Doubt kDoubts[] = {
     {&EstimationSummary::unexplained_too_many, &EstimationSummary::unexplained,
@@ -353,9 +288,15 @@ std::vector<Warning> WarningsOf(const std::vector<LogSummary>& logs,
     if (count > 1) {
       name += " (the worst of " + std::to_string(count) + " logs)";
     }
-    warnings.push_back(doubt.warning(*worst->summary, finger, name));
+    warnings.push_back(doubt.warning(*worst, finger, name));
   }
   return warnings;
+}
+
+bool NeedsCause(const EstimationSummary& summary) {
+  return summary.unexplained_too_many() || summary.unexplained_some() ||
+         summary.forces_differ() ||
+         (summary.never_free() && summary.any_free_rows());
 }
 
 bool FailsStrict(const std::vector<Warning>& warnings, const Scene& scene) {

@@ -5,16 +5,18 @@
 #include <vector>
 
 #include "finray/batch/estimation_summary.h"
+#include "finray/batch/log_cause.h"
 #include "finray/finger/finger.h"
 #include "finray/io/warning.h"
 #include "finray/scene/scene.h"
 
 namespace finray {
 
-/// The summary of a log and its name.
+/// The summary of a log, its name, and why the finger does not fit it.
 struct LogSummary {
   const EstimationSummary* summary;
   std::string log;
+  const LogCause* cause = nullptr;  ///< Null: nobody has looked.
 };
 
 /// Warns of a finger that nobody has calibrated, and of what FrictionWarnings
@@ -50,12 +52,13 @@ std::vector<Warning> FrictionWarnings(const Finger& finger, const Scene& scene);
 ///
 ///   mean V_j - (offset_j + gain_j angle_j(free finger)).
 ///
-/// Each begins with the likeliest cause: a gauge that reads nothing but noise
-/// is dead; one whose offset alone has moved has slipped; where unexplained
-/// frames have 1.5 times the load of the others, it is stiffness, gains or
-/// friction; else offsets.
+/// Those of frames and forces begin with the log's cause, if somebody has
+/// looked for it (log_cause.h).
 std::vector<Warning> WarningsOf(const std::vector<LogSummary>& logs,
                                 const Finger& finger);
+
+/// Says whether one of these warnings depends on FindLogCause.
+bool NeedsCause(const EstimationSummary& summary);
 
 /// Says whether --strict fails with one of these warnings: unexplained_frames,
 /// forces_differ, offset_walk, smoothing, and never_free unless the scene

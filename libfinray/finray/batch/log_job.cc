@@ -80,11 +80,21 @@ EstimationSummary SummaryFromYaml(const YamlMap& yaml) {
   return summary;
 }
 
+LogCause CauseFromYaml(const YamlMap& yaml) {
+  if (!yaml.Has("cause")) return {};
+  const YamlMap cause = yaml.Map("cause");
+  return {cause.Text("words"), cause.Text("details"), cause.Text("remedy")};
+}
+
+LogSummary SummaryOf(const LogJob& job) {
+  return {&job.summary(), job.log(), &job.cause()};
+}
+
 // The codes of a log's warnings.
 std::string WarningCodes(const LogJob& job, const Finger& finger) {
   std::string codes;
   for (const Warning& warning :
-       WarningsOf({{&job.summary(), job.log()}}, finger)) {
+       WarningsOf(std::vector{SummaryOf(job)}, finger)) {
     codes += (codes.empty() ? "" : " ") + warning.code;
   }
   return codes;
@@ -214,6 +224,7 @@ bool LogJob::ReadFinished() {
       return false;
     }
     summary_ = SummaryFromYaml(yaml);
+    cause_ = CauseFromYaml(yaml);
   } catch (const InputError&) {
     return false;  // not ours, or edited by hand: the log is estimated again
   }
@@ -246,10 +257,22 @@ bool LogJob::Run(FrameSolverPool* pool) {
   summary_ = SummaryFromText(out.note()).value_or(EstimationSummary());
   ReportProgress(summary_.frames, true);
   if (!out.finished() && !Estimate(pool, &out)) return false;
+  FindCause();
   WriteBadRows();
   WriteSummary(out.bytes());
   out.Forget();
   return true;
+}
+
+// Reads the log once more, as few logs need a cause.
+void LogJob::FindCause() {
+  if (!NeedsCause(summary_)) return;
+  LogEvidence evidence(settings_->finger, settings_->scene);
+  FrameReader reader(log_, settings_->scene.columns);
+  ReadStream(settings_->finger, settings_->scene, Options(), &reader,
+             [&](const Measurements& row) { evidence.Add(row); });
+  cause_ = FindLogCause(evidence, settings_->finger, settings_->scene,
+                        settings_->discretization, settings_->threads);
 }
 
 bool LogJob::Estimate(FrameSolverPool* pool, ResumableFile* out) {
@@ -323,6 +346,12 @@ void LogJob::WriteSummary(std::uint64_t bytes) const {
   EmitSummary(summary_, &yaml);
   EmitRowsOfLog(summary_, &yaml);
   EmitChanges(summary_, &yaml);
+  if (!cause_.words.empty()) {
+    yaml << YAML::Key << "cause" << YAML::Value << YAML::BeginMap;
+    YamlPairs(&yaml, "words", cause_.words, "details", cause_.details, "remedy",
+              cause_.remedy);
+    yaml << YAML::EndMap;
+  }
   yaml << YAML::EndMap;
   WriteFileAtomically(summary_path_, std::string(yaml.c_str()) + "\n");
 }
@@ -335,7 +364,7 @@ EstimationSummary Total(const std::vector<LogJob>& jobs) {
 
 std::vector<LogSummary> SummariesOf(const std::vector<LogJob>& jobs) {
   std::vector<LogSummary> logs;
-  for (const LogJob& job : jobs) logs.push_back({&job.summary(), job.log()});
+  for (const LogJob& job : jobs) logs.push_back(SummaryOf(job));
   return logs;
 }
 
@@ -396,7 +425,7 @@ std::string BatchYaml(const BatchSettings& settings,
               job.key());
     EmitSummary(job.summary(), &yaml);
     EmitRowsOfLog(job.summary(), &yaml);
-    EmitWarnings(WarningsOf({{&job.summary(), job.log()}}, settings.finger),
+    EmitWarnings(WarningsOf(std::vector{SummaryOf(job)}, settings.finger),
                  &yaml);
     yaml << YAML::EndMap;
   }

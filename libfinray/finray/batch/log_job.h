@@ -83,6 +83,8 @@ class LogJob {
   std::size_t frames() const { return frames_; }
   /// Summary of all frames written so far, by this run or an earlier one.
   const EstimationSummary& summary() const { return summary_; }
+  /// Why the finger does not fit the log, if a warning says that it does not.
+  const LogCause& cause() const { return cause_; }
   /// The damaged file of an interrupted run of which Run() could not keep all
   /// checkpoints, or "".
   const std::string& damaged() const { return damaged_; }
@@ -92,6 +94,7 @@ class LogJob {
   // Fills the result file and gives it its final name. Returns false if told to
   // stop.
   bool Estimate(FrameSolverPool* pool, ResumableFile* out);
+  void FindCause();
   void ReportProgress(std::size_t frames, bool kept) const;
   StreamOptions Options() const;
   // Writes the table of bad rows, or removes an older one.
@@ -109,6 +112,7 @@ class LogJob {
   std::size_t frames_ = 0;
   bool finished_before_ = false;
   EstimationSummary summary_;
+  LogCause cause_;
 };
 
 /// A log that is left out because it is bad input.

@@ -185,6 +185,19 @@ bool EstimateStream(const Finger& finger, const Scene& scene,
       [&](const Block& block) { write(block.result); });
 }
 
+void ReadStream(const Finger& finger, const Scene& scene,
+                const StreamOptions& options, FrameReader* reader,
+                const std::function<void(const Measurements&)>& take) {
+  const ResultLayout layout(finger, scene, reader->parser(), options.format);
+  Block block;
+  while (ReadBlock(kCheckedRows, reader, &block)) {
+    Parse(reader->parser(), options.skip_bad_rows, &block);
+    if (!block.lines.error.empty()) throw InputError(block.lines.error);
+    ReadReadings(layout, &block);
+    for (const Measurements& row : block.readings) take(row);
+  }
+}
+
 bool EstimateJointly(const Finger& finger, const Scene& scene,
                      const Discretization& discretization,
                      const StreamOptions& options, FrameReader* reader,

@@ -44,6 +44,11 @@ bool EstimateStream(const Finger& finger, const Scene& scene,
                     const std::function<void(const StreamedBlock&)>& write,
                     std::size_t done = 0);
 
+/// Reads a log without estimating it, and hands out its good rows one by one.
+void ReadStream(const Finger& finger, const Scene& scene,
+                const StreamOptions& options, FrameReader* reader,
+                const std::function<void(const Measurements&)>& take);
+
 /// Solves the frames of a log together (LogEstimator). The reader must be at
 /// the begin of the log. Rows wait in memory until their window is solved, at
 /// most LogEstimator::kLongestWindow frames and the blocks about them. Rows

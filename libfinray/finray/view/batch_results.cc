@@ -86,7 +86,11 @@ Kind KindOf(const Warning& warning) {
   if (warning.code != "unexplained_frames" && warning.code != "forces_differ") {
     return Kind::kWatch;
   }
-  if (Contains(warning.text, " is dead")) return Kind::kRepair;
+  if (Contains(warning.text, " is dead") ||
+      Contains(warning.text, " is stuck at ") ||
+      Contains(warning.text, " is clipped: ")) {
+    return Kind::kRepair;
+  }
   if (Contains(warning.text, "offsets have moved") ||
       Contains(warning.text, "has slipped") ||
       Contains(warning.remedy, "zero the gauges")) {

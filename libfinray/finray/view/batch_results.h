@@ -60,7 +60,7 @@ const char* VerdictName(FingerVerdict::Kind kind);
 
 /// Judges a finger by the warnings of its latest logs: those of the last day
 /// that has any, or all where no day is known.
-///  - kRepair: a gauge is dead;
+///  - kRepair: a gauge is dead, stuck or clipped;
 ///  - kCalibrate: nobody has calibrated it, or frames are unexplained or forces
 ///    differ and neither offsets nor a gauge are the cause;
 ///  - kZero: the offsets have moved, or a gauge has slipped;

@@ -1,0 +1,97 @@
+#ifndef FINRAY_SCENE_GAUGE_FAULTS_H_
+#define FINRAY_SCENE_GAUGE_FAULTS_H_
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "finray/finger/finger.h"
+
+namespace finray {
+
+/// What is wrong with the device behind a gauge, seen in its readings alone.
+struct GaugeFault {
+  enum class Kind {
+    kStill,    ///< It hardly moves while the others do.
+    kClipped,  ///< It ends at a value that many rows share.
+    kCoarse,   ///< It has steps far above its noise.
+  };
+  Kind kind;
+  int gauge = 0;
+  double step_V = 0;  ///< Of kCoarse.
+  /// "gauge 2 stands still at 0.123 V from row 31 to 80 while the others move".
+  std::string words;
+};
+
+/// Looks for faults in the rows of a log without a model of the finger, so that
+/// no effect of a finger is blamed for them. Its memory does not grow with the
+/// log.
+///
+/// A gauge j stands still in kStillRows or more rows one after another whose
+/// readings are the same number, or, over all rows or kStillBlocks or more of
+/// kMostBlocks blocks of rows at the begin or the end of the log, scatter no
+/// more than noise: their range is below kNoiseRange noise_V. It is clipped if
+/// kClippedRows or more rows share its greatest or its least reading. Both
+/// count only if the others move in these rows: one of them by more than kMoves
+/// times the greater of its own noise_V and the step of j, over blocks all of
+/// them by half of what they move in the log. It is coarse if all of its
+/// readings are multiples of a step above kCoarseStep noise_V (StepOf). Rows
+/// that repeat all gauges are no fault.
+class GaugeFaultFinder {
+ public:
+  static constexpr int kStillRows = 20, kClippedRows = 5, kStillBlocks = 4;
+  static constexpr std::size_t kMostBlocks = 64;
+  static constexpr double kMoves = 30, kNoiseRange = 9, kCoarseStep = 2;
+
+  explicit GaugeFaultFinder(const Finger& finger);
+  /// Takes the next row, which counts from 1; NaN where nothing was read.
+  void Add(std::size_t row, const std::vector<double>& readings_V);
+  std::vector<GaugeFault> Faults() const;
+
+ private:
+  struct Range {
+    double low, high;
+    Range();
+    void Add(double volts);
+    void Add(const Range& other);
+    double width() const { return high > low ? high - low : 0; }
+  };
+  // Rows in which a gauge reads the same, and where all gauges move in them.
+  struct Same {
+    double volts = 0;
+    std::size_t rows = 0, first = 0, last = 0;
+    std::vector<Range> all;
+  };
+  struct Block {
+    std::size_t rows = 0, first = 0, last = 0;
+    std::vector<Range> all;
+  };
+  struct Series {
+    Same run, longest, least, greatest;
+    std::vector<double> some_V;  // readings for StepOf
+  };
+
+  static void Begin(double volts, std::size_t row, Same* same);
+  void AddTo(std::size_t row, const std::vector<double>& readings_V,
+             Same* same) const;
+  double MovedBy(const std::vector<Range>& all, int gauge, double step_V) const;
+  std::optional<double> StepOfGauge(int gauge) const;
+  std::optional<GaugeFault> Still(int gauge, double step_V) const;
+  std::optional<GaugeFault> StillInBlocks(int gauge) const;
+  std::optional<GaugeFault> Clipped(int gauge, double step_V) const;
+
+  std::vector<double> noise_V_;
+  std::vector<Series> gauges_;
+  std::vector<Range> all_;
+  std::vector<Block> blocks_;
+  std::size_t rows_of_block_ = 1, rows_ = 0;
+};
+
+/// Returns the step of which all differences of these readings are multiples,
+/// if there is one above `least`.
+std::optional<double> StepOf(std::vector<double> readings_V, double least);
+
+}  // namespace finray
+
+#endif  // FINRAY_SCENE_GAUGE_FAULTS_H_

@@ -1,0 +1,102 @@
+#include "finray/scene/gauge_faults.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace finray {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// Presses of 60 rows with rests between them, read by three gauges; a change of
+// the readings of each row.
+std::vector<std::string> FaultsOf(
+    const std::function<void(std::size_t row, std::vector<double>*)>& change,
+    bool at_random = false) {
+  Finger finger;
+  finger.gauges.resize(3);
+  GaugeFaultFinder finder(finger);
+  std::mt19937_64 generator(3);
+  std::normal_distribution<double> noise(0, 3e-4);
+  std::uniform_real_distribution<double> uniform;
+  double place = 0;
+  for (std::size_t row = 1; row <= 600; ++row) {
+    if (at_random || row % 60 == 1) place = uniform(generator);
+    const double phase =
+        at_random ? uniform(generator) : static_cast<double>(row % 60) / 60;
+    const double load = std::max(0.0, std::sin(9 * phase));
+    std::vector<double> volts = {0.1 + 0.05 * load * (1.2 - place),
+                                 0.2 - 0.08 * load * (0.3 + place),
+                                 0.04 * load};
+    for (double& v : volts) v += noise(generator);
+    change(row, &volts);
+    finder.Add(row, volts);
+  }
+  std::vector<std::string> words;
+  for (const GaugeFault& fault : finder.Faults()) words.push_back(fault.words);
+  return words;
+}
+
+TEST(GaugeFaultsTest, GoodGaugesHaveNone) {
+  const auto nothing = [](std::size_t, std::vector<double>*) {};
+  EXPECT_THAT(FaultsOf(nothing), IsEmpty());
+  EXPECT_THAT(FaultsOf(nothing, true), IsEmpty());
+  // Few digits, rows that a slow logger repeats, and missing cells.
+  EXPECT_THAT(FaultsOf([](std::size_t, std::vector<double>* volts) {
+                for (double& v : *volts) v = std::round(v / 4e-4) * 4e-4;
+              }),
+              IsEmpty());
+  std::vector<double> held;
+  EXPECT_THAT(FaultsOf([&](std::size_t row, std::vector<double>* volts) {
+                if (row % 30 == 1) held = *volts;
+                *volts = held;
+              }),
+              IsEmpty());
+  EXPECT_THAT(FaultsOf([](std::size_t row, std::vector<double>* volts) {
+                if (row > 200) (*volts)[1] = std::nan("");
+              }),
+              IsEmpty());
+}
+
+TEST(GaugeFaultsTest, NamesGaugeKindAndRows) {
+  std::mt19937_64 generator(4);
+  std::normal_distribution<double> noise(0, 3e-4);
+  EXPECT_THAT(
+      FaultsOf([](std::size_t row, std::vector<double>* volts) {
+        if (row > 300 && row <= 400) (*volts)[1] = 0.17;
+      }),
+      ElementsAre("gauge 2 is stuck at 0.17 V from row 301 to 400 while the "
+                  "others move"));
+  EXPECT_THAT(FaultsOf([&](std::size_t, std::vector<double>* volts) {
+                (*volts)[0] = 0.1 + noise(generator);
+              }),
+              ElementsAre(HasSubstr("gauge 1 is dead: it does not move")));
+  EXPECT_THAT(FaultsOf([&](std::size_t row, std::vector<double>* volts) {
+                if (row > 320) (*volts)[2] = noise(generator);
+              }),
+              ElementsAre(HasSubstr("gauge 3 is dead from row 3")));
+  EXPECT_THAT(FaultsOf([](std::size_t, std::vector<double>* volts) {
+                (*volts)[2] = std::min((*volts)[2], 0.035);
+              }),
+              ElementsAre(HasSubstr("gauge 3 is clipped: ")));
+  EXPECT_THAT(FaultsOf(
+                  [](std::size_t, std::vector<double>* volts) {
+                    (*volts)[1] = std::max((*volts)[1], 0.15);
+                  },
+                  true),
+              ElementsAre(HasSubstr("are exactly 0.15 V, its least")));
+  EXPECT_THAT(FaultsOf([](std::size_t, std::vector<double>* volts) {
+                (*volts)[0] = std::round((*volts)[0] / 0.002) * 0.002;
+              }),
+              ElementsAre("gauge 1 has steps of 2 mV, 6.7 times its noise_V"));
+}
+
+}  // namespace
+}  // namespace finray
