@@ -21,6 +21,10 @@ struct CandidateEffect {
   /// No finger and no bench has a value below; -infinity: any value is
   /// possible.
   double least = -std::numeric_limits<double>::infinity();
+  /// Nor one above. What is kFarthest prior_std from the fixed value is not
+  /// possible either.
+  double most = std::numeric_limits<double>::infinity();
+  static constexpr double kFarthest = 20;
   /// It may differ from log to log, or change in one: somebody turns a knob,
   /// sets up the stage anew, tares the sensor.
   bool differs = false;

@@ -11,10 +11,7 @@
 #include "finray/calib/analysis/cross_validation.h"
 #include "finray/calib/analysis/refit.h"
 #include "finray/calib/analysis/score_test.h"
-#include "finray/calib/solve/modelled_readings.h"
-#include "finray/calib/solve/outliers.h"
 #include "finray/calib/solve/robust_solve.h"
-#include "finray/calib/solve/summed_solve.h"
 #include "finray/io/number_text.h"
 
 namespace finray {
@@ -25,43 +22,6 @@ Exploration::Step* LastFreed(Exploration* exploration) {
       std::find_if(exploration->steps.rbegin(), exploration->steps.rend(),
                    [](const Exploration::Step& step) { return step.kept; });
   return last == exploration->steps.rend() ? nullptr : &*last;
-}
-
-// The effect may explain frames that were rejected. Where other frames cannot
-// be solved for, these stay. Returns why.
-std::string JudgeAgain(SolvedProblem* at) {
-  const auto rejected = at->problem->rejected();
-  const Eigen::VectorXd values = at->problem->Values();
-  ContactStore contacts(at->problem);
-  contacts.Set(at->solution.contacts);
-  SummedSolution solved;
-  std::string why_not;
-  try {
-    const Outliers outliers =
-        FindOutliers(at->solution.at, at->problem, &contacts);
-    at->problem->SetRejected(outliers.reasons);
-    for (const auto& [frame, reason] : at->problem->rejected()) {
-      contacts.Forget(frame);
-    }
-    KeepHistory(at->solution.at, at->problem);
-    at->problem->KeepFriction();
-    solved =
-        SolveSummed(at->problem->FittedFrames(), {}, at->problem, &contacts);
-    if (!solved.report.converged) {
-      why_not = "the solver stopped early: " + solved.report.message;
-    }
-  } catch (const std::runtime_error& error) {
-    why_not = error.what();
-  }
-  if (!why_not.empty()) {
-    at->problem->SetRejected(rejected);
-    at->problem->SetValues(values);
-    return why_not;
-  }
-  at->solution.solve = solved.report;
-  at->solution.at = std::move(solved.at);
-  at->solution.contacts = contacts.all();
-  return "";
 }
 
 // Frees the effect that predicts unseen frames best. Returns false if none

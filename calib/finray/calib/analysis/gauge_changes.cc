@@ -11,6 +11,7 @@
 #include "finray/io/error.h"
 #include "finray/io/number_text.h"
 #include "finray/scene/frame_columns.h"
+#include "finray/scene/gauge_faults.h"
 
 namespace finray {
 namespace {
@@ -216,27 +217,11 @@ class ChangesOfLog {
 // A reading and its row.
 using Series = std::vector<std::pair<int, double>>;
 
-// Returns the step of which all differences of these readings are multiples, if
-// there is one above `least`.
-std::optional<double> StepOf(Series::const_iterator first,
+std::optional<double> StepIn(Series::const_iterator first,
                              Series::const_iterator end, double least) {
   std::vector<double> values;
   for (auto at = first; at != end; ++at) values.push_back(at->second);
-  std::sort(values.begin(), values.end());
-  double step = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    const double gap = values[i] - values[i - 1];
-    if (gap > 1e-3 * least) step = std::min(step, gap);
-  }
-  if (!std::isfinite(step) || step < least) return {};
-  // The whole range tells the step better than one of its gaps.
-  const double range = values.back() - values.front();
-  step = range / std::round(range / step);
-  for (const double value : values) {
-    const double steps = (value - values.front()) / step;
-    if (std::abs(steps - std::round(steps)) > 0.02) return {};
-  }
-  return step;
+  return StepOf(std::move(values), least);
 }
 
 // Returns how many readings from `first` on are multiples of the step away from
@@ -257,8 +242,8 @@ void RefuseCoarserSteps(const Series& series, const std::string& log, int gauge,
   if (series.size() < 2 * kLooked) return;
   const auto looked = static_cast<std::ptrdiff_t>(kLooked);
   const double least = kCoarse * noise_V;
-  const auto before = StepOf(series.begin(), series.begin() + looked, least);
-  const auto after = StepOf(series.end() - looked, series.end(), least);
+  const auto before = StepIn(series.begin(), series.begin() + looked, least);
+  const auto after = StepIn(series.end() - looked, series.end(), least);
   if (before.has_value() == after.has_value()) return;
   const double step = before ? *before : *after;
   const std::size_t coarse =
@@ -297,6 +282,22 @@ void RefuseGaugeChanges(const std::vector<ExpectedGauges>& frames,
   for (auto& [log, its] : by_log) {
     ChangesOfLog(std::move(its), logs.names[log], finger).Refuse();
   }
+}
+
+std::map<int, std::vector<GaugeFault>> FindGaugeFaults(
+    const CalibrationLogs& logs, const Finger& finger) {
+  std::map<int, GaugeFaultFinder> finders;
+  for (const CalibrationFrame& frame : logs.frames) {
+    if (frame.IsBench()) continue;
+    const auto at = finders.try_emplace(frame.log, finger).first;
+    at->second.Add(static_cast<std::size_t>(frame.row) + 1, frame.gauges_V);
+  }
+  std::map<int, std::vector<GaugeFault>> found;
+  for (const auto& [log, finder] : finders) {
+    std::vector<GaugeFault> faults = finder.Faults();
+    if (!faults.empty()) found[log] = std::move(faults);
+  }
+  return found;
 }
 
 }  // namespace finray

@@ -1,11 +1,13 @@
 #ifndef FINRAY_CALIB_ANALYSIS_GAUGE_CHANGES_H_
 #define FINRAY_CALIB_ANALYSIS_GAUGE_CHANGES_H_
 
+#include <map>
 #include <vector>
 
 #include "finray/calib/analysis/gauge_plausibility.h"
 #include "finray/calib/problem/calibration_log.h"
 #include "finray/finger/finger.h"
+#include "finray/scene/gauge_faults.h"
 
 namespace finray {
 
@@ -32,6 +34,11 @@ void RefuseGaugeChanges(const std::vector<ExpectedGauges>& frames,
                         const CalibrationLogs& logs, const Finger& finger);
 constexpr double kJumpShare = 5, kExchangeShare = 3, kGainShare = 2,
                  kGainChange = 1.5, kLeftOver = 0.1, kCoarse = 3;
+
+/// The faults of gauges by log, without the rows of a bench. Logs without any
+/// are left out.
+std::map<int, std::vector<GaugeFault>> FindGaugeFaults(
+    const CalibrationLogs& logs, const Finger& finger);
 
 }  // namespace finray
 

@@ -16,6 +16,7 @@
 #include "finray/io/error.h"
 #include "finray/io/number_text.h"
 #include "finray/scene/frame_columns.h"
+#include "finray/scene/gauge_faults.h"
 #include "finray/statics/equilibrium.h"
 
 namespace finray {
@@ -102,6 +103,22 @@ void RefuseImpossibleBends(const FramesOfLogs& frames, const Finger& finger) {
           "finger's gain: expected readings in V; are these mV or counts?",
           GaugeVolts(j).c_str(), Range(volts), std::abs(bend));
     }
+  }
+}
+
+// Makes the check that needs no model at all.
+void RefuseFaultyGauges(const CalibrationProblem& problem) {
+  for (const auto& [log, faults] :
+       FindGaugeFaults(problem.logs(), problem.finger())) {
+    std::string words;
+    for (const GaugeFault& fault : faults) {
+      if (fault.kind == GaugeFault::Kind::kCoarse) continue;
+      words += (words.empty() ? "" : ", ") + fault.words;
+    }
+    if (words.empty()) continue;
+    throw InputError("logs: " + problem.logs().names[log] + ": " + words +
+                     ": check its wiring, its range and its column; leave "
+                     "these cells empty, or record anew");
   }
 }
 
@@ -360,6 +377,7 @@ void RefuseImplausible(CalibrationProblem* problem) {
   }
   RefuseImplausibleMotion(Presses(frames), problem->finger(), plan);
   RefuseImpossibleBends(frames, problem->finger());
+  RefuseFaultyGauges(*problem);
   ContactGuess guess(problem);
   RefuseImplausibleObjects(frames, *problem, &guess);
   // Last: what is expected of the gauges follows from the objects.

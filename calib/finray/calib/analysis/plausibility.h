@@ -17,6 +17,7 @@ namespace finray {
 ///    tenth of the finger's height is below kLeastCorrelation;
 ///  - a gauge varies in a log, from the 10th to the 90th percentile, by
 ///    kMostBend or more over its gain, in rad;
+///  - a gauge of a log is dead, stuck or clipped (scene/gauge_faults.h);
 ///  - fewer than half of the objects can touch the finger where they are, and
 ///    the plan fixes the object's origin;
 ///  - the median force differs by more than kFactor from the force that these

@@ -6,8 +6,11 @@
 #include <utility>
 
 #include "finray/calib/analysis/cross_validation.h"
+#include "finray/calib/analysis/identifiability.h"
 #include "finray/calib/solve/contact_store.h"
 #include "finray/calib/solve/information_spectrum.h"
+#include "finray/calib/solve/modelled_readings.h"
+#include "finray/calib/solve/outliers.h"
 #include "finray/calib/solve/summed_solve.h"
 
 namespace finray {
@@ -17,13 +20,57 @@ namespace {
 // and a refit with it explains everything.
 constexpr double kRival = 0.2;
 
-double LeastOf(ParameterFamily family) {
-  const std::vector<CandidateEffect>& all = AllCandidateEffects();
-  const auto effect =
-      std::find_if(all.begin(), all.end(), [&](const CandidateEffect& other) {
-        return other.family == FrontFamilyOf(family);
-      });
-  return effect == all.end() ? -INFINITY : effect->least;
+// Of the frames, or kFewRejected frames, may stay rejected.
+constexpr double kMostRejected = 0.02;
+constexpr std::size_t kFewRejected = 3;
+// So many significant effects are tried until one explains the residuals.
+constexpr std::size_t kMostJudged = 6;
+
+// Says whether all readings are on the branch of the gauges' curves on which
+// more bend reads more.
+bool IsMonotonic(const CalibrationProblem& problem) {
+  const Finger finger = problem.parameters().Apply(problem.finger());
+  for (const CalibrationFrame& frame : problem.logs().frames) {
+    for (std::size_t j = 0; j < finger.gauges.size(); ++j) {
+      const Gauge& gauge = finger.gauges[j];
+      const double volts = frame.gauges_V[j];
+      if (gauge.IsInRange(volts) && !gauge.IsMeasured(volts)) return false;
+    }
+  }
+  return true;
+}
+
+// Says why no finger and no bench has what freeing the effect leads to; empty
+// if one may have it.
+std::string WhyImpossible(const CandidateEffect& effect,
+                          const SolvedProblem& at) {
+  if (effect.family == ParameterFamily::kGaugeCurvature &&
+      !IsMonotonic(*at.problem)) {
+    return "readings lie beyond the turn of a gauge's curve";
+  }
+  const CalibrationParameters& parameters = at.problem->parameters();
+  for (std::size_t k = 0; k < parameters.free().size(); ++k) {
+    const CalibrationParameter& p = parameters.FreeParameter(k);
+    if (FrontFamilyOf(p.family) == effect.family &&
+        std::abs(*p.variable - p.initial) >
+            CandidateEffect::kFarthest * PriorStdOf(p, effect.prior_std)) {
+      return p.name + " ends far from any usual value";
+    }
+  }
+  return "";
+}
+
+// Says whether the residuals of a solution are noise.
+bool Fits(const SolvedProblem& at) {
+  const std::size_t rejected = at.problem->rejected().size();
+  if (rejected > kFewRejected &&
+      static_cast<double>(rejected) >
+          kMostRejected *
+              static_cast<double>(at.problem->candidates().size())) {
+    return false;
+  }
+  return !TotalChi2::Of(AnalyzeIdentifiability(at.problem, at.solution.at))
+              .IsLoud();
 }
 
 }  // namespace
@@ -38,8 +85,10 @@ std::string ImpossibleValue(const SolvedProblem& at) {
         parameters.FreeParameter(static_cast<std::size_t>(k));
     const double std = unit[k] * std::sqrt(covariance(k, k));
     const double value = p.Value(*p.variable);
-    if (!std::isfinite(value) ||
-        value + 3 * p.ValueStd(*p.variable, std) < LeastOf(p.family)) {
+    const double value_std = p.ValueStd(*p.variable, std);
+    const CandidateEffect& effect = CandidateOf(FrontFamilyOf(p.family));
+    if (!std::isfinite(value) || value + 3 * value_std < effect.least ||
+        value - 3 * value_std > effect.most) {
       return p.name;
     }
   }
@@ -73,6 +122,8 @@ std::optional<SolvedProblem> SolveWith(const CandidateEffect& effect,
       *why_not = "it ends at an impossible value of " + impossible;
       return {};
     }
+    *why_not = WhyImpossible(effect, with);
+    if (!why_not->empty()) return {};
     with.log_likelihood = CrossValidatedLogLikelihood(
         *with.problem, LinearizeFolds(*with.problem, with.solution));
   } catch (const std::runtime_error& error) {
@@ -110,6 +161,96 @@ std::vector<Refit> RefitRivals(const SolvedProblem& from,
     refits.push_back(std::move(refit));
   }
   return refits;
+}
+
+std::string JudgeAgain(SolvedProblem* at) {
+  const auto rejected = at->problem->rejected();
+  const Eigen::VectorXd values = at->problem->Values();
+  ContactStore contacts(at->problem);
+  contacts.Set(at->solution.contacts);
+  SummedSolution solved;
+  std::string why_not;
+  try {
+    const Outliers outliers =
+        FindOutliers(at->solution.at, at->problem, &contacts);
+    at->problem->SetRejected(outliers.reasons);
+    for (const auto& [frame, reason] : at->problem->rejected()) {
+      contacts.Forget(frame);
+    }
+    KeepHistory(at->solution.at, at->problem);
+    at->problem->KeepFriction();
+    solved =
+        SolveSummed(at->problem->FittedFrames(), {}, at->problem, &contacts);
+    if (!solved.report.converged) {
+      why_not = "the solver stopped early: " + solved.report.message;
+    }
+  } catch (const std::runtime_error& error) {
+    why_not = error.what();
+  }
+  if (!why_not.empty()) {
+    at->problem->SetRejected(rejected);
+    at->problem->SetValues(values);
+    return why_not;
+  }
+  at->solution.solve = solved.report;
+  at->solution.at = std::move(solved.at);
+  at->solution.contacts = contacts.all();
+  return "";
+}
+
+TotalChi2 TotalChi2::Of(const Identifiability& found) {
+  TotalChi2 total;
+  for (const Identifiability::Noise& noise : found.noise) {
+    if (noise.residuals == 0) continue;
+    total.chi2 += noise.chi2;
+    total.dof += noise.dof;
+  }
+  return total;
+}
+
+void JudgeEffects(const SolvedProblem& from, const TotalChi2& total,
+                  ScoreTest* score) {
+  // Returns what freeing it leads to, if that explains the residuals. One that
+  // no plan frees is judged by what the score test expects.
+  const auto explains = [&](const ScoreTest::Effect& effect,
+                            const SolvedProblem& start,
+                            std::optional<SolvedProblem>* with) {
+    if (!effect.CanBeFreed()) {
+      return !TotalChi2{total.chi2 - effect.drop, total.dof}.IsLoud();
+    }
+    std::string why_not;
+    *with = SolveWith(effect.Candidate(), start, &why_not);
+    if (!*with) return false;
+    JudgeAgain(&**with);
+    return Fits(**with);
+  };
+  std::vector<ScoreTest::Effect>& effects = score->effects;
+  const auto is_alike = [&](const ScoreTest::Effect& effect) {
+    return std::any_of(
+        score->alike.begin(), score->alike.end(),
+        [&](const auto& alike) { return alike.family == effect.family; });
+  };
+  std::optional<SolvedProblem> with_best, with;
+  std::vector<ScoreTest::Effect> named;
+  for (std::size_t i = 0; i < effects.size() && i < kMostJudged; ++i) {
+    if (!effects[i].significant) break;
+    if (!named.empty() && !is_alike(effects[i])) continue;
+    if (explains(effects[i], from, &with)) named.push_back(effects[i]);
+    if (i == 0) with_best = std::move(with);
+  }
+  if (named.empty()) {
+    // Two that go together.
+    score->alike.clear();
+    score->explained =
+        score->next && with_best && explains(*score->next, *with_best, &with);
+    return;
+  }
+  const auto first = std::find_if(
+      effects.begin(), effects.end(),
+      [&](const auto& effect) { return effect.family == named[0].family; });
+  if (first != effects.begin()) score->next.reset();
+  std::rotate(effects.begin(), first, first + 1);
+  score->alike.assign(named.begin() + 1, named.end());
 }
 
 }  // namespace finray

@@ -379,7 +379,9 @@ class ScoreRanking {
 
   // Returns the test without parameters whose values would be impossible.
   Candidates WithPossible(Candidates test, const Scores& scores) const {
-    while (std::isfinite(test.effect.least) && !test.columns.empty()) {
+    const bool bounded =
+        std::isfinite(test.effect.least) || std::isfinite(test.effect.most);
+    while (bounded && !test.columns.empty()) {
       const Eigen::VectorXd s = scores.s(test.columns);
       Eigen::MatrixXd information = scores.a(test.columns, test.columns);
       information.diagonal().array() += 1;
@@ -388,11 +390,15 @@ class ScoreRanking {
       for (Eigen::Index i = 0; i < e.size(); ++i) {
         const int c = test.columns[i];
         const CalibrationParameter& p = Parameter(c);
-        if (p.Value(*p.variable + columns_[c].unit * e[i]) >=
-            std::min(test.effect.least, p.Value(*p.variable))) {
+        const double was = p.Value(*p.variable);
+        const double value = p.Value(*p.variable + columns_[c].unit * e[i]);
+        if (value >= std::min(test.effect.least, was) &&
+            value <= std::max(test.effect.most, was)) {
           continue;
         }
-        if (farthest < 0 || e[i] < e[farthest]) farthest = i;
+        if (farthest < 0 || std::abs(e[i]) > std::abs(e[farthest])) {
+          farthest = i;
+        }
       }
       if (farthest < 0) break;
       test.columns.erase(test.columns.begin() + farthest);
@@ -506,7 +512,7 @@ const ScoreTest::Effect* ScoreTest::Best() const {
 
 std::string ScoreTest::Words() const {
   const Effect* best = Best();
-  if (best == nullptr) return "";
+  if (best == nullptr || !explained) return "";
   std::string words = "residuals look like " + best->words;
   for (const Effect& effect : alike) {
     words += ", or as well like " + effect.words;

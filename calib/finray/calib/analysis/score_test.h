@@ -92,9 +92,14 @@ struct ScoreTest {
   /// The best of the others once effects[0] is free, if it is significant.
   std::optional<Effect> next;
 
+  /// False: none of them explains the residuals (JudgeEffects), so that none
+  /// is named.
+  bool explained = true;
+
   /// The best effect if it is significant, else null.
   const Effect* Best() const;
-  /// Says what residuals look like; empty if nothing is significant.
+  /// Says what residuals look like; empty if nothing significant explains
+  /// them.
   std::string Words() const;
 };
 

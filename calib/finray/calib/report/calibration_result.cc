@@ -398,6 +398,8 @@ void TestUnseen(CalibrationProblem* problem, const Identifiability& of_noise,
                            CrossValidatedLogLikelihood(*problem, *wide)};
     result->score = TestScores(*problem, result->identifiability, *wide,
                                RefitRivals(at, result->score));
+    if (result->score.Best() == nullptr) return;
+    JudgeEffects(at, TotalChi2::Of(result->identifiability), &result->score);
   });
   if (!wide) return;
   if (problem->plan().holdout_by == HoldoutBy::kNothing) {
@@ -527,7 +529,7 @@ CalibrationResult Calibrate(CalibrationProblem* problem, bool leave_logs_out) {
          "the finger will"});
   }
   result.doubts = FindDoubts(*problem, result);
-  WarnOfDoubts(&result);
+  WarnOfDoubts(*problem, &result);
   return result;
 }
 

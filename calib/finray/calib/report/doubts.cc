@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "finray/calib/analysis/gate.h"
+#include "finray/calib/analysis/gauge_changes.h"
+#include "finray/calib/analysis/refit.h"
 #include "finray/calib/analysis/unsupported.h"
+#include "finray/calib/problem/median.h"
 #include "finray/io/number_text.h"
 
 namespace finray {
@@ -33,17 +37,12 @@ void DoubtCoverage(const CalibrationResult& result,
 }
 
 void DoubtChi2(const Identifiability& found, std::vector<std::string>* doubts) {
-  double chi2 = 0, dof = 0;
-  for (const Identifiability::Noise& noise : found.noise) {
-    if (noise.residuals == 0) continue;
-    chi2 += noise.chi2;
-    dof += noise.dof;
-  }
-  if (dof < 1 || chi2 - dof < kLoudStd * std::sqrt(2 * dof)) return;
+  const TotalChi2 total = TotalChi2::Of(found);
+  if (!total.IsLoud()) return;
   doubts->push_back(
       FormatText("chi2 is %.0f for %.0f degrees of freedom, %.0f "
                  "std too much",
-                 chi2, dof, (chi2 - dof) / std::sqrt(2 * dof)));
+                 total.chi2, total.dof, total.Excess()));
 }
 
 void DoubtQuiet(const Identifiability& found,
@@ -152,7 +151,9 @@ std::vector<std::string> FindDoubts(const CalibrationProblem& problem,
   DoubtImpossible(problem.parameters(), result.identifiability, &doubts);
   DoubtRejected(problem, &doubts);
   if (result.score.Best() != nullptr) {
-    doubts.push_back("the plan leaves out an effect that the logs show");
+    doubts.push_back(result.score.explained
+                         ? "the plan leaves out an effect that the logs show"
+                         : "the residuals are not noise");
   }
   for (const std::string& test : result.not_tested) {
     doubts.push_back("not tested: " + test);
@@ -160,7 +161,91 @@ std::vector<std::string> FindDoubts(const CalibrationProblem& problem,
   return doubts;
 }
 
-void WarnOfDoubts(CalibrationResult* result) {
+namespace {
+
+// The gauges whose steps the plan's std does not cover, in words.
+std::string CoarseGauges(const CalibrationProblem& problem) {
+  Finger finger = problem.finger();
+  for (Gauge& gauge : finger.gauges) {
+    gauge.noise_V = problem.plan().gauge_std_V.value_or(gauge.noise_V);
+  }
+  std::string words;
+  for (const auto& [log, faults] : FindGaugeFaults(problem.logs(), finger)) {
+    for (const GaugeFault& fault : faults) {
+      if (fault.kind != GaugeFault::Kind::kCoarse) continue;
+      words += (words.empty() ? "" : ", ") + fault.words + " in " +
+               problem.logs().names[log];
+    }
+  }
+  return words;
+}
+
+// Squares of residuals, and how many.
+struct Squares {
+  double sum = 0;
+  int count = 0;
+  double mean() const { return count > 0 ? sum / count : 0; }
+};
+
+// Says where residuals are largest: of which gauge, and at which end of the
+// loads, places and rows.
+std::string WhereInWords(const CalibrationProblem& problem,
+                         const Linearization& at) {
+  std::map<int, Squares> gauges;
+  for (std::size_t i = 0; i < at.rows.size(); ++i) {
+    if (at.rows[i].family != ResidualFamily::kGauge) continue;
+    Squares& gauge = gauges[at.rows[i].gauge];
+    gauge.sum += std::pow(at.residuals[i], 2);
+    ++gauge.count;
+  }
+  std::string words;
+  double most = 0;
+  for (const auto& [gauge, squares] : gauges) {
+    if (squares.mean() <= most) continue;
+    most = squares.mean();
+    words = FormatText("residuals are largest in gauge %d (%.2g std)",
+                       gauge + 1, std::sqrt(most));
+  }
+  const std::pair<double (*)(const CalibrationFrame&), const char*> kinds[] = {
+      {ForceOf, "forces %s %.3g N"},
+      {HeightOf, "places %s %.3g mm"},
+      {RowOf, "rows %s %.0f"}};
+  std::string where;
+  double apart = 0;
+  for (const auto& [of, format] : kinds) {
+    std::vector<double> numbers;
+    for (const ResidualInfo& row : at.rows) {
+      const double number = of(problem.frame(row.frame));
+      if (std::isfinite(number)) numbers.push_back(number);
+    }
+    if (numbers.size() < 20) continue;
+    const double middle = Median(numbers);
+    Squares low, high;
+    for (std::size_t i = 0; i < at.rows.size(); ++i) {
+      const double number = of(problem.frame(at.rows[i].frame));
+      if (!std::isfinite(number)) continue;
+      Squares& half = number > middle ? high : low;
+      half.sum += std::pow(at.residuals[i], 2);
+      ++half.count;
+    }
+    if (low.count == 0 || high.count == 0) continue;
+    const double by = std::abs(high.mean() - low.mean());
+    if (by <= apart) continue;
+    apart = by;
+    const bool above = high.mean() > low.mean();
+    where = FormatText(format, above ? "above" : "up to", middle) +
+            FormatText(" (%.2g std instead of %.2g)",
+                       std::sqrt(std::max(high.mean(), low.mean())),
+                       std::sqrt(std::min(high.mean(), low.mean())));
+  }
+  if (words.empty()) return where;
+  return where.empty() ? words : words + ", and at " + where;
+}
+
+}  // namespace
+
+void WarnOfDoubts(const CalibrationProblem& problem,
+                  CalibrationResult* result) {
   const bool effect = result->score.Best() != nullptr;
   if (result->Verdict() == "good" || (!effect && result->doubts.empty())) {
     return;
@@ -168,10 +253,19 @@ void WarnOfDoubts(CalibrationResult* result) {
   std::vector<std::string> quiet;
   DoubtQuiet(result->identifiability, &quiet);
   const bool only_quiet = !effect && quiet == result->doubts;
-  std::string text = "likeliest cause: " +
-                     (effect       ? result->score.Words()
-                      : only_quiet ? "the noise that is stated is too large"
-                                   : "none of the effects that finray knows");
+  const std::string coarse = CoarseGauges(problem);
+  const std::string named = !coarse.empty() ? coarse
+                            : only_quiet
+                                ? "the noise that is stated is too large"
+                                : result->score.Words();
+  std::string text = "likeliest cause: ";
+  if (!named.empty()) {
+    text += named;
+  } else {
+    const std::string where = WhereInWords(problem, result->solution.at);
+    text += "none of the effects that finray knows explains the logs";
+    if (!where.empty()) text += "; " + where;
+  }
   for (const std::string& doubt : result->doubts) text += "; " + doubt;
   // The scatter of free readings is measured, so it is likelier still.
   auto first = result->warnings.begin();
@@ -179,10 +273,13 @@ void WarnOfDoubts(CalibrationResult* result) {
   result->warnings.insert(
       first,
       {"doubtful", text,
-       effect ? "check that part of the setup, or free it in the plan; "
-                "--explore frees it if frames are then predicted better"
-       : only_quiet
-           ? "state the noise that fits (noise_below_plan)"
+       !coarse.empty()
+           ? "choose a finer range of the converter, or a gauge_std_V of step "
+             "/ sqrt(12) in the plan's measurements"
+       : only_quiet ? "state the noise that fits (noise_below_plan)"
+       : !named.empty()
+           ? "check that part of the setup, or free it in the plan; "
+             "--explore frees it if frames are then predicted better"
            : "look at the residuals by frame, and at the std in the plan's "
              "measurements"});
 }

@@ -15,7 +15,7 @@ namespace finray {
 ///    contain as many as the stated shares less kFewerPercent, or kFewer std of
 ///    a binomial number fewer: frames share the errors of the calibration that
 ///    senses them, so they are not quite independent;
-///  - total chi2 exceeds its degrees of freedom by less than kLoudStd std;
+///  - total chi2 is not loud (TotalChi2);
 ///  - the residuals of gauges and of forces are not too quiet
 ///    (Identifiability::Noise): noise told too large makes all intervals from
 ///    gauges too wide, and hides effects from the other tests;
@@ -30,13 +30,16 @@ namespace finray {
 /// large: it holds errors that rows share, which residuals need not show.
 std::vector<std::string> FindDoubts(const CalibrationProblem& problem,
                                     const CalibrationResult& result);
-constexpr double kFewer = 3, kFewerPercent = 2.5, kLoudStd = 4,
-                 kRanksApart = 3.5, kImpossibleStd = 3;
+constexpr double kFewer = 3, kFewerPercent = 2.5, kRanksApart = 3.5,
+                 kImpossibleStd = 3;
 constexpr std::size_t kLeastRejected = 3;
 
 /// Puts a warning before all others but `free_scatter` if the verdict is not
-/// `good`: the likeliest cause first, by the score test, then the doubts.
-void WarnOfDoubts(CalibrationResult* result);
+/// `good`: the likeliest cause first, then the doubts. Steps of converters are
+/// the cause before any effect. An effect is named only if it explains the
+/// residuals (JudgeEffects); if none does, the text says so, and in which
+/// gauge, and at which loads, places or times, chi2 is largest.
+void WarnOfDoubts(const CalibrationProblem& problem, CalibrationResult* result);
 
 /// Says in words why what --explore has freed is not to be adopted; empty if it
 /// is. Where the logs have an effect that finray lacks, others are freed in its
